@@ -1,0 +1,80 @@
+// The canonical hit of a ray and a triangle: one definition that every kernel has to reproduce to
+// the last bit, so that no tree, width or order of traversal can change a picture.
+// Edges: Woop, Benthin, Wald 2013 without FMA. Rounding is monotone, so the float sign of an edge
+// function is never wrong, it can only be zero; zeros are decided in double, where the products of
+// two floats are exact. Both triangles of an edge see the same bits: closed meshes do not leak.
+// Depth: of the triangle's plane, clamped to the triangle's own depth range and to the entry of its
+// own padded box, so that culling by boxes never removes the nearest hit.
+#pragma once
+
+#include "accel/ray_setup.h"
+
+// A triangle relative to the ray's origin with the axes permuted so that z is the dominant one.
+struct ShearedTriangle {
+    Vec3 v[3];          // (lateral x, lateral y, depth z)
+    float x[3], y[3];   // lateral distance of each vertex from the ray
+
+    ShearedTriangle(const RaySetup& ray, Vec3 v0, Vec3 v1, Vec3 v2) {
+        const Vec3 p[3] = {v0, v1, v2};
+        for (int i = 0; i < 3; ++i) {
+            v[i] = {p[i][ray.kx] - ray.org[ray.kx], p[i][ray.ky] - ray.org[ray.ky],
+                    (p[i][ray.k] - ray.org[ray.k]) * ray.sign};
+            x[i] = v[i].x - ray.Sx * v[i].z;
+            y[i] = v[i].y - ray.Sy * v[i].z;
+        }
+    }
+
+    // Edge functions in double: exact, hence the weights of the three vertices.
+    Vec3d edgesExact() const {
+        const auto edge = [this](int a, int b) {
+            return static_cast<double>(x[a]) * y[b] - static_cast<double>(y[a]) * x[b];
+        };
+        return {edge(2, 1), edge(0, 2), edge(1, 0)};
+    }
+
+    bool containsRay() const {
+        const float U = x[2] * y[1] - y[2] * x[1];
+        const float V = x[0] * y[2] - y[0] * x[2];
+        const float W = x[1] * y[0] - y[1] * x[0];
+        if (!(U >= 0 && V >= 0 && W >= 0) && !(U <= 0 && V <= 0 && W <= 0)) return false;
+        if (U != 0 && V != 0 && W != 0) return true;
+        const Vec3d e = edgesExact();
+        const bool negative = e.x < 0 || e.y < 0 || e.z < 0;
+        const bool positive = e.x > 0 || e.y > 0 || e.z > 0;
+        return negative != positive; // mixed signs: outside; all zero: edge-on, no hit
+    }
+};
+
+// Key of the hit, 1/z: the larger, the nearer. 0 when the ray misses the triangle.
+inline float canonicalKey(const RaySetup& ray, Vec3 v0, Vec3 v1, Vec3 v2) {
+    const ShearedTriangle s(ray, v0, v1, v2);
+    if (!s.containsRay()) return 0;
+
+    const Vec3(&v)[3] = s.v;
+    const float zMin = min(v[0].z, min(v[1].z, v[2].z));
+    const float zMax = max(v[0].z, max(v[1].z, v[2].z));
+    if (!(zMax > 0)) return 0;
+
+    const Vec3 n = cross(v[1] - v[0], v[2] - v[0]);
+    const float planeDistance = (n.x * v[0].x + n.y * v[0].y) + n.z * v[0].z;
+    const float inverse = 1.0f / planeDistance;
+    const float planeKey = ((n.x * inverse) * ray.Sx + (n.y * inverse) * ray.Sy) + n.z * inverse;
+    if (!(zMin > 0) && !(planeKey > 0)) return 0; // straddles the origin and is met behind it
+    const float nearest = zMin > 0 ? 1.0f / zMin : std::numeric_limits<float>::infinity();
+    float key = min(max(planeKey, 1.0f / zMax), nearest);
+
+    // Entry into and exit from the triangle's own box on the two lateral axes.
+    const float xLo = min(v[0].x, min(v[1].x, v[2].x));
+    const float xHi = max(v[0].x, max(v[1].x, v[2].x));
+    const float yLo = min(v[0].y, min(v[1].y, v[2].y));
+    const float yHi = max(v[0].y, max(v[1].y, v[2].y));
+    const bool leftwards = ray.rx < 0, downwards = ray.ry < 0;
+    const float xEntry = (leftwards ? xHi : xLo) * ray.rx - ray.px;
+    const float yEntry = (downwards ? yHi : yLo) * ray.ry - ray.py;
+    const float xExit = (leftwards ? xLo : xHi) * ray.rx + ray.px;
+    const float yExit = (downwards ? yLo : yHi) * ray.ry + ray.py;
+    if (xExit < 0 || yExit < 0) return 0;
+    const float entry = max(xEntry, yEntry);
+    if (entry > 0) key = min(key, 1.0f / entry);
+    return key;
+}

@@ -1,0 +1,126 @@
+#include "base/file.h"
+
+#include "base/error.h"
+#include "base/text.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <mutex>
+#include <unistd.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+using File = std::unique_ptr<std::FILE, CloseFile>;
+
+// A fixed buffer and a lock-free pointer: all that a signal handler may look at.
+std::array<char, 4096> pendingName;
+std::atomic<const char*> pending = nullptr;
+static_assert(std::atomic<const char*>::is_always_lock_free);
+std::mutex oneWriteAtATime;
+
+// Announces a temporary file before it is made, and removes it unless it was renamed.
+class PendingFile {
+public:
+    explicit PendingFile(const std::string& name) : name_(name) {
+        if (name.size() >= pendingName.size()) return; // longer than a path may be: open fails
+        std::copy(name.begin(), name.end(), pendingName.begin());
+        pendingName[name.size()] = '\0';
+        pending = pendingName.data();
+    }
+    ~PendingFile() {
+        if (!renamed_) std::remove(name_.c_str());
+        pending = nullptr;
+    }
+    PendingFile(const PendingFile&) = delete;
+    PendingFile& operator=(const PendingFile&) = delete;
+    void renamed() { renamed_ = true; }
+
+private:
+    std::string name_;
+    bool renamed_ = false;
+};
+
+[[noreturn]] void failWriting(const std::string& fileName, int reason) {
+    std::string hint;
+    if (reason == ENOENT)
+        hint = cat("; the folder '", fs::path(fileName).parent_path().string(), "' must exist");
+    fail(ErrorKind::Output,
+         cat(fileName, ": error: cannot write: ", std::strerror(reason), hint));
+}
+
+// Writes and closes; nothing is on the disk for sure before fclose() succeeds.
+void writeBytes(const std::string& path, const std::string& fileName,
+                std::span<const std::uint8_t> bytes) {
+    File file(std::fopen(path.c_str(), "wb"));
+    if (!file) failWriting(fileName, errno);
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
+        failWriting(fileName, errno);
+    if (std::fclose(file.release()) != 0) failWriting(fileName, errno);
+}
+
+} // namespace
+
+std::vector<std::uint8_t> readWholeFile(const std::string& fileName) {
+    const auto failReading = [&](const std::string& reason) {
+        fail(ErrorKind::Input, cat(fileName, ": error: cannot read: ", reason));
+    };
+    std::error_code status;
+    const fs::file_status kind = fs::status(fileName, status);
+    if (fs::is_directory(kind)) failReading("it is a folder; name a file in it");
+    // /dev/zero has no end.
+    if (fs::is_character_file(kind) || fs::is_block_file(kind))
+        failReading("it is a device; name a file");
+    const File file(std::fopen(fileName.c_str(), "rb"));
+    if (!file) failReading(std::strerror(errno));
+    std::vector<std::uint8_t> bytes;
+    std::size_t used = 0;
+    const std::uintmax_t promised = fs::is_regular_file(kind) ? fs::file_size(fileName, status) : 0;
+    constexpr std::uintmax_t kFirstPart = 1 << 16;
+    // One byte more than promised: the end is seen without another allocation.
+    bytes.resize(static_cast<std::size_t>(status ? kFirstPart : std::max(promised + 1, kFirstPart)));
+    while (true) {
+        const std::size_t read =
+            std::fread(bytes.data() + used, 1, bytes.size() - used, file.get());
+        used += read;
+        if (used < bytes.size()) break;
+        bytes.resize(2 * bytes.size());
+    }
+    if (std::ferror(file.get())) failReading(std::strerror(errno));
+    bytes.resize(used);
+    return bytes;
+}
+
+void writeFileAtomically(const std::string& fileName, std::span<const std::uint8_t> bytes) {
+    const std::scoped_lock lock(oneWriteAtATime);
+    std::error_code status;
+    std::string target = fileName;
+    // rename() would replace a symbolic link instead of what it points to.
+    if (fs::is_symlink(fs::symlink_status(fileName, status))) {
+        const fs::path real = fs::weakly_canonical(fileName, status);
+        if (!status) target = real.string();
+    }
+    const fs::file_status kind = fs::status(target, status);
+    if (fs::is_directory(kind)) failWriting(fileName, EISDIR);
+    if (fs::exists(kind) && !fs::is_regular_file(kind)) return writeBytes(target, fileName, bytes);
+    // rename() asks for rights in the folder only; a write-protected file stays protected.
+    if (fs::exists(kind) && access(target.c_str(), W_OK) != 0) failWriting(fileName, errno);
+
+    const std::string temporary = cat(target, ".", getpid(), ".tmp");
+    PendingFile guard(temporary);
+    writeBytes(temporary, fileName, bytes);
+    if (std::rename(temporary.c_str(), target.c_str()) != 0) failWriting(fileName, errno);
+    guard.renamed();
+}
+
+const char* pendingTemporaryFile() { return pending; }

@@ -1,0 +1,21 @@
+// Whole files: read into memory, written so that a half-written file never has the final name.
+// Knows nothing about what the bytes mean; "-" for stdin and stdout is the caller's business.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+// All bytes of a regular file or pipe. Fails with ErrorKind::Input: the name and the system's reason.
+std::vector<std::uint8_t> readWholeFile(const std::string& fileName);
+
+// Writes a temporary file in the same folder and renames it; an existing file keeps its content
+// until then. What is no regular file (/dev/null, a pipe) is written to directly. One write at a
+// time: threads wait for each other. Fails with ErrorKind::Output and leaves no temporary file.
+void writeFileAtomically(const std::string& fileName, std::span<const std::uint8_t> bytes);
+
+// The temporary file that exists right now, nullptr when there is none. Safe in a signal handler,
+// which may unlink() it before the program ends.
+const char* pendingTemporaryFile();

@@ -1,0 +1,36 @@
+// What a ray meets: Hit is all that traversal carries, Surface is computed once for the winner.
+#pragma once
+
+#include "base/vec.h"
+
+#include <cstdint>
+#include <limits>
+
+struct Hit {
+    float t = std::numeric_limits<float>::infinity(); // in units of the ray's direction
+    float u = 0, v = 0;                               // barycentrics of a triangle, else unused
+    std::uint32_t prim = 0;                           // triangle of a mesh, part of another shape
+    std::uint32_t shape = kNoShape;
+    static constexpr std::uint32_t kNoShape = 0xffffffffu;
+    bool isHit() const { return shape != kNoShape; }
+    bool operator==(const Hit&) const = default;
+};
+
+// All in world space; normals have unit length and point to the outside of the shape (for a flat
+// shape: along its +Z), whichever side the ray came from.
+struct Surface {
+    Vec3 p;
+    Vec3 ng;                    // of the geometry
+    Vec3 ns;                    // interpolated; within 90 degrees of ng
+    Vec2 uv;
+    std::uint32_t material = 0; // index into the scene's materials
+    std::uint32_t object = 0;   // index of the object in the scene file
+    // Bound of the distance between p and the surface that the shape's own intersection test sees,
+    // rounding of p included: a ray that starts this far off along ng stays on its side.
+    float error = 0;
+};
+
+// Change of the position with the texture coordinates, for bump and normal maps.
+struct SurfaceDerivatives {
+    Vec3 dpdu, dpdv;
+};

@@ -1,0 +1,59 @@
+// A pool of threads that works through numbered jobs.
+// Which thread does which job is left open: jobs must not depend on it.
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+// How many threads the machine runs at once, at least 1.
+int hardwareThreads();
+
+// Floating point stays as the standard has it in all threads: round to nearest, denormals kept
+// (no FTZ/DAZ), so that no result depends on which thread made it. The workers set that; the
+// caller's own modes are left as they are.
+class ThreadPool {
+public:
+    // 0 means hardwareThreads(). The caller of run() is worker 0, so threads - 1 are started, or
+    // as many as the system gives.
+    explicit ThreadPool(int threads = 0);
+    ~ThreadPool();
+    ThreadPool(const ThreadPool&) = delete;
+    ThreadPool& operator=(const ThreadPool&) = delete;
+
+    int threads() const { return static_cast<int>(workers_.size()) + 1; }
+
+    // Calls job(index, worker) for index = 0 .. count-1, each once, handed out in ascending order;
+    // worker in [0, threads) tells whose scratch memory to use. Returns when all are done. With
+    // one thread everything runs in place. An exception stops the handing out and is thrown again
+    // here; of several the one of the lowest index, which is the same in every run. When *stop becomes true no further index is
+    // handed out. Returns false when some were left out that way. One run at a time, no nesting.
+    bool run(std::size_t count, const std::function<void(std::size_t, int)>& job,
+             const std::atomic<bool>* stop = nullptr);
+
+private:
+    void work(int worker);
+    void workerLoop(int worker);
+
+    std::vector<std::thread> workers_;
+    std::mutex mutex_;
+    std::condition_variable wake_, done_;
+    std::uint64_t generation_ = 0; // of the current run; guarded by mutex_
+    int busy_ = 0;                 // workers inside the current run; guarded by mutex_
+    bool quit_ = false;            // guarded by mutex_
+
+    // The current run.
+    const std::function<void(std::size_t, int)>* job_ = nullptr;
+    const std::atomic<bool>* stop_ = nullptr;
+    std::size_t count_ = 0;
+    std::atomic<std::size_t> next_{0}, finished_{0};
+    std::exception_ptr error_;    // guarded by mutex_
+    std::size_t errorIndex_ = 0;  // guarded by mutex_
+    std::atomic<bool> failed_{false};
+};

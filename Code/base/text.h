@@ -1,0 +1,36 @@
+// Small text helpers: joining, exact numbers, and the nearest known word for an error message.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <sstream>
+#include <string>
+#include <string_view>
+
+// Joins anything that can be streamed into one string.
+template <class... Parts>
+std::string cat(const Parts&... parts) {
+    std::ostringstream out;
+    (out << ... << parts);
+    return out.str();
+}
+
+// The shortest decimal text that reads back to the same double ("0.1", "1e-20", "3").
+std::string shortest(double value);
+std::string shortest(float value);
+
+// The whole text as one finite number / whole number; nothing when it is not exactly that.
+std::optional<double> parseDouble(std::string_view text);
+std::optional<long long> parseInteger(std::string_view text);
+
+// "a, b, c"
+std::string join(std::span<const std::string> words, std::string_view separator = ", ");
+
+// The known word with the smallest edit distance, if that is close enough to be a typing error
+// (at most a third of the letters, at least one).
+std::optional<std::string> nearestWord(std::string_view word, std::span<const std::string> known);
+
+// "'word'; did you mean 'x'? known: a, b, c": the end of every message about an unknown name.
+// Lists of more than 12 names are cut.
+std::string unknownName(std::string_view word, std::span<const std::string> known);

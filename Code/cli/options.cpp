@@ -1,0 +1,83 @@
+#include "cli/options.h"
+
+#include "base/error.h"
+#include "cli/output.h"
+
+namespace {
+
+// The last run of # becomes the number with at least as many digits; false when there is none.
+bool replaceFrame(std::string& name, int frame) {
+    const std::size_t end = name.find_last_of('#');
+    if (end == std::string::npos) return false;
+    const std::size_t before = name.find_last_not_of('#', end);
+    const std::size_t start = before == std::string::npos ? 0 : before + 1;
+    const std::size_t width = end + 1 - start;
+    std::string digits = std::to_string(frame);
+    if (digits.size() < width) digits.insert(0, width - digits.size(), '0');
+    name.replace(start, width, digits);
+    return true;
+}
+
+void setFrame(Options& options) {
+    if (!options.frame) return;
+    const bool inScene = replaceFrame(options.scene, *options.frame);
+    const bool inOutput = replaceFrame(options.output, *options.frame);
+    const bool inConvert = replaceFrame(options.convertTo, *options.frame);
+    if (!inScene && !inOutput && !inConvert)
+        failUsage("--frame needs a run of # in SCENE or OUTPUT, such as scene_####.txt");
+}
+
+// SCENE [OUTPUT]
+void setNames(Options& options, std::span<const std::string> names) {
+    if (names.empty())
+        failUsage("no scene; usage: raytracer SCENE [OUTPUT] [options]");
+    options.scene = names[0];
+    if (names.size() > 2)
+        failUsage(cat("too many names: '", names[2], "' after SCENE '", names[0], "' and OUTPUT '",
+                      names[1], "'"));
+    if (names.size() < 2) return;
+    if (!options.output.empty())
+        failUsage(cat("two outputs: '", names[1], "' and --output '", options.output, "'"));
+    options.output = names[1];
+}
+
+void checkCombinations(const Options& options) {
+    if (options.action != Options::Action::Render) {
+        if (!options.output.empty())
+            failUsage(cat("no picture is rendered, so OUTPUT '", options.output, "' has no use"));
+        return;
+    }
+    const bool toStdout = options.output == "-";
+    if (toStdout && options.stats == Options::StatsFormat::Json)
+        failUsage("the picture and --stats=json cannot both go to stdout; name an OUTPUT file");
+    if (toStdout && !options.aovs.empty())
+        failUsage("--aov writes files beside OUTPUT; name an OUTPUT file instead of -");
+    // The default output is a .ppm.
+    if (!options.output.empty() && !toStdout && !hasPictureExtension(options.output))
+        failUsage(cat("OUTPUT '", options.output, "' must end in .ppm, .png or .pfm"));
+    if (options.bits && lowerExtension(options.output) == ".pfm")
+        failUsage("--bits is for .ppm and .png; a .pfm file stores floats");
+}
+
+} // namespace
+
+Options parseOptions(std::span<const std::string> arguments) {
+    Options options;
+    const std::vector<Flag> flags = renderFlags(options);
+    const std::vector<std::string> names = parseFlags(flags, arguments);
+    using Action = Options::Action;
+    switch (options.action) {
+    case Action::ListFeatures:
+    case Action::Help:
+    case Action::Version:
+    case Action::Completion: return options;
+    case Action::Render:
+    case Action::Check:
+    case Action::Info:
+    case Action::Convert: break;
+    }
+    setNames(options, names);
+    setFrame(options);
+    checkCombinations(options);
+    return options;
+}

@@ -1,0 +1,73 @@
+// Options: what the command line asks for, before the scene is read. settings_from.h joins it with
+// the scene's own settings. Knows nothing about rendering.
+#pragma once
+
+#include "cli/flag.h"
+#include "desc/scene_desc.h"
+#include "render/settings.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+struct Options {
+    enum class Action { Render, Check, Info, Convert, ListFeatures, Help, Version, Completion };
+    enum class StatsFormat { None, Table, Json };
+    enum class Progress { Auto, Plain, None };
+
+    std::string scene;  // "-": native text on stdin
+    std::string output; // "-": PPM on stdout; empty: Output/<scene>.ppm
+    Action action = Action::Render;
+    std::string convertTo; // Convert: the file, "-" is stdout
+    std::string shell;     // Completion
+
+    // Picture; what is empty comes from the scene file.
+    std::optional<std::array<int, 2>> resolution;
+    double scalePercent = 100;
+    std::optional<std::array<int, 4>> crop; // x0 y0 x1 y1 after scaling, x1 y1 exclusive
+    bool cropPad = false;
+    std::string camera;
+    std::optional<int> frame;
+    std::optional<double> exposureEv;
+    std::optional<SettingsDesc::Transfer> transfer;
+    std::optional<int> bits;
+    std::optional<Rgbd> background;
+
+    Switches switches;
+
+    // Quality
+    std::optional<int> samplesPerPixel, lightSamples, maxDepth;
+    std::optional<SettingsDesc::Sampler> sampler;
+    std::optional<bool> jitter;
+    std::optional<std::uint32_t> seed;
+    std::optional<SettingsDesc::Filter> filter;
+    std::optional<double> filterWidth; // pixels
+
+    // Method
+    IntegratorKind integrator = IntegratorKind::Whitted;
+    AccelKind accel = AccelKind::Bvh;
+    std::string kernel = "auto";
+    int threads = 0; // 0: all that the machine has
+
+    // Output
+    std::vector<Aov> aovs;
+    StatsFormat stats = StatsFormat::None;
+    bool quiet = false;
+    Progress progress = Progress::Auto;
+    bool preview = false;
+
+    bool strict = false;
+    std::string textureFolder;
+};
+
+inline constexpr const char* kFeatureGroup = "features"; // the group of Switches
+
+// The one table of options; the setters write into `options`, which must outlive the table.
+std::vector<Flag> renderFlags(Options& options);
+
+// Everything after the program's name. Fails with ErrorKind::Usage when the arguments are wrong or
+// do not fit together. A run of # in both names is replaced when there is a frame number.
+Options parseOptions(std::span<const std::string> arguments);

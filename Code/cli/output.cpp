@@ -1,0 +1,103 @@
+#include "cli/output.h"
+
+#include "base/enum_names.h"
+#include "base/error.h"
+#include "base/math.h"
+#include "cli/method_names.h"
+
+#include <cctype>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <unistd.h>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void failWriting(const std::string& fileName, const std::string& reason) {
+    fail(ErrorKind::Output, cat(fileName, ": error: cannot write: ", reason));
+}
+
+Encoding encodingOf(const RenderSettings& settings, const Options& options) {
+    const bool srgb = settings.picture.transfer == SettingsDesc::Transfer::Srgb;
+    return {srgb ? Encoding::Transfer::Srgb : Encoding::Transfer::Linear, options.bits.value_or(8)};
+}
+
+} // namespace
+
+void writeStdout(std::string_view data) {
+    if (std::fwrite(data.data(), 1, data.size(), stdout) != data.size() || std::fflush(stdout) != 0)
+        failWriting("stdout", std::strerror(errno));
+}
+
+std::string defaultOutput(const std::string& scene) {
+    const std::string stem = scene == "-" ? "stdin" : fs::path(scene).stem().string();
+    return (fs::path("Output") / (stem + ".ppm")).string();
+}
+
+std::string lowerExtension(const std::string& fileName) {
+    std::string extension = fs::path(fileName).extension().string();
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
+}
+
+bool hasPictureExtension(const std::string& fileName) {
+    const std::string extension = lowerExtension(fileName);
+    return extension == ".ppm" || extension == ".png" || extension == ".pfm";
+}
+
+void checkWritable(const std::string& fileName) {
+    std::error_code error;
+    const fs::file_status status = fs::status(fileName, error);
+    if (fs::is_directory(status)) failWriting(fileName, "it is a folder; name a file in it");
+    if (fs::exists(status)) {
+        if (access(fileName.c_str(), W_OK) != 0) failWriting(fileName, std::strerror(errno));
+        if (!fs::is_regular_file(status)) return; // /dev/null, a pipe: written to directly
+    }
+    const fs::path folder = fs::path(fileName).parent_path();
+    const std::string folderName = folder.empty() ? "." : folder.string();
+    if (!fs::is_directory(folderName, error))
+        failWriting(fileName, cat("there is no folder '", folderName, "'"));
+    if (access(folderName.c_str(), W_OK) != 0)
+        failWriting(fileName, cat("the folder '", folderName, "': ", std::strerror(errno)));
+}
+
+std::string aovFileName(const std::string& output, Aov aov) {
+    return fs::path(output).replace_extension(cat(nameOf(aov), ".pfm")).string();
+}
+
+Image padded(const Image& crop, const SettingsDesc& picture) {
+    if (!picture.crop) return crop;
+    Image full(picture.width, picture.height);
+    for (int y = 0; y < crop.height(); ++y)
+        for (int x = 0; x < crop.width(); ++x)
+            full.setPixel((*picture.crop)[0] + x, (*picture.crop)[1] + y, crop.pixel(x, y));
+    return full;
+}
+
+void expose(Image& image, double ev) {
+    if (ev == 0) return;
+    constexpr float kLargest = std::numeric_limits<float>::max();
+    const auto factor = static_cast<float>(exact::exp2(ev));
+    const auto exposed = [&](float value) { return clamp(value * factor, -kLargest, kLargest); };
+    for (Rgb& pixel : image.pixels()) pixel = {exposed(pixel.r), exposed(pixel.g), exposed(pixel.b)};
+}
+
+void writePicture(Picture picture, const RenderSettings& settings, const Options& options,
+                  const std::string& output) {
+    expose(picture.color, settings.picture.exposureEv);
+    if (options.cropPad) {
+        picture.color = padded(picture.color, settings.picture);
+        for (AovImage& aov : picture.aovs) aov.image = padded(aov.image, settings.picture);
+    }
+    const Encoding encoding = encodingOf(settings, options);
+    if (output == "-") {
+        const auto bytes = encodeImage(picture.color, "ppm", encoding);
+        return writeStdout({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    }
+    picture.color.write(output, encoding);
+    for (const AovImage& aov : picture.aovs) aov.image.write(aovFileName(output, aov.aov));
+}

@@ -1,0 +1,39 @@
+// Where pictures go: names of files, whether they can be written, and writing them.
+#pragma once
+
+#include "cli/options.h"
+#include "image/image.h"
+#include "render/render.h"
+#include "render/settings.h"
+
+#include <string>
+#include <string_view>
+
+// To stdout, all of it at once. Fails with ErrorKind::Output when it does not take everything.
+void writeStdout(std::string_view data);
+
+// "Output/room.ppm" for "scenes/room.txt"; "Output/stdin.ppm" for "-".
+std::string defaultOutput(const std::string& scene);
+
+// .ppm, .png or .pfm, in any case.
+bool hasPictureExtension(const std::string& fileName);
+// ".png" for "a.PNG"; empty when there is none.
+std::string lowerExtension(const std::string& fileName);
+
+// Fails with ErrorKind::Output when a file of this name cannot be written: better now than after an
+// hour of rendering.
+void checkWritable(const std::string& fileName);
+
+// "out.depth.pfm" for "out.png"
+std::string aovFileName(const std::string& output, Aov aov);
+
+// The whole picture: black around the crop.
+Image padded(const Image& crop, const SettingsDesc& picture);
+
+// Times 2^EV; what would be infinite becomes the largest float.
+void expose(Image& image, double ev);
+
+// Exposure and padding are applied, then the picture and its AOVs are written, each atomically; "-"
+// writes a PPM to stdout.
+void writePicture(Picture picture, const RenderSettings& settings, const Options& options,
+                  const std::string& output);

@@ -1,0 +1,234 @@
+#include "cli/run.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "cli/completion.h"
+#include "cli/diff.h"
+#include "cli/help.h"
+#include "cli/info.h"
+#include "cli/interrupt.h"
+#include "cli/options.h"
+#include "cli/output.h"
+#include "cli/preview.h"
+#include "cli/progress.h"
+#include "cli/settings_from.h"
+#include "cli/stats_output.h"
+#include "cli/terminal.h"
+#include "cli/version.h"
+#include "desc/write_txt.h"
+#include "read/load.h"
+#include "render/render.h"
+#include "render/scene.h"
+
+#include <bit>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+
+namespace {
+
+// Complete lines in one call, so that they are not torn apart by a bar or another program.
+void writeStderr(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
+
+double secondsNow() {
+    const std::chrono::duration<double> since = std::chrono::steady_clock::now().time_since_epoch();
+    return since.count();
+}
+
+// Seconds since the last call.
+class Stopwatch {
+public:
+    double lap() {
+        const double before = last_;
+        last_ = secondsNow();
+        return last_ - before;
+    }
+    double total() const { return secondsNow() - start_; }
+
+private:
+    double start_ = secondsNow(), last_ = start_;
+};
+
+void printWarnings(const Diagnostics& diagnostics) {
+    for (const std::string& warning : diagnostics.warnings) writeStderr(warning + "\n");
+}
+
+// True when --strict ends the program here.
+bool isTooStrict(const Options& options, const Diagnostics& diagnostics) {
+    const std::size_t count = diagnostics.warnings.size();
+    if (!options.strict || count == 0) return false;
+    writeStderr(cat("raytracer: error: ", count, count == 1 ? " warning" : " warnings",
+                    " under --strict\n"));
+    return true;
+}
+
+void printAdvice(const RenderSettings& settings, const Options& options) {
+    const auto samples = static_cast<unsigned>(settings.picture.samplesPerPixel);
+    if (options.quiet || settings.picture.sampler != SettingsDesc::Sampler::Sobol ||
+        std::has_single_bit(samples))
+        return;
+    writeStderr(cat("raytracer: note: ", samples, " samples per pixel with sobol; a power of two (",
+                    std::bit_ceil(samples), ") has less noise\n"));
+}
+
+Progress::Style progressStyle(const Options& options, const Terminal& terminal) {
+    if (options.quiet || options.progress == Options::Progress::None) return Progress::Style::None;
+    const bool bar = options.progress == Options::Progress::Auto && terminal.present;
+    return bar ? Progress::Style::Bar : Progress::Style::Plain;
+}
+
+// The size of the film, before memory is taken for it.
+void checkPixelCount(const SettingsDesc& picture, bool cropPad) {
+    long long width = picture.width, height = picture.height;
+    if (picture.crop && !cropPad) {
+        width = (*picture.crop)[2] - (*picture.crop)[0];
+        height = (*picture.crop)[3] - (*picture.crop)[1];
+    }
+    if (width * height > Image::kMaxPixels)
+        failUsage(cat("a picture of ", width, "x", height, " pixels is too large; at most ",
+                      Image::kMaxPixels, " pixels are possible, --crop renders a part"));
+}
+
+// Nothing but the default output, which may need its folder, has a name that the user did not give.
+std::string preparedOutput(const Options& options) {
+    if (!options.output.empty()) return options.output;
+    const std::string output = defaultOutput(options.scene);
+    std::error_code ignored; // checkWritable() finds out and says why
+    std::filesystem::create_directories(std::filesystem::path(output).parent_path(), ignored);
+    return output;
+}
+
+Picture renderPicture(const Scene& scene, const RenderSettings& settings, const Options& options,
+                      Stats& stats, bool& stopped) {
+    const Terminal terminal = terminalOfStderr();
+    const StopOnInterrupt interrupt;
+    Progress progress(progressStyle(options, terminal), terminal.columns, writeStderr, secondsNow);
+    const RenderControl control{[&](double part) { progress.update(part); }, interrupt.flag()};
+    Picture picture = render(scene, settings, control, stats);
+    stopped = interrupt.stopped() || !picture.finished;
+    return picture;
+}
+
+void printPreview(const Picture& picture, const RenderSettings& settings) {
+    Image image = picture.color;
+    expose(image, settings.picture.exposureEv);
+    const Terminal terminal = terminalOfStderr();
+    constexpr int kPromptRows = 2; // what was typed, and the prompt that follows
+    writeStderr(previewText(image, terminal.columns, terminal.rows - kPromptRows));
+}
+
+void printStats(const Stats& stats, const Options& options) {
+    if (options.stats == Options::StatsFormat::Table) writeStderr(statsTable(stats));
+    if (options.stats == Options::StatsFormat::Json) writeStdout(statsJson(stats));
+}
+
+ExitCode renderScene(const LoadedScene& loaded, const RenderSettings& settings,
+                     const Options& options, Stopwatch& watch, Stats& stats, Step& step) {
+    checkPixelCount(settings.picture, options.cropPad);
+    const std::string output = preparedOutput(options);
+    if (output != "-") checkWritable(output);
+    for (const Aov aov : settings.aovs) checkWritable(aovFileName(output, aov));
+    printAdvice(settings, options);
+
+    step = {"building the scene", ExitCode::Input};
+    const Scene scene(loaded.desc, loaded.source, settings);
+    scene.describe(stats);
+    stats.threads = settings.threads;
+    stats.kernel = settings.kernel;
+    stats.buildSeconds = watch.lap();
+
+    step = {"rendering", ExitCode::Input};
+    bool stopped = false;
+    Picture picture = renderPicture(scene, settings, options, stats, stopped);
+    if (stopped) {
+        writeStderr("raytracer: interrupted; nothing is written\n");
+        return ExitCode::Interrupted;
+    }
+    stats.renderSeconds = watch.lap();
+
+    step = {"writing the picture", ExitCode::Output};
+    if (options.preview) printPreview(picture, settings);
+    watch.lap();
+    writePicture(std::move(picture), settings, options, output);
+    stats.writeSeconds = watch.lap();
+    stats.totalSeconds = watch.total();
+    stats.peakBytes = peakBytes();
+    if (!options.quiet && output != "-") writeStderr(cat("wrote ", output, "\n"));
+    printStats(stats, options);
+    return ExitCode::Ok;
+}
+
+ExitCode convert(const LoadedScene& loaded, const Options& options) {
+    // Switches are no part of a scene; --no-aa must not turn into a filter without width.
+    Options written = options;
+    written.switches = {};
+    const std::string text = writeTxt(withSettings(loaded.desc, settingsFrom(loaded.desc, written)));
+    if (options.convertTo == "-") {
+        writeStdout(text);
+        return ExitCode::Ok;
+    }
+    writeFileAtomically(options.convertTo, {reinterpret_cast<const std::uint8_t*>(text.data()),
+                                            text.size()});
+    const auto folderOf = [](const std::string& name) {
+        return std::filesystem::absolute(name).lexically_normal().parent_path();
+    };
+    const bool moved = options.scene == "-" || folderOf(options.scene) != folderOf(options.convertTo);
+    if (!options.quiet && moved && !loaded.desc.textures.empty())
+        writeStderr("raytracer: note: the names of texture files are kept; render with --textures "
+                    "and the folder they are in\n");
+    return ExitCode::Ok;
+}
+
+// Everything that reads a scene.
+ExitCode runScene(const Options& options, Step& step) {
+    using Action = Options::Action;
+    // What can be known now must not be found out after an hour of rendering.
+    if (!options.output.empty() && options.output != "-") checkWritable(options.output);
+    if (options.action == Action::Convert && options.convertTo != "-")
+        checkWritable(options.convertTo);
+
+    step = {"reading the scene", ExitCode::Input};
+    Stopwatch watch;
+    Stats stats;
+    Diagnostics diagnostics;
+    const LoadedScene loaded = load(options.scene, diagnostics);
+    stats.parseSeconds = watch.lap();
+    printWarnings(diagnostics);
+    RenderSettings settings = settingsFrom(loaded.desc, options);
+    if (isTooStrict(options, diagnostics)) return ExitCode::StrictWarnings;
+    if (options.action == Action::Convert) return convert(loaded, options);
+    if (options.action == Action::Render)
+        return renderScene(loaded, settings, options, watch, stats, step);
+
+    step = {"building the scene", ExitCode::Input};
+    settings.accel = AccelKind::None; // nothing is traced
+    const Scene scene(loaded.desc, loaded.source, settings);
+    if (options.action == Action::Info)
+        writeStdout(infoText(loaded.source, loaded.desc, settings, scene));
+    else writeStdout(cat(options.scene, ": ok (", summaryText(loaded.desc), ")\n"));
+    return ExitCode::Ok;
+}
+
+} // namespace
+
+ExitCode run(std::span<const std::string> arguments, Step& step) {
+    handleInterrupts();
+    if (!arguments.empty() && arguments[0] == "diff") {
+        const DiffOptions options = parseDiffOptions(arguments.subspan(1));
+        step = {"comparing the pictures", ExitCode::Input};
+        return diff(options);
+    }
+    const Options options = parseOptions(arguments);
+    switch (options.action) {
+    case Options::Action::Help: writeStdout(helpText()); return ExitCode::Ok;
+    case Options::Action::Version: writeStdout(cat("raytracer ", kVersion, "\n")); return ExitCode::Ok;
+    case Options::Action::ListFeatures: writeStdout(featureListText()); return ExitCode::Ok;
+    case Options::Action::Completion: writeStdout(completionScript(options.shell)); return ExitCode::Ok;
+    case Options::Action::Render:
+    case Options::Action::Check:
+    case Options::Action::Info:
+    case Options::Action::Convert: break;
+    }
+    return runScene(options, step);
+}

@@ -1,0 +1,117 @@
+#include "cli/settings_from.h"
+
+#include "base/parallel.h"
+#include "base/text.h"
+#include "image/image.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+// The whole support that the filter is known for: a box of one pixel, a tent from centre to centre,
+// and what Cycles starts with.
+double usualWidth(SettingsDesc::Filter filter) {
+    switch (filter) {
+    case SettingsDesc::Filter::Box: return 1;
+    case SettingsDesc::Filter::Tent: return 2;
+    case SettingsDesc::Filter::Gaussian:
+    case SettingsDesc::Filter::BlackmanHarris: break;
+    }
+    return 1.5;
+}
+
+// Rounded down, as Blender's resolution percentage.
+int scaledSide(int side, double percent) {
+    const double scaled = std::floor(side * percent / 100);
+    if (scaled > Image::kMaxSide)
+        failUsage(cat("--scale ", shortest(percent), " makes a picture ", shortest(scaled),
+                      " pixels wide or high; at most ", Image::kMaxSide, " are possible"));
+    return std::max(1, static_cast<int>(scaled));
+}
+
+// The scene's crop, for another resolution: the smallest rectangle that has all of it.
+std::array<int, 4> movedCrop(const std::array<int, 4>& crop, const SettingsDesc& from, int width,
+                             int height) {
+    const double x = static_cast<double>(width) / from.width;
+    const double y = static_cast<double>(height) / from.height;
+    return {static_cast<int>(std::floor(crop[0] * x)), static_cast<int>(std::floor(crop[1] * y)),
+            std::min(width, static_cast<int>(std::ceil(crop[2] * x))),
+            std::min(height, static_cast<int>(std::ceil(crop[3] * y)))};
+}
+
+void setPictureSize(SettingsDesc& picture, const Options& options) {
+    const SettingsDesc written = picture;
+    if (options.resolution) {
+        picture.width = (*options.resolution)[0];
+        picture.height = (*options.resolution)[1];
+    }
+    picture.width = scaledSide(picture.width, options.scalePercent);
+    picture.height = scaledSide(picture.height, options.scalePercent);
+    if (options.crop) picture.crop = options.crop;
+    else if (picture.crop)
+        picture.crop = movedCrop(*picture.crop, written, picture.width, picture.height);
+    if (options.crop && ((*picture.crop)[2] > picture.width || (*picture.crop)[3] > picture.height))
+        failUsage(cat("--crop reaches to ", (*picture.crop)[2], ",", (*picture.crop)[3],
+                      ", but the picture has ", picture.width, "x", picture.height, " pixels"));
+}
+
+void setQuality(SettingsDesc& picture, const Options& options) {
+    const auto set = [](auto& to, const auto& from) {
+        if (from) to = *from;
+    };
+    set(picture.samplesPerPixel, options.samplesPerPixel);
+    set(picture.lightSamples, options.lightSamples);
+    set(picture.maxDepth, options.maxDepth);
+    set(picture.sampler, options.sampler);
+    set(picture.jitter, options.jitter);
+    set(picture.seed, options.seed);
+    if (options.filter) {
+        picture.filter = *options.filter;
+        picture.filterWidth = options.filterWidth.value_or(usualWidth(*options.filter));
+    }
+    set(picture.exposureEv, options.exposureEv);
+    set(picture.transfer, options.transfer);
+    if (options.switches.aa) return;
+    // All samples in the centre of the pixel: one is enough, unless lights or lens need more.
+    picture.samplesPerPixel = options.samplesPerPixel.value_or(1);
+    picture.jitter = false;
+    picture.filter = SettingsDesc::Filter::Box;
+    picture.filterWidth = 0;
+}
+
+} // namespace
+
+RenderSettings settingsFrom(const SceneDesc& desc, const Options& options) {
+    RenderSettings settings;
+    settings.picture = desc.settings;
+    setPictureSize(settings.picture, options);
+    setQuality(settings.picture, options);
+    if (!options.camera.empty()) {
+        std::vector<std::string> known;
+        for (const CameraDesc& camera : desc.cameras) known.push_back(camera.name);
+        if (std::find(known.begin(), known.end(), options.camera) == known.end())
+            failUsage("unknown camera " + unknownName(options.camera, known));
+    }
+    settings.camera = options.camera;
+    settings.switches = options.switches;
+    settings.integrator = options.integrator;
+    settings.accel = options.accel;
+    settings.kernel = options.kernel == "auto" ? "scalar" : options.kernel;
+    settings.threads = options.threads > 0 ? options.threads : hardwareThreads();
+    settings.background = options.background;
+    settings.aovs = options.aovs;
+    settings.textureFolder = options.textureFolder;
+    return settings;
+}
+
+SceneDesc withSettings(SceneDesc desc, const RenderSettings& settings) {
+    desc.settings = settings.picture;
+    if (settings.background) desc.world.background = *settings.background;
+    // The first camera is the active one.
+    const auto active =
+        std::find_if(desc.cameras.begin(), desc.cameras.end(),
+                     [&](const CameraDesc& camera) { return camera.name == settings.camera; });
+    if (active != desc.cameras.end()) std::rotate(desc.cameras.begin(), active, active + 1);
+    return desc;
+}

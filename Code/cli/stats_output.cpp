@@ -1,0 +1,169 @@
+#include "cli/stats_output.h"
+
+#include "base/text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <span>
+#include <sstream>
+#include <sys/resource.h>
+
+namespace {
+
+std::string fixed(double value, int digits) {
+    std::ostringstream out;
+    out << std::fixed << std::setprecision(digits) << value;
+    return out.str();
+}
+
+// 1234567 -> "1 234 567"
+std::string grouped(std::uint64_t value) {
+    std::string text = std::to_string(value);
+    for (std::size_t end = text.size(); end > 3; end -= 3) text.insert(end - 3, 1, ' ');
+    return text;
+}
+
+std::string megabytes(std::uint64_t bytes) {
+    return fixed(static_cast<double>(bytes) / (1024 * 1024), 1) + " MiB";
+}
+
+double raysPerSecond(const Stats& stats) {
+    return stats.renderSeconds > 0 ? static_cast<double>(stats.rays.total()) / stats.renderSeconds
+                                   : 0;
+}
+
+std::string quoted(const std::string& text) {
+    constexpr char kHex[] = "0123456789abcdef";
+    std::string out = "\"";
+    for (const char c : text) {
+        const auto code = static_cast<unsigned char>(c);
+        if (c == '"' || c == '\\') out += {'\\', c};
+        else if (code < 0x20) out += std::string("\\u00") + kHex[code >> 4] + kHex[code & 15];
+        else out += c;
+    }
+    return out + "\"";
+}
+
+// Writes "key": value with commas where they belong.
+class JsonObject {
+public:
+    JsonObject& add(const std::string& key, const std::string& json) {
+        if (text_.size() > 1) text_ += ",";
+        text_ += quoted(key) + ":" + json;
+        return *this;
+    }
+    JsonObject& add(const std::string& key, double value) {
+        return add(key, std::isfinite(value) ? shortest(value) : std::string("null"));
+    }
+    JsonObject& add(const std::string& key, std::uint64_t value) {
+        return add(key, std::to_string(value));
+    }
+    std::string text() const { return text_ + "}"; }
+
+private:
+    std::string text_ = "{";
+};
+
+std::string jsonList(std::span<const std::string> words) {
+    std::string out = "[";
+    for (const std::string& word : words) out += (out.size() > 1 ? "," : "") + quoted(word);
+    return out + "]";
+}
+
+// Rows of two columns below a heading; numbers are aligned at their right.
+class Table {
+public:
+    void heading(const std::string& text) { out_ << text << "\n"; }
+    void row(const std::string& name, const std::string& value, const std::string& unit = "") {
+        out_ << "  " << std::left << std::setw(24) << name << std::right << std::setw(16) << value
+             << (unit.empty() ? "" : " ") << unit << "\n";
+    }
+    void line(const std::string& text) { out_ << "  " << text << "\n"; }
+    std::string text() const { return out_.str(); }
+
+private:
+    std::ostringstream out_;
+};
+
+void addFeatures(Table& table, const Stats& stats) {
+    table.heading("features");
+    table.line("needed   " + (stats.featuresNeeded.empty() ? "none" : join(stats.featuresNeeded)));
+    for (std::size_t i = 0; i < stats.featuresSkipped.size(); ++i)
+        table.line((i == 0 ? "skipped  " : "         ") + stats.featuresSkipped[i]);
+}
+
+} // namespace
+
+std::string statsTable(const Stats& s) {
+    Table table;
+    table.heading("seconds");
+    table.row("parse", fixed(s.parseSeconds, 3));
+    table.row("build", fixed(s.buildSeconds, 3));
+    table.row("render", fixed(s.renderSeconds, 3));
+    table.row("write", fixed(s.writeSeconds, 3));
+    table.row("total", fixed(s.totalSeconds, 3));
+    table.heading("rays");
+    table.row("camera", grouped(s.rays.camera));
+    table.row("camera hits", grouped(s.cameraHits));
+    table.row("shadow", grouped(s.rays.shadow));
+    table.row("reflect", grouped(s.rays.reflect));
+    table.row("refract", grouped(s.rays.refract));
+    table.row("indirect", grouped(s.rays.indirect));
+    table.row("all", grouped(s.rays.total()));
+    table.row("speed", fixed(raysPerSecond(s) / 1e6, 3), "Mray/s");
+    table.heading("accel");
+    table.row("kind", s.accel.kind);
+    table.row("primitives", grouped(s.accel.primitives));
+    table.row("nodes", grouped(s.accel.nodes));
+    table.row("leaves", grouped(s.accel.leaves));
+    table.row("memory", megabytes(s.accel.bytes));
+    table.row("sah cost", fixed(s.accel.sah, 2));
+    table.heading("run");
+    table.row("peak memory", megabytes(s.peakBytes));
+    table.row("threads", std::to_string(s.threads));
+    table.row("kernel", s.kernel);
+    table.row("samples per pixel", shortest(s.samplesMean),
+              s.samplesMin == s.samplesMax
+                  ? ""
+                  : cat("(", shortest(s.samplesMin), " to ", shortest(s.samplesMax), ")"));
+    table.heading("numeric");
+    table.row("nan samples", grouped(s.nanSamples));
+    table.row("degenerate primitives", grouped(s.degeneratePrimitives));
+    addFeatures(table, s);
+    return table.text();
+}
+
+std::string statsJson(const Stats& s) {
+    JsonObject seconds, rays, hits, accel, features, samples, numeric, all;
+    seconds.add("parse", s.parseSeconds).add("build", s.buildSeconds);
+    seconds.add("render", s.renderSeconds).add("write", s.writeSeconds);
+    seconds.add("total", s.totalSeconds);
+    rays.add("camera", s.rays.camera).add("shadow", s.rays.shadow);
+    rays.add("reflect", s.rays.reflect).add("refract", s.rays.refract);
+    rays.add("indirect", s.rays.indirect);
+    hits.add("camera", s.cameraHits);
+    accel.add("kind", quoted(s.accel.kind)).add("nodes", s.accel.nodes);
+    accel.add("leaves", s.accel.leaves).add("bytes", s.accel.bytes).add("sah", s.accel.sah);
+    features.add("needed", jsonList(s.featuresNeeded)).add("skipped", jsonList(s.featuresSkipped));
+    samples.add("min", s.samplesMin).add("mean", s.samplesMean).add("max", s.samplesMax);
+    numeric.add("nan_samples", s.nanSamples);
+    numeric.add("degenerate_primitives", s.degeneratePrimitives);
+    all.add("seconds", seconds.text()).add("rays", rays.text()).add("hits", hits.text());
+    all.add("rays_per_second", raysPerSecond(s)).add("accel", accel.text());
+    all.add("peak_bytes", s.peakBytes).add("threads", static_cast<std::uint64_t>(s.threads));
+    all.add("kernel", quoted(s.kernel)).add("features", features.text());
+    all.add("samples", samples.text()).add("numeric", numeric.text());
+    return all.text() + "\n";
+}
+
+std::uint64_t peakBytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+#ifdef __APPLE__
+    constexpr std::uint64_t kUnit = 1; // macOS counts bytes, Linux and BSD kibibytes
+#else
+    constexpr std::uint64_t kUnit = 1024;
+#endif
+    return static_cast<std::uint64_t>(usage.ru_maxrss) * kUnit;
+}

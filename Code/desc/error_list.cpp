@@ -1,0 +1,17 @@
+#include "desc/error_list.h"
+
+#include "base/text.h"
+
+std::string ErrorList::locatedAt(SourceLoc loc, std::string_view what,
+                                 std::string_view severity) const {
+    if (loc.offset == SourceLoc::kUnknown) return cat(source_.name, ": ", severity, ": ", what);
+    return located(source_, loc.offset, what, severity);
+}
+
+void ErrorList::throwIfAny() const {
+    if (count_ == 0) return;
+    std::string all = join(messages_, "\n");
+    if (count_ > messages_.size())
+        all += cat("\n", source_.name, ": error: and ", count_ - messages_.size(), " more errors");
+    fail(ErrorKind::Input, all);
+}

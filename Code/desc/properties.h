@@ -1,0 +1,294 @@
+// The properties of every kind of block, one row each: keyword, where it is stored, what it may be.
+// Reader, writer, validation and tests walk these tables, so a new property is a new row (and its
+// line in ASCII/README.md). Transforms and the arrays of meshes are not properties.
+#pragma once
+
+#include "desc/enum_tables.h"
+#include "desc/range.h"
+#include "desc/scene_desc.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+enum class Target { Texture, Material, Mesh }; // what a reference names
+template <>
+inline constexpr auto kEnumNames<Target> = std::to_array<EnumName<Target>>(
+    {{Target::Texture, "texture"}, {Target::Material, "material"}, {Target::Mesh, "mesh"}});
+static_assert(isInOrder<Target>());
+
+template <class Block>
+struct Reference {
+    Handle Block::* handle;
+    Target target;
+};
+// The same list under two keywords: one name for all, or a name per material slot.
+template <class Block>
+struct MaterialList {
+    std::vector<Handle> Block::* handles;
+    bool many;
+};
+// An enum whose type is forgotten; values are positions in `names`.
+template <class Block>
+struct Choice {
+    std::size_t (*get)(const Block&);
+    void (*set)(Block&, std::size_t);
+    std::span<const std::string_view> names;
+};
+
+template <class Block, class E>
+Block blockOf(E Block::*);
+template <class Block, class E>
+E memberOf(E Block::*);
+
+template <auto member>
+constexpr auto choice() {
+    using Block = decltype(blockOf(member));
+    using E = decltype(memberOf(member));
+    return Choice<Block>{[](const Block& block) { return static_cast<std::size_t>(block.*member); },
+                         [](Block& block, std::size_t i) { block.*member = static_cast<E>(i); },
+                         kNamesByValue<E>};
+}
+
+using Corners4 = std::array<Vec3d, 4>;
+using Crop = std::optional<std::array<int, 4>>;
+template <class Block>
+using Field = std::variant<double Block::*, Vec2d Block::*, Rgbd Block::*, Corners4 Block::*,
+                           int Block::*, std::uint32_t Block::*, Crop Block::*, bool Block::*,
+                           std::string Block::*, Reference<Block>, MaterialList<Block>, Choice<Block>>;
+
+using KindMask = std::uint32_t;
+inline constexpr KindMask kAllKinds = ~KindMask{0};
+template <class... Kinds>
+constexpr KindMask only(Kinds... kinds) { return (... | (KindMask{1} << static_cast<unsigned>(kinds))); }
+
+template <class Block>
+struct Property {
+    std::string_view keyword;
+    Field<Block> first;
+    std::optional<Field<Block>> second; // on the same line
+    Range range;                        // of all its numbers
+    KindMask kinds = kAllKinds; // objects: where the keyword exists; lights: where it has an effect
+};
+
+inline constexpr auto kSettingsProperties = std::to_array<Property<SettingsDesc>>({
+    {"resolution", &SettingsDesc::width, &SettingsDesc::height, {1, 65535}},
+    {"pixel_aspect", &SettingsDesc::pixelAspect, {}, {0, 1000, true}},
+    {"crop", &SettingsDesc::crop, {}, {0, 65535}},
+    {"samples", &SettingsDesc::samplesPerPixel, {}, {1, 1 << 24}},
+    {"light_samples", &SettingsDesc::lightSamples, {}, {1, 4096}},
+    {"max_depth", &SettingsDesc::maxDepth, {}, {0, 1024}},
+    {"sampler", choice<&SettingsDesc::sampler>(), {}, {}},
+    {"jitter", &SettingsDesc::jitter, {}, {}},
+    {"seed", &SettingsDesc::seed, {}, kAnyUnsigned},
+    {"filter", choice<&SettingsDesc::filter>(), &SettingsDesc::filterWidth, {0, 32, true}},
+    {"exposure", &SettingsDesc::exposureEv, {}, {-64, 64}},
+    {"transfer", choice<&SettingsDesc::transfer>(), {}, {}},
+});
+
+inline constexpr auto kWorldProperties = std::to_array<Property<WorldDesc>>({
+    {"background", &WorldDesc::background, {}, kColor},
+    {"ambient", &WorldDesc::ambient, {}, kColor},
+    {"environment", Reference<WorldDesc>{&WorldDesc::environment, Target::Texture}, {}, {}},
+    {"environment_rotation", &WorldDesc::rotationDeg, {}, kTurn},
+});
+
+inline constexpr auto kCameraProperties = std::to_array<Property<CameraDesc>>({
+    {"type", choice<&CameraDesc::kind>(), {}, {}},
+    {"lens", &CameraDesc::lensMm, {}, kPositive},
+    {"sensor", &CameraDesc::sensorWidthMm, &CameraDesc::sensorHeightMm, kPositive},
+    {"sensor_fit", choice<&CameraDesc::sensorFit>(), {}, {}},
+    {"shift", &CameraDesc::shiftX, &CameraDesc::shiftY, kAnyNumber},
+    {"ortho_scale", &CameraDesc::orthoScale, {}, kPositive},
+    {"clip_start", &CameraDesc::clipStart, {}, kNotNegative},
+    {"aperture_radius", &CameraDesc::apertureRadius, {}, kNotNegative},
+    {"focus_distance", &CameraDesc::focusDistance, {}, kPositive},
+    {"aperture_blades", &CameraDesc::apertureBlades, {}, {0, 256}},
+    {"aperture_rotation", &CameraDesc::apertureRotationDeg, {}, kTurn},
+    {"aperture_ratio", &CameraDesc::apertureRatio, {}, kPositive},
+});
+
+inline constexpr auto kTextureProperties = std::to_array<Property<TextureDesc>>({
+    {"file", &TextureDesc::file, {}, {}},
+    {"space", choice<&TextureDesc::space>(), {}, {}},
+    {"interpolation", choice<&TextureDesc::interpolation>(), {}, {}},
+    {"extension", choice<&TextureDesc::extension>(), {}, {}},
+    {"channel", choice<&TextureDesc::channel>(), {}, {}},
+    {"scale", &TextureDesc::scale, {}, kAnyNumber},
+    {"rotation", &TextureDesc::rotationDeg, {}, kTurn},
+    {"offset", &TextureDesc::offset, {}, kAnyNumber},
+});
+
+constexpr Reference<MaterialDesc> textureOf(Handle MaterialDesc::* handle) {
+    return {handle, Target::Texture};
+}
+inline constexpr auto kMaterialProperties = std::to_array<Property<MaterialDesc>>({
+    {"diffuse", &MaterialDesc::diffuse, {}, kColor},
+    {"diffuse_texture", textureOf(&MaterialDesc::diffuseTexture), {}, {}},
+    {"specular", &MaterialDesc::specular, {}, kColor},
+    {"specular_texture", textureOf(&MaterialDesc::specularTexture), {}, {}},
+    {"specular_model", choice<&MaterialDesc::specularModel>(), {}, {}},
+    {"exponent", &MaterialDesc::exponent, {}, {0, 1e9}},
+    {"mirror", &MaterialDesc::mirror, {}, kColor},
+    {"transmission", &MaterialDesc::transmission, {}, kColor},
+    {"ior", &MaterialDesc::ior, {}, {0, 1000, true}},
+    {"fresnel", choice<&MaterialDesc::fresnel>(), {}, {}},
+    {"roughness", &MaterialDesc::roughness, {}, kUnit},
+    {"emission", &MaterialDesc::emission, {}, kColor},
+    {"emission_texture", textureOf(&MaterialDesc::emissionTexture), {}, {}},
+    {"opacity", &MaterialDesc::opacity, {}, kUnit},
+    {"opacity_texture", textureOf(&MaterialDesc::opacityTexture), {}, {}},
+    {"filter", &MaterialDesc::filter, {}, kColor},
+    {"normal_map", textureOf(&MaterialDesc::normalMap), {}, {}},
+    {"normal_strength", &MaterialDesc::normalStrength, {}, {0, 1000}},
+    {"bump_map", textureOf(&MaterialDesc::bumpMap), {}, {}},
+    {"bump_strength", &MaterialDesc::bumpStrength, {}, {-1000, 1000}},
+    {"bump_distance", &MaterialDesc::bumpDistance, {}, kAnyNumber},
+});
+
+inline constexpr auto kLightProperties = [] {
+    using enum LightDesc::Kind;
+    return std::to_array<Property<LightDesc>>({
+        {"type", choice<&LightDesc::kind>(), {}, {}},
+        {"color", &LightDesc::color, {}, kColor},
+        {"radius", &LightDesc::radius, {}, kNotNegative, only(Point, Spot, Sphere)},
+        {"size", &LightDesc::size, {}, kPositive, only(Rectangle, Disk)},
+        {"cone_angle", &LightDesc::coneAngleDeg, {}, {0, 180, true}, only(Spot)},
+        {"blend", &LightDesc::blend, {}, kUnit, only(Spot)},
+        {"cosine_falloff", &LightDesc::cosineFalloff, {}, {}, only(Spot)},
+        {"angle", &LightDesc::angleDeg, {}, {0, 180}, only(Sun)},
+        {"spread", &LightDesc::spreadDeg, {}, {0, 180, true}, only(Rectangle, Disk)},
+        {"shadows", &LightDesc::shadows, {}, {}},
+        {"visible", &LightDesc::visible, {}, {}, only(Rectangle, Disk, Sphere)},
+    });
+}();
+
+inline constexpr auto kObjectProperties = [] {
+    using enum ObjectDesc::Kind;
+    return std::to_array<Property<ObjectDesc>>({
+        {"material", MaterialList<ObjectDesc>{&ObjectDesc::materials, false}, {}, {}},
+        {"radius", &ObjectDesc::radius, {}, kPositive, only(Sphere, Disk, Cylinder)},
+        {"radius", &ObjectDesc::radius, {}, kNotNegative, only(Cone)},
+        {"top_radius", &ObjectDesc::topRadius, {}, kNotNegative, only(Cone)},
+        {"caps", &ObjectDesc::caps, {}, {}, only(Cylinder, Cone)},
+        {"corners", &ObjectDesc::corners, {}, kAnyNumber, only(Plane)},
+        {"mesh", Reference<ObjectDesc>{&ObjectDesc::mesh, Target::Mesh}, {}, {}, only(Mesh)},
+        {"materials", MaterialList<ObjectDesc>{&ObjectDesc::materials, true}, {}, {}, only(Mesh)},
+    });
+}();
+
+// What differs between blocks: the word for it, its table, its kind (0 when all are alike).
+template <class Block>
+constexpr std::span<const Property<Block>> propertiesOf() {
+    if constexpr (std::is_same_v<Block, SettingsDesc>) return kSettingsProperties;
+    else if constexpr (std::is_same_v<Block, WorldDesc>) return kWorldProperties;
+    else if constexpr (std::is_same_v<Block, CameraDesc>) return kCameraProperties;
+    else if constexpr (std::is_same_v<Block, TextureDesc>) return kTextureProperties;
+    else if constexpr (std::is_same_v<Block, MaterialDesc>) return kMaterialProperties;
+    else if constexpr (std::is_same_v<Block, LightDesc>) return kLightProperties;
+    else return kObjectProperties;
+}
+template <class Block>
+constexpr std::string_view wordOf(const Block& block) {
+    if constexpr (std::is_same_v<Block, SettingsDesc>) return "settings";
+    else if constexpr (std::is_same_v<Block, WorldDesc>) return "world";
+    else if constexpr (std::is_same_v<Block, CameraDesc>) return "camera";
+    else if constexpr (std::is_same_v<Block, TextureDesc>) return "texture";
+    else if constexpr (std::is_same_v<Block, MaterialDesc>) return "material";
+    else if constexpr (std::is_same_v<Block, LightDesc>) return "light";
+    else if constexpr (std::is_same_v<Block, MeshDesc>) return "mesh";
+    else return nameOf(block.kind);
+}
+template <class Block>
+constexpr KindMask kindOf(const Block& block) {
+    if constexpr (requires { block.kind; }) return only(block.kind);
+    else return kAllKinds;
+}
+
+// Calls with every number of a field (a reference to double, int or std::uint32_t) in the order of
+// the file. A crop that is not there has no numbers.
+template <class Block, class FieldOfBlock, class Call>
+void forEachNumber(Block& block, const FieldOfBlock& field, Call&& call) {
+    std::visit(
+        [&](const auto& f) {
+            if constexpr (requires { block.*f; }) {
+                auto& value = block.*f;
+                using Value = std::remove_cvref_t<decltype(value)>;
+                if constexpr (std::is_same_v<Value, bool>) return;
+                else if constexpr (std::is_arithmetic_v<Value>) call(value);
+                else if constexpr (std::is_same_v<Value, Vec2d>) call(value.x), call(value.y);
+                else if constexpr (std::is_same_v<Value, Rgbd>)
+                    call(value.r), call(value.g), call(value.b);
+                else if constexpr (std::is_same_v<Value, Corners4>)
+                    for (auto& p : value) call(p.x), call(p.y), call(p.z);
+                else if constexpr (std::is_same_v<Value, Crop>)
+                    if (value)
+                        for (auto& edge : *value) call(edge);
+            }
+        },
+        field);
+}
+
+// Does the field hold the same in both blocks?
+template <class Block>
+bool sameField(const Block& a, const Block& b, const Field<Block>& field) {
+    return std::visit(
+        [&](const auto& f) {
+            if constexpr (requires { a.*f; }) return a.*f == b.*f;
+            else if constexpr (requires { f.handle; }) return a.*(f.handle) == b.*(f.handle);
+            else if constexpr (requires { f.handles; }) return a.*(f.handles) == b.*(f.handles);
+            else return f.get(a) == f.get(b);
+        },
+        field);
+}
+
+// Calls with every reference of a block and what it names: call(Handle&, Target, keyword).
+template <class Block, class Call>
+void forEachReference(Block& block, Call&& call) {
+    using Plain = std::remove_const_t<Block>;
+    for (const Property<Plain>& property : propertiesOf<Plain>()) {
+        if (const auto* one = std::get_if<Reference<Plain>>(&property.first))
+            call(block.*(one->handle), one->target, property.keyword);
+        if (const auto* list = std::get_if<MaterialList<Plain>>(&property.first))
+            if (list->many)
+                for (auto& handle : block.*(list->handles)) call(handle, Target::Material, "materials");
+    }
+}
+
+// Calls with every block that has properties.
+template <class Scene, class Call>
+void forEachBlock(Scene& desc, Call&& call) {
+    call(desc.settings);
+    call(desc.world);
+    for (auto& camera : desc.cameras) call(camera);
+    for (auto& texture : desc.textures) call(texture);
+    for (auto& material : desc.materials) call(material);
+    for (auto& light : desc.lights) call(light);
+    for (auto& object : desc.objects) call(object);
+}
+
+// The number arrays of a mesh: keyword, the array, what a group of them is called.
+struct MeshArray {
+    using Member = std::variant<std::vector<Vec3d> MeshDesc::*, std::vector<Vec3> MeshDesc::*,
+                                std::vector<Vec2> MeshDesc::*, std::vector<MeshDesc::Corners> MeshDesc::*,
+                                std::vector<std::uint32_t> MeshDesc::*>;
+    std::string_view keyword;
+    Member member;
+    // Index arrays: the keyword of what they index; empty for the others.
+    std::string_view indexes;
+};
+inline constexpr auto kMeshArrays = std::to_array<MeshArray>({
+    {"points", &MeshDesc::points, ""},
+    {"triangles", &MeshDesc::triangles, "points"},
+    {"normals", &MeshDesc::normals, ""},
+    {"normal_triangles", &MeshDesc::normalTriangles, "normals"},
+    {"uvs", &MeshDesc::uvs, ""},
+    {"uv_triangles", &MeshDesc::uvTriangles, "uvs"},
+    {"triangle_materials", &MeshDesc::triangleMaterials, ""},
+});

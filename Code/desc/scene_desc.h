@@ -1,0 +1,207 @@
+// SceneDesc: what a scene file says, as plain data in double precision. Every reader makes one,
+// --convert writes one, render/scene.cpp turns one into something that can be traced.
+// Knows nothing about tracing. Defaults live here, so that a missing line means the same in every
+// format. Lengths are in scene units (metres), angles in degrees as written, light is linear RGB.
+#pragma once
+
+#include "base/vec.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+// Byte offset in the scene file, for messages. Where a thing was written is not part of what it
+// says: two locations always compare equal.
+struct SourceLoc {
+    std::uint32_t offset = kUnknown;
+    static constexpr std::uint32_t kUnknown = std::numeric_limits<std::uint32_t>::max();
+    constexpr bool operator==(const SourceLoc&) const { return true; }
+};
+
+// Three rows of four numbers: world = rows * (x, y, z, 1).
+using Rows = std::array<double, 12>;
+inline constexpr Rows kIdentityRows = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+// Keys of a moving thing, equally spaced from shutter opening to closing; one key stands still.
+using Keys = std::vector<Rows>;
+
+struct Rgbd {
+    double r = 0, g = 0, b = 0;
+    bool operator==(const Rgbd&) const = default;
+};
+
+// A reference into one of the vectors of SceneDesc; kNone when there is none.
+using Handle = std::int32_t;
+inline constexpr Handle kNone = -1;
+
+struct TextureDesc {
+    enum class Space { Srgb, Linear };
+    enum class Interpolation { Bilinear, Nearest };
+    enum class Extension { Repeat, Extend, Clip };
+    enum class Channel { Color, Alpha }; // Alpha: the file's alpha channel as a grey picture
+    std::string name;
+    SourceLoc loc, fileLoc;
+    std::string file; // relative to the scene file, then to --textures and ./Textures
+    Space space = Space::Srgb;
+    Interpolation interpolation = Interpolation::Bilinear;
+    Extension extension = Extension::Repeat;
+    Channel channel = Channel::Color;
+    // uv -> rotate(scale * uv) + offset, as Blender's Mapping node of type Point.
+    Vec2d scale{1, 1};
+    double rotationDeg = 0;
+    Vec2d offset{0, 0};
+    bool operator==(const TextureDesc&) const = default;
+};
+
+struct MaterialDesc {
+    // Blinn: specular * (N.H)^exponent, unnormalised. Ashikhmin: normalised, energy conserving.
+    enum class SpecularModel { Blinn, Ashikhmin };
+    // How mirror and transmission share the light. None: as written. Dielectric: exact Fresnel by
+    // ior (mirror*F, transmission*(1-F)). Schlick: mirror + (1-mirror)(1-cos)^5.
+    enum class Fresnel { None, Dielectric, Schlick };
+    std::string name;
+    SourceLoc loc;
+    Rgbd diffuse{0.8, 0.8, 0.8}; // reflectance
+    Handle diffuseTexture = kNone; // multiplies diffuse
+    Rgbd specular{0, 0, 0};
+    Handle specularTexture = kNone;
+    SpecularModel specularModel = SpecularModel::Blinn;
+    double exponent = 50;
+    Rgbd mirror{0, 0, 0};       // traced reflection
+    Rgbd transmission{0, 0, 0}; // traced refraction
+    double ior = 1.5;
+    Fresnel fresnel = Fresnel::None;
+    double roughness = 0; // 0 sharp; spreads mirror and transmission, Blender's scale
+    Rgbd emission{0, 0, 0}; // radiance, seen but lighting nothing else
+    Handle emissionTexture = kNone;
+    double opacity = 1; // 1 - opacity of the light goes straight through, tinted by filter
+    Handle opacityTexture = kNone;
+    Rgbd filter{1, 1, 1};
+    Handle normalMap = kNone; // tangent space, +Y up
+    double normalStrength = 1;
+    Handle bumpMap = kNone;
+    double bumpStrength = 1;
+    double bumpDistance = 1; // height of a white texel over a black one
+    bool operator==(const MaterialDesc&) const = default;
+};
+
+struct LightDesc {
+    // All sit at the origin of their transform; spot, sun and the flat ones shine along its -Z.
+    enum class Kind { Point, Spot, Sun, Rectangle, Disk, Sphere };
+    std::string name;
+    SourceLoc loc;
+    Kind kind = Kind::Point;
+    Rows worldFromLight = kIdentityRows;
+    // Point, Spot: radiant intensity [W/sr]. Sun: irradiance [W/m^2] on a facing surface.
+    // Rectangle, Disk, Sphere: radiance [W/(m^2 sr)].
+    Rgbd color{1, 1, 1};
+    double radius = 0;      // Sphere: its radius. Point, Spot: soft-shadow disk facing the receiver
+    Vec2d size{1, 1};       // Rectangle: sides. Disk: diameters (an ellipse when they differ)
+    double coneAngleDeg = 45;    // Spot: full opening angle
+    double blend = 0.15;         // Spot: soft part of the cone, 0 hard to 1
+    bool cosineFalloff = false;  // Spot: also multiplied by the cosine to its axis
+    double angleDeg = 0;         // Sun: full angular diameter
+    double spreadDeg = 180;      // Rectangle, Disk: emission cone
+    bool shadows = true;
+    bool visible = false;        // Rectangle, Disk, Sphere: seen by camera, mirror and glass
+    bool operator==(const LightDesc&) const = default;
+};
+
+struct CameraDesc {
+    enum class Kind { Perspective, Orthographic };
+    enum class SensorFit { Auto, Horizontal, Vertical };
+    std::string name;
+    SourceLoc loc;
+    Kind kind = Kind::Perspective;
+    Keys worldFromCamera{kIdentityRows}; // looks along -Z, +Y up; scale in it is ignored
+    double lensMm = 50;
+    double sensorWidthMm = 36, sensorHeightMm = 24;
+    SensorFit sensorFit = SensorFit::Auto;
+    double shiftX = 0, shiftY = 0; // in units of the fitted side
+    double orthoScale = 6;         // length of the fitted side
+    double clipStart = 0;          // depth along the view axis where rays start
+    double apertureRadius = 0;     // of the lens; 0 is a pinhole
+    double focusDistance = 10;     // depth of the sharp plane along the view axis
+    int apertureBlades = 0;        // below 3: a disk
+    double apertureRotationDeg = 0;
+    double apertureRatio = 1;      // anamorphic: lens x is divided by it
+    bool operator==(const CameraDesc&) const = default;
+};
+
+// Triangles with shared vertices; normals and uvs have their own indices, three per triangle, or
+// are empty (flat shading, no texture coordinates).
+struct MeshDesc {
+    using Corners = std::array<std::uint32_t, 3>;
+    std::string name;
+    SourceLoc loc;
+    std::vector<Vec3d> points;
+    std::vector<Corners> triangles;
+    std::vector<Vec3> normals;
+    std::vector<Corners> normalTriangles;
+    std::vector<Vec2> uvs;
+    std::vector<Corners> uvTriangles;
+    std::vector<std::uint32_t> triangleMaterials; // slot per triangle; empty: all use slot 0
+    bool operator==(const MeshDesc&) const = default;
+};
+
+struct ObjectDesc {
+    // In object space: Sphere radius `radius` about the origin. Cube [-1,1]^3. Plane: the four
+    // `corners` in order. InfinitePlane z = 0. Disk `radius` in z = 0. Cylinder |z| <= 1, `radius`.
+    // Cone: `radius` at z = -1 to `topRadius` at z = 1. Mesh: `mesh`.
+    enum class Kind { Sphere, Cube, Plane, InfinitePlane, Disk, Cylinder, Cone, Mesh };
+    std::string name;
+    SourceLoc loc;
+    Kind kind = Kind::Sphere;
+    Keys worldFromObject{kIdentityRows};
+    std::vector<Handle> materials; // Mesh: by slot; others: the first. Empty: the default material
+    double radius = 1;
+    double topRadius = 0;
+    bool caps = true; // Cylinder, Cone
+    std::array<Vec3d, 4> corners{Vec3d{-1, -1, 0}, Vec3d{1, -1, 0}, Vec3d{1, 1, 0}, Vec3d{-1, 1, 0}};
+    Handle mesh = kNone;
+    bool operator==(const ObjectDesc&) const = default;
+};
+
+struct WorldDesc {
+    SourceLoc loc;
+    Rgbd background{0, 0, 0}; // radiance where no surface is
+    Rgbd ambient{0, 0, 0};    // reaches every surface: adds diffuse * ambient
+    Handle environment = kNone; // equirectangular picture, multiplied by background
+    double rotationDeg = 0;     // of the environment about +Z
+    bool operator==(const WorldDesc&) const = default;
+};
+
+struct SettingsDesc {
+    enum class Sampler { Sobol, Stratified, Random, Grid };
+    enum class Filter { Box, Tent, Gaussian, BlackmanHarris };
+    enum class Transfer { Srgb, Linear };
+    SourceLoc loc;
+    int width = 960, height = 540;
+    Vec2d pixelAspect{1, 1};
+    std::optional<std::array<int, 4>> crop; // x0 y0 x1 y1, from the top left, x1 y1 exclusive
+    int samplesPerPixel = 16;
+    int lightSamples = 1;
+    int maxDepth = 8; // bounces after the camera ray
+    Sampler sampler = Sampler::Sobol;
+    bool jitter = true;
+    std::uint32_t seed = 0;
+    Filter filter = Filter::BlackmanHarris;
+    double filterWidth = 1.5; // pixels, whole support
+    double exposureEv = 0;    // picture * 2^EV
+    Transfer transfer = Transfer::Srgb;
+    bool operator==(const SettingsDesc&) const = default;
+};
+
+struct SceneDesc {
+    SettingsDesc settings;
+    WorldDesc world;
+    std::vector<CameraDesc> cameras; // the first one is the active one
+    std::vector<TextureDesc> textures;
+    std::vector<MaterialDesc> materials;
+    std::vector<LightDesc> lights;
+    std::vector<MeshDesc> meshes;
+    std::vector<ObjectDesc> objects;
+    bool operator==(const SceneDesc&) const = default;
+};

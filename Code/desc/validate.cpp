@@ -1,0 +1,304 @@
+#include "desc/validate.h"
+
+#include "base/text.h"
+#include "base/transform.h"
+#include "desc/error_list.h"
+#include "desc/names.h"
+#include "desc/properties.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <vector>
+
+namespace {
+
+constexpr std::uint32_t kLargestSlot = 65535; // Blender's limit is 32767
+
+// "sphere 'ball'", "settings"
+template <class Block>
+std::string called(const Block& block) {
+    if constexpr (requires { block.name; }) return cat(wordOf(block), " '", shown(block.name), "'");
+    else return std::string(wordOf(block));
+}
+
+// "a, b, c and 4 more"
+std::string listed(const std::vector<std::string>& names) {
+    constexpr std::size_t kListed = 10;
+    const std::span<const std::string> all = names;
+    const std::string head = join(all.first(std::min(names.size(), kListed)));
+    return names.size() > kListed ? cat(head, " and ", names.size() - kListed, " more") : head;
+}
+
+std::string mustHave(std::string_view keyword, const Range& range, double value) {
+    if (!std::isfinite(value)) return cat("'", keyword, "' is not a finite number");
+    return cat("'", keyword, "' ", mustBe(range, value), ", got ", shortest(value));
+}
+
+// Are four corners in one plane, in order around a convex quadrilateral with an area?
+std::string_view faultOfCorners(const Corners4& c) {
+    const Vec3d normal = cross(c[2] - c[0], c[3] - c[1]); // twice the area vector
+    const double size = std::max(maxAbs(c[2] - c[0]), maxAbs(c[3] - c[1]));
+    double farthest = 0;
+    for (const Vec3d& corner : c) farthest = std::max(farthest, maxAbs(corner));
+    if (!(length(normal) > 1e-12 * size * size)) return "'corners' have no area";
+    const Vec3d unit = normalize(normal);
+    // Corners from a file in single precision are off by an ulp or two, 2.4e-7 of their size.
+    if (!(std::fabs(dot(unit, c[1] - c[0])) <= 1e-5 * size + 2.4e-7 * farthest))
+        return "'corners' do not lie in one plane";
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Vec3d in = c[(i + 1) % 4] - c[i], out = c[(i + 2) % 4] - c[(i + 1) % 4];
+        if (!(dot(cross(in, out), unit) > 1e-12 * size * size))
+            return "'corners' must go around a convex quadrilateral";
+    }
+    return {};
+}
+
+class Validator {
+public:
+    Validator(const SceneDesc& desc, const SourceFile& source, Diagnostics& diagnostics)
+        : desc_(desc), errors_(source), source_(source), diagnostics_(diagnostics) {}
+
+    void run() {
+        forEachBlock(desc_, [&](const auto& block) { checkProperties(block); });
+        checkSettings();
+        checkNames(desc_.cameras, "camera");
+        checkNames(desc_.textures, "texture");
+        checkNames(desc_.materials, "material");
+        checkNames(desc_.lights, "light");
+        checkNames(desc_.meshes, "mesh");
+        checkNames(desc_.objects, "object");
+        if (desc_.cameras.empty())
+            errors_.add({}, [] { return "the scene has no camera"; });
+        for (const CameraDesc& camera : desc_.cameras)
+            checkKeys(camera, camera.worldFromCamera);
+        for (const TextureDesc& texture : desc_.textures) checkTexture(texture);
+        for (const LightDesc& light : desc_.lights) checkLight(light);
+        for (const MeshDesc& mesh : desc_.meshes) checkMesh(mesh);
+        for (const ObjectDesc& object : desc_.objects) checkObject(object);
+        errors_.throwIfAny();
+        warnUnused();
+        warnDark();
+    }
+
+private:
+    template <class Block, class... Parts>
+    void error(const Block& block, const Parts&... parts) {
+        errors_.add(block.loc, [&] { return cat(called(block), ": ", parts...); });
+    }
+    void warn(SourceLoc loc, std::string_view what) {
+        diagnostics_.warnings.push_back(errors_.locatedAt(loc, what, "warning"));
+    }
+
+    template <class Block>
+    void checkProperties(const Block& block) {
+        static const Block kDefaults{};
+        for (const Property<Block>& property : propertiesOf<Block>()) {
+            bool isDefault = true;
+            const auto checkNumbers = [&](const Field<Block>& field) {
+                forEachNumber(block, field, [&](const auto& number) {
+                    const auto value = static_cast<double>(number);
+                    if (!property.range.contains(value) && (property.kinds & kindOf(block)))
+                        error(block, mustHave(property.keyword, property.range, value));
+                });
+                isDefault = isDefault && sameField(block, kDefaults, field);
+            };
+            checkNumbers(property.first);
+            if (property.second) checkNumbers(*property.second);
+            if (!isDefault && !(property.kinds & kindOf(block)))
+                warn(block.loc, cat(called(block), ": '", property.keyword, "' has no effect here"));
+        }
+        forEachReference(block, [&](Handle handle, Target target, std::string_view keyword) {
+            if (handle != kNone && (handle < 0 || static_cast<std::size_t>(handle) >= countOf(target)))
+                error(block, "'", keyword, "' refers to ", nameOf(target), " ", handle, " of ", countOf(target));
+        });
+    }
+
+    std::size_t countOf(Target target) const {
+        return target == Target::Texture    ? desc_.textures.size()
+               : target == Target::Material ? desc_.materials.size()
+                                            : desc_.meshes.size();
+    }
+
+    void checkSettings() {
+        const SettingsDesc& s = desc_.settings;
+        constexpr long long kLargestArea = 1 << 28; // 3 GiB as float RGB
+        if (static_cast<long long>(s.width) * s.height > kLargestArea)
+            error(s, "'resolution' ", s.width, " ", s.height, " has more than 2^28 pixels");
+        if (!s.crop) return;
+        const auto [x0, y0, x1, y1] = *s.crop;
+        if (x0 >= x1 || y0 >= y1) error(s, "'crop' is empty; x0 < x1 and y0 < y1 are needed");
+        if (x1 > s.width || y1 > s.height)
+            error(s, "'crop' ends at ", x1, " ", y1, ", outside the resolution ", s.width, " ", s.height);
+    }
+
+    template <class Block>
+    void checkNames(const std::vector<Block>& blocks, std::string_view kind) {
+        std::unordered_map<std::string_view, const Block*> seen;
+        for (const Block& block : blocks) {
+            if (block.name.empty() || findBadText(block.name) != std::string_view::npos)
+                error(block, "a name is UTF-8 without control characters, and not empty");
+            const auto [first, isNew] = seen.try_emplace(block.name, &block);
+            if (!isNew) error(block, "another ", kind, " has this name", atLine(first->second->loc));
+        }
+    }
+    std::string atLine(SourceLoc loc) const {
+        if (loc.offset >= source_.text.size()) return "";
+        const auto begin = source_.text.begin();
+        return cat(" already, at line ", 1 + std::count(begin, begin + static_cast<std::ptrdiff_t>(loc.offset), '\n'));
+    }
+
+    template <class Block>
+    void checkKeys(const Block& block, const Keys& keys) {
+        if (keys.empty()) error(block, "has no transform at all; one key is needed");
+        bool turnsOver = false;
+        for (const Rows& rows : keys) {
+            const bool inRange =
+                std::all_of(rows.begin(), rows.end(), [](double x) { return kAnyNumber.contains(x); });
+            if (!inRange) return error(block, "its transform has numbers beyond ", shortest(kLargestLength));
+            const Transform transform = Transform::fromRows(rows);
+            if (transform.isSingular()) return error(block, "its transform flattens it: a scale is 0");
+            turnsOver = turnsOver || transform.mirrors() != Transform::fromRows(keys.front()).mirrors();
+        }
+        if (turnsOver) error(block, "one of its keys mirrors and another does not: on the way it would be flat");
+    }
+
+    void checkTexture(const TextureDesc& texture) {
+        if (texture.file.empty()) error(texture, "has no 'file'");
+        else if (texture.file.find('\0') != std::string::npos || findBadText(texture.file) != std::string::npos)
+            error(texture, "its 'file' is not UTF-8 without control characters");
+    }
+
+    void checkLight(const LightDesc& light) {
+        checkKeys(light, {light.worldFromLight});
+        if (light.kind == LightDesc::Kind::Sphere && !(light.radius > 0))
+            error(light, "a light of type sphere needs a 'radius' > 0");
+    }
+
+    void checkObject(const ObjectDesc& object) {
+        checkKeys(object, object.worldFromObject);
+        if (std::find(object.materials.begin(), object.materials.end(), kNone) != object.materials.end())
+            error(object, "one of its material slots is empty");
+        using enum ObjectDesc::Kind;
+        if (object.kind == Mesh) return checkInstance(object);
+        if (object.materials.size() > 1)
+            error(object, "has ", object.materials.size(), " materials; only an instance has more than one");
+        if (object.kind == Cone && object.radius == 0 && object.topRadius == 0)
+            error(object, "'radius' and 'top_radius' are both 0");
+        if (object.kind == Plane)
+            if (const auto fault = faultOfCorners(object.corners); !fault.empty()) error(object, fault);
+    }
+
+    void checkInstance(const ObjectDesc& object) {
+        if (object.mesh == kNone) return error(object, "has no 'mesh'");
+        if (object.mesh < 0 || static_cast<std::size_t>(object.mesh) >= slots_.size()) return; // told above
+        // Without materials, all slots show the default material.
+        const std::uint32_t slots = slots_[static_cast<std::size_t>(object.mesh)];
+        if (!object.materials.empty() && slots > object.materials.size())
+            error(object, "its mesh uses material slot ", slots - 1, ", but it has ", object.materials.size(),
+                  object.materials.size() == 1 ? " material" : " materials", " (slots count from 0)");
+    }
+
+    void checkMesh(const MeshDesc& mesh) {
+        if (mesh.triangles.empty()) error(mesh, "has no triangles");
+        for (std::size_t i = 0; i < mesh.points.size(); ++i)
+            if (!(maxAbs(mesh.points[i]) <= kLargestLength)) {
+                error(mesh, "point ", i, " is not finite or beyond ", shortest(kLargestLength));
+                break;
+            }
+        checkCorners(mesh, mesh.triangles, mesh.points.size(), "points", "triangles");
+        checkCorners(mesh, mesh.normalTriangles, mesh.normals.size(), "normals", "normal_triangles");
+        checkCorners(mesh, mesh.uvTriangles, mesh.uvs.size(), "uvs", "uv_triangles");
+        for (const Vec3& n : mesh.normals)
+            if (!std::isfinite(dot(n, n))) {
+                error(mesh, "a normal is not finite or too large");
+                break;
+            }
+        for (const Vec2& uv : mesh.uvs)
+            if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
+                error(mesh, "a uv is not finite");
+                break;
+            }
+        std::uint32_t slots = 1;
+        for (const std::uint32_t slot : mesh.triangleMaterials) {
+            if (slot > kLargestSlot) {
+                error(mesh, "material slot ", slot, " is above ", kLargestSlot);
+                break;
+            }
+            slots = std::max(slots, slot + 1);
+        }
+        slots_.push_back(slots);
+        if (!mesh.triangleMaterials.empty() && mesh.triangleMaterials.size() != mesh.triangles.size())
+            error(mesh, "has ", mesh.triangles.size(), " triangles, but ",
+                  mesh.triangleMaterials.size(), " triangle_materials");
+    }
+
+    void checkCorners(const MeshDesc& mesh, const std::vector<MeshDesc::Corners>& corners,
+                      std::size_t count, std::string_view values, std::string_view keyword) {
+        if (keyword != "triangles") {
+            if (corners.empty() && count > 0) return error(mesh, "has ", values, ", but no ", keyword);
+            if (!corners.empty() && corners.size() != mesh.triangles.size())
+                return error(mesh, "has ", mesh.triangles.size(), " triangles, but ", corners.size(), " ", keyword);
+        }
+        std::uint32_t largest = 0;
+        for (const MeshDesc::Corners& c : corners) largest = std::max({largest, c[0], c[1], c[2]});
+        if (!corners.empty() && largest >= count)
+            error(mesh, "'", keyword, "' uses ", largest, " of '", values, "', which has ", count,
+                  ", counted from 0");
+    }
+
+    void warnUnused() {
+        std::array<std::vector<bool>, kEnumNames<Target>.size()> used;
+        for (const auto& row : kEnumNames<Target>)
+            used[static_cast<std::size_t>(row.value)].resize(countOf(row.value));
+        forEachBlock(desc_, [&](const auto& block) {
+            forEachReference(block, [&](Handle handle, Target target, std::string_view) {
+                if (handle != kNone)
+                    used[static_cast<std::size_t>(target)][static_cast<std::size_t>(handle)] = true;
+            });
+        });
+        const auto tell = [&](const auto& blocks, Target target, std::string_view plural) {
+            std::vector<std::string> names;
+            SourceLoc first;
+            for (std::size_t i = 0; i < blocks.size(); ++i) {
+                if (used[static_cast<std::size_t>(target)][i]) continue;
+                if (names.empty()) first = blocks[i].loc;
+                names.push_back(shown(blocks[i].name));
+            }
+            if (!names.empty()) warn(first, cat("nothing uses the ", names.size() == 1 ? nameOf(target) : plural, " ", listed(names)));
+        };
+        tell(desc_.textures, Target::Texture, "textures");
+        tell(desc_.materials, Target::Material, "materials");
+        tell(desc_.meshes, Target::Mesh, "meshes");
+    }
+
+    void warnDark() {
+        const Rgbd black{};
+        const WorldDesc& world = desc_.world;
+        if (world.environment != kNone && world.background == black)
+            warn(world.loc, "the environment is multiplied by 'background', which is 0 0 0");
+        if (desc_.objects.empty()) return warn({}, "the scene has no objects");
+        const auto shines = [&](const auto& blocks, auto member) {
+            return std::any_of(blocks.begin(), blocks.end(),
+                               [&](const auto& block) { return block.*member != black; });
+        };
+        if (shines(desc_.lights, &LightDesc::color) || shines(desc_.materials, &MaterialDesc::emission) ||
+            world.ambient != black)
+            return;
+        warn({}, world.background == black
+                     ? "there is no light, no emission and no ambient: the picture will be black"
+                     : "there is no light, no emission and no ambient: diffuse surfaces will be black");
+    }
+
+    const SceneDesc& desc_;
+    ErrorList errors_;
+    const SourceFile& source_;
+    Diagnostics& diagnostics_;
+    std::vector<std::uint32_t> slots_; // per mesh: how many material slots its triangles use
+};
+
+} // namespace
+
+void validate(const SceneDesc& desc, const SourceFile& source, Diagnostics& diagnostics) {
+    Validator(desc, source, diagnostics).run();
+}

@@ -1,0 +1,12 @@
+// The rules of a scene that do not depend on the format it came from.
+#pragma once
+
+#include "base/error.h"
+#include "base/source.h"
+#include "desc/scene_desc.h"
+
+// Throws one Error with all mistakes (the first 20, with their places). What only looks wrong, as a
+// scene without light, becomes a warning. After it, every handle and index is in range, every
+// number that has an effect is finite and in its range (desc/properties.h), every transform can be
+// inverted.
+void validate(const SceneDesc& desc, const SourceFile& source, Diagnostics& diagnostics);

@@ -1,0 +1,30 @@
+// sRGB transfer (IEC 61966-2-1, thresholds 0.04045 and 0.0031308) and rounding to whole codes.
+// The bits are the same on every machine: only + - * / and tables made by them, never std::pow.
+// Everything is clamped to [0,1]; NaN counts as 0. Knows nothing about pictures.
+#pragma once
+
+#include <cstdint>
+
+// Within 1 ulp of the exact value; monotone over the table's 256 pieces to that accuracy.
+// linearFromSrgb(float(k / 255.0)) and linearFromSrgb8(k) agree within 1 ulp.
+float linearFromSrgb(float encoded);
+float srgbFromLinear(float linear);
+
+// Correctly rounded decode of whole codes.
+float linearFromSrgb8(std::uint8_t code);
+float linearFromSrgb16(std::uint16_t code);
+// round(255 * srgb(x)) and round(65535 * srgb(x)) of the exact value.
+std::uint8_t srgb8FromLinear(float linear);
+std::uint16_t srgb16FromLinear(float linear);
+
+// Without a transfer: code / 255 or code / 65535, and round(255 * x), round(65535 * x).
+inline float unitFrom8(std::uint8_t code) { return static_cast<float>(code / 255.0); }
+inline float unitFrom16(std::uint16_t code) { return static_cast<float>(code / 65535.0); }
+constexpr float clampToUnit(float x) { return !(x > 0) ? 0.0f : x < 1 ? x : 1.0f; }
+// The product is exact in double.
+constexpr std::uint8_t unit8From(float x) {
+    return static_cast<std::uint8_t>(static_cast<double>(clampToUnit(x)) * 255 + 0.5);
+}
+constexpr std::uint16_t unit16From(float x) {
+    return static_cast<std::uint16_t>(static_cast<double>(clampToUnit(x)) * 65535 + 0.5);
+}

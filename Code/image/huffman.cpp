@@ -1,0 +1,95 @@
+#include "image/huffman.h"
+
+#include "image/deflate_codes.h"
+
+#include <algorithm>
+#include <array>
+
+namespace {
+
+struct Leaf {
+    std::uint32_t count;
+    std::uint16_t symbol;
+};
+
+// How many codes have each length in the optimal code for counts in ascending order.
+// Two queues: the leaves and the inner nodes, which are made in ascending order too.
+std::vector<std::uint32_t> optimalLengthCounts(const std::vector<Leaf>& leaves) {
+    const std::size_t leafCount = leaves.size(), nodeCount = 2 * leafCount - 1;
+    std::vector<std::uint64_t> weight(nodeCount);
+    std::vector<std::size_t> parent(nodeCount), depth(nodeCount);
+    for (std::size_t i = 0; i < leafCount; ++i) weight[i] = leaves[i].count;
+    std::size_t leaf = 0, inner = leafCount;
+    for (std::size_t made = leafCount; made < nodeCount; ++made) {
+        for (int child = 0; child < 2; ++child) {
+            const bool takeLeaf =
+                leaf < leafCount && (inner == made || weight[leaf] <= weight[inner]);
+            const std::size_t smallest = takeLeaf ? leaf++ : inner++;
+            weight[made] += weight[smallest];
+            parent[smallest] = made;
+        }
+    }
+    std::vector<std::uint32_t> ofLength(leafCount + 1);
+    for (std::size_t i = nodeCount - 1; i-- > 0;) {
+        depth[i] = depth[parent[i]] + 1;
+        if (i < leafCount) ++ofLength[depth[i]];
+    }
+    return ofLength;
+}
+
+// Moves codes that are too long up to `longest`, then lengthens others until Kraft's sum is 1.
+void limitLengths(std::vector<std::uint32_t>& ofLength, std::size_t longest) {
+    if (ofLength.size() <= longest + 1) return;
+    std::uint64_t sum = 0; // in units of 2^-longest
+    for (std::size_t n = longest + 1; n < ofLength.size(); ++n) ofLength[longest] += ofLength[n];
+    ofLength.resize(longest + 1);
+    for (std::size_t n = 1; n <= longest; ++n)
+        sum += static_cast<std::uint64_t>(ofLength[n]) << (longest - n);
+    for (; sum > std::uint64_t{1} << longest; --sum) {
+        std::size_t n = longest - 1;
+        while (ofLength[n] == 0) --n;
+        // A code of length n becomes two of n + 1; the second is one of the longest.
+        --ofLength[n];
+        ofLength[n + 1] += 2;
+        --ofLength[longest];
+    }
+}
+
+} // namespace
+
+std::vector<std::uint8_t> huffmanLengths(std::span<const std::uint32_t> counts,
+                                         std::size_t longest) {
+    std::vector<Leaf> leaves;
+    for (std::size_t s = 0; s < counts.size(); ++s)
+        if (counts[s] > 0) leaves.push_back({counts[s], static_cast<std::uint16_t>(s)});
+    for (std::size_t s = 0; s < counts.size() && leaves.size() < 2; ++s)
+        if (counts[s] == 0) leaves.push_back({1, static_cast<std::uint16_t>(s)});
+    std::sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) {
+        return a.count != b.count ? a.count < b.count : a.symbol > b.symbol;
+    });
+    std::vector<std::uint32_t> ofLength = optimalLengthCounts(leaves);
+    limitLengths(ofLength, longest);
+    std::vector<std::uint8_t> lengths(counts.size());
+    std::size_t next = leaves.size(); // the most frequent symbols get the shortest codes
+    for (std::size_t n = 1; n < ofLength.size(); ++n)
+        for (std::uint32_t i = 0; i < ofLength[n]; ++i)
+            lengths[leaves[--next].symbol] = static_cast<std::uint8_t>(n);
+    return lengths;
+}
+
+std::vector<HuffmanCode> canonicalCodes(std::span<const std::uint8_t> lengths) {
+    std::array<std::uint32_t, kMaxCodeLength + 2> count{}, next{};
+    for (const std::uint8_t n : lengths) ++count[n];
+    count[0] = 0;
+    for (std::size_t n = 1; n <= kMaxCodeLength; ++n) next[n + 1] = (next[n] + count[n]) << 1;
+    std::vector<HuffmanCode> codes(lengths.size());
+    for (std::size_t s = 0; s < lengths.size(); ++s) {
+        const unsigned n = lengths[s];
+        if (n == 0) continue;
+        const std::uint32_t code = next[n]++;
+        std::uint32_t reversed = 0;
+        for (unsigned i = 0; i < n; ++i) reversed |= (code >> i & 1) << (n - 1 - i);
+        codes[s] = {static_cast<std::uint16_t>(reversed), static_cast<std::uint8_t>(n)};
+    }
+    return codes;
+}

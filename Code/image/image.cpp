@@ -1,0 +1,164 @@
+#include "image/image.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "image/colour.h"
+#include "image/formats.h"
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <string_view>
+
+using namespace std::string_view_literals;
+
+namespace {
+
+std::size_t areaOf(int width, int height) {
+    checkSize(width, height, "picture");
+    return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+}
+
+struct Format {
+    std::string_view start; // first bytes of such a file
+    std::string_view name;
+    StoredImage (*decode)(Bytes file, const std::string& name); // nullptr: only known by name
+};
+constexpr Format kFormats[] = {
+    {"P6"sv, "PPM", decodePpm},
+    {"P3"sv, "PPM", decodePpm},
+    {"P5"sv, "PGM", decodePpm},
+    {"P2"sv, "PGM", decodePpm},
+    {"\x89PNG"sv, "PNG", decodePng},
+    {"PF"sv, "PFM", decodePfm},
+    {"Pf"sv, "PFM", decodePfm},
+    {"P1"sv, "a bitmap (PBM)", nullptr},
+    {"P4"sv, "a bitmap (PBM)", nullptr},
+    {"P7"sv, "a PAM picture", nullptr},
+    {"\xFF\xD8\xFF"sv, "a JPEG picture", nullptr},
+    {"GIF8"sv, "a GIF picture", nullptr},
+    {"BM"sv, "a BMP picture", nullptr},
+    {"\x76\x2F\x31\x01"sv, "an OpenEXR picture", nullptr},
+    {"#?RADIANCE"sv, "a Radiance HDR picture", nullptr},
+    {"II*\0"sv, "a TIFF picture", nullptr},
+    {"MM\0*"sv, "a TIFF picture", nullptr},
+    {"RIFF"sv, "a WebP picture", nullptr},
+};
+
+const std::array<std::string, 3> kExtensions{"ppm", "png", "pfm"};
+
+std::string extensionOf(const std::string& fileName) {
+    std::string extension = std::filesystem::path(fileName).extension().string();
+    if (!extension.empty()) extension.erase(0, 1);
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
+}
+
+// One Rgb for each pixel of `values`, which has `channels` per pixel; grey fills all three.
+template <class T, class Decode>
+void decodePixels(const std::vector<T>& values, int channels, std::span<Rgb> out, Decode decode) {
+    const T* value = values.data();
+    for (Rgb& pixel : out) {
+        if (channels < 3) {
+            const float grey = decode(value[0]);
+            pixel = {grey, grey, grey};
+        } else {
+            pixel = {decode(value[0]), decode(value[1]), decode(value[2])};
+        }
+        value += channels;
+    }
+}
+
+} // namespace
+
+void checkSize(long long width, long long height, const std::string& name) {
+    if (width < 1 || height < 1 || width > Image::kMaxSide || height > Image::kMaxSide)
+        fail(ErrorKind::Input, cat(name, ": error: the size ", width, "x", height,
+                                   " is not possible; both sides must be 1 to ", Image::kMaxSide));
+    if (width * height > Image::kMaxPixels)
+        fail(ErrorKind::Input, cat(name, ": error: the size ", width, "x", height,
+                                   " is too large; at most ", Image::kMaxPixels, " pixels"));
+}
+
+Image::Image(int width, int height) : width_(width), height_(height), pixels_(areaOf(width, height)) {}
+
+Image::Image(const std::string& fileName, Encoding::Transfer transfer)
+    : Image(readStoredImage(fileName), transfer) {}
+
+Image::Image(const StoredImage& stored, Encoding::Transfer transfer)
+    : Image(stored.width, stored.height) {
+    const bool srgb = transfer == Encoding::Transfer::Srgb;
+    switch (stored.depth) {
+    case StoredImage::Depth::Bits8:
+        decodePixels(stored.bytes, stored.channels, pixels_, srgb ? linearFromSrgb8 : unitFrom8);
+        break;
+    case StoredImage::Depth::Bits16:
+        decodePixels(stored.words, stored.channels, pixels_, srgb ? linearFromSrgb16 : unitFrom16);
+        break;
+    case StoredImage::Depth::Float:
+        decodePixels(stored.floats, stored.channels, pixels_, [](float value) { return value; });
+        break;
+    }
+}
+
+void Image::write(const std::string& fileName, Encoding encoding) const {
+    const std::string extension = extensionOf(fileName);
+    if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end())
+        fail(ErrorKind::Output, cat(fileName, ": error: unknown picture extension ",
+                                    unknownName(extension, kExtensions)));
+    writeFileAtomically(fileName, encodeImage(*this, extension, encoding));
+}
+
+StoredImage readStoredImage(const std::string& fileName) {
+    return decodeImage(readWholeFile(fileName), fileName);
+}
+
+StoredImage decodeImage(std::span<const std::uint8_t> file, const std::string& name) {
+    constexpr std::string_view kRight = "; what can be read: PPM, PNG, PFM";
+    if (file.empty()) fail(ErrorKind::Input, cat(name, ": error: the file is empty", kRight));
+    const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+    for (const Format& format : kFormats) {
+        if (!text.starts_with(format.start)) continue;
+        if (format.decode) return format.decode(file, name);
+        fail(ErrorKind::Input, cat(name, ": error: this is ", format.name, kRight));
+    }
+    fail(ErrorKind::Input, cat(name, ": error: the file is no picture of a known kind", kRight));
+}
+
+std::vector<std::uint8_t> encodeImage(const Image& image, const std::string& extension,
+                                      Encoding encoding) {
+    if (encoding.bits != 8 && encoding.bits != 16)
+        fail(ErrorKind::Usage, cat("error: ", encoding.bits, " bits per channel; 8 or 16"));
+    if (extension == "ppm") return encodePpm(image, encoding);
+    if (extension == "png") return encodePng(image, encoding);
+    if (extension == "pfm") return encodePfm(image);
+    fail(ErrorKind::Output,
+         cat("error: unknown picture extension ", unknownName(extension, kExtensions)));
+}
+
+void encodePixels(std::span<const Rgb> pixels, Encoding encoding, std::span<std::uint8_t> out) {
+    const bool srgb = encoding.transfer == Encoding::Transfer::Srgb;
+    std::uint8_t* to = out.data();
+    if (encoding.bits == 8) {
+        const auto encode = [&](auto code) {
+            for (const Rgb& pixel : pixels)
+                for (const float value : {pixel.r, pixel.g, pixel.b}) *to++ = code(value);
+        };
+        if (srgb) encode([](float value) { return srgb8FromLinear(value); });
+        else encode([](float value) { return unit8From(value); });
+    } else {
+        const auto encode = [&](auto code) {
+            for (const Rgb& pixel : pixels) {
+                for (const float value : {pixel.r, pixel.g, pixel.b}) {
+                    const std::uint16_t word = code(value);
+                    *to++ = static_cast<std::uint8_t>(word >> 8);
+                    *to++ = static_cast<std::uint8_t>(word);
+                }
+            }
+        };
+        if (srgb) encode([](float value) { return srgb16FromLinear(value); });
+        else encode([](float value) { return unit16From(value); });
+    }
+}

@@ -1,0 +1,55 @@
+// PFM (Debevec): "PF" or "Pf", size, scale (negative: little-endian), 32-bit floats, bottom row
+// first. Always linear.
+#include "base/error.h"
+#include "base/text.h"
+#include "image/formats.h"
+#include "image/netpbm.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+StoredImage decodePfm(Bytes file, const std::string& name) {
+    NetpbmHeader header(file, name);
+    const std::size_t channels = header.magic() == "PF" ? 3 : 1;
+    const long long width = header.number("width"), height = header.number("height");
+    checkSize(width, height, name);
+    const double scale = header.real("scale");
+    const std::size_t row = static_cast<std::size_t>(width) * channels;
+    const std::size_t count = row * static_cast<std::size_t>(height);
+    const Bytes data = header.data(4 * count);
+    StoredImage image{static_cast<int>(width), static_cast<int>(height),
+                      static_cast<int>(channels), StoredImage::Depth::Float, {}, {}, {}};
+    image.floats.resize(count);
+    const unsigned firstShift = scale < 0 ? 0 : 24;
+    const float factor = static_cast<float>(std::fabs(scale));
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::uint8_t* b = data.data() + 4 * i;
+        std::uint32_t bits = 0;
+        for (unsigned k = 0; k < 4; ++k)
+            bits |= static_cast<std::uint32_t>(b[k]) << (firstShift ^ 8 * k);
+        const std::size_t fromTop = static_cast<std::size_t>(height) - 1 - i / row;
+        const float value = std::bit_cast<float>(bits) * factor;
+        if (!std::isfinite(value))
+            fail(ErrorKind::Input, cat(name, ": error: the pixel ", i % row / channels, ",", fromTop,
+                                       " is not a finite number"));
+        image.floats[fromTop * row + i % row] = value;
+    }
+    return image;
+}
+
+std::vector<std::uint8_t> encodePfm(const Image& image) {
+    const std::string header = cat("PF\n", image.width(), " ", image.height(), "\n-1.0\n");
+    std::vector<std::uint8_t> file(header.begin(), header.end());
+    file.reserve(header.size() + 12 * image.pixels().size());
+    for (int y = image.height() - 1; y >= 0; --y)
+        for (int x = 0; x < image.width(); ++x) {
+            const Rgb pixel = image.pixel(x, y);
+            for (const float value : {pixel.r, pixel.g, pixel.b}) {
+                const auto bits = std::bit_cast<std::uint32_t>(value);
+                for (unsigned k = 0; k < 4; ++k)
+                    file.push_back(static_cast<std::uint8_t>(bits >> (8 * k)));
+            }
+        }
+    return file;
+}

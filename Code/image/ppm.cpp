@@ -1,0 +1,88 @@
+// PPM and PGM (netpbm): P6 and P5 binary, P3 and P2 as text; 8 or 16 bits, any maxval.
+#include "base/error.h"
+#include "base/text.h"
+#include "image/formats.h"
+#include "image/netpbm.h"
+
+#include <algorithm>
+
+namespace {
+
+constexpr std::uint32_t kMost8 = 255, kMost16 = 65535;
+
+// Samples 0 .. maxval rounded to codes 0 .. mostCode.
+template <class Code, class NextSample>
+std::vector<Code> scaledCodes(std::size_t count, std::uint32_t maxval, std::uint32_t mostCode,
+                              NextSample nextSample) {
+    std::vector<Code> codes(count);
+    for (Code& code : codes)
+        code = static_cast<Code>((nextSample() * mostCode + maxval / 2) / maxval);
+    return codes;
+}
+
+} // namespace
+
+StoredImage decodePpm(Bytes file, const std::string& name) {
+    NetpbmHeader header(file, name);
+    const bool isText = header.magic() == "P3" || header.magic() == "P2";
+    const bool isGrey = header.magic() == "P2" || header.magic() == "P5";
+    const long long width = header.number("width"), height = header.number("height");
+    checkSize(width, height, name);
+    const long long promised = header.number("maxval");
+    if (promised < 1 || promised > kMost16)
+        header.failHere(cat("the maxval is ", promised, "; it must be 1 to ", kMost16));
+    const auto maxval = static_cast<std::uint32_t>(promised);
+    StoredImage image;
+    image.width = static_cast<int>(width);
+    image.height = static_cast<int>(height);
+    image.channels = isGrey ? 1 : 3;
+    const std::size_t count = static_cast<std::size_t>(width * height * image.channels);
+
+    // Where 255 is a multiple of maxval 8 bits are exact; else 16 are exact or much closer.
+    const auto store = [&](auto nextSample) {
+        if (kMost8 % maxval == 0) {
+            image.bytes = scaledCodes<std::uint8_t>(count, maxval, kMost8, nextSample);
+        } else {
+            image.depth = StoredImage::Depth::Bits16;
+            image.words = scaledCodes<std::uint16_t>(count, maxval, kMost16, nextSample);
+        }
+    };
+    if (isText) {
+        // A digit and a space each, the last without the space.
+        if (header.left() < 2 * count)
+            fail(ErrorKind::Input, cat(name, ": error: the file ends too early: the header promises ",
+                                       count, " samples, only ", header.left(),
+                                       " bytes follow it"));
+        store([&] { return header.sample(maxval); });
+        if (header.hasMore())
+            header.failHere(cat("more samples than ", width, "x", height, "x", image.channels));
+        return image;
+    }
+    const std::size_t sampleBytes = maxval > kMost8 ? 2 : 1;
+    const std::uint8_t* next = header.data(count * sampleBytes).data();
+    const auto checked = [&](std::uint32_t sample) {
+        if (sample > maxval)
+            fail(ErrorKind::Input, cat(name, ": error: the sample ", sample,
+                                       " is larger than the maxval ", maxval));
+        return sample;
+    };
+    if (sampleBytes == 1)
+        store([&] { return checked(*next++); });
+    else
+        store([&] {
+            const std::uint32_t sample = static_cast<std::uint32_t>(next[0] << 8 | next[1]);
+            next += 2;
+            return checked(sample);
+        });
+    return image;
+}
+
+std::vector<std::uint8_t> encodePpm(const Image& image, Encoding encoding) {
+    const std::string header = cat("P6\n", image.width(), " ", image.height(), "\n",
+                                   encoding.bits == 8 ? kMost8 : kMost16, "\n");
+    std::vector<std::uint8_t> file(header.begin(), header.end());
+    file.resize(header.size() +
+                image.pixels().size() * 3 * static_cast<std::size_t>(encoding.bits / 8));
+    encodePixels(image.pixels(), encoding, std::span(file).subspan(header.size()));
+    return file;
+}

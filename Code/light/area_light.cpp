@@ -1,0 +1,73 @@
+#include "light/area_light.h"
+
+#include "base/math.h"
+#include "sample/warp.h"
+
+FlatLight::FlatLight(Outline outline, Vec3 centre, Vec3 halfX, Vec3 halfY, Vec3 normal,
+                     Rgb radiance, double spreadHalfRad, bool castsShadows)
+    : Light(castsShadows), outline_(outline), centre_(centre), halfX_(halfX), halfY_(halfY),
+      normal_(normal), spreads_(spreadHalfRad < kHalfPi * 0.9999) {
+    const float area = length(halfX) * length(halfY) *
+                       (outline == Outline::Rectangle ? 4.0f : static_cast<float>(kPi));
+    power_ = radiance * area;
+    if (spreads_) {
+        const double tangent = exact::tan(spreadHalfRad);
+        tanSpread_ = static_cast<float>(tangent);
+        spreadNorm_ = static_cast<float>(1 / (tangent - spreadHalfRad));
+    }
+}
+
+LightSample FlatLight::from(Vec3 place, Vec3 point) const {
+    const Vec3 d = place - point;
+    const float distance2 = dot(d, d);
+    if (!(distance2 > 0)) return {};
+    const float distance = std::sqrt(distance2);
+    const Vec3 toLight = d / distance;
+    const float cosAtLight = -dot(toLight, normal_);
+    if (!(cosAtLight > 0)) return {};
+    float spread = 1;
+    if (spreads_) {
+        const float tangent = std::sqrt(max(1 - cosAtLight * cosAtLight, 0.0f)) / cosAtLight;
+        spread = max((tanSpread_ - tangent) * spreadNorm_, 0.0f);
+    }
+    return {toLight, distance, power_ * (spread * cosAtLight / distance2)};
+}
+
+LightSample FlatLight::centre(Vec3 point) const { return from(centre_, point); }
+
+LightSample FlatLight::sample(Vec3 point, Vec2 u) const {
+    const Vec2 place = outline_ == Outline::Rectangle ? Vec2{2 * u.x - 1, 2 * u.y - 1}
+                                                      : diskFromSquare(u);
+    return from(centre_ + halfX_ * place.x + halfY_ * place.y, point);
+}
+
+SphereLight::SphereLight(Vec3 centre, float radius, Rgb radiance, bool castsShadows)
+    : Light(castsShadows), centre_(centre), radius_(radius), radiance_(radiance) {}
+
+LightSample SphereLight::centre(Vec3 point) const {
+    const Vec3 d = centre_ - point;
+    const float distance2 = dot(d, d);
+    if (!(distance2 > radius_ * radius_)) return sample(point, {0.5f, 0.5f});
+    const float distance = std::sqrt(distance2);
+    const float factor = static_cast<float>(kPi) * radius_ * radius_ / distance2;
+    return {d / distance, distance - radius_, radiance_ * factor};
+}
+
+LightSample SphereLight::sample(Vec3 point, Vec2 u) const {
+    const Vec3d d = toDouble(centre_) - toDouble(point);
+    const double r2 = sqr(static_cast<double>(radius_)), d2 = dot(d, d);
+    if (!(d2 > r2)) { // inside: light from everywhere
+        const Vec3 toLight = sphereFromSquare(u);
+        const double along = dot(toDouble(toLight), d);
+        const double distance = along + std::sqrt(max(along * along - d2 + r2, 0.0));
+        return {toLight, static_cast<float>(distance), radiance_ * static_cast<float>(4 * kPi)};
+    }
+    const double sin2 = r2 / d2;
+    const double oneMinusCos = sin2 / (1 + std::sqrt(1 - sin2));
+    const Frame frame = frameAround(toFloat(normalize(d)));
+    const Vec3 toLight = normalize(frame.toWorld(coneFromSquare(u, oneMinusCos)));
+    const double along = dot(toDouble(toLight), d);
+    const double distance = along - std::sqrt(max(along * along - d2 + r2, 0.0));
+    return {toLight, static_cast<float>(distance),
+            radiance_ * static_cast<float>(kTwoPi * oneMinusCos)};
+}

@@ -1,0 +1,39 @@
+// Lamps with an area: flat ones (rectangle, disk, ellipse) and spheres, of constant radiance.
+#pragma once
+
+#include "light/light.h"
+
+class FlatLight final : public Light {
+public:
+    enum class Outline { Rectangle, Ellipse };
+    // Half axes from the centre, perpendicular to each other; the light goes to the side of
+    // `normal` (unit). spreadHalfRad < pi/2 narrows the emission as Cycles' grid does.
+    FlatLight(Outline outline, Vec3 centre, Vec3 halfX, Vec3 halfY, Vec3 normal, Rgb radiance,
+              double spreadHalfRad, bool castsShadows);
+    bool isSoft() const override { return true; }
+    LightSample sample(Vec3 point, Vec2 u) const override;
+    LightSample centre(Vec3 point) const override;
+
+private:
+    LightSample from(Vec3 place, Vec3 point) const;
+
+    Outline outline_;
+    Vec3 centre_, halfX_, halfY_, normal_;
+    Rgb power_; // radiance times area
+    bool spreads_;
+    float tanSpread_ = 0, spreadNorm_ = 0;
+};
+
+class SphereLight final : public Light {
+public:
+    SphereLight(Vec3 centre, float radius, Rgb radiance, bool castsShadows);
+    bool isSoft() const override { return true; }
+    // Uniform in the cone of directions that the sphere fills (Shirley and Wang 1996).
+    LightSample sample(Vec3 point, Vec2 u) const override;
+    LightSample centre(Vec3 point) const override;
+
+private:
+    Vec3 centre_;
+    float radius_;
+    Rgb radiance_;
+};

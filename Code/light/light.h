@@ -1,0 +1,35 @@
+// Light: what reaches a point from a lamp, before anything is in the way.
+// Lights know positions and radiometry; they never see materials or trace rays. Lengths are in the
+// scene's normalised units, intensities scaled to them (render/scene.cpp).
+#pragma once
+
+#include "base/vec.h"
+
+#include <optional>
+
+// Light that arrives at a point from one place on a lamp.
+struct LightSample {
+    Vec3 toLight;       // unit vector from the point
+    float distance = 0; // to the lamp's surface; infinite for a sun
+    // Irradiance on a surface that faces the lamp; the mean over u in [0,1)^2 is what the whole lamp
+    // gives when each direction is weighted with the receiver's response to it. Black: no light.
+    Rgb irradiance;
+};
+
+class Light {
+public:
+    explicit Light(bool castsShadows) : castsShadows_(castsShadows) {}
+    virtual ~Light() = default;
+
+    // Whether sample() depends on u, that is whether shadows have soft edges.
+    virtual bool isSoft() const = 0;
+    virtual LightSample sample(Vec3 point, Vec2 u) const = 0;
+    // The lamp as if it sat in its centre: hard shadows of the same brightness from afar.
+    virtual LightSample centre(Vec3 point) const = 0;
+    // Set when shadow rays are defined as starting at this point (KERNELS: shared origin).
+    virtual std::optional<Vec3> origin() const { return {}; }
+    bool castsShadows() const { return castsShadows_; }
+
+private:
+    bool castsShadows_;
+};

@@ -1,0 +1,41 @@
+#include "light/point_light.h"
+
+#include "base/math.h"
+#include "sample/warp.h"
+
+float SpotCone::attenuation(Vec3 fromLight) const {
+    const float c = dot(axis, fromLight);
+    if (c <= cosHalfAngle) return 0;
+    const float soft = (1 - cosHalfAngle) * blend;
+    const float x = soft > 0 ? min((c - cosHalfAngle) / soft, 1.0f) : 1.0f;
+    const float smooth = x * x * (3 - 2 * x);
+    return cosineFalloff ? smooth * max(c, 0.0f) : smooth;
+}
+
+PointLight::PointLight(Vec3 position, Rgb intensity, float radius, std::optional<SpotCone> cone,
+                       bool castsShadows)
+    : Light(castsShadows), position_(position), intensity_(intensity), radius_(radius),
+      cone_(cone) {}
+
+LightSample PointLight::centre(Vec3 point) const {
+    const Vec3 d = position_ - point;
+    const float distance2 = dot(d, d);
+    if (!(distance2 > 0)) return {};
+    const float distance = std::sqrt(distance2);
+    const Vec3 toLight = d / distance;
+    const float cone = cone_ ? cone_->attenuation(-toLight) : 1.0f;
+    return {toLight, distance, intensity_ * (cone / distance2)};
+}
+
+LightSample PointLight::sample(Vec3 point, Vec2 u) const {
+    const Vec3 toCentre = position_ - point;
+    if (radius_ == 0 || !(dot(toCentre, toCentre) > 0)) return centre(point);
+    const Frame frame = frameAround(normalize(toCentre));
+    const Vec2 disk = diskFromSquare(u) * radius_;
+    const Vec3 d = toCentre + frame.x * disk.x + frame.y * disk.y;
+    const float distance2 = dot(d, d), distance = std::sqrt(distance2);
+    const Vec3 toLight = d / distance;
+    const float cosAtDisk = dot(toLight, frame.z);
+    const float cone = cone_ ? cone_->attenuation(-toLight) : 1.0f;
+    return {toLight, distance, intensity_ * (cone * cosAtDisk / distance2)};
+}

@@ -1,0 +1,18 @@
+#include "light/sun_light.h"
+
+#include "base/math.h"
+#include "sample/warp.h"
+
+SunLight::SunLight(Vec3 direction, Rgb irradiance, double halfAngleRad, bool castsShadows)
+    : Light(castsShadows), toSun_(-direction), irradiance_(irradiance),
+      oneMinusCos_(2 * sqr(exact::sin(halfAngleRad / 2))) {}
+
+LightSample SunLight::centre(Vec3) const { return {toSun_, kInfinityF, irradiance_}; }
+
+LightSample SunLight::sample(Vec3 point, Vec2 u) const {
+    if (oneMinusCos_ == 0) return centre(point);
+    const Vec3 toLight = frameAround(toSun_).toWorld(coneFromSquare(u, oneMinusCos_));
+    // Radiance E / (pi sin^2 h) times the solid angle 2 pi (1 - cos h).
+    const double weight = 2 / (2 - oneMinusCos_);
+    return {normalize(toLight), kInfinityF, irradiance_ * static_cast<float>(weight)};
+}

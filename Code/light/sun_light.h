@@ -1,0 +1,19 @@
+// A sun: parallel light, or light from a disk in the sky when it has an angular size.
+#pragma once
+
+#include "light/light.h"
+
+class SunLight final : public Light {
+public:
+    // `direction`: unit vector along which the light travels. Irradiance on a facing surface in
+    // W/m^2; `halfAngleRad` of the disk in the sky, which has constant radiance.
+    SunLight(Vec3 direction, Rgb irradiance, double halfAngleRad, bool castsShadows);
+    bool isSoft() const override { return oneMinusCos_ > 0; }
+    LightSample sample(Vec3 point, Vec2 u) const override;
+    LightSample centre(Vec3 point) const override;
+
+private:
+    Vec3 toSun_;
+    Rgb irradiance_;
+    double oneMinusCos_;
+};

@@ -1,0 +1,82 @@
+#include "material/material.h"
+
+#include "base/math.h"
+#include "material/fresnel.h"
+#include "sample/warp.h"
+
+namespace {
+
+constexpr float kInvPiF = static_cast<float>(kInvPi);
+
+// Exponent of the Blinn lobe that has Blender's roughness: n = 2/r^4 - 2, kept in 1..1e5.
+float exponentOf(float roughness) {
+    const float alpha = roughness * roughness;
+    return clamp(2 / (alpha * alpha) - 2, 1.0f, 1e5f);
+}
+
+// A rough surface reflects about a half vector h instead of n.
+Vec3 microNormal(const Material& material, Vec3 n, Vec3 toEye, Vec2 u) {
+    if (material.roughness <= 0) return n;
+    const Vec3 local = cosinePowerFromSquare(u, exponentOf(material.roughness));
+    const Vec3 h = normalize(frameAround(n).toWorld(local));
+    return dot(h, toEye) > 0 ? h : n;
+}
+
+} // namespace
+
+Rgb reflectedLight(const Material& material, Vec3 n, Vec3 toEye, Vec3 toLight) {
+    const float cosLight = dot(n, toLight);
+    if (!(cosLight > 0)) return {};
+    Rgb sum = material.diffuse * (kInvPiF * cosLight);
+    if (isBlack(material.specular)) return sum;
+    const Vec3 half = toEye + toLight;
+    const float length2 = dot(half, half);
+    if (!(length2 > 0)) return sum;
+    const Vec3 h = half / std::sqrt(length2);
+    const float cosHalf = min(dot(n, h), 1.0f);
+    if (!(cosHalf > 0)) return sum;
+    const float lobe = exact::pow(cosHalf, material.exponent);
+    if (material.specularModel == SpecularModel::Blinn) return sum + material.specular * lobe;
+    const float cosEye = dot(n, toEye);
+    const float norm = (material.exponent + 1) * (kInvPiF / 8);
+    return sum + material.specular *
+                     (norm * lobe * cosLight / (dot(h, toEye) * max(cosLight, cosEye)));
+}
+
+Bounces bounces(const Material& material, Vec3 n, Vec3 ng, Vec3 toEye, float eta, Vec2 u) {
+    Bounces out;
+    const bool reflects = !isBlack(material.mirror), transmits = !isBlack(material.transmission);
+    if (!reflects && !transmits) return out;
+    const Vec3 h = microNormal(material, n, toEye, u);
+    const float cosIn = dot(h, toEye);
+
+    Rgb reflected = material.mirror, transmitted = material.transmission;
+    if (material.fresnel == FresnelModel::Dielectric) {
+        const float f = fresnelDielectric(cosIn, eta);
+        reflected = reflected * f;
+        transmitted = transmitted * (1 - f);
+    } else if (material.fresnel == FresnelModel::Schlick) {
+        const float rise = schlickWeight(cosIn);
+        const Rgb white{1, 1, 1};
+        reflected = reflected + (white - reflected) * rise;
+        transmitted = transmitted * (1 - rise);
+    }
+
+    if (transmits) {
+        auto dir = refractThrough(toEye, h, eta);
+        // A bent normal may refract to the side of the eye: fall back to the true surface.
+        if (dir && !(dot(*dir, ng) < 0)) dir = refractThrough(toEye, ng, eta);
+        if (dir && dot(*dir, ng) < 0) out.refracted = Bounce{*dir, transmitted};
+        else if (!dir) reflected = reflected + transmitted; // total internal reflection
+    }
+    if (!isBlack(reflected)) {
+        Vec3 dir = normalize(reflectAbout(toEye, h));
+        if (!(dot(dir, ng) > 0)) dir = normalize(reflectAbout(toEye, ng));
+        // Importance sampling of the Ashikhmin-Shirley lobe leaves N.L / max(N.L, N.V).
+        const float cosOut = dot(n, dir), cosEye = dot(n, toEye);
+        const float weight = material.roughness > 0 && cosOut < cosEye ? max(cosOut, 0.0f) / cosEye
+                                                                       : 1.0f;
+        out.reflected = Bounce{dir, reflected * weight};
+    }
+    return out;
+}

@@ -1,0 +1,45 @@
+// Material: how a surface answers light, as numbers at one point of it; textures are applied already.
+// Materials turn directions and light into light and directions; they never trace rays.
+#pragma once
+
+#include "base/vec.h"
+
+#include <optional>
+
+enum class SpecularModel { Blinn, Ashikhmin };
+enum class FresnelModel { None, Dielectric, Schlick };
+
+struct Material {
+    Rgb diffuse{0.8f, 0.8f, 0.8f}; // reflectance
+    Rgb specular;
+    SpecularModel specularModel = SpecularModel::Blinn;
+    float exponent = 50;
+    Rgb mirror, transmission;
+    float ior = 1.5f;
+    FresnelModel fresnel = FresnelModel::None;
+    float roughness = 0; // of mirror and transmission, Blender's scale
+    Rgb emission;        // radiance
+    float opacity = 1;
+    Rgb filter{1, 1, 1}; // of the light that goes straight through where opacity is below 1
+};
+
+// Radiance towards `toEye` per unit of irradiance on a surface facing the light that comes from
+// `toLight`: f * cos. All unit vectors; n on the side of the eye. 0 when the light is behind n.
+// Blinn: diffuse/pi * N.L + specular * (N.H)^n (the classic form has no cosine in its highlight).
+// Ashikhmin: specular * (n+1)/(8 pi) (N.H)^n / ((H.V) max(N.L, N.V)) * N.L, Cycles' lobe.
+Rgb reflectedLight(const Material& material, Vec3 n, Vec3 toEye, Vec3 toLight);
+
+// A traced continuation of the light path: the radiance that comes back is multiplied by weight.
+struct Bounce {
+    Vec3 dir; // unit
+    Rgb weight;
+};
+
+// The rays that leave a point of a mirroring or transmitting surface. `n` is the shading normal and
+// `ng` the geometric one, both on the side of the eye; `eta` is the ior on the eye's side over the
+// ior on the other side; `u` spreads the directions when the surface is rough. Total internal
+// reflection sends all the light into the reflection.
+struct Bounces {
+    std::optional<Bounce> reflected, refracted;
+};
+Bounces bounces(const Material& material, Vec3 n, Vec3 ng, Vec3 toEye, float eta, Vec2 u);

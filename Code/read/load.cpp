@@ -1,0 +1,95 @@
+#include "read/load.h"
+
+#include "base/file.h"
+#include "base/text.h"
+#include "desc/validate.h"
+#include "read/read_txt.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+#include <filesystem>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Format {
+    std::string_view extension; // lower case
+    SceneDesc (*read)(const SourceFile&);
+};
+constexpr auto kFormats = std::to_array<Format>({
+    {".txt", readTxt},
+});
+
+const Format& formatOf(const std::string& fileName) {
+    std::string extension = fs::path(fileName).extension().string();
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+    std::vector<std::string> known;
+    for (const Format& format : kFormats) {
+        if (format.extension == extension) return format;
+        known.emplace_back(format.extension);
+    }
+    fail(ErrorKind::Input, cat(fileName, ": error: unknown scene format ", unknownName(extension, known)));
+}
+
+// The files beside a missing one that could be meant.
+std::vector<std::string> sceneNamesIn(const fs::path& folder) {
+    constexpr std::size_t kEnough = 1000;
+    std::vector<std::string> names;
+    std::error_code ignored;
+    fs::directory_iterator entry(folder.empty() ? fs::path(".") : folder, ignored);
+    for (; entry != fs::directory_iterator() && names.size() < kEnough; entry.increment(ignored)) {
+        const std::string extension = entry->path().extension().string();
+        for (const Format& format : kFormats)
+            if (extension == format.extension) names.push_back((folder / entry->path().filename()).string());
+        if (ignored) break;
+    }
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+std::string readStdin() {
+    std::string text;
+    char part[1 << 16];
+    while (const std::size_t count = std::fread(part, 1, sizeof part, stdin)) {
+        text.append(part, count);
+        if (text.size() >= SourceLoc::kUnknown) break; // the reader says so
+    }
+    return text;
+}
+
+// A missing file or a folder is a better message than a wrong extension: this comes first.
+void checkFile(const std::string& fileName) {
+    std::error_code status;
+    if (!fs::exists(fileName, status)) {
+        const auto near = nearestWord(fileName, sceneNamesIn(fs::path(fileName).parent_path()));
+        fail(ErrorKind::Input, cat(fileName, ": error: cannot read: no such file",
+                                   near ? cat("; did you mean '", *near, "'?") : ""));
+    }
+    if (fs::is_directory(fileName, status))
+        fail(ErrorKind::Input, cat(fileName, ": error: cannot read: it is a folder; name a file in it"));
+    if (fs::is_regular_file(fileName, status) && fs::file_size(fileName, status) >= SourceLoc::kUnknown)
+        fail(ErrorKind::Input, cat(fileName, ": error: the file is larger than 4 GiB"));
+}
+
+} // namespace
+
+LoadedScene load(const std::string& fileName, Diagnostics& diagnostics) {
+    LoadedScene scene;
+    if (fileName == "-") {
+        scene.source = {"<stdin>", readStdin()};
+        scene.desc = readTxt(scene.source);
+    } else {
+        checkFile(fileName);
+        const Format& format = formatOf(fileName);
+        const std::vector<std::uint8_t> bytes = readWholeFile(fileName);
+        scene.source = {fileName, {bytes.begin(), bytes.end()}};
+        scene.desc = format.read(scene.source);
+    }
+    validate(scene.desc, scene.source, diagnostics);
+    return scene;
+}

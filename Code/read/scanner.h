@@ -1,0 +1,64 @@
+// Scanner: the text of a native scene file as tokens and numbers that know their byte offset.
+// Knows characters and lines, but no keyword.
+#pragma once
+
+#include "base/source.h"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+enum class TokenKind { Word, Quoted, Open, Close, LineEnd, FileEnd };
+struct Token {
+    TokenKind kind = TokenKind::FileEnd;
+    std::size_t offset = 0;
+    std::string_view text; // as written, Quoted with its quotes
+};
+
+// For messages: "'abc'", "the end of the line", "the end of the file".
+std::string described(const Token& token);
+
+class Scanner {
+public:
+    explicit Scanner(const SourceFile& source); // the file must outlive the scanner
+
+    const SourceFile& source() const { return source_; }
+    std::size_t offset() const { return static_cast<std::size_t>(p_ - source_.text.data()); }
+    void moveTo(std::size_t offset) { p_ = source_.text.data() + offset; }
+    std::size_t bytesLeft() const { return source_.text.size() - offset(); }
+
+    // Fails on characters that start no token.
+    Token next();
+    Token peek();
+    // The name that a Word or Quoted token stands for. Fails on wrong escapes, control characters
+    // and bytes that are not UTF-8.
+    std::string nameIn(const Token& token) const;
+
+    // Moves over blanks, line ends and comments, and returns the text from there: for the arrays of
+    // meshes, where tokens would be too slow.
+    const char* skipToValue() {
+        while (true) {
+            const char c = *p_;
+            if (c == ' ' || c == '\n' || c == '\t') ++p_;
+            else if (c == '\r' && p_[1] == '\n') p_ += 2;
+            else if (c == '#') skipComment();
+            else return p_;
+        }
+    }
+    void moveTo(const char* p) { p_ = p; }
+    // Is this a byte that may follow a number?
+    static bool endsNumber(char c);
+
+    [[noreturn]] void failAt(std::size_t offset, std::string_view what) const;
+    // The line, from 1, for messages that point to a second place.
+    std::size_t lineOf(std::size_t offset) const;
+
+private:
+    void skipBlanks();
+    void skipComment();
+    Token quoted();
+
+    const SourceFile& source_;
+    const char* p_;
+    const char* end_; // *end_ is the string's terminating zero
+};

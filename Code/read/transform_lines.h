@@ -1,0 +1,17 @@
+// The lines that place things: translate, rotate, scale, transform, look_at.
+#pragma once
+
+#include "desc/scene_desc.h"
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+struct TransformLine {
+    std::string_view keyword;
+    std::size_t count; // of numbers
+    // worldFromObject times what the line says; sets `fault` when the numbers say nothing.
+    Rows (*apply)(const Rows& before, std::span<const double> numbers, std::string_view& fault);
+};
+std::span<const TransformLine> transformLines();

@@ -1,0 +1,78 @@
+// Rays travel in batches, as a structure of arrays: a tile's camera rays, then wave after wave what
+// they spawn. Ray i of a batch is element i of every array.
+#pragma once
+
+#include "base/ray.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+// Geometry of the rays, where their light is added, and what it is multiplied with.
+struct RayBatch {
+    std::vector<Vec3> org, dir;
+    std::vector<float> tMin, tMax, time;
+    std::vector<std::uint32_t> sample; // slot of the camera sample that the ray belongs to
+    std::vector<Rgb> weight;
+
+    std::size_t size() const { return org.size(); }
+    bool empty() const { return org.empty(); }
+    Ray ray(std::size_t i) const { return {org[i], dir[i], tMin[i], tMax[i], time[i]}; }
+    void push(const Ray& ray, std::uint32_t slot, Rgb rayWeight) {
+        org.push_back(ray.org);
+        dir.push_back(ray.dir);
+        tMin.push_back(ray.tMin);
+        tMax.push_back(ray.tMax);
+        time.push_back(ray.time);
+        sample.push_back(slot);
+        weight.push_back(rayWeight);
+    }
+    void clear() {
+        org.clear(), dir.clear(), tMin.clear(), tMax.clear(), time.clear();
+        sample.clear(), weight.clear();
+    }
+};
+
+// The transparent materials that a point is inside of, the one entered last on top.
+class MediumStack {
+public:
+    static constexpr std::uint32_t kOutside = 0xffffffffu;
+    std::uint32_t top() const { return count_ ? materials_[count_ - 1] : kOutside; }
+    // Full: stays as it is. The ray then sees the boundary's inner side as more of the same.
+    void enter(std::uint32_t material) {
+        if (count_ < materials_.size()) materials_[count_++] = material;
+    }
+    // Removes the innermost entry of the material; none there: the ray started inside, no change.
+    void leave(std::uint32_t material) {
+        for (std::size_t i = count_; i-- > 0;) {
+            if (materials_[i] != material) continue;
+            for (std::size_t j = i + 1; j < count_; ++j) materials_[j - 1] = materials_[j];
+            --count_;
+            return;
+        }
+    }
+
+private:
+    std::array<std::uint32_t, 7> materials_{};
+    std::uint32_t count_ = 0;
+};
+
+// Rays that look for surfaces; shadow rays need no more than a RayBatch.
+struct PathBatch : RayBatch {
+    std::vector<MediumStack> medium;
+    std::vector<std::uint32_t> stream;    // which random numbers: one number per branch of the tree
+    std::vector<std::uint8_t> seesLights; // false: the highlight has counted the lamps already
+
+    void push(const Ray& ray, std::uint32_t slot, Rgb rayWeight, const MediumStack& inside,
+              std::uint32_t branch, bool seesLamps) {
+        RayBatch::push(ray, slot, rayWeight);
+        medium.push_back(inside);
+        stream.push_back(branch);
+        seesLights.push_back(seesLamps);
+    }
+    void clear() {
+        RayBatch::clear();
+        medium.clear(), stream.clear(), seesLights.clear();
+    }
+};

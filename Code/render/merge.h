@@ -1,0 +1,24 @@
+// MeshDesc -> MeshGeometry, and the merging of many meshes into one.
+#pragma once
+
+#include "render/frame.h"
+#include "shape/mesh.h"
+
+#include <cstdint>
+#include <vector>
+
+// The mesh in the normalised space of `frame`, with its slots as they are.
+MeshGeometry toGeometry(const MeshDesc& mesh, const SceneFrame& frame);
+
+// Meshes that stand still, placed into one geometry in the scene's space.
+struct MergedMesh {
+    MeshGeometry geometry;
+    std::vector<std::uint32_t> materials; // by slot of the geometry
+    std::vector<MeshPart> parts;
+    std::uint64_t degenerateCount = 0;
+
+    // `meshMaterials` by slot of the mesh. Mirrored meshes are turned, so that counter-clockwise
+    // stays outside.
+    void add(const MeshDesc& mesh, const Transform& worldFromMesh, const SceneFrame& frame,
+             const std::vector<std::uint32_t>& meshMaterials, std::uint32_t object);
+};

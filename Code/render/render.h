@@ -1,0 +1,33 @@
+// render(): Scene + RenderSettings -> pictures. Tiles, threads, progress and counters live here;
+// what one tile computes is in whitted.h and the other integrators.
+#pragma once
+
+#include "image/image.h"
+#include "render/settings.h"
+#include "render/stats.h"
+
+#include <atomic>
+#include <functional>
+#include <vector>
+
+class Scene;
+
+struct AovImage {
+    Aov aov;
+    Image image;
+};
+struct Picture {
+    Image color; // linear radiance, exposure not applied
+    std::vector<AovImage> aovs;
+    bool finished = false; // false: stopped before every tile was done
+};
+struct RenderControl {
+    // Called from one worker at a time with the part that is done, 0 to 1.
+    std::function<void(double)> progress;
+    // Set by a signal handler or a caller; workers look at it between tiles.
+    const std::atomic<bool>* stop = nullptr;
+};
+
+// The picture covers the crop rectangle. Same bits for any number of threads.
+Picture render(const Scene& scene, const RenderSettings& settings, const RenderControl& control,
+               Stats& stats);

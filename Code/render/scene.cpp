@@ -1,0 +1,490 @@
+// Builds a Scene from a SceneDesc: the only file that names the concrete shapes and lights.
+#include "render/scene.h"
+
+#include "base/math.h"
+#include "base/text.h"
+#include "image/image.h"
+#include "light/area_light.h"
+#include "light/point_light.h"
+#include "light/sun_light.h"
+#include "render/frame.h"
+#include "render/merge.h"
+#include "render/texture_files.h"
+#include "shape/cone.h"
+#include "shape/cube.h"
+#include "shape/cylinder.h"
+#include "shape/disk.h"
+#include "shape/infinite_plane.h"
+#include "shape/plane.h"
+#include "shape/sphere.h"
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace {
+
+Rgb toRgb(Rgbd c) {
+    return {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
+}
+
+float toFloat(double x) { return static_cast<float>(x); }
+
+} // namespace
+
+class SceneBuilder {
+public:
+    SceneBuilder(Scene& scene, const SceneDesc& desc, const SourceFile& source,
+                 const RenderSettings& settings)
+        : scene_(scene), desc_(desc), source_(source), settings_(settings),
+          on_(settings.switches) {}
+
+    void build() {
+        scene_.frame_ = frameOf(desc_);
+        scene_.accelKind_ = settings_.accel;
+        buildTextures();
+        buildMaterials();
+        buildCamera();
+        buildWorld();
+        buildObjects();
+        buildLights();
+        scene_.shapes_.finish(settings_.accel == AccelKind::Bvh);
+        listFeatures();
+    }
+
+private:
+    // ---- textures and materials
+
+    void buildTextures() {
+        scene_.textures_.resize(desc_.textures.size());
+        if (!on_.textures) return;
+        for (const MaterialDesc& m : desc_.materials)
+            for (const Handle handle : {m.diffuseTexture, m.specularTexture, m.emissionTexture,
+                                        m.opacityTexture, m.normalMap, m.bumpMap})
+                loadTexture(handle);
+    }
+
+    // Pictures that nothing uses are not read.
+    void loadTexture(Handle handle) {
+        if (handle == kNone || textureOf(handle)) return;
+        const auto i = static_cast<std::size_t>(handle);
+        const TextureDesc& desc = desc_.textures[i];
+        TextureParams params;
+        params.space = spaceOf(desc);
+        params.interpolation = interpolationOf(desc);
+        params.extension = desc.extension == TextureDesc::Extension::Repeat   ? Extension::Repeat
+                           : desc.extension == TextureDesc::Extension::Extend ? Extension::Extend
+                                                                              : Extension::Clip;
+        params.channel = desc.channel == TextureDesc::Channel::Alpha ? TextureParams::Channel::Alpha
+                                                                     : TextureParams::Channel::Color;
+        params.scale = desc.scale;
+        params.rotationRad = radians(desc.rotationDeg);
+        params.offset = desc.offset;
+        scene_.textures_[i] = std::make_unique<const Texture>(
+            loadPicture(desc, source_, settings_.textureFolder), params);
+    }
+
+    static ColorSpace spaceOf(const TextureDesc& desc) {
+        return desc.space == TextureDesc::Space::Srgb ? ColorSpace::Srgb : ColorSpace::Linear;
+    }
+    static Interpolation interpolationOf(const TextureDesc& desc) {
+        return desc.interpolation == TextureDesc::Interpolation::Nearest ? Interpolation::Nearest
+                                                                         : Interpolation::Bilinear;
+    }
+
+    const Texture* textureOf(Handle handle) const {
+        return handle == kNone ? nullptr : scene_.textures_[static_cast<std::size_t>(handle)].get();
+    }
+
+    void buildMaterials() {
+        for (const MaterialDesc& desc : desc_.materials)
+            scene_.materials_.push_back(makeMaterial(desc));
+        scene_.materials_.push_back(makeMaterial(MaterialDesc{}));
+        for (const SceneMaterial& m : scene_.materials_)
+            scene_.hasSeeThrough_ = scene_.hasSeeThrough_ || m.seeThrough();
+    }
+
+    SceneMaterial makeMaterial(const MaterialDesc& desc) const {
+        SceneMaterial m;
+        m.base.diffuse = toRgb(desc.diffuse);
+        m.base.specular = toRgb(desc.specular);
+        m.base.specularModel = desc.specularModel == MaterialDesc::SpecularModel::Blinn
+                                   ? SpecularModel::Blinn
+                                   : SpecularModel::Ashikhmin;
+        m.base.exponent = toFloat(desc.exponent);
+        if (on_.reflection) m.base.mirror = toRgb(desc.mirror);
+        if (on_.refraction) m.base.transmission = toRgb(desc.transmission);
+        m.base.ior = toFloat(desc.ior);
+        if (on_.fresnel && desc.fresnel == MaterialDesc::Fresnel::Dielectric)
+            m.base.fresnel = FresnelModel::Dielectric;
+        if (on_.fresnel && desc.fresnel == MaterialDesc::Fresnel::Schlick)
+            m.base.fresnel = FresnelModel::Schlick;
+        if (on_.glossy) m.base.roughness = toFloat(desc.roughness);
+        m.base.emission = toRgb(desc.emission);
+        m.base.opacity = toFloat(desc.opacity);
+        m.base.filter = toRgb(desc.filter);
+        m.diffuse = textureOf(desc.diffuseTexture);
+        m.specular = textureOf(desc.specularTexture);
+        m.emission = textureOf(desc.emissionTexture);
+        m.opacity = textureOf(desc.opacityTexture);
+        m.normalMap = textureOf(desc.normalMap);
+        m.bumpMap = textureOf(desc.bumpMap);
+        m.normalStrength = toFloat(desc.normalStrength);
+        m.bumpHeight = toFloat(desc.bumpStrength * desc.bumpDistance * scene_.frame_.scale);
+        return m;
+    }
+
+    // The scene's number of a material; objects without one get the default, which is the last.
+    std::uint32_t materialId(Handle handle) const {
+        return handle == kNone ? static_cast<std::uint32_t>(desc_.materials.size())
+                               : static_cast<std::uint32_t>(handle);
+    }
+    std::uint32_t firstMaterial(const ObjectDesc& object) const {
+        return materialId(object.materials.empty() ? kNone : object.materials[0]);
+    }
+
+    // ---- camera and world
+
+    MovingTransform placed(const Keys& keys) {
+        std::vector<Transform> maps;
+        for (const Rows& rows : keys) maps.push_back(scene_.frame_.placed(rows));
+        const MovingTransform moving{std::span<const Transform>(maps)};
+        if (!on_.motionBlur) return MovingTransform(moving.at(0.5));
+        if (!moving.isStatic()) scene_.moves_ = true;
+        return moving;
+    }
+
+    void buildCamera() {
+        const auto wanted = std::find_if(
+            desc_.cameras.begin(), desc_.cameras.end(), [&](const CameraDesc& camera) {
+                return settings_.camera.empty() || camera.name == settings_.camera;
+            });
+        if (wanted == desc_.cameras.end()) {
+            std::vector<std::string> known;
+            for (const CameraDesc& camera : desc_.cameras) known.push_back(camera.name);
+            fail(ErrorKind::Input, cat(source_.name, ": error: no camera ",
+                                       unknownName(settings_.camera, known)));
+        }
+        const CameraDesc& desc = *wanted;
+        cameraDesc_ = &desc;
+        const double scale = scene_.frame_.scale;
+        CameraParams params;
+        params.kind = desc.kind == CameraDesc::Kind::Orthographic ? CameraParams::Kind::Orthographic
+                                                                  : CameraParams::Kind::Perspective;
+        params.worldFromCamera = placed(desc.worldFromCamera);
+        params.width = settings_.picture.width;
+        params.height = settings_.picture.height;
+        params.pixelAspect = settings_.picture.pixelAspect;
+        params.lensMm = desc.lensMm;
+        params.sensorWidthMm = desc.sensorWidthMm;
+        params.sensorHeightMm = desc.sensorHeightMm;
+        params.sensorFit = static_cast<CameraParams::SensorFit>(desc.sensorFit);
+        params.shiftX = desc.shiftX;
+        params.shiftY = desc.shiftY;
+        params.orthoScale = desc.orthoScale * scale;
+        params.clipStart = desc.clipStart * scale;
+        params.apertureRadius = on_.dof ? desc.apertureRadius * scale : 0;
+        params.focusDistance = desc.focusDistance * scale;
+        params.apertureBlades = desc.apertureBlades;
+        params.apertureRotationRad = radians(desc.apertureRotationDeg);
+        params.apertureRatio = desc.apertureRatio;
+        scene_.camera_ = std::make_unique<const Camera>(params);
+    }
+
+    void buildWorld() {
+        scene_.background_ = toRgb(settings_.background.value_or(desc_.world.background));
+        scene_.ambient_ = toRgb(desc_.world.ambient);
+        const Handle handle = desc_.world.environment;
+        if (handle == kNone || !on_.textures || settings_.background) return;
+        const TextureDesc& picture = desc_.textures[static_cast<std::size_t>(handle)];
+        scene_.environment_ = std::make_unique<const Environment>(
+            loadPicture(picture, source_, settings_.textureFolder), spaceOf(picture),
+            interpolationOf(picture), radians(desc_.world.rotationDeg));
+    }
+
+    // ---- objects
+
+    ShapeSet::Shadow shadowOf(const std::vector<std::uint32_t>& materials) const {
+        const bool seeThrough = std::any_of(materials.begin(), materials.end(), [&](std::uint32_t m) {
+            return scene_.materials_[m].seeThrough();
+        });
+        return seeThrough ? ShapeSet::Shadow::SeeThrough : ShapeSet::Shadow::Opaque;
+    }
+
+    void buildObjects() {
+        std::vector<int> uses(desc_.meshes.size(), 0);
+        for (const ObjectDesc& object : desc_.objects)
+            if (object.kind == ObjectDesc::Kind::Mesh) ++uses[static_cast<std::size_t>(object.mesh)];
+
+        // Meshes that are used once and stand still become one, with one tree over all triangles;
+        // see-through ones apart, as their shadows have to look at every hit.
+        MergedMesh opaque, seeThrough;
+        for (std::size_t i = 0; i < desc_.objects.size(); ++i) {
+            const ObjectDesc& object = desc_.objects[i];
+            const auto id = static_cast<std::uint32_t>(i);
+            MovingTransform place = placed(object.worldFromObject);
+            if (object.kind != ObjectDesc::Kind::Mesh) {
+                const std::uint32_t material = firstMaterial(object);
+                scene_.shapes_.add(makeShape(object, std::move(place), material, id),
+                                   shadowOf({material}));
+                continue;
+            }
+            const auto mesh = static_cast<std::size_t>(object.mesh);
+            const auto materials = materialsBySlot(object, desc_.meshes[mesh]);
+            if (uses[mesh] == 1 && place.isStatic()) {
+                const bool solid = shadowOf(materials) == ShapeSet::Shadow::Opaque;
+                (solid ? opaque : seeThrough)
+                    .add(desc_.meshes[mesh], worldRows(object), scene_.frame_, materials, id);
+            } else {
+                addInstance(mesh, place, materials, id);
+            }
+        }
+        addMerged(std::move(opaque));
+        addMerged(std::move(seeThrough));
+    }
+
+    // Where a mesh that stands still is, before the frame: its points are placed one by one.
+    Transform worldRows(const ObjectDesc& object) const {
+        if (object.worldFromObject.size() == 1) return Transform::fromRows(object.worldFromObject[0]);
+        std::vector<Transform> maps;
+        for (const Rows& rows : object.worldFromObject) maps.push_back(Transform::fromRows(rows));
+        return MovingTransform(std::span<const Transform>(maps)).at(0.5);
+    }
+
+    std::vector<std::uint32_t> materialsBySlot(const ObjectDesc& object, const MeshDesc& mesh) const {
+        std::vector<std::uint32_t> out;
+        for (const Handle handle : object.materials) out.push_back(materialId(handle));
+        std::uint32_t slots = 1;
+        for (const std::uint32_t slot : mesh.triangleMaterials) slots = std::max(slots, slot + 1);
+        while (out.size() < slots) out.push_back(out.empty() ? materialId(kNone) : out.back());
+        return out;
+    }
+
+    void addMerged(MergedMesh merged) {
+        if (merged.geometry.triangles.empty()) return;
+        auto geometry = std::make_unique<MeshGeometry>(std::move(merged.geometry));
+        geometry->finish(settings_.accel == AccelKind::Bvh);
+        scene_.degenerateCount_ += merged.degenerateCount;
+        scene_.shapes_.add(std::make_unique<Mesh>(*geometry, MovingTransform(),
+                                                  merged.materials, std::move(merged.parts)),
+                           shadowOf(merged.materials));
+        scene_.geometries_.push_back(std::move(geometry));
+    }
+
+    // One geometry per mesh, in a frame of its own; as many transforms as there are instances.
+    void addInstance(std::size_t mesh, const MovingTransform& place,
+                     std::vector<std::uint32_t> materials, std::uint32_t object) {
+        const auto [at, isNew] = instanced_.try_emplace(mesh);
+        if (isNew) {
+            at->second.frame = frameOf(desc_.meshes[mesh]);
+            auto geometry = std::make_unique<MeshGeometry>(
+                toGeometry(desc_.meshes[mesh], at->second.frame));
+            scene_.degenerateCount_ += geometry->dropDegenerate();
+            geometry->finish(settings_.accel == AccelKind::Bvh);
+            at->second.geometry = geometry.get();
+            scene_.geometries_.push_back(std::move(geometry));
+        }
+        const Instanced& shared = at->second;
+        if (shared.geometry->triangles.empty()) return;
+        std::vector<Transform> maps;
+        for (const Transform& key : place.keys())
+            maps.push_back(key * Transform::translate(shared.frame.centre) *
+                           Transform::scale(1 / shared.frame.scale));
+        const ShapeSet::Shadow shadow = shadowOf(materials);
+        scene_.shapes_.add(
+            std::make_unique<Mesh>(*shared.geometry, MovingTransform(std::span<const Transform>(maps)),
+                                   std::move(materials), std::vector<MeshPart>{{0, object}}),
+            shadow);
+    }
+
+    static std::unique_ptr<const Shape> makeShape(const ObjectDesc& object, MovingTransform place,
+                                                  std::uint32_t material, std::uint32_t id) {
+        switch (object.kind) {
+        case ObjectDesc::Kind::Sphere:
+            return std::make_unique<Sphere>(std::move(place), object.radius, material, id);
+        case ObjectDesc::Kind::Cube:
+            return std::make_unique<Cube>(std::move(place), material, id);
+        case ObjectDesc::Kind::Plane:
+            return std::make_unique<Plane>(std::move(place), object.corners, material, id);
+        case ObjectDesc::Kind::InfinitePlane:
+            return std::make_unique<InfinitePlane>(std::move(place), material, id);
+        case ObjectDesc::Kind::Disk:
+            return std::make_unique<Disk>(std::move(place), object.radius, material, id);
+        case ObjectDesc::Kind::Cylinder:
+            return std::make_unique<Cylinder>(std::move(place), object.radius, object.caps, material,
+                                              id);
+        case ObjectDesc::Kind::Cone:
+            return std::make_unique<Cone>(std::move(place), object.radius, object.topRadius,
+                                          object.caps, material, id);
+        case ObjectDesc::Kind::Mesh: break;
+        }
+        fail(ErrorKind::Input, "error: an object of a kind that is not known");
+    }
+
+    // ---- lights
+
+    void buildLights() {
+        for (std::size_t i = 0; i < desc_.lights.size(); ++i) {
+            const LightDesc& light = desc_.lights[i];
+            const auto object = static_cast<std::uint32_t>(desc_.objects.size() + i);
+            const Transform place = scene_.frame_.placed(light.worldFromLight);
+            scene_.lights_.push_back(makeLight(light, place));
+            if (light.visible) addLampBody(light, place, object);
+        }
+    }
+
+    std::unique_ptr<const Light> makeLight(const LightDesc& desc, const Transform& place) const {
+        const double scale = scene_.frame_.scale;
+        const Vec3 position = toFloat(place.point({}));
+        const Vec3 axis = toFloat(normalize(place.vector({0, 0, -1})));
+        const Rgb color = toRgb(desc.color);
+        switch (desc.kind) {
+        case LightDesc::Kind::Point:
+        case LightDesc::Kind::Spot: {
+            std::optional<SpotCone> cone;
+            if (desc.kind == LightDesc::Kind::Spot)
+                cone = SpotCone{axis, toFloat(exact::cos(radians(desc.coneAngleDeg / 2))),
+                                toFloat(desc.blend), desc.cosineFalloff};
+            // E = I / r^2 stays the same when all lengths are scaled.
+            return std::make_unique<PointLight>(position, color * toFloat(scale * scale),
+                                                toFloat(desc.radius * scale), cone, desc.shadows);
+        }
+        case LightDesc::Kind::Sun:
+            return std::make_unique<SunLight>(axis, color, radians(desc.angleDeg / 2), desc.shadows);
+        case LightDesc::Kind::Rectangle:
+        case LightDesc::Kind::Disk:
+            return std::make_unique<FlatLight>(
+                desc.kind == LightDesc::Kind::Rectangle ? FlatLight::Outline::Rectangle
+                                                        : FlatLight::Outline::Ellipse,
+                position, toFloat(place.vector({desc.size.x / 2, 0, 0})),
+                toFloat(place.vector({0, desc.size.y / 2, 0})), axis, color,
+                radians(desc.spreadDeg / 2), desc.shadows);
+        case LightDesc::Kind::Sphere: break;
+        }
+        return std::make_unique<SphereLight>(position, sphereRadius(desc, place), color,
+                                             desc.shadows);
+    }
+
+    // Normalised radius; a lamp that is scaled unevenly takes its x axis.
+    static float sphereRadius(const LightDesc& desc, const Transform& place) {
+        return toFloat(desc.radius * length(place.vector({1, 0, 0})));
+    }
+
+    // The shape of a lamp that can be seen. It casts no shadows: its light passes through it.
+    void addLampBody(const LightDesc& desc, const Transform& place, std::uint32_t object) {
+        SceneMaterial glow;
+        glow.base.diffuse = {};
+        glow.base.emission = toRgb(desc.color);
+        glow.isLamp = true;
+        const auto material = static_cast<std::uint32_t>(scene_.materials_.size());
+        const Transform size = Transform::scale(Vec3d{desc.size.x / 2, desc.size.y / 2, 1});
+        // Lamps shine along -Z, flat shapes face +Z.
+        const MovingTransform flat(place * size * Transform::rotate({1, 0, 0}, kPi));
+        std::unique_ptr<const Shape> body;
+        switch (desc.kind) {
+        case LightDesc::Kind::Rectangle:
+            body = std::make_unique<Plane>(flat, ObjectDesc{}.corners, material, object);
+            break;
+        case LightDesc::Kind::Disk:
+            body = std::make_unique<Disk>(flat, 1.0, material, object);
+            break;
+        case LightDesc::Kind::Sphere:
+            body = std::make_unique<Sphere>(
+                MovingTransform(Transform::translate(place.point({}))),
+                static_cast<double>(sphereRadius(desc, place)), material, object);
+            break;
+        case LightDesc::Kind::Point:
+        case LightDesc::Kind::Spot:
+        case LightDesc::Kind::Sun: return; // have no body
+        }
+        scene_.materials_.push_back(glow);
+        scene_.shapes_.add(std::move(body), ShapeSet::Shadow::None);
+    }
+
+    // ---- features
+
+    void listFeatures() {
+        const auto any = [&](auto test) {
+            return std::any_of(desc_.materials.begin(), desc_.materials.end(), test);
+        };
+        const auto isBlackd = [](Rgbd c) { return c == Rgbd{}; };
+        const bool mirrors = any([&](const MaterialDesc& m) { return !isBlackd(m.mirror); });
+        const bool refracts = any([&](const MaterialDesc& m) { return !isBlackd(m.transmission); });
+        const bool textures = std::any_of(desc_.textures.begin(), desc_.textures.end(),
+                                          [](const TextureDesc&) { return true; });
+        const bool soft = std::any_of(desc_.lights.begin(), desc_.lights.end(), [](const LightDesc& l) {
+            const bool area = l.kind == LightDesc::Kind::Rectangle ||
+                              l.kind == LightDesc::Kind::Disk || l.kind == LightDesc::Kind::Sphere;
+            return area || (l.kind == LightDesc::Kind::Sun ? l.angleDeg > 0 : l.radius > 0);
+        });
+        const bool moving = std::any_of(desc_.objects.begin(), desc_.objects.end(),
+                                        [](const ObjectDesc& o) { return o.worldFromObject.size() > 1; }) ||
+                            cameraDesc_->worldFromCamera.size() > 1;
+        const auto rough = [&](const MaterialDesc& m) {
+            return m.roughness > 0 && (!isBlackd(m.mirror) || !isBlackd(m.transmission));
+        };
+        add("shadows", !desc_.lights.empty(), on_.shadows, "no lights");
+        add("soft-shadows", soft, on_.softShadows && on_.shadows, "no light has a size");
+        add("reflection", mirrors, on_.reflection, "no material has mirror");
+        add("refraction", refracts, on_.refraction, "no material has transmission");
+        add("glossy", any(rough), on_.glossy, "no mirror or transmission has roughness");
+        add("fresnel", any([](const MaterialDesc& m) { return m.fresnel != MaterialDesc::Fresnel::None; }),
+            on_.fresnel, "no material asks for it");
+        add("transparency", scene_.hasSeeThrough_, true, "all materials are opaque");
+        add("textures", textures, on_.textures, "no material has a texture");
+        add("bump", any([](const MaterialDesc& m) { return m.bumpMap != kNone || m.normalMap != kNone; }),
+            on_.textures, "no bump or normal map");
+        add("environment", desc_.world.environment != kNone, on_.textures, "no environment picture");
+        add("dof", cameraDesc_->apertureRadius > 0, on_.dof, "aperture_radius is 0");
+        add("motion-blur", moving, on_.motionBlur, "nothing moves");
+        add("aa", settings_.picture.samplesPerPixel > 1, true, "one sample per pixel");
+        add("instances", !instanced_.empty(), true, "no mesh is used twice");
+    }
+
+    void add(const char* name, bool inScene, bool switchedOn, const char* reason) {
+        scene_.features_.push_back({name, inScene && switchedOn, inScene ? "switched off" : reason});
+    }
+
+    struct Instanced {
+        SceneFrame frame;
+        const MeshGeometry* geometry = nullptr;
+    };
+
+    Scene& scene_;
+    const SceneDesc& desc_;
+    const SourceFile& source_;
+    const RenderSettings& settings_;
+    Switches on_;
+    const CameraDesc* cameraDesc_ = nullptr; // the one that is used
+    std::map<std::size_t, Instanced> instanced_; // by mesh
+};
+
+Scene::Scene(const SceneDesc& desc, const SourceFile& source, const RenderSettings& settings) {
+    SceneBuilder(*this, desc, source, settings).build();
+}
+
+Rgb Scene::background(Vec3 dir) const {
+    return environment_ ? background_ * environment_->radiance(dir) : background_;
+}
+
+void Scene::describe(Stats& stats) const {
+    stats.accel = {};
+    stats.accel.kind = accelKind_ == AccelKind::Bvh ? "bvh" : "none";
+    stats.accel.primitives = shapes_.shapes.size();
+    const auto addTree = [&](const Bvh& bvh) {
+        stats.accel.nodes += bvh.nodes.size();
+        stats.accel.leaves += leafCount(bvh);
+        stats.accel.sah += sahCost(bvh);
+        stats.accel.bytes += bvh.bytes();
+    };
+    addTree(shapes_.bvh);
+    for (const auto& geometry : geometries_) {
+        addTree(geometry->bvh);
+        stats.accel.primitives += geometry->triangles.size();
+    }
+    for (const Feature& feature : features_) {
+        if (feature.needed) stats.featuresNeeded.push_back(feature.name);
+        else stats.featuresSkipped.push_back(cat(feature.name, ": ", feature.reason));
+    }
+    stats.degeneratePrimitives = degenerateCount_;
+}

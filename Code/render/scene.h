@@ -1,0 +1,76 @@
+// Scene: a SceneDesc made ready to be traced, immutable. Everything is placed in double, moved by
+// the centre of the scene and scaled by a power of two so that its extent is in [1,2), and only then
+// becomes float: a scene far from the origin or of any size renders alike (promise P3).
+// scene.cpp is the one file that names the concrete shapes and lights.
+#pragma once
+
+#include "base/source.h"
+#include "camera/camera.h"
+#include "desc/scene_desc.h"
+#include "light/light.h"
+#include "material/material.h"
+#include "render/features.h"
+#include "render/frame.h"
+#include "render/settings.h"
+#include "render/shape_set.h"
+#include "render/stats.h"
+#include "shape/mesh.h"
+#include "texture/environment.h"
+#include "texture/texture.h"
+
+#include <memory>
+#include <vector>
+
+// A material of the scene: its numbers, and the pictures that change them from place to place.
+struct SceneMaterial {
+    Material base;
+    const Texture* diffuse = nullptr;
+    const Texture* specular = nullptr;
+    const Texture* emission = nullptr;
+    const Texture* opacity = nullptr;
+    const Texture* normalMap = nullptr;
+    const Texture* bumpMap = nullptr;
+    float normalStrength = 1;
+    float bumpHeight = 0; // strength times distance, in normalised units
+    bool isLamp = false;  // the visible body of an area light; emits to the front of its shape only
+    bool seeThrough() const { return base.opacity < 1 || opacity != nullptr; }
+    bool bendsNormals() const { return normalMap != nullptr || bumpMap != nullptr; }
+};
+
+class Scene {
+public:
+    // Fails with the place in `source` when a texture can't be read.
+    Scene(const SceneDesc& desc, const SourceFile& source, const RenderSettings& settings);
+    Scene(const Scene&) = delete;
+    Scene& operator=(const Scene&) = delete;
+
+    const SceneFrame& frame() const { return frame_; }
+    const Camera& camera() const { return *camera_; }
+    const ShapeSet& shapes() const { return shapes_; }
+    const std::vector<SceneMaterial>& materials() const { return materials_; }
+    const std::vector<std::unique_ptr<const Light>>& lights() const { return lights_; }
+    Rgb ambient() const { return ambient_; }
+    // Radiance where a ray meets no surface.
+    Rgb background(Vec3 dir) const;
+    bool moves() const { return moves_; }
+    bool hasSeeThrough() const { return hasSeeThrough_; }
+    const Features& features() const { return features_; }
+    // Fills in what the scene knows: accelerator, features, degenerate primitives.
+    void describe(Stats& stats) const;
+
+private:
+    friend class SceneBuilder;
+    SceneFrame frame_;
+    std::unique_ptr<const Camera> camera_;
+    std::vector<std::unique_ptr<const Texture>> textures_;
+    std::vector<SceneMaterial> materials_;
+    std::vector<std::unique_ptr<const MeshGeometry>> geometries_;
+    ShapeSet shapes_;
+    std::vector<std::unique_ptr<const Light>> lights_;
+    std::unique_ptr<const Environment> environment_;
+    Rgb background_, ambient_;
+    bool moves_ = false, hasSeeThrough_ = false;
+    Features features_;
+    AccelKind accelKind_ = AccelKind::Bvh;
+    std::uint64_t degenerateCount_ = 0;
+};

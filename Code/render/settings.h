@@ -1,0 +1,35 @@
+// RenderSettings: every choice that a picture depends on besides the scene itself. Made from
+// SettingsDesc and the command line (cli/), read by the renderer.
+#pragma once
+
+#include "desc/scene_desc.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+enum class IntegratorKind { Whitted, Ao, Normal, Depth, Albedo, Id, Uv };
+enum class AccelKind { Bvh, None };
+enum class Aov { Depth, Normal, Albedo, Position, Id, Samples };
+
+// The features that --no-x switches off. All true: the scene decides.
+struct Switches {
+    bool shadows = true, softShadows = true, reflection = true, refraction = true, glossy = true;
+    bool textures = true, dof = true, motionBlur = true, fresnel = true, aa = true;
+    bool operator==(const Switches&) const = default;
+};
+
+struct RenderSettings {
+    SettingsDesc picture; // resolution, crop, samples, filter, exposure ...; --no-aa sets 1 sample
+    std::string camera;   // name; empty: the first one of the scene
+    Switches switches;
+    IntegratorKind integrator = IntegratorKind::Whitted;
+    AccelKind accel = AccelKind::Bvh;
+    std::string kernel = "scalar"; // resolved name, never "auto"
+    int threads = 1;               // resolved, at least 1
+    std::optional<Rgbd> background;
+    std::vector<Aov> aovs;
+    std::string textureFolder; // --textures DIR; searched after the scene's own folder
+};

@@ -1,0 +1,26 @@
+// From a hit to everything that shading needs: the point, the normals on the eye's side, and the
+// material with its textures applied.
+#pragma once
+
+#include "render/scene.h"
+
+struct ShadedPoint {
+    Surface surface;
+    std::uint32_t materialId = 0; // surface.material
+    Material material;            // textures applied
+    bool isLamp = false;
+    bool front = true;            // the ray came from the outside
+    Vec3 toEye;                   // unit
+    Vec3 ng, n;                   // geometric and shading normal, both on the side of the eye
+};
+
+// `dir` need not be a unit vector.
+ShadedPoint shade(const Scene& scene, const Ray& ray, const Hit& hit);
+
+// Part of the light that goes straight through the surface at a hit: (1 - opacity) * filter.
+Rgb straightTransmission(const Scene& scene, const Ray& ray, const Hit& hit);
+
+// Where a ray starts that leaves the surface at `point` to the side of `side` (+-ng): far enough
+// off, by the error bound of the hit, never to meet the same surface again by rounding. `reach` is
+// the length of the ray if it is one that is known to go far (a shadow ray from a distant lamp).
+Vec3 leave(const Surface& surface, Vec3 side, float reach = 0);

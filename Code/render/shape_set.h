@@ -1,0 +1,38 @@
+// ShapeSet: all shapes of a scene and the top tree over them. Nearest and any-hit queries for one
+// ray; the batch queries (query.h) are loops over these.
+#pragma once
+
+#include "accel/bvh.h"
+#include "shape/shape.h"
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+struct ShapeSet {
+    // How shadow rays see a shape.
+    enum class Shadow : std::uint8_t { Opaque, SeeThrough, None };
+
+    std::vector<std::unique_ptr<const Shape>> shapes; // number = Hit::shape
+    std::vector<Bounds> boxes;
+    std::vector<Shadow> shadows;
+    std::vector<std::uint32_t> bounded, unbounded; // shape numbers; `bounded` in ascending order
+    Bvh bvh;              // over the bounded ones, by position in `bounded`; empty: linear search
+    float extent = 0;     // largest |coordinate| of a finite box
+
+    void add(std::unique_ptr<const Shape> shape, Shadow shadow);
+    // Call once after the last add().
+    void finish(bool withBvh);
+
+    // The hit with the smallest (t, shape) in (tMin, tMax]; Hit::isHit() tells if there is one.
+    // t is at least the entry into the shape's own box, so that no tree can change the answer.
+    Hit closest(const Ray& ray) const;
+    // Is an opaque shape in (tMin, tMax)?
+    bool occluded(const Ray& ray) const;
+    // Appends every hit of the see-through shapes in (tMin, tMax), nearest first, ties by number.
+    void seeThroughHits(const Ray& ray, std::vector<Hit>& hits) const;
+
+private:
+    template <class VisitFn>
+    void visit(const RaySetup& setup, float zCut, VisitFn&& fn) const;
+};

@@ -1,0 +1,36 @@
+// Counters of one render. Every worker has its own; they are summed at the end.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+struct RayCounts {
+    std::uint64_t camera = 0, shadow = 0, reflect = 0, refract = 0, indirect = 0;
+    std::uint64_t total() const { return camera + shadow + reflect + refract + indirect; }
+    RayCounts& operator+=(const RayCounts& o) {
+        camera += o.camera, shadow += o.shadow, reflect += o.reflect, refract += o.refract;
+        indirect += o.indirect;
+        return *this;
+    }
+};
+
+struct AccelStats {
+    std::string kind;
+    std::uint64_t nodes = 0, leaves = 0, bytes = 0, primitives = 0;
+    double sah = 0; // surface-area-heuristic cost of the top tree and its meshes
+};
+
+struct Stats {
+    double parseSeconds = 0, buildSeconds = 0, renderSeconds = 0, writeSeconds = 0, totalSeconds = 0;
+    RayCounts rays;
+    std::uint64_t cameraHits = 0;
+    AccelStats accel;
+    std::uint64_t peakBytes = 0;
+    int threads = 1;
+    std::string kernel;
+    std::vector<std::string> featuresNeeded, featuresSkipped; // skipped: "dof: aperture_radius is 0"
+    double samplesMin = 0, samplesMean = 0, samplesMax = 0;
+    std::uint64_t nanSamples = 0;          // samples dropped because a value was not finite
+    std::uint64_t degeneratePrimitives = 0; // triangles without area, left out of the trees
+};

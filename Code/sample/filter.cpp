@@ -1,0 +1,86 @@
+#include "sample/filter.h"
+
+#include "base/math.h"
+
+#include <algorithm>
+
+namespace {
+
+constexpr int kSteps = 1024; // of the inverse table; linear between
+
+double radiusOf(FilterKind kind, double width) {
+    switch (kind) {
+    case FilterKind::Box:
+    case FilterKind::Tent: return 0.5 * width;
+    case FilterKind::Gaussian: return 1.5 * width;
+    case FilterKind::BlackmanHarris: return width;
+    }
+    return 0;
+}
+
+// The densities on [-1,1] of the radius, 1 in the middle. Constants as in Cycles' film.cpp.
+double shape(FilterKind kind, double x) {
+    if (std::fabs(x) > 1) return 0;
+    switch (kind) {
+    case FilterKind::Box: return 1;
+    case FilterKind::Tent: return 1 - std::fabs(x);
+    case FilterKind::Gaussian: return exact::exp(-18 * x * x);
+    case FilterKind::BlackmanHarris: {
+        const double v = kPi * (x + 1);
+        return 0.35875 - 0.48829 * exact::cos(v) + 0.14128 * exact::cos(2 * v) -
+               0.01168 * exact::cos(3 * v);
+    }
+    }
+    return 0;
+}
+
+// x in [0,1] where the share of the filter between 0 and x is i / kSteps of the upper half.
+std::vector<float> inverseOfCdf(FilterKind kind) {
+    constexpr int kPieces = 16384;
+    std::vector<double> cdf(kPieces + 1, 0.0);
+    for (int i = 0; i < kPieces; ++i) { // Simpson on each piece
+        const double h = 1.0 / kPieces, x = i * h;
+        const double area = (shape(kind, x) + 4 * shape(kind, x + 0.5 * h) + shape(kind, x + h)) *
+                            (h / 6);
+        cdf[static_cast<std::size_t>(i) + 1] = cdf[static_cast<std::size_t>(i)] + area;
+    }
+    std::vector<float> inverse;
+    std::size_t piece = 0;
+    for (int i = 0; i < kSteps; ++i) {
+        const double wanted = cdf.back() * i / kSteps;
+        while (cdf[piece + 1] < wanted) ++piece;
+        const double s = (wanted - cdf[piece]) / (cdf[piece + 1] - cdf[piece]);
+        inverse.push_back(static_cast<float>((static_cast<double>(piece) + s) / kPieces));
+    }
+    inverse.push_back(1);
+    return inverse;
+}
+
+} // namespace
+
+Filter::Filter(FilterKind kind, double width)
+    : kind_(kind), width_(max(width, 0.0)), radius_(radiusOf(kind, width_)) {
+    if (kind == FilterKind::Gaussian || kind == FilterKind::BlackmanHarris)
+        inverse_ = inverseOfCdf(kind);
+}
+
+double Filter::value(double offset) const {
+    return radius_ > 0 ? shape(kind_, offset / radius_) : 0;
+}
+
+Vec2 Filter::sample(Vec2 u) const { return {sample1D(u.x), sample1D(u.y)}; }
+
+float Filter::sample1D(float u) const {
+    const double place = 2 * static_cast<double>(u) - 1, size = std::fabs(place);
+    double x = size; // Box
+    if (kind_ == FilterKind::Tent) {
+        // 1 - sqrt(1 - size) without cancellation
+        x = size / (1 + std::sqrt(1 - size));
+    } else if (!inverse_.empty()) {
+        const double at = size * kSteps;
+        const auto i = std::min(static_cast<std::size_t>(at), inverse_.size() - 2);
+        x = lerp(static_cast<double>(inverse_[i]), static_cast<double>(inverse_[i + 1]),
+                 at - static_cast<double>(i));
+    }
+    return static_cast<float>(std::copysign(x * radius_, place));
+}

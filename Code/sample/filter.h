@@ -1,0 +1,34 @@
+// Filter: the pixel filter, used by importance: samples are placed with the filter's density, so
+// every sample has weight 1 and belongs to one pixel (Ernst 2006). All filters here are positive.
+// Knows nothing about pictures.
+#pragma once
+
+#include "base/vec.h"
+
+#include <vector>
+
+enum class FilterKind { Box, Tent, Gaussian, BlackmanHarris };
+
+class Filter {
+public:
+    // Width in pixels as Cycles counts it (film.cpp): Box and Tent reach width/2 to each side,
+    // BlackmanHarris reaches width, Gaussian has sigma = width/4 and is cut at 1.5 width.
+    // A width of 0 puts all samples into the centre.
+    Filter(FilterKind kind, double width);
+
+    // Offset from the centre of the pixel, in pixels, for u in [0,1)^2; (0.5, 0.5) gives (0, 0).
+    // It is monotone in u, so stratified u give stratified offsets. Error of the inverse: 1e-5 of
+    // the radius but for the outermost 1e-4 of BlackmanHarris and Gaussian.
+    Vec2 sample(Vec2 u) const;
+    // The unnormalised density at an offset along one axis, in pixels; separable.
+    double value(double offset) const;
+    double radius() const { return radius_; } // no offset is larger, in pixels
+    FilterKind kind() const { return kind_; }
+
+private:
+    float sample1D(float u) const;
+
+    FilterKind kind_;
+    double width_, radius_;
+    std::vector<float> inverse_; // of the upper half of the CDF; only for the two smooth kinds
+};

@@ -1,0 +1,155 @@
+#include "sample/sampler.h"
+
+#include "sample/dimensions.h"
+#include "sample/hash.h"
+
+#include <algorithm>
+#include <limits>
+
+namespace {
+
+constexpr std::uint32_t reversed(std::uint32_t x) {
+    x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
+    x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
+    x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
+    x = ((x >> 8) & 0x00ff00ffu) | ((x & 0x00ff00ffu) << 8);
+    return (x >> 16) | (x << 16);
+}
+
+// Owen scrambling of a number whose bits are reversed: every bit is flipped by a hash of the bits
+// below it. Constants of Vegdahl, "Building a Better LK Hash" (2021), after Laine and Karras.
+constexpr std::uint32_t scrambledReversed(std::uint32_t x, std::uint32_t seed) {
+    x ^= x * 0x3d20adeau;
+    x += seed;
+    x *= (seed >> 16) | 1;
+    x ^= x * 0x05526c56u;
+    x ^= x * 0x53a22864u;
+    return x;
+}
+
+// The second dimension of Sobol, bits reversed. Its matrix is Pascal's triangle modulo 2, which is
+// five steps of sums over supersets of the bit positions (Ahmed 2024).
+constexpr std::uint32_t pascalReversed(std::uint32_t index) {
+    index ^= index >> 16;
+    index ^= (index >> 8) & 0x00ff00ffu;
+    index ^= (index >> 4) & 0x0f0f0f0fu;
+    index ^= (index >> 2) & 0x33333333u;
+    index ^= (index >> 1) & 0x55555555u;
+    return index;
+}
+
+// The index-th of `count` in a random order; a bijection on [0, count) for every seed. Kensler,
+// "Correlated Multi-Jittered Sampling" (Pixar 13-01): steps that are invertible modulo the next
+// power of two, repeated until the result is in range.
+constexpr std::uint32_t permuted(std::uint32_t index, std::uint32_t count, std::uint32_t seed) {
+    std::uint32_t mask = count - 1;
+    for (const int shift : {1, 2, 4, 8, 16}) mask |= mask >> shift;
+    do {
+        index ^= seed;
+        index *= 0xe170893du;
+        index ^= seed >> 16;
+        index ^= (index & mask) >> 4;
+        index ^= seed >> 8;
+        index *= 0x0929eb3fu;
+        index ^= seed >> 23;
+        index ^= (index & mask) >> 1;
+        index *= 1 | seed >> 27;
+        index *= 0x6935fa69u;
+        index ^= (index & mask) >> 11;
+        index *= 0x74dcb303u;
+        index ^= (index & mask) >> 2;
+        index *= 0x9e501cc3u;
+        index ^= (index & mask) >> 2;
+        index *= 0xc860a3dfu;
+        index &= mask;
+        index ^= index >> 5;
+    } while (index >= count);
+    return static_cast<std::uint32_t>((std::uint64_t{index} + seed) % count);
+}
+
+// (cell + offset) / count, kept below 1 when it rounds up.
+float inCell(std::uint32_t cell, float offset, std::uint32_t count) {
+    const double place = (static_cast<double>(cell) + static_cast<double>(offset)) /
+                         static_cast<double>(count);
+    const float value = static_cast<float>(place);
+    return value < 1 ? value : 0x1.fffffep-1f;
+}
+
+// The largest divisor of n up to its root: n = rows * columns, as square as it goes.
+std::uint32_t squareDivisor(std::uint32_t n) {
+    std::uint32_t best = 1;
+    for (std::uint64_t d = 2; d * d <= n; ++d)
+        if (n % d == 0) best = static_cast<std::uint32_t>(d);
+    return best;
+}
+
+// Keeps the hashes of one dimension used alone and in a pair apart.
+constexpr std::uint32_t kAlone = 0x80000000u;
+
+} // namespace
+
+Sampler::Sampler(SamplerKind kind, int sampleCount, std::uint32_t seed, bool jitter)
+    : kind_(kind), jitter_(jitter), seed_(seed),
+      count_(sampleCount > 0 ? static_cast<std::uint32_t>(sampleCount) : 1),
+      rows_(squareDivisor(count_)) {
+    columns_ = count_ / rows_;
+}
+
+Sampler Sampler::stream(std::uint32_t id, int repeats) const {
+    constexpr std::uint32_t kStreamSalt = 0x73747265u; // keeps streams apart from pixels
+    const std::int64_t count = std::min<std::int64_t>(static_cast<std::int64_t>(count_) * std::max(repeats, 1),
+                                                      std::numeric_limits<int>::max());
+    Sampler out(kind_, static_cast<int>(count), low32(hash(seed_, id, kStreamSalt)), jitter_);
+    out.isStream_ = true;
+    return out;
+}
+
+float Sampler::get1D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension) const {
+    const std::uint64_t bits = hash(seed_, pixel, dimension | kAlone);
+    const std::uint32_t a = low32(bits), b = high32(bits);
+    switch (kind_) {
+    case SamplerKind::Sobol: {
+        // Shuffling the index is Owen scrambling of the index; the first dimension of Sobol is the
+        // reversed index, so the two reversals between them cancel.
+        const std::uint32_t shuffled = reversed(scrambledReversed(reversed(sample), a));
+        return unitFloat(reversed(scrambledReversed(shuffled, b)));
+    }
+    case SamplerKind::Random: return unitFloat(low32(mixBits(bits + sample * kHashStep)));
+    case SamplerKind::Stratified:
+    case SamplerKind::Grid: break;
+    }
+    const std::uint32_t pass = sample / count_, index = sample % count_;
+    const std::uint64_t more = mixBits(bits + sample * kHashStep);
+    const std::uint32_t cell = permuted(index, count_, a + pass * 0x9e3779b9u);
+    return inCell(cell, unitFloat(low32(more)), count_);
+}
+
+Vec2 Sampler::get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension) const {
+    const bool isPixel = dimension == kPixelDimension && !isStream_;
+    if (isPixel && !jitter_ && count_ == 1) return {0.5f, 0.5f};
+    const std::uint64_t bits = hash(seed_, pixel, dimension), more = mixBits(bits + kHashStep);
+    const std::uint32_t a = low32(bits), b = high32(bits);
+    switch (kind_) {
+    case SamplerKind::Sobol: {
+        const std::uint32_t shuffled = reversed(scrambledReversed(reversed(sample), a));
+        return {unitFloat(reversed(scrambledReversed(shuffled, b))),
+                unitFloat(reversed(scrambledReversed(pascalReversed(shuffled), low32(more))))};
+    }
+    case SamplerKind::Random: {
+        const std::uint64_t both = mixBits(bits + sample * kHashStep);
+        return {unitFloat(low32(both)), unitFloat(high32(both))};
+    }
+    case SamplerKind::Stratified:
+    case SamplerKind::Grid: break;
+    }
+    const std::uint32_t pass = sample / count_, index = sample % count_;
+    const bool inOrder = isPixel && kind_ == SamplerKind::Grid;
+    const std::uint32_t cell = inOrder ? index : permuted(index, count_, a + pass * 0x9e3779b9u);
+    Vec2 offset{0.5f, 0.5f};
+    if (jitter_ || !isPixel) {
+        const std::uint64_t both = mixBits(more + sample * kHashStep);
+        offset = {unitFloat(low32(both)), unitFloat(high32(both))};
+    }
+    return {inCell(cell % columns_, offset.x, columns_),
+            inCell(cell / columns_, offset.y, rows_)};
+}

@@ -1,0 +1,161 @@
+#include "shape/analytic_shape.h"
+
+#include <utility>
+
+namespace {
+
+constexpr double kFloatUlp = 0x1p-24; // half an ulp, relative: error of one rounding to float
+
+// The scene has its extent in [1,2) and its centre at 0 (render/scene.h): how far a ray can run
+// along a surface without end before nothing is left to be seen.
+constexpr double kSceneReach = 4;
+
+double sumOfProducts(Vec3d a, Vec3d b) {
+    return std::fabs(a.x * b.x) + std::fabs(a.y * b.y) + std::fabs(a.z * b.z);
+}
+
+// Row i of the linear part.
+Vec3d row(const Transform& map, std::size_t i) {
+    const Transform::Rows& r = map.rows();
+    return {r[4 * i], r[4 * i + 1], r[4 * i + 2]};
+}
+
+// Largest row sum of |M| |M^-1|: how much a relative error of the object's coordinates grows when
+// it is seen as a distance in the world. At most 3 for a rotation, else about the condition number.
+double amplification(const Transform& map, const Transform& inverse) {
+    Vec3d sums; // of the rows of |M^-1|
+    for (std::size_t i = 0; i < 3; ++i) sums[i] = sumOfProducts(row(inverse, i), {1, 1, 1});
+    double largest = 0;
+    for (std::size_t i = 0; i < 3; ++i) largest = max(largest, sumOfProducts(row(map, i), sums));
+    return largest;
+}
+
+} // namespace
+
+AnalyticShape::AnalyticShape(MovingTransform worldFromObject, std::uint32_t material,
+                             std::uint32_t object)
+    : worldFromObject_(worldFromObject.at(0)), objectFromWorld_(worldFromObject_.inverse()),
+      motion_(std::move(worldFromObject)), isStatic_(motion_.isStatic()), material_(material),
+      object_(object) {}
+
+Bounds AnalyticShape::bounds() const {
+    const BoundsD box =
+        isStatic_ ? boxUnder(worldFromObject_) : motion_.bounds(boxUnder(Transform()));
+    if (!box.isFinite()) {
+        const float inf = kInfinityF;
+        return {{-inf, -inf, -inf}, {inf, inf, inf}};
+    }
+    return outward(box.padded(0x1p-22 * max(maxAbs(box.lo), maxAbs(box.hi))));
+}
+
+AnalyticShape::Roots AnalyticShape::rootsOf(const Ray& ray) const {
+    const RayD world = toDouble(ray);
+    const RayD local = isStatic_ ? objectFromWorld_.ray(world)
+                                 : worldFromObjectAt(ray.time).inverse().ray(world);
+    // Zero, NaN or infinite rays meet nothing.
+    const double dd = dot(local.dir, local.dir);
+    if (!(dd > 0 && dd < kInfinity && dot(local.org, local.org) < kInfinity)) return {};
+    return roots(local);
+}
+
+namespace {
+
+// u keeps what t lost when it was rounded: surface() gets the root to 48 bits, which small shapes
+// far away need, and can tell two roots with the same t apart.
+Hit hitAt(const Root& root, float t) {
+    Hit hit;
+    hit.t = t;
+    hit.u = static_cast<float>(root.t - static_cast<double>(t));
+    hit.prim = root.part;
+    return hit;
+}
+
+} // namespace
+
+bool AnalyticShape::intersect(const Ray& ray, Hit& hit) const {
+    for (const Root& root : rootsOf(ray)) {
+        const float t = static_cast<float>(root.t);
+        if (!(t > ray.tMin)) continue;
+        if (!(t <= hit.t && t < kInfinityF)) return false;
+        const std::uint32_t shape = hit.shape;
+        hit = hitAt(root, t);
+        hit.shape = shape;
+        return true;
+    }
+    return false;
+}
+
+bool AnalyticShape::occludes(const Ray& ray) const {
+    for (const Root& root : rootsOf(ray)) {
+        const float t = static_cast<float>(root.t);
+        if (t > ray.tMin && t < ray.tMax) return true;
+    }
+    return false;
+}
+
+void AnalyticShape::collect(const Ray& ray, std::vector<Hit>& hits) const {
+    for (const Root& root : rootsOf(ray)) {
+        const float t = static_cast<float>(root.t);
+        if (t > ray.tMin && t < ray.tMax) hits.push_back(hitAt(root, t));
+    }
+}
+
+// The error, along the normal n, of a ray origin made from p, with u = 2^-24:
+//  - p is rounded to float, and so is the origin p + n error:      2 u sum |n_i p_i|, taken 3 times
+//  - n is rounded: a ray that leaves along the rounded tangent plane sinks below the true one by
+//    u sqrt(3)/2 of its way, which ends within the shape's box:     u reach
+//    (the rest of this term, 0.13 u reach, covers the rounding of the formulas in double)
+//  - the map to object space and back in double, whose error is 2^-53 times a dozen operations
+//    times the amplification of the map:                          2^-48 amplification (|p| + |T|)
+Surface AnalyticShape::surface(const Ray& ray, const Hit& hit) const {
+    const Transform worldFromObject = worldFromObjectAt(ray.time);
+    const Transform objectFromWorld = worldFromObject.inverse();
+    const double t = static_cast<double>(hit.t) + static_cast<double>(hit.u);
+    const Vec3d seen = toDouble(ray).at(t);
+
+    const BoundsD box = boxUnder(worldFromObject);
+    const double reach =
+        box.isFinite() ? length(box.size()) : kSceneReach * max(1.0, maxAbs(seen));
+    const double fixedError =
+        kFloatUlp * reach + 0x1p-48 * amplification(worldFromObject, objectFromWorld) *
+                                (maxAbs(seen) + maxAbs(worldFromObject.translation()));
+    // Twice the largest error that any normal can give, in the units of each object coordinate.
+    const double distance = 2 * (3 * kFloatUlp * length(seen) + fixedError);
+    const Vec3d inset{distance * length(row(objectFromWorld, 0)),
+                      distance * length(row(objectFromWorld, 1)),
+                      distance * length(row(objectFromWorld, 2))};
+
+    const Local local = describe(objectFromWorld.ray(toDouble(ray)).at(t), hit.prim, inset);
+    // One step of refinement: p is where the inverse, which rays are mapped with, sees local.p.
+    Vec3d p = worldFromObject.point(local.p);
+    p += worldFromObject.vector(local.p - objectFromWorld.point(p));
+    const Vec3d normal = normalize(worldFromObject.normal(local.normal));
+
+    Surface surface;
+    surface.p = toFloat(p);
+    surface.ng = surface.ns = toFloat(normal);
+    surface.uv = {static_cast<float>(local.uv.x), static_cast<float>(local.uv.y)};
+    surface.material = material_;
+    surface.object = object_;
+    surface.error = floatAbove(3 * kFloatUlp * sumOfProducts(normal, p) + fixedError);
+    return surface;
+}
+
+SurfaceDerivatives AnalyticShape::derivatives(const Ray& ray, const Hit& hit) const {
+    const Transform worldFromObject = worldFromObjectAt(ray.time);
+    const double t = static_cast<double>(hit.t) + static_cast<double>(hit.u);
+    const Vec3d p = worldFromObject.inverse().ray(toDouble(ray)).at(t);
+    const Local local = describe(p, hit.prim, {});
+    return {toFloat(worldFromObject.vector(local.dpdu)),
+            toFloat(worldFromObject.vector(local.dpdv))};
+}
+
+BoundsD diskBox(const Transform& worldFromObject, Vec3d centre, double radius) {
+    const Vec3d middle = worldFromObject.point(centre);
+    Vec3d half;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3d m = row(worldFromObject, i);
+        half[i] = radius * std::sqrt(m.x * m.x + m.y * m.y);
+    }
+    return {middle - half, middle + half};
+}

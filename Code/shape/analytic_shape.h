@@ -1,0 +1,71 @@
+// AnalyticShape: what all shapes with a formula have in common. A derived class says where a line
+// meets it in object space and what is there; the ray's way there and back is here, once.
+#pragma once
+
+#include "base/motion.h"
+#include "shape/interval.h"
+#include "shape/shape.h"
+
+#include <array>
+#include <cstddef>
+
+class AnalyticShape : public Shape {
+public:
+    // Static: the smallest box, moving: MovingTransform's; grown by 2^-22 of its largest coordinate
+    // (4 float ulp), so that slabs rounded a few times still hold every point of the surface.
+    Bounds bounds() const final;
+    bool intersect(const Ray& ray, Hit& hit) const final;
+    bool occludes(const Ray& ray) const final;
+    void collect(const Ray& ray, std::vector<Hit>& hits) const final;
+    Surface surface(const Ray& ray, const Hit& hit) const final;
+    SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const final;
+
+protected:
+    // Up to four crossings in ascending t.
+    class Roots {
+    public:
+        void add(Root root) { roots_[static_cast<std::size_t>(count_++)] = root; }
+        void addEnds(const Interval& inside) {
+            if (inside.isEmpty()) return;
+            add(inside.enter);
+            add(inside.exit);
+        }
+        const Root* begin() const { return roots_.data(); }
+        const Root* end() const { return roots_.data() + count_; }
+
+    private:
+        std::array<Root, 4> roots_;
+        int count_ = 0;
+    };
+    // A point of the surface in object space; the normal has any length but zero.
+    struct Local {
+        Vec3d p, normal;
+        Vec2d uv;
+        Vec3d dpdu, dpdv;
+    };
+
+    AnalyticShape(MovingTransform worldFromObject, std::uint32_t material, std::uint32_t object);
+
+    // The whole line, in double; org and dir are finite, dir is not zero nor of unit length.
+    virtual Roots roots(const RayD& ray) const = 0;
+    // Pulls p, which is near the surface's `part`, onto it. Closed shapes also keep it `inset` (per
+    // coordinate) away from where parts meet: then a ray that starts inside stays inside even if
+    // its origin is rounded to float.
+    virtual Local describe(Vec3d p, std::uint32_t part, Vec3d inset) const = 0;
+    // The smallest box of the mapped shape.
+    virtual BoundsD boxUnder(const Transform& worldFromObject) const = 0;
+
+private:
+    Roots rootsOf(const Ray& ray) const;
+    Transform worldFromObjectAt(float time) const {
+        return isStatic_ ? worldFromObject_ : motion_.at(static_cast<double>(time));
+    }
+
+    Transform worldFromObject_, objectFromWorld_; // of a static shape
+    MovingTransform motion_;
+    bool isStatic_;
+    std::uint32_t material_, object_;
+};
+
+// Smallest box of a disk about `centre` in a plane of constant z, mapped.
+BoundsD diskBox(const Transform& worldFromObject, Vec3d centre, double radius);

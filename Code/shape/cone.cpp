@@ -1,0 +1,94 @@
+#include "shape/cone.h"
+
+#include "shape/cap.h"
+
+#include <utility>
+
+Cone::Cone(MovingTransform worldFromObject, double radius, double topRadius, bool caps,
+           std::uint32_t material, std::uint32_t object)
+    : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius),
+      topRadius_(topRadius), caps_(caps), slope_((topRadius - radius) / 2),
+      narrowZ_(topRadius < radius ? 1 : -1), narrowRadius_(min(radius, topRadius)) {}
+
+// Where x^2 + y^2 <= radiusAt(z)^2 and radiusAt(z) >= 0. The quadratic a t^2 + 2 b t + c is set up
+// at the point of the line closest to the narrow end, so its coefficients are exact relative to the
+// distance from the tip, where the sides come together, however far the ray starts.
+Interval Cone::insideSide(const RayD& ray) const {
+    const Vec3d d = ray.dir;
+    const Vec3d org = ray.org - Vec3d{0, 0, narrowZ_};
+    const double shift = -dot(org, d) / dot(d, d);
+    const Vec3d o = org + d * shift;
+    const double w = narrowRadius_ + slope_ * o.z, dw = slope_ * d.z;
+
+    const double a = d.x * d.x + d.y * d.y - dw * dw;
+    const double b = o.x * d.x + o.y * d.y - w * dw;
+    const double c = o.x * o.x + o.y * o.y - w * w;
+    if (a == 0 && b == 0) return Interval::all(c <= 0);
+    const double discriminant = differenceOfProducts(b, b, a, c);
+    if (a >= 0 && !(discriminant >= 0)) return Interval::empty();
+    // A steep line (a < 0) always meets both halves of the double cone: below 0 is rounding.
+    const double q = -(b + std::copysign(std::sqrt(max(discriminant, 0.0)), b));
+    const double stable = q != 0 ? c / q : 0; // stays finite as a goes to 0
+    if (a == 0) {
+        const Root end{shift + stable, kSide};
+        return b > 0 ? Interval{{-kInfinity, kSide}, end} : Interval{end, {kInfinity, kSide}};
+    }
+    const double other = q / a;
+    const Root low{shift + min(stable, other), kSide}, high{shift + max(stable, other), kSide};
+    if (a > 0) return {low, high};
+    // Steep: inside outside the roots; the half where the radius is positive counts.
+    return dw > 0 ? Interval{high, {kInfinity, kSide}} : Interval{{-kInfinity, kSide}, low};
+}
+
+AnalyticShape::Roots Cone::roots(const RayD& ray) const {
+    Roots found;
+    const Interval side = insideSide(ray);
+    if (caps_) {
+        found.addEnds(intersection(slab(ray.org.z, ray.dir.z, -1, 1, kBottom, kTop), side));
+        return found;
+    }
+    if (side.isEmpty()) return found;
+    for (const Root& root : {side.enter, side.exit})
+        if (std::fabs(ray.org.z + ray.dir.z * root.t) <= 1) found.add(root);
+    return found;
+}
+
+AnalyticShape::Local Cone::describe(Vec3d p, std::uint32_t part, Vec3d inset) const {
+    const double radialInset = std::sqrt(inset.x * inset.x + inset.y * inset.y);
+    if (part != kSide) {
+        const bool top = part == kTop;
+        const double radius = top ? topRadius_ : radius_;
+        const Cap at = cap(p, top, radius, radialInset + std::fabs(slope_) * inset.z);
+        return {at.p, at.normal, at.uv, at.dpdu, at.dpdv};
+    }
+
+    const double around = std::sqrt(p.x * p.x + p.y * p.y);
+    const double limit = 1 - min(inset.z, 0.5);
+    double z = clamp(p.z, -limit, limit);
+    double w = radiusAt(z);
+    if (around == 0 && narrowRadius_ == 0) {
+        // The tip has no normal of its own; the axis is one of those between its sides.
+        return {{0, 0, narrowZ_},
+                {0, 0, narrowZ_},
+                {0.5, 0.5 + 0.5 * narrowZ_},
+                {0, kTwoPi * 0x1p-20 * max(radius_, topRadius_), 0},
+                {2 * slope_, 0, 2}};
+    }
+    // Near the tip the inside is thinner than the inset: go down the side to where it fits.
+    const double leastRadius = min(4 * radialInset, max(radius_, topRadius_) / 2);
+    if (w < leastRadius) {
+        w = leastRadius;
+        z = narrowZ_ + (w - narrowRadius_) / slope_;
+    }
+    const double c = around > 0 ? p.x / around : 1, s = around > 0 ? p.y / around : 0;
+    return {{c * w, s * w, z},
+            {c, s, -slope_},
+            {0.5 + exact::atan2(s, c) * kInvTwoPi, 0.5 + 0.5 * z},
+            {-s * kTwoPi * w, c * kTwoPi * w, 0},
+            {2 * slope_ * c, 2 * slope_ * s, 2}};
+}
+
+BoundsD Cone::boxUnder(const Transform& worldFromObject) const {
+    return merge(diskBox(worldFromObject, {0, 0, -1}, radius_),
+                 diskBox(worldFromObject, {0, 0, 1}, topRadius_));
+}

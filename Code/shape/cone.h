@@ -1,0 +1,27 @@
+// Cone about the z axis of object space: `radius` at z = -1, `topRadius` at z = 1, so that it may
+// be cut off, stand on its tip, or be a tube. With caps it is a solid, without them the side alone.
+#pragma once
+
+#include "shape/analytic_shape.h"
+
+class Cone final : public AnalyticShape {
+public:
+    // Side: u = 1/2 + angle / 2 pi from +x towards +y, v = 0 at z = -1 to 1 at z = 1. Caps: the
+    // square around the disk, unmirrored from outside (u along x on top, along -x at the bottom).
+    Cone(MovingTransform worldFromObject, double radius, double topRadius, bool caps,
+         std::uint32_t material, std::uint32_t object);
+
+private:
+    enum Part : std::uint32_t { kSide, kBottom, kTop };
+    Roots roots(const RayD& ray) const override;
+    Local describe(Vec3d p, std::uint32_t part, Vec3d inset) const override;
+    BoundsD boxUnder(const Transform& worldFromObject) const override;
+
+    Interval insideSide(const RayD& ray) const;
+    double radiusAt(double z) const { return narrowRadius_ + slope_ * (z - narrowZ_); }
+
+    double radius_, topRadius_;
+    bool caps_;
+    double slope_;                  // growth of the radius with z
+    double narrowZ_, narrowRadius_; // at the narrow end, the tip of a true cone
+};

@@ -1,0 +1,52 @@
+#include "shape/cube.h"
+
+#include <utility>
+
+namespace {
+
+struct Face {
+    std::size_t axis;
+    double side;
+    Vec3d right, up; // right x up = outward
+};
+constexpr Face kFaces[] = {
+    {0, -1, {0, -1, 0}, {0, 0, 1}}, {0, 1, {0, 1, 0}, {0, 0, 1}},
+    {1, -1, {1, 0, 0}, {0, 0, 1}},  {1, 1, {-1, 0, 0}, {0, 0, 1}},
+    {2, -1, {-1, 0, 0}, {0, 1, 0}}, {2, 1, {1, 0, 0}, {0, 1, 0}},
+};
+
+} // namespace
+
+Cube::Cube(MovingTransform worldFromObject, std::uint32_t material, std::uint32_t object)
+    : AnalyticShape(std::move(worldFromObject), material, object) {}
+
+AnalyticShape::Roots Cube::roots(const RayD& ray) const {
+    const Interval x = slab(ray.org.x, ray.dir.x, -1, 1, 0, 1);
+    const Interval y = slab(ray.org.y, ray.dir.y, -1, 1, 2, 3);
+    const Interval z = slab(ray.org.z, ray.dir.z, -1, 1, 4, 5);
+    Roots found;
+    found.addEnds(intersection(intersection(x, y), z));
+    return found;
+}
+
+AnalyticShape::Local Cube::describe(Vec3d p, std::uint32_t part, Vec3d inset) const {
+    const Face& face = kFaces[part % 6];
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double limit = 1 - min(inset[i], 0.5);
+        p[i] = i == face.axis ? face.side : clamp(p[i], -limit, limit);
+    }
+    Vec3d normal;
+    normal[face.axis] = face.side;
+    return {p,
+            normal,
+            {0.5 + 0.5 * dot(p, face.right), 0.5 + 0.5 * dot(p, face.up)},
+            face.right * 2.0,
+            face.up * 2.0};
+}
+
+BoundsD Cube::boxUnder(const Transform& worldFromObject) const {
+    BoundsD box;
+    const BoundsD unit{{-1, -1, -1}, {1, 1, 1}};
+    for (int i = 0; i < 8; ++i) box.extend(worldFromObject.point(unit.corner(i)));
+    return box;
+}

@@ -1,0 +1,53 @@
+#include "shape/cylinder.h"
+
+#include "shape/cap.h"
+
+#include <utility>
+
+Cylinder::Cylinder(MovingTransform worldFromObject, double radius, bool caps,
+                   std::uint32_t material, std::uint32_t object)
+    : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius), caps_(caps) {}
+
+// Where x^2 + y^2 <= radius^2.
+Interval Cylinder::insideTube(const RayD& ray) const {
+    const double ox = ray.org.x, oy = ray.org.y, dx = ray.dir.x, dy = ray.dir.y;
+    const double dd = dx * dx + dy * dy, od = ox * dx + oy * dy, oo = ox * ox + oy * oy;
+    if (dd == 0) return Interval::all(radius_ > 0 && oo <= radius_ * radius_);
+    const double px = ox - dx * (od / dd), py = oy - dy * (od / dd);
+    return insideRound(dd, od, oo, px * px + py * py, radius_, kSide);
+}
+
+AnalyticShape::Roots Cylinder::roots(const RayD& ray) const {
+    Roots found;
+    const Interval tube = insideTube(ray);
+    if (caps_) {
+        found.addEnds(intersection(slab(ray.org.z, ray.dir.z, -1, 1, kBottom, kTop), tube));
+        return found;
+    }
+    if (tube.isEmpty()) return found;
+    for (const Root& root : {tube.enter, tube.exit})
+        if (std::fabs(ray.org.z + ray.dir.z * root.t) <= 1) found.add(root);
+    return found;
+}
+
+AnalyticShape::Local Cylinder::describe(Vec3d p, std::uint32_t part, Vec3d inset) const {
+    if (part != kSide) {
+        const double radialInset = std::sqrt(inset.x * inset.x + inset.y * inset.y);
+        const Cap at = cap(p, part == kTop, radius_, radialInset);
+        return {at.p, at.normal, at.uv, at.dpdu, at.dpdv};
+    }
+    const double around = std::sqrt(p.x * p.x + p.y * p.y);
+    const double c = around > 0 ? p.x / around : 1, s = around > 0 ? p.y / around : 0;
+    const double limit = 1 - min(inset.z, 0.5);
+    const double z = clamp(p.z, -limit, limit);
+    return {{c * radius_, s * radius_, z},
+            {c, s, 0},
+            {0.5 + exact::atan2(s, c) * kInvTwoPi, 0.5 + 0.5 * z},
+            {-s * kTwoPi * radius_, c * kTwoPi * radius_, 0},
+            {0, 0, 2}};
+}
+
+BoundsD Cylinder::boxUnder(const Transform& worldFromObject) const {
+    return merge(diskBox(worldFromObject, {0, 0, -1}, radius_),
+                 diskBox(worldFromObject, {0, 0, 1}, radius_));
+}

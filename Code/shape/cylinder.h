@@ -1,0 +1,24 @@
+// Cylinder about the z axis of object space, |z| <= 1. With caps it is a solid, without them the
+// side alone.
+#pragma once
+
+#include "shape/analytic_shape.h"
+
+class Cylinder final : public AnalyticShape {
+public:
+    // Side: u = 1/2 + angle / 2 pi from +x towards +y, v = 0 at z = -1 to 1 at z = 1. Caps: the
+    // square around the disk, unmirrored from outside (u along x on top, along -x at the bottom).
+    Cylinder(MovingTransform worldFromObject, double radius, bool caps, std::uint32_t material,
+             std::uint32_t object);
+
+private:
+    enum Part : std::uint32_t { kSide, kBottom, kTop };
+    Roots roots(const RayD& ray) const override;
+    Local describe(Vec3d p, std::uint32_t part, Vec3d inset) const override;
+    BoundsD boxUnder(const Transform& worldFromObject) const override;
+
+    Interval insideTube(const RayD& ray) const;
+
+    double radius_;
+    bool caps_;
+};

@@ -1,0 +1,30 @@
+#include "shape/disk.h"
+
+#include <utility>
+
+Disk::Disk(MovingTransform worldFromObject, double radius, std::uint32_t material,
+           std::uint32_t object)
+    : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius) {}
+
+AnalyticShape::Roots Disk::roots(const RayD& ray) const {
+    if (ray.dir.z == 0 || !(radius_ > 0)) return {};
+    const double t = -ray.org.z / ray.dir.z;
+    const Vec3d p = ray.at(t);
+    if (!(p.x * p.x + p.y * p.y <= radius_ * radius_)) return {};
+    Roots found;
+    found.add({t, 0});
+    return found;
+}
+
+AnalyticShape::Local Disk::describe(Vec3d p, std::uint32_t, Vec3d) const {
+    const double side = 2 * radius_;
+    return {{p.x, p.y, 0},
+            {0, 0, 1},
+            {0.5 + p.x / side, 0.5 + p.y / side},
+            {side, 0, 0},
+            {0, side, 0}};
+}
+
+BoundsD Disk::boxUnder(const Transform& worldFromObject) const {
+    return diskBox(worldFromObject, {0, 0, 0}, radius_);
+}

@@ -1,0 +1,21 @@
+#include "shape/infinite_plane.h"
+
+#include <utility>
+
+InfinitePlane::InfinitePlane(MovingTransform worldFromObject, std::uint32_t material,
+                             std::uint32_t object)
+    : AnalyticShape(std::move(worldFromObject), material, object) {}
+
+AnalyticShape::Roots InfinitePlane::roots(const RayD& ray) const {
+    Roots found;
+    if (ray.dir.z != 0) found.add({-ray.org.z / ray.dir.z, 0});
+    return found;
+}
+
+AnalyticShape::Local InfinitePlane::describe(Vec3d p, std::uint32_t, Vec3d) const {
+    return {{p.x, p.y, 0}, {0, 0, 1}, {p.x, p.y}, {1, 0, 0}, {0, 1, 0}};
+}
+
+BoundsD InfinitePlane::boxUnder(const Transform&) const {
+    return {{-kInfinity, -kInfinity, -kInfinity}, {kInfinity, kInfinity, kInfinity}};
+}

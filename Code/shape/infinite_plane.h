@@ -1,0 +1,14 @@
+// InfinitePlane: z = 0 of object space, without end. Its normal is +z, uv are the object's x and y.
+#pragma once
+
+#include "shape/analytic_shape.h"
+
+class InfinitePlane final : public AnalyticShape {
+public:
+    InfinitePlane(MovingTransform worldFromObject, std::uint32_t material, std::uint32_t object);
+
+private:
+    Roots roots(const RayD& ray) const override;
+    Local describe(Vec3d p, std::uint32_t part, Vec3d inset) const override;
+    BoundsD boxUnder(const Transform& worldFromObject) const override;
+};

@@ -1,0 +1,239 @@
+#include "shape/mesh.h"
+
+#include "accel/triangle.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace {
+
+Vec3d crossOfEdges(Vec3 v0, Vec3 v1, Vec3 v2) {
+    return cross(toDouble(v1) - toDouble(v0), toDouble(v2) - toDouble(v0));
+}
+
+// Keys of hits that count: t > tMin is key < farKey, t < tMax is key > nearKey.
+struct KeyRange {
+    float above, below;
+    KeyRange(const RaySetup& setup, float tMin, float tMax)
+        : above(1.0f / (tMax * setup.dz)), below(1.0f / (tMin * setup.dz)) {}
+    bool contains(float key) const { return key > above && key < below; }
+};
+
+// Weights of the corners 1 and 2, from edge functions without error.
+Vec2 barycentrics(const RaySetup& setup, Vec3 v0, Vec3 v1, Vec3 v2) {
+    const Vec3d e = ShearedTriangle(setup, v0, v1, v2).edgesExact();
+    const double sum = e.x + e.y + e.z;
+    return {static_cast<float>(e.y / sum), static_cast<float>(e.z / sum)};
+}
+
+template <class T>
+T interpolate(T a, T b, T c, float u, float v) {
+    return a * (1 - u - v) + b * u + c * v;
+}
+
+// The vertex's part of the error of a hit: what Woop's test and the plane key lose to rounding,
+// about 8 units of the largest coordinate difference, doubled. See RaySetup for the pads.
+constexpr double kTriangleError = 0x1p-20;
+
+} // namespace
+
+std::uint64_t MeshGeometry::dropDegenerate() {
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const Corners c = triangles[i];
+        if (crossOfEdges(points[c[0]], points[c[1]], points[c[2]]) == Vec3d{}) continue;
+        triangles[kept] = c;
+        if (!normalTriangles.empty()) normalTriangles[kept] = normalTriangles[i];
+        if (!uvTriangles.empty()) uvTriangles[kept] = uvTriangles[i];
+        if (!slots.empty()) slots[kept] = slots[i];
+        ++kept;
+    }
+    const std::uint64_t dropped = triangles.size() - kept;
+    triangles.resize(kept);
+    if (!normalTriangles.empty()) normalTriangles.resize(kept);
+    if (!uvTriangles.empty()) uvTriangles.resize(kept);
+    if (!slots.empty()) slots.resize(kept);
+    return dropped;
+}
+
+void MeshGeometry::finish(bool withBvh) {
+    extent = 0;
+    for (const Vec3 p : points) extent = max(maxAbs(p), extent);
+    if (!withBvh) return;
+    std::vector<Bounds> boxes(triangles.size());
+    for (std::size_t i = 0; i < triangles.size(); ++i)
+        for (const std::uint32_t corner : triangles[i]) boxes[i].extend(points[corner]);
+    bvh = buildBvh(boxes);
+}
+
+std::size_t MeshGeometry::bytes() const {
+    return bvh.bytes() + points.size() * sizeof(Vec3) + triangles.size() * sizeof(Corners) +
+           normals.size() * sizeof(Vec3) + normalTriangles.size() * sizeof(Corners) +
+           uvs.size() * sizeof(Vec2) + uvTriangles.size() * sizeof(Corners) + slots.size() * 4;
+}
+
+Mesh::Mesh(const MeshGeometry& geometry, MovingTransform worldFromMesh,
+           std::vector<std::uint32_t> materials, std::vector<MeshPart> parts)
+    : geometry_(geometry), worldFromMesh_(std::move(worldFromMesh)),
+      meshFromWorld_(worldFromMesh_.at(0).inverse()),
+      identity_(worldFromMesh_.isStatic() && worldFromMesh_.at(0).isIdentity()),
+      materials_(std::move(materials)), parts_(std::move(parts)) {
+    Bounds box;
+    for (const auto& corners : geometry.triangles)
+        for (const std::uint32_t corner : corners) box.extend(geometry.points[corner]);
+    if (box.isEmpty()) return;
+    bounds_ = identity_ ? box : outward(worldFromMesh_.bounds(toDouble(box)));
+}
+
+Bounds Mesh::bounds() const { return bounds_; }
+
+Transform Mesh::worldFromMeshAt(float time) const { return worldFromMesh_.at(time); }
+
+Ray Mesh::meshRay(const Ray& worldRay) const {
+    if (identity_) return worldRay;
+    if (worldFromMesh_.isStatic()) return meshFromWorld_.ray(worldRay);
+    return worldFromMeshAt(worldRay.time).inverse().ray(worldRay);
+}
+
+float Mesh::keyOf(const RaySetup& setup, std::uint32_t triangle) const {
+    const auto& c = geometry_.triangles[triangle];
+    return canonicalKey(setup, geometry_.points[c[0]], geometry_.points[c[1]],
+                        geometry_.points[c[2]]);
+}
+
+template <class LeafFn>
+void Mesh::forEachTriangle(const RaySetup& setup, float zCut, LeafFn&& leaf) const {
+    if (!geometry_.bvh.nodes.empty()) return traverse(geometry_.bvh, setup, zCut, leaf);
+    for (std::uint32_t i = 0; i < geometry_.triangles.size(); ++i)
+        if (leaf(i, zCut)) return;
+}
+
+bool Mesh::intersect(const Ray& worldRay, Hit& hit) const {
+    const Ray ray = meshRay(worldRay);
+    if (!isTraceable(ray)) return false;
+    const RaySetup setup(ray.org, ray.dir, geometry_.extent);
+    const KeyRange range(setup, ray.tMin, kInfinityF);
+
+    float bestKey = 0;
+    std::uint32_t best = 0;
+    const float zLimit = depthCut(1.0f / (hit.t * setup.dz)); // behind it nothing is wanted
+    forEachTriangle(setup, zLimit, [&](std::uint32_t triangle, float& zCut) {
+        const float key = keyOf(setup, triangle);
+        if (!range.contains(key)) return false;
+        if (key > bestKey || (key == bestKey && triangle < best)) {
+            bestKey = key;
+            best = triangle;
+            zCut = min(depthCut(key), zCut);
+        }
+        return false;
+    });
+    const float t = 1.0f / (bestKey * setup.dz);
+    if (bestKey == 0 || !(t <= hit.t)) return false;
+    const auto& c = geometry_.triangles[best];
+    const Vec2 uv = barycentrics(setup, geometry_.points[c[0]], geometry_.points[c[1]],
+                                 geometry_.points[c[2]]);
+    hit.t = t;
+    hit.u = uv.x;
+    hit.v = uv.y;
+    hit.prim = best;
+    return true;
+}
+
+bool Mesh::occludes(const Ray& worldRay) const {
+    const Ray ray = meshRay(worldRay);
+    if (!isTraceable(ray)) return false;
+    const RaySetup setup(ray.org, ray.dir, geometry_.extent);
+    const KeyRange range(setup, ray.tMin, ray.tMax);
+    bool found = false;
+    forEachTriangle(setup, depthCut(range.above), [&](std::uint32_t triangle, float&) {
+        found = range.contains(keyOf(setup, triangle));
+        return found;
+    });
+    return found;
+}
+
+void Mesh::collect(const Ray& worldRay, std::vector<Hit>& hits) const {
+    const Ray ray = meshRay(worldRay);
+    if (!isTraceable(ray)) return;
+    const RaySetup setup(ray.org, ray.dir, geometry_.extent);
+    const KeyRange range(setup, ray.tMin, ray.tMax);
+    forEachTriangle(setup, depthCut(range.above), [&](std::uint32_t triangle, float&) {
+        const float key = keyOf(setup, triangle);
+        if (!range.contains(key)) return false;
+        const auto& c = geometry_.triangles[triangle];
+        const Vec2 uv = barycentrics(setup, geometry_.points[c[0]], geometry_.points[c[1]],
+                                     geometry_.points[c[2]]);
+        hits.push_back({.t = 1.0f / (key * setup.dz), .u = uv.x, .v = uv.y, .prim = triangle});
+        return false;
+    });
+}
+
+Surface Mesh::surface(const Ray& worldRay, const Hit& hit) const {
+    const auto& c = geometry_.triangles[hit.prim];
+    const Vec3 v0 = geometry_.points[c[0]], v1 = geometry_.points[c[1]], v2 = geometry_.points[c[2]];
+    const double u = hit.u, v = hit.v, w = 1 - u - v;
+    const Vec3d p = toDouble(v0) * w + toDouble(v1) * u + toDouble(v2) * v;
+    const Vec3d n = normalize(crossOfEdges(v0, v1, v2));
+    const float scale = max(maxAbs(v0), max(maxAbs(v1), maxAbs(v2)));
+
+    Surface s;
+    Vec3d ns = n;
+    if (!geometry_.normalTriangles.empty()) {
+        const auto& k = geometry_.normalTriangles[hit.prim];
+        ns = toDouble(interpolate(geometry_.normals[k[0]], geometry_.normals[k[1]],
+                                  geometry_.normals[k[2]], hit.u, hit.v));
+    }
+    if (identity_) {
+        s.p = toFloat(p);
+        s.ng = toFloat(n);
+        s.error = static_cast<float>(kTriangleError * scale);
+    } else {
+        const Transform worldFromMesh = worldFromMeshAt(worldRay.time);
+        s.p = toFloat(worldFromMesh.point(p));
+        const Vec3d normal = worldFromMesh.normal(n);
+        s.ng = toFloat(normalize(normal));
+        ns = worldFromMesh.normal(ns);
+        // A step h along the world normal moves the point by h times this off the mesh's plane.
+        const Transform meshFromWorld = worldFromMesh.inverse();
+        const double offPlane = dot(meshFromWorld.vector(normalize(normal)), n);
+        const double lost = kTriangleError * scale + 0x1p-22 * maxAbs(meshFromWorld.point({}));
+        s.error = static_cast<float>(lost / std::fabs(offPlane) + 0x1p-22 * maxAbs(s.p));
+    }
+    const double length2 = dot(ns, ns);
+    s.ns = length2 > 0 ? toFloat(ns / std::sqrt(length2)) : s.ng;
+    if (!(dot(s.ns, s.ng) > 0)) s.ns = s.ng;
+    if (!geometry_.uvTriangles.empty()) {
+        const auto& k = geometry_.uvTriangles[hit.prim];
+        s.uv = interpolate(geometry_.uvs[k[0]], geometry_.uvs[k[1]], geometry_.uvs[k[2]], hit.u,
+                           hit.v);
+    } else {
+        s.uv = {hit.u, hit.v};
+    }
+    s.material = materials_[geometry_.slots.empty() ? 0 : geometry_.slots[hit.prim]];
+    const auto part = std::upper_bound(
+        parts_.begin(), parts_.end(), hit.prim,
+        [](std::uint32_t prim, const MeshPart& other) { return prim < other.firstTriangle; });
+    s.object = std::prev(part)->object;
+    return s;
+}
+
+SurfaceDerivatives Mesh::derivatives(const Ray& worldRay, const Hit& hit) const {
+    const auto& c = geometry_.triangles[hit.prim];
+    const Vec3d v0 = toDouble(geometry_.points[c[0]]);
+    const Vec3d e1 = toDouble(geometry_.points[c[1]]) - v0;
+    const Vec3d e2 = toDouble(geometry_.points[c[2]]) - v0;
+    Vec3d dpdu = e1, dpdv = e2; // of the barycentrics, when there are no texture coordinates
+    if (!geometry_.uvTriangles.empty()) {
+        const auto& k = geometry_.uvTriangles[hit.prim];
+        const Vec2 t0 = geometry_.uvs[k[0]];
+        const Vec2 d1 = geometry_.uvs[k[1]] - t0, d2 = geometry_.uvs[k[2]] - t0;
+        const double det = static_cast<double>(d1.x) * d2.y - static_cast<double>(d1.y) * d2.x;
+        if (det != 0) {
+            dpdu = (e1 * static_cast<double>(d2.y) - e2 * static_cast<double>(d1.y)) / det;
+            dpdv = (e2 * static_cast<double>(d1.x) - e1 * static_cast<double>(d2.x)) / det;
+        }
+    }
+    if (identity_) return {toFloat(dpdu), toFloat(dpdv)};
+    const Transform worldFromMesh = worldFromMeshAt(worldRay.time);
+    return {toFloat(worldFromMesh.vector(dpdu)), toFloat(worldFromMesh.vector(dpdv))};
+}

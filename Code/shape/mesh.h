@@ -1,0 +1,67 @@
+// Triangle meshes: MeshGeometry is the data, shared by all instances; Mesh is the Shape that puts it
+// into the world. Traversal uses the canonical triangle hit (accel/triangle.h) in the geometry's own
+// float space, so one ray sees one set of vertex bits and closed meshes cannot leak.
+#pragma once
+
+#include "accel/bvh.h"
+#include "base/motion.h"
+#include "shape/shape.h"
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+struct MeshGeometry {
+    using Corners = std::array<std::uint32_t, 3>;
+    std::vector<Vec3> points;
+    std::vector<Corners> triangles; // counter-clockwise seen from outside
+    std::vector<Vec3> normals;      // with corner indices of their own; may be empty
+    std::vector<Corners> normalTriangles;
+    std::vector<Vec2> uvs;
+    std::vector<Corners> uvTriangles;
+    std::vector<std::uint32_t> slots; // material slot per triangle; empty: all 0
+    Bvh bvh;                          // empty: every triangle is tested (--accel none)
+    float extent = 0;                 // largest |coordinate| of a point
+
+    // Takes triangles without area out of the lists and returns how many there were.
+    std::uint64_t dropDegenerate();
+    // Computes extent and, if wanted, the tree. The lists do not change afterwards.
+    void finish(bool withBvh);
+    std::size_t bytes() const;
+};
+
+// A run of triangles of a Mesh that came from one object: for object ids after meshes were merged.
+struct MeshPart {
+    std::uint32_t firstTriangle = 0;
+    std::uint32_t object = 0;
+};
+
+class Mesh final : public Shape {
+public:
+    // `materials` by slot, `parts` in ascending order, the first starting at triangle 0.
+    // The geometry must outlive the shape.
+    Mesh(const MeshGeometry& geometry, MovingTransform worldFromMesh,
+         std::vector<std::uint32_t> materials, std::vector<MeshPart> parts);
+
+    Bounds bounds() const override;
+    bool intersect(const Ray& ray, Hit& hit) const override;
+    bool occludes(const Ray& ray) const override;
+    void collect(const Ray& ray, std::vector<Hit>& hits) const override;
+    Surface surface(const Ray& ray, const Hit& hit) const override;
+    SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override;
+
+private:
+    Ray meshRay(const Ray& worldRay) const;
+    Transform worldFromMeshAt(float time) const;
+    template <class LeafFn>
+    void forEachTriangle(const RaySetup& setup, float zCut, LeafFn&& leaf) const;
+    float keyOf(const RaySetup& setup, std::uint32_t triangle) const;
+
+    const MeshGeometry& geometry_;
+    MovingTransform worldFromMesh_;
+    Transform meshFromWorld_; // when it does not move
+    bool identity_;           // the geometry is in world space already
+    std::vector<std::uint32_t> materials_;
+    std::vector<MeshPart> parts_;
+    Bounds bounds_;
+};

@@ -1,0 +1,26 @@
+// Plane: a flat convex quadrilateral with any four coplanar corners.
+#pragma once
+
+#include "shape/analytic_shape.h"
+
+class Plane final : public AnalyticShape {
+public:
+    using Corners = std::array<Vec3d, 4>;
+    // Corners in order around the edge; the normal points to where they turn counter-clockwise (+z
+    // for the square of scene_desc.h). uv is (0,0), (1,0), (1,1), (0,1) at the corners, and between
+    // them p = bilinear(uv). Corners on a line give a shape that no ray meets.
+    Plane(MovingTransform worldFromObject, const Corners& corners, std::uint32_t material,
+          std::uint32_t object);
+
+private:
+    Roots roots(const RayD& ray) const override;
+    Local describe(Vec3d p, std::uint32_t part, Vec3d inset) const override;
+    BoundsD boxUnder(const Transform& worldFromObject) const override;
+
+    // Along two axes of the object's space, in which the quadrilateral is widest.
+    Vec2d flat(Vec3d p) const { return {p[axisX_], p[axisY_]}; }
+
+    Corners corners_;
+    Vec3d normal_, centre_;
+    std::size_t axisX_ = 0, axisY_ = 1; // chosen so that the corners turn counter-clockwise
+};

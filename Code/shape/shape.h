@@ -1,0 +1,37 @@
+// Shape: the interface between geometry and everything else. One file per shape beside this one;
+// to add one, derive, put a row into shape tables of render/scene.cpp and desc/, and write its test.
+// Shapes know rays and transforms; they never see materials, lights or the scene.
+//
+// World space here is the scene's normalised space (render/scene.h). Shapes compute in double in
+// their own object space: the ray's floats are taken as exact, so that a hit depends on nothing but
+// the ray and the shape.
+#pragma once
+
+#include "base/bounds.h"
+#include "base/hit.h"
+#include "base/ray.h"
+
+#include <cstdint>
+#include <vector>
+
+class Shape {
+public:
+    virtual ~Shape() = default;
+
+    // World box over the whole shutter, rounded outward; infinite for an unbounded shape.
+    virtual Bounds bounds() const = 0;
+
+    // Nearest hit with ray.tMin < t <= hit.t. Writes t, u, v and prim (never shape) and returns
+    // true; leaves `hit` alone otherwise. Equal t is accepted: the caller prefers the lower shape.
+    virtual bool intersect(const Ray& ray, Hit& hit) const = 0;
+
+    // Is there any hit with ray.tMin < t < ray.tMax?
+    virtual bool occludes(const Ray& ray) const = 0;
+
+    // Appends every hit with ray.tMin < t < ray.tMax, in any order (t, u, v, prim set).
+    virtual void collect(const Ray& ray, std::vector<Hit>& hits) const = 0;
+
+    // Describes the point of a hit that intersect() or collect() found for this ray.
+    virtual Surface surface(const Ray& ray, const Hit& hit) const = 0;
+    virtual SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const = 0;
+};

@@ -1,0 +1,17 @@
+#include "texture/environment.h"
+
+#include "base/math.h"
+
+#include <utility>
+
+Environment::Environment(StoredImage image, ColorSpace space, Interpolation interpolation,
+                         double rotationRad)
+    : grid_(std::move(image), space, interpolation), turns_(rotationRad * kInvTwoPi) {}
+
+Rgb Environment::radiance(Vec3 dir) const {
+    const Vec3d d = toDouble(dir);
+    const double u = 0.5 - exact::atan2(d.y, d.x) * kInvTwoPi + turns_;
+    // asin(z) of a unit vector, without its loss of digits near the poles.
+    const double v = 0.5 + exact::atan2(d.z, std::sqrt(d.x * d.x + d.y * d.y)) * kInvPi;
+    return grid_.at(u, v, Extension::Repeat, Extension::Extend).color;
+}

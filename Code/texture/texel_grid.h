@@ -1,0 +1,49 @@
+// TexelGrid: the stored numbers of a picture, read between its texels. Texture and Environment say
+// where; what is outside is the extension's business. Knows nothing about uv maps or directions.
+#pragma once
+
+#include "image/image.h"
+
+enum class Extension { Repeat, Extend, Clip };
+enum class Interpolation { Bilinear, Nearest };
+// How a file's whole numbers encode light. Float files are always linear.
+enum class ColorSpace { Srgb, Linear };
+
+// Colour, and alpha (never encoded) beside it: transparency does not darken the colour.
+struct Texel {
+    Rgb color;
+    float alpha = 0;
+};
+
+class TexelGrid {
+public:
+    // Fails (ErrorKind::Input) when the picture's numbers do not fill its rectangle.
+    TexelGrid(StoredImage image, ColorSpace space, Interpolation interpolation);
+
+    int width() const { return image_.width; }
+    int height() const { return image_.height; }
+
+    // s from left to right, t from BOTTOM to top, both 0..1 over the picture; any number is safe.
+    // Bilinear: x = s width - 1/2 between the centres of texels. Numbers are filtered as they are
+    // stored and decoded to linear afterwards: this is what Cycles does with 8-bit sRGB (decoding
+    // first is off by 0.23 on black/white edges), and 16-bit files look the same as 8-bit ones.
+    // Clip: everything outside is transparent black, and bilinear fades into it.
+    Texel at(double s, double t, Extension extensionS, Extension extensionT) const;
+
+private:
+    // Texels that a coordinate falls between; kOutside for none.
+    struct Tap {
+        int lo, hi;
+        double weight; // of hi
+    };
+    static constexpr int kOutside = -1;
+    struct Channels {
+        double r = 0, g = 0, b = 0, a = 0;
+    };
+    Tap tap(double s, int size, Extension extension) const;
+    Channels stored(int x, int y) const;
+    double number(std::size_t index) const;
+
+    StoredImage image_;
+    bool isSrgb_, isNearest_;
+};

@@ -1,0 +1,101 @@
+// What the tests of the shapes with a formula share: random numbers, transforms, and one of each.
+#pragma once
+
+#include "base/math.h"
+#include "base/motion.h"
+#include "shape/cone.h"
+#include "shape/cube.h"
+#include "shape/cylinder.h"
+#include "shape/disk.h"
+#include "shape/infinite_plane.h"
+#include "shape/plane.h"
+#include "shape/sphere.h"
+
+#include <cstdio>
+#include <functional>
+#include <memory>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace kit {
+
+// mt19937_64 gives the same numbers everywhere; the distributions of <random> do not.
+class Random {
+public:
+    explicit Random(std::uint64_t seed) : bits_(seed) {
+        std::printf("seed %llu\n", static_cast<unsigned long long>(seed));
+    }
+    double unit() { return static_cast<double>(bits_() >> 11) * 0x1p-53; }
+    double uniform(double lo, double hi) { return lo + (hi - lo) * unit(); }
+    double logUniform(double lo, double hi) {
+        return lo * std::exp(unit() * std::log(hi / lo));
+    }
+    bool coin() { return unit() < 0.5; }
+    Vec3d inBox(double half) {
+        return {uniform(-half, half), uniform(-half, half), uniform(-half, half)};
+    }
+    Vec3d direction() {
+        while (true) {
+            const Vec3d v = inBox(1);
+            const double l = length(v);
+            if (l > 0.01 && l <= 1) return v / l;
+        }
+    }
+
+private:
+    std::mt19937_64 bits_;
+};
+
+// Turn, scale along the axes by the factors (which may mirror), turn, move.
+inline Transform placed(Random& random, Vec3d factors, Vec3d offset) {
+    const Transform turn = Transform::rotate(random.direction(), random.uniform(0, kTwoPi));
+    const Transform turnBack = Transform::rotate(random.direction(), random.uniform(0, kTwoPi));
+    return Transform::translate(offset) * turn * Transform::scale(factors) * turnBack;
+}
+
+// Factors of condition <= 1e4 about `size`, mirrored half the time.
+inline Vec3d randomFactors(Random& random, double size) {
+    Vec3d f;
+    for (std::size_t i = 0; i < 3; ++i)
+        f[i] = size * random.logUniform(1e-2, 1e2) * (random.coin() ? 1 : -1);
+    return f;
+}
+
+struct Kind {
+    std::string name;
+    bool isClosed, isFlat;
+    std::function<std::unique_ptr<Shape>(const MovingTransform&)> make;
+};
+inline std::vector<Kind> kinds() {
+    const Plane::Corners quad = {Vec3d{-1, -1, 0.25}, Vec3d{1, -0.5, 0.25}, Vec3d{0.75, 1, 0.25},
+                                 Vec3d{-0.5, 0.75, 0.25}};
+    return {
+        {"sphere", true, false, [](auto& m) { return std::make_unique<Sphere>(m, 1.0, 3u, 5u); }},
+        {"cube", true, false, [](auto& m) { return std::make_unique<Cube>(m, 3u, 5u); }},
+        {"cylinder", true, false,
+         [](auto& m) { return std::make_unique<Cylinder>(m, 1.0, true, 3u, 5u); }},
+        {"tube", false, false,
+         [](auto& m) { return std::make_unique<Cylinder>(m, 0.5, false, 3u, 5u); }},
+        {"cone", true, false,
+         [](auto& m) { return std::make_unique<Cone>(m, 1.0, 0.0, true, 3u, 5u); }},
+        {"inverted cone", true, false,
+         [](auto& m) { return std::make_unique<Cone>(m, 0.0, 0.25, true, 3u, 5u); }},
+        {"cut cone", true, false,
+         [](auto& m) { return std::make_unique<Cone>(m, 0.5, 1.5, true, 3u, 5u); }},
+        {"open cone", false, false,
+         [](auto& m) { return std::make_unique<Cone>(m, 1.0, 0.5, false, 3u, 5u); }},
+        {"disk", false, true, [](auto& m) { return std::make_unique<Disk>(m, 1.0, 3u, 5u); }},
+        {"plane", false, true,
+         [quad](auto& m) { return std::make_unique<Plane>(m, quad, 3u, 5u); }},
+        {"infinite plane", false, true,
+         [](auto& m) { return std::make_unique<InfinitePlane>(m, 3u, 5u); }},
+    };
+}
+
+inline Ray rayFrom(Vec3d org, Vec3d dir) { return {toFloat(org), toFloat(dir)}; }
+inline Ray rayThrough(Vec3d org, Vec3d target) {
+    return rayFrom(org, normalize(target - toDouble(toFloat(org))));
+}
+
+} // namespace kit
