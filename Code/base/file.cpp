@@ -55,8 +55,7 @@ private:
     std::string hint;
     if (reason == ENOENT)
         hint = cat("; the folder '", fs::path(fileName).parent_path().string(), "' must exist");
-    fail(ErrorKind::Output,
-         cat(fileName, ": error: cannot write: ", std::strerror(reason), hint));
+    fail(ErrorKind::Output, cat(fileName, ": error: cannot write: ", std::strerror(reason), hint));
 }
 
 // Writes and closes; nothing is on the disk for sure before fclose() succeeds.
@@ -88,7 +87,8 @@ std::vector<std::uint8_t> readWholeFile(const std::string& fileName) {
     const std::uintmax_t promised = fs::is_regular_file(kind) ? fs::file_size(fileName, status) : 0;
     constexpr std::uintmax_t kFirstPart = 1 << 16;
     // One byte more than promised: the end is seen without another allocation.
-    bytes.resize(static_cast<std::size_t>(status ? kFirstPart : std::max(promised + 1, kFirstPart)));
+    bytes.resize(
+        static_cast<std::size_t>(status ? kFirstPart : std::max(promised + 1, kFirstPart)));
     while (true) {
         const std::size_t read =
             std::fread(bytes.data() + used, 1, bytes.size() - used, file.get());

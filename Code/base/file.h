@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-// All bytes of a regular file or pipe. Fails with ErrorKind::Input: the name and the system's reason.
+// All bytes of a regular file or pipe. Fails with ErrorKind::Input: the name and the system's
+// reason.
 std::vector<std::uint8_t> readWholeFile(const std::string& fileName);
 
 // Writes a temporary file in the same folder and renames it; an existing file keeps its content

@@ -173,7 +173,8 @@ Transform MovingTransform::at(double time) const {
 BoundsD MovingTransform::sweptBounds(const Segment& segment, const BoundsD& box) {
     constexpr double kLargestTurn = kPi / 16; // sagitta below half a percent of the radius
     const double turn = 2 * segment.arcRad;
-    const int pieces = 1 + static_cast<int>(turn / kLargestTurn);
+    // At least a few pieces, as T and R x of one piece are boxed each on its own.
+    const int pieces = 8 + static_cast<int>(turn / kLargestTurn);
     const double half = exact::sin(turn / (4 * pieces)); // 1 - cos(D/2) = 2 sin^2(D/4)
     const double sagitta = 2 * half * half;
     BoundsD out;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <numeric>
 #include <vector>
 
@@ -33,21 +34,32 @@ std::size_t editDistance(std::string_view a, std::string_view b) {
     return previous[b.size()];
 }
 
+// from_chars takes no plus sign; "+-5" is no number.
+std::string_view withoutPlus(std::string_view text) {
+    if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+    return text;
+}
+
 } // namespace
 
 std::string shortest(double value) { return shortestOf(value); }
 std::string shortest(float value) { return shortestOf(value); }
 
 std::optional<double> parseDouble(std::string_view text) {
-    if (text.starts_with('+')) text.remove_prefix(1);
+    text = withoutPlus(text);
     double value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return {};
+    if (end != text.data() + text.size()) return {};
+    // from_chars does not say whether it is too large or too small; what is too small is 0.
+    if (error == std::errc::result_out_of_range)
+        value = std::strtod(std::string(text).c_str(), nullptr);
+    else if (error != std::errc{}) return {};
+    if (!std::isfinite(value)) return {};
     return value;
 }
 
 std::optional<long long> parseInteger(std::string_view text) {
-    if (text.starts_with('+')) text.remove_prefix(1);
+    text = withoutPlus(text);
     long long value = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
     if (error != std::errc{} || end != text.data() + text.size()) return {};
@@ -56,9 +68,9 @@ std::optional<long long> parseInteger(std::string_view text) {
 
 std::string join(std::span<const std::string> words, std::string_view separator) {
     std::string out;
-    for (const std::string& word : words) {
-        if (!out.empty()) out += separator;
-        out += word;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (i > 0) out += separator;
+        out += words[i];
     }
     return out;
 }

@@ -98,10 +98,14 @@ std::string zshSpecs(const std::vector<Flag>& flags) {
         }
         const bool needsWord = flag.value == Flag::Value::Required;
         const bool attachedOnly = flag.value == Flag::Value::Optional;
-        out += cat("        '", flag.name, needsWord ? "=" : attachedOnly ? "=-" : "", "[", help, "]",
-                   value, "' \\\n");
+        out += cat("        '", flag.name,
+                   needsWord      ? "="
+                   : attachedOnly ? "=-"
+                                  : "",
+                   "[", help, "]", value, "' \\\n");
         if (!flag.alias.empty())
-            out += cat("        '", flag.alias, needsWord ? "+" : "", "[", help, "]", value, "' \\\n");
+            out +=
+                cat("        '", flag.alias, needsWord ? "+" : "", "[", help, "]", value, "' \\\n");
         if (flag.negatable)
             out += cat("        '", flag.negatedName(), "[without: ", help, "]' \\\n");
     }
@@ -121,7 +125,8 @@ _raytracer() {
     else
         _arguments -S \
 )",
-               zshSpecs(tables.main), R"(        '1:scene or diff:{ compadd diff; _files }' '2:picture:_files'
+               zshSpecs(tables.main),
+               R"(        '1:scene or diff:{ compadd diff; _files }' '2:picture:_files'
     fi
 }
 if [[ $funcstack[1] == _raytracer ]]; then _raytracer "$@"; else compdef _raytracer raytracer; fi
@@ -142,25 +147,27 @@ std::string fishLines(const std::vector<Flag>& flags, const std::string& conditi
         std::string value;
         if (flag.value == Flag::Value::Required)
             value = flag.files == Flag::Files::Any ? " -r -F" : " -x";
-        if (flag.files == Flag::Files::Folders) value += " -a '(__fish_complete_directories)'";
-        else if (!flag.choices.empty()) value += " -a '" + join(flag.choices, " ") + "'";
+        if (flag.files == Flag::Files::Folders)
+            value += " -a '(__fish_complete_directories)'";
+        else if (!flag.choices.empty())
+            value += " -a '" + join(flag.choices, " ") + "'";
         // fish has no optional values: the two spellings are two words.
         if (flag.value == Flag::Value::Optional && flag.files != Flag::Files::Folders)
             value.clear();
         line(flag.name, value);
         if (flag.value == Flag::Value::Optional && !flag.choices.empty())
-            for (const std::string& choice : flag.choices)
-                line(flag.name + "=" + choice, "");
+            for (const std::string& choice : flag.choices) line(flag.name + "=" + choice, "");
         if (flag.negatable) line(flag.negatedName(), "");
     }
     return out;
 }
 
 std::string fishScript(const Tables& tables) {
-    return cat("# Completion of raytracer for fish; made by: raytracer --completion fish\n",
-               fishLines(tables.main, "not __fish_seen_subcommand_from diff"),
-               "complete -c raytracer -n '__fish_use_subcommand' -a diff -d 'compares two pictures'\n",
-               fishLines(tables.diff, "__fish_seen_subcommand_from diff"));
+    return cat(
+        "# Completion of raytracer for fish; made by: raytracer --completion fish\n",
+        fishLines(tables.main, "not __fish_seen_subcommand_from diff"),
+        "complete -c raytracer -n '__fish_use_subcommand' -a diff -d 'compares two pictures'\n",
+        fishLines(tables.diff, "__fish_seen_subcommand_from diff"));
 }
 
 } // namespace

@@ -24,8 +24,8 @@ void setMetrics(DiffOptions& o, const FlagValue& value) {
     std::string_view rest = value.text;
     while (true) {
         const std::size_t comma = rest.find(',');
-        o.metrics.push_back(metricNames()[FlagValue{value.flag, rest.substr(0, comma)}.choice(
-            metricNames())]);
+        o.metrics.push_back(
+            metricNames()[FlagValue{value.flag, rest.substr(0, comma)}.choice(metricNames())]);
         if (comma == std::string_view::npos) return;
         rest.remove_prefix(comma + 1);
     }
@@ -49,22 +49,42 @@ std::string metricsHelp() {
 std::vector<Flag> diffFlags(DiffOptions& o) {
     const std::string group = "options";
     return {
-        {.name = "--metric", .alias = "-m", .argument = "NAME,...", .help = metricsHelp(),
-         .group = group, .set = [&o](const FlagValue& v) { setMetrics(o, v); }, .value = kRequired,
-         .choices = metricNames(), .example = "psnr"},
-        {.name = "--tol", .alias = "-t", .argument = "X",
+        {.name = "--metric",
+         .alias = "-m",
+         .argument = "NAME,...",
+         .help = metricsHelp(),
+         .group = group,
+         .set = [&o](const FlagValue& v) { setMetrics(o, v); },
+         .value = kRequired,
+         .choices = metricNames(),
+         .example = "psnr"},
+        {.name = "--tol",
+         .alias = "-t",
+         .argument = "X",
          .help = "exit code 5 when the metric is worse than X: above it, or below it where more is "
                  "better",
-         .group = group, .set = [&o](const FlagValue& v) { o.tolerance = v.number(-1e9, 1e9); },
-         .value = kRequired, .example = "0.5"},
-        {.name = "--output", .alias = "-o", .argument = "FILE",
-         .help = "writes |A - B| as .ppm, .png or .pfm", .group = group,
-         .set = [&o](const FlagValue& v) {
-             o.output = v.nonEmpty("the name of a file");
-             if (!hasPictureExtension(o.output)) v.wrong("a name that ends in .ppm, .png or .pfm");
-         },
-         .value = kRequired, .files = Flag::Files::Any, .example = "diff.png"},
-        {.name = "--help", .alias = "-h", .help = "this text", .group = group,
+         .group = group,
+         .set = [&o](const FlagValue& v) { o.tolerance = v.number(-1e9, 1e9); },
+         .value = kRequired,
+         .example = "0.5"},
+        {.name = "--output",
+         .alias = "-o",
+         .argument = "FILE",
+         .help = "writes |A - B| as .ppm, .png or .pfm",
+         .group = group,
+         .set =
+             [&o](const FlagValue& v) {
+                 o.output = v.nonEmpty("the name of a file");
+                 if (!hasPictureExtension(o.output))
+                     v.wrong("a name that ends in .ppm, .png or .pfm");
+             },
+         .value = kRequired,
+         .files = Flag::Files::Any,
+         .example = "diff.png"},
+        {.name = "--help",
+         .alias = "-h",
+         .help = "this text",
+         .group = group,
          .set = [&o](const FlagValue&) { o.help = true; }},
     };
 }
@@ -74,7 +94,8 @@ DiffOptions parseDiffOptions(std::span<const std::string> arguments) {
     const std::vector<std::string> names = parseFlags(diffFlags(options), arguments);
     if (options.help) return options;
     if (names.size() != 2)
-        failUsage(cat("diff expects two pictures, got ", names.size(), "; usage: raytracer diff A B"));
+        failUsage(
+            cat("diff expects two pictures, got ", names.size(), "; usage: raytracer diff A B"));
     if (options.tolerance && options.metrics.size() > 1)
         failUsage("--tol is for one metric, and " + join(options.metrics) + " were asked for");
     options.first = names[0];
@@ -90,9 +111,9 @@ ExitCode diff(const DiffOptions& options) {
     if (!options.output.empty()) checkWritable(options.output);
     const Image a(options.first), b(options.second);
     if (a.width() != b.width() || a.height() != b.height())
-        fail(ErrorKind::Input,
-             cat("raytracer: error: the pictures differ in size: ", options.first, " has ", a.width(),
-                 "x", a.height(), " pixels, ", options.second, " has ", b.width(), "x", b.height()));
+        fail(ErrorKind::Input, cat("raytracer: error: the pictures differ in size: ", options.first,
+                                   " has ", a.width(), "x", a.height(), " pixels, ", options.second,
+                                   " has ", b.width(), "x", b.height()));
     ExitCode code = ExitCode::Ok;
     for (const std::string& name : options.metrics) {
         const Metric& metric = metricNamed(name);
@@ -100,8 +121,8 @@ ExitCode diff(const DiffOptions& options) {
         writeStdout(cat(name, " ", shortest(value), "\n"));
         if (!options.tolerance) continue;
         // A value that is not a number is never good enough.
-        const bool isGood = metric.isLargerBetter ? value >= *options.tolerance
-                                                  : value <= *options.tolerance;
+        const bool isGood =
+            metric.isLargerBetter ? value >= *options.tolerance : value <= *options.tolerance;
         if (!isGood) code = ExitCode::AboveTolerance;
     }
     if (!options.output.empty()) differenceImage(a, b).write(options.output);

@@ -11,7 +11,7 @@ enum class ExitCode {
     StrictWarnings = 3,
     Output = 4,
     AboveTolerance = 5,
-    Internal = 70, // EX_SOFTWARE of sysexits.h
+    Internal = 70,     // EX_SOFTWARE of sysexits.h
     Interrupted = 130, // 128 + SIGINT, as shells count
 };
 

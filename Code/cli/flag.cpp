@@ -32,7 +32,8 @@ Match matchLong(std::span<const Flag> flags, const std::string& argument) {
     if (equals != std::string::npos) match.attached = argument.substr(equals + 1);
     for (const Flag& flag : flags) {
         if (match.written == flag.name) match.flag = &flag;
-        if (flag.negatable && match.written == flag.negatedName()) match.flag = &flag, match.on = false;
+        if (flag.negatable && match.written == flag.negatedName())
+            match.flag = &flag, match.on = false;
     }
     return match;
 }
@@ -44,7 +45,8 @@ Match matchShort(std::span<const Flag> flags, const std::string& argument) {
     if (argument.size() > 2) match.attached = argument.substr(argument[2] == '=' ? 3 : 2);
     // "-spp 4" means --spp, not -s with the value "pp".
     if (matchLong(flags, "-" + argument).flag) match.flag = nullptr;
-    if (match.flag && match.flag->value == Flag::Value::None && match.attached) match.flag = nullptr;
+    if (match.flag && match.flag->value == Flag::Value::None && match.attached)
+        match.flag = nullptr;
     if (!match.flag) match.written = argument.substr(0, argument.find('='));
     return match;
 }
@@ -66,7 +68,8 @@ void failUsage(const std::string& what) {
 }
 
 void FlagValue::wrong(std::string_view expected) const {
-    failUsage(cat(flag, " expects ", expected, ", got ", text.empty() ? "nothing" : cat("'", text, "'")));
+    failUsage(
+        cat(flag, " expects ", expected, ", got ", text.empty() ? "nothing" : cat("'", text, "'")));
 }
 
 int FlagValue::whole(int least, int most) const {
@@ -156,7 +159,8 @@ std::vector<std::string> parseFlags(std::span<const Flag> flags,
                                    flag.files == Flag::Files::Folders && i + 1 < arguments.size() &&
                                    std::filesystem::is_directory(arguments[i + 1]);
         if (!match.attached && folderFollows) match.attached = arguments[++i];
-        flag.set({match.written, match.attached ? std::string_view(*match.attached) : "", match.on});
+        flag.set(
+            {match.written, match.attached ? std::string_view(*match.attached) : "", match.on});
     }
     return others;
 }

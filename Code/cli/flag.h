@@ -38,7 +38,7 @@ struct Flag {
     // Optional: as --flag=value; a folder may also follow as --flag folder, since a folder is
     // never what else could stand there.
     enum class Value { None, Required, Optional };
-    enum class Files { None, Any, Folders };       // for completion of the value
+    enum class Files { None, Any, Folders }; // for completion of the value
 
     std::string name = {};     // "--spp"
     std::string alias = {};    // "-s", or empty
@@ -50,7 +50,7 @@ struct Flag {
     bool negatable = false; // --no-x exists too
     Files files = Files::None;
     std::vector<std::string> choices = {}; // the words that the value can be, or can begin with
-    std::string example = {};             // a right value; tests use every flag with it
+    std::string example = {};              // a right value; tests use every flag with it
 
     std::string negatedName() const { return "--no-" + name.substr(2); }
 };

@@ -69,34 +69,37 @@ std::string exitCodesText() {
 std::string helpText() {
     Options unused;
     std::string out = cat(
-        "raytracer ", kVersion, ": renders a scene file to a picture\n\n",
-        "usage:\n",
-        twoColumns("raytracer SCENE [OUTPUT] [options]", ""),
-        twoColumns("raytracer diff A B [options]", "compares two pictures; see raytracer diff --help"),
+        "raytracer ", kVersion, ": renders a scene file to a picture\n\n", "usage:\n",
+        "  raytracer SCENE [OUTPUT] [options]\n",
+        twoColumns("raytracer diff A B [options]",
+                   "compares two pictures; see raytracer diff --help"),
         "\n",
-        "SCENE is a .txt (native), .json or .nff file, or - for native text on stdin. OUTPUT is a .ppm,\n"
-        ".png or .pfm file, or - for a PPM on stdout; left out, it is Output/SCENE.ppm. What an option\n"
-        "leaves open comes from the scene. --flag value and --flag=value are the same; -- ends options.\n");
+        "SCENE is a .txt file in the native format, or - for such text on stdin. OUTPUT is a\n"
+        ".ppm, .png or .pfm file, or - for a PPM on stdout; left out, it is Output/SCENE.ppm.\n"
+        "What an option leaves open comes from the scene. --flag value and --flag=value are the\n"
+        "same; -- ends the options.\n");
     out += flagsText(renderFlags(unused));
     out += exitCodesText();
-    out += "\nexamples:\n"
-           "  raytracer ASCII/showcase.txt                          renders to Output/showcase.ppm\n"
-           "  raytracer room.txt room.png --scale 50 --spp 4        a quick look\n"
-           "  raytracer room.txt room.pfm --aov depth,normal        with a file per extra picture\n"
-           "  raytracer walk_####.txt walk_####.png --frame 12      one frame of an animation\n"
-           "  raytracer room.txt - --quiet | display                straight into another program\n"
-           "  raytracer room.txt a.png --no-dof --stats=json        counters for a script on stdout\n"
-           "  raytracer diff a.png b.png --metric psnr --tol 40     exit code 5 when below 40 dB\n"
-           "  raytracer --completion bash > ~/.local/share/bash-completion/completions/raytracer\n";
+    out +=
+        "\nexamples:\n"
+        "  raytracer ASCII/showcase.txt                          renders to Output/showcase.ppm\n"
+        "  raytracer room.txt room.png --scale 50 --spp 4        a quick look\n"
+        "  raytracer room.txt room.pfm --aov depth,normal        with a file per extra picture\n"
+        "  raytracer walk_####.txt walk_####.png --frame 12      one frame of an animation\n"
+        "  raytracer room.txt - --quiet | display                straight into another program\n"
+        "  raytracer room.txt a.png --no-dof --stats=json        counters for a script on stdout\n"
+        "  raytracer diff a.png b.png --metric psnr --tol 40     exit code 5 when below 40 dB\n"
+        "  raytracer --completion bash > ~/.local/share/bash-completion/completions/raytracer\n";
     return out;
 }
 
 std::string diffHelpText() {
     DiffOptions unused;
-    return cat("usage: raytracer diff A B [options]\n\n"
-               "Compares two pictures (.ppm, .png, .pfm) of the same size and prints how far they are "
-               "apart.\n",
-               flagsText(diffFlags(unused)), exitCodesText());
+    return cat(
+        "usage: raytracer diff A B [options]\n\n"
+        "Compares two pictures (.ppm, .png, .pfm) of the same size and prints how far they are "
+        "apart.\n",
+        flagsText(diffFlags(unused)), exitCodesText());
 }
 
 std::string featureListText() {

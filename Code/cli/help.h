@@ -6,6 +6,6 @@
 #include <span>
 #include <string>
 
-std::string helpText();         // raytracer --help
-std::string diffHelpText();     // raytracer diff --help
-std::string featureListText();  // raytracer --list-features
+std::string helpText();        // raytracer --help
+std::string diffHelpText();    // raytracer diff --help
+std::string featureListText(); // raytracer --list-features

@@ -39,13 +39,13 @@ std::string counted(std::size_t count, const std::string& what) {
 
 std::string mebibytes(std::size_t bytes) {
     std::ostringstream out;
-    out << std::fixed << std::setprecision(1) << static_cast<double>(bytes) / (1024 * 1024) << " MiB";
+    out << std::fixed << std::setprecision(1) << static_cast<double>(bytes) / (1024 * 1024)
+        << " MiB";
     return out.str();
 }
 
 // "3 sphere, 1 plane" for things with a kind.
-template <class Kind, class Things>
-std::string countsPerKind(const Things& things) {
+template <class Kind, class Things> std::string countsPerKind(const Things& things) {
     std::array<std::size_t, kEnumNames<Kind>.size()> counts{};
     for (const auto& thing : things) ++counts[static_cast<std::size_t>(thing.kind)];
     std::vector<std::string> parts;
@@ -69,8 +69,7 @@ std::size_t storedTriangleCount(const SceneDesc& desc) {
     return count;
 }
 
-template <class T>
-std::size_t bytesOf(const std::vector<T>& values) {
+template <class T> std::size_t bytesOf(const std::vector<T>& values) {
     return values.size() * sizeof(T);
 }
 std::size_t bytesOf(const MeshDesc& m) {
@@ -119,8 +118,10 @@ std::string lightText(const LightDesc& light) {
 std::string cameraText(const CameraDesc& camera) {
     const Rows& rows = camera.worldFromCamera[0];
     std::string text = cat("'", camera.name, "' ", nameOf(camera.kind), " ");
-    if (camera.kind == CameraDesc::Kind::Perspective) text += number(camera.lensMm) + " mm";
-    else text += number(camera.orthoScale) + " wide";
+    if (camera.kind == CameraDesc::Kind::Perspective)
+        text += number(camera.lensMm) + " mm";
+    else
+        text += number(camera.orthoScale) + " wide";
     text += " at " + triple(Vec3d{rows[3], rows[7], rows[11]});
     if (camera.apertureRadius > 0)
         text += cat(", aperture radius ", number(camera.apertureRadius), ", focus at ",
@@ -130,11 +131,13 @@ std::string cameraText(const CameraDesc& camera) {
 }
 
 std::string pictureText(const SettingsDesc& p) {
-    std::string text = cat(p.width, "x", p.height, " pixels, ", counted(static_cast<std::size_t>(p.samplesPerPixel), "sample"),
+    std::string text = cat(p.width, "x", p.height, " pixels, ",
+                           counted(static_cast<std::size_t>(p.samplesPerPixel), "sample"),
                            " per pixel (", nameOf(p.sampler), "), ", nameOf(p.filter), " filter ",
                            number(p.filterWidth), ", depth ", p.maxDepth);
     if (p.crop)
-        text += cat(", crop ", (*p.crop)[0], ",", (*p.crop)[1], ",", (*p.crop)[2], ",", (*p.crop)[3]);
+        text +=
+            cat(", crop ", (*p.crop)[0], ",", (*p.crop)[1], ",", (*p.crop)[2], ",", (*p.crop)[3]);
     return text;
 }
 
@@ -155,19 +158,21 @@ void addTextures(Lines& lines, const SourceFile& source, const SceneDesc& desc,
 
 } // namespace
 
-std::string infoText(const SourceFile& source, const SceneDesc& desc, const RenderSettings& settings,
-                     const Scene& scene) {
+std::string infoText(const SourceFile& source, const SceneDesc& desc,
+                     const RenderSettings& settings, const Scene& scene) {
     Lines lines;
     lines.add("scene", source.name);
     lines.add("picture", pictureText(settings.picture));
     for (const CameraDesc& camera : desc.cameras) lines.add("camera", cameraText(camera));
     lines.add("objects", countsPerKind<ObjectDesc::Kind>(desc.objects));
-    lines.add("meshes", cat(desc.meshes.size(), " with ",
-                            counted(storedTriangleCount(desc), "triangle"), "; ",
-                            triangleCount(desc), " with all instances"));
+    lines.add("meshes",
+              cat(desc.meshes.size(), " with ", counted(storedTriangleCount(desc), "triangle"),
+                  "; ", triangleCount(desc), " with all instances"));
     const BoundsD box = worldBounds(scene);
-    if (box.isEmpty()) lines.add("bounds", "none");
-    else lines.add("bounds", cat(triple(box.lo), "  to  ", triple(box.hi)));
+    if (box.isEmpty())
+        lines.add("bounds", "none");
+    else
+        lines.add("bounds", cat(triple(box.lo), "  to  ", triple(box.hi)));
     lines.add("materials", std::to_string(desc.materials.size()));
     lines.add("lights", countsPerKind<LightDesc::Kind>(desc.lights));
     for (const LightDesc& light : desc.lights) lines.add("light", lightText(light));

@@ -15,21 +15,20 @@ inline constexpr auto kEnumNames<IntegratorKind> =
                                              {IntegratorKind::Id, "id"},
                                              {IntegratorKind::Uv, "uv"}});
 template <>
-inline constexpr auto kEnumNames<AccelKind> = std::to_array<EnumName<AccelKind>>(
-    {{AccelKind::Bvh, "bvh"}, {AccelKind::None, "none"}});
+inline constexpr auto kEnumNames<AccelKind> =
+    std::to_array<EnumName<AccelKind>>({{AccelKind::Bvh, "bvh"}, {AccelKind::None, "none"}});
 template <>
-inline constexpr auto kEnumNames<Aov> =
-    std::to_array<EnumName<Aov>>({{Aov::Depth, "depth"},
-                                  {Aov::Normal, "normal"},
-                                  {Aov::Albedo, "albedo"},
-                                  {Aov::Position, "position"},
-                                  {Aov::Id, "id"},
-                                  {Aov::Samples, "samples"}});
+inline constexpr auto kEnumNames<Aov> = std::to_array<EnumName<Aov>>({{Aov::Depth, "depth"},
+                                                                      {Aov::Normal, "normal"},
+                                                                      {Aov::Albedo, "albedo"},
+                                                                      {Aov::Position, "position"},
+                                                                      {Aov::Id, "id"},
+                                                                      {Aov::Samples, "samples"}});
 template <>
-inline constexpr auto kEnumNames<Options::Progress> = std::to_array<EnumName<Options::Progress>>(
-    {{Options::Progress::Auto, "auto"},
-     {Options::Progress::Plain, "plain"},
-     {Options::Progress::None, "none"}});
+inline constexpr auto kEnumNames<Options::Progress> =
+    std::to_array<EnumName<Options::Progress>>({{Options::Progress::Auto, "auto"},
+                                                {Options::Progress::Plain, "plain"},
+                                                {Options::Progress::None, "none"}});
 
 static_assert(isInOrder<IntegratorKind>() && isInOrder<AccelKind>() && isInOrder<Aov>() &&
               isInOrder<Options::Progress>());

@@ -29,8 +29,7 @@ void setFrame(Options& options) {
 
 // SCENE [OUTPUT]
 void setNames(Options& options, std::span<const std::string> names) {
-    if (names.empty())
-        failUsage("no scene; usage: raytracer SCENE [OUTPUT] [options]");
+    if (names.empty()) failUsage("no scene; usage: raytracer SCENE [OUTPUT] [options]");
     options.scene = names[0];
     if (names.size() > 2)
         failUsage(cat("too many names: '", names[2], "' after SCENE '", names[0], "' and OUTPUT '",

@@ -83,7 +83,8 @@ void expose(Image& image, double ev) {
     constexpr float kLargest = std::numeric_limits<float>::max();
     const auto factor = static_cast<float>(exact::exp2(ev));
     const auto exposed = [&](float value) { return clamp(value * factor, -kLargest, kLargest); };
-    for (Rgb& pixel : image.pixels()) pixel = {exposed(pixel.r), exposed(pixel.g), exposed(pixel.b)};
+    for (Rgb& pixel : image.pixels())
+        pixel = {exposed(pixel.r), exposed(pixel.g), exposed(pixel.b)};
 }
 
 void writePicture(Picture picture, const RenderSettings& settings, const Options& options,

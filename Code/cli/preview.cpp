@@ -33,9 +33,8 @@ std::string colourText(const Image& image, const Area& area) {
 } // namespace
 
 std::string previewText(const Image& image, int columns, int rows) {
-    const double shrink =
-        std::min({1.0, static_cast<double>(std::max(columns, 1)) / image.width(),
-                  2.0 * std::max(rows, 1) / image.height()});
+    const double shrink = std::min({1.0, static_cast<double>(std::max(columns, 1)) / image.width(),
+                                    2.0 * std::max(rows, 1) / image.height()});
     const int width = std::max(1, static_cast<int>(image.width() * shrink));
     const int height = std::max(1, static_cast<int>(image.height() * shrink));
     std::string out;

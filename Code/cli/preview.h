@@ -1,4 +1,5 @@
-// A picture as text for a terminal: two pixels per cell, by the upper half block and 24-bit colours.
+// A picture as text for a terminal: two pixels per cell, by the upper half block and 24-bit
+// colours.
 #pragma once
 
 #include "image/image.h"

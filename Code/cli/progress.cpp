@@ -48,16 +48,18 @@ void Progress::update(double part) {
     if (style_ == Style::None) return;
     part = std::clamp(part, 0.0, 1.0);
     const double elapsed = now_() - start_;
-    if (style_ == Style::Bar) drawBar(part, elapsed);
-    else printSteps(part, elapsed);
+    if (style_ == Style::Bar)
+        drawBar(part, elapsed);
+    else
+        printSteps(part, elapsed);
 }
 
 void Progress::drawBar(double part, double elapsed) {
     const bool early = lastDrawn_ >= 0 && elapsed - lastDrawn_ < kRedrawSeconds;
     if (early && part < 1) return;
     lastDrawn_ = elapsed;
-    const std::string text = cat(" ", padded(static_cast<int>(part * 100), 1), " %  ",
-                                 timesText(part, elapsed));
+    const std::string text =
+        cat(" ", padded(static_cast<int>(part * 100), 1), " %  ", timesText(part, elapsed));
     // Two brackets, and the last column stays free: some terminals wrap there.
     constexpr int kLongestBar = 40;
     const int cells = std::min(kLongestBar, columns_ - static_cast<int>(text.size()) - 3);

@@ -11,30 +11,26 @@
 namespace {
 
 using Action = Options::Action;
-constexpr Flag::Value kRequired = Flag::Value::Required;
 constexpr int kMostThreads = 1024;
 constexpr int kLastFrame = 99999999;
+constexpr const char* kActionGroup = "instead of a picture";
 
-template <class E>
-std::vector<std::string> namesOf() {
+template <class E> std::vector<std::string> namesOf() {
     return {kNamesByValue<E>.begin(), kNamesByValue<E>.end()};
 }
 
-template <class E>
-E enumValue(const FlagValue& value) {
+template <class E> E enumValue(const FlagValue& value) {
     return static_cast<E>(value.choice(namesOf<E>()));
 }
 
 // "a|b|c", as --help shows what an option can be.
-template <class E>
-std::string alternatives() {
-    return join(namesOf<E>(), "|");
-}
+template <class E> std::string alternatives() { return join(namesOf<E>(), "|"); }
 
 // What the same number may be in a scene file.
 Range rangeOf(std::string_view keyword) {
-    const auto row = std::find_if(kSettingsProperties.begin(), kSettingsProperties.end(),
-                                  [&](const auto& property) { return property.keyword == keyword; });
+    const auto row =
+        std::find_if(kSettingsProperties.begin(), kSettingsProperties.end(),
+                     [&](const auto& property) { return property.keyword == keyword; });
     return row->range;
 }
 
@@ -43,12 +39,17 @@ int wholeLike(std::string_view keyword, const FlagValue& value) {
     return value.whole(static_cast<int>(range.lo), static_cast<int>(range.hi));
 }
 
+double numberLike(std::string_view keyword, const FlagValue& value) {
+    const Range range = rangeOf(keyword);
+    return value.number(range.lo, range.hi);
+}
+
 // Two different things to do do not fit together; --help wins over everything.
 void setAction(Options& o, Action action, const FlagValue& value) {
     if (o.action == Action::Help) return;
     if (action != Action::Help && o.action != Action::Render && o.action != action)
-        failUsage(cat(value.flag, " cannot be combined with another option of the group 'instead of "
-                                  "a picture'"));
+        failUsage(cat(value.flag, " cannot be combined with another option of the group '",
+                      kActionGroup, "'"));
     o.action = action;
 }
 
@@ -106,82 +107,109 @@ void setAovs(Options& o, const FlagValue& value) {
     }
 }
 
+// --textures, --textures=DIR, --no-textures
+void setTextures(Options& o, const FlagValue& value) {
+    o.switches.textures = value.on;
+    if (value.text.empty()) return;
+    if (!std::filesystem::is_directory(value.text)) value.wrong("a folder");
+    o.textureFolder = value.text;
+}
+
+void setSeed(Options& o, const FlagValue& value) {
+    const auto seed = parseInteger(value.text);
+    if (!seed || !kAnyUnsigned.contains(static_cast<double>(*seed)))
+        value.wrong(cat("a whole number from 0 to ", std::numeric_limits<std::uint32_t>::max()));
+    o.seed = static_cast<std::uint32_t>(*seed);
+}
+
+void setConvert(Options& o, const FlagValue& value) {
+    o.convertTo = value.text;
+    if (o.convertTo != "-" && !o.convertTo.ends_with(".txt"))
+        value.wrong("the name of a .txt file, or -");
+    setAction(o, Action::Convert, value);
+}
+
+// Adds rows to one group of --help. An argument is required unless the row says otherwise.
+class Group {
+public:
+    Group(std::vector<Flag>& flags, std::string name) : flags_(flags), name_(std::move(name)) {}
+    void add(Flag flag) {
+        flag.group = name_;
+        if (!flag.argument.empty() && flag.value == Flag::Value::None)
+            flag.value = Flag::Value::Required;
+        flags_.push_back(std::move(flag));
+    }
+
+private:
+    std::vector<Flag>& flags_;
+    std::string name_;
+};
+
+// One row per option, not one line per member.
+// clang-format off
+
 void addPictureFlags(std::vector<Flag>& flags, Options& o) {
-    const std::string group = "picture";
-    flags.push_back({.name = "--resolution", .alias = "-r", .argument = "WxH",
-                     .help = "size in pixels", .group = group,
-                     .set = [&o](const FlagValue& v) { setResolution(o, v); },
-                     .value = kRequired, .example = "12x8"});
-    flags.push_back({.name = "--scale", .argument = "PCT",
-                     .help = "percentage of the resolution, rounded down", .group = group,
-                     .set = [&o](const FlagValue& v) { o.scalePercent = v.number(0.01, 10000); },
-                     .value = kRequired, .example = "50"});
-    flags.push_back({.name = "--crop", .argument = "x0,y0,x1,y1",
-                     .help = "only these pixels of the scaled picture, from the top left; x1 and y1 "
-                             "are the first ones outside",
-                     .group = group, .set = [&o](const FlagValue& v) { setCrop(o, v); },
-                     .value = kRequired, .example = "1,1,3,3"});
-    flags.push_back({.name = "--crop-pad",
-                     .help = "a cropped picture keeps the full size, black around the crop",
-                     .group = group, .set = [&o](const FlagValue&) { o.cropPad = true; }});
-    flags.push_back({.name = "--camera", .argument = "NAME",
-                     .help = "camera of the scene to look through (the first one)", .group = group,
-                     .set = [&o](const FlagValue& v) { o.camera = v.nonEmpty("the name of a camera"); },
-                     .value = kRequired, .example = "main"});
-    flags.push_back({.name = "--frame", .argument = "N",
-                     .help = "replaces the last run of # in SCENE and OUTPUT by N, padded with zeros",
-                     .group = group,
-                     .set = [&o](const FlagValue& v) { o.frame = v.whole(0, kLastFrame); },
-                     .value = kRequired, .example = "7"});
-    flags.push_back({.name = "--exposure", .argument = "EV",
-                     .help = "brightness in stops: the written picture times 2^EV", .group = group,
-                     .set = [&o](const FlagValue& v) {
-                         const Range range = rangeOf("exposure");
-                         o.exposureEv = v.number(range.lo, range.hi);
-                     },
-                     .value = kRequired, .example = "-1"});
-    flags.push_back({.name = "--transfer", .argument = alternatives<SettingsDesc::Transfer>(),
-                     .help = "encoding of .ppm and .png (.pfm is always linear)", .group = group,
-                     .set = [&o](const FlagValue& v) {
-                         o.transfer = enumValue<SettingsDesc::Transfer>(v);
-                     },
-                     .value = kRequired, .choices = namesOf<SettingsDesc::Transfer>(),
-                     .example = "linear"});
-    flags.push_back({.name = "--bits", .argument = "8|16", .help = "bits per channel of .ppm and .png (8)",
-                     .group = group,
-                     .set = [&o](const FlagValue& v) {
-                         o.bits = v.choice(std::vector<std::string>{"8", "16"}) == 0 ? 8 : 16;
-                     },
-                     .value = kRequired, .choices = {"8", "16"}, .example = "16"});
-    flags.push_back({.name = "--background", .argument = "r,g,b",
-                     .help = "radiance where no surface is, instead of the scene's", .group = group,
-                     .set = [&o](const FlagValue& v) { setBackground(o, v); },
-                     .value = kRequired, .example = "0.1,0.2,0.4"});
+    Group group(flags, "picture");
+    group.add({.name = "--resolution", .alias = "-r", .argument = "WxH", .help = "size in pixels",
+               .set = [&o](const FlagValue& v) { setResolution(o, v); }, .example = "12x8"});
+    group.add({.name = "--scale", .argument = "PCT",
+               .help = "percentage of the resolution, rounded down",
+               .set = [&o](const FlagValue& v) { o.scalePercent = v.number(0.01, 10000); },
+               .example = "50"});
+    group.add({.name = "--crop", .argument = "x0,y0,x1,y1",
+               .help = "only these pixels of the scaled picture, from the top left; x1 and y1 are "
+                       "the first ones outside",
+               .set = [&o](const FlagValue& v) { setCrop(o, v); }, .example = "1,1,3,3"});
+    group.add({.name = "--crop-pad",
+               .help = "a cropped picture keeps the full size, black around the crop",
+               .set = [&o](const FlagValue&) { o.cropPad = true; }});
+    group.add({.name = "--camera", .argument = "NAME",
+               .help = "camera of the scene to look through (the first one)",
+               .set = [&o](const FlagValue& v) { o.camera = v.nonEmpty("the name of a camera"); },
+               .example = "main"});
+    group.add({.name = "--frame", .argument = "N",
+               .help = "replaces the last run of # in SCENE and OUTPUT by N, padded with zeros",
+               .set = [&o](const FlagValue& v) { o.frame = v.whole(0, kLastFrame); },
+               .example = "7"});
+    group.add({.name = "--exposure", .argument = "EV",
+               .help = "brightness in stops: the written picture times 2^EV",
+               .set = [&o](const FlagValue& v) { o.exposureEv = numberLike("exposure", v); },
+               .example = "-1"});
+    group.add({.name = "--transfer", .argument = alternatives<SettingsDesc::Transfer>(),
+               .help = "encoding of .ppm and .png (.pfm is always linear)",
+               .set = [&o](const FlagValue& v) {
+                   o.transfer = enumValue<SettingsDesc::Transfer>(v);
+               },
+               .choices = namesOf<SettingsDesc::Transfer>(), .example = "linear"});
+    const std::vector<std::string> bits = {"8", "16"};
+    group.add({.name = "--bits", .argument = join(bits, "|"),
+               .help = "bits per channel of .ppm and .png (8)",
+               .set = [&o, bits](const FlagValue& v) { o.bits = v.choice(bits) == 0 ? 8 : 16; },
+               .choices = bits, .example = "16"});
+    group.add({.name = "--background", .argument = "r,g,b",
+               .help = "radiance where no surface is, instead of the scene's",
+               .set = [&o](const FlagValue& v) { setBackground(o, v); }, .example = "0.1,0.2,0.4"});
 }
 
 void addFeatureFlags(std::vector<Flag>& flags, Options& o) {
+    Group group(flags, kFeatureGroup);
     const auto add = [&](const char* name, bool Switches::* member, const char* help) {
-        flags.push_back({.name = name, .help = help, .group = kFeatureGroup,
-                         .set = [&o, member](const FlagValue& v) { o.switches.*member = v.on; },
-                         .negatable = true});
+        group.add({.name = name, .help = help,
+                   .set = [&o, member](const FlagValue& v) { o.switches.*member = v.on; },
+                   .negatable = true});
     };
     add("--shadows", &Switches::shadows, "surfaces keep light from others");
-    add("--soft-shadows", &Switches::softShadows, "lights have a size; off: they shine from their centre");
+    add("--soft-shadows", &Switches::softShadows,
+        "lights have a size; off: they shine from their centre");
     add("--reflection", &Switches::reflection, "mirrors");
     add("--refraction", &Switches::refraction, "glass");
     add("--glossy", &Switches::glossy, "rough mirrors and glass; off: they are sharp");
-    flags.push_back({.name = "--textures", .argument = "DIR",
-                     .help = "pictures on surfaces and around the scene; a folder after it is searched "
-                             "after the scene's own",
-                     .group = kFeatureGroup,
-                     .set = [&o](const FlagValue& v) {
-                         o.switches.textures = v.on;
-                         if (v.text.empty()) return;
-                         if (!std::filesystem::is_directory(v.text)) v.wrong("a folder");
-                         o.textureFolder = v.text;
-                     },
-                     .value = Flag::Value::Optional, .negatable = true,
-                     .files = Flag::Files::Folders, .example = "."});
+    group.add({.name = "--textures", .argument = "DIR",
+               .help = "pictures on surfaces and around the scene; a folder after it is searched "
+                       "after the scene's own",
+               .set = [&o](const FlagValue& v) { setTextures(o, v); },
+               .value = Flag::Value::Optional, .negatable = true, .files = Flag::Files::Folders,
+               .example = "."});
     add("--dof", &Switches::dof, "depth of field; off: a pinhole camera");
     add("--motion-blur", &Switches::motionBlur, "things move while the shutter is open");
     add("--fresnel", &Switches::fresnel, "reflection depends on the angle");
@@ -189,131 +217,122 @@ void addFeatureFlags(std::vector<Flag>& flags, Options& o) {
 }
 
 void addQualityFlags(std::vector<Flag>& flags, Options& o) {
-    const std::string group = "quality";
-    flags.push_back({.name = "--spp", .alias = "-s", .argument = "N",
-                     .help = "samples per pixel; powers of two are best", .group = group,
-                     .set = [&o](const FlagValue& v) { o.samplesPerPixel = wholeLike("samples", v); },
-                     .value = kRequired, .example = "4"});
-    flags.push_back({.name = "--light-samples", .argument = "N",
-                     .help = "shadow rays per soft light and hit", .group = group,
-                     .set = [&o](const FlagValue& v) { o.lightSamples = wholeLike("light_samples", v); },
-                     .value = kRequired, .example = "2"});
-    flags.push_back({.name = "--max-depth", .alias = "-d", .argument = "N",
-                     .help = "bounces after the camera ray", .group = group,
-                     .set = [&o](const FlagValue& v) { o.maxDepth = wholeLike("max_depth", v); },
-                     .value = kRequired, .example = "3"});
-    flags.push_back({.name = "--sampler", .argument = alternatives<SettingsDesc::Sampler>(),
-                     .help = "how samples are spread", .group = group,
-                     .set = [&o](const FlagValue& v) { o.sampler = enumValue<SettingsDesc::Sampler>(v); },
-                     .value = kRequired, .choices = namesOf<SettingsDesc::Sampler>(),
-                     .example = "random"});
-    flags.push_back({.name = "--jitter", .help = "samples are moved at random in their cells",
-                     .group = group, .set = [&o](const FlagValue& v) { o.jitter = v.on; },
-                     .negatable = true});
-    flags.push_back({.name = "--seed", .argument = "N", .help = "another seed gives other noise",
-                     .group = group,
-                     .set = [&o](const FlagValue& v) {
-                         const auto seed = parseInteger(v.text);
-                         if (!seed || !kAnyUnsigned.contains(static_cast<double>(*seed)))
-                             v.wrong("a whole number from 0 to 4294967295");
-                         o.seed = static_cast<std::uint32_t>(*seed);
-                     },
-                     .value = kRequired, .example = "5"});
-    flags.push_back({.name = "--filter", .argument = "NAME[,WIDTH]",
-                     .help = alternatives<SettingsDesc::Filter>() + ", and its width in pixels",
-                     .group = group, .set = [&o](const FlagValue& v) { setFilter(o, v); },
-                     .value = kRequired, .choices = namesOf<SettingsDesc::Filter>(),
-                     .example = "tent,2"});
+    Group group(flags, "quality");
+    group.add({.name = "--spp", .alias = "-s", .argument = "N",
+               .help = "samples per pixel; powers of two are best",
+               .set = [&o](const FlagValue& v) { o.samplesPerPixel = wholeLike("samples", v); },
+               .example = "4"});
+    group.add({.name = "--light-samples", .argument = "N",
+               .help = "shadow rays per soft light and hit",
+               .set = [&o](const FlagValue& v) { o.lightSamples = wholeLike("light_samples", v); },
+               .example = "2"});
+    group.add({.name = "--max-depth", .alias = "-d", .argument = "N",
+               .help = "bounces after the camera ray",
+               .set = [&o](const FlagValue& v) { o.maxDepth = wholeLike("max_depth", v); },
+               .example = "3"});
+    group.add({.name = "--sampler", .argument = alternatives<SettingsDesc::Sampler>(),
+               .help = "how samples are spread",
+               .set = [&o](const FlagValue& v) { o.sampler = enumValue<SettingsDesc::Sampler>(v); },
+               .choices = namesOf<SettingsDesc::Sampler>(), .example = "random"});
+    group.add({.name = "--jitter", .help = "samples are moved at random in their cells",
+               .set = [&o](const FlagValue& v) { o.jitter = v.on; }, .negatable = true});
+    group.add({.name = "--seed", .argument = "N", .help = "another seed gives other noise",
+               .set = [&o](const FlagValue& v) { setSeed(o, v); }, .example = "5"});
+    group.add({.name = "--filter", .argument = "NAME[,WIDTH]",
+               .help = alternatives<SettingsDesc::Filter>() + ", and its width in pixels",
+               .set = [&o](const FlagValue& v) { setFilter(o, v); },
+               .choices = namesOf<SettingsDesc::Filter>(), .example = "tent,2"});
 }
 
 void addMethodFlags(std::vector<Flag>& flags, Options& o) {
-    const std::string group = "method";
-    flags.push_back({.name = "--integrator", .alias = "-i", .argument = alternatives<IntegratorKind>(),
-                     .help = "what a pixel shows", .group = group,
-                     .set = [&o](const FlagValue& v) { o.integrator = enumValue<IntegratorKind>(v); },
-                     .value = kRequired, .choices = namesOf<IntegratorKind>(), .example = "normal"});
-    flags.push_back({.name = "--accel", .argument = alternatives<AccelKind>(),
-                     .help = "how hits are searched; the picture is the same", .group = group,
-                     .set = [&o](const FlagValue& v) { o.accel = enumValue<AccelKind>(v); },
-                     .value = kRequired, .choices = namesOf<AccelKind>(), .example = "none"});
-    flags.push_back({.name = "--bvh", .help = "the same as --accel bvh and --accel none", .group = group,
-                     .set = [&o](const FlagValue& v) { o.accel = v.on ? AccelKind::Bvh : AccelKind::None; },
-                     .negatable = true});
+    Group group(flags, "method");
+    group.add({.name = "--integrator", .alias = "-i", .argument = alternatives<IntegratorKind>(),
+               .help = "what a pixel shows (whitted)",
+               .set = [&o](const FlagValue& v) { o.integrator = enumValue<IntegratorKind>(v); },
+               .choices = namesOf<IntegratorKind>(), .example = "normal"});
+    group.add({.name = "--accel", .argument = alternatives<AccelKind>(),
+               .help = "how hits are searched; the picture is the same (bvh)",
+               .set = [&o](const FlagValue& v) { o.accel = enumValue<AccelKind>(v); },
+               .choices = namesOf<AccelKind>(), .example = "none"});
+    group.add({.name = "--bvh", .help = "the same as --accel bvh and --accel none",
+               .set = [&o](const FlagValue& v) {
+                   o.accel = v.on ? AccelKind::Bvh : AccelKind::None;
+               },
+               .negatable = true});
     const std::vector<std::string> kernels = {"auto", "scalar"};
-    flags.push_back({.name = "--kernel", .argument = join(kernels, "|"),
-                     .help = "machine code for the search; the picture is the same", .group = group,
-                     .set = [&o, kernels](const FlagValue& v) { o.kernel = kernels[v.choice(kernels)]; },
-                     .value = kRequired, .choices = kernels, .example = "scalar"});
-    flags.push_back({.name = "--threads", .alias = "-t", .argument = "N",
-                     .help = "0: all that the machine has (0)", .group = group,
-                     .set = [&o](const FlagValue& v) { o.threads = v.whole(0, kMostThreads); },
-                     .value = kRequired, .example = "2"});
+    group.add({.name = "--kernel", .argument = join(kernels, "|"),
+               .help = "machine code for the search; the picture is the same (auto)",
+               .set = [&o, kernels](const FlagValue& v) { o.kernel = kernels[v.choice(kernels)]; },
+               .choices = kernels, .example = "scalar"});
+    group.add({.name = "--threads", .alias = "-t", .argument = "N",
+               .help = "0: all that the machine has (0)",
+               .set = [&o](const FlagValue& v) { o.threads = v.whole(0, kMostThreads); },
+               .example = "2"});
 }
 
 void addOutputFlags(std::vector<Flag>& flags, Options& o) {
-    const std::string group = "output";
-    flags.push_back({.name = "--output", .alias = "-o", .argument = "FILE",
-                     .help = "the same as OUTPUT: .ppm, .png or .pfm; - is a PPM on stdout "
-                             "(Output/SCENE.ppm)",
-                     .group = group,
-                     .set = [&o](const FlagValue& v) { o.output = v.nonEmpty("the name of a file"); },
-                     .value = kRequired, .files = Flag::Files::Any, .example = "-"});
-    flags.push_back({.name = "--aov", .argument = "NAME,...",
-                     .help = alternatives<Aov>() + ": more pictures, beside OUTPUT as OUTPUT.NAME.pfm",
-                     .group = group, .set = [&o](const FlagValue& v) { setAovs(o, v); },
-                     .value = kRequired, .choices = namesOf<Aov>(), .example = "depth,id"});
-    flags.push_back({.name = "--stats", .argument = "json",
-                     .help = "times and counters on stderr; with =json as JSON, alone on stdout",
-                     .group = group,
-                     .set = [&o](const FlagValue& v) {
-                         if (!v.text.empty()) v.choice(std::vector<std::string>{"json"});
-                         o.stats = v.text.empty() ? Options::StatsFormat::Table
-                                                  : Options::StatsFormat::Json;
-                     },
-                     .value = Flag::Value::Optional, .choices = {"json"}, .example = "json"});
-    flags.push_back({.name = "--quiet", .alias = "-q", .help = "no progress, nothing but warnings and errors",
-                     .group = group, .set = [&o](const FlagValue&) { o.quiet = true; }});
-    flags.push_back({.name = "--progress", .argument = alternatives<Options::Progress>(),
-                     .help = "auto: a bar on a terminal, else plain: a line per 10 %", .group = group,
-                     .set = [&o](const FlagValue& v) { o.progress = enumValue<Options::Progress>(v); },
-                     .value = kRequired, .choices = namesOf<Options::Progress>(), .example = "plain"});
-    flags.push_back({.name = "--preview", .alias = "-p", .help = "also shows the picture in the terminal (stderr)",
-                     .group = group, .set = [&o](const FlagValue&) { o.preview = true; }});
-    flags.push_back({.name = "--strict", .help = "a warning about the scene ends the program, exit code 3",
-                     .group = group, .set = [&o](const FlagValue&) { o.strict = true; }});
+    Group group(flags, "output");
+    group.add({.name = "--output", .alias = "-o", .argument = "FILE",
+               .help = "the same as OUTPUT: .ppm, .png or .pfm; - is a PPM on stdout "
+                       "(Output/SCENE.ppm)",
+               .set = [&o](const FlagValue& v) { o.output = v.nonEmpty("the name of a file"); },
+               .files = Flag::Files::Any, .example = "-"});
+    group.add({.name = "--aov", .argument = "NAME,...",
+               .help = alternatives<Aov>() + ": more pictures, beside OUTPUT as OUTPUT.NAME.pfm",
+               .set = [&o](const FlagValue& v) { setAovs(o, v); },
+               .choices = namesOf<Aov>(), .example = "depth,id"});
+    const std::vector<std::string> formats = {"json"};
+    group.add({.name = "--stats", .argument = join(formats, "|"),
+               .help = "times and counters on stderr; with =json as JSON, alone on stdout",
+               .set = [&o, formats](const FlagValue& v) {
+                   o.stats = Options::StatsFormat::Table;
+                   if (v.text.empty()) return;
+                   v.choice(formats);
+                   o.stats = Options::StatsFormat::Json;
+               },
+               .value = Flag::Value::Optional, .choices = formats, .example = "json"});
+    group.add({.name = "--quiet", .alias = "-q",
+               .help = "no progress, nothing but warnings and errors",
+               .set = [&o](const FlagValue&) { o.quiet = true; }});
+    group.add({.name = "--progress", .argument = alternatives<Options::Progress>(),
+               .help = "auto: a bar on a terminal, else plain: a line per 10 %",
+               .set = [&o](const FlagValue& v) { o.progress = enumValue<Options::Progress>(v); },
+               .choices = namesOf<Options::Progress>(), .example = "plain"});
+    group.add({.name = "--preview", .alias = "-p",
+               .help = "also shows the picture in the terminal (stderr)",
+               .set = [&o](const FlagValue&) { o.preview = true; }});
+    group.add({.name = "--strict",
+               .help = "a warning about the scene ends the program, exit code 3",
+               .set = [&o](const FlagValue&) { o.strict = true; }});
 }
 
 void addActionFlags(std::vector<Flag>& flags, Options& o) {
-    const std::string group = "instead of a picture";
+    Group group(flags, kActionGroup);
     const auto add = [&](const char* name, const char* alias, Action action, const char* help) {
-        flags.push_back({.name = name, .alias = alias, .help = help, .group = group,
-                         .set = [&o, action](const FlagValue& v) { setAction(o, action, v); }});
+        group.add({.name = name, .alias = alias, .help = help,
+                   .set = [&o, action](const FlagValue& v) { setAction(o, action, v); }});
     };
     add("--check", "-c", Action::Check, "reads and checks the scene and its textures");
     add("--info", "", Action::Info, "tells what the scene contains");
-    flags.push_back({.name = "--convert", .argument = "FILE.txt",
-                     .help = "writes the scene in the native format, with the options given here; - is "
-                             "stdout",
-                     .group = group,
-                     .set = [&o](const FlagValue& v) {
-                         o.convertTo = v.nonEmpty("the name of a .txt file, or -");
-                         if (o.convertTo != "-" && !o.convertTo.ends_with(".txt"))
-                             v.wrong("the name of a .txt file, or -");
-                         setAction(o, Action::Convert, v);
-                     },
-                     .value = kRequired, .files = Flag::Files::Any, .example = "-"});
-    add("--list-features", "", Action::ListFeatures, "lists the features that can be switched on and off");
+    group.add({.name = "--convert", .argument = "FILE.txt",
+               .help = "writes the scene in the native format, with the options given here; - is "
+                       "stdout",
+               .set = [&o](const FlagValue& v) { setConvert(o, v); },
+               .files = Flag::Files::Any, .example = "-"});
+    add("--list-features", "", Action::ListFeatures, "lists what can be switched on and off");
     add("--help", "-h", Action::Help, "this text");
     add("--version", "-v", Action::Version, "the version");
     const std::vector<std::string> shells = {"bash", "zsh", "fish"};
-    flags.push_back({.name = "--completion", .argument = join(shells, "|"),
-                     .help = "prints a script that completes options in that shell", .group = group,
-                     .set = [&o, shells](const FlagValue& v) {
-                         o.shell = shells[v.choice(shells)];
-                         setAction(o, Action::Completion, v);
-                     },
-                     .value = kRequired, .choices = shells, .example = "bash"});
+    group.add({.name = "--completion", .argument = join(shells, "|"),
+               .help = "prints a script that completes options in that shell",
+               .set = [&o, shells](const FlagValue& v) {
+                   o.shell = shells[v.choice(shells)];
+                   setAction(o, Action::Completion, v);
+               },
+               .choices = shells, .example = "bash"});
 }
+
+// clang-format on
 
 } // namespace
 

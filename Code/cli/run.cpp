@@ -163,17 +163,19 @@ ExitCode convert(const LoadedScene& loaded, const Options& options) {
     // Switches are no part of a scene; --no-aa must not turn into a filter without width.
     Options written = options;
     written.switches = {};
-    const std::string text = writeTxt(withSettings(loaded.desc, settingsFrom(loaded.desc, written)));
+    const std::string text =
+        writeTxt(withSettings(loaded.desc, settingsFrom(loaded.desc, written)));
     if (options.convertTo == "-") {
         writeStdout(text);
         return ExitCode::Ok;
     }
-    writeFileAtomically(options.convertTo, {reinterpret_cast<const std::uint8_t*>(text.data()),
-                                            text.size()});
+    writeFileAtomically(options.convertTo,
+                        {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     const auto folderOf = [](const std::string& name) {
         return std::filesystem::absolute(name).lexically_normal().parent_path();
     };
-    const bool moved = options.scene == "-" || folderOf(options.scene) != folderOf(options.convertTo);
+    const bool moved =
+        options.scene == "-" || folderOf(options.scene) != folderOf(options.convertTo);
     if (!options.quiet && moved && !loaded.desc.textures.empty())
         writeStderr("raytracer: note: the names of texture files are kept; render with --textures "
                     "and the folder they are in\n");
@@ -206,7 +208,8 @@ ExitCode runScene(const Options& options, Step& step) {
     const Scene scene(loaded.desc, loaded.source, settings);
     if (options.action == Action::Info)
         writeStdout(infoText(loaded.source, loaded.desc, settings, scene));
-    else writeStdout(cat(options.scene, ": ok (", summaryText(loaded.desc), ")\n"));
+    else
+        writeStdout(cat(options.scene, ": ok (", summaryText(loaded.desc), ")\n"));
     return ExitCode::Ok;
 }
 
@@ -222,9 +225,13 @@ ExitCode run(std::span<const std::string> arguments, Step& step) {
     const Options options = parseOptions(arguments);
     switch (options.action) {
     case Options::Action::Help: writeStdout(helpText()); return ExitCode::Ok;
-    case Options::Action::Version: writeStdout(cat("raytracer ", kVersion, "\n")); return ExitCode::Ok;
+    case Options::Action::Version:
+        writeStdout(cat("raytracer ", kVersion, "\n"));
+        return ExitCode::Ok;
     case Options::Action::ListFeatures: writeStdout(featureListText()); return ExitCode::Ok;
-    case Options::Action::Completion: writeStdout(completionScript(options.shell)); return ExitCode::Ok;
+    case Options::Action::Completion:
+        writeStdout(completionScript(options.shell));
+        return ExitCode::Ok;
     case Options::Action::Render:
     case Options::Action::Check:
     case Options::Action::Info:

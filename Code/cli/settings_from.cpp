@@ -48,7 +48,8 @@ void setPictureSize(SettingsDesc& picture, const Options& options) {
     }
     picture.width = scaledSide(picture.width, options.scalePercent);
     picture.height = scaledSide(picture.height, options.scalePercent);
-    if (options.crop) picture.crop = options.crop;
+    if (options.crop)
+        picture.crop = options.crop;
     else if (picture.crop)
         picture.crop = movedCrop(*picture.crop, written, picture.width, picture.height);
     if (options.crop && ((*picture.crop)[2] > picture.width || (*picture.crop)[3] > picture.height))

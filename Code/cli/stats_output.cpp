@@ -38,9 +38,12 @@ std::string quoted(const std::string& text) {
     std::string out = "\"";
     for (const char c : text) {
         const auto code = static_cast<unsigned char>(c);
-        if (c == '"' || c == '\\') out += {'\\', c};
-        else if (code < 0x20) out += std::string("\\u00") + kHex[code >> 4] + kHex[code & 15];
-        else out += c;
+        if (c == '"' || c == '\\')
+            out += {'\\', c};
+        else if (code < 0x20)
+            out += std::string("\\u00") + kHex[code >> 4] + kHex[code & 15];
+        else
+            out += c;
     }
     return out + "\"";
 }

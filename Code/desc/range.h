@@ -30,10 +30,9 @@ inline constexpr Range kAnyUnsigned{0, kLargestUnsigned};
 
 // "must be > 0", "must be from 0 to 1": huge bounds are named only when they are what is violated.
 inline std::string mustBe(const Range& range, double value) {
-    if (value > range.hi && range.hi >= kLargestAngleDeg)
-        return "must be at most " + shortest(range.hi);
-    if (range.hi < kLargestAngleDeg)
-        return range.aboveLo ? cat("must be > ", shortest(range.lo), " and at most ", shortest(range.hi))
-                             : cat("must be from ", shortest(range.lo), " to ", shortest(range.hi));
-    return cat("must be ", range.aboveLo ? "> " : ">= ", shortest(range.lo));
+    const bool hasEnd = range.hi < kLargestColor;
+    if (!hasEnd && value > range.hi) return "must be at most " + shortest(range.hi);
+    if (!hasEnd) return cat("must be ", range.aboveLo ? "> " : ">= ", shortest(range.lo));
+    if (range.aboveLo) return cat("must be > ", shortest(range.lo), " and at most ", shortest(range.hi));
+    return cat("must be from ", shortest(range.lo), " to ", shortest(range.hi));
 }

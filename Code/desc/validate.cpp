@@ -105,8 +105,10 @@ private:
             };
             checkNumbers(property.first);
             if (property.second) checkNumbers(*property.second);
-            if (!isDefault && !(property.kinds & kindOf(block)))
-                warn(block.loc, cat(called(block), ": '", property.keyword, "' has no effect here"));
+            if constexpr (std::is_same_v<Block, LightDesc>)
+                if (!isDefault && !(property.kinds & kindOf(block)))
+                    warn(block.loc, cat(called(block), ": '", property.keyword,
+                                        "' has no effect on type ", nameOf(block.kind)));
         }
         forEachReference(block, [&](Handle handle, Target target, std::string_view keyword) {
             if (handle != kNone && (handle < 0 || static_cast<std::size_t>(handle) >= countOf(target)))
@@ -201,11 +203,13 @@ private:
 
     void checkMesh(const MeshDesc& mesh) {
         if (mesh.triangles.empty()) error(mesh, "has no triangles");
-        for (std::size_t i = 0; i < mesh.points.size(); ++i)
-            if (!(maxAbs(mesh.points[i]) <= kLargestLength)) {
+        for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+            const Vec3d& p = mesh.points[i];
+            if (!kAnyNumber.contains(p.x) || !kAnyNumber.contains(p.y) || !kAnyNumber.contains(p.z)) {
                 error(mesh, "point ", i, " is not finite or beyond ", shortest(kLargestLength));
                 break;
             }
+        }
         checkCorners(mesh, mesh.triangles, mesh.points.size(), "points", "triangles");
         checkCorners(mesh, mesh.normalTriangles, mesh.normals.size(), "normals", "normal_triangles");
         checkCorners(mesh, mesh.uvTriangles, mesh.uvs.size(), "uvs", "uv_triangles");

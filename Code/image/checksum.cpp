@@ -6,7 +6,8 @@
 
 namespace {
 
-// kCrc[k][b]: what byte b does to the remainder when k zero bytes follow (slicing by 8, Intel 2006).
+// kCrc[k][b]: what byte b does to the remainder when k zero bytes follow (slicing by 8, Intel
+// 2006).
 constexpr auto kCrc = [] {
     std::array<std::array<std::uint32_t, 256>, 8> table{};
     for (std::uint32_t b = 0; b < 256; ++b) {

@@ -25,13 +25,16 @@ constexpr double root(double y, int n, double start) {
 }
 
 // x^2.4 = x^2 * fifth root of x^2
-constexpr double decode(double encoded, double start = 1) {
-    if (encoded <= kDecodeThreshold) return encoded / 12.92;
+constexpr double decodeCurve(double encoded, double start = 1) {
     const double x = (encoded + 0.055) / 1.055;
     return x * x * root(x * x, 5, start);
 }
+constexpr double decode(double encoded, double start = 1) {
+    return encoded <= kDecodeThreshold ? encoded / 12.92 : decodeCurve(encoded, start);
+}
 
-// A node of the decoding table: exact value there and 1 / (encoded + 0.055).
+// A node of the decoding table: the curve's value there (also left of the threshold, since floats
+// between both use the node 10) and 1 / (encoded + 0.055).
 struct DecodeNode {
     double value, inverse;
 };
@@ -39,7 +42,7 @@ constexpr auto kDecode = [] {
     std::array<DecodeNode, 256> table{};
     for (int k = 0; k < 256; ++k) {
         const double encoded = k / 255.0;
-        table[static_cast<std::size_t>(k)] = {decode(encoded), 1 / (encoded + 0.055)};
+        table[static_cast<std::size_t>(k)] = {decodeCurve(encoded), 1 / (encoded + 0.055)};
     }
     return table;
 }();
@@ -154,7 +157,10 @@ float srgbFromLinear(float linear) {
     return static_cast<float>(1.055 * raised - 0.055);
 }
 
-float linearFromSrgb8(std::uint8_t code) { return static_cast<float>(kDecode[code].value); }
+float linearFromSrgb8(std::uint8_t code) {
+    const double encoded = code / 255.0;
+    return static_cast<float>(encoded <= kDecodeThreshold ? encoded / 12.92 : kDecode[code].value);
+}
 
 float linearFromSrgb16(std::uint16_t code) { return tables16().decoded[code]; }
 

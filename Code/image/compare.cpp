@@ -13,8 +13,7 @@ namespace {
 
 // The mean of term(difference) over all channels; row sums first, so that the error does not grow
 // with the number of pixels.
-template <class Term>
-double meanOver(const Image& a, const Image& b, Term term) {
+template <class Term> double meanOver(const Image& a, const Image& b, Term term) {
     checkSameSize(a, b);
     const auto width = static_cast<std::size_t>(a.width());
     double sum = 0;
@@ -61,8 +60,7 @@ public:
     }
 
     // `quantity(i)` is the value of pixel i.
-    template <class Quantity>
-    std::vector<double> operator()(Quantity quantity) const {
+    template <class Quantity> std::vector<double> operator()(Quantity quantity) const {
         const std::size_t columns = width_ - weights_.size() + 1;
         const std::size_t rows = height_ - weights_.size() + 1;
         std::vector<double> line(width_), across(columns * height_), mean(columns * rows);
@@ -96,9 +94,8 @@ constexpr Metric kMetrics[] = {
 
 void checkSameSize(const Image& a, const Image& b) {
     if (a.width() == b.width() && a.height() == b.height()) return;
-    fail(ErrorKind::Input,
-         cat("error: the pictures differ in size: ", a.width(), "x", a.height(), " and ", b.width(),
-             "x", b.height(), "; both must have the same"));
+    fail(ErrorKind::Input, cat("error: the pictures differ in size: ", a.width(), "x", a.height(),
+                               " and ", b.width(), "x", b.height(), "; both must have the same"));
 }
 
 double rmse(const Image& a, const Image& b) {
@@ -126,8 +123,7 @@ double ssim(const Image& a, const Image& b) {
         const double u = meanP[i], v = meanQ[i];
         const double covariance = meanPQ[i] - u * v;
         const double variances = meanPP[i] - u * u + meanQQ[i] - v * v;
-        sum += (2 * u * v + c1) * (2 * covariance + c2) /
-               ((u * u + v * v + c1) * (variances + c2));
+        sum += (2 * u * v + c1) * (2 * covariance + c2) / ((u * u + v * v + c1) * (variances + c2));
     }
     return sum / static_cast<double>(meanP.size());
 }

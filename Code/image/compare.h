@@ -13,9 +13,9 @@ double rmse(const Image& a, const Image& b); // root of the mean squared differe
 double mae(const Image& a, const Image& b);  // mean absolute difference
 double psnr(const Image& a, const Image& b); // -20 log10(rmse), dB for peak 1; infinite if equal
 
-// Structural similarity (Wang et al. 2004) of the luma of the sRGB-encoded pictures: gaussian window
-// 11x11 with sigma 1.5, K1 0.01, K2 0.03, only windows that lie inside. Pictures with a side below
-// 11 get the largest odd window that fits. 1 when equal.
+// Structural similarity (Wang et al. 2004) of the luma of the sRGB-encoded pictures: gaussian
+// window 11x11 with sigma 1.5, K1 0.01, K2 0.03, only windows that lie inside. Pictures with a side
+// below 11 get the largest odd window that fits. 1 when equal.
 double ssim(const Image& a, const Image& b);
 
 // LDR-FLIP (Andersson et al. 2020): what a viewer notices who flips between both, 0 to 1, mean over

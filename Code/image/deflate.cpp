@@ -54,8 +54,7 @@ public:
     void putBytes(std::span<const std::uint8_t> bytes) {
         padToByte();
         reserveBits(8 * bytes.size());
-        std::copy(bytes.begin(), bytes.end(),
-                  bytes_.begin() + static_cast<std::ptrdiff_t>(used_));
+        std::copy(bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(used_));
         used_ += bytes.size();
     }
     void padToByte() {
@@ -116,9 +115,12 @@ std::vector<LengthToken> packLengths(std::span<const std::uint8_t> lengths) {
         }
         while (run >= 3) {
             const std::size_t part = std::min<std::size_t>(run, value != 0 ? 6 : 138);
-            if (value != 0) tokens.push_back({16, static_cast<std::uint8_t>(part - 3), 2});
-            else if (part <= 10) tokens.push_back({17, static_cast<std::uint8_t>(part - 3), 3});
-            else tokens.push_back({18, static_cast<std::uint8_t>(part - 11), 7});
+            if (value != 0)
+                tokens.push_back({16, static_cast<std::uint8_t>(part - 3), 2});
+            else if (part <= 10)
+                tokens.push_back({17, static_cast<std::uint8_t>(part - 3), 3});
+            else
+                tokens.push_back({18, static_cast<std::uint8_t>(part - 11), 7});
             run -= part;
         }
         for (; run > 0; --run) tokens.push_back({value, 0, 0});
@@ -186,9 +188,8 @@ void putBlock(BitWriter& out, Block& block, std::span<const std::uint8_t> bytes,
     };
     const std::size_t literalCount = usedOf(literalLengths, 257);
     const std::size_t distanceCount = usedOf(distanceLengths, 1);
-    std::vector<std::uint8_t> lengths(literalLengths.begin(),
-                                      literalLengths.begin() +
-                                          static_cast<std::ptrdiff_t>(literalCount));
+    std::vector<std::uint8_t> lengths(
+        literalLengths.begin(), literalLengths.begin() + static_cast<std::ptrdiff_t>(literalCount));
     lengths.insert(lengths.end(), distanceLengths.begin(),
                    distanceLengths.begin() + static_cast<std::ptrdiff_t>(distanceCount));
     const std::vector<LengthToken> packed = packLengths(lengths);
@@ -297,7 +298,8 @@ private:
         for (; n + 8 <= most; n += 8) {
             const std::uint64_t different =
                 loadLittle<std::uint64_t>(a + n) ^ loadLittle<std::uint64_t>(b + n);
-            if (different != 0) return n + static_cast<std::size_t>(std::countr_zero(different)) / 8;
+            if (different != 0)
+                return n + static_cast<std::size_t>(std::countr_zero(different)) / 8;
         }
         while (n < most && a[n] == b[n]) ++n;
         return n;

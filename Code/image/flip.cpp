@@ -64,8 +64,7 @@ double hyab(Vec3d a, Vec3d b) { return std::fabs(a.x - b.x) + std::hypot(a.y - b
 // A filter along one axis, from -radius to radius.
 using Taps = std::vector<double>;
 
-template <class F>
-Taps tapsOf(int radius, F f) {
+template <class F> Taps tapsOf(int radius, F f) {
     Taps taps;
     for (int i = -radius; i <= radius; ++i) taps.push_back(f(static_cast<double>(i)));
     return taps;
@@ -158,8 +157,8 @@ std::array<Plane, 3> opponentPlanes(const Image& image) {
     std::array<Plane, 3> planes{empty, empty, empty};
     for (std::size_t i = 0; i < image.pixels().size(); ++i) {
         const Rgb p = image.pixels()[i];
-        const Vec3d colour = opponentFromRgb(
-            toDouble({clampToUnit(p.r), clampToUnit(p.g), clampToUnit(p.b)}));
+        const Vec3d colour =
+            opponentFromRgb(toDouble({clampToUnit(p.r), clampToUnit(p.g), clampToUnit(p.b)}));
         for (std::size_t c = 0; c < 3; ++c) planes[c].values[i] = colour[c];
     }
     return planes;
@@ -172,8 +171,8 @@ std::vector<Vec3d> seenColours(const std::array<Plane, 3>& planes, double pixels
         blurred[c] = seen(planes[c], kSensitivity[c], pixelsPerDegree);
     std::vector<Vec3d> colours;
     for (std::size_t i = 0; i < blurred[0].values.size(); ++i) {
-        const Vec3d rgb = rgbFromOpponent(
-            {blurred[0].values[i], blurred[1].values[i], blurred[2].values[i]});
+        const Vec3d rgb =
+            rgbFromOpponent({blurred[0].values[i], blurred[1].values[i], blurred[2].values[i]});
         colours.push_back(huntLab({std::clamp(rgb.x, 0.0, 1.0), std::clamp(rgb.y, 0.0, 1.0),
                                    std::clamp(rgb.z, 0.0, 1.0)}));
     }
@@ -191,8 +190,8 @@ Features featuresOf(const Plane& luminance, double pixelsPerDegree) {
     const auto gaussian = [&](double x) { return std::exp(-x * x / (2 * sigma * sigma)); };
     const Taps smooth = balanced(tapsOf(radius, gaussian));
     const Taps first = balanced(tapsOf(radius, [&](double x) { return -x * gaussian(x); }));
-    const Taps second = balanced(tapsOf(
-        radius, [&](double x) { return (x * x / (sigma * sigma) - 1) * gaussian(x); }));
+    const Taps second = balanced(
+        tapsOf(radius, [&](double x) { return (x * x / (sigma * sigma) - 1) * gaussian(x); }));
     Plane grey = luminance;
     for (double& value : grey.values) value = (value + 16) / 116;
     const auto strength = [&](const Taps& taps) {
@@ -208,8 +207,7 @@ Features featuresOf(const Plane& luminance, double pixelsPerDegree) {
 // Perceived colour difference as an error in [0,1] (4.1.4): large ones are compressed.
 double colourError(double distance) {
     constexpr double kExponent = 0.7, kTurn = 0.4, kErrorAtTurn = 0.95;
-    static const double most =
-        std::pow(hyab(huntLab({0, 1, 0}), huntLab({0, 0, 1})), kExponent);
+    static const double most = std::pow(hyab(huntLab({0, 1, 0}), huntLab({0, 0, 1})), kExponent);
     const double powered = std::pow(distance, kExponent), turn = kTurn * most;
     if (powered < turn) return kErrorAtTurn / turn * powered;
     return kErrorAtTurn + (powered - turn) / (most - turn) * (1 - kErrorAtTurn);

@@ -8,7 +8,8 @@
 
 // The length of each symbol's code, 0 for a symbol that never occurs, at most `longest`. At least
 // two symbols get a code, because readers want complete codes: unused ones are added if necessary.
-std::vector<std::uint8_t> huffmanLengths(std::span<const std::uint32_t> counts, std::size_t longest);
+std::vector<std::uint8_t> huffmanLengths(std::span<const std::uint32_t> counts,
+                                         std::size_t longest);
 
 // A code as it goes into the stream: its first bit is the lowest.
 struct HuffmanCode {

@@ -82,7 +82,8 @@ void checkSize(long long width, long long height, const std::string& name) {
                                    " is too large; at most ", Image::kMaxPixels, " pixels"));
 }
 
-Image::Image(int width, int height) : width_(width), height_(height), pixels_(areaOf(width, height)) {}
+Image::Image(int width, int height)
+    : width_(width), height_(height), pixels_(areaOf(width, height)) {}
 
 Image::Image(const std::string& fileName, Encoding::Transfer transfer)
     : Image(readStoredImage(fileName), transfer) {}
@@ -146,8 +147,10 @@ void encodePixels(std::span<const Rgb> pixels, Encoding encoding, std::span<std:
             for (const Rgb& pixel : pixels)
                 for (const float value : {pixel.r, pixel.g, pixel.b}) *to++ = code(value);
         };
-        if (srgb) encode([](float value) { return srgb8FromLinear(value); });
-        else encode([](float value) { return unit8From(value); });
+        if (srgb)
+            encode([](float value) { return srgb8FromLinear(value); });
+        else
+            encode([](float value) { return unit8From(value); });
     } else {
         const auto encode = [&](auto code) {
             for (const Rgb& pixel : pixels) {
@@ -158,7 +161,9 @@ void encodePixels(std::span<const Rgb> pixels, Encoding encoding, std::span<std:
                 }
             }
         };
-        if (srgb) encode([](float value) { return srgb16FromLinear(value); });
-        else encode([](float value) { return unit16From(value); });
+        if (srgb)
+            encode([](float value) { return srgb16FromLinear(value); });
+        else
+            encode([](float value) { return unit16From(value); });
     }
 }

@@ -155,9 +155,6 @@ public:
     std::vector<std::uint8_t> result() && { return std::move(out_); }
 
 private:
-    HuffmanDecoder literalDecoder(std::span<const std::uint8_t> lengths) const {
-        return {lengths, name_, "literal"};
-    }
     void room(std::size_t count) const {
         if (count > out_.size() - used_)
             broken(name_, cat("it unpacks to more than ", out_.size(), " bytes"));
@@ -180,7 +177,7 @@ private:
     void fixedBlock() {
         std::array<std::uint8_t, 32> fives{}; // the two that stand for nothing make it complete
         fives.fill(5);
-        block(literalDecoder(kFixedLiteralLengths), {fives, name_, "distance"});
+        block({kFixedLiteralLengths, name_, "literal"}, {fives, name_, "distance"});
     }
 
     void dynamicBlock() {
@@ -215,8 +212,8 @@ private:
         }
         if (lengths[kEndOfBlock] == 0) broken(name_, "a block without an end");
         const std::span<const std::uint8_t> all(lengths);
-        block(literalDecoder(all.first(literalCount)),
-              {all.subspan(literalCount, distanceCount), name_, "distance"});
+        const HuffmanDecoder literals(all.first(literalCount), name_, "literal");
+        block(literals, {all.subspan(literalCount, distanceCount), name_, "distance"});
     }
 
     void block(const HuffmanDecoder& literals, const HuffmanDecoder& distances) {
@@ -247,8 +244,10 @@ private:
         std::uint8_t* to = out_.data() + used_;
         const std::uint8_t* from = to - distance;
         used_ += length;
-        if (distance >= length) std::memcpy(to, from, length);
-        else if (distance == 1) std::memset(to, *from, length);
+        if (distance >= length)
+            std::memcpy(to, from, length);
+        else if (distance == 1)
+            std::memset(to, *from, length);
         else
             for (std::size_t i = 0; i < length; ++i) to[i] = from[i];
     }

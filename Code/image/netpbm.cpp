@@ -35,8 +35,10 @@ void NetpbmHeader::skipComment() {
 
 bool NetpbmHeader::hasMore() {
     while (at_ < file_.size() && (isSpace(file_[at_]) || file_[at_] == '#')) {
-        if (file_[at_] == '#') skipComment();
-        else ++at_;
+        if (file_[at_] == '#')
+            skipComment();
+        else
+            ++at_;
     }
     wordStart_ = at_;
     return at_ < file_.size();

@@ -18,8 +18,13 @@ StoredImage decodePfm(Bytes file, const std::string& name) {
     const std::size_t row = static_cast<std::size_t>(width) * channels;
     const std::size_t count = row * static_cast<std::size_t>(height);
     const Bytes data = header.data(4 * count);
-    StoredImage image{static_cast<int>(width), static_cast<int>(height),
-                      static_cast<int>(channels), StoredImage::Depth::Float, {}, {}, {}};
+    StoredImage image{static_cast<int>(width),
+                      static_cast<int>(height),
+                      static_cast<int>(channels),
+                      StoredImage::Depth::Float,
+                      {},
+                      {},
+                      {}};
     image.floats.resize(count);
     const unsigned firstShift = scale < 0 ? 0 : 24;
     const float factor = static_cast<float>(std::fabs(scale));
@@ -31,8 +36,8 @@ StoredImage decodePfm(Bytes file, const std::string& name) {
         const std::size_t fromTop = static_cast<std::size_t>(height) - 1 - i / row;
         const float value = std::bit_cast<float>(bits) * factor;
         if (!std::isfinite(value))
-            fail(ErrorKind::Input, cat(name, ": error: the pixel ", i % row / channels, ",", fromTop,
-                                       " is not a finite number"));
+            fail(ErrorKind::Input, cat(name, ": error: the pixel ", i % row / channels, ",",
+                                       fromTop, " is not a finite number"));
         image.floats[fromTop * row + i % row] = value;
     }
     return image;

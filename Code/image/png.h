@@ -8,13 +8,13 @@
 
 constexpr std::array<std::uint8_t, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
 
-// The filter of a row: what is subtracted from each byte. a is the byte one pixel to the left, b the
-// one above, c the one above a; 0 outside of the picture.
+// The filter of a row: what is subtracted from each byte. a is the byte one pixel to the left, b
+// the one above, c the one above a; 0 outside of the picture.
 enum class PngFilter : std::uint8_t { None, Sub, Up, Average, Paeth };
 constexpr std::size_t kPngFilterCount = 5;
 
-// The neighbour that is nearest to a + b - c; ties in the order a, b, c. In 16 bits: twice as many at
-// once in vector code.
+// The neighbour that is nearest to a + b - c; ties in the order a, b, c. In 16 bits: twice as many
+// at once in vector code.
 inline std::uint8_t paethPredictor(std::uint8_t a, std::uint8_t b, std::uint8_t c) {
     const auto distance = [](int difference) {
         const auto d = static_cast<std::int16_t>(difference);

@@ -29,7 +29,9 @@ struct Header {
         default: return 1;
         }
     }
-    std::size_t rowBytes(std::size_t columns) const { return (columns * samples() * depth + 7) / 8; }
+    std::size_t rowBytes(std::size_t columns) const {
+        return (columns * samples() * depth + 7) / 8;
+    }
 };
 
 struct Colour8 {
@@ -105,10 +107,14 @@ private:
 
     void take(std::string_view type, Bytes data) {
         constexpr char kAncillary = 0x20; // a small first letter: may be skipped
-        if (type == "IHDR") takeHeader(data);
-        else if (type == "PLTE") takePalette(data);
-        else if (type == "tRNS") takeTransparency(data);
-        else if (type == "IDAT") takePixels(data);
+        if (type == "IHDR")
+            takeHeader(data);
+        else if (type == "PLTE")
+            takePalette(data);
+        else if (type == "tRNS")
+            takeTransparency(data);
+        else if (type == "IDAT")
+            takePixels(data);
         else if (!(type[0] & kAncillary))
             broken(cat("the chunk ", type, " is necessary for the picture, but unknown"));
     }
@@ -131,9 +137,9 @@ private:
                                         {kPalette, "1, 2, 4, 8"},
                                         {kGreyAlpha, "8, 16"},
                                         {kRgba, "8, 16"}};
-        const auto allowed = std::find_if(
-            std::begin(kAllowed), std::end(kAllowed),
-            [&](const Allowed& row) { return row.colourType == header.colourType; });
+        const auto allowed =
+            std::find_if(std::begin(kAllowed), std::end(kAllowed),
+                         [&](const Allowed& row) { return row.colourType == header.colourType; });
         if (allowed == std::end(kAllowed))
             broken(cat("the colour type is ", header.colourType, "; it must be 0, 2, 3, 4 or 6"));
         const bool isPower = std::has_single_bit(header.depth) && header.depth <= 16;
@@ -143,7 +149,8 @@ private:
             (header.colourType == kPalette && header.depth == 16))
             broken(cat("the bit depth is ", header.depth, "; with colour type ", header.colourType,
                        " it must be one of ", allowed->depths));
-        if (data[10] != 0) broken(cat("the compression method is ", data[10] + 0, "; only 0 exists"));
+        if (data[10] != 0)
+            broken(cat("the compression method is ", data[10] + 0, "; only 0 exists"));
         if (data[11] != 0) broken(cat("the filter method is ", data[11] + 0, "; only 0 exists"));
         if (data[12] > 1)
             broken(cat("the interlace method is ", data[12] + 0, "; it must be 0 or 1"));
@@ -154,7 +161,8 @@ private:
         if (!chunks_.palette.empty()) broken("there are two PLTE chunks");
         if (!chunks_.packed.empty()) broken("the PLTE chunk comes after the pixels");
         if (data.empty() || data.size() % 3 != 0 || data.size() > 3 * 256)
-            broken(cat("the PLTE chunk has ", data.size(), " bytes; 3 for each of 1 to 256 colours"));
+            broken(
+                cat("the PLTE chunk has ", data.size(), " bytes; 3 for each of 1 to 256 colours"));
         for (std::size_t i = 0; i < data.size(); i += 3)
             chunks_.palette.push_back({data[i], data[i + 1], data[i + 2]});
     }
@@ -176,8 +184,7 @@ private:
         if (data.size() != 2 * samples)
             broken(cat("the tRNS chunk has ", data.size(), " bytes; ", 2 * samples));
         chunks_.transparent.emplace();
-        for (std::size_t i = 0; i < samples; ++i)
-            (*chunks_.transparent)[i] = wordAt(data, 2 * i);
+        for (std::size_t i = 0; i < samples; ++i) (*chunks_.transparent)[i] = wordAt(data, 2 * i);
     }
 
     void takePixels(Bytes data) {
@@ -277,8 +284,10 @@ private:
         return row[bit / 8] >> (8 - depth - bit % 8) & ((1u << depth) - 1);
     }
     void put(std::size_t at, unsigned value) { // the low bits
-        if (out_.words.empty()) out_.bytes[at] = static_cast<std::uint8_t>(value);
-        else out_.words[at] = static_cast<std::uint16_t>(value);
+        if (out_.words.empty())
+            out_.bytes[at] = static_cast<std::uint8_t>(value);
+        else
+            out_.words[at] = static_cast<std::uint16_t>(value);
     }
     void putColour(std::size_t at, unsigned index) {
         if (index >= chunks_.palette.size())
@@ -308,9 +317,9 @@ StoredImage decodePng(Bytes file, const std::string& name) {
         if (columns > 0) size += rows * (1 + header.rowBytes(columns));
     }
     if (size / kMaxInflation > chunks.packed.size())
-        fail(ErrorKind::Input, cat(name, ": error: the file is too short for ", header.width, "x",
-                                   header.height, " pixels: ", chunks.packed.size(),
-                                   " bytes cannot hold ", size));
+        fail(ErrorKind::Input,
+             cat(name, ": error: the file is too short for ", header.width, "x", header.height,
+                 " pixels: ", chunks.packed.size(), " bytes cannot hold ", size));
     std::vector<std::uint8_t> rows = inflateZlib(chunks.packed, size, name);
 
     PixelWriter picture(chunks, name);

@@ -79,10 +79,8 @@ std::vector<std::uint8_t> filteredRows(const Image& image, Encoding encoding) {
         filter(PngFilter::Up, [](Byte, Byte b, Byte) { return b; });
         filter(PngFilter::Average, [](Byte a, Byte b, Byte) { return (a + b) / 2; });
         filter(PngFilter::Paeth, paethPredictor);
-        const auto best =
-            std::min_element(rows.begin(), rows.end(), [](const auto& a, const auto& b) {
-                return a.cost < b.cost;
-            });
+        const auto best = std::min_element(
+            rows.begin(), rows.end(), [](const auto& a, const auto& b) { return a.cost < b.cost; });
         out.push_back(static_cast<Byte>(best - rows.begin()));
         out.insert(out.end(), best->bytes.begin(),
                    best->bytes.begin() + static_cast<std::ptrdiff_t>(size));

@@ -50,9 +50,9 @@ StoredImage decodePpm(Bytes file, const std::string& name) {
     if (isText) {
         // A digit and a space each, the last without the space.
         if (header.left() < 2 * count)
-            fail(ErrorKind::Input, cat(name, ": error: the file ends too early: the header promises ",
-                                       count, " samples, only ", header.left(),
-                                       " bytes follow it"));
+            fail(ErrorKind::Input,
+                 cat(name, ": error: the file ends too early: the header promises ", count,
+                     " samples, only ", header.left(), " bytes follow it"));
         store([&] { return header.sample(maxval); });
         if (header.hasMore())
             header.failHere(cat("more samples than ", width, "x", height, "x", image.channels));
@@ -62,8 +62,8 @@ StoredImage decodePpm(Bytes file, const std::string& name) {
     const std::uint8_t* next = header.data(count * sampleBytes).data();
     const auto checked = [&](std::uint32_t sample) {
         if (sample > maxval)
-            fail(ErrorKind::Input, cat(name, ": error: the sample ", sample,
-                                       " is larger than the maxval ", maxval));
+            fail(ErrorKind::Input,
+                 cat(name, ": error: the sample ", sample, " is larger than the maxval ", maxval));
         return sample;
     };
     if (sampleBytes == 1)

@@ -26,12 +26,15 @@ void failUnclosed(const Scanner& in, const Token& open, const Token& found) {
                                 in.lineOf(open.offset), ")"));
 }
 
-void failUnknownProperty(const Scanner& in, const Token& word, std::string_view block,
-                         std::vector<std::string> known) {
+void failUnknownProperty(Scanner& in, const Token& word, const Token& open,
+                         std::span<const std::string> known) {
+    Token t = in.peek();
+    while (t.kind == TokenKind::Word || t.kind == TokenKind::Quoted) t = in.next();
+    if (t.kind == TokenKind::Open) failUnclosed(in, open, word);
     const std::string name = shown(word.text);
-    const bool vowel = std::string_view("aeiou").find(block.front()) != std::string_view::npos;
-    const std::string_view article = block == "settings" ? "" : vowel ? "an " : "a ";
-    in.failAt(word.offset, cat("unknown property '", name, "' of ", article, block,
+    const bool vowel = std::string_view("aeiou").find(open.text.front()) != std::string_view::npos;
+    const std::string_view article = open.text == "settings" ? "" : vowel ? "an " : "a ";
+    in.failAt(word.offset, cat("unknown property '", name, "' of ", article, open.text,
                                unknownName(name, known).substr(name.size() + 2)));
 }
 

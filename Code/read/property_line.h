@@ -8,7 +8,8 @@
 #include "read/number.h"
 #include "read/scanner.h"
 
-#include <limits>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -17,8 +18,9 @@
 // Fails unless the line ends here. A '{' means that the block `open` was never closed.
 void expectLineEnd(Scanner& in, std::string_view after, const Token& open);
 [[noreturn]] void failUnclosed(const Scanner& in, const Token& open, const Token& found);
-[[noreturn]] void failUnknownProperty(const Scanner& in, const Token& word, std::string_view block,
-                                      std::vector<std::string> known);
+// When the line opens another block, then it is `open` that was never closed.
+[[noreturn]] void failUnknownProperty(Scanner& in, const Token& word, const Token& open,
+                                      std::span<const std::string> known);
 
 // Reads the numbers of one line and counts them for its messages.
 class NumberLine {

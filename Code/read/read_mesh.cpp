@@ -78,14 +78,14 @@ public:
     }
 
 private:
-    std::size_t arrayNamed(const Token& t) const {
+    std::size_t arrayNamed(const Token& t) {
         for (std::size_t i = 0; i < kMeshArrays.size(); ++i)
             if (kMeshArrays[i].keyword == t.text) return i;
         if (!last_.empty() && readDouble(t.text.data()).fault != NumberFault::NotANumber)
             in_.failAt(t.offset, cat("'", last_, "' has more numbers than its count says"));
         std::vector<std::string> known;
         for (const MeshArray& array : kMeshArrays) known.emplace_back(array.keyword);
-        failUnknownProperty(in_, t, "mesh", known);
+        failUnknownProperty(in_, t, open_, known);
     }
 
     void readArray(const Token& keyword, std::size_t which) {

@@ -32,10 +32,6 @@ std::vector<std::string> blockWords() {
     for (const auto& row : kEnumNames<ObjectDesc::Kind>) words.emplace_back(row.name);
     return words;
 }
-bool isBlockWord(std::string_view word) {
-    const auto words = blockWords();
-    return std::find(words.begin(), words.end(), word) != words.end();
-}
 
 class TxtReader {
 public:
@@ -174,14 +170,13 @@ private:
     }
 
     template <class Block>
-    [[noreturn]] void failUnknown(const Block& block, const Token& t, const Token& word) const {
-        if (isBlockWord(t.text)) failUnclosed(in_, word, t);
+    [[noreturn]] void failUnknown(const Block& block, const Token& t, const Token& word) {
         std::vector<std::string> known;
         for (const Property<Block>& property : propertiesOf<Block>())
             if (isHere(property, block)) known.emplace_back(property.keyword);
         if constexpr (kHasPlace<Block>)
             for (const TransformLine& line : transformLines()) known.emplace_back(line.keyword);
-        failUnknownProperty(in_, t, word.text, known);
+        failUnknownProperty(in_, t, word, known);
     }
 
     bool readTransformLine(const Token& t, const Token& word, Keys& keys) {

@@ -1,6 +1,9 @@
 // What a scene needs, found by looking at it; --stats lists it, and what is not needed is skipped.
 #pragma once
 
+#include "desc/scene_desc.h"
+#include "render/settings.h"
+
 #include <string>
 #include <vector>
 
@@ -10,3 +13,5 @@ struct Feature {
     std::string reason; // why it is skipped
 };
 using Features = std::vector<Feature>;
+
+Features featuresOf(const SceneDesc& desc, const CameraDesc& camera, const RenderSettings& settings);

@@ -1,36 +1,19 @@
-// Builds a Scene from a SceneDesc: the only file that names the concrete shapes and lights.
+// Builds a Scene from a SceneDesc. Which class is behind a shape or a light: make_shape.cpp and
+// make_light.cpp.
 #include "render/scene.h"
 
 #include "base/math.h"
 #include "base/text.h"
 #include "image/image.h"
-#include "light/area_light.h"
-#include "light/point_light.h"
-#include "light/sun_light.h"
-#include "render/frame.h"
+#include "render/make_light.h"
+#include "render/make_shape.h"
 #include "render/merge.h"
 #include "render/texture_files.h"
-#include "shape/cone.h"
-#include "shape/cube.h"
-#include "shape/cylinder.h"
-#include "shape/disk.h"
-#include "shape/infinite_plane.h"
-#include "shape/plane.h"
-#include "shape/sphere.h"
+#include "render/to_float.h"
 
 #include <algorithm>
 #include <map>
 #include <utility>
-
-namespace {
-
-Rgb toRgb(Rgbd c) {
-    return {static_cast<float>(c.r), static_cast<float>(c.g), static_cast<float>(c.b)};
-}
-
-float toFloat(double x) { return static_cast<float>(x); }
-
-} // namespace
 
 class SceneBuilder {
 public:
@@ -49,7 +32,7 @@ public:
         buildObjects();
         buildLights();
         scene_.shapes_.finish(settings_.accel == AccelKind::Bvh);
-        listFeatures();
+        scene_.features_ = featuresOf(desc_, *cameraDesc_, settings_);
     }
 
 private:
@@ -297,152 +280,27 @@ private:
             shadow);
     }
 
-    static std::unique_ptr<const Shape> makeShape(const ObjectDesc& object, MovingTransform place,
-                                                  std::uint32_t material, std::uint32_t id) {
-        switch (object.kind) {
-        case ObjectDesc::Kind::Sphere:
-            return std::make_unique<Sphere>(std::move(place), object.radius, material, id);
-        case ObjectDesc::Kind::Cube:
-            return std::make_unique<Cube>(std::move(place), material, id);
-        case ObjectDesc::Kind::Plane:
-            return std::make_unique<Plane>(std::move(place), object.corners, material, id);
-        case ObjectDesc::Kind::InfinitePlane:
-            return std::make_unique<InfinitePlane>(std::move(place), material, id);
-        case ObjectDesc::Kind::Disk:
-            return std::make_unique<Disk>(std::move(place), object.radius, material, id);
-        case ObjectDesc::Kind::Cylinder:
-            return std::make_unique<Cylinder>(std::move(place), object.radius, object.caps, material,
-                                              id);
-        case ObjectDesc::Kind::Cone:
-            return std::make_unique<Cone>(std::move(place), object.radius, object.topRadius,
-                                          object.caps, material, id);
-        case ObjectDesc::Kind::Mesh: break;
-        }
-        fail(ErrorKind::Input, "error: an object of a kind that is not known");
-    }
-
     // ---- lights
 
     void buildLights() {
         for (std::size_t i = 0; i < desc_.lights.size(); ++i) {
             const LightDesc& light = desc_.lights[i];
-            const auto object = static_cast<std::uint32_t>(desc_.objects.size() + i);
-            const Transform place = scene_.frame_.placed(light.worldFromLight);
-            scene_.lights_.push_back(makeLight(light, place));
-            if (light.visible) addLampBody(light, place, object);
+            scene_.lights_.push_back(makeLight(light, scene_.frame_));
+            if (light.visible) addLampBody(light, static_cast<std::uint32_t>(desc_.objects.size() + i));
         }
     }
 
-    std::unique_ptr<const Light> makeLight(const LightDesc& desc, const Transform& place) const {
-        const double scale = scene_.frame_.scale;
-        const Vec3 position = toFloat(place.point({}));
-        const Vec3 axis = toFloat(normalize(place.vector({0, 0, -1})));
-        const Rgb color = toRgb(desc.color);
-        switch (desc.kind) {
-        case LightDesc::Kind::Point:
-        case LightDesc::Kind::Spot: {
-            std::optional<SpotCone> cone;
-            if (desc.kind == LightDesc::Kind::Spot)
-                cone = SpotCone{axis, toFloat(exact::cos(radians(desc.coneAngleDeg / 2))),
-                                toFloat(desc.blend), desc.cosineFalloff};
-            // E = I / r^2 stays the same when all lengths are scaled.
-            return std::make_unique<PointLight>(position, color * toFloat(scale * scale),
-                                                toFloat(desc.radius * scale), cone, desc.shadows);
-        }
-        case LightDesc::Kind::Sun:
-            return std::make_unique<SunLight>(axis, color, radians(desc.angleDeg / 2), desc.shadows);
-        case LightDesc::Kind::Rectangle:
-        case LightDesc::Kind::Disk:
-            return std::make_unique<FlatLight>(
-                desc.kind == LightDesc::Kind::Rectangle ? FlatLight::Outline::Rectangle
-                                                        : FlatLight::Outline::Ellipse,
-                position, toFloat(place.vector({desc.size.x / 2, 0, 0})),
-                toFloat(place.vector({0, desc.size.y / 2, 0})), axis, color,
-                radians(desc.spreadDeg / 2), desc.shadows);
-        case LightDesc::Kind::Sphere: break;
-        }
-        return std::make_unique<SphereLight>(position, sphereRadius(desc, place), color,
-                                             desc.shadows);
-    }
-
-    // Normalised radius; a lamp that is scaled unevenly takes its x axis.
-    static float sphereRadius(const LightDesc& desc, const Transform& place) {
-        return toFloat(desc.radius * length(place.vector({1, 0, 0})));
-    }
-
-    // The shape of a lamp that can be seen. It casts no shadows: its light passes through it.
-    void addLampBody(const LightDesc& desc, const Transform& place, std::uint32_t object) {
+    // A lamp that can be seen casts no shadows: its light passes through its body.
+    void addLampBody(const LightDesc& light, std::uint32_t id) {
+        const auto material = static_cast<std::uint32_t>(scene_.materials_.size());
+        auto body = makeLampBody(light, scene_.frame_, material, id);
+        if (!body) return;
         SceneMaterial glow;
         glow.base.diffuse = {};
-        glow.base.emission = toRgb(desc.color);
+        glow.base.emission = toRgb(light.color);
         glow.isLamp = true;
-        const auto material = static_cast<std::uint32_t>(scene_.materials_.size());
-        const Transform size = Transform::scale(Vec3d{desc.size.x / 2, desc.size.y / 2, 1});
-        // Lamps shine along -Z, flat shapes face +Z.
-        const MovingTransform flat(place * size * Transform::rotate({1, 0, 0}, kPi));
-        std::unique_ptr<const Shape> body;
-        switch (desc.kind) {
-        case LightDesc::Kind::Rectangle:
-            body = std::make_unique<Plane>(flat, ObjectDesc{}.corners, material, object);
-            break;
-        case LightDesc::Kind::Disk:
-            body = std::make_unique<Disk>(flat, 1.0, material, object);
-            break;
-        case LightDesc::Kind::Sphere:
-            body = std::make_unique<Sphere>(
-                MovingTransform(Transform::translate(place.point({}))),
-                static_cast<double>(sphereRadius(desc, place)), material, object);
-            break;
-        case LightDesc::Kind::Point:
-        case LightDesc::Kind::Spot:
-        case LightDesc::Kind::Sun: return; // have no body
-        }
         scene_.materials_.push_back(glow);
         scene_.shapes_.add(std::move(body), ShapeSet::Shadow::None);
-    }
-
-    // ---- features
-
-    void listFeatures() {
-        const auto any = [&](auto test) {
-            return std::any_of(desc_.materials.begin(), desc_.materials.end(), test);
-        };
-        const auto isBlackd = [](Rgbd c) { return c == Rgbd{}; };
-        const bool mirrors = any([&](const MaterialDesc& m) { return !isBlackd(m.mirror); });
-        const bool refracts = any([&](const MaterialDesc& m) { return !isBlackd(m.transmission); });
-        const bool textures = std::any_of(desc_.textures.begin(), desc_.textures.end(),
-                                          [](const TextureDesc&) { return true; });
-        const bool soft = std::any_of(desc_.lights.begin(), desc_.lights.end(), [](const LightDesc& l) {
-            const bool area = l.kind == LightDesc::Kind::Rectangle ||
-                              l.kind == LightDesc::Kind::Disk || l.kind == LightDesc::Kind::Sphere;
-            return area || (l.kind == LightDesc::Kind::Sun ? l.angleDeg > 0 : l.radius > 0);
-        });
-        const bool moving = std::any_of(desc_.objects.begin(), desc_.objects.end(),
-                                        [](const ObjectDesc& o) { return o.worldFromObject.size() > 1; }) ||
-                            cameraDesc_->worldFromCamera.size() > 1;
-        const auto rough = [&](const MaterialDesc& m) {
-            return m.roughness > 0 && (!isBlackd(m.mirror) || !isBlackd(m.transmission));
-        };
-        add("shadows", !desc_.lights.empty(), on_.shadows, "no lights");
-        add("soft-shadows", soft, on_.softShadows && on_.shadows, "no light has a size");
-        add("reflection", mirrors, on_.reflection, "no material has mirror");
-        add("refraction", refracts, on_.refraction, "no material has transmission");
-        add("glossy", any(rough), on_.glossy, "no mirror or transmission has roughness");
-        add("fresnel", any([](const MaterialDesc& m) { return m.fresnel != MaterialDesc::Fresnel::None; }),
-            on_.fresnel, "no material asks for it");
-        add("transparency", scene_.hasSeeThrough_, true, "all materials are opaque");
-        add("textures", textures, on_.textures, "no material has a texture");
-        add("bump", any([](const MaterialDesc& m) { return m.bumpMap != kNone || m.normalMap != kNone; }),
-            on_.textures, "no bump or normal map");
-        add("environment", desc_.world.environment != kNone, on_.textures, "no environment picture");
-        add("dof", cameraDesc_->apertureRadius > 0, on_.dof, "aperture_radius is 0");
-        add("motion-blur", moving, on_.motionBlur, "nothing moves");
-        add("aa", settings_.picture.samplesPerPixel > 1, true, "one sample per pixel");
-        add("instances", !instanced_.empty(), true, "no mesh is used twice");
-    }
-
-    void add(const char* name, bool inScene, bool switchedOn, const char* reason) {
-        scene_.features_.push_back({name, inScene && switchedOn, inScene ? "switched off" : reason});
     }
 
     struct Instanced {

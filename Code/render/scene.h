@@ -1,7 +1,6 @@
 // Scene: a SceneDesc made ready to be traced, immutable. Everything is placed in double, moved by
 // the centre of the scene and scaled by a power of two so that its extent is in [1,2), and only then
 // becomes float: a scene far from the origin or of any size renders alike (promise P3).
-// scene.cpp is the one file that names the concrete shapes and lights.
 #pragma once
 
 #include "base/source.h"

@@ -6,7 +6,8 @@
 
 namespace {
 
-constexpr int kSteps = 1024; // of the inverse table; linear between
+// Steps of the inverse table, linear between; even in sqrt(1 - share), which spreads out the tails.
+constexpr int kSteps = 1024;
 
 double radiusOf(FilterKind kind, double width) {
     switch (kind) {
@@ -34,7 +35,8 @@ double shape(FilterKind kind, double x) {
     return 0;
 }
 
-// x in [0,1] where the share of the filter between 0 and x is i / kSteps of the upper half.
+// Entry i is the x in [0,1] where the share of the upper half that lies between 0 and x is
+// 1 - (i / kSteps)^2.
 std::vector<float> inverseOfCdf(FilterKind kind) {
     constexpr int kPieces = 16384;
     std::vector<double> cdf(kPieces + 1, 0.0);
@@ -44,15 +46,15 @@ std::vector<float> inverseOfCdf(FilterKind kind) {
                             (h / 6);
         cdf[static_cast<std::size_t>(i) + 1] = cdf[static_cast<std::size_t>(i)] + area;
     }
-    std::vector<float> inverse;
-    std::size_t piece = 0;
-    for (int i = 0; i < kSteps; ++i) {
-        const double wanted = cdf.back() * i / kSteps;
-        while (cdf[piece + 1] < wanted) ++piece;
+    std::vector<float> inverse{1};
+    std::size_t piece = kPieces - 1;
+    for (int i = 1; i < kSteps; ++i) {
+        const double wanted = cdf.back() * (1 - sqr(static_cast<double>(i) / kSteps));
+        while (cdf[piece] > wanted) --piece;
         const double s = (wanted - cdf[piece]) / (cdf[piece + 1] - cdf[piece]);
         inverse.push_back(static_cast<float>((static_cast<double>(piece) + s) / kPieces));
     }
-    inverse.push_back(1);
+    inverse.push_back(0);
     return inverse;
 }
 
@@ -77,7 +79,7 @@ float Filter::sample1D(float u) const {
         // 1 - sqrt(1 - size) without cancellation
         x = size / (1 + std::sqrt(1 - size));
     } else if (!inverse_.empty()) {
-        const double at = size * kSteps;
+        const double at = std::sqrt(1 - size) * kSteps;
         const auto i = std::min(static_cast<std::size_t>(at), inverse_.size() - 2);
         x = lerp(static_cast<double>(inverse_[i]), static_cast<double>(inverse_[i + 1]),
                  at - static_cast<double>(i));

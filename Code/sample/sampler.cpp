@@ -4,6 +4,7 @@
 #include "sample/hash.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
 
 namespace {
@@ -38,33 +39,22 @@ constexpr std::uint32_t pascalReversed(std::uint32_t index) {
     return index;
 }
 
-// The index-th of `count` in a random order; a bijection on [0, count) for every seed. Kensler,
-// "Correlated Multi-Jittered Sampling" (Pixar 13-01): steps that are invertible modulo the next
-// power of two, repeated until the result is in range.
-constexpr std::uint32_t permuted(std::uint32_t index, std::uint32_t count, std::uint32_t seed) {
-    std::uint32_t mask = count - 1;
-    for (const int shift : {1, 2, 4, 8, 16}) mask |= mask >> shift;
+// The index-th of `count` in a random order; a bijection on [0, count) for every key. Steps that
+// are invertible modulo the next power of two, repeated until the result is in range (Kensler,
+// "Correlated Multi-Jittered Sampling", Pixar 13-01; his own steps reach few of the 24 orders of
+// four, which would correlate dimensions).
+std::uint32_t permuted(std::uint32_t index, std::uint32_t count, std::uint64_t key) {
+    const std::uint64_t more = mixBits(key + kHashStep);
+    const std::uint32_t rounds[] = {low32(key), high32(key), low32(more), high32(more)};
+    const int bits = std::bit_width(count - 1), shift = (bits + 1) / 2;
+    const std::uint32_t mask = static_cast<std::uint32_t>((std::uint64_t{1} << bits) - 1);
     do {
-        index ^= seed;
-        index *= 0xe170893du;
-        index ^= seed >> 16;
-        index ^= (index & mask) >> 4;
-        index ^= seed >> 8;
-        index *= 0x0929eb3fu;
-        index ^= seed >> 23;
-        index ^= (index & mask) >> 1;
-        index *= 1 | seed >> 27;
-        index *= 0x6935fa69u;
-        index ^= (index & mask) >> 11;
-        index *= 0x74dcb303u;
-        index ^= (index & mask) >> 2;
-        index *= 0x9e501cc3u;
-        index ^= (index & mask) >> 2;
-        index *= 0xc860a3dfu;
-        index &= mask;
-        index ^= index >> 5;
+        for (const std::uint32_t random : rounds) {
+            index = (index * (random | 1) + (random >> 16)) & mask;
+            index ^= index >> shift;
+        }
     } while (index >= count);
-    return static_cast<std::uint32_t>((std::uint64_t{index} + seed) % count);
+    return index;
 }
 
 // (cell + offset) / count, kept below 1 when it rounds up.
@@ -106,9 +96,9 @@ Sampler Sampler::stream(std::uint32_t id, int repeats) const {
 
 float Sampler::get1D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension) const {
     const std::uint64_t bits = hash(seed_, pixel, dimension | kAlone);
-    const std::uint32_t a = low32(bits), b = high32(bits);
     switch (kind_) {
     case SamplerKind::Sobol: {
+        const std::uint32_t a = low32(bits), b = high32(bits);
         // Shuffling the index is Owen scrambling of the index; the first dimension of Sobol is the
         // reversed index, so the two reversals between them cancel.
         const std::uint32_t shuffled = reversed(scrambledReversed(reversed(sample), a));
@@ -119,18 +109,17 @@ float Sampler::get1D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t di
     case SamplerKind::Grid: break;
     }
     const std::uint32_t pass = sample / count_, index = sample % count_;
-    const std::uint64_t more = mixBits(bits + sample * kHashStep);
-    const std::uint32_t cell = permuted(index, count_, a + pass * 0x9e3779b9u);
-    return inCell(cell, unitFloat(low32(more)), count_);
+    const std::uint32_t offset = low32(mixBits(bits + sample * kHashStep));
+    return inCell(permuted(index, count_, mixBits(bits + pass)), unitFloat(offset), count_);
 }
 
 Vec2 Sampler::get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension) const {
     const bool isPixel = dimension == kPixelDimension && !isStream_;
     if (isPixel && !jitter_ && count_ == 1) return {0.5f, 0.5f};
     const std::uint64_t bits = hash(seed_, pixel, dimension), more = mixBits(bits + kHashStep);
-    const std::uint32_t a = low32(bits), b = high32(bits);
     switch (kind_) {
     case SamplerKind::Sobol: {
+        const std::uint32_t a = low32(bits), b = high32(bits);
         const std::uint32_t shuffled = reversed(scrambledReversed(reversed(sample), a));
         return {unitFloat(reversed(scrambledReversed(shuffled, b))),
                 unitFloat(reversed(scrambledReversed(pascalReversed(shuffled), low32(more))))};
@@ -144,7 +133,7 @@ Vec2 Sampler::get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dim
     }
     const std::uint32_t pass = sample / count_, index = sample % count_;
     const bool inOrder = isPixel && kind_ == SamplerKind::Grid;
-    const std::uint32_t cell = inOrder ? index : permuted(index, count_, a + pass * 0x9e3779b9u);
+    const std::uint32_t cell = inOrder ? index : permuted(index, count_, mixBits(bits + pass));
     Vec2 offset{0.5f, 0.5f};
     if (jitter_ || !isPixel) {
         const std::uint64_t both = mixBits(more + sample * kHashStep);

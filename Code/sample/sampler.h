@@ -21,7 +21,7 @@ public:
     // of the cells, and with one sample every kind uses the centre of the pixel.
     Sampler(SamplerKind kind, int sampleCount, std::uint32_t seed, bool jitter = true);
 
-    // A number in [0,1), on a grid of 2^-24. `pixel` may be any number that tells pixels apart:
+    // A number in [0,1). `pixel` may be any number that tells pixels apart:
     // counted in the whole picture, a crop repeats the same pixels. Dimensions: dimensions.h.
     float get1D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension) const;
     // Dimensions `dimension` (even) and dimension + 1, evenly spread in the square over the samples

@@ -50,8 +50,8 @@ Bounds AnalyticShape::bounds() const {
 
 AnalyticShape::Roots AnalyticShape::rootsOf(const Ray& ray) const {
     const RayD world = toDouble(ray);
-    const RayD local = isStatic_ ? objectFromWorld_.ray(world)
-                                 : worldFromObjectAt(ray.time).inverse().ray(world);
+    const RayD local =
+        isStatic_ ? objectFromWorld_.ray(world) : worldFromObjectAt(ray.time).inverse().ray(world);
     // Zero, NaN or infinite rays meet nothing.
     const double dd = dot(local.dir, local.dir);
     if (!(dd > 0 && dd < kInfinity && dot(local.org, local.org) < kInfinity)) return {};
@@ -114,8 +114,7 @@ Surface AnalyticShape::surface(const Ray& ray, const Hit& hit) const {
     const Vec3d seen = toDouble(ray).at(t);
 
     const BoundsD box = boxUnder(worldFromObject);
-    const double reach =
-        box.isFinite() ? length(box.size()) : kSceneReach * max(1.0, maxAbs(seen));
+    const double reach = box.isFinite() ? length(box.size()) : kSceneReach * max(1.0, maxAbs(seen));
     const double fixedError =
         kFloatUlp * reach + 0x1p-48 * amplification(worldFromObject, objectFromWorld) *
                                 (maxAbs(seen) + maxAbs(worldFromObject.translation()));

@@ -44,7 +44,7 @@ AnalyticShape::Roots Cone::roots(const RayD& ray) const {
     Roots found;
     const Interval side = insideSide(ray);
     if (caps_) {
-        found.addEnds(intersection(slab(ray.org.z, ray.dir.z, -1, 1, kBottom, kTop), side));
+        found.addEnds(intersection(side, slab(ray.org.z, ray.dir.z, -1, 1, kBottom, kTop)));
         return found;
     }
     if (side.isEmpty()) return found;
@@ -55,10 +55,9 @@ AnalyticShape::Roots Cone::roots(const RayD& ray) const {
 
 AnalyticShape::Local Cone::describe(Vec3d p, std::uint32_t part, Vec3d inset) const {
     const double radialInset = std::sqrt(inset.x * inset.x + inset.y * inset.y);
-    if (part != kSide) {
-        const bool top = part == kTop;
-        const double radius = top ? topRadius_ : radius_;
-        const Cap at = cap(p, top, radius, radialInset + std::fabs(slope_) * inset.z);
+    const double capRadius = part == kTop ? topRadius_ : radius_;
+    if (part != kSide && capRadius > 0) { // a tip may round to its cap without size
+        const Cap at = cap(p, part == kTop, capRadius, radialInset + std::fabs(slope_) * inset.z);
         return {at.p, at.normal, at.uv, at.dpdu, at.dpdv};
     }
 

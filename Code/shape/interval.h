@@ -21,6 +21,7 @@ struct Interval {
     static Interval all(bool inside) { return inside ? Interval{} : empty(); }
 };
 
+// At equal t the part of `a` is taken.
 inline Interval intersection(const Interval& a, const Interval& b) {
     return {a.enter.t >= b.enter.t ? a.enter : b.enter, a.exit.t <= b.exit.t ? a.exit : b.exit};
 }

@@ -1,5 +1,5 @@
 // Shape: the interface between geometry and everything else. One file per shape beside this one;
-// to add one, derive, put a row into shape tables of render/scene.cpp and desc/, and write its test.
+// to add one, derive, add it to render/make_shape.cpp and the tables of desc/, and write its test.
 // Shapes know rays and transforms; they never see materials, lights or the scene.
 //
 // World space here is the scene's normalised space (render/scene.h). Shapes compute in double in

@@ -16,8 +16,8 @@ TexelGrid::TexelGrid(StoredImage image, ColorSpace space, Interpolation interpol
     case StoredImage::Depth::Bits16: count = image_.words.size(); break;
     case StoredImage::Depth::Float: count = image_.floats.size(); break;
     }
-    const bool hasSides = image_.width > 0 && image_.height > 0 && image_.channels >= 1 &&
-                          image_.channels <= 4;
+    const bool hasSides =
+        image_.width > 0 && image_.height > 0 && image_.channels >= 1 && image_.channels <= 4;
     if (!hasSides || count != static_cast<std::size_t>(image_.width) *
                                   static_cast<std::size_t>(image_.height) *
                                   static_cast<std::size_t>(image_.channels))
@@ -78,8 +78,8 @@ Texel TexelGrid::at(double s, double t, Extension extensionS, Extension extensio
     Channels c = stored(x.lo, y.lo);
     if (!isNearest_) {
         const auto mix = [](const Channels& a, const Channels& b, double weight) {
-            return Channels{lerp(a.r, b.r, weight), lerp(a.g, b.g, weight),
-                            lerp(a.b, b.b, weight), lerp(a.a, b.a, weight)};
+            return Channels{lerp(a.r, b.r, weight), lerp(a.g, b.g, weight), lerp(a.b, b.b, weight),
+                            lerp(a.a, b.a, weight)};
         };
         c = mix(mix(c, stored(x.hi, y.lo), x.weight),
                 mix(stored(x.lo, y.hi), stored(x.hi, y.hi), x.weight), y.weight);

@@ -22,7 +22,7 @@ public:
     // Fails (ErrorKind::Input) when the picture's numbers do not fill its rectangle.
     Texture(StoredImage image, const TextureParams& params);
 
-    Rgb color(Vec2 uv) const; // linear
+    Rgb color(Vec2 uv) const;   // linear
     float value(Vec2 uv) const; // luminance, or alpha
     // d value / du and / dv of uv as given, for bump maps: the central difference over one texel
     // of the picture, which is the slope that bilinear filtering has half-way between two texels.

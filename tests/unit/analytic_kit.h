@@ -15,6 +15,7 @@
 #include <functional>
 #include <memory>
 #include <random>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -28,9 +29,7 @@ public:
     }
     double unit() { return static_cast<double>(bits_() >> 11) * 0x1p-53; }
     double uniform(double lo, double hi) { return lo + (hi - lo) * unit(); }
-    double logUniform(double lo, double hi) {
-        return lo * std::exp(unit() * std::log(hi / lo));
-    }
+    double logUniform(double lo, double hi) { return lo * std::exp(unit() * std::log(hi / lo)); }
     bool coin() { return unit() < 0.5; }
     Vec3d inBox(double half) {
         return {uniform(-half, half), uniform(-half, half), uniform(-half, half)};
@@ -62,35 +61,57 @@ inline Vec3d randomFactors(Random& random, double size) {
     return f;
 }
 
+// One shape of each kind; rim() gives points that reach every side of its smallest box.
 struct Kind {
     std::string name;
     bool isClosed, isFlat;
     std::function<std::unique_ptr<Shape>(const MovingTransform&)> make;
+    std::function<Vec3d(Random&)> rim;
 };
-inline std::vector<Kind> kinds() {
-    const Plane::Corners quad = {Vec3d{-1, -1, 0.25}, Vec3d{1, -0.5, 0.25}, Vec3d{0.75, 1, 0.25},
-                                 Vec3d{-0.5, 0.75, 0.25}};
+inline Vec3d onCircle(Random& random, double radius, double z) {
+    const double angle = random.uniform(0, kTwoPi);
+    return {radius * std::cos(angle), radius * std::sin(angle), z};
+}
+inline const Plane::Corners kQuad = {Vec3d{-1, -1, 0.25}, Vec3d{1, -0.5, 0.25},
+                                     Vec3d{0.75, 1, 0.25}, Vec3d{-0.5, 0.75, 0.25}};
+inline Kind coneKind(const std::string& name, double radius, double topRadius, bool caps) {
     return {
-        {"sphere", true, false, [](auto& m) { return std::make_unique<Sphere>(m, 1.0, 3u, 5u); }},
-        {"cube", true, false, [](auto& m) { return std::make_unique<Cube>(m, 3u, 5u); }},
-        {"cylinder", true, false,
-         [](auto& m) { return std::make_unique<Cylinder>(m, 1.0, true, 3u, 5u); }},
-        {"tube", false, false,
-         [](auto& m) { return std::make_unique<Cylinder>(m, 0.5, false, 3u, 5u); }},
-        {"cone", true, false,
-         [](auto& m) { return std::make_unique<Cone>(m, 1.0, 0.0, true, 3u, 5u); }},
-        {"inverted cone", true, false,
-         [](auto& m) { return std::make_unique<Cone>(m, 0.0, 0.25, true, 3u, 5u); }},
-        {"cut cone", true, false,
-         [](auto& m) { return std::make_unique<Cone>(m, 0.5, 1.5, true, 3u, 5u); }},
-        {"open cone", false, false,
-         [](auto& m) { return std::make_unique<Cone>(m, 1.0, 0.5, false, 3u, 5u); }},
-        {"disk", false, true, [](auto& m) { return std::make_unique<Disk>(m, 1.0, 3u, 5u); }},
-        {"plane", false, true,
-         [quad](auto& m) { return std::make_unique<Plane>(m, quad, 3u, 5u); }},
+        name, caps, false,
+        [=](auto& m) { return std::make_unique<Cone>(m, radius, topRadius, caps, 3u, 5u); },
+        [=](Random& r) { return r.coin() ? onCircle(r, radius, -1) : onCircle(r, topRadius, 1); }};
+}
+inline Kind cylinderKind(const std::string& name, double radius, bool caps) {
+    return {name, caps, false,
+            [=](auto& m) { return std::make_unique<Cylinder>(m, radius, caps, 3u, 5u); },
+            [=](Random& r) { return onCircle(r, radius, r.coin() ? -1 : 1); }};
+}
+inline std::vector<Kind> kinds() {
+    return {
+        {"sphere", true, false, [](auto& m) { return std::make_unique<Sphere>(m, 1.0, 3u, 5u); },
+         [](Random& r) { return r.direction(); }},
+        {"cube", true, false, [](auto& m) { return std::make_unique<Cube>(m, 3u, 5u); },
+         [](Random& r) {
+             return BoundsD{{-1, -1, -1}, {1, 1, 1}}.corner(static_cast<int>(r.unit() * 8));
+         }},
+        cylinderKind("cylinder", 1, true),
+        cylinderKind("tube", 0.5, false),
+        coneKind("cone", 1, 0, true),
+        coneKind("inverted cone", 0, 0.25, true),
+        coneKind("cut cone", 0.5, 1.5, true),
+        coneKind("open cone", 1, 0.5, false),
+        {"disk", false, true, [](auto& m) { return std::make_unique<Disk>(m, 1.0, 3u, 5u); },
+         [](Random& r) { return onCircle(r, 1, 0); }},
+        {"plane", false, true, [](auto& m) { return std::make_unique<Plane>(m, kQuad, 3u, 5u); },
+         [](Random& r) { return kQuad[static_cast<std::size_t>(r.unit() * 4)]; }},
         {"infinite plane", false, true,
-         [](auto& m) { return std::make_unique<InfinitePlane>(m, 3u, 5u); }},
+         [](auto& m) { return std::make_unique<InfinitePlane>(m, 3u, 5u); },
+         [](Random& r) { return onCircle(r, r.logUniform(0.1, 100), 0); }},
     };
+}
+inline Kind kindNamed(const std::string& name) {
+    for (const Kind& kind : kinds())
+        if (kind.name == name) return kind;
+    throw std::runtime_error("no kind " + name);
 }
 
 inline Ray rayFrom(Vec3d org, Vec3d dir) { return {toFloat(org), toFloat(dir)}; }

@@ -138,6 +138,7 @@ TEST(motion_bounds) {
             }
             CHECK_INFO(swept.contains(map.point(p)), "motion " << i << " time " << time);
         }
+        if (i % 7 != 0) continue;
         for (int k = 0; k <= 200; ++k)
             for (int c = 0; c < 8; ++c) seen.extend(moving.at(k / 200.0).point(box.corner(c)));
         const double ratio = maxAbs(swept.size()) / maxAbs(seen.size());

@@ -72,8 +72,7 @@ Counts battery(Random& random, const kit::Kind& kind) {
             }
             if (random.unit() < 0.2) target = target * (1 - random.logUniform(1e-12, 1e-2));
             if (random.unit() < 0.1) target = {0, 0, random.coin() ? 1.0 : -1.0};
-            const Ray ray =
-                kit::rayThrough(map.point(random.direction() * 4.0), map.point(target));
+            const Ray ray = kit::rayThrough(map.point(random.direction() * 4.0), map.point(target));
             hits.clear();
             shape->collect(ray, hits);
             for (const Hit& hit : hits) {

@@ -198,13 +198,13 @@ CASES = {
     # 18 -> 1, 0 -> 0: all 258 lengths zero, so the block cannot end.
     'zlib_no_block_end.png': (raw(dynamic(257, 1, [0, 0, 1, 1], '1', (127, 7), '1', (109, 7))),
                               "a block without an end"),
-    # 18 -> 0, 1 -> 1 (the 18th in file order): three literals of length 1.
-    'zlib_oversubscribed.png': (raw(dynamic(257, 1, [0, 0, 1] + [0] * 14 + [1], '111', '0', (127, 7),
-                                            '0', (104, 7), '1', '1')),
+    # 1 (the 18th in file order) -> 0, 18 -> 1: three literals of length 1.
+    'zlib_oversubscribed.png': (raw(dynamic(257, 1, [0, 0, 1] + [0] * 14 + [1], '000', '1', (127, 7),
+                                            '1', (104, 7), '0', '0')),
                                 "the literal code has too many codes"),
-    # 18 -> 0, 2 -> 1 (the 16th): literals 0 and 256 with two bits each use half of the codes.
-    'zlib_incomplete.png': (raw(dynamic(257, 1, [0, 0, 1] + [0] * 12 + [1], '1', '0', (127, 7), '0',
-                                        (106, 7), '1', '1')),
+    # 2 (the 16th) -> 0, 18 -> 1: literals 0 and 256 with two bits each use half of the codes.
+    'zlib_incomplete.png': (raw(dynamic(257, 1, [0, 0, 1] + [0] * 12 + [1], '0', '1', (127, 7), '1',
+                                        (106, 7), '0', '0')),
                             "the literal code leaves codes unused"),
     # Other files
     'empty.png': (b'', "the file is empty; what can be read: PPM, PNG, PFM"),

@@ -1,0 +1,73 @@
+#include "render/make_light.h"
+
+#include "base/math.h"
+#include "light/area_light.h"
+#include "light/point_light.h"
+#include "light/sun_light.h"
+#include "render/to_float.h"
+#include "shape/disk.h"
+#include "shape/plane.h"
+#include "shape/sphere.h"
+
+namespace {
+
+// Normalised radius; a lamp that is scaled unevenly takes its x axis.
+float sphereRadius(const LightDesc& desc, const Transform& place) {
+    return toFloat(desc.radius * length(place.vector({1, 0, 0})));
+}
+
+} // namespace
+
+std::unique_ptr<const Light> makeLight(const LightDesc& desc, const SceneFrame& frame) {
+    const double scale = frame.scale;
+    const Transform place = frame.placed(desc.worldFromLight);
+    const Vec3 position = toFloat(place.point({}));
+    const Vec3 axis = toFloat(normalize(place.vector({0, 0, -1})));
+    const Rgb color = toRgb(desc.color);
+    switch (desc.kind) {
+    case LightDesc::Kind::Point:
+    case LightDesc::Kind::Spot: {
+        std::optional<SpotCone> cone;
+        if (desc.kind == LightDesc::Kind::Spot)
+            cone = SpotCone{axis, toFloat(exact::cos(radians(desc.coneAngleDeg / 2))),
+                            toFloat(desc.blend), desc.cosineFalloff};
+        // E = I / r^2 stays the same when all lengths are scaled.
+        return std::make_unique<PointLight>(position, color * toFloat(scale * scale),
+                                            toFloat(desc.radius * scale), cone, desc.shadows);
+    }
+    case LightDesc::Kind::Sun:
+        return std::make_unique<SunLight>(axis, color, radians(desc.angleDeg / 2), desc.shadows);
+    case LightDesc::Kind::Rectangle:
+    case LightDesc::Kind::Disk:
+        return std::make_unique<FlatLight>(
+            desc.kind == LightDesc::Kind::Rectangle ? FlatLight::Outline::Rectangle
+                                                    : FlatLight::Outline::Ellipse,
+            position, toFloat(place.vector({desc.size.x / 2, 0, 0})),
+            toFloat(place.vector({0, desc.size.y / 2, 0})), axis, color,
+            radians(desc.spreadDeg / 2), desc.shadows);
+    case LightDesc::Kind::Sphere: break;
+    }
+    return std::make_unique<SphereLight>(position, sphereRadius(desc, place), color,
+                                         desc.shadows);
+}
+
+std::unique_ptr<const Shape> makeLampBody(const LightDesc& desc, const SceneFrame& frame,
+                                          std::uint32_t material, std::uint32_t id) {
+    const Transform place = frame.placed(desc.worldFromLight);
+    const Transform size = Transform::scale(Vec3d{desc.size.x / 2, desc.size.y / 2, 1});
+    // Lamps shine along -Z, flat shapes face +Z.
+    const MovingTransform flat(place * size * Transform::rotate({1, 0, 0}, kPi));
+    switch (desc.kind) {
+    case LightDesc::Kind::Rectangle:
+        return std::make_unique<Plane>(flat, ObjectDesc{}.corners, material, id);
+    case LightDesc::Kind::Disk: return std::make_unique<Disk>(flat, 1.0, material, id);
+    case LightDesc::Kind::Sphere:
+        return std::make_unique<Sphere>(MovingTransform(Transform::translate(place.point({}))),
+                                        static_cast<double>(sphereRadius(desc, place)), material,
+                                        id);
+    case LightDesc::Kind::Point:
+    case LightDesc::Kind::Spot:
+    case LightDesc::Kind::Sun: break;
+    }
+    return nullptr;
+}

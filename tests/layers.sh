@@ -1,0 +1,72 @@
+#!/bin/sh
+# Includes point down only (DESIGN.md section 4):
+#   base <- image, desc <- read          base <- image <- the folders of one thing each
+#   all of them <- render <- cli <- main
+# A folder includes itself and what is below it, never its neighbours in a row but for two: a mesh is
+# a shape with a tree of its own, and lights, lenses and materials spread their samples.
+cd "$(dirname "$0")/../Code" || exit 1
+passed=0
+failed=0
+
+siblings='shape material light camera texture accel sample'
+allowedFor() {
+    case $1 in
+    base) echo base ;;
+    image) echo base image ;;
+    desc) echo base desc ;;
+    read) echo base desc image read ;;
+    accel | sample | texture) echo base image "$1" ;;
+    shape) echo base image shape accel ;;
+    material | light | camera) echo base image "$1" sample ;;
+    render) echo base image desc $siblings render ;;
+    cli) echo base image desc read $siblings render cli ;;
+    main) echo base cli ;;
+    esac
+}
+
+check() {
+    folder=$1
+    shift
+    allowed=$(allowedFor "$folder")
+    if [ -z "$allowed" ]; then
+        printf 'FAIL layer %s: a folder that tests/layers.sh does not know\n' "$folder"
+        failed=$((failed + 1))
+        return
+    fi
+    wrong=$(grep -n '^ *# *include *"' "$@" /dev/null | while IFS= read -r line; do
+        header=${line#*\"}
+        header=${header%%\"*}
+        target=${header%%/*}
+        [ "$target" = "$header" ] && target='(no folder)'
+        [ -f "$header" ] || printf '%s (there is no such file)\n' "$line"
+        case " $allowed " in *" $target "*) ;; *) printf '%s\n' "$line" ;; esac
+    done)
+    if [ -z "$wrong" ]; then
+        printf 'ok layer %s\n' "$folder"
+        passed=$((passed + 1))
+    else
+        printf 'FAIL layer %s: may include %s only\n%s\n' "$folder" "$allowed" "$wrong"
+        failed=$((failed + 1))
+    fi
+}
+
+for folder in */; do
+    folder=${folder%/}
+    files=$(find "$folder" -name '*.h' -o -name '*.cpp' -o -name '*.inl')
+    [ -n "$files" ] && check "$folder" $files
+done
+check main main.cpp
+
+# One file names the concrete shapes and lights.
+wrong=$(grep -ln '#include "\(shape\|light\)/\(sphere\|cube\|plane\|disk\|cylinder\|cone\|infinite_plane\|point_light\|sun_light\|area_light\)\.h"' \
+    render/*.cpp render/*.h cli/* | grep -v '^render/scene\.cpp$')
+if [ -z "$wrong" ]; then
+    printf 'ok only render/scene.cpp names concrete shapes and lights\n'
+    passed=$((passed + 1))
+else
+    printf 'FAIL only render/scene.cpp names concrete shapes and lights: %s\n' "$wrong"
+    failed=$((failed + 1))
+fi
+
+printf '%s passed, %s failed\n' "$passed" "$failed"
+[ "$failed" -eq 0 ]

@@ -1,0 +1,149 @@
+// Code/image/deflate.h, inflate.h, huffman.h and checksum.h.
+#include "check.h"
+
+#include "image/checksum.h"
+#include "image/deflate.h"
+#include "image/huffman.h"
+#include "image/inflate.h"
+
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+namespace {
+
+using Buffer = std::vector<std::uint8_t>;
+
+Buffer bytesOf(std::string_view text) { return {text.begin(), text.end()}; }
+Buffer fromHex(std::string_view hex) {
+    const auto digit = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
+    Buffer bytes;
+    for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
+        bytes.push_back(static_cast<std::uint8_t>(16 * digit(hex[i]) + digit(hex[i + 1])));
+    return bytes;
+}
+std::uint32_t nextRandom(std::uint32_t& state) { // Numerical Recipes
+    state = state * 1664525u + 1013904223u;
+    return state >> 8;
+}
+// Packs, unpacks and compares; the size of the packed bytes.
+std::size_t roundTrip(const Buffer& bytes) {
+    const Buffer packed = deflateZlib(bytes);
+    CHECK(inflateZlib(packed, bytes.size(), "round trip") == bytes);
+    CHECK(packed == deflateZlib(bytes));
+    return packed.size();
+}
+
+} // namespace
+
+TEST(checksum_known_values) {
+    const Buffer digits = bytesOf("123456789");
+    CHECK_EQUAL(crc32(digits), 0xCBF43926u); // the check value of the CRC catalogue
+    CHECK_EQUAL(crc32({}), 0u);
+    CHECK_EQUAL(crc32(bytesOf("IEND")), 0xAE426082u); // ends every PNG file
+    CHECK_EQUAL(adler32(bytesOf("Wikipedia")), 0x11E60398u);
+    CHECK_EQUAL(adler32({}), 1u);
+    const std::span<const std::uint8_t> all(digits);
+    CHECK_EQUAL(crc32(all.subspan(4), crc32(all.first(4))), crc32(all));
+    CHECK_EQUAL(adler32(all.subspan(4), adler32(all.first(4))), adler32(all));
+    const Buffer large(100000, 255);
+    CHECK_EQUAL(adler32(large), 0x149A302Cu); // zlib.adler32(b'\xff' * 100000)
+    CHECK_EQUAL(crc32(large), 0x68C6CEC4u);
+}
+
+// Streams that Python's zlib has made: stored, fixed and dynamic blocks.
+TEST(inflate_known_streams) {
+    const Buffer hello = bytesOf("hello hello hello hello");
+    CHECK(inflateZlib(fromHex("78da030000000001"), 0, "empty").empty());
+    CHECK(
+        inflateZlib(fromHex("7801011700e8ff68656c6c6f2068656c6c6f2068656c6c6f2068656c6c6f680308b1"),
+                    hello.size(), "stored") == hello);
+    CHECK(inflateZlib(fromHex("78dacb48cdc9c957c8402701680308b1"), hello.size(), "fixed") == hello);
+    Buffer squares;
+    for (unsigned i = 0; i < 300; ++i) squares.push_back(static_cast<std::uint8_t>(i * i / 7 % 9));
+    CHECK(inflateZlib(
+              fromHex(
+                  "78dae5cbc90d00211003411fd84cfe1103d266b1f56d3500cad950466510d6a839cdb22eaf74e8c2"
+                  "5fd644d8b188e73ffb013a0d03ce"),
+              squares.size(), "dynamic") == squares);
+}
+
+TEST(inflate_ignores_what_follows_the_stream) {
+    Buffer packed = deflateZlib(bytesOf("abc"));
+    packed.insert(packed.end(), {1, 2, 3});
+    CHECK(inflateZlib(packed, 3, "more") == bytesOf("abc"));
+}
+
+TEST(deflate_round_trips) {
+    CHECK(roundTrip({}) <= 10);
+    CHECK(roundTrip({42}) <= 12);
+    for (std::size_t size = 2; size < 20; ++size) roundTrip(Buffer(size, 7));
+    CHECK(roundTrip(Buffer(1'000'000, 7)) < 1200);
+    for (const std::size_t size :
+         {255u, 256u, 257u, 258u, 259u, 32767u, 32768u, 32769u, 65535u, 65536u})
+        CHECK(roundTrip(Buffer(size, 0)) < 200);
+    std::uint32_t state = 1;
+    Buffer noise(1'000'000);
+    for (std::uint8_t& byte : noise) byte = static_cast<std::uint8_t>(nextRandom(state));
+    CHECK(roundTrip(noise) < noise.size() + 200);       // stored
+    Buffer twice(noise.begin(), noise.begin() + 32768); // the farthest distance there is
+    twice.insert(twice.end(), twice.begin(), twice.end());
+    CHECK(roundTrip(twice) < 34000);
+    Buffer tooFar(noise.begin(), noise.begin() + 32769);
+    tooFar.insert(tooFar.end(), noise.begin(), noise.begin() + 32769);
+    roundTrip(tooFar);
+    for (std::uint8_t& byte : noise) byte &= 15;
+    CHECK(roundTrip(noise) < noise.size() * 52 / 100); // 4 bits of 8
+}
+
+TEST(deflate_round_trips_structured_bytes) {
+    std::uint32_t state = 7;
+    for (int trial = 0; trial < 60; ++trial) {
+        Buffer bytes;
+        const std::size_t size = nextRandom(state) % 5000;
+        while (bytes.size() < size) {
+            const std::uint32_t choice = nextRandom(state) % 3;
+            const std::size_t length = 1 + nextRandom(state) % 300;
+            if (choice == 0 || bytes.empty())
+                for (std::size_t i = 0; i < length; ++i)
+                    bytes.push_back(static_cast<std::uint8_t>(nextRandom(state) % 7));
+            else if (choice == 1)
+                bytes.insert(bytes.end(), length, static_cast<std::uint8_t>(nextRandom(state)));
+            else {
+                const std::size_t from = nextRandom(state) % bytes.size();
+                for (std::size_t i = 0; i < length; ++i) bytes.push_back(bytes[from + i]);
+            }
+        }
+        roundTrip(bytes);
+    }
+}
+
+// Fibonacci counts make the deepest tree; Kraft's sum must stay 1 when it is cut.
+TEST(huffman_lengths_are_complete_and_limited) {
+    std::vector<std::uint32_t> counts{1, 1};
+    while (counts.size() < 40) counts.push_back(counts.end()[-1] + counts.end()[-2]);
+    for (const std::size_t longest : {7u, 15u}) {
+        const std::size_t used = longest == 7 ? 19 : 40;
+        const auto lengths = huffmanLengths(std::span(counts).first(used), longest);
+        double kraft = 0;
+        for (const std::uint8_t n : lengths) {
+            CHECK(n >= 1 && n <= longest);
+            kraft += std::ldexp(1.0, -n);
+        }
+        CHECK_EQUAL(kraft, 1.0);
+        for (std::size_t i = 1; i < used; ++i) CHECK(lengths[i] <= lengths[i - 1]);
+    }
+    const std::vector<std::uint32_t> known{45, 13, 12, 16, 9, 5}; // Cormen et al., 16.3
+    CHECK(huffmanLengths(known, 15) == (std::vector<std::uint8_t>{1, 3, 3, 3, 4, 4}));
+    CHECK(huffmanLengths(std::vector<std::uint32_t>{0, 0, 5}, 15) ==
+          (std::vector<std::uint8_t>{1, 0, 1}));
+}
+
+TEST(huffman_codes_are_canonical) { // the example of RFC 1951, 3.2.2
+    const std::vector<std::uint8_t> lengths{3, 3, 3, 3, 3, 2, 4, 4};
+    const auto codes = canonicalCodes(lengths);
+    CHECK_EQUAL(codes[0].bits, 0b010); // 010 reversed
+    CHECK_EQUAL(codes[1].bits, 0b110); // 011
+    CHECK_EQUAL(codes[5].bits, 0b00);
+    CHECK_EQUAL(codes[6].bits, 0b0111); // 1110
+}

@@ -1,0 +1,224 @@
+// The native reader: what it reads. What it refuses is in tests/bad/txt (test_bad_scenes.cpp).
+#include "read/read_txt.h"
+
+#include "base/text.h"
+#include "check.h"
+#include "desc/properties.h"
+#include "read/load.h"
+#include "read/transform_lines.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <sstream>
+
+namespace {
+
+SceneDesc readText(const std::string& text) { return readTxt({"t.txt", text}); }
+SceneDesc readBody(const std::string& body) { return readText("raytracer 1\n" + body); }
+std::string contentOf(const std::string& name) {
+    std::ifstream file(name, std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+        text.replace(at, from.size(), to);
+    return text;
+}
+Rows rowsOf(const std::string& lines) {
+    return readBody("sphere s {\n" + lines + "\n}\n").objects.at(0).worldFromObject.at(0);
+}
+void checkRows(const Rows& rows, const Rows& expected) {
+    for (std::size_t i = 0; i < rows.size(); ++i) CHECK_NEAR(rows[i], expected[i], 4e-16);
+}
+
+const std::string kEverything = "tests/scenes/everything.txt";
+
+} // namespace
+
+TEST(read_txt_smallest_scene_has_defaults) {
+    CHECK(readText("raytracer 1") == SceneDesc{});
+    CHECK(readText("raytracer 1\n\n# nothing\n") == SceneDesc{});
+    const SceneDesc desc = readBody("camera c {\n}\nsphere s {\n}\nsettings {\n}\nworld {\n}");
+    CameraDesc camera;
+    camera.name = "c";
+    CHECK(desc.cameras.at(0) == camera);
+    ObjectDesc sphere;
+    sphere.name = "s";
+    CHECK(desc.objects.at(0) == sphere);
+    CHECK(desc.settings == SettingsDesc{} && desc.world == WorldDesc{});
+}
+
+TEST(read_txt_everything) {
+    Diagnostics diagnostics;
+    const SceneDesc desc = load(kEverything, diagnostics).desc;
+    CHECK_INFO(diagnostics.warnings.empty(), join(diagnostics.warnings));
+    CHECK_EQUAL(desc.settings.width, 64);
+    CHECK_EQUAL(desc.settings.height, 48);
+    CHECK((desc.settings.crop == std::array<int, 4>{4, 2, 60, 40}));
+    CHECK(desc.settings.sampler == SettingsDesc::Sampler::Stratified && !desc.settings.jitter);
+    CHECK(desc.settings.filter == SettingsDesc::Filter::Gaussian && desc.settings.filterWidth == 2.5);
+    CHECK_EQUAL(desc.settings.seed, 4294967295u);
+    CHECK((desc.world.background == Rgbd{0.1, 0.2, 0.3}));
+    CHECK_EQUAL(desc.world.environment, 0);
+    CHECK_EQUAL(desc.cameras.size(), std::size_t{2});
+    CHECK_EQUAL(desc.cameras[0].sensorHeightMm, 18.0);
+    CHECK_EQUAL(desc.cameras[0].shiftY, -0.2);
+    CHECK_EQUAL(desc.cameras[1].name, "from above");
+    CHECK_EQUAL(desc.cameras[1].worldFromCamera.size(), std::size_t{2});
+    CHECK_EQUAL(desc.textures.at(0).file, "sky \"wide\".ppm");
+    CHECK(desc.textures.at(1).channel == TextureDesc::Channel::Alpha);
+    CHECK(desc.lights.at(1).kind == LightDesc::Kind::Spot && desc.lights[1].cosineFalloff);
+    CHECK_EQUAL(desc.materials.at(0).name, "Größe 2");
+    CHECK_EQUAL(desc.materials[0].bumpMap, 1);
+    CHECK_EQUAL(desc.materials[0].ior, 1.33);
+    CHECK_EQUAL(desc.objects.size(), std::size_t{9});
+    CHECK((desc.objects[0].materials == std::vector<Handle>{1}));
+    CHECK((desc.objects[7].materials == std::vector<Handle>{1, 0}));
+    CHECK_EQUAL(desc.objects[8].mesh, 0); // the mesh comes last in the file
+    const MeshDesc& mesh = desc.meshes.at(0);
+    CHECK((mesh.points.at(4) == Vec3d{0, 0, 1.5}));
+    CHECK((mesh.triangles.at(5) == MeshDesc::Corners{3, 0, 4}));
+    CHECK((mesh.uvs.at(2) == Vec2{0.5f, 1}));
+    CHECK((mesh.triangleMaterials == std::vector<std::uint32_t>{0, 0, 1, 1, 1, 1}));
+}
+
+TEST(read_txt_everything_is_everything) {
+    const std::string text = contentOf(kEverything);
+    const auto checkUsed = [&](std::string_view keyword) {
+        CHECK_INFO(text.find(cat("\n    ", keyword, " ")) != std::string::npos ||
+                       text.find(cat("\n    ", keyword, "\n")) != std::string::npos ||
+                       text.find(cat("\n", keyword, " ")) != std::string::npos,
+                   "no '" << keyword << "' in " << kEverything);
+    };
+    const SceneDesc desc;
+    const auto checkTable = [&](const auto& rows) {
+        for (const auto& row : rows) checkUsed(row.keyword);
+    };
+    checkTable(kSettingsProperties);
+    checkTable(kWorldProperties);
+    checkTable(kCameraProperties);
+    checkTable(kTextureProperties);
+    checkTable(kMaterialProperties);
+    checkTable(kLightProperties);
+    checkTable(kObjectProperties);
+    checkTable(kMeshArrays);
+    checkTable(transformLines());
+    for (const auto& row : kEnumNames<ObjectDesc::Kind>) checkUsed(row.name);
+}
+
+// The spec names every keyword and every choice.
+TEST(read_txt_readme_is_complete) {
+    const std::string readme = contentOf("ASCII/README.md");
+    const auto checkTable = [&](const auto& rows) {
+        for (const auto& row : rows) {
+            CHECK_INFO(readme.find(cat("    ", row.keyword, " ")) != std::string::npos, row.keyword);
+            if constexpr (requires { row.second; })
+                std::visit(
+                    [&](const auto& field) {
+                        if constexpr (requires { field.names; })
+                            for (const std::string_view name : field.names)
+                                CHECK_INFO(readme.find(name) != std::string::npos, row.keyword << " " << name);
+                    },
+                    row.first);
+        }
+    };
+    checkTable(kSettingsProperties);
+    checkTable(kWorldProperties);
+    checkTable(kCameraProperties);
+    checkTable(kTextureProperties);
+    checkTable(kMaterialProperties);
+    checkTable(kLightProperties);
+    checkTable(kObjectProperties);
+    checkTable(kMeshArrays);
+    for (const TransformLine& line : transformLines())
+        CHECK_INFO(readme.find(cat("| `", line.keyword, " ")) != std::string::npos, line.keyword);
+}
+
+TEST(read_txt_line_ends_and_marks) {
+    const std::string text = contentOf(kEverything);
+    const SceneDesc desc = readText(text);
+    CHECK(readText(replaced(text, "\n", "\r\n")) == desc);
+    CHECK(readText("\xef\xbb\xbf" + text) == desc);
+    CHECK(readText(text.substr(0, text.size() - 1)) == desc); // no newline at the end
+    CHECK(readText(replaced(text, "    ", "\t")) == desc);
+    CHECK(readText(replaced(text, "\n", " # note\n")) == desc);
+    CHECK(readText(replaced(text, "\n", "\n\n")) == desc);
+}
+
+TEST(read_txt_long_lines_and_names) {
+    const std::string name(1 << 20, 'n');
+    const SceneDesc desc = readBody("material \"" + name + "\" {\n}\nsphere s {" + std::string(1 << 20, ' ') + "\n    material " +
+                                    name + "#" + std::string(1 << 20, 'c') + "\n}\n");
+    CHECK(desc.materials.at(0).name == name);
+    CHECK_EQUAL(desc.objects.at(0).materials.at(0), 0);
+    const std::string message = check::thrown([&] { readBody("sphere s {\n    material " + name + "\n}\n"); });
+    CHECK(message.size() < 1000 && message.find("t.txt:3:14: error: unknown material 'nnn") == 0);
+}
+
+// A wrong name among very many must not take long, nor all of them be shown.
+TEST(read_txt_many_unknown_names) {
+    std::string body;
+    for (int i = 0; i < 20000; ++i)
+        body += cat("material m", i, " {\n}\nsphere s", i, " {\n    material x", i, "\n}\n");
+    const std::string message = check::thrown([&] { readBody(body); });
+    CHECK(message.size() < 20000);
+    CHECK(message.find("t.txt: error: and 19980 more errors") != std::string::npos);
+}
+
+TEST(read_txt_transform_lines) {
+    checkRows(rowsOf("translate 1 2 3"), {1, 0, 0, 1, 0, 1, 0, 2, 0, 0, 1, 3});
+    checkRows(rowsOf("scale 1 2 3"), {1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 3, 0});
+    checkRows(rowsOf("rotate 90 0 0 2"), {0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0});
+    checkRows(rowsOf("rotate 90 1e-200 0 0"), {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0});
+    checkRows(rowsOf("transform 1 2 3 4  5 6 7 8  9 10 12 13"), {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 13});
+    // Scale first, translate last: (1,0,0) -> (2,0,0) -> (0,2,0) -> (1,4,3).
+    checkRows(rowsOf("translate 1 2 3\nrotate 90 0 0 1\nscale 2 2 2"), {0, -2, 0, 1, 2, 0, 0, 2, 0, 0, 2, 3});
+    // At e, -Z towards t, +Y towards u.
+    checkRows(rowsOf("look_at 0 -5 1  0 0 1  0 0 1"), {1, 0, 0, 0, 0, 0, -1, -5, 0, 1, 0, 1});
+}
+
+TEST(read_txt_keys) {
+    const auto keysOf = [](const std::string& lines) {
+        return readBody("cube c {\n" + lines + "\n}\n").objects.at(0).worldFromObject;
+    };
+    CHECK((keysOf("") == Keys{kIdentityRows}));
+    CHECK((keysOf("key") == Keys{kIdentityRows, kIdentityRows}));
+    const Rows moved{1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0};
+    CHECK((keysOf("translate 1 0 0\nkey\nkey\ntranslate 1 0 0") == Keys{moved, kIdentityRows, moved}));
+}
+
+TEST(read_txt_places_of_blocks) {
+    const std::string text = contentOf(kEverything);
+    const SceneDesc desc = readText(text);
+    const auto checkPlace = [&](SourceLoc loc, std::string_view word) {
+        CHECK_INFO(std::string_view(text).substr(loc.offset).starts_with(word), word << " at " << loc.offset);
+    };
+    checkPlace(desc.settings.loc, "settings {");
+    checkPlace(desc.world.loc, "world {");
+    checkPlace(desc.cameras[1].loc, "camera \"from above\"");
+    checkPlace(desc.meshes[0].loc, "mesh pyramid");
+    checkPlace(desc.objects[8].loc, "instance two");
+    CHECK_EQUAL(SceneDesc{}.world.loc.offset, SourceLoc::kUnknown);
+}
+
+TEST(read_txt_arrays_over_lines) {
+    const SceneDesc desc = readBody("mesh m {\n points 2 0 1 2 # first\n3\n4 # two\n\n5\n triangles 1\n0 1 0\r\n uvs 0\n}\n");
+    CHECK((desc.meshes.at(0).points == std::vector<Vec3d>{{0, 1, 2}, {3, 4, 5}}));
+    CHECK(desc.meshes[0].uvs.empty());
+}
+
+TEST(load_files) {
+    Diagnostics d;
+    CHECK_EQUAL(load(kEverything, d).source.name, kEverything);
+    CHECK_THROWS(load("tests/scenes/everythin.txt", d),
+                 "tests/scenes/everythin.txt: error: cannot read: no such file; did you mean 'tests/scenes/everything.txt'?");
+    CHECK_THROWS(load("no/such/folder/a.txt", d), "no/such/folder/a.txt: error: cannot read: no such file");
+    CHECK_THROWS(load("", d), "error: cannot read: no such file");
+    CHECK_THROWS(load("tests/scenes", d), "tests/scenes: error: cannot read: it is a folder");
+    CHECK_THROWS(load("ASCII/README.md", d), "ASCII/README.md: error: unknown scene format '.md'");
+    CHECK_THROWS(load("/dev/null", d), "/dev/null: error:");
+}

@@ -1,0 +1,114 @@
+#include "check.h"
+
+#include "cli/stats_output.h"
+
+#include <limits>
+
+namespace {
+
+// A value at the start of `text`, which is cut off; false when it is no JSON (RFC 8259). Numbers
+// are checked as far as they can go wrong here: nan, inf and signs.
+bool eatValue(std::string_view& text);
+
+bool eat(std::string_view& text, std::string_view word) {
+    if (!text.starts_with(word)) return false;
+    text.remove_prefix(word.size());
+    return true;
+}
+
+bool eatString(std::string_view& text) {
+    if (!eat(text, "\"")) return false;
+    while (!text.empty() && text[0] != '"') {
+        if (static_cast<unsigned char>(text[0]) < 0x20) return false;
+        if (eat(text, "\\u")) {
+            for (int i = 0; i < 4; ++i, text.remove_prefix(1))
+                if (text.empty() || !std::isxdigit(static_cast<unsigned char>(text[0])))
+                    return false;
+            continue;
+        }
+        if (eat(text, "\\") && (text.empty() || (text[0] != '"' && text[0] != '\\'))) return false;
+        text.remove_prefix(1);
+    }
+    return eat(text, "\"");
+}
+
+bool eatNumber(std::string_view& text) {
+    const std::size_t end = text.find_first_not_of("0123456789+-.e");
+    const std::string_view number = text.substr(0, end);
+    text.remove_prefix(number.size());
+    return !number.empty() && number[0] != '+' && number[0] != '.';
+}
+
+bool eatList(std::string_view& text, bool withKeys, std::string_view close) {
+    if (eat(text, close)) return true;
+    do {
+        if (withKeys && !(eatString(text) && eat(text, ":"))) return false;
+        if (!eatValue(text)) return false;
+    } while (eat(text, ","));
+    return eat(text, close);
+}
+
+bool eatValue(std::string_view& text) {
+    if (eat(text, "{")) return eatList(text, true, "}");
+    if (eat(text, "[")) return eatList(text, false, "]");
+    if (text.starts_with("\"")) return eatString(text);
+    return eat(text, "null") || eat(text, "true") || eat(text, "false") || eatNumber(text);
+}
+
+bool isJson(std::string_view text) { return eatValue(text) && text == "\n"; }
+
+Stats example() {
+    Stats stats;
+    stats.renderSeconds = 2, stats.totalSeconds = 2.5;
+    stats.rays.camera = 1000, stats.rays.shadow = 3000;
+    stats.cameraHits = 900;
+    stats.accel = {"bvh", 11, 6, 352, 40, 12.5};
+    stats.peakBytes = 123456789;
+    stats.threads = 2;
+    stats.kernel = "scalar";
+    stats.featuresNeeded = {"shadows", "a \"b\"\\\n\x01"};
+    stats.featuresSkipped = {"dof: aperture_radius is 0", "aa: one sample per pixel"};
+    stats.samplesMin = stats.samplesMean = stats.samplesMax = 16;
+    stats.nanSamples = 1;
+    return stats;
+}
+
+} // namespace
+
+TEST(stats_json_has_the_keys_of_the_contract) {
+    const std::string json = statsJson(example());
+    CHECK(isJson(json));
+    for (const char* part :
+         {"\"seconds\":{\"parse\":0,\"build\":0,\"render\":2,\"write\":0,\"total\":2.5}",
+          "\"rays\":{\"camera\":1000,\"shadow\":3000,\"reflect\":0,\"refract\":0,\"indirect\":0}",
+          "\"hits\":{\"camera\":900}", "\"rays_per_second\":2000",
+          "\"accel\":{\"kind\":\"bvh\",\"nodes\":11,\"leaves\":6,\"bytes\":352,\"sah\":12.5}",
+          "\"peak_bytes\":123456789", "\"threads\":2", "\"kernel\":\"scalar\"",
+          "\"features\":{\"needed\":[\"shadows\",\"a \\\"b\\\"\\\\\\u000a\\u0001\"],\"skipped\":[",
+          "\"samples\":{\"min\":16,\"mean\":16,\"max\":16}",
+          "\"numeric\":{\"nan_samples\":1,\"degenerate_primitives\":0}"})
+        CHECK_INFO(json.find(part) != std::string::npos, part << " in " << json);
+}
+
+TEST(stats_json_is_valid_for_odd_numbers) {
+    Stats stats;
+    CHECK(isJson(statsJson(stats)));
+    stats.accel.sah = std::numeric_limits<double>::quiet_NaN();
+    stats.parseSeconds = std::numeric_limits<double>::infinity();
+    stats.renderSeconds = 1e-300;
+    stats.rays.camera = std::numeric_limits<std::uint64_t>::max();
+    CHECK(isJson(statsJson(stats)));
+    CHECK(statsJson(stats).find("\"sah\":null") != std::string::npos);
+    CHECK(!isJson("{\"a\":nan}\n"));
+    CHECK(!isJson("{\"a\":1,}\n"));
+}
+
+TEST(stats_table_is_aligned_and_complete) {
+    const std::string table = statsTable(example());
+    for (const char* part :
+         {"camera                             1 000", "Mray/s",
+          "skipped  dof: aperture_radius is 0\n           aa: one sample", "bvh"})
+        CHECK_INFO(table.find(part) != std::string::npos, part << " in\n" << table);
+}
+
+TEST(stats_peak_memory_is_known) { CHECK(peakBytes() > 100'000); }

@@ -1,0 +1,207 @@
+// Writing and reading back gives an equal scene: for every property of the tables, and for random
+// scenes.
+#include "desc/write_txt.h"
+
+#include "base/text.h"
+#include "check.h"
+#include "desc/properties.h"
+#include "read/read_txt.h"
+
+#include <bit>
+#include <cmath>
+#include <random>
+
+namespace {
+
+// Fills blocks by walking the tables, so that a new row is tested without a new line here.
+class RandomScene {
+public:
+    RandomScene(std::uint64_t seed, double chance) : random_(seed), chance_(chance) {}
+
+    SceneDesc make(std::size_t perKind) {
+        for (std::size_t i = 0; i < perKind; ++i) {
+            desc_.textures.emplace_back().name = name("texture", i);
+            desc_.materials.emplace_back().name = name("material", i);
+            desc_.meshes.emplace_back().name = name("mesh", i);
+            desc_.lights.emplace_back().name = name("light", i);
+            desc_.cameras.emplace_back().name = name("camera", i);
+            for (const auto& row : kEnumNames<ObjectDesc::Kind>) {
+                ObjectDesc& object = desc_.objects.emplace_back();
+                object.name = name(row.name, i);
+                object.kind = row.value;
+                object.worldFromObject = keys();
+            }
+        }
+        for (LightDesc& light : desc_.lights) light.worldFromLight = rows();
+        for (CameraDesc& camera : desc_.cameras) camera.worldFromCamera = keys();
+        for (MeshDesc& mesh : desc_.meshes) fill(mesh);
+        forEachBlock(desc_, [&](auto& block) { fill(block); });
+        return desc_;
+    }
+
+private:
+    bool chance(double p) { return std::uniform_real_distribution<double>(0, 1)(random_) < p; }
+    std::size_t below(std::size_t n) { return static_cast<std::size_t>(random_() % n); }
+
+    std::string name(std::string_view kind, std::size_t i) {
+        static const std::vector<std::string> kEndings = {"", ".001", " with blanks", " \"quoted\"", " back\\slash",
+                                                          " größer 大 🎈", " # { }"};
+        return cat(kind, i, kEndings[below(kEndings.size())]);
+    }
+    double number(const Range& range) {
+        switch (below(4)) {
+        case 0: return range.hi;
+        case 1: return range.aboveLo ? std::min(range.hi, 1e-30) : range.lo;
+        default: {
+            const double lo = std::max(range.lo, -1000.0), hi = std::min(range.hi, 1000.0);
+            const double value = std::uniform_real_distribution<double>(lo, hi)(random_);
+            return range.contains(value) ? value : range.hi;
+        }
+        }
+    }
+    Rows rows() {
+        Rows rows{};
+        for (double& x : rows) x = std::ldexp(number({-1, 1}), static_cast<int>(below(80)) - 40);
+        return rows;
+    }
+    Keys keys() {
+        Keys keys(1 + below(3), kIdentityRows);
+        for (Rows& key : keys)
+            if (chance(0.8)) key = rows();
+        return keys;
+    }
+
+    template <class Block>
+    void fill(Block& block) {
+        static const Block kDefaults{};
+        for (const Property<Block>& property : propertiesOf<Block>()) {
+            if (std::is_same_v<Block, ObjectDesc> && !(property.kinds & kindOf(block))) continue;
+            if (!chance(chance_)) continue;
+            int tries = 0; // again when the default was met
+            do fillField(block, property, property.first);
+            while (++tries < 50 && sameField(block, kDefaults, property.first));
+            if (property.second) fillField(block, property, *property.second);
+        }
+    }
+    template <class Block>
+    void fillField(Block& block, const Property<Block>& property, const Field<Block>& field) {
+        if (auto* crop = std::get_if<Crop Block::*>(&field)) (block.**crop).emplace();
+        forEachNumber(block, field, [&](auto& value) {
+            value = static_cast<std::remove_reference_t<decltype(value)>>(number(property.range));
+        });
+        if (auto* flag = std::get_if<bool Block::*>(&field)) block.**flag = chance(0.5);
+        else if (auto* text = std::get_if<std::string Block::*>(&field)) block.**text = name("file", 0);
+        else if (auto* choice = std::get_if<Choice<Block>>(&field)) choice->set(block, below(choice->names.size()));
+        else if (auto* reference = std::get_if<Reference<Block>>(&field))
+            block.*(reference->handle) = handle();
+        else if (auto* list = std::get_if<MaterialList<Block>>(&field))
+            (block.*(list->handles)).assign(list->many ? 1 + below(3) : 1, handle());
+    }
+    Handle handle() { return static_cast<Handle>(below(desc_.materials.size())); }
+
+    void fill(MeshDesc& mesh) {
+        const std::size_t points = 3 + below(10);
+        const auto single = [&] {
+            return static_cast<float>(std::ldexp(number({-1, 1}), static_cast<int>(below(100)) - 60));
+        };
+        for (std::size_t i = 0; i < points; ++i) {
+            mesh.points.push_back({number(kAnyNumber), number(kAnyNumber), number({-1, 1})});
+            mesh.normals.push_back({single(), single(), single()});
+            mesh.uvs.push_back({single(), single()});
+        }
+        const auto index = [&] { return static_cast<std::uint32_t>(below(points)); };
+        const std::size_t count = 1 + below(10);
+        for (std::size_t i = 0; i < count; ++i) {
+            mesh.triangles.push_back({index(), index(), index()});
+            mesh.normalTriangles.push_back({index(), index(), index()});
+            mesh.uvTriangles.push_back({index(), index(), index()});
+            mesh.triangleMaterials.push_back(index());
+        }
+        if (chance(0.3)) mesh.normals.clear(), mesh.normalTriangles.clear();
+        if (chance(0.3)) mesh.uvs.clear(), mesh.uvTriangles.clear();
+        if (chance(0.3)) mesh.triangleMaterials.clear();
+    }
+
+    std::mt19937_64 random_;
+    double chance_;
+    SceneDesc desc_;
+};
+
+SceneDesc readBack(const std::string& text) { return readTxt({"written.txt", text}); }
+
+// Every row of a table must have a block in which its value is not the default.
+template <class Block>
+void checkAllUsed(const std::vector<Block>& blocks, const std::string& text) {
+    static const Block kDefaults{};
+    for (const Property<Block>& property : propertiesOf<Block>()) {
+        bool used = false;
+        for (const Block& block : blocks)
+            used = used || ((property.kinds & kindOf(block)) && !sameField(block, kDefaults, property.first));
+        CHECK_INFO(used, "no block uses " << property.keyword);
+        CHECK_INFO(text.find(cat("\n    ", property.keyword, " ")) != std::string::npos,
+                   property.keyword << " was not written");
+    }
+}
+
+} // namespace
+
+TEST(write_txt_every_property_comes_back) {
+    const SceneDesc desc = RandomScene(1, 1.0).make(6);
+    const std::string text = writeTxt(desc);
+    CHECK(readBack(text) == desc);
+    checkAllUsed(std::vector{desc.settings}, text);
+    checkAllUsed(std::vector{desc.world}, text);
+    checkAllUsed(desc.cameras, text);
+    checkAllUsed(desc.textures, text);
+    checkAllUsed(desc.materials, text);
+    checkAllUsed(desc.lights, text);
+    checkAllUsed(desc.objects, text);
+    for (const MeshArray& array : kMeshArrays)
+        CHECK_INFO(text.find(cat("\n    ", array.keyword, " ")) != std::string::npos, array.keyword);
+    for (const auto& row : kEnumNames<ObjectDesc::Kind>)
+        CHECK_INFO(text.find(cat("\n", row.name, " ")) != std::string::npos, row.name);
+}
+
+TEST(write_txt_random_scenes_come_back) {
+    for (std::uint64_t seed = 0; seed < 300; ++seed) {
+        const SceneDesc desc = RandomScene(seed, 0.4).make(1 + seed % 4);
+        const std::string text = writeTxt(desc);
+        const SceneDesc again = readBack(text);
+        CHECK_INFO(again == desc, "seed " << seed << "\n" << text);
+        CHECK_INFO(writeTxt(again) == text, "seed " << seed << ": written twice, not the same");
+    }
+}
+
+TEST(write_txt_keeps_bits) {
+    SceneDesc desc;
+    MeshDesc& mesh = desc.meshes.emplace_back();
+    mesh.name = "m";
+    std::mt19937_64 random(2);
+    while (mesh.points.size() < 10000) {
+        const Vec3d p{std::bit_cast<double>(random()), -0.0, 0x1p-1074};
+        const Vec3 n{std::bit_cast<float>(static_cast<std::uint32_t>(random())), -0.0f, 0x1p-149f};
+        if (!(std::fabs(p.x) <= kLargestLength && std::fabs(n.x) <= 1e15f)) continue;
+        mesh.points.push_back(p);
+        mesh.normals.push_back(n);
+    }
+    const SceneDesc again = readBack(writeTxt(desc));
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            CHECK(std::bit_cast<std::uint64_t>(again.meshes[0].points[i][axis]) ==
+                  std::bit_cast<std::uint64_t>(mesh.points[i][axis]));
+            CHECK(std::bit_cast<std::uint32_t>(again.meshes[0].normals[i][axis]) ==
+                  std::bit_cast<std::uint32_t>(mesh.normals[i][axis]));
+        }
+}
+
+TEST(write_txt_leaves_defaults_out) {
+    SceneDesc desc;
+    desc.cameras.emplace_back().name = "c";
+    desc.objects.emplace_back().name = "two words";
+    const std::string text = writeTxt(desc);
+    CHECK(text.starts_with("raytracer 1\n#"));
+    CHECK(text.ends_with("\ncamera c {\n}\n\nsphere \"two words\" {\n}\n"));
+    CHECK(text.find("settings") == std::string::npos);
+    desc.settings.samplesPerPixel = 3;
+    CHECK(writeTxt(desc).find("settings {\n    samples 3\n}\n") != std::string::npos);
+}
