@@ -306,10 +306,13 @@ Ready instance(const MeshDesc& mesh, const Transform& worldFromMesh, const Scene
     out.geometry = std::make_unique<MeshGeometry>(toGeometry(mesh, own));
     out.geometry->dropDegenerate();
     out.geometry->finish(true);
-    out.sceneFromMesh = frame.placed(worldFromMesh.rows()) * Transform::translate(own.centre) *
-                        Transform::scale(1 / own.scale);
-    out.shape = std::make_unique<Mesh>(*out.geometry, MovingTransform(out.sceneFromMesh),
-                                       std::vector<std::uint32_t>{7}, std::vector<MeshPart>{{0, 5}});
+    const Transform sceneFromObject = frame.placed(worldFromMesh.rows());
+    const Transform objectFromMesh =
+        Transform::translate(own.centre) * Transform::scale(1 / own.scale);
+    out.sceneFromMesh = sceneFromObject * objectFromMesh;
+    out.shape = std::make_unique<Mesh>(*out.geometry, MovingTransform(sceneFromObject),
+                                       std::vector<std::uint32_t>{7}, std::vector<MeshPart>{{0, 5}},
+                                       objectFromMesh);
     return out;
 }
 

@@ -43,7 +43,31 @@ struct ShearedTriangle {
         const bool positive = e.x > 0 || e.y > 0 || e.z > 0;
         return negative != positive; // mixed signs: outside; all zero: edge-on, no hit
     }
+
+    // For a ray that containsRay(): of all triangles that share the edge or corner that the ray
+    // meets, exactly one of those that face the same way says yes. It is the one that contains the
+    // ray when it is moved by (e, e^2), e infinitely small (Edelsbrunner and Muecke 1990).
+    bool ownsRay() const {
+        const Vec3d e = edgesExact();
+        const auto side = [this](double edge, int a, int b) {
+            if (edge != 0) return edge > 0 ? 1 : -1;
+            if (y[a] != y[b]) return y[a] > y[b] ? 1 : -1;
+            return x[b] > x[a] ? 1 : x[b] < x[a] ? -1 : 0;
+        };
+        const int u = side(e.x, 2, 1);
+        return u != 0 && u == side(e.y, 0, 2) && u == side(e.z, 1, 0);
+    }
 };
+
+// 1/z of the plane, for a triangle that reaches behind the origin. There its sign tells hit from
+// miss, and float loses it for needles (a cross product of long, nearly parallel edges), which a ray
+// that just left one would then meet. In double that takes needles of 1e8.
+inline float straddlingKey(const RaySetup& ray, const Vec3 (&v)[3]) {
+    const Vec3d v0 = toDouble(v[0]);
+    const Vec3d n = cross(toDouble(v[1]) - v0, toDouble(v[2]) - v0);
+    const Vec3d slope{ray.Sx, ray.Sy, 1};
+    return static_cast<float>(dot(n, slope) / dot(n, v0));
+}
 
 // Key of the hit, 1/z: the larger, the nearer. 0 when the ray misses the triangle.
 inline float canonicalKey(const RaySetup& ray, Vec3 v0, Vec3 v1, Vec3 v2) {
@@ -55,11 +79,16 @@ inline float canonicalKey(const RaySetup& ray, Vec3 v0, Vec3 v1, Vec3 v2) {
     const float zMax = max(v[0].z, max(v[1].z, v[2].z));
     if (!(zMax > 0)) return 0;
 
-    const Vec3 n = cross(v[1] - v[0], v[2] - v[0]);
-    const float planeDistance = (n.x * v[0].x + n.y * v[0].y) + n.z * v[0].z;
-    const float inverse = 1.0f / planeDistance;
-    const float planeKey = ((n.x * inverse) * ray.Sx + (n.y * inverse) * ray.Sy) + n.z * inverse;
-    if (!(zMin > 0) && !(planeKey > 0)) return 0; // straddles the origin and is met behind it
+    float planeKey = 0;
+    if (zMin > 0) {
+        const Vec3 n = cross(v[1] - v[0], v[2] - v[0]);
+        const float planeDistance = (n.x * v[0].x + n.y * v[0].y) + n.z * v[0].z;
+        const float inverse = 1.0f / planeDistance;
+        planeKey = ((n.x * inverse) * ray.Sx + (n.y * inverse) * ray.Sy) + n.z * inverse;
+    } else {
+        planeKey = straddlingKey(ray, v);
+        if (!(planeKey > 0)) return 0; // met behind the origin
+    }
     const float nearest = zMin > 0 ? 1.0f / zMin : std::numeric_limits<float>::infinity();
     float key = min(max(planeKey, 1.0f / zMax), nearest);
 

@@ -12,33 +12,28 @@
 #include <string_view>
 #include <vector>
 
-template <class E>
-struct EnumName {
+template <class E> struct EnumName {
     E value;
     std::string_view name;
 };
 
 // template <> inline constexpr auto kEnumNames<Fruit> = std::to_array<EnumName<Fruit>>({...});
 // Every enumerator has its row, in the order of the enum: see isInOrder().
-template <class E>
-inline constexpr std::array<EnumName<E>, 0> kEnumNames{};
+template <class E> inline constexpr std::array<EnumName<E>, 0> kEnumNames{};
 
 // For a static_assert beside the table: row i holds value i.
-template <class E>
-consteval bool isInOrder() {
+template <class E> consteval bool isInOrder() {
     std::size_t i = 0;
     for (const EnumName<E>& row : kEnumNames<E>)
         if (static_cast<std::size_t>(row.value) != i++) return false;
     return i > 0;
 }
 
-template <class E>
-constexpr std::string_view nameOf(E value) {
+template <class E> constexpr std::string_view nameOf(E value) {
     return kEnumNames<E>[static_cast<std::size_t>(value)].name;
 }
 
-template <class E>
-constexpr std::optional<E> valueNamed(std::string_view name) {
+template <class E> constexpr std::optional<E> valueNamed(std::string_view name) {
     for (const EnumName<E>& row : kEnumNames<E>)
         if (row.name == name) return row.value;
     return {};
@@ -55,9 +50,9 @@ inline constexpr auto kNamesByValue = [] {
 // "unknown sampler 'soboll'; did you mean 'sobol'? known: sobol, stratified, random, grid"
 inline std::string unknownValue(std::string_view what, std::string_view word,
                                 std::span<const std::string_view> names) {
-    return cat("unknown ", what, " ", unknownName(word, std::vector<std::string>(names.begin(), names.end())));
+    return cat("unknown ", what, " ",
+               unknownName(word, std::vector<std::string>(names.begin(), names.end())));
 }
-template <class E>
-std::string unknownValue(std::string_view what, std::string_view word) {
+template <class E> std::string unknownValue(std::string_view what, std::string_view word) {
     return unknownValue(what, word, kNamesByValue<E>);
 }

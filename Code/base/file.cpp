@@ -29,7 +29,7 @@ std::atomic<const char*> pending = nullptr;
 static_assert(std::atomic<const char*>::is_always_lock_free);
 std::mutex oneWriteAtATime;
 
-// Announces a temporary file before it is made, and removes it unless it was renamed.
+// Announces a temporary file before it is made, and removes it if it is still there at the end.
 class PendingFile {
 public:
     explicit PendingFile(const std::string& name) : name_(name) {
@@ -39,16 +39,14 @@ public:
         pending = pendingName.data();
     }
     ~PendingFile() {
-        if (!renamed_) std::remove(name_.c_str());
+        std::remove(name_.c_str());
         pending = nullptr;
     }
     PendingFile(const PendingFile&) = delete;
     PendingFile& operator=(const PendingFile&) = delete;
-    void renamed() { renamed_ = true; }
 
 private:
     std::string name_;
-    bool renamed_ = false;
 };
 
 [[noreturn]] void failWriting(const std::string& fileName, int reason) {
@@ -63,7 +61,7 @@ void writeBytes(const std::string& path, const std::string& fileName,
                 std::span<const std::uint8_t> bytes) {
     File file(std::fopen(path.c_str(), "wb"));
     if (!file) failWriting(fileName, errno);
-    if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
+    if (!bytes.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
         failWriting(fileName, errno);
     if (std::fclose(file.release()) != 0) failWriting(fileName, errno);
 }
@@ -117,10 +115,9 @@ void writeFileAtomically(const std::string& fileName, std::span<const std::uint8
     if (fs::exists(kind) && access(target.c_str(), W_OK) != 0) failWriting(fileName, errno);
 
     const std::string temporary = cat(target, ".", getpid(), ".tmp");
-    PendingFile guard(temporary);
+    const PendingFile pendingFile(temporary);
     writeBytes(temporary, fileName, bytes);
     if (std::rename(temporary.c_str(), target.c_str()) != 0) failWriting(fileName, errno);
-    guard.renamed();
 }
 
 const char* pendingTemporaryFile() { return pending; }

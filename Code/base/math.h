@@ -69,7 +69,7 @@ constexpr float floatAbove(double x) {
     return static_cast<double>(nearest) < x ? nextUp(nearest) : nearest;
 }
 
-// a*b - c*d without cancellation: the error is at most 2 ulp of the result unless a product
+// a*b - c*d without cancellation: the error is below 0.6 ulp of the result unless a product
 // underflows or exceeds 2^996. Products are split exactly (Dekker 1971), as FMA is banned.
 double differenceOfProducts(double a, double b, double c, double d);
 
@@ -94,15 +94,16 @@ double tan(double x); // 2 ulp
 double asin(double x); // 1.5 ulp; NaN outside [-1,1]
 double acos(double x);
 double atan(double x);
-// 1.5 ulp. In [-pi,pi]; signed zeros as in C: atan2(0,-1) = pi, atan2(-0.0,-1) = -pi, atan2(0,0) = 0.
+// 1.5 ulp. In [-pi,pi]; signed zeros as in C: atan2(0,-1) = pi, atan2(-0.0,-1) = -pi and
+// atan2(0,0) = 0.
 double atan2(double y, double x);
 
-double exp(double x);  // 1 ulp; 0 below -745.2, infinity above 709.8; denormal results too
-double exp2(double x); // 1 ulp
+double exp(double x);  // 0.55 ulp; 0 below -745.2, infinity above 709.8; denormal results 0.75
+double exp2(double x); // the same
 double log(double x);  // 0.55 ulp; log(0) = -infinity, NaN below 0
-double log2(double x);
-// 0.55 ulp, denormal results 1 ulp. Special values as in C: pow(x,0) = pow(1,y) = 1 even for NaN, pow(0,y>0) = 0,
-// pow(0,y<0) = infinity, x < 0 needs a whole y (else NaN).
+double log2(double x); // 0.55 ulp; exact for powers of two
+// 0.55 ulp, denormal results 1 ulp. Special values as in C: pow(x,0) = pow(1,y) = 1 even for NaN,
+// pow(0,y>0) = 0, pow(0,y<0) = infinity, x < 0 needs a whole y (else NaN).
 double pow(double x, double y);
 double cbrt(double x); // 0.7 ulp
 

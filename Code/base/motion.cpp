@@ -32,6 +32,18 @@ Transform affine(const Matrix& m, Vec3d t) {
         {m[0], m[1], m[2], t.x, m[3], m[4], m[5], t.y, m[6], m[7], m[8], t.z});
 }
 
+// Arvo's box of the mapped box, without a pad for rounding.
+BoundsD boxOf(const Matrix& m, const BoundsD& box) {
+    BoundsD out{{}, {}};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) {
+            const double a = m[3 * i + j] * box.lo[j], b = m[3 * i + j] * box.hi[j];
+            out.lo[i] += min(a, b);
+            out.hi[i] += max(a, b);
+        }
+    return out;
+}
+
 double frobenius(const Matrix& m) {
     double sum = 0;
     for (const double x : m) sum += x * x;
@@ -188,12 +200,12 @@ BoundsD MovingTransform::sweptBounds(const Segment& segment, const BoundsD& box)
             for (int corner = 0; corner < 8; ++corner)
                 radius = max(radius, length(times(stretch, box.corner(corner))));
             for (const double si : s)
-                turned.extend(
-                    affine(times(matrixOf(rotationAt(segment, si)), stretch), {}).bounds(box));
+                turned.extend(boxOf(times(matrixOf(rotationAt(segment, si)), stretch), box));
             moved.extend(lerp(segment.from.translation, segment.to.translation, sj));
         }
         // All roundings here and in at() are below 1e-13 of the coordinates.
-        const double pad = sagitta * radius + 1e-13 * (radius + maxAbs(moved.lo) + maxAbs(moved.hi));
+        const double reach = radius + maxAbs(moved.lo) + maxAbs(moved.hi);
+        const double pad = sagitta * radius + 1e-13 * reach;
         out.extend({turned.lo + moved.lo - Vec3d{pad, pad, pad},
                     turned.hi + moved.hi + Vec3d{pad, pad, pad}});
     }

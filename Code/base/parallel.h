@@ -32,8 +32,9 @@ public:
     // Calls job(index, worker) for index = 0 .. count-1, each once, handed out in ascending order;
     // worker in [0, threads) tells whose scratch memory to use. Returns when all are done. With
     // one thread everything runs in place. An exception stops the handing out and is thrown again
-    // here; of several the one of the lowest index, which is the same in every run. When *stop becomes true no further index is
-    // handed out. Returns false when some were left out that way. One run at a time, no nesting.
+    // here; of several the one of the lowest index, which is the same in every run. When *stop
+    // becomes true no further index is handed out; returns false when some were left out that way.
+    // One run at a time, no nesting.
     bool run(std::size_t count, const std::function<void(std::size_t, int)>& job,
              const std::atomic<bool>* stop = nullptr);
 

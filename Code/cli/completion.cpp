@@ -85,9 +85,10 @@ complete -F _raytracer raytracer
 std::string zshSpecs(const std::vector<Flag>& flags) {
     std::string out;
     for (const Flag& flag : flags) {
-        std::string help = quoteSafe(flag.help);
+        std::string help = flag.help;
         for (const char* special : {"\\", "[", "]", ":"})
             help = replaced(help, special, std::string("\\") + special);
+        help = quoteSafe(help);
         std::string value;
         if (flag.value != Flag::Value::None) {
             value = cat(flag.value == Flag::Value::Optional ? "::" : ":",

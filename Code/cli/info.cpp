@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iomanip>
 #include <sstream>
 
@@ -81,6 +82,14 @@ std::size_t bytesOf(const StoredImage& image) {
     return bytesOf(image.bytes) + bytesOf(image.words) + bytesOf(image.floats);
 }
 
+// The boxes of shapes are rounded outwards in float; what that adds is not worth a digit.
+Vec3d rounded(Vec3d p, double extent) {
+    const double step = extent * 1e-6;
+    if (!(step > 0)) return p;
+    const auto whole = [&](double x) { return std::round(x / step) * step + 0.0; }; // no -0
+    return {whole(p.x), whole(p.y), whole(p.z)};
+}
+
 // Of all that has a size and an end, in world units; empty when there is nothing.
 BoundsD worldBounds(const Scene& scene) {
     BoundsD box;
@@ -90,7 +99,9 @@ BoundsD worldBounds(const Scene& scene) {
         box.extend(scene.frame().worldPoint(toDouble(normalised.lo)));
         box.extend(scene.frame().worldPoint(toDouble(normalised.hi)));
     }
-    return box;
+    if (box.isEmpty()) return box;
+    const double extent = maxAbs(box.size());
+    return {rounded(box.lo, extent), rounded(box.hi, extent)};
 }
 
 std::string_view unitOf(LightDesc::Kind kind) {

@@ -12,9 +12,9 @@ constexpr int kSteps = 10;
 // Back to the first column, and clear to the end of the line (ECMA-48).
 constexpr std::string_view kClearLine = "\r\x1b[K";
 
-std::string padded(long long value, std::size_t digits) {
+std::string padded(long long value, std::size_t width, char filler) {
     std::string text = std::to_string(value);
-    if (text.size() < digits) text.insert(0, digits - text.size(), '0');
+    if (text.size() < width) text.insert(0, width - text.size(), filler);
     return text;
 }
 
@@ -31,8 +31,8 @@ std::string clockText(double seconds) {
     constexpr double kLongest = 359999; // 99:59:59
     const auto whole = std::llround(std::clamp(seconds, 0.0, kLongest));
     const auto hours = whole / 3600, minutes = whole / 60 % 60;
-    const std::string rest = cat(":", padded(whole % 60, 2));
-    if (hours > 0) return cat(hours, ":", padded(minutes, 2), rest);
+    const std::string rest = cat(":", padded(whole % 60, 2, '0'));
+    if (hours > 0) return cat(hours, ":", padded(minutes, 2, '0'), rest);
     return cat(minutes, rest);
 }
 
@@ -59,7 +59,7 @@ void Progress::drawBar(double part, double elapsed) {
     if (early && part < 1) return;
     lastDrawn_ = elapsed;
     const std::string text =
-        cat(" ", padded(static_cast<int>(part * 100), 1), " %  ", timesText(part, elapsed));
+        cat(" ", padded(static_cast<int>(part * 100), 3, ' '), " %  ", timesText(part, elapsed));
     // Two brackets, and the last column stays free: some terminals wrap there.
     constexpr int kLongestBar = 40;
     const int cells = std::min(kLongestBar, columns_ - static_cast<int>(text.size()) - 3);

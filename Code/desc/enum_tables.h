@@ -5,83 +5,102 @@
 #include "desc/scene_desc.h"
 
 template <>
-inline constexpr auto kEnumNames<TextureDesc::Space> = std::to_array<EnumName<TextureDesc::Space>>(
-    {{TextureDesc::Space::Srgb, "srgb"}, {TextureDesc::Space::Linear, "linear"}});
+inline constexpr auto kEnumNames<TextureDesc::Space> = std::to_array<EnumName<TextureDesc::Space>>({
+    {TextureDesc::Space::Srgb, "srgb"},
+    {TextureDesc::Space::Linear, "linear"},
+});
 template <>
-inline constexpr auto kEnumNames<TextureDesc::Interpolation> =
-    std::to_array<EnumName<TextureDesc::Interpolation>>(
-        {{TextureDesc::Interpolation::Bilinear, "bilinear"},
-         {TextureDesc::Interpolation::Nearest, "nearest"}});
+inline constexpr auto
+    kEnumNames<TextureDesc::Interpolation> = std::to_array<EnumName<TextureDesc::Interpolation>>({
+        {TextureDesc::Interpolation::Bilinear, "bilinear"},
+        {TextureDesc::Interpolation::Nearest, "nearest"},
+    });
 template <>
-inline constexpr auto kEnumNames<TextureDesc::Extension> =
-    std::to_array<EnumName<TextureDesc::Extension>>({{TextureDesc::Extension::Repeat, "repeat"},
-                                                     {TextureDesc::Extension::Extend, "extend"},
-                                                     {TextureDesc::Extension::Clip, "clip"}});
+inline constexpr auto
+    kEnumNames<TextureDesc::Extension> = std::to_array<EnumName<TextureDesc::Extension>>({
+        {TextureDesc::Extension::Repeat, "repeat"},
+        {TextureDesc::Extension::Extend, "extend"},
+        {TextureDesc::Extension::Clip, "clip"},
+    });
 template <>
-inline constexpr auto kEnumNames<TextureDesc::Channel> =
-    std::to_array<EnumName<TextureDesc::Channel>>(
-        {{TextureDesc::Channel::Color, "color"}, {TextureDesc::Channel::Alpha, "alpha"}});
+inline constexpr auto
+    kEnumNames<TextureDesc::Channel> = std::to_array<EnumName<TextureDesc::Channel>>({
+        {TextureDesc::Channel::Color, "color"},
+        {TextureDesc::Channel::Alpha, "alpha"},
+    });
 
 template <>
-inline constexpr auto kEnumNames<MaterialDesc::SpecularModel> =
-    std::to_array<EnumName<MaterialDesc::SpecularModel>>(
-        {{MaterialDesc::SpecularModel::Blinn, "blinn"},
-         {MaterialDesc::SpecularModel::Ashikhmin, "ashikhmin"}});
+inline constexpr auto
+    kEnumNames<MaterialDesc::SpecularModel> = std::to_array<EnumName<MaterialDesc::SpecularModel>>({
+        {MaterialDesc::SpecularModel::Blinn, "blinn"},
+        {MaterialDesc::SpecularModel::Ashikhmin, "ashikhmin"},
+    });
 template <>
-inline constexpr auto kEnumNames<MaterialDesc::Fresnel> =
-    std::to_array<EnumName<MaterialDesc::Fresnel>>({{MaterialDesc::Fresnel::None, "none"},
-                                                    {MaterialDesc::Fresnel::Dielectric, "dielectric"},
-                                                    {MaterialDesc::Fresnel::Schlick, "schlick"}});
+inline constexpr auto
+    kEnumNames<MaterialDesc::Fresnel> = std::to_array<EnumName<MaterialDesc::Fresnel>>({
+        {MaterialDesc::Fresnel::None, "none"},
+        {MaterialDesc::Fresnel::Dielectric, "dielectric"},
+        {MaterialDesc::Fresnel::Schlick, "schlick"},
+    });
 
 template <>
-inline constexpr auto kEnumNames<LightDesc::Kind> = std::to_array<EnumName<LightDesc::Kind>>(
-    {{LightDesc::Kind::Point, "point"},
-     {LightDesc::Kind::Spot, "spot"},
-     {LightDesc::Kind::Sun, "sun"},
-     {LightDesc::Kind::Rectangle, "rectangle"},
-     {LightDesc::Kind::Disk, "disk"},
-     {LightDesc::Kind::Sphere, "sphere"}});
+inline constexpr auto kEnumNames<LightDesc::Kind> = std::to_array<EnumName<LightDesc::Kind>>({
+    {LightDesc::Kind::Point, "point"},
+    {LightDesc::Kind::Spot, "spot"},
+    {LightDesc::Kind::Sun, "sun"},
+    {LightDesc::Kind::Rectangle, "rectangle"},
+    {LightDesc::Kind::Disk, "disk"},
+    {LightDesc::Kind::Sphere, "sphere"},
+});
 
 template <>
-inline constexpr auto kEnumNames<CameraDesc::Kind> = std::to_array<EnumName<CameraDesc::Kind>>(
-    {{CameraDesc::Kind::Perspective, "perspective"},
-     {CameraDesc::Kind::Orthographic, "orthographic"}});
+inline constexpr auto kEnumNames<CameraDesc::Kind> = std::to_array<EnumName<CameraDesc::Kind>>({
+    {CameraDesc::Kind::Perspective, "perspective"},
+    {CameraDesc::Kind::Orthographic, "orthographic"},
+});
 template <>
-inline constexpr auto kEnumNames<CameraDesc::SensorFit> =
-    std::to_array<EnumName<CameraDesc::SensorFit>>(
-        {{CameraDesc::SensorFit::Auto, "auto"},
-         {CameraDesc::SensorFit::Horizontal, "horizontal"},
-         {CameraDesc::SensorFit::Vertical, "vertical"}});
+inline constexpr auto
+    kEnumNames<CameraDesc::SensorFit> = std::to_array<EnumName<CameraDesc::SensorFit>>({
+        {CameraDesc::SensorFit::Auto, "auto"},
+        {CameraDesc::SensorFit::Horizontal, "horizontal"},
+        {CameraDesc::SensorFit::Vertical, "vertical"},
+    });
 
 // These words open the blocks of objects.
 template <>
-inline constexpr auto kEnumNames<ObjectDesc::Kind> = std::to_array<EnumName<ObjectDesc::Kind>>(
-    {{ObjectDesc::Kind::Sphere, "sphere"},
-     {ObjectDesc::Kind::Cube, "cube"},
-     {ObjectDesc::Kind::Plane, "plane"},
-     {ObjectDesc::Kind::InfinitePlane, "infinite_plane"},
-     {ObjectDesc::Kind::Disk, "disk"},
-     {ObjectDesc::Kind::Cylinder, "cylinder"},
-     {ObjectDesc::Kind::Cone, "cone"},
-     {ObjectDesc::Kind::Mesh, "instance"}});
+inline constexpr auto kEnumNames<ObjectDesc::Kind> = std::to_array<EnumName<ObjectDesc::Kind>>({
+    {ObjectDesc::Kind::Sphere, "sphere"},
+    {ObjectDesc::Kind::Cube, "cube"},
+    {ObjectDesc::Kind::Plane, "plane"},
+    {ObjectDesc::Kind::InfinitePlane, "infinite_plane"},
+    {ObjectDesc::Kind::Disk, "disk"},
+    {ObjectDesc::Kind::Cylinder, "cylinder"},
+    {ObjectDesc::Kind::Cone, "cone"},
+    {ObjectDesc::Kind::Mesh, "instance"},
+});
 
 template <>
-inline constexpr auto kEnumNames<SettingsDesc::Sampler> =
-    std::to_array<EnumName<SettingsDesc::Sampler>>({{SettingsDesc::Sampler::Sobol, "sobol"},
-                                                    {SettingsDesc::Sampler::Stratified, "stratified"},
-                                                    {SettingsDesc::Sampler::Random, "random"},
-                                                    {SettingsDesc::Sampler::Grid, "grid"}});
+inline constexpr auto
+    kEnumNames<SettingsDesc::Sampler> = std::to_array<EnumName<SettingsDesc::Sampler>>({
+        {SettingsDesc::Sampler::Sobol, "sobol"},
+        {SettingsDesc::Sampler::Stratified, "stratified"},
+        {SettingsDesc::Sampler::Random, "random"},
+        {SettingsDesc::Sampler::Grid, "grid"},
+    });
 template <>
-inline constexpr auto kEnumNames<SettingsDesc::Filter> =
-    std::to_array<EnumName<SettingsDesc::Filter>>(
-        {{SettingsDesc::Filter::Box, "box"},
-         {SettingsDesc::Filter::Tent, "tent"},
-         {SettingsDesc::Filter::Gaussian, "gaussian"},
-         {SettingsDesc::Filter::BlackmanHarris, "blackman-harris"}});
+inline constexpr auto
+    kEnumNames<SettingsDesc::Filter> = std::to_array<EnumName<SettingsDesc::Filter>>({
+        {SettingsDesc::Filter::Box, "box"},
+        {SettingsDesc::Filter::Tent, "tent"},
+        {SettingsDesc::Filter::Gaussian, "gaussian"},
+        {SettingsDesc::Filter::BlackmanHarris, "blackman-harris"},
+    });
 template <>
-inline constexpr auto kEnumNames<SettingsDesc::Transfer> =
-    std::to_array<EnumName<SettingsDesc::Transfer>>({{SettingsDesc::Transfer::Srgb, "srgb"},
-                                                     {SettingsDesc::Transfer::Linear, "linear"}});
+inline constexpr auto
+    kEnumNames<SettingsDesc::Transfer> = std::to_array<EnumName<SettingsDesc::Transfer>>({
+        {SettingsDesc::Transfer::Srgb, "srgb"},
+        {SettingsDesc::Transfer::Linear, "linear"},
+    });
 
 static_assert(isInOrder<TextureDesc::Space>() && isInOrder<TextureDesc::Interpolation>() &&
               isInOrder<TextureDesc::Extension>() && isInOrder<TextureDesc::Channel>() &&

@@ -14,8 +14,7 @@ public:
     explicit ErrorList(const SourceFile& source) : source_(source) {}
 
     // The text is made only when it will be shown: a file can hold a million errors.
-    template <class MakeText>
-    void add(SourceLoc loc, MakeText&& makeText) {
+    template <class MakeText> void add(SourceLoc loc, MakeText&& makeText) {
         if (hasRoom()) messages_.push_back(locatedAt(loc, makeText(), "error"));
         ++count_;
     }

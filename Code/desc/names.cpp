@@ -45,7 +45,8 @@ std::string shown(std::string_view text) {
     std::size_t i = 0;
     while (i < text.size() && out.size() < kShown) {
         const std::size_t length = sequenceLength(text.substr(i, 4));
-        if (length > 0) out += text.substr(i, length);
+        if (length > 0)
+            out += text.substr(i, length);
         else {
             const auto byte = static_cast<std::uint8_t>(text[i]);
             out += {'\\', 'x', kHex[byte >> 4], kHex[byte & 15]};

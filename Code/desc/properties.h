@@ -23,32 +23,26 @@ inline constexpr auto kEnumNames<Target> = std::to_array<EnumName<Target>>(
     {{Target::Texture, "texture"}, {Target::Material, "material"}, {Target::Mesh, "mesh"}});
 static_assert(isInOrder<Target>());
 
-template <class Block>
-struct Reference {
-    Handle Block::* handle;
+template <class Block> struct Reference {
+    Handle Block::*handle;
     Target target;
 };
 // The same list under two keywords: one name for all, or a name per material slot.
-template <class Block>
-struct MaterialList {
-    std::vector<Handle> Block::* handles;
+template <class Block> struct MaterialList {
+    std::vector<Handle> Block::*handles;
     bool many;
 };
 // An enum whose type is forgotten; values are positions in `names`.
-template <class Block>
-struct Choice {
+template <class Block> struct Choice {
     std::size_t (*get)(const Block&);
     void (*set)(Block&, std::size_t);
     std::span<const std::string_view> names;
 };
 
-template <class Block, class E>
-Block blockOf(E Block::*);
-template <class Block, class E>
-E memberOf(E Block::*);
+template <class Block, class E> Block blockOf(E Block::*);
+template <class Block, class E> E memberOf(E Block::*);
 
-template <auto member>
-constexpr auto choice() {
+template <auto member> constexpr auto choice() {
     using Block = decltype(blockOf(member));
     using E = decltype(memberOf(member));
     return Choice<Block>{[](const Block& block) { return static_cast<std::size_t>(block.*member); },
@@ -59,17 +53,18 @@ constexpr auto choice() {
 using Corners4 = std::array<Vec3d, 4>;
 using Crop = std::optional<std::array<int, 4>>;
 template <class Block>
-using Field = std::variant<double Block::*, Vec2d Block::*, Rgbd Block::*, Corners4 Block::*,
-                           int Block::*, std::uint32_t Block::*, Crop Block::*, bool Block::*,
-                           std::string Block::*, Reference<Block>, MaterialList<Block>, Choice<Block>>;
+using Field =
+    std::variant<double Block::*, Vec2d Block::*, Rgbd Block::*, Corners4 Block::*, int Block::*,
+                 std::uint32_t Block::*, Crop Block::*, bool Block::*, std::string Block::*,
+                 Reference<Block>, MaterialList<Block>, Choice<Block>>;
 
 using KindMask = std::uint32_t;
 inline constexpr KindMask kAllKinds = ~KindMask{0};
-template <class... Kinds>
-constexpr KindMask only(Kinds... kinds) { return (... | (KindMask{1} << static_cast<unsigned>(kinds))); }
+template <class... Kinds> constexpr KindMask only(Kinds... kinds) {
+    return (... | (KindMask{1} << static_cast<unsigned>(kinds)));
+}
 
-template <class Block>
-struct Property {
+template <class Block> struct Property {
     std::string_view keyword;
     Field<Block> first;
     std::optional<Field<Block>> second; // on the same line
@@ -125,7 +120,7 @@ inline constexpr auto kTextureProperties = std::to_array<Property<TextureDesc>>(
     {"offset", &TextureDesc::offset, {}, kAnyNumber},
 });
 
-constexpr Reference<MaterialDesc> textureOf(Handle MaterialDesc::* handle) {
+constexpr Reference<MaterialDesc> textureOf(Handle MaterialDesc::*handle) {
     return {handle, Target::Texture};
 }
 inline constexpr auto kMaterialProperties = std::to_array<Property<MaterialDesc>>({
@@ -184,31 +179,45 @@ inline constexpr auto kObjectProperties = [] {
 }();
 
 // What differs between blocks: the word for it, its table, its kind (0 when all are alike).
-template <class Block>
-constexpr std::span<const Property<Block>> propertiesOf() {
-    if constexpr (std::is_same_v<Block, SettingsDesc>) return kSettingsProperties;
-    else if constexpr (std::is_same_v<Block, WorldDesc>) return kWorldProperties;
-    else if constexpr (std::is_same_v<Block, CameraDesc>) return kCameraProperties;
-    else if constexpr (std::is_same_v<Block, TextureDesc>) return kTextureProperties;
-    else if constexpr (std::is_same_v<Block, MaterialDesc>) return kMaterialProperties;
-    else if constexpr (std::is_same_v<Block, LightDesc>) return kLightProperties;
-    else return kObjectProperties;
+template <class Block> constexpr std::span<const Property<Block>> propertiesOf() {
+    if constexpr (std::is_same_v<Block, SettingsDesc>)
+        return kSettingsProperties;
+    else if constexpr (std::is_same_v<Block, WorldDesc>)
+        return kWorldProperties;
+    else if constexpr (std::is_same_v<Block, CameraDesc>)
+        return kCameraProperties;
+    else if constexpr (std::is_same_v<Block, TextureDesc>)
+        return kTextureProperties;
+    else if constexpr (std::is_same_v<Block, MaterialDesc>)
+        return kMaterialProperties;
+    else if constexpr (std::is_same_v<Block, LightDesc>)
+        return kLightProperties;
+    else
+        return kObjectProperties;
 }
-template <class Block>
-constexpr std::string_view wordOf(const Block& block) {
-    if constexpr (std::is_same_v<Block, SettingsDesc>) return "settings";
-    else if constexpr (std::is_same_v<Block, WorldDesc>) return "world";
-    else if constexpr (std::is_same_v<Block, CameraDesc>) return "camera";
-    else if constexpr (std::is_same_v<Block, TextureDesc>) return "texture";
-    else if constexpr (std::is_same_v<Block, MaterialDesc>) return "material";
-    else if constexpr (std::is_same_v<Block, LightDesc>) return "light";
-    else if constexpr (std::is_same_v<Block, MeshDesc>) return "mesh";
-    else return nameOf(block.kind);
+template <class Block> constexpr std::string_view wordOf(const Block& block) {
+    if constexpr (std::is_same_v<Block, SettingsDesc>)
+        return "settings";
+    else if constexpr (std::is_same_v<Block, WorldDesc>)
+        return "world";
+    else if constexpr (std::is_same_v<Block, CameraDesc>)
+        return "camera";
+    else if constexpr (std::is_same_v<Block, TextureDesc>)
+        return "texture";
+    else if constexpr (std::is_same_v<Block, MaterialDesc>)
+        return "material";
+    else if constexpr (std::is_same_v<Block, LightDesc>)
+        return "light";
+    else if constexpr (std::is_same_v<Block, MeshDesc>)
+        return "mesh";
+    else
+        return nameOf(block.kind);
 }
-template <class Block>
-constexpr KindMask kindOf(const Block& block) {
-    if constexpr (requires { block.kind; }) return only(block.kind);
-    else return kAllKinds;
+template <class Block> constexpr KindMask kindOf(const Block& block) {
+    if constexpr (requires { block.kind; })
+        return only(block.kind);
+    else
+        return kAllKinds;
 }
 
 // Calls with every number of a field (a reference to double, int or std::uint32_t) in the order of
@@ -220,9 +229,12 @@ void forEachNumber(Block& block, const FieldOfBlock& field, Call&& call) {
             if constexpr (requires { block.*f; }) {
                 auto& value = block.*f;
                 using Value = std::remove_cvref_t<decltype(value)>;
-                if constexpr (std::is_same_v<Value, bool>) return;
-                else if constexpr (std::is_arithmetic_v<Value>) call(value);
-                else if constexpr (std::is_same_v<Value, Vec2d>) call(value.x), call(value.y);
+                if constexpr (std::is_same_v<Value, bool>)
+                    return;
+                else if constexpr (std::is_arithmetic_v<Value>)
+                    call(value);
+                else if constexpr (std::is_same_v<Value, Vec2d>)
+                    call(value.x), call(value.y);
                 else if constexpr (std::is_same_v<Value, Rgbd>)
                     call(value.r), call(value.g), call(value.b);
                 else if constexpr (std::is_same_v<Value, Corners4>)
@@ -236,34 +248,36 @@ void forEachNumber(Block& block, const FieldOfBlock& field, Call&& call) {
 }
 
 // Does the field hold the same in both blocks?
-template <class Block>
-bool sameField(const Block& a, const Block& b, const Field<Block>& field) {
+template <class Block> bool sameField(const Block& a, const Block& b, const Field<Block>& field) {
     return std::visit(
         [&](const auto& f) {
-            if constexpr (requires { a.*f; }) return a.*f == b.*f;
-            else if constexpr (requires { f.handle; }) return a.*(f.handle) == b.*(f.handle);
-            else if constexpr (requires { f.handles; }) return a.*(f.handles) == b.*(f.handles);
-            else return f.get(a) == f.get(b);
+            if constexpr (requires { a.*f; })
+                return a.*f == b.*f;
+            else if constexpr (requires { f.handle; })
+                return a.*(f.handle) == b.*(f.handle);
+            else if constexpr (requires { f.handles; })
+                return a.*(f.handles) == b.*(f.handles);
+            else
+                return f.get(a) == f.get(b);
         },
         field);
 }
 
 // Calls with every reference of a block and what it names: call(Handle&, Target, keyword).
-template <class Block, class Call>
-void forEachReference(Block& block, Call&& call) {
+template <class Block, class Call> void forEachReference(Block& block, Call&& call) {
     using Plain = std::remove_const_t<Block>;
     for (const Property<Plain>& property : propertiesOf<Plain>()) {
         if (const auto* one = std::get_if<Reference<Plain>>(&property.first))
             call(block.*(one->handle), one->target, property.keyword);
         if (const auto* list = std::get_if<MaterialList<Plain>>(&property.first))
             if (list->many)
-                for (auto& handle : block.*(list->handles)) call(handle, Target::Material, "materials");
+                for (auto& handle : block.*(list->handles))
+                    call(handle, Target::Material, "materials");
     }
 }
 
 // Calls with every block that has properties.
-template <class Scene, class Call>
-void forEachBlock(Scene& desc, Call&& call) {
+template <class Scene, class Call> void forEachBlock(Scene& desc, Call&& call) {
     call(desc.settings);
     call(desc.world);
     for (auto& camera : desc.cameras) call(camera);
@@ -275,9 +289,10 @@ void forEachBlock(Scene& desc, Call&& call) {
 
 // The number arrays of a mesh: keyword, the array, what a group of them is called.
 struct MeshArray {
-    using Member = std::variant<std::vector<Vec3d> MeshDesc::*, std::vector<Vec3> MeshDesc::*,
-                                std::vector<Vec2> MeshDesc::*, std::vector<MeshDesc::Corners> MeshDesc::*,
-                                std::vector<std::uint32_t> MeshDesc::*>;
+    using Member =
+        std::variant<std::vector<Vec3d> MeshDesc::*, std::vector<Vec3> MeshDesc::*,
+                     std::vector<Vec2> MeshDesc::*, std::vector<MeshDesc::Corners> MeshDesc::*,
+                     std::vector<std::uint32_t> MeshDesc::*>;
     std::string_view keyword;
     Member member;
     // Index arrays: the keyword of what they index; empty for the others.

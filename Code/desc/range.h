@@ -9,7 +9,7 @@
 
 struct Range {
     double lo = 0, hi = 0;
-    bool aboveLo = false; // lo itself is excluded
+    bool aboveLo = false;                         // lo itself is excluded
     constexpr bool contains(double value) const { // false for NaN
         return (aboveLo ? value > lo : value >= lo) && value <= hi;
     }
@@ -33,6 +33,7 @@ inline std::string mustBe(const Range& range, double value) {
     const bool hasEnd = range.hi < kLargestColor;
     if (!hasEnd && value > range.hi) return "must be at most " + shortest(range.hi);
     if (!hasEnd) return cat("must be ", range.aboveLo ? "> " : ">= ", shortest(range.lo));
-    if (range.aboveLo) return cat("must be > ", shortest(range.lo), " and at most ", shortest(range.hi));
+    if (range.aboveLo)
+        return cat("must be > ", shortest(range.lo), " and at most ", shortest(range.hi));
     return cat("must be from ", shortest(range.lo), " to ", shortest(range.hi));
 }

@@ -16,10 +16,11 @@ namespace {
 constexpr std::uint32_t kLargestSlot = 65535; // Blender's limit is 32767
 
 // "sphere 'ball'", "settings"
-template <class Block>
-std::string called(const Block& block) {
-    if constexpr (requires { block.name; }) return cat(wordOf(block), " '", shown(block.name), "'");
-    else return std::string(wordOf(block));
+template <class Block> std::string called(const Block& block) {
+    if constexpr (requires { block.name; })
+        return cat(wordOf(block), " '", shown(block.name), "'");
+    else
+        return std::string(wordOf(block));
 }
 
 // "a, b, c and 4 more"
@@ -68,10 +69,8 @@ public:
         checkNames(desc_.lights, "light");
         checkNames(desc_.meshes, "mesh");
         checkNames(desc_.objects, "object");
-        if (desc_.cameras.empty())
-            errors_.add({}, [] { return "the scene has no camera"; });
-        for (const CameraDesc& camera : desc_.cameras)
-            checkKeys(camera, camera.worldFromCamera);
+        if (desc_.cameras.empty()) errors_.add({}, [] { return "the scene has no camera"; });
+        for (const CameraDesc& camera : desc_.cameras) checkKeys(camera, camera.worldFromCamera);
         for (const TextureDesc& texture : desc_.textures) checkTexture(texture);
         for (const LightDesc& light : desc_.lights) checkLight(light);
         for (const MeshDesc& mesh : desc_.meshes) checkMesh(mesh);
@@ -82,16 +81,14 @@ public:
     }
 
 private:
-    template <class Block, class... Parts>
-    void error(const Block& block, const Parts&... parts) {
+    template <class Block, class... Parts> void error(const Block& block, const Parts&... parts) {
         errors_.add(block.loc, [&] { return cat(called(block), ": ", parts...); });
     }
     void warn(SourceLoc loc, std::string_view what) {
         diagnostics_.warnings.push_back(errors_.locatedAt(loc, what, "warning"));
     }
 
-    template <class Block>
-    void checkProperties(const Block& block) {
+    template <class Block> void checkProperties(const Block& block) {
         static const Block kDefaults{};
         for (const Property<Block>& property : propertiesOf<Block>()) {
             bool isDefault = true;
@@ -111,8 +108,10 @@ private:
                                         "' has no effect on type ", nameOf(block.kind)));
         }
         forEachReference(block, [&](Handle handle, Target target, std::string_view keyword) {
-            if (handle != kNone && (handle < 0 || static_cast<std::size_t>(handle) >= countOf(target)))
-                error(block, "'", keyword, "' refers to ", nameOf(target), " ", handle, " of ", countOf(target));
+            if (handle != kNone &&
+                (handle < 0 || static_cast<std::size_t>(handle) >= countOf(target)))
+                error(block, "'", keyword, "' refers to ", nameOf(target), " ", handle, " of ",
+                      countOf(target));
         });
     }
 
@@ -131,7 +130,8 @@ private:
         const auto [x0, y0, x1, y1] = *s.crop;
         if (x0 >= x1 || y0 >= y1) error(s, "'crop' is empty; x0 < x1 and y0 < y1 are needed");
         if (x1 > s.width || y1 > s.height)
-            error(s, "'crop' ends at ", x1, " ", y1, ", outside the resolution ", s.width, " ", s.height);
+            error(s, "'crop' ends at ", x1, " ", y1, ", outside the resolution ", s.width, " ",
+                  s.height);
     }
 
     template <class Block>
@@ -141,33 +141,41 @@ private:
             if (block.name.empty() || findBadText(block.name) != std::string_view::npos)
                 error(block, "a name is UTF-8 without control characters, and not empty");
             const auto [first, isNew] = seen.try_emplace(block.name, &block);
-            if (!isNew) error(block, "another ", kind, " has this name", atLine(first->second->loc));
+            if (!isNew)
+                error(block, "another ", kind, " has this name", atLine(first->second->loc));
         }
     }
     std::string atLine(SourceLoc loc) const {
         if (loc.offset >= source_.text.size()) return "";
         const auto begin = source_.text.begin();
-        return cat(" already, at line ", 1 + std::count(begin, begin + static_cast<std::ptrdiff_t>(loc.offset), '\n'));
+        return cat(" already, at line ",
+                   1 + std::count(begin, begin + static_cast<std::ptrdiff_t>(loc.offset), '\n'));
     }
 
-    template <class Block>
-    void checkKeys(const Block& block, const Keys& keys) {
+    template <class Block> void checkKeys(const Block& block, const Keys& keys) {
         if (keys.empty()) error(block, "has no transform at all; one key is needed");
         bool turnsOver = false;
         for (const Rows& rows : keys) {
-            const bool inRange =
-                std::all_of(rows.begin(), rows.end(), [](double x) { return kAnyNumber.contains(x); });
-            if (!inRange) return error(block, "its transform has numbers beyond ", shortest(kLargestLength));
+            const bool inRange = std::all_of(rows.begin(), rows.end(),
+                                             [](double x) { return kAnyNumber.contains(x); });
+            if (!inRange)
+                return error(block, "its transform has numbers beyond ", shortest(kLargestLength));
             const Transform transform = Transform::fromRows(rows);
-            if (transform.isSingular()) return error(block, "its transform flattens it: a scale is 0");
-            turnsOver = turnsOver || transform.mirrors() != Transform::fromRows(keys.front()).mirrors();
+            if (transform.isSingular())
+                return error(block, "its transform flattens it: a scale is 0");
+            turnsOver =
+                turnsOver || transform.mirrors() != Transform::fromRows(keys.front()).mirrors();
         }
-        if (turnsOver) error(block, "one of its keys mirrors and another does not: on the way it would be flat");
+        if (turnsOver)
+            error(block,
+                  "one of its keys mirrors and another does not: on the way it would be flat");
     }
 
     void checkTexture(const TextureDesc& texture) {
-        if (texture.file.empty()) error(texture, "has no 'file'");
-        else if (texture.file.find('\0') != std::string::npos || findBadText(texture.file) != std::string::npos)
+        if (texture.file.empty())
+            error(texture, "has no 'file'");
+        else if (texture.file.find('\0') != std::string::npos ||
+                 findBadText(texture.file) != std::string::npos)
             error(texture, "its 'file' is not UTF-8 without control characters");
     }
 
@@ -179,39 +187,47 @@ private:
 
     void checkObject(const ObjectDesc& object) {
         checkKeys(object, object.worldFromObject);
-        if (std::find(object.materials.begin(), object.materials.end(), kNone) != object.materials.end())
+        if (std::find(object.materials.begin(), object.materials.end(), kNone) !=
+            object.materials.end())
             error(object, "one of its material slots is empty");
         using enum ObjectDesc::Kind;
         if (object.kind == Mesh) return checkInstance(object);
         if (object.materials.size() > 1)
-            error(object, "has ", object.materials.size(), " materials; only an instance has more than one");
+            error(object, "has ", object.materials.size(),
+                  " materials; only an instance has more than one");
         if (object.kind == Cone && object.radius == 0 && object.topRadius == 0)
             error(object, "'radius' and 'top_radius' are both 0");
         if (object.kind == Plane)
-            if (const auto fault = faultOfCorners(object.corners); !fault.empty()) error(object, fault);
+            if (const auto fault = faultOfCorners(object.corners); !fault.empty())
+                error(object, fault);
     }
 
     void checkInstance(const ObjectDesc& object) {
         if (object.mesh == kNone) return error(object, "has no 'mesh'");
-        if (object.mesh < 0 || static_cast<std::size_t>(object.mesh) >= slots_.size()) return; // told above
+        if (object.mesh < 0 || static_cast<std::size_t>(object.mesh) >= slots_.size())
+            return; // told above
         // Without materials, all slots show the default material.
         const std::uint32_t slots = slots_[static_cast<std::size_t>(object.mesh)];
         if (!object.materials.empty() && slots > object.materials.size())
-            error(object, "its mesh uses material slot ", slots - 1, ", but it has ", object.materials.size(),
-                  object.materials.size() == 1 ? " material" : " materials", " (slots count from 0)");
+            error(object, "its mesh uses material slot ", slots - 1, ", but it has ",
+                  object.materials.size(),
+                  object.materials.size() == 1 ? " material" : " materials",
+                  " (slots count from 0)");
     }
 
     void checkMesh(const MeshDesc& mesh) {
         if (mesh.triangles.empty()) error(mesh, "has no triangles");
         for (std::size_t i = 0; i < mesh.points.size(); ++i) {
             const Vec3d& p = mesh.points[i];
-            if (!kAnyNumber.contains(p.x) || !kAnyNumber.contains(p.y) || !kAnyNumber.contains(p.z)) {
+            if (!kAnyNumber.contains(p.x) || !kAnyNumber.contains(p.y) ||
+                !kAnyNumber.contains(p.z)) {
                 error(mesh, "point ", i, " is not finite or beyond ", shortest(kLargestLength));
                 break;
             }
         }
         checkCorners(mesh, mesh.triangles, mesh.points.size(), "points", "triangles");
-        checkCorners(mesh, mesh.normalTriangles, mesh.normals.size(), "normals", "normal_triangles");
+        checkCorners(mesh, mesh.normalTriangles, mesh.normals.size(), "normals",
+                     "normal_triangles");
         checkCorners(mesh, mesh.uvTriangles, mesh.uvs.size(), "uvs", "uv_triangles");
         for (const Vec3& n : mesh.normals)
             if (!std::isfinite(dot(n, n))) {
@@ -232,7 +248,8 @@ private:
             slots = std::max(slots, slot + 1);
         }
         slots_.push_back(slots);
-        if (!mesh.triangleMaterials.empty() && mesh.triangleMaterials.size() != mesh.triangles.size())
+        if (!mesh.triangleMaterials.empty() &&
+            mesh.triangleMaterials.size() != mesh.triangles.size())
             error(mesh, "has ", mesh.triangles.size(), " triangles, but ",
                   mesh.triangleMaterials.size(), " triangle_materials");
     }
@@ -240,9 +257,11 @@ private:
     void checkCorners(const MeshDesc& mesh, const std::vector<MeshDesc::Corners>& corners,
                       std::size_t count, std::string_view values, std::string_view keyword) {
         if (keyword != "triangles") {
-            if (corners.empty() && count > 0) return error(mesh, "has ", values, ", but no ", keyword);
+            if (corners.empty() && count > 0)
+                return error(mesh, "has ", values, ", but no ", keyword);
             if (!corners.empty() && corners.size() != mesh.triangles.size())
-                return error(mesh, "has ", mesh.triangles.size(), " triangles, but ", corners.size(), " ", keyword);
+                return error(mesh, "has ", mesh.triangles.size(), " triangles, but ",
+                             corners.size(), " ", keyword);
         }
         std::uint32_t largest = 0;
         for (const MeshDesc::Corners& c : corners) largest = std::max({largest, c[0], c[1], c[2]});
@@ -269,7 +288,9 @@ private:
                 if (names.empty()) first = blocks[i].loc;
                 names.push_back(shown(blocks[i].name));
             }
-            if (!names.empty()) warn(first, cat("nothing uses the ", names.size() == 1 ? nameOf(target) : plural, " ", listed(names)));
+            if (!names.empty())
+                warn(first, cat("nothing uses the ", names.size() == 1 ? nameOf(target) : plural,
+                                " ", listed(names)));
         };
         tell(desc_.textures, Target::Texture, "textures");
         tell(desc_.materials, Target::Material, "materials");
@@ -286,12 +307,13 @@ private:
             return std::any_of(blocks.begin(), blocks.end(),
                                [&](const auto& block) { return block.*member != black; });
         };
-        if (shines(desc_.lights, &LightDesc::color) || shines(desc_.materials, &MaterialDesc::emission) ||
-            world.ambient != black)
+        if (shines(desc_.lights, &LightDesc::color) ||
+            shines(desc_.materials, &MaterialDesc::emission) || world.ambient != black)
             return;
-        warn({}, world.background == black
-                     ? "there is no light, no emission and no ambient: the picture will be black"
-                     : "there is no light, no emission and no ambient: diffuse surfaces will be black");
+        warn({},
+             world.background == black
+                 ? "there is no light, no emission and no ambient: the picture will be black"
+                 : "there is no light, no emission and no ambient: diffuse surfaces will be black");
     }
 
     const SceneDesc& desc_;

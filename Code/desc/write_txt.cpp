@@ -32,16 +32,14 @@ public:
     }
 
 private:
-    template <class Block>
-    void open(const Block& block) {
+    template <class Block> void open(const Block& block) {
         out_ += '\n';
         out_ += wordOf(block);
         if constexpr (requires { block.name; }) name(block.name);
         out_ += " {\n";
     }
 
-    template <class Block>
-    void block(const Block& block) {
+    template <class Block> void block(const Block& block) {
         open(block);
         if constexpr (requires { block.worldFromCamera; }) keys(block.worldFromCamera);
         if constexpr (requires { block.worldFromObject; }) keys(block.worldFromObject);
@@ -64,15 +62,17 @@ private:
         out_ += "}\n";
     }
 
-    template <class Block>
-    void values(const Block& block, const Field<Block>& field) {
+    template <class Block> void values(const Block& block, const Field<Block>& field) {
         forEachNumber(block, field, [&](const auto& value) { number(value); });
-        if (const auto* flag = std::get_if<bool Block::*>(&field)) out_ += block.**flag ? " true" : " false";
-        else if (const auto* text = std::get_if<std::string Block::*>(&field)) name(block.**text);
+        if (const auto* flag = std::get_if<bool Block::*>(&field))
+            out_ += block.**flag ? " true" : " false";
+        else if (const auto* text = std::get_if<std::string Block::*>(&field))
+            name(block.**text);
         else if (const auto* reference = std::get_if<Reference<Block>>(&field))
             name(nameOfTarget(reference->target, block.*(reference->handle)));
         else if (const auto* list = std::get_if<MaterialList<Block>>(&field))
-            for (const Handle handle : block.*(list->handles)) name(nameOfTarget(Target::Material, handle));
+            for (const Handle handle : block.*(list->handles))
+                name(nameOfTarget(Target::Material, handle));
         else if (const auto* choice = std::get_if<Choice<Block>>(&field)) {
             out_ += ' ';
             out_ += choice->names[choice->get(block)];
@@ -119,15 +119,13 @@ private:
                 array.member);
         out_ += "}\n";
     }
-    template <class T>
-    void group(const Vec3T<T>& v) { number(v.x), number(v.y), number(v.z); }
+    template <class T> void group(const Vec3T<T>& v) { number(v.x), number(v.y), number(v.z); }
     void group(const Vec2& v) { number(v.x), number(v.y); }
     void group(const MeshDesc::Corners& c) { number(c[0]), number(c[1]), number(c[2]); }
     void group(std::uint32_t n) { number(n); }
 
     // With a blank before it.
-    template <class T>
-    void number(T value) {
+    template <class T> void number(T value) {
         char buffer[40] = {' '};
         out_.append(buffer, std::to_chars(buffer + 1, buffer + sizeof buffer, value).ptr);
     }

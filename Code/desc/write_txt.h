@@ -5,6 +5,6 @@
 
 #include <string>
 
-// For scenes that validate() accepts. Numbers are the shortest that read back to the same bits; what
-// has its default value is left out, and so is what its kind of object does not have.
+// For scenes that validate() accepts. Numbers are the shortest that read back to the same bits;
+// what has its default value is left out, and so is what its kind of object does not have.
 std::string writeTxt(const SceneDesc& desc);

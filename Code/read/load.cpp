@@ -33,7 +33,8 @@ const Format& formatOf(const std::string& fileName) {
         if (format.extension == extension) return format;
         known.emplace_back(format.extension);
     }
-    fail(ErrorKind::Input, cat(fileName, ": error: unknown scene format ", unknownName(extension, known)));
+    fail(ErrorKind::Input,
+         cat(fileName, ": error: unknown scene format ", unknownName(extension, known)));
 }
 
 // The files beside a missing one that could be meant.
@@ -45,7 +46,8 @@ std::vector<std::string> sceneNamesIn(const fs::path& folder) {
     for (; entry != fs::directory_iterator() && names.size() < kEnough; entry.increment(ignored)) {
         const std::string extension = entry->path().extension().string();
         for (const Format& format : kFormats)
-            if (extension == format.extension) names.push_back((folder / entry->path().filename()).string());
+            if (extension == format.extension)
+                names.push_back((folder / entry->path().filename()).string());
         if (ignored) break;
     }
     std::sort(names.begin(), names.end());
@@ -71,8 +73,10 @@ void checkFile(const std::string& fileName) {
                                    near ? cat("; did you mean '", *near, "'?") : ""));
     }
     if (fs::is_directory(fileName, status))
-        fail(ErrorKind::Input, cat(fileName, ": error: cannot read: it is a folder; name a file in it"));
-    if (fs::is_regular_file(fileName, status) && fs::file_size(fileName, status) >= SourceLoc::kUnknown)
+        fail(ErrorKind::Input,
+             cat(fileName, ": error: cannot read: it is a folder; name a file in it"));
+    if (fs::is_regular_file(fileName, status) &&
+        fs::file_size(fileName, status) >= SourceLoc::kUnknown)
         fail(ErrorKind::Input, cat(fileName, ": error: the file is larger than 4 GiB"));
 }
 

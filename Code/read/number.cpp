@@ -11,10 +11,10 @@ namespace {
 // A number as written: digits * 10^exponent, when there are few enough digits to be exact.
 struct Decimal {
     std::uint64_t digits = 0;
-    int digitCount = 0;          // stops counting above kExactDigits
-    std::int64_t exponent = 0;   // of ten
+    int digitCount = 0;        // stops counting above kExactDigits
+    std::int64_t exponent = 0; // of ten
     bool negative = false;
-    const char* end = nullptr;   // nullptr: not a number
+    const char* end = nullptr; // nullptr: not a number
     const char* unsignedStart = nullptr;
 };
 constexpr int kExactDigits = 19; // 10^19 < 2^64
@@ -62,8 +62,7 @@ bool isTiny(const char* p, std::int64_t exponent) {
     return digitsFromFirst + exponent <= 0;
 }
 
-template <class T>
-NumberRead<T> readSlowly(const Decimal& d) {
+template <class T> NumberRead<T> readSlowly(const Decimal& d) {
     T value = 0;
     const auto [end, error] = std::from_chars(d.unsignedStart, d.end, value);
     if (error == std::errc::result_out_of_range) {
@@ -79,13 +78,13 @@ constexpr double kPowersOfTen[] = {1e0,  1e1,  1e2,  1e3,  1e4,  1e5,  1e6,  1e7
 
 // Clinger 1990: digits and the power of ten are both exact in double, so one operation rounds once.
 inline bool isExactInDouble(const Decimal& d) {
-    return d.digitCount <= kExactDigits && d.digits <= (std::uint64_t{1} << 53) && d.exponent >= -22 &&
-           d.exponent <= 22;
+    return d.digitCount <= kExactDigits && d.digits <= (std::uint64_t{1} << 53) &&
+           d.exponent >= -22 && d.exponent <= 22;
 }
 inline double exactly(const Decimal& d) {
     const double digits = static_cast<double>(d.digits);
-    const double value = d.exponent < 0 ? digits / kPowersOfTen[-d.exponent]
-                                        : digits * kPowersOfTen[d.exponent];
+    const double value =
+        d.exponent < 0 ? digits / kPowersOfTen[-d.exponent] : digits * kPowersOfTen[d.exponent];
     return d.negative ? -value : value;
 }
 
@@ -105,7 +104,8 @@ NumberRead<float> readFloat(const char* text) {
     const double value = exactly(d);
     // Rounding twice errs only where the double lies half way between two floats, that is where its
     // 29 extra bits are 1000...; below the smallest normal float there are more extra bits.
-    constexpr std::uint64_t kExtra = (std::uint64_t{1} << 29) - 1, kHalfWay = std::uint64_t{1} << 28;
+    constexpr std::uint64_t kExtra = (std::uint64_t{1} << 29) - 1,
+                            kHalfWay = std::uint64_t{1} << 28;
     const double size = std::fabs(value);
     if (size != 0 && (size < static_cast<double>(FLT_MIN) || size > static_cast<double>(FLT_MAX) ||
                       (std::bit_cast<std::uint64_t>(value) & kExtra) == kHalfWay))

@@ -6,8 +6,7 @@
 
 enum class NumberFault { None, NotANumber, TooLarge };
 
-template <class T>
-struct NumberRead {
+template <class T> struct NumberRead {
     T value{};
     const char* end = nullptr; // behind the number when fault is None
     NumberFault fault = NumberFault::None;

@@ -21,9 +21,9 @@ bool isNotFinite(std::string_view word) {
 } // namespace
 
 void failUnclosed(const Scanner& in, const Token& open, const Token& found) {
-    in.failAt(found.offset, cat("block '", open.text, "' is not closed; expected '}' before ",
-                                described(found), " (it was opened at line ",
-                                in.lineOf(open.offset), ")"));
+    in.failAt(found.offset,
+              cat("block '", open.text, "' is not closed; expected '}' before ", described(found),
+                  " (it was opened at line ", in.lineOf(open.offset), ")"));
 }
 
 void failUnknownProperty(Scanner& in, const Token& word, const Token& open,
@@ -42,7 +42,8 @@ void expectLineEnd(Scanner& in, std::string_view after, const Token& open) {
     const Token t = in.peek();
     if (t.kind == TokenKind::Open) failUnclosed(in, open, t);
     if (t.kind != TokenKind::LineEnd && t.kind != TokenKind::FileEnd)
-        in.failAt(t.offset, cat("expected the end of the line after '", after, "', got ", described(t)));
+        in.failAt(t.offset,
+                  cat("expected the end of the line after '", after, "', got ", described(t)));
     in.next();
 }
 

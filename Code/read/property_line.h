@@ -30,7 +30,7 @@ public:
 
     void read(double& value, const Range& range);
     template <class Whole>
-        requires std::is_integral_v<Whole>
+    requires std::is_integral_v<Whole>
     void read(Whole& value, const Range& range) {
         if (const auto read = readWhole(range)) value = static_cast<Whole>(*read);
     }
@@ -50,8 +50,7 @@ private:
 
 // Reads the values of a property. A reference becomes its position in `names`; all are looked up
 // when the whole file is known.
-template <class Block>
-class PropertyLine {
+template <class Block> class PropertyLine {
 public:
     PropertyLine(Scanner& in, ErrorList& errors, std::vector<Token>& names, const Token& open)
         : in_(in), errors_(errors), names_(names), open_(open) {}
@@ -77,9 +76,9 @@ private:
         if (const auto* flag = std::get_if<bool Block::*>(&field)) {
             const Token t = in_.next();
             if (t.text != "true" && t.text != "false") failExpected(t, "true or false");
-            block.**flag = t.text == "true";
+            block.** flag = t.text == "true";
         } else if (const auto* text = std::get_if<std::string Block::*>(&field)) {
-            block.**text = in_.nameIn(nextName("a text"));
+            block.** text = in_.nameIn(nextName("a text"));
         } else if (const auto* reference = std::get_if<Reference<Block>>(&field)) {
             block.*(reference->handle) =
                 remember(nextName(cat("the name of a ", nameOf(reference->target))));

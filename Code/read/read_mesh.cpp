@@ -13,37 +13,31 @@
 namespace {
 
 // How a number of an array is read, and how many make a group.
-template <class Group>
-struct GroupOf;
-template <>
-struct GroupOf<Vec3d> {
+template <class Group> struct GroupOf;
+template <> struct GroupOf<Vec3d> {
     static constexpr std::size_t kSize = 3;
     static constexpr double kLargest = kLargestLength;
     static NumberRead<double> read(const char* p) { return readDouble(p); }
     static double& number(Vec3d& v, std::size_t i) { return v[i]; }
 };
-template <>
-struct GroupOf<Vec3> {
+template <> struct GroupOf<Vec3> {
     static constexpr std::size_t kSize = 3;
     static constexpr float kLargest = 1e15f; // its square is far from the end of float
     static NumberRead<float> read(const char* p) { return readFloat(p); }
     static float& number(Vec3& v, std::size_t i) { return v[i]; }
 };
-template <>
-struct GroupOf<Vec2> {
+template <> struct GroupOf<Vec2> {
     static constexpr std::size_t kSize = 2;
     static constexpr float kLargest = 1e15f;
     static NumberRead<float> read(const char* p) { return readFloat(p); }
     static float& number(Vec2& v, std::size_t i) { return i == 0 ? v.x : v.y; }
 };
-template <>
-struct GroupOf<MeshDesc::Corners> {
+template <> struct GroupOf<MeshDesc::Corners> {
     static constexpr std::size_t kSize = 3;
     static NumberRead<std::uint32_t> read(const char* p) { return readUnsigned(p); }
     static std::uint32_t& number(MeshDesc::Corners& c, std::size_t i) { return c[i]; }
 };
-template <>
-struct GroupOf<std::uint32_t> {
+template <> struct GroupOf<std::uint32_t> {
     static constexpr std::size_t kSize = 1;
     static NumberRead<std::uint32_t> read(const char* p) { return readUnsigned(p); }
     static std::uint32_t& number(std::uint32_t& n, std::size_t) { return n; }
@@ -52,7 +46,7 @@ struct GroupOf<std::uint32_t> {
 // What was read of an array, for the check of the indices when the whole block is known.
 struct ArrayRead {
     bool given = false;
-    std::size_t offset = 0;         // of its keyword, then of its first number
+    std::size_t offset = 0; // of its keyword, then of its first number
     std::size_t numbers = 0;
     std::size_t groups = 0;
     std::uint32_t largestIndex = 0; // of index arrays
@@ -68,7 +62,8 @@ public:
             const Token t = in_.next();
             if (t.kind == TokenKind::LineEnd) continue;
             if (t.kind == TokenKind::Close) break;
-            if (t.kind == TokenKind::FileEnd || t.kind == TokenKind::Open) failUnclosed(in_, open_, t);
+            if (t.kind == TokenKind::FileEnd || t.kind == TokenKind::Open)
+                failUnclosed(in_, open_, t);
             if (t.kind != TokenKind::Word)
                 in_.failAt(t.offset, cat("expected a property or '}', got ", described(t)));
             readArray(t, arrayNamed(t));
@@ -96,12 +91,12 @@ private:
         read.given = true;
         read.offset = keyword.offset;
         last_ = keyword.text;
-        std::visit([&](auto member) { readGroups(mesh_.*member, read); }, kMeshArrays[which].member);
+        std::visit([&](auto member) { readGroups(mesh_.*member, read); },
+                   kMeshArrays[which].member);
         expectLineEnd(in_, keyword.text, open_);
     }
 
-    template <class Group>
-    void readGroups(std::vector<Group>& groups, ArrayRead& read) {
+    template <class Group> void readGroups(std::vector<Group>& groups, ArrayRead& read) {
         read.groups = readCount(GroupOf<Group>::kSize);
         read.numbers = read.groups * GroupOf<Group>::kSize;
         groups.resize(read.groups);
@@ -111,8 +106,10 @@ private:
                 const char* const p = in_.skipToValue();
                 const auto number = GroupOf<Group>::read(p);
                 if (number.fault != NumberFault::None || !Scanner::endsNumber(*number.end))
-                    failNumber<Group>(
-                        static_cast<std::size_t>(&group - groups.data()) * GroupOf<Group>::kSize + i, read);
+                    failNumber<Group>(static_cast<std::size_t>(&group - groups.data()) *
+                                              GroupOf<Group>::kSize +
+                                          i,
+                                      read);
                 if constexpr (requires { GroupOf<Group>::kLargest; }) {
                     if (!(std::fabs(number.value) <= GroupOf<Group>::kLargest))
                         errors_.add({static_cast<std::uint32_t>(in_.offset())}, [&] {
@@ -138,13 +135,13 @@ private:
         in_.next();
         const std::size_t possible = (in_.bytesLeft() + 1) / (2 * groupSize);
         if (static_cast<std::uint64_t>(*count) > possible)
-            in_.failAt(t.offset, cat("'", last_, " ", *count, "' is more than the rest of the file can hold (",
-                                     possible, " at most)"));
+            in_.failAt(t.offset, cat("'", last_, " ", *count,
+                                     "' is more than the rest of the file can hold (", possible,
+                                     " at most)"));
         return static_cast<std::size_t>(*count);
     }
 
-    template <class Group>
-    [[noreturn]] void failNumber(std::size_t got, const ArrayRead& read) {
+    template <class Group> [[noreturn]] void failNumber(std::size_t got, const ArrayRead& read) {
         const Token t = in_.next();
         constexpr bool kIndex = !requires { GroupOf<Group>::kLargest; };
         if (t.kind == TokenKind::Word && readDouble(t.text.data()).fault == NumberFault::TooLarge)
@@ -160,9 +157,11 @@ private:
         const ArrayRead& read = reads_[which];
         const std::string_view target = kMeshArrays[which].indexes;
         if (target.empty() || read.groups == 0) return;
-        const auto row = std::find_if(kMeshArrays.begin(), kMeshArrays.end(),
-                                      [&](const MeshArray& array) { return array.keyword == target; });
-        const std::size_t count = reads_[static_cast<std::size_t>(row - kMeshArrays.begin())].groups;
+        const auto row =
+            std::find_if(kMeshArrays.begin(), kMeshArrays.end(),
+                         [&](const MeshArray& array) { return array.keyword == target; });
+        const std::size_t count =
+            reads_[static_cast<std::size_t>(row - kMeshArrays.begin())].groups;
         if (read.largestIndex < count) return;
         const std::size_t after = in_.offset();
         in_.moveTo(read.offset);

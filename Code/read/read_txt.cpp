@@ -28,7 +28,8 @@ void place(ObjectDesc& object, Keys keys) { object.worldFromObject = std::move(k
 
 // The words that open blocks, in the order of the README.
 std::vector<std::string> blockWords() {
-    std::vector<std::string> words = {"settings", "world", "camera", "texture", "material", "light", "mesh"};
+    std::vector<std::string> words = {"settings", "world", "camera", "texture",
+                                      "material", "light", "mesh"};
     for (const auto& row : kEnumNames<ObjectDesc::Kind>) words.emplace_back(row.name);
     return words;
 }
@@ -52,7 +53,8 @@ public:
 private:
     void readFirstLine() {
         const std::string_view text = in_.source().text;
-        if (text.empty()) in_.failAt(0, "the file is empty; expected 'raytracer 1' as its first line");
+        if (text.empty())
+            in_.failAt(0, "the file is empty; expected 'raytracer 1' as its first line");
         constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf"; // some editors on Windows
         if (text.starts_with(kByteOrderMark)) in_.moveTo(kByteOrderMark.size());
         const std::size_t start = in_.offset();
@@ -63,8 +65,9 @@ private:
         if (word.text != "raytracer" || !number || *number < 1)
             in_.failAt(start, "expected 'raytracer 1' as the first line of a native scene file");
         if (*number > kVersion)
-            in_.failAt(version.offset, cat("the file has version ", *number, " of the format; this program reads version ",
-                                           kVersion, ", a newer one is needed"));
+            in_.failAt(version.offset, cat("the file has version ", *number,
+                                           " of the format; this program reads version ", kVersion,
+                                           ", a newer one is needed"));
         expectLineEnd(in_, "raytracer 1", word);
     }
 
@@ -73,9 +76,11 @@ private:
             const Token t = in_.next();
             if (t.kind == TokenKind::FileEnd) return;
             if (t.kind == TokenKind::LineEnd) continue;
-            if (t.kind == TokenKind::Close) in_.failAt(t.offset, "there is no open block to close with '}'");
+            if (t.kind == TokenKind::Close)
+                in_.failAt(t.offset, "there is no open block to close with '}'");
             if (t.kind != TokenKind::Word)
-                in_.failAt(t.offset, cat("expected a block such as 'sphere NAME {', got ", described(t)));
+                in_.failAt(t.offset,
+                           cat("expected a block such as 'sphere NAME {', got ", described(t)));
             readBlock(t);
         }
     }
@@ -100,8 +105,7 @@ private:
         in_.failAt(word.offset, cat("unknown block ", unknownName(shown(word.text), blockWords())));
     }
 
-    template <class Block>
-    void readSingle(Block& block, const Token& word) {
+    template <class Block> void readSingle(Block& block, const Token& word) {
         if (block.loc.offset != SourceLoc::kUnknown)
             in_.failAt(word.offset, cat("'", word.text, "' was given already at line ",
                                         in_.lineOf(block.loc.offset)));
@@ -109,13 +113,13 @@ private:
     }
 
     // kind name {
-    template <class Block>
-    void readHeading(Block& block, const Token& word) {
+    template <class Block> void readHeading(Block& block, const Token& word) {
         block.loc = {static_cast<std::uint32_t>(word.offset)};
         Token t = in_.next();
         if constexpr (requires { block.name; }) {
             if (t.kind != TokenKind::Word && t.kind != TokenKind::Quoted)
-                in_.failAt(t.offset, cat("expected a name after '", word.text, "', got ", described(t)));
+                in_.failAt(t.offset,
+                           cat("expected a name after '", word.text, "', got ", described(t)));
             block.name = in_.nameIn(t);
             if (block.name.empty()) in_.failAt(t.offset, "a name has at least one letter");
             t = in_.next();
@@ -123,16 +127,15 @@ private:
                 in_.failAt(t.offset, cat("expected '{' after the name of the ", word.text, ", got ",
                                          described(t)));
         } else if (t.kind != TokenKind::Open) {
-            in_.failAt(t.offset, cat("expected '{' after '", word.text, "', which has no name, got ",
-                                     described(t)));
+            in_.failAt(t.offset, cat("expected '{' after '", word.text,
+                                     "', which has no name, got ", described(t)));
         }
         t = in_.peek();
         if (t.kind != TokenKind::LineEnd && t.kind != TokenKind::FileEnd)
             in_.failAt(t.offset, cat("expected a new line after '{', got ", described(t)));
     }
 
-    template <class Block>
-    void readProperties(Block& block, const Token& word) {
+    template <class Block> void readProperties(Block& block, const Token& word) {
         readHeading(block, word);
         const std::span<const Property<Block>> rows = propertiesOf<Block>();
         std::vector<std::size_t> given(rows.size(), kNotGiven);
@@ -142,7 +145,8 @@ private:
             const Token t = in_.next();
             if (t.kind == TokenKind::LineEnd) continue;
             if (t.kind == TokenKind::Close) break;
-            if (t.kind == TokenKind::FileEnd || t.kind == TokenKind::Open) failUnclosed(in_, word, t);
+            if (t.kind == TokenKind::FileEnd || t.kind == TokenKind::Open)
+                failUnclosed(in_, word, t);
             if (t.kind != TokenKind::Word)
                 in_.failAt(t.offset, cat("expected a property or '}', got ", described(t)));
             if constexpr (kHasPlace<Block>)
@@ -153,7 +157,8 @@ private:
             if (row == rows.end()) failUnknown(block, t, word);
             std::size_t& before = given[static_cast<std::size_t>(row - rows.begin())];
             if (before != kNotGiven)
-                in_.failAt(t.offset, cat("'", t.text, "' was given already at line ", in_.lineOf(before)));
+                in_.failAt(t.offset,
+                           cat("'", t.text, "' was given already at line ", in_.lineOf(before)));
             before = t.offset;
             line.read(block, *row);
         }
@@ -163,10 +168,11 @@ private:
 
     // Objects have the properties of their kind. Lights and cameras say their kind in a property,
     // perhaps after others: they have all of them, and validate() warns of those without effect.
-    template <class Block>
-    static bool isHere(const Property<Block>& property, const Block& block) {
-        if constexpr (std::is_same_v<Block, ObjectDesc>) return (property.kinds & kindOf(block)) != 0;
-        else return true;
+    template <class Block> static bool isHere(const Property<Block>& property, const Block& block) {
+        if constexpr (std::is_same_v<Block, ObjectDesc>)
+            return (property.kinds & kindOf(block)) != 0;
+        else
+            return true;
     }
 
     template <class Block>
@@ -199,7 +205,8 @@ private:
             std::string_view fault;
             keys.back() = line.apply(keys.back(), std::span(numbers).first(line.count), fault);
             if (!fault.empty())
-                errors_.add({static_cast<std::uint32_t>(t.offset)}, [&] { return std::string(fault); });
+                errors_.add({static_cast<std::uint32_t>(t.offset)},
+                            [&] { return std::string(fault); });
             return true;
         }
         return false;
@@ -238,11 +245,15 @@ private:
         std::vector<std::string> known;
         const auto collect = [&](const auto& blocks) {
             for (const auto& block : blocks)
-                if (known.size() < kCandidates && block.name.size() <= kLength) known.push_back(block.name);
+                if (known.size() < kCandidates && block.name.size() <= kLength)
+                    known.push_back(block.name);
         };
-        if (target == Target::Texture) collect(desc_.textures);
-        else if (target == Target::Material) collect(desc_.materials);
-        else collect(desc_.meshes);
+        if (target == Target::Texture)
+            collect(desc_.textures);
+        else if (target == Target::Material)
+            collect(desc_.materials);
+        else
+            collect(desc_.meshes);
         return cat("unknown ", nameOf(target), " ", unknownName(shown(name), known));
     }
 

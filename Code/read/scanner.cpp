@@ -15,9 +15,7 @@ std::string described(const Token& token) {
 Scanner::Scanner(const SourceFile& source)
     : source_(source), p_(source.text.data()), end_(p_ + source.text.size()) {}
 
-bool Scanner::endsNumber(char c) {
-    return !isBareChar(c) && c != '"';
-}
+bool Scanner::endsNumber(char c) { return !isBareChar(c) && c != '"'; }
 
 void Scanner::failAt(std::size_t offset, std::string_view what) const {
     ::failAt(source_, offset, what);

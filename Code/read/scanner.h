@@ -39,10 +39,14 @@ public:
     const char* skipToValue() {
         while (true) {
             const char c = *p_;
-            if (c == ' ' || c == '\n' || c == '\t') ++p_;
-            else if (c == '\r' && p_[1] == '\n') p_ += 2;
-            else if (c == '#') skipComment();
-            else return p_;
+            if (c == ' ' || c == '\n' || c == '\t')
+                ++p_;
+            else if (c == '\r' && p_[1] == '\n')
+                p_ += 2;
+            else if (c == '#')
+                skipComment();
+            else
+                return p_;
         }
     }
     void moveTo(const char* p) { p_ = p; }

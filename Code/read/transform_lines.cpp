@@ -39,8 +39,10 @@ Rows transform(const Rows& before, Numbers n, std::string_view&) {
     return product(before, rows);
 }
 Rows lookAt(const Rows& before, Numbers n, std::string_view& fault) {
-    if (at(n, 0) == at(n, 3)) fault = "'look_at' looks at its own place";
-    else if (at(n, 6) == Vec3d{}) fault = "the up direction of 'look_at' is 0 0 0";
+    if (at(n, 0) == at(n, 3))
+        fault = "'look_at' looks at its own place";
+    else if (at(n, 6) == Vec3d{})
+        fault = "the up direction of 'look_at' is 0 0 0";
     if (!fault.empty()) return before;
     return product(before, Transform::lookAt(at(n, 0), at(n, 3), at(n, 6)).rows());
 }

@@ -269,15 +269,12 @@ private:
         }
         const Instanced& shared = at->second;
         if (shared.geometry->triangles.empty()) return;
-        std::vector<Transform> maps;
-        for (const Transform& key : place.keys())
-            maps.push_back(key * Transform::translate(shared.frame.centre) *
-                           Transform::scale(1 / shared.frame.scale));
         const ShapeSet::Shadow shadow = shadowOf(materials);
-        scene_.shapes_.add(
-            std::make_unique<Mesh>(*shared.geometry, MovingTransform(std::span<const Transform>(maps)),
-                                   std::move(materials), std::vector<MeshPart>{{0, object}}),
-            shadow);
+        const Transform objectFromMesh = Transform::translate(shared.frame.centre) *
+                                         Transform::scale(1 / shared.frame.scale);
+        scene_.shapes_.add(std::make_unique<Mesh>(*shared.geometry, place, std::move(materials),
+                                                  std::vector<MeshPart>{{0, object}}, objectFromMesh),
+                           shadow);
     }
 
     // ---- lights

@@ -1,5 +1,6 @@
 #include "sample/sampler.h"
 
+#include "base/math.h"
 #include "sample/dimensions.h"
 #include "sample/hash.h"
 
@@ -62,7 +63,7 @@ float inCell(std::uint32_t cell, float offset, std::uint32_t count) {
     const double place = (static_cast<double>(cell) + static_cast<double>(offset)) /
                          static_cast<double>(count);
     const float value = static_cast<float>(place);
-    return value < 1 ? value : 0x1.fffffep-1f;
+    return min(value, kOneMinusUlp);
 }
 
 // The largest divisor of n up to its root: n = rows * columns, as square as it goes.
@@ -87,9 +88,9 @@ Sampler::Sampler(SamplerKind kind, int sampleCount, std::uint32_t seed, bool jit
 
 Sampler Sampler::stream(std::uint32_t id, int repeats) const {
     constexpr std::uint32_t kStreamSalt = 0x73747265u; // keeps streams apart from pixels
-    const std::int64_t count = std::min<std::int64_t>(static_cast<std::int64_t>(count_) * std::max(repeats, 1),
-                                                      std::numeric_limits<int>::max());
-    Sampler out(kind_, static_cast<int>(count), low32(hash(seed_, id, kStreamSalt)), jitter_);
+    const auto all = static_cast<std::int64_t>(count_) * std::max(repeats, 1);
+    const auto count = static_cast<int>(min<std::int64_t>(all, std::numeric_limits<int>::max()));
+    Sampler out(kind_, count, low32(hash(seed_, id, kStreamSalt)), jitter_);
     out.isStream_ = true;
     return out;
 }

@@ -118,13 +118,11 @@ Surface AnalyticShape::surface(const Ray& ray, const Hit& hit) const {
     const double fixedError =
         kFloatUlp * reach + 0x1p-48 * amplification(worldFromObject, objectFromWorld) *
                                 (maxAbs(seen) + maxAbs(worldFromObject.translation()));
-    // Twice the largest error that any normal can give, in the units of each object coordinate.
+    // Twice the largest error that any normal can give.
     const double distance = 2 * (3 * kFloatUlp * length(seen) + fixedError);
-    const Vec3d inset{distance * length(row(objectFromWorld, 0)),
-                      distance * length(row(objectFromWorld, 1)),
-                      distance * length(row(objectFromWorld, 2))};
 
-    const Local local = describe(objectFromWorld.ray(toDouble(ray)).at(t), hit.prim, inset);
+    const Local local =
+        describe(objectFromWorld.ray(toDouble(ray)).at(t), hit.prim, {distance, objectFromWorld});
     // One step of refinement: p is where the inverse, which rays are mapped with, sees local.p.
     Vec3d p = worldFromObject.point(local.p);
     p += worldFromObject.vector(local.p - objectFromWorld.point(p));
@@ -143,10 +141,21 @@ Surface AnalyticShape::surface(const Ray& ray, const Hit& hit) const {
 SurfaceDerivatives AnalyticShape::derivatives(const Ray& ray, const Hit& hit) const {
     const Transform worldFromObject = worldFromObjectAt(ray.time);
     const double t = static_cast<double>(hit.t) + static_cast<double>(hit.u);
-    const Vec3d p = worldFromObject.inverse().ray(toDouble(ray)).at(t);
-    const Local local = describe(p, hit.prim, {});
+    const Transform objectFromWorld = worldFromObject.inverse();
+    const Vec3d p = objectFromWorld.ray(toDouble(ray)).at(t);
+    const Local local = describe(p, hit.prim, {0, objectFromWorld});
     return {toFloat(worldFromObject.vector(local.dpdu)),
             toFloat(worldFromObject.vector(local.dpdv))};
+}
+
+Vec3d AnalyticShape::Clearance::inset() const {
+    return {distance * length(row(objectFromWorld, 0)), distance * length(row(objectFromWorld, 1)),
+            distance * length(row(objectFromWorld, 2))};
+}
+
+double AnalyticShape::Clearance::steepness(Vec3d n) const {
+    return length(row(objectFromWorld, 0) * n.x + row(objectFromWorld, 1) * n.y +
+                  row(objectFromWorld, 2) * n.z);
 }
 
 BoundsD diskBox(const Transform& worldFromObject, Vec3d centre, double radius) {

@@ -44,14 +44,24 @@ protected:
         Vec3d dpdu, dpdv;
     };
 
+    // How far, in the world, the origin of a ray may be from the point that it leaves.
+    struct Clearance {
+        double distance = 0;
+        Transform objectFromWorld;
+        // The most that the object's coordinates change over the distance.
+        Vec3d inset() const;
+        // How much n.p, of object space, changes over a unit of the world along the normal.
+        double steepness(Vec3d n) const;
+    };
+
     AnalyticShape(MovingTransform worldFromObject, std::uint32_t material, std::uint32_t object);
 
     // The whole line, in double; org and dir are finite, dir is not zero nor of unit length.
     virtual Roots roots(const RayD& ray) const = 0;
-    // Pulls p, which is near the surface's `part`, onto it. Closed shapes also keep it `inset` (per
-    // coordinate) away from where parts meet: then a ray that starts inside stays inside even if
-    // its origin is rounded to float.
-    virtual Local describe(Vec3d p, std::uint32_t part, Vec3d inset) const = 0;
+    // Pulls p, which is near the surface's `part`, onto it. Closed shapes also keep it away from
+    // where parts meet: then an origin at the clearance's distance along the inward normal is
+    // inside even after rounding to float.
+    virtual Local describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const = 0;
     // The smallest box of the mapped shape.
     virtual BoundsD boxUnder(const Transform& worldFromObject) const = 0;
 

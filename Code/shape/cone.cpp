@@ -53,7 +53,8 @@ AnalyticShape::Roots Cone::roots(const RayD& ray) const {
     return found;
 }
 
-AnalyticShape::Local Cone::describe(Vec3d p, std::uint32_t part, Vec3d inset) const {
+AnalyticShape::Local Cone::describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const {
+    const Vec3d inset = clearance.inset();
     const double radialInset = std::sqrt(inset.x * inset.x + inset.y * inset.y);
     const double capRadius = part == kTop ? topRadius_ : radius_;
     if (part != kSide && capRadius > 0) { // a tip may round to its cap without size
@@ -65,25 +66,31 @@ AnalyticShape::Local Cone::describe(Vec3d p, std::uint32_t part, Vec3d inset) co
     const double limit = 1 - min(inset.z, 0.5);
     double z = clamp(p.z, -limit, limit);
     double w = radiusAt(z);
-    if (around == 0 && narrowRadius_ == 0) {
-        // The tip has no normal of its own; the axis is one of those between its sides.
-        return {{0, 0, narrowZ_},
-                {0, 0, narrowZ_},
-                {0.5, 0.5 + 0.5 * narrowZ_},
-                {0, kTwoPi * 0x1p-20 * max(radius_, topRadius_), 0},
-                {2 * slope_, 0, 2}};
+    // The tip itself takes a normal of the side too: along the axis, a ray inwards would leave a
+    // slim or slanted cone at once.
+    const double c = around > 0 ? p.x / around : 1, s = around > 0 ? p.y / around : 0;
+    const Vec3d normal{c, s, -slope_};
+
+    // Near the tip the inside is thinner than the inset, and the side so curved that a step inwards
+    // ends outside: a step e (half the clearance) goes in by e steepness, but with rounding it may
+    // go round by 3/4 radialInset, and so out again by the square of that over 2 w. p goes down the
+    // side to where there is room, with a factor of 4 to spare.
+    const double wide = max(radius_, topRadius_);
+    double leastRadius = 4 * radialInset;
+    if (radialInset > 0 && w < wide / 2) {
+        const double inwards = 0.5 * clearance.distance * clearance.steepness(normal);
+        leastRadius = max(leastRadius, 2 * sqr(0.75 * radialInset) / inwards);
     }
-    // Near the tip the inside is thinner than the inset: go down the side to where it fits.
-    const double leastRadius = min(4 * radialInset, max(radius_, topRadius_) / 2);
+    leastRadius = min(leastRadius, wide / 2);
     if (w < leastRadius) {
         w = leastRadius;
         z = narrowZ_ + (w - narrowRadius_) / slope_;
     }
-    const double c = around > 0 ? p.x / around : 1, s = around > 0 ? p.y / around : 0;
+    const double across = kTwoPi * max(w, 0x1p-20 * wide);
     return {{c * w, s * w, z},
-            {c, s, -slope_},
+            normal,
             {0.5 + exact::atan2(s, c) * kInvTwoPi, 0.5 + 0.5 * z},
-            {-s * kTwoPi * w, c * kTwoPi * w, 0},
+            {-s * across, c * across, 0},
             {2 * slope_ * c, 2 * slope_ * s, 2}};
 }
 

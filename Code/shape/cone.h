@@ -8,13 +8,14 @@ class Cone final : public AnalyticShape {
 public:
     // Side: u = 1/2 + angle / 2 pi from +x towards +y, v = 0 at z = -1 to 1 at z = 1. Caps: the
     // square around the disk, unmirrored from outside (u along x on top, along -x at the bottom).
+    // At a tip dpdu, which would vanish, keeps 2^-20 of its length.
     Cone(MovingTransform worldFromObject, double radius, double topRadius, bool caps,
          std::uint32_t material, std::uint32_t object);
 
 private:
     enum Part : std::uint32_t { kSide, kBottom, kTop };
     Roots roots(const RayD& ray) const override;
-    Local describe(Vec3d p, std::uint32_t part, Vec3d inset) const override;
+    Local describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const override;
     BoundsD boxUnder(const Transform& worldFromObject) const override;
 
     Interval insideSide(const RayD& ray) const;

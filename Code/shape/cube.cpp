@@ -28,7 +28,8 @@ AnalyticShape::Roots Cube::roots(const RayD& ray) const {
     return found;
 }
 
-AnalyticShape::Local Cube::describe(Vec3d p, std::uint32_t part, Vec3d inset) const {
+AnalyticShape::Local Cube::describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const {
+    const Vec3d inset = clearance.inset();
     const Face& face = kFaces[part % 6];
     for (std::size_t i = 0; i < 3; ++i) {
         const double limit = 1 - min(inset[i], 0.5);

@@ -12,6 +12,6 @@ public:
 private:
     // part: 0 -x, 1 +x, 2 -y, 3 +y, 4 -z, 5 +z
     Roots roots(const RayD& ray) const override;
-    Local describe(Vec3d p, std::uint32_t part, Vec3d inset) const override;
+    Local describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const override;
     BoundsD boxUnder(const Transform& worldFromObject) const override;
 };

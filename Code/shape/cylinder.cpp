@@ -30,7 +30,9 @@ AnalyticShape::Roots Cylinder::roots(const RayD& ray) const {
     return found;
 }
 
-AnalyticShape::Local Cylinder::describe(Vec3d p, std::uint32_t part, Vec3d inset) const {
+AnalyticShape::Local Cylinder::describe(Vec3d p, std::uint32_t part,
+                                        const Clearance& clearance) const {
+    const Vec3d inset = clearance.inset();
     if (part != kSide) {
         const double radialInset = std::sqrt(inset.x * inset.x + inset.y * inset.y);
         const Cap at = cap(p, part == kTop, radius_, radialInset);

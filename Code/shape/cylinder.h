@@ -14,7 +14,7 @@ public:
 private:
     enum Part : std::uint32_t { kSide, kBottom, kTop };
     Roots roots(const RayD& ray) const override;
-    Local describe(Vec3d p, std::uint32_t part, Vec3d inset) const override;
+    Local describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const override;
     BoundsD boxUnder(const Transform& worldFromObject) const override;
 
     Interval insideTube(const RayD& ray) const;

@@ -16,7 +16,7 @@ AnalyticShape::Roots Disk::roots(const RayD& ray) const {
     return found;
 }
 
-AnalyticShape::Local Disk::describe(Vec3d p, std::uint32_t, Vec3d) const {
+AnalyticShape::Local Disk::describe(Vec3d p, std::uint32_t, const Clearance&) const {
     const double side = 2 * radius_;
     return {
         {p.x, p.y, 0}, {0, 0, 1}, {0.5 + p.x / side, 0.5 + p.y / side}, {side, 0, 0}, {0, side, 0}};

@@ -12,7 +12,7 @@ AnalyticShape::Roots InfinitePlane::roots(const RayD& ray) const {
     return found;
 }
 
-AnalyticShape::Local InfinitePlane::describe(Vec3d p, std::uint32_t, Vec3d) const {
+AnalyticShape::Local InfinitePlane::describe(Vec3d p, std::uint32_t, const Clearance&) const {
     return {{p.x, p.y, 0}, {0, 0, 1}, {p.x, p.y}, {1, 0, 0}, {0, 1, 0}};
 }
 

@@ -72,26 +72,33 @@ std::size_t MeshGeometry::bytes() const {
            uvs.size() * sizeof(Vec2) + uvTriangles.size() * sizeof(Corners) + slots.size() * 4;
 }
 
-Mesh::Mesh(const MeshGeometry& geometry, MovingTransform worldFromMesh,
-           std::vector<std::uint32_t> materials, std::vector<MeshPart> parts)
-    : geometry_(geometry), worldFromMesh_(std::move(worldFromMesh)),
-      meshFromWorld_(worldFromMesh_.at(0).inverse()),
-      identity_(worldFromMesh_.isStatic() && worldFromMesh_.at(0).isIdentity()),
+Mesh::Mesh(const MeshGeometry& geometry, MovingTransform worldFromObject,
+           std::vector<std::uint32_t> materials, std::vector<MeshPart> parts,
+           const Transform& objectFromMesh)
+    : geometry_(geometry), worldFromObject_(std::move(worldFromObject)),
+      objectFromMesh_(objectFromMesh), worldFromMesh_(worldFromObject_.at(0) * objectFromMesh),
+      meshFromWorld_(worldFromMesh_.inverse()),
+      identity_(worldFromObject_.isStatic() && worldFromMesh_.isIdentity()),
       materials_(std::move(materials)), parts_(std::move(parts)) {
     Bounds box;
     for (const auto& corners : geometry.triangles)
         for (const std::uint32_t corner : corners) box.extend(geometry.points[corner]);
     if (box.isEmpty()) return;
-    bounds_ = identity_ ? box : outward(worldFromMesh_.bounds(toDouble(box)));
+    if (identity_) bounds_ = box;
+    else if (worldFromObject_.isStatic()) bounds_ = outward(worldFromMesh_.bounds(toDouble(box)));
+    else bounds_ = outward(worldFromObject_.bounds(objectFromMesh_.bounds(toDouble(box))));
 }
 
 Bounds Mesh::bounds() const { return bounds_; }
 
-Transform Mesh::worldFromMeshAt(float time) const { return worldFromMesh_.at(time); }
+Transform Mesh::worldFromMeshAt(float time) const {
+    if (worldFromObject_.isStatic()) return worldFromMesh_;
+    return worldFromObject_.at(static_cast<double>(time)) * objectFromMesh_;
+}
 
 Ray Mesh::meshRay(const Ray& worldRay) const {
     if (identity_) return worldRay;
-    if (worldFromMesh_.isStatic()) return meshFromWorld_.ray(worldRay);
+    if (worldFromObject_.isStatic()) return meshFromWorld_.ray(worldRay);
     return worldFromMeshAt(worldRay.time).inverse().ray(worldRay);
 }
 
@@ -161,8 +168,11 @@ void Mesh::collect(const Ray& worldRay, std::vector<Hit>& hits) const {
         const float key = keyOf(setup, triangle);
         if (!range.contains(key)) return false;
         const auto& c = geometry_.triangles[triangle];
-        const Vec2 uv = barycentrics(setup, geometry_.points[c[0]], geometry_.points[c[1]],
-                                     geometry_.points[c[2]]);
+        const Vec3 v0 = geometry_.points[c[0]], v1 = geometry_.points[c[1]];
+        const Vec3 v2 = geometry_.points[c[2]];
+        // What crosses a surface on an edge crosses it once.
+        if (!ShearedTriangle(setup, v0, v1, v2).ownsRay()) return false;
+        const Vec2 uv = barycentrics(setup, v0, v1, v2);
         hits.push_back({.t = 1.0f / (key * setup.dz), .u = uv.x, .v = uv.y, .prim = triangle});
         return false;
     });

@@ -39,9 +39,11 @@ struct MeshPart {
 class Mesh final : public Shape {
 public:
     // `materials` by slot, `parts` in ascending order, the first starting at triangle 0.
-    // The geometry must outlive the shape.
-    Mesh(const MeshGeometry& geometry, MovingTransform worldFromMesh,
-         std::vector<std::uint32_t> materials, std::vector<MeshPart> parts);
+    // The geometry must outlive the shape. `objectFromMesh` takes the geometry's frame to that of
+    // the object, about whose origin a moving object turns.
+    Mesh(const MeshGeometry& geometry, MovingTransform worldFromObject,
+         std::vector<std::uint32_t> materials, std::vector<MeshPart> parts,
+         const Transform& objectFromMesh = {});
 
     Bounds bounds() const override;
     bool intersect(const Ray& ray, Hit& hit) const override;
@@ -58,9 +60,10 @@ private:
     float keyOf(const RaySetup& setup, std::uint32_t triangle) const;
 
     const MeshGeometry& geometry_;
-    MovingTransform worldFromMesh_;
-    Transform meshFromWorld_; // when it does not move
-    bool identity_;           // the geometry is in world space already
+    MovingTransform worldFromObject_;
+    Transform objectFromMesh_;
+    Transform worldFromMesh_, meshFromWorld_; // when it does not move
+    bool identity_;                           // the geometry is in world space already
     std::vector<std::uint32_t> materials_;
     std::vector<MeshPart> parts_;
     Bounds bounds_;

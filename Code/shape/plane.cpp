@@ -39,7 +39,7 @@ AnalyticShape::Roots Plane::roots(const RayD& ray) const {
 
 // p = c0 + e u + f v + g u v; the cross product with (e + g v) leaves k2 v^2 + k1 v + k0 = 0, of
 // which the root with the positive Jacobian sqrt(k1^2 - 4 k2 k0) is the one in a convex corner.
-AnalyticShape::Local Plane::describe(Vec3d p, std::uint32_t, Vec3d) const {
+AnalyticShape::Local Plane::describe(Vec3d p, std::uint32_t, const Clearance&) const {
     p += normal_ * (dot(normal_, centre_ - p) / dot(normal_, normal_));
     const Vec3d e = corners_[1] - corners_[0], f = corners_[3] - corners_[0];
     const Vec3d g = corners_[2] - corners_[1] - f;

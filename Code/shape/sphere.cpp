@@ -15,7 +15,7 @@ AnalyticShape::Roots Sphere::roots(const RayD& ray) const {
     return found;
 }
 
-AnalyticShape::Local Sphere::describe(Vec3d p, std::uint32_t, Vec3d) const {
+AnalyticShape::Local Sphere::describe(Vec3d p, std::uint32_t, const Clearance&) const {
     const double distance = length(p);
     const Vec3d n = distance > 0 ? p / distance : Vec3d{0, 0, 1};
     const double around = std::sqrt(n.x * n.x + n.y * n.y); // cosine of the latitude

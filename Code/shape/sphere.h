@@ -12,7 +12,7 @@ public:
 
 private:
     Roots roots(const RayD& ray) const override;
-    Local describe(Vec3d p, std::uint32_t part, Vec3d inset) const override;
+    Local describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const override;
     BoundsD boxUnder(const Transform& worldFromObject) const override;
 
     double radius_;

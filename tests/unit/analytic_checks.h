@@ -9,14 +9,14 @@
 namespace kit {
 
 inline Ray randomRayAt(Random& random, const Transform& map) {
-    return rayThrough(map.point(random.direction() * random.uniform(0, 4)),
-                      map.point(random.inBox(1)));
+    const Vec3d from = random.outwards(0, 4);
+    return rayThrough(map.point(from), map.point(random.inBox(1)));
 }
 
 // intersect, occludes and collect tell the same story, and keep the rules of shape.h.
 inline void checkQueries(const Kind& kind, Random& random) {
     for (int s = 0; s < 30; ++s) {
-        const Transform map = placed(random, randomFactors(random, 1), random.inBox(10));
+        const Transform map = randomMap(random);
         const auto shape = kind.make(map);
         for (int i = 0; i < 300; ++i) {
             Ray ray = randomRayAt(random, map);
@@ -66,7 +66,7 @@ inline void checkSurfaces(const Kind& kind, Random& random) {
     for (int s = 0; s < 60; ++s) {
         // Every other map is mild, for difference quotients that mean something.
         const bool isMild = s % 2 == 1;
-        const auto mild = [&] { return random.uniform(0.7, 1.4) * (random.coin() ? 1 : -1); };
+        const auto mild = [&] { return random.signedUniform(0.7, 1.4); };
         const Vec3d factors = isMild ? Vec3d{mild(), mild(), mild()} : randomFactors(random, 1);
         const Transform map = placed(random, factors, random.inBox(isMild ? 1 : 10));
         const auto shape = kind.make(map);
@@ -115,8 +115,9 @@ inline void checkSurfaces(const Kind& kind, Random& random) {
             const Vec3d moved = toDouble(next.p) - p;
             if (std::fabs(du) > 0.02 || std::fabs(dv) > 0.02 || length(moved) > 3 * small) continue;
             ++slopes;
-            // Curvature moves it by a part of the step, rounding of p and uv by 1e-6.
-            CHECK_NEAR(length(moved - dpdu * du - dpdv * dv), 0, 0.02 * length(moved) + 3e-6);
+            // Curvature moves it by a part of the step, rounding of p and uv by 1e-6 of them.
+            CHECK_NEAR(length(moved - dpdu * du - dpdv * dv), 0,
+                       0.02 * length(moved) + 3e-6 * (1 + maxAbs(p)));
         }
     }
     CHECK_INFO(points > 500 && slopes > 200, kind.name << points << " " << slopes);
@@ -159,10 +160,10 @@ inline void checkMotion(const Kind& kind, Random& random) {
         // Keys that are not mirrors of each other: between those the map would be flat.
         const Vec3d factors{random.uniform(0.5, 2), random.uniform(0.5, 2), -random.uniform(1, 2)};
         std::vector<Transform> keys;
-        for (int k = 0; k < 3; ++k)
-            keys.push_back(Transform::translate(random.inBox(3)) *
-                           Transform::rotate(random.direction(), random.uniform(0, 3)) *
-                           Transform::scale(factors));
+        for (int k = 0; k < 3; ++k) {
+            const Vec3d place = random.inBox(3);
+            keys.push_back(Transform::translate(place) * random.turn() * Transform::scale(factors));
+        }
         const MovingTransform motion{std::span<const Transform>(keys)};
         const auto moving = kind.make(motion);
         const Bounds box = moving->bounds();
@@ -257,7 +258,7 @@ inline long long leaks(const std::string& name, std::uint64_t seed, int rayCount
     std::unique_ptr<Shape> shape;
     for (int i = 0; i < rayCount; ++i) {
         if (i % 1000 == 0) {
-            map = placed(random, randomFactors(random, 1), random.inBox(10));
+            map = randomMap(random);
             shape = kind.make(map);
         }
         Vec3d target = kind.rim(random);
@@ -265,7 +266,8 @@ inline long long leaks(const std::string& name, std::uint64_t seed, int rayCount
         if (kind.name == "cube" && random.coin()) // any place on an edge
             target[static_cast<std::size_t>(random.unit() * 3)] = along;
         // Half-way to the middle at least, so that rounding to float leaves the origin inside.
-        const Vec3d from = kind.rim(random) * random.uniform(0, 0.5) * 0.5 + target * 0.25;
+        const double inwards = random.uniform(0, 0.25);
+        const Vec3d from = kind.rim(random) * inwards + target * 0.25;
         const Ray ray = rayThrough(map.point(from), map.point(target));
         Hit hit;
         std::vector<Hit> all;

@@ -21,7 +21,8 @@
 
 namespace kit {
 
-// mt19937_64 gives the same numbers everywhere; the distributions of <random> do not.
+// mt19937_64 gives the same numbers everywhere; the distributions of <random> do not, nor do two
+// draws in one expression, whose order the compiler chooses.
 class Random {
 public:
     explicit Random(std::uint64_t seed) : bits_(seed) {
@@ -29,7 +30,9 @@ public:
     }
     double unit() { return static_cast<double>(bits_() >> 11) * 0x1p-53; }
     double uniform(double lo, double hi) { return lo + (hi - lo) * unit(); }
-    double logUniform(double lo, double hi) { return lo * std::exp(unit() * std::log(hi / lo)); }
+    double logUniform(double lo, double hi) {
+        return lo * exact::exp(unit() * exact::log(hi / lo));
+    }
     bool coin() { return unit() < 0.5; }
     Vec3d inBox(double half) {
         return {uniform(-half, half), uniform(-half, half), uniform(-half, half)};
@@ -41,6 +44,23 @@ public:
             if (l > 0.01 && l <= 1) return v / l;
         }
     }
+    Vec3d outwards(double least, double most) {
+        const Vec3d d = direction();
+        return d * uniform(least, most);
+    }
+    // Of either sign.
+    double signedUniform(double lo, double hi) {
+        const double x = uniform(lo, hi);
+        return coin() ? x : -x;
+    }
+    double signedLogUniform(double lo, double hi) {
+        const double x = logUniform(lo, hi);
+        return coin() ? x : -x;
+    }
+    Transform turn() {
+        const Vec3d axis = direction();
+        return Transform::rotate(axis, uniform(0, kTwoPi));
+    }
 
 private:
     std::mt19937_64 bits_;
@@ -48,17 +68,22 @@ private:
 
 // Turn, scale along the axes by the factors (which may mirror), turn, move.
 inline Transform placed(Random& random, Vec3d factors, Vec3d offset) {
-    const Transform turn = Transform::rotate(random.direction(), random.uniform(0, kTwoPi));
-    const Transform turnBack = Transform::rotate(random.direction(), random.uniform(0, kTwoPi));
+    const Transform turn = random.turn(), turnBack = random.turn();
     return Transform::translate(offset) * turn * Transform::scale(factors) * turnBack;
 }
 
 // Factors of condition <= 1e4 about `size`, mirrored half the time.
 inline Vec3d randomFactors(Random& random, double size) {
     Vec3d f;
-    for (std::size_t i = 0; i < 3; ++i)
-        f[i] = size * random.logUniform(1e-2, 1e2) * (random.coin() ? 1 : -1);
+    for (std::size_t i = 0; i < 3; ++i) f[i] = size * random.signedLogUniform(1e-2, 1e2);
     return f;
+}
+
+// Any such map of unit size, within 10 of the origin.
+inline Transform randomMap(Random& random) {
+    const Vec3d factors = randomFactors(random, 1);
+    const Vec3d offset = random.inBox(10);
+    return placed(random, factors, offset);
 }
 
 // One shape of each kind; rim() gives points that reach every side of its smallest box.
@@ -70,7 +95,7 @@ struct Kind {
 };
 inline Vec3d onCircle(Random& random, double radius, double z) {
     const double angle = random.uniform(0, kTwoPi);
-    return {radius * std::cos(angle), radius * std::sin(angle), z};
+    return {radius * exact::cos(angle), radius * exact::sin(angle), z};
 }
 inline const Plane::Corners kQuad = {Vec3d{-1, -1, 0.25}, Vec3d{1, -0.5, 0.25},
                                      Vec3d{0.75, 1, 0.25}, Vec3d{-0.5, 0.75, 0.25}};

@@ -65,8 +65,10 @@ TEST(bad_txt_corpus) {
         for (std::string line; std::getline(expectations, line); ++expected) {
             const std::size_t blank = line.find(' ');
             const std::string place = line.substr(0, blank);
-            const std::string words = cat(name, place == "-" ? "" : ":" + place, ": error: ", line.substr(blank + 1));
-            CHECK_INFO(message.find(words) != std::string::npos, "expected '" << words << "' in\n" << message);
+            const std::string words =
+                cat(name, place == "-" ? "" : ":" + place, ": error: ", line.substr(blank + 1));
+            CHECK_INFO(message.find(words) != std::string::npos, "expected '" << words << "' in\n"
+                                                                              << message);
         }
         CHECK_INFO(expected > 0, expectPath << " is empty");
     }
@@ -86,8 +88,11 @@ TEST(bad_txt_cut_off_at_every_byte) {
 
 TEST(bad_txt_random_damage) {
     const std::string whole = contentOf("tests/scenes/everything.txt");
-    const std::vector<std::string> pieces = {"{", "}", "\"", "\\", "\n", "\r", "#", "-", "nan", "1e999", "0", " ", "key\n",
-                                             "4294967296", std::string(1, '\0'), "\xff", "\xc3", "material", "1e-400"};
+    const std::vector<std::string> pieces = {
+        "{",    "}",    "\"",       "\\",         "\n",
+        "\r",   "#",    "-",        "nan",        "1e999",
+        "0",    " ",    "key\n",    "4294967296", std::string(1, '\0'),
+        "\xff", "\xc3", "material", "1e-400"};
     int read = 0, refused = 0;
     for (std::uint32_t seed = 0; seed < 4000; ++seed) {
         std::mt19937 random(seed);
@@ -98,9 +103,13 @@ TEST(bad_txt_random_damage) {
             switch (random() % 5) {
             case 0: text.insert(at, pieces[random() % pieces.size()]); break;
             case 1: text.erase(at, length); break;
-            case 2: if (at < text.size()) text[at] = static_cast<char>(random()); break;
+            case 2:
+                if (at < text.size()) text[at] = static_cast<char>(random());
+                break;
             case 3: text.insert(place(), text.substr(at, length)); break;
-            default: if (at < text.size()) text[at] = static_cast<char>(text[at] ^ (1 << random() % 8)); break;
+            default:
+                if (at < text.size()) text[at] = static_cast<char>(text[at] ^ (1 << random() % 8));
+                break;
             }
         }
         try {

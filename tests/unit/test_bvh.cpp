@@ -86,6 +86,14 @@ std::vector<Named> hostile() {
         both.push_back(boxAt({x, -x, x}, x * 0.01));
         both.push_back(boxAt({-x, x, x}, x * 2));
     }
+    // Ratio 17: every split of 16 bins takes off one, on one axis after the other.
+    Boxes peeled;
+    for (int i = -30; i <= 30; ++i) {
+        const double x = std::pow(17.0, i);
+        for (const Vec3d p : {Vec3d{x, 0, 0}, Vec3d{0, x, 0}, Vec3d{0, 0, x}})
+            for (int k = 0; k < 9; ++k) peeled.push_back(boxAt(p, x * 1e-3));
+    }
+    out.push_back({"exponential on 3 axes", peeled});
     out.push_back({"exponential spacing", exponential});
     out.push_back({"exponential both ways", both});
     Boxes nested;

@@ -79,8 +79,7 @@ TEST(cylinder_edge_cases) {
     }
     const Cylinder cylinder(Transform(), 1, true, 0, 0);
     std::vector<Hit> hits;
-    cylinder.collect({{1, 0, 3}, {0, 0, -1}},
-                     hits); // down the side itself: the closed solid is met
+    cylinder.collect({{1, 0, 3}, {0, 0, -1}}, hits); // down the side: the closed solid is met
     CHECK_EQUAL(hits.size(), std::size_t(2));
     for (const float slope : {1e-1f, 1e-3f, 1e-5f, 1e-7f, 1e-20f}) {
         hit = {};

@@ -108,7 +108,8 @@ TEST(math_atan_asin_acos) {
     const auto asinL = [](long double x) { return std::asin(x); };
     const auto acosL = [](long double x) { return std::acos(x); };
     checkUlp("atan", 1.5, kCount, exact::atan, atanL, [&] { return draw.spread(-40, 40); });
-    checkUlp("atan 0.05..2", 1.5, kCount, exact::atan, atanL, [&] { return draw.uniform(0.05, 2); });
+    const auto middle = [&] { return draw.uniform(0.05, 2); };
+    checkUlp("atan 0.05..2", 1.5, kCount, exact::atan, atanL, middle);
     const auto unit = [&] { return draw.uniform(-1, 1); };
     const auto small = [&] { return draw.spread(-30, 0); };
     const auto nearOne = [&] { return 1 - std::fabs(draw.spread(-52, 0)); };
@@ -328,6 +329,24 @@ TEST(math_difference_of_products) {
         const std::int64_t truth = a * b - c * d; // below 2^35, so exact as a double
         CHECK_EQUAL(differenceOfProducts(number(a), number(b), number(c), number(d)),
                     number(truth));
+    }
+    // Full 53-bit factors with little to no cancellation: rounded nearly once.
+    __extension__ using Int128 = __int128;
+    for (int i = 0; i < 100000; ++i) {
+        const auto factor = [&] { return static_cast<std::int64_t>(draw.engine() >> 11) | 1; };
+        const std::int64_t a = factor(), b = factor(), d = factor();
+        // Every other c makes the products cancel in their upper halves.
+        const double close = static_cast<double>(a) * static_cast<double>(b) /
+                             static_cast<double>(d);
+        if (close >= 0x1p53) continue;
+        const std::int64_t c = i % 2 ? factor() : static_cast<std::int64_t>(close);
+        const Int128 truth = Int128{a} * b - Int128{c} * d;
+        const double value =
+            differenceOfProducts(static_cast<double>(a), static_cast<double>(b),
+                                 static_cast<double>(c), static_cast<double>(d));
+        const double error = static_cast<double>(static_cast<Int128>(value) - truth);
+        CHECK_INFO(std::fabs(error) <= 0.501 * (nextUp(std::fabs(value)) - std::fabs(value)),
+                   a << " " << b << " " << c << " " << d);
     }
     // (1+e)(1-e) - 1*1 = -e^2, which plain double gives as 0.
     CHECK_EQUAL(differenceOfProducts(1 + 0x1p-40, 1 - 0x1p-40, 1, 1), -0x1p-80);

@@ -2,6 +2,7 @@
 #include "check.h"
 
 #include <cfenv>
+#include <chrono>
 #include <stdexcept>
 #include <string>
 
@@ -68,6 +69,22 @@ TEST(parallel_exceptions) {
         CHECK(pool.run(100, [&](std::size_t, int) { ++calls; }));
         CHECK_EQUAL(calls.load(), 100);
     }
+}
+
+// Also when the lower index throws last: job 0 waits until job 1 has thrown.
+TEST(parallel_lowest_exception) {
+    ThreadPool pool(2);
+    std::atomic<bool> thrown{false};
+    const auto job = [&](std::size_t index, int) {
+        if (index == 1) {
+            thrown = true;
+            throw std::runtime_error("job 1");
+        }
+        while (!thrown) std::this_thread::yield();
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        throw std::runtime_error("job 0");
+    };
+    CHECK_THROWS(pool.run(2, job), "job 0");
 }
 
 TEST(parallel_stop) {

@@ -78,7 +78,7 @@ TEST(progress_unfinished_bar_is_taken_off) {
     {
         Progress progress = watched.make(Progress::Style::Bar);
         progress.update(0.25);
-        CHECK(watched.text.find("[##########..............................] 25 %") !=
+        CHECK(watched.text.find("[##########..............................]  25 %") !=
               std::string::npos);
     }
     CHECK(watched.text.ends_with("\r\x1b[K"));
@@ -90,7 +90,7 @@ TEST(progress_bar_fits_into_any_width) {
         Progress progress = watched.make(Progress::Style::Bar, columns);
         progress.update(0.5);
         const std::size_t escape = 4; // "\r\x1b[K" takes no room
-        const std::size_t text = std::string(" 50 %  0:00 elapsed, 0:00 left").size();
+        const std::size_t text = std::string("  50 %  0:00 elapsed, 0:00 left").size();
         CHECK(watched.text.size() - escape <=
               std::max(text, static_cast<std::size_t>(columns) - 1));
     }

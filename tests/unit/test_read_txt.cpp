@@ -60,7 +60,8 @@ TEST(read_txt_everything) {
     CHECK_EQUAL(desc.settings.height, 48);
     CHECK((desc.settings.crop == std::array<int, 4>{4, 2, 60, 40}));
     CHECK(desc.settings.sampler == SettingsDesc::Sampler::Stratified && !desc.settings.jitter);
-    CHECK(desc.settings.filter == SettingsDesc::Filter::Gaussian && desc.settings.filterWidth == 2.5);
+    CHECK(desc.settings.filter == SettingsDesc::Filter::Gaussian &&
+          desc.settings.filterWidth == 2.5);
     CHECK_EQUAL(desc.settings.seed, 4294967295u);
     CHECK((desc.world.background == Rgbd{0.1, 0.2, 0.3}));
     CHECK_EQUAL(desc.world.environment, 0);
@@ -115,13 +116,15 @@ TEST(read_txt_readme_is_complete) {
     const std::string readme = contentOf("ASCII/README.md");
     const auto checkTable = [&](const auto& rows) {
         for (const auto& row : rows) {
-            CHECK_INFO(readme.find(cat("    ", row.keyword, " ")) != std::string::npos, row.keyword);
+            CHECK_INFO(readme.find(cat("    ", row.keyword, " ")) != std::string::npos,
+                       row.keyword);
             if constexpr (requires { row.second; })
                 std::visit(
                     [&](const auto& field) {
                         if constexpr (requires { field.names; })
                             for (const std::string_view name : field.names)
-                                CHECK_INFO(readme.find(name) != std::string::npos, row.keyword << " " << name);
+                                CHECK_INFO(readme.find(name) != std::string::npos,
+                                           row.keyword << " " << name);
                     },
                     row.first);
         }
@@ -151,11 +154,13 @@ TEST(read_txt_line_ends_and_marks) {
 
 TEST(read_txt_long_lines_and_names) {
     const std::string name(1 << 20, 'n');
-    const SceneDesc desc = readBody("material \"" + name + "\" {\n}\nsphere s {" + std::string(1 << 20, ' ') + "\n    material " +
-                                    name + "#" + std::string(1 << 20, 'c') + "\n}\n");
+    const SceneDesc desc =
+        readBody("material \"" + name + "\" {\n}\nsphere s {" + std::string(1 << 20, ' ') +
+                 "\n    material " + name + "#" + std::string(1 << 20, 'c') + "\n}\n");
     CHECK(desc.materials.at(0).name == name);
     CHECK_EQUAL(desc.objects.at(0).materials.at(0), 0);
-    const std::string message = check::thrown([&] { readBody("sphere s {\n    material " + name + "\n}\n"); });
+    const std::string message =
+        check::thrown([&] { readBody("sphere s {\n    material " + name + "\n}\n"); });
     CHECK(message.size() < 1000 && message.find("t.txt:3:14: error: unknown material 'nnn") == 0);
 }
 
@@ -174,9 +179,11 @@ TEST(read_txt_transform_lines) {
     checkRows(rowsOf("scale 1 2 3"), {1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 3, 0});
     checkRows(rowsOf("rotate 90 0 0 2"), {0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0});
     checkRows(rowsOf("rotate 90 1e-200 0 0"), {1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0});
-    checkRows(rowsOf("transform 1 2 3 4  5 6 7 8  9 10 12 13"), {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 13});
+    checkRows(rowsOf("transform 1 2 3 4  5 6 7 8  9 10 12 13"),
+              {1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 13});
     // Scale first, translate last: (1,0,0) -> (2,0,0) -> (0,2,0) -> (1,4,3).
-    checkRows(rowsOf("translate 1 2 3\nrotate 90 0 0 1\nscale 2 2 2"), {0, -2, 0, 1, 2, 0, 0, 2, 0, 0, 2, 3});
+    checkRows(rowsOf("translate 1 2 3\nrotate 90 0 0 1\nscale 2 2 2"),
+              {0, -2, 0, 1, 2, 0, 0, 2, 0, 0, 2, 3});
     // At e, -Z towards t, +Y towards u.
     checkRows(rowsOf("look_at 0 -5 1  0 0 1  0 0 1"), {1, 0, 0, 0, 0, 0, -1, -5, 0, 1, 0, 1});
 }
@@ -188,14 +195,16 @@ TEST(read_txt_keys) {
     CHECK((keysOf("") == Keys{kIdentityRows}));
     CHECK((keysOf("key") == Keys{kIdentityRows, kIdentityRows}));
     const Rows moved{1, 0, 0, 1, 0, 1, 0, 0, 0, 0, 1, 0};
-    CHECK((keysOf("translate 1 0 0\nkey\nkey\ntranslate 1 0 0") == Keys{moved, kIdentityRows, moved}));
+    CHECK((keysOf("translate 1 0 0\nkey\nkey\ntranslate 1 0 0") ==
+           Keys{moved, kIdentityRows, moved}));
 }
 
 TEST(read_txt_places_of_blocks) {
     const std::string text = contentOf(kEverything);
     const SceneDesc desc = readText(text);
     const auto checkPlace = [&](SourceLoc loc, std::string_view word) {
-        CHECK_INFO(std::string_view(text).substr(loc.offset).starts_with(word), word << " at " << loc.offset);
+        CHECK_INFO(std::string_view(text).substr(loc.offset).starts_with(word),
+                   word << " at " << loc.offset);
     };
     checkPlace(desc.settings.loc, "settings {");
     checkPlace(desc.world.loc, "world {");
@@ -206,7 +215,8 @@ TEST(read_txt_places_of_blocks) {
 }
 
 TEST(read_txt_arrays_over_lines) {
-    const SceneDesc desc = readBody("mesh m {\n points 2 0 1 2 # first\n3\n4 # two\n\n5\n triangles 1\n0 1 0\r\n uvs 0\n}\n");
+    const SceneDesc desc = readBody(
+        "mesh m {\n points 2 0 1 2 # first\n3\n4 # two\n\n5\n triangles 1\n0 1 0\r\n uvs 0\n}\n");
     CHECK((desc.meshes.at(0).points == std::vector<Vec3d>{{0, 1, 2}, {3, 4, 5}}));
     CHECK(desc.meshes[0].uvs.empty());
 }
@@ -215,8 +225,10 @@ TEST(load_files) {
     Diagnostics d;
     CHECK_EQUAL(load(kEverything, d).source.name, kEverything);
     CHECK_THROWS(load("tests/scenes/everythin.txt", d),
-                 "tests/scenes/everythin.txt: error: cannot read: no such file; did you mean 'tests/scenes/everything.txt'?");
-    CHECK_THROWS(load("no/such/folder/a.txt", d), "no/such/folder/a.txt: error: cannot read: no such file");
+                 "tests/scenes/everythin.txt: error: cannot read: no such file; did you mean "
+                 "'tests/scenes/everything.txt'?");
+    CHECK_THROWS(load("no/such/folder/a.txt", d),
+                 "no/such/folder/a.txt: error: cannot read: no such file");
     CHECK_THROWS(load("", d), "error: cannot read: no such file");
     CHECK_THROWS(load("tests/scenes", d), "tests/scenes: error: cannot read: it is a folder");
     CHECK_THROWS(load("ASCII/README.md", d), "ASCII/README.md: error: unknown scene format '.md'");

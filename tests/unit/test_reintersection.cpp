@@ -25,7 +25,7 @@ struct Counts {
 };
 
 void leave(Random& random, const kit::Kind& kind, const Shape& shape, const Surface& at,
-           double width, int rayCount, Counts& counts) {
+           double sharpest, int rayCount, Counts& counts) {
     ++counts.points;
     const Vec3d ng = toDouble(at.ng);
     // A plane without end is met again a long way off along its rounded normal.
@@ -39,7 +39,7 @@ void leave(Random& random, const kit::Kind& kind, const Shape& shape, const Surf
         Hit hit;
         ++counts.outside;
         if (shape.intersect(out, hit) || shape.occludes(out)) ++counts.outsideHits;
-        if (!kind.isClosed || at.error > 1e-3 * width) continue; // no float is inside such a shape
+        if (!kind.isClosed || at.error > sharpest) continue; // no float is safely inside
         Ray in;
         in.org = at.p - at.ng * at.error;
         in.dir = leaving(random, -ng, 0);
@@ -60,8 +60,11 @@ Counts battery(Random& random, const kit::Kind& kind) {
         if (random.unit() < 0.7) offset = random.inBox(random.logUniform(1e-4, 1e4));
         const Transform map = kit::placed(random, factors, offset);
         const auto shape = kind.make(map);
-        const double width =
-            min(std::fabs(factors.x), min(std::fabs(factors.y), std::fabs(factors.z)));
+        const Vec3d sides{std::fabs(factors.x), std::fabs(factors.y), std::fabs(factors.z)};
+        const double thinnest = min(sides.x, min(sides.y, sides.z));
+        // A hundredth of the thickness, or of the radius of curvature at the end of a needle.
+        const double sharpest =
+            0.01 * thinnest * (kind.name == "cube" ? 1 : thinnest / maxAbs(sides));
         std::vector<Hit> hits;
         for (int found = 0, tries = 0; found < 100 && tries < 3000; ++tries) {
             // Towards a point of the object's box; near its surface, edges and tips at times.
@@ -76,7 +79,7 @@ Counts battery(Random& random, const kit::Kind& kind) {
             hits.clear();
             shape->collect(ray, hits);
             for (const Hit& hit : hits) {
-                leave(random, kind, *shape, shape->surface(ray, hit), width, 100, counts);
+                leave(random, kind, *shape, shape->surface(ray, hit), sharpest, 100, counts);
                 ++found;
             }
         }

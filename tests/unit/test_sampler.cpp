@@ -215,7 +215,8 @@ TEST(sampler_decorrelated) {
                                    SamplerKind::Random}) {
         const Sampler sampler(kind, 4, 6);
         std::vector<std::vector<double>> all;
-        for (const std::uint32_t d : {0u, 1u, 2u, 3u, 8u}) all.push_back(sequence(sampler, 0, d, false));
+        for (const std::uint32_t d : {0u, 1u, 2u, 3u, 8u})
+            all.push_back(sequence(sampler, 0, d, false));
         all.push_back(sequence(sampler, 0, 4, true));
         all.push_back(sequence(sampler, 0, 2, true));
         all.push_back(sequence(sampler, 1, 0, false));

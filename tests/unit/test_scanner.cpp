@@ -92,29 +92,60 @@ TEST(scanner_bad_characters) {
 }
 
 TEST(scanner_utf8) {
-    const auto good = [](std::string_view text) { return findBadText(text) == std::string_view::npos; };
+    const auto good = [](std::string_view text) {
+        return findBadText(text) == std::string_view::npos;
+    };
     CHECK(good("plain ~") && good("ä€😀") && good("\xf4\x8f\xbf\xbf") && good("\xed\x9f\xbf"));
-    for (const std::string bad : {"\x80", "\xc0\x80", "\xc1\xbf", "\xe0\x9f\xbf", "\xed\xa0\x80", "\xf0\x8f\xbf\xbf",
-                                  "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xff", "\xc3", "\xe2\x82", "\x1f", "\x7f", "\n"})
+    for (const std::string bad :
+         {"\x80", "\xc0\x80", "\xc1\xbf", "\xe0\x9f\xbf", "\xed\xa0\x80", "\xf0\x8f\xbf\xbf",
+          "\xf4\x90\x80\x80", "\xf5\x80\x80\x80", "\xff", "\xc3", "\xe2\x82", "\x1f", "\x7f", "\n"})
         CHECK_INFO(findBadText("ab" + bad) == 2 && findBadText("ab" + bad + "c") == 2, shown(bad));
     CHECK_EQUAL(shown("a\x01ö\xff"), "a\\x01ö\\xff");
     CHECK(shown(std::string(1000, 'x')).size() < 70);
 }
 
 TEST(scanner_numbers_by_hand) {
-    for (const char* text :
-         {"0", "-0", "+1", "1.", ".5", "-.5e1", "1e5", "1E+5", "1e-5", "0.1", "123456789.123456789", "9007199254740993",
-          "9007199254740992.99999999999999999999", "1e22", "1e23", "8.5e22", "1e-22", "1e-23", "1.7976931348623157e308",
-          "2.2250738585072011e-308", "2.2250738585072014e-308", "5e-324", "2.4703282292062327208e-324", "2e-324",
-          "1e-400", "-1e-99999999999999999999", "0e99999999999999999999", "0.000000000000000000000000000001",
-          "000000000000000000000000000000012.5", "18446744073709551615", "18446744073709551616", "99999999999999999999"})
+    for (const char* text : {"0",
+                             "-0",
+                             "+1",
+                             "1.",
+                             ".5",
+                             "-.5e1",
+                             "1e5",
+                             "1E+5",
+                             "1e-5",
+                             "0.1",
+                             "123456789.123456789",
+                             "9007199254740993",
+                             "9007199254740992.99999999999999999999",
+                             "1e22",
+                             "1e23",
+                             "8.5e22",
+                             "1e-22",
+                             "1e-23",
+                             "1.7976931348623157e308",
+                             "2.2250738585072011e-308",
+                             "2.2250738585072014e-308",
+                             "5e-324",
+                             "2.4703282292062327208e-324",
+                             "2e-324",
+                             "1e-400",
+                             "-1e-99999999999999999999",
+                             "0e99999999999999999999",
+                             "0.000000000000000000000000000001",
+                             "000000000000000000000000000000012.5",
+                             "18446744073709551615",
+                             "18446744073709551616",
+                             "99999999999999999999"})
         checkDouble(text);
     checkDouble("0." + std::string(400, '0') + "1e401");
     checkDouble("1" + std::string(400, '0') + "e-400");
-    for (const char* text : {"0.1", "16777217", "16777217.0000000001", "16777219", "1.00000005960464477539", "3.4028234e38",
-                             "1.1754943e-38", "1e-45", "7e-46", "7.1e-46", "1e-60", "1e-400",
-                             // Half way between floats after rounding to double, but not before.
-                             "1.00000017881393432617187499", "1.00000017881393432617187500", "8388608.5000000000000001"})
+    for (const char* text :
+         {"0.1", "16777217", "16777217.0000000001", "16777219", "1.00000005960464477539",
+          "3.4028234e38", "1.1754943e-38", "1e-45", "7e-46", "7.1e-46", "1e-60", "1e-400",
+          // Half way between floats after rounding to double, but not before.
+          "1.00000017881393432617187499", "1.00000017881393432617187500",
+          "8388608.5000000000000001"})
         checkFloat(text);
 }
 
@@ -140,14 +171,17 @@ TEST(scanner_numbers_random) {
 TEST(scanner_floats_beside_half_way) {
     std::mt19937_64 random(2);
     for (int i = 0; i < 100000; ++i) {
-        const float low = std::bit_cast<float>(static_cast<std::uint32_t>(0x3a000000 + random() % 0x0c000000));
-        const double middle = (static_cast<double>(low) + static_cast<double>(std::nextafter(low, 1e30f))) / 2;
+        const float low =
+            std::bit_cast<float>(static_cast<std::uint32_t>(0x3a000000 + random() % 0x0c000000));
+        const double middle =
+            (static_cast<double>(low) + static_cast<double>(std::nextafter(low, 1e30f))) / 2;
         checkFloat(printed("%.*e", 14 + i % 5, middle));
     }
 }
 
 TEST(scanner_no_numbers) {
-    for (const char* text : {"", "-", "+", ".", "-.", "e5", "1e", "1e+", "nan", "inf", "--1", "+-1", " 1"})
+    for (const char* text :
+         {"", "-", "+", ".", "-.", "e5", "1e", "1e+", "nan", "inf", "--1", "+-1", " 1"})
         CHECK_INFO(readDouble(text).fault == NumberFault::NotANumber, text);
     for (const char* text : {"1e309", "-1e999", "1e99999999999999999999", "1.7976931348623159e308"})
         CHECK_INFO(readDouble(text).fault == NumberFault::TooLarge, text);

@@ -29,11 +29,13 @@ TEST(source_excerpt_and_severity) {
                 "a.txt:2:5: warning: bad\n  two three \n      ^");
     CHECK_EQUAL(located(kFile, 15, "bad"), "a.txt:3:1: error: bad"); // nothing to show
     // Control characters would move the caret or the terminal.
-    CHECK_EQUAL(located({"t", "\t\x1b[1m\tx"}, 6, "bad"), "t:1:7: error: bad\n    [1m x\n        ^");
+    CHECK_EQUAL(located({"t", "\t\x1b[1m\tx"}, 6, "bad"),
+                "t:1:7: error: bad\n    [1m x\n        ^");
 }
 
 TEST(source_long_line_is_cut) {
-    const SourceFile file{"long.txt", std::string(1'000'000, 'a') + "b" + std::string(1'000'000, 'c')};
+    const SourceFile file{"long.txt",
+                          std::string(1'000'000, 'a') + "b" + std::string(1'000'000, 'c')};
     const std::string message = located(file, 1'000'000, "here");
     CHECK(message.size() < 400);
     CHECK_EQUAL(firstLine(message), "long.txt:1:1000001: error: here");

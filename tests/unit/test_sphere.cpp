@@ -45,8 +45,8 @@ TEST(sphere_precision_against_extended_precision) {
     for (int i = 0; i < 400000; ++i) {
         const double distance = random.logUniform(1e-3, 1e3);
         // Also close to the surface, inside and outside.
-        const double ratio = i % 8 == 0 ? 1 + random.uniform(-1, 1) * random.logUniform(1e-6, 1e-1)
-                                        : random.logUniform(1e-6, 1e6);
+        const double ratio =
+            i % 8 == 0 ? 1 + random.signedLogUniform(1e-6, 1e-1) : random.logUniform(1e-6, 1e6);
         const double radius = distance * ratio;
         const Vec3d org = random.inBox(i % 2 == 0 ? 0.0 : random.logUniform(1e-3, 10));
         const Vec3d toCentre = random.direction();
@@ -55,8 +55,7 @@ TEST(sphere_precision_against_extended_precision) {
         // Somewhere on the sphere's disk as seen from the ray's origin; one in four at its rim.
         const Vec3d side = normalize(cross(toCentre, random.direction()));
         const bool atRim = i % 4 == 3;
-        const double place =
-            atRim ? 1 + random.uniform(-1, 1) * random.logUniform(1e-7, 1e-3) : random.unit();
+        const double place = atRim ? 1 + random.signedLogUniform(1e-7, 1e-3) : random.unit();
         const double sine = min(1.0, ratio) * place;
         if (sine > 1) continue;
         Vec3d dir = toCentre * std::sqrt(1 - sine * sine) + side * sine;

@@ -235,6 +235,69 @@ TEST(triangle_against_long_double) {
     CHECK_EQUAL(farOff, 0);
 }
 
+// Of the triangles around an edge or a corner exactly one owns a ray that meets it: in a plane of
+// triangles with whole coordinates, and so that rays through a closed mesh enter as often as they
+// leave.
+TEST(triangle_one_owner_per_crossing) {
+    Random random(35);
+    std::vector<std::array<Vec3, 3>> plane;
+    for (int x = -4; x < 4; ++x) {
+        for (int y = -4; y < 4; ++y) {
+            const auto at = [](int i, int j) { // z is any plane that floats can hold
+                return Vec3{static_cast<float>(i), static_cast<float>(j), static_cast<float>(2 * i - j)};
+            };
+            const Vec3 a = at(x, y), b = at(x + 1, y), c = at(x + 1, y + 1), d = at(x, y + 1);
+            if (random.chance(0.5)) plane.insert(plane.end(), {{a, b, c}, {c, d, a}});
+            else plane.insert(plane.end(), {{a, b, d}, {b, c, d}});
+        }
+    }
+    long long wrong = 0, shared = 0;
+    for (int i = 0; i < 20000; ++i) {
+        // Aims in the middle, on a grid of halves: at corners, edges, and centres.
+        const float x = static_cast<float>(random.below(9)) * 0.5f - 2;
+        const float y = static_cast<float>(random.below(9)) * 0.5f - 2;
+        const Vec3 dir{static_cast<float>(random.below(5)) - 2, static_cast<float>(random.below(5)) - 2,
+                       random.chance(0.5) ? 16.0f : -16.0f};
+        const Vec3 org = Vec3{x, y, 2 * x - y} - dir * 2.0f;
+        const RaySetup setup(org, dir, 64);
+        int hits = 0, owners = 0;
+        for (const auto& t : plane) {
+            if (!(canonicalKey(setup, t[0], t[1], t[2]) > 0)) continue;
+            ++hits;
+            owners += ShearedTriangle(setup, t[0], t[1], t[2]).ownsRay();
+        }
+        shared += hits > 1;
+        if (hits < 1 || owners != 1) ++wrong;
+    }
+    std::printf("%lld of 20000 rays meet several triangles, seed 35\n", shared);
+    CHECK(shared > 5000);
+    CHECK_EQUAL(wrong, 0);
+
+    long long unbalanced = 0, crossings = 0;
+    for (const MeshDesc& desc : {meshes::icosphere(2), meshes::torus(0.3, 24, 12), meshes::cube()}) {
+        const MeshGeometry g = toGeometry(desc, {});
+        for (int i = 0; i < 3000; ++i) {
+            const Vec3 org = toFloat(random.direction() * 4.0);
+            const auto& c = g.triangles[random.below(g.triangles.size())];
+            const Vec3 a = g.points[c[0]], b = g.points[c[1]];
+            const Vec3 dir = (random.chance(0.5) ? a : a + (b - a) * 0.5f) - org;
+            const RaySetup setup(org, dir, g.extent);
+            int balance = 0;
+            for (const auto& t : g.triangles) {
+                const Vec3 p = g.points[t[0]], q = g.points[t[1]], r = g.points[t[2]];
+                const ShearedTriangle sheared(setup, p, q, r);
+                if (!(canonicalKey(setup, p, q, r) > 0) || !sheared.ownsRay()) continue;
+                const Vec3d e = sheared.edgesExact();
+                balance += e.x + e.y + e.z > 0 ? 1 : -1;
+                ++crossings;
+            }
+            if (balance != 0) ++unbalanced;
+        }
+    }
+    CHECK(crossings > 10000);
+    CHECK_EQUAL(unbalanced, 0);
+}
+
 namespace {
 
 // Origins in, on and near the soup; aims at corners, edges and insides; zero components.
@@ -303,7 +366,10 @@ TEST(triangle_tree_equals_brute_force) {
                     if (!(key > 0) || !(key < 1.0f / (ray.tMin * setup.dz))) continue;
                     if (key > 1.0f / (ray.tMax * setup.dz)) {
                         inFront = true;
-                        inRange.push_back({.t = 1.0f / (key * setup.dz), .prim = n});
+                        const ShearedTriangle sheared(setup, triangles[n][0], triangles[n][1],
+                                                      triangles[n][2]);
+                        if (sheared.ownsRay())
+                            inRange.push_back({.t = 1.0f / (key * setup.dz), .prim = n});
                     }
                     if (key > bestKey) {
                         bestKey = key;
@@ -327,7 +393,7 @@ TEST(triangle_tree_equals_brute_force) {
                 CHECK_INFO(false, "seed " << 3400 + seed << " ray " << i << " tree " << fromTree.t << ' '
                                           << fromTree.prim << " brute " << best.t << ' ' << best.prim);
             if (!sameAny) ++anyWrong;
-            // The set of all hits, in the order of their numbers, with t.
+            // The set of all hits that own the ray, in the order of their numbers, with t.
             std::vector<Hit> a;
             tree.collect(ray, a);
             std::sort(a.begin(), a.end(), byPrim);

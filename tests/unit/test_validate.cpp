@@ -49,15 +49,16 @@ std::string warningsAfter(const std::function<void(SceneDesc&)>& change) {
 }
 
 void checkError(const std::string& errors, const std::string& words) {
-    CHECK_INFO(errors.find(words) != std::string::npos, "expected '" << words << "' in '" << errors << "'");
+    CHECK_INFO(errors.find(words) != std::string::npos,
+               "expected '" << words << "' in '" << errors << "'");
 }
 
 // Every number of every property of the block, one at a time: NaN and what is out of range.
-template <class Block>
-void checkNumbersOf(Block& block, const SceneDesc& desc) {
+template <class Block> void checkNumbersOf(Block& block, const SceneDesc& desc) {
     for (const Property<Block>& property : propertiesOf<Block>()) {
         if (!(property.kinds & kindOf(block))) continue;
-        for (const Field<Block>* field : {&property.first, property.second ? &*property.second : nullptr}) {
+        for (const Field<Block>* field :
+             {&property.first, property.second ? &*property.second : nullptr}) {
             if (!field) continue;
             forEachNumber(block, *field, [&](auto& number) {
                 const auto before = number;
@@ -71,7 +72,8 @@ void checkNumbersOf(Block& block, const SceneDesc& desc) {
                     check(kNan, "is not a finite number");
                     check(-1.0 / 0.0, "is not a finite number");
                     check(range.hi * 1.1, "must be ");
-                    check(range.aboveLo ? range.lo : range.lo - std::fabs(range.lo) - 1, "must be ");
+                    check(range.aboveLo ? range.lo : range.lo - std::fabs(range.lo) - 1,
+                          "must be ");
                 } else if (range.hi < kLargestUnsigned) {
                     check(range.hi + 1, "must be from ");
                     check(range.lo - 1, "must be from ");
@@ -111,16 +113,25 @@ TEST(validate_every_number) {
 
 TEST(validate_handles) {
     for (const Handle wrong : {-2, 1, 1000}) {
-        checkError(errorsAfter([&](SceneDesc& d) { d.objects[0].mesh = wrong; }), cat("'mesh' refers to mesh ", wrong, " of 1"));
+        checkError(errorsAfter([&](SceneDesc& d) { d.objects[0].mesh = wrong; }),
+                   cat("'mesh' refers to mesh ", wrong, " of 1"));
         checkError(errorsAfter([&](SceneDesc& d) { d.objects[0].materials[0] = wrong; }),
                    cat("'materials' refers to material ", wrong, " of 1"));
-        checkError(errorsAfter([&](SceneDesc& d) { d.objects[1].materials = {wrong}; }), "'materials' refers to material");
-        checkError(errorsAfter([&](SceneDesc& d) { d.materials[0].bumpMap = wrong; }), "'bump_map' refers to texture");
-        checkError(errorsAfter([&](SceneDesc& d) { d.world.environment = wrong; }), "'environment' refers to texture");
+        checkError(errorsAfter([&](SceneDesc& d) { d.objects[1].materials = {wrong}; }),
+                   "'materials' refers to material");
+        checkError(errorsAfter([&](SceneDesc& d) { d.materials[0].bumpMap = wrong; }),
+                   "'bump_map' refers to texture");
+        checkError(errorsAfter([&](SceneDesc& d) { d.world.environment = wrong; }),
+                   "'environment' refers to texture");
     }
-    checkError(errorsAfter([](SceneDesc& d) { d.objects[0].materials = {kNone}; }), "one of its material slots is empty");
-    checkError(errorsAfter([](SceneDesc& d) { d.objects[0].mesh = kNone; }), "instance 'instance': has no 'mesh'");
-    checkError(errorsAfter([](SceneDesc& d) { d.objects[1].materials = {0, 0}; }), "sphere 'ball': has 2 materials");
+    checkError(errorsAfter([](SceneDesc& d) { d.objects[0].materials = {kNone}; }),
+               "one of its material slots is empty");
+    checkError(errorsAfter([](SceneDesc& d) { d.objects[0].mesh = kNone; }),
+               "instance 'instance': has no 'mesh'");
+    checkError(errorsAfter([](SceneDesc& d) {
+                   d.objects[1].materials = {0, 0};
+               }),
+               "sphere 'ball': has 2 materials");
 }
 
 TEST(validate_transforms) {
@@ -130,9 +141,12 @@ TEST(validate_transforms) {
     checkError(errorsAfter(at(3, kNan)), "its transform has numbers beyond");
     checkError(errorsAfter(at(3, 1e61)), "its transform has numbers beyond");
     checkError(errorsAfter(at(5, 0)), "sphere 'ball': its transform flattens it");
-    checkError(errorsAfter([](SceneDesc& d) { d.objects[1].worldFromObject.clear(); }), "one key is needed");
-    checkError(errorsAfter([](SceneDesc& d) { d.cameras[0].worldFromCamera[0][0] = 0; }), "camera 'camera': its transform flattens it");
-    checkError(errorsAfter([](SceneDesc& d) { d.lights[0].worldFromLight[0] = 0; }), "light 'lamp': its transform flattens it");
+    checkError(errorsAfter([](SceneDesc& d) { d.objects[1].worldFromObject.clear(); }),
+               "one key is needed");
+    checkError(errorsAfter([](SceneDesc& d) { d.cameras[0].worldFromCamera[0][0] = 0; }),
+               "camera 'camera': its transform flattens it");
+    checkError(errorsAfter([](SceneDesc& d) { d.lights[0].worldFromLight[0] = 0; }),
+               "light 'lamp': its transform flattens it");
     checkError(errorsAfter([](SceneDesc& d) {
                    d.objects[1].worldFromObject.push_back(kIdentityRows);
                    d.objects[1].worldFromObject[1][0] = -1;
@@ -143,29 +157,58 @@ TEST(validate_transforms) {
 }
 
 TEST(validate_names) {
-    checkError(errorsAfter([](SceneDesc& d) { d.objects[1].name = "instance"; }), "another object has this name");
-    checkError(errorsAfter([](SceneDesc& d) { d.materials.push_back(d.materials[0]); }), "material 'red': another material has this name");
+    checkError(errorsAfter([](SceneDesc& d) { d.objects[1].name = "instance"; }),
+               "another object has this name");
+    checkError(errorsAfter([](SceneDesc& d) { d.materials.push_back(d.materials[0]); }),
+               "material 'red': another material has this name");
     for (const std::string bad : {"", "a\nb", "\xff"})
-        checkError(errorsAfter([&](SceneDesc& d) { d.meshes[0].name = bad; }), "a name is UTF-8 without control characters");
-    CHECK_EQUAL(errorsAfter([](SceneDesc& d) { d.materials[0].name = "ball"; }), ""); // another kind
+        checkError(errorsAfter([&](SceneDesc& d) { d.meshes[0].name = bad; }),
+                   "a name is UTF-8 without control characters");
+    CHECK_EQUAL(errorsAfter([](SceneDesc& d) { d.materials[0].name = "ball"; }),
+                ""); // another kind
 }
 
 TEST(validate_meshes) {
     const auto with = [](const std::function<void(MeshDesc&)>& damage) {
         return errorsAfter([&](SceneDesc& d) { damage(d.meshes[0]); });
     };
-    checkError(with([](MeshDesc& m) { m.triangles[0][1] = 3; }), "'triangles' uses 3 of 'points', which has 3");
+    checkError(with([](MeshDesc& m) { m.triangles[0][1] = 3; }),
+               "'triangles' uses 3 of 'points', which has 3");
     checkError(with([](MeshDesc& m) { m.triangles.clear(); }), "has no triangles");
     checkError(with([](MeshDesc& m) { m.points[1].y = kNan; }), "point 1 is not finite");
-    checkError(with([](MeshDesc& m) { m.points[2].x = 1e61; }), "point 2 is not finite or beyond 1e+60");
-    checkError(with([](MeshDesc& m) { m.normals = {{0, 0, 1}}; }), "has normals, but no normal_triangles");
-    checkError(with([](MeshDesc& m) { m.normalTriangles = {{0, 0, 0}}; }), "'normal_triangles' uses 0 of 'normals', which has 0");
-    checkError(with([](MeshDesc& m) { m.normals = {{0, 0, 1e30f}}; m.normalTriangles = {{0, 0, 0}}; }), "a normal is not finite");
-    checkError(with([](MeshDesc& m) { m.uvs = {{0, 0}}; m.uvTriangles = {{0, 0, 0}, {0, 0, 0}}; }), "1 triangles, but 2 uv_triangles");
-    checkError(with([](MeshDesc& m) { m.uvs = {{0, 1.0f / 0.0f}}; m.uvTriangles = {{0, 0, 0}}; }), "a uv is not finite");
-    checkError(with([](MeshDesc& m) { m.triangleMaterials = {0, 0}; }), "1 triangles, but 2 triangle_materials");
-    checkError(with([](MeshDesc& m) { m.triangleMaterials = {1}; }), "its mesh uses material slot 1, but it has 1 material");
-    checkError(with([](MeshDesc& m) { m.triangleMaterials = {4294967295u}; }), "material slot 4294967295 is above 65535");
+    checkError(with([](MeshDesc& m) { m.points[2].x = 1e61; }),
+               "point 2 is not finite or beyond 1e+60");
+    checkError(with([](MeshDesc& m) {
+                   m.normals = {{0, 0, 1}};
+               }),
+               "has normals, but no normal_triangles");
+    checkError(with([](MeshDesc& m) {
+                   m.normalTriangles = {{0, 0, 0}};
+               }),
+               "'normal_triangles' uses 0 of 'normals', which has 0");
+    checkError(with([](MeshDesc& m) {
+                   m.normals = {{0, 0, 1e30f}};
+                   m.normalTriangles = {{0, 0, 0}};
+               }),
+               "a normal is not finite");
+    checkError(with([](MeshDesc& m) {
+                   m.uvs = {{0, 0}};
+                   m.uvTriangles = {{0, 0, 0}, {0, 0, 0}};
+               }),
+               "1 triangles, but 2 uv_triangles");
+    checkError(with([](MeshDesc& m) {
+                   m.uvs = {{0, 1.0f / 0.0f}};
+                   m.uvTriangles = {{0, 0, 0}};
+               }),
+               "a uv is not finite");
+    checkError(with([](MeshDesc& m) {
+                   m.triangleMaterials = {0, 0};
+               }),
+               "1 triangles, but 2 triangle_materials");
+    checkError(with([](MeshDesc& m) { m.triangleMaterials = {1}; }),
+               "its mesh uses material slot 1, but it has 1 material");
+    checkError(with([](MeshDesc& m) { m.triangleMaterials = {4294967295u}; }),
+               "material slot 4294967295 is above 65535");
     CHECK_EQUAL(errorsAfter([](SceneDesc& d) {
                     d.meshes[0].triangleMaterials = {7};
                     d.objects[0].materials.clear(); // the default material for all slots
@@ -182,7 +225,8 @@ TEST(validate_corners) {
     };
     CHECK_EQUAL(with({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}}), "");
     CHECK_EQUAL(with({{{0, 0, 0}, {0, 1, 0}, {1, 1, 0}, {1, 0, 0}}}), ""); // the other way round
-    CHECK_EQUAL(with({{{1e6, 0, 0}, {1e6 + 1, 0, 0.01}, {1e6 + 1, 1, 0}, {1e6, 1, 0}}}), ""); // as float can
+    CHECK_EQUAL(with({{{1e6, 0, 0}, {1e6 + 1, 0, 0.01}, {1e6 + 1, 1, 0}, {1e6, 1, 0}}}),
+                ""); // as float can
     checkError(with({{{0, 0, 0}, {1, 0, 0}, {1, 1, 0.01}, {0, 1, 0}}}), "do not lie in one plane");
     checkError(with({{{0, 0, 0}, {1, 0, 0}, {1, 0, 0}, {0, 1, 0}}}), "must go around a convex");
     checkError(with({{{0, 0, 0}, {2, 0, 0}, {0.5, 0.5, 0}, {0, 2, 0}}}), "must go around a convex");
@@ -196,14 +240,28 @@ TEST(validate_corners) {
 }
 
 TEST(validate_settings_and_rest) {
-    checkError(errorsAfter([](SceneDesc& d) { d.settings.width = d.settings.height = 60000; }), "more than 2^28 pixels");
-    checkError(errorsAfter([](SceneDesc& d) { d.settings.crop = {0, 0, 961, 10}; }), "'crop' ends at 961 10, outside");
-    checkError(errorsAfter([](SceneDesc& d) { d.settings.crop = {5, 0, 5, 10}; }), "'crop' is empty");
-    checkError(errorsAfter([](SceneDesc& d) { d.cameras.clear(); }), "s.json: error: the scene has no camera");
-    checkError(errorsAfter([](SceneDesc& d) { d.textures.emplace_back().name = "t"; }), "texture 't': has no 'file'");
-    checkError(errorsAfter([](SceneDesc& d) { d.textures.emplace_back().file = "a\nb"; }), "its 'file' is not UTF-8");
-    checkError(errorsAfter([](SceneDesc& d) { d.lights[0].kind = LightDesc::Kind::Sphere; }), "needs a 'radius' > 0");
-    checkError(errorsAfter([](SceneDesc& d) { d.objects[1].kind = ObjectDesc::Kind::Cone; d.objects[1].radius = 0; }),
+    checkError(errorsAfter([](SceneDesc& d) { d.settings.width = d.settings.height = 60000; }),
+               "more than 2^28 pixels");
+    checkError(errorsAfter([](SceneDesc& d) {
+                   d.settings.crop = {0, 0, 961, 10};
+               }),
+               "'crop' ends at 961 10, outside");
+    checkError(errorsAfter([](SceneDesc& d) {
+                   d.settings.crop = {5, 0, 5, 10};
+               }),
+               "'crop' is empty");
+    checkError(errorsAfter([](SceneDesc& d) { d.cameras.clear(); }),
+               "s.json: error: the scene has no camera");
+    checkError(errorsAfter([](SceneDesc& d) { d.textures.emplace_back().name = "t"; }),
+               "texture 't': has no 'file'");
+    checkError(errorsAfter([](SceneDesc& d) { d.textures.emplace_back().file = "a\nb"; }),
+               "its 'file' is not UTF-8");
+    checkError(errorsAfter([](SceneDesc& d) { d.lights[0].kind = LightDesc::Kind::Sphere; }),
+               "needs a 'radius' > 0");
+    checkError(errorsAfter([](SceneDesc& d) {
+                   d.objects[1].kind = ObjectDesc::Kind::Cone;
+                   d.objects[1].radius = 0;
+               }),
                "'radius' and 'top_radius' are both 0");
 }
 
@@ -224,20 +282,38 @@ TEST(validate_warnings) {
     const std::string dark = "there is no light, no emission and no ambient: ";
     const auto darken = [](SceneDesc& d) { d.lights[0].color = {}; };
     checkError(warningsAfter(darken), "s.json: warning: " + dark + "the picture will be black");
-    checkError(warningsAfter([&](SceneDesc& d) { darken(d); d.world.background = {1, 1, 1}; }), dark + "diffuse surfaces");
-    CHECK_EQUAL(warningsAfter([&](SceneDesc& d) { darken(d); d.world.ambient = {1, 1, 1}; }), "");
-    CHECK_EQUAL(warningsAfter([&](SceneDesc& d) { darken(d); d.materials[0].emission = {1, 1, 1}; }), "");
+    checkError(warningsAfter([&](SceneDesc& d) {
+                   darken(d);
+                   d.world.background = {1, 1, 1};
+               }),
+               dark + "diffuse surfaces");
+    CHECK_EQUAL(warningsAfter([&](SceneDesc& d) {
+                    darken(d);
+                    d.world.ambient = {1, 1, 1};
+                }),
+                "");
+    CHECK_EQUAL(warningsAfter([&](SceneDesc& d) {
+                    darken(d);
+                    d.materials[0].emission = {1, 1, 1};
+                }),
+                "");
     checkError(warningsAfter([](SceneDesc& d) { d.objects.clear(); }), "the scene has no objects");
-    checkError(warningsAfter([](SceneDesc& d) { d.objects[0].materials.clear(); }), "nothing uses the material red");
-    checkError(warningsAfter([](SceneDesc& d) { d.objects.erase(d.objects.begin()); }), "nothing uses the mesh mesh");
+    checkError(warningsAfter([](SceneDesc& d) { d.objects[0].materials.clear(); }),
+               "nothing uses the material red");
+    checkError(warningsAfter([](SceneDesc& d) { d.objects.erase(d.objects.begin()); }),
+               "nothing uses the mesh mesh");
     const auto addTextures = [](SceneDesc& d) {
         for (int i = 0; i < 13; ++i) {
             d.textures.emplace_back().name = cat("t", i);
             d.textures.back().file = "t.ppm";
         }
     };
-    checkError(warningsAfter(addTextures), "nothing uses the textures t0, t1, t2, t3, t4, t5, t6, t7, t8, t9 and 3 more");
-    checkError(warningsAfter([&](SceneDesc& d) { addTextures(d); d.world.environment = 0; }),
+    checkError(warningsAfter(addTextures),
+               "nothing uses the textures t0, t1, t2, t3, t4, t5, t6, t7, t8, t9 and 3 more");
+    checkError(warningsAfter([&](SceneDesc& d) {
+                   addTextures(d);
+                   d.world.environment = 0;
+               }),
                "the environment is multiplied by 'background', which is 0 0 0");
     checkError(warningsAfter([](SceneDesc& d) { d.lights[0].coneAngleDeg = 10; }),
                "light 'lamp': 'cone_angle' has no effect on type point");

@@ -131,7 +131,7 @@ TEST(watertight_from_inside) {
     long long rays = 0, leaks = 0, anyLeaks = 0;
     for (const Solid& solid : solids()) {
         forEachPlacement(random, solid, [&](const Placed& at, const char* place) {
-            for (int i = 0; i < 9000; ++i) {
+            for (int i = 0; i < 6000; ++i) {
                 Vec3d from = at.sceneFromDesc.point(inside(random, solid));
                 const std::uint32_t n = at.someTriangle(random);
                 const std::size_t c = random.below(3);
@@ -162,7 +162,7 @@ TEST(watertight_from_inside) {
         });
     }
     std::printf("%lld rays, %lld leaks, %lld of any-hit\n", rays, leaks, anyLeaks);
-    CHECK(rays > 500000);
+    CHECK(rays > 300000);
     CHECK_EQUAL(leaks, 0);
     CHECK_EQUAL(anyLeaks, 0);
 }
@@ -200,9 +200,9 @@ TEST(watertight_reintersection) {
     long long out = 0, selfHits = 0, in = 0, leaks = 0;
     for (const Solid& solid : solids()) {
         if (!solid.isConvex) continue;
-        for (int round = 0; round < 3; ++round) {
+        for (int round = 0; round < 2; ++round) {
             forEachPlacement(random, solid, [&](const Placed& at, const char* place) {
-                for (int i = 0; i < 120; ++i) {
+                for (int i = 0; i < 100; ++i) {
                     Surface s;
                     if (!aimedSurface(at, random, s, at.onTriangle(random, at.someTriangle(random))))
                         continue;
@@ -211,7 +211,7 @@ TEST(watertight_reintersection) {
                         ray.org = s.p + s.ng * s.error;
                         ray.dir = leavingTo(random, s.ng);
                         ++out;
-                        if ((at.set.closest(ray).isHit() || at.set.occluded(ray)) && ++selfHits <= 5)
+                        if ((k % 4 == 0 ? at.set.closest(ray).isHit() : at.set.occluded(ray)) && ++selfHits <= 5)
                             CHECK_INFO(false, "seed 43 self hit: " << solid.name << ", " << place
                                                                    << ", " << shown(ray));
                         if (k % 4 != 0) continue;
@@ -227,7 +227,7 @@ TEST(watertight_reintersection) {
         }
     }
     std::printf("%lld out, %lld self hits, %lld in, %lld leaks\n", out, selfHits, in, leaks);
-    CHECK(out > 600000);
+    CHECK(out > 350000);
     CHECK_EQUAL(selfHits, 0);
     CHECK_EQUAL(leaks, 0);
 }
@@ -241,7 +241,8 @@ struct ShadowCounts {
 // As in render/whitted.cpp: the ray starts at the lamp and ends at the point, moved off its surface.
 void shadowRay(Random& random, const Surface& s, const Shape& shape, const std::string& name,
                ShadowCounts& counts) {
-    const Vec3 light = toFloat(random.direction() * random.logUniform(1.5, 1.5e4));
+    // Few from very far: their pads open many boxes, 50 us a ray.
+    const Vec3 light = toFloat(random.direction() * random.logUniform(1.5, random.chance(0.97) ? 30.0 : 1.5e4));
     const Vec3 d = light - s.p;
     const float distance = length(d);
     if (!(dot(s.ng, d / distance) > 0)) return;

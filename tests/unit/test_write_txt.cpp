@@ -44,8 +44,8 @@ private:
     std::size_t below(std::size_t n) { return static_cast<std::size_t>(random_() % n); }
 
     std::string name(std::string_view kind, std::size_t i) {
-        static const std::vector<std::string> kEndings = {"", ".001", " with blanks", " \"quoted\"", " back\\slash",
-                                                          " größer 大 🎈", " # { }"};
+        static const std::vector<std::string> kEndings = {
+            "", ".001", " with blanks", " \"quoted\"", " back\\slash", " größer 大 🎈", " # { }"};
         return cat(kind, i, kEndings[below(kEndings.size())]);
     }
     double number(const Range& range) {
@@ -71,8 +71,7 @@ private:
         return keys;
     }
 
-    template <class Block>
-    void fill(Block& block) {
+    template <class Block> void fill(Block& block) {
         static const Block kDefaults{};
         for (const Property<Block>& property : propertiesOf<Block>()) {
             if (std::is_same_v<Block, ObjectDesc> && !(property.kinds & kindOf(block))) continue;
@@ -89,9 +88,12 @@ private:
         forEachNumber(block, field, [&](auto& value) {
             value = static_cast<std::remove_reference_t<decltype(value)>>(number(property.range));
         });
-        if (auto* flag = std::get_if<bool Block::*>(&field)) block.**flag = chance(0.5);
-        else if (auto* text = std::get_if<std::string Block::*>(&field)) block.**text = name("file", 0);
-        else if (auto* choice = std::get_if<Choice<Block>>(&field)) choice->set(block, below(choice->names.size()));
+        if (auto* flag = std::get_if<bool Block::*>(&field))
+            block.** flag = chance(0.5);
+        else if (auto* text = std::get_if<std::string Block::*>(&field))
+            block.** text = name("file", 0);
+        else if (auto* choice = std::get_if<Choice<Block>>(&field))
+            choice->set(block, below(choice->names.size()));
         else if (auto* reference = std::get_if<Reference<Block>>(&field))
             block.*(reference->handle) = handle();
         else if (auto* list = std::get_if<MaterialList<Block>>(&field))
@@ -102,7 +104,8 @@ private:
     void fill(MeshDesc& mesh) {
         const std::size_t points = 3 + below(10);
         const auto single = [&] {
-            return static_cast<float>(std::ldexp(number({-1, 1}), static_cast<int>(below(100)) - 60));
+            return static_cast<float>(
+                std::ldexp(number({-1, 1}), static_cast<int>(below(100)) - 60));
         };
         for (std::size_t i = 0; i < points; ++i) {
             mesh.points.push_back({number(kAnyNumber), number(kAnyNumber), number({-1, 1})});
@@ -136,7 +139,8 @@ void checkAllUsed(const std::vector<Block>& blocks, const std::string& text) {
     for (const Property<Block>& property : propertiesOf<Block>()) {
         bool used = false;
         for (const Block& block : blocks)
-            used = used || ((property.kinds & kindOf(block)) && !sameField(block, kDefaults, property.first));
+            used = used || ((property.kinds & kindOf(block)) &&
+                            !sameField(block, kDefaults, property.first));
         CHECK_INFO(used, "no block uses " << property.keyword);
         CHECK_INFO(text.find(cat("\n    ", property.keyword, " ")) != std::string::npos,
                    property.keyword << " was not written");
@@ -157,7 +161,8 @@ TEST(write_txt_every_property_comes_back) {
     checkAllUsed(desc.lights, text);
     checkAllUsed(desc.objects, text);
     for (const MeshArray& array : kMeshArrays)
-        CHECK_INFO(text.find(cat("\n    ", array.keyword, " ")) != std::string::npos, array.keyword);
+        CHECK_INFO(text.find(cat("\n    ", array.keyword, " ")) != std::string::npos,
+                   array.keyword);
     for (const auto& row : kEnumNames<ObjectDesc::Kind>)
         CHECK_INFO(text.find(cat("\n", row.name, " ")) != std::string::npos, row.name);
 }

@@ -1,0 +1,3100 @@
+#!/usr/bin/env python3
+"""Writes a Blender scene as the native scene text of the ray tracer (ASCII/README.md).
+
+    blender -b scene.blend --python-exit-code 3 -P Blend/Export.py -- -o ASCII/scene.txt
+    python Blend/Export.py scene.blend -o scene.txt        (with the bpy module)
+    Text editor, Run Script                                (writes next to the .blend)
+
+Runs in Blender 3.4 to 5.0 with nothing but the standard library: Debian's Blender has no numpy.
+
+Custom properties of an object that are obeyed:
+    rt_shape   'sphere' 'cube' 'plane' 'infinite_plane' 'disk' 'cylinder' 'cone': the object becomes this
+               record, fitted into its box; 'mesh': it stays a mesh even if it looks like one of these
+    rt_light   0: a glowing object is seen, but gives no light (and no warning about it)
+
+The parts of this file stand in the order in which the data flows:
+     1 warnings         what could not be carried over, one number for each kind
+     2 text             numbers and blocks of the format
+     3 render graph     a throw-away render engine gets the scene as a final render sees it
+     4 motion           where things are while the shutter is open
+     5 settings         resolution, samples, filter, colour
+     6 cameras
+     7 lights           energies to radiance, by Blender version
+     8 images           finding, copying and converting picture files
+     9 values           sockets to numbers and image textures   (a new node: table VALUE_NODES)
+    10 shaders          sockets to lobes                        (a new node: table SHADER_NODES)
+    11 materials        lobes to a material of the format
+    12 world
+    13 shapes           spheres, cubes and planes among the meshes
+    14 meshes
+    15 scene            puts it all together
+    16 command line
+"""
+
+import argparse
+import contextlib
+import hashlib
+import math
+import os
+import re
+import shutil
+import struct
+import sys
+import zlib
+from array import array
+from dataclasses import dataclass, field, replace
+from typing import NamedTuple, Optional
+
+try:
+    import bpy
+    from mathutils import Euler, Matrix, Vector
+except ImportError:
+    sys.exit("Export.py: error: needs Blender (blender -b FILE -P Export.py) or the bpy module")
+
+VERSION = bpy.app.version  # (3, 4, 1): several units changed their meaning over time
+EXIT_ERROR, EXIT_STRICT = 2, 3
+MAX_SAMPLES = 64  # Cycles' 4096 are for path tracing; --spp of the renderer overrides
+MAX_DEPTH = 16
+FORMAT_VERSION = 1
+
+
+class ExportError(Exception):
+    """The scene cannot be exported; the message says why. Ends with exit code 2."""
+
+
+# ---------------------------------------------------------------------------------------- 1 warnings
+
+WARNINGS = {
+    1: "view transform, look or curves: only Standard and Raw are known",
+    2: "gamma of the view settings",
+    3: "no render graph: the viewport's modifiers and visibility are used",
+    4: "several view layers: one is exported",
+    5: "object of a type that is not exported",
+    6: "ray visibility, holdout, shadow catcher, light linking",
+    7: "panoramic camera",
+    8: "object beyond the clip end",
+    9: "shape that changes while the shutter is open",
+    10: "moving light",
+    11: "numbers that are not finite",
+    12: "shader node that is not supported",
+    13: "input of a shader that is not supported",
+    14: "texture where only a constant is possible",
+    15: "glossy lobes of different roughness",
+    16: "lobes with different Fresnel behaviour",
+    17: "different normals or heights in one material",
+    18: "second UV map or coordinate system in one material",
+    19: "texture coordinates or mapping that are not plane",
+    20: "projection of an image texture",
+    21: "volume or displacement",
+    22: "image file not found",
+    23: "image that cannot be read or converted",
+    24: "image sequence, movie or tiles",
+    25: "colour space of an image",
+    26: "interpolation or extension of an image texture",
+    27: "UV map that the mesh does not have",
+    28: "node of a light",
+    29: "elliptic spot",
+    30: "node of the world",
+    31: "mapping or projection of the environment",
+    32: "emission that would light other objects",
+    33: "shape asked for by rt_shape that does not fit",
+    34: "motion that cannot be followed",
+}
+
+
+class Report:
+    """Prints each warning once and counts. `at` names the thing that is being worked on."""
+
+    def __init__(self, verbose):
+        self.verbose = verbose
+        self.seen = {}
+        self.places = []
+
+    @contextlib.contextmanager
+    def at(self, kind, name):
+        self.places.append("%s '%s'" % (kind, name))
+        try:
+            yield
+        finally:
+            self.places.pop()
+
+    def warn(self, number, problem, instead):
+        assert number in WARNINGS
+        place = " ".join(self.places) + ": " if self.places else ""
+        line = "W%03d %s%s -> %s" % (number, place, problem, instead)
+        if line not in self.seen:
+            self.seen[line] = number
+            print(line, file=sys.stderr)
+
+    def note(self, text):
+        if self.verbose:
+            print(text, file=sys.stderr)
+
+    def summary(self):
+        numbers = sorted(self.seen.values())
+        if not numbers:
+            return
+        plural = "" if len(numbers) == 1 else "s"
+        kinds = ", ".join("W%03d x%d" % (n, numbers.count(n)) for n in sorted(set(numbers)))
+        print("%d warning%s: %s" % (len(numbers), plural, kinds), file=sys.stderr)
+
+
+# -------------------------------------------------------------------------------------------- 2 text
+
+_FLOAT = struct.Struct("<f")
+
+
+def single(x):
+    """x rounded to single precision, as Blender computes."""
+    return _FLOAT.unpack(_FLOAT.pack(x))[0]
+
+
+def number(x):
+    """Shortest text that reads back as x: as a float when x is one, else as a double."""
+    x = float(x)
+    if x == 0:
+        return "0"
+    if not math.isfinite(x):
+        raise ExportError("a number is not finite (%r)" % x)
+    if abs(x) < 3e38 and single(x) == x:
+        for digits in (6, 7, 8, 9):
+            text = "%.*g" % (digits, x)
+            if single(float(text)) == x:
+                return text
+    return repr(int(x)) if x == int(x) and abs(x) < 1e15 else repr(x)
+
+
+def word(name):
+    """A name as the format has it: bare or in quotes."""
+    name = "".join(c if ord(c) >= 32 and ord(c) != 127 else "_" for c in name)
+    if re.fullmatch(r"[A-Za-z0-9_.+-]+", name):
+        return name
+    return '"%s"' % name.replace("\\", "\\\\").replace('"', '\\"')
+
+
+class Text:
+    """Collects the lines of the scene file."""
+
+    def __init__(self):
+        self.lines = []
+
+    @contextlib.contextmanager
+    def block(self, kind, name=None):
+        self.lines.append("%s {" % kind if name is None else "%s %s {" % (kind, word(name)))
+        yield
+        self.lines.append("}")
+
+    def put(self, keyword, *values):
+        parts = [keyword]
+        for value in values:
+            if isinstance(value, bool):
+                parts.append("true" if value else "false")
+            elif isinstance(value, str):
+                parts.append(value)
+            elif hasattr(value, "__len__"):
+                parts.extend(number(x) for x in value)
+            else:
+                parts.append(number(value))
+        self.lines.append("    " + " ".join(parts))
+
+    def put_unless(self, default, keyword, value):
+        """Leaves out what the reader assumes anyway."""
+        if value != default:
+            self.put(keyword, value)
+
+    def put_keys(self, keys):
+        """Transform lines of one or more positions."""
+        for i, rows in enumerate(keys):
+            if i > 0:
+                self.lines.append("    key")
+            self.put_rows(rows)
+
+    def put_rows(self, rows):
+        (a, b, c, x), (d, e, f, y), (g, h, i, z) = rows
+        if any((b, c, d, f, g, h)):
+            self.lines.append("    transform " + "  ".join(" ".join(map(number, row)) for row in rows))
+            return
+        if any((x, y, z)):
+            self.put("translate", x, y, z)
+        if (a, e, i) != (1, 1, 1):
+            self.put("scale", a, e, i)
+
+    def put_array(self, keyword, values, width, form):
+        """A counted array of a mesh. Formatting in large pieces is what makes this fast."""
+        count = len(values) // width
+        self.lines.append("    %s %d" % (keyword, count))
+        line = "      " + " ".join([form] * width)
+        step = 16384
+        for first in range(0, count, step):
+            rows = min(step, count - first)
+            pattern = "\n".join([line] * rows)
+            self.lines.append(pattern % tuple(values[first * width : (first + rows) * width]))
+
+    def __str__(self):
+        return "\n".join(self.lines) + "\n"
+
+
+class Names:
+    """Hands out names that are unique within one kind of block."""
+
+    def __init__(self):
+        self.taken = set()
+
+    def unique(self, wanted):
+        name, i = wanted or "unnamed", 0
+        while name in self.taken:
+            i += 1
+            name = "%s.%03d" % (wanted, i)
+        self.taken.add(name)
+        return name
+
+
+# ------------------------------------------------------------------------------------ 3 render graph
+
+
+@contextlib.contextmanager
+def temporarily(owner, **values):
+    """Sets attributes and restores them; those that this Blender does not have are left out."""
+    old = {name: getattr(owner, name) for name in values if hasattr(owner, name)}
+    try:
+        for name in old:
+            setattr(owner, name, values[name])
+        yield
+    finally:
+        for name, value in old.items():
+            setattr(owner, name, value)
+
+
+def with_render_graph(scene, layer, report, work):
+    """Calls work(depsgraph, set_frame) with the scene as a final render sees it.
+
+    context.evaluated_depsgraph_get() would be the viewport's scene: its subdivision levels and its
+    visibility. Only a render engine is handed the other one, so we are one for a moment.
+    """
+    outcome = {}
+
+    class ExportEngine(bpy.types.RenderEngine):
+        bl_idname = "RAYTRACER_EXPORT"
+        bl_label = "Ray tracer export"
+        bl_use_preview = False
+
+        def render(self, depsgraph):
+            if outcome:  # once per view of a stereo camera
+                return
+            try:
+                set_frame = lambda frame, sub: self.frame_set(frame, subframe=sub)
+                outcome["result"] = work(depsgraph, set_frame)
+            except BaseException as problem:  # Blender would print it and go on
+                outcome["problem"] = problem
+
+    problem = "it was not called"
+    bpy.utils.register_class(ExportEngine)
+    try:
+        with temporarily(scene.render, engine=ExportEngine.bl_idname, use_compositing=False,
+                         use_sequencer=False, use_freestyle=False):
+            bpy.ops.render.render(scene=scene.name, layer=layer.name)
+    except (RuntimeError, TypeError) as error:
+        problem = str(error).strip()
+    finally:
+        bpy.utils.unregister_class(ExportEngine)
+    if "problem" in outcome:
+        raise outcome["problem"]
+    if "result" in outcome:
+        return outcome["result"]
+    report.warn(3, "Blender gave no render graph (%s)" % problem, "the viewport's graph is used")
+    set_frame = lambda frame, sub: scene.frame_set(frame, subframe=sub)
+    return work(bpy.context.evaluated_depsgraph_get(), set_frame)
+
+
+# ------------------------------------------------------------------------------------------ 4 motion
+
+KEY_TIMES = (0.0, 0.25, 0.5, 0.75, 1.0)  # of the shutter
+IDENTITY = ((1.0, 0.0, 0.0, 0.0), (0.0, 1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0))
+
+
+def rows_of(matrix):
+    return tuple(tuple(row) for row in matrix[:3])
+
+
+def is_finite(rows):
+    return all(math.isfinite(x) for row in rows for x in row)
+
+
+def times(a, b):
+    """Product of two maps given by rows, in double precision."""
+    return tuple(
+        tuple(sum(a[i][k] * b[k][j] for k in range(3)) + (a[i][3] if j == 3 else 0.0) for j in range(4))
+        for i in range(3)
+    )
+
+
+def determinant(rows):
+    (a, b, c, _), (d, e, f, _), (g, h, i, _) = rows
+    return a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+
+
+def column(rows, i):
+    return tuple(row[i] for row in rows)
+
+
+def length(v):
+    return math.sqrt(sum(x * x for x in v))
+
+
+def without_scale(rows):
+    """Columns of unit length: cameras and lights have no size of their own."""
+    lengths = [length(column(rows, i)) or 1.0 for i in range(3)]
+    if all(abs(x - 1) < 1e-6 for x in lengths):
+        return rows
+    return tuple(tuple(row[i] / lengths[i] for i in range(3)) + (row[3],) for row in rows)
+
+
+def nearly_equal(a, b):
+    size = max(max(abs(x) for row in a for x in row), 1e-30)
+    return all(abs(x - y) <= 1e-5 * size for r, s in zip(a, b) for x, y in zip(r, s))
+
+
+def between(a, b, t):
+    """The map at t of the way from a to b, moving as the renderer moves it: by its parts."""
+    (p, q, s), (u, v, w) = (Matrix([*m, (0, 0, 0, 1)]).decompose() for m in (a, b))
+    return rows_of(Matrix.LocRotScale(p.lerp(u, t), q.slerp(v, t), s.lerp(w, t)))
+
+
+def fewest_keys(samples):
+    """Samples at KEY_TIMES -> 1 key when it rests, 2 when it moves evenly, else 3 or 5."""
+    if all(nearly_equal(samples[0], s) for s in samples[1:]):
+        return [samples[2]]
+    for step in (4, 2):
+        inner = [i for i in range(5) if i % step]
+        fits = lambda i: nearly_equal(
+            between(samples[i - i % step], samples[i - i % step + step], (i % step) / step), samples[i])
+        if all(fits(i) for i in inner):
+            return samples[::step]
+    return samples
+
+
+def shutter_interval(scene, frame):
+    """Frames at which the shutter opens and closes; None without motion blur."""
+    render = scene.render
+    eevee = getattr(scene, "eevee", None)
+    is_eevee = "EEVEE" in render.engine
+    # Until 4.1 Eevee had settings of its own.
+    own = eevee if is_eevee and hasattr(eevee, "use_motion_blur") else render
+    if not own.use_motion_blur:
+        return None
+    shutter = own.motion_blur_shutter
+    position = getattr(own, "motion_blur_position", None)
+    if position is None:
+        position = getattr(getattr(scene, "cycles", None), "motion_blur_position", "CENTER")
+    if shutter <= 0:
+        return None
+    begin = {"START": 0.0, "CENTER": -shutter / 2, "END": -shutter}[position]
+    return frame + begin, frame + begin + shutter
+
+
+def instance_key(instance):
+    """Identifies an instance from one moment of the shutter to the next."""
+    thing = instance.object
+    if not instance.is_instance:
+        return (thing.name_full,)
+    parent = instance.parent.name_full if instance.parent else ""
+    return (thing.name_full, thing.type, parent, tuple(instance.persistent_id))
+
+
+def moves_in_blur(thing):
+    return getattr(getattr(thing, "cycles", None), "use_motion_blur", True)
+
+
+class Motion:
+    """Matrices of all instances and cameras at KEY_TIMES; empty without motion blur."""
+
+    def __init__(self, depsgraph, set_frame, scene, frame, cameras):
+        self.moments = []
+        interval = shutter_interval(scene, frame)
+        if interval is None:
+            return
+        begin, end = interval
+        for t in KEY_TIMES:
+            moment = begin + (end - begin) * t
+            whole = math.floor(moment)
+            set_frame(whole, moment - whole)
+            self.moments.append(self.look(depsgraph, cameras))
+        set_frame(frame, 0.0)
+
+    @staticmethod
+    def look(depsgraph, cameras):
+        found = {}
+        for instance in depsgraph.object_instances:
+            if instance.object.type in {"MESH", "LIGHT"}:
+                found[instance_key(instance)] = rows_of(instance.matrix_world)
+        for camera in cameras:
+            found[("camera", camera.name_full)] = rows_of(camera.evaluated_get(depsgraph).matrix_world)
+        return found
+
+    def samples(self, key, rows):
+        """Positions at KEY_TIMES; None when the thing was not there all the time."""
+        if not self.moments:
+            return [rows] * 5
+        samples = [moment.get(key) for moment in self.moments]
+        return None if None in samples else samples
+
+    def keys(self, key, rows, thing, report):
+        if not self.moments or not moves_in_blur(thing):
+            return [rows]
+        samples = self.samples(key, rows)
+        if samples is None or not all(map(is_finite, samples)):
+            report.warn(34, "is not there during the whole shutter", "it stands still")
+            return [rows]
+        signs = {determinant(s) > 0 for s in samples}
+        if len(signs) > 1 or any(determinant(s) == 0 for s in samples):
+            if not all(nearly_equal(samples[0], s) for s in samples):
+                report.warn(34, "turns flat or inside out in the shutter", "it stands still")
+            return [rows]
+        keys = fewest_keys(samples)
+        return keys if len(keys) > 1 else [rows]
+
+
+# ---------------------------------------------------------------------------------------- 5 settings
+
+
+def picture_size(render):
+    percent = render.resolution_percentage
+    return render.resolution_x * percent // 100, render.resolution_y * percent // 100
+
+
+def crop_of(render, width, height):
+    """Border -> x0 y0 x1 y1 from the top left. Blender multiplies in single precision."""
+    x0, x1 = (int(single(f * width)) for f in (render.border_min_x, render.border_max_x))
+    y0, y1 = (int(single(f * height)) for f in (render.border_min_y, render.border_max_y))
+    return x0, height - y1, x1, height - y0
+
+
+def pixel_filter(scene):
+    cycles = getattr(scene, "cycles", None)
+    if "EEVEE" in scene.render.engine or not hasattr(cycles, "pixel_filter_type"):
+        return "blackman-harris", max(getattr(scene.render, "filter_size", 1.5), 0.01)
+    names = {"BOX": "box", "GAUSSIAN": "gaussian", "BLACKMAN_HARRIS": "blackman-harris"}
+    return names[cycles.pixel_filter_type], cycles.filter_width
+
+
+def samples_of(scene):
+    """(samples of the scene, what is exported)"""
+    cycles, eevee = getattr(scene, "cycles", None), getattr(scene, "eevee", None)
+    if "EEVEE" in scene.render.engine or cycles is None:
+        wanted = getattr(eevee, "taa_render_samples", 64)
+    else:
+        wanted = cycles.samples
+    return wanted, min(max(wanted, 1), MAX_SAMPLES)
+
+
+def exposure_of(scene):
+    stops = scene.view_settings.exposure
+    film = getattr(getattr(scene, "cycles", None), "film_exposure", 1.0)
+    if film > 0 and film != 1 and "EEVEE" not in scene.render.engine:
+        stops += math.log2(film)
+    return stops
+
+
+def transfer_of(scene, report):
+    view = scene.view_settings
+    name = view.view_transform
+    if name not in {"Standard", "Raw"}:
+        report.warn(1, "view transform '%s'" % name, "Standard")
+    if getattr(view, "look", "None") not in {"None", ""}:
+        report.warn(1, "look '%s'" % view.look, "no look")
+    if view.use_curve_mapping:
+        report.warn(1, "view curves", "no curves")
+    if abs(view.gamma - 1) > 1e-6:
+        report.warn(2, "view gamma %s" % number(view.gamma), "1")
+    is_linear = name == "Raw" or scene.display_settings.display_device == "None"
+    return "linear" if is_linear else "srgb"
+
+
+def put_settings(text, scene, report):
+    render, cycles = scene.render, getattr(scene, "cycles", None)
+    width, height = picture_size(render)
+    name, filter_width = pixel_filter(scene)
+    depth = min(getattr(cycles, "max_bounces", 8), MAX_DEPTH)
+    with text.block("settings"):
+        text.put("resolution", width, height)
+        if render.pixel_aspect_x != render.pixel_aspect_y:
+            text.put("pixel_aspect", render.pixel_aspect_x, render.pixel_aspect_y)
+        if render.use_border:
+            crop = crop_of(render, width, height)
+            if crop[0] < crop[2] and crop[1] < crop[3]:
+                text.put("crop", *crop)
+        text.put("samples", samples_of(scene)[1])
+        text.put_unless(8, "max_depth", depth)
+        text.put_unless(0, "seed", max(getattr(cycles, "seed", 0), 0))
+        text.put("filter", name, filter_width)
+        text.put_unless(0, "exposure", exposure_of(scene))
+        text.put("transfer", transfer_of(scene, report))
+
+
+# ----------------------------------------------------------------------------------------- 6 cameras
+
+
+def focus_distance(camera, rows, depsgraph):
+    """Depth of the focus object along the view axis, or the number in the settings."""
+    dof = camera.data.dof
+    target = dof.focus_object
+    if target is None:
+        return dof.focus_distance
+    target = target.evaluated_get(depsgraph)
+    matrix = target.matrix_world
+    bone = getattr(dof, "focus_subtarget", "")
+    if bone and target.type == "ARMATURE" and bone in target.pose.bones:
+        matrix = matrix @ target.pose.bones[bone].matrix
+    axis, eye = column(rows, 2), column(rows, 3)
+    place = matrix.translation
+    return abs(sum(a * (e - p) for a, e, p in zip(axis, eye, place)))
+
+
+def put_camera(text, camera, keys, rows, depsgraph, name, report):
+    """`camera` is evaluated; `rows` is its place at the frame, `keys` its places in the shutter."""
+    data = camera.data
+    is_ortho = data.type == "ORTHO"
+    with report.at("camera", camera.name), text.block("camera", name):
+        if data.type not in {"PERSP", "ORTHO"}:
+            report.warn(7, "camera type %s" % data.type, "perspective")
+        text.put("type", "orthographic" if is_ortho else "perspective")
+        text.put_keys([without_scale(k) for k in keys])
+        if is_ortho:
+            text.put("ortho_scale", data.ortho_scale)
+        else:
+            text.put("lens", data.lens)
+        text.put("sensor", data.sensor_width, data.sensor_height)
+        text.put("sensor_fit", data.sensor_fit.lower())
+        if data.shift_x or data.shift_y:
+            text.put("shift", data.shift_x, data.shift_y)
+        text.put("clip_start", data.clip_start)
+        dof = data.dof
+        if dof.use_dof:
+            lens = 1.0 if is_ortho else data.lens * 1e-3
+            text.put("aperture_radius", lens / (2 * max(dof.aperture_fstop, 1e-5)))
+            text.put("focus_distance", max(focus_distance(camera, without_scale(rows), depsgraph), 1e-5))
+            text.put_unless(0, "aperture_blades", dof.aperture_blades)
+            text.put_unless(0, "aperture_rotation", math.degrees(dof.aperture_rotation))
+            text.put_unless(1, "aperture_ratio", dof.aperture_ratio)
+
+
+# ------------------------------------------------------------------------------------------ 7 lights
+
+
+def light_strength(lamp, values, report):
+    """Factor from the light's own node tree: a constant Emission, else 1."""
+    if not getattr(lamp, "use_nodes", False) or lamp.node_tree is None:
+        return (1.0, 1.0, 1.0)
+    output = lamp.node_tree.get_output_node("CYCLES") or lamp.node_tree.get_output_node("ALL")
+    if output is None:
+        return (1.0, 1.0, 1.0)
+    found = values.source(Socket(output.inputs["Surface"], ()))
+    if found.node is None:
+        return (0.0, 0.0, 0.0)
+    if found.node.bl_idname != "ShaderNodeEmission":
+        report.warn(28, "node '%s'" % found.node.name, "the light's own colour and power")
+        return (1.0, 1.0, 1.0)
+    color = values.input(found, "Color")
+    strength = values.input(found, "Strength")
+    if color.texture or strength.texture:
+        report.warn(28, "texture in node '%s'" % found.node.name, "its mean")
+    return scaled(values.constant(color), gray(values.constant(strength)))
+
+
+def light_color(lamp):
+    color = tuple(lamp.color)
+    if getattr(lamp, "use_temperature", False):  # 4.5
+        tint = getattr(lamp, "temperature_color", None)
+        color = product(color, tuple(tint) if tint else blackbody(lamp.temperature))
+    return scaled(color, 2.0 ** getattr(lamp, "exposure", 0.0))  # 4.5
+
+
+def casts_shadows(lamp):
+    cycles = getattr(getattr(lamp, "cycles", None), "cast_shadow", True)
+    return bool(lamp.use_shadow and cycles)
+
+
+def is_sphere_lamp(lamp):
+    """Lamps with a radius are disks that face the receiver, but spheres in 4.0 and, later, when
+    soft falloff is off."""
+    if VERSION < (4, 0):
+        return False
+    return not getattr(lamp, "use_soft_falloff", False)
+
+
+def put_light(text, name, lamp, rows, is_visible, values, report):
+    place = without_scale(rows)
+    scale = [length(column(rows, i)) for i in range(3)]
+    power = scaled(product(light_color(lamp), light_strength(lamp, values, report)), lamp.energy)
+    power = tuple(max(x, 0.0) for x in power)
+    normalize = getattr(lamp, "normalize", True)  # 4.5
+    with text.block("light", name):
+        LIGHT_TYPES[lamp.type](text, lamp, power, place, scale, is_visible, normalize, report)
+        text.put_unless(True, "shadows", casts_shadows(lamp))
+
+
+def put_point_light(text, lamp, power, place, _scale, is_visible, normalize, _report):
+    radius = lamp.shadow_soft_size
+    if radius > 0 and is_sphere_lamp(lamp):
+        area = 4 * math.pi * math.pi * radius * radius if normalize else math.pi
+        text.put("type", "sphere")
+        text.put_rows(place)
+        text.put("color", scaled(power, 1 / area))
+        text.put("radius", radius)
+        text.put_unless(False, "visible", is_visible)
+        return
+    text.put("type", "point")
+    text.put_rows(place)
+    text.put("color", scaled(power, intensity_factor(radius, normalize)))
+    text.put_unless(0, "radius", radius)
+
+
+def intensity_factor(radius, normalize):
+    """Watts -> W/sr. Without normalisation the power is that of a disk of area 1/4."""
+    if normalize:
+        return 1 / (4 * math.pi)
+    return 1 / math.pi if radius <= 0 else radius * radius
+
+
+def put_spot(text, lamp, power, place, scale, _is_visible, normalize, report):
+    angle = lamp.spot_size
+    if abs(scale[0] - scale[1]) > 1e-4 * scale[0]:
+        report.warn(29, "scale makes the cone elliptic", "a round cone")
+    across = (scale[0] + scale[1]) / 2
+    if abs(across - scale[2]) > 1e-4 * across and scale[2] > 0 and angle < 3.14:
+        angle = 2 * math.atan(math.tan(angle / 2) * across / scale[2])
+    text.put("type", "spot")
+    text.put_rows(place)
+    text.put("color", scaled(power, intensity_factor(lamp.shadow_soft_size, normalize)))
+    text.put_unless(0, "radius", lamp.shadow_soft_size)
+    text.put("cone_angle", min(math.degrees(angle), 180.0))
+    text.put("blend", lamp.spot_blend)
+    text.put_unless(False, "cosine_falloff", VERSION < (3, 5))
+
+
+def put_sun(text, lamp, power, place, _scale, _is_visible, normalize, _report):
+    angle = lamp.angle
+    factor = 1.0
+    if VERSION < (4, 0):  # measured in 3.4: a large sun loses a little
+        factor = (1 + math.cos(angle / 2)) / 2
+    if not normalize and angle > 0:
+        factor *= math.pi * math.sin(angle / 2) ** 2
+    text.put("type", "sun")
+    text.put_rows(place)
+    text.put("color", scaled(power, factor))
+    text.put_unless(0, "angle", math.degrees(angle))
+
+
+def put_area_light(text, lamp, power, place, scale, is_visible, normalize, _report):
+    is_round = lamp.shape in {"DISK", "ELLIPSE"}
+    size_y = lamp.size_y if lamp.shape in {"RECTANGLE", "ELLIPSE"} else lamp.size
+    size = (max(lamp.size * scale[0], 1e-9), max(size_y * scale[1], 1e-9))
+    area = size[0] * size[1] * (math.pi / 4 if is_round else 1)
+    if not normalize:
+        area = 1.0
+    elif VERSION < (4, 0):
+        area *= 4 / math.pi
+    text.put("type", "disk" if is_round else "rectangle")
+    text.put_rows(place)
+    text.put("color", scaled(power, 1 / (math.pi * area)))
+    text.put("size", *size)
+    spread = math.degrees(getattr(lamp, "spread", math.pi))
+    if spread < 179.99:
+        text.put("spread", max(spread, 1e-3))
+    text.put_unless(False, "visible", is_visible)
+
+
+LIGHT_TYPES = {
+    "POINT": put_point_light,
+    "SPOT": put_spot,
+    "SUN": put_sun,
+    "AREA": put_area_light,
+}
+
+
+# ------------------------------------------------------------------------------------------ 8 images
+
+NATIVE_FILES = (".ppm", ".png", ".pfm")
+OTHER_FILES = (".jpg", ".jpeg", ".tga", ".bmp", ".tif", ".tiff", ".exr", ".hdr", ".webp")
+LINEAR_SPACES = {"Non-Color", "Raw", "Linear", "Linear Rec.709", "Generic Data"}
+
+
+def base_name(path):
+    """File name of a path that may come from another system."""
+    return re.split(r"[\\/]", path)[-1]
+
+
+def srgb_to_linear(x):
+    return x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055) ** 2.4
+
+
+def encode_png(width, height, channels, rows_bottom_up):
+    """8-bit PNG of 3 or 4 channels."""
+    stride = width * channels
+    lines = bytearray()
+    for y in range(height - 1, -1, -1):
+        lines.append(0)
+        lines += rows_bottom_up[y * stride : (y + 1) * stride]
+
+    def chunk(kind, data):
+        body = kind + data
+        return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
+
+    header = struct.pack(">IIBBBBB", width, height, 8, 2 if channels == 3 else 6, 0, 0, 0)
+    return (b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header)
+            + chunk(b"IDAT", zlib.compress(bytes(lines), 6)) + chunk(b"IEND", b""))
+
+
+def encode_pfm(width, height, rgb_bottom_up):
+    data = array("f", rgb_bottom_up)
+    if sys.byteorder != "little":
+        data.byteswap()
+    return b"PF\n%d %d\n-1.0\n" % (width, height) + data.tobytes()
+
+
+def mean_of_ppm(path):
+    """Mean of the stored values of an 8-bit P6 file, which Blender itself cannot always read."""
+    with open(path, "rb") as file:
+        head = re.match(rb"P6\s+(?:#.*\s+)*(\d+)\s+(\d+)\s+255\s", file.read(200))
+        if not head:
+            return None
+        file.seek(head.end())
+        data = file.read()
+    return [data[i::3] for i in range(3)] if len(data) >= 3 else None
+
+
+class Pixels(NamedTuple):
+    """Pixels of an image as Blender stores them, rows from the bottom."""
+    width: int
+    height: int
+    channels: int
+    values: array
+    is_float: bool
+
+
+class Images:
+    """Finds the file of each image, and writes one where there is none that the renderer reads."""
+
+    def __init__(self, out_folder, textures, report):
+        self.out_folder = out_folder
+        self.report = report
+        self.files = {}
+        self.means = {}
+        beside = os.path.dirname(out_folder) if os.path.basename(out_folder) == "ASCII" else out_folder
+        self.store = os.path.abspath(textures) if textures else os.path.join(beside, "Textures")
+        script = os.path.dirname(os.path.abspath(globals().get("__file__", "")))
+        self.known = [self.store, os.path.join(beside, "Textures")]
+        blend = [os.path.dirname(bpy.data.filepath)] if bpy.data.filepath else []
+        self.searched = blend + self.known + [os.path.join(os.path.dirname(script), "Textures")]
+
+    # ---- finding
+
+    def file(self, image, inverted=False):
+        """Path of the image's file relative to the output; None after a warning."""
+        key = (image.name_full, inverted)
+        if key not in self.files:
+            self.files[key] = self.invert(image) if inverted else self.locate(image)
+        return self.files[key]
+
+    def locate(self, image):
+        if image.source in {"SEQUENCE", "MOVIE", "TILED"}:
+            self.report.warn(24, "image '%s' is a %s" % (image.name, image.source.lower()), "one picture")
+        edited = image.is_dirty and image.source != "GENERATED"
+        packed = getattr(image, "packed_file", None)
+        if packed is not None and not edited:
+            data = bytes(packed.data)
+            if data[:8] == b"\x89PNG\r\n\x1a\n":
+                return self.save(self.stem(image), ".png", data)
+            return self.convert(image)
+        if image.source == "GENERATED" or edited:
+            return self.convert(image)
+        path = self.find(image)
+        if path is None:
+            self.report.warn(22, "image '%s': no file '%s'" % (image.name, base_name(image.filepath)),
+                             "no texture")
+            return None
+        if os.path.splitext(path)[1].lower() in NATIVE_FILES:
+            return self.use(path)
+        return self.convert(image, path)
+
+    def find(self, image):
+        path = image.filepath_raw or image.filepath
+        path = path.replace("<UDIM>", "1001").replace("<UVTILE>", "u1_v1")
+        own = bpy.path.abspath(path, library=image.library)
+        if os.path.isfile(own):
+            return os.path.abspath(own)
+        name = base_name(path)
+        stem = os.path.splitext(name)[0]
+        if not stem:
+            return None
+        for wanted in [name] + [stem + ext for ext in NATIVE_FILES + OTHER_FILES]:
+            for folder in self.searched:
+                candidate = os.path.join(folder, wanted)
+                if os.path.isfile(candidate):
+                    self.report.note("image '%s' found as %s" % (image.name, wanted))
+                    return os.path.abspath(candidate)
+        return None
+
+    def use(self, path):
+        """A file that the renderer reads: named where it is if that is beside us, else copied."""
+        folders = [self.out_folder] + self.known
+        if any(os.path.realpath(path).startswith(os.path.realpath(f) + os.sep) for f in folders):
+            return self.relative(path)
+        with open(path, "rb") as file:
+            data = file.read()
+        stem, extension = os.path.splitext(os.path.basename(path))
+        return self.save(stem, extension.lower(), data)
+
+    def relative(self, path):
+        return os.path.relpath(path, self.out_folder).replace(os.sep, "/")
+
+    # ---- writing
+
+    def stem(self, image):
+        """Stable file name of an image that has no file of its own."""
+        stem = os.path.splitext(base_name(image.name))[0] or "image"
+        blend = os.path.splitext(os.path.basename(bpy.data.filepath))[0]
+        return re.sub(r"[^A-Za-z0-9_.-]+", "_", "%s_%s" % (blend, stem) if blend else stem)
+
+    def save(self, stem, extension, data):
+        os.makedirs(self.store, exist_ok=True)
+        path = os.path.join(self.store, stem + extension)
+        if os.path.exists(path) and not same_bytes(path, data):
+            path = os.path.join(self.store, "%s-%s%s" % (stem, hashlib.sha1(data).hexdigest()[:8], extension))
+        if not os.path.exists(path):
+            write_atomically(path, data)
+        return self.relative(path)
+
+    def convert(self, image, path=None):
+        pixels = self.pixels(image, path)
+        if pixels is None:
+            self.report.warn(23, "image '%s' cannot be read" % image.name, "no texture")
+            return None
+        stem = os.path.splitext(os.path.basename(path))[0] if path else self.stem(image)
+        return self.save(stem, *self.encode(pixels))
+
+    def invert(self, image):
+        pixels = self.pixels(image, self.find(image) if image.source == "FILE" else None)
+        if pixels is None or pixels.is_float:
+            self.report.warn(23, "image '%s' cannot be inverted" % image.name, "no texture")
+            return None
+        values = array("f", (1 - x for x in pixels.values))
+        return self.save(self.stem(image) + "_inverted", *self.encode(pixels._replace(values=values)))
+
+    @staticmethod
+    def encode(pixels):
+        width, height, channels, values, is_float = pixels
+        planes = [values[i::channels] for i in range(channels)]
+        if channels < 3:  # grey, grey and alpha
+            planes = [planes[0]] * 3 + planes[1:]
+        if is_float:
+            rgb = array("f", bytes(12 * width * height))
+            for i in range(3):
+                rgb[i::3] = planes[i]
+            return ".pfm", encode_pfm(width, height, rgb)
+        stored = [bytes([min(max(int(x * 255 + 0.5), 0), 255) for x in plane]) for plane in planes]
+        if len(stored) == 4 and min(stored[3]) == 255:
+            stored.pop()
+        data = bytearray(len(stored) * width * height)
+        for i, plane in enumerate(stored):
+            data[i :: len(stored)] = plane
+        return ".png", encode_png(width, height, len(stored), data)
+
+    def pixels(self, image, path=None):
+        """Pixels of the image, or of the file that stands in for its own; None if unreadable."""
+        substitute = None
+        own = bpy.path.abspath(image.filepath, library=image.library)
+        if path and not (os.path.exists(own) and os.path.samefile(own, path)):
+            try:
+                substitute = image = bpy.data.images.load(path, check_existing=False)
+            except RuntimeError:
+                return None
+        try:
+            width, height = image.size
+            if width == 0 or height == 0:
+                return None
+            values = array("f", bytes(4 * len(image.pixels)))
+            image.pixels.foreach_get(values)
+            return Pixels(width, height, len(values) // (width * height), values, image.is_float)
+        finally:
+            if substitute:
+                bpy.data.images.remove(substitute)
+
+    # ---- numbers
+
+    def mean(self, texture):
+        """Mean colour of a texture in linear light, from some thousand of its pixels."""
+        key = (texture.image.name_full, texture.channel, texture.space)
+        if key not in self.means:
+            self.means[key] = self.measure(texture)
+        mean = self.means[key]
+        return tuple(1 - x for x in mean) if texture.inverted else mean
+
+    def measure(self, texture):
+        path = self.find(texture.image) if texture.image.source == "FILE" else None
+        pixels = self.pixels(texture.image, path)
+        if pixels is not None:
+            first = 3 if texture.channel == "alpha" and pixels.channels == 4 else 0
+            same = texture.channel == "alpha" or pixels.channels < 3
+            planes = [pixels.values[first if same else i :: pixels.channels] for i in range(3)]
+            is_float = pixels.is_float
+        else:
+            planes = mean_of_ppm(path) if path and path.lower().endswith(".ppm") else None
+            if planes is None:
+                return (0.5, 0.5, 0.5)
+            planes, is_float = [[x / 255 for x in p[:: max(1, len(p) // 4096)]] for p in planes], False
+        decode = texture.space == "srgb" and texture.channel == "color" and not is_float
+        means = []
+        for plane in planes:
+            some = plane[:: max(1, len(plane) // 4096)]
+            means.append(sum(map(srgb_to_linear, some) if decode else some) / len(some))
+        return tuple(means)
+
+
+def same_bytes(path, data):
+    if os.path.getsize(path) != len(data):
+        return False
+    with open(path, "rb") as file:
+        return file.read() == data
+
+
+def write_atomically(path, data):
+    """Nobody ever sees half a file."""
+    temporary = "%s.%d.tmp" % (path, os.getpid())
+    try:
+        with open(temporary, "wb") as file:
+            file.write(data)
+        os.replace(temporary, path)
+    except BaseException:
+        with contextlib.suppress(OSError):
+            os.remove(temporary)
+        raise
+
+
+# ------------------------------------------------------------------------------------------ 9 values
+
+BLACK, WHITE, GRAY = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (0.8, 0.8, 0.8)
+
+
+def scaled(rgb, factor):
+    return tuple(x * factor for x in rgb)
+
+
+def product(a, b):
+    return tuple(x * y for x, y in zip(a, b))
+
+
+def plus(a, b):
+    return tuple(x + y for x, y in zip(a, b))
+
+
+def mixed(a, b, t):
+    return tuple(x + (y - x) * t for x, y in zip(a, b))
+
+
+def gray(rgb):
+    """A colour that goes into a number socket."""
+    r, g, b = rgb
+    return r if r == g == b else 0.2126 * r + 0.7152 * g + 0.0722 * b
+
+
+def clamped(rgb):
+    return tuple(min(max(x, 0.0), 1.0) for x in rgb)
+
+
+class Socket(NamedTuple):
+    """An input socket and the group nodes around it, from the outside inwards."""
+    socket: object
+    path: tuple
+
+
+class Source(NamedTuple):
+    """What feeds a socket: a node's output, or (node None) the default of `socket`."""
+    node: object
+    output: object
+    path: tuple
+    socket: object
+
+
+@dataclass(frozen=True)
+class Texture:
+    """A texture block of the format, and the coordinates it is looked up with."""
+    image: object = field(compare=False)
+    file: str
+    space: str
+    interpolation: str = "bilinear"
+    extension: str = "repeat"
+    channel: str = "color"
+    scale: tuple = (1.0, 1.0)
+    rotation: float = 0.0
+    offset: tuple = (0.0, 0.0)
+    coordinates: tuple = ("uv", "")
+    inverted: bool = False
+
+
+@dataclass(frozen=True)
+class Value:
+    """A colour, times a texture if there is one. Numbers are grey."""
+    rgb: tuple
+    texture: Optional[Texture] = None
+
+
+def number_value(x):
+    return Value((x, x, x))
+
+
+# svm_math_blackbody_color_rec709 of Cycles: fitted curves, r and g as a/t + b*t + c.
+_BLACKBODY_STARTS = (965.0, 1167.0, 1449.0, 1902.0, 3315.0, 6365.0)
+_BLACKBODY_R = (
+    (1.61919106e+03, -2.05010916e-03, 5.02995757e+00), (2.48845471e+03, -1.11330907e-03, 3.22621544e+00),
+    (3.34143193e+03, -4.86551192e-04, 1.76486769e+00), (4.09461742e+03, -1.27446582e-04, 7.25731635e-01),
+    (4.67028036e+03, 2.91258199e-05, 1.26703442e-01), (4.59509185e+03, 2.87495649e-05, 1.50345020e-01),
+    (3.78717450e+03, 9.35907826e-06, 3.99075871e-01))
+_BLACKBODY_G = (
+    (-4.88999748e+02, 6.04330754e-04, -7.55807526e-02), (-7.55994277e+02, 3.16730098e-04, 4.78306139e-01),
+    (-1.02363977e+03, 1.20223470e-04, 9.36662319e-01), (-1.26571316e+03, 4.87340896e-06, 1.27054498e+00),
+    (-1.42529332e+03, -4.01150431e-05, 1.43972784e+00), (-1.17554822e+03, -2.16378048e-05, 1.30408023e+00),
+    (-5.00799571e+02, -4.59832026e-06, 1.09098763e+00))
+_BLACKBODY_B = (
+    (5.96945309e-11, -4.85742887e-08, -9.70622247e-05, -4.07936148e-03),
+    (2.40430366e-11, 5.55021075e-08, -1.98503712e-04, 2.89312858e-02),
+    (-1.40949732e-11, 1.89878968e-07, -3.56632824e-04, 9.10767778e-02),
+    (-3.61460868e-11, 2.84822009e-07, -4.93211319e-04, 1.56723440e-01),
+    (-1.97075738e-11, 1.75359352e-07, -2.50542825e-04, -2.22783266e-02),
+    (-1.61997957e-13, -1.64216008e-08, 3.86216271e-04, -7.38077418e-01),
+    (6.72650283e-13, -2.73078809e-08, 4.24098264e-04, -7.52335691e-01))
+
+
+def blackbody(t):
+    if t >= 12000:
+        return (0.8262954810464208, 0.9945080501520986, 1.566307710274283)
+    if t < 800:
+        return (5.413294490189271, 0.0, 0.0)
+    i = sum(t >= start for start in _BLACKBODY_STARTS)
+    r, g, b = _BLACKBODY_R[i], _BLACKBODY_G[i], _BLACKBODY_B[i]
+    rgb = (r[0] / t + r[1] * t + r[2], g[0] / t + g[1] * t + g[2], ((b[0] * t + b[1]) * t + b[2]) * t + b[3])
+    return tuple(max(x, 0.0) for x in rgb)
+
+
+def fresnel_dielectric(cosine, ior):
+    sine2 = (1 - cosine * cosine) / (ior * ior)
+    if sine2 >= 1:
+        return 1.0
+    out = math.sqrt(1 - sine2)
+    parallel = (ior * cosine - out) / (ior * cosine + out)
+    perpendicular = (cosine - ior * out) / (cosine + ior * out)
+    return (parallel * parallel + perpendicular * perpendicular) / 2
+
+
+def fresnel_normal(ior):
+    """Reflectance at normal incidence."""
+    return ((ior - 1) / (ior + 1)) ** 2
+
+
+def fresnel_mean(ior):
+    """Reflectance of a boundary for light that comes from everywhere."""
+    n = 64
+    return sum(2 * c * fresnel_dielectric(c, ior) for c in ((i + 0.5) / n for i in range(n))) / n
+
+
+def schlick_mean(f0):
+    return f0 + (1 - f0) / 21
+
+
+def rotation_2d(degrees):
+    c, s = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    return c, s
+
+
+def plane_map(node_type, location, rotation, scale):
+    """Mapping node -> ((a, b, tx), (c, d, ty)) on the plane, and whether that is all of it."""
+    turn = Euler(rotation, "XYZ").to_matrix()
+    stretch = Matrix.Diagonal(Vector(scale))
+    if node_type == "TEXTURE":  # the inverse of what the node says
+        safe = Vector([1 / s if s else 0.0 for s in scale])
+        linear = Matrix.Diagonal(safe) @ turn.transposed()
+        shift = linear @ (-Vector(location))
+    else:
+        linear = turn @ stretch
+        shift = Vector(location) if node_type == "POINT" else Vector((0, 0, 0))
+    is_plane = abs(linear[0][2]) < 1e-6 and abs(linear[1][2]) < 1e-6
+    rows = tuple((linear[i][0], linear[i][1], shift[i]) for i in range(2))
+    return rows, is_plane
+
+
+def compose_plane(outer, inner):
+    return tuple(
+        (o[0] * inner[0][0] + o[1] * inner[1][0], o[0] * inner[0][1] + o[1] * inner[1][1],
+         o[0] * inner[0][2] + o[1] * inner[1][2] + o[2])
+        for o in outer
+    )
+
+
+def tidy(x):
+    """Removes the dust of single-precision rotations."""
+    nearest = round(x, 6)
+    return nearest + 0.0 if abs(x - nearest) < 1e-7 else x
+
+
+def split_plane(rows):
+    """Plane map -> (scale, rotation in degrees, offset, exact) of a texture block."""
+    (a, b, tx), (c, d, ty) = rows
+    along = math.hypot(a, c)
+    angle = math.atan2(c, a) if along > 0 else math.atan2(-b, d)
+    across = -b * math.sin(angle) + d * math.cos(angle)
+    shear = b * math.cos(angle) + d * math.sin(angle)
+    exact = abs(shear) <= 1e-5 * max(along, abs(across), 1e-9)
+    degrees = math.degrees(angle)
+    if abs(abs(degrees) - 180) < 1e-4:  # two mirrors read better than half a turn
+        along, across, degrees = -along, -across, 0.0
+    return (tidy(along), tidy(across)), tidy(degrees), (tidy(tx), tidy(ty)), exact
+
+
+class Values:
+    """Evaluates sockets that are not shaders. Constants are folded, image textures are kept."""
+
+    def __init__(self, images, report):
+        self.images = images
+        self.report = report
+
+    # ---- the graph
+
+    def source(self, at):
+        """Follows links through reroutes, muted nodes and groups."""
+        socket, path = at
+        for _ in range(1000):
+            link = next((l for l in socket.links if l.is_valid and not l.is_muted), None) \
+                if socket.is_linked else None
+            if link is None:
+                return Source(None, None, path, socket)
+            node, output = link.from_node, link.from_socket
+            if node.mute:
+                inner = next((l.from_socket for l in node.internal_links if l.to_socket == output), None)
+                if inner is None:
+                    return Source(None, None, path, None)
+                socket = inner
+            elif node.bl_idname == "NodeReroute":
+                socket = node.inputs[0]
+            elif node.bl_idname == "ShaderNodeGroup":
+                end = group_output(node.node_tree) if node.node_tree else None
+                inner = by_identifier(end.inputs, output.identifier) if end else None
+                if inner is None:
+                    return Source(None, None, path, None)
+                socket, path = inner, path + (node,)
+            elif node.bl_idname == "NodeGroupInput":
+                if not path:
+                    return Source(None, None, path, None)
+                group, path = path[-1], path[:-1]
+                socket = by_identifier(group.inputs, output.identifier)
+                if socket is None:
+                    return Source(None, None, path, None)
+            else:
+                return Source(node, output, path, None)
+        raise ExportError("the links of node tree '%s' go in circles" % socket.id_data.name)
+
+    def socket(self, found, *names):
+        """Input of a node by name or identifier; names changed over the versions."""
+        for name in names:
+            for socket in found.node.inputs:
+                if name in (socket.identifier, socket.name) and getattr(socket, "enabled", True):
+                    return Socket(socket, found.path)
+        for name in names:
+            for socket in found.node.inputs:
+                if name in (socket.identifier, socket.name):
+                    return Socket(socket, found.path)
+        return None
+
+    def input(self, found, *names, default=0.0):
+        at = self.socket(found, *names)
+        return number_value(default) if at is None else self.value(at)
+
+    def at_index(self, found, i):
+        return self.value(Socket(found.node.inputs[i], found.path))
+
+    def value(self, at):
+        found = self.source(at)
+        if found.node is None:
+            return default_value(found.socket)
+        convert = VALUE_NODES.get(found.node.bl_idname)
+        if convert is None:
+            self.report.warn(12, "node '%s' (%s)" % (found.node.name, kind_of(found.node)), "grey 0.5")
+            return number_value(0.5)
+        return convert(self, found)
+
+    # ---- results
+
+    def constant(self, value):
+        """The colour of a value; a texture counts with its mean."""
+        if value.texture is None:
+            return value.rgb
+        return product(value.rgb, self.images.mean(value.texture))
+
+    def number(self, found, *names, default=0.0):
+        """Input that must be a constant number."""
+        value = self.input(found, *names, default=default)
+        if value.texture is not None:
+            self.report.warn(14, "node '%s' has a texture at '%s'" % (found.node.name, names[0]), "its mean")
+        return gray(self.constant(value))
+
+    def color(self, found, *names):
+        value = self.input(found, *names)
+        if value.texture is not None:
+            self.report.warn(14, "node '%s' has a texture at '%s'" % (found.node.name, names[0]), "its mean")
+        return self.constant(value)
+
+    def fold(self, found, values, compute):
+        """compute(colours) when all are constant; else the texture passes unchanged."""
+        textured = next((v for v in values if v.texture is not None), None)
+        if textured is None:
+            return Value(tuple(compute(*[v.rgb for v in values])))
+        self.report.warn(12, "node '%s' (%s) on a texture" % (found.node.name, kind_of(found.node)),
+                         "the texture without it")
+        return textured
+
+    # ---- nodes
+
+    def rgb(self, found):
+        return Value(tuple(found.output.default_value)[:3])
+
+    def plain_number(self, found):
+        return number_value(found.output.default_value)
+
+    def image_texture(self, found):
+        texture = self.texture(found)
+        return Value(WHITE, texture) if texture else Value(GRAY)
+
+    def mix(self, found):
+        node = found.node
+        if node.bl_idname == "ShaderNodeMixRGB":
+            t, a, b = (self.at_index(found, i) for i in range(3))
+            blend, clamp_factor, clamp_result = node.blend_type, True, node.use_clamp
+        else:
+            kind = {"RGBA": "Color", "VECTOR": "Vector"}.get(node.data_type, "Float")
+            uniform = kind != "Vector" or node.factor_mode == "UNIFORM"
+            t = self.input(found, "Factor_Float" if uniform else "Factor_Vector")
+            a, b = self.input(found, "A_" + kind), self.input(found, "B_" + kind)
+            blend = node.blend_type if kind == "Color" else "MIX"
+            clamp_factor, clamp_result = node.clamp_factor, kind == "Color" and node.clamp_result
+        if t.texture is None:
+            factor = gray(t.rgb)
+            factor = min(max(factor, 0.0), 1.0) if clamp_factor else factor
+            if blend == "MIX" and factor in (0.0, 1.0):
+                return b if factor else a
+            if blend == "MULTIPLY" and factor == 1 and (a.texture is None or b.texture is None):
+                return Value(product(a.rgb, b.rgb), a.texture or b.texture)
+            if factor == 0:
+                return a
+        operation = BLENDS.get(blend)
+        if operation is None:
+            self.report.warn(12, "blend type %s of node '%s'" % (blend, node.name), "a plain mix")
+            operation = BLENDS["MIX"]
+        if a.texture and b.texture is None and t.texture is None and blend == "MIX" and factor > 0.5:
+            a, b, factor = b, a, 1 - factor  # keep what counts more
+        finish = clamped if clamp_result else lambda rgb: rgb
+        compute = lambda t, a, b: finish(
+            tuple(x + (operation(x, y) - x) * gray(t) for x, y in zip(a, b)))
+        return self.fold(found, (t, a, b), compute)
+
+    def math(self, found):
+        node = found.node
+        values = [self.value(Socket(s, found.path)) for s in node.inputs]
+        operation = MATH.get(node.operation)
+        if node.operation == "SUBTRACT" and values[1].texture and not values[1].texture.inverted \
+                and values[0] == number_value(1.0) and values[1].rgb == WHITE:
+            return Value(WHITE, replace(values[1].texture, inverted=True))
+        if node.operation == "MULTIPLY" and sum(v.texture is not None for v in values[:2]) == 1:
+            return Value(product(values[0].rgb, values[1].rgb), values[0].texture or values[1].texture)
+        if operation is None:
+            self.report.warn(12, "operation %s of node '%s'" % (node.operation, node.name), "its first input")
+            return values[0]
+        finish = (lambda x: min(max(x, 0.0), 1.0)) if node.use_clamp else (lambda x: x)
+
+        def compute(*rgbs):
+            try:
+                x = finish(operation(*[gray(rgb) for rgb in rgbs]))
+            except (ArithmeticError, ValueError):  # as Blender: impossible is 0
+                x = 0.0
+            return (x, x, x)
+
+        used = 3 if node.operation in {"MULTIPLY_ADD", "COMPARE"} else 1 if node.operation in UNARY else 2
+        return self.fold(found, (values + [number_value(0.0)] * 3)[: max(used, 1)], compute)
+
+    def vector_math(self, found):
+        node = found.node
+        operation = VECTOR_MATH.get(node.operation)
+        a, b = self.at_index(found, 0), self.at_index(found, 1)
+        if operation is None:
+            self.report.warn(12, "operation %s of node '%s'" % (node.operation, node.name), "its first input")
+            return a
+        return self.fold(found, (a, b), lambda a, b: tuple(map(operation, a, b)))
+
+    def invert(self, found):
+        t, color = self.input(found, "Fac"), self.input(found, "Color")
+        if color.texture and t.rgb == WHITE and t.texture is None and color.rgb == WHITE:
+            return Value(WHITE, replace(color.texture, inverted=not color.texture.inverted))
+        return self.fold(found, (t, color), lambda t, c: mixed(c, tuple(1 - x for x in c), gray(t)))
+
+    def gamma(self, found):
+        values = self.input(found, "Color"), self.input(found, "Gamma")
+        return self.fold(found, values, lambda c, g: tuple(max(x, 0.0) ** gray(g) for x in c))
+
+    def bright_contrast(self, found):
+        values = self.input(found, "Color"), self.input(found, "Bright"), self.input(found, "Contrast")
+        compute = lambda c, b, k: tuple(
+            max((1 + gray(k)) * x + gray(b) - gray(k) * 0.5, 0.0) for x in c)
+        return self.fold(found, values, compute)
+
+    def hue_saturation(self, found):
+        values = [self.input(found, n) for n in ("Hue", "Saturation", "Value", "Fac", "Color")]
+        if all(v.texture is None for v in values[:4]):
+            hue, saturation, value, factor = (gray(v.rgb) for v in values[:4])
+            if hue == 0.5 and saturation == 1 and factor == 1:
+                return replace(values[4], rgb=scaled(values[4].rgb, value))
+
+        def compute(h, s, v, t, c):
+            import colorsys
+            a, b, d = colorsys.rgb_to_hsv(*c)
+            turned = colorsys.hsv_to_rgb((a + gray(h) + 0.5) % 1.0, min(max(b * gray(s), 0), 1), d * gray(v))
+            return tuple(max(x, 0.0) for x in mixed(c, turned, gray(t)))
+
+        return self.fold(found, values, compute)
+
+    def color_ramp(self, found):
+        ramp = found.node.color_ramp
+        alpha = found.output.name == "Alpha"
+        pick = lambda c: (c[3],) * 3 if alpha else tuple(c[:3])
+        return self.fold(found, (self.input(found, "Fac"),), lambda t: pick(ramp.evaluate(gray(t))))
+
+    def clamp(self, found):
+        values = [self.input(found, n) for n in ("Value", "Min", "Max")]
+        return self.fold(found, values, lambda v, a, b: (min(max(gray(v), gray(a)), gray(b)),) * 3)
+
+    def map_range(self, found):
+        names = ("Value", "From Min", "From Max", "To Min", "To Max")
+        values = [self.input(found, n) for n in names]
+
+        def compute(*rgbs):
+            v, a, b, c, d = map(gray, rgbs)
+            t = (v - a) / (b - a) if a != b else 0.0
+            t = min(max(t, 0.0), 1.0) if found.node.clamp else t
+            return (c + t * (d - c),) * 3
+
+        return self.fold(found, values, compute)
+
+    def combine(self, found):
+        values = [self.at_index(found, i) for i in range(3)]
+        compute = lambda a, b, c: from_mode(getattr(found.node, "mode", "RGB"), gray(a), gray(b), gray(c))
+        return self.fold(found, values, compute)
+
+    def combine_hsv(self, found):
+        values = [self.at_index(found, i) for i in range(3)]
+        return self.fold(found, values, lambda a, b, c: from_mode("HSV", gray(a), gray(b), gray(c)))
+
+    def separate(self, found):
+        i = [o.identifier for o in found.node.outputs].index(found.output.identifier)
+        value = self.at_index(found, 0)
+        mode = getattr(found.node, "mode", "RGB")
+        return self.fold(found, (value,), lambda c: (to_mode(mode, c)[i],) * 3)
+
+    def separate_hsv(self, found):
+        i = [o.identifier for o in found.node.outputs].index(found.output.identifier)
+        return self.fold(found, (self.at_index(found, 0),), lambda c: (to_mode("HSV", c)[i],) * 3)
+
+    def to_gray(self, found):
+        value = self.at_index(found, 0)
+        return value if value.texture else number_value(gray(value.rgb))
+
+    def black_body(self, found):
+        return self.fold(found, (self.at_index(found, 0),), lambda t: blackbody(gray(t)))
+
+    def fresnel(self, found):
+        """As a plain value: its mean. Where it mixes shaders, Shaders.mix does better."""
+        mean = fresnel_mean(max(fresnel_ior(self, found), 1.0)) if fresnel_ior(self, found) else 0.5
+        self.report.warn(14, "node '%s' outside of the Fac of a Mix Shader" % found.node.name, "its mean")
+        return number_value(mean)
+
+    def light_path(self, found):
+        is_camera = found.output.name == "Is Camera Ray"
+        self.report.warn(12, "node '%s' (Light Path)" % found.node.name, "as seen by the camera")
+        return number_value(1.0 if is_camera else 0.0)
+
+    def checker(self, found):
+        self.report.warn(12, "node '%s' (Checker Texture)" % found.node.name, "the mean of its colours")
+        a, b = self.constant(self.input(found, "Color1")), self.constant(self.input(found, "Color2"))
+        return Value(mixed(a, b, 0.5))
+
+    # ---- image textures
+
+    def texture(self, found):
+        node = found.node
+        image = node.image
+        if image is None:
+            self.report.warn(22, "node '%s' has no image" % node.name, "no texture")
+            return None
+        image = image.original if image.original else image
+        file = self.images.file(image)
+        if file is None:
+            return None
+        if getattr(node, "projection", "FLAT") != "FLAT" and node.bl_idname == "ShaderNodeTexImage":
+            self.report.warn(20, "node '%s' projection %s" % (node.name, node.projection), "flat")
+        scale, rotation, offset, coordinates = self.lookup(found)
+        return Texture(
+            image=image, file=file, space=self.space(image, file),
+            interpolation=self.interpolation(node), extension=self.extension(node),
+            channel="alpha" if found.output.name == "Alpha" else "color",
+            scale=scale, rotation=rotation, offset=offset, coordinates=coordinates)
+
+    def space(self, image, file):
+        settings = image.colorspace_settings
+        name = settings.name
+        if file.endswith(".pfm") or getattr(settings, "is_data", False) or name in LINEAR_SPACES:
+            return "linear"
+        if name not in {"sRGB", ""}:
+            self.report.warn(25, "image '%s' has the colour space '%s'" % (image.name, name), "sRGB")
+        return "srgb"
+
+    def interpolation(self, node):
+        if node.interpolation not in {"Linear", "Closest"}:
+            self.report.warn(26, "node '%s' interpolation %s" % (node.name, node.interpolation), "bilinear")
+        return "nearest" if node.interpolation == "Closest" else "bilinear"
+
+    def extension(self, node):
+        name = getattr(node, "extension", "REPEAT")
+        if name not in {"REPEAT", "EXTEND", "CLIP"}:
+            self.report.warn(26, "node '%s' extension %s" % (node.name, name), "repeat")
+            name = "REPEAT"
+        return name.lower()
+
+    def lookup(self, found):
+        """Texture coordinates of an image node: scale, rotation, offset, where they come from."""
+        rows = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0))
+        at = self.socket(found, "Vector")
+        while True:
+            before = self.source(at)
+            if before.node is None or before.node.bl_idname != "ShaderNodeMapping":
+                break
+            vectors = [self.color(before, n) for n in ("Location", "Rotation", "Scale")]
+            step, is_plane = plane_map(before.node.vector_type, *vectors)
+            if not is_plane or before.node.vector_type == "NORMAL":
+                self.report.warn(19, "node '%s' turns out of the plane" % before.node.name,
+                                 "its part in the plane")
+            rows = compose_plane(rows, step)
+            at = self.socket(before, "Vector")
+        scale, rotation, offset, exact = split_plane(rows)
+        if not exact:
+            self.report.warn(19, "the mapping of node '%s' shears" % found.node.name, "no shear")
+        return scale, rotation, offset, self.coordinates(found, before)
+
+    def coordinates(self, texture, found):
+        """('uv', name), ('generated',) or ('object',)"""
+        if found.node is None:
+            return ("uv", "")
+        node = found.node
+        if node.bl_idname == "ShaderNodeUVMap":
+            return ("uv", node.uv_map)
+        if node.bl_idname == "ShaderNodeAttribute" and node.attribute_type == "GEOMETRY":
+            return ("uv", node.attribute_name)
+        if node.bl_idname == "ShaderNodeTexCoord":
+            if found.output.name == "UV":
+                return ("uv", "")
+            if found.output.name == "Generated":
+                return ("generated",)
+            if found.output.name == "Object" and node.object is None:
+                return ("object",)
+        self.report.warn(19, "coordinates of node '%s' from node '%s' (%s)"
+                         % (texture.node.name, node.name, found.output.name), "the UV map")
+        return ("uv", "")
+
+
+def group_output(tree):
+    outputs = [n for n in tree.nodes if n.bl_idname == "NodeGroupOutput"]
+    return next((n for n in outputs if n.is_active_output), outputs[0] if outputs else None)
+
+
+def by_identifier(sockets, identifier):
+    return next((s for s in sockets if s.identifier == identifier), None)
+
+
+def default_value(socket):
+    value = getattr(socket, "default_value", None)
+    if value is None or isinstance(value, str):
+        return number_value(0.0)
+    if hasattr(value, "__len__"):
+        return Value(tuple(value)[:3])
+    return number_value(float(value))
+
+
+def kind_of(node):
+    """ShaderNodeTexNoise -> Tex Noise"""
+    return re.sub(r"(?<=[a-z])(?=[A-Z])", " ", node.bl_idname.replace("ShaderNode", ""))
+
+
+def fresnel_ior(values, found):
+    """ior when the node is Fresnel or the Fresnel of a Layer Weight; None else."""
+    if found.node is None:
+        return None
+    if found.node.bl_idname == "ShaderNodeFresnel":
+        return values.number(found, "IOR", default=1.5)
+    if found.node.bl_idname == "ShaderNodeLayerWeight" and found.output.name == "Fresnel":
+        return 1 / max(1 - values.number(found, "Blend", default=0.5), 1e-5)
+    return None
+
+
+def facing_mean(values, found):
+    """Mean of the Facing output of a Layer Weight over directions; None for other nodes."""
+    if found.node is None or found.node.bl_idname != "ShaderNodeLayerWeight" or found.output.name != "Facing":
+        return None
+    blend = min(max(values.number(found, "Blend", default=0.5), 0.0), 1 - 1e-5)
+    exponent = 2 * blend if blend < 0.5 else 0.5 / (1 - blend)
+    return exponent / (exponent + 2)  # of 1 - cos^exponent
+
+
+def from_mode(mode, a, b, c):
+    import colorsys
+    return {"HSV": colorsys.hsv_to_rgb, "HSL": lambda h, s, l: colorsys.hls_to_rgb(h, l, s)}.get(
+        mode, lambda *rgb: rgb)(a, b, c)
+
+
+def to_mode(mode, rgb):
+    import colorsys
+    if mode == "HSV":
+        return colorsys.rgb_to_hsv(*rgb)
+    if mode == "HSL":
+        h, l, s = colorsys.rgb_to_hls(*rgb)
+        return (h, s, l)
+    return rgb
+
+
+BLENDS = {
+    "MIX": lambda a, b: b,
+    "ADD": lambda a, b: a + b,
+    "MULTIPLY": lambda a, b: a * b,
+    "SUBTRACT": lambda a, b: a - b,
+    "DIVIDE": lambda a, b: a / b if b else a,
+    "DIFFERENCE": lambda a, b: abs(a - b),
+    "DARKEN": min,
+    "LIGHTEN": max,
+    "SCREEN": lambda a, b: 1 - (1 - a) * (1 - b),
+    "OVERLAY": lambda a, b: 2 * a * b if a < 0.5 else 1 - 2 * (1 - a) * (1 - b),
+}
+
+UNARY = {"SQRT", "ABSOLUTE", "ROUND", "FLOOR", "CEIL", "TRUNC", "FRACT", "SINE", "COSINE", "TANGENT",
+         "EXPONENT", "INVERSE_SQRT", "RADIANS", "DEGREES", "SIGN"}
+MATH = {
+    "ADD": lambda a, b: a + b,
+    "SUBTRACT": lambda a, b: a - b,
+    "MULTIPLY": lambda a, b: a * b,
+    "DIVIDE": lambda a, b: a / b,
+    "MULTIPLY_ADD": lambda a, b, c: a * b + c,
+    "POWER": lambda a, b: float(a**b) if a >= 0 or b == int(b) else 0.0,
+    "LOGARITHM": lambda a, b: math.log(a) / math.log(b),
+    "SQRT": math.sqrt,
+    "INVERSE_SQRT": lambda a: 1 / math.sqrt(a),
+    "ABSOLUTE": abs,
+    "EXPONENT": math.exp,
+    "MINIMUM": min,
+    "MAXIMUM": max,
+    "LESS_THAN": lambda a, b: float(a < b),
+    "GREATER_THAN": lambda a, b: float(a > b),
+    "COMPARE": lambda a, b, c: float(abs(a - b) <= max(c, 1e-5)),
+    "SIGN": lambda a: float((a > 0) - (a < 0)),
+    "ROUND": lambda a: math.floor(a + 0.5),
+    "FLOOR": math.floor,
+    "CEIL": math.ceil,
+    "TRUNC": math.trunc,
+    "FRACT": lambda a: a - math.floor(a),
+    "MODULO": math.fmod,
+    "SINE": math.sin,
+    "COSINE": math.cos,
+    "TANGENT": math.tan,
+    "ARCTAN2": math.atan2,
+    "RADIANS": math.radians,
+    "DEGREES": math.degrees,
+}
+VECTOR_MATH = {
+    "ADD": lambda a, b: a + b,
+    "SUBTRACT": lambda a, b: a - b,
+    "MULTIPLY": lambda a, b: a * b,
+    "DIVIDE": lambda a, b: a / b if b else 0.0,
+    "MINIMUM": min,
+    "MAXIMUM": max,
+}
+
+VALUE_NODES = {
+    "ShaderNodeRGB": Values.rgb,
+    "ShaderNodeValue": Values.plain_number,
+    "ShaderNodeTexImage": Values.image_texture,
+    "ShaderNodeTexEnvironment": Values.image_texture,
+    "ShaderNodeMixRGB": Values.mix,
+    "ShaderNodeMix": Values.mix,
+    "ShaderNodeMath": Values.math,
+    "ShaderNodeVectorMath": Values.vector_math,
+    "ShaderNodeInvert": Values.invert,
+    "ShaderNodeGamma": Values.gamma,
+    "ShaderNodeBrightContrast": Values.bright_contrast,
+    "ShaderNodeHueSaturation": Values.hue_saturation,
+    "ShaderNodeValToRGB": Values.color_ramp,
+    "ShaderNodeClamp": Values.clamp,
+    "ShaderNodeMapRange": Values.map_range,
+    "ShaderNodeCombineColor": Values.combine,
+    "ShaderNodeCombineRGB": Values.combine,
+    "ShaderNodeCombineXYZ": Values.combine,
+    "ShaderNodeCombineHSV": Values.combine_hsv,
+    "ShaderNodeSeparateColor": Values.separate,
+    "ShaderNodeSeparateRGB": Values.separate,
+    "ShaderNodeSeparateXYZ": Values.separate,
+    "ShaderNodeSeparateHSV": Values.separate_hsv,
+    "ShaderNodeRGBToBW": Values.to_gray,
+    "ShaderNodeBlackbody": Values.black_body,
+    "ShaderNodeFresnel": Values.fresnel,
+    "ShaderNodeLayerWeight": Values.fresnel,
+    "ShaderNodeLightPath": Values.light_path,
+    "ShaderNodeTexChecker": Values.checker,
+}
+
+
+# ---------------------------------------------------------------------------------------- 10 shaders
+
+
+@dataclass(frozen=True)
+class Normal:
+    """What bends the normal: a normal map, a height map, or both."""
+    normal_map: Optional[Texture] = None
+    normal_strength: float = 1.0
+    bump_map: Optional[Texture] = None
+    bump_strength: float = 1.0
+    bump_distance: float = 1.0
+
+
+@dataclass(frozen=True)
+class Lobe:
+    """One way in which a surface answers light. A material is a sum of lobes.
+
+    fresnel 'none': rgb as it is; 'schlick': rgb seen straight on, white at grazing angles;
+    'dielectric': rgb times the exact reflectance (glossy) or its rest (transmission) for ior.
+    """
+    kind: str  # diffuse glossy transmission transparent emission
+    rgb: tuple
+    texture: Optional[Texture] = None
+    roughness: float = 0.0
+    ior: float = 1.5
+    fresnel: str = "none"
+    normal: Optional[Normal] = None
+    cover: Optional[Value] = None  # transparent: opacity of all the rest, when it is a texture
+
+    def times(self, factor):
+        return replace(self, rgb=scaled(self.rgb, factor))
+
+
+def all_times(lobes, factor):
+    return [lobe if lobe.cover else lobe.times(factor) for lobe in lobes] if factor != 0 else []
+
+
+def is_transparent(lobes):
+    return bool(lobes) and all(l.kind == "transparent" and not l.cover for l in lobes)
+
+
+class Shaders:
+    """Evaluates shader sockets to lists of lobes."""
+
+    def __init__(self, values, report):
+        self.values = values
+        self.report = report
+
+    def lobes(self, at):
+        found = self.values.source(at)
+        if found.node is None:
+            return []
+        convert = SHADER_NODES.get(found.node.bl_idname)
+        return convert(self, found) if convert else self.unknown(found)
+
+    def unknown(self, found):
+        """A node that we do not know: diffuse, in its own colour if it has one."""
+        node = found.node
+        color = self.values.socket(found, "Color", "Base Color")
+        value = self.values.value(color) if color else Value(GRAY)
+        if node.bl_idname in VALUE_NODES:  # Blender shows a colour as emission
+            value = VALUE_NODES[node.bl_idname](self.values, found)
+            return [Lobe("emission", value.rgb, value.texture)]
+        self.report.warn(12, "node '%s' (%s)" % (node.name, kind_of(node)), "diffuse")
+        return [Lobe("diffuse", value.rgb, value.texture)]
+
+    # ---- sums
+
+    def add(self, found):
+        return [lobe for socket in found.node.inputs[:2] for lobe in self.lobes(Socket(socket, found.path))]
+
+    def mix(self, found):
+        first, second = (self.lobes(Socket(s, found.path)) for s in found.node.inputs[1:3])
+        at = Socket(found.node.inputs[0], found.path)
+        chooser = self.values.source(at)
+        ior = fresnel_ior(self.values, chooser)
+        if ior is not None:
+            return self.mix_by_fresnel(found, first, second, max(ior, 1.0))
+        facing = facing_mean(self.values, chooser)
+        if facing is not None:
+            return self.mix_by_facing(found, first, second, facing)
+        factor = self.values.value(at)
+        if factor.texture is None:
+            t = min(max(gray(factor.rgb), 0.0), 1.0)
+            return all_times(first, 1 - t) + all_times(second, t)
+        if is_transparent(first):
+            return second + self.cut_out(first, factor)
+        if is_transparent(second) and factor.rgb == WHITE:
+            texture = replace(factor.texture, inverted=not factor.texture.inverted)
+            return first + self.cut_out(second, Value(WHITE, texture))
+        self.report.warn(14, "node '%s' mixes by a texture" % found.node.name, "its mean")
+        t = min(max(gray(self.values.constant(factor)), 0.0), 1.0)
+        return all_times(first, 1 - t) + all_times(second, t)
+
+    @staticmethod
+    def cut_out(transparent, opacity):
+        filter_color = BLACK
+        for lobe in transparent:
+            filter_color = plus(filter_color, lobe.rgb)
+        return [Lobe("transparent", filter_color, cover=opacity)]
+
+    def mix_by_fresnel(self, found, first, second, ior):
+        """The usual lacquer: what reflects gets the exact Fresnel, what is below its mean."""
+        mean = fresnel_mean(ior)
+        out = []
+        for lobe in first:
+            exact = lobe.kind == "transmission" and lobe.fresnel == "none"
+            out.append(replace(lobe, fresnel="dielectric", ior=ior) if exact else lobe.times(1 - mean))
+        for lobe in second:
+            if lobe.kind == "glossy" and lobe.fresnel == "none":
+                out.append(replace(lobe, fresnel="dielectric", ior=ior))
+                continue
+            self.report.warn(16, "node '%s' mixes %s by Fresnel" % (found.node.name, lobe.kind), "its mean")
+            out.append(lobe.times(mean))
+        return out
+
+    def mix_by_facing(self, found, first, second, mean):
+        """Schlick's curve with the same mean; (1 - cos) and its powers have no exact form here."""
+        self.report.warn(16, "node '%s' mixes by Facing" % found.node.name, "Schlick's Fresnel of the same mean")
+        f0 = max((mean - 1 / 21) * 21 / 20, 0.0)
+        out = all_times(first, 1 - mean)
+        for lobe in second:
+            if lobe.kind == "glossy" and lobe.fresnel == "none":
+                out.append(replace(lobe.times(f0), fresnel="schlick"))
+            else:
+                out.append(lobe.times(mean))
+        return out
+
+    # ---- single lobes
+
+    def diffuse(self, found):
+        color = self.values.input(found, "Color")
+        self.ignored(found, (("Roughness",),))
+        return [Lobe("diffuse", color.rgb, color.texture, normal=self.normal(found))]
+
+    def like_diffuse(self, found):
+        """Shaders that scatter light in ways that we lack."""
+        self.report.warn(12, "node '%s' (%s)" % (found.node.name, kind_of(found.node)), "diffuse")
+        color = self.values.input(found, "Color", "Base Color")
+        return [Lobe("diffuse", color.rgb, color.texture, normal=self.normal(found))]
+
+    def glossy(self, found):
+        color = self.values.input(found, "Color")
+        self.ignored(found, (("Anisotropy",),))
+        return [Lobe("glossy", color.rgb, color.texture, self.roughness(found), normal=self.normal(found))]
+
+    def metallic(self, found):
+        """Metallic BSDF (4.3): reflectance straight on, white at grazing angles."""
+        color = self.values.input(found, "Base Color")
+        self.ignored(found, (("Anisotropy",), ("Thin Film Thickness",)))
+        return [Lobe("glossy", color.rgb, color.texture, self.roughness(found), fresnel="schlick",
+                     normal=self.normal(found))]
+
+    def glass(self, found):
+        color = self.values.color(found, "Color")
+        shared = dict(roughness=self.roughness(found), ior=self.values.number(found, "IOR", default=1.45),
+                      fresnel="dielectric", normal=self.normal(found))
+        self.ignored(found, (("Thin Film Thickness",),))
+        return [Lobe("transmission", color, **shared), Lobe("glossy", color, **shared)]
+
+    def refraction(self, found):
+        color = self.values.color(found, "Color")
+        ior = self.values.number(found, "IOR", default=1.45)
+        return [Lobe("transmission", color, None, self.roughness(found), ior, normal=self.normal(found))]
+
+    def transparent(self, found):
+        return [Lobe("transparent", self.values.color(found, "Color"))]
+
+    def emission(self, found):
+        color = self.values.input(found, "Color")
+        strength = self.values.number(found, "Strength", default=1.0)
+        return [Lobe("emission", scaled(color.rgb, strength), color.texture)]
+
+    def holdout(self, found):
+        self.report.warn(12, "node '%s' (Holdout)" % found.node.name, "black")
+        return []
+
+    def eevee_specular(self, found):
+        base, color = self.values.input(found, "Base Color"), self.values.color(found, "Specular")
+        glow = self.values.input(found, "Emissive Color")
+        normal = self.normal(found)
+        lobes = [
+            Lobe("diffuse", base.rgb, base.texture, normal=normal),
+            Lobe("glossy", color, None, self.roughness(found), fresnel="schlick", normal=normal),
+            Lobe("emission", glow.rgb, glow.texture),
+        ]
+        clear = self.values.number(found, "Transparency")
+        return all_times(lobes, 1 - clear) + all_times([Lobe("transparent", WHITE)], clear)
+
+    # ---- Principled
+
+    def principled(self, found):
+        """Cycles' all-purpose shader; since 4.0 with other sockets and another reflectance."""
+        values, is_new = self.values, VERSION >= (4, 0)
+        base = values.input(found, "Base Color")
+        metallic = min(max(values.number(found, "Metallic"), 0.0), 1.0)
+        clear = min(max(values.number(found, "Transmission Weight", "Transmission"), 0.0), 1.0)
+        level = values.number(found, "Specular IOR Level", "Specular", default=0.5)
+        ior = max(values.number(found, "IOR", default=1.45), 1.0)
+        normal = self.normal(found)
+        roughness = self.roughness(found)
+        self.ignored(found, PRINCIPLED_IGNORED + (() if is_new else (("Specular Tint",),)))
+
+        tint = values.color(found, "Specular Tint") if is_new else WHITE
+        f0 = min(fresnel_normal(ior) * 2 * level, 1.0) if is_new else 0.08 * level
+        solid = 1 - metallic
+        lobes = []
+        below = 1 - schlick_mean(f0) if is_new else 1.0
+        lobes += all_times([Lobe("diffuse", base.rgb, base.texture, normal=normal)], solid * (1 - clear) * below)
+        shared = dict(roughness=roughness, ior=ior, normal=normal)
+        if clear > 0 and solid > 0:
+            color = values.constant(base)
+            if base.texture:
+                self.report.warn(14, "node '%s' has a texture on transmission" % found.node.name, "its mean")
+            # Since 4.0 light is coloured by the base colour after two boundaries, before at each.
+            through = tuple(math.sqrt(max(x, 0.0)) for x in color) if is_new else color
+            lobes.append(Lobe("transmission", scaled(through, solid * clear), fresnel="dielectric", **shared))
+            lobes.append(Lobe("glossy", scaled(tint, solid), fresnel="dielectric", **shared))
+            lobes += all_times([Lobe("glossy", base.rgb, base.texture, fresnel="schlick", **shared)], metallic)
+        elif metallic == 1:
+            lobes.append(Lobe("glossy", base.rgb, base.texture, fresnel="schlick", **shared))
+        else:
+            if base.texture and metallic > 0:
+                self.report.warn(14, "node '%s' has a texture on its reflection" % found.node.name, "its mean")
+            color = mixed(scaled(tint, f0), values.constant(base) if metallic else BLACK, metallic)
+            lobes.append(Lobe("glossy", color, fresnel="schlick", **shared))
+
+        glow = values.input(found, "Emission Color", "Emission")
+        strength = values.number(found, "Emission Strength", default=0.0)
+        lobes += all_times([Lobe("emission", glow.rgb, glow.texture)], strength)
+        return self.with_alpha(lobes, values.input(found, "Alpha", default=1.0))
+
+    @staticmethod
+    def with_alpha(lobes, alpha):
+        if alpha.texture is not None:
+            return lobes + [Lobe("transparent", WHITE, cover=alpha)]
+        a = min(max(gray(alpha.rgb), 0.0), 1.0)
+        return lobes if a == 1 else all_times(lobes, a) + [Lobe("transparent", scaled(WHITE, 1 - a))]
+
+    # ---- inputs
+
+    def roughness(self, found):
+        if getattr(found.node, "distribution", "") == "SHARP":  # up to 3.6
+            return 0.0
+        return min(max(self.values.number(found, "Roughness"), 0.0), 1.0)
+
+    def ignored(self, found, inputs):
+        """Warns of each input that has an effect in Blender and none here."""
+        for names in inputs:
+            at = self.values.socket(found, *names)
+            if at is None:
+                continue
+            value = self.values.value(at)
+            if value.texture is not None or any(abs(x) > 1e-6 for x in value.rgb):
+                self.report.warn(13, "node '%s' uses '%s'" % (found.node.name, at.socket.name), "0")
+
+    def normal(self, found):
+        at = self.values.socket(found, "Normal")
+        return self.normal_at(at) if at else None
+
+    def normal_at(self, at):
+        found = self.values.source(at)
+        if found.node is None:
+            return None
+        if found.node.bl_idname == "ShaderNodeNormalMap":
+            return self.normal_map(found)
+        if found.node.bl_idname == "ShaderNodeBump":
+            return self.bump(found)
+        self.report.warn(12, "node '%s' (%s) as a normal" % (found.node.name, kind_of(found.node)),
+                         "the plain normal")
+        return None
+
+    def normal_map(self, found):
+        color = self.values.input(found, "Color")
+        if color.texture is None:
+            return None
+        if found.node.space != "TANGENT":
+            self.report.warn(12, "node '%s' space %s" % (found.node.name, found.node.space), "no normal map")
+            return None
+        return Normal(normal_map=color.texture, normal_strength=max(self.values.number(found, "Strength"), 0.0))
+
+    def bump(self, found):
+        below = self.values.socket(found, "Normal")
+        normal = self.normal_at(below) if below else None
+        height = self.values.input(found, "Height")
+        if height.texture is None:
+            return normal
+        sign = -1.0 if found.node.invert else 1.0
+        sign *= -1.0 if height.texture.inverted else 1.0
+        if normal is not None and normal.bump_map is not None:
+            self.report.warn(17, "node '%s' on another bump" % found.node.name, "this one alone")
+        return replace(
+            normal or Normal(), bump_map=replace(height.texture, inverted=False),
+            bump_strength=min(max(self.values.number(found, "Strength"), 0.0), 1.0),
+            bump_distance=sign * self.values.number(found, "Distance") * gray(height.rgb))
+
+
+PRINCIPLED_IGNORED = (
+    ("Subsurface Weight", "Subsurface"),
+    ("Sheen Weight", "Sheen"),
+    ("Coat Weight", "Clearcoat"),
+    ("Anisotropic",),
+    ("Thin Film Thickness",),
+    ("Diffuse Roughness",),
+)
+
+SHADER_NODES = {
+    "ShaderNodeAddShader": Shaders.add,
+    "ShaderNodeMixShader": Shaders.mix,
+    "ShaderNodeBsdfDiffuse": Shaders.diffuse,
+    "ShaderNodeBsdfGlossy": Shaders.glossy,
+    "ShaderNodeBsdfAnisotropic": Shaders.glossy,
+    "ShaderNodeBsdfMetallic": Shaders.metallic,
+    "ShaderNodeBsdfGlass": Shaders.glass,
+    "ShaderNodeBsdfRefraction": Shaders.refraction,
+    "ShaderNodeBsdfTransparent": Shaders.transparent,
+    "ShaderNodeBsdfPrincipled": Shaders.principled,
+    "ShaderNodeEeveeSpecular": Shaders.eevee_specular,
+    "ShaderNodeEmission": Shaders.emission,
+    "ShaderNodeBackground": Shaders.emission,
+    "ShaderNodeHoldout": Shaders.holdout,
+    "ShaderNodeBsdfTranslucent": Shaders.like_diffuse,
+    "ShaderNodeBsdfVelvet": Shaders.like_diffuse,
+    "ShaderNodeBsdfSheen": Shaders.like_diffuse,
+    "ShaderNodeBsdfToon": Shaders.like_diffuse,
+    "ShaderNodeBsdfHair": Shaders.like_diffuse,
+    "ShaderNodeBsdfHairPrincipled": Shaders.like_diffuse,
+    "ShaderNodeSubsurfaceScattering": Shaders.like_diffuse,
+}
+
+
+# -------------------------------------------------------------------------------------- 11 materials
+
+SHARP = 1e-3  # below this roughness Cycles shows no highlight of a lamp, and neither do we
+
+
+def exponent_of(roughness):
+    return min(max(2 / max(roughness, 1e-3) ** 4 - 2, 1.0), 1e5)
+
+
+@dataclass
+class Material:
+    """A material block. `lobes` folded into the few numbers that the format has."""
+    name: str
+    diffuse: tuple = BLACK
+    diffuse_texture: Optional[Texture] = None
+    specular: tuple = BLACK
+    specular_texture: Optional[Texture] = None
+    exponent: float = 50.0
+    mirror: tuple = BLACK
+    transmission: tuple = BLACK
+    ior: float = 1.5
+    fresnel: str = "none"
+    roughness: float = 0.0
+    emission: tuple = BLACK
+    emission_texture: Optional[Texture] = None
+    opacity: float = 1.0
+    opacity_texture: Optional[Texture] = None
+    filter: tuple = WHITE
+    normal: Normal = Normal()
+
+    def textures(self):
+        found = (self.diffuse_texture, self.specular_texture, self.emission_texture,
+                 self.opacity_texture, self.normal.normal_map, self.normal.bump_map)
+        return [t for t in found if t is not None]
+
+    def coordinates(self):
+        """Where its texture coordinates come from; None when it needs none."""
+        textures = self.textures()
+        return textures[0].coordinates if textures else None
+
+    def only_glows(self):
+        return (any(self.emission) and not self.textures() and self.opacity == 1
+                and not any(self.diffuse + self.specular + self.mirror + self.transmission))
+
+    def put(self, text, name_of):
+        """`name_of` gives the name of a texture."""
+        with text.block("material", self.name):
+            text.put("diffuse", self.diffuse)
+            self.put_texture(text, "diffuse_texture", self.diffuse_texture, name_of)
+            if any(self.specular):
+                text.put("specular", self.specular)
+                self.put_texture(text, "specular_texture", self.specular_texture, name_of)
+                text.put("specular_model", "ashikhmin")
+                text.put("exponent", self.exponent)
+            text.put_unless(BLACK, "mirror", self.mirror)
+            text.put_unless(BLACK, "transmission", self.transmission)
+            if any(self.transmission) or self.fresnel == "dielectric":
+                text.put("ior", self.ior)
+            text.put_unless("none", "fresnel", self.fresnel)
+            if any(self.mirror) or any(self.transmission):
+                text.put_unless(0, "roughness", self.roughness)
+            text.put_unless(BLACK, "emission", self.emission)
+            self.put_texture(text, "emission_texture", self.emission_texture, name_of)
+            text.put_unless(1, "opacity", self.opacity)
+            self.put_texture(text, "opacity_texture", self.opacity_texture, name_of)
+            text.put_unless(WHITE, "filter", self.filter)
+            normal = self.normal
+            if normal.normal_map:
+                self.put_texture(text, "normal_map", normal.normal_map, name_of)
+                text.put_unless(1, "normal_strength", normal.normal_strength)
+            if normal.bump_map:
+                self.put_texture(text, "bump_map", normal.bump_map, name_of)
+                text.put_unless(1, "bump_strength", normal.bump_strength)
+                text.put_unless(1, "bump_distance", normal.bump_distance)
+
+    @staticmethod
+    def put_texture(text, keyword, texture, name_of):
+        if texture is not None:
+            text.put(keyword, word(name_of(texture)))
+
+
+class Folder:
+    """Folds lobes into a Material."""
+
+    def __init__(self, values, report):
+        self.values = values
+        self.report = report
+
+    def fold(self, name, lobes):
+        material = Material(name)
+        lobes = [l for l in lobes if any(l.rgb) or l.cover]
+        solid = self.fold_opacity(material, lobes)
+        material.diffuse, material.diffuse_texture = self.sum("diffuse", solid)
+        material.emission, material.emission_texture = self.sum("emission", solid)
+        self.fold_glossy(material, [l for l in solid if l.kind in {"glossy", "transmission"}])
+        self.fold_normal(material, solid)
+        coordinates = {t.coordinates for t in material.textures()}
+        if len(coordinates) > 1:
+            self.report.warn(18, "its textures use several coordinates", "those of the first")
+        return self.safe(material)
+
+    def fold_opacity(self, material, lobes):
+        """Takes the transparent lobes out; the others are scaled up to what is left for them."""
+        solid = [l for l in lobes if l.kind != "transparent"]
+        for lobe in lobes:
+            if lobe.cover:
+                material.opacity = min(gray(lobe.cover.rgb), 1.0)
+                material.opacity_texture = lobe.cover.texture
+                material.filter = lobe.rgb
+        through = BLACK
+        for lobe in lobes:
+            if lobe.kind == "transparent" and not lobe.cover:
+                through = plus(through, lobe.rgb)
+        part = max(through)
+        if part <= 0:
+            return solid
+        if not solid:
+            material.opacity, material.filter = 0.0, through
+            return solid
+        if part > 1 - 1e-6:  # added, not mixed: opacity only has to be neither 0 nor 1
+            part = 0.5
+        material.opacity, material.filter = 1 - part, scaled(through, 1 / part)
+        return all_times(solid, 1 / (1 - part))
+
+    def sum(self, kind, lobes):
+        """Sum of one kind of lobes: (colour, texture). A texture survives when it is alone."""
+        lobes = [l for l in lobes if l.kind == kind]
+        textures = {l.texture for l in lobes if l.texture}
+        total = BLACK
+        if len(textures) == 1 and all(l.texture for l in lobes):
+            for lobe in lobes:
+                total = plus(total, lobe.rgb)
+            return total, textures.pop()
+        for lobe in lobes:
+            total = plus(total, self.values.constant(Value(lobe.rgb, lobe.texture)))
+        if textures:
+            self.report.warn(14, "a texture in a sum of %s parts" % kind, "its mean")
+        return total, None
+
+    def fold_glossy(self, material, lobes):
+        if not lobes:
+            return
+        weight = lambda lobe: max(lobe.rgb) * (fresnel_mean(lobe.ior) if self.is_coat(lobe) else 1)
+        leader = max(lobes, key=lambda l: max(l.rgb))
+        material.fresnel, material.ior = leader.fresnel, leader.ior
+        if any(l.fresnel != leader.fresnel for l in lobes):
+            self.report.warn(16, "lobes of Fresnel %s" % " and ".join(sorted({l.fresnel for l in lobes})),
+                             leader.fresnel)
+        total = sum(weight(l) for l in lobes)
+        material.roughness = sum(weight(l) * l.roughness for l in lobes) / total if total else 0.0
+        if max(l.roughness for l in lobes) - min(l.roughness for l in lobes) > 1e-4:
+            self.report.warn(15, "lobes of different roughness", "%.3g" % material.roughness)
+        else:
+            material.roughness = leader.roughness
+
+        glossy = [l for l in lobes if l.kind == "glossy"]
+        color, texture = self.sum("glossy", glossy)
+        material.transmission = self.sum("transmission", lobes)[0]
+        material.mirror = color
+        if texture is not None:
+            self.report.warn(14, "a texture on the reflection", "its mean for what is mirrored")
+            material.mirror = self.values.constant(Value(color, texture))
+        if material.roughness >= SHARP:
+            material.specular_texture = texture
+            material.exponent = exponent_of(material.roughness)
+            straight = fresnel_normal(material.ior) if material.fresnel == "dielectric" else 1.0
+            material.specular = scaled(color, straight)
+
+    @staticmethod
+    def is_coat(lobe):
+        return lobe.kind == "glossy" and lobe.fresnel == "dielectric"
+
+    def fold_normal(self, material, lobes):
+        bent = [l.normal for l in lobes if l.kind not in {"emission", "transparent"}]
+        normals = {n for n in bent if n is not None}
+        if not normals:
+            return
+        material.normal = next(n for n in bent if n is not None)
+        if len(normals) > 1 or None in bent:
+            self.report.warn(17, "its parts have different normals", "one for all")
+
+    def safe(self, material):
+        """The format takes no negative colours."""
+        for name in ("diffuse", "specular", "mirror", "transmission", "emission", "filter"):
+            color = getattr(material, name)
+            if not all(math.isfinite(x) for x in color):
+                self.report.warn(11, "its %s is not finite" % name, "0")
+                color = BLACK
+            setattr(material, name, tuple(max(x, 0.0) for x in color))
+        return material
+
+
+# ------------------------------------------------------------------------------------------ 12 world
+
+SKY = (0.3, 0.45, 0.7)
+
+
+def sky_texture(values, found):
+    values.report.warn(30, "node '%s' (Sky Texture)" % found.node.name, "an even blue")
+    return Value(SKY)
+
+
+VALUE_NODES["ShaderNodeTexSky"] = sky_texture
+
+
+def world_light(scene, shaders, folder, report):
+    """(colour, texture, rotation of the texture in degrees)"""
+    world = scene.world
+    if world is None:
+        return BLACK, None, 0.0
+    with report.at("world", world.name):
+        if not getattr(world, "use_nodes", True) or world.node_tree is None:
+            return tuple(world.color), None, 0.0
+        output = world.node_tree.get_output_node("CYCLES") or world.node_tree.get_output_node("ALL")
+        if output is None:
+            return BLACK, None, 0.0
+        if output.inputs["Volume"].is_linked:
+            report.warn(21, "a volume", "none")
+        lobes = shaders.lobes(Socket(output.inputs["Surface"], ()))
+        if any(l.kind != "emission" for l in lobes):
+            report.warn(30, "shaders other than Background", "left out")
+        material = folder.fold("world", [l for l in lobes if l.kind == "emission"])
+        texture = material.emission_texture
+        return material.emission, texture, environment_rotation(texture, report) if texture else 0.0
+
+
+def environment_rotation(texture, report):
+    """The node turns the direction that is looked up; the picture turns the other way."""
+    scale, rotation = texture.scale, texture.rotation
+    if scale == (-1, -1):
+        scale, rotation = (1.0, 1.0), rotation + 180
+    if scale != (1, 1) or texture.offset != (0, 0):
+        report.warn(31, "mapping of the environment", "its rotation about Z")
+    return -rotation
+
+
+def environment_texture(values, found):
+    if found.node.projection != "EQUIRECTANGULAR":
+        values.report.warn(31, "projection %s" % found.node.projection, "equirectangular")
+    return values.image_texture(found)
+
+
+VALUE_NODES["ShaderNodeTexEnvironment"] = environment_texture
+
+
+# ----------------------------------------------------------------------------------------- 13 shapes
+
+# A mesh counts as a sphere when its vertices lie on an ellipsoid along its axes to SPHERE_ERROR of
+# the radius, it is closed, faces outwards, and its faces come close enough to the ellipsoid: smooth
+# shading hides more than flat shading. A UV sphere of 32x16 is off by 0.0096, of 80x40 by 0.0015.
+SPHERE_ERROR = 1e-5
+SPHERE_MAX_VERTICES = 40000
+SAGITTA_SMOOTH, SAGITTA_FLAT = 0.1, 0.002
+
+
+@dataclass
+class Shape:
+    """A record of the format: its kind and how it sits inside its object."""
+    kind: str
+    rows: tuple = IDENTITY
+    corners: Optional[list] = None
+    top_radius: float = 0.0
+
+
+def read(collection, attribute, code, width):
+    """foreach_get into an array; without numpy this is the fast way."""
+    data = array(code, bytes(array(code).itemsize * len(collection) * width))
+    if len(data):
+        collection.foreach_get(attribute, data)
+    return data
+
+
+def box_rows(low, high):
+    """Maps [-1,1]^3 onto a box."""
+    center = [tidy((a + b) / 2) for a, b in zip(low, high)]
+    half = [tidy((b - a) / 2) for a, b in zip(low, high)]
+    return tuple(tuple(half[i] if i == j else 0.0 for j in range(3)) + (center[i],) for i in range(3))
+
+
+def bounds(points):
+    planes = [points[i::3] for i in range(3)]
+    return [min(p) for p in planes], [max(p) for p in planes]
+
+
+def recognise(mesh):
+    """The record that says the same as the mesh; None when it is just a mesh."""
+    vertices, faces = len(mesh.vertices), len(mesh.polygons)
+    if vertices == 4 and faces == 1:
+        return recognise_plane(mesh)
+    is_closed = len(mesh.loops) == 2 * len(mesh.edges) and vertices - len(mesh.edges) + faces == 2
+    if not is_closed:
+        return None
+    if vertices == 8 and faces == 6:
+        return recognise_cube(mesh)
+    if 42 <= vertices <= SPHERE_MAX_VERTICES:
+        return recognise_sphere(mesh)
+    return None
+
+
+def recognise_plane(mesh):
+    face = mesh.polygons[0]
+    if len(face.vertices) != 4:
+        return None
+    c = [Vector(mesh.vertices[i].co) for i in face.vertices]
+    normal = (c[2] - c[0]).cross(c[3] - c[1])
+    size = max((c[2] - c[0]).length, (c[3] - c[1]).length)
+    if normal.length <= 1e-9 * size * size:
+        return None
+    normal.normalize()
+    if abs(normal.dot(c[1] - c[0])) > 1e-6 * size:
+        return None
+    for i in range(4):
+        turn = (c[(i + 1) % 4] - c[i]).cross(c[(i + 2) % 4] - c[(i + 1) % 4])
+        if turn.dot(normal) <= 1e-6 * size * size:
+            return None
+    return Shape("plane", corners=[x for corner in c for x in corner])
+
+
+def faces_outwards(mesh, center):
+    normals, centers = read(mesh.polygons, "normal", "f", 3), read(mesh.polygons, "center", "f", 3)
+    return all(
+        sum(normals[i + k] * (centers[i + k] - center[k]) for k in range(3)) > 0
+        for i in range(0, len(normals), 3))
+
+
+def recognise_cube(mesh):
+    points = read(mesh.vertices, "co", "f", 3)
+    low, high = bounds(points)
+    if any(read(mesh.polygons, "use_smooth", "b", 1)):
+        return None
+    size = max(b - a for a, b in zip(low, high))
+    if min(b - a for a, b in zip(low, high)) <= 1e-6 * size:
+        return None
+    corners = set()
+    for i in range(0, 24, 3):
+        at = []
+        for k in range(3):
+            nearest = low[k] if abs(points[i + k] - low[k]) < abs(points[i + k] - high[k]) else high[k]
+            if abs(points[i + k] - nearest) > 1e-6 * size:
+                return None
+            at.append(nearest)
+        corners.add(tuple(at))
+    if len(corners) != 8 or not faces_outwards(mesh, [(a + b) / 2 for a, b in zip(low, high)]):
+        return None
+    if any(max(abs(x) for x in face.normal) < 0.999 for face in mesh.polygons):
+        return None
+    return Shape("cube", box_rows(low, high))
+
+
+def solve3(m, v):
+    """Cramer's rule; None for a singular system."""
+    det = lambda a: (a[0][0] * (a[1][1] * a[2][2] - a[1][2] * a[2][1])
+                     - a[0][1] * (a[1][0] * a[2][2] - a[1][2] * a[2][0])
+                     + a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]))
+    whole = det(m)
+    if whole == 0:
+        return None
+    return [det([[v[i] if k == j else m[i][k] for k in range(3)] for i in range(3)]) / whole for j in range(3)]
+
+
+def recognise_sphere(mesh):
+    """Least squares for a x^2 + b y^2 + c z^2 = 1 about the centroid."""
+    points = read(mesh.vertices, "co", "f", 3)
+    count = len(points) // 3
+    low, high = bounds(points)
+    half = [(b - a) / 2 for a, b in zip(low, high)]
+    if min(half) <= 0:
+        return None
+    center = [sum(points[k::3]) / count for k in range(3)]
+    squares = [[((x - center[k]) / half[k]) ** 2 for x in points[k::3]] for k in range(3)]
+    total = [sum(a + b + c for a, b, c in zip(*squares)) / count]
+    if not 0.8 < total[0] < 1.3:  # of a sphere about 1; most meshes stop here
+        return None
+    m = [[sum(x * y for x, y in zip(a, b)) for b in squares] for a in squares]
+    fit = solve3(m, [sum(a) for a in squares])
+    if fit is None or min(fit) <= 0:
+        return None
+    if any(abs(sum(f * s for f, s in zip(fit, at)) - 1) > 2 * SPHERE_ERROR for at in zip(*squares)):
+        return None
+    axes = [h / math.sqrt(f) for h, f in zip(half, fit)]
+    centers, normals = read(mesh.polygons, "center", "f", 3), read(mesh.polygons, "normal", "f", 3)
+    nearest = 1.0
+    for i in range(0, len(centers), 3):
+        unit = [(centers[i + k] - center[k]) / axes[k] for k in range(3)]
+        nearest = min(nearest, length(unit))
+        if sum(unit[k] / axes[k] * normals[i + k] for k in range(3)) <= 0:
+            return None
+    is_smooth = all(read(mesh.polygons, "use_smooth", "b", 1))
+    if 1 - nearest > (SAGITTA_SMOOTH if is_smooth else SAGITTA_FLAT):
+        return None
+    if max(axes) - min(axes) < 4 * SPHERE_ERROR * max(axes):
+        axes = [sum(axes) / 3] * 3
+    near = lambda x, size: round(x / size, 5) * size if abs(x / size - round(x / size, 5)) < 2e-6 else x
+    size = max(axes)
+    center = [0.0 if abs(x) < SPHERE_ERROR * size else x for x in center]
+    axes = [near(x, 1.0) for x in axes]
+    rows = tuple(tuple(axes[i] if i == j else 0.0 for j in range(3)) + (center[i],) for i in range(3))
+    return Shape("sphere", rows)
+
+
+def wanted_shape(mesh, wanted):
+    """The record that the custom property rt_shape asks for, fitted into the mesh's box."""
+    points = read(mesh.vertices, "co", "f", 3)
+    if not points:
+        return None
+    low, high = bounds(points)
+    if wanted in {"plane", "disk", "infinite_plane"}:
+        high[2] = low[2] = (low[2] + high[2]) / 2
+        if wanted == "plane":
+            found = recognise_plane(mesh) if len(mesh.vertices) == 4 and len(mesh.polygons) == 1 else None
+            (a, b, z), (c, d, _) = low, high
+            return found or Shape("plane", corners=[a, b, z, c, b, z, c, d, z, a, d, z])
+        high[2], low[2] = high[2] + 1, low[2] - 1
+    if any(b - a <= 0 for a, b in zip(low, high)):
+        return None
+    shape = Shape(wanted, box_rows(low, high))
+    if wanted == "cone":
+        middle = [(a + b) / 2 for a, b in zip(low, high)]
+        radius = lambda z: max((math.hypot(points[i] - middle[0], points[i + 1] - middle[1])
+                                for i in range(0, len(points), 3)
+                                if abs(points[i + 2] - z) < 1e-4 * (high[2] - low[2])), default=0.0)
+        base = radius(low[2])
+        if base <= 0:
+            return None
+        shape.top_radius = tidy(radius(high[2]) / base)
+    return shape
+
+
+RECORDS = {"sphere", "cube", "plane", "infinite_plane", "disk", "cylinder", "cone"}
+
+
+# ----------------------------------------------------------------------------------------- 14 meshes
+
+
+@dataclass
+class Geometry:
+    """What stands for the data of an object; shared by all its instances."""
+    shape: Optional[Shape]  # None: a mesh block
+    mesh: str
+    slots: list  # material slots that its faces use, in order
+
+
+class Meshes:
+    """Reads meshes out of Blender, once each, and writes them as blocks."""
+
+    def __init__(self, report):
+        self.report = report
+        self.text = Text()
+        self.names = Names()
+        self.written = {}  # digest of a block -> its name: equal copies are written once
+
+    def slots(self, mesh, count):
+        """Material slots in use. As Blender does, numbers beyond the last slot mean the last."""
+        indices = set(read(mesh.polygons, "material_index", "i", 1))
+        return sorted({min(max(i, 0), max(count - 1, 0)) for i in indices})
+
+    def put(self, mesh, coordinates, slots, slot_count, flatten=None):
+        """Writes a mesh block; its name, or None when nothing of it can be seen.
+
+        coordinates: per slot, where texture coordinates come from. flatten: rows that flatten the
+        mesh, so that it has to be written in world space.
+        """
+        mesh.calc_loop_triangles()
+        triangles = read(mesh.loop_triangles, "vertices", "i", 3)
+        loops = read(mesh.loop_triangles, "loops", "i", 3)
+        materials = read(mesh.loop_triangles, "material_index", "i", 1)
+        points = read(mesh.vertices, "co", "f", 3)
+        if not math.isfinite(sum(points)):
+            self.report.warn(11, "mesh '%s' has points that are not finite" % mesh.name, "0")
+            points = array("f", (x if math.isfinite(x) else 0.0 for x in points))
+        areas = read(mesh.loop_triangles, "area", "f", 1)
+        if not all(areas):
+            keep = [i for i, area in enumerate(areas) if area > 0]
+            self.report.note("mesh '%s': %d triangles without area left out" % (mesh.name, len(areas) - len(keep)))
+            pick3 = lambda a: array("i", (a[3 * i + k] for i in keep for k in range(3)))
+            triangles, loops = pick3(triangles), pick3(loops)
+            materials = array("i", (materials[i] for i in keep))
+        if not triangles:
+            return None
+
+        body = Text()
+        if flatten:
+            points = [sum(row[k] * points[i + k] for k in range(3)) + row[3]
+                      for i in range(0, len(points), 3) for row in flatten]
+        body.put_array("points", points, 3, "%.9g")
+        body.put_array("triangles", triangles, 3, "%d")
+        if not flatten:
+            self.put_normals(body, mesh, triangles, loops)
+        used = {coordinates[s] for s in slots if coordinates[s] is not None}
+        if used:
+            self.put_uvs(body, mesh, loops, materials, coordinates, used, slot_count)
+        if len(slots) > 1:
+            last = max(slot_count - 1, 0)
+            rank = {s: i for i, s in enumerate(slots)}
+            body.put_array("triangle_materials", [rank[min(max(m, 0), last)] for m in materials], 1, "%d")
+
+        digest = hashlib.sha1()
+        for line in body.lines:
+            digest.update(line.encode())
+        digest = digest.digest()
+        if digest not in self.written:
+            name = self.written[digest] = self.names.unique(mesh.name)
+            with self.text.block("mesh", name):
+                self.text.lines += body.lines
+        return self.written[digest]
+
+    # ---- normals
+
+    def put_normals(self, text, mesh, triangles, loops):
+        """Flat meshes need none, smooth ones one per vertex, others one per corner."""
+        domain = normals_domain(mesh)
+        if domain == "FACE":
+            return
+        if domain == "POINT":
+            text.put_array("normals", read(mesh.vertices, "normal", "f", 3), 3, "%.9g")
+            text.put_array("normal_triangles", triangles, 3, "%d")
+            return
+        if hasattr(mesh, "calc_normals_split"):
+            mesh.calc_normals_split()
+            normals = read(mesh.loops, "normal", "f", 3)
+        else:
+            normals = read(mesh.corner_normals, "vector", "f", 3)
+        indices = {}
+        corner = index_corners(normals, 12, indices)
+        text.put_array("normals", unique_floats(indices), 3, "%.9g")
+        text.put_array("normal_triangles", [corner[i] for i in loops], 3, "%d")
+
+    # ---- texture coordinates
+
+    def put_uvs(self, text, mesh, loops, materials, coordinates, used, slot_count):
+        indices = {}
+        tables = {c: index_corners(self.corner_uvs(mesh, c), 8, indices) for c in sorted(used)}
+        if len(used) == 1:
+            table = tables[next(iter(used))]
+            corners = [table[i] for i in loops]
+        else:
+            last = max(slot_count - 1, 0)
+            any_table = next(iter(tables.values()))
+            by_slot = [tables.get(c, any_table) for c in coordinates]
+            corners = []
+            for i, m in enumerate(materials):
+                table = by_slot[min(max(m, 0), last)]
+                corners += (table[loops[3 * i]], table[loops[3 * i + 1]], table[loops[3 * i + 2]])
+        text.put_array("uvs", unique_floats(indices), 2, "%.9g")
+        text.put_array("uv_triangles", corners, 3, "%d")
+
+    def corner_uvs(self, mesh, coordinates):
+        if coordinates[0] == "uv":
+            layer = self.uv_layer(mesh, coordinates[1])
+            if layer is None:
+                return array("f", bytes(8 * len(mesh.loops)))
+            return finite(read(layer.data, "uv", "f", 2))
+        points = read(mesh.vertices, "co", "f", 3)
+        corners = read(mesh.loops, "vertex_index", "i", 1)
+        planes = [points[0::3], points[1::3]]
+        if coordinates[0] == "generated":
+            center, half = mesh.texspace_location, mesh.texspace_size
+            planes = [[(x - center[k]) / (2 * half[k]) + 0.5 if half[k] else 0.0 for x in planes[k]]
+                      for k in range(2)]
+        out = array("f", bytes(8 * len(corners)))
+        for k in range(2):
+            out[k::2] = array("f", (planes[k][i] for i in corners))
+        return finite(out)
+
+    def uv_layer(self, mesh, name):
+        layers = mesh.uv_layers
+        if name:
+            found = layers.get(name)
+            if found is None:
+                self.report.warn(27, "mesh '%s' has no UV map '%s'" % (mesh.name, name), "uv 0 0")
+            return found
+        found = next((layer for layer in layers if layer.active_render), None)
+        if found is None:
+            self.report.warn(27, "mesh '%s' has no UV map" % mesh.name, "uv 0 0")
+        return found
+
+
+def finite(values):
+    if math.isfinite(sum(values)):
+        return values
+    return array("f", (x if math.isfinite(x) else 0.0 for x in values))
+
+
+def normals_domain(mesh):
+    """FACE: all flat; POINT: one normal per vertex; CORNER: everything else."""
+    domain = getattr(mesh, "normals_domain", None)  # 4.1
+    if domain is not None:
+        return domain
+    if mesh.has_custom_normals:
+        return "CORNER"
+    smooth = read(mesh.polygons, "use_smooth", "b", 1)
+    if not any(smooth):
+        return "FACE"
+    return "CORNER" if getattr(mesh, "use_auto_smooth", False) or not all(smooth) else "POINT"
+
+
+def index_corners(values, size, indices):
+    """Number of each corner's value among the different ones; `indices` collects those as bytes."""
+    data = values.tobytes()
+    number_of = indices.setdefault
+    return [number_of(data[i : i + size], len(indices)) for i in range(0, len(data), size)]
+
+
+def unique_floats(indices):
+    return array("f", b"".join(indices))
+
+
+# ------------------------------------------------------------------------------------------ 15 scene
+
+# Without a shape of their own, or given a second time as MESH.
+SILENT_TYPES = {"CAMERA", "EMPTY", "ARMATURE", "LATTICE", "SPEAKER", "LIGHT_PROBE", "LIGHTPROBE",
+                "FONT", "CURVE", "SURFACE", "META"}
+NO_MATERIAL = "No material"
+
+
+class SceneExport:
+    """One frame of a scene. Everything that Blender evaluates is read inside `collect`."""
+
+    def __init__(self, scene, layer, frame, camera, images, report):
+        self.scene, self.layer, self.frame, self.camera = scene, layer, frame, camera
+        self.images, self.report = images, report
+        self.values = Values(images, report)
+        self.shaders = Shaders(self.values, report)
+        self.folder = Folder(self.values, report)
+        self.meshes = Meshes(report)
+        self.geometries = {}  # (mesh pointer, coordinates per slot, ...) -> Geometry or None
+        self.materials = {}  # pointer of Blender's material, None for no material -> Material
+        self.textures = {}  # Texture -> name
+        self.material_names, self.texture_names = Names(), Names()
+        self.object_names, self.light_names, self.camera_names = Names(), Names(), Names()
+        self.objects, self.lights = [], []  # (name, text lines)
+        self.head, self.cameras = Text(), Text()
+
+    def run(self):
+        """The text of the scene file."""
+        with_render_graph(self.scene, self.layer, self.report, self.collect)
+        return self.assemble()
+
+    def collect(self, depsgraph, set_frame):
+        cameras = [self.camera] + sorted(
+            (o for o in self.scene.objects if o.type == "CAMERA" and o != self.camera), key=lambda o: o.name)
+        motion = Motion(depsgraph, set_frame, self.scene, self.frame, cameras)
+        self.collect_world()
+        for camera in cameras:
+            self.collect_camera(camera.evaluated_get(depsgraph), motion, depsgraph)
+        camera = self.camera.evaluated_get(depsgraph)
+        for instance in depsgraph.object_instances:
+            self.collect_instance(instance, motion, camera)
+        self.warn_of_deformation(motion)
+
+    # ---- camera and world
+
+    def collect_camera(self, camera, motion, depsgraph):
+        rows = rows_of(camera.matrix_world)
+        with self.report.at("camera", camera.name):
+            keys = motion.keys(("camera", camera.name_full), rows, camera, self.report)
+        name = self.camera_names.unique(camera.name)
+        put_camera(self.cameras, camera, keys, rows, depsgraph, name, self.report)
+
+    def collect_world(self):
+        color, texture, rotation = world_light(self.scene, self.shaders, self.folder, self.report)
+        ambient = self.values.constant(Value(color, texture))
+        self.head = Text()
+        with self.head.block("world"):
+            self.head.put("background", color)
+            self.head.put_unless(BLACK, "ambient", ambient)
+            if texture is not None:
+                plain = replace(texture, scale=(1.0, 1.0), rotation=0.0, offset=(0.0, 0.0), extension="repeat")
+                self.head.put("environment", word(self.texture_name(plain)))
+                self.head.put_unless(0, "environment_rotation", rotation)
+
+    # ---- objects
+
+    def collect_instance(self, instance, motion, camera):
+        if not instance.show_self:
+            return
+        thing = instance.object
+        with self.report.at("object", thing.name):
+            rows = rows_of(instance.matrix_world)
+            if not is_finite(rows):
+                self.report.warn(11, "its place is not finite", "left out")
+            elif thing.type == "MESH":
+                if not instance.is_instance:
+                    self.warn_of_hair(thing)
+                    self.warn_of_clip_end(thing, rows, camera)
+                self.collect_mesh(instance, thing, rows, motion)
+            elif thing.type == "LIGHT":
+                self.collect_light(instance, thing, rows, motion)
+            elif thing.type not in SILENT_TYPES:
+                self.report.warn(5, "it is a %s" % thing.type.lower(), "left out")
+
+    def name_of(self, instance, names):
+        thing, parent = instance.object, instance.parent
+        if instance.is_instance and parent is not None and parent.name != thing.name:
+            return names.unique("%s/%s" % (parent.name, thing.name))
+        return names.unique(thing.name)
+
+    def collect_light(self, instance, thing, rows, motion):
+        lamp = thing.data
+        if getattr(getattr(lamp, "cycles", None), "is_portal", False):
+            return
+        self.warn_of_linking(thing)
+        samples = motion.samples(instance_key(instance), rows)
+        if samples and not all(nearly_equal(samples[0], s) for s in samples[1:]):
+            self.report.warn(10, "the light moves", "it stands still")
+        text, name = Text(), self.name_of(instance, self.light_names)
+        is_visible = getattr(thing, "visible_camera", False)
+        put_light(text, name, lamp, rows, is_visible, self.values, self.report)
+        self.lights.append((name, text))
+
+    def collect_mesh(self, instance, thing, rows, motion):
+        if not self.is_seen(thing):
+            return
+        self.warn_of_linking(thing)
+        mesh = thing.data
+        if len(mesh.polygons) == 0:
+            self.report.note("object '%s' has no faces" % thing.name)
+            return
+        slots = self.material_slots(thing, mesh)
+        keys = motion.keys(instance_key(instance), rows, thing, self.report)
+        size = max(max(abs(x) for x in row[:3]) for row in rows)
+        is_flat = abs(determinant(rows)) <= 1e-12 * size**3
+        if size == 0:
+            self.report.note("object '%s' has the scale 0" % thing.name)
+            return
+        geometry = self.geometry(thing, mesh, slots, rows if is_flat else None)
+        if geometry is None:
+            return
+        materials = [slots[s] for s in geometry.slots]
+        if self.collect_lamp(instance, thing, geometry, materials, keys):
+            return
+        name = self.name_of(instance, self.object_names)
+        keys = [IDENTITY] if is_flat else keys
+        self.objects.append((name, self.object_text(name, geometry, keys, materials)))
+
+    def geometry(self, thing, mesh, slots, flatten):
+        """Shape or mesh block of a mesh, made on first use. None: nothing to see."""
+        used = self.meshes.slots(mesh, len(slots))
+        coordinates = tuple(m.coordinates() if i in used else None for i, m in enumerate(slots))
+        wanted = thing.get("rt_shape", mesh.get("rt_shape", "")) if hasattr(thing, "get") else ""
+        wanted = wanted if isinstance(wanted, str) else ""
+        key = (mesh.as_pointer(), coordinates, wanted, flatten)
+        if key not in self.geometries:
+            self.geometries[key] = self.make_geometry(mesh, slots, used, coordinates, wanted, flatten)
+        return self.geometries[key]
+
+    def make_geometry(self, mesh, slots, used, coordinates, wanted, flatten):
+        shape = None
+        if wanted in RECORDS and not flatten:
+            shape = wanted_shape(mesh, wanted)
+            if shape is None or len(used) > 1:
+                self.report.warn(33, "rt_shape '%s'" % wanted, "a mesh")
+                shape = None
+        elif wanted and wanted != "mesh":
+            self.report.warn(33, "rt_shape '%s'" % wanted, "a mesh")
+        elif not wanted and not flatten and len(used) == 1 and coordinates[used[0]] is None:
+            shape = recognise(mesh)
+        if shape is not None:
+            return Geometry(shape, "", used[:1])
+        name = self.meshes.put(mesh, coordinates, used, len(slots), flatten)
+        return Geometry(None, name, used) if name else None
+
+    def object_text(self, name, geometry, keys, materials):
+        text, shape = Text(), geometry.shape
+        with text.block(shape.kind if shape else "instance", name):
+            if shape:
+                keys = [times(k, shape.rows) if shape.rows != IDENTITY else k for k in keys]
+            text.put_keys(keys)
+            if shape and shape.corners:
+                text.put("corners", shape.corners)
+            if shape and shape.kind == "cone":
+                text.put_unless(0, "top_radius", shape.top_radius)
+            if not shape:
+                text.put("mesh", word(geometry.mesh))
+            if len(materials) == 1:
+                text.put("material", word(materials[0].name))
+            else:
+                text.put("materials", *[word(m.name) for m in materials])
+        return text
+
+    def collect_lamp(self, instance, thing, geometry, materials, keys):
+        """A sphere or a rectangle that only glows lights the scene: it becomes a visible lamp."""
+        glowing = next((m for m in materials if any(m.emission)), None)
+        if glowing is None or not thing.get("rt_light", True):
+            return False
+        shape, material = geometry.shape, materials[0]
+        lamps = lamp_rows(shape, keys[0]) if shape and len(keys) == 1 and material.only_glows() else []
+        if not lamps:
+            self.report.warn(32, "material '%s' glows" % glowing.name, "it is seen, but lights nothing")
+            return False
+        for kind, rows, size in lamps:
+            text, name = Text(), self.name_of(instance, self.light_names)
+            with text.block("light", name):
+                text.put("type", kind)
+                text.put_rows(rows)
+                text.put("color", material.emission)
+                text.put(*(("radius", size[0]) if kind == "sphere" else ("size", *size)))
+                text.put("visible", True)
+            self.lights.append((name, text))
+        return True
+
+    # ---- materials
+
+    def material_slots(self, thing, mesh):
+        """Material of each slot. Generated geometry may have more slots than the object."""
+        slots = [slot.material for slot in thing.material_slots]
+        slots += list(mesh.materials)[len(slots):]
+        return [self.material(m) for m in slots] or [self.material(None)]
+
+    def material(self, source):
+        key = source.as_pointer() if source else None
+        if key not in self.materials:
+            self.materials[key] = self.make_material(source)
+        return self.materials[key]
+
+    def make_material(self, source):
+        if source is None:
+            return Material(self.material_names.unique(NO_MATERIAL), diffuse=GRAY)
+        name = self.material_names.unique(source.name)
+        with self.report.at("material", source.name):
+            if not getattr(source, "use_nodes", True) or source.node_tree is None:
+                return Material(name, diffuse=tuple(source.diffuse_color)[:3])
+            output = source.node_tree.get_output_node("CYCLES") or source.node_tree.get_output_node("ALL")
+            if output is None:
+                return Material(name)
+            for socket in ("Volume", "Displacement"):
+                if output.inputs[socket].is_linked:
+                    self.report.warn(21, "%s of node '%s'" % (socket.lower(), output.name), "none")
+            lobes = self.shaders.lobes(Socket(output.inputs["Surface"], ()))
+            return self.folder.fold(name, lobes)
+
+    def texture_name(self, texture):
+        texture = replace(texture, coordinates=("uv", ""))
+        if texture.inverted:
+            file = self.images.file(texture.image, inverted=True) or texture.file
+            texture = replace(texture, file=file, inverted=False)
+        if texture not in self.textures:
+            stem = os.path.splitext(texture.file.split("/")[-1])[0]
+            self.textures[texture] = self.texture_names.unique(stem)
+        return self.textures[texture]
+
+    # ---- what is lost
+
+    def is_seen(self, thing):
+        if not getattr(thing, "visible_camera", True):
+            self.report.warn(6, "it is hidden from the camera", "left out")
+            return False
+        hidden = [a[8:] for a in ("visible_diffuse", "visible_glossy", "visible_transmission", "visible_shadow")
+                  if not getattr(thing, a, True)]
+        if hidden:
+            self.report.warn(6, "it is hidden from %s rays" % ", ".join(hidden), "all rays see it")
+        for attribute in ("is_holdout", "is_shadow_catcher"):
+            if getattr(thing, attribute, False):
+                self.report.warn(6, attribute[3:].replace("_", " "), "a plain object")
+        return True
+
+    def warn_of_linking(self, thing):
+        linking = getattr(thing, "light_linking", None)  # 4.0
+        if linking is not None and (linking.receiver_collection or linking.blocker_collection):
+            self.report.warn(6, "light linking", "it lights everything")
+
+    def warn_of_hair(self, thing):
+        for system in thing.particle_systems:
+            if system.settings.type == "HAIR" and system.settings.render_type == "PATH":
+                self.report.warn(5, "hair '%s'" % system.name, "left out")
+
+    def warn_of_clip_end(self, thing, rows, camera):
+        view = rows_of(camera.matrix_world)
+        axis, eye = column(view, 2), column(view, 3)
+        corners = [[sum(row[k] * c[k] for k in range(3)) + row[3] for row in rows] for c in thing.bound_box]
+        depths = [sum(axis[k] * (eye[k] - corner[k]) for k in range(3)) for corner in corners]
+        if min(depths) > camera.data.clip_end:
+            self.report.warn(8, "all of it is beyond the clip end", "it is drawn")
+
+    def warn_of_deformation(self, motion):
+        if not motion.moments:
+            return
+        first, last = motion.moments[0], motion.moments[-1]
+        for key, value in first.items():
+            if key[0] == "shape" and last.get(key) != value:
+                with self.report.at("object", key[1]):
+                    self.report.warn(9, "its shape changes while the shutter is open", "its shape at the frame")
+
+    # ---- text
+
+    def assemble(self):
+        scene, text = self.scene, Text()
+        blend = os.path.basename(bpy.data.filepath) or "an unsaved file"
+        one_line = lambda s: "".join(c if ord(c) >= 32 else "_" for c in s)
+        text.lines += [
+            "raytracer %d" % FORMAT_VERSION,
+            "# %s, scene '%s', frame %d; Blender %s, Blend/Export.py"
+            % (one_line(blend), one_line(scene.name), self.frame, bpy.app.version_string),
+            "# Lengths in Blender units (%s m), angles in degrees, light in linear RGB."
+            % number(scene.unit_settings.scale_length),
+        ]
+        wanted, exported = samples_of(scene)
+        if wanted != exported:
+            text.lines.append("# The scene asks for %d samples; more than %d are left to --spp." % (wanted, exported))
+        put_settings(text, scene, self.report)
+        materials, textures = Text(), Text()
+        used = {line.strip() for _, t in self.objects for line in t.lines}
+        for material in sorted(self.materials.values(), key=lambda m: natural(m.name)):
+            if self.is_used(material, used):
+                material.put(materials, self.texture_name)
+        for texture, name in sorted(self.textures.items(), key=lambda item: natural(item[1])):
+            put_texture(textures, texture, name)
+        parts = [self.head, self.cameras, textures, materials]
+        parts += [t for _, t in sorted(self.lights, key=lambda item: natural(item[0]))]
+        parts.append(self.meshes.text)
+        parts += [t for _, t in sorted(self.objects, key=lambda item: natural(item[0]))]
+        return str(text) + "".join(str(p) for p in parts if p.lines)
+
+    @staticmethod
+    def is_used(material, lines):
+        name = word(material.name)
+        return any(line == "material " + name or (line.startswith("materials ") and name in line) for line in lines)
+
+
+def put_texture(text, texture, name):
+    with text.block("texture", name):
+        text.put("file", '"%s"' % texture.file.replace("\\", "\\\\").replace('"', '\\"'))
+        text.put_unless("srgb", "space", texture.space)
+        text.put_unless("bilinear", "interpolation", texture.interpolation)
+        text.put_unless("repeat", "extension", texture.extension)
+        text.put_unless("color", "channel", texture.channel)
+        text.put_unless((1.0, 1.0), "scale", texture.scale)
+        text.put_unless(0, "rotation", texture.rotation)
+        text.put_unless((0.0, 0.0), "offset", texture.offset)
+
+
+def lamp_rows(shape, rows):
+    """[(light type, place, sizes)] of a glowing sphere or rectangle; [] for other shapes.
+
+    Blender's faces glow on both sides, our lamps on one: a rectangle becomes two.
+    """
+    if shape.kind == "sphere":
+        whole = times(rows, shape.rows)
+        radii = [length(column(whole, i)) for i in range(3)]
+        if max(radii) - min(radii) > 1e-4 * max(radii):
+            return []
+        center = tuple(IDENTITY[i][:3] + (whole[i][3],) for i in range(3))
+        return [("sphere", center, (radii[0],))]
+    if shape.kind != "plane":
+        return []
+    c = [[sum(row[k] * shape.corners[i + k] for k in range(3)) + row[3] for row in rows] for i in (0, 3, 6, 9)]
+    side = [[b - a for a, b in zip(c[0], c[i])] for i in (1, 3)]
+    x, y = length(side[0]), length(side[1])
+    is_parallelogram = all(abs(c[0][k] + c[2][k] - c[1][k] - c[3][k]) < 1e-4 * (x + y) for k in range(3))
+    if not is_parallelogram or abs(sum(a * b for a, b in zip(*side))) > 1e-4 * x * y:
+        return []
+    center = [(c[0][k] + c[2][k]) / 2 for k in range(3)]
+    u, v = [a / x for a in side[0]], [a / y for a in side[1]]
+    w = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+    lamps = []
+    for sign in (1, -1):  # a lamp shines along its -Z
+        lamps.append(("rectangle", tuple((sign * u[k], v[k], sign * w[k], center[k]) for k in range(3)), (x, y)))
+    return lamps
+
+
+def natural(name):
+    """Sorts 'Cube 9' before 'Cube 10'."""
+    return [(int(part), "") if part.isdigit() else (-1, part) for part in re.split(r"(\d+)", name)] + [(-1, name)]
+
+
+# ----------------------------------------------------------------------------------- 16 command line
+
+
+def parse(arguments, is_module):
+    parser = argparse.ArgumentParser(
+        prog="Export.py", formatter_class=argparse.RawDescriptionHelpFormatter,
+        usage="blender -b SCENE.blend --python-exit-code 3 -P Export.py -- [options]\n"
+              "       python Export.py SCENE.blend [options]",
+        description="Writes a Blender scene as the scene text of the ray tracer.",
+        epilog="Exit codes: 0 written, 2 error, 3 warnings under --strict or a fault of this script.\n\n"
+               "Warnings, one for each thing that the scene text cannot say:\n"
+               + "\n".join("  W%03d  %s" % item for item in sorted(WARNINGS.items())))
+    if is_module:
+        parser.add_argument("blend", metavar="SCENE.blend", nargs="?", help="file to open")
+    parser.add_argument("-o", "--output", metavar="FILE",
+                        help="scene text to write, #### stands for the frame; default: next to the .blend")
+    parser.add_argument("--frame", metavar="N|A:B", help="frame or range of frames; default: the current one")
+    parser.add_argument("--camera", metavar="NAME", help="camera to look through; default: the active one")
+    parser.add_argument("--textures", metavar="DIR",
+                        help="where pictures are looked for and copied to; default: Textures beside the output")
+    parser.add_argument("--strict", action="store_true", help="exit with 3 when there were warnings")
+    parser.add_argument("--verbose", action="store_true", help="say what is being done")
+    parser.add_argument("--list-warnings", action="store_true", help="print the table of warnings and stop")
+    return parser.parse_args(arguments)
+
+
+def frames_of(options, scene):
+    if options.frame is None:
+        return [scene.frame_current]
+    match = re.fullmatch(r"(-?\d+)(?::(-?\d+))?", options.frame)
+    if not match:
+        raise ExportError("--frame takes a number or a range like 1:10, not '%s'" % options.frame)
+    first = int(match.group(1))
+    last = int(match.group(2) or first)
+    if last < first:
+        raise ExportError("--frame %s is empty" % options.frame)
+    return list(range(first, last + 1))
+
+
+def output_of(options, frame, is_many):
+    path = options.output
+    if path is None:
+        path = os.path.splitext(bpy.data.filepath)[0] + ".txt" if bpy.data.filepath else "untitled.txt"
+        if is_many:
+            path = path[:-4] + "-####.txt"
+    numbered = re.sub(r"#+", lambda m: str(frame).zfill(len(m.group())), os.path.basename(path))
+    if is_many and numbered == os.path.basename(path):
+        raise ExportError("-o needs #### for the number when there are several frames")
+    return os.path.abspath(os.path.join(os.path.dirname(path), numbered))
+
+
+def camera_of(options, scene):
+    if options.camera is None:
+        if scene.camera is None:
+            raise ExportError("scene '%s' has no active camera" % scene.name)
+        return scene.camera
+    cameras = {o.name: o for o in scene.objects if o.type == "CAMERA"}
+    if options.camera not in cameras:
+        known = ", ".join(sorted(cameras)) or "none"
+        raise ExportError("no camera '%s'; known: %s" % (options.camera, known))
+    return cameras[options.camera]
+
+
+def layer_of(scene, report):
+    layers = [layer for layer in scene.view_layers if layer.use] or list(scene.view_layers)
+    current = bpy.context.view_layer
+    layer = next((l for l in layers if l == current), layers[0])
+    if len(layers) > 1:
+        report.warn(4, "%d view layers" % len(layers), "'%s'" % layer.name)
+    return layer
+
+
+def export(options, report):
+    scene = bpy.context.scene
+    frames = frames_of(options, scene)
+    current, old_camera = scene.frame_current, scene.camera
+    layer = layer_of(scene, report)
+    try:
+        for frame in frames:
+            path = output_of(options, frame, len(frames) > 1)
+            if frame != scene.frame_current:
+                scene.frame_set(frame)
+            scene.camera = camera = camera_of(options, scene)  # markers may have changed it
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+            images = Images(os.path.dirname(path), options.textures, report)
+            text = SceneExport(scene, layer, frame, camera, images, report).run()
+            write_atomically(path, text.encode("utf-8"))
+            report.note("wrote %s" % path)
+    finally:
+        if scene.frame_current != current:
+            scene.frame_set(current)
+        scene.camera = old_camera
+
+
+def open_file(options, is_module):
+    if is_module and options.blend:
+        if not os.path.isfile(options.blend):
+            raise ExportError("no file '%s'" % options.blend)
+        try:
+            bpy.ops.wm.open_mainfile(filepath=os.path.abspath(options.blend))
+        except RuntimeError as problem:
+            raise ExportError("'%s' cannot be opened: %s" % (options.blend, str(problem).strip())) from None
+    elif is_module:
+        raise ExportError("which .blend file? See --help")
+    elif bpy.app.background and not bpy.data.filepath:
+        # Blender only prints a line and goes on with an empty scene.
+        before = sys.argv[: sys.argv.index("--")] if "--" in sys.argv else sys.argv
+        wanted = [a for a in before[1:] if a.endswith(".blend")]
+        if wanted:
+            raise ExportError("Blender could not open '%s'" % wanted[0])
+
+
+def main():
+    """Exit code."""
+    is_module = not bpy.app.binary_path
+    if is_module:
+        arguments = sys.argv[1:]
+    else:
+        arguments = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
+    options = parse(arguments, is_module)
+    if options.list_warnings:
+        print("\n".join("W%03d  %s" % item for item in sorted(WARNINGS.items())))
+        return 0
+    report = Report(options.verbose)
+    try:
+        open_file(options, is_module)
+        export(options, report)
+    except (ExportError, OSError) as problem:
+        print("Export.py: error: %s" % problem, file=sys.stderr)
+        return EXIT_ERROR
+    report.summary()
+    return EXIT_STRICT if options.strict and report.seen else 0
+
+
+if __name__ == "__main__":
+    if bpy.app.background:
+        try:
+            code = main()
+        except Exception:
+            import traceback
+            traceback.print_exc()
+            code = EXIT_STRICT
+        sys.stdout.flush()
+        sys.stderr.flush()
+        if not bpy.app.binary_path:
+            os._exit(code)  # the bpy module can hang when it cleans up after a render
+        sys.exit(code)
+    elif main():  # in the user interface sys.exit would close Blender
+        raise RuntimeError("the scene was not exported; the console says why")

@@ -1,0 +1,48 @@
+#!/bin/sh
+# A render that is stopped leaves nothing behind: no picture, no temporary file.
+. "$(dirname "$0")/kit.sh"
+
+# In the foreground, since shells make jobs in the background ignore SIGINT. One that does not stop
+# within ten seconds is killed. $code is the exit code.
+runAndSignal() {
+    signal=$1
+    shift
+    rm -f pid
+    {
+        sleep 0.3
+        kill "-$signal" "$(cat pid)"
+        for tenth in 1 2 3 4 5 6 7 8 9 10; do
+            sleep 1
+            kill -0 "$(cat pid)" || exit
+        done
+        kill -KILL "$(cat pid)"
+    } 2> /dev/null &
+    sh -c 'echo $$ > pid; exec "$@"' sh "$raytracer" "$@" > out 2> err
+    code=$?
+}
+
+# interrupted NAME: stops a render that would take minutes.
+interrupted() {
+    mkdir "$1"
+    echo old > "$1/a.png"
+    runAndSignal "$1" scene.txt "$1/a.png" --aov depth -r 2000x2000 --spp 256 --progress plain
+    check "$1: exit code 130" [ $code -eq 130 ]
+    check "$1: a message" has err 'raytracer: interrupted; nothing is written'
+    check "$1: nothing on stdout" [ ! -s out ]
+    check "$1: no file is left" holds "$1" a.png
+    check "$1: the old picture is kept" [ "$(cat "$1/a.png")" = old ]
+}
+interrupted TERM
+if [ "$(sh -c 'kill -INT $$; echo ignored' 2> /dev/null)" = ignored ]; then
+    ok 'INT is ignored where this test runs: not tested'
+else
+    interrupted INT
+fi
+
+# Ignored from outside, as nohup and shells do it for jobs in the background: the render goes on.
+trap '' INT
+runAndSignal INT scene.txt ignored.ppm -r 400x300 --spp 16
+trap - INT
+check 'an ignored signal stays ignored' [ $code -eq 0 ]
+
+finish

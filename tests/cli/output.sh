@@ -1,0 +1,78 @@
+#!/bin/sh
+# What goes where: files, stdout, stderr; names, formats and sizes of what is written.
+. "$(dirname "$0")/kit.sh"
+
+mkdir one
+run 0 scene.txt one/a.ppm
+check 'only the picture is written' holds one a.ppm
+check 'nothing on stdout' [ ! -s out ]
+check 'progress on stderr' has err 'progress 100 %'
+run 0 scene.txt one/a.png --quiet
+check 'quiet' [ ! -s err ]
+run 0 scene.txt one/a.pfm --progress none
+check 'no progress' sh -c '! grep -q progress err'
+check 'PNG' sh -c "head -c 8 one/a.png | cmp - - < /dev/null; head -c 4 one/a.png | grep -q PNG"
+check 'PFM' sh -c 'head -n 1 one/a.pfm | grep -qx PF'
+check 'PPM and PNG say the same' "$raytracer" diff one/a.ppm one/a.png --tol 0
+check 'PFM is near' "$raytracer" diff one/a.ppm one/a.pfm --tol 0.01
+
+run 0 scene.txt - -q
+check 'stdout: the same PPM' cmp out one/a.ppm
+run 0 scene.txt - --stats
+check 'stdout: only the picture beside --stats' cmp out one/a.ppm
+check 'the table is on stderr' has err 'Mray/s'
+run 0 scene.txt -o - -q < /dev/null
+check '-o -' cmp out one/a.ppm
+"$raytracer" - - -q < scene.txt > out
+check 'scene from stdin' cmp out one/a.ppm
+
+run 0 scene.txt one/b.ppm --stats=json
+check 'JSON: one line' [ "$(wc -l < out)" -eq 1 ]
+check 'JSON: only an object' grep -qx '{.*}' out
+for key in seconds parse build render write total rays camera shadow reflect refract indirect hits \
+    rays_per_second accel kind nodes leaves bytes sah peak_bytes threads kernel features needed \
+    skipped samples min mean max numeric nan_samples degenerate_primitives; do
+    has out "\"$key\":" || fail 'JSON: all keys' "no $key"
+done
+check 'JSON: samples are counted' has out '"camera":1536'
+expect 'JSON and picture do not share stdout' 1 'cannot both go to stdout' scene.txt - --stats=json
+
+run 0 scene.txt
+check 'default output' cmp Output/scene.ppm one/a.ppm
+check 'its folder holds nothing else' holds Output scene.ppm
+cp one/a.ppm one/old.ppm
+chmod 400 one/old.ppm
+run 0 scene.txt one/a.ppm --seed 9
+check 'a picture is replaced' differ one/a.ppm one/old.ppm
+
+mkdir aov
+run 0 scene.txt aov/a.png --aov depth,normal,albedo,position,id,samples
+check 'all AOVs' holds aov a.albedo.pfm a.depth.pfm a.id.pfm a.normal.pfm a.png a.position.pfm a.samples.pfm
+for name in albedo depth id normal position samples; do
+    check "AOV $name: size" hasSize aov/a.$name.pfm '24 16'
+    check "AOV $name: bytes" [ "$(wc -c < aov/a.$name.pfm)" -eq $((24 * 16 * 12 + $(head -n 3 aov/a.$name.pfm | wc -c))) ]
+done
+check 'an AOV is no copy of the picture' differ aov/a.depth.pfm aov/a.normal.pfm
+run 0 scene.txt aov/c.pfm --aov depth --crop 2,3,7,5
+check 'AOV of a crop' hasSize aov/c.depth.pfm '5 2'
+run 0 scene.txt aov/c.pfm --aov depth --crop 2,3,7,5 --crop-pad
+check 'AOV of a padded crop' hasSize aov/c.depth.pfm '24 16'
+
+run 0 scene.txt p.ppm --preview -q
+check 'preview: half blocks on stderr' has err '▀'
+check 'preview: 8 rows' [ "$(wc -l < err)" -eq 8 ]
+run 0 scene.txt --check
+check '--check: one line' [ "$(cat out)" = 'scene.txt: ok (2 objects, 1 light, 1 material, 0 textures, 0 triangles)' ]
+run 0 scene.txt --info
+for words in '24x16 pixels' "'front' perspective 50 mm" '1 sphere, 1 infinite_plane' '-1 -1 0  to  1 1 2' \
+    "point 'key' 60 60 60 W/sr at 3 -3 5" 'peak'; do
+    check "--info: $words" has out "$words"
+done
+check '--info: nothing on stderr' [ ! -s err ]
+run 0 --version
+check '--version' grep -qx 'raytracer [0-9.]*' out
+run 0 --list-features
+check '--list-features' has out 'motion-blur'
+check 'nothing else was written' [ "$(find . -name '*.tmp' | wc -l)" -eq 0 ]
+
+finish

@@ -1,0 +1,71 @@
+#!/bin/sh
+# The picture depends on the scene, the settings and the seed only.
+. "$(dirname "$0")/kit.sh"
+
+# Many small shapes, so that there is a tree, and everything that uses random numbers.
+{
+    sed -e 's/samples 4/samples 8/' -e 's/diffuse 0.8 0.1 0.1/&\n    mirror 0.3 0.3 0.3\n    roughness 0.3/' \
+        -e 's/color 60 60 60/&\n    radius 0.5/' -e 's/camera front {/&\n    aperture_radius 0.1\n    focus_distance 6/' scene.txt
+    i=0
+    while [ $i -lt 60 ]; do
+        printf 'sphere s%s {\n    translate %s %s %s\n    scale 0.2 0.2 0.1\n    material red\n}\n' \
+            $i $((i % 5 - 2)) $((i / 5 % 4 - 2)).5 $((i / 20)).3
+        i=$((i + 1))
+    done
+} > many.txt
+
+run 0 many.txt a.pfm --threads 1 -q
+check 'it renders' hasSize a.pfm '24 16'
+# same NAME OPTION...: no bit changes.
+same() {
+    name=$1
+    shift
+    run 0 many.txt b.pfm -q "$@"
+    check "$name" cmp a.pfm b.pfm
+}
+same 'again' --threads 1
+same '2 threads' --threads 2
+same '3 threads' -t3
+same 'all threads' --threads 0
+same '--no-bvh' --no-bvh
+same '--accel none' --accel none
+same '--accel bvh' --accel bvh
+same '--kernel scalar' --kernel scalar
+same '--kernel auto' --kernel auto
+same 'AOVs beside it' --aov depth,id
+same 'statistics' --stats
+same 'the scene'\''s own settings' --spp 8 --seed 0 --sampler sobol --filter blackman-harris,1.5 --jitter \
+    --max-depth 8 --light-samples 1 --camera front --scale 100 --resolution 24x16
+
+run 0 many.txt --convert copy.txt
+run 0 copy.txt b.pfm -q
+check '--convert: the copy renders the same bits' cmp a.pfm b.pfm
+run 0 copy.txt --convert copy2.txt
+check '--convert: a copy of the copy is equal' cmp copy.txt copy2.txt
+run 0 many.txt --convert -
+check '--convert -' cmp copy.txt out
+run 0 many.txt --convert less.txt --spp 2 --camera top --background 1,1,1
+run 0 less.txt b.pfm -q
+run 0 many.txt c.pfm -q --spp 2 --camera top --background 1,1,1
+check '--convert takes options along' cmp b.pfm c.pfm
+
+# other NAME OPTION...: the picture changes.
+other() {
+    name=$1
+    shift
+    run 0 many.txt b.pfm -q "$@"
+    check "$name" differ a.pfm b.pfm
+}
+other 'another seed' --seed 1
+other 'another number of samples' --spp 4
+other 'another sampler' --sampler random
+other 'another filter' --filter box
+other 'another width' --filter blackman-harris,3
+other 'more light samples' --light-samples 2
+other 'another depth' --max-depth 0
+other 'no jitter' --no-jitter --sampler stratified
+
+# An advice is no warning.
+expect 'advice about samples' 0 'a power of two (8)' many.txt b.pfm --spp 7 --strict
+
+finish

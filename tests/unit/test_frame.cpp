@@ -1,0 +1,154 @@
+// Promise P3 at its root: a scene times 2^k has the same normalised numbers, a moved one nearly so.
+#include "render/frame.h"
+
+#include "check.h"
+#include "meshes.h"
+
+using meshes::Random;
+
+namespace {
+
+Rows scaledRows(const Rows& rows, double factor, Vec3d offset) {
+    Rows out = rows; // world' = world * factor + offset
+    for (double& x : out) x *= factor;
+    for (std::size_t i = 0; i < 3; ++i) out[4 * i + 3] += offset[i];
+    return out;
+}
+
+// A bit of everything, two keys for some.
+SceneDesc someScene(Random& random) {
+    SceneDesc desc;
+    desc.meshes.push_back(meshes::icosphere(2));
+    for (int kind = 0; kind < 8; ++kind) {
+        ObjectDesc object;
+        object.kind = static_cast<ObjectDesc::Kind>(kind);
+        object.radius = random.uniform(0.3, 2);
+        object.topRadius = random.uniform(0, 2);
+        if (object.kind == ObjectDesc::Kind::Mesh) object.mesh = 0;
+        object.worldFromObject = {random.affine(3, 5).rows()};
+        if (kind % 2) object.worldFromObject.push_back(random.affine(3, 5).rows());
+        desc.objects.push_back(object);
+    }
+    return desc;
+}
+
+SceneDesc moved(SceneDesc desc, double factor, Vec3d offset) {
+    for (ObjectDesc& object : desc.objects)
+        for (Rows& key : object.worldFromObject) key = scaledRows(key, factor, offset);
+    return desc;
+}
+
+ObjectDesc objectOf(ObjectDesc::Kind kind, const Rows& rows = kIdentityRows) {
+    ObjectDesc object;
+    object.kind = kind;
+    object.worldFromObject = {rows};
+    return object;
+}
+
+} // namespace
+
+TEST(frame_powers_of_two_change_no_bit) {
+    Random random(101);
+    for (int n = 0; n < 20; ++n) {
+        const SceneDesc desc = someScene(random);
+        const SceneFrame frame = frameOf(desc);
+        for (const int k : {-60, -20, -7, 1, 3, 20, 60}) {
+            const double factor = std::ldexp(1.0, k);
+            const SceneDesc scaled = moved(desc, factor, {});
+            const SceneFrame other = frameOf(scaled);
+            CHECK(other.centre == frame.centre * factor && other.scale * factor == frame.scale);
+            for (std::size_t i = 0; i < desc.objects.size(); ++i)
+                for (std::size_t key = 0; key < desc.objects[i].worldFromObject.size(); ++key)
+                    CHECK(other.placed(scaled.objects[i].worldFromObject[key]) ==
+                          frame.placed(desc.objects[i].worldFromObject[key]));
+            MergedMesh a, b;
+            const Rows& rows = desc.objects.back().worldFromObject[0];
+            a.add(desc.meshes[0], Transform::fromRows(rows), frame, {0}, 0);
+            b.add(desc.meshes[0], Transform::fromRows(scaledRows(rows, factor, {})), other, {0}, 0);
+            CHECK(a.geometry.points == b.geometry.points && a.geometry.normals == b.geometry.normals);
+            MeshDesc big = desc.meshes[0];
+            for (Vec3d& p : big.points) p = p * factor;
+            CHECK(toGeometry(big, frameOf(big)).points ==
+                  toGeometry(desc.meshes[0], frameOf(desc.meshes[0])).points);
+        }
+    }
+}
+
+TEST(frame_extent_is_one_to_two) {
+    Random random(102);
+    for (int n = 0; n < 200; ++n) {
+        const double size = random.logUniform(1e-9, 1e9);
+        const SceneDesc desc =
+            moved(someScene(random), size, random.inBox(1) * (size * random.logUniform(1, 1e6)));
+        const SceneFrame frame = frameOf(desc);
+        BoundsD box; // of the points of the mesh and of the keys' origins, which are inside
+        for (const ObjectDesc& object : desc.objects) {
+            if (object.kind == ObjectDesc::Kind::InfinitePlane) continue;
+            for (const Rows& key : object.worldFromObject) {
+                box.extend(frame.point({key[3], key[7], key[11]}));
+                if (object.kind != ObjectDesc::Kind::Mesh) continue;
+                for (const Vec3d p : desc.meshes[0].points)
+                    box.extend(frame.point(Transform::fromRows(key).point(p)));
+            }
+        }
+        CHECK(maxAbs(box.lo) <= 1 && maxAbs(box.hi) <= 1); // half of the extent
+        const Vec3d p = random.inBox(1);
+        CHECK(length(frame.point(frame.worldPoint(p)) - p) < 1e-9);
+    }
+    // Exactly: two unit spheres at x = 0 and 6 fill 8 by 2 by 2.
+    SceneDesc two;
+    two.objects.push_back(objectOf(ObjectDesc::Kind::Sphere));
+    two.objects.push_back(objectOf(ObjectDesc::Kind::Sphere, Transform::translate({6, 0, 0}).rows()));
+    CHECK_NEAR(frameOf(two).centre.x, 3, 1e-14);
+    CHECK_EQUAL(frameOf(two).scale, 0.125);
+}
+
+// A scene 10^6 extents away: its doubles carry 1e6 * 2^-53 of it, 1e-10, a thousandth of a float's
+// last place; so the floats differ by a rounding at most.
+TEST(frame_far_places) {
+    Random random(103);
+    double worst = 0;
+    for (int n = 0; n < 50; ++n) {
+        const MeshDesc mesh = meshes::icosphere(2);
+        const Transform map = random.affine(2, 0);
+        const SceneFrame frame = meshes::frameFor(mesh, map);
+        const double extent = 1 / frame.scale;
+        const Transform farMap = Transform::translate(random.direction() * (1e6 * extent)) * map;
+        const SceneFrame farFrame = meshes::frameFor(mesh, farMap);
+        CHECK_EQUAL(farFrame.scale, frame.scale);
+        const meshes::Ready near = meshes::baked(mesh, map, frame), far = meshes::baked(mesh, farMap, farFrame);
+        for (std::size_t i = 0; i < near.geometry->points.size(); ++i)
+            worst = max(worst, static_cast<double>(maxAbs(near.geometry->points[i] - far.geometry->points[i])));
+    }
+    std::printf("worst change of a coordinate by moving 1e6 extents: %g, seed 103\n", worst);
+    CHECK_INFO(worst <= 0x1p-24 + 2e-9, worst);
+}
+
+TEST(frame_of_little) {
+    // Nothing, or only what has no end: the world as it is.
+    CHECK(frameOf(SceneDesc{}).scale == 1 && frameOf(SceneDesc{}).centre == Vec3d{});
+    SceneDesc plane;
+    plane.objects.push_back(objectOf(ObjectDesc::Kind::InfinitePlane));
+    CHECK(frameOf(plane).scale == 1);
+    // Cameras and lights count where nothing else does.
+    CameraDesc camera;
+    camera.worldFromCamera = {Transform::translate({10, 0, 0}).rows()};
+    plane.cameras.push_back(camera);
+    LightDesc light;
+    light.worldFromLight = Transform::translate({10, 40, 0}).rows();
+    plane.lights.push_back(light);
+    CHECK(frameOf(plane).centre == Vec3d(10, 20, 0) && frameOf(plane).scale == 1.0 / 32);
+    plane.objects.push_back(objectOf(ObjectDesc::Kind::Sphere));
+    CHECK(maxAbs(frameOf(plane).centre) < 1e-14 && frameOf(plane).scale == 0.5);
+    // A single point has no size, and an infinite one no frame.
+    MeshDesc mesh;
+    mesh.points = {{3, 4, 5}};
+    CHECK(frameOf(mesh).centre == Vec3d(3, 4, 5) && frameOf(mesh).scale == 1);
+    mesh.points.push_back({kInfinity, 0, 0});
+    CHECK(frameOf(mesh).scale == 1 && frameOf(mesh).centre == Vec3d{});
+    // A cone is as wide as its wider end.
+    SceneDesc cone;
+    cone.objects.push_back(objectOf(ObjectDesc::Kind::Cone));
+    cone.objects[0].topRadius = 4;
+    CHECK_EQUAL(frameOf(cone).scale, 0.125);
+}

@@ -1,0 +1,295 @@
+// Materials: energy, symmetry and the laws of optics at single points.
+#include "base/math.h"
+#include "check.h"
+#include "material/fresnel.h"
+#include "material/material.h"
+#include "meshes.h"
+#include "sample/warp.h"
+
+using meshes::Random;
+
+namespace {
+
+constexpr Vec3 kUp{0, 0, 1};
+
+Vec3 atAngle(double angle) {
+    return {static_cast<float>(std::sin(angle)), 0, static_cast<float>(std::cos(angle))};
+}
+Vec3 above(Random& random) {
+    Vec3d d = random.direction();
+    d.z = std::fabs(d.z);
+    return toFloat(d);
+}
+
+// Exponent and width of a lobe that has Blender's roughness r (material.cpp).
+double exponentOf(double r) { return clamp(2 / (r * r * r * r) - 2, 1.0, 1e5); }
+
+// Integral of a function of the direction over the hemisphere, on a fine grid about `axis`, where it
+// is peaked: angle from the axis in steps that grow with it.
+template <class Fn>
+double integrate(Vec3d axis, Fn&& f) {
+    const Vec3d a = normalize(axis);
+    const Frame frame = frameAround(toFloat(a));
+    double sum = 0;
+    const int steps = 400, turns = 240;
+    for (int i = 0; i < steps; ++i) {
+        const double from = kPi * sqr(static_cast<double>(i) / steps);
+        const double to = kPi * sqr(static_cast<double>(i + 1) / steps), angle = (from + to) / 2;
+        double ring = 0;
+        for (int j = 0; j < turns; ++j) {
+            const double turn = kTwoPi * (j + 0.5) / turns;
+            const Vec3d local{std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn), std::cos(angle)};
+            const Vec3 dir = frame.toWorld(toFloat(local));
+            if (dir.z > 0) ring += f(normalize(dir));
+        }
+        sum += ring * (kTwoPi / turns) * (std::cos(from) - std::cos(to));
+    }
+    return sum;
+}
+
+Material glossy(double exponent) {
+    Material m;
+    m.diffuse = {};
+    m.specular = {1, 1, 1};
+    m.specularModel = SpecularModel::Ashikhmin;
+    m.exponent = static_cast<float>(exponent);
+    return m;
+}
+
+} // namespace
+
+TEST(material_diffuse_is_kd) {
+    Material m;
+    m.diffuse = {0.2f, 0.5f, 0.9f};
+    // f cos at every angle is kd / pi cos, whose integral is kd.
+    for (double angle = 0; angle < 1.5; angle += 0.1) {
+        const Rgb light = reflectedLight(m, kUp, atAngle(0.7), atAngle(-angle));
+        const double cosine = static_cast<double>(atAngle(angle).z);
+        CHECK_NEAR(light.r, static_cast<double>(m.diffuse.r) * kInvPi * cosine, 1e-7);
+        CHECK_NEAR(light.b, static_cast<double>(m.diffuse.b) * kInvPi * cosine, 1e-7);
+    }
+    const double albedo = integrate({0, 0, 1}, [&](Vec3 l) {
+        return static_cast<double>(reflectedLight(m, kUp, atAngle(1.2), l).g);
+    });
+    CHECK_NEAR(albedo, 0.5, 1e-4);
+    CHECK(isBlack(reflectedLight(m, kUp, kUp, {0, 0, -1}))); // light from behind
+    CHECK(isBlack(reflectedLight(m, kUp, kUp, {1, 0, 0})));
+}
+
+// ks (N.H)^n, without a cosine: COMP 557 and NFF.
+TEST(material_blinn_form) {
+    Material m;
+    m.diffuse = {};
+    m.specular = {0.5f, 0.25f, 1};
+    m.exponent = 40;
+    Random random(91);
+    for (int i = 0; i < 2000; ++i) {
+        const Vec3 v = above(random), l = above(random);
+        const double nh = normalize(toDouble(v) + toDouble(l)).z;
+        CHECK_NEAR(reflectedLight(m, kUp, v, l).r, 0.5 * std::pow(nh, 40), 2e-6);
+    }
+    CHECK_NEAR(reflectedLight(m, kUp, atAngle(0.8), atAngle(-0.8)).b, 1, 1e-5); // mirror direction
+    CHECK(isBlack(reflectedLight(m, kUp, atAngle(0.1), atAngle(2)))); // light below the horizon
+}
+
+TEST(material_ashikhmin_energy_and_symmetry) {
+    double largest = 0;
+    for (int r = 1; r <= 10; ++r) {
+        const Material m = glossy(exponentOf(r / 10.0));
+        for (const double angle : {0.0, 0.5, 1.0, 1.3, 1.5}) {
+            const Vec3 v = atAngle(angle);
+            const double albedo = integrate(toDouble(atAngle(-angle)), [&](Vec3 l) {
+                return static_cast<double>(reflectedLight(m, kUp, v, l).g);
+            });
+            largest = max(largest, albedo);
+            CHECK_INFO(albedo <= 1.001, "roughness " << r / 10.0 << " angle " << angle << ": " << albedo);
+            if (r <= 3 && angle < 0.6) CHECK_INFO(albedo > 0.95, albedo); // narrow: all of it comes back
+        }
+    }
+    std::printf("largest albedo %g\n", largest);
+    // f(l, v) = f(v, l): what reflectedLight gives over the cosine of the light.
+    Random random(92);
+    for (const double n : {1.0, 20.0, 1000.0}) {
+        const Material m = glossy(n);
+        for (int i = 0; i < 2000; ++i) {
+            const Vec3 v = above(random), l = above(random);
+            if (v.z < 0.01f || l.z < 0.01f) continue;
+            const double a = static_cast<double>(reflectedLight(m, kUp, v, l).r / l.z);
+            const double b = static_cast<double>(reflectedLight(m, kUp, l, v).r / v.z);
+            CHECK_INFO(std::fabs(a - b) <= 1e-4 * max(a, b) + 1e-12, "seed 92 n " << n << ": " << a << ' ' << b);
+        }
+    }
+}
+
+TEST(material_snell_and_fresnel) {
+    const float eta = 1 / 1.5f; // air to glass
+    Random random(93);
+    for (int i = 0; i < 5000; ++i) {
+        const Vec3 n = toFloat(random.direction());
+        Vec3 v = toFloat(random.direction());
+        if (dot(v, n) < 0) v = -v;
+        for (const float e : {eta, 1.5f, 1.0f}) {
+            const auto out = refractThrough(v, n, e);
+            const double sinIn = length(cross(toDouble(v), toDouble(n)));
+            if (static_cast<double>(e) * sinIn > 1.00001) CHECK(!out);
+            if (!out) continue;
+            CHECK_NEAR(length(*out), 1, 3e-7);
+            CHECK(dot(*out, n) < 0);
+            CHECK_NEAR(length(cross(toDouble(*out), toDouble(n))), static_cast<double>(e) * sinIn, 2e-6);
+            // In the plane of v and n, on the other side.
+            CHECK_NEAR(dot(toDouble(*out), cross(toDouble(v), toDouble(n))), 0, 1e-6);
+            CHECK(dot(toDouble(*out) + toDouble(n) * -dot(toDouble(*out), toDouble(n)), toDouble(v)) <= 1e-6);
+            if (e == 1.0f) CHECK(length(*out + v) < 2e-7f); // the same on both sides: straight on
+        }
+        const Vec3 mirrored = reflectAbout(v, n);
+        CHECK_NEAR(dot(mirrored, n), dot(v, n), 1e-6);
+        CHECK(length(toDouble(mirrored) + toDouble(v) - toDouble(n) * (2 * dot(toDouble(v), toDouble(n)))) < 1e-6);
+    }
+    // The critical angle of glass is asin(1/1.5).
+    const double critical = std::asin(1 / 1.5);
+    CHECK(refractThrough(atAngle(critical - 1e-4), kUp, 1.5f).has_value());
+    CHECK(!refractThrough(atAngle(critical + 1e-4), kUp, 1.5f).has_value());
+    CHECK_EQUAL(fresnelDielectric(atAngle(critical + 1e-4).z, 1.5f), 1.0f);
+
+    for (const double ior : {1.1, 1.33, 1.5, 2.4}) {
+        const double normal = sqr((ior - 1) / (ior + 1));
+        const float e = static_cast<float>(1 / ior);
+        CHECK_NEAR(fresnelDielectric(1, e), normal, 1e-6);
+        CHECK_NEAR(fresnelDielectric(1, static_cast<float>(ior)), normal, 1e-6); // from inside too
+        CHECK_EQUAL(fresnelDielectric(0, e), 1.0f);
+        // At Brewster's angle the parallel part vanishes: half of what the other part reflects.
+        const double brewster = std::atan(ior);
+        const double c = std::cos(brewster), out = std::sqrt(1 - sqr(std::sin(brewster) / ior));
+        const double perpendicular = sqr((c - ior * out) / (c + ior * out));
+        CHECK_NEAR(fresnelDielectric(static_cast<float>(c), e), perpendicular / 2, 1e-6);
+        // Reversible: the same part comes back along the refracted way.
+        for (double angle = 0; angle < 1.55; angle += 0.05) {
+            const double inside = std::asin(std::sin(angle) / ior);
+            CHECK_NEAR(fresnelDielectric(static_cast<float>(std::cos(angle)), e),
+                       fresnelDielectric(static_cast<float>(std::cos(inside)), static_cast<float>(ior)), 5e-5);
+        }
+    }
+    CHECK_EQUAL(fresnelDielectric(0.3f, 1), 0.0f); // no boundary
+    CHECK(schlickWeight(1) == 0 && schlickWeight(0) == 1 && schlickWeight(-0.1f) == 1 && schlickWeight(1.1f) == 0);
+    CHECK_NEAR(schlickWeight(0.5f), 1 / 32.0, 1e-8);
+}
+
+TEST(material_smooth_bounces) {
+    Material m;
+    m.mirror = {0.5f, 1, 1}, m.transmission = {1, 0.25f, 1};
+    const Vec3 v = atAngle(0.6);
+    const float eta = 1 / 1.5f;
+    Bounces out = bounces(m, kUp, kUp, v, eta, {0.3f, 0.7f});
+    CHECK(out.reflected && out.refracted);
+    CHECK(length(out.reflected->dir - atAngle(-0.6)) < 1e-6f);
+    CHECK(out.reflected->weight == m.mirror && out.refracted->weight == m.transmission);
+
+    m.fresnel = FresnelModel::Dielectric;
+    const float f = fresnelDielectric(v.z, eta);
+    out = bounces(m, kUp, kUp, v, eta, {});
+    CHECK(out.reflected->weight == m.mirror * f && out.refracted->weight == m.transmission * (1 - f));
+
+    m.fresnel = FresnelModel::Schlick;
+    out = bounces(m, kUp, kUp, kUp, eta, {});
+    CHECK(out.reflected->weight == m.mirror && out.refracted->weight == m.transmission);
+    out = bounces(m, kUp, kUp, atAngle(kHalfPi - 1e-4), eta, {});
+    CHECK_NEAR(out.reflected->weight.r, 1, 1e-3); // grazing: a mirror, whatever its colour
+    CHECK(maxChannel(out.refracted->weight) < 1e-3f);
+
+    // Total internal reflection: what was to be transmitted is reflected.
+    m.fresnel = FresnelModel::None;
+    m.mirror = {0.25f, 0, 0}, m.transmission = {0.75f, 1, 0.5f};
+    out = bounces(m, kUp, kUp, atAngle(1), 1.5f, {});
+    CHECK(out.reflected && !out.refracted && out.reflected->weight == Rgb({1, 1, 0.5f}));
+    m.fresnel = FresnelModel::Dielectric;
+    m.mirror = m.transmission = {1, 1, 1};
+    out = bounces(m, kUp, kUp, atAngle(1), 1.5f, {});
+    CHECK(!out.refracted && out.reflected->weight == Rgb({1, 1, 1}));
+
+    m.mirror = m.transmission = {}; // neither
+    out = bounces(m, kUp, kUp, v, eta, {});
+    CHECK(!out.reflected && !out.refracted);
+}
+
+// Bent normals and roughness at any angle: reflections stay above the true surface, refractions
+// below it, unit directions, finite weights of at most what there is.
+TEST(material_no_bounce_on_the_wrong_side) {
+    Random random(94);
+    long long wrong = 0, count = 0;
+    for (int i = 0; i < 200000; ++i) {
+        Material m;
+        m.mirror = m.transmission = {0.5f, 0.5f, 0.5f};
+        m.roughness = random.chance(0.3) ? 0.0f : static_cast<float>(random.unit());
+        m.fresnel = static_cast<FresnelModel>(random.below(3));
+        const Vec3 ng = toFloat(random.direction());
+        const auto onSide = [&](Vec3 side) {
+            for (;;) {
+                const Vec3 d = toFloat(random.direction());
+                if (dot(d, side) > 1e-4f) return d;
+            }
+        };
+        const Vec3 n = random.chance(0.5) ? ng : onSide(ng);
+        Vec3 v = onSide(ng);
+        if (dot(v, n) <= 0) continue; // shade() sees to that
+        const float eta = static_cast<float>(random.logUniform(0.4, 2.5));
+        const Bounces out = bounces(m, n, ng, v, eta, random.square());
+        ++count;
+        for (const auto& [bounce, side] : {std::pair(out.reflected, ng), std::pair(out.refracted, -ng)}) {
+            if (!bounce) continue;
+            const float weight = maxChannel(bounce->weight);
+            if (!(dot(bounce->dir, side) > 0) || !(std::fabs(length(bounce->dir) - 1) < 1e-6f) ||
+                !(weight >= 0 && weight <= 1.000001f))
+                ++wrong;
+        }
+        if (!out.reflected && !out.refracted) ++wrong;
+    }
+    std::printf("%lld bounces, seed 94\n", count);
+    CHECK(count > 80000);
+    CHECK_EQUAL(wrong, 0);
+}
+
+// Rough reflection draws half vectors from the Blinn lobe: the mean direction and the mean weight
+// are those of the Ashikhmin lobe with that exponent, integrated by a rule.
+TEST(material_rough_reflection_is_the_lobe) {
+    Random random(95);
+    for (const double roughness : {0.1, 0.3, 0.5, 0.8}) {
+        const Material lobe = glossy(exponentOf(roughness));
+        Material m;
+        m.mirror = {1, 1, 1};
+        m.roughness = static_cast<float>(roughness);
+        for (const double angle : {0.0, 0.6, 1.1}) {
+            const Vec3 v = atAngle(angle);
+            Vec3d mean{}; // of direction times weight
+            double weight = 0, weight2 = 0;
+            const int side = 300;
+            for (int i = 0; i < side * side; ++i) {
+                const Vec2 u{static_cast<float>((i % side + random.unit()) / side),
+                             static_cast<float>((i / side + random.unit()) / side)};
+                const Vec2 inside{min(u.x, kOneMinusUlp), min(u.y, kOneMinusUlp)};
+                // A half vector whose reflection is below the surface gives the mirror direction
+                // instead of nothing: not a part of the lobe.
+                const Vec3 h = normalize(frameAround(kUp).toWorld(
+                    cosinePowerFromSquare(inside, static_cast<float>(exponentOf(roughness)))));
+                if (!(dot(h, v) > 0) || !(reflectAbout(v, h).z > 0)) continue;
+                const Bounces out = bounces(m, kUp, kUp, v, 1, inside);
+                const double w = static_cast<double>(out.reflected->weight.g);
+                mean += toDouble(out.reflected->dir) * w;
+                weight += w, weight2 += w * w;
+            }
+            const double count = static_cast<double>(side) * side;
+            mean = mean / count, weight /= count;
+            const auto moment = [&](auto&& value) {
+                return integrate(toDouble(atAngle(-angle)), [&](Vec3 l) {
+                    return static_cast<double>(reflectedLight(lobe, kUp, v, l).g) * value(l);
+                });
+            };
+            const double albedo = moment([](Vec3) { return 1.0; });
+            const double x = moment([](Vec3 l) { return static_cast<double>(l.x); });
+            const double z = moment([](Vec3 l) { return static_cast<double>(l.z); });
+            // Three sigma of 90,000 plain samples of a value in [0,1] are below 0.005.
+            CHECK_INFO(std::fabs(weight - albedo) < 0.003, "roughness " << roughness << " angle " << angle << ": " << weight << " lobe " << albedo);
+            CHECK_INFO(std::fabs(mean.x - x) < 0.003 && std::fabs(mean.z - z) < 0.003 && std::fabs(mean.y) < 0.003,
+                       "roughness " << roughness << " angle " << angle << ": " << mean.x << ' ' << mean.z << " lobe " << x << ' ' << z);
+        }
+    }
+}

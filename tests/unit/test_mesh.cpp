@@ -1,0 +1,368 @@
+// Mesh and MeshGeometry: what a hit says about its point, instances, motion, broken triangles; and
+// numbers that others published for a scene.
+#include "check.h"
+#include "meshes.h"
+#include "render/shape_set.h"
+
+#include <algorithm>
+
+using meshes::Random;
+
+namespace {
+
+const std::vector<MeshPart> kOnePart = {{0, 0}};
+
+Ray rayTo(Vec3d from, Vec3d to) {
+    Ray ray;
+    ray.org = toFloat(from);
+    ray.dir = toFloat(to) - ray.org;
+    return ray;
+}
+
+double angleBetween(Vec3 a, Vec3d b) { return length(cross(toDouble(a), normalize(b))); }
+
+// The four corner values of a mesh that tests interpolation: all coordinates known by formula.
+MeshDesc squareWithUvs() {
+    MeshDesc mesh;
+    mesh.points = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}};
+    mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+    mesh.uvs = {{0.25f, 0.5f}, {0.75f, 0.5f}, {0.75f, 1}, {0.25f, 1}};
+    mesh.uvTriangles = mesh.triangles;
+    return mesh;
+}
+
+} // namespace
+
+TEST(mesh_uv_and_position) {
+    const MeshGeometry geometry = toGeometry(squareWithUvs(), {});
+    const Mesh mesh(geometry, MovingTransform(), {3}, {{0, 9}});
+    Random random(51);
+    for (int i = 0; i < 20000; ++i) {
+        const double x = random.uniform(0.001, 1.999), y = random.uniform(0.001, 0.999);
+        const Vec3d from{x, y, random.chance(0.5) ? 1.0 : -1.0};
+        const Ray ray = rayTo(from, {x, y, 0});
+        Hit hit;
+        CHECK(mesh.intersect(ray, hit));
+        const Surface s = mesh.surface(ray, hit);
+        const double X = static_cast<double>(ray.org.x), Y = static_cast<double>(ray.org.y);
+        CHECK_NEAR(s.p.x, X, 3e-7);
+        CHECK_NEAR(s.p.y, Y, 3e-7);
+        CHECK_EQUAL(s.p.z, 0.0f);
+        CHECK_NEAR(s.uv.x, 0.25 + X / 4, 3e-7);
+        CHECK_NEAR(s.uv.y, 0.5 + Y / 2, 3e-7);
+        CHECK(s.ng == (Vec3{0, 0, 1}) && s.ns == s.ng && s.material == 3 && s.object == 9);
+        // dp/du: 0.5 of u are 2 of x. dp/dv: 0.5 of v are 1 of y.
+        const SurfaceDerivatives d = mesh.derivatives(ray, hit);
+        CHECK(length(d.dpdu - Vec3{4, 0, 0}) < 1e-5f && length(d.dpdv - Vec3{0, 2, 0}) < 1e-5f);
+    }
+}
+
+// The point and the texture coordinates of neighbouring hits against the derivatives, and the
+// barycentrics against the corners, on a sphere under affine maps.
+TEST(mesh_derivatives) {
+    Random random(52);
+    const MeshDesc desc = meshes::uvSphere(48, 24);
+    double worst = 0;
+    long long count = 0;
+    for (int n = 0; n < 20; ++n) {
+        const Transform map = random.affine(3, 1);
+        const meshes::Ready r = n % 2 ? meshes::instance(desc, map, {}) : meshes::baked(desc, map, {});
+        const MeshGeometry& g = *r.geometry;
+        for (int i = 0; i < 300; ++i) {
+            const Ray ray = rayTo(map.point(random.direction() * 3.0), map.point(random.inBox(0.5)));
+            Hit hit;
+            if (!r.shape->intersect(ray, hit)) continue;
+            const auto& c = g.triangles[hit.prim];
+            const auto& t = g.uvTriangles[hit.prim];
+            const SurfaceDerivatives d = r.shape->derivatives(ray, hit);
+            const Surface s = r.shape->surface(ray, hit);
+            Vec3d p[3];
+            for (std::size_t k = 0; k < 3; ++k) p[k] = r.sceneFromMesh.point(toDouble(g.points[c[k]]));
+            const double size = length(p[1] - p[0]) + length(p[2] - p[0]);
+            for (std::size_t k = 0; k < 3; ++k) {
+                // The map uv -> p is affine: it must take the difference to each corner with it.
+                const double du = static_cast<double>(g.uvs[t[k]].x) - static_cast<double>(s.uv.x);
+                const double dv = static_cast<double>(g.uvs[t[k]].y) - static_cast<double>(s.uv.y);
+                const Vec3d step = toDouble(d.dpdu) * du + toDouble(d.dpdv) * dv;
+                const double error = length(toDouble(s.p) + step - p[k]) / size;
+                worst = std::max(worst, error);
+            }
+            ++count;
+        }
+    }
+    std::printf("%lld points, worst %g of the triangle's size, seed 52\n", count, worst);
+    CHECK(count > 4000);
+    CHECK_INFO(worst < 1e-4, worst); // float uv of a cell of 1/48: 2^-24 * 48 * a few
+}
+
+// Without coordinates uv are the barycentrics, and dpdu, dpdv the edges.
+TEST(mesh_without_uvs) {
+    MeshDesc desc = squareWithUvs();
+    desc.uvs.clear(), desc.uvTriangles.clear();
+    const MeshGeometry geometry = toGeometry(desc, {});
+    const Mesh mesh(geometry, MovingTransform(Transform::scale({2, 2, -2})), {0}, kOnePart);
+    const Ray ray = rayTo({2.4, 0.6, 5}, {2.4, 0.6, 0});
+    Hit hit;
+    CHECK(mesh.intersect(ray, hit));
+    CHECK_EQUAL(hit.prim, 0u);
+    const Surface s = mesh.surface(ray, hit);
+    CHECK(s.uv == (Vec2{hit.u, hit.v}));
+    CHECK_NEAR(hit.u, 0.3, 1e-6); // p = 0.4 v0 + 0.3 v1 + 0.3 v2, in object space (1.2, 0.3)
+    CHECK_NEAR(hit.v, 0.3, 1e-6);
+    const SurfaceDerivatives d = mesh.derivatives(ray, hit);
+    CHECK(d.dpdu == (Vec3{4, 0, 0}) && d.dpdv == (Vec3{4, 2, 0}));
+}
+
+// Outward normals from outside and inside, under maps of any handedness, baked and as instances,
+// and smooth normals near the true ones.
+TEST(mesh_normals_point_outward) {
+    Random random(53);
+    const MeshDesc desc = meshes::uvSphere(64, 32);
+    long long inward = 0, count = 0, mirrors = 0;
+    double worst = 0, worstSmooth = 0;
+    for (int n = 0; n < 60; ++n) {
+        const Transform map = random.affine(4, 1);
+        mirrors += map.mirrors();
+        const SceneFrame frame = meshes::frameFor(desc, map);
+        const meshes::Ready r = n % 2 ? meshes::instance(desc, map, frame) : meshes::baked(desc, map, frame);
+        const Transform scene = frame.placed(map.rows());
+        for (int i = 0; i < 100; ++i) {
+            const bool fromInside = random.chance(0.5);
+            const Vec3d from = fromInside ? random.inBox(0.3) : random.direction() * 3.0;
+            const Ray ray = rayTo(scene.point(from), scene.point(fromInside ? random.direction() * 2.0
+                                                                            : random.inBox(0.4)));
+            Hit hit;
+            if (!r.shape->intersect(ray, hit)) continue;
+            const Surface s = r.shape->surface(ray, hit);
+            const double side = dot(toDouble(s.ng), toDouble(ray.dir));
+            ++count;
+            if (fromInside ? side <= 0 : side >= 0) ++inward;
+            // Normal of the ellipsoid at the nearest place: the gradient of |q|^2.
+            const Vec3d q = scene.inverse().point(toDouble(s.p));
+            worstSmooth = std::max(worstSmooth, angleBetween(s.ns, scene.normal(q)));
+            const auto& c = r.geometry->triangles[hit.prim];
+            Vec3d p[3];
+            for (std::size_t k = 0; k < 3; ++k)
+                p[k] = r.sceneFromMesh.point(toDouble(r.geometry->points[c[k]]));
+            worst = std::max(worst, angleBetween(s.ng, cross(p[1] - p[0], p[2] - p[0])));
+            CHECK_NEAR(length(s.ng), 1, 3e-7);
+            CHECK_NEAR(length(s.ns), 1, 3e-7);
+        }
+    }
+    std::printf("%lld hits, %lld mirrored maps, ng off by %g, ns by %g, seed 53\n", count, mirrors, worst,
+                worstSmooth);
+    CHECK(count > 5000 && mirrors > 10);
+    CHECK_EQUAL(inward, 0);
+    CHECK_INFO(worst < 1e-6, worst);
+    CHECK_INFO(worstSmooth < 0.1, worstSmooth); // a facet of 1/64, stretched 16 times at most
+}
+
+TEST(mesh_drops_triangles_without_area) {
+    MeshDesc desc = squareWithUvs();
+    desc.points.push_back({1, 0, 0}); // on the edge 0-1
+    desc.triangles = {{0, 1, 2}, {0, 1, 4}, {1, 1, 2}, {0, 2, 3}, {3, 3, 3}};
+    desc.uvTriangles = {{0, 1, 2}, {0, 0, 0}, {0, 0, 0}, {0, 2, 3}, {0, 0, 0}};
+    desc.triangleMaterials = {0, 1, 1, 2, 1};
+    MeshGeometry g = toGeometry(desc, {});
+    CHECK_EQUAL(g.dropDegenerate(), 3u);
+    CHECK(g.triangles == (std::vector<MeshGeometry::Corners>{{0, 1, 2}, {0, 2, 3}}));
+    CHECK(g.uvTriangles == g.triangles && g.normalTriangles.empty());
+    CHECK(g.slots == (std::vector<std::uint32_t>{0, 2}));
+    CHECK_EQUAL(g.dropDegenerate(), 0u);
+
+    // Those with the smallest area stay: two floats apart in one coordinate.
+    MeshGeometry thin;
+    thin.points = {{0, 0, 0}, {1, 1, 1}, {1, 1, nextUp(1.0f)}};
+    thin.triangles = {{0, 1, 2}};
+    CHECK_EQUAL(thin.dropDegenerate(), 0u);
+
+    // Nothing is left: no box, no hit, no trouble.
+    MeshGeometry none;
+    none.points = {{1, 2, 3}};
+    none.triangles = {{0, 0, 0}};
+    CHECK_EQUAL(none.dropDegenerate(), 1u);
+    none.finish(true);
+    const Mesh empty(none, MovingTransform(), {0}, kOnePart);
+    Hit hit;
+    CHECK(empty.bounds().isEmpty() && !empty.intersect(rayTo({0, 0, 0}, {1, 2, 3}), hit));
+}
+
+// A ray that leaves a triangle of any shape by its error does not meet that triangle.
+TEST(mesh_needles_do_not_hit_themselves) {
+    Random random(54);
+    long long rays = 0, selfHits = 0, points = 0;
+    double largest = 0;
+    for (int n = 0; n < 3; ++n) {
+        auto triangles = meshes::soup(random, 3000);
+        for (const auto& t : triangles) {
+            MeshGeometry g = meshes::geometryOf({t}, false);
+            if (g.dropDegenerate()) continue;
+            g.finish(false);
+            const Mesh mesh(g, MovingTransform(), {0}, kOnePart);
+            const double u = 1 - std::sqrt(random.unit()), v = random.unit() * (1 - u);
+            const Vec3d aim = toDouble(t[0]) * (1 - u - v) + toDouble(t[1]) * u + toDouble(t[2]) * v;
+            const Ray ray = rayTo(random.inBox(3), aim);
+            Hit hit;
+            if (!mesh.intersect(ray, hit)) continue;
+            const Surface s = mesh.surface(ray, hit);
+            ++points;
+            largest = std::max(largest, static_cast<double>(s.error) / static_cast<double>(g.extent));
+            for (int k = 0; k < 40; ++k) {
+                const float side = random.chance(0.5) ? 1.0f : -1.0f;
+                Ray out;
+                out.org = s.p + s.ng * (side * s.error);
+                out.dir = toFloat(random.direction());
+                if (random.chance(0.3)) // towards another place of the triangle, and off it
+                    out.dir = toFloat(normalize(toDouble(t[random.below(3)] - out.org))) +
+                              s.ng * (side * static_cast<float>(random.logUniform(1e-6, 1e-2)));
+                if (!(dot(out.dir, s.ng) * side > 0)) continue;
+                ++rays;
+                if (mesh.occludes(out) && ++selfHits <= 5)
+                    CHECK_INFO(false, "seed 54, corners " << t[0].x << ' ' << t[0].y << ' ' << t[0].z << ", "
+                                                          << t[1].x << ' ' << t[1].y << ' ' << t[1].z << ", "
+                                                          << t[2].x << ' ' << t[2].y << ' ' << t[2].z);
+            }
+        }
+    }
+    std::printf("%lld points, %lld rays, %lld self hits, largest error %g of the extent\n", points, rays,
+                selfHits, largest);
+    CHECK(points > 1500 && rays > 50000);
+    CHECK_EQUAL(selfHits, 0);
+}
+
+// A moving mesh at a time is the mesh under the map of that time.
+TEST(mesh_moves_as_its_transform_says) {
+    Random random(55);
+    const MeshDesc desc = meshes::icosphere(2);
+    MeshGeometry g = toGeometry(desc, {});
+    g.finish(true);
+    long long wrong = 0, hits = 0, outside = 0;
+    for (int n = 0; n < 10; ++n) {
+        const Transform keys[3] = {random.affine(2, 1), random.affine(2, 1), random.affine(2, 1)};
+        const MovingTransform motion{std::span<const Transform>(keys)};
+        const Mesh moving(g, motion, {0}, kOnePart);
+        const Bounds box = moving.bounds();
+        for (int i = 0; i < 500; ++i) {
+            Ray ray = rayTo(random.direction() * 4.0, random.inBox(1));
+            ray.time = random.chance(0.1) ? 0.5f : static_cast<float>(random.unit());
+            const Transform now = motion.at(static_cast<double>(ray.time));
+            const Mesh still(g, MovingTransform(now), {0}, kOnePart);
+            Hit a, b;
+            const bool hitA = moving.intersect(ray, a), hitB = still.intersect(ray, b);
+            if (hitA != hitB || !(a == b)) ++wrong;
+            if (!hitA) continue;
+            ++hits;
+            const Surface s = moving.surface(ray, a), r = still.surface(ray, b);
+            if (!(s.p == r.p && s.ng == r.ng && s.ns == r.ns && s.error == r.error)) ++wrong;
+            // On the unit sphere at that time, but for the flat facets (1 - cos of half an edge).
+            const double radius = length(now.inverse().point(toDouble(s.p)));
+            if (!(radius < 1.00001 && radius > 0.95)) ++wrong;
+            if (!box.contains(s.p)) ++outside;
+        }
+    }
+    std::printf("%lld hits, seed 55\n", hits);
+    CHECK(hits > 1500);
+    CHECK_EQUAL(wrong, 0);
+    CHECK_EQUAL(outside, 0);
+}
+
+// A turning object turns about its own origin, wherever the middle of its mesh is: like the formula
+// of the same sphere.
+TEST(mesh_turns_about_the_origin_of_its_object) {
+    MeshDesc desc = meshes::icosphere(3);
+    for (Vec3d& p : desc.points) p = p * 0.25 + Vec3d{1, 0, 0};
+    const SceneFrame own = frameOf(desc);
+    MeshGeometry g = toGeometry(desc, own);
+    g.finish(true);
+    const Transform keys[2] = {Transform(), Transform::rotate({0, 0, 1}, kHalfPi)};
+    const MovingTransform motion{std::span<const Transform>(keys)};
+    const Mesh mesh(g, motion, {0}, kOnePart,
+                    Transform::translate(own.centre) * Transform::scale(1 / own.scale));
+    for (const double time : {0.0, 0.25, 0.5, 1.0}) {
+        const double angle = time * kHalfPi;
+        const Vec3d middle{std::cos(angle), std::sin(angle), 0};
+        Ray ray = rayTo(middle + Vec3d{0, 0, 2}, middle);
+        ray.time = static_cast<float>(time);
+        Hit hit;
+        CHECK_INFO(mesh.intersect(ray, hit), time);
+        CHECK_NEAR(mesh.surface(ray, hit).p.z, 0.25, 0.005);
+        CHECK(mesh.bounds().contains(mesh.surface(ray, hit).p));
+    }
+}
+
+// tMin and tMax are open, the limit of intersect() is closed; equal triangles: the lower number.
+TEST(mesh_ranges_and_ties) {
+    MeshDesc desc = squareWithUvs();
+    desc.uvs.clear(), desc.uvTriangles.clear();
+    for (int i = 0; i < 3; ++i) // the same again, and again
+        desc.triangles.insert(desc.triangles.end(), {{0, 1, 2}, {0, 2, 3}});
+    for (const bool withTree : {true, false}) {
+        MeshGeometry g = toGeometry(desc, {});
+        g.finish(withTree);
+        const Mesh mesh(g, MovingTransform(), {0}, kOnePart);
+        Ray ray = rayTo({0.5, 0.75, 2}, {0.5, 0.75, 1}); // meets z = 0 at t = 2 in triangle 1
+        Hit hit;
+        CHECK(mesh.intersect(ray, hit) && hit.prim == 1);
+        CHECK_EQUAL(hit.t, 2.0f);
+        Hit atLimit;
+        atLimit.t = 2;
+        CHECK(mesh.intersect(ray, atLimit));
+        atLimit.t = nextDown(2.0f);
+        CHECK(!mesh.intersect(ray, atLimit));
+        ray.tMax = 2;
+        CHECK(!mesh.occludes(ray));
+        ray.tMax = nextUp(2.0f) * 1.000001f;
+        CHECK(mesh.occludes(ray));
+        std::vector<Hit> hits;
+        mesh.collect(ray, hits);
+        CHECK_EQUAL(hits.size(), 4u);
+        ray.tMin = 2;
+        CHECK(!mesh.occludes(ray) && !mesh.intersect(ray, hit));
+    }
+}
+
+TEST(mesh_parts_and_slots) {
+    MeshDesc desc = squareWithUvs();
+    desc.triangleMaterials = {1, 0};
+    const MeshGeometry g = toGeometry(desc, {});
+    const Mesh mesh(g, MovingTransform(), {40, 41}, {{0, 7}, {1, 8}});
+    Hit hit;
+    const Ray a = rayTo({1.5, 0.25, 1}, {1.5, 0.25, 0}), b = rayTo({0.5, 0.75, 1}, {0.5, 0.75, 0});
+    CHECK(mesh.intersect(a, hit));
+    CHECK(mesh.surface(a, hit).material == 41 && mesh.surface(a, hit).object == 7);
+    hit = {};
+    CHECK(mesh.intersect(b, hit));
+    CHECK(mesh.surface(b, hit).material == 40 && mesh.surface(b, hit).object == 8);
+}
+
+// Haines' SPD scene tetra: numbers published in its Readme for 513 x 513 eye rays through pixel
+// corners. The frustum's angle spans the centres of the outer pixels (NFF.TXT): 512/511 wider.
+TEST(mesh_spd_tetra) {
+    const meshes::Ready r = meshes::baked(meshes::tetra(5), {}, {});
+    CHECK_EQUAL(r.geometry->triangles.size(), 4096u);
+    const Vec3d from{1.02285, -3.17715, -2.17451}, at{-0.004103, -0.004103, 0.216539};
+    const Vec3d up{-0.816497, -0.816497, 0.816497}, light{2, -18, -5};
+    const Vec3d forward = normalize(at - from), right = normalize(cross(forward, up));
+    const Vec3d above = cross(right, forward);
+    const double half = std::tan(radians(22.5)) * 512 / 511;
+    long long eye = 0, background = 0, shadow = 0;
+    for (int j = 0; j <= 512; ++j) {
+        for (int i = 0; i <= 512; ++i) {
+            Ray ray;
+            ray.org = toFloat(from);
+            ray.dir = toFloat(forward + right * (half * (i / 256.0 - 1)) + above * (half * (1 - j / 256.0)));
+            ++eye;
+            Hit hit;
+            if (!r.shape->intersect(ray, hit)) {
+                ++background;
+                continue;
+            }
+            const Surface s = r.shape->surface(ray, hit);
+            if (dot(toDouble(s.ng), light - toDouble(s.p)) > 0) ++shadow;
+        }
+    }
+    std::printf("%lld eye rays, %lld background, %lld shadow\n", eye, background, shadow);
+    CHECK_EQUAL(eye, 263169);
+    CHECK_NEAR(background, 213381, 20);
+    CHECK_NEAR(shadow, 46111, 20);
+}
