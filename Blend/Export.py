@@ -473,7 +473,9 @@ def pixel_filter(scene):
     cycles = getattr(scene, "cycles", None)
     if "EEVEE" in scene.render.engine or not hasattr(cycles, "pixel_filter_type"):
         return "blackman-harris", max(getattr(scene.render, "filter_size", 1.5), 0.01)
-    names = {"BOX": "box", "GAUSSIAN": "gaussian", "BLACKMAN_HARRIS": "blackman-harris"}
+    if cycles.pixel_filter_type == "BOX":
+        return "box", 1.0  # Cycles ignores the width of this one
+    names = {"GAUSSIAN": "gaussian", "BLACKMAN_HARRIS": "blackman-harris"}
     return names[cycles.pixel_filter_type], cycles.filter_width
 
 
@@ -523,7 +525,9 @@ def put_settings(text, scene, report):
             crop = crop_of(render, width, height)
             if crop[0] < crop[2] and crop[1] < crop[3]:
                 text.put("crop", *crop)
-        text.put("samples", samples_of(scene)[1])
+        samples = samples_of(scene)[1]
+        text.put("samples", samples)
+        text.put_unless(True, "jitter", samples > 1)  # Cycles puts a single sample in the middle
         text.put_unless(8, "max_depth", depth)
         text.put_unless(0, "seed", max(getattr(cycles, "seed", 0), 0))
         text.put("filter", name, filter_width)
@@ -638,13 +642,13 @@ def put_point_light(text, lamp, power, place, _scale, is_visible, normalize, _re
     if radius > 0 and is_sphere_lamp(lamp):
         area = 4 * math.pi * math.pi * radius * radius if normalize else math.pi
         text.put("type", "sphere")
-        text.put_rows(place)
+        text.put("translate", column(place, 3))
         text.put("color", scaled(power, 1 / area))
         text.put("radius", radius)
         text.put_unless(False, "visible", is_visible)
         return
     text.put("type", "point")
-    text.put_rows(place)
+    text.put("translate", column(place, 3))
     text.put("color", scaled(power, intensity_factor(radius, normalize)))
     text.put_unless(0, "radius", radius)
 
@@ -658,11 +662,12 @@ def intensity_factor(radius, normalize):
 
 def put_spot(text, lamp, power, place, scale, _is_visible, normalize, report):
     angle = lamp.spot_size
-    if abs(scale[0] - scale[1]) > 1e-4 * scale[0]:
-        report.warn(29, "scale makes the cone elliptic", "a round cone")
-    across = (scale[0] + scale[1]) / 2
-    if abs(across - scale[2]) > 1e-4 * across and scale[2] > 0 and angle < 3.14:
-        angle = 2 * math.atan(math.tan(angle / 2) * across / scale[2])
+    if VERSION >= (3, 5):  # before, scale did not matter
+        if abs(scale[0] - scale[1]) > 1e-4 * scale[0]:
+            report.warn(29, "scale makes the cone elliptic", "a round cone")
+        across = (scale[0] + scale[1]) / 2
+        if abs(across - scale[2]) > 1e-4 * across and scale[2] > 0 and angle < 3.14:
+            angle = 2 * math.atan(math.tan(angle / 2) * across / scale[2])
     text.put("type", "spot")
     text.put_rows(place)
     text.put("color", scaled(power, intensity_factor(lamp.shadow_soft_size, normalize)))
@@ -745,6 +750,11 @@ def encode_png(width, height, channels, rows_bottom_up):
             + chunk(b"IDAT", zlib.compress(bytes(lines), 6)) + chunk(b"IEND", b""))
 
 
+def encode_ppm(width, height, rgb_bottom_up):
+    rows = [rgb_bottom_up[y * width * 3 : (y + 1) * width * 3] for y in range(height - 1, -1, -1)]
+    return b"P6\n%d %d\n255\n" % (width, height) + b"".join(rows)
+
+
 def encode_pfm(width, height, rgb_bottom_up):
     data = array("f", rgb_bottom_up)
     if sys.byteorder != "little":
@@ -775,8 +785,9 @@ class Pixels(NamedTuple):
 class Images:
     """Finds the file of each image, and writes one where there is none that the renderer reads."""
 
-    def __init__(self, out_folder, textures, report):
+    def __init__(self, out_folder, textures, as_ppm, report):
         self.out_folder = out_folder
+        self.as_ppm = as_ppm
         self.report = report
         self.files = {}
         self.means = {}
@@ -803,7 +814,7 @@ class Images:
         packed = getattr(image, "packed_file", None)
         if packed is not None and not edited:
             data = bytes(packed.data)
-            if data[:8] == b"\x89PNG\r\n\x1a\n":
+            if data[:8] == b"\x89PNG\r\n\x1a\n" and not self.as_ppm:
                 return self.save(self.stem(image), ".png", data)
             return self.convert(image)
         if image.source == "GENERATED" or edited:
@@ -813,7 +824,8 @@ class Images:
             self.report.warn(22, "image '%s': no file '%s'" % (image.name, base_name(image.filepath)),
                              "no texture")
             return None
-        if os.path.splitext(path)[1].lower() in NATIVE_FILES:
+        extension = os.path.splitext(path)[1].lower()
+        if extension in NATIVE_FILES and not (self.as_ppm and extension == ".png"):
             return self.use(path)
         return self.convert(image, path)
 
@@ -881,8 +893,8 @@ class Images:
         values = array("f", (1 - x for x in pixels.values))
         return self.save(self.stem(image) + "_inverted", *self.encode(pixels._replace(values=values)))
 
-    @staticmethod
-    def encode(pixels):
+    def encode(self, pixels):
+        """(extension, bytes of the file)"""
         width, height, channels, values, is_float = pixels
         planes = [values[i::channels] for i in range(channels)]
         if channels < 3:  # grey, grey and alpha
@@ -898,6 +910,8 @@ class Images:
         data = bytearray(len(stored) * width * height)
         for i, plane in enumerate(stored):
             data[i :: len(stored)] = plane
+        if self.as_ppm and len(stored) == 3:
+            return ".ppm", encode_ppm(width, height, data)
         return ".png", encode_png(width, height, len(stored), data)
 
     def pixels(self, image, path=None):
@@ -2969,6 +2983,7 @@ def parse(arguments, is_module):
     parser.add_argument("--camera", metavar="NAME", help="camera to look through; default: the active one")
     parser.add_argument("--textures", metavar="DIR",
                         help="where pictures are looked for and copied to; default: Textures beside the output")
+    parser.add_argument("--ppm", action="store_true", help="turn 8-bit pictures without alpha into PPM files")
     parser.add_argument("--strict", action="store_true", help="exit with 3 when there were warnings")
     parser.add_argument("--verbose", action="store_true", help="say what is being done")
     parser.add_argument("--list-warnings", action="store_true", help="print the table of warnings and stop")
@@ -3033,7 +3048,7 @@ def export(options, report):
                 scene.frame_set(frame)
             scene.camera = camera = camera_of(options, scene)  # markers may have changed it
             os.makedirs(os.path.dirname(path), exist_ok=True)
-            images = Images(os.path.dirname(path), options.textures, report)
+            images = Images(os.path.dirname(path), options.textures, options.ppm, report)
             text = SceneExport(scene, layer, frame, camera, images, report).run()
             write_atomically(path, text.encode("utf-8"))
             report.note("wrote %s" % path)

@@ -22,12 +22,13 @@ struct Register {
 // Counts a failure of the running test and prints it (the first 20 of a test, then only counts).
 void failed(const char* file, int line, const std::string& message);
 
-template <class T>
-std::string shown(const T& value) {
+template <class T> std::string shown(const T& value) {
     std::ostringstream out;
     out.precision(17);
-    if constexpr (requires { out << value; }) out << value;
-    else out << "(value)";
+    if constexpr (requires { out << value; })
+        out << value;
+    else
+        out << "(value)";
     return out.str();
 }
 // Runs the body, and returns the message of the exception it throws, or "" when it throws none.

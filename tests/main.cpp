@@ -37,9 +37,12 @@ std::string thrown(const std::function<void()>& body) {
 int main(int argc, char** argv) {
     bool list = false, times = false, chosen = false;
     for (int i = 1; i < argc; ++i) {
-        if (!std::strcmp(argv[i], "--list")) list = true;
-        else if (!std::strcmp(argv[i], "--times")) times = true;
-        else chosen = true;
+        if (!std::strcmp(argv[i], "--list"))
+            list = true;
+        else if (!std::strcmp(argv[i], "--times"))
+            times = true;
+        else
+            chosen = true;
     }
     int passedCount = 0, failedCount = 0;
     for (const check::Test& test : check::tests()) {
@@ -59,7 +62,8 @@ int main(int argc, char** argv) {
         }
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         if (times) std::printf("%8.3f s  %s\n", seconds.count(), test.name);
-        if (check::failuresOfTest == 0) ++passedCount;
+        if (check::failuresOfTest == 0)
+            ++passedCount;
         else {
             ++failedCount;
             std::printf("FAIL %s (%d checks)\n", test.name, check::failuresOfTest);

@@ -10,7 +10,9 @@ namespace meshes {
 
 using Corners = MeshDesc::Corners;
 
-double Random::logUniform(double lo, double hi) { return lo * std::exp(unit() * std::log(hi / lo)); }
+double Random::logUniform(double lo, double hi) {
+    return lo * std::exp(unit() * std::log(hi / lo));
+}
 
 Vec3d Random::inBox(double half) {
     const double x = uniform(-half, half), y = uniform(-half, half);
@@ -47,8 +49,8 @@ MeshDesc uvSphere(int segments, int rings) {
     for (int ring = 1; ring < rings; ++ring) {
         for (int segment = 0; segment < segments; ++segment) {
             const double theta = kPi * ring / rings, phi = kTwoPi * segment / segments;
-            mesh.points.push_back({std::sin(theta) * std::cos(phi),
-                                   std::sin(theta) * std::sin(phi), std::cos(theta)});
+            mesh.points.push_back({std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi),
+                                   std::cos(theta)});
         }
     }
     for (const Vec3d p : mesh.points) mesh.normals.push_back(toFloat(normalize(p)));
@@ -107,7 +109,8 @@ MeshDesc icosphere(int level) {
         };
         std::vector<Corners> finer;
         for (const Corners c : mesh.triangles) {
-            const std::uint32_t a = middle(c[0], c[1]), b = middle(c[1], c[2]), d = middle(c[2], c[0]);
+            const std::uint32_t a = middle(c[0], c[1]), b = middle(c[1], c[2]),
+                                d = middle(c[2], c[0]);
             finer.insert(finer.end(), {{c[0], a, d}, {c[1], b, a}, {c[2], d, b}, {a, b, d}});
         }
         mesh.triangles = finer;
@@ -197,14 +200,17 @@ MeshDesc tetra(int depth) {
 
 std::vector<std::array<Vec3, 3>> soup(Random& random, std::size_t count) {
     std::vector<std::array<Vec3, 3>> out;
-    const auto add = [&](Vec3d a, Vec3d b, Vec3d c) { out.push_back({toFloat(a), toFloat(b), toFloat(c)}); };
+    const auto add = [&](Vec3d a, Vec3d b, Vec3d c) {
+        out.push_back({toFloat(a), toFloat(b), toFloat(c)});
+    };
     while (out.size() < count) {
         const Vec3d p = random.inBox(1);
         switch (random.below(11)) {
         case 0: { // needle
             const Vec3d along = random.direction() * random.logUniform(0.1, 2);
-            add(p, p + along, p + along * random.unit() + random.direction() *
-                                                              (length(along) * random.logUniform(1e-7, 1e-3)));
+            add(p, p + along,
+                p + along * random.unit() +
+                    random.direction() * (length(along) * random.logUniform(1e-7, 1e-3)));
             break;
         }
         case 1: { // coplanar stack
@@ -295,8 +301,8 @@ Ready baked(const MeshDesc& mesh, const Transform& worldFromMesh, const SceneFra
     Ready out;
     out.geometry = std::make_unique<MeshGeometry>(std::move(merged.geometry));
     out.geometry->finish(true);
-    out.shape = std::make_unique<Mesh>(*out.geometry, MovingTransform(), merged.materials,
-                                       merged.parts);
+    out.shape =
+        std::make_unique<Mesh>(*out.geometry, MovingTransform(), merged.materials, merged.parts);
     return out;
 }
 

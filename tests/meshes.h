@@ -36,8 +36,8 @@ private:
 MeshDesc uvSphere(int segments, int rings); // 2 segments (rings - 1) triangles; uvs and normals
 MeshDesc icosphere(int level);              // 20 * 4^level triangles
 MeshDesc torus(double tubeRadius, int around, int across); // the ring has radius 1
-MeshDesc cube();                            // [-1,1]^3 of 12 triangles
-MeshDesc doubleFan(int valence);            // two tips of that valence at z = +-0.3
+MeshDesc cube();                                           // [-1,1]^3 of 12 triangles
+MeshDesc doubleFan(int valence);                           // two tips of that valence at z = +-0.3
 // Haines' SPD tetra: 4^depth tetrahedra.
 MeshDesc tetra(int depth);
 

@@ -11,7 +11,8 @@
 
 struct BvhNode {
     Bounds box;
-    std::uint32_t first = 0; // inner: index of the left child, the right one follows; leaf: in primIds
+    std::uint32_t first =
+        0; // inner: index of the left child, the right one follows; leaf: in primIds
     std::uint32_t count = 0; // primitives of a leaf, 0 for an inner node
     bool isLeaf() const { return count != 0; }
 };

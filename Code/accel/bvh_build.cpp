@@ -136,6 +136,6 @@ double sahCost(const Bvh& bvh) {
 }
 
 std::size_t leafCount(const Bvh& bvh) {
-    return static_cast<std::size_t>(
-        std::count_if(bvh.nodes.begin(), bvh.nodes.end(), [](const BvhNode& n) { return n.isLeaf(); }));
+    return static_cast<std::size_t>(std::count_if(bvh.nodes.begin(), bvh.nodes.end(),
+                                                  [](const BvhNode& n) { return n.isLeaf(); }));
 }

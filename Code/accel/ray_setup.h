@@ -22,8 +22,8 @@ struct RaySetup {
     // Slabs of boxes: entry = plane * r + nearOffset, exit = plane * r + farOffset, in z.
     Vec3 r, nearOffset, farOffset;
 
-    // `extent`: largest |coordinate| of any vertex or box of the space that the ray is traced in; it
-    // is a property of the scene, never of a tree. See isTraceable for what rays are allowed.
+    // `extent`: largest |coordinate| of any vertex or box of the space that the ray is traced in;
+    // it is a property of the scene, never of a tree. See isTraceable for what rays are allowed.
     RaySetup(Vec3 rayOrg, Vec3 rayDir, float extent) : org(rayOrg) {
         const float ax = std::fabs(rayDir.x), ay = std::fabs(rayDir.y), az = std::fabs(rayDir.z);
         k = az >= ax && az >= ay ? 2 : ay >= ax ? 1 : 0;
@@ -50,8 +50,8 @@ struct RaySetup {
         offsets(ky, py);
     }
 
-    // Entry depth of a box, or nothing reached (false) when the ray misses it or enters behind zCut.
-    // Monotone in the planes, so a box never starts behind a box inside it, to the last bit.
+    // Entry depth of a box, or nothing reached (false) when the ray misses it or enters behind
+    // zCut. Monotone in the planes, so a box never starts behind a box inside it, to the last bit.
     bool enters(const Bounds& box, float zCut, float& zEntry) const {
         float entry = 0, exit = zCut;
         for (std::size_t axis = 0; axis < 3; ++axis) {

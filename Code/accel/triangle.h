@@ -11,8 +11,8 @@
 
 // A triangle relative to the ray's origin with the axes permuted so that z is the dominant one.
 struct ShearedTriangle {
-    Vec3 v[3];          // (lateral x, lateral y, depth z)
-    float x[3], y[3];   // lateral distance of each vertex from the ray
+    Vec3 v[3];        // (lateral x, lateral y, depth z)
+    float x[3], y[3]; // lateral distance of each vertex from the ray
 
     ShearedTriangle(const RaySetup& ray, Vec3 v0, Vec3 v1, Vec3 v2) {
         const Vec3 p[3] = {v0, v1, v2};
@@ -60,8 +60,8 @@ struct ShearedTriangle {
 };
 
 // 1/z of the plane, for a triangle that reaches behind the origin. There its sign tells hit from
-// miss, and float loses it for needles (a cross product of long, nearly parallel edges), which a ray
-// that just left one would then meet. In double that takes needles of 1e8.
+// miss, and float loses it for needles (a cross product of long, nearly parallel edges), which a
+// ray that just left one would then meet. In double that takes needles of 1e8.
 inline float straddlingKey(const RaySetup& ray, const Vec3 (&v)[3]) {
     const Vec3d v0 = toDouble(v[0]);
     const Vec3d n = cross(toDouble(v[1]) - v0, toDouble(v[2]) - v0);

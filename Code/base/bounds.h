@@ -5,8 +5,7 @@
 #include "base/math.h"
 #include "base/vec.h"
 
-template <class T>
-struct BoundsT {
+template <class T> struct BoundsT {
     static constexpr T kInf = std::numeric_limits<T>::infinity();
     Vec3T<T> lo{kInf, kInf, kInf}, hi{-kInf, -kInf, -kInf};
 
@@ -70,14 +69,12 @@ struct BoundsT {
 using Bounds = BoundsT<float>;
 using BoundsD = BoundsT<double>;
 
-template <class T>
-constexpr BoundsT<T> merge(BoundsT<T> a, const BoundsT<T>& b) {
+template <class T> constexpr BoundsT<T> merge(BoundsT<T> a, const BoundsT<T>& b) {
     a.extend(b);
     return a;
 }
 // What both boxes share, may be empty.
-template <class T>
-constexpr BoundsT<T> intersection(const BoundsT<T>& a, const BoundsT<T>& b) {
+template <class T> constexpr BoundsT<T> intersection(const BoundsT<T>& a, const BoundsT<T>& b) {
     return {{max(a.lo.x, b.lo.x), max(a.lo.y, b.lo.y), max(a.lo.z, b.lo.z)},
             {min(a.hi.x, b.hi.x), min(a.hi.y, b.hi.y), min(a.hi.z, b.hi.z)}};
 }

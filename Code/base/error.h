@@ -19,8 +19,11 @@ private:
     ErrorKind kind_;
 };
 
-// The message is complete: "file:line:col: error: what; what would be right", no newline at its end.
-[[noreturn]] inline void fail(ErrorKind kind, const std::string& message) { throw Error(kind, message); }
+// The message is complete: "file:line:col: error: what; what would be right", no newline at its
+// end.
+[[noreturn]] inline void fail(ErrorKind kind, const std::string& message) {
+    throw Error(kind, message);
+}
 
 // Warnings that a caller collects and main() prints; complete lines without a newline.
 struct Diagnostics {

@@ -20,8 +20,8 @@ struct Hit {
 // shape: along its +Z), whichever side the ray came from.
 struct Surface {
     Vec3 p;
-    Vec3 ng;                    // of the geometry
-    Vec3 ns;                    // interpolated; within 90 degrees of ng
+    Vec3 ng; // of the geometry
+    Vec3 ns; // interpolated; within 90 degrees of ng
     Vec2 uv;
     std::uint32_t material = 0; // index into the scene's materials
     std::uint32_t object = 0;   // index of the object in the scene file

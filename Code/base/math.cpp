@@ -372,8 +372,10 @@ double pow(double x, double y) {
     if (x != x || y != y) return kNaN;
     double sign = 1;
     if (std::signbit(x)) {
-        if (isOdd(y)) sign = -1;
-        else if (x < 0 && x > -kInfinity && !isWhole(y)) return kNaN;
+        if (isOdd(y))
+            sign = -1;
+        else if (x < 0 && x > -kInfinity && !isWhole(y))
+            return kNaN;
         x = -x;
         if (x == 1) return sign;
     }
@@ -413,8 +415,8 @@ float pow(float base, float exponent) {
     }
     const LogParts parts = logParts(base);
     const double r = parts.mantissa * parts.row->c - 1, r2 = r * r;
-    const double log = parts.exponent * kLn2.hi + parts.row->log.hi +
-                       (r + r2 * (-0.5 + r * logTail(r)));
+    const double log =
+        parts.exponent * kLn2.hi + parts.row->log.hi + (r + r2 * (-0.5 + r * logTail(r)));
     const double power = exponent * log;
     if (power < -104) return 0; // below half of the smallest float; faster than rounding to it
     return static_cast<float>(expOf(min(power, 709.0), 0));

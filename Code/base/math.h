@@ -18,15 +18,11 @@ inline constexpr float kInfinityF = std::numeric_limits<float>::infinity();
 inline constexpr float kOneMinusUlp = 0x1.fffffep-1f;
 
 // The order of operands decides what NaN does: the second operand wins, as in minps and maxps.
-template <class T>
-constexpr T min(T a, T b) { return a < b ? a : b; }
-template <class T>
-constexpr T max(T a, T b) { return a > b ? a : b; }
+template <class T> constexpr T min(T a, T b) { return a < b ? a : b; }
+template <class T> constexpr T max(T a, T b) { return a > b ? a : b; }
 // NaN gives lo.
-template <class T>
-constexpr T clamp(T x, T lo, T hi) { return min(max(x, lo), hi); }
-template <class T>
-constexpr T sqr(T x) { return x * x; }
+template <class T> constexpr T clamp(T x, T lo, T hi) { return min(max(x, lo), hi); }
+template <class T> constexpr T sqr(T x) { return x * x; }
 constexpr double lerp(double a, double b, double s) { return a * (1 - s) + b * s; }
 constexpr float lerp(float a, float b, float s) { return a * (1 - s) + b * s; }
 constexpr double radians(double degrees) { return degrees * (kPi / 180); }

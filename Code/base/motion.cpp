@@ -80,12 +80,14 @@ Quaternion quaternionOf(const Matrix& m) {
     const double trace = m[0] + m[4] + m[8];
     const double largest = std::max({trace, m[0], m[4], m[8]});
     Quaternion q;
-    if (largest == trace) q = {1 + trace, m[7] - m[5], m[2] - m[6], m[3] - m[1]};
+    if (largest == trace)
+        q = {1 + trace, m[7] - m[5], m[2] - m[6], m[3] - m[1]};
     else if (largest == m[0])
         q = {m[7] - m[5], 1 + m[0] - m[4] - m[8], m[1] + m[3], m[2] + m[6]};
     else if (largest == m[4])
         q = {m[2] - m[6], m[1] + m[3], 1 + m[4] - m[0] - m[8], m[5] + m[7]};
-    else q = {m[3] - m[1], m[2] + m[6], m[5] + m[7], 1 + m[8] - m[0] - m[4]};
+    else
+        q = {m[3] - m[1], m[2] + m[6], m[5] + m[7], 1 + m[8] - m[0] - m[4]};
     return normalized(q);
 }
 
@@ -93,9 +95,8 @@ Matrix matrixOf(Quaternion q) {
     const double xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z;
     const double xy = q.x * q.y, yz = q.y * q.z, zx = q.z * q.x;
     const double wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
-    return {1 - 2 * (yy + zz), 2 * (xy - wz),     2 * (zx + wy),
-            2 * (xy + wz),     1 - 2 * (xx + zz), 2 * (yz - wx),
-            2 * (zx - wy),     2 * (yz + wx),     1 - 2 * (xx + yy)};
+    return {1 - 2 * (yy + zz), 2 * (xy - wz), 2 * (zx + wy), 2 * (xy + wz),    1 - 2 * (xx + zz),
+            2 * (yz - wx),     2 * (zx - wy), 2 * (yz + wx), 1 - 2 * (xx + yy)};
 }
 
 Quaternion combine(double a, Quaternion p, double b, Quaternion q) {
@@ -123,8 +124,8 @@ MovingTransform::MovingTransform(std::span<const Transform> keys)
         const Quaternion& to = segment.to.rotation;
         if (from.w * to.w + from.x * to.x + from.y * to.y + from.z * to.z < 0)
             from = {-from.w, -from.x, -from.y, -from.z}; // the same turn, and now the shorter arc
-        segment.arcRad = 2 * exact::atan2(size(combine(1, to, -1, from)),
-                                          size(combine(1, to, 1, from)));
+        segment.arcRad =
+            2 * exact::atan2(size(combine(1, to, -1, from)), size(combine(1, to, 1, from)));
         segments_.push_back(segment);
     }
 }
@@ -151,8 +152,8 @@ Quaternion MovingTransform::rotationAt(const Segment& segment, double s) {
     // Below 1e-4 radians the chord is the arc to 1e-9 of itself, and sin(arc) may be 0.
     if (arc < 1e-4)
         return normalized(combine(1 - s, segment.from.rotation, s, segment.to.rotation));
-    return normalized(combine(exact::sin((1 - s) * arc), segment.from.rotation,
-                              exact::sin(s * arc), segment.to.rotation));
+    return normalized(combine(exact::sin((1 - s) * arc), segment.from.rotation, exact::sin(s * arc),
+                              segment.to.rotation));
 }
 
 MovingTransform::Matrix MovingTransform::stretchAt(const Segment& segment, double s) {

@@ -54,7 +54,7 @@ private:
     const std::atomic<bool>* stop_ = nullptr;
     std::size_t count_ = 0;
     std::atomic<std::size_t> next_{0}, finished_{0};
-    std::exception_ptr error_;    // guarded by mutex_
-    std::size_t errorIndex_ = 0;  // guarded by mutex_
+    std::exception_ptr error_;   // guarded by mutex_
+    std::size_t errorIndex_ = 0; // guarded by mutex_
     std::atomic<bool> failed_{false};
 };

@@ -53,13 +53,14 @@ inline Roots solveQuadratic(double a, double b, double c) {
         return exponent;
     };
     int k = 0;
-    if (c != 0) k = (exponentOf(c) - exponentOf(a)) / 2;
-    else if (b != 0) k = exponentOf(b) - exponentOf(a);
+    if (c != 0)
+        k = (exponentOf(c) - exponentOf(a)) / 2;
+    else if (b != 0)
+        k = exponentOf(b) - exponentOf(a);
     int largest = exponentOf(a) + k;
     if (b != 0 && exponentOf(b) > largest) largest = exponentOf(b);
-    const Roots roots =
-        quadratic::solveScaled(std::ldexp(a, k - largest), std::ldexp(b, -largest),
-                               std::ldexp(c, -k - largest));
+    const Roots roots = quadratic::solveScaled(std::ldexp(a, k - largest), std::ldexp(b, -largest),
+                                               std::ldexp(c, -k - largest));
     if (roots.count == 0) return {};
     return quadratic::ordered(std::ldexp(roots.t0, k), std::ldexp(roots.t1, k));
 }

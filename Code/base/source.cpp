@@ -10,7 +10,8 @@ std::string located(const SourceFile& source, std::size_t offset, std::string_vi
     offset = std::min(offset, text.size());
     const std::size_t newline = offset == 0 ? std::string_view::npos : text.rfind('\n', offset - 1);
     const std::size_t start = newline == std::string_view::npos ? 0 : newline + 1;
-    const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(start), '\n') + 1;
+    const auto line =
+        std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(start), '\n') + 1;
     const std::size_t col = offset - start + 1;
     std::string message = cat(source.name, ":", line, ":", col, ": ", severity, ": ", what);
 

@@ -1,5 +1,5 @@
-// SourceFile: the text of a scene file, and the line and column of a byte in it, counted only when a
-// message needs them.
+// SourceFile: the text of a scene file, and the line and column of a byte in it, counted only when
+// a message needs them.
 #pragma once
 
 #include "base/error.h"

@@ -9,8 +9,7 @@
 
 namespace {
 
-template <class T>
-std::string shortestOf(T value) {
+template <class T> std::string shortestOf(T value) {
     char buffer[32];
     const auto end = std::to_chars(buffer, buffer + sizeof buffer, value).ptr;
     return {buffer, end};
@@ -53,7 +52,8 @@ std::optional<double> parseDouble(std::string_view text) {
     // from_chars does not say whether it is too large or too small; what is too small is 0.
     if (error == std::errc::result_out_of_range)
         value = std::strtod(std::string(text).c_str(), nullptr);
-    else if (error != std::errc{}) return {};
+    else if (error != std::errc{})
+        return {};
     if (!std::isfinite(value)) return {};
     return value;
 }
@@ -76,6 +76,7 @@ std::string join(std::span<const std::string> words, std::string_view separator)
 }
 
 std::optional<std::string> nearestWord(std::string_view word, std::span<const std::string> known) {
+    constexpr std::size_t kShortestPrefix = 3;
     std::optional<std::string> best;
     std::size_t bestDistance = std::max<std::size_t>(1, word.size() / 3) + 1;
     for (const std::string& candidate : known) {
@@ -85,14 +86,19 @@ std::optional<std::string> nearestWord(std::string_view word, std::span<const st
             best = candidate;
         }
     }
+    if (best || word.size() < kShortestPrefix) return best;
+    for (const std::string& candidate : known)
+        if (candidate.starts_with(word)) return candidate;
     return best;
 }
 
 std::string unknownName(std::string_view word, std::span<const std::string> known) {
     constexpr std::size_t kListed = 12;
     std::string out = cat("'", word, "'");
-    if (const auto near = nearestWord(word, known)) out += cat("; did you mean '", *near, "'?");
-    else out += ";";
+    if (const auto near = nearestWord(word, known))
+        out += cat("; did you mean '", *near, "'?");
+    else
+        out += ";";
     if (known.empty()) return out + " there are none";
     out += " known: " + join(known.first(std::min(known.size(), kListed)));
     if (known.size() > kListed) out += cat(" and ", known.size() - kListed, " more");

@@ -9,8 +9,7 @@
 #include <string_view>
 
 // Joins anything that can be streamed into one string.
-template <class... Parts>
-std::string cat(const Parts&... parts) {
+template <class... Parts> std::string cat(const Parts&... parts) {
     std::ostringstream out;
     (out << ... << parts);
     return out.str();
@@ -28,7 +27,7 @@ std::optional<long long> parseInteger(std::string_view text);
 std::string join(std::span<const std::string> words, std::string_view separator = ", ");
 
 // The known word with the smallest edit distance, if that is close enough to be a typing error
-// (at most a third of the letters, at least one).
+// (at most a third of the letters, at least one); else the first one that begins with it.
 std::optional<std::string> nearestWord(std::string_view word, std::span<const std::string> known);
 
 // "'word'; did you mean 'x'? known: a, b, c": the end of every message about an unknown name.

@@ -47,12 +47,16 @@ Transform Transform::fromRows(const Rows& rows) {
     const double determinant = m[0] * c[0] + m[1] * c[1] + m[2] * c[2];
     // The sum of the sizes of all six products: rounding errs by at most 5 u times that.
     double products = 0;
-    for (const auto& [i, j, k] : {std::array<std::size_t, 3>{0, 5, 10}, {0, 6, 9}, {1, 6, 8},
-                                  {1, 4, 10}, {2, 4, 9}, {2, 5, 8}})
+    for (const auto& [i, j, k] : {std::array<std::size_t, 3>{0, 5, 10},
+                                  {0, 6, 9},
+                                  {1, 6, 8},
+                                  {1, 4, 10},
+                                  {2, 4, 9},
+                                  {2, 5, 8}})
         products += std::fabs(m[i] * m[j] * m[k]);
     if (!(std::fabs(determinant) > 8 * 0x1p-53 * products)) return singular;
     const auto entry = [&](std::size_t i) { return std::ldexp(c[i] / determinant, -exponent); };
-    Rows inverse{entry(0), entry(3), entry(6), 0, entry(1), entry(4),
+    Rows inverse{entry(0), entry(3), entry(6), 0,        entry(1), entry(4),
                  entry(7), 0,        entry(2), entry(5), entry(8), 0};
     for (const std::size_t i : {0u, 4u, 8u})
         inverse[i + 3] =
@@ -75,10 +79,10 @@ Transform Transform::rotate(Vec3d axis, double angleRad) {
     // 1 - cos without cancellation.
     const double half = exact::sin(0.5 * angleRad), k = 2 * half * half;
     const double xy = k * a.x * a.y, yz = k * a.y * a.z, zx = k * a.z * a.x;
-    const Rows rows{c + k * a.x * a.x, xy - s * a.z, zx + s * a.y, 0,
-                    xy + s * a.z, c + k * a.y * a.y, yz - s * a.x, 0,
-                    zx - s * a.y, yz + s * a.x, c + k * a.z * a.z, 0};
-    const Rows inverse{rows[0], rows[4], rows[8], 0, rows[1], rows[5],
+    const Rows rows{c + k * a.x * a.x, xy - s * a.z,      zx + s * a.y,      0,
+                    xy + s * a.z,      c + k * a.y * a.y, yz - s * a.x,      0,
+                    zx - s * a.y,      yz + s * a.x,      c + k * a.z * a.z, 0};
+    const Rows inverse{rows[0], rows[4], rows[8], 0,       rows[1],  rows[5],
                        rows[9], 0,       rows[2], rows[6], rows[10], 0};
     return {rows, inverse, false, !isFinite(rows)};
 }
@@ -102,8 +106,7 @@ Transform Transform::lookAt(Vec3d eye, Vec3d target, Vec3d up) {
     if (!(maxAbs(x) > 1e-10)) x = side(std::fabs(z.y) < 0.9 ? Vec3d{0, 1, 0} : Vec3d{0, 0, 1});
     x = unit(x);
     const Vec3d y = cross(z, x);
-    return translate(eye) *
-           fromRows({x.x, y.x, z.x, 0, x.y, y.y, z.y, 0, x.z, y.z, z.z, 0});
+    return translate(eye) * fromRows({x.x, y.x, z.x, 0, x.y, y.y, z.y, 0, x.z, y.z, z.z, 0});
 }
 
 Vec3d Transform::column(int i) const {

@@ -46,7 +46,7 @@ public:
     Transform inverse() const;
     // True when the determinant cannot be told from zero in double, or a number is not finite.
     bool isSingular() const { return singular_; }
-    double determinant() const; // of the linear part
+    double determinant() const;               // of the linear part
     bool mirrors() const { return mirrors_; } // the determinant is negative
     bool isIdentity() const { return rows_ == kIdentity; }
 

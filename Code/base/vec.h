@@ -5,14 +5,12 @@
 #include <cmath>
 #include <cstddef>
 
-template <class T>
-struct Vec2T {
+template <class T> struct Vec2T {
     T x{}, y{};
     constexpr bool operator==(const Vec2T&) const = default;
 };
 
-template <class T>
-struct Vec3T {
+template <class T> struct Vec3T {
     T x{}, y{}, z{};
     constexpr T operator[](std::size_t axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
     constexpr T& operator[](std::size_t axis) { return axis == 0 ? x : axis == 1 ? y : z; }
@@ -24,48 +22,46 @@ using Vec3 = Vec3T<float>;
 using Vec2d = Vec2T<double>;
 using Vec3d = Vec3T<double>;
 
-template <class T>
-constexpr Vec2T<T> operator+(Vec2T<T> a, Vec2T<T> b) { return {a.x + b.x, a.y + b.y}; }
-template <class T>
-constexpr Vec2T<T> operator-(Vec2T<T> a, Vec2T<T> b) { return {a.x - b.x, a.y - b.y}; }
-template <class T>
-constexpr Vec2T<T> operator*(Vec2T<T> a, T s) { return {a.x * s, a.y * s}; }
+template <class T> constexpr Vec2T<T> operator+(Vec2T<T> a, Vec2T<T> b) {
+    return {a.x + b.x, a.y + b.y};
+}
+template <class T> constexpr Vec2T<T> operator-(Vec2T<T> a, Vec2T<T> b) {
+    return {a.x - b.x, a.y - b.y};
+}
+template <class T> constexpr Vec2T<T> operator*(Vec2T<T> a, T s) { return {a.x * s, a.y * s}; }
 
-template <class T>
-constexpr Vec3T<T> operator+(Vec3T<T> a, Vec3T<T> b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-template <class T>
-constexpr Vec3T<T> operator-(Vec3T<T> a, Vec3T<T> b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-template <class T>
-constexpr Vec3T<T> operator-(Vec3T<T> a) { return {-a.x, -a.y, -a.z}; }
-template <class T>
-constexpr Vec3T<T> operator*(Vec3T<T> a, T s) { return {a.x * s, a.y * s, a.z * s}; }
-template <class T>
-constexpr Vec3T<T> operator*(T s, Vec3T<T> a) { return a * s; }
-template <class T>
-constexpr Vec3T<T> operator/(Vec3T<T> a, T s) { return {a.x / s, a.y / s, a.z / s}; }
-template <class T>
-constexpr Vec3T<T>& operator+=(Vec3T<T>& a, Vec3T<T> b) { return a = a + b; }
-template <class T>
-constexpr Vec3T<T>& operator-=(Vec3T<T>& a, Vec3T<T> b) { return a = a - b; }
-template <class T>
-constexpr Vec3T<T>& operator*=(Vec3T<T>& a, T s) { return a = a * s; }
+template <class T> constexpr Vec3T<T> operator+(Vec3T<T> a, Vec3T<T> b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+template <class T> constexpr Vec3T<T> operator-(Vec3T<T> a, Vec3T<T> b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+template <class T> constexpr Vec3T<T> operator-(Vec3T<T> a) { return {-a.x, -a.y, -a.z}; }
+template <class T> constexpr Vec3T<T> operator*(Vec3T<T> a, T s) {
+    return {a.x * s, a.y * s, a.z * s};
+}
+template <class T> constexpr Vec3T<T> operator*(T s, Vec3T<T> a) { return a * s; }
+template <class T> constexpr Vec3T<T> operator/(Vec3T<T> a, T s) {
+    return {a.x / s, a.y / s, a.z / s};
+}
+template <class T> constexpr Vec3T<T>& operator+=(Vec3T<T>& a, Vec3T<T> b) { return a = a + b; }
+template <class T> constexpr Vec3T<T>& operator-=(Vec3T<T>& a, Vec3T<T> b) { return a = a - b; }
+template <class T> constexpr Vec3T<T>& operator*=(Vec3T<T>& a, T s) { return a = a * s; }
 
-template <class T>
-constexpr T dot(Vec3T<T> a, Vec3T<T> b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-template <class T>
-constexpr Vec3T<T> cross(Vec3T<T> a, Vec3T<T> b) {
+template <class T> constexpr T dot(Vec3T<T> a, Vec3T<T> b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+template <class T> constexpr Vec3T<T> cross(Vec3T<T> a, Vec3T<T> b) {
     return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
-template <class T>
-T length(Vec3T<T> a) { return std::sqrt(dot(a, a)); }
+template <class T> T length(Vec3T<T> a) { return std::sqrt(dot(a, a)); }
 // A zero vector has no direction: the caller makes sure that it is none.
-template <class T>
-Vec3T<T> normalize(Vec3T<T> a) { return a / length(a); }
-template <class T>
-constexpr Vec3T<T> lerp(Vec3T<T> a, Vec3T<T> b, T s) { return a * (T(1) - s) + b * s; }
+template <class T> Vec3T<T> normalize(Vec3T<T> a) { return a / length(a); }
+template <class T> constexpr Vec3T<T> lerp(Vec3T<T> a, Vec3T<T> b, T s) {
+    return a * (T(1) - s) + b * s;
+}
 // Largest absolute component.
-template <class T>
-constexpr T maxAbs(Vec3T<T> a) {
+template <class T> constexpr T maxAbs(Vec3T<T> a) {
     const T x = a.x < 0 ? -a.x : a.x, y = a.y < 0 ? -a.y : a.y, z = a.z < 0 ? -a.z : a.z;
     const T xy = x > y ? x : y;
     return xy > z ? xy : z;

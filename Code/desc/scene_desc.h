@@ -63,7 +63,7 @@ struct MaterialDesc {
     enum class Fresnel { None, Dielectric, Schlick };
     std::string name;
     SourceLoc loc;
-    Rgbd diffuse{0.8, 0.8, 0.8}; // reflectance
+    Rgbd diffuse{0.8, 0.8, 0.8};   // reflectance
     Handle diffuseTexture = kNone; // multiplies diffuse
     Rgbd specular{0, 0, 0};
     Handle specularTexture = kNone;
@@ -73,7 +73,7 @@ struct MaterialDesc {
     Rgbd transmission{0, 0, 0}; // traced refraction
     double ior = 1.5;
     Fresnel fresnel = Fresnel::None;
-    double roughness = 0; // 0 sharp; spreads mirror and transmission, Blender's scale
+    double roughness = 0;   // 0 sharp; spreads mirror and transmission, Blender's scale
     Rgbd emission{0, 0, 0}; // radiance, seen but lighting nothing else
     Handle emissionTexture = kNone;
     double opacity = 1; // 1 - opacity of the light goes straight through, tinted by filter
@@ -97,15 +97,15 @@ struct LightDesc {
     // Point, Spot: radiant intensity [W/sr]. Sun: irradiance [W/m^2] on a facing surface.
     // Rectangle, Disk, Sphere: radiance [W/(m^2 sr)].
     Rgbd color{1, 1, 1};
-    double radius = 0;      // Sphere: its radius. Point, Spot: soft-shadow disk facing the receiver
-    Vec2d size{1, 1};       // Rectangle: sides. Disk: diameters (an ellipse when they differ)
-    double coneAngleDeg = 45;    // Spot: full opening angle
-    double blend = 0.15;         // Spot: soft part of the cone, 0 hard to 1
-    bool cosineFalloff = false;  // Spot: also multiplied by the cosine to its axis
-    double angleDeg = 0;         // Sun: full angular diameter
-    double spreadDeg = 180;      // Rectangle, Disk: emission cone
+    double radius = 0; // Sphere: its radius. Point, Spot: soft-shadow disk facing the receiver
+    Vec2d size{1, 1};  // Rectangle: sides. Disk: diameters (an ellipse when they differ)
+    double coneAngleDeg = 45;   // Spot: full opening angle
+    double blend = 0.15;        // Spot: soft part of the cone, 0 hard to 1
+    bool cosineFalloff = false; // Spot: also multiplied by the cosine to its axis
+    double angleDeg = 0;        // Sun: full angular diameter
+    double spreadDeg = 180;     // Rectangle, Disk: emission cone
     bool shadows = true;
-    bool visible = false;        // Rectangle, Disk, Sphere: seen by camera, mirror and glass
+    bool visible = false; // Rectangle, Disk, Sphere: seen by camera, mirror and glass
     bool operator==(const LightDesc&) const = default;
 };
 
@@ -126,7 +126,7 @@ struct CameraDesc {
     double focusDistance = 10;     // depth of the sharp plane along the view axis
     int apertureBlades = 0;        // below 3: a disk
     double apertureRotationDeg = 0;
-    double apertureRatio = 1;      // anamorphic: lens x is divided by it
+    double apertureRatio = 1; // anamorphic: lens x is divided by it
     bool operator==(const CameraDesc&) const = default;
 };
 
@@ -159,15 +159,16 @@ struct ObjectDesc {
     double radius = 1;
     double topRadius = 0;
     bool caps = true; // Cylinder, Cone
-    std::array<Vec3d, 4> corners{Vec3d{-1, -1, 0}, Vec3d{1, -1, 0}, Vec3d{1, 1, 0}, Vec3d{-1, 1, 0}};
+    std::array<Vec3d, 4> corners{Vec3d{-1, -1, 0}, Vec3d{1, -1, 0}, Vec3d{1, 1, 0},
+                                 Vec3d{-1, 1, 0}};
     Handle mesh = kNone;
     bool operator==(const ObjectDesc&) const = default;
 };
 
 struct WorldDesc {
     SourceLoc loc;
-    Rgbd background{0, 0, 0}; // radiance where no surface is
-    Rgbd ambient{0, 0, 0};    // reaches every surface: adds diffuse * ambient
+    Rgbd background{0, 0, 0};   // radiance where no surface is
+    Rgbd ambient{0, 0, 0};      // reaches every surface: adds diffuse * ambient
     Handle environment = kNone; // equirectangular picture, multiplied by background
     double rotationDeg = 0;     // of the environment about +Z
     bool operator==(const WorldDesc&) const = default;

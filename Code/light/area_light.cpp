@@ -36,8 +36,8 @@ LightSample FlatLight::from(Vec3 place, Vec3 point) const {
 LightSample FlatLight::centre(Vec3 point) const { return from(centre_, point); }
 
 LightSample FlatLight::sample(Vec3 point, Vec2 u) const {
-    const Vec2 place = outline_ == Outline::Rectangle ? Vec2{2 * u.x - 1, 2 * u.y - 1}
-                                                      : diskFromSquare(u);
+    const Vec2 place =
+        outline_ == Outline::Rectangle ? Vec2{2 * u.x - 1, 2 * u.y - 1} : diskFromSquare(u);
     return from(centre_ + halfX_ * place.x + halfY_ * place.y, point);
 }
 

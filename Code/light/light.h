@@ -11,8 +11,9 @@
 struct LightSample {
     Vec3 toLight;       // unit vector from the point
     float distance = 0; // to the lamp's surface; infinite for a sun
-    // Irradiance on a surface that faces the lamp; the mean over u in [0,1)^2 is what the whole lamp
-    // gives when each direction is weighted with the receiver's response to it. Black: no light.
+    // Irradiance on a surface that faces the lamp; the mean over u in [0,1)^2 is what the whole
+    // lamp gives when each direction is weighted with the receiver's response to it. Black: no
+    // light.
     Rgb irradiance;
 };
 

@@ -5,9 +5,9 @@
 
 // Cone of a spot: full light inside, none outside, smoothstep between (Blender since 3.5).
 struct SpotCone {
-    Vec3 axis;                 // unit, the way the light shines
-    float cosHalfAngle = -1;   // outside of it is dark
-    float blend = 0;           // part of 1 - cosHalfAngle that is soft
+    Vec3 axis;                  // unit, the way the light shines
+    float cosHalfAngle = -1;    // outside of it is dark
+    float blend = 0;            // part of 1 - cosHalfAngle that is soft
     bool cosineFalloff = false; // times the cosine to the axis (Blender up to 3.4)
     float attenuation(Vec3 fromLight) const;
 };

@@ -22,6 +22,13 @@ Vec3 microNormal(const Material& material, Vec3 n, Vec3 toEye, Vec2 u) {
     return dot(h, toEye) > 0 ? h : n;
 }
 
+// Under total internal reflection nothing gets through: all the light of both goes back.
+Rgb totallyReflected(const Material& material) {
+    if (material.fresnel == FresnelModel::None) return material.mirror + material.transmission;
+    if (material.fresnel == FresnelModel::Schlick) return {1, 1, 1}; // mirror is its F at 0 degrees
+    return isBlack(material.mirror) ? material.transmission : material.mirror;
+}
+
 } // namespace
 
 Rgb reflectedLight(const Material& material, Vec3 n, Vec3 toEye, Vec3 toLight) {
@@ -39,8 +46,8 @@ Rgb reflectedLight(const Material& material, Vec3 n, Vec3 toEye, Vec3 toLight) {
     if (material.specularModel == SpecularModel::Blinn) return sum + material.specular * lobe;
     const float cosEye = dot(n, toEye);
     const float norm = (material.exponent + 1) * (kInvPiF / 8);
-    return sum + material.specular *
-                     (norm * lobe * cosLight / (dot(h, toEye) * max(cosLight, cosEye)));
+    return sum +
+           material.specular * (norm * lobe * cosLight / (dot(h, toEye) * max(cosLight, cosEye)));
 }
 
 Bounces bounces(const Material& material, Vec3 n, Vec3 ng, Vec3 toEye, float eta, Vec2 u) {
@@ -66,16 +73,18 @@ Bounces bounces(const Material& material, Vec3 n, Vec3 ng, Vec3 toEye, float eta
         auto dir = refractThrough(toEye, h, eta);
         // A bent normal may refract to the side of the eye: fall back to the true surface.
         if (dir && !(dot(*dir, ng) < 0)) dir = refractThrough(toEye, ng, eta);
-        if (dir && dot(*dir, ng) < 0) out.refracted = Bounce{*dir, transmitted};
-        else if (!dir) reflected = reflected + transmitted; // total internal reflection
+        if (dir && dot(*dir, ng) < 0)
+            out.refracted = Bounce{*dir, transmitted};
+        else if (!dir)
+            reflected = totallyReflected(material);
     }
     if (!isBlack(reflected)) {
         Vec3 dir = normalize(reflectAbout(toEye, h));
         if (!(dot(dir, ng) > 0)) dir = normalize(reflectAbout(toEye, ng));
         // Importance sampling of the Ashikhmin-Shirley lobe leaves N.L / max(N.L, N.V).
         const float cosOut = dot(n, dir), cosEye = dot(n, toEye);
-        const float weight = material.roughness > 0 && cosOut < cosEye ? max(cosOut, 0.0f) / cosEye
-                                                                       : 1.0f;
+        const float weight =
+            material.roughness > 0 && cosOut < cosEye ? max(cosOut, 0.0f) / cosEye : 1.0f;
         out.reflected = Bounce{dir, reflected * weight};
     }
     return out;

@@ -1,5 +1,5 @@
-// Material: how a surface answers light, as numbers at one point of it; textures are applied already.
-// Materials turn directions and light into light and directions; they never trace rays.
+// Material: how a surface answers light, as numbers at one point of it; textures are applied
+// already. Materials turn directions and light into light and directions; they never trace rays.
 #pragma once
 
 #include "base/vec.h"

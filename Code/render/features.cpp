@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 
 namespace {
 
@@ -13,8 +14,7 @@ struct Situation {
 
 bool isBlack(Rgbd c) { return c == Rgbd{}; }
 
-template <class Test>
-bool anyMaterial(const Situation& s, Test test) {
+template <class Test> bool anyMaterial(const Situation& s, Test test) {
     return std::any_of(s.desc.materials.begin(), s.desc.materials.end(), test);
 }
 
@@ -32,10 +32,24 @@ bool hasSoftLight(const Situation& s) {
     });
 }
 
+bool moves(const Keys& keys) {
+    return std::adjacent_find(keys.begin(), keys.end(), std::not_equal_to<>()) != keys.end();
+}
+
 bool hasMotion(const Situation& s) {
-    return s.camera.worldFromCamera.size() > 1 ||
+    return moves(s.camera.worldFromCamera) ||
            std::any_of(s.desc.objects.begin(), s.desc.objects.end(),
-                       [](const ObjectDesc& o) { return o.worldFromObject.size() > 1; });
+                       [](const ObjectDesc& o) { return moves(o.worldFromObject); });
+}
+
+// Pictures that nothing uses are not read either.
+bool usesTextures(const Situation& s) {
+    return s.desc.world.environment != kNone || anyMaterial(s, [](const MaterialDesc& m) {
+               const auto handles = {m.diffuseTexture, m.specularTexture, m.emissionTexture,
+                                     m.opacityTexture, m.normalMap,       m.bumpMap};
+               return std::any_of(handles.begin(), handles.end(),
+                                  [](Handle handle) { return handle != kNone; });
+           });
 }
 
 bool sharesMeshes(const Situation& s) {
@@ -90,8 +104,7 @@ constexpr std::array kRules = std::to_array<Rule>({
              s, [](const MaterialDesc& m) { return m.opacity < 1 || m.opacityTexture != kNone; });
      },
      nullptr, "all materials are opaque"},
-    {"textures", [](const Situation& s) { return !s.desc.textures.empty(); }, &Switches::textures,
-     "the scene has none"},
+    {"textures", usesTextures, &Switches::textures, "nothing uses one"},
     {"bump",
      [](const Situation& s) {
          return anyMaterial(
@@ -110,7 +123,8 @@ constexpr std::array kRules = std::to_array<Rule>({
 
 } // namespace
 
-Features featuresOf(const SceneDesc& desc, const CameraDesc& camera, const RenderSettings& settings) {
+Features featuresOf(const SceneDesc& desc, const CameraDesc& camera,
+                    const RenderSettings& settings) {
     const Situation situation{desc, camera, settings};
     Features features;
     for (const Rule& rule : kRules) {

@@ -14,4 +14,5 @@ struct Feature {
 };
 using Features = std::vector<Feature>;
 
-Features featuresOf(const SceneDesc& desc, const CameraDesc& camera, const RenderSettings& settings);
+Features featuresOf(const SceneDesc& desc, const CameraDesc& camera,
+                    const RenderSettings& settings);

@@ -61,7 +61,8 @@ void integrateFirstHit(const IntegratorContext& context, SampleChunk& chunk, Wav
         if (!memory.hits[i].isHit()) continue;
         ++cameraHits;
         const Ray ray = rays.ray(i);
-        chunk.first[i] = describeFirstHit(context.scene, ray, shade(context.scene, ray, memory.hits[i]));
+        chunk.first[i] =
+            describeFirstHit(context.scene, ray, shade(context.scene, ray, memory.hits[i]));
         chunk.radiance[i] = shown(context.settings.integrator, chunk.first[i]);
     }
 }

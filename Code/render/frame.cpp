@@ -67,7 +67,8 @@ SceneFrame frameOf(const SceneDesc& desc) {
     }
     if (box.isEmpty()) {
         for (const CameraDesc& camera : desc.cameras)
-            for (const Rows& key : camera.worldFromCamera) box.extend(Vec3d{key[3], key[7], key[11]});
+            for (const Rows& key : camera.worldFromCamera)
+                box.extend(Vec3d{key[3], key[7], key[11]});
         for (const LightDesc& light : desc.lights)
             box.extend(Transform::fromRows(light.worldFromLight).translation());
     }

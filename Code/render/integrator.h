@@ -34,6 +34,7 @@ struct IntegratorContext {
     Sampler sampler;
     std::vector<Sampler> lightSamplers; // one stream per light
     bool wantsFirstHits;
+    MediumStack cameraMedium; // what camera rays start in
 
     IntegratorContext(const Scene& scene, const RenderSettings& settings);
 };

@@ -39,16 +39,15 @@ std::unique_ptr<const Light> makeLight(const LightDesc& desc, const SceneFrame& 
         return std::make_unique<SunLight>(axis, color, radians(desc.angleDeg / 2), desc.shadows);
     case LightDesc::Kind::Rectangle:
     case LightDesc::Kind::Disk:
-        return std::make_unique<FlatLight>(
-            desc.kind == LightDesc::Kind::Rectangle ? FlatLight::Outline::Rectangle
-                                                    : FlatLight::Outline::Ellipse,
-            position, toFloat(place.vector({desc.size.x / 2, 0, 0})),
-            toFloat(place.vector({0, desc.size.y / 2, 0})), axis, color,
-            radians(desc.spreadDeg / 2), desc.shadows);
+        return std::make_unique<FlatLight>(desc.kind == LightDesc::Kind::Rectangle
+                                               ? FlatLight::Outline::Rectangle
+                                               : FlatLight::Outline::Ellipse,
+                                           position, toFloat(place.vector({desc.size.x / 2, 0, 0})),
+                                           toFloat(place.vector({0, desc.size.y / 2, 0})), axis,
+                                           color, radians(desc.spreadDeg / 2), desc.shadows);
     case LightDesc::Kind::Sphere: break;
     }
-    return std::make_unique<SphereLight>(position, sphereRadius(desc, place), color,
-                                         desc.shadows);
+    return std::make_unique<SphereLight>(position, sphereRadius(desc, place), color, desc.shadows);
 }
 
 std::unique_ptr<const Shape> makeLampBody(const LightDesc& desc, const SceneFrame& frame,

@@ -16,8 +16,7 @@ std::unique_ptr<const Shape> makeShape(const ObjectDesc& object, MovingTransform
     switch (object.kind) {
     case ObjectDesc::Kind::Sphere:
         return std::make_unique<Sphere>(std::move(place), object.radius, material, id);
-    case ObjectDesc::Kind::Cube:
-        return std::make_unique<Cube>(std::move(place), material, id);
+    case ObjectDesc::Kind::Cube: return std::make_unique<Cube>(std::move(place), material, id);
     case ObjectDesc::Kind::Plane:
         return std::make_unique<Plane>(std::move(place), object.corners, material, id);
     case ObjectDesc::Kind::InfinitePlane:

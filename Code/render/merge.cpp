@@ -12,7 +12,8 @@ Vec3 unit(Vec3d n) {
 }
 
 // Appends corner indices, raised by `base`; `flip` swaps two corners to turn the triangle over.
-void append(std::vector<Corners>& to, const std::vector<Corners>& from, std::size_t base, bool flip) {
+void append(std::vector<Corners>& to, const std::vector<Corners>& from, std::size_t base,
+            bool flip) {
     const auto b = static_cast<std::uint32_t>(base);
     to.reserve(to.size() + from.size());
     for (const Corners& c : from)
@@ -26,9 +27,11 @@ MeshGeometry placedGeometry(const MeshDesc& mesh, const Transform& worldFromMesh
     MeshGeometry out;
     const bool flip = worldFromMesh.mirrors();
     out.points.reserve(mesh.points.size());
-    for (const Vec3d p : mesh.points) out.points.push_back(toFloat(frame.point(worldFromMesh.point(p))));
+    for (const Vec3d p : mesh.points)
+        out.points.push_back(toFloat(frame.point(worldFromMesh.point(p))));
     append(out.triangles, mesh.triangles, 0, flip);
-    for (const Vec3 n : mesh.normals) out.normals.push_back(unit(worldFromMesh.normal(toDouble(n))));
+    for (const Vec3 n : mesh.normals)
+        out.normals.push_back(unit(worldFromMesh.normal(toDouble(n))));
     append(out.normalTriangles, mesh.normalTriangles, 0, flip);
     out.uvs = mesh.uvs;
     append(out.uvTriangles, mesh.uvTriangles, 0, flip);
@@ -65,8 +68,8 @@ MeshGeometry toGeometry(const MeshDesc& mesh, const SceneFrame& frame) {
 
 void MergedMesh::add(const MeshDesc& mesh, const Transform& worldFromMesh, const SceneFrame& frame,
                      const std::vector<std::uint32_t>& meshMaterials, std::uint32_t object) {
-    MeshGeometry part = placedGeometry(mesh, worldFromMesh, frame,
-                                       static_cast<std::uint32_t>(materials.size()));
+    MeshGeometry part =
+        placedGeometry(mesh, worldFromMesh, frame, static_cast<std::uint32_t>(materials.size()));
     degenerateCount += part.dropDegenerate();
     if (part.triangles.empty()) return;
     parts.push_back({static_cast<std::uint32_t>(geometry.triangles.size()), object});

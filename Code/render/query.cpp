@@ -13,7 +13,8 @@ void transmitted(const Scene& scene, const RayBatch& rays, std::vector<Rgb>& tra
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Ray ray = rays.ray(i);
         Rgb passed{1, 1, 1};
-        if (scene.shapes().occluded(ray)) passed = {};
+        if (scene.shapes().occluded(ray))
+            passed = {};
         else if (scene.hasSeeThrough()) {
             hits.clear();
             scene.shapes().seeThroughHits(ray, hits);

@@ -10,6 +10,6 @@
 // hits[i] is the nearest hit of ray i (Hit::isHit() false: none). Resizes hits.
 void closest(const Scene& scene, const RayBatch& rays, std::vector<Hit>& hits);
 
-// transmittance[i]: the part of the light that passes along ray i between tMin and tMax. Black where
-// an opaque surface is in between, white where nothing is. Resizes transmittance.
+// transmittance[i]: the part of the light that passes along ray i between tMin and tMax. Black
+// where an opaque surface is in between, white where nothing is. Resizes transmittance.
 void transmitted(const Scene& scene, const RayBatch& rays, std::vector<Rgb>& transmittance);

@@ -1,6 +1,7 @@
 #include "render/render.h"
 
 #include "base/parallel.h"
+#include "render/camera_medium.h"
 #include "render/film.h"
 #include "render/integrator.h"
 #include "sample/dimensions.h"
@@ -65,8 +66,8 @@ public:
     Renderer(const Scene& scene, const RenderSettings& settings)
         : context_(scene, settings), settings_(settings),
           filter_(filterKind(settings.picture.filter), settings.picture.filterWidth),
-          width_(settings.picture.width), height_(settings.picture.height),
-          area_{0, 0, width_, height_}, color_(1, 1) {
+          width_(settings.picture.width),
+          height_(settings.picture.height), area_{0, 0, width_, height_}, color_(1, 1) {
         if (const auto& crop = settings.picture.crop)
             area_ = {(*crop)[0], (*crop)[1], (*crop)[2], (*crop)[3]};
         color_ = Film(area_.width(), area_.height());
@@ -74,8 +75,8 @@ public:
             aovs_.emplace_back(area_.width(), area_.height());
         for (int y = area_.y0; y < area_.y1; y += kTileSide)
             for (int x = area_.x0; x < area_.x1; x += kTileSide)
-                tiles_.push_back({x, y, std::min(x + kTileSide, area_.x1),
-                                  std::min(y + kTileSide, area_.y1)});
+                tiles_.push_back(
+                    {x, y, std::min(x + kTileSide, area_.x1), std::min(y + kTileSide, area_.y1)});
     }
 
     Picture run(const RenderControl& control, Stats& stats) {
@@ -102,7 +103,8 @@ public:
         picture.color = color_.mean();
         for (std::size_t i = 0; i < aovs_.size(); ++i) {
             const Aov aov = settings_.aovs[i];
-            picture.aovs.push_back({aov, aov == Aov::Samples ? aovs_[i].samples() : aovs_[i].mean()});
+            picture.aovs.push_back(
+                {aov, aov == Aov::Samples ? aovs_[i].samples() : aovs_[i].mean()});
         }
         return picture;
     }
@@ -139,7 +141,9 @@ private:
     }
 
     void addCameraRay(int x, int y, int s, SampleChunk& chunk) {
-        const auto pixel = static_cast<std::uint32_t>(y * width_ + x);
+        const std::uint32_t pixel =
+            static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_) +
+            static_cast<std::uint32_t>(x); // wraps in huge pictures
         const auto sample = static_cast<std::uint32_t>(s);
         const Vec2 place = filter_.sample(context_.sampler.get2D(pixel, sample, kPixelDimension));
         Vec2 lens{0.5f, 0.5f};
@@ -147,10 +151,11 @@ private:
             lens = context_.sampler.get2D(pixel, sample, kLensDimension);
         float time = 0.5f; // what stands still looks the same at any time
         if (context_.scene.moves()) time = context_.sampler.get1D(pixel, sample, kTimeDimension);
-        const Ray ray = context_.scene.camera().ray({x + 0.5 + place.x, y + 0.5 + place.y}, lens, time);
+        const Ray ray =
+            context_.scene.camera().ray({x + 0.5 + place.x, y + 0.5 + place.y}, lens, time);
         const auto slot = static_cast<std::uint32_t>(chunk.ids.size());
         chunk.ids.push_back({pixel, sample});
-        chunk.cameraRays.push(ray, slot, {1, 1, 1}, {}, pixel, true);
+        chunk.cameraRays.push(ray, slot, {1, 1, 1}, context_.cameraMedium, pixel, true);
     }
 
     void integrate(Worker& w) {
@@ -175,11 +180,14 @@ private:
             for (int x = tile.x0; x < tile.x1; ++x) {
                 for (int s = 0; s < count; ++s, ++slot) {
                     const Rgb radiance = worker.chunk.radiance[slot];
-                    if (isFinite(radiance)) color_.add(x - area_.x0, y - area_.y0, radiance);
-                    else ++worker.nanSamples;
+                    if (isFinite(radiance))
+                        color_.add(x - area_.x0, y - area_.y0, radiance);
+                    else
+                        ++worker.nanSamples;
                     for (std::size_t a = 0; a < aovs_.size(); ++a) {
                         // Numbers of objects can't be averaged: the first sample stands for all.
-                        if (settings_.aovs[a] == Aov::Id && worker.chunk.ids[slot].index > 0) continue;
+                        if (settings_.aovs[a] == Aov::Id && worker.chunk.ids[slot].index > 0)
+                            continue;
                         addFirstHit(aovs_[a], settings_.aovs[a], x - area_.x0, y - area_.y0,
                                     worker.chunk.first[slot]);
                     }
@@ -209,7 +217,8 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
     : scene(theScene), settings(theSettings),
       sampler(samplerKind(theSettings.picture.sampler), theSettings.picture.samplesPerPixel,
               theSettings.picture.seed, theSettings.picture.jitter),
-      wantsFirstHits(needsFirstHits(theSettings)) {
+      wantsFirstHits(needsFirstHits(theSettings)),
+      cameraMedium(mediumOfCamera(theScene, theSettings)) {
     for (std::size_t i = 0; i < scene.lights().size(); ++i)
         lightSamplers.push_back(
             sampler.stream(static_cast<std::uint32_t>(i) + 1, settings.picture.lightSamples));

@@ -19,8 +19,8 @@ class SceneBuilder {
 public:
     SceneBuilder(Scene& scene, const SceneDesc& desc, const SourceFile& source,
                  const RenderSettings& settings)
-        : scene_(scene), desc_(desc), source_(source), settings_(settings),
-          on_(settings.switches) {}
+        : scene_(scene), desc_(desc), source_(source), settings_(settings), on_(settings.switches) {
+    }
 
     void build() {
         scene_.frame_ = frameOf(desc_);
@@ -58,8 +58,9 @@ private:
         params.extension = desc.extension == TextureDesc::Extension::Repeat   ? Extension::Repeat
                            : desc.extension == TextureDesc::Extension::Extend ? Extension::Extend
                                                                               : Extension::Clip;
-        params.channel = desc.channel == TextureDesc::Channel::Alpha ? TextureParams::Channel::Alpha
-                                                                     : TextureParams::Channel::Color;
+        params.channel = desc.channel == TextureDesc::Channel::Alpha
+                             ? TextureParams::Channel::Alpha
+                             : TextureParams::Channel::Color;
         params.scale = desc.scale;
         params.rotationRad = radians(desc.rotationDeg);
         params.offset = desc.offset;
@@ -138,15 +139,15 @@ private:
     }
 
     void buildCamera() {
-        const auto wanted = std::find_if(
-            desc_.cameras.begin(), desc_.cameras.end(), [&](const CameraDesc& camera) {
+        const auto wanted =
+            std::find_if(desc_.cameras.begin(), desc_.cameras.end(), [&](const CameraDesc& camera) {
                 return settings_.camera.empty() || camera.name == settings_.camera;
             });
         if (wanted == desc_.cameras.end()) {
             std::vector<std::string> known;
             for (const CameraDesc& camera : desc_.cameras) known.push_back(camera.name);
-            fail(ErrorKind::Input, cat(source_.name, ": error: no camera ",
-                                       unknownName(settings_.camera, known)));
+            fail(ErrorKind::Input,
+                 cat(source_.name, ": error: no camera ", unknownName(settings_.camera, known)));
         }
         const CameraDesc& desc = *wanted;
         cameraDesc_ = &desc;
@@ -188,16 +189,17 @@ private:
     // ---- objects
 
     ShapeSet::Shadow shadowOf(const std::vector<std::uint32_t>& materials) const {
-        const bool seeThrough = std::any_of(materials.begin(), materials.end(), [&](std::uint32_t m) {
-            return scene_.materials_[m].seeThrough();
-        });
+        const bool seeThrough =
+            std::any_of(materials.begin(), materials.end(),
+                        [&](std::uint32_t m) { return scene_.materials_[m].seeThrough(); });
         return seeThrough ? ShapeSet::Shadow::SeeThrough : ShapeSet::Shadow::Opaque;
     }
 
     void buildObjects() {
         std::vector<int> uses(desc_.meshes.size(), 0);
         for (const ObjectDesc& object : desc_.objects)
-            if (object.kind == ObjectDesc::Kind::Mesh) ++uses[static_cast<std::size_t>(object.mesh)];
+            if (object.kind == ObjectDesc::Kind::Mesh)
+                ++uses[static_cast<std::size_t>(object.mesh)];
 
         // Meshes that are used once and stand still become one, with one tree over all triangles;
         // see-through ones apart, as their shadows have to look at every hit.
@@ -228,13 +230,15 @@ private:
 
     // Where a mesh that stands still is, before the frame: its points are placed one by one.
     Transform worldRows(const ObjectDesc& object) const {
-        if (object.worldFromObject.size() == 1) return Transform::fromRows(object.worldFromObject[0]);
+        if (object.worldFromObject.size() == 1)
+            return Transform::fromRows(object.worldFromObject[0]);
         std::vector<Transform> maps;
         for (const Rows& rows : object.worldFromObject) maps.push_back(Transform::fromRows(rows));
         return MovingTransform(std::span<const Transform>(maps)).at(0.5);
     }
 
-    std::vector<std::uint32_t> materialsBySlot(const ObjectDesc& object, const MeshDesc& mesh) const {
+    std::vector<std::uint32_t> materialsBySlot(const ObjectDesc& object,
+                                               const MeshDesc& mesh) const {
         std::vector<std::uint32_t> out;
         for (const Handle handle : object.materials) out.push_back(materialId(handle));
         std::uint32_t slots = 1;
@@ -248,8 +252,8 @@ private:
         auto geometry = std::make_unique<MeshGeometry>(std::move(merged.geometry));
         geometry->finish(settings_.accel == AccelKind::Bvh);
         scene_.degenerateCount_ += merged.degenerateCount;
-        scene_.shapes_.add(std::make_unique<Mesh>(*geometry, MovingTransform(),
-                                                  merged.materials, std::move(merged.parts)),
+        scene_.shapes_.add(std::make_unique<Mesh>(*geometry, MovingTransform(), merged.materials,
+                                                  std::move(merged.parts)),
                            shadowOf(merged.materials));
         scene_.geometries_.push_back(std::move(geometry));
     }
@@ -260,8 +264,8 @@ private:
         const auto [at, isNew] = instanced_.try_emplace(mesh);
         if (isNew) {
             at->second.frame = frameOf(desc_.meshes[mesh]);
-            auto geometry = std::make_unique<MeshGeometry>(
-                toGeometry(desc_.meshes[mesh], at->second.frame));
+            auto geometry =
+                std::make_unique<MeshGeometry>(toGeometry(desc_.meshes[mesh], at->second.frame));
             scene_.degenerateCount_ += geometry->dropDegenerate();
             geometry->finish(settings_.accel == AccelKind::Bvh);
             at->second.geometry = geometry.get();
@@ -270,10 +274,11 @@ private:
         const Instanced& shared = at->second;
         if (shared.geometry->triangles.empty()) return;
         const ShapeSet::Shadow shadow = shadowOf(materials);
-        const Transform objectFromMesh = Transform::translate(shared.frame.centre) *
-                                         Transform::scale(1 / shared.frame.scale);
+        const Transform objectFromMesh =
+            Transform::translate(shared.frame.centre) * Transform::scale(1 / shared.frame.scale);
         scene_.shapes_.add(std::make_unique<Mesh>(*shared.geometry, place, std::move(materials),
-                                                  std::vector<MeshPart>{{0, object}}, objectFromMesh),
+                                                  std::vector<MeshPart>{{0, object}},
+                                                  objectFromMesh),
                            shadow);
     }
 
@@ -283,7 +288,8 @@ private:
         for (std::size_t i = 0; i < desc_.lights.size(); ++i) {
             const LightDesc& light = desc_.lights[i];
             scene_.lights_.push_back(makeLight(light, scene_.frame_));
-            if (light.visible) addLampBody(light, static_cast<std::uint32_t>(desc_.objects.size() + i));
+            if (light.visible)
+                addLampBody(light, static_cast<std::uint32_t>(desc_.objects.size() + i));
         }
     }
 
@@ -310,7 +316,7 @@ private:
     const SourceFile& source_;
     const RenderSettings& settings_;
     Switches on_;
-    const CameraDesc* cameraDesc_ = nullptr; // the one that is used
+    const CameraDesc* cameraDesc_ = nullptr;     // the one that is used
     std::map<std::size_t, Instanced> instanced_; // by mesh
 };
 
@@ -338,8 +344,10 @@ void Scene::describe(Stats& stats) const {
         stats.accel.primitives += geometry->triangles.size();
     }
     for (const Feature& feature : features_) {
-        if (feature.needed) stats.featuresNeeded.push_back(feature.name);
-        else stats.featuresSkipped.push_back(cat(feature.name, ": ", feature.reason));
+        if (feature.needed)
+            stats.featuresNeeded.push_back(feature.name);
+        else
+            stats.featuresSkipped.push_back(cat(feature.name, ": ", feature.reason));
     }
     stats.degeneratePrimitives = degenerateCount_;
 }

@@ -9,9 +9,9 @@ struct ShadedPoint {
     std::uint32_t materialId = 0; // surface.material
     Material material;            // textures applied
     bool isLamp = false;
-    bool front = true;            // the ray came from the outside
-    Vec3 toEye;                   // unit
-    Vec3 ng, n;                   // geometric and shading normal, both on the side of the eye
+    bool front = true; // the ray came from the outside
+    Vec3 toEye;        // unit
+    Vec3 ng, n;        // geometric and shading normal, both on the side of the eye
 };
 
 // `dir` need not be a unit vector.

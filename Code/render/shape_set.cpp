@@ -70,11 +70,10 @@ bool ShapeSet::occluded(const Ray& ray) const {
     if (!isTraceable(ray)) return false;
     const RaySetup setup(ray.org, ray.dir, extent);
     bool found = false;
-    visit(setup, depthCut(1.0f / (ray.tMax * setup.dz)),
-          [&](std::uint32_t number, float, float&) {
-              found = shadows[number] == Shadow::Opaque && shapes[number]->occludes(ray);
-              return found;
-          });
+    visit(setup, depthCut(1.0f / (ray.tMax * setup.dz)), [&](std::uint32_t number, float, float&) {
+        found = shadows[number] == Shadow::Opaque && shapes[number]->occludes(ray);
+        return found;
+    });
     return found;
 }
 
@@ -82,14 +81,13 @@ void ShapeSet::seeThroughHits(const Ray& ray, std::vector<Hit>& hits) const {
     if (!isTraceable(ray)) return;
     const RaySetup setup(ray.org, ray.dir, extent);
     const std::size_t before = hits.size();
-    visit(setup, depthCut(1.0f / (ray.tMax * setup.dz)),
-          [&](std::uint32_t number, float, float&) {
-              if (shadows[number] != Shadow::SeeThrough) return false;
-              const std::size_t first = hits.size();
-              shapes[number]->collect(ray, hits);
-              for (std::size_t i = first; i < hits.size(); ++i) hits[i].shape = number;
-              return false;
-          });
+    visit(setup, depthCut(1.0f / (ray.tMax * setup.dz)), [&](std::uint32_t number, float, float&) {
+        if (shadows[number] != Shadow::SeeThrough) return false;
+        const std::size_t first = hits.size();
+        shapes[number]->collect(ray, hits);
+        for (std::size_t i = first; i < hits.size(); ++i) hits[i].shape = number;
+        return false;
+    });
     std::sort(hits.begin() + static_cast<std::ptrdiff_t>(before), hits.end(),
               [](const Hit& a, const Hit& b) {
                   return std::tie(a.t, a.shape, a.prim) < std::tie(b.t, b.shape, b.prim);

@@ -17,8 +17,8 @@ struct ShapeSet {
     std::vector<Bounds> boxes;
     std::vector<Shadow> shadows;
     std::vector<std::uint32_t> bounded, unbounded; // shape numbers; `bounded` in ascending order
-    Bvh bvh;              // over the bounded ones, by position in `bounded`; empty: linear search
-    float extent = 0;     // largest |coordinate| of a finite box
+    Bvh bvh;          // over the bounded ones, by position in `bounded`; empty: linear search
+    float extent = 0; // largest |coordinate| of a finite box
 
     void add(std::unique_ptr<const Shape> shape, Shadow shadow);
     // Call once after the last add().
@@ -33,6 +33,5 @@ struct ShapeSet {
     void seeThroughHits(const Ray& ray, std::vector<Hit>& hits) const;
 
 private:
-    template <class VisitFn>
-    void visit(const RaySetup& setup, float zCut, VisitFn&& fn) const;
+    template <class VisitFn> void visit(const RaySetup& setup, float zCut, VisitFn&& fn) const;
 };

@@ -22,15 +22,17 @@ struct AccelStats {
 };
 
 struct Stats {
-    double parseSeconds = 0, buildSeconds = 0, renderSeconds = 0, writeSeconds = 0, totalSeconds = 0;
+    double parseSeconds = 0, buildSeconds = 0, renderSeconds = 0, writeSeconds = 0,
+           totalSeconds = 0;
     RayCounts rays;
     std::uint64_t cameraHits = 0;
     AccelStats accel;
     std::uint64_t peakBytes = 0;
     int threads = 1;
     std::string kernel;
-    std::vector<std::string> featuresNeeded, featuresSkipped; // skipped: "dof: aperture_radius is 0"
+    std::vector<std::string> featuresNeeded,
+        featuresSkipped; // skipped: "dof: aperture_radius is 0"
     double samplesMin = 0, samplesMean = 0, samplesMax = 0;
-    std::uint64_t nanSamples = 0;          // samples dropped because a value was not finite
+    std::uint64_t nanSamples = 0;           // samples dropped because a value was not finite
     std::uint64_t degeneratePrimitives = 0; // triangles without area, left out of the trees
 };

@@ -1,7 +1,7 @@
-// Whitted ray tracing (Whitted 1980) with distributed effects (Cook et al. 1984), in waves: all rays
-// of one depth are traced together, shaded together, and spawn the next wave. The sums of a sample
-// run over waves, and inside a wave over rays in the order of their parents, so they do not depend
-// on how samples are grouped.
+// Whitted ray tracing (Whitted 1980) with distributed effects (Cook et al. 1984), in waves: all
+// rays of one depth are traced together, shaded together, and spawn the next wave. The sums of a
+// sample run over waves, and inside a wave over rays in the order of their parents, so they do not
+// depend on how samples are grouped.
 #include "render/integrator.h"
 #include "render/shading.h"
 #include "sample/dimensions.h"
@@ -69,9 +69,9 @@ private:
             const Rgb straight = weight * at.material.filter * (1 - at.material.opacity);
             if (goesOn && worthTracing(straight)) {
                 ++counts_.refract;
-                memory_.next.push(
-                    {leave(at.surface, -at.ng), ray.dir, 0, kInfinityF, ray.time}, slot, straight,
-                    rays.medium[i], rays.stream[i], rays.seesLights[i] != 0);
+                memory_.next.push({leave(at.surface, -at.ng), ray.dir, 0, kInfinityF, ray.time},
+                                  slot, straight, rays.medium[i], rays.stream[i],
+                                  rays.seesLights[i] != 0);
             }
             weight = weight * at.material.opacity;
             if (isBlack(weight)) return;
@@ -92,7 +92,8 @@ private:
             for (int k = 0; k < count; ++k) {
                 const LightSample sample = soft ? light.sample(at.surface.p, place(l, k, i, depth))
                                                 : light.centre(at.surface.p);
-                addLightSample(at, weight, i, light, soft, sample, 1.0f / static_cast<float>(count));
+                addLightSample(at, weight, i, light, soft, sample,
+                               1.0f / static_cast<float>(count));
             }
         }
     }
@@ -139,8 +140,10 @@ private:
 
         const MediumStack before = rays.medium[i];
         MediumStack after = before;
-        if (at.front) after.enter(at.materialId);
-        else after.leave(at.materialId);
+        if (at.front)
+            after.enter(at.materialId);
+        else
+            after.leave(at.materialId);
         const bool startedInside = !at.front && before.top() == MediumStack::kOutside;
         const float iorHere = startedInside ? material.ior : iorOf(before.top());
         const float eta = iorHere / iorOf(after.top());

@@ -42,8 +42,8 @@ std::vector<float> inverseOfCdf(FilterKind kind) {
     std::vector<double> cdf(kPieces + 1, 0.0);
     for (int i = 0; i < kPieces; ++i) { // Simpson on each piece
         const double h = 1.0 / kPieces, x = i * h;
-        const double area = (shape(kind, x) + 4 * shape(kind, x + 0.5 * h) + shape(kind, x + h)) *
-                            (h / 6);
+        const double area =
+            (shape(kind, x) + 4 * shape(kind, x + 0.5 * h) + shape(kind, x + h)) * (h / 6);
         cdf[static_cast<std::size_t>(i) + 1] = cdf[static_cast<std::size_t>(i)] + area;
     }
     std::vector<float> inverse{1};

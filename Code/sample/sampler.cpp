@@ -47,7 +47,8 @@ constexpr std::uint32_t pascalReversed(std::uint32_t index) {
 std::uint32_t permuted(std::uint32_t index, std::uint32_t count, std::uint64_t key) {
     const std::uint64_t more = mixBits(key + kHashStep);
     const std::uint32_t rounds[] = {low32(key), high32(key), low32(more), high32(more)};
-    const int bits = std::bit_width(count - 1), shift = (bits + 1) / 2;
+    const auto bits = static_cast<int>(std::bit_width(count - 1));
+    const int shift = (bits + 1) / 2;
     const std::uint32_t mask = static_cast<std::uint32_t>((std::uint64_t{1} << bits) - 1);
     do {
         for (const std::uint32_t random : rounds) {
@@ -60,8 +61,8 @@ std::uint32_t permuted(std::uint32_t index, std::uint32_t count, std::uint64_t k
 
 // (cell + offset) / count, kept below 1 when it rounds up.
 float inCell(std::uint32_t cell, float offset, std::uint32_t count) {
-    const double place = (static_cast<double>(cell) + static_cast<double>(offset)) /
-                         static_cast<double>(count);
+    const double place =
+        (static_cast<double>(cell) + static_cast<double>(offset)) / static_cast<double>(count);
     const float value = static_cast<float>(place);
     return min(value, kOneMinusUlp);
 }
@@ -140,6 +141,5 @@ Vec2 Sampler::get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dim
         const std::uint64_t both = mixBits(more + sample * kHashStep);
         offset = {unitFloat(low32(both)), unitFloat(high32(both))};
     }
-    return {inCell(cell % columns_, offset.x, columns_),
-            inCell(cell / columns_, offset.y, rows_)};
+    return {inCell(cell % columns_, offset.x, columns_), inCell(cell / columns_, offset.y, rows_)};
 }

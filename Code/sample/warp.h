@@ -15,8 +15,8 @@ Vec2 polygonFromSquare(Vec2 u, int blades, double rotationRad);
 // density 1 / (2 pi (1 - cosHalfAngle)) per steradian. Narrow cones: give the half angle by
 // oneMinusCos = 1 - cos(halfAngle) = 2 sin^2(halfAngle/2), which does not cancel.
 Vec3 coneFromSquare(Vec2 u, double oneMinusCos);
-Vec3 sphereFromSquare(Vec2 u);            // density 1 / (4 pi)
-Vec3 cosineHemisphereFromSquare(Vec2 u);  // about +z, density cos / pi
+Vec3 sphereFromSquare(Vec2 u);           // density 1 / (4 pi)
+Vec3 cosineHemisphereFromSquare(Vec2 u); // about +z, density cos / pi
 // About +z with density (n+1)/(2 pi) cos^n: the half vector of a Blinn lobe, exponent n >= 0.
 Vec3 cosinePowerFromSquare(Vec2 u, float exponent);
 

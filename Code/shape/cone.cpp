@@ -71,17 +71,16 @@ AnalyticShape::Local Cone::describe(Vec3d p, std::uint32_t part, const Clearance
     const double c = around > 0 ? p.x / around : 1, s = around > 0 ? p.y / around : 0;
     const Vec3d normal{c, s, -slope_};
 
-    // Near the tip the inside is thinner than the inset, and the side so curved that a step inwards
-    // ends outside: a step e (half the clearance) goes in by e steepness, but with rounding it may
-    // go round by 3/4 radialInset, and so out again by the square of that over 2 w. p goes down the
-    // side to where there is room, with a factor of 4 to spare.
+    // Near the tip the side is so curved that a step inwards may end outside: a step e (half the
+    // clearance) goes in by e steepness, but with rounding it may go round by 3/4 radialInset, and
+    // so out again by the square of that over 2 w. p goes down the side to where there is room,
+    // with a factor of 4 to spare.
     const double wide = max(radius_, topRadius_);
-    double leastRadius = 4 * radialInset;
+    double leastRadius = 0;
     if (radialInset > 0 && w < wide / 2) {
         const double inwards = 0.5 * clearance.distance * clearance.steepness(normal);
-        leastRadius = max(leastRadius, 2 * sqr(0.75 * radialInset) / inwards);
+        leastRadius = min(2 * sqr(0.75 * radialInset) / inwards, wide / 2);
     }
-    leastRadius = min(leastRadius, wide / 2);
     if (w < leastRadius) {
         w = leastRadius;
         z = narrowZ_ + (w - narrowRadius_) / slope_;

@@ -11,10 +11,10 @@ Cylinder::Cylinder(MovingTransform worldFromObject, double radius, bool caps,
 // Where x^2 + y^2 <= radius^2.
 Interval Cylinder::insideTube(const RayD& ray) const {
     const double ox = ray.org.x, oy = ray.org.y, dx = ray.dir.x, dy = ray.dir.y;
-    const double dd = dx * dx + dy * dy, od = ox * dx + oy * dy, oo = ox * ox + oy * oy;
-    if (dd == 0) return Interval::all(radius_ > 0 && oo <= radius_ * radius_);
+    const double dd = dx * dx + dy * dy, od = ox * dx + oy * dy;
+    if (dd == 0) return Interval::all(radius_ > 0 && ox * ox + oy * oy <= radius_ * radius_);
     const double px = ox - dx * (od / dd), py = oy - dy * (od / dd);
-    return insideRound(dd, od, oo, px * px + py * py, radius_, kSide);
+    return insideRound(dd, od, px * px + py * py, radius_, kSide);
 }
 
 AnalyticShape::Roots Cylinder::roots(const RayD& ray) const {

@@ -34,16 +34,13 @@ inline Interval slab(double o, double d, double lo, double hi, std::uint32_t loP
     return d > 0 ? Interval{atLo, atHi} : Interval{atHi, atLo};
 }
 
-// Where |o + t d| <= radius in two or three dimensions, given d.d > 0, o.d, o.o and the squared
-// distance `ll` of the line from the centre. With ll from the perpendicular vector o - (o.d/d.d) d
-// nothing cancels for far origins (Ray Tracing Gems, chapter 7); the end near the origin comes from
-// the product of the roots, so it keeps its relative accuracy.
-inline Interval insideRound(double dd, double od, double oo, double ll, double radius,
-                            std::uint32_t part) {
+// Where |o + t d| <= radius in two or three dimensions, given d.d > 0, o.d and the squared distance
+// `ll` of the line from the centre. With ll from the perpendicular vector o - (o.d / d.d) d nothing
+// cancels for far origins (Ray Tracing Gems, chapter 7), and the ends are off by the rounding of
+// the middle and the half only: 2^-52 of the distance to the centre.
+inline Interval insideRound(double dd, double od, double ll, double radius, std::uint32_t part) {
     const double rr = radius * radius;
     if (!(radius > 0 && ll <= rr)) return Interval::empty();
     const double middle = -od / dd, half = std::sqrt((rr - ll) / dd);
-    const double far = middle + std::copysign(half, middle);
-    const double near = far != 0 ? (oo - rr) / (dd * far) : 0;
-    return near < far ? Interval{{near, part}, {far, part}} : Interval{{far, part}, {near, part}};
+    return {{middle - half, part}, {middle + half, part}};
 }

@@ -26,14 +26,31 @@ Vec2 barycentrics(const RaySetup& setup, Vec3 v0, Vec3 v1, Vec3 v2) {
     return {static_cast<float>(e.y / sum), static_cast<float>(e.z / sum)};
 }
 
-template <class T>
-T interpolate(T a, T b, T c, float u, float v) {
+template <class T> T interpolate(T a, T b, T c, float u, float v) {
     return a * (1 - u - v) + b * u + c * v;
 }
 
 // The vertex's part of the error of a hit: what Woop's test and the plane key lose to rounding,
 // about 8 units of the largest coordinate difference, doubled. See RaySetup for the pads.
 constexpr double kTriangleError = 0x1p-20;
+
+// Rays leave a surface kTriangleError off its plane; this many times as far from its edges they are
+// on the inner side of the neighbours as well, down to an angle of 30 degrees between both.
+constexpr double kEdgeClearance = 2;
+
+// Moves a point of a triangle towards the centre of its incircle until it keeps `clearance` from
+// all edges. A point right on the edge of two walls would let light from outside in between them.
+Vec3d awayFromEdges(Vec3d weights, Vec3 v0, Vec3 v1, Vec3 v2, double clearance) {
+    const Vec3d a = toDouble(v0), b = toDouble(v1), c = toDouble(v2);
+    const Vec3d sides{length(c - b), length(a - c), length(b - a)};
+    const double twiceArea = length(crossOfEdges(v0, v1, v2));
+    const double perimeter = sides.x + sides.y + sides.z, inradius = twiceArea / perimeter;
+    const double nearest =
+        min(weights.x / sides.x, min(weights.y / sides.y, weights.z / sides.z)) * twiceArea;
+    if (nearest >= clearance) return weights;
+    const double s = inradius > clearance ? (clearance - nearest) / (inradius - nearest) : 1;
+    return lerp(weights, sides / perimeter, s);
+}
 
 } // namespace
 
@@ -84,9 +101,12 @@ Mesh::Mesh(const MeshGeometry& geometry, MovingTransform worldFromObject,
     for (const auto& corners : geometry.triangles)
         for (const std::uint32_t corner : corners) box.extend(geometry.points[corner]);
     if (box.isEmpty()) return;
-    if (identity_) bounds_ = box;
-    else if (worldFromObject_.isStatic()) bounds_ = outward(worldFromMesh_.bounds(toDouble(box)));
-    else bounds_ = outward(worldFromObject_.bounds(objectFromMesh_.bounds(toDouble(box))));
+    if (identity_)
+        bounds_ = box;
+    else if (worldFromObject_.isStatic())
+        bounds_ = outward(worldFromMesh_.bounds(toDouble(box)));
+    else
+        bounds_ = outward(worldFromObject_.bounds(objectFromMesh_.bounds(toDouble(box))));
 }
 
 Bounds Mesh::bounds() const { return bounds_; }
@@ -137,8 +157,8 @@ bool Mesh::intersect(const Ray& worldRay, Hit& hit) const {
     const float t = 1.0f / (bestKey * setup.dz);
     if (bestKey == 0 || !(t <= hit.t)) return false;
     const auto& c = geometry_.triangles[best];
-    const Vec2 uv = barycentrics(setup, geometry_.points[c[0]], geometry_.points[c[1]],
-                                 geometry_.points[c[2]]);
+    const Vec2 uv =
+        barycentrics(setup, geometry_.points[c[0]], geometry_.points[c[1]], geometry_.points[c[2]]);
     hit.t = t;
     hit.u = uv.x;
     hit.v = uv.y;
@@ -180,9 +200,13 @@ void Mesh::collect(const Ray& worldRay, std::vector<Hit>& hits) const {
 
 Surface Mesh::surface(const Ray& worldRay, const Hit& hit) const {
     const auto& c = geometry_.triangles[hit.prim];
-    const Vec3 v0 = geometry_.points[c[0]], v1 = geometry_.points[c[1]], v2 = geometry_.points[c[2]];
-    const double u = hit.u, v = hit.v, w = 1 - u - v;
-    const Vec3d p = toDouble(v0) * w + toDouble(v1) * u + toDouble(v2) * v;
+    const Vec3 v0 = geometry_.points[c[0]], v1 = geometry_.points[c[1]],
+               v2 = geometry_.points[c[2]];
+    const double u = hit.u, v = hit.v;
+    const auto pointOff = [&](double error) { // in the mesh's space, this far from the edges
+        const Vec3d b = awayFromEdges({1 - u - v, u, v}, v0, v1, v2, kEdgeClearance * error);
+        return toDouble(v0) * b.x + toDouble(v1) * b.y + toDouble(v2) * b.z;
+    };
     const Vec3d n = normalize(crossOfEdges(v0, v1, v2));
     const float scale = max(maxAbs(v0), max(maxAbs(v1), maxAbs(v2)));
 
@@ -194,12 +218,11 @@ Surface Mesh::surface(const Ray& worldRay, const Hit& hit) const {
                                   geometry_.normals[k[2]], hit.u, hit.v));
     }
     if (identity_) {
-        s.p = toFloat(p);
+        s.p = toFloat(pointOff(kTriangleError * scale));
         s.ng = toFloat(n);
         s.error = static_cast<float>(kTriangleError * scale);
     } else {
         const Transform worldFromMesh = worldFromMeshAt(worldRay.time);
-        s.p = toFloat(worldFromMesh.point(p));
         const Vec3d normal = worldFromMesh.normal(n);
         s.ng = toFloat(normalize(normal));
         ns = worldFromMesh.normal(ns);
@@ -207,7 +230,13 @@ Surface Mesh::surface(const Ray& worldRay, const Hit& hit) const {
         const Transform meshFromWorld = worldFromMesh.inverse();
         const double offPlane = dot(meshFromWorld.vector(normalize(normal)), n);
         const double lost = kTriangleError * scale + 0x1p-22 * maxAbs(meshFromWorld.point({}));
-        s.error = static_cast<float>(lost / std::fabs(offPlane) + 0x1p-22 * maxAbs(s.p));
+        const Vec3d p = worldFromMesh.point(pointOff(0));
+        const double error = lost / std::fabs(offPlane) + 0x1p-22 * maxAbs(p);
+        const double stretch =
+            max(length(meshFromWorld.column(0)),
+                max(length(meshFromWorld.column(1)), length(meshFromWorld.column(2))));
+        s.p = toFloat(worldFromMesh.point(pointOff(error * stretch)));
+        s.error = static_cast<float>(error);
     }
     const double length2 = dot(ns, ns);
     s.ns = length2 > 0 ? toFloat(ns / std::sqrt(length2)) : s.ng;

@@ -1,6 +1,6 @@
-// Triangle meshes: MeshGeometry is the data, shared by all instances; Mesh is the Shape that puts it
-// into the world. Traversal uses the canonical triangle hit (accel/triangle.h) in the geometry's own
-// float space, so one ray sees one set of vertex bits and closed meshes cannot leak.
+// Triangle meshes: MeshGeometry is the data, shared by all instances; Mesh is the Shape that puts
+// it into the world. Traversal uses the canonical triangle hit (accel/triangle.h) in the geometry's
+// own float space, so one ray sees one set of vertex bits and closed meshes cannot leak.
 #pragma once
 
 #include "accel/bvh.h"

@@ -10,8 +10,7 @@ AnalyticShape::Roots Sphere::roots(const RayD& ray) const {
     const double dd = dot(ray.dir, ray.dir), od = dot(ray.org, ray.dir);
     const Vec3d perpendicular = ray.org - ray.dir * (od / dd);
     Roots found;
-    found.addEnds(
-        insideRound(dd, od, dot(ray.org, ray.org), dot(perpendicular, perpendicular), radius_, 0));
+    found.addEnds(insideRound(dd, od, dot(perpendicular, perpendicular), radius_, 0));
     return found;
 }
 

@@ -73,29 +73,33 @@ std::string writeTexture(const std::string& name, int width, int height,
 
 std::string TopView::text() const {
     return cat("settings {\n resolution ", pixels, " ", pixels, "\n samples ", samples,
-               samples == 1 ? "\n jitter false" : "", "\n filter box 1\n ", more, "\n}\ncamera top {\n type orthographic\n ortho_scale ",
-               shortest(side), "\n translate ", shortest(centre.x), " ", shortest(centre.y), " ",
-               shortest(height), "\n}\n");
+               samples == 1 ? "\n jitter false" : "", "\n filter box 1\n ", more,
+               "\n}\ncamera top {\n type orthographic\n ortho_scale ", shortest(side),
+               "\n translate ", shortest(centre.x), " ", shortest(centre.y), " ", shortest(height),
+               "\n}\n");
 }
 
-Estimate estimate(const Image& image, float Rgb::* channel) {
+Estimate estimate(const Image& image, float Rgb::*channel) {
     const double n = static_cast<double>(image.pixels().size());
     double sum = 0, squares = 0;
     for (const Rgb& pixel : image.pixels()) sum += static_cast<double>(pixel.*channel);
     const double mean = sum / n;
-    for (const Rgb& pixel : image.pixels()) squares += sqr(static_cast<double>(pixel.*channel) - mean);
+    for (const Rgb& pixel : image.pixels())
+        squares += sqr(static_cast<double>(pixel.*channel) - mean);
     return {mean, std::sqrt(squares / (n - 1) / n)};
 }
 
 double largest(const Image& image) {
     double out = -kInfinity;
-    for (const Rgb& p : image.pixels()) out = std::max({out, double{p.r}, double{p.g}, double{p.b}});
+    for (const Rgb& p : image.pixels())
+        out = std::max({out, double{p.r}, double{p.g}, double{p.b}});
     return out;
 }
 
 double smallest(const Image& image) {
     double out = kInfinity;
-    for (const Rgb& p : image.pixels()) out = std::min({out, double{p.r}, double{p.g}, double{p.b}});
+    for (const Rgb& p : image.pixels())
+        out = std::min({out, double{p.r}, double{p.g}, double{p.b}});
     return out;
 }
 
@@ -103,7 +107,8 @@ double maxDifference(const Image& a, const Image& b) {
     double out = 0;
     for (std::size_t i = 0; i < a.pixels().size(); ++i) {
         const Rgb d = a.pixels()[i] - b.pixels()[i];
-        out = std::max({out, std::fabs(double{d.r}), std::fabs(double{d.g}), std::fabs(double{d.b})});
+        out =
+            std::max({out, std::fabs(double{d.r}), std::fabs(double{d.g}), std::fabs(double{d.b})});
     }
     return out;
 }

@@ -57,7 +57,7 @@ struct TopView {
 struct Estimate {
     double mean = 0, sigma = 0;
 };
-Estimate estimate(const Image& image, float Rgb::* channel = &Rgb::r);
+Estimate estimate(const Image& image, float Rgb::*channel = &Rgb::r);
 
 double largest(const Image& image); // over all pixels and channels
 double smallest(const Image& image);
@@ -75,7 +75,7 @@ double length3(Vec3d v);
     do {                                                                                           \
         const Rgb rgb_ = (value);                                                                  \
         const Vec3d wanted_ = (expected);                                                          \
-        CHECK_NEAR(rgb_.r, wanted_.x, (relative) * std::fabs(wanted_.x));                          \
-        CHECK_NEAR(rgb_.g, wanted_.y, (relative) * std::fabs(wanted_.y));                          \
-        CHECK_NEAR(rgb_.b, wanted_.z, (relative) * std::fabs(wanted_.z));                          \
+        CHECK_NEAR(rgb_.r, wanted_.x, (relative)*std::fabs(wanted_.x));                            \
+        CHECK_NEAR(rgb_.g, wanted_.y, (relative)*std::fabs(wanted_.y));                            \
+        CHECK_NEAR(rgb_.b, wanted_.z, (relative)*std::fabs(wanted_.z));                            \
     } while (false)

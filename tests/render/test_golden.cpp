@@ -21,7 +21,9 @@ TEST(goldenPictures) {
         list << "name\tscene\tmax_rmse\treason\n";
         for (const auto& [name, text] : scenes::all()) {
             shot::render(text).color.write(folder + name + ".png", {Encoding::Transfer::Srgb, 16});
-            list << name << "\ttests/render/scenes.cpp\t1e-06\tsame bits expected: half a step of 16 bits is 8e-6 of sRGB, compared after the same encoding\n";
+            list << name
+                 << "\ttests/render/scenes.cpp\t1e-06\tsame bits expected: half a step of 16 bits "
+                    "is 8e-6 of sRGB, compared after the same encoding\n";
         }
     }
     std::ifstream list(folder + "golden.tsv");
@@ -40,12 +42,14 @@ TEST(goldenPictures) {
             ++compared;
             const Image image = shot::render(text).color;
             const Image golden(folder + name + ".png");
-            const std::vector<std::uint8_t> bytes = encodeImage(image, "png", {Encoding::Transfer::Srgb, 16});
+            const std::vector<std::uint8_t> bytes =
+                encodeImage(image, "png", {Encoding::Transfer::Srgb, 16});
             const double error = rmse(Image(decodeImage(bytes, name)), golden);
             if (error <= std::stod(limit)) continue;
             std::filesystem::create_directories("build");
             image.write("build/golden-" + name + ".pfm");
-            CHECK_INFO(false, name << ": RMSE " << error << ", limit " << limit << ", see build/golden-" << name << ".pfm");
+            CHECK_INFO(false, name << ": RMSE " << error << ", limit " << limit
+                                   << ", see build/golden-" << name << ".pfm");
         }
     }
     CHECK_EQUAL(compared, scenes::all().size());

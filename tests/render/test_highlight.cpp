@@ -19,7 +19,8 @@ double highlight(Vec3d p, double exponent, bool ashikhmin) {
     const Vec3d n{0, 0, 1}, l = normalize(kLamp - p), v = normalize(kEye - p), h = normalize(l + v);
     const double lobe = std::pow(dot(n, h), exponent), e = 10 / dot(kLamp - p, kLamp - p);
     if (!ashikhmin) return e * lobe;
-    return e * (exponent + 1) / (8 * kPi) * lobe / (dot(h, v) * std::max(dot(n, l), dot(n, v))) * dot(n, l);
+    return e * (exponent + 1) / (8 * kPi) * lobe / (dot(h, v) * std::max(dot(n, l), dot(n, v))) *
+           dot(n, l);
 }
 
 } // namespace
@@ -28,13 +29,13 @@ double highlight(Vec3d p, double exponent, bool ashikhmin) {
 TEST(highlightsOfBothModels) {
     for (const bool ashikhmin : {false, true})
         for (const double exponent : {1.0, 20.0, 400.0}) {
-            const shot::Shot shot = shot::render(cat(
-                "settings {\n resolution 3 3\n samples 1\n jitter false\n}\n"
-                "camera c {\n look_at 0.5 -1.5 2  0.1 0.2 0  0 0 1\n}\n"
-                "material m {\n diffuse 0 0 0\n specular 1 0.5 0.25\n specular_model ",
-                ashikhmin ? "ashikhmin" : "blinn", "\n exponent ", exponent,
-                "\n}\nplane f {\n scale 9 9 1\n material m\n}\n"
-                "light l {\n translate -0.4 1.2 1.75\n color 10 10 10\n}\n"));
+            const shot::Shot shot = shot::render(
+                cat("settings {\n resolution 3 3\n samples 1\n jitter false\n}\n"
+                    "camera c {\n look_at 0.5 -1.5 2  0.1 0.2 0  0 0 1\n}\n"
+                    "material m {\n diffuse 0 0 0\n specular 1 0.5 0.25\n specular_model ",
+                    ashikhmin ? "ashikhmin" : "blinn", "\n exponent ", exponent,
+                    "\n}\nplane f {\n scale 9 9 1\n material m\n}\n"
+                    "light l {\n translate -0.4 1.2 1.75\n color 10 10 10\n}\n"));
             for (int y = 0; y < 3; ++y)
                 for (int x = 0; x < 3; ++x) {
                     const double e = highlight(seen(x, y), exponent, ashikhmin);
@@ -49,7 +50,8 @@ TEST(highlightEndsAtTheHorizon) {
         return shot::TopView{.pixels = 1}.text() +
                "material m {\n diffuse 0.5 0.5 0.5\n specular 1 1 1\n exponent 1\n}\n"
                "plane f {\n material m\n}\n"
-               "light l {\n type sun\n rotate " + shortest(90 - elevation) + " 0 1 0\n}\n";
+               "light l {\n type sun\n rotate " +
+               shortest(90 - elevation) + " 0 1 0\n}\n";
     };
     for (const double elevation : {1.0, 30.0, 90.0}) {
         const double half = std::cos(radians((90 - elevation) / 2));

@@ -16,7 +16,8 @@ Spread spreadOf(const Image& image) {
     Spread s;
     const auto each = [&](auto&& fn) {
         for (int y = 0; y < image.height(); ++y)
-            for (int x = 0; x < image.width(); ++x) fn(x + 0.5, y + 0.5, double{image.pixel(x, y).r});
+            for (int x = 0; x < image.width(); ++x)
+                fn(x + 0.5, y + 0.5, double{image.pixel(x, y).r});
     };
     each([&](double x, double y, double w) { s.energy += w, s.x += w * x, s.y += w * y; });
     s.x /= s.energy, s.y /= s.energy;
@@ -34,9 +35,11 @@ constexpr double kPixel = kFocus * 0.1 / kSide; // in the plane of focus; sensor
 Image ball(double depth, double aperture, const std::string& lens, double size = 4) {
     return shot::render(cat("settings {\n resolution 64 64\n samples 128\n filter box 1\n}\n"
                             "camera c {\n look_at 0 0 0  0 1 0  0 0 1\n lens 100\n sensor 10 10\n"
-                            " focus_distance ", kFocus, "\n aperture_radius ", aperture, "\n", lens, "}\n",
-                            kGlow, "disk d {\n translate 0 ", depth, " 0\n rotate 90 1 0 0\n radius ",
-                            shortest(size * kPixel / kFocus * depth), "\n material glow\n}\n")).color;
+                            " focus_distance ",
+                            kFocus, "\n aperture_radius ", aperture, "\n", lens, "}\n", kGlow,
+                            "disk d {\n translate 0 ", depth, " 0\n rotate 90 1 0 0\n radius ",
+                            shortest(size * kPixel / kFocus * depth), "\n material glow\n}\n"))
+        .color;
 }
 
 Image moving(const std::string& object, int samples = 256) {
@@ -64,8 +67,10 @@ TEST(inFocusThereIsNoBlur) {
 TEST(blurCircleHasItsRadius) {
     for (const double depth : {2.0, 3.0, 6.0, 12.0}) {
         const double radius = 15, aperture = radius * kPixel * depth / std::fabs(depth - kFocus);
-        const Spread sharp = spreadOf(ball(depth, 0, "")), soft = spreadOf(ball(depth, aperture, ""));
-        // 6,000 lens samples hit the disk: 1 % of noise in a variance, so 2 % of a radius is 3 sigma.
+        const Spread sharp = spreadOf(ball(depth, 0, "")),
+                     soft = spreadOf(ball(depth, aperture, ""));
+        // 6,000 lens samples hit the disk: 1 % of noise in a variance, so 2 % of a radius is 3
+        // sigma.
         CHECK_NEAR(2 * std::sqrt(soft.varianceX - sharp.varianceX), radius, 0.02 * radius);
         CHECK_NEAR(2 * std::sqrt(soft.varianceY - sharp.varianceY), radius, 0.02 * radius);
         CHECK_NEAR(soft.radius, radius + sharp.radius, 1.5); // a pixel, and half for the centre
@@ -80,7 +85,8 @@ TEST(bokehHasBlades) {
     const double radius = 20, aperture = radius * kPixel * 12 / (12 - kFocus);
     const Spread sharp = spreadOf(ball(12, 0, "", 2));
     for (const int blades : {3, 5, 6}) {
-        const Spread s = spreadOf(ball(12, aperture, cat(" aperture_blades ", blades, "\n aperture_rotation 10\n"), 2));
+        const Spread s = spreadOf(
+            ball(12, aperture, cat(" aperture_blades ", blades, "\n aperture_rotation 10\n"), 2));
         const double variance = radius * radius * (2 + std::cos(kTwoPi / blades)) / 12;
         CHECK_NEAR(s.varianceX - sharp.varianceX, variance, 0.06 * variance); // 1,600 samples: 2 %
         CHECK_NEAR(s.varianceY - sharp.varianceY, variance, 0.06 * variance);
@@ -109,8 +115,9 @@ TEST(bokehHasBlades) {
 TEST(movingEdgeCoversLinearly) {
     const shot::TopView view{.pixels = 40, .side = 4};
     for (const std::string kind : {"plane e {\n", "cube e {\n"}) {
-        const Image image = moving(kind + " translate -4 0 0\n scale 3 3 1\n key\n translate -2 0 0\n"
-                                          " scale 3 3 1\n material glow\n}\n"); // edge from -1 to 1
+        const Image image =
+            moving(kind + " translate -4 0 0\n scale 3 3 1\n key\n translate -2 0 0\n"
+                          " scale 3 3 1\n material glow\n}\n"); // edge from -1 to 1
         for (int y = 0; y < 40; ++y)
             for (int x = 0; x < 40; ++x) {
                 const double wanted = clamp((1 - view.place(x, y).x) / 2, 0.0, 1.0);
@@ -123,8 +130,10 @@ TEST(movingEdgeCoversLinearly) {
 // even speed. Three keys make it a turn of 2 * 45 degrees about the same axis.
 TEST(turningBarCoversByAngle) {
     const shot::TopView view{.pixels = 40, .side = 4};
-    for (const std::string keys : {" rotate 90 0 0 1\n", " rotate 45 0 0 1\n scale 5 0.2 1\n key\n rotate 90 0 0 1\n"}) {
-        const Image image = moving("plane bar {\n scale 5 0.2 1\n key\n" + keys + " scale 5 0.2 1\n material glow\n}\n");
+    for (const std::string keys :
+         {" rotate 90 0 0 1\n", " rotate 45 0 0 1\n scale 5 0.2 1\n key\n rotate 90 0 0 1\n"}) {
+        const Image image = moving("plane bar {\n scale 5 0.2 1\n key\n" + keys +
+                                   " scale 5 0.2 1\n material glow\n}\n");
         for (int y = 0; y < 40; ++y)
             for (int x = 0; x < 40; ++x) {
                 const double r = distance(view, x, y);
@@ -136,9 +145,12 @@ TEST(turningBarCoversByAngle) {
                 const double half = std::asin(0.2 / r);
                 const double from = max(angle - half, 0.0), to = min(angle + half, kHalfPi);
                 // The pixel spans 0.1/r radians of pi/2: 8 % of blur at the ends, 3 % elsewhere.
-                const bool nearEnd = std::fabs(angle + half) < 0.2 || std::fabs(angle - half) < 0.2 ||
-                                     std::fabs(angle + half - kHalfPi) < 0.2 || std::fabs(angle - half - kHalfPi) < 0.2;
-                CHECK_NEAR(image.pixel(x, y).r, max(to - from, 0.0) / kHalfPi, nearEnd ? 0.08 : 0.03);
+                const bool nearEnd = std::fabs(angle + half) < 0.2 ||
+                                     std::fabs(angle - half) < 0.2 ||
+                                     std::fabs(angle + half - kHalfPi) < 0.2 ||
+                                     std::fabs(angle - half - kHalfPi) < 0.2;
+                CHECK_NEAR(image.pixel(x, y).r, max(to - from, 0.0) / kHalfPi,
+                           nearEnd ? 0.08 : 0.03);
             }
     }
 }
@@ -152,10 +164,13 @@ TEST(growingBodiesCoverByRadius) {
         points += cat(std::cos(kTwoPi * i / 64), " ", std::sin(kTwoPi * i / 64), " 0 ");
         triangles += cat("64 ", i, " ", (i + 1) % 64, " ");
     }
-    const std::string fan = "mesh fan {\n points 65\n " + points + "0 0 0\n triangles 64\n " + triangles + "\n}\n";
-    for (const std::string body : {"sphere b {\n", "disk b {\n", "cylinder b {\n", "cone b {\n top_radius 0.5\n", "instance b {\n mesh fan\n"}) {
-        const Image image = moving((body.starts_with("instance") ? fan : "") + body +
-                                   " scale 0.5 0.5 0.5\n key\n scale 1.5 1.5 1.5\n material glow\n}\n");
+    const std::string fan =
+        "mesh fan {\n points 65\n " + points + "0 0 0\n triangles 64\n " + triangles + "\n}\n";
+    for (const std::string body : {"sphere b {\n", "disk b {\n", "cylinder b {\n",
+                                   "cone b {\n top_radius 0.5\n", "instance b {\n mesh fan\n"}) {
+        const Image image =
+            moving((body.starts_with("instance") ? fan : "") + body +
+                   " scale 0.5 0.5 0.5\n key\n scale 1.5 1.5 1.5\n material glow\n}\n");
         for (int y = 0; y < 40; ++y)
             for (int x = 0; x < 40; ++x)
                 CHECK_NEAR(image.pixel(x, y).r, clamp(1.5 - distance(view, x, y), 0.0, 1.0), 0.05);
@@ -165,10 +180,12 @@ TEST(growingBodiesCoverByRadius) {
 // A camera that moves to the right sees what a scene sees that moves to the left.
 TEST(movingCameraIsMovingSceneBackwards) {
     const std::string settings = "settings {\n resolution 48 48\n samples 16\n}\n" + kGlow;
-    const Image camera = shot::render(
-        settings + "camera c {\n translate 0 0 5\n key\n translate 1 0.5 5\n}\nsphere s {\n material glow\n}\n").color;
-    const Image scene = shot::render(
-        settings + "camera c {\n translate 0 0 5\n}\nsphere s {\n material glow\n key\n translate -1 -0.5 0\n}\n").color;
+    const Image camera = shot::render(settings + "camera c {\n translate 0 0 5\n key\n translate 1 "
+                                                 "0.5 5\n}\nsphere s {\n material glow\n}\n")
+                             .color;
+    const Image scene = shot::render(settings + "camera c {\n translate 0 0 5\n}\nsphere s {\n "
+                                                "material glow\n key\n translate -1 -0.5 0\n}\n")
+                            .color;
     CHECK(rmse(camera, scene) < 2e-3); // single samples at the rim
     CHECK(shot::estimate(camera).mean > 0.05);
 }
@@ -176,10 +193,15 @@ TEST(movingCameraIsMovingSceneBackwards) {
 // --no-motion-blur shows the middle of the shutter, --no-dof the pinhole's picture.
 TEST(switchedOffBlurs) {
     const std::string settings = "settings {\n resolution 32 32\n samples 4\n}\n" + kGlow;
-    const std::string camera = "camera c {\n translate 0 0 5\n aperture_radius 0.3\n focus_distance 2\n}\n";
-    const Image off = shot::render(settings + camera + "sphere s {\n material glow\n key\n translate -1 0 0\n}\n",
-                                   [](RenderSettings& s) { s.switches.motionBlur = s.switches.dof = false; }).color;
-    const Image still = shot::render(settings + "camera c {\n translate 0 0 5\n}\n"
-                                     "sphere s {\n translate -0.5 0 0\n material glow\n}\n").color;
+    const std::string camera =
+        "camera c {\n translate 0 0 5\n aperture_radius 0.3\n focus_distance 2\n}\n";
+    const Image off =
+        shot::render(settings + camera + "sphere s {\n material glow\n key\n translate -1 0 0\n}\n",
+                     [](RenderSettings& s) { s.switches.motionBlur = s.switches.dof = false; })
+            .color;
+    const Image still =
+        shot::render(settings + "camera c {\n translate 0 0 5\n}\n"
+                                "sphere s {\n translate -0.5 0 0\n material glow\n}\n")
+            .color;
     CHECK_EQUAL(shot::differingPixels(off, still), 0);
 }

@@ -45,12 +45,13 @@ double polygonIrradiance(const std::vector<Vec3d>& corners, Vec3d p, Vec3d n) {
 // The centre of the picture as the mean of 1024 pixels of 16 independent samples each.
 // More than 3 sigma is wrong; and sigma below 2 % makes sure that the test can tell.
 void checkSoft(const std::string& scene, Vec2d place, double expected) {
-    TopView view{.pixels = 32, .side = 1e-4, .centre = place, .samples = 16,
-                 .more = "sampler random"};
+    TopView view{
+        .pixels = 32, .side = 1e-4, .centre = place, .samples = 16, .more = "sampler random"};
     const shot::Shot shot = shot::render(view.text() + scene);
     const shot::Estimate e = shot::estimate(shot.color);
     CHECK_INFO(std::fabs(e.mean - expected) < 3 * e.sigma,
-               e.mean << " +- " << e.sigma << ", expected " << expected << " in\n" << scene);
+               e.mean << " +- " << e.sigma << ", expected " << expected << " in\n"
+                      << scene);
     CHECK_INFO(e.sigma < 0.02 * expected, e.sigma / expected);
 }
 
@@ -61,9 +62,9 @@ void checkSoft(const std::string& scene, Vec2d place, double expected) {
 TEST(pointLightOnEveryFloor) {
     const TopView view;
     for (const std::string& floor : kFloors) {
-        const shot::Shot shot = shot::render(
-            view.text() + kMaterial + floor +
-            "light l {\n translate 0.3 -0.2 1.5\n color 10 20 30\n}\n");
+        const shot::Shot shot =
+            shot::render(view.text() + kMaterial + floor +
+                         "light l {\n translate 0.3 -0.2 1.5\n color 10 20 30\n}\n");
         for (int y = 0; y < 3; ++y)
             for (int x = 0; x < 3; ++x) {
                 const double e = pointIrradiance({0.3, -0.2, 1.5}, view.place(x, y)) / kPi;
@@ -83,12 +84,14 @@ TEST(spotConeFallsOffAsSmoothstep) {
         const shot::Shot shot = shot::render(
             view.text() + kMaterial + kFloors[0] +
             "light l {\n type spot\n look_at 0.1 0.05 2  0 0.1 0  0 1 0\n color 10 20 30\n"
-            " cone_angle 50\n blend 0.4\n cosine_falloff " + (cosine ? "true" : "false") + "\n}\n");
+            " cone_angle 50\n blend 0.4\n cosine_falloff " +
+            (cosine ? "true" : "false") + "\n}\n");
         int dark = 0, full = 0, soft = 0;
         for (int y = 0; y < view.pixels; ++y)
             for (int x = 0; x < view.pixels; ++x) {
                 const Vec2d p = view.place(x, y);
-                const double c = dot(normalize(Vec3d{p.x, p.y, 0} - place), normalize(target - place));
+                const double c =
+                    dot(normalize(Vec3d{p.x, p.y, 0} - place), normalize(target - place));
                 const double edge = std::cos(radians(25));
                 const double s = clamp((c - edge) / ((1 - edge) * 0.4), 0.0, 1.0);
                 const double cone = s * s * (3 - 2 * s) * (cosine ? c : 1);
@@ -109,8 +112,8 @@ TEST(sunHasTheCosineOnly) {
                          "light l {\n type sun\n rotate 35 1 0.5 0\n color 1 2 3\n}\n");
         const double e = std::cos(radians(35)) / kPi; // the axis of the turn is level
         for (int i = 0; i < 9; ++i)
-            CHECK_RGB(shot.at(i % 3, i / 3), (Vec3d{kDiffuse.x * e, kDiffuse.y * e * 2, kDiffuse.z * e * 3}),
-                      1e-6);
+            CHECK_RGB(shot.at(i % 3, i / 3),
+                      (Vec3d{kDiffuse.x * e, kDiffuse.y * e * 2, kDiffuse.z * e * 3}), 1e-6);
     }
     // From below: dark.
     CHECK_EQUAL(shot::largest(shot::render(view.text() + kMaterial + kFloors[0] +
@@ -121,24 +124,27 @@ TEST(sunHasTheCosineOnly) {
 
 TEST(ambientAndEmissionAreExact) {
     const TopView view;
-    const shot::Shot shot = shot::render(
-        view.text() + kFloors[0] + "world {\n ambient 0.25 0.5 1\n background 9 9 9\n}\n"
-        "material m {\n diffuse 0.5 0.25 0.125\n emission 0.125 0 3\n}\n");
+    const shot::Shot shot =
+        shot::render(view.text() + kFloors[0] +
+                     "world {\n ambient 0.25 0.5 1\n background 9 9 9\n}\n"
+                     "material m {\n diffuse 0.5 0.25 0.125\n emission 0.125 0 3\n}\n");
     for (const Rgb& pixel : shot.color.pixels())
         CHECK((pixel == Rgb{0.5f * 0.25f + 0.125f, 0.25f * 0.5f, 0.125f + 3}));
 }
 
 TEST(diskLightOnItsAxis) {
-    const std::string light = "light l {\n type disk\n translate 0 0 1.5\n size 2 2\n color 3 3 3\n}\n";
+    const std::string light =
+        "light l {\n type disk\n translate 0 0 1.5\n size 2 2\n color 3 3 3\n}\n";
     const double r = 1, h = 1.5; // E = pi L r^2/(r^2+h^2)
     checkSoft(kMaterial + kFloors[0] + light, {0, 0}, kDiffuse.x * 3 * r * r / (r * r + h * h));
 }
 
 TEST(rectangleLightIsLambertsPolygon) {
-    const std::string light = "light l {\n type rectangle\n translate 0.2 0.1 1.25\n rotate 25 1 1 0\n"
-                              " size 1.5 0.75\n color 3 3 3\n}\n";
-    const Transform place = Transform::translate({0.2, 0.1, 1.25}) *
-                            Transform::rotate({1, 1, 0}, radians(25));
+    const std::string light =
+        "light l {\n type rectangle\n translate 0.2 0.1 1.25\n rotate 25 1 1 0\n"
+        " size 1.5 0.75\n color 3 3 3\n}\n";
+    const Transform place =
+        Transform::translate({0.2, 0.1, 1.25}) * Transform::rotate({1, 1, 0}, radians(25));
     std::vector<Vec3d> corners;
     for (const Vec2d c : {Vec2d{-1, -1}, Vec2d{1, -1}, Vec2d{1, 1}, Vec2d{-1, 1}})
         corners.push_back(place.point({c.x * 0.75, c.y * 0.375, 0}));
@@ -152,10 +158,12 @@ TEST(ellipseLightIsLambertsPolygonToo) {
     const std::string light = "light l {\n type disk\n translate 0.2 0.1 1.25\n rotate 25 1 1 0\n"
                               " scale 1.5 1 1\n size 1 0.75\n color 3 3 3\n}\n";
     const Transform place = Transform::translate({0.2, 0.1, 1.25}) *
-                            Transform::rotate({1, 1, 0}, radians(25)) * Transform::scale({1.5, 1, 1});
+                            Transform::rotate({1, 1, 0}, radians(25)) *
+                            Transform::scale({1.5, 1, 1});
     std::vector<Vec3d> corners;
     for (int i = 0; i < 256; ++i)
-        corners.push_back(place.point({0.5 * std::cos(kTwoPi * i / 256), 0.375 * std::sin(kTwoPi * i / 256), 0}));
+        corners.push_back(
+            place.point({0.5 * std::cos(kTwoPi * i / 256), 0.375 * std::sin(kTwoPi * i / 256), 0}));
     for (const Vec2d p : {Vec2d{0.1, 0}, Vec2d{0.6, -0.4}})
         checkSoft(kMaterial + kFloors[0] + light, p,
                   kDiffuse.x / kPi * 3 * polygonIrradiance(corners, {p.x, p.y, 0}, {0, 0, 1}));
@@ -164,16 +172,15 @@ TEST(ellipseLightIsLambertsPolygonToo) {
 // E = pi L r^2/d^2 cos, whatever the distance, while the sphere is all above the horizon.
 TEST(sphereLightIsItsSolidAngle) {
     for (const Vec3d place : {Vec3d{0, 0, 1.5}, Vec3d{1, 0.5, 1.25}, Vec3d{0, 0, 1.001}}) {
-        const std::string light =
-            cat("light l {\n type sphere\n translate ", place.x, " ", place.y, " ", place.z,
-                "\n radius 1\n color 3 3 3\n}\n");
+        const std::string light = cat("light l {\n type sphere\n translate ", place.x, " ", place.y,
+                                      " ", place.z, "\n radius 1\n color 3 3 3\n}\n");
         const double d2 = dot(place, place);
         checkSoft(kMaterial + kFloors[0] + light, {0, 0},
                   kDiffuse.x * 3 * place.z / (d2 * std::sqrt(d2)));
     }
     // Inside of it all light comes from the upper half: E = pi L.
-    checkSoft(kMaterial + kFloors[0] + "light l {\n type sphere\n radius 5\n color 3 3 3\n}\n", {0, 0},
-              kDiffuse.x * 3);
+    checkSoft(kMaterial + kFloors[0] + "light l {\n type sphere\n radius 5\n color 3 3 3\n}\n",
+              {0, 0}, kDiffuse.x * 3);
 }
 
 // A sun of 40 degrees gives the same irradiance as one of 0 on a surface that it is all above.
@@ -183,26 +190,30 @@ TEST(wideSunKeepsItsIrradiance) {
 }
 
 // E = I * mean over the disk, that faces the receiver, of cosAtDisk * cosAtReceiver / distance^2;
-// on the axis, where all is round: 2 I h^2 / r^2 * integral of s ds / (h^2+s^2)^2 = I / (h^2 + r^2).
+// on the axis, where all is round: 2 I h^2 / r^2 * integral of s ds / (h^2+s^2)^2 = I / (h^2 +
+// r^2).
 TEST(pointLightWithRadius) {
     const std::string light = "light l {\n translate 0 0 1.5\n radius 0.75\n color 3 3 3\n}\n";
-    checkSoft(kMaterial + kFloors[0] + light, {0, 0}, kDiffuse.x / kPi * 3 / (1.5 * 1.5 + 0.75 * 0.75));
+    checkSoft(kMaterial + kFloors[0] + light, {0, 0},
+              kDiffuse.x / kPi * 3 / (1.5 * 1.5 + 0.75 * 0.75));
 }
 
 // A lamp so small that it is a point: E = L A cosLight cos/d^2 * (tan h - tan a) / (tan h - h).
 TEST(spreadNarrowsTheEmission) {
     const TopView view{.pixels = 9};
-    const shot::Shot shot = shot::render(
-        view.text() + kMaterial + kFloors[0] +
-        "light l {\n type rectangle\n translate 0 0 1\n size 0.001 0.001\n color 1e6 1e6 1e6\n spread 80\n}\n");
+    const shot::Shot shot = shot::render(view.text() + kMaterial + kFloors[0] +
+                                         "light l {\n type rectangle\n translate 0 0 1\n size "
+                                         "0.001 0.001\n color 1e6 1e6 1e6\n spread 80\n}\n");
     const double h = radians(40);
     for (int y = 0; y < 9; ++y)
         for (int x = 0; x < 9; ++x) {
             const Vec2d p = view.place(x, y);
-            const double tangent = std::sqrt(p.x * p.x + p.y * p.y), c = 1 / std::sqrt(1 + tangent * tangent);
+            const double tangent = std::sqrt(p.x * p.x + p.y * p.y),
+                         c = 1 / std::sqrt(1 + tangent * tangent);
             const double spread = max(std::tan(h) - tangent, 0.0) / (std::tan(h) - h);
             // The lamp's half side of 5e-4 moves tan a by as much, times the slope of the spread.
-            CHECK_NEAR(shot.at(x, y).r, kDiffuse.x / kPi * c * c * c * c * spread, 5e-3 * kDiffuse.x);
+            CHECK_NEAR(shot.at(x, y).r, kDiffuse.x / kPi * c * c * c * c * spread,
+                       5e-3 * kDiffuse.x);
         }
     CHECK_EQUAL(shot.at(0, 0).r, 0.0f); // outside of the spread: nothing at all
 }

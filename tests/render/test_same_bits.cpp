@@ -14,8 +14,8 @@ namespace {
 
 void checkSame(const std::string& name, const std::string& what, const Image& a, const Image& b) {
     const int differing = shot::differingPixels(a, b);
-    CHECK_INFO(differing == 0, name << ": " << differing << " pixels differ with " << what << ", by up to "
-                                    << shot::maxDifference(a, b));
+    CHECK_INFO(differing == 0, name << ": " << differing << " pixels differ with " << what
+                                    << ", by up to " << shot::maxDifference(a, b));
 }
 
 } // namespace
@@ -39,13 +39,16 @@ TEST(sameBitsWithoutTree) {
 TEST(sameBitsInCrops) {
     for (const auto& [name, text] : scenes::all()) {
         const Image full = shot::render(text).color;
-        for (const std::array<int, 4> crop : {std::array{0, 0, 17, 48}, std::array{13, 7, 50, 31}, std::array{63, 47, 64, 48}}) {
-            const Image part = shot::render(text, [&](RenderSettings& s) { s.picture.crop = crop; }).color;
+        for (const std::array<int, 4> crop :
+             {std::array{0, 0, 17, 48}, std::array{13, 7, 50, 31}, std::array{63, 47, 64, 48}}) {
+            const Image part =
+                shot::render(text, [&](RenderSettings& s) { s.picture.crop = crop; }).color;
             CHECK_EQUAL(part.width(), crop[2] - crop[0]);
             CHECK_EQUAL(part.height(), crop[3] - crop[1]);
             int wrong = 0;
             for (int y = 0; y < part.height(); ++y)
-                for (int x = 0; x < part.width(); ++x) wrong += part.pixel(x, y) != full.pixel(x + crop[0], y + crop[1]);
+                for (int x = 0; x < part.width(); ++x)
+                    wrong += part.pixel(x, y) != full.pixel(x + crop[0], y + crop[1]);
             CHECK_INFO(wrong == 0, name << ": " << wrong << " cropped pixels differ");
         }
     }
@@ -54,18 +57,25 @@ TEST(sameBitsInCrops) {
 // What --stats calls skipped may be switched off without a trace.
 TEST(sameBitsWithoutUnusedFeatures) {
     const std::vector<std::pair<std::string, bool Switches::*>> switches = {
-        {"soft-shadows", &Switches::softShadows}, {"reflection", &Switches::reflection}, {"refraction", &Switches::refraction},
-        {"glossy", &Switches::glossy}, {"textures", &Switches::textures}, {"dof", &Switches::dof},
-        {"motion-blur", &Switches::motionBlur}, {"fresnel", &Switches::fresnel}, {"shadows", &Switches::shadows}};
+        {"soft-shadows", &Switches::softShadows}, {"reflection", &Switches::reflection},
+        {"refraction", &Switches::refraction},    {"glossy", &Switches::glossy},
+        {"textures", &Switches::textures},        {"dof", &Switches::dof},
+        {"motion-blur", &Switches::motionBlur},   {"fresnel", &Switches::fresnel},
+        {"shadows", &Switches::shadows}};
     int off = 0, on = 0;
     for (const auto& [name, text] : scenes::all()) {
         const shot::Shot all = shot::render(text);
         for (const auto& [feature, member] : switches) {
             const auto& needed = all.stats.featuresNeeded;
             const bool isNeeded = std::find(needed.begin(), needed.end(), feature) != needed.end();
-            const Image without = shot::render(text, [&, m = member](RenderSettings& s) { s.switches.*m = false; }).color;
-            if (isNeeded) CHECK_INFO(shot::differingPixels(all.color, without) > 0, name << " does not show " << feature);
-            else checkSame(name, "no " + feature, all.color, without);
+            const Image without = shot::render(text, [&, m = member](RenderSettings& s) {
+                                      s.switches.*m = false;
+                                  }).color;
+            if (isNeeded)
+                CHECK_INFO(shot::differingPixels(all.color, without) > 0,
+                           name << " does not show " << feature);
+            else
+                checkSame(name, "no " + feature, all.color, without);
             (isNeeded ? on : off) += 1;
         }
     }
@@ -77,7 +87,8 @@ TEST(sameBitsAtEveryScale) {
         const SceneDesc desc = shot::parse(text);
         const Image one = shot::render(desc).color;
         for (const int k : {-20, -3, 5, 20})
-            checkSame(name, cat("scale 2^", k), one, shot::render(placed::scaled(desc, std::ldexp(1.0, k))).color);
+            checkSame(name, cat("scale 2^", k), one,
+                      shot::render(placed::scaled(desc, std::ldexp(1.0, k))).color);
     }
 }
 
@@ -89,7 +100,8 @@ TEST(movedScenesLookTheSame) {
         const SceneDesc desc = shot::parse(text);
         const Image one = shot::render(desc).color;
         const Image far = shot::render(placed::moved(desc, {12000, -7000, 3000})).color;
-        CHECK_INFO(rmse(one, far) < 1e-4 * shot::largest(one), name << ": " << rmse(one, far) / shot::largest(one));
+        CHECK_INFO(rmse(one, far) < 1e-4 * shot::largest(one),
+                   name << ": " << rmse(one, far) / shot::largest(one));
     }
 }
 

@@ -11,7 +11,8 @@ namespace {
 // Recurses into the four corners of a cube whose signs multiply to +; at the end a tetrahedron on
 // those corners, outward.
 void addTetra(MeshDesc& mesh, Vec3d centre, double half, int levels) {
-    const std::array<Vec3d, 4> corners = {Vec3d{1, 1, 1}, Vec3d{1, -1, -1}, Vec3d{-1, 1, -1}, Vec3d{-1, -1, 1}};
+    const std::array<Vec3d, 4> corners = {Vec3d{1, 1, 1}, Vec3d{1, -1, -1}, Vec3d{-1, 1, -1},
+                                          Vec3d{-1, -1, 1}};
     if (levels > 0) {
         for (const Vec3d c : corners) addTetra(mesh, centre + c * (half / 2), half / 2, levels - 1);
         return;
@@ -20,7 +21,8 @@ void addTetra(MeshDesc& mesh, Vec3d centre, double half, int levels) {
     for (const Vec3d c : corners) mesh.points.push_back(centre + c * half);
     for (const auto& t : {std::array<std::uint32_t, 3>{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}}) {
         auto [a, b, c] = t;
-        const Vec3d n = cross(mesh.points[first + b] - mesh.points[first + a], mesh.points[first + c] - mesh.points[first + a]);
+        const Vec3d n = cross(mesh.points[first + b] - mesh.points[first + a],
+                              mesh.points[first + c] - mesh.points[first + a]);
         if (dot(n, mesh.points[first + a] - centre) < 0) std::swap(b, c);
         mesh.triangles.push_back({first + a, first + b, first + c});
     }
@@ -44,8 +46,10 @@ TEST(tetraOfSpdHasItsPublishedRays) {
     // The corners of 512 x 512 pixels, where `angle` spans the centres of first and last pixel: 511
     // steps. Pixel centres of a picture of 513 x 513 whose edges are 513 of these steps apart.
     CameraDesc camera;
-    camera.worldFromCamera = {Transform::lookAt({1.02285, -3.17715, -2.17451}, {-0.004103, -0.004103, 0.216539},
-                                                {-0.816497, -0.816497, 0.816497}).rows()};
+    camera.worldFromCamera = {Transform::lookAt({1.02285, -3.17715, -2.17451},
+                                                {-0.004103, -0.004103, 0.216539},
+                                                {-0.816497, -0.816497, 0.816497})
+                                  .rows()};
     camera.lensMm = 1;
     camera.sensorWidthMm = 2 * std::tan(radians(22.5)) * 513 / 511;
     desc.cameras.push_back(camera);

@@ -30,8 +30,8 @@ TEST(batch_keeps_rays_together) {
     glass.enter(3);
     for (std::uint32_t i = 0; i < 10; ++i) {
         const float f = static_cast<float>(i);
-        batch.push({{f, 1, 2}, {3, f, 4}, f / 2, f + 1, f / 10}, i * 7, {f, 0, 1}, i % 2 ? glass : MediumStack(),
-                   i + 100, i % 3 == 0);
+        batch.push({{f, 1, 2}, {3, f, 4}, f / 2, f + 1, f / 10}, i * 7, {f, 0, 1},
+                   i % 2 ? glass : MediumStack(), i + 100, i % 3 == 0);
     }
     CHECK_EQUAL(batch.size(), 10u);
     const Ray ray = batch.ray(7);
@@ -41,9 +41,10 @@ TEST(batch_keeps_rays_together) {
     CHECK(batch.medium[7].top() == 3 && batch.medium[6].top() == MediumStack::kOutside);
     CHECK(!batch.seesLights[7] && batch.seesLights[9]);
     batch.clear();
-    CHECK(batch.empty() && batch.dir.empty() && batch.tMin.empty() && batch.tMax.empty() && batch.time.empty());
-    CHECK(batch.sample.empty() && batch.weight.empty() && batch.medium.empty() && batch.stream.empty() &&
-          batch.seesLights.empty());
+    CHECK(batch.empty() && batch.dir.empty() && batch.tMin.empty() && batch.tMax.empty() &&
+          batch.time.empty());
+    CHECK(batch.sample.empty() && batch.weight.empty() && batch.medium.empty() &&
+          batch.stream.empty() && batch.seesLights.empty());
 }
 
 TEST(batch_medium_stack) {
@@ -82,8 +83,10 @@ TEST(batch_medium_stack_at_random) {
         Reference reference;
         for (int i = 0; i < 200; ++i) {
             const std::uint32_t m = random.below(5);
-            if (random.chance(0.55)) stack.enter(m), reference.enter(m);
-            else stack.leave(m), reference.leave(m);
+            if (random.chance(0.55))
+                stack.enter(m), reference.enter(m);
+            else
+                stack.leave(m), reference.leave(m);
             CHECK_INFO(stack.top() == reference.top(), "seed 121 round " << n << " step " << i);
         }
     }

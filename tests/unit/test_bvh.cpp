@@ -173,8 +173,8 @@ TEST(bvh_is_worth_it) {
     CHECK_EQUAL(leafCount({}), 0u);
 }
 
-// Boxes as primitives, hit where the ray enters them: the nearest of the tree is the nearest of all,
-// ties by number, though leaves that start behind the best are skipped.
+// Boxes as primitives, hit where the ray enters them: the nearest of the tree is the nearest of
+// all, ties by number, though leaves that start behind the best are skipped.
 TEST(bvh_traversal_finds_the_nearest) {
     std::size_t rays = 0, wrong = 0;
     std::vector<Named> inputs = hostile();
@@ -192,8 +192,9 @@ TEST(bvh_traversal_finds_the_nearest) {
         const double extent = maxAbs(merge(bvh.nodes[0].box, {}).hi);
         for (int i = 0; i < 2000; ++i) {
             const Bounds& aim = boxes[random.below(boxes.size())];
-            const Vec3 org = toFloat(toDouble(aim.centre()) +
-                                     random.inBox(max(1e-3, static_cast<double>(maxAbs(aim.size())) * 4)));
+            const Vec3 org =
+                toFloat(toDouble(aim.centre()) +
+                        random.inBox(max(1e-3, static_cast<double>(maxAbs(aim.size())) * 4)));
             Vec3 dir = someDirection(random);
             if (random.chance(0.5) && maxAbs(aim.centre() - org) > 0) dir = aim.centre() - org;
             const Ray ray{org, dir};
@@ -213,7 +214,8 @@ TEST(bvh_traversal_finds_the_nearest) {
                 });
                 return std::pair(best, prim);
             };
-            const auto fromTree = nearest([&](auto&& leaf) { traverse(bvh, setup, kInfinityF, leaf); });
+            const auto fromTree =
+                nearest([&](auto&& leaf) { traverse(bvh, setup, kInfinityF, leaf); });
             const auto fromAll = nearest([&](auto&& leaf) {
                 float unused = kInfinityF;
                 for (std::uint32_t id = 0; id < boxes.size(); ++id) leaf(id, unused);
@@ -240,8 +242,9 @@ TEST(bvh_traversal_finds_the_nearest) {
     CHECK_EQUAL(wrong, 0u);
 }
 
-// Boxes of a grid with gaps wider than the pads: each leaf's box is left before the next is entered,
-// so leaves come in the order of their entry. (Overlapping nodes have no such order.) true stops.
+// Boxes of a grid with gaps wider than the pads: each leaf's box is left before the next is
+// entered, so leaves come in the order of their entry. (Overlapping nodes have no such order.) true
+// stops.
 TEST(bvh_traversal_is_front_to_back) {
     Random random(5);
     Boxes boxes;

@@ -64,8 +64,8 @@ TEST(filter_spread) {
         double sum = 0;
         constexpr int kCount = 100000;
         for (int i = 0; i < kCount; ++i)
-            sum += sqr(static_cast<double>(
-                filter.sample({(static_cast<float>(i) + 0.5f) / kCount, 0}).x));
+            sum += sqr(
+                static_cast<double>(filter.sample({(static_cast<float>(i) + 0.5f) / kCount, 0}).x));
         return sum / kCount / 4;
     };
     CHECK_NEAR(meanSquare(FilterKind::Box), 1.0 / 12, 1e-6);

@@ -65,7 +65,8 @@ TEST(frame_powers_of_two_change_no_bit) {
             const Rows& rows = desc.objects.back().worldFromObject[0];
             a.add(desc.meshes[0], Transform::fromRows(rows), frame, {0}, 0);
             b.add(desc.meshes[0], Transform::fromRows(scaledRows(rows, factor, {})), other, {0}, 0);
-            CHECK(a.geometry.points == b.geometry.points && a.geometry.normals == b.geometry.normals);
+            CHECK(a.geometry.points == b.geometry.points &&
+                  a.geometry.normals == b.geometry.normals);
             MeshDesc big = desc.meshes[0];
             for (Vec3d& p : big.points) p = p * factor;
             CHECK(toGeometry(big, frameOf(big)).points ==
@@ -98,7 +99,8 @@ TEST(frame_extent_is_one_to_two) {
     // Exactly: two unit spheres at x = 0 and 6 fill 8 by 2 by 2.
     SceneDesc two;
     two.objects.push_back(objectOf(ObjectDesc::Kind::Sphere));
-    two.objects.push_back(objectOf(ObjectDesc::Kind::Sphere, Transform::translate({6, 0, 0}).rows()));
+    two.objects.push_back(
+        objectOf(ObjectDesc::Kind::Sphere, Transform::translate({6, 0, 0}).rows()));
     CHECK_NEAR(frameOf(two).centre.x, 3, 1e-14);
     CHECK_EQUAL(frameOf(two).scale, 0.125);
 }
@@ -116,9 +118,11 @@ TEST(frame_far_places) {
         const Transform farMap = Transform::translate(random.direction() * (1e6 * extent)) * map;
         const SceneFrame farFrame = meshes::frameFor(mesh, farMap);
         CHECK_EQUAL(farFrame.scale, frame.scale);
-        const meshes::Ready near = meshes::baked(mesh, map, frame), far = meshes::baked(mesh, farMap, farFrame);
+        const meshes::Ready near = meshes::baked(mesh, map, frame),
+                            far = meshes::baked(mesh, farMap, farFrame);
         for (std::size_t i = 0; i < near.geometry->points.size(); ++i)
-            worst = max(worst, static_cast<double>(maxAbs(near.geometry->points[i] - far.geometry->points[i])));
+            worst = max(worst, static_cast<double>(
+                                   maxAbs(near.geometry->points[i] - far.geometry->points[i])));
     }
     std::printf("worst change of a coordinate by moving 1e6 extents: %g, seed 103\n", worst);
     CHECK_INFO(worst <= 0x1p-24 + 2e-9, worst);

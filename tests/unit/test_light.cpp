@@ -86,14 +86,15 @@ TEST(light_soft_point_on_axis) {
 
 TEST(light_disk_on_axis) {
     for (const double h : {0.1, 0.5, 1.0, 4.0}) {
-        const FlatLight light(FlatLight::Outline::Ellipse, {0, 0, static_cast<float>(h)}, {0.5f, 0, 0},
-                              {0, 0.5f, 0}, {0, 0, -1}, kWhite, kHalfPi, true);
+        const FlatLight light(FlatLight::Outline::Ellipse, {0, 0, static_cast<float>(h)},
+                              {0.5f, 0, 0}, {0, 0.5f, 0}, {0, 0, -1}, kWhite, kHalfPi, true);
         const double exact = kPi * 0.25 / (0.25 + h * h);
         const Estimate random = irradiance(light, {}, {0, 0, 1}, 200, 73, false);
         CHECK_NEAR(random.mean, exact, 3 * random.sigma);
         const Estimate even = irradiance(light, {}, {0, 0, 1}, 200, 74, true);
         CHECK_NEAR(even.mean, exact, 1e-3 * exact);
-        CHECK(isBlack(light.sample({0, 0, static_cast<float>(h) * 2}, {0.3f, 0.3f}).irradiance)); // behind
+        CHECK(isBlack(
+            light.sample({0, 0, static_cast<float>(h) * 2}, {0.3f, 0.3f}).irradiance)); // behind
     }
     // An ellipse has the area pi a b, from afar: E = L A / h^2.
     const FlatLight ellipse = flat(FlatLight::Outline::Ellipse, {0, 0, 100});
@@ -107,7 +108,8 @@ TEST(light_rectangle_form_factor) {
     double worst = 0;
     for (int i = 0; i < 40; ++i) {
         const FlatLight light = flat(FlatLight::Outline::Rectangle, {0, 0, 1});
-        const std::vector<Vec3d> corners = {{-0.5, -0.25, 1}, {0.5, -0.25, 1}, {0.5, 0.25, 1}, {-0.5, 0.25, 1}};
+        const std::vector<Vec3d> corners = {
+            {-0.5, -0.25, 1}, {0.5, -0.25, 1}, {0.5, 0.25, 1}, {-0.5, 0.25, 1}};
         const Vec3d point{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-0.5, 0.5)};
         // A normal that has all of the lamp above its horizon.
         Vec3d n = normalize(Vec3d{0, 0, 1} - point) + random.direction() * 0.4;
@@ -116,10 +118,13 @@ TEST(light_rectangle_form_factor) {
         if (!above) continue;
         n = normalize(n);
         const double exact = polygonIrradiance(corners, toDouble(toFloat(point)), n);
-        const Estimate e = irradiance(light, toFloat(point), toFloat(n), 100, 7600 + static_cast<std::uint64_t>(i), true);
+        const Estimate e = irradiance(light, toFloat(point), toFloat(n), 100,
+                                      7600 + static_cast<std::uint64_t>(i), true);
         worst = max(worst, std::fabs(e.mean / exact - 1));
-        const Estimate plain = irradiance(light, toFloat(point), toFloat(n), 100, 7700 + static_cast<std::uint64_t>(i), false);
-        CHECK_INFO(std::fabs(plain.mean - exact) < 4.5 * plain.sigma, "case " << i << ": " << plain.mean << ", exact " << exact);
+        const Estimate plain = irradiance(light, toFloat(point), toFloat(n), 100,
+                                          7700 + static_cast<std::uint64_t>(i), false);
+        CHECK_INFO(std::fabs(plain.mean - exact) < 4.5 * plain.sigma,
+                   "case " << i << ": " << plain.mean << ", exact " << exact);
     }
     std::printf("rectangle: worst relative error %g, seed 76\n", worst);
     CHECK_INFO(worst < 1e-3, worst);
@@ -170,7 +175,8 @@ TEST(light_sun) {
             widest = min(widest, static_cast<double>(s.toLight.z));
             CHECK_NEAR(length(s.toLight), 1, 3e-7);
         }
-        CHECK(widest >= std::cos(half) - 1e-6 && widest < std::cos(half) + 0.01 * half * half + 1e-7);
+        CHECK(widest >= std::cos(half) - 1e-6 &&
+              widest < std::cos(half) + 0.01 * half * half + 1e-7);
     }
 }
 
@@ -180,9 +186,9 @@ TEST(light_spot) {
     const SpotCone cone{{0, 0, -1}, cosHalf, static_cast<float>(blend), false};
     const PointLight spot({0, 0, 1}, kWhite, 0, cone, true);
     const auto at = [&](double angle) { // on a circle of radius 1 around the lamp
-        return static_cast<double>(
-            spot.centre({static_cast<float>(std::sin(angle)), 0, static_cast<float>(1 - std::cos(angle))})
-                .irradiance.g);
+        return static_cast<double>(spot.centre({static_cast<float>(std::sin(angle)), 0,
+                                                static_cast<float>(1 - std::cos(angle))})
+                                       .irradiance.g);
     };
     CHECK_NEAR(at(0), 1, 1e-6);
     const double soft = (1 - std::cos(half)) * blend;
@@ -212,15 +218,18 @@ TEST(light_spread) {
         const int steps = 20000;
         for (int i = 0; i < steps; ++i) {
             const double angle = kHalfPi * (i + 0.5) / steps;
-            const Vec3 p{static_cast<float>(100 * std::sin(angle)), 0, static_cast<float>(-100 * std::cos(angle))};
+            const Vec3 p{static_cast<float>(100 * std::sin(angle)), 0,
+                         static_cast<float>(-100 * std::cos(angle))};
             const LightSample s = light.centre(p);
             if (angle > half + 1e-3) CHECK(isBlack(s.irradiance));
             // Irradiance at distance 100 is intensity / 100^2.
-            power += static_cast<double>(s.irradiance.g) * 1e4 * kTwoPi * std::sin(angle) * kHalfPi / steps;
+            power += static_cast<double>(s.irradiance.g) * 1e4 * kTwoPi * std::sin(angle) *
+                     kHalfPi / steps;
         }
         CHECK_NEAR(power / (kPi * 0.5), 1, 1e-3);
     }
     // 180 degrees are no spread.
-    const FlatLight wide = flat(FlatLight::Outline::Rectangle, {0, 0, 1}), half = flat(FlatLight::Outline::Rectangle, {0, 0, 1}, kHalfPi);
+    const FlatLight wide = flat(FlatLight::Outline::Rectangle, {0, 0, 1}),
+                    half = flat(FlatLight::Outline::Rectangle, {0, 0, 1}, kHalfPi);
     CHECK(wide.centre({1, 1, 0}).irradiance == half.centre({1, 1, 0}).irradiance);
 }

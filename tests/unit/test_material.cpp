@@ -24,10 +24,9 @@ Vec3 above(Random& random) {
 // Exponent and width of a lobe that has Blender's roughness r (material.cpp).
 double exponentOf(double r) { return clamp(2 / (r * r * r * r) - 2, 1.0, 1e5); }
 
-// Integral of a function of the direction over the hemisphere, on a fine grid about `axis`, where it
-// is peaked: angle from the axis in steps that grow with it.
-template <class Fn>
-double integrate(Vec3d axis, Fn&& f) {
+// Integral of a function of the direction over the hemisphere, on a fine grid about `axis`, where
+// it is peaked: angle from the axis in steps that grow with it.
+template <class Fn> double integrate(Vec3d axis, Fn&& f) {
     const Vec3d a = normalize(axis);
     const Frame frame = frameAround(toFloat(a));
     double sum = 0;
@@ -38,7 +37,8 @@ double integrate(Vec3d axis, Fn&& f) {
         double ring = 0;
         for (int j = 0; j < turns; ++j) {
             const double turn = kTwoPi * (j + 0.5) / turns;
-            const Vec3d local{std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn), std::cos(angle)};
+            const Vec3d local{std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn),
+                              std::cos(angle)};
             const Vec3 dir = frame.toWorld(toFloat(local));
             if (dir.z > 0) ring += f(normalize(dir));
         }
@@ -102,8 +102,10 @@ TEST(material_ashikhmin_energy_and_symmetry) {
                 return static_cast<double>(reflectedLight(m, kUp, v, l).g);
             });
             largest = max(largest, albedo);
-            CHECK_INFO(albedo <= 1.001, "roughness " << r / 10.0 << " angle " << angle << ": " << albedo);
-            if (r <= 3 && angle < 0.6) CHECK_INFO(albedo > 0.95, albedo); // narrow: all of it comes back
+            CHECK_INFO(albedo <= 1.001,
+                       "roughness " << r / 10.0 << " angle " << angle << ": " << albedo);
+            if (r <= 3 && angle < 0.6)
+                CHECK_INFO(albedo > 0.95, albedo); // narrow: all of it comes back
         }
     }
     std::printf("largest albedo %g\n", largest);
@@ -116,7 +118,8 @@ TEST(material_ashikhmin_energy_and_symmetry) {
             if (v.z < 0.01f || l.z < 0.01f) continue;
             const double a = static_cast<double>(reflectedLight(m, kUp, v, l).r / l.z);
             const double b = static_cast<double>(reflectedLight(m, kUp, l, v).r / v.z);
-            CHECK_INFO(std::fabs(a - b) <= 1e-4 * max(a, b) + 1e-12, "seed 92 n " << n << ": " << a << ' ' << b);
+            CHECK_INFO(std::fabs(a - b) <= 1e-4 * max(a, b) + 1e-12,
+                       "seed 92 n " << n << ": " << a << ' ' << b);
         }
     }
 }
@@ -135,15 +138,18 @@ TEST(material_snell_and_fresnel) {
             if (!out) continue;
             CHECK_NEAR(length(*out), 1, 3e-7);
             CHECK(dot(*out, n) < 0);
-            CHECK_NEAR(length(cross(toDouble(*out), toDouble(n))), static_cast<double>(e) * sinIn, 2e-6);
+            CHECK_NEAR(length(cross(toDouble(*out), toDouble(n))), static_cast<double>(e) * sinIn,
+                       2e-6);
             // In the plane of v and n, on the other side.
             CHECK_NEAR(dot(toDouble(*out), cross(toDouble(v), toDouble(n))), 0, 1e-6);
-            CHECK(dot(toDouble(*out) + toDouble(n) * -dot(toDouble(*out), toDouble(n)), toDouble(v)) <= 1e-6);
+            CHECK(dot(toDouble(*out) + toDouble(n) * -dot(toDouble(*out), toDouble(n)),
+                      toDouble(v)) <= 1e-6);
             if (e == 1.0f) CHECK(length(*out + v) < 2e-7f); // the same on both sides: straight on
         }
         const Vec3 mirrored = reflectAbout(v, n);
         CHECK_NEAR(dot(mirrored, n), dot(v, n), 1e-6);
-        CHECK(length(toDouble(mirrored) + toDouble(v) - toDouble(n) * (2 * dot(toDouble(v), toDouble(n)))) < 1e-6);
+        CHECK(length(toDouble(mirrored) + toDouble(v) -
+                     toDouble(n) * (2 * dot(toDouble(v), toDouble(n)))) < 1e-6);
     }
     // The critical angle of glass is asin(1/1.5).
     const double critical = std::asin(1 / 1.5);
@@ -165,12 +171,15 @@ TEST(material_snell_and_fresnel) {
         // Reversible: the same part comes back along the refracted way.
         for (double angle = 0; angle < 1.55; angle += 0.05) {
             const double inside = std::asin(std::sin(angle) / ior);
-            CHECK_NEAR(fresnelDielectric(static_cast<float>(std::cos(angle)), e),
-                       fresnelDielectric(static_cast<float>(std::cos(inside)), static_cast<float>(ior)), 5e-5);
+            CHECK_NEAR(
+                fresnelDielectric(static_cast<float>(std::cos(angle)), e),
+                fresnelDielectric(static_cast<float>(std::cos(inside)), static_cast<float>(ior)),
+                5e-5);
         }
     }
     CHECK_EQUAL(fresnelDielectric(0.3f, 1), 0.0f); // no boundary
-    CHECK(schlickWeight(1) == 0 && schlickWeight(0) == 1 && schlickWeight(-0.1f) == 1 && schlickWeight(1.1f) == 0);
+    CHECK(schlickWeight(1) == 0 && schlickWeight(0) == 1 && schlickWeight(-0.1f) == 1 &&
+          schlickWeight(1.1f) == 0);
     CHECK_NEAR(schlickWeight(0.5f), 1 / 32.0, 1e-8);
 }
 
@@ -187,7 +196,8 @@ TEST(material_smooth_bounces) {
     m.fresnel = FresnelModel::Dielectric;
     const float f = fresnelDielectric(v.z, eta);
     out = bounces(m, kUp, kUp, v, eta, {});
-    CHECK(out.reflected->weight == m.mirror * f && out.refracted->weight == m.transmission * (1 - f));
+    CHECK(out.reflected->weight == m.mirror * f &&
+          out.refracted->weight == m.transmission * (1 - f));
 
     m.fresnel = FresnelModel::Schlick;
     out = bounces(m, kUp, kUp, kUp, eta, {});
@@ -234,7 +244,8 @@ TEST(material_no_bounce_on_the_wrong_side) {
         const float eta = static_cast<float>(random.logUniform(0.4, 2.5));
         const Bounces out = bounces(m, n, ng, v, eta, random.square());
         ++count;
-        for (const auto& [bounce, side] : {std::pair(out.reflected, ng), std::pair(out.refracted, -ng)}) {
+        for (const auto& [bounce, side] :
+             {std::pair(out.reflected, ng), std::pair(out.refracted, -ng)}) {
             if (!bounce) continue;
             const float weight = maxChannel(bounce->weight);
             if (!(dot(bounce->dir, side) > 0) || !(std::fabs(length(bounce->dir) - 1) < 1e-6f) ||
@@ -287,9 +298,13 @@ TEST(material_rough_reflection_is_the_lobe) {
             const double x = moment([](Vec3 l) { return static_cast<double>(l.x); });
             const double z = moment([](Vec3 l) { return static_cast<double>(l.z); });
             // Three sigma of 90,000 plain samples of a value in [0,1] are below 0.005.
-            CHECK_INFO(std::fabs(weight - albedo) < 0.003, "roughness " << roughness << " angle " << angle << ": " << weight << " lobe " << albedo);
-            CHECK_INFO(std::fabs(mean.x - x) < 0.003 && std::fabs(mean.z - z) < 0.003 && std::fabs(mean.y) < 0.003,
-                       "roughness " << roughness << " angle " << angle << ": " << mean.x << ' ' << mean.z << " lobe " << x << ' ' << z);
+            CHECK_INFO(std::fabs(weight - albedo) < 0.003, "roughness " << roughness << " angle "
+                                                                        << angle << ": " << weight
+                                                                        << " lobe " << albedo);
+            CHECK_INFO(std::fabs(mean.x - x) < 0.003 && std::fabs(mean.z - z) < 0.003 &&
+                           std::fabs(mean.y) < 0.003,
+                       "roughness " << roughness << " angle " << angle << ": " << mean.x << ' '
+                                    << mean.z << " lobe " << x << ' ' << z);
         }
     }
 }

@@ -30,9 +30,8 @@ void checkUlp(const char* name, double bound, int count, Function function, Trut
         const double x = next();
         const long double expected = truth(static_cast<long double>(x));
         const double value = function(x);
-        const double error =
-            static_cast<double>(std::fabs(static_cast<long double>(value) - expected) /
-                                ulpAt(expected));
+        const double error = static_cast<double>(
+            std::fabs(static_cast<long double>(value) - expected) / ulpAt(expected));
         if (!(error <= worst)) worst = error, worstAt = x;
     }
     CHECK_INFO(worst <= bound, name << ": " << worst << " ulp at " << std::hexfloat << worstAt);
@@ -215,12 +214,13 @@ TEST(math_pow) {
         return draw.uniform(-10, 10);
     };
     checkUlp("pow whole", 0.55, kCount, power, powL, whole);
-    checkUlp("cbrt", 0.7, kCount, exact::cbrt, [](long double x) { return std::cbrt(x); },
-             [&] { return draw.spread(-1074, 1023); });
+    checkUlp(
+        "cbrt", 0.7, kCount, exact::cbrt, [](long double x) { return std::cbrt(x); },
+        [&] { return draw.spread(-1074, 1023); });
     for (int i = 1; i < 2000; ++i) CHECK_EQUAL(exact::cbrt(double(i) * i * i), i);
 
     // All pairs of special values agree with C99's annex F.
-    const double values[] = {0.0, 0.5, 1.0,   1.5,      2.0,       3.0,
+    const double values[] = {0.0, 0.5,  1.0,   1.5,       2.0,    3.0,
                              1e9, 1e16, 1e300, kInfinity, 5e-324, kNaN};
     for (const double a : values)
         for (const double b : values)
@@ -247,8 +247,8 @@ TEST(math_pow_float) {
         const float exponent = static_cast<float>(std::fabs(draw.spread(-3, 17)));
         const float base = static_cast<float>(std::exp2(draw.uniform(-140, 120) / exponent));
         const float value = exact::pow(base, exponent);
-        const float expected = static_cast<float>(std::pow(static_cast<long double>(base),
-                                                           static_cast<long double>(exponent)));
+        const float expected = static_cast<float>(
+            std::pow(static_cast<long double>(base), static_cast<long double>(exponent)));
         if (value == expected) continue;
         ++offByOne;
         CHECK_INFO(value == nextUp(expected) || value == nextDown(expected),
@@ -336,14 +336,13 @@ TEST(math_difference_of_products) {
         const auto factor = [&] { return static_cast<std::int64_t>(draw.engine() >> 11) | 1; };
         const std::int64_t a = factor(), b = factor(), d = factor();
         // Every other c makes the products cancel in their upper halves.
-        const double close = static_cast<double>(a) * static_cast<double>(b) /
-                             static_cast<double>(d);
+        const double close =
+            static_cast<double>(a) * static_cast<double>(b) / static_cast<double>(d);
         if (close >= 0x1p53) continue;
         const std::int64_t c = i % 2 ? factor() : static_cast<std::int64_t>(close);
         const Int128 truth = Int128{a} * b - Int128{c} * d;
-        const double value =
-            differenceOfProducts(static_cast<double>(a), static_cast<double>(b),
-                                 static_cast<double>(c), static_cast<double>(d));
+        const double value = differenceOfProducts(static_cast<double>(a), static_cast<double>(b),
+                                                  static_cast<double>(c), static_cast<double>(d));
         const double error = static_cast<double>(static_cast<Int128>(value) - truth);
         CHECK_INFO(std::fabs(error) <= 0.501 * (nextUp(std::fabs(value)) - std::fabs(value)),
                    a << " " << b << " " << c << " " << d);

@@ -13,7 +13,8 @@ namespace {
 double volume(const MeshGeometry& g) { // positive when counter-clockwise is outside
     double sum = 0;
     for (const Corners& c : g.triangles)
-        sum += dot(toDouble(g.points[c[0]]), cross(toDouble(g.points[c[1]]), toDouble(g.points[c[2]])));
+        sum += dot(toDouble(g.points[c[0]]),
+                   cross(toDouble(g.points[c[1]]), toDouble(g.points[c[2]])));
     return sum / 6;
 }
 
@@ -44,7 +45,8 @@ TEST(merge_keeps_outside_outside) {
                 const Vec3d q = back.point(toDouble(g.points[g.triangles[i][k]])); // on the sphere
                 const Vec3 normal = g.normals[g.normalTriangles[i][k]];
                 CHECK(length(toDouble(normal) - normalize(map.normal(q))) < 1e-4);
-                CHECK_NEAR(g.uvs[g.uvTriangles[i][k]].y, 0.5 + std::asin(clamp(q.z, -1.0, 1.0)) / kPi, 1e-3);
+                CHECK_NEAR(g.uvs[g.uvTriangles[i][k]].y,
+                           0.5 + std::asin(clamp(q.z, -1.0, 1.0)) / kPi, 1e-3);
             }
         }
     }
@@ -98,15 +100,20 @@ TEST(merge_completes_lists) {
         CHECK(g.normalTriangles.size() == g.triangles.size());
         CHECK(g.uvTriangles.size() == g.triangles.size() && g.slots.size() == g.triangles.size());
         for (std::size_t k = 0; k < 3; ++k) {
-            CHECK(g.normals[g.normalTriangles[lone][k]] == Vec3(0, 0, -1)); // mirrored: it faces down
+            CHECK(g.normals[g.normalTriangles[lone][k]] ==
+                  Vec3(0, 0, -1)); // mirrored: it faces down
             CHECK(g.uvs[g.uvTriangles[lone][k]] == Vec2{});
         }
         for (std::size_t i = 0; i < g.triangles.size(); ++i) {
             if (i == lone) continue;
             for (std::size_t k = 0; k < 3; ++k) {
-                CHECK(length(g.normals[g.normalTriangles[i][k]] - g.points[g.triangles[i][k]]) < 1e-6f);
+                CHECK(length(g.normals[g.normalTriangles[i][k]] - g.points[g.triangles[i][k]]) <
+                      1e-6f);
                 CHECK_NEAR(g.uvs[g.uvTriangles[i][k]].y,
-                           0.5 + std::asin(clamp(static_cast<double>(g.points[g.triangles[i][k]].z), -1.0, 1.0)) / kPi, 1e-3);
+                           0.5 + std::asin(clamp(static_cast<double>(g.points[g.triangles[i][k]].z),
+                                                 -1.0, 1.0)) /
+                                     kPi,
+                           1e-3);
             }
         }
     }
@@ -124,7 +131,8 @@ TEST(merge_places_in_double) {
     const SceneFrame frame{{1e5, 1e5, 1e5}, 0x1p20};
     for (Vec3d& p : mesh.points) p = p * 0x1p-30 + Vec3d{1e5, 1e5, 1e5};
     const MeshGeometry g = toGeometry(mesh, frame);
-    CHECK(g.points[0] == Vec3(0, 0, 0) && g.points[1] == Vec3(0x1p-10f, 0, 0) && g.points[2] == Vec3(0, 0x1p-10f, 0));
+    CHECK(g.points[0] == Vec3(0, 0, 0) && g.points[1] == Vec3(0x1p-10f, 0, 0) &&
+          g.points[2] == Vec3(0, 0x1p-10f, 0));
     MergedMesh merged;
     merged.add(mesh, {}, frame, {0}, 0);
     CHECK(merged.geometry.points == g.points && merged.degenerateCount == 0);

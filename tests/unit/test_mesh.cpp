@@ -66,10 +66,12 @@ TEST(mesh_derivatives) {
     long long count = 0;
     for (int n = 0; n < 20; ++n) {
         const Transform map = random.affine(3, 1);
-        const meshes::Ready r = n % 2 ? meshes::instance(desc, map, {}) : meshes::baked(desc, map, {});
+        const meshes::Ready r =
+            n % 2 ? meshes::instance(desc, map, {}) : meshes::baked(desc, map, {});
         const MeshGeometry& g = *r.geometry;
         for (int i = 0; i < 300; ++i) {
-            const Ray ray = rayTo(map.point(random.direction() * 3.0), map.point(random.inBox(0.5)));
+            const Ray ray =
+                rayTo(map.point(random.direction() * 3.0), map.point(random.inBox(0.5)));
             Hit hit;
             if (!r.shape->intersect(ray, hit)) continue;
             const auto& c = g.triangles[hit.prim];
@@ -77,7 +79,8 @@ TEST(mesh_derivatives) {
             const SurfaceDerivatives d = r.shape->derivatives(ray, hit);
             const Surface s = r.shape->surface(ray, hit);
             Vec3d p[3];
-            for (std::size_t k = 0; k < 3; ++k) p[k] = r.sceneFromMesh.point(toDouble(g.points[c[k]]));
+            for (std::size_t k = 0; k < 3; ++k)
+                p[k] = r.sceneFromMesh.point(toDouble(g.points[c[k]]));
             const double size = length(p[1] - p[0]) + length(p[2] - p[0]);
             for (std::size_t k = 0; k < 3; ++k) {
                 // The map uv -> p is affine: it must take the difference to each corner with it.
@@ -124,13 +127,15 @@ TEST(mesh_normals_point_outward) {
         const Transform map = random.affine(4, 1);
         mirrors += map.mirrors();
         const SceneFrame frame = meshes::frameFor(desc, map);
-        const meshes::Ready r = n % 2 ? meshes::instance(desc, map, frame) : meshes::baked(desc, map, frame);
+        const meshes::Ready r =
+            n % 2 ? meshes::instance(desc, map, frame) : meshes::baked(desc, map, frame);
         const Transform scene = frame.placed(map.rows());
         for (int i = 0; i < 100; ++i) {
             const bool fromInside = random.chance(0.5);
             const Vec3d from = fromInside ? random.inBox(0.3) : random.direction() * 3.0;
-            const Ray ray = rayTo(scene.point(from), scene.point(fromInside ? random.direction() * 2.0
-                                                                            : random.inBox(0.4)));
+            const Ray ray =
+                rayTo(scene.point(from),
+                      scene.point(fromInside ? random.direction() * 2.0 : random.inBox(0.4)));
             Hit hit;
             if (!r.shape->intersect(ray, hit)) continue;
             const Surface s = r.shape->surface(ray, hit);
@@ -149,8 +154,8 @@ TEST(mesh_normals_point_outward) {
             CHECK_NEAR(length(s.ns), 1, 3e-7);
         }
     }
-    std::printf("%lld hits, %lld mirrored maps, ng off by %g, ns by %g, seed 53\n", count, mirrors, worst,
-                worstSmooth);
+    std::printf("%lld hits, %lld mirrored maps, ng off by %g, ns by %g, seed 53\n", count, mirrors,
+                worst, worstSmooth);
     CHECK(count > 5000 && mirrors > 10);
     CHECK_EQUAL(inward, 0);
     CHECK_INFO(worst < 1e-6, worst);
@@ -200,13 +205,15 @@ TEST(mesh_needles_do_not_hit_themselves) {
             g.finish(false);
             const Mesh mesh(g, MovingTransform(), {0}, kOnePart);
             const double u = 1 - std::sqrt(random.unit()), v = random.unit() * (1 - u);
-            const Vec3d aim = toDouble(t[0]) * (1 - u - v) + toDouble(t[1]) * u + toDouble(t[2]) * v;
+            const Vec3d aim =
+                toDouble(t[0]) * (1 - u - v) + toDouble(t[1]) * u + toDouble(t[2]) * v;
             const Ray ray = rayTo(random.inBox(3), aim);
             Hit hit;
             if (!mesh.intersect(ray, hit)) continue;
             const Surface s = mesh.surface(ray, hit);
             ++points;
-            largest = std::max(largest, static_cast<double>(s.error) / static_cast<double>(g.extent));
+            largest =
+                std::max(largest, static_cast<double>(s.error) / static_cast<double>(g.extent));
             for (int k = 0; k < 40; ++k) {
                 const float side = random.chance(0.5) ? 1.0f : -1.0f;
                 Ray out;
@@ -218,14 +225,15 @@ TEST(mesh_needles_do_not_hit_themselves) {
                 if (!(dot(out.dir, s.ng) * side > 0)) continue;
                 ++rays;
                 if (mesh.occludes(out) && ++selfHits <= 5)
-                    CHECK_INFO(false, "seed 54, corners " << t[0].x << ' ' << t[0].y << ' ' << t[0].z << ", "
-                                                          << t[1].x << ' ' << t[1].y << ' ' << t[1].z << ", "
-                                                          << t[2].x << ' ' << t[2].y << ' ' << t[2].z);
+                    CHECK_INFO(false, "seed 54, corners "
+                                          << t[0].x << ' ' << t[0].y << ' ' << t[0].z << ", "
+                                          << t[1].x << ' ' << t[1].y << ' ' << t[1].z << ", "
+                                          << t[2].x << ' ' << t[2].y << ' ' << t[2].z);
             }
         }
     }
-    std::printf("%lld points, %lld rays, %lld self hits, largest error %g of the extent\n", points, rays,
-                selfHits, largest);
+    std::printf("%lld points, %lld rays, %lld self hits, largest error %g of the extent\n", points,
+                rays, selfHits, largest);
     CHECK(points > 1500 && rays > 50000);
     CHECK_EQUAL(selfHits, 0);
 }
@@ -350,7 +358,8 @@ TEST(mesh_spd_tetra) {
         for (int i = 0; i <= 512; ++i) {
             Ray ray;
             ray.org = toFloat(from);
-            ray.dir = toFloat(forward + right * (half * (i / 256.0 - 1)) + above * (half * (1 - j / 256.0)));
+            ray.dir = toFloat(forward + right * (half * (i / 256.0 - 1)) +
+                              above * (half * (1 - j / 256.0)));
             ++eye;
             Hit hit;
             if (!r.shape->intersect(ray, hit)) {

@@ -102,10 +102,12 @@ TEST(parallel_stop) {
         CHECK(!all);
         CHECK(calls >= 51 && calls < 100000);
         calls = 0;
-        CHECK(!pool.run(10, [&](std::size_t, int) { ++calls; }, &stop));
+        CHECK(!pool.run(
+            10, [&](std::size_t, int) { ++calls; }, &stop));
         CHECK_EQUAL(calls.load(), 0);
         stop = false;
-        CHECK(pool.run(10, [&](std::size_t, int) { ++calls; }, &stop));
+        CHECK(pool.run(
+            10, [&](std::size_t, int) { ++calls; }, &stop));
     }
 }
 

@@ -97,8 +97,8 @@ TEST(quadratic_extremes) {
         if (a == 0) continue;
         const Roots plain = solveQuadratic(a, b, c);
         const int k = static_cast<int>(draw.whole(700)), m = static_cast<int>(draw.whole(250));
-        const Roots scaled = solveQuadratic(std::ldexp(a, k - m), std::ldexp(b, k),
-                                            std::ldexp(c, k + m));
+        const Roots scaled =
+            solveQuadratic(std::ldexp(a, k - m), std::ldexp(b, k), std::ldexp(c, k + m));
         CHECK_EQUAL(scaled.count, plain.count);
         CHECK_EQUAL(std::ldexp(scaled.t0, -m), plain.t0);
         CHECK_EQUAL(std::ldexp(scaled.t1, -m), plain.t1);

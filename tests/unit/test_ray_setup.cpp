@@ -14,9 +14,10 @@ struct Exact {
 
 // The box against the ray with the direction as given, closed at all sides.
 Exact slabs(Vec3 org, Vec3 dir, const Bounds& box, float grownBy) {
-    const std::size_t k = std::fabs(dir.z) >= std::fabs(dir.x) && std::fabs(dir.z) >= std::fabs(dir.y) ? 2
-                          : std::fabs(dir.y) >= std::fabs(dir.x)                                       ? 1
-                                                                                                       : 0;
+    const std::size_t k =
+        std::fabs(dir.z) >= std::fabs(dir.x) && std::fabs(dir.z) >= std::fabs(dir.y) ? 2
+        : std::fabs(dir.y) >= std::fabs(dir.x)                                       ? 1
+                                                                                     : 0;
     long double entry = 0, exit = INFINITY;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         const long double d = dir[axis], o = org[axis];
@@ -64,10 +65,10 @@ Vec3 someDirection(Random& random, Vec3 org, const Bounds& box) {
     if (random.chance(0.7)) { // at a corner, an edge or a face
         Vec3 aim;
         for (std::size_t axis = 0; axis < 3; ++axis)
-            aim[axis] = random.chance(0.3)   ? box.lo[axis]
-                        : random.chance(0.5) ? box.hi[axis]
-                                             : lerp(box.lo[axis], box.hi[axis],
-                                                    static_cast<float>(random.unit()));
+            aim[axis] = random.chance(0.3) ? box.lo[axis]
+                        : random.chance(0.5)
+                            ? box.hi[axis]
+                            : lerp(box.lo[axis], box.hi[axis], static_cast<float>(random.unit()));
         d = aim - org;
     }
     if (random.chance(0.3)) d[random.below(3)] = random.chance(0.5) ? 0.0f : -0.0f;
@@ -104,10 +105,11 @@ TEST(ray_setup_never_misses_a_box) {
             ++hits;
             if (!enters) {
                 if (++falseMisses <= 3)
-                    CHECK_INFO(enters, "seed 21 case " << i << " org " << org.x << ' ' << org.y << ' '
-                                                       << org.z << " dir " << dir.x << ' ' << dir.y
-                                                       << ' ' << dir.z);
-            } else if (!(static_cast<long double>(z) <= exact.entry)) ++late;
+                    CHECK_INFO(enters, "seed 21 case " << i << " org " << org.x << ' ' << org.y
+                                                       << ' ' << org.z << " dir " << dir.x << ' '
+                                                       << dir.y << ' ' << dir.z);
+            } else if (!(static_cast<long double>(z) <= exact.entry))
+                ++late;
         }
         // The pad is 2 e on each axis, plus rounding: a box grown by 3 e covers what is entered.
         const float e = max(1.0f, maxAbs(org)) * 0x1p-19f;
@@ -142,7 +144,8 @@ TEST(ray_setup_is_monotone) {
         const Vec3 org = someOrigin(random, inner), dir = someDirection(random, org, inner);
         if (!isTraceable({org, dir})) continue;
         const RaySetup setup(org, dir, 1);
-        const float cut = random.chance(0.5) ? kInfinityF : static_cast<float>(random.uniform(0, 2));
+        const float cut =
+            random.chance(0.5) ? kInfinityF : static_cast<float>(random.uniform(0, 2));
         float zInner = 0, zOuter = 0;
         if (!setup.enters(inner, cut, zInner)) continue;
         ++entered;

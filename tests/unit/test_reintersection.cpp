@@ -67,13 +67,16 @@ Counts battery(Random& random, const kit::Kind& kind) {
             0.01 * thinnest * (kind.name == "cube" ? 1 : thinnest / maxAbs(sides));
         std::vector<Hit> hits;
         for (int found = 0, tries = 0; found < 100 && tries < 3000; ++tries) {
-            // Towards a point of the object's box; near its surface, edges and tips at times.
+            // Towards the object's box, its faces, a hair inside its rim or edges, and its tips.
             Vec3d target = random.inBox(1);
-            if (random.coin()) {
-                const std::size_t axis = static_cast<std::size_t>(random.unit() * 3);
-                target[axis] = target[axis] < 0 ? -1 : 1;
+            const auto axis = static_cast<std::size_t>(random.unit() * 3);
+            const double along = target[axis];
+            if (random.coin()) target[axis] = target[axis] < 0 ? -1 : 1;
+            if (random.unit() < 0.3) {
+                target = kind.rim(random);
+                if (kind.name == "cube") target[axis] = along;
+                target = target * (1 - random.logUniform(1e-12, 1e-3));
             }
-            if (random.unit() < 0.2) target = target * (1 - random.logUniform(1e-12, 1e-2));
             if (random.unit() < 0.1) target = {0, 0, random.coin() ? 1.0 : -1.0};
             const Ray ray = kit::rayThrough(map.point(random.direction() * 4.0), map.point(target));
             hits.clear();

@@ -82,11 +82,11 @@ TEST(sampler_sobol_elementary_intervals) {
                 const Sampler sampler(SamplerKind::Sobol, 1 << k, 5);
                 for (const int block : {0, 3})
                     for (int i = 0; i <= k; ++i)
-                        CHECK_INFO(fillsCells(pairsOf(sampler, pixel, dimension, 1 << k,
-                                                      block << k),
-                                              1 << i, 1 << (k - i)),
-                                   "dimension " << dimension << " pixel " << pixel << " 2^" << k
-                                                << " block " << block << " columns 2^" << i);
+                        CHECK_INFO(
+                            fillsCells(pairsOf(sampler, pixel, dimension, 1 << k, block << k),
+                                       1 << i, 1 << (k - i)),
+                            "dimension " << dimension << " pixel " << pixel << " 2^" << k
+                                         << " block " << block << " columns 2^" << i);
             }
     const Sampler sampler(SamplerKind::Sobol, 4096, 5);
     for (int i = 0; i <= 12; ++i)
@@ -113,18 +113,25 @@ TEST(sampler_stratified_cells) {
     struct Case {
         int count, columns, rows;
     };
-    for (const auto& [count, columns, rows] :
-         {Case{1, 1, 1}, {2, 2, 1}, {4, 2, 2}, {6, 3, 2}, {7, 7, 1}, {12, 4, 3}, {16, 4, 4},
-          {24, 6, 4}, {100, 10, 10}, {128, 16, 8}})
+    for (const auto& [count, columns, rows] : {Case{1, 1, 1},
+                                               {2, 2, 1},
+                                               {4, 2, 2},
+                                               {6, 3, 2},
+                                               {7, 7, 1},
+                                               {12, 4, 3},
+                                               {16, 4, 4},
+                                               {24, 6, 4},
+                                               {100, 10, 10},
+                                               {128, 16, 8}})
         for (const SamplerKind kind : {SamplerKind::Stratified, SamplerKind::Grid})
             for (const std::uint32_t dimension : {0u, 2u, 8u})
                 for (std::uint32_t pixel = 0; pixel < 20; ++pixel)
                     for (const int block : {0, 1}) {
                         const Sampler sampler(kind, count, 2);
-                        CHECK_INFO(fillsCells(pairsOf(sampler, pixel, dimension, count,
-                                                      block * count),
-                                              columns, rows),
-                                   count << " samples, dimension " << dimension);
+                        CHECK_INFO(
+                            fillsCells(pairsOf(sampler, pixel, dimension, count, block * count),
+                                       columns, rows),
+                            count << " samples, dimension " << dimension);
                     }
     // Any count: the shuffle of the cells leaves none out.
     for (int count = 1; count < 300; ++count) {
@@ -206,13 +213,14 @@ TEST(sampler_decorrelated) {
         for (std::uint32_t pixel = 0; pixel < 25000; ++pixel)
             for (std::uint32_t i = 0; i < 4; ++i) {
                 const Vec2 pair = sampler.get2D(pixel + shift, i, d & ~1u);
-                out.push_back(static_cast<double>(
-                    alone ? sampler.get1D(pixel + shift, i, d) : d & 1 ? pair.y : pair.x));
+                out.push_back(static_cast<double>(alone   ? sampler.get1D(pixel + shift, i, d)
+                                                  : d & 1 ? pair.y
+                                                          : pair.x));
             }
         return out;
     };
-    for (const SamplerKind kind : {SamplerKind::Sobol, SamplerKind::Stratified,
-                                   SamplerKind::Random}) {
+    for (const SamplerKind kind :
+         {SamplerKind::Sobol, SamplerKind::Stratified, SamplerKind::Random}) {
         const Sampler sampler(kind, 4, 6);
         std::vector<std::vector<double>> all;
         for (const std::uint32_t d : {0u, 1u, 2u, 3u, 8u})

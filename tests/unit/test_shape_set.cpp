@@ -16,7 +16,8 @@ namespace {
 MovingTransform place(Random& random, bool moves) {
     const double size = random.logUniform(0.02, 0.2);
     const auto map = [&] {
-        return Transform::translate(random.inBox(0.8)) * random.affine(3, 0) * Transform::scale(size);
+        return Transform::translate(random.inBox(0.8)) * random.affine(3, 0) *
+               Transform::scale(size);
     };
     const Transform first = map();
     if (!moves) return first;
@@ -33,15 +34,17 @@ struct Scene {
     explicit Scene(std::uint64_t seed) {
         Random random(seed);
         const auto kinds = kit::kinds();
-        for (const MeshDesc& desc : {meshes::icosphere(2), meshes::cube(), meshes::torus(0.3, 16, 8)}) {
+        for (const MeshDesc& desc :
+             {meshes::icosphere(2), meshes::cube(), meshes::torus(0.3, 16, 8)}) {
             geometries.push_back(std::make_unique<MeshGeometry>(toGeometry(desc, {})));
             geometries.back()->finish(true);
         }
-        geometries.push_back(std::make_unique<MeshGeometry>(
-            meshes::geometryOf(meshes::soup(random, 100), true)));
+        geometries.push_back(
+            std::make_unique<MeshGeometry>(meshes::geometryOf(meshes::soup(random, 100), true)));
         MovingTransform last;
         for (std::size_t n = 0; n < 240; ++n) {
-            const MovingTransform map = random.chance(0.1) ? last : place(random, random.chance(0.1));
+            const MovingTransform map =
+                random.chance(0.1) ? last : place(random, random.chance(0.1));
             last = map; // some are at the same place: equal t, the lower number wins
             const std::uint32_t shadowNumber = random.below(10);
             const Shadow shadow = shadowNumber < 6   ? Shadow::Opaque
@@ -56,9 +59,9 @@ struct Scene {
                     shape = kinds[endless && n > 100 ? 0 : kind].make(map);
                 } else {
                     const std::size_t mesh = kind - kinds.size();
-                    shape = std::make_unique<Mesh>(*geometries[mesh], map, std::vector<std::uint32_t>{0},
-                                                   std::vector<MeshPart>{{0, 0}},
-                                                   Transform::scale(mesh == 3 ? 0.02 : 1));
+                    shape = std::make_unique<Mesh>(
+                        *geometries[mesh], map, std::vector<std::uint32_t>{0},
+                        std::vector<MeshPart>{{0, 0}}, Transform::scale(mesh == 3 ? 0.02 : 1));
                 }
                 set->add(std::move(shape), shadow);
             }
@@ -73,7 +76,8 @@ Ray someRay(Random& random, const ShapeSet& set) {
         const Bounds& box = set.boxes[set.bounded[random.below(set.bounded.size())]];
         Vec3d p;
         for (std::size_t k = 0; k < 3; ++k)
-            p[k] = lerp(static_cast<double>(box.lo[k]), static_cast<double>(box.hi[k]), random.unit());
+            p[k] =
+                lerp(static_cast<double>(box.lo[k]), static_cast<double>(box.hi[k]), random.unit());
         return p;
     };
     Ray ray;
@@ -94,7 +98,8 @@ bool nearer(const Hit& a, const Hit& b) {
 } // namespace
 
 TEST(shape_set_tree_equals_linear_search) {
-    long long rays = 0, hits = 0, closestWrong = 0, anyWrong = 0, seeThroughWrong = 0, bruteWrong = 0;
+    long long rays = 0, hits = 0, closestWrong = 0, anyWrong = 0, seeThroughWrong = 0,
+              bruteWrong = 0;
     long long ties = 0, collected = 0;
     for (const std::uint64_t seed : {61u, 62u, 63u, 64u}) {
         const Scene scene(seed);
@@ -132,18 +137,22 @@ TEST(shape_set_tree_equals_linear_search) {
                 if (scene.tree.shadows[n] == Shadow::Opaque) opaque = opaque || shape.occludes(ray);
                 if (!shape.intersect(ray, own)) continue;
                 if (own.t == best.t && best.isHit()) ++ties;
-                if (own.t < best.t || (own.t == best.t && !best.isHit())) best = own, best.shape = n;
+                if (own.t < best.t || (own.t == best.t && !best.isHit()))
+                    best = own, best.shape = n;
             }
             if (opaque != occluded || seen != a.size()) ++bruteWrong;
-            // t is clamped to the entry into the shape's padded box, which is not behind the hit but
-            // for rounding of the hit itself.
-            if (best.isHit() != hit.isHit()) ++bruteWrong;
-            else if (hit.isHit() && !(hit.t >= best.t && hit.t <= best.t * 1.00001f)) ++bruteWrong;
-            else if (hit.isHit() && hit.t == best.t && hit.shape != best.shape) ++bruteWrong;
+            // t is clamped to the entry into the shape's padded box, which is not behind the hit
+            // but for rounding of the hit itself.
+            if (best.isHit() != hit.isHit())
+                ++bruteWrong;
+            else if (hit.isHit() && !(hit.t >= best.t && hit.t <= best.t * 1.00001f))
+                ++bruteWrong;
+            else if (hit.isHit() && hit.t == best.t && hit.shape != best.shape)
+                ++bruteWrong;
         }
     }
-    std::printf("%lld rays, %lld hits, %lld see-through hits, %lld ties, seeds 61 to 64\n", rays, hits,
-                collected, ties);
+    std::printf("%lld rays, %lld hits, %lld see-through hits, %lld ties, seeds 61 to 64\n", rays,
+                hits, collected, ties);
     CHECK(rays >= 200000 && hits > 100000 && collected > 10000 && ties > 10);
     CHECK_EQUAL(closestWrong, 0);
     CHECK_EQUAL(anyWrong, 0);

@@ -18,8 +18,8 @@ TEST(text_shortest_round_trips) {
         const double value = std::bit_cast<double>(engine());
         if (!std::isfinite(value)) continue;
         const auto back = parseDouble(shortest(value));
-        CHECK_INFO(back && std::bit_cast<std::uint64_t>(*back) ==
-                               std::bit_cast<std::uint64_t>(value),
+        CHECK_INFO(back &&
+                       std::bit_cast<std::uint64_t>(*back) == std::bit_cast<std::uint64_t>(value),
                    value);
         const float single = std::bit_cast<float>(static_cast<std::uint32_t>(engine()));
         if (!std::isfinite(single)) continue;
@@ -39,9 +39,9 @@ TEST(text_parse_double) {
     CHECK_EQUAL(parseDouble("1e-400").value_or(1), 0.0);
     CHECK_EQUAL(parseDouble("-0.0001e-400").value_or(1), 0.0);
     CHECK_EQUAL(parseDouble("0e999999999999").value_or(1), 0.0);
-    for (const char* bad :
-         {"", "+", "-", ".", "+-5", "++5", "--5", "- 5", "5 ", " 5", "1.5x", "1,5", "0x10", "inf",
-          "-inf", "nan", "infinity", "1e999", "-1e999", "1e", "e5", "1e5.5", "1e400"})
+    for (const char* bad : {"",         "+",     "-",      ".",   "+-5",  "++5",   "--5",  "- 5",
+                            "5 ",       " 5",    "1.5x",   "1,5", "0x10", "inf",   "-inf", "nan",
+                            "infinity", "1e999", "-1e999", "1e",  "e5",   "1e5.5", "1e400"})
         CHECK_INFO(!parseDouble(bad), "'" << bad << "'");
 }
 
@@ -69,7 +69,8 @@ TEST(text_join_and_cat) {
 
 TEST(text_nearest_word) {
     const std::vector<std::string> known{"golden", "red", "glass", "sphere"};
-    CHECK_EQUAL(nearestWord("gold", known).value_or(""), "");
+    CHECK_EQUAL(nearestWord("gold", known).value_or(""), "golden");
+    CHECK_EQUAL(nearestWord("go", known).value_or(""), "");
     CHECK_EQUAL(nearestWord("goldn", known).value_or(""), "golden");
     CHECK_EQUAL(nearestWord("lgass", known).value_or(""), "glass"); // a swap of neighbours is one
     CHECK_EQUAL(nearestWord("glas", known).value_or(""), "glass");

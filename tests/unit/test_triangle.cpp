@@ -15,8 +15,8 @@ using Int3 = std::array<std::int64_t, 3>;
 // What integers say. Directions have +-16 on the dominant axis, so slopes and sheared coordinates
 // have no error in float, and the hit is decided without rounding.
 struct Oracle {
-    bool inside = false;     // edge functions of one sign, zeros allowed, not all zero
-    long double z = 0;       // depth of the plane
+    bool inside = false;       // edge functions of one sign, zeros allowed, not all zero
+    long double z = 0;         // depth of the plane
     long double condition = 1; // how much relative error of the terms grows in z
 };
 
@@ -63,7 +63,8 @@ Vec3 toVec(const Int3& v) {
 std::string shown(const std::array<Vec3, 3>& t, Vec3 o, Vec3 d) {
     std::ostringstream out;
     out.precision(9);
-    for (const Vec3 v : {t[0], t[1], t[2], o, d}) out << '(' << v.x << ' ' << v.y << ' ' << v.z << ") ";
+    for (const Vec3 v : {t[0], t[1], t[2], o, d})
+        out << '(' << v.x << ' ' << v.y << ' ' << v.z << ") ";
     return out.str();
 }
 
@@ -75,7 +76,8 @@ TEST(triangle_against_integers) {
     for (int i = 0; i < 1000000; ++i) {
         const std::int64_t size = random.chance(0.5) ? 4 : 100; // small: many rays meet edges
         const auto number = [&] {
-            return static_cast<std::int64_t>(random.below(static_cast<std::size_t>(2 * size + 1))) - size;
+            return static_cast<std::int64_t>(random.below(static_cast<std::size_t>(2 * size + 1))) -
+                   size;
         };
         const auto corner = [&] { return Int3{number(), number(), number()}; };
         std::array<Int3, 3> v = {corner(), corner(), corner()};
@@ -105,11 +107,14 @@ TEST(triangle_against_integers) {
         if (e.x == 0 || e.y == 0 || e.z == 0) ++onEdge;
         if (exact.z == 0) { // the origin is on the triangle: not in front of it
             ++throughOrigin;
-            if (key != 0 && key < 1e4f) ++wrong; // t = 0, or so near that tMin = 0 alone excludes it
+            if (key != 0 && key < 1e4f)
+                ++wrong; // t = 0, or so near that tMin = 0 alone excludes it
             continue;
         }
         if ((key > 0) != (exact.z > 0)) {
-            if (++wrong <= 3) CHECK_INFO(false, "seed 31: z " << static_cast<double>(exact.z) << " key " << key << ' ' << shown(t, o, d));
+            if (++wrong <= 3)
+                CHECK_INFO(false, "seed 31: z " << static_cast<double>(exact.z) << " key " << key
+                                                << ' ' << shown(t, o, d));
             continue;
         }
         if (exact.z < 0) continue;
@@ -140,8 +145,10 @@ TEST(triangle_shared_edges_are_closed) {
         const Vec3d lateral = normalize(side);
         const Vec3d middle = lerp(a, b, random.uniform(0.2, 0.8));
         const Vec3 A = corner(a), B = corner(b);
-        const Vec3 C = corner(middle + lateral * random.uniform(0.5, 2) + view * random.uniform(-1, 1));
-        const Vec3 D = corner(middle - lateral * random.uniform(0.5, 2) + view * random.uniform(-1, 1));
+        const Vec3 C =
+            corner(middle + lateral * random.uniform(0.5, 2) + view * random.uniform(-1, 1));
+        const Vec3 D =
+            corner(middle - lateral * random.uniform(0.5, 2) + view * random.uniform(-1, 1));
         Vec3 aim = toFloat(lerp(toDouble(A), toDouble(B), random.uniform(0.25, 0.75)));
         for (std::size_t k = 0; k < 3; ++k)
             aim[k] = meshes::stepped(aim[k], static_cast<int>(random.below(7)) - 3);
@@ -191,13 +198,15 @@ TEST(triangle_against_long_double) {
             const long double dz = std::fabs(static_cast<long double>(dir[s.k]));
             x[k] = local(s.kx) - dir[s.kx] / dz * z[k];
             y[k] = local(s.ky) - dir[s.ky] / dz * z[k];
-            reach = std::fmax(reach, std::fmax(std::fabs(local(s.kx)), std::fabs(local(s.ky))) + std::fabs(z[k]));
+            reach = std::fmax(reach, std::fmax(std::fabs(local(s.kx)), std::fabs(local(s.ky))) +
+                                         std::fabs(z[k]));
         }
         const long double e[3] = {x[2] * y[1] - y[2] * x[1], x[0] * y[2] - y[0] * x[2],
                                   x[1] * y[0] - y[1] * x[0]};
         // Each sheared coordinate is off by at most 4 u reach: 8 u reach (|x|+|y|) per function.
         long double slack = 0;
-        for (std::size_t k = 0; k < 3; ++k) slack = std::fmax(slack, std::fabs(x[k]) + std::fabs(y[k]));
+        for (std::size_t k = 0; k < 3; ++k)
+            slack = std::fmax(slack, std::fabs(x[k]) + std::fabs(y[k]));
         slack *= 20 * 0x1p-24L * reach;
         bool isClear = true, inside = true, flipped = true;
         for (const long double edge : e) {
@@ -226,8 +235,9 @@ TEST(triangle_against_long_double) {
         const long double height = std::fabs(sum) / longest;
         const long double bound = 16 * 0x1p-24L * reach * (1 + (zMax - zMin + longest) / height);
         if (std::fabs(1 / static_cast<long double>(key) - depth) > bound && ++farOff <= 3)
-            CHECK_INFO(false, "seed 33 " << shown(t, org, dir) << " depth " << static_cast<double>(depth)
-                                         << " key " << 1 / key << " bound " << static_cast<double>(bound));
+            CHECK_INFO(false, "seed 33 " << shown(t, org, dir) << " depth "
+                                         << static_cast<double>(depth) << " key " << 1 / key
+                                         << " bound " << static_cast<double>(bound));
     }
     std::printf("%lld clear, %lld hits, seed 33\n", clear, hits);
     CHECK(clear > 300000 && hits > 30000);
@@ -244,11 +254,14 @@ TEST(triangle_one_owner_per_crossing) {
     for (int x = -4; x < 4; ++x) {
         for (int y = -4; y < 4; ++y) {
             const auto at = [](int i, int j) { // z is any plane that floats can hold
-                return Vec3{static_cast<float>(i), static_cast<float>(j), static_cast<float>(2 * i - j)};
+                return Vec3{static_cast<float>(i), static_cast<float>(j),
+                            static_cast<float>(2 * i - j)};
             };
             const Vec3 a = at(x, y), b = at(x + 1, y), c = at(x + 1, y + 1), d = at(x, y + 1);
-            if (random.chance(0.5)) plane.insert(plane.end(), {{a, b, c}, {c, d, a}});
-            else plane.insert(plane.end(), {{a, b, d}, {b, c, d}});
+            if (random.chance(0.5))
+                plane.insert(plane.end(), {{a, b, c}, {c, d, a}});
+            else
+                plane.insert(plane.end(), {{a, b, d}, {b, c, d}});
         }
     }
     long long wrong = 0, shared = 0;
@@ -256,7 +269,8 @@ TEST(triangle_one_owner_per_crossing) {
         // Aims in the middle, on a grid of halves: at corners, edges, and centres.
         const float x = static_cast<float>(random.below(9)) * 0.5f - 2;
         const float y = static_cast<float>(random.below(9)) * 0.5f - 2;
-        const Vec3 dir{static_cast<float>(random.below(5)) - 2, static_cast<float>(random.below(5)) - 2,
+        const Vec3 dir{static_cast<float>(random.below(5)) - 2,
+                       static_cast<float>(random.below(5)) - 2,
                        random.chance(0.5) ? 16.0f : -16.0f};
         const Vec3 org = Vec3{x, y, 2 * x - y} - dir * 2.0f;
         const RaySetup setup(org, dir, 64);
@@ -274,7 +288,8 @@ TEST(triangle_one_owner_per_crossing) {
     CHECK_EQUAL(wrong, 0);
 
     long long unbalanced = 0, crossings = 0;
-    for (const MeshDesc& desc : {meshes::icosphere(2), meshes::torus(0.3, 24, 12), meshes::cube()}) {
+    for (const MeshDesc& desc :
+         {meshes::icosphere(2), meshes::torus(0.3, 24, 12), meshes::cube()}) {
         const MeshGeometry g = toGeometry(desc, {});
         for (int i = 0; i < 3000; ++i) {
             const Vec3 org = toFloat(random.direction() * 4.0);
@@ -362,7 +377,8 @@ TEST(triangle_tree_equals_brute_force) {
                 const RaySetup setup(ray.org, ray.dir, without.extent);
                 float bestKey = 0;
                 for (std::uint32_t n = 0; n < triangles.size(); ++n) {
-                    const float key = canonicalKey(setup, triangles[n][0], triangles[n][1], triangles[n][2]);
+                    const float key =
+                        canonicalKey(setup, triangles[n][0], triangles[n][1], triangles[n][2]);
                     if (!(key > 0) || !(key < 1.0f / (ray.tMin * setup.dz))) continue;
                     if (key > 1.0f / (ray.tMax * setup.dz)) {
                         inFront = true;
@@ -381,8 +397,8 @@ TEST(triangle_tree_equals_brute_force) {
                 if (exists) best.t = t;
             }
             hits += exists;
-            bool same = found == exists &&
-                        (!found || (fromTree.t == best.t && fromTree.prim == best.prim));
+            bool same =
+                found == exists && (!found || (fromTree.t == best.t && fromTree.prim == best.prim));
             bool sameAny = tree.occludes(ray) == inFront;
             if (i % 4 == 0) { // and the mesh without a tree
                 all.intersect(ray, fromAll);
@@ -390,8 +406,9 @@ TEST(triangle_tree_equals_brute_force) {
                 sameAny = sameAny && all.occludes(ray) == inFront;
             }
             if (!same && ++closestWrong <= 3)
-                CHECK_INFO(false, "seed " << 3400 + seed << " ray " << i << " tree " << fromTree.t << ' '
-                                          << fromTree.prim << " brute " << best.t << ' ' << best.prim);
+                CHECK_INFO(false, "seed " << 3400 + seed << " ray " << i << " tree " << fromTree.t
+                                          << ' ' << fromTree.prim << " brute " << best.t << ' '
+                                          << best.prim);
             if (!sameAny) ++anyWrong;
             // The set of all hits that own the ray, in the order of their numbers, with t.
             std::vector<Hit> a;

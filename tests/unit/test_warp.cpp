@@ -19,8 +19,7 @@ struct Draw {
 constexpr int kSide = 400; // regular points (i + 1/2) / kSide: means are good to about 1e-4
 
 // Means of up to three functions of the mapped regular points.
-template <class Function>
-Vec3d meanOver(Function function) {
+template <class Function> Vec3d meanOver(Function function) {
     Vec3d sum;
     for (int i = 0; i < kSide; ++i)
         for (int j = 0; j < kSide; ++j)
@@ -29,9 +28,7 @@ Vec3d meanOver(Function function) {
     return sum / static_cast<double>(kSide * kSide);
 }
 
-double length2(Vec2 p) {
-    return sqr(static_cast<double>(p.x)) + sqr(static_cast<double>(p.y));
-}
+double length2(Vec2 p) { return sqr(static_cast<double>(p.x)) + sqr(static_cast<double>(p.y)); }
 double number(float x) { return static_cast<double>(x); }
 
 } // namespace

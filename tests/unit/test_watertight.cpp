@@ -46,7 +46,8 @@ struct Placed {
     ShapeSet set;
     const Mesh* mesh = nullptr;
 
-    Placed(const Solid& from, const Transform& worldFromMesh, const SceneFrame& frame, bool asInstance)
+    Placed(const Solid& from, const Transform& worldFromMesh, const SceneFrame& frame,
+           bool asInstance)
         : solid(&from), sceneFromDesc(frame.placed(worldFromMesh.rows())) {
         ready = asInstance ? meshes::instance(from.mesh, worldFromMesh, frame)
                            : meshes::baked(from.mesh, worldFromMesh, frame);
@@ -91,8 +92,8 @@ void forEachPlacement(Random& random, const Solid& solid,
 
 std::string shown(const Ray& ray) {
     std::ostringstream out;
-    out << std::hexfloat << ray.org.x << ' ' << ray.org.y << ' ' << ray.org.z << " dir " << ray.dir.x
-        << ' ' << ray.dir.y << ' ' << ray.dir.z;
+    out << std::hexfloat << ray.org.x << ' ' << ray.org.y << ' ' << ray.org.z << " dir "
+        << ray.dir.x << ' ' << ray.dir.y << ' ' << ray.dir.z;
     return out.str();
 }
 
@@ -156,7 +157,8 @@ TEST(watertight_from_inside) {
                 if (!isTraceable(ray)) continue;
                 ++rays;
                 if (!at.set.closest(ray).isHit() && ++leaks <= 5)
-                    CHECK_INFO(false, "seed 41 leak: " << solid.name << ", " << place << ", " << shown(ray));
+                    CHECK_INFO(false, "seed 41 leak: " << solid.name << ", " << place << ", "
+                                                       << shown(ray));
                 if (!at.set.occluded(ray)) ++anyLeaks;
             }
         });
@@ -184,7 +186,8 @@ TEST(watertight_from_outside) {
                 if (maxAbs(box.size()) < 0.1f && maxAbs(light) > 100) continue;
                 ++rays;
                 if (!at.set.occluded(ray) && ++leaks <= 5)
-                    CHECK_INFO(false, "seed 42 leak: " << solid.name << ", " << place << ", " << shown(ray));
+                    CHECK_INFO(false, "seed 42 leak: " << solid.name << ", " << place << ", "
+                                                       << shown(ray));
             }
         });
     }
@@ -204,14 +207,16 @@ TEST(watertight_reintersection) {
             forEachPlacement(random, solid, [&](const Placed& at, const char* place) {
                 for (int i = 0; i < 100; ++i) {
                     Surface s;
-                    if (!aimedSurface(at, random, s, at.onTriangle(random, at.someTriangle(random))))
+                    if (!aimedSurface(at, random, s,
+                                      at.onTriangle(random, at.someTriangle(random))))
                         continue;
                     for (int k = 0; k < 50; ++k) {
                         Ray ray;
                         ray.org = s.p + s.ng * s.error;
                         ray.dir = leavingTo(random, s.ng);
                         ++out;
-                        if ((k % 4 == 0 ? at.set.closest(ray).isHit() : at.set.occluded(ray)) && ++selfHits <= 5)
+                        if ((k % 4 == 0 ? at.set.closest(ray).isHit() : at.set.occluded(ray)) &&
+                            ++selfHits <= 5)
                             CHECK_INFO(false, "seed 43 self hit: " << solid.name << ", " << place
                                                                    << ", " << shown(ray));
                         if (k % 4 != 0) continue;
@@ -219,8 +224,8 @@ TEST(watertight_reintersection) {
                         ray.dir = leavingTo(random, -s.ng);
                         ++in;
                         if (!at.set.closest(ray).isHit() && ++leaks <= 5)
-                            CHECK_INFO(false, "seed 43 leak: " << solid.name << ", " << place << ", "
-                                                               << shown(ray));
+                            CHECK_INFO(false, "seed 43 leak: " << solid.name << ", " << place
+                                                               << ", " << shown(ray));
                     }
                 }
             });
@@ -238,11 +243,13 @@ struct ShadowCounts {
     long long rays = 0, blocked = 0;
 };
 
-// As in render/whitted.cpp: the ray starts at the lamp and ends at the point, moved off its surface.
+// As in render/whitted.cpp: the ray starts at the lamp and ends at the point, moved off its
+// surface.
 void shadowRay(Random& random, const Surface& s, const Shape& shape, const std::string& name,
                ShadowCounts& counts) {
     // Few from very far: their pads open many boxes, 50 us a ray.
-    const Vec3 light = toFloat(random.direction() * random.logUniform(1.5, random.chance(0.97) ? 30.0 : 1.5e4));
+    const Vec3 light =
+        toFloat(random.direction() * random.logUniform(1.5, random.chance(0.97) ? 30.0 : 1.5e4));
     const Vec3 d = light - s.p;
     const float distance = length(d);
     if (!(dot(s.ng, d / distance) > 0)) return;
@@ -282,7 +289,8 @@ TEST(watertight_no_shadow_acne_on_formulas) {
     for (const kit::Kind& kind : kit::kinds()) {
         if (!kind.isClosed && !kind.isFlat) continue; // the inside of a tube may well be in shadow
         for (int n = 0; n < 60; ++n) {
-            const Transform map = random.affine(8, 1) * Transform::scale(random.logUniform(0.01, 1));
+            const Transform map =
+                random.affine(8, 1) * Transform::scale(random.logUniform(0.01, 1));
             const auto shape = kind.make(map);
             for (int i = 0; i < 150; ++i) {
                 Ray ray;

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-namespace meshes {
+namespace solids {
 
 // A closed box [-1,1]^3, each face of n x n x 2 triangles that share their points, outward.
 inline MeshDesc box(int n) {
@@ -18,8 +18,10 @@ inline MeshDesc box(int n) {
     mesh.name = "box";
     std::map<std::array<int, 3>, std::uint32_t> index;
     const auto point = [&](std::array<int, 3> at) {
-        const auto [where, isNew] = index.try_emplace(at, static_cast<std::uint32_t>(mesh.points.size()));
-        if (isNew) mesh.points.push_back({2.0 * at[0] / n - 1, 2.0 * at[1] / n - 1, 2.0 * at[2] / n - 1});
+        const auto [where, isNew] =
+            index.try_emplace(at, static_cast<std::uint32_t>(mesh.points.size()));
+        if (isNew)
+            mesh.points.push_back({2.0 * at[0] / n - 1, 2.0 * at[1] / n - 1, 2.0 * at[2] / n - 1});
         return where->second;
     };
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -33,9 +35,12 @@ inline MeshDesc box(int n) {
                         at[(axis + 2) % 3] = j + dj;
                         return point(at);
                     };
-                    const auto a = corner(0, 0), b = corner(1, 0), c = corner(1, 1), d = corner(0, 1);
-                    if (side == 1) mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
-                    else mesh.triangles.insert(mesh.triangles.end(), {{a, c, b}, {a, d, c}});
+                    const auto a = corner(0, 0), b = corner(1, 0), c = corner(1, 1),
+                               d = corner(0, 1);
+                    if (side == 1)
+                        mesh.triangles.insert(mesh.triangles.end(), {{a, b, c}, {a, c, d}});
+                    else
+                        mesh.triangles.insert(mesh.triangles.end(), {{a, c, b}, {a, d, c}});
                 }
     return mesh;
 }
@@ -45,7 +50,8 @@ inline MeshDesc ball(int n) {
     MeshDesc mesh = box(n);
     mesh.name = "ball";
     for (Vec3d& p : mesh.points) p = p / std::sqrt(dot(p, p));
-    for (std::size_t i = 0; i < mesh.triangles.size(); i += 2) { // (a, b, c), (a, c, d) in some turn
+    for (std::size_t i = 0; i < mesh.triangles.size();
+         i += 2) { // (a, b, c), (a, c, d) in some turn
         const auto [a, b, c] = mesh.triangles[i];
         const auto [e, f, g] = mesh.triangles[i + 1];
         const bool forward = f == c; // else (a, c, b), (a, d, c)
@@ -53,8 +59,10 @@ inline MeshDesc ball(int n) {
         const Vec3d n1 = cross(mesh.points[x] - mesh.points[a], mesh.points[y] - mesh.points[a]);
         const Vec3d toZ = mesh.points[z] - mesh.points[a];
         if ((dot(n1, toZ) > 0) != (dot(n1, mesh.points[a]) < 0)) {
-            if (forward) mesh.triangles[i] = {a, x, z}, mesh.triangles[i + 1] = {x, y, z};
-            else mesh.triangles[i] = {a, z, x}, mesh.triangles[i + 1] = {x, z, y};
+            if (forward)
+                mesh.triangles[i] = {a, x, z}, mesh.triangles[i + 1] = {x, y, z};
+            else
+                mesh.triangles[i] = {a, z, x}, mesh.triangles[i + 1] = {x, z, y};
         }
         static_cast<void>(e);
     }
@@ -71,4 +79,4 @@ inline std::string text(const MeshDesc& mesh) {
     return out + "}\n";
 }
 
-} // namespace meshes
+} // namespace solids

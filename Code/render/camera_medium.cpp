@@ -1,0 +1,37 @@
+#include "render/camera_medium.h"
+
+#include "render/shading.h"
+
+#include <algorithm>
+#include <vector>
+
+MediumStack mediumOfCamera(const Scene& scene, const RenderSettings& settings) {
+    constexpr int kSurfaces = 64; // more are not looked at
+    MediumStack inside;
+    const auto transmits = [](const SceneMaterial& m) { return !isBlack(m.base.transmission); };
+    if (std::none_of(scene.materials().begin(), scene.materials().end(), transmits)) return inside;
+
+    const Vec2 lens{0.5f, 0.5f};
+    Ray ray = scene.camera().ray({settings.picture.width / 2.0, settings.picture.height / 2.0},
+                                 lens, 0.5f);
+    if (scene.camera().ray({0, 0}, lens, 0.5f).org != ray.org) return inside;
+
+    std::vector<std::uint32_t> entered, around; // around: the innermost first
+    for (int i = 0; i < kSurfaces; ++i) {
+        const Hit hit = scene.shapes().closest(ray);
+        if (!hit.isHit()) break;
+        const ShadedPoint at = shade(scene, ray, hit);
+        if (transmits(scene.materials()[at.materialId])) {
+            const auto open = std::find(entered.rbegin(), entered.rend(), at.materialId);
+            if (at.front)
+                entered.push_back(at.materialId);
+            else if (open != entered.rend())
+                entered.erase(std::next(open).base());
+            else
+                around.push_back(at.materialId);
+        }
+        ray = {leave(at.surface, -at.ng), ray.dir, 0, kInfinityF, ray.time};
+    }
+    std::for_each(around.rbegin(), around.rend(), [&](std::uint32_t m) { inside.enter(m); });
+    return inside;
+}
