@@ -37,7 +37,6 @@ import hashlib
 import math
 import os
 import re
-import shutil
 import struct
 import sys
 import zlib
@@ -52,7 +51,7 @@ except ImportError:
     sys.exit("Export.py: error: needs Blender (blender -b FILE -P Export.py) or the bpy module")
 
 VERSION = bpy.app.version  # (3, 4, 1): several units changed their meaning over time
-EXIT_ERROR, EXIT_STRICT = 2, 3
+EXIT_ERROR, EXIT_STRICT, EXIT_FAULT = 2, 3, 3
 MAX_SAMPLES = 64  # Cycles' 4096 are for path tracing; --spp of the renderer overrides
 MAX_DEPTH = 16
 FORMAT_VERSION = 1
@@ -405,6 +404,11 @@ def moves_in_blur(thing):
     return getattr(getattr(thing, "cycles", None), "use_motion_blur", True)
 
 
+def may_deform(thing):
+    return bool(thing.modifiers) or getattr(thing.data, "shape_keys", None) is not None \
+        or getattr(thing.original.data, "shape_keys", None) is not None
+
+
 class Motion:
     """Matrices of all instances and cameras at KEY_TIMES; empty without motion blur."""
 
@@ -418,15 +422,19 @@ class Motion:
             moment = begin + (end - begin) * t
             whole = math.floor(moment)
             set_frame(whole, moment - whole)
-            self.moments.append(self.look(depsgraph, cameras))
+            self.moments.append(self.look(depsgraph, cameras, with_shapes=t in (0.0, 1.0)))
         set_frame(frame, 0.0)
 
     @staticmethod
-    def look(depsgraph, cameras):
+    def look(depsgraph, cameras, with_shapes):
         found = {}
         for instance in depsgraph.object_instances:
-            if instance.object.type in {"MESH", "LIGHT"}:
+            thing = instance.object
+            if thing.type in {"MESH", "LIGHT"}:
                 found[instance_key(instance)] = rows_of(instance.matrix_world)
+            if with_shapes and thing.type == "MESH" and not instance.is_instance and may_deform(thing):
+                points = read(thing.data.vertices, "co", "f", 3)
+                found[("shape", thing.name_full)] = hashlib.sha1(points.tobytes()).digest()
         for camera in cameras:
             found[("camera", camera.name_full)] = rows_of(camera.evaluated_get(depsgraph).matrix_world)
         return found
@@ -2712,7 +2720,8 @@ class SceneExport:
         if not self.is_seen(thing):
             return
         self.warn_of_linking(thing)
-        mesh = thing.data
+        # A file that was saved in edit mode: the faces are in the editor's own mesh, data has none.
+        mesh = thing.to_mesh() if thing.mode == "EDIT" else thing.data
         if len(mesh.polygons) == 0:
             self.report.note("object '%s' has no faces" % thing.name)
             return
@@ -2877,7 +2886,7 @@ class SceneExport:
             return
         first, last = motion.moments[0], motion.moments[-1]
         for key, value in first.items():
-            if key[0] == "shape" and last.get(key) != value:
+            if len(key) == 2 and key[0] == "shape" and last.get(key) != value:
                 with self.report.at("object", key[1]):
                     self.report.warn(9, "its shape changes while the shutter is open", "its shape at the frame")
 
@@ -3098,18 +3107,25 @@ def main():
     return EXIT_STRICT if options.strict and report.seen else 0
 
 
+def run_and_leave():
+    """Ends the process with the exit code."""
+    try:
+        code = main()
+    except SystemExit as stop:  # argparse
+        code = stop.code or 0
+    except Exception:
+        import traceback
+        traceback.print_exc()
+        code = EXIT_FAULT
+    sys.stdout.flush()
+    sys.stderr.flush()
+    if not bpy.app.binary_path:
+        os._exit(code)  # the bpy module can hang when it cleans up
+    sys.exit(code)
+
+
 if __name__ == "__main__":
     if bpy.app.background:
-        try:
-            code = main()
-        except Exception:
-            import traceback
-            traceback.print_exc()
-            code = EXIT_STRICT
-        sys.stdout.flush()
-        sys.stderr.flush()
-        if not bpy.app.binary_path:
-            os._exit(code)  # the bpy module can hang when it cleans up after a render
-        sys.exit(code)
+        run_and_leave()
     elif main():  # in the user interface sys.exit would close Blender
         raise RuntimeError("the scene was not exported; the console says why")

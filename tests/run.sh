@@ -30,6 +30,7 @@ log=$(mktemp) || exit 1
 trap 'rm -f "$log"' EXIT
 if [ $# -eq 0 ]; then
     add "unit tests" "$unit"
+    add "FeatureList.txt" sh tests/features.sh "$unit"
 fi
 for script in tests/layers.sh tests/cli/*.sh; do
     wanted=$#

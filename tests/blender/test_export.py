@@ -269,9 +269,10 @@ class Nodes:
         for key, value in (settings or {}).items():
             setattr(node, key, value)
         for key, value in inputs.items():
-            name = key.replace("_", " ")
-            socket = next((s for s in node.inputs if s.name == name and s.enabled), None) or next(
-                s for s in node.inputs if name in (s.identifier, s.name))
+            names = (key, key.replace("_", " "))
+            fits = [s for s in node.inputs if s.name in names or s.identifier in names]
+            socket = next((s for s in fits if s.enabled and s.identifier == key), None) or next(
+                (s for s in fits if s.enabled), fits[0])
             self.set(socket, value)
         return node
 
@@ -786,8 +787,12 @@ def material_slots_and_ngons():
     equal(text.one("instance")["materials"], ["A", "C"])
     equal(text.one("mesh").arrays["triangle_materials"], [[1], [1], [1], [0]])
     equal([b.name for b in text.all("material")], ["A", "C"])
-    thing.material_slots[2].link, thing.material_slots[2].material = "OBJECT", None
-    equal(export().one("instance")["materials"], ["A", "No material"])
+    thing.material_slots[2].link = "OBJECT"
+    equal(export().one("instance")["materials"], ["A", "C"])  # Blender falls back to the mesh's
+    thing.material_slots[2].material = bpy.data.materials.new("D")
+    equal(export().one("instance")["materials"], ["A", "D"])
+    mesh.materials[0] = None
+    equal(export().one("instance")["materials"], ["No material", "D"])
 
 
 @test
@@ -897,15 +902,20 @@ def unknown_types_and_visibility_warn():
 # -------------------------------------------------------------------------------------------- motion
 
 
-def animate(thing, path, frames, straight=True):
-    preferences = bpy.context.preferences.edit
-    preferences.keyframe_new_interpolation_type = "LINEAR" if straight else "BEZIER"
+def animate(thing, path, frames):
+    """Keys with straight lines between."""
     for frame, value in frames.items():
         setattr(thing, path, value)
         thing.keyframe_insert(path, frame=frame)
+    action = thing.id_data.animation_data.action
+    curves = action.fcurves if hasattr(action, "fcurves") else [
+        c for layer in action.layers for strip in layer.strips for bag in strip.channelbags for c in bag.fcurves]
+    for curve in curves:
+        for point in curve.keyframe_points:
+            point.interpolation = "LINEAR"
 
 
-def moving_scene(**settings):
+def moving_scene():
     scene = new_scene()
     scene.render.use_motion_blur, scene.render.motion_blur_shutter = True, 1.0
     return scene
