@@ -770,15 +770,27 @@ def encode_pfm(width, height, rgb_bottom_up):
     return b"PF\n%d %d\n-1.0\n" % (width, height) + data.tobytes()
 
 
-def mean_of_ppm(path):
-    """Mean of the stored values of an 8-bit P6 file, which Blender itself cannot always read."""
+def planes_of_file(path):
+    """(red, green, blue values, is_float) of an 8-bit P6 or a PFM file, which Blender itself cannot
+    always read; None for anything else."""
     with open(path, "rb") as file:
-        head = re.match(rb"P6\s+(?:#.*\s+)*(\d+)\s+(\d+)\s+255\s", file.read(200))
-        if not head:
-            return None
-        file.seek(head.end())
         data = file.read()
-    return [data[i::3] for i in range(3)] if len(data) >= 3 else None
+    head = re.match(rb"P6\s+(?:#.*\s+)*(\d+)\s+(\d+)\s+255\s", data[:200])
+    if head:
+        stored = data[head.end():]
+        return [[x / 255 for x in thinned(stored[i::3])] for i in range(3)], False
+    head = re.match(rb"PF\s+(\d+)\s+(\d+)\s+(\S+)\s", data[:200])
+    if head:
+        stored = array("f", data[head.end(): head.end() + (len(data) - head.end()) // 12 * 12])
+        if (float(head[3]) > 0) == (sys.byteorder == "little"):
+            stored.byteswap()
+        return [thinned(stored[i::3]) for i in range(3)], True
+    return None
+
+
+def thinned(values):
+    """About 4096 of the values, evenly spread: enough for a mean."""
+    return values[:: max(1, len(values) // 4096)]
 
 
 class Pixels(NamedTuple):
@@ -961,14 +973,14 @@ class Images:
             planes = [pixels.values[first if same else i :: pixels.channels] for i in range(3)]
             is_float = pixels.is_float
         else:
-            planes = mean_of_ppm(path) if path and path.lower().endswith(".ppm") else None
-            if planes is None:
+            found = planes_of_file(path) if path else None
+            if found is None or not found[0][0]:
                 return (0.5, 0.5, 0.5)
-            planes, is_float = [[x / 255 for x in p[:: max(1, len(p) // 4096)]] for p in planes], False
+            planes, is_float = found
         decode = texture.space == "srgb" and texture.channel == "color" and not is_float
         means = []
         for plane in planes:
-            some = plane[:: max(1, len(plane) // 4096)]
+            some = thinned(plane)
             means.append(sum(map(srgb_to_linear, some) if decode else some) / len(some))
         return tuple(means)
 
@@ -1882,7 +1894,7 @@ class Shaders:
         f0 = min(fresnel_normal(ior) * 2 * level, 1.0) if is_new else 0.08 * level
         solid = 1 - metallic
         lobes = []
-        below = 1 - schlick_mean(f0) if is_new else 1.0
+        below = 1 - schlick_mean(f0) if is_new and f0 > 0 else 1.0
         lobes += all_times([Lobe("diffuse", base.rgb, base.texture, normal=normal)], solid * (1 - clear) * below)
         shared = dict(roughness=roughness, ior=ior, normal=normal)
         if clear > 0 and solid > 0:
@@ -1900,7 +1912,7 @@ class Shaders:
             if base.texture and metallic > 0:
                 self.report.warn(14, "node '%s' has a texture on its reflection" % found.node.name, "its mean")
             color = mixed(scaled(tint, f0), values.constant(base) if metallic else BLACK, metallic)
-            lobes.append(Lobe("glossy", color, fresnel="schlick", **shared))
+            lobes.append(Lobe("glossy", color, fresnel="schlick", **shared))  # black is dropped later
 
         glow = values.input(found, "Emission Color", "Emission")
         strength = values.number(found, "Emission Strength", default=0.0)
