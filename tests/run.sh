@@ -32,7 +32,7 @@ if [ $# -eq 0 ]; then
     add "unit tests" "$unit"
     add "FeatureList.txt" sh tests/features.sh "$unit"
 fi
-for script in tests/layers.sh tests/cli/*.sh; do
+for script in tests/layers.sh tests/leak.sh tests/cli/*.sh; do
     wanted=$#
     for word in "$@"; do
         case $script in *"$word"*) wanted=0 ;; esac

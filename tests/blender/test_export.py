@@ -773,6 +773,33 @@ def normals_only_where_smooth():
     for n in block.arrays["normals"]:
         near(math.hypot(*n), 1, 1e-3)
 
+    def sharp(thing):  # without auto smooth 3.4 ignores it, later versions do not
+        thing.data.edges[0].use_edge_sharp = True
+
+    block = ball(sharp)
+    if VERSION < (4, 1):
+        equal(block.get("normals"), block.get("points"))
+        mesh = bpy.context.object.data
+        equal([mesh.edges[0].use_edge_sharp, mesh.use_auto_smooth, mesh.polygons[0].use_smooth], [True, False, True])
+        for got, vertex in zip(block.arrays["normals"], mesh.vertices):
+            near(got, list(vertex.normal), 1e-5)
+    else:
+        assert block.get("normals") > block.get("points") // 2
+
+
+@test
+def normals_are_the_same_each_time():
+    def shot():
+        new_scene()
+        thing = primitive("monkey", smooth=True)
+        modifier = thing.modifiers.new("S", "SUBSURF")
+        modifier.render_levels = 4
+        return export().text
+
+    first = shot()
+    for _ in range(4):
+        assert shot() == first
+
 
 @test
 def material_slots_and_ngons():
