@@ -2532,14 +2532,10 @@ class Meshes:
         if domain == "FACE":
             return
         if domain == "POINT":
-            text.put_array("normals", read(mesh.vertices, "normal", "f", 3), 3, "%.9g")
+            text.put_array("normals", vertex_normals(mesh), 3, "%.9g")
             text.put_array("normal_triangles", triangles, 3, "%d")
             return
-        if hasattr(mesh, "calc_normals_split"):
-            mesh.calc_normals_split()
-            normals = read(mesh.loops, "normal", "f", 3)
-        else:
-            normals = read(mesh.corner_normals, "vector", "f", 3)
+        normals = corner_normals(mesh)
         indices = {}
         corner = index_corners(normals, 12, indices)
         text.put_array("normals", unique_floats(indices), 3, "%.9g")
@@ -2612,6 +2608,58 @@ def normals_domain(mesh):
     if not any(smooth):
         return "FACE"
     return "CORNER" if getattr(mesh, "use_auto_smooth", False) or not all(smooth) else "POINT"
+
+
+@contextlib.contextmanager
+def all_set(collection, attribute, value):
+    """Sets a flag of all edges or faces and restores it: an evaluated mesh may share its data."""
+    old = read(collection, attribute, "b", 1)
+    differs = any(bool(x) != value for x in old)
+    if differs:
+        collection.foreach_set(attribute, [value] * len(old))
+    try:
+        yield
+    finally:
+        if differs:
+            collection.foreach_set(attribute, [bool(x) for x in old])
+
+
+def vertex_normals(mesh):
+    if not hasattr(mesh, "calc_normals_split"):
+        return read(mesh.vertices, "normal", "f", 3)
+    # Blender 3.4 sums vertex normals in another order in each run. The corner normals of an entirely
+    # smooth mesh are the same numbers, summed in a fixed order.
+    with temporarily(mesh, use_auto_smooth=True, auto_smooth_angle=math.pi), \
+            all_set(mesh.edges, "use_edge_sharp", False), all_set(mesh.polygons, "use_smooth", True):
+        mesh.calc_normals_split()
+        corners = read(mesh.loops, "normal", "f", 3)
+    vertices = read(mesh.loops, "vertex_index", "i", 1)
+    normals = array("f", bytes(12 * len(mesh.vertices)))
+    for k in range(3):
+        of_vertex = dict(zip(vertices, corners[k::3]))
+        normals[k::3] = array("f", (of_vertex.get(i, 0.0) for i in range(len(mesh.vertices))))
+    return normals
+
+
+def corner_normals(mesh):
+    if not hasattr(mesh, "calc_normals_split"):
+        return read(mesh.corner_normals, "vector", "f", 3)
+    if mesh.use_auto_smooth or mesh.has_custom_normals:
+        mesh.calc_normals_split()
+        return read(mesh.loops, "normal", "f", 3)
+    # Some faces smooth, some flat: the smooth ones have the normals of their vertices.
+    smooth, of_vertex = read(mesh.polygons, "use_smooth", "b", 1), vertex_normals(mesh)
+    starts, of_face = read(mesh.polygons, "loop_start", "i", 1), read(mesh.polygons, "normal", "f", 3)
+    vertices = read(mesh.loops, "vertex_index", "i", 1)
+    ends = list(starts[1:]) + [len(vertices)]
+    normals = array("f")
+    for face, (start, end) in enumerate(zip(starts, ends)):
+        if smooth[face]:
+            for i in vertices[start:end]:
+                normals += of_vertex[3 * i : 3 * i + 3]
+        else:
+            normals += of_face[3 * face : 3 * face + 3] * (end - start)
+    return normals
 
 
 def index_corners(values, size, indices):
