@@ -31,6 +31,11 @@ template <class T> std::string shown(const T& value) {
         out << "(value)";
     return out.str();
 }
+// The environment variable STRESS, a whole number from 1 to 1000; 1 when it is not set. Throws for
+// anything else.
+int stress();
+// How many random cases a test has: `count`, or with STRESS=n n times as many.
+template <class Count> Count scaled(Count count) { return count * static_cast<Count>(stress()); }
 // Runs the body, and returns the message of the exception it throws, or "" when it throws none.
 std::string thrown(const std::function<void()>& body);
 

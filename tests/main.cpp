@@ -1,9 +1,12 @@
 #include "check.h"
 
+#include <charconv>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <stdexcept>
 
 namespace check {
 
@@ -21,6 +24,21 @@ void failed(const char* file, int line, const std::string& message) {
     if (++failuresOfTest <= kPrinted) std::printf("%s:%d: %s\n", file, line, message.c_str());
 }
 
+int stress() {
+    static const int factor = [] {
+        const char* text = std::getenv("STRESS");
+        if (!text) return 1;
+        int value = 0;
+        const char* end = text + std::strlen(text);
+        const auto [stop, error] = std::from_chars(text, end, value);
+        if (error != std::errc() || stop != end || value < 1 || value > 1000)
+            throw std::runtime_error(std::string("STRESS is '") + text +
+                                     "'; a whole number from 1 to 1000 is needed");
+        return value;
+    }();
+    return factor;
+}
+
 std::string thrown(const std::function<void()>& body) {
     try {
         body();
@@ -33,7 +51,8 @@ std::string thrown(const std::function<void()>& body) {
 } // namespace check
 
 // Arguments: words; a test runs when its name contains one of them (all without arguments).
-// --list prints the names, --times prints the seconds of each test.
+// --list prints the names, --times prints the seconds of each test. STRESS=n in the environment
+// makes the random tests n times as long.
 int main(int argc, char** argv) {
     bool list = false, times = false, chosen = false;
     for (int i = 1; i < argc; ++i) {
@@ -43,6 +62,12 @@ int main(int argc, char** argv) {
             times = true;
         else
             chosen = true;
+    }
+    try {
+        check::stress();
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "%s\n", error.what());
+        return 2;
     }
     int passedCount = 0, failedCount = 0;
     for (const check::Test& test : check::tests()) {

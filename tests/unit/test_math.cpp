@@ -26,7 +26,7 @@ template <class Function, class Truth, class Next>
 void checkUlp(const char* name, double bound, int count, Function function, Truth truth,
               Next next) {
     double worst = 0, worstAt = 0;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < check::scaled(count); ++i) {
         const double x = next();
         const long double expected = truth(static_cast<long double>(x));
         const double value = function(x);
@@ -76,7 +76,7 @@ TEST(math_sin_cos_tan) {
     checkUlp("cos near", 0.85, kCount, exact::cos, cosL, near);
     checkUlp("tan small", 2, kCount, exact::tan, tanL, small);
     checkUlp("tan near", 2, kCount, exact::tan, tanL, near);
-    for (int i = 0; i < 1000; ++i) { // one reduction for both, the same bits
+    for (int i = 0; i < check::scaled(1000); ++i) { // one reduction for both, the same bits
         const double x = wide();
         CHECK_EQUAL(exact::sinCos(x).sin, exact::sin(x));
         CHECK_EQUAL(exact::sinCos(x).cos, exact::cos(x));
@@ -243,7 +243,8 @@ TEST(math_pow) {
 TEST(math_pow_float) {
     Draw draw;
     int offByOne = 0;
-    for (int i = 0; i < kCount; ++i) {
+    const int count = check::scaled(kCount);
+    for (int i = 0; i < count; ++i) {
         const float exponent = static_cast<float>(std::fabs(draw.spread(-3, 17)));
         const float base = static_cast<float>(std::exp2(draw.uniform(-140, 120) / exponent));
         const float value = exact::pow(base, exponent);
@@ -254,7 +255,7 @@ TEST(math_pow_float) {
         CHECK_INFO(value == nextUp(expected) || value == nextDown(expected),
                    base << "^" << exponent << " = " << value << ", expected " << expected);
     }
-    CHECK_INFO(offByOne <= kCount / 10000, offByOne << " of " << kCount);
+    CHECK_INFO(offByOne <= count / 10000, offByOne << " of " << count);
     const float nan = std::numeric_limits<float>::quiet_NaN();
     CHECK_EQUAL(exact::pow(0.0f, 0.0f), 1.0f);
     CHECK_EQUAL(exact::pow(0.0f, 5.0f), 0.0f);
@@ -303,7 +304,7 @@ TEST(math_helpers) {
     CHECK_EQUAL(nextUp(-kInfinityF), -std::numeric_limits<float>::max());
     CHECK(std::isnan(nextUp(kNaN)));
     Draw draw;
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < check::scaled(1000); ++i) {
         const double x = draw.spread(-140, 127);
         CHECK_EQUAL(nextUp(x), std::nextafter(x, kInfinity));
         CHECK_EQUAL(nextDown(x), std::nextafter(x, -kInfinity));
@@ -320,7 +321,7 @@ TEST(math_helpers) {
 // Against exact integers: 60-bit products of 30-bit numbers, cancelling in the leading bits.
 TEST(math_difference_of_products) {
     Draw draw;
-    for (int i = 0; i < 100000; ++i) {
+    for (int i = 0; i < check::scaled(100000); ++i) {
         const auto whole = [&] { return static_cast<std::int64_t>(draw.engine() >> 34); };
         const std::int64_t a = whole() + 1, b = whole() + 1;
         const std::int64_t c = a + static_cast<std::int64_t>(draw.engine() % 7) - 3;
@@ -332,7 +333,7 @@ TEST(math_difference_of_products) {
     }
     // Full 53-bit factors with little to no cancellation: rounded nearly once.
     __extension__ using Int128 = __int128;
-    for (int i = 0; i < 100000; ++i) {
+    for (int i = 0; i < check::scaled(100000); ++i) {
         const auto factor = [&] { return static_cast<std::int64_t>(draw.engine() >> 11) | 1; };
         const std::int64_t a = factor(), b = factor(), d = factor();
         // Every other c makes the products cancel in their upper halves.

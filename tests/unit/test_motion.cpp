@@ -47,7 +47,7 @@ TEST(motion_static) {
 
 TEST(motion_keys_are_met) {
     Draw draw;
-    for (int i = 0; i < 2000; ++i) {
+    for (int i = 0; i < check::scaled(2000); ++i) {
         std::vector<Transform> keys;
         const std::size_t count = 2 + draw.engine() % 4;
         for (std::size_t k = 0; k < count; ++k) keys.push_back(draw.transform(i % 2));
@@ -71,7 +71,7 @@ TEST(motion_keys_are_met) {
 // commute with nothing: R turns at constant speed, S and T move linearly.
 TEST(motion_closed_form) {
     Draw draw;
-    for (int i = 0; i < 5000; ++i) {
+    for (int i = 0; i < check::scaled(5000); ++i) {
         const Vec3d axis = draw.vector(1), t0 = draw.vector(10), t1 = draw.vector(10);
         const double start = draw.uniform(-3, 3), turn = draw.uniform(-3.1, 3.1);
         const Transform s0 = Transform::scale({1, 2, draw.uniform(0.5, 3)});
@@ -113,7 +113,7 @@ TEST(motion_translation) {
 TEST(motion_bounds) {
     Draw draw;
     double largestRatio = 0;
-    for (int i = 0; i < 4000; ++i) {
+    for (int i = 0; i < check::scaled(4000); ++i) {
         std::vector<Transform> keys;
         const std::size_t count = 2 + draw.engine() % 2;
         for (std::size_t k = 0; k < count; ++k)

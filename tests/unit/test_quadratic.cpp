@@ -27,7 +27,7 @@ constexpr double kUlp = 0x1p-52;
 // a (t - p)(t - q) with whole numbers: the coefficients are exact, so the roots are known.
 TEST(quadratic_whole_roots) {
     Draw draw;
-    for (int i = 0; i < 200000; ++i) {
+    for (int i = 0; i < check::scaled(200000); ++i) {
         const std::int64_t a = draw.whole(1000), p = draw.whole(1000000);
         // Every third pair of roots lies close together, where the discriminant cancels.
         const std::int64_t q = i % 3 ? draw.whole(1000000) : p + draw.whole(3);
@@ -44,7 +44,7 @@ TEST(quadratic_whole_roots) {
 // The sign of the discriminant: whole coefficients below 2^29 make it exact in 64 bits.
 TEST(quadratic_count) {
     Draw draw;
-    for (int i = 0; i < 200000; ++i) {
+    for (int i = 0; i < check::scaled(200000); ++i) {
         const std::int64_t half = draw.whole(1 << 28), b = 2 * half;
         const std::int64_t a = half + draw.whole(2), c = half + draw.whole(2);
         if (a == 0) continue;
@@ -91,7 +91,7 @@ TEST(quadratic_extremes) {
     const Roots outside = solveQuadratic(1e-320, 1, -2); // the far root is beyond double
     CHECK((outside == Roots{1, 2, 2}));
     Draw draw;
-    for (int i = 0; i < 10000; ++i) {
+    for (int i = 0; i < check::scaled(10000); ++i) {
         // Scaling all coefficients by 2^k, and t by 2^m, must not change the bits.
         const double a = draw.uniform(-1, 1), b = draw.uniform(-4, 4), c = draw.uniform(-1, 1);
         if (a == 0) continue;

@@ -92,7 +92,7 @@ TEST(ray_setup_axes) {
 TEST(ray_setup_never_misses_a_box) {
     Random random(21);
     long long falseMisses = 0, late = 0, wide = 0, hits = 0, count = 0;
-    for (int i = 0; i < 1500000; ++i) {
+    for (int i = 0; i < check::scaled(1500000); ++i) {
         const Bounds box = someBox(random);
         const Vec3 org = someOrigin(random, box), dir = someDirection(random, org, box);
         if (!isTraceable({org, dir})) continue;
@@ -131,7 +131,7 @@ TEST(ray_setup_never_misses_a_box) {
 TEST(ray_setup_is_monotone) {
     Random random(22);
     long long broken = 0, entered = 0;
-    for (int i = 0; i < 1000000; ++i) {
+    for (int i = 0; i < check::scaled(1000000); ++i) {
         const Bounds inner = someBox(random);
         Bounds outer = inner;
         for (int k = 0; k < 3; ++k) {
@@ -174,7 +174,7 @@ TEST(ray_setup_what_is_traceable) {
 // A triangle at depth 1/key is never cut: 1 / key loses half an ulp twice, the cut adds 8 u.
 TEST(ray_setup_depth_cut) {
     Random random(23);
-    for (int i = 0; i < 100000; ++i) {
+    for (int i = 0; i < check::scaled(100000); ++i) {
         const float key = static_cast<float>(random.logUniform(1e-6, 1e6));
         const long double z = 1.0L / static_cast<long double>(key);
         const long double excess = static_cast<long double>(depthCut(key)) / z - 1;

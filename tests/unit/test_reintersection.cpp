@@ -50,10 +50,10 @@ void leave(Random& random, const kit::Kind& kind, const Shape& shape, const Surf
     }
 }
 
-// 100 shapes of a kind, 100 points each, 100 rays a point.
+// 100 (times STRESS) shapes of a kind, 100 points each, 100 rays a point.
 Counts battery(Random& random, const kit::Kind& kind) {
     Counts counts;
-    for (int s = 0; s < 100; ++s) {
+    for (int s = 0; s < check::scaled(100); ++s) {
         const double size = random.logUniform(1e-4, 1e4);
         const Vec3d factors = kit::randomFactors(random, size);
         Vec3d offset;

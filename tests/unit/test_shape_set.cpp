@@ -101,7 +101,7 @@ TEST(shape_set_tree_equals_linear_search) {
     long long rays = 0, hits = 0, closestWrong = 0, anyWrong = 0, seeThroughWrong = 0,
               bruteWrong = 0;
     long long ties = 0, collected = 0;
-    for (const std::uint64_t seed : {61u, 62u, 63u, 64u}) {
+    for (std::uint64_t seed = 61; seed < 61 + check::scaled(4u); ++seed) {
         const Scene scene(seed);
         CHECK(!scene.tree.bvh.nodes.empty() && scene.linear.bvh.nodes.empty());
         CHECK(scene.tree.unbounded.size() >= 4 && scene.tree.shapes.size() == 240);
@@ -151,8 +151,8 @@ TEST(shape_set_tree_equals_linear_search) {
                 ++bruteWrong;
         }
     }
-    std::printf("%lld rays, %lld hits, %lld see-through hits, %lld ties, seeds 61 to 64\n", rays,
-                hits, collected, ties);
+    std::printf("%lld rays, %lld hits, %lld see-through hits, %lld ties, seeds 61 to %u\n", rays,
+                hits, collected, ties, 60 + check::scaled(4u));
     CHECK(rays >= 200000 && hits > 100000 && collected > 10000 && ties > 10);
     CHECK_EQUAL(closestWrong, 0);
     CHECK_EQUAL(anyWrong, 0);
@@ -167,7 +167,7 @@ TEST(shape_set_occluded_is_closest_exists) {
         std::fill(set->shadows.begin(), set->shadows.end(), Shadow::Opaque);
     Random random(66);
     long long wrong = 0, hits = 0;
-    for (int i = 0; i < 30000; ++i) {
+    for (int i = 0; i < check::scaled(30000); ++i) {
         Ray ray = someRay(random, scene.tree);
         ray.tMax = kInfinityF;
         const Hit hit = scene.tree.closest(ray);

@@ -73,7 +73,7 @@ std::string shown(const std::array<Vec3, 3>& t, Vec3 o, Vec3 d) {
 TEST(triangle_against_integers) {
     Random random(31);
     long long inside = 0, onEdge = 0, wrong = 0, farOff = 0, throughOrigin = 0;
-    for (int i = 0; i < 1000000; ++i) {
+    for (int i = 0; i < check::scaled(1000000); ++i) {
         const std::int64_t size = random.chance(0.5) ? 4 : 100; // small: many rays meet edges
         const auto number = [&] {
             return static_cast<std::int64_t>(random.below(static_cast<std::size_t>(2 * size + 1))) -
@@ -134,7 +134,7 @@ TEST(triangle_against_integers) {
 TEST(triangle_shared_edges_are_closed) {
     Random random(32);
     long long leaks = 0, both = 0, count = 0;
-    for (int i = 0; i < 400000; ++i) {
+    for (int i = 0; i < check::scaled(400000); ++i) {
         const double size = random.logUniform(1e-4, 1);
         const Vec3d shift = random.chance(0.5) ? random.inBox(1) : Vec3d{};
         const auto corner = [&](Vec3d p) { return toFloat(shift + p * size); };
@@ -181,7 +181,7 @@ TEST(triangle_shared_edges_are_closed) {
 TEST(triangle_against_long_double) {
     Random random(33);
     long long clear = 0, wrong = 0, farOff = 0, hits = 0;
-    for (int i = 0; i < 500000; ++i) {
+    for (int i = 0; i < check::scaled(500000); ++i) {
         std::array<Vec3, 3> t;
         const double size = random.logUniform(1e-3, 2);
         const Vec3d at = random.inBox(1);
@@ -265,7 +265,8 @@ TEST(triangle_one_owner_per_crossing) {
         }
     }
     long long wrong = 0, shared = 0;
-    for (int i = 0; i < 20000; ++i) {
+    const int count = check::scaled(20000);
+    for (int i = 0; i < count; ++i) {
         // Aims in the middle, on a grid of halves: at corners, edges, and centres.
         const float x = static_cast<float>(random.below(9)) * 0.5f - 2;
         const float y = static_cast<float>(random.below(9)) * 0.5f - 2;
@@ -283,7 +284,7 @@ TEST(triangle_one_owner_per_crossing) {
         shared += hits > 1;
         if (hits < 1 || owners != 1) ++wrong;
     }
-    std::printf("%lld of 20000 rays meet several triangles, seed 35\n", shared);
+    std::printf("%lld of %d rays meet several triangles, seed 35\n", shared, count);
     CHECK(shared > 5000);
     CHECK_EQUAL(wrong, 0);
 
@@ -291,7 +292,7 @@ TEST(triangle_one_owner_per_crossing) {
     for (const MeshDesc& desc :
          {meshes::icosphere(2), meshes::torus(0.3, 24, 12), meshes::cube()}) {
         const MeshGeometry g = toGeometry(desc, {});
-        for (int i = 0; i < 3000; ++i) {
+        for (int i = 0; i < check::scaled(3000); ++i) {
             const Vec3 org = toFloat(random.direction() * 4.0);
             const auto& c = g.triangles[random.below(g.triangles.size())];
             const Vec3 a = g.points[c[0]], b = g.points[c[1]];
@@ -352,7 +353,7 @@ bool byPrim(const Hit& a, const Hit& b) { return a.prim < b.prim; }
 
 TEST(triangle_tree_equals_brute_force) {
     long long rays = 0, hits = 0, closestWrong = 0, anyWrong = 0, collectWrong = 0, self = 0;
-    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    for (std::uint64_t seed = 1; seed <= check::scaled(8u); ++seed) {
         Random random(3400 + seed);
         const auto triangles = meshes::soup(random, 150);
         const MeshGeometry withTree = meshes::geometryOf(triangles, true);
@@ -421,7 +422,7 @@ TEST(triangle_tree_equals_brute_force) {
             for (const Hit& hit : a) self += !(hit.t > 0);
         }
     }
-    std::printf("%lld rays, %lld hits, seeds 3401 to 3408\n", rays, hits);
+    std::printf("%lld rays, %lld hits, seeds 3401 to %u\n", rays, hits, 3400 + check::scaled(8u));
     CHECK(rays >= 200000 && hits > 80000);
     CHECK_EQUAL(closestWrong, 0);
     CHECK_EQUAL(anyWrong, 0);

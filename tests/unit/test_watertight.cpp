@@ -70,24 +70,26 @@ struct Placed {
 };
 
 // The placements of a solid: as it is, turned and stretched, mirrored, at a far place of the world,
-// small in a big scene. Each baked and as an instance.
+// small in a big scene. Each baked and as an instance. With STRESS=n n times, each time others.
 void forEachPlacement(Random& random, const Solid& solid,
                       const std::function<void(const Placed&, const char*)>& fn) {
     const auto both = [&](const Transform& map, const SceneFrame& frame, const char* name) {
         fn(Placed(solid, map, frame, false), name);
         fn(Placed(solid, map, frame, true), name);
     };
-    const Transform plain, turned = random.affine(8, 1);
-    const Transform mirror = random.affine(2, 1) * Transform::scale({-1, 1, 1});
-    const Transform far =
-        Transform::translate({148376, 1234, -223423}) * random.affine(2, 0) * Transform::scale(7);
-    both(plain, meshes::frameFor(solid.mesh, plain), "plain");
-    both(turned, meshes::frameFor(solid.mesh, turned), "affine");
-    both(mirror, meshes::frameFor(solid.mesh, mirror), "affine, maybe mirrored");
-    both(far, meshes::frameFor(solid.mesh, far), "far");
-    SceneFrame large; // a small thing in a scene of extent [1,2)
-    both(Transform::translate(random.inBox(0.7)) * random.affine(2, 0) * Transform::scale(0.01),
-         large, "small");
+    for (int round = 0; round < check::scaled(1); ++round) {
+        const Transform plain, turned = random.affine(8, 1);
+        const Transform mirror = random.affine(2, 1) * Transform::scale({-1, 1, 1});
+        const Transform far = Transform::translate({148376, 1234, -223423}) * random.affine(2, 0) *
+                              Transform::scale(7);
+        both(plain, meshes::frameFor(solid.mesh, plain), "plain");
+        both(turned, meshes::frameFor(solid.mesh, turned), "affine");
+        both(mirror, meshes::frameFor(solid.mesh, mirror), "affine, maybe mirrored");
+        both(far, meshes::frameFor(solid.mesh, far), "far");
+        SceneFrame large; // a small thing in a scene of extent [1,2)
+        both(Transform::translate(random.inBox(0.7)) * random.affine(2, 0) * Transform::scale(0.01),
+             large, "small");
+    }
 }
 
 std::string shown(const Ray& ray) {
@@ -288,7 +290,7 @@ TEST(watertight_no_shadow_acne_on_formulas) {
     ShadowCounts counts;
     for (const kit::Kind& kind : kit::kinds()) {
         if (!kind.isClosed && !kind.isFlat) continue; // the inside of a tube may well be in shadow
-        for (int n = 0; n < 60; ++n) {
+        for (int n = 0; n < check::scaled(60); ++n) {
             const Transform map =
                 random.affine(8, 1) * Transform::scale(random.logUniform(0.01, 1));
             const auto shape = kind.make(map);
