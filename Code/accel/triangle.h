@@ -59,10 +59,10 @@ struct ShearedTriangle {
     }
 };
 
-// 1/z of the plane, for a triangle that reaches behind the origin. There its sign tells hit from
-// miss, and float loses it for needles (a cross product of long, nearly parallel edges), which a
-// ray that just left one would then meet. In double that takes needles of 1e8.
-inline float straddlingKey(const RaySetup& ray, const Vec3 (&v)[3]) {
+// 1/z where the ray meets the triangle's plane. In double: the cross product of long, nearly
+// parallel edges cancels, and a float plane of a needle is met anywhere along the needle, by rays
+// that leave it or that end on it. Double takes needles of 1e8.
+inline float planeKey(const RaySetup& ray, const Vec3 (&v)[3]) {
     const Vec3d v0 = toDouble(v[0]);
     const Vec3d n = cross(toDouble(v[1]) - v0, toDouble(v[2]) - v0);
     const Vec3d slope{ray.Sx, ray.Sy, 1};
@@ -79,18 +79,10 @@ inline float canonicalKey(const RaySetup& ray, Vec3 v0, Vec3 v1, Vec3 v2) {
     const float zMax = max(v[0].z, max(v[1].z, v[2].z));
     if (!(zMax > 0)) return 0;
 
-    float planeKey = 0;
-    if (zMin > 0) {
-        const Vec3 n = cross(v[1] - v[0], v[2] - v[0]);
-        const float planeDistance = (n.x * v[0].x + n.y * v[0].y) + n.z * v[0].z;
-        const float inverse = 1.0f / planeDistance;
-        planeKey = ((n.x * inverse) * ray.Sx + (n.y * inverse) * ray.Sy) + n.z * inverse;
-    } else {
-        planeKey = straddlingKey(ray, v);
-        if (!(planeKey > 0)) return 0; // met behind the origin
-    }
+    const float plane = planeKey(ray, v);
+    if (!(zMin > 0) && !(plane > 0)) return 0; // straddles the origin and is met behind it
     const float nearest = zMin > 0 ? 1.0f / zMin : std::numeric_limits<float>::infinity();
-    float key = min(max(planeKey, 1.0f / zMax), nearest);
+    float key = min(max(plane, 1.0f / zMax), nearest);
 
     // Entry into and exit from the triangle's own box on the two lateral axes.
     const float xLo = min(v[0].x, min(v[1].x, v[2].x));
