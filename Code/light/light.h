@@ -1,6 +1,6 @@
 // Light: what reaches a point from a lamp, before anything is in the way.
 // Lights know positions and radiometry; they never see materials or trace rays. Lengths are in the
-// scene's normalised units, intensities scaled to them (render/scene.cpp).
+// scene's normalised units, intensities scaled to them (render/make_light.cpp).
 #pragma once
 
 #include "base/vec.h"
