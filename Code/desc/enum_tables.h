@@ -34,6 +34,7 @@ inline constexpr auto
     kEnumNames<MaterialDesc::SpecularModel> = std::to_array<EnumName<MaterialDesc::SpecularModel>>({
         {MaterialDesc::SpecularModel::Blinn, "blinn"},
         {MaterialDesc::SpecularModel::Ashikhmin, "ashikhmin"},
+        {MaterialDesc::SpecularModel::Phong, "phong"},
     });
 template <>
 inline constexpr auto
@@ -78,6 +79,18 @@ inline constexpr auto kEnumNames<ObjectDesc::Kind> = std::to_array<EnumName<Obje
     {ObjectDesc::Kind::Cone, "cone"},
     {ObjectDesc::Kind::Mesh, "instance"},
 });
+template <>
+inline constexpr auto kEnumNames<ObjectDesc::Sides> = std::to_array<EnumName<ObjectDesc::Sides>>({
+    {ObjectDesc::Sides::Both, "both"},
+    {ObjectDesc::Sides::Front, "front"},
+    {ObjectDesc::Sides::Back, "back"},
+});
+
+template <>
+inline constexpr auto kEnumNames<WorldDesc::Up> = std::to_array<EnumName<WorldDesc::Up>>({
+    {WorldDesc::Up::Z, "z"},
+    {WorldDesc::Up::Y, "y"},
+});
 
 template <>
 inline constexpr auto
@@ -86,6 +99,7 @@ inline constexpr auto
         {SettingsDesc::Sampler::Stratified, "stratified"},
         {SettingsDesc::Sampler::Random, "random"},
         {SettingsDesc::Sampler::Grid, "grid"},
+        {SettingsDesc::Sampler::Corners, "corners"},
     });
 template <>
 inline constexpr auto
@@ -107,5 +121,6 @@ static_assert(isInOrder<TextureDesc::Space>() && isInOrder<TextureDesc::Interpol
               isInOrder<MaterialDesc::SpecularModel>() && isInOrder<MaterialDesc::Fresnel>() &&
               isInOrder<LightDesc::Kind>() && isInOrder<CameraDesc::Kind>() &&
               isInOrder<CameraDesc::SensorFit>() && isInOrder<ObjectDesc::Kind>() &&
+              isInOrder<ObjectDesc::Sides>() && isInOrder<WorldDesc::Up>() &&
               isInOrder<SettingsDesc::Sampler>() && isInOrder<SettingsDesc::Filter>() &&
               isInOrder<SettingsDesc::Transfer>());

@@ -54,9 +54,9 @@ using Corners4 = std::array<Vec3d, 4>;
 using Crop = std::optional<std::array<int, 4>>;
 template <class Block>
 using Field =
-    std::variant<double Block::*, Vec2d Block::*, Rgbd Block::*, Corners4 Block::*, int Block::*,
-                 std::uint32_t Block::*, Crop Block::*, bool Block::*, std::string Block::*,
-                 Reference<Block>, MaterialList<Block>, Choice<Block>>;
+    std::variant<double Block::*, Vec2d Block::*, Vec3d Block::*, Rgbd Block::*, Corners4 Block::*,
+                 int Block::*, std::uint32_t Block::*, Crop Block::*, bool Block::*,
+                 std::string Block::*, Reference<Block>, MaterialList<Block>, Choice<Block>>;
 
 using KindMask = std::uint32_t;
 inline constexpr KindMask kAllKinds = ~KindMask{0};
@@ -79,6 +79,7 @@ inline constexpr auto kSettingsProperties = std::to_array<Property<SettingsDesc>
     {"samples", &SettingsDesc::samplesPerPixel, {}, {1, 1 << 24}},
     {"light_samples", &SettingsDesc::lightSamples, {}, {1, 4096}},
     {"max_depth", &SettingsDesc::maxDepth, {}, {0, 1024}},
+    {"cutoff", &SettingsDesc::cutoff, {}, kUnit},
     {"sampler", choice<&SettingsDesc::sampler>(), {}, {}},
     {"jitter", &SettingsDesc::jitter, {}, {}},
     {"seed", &SettingsDesc::seed, {}, kAnyUnsigned},
@@ -91,6 +92,7 @@ inline constexpr auto kWorldProperties = std::to_array<Property<WorldDesc>>({
     {"background", &WorldDesc::background, {}, kColor},
     {"ambient", &WorldDesc::ambient, {}, kColor},
     {"environment", Reference<WorldDesc>{&WorldDesc::environment, Target::Texture}, {}, {}},
+    {"environment_up", choice<&WorldDesc::environmentUp>(), {}, {}},
     {"environment_rotation", &WorldDesc::rotationDeg, {}, kTurn},
 });
 
@@ -152,6 +154,7 @@ inline constexpr auto kLightProperties = [] {
     return std::to_array<Property<LightDesc>>({
         {"type", choice<&LightDesc::kind>(), {}, {}},
         {"color", &LightDesc::color, {}, kColor},
+        {"attenuation", &LightDesc::attenuation, {}, kNotNegative, only(Point, Spot)},
         {"radius", &LightDesc::radius, {}, kNotNegative, only(Point, Spot, Sphere)},
         {"size", &LightDesc::size, {}, kPositive, only(Rectangle, Disk)},
         {"cone_angle", &LightDesc::coneAngleDeg, {}, {0, 180, true}, only(Spot)},
@@ -174,7 +177,12 @@ inline constexpr auto kObjectProperties = [] {
         {"caps", &ObjectDesc::caps, {}, {}, only(Cylinder, Cone)},
         {"corners", &ObjectDesc::corners, {}, kAnyNumber, only(Plane)},
         {"mesh", Reference<ObjectDesc>{&ObjectDesc::mesh, Target::Mesh}, {}, {}, only(Mesh)},
-        {"materials", MaterialList<ObjectDesc>{&ObjectDesc::materials, true}, {}, {}, only(Mesh)},
+        {"materials",
+         MaterialList<ObjectDesc>{&ObjectDesc::materials, true},
+         {},
+         {},
+         only(Mesh, InfinitePlane)},
+        {"sides", choice<&ObjectDesc::sides>(), {}, {}},
     });
 }();
 
@@ -235,6 +243,8 @@ void forEachNumber(Block& block, const FieldOfBlock& field, Call&& call) {
                     call(value);
                 else if constexpr (std::is_same_v<Value, Vec2d>)
                     call(value.x), call(value.y);
+                else if constexpr (std::is_same_v<Value, Vec3d>)
+                    call(value.x), call(value.y), call(value.z);
                 else if constexpr (std::is_same_v<Value, Rgbd>)
                     call(value.r), call(value.g), call(value.b);
                 else if constexpr (std::is_same_v<Value, Corners4>)

@@ -57,7 +57,8 @@ struct TextureDesc {
 
 struct MaterialDesc {
     // Blinn: specular * (N.H)^exponent, unnormalised. Ashikhmin: normalised, energy conserving.
-    enum class SpecularModel { Blinn, Ashikhmin };
+    // Phong: specular * (R.V)^exponent with R the mirrored direction to the light, unnormalised.
+    enum class SpecularModel { Blinn, Ashikhmin, Phong };
     // How mirror and transmission share the light. None: as written. Dielectric: exact Fresnel by
     // ior (mirror*F, transmission*(1-F)). Schlick: mirror + (1-mirror)(1-cos)^5.
     enum class Fresnel { None, Dielectric, Schlick };
@@ -97,6 +98,8 @@ struct LightDesc {
     // Point, Spot: radiant intensity [W/sr]. Sun: irradiance [W/m^2] on a facing surface.
     // Rectangle, Disk, Sphere: radiance [W/(m^2 sr)].
     Rgbd color{1, 1, 1};
+    // Point, Spot: irradiance at distance d is color / (x d^2 + y d + z) on a facing surface.
+    Vec3d attenuation{1, 0, 0};
     double radius = 0; // Sphere: its radius. Point, Spot: soft-shadow disk facing the receiver
     Vec2d size{1, 1};  // Rectangle: sides. Disk: diameters (an ellipse when they differ)
     double coneAngleDeg = 45;   // Spot: full opening angle
@@ -136,6 +139,10 @@ struct MeshDesc {
     using Corners = std::array<std::uint32_t, 3>;
     std::string name;
     SourceLoc loc;
+    // What the arrays are to be read from; load() does it and leaves `file` empty.
+    std::string file;
+    SourceLoc fileLoc;
+    double smoothAngleDeg = 0; // of the file's: edges that bend less are shaded smooth; 0 flat
     std::vector<Vec3d> points;
     std::vector<Corners> triangles;
     std::vector<Vec3> normals;
@@ -151,11 +158,17 @@ struct ObjectDesc {
     // `corners` in order. InfinitePlane z = 0. Disk `radius` in z = 0. Cylinder |z| <= 1, `radius`.
     // Cone: `radius` at z = -1 to `topRadius` at z = 1. Mesh: `mesh`.
     enum class Kind { Sphere, Cube, Plane, InfinitePlane, Disk, Cylinder, Cone, Mesh };
+    // Front is the outside, +Z of flat shapes. Rays of sight (camera, mirror, glass) pass through a
+    // side that is not there; shadows fall from both.
+    enum class Sides { Both, Front, Back };
     std::string name;
     SourceLoc loc;
     Kind kind = Kind::Sphere;
     Keys worldFromObject{kIdentityRows};
-    std::vector<Handle> materials; // Mesh: by slot; others: the first. Empty: the default material
+    // Mesh: by slot. InfinitePlane: two alternate on the unit squares of its x and y, the first
+    // where floor(x) + floor(y) is even. Others: the first. Empty: the default material.
+    std::vector<Handle> materials;
+    Sides sides = Sides::Both;
     double radius = 1;
     double topRadius = 0;
     bool caps = true; // Cylinder, Cone
@@ -170,12 +183,15 @@ struct WorldDesc {
     Rgbd background{0, 0, 0};   // radiance where no surface is
     Rgbd ambient{0, 0, 0};      // reaches every surface: adds diffuse * ambient
     Handle environment = kNone; // equirectangular picture, multiplied by background
-    double rotationDeg = 0;     // of the environment about +Z
+    enum class Up { Z, Y };
+    Up environmentUp = Up::Z; // axis through the upper edge of the environment
+    double rotationDeg = 0;   // of the environment about that axis
     bool operator==(const WorldDesc&) const = default;
 };
 
 struct SettingsDesc {
-    enum class Sampler { Sobol, Stratified, Random, Grid };
+    // Corners: rays through the corners of the pixels, each shared by the four pixels around it.
+    enum class Sampler { Sobol, Stratified, Random, Grid, Corners };
     enum class Filter { Box, Tent, Gaussian, BlackmanHarris };
     enum class Transfer { Srgb, Linear };
     SourceLoc loc;
@@ -184,7 +200,8 @@ struct SettingsDesc {
     std::optional<std::array<int, 4>> crop; // x0 y0 x1 y1, from the top left, x1 y1 exclusive
     int samplesPerPixel = 16;
     int lightSamples = 1;
-    int maxDepth = 8; // bounces after the camera ray
+    int maxDepth = 8;           // bounces after the camera ray
+    double cutoff = 1.0 / 2048; // rays that change no pixel by more than this are not traced
     Sampler sampler = Sampler::Sobol;
     bool jitter = true;
     std::uint32_t seed = 0;

@@ -183,6 +183,8 @@ private:
         checkKeys(light, {light.worldFromLight});
         if (light.kind == LightDesc::Kind::Sphere && !(light.radius > 0))
             error(light, "a light of type sphere needs a 'radius' > 0");
+        if (light.attenuation == Vec3d{})
+            error(light, "'attenuation' 0 0 0 would be light without end; 1 0 0 is the usual one");
     }
 
     void checkObject(const ObjectDesc& object) {
@@ -192,9 +194,10 @@ private:
             error(object, "one of its material slots is empty");
         using enum ObjectDesc::Kind;
         if (object.kind == Mesh) return checkInstance(object);
-        if (object.materials.size() > 1)
+        const std::size_t most = object.kind == InfinitePlane ? 2 : 1;
+        if (object.materials.size() > most)
             error(object, "has ", object.materials.size(),
-                  " materials; only an instance has more than one");
+                  " materials; only an instance has more than ", most == 1 ? "one" : "two");
         if (object.kind == Cone && object.radius == 0 && object.topRadius == 0)
             error(object, "'radius' and 'top_radius' are both 0");
         if (object.kind == Plane)

@@ -1,0 +1,26 @@
+// What a reader may know besides the text: the choices that the command line offers, and where its
+// warnings go. Readers open no files of their own; load.cpp brings what they name.
+#pragma once
+
+#include "base/error.h"
+#include "base/source.h"
+
+#include <cstddef>
+#include <string_view>
+
+struct ReadOptions {
+    // JSON: what is not known is skipped with a warning instead of being an error.
+    bool lenient = false;
+    // NFF: `angle` reaches from edge to edge of the picture, as POV-Ray reads it, and not from the
+    // centre of the first to the centre of the last pixel row, as the standard says.
+    bool nffAngleToEdges = false;
+};
+
+struct ReadContext {
+    ReadOptions options;
+    Diagnostics& diagnostics;
+
+    void warn(const SourceFile& source, std::size_t offset, std::string_view what) const {
+        diagnostics.warnings.push_back(located(source, offset, what, "warning"));
+    }
+};

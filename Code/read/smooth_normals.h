@@ -1,0 +1,15 @@
+// Normals for meshes that come without.
+#pragma once
+
+#include "desc/scene_desc.h"
+
+#include <cstdint>
+#include <span>
+
+// Replaces the normals of the mesh: at each corner the mean of the normals of the triangles around
+// the point, weighted with their angle there (Thürmer and Wüthrich 1998), over those triangles that
+// bend less than smoothAngleDeg away from the corner's own. 180: all of them.
+void smoothByAngle(MeshDesc& mesh, double smoothAngleDeg);
+
+// The same over the triangles of equal group; group 0 stays flat. groups: one per triangle.
+void smoothByGroup(MeshDesc& mesh, std::span<const std::uint32_t> groups);
