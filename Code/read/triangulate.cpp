@@ -85,14 +85,16 @@ public:
     void run() {
         while (left_ > 3) {
             if (todo_.empty()) resumeTests();
-            if (todo_.empty()) cutSomething();
+            if (todo_.empty()) {
+                if (patience_-- == 0) break;
+                cutSomething();
+            }
             std::vector<Index> now;
             now.swap(todo_);
             for (const Index i : now)
                 if (left_ > 3 && corners_[i].isThere && isEar(i)) cut(i);
         }
-        const Index i = anyCorner();
-        emit(corners_[i].previous, i, corners_[i].next);
+        emitFan();
     }
 
 private:
@@ -156,6 +158,11 @@ private:
     }
 
     void emit(Index a, Index b, Index c) { triangles_.push_back({a, b, c}); }
+    void emitFan() { // of all that is left
+        const Index hub = anyCorner();
+        for (Index i = corners_[hub].next; corners_[i].next != hub; i = corners_[i].next)
+            emit(hub, i, corners_[i].next);
+    }
 
     void cut(Index i) {
         const auto [previous, next] = std::pair(corners_[i].previous, corners_[i].next);
@@ -215,7 +222,8 @@ private:
     std::vector<Index> obstacles_; // by x
     std::vector<Index> todo_;      // corners that may have become ears
     std::size_t left_;
-    Index first_ = 0; // no corner before it is left
+    int patience_ = 256; // with a polygon that crosses itself, for its right parts' sake
+    Index first_ = 0;    // no corner before it is left
     std::vector<std::array<Index, 3>>& triangles_;
 };
 
