@@ -90,8 +90,7 @@ private:
     }
 
     void readShape(JsonGeometry& geometry, const std::string& type, JsonFields& fields) {
-        auto shape =
-            readJsonShape(type, fields, geometry.materials.size(), rules_, textures_, meshes_);
+        auto shape = readJsonShape(type, fields, rules_, textures_, meshes_);
         geometry.place = std::move(shape->place);
         geometry.checkerboardPlace = std::move(shape->checkerboard);
         geometry.shape = std::move(shape->object);
