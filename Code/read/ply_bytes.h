@@ -24,10 +24,11 @@ public:
         std::size_t rowBytes = 0; // at least: lists may be empty
         for (const PlyProperty& p : element.properties)
             rowBytes += sizeOf(p.countType.value_or(p.type));
-        if (rowBytes > 0 && element.count > bytesLeft() / rowBytes)
+        if (rowBytes == 0) return;
+        if (const std::size_t possible = bytesLeft() / rowBytes; element.count > possible)
             failAt(source_, element.offset,
-                   cat("'", element.name, "' has ", element.count, " rows of at least ", rowBytes,
-                       " bytes, but only ", bytesLeft(), " bytes are left in the file"));
+                   cat("'element ", element.name, " ", element.count,
+                       "' is more than the rest of the file can hold (", possible, " at most)"));
     }
     void beginRow() {}
     void endRow() { ++row_; }

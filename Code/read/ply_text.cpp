@@ -9,10 +9,11 @@ void PlyText::begin(const PlyElement& element) {
     row_ = 0;
     // A value and what is between it and the next one.
     const std::size_t rowBytes = 2 * element.properties.size();
-    if (rowBytes > 0 && element.count > (bytesLeft() + 1) / rowBytes)
+    if (rowBytes == 0) return;
+    if (const std::size_t possible = (bytesLeft() + 1) / rowBytes; element.count > possible)
         failAt(source_, element.offset,
-               cat("'", element.name, "' has ", element.count, " rows of at least ", rowBytes,
-                   " bytes, but only ", bytesLeft(), " bytes are left in the file"));
+               cat("'element ", element.name, " ", element.count,
+                   "' is more than the rest of the file can hold (", possible, " at most)"));
 }
 
 void PlyText::beginRow() {
