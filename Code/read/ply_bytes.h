@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "read/ply_header.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <span>
@@ -77,10 +78,11 @@ private:
     }
 
     std::size_t listCount(const PlyProperty& property, std::size_t most) {
-        const double count = number(*property.countType);
-        if (!(count >= 0 && count <= static_cast<double>(most)))
-            fail(cat("a list of '", property.name, "' has ", static_cast<long long>(count),
-                     " items; at most ", most));
+        const auto count = static_cast<std::int64_t>(number(*property.countType));
+        const std::size_t possible = std::min(most, bytesLeft() / sizeOf(property.type));
+        if (count < 0 || static_cast<std::uint64_t>(count) > possible)
+            fail(cat("a list of '", property.name, "' has ", count, " items; at most ", possible,
+                     possible < most ? " fit into the rest of the file" : " are possible"));
         return static_cast<std::size_t>(count);
     }
 

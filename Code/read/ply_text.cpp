@@ -4,6 +4,8 @@
 #include "desc/names.h"
 #include "read/number.h"
 
+#include <algorithm>
+
 void PlyText::begin(const PlyElement& element) {
     element_ = &element;
     row_ = 0;
@@ -68,21 +70,23 @@ std::uint32_t PlyText::whole() {
 
 std::size_t PlyText::listCount(const PlyProperty& property, std::size_t most) {
     const std::uint32_t count = whole();
-    if (count > most || *last_ == '-')
-        fail(cat("a list of '", property.name, "' has ", word(last_), " items; at most ", most));
+    const std::size_t possible = std::min(most, bytesLeft() / 2);
+    if (count > possible || *last_ == '-')
+        fail(cat("a list of '", property.name, "' has ", word(last_), " items; at most ", possible,
+                 possible < most ? " fit into the rest of the file" : " are possible"));
     listStart_ = p_;
     return count;
 }
 
 void PlyText::list(const PlyProperty& property, std::size_t most,
                    std::vector<std::uint32_t>& items) {
-    const std::size_t count = listCount(property, std::min(most, bytesLeft() / 2));
+    const std::size_t count = listCount(property, most);
     items.clear();
     for (std::size_t i = 0; i < count; ++i) items.push_back(whole());
 }
 
 void PlyText::skipList(const PlyProperty& property) {
-    for (std::size_t left = listCount(property, bytesLeft() / 2); left > 0; --left) skipWord();
+    for (std::size_t left = listCount(property, bytesLeft()); left > 0; --left) skipWord();
 }
 
 void PlyText::failAtItem(const PlyProperty&, std::size_t i, std::string_view what) {
