@@ -5,6 +5,7 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <span>
 #include <sstream>
 #include <stdexcept>
 
@@ -14,33 +15,30 @@ namespace {
 
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 
-const JsonValue* find(const JsonValue& object, const char* key) {
-    const JsonMember* member = object.find(key);
-    return member ? &member->value : nullptr;
-}
 const JsonValue& need(const JsonValue& object, const char* key) {
-    if (const JsonValue* value = find(object, key)) return *value;
+    if (const JsonValue* value = object.find(key)) return *value;
     throw std::runtime_error(std::string("missing '") + key + "'");
 }
 double number(const JsonValue& object, const char* key, double otherwise) {
-    const JsonValue* value = find(object, key);
-    return value ? value->number : otherwise;
+    const JsonValue* value = object.find(key);
+    return value ? value->number() : otherwise;
 }
 std::string text(const JsonValue& object, const char* key) {
-    const JsonValue* value = find(object, key);
-    return value ? value->text : "";
+    const JsonValue* value = object.find(key);
+    return value ? std::string(value->text()) : "";
 }
 Vec3d vec3(const JsonValue& value) {
-    return {value.items.at(0).number, value.items.at(1).number, value.items.at(2).number};
+    const auto numbers = value.items();
+    if (numbers.size() != 3) throw std::runtime_error("not three numbers");
+    return {numbers[0].number(), numbers[1].number(), numbers[2].number()};
 }
 Vec3d vec3(const JsonValue& object, const char* key, Vec3d otherwise) {
-    const JsonValue* value = find(object, key);
+    const JsonValue* value = object.find(key);
     return value ? vec3(*value) : otherwise;
 }
-const std::vector<JsonValue>& list(const JsonValue& object, const char* key) {
-    static const std::vector<JsonValue> none;
-    const JsonValue* value = find(object, key);
-    return value ? value->items : none;
+std::span<const JsonValue> list(const JsonValue& object, const char* key) {
+    const JsonValue* value = object.find(key);
+    return value ? value->items() : std::span<const JsonValue>();
 }
 
 // The corners of "v" and "f" lines; of a corner "a/b/c" only the position; polygons as fans.
@@ -84,9 +82,9 @@ Affine turnZ(double a) {
 }
 Affine placing(const JsonValue& object) {
     const Vec3d turn = vec3(object, "rotation", {});
-    const JsonValue* scale = find(object, "scale");
-    const bool equal = scale && scale->kind == JsonValue::Kind::Number;
-    const Vec3d s = equal ? Vec3d{1, 1, 1} * scale->number : vec3(object, "scale", {1, 1, 1});
+    const JsonValue* scale = object.find("scale");
+    const bool equal = scale && scale->isNumber();
+    const Vec3d s = equal ? Vec3d{1, 1, 1} * scale->number() : vec3(object, "scale", {1, 1, 1});
     return translation(vec3(object, "position", {})) * turnX(radians(turn.x)) *
            turnY(radians(turn.y)) * turnZ(radians(turn.z)) *
            Affine{{s.x, 0, 0}, {0, s.y, 0}, {0, 0, s.z}, {}};
@@ -95,10 +93,10 @@ Affine placing(const JsonValue& object) {
 enum class Dialect { W2024, F2024, F2025 }; // W2024 is also the one of 2022
 
 Dialect dialectOf(const JsonValue& scene) {
-    if (find(need(scene, "camera"), "fovy")) return Dialect::F2025;
-    if (find(scene, "AA")) return Dialect::W2024;
+    if (need(scene, "camera").find("fovy")) return Dialect::F2025;
+    if (scene.find("AA")) return Dialect::W2024;
     for (const JsonValue& material : list(scene, "materials"))
-        if (find(material, "ID")) return Dialect::W2024;
+        if (material.find("ID")) return Dialect::W2024;
     return Dialect::F2024;
 }
 
@@ -108,7 +106,7 @@ public:
         : dialect_(dialectOf(scene)), folder_(std::move(folder)) {
         readPicture(scene);
         for (const JsonValue& material : list(scene, "materials"))
-            materials_[isOld() ? std::to_string(std::lround(need(material, "ID").number))
+            materials_[isOld() ? std::to_string(std::lround(need(material, "ID").number()))
                                : text(material, "name")] = {
                 vec3(need(material, "diffuse")), vec3(need(material, "specular")),
                 number(material, isOld() ? "hardness" : "shininess", 0)};
@@ -124,11 +122,11 @@ private:
     bool isOld() const { return dialect_ == Dialect::W2024; }
 
     void readPicture(const JsonValue& scene) {
-        const auto& resolution = list(scene, "resolution");
-        data.width = resolution.empty() ? (isOld() ? 1080 : 1280)
-                                        : static_cast<int>(resolution.at(0).number);
-        data.height = resolution.empty() ? 720 : static_cast<int>(resolution.at(1).number);
-        const JsonValue* group = find(scene, "AA");
+        const auto resolution = list(scene, "resolution");
+        data.width =
+            resolution.empty() ? (isOld() ? 1080 : 1280) : static_cast<int>(resolution[0].number());
+        data.height = resolution.empty() ? 720 : static_cast<int>(resolution[1].number());
+        const JsonValue* group = scene.find("AA");
         data.samples =
             static_cast<int>(group ? number(*group, "samples", 1) : number(scene, "AA_samples", 1));
         const double grey = isOld() ? 0.0 : 0.1;
@@ -137,7 +135,7 @@ private:
         data.eye = vec3(need(camera, "position"));
         data.lookAt = vec3(need(camera, "lookAt"));
         data.up = vec3(need(camera, "up"));
-        data.fovDeg = need(camera, dialect_ == Dialect::F2025 ? "fovy" : "fov").number;
+        data.fovDeg = need(camera, dialect_ == Dialect::F2025 ? "fovy" : "fov").number();
     }
 
     void readLight(const JsonValue& value) {
@@ -157,9 +155,9 @@ private:
     std::vector<Material> materialsOf(const JsonValue& object) const {
         std::vector<Material> out;
         for (const JsonValue& name : list(object, "materials")) {
-            const bool isNumber = name.kind == JsonValue::Kind::Number;
             const auto found =
-                materials_.find(isNumber ? std::to_string(std::lround(name.number)) : name.text);
+                materials_.find(name.isNumber() ? std::to_string(std::lround(name.number()))
+                                                : std::string(name.text()));
             if (found != materials_.end()) out.push_back(found->second);
         }
         return out;
@@ -199,7 +197,7 @@ private:
         } else if (type == "plane") {
             out.shape = Plane{position, vec3(object, "normal", {0, 1, 0})};
         } else if (type == "box") {
-            const JsonValue* size = find(object, "size");
+            const JsonValue* size = object.find("size");
             const Vec3d half = size ? vec3(*size) * 0.5 : Vec3d{1, 1, 1};
             if (isOld() && size)
                 out.shape = Box{position - half, position + half};
