@@ -146,10 +146,11 @@ private:
         const bool isBelow = chance(15);
         const double height = isBelow ? number(-5, -3) : number(4, 8);
         const bool fades = !old_ && chance(60);
+        const bool dims = !old_ && !new_ && !fades; // 1 / d^2
         const Vec3d fall{number(0.005, 0.02), number(0, 0.1), 0.2};
         return object({text("name", "lamp"), text("type", "point"), colour,
                        member("position", Vec3d{number(-6, 6), height, number(3, 6)}),
-                       member("power", number(0.3, 1.2)),
+                       member("power", dims ? number(15, 60) : number(0.3, 1.2)),
                        fades ? member("attenuation", fall) : ""});
     }
 
