@@ -11,6 +11,7 @@ struct MeshFile {
     struct Part {         // an object or group of the file: its triangles up to the next part
         std::string name; // empty for what comes before the first name
         std::uint32_t firstTriangle = 0;
+        SourceLoc loc;
     };
     struct Library { // a file of materials, as the text names it, with / for the backslashes
         std::string file;
@@ -23,5 +24,5 @@ struct MeshFile {
     std::vector<std::string> materials;
     std::vector<SourceLoc> materialLocs; // where each is used first
     std::vector<Library> libraries;
-    std::vector<Part> parts; // ascending, without empty ones; none when the file names none
+    std::vector<Part> parts; // ascending from triangle 0, none empty; none when none are named
 };

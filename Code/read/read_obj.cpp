@@ -161,7 +161,8 @@ private:
         const std::size_t before = builder_.mesh.triangles.size();
         if (!builder_.addFace(corners_)) return noArea_.add(start);
         if (partIsNew_) {
-            file_.parts.push_back({partName(), static_cast<std::uint32_t>(before)});
+            file_.parts.push_back(
+                {partName(), static_cast<std::uint32_t>(before), locOf(partOffset_)});
             partIsNew_ = false;
         }
     }
@@ -226,9 +227,11 @@ private:
             object_ = in_.rest();
             group_ = {};
             inPart_ = false;
+            partOffset_ = start;
         } else if (keyword == "g") {
             group_ = in_.rest();
             inPart_ = false;
+            partOffset_ = start;
         } else if (keyword == "s") {
             readSmoothing();
         } else if (keyword == "usemtl") {
@@ -362,7 +365,7 @@ private:
 
     std::string_view object_, group_, material_;
     bool inPart_ = false, partIsNew_ = false, namesParts_ = false, namesMaterials_ = false;
-    std::size_t materialOffset_ = 0;
+    std::size_t materialOffset_ = 0, partOffset_ = 0;
     std::optional<std::uint32_t> slot_; // of material_, once a face uses it
     std::unordered_map<std::string_view, std::uint32_t> slots_;
     std::unordered_set<std::string_view> libraries_;
