@@ -58,7 +58,7 @@ public:
     std::string_view rest();
 
     // A number of the statement `keyword`, not beyond `largest`; fails with its place.
-    template <class T> T number(std::string_view keyword, T largest) {
+    template <class T> T number(std::string_view keyword, double largest) {
         skipBlanks();
         NumberRead<T> read;
         if constexpr (std::is_same_v<T, float>)
@@ -66,8 +66,8 @@ public:
         else
             read = readDouble(p_);
         if (read.fault != NumberFault::None || !isNumberEnd(read.end) ||
-            !(std::fabs(read.value) <= largest))
-            failNumber(keyword, static_cast<double>(largest));
+            !(std::fabs(static_cast<double>(read.value)) <= largest))
+            failNumber(keyword, largest);
         p_ = read.end;
         return read.value;
     }
