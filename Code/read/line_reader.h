@@ -36,6 +36,7 @@ public:
     std::size_t offsetOf(std::string_view part) const { return offsetOf(part.data()); }
     // Is the next word exactly this? Then the reader is behind it.
     bool take(std::string_view word) {
+        skipBlanks();
         const std::string_view left(p_, static_cast<std::size_t>(end_ - p_));
         if (!left.starts_with(word) || !isWordEnd(p_ + word.size())) return false;
         p_ += word.size();
