@@ -1,6 +1,6 @@
-// LineReader: the text of OBJ and MTL files, where a line is a statement: its first word says what
-// the rest is. A backslash at the end of a line joins the next one, '#' after a blank begins a
-// comment, words after the last value belong to nobody. Knows no statement.
+// LineReader: the text of OBJ and MTL files, where a line is a statement whose first word says what
+// the rest is. A backslash at the end of a line joins the next one; '#' begins a comment at the
+// start of a word and behind a number, but not within a name. Knows no statement.
 #pragma once
 
 #include "base/source.h"
