@@ -132,6 +132,7 @@ inline constexpr auto kMaterialProperties = std::to_array<Property<MaterialDesc>
     {"specular_texture", textureOf(&MaterialDesc::specularTexture), {}, {}},
     {"specular_model", choice<&MaterialDesc::specularModel>(), {}, {}},
     {"exponent", &MaterialDesc::exponent, {}, {0, 1e9}},
+    {"lit_side", choice<&MaterialDesc::litSide>(), {}, {}},
     {"mirror", &MaterialDesc::mirror, {}, kColor},
     {"transmission", &MaterialDesc::transmission, {}, kColor},
     {"ior", &MaterialDesc::ior, {}, {0, 1000, true}},

@@ -1,4 +1,5 @@
 #include "read/json_lights.h"
+#include "read/unique_names.h"
 
 #include "base/math.h"
 #include "base/text.h"

@@ -1,4 +1,5 @@
 #include "read/json_materials.h"
+#include "read/unique_names.h"
 
 #include "base/math.h"
 #include "base/text.h"
@@ -56,7 +57,8 @@ JsonMaterials::JsonMaterials(JsonFields& scene, const JsonNames& textures,
         JsonFields fields(value, "a material", problems);
         MaterialDesc& material = out.emplace_back();
         material.loc = value.loc();
-        material.exponent = 0; // the course's
+        material.exponent = 0;                             // the course's
+        material.litSide = MaterialDesc::LitSide::Outside; // it never turns normals to the eye
         std::string name;
         const JsonValue* nameValue = fields.read("name", name);
         if (const JsonValue* id = fields.take("ID")) addId(*id, handle, problems);

@@ -1,4 +1,4 @@
-// Names in a scene in JSON: how things find each other, and how each thing gets a name of its own.
+// Names in a scene in JSON: how things find each other.
 #pragma once
 
 #include "base/text.h"
@@ -41,22 +41,4 @@ private:
     };
     std::unordered_map<std::string, Entry> entries_;
     std::vector<std::string> known_;
-};
-
-// The native description wants names that are unique; JSON scenes repeat them, or have none.
-class UniqueNames {
-public:
-    // "box", "box.2", "box.3"
-    std::string of(const std::string& wanted) {
-        std::size_t& count = counts_[wanted];
-        if (++count == 1) return wanted;
-        while (true) {
-            const std::string name = cat(wanted, ".", count);
-            if (counts_.try_emplace(name, 1).second) return name;
-            ++count;
-        }
-    }
-
-private:
-    std::unordered_map<std::string, std::size_t> counts_;
 };

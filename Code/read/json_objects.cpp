@@ -1,4 +1,5 @@
 #include "read/json_objects.h"
+#include "read/unique_names.h"
 
 #include "base/text.h"
 #include "desc/names.h"

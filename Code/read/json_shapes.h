@@ -5,6 +5,7 @@
 #include "read/json_dialect.h"
 #include "read/json_fields.h"
 #include "read/json_names.h"
+#include "read/unique_names.h"
 
 #include <map>
 #include <optional>

@@ -93,7 +93,7 @@ public:
             scene_.materials.push_back(made(names_[slot]));
             MaterialDesc& material = scene_.materials.back();
             material.loc = slot < locs_.size() ? locs_[slot] : SourceLoc{};
-            material.name = materialNames_.unique(names_[slot].empty() ? "default" : names_[slot]);
+            material.name = materialNames_.of(names_[slot].empty() ? "default" : names_[slot]);
             if (isUnknown_) unknown_.push_back(slot);
         }
         return handle;
@@ -136,7 +136,7 @@ private:
         if (handle == kNone) {
             handle = static_cast<Handle>(scene_.textures.size());
             TextureDesc copy = libraries_[library].textures[static_cast<std::size_t>(texture)];
-            copy.name = textureNames_.unique(copy.name);
+            copy.name = textureNames_.of(copy.name);
             copy.loc = copy.fileLoc = libraryLocs_[library];
             scene_.textures.push_back(std::move(copy));
         }
@@ -183,7 +183,7 @@ SceneDesc sceneAround(MeshFile file, std::span<const MtlFile> libraries, const S
     UniqueNames names;
     for (SplitPart& part : splitMesh(std::move(file))) {
         ObjectDesc object;
-        object.name = names.unique(part.mesh.name.empty() ? stemOf(source.name) : part.mesh.name);
+        object.name = names.of(part.mesh.name.empty() ? stemOf(source.name) : part.mesh.name);
         object.loc = part.mesh.loc;
         object.kind = ObjectDesc::Kind::Mesh;
         object.mesh = static_cast<Handle>(scene.meshes.size());

@@ -87,7 +87,7 @@ Handle MtlTextures::add(TextureDesc texture) {
             shortest(texture.offset.x), ' ', shortest(texture.offset.y), ' ', texture.file);
     const auto [entry, isNew] = known_.try_emplace(key, static_cast<Handle>(textures.size()));
     if (isNew) {
-        texture.name = names_.unique(texture.file);
+        texture.name = names_.of(texture.file);
         textures.push_back(std::move(texture));
     }
     return entry->second;

@@ -11,8 +11,8 @@
 class UniqueNames {
 public:
     // The name itself when it is new and good; else with bytes that are no text as '_' and a number
-    // behind it: "wheel", "wheel 2". Time does not grow with how often a name was there.
-    std::string unique(std::string_view name) {
+    // behind it: "wheel", "wheel.2". Time does not grow with how often a name was there.
+    std::string of(std::string_view name) {
         std::string good;
         while (true) {
             const std::size_t bad = findBadText(name);
@@ -24,7 +24,7 @@ public:
         // An entry is the number that the name had last, 1 without any.
         if (last_.try_emplace(good, 1).second) return good;
         while (true) {
-            std::string numbered = cat(good, " ", ++last_[good]);
+            std::string numbered = cat(good, ".", ++last_[good]);
             if (last_.try_emplace(numbered, 1).second) return numbered;
         }
     }

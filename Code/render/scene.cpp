@@ -104,6 +104,7 @@ private:
         m.base.specular = toRgb(desc.specular);
         m.base.specularModel = specularModelOf(desc.specularModel);
         m.base.exponent = toFloat(desc.exponent);
+        m.litOutside = desc.litSide == MaterialDesc::LitSide::Outside;
         if (on_.reflection) m.base.mirror = toRgb(desc.mirror);
         if (on_.refraction) m.base.transmission = toRgb(desc.transmission);
         m.base.ior = toFloat(desc.ior);

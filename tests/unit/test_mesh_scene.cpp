@@ -118,7 +118,7 @@ TEST(mesh_scene_materials) {
     // Textures of two libraries may have one name, but not in a scene.
     CHECK_EQUAL(result.scene.textures.size(), std::size_t{2});
     CHECK_EQUAL(materials[2].diffuseTexture, 1);
-    CHECK_EQUAL(result.scene.textures[1].name, "p.ppm 2");
+    CHECK_EQUAL(result.scene.textures[1].name, "p.ppm.2");
     CHECK_EQUAL(result.scene.textures[1].file, "p.ppm");
     // Unknown ones: one warning, at the first.
     const Result unknown = sceneOf(kSquare + faces, {"newmtl b\n"});

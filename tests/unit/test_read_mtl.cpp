@@ -55,7 +55,7 @@ TEST(read_mtl_room) {
     CHECK_EQUAL(brick.bumpStrength, 0.25);
     CHECK_EQUAL(file.textures.size(), std::size_t{3});
     CHECK_EQUAL(file.textures[0].name, "brick.ppm");
-    CHECK_EQUAL(file.textures[1].name, "brick.ppm 2");
+    CHECK_EQUAL(file.textures[1].name, "brick.ppm.2");
     CHECK((file.textures[0].scale == Vec2d{2, 3} && file.textures[0].offset == Vec2d{0.5, 0}));
     CHECK_EQUAL(text.substr(file.textures[0].fileLoc.offset, 9), "brick.ppm");
     CHECK(file.textures[0].space == TextureDesc::Space::Srgb);
