@@ -251,6 +251,7 @@ TEST(read_ply_normals_and_uvs) {
     };
     CHECK(with("nx ny s u texture_v").normals.empty() && with("nx ny s u texture_v").uvs.empty());
     CHECK((with("u v s t nx").uvs.at(0) == Vec2{3, 4}));
+    CHECK((with("s t u v nx").uvs.at(0) == Vec2{1, 2}));
 }
 
 TEST(read_ply_skips_what_it_does_not_know) {
