@@ -29,11 +29,14 @@ private:
                  const std::string& path) {
         if (failed_) return;
         const Handles materials =
-            geometry.materials.empty() ? inherited : Handles(geometry.materials);
+            usable(geometry, geometry.materials.empty() ? inherited : Handles(geometry.materials));
         const bool isCheckerboard = !geometry.checkerboardPlace.empty() && materials.size() >= 2;
         const Keys worldFromThis =
             product(worldFromParent, isCheckerboard ? geometry.checkerboardPlace : geometry.place);
         if (worldFromThis.empty()) return failKeys(geometry, worldFromParent);
+        // Nodes count too: following them takes the same time.
+        size_ += worldFromThis.size() + (geometry.shape ? materials.size() : 0);
+        if (size_ > kLargest) return failSize(geometry);
         const bool fits = path.size() + geometry.name.size() < kLongestPath;
         const std::string name =
             path.empty() || !fits ? geometry.name : cat(path, '/', geometry.name);
@@ -44,25 +47,27 @@ private:
             flatten(geometries_.all[child], worldFromThis, materials, name);
     }
 
+    // What is handed down may be more than a shape can show.
+    static Handles usable(const JsonGeometry& geometry, Handles materials) {
+        if (!geometry.shape || geometry.shape->kind == ObjectDesc::Kind::Mesh) return materials;
+        const std::size_t most = geometry.shape->kind == ObjectDesc::Kind::InfinitePlane ? 2 : 1;
+        return materials.first(std::min(most, materials.size()));
+    }
+
     void add(const JsonGeometry& geometry, const Keys& worldFromObject, Handles materials,
              const std::string& name) {
-        const auto kind = geometry.shape->kind;
-        const std::size_t most = kind == ObjectDesc::Kind::Mesh            ? materials.size()
-                                 : kind == ObjectDesc::Kind::InfinitePlane ? 2
-                                                                           : 1;
-        materials = materials.first(std::min(most, materials.size()));
-        size_ += worldFromObject.size() + materials.size();
-        if (size_ > kLargest) {
-            failed_ = true;
-            return problems_.error(geometry.loc, [] {
-                return cat("with this the keys and materials of all objects are more than ",
-                           kLargest, ", counting each copy that nodes and instances make");
-            });
-        }
         ObjectDesc& object = objects_.emplace_back(*geometry.shape);
         object.name = names_.of(name);
         object.worldFromObject = worldFromObject;
         object.materials.assign(materials.begin(), materials.end());
+    }
+
+    void failSize(const JsonGeometry& geometry) {
+        failed_ = true;
+        problems_.error(geometry.loc, [] {
+            return cat("with this the keys and materials of all objects are more than ", kLargest,
+                       ", counting each copy that nodes and instances make");
+        });
     }
 
     void failKeys(const JsonGeometry& geometry, const Keys& worldFromParent) {

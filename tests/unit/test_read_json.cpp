@@ -566,3 +566,16 @@ TEST(read_json_examples) {
     }
     CHECK_INFO(count >= 11, "scenes: " << count);
 }
+
+TEST(read_json_keys_of_copies_are_bounded) {
+    const auto scenery = [](int copies) {
+        std::string keys = "{}";
+        for (int i = 1; i < 200; ++i) keys += ",{}";
+        std::string text = cat(R"({"objects": [{"name": "n", "type": "node", "keys": [)", keys,
+                               R"(], "children": [{"type": "sphere"}]})");
+        for (int i = 0; i < copies; ++i) text += R"(,{"type": "instance", "ref": "n"})";
+        return text + "]}";
+    };
+    CHECK_EQUAL(scene(scenery(9)).objects.at(9).worldFromObject.size(), std::size_t{200});
+    CHECK_THROWS(scene(scenery(11000)), "the keys and materials of all objects are more than");
+}
