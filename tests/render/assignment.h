@@ -5,7 +5,8 @@
 // The conventions, where a handout leaves room in the reading that most solutions have:
 //  Picture    Sample (i, j) of n x n lies in the middle of its cell, n = 1 in the middle of the
 //             pixel. Unclamped samples are averaged, clamped to [0,1] and rounded to round(255 c).
-//             No gamma. Where nothing is hit the picture is black.
+//             No gamma. Where nothing is hit the picture is black. (In 2025 n is the number of
+//             rays, all through the middle without jitter; n x n here as in the years before.)
 //  Camera     w = normalize(position - lookAt), u = normalize(up x w), v = w x u; `fov` (2025:
 //             `fovy`) is the vertical angle, top to bottom edge of the picture.
 //  Normals    Outward, of planes the given one, of meshes the flat one of the corners' order; never

@@ -70,10 +70,10 @@ private:
     }
 
     std::string camera() {
-        return object({member("position", Vec3d{number(-7, 7), number(2.5, 6), number(6, 8)}),
-                       member("lookAt", vec3(-0.5, 0.5)),
+        return object({member("position", Vec3d{number(-6, 6), number(4, 6), number(5, 7)}),
+                       member("lookAt", vec3(-1, 0)),
                        member("up", Vec3d{number(-0.3, 0.3), 1, 0.1}),
-                       member(new_ ? "fovy" : "fov", number(35, 60))});
+                       member(new_ ? "fovy" : "fov", number(35, 50))});
     }
 
     std::string material(int i) {
