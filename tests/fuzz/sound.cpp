@@ -49,6 +49,35 @@ void checkScene(const SceneDesc& desc, const SourceFile& source) {
     }
 }
 
+void checkMesh(const MeshFile& file, const SourceFile& source) {
+    const MeshDesc& mesh = file.mesh;
+    expect(file.materialLocs.size() == file.materials.size(),
+           cat(file.materials.size(), " materials, ", file.materialLocs.size(), " places"));
+    for (const std::uint32_t slot : mesh.triangleMaterials)
+        expect(slot < file.materials.size(), cat("slot ", slot, " of ", file.materials.size()));
+    const auto isNotAfter = [](const MeshFile::Part& a, const MeshFile::Part& b) {
+        return a.firstTriangle >= b.firstTriangle;
+    };
+    expect(std::adjacent_find(file.parts.begin(), file.parts.end(), isNotAfter) ==
+                   file.parts.end() &&
+               (file.parts.empty() || file.parts.back().firstTriangle < mesh.triangles.size()),
+           "a part without triangles");
+    SceneDesc desc;
+    desc.cameras.emplace_back().name = "camera";
+    desc.meshes = {mesh};
+    desc.meshes[0].name = "mesh";
+    ObjectDesc& object = desc.objects.emplace_back();
+    object.name = "object";
+    object.kind = ObjectDesc::Kind::Mesh;
+    object.mesh = 0;
+    try {
+        checkScene(desc, source);
+    } catch (const Error& error) {
+        if (!mesh.triangles.empty()) throw Unsound(error.what());
+        throw;
+    }
+}
+
 void checkPicture(const StoredImage& picture) {
     using Depth = StoredImage::Depth;
     expect(picture.width >= 1 && picture.width <= Image::kMaxSide && picture.height >= 1 &&

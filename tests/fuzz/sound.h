@@ -5,6 +5,7 @@
 #include "base/source.h"
 #include "desc/scene_desc.h"
 #include "image/image.h"
+#include "read/mesh_file.h"
 
 #include <stdexcept>
 #include <string>
@@ -26,6 +27,9 @@ void checkWarnings(const Diagnostics& diagnostics, std::string_view fileName);
 // Throws Error when validate() refuses the scene. What it accepts is written as native text and
 // read back: it must be the same.
 void checkScene(const SceneDesc& desc, const SourceFile& source);
+
+// Indices, parts and materials fit the arrays; as the one object of a scene it passes checkScene().
+void checkMesh(const MeshFile& file, const SourceFile& source);
 
 // Dimensions, counts and values fit each other; Image takes it.
 void checkPicture(const StoredImage& picture);

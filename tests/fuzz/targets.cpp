@@ -2,6 +2,9 @@
 
 #include "fuzz/png_parts.h"
 #include "fuzz/sound.h"
+#include "read/read_json.h"
+#include "read/read_nff.h"
+#include "read/read_ply.h"
 #include "read/read_txt.h"
 
 #include <algorithm>
@@ -21,12 +24,50 @@ void readNative(Bytes file) {
     checkScene(readTxt(source), source);
 }
 
+// load() brings what meshes have in files of their own; here a triangle stands for it.
+void bringMeshes(SceneDesc& desc) {
+    for (MeshDesc& mesh : desc.meshes) {
+        if (mesh.file.empty()) continue;
+        expect(mesh.points.empty() && mesh.triangles.empty(), "a mesh with a file and triangles");
+        mesh.file.clear();
+        mesh.smoothAngleDeg = 0;
+        mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+        mesh.triangles = {{0, 1, 2}};
+    }
+}
+
+// Formats of others: what they say differently is settled in the reader.
+template <SceneDesc (*read)(const SourceFile&, const ReadContext&)>
+void checkForeign(Bytes file, const ReadOptions& options = {}) {
+    const SourceFile source = sourceOf(file);
+    Diagnostics diagnostics;
+    SceneDesc desc = read(source, {options, diagnostics});
+    checkWarnings(diagnostics, kName);
+    bringMeshes(desc);
+    checkScene(desc, source);
+}
+void readCourse(Bytes file) {
+    for (const bool lenient : {false, true}) checkForeign<readJson>(file, {.lenient = lenient});
+}
+void readDatabase(Bytes file) { checkForeign<readNff>(file); }
+
+template <MeshFile (*read)(const SourceFile&, const ReadContext&)> void checkTriangles(Bytes file) {
+    const SourceFile source = sourceOf(file);
+    Diagnostics diagnostics;
+    const MeshFile mesh = read(source, {{}, diagnostics});
+    checkWarnings(diagnostics, kName);
+    checkMesh(mesh, source);
+}
+
 void readPicture(Bytes file) { checkPicture(decodeImage(file, std::string(kName))); }
 void readPng(Bytes file) { readPicture(withRightChecksums(file)); }
 void readPngRows(Bytes file) { readPicture(withPackedRows(file)); }
 
 constexpr auto kTargets = std::to_array<Target>({
     {"txt", readNative},
+    {"json", readCourse},
+    {"nff", readDatabase},
+    {"ply", checkTriangles<readPly>},
     {"ppm", readPicture},
     {"pfm", readPicture},
     {"png", readPng},
