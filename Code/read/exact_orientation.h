@@ -49,6 +49,7 @@ inline int exactOrientation(Vec2d a, Vec2d b, Vec2d c) {
 // coordinates up to 1e60 whose products are not below 2^-968.
 inline int orientation(Vec2d a, Vec2d b, Vec2d c) {
     const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);
+    if (left == 0 && right == 0) return 0; // what lies on lines along the axes is common
     const double area = left - right;
     // (3 + 16u) u with u = 2^-53: Shewchuk's bound for this order of operations.
     const double error = 3.3306690738754716e-16 * (std::fabs(left) + std::fabs(right));
