@@ -2,8 +2,11 @@
 
 #include "fuzz/png_parts.h"
 #include "fuzz/sound.h"
+#include "read/mesh_scene.h"
 #include "read/read_json.h"
+#include "read/read_mtl.h"
 #include "read/read_nff.h"
+#include "read/read_obj.h"
 #include "read/read_ply.h"
 #include "read/read_txt.h"
 
@@ -51,12 +54,44 @@ void readCourse(Bytes file) {
 }
 void readDatabase(Bytes file) { checkForeign<readNff>(file); }
 
+// What `raytracer bunny.obj` makes of the triangles.
+void checkSceneAround(MeshFile file, std::span<const MtlFile> libraries, const SourceFile& source) {
+    Diagnostics diagnostics;
+    const SceneDesc desc = sceneAround(std::move(file), libraries, source, {{}, diagnostics});
+    checkWarnings(diagnostics, kName);
+    checkScene(desc, source);
+}
+
 template <MeshFile (*read)(const SourceFile&, const ReadContext&)> void checkTriangles(Bytes file) {
     const SourceFile source = sourceOf(file);
     Diagnostics diagnostics;
-    const MeshFile mesh = read(source, {{}, diagnostics});
+    MeshFile mesh = read(source, {{}, diagnostics});
     checkWarnings(diagnostics, kName);
     checkMesh(mesh, source);
+    checkSceneAround(std::move(mesh), {}, source);
+}
+
+// A triangle with each material of the library.
+void readMaterials(Bytes file) {
+    const SourceFile source = sourceOf(file);
+    Diagnostics diagnostics;
+    const MtlFile library = readMtl(source, {{}, diagnostics});
+    checkWarnings(diagnostics, kName);
+    MeshFile mesh;
+    mesh.mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    mesh.libraries = {{"library.mtl", {}}};
+    for (const MaterialDesc& material : library.materials) {
+        mesh.mesh.triangleMaterials.push_back(static_cast<std::uint32_t>(mesh.materials.size()));
+        mesh.mesh.triangles.push_back({0, 1, 2});
+        mesh.materials.push_back(material.name);
+        mesh.materialLocs.push_back({0});
+    }
+    if (library.materials.empty()) return;
+    try {
+        checkSceneAround(std::move(mesh), {&library, 1}, source);
+    } catch (const Error& error) { // too late: it names no line of the library
+        throw Unsound(error.what());
+    }
 }
 
 void readPicture(Bytes file) { checkPicture(decodeImage(file, std::string(kName))); }
@@ -67,6 +102,8 @@ constexpr auto kTargets = std::to_array<Target>({
     {"txt", readNative},
     {"json", readCourse},
     {"nff", readDatabase},
+    {"obj", checkTriangles<readObj>},
+    {"mtl", readMaterials},
     {"ply", checkTriangles<readPly>},
     {"ppm", readPicture},
     {"pfm", readPicture},
