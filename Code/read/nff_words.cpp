@@ -88,8 +88,8 @@ double NffNumbers::number(const Range& range) {
     ++got_;
     if (!range.contains(value))
         errors_.add({static_cast<std::uint32_t>(offset)}, [&] {
-            return cat("number ", got_, " of '", keyword_.text, "' ", mustBe(range, value),
-                       ", got ", shortest(value));
+            return cat(count_ == 1 ? "" : cat("number ", got_, " of "), "'", keyword_.text, "' ",
+                       mustBe(range, value), ", got ", shortest(value));
         });
     return value;
 }

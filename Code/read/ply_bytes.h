@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "read/ply_header.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <span>
@@ -24,10 +25,11 @@ public:
         std::size_t rowBytes = 0; // at least: lists may be empty
         for (const PlyProperty& p : element.properties)
             rowBytes += sizeOf(p.countType.value_or(p.type));
-        if (rowBytes > 0 && element.count > bytesLeft() / rowBytes)
+        if (rowBytes == 0) return;
+        if (const std::size_t possible = bytesLeft() / rowBytes; element.count > possible)
             failAt(source_, element.offset,
-                   cat("'", element.name, "' has ", element.count, " rows of at least ", rowBytes,
-                       " bytes, but only ", bytesLeft(), " bytes are left in the file"));
+                   cat("'element ", element.name, " ", element.count,
+                       "' is more than the rest of the file can hold (", possible, " at most)"));
     }
     void beginRow() {}
     void endRow() { ++row_; }
@@ -76,10 +78,11 @@ private:
     }
 
     std::size_t listCount(const PlyProperty& property, std::size_t most) {
-        const double count = number(*property.countType);
-        if (!(count >= 0 && count <= static_cast<double>(most)))
-            fail(cat("a list of '", property.name, "' has ", static_cast<long long>(count),
-                     " items; at most ", most));
+        const auto count = static_cast<std::int64_t>(number(*property.countType));
+        const std::size_t possible = std::min(most, bytesLeft() / sizeOf(property.type));
+        if (count < 0 || static_cast<std::uint64_t>(count) > possible)
+            fail(cat("a list of '", property.name, "' has ", count, " items; at most ", possible,
+                     possible < most ? " fit into the rest of the file" : " are possible"));
         return static_cast<std::size_t>(count);
     }
 

@@ -4,15 +4,18 @@
 #include "desc/names.h"
 #include "read/number.h"
 
+#include <algorithm>
+
 void PlyText::begin(const PlyElement& element) {
     element_ = &element;
     row_ = 0;
     // A value and what is between it and the next one.
     const std::size_t rowBytes = 2 * element.properties.size();
-    if (rowBytes > 0 && element.count > (bytesLeft() + 1) / rowBytes)
+    if (rowBytes == 0) return;
+    if (const std::size_t possible = (bytesLeft() + 1) / rowBytes; element.count > possible)
         failAt(source_, element.offset,
-               cat("'", element.name, "' has ", element.count, " rows of at least ", rowBytes,
-                   " bytes, but only ", bytesLeft(), " bytes are left in the file"));
+               cat("'element ", element.name, " ", element.count,
+                   "' is more than the rest of the file can hold (", possible, " at most)"));
 }
 
 void PlyText::beginRow() {
@@ -67,21 +70,23 @@ std::uint32_t PlyText::whole() {
 
 std::size_t PlyText::listCount(const PlyProperty& property, std::size_t most) {
     const std::uint32_t count = whole();
-    if (count > most || *last_ == '-')
-        fail(cat("a list of '", property.name, "' has ", word(last_), " items; at most ", most));
+    const std::size_t possible = std::min(most, bytesLeft() / 2);
+    if (count > possible || *last_ == '-')
+        fail(cat("a list of '", property.name, "' has ", word(last_), " items; at most ", possible,
+                 possible < most ? " fit into the rest of the file" : " are possible"));
     listStart_ = p_;
     return count;
 }
 
 void PlyText::list(const PlyProperty& property, std::size_t most,
                    std::vector<std::uint32_t>& items) {
-    const std::size_t count = listCount(property, std::min(most, bytesLeft() / 2));
+    const std::size_t count = listCount(property, most);
     items.clear();
     for (std::size_t i = 0; i < count; ++i) items.push_back(whole());
 }
 
 void PlyText::skipList(const PlyProperty& property) {
-    for (std::size_t left = listCount(property, bytesLeft() / 2); left > 0; --left) skipWord();
+    for (std::size_t left = listCount(property, bytesLeft()); left > 0; --left) skipWord();
 }
 
 void PlyText::failAtItem(const PlyProperty&, std::size_t i, std::string_view what) {

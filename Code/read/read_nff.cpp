@@ -93,6 +93,7 @@ private:
             desc_.cameras.emplace_back(nffCamera(*view, context_.options.nffAngleToEdges));
         camera.name = "view";
         camera.loc = word.loc();
+        desc_.settings.loc = word.loc();
         desc_.settings.width = view->width;
         desc_.settings.height = view->height;
     }
