@@ -74,8 +74,9 @@ std::string helpText() {
         twoColumns("raytracer diff A B [options]",
                    "compares two pictures; see raytracer diff --help"),
         "\n",
-        "SCENE is a .txt file in the native format, or - for such text on stdin. OUTPUT is a\n"
-        ".ppm, .png or .pfm file, or - for a PPM on stdout; left out, it is Output/SCENE.ppm.\n"
+        "SCENE is a .txt file in the native format (- for such text on stdin), a COMP 557 scene\n"
+        "(.json), a Neutral File Format scene (.nff), or a mesh by itself (.obj, .ply). OUTPUT is\n"
+        "a .ppm, .png or .pfm file, or - for a PPM on stdout; left out, it is Output/SCENE.ppm.\n"
         "What an option leaves open comes from the scene. --flag value and --flag=value are the\n"
         "same; -- ends the options.\n");
     out += flagsText(renderFlags(unused));

@@ -159,26 +159,38 @@ ExitCode renderScene(const LoadedScene& loaded, const RenderSettings& settings,
     return ExitCode::Ok;
 }
 
+std::filesystem::path folderOf(const std::string& name) {
+    return std::filesystem::absolute(name).lexically_normal().parent_path();
+}
+
+// Pictures that lie beside a scene are to be found from its new folder as well; those that are
+// found in --textures or ./Textures keep their names.
+void moveTextures(SceneDesc& desc, const std::filesystem::path& from,
+                  const std::filesystem::path& to) {
+    if (from == to) return;
+    for (TextureDesc& texture : desc.textures) {
+        const std::filesystem::path path = from / texture.file;
+        std::error_code ignored;
+        if (std::filesystem::path(texture.file).is_relative() &&
+            std::filesystem::is_regular_file(path, ignored))
+            texture.file = path.lexically_normal().lexically_relative(to).string();
+    }
+}
+
 ExitCode convert(const LoadedScene& loaded, const Options& options) {
     // Switches are no part of a scene; --no-aa must not turn into a filter without width.
     Options written = options;
     written.switches = {};
-    const std::string text =
-        writeTxt(withSettings(loaded.desc, settingsFrom(loaded.desc, written)));
+    SceneDesc desc = withSettings(loaded.desc, settingsFrom(loaded.desc, written));
+    if (options.convertTo != "-" && options.scene != "-")
+        moveTextures(desc, folderOf(options.scene), folderOf(options.convertTo));
+    const std::string text = writeTxt(desc);
     if (options.convertTo == "-") {
         writeStdout(text);
         return ExitCode::Ok;
     }
     writeFileAtomically(options.convertTo,
                         {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-    const auto folderOf = [](const std::string& name) {
-        return std::filesystem::absolute(name).lexically_normal().parent_path();
-    };
-    const bool moved =
-        options.scene == "-" || folderOf(options.scene) != folderOf(options.convertTo);
-    if (!options.quiet && moved && !loaded.desc.textures.empty())
-        writeStderr("raytracer: note: the names of texture files are kept; render with --textures "
-                    "and the folder they are in\n");
     return ExitCode::Ok;
 }
 
@@ -194,7 +206,7 @@ ExitCode runScene(const Options& options, Step& step) {
     Stopwatch watch;
     Stats stats;
     Diagnostics diagnostics;
-    const LoadedScene loaded = load(options.scene, diagnostics);
+    const LoadedScene loaded = load(options.scene, diagnostics, options.read);
     stats.parseSeconds = watch.lap();
     printWarnings(diagnostics);
     RenderSettings settings = settingsFrom(loaded.desc, options);

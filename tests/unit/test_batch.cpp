@@ -2,7 +2,7 @@
 #include "render/batch.h"
 
 #include "check.h"
-#include "meshes.h"
+#include "verify/meshes.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 #include "render/frame.h"
 
 #include "check.h"
-#include "meshes.h"
+#include "verify/meshes.h"
 
 using meshes::Random;
 

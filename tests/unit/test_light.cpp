@@ -4,7 +4,7 @@
 #include "light/area_light.h"
 #include "light/point_light.h"
 #include "light/sun_light.h"
-#include "meshes.h"
+#include "verify/meshes.h"
 
 using meshes::Random;
 

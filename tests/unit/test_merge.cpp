@@ -3,7 +3,7 @@
 
 #include "base/math.h"
 #include "check.h"
-#include "meshes.h"
+#include "verify/meshes.h"
 
 using meshes::Random;
 using Corners = MeshGeometry::Corners;

@@ -2,7 +2,7 @@
 // queries agree with each other and with asking every shape.
 #include "analytic_kit.h"
 #include "check.h"
-#include "meshes.h"
+#include "verify/meshes.h"
 #include "render/shape_set.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "meshes.h"
+#include "verify/meshes.h"
 
 #include "base/math.h"
 

@@ -1,4 +1,5 @@
-// Meshes and random numbers for the tests of triangles, trees and scenes.
+// Meshes and random numbers for the battery (battery.h) and for the tests of triangles, trees and
+// scenes.
 #pragma once
 
 #include "desc/scene_desc.h"
