@@ -15,6 +15,8 @@
 #include "cli/settings_from.h"
 #include "cli/stats_output.h"
 #include "cli/terminal.h"
+#include "cli/verify.h"
+#include "cli/verify.h"
 #include "cli/version.h"
 #include "desc/write_txt.h"
 #include "read/load.h"
@@ -233,6 +235,10 @@ ExitCode run(std::span<const std::string> arguments, Step& step) {
         const DiffOptions options = parseDiffOptions(arguments.subspan(1));
         step = {"comparing the pictures", ExitCode::Input};
         return diff(options);
+    }
+    if (!arguments.empty() && arguments[0] == "verify") {
+        step = {"verifying", ExitCode::Internal};
+        return verify(parseVerifyOptions(arguments.subspan(1)));
     }
     const Options options = parseOptions(arguments);
     switch (options.action) {

@@ -62,6 +62,7 @@ ShadedPoint shade(const Scene& scene, const Ray& ray, const Hit& hit) {
         if (!(dot(n, at.surface.ng) > 0)) n = at.surface.ns;
     }
     at.ng = at.front ? at.surface.ng : -at.surface.ng;
+    at.ns = at.front ? at.surface.ns : -at.surface.ns;
     at.n = at.front ? n : -n;
     // A normal that faces away from the eye would reflect light that the eye can't see.
     if (!(dot(at.n, at.toEye) > 0)) {

@@ -11,7 +11,7 @@ struct ShadedPoint {
     bool isLamp = false;
     bool front = true; // the ray came from the outside
     Vec3 toEye;        // unit
-    Vec3 ng, n;        // geometric and shading normal, both on the side of the eye
+    Vec3 ng, ns, n;    // geometric, interpolated and bumped normal, all on the side of the eye
 };
 
 // `dir` need not be a unit vector.

@@ -108,9 +108,14 @@ private:
                                                dimension(depth, BounceSlot::LightUv));
     }
 
+    // Is the light above the horizon, of the triangle or of the curve that its normals pretend?
+    static bool rises(const ShadedPoint& at, Vec3 toLight) {
+        return dot(at.ng, toLight) > 0 || (at.surface.lift != Vec3{} && dot(at.ns, toLight) > 0);
+    }
+
     void addLightSample(const ShadedPoint& at, Rgb weight, std::size_t i, const Light& light,
                         bool soft, const LightSample& sample, float share) {
-        if (isBlack(sample.irradiance) || !(dot(at.ng, sample.toLight) > 0)) return;
+        if (isBlack(sample.irradiance) || !rises(at, sample.toLight)) return;
         const Rgb reflected = reflectedLight(at.material, at.n, at.toEye, sample.toLight);
         const Rgb light1 = weight * reflected * sample.irradiance * share;
         if (isBlack(light1)) return;
@@ -119,12 +124,12 @@ private:
         const float time = memory_.rays.time[i];
         if (const auto origin = light.origin(); origin && !soft) {
             // Defined as starting at the light, so that all rays of a lamp share their origin.
-            const Vec3 end = leave(at.surface, at.ng, sample.distance);
+            const Vec3 end = leave(at.surface, at.ng, sample.distance) + at.surface.lift;
             memory_.shadowRays.push({*origin, end - *origin, 0, 1, time}, slot, light1);
         } else {
             const float reach = sample.distance < kInfinityF ? sample.distance : 0;
-            memory_.shadowRays.push({leave(at.surface, at.ng, reach), sample.toLight, 0,
-                                     sample.distance * (1 - 0x1p-20f), time},
+            memory_.shadowRays.push({leave(at.surface, at.ng, reach) + at.surface.lift,
+                                     sample.toLight, 0, sample.distance * (1 - 0x1p-20f), time},
                                     slot, light1);
         }
     }

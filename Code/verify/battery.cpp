@@ -32,8 +32,7 @@ Tally& Tally::operator+=(const Tally& other) {
 
 Tally inBatches(const Effort& effort, std::uint64_t seed, double batches,
                 const std::function<void(meshes::Random&, Tally&)>& batch) {
-    const auto count =
-        static_cast<std::size_t>(std::max(1.0, std::ceil(batches * effort.factor)));
+    const auto count = static_cast<std::size_t>(std::max(1.0, std::ceil(batches * effort.factor)));
     std::vector<Tally> tallies(count);
     ThreadPool pool(effort.threads);
     pool.run(count, [&](std::size_t i, int) {

@@ -20,8 +20,9 @@ struct Effort {
     int threads = 1;
 };
 
-// What a test found. Failures are cases that break a rule; the worst is a measured distance from the
-// truth, in the unit of the row. Each keeps a case that shows it, with the seed that makes it again.
+// What a test found. Failures are cases that break a rule; the worst is a measured distance from
+// the truth, in the unit of the row. Each keeps a case that shows it, with the seed that makes it
+// again.
 struct Tally {
     std::uint64_t cases = 0, failures = 0;
     double worst = 0;
