@@ -69,5 +69,16 @@ else
     failed=$((failed + 1))
 fi
 
+# Two types of one name are one for the linker, which keeps the functions of either.
+wrong=$(grep -ho '^\(struct\|class\|enum class\) [A-Za-z0-9]* .*[{:]' $(find . -name '*.h') |
+    sed 's/^enum //' | cut -d' ' -f2 | sort | uniq -d | tr '\n' ' ')
+if [ -z "$wrong" ]; then
+    printf 'ok every type of a header has its own name\n'
+    passed=$((passed + 1))
+else
+    printf 'FAIL every type of a header has its own name: %s\n' "$wrong"
+    failed=$((failed + 1))
+fi
+
 printf '%s passed, %s failed\n' "$passed" "$failed"
 [ "$failed" -eq 0 ]

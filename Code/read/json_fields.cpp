@@ -108,6 +108,8 @@ JsonFields::JsonFields(const JsonValue& value, std::string what, JsonProblems& p
         problems_.error(value.loc(), [&] {
             return cat("expected an object for ", what_, ", got ", described(value));
         });
+    constexpr std::size_t kUsual = 24;
+    asked_.reserve(kUsual);
     take("comment");
 }
 

@@ -16,7 +16,9 @@ public:
     GeometryReader(JsonFields& scene, const JsonRules& rules, const JsonNames& textures,
                    const JsonMaterials& materials, std::vector<MeshDesc>& meshes)
         : problems_(scene.problems()), rules_(rules), textures_(textures), materials_(materials),
-          meshes_(meshes) {}
+          meshes_(meshes) {
+        types_.insert(types_.end(), {"node", "instance"});
+    }
 
     JsonGeometries read(std::span<const JsonValue> objects) {
         std::size_t total = 0;
@@ -41,17 +43,24 @@ private:
 
     // Nothing when it is skipped or wrong.
     Index readOne(const JsonValue& value, bool isTopLevel) {
-        JsonFields untyped(value, "an object of the scene", problems_);
-        if (!value.isObject()) return {};
-        std::string type, name;
-        const JsonValue* typeValue = untyped.read("type", type);
-        untyped.read("name", name);
+        if (!value.isObject()) {
+            problems_.error(value.loc(), [&] {
+                return cat("expected an object in 'objects', got ", described(value));
+            });
+            return {};
+        }
+        const JsonValue* typeValue = value.find("type");
+        const JsonValue* nameValue = value.find("name");
+        const std::string type(typeValue ? typeValue->text() : "");
+        std::string name(nameValue ? nameValue->text() : "");
         if (!isKnown(typeValue, type, value)) return {};
 
-        JsonFields fields(
-            value, name.empty() ? cat("the ", type) : cat("the ", type, " '", shown(name), "'"),
-            problems_);
-        fields.take("type"), fields.take("name");
+        // (Put together by hand: cat() is slow, and there may be a million objects.)
+        std::string what = "the " + type;
+        if (!name.empty()) what += " '" + shown(name) + "'";
+        JsonFields fields(value, std::move(what), problems_);
+        fields.take("type");
+        fields.read("name", name);
         JsonGeometry geometry;
         geometry.loc = value.loc();
         geometry.name = name.empty() ? cat(type, ++unnamed_[type]) : name;
@@ -67,24 +76,25 @@ private:
         const std::size_t index = all_.size();
         // Only from here on it can be referred to: nothing can contain itself.
         if (!name.empty()) {
-            remember(anywhere_, name, index);
-            if (isTopLevel && type == "node") remember(topNodes_, name, index);
+            anywhere_.add(name, static_cast<Handle>(index));
+            if (isTopLevel && type == "node") topNodes_.add(name, static_cast<Handle>(index));
         }
         all_.push_back(std::move(geometry));
         return index;
     }
 
     bool isKnown(const JsonValue* typeValue, const std::string& type, const JsonValue& value) {
-        std::vector<std::string> known = jsonShapeWords();
-        known.insert(known.end(), {"node", "instance"});
-        if (!typeValue)
+        if (std::find(types_.begin(), types_.end(), type) != types_.end()) return true;
+        if (!typeValue || typeValue->isNull())
             problems_.error(value.loc(),
-                            [&] { return cat("an object needs a 'type': ", join(known)); });
-        else if (std::find(known.begin(), known.end(), type) != known.end())
-            return true;
-        else if (typeValue->isString())
+                            [&] { return cat("an object needs a 'type': ", join(types_)); });
+        else if (!typeValue->isString())
+            problems_.error(typeValue->loc(), [&] {
+                return cat("expected a text for 'type', got ", described(*typeValue));
+            });
+        else
             problems_.unknown(typeValue->loc(), [&] {
-                return cat("unknown type of object ", unknownName(shown(type), known));
+                return cat("unknown type of object ", unknownName(shown(type), types_));
             });
         return false;
     }
@@ -165,27 +175,19 @@ private:
             });
     }
 
-    struct Table {
-        JsonNames names;
-        std::unordered_map<std::string, std::size_t> uses;
-    };
-    static void remember(Table& table, const std::string& name, std::size_t index) {
-        table.names.add(name, static_cast<Handle>(index));
-        ++table.uses[name];
-    }
-    Index find(const Table& table, const std::string& name, const JsonValue& ref,
+    Index find(const JsonNames& names, const std::string& name, const JsonValue& ref,
                std::string_view what) {
-        const Handle handle = table.names.find(name);
+        const Handle handle = names.find(name);
         if (handle == kNone) {
             problems_.error(ref.loc(), [&] {
                 return cat("no earlier ", what, " is named ",
-                           unknownName(shown(name), table.names.known()));
+                           unknownName(shown(name), names.known()));
             });
             return {};
         }
-        if (table.uses.at(name) > 1)
+        if (names.uses(name) > 1)
             problems_.warn(ref.loc(), [&] {
-                return cat(table.uses.at(name), " earlier objects are named '", shown(name),
+                return cat(names.uses(name), " earlier objects are named '", shown(name),
                            "'; the first of them is meant");
             });
         return static_cast<std::size_t>(handle);
@@ -197,9 +199,10 @@ private:
     const JsonNames& textures_;
     const JsonMaterials& materials_;
     JsonMeshes meshes_;
+    std::vector<std::string> types_ = jsonShapeWords();
     std::vector<JsonGeometry> all_;
     std::vector<std::size_t> roots_;
-    Table anywhere_, topNodes_;
+    JsonNames anywhere_, topNodes_;
     std::unordered_map<std::string, int> unnamed_; // by type
 };
 

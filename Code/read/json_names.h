@@ -15,13 +15,19 @@ class JsonNames {
 public:
     // False when the name is there already; then the first one counts.
     bool add(const std::string& name, Handle handle) {
-        const bool isNew = handles_.try_emplace(name, handle).second;
+        const auto [entry, isNew] = entries_.try_emplace(name, Entry{handle, 0});
+        ++entry->second.uses;
         if (isNew && known_.size() < kKnown && name.size() <= kLength) known_.push_back(name);
         return isNew;
     }
     Handle find(const std::string& name) const {
-        const auto found = handles_.find(name);
-        return found == handles_.end() ? kNone : found->second;
+        const auto found = entries_.find(name);
+        return found == entries_.end() ? kNone : found->second.handle;
+    }
+    // How often it was added.
+    std::size_t uses(const std::string& name) const {
+        const auto found = entries_.find(name);
+        return found == entries_.end() ? 0 : found->second.uses;
     }
     // For messages; the nearest name is looked for among so many and so short ones that it cannot
     // take long.
@@ -29,7 +35,11 @@ public:
 
 private:
     static constexpr std::size_t kKnown = 1000, kLength = 100;
-    std::unordered_map<std::string, Handle> handles_;
+    struct Entry {
+        Handle handle;
+        std::size_t uses;
+    };
+    std::unordered_map<std::string, Entry> entries_;
     std::vector<std::string> known_;
 };
 

@@ -22,13 +22,18 @@ void readPlace(JsonFields& fields, JsonPlace& place) {
 } // namespace
 
 Rows rowsOf(const JsonPlace& place) {
-    const auto turn = [](Vec3d axis, double angleDeg) {
-        return Transform::rotate(axis, radians(angleDeg));
+    // What is not there is not multiplied: most things only stand somewhere.
+    Transform turned;
+    const auto turn = [&](Vec3d axis, double angleDeg) {
+        if (angleDeg != 0) turned = turned * Transform::rotate(axis, radians(angleDeg));
     };
-    return (Transform::translate(place.position) * turn({1, 0, 0}, place.rotationDeg.x) *
-            turn({0, 1, 0}, place.rotationDeg.y) * turn({0, 0, 1}, place.rotationDeg.z) *
-            Transform::scale(place.scale))
-        .rows();
+    turn({1, 0, 0}, place.rotationDeg.x);
+    turn({0, 1, 0}, place.rotationDeg.y);
+    turn({0, 0, 1}, place.rotationDeg.z);
+    const Vec3d &s = place.scale, &t = place.position;
+    const Rows& r = turned.rows();
+    return {r[0] * s.x, r[1] * s.y, r[2] * s.z, t.x,        r[4] * s.x,  r[5] * s.y,
+            r[6] * s.z, t.y,        r[8] * s.x, r[9] * s.y, r[10] * s.z, t.z};
 }
 
 Keys readJsonPlace(JsonFields& fields, Rows (*rows)(const JsonPlace&)) {

@@ -22,7 +22,8 @@ JsonPropertyValues::JsonPropertyValues(const JsonValue& value, std::string_view 
             const std::string expected = inTriples ? cat(count / 3, " arrays of 3 numbers")
                                                    : cat("an array of ", count, " values");
             return cat("expected ", expected, " for '", key, "', got ",
-                       value.isArray() ? cat(values_.size()) : described(value));
+                       value.isArray() ? cat("an array of ", value.items().size())
+                                       : described(value));
         });
 }
 

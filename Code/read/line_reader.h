@@ -1,6 +1,6 @@
-// LineReader: the text of OBJ and MTL files, where a line is a statement: its first word says what
-// the rest is. A backslash at the end of a line joins the next one, '#' after a blank begins a
-// comment, words after the last value belong to nobody. Knows no statement.
+// LineReader: the text of OBJ and MTL files, where a line is a statement whose first word says what
+// the rest is. A backslash at the end of a line joins the next one; '#' begins a comment at the
+// start of a word and behind a number, but not within a name. Knows no statement.
 #pragma once
 
 #include "base/source.h"
@@ -36,6 +36,7 @@ public:
     std::size_t offsetOf(std::string_view part) const { return offsetOf(part.data()); }
     // Is the next word exactly this? Then the reader is behind it.
     bool take(std::string_view word) {
+        skipBlanks();
         const std::string_view left(p_, static_cast<std::size_t>(end_ - p_));
         if (!left.starts_with(word) || !isWordEnd(p_ + word.size())) return false;
         p_ += word.size();
@@ -58,7 +59,7 @@ public:
     std::string_view rest();
 
     // A number of the statement `keyword`, not beyond `largest`; fails with its place.
-    template <class T> T number(std::string_view keyword, T largest) {
+    template <class T> T number(std::string_view keyword, double largest) {
         skipBlanks();
         NumberRead<T> read;
         if constexpr (std::is_same_v<T, float>)
@@ -66,8 +67,8 @@ public:
         else
             read = readDouble(p_);
         if (read.fault != NumberFault::None || !isNumberEnd(read.end) ||
-            !(std::fabs(read.value) <= largest))
-            failNumber(keyword, static_cast<double>(largest));
+            !(std::fabs(static_cast<double>(read.value)) <= largest))
+            failNumber(keyword, largest);
         p_ = read.end;
         return read.value;
     }

@@ -181,7 +181,7 @@ SceneDesc sceneAround(MeshFile file, std::span<const MtlFile> libraries, const S
     }
     MaterialPicker materials(file, libraries, scene);
     UniqueNames names;
-    for (MeshPart& part : splitMesh(std::move(file))) {
+    for (SplitPart& part : splitMesh(std::move(file))) {
         ObjectDesc object;
         object.name = names.unique(part.mesh.name.empty() ? stemOf(source.name) : part.mesh.name);
         object.loc = part.mesh.loc;

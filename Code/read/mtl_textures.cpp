@@ -10,9 +10,9 @@ namespace {
 
 // -o -s -t: one to three numbers; those that are not there keep their value.
 Vec2d readUpToThree(LineReader& in, std::string_view option, Vec2d value) {
-    value.x = in.number(option, kLargestLength);
-    if (in.atNumber()) value.y = in.number(option, kLargestLength);
-    if (in.atNumber()) in.number(option, kLargestLength); // of solid textures
+    value.x = in.number<double>(option, kLargestLength);
+    if (in.atNumber()) value.y = in.number<double>(option, kLargestLength);
+    if (in.atNumber()) in.number<double>(option, kLargestLength); // of solid textures
     return value;
 }
 
@@ -44,14 +44,14 @@ MtlTextures::Map MtlTextures::read(LineReader& in, std::string_view keyword,
             texture.extension = readOnOff(in, "-clamp") ? TextureDesc::Extension::Extend
                                                         : TextureDesc::Extension::Repeat;
         } else if (in.take("-bm")) {
-            map.bumpStrength = in.number("-bm", 1000.0);
+            map.bumpStrength = in.number<double>("-bm", 1000.0);
         } else if (in.take("-mm")) { // base and gain
-            in.number("-mm", kLargestLength);
-            in.number("-mm", kLargestLength);
+            in.number<double>("-mm", kLargestLength);
+            in.number<double>("-mm", kLargestLength);
         } else if (in.take("-boost")) {
-            in.number("-boost", kLargestLength);
+            in.number<double>("-boost", kLargestLength);
         } else if (in.take("-texres")) {
-            in.number("-texres", kLargestLength);
+            in.number<double>("-texres", kLargestLength);
         } else if (in.take("-blendu")) {
             readOnOff(in, "-blendu");
         } else if (in.take("-blendv")) {

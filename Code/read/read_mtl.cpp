@@ -176,7 +176,7 @@ private:
     }
     double readValue(const Range& range) {
         const std::size_t place = (in_.atLineEnd(), in_.offset());
-        const double value = in_.number(keyword_, kLargestLength);
+        const double value = in_.number<double>(keyword_, kLargestLength);
         if (!range.contains(value))
             in_.failAt(place,
                        cat("'", keyword_, "' ", mustBe(range, value), ", got ", shortest(value)));

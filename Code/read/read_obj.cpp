@@ -15,7 +15,7 @@
 
 namespace {
 
-constexpr float kLargestFloat = 1e15f; // as in native meshes: its square is far from the end
+constexpr double kLargestFloat = 1e15; // as in native meshes: its square is far from the end
 
 // What the standard knows besides faces: points, lines, free-form curves and surfaces, display.
 constexpr std::string_view kOtherStatements[] = {
@@ -99,16 +99,17 @@ private:
             if (in_.take("v")) {
                 readPoint();
             } else if (in_.take("vn")) {
-                const float x = in_.number("vn", kLargestFloat),
-                            y = in_.number("vn", kLargestFloat),
-                            z = in_.number("vn", kLargestFloat);
+                const float x = in_.number<float>("vn", kLargestFloat),
+                            y = in_.number<float>("vn", kLargestFloat),
+                            z = in_.number<float>("vn", kLargestFloat);
                 mesh.normals.push_back({x, y, z});
                 expectLineEnd("vn");
             } else if (in_.take("vt")) {
                 Vec2 uv;
-                uv.x = in_.number("vt", kLargestFloat);
-                if (!in_.atLineEnd()) uv.y = in_.number("vt", kLargestFloat);
-                if (!in_.atLineEnd()) in_.number("vt", kLargestFloat); // of pictures with depth
+                uv.x = in_.number<float>("vt", kLargestFloat);
+                if (!in_.atLineEnd()) uv.y = in_.number<float>("vt", kLargestFloat);
+                if (!in_.atLineEnd())
+                    in_.number<float>("vt", kLargestFloat); // of pictures with depth
                 mesh.uvs.push_back(uv);
                 expectLineEnd("vt");
             }
@@ -117,12 +118,12 @@ private:
     // x y z, then w (of curves) or r g b or both.
     void readPoint() {
         Vec3d p;
-        p.x = in_.number("v", kLargestLength);
-        p.y = in_.number("v", kLargestLength);
-        p.z = in_.number("v", kLargestLength);
+        p.x = in_.number<double>("v", kLargestLength);
+        p.y = in_.number<double>("v", kLargestLength);
+        p.z = in_.number<double>("v", kLargestLength);
         builder_.mesh.points.push_back(p);
         int more = 0;
-        for (; more < 4 && !in_.atLineEnd(); ++more) in_.number("v", kLargestLength);
+        for (; more < 4 && !in_.atLineEnd(); ++more) in_.number<double>("v", kLargestLength);
         if (more == 2)
             in_.failAt(in_.offset(), "'v' has 5 numbers; x y z, then w or r g b or both are known");
         if (more >= 3) colours_.add(in_.offset());
@@ -138,15 +139,15 @@ private:
         while (in_.nextLine()) {
             const char first = *in_.text();
             if (first == 'v' && countVertex(soFar_)) continue;
+            const std::size_t start = in_.offset();
             if (first == 'f' && takeFace())
-                readFace();
+                readFace(start);
             else
                 readOther();
         }
     }
 
-    void readFace() {
-        const std::size_t start = in_.offset();
+    void readFace(std::size_t start) {
         corners_.clear();
         while (!in_.atLineEnd()) {
             if (corners_.size() == kMostCorners)

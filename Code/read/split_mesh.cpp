@@ -51,7 +51,7 @@ void takeUsed(const std::vector<T>& values, std::span<const Corners> corners, Nu
 }
 
 // The slots of a part in the order of their use; one slot needs no list per triangle.
-void takeSlots(std::span<const Index> materials, Numbering& numbering, MeshPart& part) {
+void takeSlots(std::span<const Index> materials, Numbering& numbering, SplitPart& part) {
     numbering.startPart();
     part.mesh.triangleMaterials.reserve(materials.size());
     for (const Index slot : materials) {
@@ -64,11 +64,11 @@ void takeSlots(std::span<const Index> materials, Numbering& numbering, MeshPart&
 
 } // namespace
 
-std::vector<MeshPart> splitMesh(MeshFile file) {
+std::vector<SplitPart> splitMesh(MeshFile file) {
     MeshDesc& whole = file.mesh;
-    std::vector<MeshPart> parts(std::max<std::size_t>(1, file.parts.size()));
+    std::vector<SplitPart> parts(std::max<std::size_t>(1, file.parts.size()));
     Numbering slots(file.materials.size());
-    const auto setSlots = [&](MeshPart& part, std::span<const Index> materials) {
+    const auto setSlots = [&](SplitPart& part, std::span<const Index> materials) {
         if (!materials.empty())
             takeSlots(materials, slots, part);
         else if (!file.materials.empty())

@@ -6,10 +6,10 @@
 #include <cstdint>
 #include <vector>
 
-struct MeshPart {
+struct SplitPart {
     MeshDesc mesh; // named as its part; triangleMaterials count in `slots`
     std::vector<std::uint32_t>
         slots; // which of MeshFile::materials it uses, none when there are none
 };
 // In the order of the file. One part takes the arrays as they are; several take only what they use.
-std::vector<MeshPart> splitMesh(MeshFile file);
+std::vector<SplitPart> splitMesh(MeshFile file);
