@@ -342,6 +342,8 @@ void Scene::describe(Stats& stats) const {
     for (const auto& geometry : geometries_) {
         addTree(geometry->bvh);
         stats.accel.primitives += geometry->triangles.size();
+        stats.accel.triangles += geometry->triangles.size();
+        stats.accel.meshBytes += geometry->bytes();
     }
     for (const Feature& feature : features_) {
         if (feature.needed)

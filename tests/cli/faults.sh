@@ -192,6 +192,22 @@ else
         -r 1600x1600 --crop 0,0,16,16 --crop-pad
     sweep 'many samples' 'rendering' 2 24 scene.txt tight.ppm -q -t 1 --spp 64
     sweep 'many threads' 'rendering' 2 400 scene.txt tight.ppm -q -t 32
+
+    # Points, indices and tree of a closed or wavy mesh: 6 + 12 + 4 + 36 bytes per triangle. The
+    # most is while the tree is built: also 24 for its box, 12 for the centre, 24 for the scene as
+    # it was read and 40 for the text.
+    triangles=200000
+    [ "$stress" -ge 10 ] && triangles=10000000
+    field() { sed 's/.*"'"$1"'":\([0-9]*\).*/\1/' out; }
+    run 0 scene.txt few.ppm -q --stats=json
+    base=$(field peak_bytes)
+    sh "$tests/bench/waves.sh" $triangles > waves.txt
+    run 0 waves.txt waves.ppm -q --stats=json
+    check "memory: $triangles triangles are drawn" [ "$(field triangles)" -ge $triangles ]
+    check 'memory: at most 64 bytes per triangle' [ "$(field bytes_per_triangle)" -le 64 ]
+    most=$(($(field peak_bytes) - base))
+    echo "$triangles triangles: $(field bytes_per_triangle) bytes each, $((most / triangles)) at most"
+    check 'memory: at most 170 bytes per triangle at any time' [ $((most / triangles)) -le 170 ]
 fi
 
 finish
