@@ -79,6 +79,7 @@ private:
         if (!last_.empty() && readDouble(t.text.data()).fault != NumberFault::NotANumber)
             in_.failAt(t.offset, cat("'", last_, "' has more numbers than its count says"));
         std::vector<std::string> known;
+        known.reserve(kMeshArrays.size());
         for (const MeshArray& array : kMeshArrays) known.emplace_back(array.keyword);
         failUnknownProperty(in_, t, open_, known);
     }

@@ -132,7 +132,7 @@ private:
     MovingTransform placed(const Keys& keys) {
         std::vector<Transform> maps;
         for (const Rows& rows : keys) maps.push_back(scene_.frame_.placed(rows));
-        const MovingTransform moving{std::span<const Transform>(maps)};
+        MovingTransform moving{std::span<const Transform>(maps)};
         if (!on_.motionBlur) return MovingTransform(moving.at(0.5));
         if (!moving.isStatic()) scene_.moves_ = true;
         return moving;
