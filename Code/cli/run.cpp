@@ -31,7 +31,10 @@
 namespace {
 
 // Complete lines in one call, so that they are not torn apart by a bar or another program.
-void writeStderr(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
+// Nothing can be done about a message that does not arrive.
+void writeStderr(std::string_view text) {
+    static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
+}
 
 double secondsNow() {
     const std::chrono::duration<double> since = std::chrono::steady_clock::now().time_since_epoch();
@@ -95,7 +98,7 @@ void checkPixelCount(const SettingsDesc& picture, bool cropPad) {
 // Nothing but the default output, which may need its folder, has a name that the user did not give.
 std::string preparedOutput(const Options& options) {
     if (!options.output.empty()) return options.output;
-    const std::string output = defaultOutput(options.scene);
+    std::string output = defaultOutput(options.scene);
     std::error_code ignored; // checkWritable() finds out and says why
     std::filesystem::create_directories(std::filesystem::path(output).parent_path(), ignored);
     return output;

@@ -145,7 +145,7 @@ private:
     MovingTransform placed(const Keys& keys) {
         std::vector<Transform> maps;
         for (const Rows& rows : keys) maps.push_back(scene_.frame_.placed(rows));
-        const MovingTransform moving{std::span<const Transform>(maps)};
+        MovingTransform moving{std::span<const Transform>(maps)};
         if (!on_.motionBlur) return MovingTransform(moving.at(0.5));
         if (!moving.isStatic()) scene_.moves_ = true;
         return moving;
@@ -359,6 +359,8 @@ void Scene::describe(Stats& stats) const {
     for (const auto& geometry : geometries_) {
         addTree(geometry->bvh);
         stats.accel.primitives += geometry->triangles.size();
+        stats.accel.triangles += geometry->triangles.size();
+        stats.accel.meshBytes += geometry->bytes();
     }
     for (const Feature& feature : features_) {
         if (feature.needed)

@@ -91,10 +91,13 @@ void MeshGeometry::finish(bool withBvh) {
     extent = 0;
     for (const Vec3 p : points) extent = max(maxAbs(p), extent);
     if (!withBvh) return;
-    std::vector<Bounds> boxes(triangles.size());
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-        for (const std::uint32_t corner : triangles[i]) boxes[i].extend(points[corner]);
-    bvh = buildBvh(boxes);
+    {
+        std::vector<Bounds> boxes(triangles.size());
+        for (std::size_t i = 0; i < triangles.size(); ++i)
+            for (const std::uint32_t corner : triangles[i]) boxes[i].extend(points[corner]);
+        bvh = buildBvh(boxes);
+    }
+    bvh.nodes.shrink_to_fit();
 }
 
 std::size_t MeshGeometry::bytes() const {
