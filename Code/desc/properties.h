@@ -190,7 +190,7 @@ inline constexpr auto kObjectProperties = [] {
 // Instead of the arrays below.
 inline constexpr auto kMeshProperties = std::to_array<Property<MeshDesc>>({
     {"file", &MeshDesc::file, {}, {}},
-    {"smooth_angle", &MeshDesc::smoothAngleDeg, {}, {0, 180}},
+    {"smooth_angle", &MeshDesc::smoothAngleDeg, {}, {-1, 180}},
 });
 
 // What differs between blocks: the word for it, its table, its kind (0 when all are alike).

@@ -146,7 +146,8 @@ struct MeshDesc {
     // What the arrays are to be read from; load() does it and leaves `file` empty.
     std::string file;
     SourceLoc fileLoc;
-    double smoothAngleDeg = 0; // of the file's: edges that bend less are shaded smooth; 0 flat
+    // Of the file's: edges that bend less are shaded smooth; 0 flat, -1 with the file's normals.
+    double smoothAngleDeg = -1;
     std::vector<Vec3d> points;
     std::vector<Corners> triangles;
     std::vector<Vec3> normals;

@@ -33,9 +33,9 @@ bool hasNumberedMaterials(const JsonValue& object) {
 }
 
 // C++ of 2022 and Python of winter 2024; Python of autumn 2024; Python of autumn 2025.
-constexpr JsonRules kNumbered{{0, 0, 1}, false, true, true, 1280, 720};
-constexpr JsonRules kNamed{{1, 0, 0}, true, false, false, 1280, 720};
-constexpr JsonRules kNamed2025{{0, 0, 1}, true, false, false, 1280, 720};
+constexpr JsonRules kNumbered{{0, 0, 1}, false, true, true, false, 1280, 720};
+constexpr JsonRules kNamed{{1, 0, 0}, true, false, true, false, 1280, 720};
+constexpr JsonRules kNamed2025{{0, 0, 1}, true, false, false, true, 1280, 720};
 
 struct Mark {
     Test test;
@@ -76,6 +76,6 @@ JsonRules jsonRulesOf(const JsonValue& scene) {
     // The program of 2022 asks for both keys of AA. A later scene may have both too; but a scene
     // without 'resolution' and with both is taken for one of 2022.
     const JsonValue* aa = scene.find("AA");
-    if (rules.meshMovesFirst && aa && aa->find("jitter") && aa->find("samples")) rules.width = 1080;
+    if (rules.refReplaces && aa && aa->find("jitter") && aa->find("samples")) rules.width = 1080;
     return rules;
 }

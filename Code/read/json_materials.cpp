@@ -27,6 +27,13 @@ void convertSpecular(MaterialDesc& material) {
     material.specular.b *= kInvPi;
 }
 
+// The course never turns normals to the eye. What it does not have, light passes through or comes
+// back from, shows its inside as well.
+bool isOfTheCourse(const MaterialDesc& m) {
+    return m.mirror == Rgbd{} && m.transmission == Rgbd{} && m.opacity == 1 &&
+           m.opacityTexture == kNone;
+}
+
 } // namespace
 
 JsonNames readJsonTextures(JsonFields& scene, std::vector<TextureDesc>& textures) {
@@ -57,8 +64,8 @@ JsonMaterials::JsonMaterials(JsonFields& scene, const JsonNames& textures,
         JsonFields fields(value, "a material", problems);
         MaterialDesc& material = out.emplace_back();
         material.loc = value.loc();
-        material.exponent = 0;                             // the course's
-        material.litSide = MaterialDesc::LitSide::Outside; // it never turns normals to the eye
+        material.exponent = 0; // the course's
+        const bool saysLitSide = fields.find("lit_side") != nullptr;
         std::string name;
         const JsonValue* nameValue = fields.read("name", name);
         if (const JsonValue* id = fields.take("ID")) addId(*id, handle, problems);
@@ -75,6 +82,8 @@ JsonMaterials::JsonMaterials(JsonFields& scene, const JsonNames& textures,
             readJsonValue(*exponent.value, exponent.key, problems, material.exponent, {0, 1e9});
         readJsonProperties(fields, textures, material, {"exponent"});
         convertSpecular(material);
+        if (!saysLitSide && isOfTheCourse(material))
+            material.litSide = MaterialDesc::LitSide::Outside;
         fields.reportUnknown();
     }
 }

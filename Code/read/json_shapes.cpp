@@ -28,16 +28,24 @@ void upright(Input& in, JsonShape& shape) {
     shape.place = product(readJsonPlace(in.fields), {kYFromZ});
 }
 
-// By its corners, or by size and centre; what 'rotation' says is ignored as in the course.
+Keys boxPlace(Vec3d lo, Vec3d hi) {
+    const Vec3d centre = (lo + hi) * 0.5, half = (hi - lo) * 0.5;
+    return {(Transform::translate(centre) * Transform::scale(half)).rows()};
+}
+
+// By its corners, or by size and centre; what 'rotation' says is ignored as in the course before
+// 2025.
 void box(Input& in, JsonShape& shape) {
     JsonFields& fields = in.fields;
     JsonProblems& problems = fields.problems();
+    const bool placesAll = in.rules.placesAll;
     Vec3d size, position, lo{-1, -1, -1}, hi{1, 1, 1}, rotation;
     const JsonValue* sizeValue = fields.read("size", size, kPositive);
-    const JsonValue* positionValue = fields.read("position", position, kAnyNumber);
+    const JsonValue* positionValue =
+        placesAll ? nullptr : fields.read("position", position, kAnyNumber);
     const JsonValue* loValue = fields.read("min", lo, kAnyNumber);
     const JsonValue* hiValue = fields.read("max", hi, kAnyNumber);
-    const JsonValue* rotationValue = fields.read("rotation", rotation, kTurn);
+    const JsonValue* rotationValue = placesAll ? nullptr : fields.read("rotation", rotation, kTurn);
     if (rotationValue && rotation != Vec3d{})
         problems.warn(rotationValue->loc(), [] {
             return "'rotation' of a box is ignored: its sides lie along the axes; turn a node "
@@ -58,14 +66,16 @@ void box(Input& in, JsonShape& shape) {
         problems.error(hiValue ? hiValue->loc() : fields.loc(), [] {
             return "a box has a 'max' above its 'min' on each axis (left out: 1 and -1)";
         });
-    const Vec3d centre = (lo + hi) * 0.5, half = (hi - lo) * 0.5;
-    shape.place = {(Transform::translate(centre) * Transform::scale(half)).rows()};
+    shape.place = boxPlace(lo, hi);
+    if (placesAll) shape.place = product(readJsonPlace(fields), shape.place);
 }
 
 void plane(Input& in, JsonShape& shape) {
     JsonFields& fields = in.fields;
     Vec3d position, normal{0, 1, 0};
-    fields.read("position", position, kAnyNumber);
+    // In 2025 the position belongs to M, which moves the squares too.
+    const bool placesAll = in.rules.placesAll;
+    if (!placesAll) fields.read("position", position, kAnyNumber);
     const JsonValue* normalValue = fields.read("normal", normal, kAnyNumber);
     if (normal == Vec3d{})
         return fields.problems().error(normalValue->loc(),
@@ -74,6 +84,10 @@ void plane(Input& in, JsonShape& shape) {
     shape.place = {planeRows(position, unit)};
     shape.checkerboard =
         isVerticalPlane(unit) ? shape.place : Keys{checkerboardRows(position, unit)};
+    if (!placesAll) return;
+    const Keys place = readJsonPlace(fields);
+    shape.place = product(place, shape.place);
+    shape.checkerboard = product(place, shape.checkerboard);
 }
 
 // The course's: (v + position) * scale.
@@ -109,7 +123,7 @@ constexpr auto kTypes = std::to_array<Type>({
 
 Handle JsonMeshes::read(JsonFields& fields) {
     std::string file;
-    double smoothAngleDeg = 0;
+    double smoothAngleDeg = 0; // the course shades meshes flat, whatever normals the file has
     const JsonValue* value = fields.read("filepath", file);
     fields.read("smooth_angle", smoothAngleDeg, Range{0, 180});
     if (file.empty() || findBadText(file) != std::string::npos)

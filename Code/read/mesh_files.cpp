@@ -86,6 +86,10 @@ void loadMesh(MeshDesc& mesh, const SourceFile& scene, const ReadContext& contex
     const auto path = placeOf(mesh.file, scene);
     if (!path) failAt(scene, mesh.fileLoc.offset, notFound(mesh.file, scene));
     MeshDesc loaded = format->read(open(*path, scene, mesh.fileLoc), context).mesh;
+    if (mesh.smoothAngleDeg == 0) {
+        loaded.normals.clear();
+        loaded.normalTriangles.clear();
+    }
     if (mesh.smoothAngleDeg > 0) smoothByAngle(loaded, mesh.smoothAngleDeg);
     loaded.name = std::move(mesh.name);
     loaded.loc = mesh.loc;

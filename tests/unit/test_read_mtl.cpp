@@ -165,7 +165,7 @@ TEST(read_mtl_maps) {
     const Result file = readText("newmtl a\nmap_Kd x.ppm\nmap_Ks x.ppm\nnewmtl b\nmap_Kd x.ppm\n"
                                  "bump x.ppm\nmap_d x.ppm\nnorm -s 2 2 x.ppm\n");
     CHECK_EQUAL(file.textures.size(), std::size_t{3});
-    CHECK_EQUAL(file.textures[2].name, "x.ppm 3");
+    CHECK_EQUAL(file.textures[2].name, "x.ppm.3");
     CHECK(file.materials[0].specularTexture == 0 && file.materials[1].diffuseTexture == 0);
     CHECK(file.materials[1].opacityTexture == 1 && file.materials[1].normalMap == 2);
 }
