@@ -33,7 +33,7 @@ void bringMeshes(SceneDesc& desc) {
         if (mesh.file.empty()) continue;
         expect(mesh.points.empty() && mesh.triangles.empty(), "a mesh with a file and triangles");
         mesh.file.clear();
-        mesh.smoothAngleDeg = 0;
+        mesh.smoothAngleDeg = MeshDesc{}.smoothAngleDeg;
         mesh.points = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
         mesh.triangles = {{0, 1, 2}};
     }

@@ -287,9 +287,9 @@ TEST(read_json_mesh) {
         return worldPoint(desc.objects[0], {1, 2, 3});
     };
     const std::string numbered = R"("AA": {"samples": 1},)";
-    // (v + position) * scale, or T * R * S.
+    // (v + position) * scale; T * R * S from 2025 on.
     checkPoint(vertex(numbered, R"("position": [1, 0, 0], "scale": 2)"), {4, 4, 6});
-    checkPoint(vertex("", R"("position": [1, 0, 0], "scale": 2)"), {3, 4, 6});
+    checkPoint(vertex("", R"("position": [1, 0, 0], "scale": 2)"), {4, 4, 6});
     checkPoint(vertex(numbered, R"("position": [1, 0, 0], "scale": [2, 1, 1])"), {3, 2, 3});
     checkPoint(vertex("", R"("position": [1, 0, 0], "rotation": [0, 0, 90], "scale": [2, 1, 1])"),
                {-1, 2, 3});
