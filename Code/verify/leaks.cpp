@@ -12,7 +12,7 @@ namespace {
 
 using meshes::Random;
 
-constexpr double kBatches = 40; // at effort 1, each a solid in a place of its own
+constexpr double kBatches = 24; // at effort 1, each a solid in a place of its own
 constexpr int kRays = 4096;     // of a batch
 
 using Place = PlacedSolid (*)(Random&, const Solid&);
