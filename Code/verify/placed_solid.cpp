@@ -33,9 +33,12 @@ MeshDesc boulder() {
     return mesh;
 }
 
+// The same outside, also where the map mirrors.
 MeshDesc moved(const MeshDesc& from, const Transform& map) {
     MeshDesc mesh = from;
     for (Vec3d& p : mesh.points) p = map.point(p);
+    if (map.mirrors())
+        for (MeshDesc::Corners& c : mesh.triangles) std::swap(c[1], c[2]);
     return mesh;
 }
 
