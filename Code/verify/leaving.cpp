@@ -181,7 +181,7 @@ void castShadowRays(Random& random, const Surface& s, const Shape& shape, std::s
 }
 
 Tally acneOfFormulas(const Effort& effort) {
-    return inBatches(effort, 61, 140, [](Random& random, Tally& tally) {
+    return inBatches(effort, 61, 300, [](Random& random, Tally& tally) {
         const kit::Kind& kind = kit::kinds()[random.below(kit::kinds().size())];
         if (!kind.isClosed && !kind.isFlat) return; // inside a tube there may well be shadow
         const Transform map = random.affine(8, 1) * Transform::scale(random.logUniform(0.01, 1));
