@@ -2,6 +2,13 @@
 // numbers that print their seed, and some more of them.
 #pragma once
 
+#include "base/math.h"
+#include "shape/cone.h"
+#include "shape/cube.h"
+#include "shape/cylinder.h"
+#include "shape/disk.h"
+#include "shape/infinite_plane.h"
+#include "shape/sphere.h"
 #include "verify/shape_kinds.h"
 
 #include <cstdio>
