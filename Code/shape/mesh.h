@@ -23,7 +23,9 @@ struct MeshGeometry {
     Bvh bvh;                          // empty: every triangle is tested (--accel none)
     float extent = 0;                 // largest |coordinate| of a point
 
-    // Takes triangles without area out of the lists and returns how many there were.
+    // Takes triangles with two corners in one place out of the lists, and returns how many have no
+    // area. Those with three corners on a line stay: to a ray, whose arithmetic rounds each corner
+    // by itself, such a triangle closes the gap between its neighbours.
     std::uint64_t dropDegenerate();
     // Computes extent and, if wanted, the tree. The lists do not change afterwards.
     void finish(bool withBvh);
