@@ -166,17 +166,17 @@ constexpr Row kRows[] = {
      "Embree 28 %, its robust mode 1.1 %, tinybvh 31 %"},
     {"T1c", "the same, at edges and a few floats beside", "", 0, true, near<13, Aim::Edge>,
      "Embree 5.9 %, robust 0, tinybvh 16 %"},
-    {"T1d", "shadow rays from lamps 4 to 1e4 extents away to points inside", "", 0, true,
-     fromLamps},
+    {"T1d", "shadow rays to inside from lamps 4 to 1e4 extents away", "", 0, true, fromLamps},
     {"T2a", "T1a at (148376,1234,-223423) and 1e6", "", 0, true, far<21, Aim::Anywhere>,
      "Embree 2.2 % and 31 %, robust 0, tinybvh 2.6 % and 28 %"},
     {"T2b", "T1b there", "", 0, true, far<22, Aim::Vertex>,
      "Embree 0 and 1.3 %, robust 0, tinybvh 49 % and 42 %"},
     {"T2c", "T1c there", "", 0, true, far<23, Aim::Edge>,
      "Embree 10 % and 30 %, robust 0, tinybvh 21 % and 39 %"},
-    {"T3a", "parity of all crossings of closed meshes, also on edges and at vertices",
-     "of the rays", 1e-8, true, parityOfAll},
-    {"T3b", "the same by rays that go on at t", "of the rays", 1e-8, true, parityOfRestarts},
+    {"T3a", "parity of crossings, also on edges and at vertices", "of the rays", 1e-8, true,
+     parityOfAll},
+    {"T3b", "the same of rays that go on where they hit", "of the rays", 1e-8, true,
+     parityOfRestarts},
 };
 
 } // namespace
