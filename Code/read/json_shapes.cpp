@@ -34,10 +34,12 @@ void box(Input& in, JsonShape& shape) {
     JsonProblems& problems = fields.problems();
     Vec3d size, position, lo{-1, -1, -1}, hi{1, 1, 1}, rotation;
     const JsonValue* sizeValue = fields.read("size", size, kPositive);
-    const JsonValue* positionValue = fields.read("position", position, kAnyNumber);
+    const bool isPlaced = in.rules.allArePlaced;
+    const JsonValue* positionValue =
+        isPlaced ? nullptr : fields.read("position", position, kAnyNumber);
     const JsonValue* loValue = fields.read("min", lo, kAnyNumber);
     const JsonValue* hiValue = fields.read("max", hi, kAnyNumber);
-    const JsonValue* rotationValue = fields.read("rotation", rotation, kTurn);
+    const JsonValue* rotationValue = isPlaced ? nullptr : fields.read("rotation", rotation, kTurn);
     if (rotationValue && rotation != Vec3d{})
         problems.warn(rotationValue->loc(), [] {
             return "'rotation' of a box is ignored: its sides lie along the axes; turn a node "
@@ -60,12 +62,14 @@ void box(Input& in, JsonShape& shape) {
         });
     const Vec3d centre = (lo + hi) * 0.5, half = (hi - lo) * 0.5;
     shape.place = {(Transform::translate(centre) * Transform::scale(half)).rows()};
+    if (isPlaced) shape.place = product(readJsonPlace(fields), shape.place);
 }
 
 void plane(Input& in, JsonShape& shape) {
     JsonFields& fields = in.fields;
     Vec3d position, normal{0, 1, 0};
-    fields.read("position", position, kAnyNumber);
+    const bool isPlaced = in.rules.allArePlaced;
+    if (!isPlaced) fields.read("position", position, kAnyNumber);
     const JsonValue* normalValue = fields.read("normal", normal, kAnyNumber);
     if (normal == Vec3d{})
         return fields.problems().error(normalValue->loc(),
@@ -74,6 +78,10 @@ void plane(Input& in, JsonShape& shape) {
     shape.place = {planeRows(position, unit)};
     shape.checkerboard =
         isVerticalPlane(unit) ? shape.place : Keys{checkerboardRows(position, unit)};
+    if (!isPlaced) return;
+    const Keys place = readJsonPlace(fields);
+    shape.place = product(place, shape.place);
+    shape.checkerboard = product(place, shape.checkerboard);
 }
 
 // The course's: (v + position) * scale.
