@@ -34,7 +34,7 @@ bool hasNumberedMaterials(const JsonValue& object) {
 
 // C++ of 2022 and Python of winter 2024; Python of autumn 2024; Python of autumn 2025.
 constexpr JsonRules kNumbered{{0, 0, 1}, false, true, true, false, 1280, 720};
-constexpr JsonRules kNamed{{1, 0, 0}, true, false, false, false, 1280, 720};
+constexpr JsonRules kNamed{{1, 0, 0}, true, false, true, false, 1280, 720};
 constexpr JsonRules kNamed2025{{0, 0, 1}, true, false, false, true, 1280, 720};
 
 struct Mark {

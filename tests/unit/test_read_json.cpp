@@ -289,7 +289,10 @@ TEST(read_json_mesh) {
     const std::string numbered = R"("AA": {"samples": 1},)";
     // (v + position) * scale, or T * R * S.
     checkPoint(vertex(numbered, R"("position": [1, 0, 0], "scale": 2)"), {4, 4, 6});
-    checkPoint(vertex("", R"("position": [1, 0, 0], "scale": 2)"), {3, 4, 6});
+    checkPoint(vertex("", R"("position": [1, 0, 0], "scale": 2)"), {4, 4, 6});
+    checkPoint(vertex(R"("camera": {"position": [0, 0, 9], "fovy": 45},)",
+                      R"("position": [1, 0, 0], "scale": 2)"),
+               {3, 4, 6});
     checkPoint(vertex(numbered, R"("position": [1, 0, 0], "scale": [2, 1, 1])"), {3, 2, 3});
     checkPoint(vertex("", R"("position": [1, 0, 0], "rotation": [0, 0, 90], "scale": [2, 1, 1])"),
                {-1, 2, 3});
