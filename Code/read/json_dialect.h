@@ -10,7 +10,7 @@ struct JsonRules {
     bool directionalHasPower; // or its power is 1, whatever the file says
     bool refReplaces;         // the transform of a node with 'ref' replaces, or multiplies
     bool meshMovesFirst;      // a mesh is (v + position) * scale, or T * R * S
-    bool placesAll;           // boxes and planes have position, rotation and scale like all others
+    bool allArePlaced;        // boxes and planes have position, rotation and scale like all others
     int width, height;        // of a picture without 'resolution'
 };
 

@@ -28,24 +28,18 @@ void upright(Input& in, JsonShape& shape) {
     shape.place = product(readJsonPlace(in.fields), {kYFromZ});
 }
 
-Keys boxPlace(Vec3d lo, Vec3d hi) {
-    const Vec3d centre = (lo + hi) * 0.5, half = (hi - lo) * 0.5;
-    return {(Transform::translate(centre) * Transform::scale(half)).rows()};
-}
-
-// By its corners, or by size and centre; what 'rotation' says is ignored as in the course before
-// 2025.
+// By its corners, or by size and centre; what 'rotation' says is ignored as in the course.
 void box(Input& in, JsonShape& shape) {
     JsonFields& fields = in.fields;
     JsonProblems& problems = fields.problems();
-    const bool placesAll = in.rules.placesAll;
     Vec3d size, position, lo{-1, -1, -1}, hi{1, 1, 1}, rotation;
     const JsonValue* sizeValue = fields.read("size", size, kPositive);
+    const bool isPlaced = in.rules.allArePlaced;
     const JsonValue* positionValue =
-        placesAll ? nullptr : fields.read("position", position, kAnyNumber);
+        isPlaced ? nullptr : fields.read("position", position, kAnyNumber);
     const JsonValue* loValue = fields.read("min", lo, kAnyNumber);
     const JsonValue* hiValue = fields.read("max", hi, kAnyNumber);
-    const JsonValue* rotationValue = placesAll ? nullptr : fields.read("rotation", rotation, kTurn);
+    const JsonValue* rotationValue = isPlaced ? nullptr : fields.read("rotation", rotation, kTurn);
     if (rotationValue && rotation != Vec3d{})
         problems.warn(rotationValue->loc(), [] {
             return "'rotation' of a box is ignored: its sides lie along the axes; turn a node "
@@ -66,16 +60,16 @@ void box(Input& in, JsonShape& shape) {
         problems.error(hiValue ? hiValue->loc() : fields.loc(), [] {
             return "a box has a 'max' above its 'min' on each axis (left out: 1 and -1)";
         });
-    shape.place = boxPlace(lo, hi);
-    if (placesAll) shape.place = product(readJsonPlace(fields), shape.place);
+    const Vec3d centre = (lo + hi) * 0.5, half = (hi - lo) * 0.5;
+    shape.place = {(Transform::translate(centre) * Transform::scale(half)).rows()};
+    if (isPlaced) shape.place = product(readJsonPlace(fields), shape.place);
 }
 
 void plane(Input& in, JsonShape& shape) {
     JsonFields& fields = in.fields;
     Vec3d position, normal{0, 1, 0};
-    // In 2025 the position belongs to M, which moves the squares too.
-    const bool placesAll = in.rules.placesAll;
-    if (!placesAll) fields.read("position", position, kAnyNumber);
+    const bool isPlaced = in.rules.allArePlaced;
+    if (!isPlaced) fields.read("position", position, kAnyNumber);
     const JsonValue* normalValue = fields.read("normal", normal, kAnyNumber);
     if (normal == Vec3d{})
         return fields.problems().error(normalValue->loc(),
@@ -84,7 +78,7 @@ void plane(Input& in, JsonShape& shape) {
     shape.place = {planeRows(position, unit)};
     shape.checkerboard =
         isVerticalPlane(unit) ? shape.place : Keys{checkerboardRows(position, unit)};
-    if (!placesAll) return;
+    if (!isPlaced) return;
     const Keys place = readJsonPlace(fields);
     shape.place = product(place, shape.place);
     shape.checkerboard = product(place, shape.checkerboard);
@@ -123,7 +117,7 @@ constexpr auto kTypes = std::to_array<Type>({
 
 Handle JsonMeshes::read(JsonFields& fields) {
     std::string file;
-    double smoothAngleDeg = 0; // the course shades meshes flat, whatever normals the file has
+    double smoothAngleDeg = 0;
     const JsonValue* value = fields.read("filepath", file);
     fields.read("smooth_angle", smoothAngleDeg, Range{0, 180});
     if (file.empty() || findBadText(file) != std::string::npos)
