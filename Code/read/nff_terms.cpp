@@ -35,7 +35,7 @@ double nffIntensity(std::size_t lightCount) {
 MaterialDesc nffMaterial(const NffFill& fill) {
     MaterialDesc material;
     material.diffuse = scaled(fill.color, fill.diffuse);
-    material.specular = grey(fill.specular / kPi);
+    material.specular = grey(fill.specular * kInvPi);
     material.specularModel = MaterialDesc::SpecularModel::Phong;
     material.exponent = fill.shine;
     material.mirror = grey(fill.specular);
