@@ -109,12 +109,14 @@ std::string diffHelpText() {
 
 std::string verifyHelpText() {
     VerifyOptions unused;
-    return cat("usage: raytracer verify [TEST...] [options]\n\n"
-               "Runs the stress battery on this machine: rays against closed meshes, shapes against "
-               "wide\narithmetic, lamps and materials against formulas. A line per test; exit code ",
-               static_cast<int>(ExitCode::Internal), " when\none does not keep its mark. Without "
-               "TEST all quick ones; the same cases on every machine.\n",
-               flagsText(verifyFlags(unused)), exitCodesText());
+    return cat(
+        "usage: raytracer verify [TEST...] [options]\n\n"
+        "Runs the stress battery on this machine: rays against closed meshes, shapes against "
+        "wide\narithmetic, lamps and materials against formulas. A line per test; exit code ",
+        static_cast<int>(ExitCode::Internal),
+        " when\none does not keep its mark. Without "
+        "TEST all quick ones; the same cases on every machine.\n",
+        flagsText(verifyFlags(unused)), exitCodesText());
 }
 
 std::string featureListText() {

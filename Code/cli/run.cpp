@@ -16,7 +16,6 @@
 #include "cli/stats_output.h"
 #include "cli/terminal.h"
 #include "cli/verify.h"
-#include "cli/verify.h"
 #include "cli/version.h"
 #include "desc/write_txt.h"
 #include "read/load.h"

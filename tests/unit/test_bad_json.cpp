@@ -4,8 +4,8 @@
 #include "check.h"
 #include "desc/validate.h"
 #include "desc/write_txt.h"
-#include "read/read_json.h"
-#include "read/read_txt.h"
+#include "read/json/read_json.h"
+#include "read/txt/read_txt.h"
 
 #include <algorithm>
 #include <filesystem>

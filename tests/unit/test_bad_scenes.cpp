@@ -5,8 +5,8 @@
 #include "desc/validate.h"
 #include "desc/write_txt.h"
 #include "read/load.h"
-#include "read/read_mtl.h"
-#include "read/read_txt.h"
+#include "read/mesh/read_mtl.h"
+#include "read/txt/read_txt.h"
 
 #include <filesystem>
 #include <fstream>

@@ -1,5 +1,5 @@
 // The MTL reader: what each statement becomes, what it refuses, and damage.
-#include "read/read_mtl.h"
+#include "read/mesh/read_mtl.h"
 
 #include "base/math.h"
 #include "base/text.h"

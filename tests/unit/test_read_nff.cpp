@@ -1,6 +1,6 @@
 // The NFF reader: what it makes of each entity, in numbers worked out by hand. What it refuses is
 // in tests/bad/nff (test_bad_scenes.cpp).
-#include "read/read_nff.h"
+#include "read/nff/read_nff.h"
 
 #include "base/math.h"
 #include "base/text.h"
@@ -8,8 +8,8 @@
 #include "check.h"
 #include "desc/validate.h"
 #include "desc/write_txt.h"
-#include "read/nff_terms.h"
-#include "read/read_txt.h"
+#include "read/nff/terms.h"
+#include "read/txt/read_txt.h"
 
 #include <cmath>
 #include <fstream>

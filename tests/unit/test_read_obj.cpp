@@ -1,9 +1,9 @@
 // The OBJ reader: each statement and quirk with numbers made by hand, what it refuses, and damage.
-#include "read/read_obj.h"
+#include "read/mesh/read_obj.h"
 
 #include "base/text.h"
 #include "check.h"
-#include "read/triangulate.h"
+#include "read/mesh/triangulate.h"
 #include "unit/foreign_corpus.h"
 
 #include <chrono>

@@ -1,10 +1,10 @@
 // The PLY reader: ascii and both binary orders give the same mesh, bit for bit. What it refuses is
 // in tests/bad/ply (test_bad_scenes.cpp) and, for binary data, here.
-#include "read/read_ply.h"
+#include "read/mesh/read_ply.h"
 
 #include "base/text.h"
 #include "check.h"
-#include "read/ply_header.h"
+#include "read/mesh/ply_header.h"
 
 #include <algorithm>
 #include <array>

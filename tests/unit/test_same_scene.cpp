@@ -3,10 +3,10 @@
 #include "check.h"
 #include "desc/validate.h"
 #include "desc/write_txt.h"
+#include "read/json/read_json.h"
 #include "read/load.h"
-#include "read/read_json.h"
-#include "read/read_nff.h"
-#include "read/read_txt.h"
+#include "read/nff/read_nff.h"
+#include "read/txt/read_txt.h"
 
 #include <cmath>
 #include <filesystem>
