@@ -9,12 +9,14 @@
 #include "desc/validate.h"
 #include "desc/write_txt.h"
 #include "read/mesh/read_obj.h"
-#include "unit/foreign_corpus.h"
+#include "unit/damage.h"
 
 #include <chrono>
 #include <random>
 
 namespace {
+
+using damage::contentOf;
 
 using Corners = MeshDesc::Corners;
 
