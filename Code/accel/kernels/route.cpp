@@ -1,0 +1,83 @@
+// Which kernel function gets which rays of a batch: those that share their origin with many others
+// (camera rays of a pinhole, shadow rays of a point light) go as bundles, the rest to the queue.
+// Nothing here can change an answer.
+#include "accel/kernels/kernels.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace {
+
+// Fewer rays from one point than this are no bundle.
+constexpr std::size_t kFewestForBundle = 32;
+// Origins that are looked for: the point lights of a wave.
+constexpr std::size_t kMostOrigins = 8;
+
+struct Groups {
+    struct Group {
+        Vec3 origin;
+        std::vector<std::uint32_t> rays;
+    };
+    std::vector<Group> fromPoint; // the first `used`; kept for their memory
+    std::size_t used = 0;
+    std::vector<std::uint32_t> rest;
+
+    void sort(const RaySpan& rays) {
+        used = 0;
+        rest.clear();
+        std::size_t last = 0, strangers = 0;
+        for (std::uint32_t i = 0; i < rays.size(); ++i) {
+            const Vec3 origin = rays.org[i];
+            if (used > 0 && fromPoint[last].origin == origin) {
+                fromPoint[last].rays.push_back(i);
+                continue;
+            }
+            std::size_t group = 0;
+            while (group < used && !(fromPoint[group].origin == origin)) ++group;
+            if (group == used && used == kMostOrigins) {
+                // Origins of their own, as after a bounce: don't look at the others.
+                rest.push_back(i);
+                if (++strangers < kFewestForBundle) continue;
+                for (++i; i < rays.size(); ++i) rest.push_back(i);
+                break;
+            }
+            if (group == used) {
+                if (fromPoint.size() == used) fromPoint.emplace_back();
+                fromPoint[used].origin = origin;
+                fromPoint[used++].rays.clear();
+            }
+            last = group;
+            fromPoint[group].rays.push_back(i);
+        }
+        for (std::size_t g = 0; g < used; ++g) {
+            auto& few = fromPoint[g].rays;
+            if (few.size() >= kFewestForBundle) continue;
+            rest.insert(rest.end(), few.begin(), few.end());
+            few.clear();
+        }
+    }
+};
+
+template <class Result>
+void route(void (*queue)(const WideMesh&, const RaySpan&, std::span<const std::uint32_t>, Result*),
+           void (*bundle)(const WideMesh&, const RaySpan&, std::span<const std::uint32_t>, Result*),
+           const WideMesh& mesh, const RaySpan& rays, std::span<Result> results) {
+    thread_local Groups groups;
+    groups.sort(rays);
+    for (std::size_t g = 0; g < groups.used; ++g)
+        if (const auto& list = groups.fromPoint[g].rays; !list.empty())
+            bundle(mesh, rays, list, results.data());
+    if (!groups.rest.empty()) queue(mesh, rays, groups.rest, results.data());
+}
+
+} // namespace
+
+void closestHits(const Kernel& kernel, const WideMesh& mesh, const RaySpan& rays,
+                 std::span<TriangleHit> hits) {
+    route(kernel.closest, kernel.closestFromPoint, mesh, rays, hits);
+}
+
+void anyHits(const Kernel& kernel, const WideMesh& mesh, const RaySpan& rays,
+             std::span<std::uint8_t> hidden) {
+    route(kernel.any, kernel.anyFromPoint, mesh, rays, hidden);
+}
