@@ -53,6 +53,8 @@ inline Doubles operator/(Doubles a, Doubles b) {
     return {_mm256_div_pd(a.lo, b.lo), _mm256_div_pd(a.hi, b.hi)};
 }
 inline Floats fma(Floats a, Floats b, Floats c) { return _mm256_fmadd_ps(a.v, b.v, c.v); }
+inline Floats fnma(Floats a, Floats b, Floats c) { return _mm256_fnmadd_ps(a.v, b.v, c.v); } // c - a b
+inline Floats fms(Floats a, Floats b, Floats c) { return _mm256_fmsub_ps(a.v, b.v, c.v); }   // a b - c
 inline Floats min(Floats a, Floats b) { return _mm256_min_ps(a.v, b.v); }
 inline Floats max(Floats a, Floats b) { return _mm256_max_ps(a.v, b.v); }
 inline Floats abs(Floats a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v); }

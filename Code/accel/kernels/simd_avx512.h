@@ -56,6 +56,8 @@ inline Doubles operator/(Doubles a, Doubles b) {
     return {_mm512_div_pd(a.lo, b.lo), _mm512_div_pd(a.hi, b.hi)};
 }
 inline Floats fma(Floats a, Floats b, Floats c) { return _mm512_fmadd_ps(a.v, b.v, c.v); }
+inline Floats fnma(Floats a, Floats b, Floats c) { return _mm512_fnmadd_ps(a.v, b.v, c.v); } // c - a b
+inline Floats fms(Floats a, Floats b, Floats c) { return _mm512_fmsub_ps(a.v, b.v, c.v); }   // a b - c
 // The second operand wins when one is NaN, as in base/math.h.
 inline Floats min(Floats a, Floats b) { return _mm512_min_ps(a.v, b.v); }
 inline Floats max(Floats a, Floats b) { return _mm512_max_ps(a.v, b.v); }

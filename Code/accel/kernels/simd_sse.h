@@ -81,6 +81,8 @@ inline Doubles operator/(const Doubles& a, const Doubles& b) {
 }
 // Two roundings here: fma() is used only where the pads cover either way.
 inline Floats fma(Floats a, Floats b, Floats c) { return a * b + c; }
+inline Floats fnma(Floats a, Floats b, Floats c) { return c - a * b; } // c - a b
+inline Floats fms(Floats a, Floats b, Floats c) { return a * b - c; }   // a b - c
 inline Floats min(Floats a, Floats b) { return {_mm_min_ps(a.lo, b.lo), _mm_min_ps(a.hi, b.hi)}; }
 inline Floats max(Floats a, Floats b) { return {_mm_max_ps(a.lo, b.lo), _mm_max_ps(a.hi, b.hi)}; }
 inline Floats abs(Floats a) {
