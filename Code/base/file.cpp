@@ -66,9 +66,7 @@ void writeBytes(const std::string& path, const std::string& fileName,
     if (std::fclose(file.release()) != 0) failWriting(fileName, errno);
 }
 
-} // namespace
-
-std::vector<std::uint8_t> readWholeFile(const std::string& fileName) {
+template <class Bytes> Bytes readWhole(const std::string& fileName) {
     const auto failReading = [&](const std::string& reason) {
         fail(ErrorKind::Input, cat(fileName, ": error: cannot read: ", reason));
     };
@@ -80,7 +78,7 @@ std::vector<std::uint8_t> readWholeFile(const std::string& fileName) {
         failReading("it is a device; name a file");
     const File file(std::fopen(fileName.c_str(), "rb"));
     if (!file) failReading(std::strerror(errno));
-    std::vector<std::uint8_t> bytes;
+    Bytes bytes;
     std::size_t used = 0;
     const std::uintmax_t promised = fs::is_regular_file(kind) ? fs::file_size(fileName, status) : 0;
     constexpr std::uintmax_t kFirstPart = 1 << 16;
@@ -98,6 +96,14 @@ std::vector<std::uint8_t> readWholeFile(const std::string& fileName) {
     bytes.resize(used);
     return bytes;
 }
+
+} // namespace
+
+std::vector<std::uint8_t> readWholeFile(const std::string& fileName) {
+    return readWhole<std::vector<std::uint8_t>>(fileName);
+}
+
+std::string readWholeText(const std::string& fileName) { return readWhole<std::string>(fileName); }
 
 void writeFileAtomically(const std::string& fileName, std::span<const std::uint8_t> bytes) {
     const std::scoped_lock lock(oneWriteAtATime);

@@ -65,6 +65,9 @@ void setQuality(SettingsDesc& picture, const Options& options) {
     set(picture.lightSamples, options.lightSamples);
     set(picture.maxDepth, options.maxDepth);
     set(picture.sampler, options.sampler);
+    // Corners lie apart already; more samples serve lights, lens and motion only.
+    if (options.sampler == SettingsDesc::Sampler::Corners && !options.samplesPerPixel)
+        picture.samplesPerPixel = 1;
     set(picture.jitter, options.jitter);
     set(picture.seed, options.seed);
     if (options.filter) {
@@ -75,6 +78,8 @@ void setQuality(SettingsDesc& picture, const Options& options) {
     set(picture.transfer, options.transfer);
     if (options.switches.aa) return;
     // All samples in the centre of the pixel: one is enough, unless lights or lens need more.
+    if (picture.sampler == SettingsDesc::Sampler::Corners)
+        picture.sampler = SettingsDesc::Sampler::Grid;
     picture.samplesPerPixel = options.samplesPerPixel.value_or(1);
     picture.jitter = false;
     picture.filter = SettingsDesc::Filter::Box;

@@ -186,6 +186,12 @@ inline constexpr auto kObjectProperties = [] {
     });
 }();
 
+// Instead of the arrays below.
+inline constexpr auto kMeshProperties = std::to_array<Property<MeshDesc>>({
+    {"file", &MeshDesc::file, {}, {}},
+    {"smooth_angle", &MeshDesc::smoothAngleDeg, {}, {0, 180}},
+});
+
 // What differs between blocks: the word for it, its table, its kind (0 when all are alike).
 template <class Block> constexpr std::span<const Property<Block>> propertiesOf() {
     if constexpr (std::is_same_v<Block, SettingsDesc>)
@@ -200,6 +206,8 @@ template <class Block> constexpr std::span<const Property<Block>> propertiesOf()
         return kMaterialProperties;
     else if constexpr (std::is_same_v<Block, LightDesc>)
         return kLightProperties;
+    else if constexpr (std::is_same_v<Block, MeshDesc>)
+        return kMeshProperties;
     else
         return kObjectProperties;
 }
@@ -294,6 +302,7 @@ template <class Scene, class Call> void forEachBlock(Scene& desc, Call&& call) {
     for (auto& texture : desc.textures) call(texture);
     for (auto& material : desc.materials) call(material);
     for (auto& light : desc.lights) call(light);
+    for (auto& mesh : desc.meshes) call(mesh);
     for (auto& object : desc.objects) call(object);
 }
 

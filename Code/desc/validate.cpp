@@ -209,16 +209,15 @@ private:
         if (object.mesh == kNone) return error(object, "has no 'mesh'");
         if (object.mesh < 0 || static_cast<std::size_t>(object.mesh) >= slots_.size())
             return; // told above
-        // Without materials, all slots show the default material.
+        // Without materials, all slots show the default one; with one, all show that.
         const std::uint32_t slots = slots_[static_cast<std::size_t>(object.mesh)];
-        if (!object.materials.empty() && slots > object.materials.size())
+        if (object.materials.size() > 1 && slots > object.materials.size())
             error(object, "its mesh uses material slot ", slots - 1, ", but it has ",
-                  object.materials.size(),
-                  object.materials.size() == 1 ? " material" : " materials",
-                  " (slots count from 0)");
+                  object.materials.size(), " materials (slots count from 0)");
     }
 
     void checkMesh(const MeshDesc& mesh) {
+        if (!mesh.file.empty()) return slots_.push_back(1); // not read yet
         if (mesh.triangles.empty()) error(mesh, "has no triangles");
         for (std::size_t i = 0; i < mesh.points.size(); ++i) {
             const Vec3d& p = mesh.points[i];

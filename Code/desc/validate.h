@@ -8,5 +8,6 @@
 // Throws one Error with all mistakes (the first 20, with their places). What only looks wrong, as a
 // scene without light, becomes a warning. After it, every handle and index is in range, every
 // number that has an effect is finite and in its range (desc/properties.h), every transform can be
-// inverted.
+// inverted. Meshes that still name a file
+// (read/mesh_files.h) are not looked into.
 void validate(const SceneDesc& desc, const SourceFile& source, Diagnostics& diagnostics);

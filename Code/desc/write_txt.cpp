@@ -44,6 +44,11 @@ private:
         if constexpr (requires { block.worldFromCamera; }) keys(block.worldFromCamera);
         if constexpr (requires { block.worldFromObject; }) keys(block.worldFromObject);
         if constexpr (requires { block.worldFromLight; }) keys(std::span(&block.worldFromLight, 1));
+        properties(block);
+        out_ += "}\n";
+    }
+
+    template <class Block> void properties(const Block& block) {
         static const Block kDefaults{};
         for (const Property<Block>& property : propertiesOf<Block>()) {
             if constexpr (std::is_same_v<Block, ObjectDesc>)
@@ -59,7 +64,6 @@ private:
             if (property.second) values(block, *property.second);
             out_ += '\n';
         }
-        out_ += "}\n";
     }
 
     template <class Block> void values(const Block& block, const Field<Block>& field) {
@@ -101,6 +105,7 @@ private:
 
     void arrays(const MeshDesc& mesh) {
         open(mesh);
+        properties(mesh);
         for (const MeshArray& array : kMeshArrays)
             std::visit(
                 [&](auto member) {

@@ -12,10 +12,10 @@ float SpotCone::attenuation(Vec3 fromLight) const {
     return cosineFalloff ? smooth * max(c, 0.0f) : smooth;
 }
 
-PointLight::PointLight(Vec3 position, Rgb intensity, float radius, std::optional<SpotCone> cone,
-                       bool castsShadows)
-    : Light(castsShadows), position_(position), intensity_(intensity), radius_(radius),
-      cone_(cone) {}
+PointLight::PointLight(Vec3 position, Rgb intensity, Attenuation attenuation, float radius,
+                       std::optional<SpotCone> cone, bool castsShadows)
+    : Light(castsShadows), position_(position), intensity_(intensity), attenuation_(attenuation),
+      radius_(radius), cone_(cone) {}
 
 LightSample PointLight::centre(Vec3 point) const {
     const Vec3 d = position_ - point;
@@ -24,7 +24,7 @@ LightSample PointLight::centre(Vec3 point) const {
     const float distance = std::sqrt(distance2);
     const Vec3 toLight = d / distance;
     const float cone = cone_ ? cone_->attenuation(-toLight) : 1.0f;
-    return {toLight, distance, intensity_ * (cone / distance2)};
+    return {toLight, distance, intensity_ * (cone / attenuation_.at(distance, distance2))};
 }
 
 LightSample PointLight::sample(Vec3 point, Vec2 u) const {
@@ -37,5 +37,6 @@ LightSample PointLight::sample(Vec3 point, Vec2 u) const {
     const Vec3 toLight = d / distance;
     const float cosAtDisk = dot(toLight, frame.z);
     const float cone = cone_ ? cone_->attenuation(-toLight) : 1.0f;
-    return {toLight, distance, intensity_ * (cone * cosAtDisk / distance2)};
+    return {toLight, distance,
+            intensity_ * (cone * cosAtDisk / attenuation_.at(distance, distance2))};
 }

@@ -12,12 +12,21 @@ struct SpotCone {
     float attenuation(Vec3 fromLight) const;
 };
 
+// Light at distance d is the intensity over this polynomial of d: d^2 for all real lamps, others
+// for scenes whose lamps fade less or not at all.
+struct Attenuation {
+    float quadratic = 1, linear = 0, constant = 0;
+    float at(float distance, float distance2) const {
+        return quadratic * distance2 + linear * distance + constant;
+    }
+};
+
 class PointLight final : public Light {
 public:
     // Intensity in W/sr. With a radius, light comes from a disk about the centre that always faces
     // the receiver: E = I * mean over the disk of cosAtDisk / distance^2, as Cycles has it.
-    PointLight(Vec3 position, Rgb intensity, float radius, std::optional<SpotCone> cone,
-               bool castsShadows);
+    PointLight(Vec3 position, Rgb intensity, Attenuation attenuation, float radius,
+               std::optional<SpotCone> cone, bool castsShadows);
     bool isSoft() const override { return radius_ > 0; }
     LightSample sample(Vec3 point, Vec2 u) const override;
     LightSample centre(Vec3 point) const override;
@@ -26,6 +35,7 @@ public:
 private:
     Vec3 position_;
     Rgb intensity_;
+    Attenuation attenuation_;
     float radius_;
     std::optional<SpotCone> cone_;
 };

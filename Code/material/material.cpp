@@ -36,6 +36,11 @@ Rgb reflectedLight(const Material& material, Vec3 n, Vec3 toEye, Vec3 toLight) {
     if (!(cosLight > 0)) return {};
     Rgb sum = material.diffuse * (kInvPiF * cosLight);
     if (isBlack(material.specular)) return sum;
+    if (material.specularModel == SpecularModel::Phong) {
+        const float cosMirror = min(dot(reflectAbout(toLight, n), toEye), 1.0f);
+        return cosMirror > 0 ? sum + material.specular * exact::pow(cosMirror, material.exponent)
+                             : sum;
+    }
     const Vec3 half = toEye + toLight;
     const float length2 = dot(half, half);
     if (!(length2 > 0)) return sum;

@@ -6,7 +6,7 @@
 
 #include <optional>
 
-enum class SpecularModel { Blinn, Ashikhmin };
+enum class SpecularModel { Blinn, Ashikhmin, Phong };
 enum class FresnelModel { None, Dielectric, Schlick };
 
 struct Material {
@@ -26,6 +26,7 @@ struct Material {
 // Radiance towards `toEye` per unit of irradiance on a surface facing the light that comes from
 // `toLight`: f * cos. All unit vectors; n on the side of the eye. 0 when the light is behind n.
 // Blinn: diffuse/pi * N.L + specular * (N.H)^n (the classic form has no cosine in its highlight).
+// Phong: the same with R.V for N.H, where R is the mirrored direction to the light.
 // Ashikhmin: specular * (n+1)/(8 pi) (N.H)^n / ((H.V) max(N.L, N.V)) * N.L, Cycles' lobe.
 Rgb reflectedLight(const Material& material, Vec3 n, Vec3 toEye, Vec3 toLight);
 

@@ -1,5 +1,6 @@
-// Film: sums of samples per pixel. Every sample belongs to one pixel and every pixel to one worker,
-// so sums have one order and threads need no locks.
+// Film: sums of samples per place. Every sample belongs to one place and every place to one worker,
+// so sums have one order and threads need no locks. A place is a pixel, or for SamplerKind Corners
+// the corner of pixels, which takes part in the four around it.
 #pragma once
 
 #include "base/vec.h"
@@ -38,6 +39,25 @@ public:
             const float n = static_cast<float>(counts_[i]);
             image.pixels()[i] = {n, n, n};
         }
+        return image;
+    }
+
+    // For a film of corners: the pixels between them, each its upper left one (for numbers of
+    // objects, which can't be averaged), or the mean of its four.
+    static Image upperLeftCorners(const Image& corners) {
+        Image image(corners.width() - 1, corners.height() - 1);
+        for (int y = 0; y < image.height(); ++y)
+            for (int x = 0; x < image.width(); ++x) image.setPixel(x, y, corners.pixel(x, y));
+        return image;
+    }
+    static Image meanOfCorners(const Image& corners) {
+        Image image(corners.width() - 1, corners.height() - 1);
+        for (int y = 0; y < image.height(); ++y)
+            for (int x = 0; x < image.width(); ++x) {
+                const Rgb above = corners.pixel(x, y) + corners.pixel(x + 1, y);
+                const Rgb below = corners.pixel(x, y + 1) + corners.pixel(x + 1, y + 1);
+                image.setPixel(x, y, (above + below) * 0.25f);
+            }
         return image;
     }
 

@@ -16,6 +16,21 @@ float sphereRadius(const LightDesc& desc, const Transform& place) {
     return toFloat(desc.radius * length(place.vector({1, 0, 0})));
 }
 
+// A lamp's intensity and attenuation when lengths are multiplied by `scale`. Both are multiplied by
+// the power of the scale that keeps the leading coefficient: the picture depends on their ratio
+// only, and no scale of the scene takes them out of the range of float.
+struct ScaledLamp {
+    Rgb intensity;
+    Attenuation attenuation;
+};
+ScaledLamp scaledLamp(const LightDesc& desc, double scale) {
+    const Vec3d a = desc.attenuation;
+    const double power = a.x > 0 ? scale * scale : a.y > 0 ? scale : 1.0;
+    return {toRgb(desc.color) * toFloat(power),
+            {toFloat(a.x * power / (scale * scale)), toFloat(a.y * power / scale),
+             toFloat(a.z * power)}};
+}
+
 } // namespace
 
 std::unique_ptr<const Light> makeLight(const LightDesc& desc, const SceneFrame& frame) {
@@ -31,8 +46,8 @@ std::unique_ptr<const Light> makeLight(const LightDesc& desc, const SceneFrame& 
         if (desc.kind == LightDesc::Kind::Spot)
             cone = SpotCone{axis, toFloat(exact::cos(radians(desc.coneAngleDeg / 2))),
                             toFloat(desc.blend), desc.cosineFalloff};
-        // E = I / r^2 stays the same when all lengths are scaled.
-        return std::make_unique<PointLight>(position, color * toFloat(scale * scale),
+        const ScaledLamp lamp = scaledLamp(desc, scale);
+        return std::make_unique<PointLight>(position, lamp.intensity, lamp.attenuation,
                                             toFloat(desc.radius * scale), cone, desc.shadows);
     }
     case LightDesc::Kind::Sun:

@@ -1,17 +1,21 @@
 #include "render/make_shape.h"
 
 #include "base/error.h"
+#include "shape/checkered.h"
 #include "shape/cone.h"
 #include "shape/cube.h"
 #include "shape/cylinder.h"
 #include "shape/disk.h"
 #include "shape/infinite_plane.h"
+#include "shape/one_sided.h"
 #include "shape/plane.h"
 #include "shape/sphere.h"
 
 #include <utility>
 
-std::unique_ptr<const Shape> makeShape(const ObjectDesc& object, MovingTransform place,
+namespace {
+
+std::unique_ptr<const Shape> bareShape(const ObjectDesc& object, MovingTransform place,
                                        std::uint32_t material, std::uint32_t id) {
     switch (object.kind) {
     case ObjectDesc::Kind::Sphere:
@@ -32,4 +36,21 @@ std::unique_ptr<const Shape> makeShape(const ObjectDesc& object, MovingTransform
     case ObjectDesc::Kind::Mesh: break;
     }
     fail(ErrorKind::Input, "error: an object of a kind that is not known");
+}
+
+} // namespace
+
+std::unique_ptr<const Shape> makeShape(const ObjectDesc& object, MovingTransform place,
+                                       std::span<const std::uint32_t> materials, std::uint32_t id) {
+    auto shape = bareShape(object, std::move(place), materials[0], id);
+    if (materials.size() > 1) shape = std::make_unique<Checkered>(std::move(shape), materials[1]);
+    return withSides(std::move(shape), object.sides);
+}
+
+std::unique_ptr<const Shape> withSides(std::unique_ptr<const Shape> shape,
+                                       ObjectDesc::Sides sides) {
+    if (sides == ObjectDesc::Sides::Both) return shape;
+    return std::make_unique<OneSided>(std::move(shape), sides == ObjectDesc::Sides::Front
+                                                            ? OneSided::Side::Front
+                                                            : OneSided::Side::Back);
 }

@@ -6,7 +6,12 @@
 #include "shape/shape.h"
 
 #include <memory>
+#include <span>
 
-// Any kind but Mesh, whose geometry is shared (merge.h). `place` is normalisedFromObject.
+// Any kind but Mesh, whose geometry is shared (merge.h). `place` is normalisedFromObject; there is
+// at least one material, two for a checkerboard.
 std::unique_ptr<const Shape> makeShape(const ObjectDesc& object, MovingTransform place,
-                                       std::uint32_t material, std::uint32_t id);
+                                       std::span<const std::uint32_t> materials, std::uint32_t id);
+
+// The shape, of which only some sides can be seen.
+std::unique_ptr<const Shape> withSides(std::unique_ptr<const Shape> shape, ObjectDesc::Sides sides);

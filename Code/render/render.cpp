@@ -67,10 +67,14 @@ public:
     Renderer(const Scene& scene, const RenderSettings& settings)
         : context_(scene, settings), settings_(settings),
           filter_(filterKind(settings.picture.filter), settings.picture.filterWidth),
-          width_(settings.picture.width),
-          height_(settings.picture.height), area_{0, 0, width_, height_}, color_(1, 1) {
+          corners_(settings.picture.sampler == SettingsDesc::Sampler::Corners),
+          width_(settings.picture.width + corners_), area_{0, 0, settings.picture.width,
+                                                           settings.picture.height},
+          color_(1, 1) {
         if (const auto& crop = settings.picture.crop)
             area_ = {(*crop)[0], (*crop)[1], (*crop)[2], (*crop)[3]};
+        area_.x1 += corners_;
+        area_.y1 += corners_;
         color_ = Film(area_.width(), area_.height());
         for (std::size_t i = 0; i < settings.aovs.size(); ++i)
             aovs_.emplace_back(area_.width(), area_.height());
@@ -101,11 +105,11 @@ public:
         }
         const double samples = settings_.picture.samplesPerPixel;
         stats.samplesMin = stats.samplesMean = stats.samplesMax = samples;
-        picture.color = color_.mean();
+        picture.color = pixelsOf(color_.mean(), false);
         for (std::size_t i = 0; i < aovs_.size(); ++i) {
             const Aov aov = settings_.aovs[i];
-            picture.aovs.push_back(
-                {aov, aov == Aov::Samples ? aovs_[i].samples() : aovs_[i].mean()});
+            Image image = aov == Aov::Samples ? aovs_[i].samples() : aovs_[i].mean();
+            picture.aovs.push_back({aov, pixelsOf(std::move(image), aov == Aov::Id)});
         }
         return picture;
     }
@@ -130,6 +134,11 @@ private:
         }
     }
 
+    Image pixelsOf(Image places, bool areNumbers) const {
+        if (!corners_) return places;
+        return areNumbers ? Film::upperLeftCorners(places) : Film::meanOfCorners(places);
+    }
+
     // Camera rays for samples first .. first + count - 1 of every pixel, pixel after pixel.
     void makeSamples(const Rect& tile, int first, int count, SampleChunk& chunk) {
         chunk.ids.clear();
@@ -146,14 +155,19 @@ private:
             static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_) +
             static_cast<std::uint32_t>(x); // wraps in huge pictures
         const auto sample = static_cast<std::uint32_t>(s);
-        const Vec2 place = filter_.sample(context_.sampler.get2D(pixel, sample, kPixelDimension));
+        Vec2d place{static_cast<double>(x),
+                    static_cast<double>(y)}; // the pixel's upper left corner
+        if (!corners_) {
+            const Vec2 offset =
+                filter_.sample(context_.sampler.get2D(pixel, sample, kPixelDimension));
+            place = {x + 0.5 + offset.x, y + 0.5 + offset.y};
+        }
         Vec2 lens{0.5f, 0.5f};
         if (context_.scene.camera().hasLens())
             lens = context_.sampler.get2D(pixel, sample, kLensDimension);
         float time = 0.5f; // what stands still looks the same at any time
         if (context_.scene.moves()) time = context_.sampler.get1D(pixel, sample, kTimeDimension);
-        const Ray ray =
-            context_.scene.camera().ray({x + 0.5 + place.x, y + 0.5 + place.y}, lens, time);
+        const Ray ray = context_.scene.camera().ray(place, lens, time);
         const auto slot = static_cast<std::uint32_t>(chunk.ids.size());
         chunk.ids.push_back({pixel, sample});
         chunk.cameraRays.push(ray, slot, {1, 1, 1}, context_.cameraMedium, pixel, true);
@@ -200,7 +214,8 @@ private:
     IntegratorContext context_;
     const RenderSettings& settings_;
     Filter filter_;
-    int width_, height_;
+    bool corners_; // samples lie on the corners of pixels; places are those, one more each way
+    int width_;    // of the whole picture, in places
     Rect area_;
     std::vector<Rect> tiles_;
     Film color_;

@@ -4,6 +4,7 @@
 
 #include "base/math.h"
 #include "base/text.h"
+#include "desc/enum_tables.h"
 #include "image/image.h"
 #include "render/make_light.h"
 #include "render/make_shape.h"
@@ -88,13 +89,20 @@ private:
             scene_.hasSeeThrough_ = scene_.hasSeeThrough_ || m.seeThrough();
     }
 
+    static SpecularModel specularModelOf(MaterialDesc::SpecularModel model) {
+        switch (model) {
+        case MaterialDesc::SpecularModel::Ashikhmin: return SpecularModel::Ashikhmin;
+        case MaterialDesc::SpecularModel::Phong: return SpecularModel::Phong;
+        case MaterialDesc::SpecularModel::Blinn: break;
+        }
+        return SpecularModel::Blinn;
+    }
+
     SceneMaterial makeMaterial(const MaterialDesc& desc) const {
         SceneMaterial m;
         m.base.diffuse = toRgb(desc.diffuse);
         m.base.specular = toRgb(desc.specular);
-        m.base.specularModel = desc.specularModel == MaterialDesc::SpecularModel::Blinn
-                                   ? SpecularModel::Blinn
-                                   : SpecularModel::Ashikhmin;
+        m.base.specularModel = specularModelOf(desc.specularModel);
         m.base.exponent = toFloat(desc.exponent);
         if (on_.reflection) m.base.mirror = toRgb(desc.mirror);
         if (on_.refraction) m.base.transmission = toRgb(desc.transmission);
@@ -123,8 +131,12 @@ private:
         return handle == kNone ? static_cast<std::uint32_t>(desc_.materials.size())
                                : static_cast<std::uint32_t>(handle);
     }
-    std::uint32_t firstMaterial(const ObjectDesc& object) const {
-        return materialId(object.materials.empty() ? kNone : object.materials[0]);
+    // At least one.
+    std::vector<std::uint32_t> materialIds(const ObjectDesc& object) const {
+        std::vector<std::uint32_t> ids;
+        for (const Handle handle : object.materials) ids.push_back(materialId(handle));
+        if (ids.empty()) ids.push_back(materialId(kNone));
+        return ids;
     }
 
     // ---- camera and world
@@ -183,7 +195,9 @@ private:
         const TextureDesc& picture = desc_.textures[static_cast<std::size_t>(handle)];
         scene_.environment_ = std::make_unique<const Environment>(
             loadPicture(picture, source_, settings_.textureFolder), spaceOf(picture),
-            interpolationOf(picture), radians(desc_.world.rotationDeg));
+            interpolationOf(picture),
+            desc_.world.environmentUp == WorldDesc::Up::Z ? Environment::Up::Z : Environment::Up::Y,
+            radians(desc_.world.rotationDeg));
     }
 
     // ---- objects
@@ -202,30 +216,33 @@ private:
                 ++uses[static_cast<std::size_t>(object.mesh)];
 
         // Meshes that are used once and stand still become one, with one tree over all triangles;
-        // see-through ones apart, as their shadows have to look at every hit.
-        MergedMesh opaque, seeThrough;
+        // see-through ones apart, as their shadows have to look at every hit, and those apart of
+        // which not all sides are seen.
+        constexpr std::size_t kSides = kEnumNames<ObjectDesc::Sides>.size();
+        std::array<MergedMesh, kSides> opaque, seeThrough;
         for (std::size_t i = 0; i < desc_.objects.size(); ++i) {
             const ObjectDesc& object = desc_.objects[i];
             const auto id = static_cast<std::uint32_t>(i);
             MovingTransform place = placed(object.worldFromObject);
             if (object.kind != ObjectDesc::Kind::Mesh) {
-                const std::uint32_t material = firstMaterial(object);
-                scene_.shapes_.add(makeShape(object, std::move(place), material, id),
-                                   shadowOf({material}));
+                const std::vector<std::uint32_t> materials = materialIds(object);
+                scene_.shapes_.add(makeShape(object, std::move(place), materials, id),
+                                   shadowOf(materials));
                 continue;
             }
             const auto mesh = static_cast<std::size_t>(object.mesh);
             const auto materials = materialsBySlot(object, desc_.meshes[mesh]);
             if (uses[mesh] == 1 && place.isStatic()) {
                 const bool solid = shadowOf(materials) == ShapeSet::Shadow::Opaque;
-                (solid ? opaque : seeThrough)
-                    .add(desc_.meshes[mesh], worldRows(object), scene_.frame_, materials, id);
+                (solid ? opaque : seeThrough)[static_cast<std::size_t>(object.sides)].add(
+                    desc_.meshes[mesh], worldRows(object), scene_.frame_, materials, id);
             } else {
-                addInstance(mesh, place, materials, id);
+                addInstance(object, place, materials, id);
             }
         }
-        addMerged(std::move(opaque));
-        addMerged(std::move(seeThrough));
+        for (auto* group : {&opaque, &seeThrough})
+            for (std::size_t sides = 0; sides < kSides; ++sides)
+                addMerged(std::move((*group)[sides]), static_cast<ObjectDesc::Sides>(sides));
     }
 
     // Where a mesh that stands still is, before the frame: its points are placed one by one.
@@ -239,28 +256,28 @@ private:
 
     std::vector<std::uint32_t> materialsBySlot(const ObjectDesc& object,
                                                const MeshDesc& mesh) const {
-        std::vector<std::uint32_t> out;
-        for (const Handle handle : object.materials) out.push_back(materialId(handle));
+        std::vector<std::uint32_t> out = materialIds(object);
         std::uint32_t slots = 1;
         for (const std::uint32_t slot : mesh.triangleMaterials) slots = std::max(slots, slot + 1);
-        while (out.size() < slots) out.push_back(out.empty() ? materialId(kNone) : out.back());
+        while (out.size() < slots) out.push_back(out.back());
         return out;
     }
 
-    void addMerged(MergedMesh merged) {
+    void addMerged(MergedMesh merged, ObjectDesc::Sides sides) {
         if (merged.geometry.triangles.empty()) return;
         auto geometry = std::make_unique<MeshGeometry>(std::move(merged.geometry));
         geometry->finish(settings_.accel == AccelKind::Bvh);
         scene_.degenerateCount_ += merged.degenerateCount;
-        scene_.shapes_.add(std::make_unique<Mesh>(*geometry, MovingTransform(), merged.materials,
-                                                  std::move(merged.parts)),
-                           shadowOf(merged.materials));
+        auto mesh = std::make_unique<Mesh>(*geometry, MovingTransform(), merged.materials,
+                                           std::move(merged.parts));
+        scene_.shapes_.add(withSides(std::move(mesh), sides), shadowOf(merged.materials));
         scene_.geometries_.push_back(std::move(geometry));
     }
 
     // One geometry per mesh, in a frame of its own; as many transforms as there are instances.
-    void addInstance(std::size_t mesh, const MovingTransform& place,
-                     std::vector<std::uint32_t> materials, std::uint32_t object) {
+    void addInstance(const ObjectDesc& object, const MovingTransform& place,
+                     std::vector<std::uint32_t> materials, std::uint32_t id) {
+        const auto mesh = static_cast<std::size_t>(object.mesh);
         const auto [at, isNew] = instanced_.try_emplace(mesh);
         if (isNew) {
             at->second.frame = frameOf(desc_.meshes[mesh]);
@@ -276,10 +293,9 @@ private:
         const ShapeSet::Shadow shadow = shadowOf(materials);
         const Transform objectFromMesh =
             Transform::translate(shared.frame.centre) * Transform::scale(1 / shared.frame.scale);
-        scene_.shapes_.add(std::make_unique<Mesh>(*shared.geometry, place, std::move(materials),
-                                                  std::vector<MeshPart>{{0, object}},
-                                                  objectFromMesh),
-                           shadow);
+        auto shape = std::make_unique<Mesh>(*shared.geometry, place, std::move(materials),
+                                            std::vector<MeshPart>{{0, id}}, objectFromMesh);
+        scene_.shapes_.add(withSides(std::move(shape), object.sides), shadow);
     }
 
     // ---- lights

@@ -4,20 +4,18 @@
 // depend on how samples are grouped.
 #include "render/integrator.h"
 #include "render/shading.h"
+#include "render/to_float.h"
 #include "sample/dimensions.h"
 #include "sample/hash.h"
 
 namespace {
-
-// Rays that would change no pixel by more than this part of white are not traced.
-constexpr float kNegligibleWeight = 1.0f / 2048;
 
 class Waves {
 public:
     Waves(const IntegratorContext& context, SampleChunk& chunk, WaveMemory& memory,
           RayCounts& counts)
         : context_(context), scene_(context.scene), settings_(context.settings), chunk_(chunk),
-          memory_(memory), counts_(counts) {}
+          memory_(memory), counts_(counts), cutoff_(toFloat(settings_.picture.cutoff)) {}
 
     void run(std::uint64_t& cameraHits) {
         memory_.rays = chunk_.cameraRays;
@@ -82,7 +80,10 @@ private:
         if (goesOn) spawnBounces(at, weight, i, depth);
     }
 
-    static bool worthTracing(Rgb weight) { return maxChannel(weight) >= kNegligibleWeight; }
+    bool worthTracing(Rgb weight) const {
+        const float most = maxChannel(weight);
+        return most > 0 && most >= cutoff_;
+    }
 
     void castShadowRays(const ShadedPoint& at, Rgb weight, std::size_t i, int depth) {
         for (std::size_t l = 0; l < scene_.lights().size(); ++l) {
@@ -173,6 +174,7 @@ private:
     SampleChunk& chunk_;
     WaveMemory& memory_;
     RayCounts& counts_;
+    float cutoff_;
 };
 
 } // namespace

@@ -1,15 +1,17 @@
 // Environment: an equirectangular picture around the scene, seen where rays meet no surface.
 // Directions are Blender's: the middle of the picture is towards +x, its upper edge is +z, and the
-// left quarter is towards +y.
+// left quarter is towards +y. Up::Y turns all that by 90 degrees about x, so that the upper edge is
+// +y and the left quarter towards -z.
 #pragma once
 
 #include "texture/texel_grid.h"
 
 class Environment {
 public:
-    // The picture turned about +z by rotationRad, +x towards +y. Fails (ErrorKind::Input) when
-    // the picture's numbers do not fill its rectangle.
-    Environment(StoredImage image, ColorSpace space, Interpolation interpolation,
+    // The picture turned about its upward axis by rotationRad, +x towards the left quarter. Fails
+    // (ErrorKind::Input) when the picture's numbers do not fill its rectangle.
+    enum class Up { Z, Y };
+    Environment(StoredImage image, ColorSpace space, Interpolation interpolation, Up up,
                 double rotationRad);
 
     // u = 1/2 - (atan2(y, x) - rotation) / 2 pi, going round; v = 1/2 + latitude / pi from the
@@ -18,5 +20,6 @@ public:
 
 private:
     TexelGrid grid_;
+    Up up_;
     double turns_; // rotation / 2 pi
 };

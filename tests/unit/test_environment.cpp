@@ -31,7 +31,8 @@ Vec3 towards(double longitude, double latitude) {
 } // namespace
 
 TEST(environment_directions) {
-    const Environment e(numbered(), ColorSpace::Linear, Interpolation::Nearest, 0);
+    const Environment e(numbered(), ColorSpace::Linear, Interpolation::Nearest, Environment::Up::Z,
+                        0);
     const double up = kPi / 8; // row 1, just above the horizon
     // u = 1/2 - longitude / 2 pi: the picture's middle is +x, left of it is +y.
     CHECK_EQUAL(e.radiance(towards(-0.1, up)).r, 8 + 4.0f);
@@ -48,7 +49,8 @@ TEST(environment_directions) {
 }
 
 TEST(environment_wraps_round_and_holds_at_the_poles) {
-    const Environment e(numbered(), ColorSpace::Linear, Interpolation::Bilinear, 0);
+    const Environment e(numbered(), ColorSpace::Linear, Interpolation::Bilinear, Environment::Up::Z,
+                        0);
     const double up = kPi / 8;
     // Towards -x: half-way between the last texel and the first.
     CHECK_NEAR(e.radiance(towards(kPi, up)).r, 8 + 3.5, 1e-5);
@@ -63,8 +65,10 @@ TEST(environment_wraps_round_and_holds_at_the_poles) {
 TEST(environment_turns_with_its_rotation) {
     Random random(1001);
     const double angle = 0.7;
-    const Environment plain(numbered(), ColorSpace::Linear, Interpolation::Bilinear, 0);
-    const Environment turned(numbered(), ColorSpace::Linear, Interpolation::Bilinear, angle);
+    const Environment plain(numbered(), ColorSpace::Linear, Interpolation::Bilinear,
+                            Environment::Up::Z, 0);
+    const Environment turned(numbered(), ColorSpace::Linear, Interpolation::Bilinear,
+                             Environment::Up::Z, angle);
     for (int i = 0; i < 1000; ++i) {
         const double longitude = random.uniform(-2.3, 2.3), latitude = random.uniform(-1.5, 1.5);
         CHECK_NEAR(turned.radiance(towards(longitude + angle, latitude)).r,
@@ -80,8 +84,10 @@ TEST(environment_against_the_formula) {
             us.push_back((static_cast<float>(x) + 0.5f) / 128);
             vs.push_back((static_cast<float>(63 - y) + 0.5f) / 64);
         }
-    const Environment u(floats(128, 64, us), ColorSpace::Linear, Interpolation::Bilinear, 0);
-    const Environment v(floats(128, 64, vs), ColorSpace::Linear, Interpolation::Bilinear, 0);
+    const Environment u(floats(128, 64, us), ColorSpace::Linear, Interpolation::Bilinear,
+                        Environment::Up::Z, 0);
+    const Environment v(floats(128, 64, vs), ColorSpace::Linear, Interpolation::Bilinear,
+                        Environment::Up::Z, 0);
     Random random(1002);
     for (int i = 0; i < 5000; ++i) {
         const Vec3d d = random.direction();
@@ -92,9 +98,23 @@ TEST(environment_against_the_formula) {
 }
 
 TEST(environment_any_direction_is_safe) {
-    const Environment e(floats(2, 2, {3, 3, 3, 3}), ColorSpace::Linear, Interpolation::Bilinear, 0);
+    const Environment e(floats(2, 2, {3, 3, 3, 3}), ColorSpace::Linear, Interpolation::Bilinear,
+                        Environment::Up::Z, 0);
     const float nan = std::numeric_limits<float>::quiet_NaN();
     for (const Vec3 d : {Vec3{0, 0, 0}, Vec3{nan, 0, 0}, Vec3{0, kInfinityF, 0},
                          Vec3{kInfinityF, -kInfinityF, kInfinityF}, Vec3{0, 0, -1e-45f}})
         CHECK_NEAR(e.radiance(d).r, 3, 1e-5);
+}
+
+// Up::Y is Up::Z after a quarter turn about x, which takes z to y and y to -z.
+TEST(environment_upright_along_y) {
+    const Environment z(numbered(), ColorSpace::Linear, Interpolation::Nearest, Environment::Up::Z,
+                        0.3);
+    const Environment y(numbered(), ColorSpace::Linear, Interpolation::Nearest, Environment::Up::Y,
+                        0.3);
+    Random random(78);
+    for (int i = 0; i < 1000; ++i) {
+        const Vec3 d = toFloat(random.direction());
+        CHECK(z.radiance(d) == y.radiance({d.x, d.z, -d.y}));
+    }
 }

@@ -57,7 +57,7 @@ FlatLight flat(FlatLight::Outline outline, Vec3 centre, double spreadHalfRad = k
 } // namespace
 
 TEST(light_point_inverse_square) {
-    const PointLight light({1, 2, 3}, {2, 4, 8}, 0, {}, true);
+    const PointLight light({1, 2, 3}, {2, 4, 8}, {}, 0, {}, true);
     CHECK(!light.isSoft() && light.castsShadows() && light.origin() == Vec3(1, 2, 3));
     Random random(71);
     for (int i = 0; i < 1000; ++i) {
@@ -74,10 +74,29 @@ TEST(light_point_inverse_square) {
     CHECK(isBlack(light.centre({1, 2, 3}).irradiance)); // in the lamp: nothing, and no NaN
 }
 
+// I / (a d^2 + b d + c), also with the disk of a soft light seen from afar.
+TEST(light_point_attenuation) {
+    Random random(77);
+    for (int i = 0; i < 300; ++i) {
+        const Attenuation fade{static_cast<float>(random.unit()), static_cast<float>(random.unit()),
+                               static_cast<float>(random.unit())};
+        const Vec3 p = toFloat(random.inBox(20) + Vec3d{25, 0, 0});
+        const double d = length(toDouble(p));
+        const double expected =
+            3 / (static_cast<double>(fade.quadratic) * d * d +
+                 static_cast<double>(fade.linear) * d + static_cast<double>(fade.constant));
+        const PointLight hard({}, kWhite * 3.0f, fade, 0, {}, true);
+        CHECK_NEAR(hard.centre(p).irradiance.g, expected, 1e-6 * expected);
+        const PointLight soft({}, kWhite * 3.0f, fade, 1e-3f, {}, true);
+        const float soft1 = soft.sample(p, random.square()).irradiance.g;
+        CHECK_NEAR(soft1, expected, 1e-5 * expected); // (radius / d)^2 = 4e-6 at most
+    }
+}
+
 // The soft point light is a disk that faces the receiver: E = I / (r^2 + h^2), the disk's formula
 // pi L r^2 / (r^2 + h^2) with L = I / (pi r^2).
 TEST(light_soft_point_on_axis) {
-    const PointLight light({0, 0, 2}, kWhite, 0.5f, {}, true);
+    const PointLight light({0, 0, 2}, kWhite, {}, 0.5f, {}, true);
     CHECK(light.isSoft());
     const Estimate e = irradiance(light, {0, 0, 0}, {0, 0, 1}, 64, 72, true);
     CHECK_NEAR(e.mean, 1 / (0.25 + 4), 1e-4);
@@ -184,7 +203,7 @@ TEST(light_spot) {
     const double half = 0.6, blend = 0.4;
     const float cosHalf = static_cast<float>(std::cos(half));
     const SpotCone cone{{0, 0, -1}, cosHalf, static_cast<float>(blend), false};
-    const PointLight spot({0, 0, 1}, kWhite, 0, cone, true);
+    const PointLight spot({0, 0, 1}, kWhite, {}, 0, cone, true);
     const auto at = [&](double angle) { // on a circle of radius 1 around the lamp
         return static_cast<double>(spot.centre({static_cast<float>(std::sin(angle)), 0,
                                                 static_cast<float>(1 - std::cos(angle))})

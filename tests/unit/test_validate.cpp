@@ -205,8 +205,18 @@ TEST(validate_meshes) {
                    m.triangleMaterials = {0, 0};
                }),
                "1 triangles, but 2 triangle_materials");
-    checkError(with([](MeshDesc& m) { m.triangleMaterials = {1}; }),
-               "its mesh uses material slot 1, but it has 1 material");
+    checkError(errorsAfter([](SceneDesc& d) {
+                   d.meshes[0].triangleMaterials = {2};
+                   d.objects[0].materials = {0, 0};
+               }),
+               "its mesh uses material slot 2, but it has 2 materials");
+    CHECK_EQUAL(with([](MeshDesc& m) { m.triangleMaterials = {1}; }), ""); // one for all slots
+    CHECK_EQUAL(with([](MeshDesc& m) {
+                    m = {};
+                    m.name = "later";
+                    m.file = "later.obj"; // load() reads it
+                }),
+                "");
     checkError(with([](MeshDesc& m) { m.triangleMaterials = {4294967295u}; }),
                "material slot 4294967295 is above 65535");
     CHECK_EQUAL(errorsAfter([](SceneDesc& d) {

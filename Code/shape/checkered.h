@@ -1,0 +1,27 @@
+// Checkered: a shape with two materials on alternating unit squares of its texture coordinates.
+#pragma once
+
+#include "shape/shape.h"
+
+#include <memory>
+
+class Checkered final : public Shape {
+public:
+    // The shape's own material where floor(u) + floor(v) is even, the other one elsewhere.
+    Checkered(std::unique_ptr<const Shape> shape, std::uint32_t otherMaterial);
+
+    Bounds bounds() const override { return shape_->bounds(); }
+    bool intersect(const Ray& ray, Hit& hit) const override { return shape_->intersect(ray, hit); }
+    bool occludes(const Ray& ray) const override { return shape_->occludes(ray); }
+    void collect(const Ray& ray, std::vector<Hit>& hits) const override {
+        shape_->collect(ray, hits);
+    }
+    Surface surface(const Ray& ray, const Hit& hit) const override;
+    SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override {
+        return shape_->derivatives(ray, hit);
+    }
+
+private:
+    std::unique_ptr<const Shape> shape_;
+    std::uint32_t otherMaterial_;
+};

@@ -1,0 +1,35 @@
+// OneSided: a shape of which rays of sight see one side only, as polygons of NFF; a shape around
+// another one, so that those with both sides pay nothing.
+#pragma once
+
+#include "shape/shape.h"
+
+#include <memory>
+
+class OneSided final : public Shape {
+public:
+    enum class Side { Front, Back }; // Front: the normal points towards the eye
+    OneSided(std::unique_ptr<const Shape> shape, Side visible);
+
+    Bounds bounds() const override { return shape_->bounds(); }
+    // Passes over hits from the other side.
+    bool intersect(const Ray& ray, Hit& hit) const override;
+    // Shadows fall from both sides: light that is on the other side of a closed surface of
+    // one-sided polygons must not get in.
+    bool occludes(const Ray& ray) const override { return shape_->occludes(ray); }
+    void collect(const Ray& ray, std::vector<Hit>& hits) const override {
+        shape_->collect(ray, hits);
+    }
+    Surface surface(const Ray& ray, const Hit& hit) const override {
+        return shape_->surface(ray, hit);
+    }
+    SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override {
+        return shape_->derivatives(ray, hit);
+    }
+
+private:
+    bool isVisible(const Ray& ray, const Hit& hit) const;
+
+    std::unique_ptr<const Shape> shape_;
+    Side visible_;
+};
