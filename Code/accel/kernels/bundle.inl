@@ -47,8 +47,7 @@ private:
 
     // ---- bundles of the rays whose directions have the same dominant axis and sign
 
-    template <class Result>
-    void trace(std::span<const std::uint32_t> list, Result* results) {
+    template <class Result> void trace(std::span<const std::uint32_t> list, Result* results) {
         const int packets = (static_cast<int>(list.size()) + W - 1) / W;
         unsigned left[kPackets];
         for (int p = 0; p < packets; ++p) left[p] = loadDirections(list, p);
@@ -79,8 +78,8 @@ private:
                      z = Floats::load(dir_[2][p]);
         const Floats sum = ((x + y) + z) + Floats((origin_.x + origin_.y) + origin_.z);
         const Floats size = max(max(abs(x), abs(y)), abs(z));
-        const Mask good = (size > Floats(1e-30f)) & (size < Floats(1e30f)) &
-                          (sum - sum == Floats(0.0f));
+        const Mask good =
+            (size > Floats(1e-30f)) & (size < Floats(1e30f)) & (sum - sum == Floats(0.0f));
         traceable_[p] = maxAbs(origin_) < 1e30f ? bits(good) : 0;
         return traceable_[p];
     }
@@ -184,8 +183,8 @@ private:
         centreX_ = 0.5f * (x_.lo + x_.hi), centreY_ = 0.5f * (y_.lo + y_.hi);
         halfX_ = 0.5000001f * (x_.hi - x_.lo) + 1e-7f;
         halfY_ = 0.5000001f * (y_.hi - y_.lo) + 1e-7f;
-        slopeSum_ = ::max(std::fabs(x_.lo), std::fabs(x_.hi)) +
-                    ::max(std::fabs(y_.lo), std::fabs(y_.hi));
+        slopeSum_ =
+            ::max(std::fabs(x_.lo), std::fabs(x_.hi)) + ::max(std::fabs(y_.lo), std::fabs(y_.hi));
         // What roughInverse() is off by at the rim of the rectangle, and a few roundings.
         const float rough = W == 16 ? 3e-4f : 2e-3f;
         const float padX = rough * halfX_ + 2e-6f, padY = rough * halfY_ + 2e-6f;
@@ -238,8 +237,8 @@ private:
             float z;
             WideRef ref;
         };
-        auto* const stack = reinterpret_cast<Entry*>(
-            scratchMemory((mesh_.tree.stackSize + W) * sizeof(Entry)));
+        auto* const stack =
+            reinterpret_cast<Entry*>(scratchMemory((mesh_.tree.stackSize + W) * sizeof(Entry)));
         std::uint32_t size = 0;
         WideRef at = mesh_.tree.root;
         while (zCut_ >= 0) {
@@ -396,8 +395,8 @@ private:
         const Floats nx = e1y * e2z - e1z * e2y, ny = e1z * e2x - e1x * e2z,
                      nz = e1x * e2y - e1y * e2x;
         const Floats side = (nx * v.x[0] + ny * v.y[0]) + nz * v.z[0];
-        const Floats longest = max(max(max(abs(e1x), abs(e1y)), max(abs(e1z), abs(e2x))),
-                                   max(abs(e2y), abs(e2z)));
+        const Floats longest =
+            max(max(max(abs(e1x), abs(e1y)), max(abs(e1z), abs(e2x))), max(abs(e2y), abs(e2z)));
         const Floats turn = zero - side;
         for (int e = 0; e < 3; ++e) {
             const int i = (e + 1) % 3, k = (e + 2) % 3;
@@ -424,8 +423,8 @@ private:
         return bits(notGreater(Floats(0.0f) - Floats::load(b.noise), least));
     }
 
-    // planeKey() of accel/triangle.h up to the ray, and the bounds of canonicalKey(). The padded box
-    // is a quarter of the canonical pad wide of the triangle: a key that is inside it on both
+    // planeKey() of accel/triangle.h up to the ray, and the bounds of canonicalKey(). The padded
+    // box is a quarter of the canonical pad wide of the triangle: a key that is inside it on both
     // lateral axes is not changed by the canonical clamp.
     void planes(const Corners& v, Floats zMin, Floats zMax, Block& b) const {
         const Doubles x0(v.x[0]), y0(v.y[0]), z0(v.z[0]);

@@ -13,13 +13,13 @@ struct alignas(64) RayBlock {
     float zCut[W];
     // Triangles: origin and coordinates in the order lateral x, lateral y, depth.
     float origin[3][W];
-    std::uint32_t axis[3][W];      // where in a leaf, in bytes
-    float shearX[W], shearY[W];    // the slopes, for depths without the sign of the direction
-    float sign[W];                 // of the direction along z
-    float lateralError[W];         // of a vertex in the ray's frame, 4 units of the space's size
+    std::uint32_t axis[3][W];   // where in a leaf, in bytes
+    float shearX[W], shearY[W]; // the slopes, for depths without the sign of the direction
+    float sign[W];              // of the direction along z
+    float lateralError[W];      // of a vertex in the ray's frame, 4 units of the space's size
     float key[W], below[W], dz[W];
     std::uint32_t at[W], stackTop[W], triangle[W], ray[W];
-    std::uint32_t live;
+    std::uint32_t count, live; // rays at the start and now
 };
 
 template <Query Q> class Queue {
@@ -133,7 +133,7 @@ private:
                                (oMax < Floats(1e30f)) & (sum - sum == zero);
         select(traceable, zCut, Floats(-1.0f)).store(b.zCut);
 
-        b.live = static_cast<std::uint32_t>(count);
+        b.count = b.live = static_cast<std::uint32_t>(count);
         live_ += b.live;
         for (std::uint32_t i = 0; i < count; ++i) {
             const std::uint32_t slot = number * W + i;
@@ -149,14 +149,13 @@ private:
     void finish(const RayBlock& b, TriangleHit* hits) const {
         alignas(64) float t[W];
         (Floats(1.0f) / (Floats::load(b.key) * Floats::load(b.dz))).store(t);
-        for (std::size_t i = 0; i < W; ++i) {
+        for (std::size_t i = 0; i < b.count; ++i) {
             const bool hit = b.triangle[i] != TriangleHit::kNone && t[i] <= rays_.tMax[b.ray[i]];
             hits[b.ray[i]] = hit ? TriangleHit{t[i], b.triangle[i]} : TriangleHit{};
         }
     }
     void finish(const RayBlock& b, std::uint8_t* hidden) const {
-        for (std::size_t i = 0; i < W; ++i)
-            hidden[b.ray[i]] = b.triangle[i] != TriangleHit::kNone;
+        for (std::size_t i = 0; i < b.count; ++i) hidden[b.ray[i]] = b.triangle[i] != TriangleHit::kNone;
     }
 
     // ---- steps
@@ -183,8 +182,8 @@ private:
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::uint32_t nearPlane = b.nearPlane[axis][i], farPlane = nearPlane ^ (W * 4);
             const Floats r(b.r[axis][i]);
-            entry = max(fma(Floats::load(node + nearPlane), r, Floats(b.nearOffset[axis][i])),
-                        entry);
+            entry =
+                max(fma(Floats::load(node + nearPlane), r, Floats(b.nearOffset[axis][i])), entry);
             exit = min(fma(Floats::load(node + farPlane), r, Floats(b.farOffset[axis][i])), exit);
         }
         const unsigned hit = bits(entry <= exit);
@@ -272,8 +271,8 @@ private:
             (zero <= min(min(U, V), R)) | (max(max(U, V), R) <= zero); // NaN never passes later
         const Floats det = (U + V) + R, T = (U * z0 + V * z1) + R * z2;
         const Floats depth = flipSign(flipSign(T, det), Floats(b.sign[i]));
-        const float size =
-            2 * std::bit_cast<float>(static_cast<std::uint32_t>(leaf.reach) << 16) + b.lateralError[i];
+        const float size = 2 * std::bit_cast<float>(static_cast<std::uint32_t>(leaf.reach) << 16) +
+                           b.lateralError[i];
         const Floats m = max(max(abs(z0), abs(z1)), abs(z2)) + Floats(2 * size);
         const Floats noise = (Floats(36 * 0x1p-24f * size) * m) * m;
         const Floats limit = Floats(b.zCut[i] * 1.000001f) * abs(det) + noise;

@@ -53,8 +53,12 @@ inline Doubles operator/(Doubles a, Doubles b) {
     return {_mm256_div_pd(a.lo, b.lo), _mm256_div_pd(a.hi, b.hi)};
 }
 inline Floats fma(Floats a, Floats b, Floats c) { return _mm256_fmadd_ps(a.v, b.v, c.v); }
-inline Floats fnma(Floats a, Floats b, Floats c) { return _mm256_fnmadd_ps(a.v, b.v, c.v); } // c - a b
-inline Floats fms(Floats a, Floats b, Floats c) { return _mm256_fmsub_ps(a.v, b.v, c.v); }   // a b - c
+inline Floats fnma(Floats a, Floats b, Floats c) {
+    return _mm256_fnmadd_ps(a.v, b.v, c.v);
+} // c - a b
+inline Floats fms(Floats a, Floats b, Floats c) {
+    return _mm256_fmsub_ps(a.v, b.v, c.v);
+} // a b - c
 inline Floats min(Floats a, Floats b) { return _mm256_min_ps(a.v, b.v); }
 inline Floats max(Floats a, Floats b) { return _mm256_max_ps(a.v, b.v); }
 inline Floats abs(Floats a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v); }
@@ -120,6 +124,5 @@ inline void storeKeys(__m256i keys, std::uint32_t* to) {
 }
 inline __m128i pick(__m128i keys, const std::uint32_t* from) {
     const __m256i all = _mm256_load_si256(reinterpret_cast<const __m256i*>(from));
-    return _mm256_castsi256_si128(
-        _mm256_permutevar8x32_epi32(all, _mm256_castsi128_si256(keys)));
+    return _mm256_castsi256_si128(_mm256_permutevar8x32_epi32(all, _mm256_castsi128_si256(keys)));
 }

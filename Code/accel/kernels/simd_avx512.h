@@ -56,8 +56,12 @@ inline Doubles operator/(Doubles a, Doubles b) {
     return {_mm512_div_pd(a.lo, b.lo), _mm512_div_pd(a.hi, b.hi)};
 }
 inline Floats fma(Floats a, Floats b, Floats c) { return _mm512_fmadd_ps(a.v, b.v, c.v); }
-inline Floats fnma(Floats a, Floats b, Floats c) { return _mm512_fnmadd_ps(a.v, b.v, c.v); } // c - a b
-inline Floats fms(Floats a, Floats b, Floats c) { return _mm512_fmsub_ps(a.v, b.v, c.v); }   // a b - c
+inline Floats fnma(Floats a, Floats b, Floats c) {
+    return _mm512_fnmadd_ps(a.v, b.v, c.v);
+} // c - a b
+inline Floats fms(Floats a, Floats b, Floats c) {
+    return _mm512_fmsub_ps(a.v, b.v, c.v);
+} // a b - c
 // The second operand wins when one is NaN, as in base/math.h.
 inline Floats min(Floats a, Floats b) { return _mm512_min_ps(a.v, b.v); }
 inline Floats max(Floats a, Floats b) { return _mm512_max_ps(a.v, b.v); }
@@ -74,9 +78,7 @@ inline Mask operator>(Floats a, Floats b) { return b < a; }
 inline Mask operator>=(Floats a, Floats b) { return b <= a; }
 inline Mask operator==(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_EQ_OQ)}; }
 // True for NaN.
-inline Mask notGreater(Floats a, Floats b) {
-    return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_NGT_UQ)};
-}
+inline Mask notGreater(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_NGT_UQ)}; }
 inline Mask operator<(Ints a, Ints b) { return {_mm512_cmplt_epu32_mask(a.v, b.v)}; }
 inline Mask operator&(Mask a, Mask b) { return {static_cast<__mmask16>(a.v & b.v)}; }
 inline Mask operator|(Mask a, Mask b) { return {static_cast<__mmask16>(a.v | b.v)}; }
@@ -91,8 +93,8 @@ inline float largest(Floats a) { return _mm512_reduce_max_ps(a.v); }
 
 // Writes the chosen lanes one after the other; what follows them is overwritten too.
 inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_t* to) {
-    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(chosen),
-                                                        _mm512_load_si512(from)));
+    _mm512_storeu_si512(
+        to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(chosen), _mm512_load_si512(from)));
 }
 // Bits of the chosen numbers (not negative), the number of the lane in the lowest four; zeros
 // follow. They sort like the numbers.

@@ -82,7 +82,7 @@ inline Doubles operator/(const Doubles& a, const Doubles& b) {
 // Two roundings here: fma() is used only where the pads cover either way.
 inline Floats fma(Floats a, Floats b, Floats c) { return a * b + c; }
 inline Floats fnma(Floats a, Floats b, Floats c) { return c - a * b; } // c - a b
-inline Floats fms(Floats a, Floats b, Floats c) { return a * b - c; }   // a b - c
+inline Floats fms(Floats a, Floats b, Floats c) { return a * b - c; }  // a b - c
 inline Floats min(Floats a, Floats b) { return {_mm_min_ps(a.lo, b.lo), _mm_min_ps(a.hi, b.hi)}; }
 inline Floats max(Floats a, Floats b) { return {_mm_max_ps(a.lo, b.lo), _mm_max_ps(a.hi, b.hi)}; }
 inline Floats abs(Floats a) {
@@ -117,9 +117,7 @@ inline Mask operator<(Ints a, Ints b) {
     };
     return {less(a.lo, b.lo), less(a.hi, b.hi)};
 }
-inline Mask operator&(Mask a, Mask b) {
-    return {_mm_and_ps(a.lo, b.lo), _mm_and_ps(a.hi, b.hi)};
-}
+inline Mask operator&(Mask a, Mask b) { return {_mm_and_ps(a.lo, b.lo), _mm_and_ps(a.hi, b.hi)}; }
 inline Mask operator|(Mask a, Mask b) { return {_mm_or_ps(a.lo, b.lo), _mm_or_ps(a.hi, b.hi)}; }
 inline unsigned bits(Mask m) {
     return static_cast<unsigned>(_mm_movemask_ps(m.lo) | _mm_movemask_ps(m.hi) << 4);
@@ -142,8 +140,7 @@ inline Floats permute(Floats a, Ints lanes) {
     const auto half = [&](__m128i lane) {
         const __m128i bytes = _mm_add_epi32(_mm_mullo_epi32(lane, _mm_set1_epi32(0x04040404)),
                                             _mm_set1_epi32(0x03020100));
-        const __m128i inLow = _mm_or_si128(
-            bytes, _mm_cmpgt_epi32(lane, _mm_set1_epi32(3)));
+        const __m128i inLow = _mm_or_si128(bytes, _mm_cmpgt_epi32(lane, _mm_set1_epi32(3)));
         const __m128i inHigh = _mm_or_si128(_mm_sub_epi32(bytes, _mm_set1_epi32(0x10101010)),
                                             _mm_cmplt_epi32(lane, _mm_set1_epi32(4)));
         return _mm_castsi128_ps(_mm_or_si128(_mm_shuffle_epi8(_mm_castps_si128(a.lo), inLow),

@@ -7,17 +7,7 @@
 #include <bit>
 #include <cstring>
 #include <limits>
-
-// The memory of a tree while it is written.
-class WideArena {
-public:
-    static std::byte* allocate(WideTree& tree, std::size_t bytes) {
-        tree.lines_.reset(
-            static_cast<std::byte*>(::operator new[](bytes, std::align_val_t{64})));
-        tree.size_ = bytes;
-        return tree.lines_.get();
-    }
-};
+#include <memory>
 
 #if defined(__x86_64__)
 #include <emmintrin.h>
@@ -130,7 +120,8 @@ private:
             box.extend(p);
             centres.extend(pointBox(twiceCentre(p)));
             const __m128 last = _mm_castsi128_ps(_mm_setr_epi32(0, 0, 0, -1));
-            const __m128 id = _mm_castsi128_ps(_mm_setr_epi32(0, 0, 0, static_cast<int>(i | kNormal)));
+            const __m128 id =
+                _mm_castsi128_ps(_mm_setr_epi32(0, 0, 0, static_cast<int>(i | kNormal)));
             p.lo.v = _mm_or_ps(_mm_andnot_ps(last, p.lo.v), id);
             prims_[i] = p;
         }
@@ -233,8 +224,7 @@ private:
         const __m128i none = _mm_set1_epi32(-1);
         unsigned equal = 0, empty = 0;
         for (int k = 0; k < W; k += 4) {
-            const __m128i four =
-                _mm_load_si128(reinterpret_cast<const __m128i*>(known.data() + k));
+            const __m128i four = _mm_load_si128(reinterpret_cast<const __m128i*>(known.data() + k));
             const auto maskOf = [&](__m128i x) {
                 return static_cast<unsigned>(
                     _mm_movemask_ps(_mm_castsi128_ps(_mm_cmpeq_epi32(four, x))));
@@ -459,8 +449,8 @@ private:
             }
             for (std::size_t i = children.size(); i-- > 0;)
                 if (nodes_[children[i]].left != 0)
-                    tasks.push_back({children[i], number, static_cast<std::uint32_t>(i),
-                                     task.depth + 1});
+                    tasks.push_back(
+                        {children[i], number, static_cast<std::uint32_t>(i), task.depth + 1});
         }
 
         tree.nodes = wide.size(), tree.leaves = leaves_.size() - 1;
@@ -470,7 +460,8 @@ private:
         tree.sah = root > 0 ? area / root : static_cast<double>(wide.size());
         const std::size_t leafBytes = leaves_.size() * sizeof(WideLeaf<W>);
         const std::size_t nodeBytes = wide.size() * sizeof(WideNode<W>);
-        std::byte* const to = WideArena::allocate(tree, leafBytes + nodeBytes);
+        tree.lines.resize((leafBytes + nodeBytes) / sizeof(WideTree::Line));
+        auto* const to = reinterpret_cast<std::byte*>(tree.lines.data());
         std::memcpy(to, leaves_.data(), leafBytes);
         std::memcpy(to + leafBytes, wide.data(), nodeBytes);
     }

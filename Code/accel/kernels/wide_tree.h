@@ -7,8 +7,8 @@
 #include "accel/ray_setup.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -38,8 +38,7 @@ template <int W> struct alignas(64) WideLeaf {
 };
 static_assert(sizeof(WideLeaf<16>) == 256 && sizeof(WideLeaf<8>) == 128);
 
-class WideTree {
-public:
+struct WideTree {
     int width = 0; // 0: there is none
     WideRef root = wideRef(0, WideKind::None);
     std::uint32_t stackSize = 0; // more than a traversal ever has on its stack
@@ -48,19 +47,16 @@ public:
     double sah = 0; // as sahCost() of bvh.h counts
 
     bool isEmpty() const { return width == 0; }
-    const std::byte* base() const { return lines_.get(); }
-    std::size_t bytes() const { return size_ + triangleIds.size() * sizeof(triangleIds[0]); }
+    struct alignas(64) Line {
+        std::byte bytes[64];
+    };
+    std::vector<Line> lines; // the nodes and leaves
+
+    const std::byte* base() const { return reinterpret_cast<const std::byte*>(lines.data()); }
+    std::size_t bytes() const { return lines.size() * sizeof(Line) + triangleIds.size() * 4; }
     template <class T> const T& at(WideRef ref) const {
         return *reinterpret_cast<const T*>(base() + byteOffset(ref));
     }
-
-private:
-    friend class WideArena;
-    struct Free {
-        void operator()(std::byte* p) const { ::operator delete[](p, std::align_val_t{64}); }
-    };
-    std::unique_ptr<std::byte[], Free> lines_;
-    std::size_t size_ = 0;
 };
 
 // Binned SAH, top down. `width` is 8 or 16. The tree is the same on every machine.
