@@ -49,6 +49,7 @@ private:
 
     template <class Result> void trace(std::span<const std::uint32_t> list, Result* results) {
         const int packets = (static_cast<int>(list.size()) + W - 1) / W;
+        inARow_ = list.back() - list.front() + 1 == list.size(); // lists are in ascending order
         unsigned left[kPackets];
         for (int p = 0; p < packets; ++p) left[p] = loadDirections(list, p);
         for (int p = 0; p < packets; ++p) {
@@ -67,15 +68,26 @@ private:
             if ((traceable_[i / W] >> i % W & 1) == 0) results[list[i]] = Result();
     }
 
+    // Is every lane of the packet a ray, and do they follow each other in the batch?
+    bool isFull(std::span<const std::uint32_t> list, int p) const {
+        return inARow_ && static_cast<std::size_t>(p + 1) * W <= list.size();
+    }
+
     // Returns the lanes that hold a ray that isTraceable().
     unsigned loadDirections(std::span<const std::uint32_t> list, int p) {
-        for (int i = 0; i < W; ++i) {
-            const auto at = static_cast<std::size_t>(p * W + i);
-            const Vec3 d = at < list.size() ? rays_.dir[list[at]] : Vec3{};
-            dir_[0][p][i] = d.x, dir_[1][p][i] = d.y, dir_[2][p][i] = d.z;
+        const auto first = static_cast<std::size_t>(p * W);
+        Floats x, y, z;
+        if (isFull(list, p)) {
+            loadVectors(&rays_.dir[list[first]].x, x, y, z);
+            x.store(dir_[0][p]), y.store(dir_[1][p]), z.store(dir_[2][p]);
+        } else {
+            for (std::size_t i = 0; i < W; ++i) {
+                const Vec3 d = first + i < list.size() ? rays_.dir[list[first + i]] : Vec3{};
+                dir_[0][p][i] = d.x, dir_[1][p][i] = d.y, dir_[2][p][i] = d.z;
+            }
+            x = Floats::load(dir_[0][p]), y = Floats::load(dir_[1][p]);
+            z = Floats::load(dir_[2][p]);
         }
-        const Floats x = Floats::load(dir_[0][p]), y = Floats::load(dir_[1][p]),
-                     z = Floats::load(dir_[2][p]);
         const Floats sum = ((x + y) + z) + Floats((origin_.x + origin_.y) + origin_.z);
         const Floats size = max(max(abs(x), abs(y)), abs(z));
         const Mask good =
@@ -157,23 +169,20 @@ private:
             active_[q] = active[p];
             const Mask on = maskOf(active[p]);
             const auto first = static_cast<std::size_t>(std::countr_zero(active[p]));
-            alignas(64) float tMin[W], tMax[W];
-            for (std::size_t i = 0; i < W; ++i) {
-                const std::size_t lane = active[p] >> i & 1 ? i : first;
-                const std::uint32_t ray = list[static_cast<std::size_t>(p) * W + lane];
-                tMin[i] = rays_.tMin[ray], tMax[i] = rays_.tMax[ray];
-            }
+            Floats tMin, tMax;
+            loadRanges(list, p, first, tMin, tMax);
             // The other lanes are copies of an active one that nothing is near enough for.
             const Floats sx = select(on, Floats::load(rawX_[p]), Floats(rawX_[p][first]));
             const Floats sy = select(on, Floats::load(rawY_[p]), Floats(rawY_[p][first]));
             const Floats dz = select(on, Floats::load(rawZ_[p]), Floats(rawZ_[p][first]));
             const Floats one(1.0f);
-            const Floats above = one / (Floats::load(tMax) * dz); // KeyRange of shape/mesh.cpp
+            const Floats above = one / (tMax * dz); // KeyRange of shape/mesh.cpp
             sx.store(Sx_[q]), sy.store(Sy_[q]), dz.store(dz_[q]);
             Doubles(sx).store(SxExact_[q]), Doubles(sy).store(SyExact_[q]);
             select(on, Q == Query::Any ? above : Floats(0.0f), Floats(kInfinityF)).store(key_[q]);
-            (one / (Floats::load(tMin) * dz)).store(below_[q]);
+            (one / (tMin * dz)).store(below_[q]);
             Ints(TriangleHit::kNone).store(triangle_[q]);
+            tMax.store(tMax_[q]);
             found_[q] = 0;
             zTop_ = ::max(depthCut(smallest(above)), zTop_);
             xs_[q] = rangeOf(sx, on), ys_[q] = rangeOf(sy, on);
@@ -205,6 +214,23 @@ private:
         limitDepth();
     }
 
+    // Lanes without a ray get what the lane `spare` has.
+    void loadRanges(std::span<const std::uint32_t> list, int p, std::size_t spare, Floats& tMin,
+                    Floats& tMax) const {
+        const std::size_t first = static_cast<std::size_t>(p) * W;
+        if (isFull(list, p)) {
+            tMin = Floats::unaligned(&rays_.tMin[list[first]]);
+            tMax = Floats::unaligned(&rays_.tMax[list[first]]);
+            return;
+        }
+        alignas(64) float lo[W], hi[W];
+        for (std::size_t i = 0; i < W; ++i) {
+            const std::uint32_t ray = list[first + i < list.size() ? first + i : first + spare];
+            lo[i] = rays_.tMin[ray], hi[i] = rays_.tMax[ray];
+        }
+        tMin = Floats::load(lo), tMax = Floats::load(hi);
+    }
+
     // Nothing behind zCut_ can be better for any ray; below 0: all rays are done.
     void limitDepth() {
         Floats least = Floats::load(key_[0]);
@@ -214,13 +240,18 @@ private:
     }
 
     void write(std::span<const std::uint32_t> list, int p, int q, TriangleHit* hits) const {
-        alignas(64) float t[W];
-        (Floats(1.0f) / (Floats::load(key_[q]) * Floats::load(dz_[q]))).store(t);
+        const Floats t = Floats(1.0f) / (Floats::load(key_[q]) * Floats::load(dz_[q]));
+        const Floats tMax = Floats::load(tMax_[q]);
+        const Ints none(TriangleHit::kNone), triangle = Ints::load(triangle_[q]);
+        const Mask hit = (triangle < none) & (t <= tMax);
+        alignas(64) TriangleHit out[W];
+        const bool whole = active_[q] == (1u << W) - 1 && isFull(list, p);
+        TriangleHit* const to = whole ? hits + list[static_cast<std::size_t>(p) * W] : out;
+        storePairs(select(hit, t, Floats(kInfinityF)), select(hit, triangle, none), &to->t);
+        if (whole) return;
         for (unsigned lanes = active_[q]; lanes != 0; lanes &= lanes - 1) {
             const int i = std::countr_zero(lanes);
-            const std::uint32_t ray = list[static_cast<std::size_t>(p * W + i)];
-            const bool hit = triangle_[q][i] != TriangleHit::kNone && t[i] <= rays_.tMax[ray];
-            hits[ray] = hit ? TriangleHit{t[i], triangle_[q][i]} : TriangleHit{};
+            hits[list[static_cast<std::size_t>(p * W + i)]] = out[i];
         }
     }
     void write(std::span<const std::uint32_t> list, int p, int q, std::uint8_t* hidden) const {
@@ -559,12 +590,13 @@ private:
     alignas(64) float dir_[3][kPackets][W];
     float rawX_[kPackets][W], rawY_[kPackets][W], rawZ_[kPackets][W];
     unsigned traceable_[kPackets];
+    bool inARow_ = false;
 
     // The packets that have active rays.
     int packets_ = 0, packet_[kPackets];
     unsigned active_[kPackets], found_[kPackets];
     alignas(64) float Sx_[kPackets][W], Sy_[kPackets][W], relX_[kPackets][W], relY_[kPackets][W];
-    float dz_[kPackets][W], key_[kPackets][W], below_[kPackets][W];
+    float dz_[kPackets][W], key_[kPackets][W], below_[kPackets][W], tMax_[kPackets][W];
     double SxExact_[kPackets][W], SyExact_[kPackets][W];
     std::uint32_t triangle_[kPackets][W];
     Range xs_[kPackets], ys_[kPackets], x_, y_;

@@ -25,6 +25,7 @@ struct TriangleHit {
     std::uint32_t triangle = kNone;
     static constexpr std::uint32_t kNone = 0xffffffffu;
 };
+static_assert(sizeof(TriangleHit) == 8); // bundles write pairs
 
 // hits[i] and hidden[i] belong to ray i; only those of the rays in `order` are written.
 using ClosestFn = void (*)(const WideMesh& mesh, const RaySpan& rays,

@@ -155,7 +155,8 @@ private:
         }
     }
     void finish(const RayBlock& b, std::uint8_t* hidden) const {
-        for (std::size_t i = 0; i < b.count; ++i) hidden[b.ray[i]] = b.triangle[i] != TriangleHit::kNone;
+        for (std::size_t i = 0; i < b.count; ++i)
+            hidden[b.ray[i]] = b.triangle[i] != TriangleHit::kNone;
     }
 
     // ---- steps

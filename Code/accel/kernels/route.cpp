@@ -13,7 +13,8 @@ constexpr std::size_t kFewestForBundle = 32;
 // Origins that are looked for: the point lights of a wave.
 constexpr std::size_t kMostOrigins = 8;
 
-struct Groups {
+class Groups {
+public:
     struct Group {
         Vec3 origin;
         std::vector<std::uint32_t> rays;
@@ -25,29 +26,21 @@ struct Groups {
     void sort(const RaySpan& rays) {
         used = 0;
         rest.clear();
-        std::size_t last = 0, strangers = 0;
-        for (std::uint32_t i = 0; i < rays.size(); ++i) {
+        const auto n = static_cast<std::uint32_t>(rays.size());
+        std::size_t strangers = 0;
+        for (std::uint32_t i = 0; i < n;) {
             const Vec3 origin = rays.org[i];
-            if (used > 0 && fromPoint[last].origin == origin) {
-                fromPoint[last].rays.push_back(i);
+            const std::uint32_t first = i++;
+            while (i < n && rays.org[i] == origin) ++i;
+            if (std::vector<std::uint32_t>* group = groupOf(origin)) {
+                append(*group, first, i);
                 continue;
             }
-            std::size_t group = 0;
-            while (group < used && !(fromPoint[group].origin == origin)) ++group;
-            if (group == used && used == kMostOrigins) {
-                // Origins of their own, as after a bounce: don't look at the others.
-                rest.push_back(i);
-                if (++strangers < kFewestForBundle) continue;
-                for (++i; i < rays.size(); ++i) rest.push_back(i);
-                break;
-            }
-            if (group == used) {
-                if (fromPoint.size() == used) fromPoint.emplace_back();
-                fromPoint[used].origin = origin;
-                fromPoint[used++].rays.clear();
-            }
-            last = group;
-            fromPoint[group].rays.push_back(i);
+            // Origins of their own, as after a bounce: don't look at all the others.
+            append(rest, first, i);
+            if (++strangers < kFewestForBundle) continue;
+            append(rest, i, n);
+            break;
         }
         for (std::size_t g = 0; g < used; ++g) {
             auto& few = fromPoint[g].rays;
@@ -55,6 +48,23 @@ struct Groups {
             rest.insert(rest.end(), few.begin(), few.end());
             few.clear();
         }
+    }
+
+private:
+    static void append(std::vector<std::uint32_t>& list, std::uint32_t first, std::uint32_t end) {
+        list.resize(list.size() + (end - first));
+        std::iota(list.end() - (end - first), list.end(), first);
+    }
+
+    // The list of an origin; null when there are too many of them.
+    std::vector<std::uint32_t>* groupOf(Vec3 origin) {
+        for (std::size_t g = 0; g < used; ++g)
+            if (fromPoint[g].origin == origin) return &fromPoint[g].rays;
+        if (used == kMostOrigins) return nullptr;
+        if (fromPoint.size() == used) fromPoint.emplace_back();
+        fromPoint[used].origin = origin;
+        fromPoint[used].rays.clear();
+        return &fromPoint[used++].rays;
     }
 };
 

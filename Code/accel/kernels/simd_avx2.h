@@ -10,6 +10,7 @@ struct Floats {
     Floats(__m256 a) : v(a) {}
     Floats(float a) : v(_mm256_set1_ps(a)) {}
     static Floats load(const void* p) { return _mm256_load_ps(static_cast<const float*>(p)); }
+    static Floats unaligned(const float* p) { return _mm256_loadu_ps(p); }
     void store(float* p) const { _mm256_store_ps(p, v); }
 };
 struct Ints {
@@ -99,6 +100,24 @@ inline float smallest(Floats a) {
     return _mm_cvtss_f32(_mm_min_ss(m, _mm_shuffle_ps(m, m, 1)));
 }
 inline float largest(Floats a) { return -smallest(Floats(0.0f) - a); }
+
+inline void loadVectors(const float* p, Floats& x, Floats& y, Floats& z) {
+    const auto halves = [&](int at) { // 4 floats of the first 4 vectors and 4 of the others
+        return _mm256_set_m128(_mm_loadu_ps(p + at + 12), _mm_loadu_ps(p + at));
+    };
+    const __m256 a = halves(0), b = halves(4), c = halves(8);
+    const __m256 xy = _mm256_shuffle_ps(b, c, _MM_SHUFFLE(2, 1, 3, 2));
+    const __m256 yz = _mm256_shuffle_ps(a, b, _MM_SHUFFLE(1, 0, 2, 1));
+    x = _mm256_shuffle_ps(a, xy, _MM_SHUFFLE(2, 0, 3, 0));
+    y = _mm256_shuffle_ps(yz, xy, _MM_SHUFFLE(3, 1, 2, 0));
+    z = _mm256_shuffle_ps(yz, c, _MM_SHUFFLE(3, 0, 3, 1));
+}
+inline void storePairs(Floats a, Ints b, float* to) {
+    const __m256 other = _mm256_castsi256_ps(b.v);
+    const __m256 low = _mm256_unpacklo_ps(a.v, other), high = _mm256_unpackhi_ps(a.v, other);
+    _mm256_storeu_ps(to, _mm256_permute2f128_ps(low, high, 0x20));
+    _mm256_storeu_ps(to + 8, _mm256_permute2f128_ps(low, high, 0x31));
+}
 
 // AVX2 has no compress: a table says for every mask which lane goes where.
 inline __m256i chosenLanes(unsigned chosen) {

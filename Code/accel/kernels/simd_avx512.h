@@ -11,6 +11,7 @@ struct Floats {
     Floats(__m512 a) : v(a) {}
     Floats(float a) : v(_mm512_set1_ps(a)) {}
     static Floats load(const void* p) { return _mm512_load_ps(p); }
+    static Floats unaligned(const float* p) { return _mm512_loadu_ps(p); }
     void store(float* p) const { _mm512_store_ps(p, v); }
 };
 struct Ints {
@@ -90,6 +91,28 @@ inline Floats permute(Floats a, Ints lanes) { return _mm512_permutexvar_ps(lanes
 
 inline float smallest(Floats a) { return _mm512_reduce_min_ps(a.v); }
 inline float largest(Floats a) { return _mm512_reduce_max_ps(a.v); }
+
+// x, y, z of W vectors that follow each other.
+inline void loadVectors(const float* p, Floats& x, Floats& y, Floats& z) {
+    const __m512 a = _mm512_loadu_ps(p), b = _mm512_loadu_ps(p + 16), c = _mm512_loadu_ps(p + 32);
+    const auto pick = [&](__m512i fromAB, __m512i withC) {
+        return _mm512_permutex2var_ps(_mm512_permutex2var_ps(a, fromAB, b), withC, c);
+    };
+    x = pick(_mm512_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21, 24, 27, 30, 0, 0, 0, 0, 0),
+             _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 17, 20, 23, 26, 29));
+    y = pick(_mm512_setr_epi32(1, 4, 7, 10, 13, 16, 19, 22, 25, 28, 31, 0, 0, 0, 0, 0),
+             _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 18, 21, 24, 27, 30));
+    z = pick(_mm512_setr_epi32(2, 5, 8, 11, 14, 17, 20, 23, 26, 29, 0, 0, 0, 0, 0, 0),
+             _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 16, 19, 22, 25, 28, 31));
+}
+// W pairs (a, b) that follow each other.
+inline void storePairs(Floats a, Ints b, float* to) {
+    const __m512 other = _mm512_castsi512_ps(b.v);
+    const __m512i low = _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+    const __m512i high = _mm512_add_epi32(low, _mm512_set1_epi32(8));
+    _mm512_storeu_ps(to, _mm512_permutex2var_ps(a.v, low, other));
+    _mm512_storeu_ps(to + 16, _mm512_permutex2var_ps(a.v, high, other));
+}
 
 // Writes the chosen lanes one after the other; what follows them is overwritten too.
 inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_t* to) {

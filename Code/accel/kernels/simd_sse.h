@@ -13,6 +13,7 @@ struct Floats {
         const float* f = static_cast<const float*>(p);
         return {_mm_load_ps(f), _mm_load_ps(f + 4)};
     }
+    static Floats unaligned(const float* p) { return {_mm_loadu_ps(p), _mm_loadu_ps(p + 4)}; }
     void store(float* p) const { _mm_store_ps(p, lo), _mm_store_ps(p + 4, hi); }
 };
 struct Ints {
@@ -155,6 +156,26 @@ inline float smallest(Floats a) {
     return _mm_cvtss_f32(_mm_min_ss(m, _mm_shuffle_ps(m, m, 1)));
 }
 inline float largest(Floats a) { return -smallest(Floats(0.0f) - a); }
+
+inline void loadVectors(const float* p, Floats& x, Floats& y, Floats& z) {
+    const auto four = [](const float* q, __m128& u, __m128& v, __m128& w) {
+        const __m128 a = _mm_loadu_ps(q), b = _mm_loadu_ps(q + 4), c = _mm_loadu_ps(q + 8);
+        const __m128 xy = _mm_shuffle_ps(b, c, _MM_SHUFFLE(2, 1, 3, 2));
+        const __m128 yz = _mm_shuffle_ps(a, b, _MM_SHUFFLE(1, 0, 2, 1));
+        u = _mm_shuffle_ps(a, xy, _MM_SHUFFLE(2, 0, 3, 0));
+        v = _mm_shuffle_ps(yz, xy, _MM_SHUFFLE(3, 1, 2, 0));
+        w = _mm_shuffle_ps(yz, c, _MM_SHUFFLE(3, 0, 3, 1));
+    };
+    four(p, x.lo, y.lo, z.lo);
+    four(p + 12, x.hi, y.hi, z.hi);
+}
+inline void storePairs(Floats a, Ints b, float* to) {
+    const __m128 lo = _mm_castsi128_ps(b.lo), hi = _mm_castsi128_ps(b.hi);
+    _mm_storeu_ps(to, _mm_unpacklo_ps(a.lo, lo));
+    _mm_storeu_ps(to + 4, _mm_unpackhi_ps(a.lo, lo));
+    _mm_storeu_ps(to + 8, _mm_unpacklo_ps(a.hi, hi));
+    _mm_storeu_ps(to + 12, _mm_unpackhi_ps(a.hi, hi));
+}
 
 inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_t* to) {
     for (; chosen != 0; chosen &= chosen - 1) *to++ = from[__builtin_ctz(chosen)];
