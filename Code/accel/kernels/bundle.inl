@@ -33,7 +33,7 @@ public:
 private:
     static constexpr std::size_t kMostRays = 256, kFewRays = 64;
     static constexpr int kPackets = kMostRays / W;
-    static constexpr std::uint32_t kManyLeaves = 14;
+    static constexpr std::uint32_t kManyLeaves = 40;
     static constexpr float kUnit = 0x1p-24f; // of rounding
 
     struct Range {
@@ -78,7 +78,14 @@ private:
         const auto first = static_cast<std::size_t>(p * W);
         Floats x, y, z;
         if (isFull(list, p)) {
-            loadVectors(&rays_.dir[list[first]].x, x, y, z);
+            const std::uint32_t ray = list[first];
+            if (ray + kMostRays + W <= rays_.size()) { // for the next bundle, probably
+                const float* const next = &rays_.dir[ray + kMostRays].x;
+                for (int k = 0; k < 3 * W; k += 16) __builtin_prefetch(next + k);
+                __builtin_prefetch(&rays_.tMin[ray + kMostRays]);
+                __builtin_prefetch(&rays_.tMax[ray + kMostRays]);
+            }
+            loadVectors(&rays_.dir[ray].x, x, y, z);
             x.store(dir_[0][p]), y.store(dir_[1][p]), z.store(dir_[2][p]);
         } else {
             for (std::size_t i = 0; i < W; ++i) {
@@ -372,6 +379,7 @@ private:
         unsigned wanted[kPackets], any = 0;
         for (int q = 0; q < packets_; ++q) {
             wanted[q] = live & overlap(rect_[q]);
+            if (wanted[q] == 0) continue;
             wanted[q] &= uncertain | mayContain(b, rect_[q]);
             any |= wanted[q];
         }

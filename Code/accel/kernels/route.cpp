@@ -4,6 +4,7 @@
 #include "accel/kernels/kernels.h"
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 
 namespace {
@@ -31,6 +32,7 @@ public:
         for (std::uint32_t i = 0; i < n;) {
             const Vec3 origin = rays.org[i];
             const std::uint32_t first = i++;
+            if (first == 0 && allEqual(rays.org)) i = n;
             while (i < n && rays.org[i] == origin) ++i;
             if (std::vector<std::uint32_t>* group = groupOf(origin)) {
                 append(*group, first, i);
@@ -51,6 +53,10 @@ public:
     }
 
 private:
+    static bool allEqual(std::span<const Vec3> v) {
+        return std::memcmp(v.data(), v.data() + 1, v.size_bytes() - sizeof(Vec3)) == 0;
+    }
+
     static void append(std::vector<std::uint32_t>& list, std::uint32_t first, std::uint32_t end) {
         list.resize(list.size() + (end - first));
         std::iota(list.end() - (end - first), list.end(), first);
