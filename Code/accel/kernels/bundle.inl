@@ -187,7 +187,9 @@ private:
             sx.store(Sx_[q]), sy.store(Sy_[q]), dz.store(dz_[q]);
             Doubles(sx).store(SxExact_[q]), Doubles(sy).store(SyExact_[q]);
             select(on, Q == Query::Any ? above : Floats(0.0f), Floats(kInfinityF)).store(key_[q]);
-            (one / (tMin * dz)).store(below_[q]);
+            const Floats below = one / (tMin * dz);
+            below.store(below_[q]);
+            if (Q == Query::Any) mostAbove_[q] = largest(above), leastBelow_[q] = smallest(below);
             Ints(TriangleHit::kNone).store(triangle_[q]);
             tMax.store(tMax_[q]);
             found_[q] = 0;
@@ -379,6 +381,7 @@ private:
         unsigned wanted[kPackets], any = 0;
         for (int q = 0; q < packets_; ++q) {
             wanted[q] = live & overlap(rect_[q]);
+            if (Q == Query::Any && (active_[q] & ~found_[q]) == 0) wanted[q] = 0;
             if (wanted[q] == 0) continue;
             wanted[q] &= uncertain | mayContain(b, rect_[q]);
             any |= wanted[q];
@@ -387,7 +390,11 @@ private:
 
         b.leaf = &l;
         b.straddling = straddling;
-        planes(v, zMin, zMax, b);
+        b.corners = &v;
+        b.hasPlanes = false;
+        const Floats one(1.0f);
+        (one / zMax).store(b.keyLo);
+        select(zMin > zero, one / zMin, Floats(kInfinityF)).store(b.keyHi);
         bool better = false;
         for (int q = 0; q < packets_; ++q)
             if (wanted[q] != 0) better |= testPacket(b, q, wanted[q], uncertain);
@@ -404,9 +411,11 @@ private:
         float edge[3][3][W]; // edge e at S: edge[e][0] + x edge[e][1] + y edge[e][2]
         float noise[W];      // the sign of an edge is certain beyond this
         float keyLo[W], keyHi[W];
-        float xLo[W], xHi[W], yLo[W], yHi[W]; // of the triangle's box, padded
         double nx[W], ny[W], nz[W], n0[W];    // normal, and its product with a corner
+        float xLo[W], xHi[W], yLo[W], yHi[W]; // of the triangle's box, padded
         const WideLeaf<W>* leaf;
+        const Corners* corners;
+        bool hasPlanes; // nx to yHi are filled
         unsigned straddling;
     };
 
@@ -465,7 +474,9 @@ private:
     // planeKey() of accel/triangle.h up to the ray, and the bounds of canonicalKey(). The padded
     // box is a quarter of the canonical pad wide of the triangle: a key that is inside it on both
     // lateral axes is not changed by the canonical clamp.
-    void planes(const Corners& v, Floats zMin, Floats zMax, Block& b) const {
+    [[gnu::noinline]] void planes(Block& b) const {
+        const Corners& v = *b.corners;
+        b.hasPlanes = true;
         const Doubles x0(v.x[0]), y0(v.y[0]), z0(v.z[0]);
         const Doubles ax = Doubles(v.x[1]) - x0, ay = Doubles(v.y[1]) - y0,
                       az = Doubles(v.z[1]) - z0;
@@ -474,9 +485,6 @@ private:
         const Doubles nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
         nx.store(b.nx), ny.store(b.ny), nz.store(b.nz);
         (nx * x0 + ny * y0 + nz * z0).store(b.n0);
-        const Floats one(1.0f);
-        (one / zMax).store(b.keyLo);
-        select(zMin > Floats(0.0f), one / zMin, Floats(kInfinityF)).store(b.keyHi);
         const Floats pad(pad_);
         (min(min(v.x[0], v.x[1]), v.x[2]) - pad).store(b.xLo);
         (max(max(v.x[0], v.x[1]), v.x[2]) + pad).store(b.xHi);
@@ -484,7 +492,7 @@ private:
         (max(max(v.y[0], v.y[1]), v.y[2]) + pad).store(b.yHi);
     }
 
-    bool testPacket(const Block& b, int q, unsigned wanted, unsigned uncertain) {
+    bool testPacket(Block& b, int q, unsigned wanted, unsigned uncertain) {
         const Floats x = Floats::load(relX_[q]), y = Floats::load(relY_[q]);
         bool better = false;
         for (; wanted != 0; wanted &= wanted - 1) {
@@ -503,6 +511,13 @@ private:
             }
             if (ask) [[unlikely]]
                 inside = containsRays(b, q, j);
+            if constexpr (Q == Query::Any) {
+                if (isInFront(b, q, j)) {
+                    hide(q, inside);
+                    better |= bits(inside) != 0;
+                    continue;
+                }
+            }
             better |= accept(b, q, j, inside);
         }
         return better;
@@ -543,8 +558,21 @@ private:
         return mesh_.tree.triangleIds[b.leaf->first + static_cast<std::uint32_t>(j)];
     }
 
+    // A ray that containsRay() meets the triangle, up to 4 units of rounding across, between its
+    // least and its largest depth, and so in front of the exit of its padded box: its key is in
+    // [1/zMax (1 - 4u), 1/zMin]. If all such keys count, the plane need not be known.
+    bool isInFront(const Block& b, int q, int j) const {
+        return (b.straddling >> j & 1) == 0 && b.keyLo[j] * 0.999999f > mostAbove_[q] &&
+               b.keyHi[j] < leastBelow_[q];
+    }
+    void hide(int q, Mask lanes) {
+        select(lanes, Floats(kInfinityF), Floats::load(key_[q])).store(key_[q]);
+        found_[q] |= bits(lanes);
+    }
+
     // canonicalKey() for the rays that are inside, and the better ones of them kept.
-    bool accept(const Block& b, int q, int j, Mask inside) {
+    bool accept(Block& b, int q, int j, Mask inside) {
+        if (!b.hasPlanes) planes(b);
         const Doubles slope = Doubles(b.nx[j]) * Doubles::load(SxExact_[q]) +
                               Doubles(b.ny[j]) * Doubles::load(SyExact_[q]) + Doubles(b.nz[j]);
         const Floats plane = (slope / Doubles(b.n0[j])).toFloats();
@@ -561,8 +589,7 @@ private:
 
         Mask better = inside & (key > best) & (key < below);
         if constexpr (Q == Query::Any) {
-            select(better, Floats(kInfinityF), best).store(key_[q]);
-            found_[q] |= bits(better);
+            hide(q, better);
             return bits(better) != 0;
         } else {
             const Ints id(triangleId(b, j)), bestId = Ints::load(triangle_[q]);
@@ -603,6 +630,7 @@ private:
     // The packets that have active rays.
     int packets_ = 0, packet_[kPackets];
     unsigned active_[kPackets], found_[kPackets];
+    float mostAbove_[kPackets], leastBelow_[kPackets]; // bounds of the keys that count
     alignas(64) float Sx_[kPackets][W], Sy_[kPackets][W], relX_[kPackets][W], relY_[kPackets][W];
     float dz_[kPackets][W], key_[kPackets][W], below_[kPackets][W], tMax_[kPackets][W];
     double SxExact_[kPackets][W], SyExact_[kPackets][W];
