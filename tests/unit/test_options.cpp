@@ -1,3 +1,4 @@
+#include "accel/kernels/kernels.h"
 #include "check.h"
 
 #include "base/error.h"

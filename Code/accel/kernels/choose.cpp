@@ -52,7 +52,7 @@ const Kernel& chooseKernel(std::string_view name) {
     }
     for (const Kernel& kernel : kTable)
         if (name == kernel.name)
-            fail(ErrorKind::Usage, cat("error: this CPU can't run the kernel '", name,
+            fail(ErrorKind::Usage, cat("raytracer: error: this CPU can't run the kernel '", name,
                                        "'; it can run: ", join(supported)));
-    fail(ErrorKind::Usage, cat("error: no kernel ", unknownName(name, kernelNames())));
+    fail(ErrorKind::Usage, cat("raytracer: error: no kernel ", unknownName(name, kernelNames())));
 }
