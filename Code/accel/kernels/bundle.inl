@@ -193,7 +193,8 @@ private:
             Ints(TriangleHit::kNone).store(triangle_[q]);
             tMax.store(tMax_[q]);
             found_[q] = 0;
-            zTop_ = ::max(depthCut(smallest(above)), zTop_);
+            zFar_[q] = depthCut(smallest(above));
+            zTop_ = ::max(zFar_[q], zTop_);
             xs_[q] = rangeOf(sx, on), ys_[q] = rangeOf(sy, on);
             x_ = {::min(xs_[q].lo, x_.lo), ::max(xs_[q].hi, x_.hi)};
             y_ = {::min(ys_[q].lo, y_.lo), ::max(ys_[q].hi, y_.hi)};
@@ -380,8 +381,12 @@ private:
         const unsigned uncertain = edgeFunctions(v, x, y, zMin, zMax, b) & live;
         unsigned wanted[kPackets], any = 0;
         for (int q = 0; q < packets_; ++q) {
+            wanted[q] = 0;
+            if (Q == Query::Any && (active_[q] & ~found_[q]) == 0) continue;
             wanted[q] = live & overlap(rect_[q]);
-            if (Q == Query::Any && (active_[q] & ~found_[q]) == 0) wanted[q] = 0;
+            if constexpr (Q == Query::Any) {
+                wanted[q] &= bits(zMin <= Floats(zFar_[q]));
+            }
             if (wanted[q] == 0) continue;
             wanted[q] &= uncertain | mayContain(b, rect_[q]);
             any |= wanted[q];
@@ -631,6 +636,7 @@ private:
     int packets_ = 0, packet_[kPackets];
     unsigned active_[kPackets], found_[kPackets];
     float mostAbove_[kPackets], leastBelow_[kPackets]; // bounds of the keys that count
+    float zFar_[kPackets];                             // behind it no ray of the packet asks
     alignas(64) float Sx_[kPackets][W], Sy_[kPackets][W], relX_[kPackets][W], relY_[kPackets][W];
     float dz_[kPackets][W], key_[kPackets][W], below_[kPackets][W], tMax_[kPackets][W];
     double SxExact_[kPackets][W], SyExact_[kPackets][W];
