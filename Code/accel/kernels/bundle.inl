@@ -183,18 +183,22 @@ private:
             const Floats sy = select(on, Floats::load(rawY_[p]), Floats(rawY_[p][first]));
             const Floats dz = select(on, Floats::load(rawZ_[p]), Floats(rawZ_[p][first]));
             const Floats one(1.0f);
-            const Floats above = one / (tMax * dz); // KeyRange of shape/mesh.cpp
-            sx.store(Sx_[q]), sy.store(Sy_[q]), dz.store(dz_[q]);
-            Doubles(sx).store(SxExact_[q]), Doubles(sy).store(SyExact_[q]);
-            select(on, Q == Query::Any ? above : Floats(0.0f), Floats(kInfinityF)).store(key_[q]);
-            const Floats below = one / (tMin * dz);
-            below.store(below_[q]);
+            // Keys that count are in (above, below), as t is in (tMin, tMax): KeyRange of
+            // shape/mesh.cpp. For most rays without an end that is (0, infinity).
+            Floats above(0.0f), below(kInfinityF);
+            zFar_[q] = depthCut(0);
+            if (bits((tMin == Floats(0.0f)) & (tMax == Floats(kInfinityF))) != (1u << W) - 1) {
+                above = one / (tMax * dz), below = one / (tMin * dz);
+                zFar_[q] = depthCut(smallest(above));
+            }
             if (Q == Query::Any) mostAbove_[q] = largest(above), leastBelow_[q] = smallest(below);
-            Ints(TriangleHit::kNone).store(triangle_[q]);
-            tMax.store(tMax_[q]);
-            found_[q] = 0;
-            zFar_[q] = depthCut(smallest(above));
             zTop_ = ::max(zFar_[q], zTop_);
+            select(on, Q == Query::Any ? above : Floats(0.0f), Floats(kInfinityF)).store(key_[q]);
+            below.store(below_[q]);
+            sx.store(Sx_[q]), sy.store(Sy_[q]), dz.store(dz_[q]), tMax.store(tMax_[q]);
+            Doubles(sx).store(SxExact_[q]), Doubles(sy).store(SyExact_[q]);
+            Ints(TriangleHit::kNone).store(triangle_[q]);
+            found_[q] = 0;
             xs_[q] = rangeOf(sx, on), ys_[q] = rangeOf(sy, on);
             x_ = {::min(xs_[q].lo, x_.lo), ::max(xs_[q].hi, x_.hi)};
             y_ = {::min(ys_[q].lo, y_.lo), ::max(ys_[q].hi, y_.hi)};
@@ -318,15 +322,23 @@ private:
         const Floats zNear = (Floats::load(node.plane[k_][backwards ? 1 : 0]) - oz) * s;
         const Floats zFar = (Floats::load(node.plane[k_][backwards ? 0 : 1]) - oz) * s;
         max(zNear, zero).store(entry);
+        const Mask ahead = (zFar > zero) & (zNear <= Floats(zCut_));
         // Of S z with S in the range and z in the box, the extremes are at corners.
+        if (bits(ahead & (zNear < zero)) != 0) [[unlikely]] {
+            const auto meets = [&](std::size_t axis, Range S) {
+                const Floats o(origin_[axis]), lo(S.lo), hi(S.hi);
+                const Floats a = lo * zNear, b = lo * zFar, c = hi * zNear, d = hi * zFar;
+                return ((Floats::load(node.plane[axis][0]) - o) <= max(max(a, b), max(c, d))) &
+                       ((Floats::load(node.plane[axis][1]) - o) >= min(min(a, b), min(c, d)));
+            };
+            return bits(ahead & meets(kx_, x_) & meets(ky_, y_));
+        }
         const auto meets = [&](std::size_t axis, Range S) {
             const Floats o(origin_[axis]), lo(S.lo), hi(S.hi);
-            const Floats most = max(hi * zNear, hi * zFar), least = min(lo * zNear, lo * zFar);
-            const Floats most2 = max(lo * zNear, lo * zFar), least2 = min(hi * zNear, hi * zFar);
-            return ((Floats::load(node.plane[axis][0]) - o) <= max(most, most2)) &
-                   ((Floats::load(node.plane[axis][1]) - o) >= min(least, least2));
+            return ((Floats::load(node.plane[axis][0]) - o) <= hi * (S.hi > 0 ? zFar : zNear)) &
+                   ((Floats::load(node.plane[axis][1]) - o) >= lo * (S.lo > 0 ? zNear : zFar));
         };
-        return bits((zFar > zero) & (zNear <= Floats(zCut_)) & meets(kx_, x_) & meets(ky_, y_));
+        return bits(ahead & meets(kx_, x_) & meets(ky_, y_));
     }
 
     // ---- triangles
