@@ -569,7 +569,7 @@ private:
     float exactKeyOf(const Block& b, int q, int j, int lane) const {
         const int p = packet_[q];
         return exactKey(mesh_, origin_, {dir_[0][p][lane], dir_[1][p][lane], dir_[2][p][lane]},
-                        triangleId(b, j));
+                        *b.leaf, static_cast<unsigned>(j));
     }
     std::uint32_t triangleId(const Block& b, int j) const {
         return mesh_.tree.triangleIds[b.leaf->first + static_cast<std::uint32_t>(j)];

@@ -7,9 +7,12 @@
 
 namespace {
 
-float keyOf(const WideMesh& mesh, const RaySetup& setup, std::uint32_t triangle) {
-    const auto& c = mesh.triangles[triangle];
-    return canonicalKey(setup, mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]]);
+template <int W> float keyOf(const RaySetup& setup, const WideLeaf<W>& leaf, unsigned lane) {
+    const auto point = [&](int k) {
+        const std::uint8_t i = leaf.corner[k][lane];
+        return Vec3{leaf.point[0][i], leaf.point[1][i], leaf.point[2][i]};
+    };
+    return canonicalKey(setup, point(0), point(1), point(2));
 }
 
 constexpr auto makeChosenLanes() {
@@ -30,38 +33,47 @@ struct AlignedDelete {
 
 constexpr std::array<std::array<std::uint8_t, 8>, 256> kChosenLanes = makeChosenLanes();
 
-float exactKey(const WideMesh& mesh, Vec3 org, Vec3 dir, std::uint32_t triangle) {
-    return keyOf(mesh, RaySetup(org, dir, mesh.extent), triangle);
+template <int W>
+float exactKey(const WideMesh& mesh, Vec3 org, Vec3 dir, const WideLeaf<W>& leaf, unsigned lane) {
+    return keyOf(RaySetup(org, dir, mesh.extent), leaf, lane);
 }
 
-bool improve(const WideMesh& mesh, Vec3 org, Vec3 dir, std::uint32_t first, unsigned lanes,
+template <int W>
+bool improve(const WideMesh& mesh, Vec3 org, Vec3 dir, const WideLeaf<W>& leaf, unsigned lanes,
              RayBest& best) {
     const RaySetup setup(org, dir, mesh.extent);
     bool better = false;
     for (; lanes != 0; lanes &= lanes - 1) {
-        const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
-        const std::uint32_t triangle = mesh.tree.triangleIds[first + lane];
-        const float key = keyOf(mesh, setup, triangle);
-        if (!(key > 0 && key < best.below)) continue;
-        if (key > best.key || (key == best.key && triangle < best.triangle)) {
-            best.key = key;
-            best.triangle = triangle;
-            better = true;
-        }
+        const auto lane = static_cast<unsigned>(std::countr_zero(lanes));
+        const float key = keyOf(setup, leaf, lane);
+        if (!(key > 0 && key < best.below) || key < best.key) continue;
+        const std::uint32_t triangle = mesh.tree.triangleIds[leaf.first + lane];
+        if (key == best.key && triangle > best.triangle) continue;
+        best.key = key;
+        best.triangle = triangle;
+        better = true;
     }
     return better;
 }
 
-bool hits(const WideMesh& mesh, Vec3 org, Vec3 dir, std::uint32_t first, unsigned lanes,
+template <int W>
+bool hits(const WideMesh& mesh, Vec3 org, Vec3 dir, const WideLeaf<W>& leaf, unsigned lanes,
           const RayBest& best) {
     const RaySetup setup(org, dir, mesh.extent);
     for (; lanes != 0; lanes &= lanes - 1) {
-        const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
-        const float key = keyOf(mesh, setup, mesh.tree.triangleIds[first + lane]);
+        const float key = keyOf(setup, leaf, static_cast<unsigned>(std::countr_zero(lanes)));
         if (key > best.key && key < best.below) return true;
     }
     return false;
 }
+
+#define EXACT_HIT_FOR(W)                                                                           \
+    template float exactKey(const WideMesh&, Vec3, Vec3, const WideLeaf<W>&, unsigned);            \
+    template bool improve(const WideMesh&, Vec3, Vec3, const WideLeaf<W>&, unsigned, RayBest&);    \
+    template bool hits(const WideMesh&, Vec3, Vec3, const WideLeaf<W>&, unsigned, const RayBest&);
+EXACT_HIT_FOR(8)
+EXACT_HIT_FOR(16)
+#undef EXACT_HIT_FOR
 
 std::byte* scratchMemory(std::size_t bytes) {
     thread_local std::unique_ptr<std::byte[], AlignedDelete> memory;

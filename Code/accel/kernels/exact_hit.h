@@ -12,14 +12,17 @@ struct RayBest {
     std::uint32_t triangle;
 };
 
-// Canonical key of one triangle of the mesh, 0 if the ray misses it.
-float exactKey(const WideMesh& mesh, Vec3 org, Vec3 dir, std::uint32_t triangle);
+// canonicalKey() of a leaf's triangle, from the leaf's own copy of the points: it is in the cache.
+template <int W>
+float exactKey(const WideMesh& mesh, Vec3 org, Vec3 dir, const WideLeaf<W>& leaf, unsigned lane);
 
-// Tests the triangles of `lanes` of a leaf (its first number is `first`); true when one is better.
-bool improve(const WideMesh& mesh, Vec3 org, Vec3 dir, std::uint32_t first, unsigned lanes,
+// Tests the triangles of `lanes`; true when one is better than the best so far.
+template <int W>
+bool improve(const WideMesh& mesh, Vec3 org, Vec3 dir, const WideLeaf<W>& leaf, unsigned lanes,
              RayBest& best);
 // Is one of them a hit in front of best.key?
-bool hits(const WideMesh& mesh, Vec3 org, Vec3 dir, std::uint32_t first, unsigned lanes,
+template <int W>
+bool hits(const WideMesh& mesh, Vec3 org, Vec3 dir, const WideLeaf<W>& leaf, unsigned lanes,
           const RayBest& best);
 
 // For AVX2: which lanes a mask chooses, in order.

@@ -287,11 +287,11 @@ private:
         const Vec3 org = rays_.org[b.ray[i]], dir = rays_.dir[b.ray[i]];
         RayBest best{b.key[i], b.below[i], b.triangle[i]};
         if constexpr (Q == Query::Any) {
-            if (!hits(mesh_, org, dir, leaf.first, candidates, best)) return;
+            if (!hits(mesh_, org, dir, leaf, candidates, best)) return;
             b.triangle[i] = 0;
             b.stackTop[i] = 1;
         } else {
-            if (!improve(mesh_, org, dir, leaf.first, candidates, best)) return;
+            if (!improve(mesh_, org, dir, leaf, candidates, best)) return;
             b.key[i] = best.key;
             b.triangle[i] = best.triangle;
             b.zCut[i] = ::min(depthCut(best.key), b.zCut[i]);
