@@ -175,7 +175,7 @@ private:
 
     // RaySetup::enters() for W boxes. With FMA or without: the pads of the slabs are twice those of
     // the canonical hit, and the difference covers either rounding several times.
-    void nodeStep(std::uint32_t slot) {
+    [[gnu::always_inline]] void nodeStep(std::uint32_t slot) {
         RayBlock& b = blocks_[slot / W];
         const std::uint32_t i = slot % W;
         const std::byte* const node = base_ + byteOffset(b.at[i]);
