@@ -282,18 +282,29 @@ private:
         Split best;
         best.left = best.right = emptyBox();
         if ((usableAxes & 7) == 0) return best;
-        alignas(16) Box box[3][kBins];
+        // Neighbours in the list often fall into the same bin; every second one has bins of its
+        // own, so that it need not wait for the other's sum.
+        Box box[3][kBins], odd[3][kBins];
         std::uint32_t count[3][kBins] = {};
-        for (auto& axis : box) std::fill_n(axis, bins, emptyBox());
-        for (std::uint32_t i = r.first; i < r.first + r.count; ++i) {
-            const Prim& p = prims_[i];
-            alignas(16) std::array<std::uint32_t, 4> at;
-            _mm_store_si128(reinterpret_cast<__m128i*>(at.data()), binsOf(p));
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                box[axis][at[axis]].extend(p);
-                ++count[axis][at[axis]];
-            }
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            std::fill_n(box[axis], bins, emptyBox());
+            std::fill_n(odd[axis], bins, emptyBox());
         }
+        const auto add = [&](const Prim& p, Box(&to)[3][kBins]) {
+            const __m128i at = binsOf(p);
+            const auto xy = static_cast<std::uint64_t>(_mm_cvtsi128_si64(at));
+            const std::size_t x = static_cast<std::uint32_t>(xy), y = xy >> 32;
+            const auto z = static_cast<std::uint32_t>(
+                _mm_cvtsi128_si32(_mm_shuffle_epi32(at, _MM_SHUFFLE(2, 2, 2, 2))));
+            to[0][x].extend(p), to[1][y].extend(p), to[2][z].extend(p);
+            ++count[0][x], ++count[1][y], ++count[2][z];
+        };
+        const std::uint32_t end = r.first + r.count;
+        std::uint32_t i = r.first;
+        for (; i + 1 < end; i += 2) add(prims_[i], box), add(prims_[i + 1], odd);
+        if (i < end) add(prims_[i], box);
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            for (int b = 0; b < bins; ++b) box[axis][b].extend(odd[axis][b]);
         float least = std::numeric_limits<float>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
             if ((usableAxes >> axis & 1) == 0) continue;
