@@ -1,9 +1,11 @@
 // Every kernel that this CPU runs against the scalar code: the same hits, to the last bit, for
 // hostile triangles and hostile rays, in bundles and one by one; and the trees that they walk.
 #include "accel/kernels/kernels.h"
+#include "analytic_kit.h"
 #include "base/error.h"
 #include "check.h"
 #include "meshes.h"
+#include "render/shape_set.h"
 
 #include <algorithm>
 #include <cstring>
@@ -217,6 +219,64 @@ TEST(kernels_skip_broken_rays) {
         Rays all;
         for (int i = 0; i < 100; ++i) all.push({org, toFloat(random.direction())});
         compare(meshes, all, "a broken origin", counts);
+    }
+}
+
+// A scene's batches: meshes with kernels, opaque and see-through, beside shapes that are asked ray
+// by ray. The scalar code without any tree says what is right.
+TEST(kernels_in_a_shape_set) {
+    for (const Kernel* kernel : vectorKernels()) {
+        Random random(75);
+        MeshGeometry plain[2] = {toGeometry(meshes::torus(0.3, 32, 16), {}),
+                                 meshes::geometryOf(meshes::soup(random, 200), false)};
+        MeshGeometry fast[2] = {plain[0], plain[1]};
+        ShapeSet linear, batched;
+        for (const bool isFast : {false, true}) {
+            ShapeSet& set = isFast ? batched : linear;
+            Random same(76);
+            for (int n = 0; n < 12; ++n) {
+                const auto kinds = kit::kinds();
+                const MovingTransform place =
+                    Transform::translate(same.inBox(1)) * same.affine(2, 0) * Transform::scale(0.3);
+                if (n == 3 || n == 8) {
+                    MeshGeometry& g = (isFast ? fast : plain)[n / 8];
+                    g.finish(isFast, *kernel);
+                    set.add(std::make_unique<Mesh>(g, MovingTransform(),
+                                                   std::vector<std::uint32_t>{0},
+                                                   std::vector<MeshPart>{{0, 0}}),
+                            n == 3 ? ShapeSet::Shadow::Opaque : ShapeSet::Shadow::SeeThrough);
+                } else {
+                    set.add(kinds[static_cast<std::size_t>(n) % kinds.size()].make(place),
+                            n % 3 ? ShapeSet::Shadow::Opaque : ShapeSet::Shadow::None);
+                }
+            }
+            set.finish(isFast);
+        }
+        CHECK_EQUAL(batched.batched.size(), 2u);
+        CHECK(linear.batched.empty());
+        Rays rays = looseRays(random, plain[0], check::scaled(1000u));
+        const Rays bundles = bundledRays(random, plain[1], check::scaled(1000u));
+        for (std::size_t i = 0; i < bundles.org.size(); ++i) rays.push(bundles.span()[i]);
+        std::vector<Hit> hits, some, expected;
+        std::vector<std::uint8_t> hidden;
+        batched.closest(rays.span(), hits);
+        batched.occluded(rays.span(), hidden);
+        std::vector<std::size_t> perShape(12);
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            const Ray ray = rays.span()[i];
+            const Hit hit = linear.closest(ray);
+            CHECK_INFO(hits[i] == hit, kernel->name << ": " << shown(ray) << ": " << shown(hits[i])
+                                                    << ", expected " << shown(hit));
+            CHECK_INFO((hidden[i] != 0) == linear.occluded(ray),
+                       kernel->name << ": " << shown(ray) << ": hidden " << int(hidden[i]));
+            CHECK(batched.closest(ray) == hit); // one ray at a time
+            some.clear(), expected.clear();
+            batched.seeThroughHits(ray, some);
+            linear.seeThroughHits(ray, expected);
+            CHECK_INFO(some == expected, kernel->name << ": " << shown(ray));
+            if (hit.isHit()) ++perShape[hit.shape];
+        }
+        for (const std::size_t shape : {2u, 3u, 8u, 9u}) CHECK_INFO(perShape[shape] > 0, shape);
     }
 }
 
