@@ -64,8 +64,14 @@ private:
                 for (int q = 0; q < packets_; ++q) write(list, packet_[q], q, results);
             }
         }
-        for (std::size_t i = 0; i < list.size(); ++i) // what isTraceable() refuses
-            if ((traceable_[i / W] >> i % W & 1) == 0) results[list[i]] = Result();
+        for (int p = 0; p < packets; ++p) { // what isTraceable() refuses
+            const std::size_t first = static_cast<std::size_t>(p) * W;
+            const std::size_t rays = std::min<std::size_t>(W, list.size() - first);
+            unsigned refused = ~traceable_[p] & ((1u << rays) - 1);
+            for (; refused != 0; refused &= refused - 1)
+                results[list[first + static_cast<std::size_t>(std::countr_zero(refused))]] =
+                    Result();
+        }
     }
 
     // Is every lane of the packet a ray, and do they follow each other in the batch?
@@ -258,14 +264,18 @@ private:
         const Floats tMax = Floats::load(tMax_[q]);
         const Ints none(TriangleHit::kNone), triangle = Ints::load(triangle_[q]);
         const Mask hit = (triangle < none) & (t <= tMax);
-        alignas(64) TriangleHit out[W];
-        const bool whole = active_[q] == (1u << W) - 1 && isFull(list, p);
-        TriangleHit* const to = whole ? hits + list[static_cast<std::size_t>(p) * W] : out;
-        storePairs(select(hit, t, Floats(kInfinityF)), select(hit, triangle, none), &to->t);
-        if (whole) return;
+        const Floats tHit = select(hit, t, Floats(kInfinityF));
+        const Ints triangleHit = select(hit, triangle, none);
+        if (active_[q] == (1u << W) - 1 && isFull(list, p)) {
+            storePairs(tHit, triangleHit, &hits[list[static_cast<std::size_t>(p) * W]].t);
+            return;
+        }
+        alignas(64) float ts[W];
+        alignas(64) std::uint32_t triangles[W];
+        tHit.store(ts), triangleHit.store(triangles);
         for (unsigned lanes = active_[q]; lanes != 0; lanes &= lanes - 1) {
             const int i = std::countr_zero(lanes);
-            hits[list[static_cast<std::size_t>(p * W + i)]] = out[i];
+            hits[list[static_cast<std::size_t>(p * W + i)]] = {ts[i], triangles[i]};
         }
     }
     void write(std::span<const std::uint32_t> list, int p, int q, std::uint8_t* hidden) const {
@@ -588,7 +598,7 @@ private:
     }
 
     // canonicalKey() for the rays that are inside, and the better ones of them kept.
-    bool accept(Block& b, int q, int j, Mask inside) {
+    [[gnu::always_inline]] bool accept(Block& b, int q, int j, Mask inside) {
         if (!b.hasPlanes) planes(b);
         const Doubles slope = Doubles(b.nx[j]) * Doubles::load(SxExact_[q]) +
                               Doubles(b.ny[j]) * Doubles::load(SyExact_[q]) + Doubles(b.nz[j]);
