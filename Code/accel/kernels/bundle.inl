@@ -519,7 +519,7 @@ private:
         (max(max(v.y[0], v.y[1]), v.y[2]) + pad).store(b.yHi);
     }
 
-    bool testPacket(Block& b, int q, unsigned wanted, unsigned uncertain) {
+    [[gnu::always_inline]] bool testPacket(Block& b, int q, unsigned wanted, unsigned uncertain) {
         const Floats x = Floats::load(relX_[q]), y = Floats::load(relY_[q]);
         bool better = false;
         for (; wanted != 0; wanted &= wanted - 1) {
