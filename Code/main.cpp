@@ -14,17 +14,18 @@ int main(int argc, char** argv) {
         const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
         return static_cast<int>(run(arguments, step));
     } catch (const Error& error) {
-        std::fprintf(stderr, "%s\n", error.what());
+        static_cast<void>(std::fprintf(stderr, "%s\n", error.what()));
         return static_cast<int>(error.kind());
     } catch (const std::bad_alloc&) {
-        std::fprintf(stderr, "raytracer: error: out of memory while %.*s\n",
-                     static_cast<int>(step.name.size()), step.name.data());
+        static_cast<void>(std::fprintf(stderr, "raytracer: error: out of memory while %.*s\n",
+                                       static_cast<int>(step.name.size()), step.name.data()));
         return static_cast<int>(step.codeOutOfMemory);
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "raytracer: internal error while %.*s: %s\n",
-                     static_cast<int>(step.name.size()), step.name.data(), error.what());
+        static_cast<void>(std::fprintf(stderr, "raytracer: internal error while %.*s: %s\n",
+                                       static_cast<int>(step.name.size()), step.name.data(),
+                                       error.what()));
     } catch (...) {
-        std::fprintf(stderr, "raytracer: internal error\n");
+        static_cast<void>(std::fprintf(stderr, "raytracer: internal error\n"));
     }
     return static_cast<int>(ExitCode::Internal);
 }

@@ -55,7 +55,7 @@ std::string thrown(const std::function<void()>& body);
         if (!(condition)) {                                                                        \
             std::ostringstream text_;                                                              \
             text_.precision(9);                                                                    \
-            text_ << #condition << "; " << info;                                                   \
+            text_ << #condition << "; " << info; /* NOLINT(bugprone-macro-parentheses): a << b */  \
             check::failed(__FILE__, __LINE__, text_.str());                                        \
         }                                                                                          \
     } while (false)

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Includes point down only (DESIGN.md section 4):
 #   base <- image, desc <- read          base <- image <- the folders of one thing each
-#   all of them <- render <- cli <- main
+#   all of them <- render <- verify <- cli <- main
 # A folder includes itself and what is below it, never its neighbours in a row but for two: a mesh is
 # a shape with a tree of its own, and lights, lenses and materials spread their samples.
 cd "$(dirname "$0")/../Code" || exit 1
@@ -19,7 +19,8 @@ allowedFor() {
     shape) echo base image shape accel ;;
     material | light | camera) echo base image "$1" sample ;;
     render) echo base image desc $siblings render ;;
-    cli) echo base image desc read $siblings render cli ;;
+    verify) echo base image desc $siblings render verify ;;
+    cli) echo base image desc read $siblings render verify cli ;;
     main) echo base cli ;;
     esac
 }
@@ -65,6 +66,17 @@ if [ -z "$wrong" ]; then
     passed=$((passed + 1))
 else
     printf 'FAIL only render/scene.cpp and make_*.cpp name concrete shapes and lights: %s\n' "$wrong"
+    failed=$((failed + 1))
+fi
+
+# Two types of one name are one for the linker, which keeps the functions of either.
+wrong=$(grep -ho '^\(struct\|class\|enum class\) [A-Za-z0-9]* .*[{:]' $(find . -name '*.h') |
+    sed 's/^enum //' | cut -d' ' -f2 | sort | uniq -d | tr '\n' ' ')
+if [ -z "$wrong" ]; then
+    printf 'ok every type of a header has its own name\n'
+    passed=$((passed + 1))
+else
+    printf 'FAIL every type of a header has its own name: %s\n' "$wrong"
     failed=$((failed + 1))
 fi
 

@@ -66,7 +66,7 @@ int main(int argc, char** argv) {
     try {
         check::stress();
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "%s\n", error.what());
+        static_cast<void>(std::fprintf(stderr, "%s\n", error.what()));
         return 2;
     }
     int passedCount = 0, failedCount = 0;

@@ -25,7 +25,8 @@ struct Bvh {
 };
 
 // Binned SAH, top down (Wald 2007), the same tree on every machine. Depth is at most kMaxDepth for
-// any input: a split that does not separate centres halves the list instead.
+// any input: a split that does not separate centres halves the list instead. `nodes` may have room
+// to spare: giving that back means a copy, best made when the boxes are gone.
 Bvh buildBvh(std::span<const Bounds> boxes);
 
 // Expected cost of a ray through the tree by the surface area heuristic, node and primitive 1 each.

@@ -38,7 +38,6 @@ public:
         bvh_.nodes.reserve(2 * boxes.size());
         bvh_.nodes.emplace_back();
         build(0, 0, static_cast<std::uint32_t>(boxes.size()), 0);
-        bvh_.nodes.shrink_to_fit();
     }
     Bvh take() { return std::move(bvh_); }
 

@@ -19,7 +19,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
+    void operator()(std::FILE* file) const { static_cast<void>(std::fclose(file)); }
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
@@ -39,7 +39,7 @@ public:
         pending = pendingName.data();
     }
     ~PendingFile() {
-        std::remove(name_.c_str());
+        static_cast<void>(std::remove(name_.c_str())); // after a success it is not there any more
         pending = nullptr;
     }
     PendingFile(const PendingFile&) = delete;

@@ -1,6 +1,7 @@
 #include "base/parallel.h"
 
 #include <cfenv>
+#include <new>
 #include <system_error>
 #include <utility>
 
@@ -11,11 +12,15 @@ int hardwareThreads() {
 
 ThreadPool::ThreadPool(int threads) {
     const int count = threads > 0 ? threads : hardwareThreads();
+    // Now, not between two starts: an exception there would find threads that nobody joins.
+    workers_.reserve(static_cast<std::size_t>(count) - 1);
     try {
         for (int worker = 1; worker < count; ++worker)
             workers_.emplace_back([this, worker] { workerLoop(worker); });
     } catch (const std::system_error&) {
         // The system gives no more threads: those that run do all the work.
+    } catch (const std::bad_alloc&) {
+        // Nor memory for one.
     }
 }
 

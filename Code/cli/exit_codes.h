@@ -27,5 +27,6 @@ inline constexpr std::array kExitCodes{
     ExitCodeText{ExitCode::Output, "cannot write"},
     ExitCodeText{ExitCode::AboveTolerance, "diff: the pictures differ by more than --tol"},
     ExitCodeText{ExitCode::Internal, "error in the program itself"},
-    ExitCodeText{ExitCode::Interrupted, "stopped by SIGINT or SIGTERM; no picture is written"},
+    ExitCodeText{ExitCode::Interrupted,
+                 "stopped by SIGINT, SIGTERM or SIGHUP; no picture is written"},
 };

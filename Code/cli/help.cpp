@@ -3,6 +3,7 @@
 #include "cli/diff.h"
 #include "cli/exit_codes.h"
 #include "cli/options.h"
+#include "cli/verify.h"
 #include "cli/version.h"
 
 #include <algorithm>
@@ -73,9 +74,13 @@ std::string helpText() {
         "  raytracer SCENE [OUTPUT] [options]\n",
         twoColumns("raytracer diff A B [options]",
                    "compares two pictures; see raytracer diff --help"),
+        twoColumns("raytracer verify [TEST...] [options]",
+                   "tests the numbers behind the pictures on this machine; see raytracer verify "
+                   "--help"),
         "\n",
-        "SCENE is a .txt file in the native format, or - for such text on stdin. OUTPUT is a\n"
-        ".ppm, .png or .pfm file, or - for a PPM on stdout; left out, it is Output/SCENE.ppm.\n"
+        "SCENE is a .txt file in the native format (- for such text on stdin), a COMP 557 scene\n"
+        "(.json), a Neutral File Format scene (.nff), or a mesh by itself (.obj, .ply). OUTPUT is\n"
+        "a .ppm, .png or .pfm file, or - for a PPM on stdout; left out, it is Output/SCENE.ppm.\n"
         "What an option leaves open comes from the scene. --flag value and --flag=value are the\n"
         "same; -- ends the options.\n");
     out += flagsText(renderFlags(unused));
@@ -100,6 +105,16 @@ std::string diffHelpText() {
         "Compares two pictures (.ppm, .png, .pfm) of the same size and prints how far they are "
         "apart.\n",
         flagsText(diffFlags(unused)), exitCodesText());
+}
+
+std::string verifyHelpText() {
+    VerifyOptions unused;
+    return cat("usage: raytracer verify [TEST...] [options]\n\n"
+               "Runs the stress battery on this machine: rays against closed meshes, shapes against "
+               "wide\narithmetic, lamps and materials against formulas. A line per test; exit code ",
+               static_cast<int>(ExitCode::Internal), " when\none does not keep its mark. Without "
+               "TEST all quick ones; the same cases on every machine.\n",
+               flagsText(verifyFlags(unused)), exitCodesText());
 }
 
 std::string featureListText() {

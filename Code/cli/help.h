@@ -8,4 +8,5 @@
 
 std::string helpText();        // raytracer --help
 std::string diffHelpText();    // raytracer diff --help
+std::string verifyHelpText();  // raytracer verify --help
 std::string featureListText(); // raytracer --list-features

@@ -30,12 +30,15 @@ void handleInterrupts() {
     action.sa_handler = onSignal;
     action.sa_flags = SA_RESTART; // reads and writes go on
     sigemptyset(&action.sa_mask);
-    for (const int signal : {SIGINT, SIGTERM}) {
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         struct sigaction before {};
         // nohup and shells that start jobs in the background have it ignored on purpose.
         if (sigaction(signal, nullptr, &before) == 0 && before.sa_handler == SIG_IGN) continue;
         sigaction(signal, &action, nullptr);
     }
+    // The call that writes fails with EPIPE or EFBIG instead. A render whose progress nobody reads
+    // any more still writes its picture.
+    for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
 }
 
 StopOnInterrupt::StopOnInterrupt() {

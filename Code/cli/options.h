@@ -4,6 +4,7 @@
 
 #include "cli/flag.h"
 #include "desc/scene_desc.h"
+#include "read/read_context.h"
 #include "render/settings.h"
 
 #include <array>
@@ -36,6 +37,7 @@ struct Options {
     std::optional<int> bits;
     std::optional<Rgbd> background;
 
+    ReadOptions read;
     Switches switches;
 
     // Quality

@@ -192,6 +192,22 @@ void addPictureFlags(std::vector<Flag>& flags, Options& o) {
                .set = [&o](const FlagValue& v) { setBackground(o, v); }, .example = "0.1,0.2,0.4"});
 }
 
+void addSceneFlags(std::vector<Flag>& flags, Options& o) {
+    Group group(flags, "scene");
+    group.add({.name = "--lenient",
+               .help = "JSON: what is not known is skipped with a warning instead of an error",
+               .set = [&o](const FlagValue&) { o.read.lenient = true; }});
+    const std::vector<std::string> ends = {"centers", "edges"};
+    group.add({.name = "--nff-angle", .argument = join(ends, "|"),
+               .help = "what an NFF view's angle spans: the centers of the first and the last row "
+                       "of pixels, as its standard says, or the edges of the picture, as POV-Ray "
+                       "has it (centers)",
+               .set = [&o, ends](const FlagValue& v) {
+                   o.read.nffAngleToEdges = v.choice(ends) == 1;
+               },
+               .choices = ends, .example = "edges"});
+}
+
 void addFeatureFlags(std::vector<Flag>& flags, Options& o) {
     Group group(flags, kFeatureGroup);
     const auto add = [&](const char* name, bool Switches::* member, const char* help) {
@@ -232,7 +248,8 @@ void addQualityFlags(std::vector<Flag>& flags, Options& o) {
                .set = [&o](const FlagValue& v) { o.maxDepth = wholeLike("max_depth", v); },
                .example = "3"});
     group.add({.name = "--sampler", .argument = alternatives<SettingsDesc::Sampler>(),
-               .help = "how samples are spread",
+               .help = "how samples are spread; corners: one ray through each corner of a pixel, "
+                       "shared with its neighbours",
                .set = [&o](const FlagValue& v) { o.sampler = enumValue<SettingsDesc::Sampler>(v); },
                .choices = namesOf<SettingsDesc::Sampler>(), .example = "random"});
     group.add({.name = "--jitter", .help = "samples are moved at random in their cells",
@@ -341,6 +358,7 @@ void addActionFlags(std::vector<Flag>& flags, Options& o) {
 std::vector<Flag> renderFlags(Options& options) {
     std::vector<Flag> flags;
     addPictureFlags(flags, options);
+    addSceneFlags(flags, options);
     addFeatureFlags(flags, options);
     addQualityFlags(flags, options);
     addMethodFlags(flags, options);

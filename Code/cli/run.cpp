@@ -15,6 +15,8 @@
 #include "cli/settings_from.h"
 #include "cli/stats_output.h"
 #include "cli/terminal.h"
+#include "cli/verify.h"
+#include "cli/verify.h"
 #include "cli/version.h"
 #include "desc/write_txt.h"
 #include "read/load.h"
@@ -29,7 +31,10 @@
 namespace {
 
 // Complete lines in one call, so that they are not torn apart by a bar or another program.
-void writeStderr(std::string_view text) { std::fwrite(text.data(), 1, text.size(), stderr); }
+// Nothing can be done about a message that does not arrive.
+void writeStderr(std::string_view text) {
+    static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
+}
 
 double secondsNow() {
     const std::chrono::duration<double> since = std::chrono::steady_clock::now().time_since_epoch();
@@ -93,7 +98,7 @@ void checkPixelCount(const SettingsDesc& picture, bool cropPad) {
 // Nothing but the default output, which may need its folder, has a name that the user did not give.
 std::string preparedOutput(const Options& options) {
     if (!options.output.empty()) return options.output;
-    const std::string output = defaultOutput(options.scene);
+    std::string output = defaultOutput(options.scene);
     std::error_code ignored; // checkWritable() finds out and says why
     std::filesystem::create_directories(std::filesystem::path(output).parent_path(), ignored);
     return output;
@@ -159,26 +164,38 @@ ExitCode renderScene(const LoadedScene& loaded, const RenderSettings& settings,
     return ExitCode::Ok;
 }
 
+std::filesystem::path folderOf(const std::string& name) {
+    return std::filesystem::absolute(name).lexically_normal().parent_path();
+}
+
+// Pictures that lie beside a scene are to be found from its new folder as well; those that are
+// found in --textures or ./Textures keep their names.
+void moveTextures(SceneDesc& desc, const std::filesystem::path& from,
+                  const std::filesystem::path& to) {
+    if (from == to) return;
+    for (TextureDesc& texture : desc.textures) {
+        const std::filesystem::path path = from / texture.file;
+        std::error_code ignored;
+        if (std::filesystem::path(texture.file).is_relative() &&
+            std::filesystem::is_regular_file(path, ignored))
+            texture.file = path.lexically_normal().lexically_relative(to).string();
+    }
+}
+
 ExitCode convert(const LoadedScene& loaded, const Options& options) {
     // Switches are no part of a scene; --no-aa must not turn into a filter without width.
     Options written = options;
     written.switches = {};
-    const std::string text =
-        writeTxt(withSettings(loaded.desc, settingsFrom(loaded.desc, written)));
+    SceneDesc desc = withSettings(loaded.desc, settingsFrom(loaded.desc, written));
+    if (options.convertTo != "-" && options.scene != "-")
+        moveTextures(desc, folderOf(options.scene), folderOf(options.convertTo));
+    const std::string text = writeTxt(desc);
     if (options.convertTo == "-") {
         writeStdout(text);
         return ExitCode::Ok;
     }
     writeFileAtomically(options.convertTo,
                         {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-    const auto folderOf = [](const std::string& name) {
-        return std::filesystem::absolute(name).lexically_normal().parent_path();
-    };
-    const bool moved =
-        options.scene == "-" || folderOf(options.scene) != folderOf(options.convertTo);
-    if (!options.quiet && moved && !loaded.desc.textures.empty())
-        writeStderr("raytracer: note: the names of texture files are kept; render with --textures "
-                    "and the folder they are in\n");
     return ExitCode::Ok;
 }
 
@@ -194,7 +211,7 @@ ExitCode runScene(const Options& options, Step& step) {
     Stopwatch watch;
     Stats stats;
     Diagnostics diagnostics;
-    const LoadedScene loaded = load(options.scene, diagnostics);
+    const LoadedScene loaded = load(options.scene, diagnostics, options.read);
     stats.parseSeconds = watch.lap();
     printWarnings(diagnostics);
     RenderSettings settings = settingsFrom(loaded.desc, options);
@@ -221,6 +238,10 @@ ExitCode run(std::span<const std::string> arguments, Step& step) {
         const DiffOptions options = parseDiffOptions(arguments.subspan(1));
         step = {"comparing the pictures", ExitCode::Input};
         return diff(options);
+    }
+    if (!arguments.empty() && arguments[0] == "verify") {
+        step = {"verifying", ExitCode::Internal};
+        return verify(parseVerifyOptions(arguments.subspan(1)));
     }
     const Options options = parseOptions(arguments);
     switch (options.action) {

@@ -33,6 +33,13 @@ double raysPerSecond(const Stats& stats) {
                                    : 0;
 }
 
+// What a triangle costs while rendering, its share of points and trees included; 0 without any.
+double bytesPerTriangle(const AccelStats& accel) {
+    return accel.triangles > 0
+               ? static_cast<double>(accel.meshBytes) / static_cast<double>(accel.triangles)
+               : 0;
+}
+
 std::string quoted(const std::string& text) {
     constexpr char kHex[] = "0123456789abcdef";
     std::string out = "\"";
@@ -121,6 +128,8 @@ std::string statsTable(const Stats& s) {
     table.row("nodes", grouped(s.accel.nodes));
     table.row("leaves", grouped(s.accel.leaves));
     table.row("memory", megabytes(s.accel.bytes));
+    if (s.accel.triangles > 0)
+        table.row("meshes", fixed(bytesPerTriangle(s.accel), 1), "bytes per triangle");
     table.row("sah cost", fixed(s.accel.sah, 2));
     table.heading("run");
     table.row("peak memory", megabytes(s.peakBytes));
@@ -148,6 +157,8 @@ std::string statsJson(const Stats& s) {
     hits.add("camera", s.cameraHits);
     accel.add("kind", quoted(s.accel.kind)).add("nodes", s.accel.nodes);
     accel.add("leaves", s.accel.leaves).add("bytes", s.accel.bytes).add("sah", s.accel.sah);
+    accel.add("triangles", s.accel.triangles);
+    accel.add("bytes_per_triangle", bytesPerTriangle(s.accel));
     features.add("needed", jsonList(s.featuresNeeded)).add("skipped", jsonList(s.featuresSkipped));
     samples.add("min", s.samplesMin).add("mean", s.samplesMean).add("max", s.samplesMax);
     numeric.add("nan_samples", s.nanSamples);

@@ -45,6 +45,13 @@ inline constexpr auto
     });
 
 template <>
+inline constexpr auto
+    kEnumNames<MaterialDesc::LitSide> = std::to_array<EnumName<MaterialDesc::LitSide>>({
+        {MaterialDesc::LitSide::Eye, "eye"},
+        {MaterialDesc::LitSide::Outside, "outside"},
+    });
+
+template <>
 inline constexpr auto kEnumNames<LightDesc::Kind> = std::to_array<EnumName<LightDesc::Kind>>({
     {LightDesc::Kind::Point, "point"},
     {LightDesc::Kind::Spot, "spot"},
@@ -119,8 +126,8 @@ inline constexpr auto
 static_assert(isInOrder<TextureDesc::Space>() && isInOrder<TextureDesc::Interpolation>() &&
               isInOrder<TextureDesc::Extension>() && isInOrder<TextureDesc::Channel>() &&
               isInOrder<MaterialDesc::SpecularModel>() && isInOrder<MaterialDesc::Fresnel>() &&
-              isInOrder<LightDesc::Kind>() && isInOrder<CameraDesc::Kind>() &&
-              isInOrder<CameraDesc::SensorFit>() && isInOrder<ObjectDesc::Kind>() &&
-              isInOrder<ObjectDesc::Sides>() && isInOrder<WorldDesc::Up>() &&
-              isInOrder<SettingsDesc::Sampler>() && isInOrder<SettingsDesc::Filter>() &&
-              isInOrder<SettingsDesc::Transfer>());
+              isInOrder<MaterialDesc::LitSide>() && isInOrder<LightDesc::Kind>() &&
+              isInOrder<CameraDesc::Kind>() && isInOrder<CameraDesc::SensorFit>() &&
+              isInOrder<ObjectDesc::Kind>() && isInOrder<ObjectDesc::Sides>() &&
+              isInOrder<WorldDesc::Up>() && isInOrder<SettingsDesc::Sampler>() &&
+              isInOrder<SettingsDesc::Filter>() && isInOrder<SettingsDesc::Transfer>());

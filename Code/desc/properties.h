@@ -132,6 +132,7 @@ inline constexpr auto kMaterialProperties = std::to_array<Property<MaterialDesc>
     {"specular_texture", textureOf(&MaterialDesc::specularTexture), {}, {}},
     {"specular_model", choice<&MaterialDesc::specularModel>(), {}, {}},
     {"exponent", &MaterialDesc::exponent, {}, {0, 1e9}},
+    {"lit_side", choice<&MaterialDesc::litSide>(), {}, {}},
     {"mirror", &MaterialDesc::mirror, {}, kColor},
     {"transmission", &MaterialDesc::transmission, {}, kColor},
     {"ior", &MaterialDesc::ior, {}, {0, 1000, true}},
@@ -189,7 +190,7 @@ inline constexpr auto kObjectProperties = [] {
 // Instead of the arrays below.
 inline constexpr auto kMeshProperties = std::to_array<Property<MeshDesc>>({
     {"file", &MeshDesc::file, {}, {}},
-    {"smooth_angle", &MeshDesc::smoothAngleDeg, {}, {0, 180}},
+    {"smooth_angle", &MeshDesc::smoothAngleDeg, {}, {-1, 180}},
 });
 
 // What differs between blocks: the word for it, its table, its kind (0 when all are alike).

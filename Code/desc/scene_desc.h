@@ -62,6 +62,9 @@ struct MaterialDesc {
     // How mirror and transmission share the light. None: as written. Dielectric: exact Fresnel by
     // ior (mirror*F, transmission*(1-F)). Schlick: mirror + (1-mirror)(1-cos)^5.
     enum class Fresnel { None, Dielectric, Schlick };
+    // Which lamps a surface answers: those on the side from which it is seen, or those outside of
+    // it, also when its inside is seen (COMP 557 never turns normals to the eye).
+    enum class LitSide { Eye, Outside };
     std::string name;
     SourceLoc loc;
     Rgbd diffuse{0.8, 0.8, 0.8};   // reflectance
@@ -70,6 +73,7 @@ struct MaterialDesc {
     Handle specularTexture = kNone;
     SpecularModel specularModel = SpecularModel::Blinn;
     double exponent = 50;
+    LitSide litSide = LitSide::Eye;
     Rgbd mirror{0, 0, 0};       // traced reflection
     Rgbd transmission{0, 0, 0}; // traced refraction
     double ior = 1.5;
@@ -142,7 +146,8 @@ struct MeshDesc {
     // What the arrays are to be read from; load() does it and leaves `file` empty.
     std::string file;
     SourceLoc fileLoc;
-    double smoothAngleDeg = 0; // of the file's: edges that bend less are shaded smooth; 0 flat
+    // Of the file's: edges that bend less are shaded smooth; 0 flat, -1 with the file's normals.
+    double smoothAngleDeg = -1;
     std::vector<Vec3d> points;
     std::vector<Corners> triangles;
     std::vector<Vec3> normals;

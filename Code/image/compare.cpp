@@ -50,9 +50,10 @@ public:
         constexpr double kSigma = 1.5;
         std::size_t size = std::min({kWindow, width_, height_});
         if (size % 2 == 0) --size;
+        const std::size_t middle = size / 2;
         double sum = 0;
         for (std::size_t i = 0; i < size; ++i) {
-            const double x = static_cast<double>(i) - static_cast<double>(size / 2);
+            const double x = static_cast<double>(i) - static_cast<double>(middle);
             weights_.push_back(std::exp(-x * x / (2 * kSigma * kSigma)));
             sum += weights_.back();
         }

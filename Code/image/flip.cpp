@@ -108,9 +108,9 @@ Plane filtered(const Plane& plane, const Taps& alongX, const Taps& alongY) {
     const int radiusY = static_cast<int>(alongY.size() / 2);
     for (int y = 0; y < plane.height; ++y) {
         const auto to = result.row(y);
-        for (int k = -radiusY; k <= radiusY; ++k) {
-            const auto from = across.row(std::clamp(y + k, 0, plane.height - 1));
-            const double tap = alongY[static_cast<std::size_t>(k + radiusY)];
+        for (int k = 0; k <= 2 * radiusY; ++k) {
+            const auto from = across.row(std::clamp(y + k - radiusY, 0, plane.height - 1));
+            const double tap = alongY[static_cast<std::size_t>(k)];
             for (std::size_t x = 0; x < to.size(); ++x) to[x] += tap * from[x];
         }
     }

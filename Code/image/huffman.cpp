@@ -30,7 +30,8 @@ std::vector<std::uint32_t> optimalLengthCounts(const std::vector<Leaf>& leaves) 
         }
     }
     std::vector<std::uint32_t> ofLength(leafCount + 1);
-    for (std::size_t i = nodeCount - 1; i-- > 0;) {
+    for (std::size_t left = nodeCount - 1; left > 0; --left) {
+        const std::size_t i = left - 1;
         depth[i] = depth[parent[i]] + 1;
         if (i < leafCount) ++ofLength[depth[i]];
     }

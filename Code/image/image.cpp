@@ -47,6 +47,7 @@ constexpr Format kFormats[] = {
     {"RIFF"sv, "a WebP picture", nullptr},
 };
 
+// NOLINTNEXTLINE(cert-err58-cpp): short strings need no memory
 const std::array<std::string, 3> kExtensions{"ppm", "png", "pfm"};
 
 std::string extensionOf(const std::string& fileName) {

@@ -12,7 +12,7 @@
 class NetpbmHeader {
 public:
     // The first two bytes are the magic number, as the caller has checked.
-    NetpbmHeader(Bytes file, const std::string& name) : file_(file), name_(name), at_(2) {}
+    NetpbmHeader(Bytes file, const std::string& name) : file_(file), name_(name) {}
 
     std::string_view magic() const { return text(0, 2); }
     // The next whole number (0 .. 10^9) or finite real number that is not zero. Fails with
@@ -39,6 +39,6 @@ private:
 
     Bytes file_;
     const std::string& name_;
-    std::size_t at_;
+    std::size_t at_ = 2; // after the letter and digit of the kind
     std::size_t wordStart_ = 0;
 };

@@ -160,7 +160,7 @@ private:
     void takePalette(Bytes data) {
         if (!chunks_.palette.empty()) broken("there are two PLTE chunks");
         if (!chunks_.packed.empty()) broken("the PLTE chunk comes after the pixels");
-        if (data.empty() || data.size() % 3 != 0 || data.size() > 3 * 256)
+        if (data.empty() || data.size() % 3 != 0 || data.size() > std::size_t{3} * 256)
             broken(
                 cat("the PLTE chunk has ", data.size(), " bytes; 3 for each of 1 to 256 colours"));
         for (std::size_t i = 0; i < data.size(); i += 3)

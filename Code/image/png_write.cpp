@@ -39,10 +39,12 @@ void filterRow(const std::uint8_t* row, const std::uint8_t* above, std::size_t s
     for (std::size_t start = 0; start < size; start += kPiece) {
         const std::uint8_t* here = row + start;
         const std::uint8_t* up = above + start;
+        // In front of the row for its first pixel: see kLeft.
+        const std::uint8_t* const left = here - pixelBytes;
+        const std::uint8_t* const upLeft = up - pixelBytes;
         std::array<std::uint8_t, kPiece> piece; // local, so that nothing else can change with it
         for (std::size_t i = 0; i < kPiece; ++i)
-            piece[i] = static_cast<std::uint8_t>(
-                here[i] - predict(here[i - pixelBytes], up[i], up[i - pixelBytes]));
+            piece[i] = static_cast<std::uint8_t>(here[i] - predict(left[i], up[i], upLeft[i]));
         std::uint16_t sum = 0; // at most 64 * 128
         for (std::size_t i = 0; i < kPiece; ++i) {
             const auto negative = static_cast<std::uint8_t>(-piece[i]);

@@ -3,6 +3,9 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "desc/validate.h"
+#include "read/mesh_files.h"
+#include "read/read_json.h"
+#include "read/read_nff.h"
 #include "read/read_txt.h"
 
 #include <algorithm>
@@ -18,23 +21,30 @@ namespace fs = std::filesystem;
 
 struct Format {
     std::string_view extension; // lower case
-    SceneDesc (*read)(const SourceFile&);
+    SceneDesc (*read)(const SourceFile&, const ReadContext&);
 };
 constexpr auto kFormats = std::to_array<Format>({
-    {".txt", readTxt},
+    {".txt", [](const SourceFile& source, const ReadContext&) { return readTxt(source); }},
+    {".json", readJson},
+    {".nff", readNff},
+    {".obj", readMeshScene},
+    {".ply", readMeshScene},
 });
+
+std::vector<std::string> extensions() {
+    std::vector<std::string> out;
+    for (const Format& format : kFormats) out.emplace_back(format.extension);
+    return out;
+}
 
 const Format& formatOf(const std::string& fileName) {
     std::string extension = fs::path(fileName).extension().string();
     for (char& c : extension)
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-    std::vector<std::string> known;
-    for (const Format& format : kFormats) {
+    for (const Format& format : kFormats)
         if (format.extension == extension) return format;
-        known.emplace_back(format.extension);
-    }
     fail(ErrorKind::Input,
-         cat(fileName, ": error: unknown scene format ", unknownName(extension, known)));
+         cat(fileName, ": error: unknown scene format ", unknownName(extension, extensions())));
 }
 
 // The files beside a missing one that could be meant.
@@ -82,7 +92,9 @@ void checkFile(const std::string& fileName) {
 
 } // namespace
 
-LoadedScene load(const std::string& fileName, Diagnostics& diagnostics) {
+LoadedScene load(const std::string& fileName, Diagnostics& diagnostics,
+                 const ReadOptions& options) {
+    const ReadContext context{options, diagnostics};
     LoadedScene scene;
     if (fileName == "-") {
         scene.source = {"<stdin>", readStdin()};
@@ -90,10 +102,10 @@ LoadedScene load(const std::string& fileName, Diagnostics& diagnostics) {
     } else {
         checkFile(fileName);
         const Format& format = formatOf(fileName);
-        const std::vector<std::uint8_t> bytes = readWholeFile(fileName);
-        scene.source = {fileName, {bytes.begin(), bytes.end()}};
-        scene.desc = format.read(scene.source);
+        scene.source = {fileName, readWholeText(fileName)};
+        scene.desc = format.read(scene.source, context);
     }
+    loadMeshFiles(scene.desc, scene.source, context);
     validate(scene.desc, scene.source, diagnostics);
     return scene;
 }

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/source.h"
 #include "desc/scene_desc.h"
+#include "read/read_context.h"
 
 #include <string>
 
@@ -12,5 +13,7 @@ struct LoadedScene {
     SceneDesc desc;
 };
 
-// The reader is chosen by the extension; "-" is native text on stdin. Throws Error (Input).
-LoadedScene load(const std::string& fileName, Diagnostics& diagnostics);
+// The reader is chosen by the extension; "-" is native text on stdin. The meshes that the scene
+// keeps in files are read as well. Throws Error (Input).
+LoadedScene load(const std::string& fileName, Diagnostics& diagnostics,
+                 const ReadOptions& options = {});

@@ -1,5 +1,5 @@
 // Scenes of the course COMP 557 in JSON, all four dialects, and the keys that this renderer adds
-// (ASCII/README.md). Everything that the format means differently is settled here.
+// (ASCII/JSON.md). Everything that the format means differently is settled here.
 #pragma once
 
 #include "desc/scene_desc.h"

@@ -66,19 +66,51 @@ public:
                 failUnclosed(in_, open_, t);
             if (t.kind != TokenKind::Word)
                 in_.failAt(t.offset, cat("expected a property or '}', got ", described(t)));
-            readArray(t, arrayNamed(t));
+            if (!readProperty(t)) readArray(t, arrayNamed(t));
         }
         expectLineEnd(in_, "}", open_);
+        checkFile();
         for (std::size_t i = 0; i < kMeshArrays.size(); ++i) checkIndices(i);
     }
 
 private:
+    bool readProperty(const Token& t) {
+        const auto row = std::find_if(kMeshProperties.begin(), kMeshProperties.end(),
+                                      [&](const auto& p) { return p.keyword == t.text; });
+        if (row == kMeshProperties.end()) return false;
+        std::size_t& before = given_[static_cast<std::size_t>(row - kMeshProperties.begin())];
+        if (before > 0)
+            in_.failAt(t.offset,
+                       cat("'", t.text, "' was given already at line ", in_.lineOf(before)));
+        before = t.offset;
+        PropertyLine<MeshDesc>(in_, errors_, names_, open_).read(mesh_, *row);
+        if (row->keyword == "file") mesh_.fileLoc = {static_cast<std::uint32_t>(t.offset)};
+        return true;
+    }
+
+    // A mesh has arrays or a file.
+    void checkFile() {
+        if (mesh_.file.empty()) {
+            for (std::size_t i = 0; i < kMeshProperties.size(); ++i)
+                if (given_[i] > 0)
+                    errors_.add({static_cast<std::uint32_t>(given_[i])}, [&] {
+                        return cat("'", kMeshProperties[i].keyword, "' needs the name of a file");
+                    });
+            return;
+        }
+        for (const ArrayRead& array : reads_)
+            if (array.given)
+                errors_.add({static_cast<std::uint32_t>(array.offset)},
+                            [] { return "a mesh has a 'file' or arrays, not both"; });
+    }
+
     std::size_t arrayNamed(const Token& t) {
         for (std::size_t i = 0; i < kMeshArrays.size(); ++i)
             if (kMeshArrays[i].keyword == t.text) return i;
         if (!last_.empty() && readDouble(t.text.data()).fault != NumberFault::NotANumber)
             in_.failAt(t.offset, cat("'", last_, "' has more numbers than its count says"));
         std::vector<std::string> known;
+        for (const auto& property : kMeshProperties) known.emplace_back(property.keyword);
         for (const MeshArray& array : kMeshArrays) known.emplace_back(array.keyword);
         failUnknownProperty(in_, t, open_, known);
     }
@@ -182,6 +214,8 @@ private:
     const Token& open_;
     MeshDesc& mesh_;
     std::array<ArrayRead, kMeshArrays.size()> reads_{};
+    std::array<std::size_t, kMeshProperties.size()> given_{}; // where; no property stands at 0
+    std::vector<Token> names_;                                // of references: there are none
     std::string_view last_; // the keyword of the array that was begun last
 };
 

@@ -8,7 +8,8 @@
 
 // Replaces the normals of the mesh: at each corner the mean of the normals of the triangles around
 // the point, weighted with their angle there (Thürmer and Wüthrich 1998), over those triangles that
-// bend less than smoothAngleDeg away from the corner's own. 180: all of them.
+// bend less than smoothAngleDeg away from the corner's own. 180: all of them; 0: no normals, flat.
+// Around points with more than 512 triangles directions are compared in steps of ten degrees.
 void smoothByAngle(MeshDesc& mesh, double smoothAngleDeg);
 
 // The same over the triangles of equal group; group 0 stays flat. groups: one per triangle.

@@ -12,9 +12,10 @@
 // the same way round as the polygon. Ear clipping in the plane of Newell's normal, with signs of
 // areas that are exact. Corners may be concave, collinear or repeated; a polygon that crosses
 // itself gives some triangles, always as many and always in finite time. Convex polygons become the
-// fan of their first corner.
+// fan of their first corner. Triangles without area arise only where there is no other way.
 void triangulate(std::span<const Vec3d> corners,
                  std::vector<std::array<std::uint32_t, 3>>& triangles);
 
-// Time grows with the square of the corners of a bad polygon: readers refuse more than this.
+// Time grows with the square of the corners of a bad polygon (half a second for this many): readers
+// refuse more than this.
 inline constexpr std::size_t kMostCorners = 32768;

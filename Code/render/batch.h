@@ -46,9 +46,9 @@ public:
     }
     // Removes the innermost entry of the material; none there: the ray started inside, no change.
     void leave(std::uint32_t material) {
-        for (std::size_t i = count_; i-- > 0;) {
-            if (materials_[i] != material) continue;
-            for (std::size_t j = i + 1; j < count_; ++j) materials_[j - 1] = materials_[j];
+        for (std::size_t after = count_; after > 0; --after) {
+            if (materials_[after - 1] != material) continue;
+            for (std::size_t j = after; j < count_; ++j) materials_[j - 1] = materials_[j];
             --count_;
             return;
         }

@@ -30,7 +30,7 @@ MediumStack mediumOfCamera(const Scene& scene, const RenderSettings& settings) {
             else
                 around.push_back(at.materialId);
         }
-        ray = {leave(at.surface, -at.ng), ray.dir, 0, kInfinityF, ray.time};
+        ray = {leave(at.surface, -at.eye.ng), ray.dir, 0, kInfinityF, ray.time};
     }
     std::for_each(around.rbegin(), around.rend(), [&](std::uint32_t m) { inside.enter(m); });
     return inside;

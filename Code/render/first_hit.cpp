@@ -44,7 +44,7 @@ FirstHit describeFirstHit(const Scene& scene, const Ray& ray, const ShadedPoint&
     FirstHit first;
     first.hit = true;
     first.depth = static_cast<float>(dot(position - eye, axis) / scene.frame().scale);
-    first.normal = at.n;
+    first.normal = at.eye.n;
     first.position = toFloat(scene.frame().worldPoint(position));
     first.albedo = at.material.diffuse;
     first.object = at.surface.object + 1;
@@ -85,14 +85,14 @@ void integrateAo(const IntegratorContext& context, SampleChunk& chunk, WaveMemor
         const Ray ray = rays.ray(i);
         const ShadedPoint at = shade(context.scene, ray, memory.hits[i]);
         if (context.wantsFirstHits) chunk.first[i] = describeFirstHit(context.scene, ray, at);
-        const Frame frame = frameAround(at.n);
+        const Frame frame = frameAround(at.eye.n);
         for (int k = 0; k < repeats; ++k) {
             const std::uint32_t index = chunk.ids[i].index * static_cast<std::uint32_t>(repeats) +
                                         static_cast<std::uint32_t>(k);
             const Vec2 u = sampler.get2D(rays.stream[i], index, dimension(0, BounceSlot::LightUv));
             const Vec3 dir = frame.toWorld(cosineHemisphereFromSquare(u));
-            if (!(dot(dir, at.ng) > 0)) continue;
-            memory.shadowRays.push({leave(at.surface, at.ng), dir, 0, kInfinityF, ray.time},
+            if (!(dot(dir, at.eye.ng) > 0)) continue;
+            memory.shadowRays.push({leave(at.surface, at.eye.ng), dir, 0, kInfinityF, ray.time},
                                    static_cast<std::uint32_t>(i), Rgb{share, share, share});
         }
     }

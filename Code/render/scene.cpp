@@ -104,6 +104,7 @@ private:
         m.base.specular = toRgb(desc.specular);
         m.base.specularModel = specularModelOf(desc.specularModel);
         m.base.exponent = toFloat(desc.exponent);
+        m.litOutside = desc.litSide == MaterialDesc::LitSide::Outside;
         if (on_.reflection) m.base.mirror = toRgb(desc.mirror);
         if (on_.refraction) m.base.transmission = toRgb(desc.transmission);
         m.base.ior = toFloat(desc.ior);
@@ -144,7 +145,7 @@ private:
     MovingTransform placed(const Keys& keys) {
         std::vector<Transform> maps;
         for (const Rows& rows : keys) maps.push_back(scene_.frame_.placed(rows));
-        const MovingTransform moving{std::span<const Transform>(maps)};
+        MovingTransform moving{std::span<const Transform>(maps)};
         if (!on_.motionBlur) return MovingTransform(moving.at(0.5));
         if (!moving.isStatic()) scene_.moves_ = true;
         return moving;
@@ -362,6 +363,8 @@ void Scene::describe(Stats& stats) const {
         stats.accel.sah += geometry->wide.sah;
         stats.accel.bytes += geometry->wide.bytes();
         stats.accel.primitives += geometry->triangles.size();
+        stats.accel.triangles += geometry->triangles.size();
+        stats.accel.meshBytes += geometry->bytes();
     }
     for (const Feature& feature : features_) {
         if (feature.needed)

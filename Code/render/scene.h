@@ -30,8 +30,9 @@ struct SceneMaterial {
     const Texture* normalMap = nullptr;
     const Texture* bumpMap = nullptr;
     float normalStrength = 1;
-    float bumpHeight = 0; // strength times distance, in normalised units
-    bool isLamp = false;  // the visible body of an area light; emits to the front of its shape only
+    float bumpHeight = 0;    // strength times distance, in normalised units
+    bool litOutside = false; // answers lamps outside of it, whichever side is seen
+    bool isLamp = false; // the visible body of an area light; emits to the front of its shape only
     bool seeThrough() const { return base.opacity < 1 || opacity != nullptr; }
     bool bendsNormals() const { return normalMap != nullptr || bumpMap != nullptr; }
 };

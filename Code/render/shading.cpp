@@ -30,6 +30,15 @@ Vec3 mapped(Vec3 n, const SurfaceDerivatives& d, Rgb texel, float strength) {
     return dot(mixed, mixed) > 0 ? normalize(mixed) : n;
 }
 
+// A normal that faces away from the eye would reflect light that the eye can't see.
+Vec3 turnedTo(Vec3 toEye, const ShadedPoint::Side& side) {
+    if (dot(side.n, toEye) > 0) return side.n;
+    const Vec3 level = side.n - toEye * (dot(side.n, toEye) * 1.001f);
+    const Vec3 n =
+        dot(level, level) > 1e-12f && dot(level, side.ng) > 0 ? normalize(level) : side.ng;
+    return dot(n, toEye) > 0 ? n : side.ng;
+}
+
 // Textures that change numbers, not normals.
 Material textured(const SceneMaterial& material, Vec2 uv) {
     Material m = material.base;
@@ -61,13 +70,13 @@ ShadedPoint shade(const Scene& scene, const Ray& ray, const Hit& hit) {
         if (material.bumpMap) n = bumped(n, d, material.bumpMap->gradient(uv), material.bumpHeight);
         if (!(dot(n, at.surface.ng) > 0)) n = at.surface.ns;
     }
-    at.ng = at.front ? at.surface.ng : -at.surface.ng;
-    at.n = at.front ? n : -n;
-    // A normal that faces away from the eye would reflect light that the eye can't see.
-    if (!(dot(at.n, at.toEye) > 0)) {
-        const Vec3 level = at.n - at.toEye * (dot(at.n, at.toEye) * 1.001f);
-        at.n = dot(level, level) > 1e-12f && dot(level, at.ng) > 0 ? normalize(level) : at.ng;
-        if (!(dot(at.n, at.toEye) > 0)) at.n = at.ng;
+    const ShadedPoint::Side outside{at.surface.ng, at.surface.ns, n};
+    at.eye = at.front ? outside : ShadedPoint::Side{-outside.ng, -outside.ns, -n};
+    at.eye.n = turnedTo(at.toEye, at.eye);
+    at.lit = at.eye;
+    if (material.litOutside && !at.front) {
+        at.lit = outside;
+        at.surface.lift = {}; // it was for the side of the eye
     }
     return at;
 }

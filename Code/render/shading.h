@@ -11,7 +11,12 @@ struct ShadedPoint {
     bool isLamp = false;
     bool front = true; // the ray came from the outside
     Vec3 toEye;        // unit
-    Vec3 ng, n;        // geometric and shading normal, both on the side of the eye
+    // Geometric, interpolated and bumped normal.
+    struct Side {
+        Vec3 ng, ns, n;
+    };
+    Side eye; // on the side of the eye
+    Side lit; // on the side whose lamps count
 };
 
 // `dir` need not be a unit vector.

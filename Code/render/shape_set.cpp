@@ -32,6 +32,7 @@ void ShapeSet::finish(bool withBvh) {
     std::vector<Bounds> inOrder;
     for (const std::uint32_t number : bounded) inOrder.push_back(boxes[number]);
     bvh = buildBvh(inOrder);
+    bvh.nodes.shrink_to_fit();
 }
 
 // fn(shape, zEntry, zCut) for every shape whose box the ray enters in front of zCut; true stops.

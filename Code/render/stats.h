@@ -18,6 +18,7 @@ struct RayCounts {
 struct AccelStats {
     std::string kind;
     std::uint64_t nodes = 0, leaves = 0, bytes = 0, primitives = 0;
+    std::uint64_t triangles = 0, meshBytes = 0; // points, indices and trees of the meshes
     double sah = 0; // surface-area-heuristic cost of the top tree and its meshes
 };
 

@@ -67,7 +67,7 @@ private:
             const Rgb straight = weight * at.material.filter * (1 - at.material.opacity);
             if (goesOn && worthTracing(straight)) {
                 ++counts_.refract;
-                memory_.next.push({leave(at.surface, -at.ng), ray.dir, 0, kInfinityF, ray.time},
+                memory_.next.push({leave(at.surface, -at.eye.ng), ray.dir, 0, kInfinityF, ray.time},
                                   slot, straight, rays.medium[i], rays.stream[i],
                                   rays.seesLights[i] != 0);
             }
@@ -108,10 +108,16 @@ private:
                                                dimension(depth, BounceSlot::LightUv));
     }
 
+    // Is the light above the horizon, of the triangle or of the curve that its normals pretend?
+    static bool rises(const ShadedPoint& at, Vec3 toLight) {
+        return dot(at.lit.ng, toLight) > 0 ||
+               (at.surface.lift != Vec3{} && dot(at.lit.ns, toLight) > 0);
+    }
+
     void addLightSample(const ShadedPoint& at, Rgb weight, std::size_t i, const Light& light,
                         bool soft, const LightSample& sample, float share) {
-        if (isBlack(sample.irradiance) || !(dot(at.ng, sample.toLight) > 0)) return;
-        const Rgb reflected = reflectedLight(at.material, at.n, at.toEye, sample.toLight);
+        if (isBlack(sample.irradiance) || !rises(at, sample.toLight)) return;
+        const Rgb reflected = reflectedLight(at.material, at.lit.n, at.toEye, sample.toLight);
         const Rgb light1 = weight * reflected * sample.irradiance * share;
         if (isBlack(light1)) return;
         const std::uint32_t slot = memory_.rays.sample[i];
@@ -119,12 +125,12 @@ private:
         const float time = memory_.rays.time[i];
         if (const auto origin = light.origin(); origin && !soft) {
             // Defined as starting at the light, so that all rays of a lamp share their origin.
-            const Vec3 end = leave(at.surface, at.ng, sample.distance);
+            const Vec3 end = leave(at.surface, at.lit.ng, sample.distance) + at.surface.lift;
             memory_.shadowRays.push({*origin, end - *origin, 0, 1, time}, slot, light1);
         } else {
             const float reach = sample.distance < kInfinityF ? sample.distance : 0;
-            memory_.shadowRays.push({leave(at.surface, at.ng, reach), sample.toLight, 0,
-                                     sample.distance * (1 - 0x1p-20f), time},
+            memory_.shadowRays.push({leave(at.surface, at.lit.ng, reach) + at.surface.lift,
+                                     sample.toLight, 0, sample.distance * (1 - 0x1p-20f), time},
                                     slot, light1);
         }
     }
@@ -149,7 +155,7 @@ private:
         const float iorHere = startedInside ? material.ior : iorOf(before.top());
         const float eta = iorHere / iorOf(after.top());
 
-        const Bounces out = bounces(material, at.n, at.ng, at.toEye, eta, u);
+        const Bounces out = bounces(material, at.eye.n, at.eye.ng, at.toEye, eta, u);
         // A rough surface's highlight has counted the lamps; a sharp mirror shows their bodies.
         const bool seesLights = material.roughness <= 0 || isBlack(material.specular);
         const auto spawn = [&](const Bounce& bounce, Vec3 side, const MediumStack& medium,
@@ -160,8 +166,8 @@ private:
             memory_.next.push({leave(at.surface, side), bounce.dir, 0, kInfinityF, rays.time[i]},
                               slot, spawned, medium, low32(hash(stream, branch)), seesLights);
         };
-        if (out.reflected) spawn(*out.reflected, at.ng, before, 1, counts_.reflect);
-        if (out.refracted) spawn(*out.refracted, -at.ng, after, 2, counts_.refract);
+        if (out.reflected) spawn(*out.reflected, at.eye.ng, before, 1, counts_.reflect);
+        if (out.refracted) spawn(*out.refracted, -at.eye.ng, after, 2, counts_.refract);
     }
 
     float iorOf(std::uint32_t material) const {

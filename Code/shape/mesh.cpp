@@ -52,6 +52,20 @@ Vec3d awayFromEdges(Vec3d weights, Vec3 v0, Vec3 v1, Vec3 v2, double clearance) 
     return lerp(weights, sides / perimeter, s);
 }
 
+// Hanika 2021, "Hacking the shadow terminator": p projected onto the tangent planes of the corners
+// it lies below, weighted with its barycentrics. `side` is 1 when the outside is seen, -1 for the
+// inside, from where the surface is convex where it is concave from outside.
+Vec3d liftToCurve(Vec3d p, const std::array<Vec3d, 3>& corners, const std::array<Vec3d, 3>& normals,
+                  Vec3d weights, double side) {
+    Vec3d lift;
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double length2 = dot(normals[i], normals[i]);
+        const double below = side * dot(p - corners[i], normals[i]);
+        if (length2 > 0 && below < 0) lift -= normals[i] * (weights[i] * side * below / length2);
+    }
+    return lift;
+}
+
 } // namespace
 
 std::uint64_t MeshGeometry::dropDegenerate() {
@@ -82,10 +96,13 @@ void MeshGeometry::finish(bool withTree, const Kernel& forKernel) {
         wide = buildWide(forKernel.width, points, triangles);
         return;
     }
-    std::vector<Bounds> boxes(triangles.size());
-    for (std::size_t i = 0; i < triangles.size(); ++i)
-        for (const std::uint32_t corner : triangles[i]) boxes[i].extend(points[corner]);
-    bvh = buildBvh(boxes);
+    {
+        std::vector<Bounds> boxes(triangles.size());
+        for (std::size_t i = 0; i < triangles.size(); ++i)
+            for (const std::uint32_t corner : triangles[i]) boxes[i].extend(points[corner]);
+        bvh = buildBvh(boxes);
+    }
+    bvh.nodes.shrink_to_fit();
 }
 
 std::size_t MeshGeometry::bytes() const {
@@ -266,6 +283,17 @@ Surface Mesh::surface(const Ray& worldRay, const Hit& hit) const {
                 max(length(meshFromWorld.column(1)), length(meshFromWorld.column(2))));
         s.p = toFloat(worldFromMesh.point(pointOff(error * stretch)));
         s.error = static_cast<float>(error);
+    }
+    if (!geometry_.normalTriangles.empty()) {
+        const auto& k = geometry_.normalTriangles[hit.prim];
+        const Transform worldFromMesh = identity_ ? Transform() : worldFromMeshAt(worldRay.time);
+        const auto normal = [&](std::size_t i) {
+            return worldFromMesh.normal(toDouble(geometry_.normals[k[i]]));
+        };
+        const auto corner = [&](Vec3 p) { return worldFromMesh.point(toDouble(p)); };
+        s.lift = toFloat(liftToCurve(toDouble(s.p), {corner(v0), corner(v1), corner(v2)},
+                                     {normal(0), normal(1), normal(2)}, {1 - u - v, u, v},
+                                     dot(s.ng, worldRay.dir) <= 0 ? 1 : -1));
     }
     const double length2 = dot(ns, ns);
     s.ns = length2 > 0 ? toFloat(ns / std::sqrt(length2)) : s.ng;

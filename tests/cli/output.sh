@@ -30,7 +30,8 @@ run 0 scene.txt one/b.ppm --stats=json
 check 'JSON: one line' [ "$(wc -l < out)" -eq 1 ]
 check 'JSON: only an object' grep -qx '{.*}' out
 for key in seconds parse build render write total rays camera shadow reflect refract indirect hits \
-    rays_per_second accel kind nodes leaves bytes sah peak_bytes threads kernel features needed \
+    rays_per_second accel kind nodes leaves bytes sah triangles bytes_per_triangle \
+    peak_bytes threads kernel features needed \
     skipped samples min mean max numeric nan_samples degenerate_primitives; do
     has out "\"$key\":" || fail 'JSON: all keys' "no $key"
 done

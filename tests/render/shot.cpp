@@ -34,7 +34,7 @@ const Image& Shot::aov(Aov which) const {
 
 SceneDesc parse(const std::string& text) {
     const SourceFile source{"test.txt", "raytracer 1\n" + text};
-    const SceneDesc desc = readTxt(source);
+    SceneDesc desc = readTxt(source);
     Diagnostics diagnostics;
     validate(desc, source, diagnostics);
     return desc;

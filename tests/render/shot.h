@@ -44,7 +44,7 @@ struct TopView {
     Vec2d centre{0, 0};
     double height = 10;
     int samples = 1;
-    std::string more = ""; // lines of settings
+    std::string more = {}; // lines of settings
     std::string text() const;
     Vec2d place(int x, int y) const {
         return {centre.x + ((x + 0.5) / pixels - 0.5) * side,

@@ -14,11 +14,11 @@ const std::vector<std::string> kFloors = {
     "cube f {\n translate 0 0 -1\n scale 2 2 1\n material m\n}\n",
     "cylinder f {\n translate 0 0 -1\n radius 2\n material m\n}\n",
     "cone f {\n translate 0 0 -1\n radius 1\n top_radius 2\n material m\n}\n",
-    "mesh q {\n points 4\n -2 -2 0 2 -2 0 2 2 0 -2 2 0\n triangles 2\n 0 1 2 0 2 3\n}\n"
-    "instance f {\n mesh q\n material m\n}\n",
-    "mesh q {\n points 4\n -2 -2 0 2 -2 0 2 2 0 -2 2 0\n triangles 2\n 0 1 2 0 2 3\n}\n"
-    "instance f {\n mesh q\n material m\n}\n"
-    "instance g {\n translate 0 0 -5\n mesh q\n material m\n}\n"};
+    ("mesh q {\n points 4\n -2 -2 0 2 -2 0 2 2 0 -2 2 0\n triangles 2\n 0 1 2 0 2 3\n}\n"
+     "instance f {\n mesh q\n material m\n}\n"),
+    ("mesh q {\n points 4\n -2 -2 0 2 -2 0 2 2 0 -2 2 0\n triangles 2\n 0 1 2 0 2 3\n}\n"
+     "instance f {\n mesh q\n material m\n}\n"
+     "instance g {\n translate 0 0 -5\n mesh q\n material m\n}\n")};
 
 const std::string kMaterial = "material m {\n diffuse 0.8 0.5 0.25\n}\n";
 constexpr Vec3d kDiffuse{0.8, 0.5, 0.25};

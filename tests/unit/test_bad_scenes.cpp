@@ -5,6 +5,7 @@
 #include "desc/validate.h"
 #include "desc/write_txt.h"
 #include "read/load.h"
+#include "read/read_mtl.h"
 #include "read/read_txt.h"
 
 #include <filesystem>
@@ -39,13 +40,13 @@ Outcome readSomehow(const std::string& text) {
     return Outcome::Read;
 }
 
-} // namespace
-
-// NAME.expect has a line "line:col words" per error, or "- words" for those without a place.
-TEST(bad_txt_corpus) {
+// Every file of tests/bad/FORMAT is refused with the message that its NAME.expect asks for: a line
+// "line:col words" per error, or "- words" for those without a place.
+template <class Read>
+void checkCorpus(const std::string& format, std::size_t fewest, const Read& read) {
     std::size_t count = 0;
-    for (const auto& entry : fs::directory_iterator("tests/bad/txt")) {
-        if (entry.path().extension() != ".txt") continue;
+    for (const auto& entry : fs::directory_iterator("tests/bad/" + format)) {
+        if (entry.path().extension() != "." + format) continue;
         ++count;
         fs::path expectPath = entry.path();
         std::ifstream expectations(expectPath.replace_extension(".expect"));
@@ -54,8 +55,7 @@ TEST(bad_txt_corpus) {
         std::string message;
         ErrorKind kind = ErrorKind::Usage;
         try {
-            Diagnostics diagnostics;
-            load(name, diagnostics);
+            read(name);
         } catch (const Error& error) {
             message = error.what();
             kind = error.kind();
@@ -72,7 +72,26 @@ TEST(bad_txt_corpus) {
         }
         CHECK_INFO(expected > 0, expectPath << " is empty");
     }
-    CHECK_INFO(count >= 40, "files in tests/bad/txt: " << count);
+    CHECK_INFO(count >= fewest, "files in tests/bad/" << format << ": " << count);
+}
+
+void loadIt(const std::string& name) {
+    Diagnostics diagnostics;
+    load(name, diagnostics);
+}
+
+} // namespace
+
+TEST(bad_txt_corpus) { checkCorpus("txt", 40, loadIt); }
+TEST(bad_json_corpus) { checkCorpus("json", 30, loadIt); }
+TEST(bad_nff_corpus) { checkCorpus("nff", 20, loadIt); }
+TEST(bad_obj_corpus) { checkCorpus("obj", 20, loadIt); }
+TEST(bad_ply_corpus) { checkCorpus("ply", 20, loadIt); }
+TEST(bad_mtl_corpus) {
+    checkCorpus("mtl", 10, [](const std::string& name) {
+        Diagnostics diagnostics;
+        readMtl({name, contentOf(name)}, {{}, diagnostics});
+    });
 }
 
 TEST(bad_txt_cut_off_at_every_byte) {

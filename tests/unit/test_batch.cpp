@@ -2,7 +2,7 @@
 #include "render/batch.h"
 
 #include "check.h"
-#include "meshes.h"
+#include "verify/meshes.h"
 
 #include <algorithm>
 
@@ -35,7 +35,7 @@ TEST(batch_keeps_rays_together) {
     }
     CHECK_EQUAL(batch.size(), 10u);
     const Ray ray = batch.ray(7);
-    CHECK(ray.org == Vec3(7, 1, 2) && ray.dir == Vec3(3, 7, 4));
+    CHECK(ray.org == (Vec3{7, 1, 2}) && ray.dir == (Vec3{3, 7, 4}));
     CHECK(ray.tMin == 3.5f && ray.tMax == 8 && ray.time == 0.7f);
     CHECK(batch.sample[7] == 49 && batch.weight[7] == Rgb({7, 0, 1}) && batch.stream[7] == 107);
     CHECK(batch.medium[7].top() == 3 && batch.medium[6].top() == MediumStack::kOutside);

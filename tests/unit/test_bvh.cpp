@@ -1,7 +1,7 @@
 // The tree over boxes: structure for friendly and hostile inputs, and that traversal loses nothing.
 #include "accel/bvh.h"
 #include "check.h"
-#include "meshes.h"
+#include "verify/meshes.h"
 
 #include <algorithm>
 #include <functional>

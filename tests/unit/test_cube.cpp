@@ -1,7 +1,5 @@
 #include "analytic_checks.h"
 
-using kit::Random;
-
 TEST(cube_keeps_the_rules_of_shapes) { kit::checkShape("cube", 201); }
 
 TEST(cube_does_not_leak_at_edges_and_corners) { CHECK_EQUAL(kit::leaks("cube", 202, 1000000), 0); }

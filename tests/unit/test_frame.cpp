@@ -2,7 +2,7 @@
 #include "render/frame.h"
 
 #include "check.h"
-#include "meshes.h"
+#include "verify/meshes.h"
 
 using meshes::Random;
 
@@ -141,13 +141,13 @@ TEST(frame_of_little) {
     LightDesc light;
     light.worldFromLight = Transform::translate({10, 40, 0}).rows();
     plane.lights.push_back(light);
-    CHECK(frameOf(plane).centre == Vec3d(10, 20, 0) && frameOf(plane).scale == 1.0 / 32);
+    CHECK(frameOf(plane).centre == (Vec3d{10, 20, 0}) && frameOf(plane).scale == 1.0 / 32);
     plane.objects.push_back(objectOf(ObjectDesc::Kind::Sphere));
     CHECK(maxAbs(frameOf(plane).centre) < 1e-14 && frameOf(plane).scale == 0.5);
     // A single point has no size, and an infinite one no frame.
     MeshDesc mesh;
     mesh.points = {{3, 4, 5}};
-    CHECK(frameOf(mesh).centre == Vec3d(3, 4, 5) && frameOf(mesh).scale == 1);
+    CHECK(frameOf(mesh).centre == (Vec3d{3, 4, 5}) && frameOf(mesh).scale == 1);
     mesh.points.push_back({kInfinity, 0, 0});
     CHECK(frameOf(mesh).scale == 1 && frameOf(mesh).centre == Vec3d{});
     // A cone is as wide as its wider end.

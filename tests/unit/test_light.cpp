@@ -4,7 +4,7 @@
 #include "light/area_light.h"
 #include "light/point_light.h"
 #include "light/sun_light.h"
-#include "meshes.h"
+#include "verify/meshes.h"
 
 using meshes::Random;
 
@@ -58,7 +58,7 @@ FlatLight flat(FlatLight::Outline outline, Vec3 centre, double spreadHalfRad = k
 
 TEST(light_point_inverse_square) {
     const PointLight light({1, 2, 3}, {2, 4, 8}, {}, 0, {}, true);
-    CHECK(!light.isSoft() && light.castsShadows() && light.origin() == Vec3(1, 2, 3));
+    CHECK(!light.isSoft() && light.castsShadows() && light.origin() == (Vec3{1, 2, 3}));
     Random random(71);
     for (int i = 0; i < 1000; ++i) {
         const Vec3 p = toFloat(random.inBox(5));

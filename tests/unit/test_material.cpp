@@ -3,7 +3,7 @@
 #include "check.h"
 #include "material/fresnel.h"
 #include "material/material.h"
-#include "meshes.h"
+#include "verify/meshes.h"
 #include "sample/warp.h"
 
 using meshes::Random;

@@ -3,7 +3,7 @@
 
 #include "base/math.h"
 #include "check.h"
-#include "meshes.h"
+#include "verify/meshes.h"
 
 using meshes::Random;
 using Corners = MeshGeometry::Corners;
@@ -101,7 +101,7 @@ TEST(merge_completes_lists) {
         CHECK(g.uvTriangles.size() == g.triangles.size() && g.slots.size() == g.triangles.size());
         for (std::size_t k = 0; k < 3; ++k) {
             CHECK(g.normals[g.normalTriangles[lone][k]] ==
-                  Vec3(0, 0, -1)); // mirrored: it faces down
+                  (Vec3{0, 0, -1})); // mirrored: it faces down
             CHECK(g.uvs[g.uvTriangles[lone][k]] == Vec2{});
         }
         for (std::size_t i = 0; i < g.triangles.size(); ++i) {
@@ -131,8 +131,8 @@ TEST(merge_places_in_double) {
     const SceneFrame frame{{1e5, 1e5, 1e5}, 0x1p20};
     for (Vec3d& p : mesh.points) p = p * 0x1p-30 + Vec3d{1e5, 1e5, 1e5};
     const MeshGeometry g = toGeometry(mesh, frame);
-    CHECK(g.points[0] == Vec3(0, 0, 0) && g.points[1] == Vec3(0x1p-10f, 0, 0) &&
-          g.points[2] == Vec3(0, 0x1p-10f, 0));
+    CHECK(g.points[0] == (Vec3{0, 0, 0}) && g.points[1] == (Vec3{0x1p-10f, 0, 0}) &&
+          g.points[2] == (Vec3{0, 0x1p-10f, 0}));
     MergedMesh merged;
     merged.add(mesh, {}, frame, {0}, 0);
     CHECK(merged.geometry.points == g.points && merged.degenerateCount == 0);

@@ -2,7 +2,7 @@
 // whose side is the visible one.
 #include "analytic_kit.h"
 #include "check.h"
-#include "meshes.h"
+#include "verify/meshes.h"
 #include "shape/mesh.h"
 #include "shape/one_sided.h"
 

@@ -1,7 +1,7 @@
 // The slabs of RaySetup against slabs in long double: never a false miss, monotone, and not wide.
 #include "accel/ray_setup.h"
 #include "check.h"
-#include "meshes.h"
+#include "verify/meshes.h"
 
 using meshes::Random;
 

@@ -76,7 +76,7 @@ TEST(read_txt_everything) {
     CHECK_EQUAL(desc.materials.at(0).name, "Größe 2");
     CHECK_EQUAL(desc.materials[0].bumpMap, 1);
     CHECK_EQUAL(desc.materials[0].ior, 1.33);
-    CHECK_EQUAL(desc.objects.size(), std::size_t{9});
+    CHECK_EQUAL(desc.objects.size(), std::size_t{10});
     CHECK((desc.objects[0].materials == std::vector<Handle>{1}));
     CHECK((desc.objects[7].materials == std::vector<Handle>{1, 0}));
     CHECK_EQUAL(desc.objects[8].mesh, 0); // the mesh comes last in the file
@@ -85,6 +85,11 @@ TEST(read_txt_everything) {
     CHECK((mesh.triangles.at(5) == MeshDesc::Corners{3, 0, 4}));
     CHECK((mesh.uvs.at(2) == Vec2{0.5f, 1}));
     CHECK((mesh.triangleMaterials == std::vector<std::uint32_t>{0, 0, 1, 1, 1, 1}));
+    const MeshDesc& square = desc.meshes.at(1);
+    CHECK(square.file.empty() && square.name == "square");
+    CHECK((square.points == std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+    CHECK((square.triangles == std::vector<MeshDesc::Corners>{{0, 1, 2}, {0, 2, 3}}));
+    CHECK((square.normals.at(0) == Vec3{0, 0, 1}));
 }
 
 TEST(read_txt_everything_is_everything) {
@@ -106,6 +111,7 @@ TEST(read_txt_everything_is_everything) {
     checkTable(kMaterialProperties);
     checkTable(kLightProperties);
     checkTable(kObjectProperties);
+    checkTable(kMeshProperties);
     checkTable(kMeshArrays);
     checkTable(transformLines());
     for (const auto& row : kEnumNames<ObjectDesc::Kind>) checkUsed(row.name);
@@ -136,6 +142,7 @@ TEST(read_txt_readme_is_complete) {
     checkTable(kMaterialProperties);
     checkTable(kLightProperties);
     checkTable(kObjectProperties);
+    checkTable(kMeshProperties);
     checkTable(kMeshArrays);
     for (const TransformLine& line : transformLines())
         CHECK_INFO(readme.find(cat("| `", line.keyword, " ")) != std::string::npos, line.keyword);

@@ -31,7 +31,7 @@ bool fillsCells(const std::vector<Vec2>& points, int columns, int rows) {
     for (const Vec2 p : points)
         cells.insert(static_cast<int>(p.x * static_cast<float>(columns)) +
                      columns * static_cast<int>(p.y * static_cast<float>(rows)));
-    return cells.size() == points.size() && std::ssize(points) == columns * rows;
+    return cells.size() == points.size() && std::ssize(points) == std::ptrdiff_t{columns} * rows;
 }
 
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {

@@ -48,7 +48,8 @@ void checkFloat(const std::string& text) {
 }
 std::string printed(const char* format, int digits, double value) {
     char buffer[64];
-    std::snprintf(buffer, sizeof buffer, format, digits, value);
+    const int length = std::snprintf(buffer, sizeof buffer, format, digits, value);
+    CHECK(length > 0 && length < static_cast<int>(sizeof buffer));
     return buffer;
 }
 

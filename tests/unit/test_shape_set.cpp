@@ -2,7 +2,7 @@
 // queries agree with each other and with asking every shape.
 #include "analytic_kit.h"
 #include "check.h"
-#include "meshes.h"
+#include "verify/meshes.h"
 #include "render/shape_set.h"
 
 #include <algorithm>
@@ -143,9 +143,8 @@ TEST(shape_set_tree_equals_linear_search) {
             if (opaque != occluded || seen != a.size()) ++bruteWrong;
             // t is clamped to the entry into the shape's padded box, which is not behind the hit
             // but for rounding of the hit itself.
-            if (best.isHit() != hit.isHit())
-                ++bruteWrong;
-            else if (hit.isHit() && !(hit.t >= best.t && hit.t <= best.t * 1.00001f))
+            if (best.isHit() != hit.isHit() ||
+                (hit.isHit() && !(hit.t >= best.t && hit.t <= best.t * 1.00001f)))
                 ++bruteWrong;
             else if (hit.isHit() && hit.t == best.t && hit.shape != best.shape)
                 ++bruteWrong;

@@ -62,7 +62,7 @@ Stats example() {
     stats.renderSeconds = 2, stats.totalSeconds = 2.5;
     stats.rays.camera = 1000, stats.rays.shadow = 3000;
     stats.cameraHits = 900;
-    stats.accel = {"bvh", 11, 6, 352, 40, 12.5};
+    stats.accel = {"bvh", 11, 6, 352, 40, 32, 1600, 12.5};
     stats.peakBytes = 123456789;
     stats.threads = 2;
     stats.kernel = "scalar";
@@ -82,7 +82,8 @@ TEST(stats_json_has_the_keys_of_the_contract) {
          {"\"seconds\":{\"parse\":0,\"build\":0,\"render\":2,\"write\":0,\"total\":2.5}",
           "\"rays\":{\"camera\":1000,\"shadow\":3000,\"reflect\":0,\"refract\":0,\"indirect\":0}",
           "\"hits\":{\"camera\":900}", "\"rays_per_second\":2000",
-          "\"accel\":{\"kind\":\"bvh\",\"nodes\":11,\"leaves\":6,\"bytes\":352,\"sah\":12.5}",
+          "\"accel\":{\"kind\":\"bvh\",\"nodes\":11,\"leaves\":6,\"bytes\":352,\"sah\":12.5,"
+          "\"triangles\":32,\"bytes_per_triangle\":50}",
           "\"peak_bytes\":123456789", "\"threads\":2", "\"kernel\":\"scalar\"",
           "\"features\":{\"needed\":[\"shadows\",\"a \\\"b\\\"\\\\\\u000a\\u0001\"],\"skipped\":[",
           "\"samples\":{\"min\":16,\"mean\":16,\"max\":16}",
@@ -106,7 +107,7 @@ TEST(stats_json_is_valid_for_odd_numbers) {
 TEST(stats_table_is_aligned_and_complete) {
     const std::string table = statsTable(example());
     for (const char* part :
-         {"camera                             1 000", "Mray/s",
+         {"camera                             1 000", "Mray/s", "50.0 bytes per triangle",
           "skipped  dof: aperture_radius is 0\n           aa: one sample", "bvh"})
         CHECK_INFO(table.find(part) != std::string::npos, part << " in\n" << table);
 }

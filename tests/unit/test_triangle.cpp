@@ -2,7 +2,7 @@
 // rounds, and the tree against brute force on the soup of CANONICAL.md.
 #include "accel/triangle.h"
 #include "check.h"
-#include "meshes.h"
+#include "verify/meshes.h"
 
 #include <algorithm>
 

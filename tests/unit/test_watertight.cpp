@@ -2,7 +2,7 @@
 // near and far from the origin of the world.
 #include "analytic_kit.h"
 #include "check.h"
-#include "meshes.h"
+#include "verify/meshes.h"
 #include "render/shape_set.h"
 
 #include <functional>

@@ -34,7 +34,6 @@ public:
         }
         for (LightDesc& light : desc_.lights) light.worldFromLight = rows();
         for (CameraDesc& camera : desc_.cameras) camera.worldFromCamera = keys();
-        for (MeshDesc& mesh : desc_.meshes) fill(mesh);
         forEachBlock(desc_, [&](auto& block) { fill(block); });
         return desc_;
     }
@@ -102,6 +101,11 @@ private:
     Handle handle() { return static_cast<Handle>(below(desc_.materials.size())); }
 
     void fill(MeshDesc& mesh) {
+        if (chance(0.3)) {
+            mesh.file = name("file", 0);
+            mesh.smoothAngleDeg = number({0, 180});
+            return;
+        }
         const std::size_t points = 3 + below(10);
         const auto single = [&] {
             return static_cast<float>(
@@ -150,7 +154,7 @@ void checkAllUsed(const std::vector<Block>& blocks, const std::string& text) {
 } // namespace
 
 TEST(write_txt_every_property_comes_back) {
-    const SceneDesc desc = RandomScene(1, 1.0).make(6);
+    const SceneDesc desc = RandomScene(1, 1.0).make(12);
     const std::string text = writeTxt(desc);
     CHECK(readBack(text) == desc);
     checkAllUsed(std::vector{desc.settings}, text);
@@ -159,6 +163,7 @@ TEST(write_txt_every_property_comes_back) {
     checkAllUsed(desc.textures, text);
     checkAllUsed(desc.materials, text);
     checkAllUsed(desc.lights, text);
+    checkAllUsed(desc.meshes, text);
     checkAllUsed(desc.objects, text);
     for (const MeshArray& array : kMeshArrays)
         CHECK_INFO(text.find(cat("\n    ", array.keyword, " ")) != std::string::npos,

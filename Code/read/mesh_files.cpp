@@ -1,0 +1,135 @@
+#include "read/mesh_files.h"
+
+#include "base/file.h"
+#include "base/text.h"
+#include "desc/names.h"
+#include "read/mesh_scene.h"
+#include "read/read_mtl.h"
+#include "read/read_obj.h"
+#include "read/read_ply.h"
+#include "read/smooth_normals.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Format {
+    std::string_view extension; // lower case
+    MeshFile (*read)(const SourceFile&, const ReadContext&);
+};
+constexpr auto kFormats = std::to_array<Format>({
+    {".obj", readObj},
+    {".ply", readPly},
+});
+
+const Format* formatOf(const std::string& fileName) {
+    std::string extension = fs::path(fileName).extension().string();
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+    const auto found = std::find_if(kFormats.begin(), kFormats.end(), [&](const Format& format) {
+        return format.extension == extension;
+    });
+    return found == kFormats.end() ? nullptr : &*found;
+}
+
+// The places where a file may be that a scene names.
+std::vector<std::string> candidates(const std::string& file, const SourceFile& scene) {
+    if (fs::path(file).is_absolute()) return {file};
+    const fs::path folder = fs::path(scene.name).parent_path();
+    std::vector<std::string> out;
+    for (const fs::path& start : {folder, fs::path(), folder / ".."}) {
+        std::string path = (start / file).lexically_normal().string();
+        if (std::find(out.begin(), out.end(), path) == out.end()) out.push_back(std::move(path));
+    }
+    return out;
+}
+
+std::string withSlashes(std::string path) {
+    std::replace(path.begin(), path.end(), '\\', '/'); // written on Windows
+    return path;
+}
+
+// Where a named file is, nothing when there is none.
+std::optional<std::string> placeOf(const std::string& file, const SourceFile& scene) {
+    if (file.find('\0') != std::string::npos) return {}; // the system would see a shorter name
+    for (std::string& path : candidates(withSlashes(file), scene)) {
+        std::error_code ignored;
+        if (fs::is_regular_file(path, ignored)) return std::move(path);
+    }
+    return {};
+}
+
+std::string notFound(const std::string& file, const SourceFile& scene) {
+    return cat("no file '", shown(file), "'; looked for ",
+               join(candidates(withSlashes(file), scene)));
+}
+
+SourceFile open(const std::string& path, const SourceFile& scene, SourceLoc loc) {
+    std::error_code ignored;
+    if (fs::file_size(path, ignored) >= SourceLoc::kUnknown)
+        failAt(scene, loc.offset, cat("the file '", path, "' is larger than 4 GiB"));
+    return {path, readWholeText(path)};
+}
+
+void loadMesh(MeshDesc& mesh, const SourceFile& scene, const ReadContext& context) {
+    const Format* format = formatOf(mesh.file);
+    if (!format)
+        failAt(scene, mesh.fileLoc.offset,
+               cat("unknown mesh format ",
+                   unknownName(fs::path(mesh.file).extension().string(), meshFileExtensions())));
+    const auto path = placeOf(mesh.file, scene);
+    if (!path) failAt(scene, mesh.fileLoc.offset, notFound(mesh.file, scene));
+    MeshDesc loaded = format->read(open(*path, scene, mesh.fileLoc), context).mesh;
+    if (mesh.smoothAngleDeg == 0) {
+        loaded.normals.clear();
+        loaded.normalTriangles.clear();
+    }
+    if (mesh.smoothAngleDeg > 0) smoothByAngle(loaded, mesh.smoothAngleDeg);
+    loaded.name = std::move(mesh.name);
+    loaded.loc = mesh.loc;
+    mesh = std::move(loaded);
+}
+
+// A library's textures lie beside it. Meshes often come without their library: a picture in grey is
+// better than none.
+MtlFile readLibrary(const MeshFile::Library& library, const SourceFile& source,
+                    const ReadContext& context) {
+    const auto path = placeOf(library.file, source);
+    if (!path) {
+        context.warn(source, library.loc.offset, notFound(library.file, source));
+        return {};
+    }
+    MtlFile file = readMtl(open(*path, source, library.loc), context);
+    const fs::path folder = fs::absolute(*path).parent_path();
+    const fs::path sceneFolder = fs::absolute(source.name).parent_path();
+    for (TextureDesc& texture : file.textures)
+        texture.file = (folder / texture.file).lexically_relative(sceneFolder).string();
+    return file;
+}
+
+} // namespace
+
+std::vector<std::string> meshFileExtensions() {
+    std::vector<std::string> extensions;
+    for (const Format& format : kFormats) extensions.emplace_back(format.extension);
+    return extensions;
+}
+
+void loadMeshFiles(SceneDesc& desc, const SourceFile& scene, const ReadContext& context) {
+    for (MeshDesc& mesh : desc.meshes)
+        if (!mesh.file.empty()) loadMesh(mesh, scene, context);
+}
+
+SceneDesc readMeshScene(const SourceFile& source, const ReadContext& context) {
+    MeshFile file = formatOf(source.name)->read(source, context);
+    std::vector<MtlFile> libraries;
+    for (const MeshFile::Library& library : file.libraries)
+        libraries.push_back(readLibrary(library, source, context));
+    return sceneAround(std::move(file), libraries, source, context);
+}

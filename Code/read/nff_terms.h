@@ -1,0 +1,42 @@
+// From the terms of NFF to ours: each function is one rule of the standard (NFF 3.1, SPD readme,
+// Haines), and knows nothing about the text of a file.
+#pragma once
+
+#include "base/vec.h"
+#include "desc/scene_desc.h"
+
+#include <cstddef>
+#include <optional>
+#include <span>
+
+struct NffFill {
+    Rgbd color{1, 1, 1};
+    double diffuse = 0, specular = 0; // Kd, Ks
+    double shine = 0;                 // power of the cosine to the mirrored direction
+    double transmittance = 0;         // T
+    double ior = 1;                   // many files write 0 for opaque surfaces
+    bool operator==(const NffFill&) const = default;
+};
+
+struct NffView {
+    Vec3d from, at, up;
+    double angleDeg = 45;
+    int width = 512, height = 512;
+};
+
+// Without colours, every one of n lights and the ambient term have this intensity: sqrt(n)/(2n).
+// No lights give 0.
+double nffIntensity(std::size_t lightCount);
+
+MaterialDesc nffMaterial(const NffFill& fill);
+LightDesc nffLight(Vec3d position, Rgbd intensity);
+// angleToEdges: see ReadOptions::nffAngleToEdges. The view has a direction, and `up` another one.
+CameraDesc nffCamera(const NffView& view, bool angleToEdges);
+bool isAlong(Vec3d a, Vec3d b); // one of them is zero or they are parallel, but for 1e-10 radians
+
+// Nothing when it has no height or no radius. Radii are >= 0.
+std::optional<ObjectDesc> nffCone(Vec3d base, double baseRadius, Vec3d apex, double apexRadius);
+// Opaque surfaces have one side, transmitting ones both.
+ObjectDesc::Sides nffSides(const NffFill& fill, bool insideOnly);
+// Do the corners span more than a line?
+bool hasArea(std::span<const Vec3d> corners);

@@ -1,0 +1,16 @@
+// The groups of the battery, each in a file of its own: a new one is a row here.
+#pragma once
+
+#include "verify/battery.h"
+
+#include <array>
+
+namespace battery {
+
+std::span<const Row> terminatorRows(); // T25: the edge of the light on coarse meshes
+
+inline constexpr std::array kGroups = {
+    terminatorRows,
+};
+
+} // namespace battery

@@ -1,0 +1,65 @@
+// Meshes and random numbers for the battery (battery.h) and for the tests of triangles, trees and
+// scenes.
+#pragma once
+
+#include "desc/scene_desc.h"
+#include "render/merge.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <random>
+#include <vector>
+
+namespace meshes {
+
+// The engine gives the same numbers everywhere; the distributions of <random> do not.
+class Random {
+public:
+    explicit Random(std::uint64_t seed) : bits_(seed) {}
+    double unit() { return static_cast<double>(bits_() >> 11) * 0x1p-53; } // [0,1)
+    double uniform(double lo, double hi) { return lo + (hi - lo) * unit(); }
+    double logUniform(double lo, double hi);
+    std::uint32_t below(std::size_t count) { return static_cast<std::uint32_t>(bits_() % count); }
+    bool chance(double p) { return unit() < p; }
+    Vec3d inBox(double half);
+    Vec3d direction(); // uniform on the unit sphere
+    Vec2 square() { return {static_cast<float>(unit()), static_cast<float>(unit())}; }
+    // Turn, scale along the axes by up to `stretch` or 1/stretch (mirrored half of the time), turn,
+    // move by up to `shift` along each axis.
+    Transform affine(double stretch, double shift);
+
+private:
+    std::mt19937_64 bits_;
+};
+
+// Closed, with outward faces, about the origin and of size 1 if not said otherwise.
+MeshDesc uvSphere(int segments, int rings); // 2 segments (rings - 1) triangles; uvs and normals
+MeshDesc icosphere(int level);              // 20 * 4^level triangles
+MeshDesc torus(double tubeRadius, int around, int across); // the ring has radius 1
+MeshDesc cube();                                           // [-1,1]^3 of 12 triangles
+MeshDesc doubleFan(int valence);                           // two tips of that valence at z = +-0.3
+// Haines' SPD tetra: 4^depth tetrahedra.
+MeshDesc tetra(int depth);
+
+// Adversarial triangles (CANONICAL.md): needles of 1e3 to 1e7, coplanar stacks, duplicates, axis
+// planes, tiny, huge, collinear and points, fans. Coordinates about 1, huge ones 100.
+std::vector<std::array<Vec3, 3>> soup(Random& random, std::size_t count);
+MeshGeometry geometryOf(const std::vector<std::array<Vec3, 3>>& triangles, bool withBvh);
+
+// A mesh as scene.cpp makes it ready: one that owns its geometry and its Shape. The frame is that
+// of the world's box of the mesh; both share the scene's normalised space.
+struct Ready {
+    std::unique_ptr<MeshGeometry> geometry;
+    std::unique_ptr<Mesh> shape;
+    Transform sceneFromMesh; // to the scene's space, in double
+};
+Ready baked(const MeshDesc& mesh, const Transform& worldFromMesh, const SceneFrame& frame);
+Ready instance(const MeshDesc& mesh, const Transform& worldFromMesh, const SceneFrame& frame);
+// Frame of a scene with nothing but this mesh.
+SceneFrame frameFor(const MeshDesc& mesh, const Transform& worldFromMesh);
+
+// x moved by k floats.
+float stepped(float x, int k);
+
+} // namespace meshes

@@ -1,0 +1,74 @@
+#include "verify/report.h"
+
+#include "base/text.h"
+
+#include <algorithm>
+#include <cstdio>
+
+namespace battery {
+
+namespace {
+
+// 12,345,678
+std::string grouped(std::uint64_t count) {
+    std::string digits = std::to_string(count);
+    for (std::size_t at = digits.size(); at > 3;) {
+        at -= 3;
+        digits.insert(at, ",");
+    }
+    return digits;
+}
+
+std::string short3(double value) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.3g", value);
+    return text;
+}
+
+std::string worstOf(const Row& row, const Tally& tally) {
+    std::string out = grouped(tally.failures) + " failed";
+    if (*row.unit) out += cat(", ", short3(tally.worst), " ", row.unit);
+    return out;
+}
+std::string markOf(const Row& row) {
+    return *row.unit ? cat("0, ", short3(row.limit)) : std::string("0");
+}
+
+std::string padded(std::string text, std::size_t width) {
+    if (text.size() < width) text.resize(width, ' ');
+    return text;
+}
+std::string line(const std::string& id, const std::string& what, const std::string& cases,
+                 const std::string& worst, const std::string& mark, const std::string& verdict) {
+    const std::size_t room = 15;
+    return cat(padded(id, 5), padded(what, 58),
+               std::string(room - std::min(room, cases.size()), ' '), cases, "  ",
+               padded(worst, 34), padded(mark, 10), verdict, "\n");
+}
+
+} // namespace
+
+std::string reportHeading() { return line("test", "what", "cases", "found", "mark", "verdict"); }
+
+std::string reportLine(const Row& row, const Tally& tally, double seconds) {
+    char time[32];
+    std::snprintf(time, sizeof time, " (%.1f s)", seconds);
+    std::string out = line(row.id, row.what, grouped(tally.cases), worstOf(row, tally), markOf(row),
+                           cat(passed(row, tally) ? "ok" : "FAILED", time));
+    if (passed(row, tally)) return out;
+    if (!tally.failedCase.empty()) out += cat("     failed: ", tally.failedCase, "\n");
+    if (!tally.worstCase.empty()) out += cat("     worst: ", tally.worstCase, "\n");
+    return out;
+}
+
+std::string markdownTable(std::span<const Finding> findings) {
+    std::string out = "| test | what | cases | found | mark | verdict | others |\n"
+                      "|---|---|---:|---|---|---|---|\n";
+    for (const Finding& f : findings)
+        out += cat("| ", f.row.id, " | ", f.row.what, " | ", grouped(f.tally.cases), " | ",
+                   worstOf(f.row, f.tally), " | ", markOf(f.row), " | ",
+                   passed(f.row, f.tally) ? "ok" : "**failed**", " | ", f.row.peers, " |\n");
+    return out;
+}
+
+} // namespace battery

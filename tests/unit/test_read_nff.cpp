@@ -1,0 +1,401 @@
+// The NFF reader: what it makes of each entity, in numbers worked out by hand. What it refuses is
+// in tests/bad/nff (test_bad_scenes.cpp).
+#include "read/read_nff.h"
+
+#include "base/math.h"
+#include "base/text.h"
+#include "base/transform.h"
+#include "check.h"
+#include "desc/validate.h"
+#include "desc/write_txt.h"
+#include "read/nff_terms.h"
+#include "read/read_txt.h"
+
+#include <cmath>
+#include <fstream>
+#include <random>
+#include <sstream>
+
+namespace {
+
+using Kind = ObjectDesc::Kind;
+using Sides = ObjectDesc::Sides;
+
+const std::string kView = "v from 0 -10 0 at 0 0 0 up 0 0 1 angle 90 resolution 11 11\n";
+const std::string kFill = "f 1 1 1 1 0 100000 0 0\n";
+
+struct Read {
+    SceneDesc desc;
+    std::vector<std::string> warnings;
+};
+Read readWhole(const std::string& text, const ReadOptions& options = {}) {
+    Diagnostics diagnostics;
+    const SourceFile source{"t.nff", text};
+    Read read{readNff(source, {options, diagnostics}), {}};
+    read.warnings = diagnostics.warnings;
+    return read;
+}
+SceneDesc readBody(const std::string& body) {
+    const Read read = readWhole(kView + body);
+    CHECK_INFO(read.warnings.empty(), join(read.warnings));
+    return read.desc;
+}
+std::string everything() {
+    std::ifstream file("tests/scenes/nff/everything.nff", std::ios::binary);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+        text.replace(at, from.size(), to);
+    return text;
+}
+void checkRgb(Rgbd color, Rgbd expected) {
+    CHECK_NEAR(color.r, expected.r, 1e-15);
+    CHECK_NEAR(color.g, expected.g, 1e-15);
+    CHECK_NEAR(color.b, expected.b, 1e-15);
+}
+void checkPoint(Vec3d point, Vec3d expected, double tolerance) {
+    CHECK_INFO(maxAbs(point - expected) <= tolerance, point.x << " " << point.y << " " << point.z
+                                                              << ", expected " << expected.x << " "
+                                                              << expected.y << " " << expected.z);
+}
+Vec3d areaVector(const MeshDesc& mesh, std::size_t triangle) {
+    const MeshDesc::Corners& t = mesh.triangles.at(triangle);
+    return cross(mesh.points[t[1]] - mesh.points[t[0]], mesh.points[t[2]] - mesh.points[t[0]]) *
+           0.5;
+}
+
+} // namespace
+
+TEST(read_nff_everything) {
+    const Read read = readWhole(everything());
+    CHECK_INFO(read.warnings.empty(), join(read.warnings));
+    const SceneDesc& desc = read.desc;
+    CHECK_EQUAL(desc.settings.width, 64);
+    CHECK_EQUAL(desc.settings.height, 48);
+    CHECK_EQUAL(desc.settings.maxDepth, 4);
+    CHECK_EQUAL(desc.settings.cutoff, 0.0);
+    CHECK((desc.world.background == Rgbd{0.078, 0.361, 0.753}));
+    std::vector<std::string> objects, meshes, materials, lights;
+    for (const auto& object : desc.objects) objects.push_back(object.name);
+    for (const auto& mesh : desc.meshes) meshes.push_back(mesh.name);
+    for (const auto& material : desc.materials) materials.push_back(material.name);
+    for (const auto& light : desc.lights) lights.push_back(light.name);
+    CHECK_EQUAL(join(objects), "polygons1, sphere1, sphere2, cone1, cone2, cone3, sphere3, "
+                               "polygons2, patches1, polygons3");
+    CHECK_EQUAL(join(meshes), "polygons1, polygons2, patches1, polygons3");
+    CHECK_EQUAL(join(materials), "fill1, fill2, fill3, fill4");
+    CHECK_EQUAL(join(lights), "light1, light2");
+    CHECK_EQUAL(desc.cameras.at(0).name, "view");
+    // The last fill equals the second.
+    CHECK((desc.objects.at(9).materials == std::vector<Handle>{1}));
+    CHECK((desc.objects.at(1).materials == std::vector<Handle>{1}));
+    Diagnostics diagnostics;
+    validate(desc, {"everything.nff", everything()}, diagnostics);
+    CHECK_INFO(diagnostics.warnings.empty(), join(diagnostics.warnings));
+    CHECK(readTxt({"again.txt", writeTxt(desc)}) == desc);
+}
+
+// Line ends mean nothing, comments may stand anywhere.
+TEST(read_nff_by_word) {
+    const std::string text = everything();
+    const SceneDesc desc = readWhole(text).desc;
+    std::string bare;
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        if (text[i] == '#') i = text.find('\n', i);
+        bare += text[i];
+    }
+    CHECK(readWhole(bare).desc == desc);
+    CHECK(readWhole(replaced(bare, "\n", " ")).desc == desc);
+    CHECK(readWhole(replaced(bare, " ", "\n")).desc == desc);
+    CHECK(readWhole(replaced(bare, " ", "#5 s\n")).desc == desc);
+    CHECK(readWhole(replaced(text, "\n", "\r\n")).desc == desc);
+    CHECK(readWhole(replaced(text, "\n", "\r")).desc == desc);
+    CHECK(readWhole(replaced(text, " ", "\t")).desc == desc);
+    CHECK(readWhole("\xef\xbb\xbf" + text).desc == desc);
+    CHECK(readWhole(text.substr(0, text.size() - 1)).desc == desc);
+}
+
+TEST(read_nff_view) {
+    const auto cameraOf = [](const std::string& view, bool toEdges) {
+        ReadOptions options;
+        options.nffAngleToEdges = toEdges;
+        return readWhole("v " + view, options).desc.cameras.at(0);
+    };
+    const std::string place = "from 1 2 3 at 1 7 3 up 0 0.5 2 hither 1 angle 90 ";
+    CameraDesc camera = cameraOf(place + "resolution 30 11", false);
+    // Looks along +y with z up: x stays right.
+    const Transform world = Transform::fromRows(camera.worldFromCamera.at(0));
+    checkPoint(world.point({0, 0, 0}), {1, 2, 3}, 0);
+    checkPoint(world.vector({0, 0, -1}), {0, 1, 0}, 0);
+    checkPoint(world.vector({1, 0, 0}), {1, 0, 0}, 0);
+    checkPoint(world.vector({0, 1, 0}), {0, 0, 1}, 0);
+    CHECK(camera.sensorFit == CameraDesc::SensorFit::Vertical);
+    // Ten steps from the first to the last of eleven rows are 2 tan 45: eleven are 2.2.
+    CHECK_NEAR(camera.sensorHeightMm / camera.lensMm, 2.2, 1e-15);
+    CHECK_EQUAL(camera.clipStart, 0.0);
+    camera = cameraOf(place + "resolution 30 11", true);
+    CHECK_NEAR(camera.sensorHeightMm / camera.lensMm, 2.0, 1e-15);
+    // One row has no step: its edges take the angle.
+    camera = cameraOf(place + "resolution 30 1", false);
+    CHECK_NEAR(camera.sensorHeightMm / camera.lensMm, 2.0, 1e-15);
+    camera = cameraOf("resolution 8 5 up 0 0 1 angle 60 at 0 0 0 from 1 0 0", false);
+    CHECK_NEAR(camera.sensorHeightMm / camera.lensMm, 2 / std::sqrt(3.0) * 5 / 4, 1e-15);
+}
+
+// sqrt(n)/(2n) for n lights, and pi times that, as our diffuse term divides by pi.
+TEST(read_nff_lights) {
+    const SceneDesc one = readBody("l 1 2 3");
+    CHECK_EQUAL(one.world.ambient.g, 0.5);
+    CHECK_NEAR(one.lights.at(0).color.r, kPi / 2, 1e-15);
+    CHECK((one.lights[0].attenuation == Vec3d{0, 0, 1}));
+    CHECK(one.lights[0].kind == LightDesc::Kind::Point && one.lights[0].radius == 0);
+    checkPoint(Transform::fromRows(one.lights[0].worldFromLight).translation(), {1, 2, 3}, 0);
+    const SceneDesc three = readBody("l 1 2 3 0.5 0.25 2 l 4 5 6 l 7 8 9\nb 0 0 1");
+    checkRgb(three.world.ambient, {std::sqrt(3.0) / 6, std::sqrt(3.0) / 6, std::sqrt(3.0) / 6});
+    checkRgb(three.lights.at(0).color, {kPi / 2, kPi / 4, 2 * kPi});
+    CHECK_NEAR(three.lights.at(2).color.b, kPi * std::sqrt(3.0) / 6, 1e-15);
+    checkPoint(Transform::fromRows(three.lights[2].worldFromLight).translation(), {7, 8, 9}, 0);
+    CHECK((readBody("").world.ambient == Rgbd{0, 0, 0}));
+}
+
+TEST(read_nff_fill) {
+    const SceneDesc desc = readBody("f 1 0.5 0 0.6 0.3 12.5 0.2 1.33 s 0 0 0 1\n"
+                                    "f 1 1 1 0.5 0 100000 0 0 s 3 0 0 1\n"
+                                    "f 0 0 0 0 0 0 0 -1 # nothing uses this one\n"
+                                    "f 1 0.5 0 0.6 0.3 12.5 0.2 1.33 s 6 0 0 1\n");
+    CHECK_EQUAL(desc.materials.size(), std::size_t{2});
+    const MaterialDesc& glass = desc.materials[0];
+    checkRgb(glass.diffuse, {0.6, 0.3, 0});
+    checkRgb(glass.specular, {0.3 / kPi, 0.3 / kPi, 0.3 / kPi});
+    CHECK(glass.specularModel == MaterialDesc::SpecularModel::Phong);
+    CHECK_EQUAL(glass.exponent, 12.5);
+    checkRgb(glass.mirror, {0.3, 0.3, 0.3});
+    checkRgb(glass.transmission, {0.2, 0.2, 0.2});
+    CHECK_EQUAL(glass.ior, 1.33);
+    CHECK(glass.fresnel == MaterialDesc::Fresnel::None);
+    const MaterialDesc& chalk = desc.materials[1];
+    CHECK((chalk.specular == Rgbd{} && chalk.mirror == Rgbd{} && chalk.transmission == Rgbd{}));
+    CHECK_EQUAL(chalk.exponent, 100000.0);
+    CHECK_EQUAL(chalk.ior, 1.0);
+    CHECK((desc.objects.at(2).materials == std::vector<Handle>{0}));
+}
+
+TEST(read_nff_without_fill) {
+    const Read read = readWhole(kView + "s 0 0 0 1\np 3 0 0 0 1 0 0 0 1 0\ns 0 0 0 2\n");
+    CHECK_EQUAL(read.warnings.size(), std::size_t{1});
+    CHECK_INFO(read.warnings.at(0).starts_with("t.nff:2:1: warning: there is no fill"),
+               read.warnings[0]);
+    CHECK(read.desc.objects.size() == 3 && read.desc.materials.empty());
+}
+
+TEST(read_nff_sphere) {
+    const SceneDesc desc =
+        readBody(kFill + "s 1 2 3 0.5 s 1 2 3 -4 f 1 1 1 0 0 1 1 1.5 s 0 0 0 -1");
+    CHECK(desc.objects.at(0).kind == Kind::Sphere);
+    checkPoint(Transform::fromRows(desc.objects[0].worldFromObject.at(0)).translation(), {1, 2, 3},
+               0);
+    CHECK(desc.objects[0].radius == 0.5 && desc.objects[0].sides == Sides::Both);
+    CHECK(desc.objects.at(1).radius == 4 && desc.objects[1].sides == Sides::Back);
+    CHECK(desc.objects.at(2).radius == 1 && desc.objects[2].sides == Sides::Both);
+}
+
+TEST(read_nff_cone) {
+    const SceneDesc desc = readBody(kFill + "c 1 2 3 0.5  1 2 7 0.25  c 1 2 3 0.5  4 6 3 0.5\n"
+                                            "c 0 0 0 -1  0 0 1 0  c 0 0 0 0  0 0 1 2\n"
+                                            "f 1 1 1 0 0 1 0.5 1.5 c 0 0 0 1  0 0 1 1\n");
+    const ObjectDesc& cone = desc.objects.at(0);
+    CHECK(cone.kind == Kind::Cone && !cone.caps && cone.sides == Sides::Front);
+    CHECK(cone.radius == 0.5 && cone.topRadius == 0.25);
+    const Transform worldFromCone = Transform::fromRows(cone.worldFromObject.at(0));
+    checkPoint(worldFromCone.point({0, 0, -1}), {1, 2, 3}, 0);
+    checkPoint(worldFromCone.point({0, 0, 1}), {1, 2, 7}, 0);
+    const ObjectDesc& cylinder = desc.objects.at(1);
+    CHECK(cylinder.kind == Kind::Cylinder && !cylinder.caps && cylinder.sides == Sides::Front);
+    CHECK_EQUAL(cylinder.radius, 0.5);
+    checkPoint(Transform::fromRows(cylinder.worldFromObject.at(0)).point({0, 0, 1}), {4, 6, 3},
+               1e-15);
+    CHECK(desc.objects.at(2).kind == Kind::Cone && desc.objects[2].sides == Sides::Back);
+    CHECK(desc.objects[2].radius == 1 && desc.objects[2].topRadius == 0);
+    CHECK(desc.objects.at(3).radius == 0 && desc.objects[3].topRadius == 2);
+    CHECK(desc.objects.at(4).sides == Sides::Both);
+}
+
+// Along any axis, of any size: the ends are where they should be, and the circle stays a circle.
+TEST(read_nff_cone_frame) {
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> coordinate(-1, 1);
+    const auto point = [&] {
+        Vec3d p{coordinate(random), coordinate(random), coordinate(random)};
+        for (std::size_t i = 0; i < 3; ++i)
+            if (random() % 4 == 0) p[i] = 0; // axes and planes of the world
+        return p;
+    };
+    for (int i = 0; i < check::scaled(2000); ++i) {
+        const double size = std::ldexp(1.0, static_cast<int>(random() % 120) - 60);
+        const Vec3d base = point() * size, apex = point() * size;
+        const auto cone = nffCone(base, size, apex, size / 2);
+        CHECK(cone.has_value() == (base != apex));
+        if (!cone) continue;
+        const Transform world = Transform::fromRows(cone->worldFromObject.at(0));
+        CHECK_INFO(!world.isSingular() && !world.mirrors(), "case " << i);
+        checkPoint(world.point({0, 0, -1}), base, 4e-16 * size);
+        checkPoint(world.point({0, 0, 1}), apex, 4e-16 * size);
+        const Vec3d x = world.column(0), y = world.column(1), z = world.column(2);
+        CHECK_INFO(std::fabs(length(x) - 1) < 1e-15 && std::fabs(length(y) - 1) < 1e-15,
+                   "case " << i);
+        CHECK_INFO(std::fabs(dot(x, y)) < 1e-15 && std::fabs(dot(x, z)) < 1e-15 * length(z) &&
+                       std::fabs(dot(y, z)) < 1e-15 * length(z),
+                   "case " << i);
+    }
+}
+
+TEST(read_nff_polygon) {
+    // A chevron of area 1.5 in the plane y = -3, counter-clockwise seen from -y; its notch is
+    // corner 3.
+    const SceneDesc desc = readBody(kFill + "p 5  0 -3 0  2 -3 0  2 -3 1  1 -3 0.5  0 -3 1\n"
+                                            "s 9 9 9 1\n"
+                                            "p 3  0 0 0  1 0 0  0 1 0\n");
+    CHECK_EQUAL(desc.objects.size(), std::size_t{2}); // one mesh of one fill
+    const ObjectDesc& object = desc.objects.at(0);
+    CHECK(object.kind == Kind::Mesh && object.mesh == 0 && object.sides == Sides::Front);
+    const MeshDesc& mesh = desc.meshes.at(0);
+    CHECK_EQUAL(mesh.points.size(), std::size_t{8});
+    CHECK_EQUAL(mesh.triangles.size(), std::size_t{4});
+    double area = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        CHECK(areaVector(mesh, i).y < 0); // none lies in the notch, turned round
+        area -= areaVector(mesh, i).y;
+    }
+    CHECK_NEAR(area, 1.5, 1e-15);
+    CHECK((mesh.triangles[3] == MeshDesc::Corners{5, 6, 7}));
+    CHECK((mesh.points[6] == Vec3d{1, 0, 0}));
+    CHECK(mesh.normals.empty() && mesh.normalTriangles.empty());
+}
+
+TEST(read_nff_patch) {
+    const SceneDesc desc = readBody("f 1 1 1 1 0 1 0.5 1\n"
+                                    "p 3 0 0 0 1 0 0 0 1 0\n"
+                                    "pp 3 0 0 0 0 0 1  1 0 0 0.6 0 0.8  0 1 0 0 0.6 0.8\n");
+    CHECK_EQUAL(desc.objects.size(), std::size_t{2});
+    CHECK_EQUAL(desc.objects.at(1).name, "patches1");
+    CHECK(desc.objects[1].sides == Sides::Both && desc.objects[0].sides == Sides::Both);
+    const MeshDesc& mesh = desc.meshes.at(1);
+    CHECK(mesh.triangles == mesh.normalTriangles && mesh.triangles.size() == 1);
+    CHECK((mesh.normals.at(1) == Vec3{0.6f, 0, 0.8f}));
+    CHECK((mesh.points.at(2) == Vec3d{0, 1, 0}));
+}
+
+TEST(read_nff_what_shows_nothing) {
+    const Read read = readWhole(kView + kFill +
+                                "p 2 0 0 0 1 0 0\n"
+                                "p 0\n"
+                                "p 3 0.1 0.1 0.1 0.2 0.2 0.2 0.3 0.3 0.3\n"
+                                "p 4 1 2 3 1 2 3 1 2 3 1 2 3\n"
+                                "s 1 2 3 0\n"
+                                "c 1 2 3 1 1 2 3 2\n"
+                                "c 1 2 3 0 1 2 4 0\n"
+                                "s 1 2 3 1\n");
+    CHECK_EQUAL(read.desc.objects.size(), std::size_t{1});
+    CHECK(read.desc.meshes.empty());
+    CHECK_EQUAL(read.warnings.size(), std::size_t{3});
+    const std::string all = join(read.warnings);
+    CHECK_INFO(all.find("t.nff:3:1: warning: 4 polygons without an area were left out; this is the "
+                        "first") != std::string::npos,
+               all);
+    CHECK_INFO(all.find("t.nff:7:1: warning: a sphere of radius 0 was left out") !=
+                   std::string::npos,
+               all);
+    CHECK_INFO(all.find("t.nff:8:1: warning: 2 cones without height or radius were left out") !=
+                   std::string::npos,
+               all);
+    // Thin is not flat: a triangle a millionth as high as it is wide, far away from the origin.
+    CHECK_EQUAL(readBody(kFill + "p 3 1000 0 0 1001 0 0 1000 1e-6 0").objects.size(),
+                std::size_t{1});
+}
+
+// Several errors are told together.
+TEST(read_nff_collects_errors) {
+    const std::string message = check::thrown([] {
+        readWhole("v from 0 0 0 at 0 0 0 up 0 0 1 angle 190 resolution 1.5 70000\n"
+                  "l 1 2 3 -1 0 0\nc 0 0 0 1 0 0 1 -1\ns 0 0 0 1e70\nb 1 1 2 3\n");
+    });
+    for (const char* words :
+         {"t.nff:1:1: error: the view looks 'at' where it is 'from'",
+          "t.nff:1:38: error: 'angle' must be > 0 and at most 179.999, got 190",
+          "t.nff:1:53: error: expected a whole number, got '1.5'",
+          "t.nff:1:57: error: number 2 of 'resolution' must be from 1 to 65535, got 70000",
+          "t.nff:2:9: error: number 4 of 'l' must be >= 0, got -1",
+          "t.nff:3:1: error: the radii of 'c' have different signs: 1 and -1",
+          "t.nff:4:9: error: number 4 of 's' must be at most 1e+60, got 1e+70",
+          "t.nff:5:9: error: expected an entity, got '3'; the 'b' at line 5 has all its numbers"})
+        CHECK_INFO(message.find(words) != std::string::npos, words << "; not in\n" << message);
+}
+
+namespace {
+
+// What is accepted must also survive being written in the native format and read again.
+enum class Outcome { Read, Refused };
+Outcome readSomehow(const std::string& text) {
+    const SourceFile source{"damaged.nff", text};
+    SceneDesc desc;
+    try {
+        Diagnostics diagnostics;
+        desc = readNff(source, {{}, diagnostics});
+        validate(desc, source, diagnostics);
+    } catch (const Error&) {
+        return Outcome::Refused;
+    }
+    CHECK_INFO(readTxt({"again.txt", writeTxt(desc)}) == desc, "read from:\n" << text);
+    return Outcome::Read;
+}
+
+} // namespace
+
+TEST(read_nff_cut_off_at_every_byte) {
+    const std::string whole = everything();
+    CHECK(readSomehow(whole) == Outcome::Read);
+    std::size_t read = 0, refused = 0;
+    for (std::size_t size = 0; size < whole.size(); ++size)
+        ++(readSomehow(whole.substr(0, size)) == Outcome::Read ? read : refused);
+    // A cut is seen unless it falls between two entities or into the last digits of a number.
+    CHECK_INFO(refused > whole.size() / 2 && read > 50, "read " << read << ", refused " << refused);
+}
+
+TEST(read_nff_random_damage) {
+    const std::string whole = everything();
+    const std::vector<std::string> pieces = {
+        "#",      "\n", "\r",         " ",      "-",           "nan",        "1e999",
+        "0",      "p",  "pp 3",       "pp",     "v",           "c",          "f",
+        "p 4000", "s",  "4294967297", "1e-400", "\xff",        ".",          "e5",
+        "l",      "b",  "-1e60",      "inf",    "1e308 1e308", "p 99999999", std::string(1, '\0')};
+    int read = 0, refused = 0;
+    for (std::uint32_t seed = 0; seed < check::scaled(4000u); ++seed) {
+        std::mt19937 random(seed);
+        std::string text = whole;
+        const auto place = [&] { return random() % (text.size() + 1); };
+        for (auto damages = 1 + random() % 3; damages > 0; --damages) {
+            const std::size_t at = place(), length = random() % 20;
+            switch (random() % 5) {
+            case 0: text.insert(at, pieces[random() % pieces.size()]); break;
+            case 1: text.erase(at, length); break;
+            case 2:
+                if (at < text.size()) text[at] = static_cast<char>(random());
+                break;
+            case 3: text.insert(place(), text.substr(at, length)); break;
+            default:
+                if (at < text.size()) text[at] = static_cast<char>(text[at] ^ (1 << random() % 8));
+                break;
+            }
+        }
+        try {
+            ++(readSomehow(text) == Outcome::Read ? read : refused);
+        } catch (const std::exception& error) {
+            CHECK_INFO(false, "seed " << seed << " threw " << error.what());
+        }
+    }
+    // Both must happen, or the test tests nothing.
+    CHECK_INFO(read > 500 && refused > 1000, "read " << read << ", refused " << refused);
+}

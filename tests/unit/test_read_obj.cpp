@@ -1,0 +1,324 @@
+// The OBJ reader: each statement and quirk with numbers made by hand, what it refuses, and damage.
+#include "read/read_obj.h"
+
+#include "base/text.h"
+#include "check.h"
+#include "read/triangulate.h"
+#include "unit/foreign_corpus.h"
+
+#include <chrono>
+#include <cstdio>
+#include <random>
+
+namespace {
+
+using Corners = MeshDesc::Corners;
+using Triangles = std::vector<Corners>;
+
+struct Result : MeshFile {
+    std::vector<std::string> warnings;
+};
+Result readText(const std::string& text) {
+    Diagnostics diagnostics;
+    MeshFile file = readObj({"t.obj", text}, {{}, diagnostics});
+    return {std::move(file), diagnostics.warnings};
+}
+// Four points of a square, for the statements that follow.
+const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+Result readBody(const std::string& body) { return readText(kSquare + body); }
+std::string messageOf(const std::string& body) {
+    return check::thrown([&] { readBody(body); });
+}
+bool warns(const Result& result, const std::string& words) {
+    for (const std::string& warning : result.warnings)
+        if (warning.find(words) != std::string::npos) return true;
+    return false;
+}
+std::string partsOf(const MeshFile& file) {
+    std::string text;
+    for (const MeshFile::Part& part : file.parts)
+        text += cat(part.name, "@", part.firstTriangle, " ");
+    return text;
+}
+Vec3 normalAt(const MeshDesc& mesh, std::size_t triangle, std::size_t corner) {
+    return mesh.normals.at(mesh.normalTriangles.at(triangle)[corner]);
+}
+Vec2 uvAt(const MeshDesc& mesh, std::size_t triangle, std::size_t corner) {
+    return mesh.uvs.at(mesh.uvTriangles.at(triangle)[corner]);
+}
+
+} // namespace
+
+TEST(read_obj_smallest) {
+    const Result file = readBody("f 1 2 3\nf 1 3 4");
+    CHECK(file.warnings.empty());
+    CHECK((file.mesh.points == std::vector<Vec3d>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+    CHECK((file.mesh.triangles == Triangles{{0, 1, 2}, {0, 2, 3}}));
+    CHECK(file.mesh.normals.empty() && file.mesh.uvs.empty());
+    CHECK(file.mesh.normalTriangles.empty() && file.mesh.uvTriangles.empty());
+    CHECK(file.mesh.triangleMaterials.empty() && file.materials.empty());
+    CHECK(file.parts.empty() && file.libraries.empty());
+}
+
+TEST(read_obj_room) {
+    const std::string text = contentOf("tests/scenes/obj/room.obj");
+    const Result file = readText(text);
+    CHECK_EQUAL(file.mesh.points.size(), std::size_t{6});
+    CHECK((file.mesh.points.at(4) == Vec3d{0, 0, 1}));
+    CHECK((file.mesh.triangles ==
+           Triangles{{0, 1, 2}, {0, 2, 3}, {0, 3, 2}, {0, 4, 5}, {0, 5, 1}, {0, 1, 2}, {2, 1, 0}}));
+    CHECK((file.materials == std::vector<std::string>{"red brick", "glass"}));
+    CHECK((file.mesh.triangleMaterials == std::vector<std::uint32_t>{0, 0, 0, 1, 1, 1, 0}));
+    CHECK_EQUAL(text.substr(file.materialLocs.at(1).offset, 12), "usemtl glass");
+    CHECK_EQUAL(partsOf(file), "house.front@0 house@3 tree@5 ");
+    CHECK_EQUAL(text.substr(file.parts.at(2).loc.offset, 6), "o tree");
+    CHECK_EQUAL(file.libraries.size(), std::size_t{3});
+    CHECK_EQUAL(file.libraries.at(0).file, "room.mtl");
+    CHECK_EQUAL(file.libraries.at(1).file, "other/things.MTL");
+    CHECK_EQUAL(file.libraries.at(2).file, "last one");
+    CHECK_EQUAL(text.substr(file.libraries.at(2).loc.offset, 8), "last one");
+    // vt: one number has v = 0; faces without vt have 0 0.
+    CHECK((uvAt(file.mesh, 1, 2) == Vec2{0, 0}));
+    CHECK((uvAt(file.mesh, 0, 2) == Vec2{1, 1}));
+    CHECK((uvAt(file.mesh, 3, 1) == Vec2{0, 0}));
+    CHECK((uvAt(file.mesh, 6, 0) == Vec2{1, 1}));
+    // As written, not normalised; flat where the face has none, although it is in a file with some.
+    CHECK((normalAt(file.mesh, 0, 2) == Vec3{0, 0, 1}));
+    CHECK((normalAt(file.mesh, 2, 0) == Vec3{0, 0, -2}));
+    CHECK((normalAt(file.mesh, 3, 0) == Vec3{0, 1, 0}));
+    CHECK((normalAt(file.mesh, 6, 1) == Vec3{0, 0, -1}));
+    CHECK_EQUAL(file.warnings.size(), std::size_t{3});
+    CHECK(warns(file, "t.obj:30:1: warning: left out: 1 face with fewer than three corners, 1 face "
+                      "without area"));
+    CHECK(warns(file, "2 statements of points, lines, curves"));
+    CHECK(warns(file, "1 vertex has a colour"));
+}
+
+TEST(read_obj_line_ends) {
+    const std::string text = contentOf("tests/scenes/obj/room.obj");
+    const MeshFile file = readText(text);
+    const auto replaced = [&](const std::string& from, const std::string& to) {
+        std::string out = text;
+        out.replace(out.find("\\\n"), 2, " "); // joined lines come below
+        for (std::size_t at = 0; (at = out.find(from, at)) != std::string::npos; at += to.size())
+            out.replace(at, from.size(), to);
+        return out;
+    };
+    const auto same = [&](const std::string& other) {
+        const Result again = readText(other);
+        CHECK(again.mesh == file.mesh && again.materials == file.materials &&
+              partsOf(again) == partsOf(file) && again.libraries.size() == file.libraries.size());
+    };
+    same(replaced("\n", "\r\n"));
+    same(replaced("\n", "\n\n  \t\n"));
+    same(replaced("\n", " \t\n\t "));
+    same(replaced("\nf ", "\n# f 9 9 9 \\\nf ")); // a comment joins no line
+    same("\xef\xbb\xbf" + text);
+    same(text.substr(0, text.size() - 1));
+    // Every blank may be the end of a joined line.
+    const Result joined = readBody("\\\nf\\\n 1\\\r\n2 \\\n 3\\\n\nf 1 3 4\\\n");
+    CHECK((joined.mesh.triangles == Triangles{{0, 1, 2}, {0, 2, 3}}));
+    // Not so in a comment, and what looks like a statement there is none.
+    CHECK_EQUAL(readBody("f 1 2 3 # \\\nf 1 3 4\n").mesh.triangles.size(), std::size_t{2});
+    CHECK_EQUAL(readBody("x \\\nf 1 3 4\nf 1 2 3\n").mesh.triangles.size(), std::size_t{1});
+    CHECK_EQUAL(readBody("f 1 2 3#x").mesh.triangles.size(), std::size_t{1});
+}
+
+TEST(read_obj_numbers) {
+    // Positions are doubles, to the last bit; normals and uvs floats.
+    const Result file = readText("v 0.1 -1e60 +3.5E-2\nv 1. .5 0\nv 0.30000000000000004 0 0 1 .5 "
+                                 "0 1\nvn 0.1 0 1\nvt -.25 16777217\nf 1/1/1 2/1/1 3/1/1");
+    CHECK((file.mesh.points ==
+           std::vector<Vec3d>{{0.1, -1e60, 0.035}, {1, 0.5, 0}, {0.1 + 0.2, 0, 0}}));
+    CHECK((file.mesh.normals == std::vector<Vec3>{{0.1f, 0, 1}}));
+    CHECK((file.mesh.uvs == std::vector<Vec2>{{-0.25f, 16777216}}));
+    CHECK((file.mesh.uvTriangles == Triangles{{0, 0, 0}}));
+}
+
+TEST(read_obj_indices) {
+    // Negative ones count from the last that came before the face, positive ones may come after it.
+    const Result file =
+        readText("v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1 0\nvn 0 0 1\nf -3/-1/-1 -2/-1/-1 "
+                 "-1/-1/-1\nf 4 5 6\nv 0 0 5\nv 1 0 5\nvt 0 1\nv 0 1 5\nf -3 -2 -1\n"
+                 "f 1/-1 2/-1 3/-2\n");
+    CHECK((file.mesh.triangles == Triangles{{0, 1, 2}, {3, 4, 5}, {3, 4, 5}, {0, 1, 2}}));
+    CHECK((uvAt(file.mesh, 0, 0) == Vec2{1, 0}));
+    CHECK((uvAt(file.mesh, 3, 0) == Vec2{0, 1}));
+    CHECK((uvAt(file.mesh, 3, 2) == Vec2{1, 0}));
+    // Slashes without a number, as some programs write them.
+    CHECK((readBody("vt 0 0\nf 1/ 2/ 3/\nf 1// 3// 4//\nf 1/1/ 3/1/ 4/1/").mesh.triangles ==
+           Triangles{{0, 1, 2}, {0, 2, 3}, {0, 2, 3}}));
+    CHECK(messageOf("f 1 2 5").find("t.obj:5:7: error: there is no vertex 5; the file has 4") == 0);
+    CHECK(messageOf("f 1 2 -5\nv 0 0 0").find("no vertex -5; only 4 come before") !=
+          std::string::npos);
+}
+
+TEST(read_obj_polygons) {
+    // Convex: the fan of the first corner; an L and a notch as ears, all uvs with their corners.
+    std::string text = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 1 0\nv 1 2 0\nv 0 2 0\n";
+    for (int i = 0; i < 6; ++i) text += cat("vt ", i, " 0\n");
+    const Result file = readText(text + "f 1/1 2/2 3/3 4/4 5/5 6/6\nf 6/6 5/5 4/4 3/3 2/2 1/1\n");
+    CHECK_EQUAL(file.mesh.triangles.size(), std::size_t{8});
+    double area[2] = {0, 0};
+    for (std::size_t i = 0; i < 8; ++i) {
+        const Corners& t = file.mesh.triangles[i];
+        const auto& p = file.mesh.points;
+        area[i / 4] += cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]).z / 2;
+        CHECK(cross(p[t[1]] - p[t[0]], p[t[2]] - p[t[0]]).z * (i < 4 ? 1 : -1) > 0);
+        for (std::size_t k = 0; k < 3; ++k)
+            CHECK_EQUAL(uvAt(file.mesh, i, k).x, static_cast<float>(t[k]));
+    }
+    CHECK_EQUAL(area[0], 3.0);
+    CHECK_EQUAL(area[1], -3.0);
+    // The longest face, and one corner more.
+    std::string face = "\nf";
+    std::string points;
+    for (std::size_t i = 0; i <= kMostCorners; ++i) points += cat("v ", i, " ", i * i, " 0\n");
+    for (std::size_t i = 1; i <= kMostCorners; ++i) face += cat(" ", i);
+    CHECK_EQUAL(readText(points + face).mesh.triangles.size(), kMostCorners - 2);
+    CHECK_THROWS(readText(points + face + " 1"), "a face with more than 32768 corners");
+}
+
+TEST(read_obj_leaves_out) {
+    const Result file = readText("v 9 9 9\n" + kSquare +
+                                 "v 0.5 0 0\nvt 7 7\nvt 1 0\nvn 1 0 0\nvn 0 0 1\n"
+                                 "f 2 3 6\nf 2 3 2\nf\nf 3\nf 2 2 2 2 2\nf 3/2/2 4/2/2 5/2/2\n");
+    CHECK((file.mesh.points == std::vector<Vec3d>{{1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
+    CHECK((file.mesh.triangles == Triangles{{0, 1, 2}}));
+    CHECK((file.mesh.uvs == std::vector<Vec2>{{1, 0}}));
+    CHECK((file.mesh.normals == std::vector<Vec3>{{0, 0, 1}}));
+    CHECK_EQUAL(file.warnings.size(), std::size_t{1});
+    CHECK(warns(file, "t.obj:11:1: warning: left out: 2 faces with fewer than three corners, 3 "
+                      "faces without area, 3 vertices that no face uses"));
+    // Repeated corners and corners in line leave triangles without area, not the face.
+    CHECK_EQUAL(readBody("f 1 1 2 3 3 4").mesh.triangles.size(), std::size_t{2});
+    CHECK(readBody("f 1 1 2 3 3 4").warnings.empty());
+    CHECK(messageOf("f 1 2 1").find("t.obj:1:1: error: none of the 1 face has three corners and an "
+                                    "area") == 0);
+    CHECK(messageOf("").find("t.obj:1:1: error: the file has no faces") == 0);
+    CHECK_THROWS(readText(""), "t.obj:1:1: error: the file has no faces");
+}
+
+TEST(read_obj_unknown_statements) {
+    const Result file = readBody("vx 1 2 3\np 1 2\nfoo\nvp 1\nf 1 2 3 4\nbar \\\n f 1 2 3\n");
+    CHECK_EQUAL(file.mesh.triangles.size(), std::size_t{2});
+    CHECK(warns(file, "t.obj:5:1: warning: 3 unknown statements left out"));
+    CHECK(warns(file, "t.obj:6:1: warning: 2 statements of points, lines"));
+}
+
+TEST(read_obj_parts_and_materials) {
+    // Faces before the first name; empty parts go; the same name again goes on with its part.
+    const Result file =
+        readBody("f 1 2 3\ng a\ng b\nf 1 2 3\nusemtl x\ng b\nf 1 2 3\nf 1 1 1\no c\n"
+                 "usemtl never\nusemtl y\nf 1 2 3\ng  d   e \nusemtl x#1\nf 1 2 3\n");
+    CHECK_EQUAL(partsOf(file), "@0 b@1 c@3 c.d   e@4 ");
+    CHECK((file.materials == std::vector<std::string>{"", "x", "y", "x#1"}));
+    CHECK((file.mesh.triangleMaterials == std::vector<std::uint32_t>{0, 0, 1, 2, 3}));
+    // One material for all needs no list; a part that has no face with an area is none.
+    const Result one = readBody("usemtl x\ng a\nf 1 1 1\ng b\nf 1 2 3\n");
+    CHECK(one.mesh.triangleMaterials.empty() && one.materials.size() == 1);
+    CHECK_EQUAL(partsOf(one), "b@0 ");
+    CHECK_EQUAL(partsOf(readBody("g a\nf 1 2 3\ng b\nf 1 1 1\ng a\nf 1 2 3")), "a@0 ");
+    CHECK(readBody("g\no\nf 1 2 3").parts.empty());
+    // Libraries named twice are one.
+    CHECK_EQUAL(
+        readBody("mtllib a.mtl b.mtl\nmtllib a.mtl\nmtllib my b.mtl\nf 1 2 3").libraries.size(),
+        std::size_t{3});
+}
+
+TEST(read_obj_smoothing_groups) {
+    // A roof: its ridge is smooth in a group, sharp between groups, and given normals stay.
+    const std::string roof = "v -1 0 0\nv -1 0 2\nv 0 1 0\nv 0 1 2\nv 1 0 0\nv 1 0 2\nvn 1 0 0\n";
+    const float d = std::sqrt(0.5f);
+    const auto checkAt = [&](const Result& file, std::size_t triangle, std::size_t corner,
+                             Vec3 expected) {
+        CHECK(length(normalAt(file.mesh, triangle, corner) - expected) < 1e-6f);
+    };
+    const Result smooth = readText(roof + "s 5\nf 1 2 4 3\nf 3 4 6 5\n");
+    checkAt(smooth, 0, 0, {-d, d, 0});
+    checkAt(smooth, 0, 2, {0, 1, 0});
+    checkAt(smooth, 2, 0, {0, 1, 0});
+    const Result sharp = readText(roof + "s 5\nf 1 2 4 3\ns 6\nf 3 4 6 5\n");
+    checkAt(sharp, 0, 2, {-d, d, 0});
+    checkAt(sharp, 2, 0, {d, d, 0});
+    const Result mixed = readText(roof + "s 1\nf 1 2 4 3\nf 3//1 4//1 6//1 5//1\ns off\nf 1 2 6\n");
+    checkAt(mixed, 0, 2, {0, 1, 0});
+    checkAt(mixed, 2, 0, {1, 0, 0});
+    checkAt(mixed, 4, 0, {0, 1, 0});
+    CHECK(readText(roof + "s off\nf 1 2 4 3\ns 0\nf 3 4 6 5\n").mesh.normals.empty());
+}
+
+// A million of everything that has a name takes seconds at most, not hours.
+TEST(read_obj_many_names) {
+    std::string text = kSquare;
+    const int count = check::scaled(30000);
+    for (int i = 0; i < count; ++i)
+        text += cat("o o", i, "\ng g", i, "\nusemtl m", i, "\nmtllib l", i, ".mtl\ns ", i,
+                    "\nf 1 2 3\n");
+    const auto start = std::chrono::steady_clock::now();
+    const Result file = readText(text);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+    const auto n = static_cast<std::size_t>(count);
+    CHECK_EQUAL(file.parts.size(), n);
+    CHECK_EQUAL(file.materials.size(), n);
+    CHECK_EQUAL(file.libraries.size(), n);
+    CHECK_EQUAL(file.mesh.triangleMaterials.back(), static_cast<std::uint32_t>(count - 1));
+    CHECK_INFO(seconds.count() < 10 * check::stress(), seconds.count()); // 0.05 s measured
+}
+
+TEST(read_obj_bad_corpus) {
+    const std::size_t files = checkCorpus("tests/bad/obj", ".obj", [](const SourceFile& source) {
+        Diagnostics diagnostics;
+        readObj(source, {{}, diagnostics});
+    });
+    CHECK_INFO(files >= 20, files);
+}
+
+// What is read after damage is whole: indices in range, arrays of the same length.
+TEST(read_obj_random_damage_and_cut_off) {
+    const std::string whole = contentOf("tests/scenes/obj/room.obj");
+    std::size_t read = 0, refused = 0;
+    const auto checkText = [&](const std::string& text, const std::string& what) {
+        MeshFile file;
+        try {
+            file = readText(text);
+        } catch (const Error&) {
+            ++refused;
+            return;
+        } catch (const std::exception& error) {
+            CHECK_INFO(false, what << " threw " << error.what());
+            return;
+        }
+        ++read;
+        const MeshDesc& mesh = file.mesh;
+        const auto inRange = [](const Triangles& triangles, std::size_t count) {
+            for (const Corners& t : triangles)
+                for (const std::uint32_t i : t)
+                    if (i >= count) return false;
+            return true;
+        };
+        const std::size_t n = mesh.triangles.size();
+        const auto isWhole = [&](const auto& array) { return array.empty() || array.size() == n; };
+        CHECK_INFO(n > 0 && isWhole(mesh.uvTriangles) && isWhole(mesh.normalTriangles) &&
+                       isWhole(mesh.triangleMaterials),
+                   what);
+        CHECK_INFO(inRange(mesh.triangles, mesh.points.size()), what);
+        CHECK_INFO(inRange(mesh.uvTriangles, mesh.uvs.size()), what);
+        CHECK_INFO(inRange(mesh.normalTriangles, mesh.normals.size()), what);
+        for (const std::uint32_t slot : mesh.triangleMaterials)
+            CHECK_INFO(slot < file.materials.size(), what);
+        for (std::size_t i = 0; i < file.parts.size(); ++i)
+            CHECK_INFO(i == 0 ? file.parts[0].firstTriangle == 0
+                              : file.parts[i].firstTriangle > file.parts[i - 1].firstTriangle &&
+                                    file.parts[i].firstTriangle < n,
+                       what);
+    };
+    for (std::size_t size = 0; size < whole.size(); ++size)
+        checkText(whole.substr(0, size), cat("cut off at ", size));
+    const std::vector<std::string> pieces = {
+        "f ",    "v ", "/",       "-",    "\\\n", "\n", "#",       "nan",  "0",
+        "1e999", "9",  "usemtl ", "\r\n", "g ",   "\\", "\n1 2 3", "\xff", std::string(1, '\0')};
+    for (std::uint32_t seed = 0; seed < check::scaled(4000u); ++seed)
+        checkText(damaged(whole, pieces, seed), cat("seed ", seed));
+    CHECK_INFO(read > 300 && refused > 1000, "read " << read << ", refused " << refused);
+}
