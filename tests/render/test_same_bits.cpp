@@ -1,10 +1,10 @@
 // Promises P1 and P3: the picture does not depend on threads, accelerator, kernel, crop, features
 // that are not used, or the size of the scene, to the last bit; nor on its place, nearly.
 #include "check.h"
-#include "meshes.h"
 #include "placed_scene.h"
 #include "scenes.h"
 #include "shot.h"
+#include "verify/meshes.h"
 
 #include "image/compare.h"
 

@@ -4,8 +4,8 @@
 #include "analytic_kit.h"
 #include "base/error.h"
 #include "check.h"
-#include "meshes.h"
 #include "render/shape_set.h"
+#include "verify/meshes.h"
 
 #include <algorithm>
 #include <cstring>
