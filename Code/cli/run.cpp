@@ -1,4 +1,5 @@
 #include "cli/run.h"
+#include "cli/bench.h"
 
 #include "base/error.h"
 #include "base/file.h"
@@ -237,6 +238,11 @@ ExitCode run(std::span<const std::string> arguments, Step& step) {
         const DiffOptions options = parseDiffOptions(arguments.subspan(1));
         step = {"comparing the pictures", ExitCode::Input};
         return diff(options);
+    }
+    if (!arguments.empty() && arguments[0] == "bench") {
+        const BenchOptions options = parseBenchOptions(arguments.subspan(1));
+        step = {"tracing rays", ExitCode::Internal};
+        return bench(options);
     }
     if (!arguments.empty() && arguments[0] == "verify") {
         step = {"verifying", ExitCode::Internal};
