@@ -12,7 +12,7 @@
 
 KERNEL_REGION_BEGIN("sse4.2,popcnt")
 namespace kernels::sse {
-#include "accel/kernels/simd_sse.h"
+#include "accel/kernels/simd_sse.inl"
 
 #include "accel/kernels/queue.inl"
 
