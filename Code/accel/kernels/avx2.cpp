@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <immintrin.h>
+#include <vector>
 
 KERNEL_REGION_BEGIN("avx2,fma,bmi,bmi2,lzcnt,popcnt")
 namespace kernels::avx2 {

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <immintrin.h>
+#include <vector>
 
 // g++ 12 takes the undefined operands of its own intrinsics for mistakes (GCC bug 105593).
 #if !defined(__clang__)

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <immintrin.h>
+#include <vector>
 
 KERNEL_REGION_BEGIN("sse4.2,popcnt")
 namespace kernels::sse {
