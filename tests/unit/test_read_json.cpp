@@ -1,6 +1,6 @@
 // Scenes in JSON: the dialects of the course with their quirks, by numbers worked out by hand, and
 // the keys that are rows of the native tables. What is refused is in tests/bad/json.
-#include "read/read_json.h"
+#include "read/json/read_json.h"
 
 #include "base/math.h"
 #include "base/text.h"

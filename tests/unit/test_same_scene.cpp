@@ -3,10 +3,10 @@
 #include "check.h"
 #include "desc/validate.h"
 #include "desc/write_txt.h"
+#include "read/json/read_json.h"
 #include "read/load.h"
-#include "read/read_json.h"
-#include "read/read_nff.h"
-#include "read/read_txt.h"
+#include "read/nff/read_nff.h"
+#include "read/txt/read_txt.h"
 
 #include <cmath>
 #include <filesystem>
@@ -29,12 +29,12 @@ s 0.5 0 0.25 1.5
 // Angles of an NFF view span the centres of the rows: 2 atan(1/2) is 30/29 of it from edge to edge.
 constexpr const char* kJson = R"({
     "resolution": [40, 30], "ambient": [0.5, 0.5, 0.5],
-    "transfer": "srgb", "max_depth": 4, "cutoff": 0, "sampler": "sobol", "samples": 16,
-    "jitter": true, "filter": ["blackman-harris", 1.5],
+    "settings": {"transfer": "srgb", "max_depth": 4, "cutoff": 0, "sampler": "sobol", "samples": 16,
+                 "jitter": true, "filter": ["blackman-harris", 1.5]},
     "world": {"background": [0.1, 0.2, 0.4], "environment_up": "z"},
     "camera": {"position": [0, -8, 0], "lookAt": [0, 0, 0], "up": [0, 0, 1], "fov": 53.13010235415598},
     "materials": [{"name": "fill1", "diffuse": [0.5, 0.25, 0.125], "specular": [0.25, 0.25, 0.25],
-                   "specular_model": "phong", "exponent": 16, "mirror": [0.25, 0.25, 0.25],
+                   "specular_model": "phong", "exponent": 16, "ior": 1, "mirror": [0.25, 0.25, 0.25],
                    "lit_side": "eye"}],
     "objects": [{"name": "sphere1", "type": "sphere", "position": [0.5, 0, 0.25], "radius": 1.5,
                  "materials": ["fill1"]}],
