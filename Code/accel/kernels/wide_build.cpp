@@ -110,7 +110,8 @@ public:
 private:
     Range makePrims() {
         const auto n = static_cast<std::uint32_t>(triangles_.size());
-        prims_.reset(new Prim[n]), spare_.reset(new Prim[n]);
+        prims_ = std::make_unique_for_overwrite<Prim[]>(n);
+        spare_ = std::make_unique_for_overwrite<Prim[]>(n);
         Box box = emptyBox(), centres = emptyBox();
         for (std::uint32_t i = 0; i < n; ++i) {
             Prim p = emptyBox();
