@@ -7,10 +7,14 @@
 
 namespace battery {
 
+std::span<const Row> leakRows();       // T1 to T3: closed meshes
+std::span<const Row> crackRows();      // T4: borders that meshes share
+std::span<const Row> leavingRows();    // T5: rays that leave a surface; acne
+std::span<const Row> contactRows();    // T6: shadows where things touch
 std::span<const Row> terminatorRows(); // T25: the edge of the light on coarse meshes
 
 inline constexpr std::array kGroups = {
-    terminatorRows,
+    leakRows, crackRows, leavingRows, contactRows, terminatorRows,
 };
 
 } // namespace battery
