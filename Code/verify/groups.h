@@ -7,9 +7,11 @@
 
 namespace battery {
 
+std::span<const Row> placementRows();  // T7 to T9: the same picture at every size and place
 std::span<const Row> terminatorRows(); // T25: the edge of the light on coarse meshes
 
 inline constexpr std::array kGroups = {
+    placementRows,
     terminatorRows,
 };
 
