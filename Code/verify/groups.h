@@ -8,10 +8,12 @@
 namespace battery {
 
 std::span<const Row> placementRows();  // T7 to T9: the same picture at every size and place
+std::span<const Row> sameBitsRows();   // T10, T11, T17: the same bits however it is rendered
 std::span<const Row> terminatorRows(); // T25: the edge of the light on coarse meshes
 
 inline constexpr std::array kGroups = {
     placementRows,
+    sameBitsRows,
     terminatorRows,
 };
 

@@ -286,8 +286,9 @@ SceneDesc orthographic(Random& random) {
 }
 
 constexpr Maker kMakers[] = {
-    {"shapes", shapes},         {"meshes", meshesAndInstances}, {"glass", glassAndMirrors},
-    {"soft lights", softLights}, {"motion", motion},            {"lens", lensAndGlossy},
+    {"shapes", shapes},           {"meshes", meshesAndInstances},
+    {"glass", glassAndMirrors},   {"soft lights", softLights},
+    {"motion", motion},           {"lens", lensAndGlossy},
     {"transparent", transparent}, {"orthographic", orthographic},
 };
 

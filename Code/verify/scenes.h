@@ -1,6 +1,6 @@
 // Small scenes that together use everything that can be said without a picture file, made from
-// random numbers: shapes, places and colours are other ones each time. And what the rows about whole
-// pictures do with them.
+// random numbers: shapes, places and colours are other ones each time. And what the rows about
+// whole pictures do with them.
 #pragma once
 
 #include "render/render.h"
