@@ -7,6 +7,7 @@
 
 namespace battery {
 
+std::span<const Row> elementaryRows(); // T12: sin, exp, pow and so on against binary128
 std::span<const Row> placementRows();  // T7 to T9: the same picture at every size and place
 std::span<const Row> sameBitsRows();   // T10, T11, T17: the same bits however it is rendered
 std::span<const Row> terminatorRows(); // T25: the edge of the light on coarse meshes
@@ -14,6 +15,7 @@ std::span<const Row> terminatorRows(); // T25: the edge of the light on coarse m
 inline constexpr std::array kGroups = {
     placementRows,
     sameBitsRows,
+    elementaryRows,
     terminatorRows,
 };
 
