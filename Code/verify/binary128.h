@@ -1,31 +1,33 @@
-// Elementary functions in binary128 (113 bits), by series and Newton's method: the truth for those
-// of base/math.h. Slow, and right to about 2^-108 of the value, which is 2^-55 of a double's last
-// place. Shares nothing with base/math.h; the C library's functions only give first guesses.
+// Numbers of 113 bits, and vectors of them: the truth that the battery holds double and float
+// against. Nothing of the product may use them.
 #pragma once
 
-namespace binary128 {
+#include "base/vec.h"
 
-#ifdef __SIZEOF_FLOAT128__
-__extension__ using Quad = __float128; // of libgcc, also with clang++
+namespace battery {
+
+// long double has as many bits where the compiler has no __float128 (64-bit Arm).
+#if defined(__SIZEOF_FLOAT128__)
+__extension__ typedef __float128 Wide;
 #else
-using Quad = long double; // 64-bit Arm: is binary128
+using Wide = long double;
 #endif
+using Vec3w = Vec3T<Wide>;
 
-Quad sin(double x); // |x| < 2^47
-Quad cos(double x);
-Quad tan(double x);
-Quad asin(double x); // |x| <= 1
-Quad acos(double x);
-Quad atan2(double y, double x); // finite, not both 0
-Quad exp(double x);             // any result up to 2^1100, and from 2^-1100
-Quad exp2(double x);
-Quad log(double x); // positive and finite
-Quad log2(double x);
-Quad pow(double x, double y); // x positive
-Quad cbrt(double x);
+// Newton's method twice from the root in double: 53, 106, 113 bits. x must lie in double's range.
+inline Wide squareRoot(Wide x) {
+    const double start = std::sqrt(static_cast<double>(x));
+    if (!(start > 0)) return 0;
+    Wide root = start;
+    for (int i = 0; i < 2; ++i) root = (root + x / root) / 2;
+    return root;
+}
 
-// |value - truth| in units of the last place of a double at the truth; a truth that rounds to
-// infinity wants just that. NaN for a value that is none.
-double ulpsOff(double value, Quad truth);
+constexpr Wide magnitude(Wide x) { return x < 0 ? -x : x; }
+constexpr Vec3w toWide(Vec3d v) { return {v.x, v.y, v.z}; }
+constexpr Vec3w toWide(Vec3 v) { return toWide(toDouble(v)); }
+constexpr Vec3d toDouble(Vec3w v) {
+    return {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)};
+}
 
-} // namespace binary128
+} // namespace battery

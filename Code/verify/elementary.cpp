@@ -2,7 +2,7 @@
 // bits everywhere, against binary128: at random arguments and where such functions go wrong.
 #include "base/math.h"
 #include "base/text.h"
-#include "verify/binary128.h"
+#include "verify/elementary_truth.h"
 #include "verify/groups.h"
 
 #include <array>
@@ -11,7 +11,6 @@ namespace battery {
 
 namespace {
 
-using binary128::Quad;
 using meshes::Random;
 
 double signedLog(Random& random, double loExponent, double hiExponent) {
@@ -29,7 +28,7 @@ double near(double x, Random& random) {
 struct Function {
     const char* name;
     double (*value)(double);
-    Quad (*truth)(double);
+    Wide (*truth)(double);
     double (*argument)(Random&);
 };
 
@@ -89,30 +88,30 @@ double anyPositive(Random& random) {
 double anySize(Random& random) { return signedLog(random, -1073, 1024); }
 
 constexpr std::array kAngles = {
-    Function{"sin", exact::sin, binary128::sin, anyAngle},
-    Function{"cos", exact::cos, binary128::cos, anyAngle},
-    Function{"tan", exact::tan, binary128::tan, anyAngle},
+    Function{"sin", exact::sin, truth::sin, anyAngle},
+    Function{"cos", exact::cos, truth::cos, anyAngle},
+    Function{"tan", exact::tan, truth::tan, anyAngle},
 };
 constexpr std::array kInverses = {
-    Function{"asin", exact::asin, binary128::asin, anySine},
-    Function{"acos", exact::acos, binary128::acos, anySine},
-    Function{"atan", exact::atan, [](double x) { return binary128::atan2(x, 1); },
+    Function{"asin", exact::asin, truth::asin, anySine},
+    Function{"acos", exact::acos, truth::acos, anySine},
+    Function{"atan", exact::atan, [](double x) { return truth::atan2(x, 1); },
              [](Random& random) {
                  return random.chance(0.5) ? signedLog(random, -60, 60)
                                            : near(random.below(65) / 32.0, random);
              }},
 };
 constexpr std::array kPowers = {
-    Function{"exp", exact::exp, binary128::exp, anyExponent},
-    Function{"exp2", exact::exp2, binary128::exp2, anyPower2},
-    Function{"log", exact::log, binary128::log, anyPositive},
-    Function{"log2", exact::log2, binary128::log2, anyPositive},
-    Function{"cbrt", exact::cbrt, binary128::cbrt, anySize},
+    Function{"exp", exact::exp, truth::exp, anyExponent},
+    Function{"exp2", exact::exp2, truth::exp2, anyPower2},
+    Function{"log", exact::log, truth::log, anyPositive},
+    Function{"log2", exact::log2, truth::log2, anyPositive},
+    Function{"cbrt", exact::cbrt, truth::cbrt, anySize},
 };
 
-void measure(const char* name, double x, double value, Quad truth, Tally& tally) {
+void measure(const char* name, double x, double value, Wide truth, Tally& tally) {
     ++tally.cases;
-    tally.measure(binary128::ulpsOff(value, truth), [&] { return cat(name, " at ", shortest(x)); });
+    tally.measure(truth::ulpsOff(value, truth), [&] { return cat(name, " at ", shortest(x)); });
 }
 void measureAll(std::span<const Function> functions, Random& random, Tally& tally) {
     for (const Function& f : functions) {
@@ -128,7 +127,7 @@ void measureAtan2(Random& random, Tally& tally) {
     const double x = random.chance(0.5) ? signedLog(random, -range, range)
                                         : near(y * 16 / (1 + random.below(32)), random);
     ++tally.cases;
-    tally.measure(binary128::ulpsOff(exact::atan2(y, x), binary128::atan2(y, x)),
+    tally.measure(truth::ulpsOff(exact::atan2(y, x), truth::atan2(y, x)),
                   [&] { return cat("atan2 at ", shortest(y), ", ", shortest(x)); });
 }
 
@@ -146,7 +145,7 @@ void measurePow(Random& random, Tally& tally) {
     }
     if (!(std::fabs(y) < 0x1p64) || x == 1 || x <= 0) return;
     ++tally.cases;
-    tally.measure(binary128::ulpsOff(exact::pow(x, y), binary128::pow(x, y)),
+    tally.measure(truth::ulpsOff(exact::pow(x, y), truth::pow(x, y)),
                   [&] { return cat("pow at ", shortest(x), ", ", shortest(y)); });
 }
 
