@@ -1,5 +1,6 @@
 #include "cli/help.h"
 
+#include "cli/bench.h"
 #include "cli/diff.h"
 #include "cli/exit_codes.h"
 #include "cli/options.h"
@@ -77,6 +78,8 @@ std::string helpText() {
         twoColumns("raytracer verify [TEST...] [options]",
                    "tests the numbers behind the pictures on this machine; see raytracer verify "
                    "--help"),
+        twoColumns("raytracer bench MESH [options]",
+                   "measures tree and rays of a mesh; see raytracer bench --help"),
         "\n",
         "SCENE is a .txt file in the native format (- for such text on stdin), a COMP 557 scene\n"
         "(.json), a Neutral File Format scene (.nff), or a mesh by itself (.obj, .ply). OUTPUT is\n"
@@ -107,14 +110,31 @@ std::string diffHelpText() {
         flagsText(diffFlags(unused)), exitCodesText());
 }
 
+std::string benchHelpText() {
+    BenchOptions unused;
+    return cat(
+        "usage: raytracer bench MESH [options]\n\n"
+        "Builds the tree of a mesh (.obj, .ply, or a scene with meshes) and traces rays through "
+        "it with\none thread. Comma-separated lines:\n"
+        "  BUILD,mesh,engine,quality,exactness,threads,kernel,ms (median, least, of the "
+        "processor),\n        bytes per triangle\n"
+        "  mesh,engine,quality,exactness,threads,kernel,set,rays,hits,million rays per second "
+        "(median,\n        least, most, of the processor)\n"
+        "Sets: primary (nearest), shadow (any, from a point light), bounce (diffuse "
+        "directions, nearest),\nbounceany (the same, any).\n",
+        flagsText(benchFlags(unused)), exitCodesText());
+}
+
 std::string verifyHelpText() {
     VerifyOptions unused;
-    return cat("usage: raytracer verify [TEST...] [options]\n\n"
-               "Runs the stress battery on this machine: rays against closed meshes, shapes against "
-               "wide\narithmetic, lamps and materials against formulas. A line per test; exit code ",
-               static_cast<int>(ExitCode::Internal), " when\none does not keep its mark. Without "
-               "TEST all quick ones; the same cases on every machine.\n",
-               flagsText(verifyFlags(unused)), exitCodesText());
+    return cat(
+        "usage: raytracer verify [TEST...] [options]\n\n"
+        "Runs the stress battery on this machine: rays against closed meshes, shapes against "
+        "wide\narithmetic, lamps and materials against formulas. A line per test; exit code ",
+        static_cast<int>(ExitCode::Internal),
+        " when\none does not keep its mark. Without "
+        "TEST all quick ones; the same cases on every machine.\n",
+        flagsText(verifyFlags(unused)), exitCodesText());
 }
 
 std::string featureListText() {

@@ -8,5 +8,6 @@
 
 std::string helpText();        // raytracer --help
 std::string diffHelpText();    // raytracer diff --help
+std::string benchHelpText();   // raytracer bench --help
 std::string verifyHelpText();  // raytracer verify --help
 std::string featureListText(); // raytracer --list-features

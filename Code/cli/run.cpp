@@ -1,4 +1,5 @@
 #include "cli/run.h"
+#include "cli/bench.h"
 
 #include "base/error.h"
 #include "base/file.h"
@@ -15,7 +16,6 @@
 #include "cli/settings_from.h"
 #include "cli/stats_output.h"
 #include "cli/terminal.h"
-#include "cli/verify.h"
 #include "cli/verify.h"
 #include "cli/version.h"
 #include "desc/write_txt.h"
@@ -238,6 +238,11 @@ ExitCode run(std::span<const std::string> arguments, Step& step) {
         const DiffOptions options = parseDiffOptions(arguments.subspan(1));
         step = {"comparing the pictures", ExitCode::Input};
         return diff(options);
+    }
+    if (!arguments.empty() && arguments[0] == "bench") {
+        const BenchOptions options = parseBenchOptions(arguments.subspan(1));
+        step = {"tracing rays", ExitCode::Internal};
+        return bench(options);
     }
     if (!arguments.empty() && arguments[0] == "verify") {
         step = {"verifying", ExitCode::Internal};

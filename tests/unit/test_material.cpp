@@ -3,8 +3,8 @@
 #include "check.h"
 #include "material/fresnel.h"
 #include "material/material.h"
-#include "verify/meshes.h"
 #include "sample/warp.h"
+#include "verify/meshes.h"
 
 using meshes::Random;
 
