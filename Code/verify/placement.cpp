@@ -52,7 +52,7 @@ Tally powersOfTwo(const Effort& effort) {
 // ---- T8 and T9: differences of pictures, in parts of the brightest value
 
 // Collects the differences of pictures of one size. One sample on the other side of an edge is 0.2
-// of one of 1200 pixels, 6e-3 of so small a picture: the mark is for all pictures as if they were
+// of one of 768 pixels, 7e-3 of so small a picture: the mark is for all pictures as if they were
 // one large one.
 class Differences {
 public:

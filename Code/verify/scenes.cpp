@@ -23,8 +23,8 @@ class Stage {
 public:
     explicit Stage(Random& random, int samples) : random_(random) {
         SettingsDesc& settings = desc.settings;
-        settings.width = 40;
-        settings.height = 30;
+        settings.width = 32;
+        settings.height = 24;
         settings.samplesPerPixel = samples;
         settings.seed = random.below(1u << 31);
         desc.world.background = {0.2, 0.3, 0.5};

@@ -14,7 +14,7 @@ namespace scenes {
 
 struct Maker {
     const char* name;
-    SceneDesc (*make)(meshes::Random&); // 40 x 30 pixels, a few samples each; valid
+    SceneDesc (*make)(meshes::Random&); // 32 x 24 pixels, a few samples each; valid
 };
 std::span<const Maker> makers();
 
