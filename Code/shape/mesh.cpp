@@ -11,11 +11,13 @@ Vec3d crossOfEdges(Vec3 v0, Vec3 v1, Vec3 v2) {
     return cross(toDouble(v1) - toDouble(v0), toDouble(v2) - toDouble(v0));
 }
 
-// Keys of hits that count: t > tMin is key < farKey, t < tMax is key > nearKey.
+// Keys of hits that count: t > tMin is key < below, t < tMax is key > above. None for a ray that
+// ends where it starts or behind.
 struct KeyRange {
     float above, below;
     KeyRange(const RaySetup& setup, float tMin, float tMax)
-        : above(1.0f / (tMax * setup.dz)), below(1.0f / (tMin * setup.dz)) {}
+        : above(tMax > 0 ? 1.0f / (tMax * setup.dz) : kInfinityF), below(1.0f / (tMin * setup.dz)) {
+    }
     bool contains(float key) const { return key > above && key < below; }
 };
 
