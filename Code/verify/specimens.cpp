@@ -32,7 +32,7 @@ Specimen::Specimen(const ObjectDesc& what, const Transform& worldFromObject)
     : object(what), place(worldFromObject), shape(makeShape(what, place, kOneMaterial, 0)),
       exact(what, worldFromObject) {}
 
-Vec3d Specimen::surfacePoint(Random& random) const {
+Vec3d Specimen::surfacePoint(Random& random, double nearest) const {
     const double r = object.radius;
     switch (object.kind) {
     case Kind::Sphere: return place.point(random.direction() * r);
@@ -52,16 +52,23 @@ Vec3d Specimen::surfacePoint(Random& random) const {
     case Kind::Cylinder:
     case Kind::Cone: {
         const double top = object.kind == Kind::Cone ? object.topRadius : r;
+        const bool atTop = top >= nearest && random.chance(0.5);
         if (object.caps && random.chance(0.3))
-            return place.point(random.chance(0.5) ? inCircle(random, r, -1)
-                                                  : inCircle(random, top, 1));
+            return place.point(atTop ? inCircle(random, top, 1) : inCircle(random, r, -1));
         const bool nearTip = object.kind == Kind::Cone && random.chance(0.5);
-        const double fromTop = nearTip ? random.logUniform(1e-6, 2) : random.uniform(0, 2);
+        const double fromTop =
+            nearTip ? random.logUniform(min(nearest, 1.0), 2) : random.uniform(0, 2);
         return place.point(onCircle(random, top + (r - top) * fromTop / 2, 1 - fromTop));
     }
     case Kind::Mesh: break;
     }
     return {};
+}
+
+bool Specimen::isNearTip(const Ray& ray, Wide t, double nearest) const {
+    if (object.kind != Kind::Cone) return false;
+    const Vec3d p = place.inverse().point(toDouble(toWide(ray.org) + toWide(ray.dir) * t));
+    return p.x * p.x + p.y * p.y < sqr(nearest * object.radius);
 }
 
 std::string Specimen::text() const {

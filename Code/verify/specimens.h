@@ -17,8 +17,11 @@ struct Specimen {
     ExactShape exact;
 
     Specimen(const ObjectDesc& what, const Transform& worldFromObject);
-    // A point of the surface in the world; cones are met near their tip half of the time.
-    Vec3d surfacePoint(meshes::Random& random) const;
+    // A point of the surface in the world; of a cone half of the time one near its tip, as close
+    // as `nearest`, nor is a cap met that is smaller: a tip has no normal.
+    Vec3d surfacePoint(meshes::Random& random, double nearest = 1e-6) const;
+    // Is the place on the ray nearer to the axis of a cone than that?
+    bool isNearTip(const Ray& ray, Wide t, double nearest) const;
     std::string text() const; // of its kind and place, for messages
 };
 
