@@ -13,6 +13,7 @@ std::span<const Row> grazingRows();    // T15: rays all but along surfaces
 std::span<const Row> hostileRows();    // T15: triangles that are none
 std::span<const Row> badRayRows();     // T16: rays that are none
 std::span<const Row> coplanarRows();   // T18: quads in one plane
+std::span<const Row> treeRows();       // T24: trees over what builders are afraid of
 std::span<const Row> terminatorRows(); // T25: the edge of the light on coarse meshes
 
 inline constexpr std::array kGroups = {
@@ -22,6 +23,7 @@ inline constexpr std::array kGroups = {
     hostileRows,
     badRayRows,
     coplanarRows,
+    treeRows,
     terminatorRows,
 };
 

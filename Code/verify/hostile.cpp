@@ -167,7 +167,7 @@ Tally pictures(const Effort& effort) {
 
 // A tenth of the triangles more, all of them bad.
 Tally times(const Effort& effort) {
-    const SceneDesc clean = ballUnderSun(200, 101);
+    const SceneDesc clean = ballUnderSun(100, 51);
     SceneDesc dirty = clean;
     Random random(151);
     MeshDesc& mesh = dirty.meshes[0];
@@ -177,14 +177,14 @@ Tally times(const Effort& effort) {
         const MeshDesc::Corners c = mesh.triangles[random.below(count)];
         addTriangle(mesh, mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]]);
     }
-    const int turns = static_cast<int>(clamp(4 * effort.factor, 4.0, 100.0));
+    const int turns = static_cast<int>(clamp(12 * effort.factor, 12.0, 200.0));
     Tally tally;
     tally.cases = mesh.triangles.size();
     Stats stats;
     tally.measure(timeRatio(
                       turns, [&] { rendered(dirty, AccelKind::Bvh, stats); },
                       [&] { rendered(clean, AccelKind::Bvh, stats); }),
-                  [] { return std::string("a ball of 40,000 triangles"); });
+                  [] { return std::string("a ball of 10,000 triangles"); });
     return tally;
 }
 
