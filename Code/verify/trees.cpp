@@ -107,20 +107,25 @@ Ray someRay(Random& random, const Triangles& triangles) {
     return {toFloat(from), toFloat(target + random.inBox(size * 0.5) - from)};
 }
 
-constexpr int kRays = 30;
+bool agree(const Mesh& a, const Mesh& b, const Ray& ray) {
+    Hit atA, atB;
+    return a.intersect(ray, atA) == b.intersect(ray, atB) && atA == atB &&
+           a.occludes(ray) == b.occludes(ray);
+}
 
+// Of at most 1e5 triangles, as each ray has to try them all; T24d compares a few rays of all sizes.
 Tally hits(const Effort& effort) {
+    const std::size_t count = std::min<std::size_t>(triangleCount(effort), 100000);
+    const int rays = static_cast<int>(30 * clamp(effort.factor / 10, 1.0, 100.0));
     return inSets(effort, 240, [&](const HostileTree& set, Random& random, Tally& tally) {
-        const Triangles triangles = set.make(random, triangleCount(effort));
+        const Triangles triangles = set.make(random, count);
         const MeshGeometry tree = meshes::geometryOf(triangles, true);
         const MeshGeometry list = meshes::geometryOf(triangles, false);
         const Mesh withTree(tree, {}, {0}, {{0, 0}}), without(list, {}, {0}, {{0, 0}});
-        for (int i = 0; i < kRays; ++i) {
+        for (int i = 0; i < rays; ++i) {
             const Ray ray = someRay(random, triangles);
-            Hit a, b;
             ++tally.cases;
-            if (withTree.intersect(ray, a) != without.intersect(ray, b) || a != b ||
-                withTree.occludes(ray) != without.occludes(ray))
+            if (!agree(withTree, without, ray))
                 tally.fail([&] { return cat(set.name, ", ray ", textOf(ray)); });
         }
     });
@@ -154,7 +159,11 @@ Tally traceTimes(const Effort& effort) {
         const MeshGeometry list = meshes::geometryOf(triangles, false);
         const Mesh withTree(tree, {}, {0}, {{0, 0}}), without(list, {}, {0}, {{0, 0}});
         std::vector<Ray> rays;
-        for (int i = 0; i < kRays / 5; ++i) rays.push_back(someRay(random, triangles));
+        for (int i = 0; i < 6; ++i) {
+            rays.push_back(someRay(random, triangles));
+            if (!agree(withTree, without, rays.back()))
+                tally.fail([&] { return cat(set.name, ", ray ", textOf(rays.back())); });
+        }
         const auto trace = [&](const Mesh& mesh) {
             for (const Ray& ray : rays) {
                 Hit hit;
