@@ -19,19 +19,19 @@ std::string grouped(std::uint64_t count) {
     return digits;
 }
 
-std::string short3(double value) {
+std::string shortened(double value) {
     char text[32];
-    std::snprintf(text, sizeof text, "%.3g", value);
+    std::snprintf(text, sizeof text, "%.4g", value);
     return text;
 }
 
 std::string worstOf(const Row& row, const Tally& tally) {
     std::string out = grouped(tally.failures) + " failed";
-    if (*row.unit) out += cat(", ", short3(tally.worst), " ", row.unit);
+    if (*row.unit) out += cat(", ", shortened(tally.worst), " ", row.unit);
     return out;
 }
 std::string markOf(const Row& row) {
-    return *row.unit ? cat("0, ", short3(row.limit)) : std::string("0");
+    return *row.unit ? cat("0, ", shortened(row.limit)) : std::string("0");
 }
 
 std::string padded(std::string text, std::size_t width) {
