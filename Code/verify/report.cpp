@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 namespace battery {
 
@@ -61,13 +62,37 @@ std::string reportLine(const Row& row, const Tally& tally, double seconds) {
     return out;
 }
 
-std::string markdownTable(std::span<const Finding> findings) {
-    std::string out = "| test | what | cases | found | mark | verdict | others |\n"
-                      "|---|---|---:|---|---|---|---|\n";
+std::string markdownPage(std::span<const Finding> findings, std::string_view version,
+                         double effort) {
+    const auto isOk = [](const Finding& f) { return passed(f.row, f.tally); };
+    const auto kept = std::count_if(findings.begin(), findings.end(), isOk);
+    std::string out = cat(
+        "# The stress battery\n\n"
+        "What the program promises, as numbers that anybody can make again: `make stress` writes "
+        "this page\n(raytracer ",
+        version, ", effort ", shortest(effort),
+        "), `raytracer verify` runs the quick tests in less than a minute, and `make test`\n"
+        "runs all of them at effort 1. The cases are the same on every machine and for any number "
+        "of threads. ",
+        kept, " of ", findings.size(),
+        " tests keep\ntheir marks.\n\n"
+        "\"Found\" has the broken rules first, then the largest distance from the truth, which "
+        "comes from outside of the\nprogram: closed forms, exact or wider arithmetic, brute "
+        "force. \"Mark\" is what may be found. \"Others\" is what was\nmeasured of other "
+        "programs with cases of the same kind, where there is something.\n\n"
+        "| test | what | cases | found | mark | verdict | others |\n"
+        "|---|---|---:|---|---|---|---|\n");
     for (const Finding& f : findings)
         out += cat("| ", f.row.id, " | ", f.row.what, " | ", grouped(f.tally.cases), " | ",
                    worstOf(f.row, f.tally), " | ", markOf(f.row), " | ",
-                   passed(f.row, f.tally) ? "ok" : "**failed**", " | ", f.row.peers, " |\n");
+                   isOk(f) ? "ok" : "**failed**", " | ", f.row.peers, " |\n");
+    out += "\n## The worst cases\n\n"
+           "`raytracer verify TEST --batch N` runs the batch of a case again, alone.\n\n"
+           "| test | case |\n|---|---|\n";
+    for (const Finding& f : findings)
+        for (const auto& [what, text] :
+             {std::pair("failed: ", &f.tally.failedCase), std::pair("", &f.tally.worstCase)})
+            if (!text->empty()) out += cat("| ", f.row.id, " | ", what, *text, " |\n");
     return out;
 }
 
