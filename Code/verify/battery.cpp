@@ -41,7 +41,7 @@ Tally& Tally::operator+=(const Tally& other) {
     cases += other.cases;
     if (failures == 0) failedCase = other.failedCase;
     failures += other.failures;
-    if (!(other.worst <= worst)) {
+    if (isWorse(other.worst)) {
         worst = other.worst;
         worstCase = other.worstCase;
     }

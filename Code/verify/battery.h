@@ -35,10 +35,12 @@ struct Tally {
         if (failures++ == 0) failedCase = text();
     }
     template <class MakeText> void measure(double value, MakeText&& text) {
-        if (value <= worst) return; // NaN is worse than anything
+        if (!isWorse(value)) return;
         worst = value;
         worstCase = text();
     }
+    // Than what was found so far. NaN is worse than any number.
+    bool isWorse(double value) const { return worst == worst && !(value <= worst); }
     Tally& operator+=(const Tally& other);
 };
 

@@ -42,7 +42,7 @@ std::string padded(std::string text, std::size_t width) {
 std::string line(const std::string& id, const std::string& what, const std::string& cases,
                  const std::string& worst, const std::string& mark, const std::string& verdict) {
     const std::size_t room = 15;
-    return cat(padded(id, 5), padded(what, 58),
+    return cat(padded(id, 5), padded(what, 62),
                std::string(room - std::min(room, cases.size()), ' '), cases, "  ",
                padded(worst, 34), padded(mark, 10), verdict, "\n");
 }
