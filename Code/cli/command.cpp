@@ -1,5 +1,6 @@
 #include "cli/command.h"
 
+#include "cli/bench.h"
 #include "cli/diff.h"
 #include "cli/help.h"
 #include "cli/output.h"
@@ -24,6 +25,8 @@ ExitCode parseAndRun(const Command& self, std::span<const std::string> arguments
     return ExitCode::Ok;
 }
 
+std::vector<std::string> fileNames() { return {}; }
+
 constexpr std::array kCommands{
     Command{.name = "diff",
             .arguments = "A B",
@@ -32,7 +35,7 @@ constexpr std::array kCommands{
                      "they are apart.",
             .step = {"comparing the pictures", ExitCode::Input},
             .flags = flagsOf<DiffOptions, diffFlags>,
-            .words = [] { return std::vector<std::string>(); },
+            .words = fileNames,
             .run = parseAndRun<DiffOptions, parseDiffOptions, diff>},
     Command{.name = "verify",
             .arguments = "[TEST...]",
@@ -45,6 +48,22 @@ constexpr std::array kCommands{
             .flags = flagsOf<VerifyOptions, verifyFlags>,
             .words = verifyTests,
             .run = parseAndRun<VerifyOptions, parseVerifyOptions, verify>},
+    Command{.name = "bench",
+            .arguments = "MESH",
+            .help = "measures tree and rays of a mesh",
+            .about =
+                "Builds the tree of a mesh (.obj, .ply, or a scene with meshes) and traces rays "
+                "through it with one thread. Comma-separated lines:\n"
+                "  BUILD,mesh,engine,quality,exactness,threads,kernel,ms (median, least, of the "
+                "processor),bytes per triangle\n"
+                "  mesh,engine,quality,exactness,threads,kernel,set,rays,hits,million rays per "
+                "second (median, least, most, of the processor)\n"
+                "Sets: primary (nearest), shadow (any, from a point light), bounce (diffuse "
+                "directions, nearest), bounceany (the same, any).",
+            .step = {"tracing rays", ExitCode::Internal},
+            .flags = flagsOf<BenchOptions, benchFlags>,
+            .words = fileNames,
+            .run = parseAndRun<BenchOptions, parseBenchOptions, bench>},
 };
 
 } // namespace

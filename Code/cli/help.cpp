@@ -71,6 +71,17 @@ std::string usage(const Command& command) {
     return cat("raytracer ", command.name, " ", command.arguments, " [options]");
 }
 
+// Each line of the text wrapped by itself; blanks that it begins with are kept.
+std::string paragraphs(std::string_view text) {
+    std::string out;
+    while (!text.empty()) {
+        const std::string_view line = text.substr(0, text.find('\n'));
+        out += wrapped("", std::string(line), line.find_first_not_of(' '));
+        text.remove_prefix(std::min(line.size() + 1, text.size()));
+    }
+    return out;
+}
+
 std::string commandLines() {
     std::string out;
     for (const Command& command : commands())
@@ -107,7 +118,7 @@ std::string helpText() {
 }
 
 std::string commandHelpText(const Command& command) {
-    return cat("usage: ", usage(command), "\n\n", wrapped("", std::string(command.about), 0),
+    return cat("usage: ", usage(command), "\n\n", paragraphs(command.about),
                flagsText(command.flags()), exitCodesText());
 }
 

@@ -2,7 +2,7 @@
 // they spawn. Ray i of a batch is element i of every array.
 #pragma once
 
-#include "base/ray.h"
+#include "base/ray_span.h"
 #include "render/medium_tree.h"
 
 #include <cstddef>
@@ -19,6 +19,7 @@ struct RayBatch {
     std::size_t size() const { return org.size(); }
     bool empty() const { return org.empty(); }
     Ray ray(std::size_t i) const { return {org[i], dir[i], tMin[i], tMax[i], time[i]}; }
+    RaySpan span() const { return {org, dir, tMin, tMax, time}; }
     void push(const Ray& ray, std::uint32_t slot, Rgb rayWeight) {
         org.push_back(ray.org);
         dir.push_back(ray.dir);

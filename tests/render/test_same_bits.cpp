@@ -1,9 +1,10 @@
-// Promises P1 and P3: the picture does not depend on threads, accelerator, crop, features that are
-// not used, or the size of the scene, to the last bit; nor on its place, nearly.
+// Promises P1 and P3: the picture does not depend on threads, accelerator, kernel, crop, features
+// that are not used, or the size of the scene, to the last bit; nor on its place, nearly.
 #include "check.h"
 #include "placed_scene.h"
 #include "scenes.h"
 #include "shot.h"
+#include "verify/meshes.h"
 
 #include "image/compare.h"
 
@@ -34,6 +35,57 @@ TEST(sameBitsWithoutTree) {
     for (const auto& [name, text] : scenes::all())
         checkSame(name, "no accelerator", shot::render(text).color,
                   shot::render(text, [](RenderSettings& s) { s.accel = AccelKind::None; }).color);
+}
+
+// Meshes that stand still are one for the kernels: opaque and see-through ones, beside other
+// shapes, instances and moving meshes, with camera rays from a point and from a lens, mirrors,
+// point lights (their shadow rays share an origin) and an area light.
+TEST(sameBitsForKernels) {
+    SceneDesc desc = shot::parse("settings {\n resolution 64 48\n samples 4\n}\n"
+                                 "camera c {\n look_at 2 -6 3  0 0 0.7  0 0 1\n}\n"
+                                 "world {\n background 0.2 0.3 0.5\n}\n"
+                                 "light a {\n translate -2 -3 5\n color 40 40 35\n}\n"
+                                 "light b {\n translate 3 -2 4\n color 20 20 25\n}\n"
+                                 "light c {\n translate 0 -1 6\n radius 0.5\n color 20 20 20\n}\n"
+                                 "material mirror {\n diffuse 0.2 0.2 0.2\n mirror 0.6 0.6 0.6\n}\n"
+                                 "material veil {\n diffuse 0.6 0.2 0.2\n opacity 0.5\n}\n"
+                                 "plane floor {\n scale 6 6 1\n}\n"
+                                 "sphere s {\n translate 0.8 -1.4 0.3\n radius 0.3\n}\n");
+    const std::pair<const char*, MeshDesc> parts[] = {{"ball", meshes::icosphere(4)},
+                                                      {"ring", meshes::torus(0.3, 64, 32)},
+                                                      {"shell", meshes::uvSphere(32, 16)},
+                                                      {"box", meshes::cube()}};
+    const std::array<Vec3d, 4> places = {
+        Vec3d{-1.2, 0, 1}, {0.9, 0.6, 1}, {0.1, -1.8, 0.9}, {2.2, -0.6, 0.4}};
+    const char* materials[] = {"", "mirror", "veil", ""};
+    for (std::size_t i = 0; i < 4; ++i) {
+        ObjectDesc object;
+        object.kind = ObjectDesc::Kind::Mesh;
+        object.name = parts[i].first;
+        object.mesh = static_cast<Handle>(desc.meshes.size());
+        desc.meshes.push_back(parts[i].second);
+        desc.meshes.back().name = parts[i].first;
+        for (std::size_t m = 0; m < desc.materials.size(); ++m)
+            if (desc.materials[m].name == materials[i]) object.materials = {static_cast<Handle>(m)};
+        object.worldFromObject = {
+            (Transform::translate(places[i]) * Transform::scale(i == 3 ? 0.4 : 0.7)).rows()};
+        desc.objects.push_back(object);
+    }
+    for (const bool lens : {false, true}) {
+        desc.cameras[0].apertureRadius = lens ? 0.1 : 0;
+        desc.cameras[0].focusDistance = 6;
+        const Image scalar = shot::render(desc).color;
+        CHECK(shot::largest(scalar) > 0.2);
+        for (const Kernel& kernel : allKernels()) {
+            if (!kernel.supported()) continue;
+            const auto with = [&](RenderSettings& s) { s.kernel = kernel.name; };
+            checkSame(lens ? "lens" : "pinhole", kernel.name, scalar,
+                      shot::render(desc, with).color);
+        }
+    }
+    const auto best = [](RenderSettings& s) { s.kernel = chooseKernel("auto").name; };
+    for (const auto& [name, text] : scenes::all())
+        checkSame(name, "kernel", shot::render(text).color, shot::render(text, best).color);
 }
 
 TEST(sameBitsInCrops) {

@@ -1,8 +1,8 @@
 // Mesh and MeshGeometry: what a hit says about its point, instances, motion, broken triangles; and
 // numbers that others published for a scene.
 #include "check.h"
-#include "verify/meshes.h"
 #include "render/shape_set.h"
+#include "verify/meshes.h"
 
 #include <algorithm>
 

@@ -1,3 +1,4 @@
+#include "accel/kernels/kernels.h"
 #include "check.h"
 
 #include "base/error.h"
@@ -188,7 +189,7 @@ TEST(settings_command_line_wins_over_scene) {
     CHECK_EQUAL(settings(desc, {"--no-aa"}).picture.filterWidth, 0);
     CHECK_EQUAL(settings(desc, {"--threads=3"}).threads, 3);
     CHECK(settings(desc, {"--threads=0"}).threads >= 1);
-    CHECK_EQUAL(settings(desc, {}).kernel, "scalar");
+    CHECK_EQUAL(settings(desc, {}).kernel, std::string(chooseKernel("auto").name));
     desc.cameras.resize(2);
     desc.cameras[0].name = "front", desc.cameras[1].name = "top";
     CHECK_EQUAL(settings(desc, {"--camera=top"}).camera, "top");

@@ -2,8 +2,8 @@
 // near and far from the origin of the world.
 #include "analytic_kit.h"
 #include "check.h"
-#include "verify/meshes.h"
 #include "render/shape_set.h"
+#include "verify/meshes.h"
 
 #include <functional>
 
