@@ -2,7 +2,6 @@
 
 #include "base/text.h"
 #include "cli/bench_rays.h"
-#include "cli/help.h"
 #include "cli/output.h"
 #include "cli/version.h"
 #include "read/load.h"
@@ -116,10 +115,6 @@ BenchOptions parseBenchOptions(std::span<const std::string> arguments) {
 }
 
 ExitCode bench(const BenchOptions& options) {
-    if (options.help) {
-        writeStdout(benchHelpText());
-        return ExitCode::Ok;
-    }
     const Kernel& kernel = chooseKernel(options.kernel);
     MeshGeometry geometry = geometryOf(options.mesh);
     const std::string name = options.mesh.substr(options.mesh.find_last_of('/') + 1);

@@ -230,7 +230,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       sampler(samplerKind(theSettings.picture.sampler), theSettings.picture.samplesPerPixel,
               theSettings.picture.seed, theSettings.picture.jitter),
       wantsFirstHits(needsFirstHits(theSettings)),
-      cameraMedium(mediumOfCamera(theScene, theSettings)) {
+      cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
     for (std::size_t i = 0; i < scene.lights().size(); ++i)
         lightSamplers.push_back(
             sampler.stream(static_cast<std::uint32_t>(i) + 1, settings.picture.lightSamples));

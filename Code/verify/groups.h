@@ -20,13 +20,16 @@ std::span<const Row> grazingRows();    // T15: rays all but along surfaces
 std::span<const Row> hostileRows();    // T15: triangles that are none
 std::span<const Row> badRayRows();     // T16: rays that are none
 std::span<const Row> coplanarRows();   // T18: quads in one plane
+std::span<const Row> mediaRows();      // T19: glass in water in ice
+std::span<const Row> furnaceRows();    // T20: materials under a white sky
+std::span<const Row> lightRows();      // T21: lamps with an area against closed forms
 std::span<const Row> treeRows();       // T24: trees over what builders are afraid of
 std::span<const Row> terminatorRows(); // T25: the edge of the light on coarse meshes
 
 inline constexpr std::array kGroups = {
-    leakRows,     crackRows,      leavingRows,  contactRows, placementRows,
-    sameBitsRows, elementaryRows, shapeRows,    solverRows,  grazingRows,
-    hostileRows,  badRayRows,     coplanarRows, treeRows,    terminatorRows,
+    leakRows,       crackRows, leavingRows, contactRows, placementRows, sameBitsRows,
+    elementaryRows, shapeRows, solverRows,  grazingRows, hostileRows,   badRayRows,
+    coplanarRows,   mediaRows, furnaceRows, lightRows,   treeRows,      terminatorRows,
 };
 
 } // namespace battery
