@@ -7,9 +7,17 @@
 
 namespace battery {
 
+std::span<const Row> leakRows();       // T1 to T3: closed meshes
+std::span<const Row> crackRows();      // T4: borders that meshes share
+std::span<const Row> leavingRows();    // T5: rays that leave a surface; acne
+std::span<const Row> contactRows();    // T6: shadows where things touch
+std::span<const Row> placementRows();  // T7 to T9: the same picture at every size and place
+std::span<const Row> sameBitsRows();   // T10, T11, T17: the same bits however it is rendered
+std::span<const Row> elementaryRows(); // T12: sin, exp, pow and so on against binary128
 std::span<const Row> terminatorRows(); // T25: the edge of the light on coarse meshes
 
 inline constexpr std::array kGroups = {
+    leakRows, crackRows, leavingRows, contactRows, placementRows, sameBitsRows, elementaryRows,
     terminatorRows,
 };
 

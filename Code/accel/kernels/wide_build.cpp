@@ -102,6 +102,7 @@ public:
         nodes_.reserve(n / 2 + 64);
         leaves_.reserve(n / 4 + 64);
         splitAll(makePrims());
+        prims_.reset(), spare_.reset(); // 64 bytes a triangle, before the tree takes its place
         writeTree(tree);
         return tree;
     }
