@@ -1,6 +1,7 @@
 #!/bin/sh
 # The binary runs on any x86-64: no instruction of AVX or later outside the kernels that are chosen
-# at start (functions whose names contain avx2:: or avx512::). sh tests/leak.sh RAYTRACER
+# at start (functions whose names contain avx2:: or avx512::), and no AVX-512 (registers zmm and k) in
+# those of AVX2. sh tests/leak.sh RAYTRACER
 raytracer=${1:?usage: sh tests/leak.sh RAYTRACER}
 case $(uname -m) in
 x86_64) ;;
@@ -17,6 +18,7 @@ functions=$(grep -c '^[0-9a-f]* <.*>:$' "$listing")
 # Of what objdump shows, VEX and EVEX instructions begin with v; verr, verw and vm* do not count.
 leaks=$(awk '
     /^[0-9a-f]+ <.*>:$/ { name = $0; kernel = name ~ /avx2::|avx512::/ }
+    name ~ /avx2::/ && name !~ /avx512::/ && /%zmm|%k[0-7]/ && !(name in seen) { seen[name]; print name ": " $0 }
     !kernel && $2 ~ /^v[a-z]/ && $2 !~ /^(verr|verw|vm)/ && !(name in seen) { seen[name]; print name ": " $2 }
 ' "$listing")
 if [ "$functions" -lt 100 ]; then

@@ -1,19 +1,11 @@
 #include "cli/completion.h"
 
-#include "cli/diff.h"
+#include "cli/command.h"
 #include "cli/options.h"
 
 #include <algorithm>
 
 namespace {
-
-// The two ways to call the program, each with its table.
-struct Tables {
-    Options options;
-    DiffOptions diffOptions;
-    std::vector<Flag> main = renderFlags(options);
-    std::vector<Flag> diff = diffFlags(diffOptions);
-};
 
 std::string replaced(std::string text, std::string_view what, std::string_view with) {
     for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += with.size())
@@ -24,10 +16,19 @@ std::string replaced(std::string text, std::string_view what, std::string_view w
 // For 'single quotes' of bash and zsh.
 std::string quoteSafe(const std::string& text) { return replaced(text, "'", "'\\''"); }
 
+std::vector<std::string> commandNames() {
+    std::vector<std::string> names;
+    for (const Command& command : commands()) names.emplace_back(command.name);
+    return names;
+}
+
 // ---- bash
 
-std::string bashCases(const std::vector<Flag>& flags) {
-    std::string out = "    case $flag in\n";
+// A function that completes with a table of options, and else with the words, or file names where
+// there are none.
+std::string bashFunction(std::string_view name, const std::vector<Flag>& flags,
+                         const std::vector<std::string>& others) {
+    std::string out = cat("_raytracer_", name, "() {\n    case $flag in\n");
     for (const Flag& flag : flags) {
         if (flag.value == Flag::Value::None) continue;
         std::string action = ":"; // a value that nobody can guess: nothing is offered
@@ -41,11 +42,19 @@ std::string bashCases(const std::vector<Flag>& flags) {
                                 : action + "; return ;;",
                    "\n");
     }
-    return out + "    esac\n    [[ $word == -* ]] && { _raytracer_words '" +
-           join(flagNames(flags), " ") + "'; return; }\n    _raytracer_files -f\n";
+    return cat(out, "    esac\n    [[ $word == -* ]] && { _raytracer_words '",
+               join(flagNames(flags), " "), "'; return; }\n    ",
+               others.empty() ? "_raytracer_files -f"
+                              : cat("_raytracer_words '", join(others, " "), "'"),
+               "\n}\n");
 }
 
-std::string bashScript(const Tables& tables) {
+std::string bashScript(const std::vector<Flag>& flags) {
+    std::string functions, cases;
+    for (const Command& command : commands()) {
+        functions += bashFunction(command.name, command.flags(), command.words());
+        cases += cat("        ", command.name, ") _raytracer_", command.name, "; return ;;\n");
+    }
     return cat(R"(# Completion of raytracer for bash; made by: raytracer --completion bash
 _raytracer_words() {
     # In a list with commas the last word is completed.
@@ -57,10 +66,8 @@ _raytracer_files() {
     compopt -o filenames 2>/dev/null
     mapfile -t COMPREPLY < <(compgen "$1" -- "$word")
 }
-_raytracer_main() {
 )",
-               bashCases(tables.main), "}\n_raytracer_diff() {\n", bashCases(tables.diff), R"(}
-_raytracer() {
+               bashFunction("main", flags, {}), functions, R"(_raytracer() {
     local word=${COMP_WORDS[COMP_CWORD]} flag=${COMP_WORDS[COMP_CWORD-1]} attached=
     COMPREPLY=()
     # bash makes three words of --flag=value.
@@ -69,12 +76,17 @@ _raytracer() {
     elif [[ $flag == = ]]; then
         flag=${COMP_WORDS[COMP_CWORD-2]} attached=1
     fi
-    if [[ ${COMP_WORDS[1]} == diff && $COMP_CWORD -gt 1 ]]; then
-        _raytracer_diff
-    else
-        _raytracer_main
-        [[ $COMP_CWORD == 1 && diff == "$word"* ]] && COMPREPLY+=(diff)
+    if [[ $COMP_CWORD -gt 1 ]]; then
+        case ${COMP_WORDS[1]} in
+)",
+               cases, R"(        esac
     fi
+    _raytracer_main
+    # The first word may be one of the commands as well.
+    [[ $COMP_CWORD == 1 ]] && mapfile -t -O ${#COMPREPLY[@]} COMPREPLY < \
+        <(compgen -W ')",
+               join(commandNames(), " "), R"(' -- "$word")
+    return 0
 }
 complete -F _raytracer raytracer
 )");
@@ -113,22 +125,29 @@ std::string zshSpecs(const std::vector<Flag>& flags) {
     return out;
 }
 
-std::string zshScript(const Tables& tables) {
+std::string zshScript(const std::vector<Flag>& flags) {
+    std::string cases;
+    for (const Command& command : commands()) {
+        const std::vector<std::string> words = command.words();
+        cases += cat("        ", command.name,
+                     ")\n        shift words\n        (( CURRENT-- ))\n        _arguments -S \\\n",
+                     zshSpecs(command.flags()),
+                     words.empty() ? "        '*:file:_files'\n"
+                                   : cat("        '*:word:(", join(words, " "), ")'\n"),
+                     "        return ;;\n");
+    }
     return cat(R"(#compdef raytracer
 # Completion of raytracer for zsh; made by: raytracer --completion zsh
 _raytracer() {
-    if [[ $words[2] == diff && $CURRENT -gt 2 ]]; then
-        shift words
-        (( CURRENT-- ))
-        _arguments -S \
+    if (( CURRENT > 2 )); then
+        case $words[2] in
 )",
-               zshSpecs(tables.diff), R"(        '1:picture:_files' '2:picture:_files'
-    else
-        _arguments -S \
-)",
-               zshSpecs(tables.main),
-               R"(        '1:scene or diff:{ compadd diff; _files }' '2:picture:_files'
+               cases, R"(        esac
     fi
+    _arguments -S \
+)",
+               zshSpecs(flags), "        '1:scene or command:{ compadd ", join(commandNames(), " "),
+               R"(; _files }' '2:picture:_files'
 }
 if [[ $funcstack[1] == _raytracer ]]; then _raytracer "$@"; else compdef _raytracer raytracer; fi
 )");
@@ -136,10 +155,14 @@ if [[ $funcstack[1] == _raytracer ]]; then _raytracer "$@"; else compdef _raytra
 
 // ---- fish
 
+std::string quoteSafeForFish(const std::string& text) {
+    return replaced(replaced(text, "\\", "\\\\"), "'", "\\'");
+}
+
 std::string fishLines(const std::vector<Flag>& flags, const std::string& condition) {
     std::string out;
     for (const Flag& flag : flags) {
-        const std::string help = replaced(replaced(flag.help, "\\", "\\\\"), "'", "\\'");
+        const std::string help = quoteSafeForFish(flag.help);
         const auto line = [&](const std::string& name, const std::string& rest) {
             out += cat("complete -c raytracer -n '", condition, "' -l ", name.substr(2),
                        flag.alias.empty() || name != flag.name ? "" : " -s " + flag.alias.substr(1),
@@ -163,19 +186,27 @@ std::string fishLines(const std::vector<Flag>& flags, const std::string& conditi
     return out;
 }
 
-std::string fishScript(const Tables& tables) {
-    return cat(
-        "# Completion of raytracer for fish; made by: raytracer --completion fish\n",
-        fishLines(tables.main, "not __fish_seen_subcommand_from diff"),
-        "complete -c raytracer -n '__fish_use_subcommand' -a diff -d 'compares two pictures'\n",
-        fishLines(tables.diff, "__fish_seen_subcommand_from diff"));
+std::string fishScript(const std::vector<Flag>& flags) {
+    std::string out =
+        cat("# Completion of raytracer for fish; made by: raytracer --completion fish\n",
+            fishLines(flags, "not __fish_seen_subcommand_from " + join(commandNames(), " ")));
+    for (const Command& command : commands()) {
+        const std::string isThis = cat("__fish_seen_subcommand_from ", command.name);
+        out += cat("complete -c raytracer -n '__fish_use_subcommand' -a ", command.name, " -d '",
+                   quoteSafeForFish(std::string(command.help)), "'\n",
+                   fishLines(command.flags(), isThis));
+        if (const auto words = command.words(); !words.empty())
+            out += cat("complete -c raytracer -f -n '", isThis, "' -a '", join(words, " "), "'\n");
+    }
+    return out;
 }
 
 } // namespace
 
 std::string completionScript(const std::string& shell) {
-    const Tables tables;
-    if (shell == "zsh") return zshScript(tables);
-    if (shell == "fish") return fishScript(tables);
-    return bashScript(tables);
+    Options unused;
+    const std::vector<Flag> flags = renderFlags(unused);
+    if (shell == "zsh") return zshScript(flags);
+    if (shell == "fish") return fishScript(flags);
+    return bashScript(flags);
 }

@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "cli/help.h"
 #include "cli/output.h"
 #include "image/compare.h"
 
@@ -104,10 +103,6 @@ DiffOptions parseDiffOptions(std::span<const std::string> arguments) {
 }
 
 ExitCode diff(const DiffOptions& options) {
-    if (options.help) {
-        writeStdout(diffHelpText());
-        return ExitCode::Ok;
-    }
     if (!options.output.empty()) checkWritable(options.output);
     const Image a(options.first), b(options.second);
     if (a.width() != b.width() || a.height() != b.height())

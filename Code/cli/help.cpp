@@ -1,9 +1,7 @@
 #include "cli/help.h"
 
-#include "cli/diff.h"
 #include "cli/exit_codes.h"
 #include "cli/options.h"
-#include "cli/verify.h"
 #include "cli/version.h"
 
 #include <algorithm>
@@ -24,27 +22,31 @@ std::string heading(const Flag& flag) {
     return text;
 }
 
-// "left" and the words of `right` in a column of their own, wrapped at kColumns.
-std::string twoColumns(const std::string& left, const std::string& right) {
-    std::string out, line = "  " + left;
-    if (line.size() + 2 > kHelpColumn) {
-        out = line + "\n";
-        line.clear();
-    }
-    line.resize(kHelpColumn, ' ');
-    std::istringstream words(right);
+// `line` and the words of the text after it, wrapped at kColumns; lines after the first begin with
+// as many blanks as `column`.
+std::string wrapped(std::string line, const std::string& text, std::size_t column) {
+    std::string out;
+    line.resize(column, ' ');
+    std::istringstream words(text);
     std::string word;
     bool first = true;
     while (words >> word) {
         if (!first && line.size() + 1 + word.size() > kColumns) {
             out += line + "\n";
-            line = std::string(kHelpColumn, ' ');
+            line = std::string(column, ' ');
             first = true;
         }
         line += (first ? "" : " ") + word;
         first = false;
     }
     return out + line + "\n";
+}
+
+// "left" and the words of `right` in a column of their own.
+std::string twoColumns(const std::string& left, const std::string& right) {
+    const std::string line = "  " + left;
+    if (line.size() + 2 <= kHelpColumn) return wrapped(line, right, kHelpColumn);
+    return line + "\n" + wrapped("", right, kHelpColumn);
 }
 
 // Groups in the order in which the table has them.
@@ -65,19 +67,36 @@ std::string exitCodesText() {
     return out;
 }
 
+std::string usage(const Command& command) {
+    return cat("raytracer ", command.name, " ", command.arguments, " [options]");
+}
+
+// Each line of the text wrapped by itself; blanks that it begins with are kept.
+std::string paragraphs(std::string_view text) {
+    std::string out;
+    while (!text.empty()) {
+        const std::string_view line = text.substr(0, text.find('\n'));
+        out += wrapped("", std::string(line), line.find_first_not_of(' '));
+        text.remove_prefix(std::min(line.size() + 1, text.size()));
+    }
+    return out;
+}
+
+std::string commandLines() {
+    std::string out;
+    for (const Command& command : commands())
+        out += twoColumns(usage(command),
+                          cat(command.help, "; see raytracer ", command.name, " --help"));
+    return out;
+}
+
 } // namespace
 
 std::string helpText() {
     Options unused;
     std::string out = cat(
         "raytracer ", kVersion, ": renders a scene file to a picture\n\n", "usage:\n",
-        "  raytracer SCENE [OUTPUT] [options]\n",
-        twoColumns("raytracer diff A B [options]",
-                   "compares two pictures; see raytracer diff --help"),
-        twoColumns("raytracer verify [TEST...] [options]",
-                   "tests the numbers behind the pictures on this machine; see raytracer verify "
-                   "--help"),
-        "\n",
+        "  raytracer SCENE [OUTPUT] [options]\n", commandLines(), "\n",
         "SCENE is a .txt file in the native format (- for such text on stdin), a COMP 557 scene\n"
         "(.json), a Neutral File Format scene (.nff), or a mesh by itself (.obj, .ply). OUTPUT is\n"
         "a .ppm, .png or .pfm file, or - for a PPM on stdout; left out, it is Output/SCENE.ppm.\n"
@@ -98,23 +117,9 @@ std::string helpText() {
     return out;
 }
 
-std::string diffHelpText() {
-    DiffOptions unused;
-    return cat(
-        "usage: raytracer diff A B [options]\n\n"
-        "Compares two pictures (.ppm, .png, .pfm) of the same size and prints how far they are "
-        "apart.\n",
-        flagsText(diffFlags(unused)), exitCodesText());
-}
-
-std::string verifyHelpText() {
-    VerifyOptions unused;
-    return cat("usage: raytracer verify [TEST...] [options]\n\n"
-               "Runs the stress battery on this machine: rays against closed meshes, shapes against "
-               "wide\narithmetic, lamps and materials against formulas. A line per test; exit code ",
-               static_cast<int>(ExitCode::Internal), " when\none does not keep its mark. Without "
-               "TEST all quick ones; the same cases on every machine.\n",
-               flagsText(verifyFlags(unused)), exitCodesText());
+std::string commandHelpText(const Command& command) {
+    return cat("usage: ", usage(command), "\n\n", paragraphs(command.about),
+               flagsText(command.flags()), exitCodesText());
 }
 
 std::string featureListText() {

@@ -1,12 +1,10 @@
 // The texts that describe the command line, made from the tables of options.
 #pragma once
 
-#include "cli/flag.h"
+#include "cli/command.h"
 
-#include <span>
 #include <string>
 
-std::string helpText();        // raytracer --help
-std::string diffHelpText();    // raytracer diff --help
-std::string verifyHelpText();  // raytracer verify --help
-std::string featureListText(); // raytracer --list-features
+std::string helpText();                              // raytracer --help
+std::string commandHelpText(const Command& command); // raytracer NAME --help
+std::string featureListText();                       // raytracer --list-features

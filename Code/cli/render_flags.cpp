@@ -1,6 +1,7 @@
 // The table of options of `raytracer SCENE [OUTPUT]`: a new option is a new row here.
 #include "cli/options.h"
 
+#include "accel/kernels/kernels.h"
 #include "cli/method_names.h"
 #include "desc/properties.h"
 #include "image/image.h"
@@ -276,7 +277,8 @@ void addMethodFlags(std::vector<Flag>& flags, Options& o) {
                    o.accel = v.on ? AccelKind::Bvh : AccelKind::None;
                },
                .negatable = true});
-    const std::vector<std::string> kernels = {"auto", "scalar"};
+    std::vector<std::string> kernels = kernelNames();
+    kernels.insert(kernels.begin(), "auto");
     group.add({.name = "--kernel", .argument = join(kernels, "|"),
                .help = "machine code for the search; the picture is the same (auto)",
                .set = [&o, kernels](const FlagValue& v) { o.kernel = kernels[v.choice(kernels)]; },

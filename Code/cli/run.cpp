@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "cli/command.h"
 #include "cli/completion.h"
-#include "cli/diff.h"
 #include "cli/help.h"
 #include "cli/info.h"
 #include "cli/interrupt.h"
@@ -15,8 +15,6 @@
 #include "cli/settings_from.h"
 #include "cli/stats_output.h"
 #include "cli/terminal.h"
-#include "cli/verify.h"
-#include "cli/verify.h"
 #include "cli/version.h"
 #include "desc/write_txt.h"
 #include "read/load.h"
@@ -234,14 +232,9 @@ ExitCode runScene(const Options& options, Step& step) {
 
 ExitCode run(std::span<const std::string> arguments, Step& step) {
     handleInterrupts();
-    if (!arguments.empty() && arguments[0] == "diff") {
-        const DiffOptions options = parseDiffOptions(arguments.subspan(1));
-        step = {"comparing the pictures", ExitCode::Input};
-        return diff(options);
-    }
-    if (!arguments.empty() && arguments[0] == "verify") {
-        step = {"verifying", ExitCode::Internal};
-        return verify(parseVerifyOptions(arguments.subspan(1)));
+    if (const Command* command = arguments.empty() ? nullptr : commandNamed(arguments[0])) {
+        step = command->step;
+        return command->run(*command, arguments.subspan(1));
     }
     const Options options = parseOptions(arguments);
     switch (options.action) {

@@ -1,5 +1,6 @@
 #include "cli/settings_from.h"
 
+#include "accel/kernels/kernels.h"
 #include "base/parallel.h"
 #include "base/text.h"
 #include "image/image.h"
@@ -103,7 +104,7 @@ RenderSettings settingsFrom(const SceneDesc& desc, const Options& options) {
     settings.switches = options.switches;
     settings.integrator = options.integrator;
     settings.accel = options.accel;
-    settings.kernel = options.kernel == "auto" ? "scalar" : options.kernel;
+    settings.kernel = chooseKernel(options.kernel).name;
     settings.threads = options.threads > 0 ? options.threads : hardwareThreads();
     settings.background = options.background;
     settings.aovs = options.aovs;

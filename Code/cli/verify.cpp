@@ -3,13 +3,13 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "base/text.h"
-#include "cli/help.h"
 #include "cli/output.h"
 #include "cli/version.h"
 #include "verify/report.h"
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 
 namespace {
 
@@ -20,29 +20,26 @@ double secondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::vector<Row> chosenRows(const VerifyOptions& options) {
-    std::vector<Row> chosen;
-    std::vector<std::string> known;
-    for (const Row& row : battery::rows()) {
-        known.emplace_back(row.id);
-        const bool named =
-            std::find(options.tests.begin(), options.tests.end(), row.id) != options.tests.end();
-        if (named || (options.tests.empty() && (options.all || row.quick))) chosen.push_back(row);
-    }
-    for (const std::string& name : options.tests)
-        if (std::find(known.begin(), known.end(), name) == known.end())
-            failUsage("unknown test " + unknownName(name, known));
-    return chosen;
+// By its id, or with T19 for all of T19a, T19b ...
+bool isNamed(const Row& row, std::string_view name) {
+    const std::string_view id = row.id;
+    if (name.size() < 2 || !id.starts_with(name)) return false;
+    return id.size() == name.size() || id[name.size()] < '0' || id[name.size()] > '9';
 }
 
-std::string page(const VerifyOptions& options, std::span<const Finding> findings) {
-    return cat("# The stress battery\n\n"
-               "Made by `make stress` (raytracer ",
-               kVersion, ", effort ", shortest(options.effort),
-               "). \"Found\" counts broken rules first, then the worst distance from the truth "
-               "in its unit; \"mark\" is what may be found. \"Others\" are measurements of other "
-               "programs with the same kind of rays, where there are any.\n\n",
-               battery::markdownTable(findings));
+std::vector<Row> chosenRows(const VerifyOptions& options) {
+    const std::vector<Row> all = battery::rows();
+    for (const std::string& name : options.tests)
+        if (std::none_of(all.begin(), all.end(),
+                         [&](const Row& row) { return isNamed(row, name); }))
+            failUsage("unknown test " + unknownName(name, verifyTests()));
+    std::vector<Row> chosen;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(chosen), [&](const Row& row) {
+        if (options.tests.empty()) return row.quick || options.all || options.list;
+        return std::any_of(options.tests.begin(), options.tests.end(),
+                           [&](const std::string& name) { return isNamed(row, name); });
+    });
+    return chosen;
 }
 
 } // namespace
@@ -66,6 +63,14 @@ std::vector<Flag> verifyFlags(VerifyOptions& o) {
          .set = [&o](const FlagValue& v) { o.threads = v.whole(0, 1024); },
          .value = Flag::Value::Required,
          .example = "2"},
+        {.name = "--batch",
+         .alias = "-b",
+         .argument = "N",
+         .help = "only batch N of each TEST, as the line of a case names it",
+         .group = group,
+         .set = [&o](const FlagValue& v) { o.batch = v.whole(0, 1'000'000'000); },
+         .value = Flag::Value::Required,
+         .example = "7"},
         {.name = "--all",
          .help = "also the tests that take long",
          .group = group,
@@ -90,25 +95,30 @@ std::vector<Flag> verifyFlags(VerifyOptions& o) {
     };
 }
 
+std::vector<std::string> verifyTests() {
+    std::vector<std::string> ids;
+    for (const Row& row : battery::rows()) ids.emplace_back(row.id);
+    return ids;
+}
+
 VerifyOptions parseVerifyOptions(std::span<const std::string> arguments) {
     VerifyOptions options;
     options.tests = parseFlags(verifyFlags(options), arguments);
+    if (options.batch && options.tests.empty()) failUsage("--batch is for a TEST; name one");
     return options;
 }
 
 ExitCode verify(const VerifyOptions& options) {
-    if (options.help) {
-        writeStdout(verifyHelpText());
-        return ExitCode::Ok;
-    }
     const std::vector<Row> rows = chosenRows(options);
     if (options.list) {
-        for (const Row& row : rows) writeStdout(cat(row.id, "  ", row.what, "\n"));
+        for (const Row& row : rows)
+            writeStdout(cat(row.id, "  ", row.what, row.quick ? "" : " (--all)", "\n"));
         return ExitCode::Ok;
     }
     if (!options.markdown.empty()) checkWritable(options.markdown);
-    const battery::Effort effort{options.effort,
-                                 options.threads > 0 ? options.threads : hardwareThreads()};
+    battery::Effort effort{options.effort,
+                           options.threads > 0 ? options.threads : hardwareThreads()};
+    if (options.batch) effort.batch = static_cast<std::size_t>(*options.batch);
     writeStdout(battery::reportHeading());
     std::vector<Finding> findings;
     std::size_t failures = 0;
@@ -121,7 +131,7 @@ ExitCode verify(const VerifyOptions& options) {
     }
     writeStdout(cat(rows.size() - failures, " passed, ", failures, " failed\n"));
     if (!options.markdown.empty()) {
-        const std::string text = page(options, findings);
+        const std::string text = battery::markdownPage(findings, kVersion, options.effort);
         writeFileAtomically(options.markdown,
                             {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
     }

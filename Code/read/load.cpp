@@ -3,10 +3,10 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "desc/validate.h"
+#include "read/json/read_json.h"
 #include "read/mesh_files.h"
-#include "read/read_json.h"
-#include "read/read_nff.h"
-#include "read/read_txt.h"
+#include "read/nff/read_nff.h"
+#include "read/txt/read_txt.h"
 
 #include <algorithm>
 #include <array>

@@ -3,11 +3,11 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "desc/names.h"
-#include "read/mesh_scene.h"
-#include "read/read_mtl.h"
-#include "read/read_obj.h"
-#include "read/read_ply.h"
-#include "read/smooth_normals.h"
+#include "read/mesh/mesh_scene.h"
+#include "read/mesh/read_mtl.h"
+#include "read/mesh/read_obj.h"
+#include "read/mesh/read_ply.h"
+#include "read/mesh/smooth_normals.h"
 
 #include <algorithm>
 #include <array>

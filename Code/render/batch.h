@@ -2,9 +2,9 @@
 // they spawn. Ray i of a batch is element i of every array.
 #pragma once
 
-#include "base/ray.h"
+#include "base/ray_span.h"
+#include "render/medium_tree.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -19,6 +19,7 @@ struct RayBatch {
     std::size_t size() const { return org.size(); }
     bool empty() const { return org.empty(); }
     Ray ray(std::size_t i) const { return {org[i], dir[i], tMin[i], tMax[i], time[i]}; }
+    RaySpan span() const { return {org, dir, tMin, tMax, time}; }
     void push(const Ray& ray, std::uint32_t slot, Rgb rayWeight) {
         org.push_back(ray.org);
         dir.push_back(ray.dir);
@@ -34,37 +35,13 @@ struct RayBatch {
     }
 };
 
-// The transparent materials that a point is inside of, the one entered last on top.
-class MediumStack {
-public:
-    static constexpr std::uint32_t kOutside = 0xffffffffu;
-    std::uint32_t top() const { return count_ ? materials_[count_ - 1] : kOutside; }
-    // Full: stays as it is. The ray then sees the boundary's inner side as more of the same.
-    void enter(std::uint32_t material) {
-        if (count_ < materials_.size()) materials_[count_++] = material;
-    }
-    // Removes the innermost entry of the material; none there: the ray started inside, no change.
-    void leave(std::uint32_t material) {
-        for (std::size_t after = count_; after > 0; --after) {
-            if (materials_[after - 1] != material) continue;
-            for (std::size_t j = after; j < count_; ++j) materials_[j - 1] = materials_[j];
-            --count_;
-            return;
-        }
-    }
-
-private:
-    std::array<std::uint32_t, 7> materials_{};
-    std::uint32_t count_ = 0;
-};
-
 // Rays that look for surfaces; shadow rays need no more than a RayBatch.
 struct PathBatch : RayBatch {
-    std::vector<MediumStack> medium;
+    std::vector<MediumTree::Inside> medium;
     std::vector<std::uint32_t> stream;    // which random numbers: one number per branch of the tree
     std::vector<std::uint8_t> seesLights; // false: the highlight has counted the lamps already
 
-    void push(const Ray& ray, std::uint32_t slot, Rgb rayWeight, const MediumStack& inside,
+    void push(const Ray& ray, std::uint32_t slot, Rgb rayWeight, MediumTree::Inside inside,
               std::uint32_t branch, bool seesLamps) {
         RayBatch::push(ray, slot, rayWeight);
         medium.push_back(inside);

@@ -5,16 +5,17 @@
 #include <algorithm>
 #include <vector>
 
-MediumStack mediumOfCamera(const Scene& scene, const RenderSettings& settings) {
-    constexpr int kSurfaces = 64; // more are not looked at
-    MediumStack inside;
+MediumTree::Inside mediumOfCamera(const Scene& scene, const RenderSettings& settings,
+                                  MediumTree& media) {
+    constexpr int kSurfaces = 4096; // more are not looked at
     const auto transmits = [](const SceneMaterial& m) { return !isBlack(m.base.transmission); };
-    if (std::none_of(scene.materials().begin(), scene.materials().end(), transmits)) return inside;
+    if (std::none_of(scene.materials().begin(), scene.materials().end(), transmits))
+        return MediumTree::kNothing;
 
     const Vec2 lens{0.5f, 0.5f};
     Ray ray = scene.camera().ray({settings.picture.width / 2.0, settings.picture.height / 2.0},
                                  lens, 0.5f);
-    if (scene.camera().ray({0, 0}, lens, 0.5f).org != ray.org) return inside;
+    if (scene.camera().ray({0, 0}, lens, 0.5f).org != ray.org) return MediumTree::kNothing;
 
     std::vector<std::uint32_t> entered, around; // around: the innermost first
     for (int i = 0; i < kSurfaces; ++i) {
@@ -32,6 +33,8 @@ MediumStack mediumOfCamera(const Scene& scene, const RenderSettings& settings) {
         }
         ray = {leave(at.surface, -at.eye.ng), ray.dir, 0, kInfinityF, ray.time};
     }
-    std::for_each(around.rbegin(), around.rend(), [&](std::uint32_t m) { inside.enter(m); });
+    MediumTree::Inside inside = MediumTree::kNothing;
+    std::for_each(around.rbegin(), around.rend(),
+                  [&](std::uint32_t m) { inside = media.enter(inside, m); });
     return inside;
 }

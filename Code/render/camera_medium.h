@@ -1,10 +1,11 @@
 // What transparent materials the camera stands in.
 #pragma once
 
-#include "render/batch.h"
+#include "render/medium_tree.h"
 #include "render/scene.h"
 
 // The materials around the eye, found by walking along the middle of the view: a surface that is
 // left without having been entered has the eye inside. Empty for an orthographic camera, whose
 // rays start in many places, and for scenes without transmission.
-MediumStack mediumOfCamera(const Scene& scene, const RenderSettings& settings);
+MediumTree::Inside mediumOfCamera(const Scene& scene, const RenderSettings& settings,
+                                  MediumTree& media);

@@ -34,7 +34,8 @@ struct IntegratorContext {
     Sampler sampler;
     std::vector<Sampler> lightSamplers; // one stream per light
     bool wantsFirstHits;
-    MediumStack cameraMedium; // what camera rays start in
+    MediumTree media; // what camera rays start in, and room for what rays enter
+    MediumTree::Inside cameraMedium;
 
     IntegratorContext(const Scene& scene, const RenderSettings& settings);
 };
@@ -50,6 +51,7 @@ struct SampleChunk {
 // Scratch memory of one worker, kept between chunks.
 struct WaveMemory {
     PathBatch rays, next;
+    MediumTree media;
     RayBatch shadowRays;
     std::vector<Hit> hits;
     std::vector<Rgb> transmittance;

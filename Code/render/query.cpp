@@ -3,19 +3,20 @@
 #include "render/shading.h"
 
 void closest(const Scene& scene, const RayBatch& rays, std::vector<Hit>& hits) {
-    hits.resize(rays.size());
-    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = scene.shapes().closest(rays.ray(i));
+    scene.shapes().closest(rays.span(), hits);
 }
 
 void transmitted(const Scene& scene, const RayBatch& rays, std::vector<Rgb>& transmittance) {
     transmittance.resize(rays.size());
+    std::vector<std::uint8_t> hidden;
+    scene.shapes().occluded(rays.span(), hidden);
     std::vector<Hit> hits;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        const Ray ray = rays.ray(i);
         Rgb passed{1, 1, 1};
-        if (scene.shapes().occluded(ray))
+        if (hidden[i] != 0)
             passed = {};
         else if (scene.hasSeeThrough()) {
+            const Ray ray = rays.ray(i);
             hits.clear();
             scene.shapes().seeThroughHits(ray, hits);
             for (const Hit& hit : hits) passed *= straightTransmission(scene, ray, hit);

@@ -267,7 +267,7 @@ private:
     void addMerged(MergedMesh merged, ObjectDesc::Sides sides) {
         if (merged.geometry.triangles.empty()) return;
         auto geometry = std::make_unique<MeshGeometry>(std::move(merged.geometry));
-        geometry->finish(settings_.accel == AccelKind::Bvh);
+        geometry->finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel));
         scene_.degenerateCount_ += merged.degenerateCount;
         auto mesh = std::make_unique<Mesh>(*geometry, MovingTransform(), merged.materials,
                                            std::move(merged.parts));
@@ -358,6 +358,10 @@ void Scene::describe(Stats& stats) const {
     addTree(shapes_.bvh);
     for (const auto& geometry : geometries_) {
         addTree(geometry->bvh);
+        stats.accel.nodes += geometry->wide.nodes;
+        stats.accel.leaves += geometry->wide.leaves;
+        stats.accel.sah += geometry->wide.sah;
+        stats.accel.bytes += geometry->wide.bytes();
         stats.accel.primitives += geometry->triangles.size();
         stats.accel.triangles += geometry->triangles.size();
         stats.accel.meshBytes += geometry->bytes();

@@ -1,10 +1,11 @@
 // ShapeSet: all shapes of a scene and the top tree over them. Nearest and any-hit queries for one
-// ray; the batch queries (query.h) are loops over these.
+// ray, and for batches of rays with the same answers.
 #pragma once
 
 #include "accel/bvh.h"
 #include "shape/shape.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -23,15 +24,28 @@ struct ShapeSet {
     void add(std::unique_ptr<const Shape> shape, Shadow shadow);
     // Call once after the last add().
     void finish(bool withBvh);
+    // Shapes that are faster for batches; the batch queries ask them first.
+    std::vector<std::uint32_t> batched;
 
     // The hit with the smallest (t, shape) in (tMin, tMax]; Hit::isHit() tells if there is one.
     // t is at least the entry into the shape's own box, so that no tree can change the answer.
     Hit closest(const Ray& ray) const;
     // Is an opaque shape in (tMin, tMax)?
     bool occluded(const Ray& ray) const;
+    // The same for all rays of a batch.
+    void closest(const RaySpan& rays, std::vector<Hit>& hits) const;
+    void occluded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;
     // Appends every hit of the see-through shapes in (tMin, tMax), nearest first, ties by number.
     void seeThroughHits(const Ray& ray, std::vector<Hit>& hits) const;
 
 private:
-    template <class VisitFn> void visit(const RaySetup& setup, float zCut, VisitFn&& fn) const;
+    // Which shapes a query still has to ask.
+    enum class Ask : std::uint8_t { All, ButBatched };
+    template <class VisitFn>
+    void visit(const RaySetup& setup, float zCut, Ask ask, VisitFn&& fn) const;
+    void visitNearer(const Ray& ray, const RaySetup& setup, Ask ask, Hit& best) const;
+    bool isHidden(const Ray& ray, const RaySetup& setup, Ask ask) const;
+    bool isBatched(std::uint32_t number) const {
+        return std::find(batched.begin(), batched.end(), number) != batched.end();
+    }
 };

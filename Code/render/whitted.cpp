@@ -19,6 +19,7 @@ public:
 
     void run(std::uint64_t& cameraHits) {
         memory_.rays = chunk_.cameraRays;
+        memory_.media = context_.media;
         counts_.camera += memory_.rays.size();
         for (int depth = 0; !memory_.rays.empty(); ++depth) {
             closest(scene_, memory_.rays, memory_.hits);
@@ -145,20 +146,18 @@ private:
             u = context_.sampler.get2D(stream, chunk_.ids[slot].index,
                                        dimension(depth, BounceSlot::BsdfUv));
 
-        const MediumStack before = rays.medium[i];
-        MediumStack after = before;
-        if (at.front)
-            after.enter(at.materialId);
-        else
-            after.leave(at.materialId);
-        const bool startedInside = !at.front && before.top() == MediumStack::kOutside;
-        const float iorHere = startedInside ? material.ior : iorOf(before.top());
-        const float eta = iorHere / iorOf(after.top());
+        MediumTree& media = memory_.media;
+        const MediumTree::Inside before = rays.medium[i];
+        const MediumTree::Inside after =
+            at.front ? media.enter(before, at.materialId) : media.leave(before, at.materialId);
+        const bool startedInside = !at.front && before == MediumTree::kNothing;
+        const float iorHere = startedInside ? material.ior : iorOf(media.top(before));
+        const float eta = iorHere / iorOf(media.top(after));
 
         const Bounces out = bounces(material, at.eye.n, at.eye.ng, at.toEye, eta, u);
         // A rough surface's highlight has counted the lamps; a sharp mirror shows their bodies.
         const bool seesLights = material.roughness <= 0 || isBlack(material.specular);
-        const auto spawn = [&](const Bounce& bounce, Vec3 side, const MediumStack& medium,
+        const auto spawn = [&](const Bounce& bounce, Vec3 side, MediumTree::Inside medium,
                                std::uint32_t branch, std::uint64_t& counter) {
             const Rgb spawned = weight * bounce.weight;
             if (!worthTracing(spawned)) return;
@@ -171,7 +170,7 @@ private:
     }
 
     float iorOf(std::uint32_t material) const {
-        return material == MediumStack::kOutside ? 1.0f : scene_.materials()[material].base.ior;
+        return material == MediumTree::kOutside ? 1.0f : scene_.materials()[material].base.ior;
     }
 
     const IntegratorContext& context_;

@@ -99,10 +99,15 @@ std::uint64_t MeshGeometry::dropDegenerate() {
     return withoutArea;
 }
 
-void MeshGeometry::finish(bool withBvh) {
+void MeshGeometry::finish(bool withTree, const Kernel& forKernel) {
     extent = 0;
     for (const Vec3 p : points) extent = max(maxAbs(p), extent);
-    if (!withBvh) return;
+    if (!withTree || triangles.empty()) return;
+    if (forKernel.width > 0) {
+        kernel = &forKernel;
+        wide = buildWide(forKernel.width, points, triangles);
+        return;
+    }
     {
         std::vector<Bounds> boxes(triangles.size());
         for (std::size_t i = 0; i < triangles.size(); ++i)
@@ -113,9 +118,10 @@ void MeshGeometry::finish(bool withBvh) {
 }
 
 std::size_t MeshGeometry::bytes() const {
-    return bvh.bytes() + points.size() * sizeof(Vec3) + triangles.size() * sizeof(Corners) +
-           normals.size() * sizeof(Vec3) + normalTriangles.size() * sizeof(Corners) +
-           uvs.size() * sizeof(Vec2) + uvTriangles.size() * sizeof(Corners) + slots.size() * 4;
+    return bvh.bytes() + wide.bytes() + points.size() * sizeof(Vec3) +
+           triangles.size() * sizeof(Corners) + normals.size() * sizeof(Vec3) +
+           normalTriangles.size() * sizeof(Corners) + uvs.size() * sizeof(Vec2) +
+           uvTriangles.size() * sizeof(Corners) + slots.size() * 4;
 }
 
 Mesh::Mesh(const MeshGeometry& geometry, MovingTransform worldFromObject,
@@ -160,6 +166,7 @@ float Mesh::keyOf(const RaySetup& setup, std::uint32_t triangle) const {
 template <class LeafFn>
 void Mesh::forEachTriangle(const RaySetup& setup, float zCut, LeafFn&& leaf) const {
     if (!geometry_.bvh.nodes.empty()) return traverse(geometry_.bvh, setup, zCut, leaf);
+    if (!geometry_.wide.isEmpty()) return traverse(geometry_.wide, setup, zCut, leaf);
     for (std::uint32_t i = 0; i < geometry_.triangles.size(); ++i)
         if (leaf(i, zCut)) return;
 }
@@ -206,6 +213,28 @@ bool Mesh::occludes(const Ray& worldRay) const {
         return found;
     });
     return found;
+}
+
+void Mesh::intersectBatch(const RaySpan& rays, std::uint32_t number, std::span<Hit> hits) const {
+    if (!takesBatches()) return Shape::intersectBatch(rays, number, hits);
+    thread_local std::vector<TriangleHit> found;
+    found.resize(rays.size());
+    closestHits(*geometry_.kernel, geometry_.wideMesh(), rays, found);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        hits[i] = {.t = rays.tMax[i]};
+        if (found[i].triangle == TriangleHit::kNone) continue;
+        const auto& c = geometry_.triangles[found[i].triangle];
+        const Vec2 uv =
+            barycentrics(RaySetup(rays.org[i], rays.dir[i], geometry_.extent),
+                         geometry_.points[c[0]], geometry_.points[c[1]], geometry_.points[c[2]]);
+        hits[i] = {
+            .t = found[i].t, .u = uv.x, .v = uv.y, .prim = found[i].triangle, .shape = number};
+    }
+}
+
+void Mesh::occludesBatch(const RaySpan& rays, std::span<std::uint8_t> hidden) const {
+    if (!takesBatches()) return Shape::occludesBatch(rays, hidden);
+    anyHits(*geometry_.kernel, geometry_.wideMesh(), rays, hidden);
 }
 
 void Mesh::collect(const Ray& worldRay, std::vector<Hit>& hits) const {

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "accel/bvh.h"
+#include "accel/kernels/kernels.h"
 #include "base/motion.h"
 #include "shape/shape.h"
 
@@ -20,15 +21,20 @@ struct MeshGeometry {
     std::vector<Vec2> uvs;
     std::vector<Corners> uvTriangles;
     std::vector<std::uint32_t> slots; // material slot per triangle; empty: all 0
-    Bvh bvh;                          // empty: every triangle is tested (--accel none)
-    float extent = 0;                 // largest |coordinate| of a point
+    // At most one of the trees; both empty: every triangle is tested (--accel none).
+    Bvh bvh;
+    WideTree wide;                  // for the kernel
+    const Kernel* kernel = nullptr; // answers batches; null: the scalar code does
+    float extent = 0;               // largest |coordinate| of a point
 
     // Takes triangles with two corners in one place out of the lists, and returns how many have no
     // area. Those with three corners on a line stay: to a ray, whose arithmetic rounds each corner
     // by itself, such a triangle closes the gap between its neighbours.
     std::uint64_t dropDegenerate();
-    // Computes extent and, if wanted, the tree. The lists do not change afterwards.
-    void finish(bool withBvh);
+    // Computes extent and, if wanted, the tree that the kernel needs. The lists do not change
+    // afterwards.
+    void finish(bool withTree, const Kernel& forKernel = chooseKernel("scalar"));
+    WideMesh wideMesh() const { return {wide, points, triangles, extent}; }
     std::size_t bytes() const;
 };
 
@@ -51,6 +57,10 @@ public:
     bool intersect(const Ray& ray, Hit& hit) const override;
     bool occludes(const Ray& ray) const override;
     void collect(const Ray& ray, std::vector<Hit>& hits) const override;
+    bool takesBatches() const override { return identity_ && geometry_.kernel != nullptr; }
+    void intersectBatch(const RaySpan& rays, std::uint32_t number,
+                        std::span<Hit> hits) const override;
+    void occludesBatch(const RaySpan& rays, std::span<std::uint8_t> hidden) const override;
     Surface surface(const Ray& ray, const Hit& hit) const override;
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override;
 

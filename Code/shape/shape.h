@@ -10,6 +10,7 @@
 #include "base/bounds.h"
 #include "base/hit.h"
 #include "base/ray.h"
+#include "base/ray_span.h"
 
 #include <cstdint>
 #include <vector>
@@ -30,6 +31,23 @@ public:
 
     // Appends every hit with ray.tMin < t < ray.tMax, in any order (t, u, v, prim set).
     virtual void collect(const Ray& ray, std::vector<Hit>& hits) const = 0;
+
+    // Batches: the same answers for many rays. A shape that is faster this way says so; the others
+    // are asked ray by ray.
+    virtual bool takesBatches() const { return false; }
+    // hits[i] becomes what intersect() finds up to rays[i].tMax, with its shape = number; isHit()
+    // is false where there is nothing.
+    virtual void intersectBatch(const RaySpan& rays, std::uint32_t number,
+                                std::span<Hit> hits) const {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            hits[i] = {.t = rays.tMax[i]};
+            if (intersect(rays[i], hits[i])) hits[i].shape = number;
+        }
+    }
+    // hidden[i] = occludes(rays[i])
+    virtual void occludesBatch(const RaySpan& rays, std::span<std::uint8_t> hidden) const {
+        for (std::size_t i = 0; i < rays.size(); ++i) hidden[i] = occludes(rays[i]);
+    }
 
     // Describes the point of a hit that intersect() or collect() found for this ray.
     virtual Surface surface(const Ray& ray, const Hit& hit) const = 0;

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ namespace battery {
 struct Effort {
     double factor = 1;
     int threads = 1;
+    std::optional<std::size_t> batch = {}; // runs this one only: a case that was found, again
 };
 
 // What a test found. Failures are cases that break a rule; the worst is a measured distance from
@@ -33,10 +35,12 @@ struct Tally {
         if (failures++ == 0) failedCase = text();
     }
     template <class MakeText> void measure(double value, MakeText&& text) {
-        if (value <= worst) return; // NaN is worse than anything
+        if (!isWorse(value)) return;
         worst = value;
         worstCase = text();
     }
+    // Than what was found so far. NaN is worse than any number.
+    bool isWorse(double value) const { return worst == worst && !(value <= worst); }
     Tally& operator+=(const Tally& other);
 };
 
@@ -49,7 +53,7 @@ struct Row {
     Tally (*run)(const Effort&);
     const char* peers = ""; // what was measured of other programs
 };
-std::vector<Row> rows(); // of all groups (groups.h), in the order of their ids
+std::vector<Row> rows(); // of all groups (groups.h), in the order of their ids: T2, T10, T10b
 
 // Nothing failed, something was tried, and nothing is farther from the truth than the mark.
 inline bool passed(const Row& row, const Tally& tally) {
@@ -58,7 +62,8 @@ inline bool passed(const Row& row, const Tally& tally) {
 
 // Runs `batches * effort.factor` batches (at least one) on the threads, each with random numbers of
 // its own that follow from `seed` and its number alone, and sums up in their order: the result does
-// not depend on the threads.
+// not depend on the threads, and batch i is the same at every effort. With effort.batch that one
+// alone, whatever the number of batches.
 Tally inBatches(const Effort& effort, std::uint64_t seed, double batches,
                 const std::function<void(meshes::Random&, Tally&)>& batch);
 

@@ -3,7 +3,9 @@
 
 #include "verify/battery.h"
 
+#include <span>
 #include <string>
+#include <string_view>
 
 namespace battery {
 
@@ -12,11 +14,13 @@ namespace battery {
 std::string reportHeading();
 std::string reportLine(const Row& row, const Tally& tally, double seconds);
 
-// The whole table for a page, with what was measured of other programs.
+// A page: how to read it and to repeat a case, the table with what was measured of other programs,
+// and the worst cases.
 struct Finding {
     Row row;
     Tally tally;
 };
-std::string markdownTable(std::span<const Finding> findings);
+std::string markdownPage(std::span<const Finding> findings, std::string_view version,
+                         double effort);
 
 } // namespace battery

@@ -11,6 +11,11 @@ done
 run 0 diff --help
 cp out help.of.diff
 check 'diff: help' has help.of.diff '--metric'
+run 0 verify --help
+cp out help.of.verify
+run 0 bench --help
+cp out help.of.bench
+check 'verify: help' has help.of.verify '--effort'
 run 0 -h
 check '-h' cmp out help
 
@@ -19,7 +24,7 @@ options() {
     sed -n 's/^  \(-., \|    \)\(--\(\[no-\]\)\{0,1\}[^ =[]*\).*/\2/p' "$1" |
         sed 's/^--\[no-\]\(.*\)/--\1 --no-\1/' | tr ' ' '\n'
 }
-options help > names
+for file in help help.of.diff help.of.verify help.of.bench; do options $file; done | sort -u > names
 check 'help: many options' [ "$(wc -l < names)" -gt 50 ]
 for shell in bash zsh fish; do
     run 0 --completion $shell
@@ -59,6 +64,9 @@ END
     offers 'diff' 'diff' raytracer dif
     offers 'options of diff' '--metric' raytracer diff a b --me
     offers 'values of diff' 'psnr' raytracer diff a b --metric p
+    offers 'verify' 'verify' raytracer ver
+    offers 'options of verify' '--effort' raytracer verify --ef
+    offers 'tests of verify' 'T21a T21b' raytracer verify T25 T21
     offers 'nothing for numbers' '' raytracer --spp 1
 else
     ok 'bash is not here'

@@ -120,7 +120,7 @@ check "and not under --strict" has err "--strict"
 
 # The corner rays of the Standard Procedural Databases.
 run 0 roof.nff c.png -q --sampler corners --stats=json
-check "corner rays are shared: 41 x 31" has out '"camera": 1271'
+check "corner rays are shared: 41 x 31" has out '"camera":1271'
 run 0 roof.nff centers.pfm -q
 run 0 roof.nff edges.pfm -q --nff-angle edges
 check "--nff-angle changes the view" differ centers.pfm edges.pfm

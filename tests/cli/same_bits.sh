@@ -32,6 +32,13 @@ same '--accel none' --accel none
 same '--accel bvh' --accel bvh
 same '--kernel scalar' --kernel scalar
 same '--kernel auto' --kernel auto
+for kernel in sse avx2 avx512; do
+    if "$raytracer" many.txt b.pfm -q --kernel $kernel 2> err; then
+        check "--kernel $kernel" cmp a.pfm b.pfm
+    else # not on this CPU, which the message has to say
+        check "--kernel $kernel" grep -q "this CPU can't run the kernel '$kernel'" err
+    fi
+done
 same 'AOVs beside it' --aov depth,id
 same 'statistics' --stats
 same 'the scene'\''s own settings' --spp 8 --seed 0 --sampler sobol --filter blackman-harris,1.5 --jitter \

@@ -3,7 +3,7 @@
 #include "base/text.h"
 #include "desc/validate.h"
 #include "desc/write_txt.h"
-#include "read/read_txt.h"
+#include "read/txt/read_txt.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include "base/source.h"
 #include "desc/scene_desc.h"
 #include "image/image.h"
-#include "read/mesh_file.h"
+#include "read/mesh/mesh_file.h"
 
 #include <stdexcept>
 #include <string>

@@ -2,13 +2,13 @@
 
 #include "fuzz/png_parts.h"
 #include "fuzz/sound.h"
-#include "read/mesh_scene.h"
-#include "read/read_json.h"
-#include "read/read_mtl.h"
-#include "read/read_nff.h"
-#include "read/read_obj.h"
-#include "read/read_ply.h"
-#include "read/read_txt.h"
+#include "read/json/read_json.h"
+#include "read/mesh/mesh_scene.h"
+#include "read/mesh/read_mtl.h"
+#include "read/mesh/read_obj.h"
+#include "read/mesh/read_ply.h"
+#include "read/nff/read_nff.h"
+#include "read/txt/read_txt.h"
 
 #include <algorithm>
 #include <array>

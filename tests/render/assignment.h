@@ -28,7 +28,7 @@
 //             IDs are dropped; what is left without a material is not drawn.
 #pragma once
 
-#include "read/json.h"
+#include "read/json/json.h"
 
 #include <array>
 #include <cstdint>

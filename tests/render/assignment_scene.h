@@ -2,7 +2,7 @@
 #pragma once
 
 #include "base/vec.h"
-#include "read/json.h"
+#include "read/json/json.h"
 
 #include <array>
 #include <string>

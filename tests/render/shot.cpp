@@ -1,7 +1,7 @@
 #include "shot.h"
 
 #include "desc/validate.h"
-#include "read/read_txt.h"
+#include "read/txt/read_txt.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -3,7 +3,7 @@
 // that they "should be the same for all users", of the others that they should agree within 10 %.
 #include "check.h"
 #include "desc/validate.h"
-#include "read/read_nff.h"
+#include "read/nff/read_nff.h"
 #include "render/render.h"
 #include "render/scene.h"
 #include "spd.h"

@@ -5,39 +5,26 @@
 #include "desc/validate.h"
 #include "desc/write_txt.h"
 #include "read/load.h"
-#include "read/read_mtl.h"
-#include "read/read_txt.h"
+#include "read/mesh/read_mtl.h"
+#include "read/txt/read_txt.h"
+#include "unit/damage.h"
 
 #include <filesystem>
 #include <fstream>
-#include <random>
-#include <sstream>
 
 namespace {
 
+using damage::contentOf;
+using damage::isRead;
 namespace fs = std::filesystem;
 
-std::string contentOf(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
 // What is accepted must also survive being written and read again.
-enum class Outcome { Read, Refused };
-Outcome readSomehow(const std::string& text) {
+void readSound(const std::string& text) {
     const SourceFile source{"damaged.txt", text};
-    SceneDesc desc;
-    try {
-        Diagnostics diagnostics;
-        desc = readTxt(source);
-        validate(desc, source, diagnostics);
-    } catch (const Error&) {
-        return Outcome::Refused;
-    }
+    Diagnostics diagnostics;
+    const SceneDesc desc = readTxt(source);
+    validate(desc, source, diagnostics);
     CHECK_INFO(readTxt({"again.txt", writeTxt(desc)}) == desc, "read from:\n" << text);
-    return Outcome::Read;
 }
 
 // Every file of tests/bad/FORMAT is refused with the message that its NAME.expect asks for: a line
@@ -97,10 +84,10 @@ TEST(bad_mtl_corpus) {
 TEST(bad_txt_cut_off_at_every_byte) {
     const std::string whole = contentOf("tests/scenes/everything.txt");
     CHECK(whole.size() > 2000);
-    CHECK(readSomehow(whole) == Outcome::Read);
+    readSound(whole);
     std::size_t refused = 0;
     for (std::size_t size = 0; size < whole.size(); ++size)
-        if (readSomehow(whole.substr(0, size)) == Outcome::Refused) ++refused;
+        if (!isRead([&] { readSound(whole.substr(0, size)); })) ++refused;
     // Only a cut between two blocks near the end, where no name is missing, leaves a whole scene.
     CHECK(refused > whole.size() * 9 / 10);
 }
@@ -112,31 +99,8 @@ TEST(bad_txt_random_damage) {
         "\r",   "#",    "-",        "nan",        "1e999",
         "0",    " ",    "key\n",    "4294967296", std::string(1, '\0'),
         "\xff", "\xc3", "material", "1e-400"};
-    int read = 0, refused = 0;
-    for (std::uint32_t seed = 0; seed < check::scaled(4000u); ++seed) {
-        std::mt19937 random(seed);
-        std::string text = whole;
-        const auto place = [&] { return random() % (text.size() + 1); };
-        for (auto damages = 1 + random() % 3; damages > 0; --damages) {
-            const std::size_t at = place(), length = random() % 20;
-            switch (random() % 5) {
-            case 0: text.insert(at, pieces[random() % pieces.size()]); break;
-            case 1: text.erase(at, length); break;
-            case 2:
-                if (at < text.size()) text[at] = static_cast<char>(random());
-                break;
-            case 3: text.insert(place(), text.substr(at, length)); break;
-            default:
-                if (at < text.size()) text[at] = static_cast<char>(text[at] ^ (1 << random() % 8));
-                break;
-            }
-        }
-        try {
-            ++(readSomehow(text) == Outcome::Read ? read : refused);
-        } catch (const std::exception& error) {
-            CHECK_INFO(false, "seed " << seed << " threw " << error.what());
-        }
-    }
+    const auto [read, refused] = damage::inflict(
+        whole, pieces, 4000, [](const std::string& text, std::uint32_t) { readSound(text); });
     // Both must happen, or the test tests nothing.
     CHECK_INFO(read > 100 && refused > 1000, "read " << read << ", refused " << refused);
 }

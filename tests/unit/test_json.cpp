@@ -1,5 +1,5 @@
 // The JSON parser: what RFC 8259 allows is read, everything else is refused with a place and words.
-#include "read/json.h"
+#include "read/json/json.h"
 
 #include "base/text.h"
 #include "check.h"

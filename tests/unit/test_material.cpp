@@ -1,10 +1,11 @@
-// Materials: energy, symmetry and the laws of optics at single points.
+// Materials: forms and the laws of optics at single points. Energy, and eye and light exchanged:
+// T20 of the battery (Code/verify/furnace.cpp).
 #include "base/math.h"
 #include "check.h"
 #include "material/fresnel.h"
 #include "material/material.h"
-#include "verify/meshes.h"
 #include "sample/warp.h"
+#include "verify/meshes.h"
 
 using meshes::Random;
 
@@ -68,10 +69,6 @@ TEST(material_diffuse_is_kd) {
         CHECK_NEAR(light.r, static_cast<double>(m.diffuse.r) * kInvPi * cosine, 1e-7);
         CHECK_NEAR(light.b, static_cast<double>(m.diffuse.b) * kInvPi * cosine, 1e-7);
     }
-    const double albedo = integrate({0, 0, 1}, [&](Vec3 l) {
-        return static_cast<double>(reflectedLight(m, kUp, atAngle(1.2), l).g);
-    });
-    CHECK_NEAR(albedo, 0.5, 1e-4);
     CHECK(isBlack(reflectedLight(m, kUp, kUp, {0, 0, -1}))); // light from behind
     CHECK(isBlack(reflectedLight(m, kUp, kUp, {1, 0, 0})));
 }
@@ -90,38 +87,6 @@ TEST(material_blinn_form) {
     }
     CHECK_NEAR(reflectedLight(m, kUp, atAngle(0.8), atAngle(-0.8)).b, 1, 1e-5); // mirror direction
     CHECK(isBlack(reflectedLight(m, kUp, atAngle(0.1), atAngle(2)))); // light below the horizon
-}
-
-TEST(material_ashikhmin_energy_and_symmetry) {
-    double largest = 0;
-    for (int r = 1; r <= 10; ++r) {
-        const Material m = glossy(exponentOf(r / 10.0));
-        for (const double angle : {0.0, 0.5, 1.0, 1.3, 1.5}) {
-            const Vec3 v = atAngle(angle);
-            const double albedo = integrate(toDouble(atAngle(-angle)), [&](Vec3 l) {
-                return static_cast<double>(reflectedLight(m, kUp, v, l).g);
-            });
-            largest = max(largest, albedo);
-            CHECK_INFO(albedo <= 1.001,
-                       "roughness " << r / 10.0 << " angle " << angle << ": " << albedo);
-            if (r <= 3 && angle < 0.6)
-                CHECK_INFO(albedo > 0.95, albedo); // narrow: all of it comes back
-        }
-    }
-    std::printf("largest albedo %g\n", largest);
-    // f(l, v) = f(v, l): what reflectedLight gives over the cosine of the light.
-    Random random(92);
-    for (const double n : {1.0, 20.0, 1000.0}) {
-        const Material m = glossy(n);
-        for (int i = 0; i < 2000; ++i) {
-            const Vec3 v = above(random), l = above(random);
-            if (v.z < 0.01f || l.z < 0.01f) continue;
-            const double a = static_cast<double>(reflectedLight(m, kUp, v, l).r / l.z);
-            const double b = static_cast<double>(reflectedLight(m, kUp, l, v).r / v.z);
-            CHECK_INFO(std::fabs(a - b) <= 1e-4 * max(a, b) + 1e-12,
-                       "seed 92 n " << n << ": " << a << ' ' << b);
-        }
-    }
 }
 
 TEST(material_snell_and_fresnel) {

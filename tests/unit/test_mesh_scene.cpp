@@ -1,5 +1,5 @@
 // The scene around a file of triangles: its objects, materials, camera and light.
-#include "read/mesh_scene.h"
+#include "read/mesh/mesh_scene.h"
 
 #include "base/bounds.h"
 #include "base/math.h"
@@ -8,13 +8,15 @@
 #include "check.h"
 #include "desc/validate.h"
 #include "desc/write_txt.h"
-#include "read/read_obj.h"
-#include "unit/foreign_corpus.h"
+#include "read/mesh/read_obj.h"
+#include "unit/damage.h"
 
 #include <chrono>
 #include <random>
 
 namespace {
+
+using damage::contentOf;
 
 using Corners = MeshDesc::Corners;
 

@@ -2,9 +2,9 @@
 // whose side is the visible one.
 #include "analytic_kit.h"
 #include "check.h"
-#include "verify/meshes.h"
 #include "shape/mesh.h"
 #include "shape/one_sided.h"
+#include "verify/meshes.h"
 
 #include <algorithm>
 

@@ -1,6 +1,8 @@
+#include "accel/kernels/kernels.h"
 #include "check.h"
 
 #include "base/error.h"
+#include "cli/command.h"
 #include "cli/completion.h"
 #include "cli/diff.h"
 #include "cli/help.h"
@@ -187,7 +189,7 @@ TEST(settings_command_line_wins_over_scene) {
     CHECK_EQUAL(settings(desc, {"--no-aa"}).picture.filterWidth, 0);
     CHECK_EQUAL(settings(desc, {"--threads=3"}).threads, 3);
     CHECK(settings(desc, {"--threads=0"}).threads >= 1);
-    CHECK_EQUAL(settings(desc, {}).kernel, "scalar");
+    CHECK_EQUAL(settings(desc, {}).kernel, std::string(chooseKernel("auto").name));
     desc.cameras.resize(2);
     desc.cameras[0].name = "front", desc.cameras[1].name = "top";
     CHECK_EQUAL(settings(desc, {"--camera=top"}).camera, "top");
@@ -216,7 +218,6 @@ TEST(settings_picture_size) {
 
 TEST(help_and_completion_have_every_flag) {
     Options options;
-    DiffOptions diffOptions;
     const auto has = [](const std::string& text, const std::string& part) {
         return text.find(part) != std::string::npos;
     };
@@ -225,8 +226,11 @@ TEST(help_and_completion_have_every_flag) {
                (flag.alias.empty() || has(text, flag.alias + ", "));
     };
     for (const Flag& flag : renderFlags(options)) CHECK_INFO(isListed(flag, helpText()), flag.name);
-    for (const Flag& flag : diffFlags(diffOptions))
-        CHECK_INFO(isListed(flag, diffHelpText()), flag.name);
+    for (const Command& command : commands()) {
+        CHECK_INFO(has(helpText(), cat("raytracer ", command.name, " ")), command.name);
+        for (const Flag& flag : command.flags())
+            CHECK_INFO(isListed(flag, commandHelpText(command)), command.name << flag.name);
+    }
     for (const std::string shell : {"bash", "zsh", "fish"}) {
         const std::string script = completionScript(shell);
         const auto isCompleted = [&](const Flag& flag) {
@@ -240,13 +244,22 @@ TEST(help_and_completion_have_every_flag) {
         };
         for (const Flag& flag : renderFlags(options))
             CHECK_INFO(isCompleted(flag), flag.name << shell);
-        for (const Flag& flag : diffFlags(diffOptions))
-            CHECK_INFO(isCompleted(flag), flag.name << shell);
+        for (const Command& command : commands()) {
+            CHECK_INFO(has(script, std::string(command.name)), command.name << shell);
+            for (const Flag& flag : command.flags())
+                CHECK_INFO(isCompleted(flag), command.name << flag.name << shell);
+            for (const std::string& word : command.words())
+                CHECK_INFO(has(script, word), command.name << word << shell);
+        }
     }
-    std::size_t line = 0;
-    for (const char c : helpText()) {
-        line = c == '\n' ? 0 : line + 1;
-        CHECK(line <= 100);
+    std::vector<std::string> texts = {helpText()};
+    for (const Command& command : commands()) texts.push_back(commandHelpText(command));
+    for (const std::string& text : texts) {
+        std::size_t line = 0;
+        for (const char c : text) {
+            line = c == '\n' ? 0 : line + 1;
+            CHECK(line <= 100);
+        }
     }
     CHECK(has(featureListText(), "motion-blur"));
 }

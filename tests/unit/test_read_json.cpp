@@ -1,6 +1,6 @@
 // Scenes in JSON: the dialects of the course with their quirks, by numbers worked out by hand, and
 // the keys that are rows of the native tables. What is refused is in tests/bad/json.
-#include "read/read_json.h"
+#include "read/json/read_json.h"
 
 #include "base/math.h"
 #include "base/text.h"
@@ -287,9 +287,12 @@ TEST(read_json_mesh) {
         return worldPoint(desc.objects[0], {1, 2, 3});
     };
     const std::string numbered = R"("AA": {"samples": 1},)";
-    // (v + position) * scale; T * R * S from 2025 on.
+    // (v + position) * scale, or T * R * S.
     checkPoint(vertex(numbered, R"("position": [1, 0, 0], "scale": 2)"), {4, 4, 6});
     checkPoint(vertex("", R"("position": [1, 0, 0], "scale": 2)"), {4, 4, 6});
+    checkPoint(vertex(R"("camera": {"position": [0, 0, 9], "fovy": 45},)",
+                      R"("position": [1, 0, 0], "scale": 2)"),
+               {3, 4, 6});
     checkPoint(vertex(numbered, R"("position": [1, 0, 0], "scale": [2, 1, 1])"), {3, 2, 3});
     checkPoint(vertex("", R"("position": [1, 0, 0], "rotation": [0, 0, 90], "scale": [2, 1, 1])"),
                {-1, 2, 3});
@@ -578,4 +581,16 @@ TEST(read_json_keys_of_copies_are_bounded) {
     };
     CHECK_EQUAL(scene(scenery(9)).objects.at(9).worldFromObject.size(), std::size_t{200});
     CHECK_THROWS(scene(scenery(11000)), "the keys and materials of all objects are more than");
+}
+
+// In 2025 boxes and planes have the whole transform, and it moves the squares of a checkerboard.
+TEST(read_json_everything_is_placed_in_2025) {
+    const SceneDesc desc = scene(R"({"camera": {"position": [0, 0, 9], "fovy": 45},
+        "materials": [{"name": "a"}, {"name": "b"}], "objects": [
+        {"type": "box", "position": [5, 0, 0], "rotation": [0, 90, 0], "scale": 2},
+        {"type": "plane", "position": [5, 0, 0], "rotation": [0, 90, 0], "scale": 2,
+         "materials": ["a", "b"]}]})");
+    checkPoint(worldPoint(desc.objects.at(0), {1, 0, 0}), {5, 0, -2});
+    checkPoint(worldPoint(desc.objects.at(1), {1, 0, 0}), {5, 0, -2});
+    checkPoint(worldPoint(desc.objects.at(1), {0, 1, 0}), {7, 0, 0});
 }

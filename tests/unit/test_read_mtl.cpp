@@ -1,14 +1,16 @@
 // The MTL reader: what each statement becomes, what it refuses, and damage.
-#include "read/read_mtl.h"
+#include "read/mesh/read_mtl.h"
 
 #include "base/math.h"
 #include "base/text.h"
 #include "check.h"
-#include "unit/foreign_corpus.h"
+#include "unit/damage.h"
 
 #include <limits>
 
 namespace {
+
+using damage::contentOf;
 
 struct Result : MtlFile {
     std::vector<std::string> warnings;
@@ -180,14 +182,6 @@ TEST(read_mtl_warnings) {
     checkColour(file.materials[1].diffuse, {0.8, 0.8, 0.8});
 }
 
-TEST(read_mtl_bad_corpus) {
-    const std::size_t files = checkCorpus("tests/bad/mtl", ".mtl", [](const SourceFile& source) {
-        Diagnostics diagnostics;
-        readMtl(source, {{}, diagnostics});
-    });
-    CHECK_INFO(files >= 10, files);
-}
-
 TEST(read_mtl_random_damage_and_cut_off) {
     const std::string whole = contentOf("tests/scenes/obj/room.mtl");
     std::size_t read = 0, refused = 0;
@@ -220,6 +214,6 @@ TEST(read_mtl_random_damage_and_cut_off) {
                                              "\r\n",
                                              std::string(1, '\0')};
     for (std::uint32_t seed = 0; seed < check::scaled(2000u); ++seed)
-        checkText(damaged(whole, pieces, seed), cat("seed ", seed));
+        checkText(damage::damaged(whole, pieces, seed), cat("seed ", seed));
     CHECK_INFO(read > 300 && refused > 300, "read " << read << ", refused " << refused);
 }

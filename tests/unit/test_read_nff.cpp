@@ -1,6 +1,6 @@
 // The NFF reader: what it makes of each entity, in numbers worked out by hand. What it refuses is
 // in tests/bad/nff (test_bad_scenes.cpp).
-#include "read/read_nff.h"
+#include "read/nff/read_nff.h"
 
 #include "base/math.h"
 #include "base/text.h"
@@ -8,8 +8,9 @@
 #include "check.h"
 #include "desc/validate.h"
 #include "desc/write_txt.h"
-#include "read/nff_terms.h"
-#include "read/read_txt.h"
+#include "read/nff/terms.h"
+#include "read/txt/read_txt.h"
+#include "unit/damage.h"
 
 #include <cmath>
 #include <fstream>
@@ -337,29 +338,22 @@ TEST(read_nff_collects_errors) {
 namespace {
 
 // What is accepted must also survive being written in the native format and read again.
-enum class Outcome { Read, Refused };
-Outcome readSomehow(const std::string& text) {
+void readSound(const std::string& text) {
     const SourceFile source{"damaged.nff", text};
-    SceneDesc desc;
-    try {
-        Diagnostics diagnostics;
-        desc = readNff(source, {{}, diagnostics});
-        validate(desc, source, diagnostics);
-    } catch (const Error&) {
-        return Outcome::Refused;
-    }
+    Diagnostics diagnostics;
+    const SceneDesc desc = readNff(source, {{}, diagnostics});
+    validate(desc, source, diagnostics);
     CHECK_INFO(readTxt({"again.txt", writeTxt(desc)}) == desc, "read from:\n" << text);
-    return Outcome::Read;
 }
 
 } // namespace
 
 TEST(read_nff_cut_off_at_every_byte) {
     const std::string whole = everything();
-    CHECK(readSomehow(whole) == Outcome::Read);
+    readSound(whole);
     std::size_t read = 0, refused = 0;
     for (std::size_t size = 0; size < whole.size(); ++size)
-        ++(readSomehow(whole.substr(0, size)) == Outcome::Read ? read : refused);
+        ++(damage::isRead([&] { readSound(whole.substr(0, size)); }) ? read : refused);
     // A cut is seen unless it falls between two entities or into the last digits of a number.
     CHECK_INFO(refused > whole.size() / 2 && read > 50, "read " << read << ", refused " << refused);
 }
@@ -371,31 +365,8 @@ TEST(read_nff_random_damage) {
         "0",      "p",  "pp 3",       "pp",     "v",           "c",          "f",
         "p 4000", "s",  "4294967297", "1e-400", "\xff",        ".",          "e5",
         "l",      "b",  "-1e60",      "inf",    "1e308 1e308", "p 99999999", std::string(1, '\0')};
-    int read = 0, refused = 0;
-    for (std::uint32_t seed = 0; seed < check::scaled(4000u); ++seed) {
-        std::mt19937 random(seed);
-        std::string text = whole;
-        const auto place = [&] { return random() % (text.size() + 1); };
-        for (auto damages = 1 + random() % 3; damages > 0; --damages) {
-            const std::size_t at = place(), length = random() % 20;
-            switch (random() % 5) {
-            case 0: text.insert(at, pieces[random() % pieces.size()]); break;
-            case 1: text.erase(at, length); break;
-            case 2:
-                if (at < text.size()) text[at] = static_cast<char>(random());
-                break;
-            case 3: text.insert(place(), text.substr(at, length)); break;
-            default:
-                if (at < text.size()) text[at] = static_cast<char>(text[at] ^ (1 << random() % 8));
-                break;
-            }
-        }
-        try {
-            ++(readSomehow(text) == Outcome::Read ? read : refused);
-        } catch (const std::exception& error) {
-            CHECK_INFO(false, "seed " << seed << " threw " << error.what());
-        }
-    }
+    const auto [read, refused] = damage::inflict(
+        whole, pieces, 4000, [](const std::string& text, std::uint32_t) { readSound(text); });
     // Both must happen, or the test tests nothing.
     CHECK_INFO(read > 500 && refused > 1000, "read " << read << ", refused " << refused);
 }

@@ -1,16 +1,18 @@
 // The OBJ reader: each statement and quirk with numbers made by hand, what it refuses, and damage.
-#include "read/read_obj.h"
+#include "read/mesh/read_obj.h"
 
 #include "base/text.h"
 #include "check.h"
-#include "read/triangulate.h"
-#include "unit/foreign_corpus.h"
+#include "read/mesh/triangulate.h"
+#include "unit/damage.h"
 
 #include <chrono>
 #include <cstdio>
 #include <random>
 
 namespace {
+
+using damage::contentOf;
 
 using Corners = MeshDesc::Corners;
 using Triangles = std::vector<Corners>;
@@ -266,14 +268,6 @@ TEST(read_obj_many_names) {
     CHECK_INFO(seconds.count() < 10 * check::stress(), seconds.count()); // 0.05 s measured
 }
 
-TEST(read_obj_bad_corpus) {
-    const std::size_t files = checkCorpus("tests/bad/obj", ".obj", [](const SourceFile& source) {
-        Diagnostics diagnostics;
-        readObj(source, {{}, diagnostics});
-    });
-    CHECK_INFO(files >= 20, files);
-}
-
 // What is read after damage is whole: indices in range, arrays of the same length.
 TEST(read_obj_random_damage_and_cut_off) {
     const std::string whole = contentOf("tests/scenes/obj/room.obj");
@@ -319,6 +313,6 @@ TEST(read_obj_random_damage_and_cut_off) {
         "f ",    "v ", "/",       "-",    "\\\n", "\n", "#",       "nan",  "0",
         "1e999", "9",  "usemtl ", "\r\n", "g ",   "\\", "\n1 2 3", "\xff", std::string(1, '\0')};
     for (std::uint32_t seed = 0; seed < check::scaled(4000u); ++seed)
-        checkText(damaged(whole, pieces, seed), cat("seed ", seed));
+        checkText(damage::damaged(whole, pieces, seed), cat("seed ", seed));
     CHECK_INFO(read > 300 && refused > 1000, "read " << read << ", refused " << refused);
 }

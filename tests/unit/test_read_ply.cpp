@@ -1,10 +1,11 @@
 // The PLY reader: ascii and both binary orders give the same mesh, bit for bit. What it refuses is
 // in tests/bad/ply (test_bad_scenes.cpp) and, for binary data, here.
-#include "read/read_ply.h"
+#include "read/mesh/read_ply.h"
 
 #include "base/text.h"
 #include "check.h"
-#include "read/ply_header.h"
+#include "read/mesh/ply_header.h"
+#include "unit/damage.h"
 
 #include <algorithm>
 #include <array>
@@ -17,6 +18,8 @@
 #include <sstream>
 
 namespace {
+
+using damage::contentOf;
 
 constexpr std::array kFormats{PlyFormat::Ascii, PlyFormat::LittleEndian, PlyFormat::BigEndian};
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -115,13 +118,6 @@ template <class Write> MeshDesc readAll(const std::string& lines, const Write& w
 std::string failureOf(const std::string& text) {
     return check::thrown([&] { readWhole(text); });
 }
-std::string contentOf(const std::string& name) {
-    std::ifstream file(name, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
 const std::array kFiles{"tests/scenes/ply/house_ascii.ply", "tests/scenes/ply/house_little.ply",
                         "tests/scenes/ply/house_big.ply"};
 
@@ -448,20 +444,14 @@ TEST(read_ply_places_in_binary_data) {
 
 namespace {
 
-enum class Outcome { Read, Refused };
-Outcome readSomehow(const std::string& text) {
-    try {
-        const MeshDesc mesh = readWhole(text).mesh;
-        CHECK(!mesh.triangles.empty());
-        for (const auto& t : mesh.triangles)
-            for (const std::uint32_t corner : t) CHECK(corner < mesh.points.size());
-        for (const Vec3d& p : mesh.points) CHECK(maxAbs(p) <= 1e60 && p == p);
-        CHECK(mesh.normals.empty() || mesh.normals.size() == mesh.points.size());
-        CHECK(mesh.uvs.empty() || mesh.uvs.size() == mesh.points.size());
-        return Outcome::Read;
-    } catch (const Error&) {
-        return Outcome::Refused;
-    }
+void readSound(const std::string& text) {
+    const MeshDesc mesh = readWhole(text).mesh;
+    CHECK(!mesh.triangles.empty());
+    for (const auto& t : mesh.triangles)
+        for (const std::uint32_t corner : t) CHECK(corner < mesh.points.size());
+    for (const Vec3d& p : mesh.points) CHECK(maxAbs(p) <= 1e60 && p == p);
+    CHECK(mesh.normals.empty() || mesh.normals.size() == mesh.points.size());
+    CHECK(mesh.uvs.empty() || mesh.uvs.size() == mesh.points.size());
 }
 
 } // namespace
@@ -469,10 +459,10 @@ Outcome readSomehow(const std::string& text) {
 TEST(read_ply_cut_off_at_every_byte) {
     for (const char* name : kFiles) {
         const std::string whole = contentOf(name);
-        CHECK(readSomehow(whole) == Outcome::Read);
+        readSound(whole);
         std::size_t read = 0;
         for (std::size_t size = 0; size < whole.size(); ++size)
-            if (readSomehow(whole.substr(0, size)) == Outcome::Read) ++read;
+            if (damage::isRead([&] { readSound(whole.substr(0, size)); })) ++read;
         // Ascii may lose its last line end and three digits of its last number, 0.25.
         CHECK_INFO(read <= (name == kFiles[0] ? 4u : 0u), name << " was read " << read << " times");
     }
@@ -501,32 +491,8 @@ TEST(read_ply_random_damage) {
                                              "99999999"};
     for (const char* name : kFiles) {
         const std::string whole = contentOf(name);
-        int read = 0, refused = 0;
-        for (std::uint32_t seed = 0; seed < check::scaled(4000u); ++seed) {
-            std::mt19937 random(seed);
-            std::string text = whole;
-            const auto place = [&] { return random() % (text.size() + 1); };
-            for (auto damages = 1 + random() % 3; damages > 0; --damages) {
-                const std::size_t at = place(), length = random() % 20;
-                switch (random() % 5) {
-                case 0: text.insert(at, pieces[random() % pieces.size()]); break;
-                case 1: text.erase(at, length); break;
-                case 2:
-                    if (at < text.size()) text[at] = static_cast<char>(random());
-                    break;
-                case 3: text.insert(place(), text.substr(at, length)); break;
-                default:
-                    if (at < text.size())
-                        text[at] = static_cast<char>(text[at] ^ (1 << random() % 8));
-                    break;
-                }
-            }
-            try {
-                ++(readSomehow(text) == Outcome::Read ? read : refused);
-            } catch (const std::exception& error) {
-                CHECK_INFO(false, name << ", seed " << seed << " threw " << error.what());
-            }
-        }
+        const auto [read, refused] = damage::inflict(
+            whole, pieces, 4000, [](const std::string& text, std::uint32_t) { readSound(text); });
         // Both must happen, or the test tests nothing.
         CHECK_INFO(read > 300 && refused > 1000,
                    name << ": read " << read << ", refused " << refused);

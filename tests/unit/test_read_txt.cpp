@@ -1,11 +1,11 @@
 // The native reader: what it reads. What it refuses is in tests/bad/txt (test_bad_scenes.cpp).
-#include "read/read_txt.h"
+#include "read/txt/read_txt.h"
 
 #include "base/text.h"
 #include "check.h"
 #include "desc/properties.h"
 #include "read/load.h"
-#include "read/transform_lines.h"
+#include "read/txt/transform_lines.h"
 
 #include <cstdio>
 #include <filesystem>

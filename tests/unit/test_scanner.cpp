@@ -1,5 +1,5 @@
 // Tokens with their places, and numbers that are correctly rounded.
-#include "read/scanner.h"
+#include "read/txt/scanner.h"
 
 #include "base/text.h"
 #include "check.h"

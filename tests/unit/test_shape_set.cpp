@@ -2,8 +2,8 @@
 // queries agree with each other and with asking every shape.
 #include "analytic_kit.h"
 #include "check.h"
-#include "verify/meshes.h"
 #include "render/shape_set.h"
+#include "verify/meshes.h"
 
 #include <algorithm>
 #include <tuple>

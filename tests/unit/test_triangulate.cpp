@@ -1,8 +1,8 @@
 // Triangulation: exact signs, known polygons, and random ones whose triangles must cover them once.
-#include "read/triangulate.h"
+#include "read/mesh/triangulate.h"
 
 #include "check.h"
-#include "read/exact_orientation.h"
+#include "read/mesh/exact_orientation.h"
 
 #include <algorithm>
 #include <chrono>

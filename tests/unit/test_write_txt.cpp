@@ -5,7 +5,7 @@
 #include "base/text.h"
 #include "check.h"
 #include "desc/properties.h"
-#include "read/read_txt.h"
+#include "read/txt/read_txt.h"
 
 #include <bit>
 #include <cmath>

@@ -1,0 +1,26 @@
+// 8 lanes: AVX2 and FMA as of 2013 (Haswell, Zen).
+#include "accel/kernels/instances.h"
+
+#if defined(__x86_64__)
+#include "accel/kernels/exact_hit.h"
+#include "accel/kernels/target.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <immintrin.h>
+#include <limits>
+#include <vector>
+
+KERNEL_REGION_BEGIN("avx2,fma,bmi,bmi2,lzcnt,popcnt")
+namespace kernels::avx2 {
+#include "accel/kernels/simd_avx2.inl"
+
+#include "accel/kernels/key_range.inl"
+
+#include "accel/kernels/queue.inl"
+
+#include "accel/kernels/bundle.inl"
+} // namespace kernels::avx2
+KERNEL_REGION_END
+#endif

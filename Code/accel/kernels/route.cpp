@@ -1,0 +1,99 @@
+// Which kernel function gets which rays of a batch: those that share their origin with many others
+// (camera rays of a pinhole, shadow rays of a point light) go as bundles, the rest to the queue.
+// Nothing here can change an answer.
+#include "accel/kernels/kernels.h"
+
+#include <algorithm>
+#include <cstring>
+#include <numeric>
+
+namespace {
+
+// Fewer rays from one point than this are no bundle.
+constexpr std::size_t kFewestForBundle = 32;
+// Origins that are looked for: the point lights of a wave.
+constexpr std::size_t kMostOrigins = 8;
+
+class Groups {
+public:
+    struct Group {
+        Vec3 origin;
+        std::vector<std::uint32_t> rays;
+    };
+    std::vector<Group> fromPoint; // the first `used`; kept for their memory
+    std::size_t used = 0;
+    std::vector<std::uint32_t> rest;
+
+    void sort(const RaySpan& rays) {
+        used = 0;
+        rest.clear();
+        const auto n = static_cast<std::uint32_t>(rays.size());
+        std::size_t strangers = 0;
+        for (std::uint32_t i = 0; i < n;) {
+            const Vec3 origin = rays.org[i];
+            const std::uint32_t first = i++;
+            if (first == 0 && allEqual(rays.org)) i = n;
+            while (i < n && rays.org[i] == origin) ++i;
+            if (std::vector<std::uint32_t>* group = groupOf(origin)) {
+                append(*group, first, i);
+                continue;
+            }
+            // Origins of their own, as after a bounce: don't look at all the others.
+            append(rest, first, i);
+            if (++strangers < kFewestForBundle) continue;
+            append(rest, i, n);
+            break;
+        }
+        for (std::size_t g = 0; g < used; ++g) {
+            auto& few = fromPoint[g].rays;
+            if (few.size() >= kFewestForBundle) continue;
+            rest.insert(rest.end(), few.begin(), few.end());
+            few.clear();
+        }
+    }
+
+private:
+    static bool allEqual(std::span<const Vec3> v) {
+        return std::memcmp(v.data(), v.data() + 1, v.size_bytes() - sizeof(Vec3)) == 0;
+    }
+
+    static void append(std::vector<std::uint32_t>& list, std::uint32_t first, std::uint32_t end) {
+        list.resize(list.size() + (end - first));
+        std::iota(list.end() - (end - first), list.end(), first);
+    }
+
+    // The list of an origin; null when there are too many of them.
+    std::vector<std::uint32_t>* groupOf(Vec3 origin) {
+        for (std::size_t g = 0; g < used; ++g)
+            if (fromPoint[g].origin == origin) return &fromPoint[g].rays;
+        if (used == kMostOrigins) return nullptr;
+        if (fromPoint.size() == used) fromPoint.emplace_back();
+        fromPoint[used].origin = origin;
+        fromPoint[used].rays.clear();
+        return &fromPoint[used++].rays;
+    }
+};
+
+template <class Result>
+void route(void (*queue)(const WideMesh&, const RaySpan&, std::span<const std::uint32_t>, Result*),
+           void (*bundle)(const WideMesh&, const RaySpan&, std::span<const std::uint32_t>, Result*),
+           const WideMesh& mesh, const RaySpan& rays, std::span<Result> results) {
+    thread_local Groups groups;
+    groups.sort(rays);
+    for (std::size_t g = 0; g < groups.used; ++g)
+        if (const auto& list = groups.fromPoint[g].rays; !list.empty())
+            bundle(mesh, rays, list, results.data());
+    if (!groups.rest.empty()) queue(mesh, rays, groups.rest, results.data());
+}
+
+} // namespace
+
+void closestHits(const Kernel& kernel, const WideMesh& mesh, const RaySpan& rays,
+                 std::span<TriangleHit> hits) {
+    route(kernel.closest, kernel.closestFromPoint, mesh, rays, hits);
+}
+
+void anyHits(const Kernel& kernel, const WideMesh& mesh, const RaySpan& rays,
+             std::span<std::uint8_t> hidden) {
+    route(kernel.any, kernel.anyFromPoint, mesh, rays, hidden);
+}

@@ -1,0 +1,147 @@
+// 8 lanes in one register of AVX2. See simd_avx512.inl.
+constexpr int W = 8;
+
+struct Mask {
+    __m256 v;
+};
+struct Floats {
+    __m256 v;
+    Floats() = default;
+    Floats(__m256 a) : v(a) {}
+    Floats(float a) : v(_mm256_set1_ps(a)) {}
+    static Floats load(const void* p) { return _mm256_load_ps(static_cast<const float*>(p)); }
+    static Floats unaligned(const float* p) { return _mm256_loadu_ps(p); }
+    void store(float* p) const { _mm256_store_ps(p, v); }
+};
+struct Ints {
+    __m256i v;
+    Ints(__m256i a) : v(a) {}
+    Ints(std::uint32_t a) : v(_mm256_set1_epi32(static_cast<int>(a))) {}
+    static Ints load(const std::uint32_t* p) {
+        return _mm256_load_si256(reinterpret_cast<const __m256i*>(p));
+    }
+    static Ints bytes(const std::uint8_t* p) {
+        return _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
+    }
+    void store(std::uint32_t* p) const { _mm256_store_si256(reinterpret_cast<__m256i*>(p), v); }
+};
+struct Doubles {
+    __m256d lo, hi;
+    Doubles(__m256d a, __m256d b) : lo(a), hi(b) {}
+    Doubles(double a) : lo(_mm256_set1_pd(a)), hi(lo) {}
+    explicit Doubles(Floats a)
+        : lo(_mm256_cvtps_pd(_mm256_castps256_ps128(a.v))),
+          hi(_mm256_cvtps_pd(_mm256_extractf128_ps(a.v, 1))) {}
+    static Doubles load(const double* p) { return {_mm256_load_pd(p), _mm256_load_pd(p + 4)}; }
+    void store(double* p) const { _mm256_store_pd(p, lo), _mm256_store_pd(p + 4, hi); }
+    Floats toFloats() const { return _mm256_set_m128(_mm256_cvtpd_ps(hi), _mm256_cvtpd_ps(lo)); }
+};
+
+inline Floats operator+(Floats a, Floats b) { return _mm256_add_ps(a.v, b.v); }
+inline Floats operator-(Floats a, Floats b) { return _mm256_sub_ps(a.v, b.v); }
+inline Floats operator*(Floats a, Floats b) { return _mm256_mul_ps(a.v, b.v); }
+inline Floats operator/(Floats a, Floats b) { return _mm256_div_ps(a.v, b.v); }
+inline Doubles operator+(Doubles a, Doubles b) {
+    return {_mm256_add_pd(a.lo, b.lo), _mm256_add_pd(a.hi, b.hi)};
+}
+inline Doubles operator-(Doubles a, Doubles b) {
+    return {_mm256_sub_pd(a.lo, b.lo), _mm256_sub_pd(a.hi, b.hi)};
+}
+inline Doubles operator*(Doubles a, Doubles b) {
+    return {_mm256_mul_pd(a.lo, b.lo), _mm256_mul_pd(a.hi, b.hi)};
+}
+inline Doubles operator/(Doubles a, Doubles b) {
+    return {_mm256_div_pd(a.lo, b.lo), _mm256_div_pd(a.hi, b.hi)};
+}
+inline Floats fma(Floats a, Floats b, Floats c) { return _mm256_fmadd_ps(a.v, b.v, c.v); }
+inline Floats fnma(Floats a, Floats b, Floats c) {
+    return _mm256_fnmadd_ps(a.v, b.v, c.v);
+} // c - a b
+inline Floats fms(Floats a, Floats b, Floats c) {
+    return _mm256_fmsub_ps(a.v, b.v, c.v);
+} // a b - c
+inline Floats min(Floats a, Floats b) { return _mm256_min_ps(a.v, b.v); }
+inline Floats max(Floats a, Floats b) { return _mm256_max_ps(a.v, b.v); }
+inline Floats abs(Floats a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v); }
+inline Floats flipSign(Floats a, Floats by) {
+    return _mm256_xor_ps(a.v, _mm256_and_ps(by.v, _mm256_set1_ps(-0.0f)));
+}
+inline Floats withSign(Floats a, Floats of) { return flipSign(abs(a), of); }
+inline Floats roughInverse(Floats a) { return _mm256_rcp_ps(a.v); } // 1.5 * 2^-12
+
+inline Mask operator<(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }
+inline Mask operator<=(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LE_OQ)}; }
+inline Mask operator>(Floats a, Floats b) { return b < a; }
+inline Mask operator>=(Floats a, Floats b) { return b <= a; }
+inline Mask operator==(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_EQ_OQ)}; }
+inline Mask notGreater(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_NGT_UQ)}; }
+inline Mask operator<(Ints a, Ints b) {
+    const __m256i top = _mm256_set1_epi32(static_cast<int>(0x80000000u));
+    return {_mm256_castsi256_ps(
+        _mm256_cmpgt_epi32(_mm256_xor_si256(b.v, top), _mm256_xor_si256(a.v, top)))};
+}
+inline Mask operator&(Mask a, Mask b) { return {_mm256_and_ps(a.v, b.v)}; }
+inline Mask operator|(Mask a, Mask b) { return {_mm256_or_ps(a.v, b.v)}; }
+inline unsigned bits(Mask m) { return static_cast<unsigned>(_mm256_movemask_ps(m.v)); }
+inline Mask maskOf(unsigned laneBits) {
+    const __m256i lane = _mm256_setr_epi32(1, 2, 4, 8, 16, 32, 64, 128);
+    const __m256i chosen = _mm256_and_si256(_mm256_set1_epi32(static_cast<int>(laneBits)), lane);
+    return {_mm256_castsi256_ps(_mm256_cmpeq_epi32(chosen, lane))};
+}
+inline Floats select(Mask m, Floats a, Floats b) { return _mm256_blendv_ps(b.v, a.v, m.v); }
+inline Ints select(Mask m, Ints a, Ints b) {
+    return _mm256_blendv_epi8(b.v, a.v, _mm256_castps_si256(m.v));
+}
+inline Floats permute(Floats a, Ints lanes) { return _mm256_permutevar8x32_ps(a.v, lanes.v); }
+
+inline float smallest(Floats a) {
+    __m128 m = _mm_min_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));
+    m = _mm_min_ps(m, _mm_movehl_ps(m, m));
+    return _mm_cvtss_f32(_mm_min_ss(m, _mm_shuffle_ps(m, m, 1)));
+}
+inline float largest(Floats a) { return -smallest(Floats(0.0f) - a); }
+
+inline void loadVectors(const float* p, Floats& x, Floats& y, Floats& z) {
+    const auto halves = [&](int at) { // 4 floats of the first 4 vectors and 4 of the others
+        return _mm256_set_m128(_mm_loadu_ps(p + at + 12), _mm_loadu_ps(p + at));
+    };
+    const __m256 a = halves(0), b = halves(4), c = halves(8);
+    const __m256 xy = _mm256_shuffle_ps(b, c, _MM_SHUFFLE(2, 1, 3, 2));
+    const __m256 yz = _mm256_shuffle_ps(a, b, _MM_SHUFFLE(1, 0, 2, 1));
+    x = _mm256_shuffle_ps(a, xy, _MM_SHUFFLE(2, 0, 3, 0));
+    y = _mm256_shuffle_ps(yz, xy, _MM_SHUFFLE(3, 1, 2, 0));
+    z = _mm256_shuffle_ps(yz, c, _MM_SHUFFLE(3, 0, 3, 1));
+}
+inline void storePairs(Floats a, Ints b, float* to) {
+    const __m256 other = _mm256_castsi256_ps(b.v);
+    const __m256 low = _mm256_unpacklo_ps(a.v, other), high = _mm256_unpackhi_ps(a.v, other);
+    _mm256_storeu_ps(to, _mm256_permute2f128_ps(low, high, 0x20));
+    _mm256_storeu_ps(to + 8, _mm256_permute2f128_ps(low, high, 0x31));
+}
+
+// AVX2 has no compress: a table says for every mask which lane goes where.
+inline __m256i chosenLanes(unsigned chosen) {
+    return _mm256_cvtepu8_epi32(
+        _mm_loadl_epi64(reinterpret_cast<const __m128i*>(kChosenLanes[chosen].data())));
+}
+inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_t* to) {
+    const __m256i all = _mm256_load_si256(reinterpret_cast<const __m256i*>(from));
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
+                        _mm256_permutevar8x32_epi32(all, chosenLanes(chosen)));
+}
+inline __m256i keysOf(unsigned chosen, Floats a) {
+    const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    const __m256i keys =
+        _mm256_or_si256(_mm256_andnot_si256(_mm256_set1_epi32(15), _mm256_castps_si256(a.v)), lane);
+    const __m256i count = _mm256_set1_epi32(__builtin_popcount(chosen));
+    return _mm256_and_si256(_mm256_permutevar8x32_epi32(keys, chosenLanes(chosen)),
+                            _mm256_cmpgt_epi32(count, lane));
+}
+inline __m128i firstFour(__m256i keys) { return _mm256_castsi256_si128(keys); }
+inline void storeKeys(__m256i keys, std::uint32_t* to) {
+    _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), keys);
+}
+inline __m128i pick(__m128i keys, const std::uint32_t* from) {
+    const __m256i all = _mm256_load_si256(reinterpret_cast<const __m256i*>(from));
+    return _mm256_castsi256_si128(_mm256_permutevar8x32_epi32(all, _mm256_castsi128_si256(keys)));
+}

@@ -1,0 +1,135 @@
+// 16 lanes in one register of AVX-512. Included inside the namespace and region of its kernel, like
+// its siblings simd_avx2.inl and simd_sse.inl, which define the same names.
+constexpr int W = 16;
+
+struct Mask {
+    __mmask16 v;
+};
+struct Floats {
+    __m512 v;
+    Floats() = default;
+    Floats(__m512 a) : v(a) {}
+    Floats(float a) : v(_mm512_set1_ps(a)) {}
+    static Floats load(const void* p) { return _mm512_load_ps(p); }
+    static Floats unaligned(const float* p) { return _mm512_loadu_ps(p); }
+    void store(float* p) const { _mm512_store_ps(p, v); }
+};
+struct Ints {
+    __m512i v;
+    Ints(__m512i a) : v(a) {}
+    Ints(std::uint32_t a) : v(_mm512_set1_epi32(static_cast<int>(a))) {}
+    static Ints load(const std::uint32_t* p) { return _mm512_load_si512(p); }
+    static Ints bytes(const std::uint8_t* p) {
+        return _mm512_cvtepu8_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(p)));
+    }
+    void store(std::uint32_t* p) const { _mm512_store_si512(p, v); }
+};
+// As many doubles as there are floats, in two registers.
+struct Doubles {
+    __m512d lo, hi;
+    Doubles(__m512d a, __m512d b) : lo(a), hi(b) {}
+    Doubles(double a) : lo(_mm512_set1_pd(a)), hi(lo) {}
+    explicit Doubles(Floats a)
+        : lo(_mm512_cvtps_pd(_mm512_castps512_ps256(a.v))),
+          hi(_mm512_cvtps_pd(_mm512_extractf32x8_ps(a.v, 1))) {}
+    static Doubles load(const double* p) { return {_mm512_load_pd(p), _mm512_load_pd(p + 8)}; }
+    void store(double* p) const { _mm512_store_pd(p, lo), _mm512_store_pd(p + 8, hi); }
+    Floats toFloats() const {
+        return _mm512_insertf32x8(_mm512_castps256_ps512(_mm512_cvtpd_ps(lo)), _mm512_cvtpd_ps(hi),
+                                  1);
+    }
+};
+
+inline Floats operator+(Floats a, Floats b) { return _mm512_add_ps(a.v, b.v); }
+inline Floats operator-(Floats a, Floats b) { return _mm512_sub_ps(a.v, b.v); }
+inline Floats operator*(Floats a, Floats b) { return _mm512_mul_ps(a.v, b.v); }
+inline Floats operator/(Floats a, Floats b) { return _mm512_div_ps(a.v, b.v); }
+inline Doubles operator+(Doubles a, Doubles b) {
+    return {_mm512_add_pd(a.lo, b.lo), _mm512_add_pd(a.hi, b.hi)};
+}
+inline Doubles operator-(Doubles a, Doubles b) {
+    return {_mm512_sub_pd(a.lo, b.lo), _mm512_sub_pd(a.hi, b.hi)};
+}
+inline Doubles operator*(Doubles a, Doubles b) {
+    return {_mm512_mul_pd(a.lo, b.lo), _mm512_mul_pd(a.hi, b.hi)};
+}
+inline Doubles operator/(Doubles a, Doubles b) {
+    return {_mm512_div_pd(a.lo, b.lo), _mm512_div_pd(a.hi, b.hi)};
+}
+inline Floats fma(Floats a, Floats b, Floats c) { return _mm512_fmadd_ps(a.v, b.v, c.v); }
+inline Floats fnma(Floats a, Floats b, Floats c) {
+    return _mm512_fnmadd_ps(a.v, b.v, c.v);
+} // c - a b
+inline Floats fms(Floats a, Floats b, Floats c) {
+    return _mm512_fmsub_ps(a.v, b.v, c.v);
+} // a b - c
+// The second operand wins when one is NaN, as in base/math.h.
+inline Floats min(Floats a, Floats b) { return _mm512_min_ps(a.v, b.v); }
+inline Floats max(Floats a, Floats b) { return _mm512_max_ps(a.v, b.v); }
+inline Floats abs(Floats a) { return _mm512_abs_ps(a.v); }
+inline Floats flipSign(Floats a, Floats by) {
+    return _mm512_xor_ps(a.v, _mm512_and_ps(by.v, _mm512_set1_ps(-0.0f)));
+}
+inline Floats withSign(Floats a, Floats of) { return flipSign(abs(a), of); }
+inline Floats roughInverse(Floats a) { return _mm512_rcp14_ps(a.v); } // 2^-14
+
+inline Mask operator<(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ)}; }
+inline Mask operator<=(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_LE_OQ)}; }
+inline Mask operator>(Floats a, Floats b) { return b < a; }
+inline Mask operator>=(Floats a, Floats b) { return b <= a; }
+inline Mask operator==(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_EQ_OQ)}; }
+// True for NaN.
+inline Mask notGreater(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_NGT_UQ)}; }
+inline Mask operator<(Ints a, Ints b) { return {_mm512_cmplt_epu32_mask(a.v, b.v)}; }
+inline Mask operator&(Mask a, Mask b) { return {static_cast<__mmask16>(a.v & b.v)}; }
+inline Mask operator|(Mask a, Mask b) { return {static_cast<__mmask16>(a.v | b.v)}; }
+inline unsigned bits(Mask m) { return m.v; }
+inline Mask maskOf(unsigned laneBits) { return {static_cast<__mmask16>(laneBits)}; }
+inline Floats select(Mask m, Floats a, Floats b) { return _mm512_mask_blend_ps(m.v, b.v, a.v); }
+inline Ints select(Mask m, Ints a, Ints b) { return _mm512_mask_blend_epi32(m.v, b.v, a.v); }
+inline Floats permute(Floats a, Ints lanes) { return _mm512_permutexvar_ps(lanes.v, a.v); }
+
+inline float smallest(Floats a) { return _mm512_reduce_min_ps(a.v); }
+inline float largest(Floats a) { return _mm512_reduce_max_ps(a.v); }
+
+// x, y, z of W vectors that follow each other.
+inline void loadVectors(const float* p, Floats& x, Floats& y, Floats& z) {
+    const __m512 a = _mm512_loadu_ps(p), b = _mm512_loadu_ps(p + 16), c = _mm512_loadu_ps(p + 32);
+    const auto pick = [&](__m512i fromAB, __m512i withC) {
+        return _mm512_permutex2var_ps(_mm512_permutex2var_ps(a, fromAB, b), withC, c);
+    };
+    x = pick(_mm512_setr_epi32(0, 3, 6, 9, 12, 15, 18, 21, 24, 27, 30, 0, 0, 0, 0, 0),
+             _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 17, 20, 23, 26, 29));
+    y = pick(_mm512_setr_epi32(1, 4, 7, 10, 13, 16, 19, 22, 25, 28, 31, 0, 0, 0, 0, 0),
+             _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 18, 21, 24, 27, 30));
+    z = pick(_mm512_setr_epi32(2, 5, 8, 11, 14, 17, 20, 23, 26, 29, 0, 0, 0, 0, 0, 0),
+             _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 16, 19, 22, 25, 28, 31));
+}
+// W pairs (a, b) that follow each other.
+inline void storePairs(Floats a, Ints b, float* to) {
+    const __m512 other = _mm512_castsi512_ps(b.v);
+    const __m512i low = _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+    const __m512i high = _mm512_add_epi32(low, _mm512_set1_epi32(8));
+    _mm512_storeu_ps(to, _mm512_permutex2var_ps(a.v, low, other));
+    _mm512_storeu_ps(to + 16, _mm512_permutex2var_ps(a.v, high, other));
+}
+
+// Writes the chosen lanes one after the other; what follows them is overwritten too.
+inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_t* to) {
+    _mm512_storeu_si512(
+        to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(chosen), _mm512_load_si512(from)));
+}
+// Bits of the chosen numbers (not negative), the number of the lane in the lowest four; zeros
+// follow. They sort like the numbers.
+inline __m512i keysOf(unsigned chosen, Floats a) {
+    const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    const __m512i keys =
+        _mm512_or_si512(_mm512_andnot_si512(_mm512_set1_epi32(15), _mm512_castps_si512(a.v)), lane);
+    return _mm512_maskz_compress_epi32(static_cast<__mmask16>(chosen), keys);
+}
+inline __m128i firstFour(__m512i keys) { return _mm512_castsi512_si128(keys); }
+inline void storeKeys(__m512i keys, std::uint32_t* to) { _mm512_storeu_si512(to, keys); }
+inline __m128i pick(__m128i keys, const std::uint32_t* from) {
+    return _mm512_castsi512_si128(
+        _mm512_permutexvar_epi32(_mm512_castsi128_si512(keys), _mm512_load_si512(from)));
+}

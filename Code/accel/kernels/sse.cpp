@@ -1,0 +1,26 @@
+// 8 lanes in pairs of registers: SSE4.2 as of 2008 (Nehalem, Bulldozer).
+#include "accel/kernels/instances.h"
+
+#if defined(__x86_64__)
+#include "accel/kernels/exact_hit.h"
+#include "accel/kernels/target.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <immintrin.h>
+#include <limits>
+#include <vector>
+
+KERNEL_REGION_BEGIN("sse4.2,popcnt")
+namespace kernels::sse {
+#include "accel/kernels/simd_sse.inl"
+
+#include "accel/kernels/key_range.inl"
+
+#include "accel/kernels/queue.inl"
+
+#include "accel/kernels/bundle.inl"
+} // namespace kernels::sse
+KERNEL_REGION_END
+#endif

@@ -1,0 +1,99 @@
+// WideTree: the triangles of a mesh as vector kernels want them. A node tests W boxes at once, a
+// leaf W triangles over at most W vertices that they share: a vertex is moved into the ray's frame
+// once, and both triangles of an edge see the same bits of it.
+// Knows nothing about rays and instruction sets; read by the kernels, written by wide_build.cpp.
+#pragma once
+
+#include "accel/ray_setup.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+// Where a child is: 64-byte lines from the start of the arena, times 4, plus what it is.
+using WideRef = std::uint32_t;
+enum class WideKind : std::uint32_t { Node = 0, Leaf = 1, None = 2 };
+constexpr WideRef wideRef(std::size_t line, WideKind kind) {
+    return static_cast<WideRef>(line << 2) | static_cast<WideRef>(kind);
+}
+constexpr WideKind kindOf(WideRef ref) { return static_cast<WideKind>(ref & 3); }
+constexpr std::size_t byteOffset(WideRef ref) { return static_cast<std::size_t>(ref & ~3u) * 16; }
+
+// Children in the order of their areas, the largest first. A slot without a child has a box that
+// no ray enters and that of an empty leaf.
+template <int W> struct alignas(64) WideNode {
+    float plane[3][2][W]; // axis, lower or upper
+    WideRef child[W];
+};
+static_assert(sizeof(WideNode<16>) == 448 && sizeof(WideNode<8>) == 256);
+
+template <int W> struct alignas(64) WideLeaf {
+    float point[3][W];         // axis; unused places repeat the first point
+    std::uint8_t corner[3][W]; // of triangle i: corner[0..2][i], numbers of points
+    std::uint32_t first;       // triangle i is number triangleIds[first + i] of the mesh
+    std::uint16_t reach;       // longest side of a triangle along an axis, upper half of a float
+    std::uint8_t count;        // triangles
+};
+static_assert(sizeof(WideLeaf<16>) == 256 && sizeof(WideLeaf<8>) == 128);
+
+struct WideTree {
+    int width = 0; // 0: there is none
+    WideRef root = wideRef(0, WideKind::None);
+    std::uint32_t stackSize = 0; // more than a traversal ever has on its stack
+    std::vector<std::uint32_t> triangleIds;
+    std::uint64_t nodes = 0, leaves = 0;
+    double sah = 0; // as sahCost() of bvh.h counts
+
+    bool isEmpty() const { return width == 0; }
+    struct alignas(64) Line {
+        std::byte bytes[64];
+    };
+    std::vector<Line> lines; // the nodes and leaves
+
+    const std::byte* base() const { return reinterpret_cast<const std::byte*>(lines.data()); }
+    std::size_t bytes() const { return lines.size() * sizeof(Line) + triangleIds.size() * 4; }
+    template <class T> const T& at(WideRef ref) const {
+        return *reinterpret_cast<const T*>(base() + byteOffset(ref));
+    }
+};
+
+// Binned SAH, top down. `width` is 8 or 16. The tree is the same on every machine.
+WideTree buildWide(int width, std::span<const Vec3> points,
+                   std::span<const std::array<std::uint32_t, 3>> triangles);
+
+// traverse() of bvh.h for one ray in a wide tree, in plain C++: for the questions that the kernels
+// don't answer. leaf(triangle, zCut) may lower zCut; true stops. In any order.
+template <int W, class LeafFn>
+void traverseWidth(const WideTree& tree, const RaySetup& ray, float zCut, LeafFn&& leaf) {
+    std::vector<WideRef> stack{tree.root};
+    while (!stack.empty()) {
+        const WideRef ref = stack.back();
+        stack.pop_back();
+        if (kindOf(ref) == WideKind::Leaf) {
+            const auto& l = tree.at<WideLeaf<W>>(ref);
+            for (std::uint32_t i = 0; i < l.count; ++i)
+                if (leaf(tree.triangleIds[l.first + i], zCut)) return;
+            continue;
+        }
+        const auto& node = tree.at<WideNode<W>>(ref);
+        for (std::size_t i = W; i-- > 0;) {
+            Bounds box;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                box.lo[axis] = node.plane[axis][0][i];
+                box.hi[axis] = node.plane[axis][1][i];
+            }
+            float z = 0;
+            if (ray.enters(box, zCut, z)) stack.push_back(node.child[i]);
+        }
+    }
+}
+
+template <class LeafFn>
+void traverse(const WideTree& tree, const RaySetup& ray, float zCut, LeafFn&& leaf) {
+    if (tree.width == 16)
+        traverseWidth<16>(tree, ray, zCut, leaf);
+    else
+        traverseWidth<8>(tree, ray, zCut, leaf);
+}

@@ -1,0 +1,295 @@
+#include "read/json/json.h"
+
+#include "base/text.h"
+#include "desc/names.h"
+#include "read/json/text.h"
+#include "read/number.h"
+
+#include <algorithm>
+#include <unordered_map>
+#include <vector>
+
+namespace {
+
+static_assert(sizeof(JsonValue) == 24);
+
+bool isDigit(char c) { return c >= '0' && c <= '9'; }
+bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
+
+class Parser {
+public:
+    explicit Parser(const SourceFile& source)
+        : source_(source), p_(source.text.data()), end_(p_ + source.text.size()),
+          memory_(std::make_unique<std::pmr::monotonic_buffer_resource>()) {}
+
+    JsonDocument parse() {
+        if (source_.text.starts_with("\xef\xbb\xbf"))
+            fail(p_, "the file starts with a byte order mark; JSON is UTF-8 without one");
+        skipBlanks();
+        if (p_ == end_) fail(p_, "the file is empty; expected a JSON value");
+        const JsonValue root = value(0);
+        skipBlanks();
+        if (p_ != end_) fail(p_, cat("expected the end of the file, got ", hereText()));
+        return {std::move(memory_), root};
+    }
+
+private:
+    [[noreturn]] void fail(const char* at, std::string_view what) const {
+        failAt(source_, static_cast<std::size_t>(at - source_.text.data()), what);
+    }
+    SourceLoc locOf(const char* at) const {
+        return {static_cast<std::uint32_t>(at - source_.text.data())};
+    }
+    std::size_t lineOf(SourceLoc loc) const {
+        const auto begin = source_.text.begin();
+        return static_cast<std::size_t>(1 + std::count(begin, begin + loc.offset, '\n'));
+    }
+    // The text ends in the zero of std::string, which is no blank and starts no value.
+    void skipBlanks() {
+        while (*p_ == ' ' || *p_ == '\n' || *p_ == '\r' || *p_ == '\t') ++p_;
+    }
+
+    // What stands at p_, for messages: a word or number whole, else one character.
+    std::string hereText() const {
+        if (p_ == end_) return "the end of the file";
+        const char* last = p_;
+        const auto inWord = [](char c) {
+            return isLetter(c) || isDigit(c) || c == '.' || c == '+' || c == '-';
+        };
+        while (last < end_ && last - p_ < 40 && inWord(*last)) ++last;
+        const std::string_view rest(p_, static_cast<std::size_t>(end_ - p_));
+        const std::string_view here =
+            last > p_ ? rest.substr(0, static_cast<std::size_t>(last - p_)) : firstCharacter(rest);
+        return cat("'", shown(here), "'");
+    }
+
+    // In the arena, where it stays as long as the document.
+    template <class T> std::span<const T> kept(std::span<const T> values) {
+        if (values.empty()) return {};
+        auto* copy = static_cast<T*>(memory_->allocate(values.size_bytes(), alignof(T)));
+        std::uninitialized_copy(values.begin(), values.end(), copy);
+        return {copy, values.size()};
+    }
+
+    JsonValue value(int depth) {
+        const char* start = p_;
+        switch (*p_) {
+        case '{': return object(depth + 1);
+        case '[': return array(depth + 1);
+        case '"': {
+            const std::string_view text = string();
+            return {locOf(start), text};
+        }
+        case 't': return word("true", {locOf(start), true});
+        case 'f': return word("false", {locOf(start), false});
+        case 'n': return word("null", JsonValue(locOf(start)));
+        default:
+            if (*p_ == '-' || isDigit(*p_)) return number();
+            failNoValue();
+        }
+    }
+    [[noreturn]] void failNoValue() const {
+        std::string hint;
+        const std::string here = hereText();
+        if (*p_ == '\'')
+            hint = "; texts stand in double quotes";
+        else if (*p_ == '/' || *p_ == '#')
+            hint = "; JSON has no comments";
+        else if (*p_ == '+' || *p_ == '.')
+            hint = "; a number starts with a digit or '-'";
+        else if (here == "'True'" || here == "'False'" || here == "'None'")
+            hint = "; JSON writes true, false and null";
+        else if (here == "'NaN'" || here == "'Infinity'" || here == "'inf'" || here == "'nan'")
+            hint = "; JSON has finite numbers only";
+        else if (isLetter(*p_))
+            hint = "; texts stand in double quotes, and the words are true, false and null";
+        fail(p_, cat("expected a value, got ", here, hint));
+    }
+    JsonValue word(std::string_view expected, JsonValue value) {
+        const std::string_view rest(p_, static_cast<std::size_t>(end_ - p_));
+        const std::size_t size = expected.size();
+        if (!rest.starts_with(expected) || isLetter(p_[size]) || isDigit(p_[size])) failNoValue();
+        p_ += size;
+        return value;
+    }
+
+    // -? (0 | [1-9][0-9]*) (. [0-9]+)? ([eE] [+-]? [0-9]+)?
+    JsonValue number() {
+        const char* start = p_;
+        if (*p_ == '-') ++p_;
+        const char* whole = p_;
+        digits(start, "after '-'");
+        if (*whole == '0' && p_ > whole + 1)
+            fail(start, "a number has no zeros before its first digit; JSON knows no octal");
+        if (*p_ == '.') {
+            ++p_;
+            digits(start, "after the decimal point");
+        }
+        if (*p_ == 'e' || *p_ == 'E') {
+            ++p_;
+            if (*p_ == '+' || *p_ == '-') ++p_;
+            digits(start, "in the exponent");
+        }
+        if (isLetter(*p_) || *p_ == '.') {
+            const bool isHex = *p_ == 'x' || *p_ == 'X';
+            p_ = start;
+            fail(start, cat("expected a number, got ", hereText(),
+                            isHex ? "; JSON has decimal numbers only" : ""));
+        }
+        const NumberRead<double> read = readDouble(start);
+        if (read.fault == NumberFault::TooLarge)
+            fail(start, "the number is too large; at most 1.7976931348623157e308 is possible");
+        return {locOf(start), read.value};
+    }
+    void digits(const char* start, std::string_view where) {
+        if (!isDigit(*p_)) fail(start, cat("a number needs a digit ", where));
+        while (isDigit(*p_)) ++p_;
+    }
+
+    // Most texts stand in the file as they are; those with escapes are decoded into the arena.
+    std::string_view string() {
+        const JsonText text = readJsonText(source_, p_);
+        p_ = text.end;
+        if (!text.hasEscapes)
+            return {text.begin, static_cast<std::size_t>(text.end - 1 - text.begin)};
+        decoded_.clear();
+        decodeJsonText(source_, text, decoded_);
+        const std::span<const char> copy = kept(std::span<const char>(decoded_));
+        return {copy.data(), copy.size()};
+    }
+
+    void enter(int depth) const {
+        if (depth > kDeepestJson)
+            fail(p_, cat("arrays and objects are nested more than ", kDeepestJson, " deep"));
+    }
+
+    // After an item: true when another one follows. `opened` is where the list begins.
+    bool another(char close, const char* opened, std::string_view after) {
+        skipBlanks();
+        if (*p_ == close) {
+            ++p_;
+            return false;
+        }
+        if (*p_ != ',' && p_ == end_)
+            fail(p_, cat("expected ',' or '", close, "' before the end of the file; '", *opened,
+                         "' was opened at line ", lineOf(locOf(opened))));
+        if (*p_ != ',')
+            fail(p_, cat("expected ',' or '", close, "' after ", after, ", got ", hereText()));
+        const char* comma = p_++;
+        skipBlanks();
+        if (*p_ == close)
+            fail(comma, cat("a ',' before '", close, "'; the last item has none after it"));
+        return true;
+    }
+
+    JsonValue array(int depth) {
+        enter(depth);
+        const char* start = p_++;
+        const std::size_t base = items_.size();
+        skipBlanks();
+        if (*p_ == ']')
+            ++p_;
+        else
+            do items_.push_back(value(depth));
+            while (another(']', start, "an item of an array"));
+        const auto items = kept(std::span<const JsonValue>(items_).subspan(base));
+        items_.resize(base);
+        return {locOf(start), items};
+    }
+
+    JsonValue object(int depth) {
+        enter(depth);
+        const char* start = p_++;
+        const std::size_t base = members_.size();
+        skipBlanks();
+        if (*p_ == '}')
+            ++p_;
+        else
+            do members_.push_back(member(depth));
+            while (another('}', start, "a value of an object"));
+        const auto members = kept(std::span<const JsonMember>(members_).subspan(base));
+        members_.resize(base);
+        checkUnique(members);
+        return {locOf(start), members};
+    }
+
+    JsonMember member(int depth) {
+        const char* start = p_;
+        if (*p_ != '"')
+            fail(p_, cat("expected a key in double quotes", p_ == end_ ? " before " : ", got ",
+                         hereText()));
+        const std::string_view key = string();
+        skipBlanks();
+        if (*p_ != ':')
+            fail(p_, cat("expected ':' after the key '", shown(key), "', got ", hereText()));
+        ++p_;
+        skipBlanks();
+        return {key, locOf(start), value(depth)};
+    }
+
+    void checkUnique(std::span<const JsonMember> members) const {
+        constexpr std::size_t kFew = 16; // where comparing all pairs beats a table
+        if (members.size() <= kFew) {
+            for (std::size_t i = 1; i < members.size(); ++i)
+                for (std::size_t j = 0; j < i; ++j)
+                    if (members[i].key == members[j].key) failTwice(members[j], members[i]);
+            return;
+        }
+        std::unordered_map<std::string_view, const JsonMember*> seen;
+        for (const JsonMember& member : members) {
+            const auto [first, isNew] = seen.try_emplace(member.key, &member);
+            if (!isNew) failTwice(*first->second, member);
+        }
+    }
+    [[noreturn]] void failTwice(const JsonMember& first, const JsonMember& again) const {
+        failAt(source_, again.loc.offset,
+               cat("the key '", shown(again.key), "' was given already at line ", lineOf(first.loc),
+                   "; an object has each key once"));
+    }
+
+    const SourceFile& source_;
+    const char* p_;
+    const char* end_; // *end_ is the string's terminating zero
+    std::unique_ptr<std::pmr::monotonic_buffer_resource> memory_;
+    // What is read of the lists that are still open, innermost last.
+    std::vector<JsonValue> items_;
+    std::vector<JsonMember> members_;
+    std::string decoded_;
+};
+
+} // namespace
+
+JsonValue::JsonValue(SourceLoc loc, std::span<const JsonMember> members)
+    : loc_(loc), kind_(Kind::Object), size_(members.size()), members_(members.data()) {}
+
+std::span<const JsonMember> JsonValue::members() const {
+    return isObject() ? std::span(members_, size_) : std::span<const JsonMember>();
+}
+
+const JsonValue* JsonValue::find(std::string_view key) const {
+    for (const JsonMember& member : members())
+        if (member.key == key) return &member.value;
+    return nullptr;
+}
+
+std::string_view nameOf(JsonValue::Kind kind) {
+    constexpr std::string_view kNames[] = {"null",   "true or false", "a number",
+                                           "a text", "an array",      "an object"};
+    return kNames[static_cast<std::size_t>(kind)];
+}
+
+std::string described(const JsonValue& value) {
+    switch (value.kind()) {
+    case JsonValue::Kind::Bool: return value.boolean() ? "true" : "false";
+    case JsonValue::Kind::Number: return cat("the number ", shortest(value.number()));
+    case JsonValue::Kind::String: return cat("the text '", shown(value.text()), "'");
+    default: return std::string(nameOf(value.kind()));
+    }
+}
+
+JsonDocument parseJson(const SourceFile& source) {
+    // Locations are 32 bits wide.
+    if (source.text.size() >= SourceLoc::kUnknown)
+        fail(ErrorKind::Input, cat(source.name, ": error: the file is larger than 4 GiB"));
+    return Parser(source).parse();
+}

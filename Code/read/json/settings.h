@@ -1,0 +1,10 @@
+// Picture, sampling and surroundings of a JSON scene: resolution, AA, ambient, settings, world.
+#pragma once
+
+#include "desc/scene_desc.h"
+#include "read/json/dialect.h"
+#include "read/json/fields.h"
+#include "read/json/names.h"
+
+void readJsonSettings(JsonFields& scene, const JsonRules& rules, SettingsDesc& settings);
+void readJsonWorld(JsonFields& scene, const JsonNames& textures, WorldDesc& world);

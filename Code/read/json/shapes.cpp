@@ -1,0 +1,160 @@
+#include "read/json/shapes.h"
+
+#include "base/text.h"
+#include "base/transform.h"
+#include "desc/names.h"
+#include "read/json/placement.h"
+#include "read/json/plane.h"
+#include "read/json/properties.h"
+
+#include <algorithm>
+#include <array>
+
+namespace {
+
+using Kind = ObjectDesc::Kind;
+
+struct Input {
+    JsonFields& fields;
+    const JsonRules& rules;
+    JsonMeshes& meshes;
+};
+
+void placed(Input& in, JsonShape& shape) { shape.place = readJsonPlace(in.fields); }
+
+// Native disks, cylinders and cones have the axis Z; in a world with Y up they stand up.
+void upright(Input& in, JsonShape& shape) {
+    constexpr Rows kYFromZ = {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0};
+    shape.place = product(readJsonPlace(in.fields), {kYFromZ});
+}
+
+// By its corners, or by size and centre; what 'rotation' says is ignored as in the course.
+void box(Input& in, JsonShape& shape) {
+    JsonFields& fields = in.fields;
+    JsonProblems& problems = fields.problems();
+    Vec3d size, position, lo{-1, -1, -1}, hi{1, 1, 1}, rotation;
+    const JsonValue* sizeValue = fields.read("size", size, kPositive);
+    const bool isPlaced = in.rules.allArePlaced;
+    const JsonValue* positionValue =
+        isPlaced ? nullptr : fields.read("position", position, kAnyNumber);
+    const JsonValue* loValue = fields.read("min", lo, kAnyNumber);
+    const JsonValue* hiValue = fields.read("max", hi, kAnyNumber);
+    const JsonValue* rotationValue = isPlaced ? nullptr : fields.read("rotation", rotation, kTurn);
+    if (rotationValue && rotation != Vec3d{})
+        problems.warn(rotationValue->loc(), [] {
+            return "'rotation' of a box is ignored: its sides lie along the axes; turn a node "
+                   "around it, or use the type cube";
+        });
+    if (sizeValue && (loValue || hiValue))
+        problems.error(sizeValue->loc(), [] { return "give 'size' or 'min' and 'max', not both"; });
+    if (sizeValue) {
+        lo = position - size * 0.5;
+        hi = position + size * 0.5;
+    } else if (positionValue && position != Vec3d{}) {
+        problems.warn(positionValue->loc(), [] {
+            return "'position' of a box without 'size' is ignored: 'min' and 'max' place it";
+        });
+    }
+    // (What could not be read was told already, and would only look wrong here.)
+    if (!(lo.x < hi.x && lo.y < hi.y && lo.z < hi.z) && !problems.hasErrors())
+        problems.error(hiValue ? hiValue->loc() : fields.loc(), [] {
+            return "a box has a 'max' above its 'min' on each axis (left out: 1 and -1)";
+        });
+    const Vec3d centre = (lo + hi) * 0.5, half = (hi - lo) * 0.5;
+    shape.place = {(Transform::translate(centre) * Transform::scale(half)).rows()};
+    if (isPlaced) shape.place = product(readJsonPlace(fields), shape.place);
+}
+
+void plane(Input& in, JsonShape& shape) {
+    JsonFields& fields = in.fields;
+    Vec3d position, normal{0, 1, 0};
+    const bool isPlaced = in.rules.allArePlaced;
+    if (!isPlaced) fields.read("position", position, kAnyNumber);
+    const JsonValue* normalValue = fields.read("normal", normal, kAnyNumber);
+    if (normal == Vec3d{})
+        return fields.problems().error(normalValue->loc(),
+                                       [] { return "'normal' of a plane is 0 0 0"; });
+    const Vec3d unit = normalize(normal / maxAbs(normal));
+    shape.place = {planeRows(position, unit)};
+    shape.checkerboard =
+        isVerticalPlane(unit) ? shape.place : Keys{checkerboardRows(position, unit)};
+    if (!isPlaced) return;
+    const Keys place = readJsonPlace(fields);
+    shape.place = product(place, shape.place);
+    shape.checkerboard = product(place, shape.checkerboard);
+}
+
+// The course's: (v + position) * scale.
+Rows movedFirst(const JsonPlace& place) {
+    return (Transform::scale(place.scale) * Transform::translate(place.position)).rows();
+}
+void mesh(Input& in, JsonShape& shape) {
+    shape.object.mesh = in.meshes.read(in.fields);
+    const JsonValue* scale = in.fields.find("scale");
+    const bool isPlain = !in.fields.has("rotation") && (!scale || scale->isNumber());
+    const bool movesFirst = in.rules.meshMovesFirst && isPlain;
+    shape.place = readJsonPlace(in.fields, movesFirst ? movedFirst : rowsOf);
+}
+
+struct Type {
+    std::string_view word;
+    Kind kind;
+    void (*place)(Input&, JsonShape&);
+};
+constexpr auto kTypes = std::to_array<Type>({
+    {"sphere", Kind::Sphere, placed},
+    {"box", Kind::Cube, box},
+    {"plane", Kind::InfinitePlane, plane},
+    {"mesh", Kind::Mesh, mesh},
+    {"cube", Kind::Cube, placed},
+    {"quad", Kind::Plane, placed},
+    {"disk", Kind::Disk, upright},
+    {"cylinder", Kind::Cylinder, upright},
+    {"cone", Kind::Cone, upright},
+});
+
+} // namespace
+
+Handle JsonMeshes::read(JsonFields& fields) {
+    std::string file;
+    double smoothAngleDeg = 0;
+    const JsonValue* value = fields.read("filepath", file);
+    fields.read("smooth_angle", smoothAngleDeg, Range{0, 180});
+    if (file.empty() || findBadText(file) != std::string::npos)
+        fields.problems().error(value ? value->loc() : fields.loc(), [] {
+            return "a mesh needs a 'filepath': the name of a file, without control characters";
+        });
+    const auto handle = static_cast<Handle>(meshes_.size());
+    const auto [known, isNew] = known_.try_emplace({file, smoothAngleDeg}, handle);
+    if (!isNew) return known->second;
+    MeshDesc& mesh = meshes_.emplace_back();
+    mesh.loc = fields.loc();
+    mesh.file = file;
+    mesh.fileLoc = value ? value->loc() : fields.loc();
+    mesh.smoothAngleDeg = smoothAngleDeg;
+    const std::string baseName = file.substr(file.find_last_of("/\\") + 1);
+    const std::string stem = baseName.substr(0, baseName.find_last_of('.'));
+    mesh.name = names_.of(stem.empty() ? "mesh" : stem);
+    return handle;
+}
+
+std::vector<std::string> jsonShapeWords() {
+    std::vector<std::string> words;
+    for (const Type& type : kTypes) words.emplace_back(type.word);
+    return words;
+}
+
+std::optional<JsonShape> readJsonShape(std::string_view type, JsonFields& fields,
+                                       const JsonRules& rules, const JsonNames& textures,
+                                       JsonMeshes& meshes) {
+    const auto row =
+        std::find_if(kTypes.begin(), kTypes.end(), [&](const Type& t) { return t.word == type; });
+    if (row == kTypes.end()) return {};
+    JsonShape shape;
+    shape.object.loc = fields.loc();
+    shape.object.kind = row->kind;
+    Input in{fields, rules, meshes};
+    row->place(in, shape);
+    readJsonProperties(fields, textures, shape.object, {"material", "materials", "mesh"});
+    return shape;
+}

@@ -1,0 +1,128 @@
+#include "read/mesh/mesh_builder.h"
+
+#include "read/mesh/exact_orientation.h"
+#include "read/mesh/smooth_normals.h"
+#include "read/mesh/triangulate.h"
+
+#include <algorithm>
+
+namespace {
+
+using Corners = MeshDesc::Corners;
+constexpr Corners kAllMissing{MeshBuilder::kMissing, MeshBuilder::kMissing, MeshBuilder::kMissing};
+
+// Exactly: seen along all three axes, the corners are on one line.
+bool hasArea(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    return orientation({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) != 0 ||
+           orientation({a.y, a.z}, {b.y, b.z}, {c.y, c.z}) != 0 ||
+           orientation({a.z, a.x}, {b.z, b.x}, {c.z, c.x}) != 0;
+}
+
+// Arrays that few files need begin with the first triangle that needs them; those before get what
+// is missing.
+template <class T>
+void append(std::vector<T>& array, bool isNeeded, std::size_t before, std::size_t expected,
+            const T& missing, const T& value) {
+    if (array.empty()) {
+        if (!isNeeded) return;
+        array.reserve(std::max(expected, before + 1));
+        array.resize(before, missing);
+    }
+    array.push_back(value);
+}
+
+// Leaves out the values that no corner uses; returns how many.
+template <class T> std::size_t dropUnused(std::vector<T>& values, std::vector<Corners>& corners) {
+    std::vector<bool> used(values.size());
+    for (const Corners& c : corners)
+        for (const std::uint32_t i : c) used[i] = true;
+    if (std::find(used.begin(), used.end(), false) == used.end()) return 0;
+    std::vector<std::uint32_t> newIndex(values.size());
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (!used[i]) continue;
+        newIndex[i] = count;
+        values[count++] = values[i];
+    }
+    for (Corners& c : corners)
+        for (std::uint32_t& i : c) i = newIndex[i];
+    const std::size_t dropped = values.size() - count;
+    values.resize(count);
+    return dropped;
+}
+
+} // namespace
+
+void MeshBuilder::reserve(std::size_t triangles) {
+    expected_ = triangles;
+    mesh.triangles.reserve(triangles);
+}
+
+bool MeshBuilder::addTriangle(const Corner& a, const Corner& b, const Corner& c) {
+    if (a.point == b.point || b.point == c.point || c.point == a.point ||
+        !hasArea(mesh.points[a.point], mesh.points[b.point], mesh.points[c.point]))
+        return false;
+    const std::size_t before = mesh.triangles.size();
+    mesh.triangles.push_back({a.point, b.point, c.point});
+    append(mesh.uvTriangles, a.uv != kMissing, before, expected_, kAllMissing, {a.uv, b.uv, c.uv});
+    append(mesh.normalTriangles, a.normal != kMissing, before, expected_, kAllMissing,
+           {a.normal, b.normal, c.normal});
+    append(mesh.triangleMaterials, slot != 0, before, expected_, 0u, slot);
+    append(groups_, group != 0, before, expected_, 0u, group);
+    return true;
+}
+
+bool MeshBuilder::addFace(std::span<const Corner> corners) {
+    if (corners.size() == 3) return addTriangle(corners[0], corners[1], corners[2]);
+    polygon_.clear();
+    for (const Corner& c : corners) polygon_.push_back(mesh.points[c.point]);
+    pieces_.clear();
+    triangulate(polygon_, pieces_);
+    bool any = false;
+    for (const Corners& t : pieces_)
+        any = addTriangle(corners[t[0]], corners[t[1]], corners[t[2]]) || any;
+    return any;
+}
+
+void MeshBuilder::fillUvs() {
+    if (mesh.uvTriangles.empty()) return mesh.uvs.clear();
+    if (std::find(mesh.uvTriangles.begin(), mesh.uvTriangles.end(), kAllMissing) !=
+        mesh.uvTriangles.end()) {
+        const auto zero = static_cast<std::uint32_t>(mesh.uvs.size());
+        mesh.uvs.push_back({0, 0});
+        for (Corners& c : mesh.uvTriangles)
+            if (c == kAllMissing) c = {zero, zero, zero};
+    }
+    dropUnused(mesh.uvs, mesh.uvTriangles);
+}
+
+void MeshBuilder::fillNormals() {
+    std::vector<Corners>& corners = mesh.normalTriangles;
+    if (corners.empty()) {
+        mesh.normals.clear();
+        if (!groups_.empty()) smoothByGroup(mesh, groups_);
+        return;
+    }
+    if (std::find(corners.begin(), corners.end(), kAllMissing) != corners.end()) {
+        std::vector<Vec3> given = std::move(mesh.normals);
+        std::vector<Corners> givenCorners = std::move(corners);
+        groups_.resize(mesh.triangles.size());
+        smoothByGroup(mesh, groups_);
+        const auto offset = static_cast<std::uint32_t>(given.size());
+        given.insert(given.end(), mesh.normals.begin(), mesh.normals.end());
+        mesh.normals = std::move(given);
+        for (std::size_t i = 0; i < corners.size(); ++i)
+            for (std::size_t k = 0; k < 3; ++k)
+                corners[i][k] =
+                    givenCorners[i] == kAllMissing ? offset + corners[i][k] : givenCorners[i][k];
+    }
+    dropUnused(mesh.normals, corners);
+}
+
+MeshBuilder::Dropped MeshBuilder::finish() {
+    Dropped dropped;
+    dropped.points = dropUnused(mesh.points, mesh.triangles);
+    fillUvs();
+    fillNormals();
+    return dropped;
+}

@@ -1,0 +1,135 @@
+// The data of a binary PLY file as numbers. The same steps as PlyText: one loop reads both.
+// Messages point to the line of the element in the header, and name the byte.
+#pragma once
+
+#include "base/text.h"
+#include "read/mesh/ply_header.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <span>
+#include <utility>
+#include <vector>
+
+template <PlyFormat kFormat> class PlyBytes {
+public:
+    PlyBytes(const SourceFile& source, std::size_t offset)
+        : source_(source), p_(source.text.data() + offset),
+          end_(source.text.data() + source.text.size()) {}
+
+    // Fails when the file cannot hold the rows that the header promises.
+    void begin(const PlyElement& element) {
+        element_ = &element;
+        row_ = 0;
+        std::size_t rowBytes = 0; // at least: lists may be empty
+        for (const PlyProperty& p : element.properties)
+            rowBytes += sizeOf(p.countType.value_or(p.type));
+        if (rowBytes == 0) return;
+        if (const std::size_t possible = bytesLeft() / rowBytes; element.count > possible)
+            failAt(source_, element.offset,
+                   cat("'element ", shown(element.name), " ", element.count,
+                       "' is more than the rest of the file can hold (", possible, " at most)"));
+    }
+    void beginRow() {}
+    void endRow() { ++row_; }
+
+    double number(PlyType type) {
+        double value = 0;
+        withType(type, [&]<class T>() { value = static_cast<double>(load<T>(take(sizeof(T)))); });
+        return value;
+    }
+    void skip(PlyType type) { take(sizeOf(type)); }
+
+    // Items of a list of a whole type; negative ones wrap around. Fails above `most` items.
+    void list(const PlyProperty& property, std::size_t most, std::vector<std::uint32_t>& items) {
+        const std::size_t count = listCount(property, most);
+        items.resize(count);
+        withType(property.type, [&]<class T>() {
+            listStart_ = take(count * sizeof(T));
+            for (std::size_t i = 0; i < count; ++i)
+                items[i] = static_cast<std::uint32_t>(load<T>(listStart_ + i * sizeof(T)));
+        });
+    }
+    void skipList(const PlyProperty& property) {
+        take(listCount(property, bytesLeft()) * sizeOf(property.type));
+    }
+
+    [[noreturn]] void fail(std::string_view what) const { failAtByte(last_, what); }
+    [[noreturn]] void failAtItem(const PlyProperty& property, std::size_t i,
+                                 std::string_view what) const {
+        failAtByte(listStart_ + i * sizeOf(property.type), what);
+    }
+    // What is behind the last element, if it should be told.
+    std::optional<std::pair<std::size_t, std::string>> rest() const {
+        if (p_ == end_) return {};
+        return std::pair(element_ ? element_->offset : 0,
+                         cat(bytesLeft(), " bytes follow the last element and were not read"));
+    }
+
+private:
+    std::size_t bytesLeft() const { return static_cast<std::size_t>(end_ - p_); }
+
+    const char* take(std::size_t size) {
+        last_ = p_;
+        if (size > bytesLeft()) fail("the file ends in the middle of the data");
+        p_ += size;
+        return last_;
+    }
+
+    std::size_t listCount(const PlyProperty& property, std::size_t most) {
+        const auto count = static_cast<std::int64_t>(number(*property.countType));
+        const std::size_t possible = std::min(most, bytesLeft() / sizeOf(property.type));
+        if (count < 0 || static_cast<std::uint64_t>(count) > possible)
+            fail(cat("a list of '", shown(property.name), "' has ", count, " items; at most ",
+                     possible,
+                     possible < most ? " fit into the rest of the file" : " are possible"));
+        return static_cast<std::size_t>(count);
+    }
+
+    // Written as shifts, whatever the machine's own order is: compilers make one load of it.
+    template <class T> static T load(const char* p) {
+        return [&]<std::size_t... i>(std::index_sequence<i...>) {
+            constexpr std::size_t kLast = sizeof(T) - 1;
+            const auto byte = [&](std::size_t k) {
+                const std::size_t at = kFormat == PlyFormat::BigEndian ? kLast - k : k;
+                return std::uint64_t{static_cast<unsigned char>(p[at])} << (8 * k);
+            };
+            const std::uint64_t bits = (byte(i) | ...);
+            if constexpr (std::is_same_v<T, float>)
+                return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+            else if constexpr (std::is_same_v<T, double>)
+                return std::bit_cast<double>(bits);
+            else
+                return static_cast<T>(bits);
+        }
+        (std::make_index_sequence<sizeof(T)>());
+    }
+
+    template <class Call> static void withType(PlyType type, Call&& call) {
+        switch (type) {
+        case PlyType::Int8: return call.template operator()<std::int8_t>();
+        case PlyType::Uint8: return call.template operator()<std::uint8_t>();
+        case PlyType::Int16: return call.template operator()<std::int16_t>();
+        case PlyType::Uint16: return call.template operator()<std::uint16_t>();
+        case PlyType::Int32: return call.template operator()<std::int32_t>();
+        case PlyType::Uint32: return call.template operator()<std::uint32_t>();
+        case PlyType::Float32: return call.template operator()<float>();
+        case PlyType::Float64: return call.template operator()<double>();
+        }
+    }
+
+    [[noreturn]] void failAtByte(const char* p, std::string_view what) const {
+        failAt(source_, element_->offset,
+               cat("byte ", p - source_.text.data(), ", row ", row_, " of '", shown(element_->name),
+                   "': ", what));
+    }
+
+    const SourceFile& source_;
+    const PlyElement* element_ = nullptr;
+    std::size_t row_ = 0;
+    const char* p_;
+    const char* end_;
+    const char* last_ = nullptr;      // the value that was read last
+    const char* listStart_ = nullptr; // the items of the list that was read last
+};

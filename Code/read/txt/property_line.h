@@ -1,0 +1,130 @@
+// One line `keyword values` of a block, as a row of desc/properties.h describes it.
+#pragma once
+
+#include "base/text.h"
+#include "desc/error_list.h"
+#include "desc/names.h"
+#include "desc/properties.h"
+#include "read/number.h"
+#include "read/txt/scanner.h"
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+// Fails unless the line ends here. A '{' means that the block `open` was never closed.
+void expectLineEnd(Scanner& in, std::string_view after, const Token& open);
+[[noreturn]] void failUnclosed(const Scanner& in, const Token& open, const Token& found);
+// When the line opens another block, then it is `open` that was never closed.
+[[noreturn]] void failUnknownProperty(Scanner& in, const Token& word, const Token& open,
+                                      std::span<const std::string> known);
+
+// Reads the numbers of one line and counts them for its messages.
+class NumberLine {
+public:
+    NumberLine(Scanner& in, ErrorList& errors, std::string_view keyword, std::size_t count)
+        : in_(in), errors_(errors), keyword_(keyword), count_(count) {}
+
+    void read(double& value, const Range& range);
+    template <class Whole>
+    requires std::is_integral_v<Whole>
+    void read(Whole& value, const Range& range) {
+        if (const auto read = readWhole(range)) value = static_cast<Whole>(*read);
+    }
+    // After the last number.
+    void finish(const Token& open);
+
+private:
+    Token nextNumber();
+    std::optional<long long> readWhole(const Range& range);
+    std::string expected() const; // "expected 3 numbers after 'diffuse'"
+
+    Scanner& in_;
+    ErrorList& errors_;
+    std::string_view keyword_;
+    std::size_t count_, got_ = 0;
+};
+
+// Reads the values of a property. A reference becomes its position in `names`; all are looked up
+// when the whole file is known.
+template <class Block> class PropertyLine {
+public:
+    PropertyLine(Scanner& in, ErrorList& errors, std::vector<Token>& names, const Token& open)
+        : in_(in), errors_(errors), names_(names), open_(open) {}
+
+    void read(Block& block, const Property<Block>& property) {
+        keyword_ = property.keyword;
+        readWord(block, property.first);
+        if (auto* crop = std::get_if<Crop Block::*>(&property.first)) (block.**crop).emplace();
+        std::size_t count = 0;
+        const auto countOne = [&](auto&) { ++count; };
+        forEachNumber(block, property.first, countOne);
+        if (property.second) forEachNumber(block, *property.second, countOne);
+        if (count == 0) return expectLineEnd(in_, property.keyword, open_);
+        NumberLine numbers(in_, errors_, property.keyword, count);
+        const auto readOne = [&](auto& number) { numbers.read(number, property.range); };
+        forEachNumber(block, property.first, readOne);
+        if (property.second) forEachNumber(block, *property.second, readOne);
+        numbers.finish(open_);
+    }
+
+private:
+    void readWord(Block& block, const Field<Block>& field) {
+        if (const auto* flag = std::get_if<bool Block::*>(&field)) {
+            const Token t = in_.next();
+            if (t.text != "true" && t.text != "false") failExpected(t, "true or false");
+            block.** flag = t.text == "true";
+        } else if (const auto* text = std::get_if<std::string Block::*>(&field)) {
+            block.** text = in_.nameIn(nextName("a text"));
+        } else if (const auto* reference = std::get_if<Reference<Block>>(&field)) {
+            block.*(reference->handle) =
+                remember(nextName(cat("the name of a ", nameOf(reference->target))));
+        } else if (const auto* choice = std::get_if<Choice<Block>>(&field)) {
+            readChoice(block, *choice);
+        } else if (const auto* list = std::get_if<MaterialList<Block>>(&field)) {
+            readMaterials(block.*(list->handles), list->many);
+        }
+    }
+    void readChoice(Block& block, const Choice<Block>& choice) {
+        const Token t = in_.next();
+        if (t.kind != TokenKind::Word)
+            failExpected(t, "one of " + join(std::vector<std::string>(choice.names.begin(),
+                                                                      choice.names.end())));
+        for (std::size_t i = 0; i < choice.names.size(); ++i)
+            if (choice.names[i] == t.text) return choice.set(block, i);
+        errors_.add(locOf(t), [&] { return unknownValue(keyword_, shown(t.text), choice.names); });
+    }
+    void readMaterials(std::vector<Handle>& handles, bool many) {
+        const Token first = nextName("the name of a material");
+        if (!handles.empty())
+            errors_.add(locOf(first), [] { return "give 'material' or 'materials', not both"; });
+        handles.assign(1, remember(first));
+        while (many && isName(in_.peek())) handles.push_back(remember(in_.next()));
+    }
+
+    static bool isName(const Token& t) {
+        return t.kind == TokenKind::Word || t.kind == TokenKind::Quoted;
+    }
+    static SourceLoc locOf(const Token& t) { return {static_cast<std::uint32_t>(t.offset)}; }
+    Token nextName(std::string_view what) {
+        const Token t = in_.next();
+        if (!isName(t)) failExpected(t, what);
+        return t;
+    }
+    Handle remember(const Token& t) {
+        names_.push_back(t);
+        return static_cast<Handle>(names_.size() - 1);
+    }
+    [[noreturn]] void failExpected(const Token& t, std::string_view what) const {
+        in_.failAt(t.offset, cat("expected ", what, " after '", keyword_, "', got ", described(t)));
+    }
+
+    Scanner& in_;
+    ErrorList& errors_;
+    std::vector<Token>& names_;
+    const Token& open_;
+    std::string_view keyword_;
+};

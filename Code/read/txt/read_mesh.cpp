@@ -1,0 +1,226 @@
+#include "read/txt/read_mesh.h"
+
+#include "base/text.h"
+#include "desc/names.h"
+#include "desc/properties.h"
+#include "read/number.h"
+#include "read/txt/property_line.h"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+namespace {
+
+// How a number of an array is read, and how many make a group.
+template <class Group> struct GroupOf;
+template <> struct GroupOf<Vec3d> {
+    static constexpr std::size_t kSize = 3;
+    static constexpr double kLargest = kLargestLength;
+    static NumberRead<double> read(const char* p) { return readDouble(p); }
+    static double& number(Vec3d& v, std::size_t i) { return v[i]; }
+};
+template <> struct GroupOf<Vec3> {
+    static constexpr std::size_t kSize = 3;
+    static constexpr float kLargest = 1e15f; // its square is far from the end of float
+    static NumberRead<float> read(const char* p) { return readFloat(p); }
+    static float& number(Vec3& v, std::size_t i) { return v[i]; }
+};
+template <> struct GroupOf<Vec2> {
+    static constexpr std::size_t kSize = 2;
+    static constexpr float kLargest = 1e15f;
+    static NumberRead<float> read(const char* p) { return readFloat(p); }
+    static float& number(Vec2& v, std::size_t i) { return i == 0 ? v.x : v.y; }
+};
+template <> struct GroupOf<MeshDesc::Corners> {
+    static constexpr std::size_t kSize = 3;
+    static NumberRead<std::uint32_t> read(const char* p) { return readUnsigned(p); }
+    static std::uint32_t& number(MeshDesc::Corners& c, std::size_t i) { return c[i]; }
+};
+template <> struct GroupOf<std::uint32_t> {
+    static constexpr std::size_t kSize = 1;
+    static NumberRead<std::uint32_t> read(const char* p) { return readUnsigned(p); }
+    static std::uint32_t& number(std::uint32_t& n, std::size_t) { return n; }
+};
+
+// What was read of an array, for the check of the indices when the whole block is known.
+struct ArrayRead {
+    bool given = false;
+    std::size_t offset = 0; // of its keyword, then of its first number
+    std::size_t numbers = 0;
+    std::size_t groups = 0;
+    std::uint32_t largestIndex = 0; // of index arrays
+};
+
+class MeshReader {
+public:
+    MeshReader(Scanner& in, ErrorList& errors, const Token& open, MeshDesc& mesh)
+        : in_(in), errors_(errors), open_(open), mesh_(mesh) {}
+
+    void read() {
+        while (true) {
+            const Token t = in_.next();
+            if (t.kind == TokenKind::LineEnd) continue;
+            if (t.kind == TokenKind::Close) break;
+            if (t.kind == TokenKind::FileEnd || t.kind == TokenKind::Open)
+                failUnclosed(in_, open_, t);
+            if (t.kind != TokenKind::Word)
+                in_.failAt(t.offset, cat("expected a property or '}', got ", described(t)));
+            if (!readProperty(t)) readArray(t, arrayNamed(t));
+        }
+        expectLineEnd(in_, "}", open_);
+        checkFile();
+        for (std::size_t i = 0; i < kMeshArrays.size(); ++i) checkIndices(i);
+    }
+
+private:
+    bool readProperty(const Token& t) {
+        const auto row = std::find_if(kMeshProperties.begin(), kMeshProperties.end(),
+                                      [&](const auto& p) { return p.keyword == t.text; });
+        if (row == kMeshProperties.end()) return false;
+        std::size_t& before = given_[static_cast<std::size_t>(row - kMeshProperties.begin())];
+        if (before > 0)
+            in_.failAt(t.offset,
+                       cat("'", t.text, "' was given already at line ", in_.lineOf(before)));
+        before = t.offset;
+        PropertyLine<MeshDesc>(in_, errors_, names_, open_).read(mesh_, *row);
+        if (row->keyword == "file") mesh_.fileLoc = {static_cast<std::uint32_t>(t.offset)};
+        return true;
+    }
+
+    // A mesh has arrays or a file.
+    void checkFile() {
+        if (mesh_.file.empty()) {
+            for (std::size_t i = 0; i < kMeshProperties.size(); ++i)
+                if (given_[i] > 0)
+                    errors_.add({static_cast<std::uint32_t>(given_[i])}, [&] {
+                        return cat("'", kMeshProperties[i].keyword, "' needs the name of a file");
+                    });
+            return;
+        }
+        for (const ArrayRead& array : reads_)
+            if (array.given)
+                errors_.add({static_cast<std::uint32_t>(array.offset)},
+                            [] { return "a mesh has a 'file' or arrays, not both"; });
+    }
+
+    std::size_t arrayNamed(const Token& t) {
+        for (std::size_t i = 0; i < kMeshArrays.size(); ++i)
+            if (kMeshArrays[i].keyword == t.text) return i;
+        if (!last_.empty() && readDouble(t.text.data()).fault != NumberFault::NotANumber)
+            in_.failAt(t.offset, cat("'", last_, "' has more numbers than its count says"));
+        std::vector<std::string> known;
+        for (const auto& property : kMeshProperties) known.emplace_back(property.keyword);
+        for (const MeshArray& array : kMeshArrays) known.emplace_back(array.keyword);
+        failUnknownProperty(in_, t, open_, known);
+    }
+
+    void readArray(const Token& keyword, std::size_t which) {
+        ArrayRead& read = reads_[which];
+        if (read.given)
+            in_.failAt(keyword.offset, cat("'", keyword.text, "' was given already at line ",
+                                           in_.lineOf(read.offset)));
+        read.given = true;
+        read.offset = keyword.offset;
+        last_ = keyword.text;
+        std::visit([&](auto member) { readGroups(mesh_.*member, read); },
+                   kMeshArrays[which].member);
+        expectLineEnd(in_, keyword.text, open_);
+    }
+
+    template <class Group> void readGroups(std::vector<Group>& groups, ArrayRead& read) {
+        read.groups = readCount(GroupOf<Group>::kSize);
+        read.numbers = read.groups * GroupOf<Group>::kSize;
+        groups.resize(read.groups);
+        const std::size_t start = in_.offset();
+        for (Group& group : groups)
+            for (std::size_t i = 0; i < GroupOf<Group>::kSize; ++i) {
+                const char* const p = in_.skipToValue();
+                const auto number = GroupOf<Group>::read(p);
+                if (number.fault != NumberFault::None || !Scanner::endsNumber(*number.end))
+                    failNumber<Group>(static_cast<std::size_t>(&group - groups.data()) *
+                                              GroupOf<Group>::kSize +
+                                          i,
+                                      read);
+                if constexpr (requires { GroupOf<Group>::kLargest; }) {
+                    if (!(std::fabs(number.value) <= GroupOf<Group>::kLargest))
+                        errors_.add({static_cast<std::uint32_t>(in_.offset())}, [&] {
+                            return cat(described(in_.peek()), " is too large; at most ",
+                                       shortest(GroupOf<Group>::kLargest));
+                        });
+                } else {
+                    read.largestIndex = std::max(read.largestIndex, number.value);
+                }
+                GroupOf<Group>::number(group, i) = number.value;
+                in_.moveTo(number.end);
+            }
+        read.offset = start;
+    }
+
+    // A group takes at least two bytes per number, so a count that the rest of the file cannot hold
+    // is found before memory is asked for.
+    std::size_t readCount(std::size_t groupSize) {
+        const Token t = in_.peek();
+        const auto count = t.kind == TokenKind::Word ? parseInteger(t.text) : std::nullopt;
+        if (!count || *count < 0)
+            in_.failAt(t.offset, cat("expected a count after '", last_, "', got ", described(t)));
+        in_.next();
+        const std::size_t possible = (in_.bytesLeft() + 1) / (2 * groupSize);
+        if (static_cast<std::uint64_t>(*count) > possible)
+            in_.failAt(t.offset, cat("'", last_, " ", *count,
+                                     "' is more than the rest of the file can hold (", possible,
+                                     " at most)"));
+        return static_cast<std::size_t>(*count);
+    }
+
+    template <class Group> [[noreturn]] void failNumber(std::size_t got, const ArrayRead& read) {
+        const Token t = in_.next();
+        constexpr bool kIndex = !requires { GroupOf<Group>::kLargest; };
+        if (t.kind == TokenKind::Word && readDouble(t.text.data()).fault == NumberFault::TooLarge)
+            in_.failAt(t.offset, cat(described(t), " is too large"));
+        in_.failAt(t.offset,
+                   cat("expected ", read.groups, " times ", GroupOf<Group>::kSize,
+                       kIndex ? " whole numbers after '" : " numbers after '", last_, "', got ",
+                       described(t), " as number ", got + 1, " of ", read.numbers));
+    }
+
+    // The largest index was noted while reading; the place of a wrong one is looked for only now.
+    void checkIndices(std::size_t which) {
+        const ArrayRead& read = reads_[which];
+        const std::string_view target = kMeshArrays[which].indexes;
+        if (target.empty() || read.groups == 0) return;
+        const auto row =
+            std::find_if(kMeshArrays.begin(), kMeshArrays.end(),
+                         [&](const MeshArray& array) { return array.keyword == target; });
+        const std::size_t count =
+            reads_[static_cast<std::size_t>(row - kMeshArrays.begin())].groups;
+        if (read.largestIndex < count) return;
+        const std::size_t after = in_.offset();
+        in_.moveTo(read.offset);
+        for (std::size_t i = 0; i < read.numbers; ++i) {
+            const auto index = readUnsigned(in_.skipToValue());
+            if (index.value >= count)
+                errors_.add({static_cast<std::uint32_t>(in_.offset())}, [&] {
+                    return cat("there is no ", index.value, " in '", target, "': it has ", count,
+                               ", counted from 0");
+                });
+            in_.moveTo(index.end);
+        }
+        in_.moveTo(after);
+    }
+
+    Scanner& in_;
+    ErrorList& errors_;
+    const Token& open_;
+    MeshDesc& mesh_;
+    std::array<ArrayRead, kMeshArrays.size()> reads_{};
+    std::array<std::size_t, kMeshProperties.size()> given_{}; // where; no property stands at 0
+    std::vector<Token> names_;                                // of references: there are none
+    std::string_view last_; // the keyword of the array that was begun last
+};
+
+} // namespace
+
+void readMesh(Scanner& in, ErrorList& errors, const Token& open, MeshDesc& mesh) {
+    MeshReader(in, errors, open, mesh).read();
+}

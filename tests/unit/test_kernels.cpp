@@ -1,0 +1,347 @@
+// Every kernel that this CPU runs against the scalar code: the same hits, to the last bit, for
+// hostile triangles and hostile rays, in bundles and one by one; and the trees that they walk.
+#include "accel/kernels/kernels.h"
+#include "analytic_kit.h"
+#include "base/error.h"
+#include "check.h"
+#include "render/shape_set.h"
+#include "verify/meshes.h"
+
+#include <algorithm>
+#include <cstring>
+
+using meshes::Random;
+
+namespace {
+
+std::vector<const Kernel*> vectorKernels() {
+    std::vector<const Kernel*> out;
+    for (const Kernel& kernel : allKernels())
+        if (kernel.supported() && kernel.width > 0) out.push_back(&kernel);
+    return out;
+}
+
+struct Rays {
+    std::vector<Vec3> org, dir;
+    std::vector<float> tMin, tMax, time;
+    void push(const Ray& ray) {
+        org.push_back(ray.org), dir.push_back(ray.dir);
+        tMin.push_back(ray.tMin), tMax.push_back(ray.tMax), time.push_back(ray.time);
+    }
+    RaySpan span() const { return {org, dir, tMin, tMax, time}; }
+};
+
+// The same mesh with the tree of each kernel, and with none.
+struct Meshes {
+    explicit Meshes(const MeshGeometry& bare) : scalar(bare) {
+        scalar.finish(true);
+        for (const Kernel* kernel : vectorKernels()) {
+            wide.push_back(std::make_unique<MeshGeometry>(bare));
+            wide.back()->finish(true, *kernel);
+        }
+    }
+    MeshGeometry scalar;
+    std::vector<std::unique_ptr<MeshGeometry>> wide;
+};
+
+std::string shown(const Ray& r) {
+    std::ostringstream out;
+    out.precision(9);
+    out << "org " << r.org.x << ' ' << r.org.y << ' ' << r.org.z << " dir " << r.dir.x << ' '
+        << r.dir.y << ' ' << r.dir.z << " t " << r.tMin << ' ' << r.tMax;
+    return out.str();
+}
+std::string shown(const Hit& h) {
+    std::ostringstream out;
+    out.precision(9);
+    if (h.isHit())
+        out << "triangle " << h.prim << " at " << h.t << ' ' << h.u << ' ' << h.v;
+    else
+        out << "nothing";
+    return out.str();
+}
+
+struct Counts {
+    std::size_t rays = 0, hits = 0, hidden = 0;
+};
+
+// Asks all kernels about the rays; the scalar code says what is right.
+void compare(const Meshes& meshes, const Rays& rays, const std::string& name, Counts& counts) {
+    const std::size_t n = rays.org.size();
+    const Mesh oracle(meshes.scalar, MovingTransform(), {0}, {{0, 0}});
+    std::vector<Hit> expected(n), got(n);
+    std::vector<std::uint8_t> expectedHidden(n), hidden(n);
+    for (std::size_t i = 0; i < n; ++i) {
+        const Ray ray = rays.span()[i];
+        expected[i].t = ray.tMax;
+        if (oracle.intersect(ray, expected[i])) expected[i].shape = 3;
+        expectedHidden[i] = oracle.occludes(ray);
+        counts.hits += expected[i].isHit(), counts.hidden += expectedHidden[i];
+    }
+    counts.rays += n;
+    for (const auto& geometry : meshes.wide) {
+        const Mesh mesh(*geometry, MovingTransform(), {0}, {{0, 0}});
+        CHECK(mesh.takesBatches());
+        mesh.intersectBatch(rays.span(), 3, got);
+        mesh.occludesBatch(rays.span(), hidden);
+        for (std::size_t i = 0; i < n; ++i) {
+            CHECK_INFO(got[i] == expected[i], name << ", " << geometry->kernel->name << ", ray "
+                                                   << i << " of " << n << ": "
+                                                   << shown(rays.span()[i]) << ": " << shown(got[i])
+                                                   << ", expected " << shown(expected[i]));
+            CHECK_INFO(hidden[i] == expectedHidden[i],
+                       name << ", " << geometry->kernel->name << ", ray " << i << " of " << n
+                            << ": " << shown(rays.span()[i]) << ": hidden " << int(hidden[i]));
+        }
+    }
+}
+
+// A point of a triangle: a corner, on an edge, inside, or close beside one of them.
+Vec3d target(Random& random, const MeshGeometry& g) {
+    const auto& c = g.triangles[random.below(g.triangles.size())];
+    const Vec3d a = toDouble(g.points[c[0]]), b = toDouble(g.points[c[1]]),
+                d = toDouble(g.points[c[2]]);
+    Vec3d p = a;
+    switch (random.below(4)) {
+    case 0: break;
+    case 1: p = lerp(a, b, random.unit()); break;
+    case 2: p = (a + b + d) * (1.0 / 3); break;
+    default: {
+        const double u = random.unit(), v = random.unit() * (1 - u);
+        p = a + (b - a) * u + (d - a) * v;
+    }
+    }
+    return random.chance(0.2) ? p + random.direction() * 1e-6 : p;
+}
+
+Vec3 someOrigin(Random& random, const MeshGeometry& g) {
+    switch (random.below(6)) {
+    case 0: return toFloat(random.direction() * 3.0);
+    case 1: return toFloat(random.inBox(1));
+    case 2: return toFloat(target(random, g));
+    case 3: return toFloat(target(random, g) + random.direction() * 1e-6);
+    case 4: return toFloat(random.direction() * random.logUniform(10, 1e6));
+    default: { // on the line of an edge: the triangle is seen from its edge
+        const auto& c = g.triangles[random.below(g.triangles.size())];
+        return toFloat(
+            lerp(toDouble(g.points[c[0]]), toDouble(g.points[c[1]]), random.uniform(-1, 2)));
+    }
+    }
+}
+
+Ray someRay(Random& random, const MeshGeometry& g, Vec3 org) {
+    Ray ray{org, toFloat(target(random, g)) - org};
+    if (random.chance(0.1)) ray.dir = toFloat(random.direction());
+    if (random.chance(0.1)) ray.dir[random.below(3)] = 0;
+    if (random.chance(0.05))
+        ray.dir = Vec3{}, ray.dir[random.below(3)] = random.chance(0.5) ? 1.0f : -1.0f;
+    if (random.chance(0.2)) ray.dir = ray.dir * static_cast<float>(random.logUniform(1e-3, 1e3));
+    if (random.chance(0.3)) ray.tMax = static_cast<float>(random.logUniform(1e-2, 10));
+    if (random.chance(0.2)) ray.tMax = 1;
+    if (random.chance(0.2)) ray.tMin = static_cast<float>(random.logUniform(1e-4, 2));
+    return ray;
+}
+
+Rays looseRays(Random& random, const MeshGeometry& g, std::size_t count) {
+    Rays rays;
+    while (rays.org.size() < count) rays.push(someRay(random, g, someOrigin(random, g)));
+    return rays;
+}
+
+// Rays from a few points: narrow pencils as of camera tiles, and all over the place.
+Rays bundledRays(Random& random, const MeshGeometry& g, std::size_t count) {
+    Rays rays;
+    while (rays.org.size() < count) {
+        const Vec3 org = someOrigin(random, g);
+        const bool pencil = random.chance(0.6);
+        const Vec3d axis = target(random, g) - toDouble(org);
+        const double spread = random.logUniform(1e-3, 0.3) * length(axis);
+        const std::size_t size = 33 + random.below(600);
+        for (std::size_t i = 0; i < size; ++i) {
+            Ray ray = someRay(random, g, org);
+            if (pencil && random.chance(0.95)) ray.dir = toFloat(axis + random.inBox(spread));
+            rays.push(ray);
+        }
+    }
+    return rays;
+}
+
+} // namespace
+
+TEST(kernels_on_hostile_triangles) {
+    Random random(71);
+    Counts counts;
+    for (int round = 0; round < 6; ++round) {
+        const std::size_t size[] = {1, 2, 17, 100, 700, 2000};
+        const Meshes meshes(meshes::geometryOf(meshes::soup(random, size[round]), false));
+        const auto n = static_cast<std::size_t>(check::scaled(round < 3 ? 500 : 3000));
+        compare(meshes, looseRays(random, meshes.scalar, n), "soup", counts);
+        compare(meshes, bundledRays(random, meshes.scalar, n), "soup from points", counts);
+    }
+    std::printf("%zu rays, %zu hits, %zu hidden, seed 71\n", counts.rays, counts.hits,
+                counts.hidden);
+    CHECK(counts.hits > counts.rays / 2 && counts.hits < counts.rays);
+}
+
+TEST(kernels_on_closed_meshes) {
+    Random random(72);
+    Counts counts;
+    for (const MeshDesc& desc : {meshes::cube(), meshes::icosphere(4), meshes::torus(0.3, 48, 24),
+                                 meshes::doubleFan(40)}) {
+        const Meshes meshes(toGeometry(desc, {}));
+        const auto n = static_cast<std::size_t>(check::scaled(3000));
+        compare(meshes, looseRays(random, meshes.scalar, n), "mesh", counts);
+        compare(meshes, bundledRays(random, meshes.scalar, n), "mesh from points", counts);
+    }
+    std::printf("%zu rays, %zu hits, %zu hidden, seed 72\n", counts.rays, counts.hits,
+                counts.hidden);
+}
+
+// Triangles seen from within their own plane: where along them a ray hits is rounding, and the
+// clamps of the canonical key decide.
+TEST(kernels_on_edge_on_triangles) {
+    Random random(77);
+    Counts counts;
+    for (int round = 0; round < 4; ++round) {
+        const Meshes meshes(meshes::geometryOf(meshes::soup(random, 50), false));
+        const MeshGeometry& g = meshes.scalar;
+        Rays rays;
+        const std::size_t n = check::scaled(8000u);
+        while (rays.org.size() < n) {
+            const auto& c = g.triangles[random.below(g.triangles.size())];
+            const Vec3d a = toDouble(g.points[c[0]]), b = toDouble(g.points[c[1]]) - a,
+                        d = toDouble(g.points[c[2]]) - a;
+            const auto inPlane = [&](double lo, double hi) {
+                return a + b * random.uniform(lo, hi) + d * random.uniform(lo, hi);
+            };
+            const Vec3 org = toFloat(inPlane(-2, 2));
+            for (int i = 0; i < 40; ++i) {
+                const Vec3d noise = random.direction() * random.logUniform(1e-9, 1e-6);
+                rays.push({org, toFloat(inPlane(0, 0.5) + noise) - org});
+            }
+        }
+        compare(meshes, rays, "in the plane", counts);
+    }
+    std::printf("%zu rays, %zu hits, %zu hidden, seed 77\n", counts.rays, counts.hits,
+                counts.hidden);
+}
+
+// Zero, infinite and NaN rays meet nothing, wherever in a batch they are.
+TEST(kernels_skip_broken_rays) {
+    Random random(73);
+    Counts counts;
+    const float nan = std::nanf(""), inf = kInfinityF;
+    const Meshes meshes(toGeometry(meshes::icosphere(2), {}));
+    const Ray broken[] = {{{0, 0, 3}, {0, 0, 0}},     {{0, 0, 3}, {0, 0, -inf}},
+                          {{0, 0, 3}, {nan, 0, -1}},  {{nan, 0, 3}, {0, 0, -1}},
+                          {{0, -inf, 3}, {0, 0, -1}}, {{0, 0, 3}, {0, 1e-35f, -1e-32f}},
+                          {{1e35f, 0, 0}, {-1, 0, 0}}};
+    Rays loose = looseRays(random, meshes.scalar, 300), bundle;
+    for (const Ray& ray : broken) loose.push(ray);
+    for (int i = 0; i < 300; ++i) {
+        bundle.push({{0, 0, 3}, toFloat(target(random, meshes.scalar)) - Vec3{0, 0, 3}});
+        if (i % 50 == 7) bundle.push(broken[i / 50 % 3]);
+    }
+    compare(meshes, loose, "broken rays", counts);
+    compare(meshes, bundle, "broken rays in a bundle", counts);
+    for (const Vec3 org : {Vec3{nan, 0, 0}, Vec3{inf, 0, 0}, Vec3{0, 0, 1e36f}}) {
+        Rays all;
+        for (int i = 0; i < 100; ++i) all.push({org, toFloat(random.direction())});
+        compare(meshes, all, "a broken origin", counts);
+    }
+}
+
+// A scene's batches: meshes with kernels, opaque and see-through, beside shapes that are asked ray
+// by ray. The scalar code without any tree says what is right.
+TEST(kernels_in_a_shape_set) {
+    for (const Kernel* kernel : vectorKernels()) {
+        Random random(75);
+        MeshGeometry plain[2] = {toGeometry(meshes::torus(0.3, 32, 16), {}),
+                                 meshes::geometryOf(meshes::soup(random, 200), false)};
+        MeshGeometry fast[2] = {plain[0], plain[1]};
+        ShapeSet linear, batched;
+        for (const bool isFast : {false, true}) {
+            ShapeSet& set = isFast ? batched : linear;
+            Random same(76);
+            for (int n = 0; n < 12; ++n) {
+                const auto kinds = kit::kinds();
+                const MovingTransform place =
+                    Transform::translate(same.inBox(1)) * same.affine(2, 0) * Transform::scale(0.3);
+                if (n == 3 || n == 8) {
+                    MeshGeometry& g = (isFast ? fast : plain)[n / 8];
+                    g.finish(isFast, *kernel);
+                    set.add(std::make_unique<Mesh>(g, MovingTransform(),
+                                                   std::vector<std::uint32_t>{0},
+                                                   std::vector<MeshPart>{{0, 0}}),
+                            n == 3 ? ShapeSet::Shadow::Opaque : ShapeSet::Shadow::SeeThrough);
+                } else {
+                    set.add(kinds[static_cast<std::size_t>(n) % kinds.size()].make(place),
+                            n % 3 ? ShapeSet::Shadow::Opaque : ShapeSet::Shadow::None);
+                }
+            }
+            set.finish(isFast);
+        }
+        CHECK_EQUAL(batched.batched.size(), 2u);
+        CHECK(linear.batched.empty());
+        Rays rays = looseRays(random, plain[0], check::scaled(1000u));
+        const Rays bundles = bundledRays(random, plain[1], check::scaled(1000u));
+        for (std::size_t i = 0; i < bundles.org.size(); ++i) rays.push(bundles.span()[i]);
+        std::vector<Hit> hits, some, expected;
+        std::vector<std::uint8_t> hidden;
+        batched.closest(rays.span(), hits);
+        batched.occluded(rays.span(), hidden);
+        std::vector<std::size_t> perShape(12);
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            const Ray ray = rays.span()[i];
+            const Hit hit = linear.closest(ray);
+            CHECK_INFO(hits[i] == hit, kernel->name << ": " << shown(ray) << ": " << shown(hits[i])
+                                                    << ", expected " << shown(hit));
+            CHECK_INFO((hidden[i] != 0) == linear.occluded(ray),
+                       kernel->name << ": " << shown(ray) << ": hidden " << int(hidden[i]));
+            CHECK(batched.closest(ray) == hit); // one ray at a time
+            some.clear(), expected.clear();
+            batched.seeThroughHits(ray, some);
+            linear.seeThroughHits(ray, expected);
+            CHECK_INFO(some == expected, kernel->name << ": " << shown(ray));
+            if (hit.isHit()) ++perShape[hit.shape];
+        }
+        for (const std::size_t shape : {2u, 3u, 8u, 9u}) CHECK_INFO(perShape[shape] > 0, shape);
+    }
+}
+
+TEST(kernels_wide_trees) {
+    Random random(74);
+    for (const int width : {8, 16}) {
+        for (const std::size_t size : {std::size_t{1}, std::size_t{3}, std::size_t{16},
+                                       std::size_t{500}, std::size_t{5000}}) {
+            const MeshGeometry g = meshes::geometryOf(meshes::soup(random, size), false);
+            const WideTree tree = buildWide(width, g.points, g.triangles);
+            CHECK_EQUAL(tree.width, width);
+            CHECK(tree.leaves * static_cast<std::uint64_t>(width) >= size);
+            auto ids = tree.triangleIds; // every triangle once
+            std::sort(ids.begin(), ids.end());
+            for (std::uint32_t i = 0; i < size; ++i) CHECK(ids[i] == i);
+            CHECK_EQUAL(ids.size(), size);
+        }
+        CHECK(buildWide(width, {}, {}).isEmpty());
+        // All in one place: halving ends it.
+        std::vector<std::array<Vec3, 3>> same(300, {Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}});
+        const MeshGeometry g = meshes::geometryOf(same, false);
+        CHECK(buildWide(width, g.points, g.triangles).leaves >= 300u / 5);
+    }
+}
+
+TEST(kernels_are_chosen_by_name) {
+    const auto names = kernelNames();
+    CHECK_EQUAL(names.back(), "scalar");
+    CHECK_EQUAL(std::string(chooseKernel("scalar").name), "scalar");
+    CHECK(chooseKernel("auto").supported());
+    for (const Kernel& kernel : allKernels()) {
+        if (kernel.supported())
+            CHECK_EQUAL(std::string(chooseKernel(kernel.name).name), kernel.name);
+        else
+            CHECK_THROWS(chooseKernel(kernel.name), "this CPU can't run");
+    }
+    CHECK_THROWS(chooseKernel("avx51"), "did you mean 'avx512'");
+    CHECK_THROWS(chooseKernel(""), "scalar");
+}
