@@ -7,6 +7,7 @@
 
 #include "desc/validate.h"
 #include "image/compare.h"
+#include "verify/scene_trials.h"
 #include "verify/scenes.h"
 
 #include <algorithm>
