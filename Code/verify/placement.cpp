@@ -6,6 +6,7 @@
 #include "image/compare.h"
 #include "render/frame.h"
 #include "verify/groups.h"
+#include "verify/scene_trials.h"
 #include "verify/scenes.h"
 
 #include <algorithm>

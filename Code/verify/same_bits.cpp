@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "render/scene.h"
 #include "verify/groups.h"
+#include "verify/scene_trials.h"
 #include "verify/scenes.h"
 
 #include <algorithm>

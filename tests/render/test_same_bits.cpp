@@ -7,6 +7,7 @@
 
 #include "desc/validate.h"
 #include "image/compare.h"
+#include "verify/scene_trials.h"
 #include "verify/scenes.h"
 
 #include <algorithm>
@@ -143,8 +144,8 @@ TEST(featuresThatAreNeededShow) {
     CHECK(count >= 20);
 }
 
-// The scenes of the battery are valid ones, without so much as a warning, and show something: half
-// of the pixels at least differ from their left neighbour.
+// The scenes of the battery are valid ones, without so much as a warning, and show something: a
+// third of the pixels at least differ from their left neighbour (sky and floor are flat).
 TEST(scenesOfTheBattery) {
     meshes::Random random(1);
     for (int i = 0; i < check::scaled(3); ++i)
@@ -158,7 +159,7 @@ TEST(scenesOfTheBattery) {
             for (int y = 0; y < image.height(); ++y)
                 for (int x = 1; x < image.width(); ++x)
                     changes += image.pixel(x, y) != image.pixel(x - 1, y);
-            CHECK_INFO(changes > image.width() * image.height() / 2,
+            CHECK_INFO(changes > image.width() * image.height() / 3,
                        maker.name << " " << i << ": " << changes);
             CHECK(scenes::largest(image) > 0.2);
         }

@@ -4,7 +4,7 @@
 #include "shot.h"
 #include "solids.h"
 
-#include "verify/scenes.h"
+#include "verify/scene_trials.h"
 
 namespace {
 
