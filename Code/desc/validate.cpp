@@ -5,6 +5,7 @@
 #include "desc/error_list.h"
 #include "desc/names.h"
 #include "desc/properties.h"
+#include "desc/scene_bounds.h"
 
 #include <algorithm>
 #include <cmath>
@@ -78,6 +79,7 @@ public:
         errors_.throwIfAny();
         warnUnused();
         warnDark();
+        warnFar();
     }
 
 private:
@@ -316,6 +318,20 @@ private:
              world.background == black
                  ? "there is no light, no emission and no ambient: the picture will be black"
                  : "there is no light, no emission and no ambient: diffuse surfaces will be black");
+    }
+
+    // Places are doubles, and the renderer makes them floats about the centre of the scene. Far
+    // from the origin doubles are 2^-52 of the distance apart; where that is more than a float's
+    // rounding of 2^-24 of the scene's extent, the file has lost what the picture could show.
+    void warnFar() {
+        const BoundsD box = boundsOf(desc_);
+        if (box.isEmpty()) return;
+        const double extent = maxAbs(box.size());
+        const double times = std::max(maxAbs(box.lo), maxAbs(box.hi)) / extent;
+        if (extent > 0 && times > 0x1p28)
+            warn({}, cat("the scene lies more than 10^", std::floor(std::log10(times)),
+                         " times its size away from the origin, where numbers are too coarse for "
+                         "its details; it would be right about the origin"));
     }
 
     const SceneDesc& desc_;

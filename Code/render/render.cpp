@@ -12,10 +12,6 @@
 
 namespace {
 
-constexpr int kTileSide = 16;
-// A chunk of a tile's samples is traced together: enough rays for a wave, few enough for the cache.
-constexpr int kChunkSamples = 4096;
-
 struct Rect {
     int x0, y0, x1, y1; // x1, y1 exclusive
     int width() const { return x1 - x0; }
@@ -78,10 +74,10 @@ public:
         color_ = Film(area_.width(), area_.height());
         for (std::size_t i = 0; i < settings.aovs.size(); ++i)
             aovs_.emplace_back(area_.width(), area_.height());
-        for (int y = area_.y0; y < area_.y1; y += kTileSide)
-            for (int x = area_.x0; x < area_.x1; x += kTileSide)
-                tiles_.push_back(
-                    {x, y, std::min(x + kTileSide, area_.x1), std::min(y + kTileSide, area_.y1)});
+        const int side = settings.tileSide;
+        for (int y = area_.y0; y < area_.y1; y += side)
+            for (int x = area_.x0; x < area_.x1; x += side)
+                tiles_.push_back({x, y, std::min(x + side, area_.x1), std::min(y + side, area_.y1)});
     }
 
     Picture run(const RenderControl& control, Stats& stats) {
@@ -125,7 +121,7 @@ private:
     void renderTile(const Rect& tile, Worker& worker) {
         const int pixels = tile.width() * tile.height();
         const int samples = settings_.picture.samplesPerPixel;
-        const int perChunk = std::max(1, kChunkSamples / pixels);
+        const int perChunk = std::max(1, settings_.chunkSamples / pixels);
         for (int first = 0; first < samples; first += perChunk) {
             const int count = std::min(perChunk, samples - first);
             makeSamples(tile, first, count, worker.chunk);

@@ -32,4 +32,9 @@ struct RenderSettings {
     std::optional<Rgbd> background;
     std::vector<Aov> aovs;
     std::string textureFolder; // --textures DIR; searched after the scene's own folder
+    // How the work is cut, which no picture may depend on; at least 1. A tile is what one worker
+    // does at a time. A chunk of its samples is traced together: enough rays for a wave, few enough
+    // for the cache.
+    int tileSide = 16;
+    int chunkSamples = 4096;
 };

@@ -11,12 +11,16 @@ Vec3d crossOfEdges(Vec3 v0, Vec3 v1, Vec3 v2) {
     return cross(toDouble(v1) - toDouble(v0), toDouble(v2) - toDouble(v0));
 }
 
-// Keys of hits that count: t > tMin is key < farKey, t < tMax is key > nearKey.
+// Which hits count. Asked of t itself, not of its key: a ray that goes on where it hit, from tMin =
+// hit.t, must not hit the same triangle again by the rounding from one to the other.
 struct KeyRange {
-    float above, below;
-    KeyRange(const RaySetup& setup, float tMin, float tMax)
-        : above(1.0f / (tMax * setup.dz)), below(1.0f / (tMin * setup.dz)) {}
-    bool contains(float key) const { return key > above && key < below; }
+    float dz, tMin, tMax;
+    float farthest() const { return depthCut(1.0f / (tMax * dz)); } // no box behind it counts
+    bool contains(float key) const {
+        if (!(key > 0)) return false;
+        const float t = 1.0f / (key * dz);
+        return t > tMin && t < tMax;
+    }
 };
 
 // Weights of the corners 1 and 2, from edge functions without error.
@@ -163,7 +167,7 @@ bool Mesh::intersect(const Ray& worldRay, Hit& hit) const {
     const Ray ray = meshRay(worldRay);
     if (!isTraceable(ray)) return false;
     const RaySetup setup(ray.org, ray.dir, geometry_.extent);
-    const KeyRange range(setup, ray.tMin, kInfinityF);
+    const KeyRange range{setup.dz, ray.tMin, kInfinityF};
 
     float bestKey = 0;
     std::uint32_t best = 0;
@@ -194,9 +198,9 @@ bool Mesh::occludes(const Ray& worldRay) const {
     const Ray ray = meshRay(worldRay);
     if (!isTraceable(ray)) return false;
     const RaySetup setup(ray.org, ray.dir, geometry_.extent);
-    const KeyRange range(setup, ray.tMin, ray.tMax);
+    const KeyRange range{setup.dz, ray.tMin, ray.tMax};
     bool found = false;
-    forEachTriangle(setup, depthCut(range.above), [&](std::uint32_t triangle, float&) {
+    forEachTriangle(setup, range.farthest(), [&](std::uint32_t triangle, float&) {
         found = range.contains(keyOf(setup, triangle));
         return found;
     });
@@ -229,8 +233,8 @@ void Mesh::collect(const Ray& worldRay, std::vector<Hit>& hits) const {
     const Ray ray = meshRay(worldRay);
     if (!isTraceable(ray)) return;
     const RaySetup setup(ray.org, ray.dir, geometry_.extent);
-    const KeyRange range(setup, ray.tMin, ray.tMax);
-    forEachTriangle(setup, depthCut(range.above), [&](std::uint32_t triangle, float&) {
+    const KeyRange range{setup.dz, ray.tMin, ray.tMax};
+    forEachTriangle(setup, range.farthest(), [&](std::uint32_t triangle, float&) {
         const float key = keyOf(setup, triangle);
         if (!range.contains(key)) return false;
         const auto& c = geometry_.triangles[triangle];

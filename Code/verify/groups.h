@@ -7,16 +7,21 @@
 
 namespace battery {
 
+std::span<const Row> leakRows();       // T1 to T3: closed meshes
+std::span<const Row> crackRows();      // T4: borders that meshes share
+std::span<const Row> leavingRows();    // T5: rays that leave a surface; acne
+std::span<const Row> contactRows();    // T6: shadows where things touch
+std::span<const Row> placementRows();  // T7 to T9: the same picture at every size and place
+std::span<const Row> sameBitsRows();   // T10, T11, T17: the same bits however it is rendered
+std::span<const Row> elementaryRows(); // T12: sin, exp, pow and so on against binary128
 std::span<const Row> mediaRows();      // T19: glass in water in ice
 std::span<const Row> furnaceRows();    // T20: materials under a white sky
 std::span<const Row> lightRows();      // T21: lamps with an area against closed forms
 std::span<const Row> terminatorRows(); // T25: the edge of the light on coarse meshes
 
 inline constexpr std::array kGroups = {
-    mediaRows,
-    furnaceRows,
-    lightRows,
-    terminatorRows,
+    leakRows,       crackRows, leavingRows, contactRows, placementRows,  sameBitsRows,
+    elementaryRows, mediaRows, furnaceRows, lightRows,   terminatorRows,
 };
 
 } // namespace battery

@@ -11,7 +11,7 @@ namespace meshes {
 using Corners = MeshDesc::Corners;
 
 double Random::logUniform(double lo, double hi) {
-    return lo * std::exp(unit() * std::log(hi / lo));
+    return lo * exact::exp(unit() * exact::log(hi / lo));
 }
 
 Vec3d Random::inBox(double half) {

@@ -197,6 +197,35 @@ TEST(kernels_on_closed_meshes) {
                 counts.hidden);
 }
 
+// Triangles seen from within their own plane: where along them a ray hits is rounding, and the
+// clamps of the canonical key decide.
+TEST(kernels_on_edge_on_triangles) {
+    Random random(77);
+    Counts counts;
+    for (int round = 0; round < 4; ++round) {
+        const Meshes meshes(meshes::geometryOf(meshes::soup(random, 50), false));
+        const MeshGeometry& g = meshes.scalar;
+        Rays rays;
+        const std::size_t n = check::scaled(8000u);
+        while (rays.org.size() < n) {
+            const auto& c = g.triangles[random.below(g.triangles.size())];
+            const Vec3d a = toDouble(g.points[c[0]]), b = toDouble(g.points[c[1]]) - a,
+                        d = toDouble(g.points[c[2]]) - a;
+            const auto inPlane = [&](double lo, double hi) {
+                return a + b * random.uniform(lo, hi) + d * random.uniform(lo, hi);
+            };
+            const Vec3 org = toFloat(inPlane(-2, 2));
+            for (int i = 0; i < 40; ++i) {
+                const Vec3d noise = random.direction() * random.logUniform(1e-9, 1e-6);
+                rays.push({org, toFloat(inPlane(0, 0.5) + noise) - org});
+            }
+        }
+        compare(meshes, rays, "in the plane", counts);
+    }
+    std::printf("%zu rays, %zu hits, %zu hidden, seed 77\n", counts.rays, counts.hits,
+                counts.hidden);
+}
+
 // Zero, infinite and NaN rays meet nothing, wherever in a batch they are.
 TEST(kernels_skip_broken_rays) {
     Random random(73);

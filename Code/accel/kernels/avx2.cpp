@@ -9,10 +9,11 @@
 #include <bit>
 #include <cmath>
 #include <immintrin.h>
+#include <vector>
 
 KERNEL_REGION_BEGIN("avx2,fma,bmi,bmi2,lzcnt,popcnt")
 namespace kernels::avx2 {
-#include "accel/kernels/simd_avx2.h"
+#include "accel/kernels/simd_avx2.inl"
 
 #include "accel/kernels/queue.inl"
 

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <immintrin.h>
+#include <vector>
 
 // g++ 12 takes the undefined operands of its own intrinsics for mistakes (GCC bug 105593).
 #if !defined(__clang__)
@@ -18,7 +19,7 @@
 
 KERNEL_REGION_BEGIN("avx512f,avx512dq,avx512bw,avx512vl,avx512cd,avx2,fma,bmi,bmi2,lzcnt,popcnt")
 namespace kernels::avx512 {
-#include "accel/kernels/simd_avx512.h"
+#include "accel/kernels/simd_avx512.inl"
 
 #include "accel/kernels/queue.inl"
 

@@ -17,23 +17,32 @@ public:
           pad_(::max(mesh.extent, maxAbs(origin_)) * 0x1p-21f) {}
 
     template <class Result> void run(Result* results) {
-        std::size_t size = kMostRays;
-        for (std::size_t first = 0; first < order_.size();) {
+        std::size_t size = kMostRays, first = 0;
+        while (first < order_.size()) {
             const auto list = order_.subspan(first, std::min(size, order_.size() - first));
             leaves_ = 0;
+            mostLeaves_ = list.size() + list.size() / 4 + 16;
             trace(list, results);
             first += list.size();
+            if (!postponed_.empty() && size == kFewRays) break;
             // Large bundles of fine triangles touch too many of them: the size follows what the
             // last one met. No answer depends on it.
             if (leaves_ > kManyLeaves) size = kFewRays;
             if (leaves_ < kManyLeaves / 3) size = kMostRays;
         }
+        if (postponed_.empty()) return;
+        postponed_.insert(postponed_.end(), order_.begin() + static_cast<std::ptrdiff_t>(first),
+                          order_.end());
+        if constexpr (Q == Query::Any)
+            any(mesh_, rays_, postponed_, results);
+        else
+            closest(mesh_, rays_, postponed_, results);
     }
 
 private:
     static constexpr std::size_t kMostRays = 256, kFewRays = 64;
     static constexpr int kPackets = kMostRays / W;
-    static constexpr std::uint32_t kManyLeaves = 40;
+    static constexpr std::size_t kManyLeaves = 40;
     static constexpr float kUnit = 0x1p-24f; // of rounding
 
     struct Range {
@@ -59,9 +68,10 @@ private:
                 for (int q = 0; q < packets; ++q) active[q] = left[q] & slopes(q);
                 if constexpr (Q == Query::Any) cutGaps(packets, active);
                 setUp(list, packets, active);
-                traverse();
+                const bool done = traverse();
                 for (int q = 0; q < packets; ++q) left[q] &= ~active[q];
-                for (int q = 0; q < packets_; ++q) write(list, packet_[q], q, results);
+                for (int q = 0; q < packets_; ++q)
+                    done ? write(list, packet_[q], q, results) : postpone(list, packet_[q], q);
             }
         }
         for (int p = 0; p < packets; ++p) { // what isTraceable() refuses
@@ -285,9 +295,16 @@ private:
         }
     }
 
+    // Rays from one point to places all over the scene are no bundle: the queue takes them.
+    void postpone(std::span<const std::uint32_t> list, int p, int q) {
+        for (unsigned lanes = active_[q]; lanes != 0; lanes &= lanes - 1)
+            postponed_.push_back(list[static_cast<std::size_t>(p * W + std::countr_zero(lanes))]);
+    }
+
     // ---- the tree
 
-    void traverse() {
+    // False: given up, as the queue would have been faster by now.
+    bool traverse() {
         struct Entry {
             float z;
             WideRef ref;
@@ -309,15 +326,17 @@ private:
                         stack[place] = stack[place - 1];
                     stack[place] = {z[i], node.child[i]};
                 }
-            } else if (leaf(mesh_.tree.at<WideLeaf<W>>(at))) {
-                limitDepth();
+            } else {
+                if (leaves_ > mostLeaves_) return false;
+                if (leaf(mesh_.tree.at<WideLeaf<W>>(at))) limitDepth();
             }
             do {
-                if (size == 0) return;
+                if (size == 0) return true;
                 --size;
             } while (stack[size].z > zCut_);
             at = stack[size].ref;
         }
+        return true;
     }
 
     void prefetch(WideRef ref) const {
@@ -379,6 +398,8 @@ private:
         const Floats zMax = max(max(v.z[0], v.z[1]), v.z[2]);
         unsigned live = bits((zMax > zero) & (zMin <= Floats(zCut_))) & ((1u << l.count) - 1);
         const unsigned straddling = bits(zMin <= zero) & live;
+        // Too near for a quotient that need not be infinite.
+        const unsigned close = bits(zMin <= Floats(1e-30f)) & live;
 
         // Where the corners are seen from the origin, about the centre of the rectangle.
         Floats x[3], y[3], seenX[3], seenY[3];
@@ -393,8 +414,8 @@ private:
         const Floats yLo = min(min(seenY[0], seenY[1]), seenY[2]);
         const Floats yHi = max(max(seenY[0], seenY[1]), seenY[2]);
         const auto overlap = [&](const Rect& r) {
-            return straddling | bits((xLo <= Floats(r.x.hi)) & (xHi >= Floats(r.x.lo)) &
-                                     (yLo <= Floats(r.y.hi)) & (yHi >= Floats(r.y.lo)));
+            return close | bits((xLo <= Floats(r.x.hi)) & (xHi >= Floats(r.x.lo)) &
+                                (yLo <= Floats(r.y.hi)) & (yHi >= Floats(r.y.lo)));
         };
         live &= overlap(all_);
         if (live == 0) return false;
@@ -647,7 +668,8 @@ private:
     float pad_;
     std::size_t k_ = 2, kx_ = 0, ky_ = 1; // RaySetup's, of all active rays
     float sign_ = 1;
-    std::uint32_t leaves_ = 0;
+    std::size_t leaves_ = 0, mostLeaves_ = 0;
+    std::vector<std::uint32_t> postponed_;
 
     alignas(64) float dir_[3][kPackets][W];
     float rawX_[kPackets][W], rawY_[kPackets][W], rawZ_[kPackets][W];

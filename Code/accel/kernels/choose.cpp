@@ -39,7 +39,7 @@ std::span<const Kernel> allKernels() { return kTable; }
 
 std::vector<std::string> kernelNames() {
     std::vector<std::string> names;
-    for (const Kernel& kernel : kTable) names.push_back(kernel.name);
+    for (const Kernel& kernel : kTable) names.emplace_back(kernel.name);
     return names;
 }
 
@@ -48,7 +48,7 @@ const Kernel& chooseKernel(std::string_view name) {
     for (const Kernel& kernel : kTable) {
         if (!kernel.supported()) continue;
         if (name == "auto" || name == kernel.name) return kernel;
-        supported.push_back(kernel.name);
+        supported.emplace_back(kernel.name);
     }
     for (const Kernel& kernel : kTable)
         if (name == kernel.name)

@@ -3,7 +3,6 @@
 #include "accel/triangle.h"
 
 #include <bit>
-#include <new>
 
 namespace {
 
@@ -24,10 +23,6 @@ constexpr auto makeChosenLanes() {
     }
     return table;
 }
-
-struct AlignedDelete {
-    void operator()(std::byte* p) const { ::operator delete[](p, std::align_val_t{64}); }
-};
 
 } // namespace
 
@@ -76,11 +71,8 @@ EXACT_HIT_FOR(16)
 #undef EXACT_HIT_FOR
 
 std::byte* scratchMemory(std::size_t bytes) {
-    thread_local std::unique_ptr<std::byte[], AlignedDelete> memory;
-    thread_local std::size_t size = 0;
-    if (size < bytes) {
-        memory.reset(static_cast<std::byte*>(::operator new[](bytes, std::align_val_t{64})));
-        size = bytes;
-    }
-    return memory.get();
+    thread_local std::vector<WideTree::Line> lines;
+    const std::size_t wanted = (bytes + sizeof(WideTree::Line) - 1) / sizeof(WideTree::Line);
+    if (lines.size() < wanted) lines.resize(wanted);
+    return reinterpret_cast<std::byte*>(lines.data());
 }

@@ -9,10 +9,11 @@
 #include <bit>
 #include <cmath>
 #include <immintrin.h>
+#include <vector>
 
 KERNEL_REGION_BEGIN("sse4.2,popcnt")
 namespace kernels::sse {
-#include "accel/kernels/simd_sse.h"
+#include "accel/kernels/simd_sse.inl"
 
 #include "accel/kernels/queue.inl"
 

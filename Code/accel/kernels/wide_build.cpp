@@ -102,6 +102,7 @@ public:
         nodes_.reserve(n / 2 + 64);
         leaves_.reserve(n / 4 + 64);
         splitAll(makePrims());
+        prims_.reset(), spare_.reset(); // 64 bytes a triangle, before the tree takes its place
         writeTree(tree);
         return tree;
     }
@@ -109,7 +110,8 @@ public:
 private:
     Range makePrims() {
         const auto n = static_cast<std::uint32_t>(triangles_.size());
-        prims_.reset(new Prim[n]), spare_.reset(new Prim[n]);
+        prims_ = std::make_unique_for_overwrite<Prim[]>(n);
+        spare_ = std::make_unique_for_overwrite<Prim[]>(n);
         Box box = emptyBox(), centres = emptyBox();
         for (std::uint32_t i = 0; i < n; ++i) {
             Prim p = emptyBox();

@@ -1,4 +1,4 @@
-// 8 lanes in one register of AVX2. See simd_avx512.h.
+// 8 lanes in one register of AVX2. See simd_avx512.inl.
 constexpr int W = 8;
 
 struct Mask {

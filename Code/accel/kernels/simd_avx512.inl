@@ -1,5 +1,5 @@
 // 16 lanes in one register of AVX-512. Included inside the namespace and region of its kernel, like
-// its siblings simd_avx2.h and simd_sse.h, which define the same names.
+// its siblings simd_avx2.inl and simd_sse.inl, which define the same names.
 constexpr int W = 16;
 
 struct Mask {

@@ -1,0 +1,50 @@
+#include "desc/scene_bounds.h"
+
+#include "base/transform.h"
+
+#include <vector>
+
+namespace {
+
+BoundsD objectBox(const ObjectDesc& object, const std::vector<BoundsD>& meshBoxes) {
+    const double r = object.radius;
+    switch (object.kind) {
+    case ObjectDesc::Kind::Sphere: return {{-r, -r, -r}, {r, r, r}};
+    case ObjectDesc::Kind::Cube: return {{-1, -1, -1}, {1, 1, 1}};
+    case ObjectDesc::Kind::Disk: return {{-r, -r, 0}, {r, r, 0}};
+    case ObjectDesc::Kind::Cylinder: return {{-r, -r, -1}, {r, r, 1}};
+    case ObjectDesc::Kind::Cone: {
+        const double wide = max(r, object.topRadius);
+        return {{-wide, -wide, -1}, {wide, wide, 1}};
+    }
+    case ObjectDesc::Kind::Plane: {
+        BoundsD box;
+        for (const Vec3d corner : object.corners) box.extend(corner);
+        return box;
+    }
+    case ObjectDesc::Kind::Mesh: return meshBoxes[static_cast<std::size_t>(object.mesh)];
+    case ObjectDesc::Kind::InfinitePlane: break;
+    }
+    return {};
+}
+
+} // namespace
+
+BoundsD boundsOf(const MeshDesc& mesh) {
+    BoundsD box;
+    for (const Vec3d p : mesh.points) box.extend(p);
+    return box;
+}
+
+BoundsD boundsOf(const SceneDesc& desc) {
+    std::vector<BoundsD> meshBoxes;
+    for (const MeshDesc& mesh : desc.meshes) meshBoxes.push_back(boundsOf(mesh));
+    BoundsD box;
+    for (const ObjectDesc& object : desc.objects) {
+        const BoundsD local = objectBox(object, meshBoxes);
+        if (local.isEmpty()) continue;
+        for (const Rows& key : object.worldFromObject)
+            box.extend(Transform::fromRows(key).bounds(local));
+    }
+    return box;
+}

@@ -1,0 +1,367 @@
+#include "verify/scenes.h"
+
+#include "base/math.h"
+#include "base/text.h"
+#include "render/scene.h"
+#include "sample/hash.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace scenes {
+
+namespace {
+
+using meshes::Random;
+using Kind = ObjectDesc::Kind;
+
+constexpr Vec3d kUp{0, 0, 1};
+
+// A floor, a lamp, a sky and a camera that looks at the origin from some side; more is added.
+class Stage {
+public:
+    explicit Stage(Random& random, int samples) : random_(random) {
+        SettingsDesc& settings = desc.settings;
+        settings.width = 32;
+        settings.height = 24;
+        settings.samplesPerPixel = samples;
+        settings.seed = random.below(1u << 31);
+        desc.world.background = {0.2, 0.3, 0.5};
+        desc.world.ambient = {0.05, 0.05, 0.05};
+        CameraDesc& camera = desc.cameras.emplace_back();
+        camera.name = "camera";
+        const double azimuth = random.uniform(0, kTwoPi);
+        eye = {6 * exact::cos(azimuth), 6 * exact::sin(azimuth), random.uniform(1, 5)};
+        camera.worldFromCamera = {Transform::lookAt(eye, {0, 0, 0.6}, kUp).rows()};
+        lamp(LightDesc::Kind::Point, {eye.x - 2, eye.y + 1, 5}, 60);
+        add(Kind::Plane, Transform::scale({6, 6, 1}), material(colour(0.4, 0.8)));
+    }
+
+    double uniform(double lo, double hi) { return random_.uniform(lo, hi); }
+    Rgbd colour(double lo, double hi) {
+        const double r = uniform(lo, hi), g = uniform(lo, hi);
+        return {r, g, uniform(lo, hi)};
+    }
+    Vec3d place(double height) { // above the floor, in sight
+        const double x = uniform(-2.2, 2.2);
+        return {x, uniform(-2.2, 2.2), height};
+    }
+
+    Handle material(Rgbd diffuse) {
+        MaterialDesc& m = desc.materials.emplace_back();
+        m.name = cat("material ", desc.materials.size());
+        m.diffuse = diffuse;
+        return static_cast<Handle>(desc.materials.size() - 1);
+    }
+    MaterialDesc& at(Handle handle) { return desc.materials[static_cast<std::size_t>(handle)]; }
+    Handle shiny() {
+        const Handle handle = material(colour(0.1, 0.8));
+        at(handle).specular = colour(0.2, 0.6);
+        at(handle).exponent = uniform(10, 200);
+        return handle;
+    }
+    Handle glass(double ior) {
+        const Handle handle = material({0, 0, 0});
+        at(handle).mirror = {1, 1, 1};
+        at(handle).transmission = colour(0.8, 1);
+        at(handle).ior = ior;
+        at(handle).fresnel = MaterialDesc::Fresnel::Dielectric;
+        return handle;
+    }
+    Handle mirror() {
+        const Handle handle = material({0.05, 0.05, 0.05});
+        at(handle).mirror = colour(0.6, 0.9);
+        return handle;
+    }
+
+    ObjectDesc& add(Kind kind, const Transform& place, Handle surface) {
+        ObjectDesc& object = desc.objects.emplace_back();
+        object.name = cat("object ", desc.objects.size());
+        object.kind = kind;
+        object.worldFromObject = {place.rows()};
+        object.materials = {surface};
+        return object;
+    }
+    // Somewhere at a height, turned, scaled along the axes, mirrored half of the time.
+    ObjectDesc& scatter(Kind kind, double height, double size, Handle surface) {
+        Vec3d scale{1, 1, 1};
+        for (std::size_t i = 0; i < 3; ++i) scale[i] = size * uniform(0.7, 1.4);
+        if (random_.chance(0.5)) scale.x = -scale.x;
+        const Transform there = Transform::translate(place(height));
+        const Vec3d axis = random_.direction();
+        const Transform turned = Transform::rotate(axis, uniform(0, kTwoPi));
+        return add(kind, there * turned * Transform::scale(scale), surface);
+    }
+    ObjectDesc& scatterMesh(Handle mesh, double height, double size, Handle surface) {
+        ObjectDesc& object = scatter(Kind::Mesh, height, size, surface);
+        object.mesh = mesh;
+        return object;
+    }
+    Handle mesh(MeshDesc mesh) {
+        desc.meshes.push_back(std::move(mesh));
+        desc.meshes.back().name = cat("mesh ", desc.meshes.size());
+        return static_cast<Handle>(desc.meshes.size() - 1);
+    }
+    LightDesc& lamp(LightDesc::Kind kind, Vec3d place, double brightness) {
+        LightDesc& light = desc.lights.emplace_back();
+        light.name = cat("light ", desc.lights.size());
+        light.kind = kind;
+        light.worldFromLight = Transform::lookAt(place, {0, 0, 0}, kUp).rows();
+        light.color = colour(0.7 * brightness, brightness);
+        return light;
+    }
+
+    SceneDesc desc;
+    Vec3d eye;
+
+private:
+    Random& random_;
+};
+
+// Every kind of shape, some seen from one side only, over a checkered plane without end.
+SceneDesc shapes(Random& random) {
+    Stage s(random, 4);
+    for (const Kind kind : {Kind::Sphere, Kind::Cube, Kind::Plane, Kind::Disk, Kind::Cylinder,
+                            Kind::Cylinder, Kind::Cone, Kind::Cone}) {
+        ObjectDesc& object = s.scatter(kind, 0.8, 0.5, s.shiny());
+        object.radius = s.uniform(0.5, 1.2);
+        object.topRadius = random.chance(0.5) ? 0 : s.uniform(0.2, 1);
+        object.caps = random.chance(0.5);
+        object.sides = static_cast<ObjectDesc::Sides>(random.below(3));
+    }
+    const Handle dark = s.material({0.1, 0.1, 0.1}), light = s.material({0.8, 0.8, 0.7});
+    const Transform below =
+        Transform::translate({0, 0, -0.5}) * Transform::rotate(kUp, s.uniform(0, 1));
+    s.add(Kind::InfinitePlane, below, dark).materials.push_back(light);
+    return s.desc;
+}
+
+// Meshes that are merged, one with smooth normals and one with two materials, beside instances.
+SceneDesc meshesAndInstances(Random& random) {
+    Stage s(random, 4);
+    s.scatterMesh(s.mesh(meshes::uvSphere(16, 8)), 0.8, 0.8, s.shiny());
+    MeshDesc ring = meshes::torus(0.3, 24, 12); // its points are places in the world
+    for (Vec3d& point : ring.points) point = point * 0.7 + Vec3d{0.3, -0.4, 0.6};
+    s.add(Kind::Mesh, {}, s.shiny()).mesh = s.mesh(ring);
+    MeshDesc two = meshes::icosphere(2);
+    for (std::size_t i = 0; i < two.triangles.size(); ++i)
+        two.triangleMaterials.push_back(random.below(2));
+    s.scatterMesh(s.mesh(two), 0.8, 0.5, s.shiny()).materials.push_back(s.shiny());
+    const Handle ball = s.mesh(meshes::icosphere(2)), box = s.mesh(meshes::cube());
+    for (int i = 0; i < 10; ++i)
+        s.scatterMesh(i % 2 ? ball : box, 0.5, 0.3, s.shiny()).sides =
+            static_cast<ObjectDesc::Sides>(random.below(3));
+    return s.desc;
+}
+
+// Glass in glass, of spheres and of meshes, and mirrors that show it again.
+SceneDesc glassAndMirrors(Random& random) {
+    Stage s(random, 4);
+    s.desc.settings.maxDepth = 10;
+    const Vec3d centre = s.place(1);
+    const Transform inner = Transform::scale(s.uniform(0.3, 0.8));
+    s.add(Kind::Sphere, Transform::translate(centre), s.glass(1.5));
+    s.add(Kind::Sphere, Transform::translate(centre) * inner, s.glass(1.33));
+    s.scatterMesh(s.mesh(meshes::cube()), 0.9, 0.5, s.glass(1.7));
+    s.scatter(Kind::Cylinder, 0.8, 0.4, s.glass(1.4));
+    s.scatter(Kind::Sphere, 0.6, 0.5, s.mirror());
+    const Handle chrome = s.mirror();
+    s.at(chrome).fresnel = MaterialDesc::Fresnel::Schlick;
+    s.scatter(Kind::Cube, 0.8, 0.4, chrome);
+    s.scatter(Kind::Sphere, 0.5, 0.5, s.shiny());
+    return s.desc;
+}
+
+// Every kind of lamp that casts soft shadows; some can be seen.
+SceneDesc softLights(Random& random) {
+    Stage s(random, 4);
+    s.desc.settings.lightSamples = 2;
+    s.scatter(Kind::Sphere, 0.8, 0.7, s.shiny());
+    s.scatter(Kind::Cone, 0.8, 0.6, s.shiny());
+    s.scatterMesh(s.mesh(meshes::torus(0.3, 16, 8)), 0.8, 0.6, s.shiny());
+    using Lamp = LightDesc::Kind;
+    LightDesc& panel = s.lamp(Lamp::Rectangle, {-3, -2, 4}, 15);
+    panel.size = {1.5, 1};
+    panel.visible = true;
+    LightDesc& disk = s.lamp(Lamp::Disk, {1.5, 2, 3}, 12);
+    disk.size = {1, 0.5};
+    disk.spreadDeg = 120;
+    LightDesc& ball = s.lamp(Lamp::Sphere, {2.5, -1, 1.6}, 20);
+    ball.radius = 0.3;
+    ball.visible = true;
+    s.lamp(Lamp::Sun, {2, 1, 4}, 0.5).angleDeg = 8;
+    LightDesc& spot = s.lamp(Lamp::Spot, {0, -4, 4}, 40);
+    spot.coneAngleDeg = 40;
+    spot.blend = 0.4;
+    spot.radius = 0.2;
+    return s.desc;
+}
+
+// Camera, shapes and instances move, along lines and around corners.
+SceneDesc motion(Random& random) {
+    Stage s(random, 8);
+    s.desc.cameras[0].worldFromCamera.push_back(
+        Transform::lookAt(s.eye + Vec3d{0.05, 0, 0}, {0, 0, 0.6}, kUp).rows());
+    const Handle ball = s.mesh(meshes::icosphere(2));
+    const auto move = [&](ObjectDesc& object, int keys) {
+        const Transform first = Transform::fromRows(object.worldFromObject[0]);
+        for (int i = 1; i < keys; ++i) {
+            const Transform there = Transform::translate(random.inBox(0.3));
+            const Vec3d axis = random.direction();
+            const Transform turned = Transform::rotate(axis, s.uniform(0, 1));
+            object.worldFromObject.push_back((there * first * turned).rows());
+        }
+    };
+    for (const Kind kind : {Kind::Sphere, Kind::Cube, Kind::Cylinder, Kind::Disk})
+        move(s.scatter(kind, 0.8, 0.5, s.shiny()), 2);
+    for (const int keys : {1, 2, 3}) move(s.scatterMesh(ball, 0.6, 0.4, s.shiny()), keys);
+    return s.desc;
+}
+
+// A lens with blades, before rough mirrors and rough glass.
+SceneDesc lensAndGlossy(Random& random) {
+    Stage s(random, 8);
+    CameraDesc& camera = s.desc.cameras[0];
+    camera.apertureRadius = 0.1;
+    camera.focusDistance = 6;
+    camera.apertureBlades = 6;
+    camera.apertureRotationDeg = s.uniform(0, 60);
+    const Handle brushed = s.mirror(), frosted = s.glass(1.5), metal = s.shiny();
+    s.at(brushed).roughness = 0.3;
+    s.at(frosted).roughness = 0.25;
+    s.at(metal).specularModel = MaterialDesc::SpecularModel::Ashikhmin;
+    s.scatter(Kind::Sphere, 0.8, 0.7, brushed);
+    s.scatter(Kind::Sphere, 0.8, 0.6, frosted);
+    s.scatter(Kind::Cube, 0.7, 0.4, metal);
+    s.scatter(Kind::Cylinder, 0.7, 0.4, brushed);
+    return s.desc;
+}
+
+// Foils, one before the other, of shapes and of meshes; a thing that glows.
+SceneDesc transparent(Random& random) {
+    Stage s(random, 4);
+    const Handle ball = s.mesh(meshes::icosphere(2));
+    const auto foil = [&] {
+        const Handle handle = s.material(s.colour(0.1, 0.4));
+        s.at(handle).opacity = s.uniform(0.1, 0.6);
+        s.at(handle).filter = s.colour(0.3, 1);
+        return handle;
+    };
+    for (const Kind kind : {Kind::Plane, Kind::Sphere, Kind::Cylinder, Kind::Disk})
+        s.scatter(kind, 1, 0.7, foil());
+    for (int i = 0; i < 3; ++i) s.scatterMesh(ball, 0.8, 0.5, i == 1 ? s.shiny() : foil());
+    s.scatterMesh(s.mesh(meshes::torus(0.3, 16, 8)), 0.8, 0.6, foil());
+    const Handle glow = s.material({0.1, 0.1, 0.1});
+    s.at(glow).emission = s.colour(0.2, 0.9);
+    s.scatter(Kind::Cone, 0.8, 0.4, glow);
+    return s.desc;
+}
+
+// The other camera, with the other samplers, filters, specular models and lit sides.
+SceneDesc orthographic(Random& random) {
+    Stage s(random, 4);
+    SettingsDesc& settings = s.desc.settings;
+    constexpr std::array samplers = {SettingsDesc::Sampler::Stratified,
+                                     SettingsDesc::Sampler::Random, SettingsDesc::Sampler::Grid,
+                                     SettingsDesc::Sampler::Corners};
+    settings.sampler = samplers[random.below(samplers.size())];
+    settings.filter = static_cast<SettingsDesc::Filter>(random.below(4));
+    settings.jitter = random.chance(0.5);
+    CameraDesc& camera = s.desc.cameras[0];
+    camera.kind = CameraDesc::Kind::Orthographic;
+    camera.orthoScale = s.uniform(5, 8);
+    camera.shiftX = 0.05;
+    camera.clipStart = 0.5;
+    for (const Kind kind : {Kind::Sphere, Kind::Cube, Kind::Cone}) {
+        const Handle handle = s.shiny();
+        s.at(handle).specularModel = MaterialDesc::SpecularModel::Phong;
+        if (random.chance(0.5)) s.at(handle).litSide = MaterialDesc::LitSide::Outside;
+        s.scatter(kind, 0.8, 0.6, handle);
+    }
+    LightDesc& spot = s.lamp(LightDesc::Kind::Spot, {3, -3, 4}, 2);
+    spot.attenuation = {0, 0, 1};
+    spot.cosineFalloff = true;
+    return s.desc;
+}
+
+constexpr Maker kMakers[] = {
+    {"shapes", shapes},           {"meshes", meshesAndInstances},
+    {"glass", glassAndMirrors},   {"soft lights", softLights},
+    {"motion", motion},           {"lens", lensAndGlossy},
+    {"transparent", transparent}, {"orthographic", orthographic},
+};
+
+} // namespace
+
+std::span<const Maker> makers() { return kMakers; }
+
+SceneDesc scaled(SceneDesc desc, double factor) {
+    const auto scale = [&](Rows& rows) {
+        for (double& number : rows) number *= factor;
+    };
+    for (CameraDesc& c : desc.cameras) {
+        for (Rows& rows : c.worldFromCamera) scale(rows); // scale in it is ignored
+        c.orthoScale *= factor;
+        c.clipStart *= factor;
+        c.apertureRadius *= factor;
+        c.focusDistance *= factor;
+    }
+    for (ObjectDesc& o : desc.objects)
+        for (Rows& rows : o.worldFromObject) scale(rows);
+    for (LightDesc& l : desc.lights) {
+        scale(l.worldFromLight); // with it the sizes of rectangles, disks and spheres
+        if (l.kind != LightDesc::Kind::Point && l.kind != LightDesc::Kind::Spot) continue;
+        l.radius *= factor;
+        const double f2 = factor * factor;
+        if (l.attenuation == Vec3d{1, 0, 0})
+            l.color = {l.color.r * f2, l.color.g * f2, l.color.b * f2};
+        else // color / (x d^2 + y d + z)
+            l.attenuation = {l.attenuation.x / f2, l.attenuation.y / factor, l.attenuation.z};
+    }
+    for (MaterialDesc& m : desc.materials) m.bumpDistance *= factor;
+    return desc;
+}
+
+SceneDesc moved(SceneDesc desc, Vec3d by) {
+    const auto move = [&](Rows& rows) { rows[3] += by.x, rows[7] += by.y, rows[11] += by.z; };
+    for (CameraDesc& c : desc.cameras)
+        for (Rows& rows : c.worldFromCamera) move(rows);
+    for (ObjectDesc& o : desc.objects) {
+        if (o.kind == Kind::Mesh && o.worldFromObject == Keys{kIdentityRows})
+            for (Vec3d& point : desc.meshes[static_cast<std::size_t>(o.mesh)].points) point += by;
+        else
+            for (Rows& rows : o.worldFromObject) move(rows);
+    }
+    for (LightDesc& l : desc.lights) move(l.worldFromLight);
+    return desc;
+}
+
+Picture render(const SceneDesc& desc, const Tweak& tweak) {
+    RenderSettings settings;
+    settings.picture = desc.settings;
+    if (tweak) tweak(settings);
+    const Scene scene(desc, {"scene", ""}, settings);
+    Stats stats;
+    return ::render(scene, settings, {}, stats);
+}
+
+std::uint64_t hashOf(const Picture& picture) {
+    std::uint64_t sum = 0;
+    const auto add = [&](const Image& image) {
+        for (const Rgb& p : image.pixels())
+            for (const float value : {p.r, p.g, p.b})
+                sum = mixBits(sum + kHashStep + std::bit_cast<std::uint32_t>(value));
+    };
+    add(picture.color);
+    for (const AovImage& aov : picture.aovs) add(aov.image);
+    return sum;
+}
+
+double largest(const Image& image) {
+    float out = 0;
+    for (const Rgb& p : image.pixels()) out = std::max({out, p.r, p.g, p.b});
+    return out;
+}
+
+} // namespace scenes
