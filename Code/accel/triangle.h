@@ -62,9 +62,13 @@ struct ShearedTriangle {
 // 1/z where the ray meets the triangle's plane. In double: the cross product of long, nearly
 // parallel edges cancels, and a float plane of a needle is met anywhere along the needle, by rays
 // that leave it or that end on it. Double takes needles of 1e8.
-inline float planeKey(const RaySetup& ray, const Vec3 (&v)[3]) {
-    const Vec3d v0 = toDouble(v[0]);
-    const Vec3d n = cross(toDouble(v[1]) - v0, toDouble(v[2]) - v0);
+inline float planeKey(const RaySetup& ray, Vec3 p0, Vec3 p1, Vec3 p2) {
+    const auto relative = [&](Vec3 p) {
+        const Vec3d q = toDouble(p) - toDouble(ray.org);
+        return Vec3d{q[ray.kx], q[ray.ky], q[ray.k] * static_cast<double>(ray.sign)};
+    };
+    const Vec3d v0 = relative(p0);
+    const Vec3d n = cross(relative(p1) - v0, relative(p2) - v0);
     const Vec3d slope{ray.Sx, ray.Sy, 1};
     return static_cast<float>(dot(n, slope) / dot(n, v0));
 }
@@ -79,7 +83,7 @@ inline float canonicalKey(const RaySetup& ray, Vec3 v0, Vec3 v1, Vec3 v2) {
     const float zMax = max(v[0].z, max(v[1].z, v[2].z));
     if (!(zMax > 0)) return 0;
 
-    const float plane = planeKey(ray, v);
+    const float plane = planeKey(ray, v0, v1, v2);
     if (!(zMin > 0) && !(plane > 0)) return 0; // straddles the origin and is met behind it
     const float nearest = zMin > 0 ? 1.0f / zMin : std::numeric_limits<float>::infinity();
     float key = min(max(plane, 1.0f / zMax), nearest);

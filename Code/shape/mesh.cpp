@@ -11,6 +11,12 @@ Vec3d crossOfEdges(Vec3 v0, Vec3 v1, Vec3 v2) {
     return cross(toDouble(v1) - toDouble(v0), toDouble(v2) - toDouble(v0));
 }
 
+// A triangle without area faces the ray, wherever that comes from.
+Vec3d unitNormal(Vec3 v0, Vec3 v1, Vec3 v2, Vec3d rayDir) {
+    const Vec3d n = crossOfEdges(v0, v1, v2);
+    return n == Vec3d{} ? -normalize(rayDir) : normalize(n);
+}
+
 // Which hits count. Asked of t itself, not of its key: a ray that goes on where it hit, from tMin =
 // hit.t, must not hit the same triangle again by the rounding from one to the other.
 struct KeyRange {
@@ -73,22 +79,24 @@ Vec3d liftToCurve(Vec3d p, const std::array<Vec3d, 3>& corners, const std::array
 } // namespace
 
 std::uint64_t MeshGeometry::dropDegenerate() {
+    std::uint64_t withoutArea = 0;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const Corners c = triangles[i];
-        if (crossOfEdges(points[c[0]], points[c[1]], points[c[2]]) == Vec3d{}) continue;
+        const Vec3 v0 = points[c[0]], v1 = points[c[1]], v2 = points[c[2]];
+        if (crossOfEdges(v0, v1, v2) == Vec3d{}) ++withoutArea;
+        if (v0 == v1 || v1 == v2 || v2 == v0) continue;
         triangles[kept] = c;
         if (!normalTriangles.empty()) normalTriangles[kept] = normalTriangles[i];
         if (!uvTriangles.empty()) uvTriangles[kept] = uvTriangles[i];
         if (!slots.empty()) slots[kept] = slots[i];
         ++kept;
     }
-    const std::uint64_t dropped = triangles.size() - kept;
     triangles.resize(kept);
     if (!normalTriangles.empty()) normalTriangles.resize(kept);
     if (!uvTriangles.empty()) uvTriangles.resize(kept);
     if (!slots.empty()) slots.resize(kept);
-    return dropped;
+    return withoutArea;
 }
 
 void MeshGeometry::finish(bool withTree, const Kernel& forKernel) {
@@ -257,7 +265,7 @@ Surface Mesh::surface(const Ray& worldRay, const Hit& hit) const {
         const Vec3d b = awayFromEdges({1 - u - v, u, v}, v0, v1, v2, kEdgeClearance * error);
         return toDouble(v0) * b.x + toDouble(v1) * b.y + toDouble(v2) * b.z;
     };
-    const Vec3d n = normalize(crossOfEdges(v0, v1, v2));
+    const Vec3d n = unitNormal(v0, v1, v2, toDouble(meshRay(worldRay).dir));
     const float scale = max(maxAbs(v0), max(maxAbs(v1), maxAbs(v2)));
 
     Surface s;

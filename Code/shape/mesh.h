@@ -27,7 +27,9 @@ struct MeshGeometry {
     const Kernel* kernel = nullptr; // answers batches; null: the scalar code does
     float extent = 0;               // largest |coordinate| of a point
 
-    // Takes triangles without area out of the lists and returns how many there were.
+    // Takes triangles with two corners in one place out of the lists, and returns how many have no
+    // area. Those with three corners on a line stay: to a ray, whose arithmetic rounds each corner
+    // by itself, such a triangle closes the gap between its neighbours.
     std::uint64_t dropDegenerate();
     // Computes extent and, if wanted, the tree that the kernel needs. The lists do not change
     // afterwards.

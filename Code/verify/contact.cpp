@@ -77,7 +77,7 @@ struct Contact {
 };
 
 // On a square of 1.6 (ball) or on a box of that size (box).
-Contact contact(Random& random, bool isBall) {
+Contact contact(Random& random, bool isBall, bool isSun) {
     Contact at;
     at.isBall = isBall;
     const Vec3d axis = random.direction();
@@ -98,7 +98,7 @@ Contact contact(Random& random, bool isBall) {
         at.blocker = std::make_unique<Cube>(standing * Transform::scale(at.half), 0, 0);
     }
     // 45 degrees or more above the plane, so that the edge of the shadow is nowhere drawn out.
-    at.isSun = random.chance(0.5);
+    at.isSun = isSun;
     const double turn = random.uniform(0, kTwoPi), height = random.uniform(0.71, 0.99);
     const double side = std::sqrt(1 - height * height);
     const Vec3d up{side * exact::cos(turn), side * exact::sin(turn), height};
@@ -107,10 +107,10 @@ Contact contact(Random& random, bool isBall) {
     return at;
 }
 
-Tally shadowEdge(const Effort& effort, std::uint64_t seed, bool isBall) {
+Tally shadowEdge(const Effort& effort, std::uint64_t seed, bool isBall, bool isSun) {
     constexpr int kPoints = 400; // about a place of the edge
     return inBatches(effort, seed, 100, [&](Random& random, Tally& tally) {
-        const Contact at = contact(random, isBall);
+        const Contact at = contact(random, isBall, isSun);
         const double angle = random.uniform(0, kTwoPi);
         const Vec3d outwards{exact::cos(angle), exact::sin(angle), 0};
         // Where the blocker stands it is dark, and lit as far away as its shadow reaches.
@@ -138,12 +138,18 @@ Tally shadowEdge(const Effort& effort, std::uint64_t seed, bool isBall) {
     });
 }
 
-Tally ballOnPlane(const Effort& effort) { return shadowEdge(effort, 63, true); }
-Tally boxOnBox(const Effort& effort) { return shadowEdge(effort, 64, false); }
+template <std::uint64_t Seed, bool isBall, bool isSun> Tally edge(const Effort& effort) {
+    return shadowEdge(effort, Seed, isBall, isSun);
+}
 
 constexpr Row kRows[] = {
-    {"T6a", "edge of the shadow of a ball on a plane", "ulp of the extent", 4, true, ballOnPlane},
-    {"T6b", "edge of the shadow of a box on a box", "ulp of the extent", 4, true, boxOnBox},
+    {"T6a", "edge of the shadow of a ball on a plane, under a sun", "ulp of the extent", 4, true,
+     edge<61, true, true>},
+    {"T6b", "the same of a box on a box", "ulp of the extent", 4, true, edge<62, false, true>},
+    {"T6c", "of a ball on a plane, under a lamp 1 to 3 away", "ulp of the extent", 4, true,
+     edge<63, true, false>},
+    {"T6d", "of a box on a box, under such a lamp", "ulp of the extent", 4, true,
+     edge<64, false, false>},
 };
 
 } // namespace

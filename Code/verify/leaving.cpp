@@ -181,7 +181,7 @@ void castShadowRays(Random& random, const Surface& s, const Shape& shape, std::s
 }
 
 Tally acneOfFormulas(const Effort& effort) {
-    return inBatches(effort, 61, 300, [](Random& random, Tally& tally) {
+    return inBatches(effort, 65, 300, [](Random& random, Tally& tally) {
         const kit::Kind& kind = kit::kinds()[random.below(kit::kinds().size())];
         if (!kind.isClosed && !kind.isFlat) return; // inside a tube there may well be shadow
         const Transform map = random.affine(8, 1) * Transform::scale(random.logUniform(0.01, 1));
@@ -198,7 +198,7 @@ Tally acneOfFormulas(const Effort& effort) {
 }
 
 Tally acneOfMeshes(const Effort& effort) {
-    return inBatches(effort, 62, 32, [](Random& random, Tally& tally) {
+    return inBatches(effort, 66, 32, [](Random& random, Tally& tally) {
         const PlacedSolid at = someConvexSolid(random);
         for (int i = 0; i < 500; ++i) {
             Surface s;
@@ -212,8 +212,8 @@ constexpr Row kRows[] = {
     {"T5a", "rays that leave a shape with a formula do not meet it again", "", 0, true,
      fromFormulas},
     {"T5b", "the same of convex meshes", "", 0, true, fromMeshes},
-    {"T6c", "no shadow of a shape with a formula on its own lit side", "", 0, true, acneOfFormulas},
-    {"T6d", "the same of convex meshes", "", 0, true, acneOfMeshes},
+    {"T6e", "no shadow of a shape with a formula on its own lit side", "", 0, true, acneOfFormulas},
+    {"T6f", "the same of convex meshes", "", 0, true, acneOfMeshes},
 };
 
 } // namespace

@@ -1,9 +1,10 @@
 // Promise P2 in pictures: closed rooms are black inside, convex bodies throw no shadow on
 // themselves, shadows begin where bodies touch; at every size and place of the scene.
 #include "check.h"
-#include "placed_scene.h"
 #include "shot.h"
 #include "solids.h"
+
+#include "verify/scenes.h"
 
 namespace {
 
@@ -22,7 +23,7 @@ const std::vector<Placing> kPlacings = {{1, {0, 0, 0}},      {1e-6, {0, 0, 0}},
                                         {1e-6, {0, 0, 1e4}}, {1e6, {1234, 0, -1e5}}};
 
 SceneDesc at(const SceneDesc& desc, const Placing& p) {
-    return placed::moved(placed::scaled(desc, p.scale), p.offset * p.scale * 2.0);
+    return scenes::moved(scenes::scaled(desc, p.scale), p.offset * p.scale * 2.0);
 }
 
 } // namespace

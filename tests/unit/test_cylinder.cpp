@@ -46,30 +46,6 @@ TEST(cylinder_without_caps_is_open) {
     CHECK(hits.empty());
 }
 
-TEST(cylinder_precision) {
-    // Far rays nearly along the axis and across it, against extended precision: 2 float ulp.
-    Random random(304);
-    double worst = 0;
-    const Cylinder tube(Transform(), 1, true, 0, 0);
-    for (int i = 0; i < 200000; ++i) {
-        const double distance = random.logUniform(2, 1e6);
-        Vec3d toOrigin = random.direction();
-        toOrigin.z *= random.logUniform(1e-3, 1e6); // towards the axis
-        const Ray ray = kit::rayThrough(normalize(toOrigin) * distance, random.inBox(0.7));
-        Hit hit;
-        if (!tube.intersect(ray, hit) || hit.prim != 0) continue;
-        using L = long double;
-        const L ox = ray.org.x, oy = ray.org.y, dx = ray.dir.x, dy = ray.dir.y;
-        const L dd = dx * dx + dy * dy, middle = -(ox * dx + oy * dy) / dd;
-        const L lx = ox + middle * dx, ly = oy + middle * dy;
-        const L t = middle - std::sqrt((1 - lx * lx - ly * ly) / dd);
-        const L error = std::fabs(static_cast<L>(hit.t) - t) / (0x1p-23L * t);
-        worst = max(worst, static_cast<double>(error));
-    }
-    std::printf("cylinder: worst t %.3f ulp\n", worst);
-    CHECK_INFO(worst <= 2, worst);
-}
-
 TEST(cylinder_edge_cases) {
     Hit hit;
     for (const double radius : {0.0, -1.0, std::nan("")}) {

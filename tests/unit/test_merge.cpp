@@ -62,7 +62,7 @@ TEST(merge_slots_and_parts) {
     merged.add(two, {}, {}, {10, 11}, 4);
     merged.add(triangle(), Transform::translate({0, 0, 1}), {}, {12}, 6);
     MeshDesc flat = triangle();
-    flat.points[2] = {2, 0, 0};
+    flat.points[2] = flat.points[1];
     merged.add(flat, {}, {}, {99}, 7); // nothing is left of it
     merged.add(two, Transform::translate({0, 0, 2}), {}, {13, 14}, 9);
     const MeshGeometry& g = merged.geometry;

@@ -162,7 +162,7 @@ TEST(mesh_normals_point_outward) {
     CHECK_INFO(worstSmooth < 0.1, worstSmooth); // a facet of 1/64, stretched 16 times at most
 }
 
-TEST(mesh_drops_triangles_without_area) {
+TEST(mesh_drops_triangles_whose_corners_coincide) {
     MeshDesc desc = squareWithUvs();
     desc.points.push_back({1, 0, 0}); // on the edge 0-1
     desc.triangles = {{0, 1, 2}, {0, 1, 4}, {1, 1, 2}, {0, 2, 3}, {3, 3, 3}};
@@ -170,10 +170,11 @@ TEST(mesh_drops_triangles_without_area) {
     desc.triangleMaterials = {0, 1, 1, 2, 1};
     MeshGeometry g = toGeometry(desc, {});
     CHECK_EQUAL(g.dropDegenerate(), 3u);
-    CHECK(g.triangles == (std::vector<MeshGeometry::Corners>{{0, 1, 2}, {0, 2, 3}}));
-    CHECK(g.uvTriangles == g.triangles && g.normalTriangles.empty());
-    CHECK(g.slots == (std::vector<std::uint32_t>{0, 2}));
-    CHECK_EQUAL(g.dropDegenerate(), 0u);
+    // The one with its corners on a line closes the gap between its neighbours.
+    CHECK(g.triangles == (std::vector<MeshGeometry::Corners>{{0, 1, 2}, {0, 1, 4}, {0, 2, 3}}));
+    CHECK(g.uvTriangles == (std::vector<MeshGeometry::Corners>{{0, 1, 2}, {0, 0, 0}, {0, 2, 3}}));
+    CHECK(g.slots == (std::vector<std::uint32_t>{0, 1, 2}) && g.normalTriangles.empty());
+    CHECK_EQUAL(g.dropDegenerate(), 1u);
 
     // Those with the smallest area stay: two floats apart in one coordinate.
     MeshGeometry thin;

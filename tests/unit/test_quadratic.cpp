@@ -1,7 +1,7 @@
 #include "base/quadratic.h"
 #include "check.h"
+#include "verify/groups.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <random>
@@ -19,40 +19,14 @@ struct Draw {
     }
 };
 
-double number(std::int64_t n) { return static_cast<double>(n); }
-constexpr double kUlp = 0x1p-52;
-
 } // namespace
 
-// a (t - p)(t - q) with whole numbers: the coefficients are exact, so the roots are known.
-TEST(quadratic_whole_roots) {
-    Draw draw;
-    for (int i = 0; i < check::scaled(200000); ++i) {
-        const std::int64_t a = draw.whole(1000), p = draw.whole(1000000);
-        // Every third pair of roots lies close together, where the discriminant cancels.
-        const std::int64_t q = i % 3 ? draw.whole(1000000) : p + draw.whole(3);
-        if (a == 0) continue;
-        const Roots roots = solveQuadratic(number(a), number(-a * (p + q)), number(a * p * q));
-        const double lo = number(std::min(p, q)), hi = number(std::max(p, q));
-        CHECK_EQUAL(roots.count, p == q ? 1 : 2);
-        CHECK_INFO(std::fabs(roots.t0 - lo) <= 4 * kUlp * std::fabs(lo) &&
-                       std::fabs(roots.t1 - hi) <= 4 * kUlp * std::fabs(hi),
-                   roots.t0 << " " << roots.t1 << ", expected " << lo << " " << hi);
-    }
-}
-
-// The sign of the discriminant: whole coefficients below 2^29 make it exact in 64 bits.
-TEST(quadratic_count) {
-    Draw draw;
-    for (int i = 0; i < check::scaled(200000); ++i) {
-        const std::int64_t half = draw.whole(1 << 28), b = 2 * half;
-        const std::int64_t a = half + draw.whole(2), c = half + draw.whole(2);
-        if (a == 0) continue;
-        const std::int64_t discriminant = half * half - a * c;
-        const int expected = discriminant < 0 ? 0 : discriminant == 0 ? 1 : 2;
-        const Roots roots = solveQuadratic(number(a), number(b), number(c));
-        CHECK_INFO(roots.count == expected, a << " " << b << " " << c << ": " << roots.count);
-        CHECK(roots.t0 <= roots.t1);
+// Random, clustered and whole roots: the row of the battery (Code/verify/solvers.cpp).
+TEST(quadratic_against_113_bits) {
+    for (const battery::Row& row : battery::solverRows()) {
+        const battery::Tally tally = row.run({check::scaled(1.0), 1});
+        CHECK_INFO(battery::passed(row, tally), row.id << ": " << tally.failedCase << "; "
+                                                       << tally.worst << " " << tally.worstCase);
     }
 }
 

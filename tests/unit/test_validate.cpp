@@ -325,6 +325,14 @@ TEST(validate_warnings) {
                    d.world.environment = 0;
                }),
                "the environment is multiplied by 'background', which is 0 0 0");
+    const auto moveBy = [](double x) {
+        return [x](SceneDesc& d) {
+            for (ObjectDesc& object : d.objects)
+                for (Rows& key : object.worldFromObject) key[7] -= x;
+        };
+    };
+    CHECK_EQUAL(warningsAfter(moveBy(1e8)), ""); // of a scene of some metres
+    checkError(warningsAfter(moveBy(1e11)), "the scene lies more than 10^10 times its size away");
     checkError(warningsAfter([](SceneDesc& d) { d.lights[0].coneAngleDeg = 10; }),
                "light 'lamp': 'cone_angle' has no effect on type point");
 }

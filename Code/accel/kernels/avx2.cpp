@@ -9,11 +9,14 @@
 #include <bit>
 #include <cmath>
 #include <immintrin.h>
+#include <limits>
 #include <vector>
 
 KERNEL_REGION_BEGIN("avx2,fma,bmi,bmi2,lzcnt,popcnt")
 namespace kernels::avx2 {
 #include "accel/kernels/simd_avx2.inl"
+
+#include "accel/kernels/key_range.inl"
 
 #include "accel/kernels/queue.inl"
 

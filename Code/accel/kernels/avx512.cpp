@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <immintrin.h>
+#include <limits>
 #include <vector>
 
 // g++ 12 takes the undefined operands of its own intrinsics for mistakes (GCC bug 105593).
@@ -20,6 +21,8 @@
 KERNEL_REGION_BEGIN("avx512f,avx512dq,avx512bw,avx512vl,avx512cd,avx2,fma,bmi,bmi2,lzcnt,popcnt")
 namespace kernels::avx512 {
 #include "accel/kernels/simd_avx512.inl"
+
+#include "accel/kernels/key_range.inl"
 
 #include "accel/kernels/queue.inl"
 

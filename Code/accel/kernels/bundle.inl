@@ -204,7 +204,7 @@ private:
             Floats above(0.0f), below(kInfinityF);
             zFar_[q] = depthCut(0);
             if (bits((tMin == Floats(0.0f)) & (tMax == Floats(kInfinityF))) != (1u << W) - 1) {
-                above = one / (tMax * dz), below = one / (tMin * dz);
+                above = keyAbove(tMax, dz), below = keyBelow(tMin, dz);
                 zFar_[q] = depthCut(smallest(above));
             }
             if (Q == Query::Any) mostAbove_[q] = largest(above), leastBelow_[q] = smallest(below);
@@ -525,11 +525,17 @@ private:
     [[gnu::noinline]] void planes(Block& b) const {
         const Corners& v = *b.corners;
         b.hasPlanes = true;
-        const Doubles x0(v.x[0]), y0(v.y[0]), z0(v.z[0]);
-        const Doubles ax = Doubles(v.x[1]) - x0, ay = Doubles(v.y[1]) - y0,
-                      az = Doubles(v.z[1]) - z0;
-        const Doubles bx = Doubles(v.x[2]) - x0, by = Doubles(v.y[2]) - y0,
-                      bz = Doubles(v.z[2]) - z0;
+        const auto relative = [&](int corner, std::size_t axis) { // in double, as planeKey() has it
+            const Floats point =
+                permute(Floats::load(b.leaf->point[axis]), Ints::bytes(b.leaf->corner[corner]));
+            return Doubles(point) - Doubles(static_cast<double>(origin_[axis]));
+        };
+        const Doubles sign(static_cast<double>(sign_));
+        const Doubles x0 = relative(0, kx_), y0 = relative(0, ky_), z0 = relative(0, k_) * sign;
+        const Doubles ax = relative(1, kx_) - x0, ay = relative(1, ky_) - y0,
+                      az = relative(1, k_) * sign - z0;
+        const Doubles bx = relative(2, kx_) - x0, by = relative(2, ky_) - y0,
+                      bz = relative(2, k_) * sign - z0;
         const Doubles nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
         nx.store(b.nx), ny.store(b.ny), nz.store(b.nz);
         (nx * x0 + ny * y0 + nz * z0).store(b.n0);

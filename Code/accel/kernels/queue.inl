@@ -121,11 +121,11 @@ private:
         (e * Floats(0.125f)).store(b.lateralError);
         dMax.store(b.dz);
         // Keys that count are in (above, below); see KeyRange of shape/mesh.cpp.
-        const Floats above = one / (Floats::load(tMax) * dMax);
+        const Floats above = keyAbove(Floats::load(tMax), dMax);
         const Floats zCut = select(above > zero, (one / above) * Floats(1.0000005f),
                                    Floats(std::numeric_limits<float>::max()));
         (Q == Query::Any ? above : zero).store(b.key);
-        (one / (Floats::load(tMin) * dMax)).store(b.below);
+        keyBelow(Floats::load(tMin), dMax).store(b.below);
         // isTraceable(): what it refuses enters no box.
         const Floats sum = ((dx + dy) + dz) + ((ox + oy) + oz);
         const Floats dLargest = max(max(ax, ay), az);
@@ -253,7 +253,8 @@ private:
     // Triangles of the leaf that may be better than what the ray has. ShearedTriangle of
     // accel/triangle.h for W triangles: edge functions with the same bits, then whether depth T/det
     // is certain to be out of range. Error of T and of the exact plane's, times |det|: with b the
-    // size of the triangle across the ray and M its depth, below 36 u b (M + 2b)^2, u = 2^-24.
+    // size of the triangle across the ray and M its depth, below 60 u b (M + 2b)^2, u = 2^-24: 36 for
+    // the arithmetic here, 24 for corners that are rounded to float relative to the ray.
     unsigned leafCandidates(const RayBlock& b, std::uint32_t i) const {
         const std::byte* const p = base_ + byteOffset(b.at[i]);
         const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(p);
@@ -275,7 +276,7 @@ private:
         const float size = 2 * std::bit_cast<float>(static_cast<std::uint32_t>(leaf.reach) << 16) +
                            b.lateralError[i];
         const Floats m = max(max(abs(z0), abs(z1)), abs(z2)) + Floats(2 * size);
-        const Floats noise = (Floats(36 * 0x1p-24f * size) * m) * m;
+        const Floats noise = (Floats(60 * 0x1p-24f * size) * m) * m;
         const Floats limit = Floats(b.zCut[i] * 1.000001f) * abs(det) + noise;
         const Mask wanted = notGreater(depth, limit) & notGreater(zero - noise, depth);
         return bits(inside & wanted) & ((1u << leaf.count) - 1);

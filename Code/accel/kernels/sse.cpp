@@ -9,11 +9,14 @@
 #include <bit>
 #include <cmath>
 #include <immintrin.h>
+#include <limits>
 #include <vector>
 
 KERNEL_REGION_BEGIN("sse4.2,popcnt")
 namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
+
+#include "accel/kernels/key_range.inl"
 
 #include "accel/kernels/queue.inl"
 

@@ -353,7 +353,8 @@ private:
     struct Choice {
         std::array<float, W> cost;
         std::array<std::uint8_t, W> left;
-        std::uint8_t split; // of the subtree's own wide node
+        std::uint8_t split;  // of the subtree's own wide node
+        std::uint8_t leaves; // more than these many children it can't have; at most W
     };
 
     std::vector<Choice> choose() const {
@@ -366,16 +367,19 @@ private:
             const float area = nodes_[i].box.halfArea() * scale;
             if (nodes_[i].left == 0) {
                 c.cost.fill(area), c.left.fill(0);
+                c.leaves = 1;
                 continue;
             }
             const Choice &a = choice[nodes_[i].left], &b = choice[nodes_[i].left + 1];
             c.cost.fill(kHuge), c.left.fill(0);
-            for (std::size_t k = 1; k < W; ++k)          // children from the left
-                for (std::size_t m = 1; k + m <= W; ++m) // and from the right
+            const std::size_t most = std::min<std::size_t>(W, a.leaves + b.leaves);
+            for (std::size_t k = 1; k <= a.leaves && k < most; ++k)          // from the left
+                for (std::size_t m = 1; m <= b.leaves && k + m <= most; ++m) // from the right
                     if (const float cost = a.cost[k - 1] + b.cost[m - 1]; cost < c.cost[k + m - 1])
                         c.cost[k + m - 1] = cost, c.left[k + m - 1] = static_cast<std::uint8_t>(k);
-            c.split = c.left[W - 1];
-            c.cost[0] = c.cost[W - 1] + area;
+            c.leaves = static_cast<std::uint8_t>(most);
+            c.split = c.left[most - 1];
+            c.cost[0] = c.cost[most - 1] + area;
             for (std::size_t k = 1; k < W; ++k)
                 if (c.cost[k - 1] <= c.cost[k]) {
                     c.cost[k] = c.cost[k - 1];

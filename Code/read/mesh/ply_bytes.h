@@ -28,7 +28,7 @@ public:
         if (rowBytes == 0) return;
         if (const std::size_t possible = bytesLeft() / rowBytes; element.count > possible)
             failAt(source_, element.offset,
-                   cat("'element ", element.name, " ", element.count,
+                   cat("'element ", shown(element.name), " ", element.count,
                        "' is more than the rest of the file can hold (", possible, " at most)"));
     }
     void beginRow() {}
@@ -81,7 +81,8 @@ private:
         const auto count = static_cast<std::int64_t>(number(*property.countType));
         const std::size_t possible = std::min(most, bytesLeft() / sizeOf(property.type));
         if (count < 0 || static_cast<std::uint64_t>(count) > possible)
-            fail(cat("a list of '", property.name, "' has ", count, " items; at most ", possible,
+            fail(cat("a list of '", shown(property.name), "' has ", count, " items; at most ",
+                     possible,
                      possible < most ? " fit into the rest of the file" : " are possible"));
         return static_cast<std::size_t>(count);
     }
@@ -120,7 +121,7 @@ private:
 
     [[noreturn]] void failAtByte(const char* p, std::string_view what) const {
         failAt(source_, element_->offset,
-               cat("byte ", p - source_.text.data(), ", row ", row_, " of '", element_->name,
+               cat("byte ", p - source_.text.data(), ", row ", row_, " of '", shown(element_->name),
                    "': ", what));
     }
 

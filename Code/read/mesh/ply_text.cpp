@@ -14,7 +14,7 @@ void PlyText::begin(const PlyElement& element) {
     if (rowBytes == 0) return;
     if (const std::size_t possible = (bytesLeft() + 1) / rowBytes; element.count > possible)
         failAt(source_, element.offset,
-               cat("'element ", element.name, " ", element.count,
+               cat("'element ", shown(element.name), " ", element.count,
                    "' is more than the rest of the file can hold (", possible, " at most)"));
 }
 
@@ -23,14 +23,14 @@ void PlyText::beginRow() {
     last_ = p_;
     if (p_ == end_)
         fail(cat("the file ends after ", row_, " of ", element_->count, " rows of '",
-                 element_->name, "'"));
+                 shown(element_->name), "'"));
 }
 
 void PlyText::endRow() {
     skipBlanks();
     if (!isAtEnd(p_))
         failAtText(p_, cat("expected the end of the line, got ", word(p_), "; row ", row_, " of '",
-                           element_->name, "' has all its values"));
+                           shown(element_->name), "' has all its values"));
     ++row_;
 }
 
@@ -72,8 +72,8 @@ std::size_t PlyText::listCount(const PlyProperty& property, std::size_t most) {
     const std::uint32_t count = whole();
     const std::size_t possible = std::min(most, bytesLeft() / 2);
     if (count > possible || *last_ == '-')
-        fail(cat("a list of '", property.name, "' has ", word(last_), " items; at most ", possible,
-                 possible < most ? " fit into the rest of the file" : " are possible"));
+        fail(cat("a list of '", shown(property.name), "' has ", word(last_), " items; at most ",
+                 possible, possible < most ? " fit into the rest of the file" : " are possible"));
     listStart_ = p_;
     return count;
 }
@@ -110,5 +110,6 @@ std::string PlyText::word(const char* p) const {
 }
 
 void PlyText::failMissing() const {
-    fail(cat("the line ends too early: row ", row_, " of '", element_->name, "' has more values"));
+    fail(cat("the line ends too early: row ", row_, " of '", shown(element_->name),
+             "' has more values"));
 }

@@ -136,9 +136,10 @@ private:
         const double value = in_.number(property.type);
         const double largest = role <= Role::Z ? kLargestLength : kLargestFloat;
         if (!(std::fabs(value) <= largest))
-            in_.fail(std::isfinite(value)
-                         ? cat("'", property.name, "' is too large; at most ", shortest(largest))
-                         : cat("'", property.name, "' is not a finite number"));
+            in_.fail(
+                std::isfinite(value)
+                    ? cat("'", shown(property.name), "' is too large; at most ", shortest(largest))
+                    : cat("'", shown(property.name), "' is not a finite number"));
         return value;
     }
 
@@ -149,7 +150,7 @@ private:
         if (!indices) indices = element.property("vertex_index");
         if (!indices || !indices->countType || !isWhole(indices->type))
             failAt(source_, indices ? indices->offset : element.offset,
-                   cat("'", element.name,
+                   cat("'", shown(element.name),
                        "' needs a list of whole numbers, such as 'property list uchar int "
                        "vertex_indices'"));
         mesh_.triangles.reserve(mesh_.triangles.size() + element.count);
