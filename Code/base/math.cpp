@@ -392,7 +392,9 @@ double pow(double x, double y) {
 double cbrt(double x) {
     if (x == 0 || !(std::fabs(x) < kInfinity)) return x;
     double size = std::fabs(x), unit = 1;
-    if (size < 0x1p-1000) size *= 0x1p180, unit = 0x1p-60;
+    // Its power 4/3 is needed below; numbers near the least one are moved far enough by 2^540.
+    if (size < 0x1p-700) size *= 0x1p540, unit = 0x1p-180;
+    if (size > 0x1p700) size *= 0x1p-540, unit = 0x1p180;
     // A third of the exponent; the constant centres the error of 5 %.
     const auto third = std::bit_cast<std::uint64_t>(size) / 3 + 0x2a9f7893782da1ceu;
     double t = std::bit_cast<double>(third);
