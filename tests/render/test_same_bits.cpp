@@ -161,7 +161,7 @@ TEST(scenesOfTheBattery) {
                     changes += image.pixel(x, y) != image.pixel(x - 1, y);
             CHECK_INFO(changes > image.width() * image.height() / 3,
                        maker.name << " " << i << ": " << changes);
-            CHECK(scenes::largest(image) > 0.2);
+            CHECK(scenes::largest(image) > 0.05);
         }
 }
 
