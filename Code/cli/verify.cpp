@@ -121,15 +121,16 @@ ExitCode verify(const VerifyOptions& options) {
     if (options.batch) effort.batch = static_cast<std::size_t>(*options.batch);
     writeStdout(battery::reportHeading());
     std::vector<Finding> findings;
-    std::size_t failures = 0;
+    std::size_t failures = 0, open = 0;
     for (const Row& row : rows) {
         const auto start = std::chrono::steady_clock::now();
         findings.push_back({row, row.run(effort)});
         const battery::Tally& tally = findings.back().tally;
-        if (!battery::passed(row, tally)) ++failures;
+        if (!battery::passed(row, tally)) ++(*row.open ? open : failures);
         writeStdout(battery::reportLine(row, tally, secondsSince(start)));
     }
-    writeStdout(cat(rows.size() - failures, " passed, ", failures, " failed\n"));
+    if (open > 0) writeStdout(cat(open, " marks are not reached yet (OPEN)\n"));
+    writeStdout(cat(rows.size() - failures - open, " passed, ", failures, " failed\n"));
     if (!options.markdown.empty()) {
         const std::string text = battery::markdownPage(findings, kVersion, options.effort);
         writeFileAtomically(options.markdown,

@@ -52,6 +52,7 @@ struct Row {
     bool quick;       // a second or less at effort 1, so that `raytracer verify` may run it
     Tally (*run)(const Effort&);
     const char* peers = ""; // what was measured of other programs
+    const char* open = "";  // why the program does not keep the mark yet: a failure is no news
 };
 std::vector<Row> rows(); // of all groups (groups.h), in the order of their ids: T2, T10, T10b
 

@@ -142,14 +142,16 @@ template <std::uint64_t Seed, bool isBall, bool isSun> Tally edge(const Effort& 
     return shadowEdge(effort, Seed, isBall, isSun);
 }
 
+constexpr const char* kShadowEnd = "rays from a lamp end 2^-20 of their length before the surface";
+
 constexpr Row kRows[] = {
     {"T6a", "edge of the shadow of a ball on a plane, under a sun", "ulp of the extent", 4, true,
      edge<61, true, true>},
     {"T6b", "the same of a box on a box", "ulp of the extent", 4, true, edge<62, false, true>},
     {"T6c", "of a ball on a plane, under a lamp 1 to 3 away", "ulp of the extent", 4, true,
-     edge<63, true, false>},
+     edge<63, true, false>, "", kShadowEnd},
     {"T6d", "of a box on a box, under such a lamp", "ulp of the extent", 4, true,
-     edge<64, false, false>},
+     edge<64, false, false>, "", kShadowEnd},
 };
 
 } // namespace

@@ -128,14 +128,18 @@ template <std::uint64_t Seed, Form form, bool otherRings> Tally crack(const Effo
     return atBorder(effort, Seed, form, otherRings);
 }
 
+constexpr const char* kOwnSpace =
+    "each instance sees the ray rounded to floats in a space of its own";
+
 constexpr Row kRows[] = {
     {"T4a", "rays at the border of two halves of a ball, two objects", "", 0, true,
      crack<41, Form::Separate, false>},
     {"T4b", "the same, merged", "", 0, true, crack<42, Form::Merged, false>},
-    {"T4c", "the same, two instances of one half", "", 0, true, crack<43, Form::Instances, false>},
+    {"T4c", "the same, two instances of one half", "", 0, true, crack<43, Form::Instances, false>,
+     "", kOwnSpace},
     {"T4d", "halves of other tessellation that share the border", "", 0, true,
      crack<44, Form::Separate, true>},
-    {"T4e", "the same as instances", "", 0, true, crack<45, Form::Instances, true>},
+    {"T4e", "the same as instances", "", 0, true, crack<45, Form::Instances, true>, "", kOwnSpace},
 };
 
 } // namespace

@@ -55,8 +55,12 @@ std::string reportLine(const Row& row, const Tally& tally, double seconds) {
     char time[32];
     std::snprintf(time, sizeof time, " (%.1f s)", seconds);
     std::string out = line(row.id, row.what, grouped(tally.cases), worstOf(row, tally), markOf(row),
-                           cat(passed(row, tally) ? "ok" : "FAILED", time));
+                           cat(passed(row, tally) ? "ok"
+                               : *row.open        ? "OPEN"
+                                                  : "FAILED",
+                               time));
     if (passed(row, tally)) return out;
+    if (*row.open) out += cat("     not reached yet: ", row.open, "\n");
     if (!tally.failedCase.empty()) out += cat("     failed: ", tally.failedCase, "\n");
     if (!tally.worstCase.empty()) out += cat("     worst: ", tally.worstCase, "\n");
     return out;
@@ -85,7 +89,10 @@ std::string markdownPage(std::span<const Finding> findings, std::string_view ver
     for (const Finding& f : findings)
         out += cat("| ", f.row.id, " | ", f.row.what, " | ", grouped(f.tally.cases), " | ",
                    worstOf(f.row, f.tally), " | ", markOf(f.row), " | ",
-                   isOk(f) ? "ok" : "**failed**", " | ", f.row.peers, " |\n");
+                   isOk(f)       ? std::string("ok")
+                   : *f.row.open ? cat("**open**: ", f.row.open)
+                                 : std::string("**failed**"),
+                   " | ", f.row.peers, " |\n");
     out += "\n## The worst cases\n\n"
            "`raytracer verify TEST --batch N` runs the batch of a case again, alone.\n\n"
            "| test | case |\n|---|---|\n";

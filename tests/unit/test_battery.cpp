@@ -48,7 +48,8 @@ TEST(battery_every_row_passes) {
         const Tally tally = row.run({.factor = 1, .threads = 2});
         const std::string line = battery::reportLine(row, tally, 0);
         std::printf("%s", line.c_str());
-        CHECK_INFO(battery::passed(row, tally), line);
+        CHECK_INFO(battery::passed(row, tally) == (*row.open == 0),
+                   line); // or `open` is out of date
     }
 }
 

@@ -39,6 +39,7 @@ const Type* readType(JsonFields& fields) {
         std::find_if(kTypes.begin(), kTypes.end(), [&](const Type& t) { return t.word == word; });
     if (row != kTypes.end()) return &*row;
     std::vector<std::string> known;
+    known.reserve(kTypes.size());
     for (const Type& type : kTypes) known.emplace_back(type.word);
     if (!value)
         fields.problems().error(fields.loc(),
