@@ -66,25 +66,40 @@ Reduced reduceAngle(double x) {
 }
 
 // Taylor, as the terms are known to be right: what is left out is below 2^-62 of the value.
-double sinKernel(double x, double lo) {
+// The lower part holds what the rounding to the upper one leaves out.
+DoubleDouble sinKernel(double x, double lo) {
     constexpr double c3 = -1.0 / 6, c5 = 1.0 / 120, c7 = -1.0 / 5040, c9 = 1.0 / 362880;
     constexpr double c11 = -1.0 / 39916800, c13 = 1.0 / 6227020800, c15 = -1.0 / 1307674368000;
     constexpr double c17 = 1.0 / 355687428096000;
     const double z = x * x, z2 = z * z, z4 = z2 * z2;
     const double low = (c5 + z * c7) + z2 * (c9 + z * c11);
     const double high = (c13 + z * c15) + z2 * c17;
-    return x + ((x * z) * (c3 + z * (low + z4 * high)) + lo * (1 - 0.5 * z));
+    return fastTwoSum(x, (x * z) * (c3 + z * (low + z4 * high)) + lo * (1 - 0.5 * z));
 }
 
 // What is left out is below 2^-58.
-double cosKernel(double x, double lo) {
+DoubleDouble cosKernel(double x, double lo) {
     constexpr double c4 = 1.0 / 24, c6 = -1.0 / 720, c8 = 1.0 / 40320, c10 = -1.0 / 3628800;
     constexpr double c12 = 1.0 / 479001600, c14 = -1.0 / 87178291200, c16 = 1.0 / 20922789888000;
     const double z = x * x, z2 = z * z, z4 = z2 * z2;
     const double low = (c4 + z * c6) + z2 * (c8 + z * c10);
     const double high = (c12 + z * c14) + z2 * c16;
     const double half = 0.5 * z, main = 1 - half;
-    return main + (((1 - main) - half) + (z2 * (low + z4 * high) - x * lo));
+    return fastTwoSum(main, ((1 - main) - half) + (z2 * (low + z4 * high) - x * lo));
+}
+
+struct WideSinCos {
+    DoubleDouble sin, cos;
+};
+WideSinCos wideSinCos(double x) { // finite
+    const Reduced r = std::fabs(x) < kPi / 4 ? Reduced{x, 0, 0} : reduceAngle(x);
+    const DoubleDouble s = sinKernel(r.hi, r.lo), c = cosKernel(r.hi, r.lo);
+    switch (r.quadrant & 3) {
+    case 0: return {s, c};
+    case 1: return {c, -s};
+    case 2: return {-s, -c};
+    default: return {-c, s};
+    }
 }
 
 // --- atan ---
@@ -287,34 +302,30 @@ namespace exact {
 SinCos sinCos(double x) {
     if (!(std::fabs(x) < kInfinity)) return {kNaN, kNaN};
     if (std::fabs(x) < 0x1p-27) return {x, 1};
-    const Reduced r = std::fabs(x) < kPi / 4 ? Reduced{x, 0, 0} : reduceAngle(x);
-    const double s = sinKernel(r.hi, r.lo), c = cosKernel(r.hi, r.lo);
-    switch (r.quadrant & 3) {
-    case 0: return {s, c};
-    case 1: return {c, -s};
-    case 2: return {-s, -c};
-    default: return {-c, s};
-    }
+    const WideSinCos both = wideSinCos(x);
+    return {both.sin.hi, both.cos.hi};
 }
 
 double sin(double x) {
     if (!(std::fabs(x) < kInfinity)) return kNaN;
     if (std::fabs(x) < 0x1p-27) return x; // keeps -0, and no denormals arise
     const Reduced r = std::fabs(x) < kPi / 4 ? Reduced{x, 0, 0} : reduceAngle(x);
-    const double value = r.quadrant & 1 ? cosKernel(r.hi, r.lo) : sinKernel(r.hi, r.lo);
+    const double value = (r.quadrant & 1 ? cosKernel(r.hi, r.lo) : sinKernel(r.hi, r.lo)).hi;
     return r.quadrant & 2 ? -value : value;
 }
 
 double cos(double x) {
     if (!(std::fabs(x) < kInfinity)) return kNaN;
     const Reduced r = std::fabs(x) < kPi / 4 ? Reduced{x, 0, 0} : reduceAngle(x);
-    const double value = r.quadrant & 1 ? sinKernel(r.hi, r.lo) : cosKernel(r.hi, r.lo);
+    const double value = (r.quadrant & 1 ? sinKernel(r.hi, r.lo) : cosKernel(r.hi, r.lo)).hi;
     return (r.quadrant + 1) & 2 ? -value : value;
 }
 
 double tan(double x) {
-    const SinCos both = sinCos(x);
-    return both.sin / both.cos;
+    if (!(std::fabs(x) < kInfinity)) return kNaN;
+    if (std::fabs(x) < 0x1p-27) return x;
+    const WideSinCos both = wideSinCos(x);
+    return (both.sin / both.cos).hi;
 }
 
 double atan2(double y, double x) {

@@ -85,7 +85,7 @@ struct SinCos {
 double sin(double x);
 double cos(double x);
 SinCos sinCos(double x);
-double tan(double x); // 2 ulp
+double tan(double x); // 1.1 ulp
 
 double asin(double x); // 1.5 ulp; NaN outside [-1,1]
 double acos(double x);

@@ -6,7 +6,8 @@
 #include <random>
 
 // The truth is the C library's long double (64 bits on x86-64, 113 on Arm), whose own error of one
-// of its units is below 0.001 ulp of a double.
+// of its units is below 0.001 ulp of a double. Against 113 bits, where functions go wrong: T12 of
+// the battery (verify/elementary.cpp).
 
 namespace {
 
@@ -32,7 +33,8 @@ void checkUlp(const char* name, double bound, int count, Function function, Trut
         const double value = function(x);
         const double error = static_cast<double>(
             std::fabs(static_cast<long double>(value) - expected) / ulpAt(expected));
-        if (!(error <= worst)) worst = error, worstAt = x;
+        // NaN is worse than any number, and stays.
+        if (worst == worst && !(error <= worst)) worst = error, worstAt = x;
     }
     CHECK_INFO(worst <= bound, name << ": " << worst << " ulp at " << std::hexfloat << worstAt);
 }
@@ -74,8 +76,9 @@ TEST(math_sin_cos_tan) {
     checkUlp("cos wide", 0.85, kCount, exact::cos, cosL, wide);
     checkUlp("cos large", 0.85, kCount, exact::cos, cosL, large);
     checkUlp("cos near", 0.85, kCount, exact::cos, cosL, near);
-    checkUlp("tan small", 2, kCount, exact::tan, tanL, small);
-    checkUlp("tan near", 2, kCount, exact::tan, tanL, near);
+    checkUlp("tan small", 1.1, kCount, exact::tan, tanL, small);
+    checkUlp("tan near", 1.1, kCount, exact::tan, tanL, near);
+    checkUlp("tan large", 1.1, kCount, exact::tan, tanL, large);
     for (int i = 0; i < check::scaled(1000); ++i) { // one reduction for both, the same bits
         const double x = wide();
         CHECK_EQUAL(exact::sinCos(x).sin, exact::sin(x));
@@ -285,7 +288,7 @@ TEST(math_same_bits) {
         add(static_cast<double>(exact::pow(static_cast<float>(y), static_cast<float>(10 * x))));
         add(exact::log2(y));
     }
-    CHECK_EQUAL(hash, 10517932601862270038u);
+    CHECK_EQUAL(hash, 11197553936877723781u);
 }
 
 TEST(math_helpers) {
