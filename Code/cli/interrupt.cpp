@@ -38,7 +38,7 @@ void handleInterrupts() {
     }
     // The call that writes fails with EPIPE or EFBIG instead. A render whose progress nobody reads
     // any more still writes its picture.
-    for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
+    for (const int signal : {SIGPIPE, SIGXFSZ}) static_cast<void>(std::signal(signal, SIG_IGN));
 }
 
 StopOnInterrupt::StopOnInterrupt() {

@@ -140,6 +140,7 @@ Handle JsonMeshes::read(JsonFields& fields) {
 
 std::vector<std::string> jsonShapeWords() {
     std::vector<std::string> words;
+    words.reserve(kTypes.size());
     for (const Type& type : kTypes) words.emplace_back(type.word);
     return words;
 }
