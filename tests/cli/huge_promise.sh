@@ -3,13 +3,20 @@
 # a gigabyte of addresses, with exit code 2 and words about the promise.
 . "$(dirname "$0")/kit.sh"
 
+# A sanitizer wants address space without end, and time.
+addresses=500000 seconds=1
+if ! (ulimit -v $addresses && exec "$raytracer" --version) > out 2> err; then
+    echo 'the program does not start with half a gigabyte (a sanitizer): no limit of addresses'
+    addresses=unlimited seconds=20
+fi
+
 # promise NAME WORDS ARGUMENT...
 promise() {
     promised=$1 words=$2
     shift 2
     (
-        ulimit -t 1
-        ulimit -v 500000
+        ulimit -t $seconds
+        ulimit -v $addresses
         exec "$raytracer" "$@"
     ) > out 2> err
     code=$?

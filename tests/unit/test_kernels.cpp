@@ -8,6 +8,7 @@
 #include "verify/meshes.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 using meshes::Random;
@@ -256,9 +257,9 @@ TEST(kernels_skip_broken_rays) {
 TEST(kernels_in_a_shape_set) {
     for (const Kernel* kernel : vectorKernels()) {
         Random random(75);
-        MeshGeometry plain[2] = {toGeometry(meshes::torus(0.3, 32, 16), {}),
-                                 meshes::geometryOf(meshes::soup(random, 200), false)};
-        MeshGeometry fast[2] = {plain[0], plain[1]};
+        std::array<MeshGeometry, 2> plain = {toGeometry(meshes::torus(0.3, 32, 16), {}),
+                                             meshes::geometryOf(meshes::soup(random, 200), false)};
+        std::array<MeshGeometry, 2> fast = plain;
         ShapeSet linear, batched;
         for (const bool isFast : {false, true}) {
             ShapeSet& set = isFast ? batched : linear;
@@ -268,7 +269,7 @@ TEST(kernels_in_a_shape_set) {
                 const MovingTransform place =
                     Transform::translate(same.inBox(1)) * same.affine(2, 0) * Transform::scale(0.3);
                 if (n == 3 || n == 8) {
-                    MeshGeometry& g = (isFast ? fast : plain)[n / 8];
+                    MeshGeometry& g = (isFast ? fast : plain)[n == 3 ? 0 : 1];
                     g.finish(isFast, *kernel);
                     set.add(std::make_unique<Mesh>(g, MovingTransform(),
                                                    std::vector<std::uint32_t>{0},
