@@ -6,9 +6,8 @@
 // there by the wrong amount.
 #include "base/math.h"
 #include "base/text.h"
-#include "render/render.h"
-#include "render/scene.h"
 #include "verify/groups.h"
+#include "verify/scene_trials.h"
 
 #include <optional>
 
@@ -106,14 +105,6 @@ SceneDesc underWhiteSky(int pixels, double lensMm, Vec3d eye, Vec3d target, Vec3
     return desc;
 }
 
-Image picture(const SceneDesc& desc) {
-    RenderSettings settings;
-    settings.picture = desc.settings;
-    const Scene scene(desc, {"media", ""}, settings);
-    Stats stats;
-    return render(scene, settings, {}, stats).color;
-}
-
 void rayThrough(const Nest& nest, meshes::Random& random, Tally& tally) {
     const std::size_t at = random.below(nest.radii.size());
     const double inner = at + 1 < nest.radii.size() ? nest.radii[at + 1] : 0;
@@ -131,7 +122,7 @@ void rayThrough(const Nest& nest, meshes::Random& random, Tally& tally) {
     for (const double ior : nest.iors) desc.materials.push_back(clear(ior));
     for (std::size_t k = 0; k < nest.radii.size(); ++k)
         desc.objects.push_back(ball(centre, nest.radii[k], static_cast<Handle>(nest.materials[k])));
-    const double found = static_cast<double>(picture(desc).pixel(0, 0).g);
+    const double found = static_cast<double>(scenes::render(desc).color.pixel(0, 0).g);
     const auto text = [&] {
         return cat("eye in ball ", at, " of ", nest.radii.size(), ", light ", found, ", wanted ",
                    *wanted);
@@ -174,7 +165,7 @@ Tally furnace(const Effort& effort) {
         }
         desc.objects = {ball({}, 1, 0), ball(random.inBox(0.03), 0.6, 1),
                         ball(random.inBox(0.05), random.uniform(0.1, 0.3), 2)};
-        const Image image = picture(desc);
+        const Image image = scenes::render(desc).color;
         double sum = 0;
         for (const Rgb& pixel : image.pixels()) {
             const double value = static_cast<double>(pixel.g);

@@ -3,9 +3,8 @@
 // curved surface that the normals stand for.
 #include "base/math.h"
 #include "base/text.h"
-#include "render/render.h"
-#include "render/scene.h"
 #include "verify/groups.h"
+#include "verify/scene_trials.h"
 
 #include <algorithm>
 
@@ -68,19 +67,11 @@ Step steepest(const Image& image) {
     return worst;
 }
 
-Image picture(const SceneDesc& desc) {
-    RenderSettings settings;
-    settings.picture = desc.settings;
-    const Scene scene(desc, {"terminator", ""}, settings);
-    Stats stats;
-    return render(scene, settings, {}, stats).color;
-}
-
 Tally terminator(const Effort& effort) {
     return inBatches(effort, 25, 12, [](meshes::Random& random, Tally& tally) {
         const double sunDeg = random.uniform(0, 180);
-        const Step mesh = steepest(picture(ball(true, sunDeg)));
-        const Step sphere = steepest(picture(ball(false, sunDeg)));
+        const Step mesh = steepest(scenes::render(ball(true, sunDeg)).color);
+        const Step sphere = steepest(scenes::render(ball(false, sunDeg)).color);
         if (sphere.height < 1e-3) return; // the lit side is not to be seen
         ++tally.cases;
         tally.measure(mesh.height / sphere.height, [&] {

@@ -8,13 +8,14 @@
 #include "check.h"
 #include "desc/properties.h"
 #include "desc/validate.h"
+#include "unit/damage.h"
 
 #include <filesystem>
-#include <fstream>
 #include <random>
-#include <sstream>
 
 namespace {
+
+using damage::contentOf;
 
 namespace fs = std::filesystem;
 
@@ -60,13 +61,6 @@ Vec3d shines(const LightDesc& l) {
 bool hasWarning(const Reading& reading, const std::string& words) {
     return join(reading.warnings, "\n").find(words) != std::string::npos;
 }
-std::string contentOf(const fs::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
 } // namespace
 
 TEST(read_json_defaults) {

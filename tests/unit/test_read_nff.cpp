@@ -13,9 +13,7 @@
 #include "unit/damage.h"
 
 #include <cmath>
-#include <fstream>
 #include <random>
-#include <sstream>
 
 namespace {
 
@@ -41,12 +39,7 @@ SceneDesc readBody(const std::string& body) {
     CHECK_INFO(read.warnings.empty(), join(read.warnings));
     return read.desc;
 }
-std::string everything() {
-    std::ifstream file("tests/scenes/nff/everything.nff", std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
+std::string everything() { return damage::contentOf("tests/scenes/nff/everything.nff"); }
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
     for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
         text.replace(at, from.size(), to);

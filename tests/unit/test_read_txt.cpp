@@ -6,23 +6,18 @@
 #include "desc/properties.h"
 #include "read/load.h"
 #include "read/txt/transform_lines.h"
+#include "unit/damage.h"
 
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <set>
-#include <sstream>
 
 namespace {
 
+using damage::contentOf;
+
 SceneDesc readText(const std::string& text) { return readTxt({"t.txt", text}); }
 SceneDesc readBody(const std::string& body) { return readText("raytracer 1\n" + body); }
-std::string contentOf(const std::string& name) {
-    std::ifstream file(name, std::ios::binary);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
     for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
         text.replace(at, from.size(), to);
