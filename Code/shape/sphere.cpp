@@ -4,12 +4,20 @@
 
 Sphere::Sphere(MovingTransform worldFromObject, double radius, std::uint32_t material,
                std::uint32_t object)
-    : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius) {}
+    : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius) {
+    measure();
+}
 
-std::optional<StillSphere> Sphere::stillSphere() const {
-    const Transform* const map = stillMap();
-    if (!map) return {};
-    return StillSphere{map->rows(), radius_};
+SolidForm Sphere::solidForm() const {
+    if (!isStill()) return AnalyticShape::solidForm();
+    const Transform& map = worldFromObject();
+    // The largest stretch of the map, by Gershgorin's circles about its Gram matrix.
+    const Vec3d x = map.column(0), y = map.column(1), z = map.column(2);
+    const double xy = std::fabs(dot(x, y)), yz = std::fabs(dot(y, z)), zx = std::fabs(dot(z, x));
+    const double stretch =
+        std::sqrt(max(dot(x, x) + xy + zx, max(dot(y, y) + xy + yz, dot(z, z) + yz + zx)));
+    return {{map.translation(), {}, radius_ * stretch},
+            StillSphere{objectFromWorld().rows(), radius_}};
 }
 
 AnalyticShape::Roots Sphere::roots(const RayD& ray) const {
