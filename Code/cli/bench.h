@@ -15,6 +15,7 @@ struct BenchOptions {
     int threads = 1;
     int runs = 5;
     bool uv = false;
+    bool picture = true;
     std::string raysFile; // written instead of measuring; empty: none
     bool help = false;
 };

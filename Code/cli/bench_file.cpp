@@ -26,21 +26,23 @@ private:
 
 } // namespace
 
-std::vector<std::uint8_t> encodeBenchFile(const MeshGeometry& geometry,
+std::vector<std::uint8_t> encodeBenchFile(const MeshGeometry& geometry, const SceneFrame& frame,
                                           std::span<const BenchRays> sets) {
     WordWriter out;
+    const auto world = [&](Vec3 p) { return toFloat(frame.worldPoint(toDouble(p))); };
+    const auto back = static_cast<float>(1 / frame.scale); // a power of two: t stays as it is
     out.text("RTRAYS01", 8);
     out.whole(geometry.points.size()), out.whole(geometry.triangles.size());
     out.whole(sets.size());
-    for (const Vec3 point : geometry.points) out.vector(point);
+    for (const Vec3 point : geometry.points) out.vector(world(point));
     for (const auto& corners : geometry.triangles)
         for (const std::uint32_t corner : corners) out.whole(corner);
     for (const BenchRays& set : sets) {
         out.text(set.name, 16);
         out.whole(set.size()), out.whole(set.anyHit);
         for (std::size_t i = 0; i < set.size(); ++i) {
-            out.vector(set.org[i]), out.number(set.tMin[i]);
-            out.vector(set.dir[i]), out.number(set.tMax[i]);
+            out.vector(world(set.org[i])), out.number(set.tMin[i]);
+            out.vector(set.dir[i] * back), out.number(set.tMax[i]);
         }
     }
     return out.take();

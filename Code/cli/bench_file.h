@@ -1,8 +1,10 @@
 // A mesh and the ray sets of `raytracer bench` in a file, so that other programs can trace the same
-// rays through the same triangles (tests/bench/peer_embree.cpp reads it).
+// rays through the same triangles (tests/bench/peer_embree.cpp reads it). In the space of the
+// mesh's file, `frame` taken back: another program would have met the mesh there.
 #pragma once
 
 #include "cli/bench_rays.h"
+#include "render/frame.h"
 
 #include <cstdint>
 #include <span>
@@ -16,5 +18,5 @@
 //   of each set: its name                       16 bytes, filled with zeros
 //     rays, 1 for any hit or 0 for the nearest  whole numbers
 //     origin, tMin, direction, tMax of each     8 floats
-std::vector<std::uint8_t> encodeBenchFile(const MeshGeometry& geometry,
+std::vector<std::uint8_t> encodeBenchFile(const MeshGeometry& geometry, const SceneFrame& frame,
                                           std::span<const BenchRays> sets);

@@ -1,5 +1,5 @@
 // What Embree does with the mesh and the rays of `raytracer bench --write-rays FILE`, in the
-// columns of `raytracer bench`: sh or make bench-peers builds and runs it.
+// columns of `raytracer bench`; make bench-peers builds and runs it.
 //   peer_embree FILE [--threads N] [--runs N] [--quality medium|high]
 // Each set of rays is traced in every way that Embree offers: one ray per call (single), 8 or 16
 // (p8, p16), and with Embree 3 streams of 64 (stream). Shadow rays are traced from the surface to
@@ -165,9 +165,9 @@ template <> struct Packet<16> {
 RTCRay rayFrom(const FileRay& from) {
     RTCRay ray;
     ray.org_x = from.org[0], ray.org_y = from.org[1], ray.org_z = from.org[2];
+    ray.tnear = from.tMin;
     ray.dir_x = from.dir[0], ray.dir_y = from.dir[1], ray.dir_z = from.dir[2];
-    ray.tnear = from.tMin, ray.tfar = from.tMax;
-    ray.time = 0, ray.mask = ~0u, ray.id = 0, ray.flags = 0;
+    ray.time = 0, ray.tfar = from.tMax, ray.mask = ~0u, ray.id = 0, ray.flags = 0;
     return ray;
 }
 RTCRayHit rayHitFrom(const FileRay& from) {
@@ -288,21 +288,21 @@ struct Measurement {
         std::fill_n(valid, N, -1);
         line(kind, set, [&](std::size_t first, std::size_t end) {
             Query query(coherent);
+            Answer spare[N];
             for (std::size_t i = first; i < end; i += N) {
-                const int lanes = static_cast<int>(std::min<std::size_t>(N, end - i));
+                // The last packet is full as well; what it says of the copies is not kept.
+                Answer* const to = i + N <= end ? answers.data() + i : spare;
                 if (set.anyHit) {
                     Rays mine = rays[i / N];
                     Packet<N>::any(valid, scene, query, &mine);
-                    for (int k = 0; k < lanes; ++k)
-                        answers[i + static_cast<std::size_t>(k)] = {mine.tfar[k],
-                                                                    mine.tfar[k] < 0 ? 0 : kNone};
+                    for (int k = 0; k < N; ++k)
+                        to[k] = {mine.tfar[k], mine.tfar[k] < 0 ? 0 : kNone};
                 } else {
                     RayHits mine = rayHits[i / N];
                     Packet<N>::nearest(valid, scene, query, &mine);
-                    for (int k = 0; k < lanes; ++k)
-                        answers[i + static_cast<std::size_t>(k)] = {mine.ray.tfar[k],
-                                                                    mine.hit.primID[k]};
+                    for (int k = 0; k < N; ++k) to[k] = {mine.ray.tfar[k], mine.hit.primID[k]};
                 }
+                if (to == spare) std::copy_n(spare, end - i, answers.data() + i);
             }
         });
     }
@@ -350,7 +350,7 @@ bool countMemory(void*, std::ptrdiff_t bytes, bool) {
 }
 void stopAtError(void*, RTCError, const char* message) { stop(message); }
 
-// One run that is not timed, and 5 that are; the last scene stays.
+// One run that is not timed, and `runs` that are; the last scene stays.
 RTCScene build(RTCDevice device, Input& input, RTCBuildQuality quality, int runs,
                const std::string& who) {
     RTCScene scene = nullptr;
