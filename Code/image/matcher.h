@@ -89,16 +89,19 @@ public:
     explicit Matcher(std::span<const std::uint8_t> bytes) : bytes_(bytes), finder_(bytes) {}
 
     // The next match from `at` on and where it starts; the end of the bytes when there is none.
-    // No further than `limit` places are looked at.
+    // Places from `limit` on are not looked at.
     std::size_t next(std::size_t at, std::size_t limit, Match& match) {
         const std::size_t first = at;
-        for (std::size_t misses = 0; at < limit && finder_.canLook(at);
-             at += 1 + (misses++ >> kPatience)) {
+        for (std::size_t misses = 0; at < limit && finder_.canLook(at); ++misses) {
             match = finder_.look(at, 0);
-            if (match.length == 0) continue;
-            lookFurther(at, match);
-            extendBack(first, at, match);
-            return at;
+            if (match.length > 0) {
+                lookFurther(at, match);
+                extendBack(first, at, match);
+                return at;
+            }
+            // In noise a look is worth less and less.
+            const std::size_t end = at + std::min(kLongestStep, 1 + (misses >> kPatience));
+            while (++at < end && finder_.canLook(at)) finder_.insert(at);
         }
         match = {};
         return finder_.canLook(at) ? at : bytes_.size();
@@ -112,7 +115,8 @@ public:
 
 private:
     static constexpr std::size_t kGoodMatch = 16; // long enough: no look at the next place
-    static constexpr unsigned kPatience = 4; // after 2^4 places without a match some are skipped
+    static constexpr unsigned kPatience = 4;      // 2^4 looks without a match: longer steps
+    static constexpr std::size_t kLongestStep = 16;
 
     // A longer match one place later is worth a literal (lazy matching, RFC 1951 section 4).
     void lookFurther(std::size_t& at, Match& match) {
@@ -125,7 +129,7 @@ private:
             ++at;
         }
     }
-    // Over places that were skipped.
+    // Over places that were not looked at.
     void extendBack(std::size_t first, std::size_t& at, Match& match) const {
         while (at > first && match.distance < at && match.length < kLongestMatch &&
                bytes_[at - 1] == bytes_[at - 1 - match.distance]) {
