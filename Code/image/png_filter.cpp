@@ -31,8 +31,8 @@ Lanes average(Lanes a, Lanes b) {
     return (a & b) + reinterpret_cast<Lanes>(halves);
 }
 
-// paethPredictor() in bytes: where c is not between a and b, the distance to a + b - c is the sum
-// of the others, so that a or b is nearer or as near; else it is their difference.
+// paethPredictor() in bytes: where c is between a and b, its distance to a + b - c is the difference
+// of the others; else it is their sum, and a or b is nearer or as near.
 Lanes paeth(const Neighbours& n) {
     const Lanes toA = difference(n.b, n.c), toB = difference(n.a, n.c);
     const auto isBetween = (n.a < n.c) == (n.c < n.b);
