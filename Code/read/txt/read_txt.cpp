@@ -153,7 +153,7 @@ private:
             if constexpr (kHasPlace<Block>)
                 if (readTransformLine(t, word, keys)) continue;
             const auto row = std::find_if(rows.begin(), rows.end(), [&](const Property<Block>& p) {
-                return p.keyword == t.text && isHere(p, block);
+                return isSameWord(p.keyword, t.text) && isHere(p, block);
             });
             if (row == rows.end()) failUnknown(block, t, word);
             std::size_t& before = given[static_cast<std::size_t>(row - rows.begin())];
@@ -187,7 +187,7 @@ private:
     }
 
     bool readTransformLine(const Token& t, const Token& word, Keys& keys) {
-        if (t.text == "key") {
+        if (isSameWord(t.text, "key")) {
             if (word.text == "light")
                 in_.failAt(t.offset, "lights stand still; 'key' is for cameras and objects");
             keys.push_back(kIdentityRows);
@@ -195,7 +195,7 @@ private:
             return true;
         }
         for (const TransformLine& line : transformLines()) {
-            if (line.keyword != t.text) continue;
+            if (!isSameWord(line.keyword, t.text)) continue;
             std::array<double, 12> numbers{};
             const std::size_t faultsBefore = errors_.count();
             NumberLine reader(in_, errors_, line.keyword, line.count);
