@@ -32,7 +32,7 @@ public:
         buildWorld();
         buildObjects();
         buildLights();
-        scene_.shapes_.finish(settings_.accel == AccelKind::Bvh);
+        scene_.shapes_.finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel));
         scene_.features_ = featuresOf(desc_, *cameraDesc_, settings_);
     }
 

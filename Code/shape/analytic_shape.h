@@ -56,6 +56,9 @@ protected:
 
     AnalyticShape(MovingTransform worldFromObject, std::uint32_t material, std::uint32_t object);
 
+    // objectFromWorld; null for a shape that moves.
+    const Transform* stillMap() const { return isStatic_ ? &objectFromWorld_ : nullptr; }
+
     // The whole line, in double; org and dir are finite, dir is not zero nor of unit length.
     virtual Roots roots(const RayD& ray) const = 0;
     // Pulls p, which is near the surface's `part`, onto it. Closed shapes also keep it away from

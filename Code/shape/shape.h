@@ -7,12 +7,14 @@
 // the ray and the shape.
 #pragma once
 
+#include "accel/still_sphere.h"
 #include "base/bounds.h"
 #include "base/hit.h"
 #include "base/ray.h"
 #include "base/ray_span.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 class Shape {
@@ -47,6 +49,14 @@ public:
     // hidden[i] = occludes(rays[i])
     virtual void occludesBatch(const RaySpan& rays, std::span<std::uint8_t> hidden) const {
         for (std::size_t i = 0; i < rays.size(); ++i) hidden[i] = occludes(rays[i]);
+    }
+
+    // Shapes that rays meet as they meet this sphere: kernels do that by themselves.
+    virtual std::optional<StillSphere> stillSphere() const { return {}; }
+
+    // Does the ray come from the outside of the surface at this hit?
+    virtual bool seesFront(const Ray& ray, const Hit& hit) const {
+        return dot(surface(ray, hit).ng, ray.dir) <= 0;
     }
 
     // Describes the point of a hit that intersect() or collect() found for this ray.

@@ -6,6 +6,12 @@ Sphere::Sphere(MovingTransform worldFromObject, double radius, std::uint32_t mat
                std::uint32_t object)
     : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius) {}
 
+std::optional<StillSphere> Sphere::stillSphere() const {
+    const Transform* const map = stillMap();
+    if (!map) return {};
+    return StillSphere{map->rows(), radius_};
+}
+
 AnalyticShape::Roots Sphere::roots(const RayD& ray) const {
     const double dd = dot(ray.dir, ray.dir), od = dot(ray.org, ray.dir);
     const Vec3d perpendicular = ray.org - ray.dir * (od / dd);
