@@ -24,12 +24,12 @@ Camera::Axes Camera::axesOf(const Transform& worldFromCamera) {
 }
 
 Ray Camera::ray(Vec2d pixel, Vec2 lens, float time) const {
-    const Axes axes = axesAt(time);
-    const Vec3d across =
-        axes.right * (topLeft_.x + pixel.x * step_.x) + axes.up * (topLeft_.y - pixel.y * step_.y);
-    const bool perspective = params_.kind == CameraParams::Kind::Perspective;
-    Vec3d org = perspective ? axes.eye : axes.eye + across;
-    Vec3d dir = perspective ? across + axes.forward : axes.forward;
+    return isMoving() ? rayFrom(axesAt(time), pixel, lens, time)
+                      : rayFrom(atRest_, pixel, lens, time);
+}
+
+Ray Camera::rayFrom(const Axes& axes, Vec2d pixel, Vec2 lens, float time) const {
+    auto [org, dir] = lineFrom(axes, pixel);
     if (hasLens()) {
         // The depth of dir is 1 unless the camera's axes are skewed.
         const Vec3d sharp = org + dir * (params_.focusDistance / dot(dir, axes.forward));

@@ -38,6 +38,12 @@ public:
     // [0,1] of the shutter. dir has unit length; tMin is where the ray passes clipStart.
     Ray ray(Vec2d pixel, Vec2 lens, float time) const;
 
+    // What ray() rounds: for cameras without a lens at rest, the line of a place in the picture.
+    struct Line {
+        Vec3d org, dir; // dir of any length
+    };
+    Line line(Vec2d pixel) const { return lineFrom(atRest_, pixel); }
+
     // The camera's place and the unit vector that it looks along.
     struct View {
         Vec3d eye, axis;
@@ -59,6 +65,15 @@ private:
     Axes axesAt(float time) const {
         return isMoving() ? axesOf(params_.worldFromCamera.at(static_cast<double>(time))) : atRest_;
     }
+
+    Line lineFrom(const Axes& axes, Vec2d pixel) const {
+        const Vec3d across = axes.right * (topLeft_.x + pixel.x * step_.x) +
+                             axes.up * (topLeft_.y - pixel.y * step_.y);
+        if (params_.kind == CameraParams::Kind::Perspective)
+            return {axes.eye, across + axes.forward};
+        return {axes.eye + across, axes.forward};
+    }
+    Ray rayFrom(const Axes& axes, Vec2d pixel, Vec2 lens, float time) const;
 
     CameraParams params_;
     Axes atRest_;

@@ -6,7 +6,7 @@ OneSided::OneSided(std::unique_ptr<const Shape> shape, Side visible)
     : shape_(std::move(shape)), visible_(visible) {}
 
 bool OneSided::isVisible(const Ray& ray, const Hit& hit) const {
-    const bool front = dot(shape_->surface(ray, hit).ng, ray.dir) <= 0;
+    const bool front = dot(shape_->surfaceFor(ray, hit, {false, false}).ng, ray.dir) <= 0;
     return front == (visible_ == Side::Front);
 }
 

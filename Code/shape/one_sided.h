@@ -23,6 +23,9 @@ public:
     Surface surface(const Ray& ray, const Hit& hit) const override {
         return shape_->surface(ray, hit);
     }
+    Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const override {
+        return shape_->surfaceFor(ray, hit, needs);
+    }
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override {
         return shape_->derivatives(ray, hit);
     }

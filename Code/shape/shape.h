@@ -51,5 +51,9 @@ public:
 
     // Describes the point of a hit that intersect() or collect() found for this ray.
     virtual Surface surface(const Ray& ray, const Hit& hit) const = 0;
+    // The same, where a shape may leave out what is not asked for.
+    virtual Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds) const {
+        return surface(ray, hit);
+    }
     virtual SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const = 0;
 };
