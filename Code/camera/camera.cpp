@@ -46,9 +46,19 @@ Ray Camera::rayFrom(const Axes& axes, Vec2d pixel, Vec2 lens, float time) const 
     Ray ray;
     ray.org = toFloat(org);
     ray.dir = toFloat(dir);
-    ray.tMin = static_cast<float>(params_.clipStart / dot(dir, axes.forward));
+    ray.tMin = clipDepth(dir, axes);
     ray.time = time;
     return ray;
+}
+
+void Camera::pinholeRays(std::span<const Vec2d> pixels, std::span<Vec3> dir,
+                         std::span<float> tMin) const {
+    const Axes axes = atRest_;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const Vec3d d = normalize(lineFrom(axes, pixels[i]).dir);
+        dir[i] = toFloat(d);
+        tMin[i] = clipDepth(d, axes);
+    }
 }
 
 Camera::View Camera::view(float time) const {

@@ -6,6 +6,8 @@
 #include "base/ray.h"
 #include "base/vec.h"
 
+#include <span>
+
 // Lengths in normalised world units but for the millimetres of lens and sensor.
 struct CameraParams {
     enum class Kind { Perspective, Orthographic };
@@ -37,6 +39,10 @@ public:
     // pixel of the file. lens: a point of the unit square, of no effect without hasLens(); time in
     // [0,1] of the shutter. dir has unit length; tMin is where the ray passes clipStart.
     Ray ray(Vec2d pixel, Vec2 lens, float time) const;
+
+    // dir and tMin of ray() for many places; of cameras with a shared origin.
+    void pinholeRays(std::span<const Vec2d> pixels, std::span<Vec3> dir,
+                     std::span<float> tMin) const;
 
     // What ray() rounds: for cameras without a lens at rest, the line of a place in the picture.
     struct Line {
@@ -74,6 +80,9 @@ private:
         return {axes.eye + across, axes.forward};
     }
     Ray rayFrom(const Axes& axes, Vec2d pixel, Vec2 lens, float time) const;
+    float clipDepth(Vec3d dir, const Axes& axes) const {
+        return static_cast<float>(params_.clipStart / dot(dir, axes.forward));
+    }
 
     CameraParams params_;
     Axes atRest_;

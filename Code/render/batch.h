@@ -59,14 +59,22 @@ struct PathBatch : RayBatch {
     void push(const Ray& ray, std::uint32_t slot, Rgb rayWeight, MediumTree::Inside inside,
               std::uint32_t branch, bool seesLamps) {
         RayBatch::push(ray, slot, rayWeight);
-        if (medium.size() < org.size()) {
-            medium.resize(org.size());
-            stream.resize(org.size());
-            seesLights.resize(org.size());
-        }
+        makeRoomForMore();
         const std::size_t i = count_ - 1;
         medium[i] = inside;
         stream[i] = branch;
         seesLights[i] = seesLamps;
+    }
+    // So many rays, which are then written into the arrays; those in use keep what they were.
+    void setSize(std::size_t rays) {
+        if (org.size() < rays) makeRoom(rays);
+        makeRoomForMore();
+        count_ = rays;
+    }
+
+private:
+    void makeRoomForMore() {
+        if (medium.size() >= org.size()) return;
+        medium.resize(org.size()), stream.resize(org.size()), seesLights.resize(org.size());
     }
 };

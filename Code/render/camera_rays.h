@@ -24,7 +24,7 @@ public:
     }
 
 private:
-    void add(std::uint32_t pixel, int x, int y, std::uint32_t sample, SampleChunk& chunk) const;
+    void choosePlaces(const Tile& tile, int first, int count, SampleChunk& chunk) const;
 
     const IntegratorContext& context_;
     Filter filter_;

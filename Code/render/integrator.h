@@ -59,6 +59,8 @@ struct IntegratorContext {
 // The samples of one chunk of a tile, and what comes out of them; slot i is sample i everywhere.
 struct SampleChunk {
     std::vector<SampleId> ids;
+    std::vector<Vec2d> places; // in the picture, in pixels
+    std::vector<Vec2> offsets; // of these from the middle of their pixel
     PathBatch cameraRays;
     std::vector<Rgb> radiance;
     std::vector<FirstHit> first; // filled only if the context wants it
