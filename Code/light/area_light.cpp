@@ -42,6 +42,13 @@ bool FlatLight::cannotReach(Vec3 point, Vec3 n) const {
     return dot(normal_, d) > slack; // the point is behind the lamp
 }
 
+Bounds FlatLight::sourcesFor(const Bounds&) const {
+    Vec3 half;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        half[axis] = std::fabs(halfX_[axis]) + std::fabs(halfY_[axis]);
+    return {centre_ - half, centre_ + half};
+}
+
 LightSample FlatLight::centre(Vec3 point) const { return from(centre_, point); }
 
 LightSample FlatLight::sample(Vec3 point, Vec2 u) const {
@@ -65,6 +72,10 @@ LightSample SphereLight::centre(Vec3 point) const {
 bool SphereLight::cannotReach(Vec3 point, Vec3 n) const {
     const Vec3 d = centre_ - point;
     return dot(n, d) + radius_ < -kHorizonSlack * (maxAbs(d) + radius_);
+}
+
+Bounds SphereLight::sourcesFor(const Bounds&) const {
+    return Bounds{centre_, centre_}.padded(radius_);
 }
 
 LightSample SphereLight::sample(Vec3 point, Vec2 u) const {

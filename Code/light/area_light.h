@@ -14,6 +14,7 @@ public:
     LightSample sample(Vec3 point, Vec2 u) const override;
     LightSample centre(Vec3 point) const override;
     bool cannotReach(Vec3 point, Vec3 n) const override;
+    Bounds sourcesFor(const Bounds& points) const override;
 
 private:
     LightSample from(Vec3 place, Vec3 point) const;
@@ -33,6 +34,7 @@ public:
     LightSample sample(Vec3 point, Vec2 u) const override;
     LightSample centre(Vec3 point) const override;
     bool cannotReach(Vec3 point, Vec3 n) const override;
+    Bounds sourcesFor(const Bounds& points) const override;
 
 private:
     Vec3 centre_;

@@ -3,6 +3,7 @@
 // scene's normalised units, intensities scaled to them (render/make_light.cpp).
 #pragma once
 
+#include "base/bounds.h"
 #include "base/vec.h"
 
 #include <optional>
@@ -38,6 +39,9 @@ public:
     // centre() is asked: the lamp is behind the horizon, or the point out of the lamp's cone. Costs
     // little beside those; false says nothing.
     virtual bool cannotReach(Vec3 point, Vec3 n) const = 0;
+    // A box that holds the places where light for points in `points` starts; for lamps at infinity,
+    // places on the way there that are outside of the scene, whose coordinates are at most 1.
+    virtual Bounds sourcesFor(const Bounds& points) const = 0;
     bool castsShadows() const { return castsShadows_; }
     bool isDark() const { return isDark_; }
 

@@ -51,3 +51,8 @@ bool PointLight::cannotReach(Vec3 point, Vec3 n) const {
     const float along = -dot(cone_->axis, d), limit = cone_->cosHalfAngle - kHorizonSlack;
     return limit > 0 && (!(along > 0) || along * along < limit * limit * distance2);
 }
+
+// The disk faces the point: all of it is in the ball.
+Bounds PointLight::sourcesFor(const Bounds&) const {
+    return Bounds{position_, position_}.padded(radius_);
+}

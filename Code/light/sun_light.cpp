@@ -23,3 +23,10 @@ LightSample SunLight::sample(Vec3 point, Vec2 u) const {
 bool SunLight::cannotReach(Vec3, Vec3 n) const {
     return dot(n, toSun_) < -(sinHalfAngle_ + kHorizonSlack);
 }
+
+Bounds SunLight::sourcesFor(const Bounds& points) const {
+    const float away = 4 * (2 + max(maxAbs(points.lo), maxAbs(points.hi)));
+    const Vec3 way = toSun_ * away;
+    // The chord between the middle of the disk and its edge is at most twice the sine.
+    return Bounds{points.lo + way, points.hi + way}.padded(2 * sinHalfAngle_ * away);
+}

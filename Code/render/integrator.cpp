@@ -35,7 +35,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
     : scene(theScene), settings(theSettings),
       sampler(samplerKind(theSettings.picture.sampler), theSettings.picture.samplesPerPixel,
               theSettings.picture.seed, theSettings.picture.jitter),
-      cutoff(toFloat(theSettings.picture.cutoff)),
+      occluders(theScene.shapes()), cutoff(toFloat(theSettings.picture.cutoff)),
       compiledSteps(compiledFor(stepsFor(theScene, theSettings))),
       wantsFirstHits(needsFirstHits(theSettings)),
       surfaceNeeds(surfaceNeedsOf(theScene, theSettings)),

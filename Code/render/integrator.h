@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/batch.h"
+#include "render/occluders.h"
 #include "render/query.h"
 #include "render/shading.h"
 #include "sample/dimensions.h"
@@ -46,6 +47,7 @@ struct IntegratorContext {
     Sampler sampler;
     // Lamps that give light, in the order of the scene: with shadows, and without.
     std::vector<Lamp> shadingLamps, openLamps;
+    Occluders occluders;
     float cutoff;              // rays with less weight are not traced
     std::size_t compiledSteps; // which form of the wave loop: waves/steps.h
     bool wantsFirstHits;
@@ -90,6 +92,14 @@ struct Arrival {
     Rgb light;
 };
 
+// Points of a wave that lie on one shape.
+struct PointGroup {
+    std::uint32_t shape;
+    bool inside; // lamps are seen from the inside of the shape
+    Bounds box;
+    bool mayBeHidden = true; // from the lamp that is looked at
+};
+
 // Scratch memory of one worker, kept between chunks.
 struct WaveMemory {
     PathBatch rays, next;
@@ -97,6 +107,8 @@ struct WaveMemory {
     PointBatch points;
     MediumTree media;
     std::vector<std::uint32_t> litPoints; // that answer lamps
+    std::vector<PointGroup> groups;       // of these
+    std::vector<std::uint32_t> groupOf;   // by point
     RayBatch shadowRays;                  // of one lamp; their samples are points
     std::vector<std::uint8_t> hidden;
     std::vector<Rgb> transmittance;

@@ -17,6 +17,7 @@ public:
     bool intersect(const Ray& ray, Hit& hit) const final;
     bool occludes(const Ray& ray) const final;
     void collect(const Ray& ray, std::vector<Hit>& hits) const final;
+    bool hidesFromItself(bool inside) const override { return inside; } // all are convex
     Surface surface(const Ray& ray, const Hit& hit) const final { return surfaceFor(ray, hit, {}); }
     Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const final;
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const final;

@@ -20,6 +20,7 @@ public:
     void collect(const Ray& ray, std::vector<Hit>& hits) const override {
         shape_->collect(ray, hits);
     }
+    bool hidesFromItself(bool inside) const override { return shape_->hidesFromItself(inside); }
     Surface surface(const Ray& ray, const Hit& hit) const override {
         return shape_->surface(ray, hit);
     }

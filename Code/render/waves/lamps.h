@@ -52,6 +52,33 @@ inline void addInOrderOfPoints(const Wave& wave) {
         wave.add(wave.rays.sample[memory.points.ray[arrival.point]], arrival.light);
 }
 
+// Divides the points that answer lamps by the shape that they are on. False when there is nothing
+// to win: points of later waves are far apart, those of many shapes have many boxes.
+inline bool groupPoints(const Wave& wave) {
+    constexpr std::size_t kMostGroups = 4;
+    const IntegratorContext& context = wave.context;
+    WaveMemory& memory = wave.memory;
+    if (wave.depth > 0 || !context.settings.specialise || !context.occluders.canTell())
+        return false;
+    memory.groups.clear();
+    memory.groupOf.resize(memory.points.count);
+    for (const std::uint32_t k : memory.litPoints) {
+        const std::uint32_t shape = memory.hits[memory.points.ray[k]].shape;
+        const ShadedPoint& at = memory.points.at[k];
+        const bool inside = !(at.front || at.of->litOutside);
+        std::size_t g = 0;
+        while (g < memory.groups.size() &&
+               (memory.groups[g].shape != shape || memory.groups[g].inside != inside))
+            ++g;
+        if (g == kMostGroups) return false;
+        if (g == memory.groups.size()) memory.groups.push_back({shape, inside, {}});
+        memory.groups[g].box.extend(at.surface.p);
+        memory.groups[g].box.extend(at.surface.p + at.surface.lift);
+        memory.groupOf[k] = static_cast<std::uint32_t>(g);
+    }
+    return true;
+}
+
 } // namespace waves
 
 template <Steps kSteps> void addLamps(const Wave& wave) {
@@ -61,28 +88,37 @@ template <Steps kSteps> void addLamps(const Wave& wave) {
     for (std::size_t k = 0; k < points.count; ++k)
         if (answersLamps(*points.material[k]) && !isBlack(points.weight[k]))
             memory.litPoints.push_back(static_cast<std::uint32_t>(k));
-    if (memory.litPoints.empty()) return;
+    if (memory.litPoints.empty() || wave.context.shadingLamps.empty()) return;
 
     const bool isInOrder = wave.depth == 0 || wave.context.shadingLamps.size() == 1;
+    const auto arrive = [&](std::uint32_t k, Rgb light) {
+        if (isInOrder)
+            wave.add(wave.rays.sample[points.ray[k]], light);
+        else
+            memory.arrivals.push_back({k, light});
+    };
+    const bool isGrouped = waves::groupPoints(wave);
     memory.arrivals.clear();
     for (const Lamp& lamp : wave.context.shadingLamps) {
+        if (isGrouped)
+            for (PointGroup& group : memory.groups)
+                group.mayBeHidden = wave.context.occluders.mayHide(
+                    group.box, group.shape, group.inside, lamp.light.sourcesFor(group.box));
         memory.shadowRays.clear();
-        for (const std::uint32_t k : memory.litPoints)
+        for (const std::uint32_t k : memory.litPoints) {
+            const bool mayBeHidden = !isGrouped || memory.groups[memory.groupOf[k]].mayBeHidden;
             forEachLampSample<kSteps>(wave, lamp, k, [&](const LightSample& sample, Rgb light) {
+                if (!mayBeHidden) return arrive(k, light);
                 const float time = wave.rays.time[points.ray[k]];
                 memory.shadowRays.push(waves::shadowRay(lamp, points.at[k], sample, time), k,
                                        light);
             });
+        }
         if (memory.shadowRays.empty()) continue;
         waves::traceShadowRays<kSteps>(wave);
         const RayBatch& rays = memory.shadowRays;
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            if (isBlack(rays.weight[i])) continue;
-            if (isInOrder)
-                wave.add(wave.rays.sample[points.ray[rays.sample[i]]], rays.weight[i]);
-            else
-                memory.arrivals.push_back({rays.sample[i], rays.weight[i]});
-        }
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            if (!isBlack(rays.weight[i])) arrive(rays.sample[i], rays.weight[i]);
     }
     if (!isInOrder) waves::addInOrderOfPoints(wave);
 }
