@@ -341,10 +341,6 @@ Scene::Scene(const SceneDesc& desc, const SourceFile& source, const RenderSettin
     SceneBuilder(*this, desc, source, settings).build();
 }
 
-Rgb Scene::background(Vec3 dir) const {
-    return environment_ ? background_ * environment_->radiance(dir) : background_;
-}
-
 void Scene::describe(Stats& stats) const {
     stats.accel = {};
     stats.accel.kind = accelKind_ == AccelKind::Bvh ? "bvh" : "none";
