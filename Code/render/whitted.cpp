@@ -3,6 +3,7 @@
 // sample run over waves, and inside a wave over rays in the order of their parents, so they do not
 // depend on how samples are grouped.
 #include "render/integrator.h"
+#include "render/lamp_ray.h"
 #include "render/shading.h"
 #include "render/to_float.h"
 #include "sample/dimensions.h"
@@ -125,13 +126,11 @@ private:
         if (!light.castsShadows() || !settings_.switches.shadows) return add(slot, light1);
         const float time = memory_.rays.time[i];
         if (const auto origin = light.origin(); origin && !soft) {
-            // Defined as starting at the light, so that all rays of a lamp share their origin.
-            const Vec3 end = leave(at.surface, at.lit.ng, sample.distance) + at.surface.lift;
-            memory_.shadowRays.push({*origin, end - *origin, 0, 1, time}, slot, light1);
+            memory_.shadowRays.push(rayFromLamp(at.surface, at.lit.ng, *origin, time), slot,
+                                    light1);
         } else {
-            const float reach = sample.distance < kInfinityF ? sample.distance : 0;
-            memory_.shadowRays.push({leave(at.surface, at.lit.ng, reach) + at.surface.lift,
-                                     sample.toLight, 0, sample.distance * (1 - 0x1p-20f), time},
+            memory_.shadowRays.push({leave(at.surface, at.lit.ng) + at.surface.lift, sample.toLight,
+                                     0, sample.distance * (1 - 0x1p-20f), time},
                                     slot, light1);
         }
     }
