@@ -91,7 +91,4 @@ Rgb straightTransmission(const Scene& scene, const Ray& ray, const Hit& hit) {
     return material.base.filter * (1 - opacity);
 }
 
-Vec3 leave(const Surface& surface, Vec3 side, float reach) {
-    const float error = surface.error + 0x1p-20f * reach;
-    return surface.p + side * error;
-}
+Vec3 leave(const Surface& surface, Vec3 side) { return surface.p + side * surface.error; }

@@ -23,6 +23,9 @@ template <class T> T interpolate(T a, T b, T c, float u, float v) {
 // about 8 units of the largest coordinate difference, doubled. See RaySetup for the pads.
 constexpr double kTriangleError = 0x1p-20;
 
+// The ray's part of it, of a ray from far: slopes and differences in float.
+constexpr float kRayError = 0x1p-22f;
+
 // Rays leave a surface kTriangleError off its plane; this many times as far from its edges they are
 // on the inner side of the neighbours as well, down to an angle of 30 degrees between both.
 constexpr double kEdgeClearance = 2;
@@ -88,6 +91,7 @@ Surface Mesh::surfaceFor(const Ray& worldRay, const Hit& hit, SurfaceNeeds needs
         s.p = toFloat(pointOff(kTriangleError * scale));
         s.ng = toFloat(n);
         s.error = static_cast<float>(kTriangleError * scale);
+        s.rayError = kRayError;
     } else {
         const Transform worldFromMesh = worldFromMeshAt(worldRay.time);
         const Vec3d normal = worldFromMesh.normal(n);
@@ -104,6 +108,7 @@ Surface Mesh::surfaceFor(const Ray& worldRay, const Hit& hit, SurfaceNeeds needs
                 max(length(meshFromWorld.column(1)), length(meshFromWorld.column(2))));
         s.p = toFloat(worldFromMesh.point(pointOff(error * stretch)));
         s.error = static_cast<float>(error);
+        s.rayError = kRayError * static_cast<float>(stretch / std::fabs(offPlane));
     }
     if (needs.lift && !geometry_.normalTriangles.empty()) {
         const auto& k = geometry_.normalTriangles[hit.prim];
