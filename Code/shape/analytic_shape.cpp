@@ -139,15 +139,9 @@ void AnalyticShape::collect(const Ray& ray, std::vector<Hit>& hits) const {
 //    (the rest of this term, 0.13 u reach, covers the rounding of the formulas in double)
 //  - the map to object space and back in double, whose error is 2^-53 times a dozen operations
 //    times the amplification of the map:                          2^-48 amplification (|p| + |T|)
-Surface AnalyticShape::surface(const Ray& ray, const Hit& hit) const {
-    if (size_) return surfaceUnder(worldFromObject_, objectFromWorld_, *size_, ray, hit);
-    const Transform map = worldFromObjectAt(ray.time), inverse = map.inverse();
-    return surfaceUnder(map, inverse, sizeUnder(map, inverse), ray, hit);
-}
-
 Surface AnalyticShape::surfaceUnder(const Transform& worldFromObject,
                                     const Transform& objectFromWorld, const Size& size,
-                                    const Ray& ray, const Hit& hit) const {
+                                    const Ray& ray, const Hit& hit, SurfaceNeeds needs) const {
     const double t = static_cast<double>(hit.t) + static_cast<double>(hit.u);
     const Vec3d seen = toDouble(ray).at(t);
 
@@ -159,7 +153,7 @@ Surface AnalyticShape::surfaceUnder(const Transform& worldFromObject,
     const double distance = 2 * (3 * kFloatUlp * length(seen) + fixedError);
 
     const Local local = describe(mapped(objectFromWorld, toDouble(ray)).at(t), hit.prim,
-                                 {distance, objectFromWorld});
+                                 {distance, objectFromWorld, needs.uv});
     // One step of refinement: p is where the inverse, which rays are mapped with, sees local.p.
     Vec3d p = worldFromObject.point(local.p);
     p += worldFromObject.vector(local.p - objectFromWorld.point(p));
@@ -173,6 +167,12 @@ Surface AnalyticShape::surfaceUnder(const Transform& worldFromObject,
     surface.object = object_;
     surface.error = floatAbove(3 * kFloatUlp * sumOfProducts(normal, p) + fixedError);
     return surface;
+}
+
+Surface AnalyticShape::surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const {
+    if (size_) return surfaceUnder(worldFromObject_, objectFromWorld_, *size_, ray, hit, needs);
+    const Transform map = worldFromObjectAt(ray.time), inverse = map.inverse();
+    return surfaceUnder(map, inverse, sizeUnder(map, inverse), ray, hit, needs);
 }
 
 // The sign is asked of the surface's rounded normal. Its error, and that of a point which has not
@@ -193,7 +193,7 @@ SurfaceDerivatives AnalyticShape::derivatives(const Ray& ray, const Hit& hit) co
     const double t = static_cast<double>(hit.t) + static_cast<double>(hit.u);
     const Transform objectFromWorld = worldFromObject.inverse();
     const Vec3d p = objectFromWorld.ray(toDouble(ray)).at(t);
-    const Local local = describe(p, hit.prim, {0, objectFromWorld});
+    const Local local = describe(p, hit.prim, {0, objectFromWorld, true});
     return {toFloat(worldFromObject.vector(local.dpdu)),
             toFloat(worldFromObject.vector(local.dpdv))};
 }

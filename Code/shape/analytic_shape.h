@@ -19,7 +19,9 @@ public:
     bool occludes(const Ray& ray) const final;
     void collect(const Ray& ray, std::vector<Hit>& hits) const final;
     bool seesFront(const Ray& ray, const Hit& hit) const final;
-    Surface surface(const Ray& ray, const Hit& hit) const final;
+    bool hidesFromItself(bool inside) const override { return inside; } // all are convex
+    Surface surface(const Ray& ray, const Hit& hit) const final { return surfaceFor(ray, hit, {}); }
+    Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const final;
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const final;
 
 protected:
@@ -48,8 +50,9 @@ protected:
 
     // How far, in the world, the origin of a ray may be from the point that it leaves.
     struct Clearance {
-        double distance = 0;
+        double distance;
         const Transform& objectFromWorld;
+        bool wantsUv; // else describe() may leave them out
         // The most that the object's coordinates change over the distance.
         Vec3d inset() const;
         // How much n.p, of object space, changes over a unit of the world along the normal.
@@ -76,13 +79,16 @@ protected:
     virtual Local describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const = 0;
     // Its normal alone, about as exact.
     virtual Vec3d normalAt(Vec3d p, std::uint32_t part) const {
-        return describe(p, part, {0, objectFromWorld_}).normal;
+        return describe(p, part, {0, objectFromWorld_, false}).normal;
     }
     // The smallest box of the mapped shape.
     virtual BoundsD boxUnder(const Transform& worldFromObject) const = 0;
 
 private:
     Roots rootsOf(const Ray& ray) const;
+    Surface surfaceUnder(const Transform& worldFromObject, const Transform& objectFromWorld,
+                         double amplification, const Ray& ray, const Hit& hit,
+                         SurfaceNeeds needs) const;
     Transform worldFromObjectAt(float time) const {
         return isStatic_ ? worldFromObject_ : motion_.at(static_cast<double>(time));
     }
@@ -94,7 +100,8 @@ private:
     };
     Size sizeUnder(const Transform& map, const Transform& inverse) const;
     Surface surfaceUnder(const Transform& worldFromObject, const Transform& objectFromWorld,
-                         const Size& size, const Ray& ray, const Hit& hit) const;
+                         const Size& size, const Ray& ray, const Hit& hit,
+                         SurfaceNeeds needs) const;
 
     Transform worldFromObject_, objectFromWorld_; // of a static shape
     std::optional<Size> size_;

@@ -28,6 +28,7 @@ public:
     bool seesFront(const Ray& ray, const Hit& hit) const override {
         return shape_->seesFront(ray, hit);
     }
+    bool hidesFromItself(bool inside) const override { return shape_->hidesFromItself(inside); }
     Surface surface(const Ray& ray, const Hit& hit) const override;
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override {
         return shape_->derivatives(ray, hit);

@@ -31,8 +31,12 @@ public:
     bool seesFront(const Ray& ray, const Hit& hit) const override {
         return shape_->seesFront(ray, hit);
     }
+    bool hidesFromItself(bool inside) const override { return shape_->hidesFromItself(inside); }
     Surface surface(const Ray& ray, const Hit& hit) const override {
         return shape_->surface(ray, hit);
+    }
+    Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const override {
+        return shape_->surfaceFor(ray, hit, needs);
     }
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override {
         return shape_->derivatives(ray, hit);
