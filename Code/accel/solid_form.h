@@ -11,6 +11,7 @@
 struct RoundHull {
     Vec3d centre, axis;
     double radius = kInfinity;
+    double innerRadius = 0; // a ball about the centre that is inside of a sphere
 };
 
 // A sphere about the origin of an object space that does not move. A kernel that meets it repeats
@@ -26,5 +27,5 @@ struct SolidForm {
 };
 
 inline RoundHull ballAround(const BoundsD& box) {
-    return {box.centre(), {}, 0.5 * length(box.size())};
+    return {box.centre(), {}, 0.5 * length(box.size()), 0};
 }

@@ -57,7 +57,7 @@ SolidForm AnalyticShape::tubeForm(double radius) const {
     // The largest stretch of the disks, which is also a bound across the axis.
     const double xx = dot(x, x), yy = dot(y, y), xy = dot(x, y);
     const double stretch = std::sqrt(0.5 * (xx + yy) + std::sqrt(sqr(0.5 * (xx - yy)) + xy * xy));
-    return {{worldFromObject_.translation(), axis / size, radius * stretch}, {}};
+    return {{worldFromObject_.translation(), axis / size, radius * stretch, 0}, {}};
 }
 
 void AnalyticShape::measure() {

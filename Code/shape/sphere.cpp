@@ -11,13 +11,15 @@ Sphere::Sphere(MovingTransform worldFromObject, double radius, std::uint32_t mat
 SolidForm Sphere::solidForm() const {
     if (!isStill()) return AnalyticShape::solidForm();
     const Transform& map = worldFromObject();
-    // The largest stretch of the map, by Gershgorin's circles about its Gram matrix.
+    // Bounds of the map's stretch, by Gershgorin's circles about its Gram matrix.
     const Vec3d x = map.column(0), y = map.column(1), z = map.column(2);
     const double xy = std::fabs(dot(x, y)), yz = std::fabs(dot(y, z)), zx = std::fabs(dot(z, x));
-    const double stretch =
-        std::sqrt(max(dot(x, x) + xy + zx, max(dot(y, y) + xy + yz, dot(z, z) + yz + zx)));
-    return {{map.translation(), {}, radius_ * stretch},
-            StillSphere{objectFromWorld().rows(), radius_}};
+    const double xx = dot(x, x), yy = dot(y, y), zz = dot(z, z);
+    const double most = max(xx + xy + zx, max(yy + xy + yz, zz + yz + zx));
+    const double least = max(0.0, min(xx - xy - zx, min(yy - xy - yz, zz - yz - zx)));
+    const RoundHull hull{
+        map.translation(), {}, radius_ * std::sqrt(most), radius_ * std::sqrt(least)};
+    return {hull, StillSphere{objectFromWorld().rows(), radius_}};
 }
 
 AnalyticShape::Roots Sphere::roots(const RayD& ray) const {

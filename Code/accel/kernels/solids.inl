@@ -95,6 +95,7 @@ private:
         zCut_ = cutOf(best_);
         const Floats length2 = fma(d[0], d[0], fma(d[1], d[1], d[2] * d[2]));
         length_ = sqrt(length2);
+        perLength_ = one / length_;
         perLength2_ = one / length2;
         slack_ = max(Floats(tree_.extent), oMax) * Floats(0x1p-18f);
 
@@ -156,12 +157,12 @@ private:
         for (;;) {
             if (kindOf(at) == WideKind::Leaf) {
                 solid(at >> 2, lanes, results);
-                if (A == Answer::Any && live_ == 0) return;
             } else if (together_ && std::popcount(lanes) >= kFewestForInterval) {
-                size = stepTogether(tree_.node<W>(at), lanes, stack.data(), size);
+                size = stepTogether(tree_.node<W>(at), lanes, stack.data(), size, results);
             } else {
                 size = stepApart(tree_.node<W>(at), lanes, stack.data(), size);
             }
+            if (A == Answer::Any && live_ == 0) return;
             do {
                 if (size == 0) return;
                 --size;
@@ -183,8 +184,9 @@ private:
     }
 
     // Over all r of the interval, a child is entered not before `entry` and left not after `exit`.
+    template <class Result>
     std::size_t stepTogether(const WideNode<W>& node, unsigned lanes, Entry* stack,
-                             std::size_t size) const {
+                             std::size_t size, Result* results) {
         Floats entry(0.0f), exit(zTop_);
         for (int axis = 0; axis < 3; ++axis) {
             const Floats o(origin_[axis]), lo(rLo_[axis]), hi(rHi_[axis]), pad(mostPad_[axis]);
@@ -201,6 +203,12 @@ private:
             const int i = std::countr_zero(hit);
             const WideRef ref = node.child[i];
             unsigned inside = lanes;
+            if (A == Answer::Any && kindOf(ref) == WideKind::Leaf) {
+                solid(ref >> 2, inside, results);
+                lanes &= live_;
+                if (lanes == 0) return size;
+                continue;
+            }
             if (kindOf(ref) == WideKind::Node) {
                 Floats from(0.0f), to = zCut_;
                 for (int axis = 0; axis < 3; ++axis) {
@@ -257,6 +265,18 @@ private:
     template <class Result> void solid(std::uint32_t place, unsigned lanes, Result* results) {
         const SolidTree::Solid& solid = tree_.solids[place];
         if (A == Answer::Any && !solid.hides) return;
+        if (solid.isTube) {
+            lanes &= nearAxis(solid);
+        } else {
+            unsigned certain = 0;
+            lanes &= nearCentre(solid, certain);
+            if constexpr (A == Answer::Any) {
+                certain &= lanes;
+                if (certain != 0) hide(certain, results);
+                lanes &= ~certain;
+            }
+        }
+        if (lanes == 0) return;
         Floats entry(0.0f), exit = zCut_;
         for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
@@ -267,25 +287,35 @@ private:
         }
         lanes &= bits(entry <= exit);
         if (lanes == 0) return;
-        lanes &= solid.isTube ? nearAxis(solid) : nearCentre(solid);
-        if (lanes == 0) return;
         if (solid.sphere != SolidTree::kNoSphere)
             sphere(solid, tree_.spheres[solid.sphere], entry, lanes, results);
         else
             ask(solid, entry, lanes, results);
     }
 
+    void hide(unsigned lanes, std::uint8_t* hidden) {
+        live_ &= ~lanes;
+        for (; lanes != 0; lanes &= lanes - 1) hidden[ray_[std::countr_zero(lanes)]] = 1;
+    }
+
     // Lines that come near enough to the solid's round hull: a ball, or a tube without ends. With u
     // the unit of rounding and s the largest coordinate, the way to the centre is off by 4 u s, the
     // foot of the perpendicular by some 16 u s more, and `slack` is 64 u s.
-    unsigned nearCentre(const SolidTree::Solid& solid) const {
+    // certain: rays that enter a ball within a sphere, and so the sphere, inside of their range.
+    unsigned nearCentre(const SolidTree::Solid& solid, unsigned& certain) const {
         const Floats x = Floats(solid.centre.x) - o_[0], y = Floats(solid.centre.y) - o_[1],
                      z = Floats(solid.centre.z) - o_[2];
         const Floats foot = fma(x, d_[0], fma(y, d_[1], z * d_[2])) * perLength2_;
         const Floats px = fnma(foot, d_[0], x), py = fnma(foot, d_[1], y),
                      pz = fnma(foot, d_[2], z);
+        const Floats distance2 = fma(px, px, fma(py, py, pz * pz));
         const Floats reach = Floats(solid.radius) + slack_;
-        return bits(notGreater(fma(px, px, fma(py, py, pz * pz)), reach * reach));
+        if constexpr (A == Answer::Any) {
+            const Floats inner = max(Floats(solid.innerRadius) - slack_, Floats(0.0f));
+            certain = bits((distance2 < inner * inner) & (foot - reach * perLength_ > tMin_) &
+                           (foot + slack_ * perLength_ < best_));
+        }
+        return bits(notGreater(distance2, reach * reach));
     }
     // n = d x axis: the distance of the lines is |w n| / |n|, and w n is off by 16 u s |d|.
     unsigned nearAxis(const SolidTree::Solid& solid) const {
@@ -370,8 +400,7 @@ private:
         const Floats t0 = enter.toFloats(), t1 = exit.toFloats();
         if constexpr (A == Answer::Any) {
             lanes &= bits(((t0 > tMin_) & (t0 < best_)) | ((t1 > tMin_) & (t1 < best_)));
-            live_ &= ~lanes;
-            for (; lanes != 0; lanes &= lanes - 1) results[ray_[std::countr_zero(lanes)]] = 1;
+            hide(lanes, results);
         } else {
             const Mask first = t0 > tMin_;
             const Floats t = select(first, t0, t1);
@@ -410,7 +439,7 @@ private:
     std::uint32_t ray_[W]; // of the lane
     unsigned live_ = 0;    // lanes that still ask
     Floats o_[3], d_[3], r_[3], near_[3], far_[3], pad_[3], dz_, tMin_;
-    Floats length_, perLength2_, slack_; // of the directions; see nearCentre()
+    Floats length_, perLength_, perLength2_, slack_; // of the directions; see nearCentre()
     Floats best_, zCut_; // t up to which hits count, and the depth behind which none is
     std::uint32_t number_[W];
     unsigned backwards_[3]; // lanes with r < 0
