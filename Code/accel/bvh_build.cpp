@@ -1,136 +1,429 @@
+// The plain builder: the same way as that of the kernels (kernels/wide_build.cpp), for boxes of
+// anything and in C++ alone. A pass over a range sorts its primitives into two halves and into the
+// bins of both; the ranges of the top are divided level by level, one thread each, what is below
+// are subtrees, one thread each.
 #include "accel/bvh.h"
+#include "accel/prim_box.h"
+#include "base/math.h"
+#include "base/pages.h"
+#include "base/parallel.h"
 
 #include <algorithm>
 #include <limits>
-#include <numeric>
+#include <memory>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
 
 namespace {
 
-constexpr int kBins = 16;
+constexpr std::uint32_t kBins = 16;
+// More primitives than these are split, whether it pays or not; whether it did is seen afterwards.
 constexpr std::uint32_t kMaxLeaf = 8;
 // From this depth on every split halves the list, which ends after at most 32 more levels.
 constexpr int kHalvingDepth = kMaxBvhDepth - 34;
+// From which depth on the top is no longer divided: what is so lopsided is left to a subtree.
+constexpr int kTopDepth = 40;
 
-struct Bin {
-    Bounds box;
-    std::uint32_t count = 0;
+std::uint32_t subtreeSize(std::size_t count) {
+    return std::max(4096u, static_cast<std::uint32_t>(count / 64));
+}
+
+constexpr float kHuge = std::numeric_limits<float>::max();
+constexpr PrimBox kEmpty = {{kHuge, kHuge, kHuge, kHuge}, {kHuge, kHuge, kHuge, kHuge}};
+
+inline void extend(PrimBox& to, const PrimBox& by) {
+#if defined(__SSE2__)
+    const auto least = [](std::array<float, 4>& a, const std::array<float, 4>& b) {
+        _mm_store_ps(a.data(), _mm_min_ps(_mm_load_ps(a.data()), _mm_load_ps(b.data())));
+    };
+    least(to.lo, by.lo), least(to.negHi, by.negHi);
+#else
+    for (std::size_t i = 0; i < 4; ++i) {
+        to.lo[i] = min(to.lo[i], by.lo[i]);
+        to.negHi[i] = min(to.negHi[i], by.negHi[i]);
+    }
+#endif
+}
+
+inline float twiceCentre(const PrimBox& p, std::size_t axis) { return p.lo[axis] - p.negHi[axis]; }
+
+double halfAreaOf(const PrimBox& box) {
+    const auto side = [&](std::size_t i) {
+        return static_cast<double>(-box.negHi[i]) - static_cast<double>(box.lo[i]);
+    };
+    return side(0) * side(1) + side(1) * side(2) + side(2) * side(0);
+}
+
+Bounds boundsOf(const PrimBox& b) {
+    return {{b.lo[0], b.lo[1], b.lo[2]}, {-b.negHi[0], -b.negHi[1], -b.negHi[2]}};
+}
+
+// Where bins lie, in doubled centres. What is outside falls into the outmost ones, so an estimate
+// of the bounds will do.
+struct Grid {
+    std::array<float, 3> lo, hi, scale; // scale 0: an axis without extent
+    std::uint32_t bins;
+
+    static Grid over(const std::array<float, 3>& lo, const std::array<float, 3>& hi,
+                     std::uint32_t count) {
+        Grid g{lo, hi, {}, std::min(kBins, 6 + count / 8)};
+        for (std::size_t i = 0; i < 3; ++i)
+            g.scale[i] =
+                hi[i] - lo[i] > 0x1p-100f ? static_cast<float>(g.bins) / (hi[i] - lo[i]) : 0;
+        return g;
+    }
+    std::uint32_t binOf(const PrimBox& p, std::size_t axis) const {
+        const float position = (twiceCentre(p, axis) - lo[axis]) * scale[axis];
+        return static_cast<std::uint32_t>(clamp(position, 0.0f, static_cast<float>(bins - 1)));
+    }
+};
+
+struct Bins {
+    PrimBox box[3][kBins];
+    std::uint32_t count[3][kBins];
+
+    void clear(std::uint32_t used) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            std::fill_n(box[axis], used, kEmpty);
+            std::fill_n(count[axis], used, 0u);
+        }
+    }
+    void add(const Grid& grid, const PrimBox& p) {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::uint32_t b = grid.binOf(p, axis);
+            extend(box[axis][b], p);
+            ++count[axis][b];
+        }
+    }
 };
 
 struct Split {
     double cost = std::numeric_limits<double>::infinity(); // area-weighted primitive count
     std::size_t axis = 0;
-    int bin = 0; // primitives of bins <= bin go left
+    std::uint32_t bin = 0; // primitives of bins < bin go left
+    std::uint32_t leftCount = 0;
+    PrimBox left = kEmpty, right = kEmpty;
+    bool exists() const { return leftCount > 0; }
 };
 
-double halfAreaOf(const Bounds& box) {
-    const Vec3d d = toDouble(box.hi) - toDouble(box.lo);
-    return d.x * d.y + d.y * d.z + d.z * d.x;
+// Cheapest split over the bins of all three axes.
+Split bestSplit(const Bins& bins, std::uint32_t used, std::uint32_t count) {
+    Split best;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        std::array<double, kBins> rightCost;
+        PrimBox box = kEmpty;
+        std::uint32_t n = 0;
+        for (std::uint32_t b = used - 1; b > 0; --b) {
+            extend(box, bins.box[axis][b]);
+            n += bins.count[axis][b];
+            rightCost[b] = n > 0 ? halfAreaOf(box) * n : 0;
+        }
+        box = kEmpty, n = 0;
+        for (std::uint32_t b = 1; b < used; ++b) {
+            extend(box, bins.box[axis][b - 1]);
+            n += bins.count[axis][b - 1];
+            if (n == 0 || n == count) continue;
+            const double cost = halfAreaOf(box) * n + rightCost[b];
+            if (cost < best.cost) best = {cost, axis, b, n, box, kEmpty};
+        }
+    }
+    if (best.exists())
+        for (std::uint32_t b = best.bin; b < used; ++b) extend(best.right, bins.box[best.axis][b]);
+    return best;
 }
+
+struct Range {
+    std::uint32_t first, count;
+    int depth;
+    bool inSpare; // in which of the two lists it lies
+    PrimBox box;
+    Grid grid;
+    Split split;
+};
+
+// Both lists, and what leaves hold, by position.
+struct Lists {
+    PageVector<PrimBox> prims, spare;
+    std::uint32_t* ids;
+    PrimBox* of(const Range& r, bool other = false) {
+        return (r.inSpare != other ? spare : prims).data() + r.first;
+    }
+};
+
+// A split by exact bounds of the centres.
+void splitExactly(Range& r, const PrimBox* prims) {
+    std::array<float, 3> lo = {kHuge, kHuge, kHuge}, hi = {-kHuge, -kHuge, -kHuge};
+    for (std::uint32_t i = 0; i < r.count; ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            lo[axis] = min(twiceCentre(prims[i], axis), lo[axis]);
+            hi[axis] = max(twiceCentre(prims[i], axis), hi[axis]);
+        }
+    r.grid = Grid::over(lo, hi, r.count);
+    Bins bins;
+    bins.clear(r.grid.bins);
+    for (std::uint32_t i = 0; i < r.count; ++i) bins.add(r.grid, prims[i]);
+    r.split = bestSplit(bins, r.grid.bins, r.count);
+}
+
+// A child's centres are within its box, and on its side of the cut: close enough for bins.
+Grid childGrid(const Range& r, const PrimBox& box, bool right, std::uint32_t count) {
+    std::array<float, 3> lo, hi;
+    for (std::size_t i = 0; i < 3; ++i) {
+        lo[i] = max(r.grid.lo[i], 2 * box.lo[i]);
+        hi[i] = min(r.grid.hi[i], -2 * box.negHi[i]);
+    }
+    const std::size_t axis = r.split.axis;
+    const float cut = r.grid.lo[axis] + static_cast<float>(r.split.bin) / r.grid.scale[axis];
+    if (right)
+        lo[axis] = max(lo[axis], cut);
+    else
+        hi[axis] = min(hi[axis], cut);
+    return Grid::over(lo, hi, count);
+}
+
+struct Halves {
+    Range left, right;
+};
+
+Halves divide(const Range& r, Lists& lists) {
+    const std::uint32_t nLeft = r.split.leftCount, nRight = r.count - nLeft;
+    Halves out{{r.first,
+                nLeft,
+                r.depth + 1,
+                !r.inSpare,
+                r.split.left,
+                childGrid(r, r.split.left, false, nLeft),
+                {}},
+               {r.first + nLeft,
+                nRight,
+                r.depth + 1,
+                !r.inSpare,
+                r.split.right,
+                childGrid(r, r.split.right, true, nRight),
+                {}}};
+    Range* const sides[2] = {&out.left, &out.right};
+    Bins bins[2];
+    for (std::size_t side = 0; side < 2; ++side)
+        if (sides[side]->count > 1) bins[side].clear(sides[side]->grid.bins);
+    const PrimBox* const from = lists.of(r);
+    PrimBox* const to = lists.of(r, true);
+    std::uint32_t next[2] = {0, nLeft};
+    for (std::uint32_t i = 0; i < r.count; ++i) {
+        const std::size_t side = r.grid.binOf(from[i], r.split.axis) < r.split.bin ? 0 : 1;
+        to[next[side]++] = from[i];
+        if (sides[side]->count > 1) bins[side].add(sides[side]->grid, from[i]);
+    }
+    for (std::size_t side = 0; side < 2; ++side)
+        if (sides[side]->count > 1)
+            sides[side]->split = bestSplit(bins[side], sides[side]->grid.bins, sides[side]->count);
+    return out;
+}
+
+// Where no split separates the centres, any two halves are as good.
+Halves halve(const Range& r, Lists& lists) {
+    Halves out{r, r};
+    out.left.count = r.count / 2;
+    out.right.first += out.left.count, out.right.count -= out.left.count;
+    for (Range* half : {&out.left, &out.right}) {
+        ++half->depth;
+        half->box = kEmpty;
+        const PrimBox* const prims = lists.of(*half);
+        for (std::uint32_t i = 0; i < half->count; ++i) extend(half->box, prims[i]);
+        half->split = {};
+    }
+    return out;
+}
+
+// The tree of a range. Costs are areas: a step into children costs as much as a primitive.
+class Subtree {
+public:
+    Subtree(Lists& lists, const Range& root) : lists_(lists) {
+        nodes.push_back({boundsOf(root.box), 0, 0});
+        Range r = root;
+        cost = grow(0, r);
+    }
+    std::vector<BvhNode> nodes;
+    double cost = 0;
+
+private:
+    double grow(std::uint32_t at, Range& r) {
+        const double area = halfAreaOf(r.box), asLeaf = area * r.count;
+        const PrimBox* const prims = lists_.of(r);
+        if (r.count > 1 && !r.split.exists()) splitExactly(r, prims);
+        const bool worthIt = r.split.exists() && r.split.cost + area < asLeaf;
+        if (r.count == 1 || (!worthIt && r.count <= kMaxLeaf)) {
+            makeLeaf(at, r);
+            for (std::uint32_t i = 0; i < r.count; ++i) lists_.ids[r.first + i] = prims[i].id();
+            return asLeaf;
+        }
+        Halves halves =
+            r.split.exists() && r.depth < kHalvingDepth ? divide(r, lists_) : halve(r, lists_);
+        const auto child = static_cast<std::uint32_t>(nodes.size());
+        nodes[at].first = child;
+        nodes.push_back({boundsOf(halves.left.box), 0, 0});
+        nodes.push_back({boundsOf(halves.right.box), 0, 0});
+        const double left = grow(child, halves.left);
+        const double inTree = area + left + grow(child + 1, halves.right);
+        if (inTree < asLeaf) return inTree;
+        nodes.resize(child); // all in vain: most rays that get here try nearly all primitives
+        makeLeaf(at, r);
+        return asLeaf;
+    }
+    void makeLeaf(std::uint32_t at, const Range& r) {
+        nodes[at].first = r.first, nodes[at].count = r.count;
+    }
+
+    Lists& lists_;
+};
 
 class Builder {
 public:
-    explicit Builder(std::span<const Bounds> boxes) : boxes_(boxes), centres_(boxes.size()) {
-        for (std::size_t i = 0; i < boxes.size(); ++i)
-            centres_[i] = 0.5f * boxes[i].lo + 0.5f * boxes[i].hi;
-        bvh_.primIds.resize(boxes.size());
-        std::iota(bvh_.primIds.begin(), bvh_.primIds.end(), 0u);
-        if (boxes.empty()) return;
-        bvh_.nodes.reserve(2 * boxes.size());
-        bvh_.nodes.emplace_back();
-        build(0, 0, static_cast<std::uint32_t>(boxes.size()), 0);
+    Builder(std::span<const Bounds> boxes, int threads)
+        : count_(static_cast<std::uint32_t>(boxes.size())),
+          // Few boxes are sorted before another thread has woken up.
+          pool_(count_ < 2 * subtreeSize(count_) ? 1 : threads) {
+        bvh_.primIds.resize(count_);
+        lists_.ids = bvh_.primIds.data();
+        lists_.prims.resize(count_), lists_.spare.resize(count_);
+        Range root{0, count_, 0, false, kEmpty, {}, {}};
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            const Vec3 lo = boxes[i].lo, hi = boxes[i].hi;
+            lists_.prims[i] = {{lo.x, lo.y, lo.z, std::bit_cast<float>(i | PrimBox::kNormal)},
+                               {-hi.x, -hi.y, -hi.z, 0}};
+            extend(root.box, lists_.prims[i]);
+        }
+        splitExactly(root, lists_.prims.data());
+        divideTop(root);
+        subtrees_.resize(ranges_.size());
+        pool_.run(ranges_.size(), [&](std::size_t i, int) {
+            subtrees_[i] = std::make_unique<Subtree>(lists_, ranges_[i]);
+        });
+        lists_.prims = {}, lists_.spare = {}; // before the nodes are there twice
+        join();
     }
     Bvh take() { return std::move(bvh_); }
 
 private:
-    int binOf(std::uint32_t prim, std::size_t axis, const Bounds& centreBox) const {
-        const float lo = centreBox.lo[axis], width = centreBox.hi[axis] - lo;
-        const float position = (centres_[prim][axis] - lo) / width * kBins;
-        return std::min(kBins - 1, static_cast<int>(position));
-    }
+    // A node above the subtrees, or the root of one.
+    struct Top {
+        PrimBox box;
+        std::uint32_t first, count;
+        std::uint32_t left = 0; // children left, left + 1; 0: a subtree
+        std::uint32_t subtree = 0;
+    };
 
-    // Cheapest split over the bins of all three axes. An axis without extent offers none.
-    Split bestSplit(std::span<const std::uint32_t> prims, const Bounds& centreBox) const {
-        Split best;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (!(centreBox.hi[axis] > centreBox.lo[axis])) continue;
-            std::array<Bin, kBins> bins;
-            for (const std::uint32_t prim : prims) {
-                Bin& bin = bins[static_cast<std::size_t>(binOf(prim, axis, centreBox))];
-                bin.box.extend(boxes_[prim]);
-                ++bin.count;
-            }
-            std::array<double, kBins> rightCost{};
-            Bin right;
-            for (std::size_t i = kBins - 1; i > 0; --i) {
-                right.box.extend(bins[i].box);
-                right.count += bins[i].count;
-                rightCost[i] = right.count ? halfAreaOf(right.box) * right.count : 0;
-            }
-            Bin left;
-            for (std::size_t i = 0; i + 1 < kBins; ++i) {
-                left.box.extend(bins[i].box);
-                left.count += bins[i].count;
-                if (left.count == 0 || left.count == prims.size()) continue;
-                const double cost = halfAreaOf(left.box) * left.count + rightCost[i + 1];
-                if (cost < best.cost) best = {cost, axis, static_cast<int>(i)};
-            }
-        }
-        return best;
-    }
-
-    void build(std::uint32_t at, std::uint32_t begin, std::uint32_t end, int depth) {
-        Bounds box, centreBox;
-        for (std::uint32_t i = begin; i < end; ++i) {
-            const std::uint32_t prim = bvh_.primIds[i];
-            box.extend(boxes_[prim]);
-            centreBox.extend(centres_[prim]);
-        }
-        const std::uint32_t count = end - begin;
-        bvh_.nodes[at].box = box;
-        const auto makeLeaf = [&] {
-            bvh_.nodes[at].first = begin;
-            bvh_.nodes[at].count = count;
+    void divideTop(const Range& root) {
+        struct Open {
+            std::uint32_t top;
+            Range range;
         };
-        if (count == 1) return makeLeaf();
-
-        const auto prims = std::span(bvh_.primIds).subspan(begin, count);
-        const Split split = bestSplit(prims, centreBox);
-        const bool splittable = split.cost < std::numeric_limits<double>::infinity();
-        const double area = halfAreaOf(box);
-        // Cost of a step into the children is that of one primitive.
-        const bool worthIt = splittable && split.cost + area < area * count;
-        if (!worthIt && count <= kMaxLeaf) return makeLeaf();
-
-        std::uint32_t middle = begin + count / 2;
-        if (splittable && depth < kHalvingDepth) {
-            const auto goesLeft = [&](std::uint32_t p) {
-                return binOf(p, split.axis, centreBox) <= split.bin;
+        std::vector<Open> level{{0, root}}, next;
+        top_.push_back({root.box, root.first, root.count});
+        const std::uint32_t most = subtreeSize(count_);
+        while (!level.empty()) {
+            const auto isSubtree = [&](const Open& o) {
+                return o.range.count <= most || !o.range.split.exists() ||
+                       o.range.depth >= kTopDepth;
             };
-            const auto right = std::stable_partition(prims.begin(), prims.end(), goesLeft);
-            middle = begin + static_cast<std::uint32_t>(right - prims.begin());
+            for (const Open& o : level) {
+                if (!isSubtree(o)) continue;
+                top_[o.top].subtree = static_cast<std::uint32_t>(ranges_.size());
+                ranges_.push_back(o.range);
+            }
+            std::erase_if(level, isSubtree);
+            std::vector<Halves> halves(level.size());
+            pool_.run(level.size(),
+                      [&](std::size_t i, int) { halves[i] = divide(level[i].range, lists_); });
+            next.clear();
+            for (std::size_t i = 0; i < level.size(); ++i) {
+                top_[level[i].top].left = static_cast<std::uint32_t>(top_.size());
+                for (const Range& r : {halves[i].left, halves[i].right}) {
+                    next.push_back({static_cast<std::uint32_t>(top_.size()), r});
+                    top_.push_back({r.box, r.first, r.count});
+                }
+            }
+            std::swap(level, next);
         }
-        const auto child = static_cast<std::uint32_t>(bvh_.nodes.size());
-        bvh_.nodes.resize(bvh_.nodes.size() + 2);
-        bvh_.nodes[at].first = child;
-        build(child, begin, middle, depth + 1);
-        build(child + 1, middle, end, depth + 1);
     }
 
-    std::span<const Bounds> boxes_;
-    std::vector<Vec3> centres_;
+    // Depth first. A node of the top whose subtrees cost more than a list is a list, too.
+    void join() {
+        std::vector<double> cost(top_.size());
+        for (std::size_t i = top_.size(); i-- > 0;) {
+            const Top& t = top_[i];
+            const double area = halfAreaOf(t.box);
+            cost[i] = t.left == 0
+                          ? subtrees_[t.subtree]->cost
+                          : std::min(area + cost[t.left] + cost[t.left + 1], area * t.count);
+        }
+        std::size_t size = top_.size();
+        for (const auto& s : subtrees_) size += s->nodes.size();
+        bvh_.nodes.reserve(size);
+        struct Open {
+            std::uint32_t top, node;
+        };
+        std::vector<Open> open{{0, 0}};
+        bvh_.nodes.push_back({});
+        while (!open.empty()) {
+            const auto [i, node] = open.back();
+            open.pop_back();
+            const Top& t = top_[i];
+            if (t.left == 0) {
+                append(subtrees_[t.subtree]->nodes, node);
+                subtrees_[t.subtree].reset();
+                continue;
+            }
+            bvh_.nodes[node].box = boundsOf(t.box);
+            if (cost[i] == halfAreaOf(t.box) * t.count) {
+                bvh_.nodes[node].first = t.first, bvh_.nodes[node].count = t.count;
+                continue;
+            }
+            const auto child = static_cast<std::uint32_t>(bvh_.nodes.size());
+            bvh_.nodes[node].first = child;
+            bvh_.nodes.resize(child + 2);
+            open.push_back({t.left + 1, child + 1});
+            open.push_back({t.left, child});
+        }
+    }
+
+    // A subtree whose root has its place already.
+    void append(const std::vector<BvhNode>& nodes, std::uint32_t root) {
+        const auto shift = static_cast<std::uint32_t>(bvh_.nodes.size()) - 1;
+        const auto moved = [&](BvhNode n) {
+            if (!n.isLeaf()) n.first += shift;
+            return n;
+        };
+        bvh_.nodes[root] = moved(nodes[0]);
+        for (std::size_t i = 1; i < nodes.size(); ++i) bvh_.nodes.push_back(moved(nodes[i]));
+    }
+
+    std::uint32_t count_;
+    ThreadPool pool_;
+    Lists lists_;
+    std::vector<Top> top_;
+    std::vector<Range> ranges_; // of the subtrees
+    std::vector<std::unique_ptr<Subtree>> subtrees_;
     Bvh bvh_;
 };
 
 } // namespace
 
-Bvh buildBvh(std::span<const Bounds> boxes) { return Builder(boxes).take(); }
+Bvh buildBvh(std::span<const Bounds> boxes, int threads) {
+    return boxes.empty() ? Bvh{} : Builder(boxes, threads).take();
+}
 
 double sahCost(const Bvh& bvh) {
     if (bvh.nodes.empty()) return 0;
+    const auto areaOf = [](const Bounds& box) {
+        const Vec3d d = toDouble(box.hi) - toDouble(box.lo);
+        return d.x * d.y + d.y * d.z + d.z * d.x;
+    };
     double sum = 0;
     for (const BvhNode& node : bvh.nodes)
-        sum += halfAreaOf(node.box) * (node.isLeaf() ? node.count : 1);
-    const double root = halfAreaOf(bvh.nodes[0].box);
+        sum += areaOf(node.box) * (node.isLeaf() ? node.count : 1);
+    const double root = areaOf(bvh.nodes[0].box);
     return root > 0 ? sum / root : static_cast<double>(bvh.nodes.size());
 }
 

@@ -53,13 +53,13 @@ std::uint64_t MeshGeometry::dropDegenerate() {
     return withoutArea;
 }
 
-void MeshGeometry::finish(bool withTree, const Kernel& forKernel) {
+void MeshGeometry::finish(bool withTree, const Kernel& forKernel, int threads) {
     extent = 0;
     for (const Vec3 p : points) extent = max(maxAbs(p), extent);
     if (!withTree || triangles.empty()) return;
     if (forKernel.width > 0) {
         kernel = &forKernel;
-        wide = buildWide(forKernel.width, points, triangles);
+        wide = buildWide(forKernel.width, points, triangles, threads);
         return;
     }
     {

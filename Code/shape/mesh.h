@@ -31,9 +31,9 @@ struct MeshGeometry {
     // area. Those with three corners on a line stay: to a ray, whose arithmetic rounds each corner
     // by itself, such a triangle closes the gap between its neighbours.
     std::uint64_t dropDegenerate();
-    // Computes extent and, if wanted, the tree that the kernel needs. The lists do not change
-    // afterwards.
-    void finish(bool withTree, const Kernel& forKernel = chooseKernel("scalar"));
+    // Computes extent and, if wanted, the tree that the kernel needs, the same for any number of
+    // threads. The lists do not change afterwards.
+    void finish(bool withTree, const Kernel& forKernel = chooseKernel("scalar"), int threads = 1);
     WideMesh wideMesh() const { return {wide, points, triangles, extent}; }
     std::size_t bytes() const;
 };
