@@ -3,8 +3,7 @@
 // bins of both; the ranges of the top are divided level by level, one thread each, what is below
 // are subtrees, one thread each.
 #include "accel/bvh.h"
-#include "accel/prim_box.h"
-#include "base/math.h"
+#include "accel/bvh_bins.h"
 #include "base/pages.h"
 #include "base/parallel.h"
 
@@ -12,15 +11,15 @@
 #include <limits>
 #include <memory>
 
-#if defined(__SSE2__)
-#include <emmintrin.h>
-#endif
-
 namespace {
 
-constexpr std::uint32_t kBins = 16;
+using namespace bvh_build;
+
 // More primitives than these are split, whether it pays or not; whether it did is seen afterwards.
 constexpr std::uint32_t kMaxLeaf = 8;
+// A tree must save this part of what the list of its primitives costs: a list is read in the order
+// of memory, which is up to ten times as fast.
+constexpr double kWorthwhile = 0.8;
 // From this depth on every split halves the list, which ends after at most 32 more levels.
 constexpr int kHalvingDepth = kMaxBvhDepth - 34;
 // From which depth on the top is no longer divided: what is so lopsided is left to a subtree.
@@ -30,108 +29,8 @@ std::uint32_t subtreeSize(std::size_t count) {
     return std::max(4096u, static_cast<std::uint32_t>(count / 64));
 }
 
-constexpr float kHuge = std::numeric_limits<float>::max();
-constexpr PrimBox kEmpty = {{kHuge, kHuge, kHuge, kHuge}, {kHuge, kHuge, kHuge, kHuge}};
-
-inline void extend(PrimBox& to, const PrimBox& by) {
-#if defined(__SSE2__)
-    const auto least = [](std::array<float, 4>& a, const std::array<float, 4>& b) {
-        _mm_store_ps(a.data(), _mm_min_ps(_mm_load_ps(a.data()), _mm_load_ps(b.data())));
-    };
-    least(to.lo, by.lo), least(to.negHi, by.negHi);
-#else
-    for (std::size_t i = 0; i < 4; ++i) {
-        to.lo[i] = min(to.lo[i], by.lo[i]);
-        to.negHi[i] = min(to.negHi[i], by.negHi[i]);
-    }
-#endif
-}
-
-inline float twiceCentre(const PrimBox& p, std::size_t axis) { return p.lo[axis] - p.negHi[axis]; }
-
-double halfAreaOf(const PrimBox& box) {
-    const auto side = [&](std::size_t i) {
-        return static_cast<double>(-box.negHi[i]) - static_cast<double>(box.lo[i]);
-    };
-    return side(0) * side(1) + side(1) * side(2) + side(2) * side(0);
-}
-
 Bounds boundsOf(const PrimBox& b) {
     return {{b.lo[0], b.lo[1], b.lo[2]}, {-b.negHi[0], -b.negHi[1], -b.negHi[2]}};
-}
-
-// Where bins lie, in doubled centres. What is outside falls into the outmost ones, so an estimate
-// of the bounds will do.
-struct Grid {
-    std::array<float, 3> lo, hi, scale; // scale 0: an axis without extent
-    std::uint32_t bins;
-
-    static Grid over(const std::array<float, 3>& lo, const std::array<float, 3>& hi,
-                     std::uint32_t count) {
-        Grid g{lo, hi, {}, std::min(kBins, 6 + count / 8)};
-        for (std::size_t i = 0; i < 3; ++i)
-            g.scale[i] =
-                hi[i] - lo[i] > 0x1p-100f ? static_cast<float>(g.bins) / (hi[i] - lo[i]) : 0;
-        return g;
-    }
-    std::uint32_t binOf(const PrimBox& p, std::size_t axis) const {
-        const float position = (twiceCentre(p, axis) - lo[axis]) * scale[axis];
-        return static_cast<std::uint32_t>(clamp(position, 0.0f, static_cast<float>(bins - 1)));
-    }
-};
-
-struct Bins {
-    PrimBox box[3][kBins];
-    std::uint32_t count[3][kBins];
-
-    void clear(std::uint32_t used) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            std::fill_n(box[axis], used, kEmpty);
-            std::fill_n(count[axis], used, 0u);
-        }
-    }
-    void add(const Grid& grid, const PrimBox& p) {
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const std::uint32_t b = grid.binOf(p, axis);
-            extend(box[axis][b], p);
-            ++count[axis][b];
-        }
-    }
-};
-
-struct Split {
-    double cost = std::numeric_limits<double>::infinity(); // area-weighted primitive count
-    std::size_t axis = 0;
-    std::uint32_t bin = 0; // primitives of bins < bin go left
-    std::uint32_t leftCount = 0;
-    PrimBox left = kEmpty, right = kEmpty;
-    bool exists() const { return leftCount > 0; }
-};
-
-// Cheapest split over the bins of all three axes.
-Split bestSplit(const Bins& bins, std::uint32_t used, std::uint32_t count) {
-    Split best;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        std::array<double, kBins> rightCost;
-        PrimBox box = kEmpty;
-        std::uint32_t n = 0;
-        for (std::uint32_t b = used - 1; b > 0; --b) {
-            extend(box, bins.box[axis][b]);
-            n += bins.count[axis][b];
-            rightCost[b] = n > 0 ? halfAreaOf(box) * n : 0;
-        }
-        box = kEmpty, n = 0;
-        for (std::uint32_t b = 1; b < used; ++b) {
-            extend(box, bins.box[axis][b - 1]);
-            n += bins.count[axis][b - 1];
-            if (n == 0 || n == count) continue;
-            const double cost = halfAreaOf(box) * n + rightCost[b];
-            if (cost < best.cost) best = {cost, axis, b, n, box, kEmpty};
-        }
-    }
-    if (best.exists())
-        for (std::uint32_t b = best.bin; b < used; ++b) extend(best.right, bins.box[best.axis][b]);
-    return best;
 }
 
 struct Range {
@@ -139,7 +38,7 @@ struct Range {
     int depth;
     bool inSpare; // in which of the two lists it lies
     PrimBox box;
-    Grid grid;
+    BinGrid grid;
     Split split;
 };
 
@@ -160,7 +59,7 @@ void splitExactly(Range& r, const PrimBox* prims) {
             lo[axis] = min(twiceCentre(prims[i], axis), lo[axis]);
             hi[axis] = max(twiceCentre(prims[i], axis), hi[axis]);
         }
-    r.grid = Grid::over(lo, hi, r.count);
+    r.grid = BinGrid::over(lo, hi, r.count);
     Bins bins;
     bins.clear(r.grid.bins);
     for (std::uint32_t i = 0; i < r.count; ++i) bins.add(r.grid, prims[i]);
@@ -168,7 +67,7 @@ void splitExactly(Range& r, const PrimBox* prims) {
 }
 
 // A child's centres are within its box, and on its side of the cut: close enough for bins.
-Grid childGrid(const Range& r, const PrimBox& box, bool right, std::uint32_t count) {
+BinGrid childGrid(const Range& r, const PrimBox& box, bool right, std::uint32_t count) {
     std::array<float, 3> lo, hi;
     for (std::size_t i = 0; i < 3; ++i) {
         lo[i] = max(r.grid.lo[i], 2 * box.lo[i]);
@@ -180,7 +79,7 @@ Grid childGrid(const Range& r, const PrimBox& box, bool right, std::uint32_t cou
         lo[axis] = max(lo[axis], cut);
     else
         hi[axis] = min(hi[axis], cut);
-    return Grid::over(lo, hi, count);
+    return BinGrid::over(lo, hi, count);
 }
 
 struct Halves {
@@ -266,8 +165,8 @@ private:
         nodes.push_back({boundsOf(halves.right.box), 0, 0});
         const double left = grow(child, halves.left);
         const double inTree = area + left + grow(child + 1, halves.right);
-        if (inTree < asLeaf) return inTree;
-        nodes.resize(child); // all in vain: most rays that get here try nearly all primitives
+        if (inTree <= kWorthwhile * asLeaf) return inTree; // boxes without area stay in a tree
+        nodes.resize(child); // all in vain: rays that get here try nearly all primitives
         makeLeaf(at, r);
         return asLeaf;
     }
@@ -351,12 +250,17 @@ private:
     // Depth first. A node of the top whose subtrees cost more than a list is a list, too.
     void join() {
         std::vector<double> cost(top_.size());
+        std::vector<bool> isList(top_.size());
         for (std::size_t i = top_.size(); i-- > 0;) {
             const Top& t = top_[i];
-            const double area = halfAreaOf(t.box);
-            cost[i] = t.left == 0
-                          ? subtrees_[t.subtree]->cost
-                          : std::min(area + cost[t.left] + cost[t.left + 1], area * t.count);
+            if (t.left == 0) {
+                cost[i] = subtrees_[t.subtree]->cost;
+                continue;
+            }
+            const double area = halfAreaOf(t.box), asLeaf = area * t.count;
+            cost[i] = area + cost[t.left] + cost[t.left + 1];
+            isList[i] = cost[i] > kWorthwhile * asLeaf;
+            if (isList[i]) cost[i] = asLeaf;
         }
         std::size_t size = top_.size();
         for (const auto& s : subtrees_) size += s->nodes.size();
@@ -376,7 +280,7 @@ private:
                 continue;
             }
             bvh_.nodes[node].box = boundsOf(t.box);
-            if (cost[i] == halfAreaOf(t.box) * t.count) {
+            if (isList[i]) {
                 bvh_.nodes[node].first = t.first, bvh_.nodes[node].count = t.count;
                 continue;
             }
@@ -412,22 +316,4 @@ private:
 
 Bvh buildBvh(std::span<const Bounds> boxes, int threads) {
     return boxes.empty() ? Bvh{} : Builder(boxes, threads).take();
-}
-
-double sahCost(const Bvh& bvh) {
-    if (bvh.nodes.empty()) return 0;
-    const auto areaOf = [](const Bounds& box) {
-        const Vec3d d = toDouble(box.hi) - toDouble(box.lo);
-        return d.x * d.y + d.y * d.z + d.z * d.x;
-    };
-    double sum = 0;
-    for (const BvhNode& node : bvh.nodes)
-        sum += areaOf(node.box) * (node.isLeaf() ? node.count : 1);
-    const double root = areaOf(bvh.nodes[0].box);
-    return root > 0 ? sum / root : static_cast<double>(bvh.nodes.size());
-}
-
-std::size_t leafCount(const Bvh& bvh) {
-    return static_cast<std::size_t>(std::count_if(bvh.nodes.begin(), bvh.nodes.end(),
-                                                  [](const BvhNode& n) { return n.isLeaf(); }));
 }

@@ -25,7 +25,7 @@ void fillBins(const BinGrid& grid, const PrimBox* from, std::uint32_t count, Bin
 }
 
 inline bool goesLeft(const BuildRange& r, __m128 cut, Box p) {
-    const __m128 below = _mm_cmplt_ps(positionIn(r.grid, p), cut);
+    const __m128 below = _mm_cmpnge_ps(positionIn(r.grid, p), cut);
     return static_cast<unsigned>(_mm_movemask_ps(below)) >> r.split.axis & 1;
 }
 
