@@ -17,9 +17,9 @@ using namespace bvh_build;
 
 // More primitives than these are split, whether it pays or not; whether it did is seen afterwards.
 constexpr std::uint32_t kMaxLeaf = 8;
-// A tree must save this part of what the list of its primitives costs: a list is read in the order
-// of memory, which is up to ten times as fast.
-constexpr double kWorthwhile = 0.8;
+// A tree over many primitives must save this part of what the list of them costs: a list is read in
+// the order of memory, which is up to ten times as fast.
+double worthwhile(std::uint32_t count) { return count > 64 ? 0.8 : 1.0; }
 // From this depth on every split halves the list, which ends after at most 32 more levels.
 constexpr int kHalvingDepth = kMaxBvhDepth - 34;
 // From which depth on the top is no longer divided: what is so lopsided is left to a subtree.
@@ -165,7 +165,8 @@ private:
         nodes.push_back({boundsOf(halves.right.box), 0, 0});
         const double left = grow(child, halves.left);
         const double inTree = area + left + grow(child + 1, halves.right);
-        if (inTree <= kWorthwhile * asLeaf) return inTree; // boxes without area stay in a tree
+        if (inTree <= worthwhile(r.count) * asLeaf)
+            return inTree;   // boxes without area stay in a tree
         nodes.resize(child); // all in vain: rays that get here try nearly all primitives
         makeLeaf(at, r);
         return asLeaf;
@@ -259,7 +260,7 @@ private:
             }
             const double area = halfAreaOf(t.box), asLeaf = area * t.count;
             cost[i] = area + cost[t.left] + cost[t.left + 1];
-            isList[i] = cost[i] > kWorthwhile * asLeaf;
+            isList[i] = cost[i] > worthwhile(t.count) * asLeaf;
             if (isList[i]) cost[i] = asLeaf;
         }
         std::size_t size = top_.size();
