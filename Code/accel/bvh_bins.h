@@ -36,9 +36,10 @@ inline void extend(PrimBox& to, const PrimBox& by) {
 
 inline float twiceCentre(const PrimBox& p, std::size_t axis) { return p.lo[axis] - p.negHi[axis]; }
 
-inline double halfAreaOf(const PrimBox& box) {
+// As rays see a box: larger by their rounding (RaySetup), `pad` on both sides together.
+inline double halfAreaOf(const PrimBox& box, double pad) {
     const auto side = [&](std::size_t i) {
-        return static_cast<double>(-box.negHi[i]) - static_cast<double>(box.lo[i]);
+        return static_cast<double>(-box.negHi[i]) - static_cast<double>(box.lo[i]) + pad;
     };
     return side(0) * side(1) + side(1) * side(2) + side(2) * side(0);
 }
@@ -94,7 +95,7 @@ struct Split {
 };
 
 // Cheapest split over the bins of all three axes.
-inline Split bestSplit(const Bins& bins, std::uint32_t used, std::uint32_t count) {
+inline Split bestSplit(const Bins& bins, std::uint32_t used, std::uint32_t count, double pad) {
     Split best;
     for (std::size_t axis = 0; axis < 3; ++axis) {
         std::array<double, kBins> rightCost;
@@ -103,14 +104,14 @@ inline Split bestSplit(const Bins& bins, std::uint32_t used, std::uint32_t count
         for (std::uint32_t b = used - 1; b > 0; --b) {
             extend(box, bins.box[axis][b]);
             n += bins.count[axis][b];
-            rightCost[b] = n > 0 ? halfAreaOf(box) * n : 0;
+            rightCost[b] = n > 0 ? halfAreaOf(box, pad) * n : 0;
         }
         box = kEmpty, n = 0;
         for (std::uint32_t b = 1; b < used; ++b) {
             extend(box, bins.box[axis][b - 1]);
             n += bins.count[axis][b - 1];
             if (n == 0 || n == count) continue;
-            const double cost = halfAreaOf(box) * n + rightCost[b];
+            const double cost = halfAreaOf(box, pad) * n + rightCost[b];
             if (cost < best.cost) best = {cost, axis, b, n, box, kEmpty};
         }
     }

@@ -8,6 +8,7 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -17,9 +18,10 @@ using namespace bvh_build;
 
 // More primitives than these are split, whether it pays or not; whether it did is seen afterwards.
 constexpr std::uint32_t kMaxLeaf = 8;
-// A tree over many primitives must save this part of what the list of them costs: a list is read in
-// the order of memory, which is up to ten times as fast.
-double worthwhile(std::uint32_t count) { return count > 64 ? 0.8 : 1.0; }
+// A tree over more primitives than these must cost less than this part of what their plain list
+// does: a list is read in the order of memory, which is up to ten times as fast.
+constexpr std::uint32_t kMany = 1000;
+constexpr double kWorthwhile = 0.8;
 // From this depth on every split halves the list, which ends after at most 32 more levels.
 constexpr int kHalvingDepth = kMaxBvhDepth - 34;
 // From which depth on the top is no longer divided: what is so lopsided is left to a subtree.
@@ -45,14 +47,16 @@ struct Range {
 // Both lists, and what leaves hold, by position.
 struct Lists {
     PageVector<PrimBox> prims, spare;
-    std::uint32_t* ids;
+    std::uint32_t* ids = nullptr;
+    double pad = 0; // by which rays see boxes larger
     PrimBox* of(const Range& r, bool other = false) {
         return (r.inSpare != other ? spare : prims).data() + r.first;
     }
 };
 
 // A split by exact bounds of the centres.
-void splitExactly(Range& r, const PrimBox* prims) {
+void splitExactly(Range& r, Lists& lists) {
+    const PrimBox* const prims = lists.of(r);
     std::array<float, 3> lo = {kHuge, kHuge, kHuge}, hi = {-kHuge, -kHuge, -kHuge};
     for (std::uint32_t i = 0; i < r.count; ++i)
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -63,7 +67,7 @@ void splitExactly(Range& r, const PrimBox* prims) {
     Bins bins;
     bins.clear(r.grid.bins);
     for (std::uint32_t i = 0; i < r.count; ++i) bins.add(r.grid, prims[i]);
-    r.split = bestSplit(bins, r.grid.bins, r.count);
+    r.split = bestSplit(bins, r.grid.bins, r.count, lists.pad);
 }
 
 // A child's centres are within its box, and on its side of the cut: close enough for bins.
@@ -116,7 +120,8 @@ Halves divide(const Range& r, Lists& lists) {
     }
     for (std::size_t side = 0; side < 2; ++side)
         if (sides[side]->count > 1)
-            sides[side]->split = bestSplit(bins[side], sides[side]->grid.bins, sides[side]->count);
+            sides[side]->split =
+                bestSplit(bins[side], sides[side]->grid.bins, sides[side]->count, lists.pad);
     return out;
 }
 
@@ -148,9 +153,9 @@ public:
 
 private:
     double grow(std::uint32_t at, Range& r) {
-        const double area = halfAreaOf(r.box), asLeaf = area * r.count;
+        const double area = halfAreaOf(r.box, lists_.pad), asLeaf = area * r.count;
         const PrimBox* const prims = lists_.of(r);
-        if (r.count > 1 && !r.split.exists()) splitExactly(r, prims);
+        if (r.count > 1 && !r.split.exists()) splitExactly(r, lists_);
         const bool worthIt = r.split.exists() && r.split.cost + area < asLeaf;
         if (r.count == 1 || (!worthIt && r.count <= kMaxLeaf)) {
             makeLeaf(at, r);
@@ -165,9 +170,9 @@ private:
         nodes.push_back({boundsOf(halves.right.box), 0, 0});
         const double left = grow(child, halves.left);
         const double inTree = area + left + grow(child + 1, halves.right);
-        if (inTree <= worthwhile(r.count) * asLeaf)
-            return inTree;   // boxes without area stay in a tree
+        if (inTree <= asLeaf) return inTree; // boxes without area stay in a tree
         nodes.resize(child); // all in vain: rays that get here try nearly all primitives
+        std::sort(lists_.ids + r.first, lists_.ids + r.first + r.count);
         makeLeaf(at, r);
         return asLeaf;
     }
@@ -194,7 +199,11 @@ public:
                                {-hi.x, -hi.y, -hi.z, 0}};
             extend(root.box, lists_.prims[i]);
         }
-        splitExactly(root, lists_.prims.data());
+        float extent = 0;
+        for (std::size_t i = 0; i < 3; ++i)
+            extent = max(extent, max(std::fabs(root.box.lo[i]), std::fabs(root.box.negHi[i])));
+        lists_.pad = static_cast<double>(extent) * 0x1p-17; // RaySetup: twice 2^-19 on each side
+        splitExactly(root, lists_);
         divideTop(root);
         subtrees_.resize(ranges_.size());
         pool_.run(ranges_.size(), [&](std::size_t i, int) {
@@ -254,13 +263,10 @@ private:
         std::vector<bool> isList(top_.size());
         for (std::size_t i = top_.size(); i-- > 0;) {
             const Top& t = top_[i];
-            if (t.left == 0) {
-                cost[i] = subtrees_[t.subtree]->cost;
-                continue;
-            }
-            const double area = halfAreaOf(t.box), asLeaf = area * t.count;
-            cost[i] = area + cost[t.left] + cost[t.left + 1];
-            isList[i] = cost[i] > worthwhile(t.count) * asLeaf;
+            const double area = halfAreaOf(t.box, lists_.pad), asLeaf = area * t.count;
+            cost[i] =
+                t.left == 0 ? subtrees_[t.subtree]->cost : area + cost[t.left] + cost[t.left + 1];
+            isList[i] = cost[i] > (t.count > kMany ? kWorthwhile : 1) * asLeaf;
             if (isList[i]) cost[i] = asLeaf;
         }
         std::size_t size = top_.size();
@@ -275,18 +281,18 @@ private:
             const auto [i, node] = open.back();
             open.pop_back();
             const Top& t = top_[i];
+            if (isList[i]) {
+                std::sort(&bvh_.primIds[t.first], &bvh_.primIds[t.first] + t.count);
+                bvh_.nodes[node] = {boundsOf(t.box), t.first, t.count};
+                continue;
+            }
             if (t.left == 0) {
                 append(subtrees_[t.subtree]->nodes, node);
                 subtrees_[t.subtree].reset();
                 continue;
             }
-            bvh_.nodes[node].box = boundsOf(t.box);
-            if (isList[i]) {
-                bvh_.nodes[node].first = t.first, bvh_.nodes[node].count = t.count;
-                continue;
-            }
             const auto child = static_cast<std::uint32_t>(bvh_.nodes.size());
-            bvh_.nodes[node].first = child;
+            bvh_.nodes[node] = {boundsOf(t.box), child, 0};
             bvh_.nodes.resize(child + 2);
             open.push_back({t.left + 1, child + 1});
             open.push_back({t.left, child});
