@@ -33,9 +33,9 @@ struct MeshGeometry {
     std::uint64_t dropDegenerate();
     // Triangles with a corner at NaN or infinity become points, which no ray meets.
     void collapseEndless();
-    // Does that, computes extent and, if wanted, the tree that the kernel needs. The lists do not
-    // change afterwards.
-    void finish(bool withTree, const Kernel& forKernel = chooseKernel("scalar"));
+    // Does that, computes extent and, if wanted, the tree that the kernel needs, the same for any
+    // number of threads. The lists do not change afterwards.
+    void finish(bool withTree, const Kernel& forKernel = chooseKernel("scalar"), int threads = 1);
     WideMesh wideMesh() const { return {wide, points, triangles, extent}; }
     std::size_t bytes() const;
 };
