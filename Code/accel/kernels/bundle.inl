@@ -76,7 +76,7 @@ private:
     void prefetch(WideRef ref) const {
         const std::byte* const line = mesh_.tree.base() + byteOffset(ref);
         const int lines = kindOf(ref) == WideKind::Node ? kNodeLines : kLeafLines;
-        for (int i = 0; i < lines; ++i) __builtin_prefetch(line + 64 * i);
+        for (int i = 0; i < lines; ++i) __builtin_prefetch(line + std::ptrdiff_t{64} * i);
     }
 
     // Children that the rectangle's pyramid enters in front of leaf_.zCut(), and their depths.

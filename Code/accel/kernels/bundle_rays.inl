@@ -108,7 +108,9 @@ public:
     float leastBelow;
 
 private:
-    static std::size_t at(int p, int lane) { return static_cast<std::size_t>(p * W + lane); }
+    static std::size_t at(int p, int lane) {
+        return static_cast<std::size_t>(p) * W + static_cast<std::size_t>(lane);
+    }
 
     // Is every lane of the packet a ray, and do they follow each other in the batch?
     bool isFull(int p) const { return inARow_ && at(p + 1, 0) <= list_.size(); }
