@@ -37,6 +37,11 @@ struct Surface {
     Vec3 lift;
 };
 
+// Parts of a Surface that cost time, and are of no use in some pictures.
+struct SurfaceNeeds {
+    bool uv = true, lift = true;
+};
+
 // Change of the position with the texture coordinates, for bump and normal maps.
 struct SurfaceDerivatives {
     Vec3 dpdu, dpdv;
