@@ -23,8 +23,9 @@ template <class T> T interpolate(T a, T b, T c, float u, float v) {
 // about 8 units of the largest coordinate difference, doubled. See RaySetup for the pads.
 constexpr double kTriangleError = 0x1p-20;
 
-// The ray's part of it, of a ray from far: slopes and differences in float.
-constexpr float kRayError = 0x1p-22f;
+// The ray's part of it: slopes and differences of the corners in float move what it meets by up to
+// 4 units of its length to the side, its depth is rounded thrice.
+constexpr float kRayError = 0x1p-21f;
 
 // Rays leave a surface kTriangleError off its plane; this many times as far from its edges they are
 // on the inner side of the neighbours as well, down to an angle of 30 degrees between both.

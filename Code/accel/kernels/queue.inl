@@ -27,7 +27,7 @@ public:
     Queue(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order)
         : mesh_(mesh), rays_(rays), order_(order), base_(mesh.tree.base()),
           // An odd number of lines between stacks spreads them over the sets of the cache.
-          stride_(((mesh.tree.stackSize + 2 * W + 15) / 16 | 1) * 16) {
+          stride_(((mesh.tree.stackSize + std::size_t{2} * W + 15) / 16 | 1) * 16) {
         const std::size_t stacks = kSlots * stride_ * sizeof(std::uint32_t);
         std::byte* const memory = scratchMemory(kBlocks * sizeof(RayBlock) + 2 * stacks);
         blocks_ = reinterpret_cast<RayBlock*>(memory);
