@@ -25,7 +25,7 @@ MeshGeometry geometryOf(const std::string& file) {
         const MeshDesc& mesh = loaded.desc.meshes[static_cast<std::size_t>(object.mesh)];
         std::uint32_t slots = 1;
         for (const std::uint32_t slot : mesh.triangleMaterials) slots = std::max(slots, slot + 1);
-        merged.add(mesh, Transform::fromRows(object.worldFromObject[0]), frame,
+        merged.add(mesh, frame.placed(object.worldFromObject[0]),
                    std::vector<std::uint32_t>(slots, 0), 0);
     }
     if (merged.geometry.triangles.empty()) failUsage(cat(file, " has no triangles"));
@@ -52,7 +52,7 @@ double median(std::vector<double> values) {
 // Returns how many rays hit. Of a nearest hit its t and triangle: u and v are computed where they
 // are needed, once per picture sample.
 std::size_t trace(const MeshGeometry& geometry, const BenchRays& rays) {
-    const Mesh scalar(geometry, MovingTransform(), {0}, {{0, 0}});
+    const Mesh scalar(geometry, {0}, {{0, 0}});
     std::vector<TriangleHit> hits;
     std::vector<std::uint8_t> hidden;
     std::size_t count = 0;

@@ -51,12 +51,21 @@ void ShapeSet::visit(const RaySetup& setup, float zCut, Ask ask, VisitFn&& fn) c
         if (leaf(i, zCut)) return;
 }
 
-// Takes the hit of a shape if it is nearer than the best one, equal ones by number.
-static bool takeNearer(Hit hit, std::uint32_t number, float tEntry, Hit& best) {
+// A total order, because shapes with triangles have numbers in a row (render/scene.cpp).
+bool ShapeSet::isBefore(const Ray& ray, const Hit& a, const Hit& b) const {
+    const auto orderA = shapes[a.shape]->tieOrder(ray, a);
+    const auto orderB = shapes[b.shape]->tieOrder(ray, b);
+    if (orderA && orderB && *orderA != *orderB) return orderA->isBefore(*orderB);
+    return std::tie(a.shape, a.prim) < std::tie(b.shape, b.prim);
+}
+
+bool ShapeSet::takeNearer(const Ray& ray, Hit hit, std::uint32_t number, float tEntry,
+                          Hit& best) const {
     hit.t = max(tEntry, hit.t);
-    if (hit.t > best.t || (hit.t == best.t && number > best.shape)) return false;
+    hit.shape = number;
+    if (hit.t > best.t) return false;
+    if (hit.t == best.t && best.isHit() && !isBefore(ray, hit, best)) return false;
     best = hit;
-    best.shape = number;
     return true;
 }
 
@@ -65,7 +74,7 @@ void ShapeSet::visitNearer(const Ray& ray, const RaySetup& setup, Ask ask, Hit& 
           [&](std::uint32_t number, float zEntry, float& zCut) {
               Hit hit = best;
               if (!shapes[number]->intersect(ray, hit)) return false;
-              if (takeNearer(hit, number, zEntry / setup.dz, best))
+              if (takeNearer(ray, hit, number, zEntry / setup.dz, best))
                   zCut = min(depthCut(1.0f / (best.t * setup.dz)), zCut);
               return false;
           });
@@ -104,7 +113,7 @@ void ShapeSet::closest(const RaySpan& rays, std::vector<Hit>& hits) const {
             float zEntry = 0;
             const float zCut = depthCut(1.0f / (best.t * setup.dz));
             if (found[b][i].isHit() && setup.enters(boxes[batched[b]], zCut, zEntry))
-                takeNearer(found[b][i], batched[b], zEntry / setup.dz, best);
+                takeNearer(ray, found[b][i], batched[b], zEntry / setup.dz, best);
         }
         if (others) visitNearer(ray, setup, Ask::ButBatched, best);
     }
@@ -153,8 +162,7 @@ void ShapeSet::seeThroughHits(const Ray& ray, std::vector<Hit>& hits) const {
               for (std::size_t i = first; i < hits.size(); ++i) hits[i].shape = number;
               return false;
           });
-    std::sort(hits.begin() + static_cast<std::ptrdiff_t>(before), hits.end(),
-              [](const Hit& a, const Hit& b) {
-                  return std::tie(a.t, a.shape, a.prim) < std::tie(b.t, b.shape, b.prim);
-              });
+    std::sort(
+        hits.begin() + static_cast<std::ptrdiff_t>(before), hits.end(),
+        [&](const Hit& a, const Hit& b) { return a.t != b.t ? a.t < b.t : isBefore(ray, a, b); });
 }

@@ -13,7 +13,19 @@
 #include "base/ray_span.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
+
+// Who is first of two triangles that a ray hits at the same t: the larger key, 1/depth before it
+// was rounded to t, then the object that the scene names first.
+struct TieOrder {
+    float key = 0;
+    std::uint32_t object = 0;
+    bool operator==(const TieOrder&) const = default;
+    bool isBefore(const TieOrder& other) const {
+        return key != other.key ? key > other.key : object < other.object;
+    }
+};
 
 class Shape {
 public:
@@ -52,4 +64,8 @@ public:
     // Describes the point of a hit that intersect() or collect() found for this ray.
     virtual Surface surface(const Ray& ray, const Hit& hit) const = 0;
     virtual SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const = 0;
+
+    // Of a hit on a triangle, which may have come into one mesh with others or not; shapes of other
+    // kinds go by their numbers.
+    virtual std::optional<TieOrder> tieOrder(const Ray&, const Hit&) const { return {}; }
 };

@@ -1,0 +1,60 @@
+#include "shape/mesh_geometry.h"
+
+std::uint64_t MeshGeometry::dropDegenerate() {
+    const auto coincide = [this](std::uint32_t a, std::uint32_t b) {
+        return exactPoints.empty() ? points[a] == points[b] : exactPoints[a] == exactPoints[b];
+    };
+    std::uint64_t withoutArea = 0;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const Corners c = triangles[i];
+        const Vec3d v0 = toDouble(points[c[0]]);
+        if (cross(toDouble(points[c[1]]) - v0, toDouble(points[c[2]]) - v0) == Vec3d{})
+            ++withoutArea;
+        if (coincide(c[0], c[1]) || coincide(c[1], c[2]) || coincide(c[2], c[0])) continue;
+        triangles[kept] = c;
+        if (!normalTriangles.empty()) normalTriangles[kept] = normalTriangles[i];
+        if (!uvTriangles.empty()) uvTriangles[kept] = uvTriangles[i];
+        if (!slots.empty()) slots[kept] = slots[i];
+        ++kept;
+    }
+    triangles.resize(kept);
+    if (!normalTriangles.empty()) normalTriangles.resize(kept);
+    if (!uvTriangles.empty()) uvTriangles.resize(kept);
+    if (!slots.empty()) slots.resize(kept);
+    return withoutArea;
+}
+
+void MeshGeometry::finish(bool withTree, const Kernel& forKernel) {
+    extent = kSceneExtent;
+    for (const Vec3 p : points) extent = max(maxAbs(p), extent);
+    if (!exactPoints.empty()) {
+        exactBox = {};
+        longestSide = 0;
+        for (const Vec3d p : exactPoints) exactBox.extend(p);
+        for (const Corners& c : triangles)
+            for (std::size_t i = 0; i < 3; ++i)
+                longestSide =
+                    max(length(exactPoints[c[i]] - exactPoints[c[(i + 1) % 3]]), longestSide);
+    }
+    if (!withTree || triangles.empty()) return;
+    if (forKernel.width > 0) {
+        kernel = &forKernel;
+        wide = buildWide(forKernel.width, points, triangles);
+        return;
+    }
+    {
+        std::vector<Bounds> boxes(triangles.size());
+        for (std::size_t i = 0; i < triangles.size(); ++i)
+            for (const std::uint32_t corner : triangles[i]) boxes[i].extend(points[corner]);
+        bvh = buildBvh(boxes);
+    }
+    bvh.nodes.shrink_to_fit();
+}
+
+std::size_t MeshGeometry::bytes() const {
+    return bvh.bytes() + wide.bytes() + points.size() * sizeof(Vec3) +
+           exactPoints.size() * sizeof(Vec3d) + triangles.size() * sizeof(Corners) +
+           normals.size() * sizeof(Vec3) + normalTriangles.size() * sizeof(Corners) +
+           uvs.size() * sizeof(Vec2) + uvTriangles.size() * sizeof(Corners) + slots.size() * 4;
+}

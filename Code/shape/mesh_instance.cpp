@@ -1,0 +1,105 @@
+#include "shape/mesh_instance.h"
+
+#include <utility>
+
+MeshInstance::MeshInstance(const MeshGeometry& geometry, MovingTransform sceneFromObject,
+                           std::vector<std::uint32_t> materials, std::uint32_t object)
+    : geometry_(geometry), motion_(std::move(sceneFromObject)), still_(geometry, motion_.at(0)),
+      materials_(std::move(materials)), object_(object) {
+    if (geometry.triangles.empty()) return;
+    if (motion_.isStatic())
+        for (const Vec3d p : geometry.exactPoints)
+            bounds_.extend(placedPoint(still_.sceneFromObject, p));
+    else
+        bounds_ = outward(motion_.bounds(geometry.exactBox));
+    extent_ = max(max(maxAbs(bounds_.lo), maxAbs(bounds_.hi)), extent_);
+}
+
+// A mirror turns triangles over: then two corners change places, as in a copy (render/merge.cpp).
+TriangleCorners MeshInstance::corners(const Transform& sceneFromObject,
+                                      std::uint32_t triangle) const {
+    const auto& c = geometry_.triangles[triangle];
+    const auto at = [&](std::uint32_t i) {
+        return placedPoint(sceneFromObject, geometry_.exactPoints[i]);
+    };
+    TriangleCorners v{at(c[0]), at(c[1]), at(c[2])};
+    if (sceneFromObject.mirrors()) std::swap(v[1], v[2]);
+    return v;
+}
+
+template <class LeafFn>
+void MeshInstance::candidates(const Ray& ray, const Place& place, const RaySetup& setup, float zCut,
+                              LeafFn&& leaf) const {
+    const auto test = [&](std::uint32_t triangle, float& cut) {
+        return leaf(triangle, corners(place.sceneFromObject, triangle), cut);
+    };
+    const auto treeRay =
+        geometry_.bvh.nodes.empty() ? std::nullopt : place.filter.treeRay(ray, setup, extent_);
+    if (!treeRay) {
+        for (std::uint32_t i = 0; i < geometry_.triangles.size(); ++i)
+            if (test(i, zCut)) return;
+        return;
+    }
+    traverse(geometry_.bvh, treeRay->setup(), treeRay->cut(zCut),
+             [&](std::uint32_t triangle, float& treeCut) {
+                 const auto& c = geometry_.triangles[triangle];
+                 const auto& points = geometry_.points;
+                 if (!treeRay->mayMeet(points[c[0]], points[c[1]], points[c[2]])) return false;
+                 const float before = zCut;
+                 const bool stop = test(triangle, zCut);
+                 if (zCut < before) treeCut = min(treeRay->cut(zCut), treeCut);
+                 return stop;
+             });
+}
+
+// query(setup, candidates) of triangle_queries.h at the time of the ray.
+template <class Query> auto MeshInstance::ask(const Ray& ray, Query&& query) const {
+    const auto at = [&](const Place& place) {
+        return query([&](const RaySetup& setup, float zCut, auto&& leaf) {
+            candidates(ray, place, setup, zCut, leaf);
+        });
+    };
+    return motion_.isStatic() ? at(still_) : at(Place(geometry_, placeAt(ray.time)));
+}
+
+bool MeshInstance::intersect(const Ray& ray, Hit& hit) const {
+    if (!isTraceable(ray)) return false;
+    return ask(ray, [&](auto&& found) { return nearestTriangle(ray, setupFor(ray), hit, found); });
+}
+
+bool MeshInstance::occludes(const Ray& ray) const {
+    if (!isTraceable(ray)) return false;
+    return ask(ray, [&](auto&& found) { return anyTriangle(ray, setupFor(ray), found); });
+}
+
+void MeshInstance::collect(const Ray& ray, std::vector<Hit>& hits) const {
+    if (!isTraceable(ray)) return;
+    ask(ray, [&](auto&& found) { allTriangles(ray, setupFor(ray), hits, found); });
+}
+
+SurfaceTriangle MeshInstance::surfaceTriangle(const Transform& sceneFromObject,
+                                              std::uint32_t triangle) const {
+    SurfaceTriangle out(geometry_, triangle, corners(sceneFromObject, triangle));
+    if (out.hasNormals)
+        for (Vec3& n : out.normals) n = placedNormal(sceneFromObject, n);
+    if (sceneFromObject.mirrors()) {
+        std::swap(out.normals[1], out.normals[2]);
+        std::swap(out.uvs[1], out.uvs[2]);
+    }
+    return out;
+}
+
+Surface MeshInstance::surface(const Ray& ray, const Hit& hit) const {
+    Surface s = surfaceOf(surfaceTriangle(placeAt(ray.time), hit.prim), ray, hit);
+    s.material = materials_[geometry_.slots.empty() ? 0 : geometry_.slots[hit.prim]];
+    s.object = object_;
+    return s;
+}
+
+SurfaceDerivatives MeshInstance::derivatives(const Ray& ray, const Hit& hit) const {
+    return derivativesOf(surfaceTriangle(placeAt(ray.time), hit.prim));
+}
+
+std::optional<TieOrder> MeshInstance::tieOrder(const Ray& ray, const Hit& hit) const {
+    return TieOrder{canonicalKey(setupFor(ray), corners(placeAt(ray.time), hit.prim)), object_};
+}
