@@ -1,7 +1,5 @@
 #include "shape/instance_filter.h"
 
-#include "accel/triangle.h"
-
 // What it rests on. Let u = 2^-24, S the largest coordinate of the scene and the ray's origin.
 // An accepted triangle has a point Y that the ray passes by at most 12 uS beside (accel/triangle.h:
 // the signs are those of corners which rounding moved laterally by that much). Corners in the scene
@@ -13,8 +11,8 @@
 //
 // The depth of a canonical hit is that of the triangle's plane where the ray is, at Y or beside it,
 // and of a triangle seen edge-on it can be anywhere in the depths that the corners have. So the ray
-// is at Y at most `reach` before or behind the hit, along its dominant axis: the ray in the tree
-// starts that much earlier, and a depth cuts that much later.
+// is at Y at most a side of the triangle before or behind the hit: that much room have the boxes
+// around it, before the start of the ray and behind what is wanted.
 
 namespace {
 
@@ -30,71 +28,80 @@ double sumOfSizes(const Rows& m, std::size_t row, Vec3d at) {
     return std::fabs(m[i]) * at.x + std::fabs(m[i + 1]) * at.y + std::fabs(m[i + 2]) * at.z;
 }
 
+// Into the scene and back is not quite where it started from, less so the flatter the instance is:
+// the most that a point of the box moves along axis i.
+double wayOff(const Rows& back, const Rows& forth, std::size_t i, Vec3d movedCentre, Vec3d half) {
+    double off = std::fabs(movedCentre[i]);
+    for (std::size_t j = 0; j < 3; ++j) {
+        const double entry = back[4 * i] * forth[j] + back[4 * i + 1] * forth[4 + j] +
+                             back[4 * i + 2] * forth[8 + j];
+        off += std::fabs(entry - (i == j ? 1 : 0)) * half[j];
+    }
+    return off;
+}
+
+Vec3d linear(const Rows& m, Vec3d v) {
+    return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[4] * v.x + m[5] * v.y + m[6] * v.z,
+            m[8] * v.x + m[9] * v.y + m[10] * v.z};
+}
+
 } // namespace
 
-InstanceFilter::InstanceFilter(const MeshGeometry& geometry, const Transform& sceneFromObject) {
-    const Transform objectFromScene = sceneFromObject.inverse();
-    treeFromScene_ = geometry.treeFromObject * objectFromScene;
-    if (sceneFromObject.isSingular() || treeFromScene_.isSingular()) {
+TreeRay::TreeRay(const MeshGeometry& mesh, const RaySetup& setup, float lateralError,
+                 double depthPerT, double depthPerSide)
+    : mesh_(mesh), setup_(setup), lateralError_(lateralError),
+      depthPerSide_(static_cast<float>(min(depthPerSide, 0x1p100))), depthPerT_(depthPerT) {
+    acrossX_[setup.kx] = acrossY_[setup.ky] = 1;
+    acrossX_[setup.k] = -setup.Sx * setup.sign;
+    acrossY_[setup.k] = -setup.Sy * setup.sign;
+    originX_ = static_cast<float>(-dot(toDouble(acrossX_), toDouble(setup.org)));
+    originY_ = static_cast<float>(-dot(toDouble(acrossY_), toDouble(setup.org)));
+}
+
+InstanceFilter::InstanceFilter(const MeshGeometry& mesh, const Transform& sceneFromObject)
+    : mesh_(mesh) {
+    if (sceneFromObject.isSingular()) {
         own_ = kInfinity;
         return;
     }
-    const Rows& scene = sceneFromObject.rows();
-    const Rows& toTree = treeFromScene_.rows();
-    const Rows& fromScene = objectFromScene.rows();
-    const Rows& ofTree = geometry.treeFromObject.rows();
-    // Terms that make a coordinate of the scene, which may be larger than their sum.
-    const BoundsD& box = geometry.exactBox;
-    Vec3d largest, terms;
-    for (std::size_t i = 0; i < 3; ++i)
-        largest[i] = max(std::fabs(box.lo[i]), std::fabs(box.hi[i]));
+    const Transform objectFromScene = sceneFromObject.inverse();
+    const Rows& forth = sceneFromObject.rows();
+    const Rows& back = objectFromScene.rows();
+    const Rows& tree = mesh.treeFromObject.rows();
+    const double scale = tree[0]; // along all axes
+    const BoundsD& box = mesh.exactBox;
+    const Vec3d centre = box.centre(), half = box.hi - centre;
+    const Vec3d movedCentre = objectFromScene.point(sceneFromObject.point(centre)) - centre;
+    Vec3d largest, terms; // what a coordinate of the scene is made of may be larger than itself
+    for (std::size_t i = 0; i < 3; ++i) largest[i] = std::fabs(centre[i]) + half[i];
+    double error = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-        terms[i] = sumOfSizes(scene, i, largest) + std::fabs(scene[4 * i + 3]);
-        const Vec3d row{scene[4 * i], scene[4 * i + 1], scene[4 * i + 2]};
-        reach_[i] = kDepthSlack * length(row) * geometry.longestSide;
+        terms[i] = sumOfSizes(forth, i, largest) + std::fabs(forth[4 * i + 3]);
+        const Vec3d row{forth[4 * i], forth[4 * i + 1], forth[4 * i + 2]};
+        longer_ = max(kDepthSlack * length(row), longer_);
     }
-    // There and back is not quite where it started from, less so the flatter the instance is.
-    const Rows back =
-        (treeFromScene_ * (sceneFromObject * geometry.treeFromObject.inverse())).rows();
-    const double size = static_cast<double>(geometry.extent);
-    double away = 0, noise = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-        double sum = std::fabs(back[4 * i + 3]);
-        for (std::size_t j = 0; j < 3; ++j)
-            sum += std::fabs(back[4 * i + j] - (i == j ? 1 : 0)) * size;
-        away = max(sum, away);
-        const double shift =
-            std::fabs(ofTree[5 * i] * fromScene[4 * i + 3]) + std::fabs(ofTree[4 * i + 3]);
-        noise = max(kDoubleError * (sumOfSizes(toTree, i, terms) + shift), noise);
-        stretch_ = max(kDepthSlack * sumOfSizes(toTree, i, {1, 1, 1}), stretch_);
+        const double noise = kDoubleError * (sumOfSizes(back, i, terms) +
+                                             std::fabs(back[4 * i + 3]) + 2 * largest[i]);
+        error = max(scale * (wayOff(back, forth, i, movedCentre, half) + noise), error);
+        stretch_ = max(kDepthSlack * scale * sumOfSizes(back, i, {1, 1, 1}), stretch_);
+        for (std::size_t j = 4 * i; j < 4 * i + 4; ++j) treeFromScene_[j] = scale * back[j];
+        treeFromScene_[4 * i + 3] += tree[4 * i + 3];
     }
-    own_ = size + 0x1p24 * (away + noise);
+    own_ = static_cast<double>(mesh.extent) + 0x1p24 * error;
 }
 
-std::optional<TreeRay> InstanceFilter::treeRay(const Ray& ray, const RaySetup& scene,
-                                               float sceneExtent) const {
-    const double early = reach_[scene.k] / static_cast<double>(scene.dz); // in t
-    const RayD moved = treeFromScene_.ray(toDouble(ray));
-    const Ray inTree{toFloat(moved.org - moved.dir * early), toFloat(moved.dir)};
+std::optional<TreeRay> InstanceFilter::treeRay(const Ray& ray, float sceneExtent) const {
+    const Rows& m = treeFromScene_;
+    const Vec3d dir = linear(m, toDouble(ray.dir));
+    const Vec3d org = linear(m, toDouble(ray.org)) + Vec3d{m[3], m[7], m[11]};
+    const Ray inTree{toFloat(org), toFloat(dir)};
     const auto extent = static_cast<float>(
         own_ + stretch_ * static_cast<double>(max(sceneExtent, maxAbs(ray.org))));
     // Pads that are larger than the tree let everything pass anyway.
     if (!isTraceable(inTree) || !(extent < 0x1p18f)) return {};
     const RaySetup setup(inTree.org, inTree.dir, extent);
     const double depthPerT = kDepthSlack * static_cast<double>(setup.dz);
-    return TreeRay(setup, max(extent, maxAbs(inTree.org)) * 0x1p-18f,
-                   depthPerT / static_cast<double>(scene.dz), 2 * early * depthPerT);
-}
-
-// Woop's test with edge functions that may be off: corners which are moved by up to `d` along each
-// axis, at most m away from the ray, change them by 4 d m.
-bool TreeRay::mayMeet(Vec3 v0, Vec3 v1, Vec3 v2) const {
-    const ShearedTriangle s(setup_, v0, v1, v2);
-    const float U = s.x[2] * s.y[1] - s.y[2] * s.x[1];
-    const float V = s.x[0] * s.y[2] - s.y[0] * s.x[2];
-    const float W = s.x[1] * s.y[0] - s.y[1] * s.x[0];
-    float m = 0;
-    for (int i = 0; i < 3; ++i) m = max(max(std::fabs(s.x[i]), std::fabs(s.y[i])), m);
-    const float error = 5 * lateralError_ * m;
-    return !(min(U, min(V, W)) < -error && max(U, max(V, W)) > error);
+    return TreeRay(mesh_, setup, max(extent, maxAbs(inTree.org)) * 0x1p-18f, depthPerT,
+                   depthPerT * longer_ / static_cast<double>(maxAbs(ray.dir)));
 }

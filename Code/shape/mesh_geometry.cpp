@@ -1,5 +1,37 @@
 #include "shape/mesh_geometry.h"
 
+namespace {
+
+float longestSideOf(const MeshGeometry& mesh, std::uint32_t triangle) {
+    const auto& c = mesh.triangles[triangle];
+    double longest = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        longest = max(length(mesh.exactPoints[c[i]] - mesh.exactPoints[c[(i + 1) % 3]]), longest);
+    return floatAbove(longest);
+}
+
+std::vector<float> longestSides(const MeshGeometry& mesh) {
+    const auto& nodes = mesh.bvh.nodes;
+    std::vector<std::uint32_t> fromTheRoot{0};
+    for (std::size_t i = 0; i < fromTheRoot.size(); ++i) {
+        const BvhNode& node = nodes[fromTheRoot[i]];
+        if (!node.isLeaf()) fromTheRoot.insert(fromTheRoot.end(), {node.first, node.first + 1});
+    }
+    std::vector<float> out(nodes.size(), 0);
+    for (; !fromTheRoot.empty(); fromTheRoot.pop_back()) {
+        const BvhNode& node = nodes[fromTheRoot.back()];
+        float& longest = out[fromTheRoot.back()];
+        if (node.isLeaf())
+            for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+                longest = max(longestSideOf(mesh, mesh.bvh.primIds[i]), longest);
+        else
+            longest = max(out[node.first], out[node.first + 1]);
+    }
+    return out;
+}
+
+} // namespace
+
 std::uint64_t MeshGeometry::dropDegenerate() {
     const auto coincide = [this](std::uint32_t a, std::uint32_t b) {
         return exactPoints.empty() ? points[a] == points[b] : exactPoints[a] == exactPoints[b];
@@ -28,15 +60,8 @@ std::uint64_t MeshGeometry::dropDegenerate() {
 void MeshGeometry::finish(bool withTree, const Kernel& forKernel) {
     extent = kSceneExtent;
     for (const Vec3 p : points) extent = max(maxAbs(p), extent);
-    if (!exactPoints.empty()) {
-        exactBox = {};
-        longestSide = 0;
-        for (const Vec3d p : exactPoints) exactBox.extend(p);
-        for (const Corners& c : triangles)
-            for (std::size_t i = 0; i < 3; ++i)
-                longestSide =
-                    max(length(exactPoints[c[i]] - exactPoints[c[(i + 1) % 3]]), longestSide);
-    }
+    exactBox = {};
+    for (const Vec3d p : exactPoints) exactBox.extend(p);
     if (!withTree || triangles.empty()) return;
     if (forKernel.width > 0) {
         kernel = &forKernel;
@@ -50,11 +75,13 @@ void MeshGeometry::finish(bool withTree, const Kernel& forKernel) {
         bvh = buildBvh(boxes);
     }
     bvh.nodes.shrink_to_fit();
+    if (!exactPoints.empty()) longestSide = longestSides(*this);
 }
 
 std::size_t MeshGeometry::bytes() const {
-    return bvh.bytes() + wide.bytes() + points.size() * sizeof(Vec3) +
-           exactPoints.size() * sizeof(Vec3d) + triangles.size() * sizeof(Corners) +
-           normals.size() * sizeof(Vec3) + normalTriangles.size() * sizeof(Corners) +
-           uvs.size() * sizeof(Vec2) + uvTriangles.size() * sizeof(Corners) + slots.size() * 4;
+    return bvh.bytes() + longestSide.size() * sizeof(float) + wide.bytes() +
+           points.size() * sizeof(Vec3) + exactPoints.size() * sizeof(Vec3d) +
+           triangles.size() * sizeof(Corners) + normals.size() * sizeof(Vec3) +
+           normalTriangles.size() * sizeof(Corners) + uvs.size() * sizeof(Vec2) +
+           uvTriangles.size() * sizeof(Corners) + slots.size() * 4;
 }

@@ -41,9 +41,9 @@ struct MeshGeometry {
     // Of a mesh for instances: its points as they are in the object, of which each instance makes
     // those of the scene; `points` are theirs, rounded in the space of the tree. Else empty.
     std::vector<Vec3d> exactPoints;
-    Transform treeFromObject;
-    BoundsD exactBox;       // of the exact points
-    double longestSide = 0; // of a triangle of the exact points
+    Transform treeFromObject;       // moves and scales, alike along all axes
+    BoundsD exactBox;               // of the exact points
+    std::vector<float> longestSide; // by node of the bvh: of the exact triangles below
 
     // At most one of the trees; both empty: every triangle is tested (--accel none).
     Bvh bvh;
@@ -55,7 +55,7 @@ struct MeshGeometry {
     // how many have no area. Those with three corners on a line stay: to a ray, whose arithmetic
     // rounds each corner by itself, such a triangle closes the gap between its neighbours.
     std::uint64_t dropDegenerate();
-    // Computes extent, what the exact points are known by and, if wanted, the tree that the kernel
+    // Computes extent, what is said of the exact points and, if wanted, the tree that the kernel
     // needs. The lists do not change afterwards.
     void finish(bool withTree, const Kernel& forKernel = chooseKernel("scalar"));
     WideMesh wideMesh() const { return {wide, points, triangles, extent}; }

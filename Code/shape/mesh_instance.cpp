@@ -28,53 +28,56 @@ TriangleCorners MeshInstance::corners(const Transform& sceneFromObject,
 }
 
 template <class LeafFn>
-void MeshInstance::candidates(const Ray& ray, const Place& place, const RaySetup& setup, float zCut,
-                              LeafFn&& leaf) const {
-    const auto test = [&](std::uint32_t triangle, float& cut) {
-        return leaf(triangle, corners(place.sceneFromObject, triangle), cut);
+void MeshInstance::candidates(const Transform& sceneFromObject,
+                              const std::optional<TreeRay>& treeRay, const RaySetup& setup,
+                              float zCut, LeafFn&& leaf) const {
+    const auto test = [&](std::uint32_t triangle) {
+        return leaf(triangle, corners(sceneFromObject, triangle), zCut);
     };
-    const auto treeRay =
-        geometry_.bvh.nodes.empty() ? std::nullopt : place.filter.treeRay(ray, setup, extent_);
     if (!treeRay) {
         for (std::uint32_t i = 0; i < geometry_.triangles.size(); ++i)
-            if (test(i, zCut)) return;
+            if (test(i)) return;
         return;
     }
-    traverse(geometry_.bvh, treeRay->setup(), treeRay->cut(zCut),
-             [&](std::uint32_t triangle, float& treeCut) {
-                 const auto& c = geometry_.triangles[triangle];
-                 const auto& points = geometry_.points;
-                 if (!treeRay->mayMeet(points[c[0]], points[c[1]], points[c[2]])) return false;
-                 const float before = zCut;
-                 const bool stop = test(triangle, zCut);
-                 if (zCut < before) treeCut = min(treeRay->cut(zCut), treeCut);
-                 return stop;
-             });
+    treeRay->visit(zCut / setup.dz, [&](std::uint32_t triangle, float& tMax) {
+        const auto& c = geometry_.triangles[triangle];
+        const auto& points = geometry_.points;
+        if (!treeRay->mayMeet(points[c[0]], points[c[1]], points[c[2]])) return false;
+        const bool stop = test(triangle);
+        tMax = min(zCut / setup.dz, tMax);
+        return stop;
+    });
 }
 
-// query(setup, candidates) of triangle_queries.h at the time of the ray.
-template <class Query> auto MeshInstance::ask(const Ray& ray, Query&& query) const {
+// query(candidates), as triangle_queries.h wants them, at the time of the ray; false when there are
+// none before tMax.
+template <class Query> bool MeshInstance::ask(const Ray& ray, float tMax, Query&& query) const {
+    if (!isTraceable(ray)) return false;
     const auto at = [&](const Place& place) {
+        const auto treeRay =
+            geometry_.bvh.nodes.empty() ? std::nullopt : place.filter.treeRay(ray, extent_);
+        if (treeRay && !treeRay->mayMeetSome(tMax)) return false;
         return query([&](const RaySetup& setup, float zCut, auto&& leaf) {
-            candidates(ray, place, setup, zCut, leaf);
+            candidates(place.sceneFromObject, treeRay, setup, zCut, leaf);
         });
     };
     return motion_.isStatic() ? at(still_) : at(Place(geometry_, placeAt(ray.time)));
 }
 
 bool MeshInstance::intersect(const Ray& ray, Hit& hit) const {
-    if (!isTraceable(ray)) return false;
-    return ask(ray, [&](auto&& found) { return nearestTriangle(ray, setupFor(ray), hit, found); });
+    return ask(ray, hit.t,
+               [&](auto&& found) { return nearestTriangle(ray, setupFor(ray), hit, found); });
 }
 
 bool MeshInstance::occludes(const Ray& ray) const {
-    if (!isTraceable(ray)) return false;
-    return ask(ray, [&](auto&& found) { return anyTriangle(ray, setupFor(ray), found); });
+    return ask(ray, ray.tMax, [&](auto&& found) { return anyTriangle(ray, setupFor(ray), found); });
 }
 
 void MeshInstance::collect(const Ray& ray, std::vector<Hit>& hits) const {
-    if (!isTraceable(ray)) return;
-    ask(ray, [&](auto&& found) { allTriangles(ray, setupFor(ray), hits, found); });
+    ask(ray, ray.tMax, [&](auto&& found) {
+        allTriangles(ray, setupFor(ray), hits, found);
+        return true;
+    });
 }
 
 SurfaceTriangle MeshInstance::surfaceTriangle(const Transform& sceneFromObject,

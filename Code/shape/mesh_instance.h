@@ -35,10 +35,10 @@ private:
         Place(const MeshGeometry& geometry, const Transform& there)
             : sceneFromObject(there), filter(geometry, there) {}
     };
-    template <class Query> auto ask(const Ray& ray, Query&& query) const;
+    template <class Query> bool ask(const Ray& ray, float tMax, Query&& query) const;
     template <class LeafFn>
-    void candidates(const Ray& ray, const Place& place, const RaySetup& setup, float zCut,
-                    LeafFn&& leaf) const;
+    void candidates(const Transform& sceneFromObject, const std::optional<TreeRay>& treeRay,
+                    const RaySetup& setup, float zCut, LeafFn&& leaf) const;
     RaySetup setupFor(const Ray& ray) const { return {ray.org, ray.dir, extent_}; }
     Transform placeAt(float time) const { return motion_.at(static_cast<double>(time)); }
     TriangleCorners corners(const Transform& sceneFromObject, std::uint32_t triangle) const;
