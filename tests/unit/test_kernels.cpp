@@ -69,7 +69,7 @@ struct Counts {
 // Asks all kernels about the rays; the scalar code says what is right.
 void compare(const Meshes& meshes, const Rays& rays, const std::string& name, Counts& counts) {
     const std::size_t n = rays.org.size();
-    const Mesh oracle(meshes.scalar, MovingTransform(), {0}, {{0, 0}});
+    const Mesh oracle(meshes.scalar, {0}, {{0, 0}});
     std::vector<Hit> expected(n), got(n);
     std::vector<std::uint8_t> expectedHidden(n), hidden(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -81,7 +81,7 @@ void compare(const Meshes& meshes, const Rays& rays, const std::string& name, Co
     }
     counts.rays += n;
     for (const auto& geometry : meshes.wide) {
-        const Mesh mesh(*geometry, MovingTransform(), {0}, {{0, 0}});
+        const Mesh mesh(*geometry, {0}, {{0, 0}});
         CHECK(mesh.takesBatches());
         mesh.intersectBatch(rays.span(), 3, got);
         mesh.occludesBatch(rays.span(), hidden);
@@ -271,8 +271,7 @@ TEST(kernels_in_a_shape_set) {
                 if (n == 3 || n == 8) {
                     MeshGeometry& g = (isFast ? fast : plain)[n == 3 ? 0 : 1];
                     g.finish(isFast, *kernel);
-                    set.add(std::make_unique<Mesh>(g, MovingTransform(),
-                                                   std::vector<std::uint32_t>{0},
+                    set.add(std::make_unique<Mesh>(g, std::vector<std::uint32_t>{0},
                                                    std::vector<MeshPart>{{0, 0}}),
                             n == 3 ? ShapeSet::Shadow::Opaque : ShapeSet::Shadow::SeeThrough);
                 } else {
