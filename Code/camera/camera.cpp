@@ -24,12 +24,12 @@ Camera::Axes Camera::axesOf(const Transform& worldFromCamera) {
 }
 
 Ray Camera::ray(Vec2d pixel, Vec2 lens, float time) const {
-    const Axes axes = axesAt(time);
-    const Vec3d across =
-        axes.right * (topLeft_.x + pixel.x * step_.x) + axes.up * (topLeft_.y - pixel.y * step_.y);
-    const bool perspective = params_.kind == CameraParams::Kind::Perspective;
-    Vec3d org = perspective ? axes.eye : axes.eye + across;
-    Vec3d dir = perspective ? across + axes.forward : axes.forward;
+    return isMoving() ? rayFrom(axesAt(time), pixel, lens, time)
+                      : rayFrom(atRest_, pixel, lens, time);
+}
+
+Ray Camera::rayFrom(const Axes& axes, Vec2d pixel, Vec2 lens, float time) const {
+    auto [org, dir] = lineFrom(axes, pixel);
     if (hasLens()) {
         // The depth of dir is 1 unless the camera's axes are skewed.
         const Vec3d sharp = org + dir * (params_.focusDistance / dot(dir, axes.forward));
@@ -46,9 +46,19 @@ Ray Camera::ray(Vec2d pixel, Vec2 lens, float time) const {
     Ray ray;
     ray.org = toFloat(org);
     ray.dir = toFloat(dir);
-    ray.tMin = static_cast<float>(params_.clipStart / dot(dir, axes.forward));
+    ray.tMin = clipDepth(dir, axes);
     ray.time = time;
     return ray;
+}
+
+void Camera::pinholeRays(std::span<const Vec2d> pixels, std::span<Vec3> dir,
+                         std::span<float> tMin) const {
+    const Axes axes = atRest_;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        const Vec3d d = normalize(lineFrom(axes, pixels[i]).dir);
+        dir[i] = toFloat(d);
+        tMin[i] = clipDepth(d, axes);
+    }
 }
 
 Camera::View Camera::view(float time) const {

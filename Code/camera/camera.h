@@ -6,6 +6,8 @@
 #include "base/ray.h"
 #include "base/vec.h"
 
+#include <span>
+
 // Lengths in normalised world units but for the millimetres of lens and sensor.
 struct CameraParams {
     enum class Kind { Perspective, Orthographic };
@@ -38,6 +40,16 @@ public:
     // [0,1] of the shutter. dir has unit length; tMin is where the ray passes clipStart.
     Ray ray(Vec2d pixel, Vec2 lens, float time) const;
 
+    // dir and tMin of ray() for many places; of cameras with a shared origin.
+    void pinholeRays(std::span<const Vec2d> pixels, std::span<Vec3> dir,
+                     std::span<float> tMin) const;
+
+    // What ray() rounds: for cameras without a lens at rest, the line of a place in the picture.
+    struct Line {
+        Vec3d org, dir; // dir of any length
+    };
+    Line line(Vec2d pixel) const { return lineFrom(atRest_, pixel); }
+
     // The camera's place and the unit vector that it looks along.
     struct View {
         Vec3d eye, axis;
@@ -58,6 +70,18 @@ private:
     static Axes axesOf(const Transform& worldFromCamera);
     Axes axesAt(float time) const {
         return isMoving() ? axesOf(params_.worldFromCamera.at(static_cast<double>(time))) : atRest_;
+    }
+
+    Line lineFrom(const Axes& axes, Vec2d pixel) const {
+        const Vec3d across = axes.right * (topLeft_.x + pixel.x * step_.x) +
+                             axes.up * (topLeft_.y - pixel.y * step_.y);
+        if (params_.kind == CameraParams::Kind::Perspective)
+            return {axes.eye, across + axes.forward};
+        return {axes.eye + across, axes.forward};
+    }
+    Ray rayFrom(const Axes& axes, Vec2d pixel, Vec2 lens, float time) const;
+    float clipDepth(Vec3d dir, const Axes& axes) const {
+        return static_cast<float>(params_.clipStart / dot(dir, axes.forward));
     }
 
     CameraParams params_;

@@ -39,6 +39,7 @@ struct Options {
 
     ReadOptions read;
     Switches switches;
+    bool specialise = true;
 
     // Quality
     std::optional<int> samplesPerPixel, lightSamples, maxDepth;

@@ -283,6 +283,9 @@ void addMethodFlags(std::vector<Flag>& flags, Options& o) {
                .help = "machine code for the search; the picture is the same (auto)",
                .set = [&o, kernels](const FlagValue& v) { o.kernel = kernels[v.choice(kernels)]; },
                .choices = kernels, .example = "scalar"});
+    group.add({.name = "--specialise",
+               .help = "leave out what the scene does not need; the picture is the same (on)",
+               .set = [&o](const FlagValue& v) { o.specialise = v.on; }, .negatable = true});
     group.add({.name = "--threads", .alias = "-t", .argument = "N",
                .help = "0: all that the machine has (0)",
                .set = [&o](const FlagValue& v) { o.threads = v.whole(0, kMostThreads); },

@@ -5,8 +5,8 @@
 
 FlatLight::FlatLight(Outline outline, Vec3 centre, Vec3 halfX, Vec3 halfY, Vec3 normal,
                      Rgb radiance, double spreadHalfRad, bool castsShadows)
-    : Light(castsShadows), outline_(outline), centre_(centre), halfX_(halfX), halfY_(halfY),
-      normal_(normal), spreads_(spreadHalfRad < kHalfPi * 0.9999) {
+    : Light(castsShadows, radiance), outline_(outline), centre_(centre), halfX_(halfX),
+      halfY_(halfY), normal_(normal), spreads_(spreadHalfRad < kHalfPi * 0.9999) {
     const float area = length(halfX) * length(halfY) *
                        (outline == Outline::Rectangle ? 4.0f : static_cast<float>(kPi));
     power_ = radiance * area;
@@ -33,6 +33,22 @@ LightSample FlatLight::from(Vec3 place, Vec3 point) const {
     return {toLight, distance, power_ * (spread * cosAtLight / distance2)};
 }
 
+// Both planes are asked of the corner of the outline's rectangle that is nearest to their light.
+bool FlatLight::cannotReach(Vec3 point, Vec3 n) const {
+    const Vec3 d = centre_ - point;
+    const float slack =
+        kHorizonSlack * (maxAbs(point) + maxAbs(centre_) + maxAbs(halfX_) + maxAbs(halfY_));
+    if (dot(n, d) + std::fabs(dot(n, halfX_)) + std::fabs(dot(n, halfY_)) < -slack) return true;
+    return dot(normal_, d) > slack; // the point is behind the lamp
+}
+
+Bounds FlatLight::sourcesFor(const Bounds&) const {
+    Vec3 half;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        half[axis] = std::fabs(halfX_[axis]) + std::fabs(halfY_[axis]);
+    return {centre_ - half, centre_ + half};
+}
+
 LightSample FlatLight::centre(Vec3 point) const { return from(centre_, point); }
 
 LightSample FlatLight::sample(Vec3 point, Vec2 u) const {
@@ -42,7 +58,7 @@ LightSample FlatLight::sample(Vec3 point, Vec2 u) const {
 }
 
 SphereLight::SphereLight(Vec3 centre, float radius, Rgb radiance, bool castsShadows)
-    : Light(castsShadows), centre_(centre), radius_(radius), radiance_(radiance) {}
+    : Light(castsShadows, radiance), centre_(centre), radius_(radius), radiance_(radiance) {}
 
 LightSample SphereLight::centre(Vec3 point) const {
     const Vec3 d = centre_ - point;
@@ -51,6 +67,15 @@ LightSample SphereLight::centre(Vec3 point) const {
     const float distance = std::sqrt(distance2);
     const float factor = static_cast<float>(kPi) * radius_ * radius_ / distance2;
     return {d / distance, distance - radius_, radiance_ * factor};
+}
+
+bool SphereLight::cannotReach(Vec3 point, Vec3 n) const {
+    const Vec3 d = centre_ - point;
+    return dot(n, d) + radius_ < -kHorizonSlack * (maxAbs(d) + radius_);
+}
+
+Bounds SphereLight::sourcesFor(const Bounds&) const {
+    return Bounds{centre_, centre_}.padded(radius_);
 }
 
 LightSample SphereLight::sample(Vec3 point, Vec2 u) const {

@@ -13,6 +13,8 @@ public:
     bool isSoft() const override { return true; }
     LightSample sample(Vec3 point, Vec2 u) const override;
     LightSample centre(Vec3 point) const override;
+    bool cannotReach(Vec3 point, Vec3 n) const override;
+    Bounds sourcesFor(const Bounds& points) const override;
 
 private:
     LightSample from(Vec3 place, Vec3 point) const;
@@ -31,6 +33,8 @@ public:
     // Uniform in the cone of directions that the sphere fills (Shirley and Wang 1996).
     LightSample sample(Vec3 point, Vec2 u) const override;
     LightSample centre(Vec3 point) const override;
+    bool cannotReach(Vec3 point, Vec3 n) const override;
+    Bounds sourcesFor(const Bounds& points) const override;
 
 private:
     Vec3 centre_;

@@ -3,6 +3,7 @@
 // scene's normalised units, intensities scaled to them (render/make_light.cpp).
 #pragma once
 
+#include "base/bounds.h"
 #include "base/vec.h"
 
 #include <optional>
@@ -17,9 +18,14 @@ struct LightSample {
     Rgb irradiance;
 };
 
+// How far, of a distance, rounding can take a lamp that is said to be behind a horizon: dot
+// products of floats are off by less than 2^-20 of it.
+inline constexpr float kHorizonSlack = 0x1p-16f;
+
 class Light {
 public:
-    explicit Light(bool castsShadows) : castsShadows_(castsShadows) {}
+    // `power`: black exactly if the lamp is.
+    Light(bool castsShadows, Rgb power) : castsShadows_(castsShadows), isDark_(isBlack(power)) {}
     virtual ~Light() = default;
 
     // Whether sample() depends on u, that is whether shadows have soft edges.
@@ -29,8 +35,16 @@ public:
     virtual LightSample centre(Vec3 point) const = 0;
     // Set when shadow rays are defined as starting at this point (KERNELS: shared origin).
     virtual std::optional<Vec3> origin() const { return {}; }
+    // True only if nothing at `point` with the unit normal n can get light, whatever sample() or
+    // centre() is asked: the lamp is behind the horizon, or the point out of the lamp's cone. Costs
+    // little beside those; false says nothing.
+    virtual bool cannotReach(Vec3 point, Vec3 n) const = 0;
+    // A box that holds the places where light for points in `points` starts; for lamps at infinity,
+    // places on the way there that are outside of the scene, whose coordinates are at most 1.
+    virtual Bounds sourcesFor(const Bounds& points) const = 0;
     bool castsShadows() const { return castsShadows_; }
+    bool isDark() const { return isDark_; }
 
 private:
-    bool castsShadows_;
+    bool castsShadows_, isDark_;
 };

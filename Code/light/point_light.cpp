@@ -14,8 +14,8 @@ float SpotCone::attenuation(Vec3 fromLight) const {
 
 PointLight::PointLight(Vec3 position, Rgb intensity, Attenuation attenuation, float radius,
                        std::optional<SpotCone> cone, bool castsShadows)
-    : Light(castsShadows), position_(position), intensity_(intensity), attenuation_(attenuation),
-      radius_(radius), cone_(cone) {}
+    : Light(castsShadows, intensity), position_(position), intensity_(intensity),
+      attenuation_(attenuation), radius_(radius), cone_(cone) {}
 
 LightSample PointLight::centre(Vec3 point) const {
     const Vec3 d = position_ - point;
@@ -39,4 +39,20 @@ LightSample PointLight::sample(Vec3 point, Vec2 u) const {
     const float cone = cone_ ? cone_->attenuation(-toLight) : 1.0f;
     return {toLight, distance,
             intensity_ * (cone * cosAtDisk / attenuation_.at(distance, distance2))};
+}
+
+bool PointLight::cannotReach(Vec3 point, Vec3 n) const {
+    const Vec3 d = position_ - point;
+    const float distance2 = dot(d, d);
+    // Squares, as roots cost more; the disk about the centre lies within its radius.
+    const float behind = -dot(n, d) - radius_;
+    if (behind > 0 && behind * behind > sqr(kHorizonSlack) * distance2) return true;
+    if (!cone_ || radius_ > 0) return false;
+    const float along = -dot(cone_->axis, d), limit = cone_->cosHalfAngle - kHorizonSlack;
+    return limit > 0 && (!(along > 0) || along * along < limit * limit * distance2);
+}
+
+// The disk faces the point: all of it is in the ball.
+Bounds PointLight::sourcesFor(const Bounds&) const {
+    return Bounds{position_, position_}.padded(radius_);
 }

@@ -30,6 +30,8 @@ public:
     bool isSoft() const override { return radius_ > 0; }
     LightSample sample(Vec3 point, Vec2 u) const override;
     LightSample centre(Vec3 point) const override;
+    bool cannotReach(Vec3 point, Vec3 n) const override;
+    Bounds sourcesFor(const Bounds& points) const override;
     std::optional<Vec3> origin() const override { return position_; }
 
 private:

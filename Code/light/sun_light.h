@@ -11,9 +11,12 @@ public:
     bool isSoft() const override { return oneMinusCos_ > 0; }
     LightSample sample(Vec3 point, Vec2 u) const override;
     LightSample centre(Vec3 point) const override;
+    bool cannotReach(Vec3 point, Vec3 n) const override;
+    Bounds sourcesFor(const Bounds& points) const override;
 
 private:
     Vec3 toSun_;
     Rgb irradiance_;
     double oneMinusCos_;
+    float sinHalfAngle_; // 1 from a right angle on
 };

@@ -1,10 +1,12 @@
 // Rays travel in batches, as a structure of arrays: a tile's camera rays, then wave after wave what
-// they spawn. Ray i of a batch is element i of every array.
+// they spawn. Ray i of a batch is element i of every array. The arrays grow and are kept: a batch
+// that is cleared has room for as many rays as it ever had.
 #pragma once
 
 #include "base/ray_span.h"
 #include "render/medium_tree.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -16,23 +18,36 @@ struct RayBatch {
     std::vector<std::uint32_t> sample; // slot of the camera sample that the ray belongs to
     std::vector<Rgb> weight;
 
-    std::size_t size() const { return org.size(); }
-    bool empty() const { return org.empty(); }
+    std::size_t size() const { return count_; }
+    bool empty() const { return count_ == 0; }
     Ray ray(std::size_t i) const { return {org[i], dir[i], tMin[i], tMax[i], time[i]}; }
-    RaySpan span() const { return {org, dir, tMin, tMax, time}; }
+    RaySpan span() const {
+        return {{org.data(), count_},
+                {dir.data(), count_},
+                {tMin.data(), count_},
+                {tMax.data(), count_},
+                {time.data(), count_}};
+    }
     void push(const Ray& ray, std::uint32_t slot, Rgb rayWeight) {
-        org.push_back(ray.org);
-        dir.push_back(ray.dir);
-        tMin.push_back(ray.tMin);
-        tMax.push_back(ray.tMax);
-        time.push_back(ray.time);
-        sample.push_back(slot);
-        weight.push_back(rayWeight);
+        if (count_ == org.size()) makeRoom(std::max<std::size_t>(64, 2 * count_));
+        const std::size_t i = count_++;
+        org[i] = ray.org;
+        dir[i] = ray.dir;
+        tMin[i] = ray.tMin;
+        tMax[i] = ray.tMax;
+        time[i] = ray.time;
+        sample[i] = slot;
+        weight[i] = rayWeight;
     }
-    void clear() {
-        org.clear(), dir.clear(), tMin.clear(), tMax.clear(), time.clear();
-        sample.clear(), weight.clear();
+    void clear() { count_ = 0; }
+
+protected:
+    void makeRoom(std::size_t rays) {
+        org.resize(rays), dir.resize(rays), tMin.resize(rays), tMax.resize(rays);
+        time.resize(rays), sample.resize(rays), weight.resize(rays);
     }
+
+    std::size_t count_ = 0; // the arrays may be longer
 };
 
 // Rays that look for surfaces; shadow rays need no more than a RayBatch.
@@ -44,12 +59,22 @@ struct PathBatch : RayBatch {
     void push(const Ray& ray, std::uint32_t slot, Rgb rayWeight, MediumTree::Inside inside,
               std::uint32_t branch, bool seesLamps) {
         RayBatch::push(ray, slot, rayWeight);
-        medium.push_back(inside);
-        stream.push_back(branch);
-        seesLights.push_back(seesLamps);
+        makeRoomForMore();
+        const std::size_t i = count_ - 1;
+        medium[i] = inside;
+        stream[i] = branch;
+        seesLights[i] = seesLamps;
     }
-    void clear() {
-        RayBatch::clear();
-        medium.clear(), stream.clear(), seesLights.clear();
+    // So many rays, which are then written into the arrays; those in use keep what they were.
+    void setSize(std::size_t rays) {
+        if (org.size() < rays) makeRoom(rays);
+        makeRoomForMore();
+        count_ = rays;
+    }
+
+private:
+    void makeRoomForMore() {
+        if (medium.size() >= org.size()) return;
+        medium.resize(org.size()), stream.resize(org.size()), seesLights.resize(org.size());
     }
 };

@@ -22,14 +22,14 @@ MediumTree::Inside mediumOfCamera(const Scene& scene, const RenderSettings& sett
         const Hit hit = scene.shapes().closest(ray);
         if (!hit.isHit()) break;
         const ShadedPoint at = shade(scene, ray, hit);
-        if (transmits(scene.materials()[at.materialId])) {
-            const auto open = std::find(entered.rbegin(), entered.rend(), at.materialId);
+        if (transmits(*at.of)) {
+            const auto open = std::find(entered.rbegin(), entered.rend(), at.surface.material);
             if (at.front)
-                entered.push_back(at.materialId);
+                entered.push_back(at.surface.material);
             else if (open != entered.rend())
                 entered.erase(std::next(open).base());
             else
-                around.push_back(at.materialId);
+                around.push_back(at.surface.material);
         }
         ray = {leave(at.surface, -at.eye.ng), ray.dir, 0, kInfinityF, ray.time};
     }

@@ -1,6 +1,6 @@
-// Film: sums of samples per place. Every sample belongs to one place and every place to one worker,
-// so sums have one order and threads need no locks. A place is a pixel, or for SamplerKind Corners
-// the corner of pixels, which takes part in the four around it.
+// Film: sums of samples per place of one tile. Every tile belongs to one worker and its samples
+// come in the order of their numbers, so sums have one order and threads need no locks. A place is
+// a pixel, or for the sampler Corners the corner of pixels, which takes part in the four around it.
 #pragma once
 
 #include "base/vec.h"
@@ -11,38 +11,35 @@
 
 class Film {
 public:
-    Film(int width, int height)
-        : width_(width), height_(height),
-          sums_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height)),
-          counts_(sums_.size()) {}
+    // Empty places.
+    void reset(int width, int height) {
+        width_ = width;
+        sums_.assign(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), {});
+    }
 
     void add(int x, int y, Rgb value) {
-        const std::size_t at = static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                               static_cast<std::size_t>(x);
-        sums_[at] += Vec3d{value.r, value.g, value.b};
-        ++counts_[at];
+        Place& place = sums_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+                             static_cast<std::size_t>(x)];
+        place.sum += Vec3d{value.r, value.g, value.b};
+        ++place.count;
     }
 
-    // The mean of each pixel's samples; black where there are none.
-    Image mean() const {
-        Image image(width_, height_);
-        for (std::size_t i = 0; i < sums_.size(); ++i) {
-            const Vec3 m = toFloat(sums_[i] / static_cast<double>(counts_[i] ? counts_[i] : 1));
-            image.pixels()[i] = {m.x, m.y, m.z};
-        }
-        return image;
+    // The mean of each place's samples, black where there are none, from (x0, y0) of `image` on.
+    void writeMeans(Image& image, int x0, int y0) const {
+        writeEach(image, x0, y0, [](const Place& place) {
+            const Vec3 m = toFloat(place.sum / static_cast<double>(place.count ? place.count : 1));
+            return Rgb{m.x, m.y, m.z};
+        });
     }
-    // How many samples each pixel has, as a grey picture.
-    Image samples() const {
-        Image image(width_, height_);
-        for (std::size_t i = 0; i < counts_.size(); ++i) {
-            const float n = static_cast<float>(counts_[i]);
-            image.pixels()[i] = {n, n, n};
-        }
-        return image;
+    // How many samples each place has, as a grey picture.
+    void writeCounts(Image& image, int x0, int y0) const {
+        writeEach(image, x0, y0, [](const Place& place) {
+            const float n = static_cast<float>(place.count);
+            return Rgb{n, n, n};
+        });
     }
 
-    // For a film of corners: the pixels between them, each its upper left one (for numbers of
+    // For a picture of corners: the pixels between them, each its upper left one (for numbers of
     // objects, which can't be averaged), or the mean of its four.
     static Image upperLeftCorners(const Image& corners) {
         Image image(corners.width() - 1, corners.height() - 1);
@@ -62,7 +59,20 @@ public:
     }
 
 private:
-    int width_, height_;
-    std::vector<Vec3d> sums_;
-    std::vector<std::uint32_t> counts_;
+    struct Place {
+        Vec3d sum;
+        std::uint32_t count = 0;
+    };
+
+    template <class ValueOf>
+    void writeEach(Image& image, int x0, int y0, const ValueOf& valueOf) const {
+        int x = 0, y = 0;
+        for (const Place& place : sums_) {
+            image.setPixel(x0 + x, y0 + y, valueOf(place));
+            if (++x == width_) x = 0, ++y;
+        }
+    }
+
+    int width_ = 0;
+    std::vector<Place> sums_;
 };

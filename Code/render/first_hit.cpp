@@ -46,7 +46,7 @@ FirstHit describeFirstHit(const Scene& scene, const Ray& ray, const ShadedPoint&
     first.depth = static_cast<float>(dot(position - eye, axis) / scene.frame().scale);
     first.normal = at.eye.n;
     first.position = toFloat(scene.frame().worldPoint(position));
-    first.albedo = at.material.diffuse;
+    first.albedo = materialAt(at).diffuse;
     first.object = at.surface.object + 1;
     first.uv = at.surface.uv;
     return first;

@@ -3,7 +3,11 @@
 #pragma once
 
 #include "render/batch.h"
+#include "render/occluders.h"
 #include "render/query.h"
+#include "render/shading.h"
+#include "sample/dimensions.h"
+#include "sample/hash.h"
 #include "sample/sampler.h"
 
 #include <cstdint>
@@ -27,13 +31,27 @@ struct FirstHit {
     Vec2 uv;
 };
 
+// A light of the scene, and how the picture asks it.
+struct Lamp {
+    const Light& light;
+    bool isSoft; // sampled at `samples` random places; else in its centre
+    int samples;
+    Sampler sampler;
+    std::optional<Vec3> origin; // where its shadow rays start; none: at the point that is lit
+};
+
 // Choices that hold for a whole picture, made once.
 struct IntegratorContext {
     const Scene& scene;
     const RenderSettings& settings;
     Sampler sampler;
-    std::vector<Sampler> lightSamplers; // one stream per light
+    // Lamps that give light, in the order of the scene: with shadows, and without.
+    std::vector<Lamp> shadingLamps, openLamps;
+    Occluders occluders;
+    float cutoff;              // rays with less weight are not traced
+    std::size_t compiledSteps; // which form of the wave loop: waves/steps.h
     bool wantsFirstHits;
+    SurfaceNeeds surfaceNeeds;
     MediumTree media; // what camera rays start in, and room for what rays enter
     MediumTree::Inside cameraMedium;
 
@@ -43,18 +61,59 @@ struct IntegratorContext {
 // The samples of one chunk of a tile, and what comes out of them; slot i is sample i everywhere.
 struct SampleChunk {
     std::vector<SampleId> ids;
+    std::vector<Vec2d> places; // in the picture, in pixels
+    std::vector<Vec2> offsets; // of these from the middle of their pixel
     PathBatch cameraRays;
     std::vector<Rgb> radiance;
     std::vector<FirstHit> first; // filled only if the context wants it
 };
 
+// The points that the rays of a wave have met; element k of every array is point k.
+struct PointBatch {
+    std::size_t count = 0;          // the arrays may be longer
+    std::vector<std::uint32_t> ray; // ascending
+    std::vector<ShadedPoint> at;
+    std::vector<const Material*> material; // numbers at this point
+    std::vector<Material> textured;        // those with textures applied
+    std::vector<Rgb> weight;               // of what the surface sends to the eye
+
+    // Makes room for `most` points.
+    void clear(std::size_t most) {
+        count = 0;
+        if (ray.size() >= most) return;
+        ray.resize(most), at.resize(most), material.resize(most), textured.resize(most);
+        weight.resize(most);
+    }
+};
+
+// Light that a lamp sends by way of a point.
+struct Arrival {
+    std::uint32_t point;
+    Rgb light;
+};
+
+// Points of a wave that lie on one shape.
+struct PointGroup {
+    std::uint32_t shape;
+    bool inside; // lamps are seen from the inside of the shape
+    Bounds box;
+    bool mayBeHidden = true; // from the lamp that is looked at
+};
+
 // Scratch memory of one worker, kept between chunks.
 struct WaveMemory {
     PathBatch rays, next;
-    MediumTree media;
-    RayBatch shadowRays;
     std::vector<Hit> hits;
+    PointBatch points;
+    MediumTree media;
+    std::vector<std::uint32_t> litPoints; // that answer lamps
+    std::vector<PointGroup> groups;       // of these
+    std::vector<std::uint32_t> groupOf;   // by point
+    RayBatch shadowRays;                  // of one lamp; their samples are points
+    std::vector<std::uint8_t> hidden;
     std::vector<Rgb> transmittance;
+    std::vector<Arrival> arrivals, arrivalsInOrder;
+    std::vector<std::uint32_t> arrivalStarts;
 };
 
 void integrateWhitted(const IntegratorContext& context, SampleChunk& chunk, WaveMemory& memory,
@@ -66,6 +125,6 @@ void integrateAo(const IntegratorContext& context, SampleChunk& chunk, WaveMemor
 void integrateFirstHit(const IntegratorContext& context, SampleChunk& chunk, WaveMemory& memory,
                        RayCounts& counts, std::uint64_t& cameraHits);
 
-FirstHit describeFirstHit(const Scene& scene, const Ray& ray, const struct ShadedPoint& at);
+FirstHit describeFirstHit(const Scene& scene, const Ray& ray, const ShadedPoint& at);
 // A colour per object number that neighbours in number do not share.
 Rgb objectColor(std::uint32_t object);

@@ -33,6 +33,8 @@ struct SceneMaterial {
     float bumpHeight = 0;    // strength times distance, in normalised units
     bool litOutside = false; // answers lamps outside of it, whichever side is seen
     bool isLamp = false; // the visible body of an area light; emits to the front of its shape only
+    // Pictures that change its numbers.
+    bool isTextured() const { return diffuse || specular || emission || opacity; }
     bool seeThrough() const { return base.opacity < 1 || opacity != nullptr; }
     bool bendsNormals() const { return normalMap != nullptr || bumpMap != nullptr; }
 };
@@ -51,7 +53,10 @@ public:
     const std::vector<std::unique_ptr<const Light>>& lights() const { return lights_; }
     Rgb ambient() const { return ambient_; }
     // Radiance where a ray meets no surface.
-    Rgb background(Vec3 dir) const;
+    Rgb background(Vec3 dir) const {
+        return environment_ ? background_ * environment_->radiance(dir) : background_;
+    }
+    bool hasEnvironment() const { return environment_ != nullptr; }
     bool moves() const { return moves_; }
     bool hasSeeThrough() const { return hasSeeThrough_; }
     const Features& features() const { return features_; }

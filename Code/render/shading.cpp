@@ -39,38 +39,31 @@ Vec3 turnedTo(Vec3 toEye, const ShadedPoint::Side& side) {
     return dot(n, toEye) > 0 ? n : side.ng;
 }
 
-// Textures that change numbers, not normals.
-Material textured(const SceneMaterial& material, Vec2 uv) {
-    Material m = material.base;
-    if (material.diffuse) m.diffuse *= material.diffuse->color(uv);
-    if (material.specular) m.specular *= material.specular->color(uv);
-    if (material.emission) m.emission *= material.emission->color(uv);
-    if (material.opacity) m.opacity *= material.opacity->value(uv);
-    return m;
+Vec3 bentNormal(const Shape& shape, const Ray& ray, const Hit& hit, const Surface& surface,
+                const SceneMaterial& material) {
+    const SurfaceDerivatives d = shape.derivatives(ray, hit);
+    Vec3 n = surface.ns;
+    if (material.normalMap)
+        n = mapped(n, d, material.normalMap->color(surface.uv), material.normalStrength);
+    if (material.bumpMap)
+        n = bumped(n, d, material.bumpMap->gradient(surface.uv), material.bumpHeight);
+    return dot(n, surface.ng) > 0 ? n : surface.ns;
 }
 
 } // namespace
 
-ShadedPoint shade(const Scene& scene, const Ray& ray, const Hit& hit) {
+void shade(const Scene& scene, const Ray& ray, const Hit& hit, SurfaceNeeds needs,
+           ShadedPoint& at) {
     const Shape& shape = *scene.shapes().shapes[hit.shape];
-    ShadedPoint at;
-    at.surface = shape.surface(ray, hit);
-    at.materialId = at.surface.material;
-    const SceneMaterial& material = scene.materials()[at.materialId];
-    at.material = textured(material, at.surface.uv);
-    at.isLamp = material.isLamp;
+    at.surface = shape.surfaceFor(ray, hit, needs);
+    const Surface& surface = at.surface;
+    const SceneMaterial& material = scene.materials()[surface.material];
+    at.of = &material;
     at.toEye = -normalize(ray.dir);
-    at.front = dot(at.toEye, at.surface.ng) >= 0;
-    Vec3 n = at.surface.ns;
-    if (material.bendsNormals()) {
-        const SurfaceDerivatives d = shape.derivatives(ray, hit);
-        const Vec2 uv = at.surface.uv;
-        if (material.normalMap)
-            n = mapped(n, d, material.normalMap->color(uv), material.normalStrength);
-        if (material.bumpMap) n = bumped(n, d, material.bumpMap->gradient(uv), material.bumpHeight);
-        if (!(dot(n, at.surface.ng) > 0)) n = at.surface.ns;
-    }
-    const ShadedPoint::Side outside{at.surface.ng, at.surface.ns, n};
+    at.front = dot(at.toEye, surface.ng) >= 0;
+    const Vec3 n =
+        material.bendsNormals() ? bentNormal(shape, ray, hit, surface, material) : surface.ns;
+    const ShadedPoint::Side outside{surface.ng, surface.ns, n};
     at.eye = at.front ? outside : ShadedPoint::Side{-outside.ng, -outside.ns, -n};
     at.eye.n = turnedTo(at.toEye, at.eye);
     at.lit = at.eye;
@@ -78,7 +71,16 @@ ShadedPoint shade(const Scene& scene, const Ray& ray, const Hit& hit) {
         at.lit = outside;
         at.surface.lift = {}; // it was for the side of the eye
     }
-    return at;
+}
+
+Material materialAt(const ShadedPoint& at) {
+    Material m = at.of->base;
+    const Vec2 uv = at.surface.uv;
+    if (at.of->diffuse) m.diffuse *= at.of->diffuse->color(uv);
+    if (at.of->specular) m.specular *= at.of->specular->color(uv);
+    if (at.of->emission) m.emission *= at.of->emission->color(uv);
+    if (at.of->opacity) m.opacity *= at.of->opacity->value(uv);
+    return m;
 }
 
 Rgb straightTransmission(const Scene& scene, const Ray& ray, const Hit& hit) {
@@ -89,7 +91,4 @@ Rgb straightTransmission(const Scene& scene, const Ray& ray, const Hit& hit) {
     return material.base.filter * (1 - opacity);
 }
 
-Vec3 leave(const Surface& surface, Vec3 side, float reach) {
-    const float error = surface.error + 0x1p-20f * reach;
-    return surface.p + side * error;
-}
+Vec3 leave(const Surface& surface, Vec3 side) { return surface.p + side * surface.error; }

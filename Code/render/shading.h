@@ -6,11 +6,9 @@
 
 struct ShadedPoint {
     Surface surface;
-    std::uint32_t materialId = 0; // surface.material
-    Material material;            // textures applied
-    bool isLamp = false;
-    bool front = true; // the ray came from the outside
-    Vec3 toEye;        // unit
+    const SceneMaterial* of = nullptr; // surface.material
+    bool front = true;                 // the ray came from the outside
+    Vec3 toEye;                        // unit
     // Geometric, interpolated and bumped normal.
     struct Side {
         Vec3 ng, ns, n;
@@ -19,13 +17,20 @@ struct ShadedPoint {
     Side lit; // on the side whose lamps count
 };
 
-// `dir` need not be a unit vector.
-ShadedPoint shade(const Scene& scene, const Ray& ray, const Hit& hit);
+// `dir` need not be a unit vector. Textures that bend normals are asked whatever `needs` says.
+void shade(const Scene& scene, const Ray& ray, const Hit& hit, SurfaceNeeds needs, ShadedPoint& at);
+inline ShadedPoint shade(const Scene& scene, const Ray& ray, const Hit& hit) {
+    ShadedPoint at;
+    shade(scene, ray, hit, {}, at);
+    return at;
+}
+
+// The material's numbers at the point, textures applied.
+Material materialAt(const ShadedPoint& at);
 
 // Part of the light that goes straight through the surface at a hit: (1 - opacity) * filter.
 Rgb straightTransmission(const Scene& scene, const Ray& ray, const Hit& hit);
 
 // Where a ray starts that leaves the surface at `point` to the side of `side` (+-ng): far enough
-// off, by the error bound of the hit, never to meet the same surface again by rounding. `reach` is
-// the length of the ray if it is one that is known to go far (a shadow ray from a distant lamp).
-Vec3 leave(const Surface& surface, Vec3 side, float reach = 0);
+// off, by the error bound of the hit, never to meet the same surface again by rounding.
+Vec3 leave(const Surface& surface, Vec3 side);

@@ -40,11 +40,13 @@ double shape(FilterKind kind, double x) {
 std::vector<float> inverseOfCdf(FilterKind kind) {
     constexpr int kPieces = 16384;
     std::vector<double> cdf(kPieces + 1, 0.0);
+    double left = shape(kind, 0);
     for (int i = 0; i < kPieces; ++i) { // Simpson on each piece
         const double h = 1.0 / kPieces, x = i * h;
-        const double area =
-            (shape(kind, x) + 4 * shape(kind, x + 0.5 * h) + shape(kind, x + h)) * (h / 6);
+        const double right = shape(kind, x + h);
+        const double area = (left + 4 * shape(kind, x + 0.5 * h) + right) * (h / 6);
         cdf[static_cast<std::size_t>(i) + 1] = cdf[static_cast<std::size_t>(i)] + area;
+        left = right;
     }
     std::vector<float> inverse{1};
     std::size_t piece = kPieces - 1;
@@ -70,19 +72,30 @@ double Filter::value(double offset) const {
     return radius_ > 0 ? shape(kind_, offset / radius_) : 0;
 }
 
-Vec2 Filter::sample(Vec2 u) const { return {sample1D(u.x), sample1D(u.y)}; }
-
-float Filter::sample1D(float u) const {
+template <FilterKind kKind> float Filter::offsetAt(float u) const {
     const double place = 2 * static_cast<double>(u) - 1, size = std::fabs(place);
     double x = size; // Box
-    if (kind_ == FilterKind::Tent) {
+    if constexpr (kKind == FilterKind::Tent) {
         // 1 - sqrt(1 - size) without cancellation
         x = size / (1 + std::sqrt(1 - size));
-    } else if (!inverse_.empty()) {
+    } else if constexpr (kKind != FilterKind::Box) {
         const double at = std::sqrt(1 - size) * kSteps;
         const auto i = std::min(static_cast<std::size_t>(at), inverse_.size() - 2);
         x = lerp(static_cast<double>(inverse_[i]), static_cast<double>(inverse_[i + 1]),
                  at - static_cast<double>(i));
     }
     return static_cast<float>(std::copysign(x * radius_, place));
+}
+
+template <FilterKind kKind> void Filter::sampleAs(std::span<Vec2> u) const {
+    for (Vec2& both : u) both = {offsetAt<kKind>(both.x), offsetAt<kKind>(both.y)};
+}
+
+void Filter::sample(std::span<Vec2> u) const {
+    switch (kind_) {
+    case FilterKind::Box: return sampleAs<FilterKind::Box>(u);
+    case FilterKind::Tent: return sampleAs<FilterKind::Tent>(u);
+    case FilterKind::Gaussian: return sampleAs<FilterKind::Gaussian>(u);
+    case FilterKind::BlackmanHarris: return sampleAs<FilterKind::BlackmanHarris>(u);
+    }
 }

@@ -5,6 +5,7 @@
 
 #include "base/vec.h"
 
+#include <span>
 #include <vector>
 
 enum class FilterKind { Box, Tent, Gaussian, BlackmanHarris };
@@ -19,14 +20,19 @@ public:
     // Offset from the centre of the pixel, in pixels, for u in [0,1)^2; (0.5, 0.5) gives (0, 0).
     // It is monotone in u, so stratified u give stratified offsets. The share of samples left of
     // any offset is right to 2e-6.
-    Vec2 sample(Vec2 u) const;
+    Vec2 sample(Vec2 u) const {
+        sample(std::span(&u, 1));
+        return u;
+    }
+    void sample(std::span<Vec2> u) const; // in their places
     // The unnormalised density at an offset along one axis, in pixels; separable.
     double value(double offset) const;
     double radius() const { return radius_; } // no offset is larger, in pixels
     FilterKind kind() const { return kind_; }
 
 private:
-    float sample1D(float u) const;
+    template <FilterKind kKind> void sampleAs(std::span<Vec2> u) const;
+    template <FilterKind kKind> float offsetAt(float u) const;
 
     FilterKind kind_;
     double width_, radius_;

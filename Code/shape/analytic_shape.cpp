@@ -35,6 +35,7 @@ double amplification(const Transform& map, const Transform& inverse) {
 AnalyticShape::AnalyticShape(MovingTransform worldFromObject, std::uint32_t material,
                              std::uint32_t object)
     : worldFromObject_(worldFromObject.at(0)), objectFromWorld_(worldFromObject_.inverse()),
+      amplification_(amplification(worldFromObject_, objectFromWorld_)),
       motion_(std::move(worldFromObject)), isStatic_(motion_.isStatic()), material_(material),
       object_(object) {}
 
@@ -107,22 +108,22 @@ void AnalyticShape::collect(const Ray& ray, std::vector<Hit>& hits) const {
 //    (the rest of this term, 0.13 u reach, covers the rounding of the formulas in double)
 //  - the map to object space and back in double, whose error is 2^-53 times a dozen operations
 //    times the amplification of the map:                          2^-48 amplification (|p| + |T|)
-Surface AnalyticShape::surface(const Ray& ray, const Hit& hit) const {
-    const Transform worldFromObject = worldFromObjectAt(ray.time);
-    const Transform objectFromWorld = worldFromObject.inverse();
+Surface AnalyticShape::surfaceUnder(const Transform& worldFromObject,
+                                    const Transform& objectFromWorld, double amplification,
+                                    const Ray& ray, const Hit& hit, SurfaceNeeds needs) const {
     const double t = static_cast<double>(hit.t) + static_cast<double>(hit.u);
     const Vec3d seen = toDouble(ray).at(t);
 
     const BoundsD box = boxUnder(worldFromObject);
     const double reach = box.isFinite() ? length(box.size()) : kSceneReach * max(1.0, maxAbs(seen));
     const double fixedError =
-        kFloatUlp * reach + 0x1p-48 * amplification(worldFromObject, objectFromWorld) *
-                                (maxAbs(seen) + maxAbs(worldFromObject.translation()));
+        kFloatUlp * reach +
+        0x1p-48 * amplification * (maxAbs(seen) + maxAbs(worldFromObject.translation()));
     // Twice the largest error that any normal can give.
     const double distance = 2 * (3 * kFloatUlp * length(seen) + fixedError);
 
-    const Local local =
-        describe(objectFromWorld.ray(toDouble(ray)).at(t), hit.prim, {distance, objectFromWorld});
+    const Local local = describe(objectFromWorld.ray(toDouble(ray)).at(t), hit.prim,
+                                 {distance, objectFromWorld, needs.uv});
     // One step of refinement: p is where the inverse, which rays are mapped with, sees local.p.
     Vec3d p = worldFromObject.point(local.p);
     p += worldFromObject.vector(local.p - objectFromWorld.point(p));
@@ -138,12 +139,21 @@ Surface AnalyticShape::surface(const Ray& ray, const Hit& hit) const {
     return surface;
 }
 
+Surface AnalyticShape::surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const {
+    if (isStatic_)
+        return surfaceUnder(worldFromObject_, objectFromWorld_, amplification_, ray, hit, needs);
+    const Transform worldFromObject = worldFromObjectAt(ray.time);
+    const Transform objectFromWorld = worldFromObject.inverse();
+    return surfaceUnder(worldFromObject, objectFromWorld,
+                        amplification(worldFromObject, objectFromWorld), ray, hit, needs);
+}
+
 SurfaceDerivatives AnalyticShape::derivatives(const Ray& ray, const Hit& hit) const {
     const Transform worldFromObject = worldFromObjectAt(ray.time);
     const double t = static_cast<double>(hit.t) + static_cast<double>(hit.u);
     const Transform objectFromWorld = worldFromObject.inverse();
     const Vec3d p = objectFromWorld.ray(toDouble(ray)).at(t);
-    const Local local = describe(p, hit.prim, {0, objectFromWorld});
+    const Local local = describe(p, hit.prim, {0, objectFromWorld, true});
     return {toFloat(worldFromObject.vector(local.dpdu)),
             toFloat(worldFromObject.vector(local.dpdv))};
 }

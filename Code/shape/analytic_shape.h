@@ -17,7 +17,9 @@ public:
     bool intersect(const Ray& ray, Hit& hit) const final;
     bool occludes(const Ray& ray) const final;
     void collect(const Ray& ray, std::vector<Hit>& hits) const final;
-    Surface surface(const Ray& ray, const Hit& hit) const final;
+    bool hidesFromItself(bool inside) const override { return inside; } // all are convex
+    Surface surface(const Ray& ray, const Hit& hit) const final { return surfaceFor(ray, hit, {}); }
+    Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const final;
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const final;
 
 protected:
@@ -46,8 +48,9 @@ protected:
 
     // How far, in the world, the origin of a ray may be from the point that it leaves.
     struct Clearance {
-        double distance = 0;
-        Transform objectFromWorld;
+        double distance;
+        const Transform& objectFromWorld;
+        bool wantsUv; // else describe() may leave them out
         // The most that the object's coordinates change over the distance.
         Vec3d inset() const;
         // How much n.p, of object space, changes over a unit of the world along the normal.
@@ -55,6 +58,9 @@ protected:
     };
 
     AnalyticShape(MovingTransform worldFromObject, std::uint32_t material, std::uint32_t object);
+
+    // objectFromWorld; null for a shape that moves.
+    const Transform* stillMap() const { return isStatic_ ? &objectFromWorld_ : nullptr; }
 
     // The whole line, in double; org and dir are finite, dir is not zero nor of unit length.
     virtual Roots roots(const RayD& ray) const = 0;
@@ -67,11 +73,15 @@ protected:
 
 private:
     Roots rootsOf(const Ray& ray) const;
+    Surface surfaceUnder(const Transform& worldFromObject, const Transform& objectFromWorld,
+                         double amplification, const Ray& ray, const Hit& hit,
+                         SurfaceNeeds needs) const;
     Transform worldFromObjectAt(float time) const {
         return isStatic_ ? worldFromObject_ : motion_.at(static_cast<double>(time));
     }
 
     Transform worldFromObject_, objectFromWorld_; // of a static shape
+    double amplification_;                        // of these
     MovingTransform motion_;
     bool isStatic_;
     std::uint32_t material_, object_;

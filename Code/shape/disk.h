@@ -8,6 +8,7 @@ class Disk final : public AnalyticShape {
 public:
     Disk(MovingTransform worldFromObject, double radius, std::uint32_t material,
          std::uint32_t object);
+    bool hidesFromItself(bool) const override { return false; } // flat
 
 private:
     Roots roots(const RayD& ray) const override;

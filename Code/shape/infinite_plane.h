@@ -6,6 +6,7 @@
 class InfinitePlane final : public AnalyticShape {
 public:
     InfinitePlane(MovingTransform worldFromObject, std::uint32_t material, std::uint32_t object);
+    bool hidesFromItself(bool) const override { return false; } // flat
 
 private:
     Roots roots(const RayD& ray) const override;

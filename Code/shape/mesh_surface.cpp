@@ -23,6 +23,9 @@ template <class T> T interpolate(T a, T b, T c, float u, float v) {
 // about 8 units of the largest coordinate difference, doubled. See RaySetup for the pads.
 constexpr double kTriangleError = 0x1p-20;
 
+// The ray's part of it, of a ray from far: slopes and differences in float.
+constexpr float kRayError = 0x1p-22f;
+
 // Rays leave a surface kTriangleError off its plane; this many times as far from its edges they are
 // on the inner side of the neighbours as well, down to an angle of 30 degrees between both.
 constexpr double kEdgeClearance = 2;
@@ -31,8 +34,16 @@ constexpr double kEdgeClearance = 2;
 // all edges. A point right on the edge of two walls would let light from outside in between them.
 Vec3d awayFromEdges(Vec3d weights, Vec3 v0, Vec3 v1, Vec3 v2, double clearance) {
     const Vec3d a = toDouble(v0), b = toDouble(v1), c = toDouble(v2);
+    // Mostly a point is far from them, and squares say so without a root; 1 % is for rounding.
+    const Vec3d n = crossOfEdges(v0, v1, v2);
+    const double far2 = 1.01 * clearance * clearance, area2 = dot(n, n);
+    const auto isFar = [&](double weight, Vec3d side) {
+        return weight > 0 && weight * weight * area2 > far2 * dot(side, side);
+    };
+    if (isFar(weights.x, c - b) && isFar(weights.y, a - c) && isFar(weights.z, b - a))
+        return weights;
     const Vec3d sides{length(c - b), length(a - c), length(b - a)};
-    const double twiceArea = length(crossOfEdges(v0, v1, v2));
+    const double twiceArea = std::sqrt(area2);
     const double perimeter = sides.x + sides.y + sides.z, inradius = twiceArea / perimeter;
     const double nearest =
         min(weights.x / sides.x, min(weights.y / sides.y, weights.z / sides.z)) * twiceArea;
@@ -57,7 +68,7 @@ Vec3d liftToCurve(Vec3d p, const std::array<Vec3d, 3>& corners, const std::array
 
 } // namespace
 
-Surface Mesh::surface(const Ray& worldRay, const Hit& hit) const {
+Surface Mesh::surfaceFor(const Ray& worldRay, const Hit& hit, SurfaceNeeds needs) const {
     const auto& c = geometry_.triangles[hit.prim];
     const Vec3 v0 = geometry_.points[c[0]], v1 = geometry_.points[c[1]],
                v2 = geometry_.points[c[2]];
@@ -80,6 +91,7 @@ Surface Mesh::surface(const Ray& worldRay, const Hit& hit) const {
         s.p = toFloat(pointOff(kTriangleError * scale));
         s.ng = toFloat(n);
         s.error = static_cast<float>(kTriangleError * scale);
+        s.rayError = kRayError;
     } else {
         const Transform worldFromMesh = worldFromMeshAt(worldRay.time);
         const Vec3d normal = worldFromMesh.normal(n);
@@ -96,8 +108,9 @@ Surface Mesh::surface(const Ray& worldRay, const Hit& hit) const {
                 max(length(meshFromWorld.column(1)), length(meshFromWorld.column(2))));
         s.p = toFloat(worldFromMesh.point(pointOff(error * stretch)));
         s.error = static_cast<float>(error);
+        s.rayError = kRayError * static_cast<float>(stretch / std::fabs(offPlane));
     }
-    if (!geometry_.normalTriangles.empty()) {
+    if (needs.lift && !geometry_.normalTriangles.empty()) {
         const auto& k = geometry_.normalTriangles[hit.prim];
         const Transform worldFromMesh = identity_ ? Transform() : worldFromMeshAt(worldRay.time);
         const auto normal = [&](std::size_t i) {

@@ -11,6 +11,7 @@ public:
     // them p = bilinear(uv). Corners on a line give a shape that no ray meets.
     Plane(MovingTransform worldFromObject, const Corners& corners, std::uint32_t material,
           std::uint32_t object);
+    bool hidesFromItself(bool) const override { return false; } // flat
 
 private:
     Roots roots(const RayD& ray) const override;

@@ -7,12 +7,14 @@
 // the ray and the shape.
 #pragma once
 
+#include "accel/still_sphere.h"
 #include "base/bounds.h"
 #include "base/hit.h"
 #include "base/ray.h"
 #include "base/ray_span.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 class Shape {
@@ -32,6 +34,10 @@ public:
     // Appends every hit with ray.tMin < t < ray.tMax, in any order (t, u, v, prim set).
     virtual void collect(const Ray& ray, std::vector<Hit>& hits) const = 0;
 
+    // May it be in between a point of its own surface and one above the horizon of that point, on
+    // its outside (normals point there) or on its inside? False for what is convex, or flat.
+    virtual bool hidesFromItself(bool /*inside*/) const { return true; }
+
     // Batches: the same answers for many rays. A shape that is faster this way says so; the others
     // are asked ray by ray.
     virtual bool takesBatches() const { return false; }
@@ -49,7 +55,19 @@ public:
         for (std::size_t i = 0; i < rays.size(); ++i) hidden[i] = occludes(rays[i]);
     }
 
+    // Shapes that rays meet as they meet this sphere: kernels do that by themselves.
+    virtual std::optional<StillSphere> stillSphere() const { return {}; }
+
+    // Does the ray come from the outside of the surface at this hit?
+    virtual bool seesFront(const Ray& ray, const Hit& hit) const {
+        return dot(surfaceFor(ray, hit, {false, false}).ng, ray.dir) <= 0;
+    }
+
     // Describes the point of a hit that intersect() or collect() found for this ray.
     virtual Surface surface(const Ray& ray, const Hit& hit) const = 0;
+    // The same, where a shape may leave out what is not asked for.
+    virtual Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds) const {
+        return surface(ray, hit);
+    }
     virtual SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const = 0;
 };

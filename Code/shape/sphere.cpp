@@ -6,6 +6,12 @@ Sphere::Sphere(MovingTransform worldFromObject, double radius, std::uint32_t mat
                std::uint32_t object)
     : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius) {}
 
+std::optional<StillSphere> Sphere::stillSphere() const {
+    const Transform* const map = stillMap();
+    if (!map) return {};
+    return StillSphere{map->rows(), radius_};
+}
+
 AnalyticShape::Roots Sphere::roots(const RayD& ray) const {
     const double dd = dot(ray.dir, ray.dir), od = dot(ray.org, ray.dir);
     const Vec3d perpendicular = ray.org - ray.dir * (od / dd);
@@ -14,9 +20,10 @@ AnalyticShape::Roots Sphere::roots(const RayD& ray) const {
     return found;
 }
 
-AnalyticShape::Local Sphere::describe(Vec3d p, std::uint32_t, const Clearance&) const {
+AnalyticShape::Local Sphere::describe(Vec3d p, std::uint32_t, const Clearance& clearance) const {
     const double distance = length(p);
     const Vec3d n = distance > 0 ? p / distance : Vec3d{0, 0, 1};
+    if (!clearance.wantsUv) return {n * radius_, n, {}, {}, {}};
     const double around = std::sqrt(n.x * n.x + n.y * n.y); // cosine of the latitude
     const double c = around > 0 ? n.x / around : 1, s = around > 0 ? n.y / around : 0;
     const double across = kTwoPi * radius_ * max(around, 0x1p-20);

@@ -1,0 +1,81 @@
+#include "render/camera_rays.h"
+
+namespace {
+
+FilterKind filterKind(SettingsDesc::Filter kind) {
+    switch (kind) {
+    case SettingsDesc::Filter::Box: return FilterKind::Box;
+    case SettingsDesc::Filter::Tent: return FilterKind::Tent;
+    case SettingsDesc::Filter::Gaussian: return FilterKind::Gaussian;
+    case SettingsDesc::Filter::BlackmanHarris: break;
+    }
+    return FilterKind::BlackmanHarris;
+}
+
+} // namespace
+
+CameraRays::CameraRays(const IntegratorContext& context)
+    : context_(context),
+      filter_(filterKind(context.settings.picture.filter), context.settings.picture.filterWidth),
+      corners_(context.settings.picture.sampler == SettingsDesc::Sampler::Corners),
+      width_(context.settings.picture.width + corners_) {}
+
+// Which pixel and sample each slot is, and where in the picture it lies.
+void CameraRays::choosePlaces(const Tile& tile, int first, int count, SampleChunk& chunk) const {
+    const Sampler& sampler = context_.sampler;
+    chunk.ids.clear();
+    chunk.places.clear();
+    chunk.offsets.clear();
+    for (int y = tile.y0; y < tile.y1; ++y)
+        for (int x = tile.x0; x < tile.x1; ++x) {
+            const std::uint32_t pixel =
+                static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_) +
+                static_cast<std::uint32_t>(x); // wraps in huge pictures
+            const auto begin = static_cast<std::uint32_t>(first);
+            for (std::uint32_t s = begin; s < begin + static_cast<std::uint32_t>(count); ++s) {
+                chunk.ids.push_back({pixel, s});
+                chunk.places.push_back(middle(x, y));
+                if (!corners_) chunk.offsets.push_back(sampler.get2D(pixel, s, kPixelDimension));
+            }
+        }
+    if (corners_) return;
+    filter_.sample(chunk.offsets);
+    for (std::size_t i = 0; i < chunk.places.size(); ++i) {
+        const Vec2d middle = chunk.places[i];
+        chunk.places[i] = {middle.x + chunk.offsets[i].x, middle.y + chunk.offsets[i].y};
+    }
+}
+
+void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk) const {
+    const Camera& camera = context_.scene.camera();
+    const Sampler& sampler = context_.sampler;
+    choosePlaces(tile, first, count, chunk);
+
+    PathBatch& rays = chunk.cameraRays;
+    rays.setSize(chunk.ids.size());
+    const bool isPinhole = camera.hasSharedOrigin() && !context_.scene.moves();
+    if (isPinhole) camera.pinholeRays(chunk.places, rays.dir, rays.tMin);
+    const Vec3 origin = camera.ray({0, 0}, {0.5f, 0.5f}, 0.5f).org;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const SampleId id = chunk.ids[i];
+        rays.sample[i] = static_cast<std::uint32_t>(i);
+        rays.weight[i] = {1, 1, 1};
+        rays.medium[i] = context_.cameraMedium;
+        rays.stream[i] = id.pixel;
+        rays.seesLights[i] = true;
+        rays.tMax[i] = kInfinityF;
+        rays.time[i] = 0.5f; // what stands still looks the same at any time
+        if (isPinhole) {
+            rays.org[i] = origin;
+            continue;
+        }
+        if (context_.scene.moves())
+            rays.time[i] = sampler.get1D(id.pixel, id.index, kTimeDimension);
+        Vec2 lens{0.5f, 0.5f};
+        if (camera.hasLens()) lens = sampler.get2D(id.pixel, id.index, kLensDimension);
+        const Ray ray = camera.ray(chunk.places[i], lens, rays.time[i]);
+        rays.org[i] = ray.org;
+        rays.dir[i] = ray.dir;
+        rays.tMin[i] = ray.tMin;
+    }
+}

@@ -1,0 +1,33 @@
+// CameraRays: the samples of a tile, and the rays that they send into the scene.
+#pragma once
+
+#include "render/integrator.h"
+#include "render/tile.h"
+#include "sample/filter.h"
+
+class CameraRays {
+public:
+    explicit CameraRays(const IntegratorContext& context);
+
+    // Fills in ids and rays of the samples first .. first + count - 1 of every place, place after
+    // place, row after row.
+    void make(const Tile& tile, int first, int count, SampleChunk& chunk) const;
+
+    bool throughCorners() const { return corners_; }
+    int placesPerRow() const { return width_; } // of the whole picture
+    // No sample is farther from the middle of its place than this, in pixels.
+    double reach() const { return corners_ ? 0 : filter_.radius(); }
+    // Where place x, y is in the picture.
+    Vec2d middle(int x, int y) const {
+        const double half = corners_ ? 0 : 0.5;
+        return {x + half, y + half};
+    }
+
+private:
+    void choosePlaces(const Tile& tile, int first, int count, SampleChunk& chunk) const;
+
+    const IntegratorContext& context_;
+    Filter filter_;
+    bool corners_; // samples lie on the corners of pixels; places are those, one more each way
+    int width_;
+};

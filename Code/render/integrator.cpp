@@ -1,0 +1,54 @@
+#include "render/integrator.h"
+
+#include "render/camera_medium.h"
+#include "render/to_float.h"
+#include "render/waves/steps.h"
+
+namespace {
+
+SamplerKind samplerKind(SettingsDesc::Sampler kind) {
+    switch (kind) {
+    case SettingsDesc::Sampler::Stratified: return SamplerKind::Stratified;
+    case SettingsDesc::Sampler::Random: return SamplerKind::Random;
+    case SettingsDesc::Sampler::Grid:
+    case SettingsDesc::Sampler::Corners: return SamplerKind::Grid;
+    case SettingsDesc::Sampler::Sobol: break;
+    }
+    return SamplerKind::Sobol;
+}
+
+bool needsFirstHits(const RenderSettings& settings) {
+    return !settings.aovs.empty() || (settings.integrator != IntegratorKind::Whitted &&
+                                      settings.integrator != IntegratorKind::Ao);
+}
+
+// Texture coordinates are for pictures, and for who looks at them; lifts are for shadow rays.
+SurfaceNeeds surfaceNeedsOf(const Scene& scene, const RenderSettings& settings) {
+    if (!settings.specialise) return {};
+    return {.uv = stepsFor(scene, settings).textures || needsFirstHits(settings),
+            .lift = !scene.lights().empty()};
+}
+
+} // namespace
+
+IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings& theSettings)
+    : scene(theScene), settings(theSettings),
+      sampler(samplerKind(theSettings.picture.sampler), theSettings.picture.samplesPerPixel,
+              theSettings.picture.seed, theSettings.picture.jitter),
+      occluders(theScene.shapes()), cutoff(toFloat(theSettings.picture.cutoff)),
+      compiledSteps(compiledFor(stepsFor(theScene, theSettings))),
+      wantsFirstHits(needsFirstHits(theSettings)),
+      surfaceNeeds(surfaceNeedsOf(theScene, theSettings)),
+      cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
+    const int samples = settings.picture.lightSamples;
+    for (std::size_t i = 0; i < scene.lights().size(); ++i) {
+        const Light& light = *scene.lights()[i];
+        if (light.isDark()) continue;
+        const bool isSoft = light.isSoft() && settings.switches.softShadows;
+        const bool shades = light.castsShadows() && settings.switches.shadows;
+        (shades ? shadingLamps : openLamps)
+            .push_back({light, isSoft, samples,
+                        sampler.stream(static_cast<std::uint32_t>(i) + 1, samples),
+                        isSoft ? std::optional<Vec3>() : light.origin()});
+    }
+}
