@@ -28,6 +28,9 @@ struct Surface {
     // Bound of the distance between p and the surface that the shape's own intersection test sees,
     // rounding of p included: a ray that starts this far off along ng stays on its side.
     float error = 0;
+    // The test sees the end of a ray displaced by up to this part of the ray's length: 0 for shapes
+    // that take rays as they are and reckon in double.
+    float rayError = 0;
     // From p to the curved surface that interpolated normals pretend, on the side of the ray where
     // that is convex; zero elsewhere. Shadow rays that start there end the shadow of a coarse mesh
     // where the shading ends it.

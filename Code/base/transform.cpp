@@ -41,8 +41,12 @@ Transform Transform::fromRows(const Rows& rows) {
     // Scaled to about 1 by a power of two: exact, and products of three stay in range.
     int exponent = 0;
     std::frexp(largest, &exponent);
+    // By multiplication where the power is a normal number: ldexp() is a call each time.
+    const bool isNormal = std::abs(exponent) <= 1000;
+    const double power = isNormal ? std::ldexp(1.0, -exponent) : 0;
+    const auto scaled = [&](double x) { return isNormal ? x * power : std::ldexp(x, -exponent); };
     Rows m = rows;
-    for (double& x : m) x = std::ldexp(x, -exponent);
+    for (double& x : m) x = scaled(x);
     const std::array<double, 9> c = cofactors(m);
     const double determinant = m[0] * c[0] + m[1] * c[1] + m[2] * c[2];
     // The sum of the sizes of all six products: rounding errs by at most 5 u times that.
@@ -55,7 +59,7 @@ Transform Transform::fromRows(const Rows& rows) {
                                   {2, 5, 8}})
         products += std::fabs(m[i] * m[j] * m[k]);
     if (!(std::fabs(determinant) > 8 * 0x1p-53 * products)) return singular;
-    const auto entry = [&](std::size_t i) { return std::ldexp(c[i] / determinant, -exponent); };
+    const auto entry = [&](std::size_t i) { return scaled(c[i] / determinant); };
     Rows inverse{entry(0), entry(3), entry(6), 0,        entry(1), entry(4),
                  entry(7), 0,        entry(2), entry(5), entry(8), 0};
     for (const std::size_t i : {0u, 4u, 8u})

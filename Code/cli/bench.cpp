@@ -1,21 +1,29 @@
 #include "cli/bench.h"
 
-#include "base/text.h"
-#include "cli/bench_rays.h"
+#include "base/file.h"
+#include "base/parallel.h"
+#include "cli/bench_clock.h"
+#include "cli/bench_file.h"
+#include "cli/bench_picture.h"
+#include "cli/bench_trace.h"
+#include "cli/bench_walk.h"
 #include "cli/output.h"
 #include "cli/version.h"
 #include "read/load.h"
 #include "render/merge.h"
 
 #include <algorithm>
-#include <chrono>
-#include <ctime>
 #include <iomanip>
 
 namespace {
 
 // All meshes of the file as the renderer merges them.
-MeshGeometry geometryOf(const std::string& file) {
+struct Subject {
+    MeshGeometry geometry;
+    SceneFrame frame;
+};
+
+Subject subjectOf(const std::string& file) {
     Diagnostics diagnostics;
     const LoadedScene loaded = load(file, diagnostics);
     const SceneFrame frame = frameOf(loaded.desc);
@@ -29,51 +37,78 @@ MeshGeometry geometryOf(const std::string& file) {
                    std::vector<std::uint32_t>(slots, 0), 0);
     }
     if (merged.geometry.triangles.empty()) failUsage(cat(file, " has no triangles"));
-    return std::move(merged.geometry);
+    return {std::move(merged.geometry), frame};
 }
 
-struct Seconds {
-    double wall = 0, cpu = 0;
-};
-
-template <class Body> Seconds timed(Body&& body) {
-    const auto start = std::chrono::steady_clock::now();
-    const std::clock_t cpu = std::clock();
-    body();
-    return {std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(),
-            static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC};
+template <class... Values> std::string numbers(Values... values) {
+    std::ostringstream out;
+    out << std::fixed << std::setprecision(2);
+    ((out << ',' << values), ...);
+    return out.str() + "\n";
 }
 
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    return values[values.size() / 2];
-}
+// The measurements of one mesh, a line each, and what all lines begin with.
+class Report {
+public:
+    Report(const BenchOptions& options, const Kernel& kernel)
+        : options_(options), kernel_(kernel), pool_(options.threads),
+          who_(cat(options.mesh.substr(options.mesh.find_last_of('/') + 1), ",raytracer-", kVersion,
+                   ",sah,exact,", options.threads, ",", kernel.name)) {}
 
-// Returns how many rays hit. Of a nearest hit its t and triangle: u and v are computed where they
-// are needed, once per picture sample.
-std::size_t trace(const MeshGeometry& geometry, const BenchRays& rays) {
-    const Mesh scalar(geometry, MovingTransform(), {0}, {{0, 0}});
-    std::vector<TriangleHit> hits;
-    std::vector<std::uint8_t> hidden;
-    std::size_t count = 0;
-    for (std::size_t b = 0; b < rays.batchCount(); ++b) {
-        const RaySpan batch = rays.batch(b);
-        hits.resize(batch.size()), hidden.resize(batch.size());
-        if (geometry.kernel == nullptr) {
-            for (std::size_t i = 0; i < batch.size(); ++i) {
-                Hit hit;
-                count += rays.anyHit ? scalar.occludes(batch[i]) : scalar.intersect(batch[i], hit);
-            }
-        } else if (rays.anyHit) {
-            anyHits(*geometry.kernel, geometry.wideMesh(), batch, hidden);
-            for (const std::uint8_t h : hidden) count += h;
-        } else {
-            closestHits(*geometry.kernel, geometry.wideMesh(), batch, hits);
-            for (const TriangleHit& h : hits) count += h.triangle != TriangleHit::kNone;
+    MeshGeometry build(const MeshGeometry& unbuilt) const {
+        MeshGeometry built;
+        std::vector<double> wall, cpu;
+        for (int run = 0; run <= options_.runs; ++run) {
+            MeshGeometry fresh = unbuilt;
+            const BenchSeconds s = secondsOf([&] { fresh.finish(true, kernel_); });
+            built = std::move(fresh);
+            if (run == 0) continue;
+            wall.push_back(s.wall * 1e3), cpu.push_back(s.cpu * 1e3);
         }
+        const double bytes = static_cast<double>(built.wide.bytes() + built.bvh.bytes()) /
+                             static_cast<double>(built.triangles.size());
+        writeStdout(cat("BUILD,", who_,
+                        numbers(medianOf(wall), *std::min_element(wall.begin(), wall.end()),
+                                medianOf(cpu), bytes)));
+        return built;
     }
-    return count;
-}
+
+    void trace(const MeshGeometry& geometry, const BenchRays& rays, bool withUv) {
+        BenchTracer tracer(geometry, rays, pool_);
+        tracer.trace(withUv);
+        const double millions = static_cast<double>(rays.size()) * 1e-6;
+        std::vector<double> wall, cpu;
+        for (int run = 0; run < options_.runs; ++run) {
+            const BenchSeconds s = secondsOf([&] { tracer.trace(withUv); });
+            wall.push_back(millions / s.wall), cpu.push_back(millions * options_.threads / s.cpu);
+        }
+        const BenchWalk walk = meanWalk(geometry, rays);
+        writeStdout(cat(who_, withUv ? "+uv," : ",", rays.name, ",", rays.size(), ",",
+                        tracer.hitCount(),
+                        numbers(medianOf(wall), *std::min_element(wall.begin(), wall.end()),
+                                *std::max_element(wall.begin(), wall.end()), medianOf(cpu),
+                                walk.nodes, walk.leaves)));
+    }
+
+    void picture() const {
+        std::vector<double> read, build, render, write, total;
+        for (int run = 0; run < options_.runs; ++run) {
+            const BenchPicture s = timePicture(options_.mesh, kernel_.name, options_.threads);
+            read.push_back(s.read * 1e3), build.push_back(s.build * 1e3);
+            render.push_back(s.render * 1e3), write.push_back(s.write * 1e3);
+            total.push_back((s.read + s.build + s.render + s.write) * 1e3);
+        }
+        writeStdout(cat("PICTURE,", who_, ",", kBenchPictureSide, "x", kBenchPictureSide,
+                        numbers(medianOf(read), medianOf(build), medianOf(render), medianOf(write),
+                                medianOf(total))));
+    }
+
+private:
+    const BenchOptions& options_;
+    const Kernel& kernel_;
+    ThreadPool pool_;
+    std::string who_;
+};
 
 } // namespace
 
@@ -90,6 +125,14 @@ std::vector<Flag> benchFlags(BenchOptions& o) {
          .value = Flag::Value::Required,
          .choices = kernels,
          .example = "scalar"},
+        {.name = "--threads",
+         .alias = "-t",
+         .argument = "N",
+         .help = "how many share the work (1)",
+         .group = group,
+         .set = [&o](const FlagValue& v) { o.threads = v.whole(1, 1024); },
+         .value = Flag::Value::Required,
+         .example = "2"},
         {.name = "--runs",
          .argument = "N",
          .help = "timed runs of each set, behind one that is not timed (5)",
@@ -97,6 +140,23 @@ std::vector<Flag> benchFlags(BenchOptions& o) {
          .set = [&o](const FlagValue& v) { o.runs = v.whole(1, 1000); },
          .value = Flag::Value::Required,
          .example = "3"},
+        {.name = "--uv",
+         .help = "nearest hits a second time, with u and v as well as t and triangle",
+         .group = group,
+         .set = [&o](const FlagValue&) { o.uv = true; }},
+        {.name = "--picture",
+         .help = "a whole picture too, or not",
+         .group = group,
+         .set = [&o](const FlagValue& v) { o.picture = v.on; },
+         .negatable = true},
+        {.name = "--write-rays",
+         .argument = "FILE",
+         .help = "writes mesh and rays for another program, and measures nothing",
+         .group = group,
+         .set = [&o](const FlagValue& v) { o.raysFile = v.nonEmpty("the name of a file"); },
+         .value = Flag::Value::Required,
+         .files = Flag::Files::Any,
+         .example = "bunny.rays"},
         {.name = "--help",
          .alias = "-h",
          .help = "this text",
@@ -116,40 +176,20 @@ BenchOptions parseBenchOptions(std::span<const std::string> arguments) {
 
 ExitCode bench(const BenchOptions& options) {
     const Kernel& kernel = chooseKernel(options.kernel);
-    MeshGeometry geometry = geometryOf(options.mesh);
-    const std::string name = options.mesh.substr(options.mesh.find_last_of('/') + 1);
-    const std::string who = cat(name, ",raytracer-", kVersion, ",sah,exact,1,");
-    const auto numbers = [](auto... values) {
-        std::ostringstream out;
-        out << std::fixed << std::setprecision(2);
-        ((out << ',' << values), ...);
-        return out.str() + "\n";
-    };
-
-    std::vector<double> wall, cpu;
-    for (int run = 0; run < options.runs; ++run) {
-        MeshGeometry fresh = geometry;
-        const Seconds s = timed([&] { fresh.finish(true, kernel); });
-        wall.push_back(s.wall * 1e3), cpu.push_back(s.cpu * 1e3);
-        if (run + 1 == options.runs) geometry = std::move(fresh);
+    auto [geometry, frame] = subjectOf(options.mesh);
+    if (!options.raysFile.empty()) {
+        checkWritable(options.raysFile);
+        geometry.finish(true, kernel);
+        writeFileAtomically(options.raysFile,
+                            encodeBenchFile(geometry, frame, benchRays(geometry)));
+        return ExitCode::Ok;
     }
-    const double bytes = static_cast<double>(geometry.wide.bytes() + geometry.bvh.bytes()) /
-                         static_cast<double>(geometry.triangles.size());
-    writeStdout(cat(
-        "BUILD,", who, kernel.name,
-        numbers(median(wall), *std::min_element(wall.begin(), wall.end()), median(cpu), bytes)));
-
+    Report report(options, kernel);
+    geometry = report.build(geometry);
     for (const BenchRays& rays : benchRays(geometry)) {
-        std::size_t hits = trace(geometry, rays);
-        const double millions = static_cast<double>(rays.size()) * 1e-6;
-        wall.clear(), cpu.clear();
-        for (int run = 0; run < options.runs; ++run) {
-            const Seconds s = timed([&] { hits = trace(geometry, rays); });
-            wall.push_back(millions / s.wall), cpu.push_back(millions / s.cpu);
-        }
-        writeStdout(cat(who, kernel.name, ",", rays.name, ",", rays.size(), ",", hits,
-                        numbers(median(wall), *std::min_element(wall.begin(), wall.end()),
-                                *std::max_element(wall.begin(), wall.end()), median(cpu))));
+        report.trace(geometry, rays, false);
+        if (options.uv && !rays.anyHit) report.trace(geometry, rays, true);
     }
+    if (options.picture) report.picture();
     return ExitCode::Ok;
 }

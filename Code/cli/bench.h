@@ -1,4 +1,5 @@
-// `raytracer bench`: how fast this machine builds the tree of a mesh and traces rays through it.
+// `raytracer bench`: how fast this machine builds the tree of a mesh, traces rays through it and
+// makes a picture of it.
 #pragma once
 
 #include "cli/exit_codes.h"
@@ -11,7 +12,11 @@
 struct BenchOptions {
     std::string mesh;
     std::string kernel = "auto";
+    int threads = 1;
     int runs = 5;
+    bool uv = false;
+    bool picture = true;
+    std::string raysFile; // written instead of measuring; empty: none
     bool help = false;
 };
 
@@ -21,5 +26,6 @@ std::vector<Flag> benchFlags(BenchOptions& options);
 // Everything after "bench". Fails with ErrorKind::Usage.
 BenchOptions parseBenchOptions(std::span<const std::string> arguments);
 
-// Prints comma-separated lines, one for the build and one for each set of rays.
+// Prints comma-separated lines: one for the build, one or two for each set of rays, one for a whole
+// picture.
 ExitCode bench(const BenchOptions& options);

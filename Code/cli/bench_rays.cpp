@@ -2,9 +2,6 @@
 
 #include "sample/warp.h"
 
-#include <algorithm>
-#include <optional>
-
 namespace {
 
 constexpr int kSide = 1024, kTile = 16;
@@ -46,29 +43,43 @@ float random(std::uint32_t seed) {
 }
 
 struct HitPoint {
-    Vec3d p, n;
+    Vec3d p, n; // p a little off the surface, n to the viewer
 };
 
-std::optional<HitPoint> firstHit(const Mesh& mesh, const MeshGeometry& geometry, const View& view,
-                                 Vec3d dir) {
-    const Ray ray{toFloat(view.eye), toFloat(dir)};
-    Hit hit;
-    if (!mesh.intersect(ray, hit)) return std::nullopt;
+HitPoint pointOf(const Hit& hit, Vec3d dir, const MeshGeometry& geometry, const View& view) {
     const auto& c = geometry.triangles[hit.prim];
     const Vec3d a = toDouble(geometry.points[c[0]]);
     Vec3d n =
         normalize(cross(toDouble(geometry.points[c[1]]) - a, toDouble(geometry.points[c[2]]) - a));
     if (dot(n, dir) > 0) n = -n;
     const Vec3d p = view.eye + dir * static_cast<double>(hit.t);
-    return HitPoint{p + n * (1e-4 * view.diagonal), n};
+    return {p + n * (1e-4 * view.diagonal), n};
+}
+
+struct Pixel {
+    int x, y;
+};
+// Pixel i of a tile.
+Pixel pixelOf(int tile, int i) {
+    const int block = i / 16, inside = i % 16;
+    return {tile % (kSide / kTile) * kTile + squareX(block) * 4 + inside % 4,
+            tile / (kSide / kTile) * kTile + squareY(block) * 4 + inside / 4};
+}
+
+Vec3d directionOf(Pixel pixel, const View& view) {
+    return normalize(view.forward + view.right * ((2 * pixel.x + 1.0) / kSide - 1) +
+                     view.up * (1 - (2 * pixel.y + 1.0) / kSide));
 }
 
 } // namespace
 
 RaySpan BenchRays::batch(std::size_t i) const {
-    const std::size_t first = batches[i], n = batches[i + 1] - first;
-    const auto part = [&](const auto& all) { return std::span(all).subspan(first, n); };
-    return {part(org), part(dir), part(tMin), part(tMax), part(time)};
+    return part(batches[i], batches[i + 1] - batches[i]);
+}
+
+RaySpan BenchRays::part(std::size_t first, std::size_t count) const {
+    const auto of = [&](const auto& all) { return std::span(all).subspan(first, count); };
+    return {of(org), of(dir), of(tMin), of(tMax), of(time)};
 }
 
 void BenchRays::push(Vec3 from, Vec3 towards, float tEnd) {
@@ -86,22 +97,24 @@ std::vector<BenchRays> benchRays(const MeshGeometry& geometry) {
     shadow.anyHit = bounceAny.anyHit = true;
     for (BenchRays& set : sets) set.endBatch();
     const Vec3 light = toFloat(view.light);
+    constexpr std::size_t kTileRays = kTile * kTile;
+    std::vector<Hit> hits(kTileRays);
     for (int tile = 0; tile < (kSide / kTile) * (kSide / kTile); ++tile) {
-        const int x0 = tile % (kSide / kTile) * kTile, y0 = tile / (kSide / kTile) * kTile;
+        const std::size_t first = primary.size();
+        for (int i = 0; i < kTile * kTile; ++i)
+            primary.push(toFloat(view.eye), toFloat(directionOf(pixelOf(tile, i), view)),
+                         kInfinityF);
+        mesh.intersectBatch(primary.part(first, kTileRays), 0, hits);
         for (int i = 0; i < kTile * kTile; ++i) {
-            const int block = i / 16, inside = i % 16;
-            const int x = x0 + squareX(block) * 4 + inside % 4;
-            const int y = y0 + squareY(block) * 4 + inside / 4;
-            const Vec3d dir = normalize(view.forward + view.right * ((2 * x + 1.0) / kSide - 1) +
-                                        view.up * (1 - (2 * y + 1.0) / kSide));
-            primary.push(toFloat(view.eye), toFloat(dir), kInfinityF);
-            const auto hit = firstHit(mesh, geometry, view, dir);
-            if (!hit) continue;
-            const Vec3 p = toFloat(hit->p);
+            const Hit& hit = hits[static_cast<std::size_t>(i)];
+            if (!hit.isHit()) continue;
+            const Pixel pixel = pixelOf(tile, i);
+            const HitPoint point = pointOf(hit, directionOf(pixel, view), geometry, view);
+            const Vec3 p = toFloat(point.p);
             shadow.push(light, p - light, 1);
-            const auto pixel = static_cast<std::uint32_t>(y * kSide + x);
-            const Vec2 u{random(2 * pixel), random(2 * pixel + 1)};
-            const Vec3 away = frameAround(toFloat(hit->n)).toWorld(cosineHemisphereFromSquare(u));
+            const auto number = static_cast<std::uint32_t>(pixel.y * kSide + pixel.x);
+            const Vec2 u{random(2 * number), random(2 * number + 1)};
+            const Vec3 away = frameAround(toFloat(point.n)).toWorld(cosineHemisphereFromSquare(u));
             bounce.push(p, away, kInfinityF);
             bounceAny.push(p, away, kInfinityF);
         }

@@ -20,6 +20,7 @@ struct BenchRays {
     std::size_t size() const { return org.size(); }
     std::size_t batchCount() const { return batches.size() - 1; }
     RaySpan batch(std::size_t i) const;
+    RaySpan part(std::size_t first, std::size_t count) const;
     void push(Vec3 from, Vec3 to, float tEnd);
     void endBatch() { batches.push_back(size()); }
 };

@@ -50,14 +50,17 @@ constexpr std::array kCommands{
             .run = parseAndRun<VerifyOptions, parseVerifyOptions, verify>},
     Command{.name = "bench",
             .arguments = "MESH",
-            .help = "measures tree and rays of a mesh",
+            .help = "measures tree, rays and picture of a mesh",
             .about =
-                "Builds the tree of a mesh (.obj, .ply, or a scene with meshes) and traces rays "
-                "through it with one thread. Comma-separated lines:\n"
+                "Builds the tree of a mesh (.obj, .ply, or a scene with meshes), traces rays "
+                "through it and makes a picture of it. Comma-separated lines:\n"
                 "  BUILD,mesh,engine,quality,exactness,threads,kernel,ms (median, least, of the "
                 "processor),bytes per triangle\n"
                 "  mesh,engine,quality,exactness,threads,kernel,set,rays,hits,million rays per "
-                "second (median, least, most, of the processor)\n"
+                "second (median, least, most, of the processor),nodes and leaves of the tree that "
+                "a ray visits\n"
+                "  PICTURE,mesh,engine,quality,exactness,threads,kernel,size,ms (read, build, "
+                "render, write, all)\n"
                 "Sets: primary (nearest), shadow (any, from a point light), bounce (diffuse "
                 "directions, nearest), bounceany (the same, any).",
             .step = {"tracing rays", ExitCode::Internal},

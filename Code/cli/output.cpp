@@ -96,9 +96,10 @@ void writePicture(Picture picture, const RenderSettings& settings, const Options
     }
     const Encoding encoding = encodingOf(settings, options);
     if (output == "-") {
-        const auto bytes = encodeImage(picture.color, "ppm", encoding);
+        const auto bytes = encodeImage(picture.color, "ppm", encoding, settings.threads);
         return writeStdout({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     }
-    picture.color.write(output, encoding);
-    for (const AovImage& aov : picture.aovs) aov.image.write(aovFileName(output, aov.aov));
+    picture.color.write(output, encoding, settings.threads);
+    for (const AovImage& aov : picture.aovs)
+        aov.image.write(aovFileName(output, aov.aov), {}, settings.threads);
 }

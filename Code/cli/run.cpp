@@ -209,7 +209,9 @@ ExitCode runScene(const Options& options, Step& step) {
     Stopwatch watch;
     Stats stats;
     Diagnostics diagnostics;
-    const LoadedScene loaded = load(options.scene, diagnostics, options.read);
+    ReadOptions read = options.read;
+    read.threads = options.threads; // both take 0 for what the machine has
+    const LoadedScene loaded = load(options.scene, diagnostics, read);
     stats.parseSeconds = watch.lap();
     printWarnings(diagnostics);
     RenderSettings settings = settingsFrom(loaded.desc, options);

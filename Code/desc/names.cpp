@@ -27,6 +27,10 @@ std::size_t sequenceLength(std::string_view text) {
 
 std::size_t findBadText(std::string_view text) {
     for (std::size_t i = 0; i < text.size();) {
+        if (text[i] >= 0x20 && text[i] < 0x7f) { // most text is ASCII
+            ++i;
+            continue;
+        }
         const std::size_t length = sequenceLength(text.substr(i, 4));
         if (length == 0) return i;
         i += length;

@@ -1,15 +1,20 @@
 // What a name in a scene may be, and how it is shown in a message.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
 
 // Letters, digits and _ . - + need no quotes in the native text.
-constexpr bool isBareChar(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
-           c == '.' || c == '-' || c == '+';
-}
+inline constexpr auto kIsBareChar = [] {
+    std::array<bool, 256> table{};
+    for (const char c : std::string_view("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                         "0123456789_.-+"))
+        table[static_cast<unsigned char>(c)] = true;
+    return table;
+}();
+constexpr bool isBareChar(char c) { return kIsBareChar[static_cast<unsigned char>(c)]; }
 constexpr bool isBareWord(std::string_view text) {
     for (const char c : text)
         if (!isBareChar(c)) return false;

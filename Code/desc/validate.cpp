@@ -3,13 +3,13 @@
 #include "base/text.h"
 #include "base/transform.h"
 #include "desc/error_list.h"
+#include "desc/name_table.h"
 #include "desc/names.h"
 #include "desc/properties.h"
 #include "desc/scene_bounds.h"
 
 #include <algorithm>
 #include <cmath>
-#include <unordered_map>
 #include <vector>
 
 namespace {
@@ -91,21 +91,18 @@ private:
     }
 
     template <class Block> void checkProperties(const Block& block) {
-        static const Block kDefaults{};
         for (const Property<Block>& property : propertiesOf<Block>()) {
-            bool isDefault = true;
             const auto checkNumbers = [&](const Field<Block>& field) {
                 forEachNumber(block, field, [&](const auto& number) {
                     const auto value = static_cast<double>(number);
                     if (!property.range.contains(value) && (property.kinds & kindOf(block)))
                         error(block, mustHave(property.keyword, property.range, value));
                 });
-                isDefault = isDefault && sameField(block, kDefaults, field);
             };
             checkNumbers(property.first);
             if (property.second) checkNumbers(*property.second);
             if constexpr (std::is_same_v<Block, LightDesc>)
-                if (!isDefault && !(property.kinds & kindOf(block)))
+                if (!(property.kinds & kindOf(block)) && !isDefault(block, property))
                     warn(block.loc, cat(called(block), ": '", property.keyword,
                                         "' has no effect on type ", nameOf(block.kind)));
         }
@@ -115,6 +112,13 @@ private:
                 error(block, "'", keyword, "' refers to ", nameOf(target), " ", handle, " of ",
                       countOf(target));
         });
+    }
+
+    template <class Block>
+    static bool isDefault(const Block& block, const Property<Block>& property) {
+        const Block defaults{};
+        return sameField(block, defaults, property.first) &&
+               (!property.second || sameField(block, defaults, *property.second));
     }
 
     std::size_t countOf(Target target) const {
@@ -138,13 +142,13 @@ private:
 
     template <class Block>
     void checkNames(const std::vector<Block>& blocks, std::string_view kind) {
-        std::unordered_map<std::string_view, const Block*> seen;
-        for (const Block& block : blocks) {
+        NameTable seen(blocks.size());
+        for (std::size_t i = 0; i < blocks.size(); ++i) {
+            const Block& block = blocks[i];
             if (block.name.empty() || findBadText(block.name) != std::string_view::npos)
                 error(block, "a name is UTF-8 without control characters, and not empty");
-            const auto [first, isNew] = seen.try_emplace(block.name, &block);
-            if (!isNew)
-                error(block, "another ", kind, " has this name", atLine(first->second->loc));
+            if (const auto first = seen.insert(block.name, static_cast<std::uint32_t>(i)))
+                error(block, "another ", kind, " has this name", atLine(blocks[*first].loc));
         }
     }
     std::string atLine(SourceLoc loc) const {
@@ -156,7 +160,7 @@ private:
 
     template <class Block> void checkKeys(const Block& block, const Keys& keys) {
         if (keys.empty()) error(block, "has no transform at all; one key is needed");
-        bool turnsOver = false;
+        bool mirrors = false, turnsOver = false;
         for (const Rows& rows : keys) {
             const bool inRange = std::all_of(rows.begin(), rows.end(),
                                              [](double x) { return kAnyNumber.contains(x); });
@@ -165,8 +169,8 @@ private:
             const Transform transform = Transform::fromRows(rows);
             if (transform.isSingular())
                 return error(block, "its transform flattens it: a scale is 0");
-            turnsOver =
-                turnsOver || transform.mirrors() != Transform::fromRows(keys.front()).mirrors();
+            if (&rows == &keys.front()) mirrors = transform.mirrors();
+            turnsOver = turnsOver || transform.mirrors() != mirrors;
         }
         if (turnsOver)
             error(block,

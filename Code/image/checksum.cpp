@@ -21,6 +21,8 @@ constexpr auto kCrc = [] {
     return table;
 }();
 
+constexpr std::uint32_t kModulus = 65521; // of Adler-32: the largest prime below 2^16
+
 } // namespace
 
 std::uint32_t crc32(std::span<const std::uint8_t> bytes, std::uint32_t before) {
@@ -37,7 +39,6 @@ std::uint32_t crc32(std::span<const std::uint8_t> bytes, std::uint32_t before) {
 }
 
 std::uint32_t adler32(std::span<const std::uint8_t> bytes, std::uint32_t before) {
-    constexpr std::uint32_t kModulus = 65521;
     constexpr std::size_t kNoOverflow = 5552; // the longest run that keeps b below 2^32 (zlib)
     std::uint32_t a = before & 0xFFFF, b = before >> 16;
     while (!bytes.empty()) {
@@ -51,4 +52,13 @@ std::uint32_t adler32(std::span<const std::uint8_t> bytes, std::uint32_t before)
         bytes = bytes.subspan(part.size());
     }
     return b << 16 | a;
+}
+
+// a = 1 + the bytes; b = the sum of a after each byte. The second part began with a = 1 instead of
+// the first part's a, which is missing once in a and once per byte in b.
+std::uint32_t adler32Joined(std::uint32_t first, std::uint32_t second, std::size_t secondSize) {
+    const std::uint64_t missing = (first & 0xFFFF) + std::uint64_t{kModulus} - 1;
+    const std::uint64_t a = (second & 0xFFFF) + missing;
+    const std::uint64_t b = (first >> 16) + (second >> 16) + secondSize % kModulus * missing;
+    return static_cast<std::uint32_t>(b % kModulus << 16 | a % kModulus);
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <bit>
 #include <cstddef>
+#include <cstring>
 #include <vector>
 
 namespace {
@@ -79,26 +80,32 @@ constexpr float lowestOfCode(int code, int maxCode, double start) {
     return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) + 1);
 }
 
-// 8 bits: a bucket is so small that it holds at most one boundary.
+// 8 bits: a bucket is so small that it holds at most one boundary. Its entry is the code of its
+// smallest float times 2^16, plus what makes the bits of a float behind those of the bucket carry
+// from the boundary on: one look-up and one sum, no decision.
 constexpr int kOctaves8 = 13, kBits8 = 7;
-struct Encode8 {
-    std::array<float, 257> lowest{};
-    std::array<std::uint8_t, kOctaves8 << kBits8> first{}; // code of the bucket's smallest float
-};
+constexpr std::uint32_t kInside8 = (1u << (23 - kBits8)) - 1; // the bits behind the bucket
 constexpr auto kEncode8 = [] {
-    Encode8 table;
+    std::array<float, 257> lowest{};
     for (int code = 1; code < 256; ++code)
-        table.lowest[static_cast<std::size_t>(code)] = lowestOfCode(code, 255, 1);
-    table.lowest[256] = 2;
+        lowest[static_cast<std::size_t>(code)] = lowestOfCode(code, 255, 1);
+    lowest[256] = 2;
+    std::array<std::uint32_t, kOctaves8 << kBits8> table{};
     std::uint32_t bits = static_cast<std::uint32_t>(127 - kOctaves8) << 23;
-    std::uint8_t code = 0;
-    for (std::uint8_t& first : table.first) {
-        while (std::bit_cast<float>(bits) >= table.lowest[code + 1u]) ++code;
-        first = code;
-        bits += 1u << (23 - kBits8);
+    std::uint32_t code = 0;
+    for (std::uint32_t& entry : table) {
+        while (std::bit_cast<float>(bits) >= lowest[code + 1]) ++code;
+        const std::uint32_t boundary = std::bit_cast<std::uint32_t>(lowest[code + 1]);
+        entry = code << 16;
+        if (boundary <= (bits | kInside8)) entry += kInside8 + 1 - (boundary & kInside8);
+        bits += kInside8 + 1;
     }
     return table;
 }();
+static_assert(kInside8 == 0xFFFF, "the bits behind the bucket carry into the code");
+static_assert(kEncode8[0] == 0 && kEncode8.back() >> 16 == 255);
+// Smaller values have the code of kLeast8, larger ones that of kMost8.
+constexpr float kLeast8 = 1.0f / (1 << kOctaves8), kMost8 = 0x1.fffffep-1f;
 
 // 16 bits: a straight line through the bucket guesses the code, the boundaries correct it.
 constexpr int kOctaves16 = 21, kBits16 = 10;
@@ -165,10 +172,40 @@ float linearFromSrgb8(std::uint8_t code) {
 float linearFromSrgb16(std::uint16_t code) { return tables16().decoded[code]; }
 
 std::uint8_t srgb8FromLinear(float linear) {
-    if (!(linear >= 1.0f / (1 << kOctaves8))) return 0;
-    if (linear >= 1) return 255;
-    const std::uint8_t first = kEncode8.first[bucketOf(linear, kOctaves8, kBits8)];
-    return static_cast<std::uint8_t>(first + (linear >= kEncode8.lowest[first + 1u] ? 1 : 0));
+    const float x = linear > kLeast8 ? linear : kLeast8; // also instead of NaN
+    const float inTable = x < kMost8 ? x : kMost8;
+    const std::uint32_t entry = kEncode8[bucketOf(inTable, kOctaves8, kBits8)];
+    const std::uint32_t inside = std::bit_cast<std::uint32_t>(inTable) & kInside8;
+    return static_cast<std::uint8_t>((entry + inside) >> 16);
+}
+
+void srgb8FromLinear(std::span<const Rgb> pixels, std::uint8_t* out) {
+    // Vectors of the compiler, in steps as above; only the look-ups are one by one.
+    using Floats __attribute__((vector_size(16))) = float;
+    using Words __attribute__((vector_size(16))) = std::uint32_t;
+    static_assert(sizeof(Rgb) == 3 * sizeof(float));
+    const auto* bytes = reinterpret_cast<const unsigned char*>(pixels.data());
+    const std::size_t count = 3 * pixels.size();
+    std::size_t i = 0;
+    for (; i + 4 <= count; i += 4) {
+        Floats x;
+        std::memcpy(&x, bytes + 4 * i, sizeof x);
+        constexpr Floats kLeast = {kLeast8, kLeast8, kLeast8, kLeast8};
+        constexpr Floats kMost = {kMost8, kMost8, kMost8, kMost8};
+        x = x > kLeast ? x : kLeast;
+        x = x < kMost ? x : kMost;
+        const Words bits = reinterpret_cast<Words>(x);
+        const Words bucket = (bits >> (23 - kBits8)) - (std::uint32_t{127 - kOctaves8} << kBits8);
+        const Words entry = {kEncode8[bucket[0]], kEncode8[bucket[1]], kEncode8[bucket[2]],
+                             kEncode8[bucket[3]]};
+        const Words code = (entry + (bits & kInside8)) >> 16;
+        for (std::size_t k = 0; k < 4; ++k) out[i + k] = static_cast<std::uint8_t>(code[k]);
+    }
+    for (; i < count; ++i) {
+        float x = 0;
+        std::memcpy(&x, bytes + 4 * i, sizeof x);
+        out[i] = srgb8FromLinear(x);
+    }
 }
 
 std::uint16_t srgb16FromLinear(float linear) {

@@ -3,7 +3,10 @@
 // Everything is clamped to [0,1]; NaN counts as 0. Knows nothing about pictures.
 #pragma once
 
+#include "base/vec.h"
+
 #include <cstdint>
+#include <span>
 
 // Within 1 ulp of the exact value; monotone over the table's 256 pieces to that accuracy.
 // linearFromSrgb(float(k / 255.0)) and linearFromSrgb8(k) agree within 1 ulp.
@@ -16,6 +19,8 @@ float linearFromSrgb16(std::uint16_t code);
 // round(255 * srgb(x)) and round(65535 * srgb(x)) of the exact value.
 std::uint8_t srgb8FromLinear(float linear);
 std::uint16_t srgb16FromLinear(float linear);
+// Many at once: three codes per pixel.
+void srgb8FromLinear(std::span<const Rgb> pixels, std::uint8_t* out);
 
 // Without a transfer: code / 255 or code / 65535, and round(255 * x), round(65535 * x).
 inline float unitFrom8(std::uint8_t code) { return static_cast<float>(code / 255.0); }

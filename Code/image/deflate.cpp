@@ -4,6 +4,7 @@
 #include "image/deflate_codes.h"
 #include "image/huffman.h"
 #include "image/little_endian.h"
+#include "image/matcher.h"
 
 #include <algorithm>
 #include <array>
@@ -11,13 +12,13 @@
 
 namespace {
 
-// Where speed and size meet for pictures (measured with filtered 1920x1080 renders).
-constexpr std::size_t kBlockTokens = 1 << 15; // a new Huffman code about every 30 rows
-constexpr int kChainDepth = 4;                // candidates that are compared with the current place
-constexpr std::size_t kGoodMatch = 16;        // long enough: no look at the next place
+constexpr std::size_t kBlockCodes = 1 << 15; // a new Huffman code about every 30 rows
 
-// A literal (length 0 and the byte) or a match, as distance - 1 and length << 16.
-using Token = std::uint32_t;
+// Some bytes as they are and a match behind them (length 0: none).
+struct Step {
+    std::uint32_t literals;
+    std::uint16_t length, distanceMinusOne;
+};
 
 constexpr auto kLengthSymbol = [] { // by length - 3
     std::array<std::uint8_t, 256> symbol{};
@@ -62,7 +63,6 @@ public:
         count_ = (count_ + 7) & ~7u;
         flush();
     }
-    unsigned bitsInByte() const { return count_; }
     std::vector<std::uint8_t> result() && {
         bytes_.resize(used_);
         return std::move(bytes_);
@@ -75,27 +75,40 @@ private:
     unsigned count_ = 0; // below 8 after flush()
 };
 
-// The tokens of one block with their symbol counts.
+// What one block consists of, with its symbol counts.
 struct Block {
-    std::vector<Token> tokens;
+    std::span<const std::uint8_t> bytes;
+    std::vector<Step> steps;
     std::array<std::uint32_t, kLiteralCodes> literalCounts{};
     std::array<std::uint32_t, kDistanceCodes> distanceCounts{};
 
-    void addLiteral(std::uint8_t byte) {
-        tokens.push_back(byte);
-        ++literalCounts[byte];
-    }
-    void addMatch(std::size_t length, std::size_t distance) {
-        const auto minusOne = static_cast<std::uint32_t>(distance - 1);
-        tokens.push_back(static_cast<Token>(length << 16) | minusOne);
-        ++literalCounts[kEndOfBlock + 1 + kLengthSymbol[length - kShortestMatch]];
+    void add(std::span<const std::uint8_t> literals, Match match) {
+        countLiterals(literals);
+        codes_ += literals.size() + 1;
+        const auto count = static_cast<std::uint32_t>(literals.size());
+        if (match.length == 0) return steps.push_back({count, 0, 0});
+        const auto minusOne = static_cast<std::uint16_t>(match.distance - 1);
+        steps.push_back({count, static_cast<std::uint16_t>(match.length), minusOne});
+        ++literalCounts[kEndOfBlock + 1 + kLengthSymbol[match.length - kShortestMatch]];
         ++distanceCounts[distanceSymbol(minusOne)];
     }
-    void clear() {
-        tokens.clear();
-        literalCounts.fill(0);
-        distanceCounts.fill(0);
+    std::size_t codes() const { return codes_; }
+    // All counts of literals are in literalCounts.
+    void finish() {
+        for (const auto& counts : interleaved_)
+            for (std::size_t b = 0; b < counts.size(); ++b) literalCounts[b] += counts[b];
     }
+
+private:
+    // In turns, so that a byte needn't wait for the count of an equal one before it.
+    void countLiterals(std::span<const std::uint8_t> literals) {
+        std::size_t i = 0;
+        for (; i + 4 <= literals.size(); i += 4)
+            for (std::size_t k = 0; k < 4; ++k) ++interleaved_[k][literals[i + k]];
+        for (; i < literals.size(); ++i) ++interleaved_[0][literals[i]];
+    }
+    std::array<std::array<std::uint32_t, 256>, 4> interleaved_{};
+    std::size_t codes_ = 0;
 };
 
 // How the code lengths of a dynamic block are stored: 16, 17 and 18 repeat.
@@ -141,22 +154,29 @@ std::uint64_t bodyBits(const Block& block, std::span<const std::uint8_t> literal
     return bits;
 }
 
+// At most three codes of literals, or those of a match with their extra bits, fit between flushes.
 void putBody(BitWriter& out, const Block& block, const std::vector<HuffmanCode>& literals,
              const std::vector<HuffmanCode>& distances) {
-    for (const Token token : block.tokens) {
-        const std::size_t length = token >> 16;
-        if (length == 0) {
-            out.put(literals[token]);
-        } else {
-            const std::size_t slot = kLengthSymbol[length - kShortestMatch];
-            out.put(literals[kEndOfBlock + 1 + slot]);
-            out.put(length - kLengthRanges[slot].base, kLengthRanges[slot].extra);
-            const std::uint32_t minusOne = token & 0xFFFF;
-            const std::size_t symbol = distanceSymbol(minusOne);
-            out.put(distances[symbol]);
-            out.put(minusOne + 1 - kDistanceRanges[symbol].base, kDistanceRanges[symbol].extra);
+    static_assert(7 + 3 * kMaxCodeLength <= 56 && 7 + 2 * kMaxCodeLength + 5 + 13 <= 56);
+    const std::uint8_t* byte = block.bytes.data();
+    for (const Step& step : block.steps) {
+        const std::uint8_t* const end = byte + step.literals;
+        for (; end - byte >= 3; byte += 3) {
+            for (std::size_t k = 0; k < 3; ++k) out.put(literals[byte[k]]);
+            out.flush();
         }
+        for (; byte < end; ++byte) out.put(literals[*byte]);
         out.flush();
+        if (step.length == 0) continue;
+        const std::size_t slot = kLengthSymbol[step.length - kShortestMatch];
+        out.put(literals[kEndOfBlock + 1 + slot]);
+        out.put(step.length - unsigned{kLengthRanges[slot].base}, kLengthRanges[slot].extra);
+        const std::uint32_t minusOne = step.distanceMinusOne;
+        const std::size_t symbol = distanceSymbol(minusOne);
+        out.put(distances[symbol]);
+        out.put(minusOne + 1 - kDistanceRanges[symbol].base, kDistanceRanges[symbol].extra);
+        out.flush();
+        byte += step.length;
     }
     out.put(literals[kEndOfBlock]);
     out.flush();
@@ -177,7 +197,8 @@ void putStored(BitWriter& out, std::span<const std::uint8_t> bytes, bool last) {
 }
 
 // The block in the shortest of the three forms.
-void putBlock(BitWriter& out, Block& block, std::span<const std::uint8_t> bytes, bool last) {
+void putBlock(BitWriter& out, Block& block, bool last) {
+    block.finish();
     block.literalCounts[kEndOfBlock] = 1;
     const auto literalLengths = huffmanLengths(block.literalCounts, kMaxCodeLength);
     const auto distanceLengths = huffmanLengths(block.distanceCounts, kMaxCodeLength);
@@ -206,9 +227,10 @@ void putBlock(BitWriter& out, Block& block, std::span<const std::uint8_t> bytes,
     fives.fill(5);
     const std::uint64_t dynamicBits = headerBits + bodyBits(block, literalLengths, distanceLengths);
     const std::uint64_t fixedBits = bodyBits(block, kFixedLiteralLengths, fives);
-    const std::uint64_t storedBits = 8 * (bytes.size() + 5 * (bytes.size() / 65535 + 1));
+    const std::uint64_t storedBits =
+        8 * (block.bytes.size() + 5 * (block.bytes.size() / 65535 + 1));
 
-    if (storedBits < std::min(dynamicBits, fixedBits)) return putStored(out, bytes, last);
+    if (storedBits < std::min(dynamicBits, fixedBits)) return putStored(out, block.bytes, last);
     out.reserveBits(std::min(dynamicBits, fixedBits) + 64);
     out.put(last ? 1 : 0, 1);
     if (fixedBits <= dynamicBits) {
@@ -234,127 +256,36 @@ void putBlock(BitWriter& out, Block& block, std::span<const std::uint8_t> bytes,
     putBody(out, block, canonicalCodes(literalLengths), canonicalCodes(distanceLengths));
 }
 
-struct Match {
-    std::size_t length = 0, distance = 0;
-};
-
-// Earlier places with the same next four bytes, by hash, the latest first; and the latest one with
-// the same three.
-class MatchFinder {
-public:
-    explicit MatchFinder(std::span<const std::uint8_t> bytes)
-        : bytes_(bytes), head_(std::size_t{1} << kHashBits), before_(kWindow),
-          latestOfThree_(std::size_t{1} << kHashBitsOfThree) {}
-
-    bool canInsert(std::size_t at) const { return at + 4 <= bytes_.size(); }
-    // Every place goes in once, in order, before any place after it is looked for.
-    void insert(std::size_t at) {
-        const auto four = loadLittle<std::uint32_t>(bytes_.data() + at);
-        std::uint32_t& head = head_[hash(four, kHashBits)];
-        before_[at % kWindow] = head;
-        std::uint32_t& latest = latestOfThree_[hash(four << 8, kHashBitsOfThree)];
-        three_ = latest;
-        head = latest = static_cast<std::uint32_t>(at + 1); // 0: nowhere
-    }
-    // The longest match of the place that was inserted last, longer than `atLeast`.
-    Match longest(std::size_t at, std::size_t atLeast) const {
-        const std::uint8_t* here = bytes_.data() + at;
-        const auto four = loadLittle<std::uint32_t>(here);
-        const std::size_t most = std::min(kLongestMatch, bytes_.size() - at);
-        Match best{std::max(atLeast, kShortestMatch), 0};
-        std::uint32_t place = before_[at % kWindow];
-        for (int i = 0; i < kChainDepth && place != 0 && best.length < most; ++i) {
-            const std::size_t from = place - 1, distance = at - from;
-            if (distance > kWindow) break;
-            const std::uint8_t* there = bytes_.data() + from;
-            if (there[best.length] == here[best.length] &&
-                loadLittle<std::uint32_t>(there) == four) {
-                const std::size_t length = commonLength(there, here, most);
-                if (length > best.length) best = {length, distance};
-            }
-            place = before_[from % kWindow];
-            if (place > from) break; // overwritten by a later place
-        }
-        if (best.distance != 0) return best;
-        if (atLeast < kShortestMatch && three_ != 0 && at - (three_ - 1) <= kTooFarForThree) {
-            const std::size_t from = three_ - 1;
-            if ((loadLittle<std::uint32_t>(bytes_.data() + from) ^ four) << 8 == 0)
-                return {kShortestMatch, at - from};
-        }
-        return {};
-    }
-
-private:
-    static constexpr unsigned kHashBits = 16, kHashBitsOfThree = 14;
-    static constexpr std::size_t kTooFarForThree = 4096; // three literals cost less (zlib)
-
-    static std::size_t hash(std::uint32_t bytes, unsigned bits) {
-        return bytes * 0x9E3779B1u >> (32 - bits); // golden ratio
-    }
-    // The first four bytes are equal.
-    static std::size_t commonLength(const std::uint8_t* a, const std::uint8_t* b,
-                                    std::size_t most) {
-        std::size_t n = 4;
-        for (; n + 8 <= most; n += 8) {
-            const std::uint64_t different =
-                loadLittle<std::uint64_t>(a + n) ^ loadLittle<std::uint64_t>(b + n);
-            if (different != 0)
-                return n + static_cast<std::size_t>(std::countr_zero(different)) / 8;
-        }
-        while (n < most && a[n] == b[n]) ++n;
-        return n;
-    }
-
-    std::span<const std::uint8_t> bytes_;
-    std::vector<std::uint32_t> head_;          // by hash: the latest place + 1
-    std::vector<std::uint32_t> before_;        // by place % kWindow: the one before in its chain
-    std::vector<std::uint32_t> latestOfThree_; // by hash of three bytes: the latest place + 1
-    std::uint32_t three_ = 0;                  // of the place that was inserted last
-};
-
 } // namespace
 
-std::vector<std::uint8_t> deflateZlib(std::span<const std::uint8_t> bytes) {
+std::vector<std::uint8_t> deflatePiece(std::span<const std::uint8_t> bytes, bool last) {
     BitWriter out;
-    constexpr std::array<std::uint8_t, 2> kHeader{0x78, 0x5E}; // window 32 K, fast
-    out.putBytes(kHeader);
-    MatchFinder finder(bytes);
-    Block block;
-    block.tokens.reserve(kBlockTokens + 1);
-    const auto matchAt = [&](std::size_t at, std::size_t atLeast) {
-        if (!finder.canInsert(at)) return Match{};
-        finder.insert(at);
-        return finder.longest(at, atLeast);
-    };
-    std::size_t blockStart = 0;
-    Match match = matchAt(0, 0);
-    for (std::size_t at = 0; at < bytes.size();) {
-        const std::size_t next = at + 1;
-        // A longer match one place later is worth a literal (lazy matching, RFC 1951 section 4).
-        const bool looked = match.length < kGoodMatch;
-        const Match later = looked ? matchAt(next, match.length) : Match{};
-        if (match.length == 0 || later.length > 0) {
-            block.addLiteral(bytes[at]);
-            match = later;
-            at = next;
-        } else {
-            block.addMatch(match.length, match.distance);
-            const std::size_t end = at + match.length;
-            for (at = looked ? next + 1 : next; at < end; ++at)
-                if (finder.canInsert(at)) finder.insert(at);
-            match = matchAt(at, 0);
+    Matcher matcher(bytes);
+    std::size_t at = 0;
+    do {
+        Block block;
+        const std::size_t start = at;
+        while (at < bytes.size() && block.codes() < kBlockCodes) {
+            Match match;
+            const std::size_t room = kBlockCodes - block.codes();
+            const std::size_t found = matcher.next(at, at + room, match);
+            block.add(bytes.subspan(at, found - at), match);
+            matcher.skip(found, match.length);
+            at = found + match.length;
         }
-        if (block.tokens.size() >= kBlockTokens && at < bytes.size()) {
-            putBlock(out, block, bytes.subspan(blockStart, at - blockStart), false);
-            block.clear();
-            blockStart = at;
-        }
-    }
-    putBlock(out, block, bytes.subspan(blockStart), true);
-    const std::uint32_t sum = adler32(bytes);
-    const std::array<std::uint8_t, 4> checksum{
-        static_cast<std::uint8_t>(sum >> 24), static_cast<std::uint8_t>(sum >> 16),
-        static_cast<std::uint8_t>(sum >> 8), static_cast<std::uint8_t>(sum)};
-    out.putBytes(checksum);
+        block.bytes = bytes.subspan(start, at - start);
+        putBlock(out, block, last && at == bytes.size());
+    } while (at < bytes.size());
+    if (!last) putStored(out, {}, false); // ends at a byte
+    out.padToByte();
     return std::move(out).result();
+}
+
+std::vector<std::uint8_t> deflateZlib(std::span<const std::uint8_t> bytes) {
+    std::vector<std::uint8_t> out(kZlibHeader.begin(), kZlibHeader.end());
+    const std::vector<std::uint8_t> piece = deflatePiece(bytes, true);
+    out.insert(out.end(), piece.begin(), piece.end());
+    const auto end = zlibEnd(adler32(bytes));
+    out.insert(out.end(), end.begin(), end.end());
+    return out;
 }

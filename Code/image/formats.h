@@ -17,9 +17,9 @@ StoredImage decodePpm(Bytes file, const std::string& name);
 StoredImage decodePfm(Bytes file, const std::string& name);
 StoredImage decodePng(Bytes file, const std::string& name);
 
-std::vector<std::uint8_t> encodePpm(const Image& image, Encoding encoding);
-std::vector<std::uint8_t> encodePfm(const Image& image);
-std::vector<std::uint8_t> encodePng(const Image& image, Encoding encoding);
+std::vector<std::uint8_t> encodePpm(const Image& image, Encoding encoding, int threads);
+std::vector<std::uint8_t> encodePfm(const Image& image, int threads);
+std::vector<std::uint8_t> encodePng(const Image& image, Encoding encoding, int threads);
 
 // Fails unless both sides are in 1..kMaxSide and the area is at most kMaxPixels.
 void checkSize(long long width, long long height, const std::string& name);

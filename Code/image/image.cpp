@@ -105,12 +105,12 @@ Image::Image(const StoredImage& stored, Encoding::Transfer transfer)
     }
 }
 
-void Image::write(const std::string& fileName, Encoding encoding) const {
+void Image::write(const std::string& fileName, Encoding encoding, int threads) const {
     const std::string extension = extensionOf(fileName);
     if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end())
         fail(ErrorKind::Output, cat(fileName, ": error: unknown picture extension ",
                                     unknownName(extension, kExtensions)));
-    writeFileAtomically(fileName, encodeImage(*this, extension, encoding));
+    writeFileAtomically(fileName, encodeImage(*this, extension, encoding, threads));
 }
 
 StoredImage readStoredImage(const std::string& fileName) {
@@ -130,12 +130,12 @@ StoredImage decodeImage(std::span<const std::uint8_t> file, const std::string& n
 }
 
 std::vector<std::uint8_t> encodeImage(const Image& image, const std::string& extension,
-                                      Encoding encoding) {
+                                      Encoding encoding, int threads) {
     if (encoding.bits != 8 && encoding.bits != 16)
         fail(ErrorKind::Usage, cat("error: ", encoding.bits, " bits per channel; 8 or 16"));
-    if (extension == "ppm") return encodePpm(image, encoding);
-    if (extension == "png") return encodePng(image, encoding);
-    if (extension == "pfm") return encodePfm(image);
+    if (extension == "ppm") return encodePpm(image, encoding, threads);
+    if (extension == "png") return encodePng(image, encoding, threads);
+    if (extension == "pfm") return encodePfm(image, threads);
     fail(ErrorKind::Output,
          cat("error: unknown picture extension ", unknownName(extension, kExtensions)));
 }
@@ -149,7 +149,7 @@ void encodePixels(std::span<const Rgb> pixels, Encoding encoding, std::span<std:
                 for (const float value : {pixel.r, pixel.g, pixel.b}) *to++ = code(value);
         };
         if (srgb)
-            encode([](float value) { return srgb8FromLinear(value); });
+            srgb8FromLinear(pixels, to);
         else
             encode([](float value) { return unit8From(value); });
     } else {

@@ -51,8 +51,9 @@ public:
     std::span<Rgb> pixels() { return pixels_; }
 
     // Writes .ppm (P6), .png or .pfm by the extension, through a temporary file that is renamed, so
-    // that a broken picture never has the final name. Fails with ErrorKind::Output.
-    void write(const std::string& fileName, Encoding encoding = {}) const;
+    // that a broken picture never has the final name. The bytes do not depend on how many threads
+    // make them. Fails with ErrorKind::Output.
+    void write(const std::string& fileName, Encoding encoding = {}, int threads = 1) const;
 
     bool operator==(const Image&) const = default;
 
@@ -74,6 +75,6 @@ private:
 StoredImage readStoredImage(const std::string& fileName);
 // The same from memory; `name` is used in messages.
 StoredImage decodeImage(std::span<const std::uint8_t> file, const std::string& name);
-// Bytes of a file; `extension` is "ppm", "png" or "pfm".
+// Bytes of a file, the same for any number of threads; `extension` is "ppm", "png" or "pfm".
 std::vector<std::uint8_t> encodeImage(const Image& image, const std::string& extension,
-                                      Encoding encoding);
+                                      Encoding encoding, int threads = 1);

@@ -3,7 +3,9 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "image/formats.h"
+#include "image/little_endian.h"
 #include "image/netpbm.h"
+#include "image/raw_file.h"
 
 #include <algorithm>
 #include <bit>
@@ -43,18 +45,20 @@ StoredImage decodePfm(Bytes file, const std::string& name) {
     return image;
 }
 
-std::vector<std::uint8_t> encodePfm(const Image& image) {
+std::vector<std::uint8_t> encodePfm(const Image& image, int threads) {
     const std::string header = cat("PF\n", image.width(), " ", image.height(), "\n-1.0\n");
-    std::vector<std::uint8_t> file(header.begin(), header.end());
-    file.reserve(header.size() + 12 * image.pixels().size());
-    for (int y = image.height() - 1; y >= 0; --y)
-        for (int x = 0; x < image.width(); ++x) {
-            const Rgb pixel = image.pixel(x, y);
-            for (const float value : {pixel.r, pixel.g, pixel.b}) {
-                const auto bits = std::bit_cast<std::uint32_t>(value);
-                for (unsigned k = 0; k < 4; ++k)
-                    file.push_back(static_cast<std::uint8_t>(bits >> (8 * k)));
-            }
-        }
-    return file;
+    const auto width = static_cast<std::size_t>(image.width());
+    const auto height = static_cast<std::size_t>(image.height());
+    // The lowest row comes first.
+    return rawFile(header, height, 12 * width, threads,
+                   [&](std::size_t first, std::size_t count, std::span<std::uint8_t> out) {
+                       std::uint8_t* to = out.data();
+                       for (std::size_t i = first; i < first + count; ++i)
+                           for (const Rgb& p :
+                                image.pixels().subspan((height - 1 - i) * width, width))
+                               for (const float value : {p.r, p.g, p.b}) {
+                                   storeLittle(to, std::bit_cast<std::uint32_t>(value));
+                                   to += 4;
+                               }
+                   });
 }

@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "image/formats.h"
 #include "image/netpbm.h"
+#include "image/raw_file.h"
 
 #include <algorithm>
 
@@ -77,12 +78,12 @@ StoredImage decodePpm(Bytes file, const std::string& name) {
     return image;
 }
 
-std::vector<std::uint8_t> encodePpm(const Image& image, Encoding encoding) {
+std::vector<std::uint8_t> encodePpm(const Image& image, Encoding encoding, int threads) {
     const std::string header = cat("P6\n", image.width(), " ", image.height(), "\n",
                                    encoding.bits == 8 ? kMost8 : kMost16, "\n");
-    std::vector<std::uint8_t> file(header.begin(), header.end());
-    file.resize(header.size() +
-                image.pixels().size() * 3 * static_cast<std::size_t>(encoding.bits / 8));
-    encodePixels(image.pixels(), encoding, std::span(file).subspan(header.size()));
-    return file;
+    const std::size_t pixelBytes = 3 * static_cast<std::size_t>(encoding.bits / 8);
+    return rawFile(header, image.pixels().size(), pixelBytes, threads,
+                   [&](std::size_t first, std::size_t count, std::span<std::uint8_t> out) {
+                       encodePixels(image.pixels().subspan(first, count), encoding, out);
+                   });
 }

@@ -1,6 +1,7 @@
 #include "read/mesh_files.h"
 
 #include "base/file.h"
+#include "base/for_each.h"
 #include "base/text.h"
 #include "desc/names.h"
 #include "read/mesh/mesh_scene.h"
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -122,8 +124,20 @@ std::vector<std::string> meshFileExtensions() {
 }
 
 void loadMeshFiles(SceneDesc& desc, const SourceFile& scene, const ReadContext& context) {
+    std::vector<MeshDesc*> named;
     for (MeshDesc& mesh : desc.meshes)
-        if (!mesh.file.empty()) loadMesh(mesh, scene, context);
+        if (!mesh.file.empty()) named.push_back(&mesh);
+    // One large file may use the threads itself.
+    ReadOptions options = context.options;
+    if (named.size() > 1) options.threads = 1;
+    // Each file has its own warnings; they come out in the order of the scene.
+    std::vector<Diagnostics> diagnostics(named.size());
+    forEachOn(context.options.threads, named.size(), [&](std::size_t i) {
+        loadMesh(*named[i], scene, {options, diagnostics[i]});
+    });
+    for (Diagnostics& one : diagnostics)
+        std::move(one.warnings.begin(), one.warnings.end(),
+                  std::back_inserter(context.diagnostics.warnings));
 }
 
 SceneDesc readMeshScene(const SourceFile& source, const ReadContext& context) {

@@ -14,6 +14,9 @@ struct ReadOptions {
     // NFF: `angle` reaches from edge to edge of the picture, as POV-Ray reads it, and not from the
     // centre of the first to the centre of the last pixel row, as the standard says.
     bool nffAngleToEdges = false;
+    // For files that are read at the same time, and large ones; 0: as many as the machine has.
+    // Nothing that is read and no message depends on it.
+    int threads = 1;
 };
 
 struct ReadContext {

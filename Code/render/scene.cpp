@@ -2,6 +2,7 @@
 // make_light.cpp.
 #include "render/scene.h"
 
+#include "base/for_each.h"
 #include "base/math.h"
 #include "base/text.h"
 #include "desc/enum_tables.h"
@@ -26,33 +27,44 @@ public:
     void build() {
         scene_.frame_ = frameOf(desc_);
         scene_.accelKind_ = settings_.accel;
-        buildTextures();
-        buildMaterials();
         buildCamera();
+        buildPictures();
+        buildMaterials();
         buildWorld();
         buildObjects();
         buildLights();
-        scene_.shapes_.finish(settings_.accel == AccelKind::Bvh);
+        scene_.shapes_.finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel));
         scene_.features_ = featuresOf(desc_, *cameraDesc_, settings_);
     }
 
 private:
     // ---- textures and materials
 
-    void buildTextures() {
+    // At the same time; of several that fail the one that is used first is told. Pictures that
+    // nothing uses are not read.
+    void buildPictures() {
         scene_.textures_.resize(desc_.textures.size());
         if (!on_.textures) return;
+        std::vector<std::size_t> used;
+        std::vector<bool> isUsed(desc_.textures.size());
         for (const MaterialDesc& m : desc_.materials)
             for (const Handle handle : {m.diffuseTexture, m.specularTexture, m.emissionTexture,
-                                        m.opacityTexture, m.normalMap, m.bumpMap})
-                loadTexture(handle);
+                                        m.opacityTexture, m.normalMap, m.bumpMap}) {
+                const auto i = static_cast<std::size_t>(handle);
+                if (handle == kNone || isUsed[i]) continue;
+                isUsed[i] = true;
+                used.push_back(i);
+            }
+        const bool surrounded = desc_.world.environment != kNone && !settings_.background;
+        forEachOn(settings_.threads, used.size() + (surrounded ? 1 : 0), [&](std::size_t i) {
+            if (i < used.size())
+                scene_.textures_[used[i]] = makeTexture(desc_.textures[used[i]]);
+            else
+                buildEnvironment();
+        });
     }
 
-    // Pictures that nothing uses are not read.
-    void loadTexture(Handle handle) {
-        if (handle == kNone || textureOf(handle)) return;
-        const auto i = static_cast<std::size_t>(handle);
-        const TextureDesc& desc = desc_.textures[i];
+    std::unique_ptr<const Texture> makeTexture(const TextureDesc& desc) const {
         TextureParams params;
         params.space = spaceOf(desc);
         params.interpolation = interpolationOf(desc);
@@ -65,8 +77,8 @@ private:
         params.scale = desc.scale;
         params.rotationRad = radians(desc.rotationDeg);
         params.offset = desc.offset;
-        scene_.textures_[i] = std::make_unique<const Texture>(
-            loadPicture(desc, source_, settings_.textureFolder), params);
+        return std::make_unique<const Texture>(loadPicture(desc, source_, settings_.textureFolder),
+                                               params);
     }
 
     static ColorSpace spaceOf(const TextureDesc& desc) {
@@ -191,9 +203,11 @@ private:
     void buildWorld() {
         scene_.background_ = toRgb(settings_.background.value_or(desc_.world.background));
         scene_.ambient_ = toRgb(desc_.world.ambient);
-        const Handle handle = desc_.world.environment;
-        if (handle == kNone || !on_.textures || settings_.background) return;
-        const TextureDesc& picture = desc_.textures[static_cast<std::size_t>(handle)];
+    }
+
+    void buildEnvironment() {
+        const TextureDesc& picture =
+            desc_.textures[static_cast<std::size_t>(desc_.world.environment)];
         scene_.environment_ = std::make_unique<const Environment>(
             loadPicture(picture, source_, settings_.textureFolder), spaceOf(picture),
             interpolationOf(picture),

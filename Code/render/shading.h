@@ -32,9 +32,5 @@ Material materialAt(const ShadedPoint& at);
 Rgb straightTransmission(const Scene& scene, const Ray& ray, const Hit& hit);
 
 // Where a ray starts that leaves the surface at `point` to the side of `side` (+-ng): far enough
-// off, by the error bound of the hit, never to meet the same surface again by rounding. `reach` is
-// the length of the ray if it is one that is known to go far (a shadow ray from a distant lamp).
-inline Vec3 leave(const Surface& surface, Vec3 side, float reach = 0) {
-    const float error = surface.error + 0x1p-20f * reach;
-    return surface.p + side * error;
-}
+// off, by the error bound of the hit, never to meet the same surface again by rounding.
+inline Vec3 leave(const Surface& surface, Vec3 side) { return surface.p + side * surface.error; }

@@ -25,30 +25,52 @@ void ShapeSet::add(std::unique_ptr<const Shape> shape, Shadow shadow) {
     shadows.push_back(shadow);
 }
 
-void ShapeSet::finish(bool withBvh) {
-    for (const std::uint32_t number : bounded)
-        if (shapes[number]->takesBatches()) batched.push_back(number);
-    if (!withBvh || bounded.size() < kFewestForTree) return;
+void ShapeSet::finish(bool withBvh, const Kernel& kernel) {
+    isBatched_.assign(shapes.size(), 0);
+    for (const std::uint32_t number : bounded) {
+        if (!shapes[number]->takesBatches()) continue;
+        batched.push_back(number);
+        isBatched_[number] = 1;
+    }
+    if (!withBvh) return;
+    kernel_ = solidKernel(kernel);
     std::vector<Bounds> inOrder;
-    for (const std::uint32_t number : bounded) inOrder.push_back(boxes[number]);
+    for (const std::uint32_t number : bounded)
+        if (!isBatched_[number]) inTree_.push_back(number), inOrder.push_back(boxes[number]);
+    if (!kernel_ && inTree_.size() < kFewestForTree) return inTree_.clear();
     bvh = buildBvh(inOrder);
     bvh.nodes.shrink_to_fit();
+    if (kernel_) buildSolids(kernel_->width);
+}
+
+void ShapeSet::buildSolids(int width) {
+    for (const std::uint32_t number : inTree_)
+        solids_.add(boxes[number], number, shadows[number] == Shadow::Opaque,
+                    shapes[number]->solidForm());
+    solids_.extent = extent;
+    solids_.build(width, bvh);
 }
 
 // fn(shape, zEntry, zCut) for every shape whose box the ray enters in front of zCut; true stops.
 template <class VisitFn>
 void ShapeSet::visit(const RaySetup& setup, float zCut, Ask ask, VisitFn&& fn) const {
-    for (const std::uint32_t number : unbounded)
-        if (fn(number, 0.0f, zCut)) return;
-    const auto leaf = [&](std::uint32_t position, float& cut) {
-        const std::uint32_t number = bounded[position];
-        if (ask == Ask::ButBatched && isBatched(number)) return false;
+    if (ask == Ask::All)
+        for (const std::uint32_t number : unbounded)
+            if (fn(number, 0.0f, zCut)) return;
+    const auto leaf = [&](std::uint32_t number, float& cut) {
         float zEntry = 0;
         return setup.enters(boxes[number], cut, zEntry) && fn(number, zEntry, cut);
     };
-    if (!bvh.nodes.empty()) return traverse(bvh, setup, zCut, leaf);
-    for (std::uint32_t i = 0; i < bounded.size(); ++i)
-        if (leaf(i, zCut)) return;
+    if (bvh.nodes.empty()) {
+        for (const std::uint32_t number : bounded)
+            if ((ask == Ask::All || !isBatched_[number]) && leaf(number, zCut)) return;
+        return;
+    }
+    if (ask == Ask::All)
+        for (const std::uint32_t number : batched)
+            if (leaf(number, zCut)) return;
+    traverse(bvh, setup, zCut,
+             [&](std::uint32_t position, float& cut) { return leaf(inTree_[position], cut); });
 }
 
 // Takes the hit of a shape if it is nearer than the best one, equal ones by number.
@@ -60,12 +82,17 @@ static bool takeNearer(Hit hit, std::uint32_t number, float tEntry, Hit& best) {
     return true;
 }
 
+// The nearest hit of a shape that is nearer than `best`, which then becomes it.
+static bool nearer(const Shape& shape, const Ray& ray, std::uint32_t number, float tEntry,
+                   Hit& best) {
+    Hit hit = best;
+    return shape.intersect(ray, hit) && takeNearer(hit, number, tEntry, best);
+}
+
 void ShapeSet::visitNearer(const Ray& ray, const RaySetup& setup, Ask ask, Hit& best) const {
     visit(setup, depthCut(1.0f / (best.t * setup.dz)), ask,
           [&](std::uint32_t number, float zEntry, float& zCut) {
-              Hit hit = best;
-              if (!shapes[number]->intersect(ray, hit)) return false;
-              if (takeNearer(hit, number, zEntry / setup.dz, best))
+              if (nearer(*shapes[number], ray, number, zEntry / setup.dz, best))
                   zCut = min(depthCut(1.0f / (best.t * setup.dz)), zCut);
               return false;
           });
@@ -81,32 +108,47 @@ Hit ShapeSet::closest(const Ray& ray) const {
 
 void ShapeSet::closest(const RaySpan& rays, std::vector<Hit>& hits) const {
     hits.resize(rays.size());
-    if (batched.empty()) {
-        for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = closest(rays[i]);
-        return;
+    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = {.t = rays.tMax[i]};
+    if (!batched.empty()) closestOfBatched(rays, hits);
+    if (!unbounded.empty()) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const Ray ray = rays[i];
+            if (!isTraceable(ray)) continue;
+            for (const std::uint32_t number : unbounded)
+                nearer(*shapes[number], ray, number, 0, hits[i]);
+        }
     }
-    thread_local std::vector<std::vector<Hit>> found;
-    found.resize(std::max(found.size(), batched.size()));
-    for (std::size_t b = 0; b < batched.size(); ++b) {
-        found[b].resize(rays.size());
-        shapes[batched[b]]->intersectBatch(rays, batched[b], found[b]);
+    if (bounded.size() == batched.size()) return;
+    if (kernel_) {
+        const SolidCalls calls{
+            this,
+            [](const void* set, const Ray& ray, std::uint32_t number, float tEntry, Hit& best) {
+                const Shape& shape = *static_cast<const ShapeSet*>(set)->shapes[number];
+                return nearer(shape, ray, number, tEntry, best);
+            },
+            nullptr};
+        return closestSolids(*kernel_, solids_, calls, rays, hits);
     }
-    const bool others = shapes.size() > batched.size();
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Ray ray = rays[i];
-        Hit& best = hits[i];
-        best = {.t = ray.tMax};
-        bool any = others;
-        for (std::size_t b = 0; b < batched.size(); ++b) any |= found[b][i].isHit();
-        if (!any || !isTraceable(ray)) continue;
-        const RaySetup setup(ray.org, ray.dir, extent);
-        for (std::size_t b = 0; b < batched.size(); ++b) {
+        if (isTraceable(ray))
+            visitNearer(ray, RaySetup(ray.org, ray.dir, extent), Ask::ButBatched, hits[i]);
+    }
+}
+
+void ShapeSet::closestOfBatched(const RaySpan& rays, std::vector<Hit>& hits) const {
+    thread_local std::vector<Hit> found;
+    found.resize(rays.size());
+    for (const std::uint32_t number : batched) {
+        shapes[number]->intersectBatch(rays, number, found);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            if (!found[i].isHit()) continue;
+            const RaySetup setup(rays.org[i], rays.dir[i], extent);
             float zEntry = 0;
-            const float zCut = depthCut(1.0f / (best.t * setup.dz));
-            if (found[b][i].isHit() && setup.enters(boxes[batched[b]], zCut, zEntry))
-                takeNearer(found[b][i], batched[b], zEntry / setup.dz, best);
+            const float zCut = depthCut(1.0f / (hits[i].t * setup.dz));
+            if (setup.enters(boxes[number], zCut, zEntry))
+                takeNearer(found[i], number, zEntry / setup.dz, hits[i]);
         }
-        if (others) visitNearer(ray, setup, Ask::ButBatched, best);
     }
 }
 
@@ -126,18 +168,39 @@ bool ShapeSet::occluded(const Ray& ray) const {
 
 void ShapeSet::occluded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const {
     hidden.assign(rays.size(), 0);
+    if (!batched.empty()) hideByBatched(rays, hidden);
+    const auto isOpaque = [&](std::uint32_t number) { return shadows[number] == Shadow::Opaque; };
+    if (!unbounded.empty()) {
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const Ray ray = rays[i];
+            if (hidden[i] != 0 || !isTraceable(ray)) continue;
+            hidden[i] = std::any_of(unbounded.begin(), unbounded.end(), [&](std::uint32_t number) {
+                return isOpaque(number) && shapes[number]->occludes(ray);
+            });
+        }
+    }
+    if (bounded.size() == batched.size()) return;
+    if (kernel_) {
+        const SolidCalls calls{
+            this, nullptr, [](const void* set, const Ray& ray, std::uint32_t number) {
+                return static_cast<const ShapeSet*>(set)->shapes[number]->occludes(ray);
+            }};
+        return anySolids(*kernel_, solids_, calls, rays, hidden);
+    }
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Ray ray = rays[i];
+        if (hidden[i] == 0 && isTraceable(ray))
+            hidden[i] = isHidden(ray, RaySetup(ray.org, ray.dir, extent), Ask::ButBatched);
+    }
+}
+
+void ShapeSet::hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const {
     thread_local std::vector<std::uint8_t> found;
     found.resize(rays.size());
     for (const std::uint32_t number : batched) {
         if (shadows[number] != Shadow::Opaque) continue;
         shapes[number]->occludesBatch(rays, found);
         for (std::size_t i = 0; i < rays.size(); ++i) hidden[i] |= found[i];
-    }
-    if (shapes.size() == batched.size()) return;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const Ray ray = rays[i];
-        if (hidden[i] != 0 || !isTraceable(ray)) continue;
-        hidden[i] = isHidden(ray, RaySetup(ray.org, ray.dir, extent), Ask::ButBatched);
     }
 }
 

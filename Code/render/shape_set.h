@@ -3,9 +3,9 @@
 #pragma once
 
 #include "accel/bvh.h"
+#include "accel/kernels/solids.h"
 #include "shape/shape.h"
 
-#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <vector>
@@ -18,13 +18,14 @@ struct ShapeSet {
     std::vector<Bounds> boxes;
     std::vector<Shadow> shadows;
     std::vector<std::uint32_t> bounded, unbounded; // shape numbers; `bounded` in ascending order
-    Bvh bvh;          // over the bounded ones, by position in `bounded`; empty: linear search
+    Bvh bvh;          // over the bounded ones that take no batches; empty: linear search
     float extent = 0; // largest |coordinate| of a finite box
 
     void add(std::unique_ptr<const Shape> shape, Shadow shadow);
-    // Call once after the last add().
-    void finish(bool withBvh);
-    // Shapes that are faster for batches; the batch queries ask them first.
+    // Call once after the last add(). Batches are answered by the kernel, if it has a part for
+    // solids and a tree is wanted; else as single rays are.
+    void finish(bool withBvh, const Kernel& kernel = chooseKernel("scalar"));
+    // Bounded shapes that take batches themselves; the batch queries ask them first.
     std::vector<std::uint32_t> batched;
 
     // The hit with the smallest (t, shape) in (tMin, tMax]; Hit::isHit() tells if there is one.
@@ -39,13 +40,18 @@ struct ShapeSet {
     void seeThroughHits(const Ray& ray, std::vector<Hit>& hits) const;
 
 private:
-    // Which shapes a query still has to ask.
+    // Which bounded shapes a query still has to ask.
     enum class Ask : std::uint8_t { All, ButBatched };
     template <class VisitFn>
     void visit(const RaySetup& setup, float zCut, Ask ask, VisitFn&& fn) const;
     void visitNearer(const Ray& ray, const RaySetup& setup, Ask ask, Hit& best) const;
     bool isHidden(const Ray& ray, const RaySetup& setup, Ask ask) const;
-    bool isBatched(std::uint32_t number) const {
-        return std::find(batched.begin(), batched.end(), number) != batched.end();
-    }
+    void buildSolids(int width);
+    void closestOfBatched(const RaySpan& rays, std::vector<Hit>& hits) const;
+    void hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;
+
+    std::vector<std::uint8_t> isBatched_; // by shape
+    std::vector<std::uint32_t> inTree_;   // shapes by their number in the tree
+    const SolidKernel* kernel_ = nullptr; // null: the scalar code answers
+    SolidTree solids_;                    // the shapes of the tree
 };

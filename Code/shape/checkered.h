@@ -16,6 +16,18 @@ public:
     void collect(const Ray& ray, std::vector<Hit>& hits) const override {
         shape_->collect(ray, hits);
     }
+    bool takesBatches() const override { return shape_->takesBatches(); }
+    void intersectBatch(const RaySpan& rays, std::uint32_t number,
+                        std::span<Hit> hits) const override {
+        shape_->intersectBatch(rays, number, hits);
+    }
+    void occludesBatch(const RaySpan& rays, std::span<std::uint8_t> hidden) const override {
+        shape_->occludesBatch(rays, hidden);
+    }
+    SolidForm solidForm() const override { return shape_->solidForm(); }
+    bool seesFront(const Ray& ray, const Hit& hit) const override {
+        return shape_->seesFront(ray, hit);
+    }
     bool hidesFromItself(bool inside) const override { return shape_->hidesFromItself(inside); }
     Surface surface(const Ray& ray, const Hit& hit) const override;
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override {

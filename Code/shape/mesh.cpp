@@ -53,7 +53,19 @@ std::uint64_t MeshGeometry::dropDegenerate() {
     return withoutArea;
 }
 
+void MeshGeometry::collapseEndless() {
+    const auto isNowhere = [](Vec3 p) { return p * 0.0f != Vec3{}; };
+    if (std::none_of(points.begin(), points.end(), isNowhere)) return;
+    for (Corners& c : triangles) {
+        const auto nowhere = [&](std::uint32_t corner) { return isNowhere(points[corner]); };
+        const auto* const bad = std::find_if(c.begin(), c.end(), nowhere);
+        if (bad != c.end()) c = {*bad, *bad, *bad};
+    }
+    std::replace_if(points.begin(), points.end(), isNowhere, Vec3{});
+}
+
 void MeshGeometry::finish(bool withTree, const Kernel& forKernel) {
+    collapseEndless();
     extent = 0;
     for (const Vec3 p : points) extent = max(maxAbs(p), extent);
     if (!withTree || triangles.empty()) return;

@@ -31,8 +31,10 @@ struct MeshGeometry {
     // area. Those with three corners on a line stay: to a ray, whose arithmetic rounds each corner
     // by itself, such a triangle closes the gap between its neighbours.
     std::uint64_t dropDegenerate();
-    // Computes extent and, if wanted, the tree that the kernel needs. The lists do not change
-    // afterwards.
+    // Triangles with a corner at NaN or infinity become points, which no ray meets.
+    void collapseEndless();
+    // Does that, computes extent and, if wanted, the tree that the kernel needs. The lists do not
+    // change afterwards.
     void finish(bool withTree, const Kernel& forKernel = chooseKernel("scalar"));
     WideMesh wideMesh() const { return {wide, points, triangles, extent}; }
     std::size_t bytes() const;
@@ -61,6 +63,7 @@ public:
     void intersectBatch(const RaySpan& rays, std::uint32_t number,
                         std::span<Hit> hits) const override;
     void occludesBatch(const RaySpan& rays, std::span<std::uint8_t> hidden) const override;
+    bool seesFront(const Ray& ray, const Hit& hit) const override;
     Surface surface(const Ray& ray, const Hit& hit) const override {
         return surfaceFor(ray, hit, {});
     }

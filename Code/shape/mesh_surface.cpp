@@ -23,6 +23,9 @@ template <class T> T interpolate(T a, T b, T c, float u, float v) {
 // about 8 units of the largest coordinate difference, doubled. See RaySetup for the pads.
 constexpr double kTriangleError = 0x1p-20;
 
+// The ray's part of it, of a ray from far: slopes and differences in float.
+constexpr float kRayError = 0x1p-22f;
+
 // Rays leave a surface kTriangleError off its plane; this many times as far from its edges they are
 // on the inner side of the neighbours as well, down to an angle of 30 degrees between both.
 constexpr double kEdgeClearance = 2;
@@ -65,6 +68,17 @@ Vec3d liftToCurve(Vec3d p, const std::array<Vec3d, 3>& corners, const std::array
 
 } // namespace
 
+bool Mesh::seesFront(const Ray& ray, const Hit& hit) const {
+    const auto& c = geometry_.triangles[hit.prim];
+    const Vec3d n =
+        crossOfEdges(geometry_.points[c[0]], geometry_.points[c[1]], geometry_.points[c[2]]);
+    const Vec3d dir = toDouble(ray.dir);
+    const double facing = dot(n, dir);
+    // The sign is asked of the surface's normal, which is rounded.
+    const bool isSure = facing * facing > 0x1p-40 * dot(n, n) * dot(dir, dir);
+    return identity_ && isSure ? facing < 0 : Shape::seesFront(ray, hit);
+}
+
 Surface Mesh::surfaceFor(const Ray& worldRay, const Hit& hit, SurfaceNeeds needs) const {
     const auto& c = geometry_.triangles[hit.prim];
     const Vec3 v0 = geometry_.points[c[0]], v1 = geometry_.points[c[1]],
@@ -88,6 +102,7 @@ Surface Mesh::surfaceFor(const Ray& worldRay, const Hit& hit, SurfaceNeeds needs
         s.p = toFloat(pointOff(kTriangleError * scale));
         s.ng = toFloat(n);
         s.error = static_cast<float>(kTriangleError * scale);
+        s.rayError = kRayError;
     } else {
         const Transform worldFromMesh = worldFromMeshAt(worldRay.time);
         const Vec3d normal = worldFromMesh.normal(n);
@@ -104,6 +119,7 @@ Surface Mesh::surfaceFor(const Ray& worldRay, const Hit& hit, SurfaceNeeds needs
                 max(length(meshFromWorld.column(1)), length(meshFromWorld.column(2))));
         s.p = toFloat(worldFromMesh.point(pointOff(error * stretch)));
         s.error = static_cast<float>(error);
+        s.rayError = kRayError * static_cast<float>(stretch / std::fabs(offPlane));
     }
     if (needs.lift && !geometry_.normalTriangles.empty()) {
         const auto& k = geometry_.normalTriangles[hit.prim];

@@ -20,6 +20,17 @@ public:
     void collect(const Ray& ray, std::vector<Hit>& hits) const override {
         shape_->collect(ray, hits);
     }
+    bool takesBatches() const override { return shape_->takesBatches(); }
+    void intersectBatch(const RaySpan& rays, std::uint32_t number,
+                        std::span<Hit> hits) const override;
+    void occludesBatch(const RaySpan& rays, std::span<std::uint8_t> hidden) const override {
+        shape_->occludesBatch(rays, hidden);
+    }
+    // Not as a sphere: the kernels know no sides.
+    SolidForm solidForm() const override { return {shape_->solidForm().hull, {}}; }
+    bool seesFront(const Ray& ray, const Hit& hit) const override {
+        return shape_->seesFront(ray, hit);
+    }
     bool hidesFromItself(bool inside) const override { return shape_->hidesFromItself(inside); }
     Surface surface(const Ray& ray, const Hit& hit) const override {
         return shape_->surface(ray, hit);
@@ -33,6 +44,8 @@ public:
 
 private:
     bool isVisible(const Ray& ray, const Hit& hit) const;
+    // The nearest of all crossings that are visible and not behind hit.t.
+    bool lookThrough(const Ray& ray, Hit& hit) const;
 
     std::unique_ptr<const Shape> shape_;
     Side visible_;

@@ -7,6 +7,7 @@
 // the ray and the shape.
 #pragma once
 
+#include "accel/solid_form.h"
 #include "base/bounds.h"
 #include "base/hit.h"
 #include "base/ray.h"
@@ -51,6 +52,14 @@ public:
     // hidden[i] = occludes(rays[i])
     virtual void occludesBatch(const RaySpan& rays, std::span<std::uint8_t> hidden) const {
         for (std::size_t i = 0; i < rays.size(); ++i) hidden[i] = occludes(rays[i]);
+    }
+
+    // What helps a kernel to find candidates; not asked of unbounded shapes.
+    virtual SolidForm solidForm() const { return {ballAround(toDouble(bounds())), {}}; }
+
+    // Does the ray come from the outside of the surface at this hit?
+    virtual bool seesFront(const Ray& ray, const Hit& hit) const {
+        return dot(surfaceFor(ray, hit, {false, false}).ng, ray.dir) <= 0;
     }
 
     // Describes the point of a hit that intersect() or collect() found for this ray.

@@ -10,6 +10,8 @@ public:
     Sphere(MovingTransform worldFromObject, double radius, std::uint32_t material,
            std::uint32_t object);
 
+    SolidForm solidForm() const override;
+
 private:
     Roots roots(const RayD& ray) const override;
     Local describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const override;

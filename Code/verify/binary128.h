@@ -8,6 +8,7 @@ namespace battery {
 
 // long double has as many bits where the compiler has no __float128 (64-bit Arm).
 #if defined(__SIZEOF_FLOAT128__)
+// NOLINTNEXTLINE(modernize-use-using): no __extension__ before a `using`
 __extension__ typedef __float128 Wide;
 #else
 using Wide = long double;

@@ -11,7 +11,7 @@ namespace {
 
 using battery::magnitude, battery::squareRoot;
 
-Wide powerOfTwo(int k) { // |k| <= 2000
+Wide powerOfTwo(int k) noexcept { // |k| <= 2000
     return static_cast<Wide>(std::ldexp(1.0, k / 2)) *
            static_cast<Wide>(std::ldexp(1.0, k - k / 2));
 }
@@ -19,7 +19,7 @@ Wide powerOfTwo(int k) { // |k| <= 2000
 // A constant in pieces of 56 bits from its hexadecimal digits: products of a piece with a whole
 // number below 2^57 are exact.
 using Pieces = std::array<Wide, 4>;
-Pieces piecesOf(const std::array<std::uint64_t, 4>& digits, int exponentOfFirst) {
+Pieces piecesOf(const std::array<std::uint64_t, 4>& digits, int exponentOfFirst) noexcept {
     Pieces out{};
     for (std::size_t i = 0; i < 4; ++i)
         out[i] =

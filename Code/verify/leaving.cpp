@@ -2,6 +2,7 @@
 // that surface again on the side it left to. Truth is the shape: from outside of a convex body no
 // ray into the half space of its tangent plane meets it, one to the inside always does.
 #include "base/text.h"
+#include "render/lamp_ray.h"
 #include "render/shading.h"
 #include "verify/groups.h"
 #include "verify/placed_solid.h"
@@ -170,9 +171,8 @@ void castShadowRays(Random& random, const Surface& s, const Shape& shape, std::s
             // Few from very far: their pads open many boxes, 50 us a ray.
             const double furthest = random.chance(0.97) ? 30 : 1.5e4;
             const Vec3 lamp = toFloat(random.direction() * random.logUniform(1.5, furthest));
-            const float distance = length(lamp - s.p);
-            if (!(dot(s.ng, (lamp - s.p) / distance) > 0)) continue;
-            ray = {lamp, leave(s, s.ng, distance) - lamp, 0, 1, 0};
+            if (!(dot(s.ng, normalize(lamp - s.p)) > 0)) continue;
+            ray = rayFromLamp(s, s.ng, lamp, 0);
         }
         ++tally.cases;
         if (shape.occludes(ray))

@@ -37,6 +37,7 @@ MeshDesc boulder() {
 MeshDesc moved(const MeshDesc& from, const Transform& map) {
     MeshDesc mesh = from;
     for (Vec3d& p : mesh.points) p = map.point(p);
+    for (auto& n : mesh.normals) n = toFloat(normalize(map.normal(toDouble(n))));
     if (map.mirrors())
         for (MeshDesc::Corners& c : mesh.triangles) std::swap(c[1], c[2]);
     return mesh;
@@ -133,8 +134,9 @@ PlacedSolid placedFar(Random& random, const Solid& solid) {
 std::string shown(const Ray& ray) {
     char text[200];
     const auto d = [](float x) { return static_cast<double>(x); };
-    std::snprintf(text, sizeof text, "from %a %a %a along %a %a %a", d(ray.org.x), d(ray.org.y),
-                  d(ray.org.z), d(ray.dir.x), d(ray.dir.y), d(ray.dir.z));
+    static_cast<void>(std::snprintf(text, sizeof text, "from %a %a %a along %a %a %a", d(ray.org.x),
+                                    d(ray.org.y), d(ray.org.z), d(ray.dir.x), d(ray.dir.y),
+                                    d(ray.dir.z)));
     return text;
 }
 

@@ -132,8 +132,9 @@ SceneDesc movedBy(const SceneDesc& desc, int power, Random& random) {
 bool warnsOfDistance(const SceneDesc& desc) {
     Diagnostics diagnostics;
     validate(desc, {"scene", ""}, diagnostics);
-    return std::any_of(diagnostics.warnings.begin(), diagnostics.warnings.end(),
-                       [](const std::string& w) { return w.find("times its size") != w.npos; });
+    return std::any_of(
+        diagnostics.warnings.begin(), diagnostics.warnings.end(),
+        [](const std::string& w) { return w.find("times its size") != std::string::npos; });
 }
 
 Tally movedScenes(const Effort& effort, int leastPower, int mostPower, bool mustWarn) {

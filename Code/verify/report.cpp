@@ -22,7 +22,7 @@ std::string grouped(std::uint64_t count) {
 
 std::string shortened(double value) {
     char text[32];
-    std::snprintf(text, sizeof text, "%.4g", value);
+    static_cast<void>(std::snprintf(text, sizeof text, "%.4g", value));
     return text;
 }
 
@@ -53,7 +53,7 @@ std::string reportHeading() { return line("test", "what", "cases", "found", "mar
 
 std::string reportLine(const Row& row, const Tally& tally, double seconds) {
     char time[32];
-    std::snprintf(time, sizeof time, " (%.1f s)", seconds);
+    static_cast<void>(std::snprintf(time, sizeof time, " (%.1f s)", seconds));
     std::string out = line(row.id, row.what, grouped(tally.cases), worstOf(row, tally), markOf(row),
                            cat(passed(row, tally) ? "ok"
                                : *row.open        ? "OPEN"

@@ -25,11 +25,13 @@ std::uint64_t hashWith(const SceneDesc& desc, const scenes::Tweak& tweak = {}) {
     }));
 }
 
-using Check = std::function<void(const char* name, const SceneDesc&, Random&, Tally&)>;
-Tally forScenes(const Effort& effort, std::uint64_t seed, const Check& check) {
-    return inBatches(effort, seed, 1, [&](Random& random, Tally& tally) {
-        for (const scenes::Maker& maker : scenes::makers())
-            check(maker.name, maker.make(random), random, tally);
+using Check = std::function<void(const char* name, SceneDesc&, Random&, Tally&)>;
+Tally forScenes(const Effort& effort, std::uint64_t seed, const Check& check, double batches = 1) {
+    return inBatches(effort, seed, batches, [&](Random& random, Tally& tally) {
+        for (const scenes::Maker& maker : scenes::makers()) {
+            SceneDesc desc = maker.make(random);
+            check(maker.name, desc, random, tally);
+        }
     });
 }
 
@@ -56,14 +58,19 @@ Tally accelerators(const Effort& effort) {
 
 // ---- T11
 
+// Every number of threads, side of tiles and size of queues once, in other company each time.
 Tally cuts(const Effort& effort) {
     return forScenes(effort, 11, [](auto* name, auto& desc, Random& random, Tally& tally) {
+        constexpr std::array kThreads = {1, 2, 3, 8, 64};
+        constexpr std::array kTiles = {1, 7, 16, 64, 1 << 15}; // the pictures have 32 x 24 pixels
+        constexpr std::array kChunks = {64, 100, 1024, 4096, 65536};
         const std::uint64_t hash = hashWith(desc);
-        const auto pick = [&](const auto& list) { return list[random.below(list.size())]; };
-        for (const int threads : {1, 2, 3, 8}) {
-            const int tile = pick(std::array{1, 7, 16, 64}); // 64: the whole picture
-            const int chunk = pick(std::array{64, 100, 1024, 4096, 65536});
-            const char* kernel = pick(kernelsHere());
+        const std::size_t tileShift = random.below(5), chunkShift = random.below(5);
+        const std::vector<const char*> kernels = kernelsHere();
+        for (std::size_t i = 0; i < kThreads.size(); ++i) {
+            const int threads = kThreads[i], tile = kTiles[(i + tileShift) % kTiles.size()];
+            const int chunk = kChunks[(i + chunkShift) % kChunks.size()];
+            const char* kernel = kernels[random.below(kernels.size())];
             ++tally.cases;
             const std::uint64_t other = hashWith(desc, [&](RenderSettings& s) {
                 s.threads = threads;
@@ -80,16 +87,20 @@ Tally cuts(const Effort& effort) {
     });
 }
 
+// A quarter of the pixels and a tenth of the batches: what differs from run to run does so
+// anywhere.
 Tally runs(const Effort& effort) {
-    return forScenes(effort, 111, [](auto* name, auto& desc, Random&, Tally& tally) {
+    const auto again = [](auto* name, auto& desc, Random&, Tally& tally) {
+        desc.settings.width /= 2, desc.settings.height /= 2;
         const auto onThreads = [](RenderSettings& s) { s.threads = 3; };
         const std::uint64_t hash = hashWith(desc, onThreads);
-        for (int i = 1; i < 3; ++i) {
+        for (int i = 1; i < 20; ++i) {
             ++tally.cases;
             if (hashWith(desc, onThreads) != hash)
                 tally.fail([&] { return cat(name, ": run ", i, " is unlike the first"); });
         }
-    });
+    };
+    return forScenes(effort, 111, again, 0.1);
 }
 
 // ---- T17
@@ -148,8 +159,8 @@ Tally generalForm(const Effort& effort) {
 
 constexpr Row kRows[] = {
     {"T10", "pictures without trees, with, any kernel: the same bits", "", 0, true, accelerators},
-    {"T11a", "1, 2, 3, 8 threads, tiles, chunks: the same bits", "", 0, true, cuts},
-    {"T11b", "a picture again, on three threads: the same bits", "", 0, true, runs},
+    {"T11a", "1, 2, 3, 8, 64 threads, tiles, queues: the same bits", "", 0, true, cuts},
+    {"T11b", "a picture 20 times on three threads: the same bits", "", 0, true, runs},
     {"T17a", "unused features switched off: the same bits", "", 0, true, unusedFeatures},
     {"T17b", "every step for every scene: the same bits", "", 0, true, generalForm},
 };

@@ -49,11 +49,15 @@ struct Step {
     int x = 0, y = 0;
 };
 
-// The largest difference of neighbours inside 0.9 of the ball's outline.
-Step steepest(const Image& image) {
-    const auto isInside = [](int x, int y) {
-        const double u = (x + 0.5) / kSide * 2 - 1, v = (y + 0.5) / kSide * 2 - 1;
-        return u * u + v * v < 0.81;
+// The largest difference of neighbours whose normals are those of a ball inside 0.9 of its outline.
+// The normals of the mesh reach as far as that nearer to its middle: by their place, a crescent
+// that is all but out of sight on the ball would be compared with one that is in full view on the
+// mesh.
+Step steepest(const SceneDesc& desc) {
+    const Picture picture = scenes::render(desc, [](RenderSettings& s) { s.aovs = {Aov::Normal}; });
+    const Image &image = picture.color, &normals = picture.aovs[0].image;
+    const auto isInside = [&](int x, int y) { // the camera looks along +y
+        return -normals.pixel(x, y).g > std::sqrt(1 - 0.81f);
     };
     Step worst;
     for (int y = 0; y + 1 < kSide; ++y)
@@ -70,8 +74,8 @@ Step steepest(const Image& image) {
 Tally terminator(const Effort& effort) {
     return inBatches(effort, 25, 12, [](meshes::Random& random, Tally& tally) {
         const double sunDeg = random.uniform(0, 180);
-        const Step mesh = steepest(scenes::render(ball(true, sunDeg)).color);
-        const Step sphere = steepest(scenes::render(ball(false, sunDeg)).color);
+        const Step mesh = steepest(ball(true, sunDeg));
+        const Step sphere = steepest(ball(false, sunDeg));
         if (sphere.height < 1e-3) return; // the lit side is not to be seen
         ++tally.cases;
         tally.measure(mesh.height / sphere.height, [&] {

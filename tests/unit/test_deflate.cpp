@@ -118,6 +118,46 @@ TEST(deflate_round_trips_structured_bytes) {
     }
 }
 
+// Pieces that know nothing of each other make one stream, also empty ones.
+TEST(deflate_pieces_join) {
+    std::uint32_t state = 11;
+    for (int trial = 0; trial < 50; ++trial) {
+        const std::size_t count = 1 + nextRandom(state) % 4;
+        Buffer all, packed(kZlibHeader.begin(), kZlibHeader.end());
+        std::uint32_t adler = 1;
+        for (std::size_t i = 0; i < count; ++i) {
+            Buffer piece(nextRandom(state) % 3 == 0 ? 0 : nextRandom(state) % 70000);
+            const std::uint32_t letters = 1 + nextRandom(state) % 256;
+            for (std::uint8_t& byte : piece)
+                byte = static_cast<std::uint8_t>(nextRandom(state) % letters);
+            all.insert(all.end(), piece.begin(), piece.end());
+            const Buffer part = deflatePiece(piece, i + 1 == count);
+            packed.insert(packed.end(), part.begin(), part.end());
+            adler = adler32Joined(adler, adler32(piece), piece.size());
+        }
+        CHECK_EQUAL(adler, adler32(all));
+        const auto end = zlibEnd(adler);
+        packed.insert(packed.end(), end.begin(), end.end());
+        CHECK_INFO(inflateZlib(packed, all.size(), "pieces") == all,
+                   "trial " << trial << ": " << count << " pieces, " << all.size() << " bytes");
+    }
+}
+
+// In noise the places that are looked at grow apart; what comes again behind it is found all the
+// same, from its start on.
+TEST(deflate_finds_matches_after_noise) {
+    std::uint32_t state = 5;
+    Buffer bytes(200'000);
+    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(nextRandom(state));
+    const std::size_t noise = bytes.size();
+    const Buffer word(bytes.end() - 20'000, bytes.end());
+    bytes.insert(bytes.end(), word.begin(), word.end());
+    CHECK_INFO(roundTrip(bytes) < noise + 2500, roundTrip(bytes));
+    bytes.resize(noise);
+    bytes.insert(bytes.end(), 20'000, 7);
+    CHECK_INFO(roundTrip(bytes) < noise + 300, roundTrip(bytes));
+}
+
 // Fibonacci counts make the deepest tree; Kraft's sum must stay 1 when it is cut.
 TEST(huffman_lengths_are_complete_and_limited) {
     std::vector<std::uint32_t> counts{1, 1};

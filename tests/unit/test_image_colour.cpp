@@ -6,6 +6,8 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <vector>
 
 namespace {
 
@@ -74,6 +76,32 @@ TEST(colour_codes_are_monotone) {
     CHECK_EQUAL(falling, 0);
     CHECK_EQUAL(int{last8}, 255);
     CHECK_EQUAL(int{last16}, 65535);
+}
+
+// Many at once are the same as one by one: all floats of a stride, infinite and NaN among them.
+TEST(colour_codes_of_pixels_are_those_of_their_values) {
+    std::vector<Rgb> pixels;
+    for (std::uint64_t bits = 0; bits < std::uint64_t{1} << 32; bits += 3 * 7919) {
+        const auto value = [&](std::uint64_t i) {
+            return floatOf(static_cast<std::uint32_t>(bits + 7919 * i));
+        };
+        pixels.push_back({value(0), value(1), value(2)});
+    }
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    pixels.push_back({kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN()});
+    pixels.push_back({1, 0x1.fffffep-1f, 0x1p-13f});
+    for (const std::size_t count :
+         {std::size_t{1}, std::size_t{2}, std::size_t{3}, pixels.size()}) {
+        const auto part = std::span<const Rgb>(pixels).last(count);
+        std::vector<std::uint8_t> codes(3 * count);
+        srgb8FromLinear(part, codes.data());
+        int wrong = 0;
+        for (std::size_t i = 0; i < count; ++i)
+            wrong += codes[3 * i] != srgb8FromLinear(part[i].r) ||
+                     codes[3 * i + 1] != srgb8FromLinear(part[i].g) ||
+                     codes[3 * i + 2] != srgb8FromLinear(part[i].b);
+        CHECK_INFO(wrong == 0, wrong << " of " << count);
+    }
 }
 
 TEST(colour_codes_come_back) {

@@ -278,7 +278,7 @@ TEST(json_numbers_are_rounded_correctly) {
         const auto value = std::bit_cast<double>(random());
         if (!std::isfinite(value)) continue;
         char longer[40];
-        std::snprintf(longer, sizeof longer, "%.25e", value);
+        static_cast<void>(std::snprintf(longer, sizeof longer, "%.25e", value));
         const SourceFile source{"t.json", cat("[", shortest(value), ",", longer, "]")};
         const JsonDocument document = parseJson(source);
         for (const JsonValue& item : document.root.items())

@@ -77,6 +77,29 @@ TEST(ppm_writes_known_bytes) {
                 "P6\n2 1\n65535\n\0\0\x80\0\xFF\xFF\xFF\xFF\0\0\x40\0"sv);
 }
 
+// Pictures of several parts, in which the rows of threads meet: 1200 x 301 pixels are 1.1 MB of 8
+// and 2.2 MB of 16 bits, parts have 256 KB.
+TEST(image_files_do_not_depend_on_threads) {
+    Image image(1200, 301);
+    std::uint32_t state = 9;
+    for (int y = 0; y < 301; ++y)
+        for (int x = 0; x < 1200; ++x) { // noise on a slope beside flat ground
+            state = state * 1664525u + 1013904223u;
+            const float noise = x < 500 ? static_cast<float>(state >> 28) * 0.01f : 0.0f;
+            image.setPixel(x, y, {noise, x > 900 ? 0.7f : static_cast<float>(y) * 0.003f, 0.2f});
+        }
+    for (const int bits : {8, 16})
+        for (const char* extension : {"ppm", "png", "pfm"}) {
+            const auto file = encodeImage(image, extension, {Encoding::Transfer::Srgb, bits});
+            for (const int threads : {2, 3, 8})
+                CHECK_INFO(encodeImage(image, extension, {Encoding::Transfer::Srgb, bits},
+                                       threads) == file,
+                           extension << " " << bits << " bits, " << threads << " threads");
+        }
+    const auto ppm = encodeImage(image, "ppm", {}), png = encodeImage(image, "png", {});
+    CHECK(decodeImage(png, "png").bytes == decodeImage(ppm, "ppm").bytes);
+}
+
 // Every code comes back from a file in every format of whole codes.
 TEST(ppm_and_png_round_trips_are_exact) {
     for (const auto transfer : {Encoding::Transfer::Srgb, Encoding::Transfer::Linear})

@@ -144,9 +144,8 @@ TEST(shape_set_tree_equals_linear_search) {
             // t is clamped to the entry into the shape's padded box, which is not behind the hit
             // but for rounding of the hit itself.
             if (best.isHit() != hit.isHit() ||
-                (hit.isHit() && !(hit.t >= best.t && hit.t <= best.t * 1.00001f)))
-                ++bruteWrong;
-            else if (hit.isHit() && hit.t == best.t && hit.shape != best.shape)
+                (hit.isHit() && (!(hit.t >= best.t && hit.t <= best.t * 1.00001f) ||
+                                 (hit.t == best.t && hit.shape != best.shape))))
                 ++bruteWrong;
         }
     }

@@ -91,7 +91,7 @@ private:
 
     // Returns the lanes that hold a ray that isTraceable().
     unsigned loadDirections(std::span<const std::uint32_t> list, int p) {
-        const auto first = static_cast<std::size_t>(p * W);
+        const auto first = static_cast<std::size_t>(p) * W;
         Floats x, y, z;
         if (isFull(list, p)) {
             const std::uint32_t ray = list[first];
@@ -285,20 +285,23 @@ private:
         tHit.store(ts), triangleHit.store(triangles);
         for (unsigned lanes = active_[q]; lanes != 0; lanes &= lanes - 1) {
             const int i = std::countr_zero(lanes);
-            hits[list[static_cast<std::size_t>(p * W + i)]] = {ts[i], triangles[i]};
+            hits[list[static_cast<std::size_t>(p) * W + static_cast<std::size_t>(i)]] = {
+                ts[i], triangles[i]};
         }
     }
     void write(std::span<const std::uint32_t> list, int p, int q, std::uint8_t* hidden) const {
         for (unsigned lanes = active_[q]; lanes != 0; lanes &= lanes - 1) {
             const int i = std::countr_zero(lanes);
-            hidden[list[static_cast<std::size_t>(p * W + i)]] = found_[q] >> i & 1;
+            hidden[list[static_cast<std::size_t>(p) * W + static_cast<std::size_t>(i)]] =
+                found_[q] >> i & 1;
         }
     }
 
     // Rays from one point to places all over the scene are no bundle: the queue takes them.
     void postpone(std::span<const std::uint32_t> list, int p, int q) {
         for (unsigned lanes = active_[q]; lanes != 0; lanes &= lanes - 1)
-            postponed_.push_back(list[static_cast<std::size_t>(p * W + std::countr_zero(lanes))]);
+            postponed_.push_back(list[static_cast<std::size_t>(p) * W +
+                                      static_cast<std::size_t>(std::countr_zero(lanes))]);
     }
 
     // ---- the tree
@@ -341,7 +344,7 @@ private:
 
     void prefetch(WideRef ref) const {
         const std::byte* const line = mesh_.tree.base() + byteOffset(ref);
-        for (int k = 0; k < 4; ++k) __builtin_prefetch(line + 64 * k);
+        for (int k = 0; k < 4; ++k) __builtin_prefetch(line + std::ptrdiff_t{64} * k);
     }
 
     // Children that the rectangle's pyramid enters in front of zCut_, and their depths.

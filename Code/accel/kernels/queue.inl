@@ -164,7 +164,7 @@ private:
     // Takes the ray to `ref`: three stores, of which one counts.
     void send(std::uint32_t slot, WideRef ref) {
         const std::byte* const line = base_ + byteOffset(ref);
-        for (int k = 0; k < 4; ++k) __builtin_prefetch(line + 64 * k);
+        for (int k = 0; k < 4; ++k) __builtin_prefetch(line + std::ptrdiff_t{64} * k);
         nodesNext_[nodeCount_] = slot;
         leavesNext_[leafCount_] = slot;
         done_[doneCount_] = slot;
@@ -188,7 +188,8 @@ private:
             exit = min(fma(Floats::load(node + farPlane), r, Floats(b.farOffset[axis][i])), exit);
         }
         const unsigned hit = bits(entry <= exit);
-        const auto* const child = reinterpret_cast<const WideRef*>(node + 6 * W * 4);
+        const auto* const child =
+            reinterpret_cast<const WideRef*>(node + std::ptrdiff_t{6} * W * 4);
         std::uint32_t* const refs = refs_ + slot * stride_;
         const std::uint32_t top = b.stackTop[i];
         if constexpr (Q == Query::Any)
@@ -253,8 +254,8 @@ private:
     // Triangles of the leaf that may be better than what the ray has. ShearedTriangle of
     // accel/triangle.h for W triangles: edge functions with the same bits, then whether depth T/det
     // is certain to be out of range. Error of T and of the exact plane's, times |det|: with b the
-    // size of the triangle across the ray and M its depth, below 60 u b (M + 2b)^2, u = 2^-24: 36 for
-    // the arithmetic here, 24 for corners that are rounded to float relative to the ray.
+    // size of the triangle across the ray and M its depth, below 60 u b (M + 2b)^2, u = 2^-24: 36
+    // for the arithmetic here, 24 for corners that are rounded to float relative to the ray.
     unsigned leafCandidates(const RayBlock& b, std::uint32_t i) const {
         const std::byte* const p = base_ + byteOffset(b.at[i]);
         const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(p);

@@ -44,7 +44,7 @@ struct Doubles {
         return {_mm_load_pd(p), _mm_load_pd(p + 2), _mm_load_pd(p + 4), _mm_load_pd(p + 6)};
     }
     void store(double* p) const {
-        for (int i = 0; i < 4; ++i) _mm_store_pd(p + 2 * i, v[i]);
+        for (int i = 0; i < 4; ++i) _mm_store_pd(p + std::ptrdiff_t{2} * i, v[i]);
     }
     Floats toFloats() const {
         return {_mm_movelh_ps(_mm_cvtpd_ps(v[0]), _mm_cvtpd_ps(v[1])),

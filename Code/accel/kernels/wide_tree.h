@@ -5,6 +5,7 @@
 #pragma once
 
 #include "accel/ray_setup.h"
+#include "base/pages.h"
 
 #include <array>
 #include <cstddef>
@@ -50,7 +51,7 @@ struct WideTree {
     struct alignas(64) Line {
         std::byte bytes[64];
     };
-    std::vector<Line> lines; // the nodes and leaves
+    PageVector<Line> lines; // the nodes and leaves
 
     const std::byte* base() const { return reinterpret_cast<const std::byte*>(lines.data()); }
     std::size_t bytes() const { return lines.size() * sizeof(Line) + triangleIds.size() * 4; }
@@ -59,9 +60,10 @@ struct WideTree {
     }
 };
 
-// Binned SAH, top down. `width` is 8 or 16. The tree is the same on every machine.
+// Binned SAH, top down. `width` is 8 or 16. The tree is the same on every machine and for any number
+// of threads, 0 being as many as the machine has.
 WideTree buildWide(int width, std::span<const Vec3> points,
-                   std::span<const std::array<std::uint32_t, 3>> triangles);
+                   std::span<const std::array<std::uint32_t, 3>> triangles, int threads = 1);
 
 // traverse() of bvh.h for one ray in a wide tree, in plain C++: for the questions that the kernels
 // don't answer. leaf(triangle, zCut) may lower zCut; true stops. In any order.

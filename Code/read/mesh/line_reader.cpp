@@ -53,7 +53,7 @@ bool LineReader::atNumber() {
 std::string LineReader::nextWord() {
     if (atLineEnd()) return p_ == end_ ? "the end of the file" : "the end of the line";
     const char* const here = p_;
-    const std::string shownWord = cat("'", shown(word()), "'");
+    std::string shownWord = cat("'", shown(word()), "'");
     p_ = here;
     return shownWord;
 }

@@ -5,6 +5,7 @@
 #include "read/mesh/triangulate.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace {
 
@@ -105,7 +106,7 @@ void MeshBuilder::fillNormals() {
     }
     if (std::find(corners.begin(), corners.end(), kAllMissing) != corners.end()) {
         std::vector<Vec3> given = std::move(mesh.normals);
-        std::vector<Corners> givenCorners = std::move(corners);
+        std::vector<Corners> givenCorners = std::exchange(corners, {});
         groups_.resize(mesh.triangles.size());
         smoothByGroup(mesh, groups_);
         const auto offset = static_cast<std::uint32_t>(given.size());

@@ -39,6 +39,7 @@ void failUnknownProperty(Scanner& in, const Token& word, const Token& open,
 }
 
 void expectLineEnd(Scanner& in, std::string_view after, const Token& open) {
+    if (in.takeLineEnd()) return;
     const Token t = in.peek();
     if (t.kind == TokenKind::Open) failUnclosed(in, open, t);
     if (t.kind != TokenKind::LineEnd && t.kind != TokenKind::FileEnd)
@@ -64,6 +65,15 @@ Token NumberLine::nextNumber() {
 }
 
 void NumberLine::read(double& value, const Range& range) {
+    // What is right needs no token.
+    const auto quick = readDouble(in_.skipToWord());
+    if (quick.fault == NumberFault::None && !isBareChar(*quick.end) &&
+        range.contains(quick.value)) {
+        in_.moveTo(quick.end);
+        ++got_;
+        value = quick.value;
+        return;
+    }
     const Token t = nextNumber();
     const auto number = readDouble(t.text.data());
     const SourceLoc loc{static_cast<std::uint32_t>(t.offset)};
@@ -94,6 +104,7 @@ std::optional<long long> NumberLine::readWhole(const Range& range) {
 }
 
 void NumberLine::finish(const Token& open) {
+    if (in_.takeLineEnd()) return;
     const Token extra = in_.peek();
     if (!isNumber(extra)) return expectLineEnd(in_, keyword_, open);
     while (isNumber(in_.peek())) {

@@ -80,8 +80,9 @@ private:
         } else if (const auto* text = std::get_if<std::string Block::*>(&field)) {
             block.** text = in_.nameIn(nextName("a text"));
         } else if (const auto* reference = std::get_if<Reference<Block>>(&field)) {
-            block.*(reference->handle) =
-                remember(nextName(cat("the name of a ", nameOf(reference->target))));
+            const Token t = in_.next();
+            if (!isName(t)) failExpected(t, cat("the name of a ", nameOf(reference->target)));
+            block.*(reference->handle) = remember(t);
         } else if (const auto* choice = std::get_if<Choice<Block>>(&field)) {
             readChoice(block, *choice);
         } else if (const auto* list = std::get_if<MaterialList<Block>>(&field)) {

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "desc/error_list.h"
+#include "desc/name_table.h"
 #include "desc/names.h"
 #include "desc/properties.h"
 #include "read/txt/property_line.h"
@@ -11,7 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <unordered_map>
 #include <utility>
 
 namespace {
@@ -137,8 +137,9 @@ private:
 
     template <class Block> void readProperties(Block& block, const Token& word) {
         readHeading(block, word);
-        const std::span<const Property<Block>> rows = propertiesOf<Block>();
-        std::vector<std::size_t> given(rows.size(), kNotGiven);
+        constexpr std::span<const Property<Block>> rows = propertiesOf<Block>();
+        std::array<std::size_t, rows.size()> given;
+        given.fill(kNotGiven);
         PropertyLine<Block> line(in_, errors_, names_, word);
         Keys keys{kIdentityRows};
         while (true) {
@@ -152,7 +153,7 @@ private:
             if constexpr (kHasPlace<Block>)
                 if (readTransformLine(t, word, keys)) continue;
             const auto row = std::find_if(rows.begin(), rows.end(), [&](const Property<Block>& p) {
-                return p.keyword == t.text && isHere(p, block);
+                return isSameWord(p.keyword, t.text) && isHere(p, block);
             });
             if (row == rows.end()) failUnknown(block, t, word);
             std::size_t& before = given[static_cast<std::size_t>(row - rows.begin())];
@@ -186,7 +187,7 @@ private:
     }
 
     bool readTransformLine(const Token& t, const Token& word, Keys& keys) {
-        if (t.text == "key") {
+        if (isSameWord(t.text, "key")) {
             if (word.text == "light")
                 in_.failAt(t.offset, "lights stand still; 'key' is for cameras and objects");
             keys.push_back(kIdentityRows);
@@ -194,7 +195,7 @@ private:
             return true;
         }
         for (const TransformLine& line : transformLines()) {
-            if (line.keyword != t.text) continue;
+            if (!isSameWord(line.keyword, t.text)) continue;
             std::array<double, 12> numbers{};
             const std::size_t faultsBefore = errors_.count();
             NumberLine reader(in_, errors_, line.keyword, line.count);
@@ -214,32 +215,34 @@ private:
 
     // References hold positions in names_ up to here.
     void resolveNames() {
-        using Table = std::unordered_map<std::string_view, Handle>;
-        std::array<Table, kEnumNames<Target>.size()> tables;
-        const auto fill = [](Table& table, const auto& blocks) {
+        const auto tableOf = [](const auto& blocks) {
             // Of equal names the first counts; validate() complains about the others.
+            NameTable table(blocks.size());
             for (std::size_t i = 0; i < blocks.size(); ++i)
-                table.try_emplace(blocks[i].name, static_cast<Handle>(i));
+                table.insert(blocks[i].name, static_cast<std::uint32_t>(i));
+            return table;
         };
-        fill(tables[static_cast<std::size_t>(Target::Texture)], desc_.textures);
-        fill(tables[static_cast<std::size_t>(Target::Material)], desc_.materials);
-        fill(tables[static_cast<std::size_t>(Target::Mesh)], desc_.meshes);
+        const std::array<NameTable, kEnumNames<Target>.size()> tables{
+            tableOf(desc_.textures), tableOf(desc_.materials), tableOf(desc_.meshes)};
+        static_assert(kEnumNames<Target>[0].value == Target::Texture &&
+                      kEnumNames<Target>[1].value == Target::Material &&
+                      kEnumNames<Target>[2].value == Target::Mesh);
         forEachBlock(desc_, [&](auto& block) {
             forEachReference(block, [&](Handle& handle, Target target, std::string_view) {
                 if (handle == kNone) return;
                 const Token t = names_[static_cast<std::size_t>(handle)];
-                const std::string name = in_.nameIn(t);
-                const Table& table = tables[static_cast<std::size_t>(target)];
-                const auto found = table.find(name);
-                handle = found == table.end() ? kNone : found->second;
-                if (handle == kNone)
+                const std::string quoted = t.kind == TokenKind::Word ? "" : in_.nameIn(t);
+                const std::string_view name = t.kind == TokenKind::Word ? t.text : quoted;
+                const auto found = tables[static_cast<std::size_t>(target)].find(name);
+                handle = found ? static_cast<Handle>(*found) : kNone;
+                if (!found)
                     errors_.add({static_cast<std::uint32_t>(t.offset)},
                                 [&] { return unknownReference(target, name); });
             });
         });
     }
 
-    std::string unknownReference(Target target, const std::string& name) const {
+    std::string unknownReference(Target target, std::string_view name) const {
         // The nearest name is looked for among so many and so short ones that it cannot take long.
         constexpr std::size_t kCandidates = 1000, kLength = 100;
         std::vector<std::string> known;

@@ -15,8 +15,6 @@ std::string described(const Token& token) {
 Scanner::Scanner(const SourceFile& source)
     : source_(source), p_(source.text.data()), end_(p_ + source.text.size()) {}
 
-bool Scanner::endsNumber(char c) { return !isBareChar(c) && c != '"'; }
-
 void Scanner::failAt(std::size_t offset, std::string_view what) const {
     ::failAt(source_, offset, what);
 }
@@ -30,11 +28,6 @@ std::size_t Scanner::lineOf(std::size_t offset) const {
 void Scanner::skipComment() {
     const void* newline = std::memchr(p_, '\n', static_cast<std::size_t>(end_ - p_));
     p_ = newline ? static_cast<const char*>(newline) : end_;
-}
-
-void Scanner::skipBlanks() {
-    while (*p_ == ' ' || *p_ == '\t' || (*p_ == '\r' && p_[1] == '\n')) ++p_;
-    if (*p_ == '#') skipComment();
 }
 
 Token Scanner::peek() {

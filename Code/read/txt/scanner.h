@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/source.h"
+#include "desc/names.h"
 
 #include <cstddef>
 #include <string>
@@ -14,6 +15,11 @@ struct Token {
     std::size_t offset = 0;
     std::string_view text; // as written, Quoted with its quotes
 };
+
+// Like ==, decided at the first letter most of the time.
+inline bool isSameWord(std::string_view a, std::string_view b) {
+    return a.size() == b.size() && a.front() == b.front() && a == b;
+}
 
 // For messages: "'abc'", "the end of the line", "the end of the file".
 std::string described(const Token& token);
@@ -30,6 +36,18 @@ public:
     // Fails on characters that start no token.
     Token next();
     Token peek();
+    // Goes behind the end of the line when nothing else is left of it.
+    bool takeLineEnd() {
+        skipBlanks();
+        if (*p_ != '\n') return false;
+        ++p_;
+        return true;
+    }
+    // The text from the next word of the line on.
+    const char* skipToWord() {
+        skipBlanks();
+        return p_;
+    }
     // The name that a Word or Quoted token stands for. Fails on wrong escapes, control characters
     // and bytes that are not UTF-8.
     std::string nameIn(const Token& token) const;
@@ -51,14 +69,17 @@ public:
     }
     void moveTo(const char* p) { p_ = p; }
     // Is this a byte that may follow a number?
-    static bool endsNumber(char c);
+    static bool endsNumber(char c) { return !isBareChar(c) && c != '"'; }
 
     [[noreturn]] void failAt(std::size_t offset, std::string_view what) const;
     // The line, from 1, for messages that point to a second place.
     std::size_t lineOf(std::size_t offset) const;
 
 private:
-    void skipBlanks();
+    void skipBlanks() {
+        while (*p_ == ' ' || *p_ == '\t' || (*p_ == '\r' && p_[1] == '\n')) ++p_;
+        if (*p_ == '#') skipComment();
+    }
     void skipComment();
     Token quoted();
 

@@ -3,19 +3,15 @@
 // so are one bundle, however many lamps there are.
 #pragma once
 
+#include "render/lamp_ray.h"
 #include "render/waves/lamp_light.h"
 
 namespace waves {
 
 inline Ray shadowRay(const Lamp& lamp, const ShadedPoint& at, const LightSample& sample,
                      float time) {
-    if (lamp.origin) {
-        // Defined as starting at the light, so that all rays of a lamp share their origin.
-        const Vec3 end = leave(at.surface, at.lit.ng, sample.distance) + at.surface.lift;
-        return {*lamp.origin, end - *lamp.origin, 0, 1, time};
-    }
-    const float reach = sample.distance < kInfinityF ? sample.distance : 0;
-    return {leave(at.surface, at.lit.ng, reach) + at.surface.lift, sample.toLight, 0,
+    if (lamp.origin) return rayFromLamp(at.surface, at.lit.ng, *lamp.origin, time);
+    return {leave(at.surface, at.lit.ng) + at.surface.lift, sample.toLight, 0,
             sample.distance * (1 - 0x1p-20f), time};
 }
 

@@ -1,0 +1,119 @@
+// What the steps of the tree builder hand to each other: plain data, the same for every instruction
+// set. wide_build.cpp says in which order the steps come and on which threads; a BuildCode has them
+// in the instructions of one CPU. All of them compute the same bits.
+#pragma once
+
+#include "accel/kernels/wide_tree.h"
+#include "base/pages.h"
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace kernels::build {
+
+using Corners = std::array<std::uint32_t, 3>;
+
+// The upper corner is negated: growing a box is one minimum over all lanes. The fourth lane of lo
+// is the number of the triangle while it is sorted, that of negHi is free.
+struct alignas(32) PrimBox {
+    std::array<float, 4> lo, negHi;
+};
+static_assert(sizeof(PrimBox) == 32);
+
+// The numbers are kept as normal floats: arithmetic on denormal ones is slow.
+inline constexpr std::uint32_t kNormal = 0x40000000u;
+
+inline constexpr std::size_t kBins = 16;
+// Binned by their centres, for all three axes at once.
+struct Bins {
+    std::array<std::array<PrimBox, kBins>, 3> box;
+    alignas(16) std::array<std::array<std::uint32_t, 4>, kBins> count; // by bin, then axis
+};
+
+// Where the bins of some triangles lie, in doubled centres. What is outside falls into the outmost
+// ones, so an estimate of the bounds will do.
+struct alignas(16) BinGrid {
+    std::array<float, 4> lo, hi, scale; // scale: bins per length; 0: an axis without extent
+    std::array<float, 4> last;          // number of the last bin
+    std::uint32_t bins() const { return static_cast<std::uint32_t>(last[0]) + 1; }
+};
+
+// Triangles of bins < cut on the axis go left.
+struct BinSplit {
+    int axis = -1; // none
+    float cut = 0;
+    std::uint32_t leftCount = 0;
+    PrimBox left, right;
+};
+
+// Neighbours in one of the two lists, that become a subtree.
+struct BuildRange {
+    std::uint32_t node, first, count;
+    std::uint16_t depth;
+    bool inSpare; // which list
+    PrimBox box;
+    BinGrid grid;
+    BinSplit split;
+};
+
+struct alignas(32) BinaryNode {
+    std::array<float, 3> lo;
+    std::uint32_t left; // children left, left + 1; 0: a leaf, as the root is nobody's child
+    std::array<float, 3> negHi;
+    std::uint32_t leaf; // its number, or subtree's
+    bool isLeaf() const { return left == 0; }
+};
+static_assert(sizeof(BinaryNode) == 32);
+inline BinaryNode leafNode(const PrimBox& box) {
+    return {{box.lo[0], box.lo[1], box.lo[2]}, 0, {box.negHi[0], box.negHi[1], box.negHi[2]}, 0};
+}
+
+// All triangles twice: divided from one list into the other.
+struct PrimLists {
+    PageVector<PrimBox> prims, spare;
+    PrimBox* of(const BuildRange& r, bool other = false) {
+        return ((r.inSpare != other) ? spare : prims).data() + r.first;
+    }
+};
+
+struct BuildInput {
+    std::span<const Vec3> points;
+    std::span<const Corners> triangles;
+    PrimLists* lists;
+    std::uint32_t* ids; // of the finished tree: those of a range lie where the range lies
+};
+
+// What one thread has made, of one subtree after the other.
+struct Grown {
+    PageVector<BinaryNode> nodes; // children behind their parents
+    PageVector<WideTree::Line> lines; // of the leaves
+    std::uint32_t leaves = 0;
+};
+
+struct BuildCode {
+    std::string_view name;
+    bool (*supported)();
+    // Boxes of triangles first .. first + count - 1; their bounds and those of the doubled centres.
+    void (*makePrims)(const BuildInput&, std::uint32_t first, std::uint32_t count, PrimBox& box,
+                      PrimBox& centres);
+    BinGrid (*gridOver)(const PrimBox& centres, std::uint32_t count);
+    void (*fillBins)(const BinGrid&, const PrimBox* from, std::uint32_t count, Bins&);
+    void (*chooseSplit)(BuildRange&, const Bins&);
+    void (*makeChildren)(const BuildRange&, BuildRange& left, BuildRange& right);
+    std::uint32_t (*countLeft)(const BuildRange&, const PrimBox* from, std::uint32_t count);
+    void (*divide)(const BuildInput&, const BuildRange&, const BinGrid* grids, const PrimBox* from,
+                   std::uint32_t count, PrimBox* left, PrimBox* right, Bins* bins);
+    void (*growSubtree8)(const BuildInput&, const BuildRange&, Grown&);
+    void (*growSubtree16)(const BuildInput&, const BuildRange&, Grown&);
+};
+std::span<const BuildCode> allBuildCodes(); // best first
+
+// buildWide() by one of them.
+WideTree buildWideBy(const BuildCode& code, int width, std::span<const Vec3> points,
+                     std::span<const Corners> triangles, int threads);
+
+} // namespace kernels::build

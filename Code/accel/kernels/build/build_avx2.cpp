@@ -1,0 +1,28 @@
+// Boxes in one register of eight lanes: AVX2 as of 2013.
+#include "accel/kernels/build/instances.h"
+
+#if defined(__x86_64__)
+#include "accel/kernels/target.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <immintrin.h>
+#include <limits>
+
+KERNEL_REGION_BEGIN("avx2,fma,bmi,bmi2,lzcnt,popcnt")
+namespace kernels::build::avx2 {
+#include "accel/kernels/build/box_avx2.inl"
+
+#include "accel/kernels/build/bins.inl"
+
+#include "accel/kernels/build/divide.inl"
+
+#include "accel/kernels/build/leaf.inl"
+
+#include "accel/kernels/build/subtree.inl"
+
+
+} // namespace kernels::build::avx2
+KERNEL_REGION_END
+#endif

@@ -1,0 +1,26 @@
+#include "accel/kernels/build/instances.h"
+
+#if defined(__x86_64__)
+namespace {
+
+bool hasSse() { return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt"); }
+bool hasAvx2() {
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+           __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
+}
+
+using namespace kernels::build;
+
+#define BUILD_CODE(isa, supported)                                                                 \
+    {                                                                                              \
+        #isa, supported, isa::makePrims, isa::gridOver, isa::fillBins, isa::chooseSplit,           \
+            isa::makeChildren, isa::countLeft, isa::divide, isa::growSubtree8, isa::growSubtree16  \
+    }
+constexpr BuildCode kTable[] = {BUILD_CODE(avx2, hasAvx2), BUILD_CODE(sse, hasSse)};
+
+} // namespace
+
+std::span<const BuildCode> kernels::build::allBuildCodes() { return kTable; }
+#else
+std::span<const kernels::build::BuildCode> kernels::build::allBuildCodes() { return {}; }
+#endif

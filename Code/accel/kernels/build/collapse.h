@@ -1,0 +1,41 @@
+// Which nodes of a binary tree become the children of a wide one: the choice of least area by a
+// dynamic program from the leaves up (Ylitie et al. 2017).
+#pragma once
+
+#include "accel/kernels/build/build.h"
+
+namespace kernels::build {
+
+inline float halfAreaOf(const BinaryNode& node) {
+    const float x = node.lo[0] + node.negHi[0], y = node.lo[1] + node.negHi[1];
+    const float z = node.lo[2] + node.negHi[2]; // both signs of a size do
+    return x * y + y * z + z * x;
+}
+
+// Of a subtree. cost[k - 1]: area of the wide nodes below it when it takes at most k places among
+// the children of one; left[k - 1]: how many of these its left child gets, 0: it takes one itself.
+template <int W> struct CollapseChoice {
+    std::array<float, W> cost;
+    std::array<std::uint8_t, W> left;
+    std::uint8_t split;  // the same for its own wide node
+    std::uint8_t places; // more than these it can't fill; at most W
+    std::uint8_t leftOf(int slots) const {
+        return left[static_cast<std::size_t>(std::min(slots, int{places})) - 1];
+    }
+};
+
+// From the choices of the two children to that of their parent, or that of a leaf.
+template <int W> CollapseChoice<W> leafChoice(float area);
+template <int W>
+CollapseChoice<W> innerChoice(const CollapseChoice<W>& a, const CollapseChoice<W>& b, float area);
+
+// The children of a wide node, the one of the largest area first.
+template <int W> struct WideChildren {
+    std::array<std::uint32_t, W> node;
+    std::size_t count = 0;
+};
+template <int W>
+WideChildren<W> childrenOf(std::uint32_t at, std::span<const BinaryNode> nodes,
+                           std::span<const CollapseChoice<W>> choices);
+
+} // namespace kernels::build

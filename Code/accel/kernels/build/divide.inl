@@ -1,0 +1,100 @@
+// Passes over the triangles of a range. Included inside a kernel's namespace.
+
+void makePrims(const BuildInput& in, std::uint32_t first, std::uint32_t count, PrimBox& box,
+                      PrimBox& centres) {
+    const __m128i last = _mm_setr_epi32(0, 0, 0, -1);
+    Box all = emptyBox(), middle = all;
+    for (std::uint32_t i = first; i < first + count; ++i) {
+        Box b = emptyBox();
+        for (const std::uint32_t corner : in.triangles[i]) {
+            const Vec3 v = in.points[corner];
+            b.extend(pointBox(_mm_setr_ps(v.x, v.y, v.z, 0)));
+        }
+        all.extend(b);
+        middle.extend(pointBox(twiceCentre(b)));
+        const __m128i id = _mm_set1_epi32(static_cast<int>(i | kNormal));
+        Box::of(_mm_castsi128_ps(_mm_blendv_epi8(_mm_castps_si128(b.lo()), id, last)), b.negHi())
+            .store(in.lists->prims[i]);
+    }
+    all.store(box), middle.store(centres);
+}
+
+void fillBins(const BinGrid& grid, const PrimBox* from, std::uint32_t count, Bins& bins) {
+    clear(bins, grid.bins());
+    for (std::uint32_t i = 0; i < count; ++i) add(bins, grid, Box::load(from[i]));
+}
+
+inline bool goesLeft(const BuildRange& r, __m128 cut, Box p) {
+    const __m128 below = _mm_cmplt_ps(positionIn(r.grid, p), cut);
+    return static_cast<unsigned>(_mm_movemask_ps(below)) >> r.split.axis & 1;
+}
+
+std::uint32_t countLeft(const BuildRange& r, const PrimBox* from, std::uint32_t count) {
+    const __m128 cut = _mm_set1_ps(r.split.cut);
+    std::uint32_t left = 0;
+    for (std::uint32_t i = 0; i < count; ++i) left += goesLeft(r, cut, Box::load(from[i]));
+    return left;
+}
+
+// The children of a split range. Their centres are within their boxes, and on their sides of the
+// cut: close enough for bins, and known before anyone has looked at a triangle.
+void makeChildren(const BuildRange& r, BuildRange& left, BuildRange& right) {
+    const Box parts[2] = {Box::load(r.split.left), Box::load(r.split.right)};
+    __m128 lo[2], hi[2];
+    for (int side = 0; side < 2; ++side) {
+        const __m128 two = _mm_set1_ps(2);
+        lo[side] = _mm_max_ps(_mm_load_ps(r.grid.lo.data()), _mm_mul_ps(two, parts[side].lo()));
+        hi[side] = _mm_min_ps(_mm_load_ps(r.grid.hi.data()),
+                              negated(_mm_mul_ps(two, parts[side].negHi())));
+    }
+    const auto axis = static_cast<std::size_t>(r.split.axis);
+    const __m128 cut = _mm_set1_ps(r.grid.lo[axis] + r.split.cut / r.grid.scale[axis]);
+    const __m128i onAxis =
+        _mm_cmpeq_epi32(_mm_setr_epi32(0, 1, 2, 3), _mm_set1_epi32(r.split.axis));
+    const __m128 there = _mm_castsi128_ps(onAxis);
+    hi[0] = _mm_blendv_ps(hi[0], _mm_min_ps(hi[0], cut), there);
+    lo[1] = _mm_blendv_ps(lo[1], _mm_max_ps(lo[1], cut), there);
+
+    left.first = r.first, left.count = r.split.leftCount;
+    right.first = r.first + left.count, right.count = r.count - left.count;
+    BuildRange* const kids[2] = {&left, &right};
+    for (int side = 0; side < 2; ++side) {
+        BuildRange& kid = *kids[side];
+        kid.depth = static_cast<std::uint16_t>(r.depth + 1);
+        kid.inSpare = !r.inSpare;
+        parts[side].store(kid.box);
+        kid.grid = gridOver(lo[side], hi[side], kid.count);
+    }
+}
+
+// Sorts triangles of a range into its children: the left ones from `left` on upwards, the others
+// from `right` on downwards, each into the bins of its child.
+template <bool kPrefetch>
+inline void divideRange(const BuildInput& in, const BuildRange& r, const BinGrid* grids,
+                   const PrimBox* from, std::uint32_t count, PrimBox* left, PrimBox* right,
+                   Bins* bins) {
+    const __m128 cut = _mm_set1_ps(r.split.cut);
+    std::ptrdiff_t low = 0, high = right - left;
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Box p = Box::load(from[i]);
+        const std::ptrdiff_t isLeft = goesLeft(r, cut, p);
+        // No branches to guess: the sides come as they like.
+        p.store(left[high ^ ((high ^ low) & -isLeft)]);
+        low += isLeft, high -= 1 - isLeft;
+        add(bins[1 - isLeft], grids[1 - isLeft], p);
+        if constexpr (kPrefetch)
+            _mm_prefetch(reinterpret_cast<const char*>(in.triangles.data() + idOf(from[i])),
+                         _MM_HINT_T0);
+    }
+}
+
+void divide(const BuildInput& in, const BuildRange& r, const BinGrid* grids, const PrimBox* from,
+            std::uint32_t count, PrimBox* left, PrimBox* right, Bins* bins) {
+    for (int side = 0; side < 2; ++side) clear(bins[side], grids[side].bins());
+    // Triples of numbers of this many triangles stay in the nearest cache until they are needed.
+    constexpr std::uint32_t kPrefetched = 64;
+    if (r.count <= kPrefetched)
+        divideRange<true>(in, r, grids, from, count, left, right, bins);
+    else
+        divideRange<false>(in, r, grids, from, count, left, right, bins);
+}

@@ -1,0 +1,105 @@
+// One subtree, depth first, on one thread. Included inside a kernel's namespace.
+
+// Fewer triangles than this are not split for their own sake.
+constexpr std::uint32_t kSmallLeaf = 4;
+// A further split of what fits into a leaf must save this part of its area.
+constexpr float kWorthwhile = 0.8f;
+// From this depth on every split halves the list, which ends after at most 32 more levels.
+constexpr std::uint32_t kHalvingDepth = 62;
+
+template <int W> class Subtree {
+public:
+    Subtree(const BuildInput& in, Grown& grown) : in_(in), grown_(grown) {}
+
+    void grow(BuildRange current) {
+        current.node = static_cast<std::uint32_t>(grown_.nodes.size());
+        grown_.nodes.push_back(leafNode(current.box));
+        std::vector<BuildRange> waiting;
+        for (;;) {
+            if (isLeaf(current)) {
+                if (waiting.empty()) return;
+                current = waiting.back();
+                waiting.pop_back();
+                continue;
+            }
+            BuildRange& right = waiting.emplace_back();
+            BuildRange left;
+            if (current.depth < kHalvingDepth && hasSplit(current))
+                split(current, left, right);
+            else
+                halve(current, left, right);
+            const auto child = static_cast<std::uint32_t>(grown_.nodes.size());
+            grown_.nodes[current.node].left = child;
+            left.node = child, right.node = child + 1;
+            grown_.nodes.resize(child + 2);
+            grown_.nodes[child] = leafNode(left.box);
+            grown_.nodes[child + 1] = leafNode(right.box);
+            current = left;
+        }
+    }
+
+private:
+    PrimBox* listOf(const BuildRange& r, bool other = false) const { return in_.lists->of(r, other); }
+
+    bool isLeaf(const BuildRange& r) {
+        if (r.count > W) return false;
+        if (r.count > kSmallLeaf && r.split.axis >= 0) {
+            const float rest =
+                halfArea(Box::load(r.split.left)) + halfArea(Box::load(r.split.right));
+            if (rest < kWorthwhile * halfArea(Box::load(r.box))) return false;
+        }
+        return makeLeaf<W>(in_, listOf(r), r, grown_);
+    }
+
+    // A split by estimated bounds may have failed where the true ones show one.
+    bool hasSplit(BuildRange& r) const {
+        if (r.split.axis < 0) splitExactly(r);
+        return r.split.axis >= 0;
+    }
+
+    void splitExactly(BuildRange& r) const {
+        const PrimBox* const prims = listOf(r);
+        Box centres = emptyBox();
+        for (std::uint32_t i = 0; i < r.count; ++i)
+            centres.extend(pointBox(twiceCentre(Box::load(prims[i]))));
+        r.grid = gridOver(centres.lo(), negated(centres.negHi()), r.count);
+        Bins bins;
+        fillBins(r.grid, prims, r.count, bins);
+        chooseSplit(r, bins);
+    }
+
+    void split(const BuildRange& r, BuildRange& left, BuildRange& right) const {
+        makeChildren(r, left, right);
+        const BinGrid grids[2] = {left.grid, right.grid};
+        Bins bins[2];
+        PrimBox* const to = listOf(r, true);
+        divide(in_, r, grids, listOf(r), r.count, to, to + r.count - 1, bins);
+        chooseSplit(left, bins[0]);
+        chooseSplit(right, bins[1]);
+    }
+
+    // All centres in one place: any two halves are as good.
+    void halve(const BuildRange& r, BuildRange& left, BuildRange& right) const {
+        left = right = r;
+        left.count = r.count / 2;
+        right.first = r.first + left.count, right.count = r.count - left.count;
+        for (BuildRange* half : {&left, &right}) {
+            ++half->depth;
+            Box box = emptyBox();
+            const PrimBox* const prims = listOf(*half);
+            for (std::uint32_t i = 0; i < half->count; ++i) box.extend(Box::load(prims[i]));
+            box.store(half->box);
+            half->split.axis = -1;
+        }
+    }
+
+    const BuildInput& in_;
+    Grown& grown_;
+};
+
+void growSubtree8(const BuildInput& in, const BuildRange& root, Grown& grown) {
+    Subtree<8>(in, grown).grow(root);
+}
+void growSubtree16(const BuildInput& in, const BuildRange& root, Grown& grown) {
+    Subtree<16>(in, grown).grow(root);
+}

@@ -1,0 +1,79 @@
+// Solids: everything with a box of its own that is no triangle, as vector kernels want it. Packets
+// of rays walk one wide tree together; spheres that stand still are met in the kernel itself, with
+// the bits of shape/sphere.cpp, and any other shape is asked where a ray enters its box.
+// Knows nothing about what the shapes are.
+#pragma once
+
+#include "accel/bvh.h"
+#include "accel/kernels/kernels.h"
+#include "accel/kernels/wide_tree.h"
+#include "accel/solid_form.h"
+#include "base/hit.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+struct SolidTree {
+    static constexpr std::uint32_t kNoSphere = 0xffffffffu;
+    struct Solid {
+        Bounds box;
+        std::uint32_t number = 0;         // what hits and calls name it by
+        std::uint32_t sphere = kNoSphere; // in `spheres`
+        bool hides = true;                // counts when any hit is asked for
+        bool isTube = false;              // a RoundHull with an axis
+        Vec3 centre{}, axis{};
+        float radius = kInfinityF, innerRadius = 0;
+    };
+    struct Sphere {
+        StillSphere exact;
+        bool turned = false; // the map does more than move and scale along the axes
+    };
+    int width = 0;
+    std::vector<Solid> solids; // in the order of the tree's leaves
+    std::vector<Sphere> spheres;
+    // WideNode<width>, root first. A child of kind Leaf is one solid, by its place in `solids`.
+    std::vector<WideTree::Line> lines;
+    float extent = 0; // see RaySetup
+
+    template <int W> const WideNode<W>& node(WideRef ref) const {
+        return *reinterpret_cast<const WideNode<W>*>(
+            reinterpret_cast<const std::byte*>(lines.data()) + byteOffset(ref));
+    }
+    void add(const Bounds& box, std::uint32_t number, bool hides, const SolidForm& form);
+    // Once after the last add(); `bvh` is over the boxes in the order of adding.
+    void build(int nodeWidth, const Bvh& bvh);
+};
+
+// How the kernels ask solids that are no spheres.
+struct SolidCalls {
+    const void* set = nullptr;
+    // Is there a hit nearer than `best`? tEntry: where the ray enters the solid's box. Then it is
+    // the new best.
+    bool (*nearer)(const void* set, const Ray& ray, std::uint32_t number, float tEntry, Hit& best);
+    bool (*hides)(const void* set, const Ray& ray, std::uint32_t number);
+};
+
+struct SolidKernel {
+    const char* name; // of the Kernel that it belongs to
+    int width;
+    // Only rays in `order` are looked at; it pays to have those from one point in a row.
+    // hits[i] is the best hit of ray i so far, or what .t allows, and becomes the best of all:
+    // the smallest (t, number), t not before the entry into the solid's box.
+    void (*closest)(const SolidTree&, const SolidCalls&, const RaySpan&,
+                    std::span<const std::uint32_t> order, Hit* hits);
+    // hidden[i] becomes 1 where a solid is in (tMin, tMax).
+    void (*any)(const SolidTree&, const SolidCalls&, const RaySpan&,
+                std::span<const std::uint32_t> order, std::uint8_t* hidden);
+};
+// Null for the scalar kernel.
+const SolidKernel* solidKernel(const Kernel& kernel);
+
+// Calls the kernel with the rays of a batch in groups that share their origin.
+void closestSolids(const SolidKernel& kernel, const SolidTree& tree, const SolidCalls& calls,
+                   const RaySpan& rays, std::span<Hit> hits);
+// Leaves rays alone that are hidden already.
+void anySolids(const SolidKernel& kernel, const SolidTree& tree, const SolidCalls& calls,
+               const RaySpan& rays, std::span<std::uint8_t> hidden);

@@ -1,0 +1,56 @@
+#include "cli/bench_picture.h"
+
+#include "base/text.h"
+#include "cli/bench_clock.h"
+#include "read/load.h"
+#include "render/render.h"
+#include "render/scene.h"
+
+#include <filesystem>
+#include <optional>
+#include <unistd.h>
+
+namespace {
+
+class TemporaryPicture {
+public:
+    TemporaryPicture()
+        : path_(std::filesystem::temp_directory_path() /
+                cat("raytracer-bench-", getpid(), ".png")) {}
+    ~TemporaryPicture() {
+        std::error_code ignored;
+        std::filesystem::remove(path_, ignored);
+    }
+    TemporaryPicture(const TemporaryPicture&) = delete;
+    TemporaryPicture& operator=(const TemporaryPicture&) = delete;
+    std::string name() const { return path_.string(); }
+
+private:
+    std::filesystem::path path_;
+};
+
+} // namespace
+
+BenchPicture timePicture(const std::string& file, const std::string& kernel, int threads) {
+    const TemporaryPicture output;
+    BenchPicture seconds;
+    Diagnostics diagnostics;
+    std::optional<LoadedScene> loaded;
+    seconds.read = secondsOf([&] { loaded.emplace(load(file, diagnostics)); }).wall;
+
+    RenderSettings settings;
+    settings.picture = loaded->desc.settings;
+    settings.picture.width = settings.picture.height = kBenchPictureSide;
+    settings.picture.crop.reset();
+    settings.picture.samplesPerPixel = 1;
+    settings.kernel = kernel;
+    settings.threads = threads;
+    std::optional<Scene> scene;
+    seconds.build = secondsOf([&] { scene.emplace(loaded->desc, loaded->source, settings); }).wall;
+
+    Stats stats;
+    Picture picture;
+    seconds.render = secondsOf([&] { picture = render(*scene, settings, {}, stats); }).wall;
+    seconds.write = secondsOf([&] { picture.color.write(output.name()); }).wall;
+    return seconds;
+}

@@ -1,0 +1,91 @@
+// Code/image/png_filter.h against the filters as the PNG specification states them, byte by byte.
+#include "check.h"
+
+#include "image/png_filter.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdlib>
+#include <vector>
+
+namespace {
+
+using Row = std::vector<std::uint8_t>;
+
+std::uint8_t at(const Row& row, std::size_t i, std::size_t back) {
+    return i >= back ? row[i - back] : std::uint8_t{0};
+}
+Row filtered(const Row& row, const Row& above, std::size_t pixelBytes, PngFilter filter) {
+    Row out(row.size());
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        const int a = at(row, i, pixelBytes), b = above[i], c = at(above, i, pixelBytes);
+        int predicted = 0;
+        if (filter == PngFilter::Sub) predicted = a;
+        if (filter == PngFilter::Up) predicted = b;
+        if (filter == PngFilter::Average) predicted = (a + b) / 2;
+        if (filter == PngFilter::Paeth) { // PNG specification, 9.4
+            const int p = a + b - c, pa = std::abs(p - a), pb = std::abs(p - b),
+                      pc = std::abs(p - c);
+            predicted = pa <= pb && pa <= pc ? a : pb <= pc ? b : c;
+        }
+        out[i] = static_cast<std::uint8_t>(row[i] - predicted);
+    }
+    return out;
+}
+int cost(const Row& row) {
+    int sum = 0;
+    for (const std::uint8_t byte : row) sum += std::min(int{byte}, 256 - byte);
+    return sum;
+}
+
+// Rows that suit different filters: noise, slopes, copies of the row above.
+void fill(Row& row, const Row& above, std::uint32_t kind, std::uint32_t& state) {
+    for (std::size_t i = 0; i < row.size(); ++i) {
+        state = state * 1664525u + 1013904223u;
+        const std::uint32_t noise = state >> 24;
+        const std::uint32_t from = kind == 0   ? 0
+                                   : kind == 1 ? at(row, i, 3)
+                                   : kind == 2 ? above[i]
+                                   : kind == 3 ? (at(row, i, 3) + above[i]) / 2u
+                                               : at(row, i, 3) + above[i] - at(above, i, 3);
+        row[i] = static_cast<std::uint8_t>(from + (kind == 0 ? noise & 7 : noise & 3));
+    }
+}
+
+void put(PngRow& to, const Row& from) { std::copy(from.begin(), from.end(), to.bytes().begin()); }
+
+} // namespace
+
+TEST(png_filter_writes_what_the_specification_says) {
+    std::array<int, kPngFilterCount> chosen{};
+    std::uint32_t state = 3;
+    // Every length up to three vectors, and one that fills more than one block of sums.
+    for (std::size_t size = 3; size <= 51; ++size)
+        for (const std::size_t length : {size, std::size_t{4112}})
+            for (std::uint32_t kind = 0; kind < 5; ++kind) {
+                if (length == 4112 && size > 4) continue;
+                const std::size_t pixelBytes = state >> 20 & 1 ? 3 : 6;
+                Row row(length), above(length);
+                fill(above, above, 0, state);
+                for (std::uint8_t& byte : above) byte = static_cast<std::uint8_t>(byte * 37);
+                fill(row, above, kind, state);
+                PngRow here(length), up(length);
+                put(here, row);
+                put(up, above);
+                Row out(length);
+                const PngFilter filter = filterRow(here, up, pixelBytes, out);
+                ++chosen[static_cast<std::size_t>(filter)];
+                CHECK_INFO(out == filtered(row, above, pixelBytes, filter),
+                           "length " << length << " kind " << kind << " filter "
+                                     << static_cast<int>(filter));
+                // The filling of the last vector is counted too; without any the sum is the least.
+                if (length % PngRow::kVector != 0) continue;
+                for (const PngFilter other : {PngFilter::None, PngFilter::Sub, PngFilter::Up,
+                                              PngFilter::Average, PngFilter::Paeth})
+                    CHECK_INFO(cost(out) <= cost(filtered(row, above, pixelBytes, other)),
+                               "length " << length << " kind " << kind << " other "
+                                         << static_cast<int>(other));
+            }
+    for (const int count : chosen) CHECK(count > 0);
+}
