@@ -281,7 +281,8 @@ private:
     void addMerged(MergedMesh merged, ObjectDesc::Sides sides) {
         if (merged.geometry.triangles.empty()) return;
         auto geometry = std::make_unique<MeshGeometry>(std::move(merged.geometry));
-        geometry->finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel));
+        geometry->finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel),
+                         settings_.threads);
         scene_.degenerateCount_ += merged.degenerateCount;
         auto mesh = std::make_unique<Mesh>(*geometry, MovingTransform(), merged.materials,
                                            std::move(merged.parts));

@@ -33,32 +33,22 @@ void ShapeSet::finish(bool withBvh, const Kernel& kernel) {
         isBatched_[number] = 1;
     }
     if (!withBvh) return;
-    if (bounded.size() >= kFewestForTree) {
-        std::vector<Bounds> inOrder;
-        for (const std::uint32_t number : bounded) inOrder.push_back(boxes[number]);
-        bvh = buildBvh(inOrder);
-        bvh.nodes.shrink_to_fit();
-    }
     kernel_ = solidKernel(kernel);
+    std::vector<Bounds> inOrder;
+    for (const std::uint32_t number : bounded)
+        if (!isBatched_[number]) inTree_.push_back(number), inOrder.push_back(boxes[number]);
+    if (!kernel_ && inTree_.size() < kFewestForTree) return inTree_.clear();
+    bvh = buildBvh(inOrder);
+    bvh.nodes.shrink_to_fit();
     if (kernel_) buildSolids(kernel_->width);
 }
 
 void ShapeSet::buildSolids(int width) {
-    std::vector<Bounds> inOrder;
-    for (const std::uint32_t number : bounded) {
-        if (isBatched_[number]) continue;
-        SolidTree::Solid solid{.box = boxes[number], .number = number};
-        solid.hides = shadows[number] == Shadow::Opaque;
-        if (const auto sphere = shapes[number]->stillSphere()) {
-            solid.sphere = static_cast<std::uint32_t>(solids_.spheres.size());
-            solids_.spheres.push_back({*sphere});
-        }
-        solids_.solids.push_back(solid);
-        inOrder.push_back(boxes[number]);
-    }
+    for (const std::uint32_t number : inTree_)
+        solids_.add(boxes[number], number, shadows[number] == Shadow::Opaque,
+                    shapes[number]->solidForm());
     solids_.extent = extent;
-    const bool sameShapes = !bvh.nodes.empty() && inOrder.size() == bounded.size();
-    solids_.build(width, sameShapes ? bvh : buildBvh(inOrder));
+    solids_.build(width, bvh);
 }
 
 // fn(shape, zEntry, zCut) for every shape whose box the ray enters in front of zCut; true stops.
@@ -67,15 +57,20 @@ void ShapeSet::visit(const RaySetup& setup, float zCut, Ask ask, VisitFn&& fn) c
     if (ask == Ask::All)
         for (const std::uint32_t number : unbounded)
             if (fn(number, 0.0f, zCut)) return;
-    const auto leaf = [&](std::uint32_t position, float& cut) {
-        const std::uint32_t number = bounded[position];
-        if (ask == Ask::ButBatched && isBatched_[number]) return false;
+    const auto leaf = [&](std::uint32_t number, float& cut) {
         float zEntry = 0;
         return setup.enters(boxes[number], cut, zEntry) && fn(number, zEntry, cut);
     };
-    if (!bvh.nodes.empty()) return traverse(bvh, setup, zCut, leaf);
-    for (std::uint32_t i = 0; i < bounded.size(); ++i)
-        if (leaf(i, zCut)) return;
+    if (bvh.nodes.empty()) {
+        for (const std::uint32_t number : bounded)
+            if ((ask == Ask::All || !isBatched_[number]) && leaf(number, zCut)) return;
+        return;
+    }
+    if (ask == Ask::All)
+        for (const std::uint32_t number : batched)
+            if (leaf(number, zCut)) return;
+    traverse(bvh, setup, zCut,
+             [&](std::uint32_t position, float& cut) { return leaf(inTree_[position], cut); });
 }
 
 // Takes the hit of a shape if it is nearer than the best one, equal ones by number.
@@ -132,7 +127,7 @@ void ShapeSet::closest(const RaySpan& rays, std::vector<Hit>& hits) const {
                 return nearer(shape, ray, number, tEntry, best);
             },
             nullptr};
-        return kernel_->closest(solids_, calls, rays, hits);
+        return closestSolids(*kernel_, solids_, calls, rays, hits);
     }
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Ray ray = rays[i];
@@ -190,7 +185,7 @@ void ShapeSet::occluded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) 
             this, nullptr, [](const void* set, const Ray& ray, std::uint32_t number) {
                 return static_cast<const ShapeSet*>(set)->shapes[number]->occludes(ray);
             }};
-        return kernel_->any(solids_, calls, rays, hidden);
+        return anySolids(*kernel_, solids_, calls, rays, hidden);
     }
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Ray ray = rays[i];

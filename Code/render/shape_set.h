@@ -18,7 +18,7 @@ struct ShapeSet {
     std::vector<Bounds> boxes;
     std::vector<Shadow> shadows;
     std::vector<std::uint32_t> bounded, unbounded; // shape numbers; `bounded` in ascending order
-    Bvh bvh;          // over the bounded ones, by position in `bounded`; empty: linear search
+    Bvh bvh;          // over the bounded ones that take no batches; empty: linear search
     float extent = 0; // largest |coordinate| of a finite box
 
     void add(std::unique_ptr<const Shape> shape, Shadow shadow);
@@ -51,6 +51,7 @@ private:
     void hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;
 
     std::vector<std::uint8_t> isBatched_; // by shape
+    std::vector<std::uint32_t> inTree_;   // shapes by their number in the tree
     const SolidKernel* kernel_ = nullptr; // null: the scalar code answers
-    SolidTree solids_;                    // the bounded shapes that take no batches themselves
+    SolidTree solids_;                    // the shapes of the tree
 };

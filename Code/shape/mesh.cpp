@@ -64,14 +64,14 @@ void MeshGeometry::collapseEndless() {
     std::replace_if(points.begin(), points.end(), isNowhere, Vec3{});
 }
 
-void MeshGeometry::finish(bool withTree, const Kernel& forKernel) {
+void MeshGeometry::finish(bool withTree, const Kernel& forKernel, int threads) {
     collapseEndless();
     extent = 0;
     for (const Vec3 p : points) extent = max(maxAbs(p), extent);
     if (!withTree || triangles.empty()) return;
     if (forKernel.width > 0) {
         kernel = &forKernel;
-        wide = buildWide(forKernel.width, points, triangles);
+        wide = buildWide(forKernel.width, points, triangles, threads);
         return;
     }
     {

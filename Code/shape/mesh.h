@@ -33,9 +33,9 @@ struct MeshGeometry {
     std::uint64_t dropDegenerate();
     // Triangles with a corner at NaN or infinity become points, which no ray meets.
     void collapseEndless();
-    // Does that, computes extent and, if wanted, the tree that the kernel needs. The lists do not
-    // change afterwards.
-    void finish(bool withTree, const Kernel& forKernel = chooseKernel("scalar"));
+    // Does that, computes extent and, if wanted, the tree that the kernel needs, the same for any
+    // number of threads. The lists do not change afterwards.
+    void finish(bool withTree, const Kernel& forKernel = chooseKernel("scalar"), int threads = 1);
     WideMesh wideMesh() const { return {wide, points, triangles, extent}; }
     std::size_t bytes() const;
 };
@@ -63,6 +63,7 @@ public:
     void intersectBatch(const RaySpan& rays, std::uint32_t number,
                         std::span<Hit> hits) const override;
     void occludesBatch(const RaySpan& rays, std::span<std::uint8_t> hidden) const override;
+    bool seesFront(const Ray& ray, const Hit& hit) const override;
     Surface surface(const Ray& ray, const Hit& hit) const override {
         return surfaceFor(ray, hit, {});
     }

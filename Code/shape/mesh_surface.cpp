@@ -69,6 +69,17 @@ Vec3d liftToCurve(Vec3d p, const std::array<Vec3d, 3>& corners, const std::array
 
 } // namespace
 
+bool Mesh::seesFront(const Ray& ray, const Hit& hit) const {
+    const auto& c = geometry_.triangles[hit.prim];
+    const Vec3d n =
+        crossOfEdges(geometry_.points[c[0]], geometry_.points[c[1]], geometry_.points[c[2]]);
+    const Vec3d dir = toDouble(ray.dir);
+    const double facing = dot(n, dir);
+    // The sign is asked of the surface's normal, which is rounded.
+    const bool isSure = facing * facing > 0x1p-40 * dot(n, n) * dot(dir, dir);
+    return identity_ && isSure ? facing < 0 : Shape::seesFront(ray, hit);
+}
+
 Surface Mesh::surfaceFor(const Ray& worldRay, const Hit& hit, SurfaceNeeds needs) const {
     const auto& c = geometry_.triangles[hit.prim];
     const Vec3 v0 = geometry_.points[c[0]], v1 = geometry_.points[c[1]],

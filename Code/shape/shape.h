@@ -7,14 +7,13 @@
 // the ray and the shape.
 #pragma once
 
-#include "accel/still_sphere.h"
+#include "accel/solid_form.h"
 #include "base/bounds.h"
 #include "base/hit.h"
 #include "base/ray.h"
 #include "base/ray_span.h"
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 class Shape {
@@ -55,8 +54,8 @@ public:
         for (std::size_t i = 0; i < rays.size(); ++i) hidden[i] = occludes(rays[i]);
     }
 
-    // Shapes that rays meet as they meet this sphere: kernels do that by themselves.
-    virtual std::optional<StillSphere> stillSphere() const { return {}; }
+    // What helps a kernel to find candidates; not asked of unbounded shapes.
+    virtual SolidForm solidForm() const { return {ballAround(toDouble(bounds())), {}}; }
 
     // Does the ray come from the outside of the surface at this hit?
     virtual bool seesFront(const Ray& ray, const Hit& hit) const {

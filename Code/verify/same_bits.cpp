@@ -141,11 +141,28 @@ Tally unusedFeatures(const Effort& effort) {
     });
 }
 
+// What is left out for a scene may be done all the same.
+Tally generalForm(const Effort& effort) {
+    return forScenes(effort, 171, [](auto* name, auto& desc, Random& random, Tally& tally) {
+        const char* kernel = kernelsHere()[random.below(kernelsHere().size())];
+        const auto hash = [&](bool specialise) {
+            return hashWith(desc, [&](RenderSettings& s) {
+                s.kernel = kernel;
+                s.specialise = specialise;
+            });
+        };
+        ++tally.cases;
+        if (hash(true) != hash(false))
+            tally.fail([&] { return cat(name, " with kernel ", kernel); });
+    });
+}
+
 constexpr Row kRows[] = {
     {"T10", "pictures without trees, with, any kernel: the same bits", "", 0, true, accelerators},
     {"T11a", "1, 2, 3, 8, 64 threads, tiles, queues: the same bits", "", 0, true, cuts},
     {"T11b", "a picture 20 times on three threads: the same bits", "", 0, true, runs},
-    {"T17", "unused features switched off: the same bits", "", 0, true, unusedFeatures},
+    {"T17a", "unused features switched off: the same bits", "", 0, true, unusedFeatures},
+    {"T17b", "every step for every scene: the same bits", "", 0, true, generalForm},
 };
 
 } // namespace

@@ -145,3 +145,7 @@ inline __m128i pick(__m128i keys, const std::uint32_t* from) {
     const __m256i all = _mm256_load_si256(reinterpret_cast<const __m256i*>(from));
     return _mm256_castsi256_si128(_mm256_permutevar8x32_epi32(all, _mm256_castsi128_si256(keys)));
 }
+inline std::uint32_t element(__m128i four, int i) {
+    return static_cast<std::uint32_t>(_mm_cvtsi128_si32(
+        _mm_castps_si128(_mm_permutevar_ps(_mm_castsi128_ps(four), _mm_cvtsi32_si128(i)))));
+}

@@ -133,3 +133,8 @@ inline __m128i pick(__m128i keys, const std::uint32_t* from) {
     return _mm512_castsi512_si128(
         _mm512_permutexvar_epi32(_mm512_castsi128_si512(keys), _mm512_load_si512(from)));
 }
+// Element i, 0 to 3.
+inline std::uint32_t element(__m128i four, int i) {
+    return static_cast<std::uint32_t>(_mm_cvtsi128_si32(
+        _mm_castps_si128(_mm_permutevar_ps(_mm_castsi128_ps(four), _mm_cvtsi32_si128(i)))));
+}

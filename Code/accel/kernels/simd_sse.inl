@@ -204,3 +204,8 @@ inline __m128i pick(__m128i keys, const std::uint32_t* from) {
     return _mm_setr_epi32(at(_mm_extract_epi32(keys, 0)), at(_mm_extract_epi32(keys, 1)),
                           at(_mm_extract_epi32(keys, 2)), at(_mm_extract_epi32(keys, 3)));
 }
+inline std::uint32_t element(__m128i four, int i) {
+    alignas(16) std::uint32_t all[4];
+    _mm_store_si128(reinterpret_cast<__m128i*>(all), four);
+    return all[i & 3];
+}

@@ -137,6 +137,7 @@ private:
     // Returns the area of the triangles' leaves, once for each triangle.
     double write(WideNode<W>& to, const WideChildren<W>& children) const {
         WideNode<W> node;
+        std::memset(&node, 0, sizeof node); // behind the members, too: trees compare by bytes
         for (auto& planes : node.plane) {
             std::fill_n(planes[0], W, std::numeric_limits<float>::infinity());
             std::fill_n(planes[1], W, -std::numeric_limits<float>::infinity());
