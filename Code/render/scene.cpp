@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 class SceneBuilder {
@@ -245,8 +246,11 @@ private:
             const auto materials = materialsBySlot(object, desc_.meshes[mesh]);
             if (isCopied[mesh] && place.isStatic() && isInScene(object, place.at(0))) {
                 const bool solid = shadowOf(materials) == ShapeSet::Shadow::Opaque;
-                (solid ? opaque : seeThrough)[static_cast<std::size_t>(object.sides)].add(
-                    desc_.meshes[mesh], place.at(0), materials, id);
+                MergedMesh& merged =
+                    (solid ? opaque : seeThrough)[static_cast<std::size_t>(object.sides)];
+                const std::uint64_t before = merged.degenerateCount;
+                merged.add(desc_.meshes[mesh], place.at(0), materials, id);
+                countDegenerate(mesh, merged.degenerateCount - before);
             } else {
                 addInstance(object, place, materials, id);
             }
@@ -254,6 +258,11 @@ private:
         for (auto* group : {&opaque, &seeThrough})
             for (std::size_t sides = 0; sides < kSides; ++sides)
                 addMerged(std::move((*group)[sides]), static_cast<ObjectDesc::Sides>(sides));
+    }
+
+    // Once for all copies and instances of a mesh.
+    void countDegenerate(std::size_t mesh, std::uint64_t count) {
+        if (counted_.insert(mesh).second) scene_.degenerateCount_ += count;
     }
 
     // By mesh: those that are used once, and others as long as there is room for all their copies.
@@ -290,7 +299,6 @@ private:
         if (merged.geometry.triangles.empty()) return;
         auto geometry = std::make_unique<MeshGeometry>(std::move(merged.geometry));
         geometry->finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel));
-        scene_.degenerateCount_ += merged.degenerateCount;
         auto mesh = std::make_unique<Mesh>(*geometry, merged.materials, std::move(merged.parts));
         scene_.shapes_.add(withSides(std::move(mesh), sides), shadowOf(merged.materials));
         scene_.geometries_.push_back(std::move(geometry));
@@ -303,7 +311,7 @@ private:
         const auto [at, isNew] = shared_.try_emplace(mesh);
         if (isNew) {
             auto geometry = std::make_unique<MeshGeometry>(toSharedGeometry(desc_.meshes[mesh]));
-            scene_.degenerateCount_ += geometry->dropDegenerate();
+            countDegenerate(mesh, geometry->dropDegenerate());
             geometry->finish(settings_.accel == AccelKind::Bvh);
             at->second = geometry.get();
             scene_.geometries_.push_back(std::move(geometry));
@@ -346,6 +354,7 @@ private:
     Switches on_;
     const CameraDesc* cameraDesc_ = nullptr;            // the one that is used
     std::map<std::size_t, const MeshGeometry*> shared_; // of instances, by mesh
+    std::set<std::size_t> counted_;                     // meshes; see countDegenerate()
 };
 
 Scene::Scene(const SceneDesc& desc, const SourceFile& source, const RenderSettings& settings) {
