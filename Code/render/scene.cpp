@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 class SceneBuilder {
@@ -259,8 +260,11 @@ private:
             const auto materials = materialsBySlot(object, desc_.meshes[mesh]);
             if (isCopied[mesh] && place.isStatic() && isInScene(object, place.at(0))) {
                 const bool solid = shadowOf(materials) == ShapeSet::Shadow::Opaque;
-                (solid ? opaque : seeThrough)[static_cast<std::size_t>(object.sides)].add(
-                    desc_.meshes[mesh], place.at(0), materials, id);
+                MergedMesh& merged =
+                    (solid ? opaque : seeThrough)[static_cast<std::size_t>(object.sides)];
+                const std::uint64_t before = merged.degenerateCount;
+                merged.add(desc_.meshes[mesh], place.at(0), materials, id);
+                countDegenerate(mesh, merged.degenerateCount - before);
             } else {
                 addInstance(object, place, materials, id);
             }
@@ -268,6 +272,11 @@ private:
         for (auto* group : {&opaque, &seeThrough})
             for (std::size_t sides = 0; sides < kSides; ++sides)
                 addMerged(std::move((*group)[sides]), static_cast<ObjectDesc::Sides>(sides));
+    }
+
+    // Once for all copies and instances of a mesh.
+    void countDegenerate(std::size_t mesh, std::uint64_t count) {
+        if (counted_.insert(mesh).second) scene_.degenerateCount_ += count;
     }
 
     // By mesh: those that are used once, and others as long as there is room for all their copies.
@@ -301,7 +310,6 @@ private:
     }
 
     void addMerged(MergedMesh merged, ObjectDesc::Sides sides) {
-        scene_.degenerateCount_ += merged.degenerateCount;
         if (merged.geometry.triangles.empty()) return;
         auto geometry = std::make_unique<MeshGeometry>(std::move(merged.geometry));
         geometry->finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel),
@@ -318,14 +326,13 @@ private:
         const auto [at, isNew] = shared_.try_emplace(mesh);
         if (isNew) {
             auto geometry = std::make_unique<MeshGeometry>(toSharedGeometry(desc_.meshes[mesh]));
-            at->second.degenerateCount = geometry->dropDegenerate();
+            countDegenerate(mesh, geometry->dropDegenerate());
             geometry->finish(settings_.accel == AccelKind::Bvh, chooseKernel("scalar"),
                              settings_.threads);
-            at->second.geometry = geometry.get();
+            at->second = geometry.get();
             scene_.geometries_.push_back(std::move(geometry));
         }
-        scene_.degenerateCount_ += at->second.degenerateCount; // of each, as if it were a copy
-        const MeshGeometry& geometry = *at->second.geometry;
+        const MeshGeometry& geometry = *at->second;
         if (geometry.triangles.empty()) return;
         const ShapeSet::Shadow shadow = shadowOf(materials);
         auto shape = std::make_unique<MeshInstance>(geometry, place, std::move(materials), id);
@@ -356,18 +363,14 @@ private:
         scene_.shapes_.add(std::move(body), ShapeSet::Shadow::None);
     }
 
-    struct SharedMesh {
-        const MeshGeometry* geometry = nullptr;
-        std::uint64_t degenerateCount = 0;
-    };
-
     Scene& scene_;
     const SceneDesc& desc_;
     const SourceFile& source_;
     const RenderSettings& settings_;
     Switches on_;
-    const CameraDesc* cameraDesc_ = nullptr;   // the one that is used
-    std::map<std::size_t, SharedMesh> shared_; // of instances, by mesh
+    const CameraDesc* cameraDesc_ = nullptr;            // the one that is used
+    std::map<std::size_t, const MeshGeometry*> shared_; // of instances, by mesh
+    std::set<std::size_t> counted_;                     // meshes; see countDegenerate()
 };
 
 Scene::Scene(const SceneDesc& desc, const SourceFile& source, const RenderSettings& settings) {

@@ -49,7 +49,7 @@ Vec3d linear(const Rows& m, Vec3d v) {
 
 TreeRay::TreeRay(const MeshGeometry& mesh, const RaySetup& setup, float lateralError,
                  double depthPerT, double depthPerSide)
-    : mesh_(mesh), setup_(setup), lateralError_(lateralError),
+    : longestSide_(mesh.longestSide.data()), setup_(setup), lateralError_(lateralError),
       depthPerSide_(static_cast<float>(min(depthPerSide, 0x1p100))), depthPerT_(depthPerT) {
     acrossX_[setup.kx] = acrossY_[setup.ky] = 1;
     acrossX_[setup.k] = -setup.Sx * setup.sign;

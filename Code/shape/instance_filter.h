@@ -16,14 +16,28 @@ public:
     TreeRay(const MeshGeometry& mesh, const RaySetup& setup, float lateralError, double depthPerT,
             double depthPerSide);
 
-    bool mayMeetSome(float tMax) const {
-        float z = 0;
-        return enters(0, depthAt(tMax), z);
+    // Depth in the tree at t in the scene.
+    float depthAt(float t) const {
+        return static_cast<float>(min(static_cast<double>(t) * depthPerT_, 0x1p100));
     }
-    // traverse() of bvh.h: leaf(triangle, tMax) for every triangle that may be hit before tMax, as
-    // far as boxes tell; it may lower tMax; true stops.
-    template <class LeafFn> void visit(float tMax, LeafFn&& leaf) const;
-
+    // For traverse() of the mesh's bvh: RaySetup::enters() with as much room before the start of
+    // the ray and behind the cut as the triangles of the node ask for.
+    [[gnu::always_inline]] friend bool enters(const TreeRay& ray, const Bvh& bvh,
+                                              std::uint32_t node, float zCut, float& zEntry) {
+        const Bounds& box = bvh.nodes[node].box;
+        const RaySetup& setup = ray.setup_;
+        const float room = ray.longestSide_[node] * ray.depthPerSide_;
+        float entry = -room, exit = zCut + room;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const bool backwards = setup.r[axis] < 0;
+            const float nearPlane = backwards ? box.hi[axis] : box.lo[axis];
+            const float farPlane = backwards ? box.lo[axis] : box.hi[axis];
+            entry = max(nearPlane * setup.r[axis] + setup.nearOffset[axis], entry);
+            exit = min(farPlane * setup.r[axis] + setup.farOffset[axis], exit);
+        }
+        zEntry = entry - room;
+        return entry <= exit;
+    }
     // May the triangle with these corners in the tree be hit? Woop's test with edge functions that
     // may be off: corners which are moved by up to d along each axis, at most m away from the ray,
     // change them by 4 d m.
@@ -43,27 +57,7 @@ private:
     // than the products with 0 and 1 here.
     Vec2 beside(Vec3 p) const { return {dot(acrossX_, p) + originX_, dot(acrossY_, p) + originY_}; }
 
-    float depthAt(float t) const {
-        return static_cast<float>(min(static_cast<double>(t) * depthPerT_, 0x1p100));
-    }
-    // RaySetup::enters() with as much room before the start of the ray and behind the cut as the
-    // triangles of the node ask for.
-    [[gnu::always_inline]] bool enters(std::uint32_t node, float zCut, float& zEntry) const {
-        const Bounds& box = mesh_.bvh.nodes[node].box;
-        const float room = mesh_.longestSide[node] * depthPerSide_;
-        float entry = -room, exit = zCut + room;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const bool backwards = setup_.r[axis] < 0;
-            const float nearPlane = backwards ? box.hi[axis] : box.lo[axis];
-            const float farPlane = backwards ? box.lo[axis] : box.hi[axis];
-            entry = max(nearPlane * setup_.r[axis] + setup_.nearOffset[axis], entry);
-            exit = min(farPlane * setup_.r[axis] + setup_.farOffset[axis], exit);
-        }
-        zEntry = entry - room;
-        return entry <= exit;
-    }
-
-    const MeshGeometry& mesh_;
+    const float* longestSide_; // by node
     RaySetup setup_;
     Vec3 acrossX_, acrossY_;
     float originX_, originY_;
@@ -71,46 +65,6 @@ private:
     float depthPerSide_;
     double depthPerT_;
 };
-
-template <class LeafFn> void TreeRay::visit(float tMax, LeafFn&& leaf) const {
-    struct Entry {
-        std::uint32_t node;
-        float z;
-    };
-    const Bvh& bvh = mesh_.bvh;
-    std::array<Entry, kMaxBvhDepth + 1> stack;
-    std::size_t size = 0;
-    float z = 0, zCut = depthAt(tMax);
-    if (!enters(0, zCut, z)) return;
-    for (std::uint32_t at = 0;;) {
-        const BvhNode& node = bvh.nodes[at];
-        if (node.isLeaf()) {
-            const float before = tMax;
-            for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-                if (leaf(bvh.primIds[i], tMax)) return;
-            if (tMax < before) zCut = depthAt(tMax);
-        } else {
-            float zLeft = 0, zRight = 0;
-            const bool left = enters(node.first, zCut, zLeft);
-            const bool right = enters(node.first + 1, zCut, zRight);
-            if (left && right) {
-                const bool leftFirst = zLeft <= zRight;
-                stack[size++] = {node.first + (leftFirst ? 1u : 0u), leftFirst ? zRight : zLeft};
-                at = node.first + (leftFirst ? 0u : 1u);
-                continue;
-            }
-            if (left || right) {
-                at = node.first + (left ? 0u : 1u);
-                continue;
-            }
-        }
-        do {
-            if (size == 0) return;
-            --size;
-        } while (stack[size].z > zCut);
-        at = stack[size].node;
-    }
-}
 
 class InstanceFilter {
 public:

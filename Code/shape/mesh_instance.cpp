@@ -39,14 +39,15 @@ void MeshInstance::candidates(const Transform& sceneFromObject,
             if (test(i)) return;
         return;
     }
-    treeRay->visit(zCut / setup.dz, [&](std::uint32_t triangle, float& tMax) {
-        const auto& c = geometry_.triangles[triangle];
-        const auto& points = geometry_.points;
-        if (!treeRay->mayMeet(points[c[0]], points[c[1]], points[c[2]])) return false;
-        const bool stop = test(triangle);
-        tMax = min(zCut / setup.dz, tMax);
-        return stop;
-    });
+    const auto& points = geometry_.points;
+    traverse(geometry_.bvh, *treeRay, treeRay->depthAt(zCut / setup.dz),
+             [&](std::uint32_t triangle, float& treeCut) {
+                 const auto& c = geometry_.triangles[triangle];
+                 if (!treeRay->mayMeet(points[c[0]], points[c[1]], points[c[2]])) return false;
+                 const bool stop = test(triangle);
+                 treeCut = min(treeRay->depthAt(zCut / setup.dz), treeCut);
+                 return stop;
+             });
 }
 
 // query(candidates), as triangle_queries.h wants them, at the time of the ray; false when there are
@@ -56,7 +57,8 @@ template <class Query> bool MeshInstance::ask(const Ray& ray, float tMax, Query&
     const auto at = [&](const Place& place) {
         const auto treeRay =
             geometry_.bvh.nodes.empty() ? std::nullopt : place.filter.treeRay(ray, extent_);
-        if (treeRay && !treeRay->mayMeetSome(tMax)) return false;
+        float z = 0;
+        if (treeRay && !enters(*treeRay, geometry_.bvh, 0, treeRay->depthAt(tMax), z)) return false;
         return query([&](const RaySetup& setup, float zCut, auto&& leaf) {
             candidates(place.sceneFromObject, treeRay, setup, zCut, leaf);
         });

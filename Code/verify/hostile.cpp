@@ -159,9 +159,8 @@ Tally pictures(const Effort& effort) {
         };
         failIf(!isFinite(picture.color), "a pixel has no value");
         failIf(stats.nanSamples > 0, cat(stats.nanSamples, " samples have no value"));
-        const std::uint64_t flat = scene.flat * scene.desc.objects.size();
-        failIf(stats.degeneratePrimitives != flat,
-               cat(stats.degeneratePrimitives, " counted of ", flat));
+        failIf(stats.degeneratePrimitives != scene.flat,
+               cat(stats.degeneratePrimitives, " counted of ", scene.flat));
         failIf(!(picture.color == plain.color), "another picture without the tree");
         failIf(!isRefused(scene.desc, random), "a corner at NaN or infinity is let through");
     });
