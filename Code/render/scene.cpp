@@ -33,7 +33,8 @@ public:
         buildWorld();
         buildObjects();
         buildLights();
-        scene_.shapes_.finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel));
+        scene_.shapes_.finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel),
+                              settings_.threads);
         scene_.features_ = featuresOf(desc_, *cameraDesc_, settings_);
     }
 
@@ -300,7 +301,8 @@ private:
             auto geometry =
                 std::make_unique<MeshGeometry>(toGeometry(desc_.meshes[mesh], at->second.frame));
             scene_.degenerateCount_ += geometry->dropDegenerate();
-            geometry->finish(settings_.accel == AccelKind::Bvh);
+            geometry->finish(settings_.accel == AccelKind::Bvh, chooseKernel("scalar"),
+                             settings_.threads);
             at->second.geometry = geometry.get();
             scene_.geometries_.push_back(std::move(geometry));
         }

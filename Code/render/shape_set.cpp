@@ -25,7 +25,7 @@ void ShapeSet::add(std::unique_ptr<const Shape> shape, Shadow shadow) {
     shadows.push_back(shadow);
 }
 
-void ShapeSet::finish(bool withBvh, const Kernel& kernel) {
+void ShapeSet::finish(bool withBvh, const Kernel& kernel, int threads) {
     isBatched_.assign(shapes.size(), 0);
     for (const std::uint32_t number : bounded) {
         if (!shapes[number]->takesBatches()) continue;
@@ -36,7 +36,7 @@ void ShapeSet::finish(bool withBvh, const Kernel& kernel) {
     if (bounded.size() >= kFewestForTree) {
         std::vector<Bounds> inOrder;
         for (const std::uint32_t number : bounded) inOrder.push_back(boxes[number]);
-        bvh = buildBvh(inOrder);
+        bvh = buildBvh(inOrder, threads);
         bvh.nodes.shrink_to_fit();
     }
     kernel_ = solidKernel(kernel);

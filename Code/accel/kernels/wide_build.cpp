@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace {
 
@@ -120,7 +121,7 @@ private:
         std::vector<Job> jobs;
         for (const BuildRange& r : level) {
             if (r.count <= subtreeSize(count_) || r.split.axis < 0 || r.depth >= kTopDepth) {
-                subtrees_.push_back({r, 0, 0, 0, 0});
+                ranges_.push_back(r);
                 continue;
             }
             const auto division = divisions.size();
@@ -179,10 +180,10 @@ private:
     }
 
     void growSubtrees() {
-        std::sort(subtrees_.begin(), subtrees_.end(),
-                  [](const SubtreeRange& a, const SubtreeRange& b) {
-                      return a.range.first < b.range.first;
-                  });
+        std::vector<std::pair<std::uint32_t, std::size_t>> order; // from left to right
+        for (const BuildRange& r : ranges_) order.emplace_back(r.first, order.size());
+        std::sort(order.begin(), order.end());
+        for (const auto& [first, i] : order) subtrees_.push_back({ranges_[i]});
         // A scanned mesh has a leaf for 11 triangles, one without common points for 5.
         const std::size_t leafLines = width_ == 16 ? 4 : 2, share = count_ / workers();
         for (Grown& grown : grown_) {
@@ -208,6 +209,7 @@ private:
     PrimLists lists_;
     BuildInput in_;
     std::vector<BinaryNode> top_;
+    std::vector<BuildRange> ranges_;     // of the subtrees, as they were found
     std::vector<SubtreeRange> subtrees_; // from left to right
     std::vector<Grown> grown_;           // by worker
 };
