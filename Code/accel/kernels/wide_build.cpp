@@ -184,11 +184,12 @@ private:
         for (const BuildRange& r : ranges_) order.emplace_back(r.first, order.size());
         std::sort(order.begin(), order.end());
         for (const auto& [first, i] : order) subtrees_.push_back({ranges_[i]});
-        // A scanned mesh has a leaf for 11 triangles, one without common points for 5.
-        const std::size_t leafLines = width_ == 16 ? 4 : 2, share = count_ / workers();
+        // What a scanned mesh needs, the nodes that follow the leaves included: 40 bytes for each
+        // triangle. Others grow.
+        const std::size_t share = count_ / workers();
         for (Grown& grown : grown_) {
             grown.nodes.reserve(share / 2 + 64);
-            grown.lines.reserve((share / 4 + 64) * leafLines);
+            grown.lines.reserve(share * 5 / 8 + 1024);
         }
         pool_.run(subtrees_.size(), [&](std::size_t i, int worker) {
             SubtreeRange& s = subtrees_[i];
