@@ -24,10 +24,14 @@ struct Bvh {
     std::size_t bytes() const { return nodes.size() * sizeof(BvhNode) + primIds.size() * 4; }
 };
 
-// Binned SAH, top down (Wald 2007), the same tree on every machine. Depth is at most kMaxDepth for
-// any input: a split that does not separate centres halves the list instead. `nodes` may have room
-// to spare: giving that back means a copy, best made when the boxes are gone.
-Bvh buildBvh(std::span<const Bounds> boxes, int threads = 1);
+// Binned SAH, top down (Wald 2007), the same tree on every machine and for any number of threads.
+// Depth is at most kMaxBvhDepth for any input: a split that does not separate centres halves the
+// list instead. A part of the tree that would cost more than the list of its primitives becomes one
+// leaf, if that has no more than `largestLeaf`. `nodes` may have room to spare: giving that back
+// means a copy, best made when the boxes are gone.
+inline constexpr std::uint32_t kUsualLeaf = 8; // no leaf is larger unless that is allowed
+Bvh buildBvh(std::span<const Bounds> boxes, int threads = 1,
+             std::uint32_t largestLeaf = kUsualLeaf);
 
 // Expected cost of a ray through the tree by the surface area heuristic, node and primitive 1 each.
 double sahCost(const Bvh& bvh);

@@ -16,8 +16,6 @@ namespace {
 
 using namespace bvh_build;
 
-// More primitives than these are split, whether it pays or not; whether it did is seen afterwards.
-constexpr std::uint32_t kMaxLeaf = 8;
 // A tree over more primitives than these must cost less than this part of what their plain list
 // does: a list is read in the order of memory, which is up to ten times as fast.
 constexpr std::uint32_t kMany = 1000;
@@ -49,6 +47,7 @@ struct Lists {
     PageVector<PrimBox> prims, spare;
     std::uint32_t* ids = nullptr;
     double pad = 0; // by which rays see boxes larger
+    std::uint32_t largestLeaf = kUsualLeaf;
     PrimBox* of(const Range& r, bool other = false) {
         return (r.inSpare != other ? spare : prims).data() + r.first;
     }
@@ -157,7 +156,7 @@ private:
         const PrimBox* const prims = lists_.of(r);
         if (r.count > 1 && !r.split.exists()) splitExactly(r, lists_);
         const bool worthIt = r.split.exists() && r.split.cost + area < asLeaf;
-        if (r.count == 1 || (!worthIt && r.count <= kMaxLeaf)) {
+        if (r.count == 1 || (!worthIt && r.count <= kUsualLeaf)) {
             makeLeaf(at, r);
             for (std::uint32_t i = 0; i < r.count; ++i) lists_.ids[r.first + i] = prims[i].id();
             return asLeaf;
@@ -170,7 +169,8 @@ private:
         nodes.push_back({boundsOf(halves.right.box), 0, 0});
         const double left = grow(child, halves.left);
         const double inTree = area + left + grow(child + 1, halves.right);
-        if (inTree <= asLeaf) return inTree; // boxes without area stay in a tree
+        // Boxes without area stay in a tree.
+        if (inTree <= asLeaf || r.count > lists_.largestLeaf) return inTree;
         nodes.resize(child); // all in vain: rays that get here try nearly all primitives
         std::sort(lists_.ids + r.first, lists_.ids + r.first + r.count);
         makeLeaf(at, r);
@@ -185,12 +185,13 @@ private:
 
 class Builder {
 public:
-    Builder(std::span<const Bounds> boxes, int threads)
+    Builder(std::span<const Bounds> boxes, int threads, std::uint32_t largestLeaf)
         : count_(static_cast<std::uint32_t>(boxes.size())),
           // Few boxes are sorted before another thread has woken up.
           pool_(count_ < 2 * subtreeSize(count_) ? 1 : threads) {
         bvh_.primIds.resize(count_);
         lists_.ids = bvh_.primIds.data();
+        lists_.largestLeaf = largestLeaf;
         lists_.prims.resize(count_), lists_.spare.resize(count_);
         Range root{0, count_, 0, false, kEmpty, {}, {}};
         for (std::uint32_t i = 0; i < count_; ++i) {
@@ -266,7 +267,8 @@ private:
             const double area = halfAreaOf(t.box, lists_.pad), asLeaf = area * t.count;
             cost[i] =
                 t.left == 0 ? subtrees_[t.subtree]->cost : area + cost[t.left] + cost[t.left + 1];
-            isList[i] = cost[i] > (t.count > kMany ? kWorthwhile : 1) * asLeaf;
+            isList[i] = t.count <= lists_.largestLeaf &&
+                        cost[i] > (t.count > kMany ? kWorthwhile : 1) * asLeaf;
             if (isList[i]) cost[i] = asLeaf;
         }
         std::size_t size = top_.size();
@@ -321,6 +323,6 @@ private:
 
 } // namespace
 
-Bvh buildBvh(std::span<const Bounds> boxes, int threads) {
-    return boxes.empty() ? Bvh{} : Builder(boxes, threads).take();
+Bvh buildBvh(std::span<const Bounds> boxes, int threads, std::uint32_t largestLeaf) {
+    return boxes.empty() ? Bvh{} : Builder(boxes, threads, largestLeaf).take();
 }

@@ -36,7 +36,8 @@ public:
         buildWorld();
         buildObjects();
         buildLights();
-        scene_.shapes_.finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel));
+        scene_.shapes_.finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel),
+                              settings_.threads);
         scene_.features_ = featuresOf(desc_, *cameraDesc_, settings_);
     }
 

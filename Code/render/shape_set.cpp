@@ -25,7 +25,7 @@ void ShapeSet::add(std::unique_ptr<const Shape> shape, Shadow shadow) {
     shadows.push_back(shadow);
 }
 
-void ShapeSet::finish(bool withBvh, const Kernel& kernel) {
+void ShapeSet::finish(bool withBvh, const Kernel& kernel, int threads) {
     isBatched_.assign(shapes.size(), 0);
     for (const std::uint32_t number : bounded) {
         if (!shapes[number]->takesBatches()) continue;
@@ -38,7 +38,7 @@ void ShapeSet::finish(bool withBvh, const Kernel& kernel) {
     for (const std::uint32_t number : bounded)
         if (!isBatched_[number]) inTree_.push_back(number), inOrder.push_back(boxes[number]);
     if (!kernel_ && inTree_.size() < kFewestForTree) return inTree_.clear();
-    bvh = buildBvh(inOrder);
+    bvh = buildBvh(inOrder, threads);
     bvh.nodes.shrink_to_fit();
     if (kernel_) buildSolids(kernel_->width);
 }

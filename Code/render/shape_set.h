@@ -25,7 +25,7 @@ struct ShapeSet {
     void add(std::unique_ptr<const Shape> shape, Shadow shadow);
     // Call once after the last add(). Batches are answered by the kernel, if it has a part for
     // solids and a tree is wanted; else as single rays are.
-    void finish(bool withBvh, const Kernel& kernel = chooseKernel("scalar"));
+    void finish(bool withBvh, const Kernel& kernel = chooseKernel("scalar"), int threads = 1);
     // Bounded shapes that take batches themselves; the batch queries ask them first.
     std::vector<std::uint32_t> batched;
 

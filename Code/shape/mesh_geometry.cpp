@@ -1,6 +1,7 @@
 #include "shape/mesh_geometry.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace {
 
@@ -90,7 +91,7 @@ void MeshGeometry::finish(bool withTree, const Kernel& forKernel, int threads) {
         std::vector<Bounds> boxes(triangles.size());
         for (std::size_t i = 0; i < triangles.size(); ++i)
             for (const std::uint32_t corner : triangles[i]) boxes[i].extend(points[corner]);
-        bvh = buildBvh(boxes, threads);
+        bvh = buildBvh(boxes, threads, std::numeric_limits<std::uint32_t>::max());
     }
     bvh.nodes.shrink_to_fit();
     if (!exactPoints.empty()) longestSide = longestSides(*this);

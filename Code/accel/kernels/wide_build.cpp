@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace {
 
@@ -120,7 +121,7 @@ private:
         std::vector<Job> jobs;
         for (const BuildRange& r : level) {
             if (r.count <= subtreeSize(count_) || r.split.axis < 0 || r.depth >= kTopDepth) {
-                subtrees_.push_back({r, 0, 0, 0, 0});
+                ranges_.push_back(r);
                 continue;
             }
             const auto division = divisions.size();
@@ -179,15 +180,16 @@ private:
     }
 
     void growSubtrees() {
-        std::sort(subtrees_.begin(), subtrees_.end(),
-                  [](const SubtreeRange& a, const SubtreeRange& b) {
-                      return a.range.first < b.range.first;
-                  });
-        // A scanned mesh has a leaf for 11 triangles, one without common points for 5.
-        const std::size_t leafLines = width_ == 16 ? 4 : 2, share = count_ / workers();
+        std::vector<std::pair<std::uint32_t, std::size_t>> order; // from left to right
+        for (const BuildRange& r : ranges_) order.emplace_back(r.first, order.size());
+        std::sort(order.begin(), order.end());
+        for (const auto& [first, i] : order) subtrees_.push_back({ranges_[i]});
+        // What a scanned mesh needs, the nodes that follow the leaves included: 40 bytes for each
+        // triangle. Others grow.
+        const std::size_t share = count_ / workers();
         for (Grown& grown : grown_) {
             grown.nodes.reserve(share / 2 + 64);
-            grown.lines.reserve((share / 4 + 64) * leafLines);
+            grown.lines.reserve(share * 5 / 8 + 1024);
         }
         pool_.run(subtrees_.size(), [&](std::size_t i, int worker) {
             SubtreeRange& s = subtrees_[i];
@@ -208,6 +210,7 @@ private:
     PrimLists lists_;
     BuildInput in_;
     std::vector<BinaryNode> top_;
+    std::vector<BuildRange> ranges_;     // of the subtrees, as they were found
     std::vector<SubtreeRange> subtrees_; // from left to right
     std::vector<Grown> grown_;           // by worker
 };
