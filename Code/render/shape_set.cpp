@@ -9,6 +9,9 @@ namespace {
 // A tree over fewer shapes costs more than it saves; the answer is the same either way.
 constexpr std::size_t kFewestForTree = 5;
 
+// Rays of NaN or without a range would look for what there can't be.
+bool canHit(const Ray& ray) { return isTraceable(ray) && ray.tMin < ray.tMax; }
+
 } // namespace
 
 void ShapeSet::add(std::unique_ptr<const Shape> shape, Shadow shadow) {
@@ -108,7 +111,7 @@ void ShapeSet::visitNearer(const Ray& ray, const RaySetup& setup, Ask ask, Hit& 
 Hit ShapeSet::closest(const Ray& ray) const {
     Hit best;
     best.t = ray.tMax;
-    if (!isTraceable(ray)) return best;
+    if (!canHit(ray)) return best;
     visitNearer(ray, RaySetup(ray.org, ray.dir, extent), Ask::All, best);
     return best;
 }
@@ -120,7 +123,7 @@ void ShapeSet::closest(const RaySpan& rays, std::vector<Hit>& hits) const {
     if (!unbounded.empty()) {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const Ray ray = rays[i];
-            if (!isTraceable(ray)) continue;
+            if (!canHit(ray)) continue;
             for (const std::uint32_t number : unbounded) nearer(ray, number, 0, hits[i]);
         }
     }
@@ -136,7 +139,7 @@ void ShapeSet::closest(const RaySpan& rays, std::vector<Hit>& hits) const {
     }
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Ray ray = rays[i];
-        if (isTraceable(ray))
+        if (canHit(ray))
             visitNearer(ray, RaySetup(ray.org, ray.dir, extent), Ask::ButBatched, hits[i]);
     }
 }
@@ -168,7 +171,7 @@ bool ShapeSet::isHidden(const Ray& ray, const RaySetup& setup, Ask ask) const {
 }
 
 bool ShapeSet::occluded(const Ray& ray) const {
-    return isTraceable(ray) && isHidden(ray, RaySetup(ray.org, ray.dir, extent), Ask::All);
+    return canHit(ray) && isHidden(ray, RaySetup(ray.org, ray.dir, extent), Ask::All);
 }
 
 void ShapeSet::occluded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const {
@@ -178,7 +181,7 @@ void ShapeSet::occluded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) 
     if (!unbounded.empty()) {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const Ray ray = rays[i];
-            if (hidden[i] != 0 || !isTraceable(ray)) continue;
+            if (hidden[i] != 0 || !canHit(ray)) continue;
             hidden[i] = std::any_of(unbounded.begin(), unbounded.end(), [&](std::uint32_t number) {
                 return isOpaque(number) && shapes[number]->occludes(ray);
             });
@@ -194,7 +197,7 @@ void ShapeSet::occluded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) 
     }
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Ray ray = rays[i];
-        if (hidden[i] == 0 && isTraceable(ray))
+        if (hidden[i] == 0 && canHit(ray))
             hidden[i] = isHidden(ray, RaySetup(ray.org, ray.dir, extent), Ask::ButBatched);
     }
 }
@@ -210,7 +213,7 @@ void ShapeSet::hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hid
 }
 
 void ShapeSet::seeThroughHits(const Ray& ray, std::vector<Hit>& hits) const {
-    if (!isTraceable(ray)) return;
+    if (!canHit(ray)) return;
     const RaySetup setup(ray.org, ray.dir, extent);
     const std::size_t before = hits.size();
     visit(setup, depthCut(1.0f / (ray.tMax * setup.dz)), Ask::All,

@@ -2,9 +2,9 @@
 """Whole pictures against POV-Ray 3.7 (Debian: povray), one thread, one ray per pixel:
     povray.py RAYTRACER [SCENE[:SIZE]...] [--resolution WxH] [--runs N] [--keep FOLDER]
 Writes every scene as NFF and as POV-Ray's text, renders both in turn and prints, tab-separated, the
-median seconds of the whole processes (start, reading, rendering, writing a PNG), their ratio, and
-how far the pictures differ (mean absolute difference of a channel, of 255). Needs only python3."""
-import argparse, os, shutil, subprocess, sys, tempfile, time
+median seconds of the whole processes (start, reading, rendering, writing a PNG) on the clock and of the
+processor (POV-Ray also waits for itself), their ratios, and how far the pictures differ (mean absolute difference of a channel, of 255). Needs only python3."""
+import argparse, os, resource, shutil, subprocess, sys, tempfile, time
 sys.dont_write_bytecode = True
 from spd_scenes import SCENES, Cone, Polygon, Sphere, cross, mul, sub, unit
 import math
@@ -73,10 +73,12 @@ def write_pov(scene, width, height, out):
 
 
 def seconds(command):
-    start = time.perf_counter()
+    """Of the whole process: on the clock, and of the processor, which a busy machine changes less."""
+    start, before = time.perf_counter(), resource.getrusage(resource.RUSAGE_CHILDREN)
     done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    clock, after = time.perf_counter() - start, resource.getrusage(resource.RUSAGE_CHILDREN)
     if done.returncode: sys.exit('%s failed:\n%s' % (command[0], done.stdout.decode('latin-1')))
-    return time.perf_counter() - start
+    return clock, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
 
 
 def median(values): return sorted(values)[len(values) // 2]
@@ -98,7 +100,7 @@ def main():
     povray = shutil.which('povray')
     if not povray: sys.exit('povray.py: there is no povray here; Debian has it as the package povray')
     width, height = map(int, args.resolution.split('x'))
-    print('scene\titems\tours_s\tpovray_s\tratio\tdifference', flush=True)
+    print('scene\titems\tours_s\tpovray_s\tratio\tours_cpu_s\tpovray_cpu_s\tcpu_ratio\tdifference', flush=True)
     with tempfile.TemporaryDirectory() as folder:
         folder = args.keep or folder
         os.makedirs(folder, exist_ok=True)
@@ -112,11 +114,12 @@ def main():
             ours = [args.raytracer, path + '.nff', path + '.png', '--no-aa', '--threads', '1', '--quiet']
             theirs = [povray, '+I%s.pov' % path, '+O%s_pov.png' % path, '+W%d' % width, '+H%d' % height,
                       '-D', '-A', '+WT1', '+FN8', 'File_Gamma=srgb', '-GA']
-            times = [(seconds(ours), seconds(theirs)) for _ in range(args.runs)]
-            a, b = median([t[0] for t in times]), median([t[1] for t in times])
-            ratio = median([t[1] / t[0] for t in times])
-            print('%s\t%d\t%.3f\t%.3f\t%.1f\t%s' % (word, len(scene.items), a, b, ratio,
-                                                 difference(args.raytracer, path + '.png', path + '_pov.png')), flush=True)
+            times = [seconds(ours) + seconds(theirs) for _ in range(args.runs)]
+            columns = [median([t[k] for t in times]) for k in range(4)]
+            ratios = [median([t[2 + k] / t[k] for t in times]) for k in range(2)]
+            print('%s\t%d\t%.3f\t%.3f\t%.1f\t%.3f\t%.3f\t%.1f\t%s' % (
+                word, len(scene.items), columns[0], columns[2], ratios[0], columns[1], columns[3], ratios[1],
+                difference(args.raytracer, path + '.png', path + '_pov.png')), flush=True)
 
 
 if __name__ == '__main__':

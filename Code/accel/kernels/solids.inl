@@ -99,11 +99,11 @@ private:
         perLength2_ = one / length2;
         slack_ = max(Floats(tree_.extent), oMax) * Floats(0x1p-18f);
 
-        // isTraceable()
+        // isTraceable(), and a range to be hit in.
         const Floats sum = ((d[0] + d[1]) + d[2]) + ((o[0] + o[1]) + o[2]);
         const Floats longest = max(max(ax, ay), az);
         lanes &= bits((longest > Floats(1e-30f)) & (longest < Floats(1e30f)) &
-                      (oMax < Floats(1e30f)) & (sum - sum == zero));
+                      (oMax < Floats(1e30f)) & (sum - sum == zero) & (tMin_ < best_));
         if (lanes != 0) findInterval(lanes);
         return lanes;
     }
