@@ -132,6 +132,21 @@ TEST(read_threads_keep_joined_lines_together) {
     checkSameForThreads(text, "joined lines");
 }
 
+// A backslash at the end of a comment joins nothing, whoever looks: else there would be more
+// vertices than were counted.
+TEST(read_obj_comments_behind_numbers_end_their_line) {
+    const std::string face = "f -1 -2 -3";
+    for (const std::string comment : {"# c \\", " # c \\", "\t#\\", "#\\\r"})
+        for (const int threads : {1, 3}) {
+            const std::string end = comment + "\n", vertices = "v 0 0 0" + end + "v 1 0 0. " + end +
+                                                               "v 0 1 1e0" + end + "vt 0 0" + end;
+            const Outcome out = readWith(threads, vertices + face + end + vertices + face + end +
+                                                      "f 1/ 2/ 3/" + end + "v 7 7 7\n" + face);
+            CHECK_INFO(out.file.mesh.points.size() == 7 && out.file.mesh.triangles.size() == 4,
+                       out.file.mesh.points.size() << " points, " << out.said);
+        }
+}
+
 // Of several errors the first vertex's comes, and without one the first face's.
 TEST(read_threads_find_the_same_error_in_obj) {
     const std::string text = strip(true);

@@ -10,6 +10,20 @@ LineReader::LineReader(const SourceFile& source)
     if (source.text.starts_with("\xef\xbb\xbf")) p_ += 3; // what some editors put first
 }
 
+namespace {
+
+// At the start of a word, or behind a number or a corner of a face: the same from wherever in the
+// line one looks, so that whoever counts lines and whoever reads them find the same ones.
+bool hasComment(std::string_view line) {
+    for (std::size_t i = line.find('#'); i != std::string_view::npos; i = line.find('#', i + 1))
+        if (i == 0 ||
+            std::string_view(" \t\r0123456789./").find(line[i - 1]) != std::string_view::npos)
+            return true;
+    return false;
+}
+
+} // namespace
+
 void LineReader::skipLine() {
     while (true) {
         const void* const found = std::memchr(p_, '\n', static_cast<std::size_t>(end_ - p_));
@@ -20,8 +34,8 @@ void LineReader::skipLine() {
         const char* const newline = static_cast<const char*>(found);
         const char* last = newline;
         if (last > p_ && last[-1] == '\r') --last;
-        const bool joins = last > p_ && last[-1] == '\\' && *p_ != '#' &&
-                           std::string_view(p_, newline).find(" #") == std::string_view::npos;
+        const bool joins =
+            last > p_ && last[-1] == '\\' && !hasComment(std::string_view(p_, newline));
         p_ = newline + 1;
         if (!joins) return;
     }

@@ -49,8 +49,10 @@ ObjCounts count(const SourceFile& source, ObjChunk& chunk) {
         const char first = *in.text();
         if (first == 'v' && takeVertex(in, counts)) continue;
         if (first == 'f' && takeFace(in)) {
+            // Ahead: words may reach beyond a comment that a reader of corners stops at.
+            LineReader ahead = in;
             std::size_t corners = 0;
-            while (!in.word().empty()) ++corners;
+            while (!ahead.word().empty()) ++corners;
             chunk.triangles += corners < 3 ? 0 : corners - 2;
         } else {
             chunk.isPlain = false;
