@@ -27,7 +27,7 @@ struct Bvh {
 // Binned SAH, top down (Wald 2007), the same tree on every machine. Depth is at most kMaxDepth for
 // any input: a split that does not separate centres halves the list instead. `nodes` may have room
 // to spare: giving that back means a copy, best made when the boxes are gone.
-Bvh buildBvh(std::span<const Bounds> boxes);
+Bvh buildBvh(std::span<const Bounds> boxes, int threads = 1);
 
 // Expected cost of a ray through the tree by the surface area heuristic, node and primitive 1 each.
 double sahCost(const Bvh& bvh);

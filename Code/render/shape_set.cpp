@@ -33,32 +33,22 @@ void ShapeSet::finish(bool withBvh, const Kernel& kernel) {
         isBatched_[number] = 1;
     }
     if (!withBvh) return;
-    if (bounded.size() >= kFewestForTree) {
-        std::vector<Bounds> inOrder;
-        for (const std::uint32_t number : bounded) inOrder.push_back(boxes[number]);
-        bvh = buildBvh(inOrder);
-        bvh.nodes.shrink_to_fit();
-    }
     kernel_ = solidKernel(kernel);
+    std::vector<Bounds> inOrder;
+    for (const std::uint32_t number : bounded)
+        if (!isBatched_[number]) inTree_.push_back(number), inOrder.push_back(boxes[number]);
+    if (!kernel_ && inTree_.size() < kFewestForTree) return inTree_.clear();
+    bvh = buildBvh(inOrder);
+    bvh.nodes.shrink_to_fit();
     if (kernel_) buildSolids(kernel_->width);
 }
 
 void ShapeSet::buildSolids(int width) {
-    std::vector<Bounds> inOrder;
-    for (const std::uint32_t number : bounded) {
-        if (isBatched_[number]) continue;
-        SolidTree::Solid solid{.box = boxes[number], .number = number};
-        solid.hides = shadows[number] == Shadow::Opaque;
-        if (const auto sphere = shapes[number]->stillSphere()) {
-            solid.sphere = static_cast<std::uint32_t>(solids_.spheres.size());
-            solids_.spheres.push_back({*sphere});
-        }
-        solids_.solids.push_back(solid);
-        inOrder.push_back(boxes[number]);
-    }
+    for (const std::uint32_t number : inTree_)
+        solids_.add(boxes[number], number, shadows[number] == Shadow::Opaque,
+                    shapes[number]->solidForm());
     solids_.extent = extent;
-    const bool sameShapes = !bvh.nodes.empty() && inOrder.size() == bounded.size();
-    solids_.build(width, sameShapes ? bvh : buildBvh(inOrder));
+    solids_.build(width, bvh);
 }
 
 // fn(shape, zEntry, zCut) for every shape whose box the ray enters in front of zCut; true stops.
@@ -67,37 +57,49 @@ void ShapeSet::visit(const RaySetup& setup, float zCut, Ask ask, VisitFn&& fn) c
     if (ask == Ask::All)
         for (const std::uint32_t number : unbounded)
             if (fn(number, 0.0f, zCut)) return;
-    const auto leaf = [&](std::uint32_t position, float& cut) {
-        const std::uint32_t number = bounded[position];
-        if (ask == Ask::ButBatched && isBatched_[number]) return false;
+    const auto leaf = [&](std::uint32_t number, float& cut) {
         float zEntry = 0;
         return setup.enters(boxes[number], cut, zEntry) && fn(number, zEntry, cut);
     };
-    if (!bvh.nodes.empty()) return traverse(bvh, setup, zCut, leaf);
-    for (std::uint32_t i = 0; i < bounded.size(); ++i)
-        if (leaf(i, zCut)) return;
+    if (bvh.nodes.empty()) {
+        for (const std::uint32_t number : bounded)
+            if ((ask == Ask::All || !isBatched_[number]) && leaf(number, zCut)) return;
+        return;
+    }
+    if (ask == Ask::All)
+        for (const std::uint32_t number : batched)
+            if (leaf(number, zCut)) return;
+    traverse(bvh, setup, zCut,
+             [&](std::uint32_t position, float& cut) { return leaf(inTree_[position], cut); });
 }
 
-// Takes the hit of a shape if it is nearer than the best one, equal ones by number.
-static bool takeNearer(Hit hit, std::uint32_t number, float tEntry, Hit& best) {
+// A total order, because shapes with triangles have numbers in a row (render/scene.cpp).
+bool ShapeSet::isBefore(const Ray& ray, const Hit& a, const Hit& b) const {
+    const auto orderA = shapes[a.shape]->tieOrder(ray, a);
+    const auto orderB = shapes[b.shape]->tieOrder(ray, b);
+    if (orderA && orderB && *orderA != *orderB) return orderA->isBefore(*orderB);
+    return std::tie(a.shape, a.prim) < std::tie(b.shape, b.prim);
+}
+
+bool ShapeSet::takeNearer(const Ray& ray, Hit hit, std::uint32_t number, float tEntry,
+                          Hit& best) const {
     hit.t = max(tEntry, hit.t);
-    if (hit.t > best.t || (hit.t == best.t && number > best.shape)) return false;
+    hit.shape = number;
+    if (hit.t > best.t) return false;
+    if (hit.t == best.t && best.isHit() && !isBefore(ray, hit, best)) return false;
     best = hit;
-    best.shape = number;
     return true;
 }
 
-// The nearest hit of a shape that is nearer than `best`, which then becomes it.
-static bool nearer(const Shape& shape, const Ray& ray, std::uint32_t number, float tEntry,
-                   Hit& best) {
+bool ShapeSet::nearer(const Ray& ray, std::uint32_t number, float tEntry, Hit& best) const {
     Hit hit = best;
-    return shape.intersect(ray, hit) && takeNearer(hit, number, tEntry, best);
+    return shapes[number]->intersect(ray, hit) && takeNearer(ray, hit, number, tEntry, best);
 }
 
 void ShapeSet::visitNearer(const Ray& ray, const RaySetup& setup, Ask ask, Hit& best) const {
     visit(setup, depthCut(1.0f / (best.t * setup.dz)), ask,
           [&](std::uint32_t number, float zEntry, float& zCut) {
-              if (nearer(*shapes[number], ray, number, zEntry / setup.dz, best))
+              if (nearer(ray, number, zEntry / setup.dz, best))
                   zCut = min(depthCut(1.0f / (best.t * setup.dz)), zCut);
               return false;
           });
@@ -119,8 +121,7 @@ void ShapeSet::closest(const RaySpan& rays, std::vector<Hit>& hits) const {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const Ray ray = rays[i];
             if (!isTraceable(ray)) continue;
-            for (const std::uint32_t number : unbounded)
-                nearer(*shapes[number], ray, number, 0, hits[i]);
+            for (const std::uint32_t number : unbounded) nearer(ray, number, 0, hits[i]);
         }
     }
     if (bounded.size() == batched.size()) return;
@@ -128,11 +129,10 @@ void ShapeSet::closest(const RaySpan& rays, std::vector<Hit>& hits) const {
         const SolidCalls calls{
             this,
             [](const void* set, const Ray& ray, std::uint32_t number, float tEntry, Hit& best) {
-                const Shape& shape = *static_cast<const ShapeSet*>(set)->shapes[number];
-                return nearer(shape, ray, number, tEntry, best);
+                return static_cast<const ShapeSet*>(set)->nearer(ray, number, tEntry, best);
             },
             nullptr};
-        return kernel_->closest(solids_, calls, rays, hits);
+        return closestSolids(*kernel_, solids_, calls, rays, hits);
     }
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Ray ray = rays[i];
@@ -152,7 +152,7 @@ void ShapeSet::closestOfBatched(const RaySpan& rays, std::vector<Hit>& hits) con
             float zEntry = 0;
             const float zCut = depthCut(1.0f / (hits[i].t * setup.dz));
             if (setup.enters(boxes[number], zCut, zEntry))
-                takeNearer(found[i], number, zEntry / setup.dz, hits[i]);
+                takeNearer(rays[i], found[i], number, zEntry / setup.dz, hits[i]);
         }
     }
 }
@@ -190,7 +190,7 @@ void ShapeSet::occluded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) 
             this, nullptr, [](const void* set, const Ray& ray, std::uint32_t number) {
                 return static_cast<const ShapeSet*>(set)->shapes[number]->occludes(ray);
             }};
-        return kernel_->any(solids_, calls, rays, hidden);
+        return anySolids(*kernel_, solids_, calls, rays, hidden);
     }
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Ray ray = rays[i];
@@ -221,8 +221,7 @@ void ShapeSet::seeThroughHits(const Ray& ray, std::vector<Hit>& hits) const {
               for (std::size_t i = first; i < hits.size(); ++i) hits[i].shape = number;
               return false;
           });
-    std::sort(hits.begin() + static_cast<std::ptrdiff_t>(before), hits.end(),
-              [](const Hit& a, const Hit& b) {
-                  return std::tie(a.t, a.shape, a.prim) < std::tie(b.t, b.shape, b.prim);
-              });
+    std::sort(
+        hits.begin() + static_cast<std::ptrdiff_t>(before), hits.end(),
+        [&](const Hit& a, const Hit& b) { return a.t != b.t ? a.t < b.t : isBefore(ray, a, b); });
 }

@@ -35,7 +35,6 @@ double amplification(const Transform& map, const Transform& inverse) {
 AnalyticShape::AnalyticShape(MovingTransform worldFromObject, std::uint32_t material,
                              std::uint32_t object)
     : worldFromObject_(worldFromObject.at(0)), objectFromWorld_(worldFromObject_.inverse()),
-      amplification_(amplification(worldFromObject_, objectFromWorld_)),
       motion_(std::move(worldFromObject)), isStatic_(motion_.isStatic()), material_(material),
       object_(object) {}
 
@@ -49,10 +48,42 @@ Bounds AnalyticShape::bounds() const {
     return outward(box.padded(0x1p-22 * max(maxAbs(box.lo), maxAbs(box.hi))));
 }
 
+SolidForm AnalyticShape::tubeForm(double radius) const {
+    if (!isStill()) return Shape::solidForm();
+    const Vec3d x = worldFromObject_.column(0), y = worldFromObject_.column(1);
+    const Vec3d axis = worldFromObject_.column(2);
+    const double size = length(axis);
+    if (!(size > 0x1p-100)) return Shape::solidForm();
+    // The largest stretch of the disks, which is also a bound across the axis.
+    const double xx = dot(x, x), yy = dot(y, y), xy = dot(x, y);
+    const double stretch = std::sqrt(0.5 * (xx + yy) + std::sqrt(sqr(0.5 * (xx - yy)) + xy * xy));
+    return {{worldFromObject_.translation(), axis / size, radius * stretch, 0}, {}};
+}
+
+void AnalyticShape::measure() {
+    if (isStatic_) size_ = sizeUnder(worldFromObject_, objectFromWorld_);
+}
+
+AnalyticShape::Size AnalyticShape::sizeUnder(const Transform& map, const Transform& inverse) const {
+    const BoundsD box = boxUnder(map);
+    return {box.isFinite() ? length(box.size()) : kInfinity, amplification(map, inverse)};
+}
+
+// Transform::ray() without a call: this is what most rays are asked.
+static RayD mapped(const Transform& map, const RayD& ray) {
+    const Transform::Rows& m = map.rows();
+    const Vec3d o = ray.org, d = ray.dir;
+    return {{m[0] * o.x + m[1] * o.y + m[2] * o.z + m[3],
+             m[4] * o.x + m[5] * o.y + m[6] * o.z + m[7],
+             m[8] * o.x + m[9] * o.y + m[10] * o.z + m[11]},
+            {m[0] * d.x + m[1] * d.y + m[2] * d.z, m[4] * d.x + m[5] * d.y + m[6] * d.z,
+             m[8] * d.x + m[9] * d.y + m[10] * d.z}};
+}
+
 AnalyticShape::Roots AnalyticShape::rootsOf(const Ray& ray) const {
     const RayD world = toDouble(ray);
-    const RayD local =
-        isStatic_ ? objectFromWorld_.ray(world) : worldFromObjectAt(ray.time).inverse().ray(world);
+    const RayD local = isStatic_ ? mapped(objectFromWorld_, world)
+                                 : worldFromObjectAt(ray.time).inverse().ray(world);
     // Zero, NaN or infinite rays meet nothing.
     const double dd = dot(local.dir, local.dir);
     if (!(dd > 0 && dd < kInfinity && dot(local.org, local.org) < kInfinity)) return {};
@@ -109,20 +140,19 @@ void AnalyticShape::collect(const Ray& ray, std::vector<Hit>& hits) const {
 //  - the map to object space and back in double, whose error is 2^-53 times a dozen operations
 //    times the amplification of the map:                          2^-48 amplification (|p| + |T|)
 Surface AnalyticShape::surfaceUnder(const Transform& worldFromObject,
-                                    const Transform& objectFromWorld, double amplification,
+                                    const Transform& objectFromWorld, const Size& size,
                                     const Ray& ray, const Hit& hit, SurfaceNeeds needs) const {
     const double t = static_cast<double>(hit.t) + static_cast<double>(hit.u);
     const Vec3d seen = toDouble(ray).at(t);
 
-    const BoundsD box = boxUnder(worldFromObject);
-    const double reach = box.isFinite() ? length(box.size()) : kSceneReach * max(1.0, maxAbs(seen));
+    const double reach = size.reach < kInfinity ? size.reach : kSceneReach * max(1.0, maxAbs(seen));
     const double fixedError =
         kFloatUlp * reach +
-        0x1p-48 * amplification * (maxAbs(seen) + maxAbs(worldFromObject.translation()));
+        0x1p-48 * size.amplification * (maxAbs(seen) + maxAbs(worldFromObject.translation()));
     // Twice the largest error that any normal can give.
     const double distance = 2 * (3 * kFloatUlp * length(seen) + fixedError);
 
-    const Local local = describe(objectFromWorld.ray(toDouble(ray)).at(t), hit.prim,
+    const Local local = describe(mapped(objectFromWorld, toDouble(ray)).at(t), hit.prim,
                                  {distance, objectFromWorld, needs.uv});
     // One step of refinement: p is where the inverse, which rays are mapped with, sees local.p.
     Vec3d p = worldFromObject.point(local.p);
@@ -140,12 +170,22 @@ Surface AnalyticShape::surfaceUnder(const Transform& worldFromObject,
 }
 
 Surface AnalyticShape::surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const {
-    if (isStatic_)
-        return surfaceUnder(worldFromObject_, objectFromWorld_, amplification_, ray, hit, needs);
-    const Transform worldFromObject = worldFromObjectAt(ray.time);
-    const Transform objectFromWorld = worldFromObject.inverse();
-    return surfaceUnder(worldFromObject, objectFromWorld,
-                        amplification(worldFromObject, objectFromWorld), ray, hit, needs);
+    if (size_) return surfaceUnder(worldFromObject_, objectFromWorld_, *size_, ray, hit, needs);
+    const Transform map = worldFromObjectAt(ray.time), inverse = map.inverse();
+    return surfaceUnder(map, inverse, sizeUnder(map, inverse), ray, hit, needs);
+}
+
+// The sign is asked of the surface's rounded normal. Its error, and that of a point which has not
+// been kept clear of edges, is far below the angle of 2^-10 up to which it is computed.
+bool AnalyticShape::seesFront(const Ray& ray, const Hit& hit) const {
+    if (!isStatic_) return Shape::seesFront(ray, hit);
+    const RayD local = mapped(objectFromWorld_, toDouble(ray));
+    const double t = static_cast<double>(hit.t) + static_cast<double>(hit.u);
+    const Vec3d n = normalAt(local.at(t), hit.prim);
+    const Vec3d normal = worldFromObject_.normal(n), dir = toDouble(ray.dir);
+    const double facing = dot(normal, dir);
+    if (facing * facing > 0x1p-20 * dot(normal, normal) * dot(dir, dir)) return facing < 0;
+    return Shape::seesFront(ray, hit);
 }
 
 SurfaceDerivatives AnalyticShape::derivatives(const Ray& ray, const Hit& hit) const {

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 
 class AnalyticShape : public Shape {
 public:
@@ -17,6 +18,7 @@ public:
     bool intersect(const Ray& ray, Hit& hit) const final;
     bool occludes(const Ray& ray) const final;
     void collect(const Ray& ray, std::vector<Hit>& hits) const final;
+    bool seesFront(const Ray& ray, const Hit& hit) const final;
     bool hidesFromItself(bool inside) const override { return inside; } // all are convex
     Surface surface(const Ray& ray, const Hit& hit) const final { return surfaceFor(ray, hit, {}); }
     Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const final;
@@ -59,8 +61,15 @@ protected:
 
     AnalyticShape(MovingTransform worldFromObject, std::uint32_t material, std::uint32_t object);
 
-    // objectFromWorld; null for a shape that moves.
-    const Transform* stillMap() const { return isStatic_ ? &objectFromWorld_ : nullptr; }
+    // Called at the end of a constructor: what surface() would compute again for every hit.
+    void measure();
+
+    bool isStill() const { return isStatic_; }
+    // Of a shape that stands still.
+    const Transform& worldFromObject() const { return worldFromObject_; }
+    const Transform& objectFromWorld() const { return objectFromWorld_; }
+    // Around disks of at most this radius about the z axis, of z from -1 to 1.
+    SolidForm tubeForm(double radius) const;
 
     // The whole line, in double; org and dir are finite, dir is not zero nor of unit length.
     virtual Roots roots(const RayD& ray) const = 0;
@@ -68,6 +77,10 @@ protected:
     // where parts meet: then an origin at the clearance's distance along the inward normal is
     // inside even after rounding to float.
     virtual Local describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const = 0;
+    // Its normal alone, about as exact.
+    virtual Vec3d normalAt(Vec3d p, std::uint32_t part) const {
+        return describe(p, part, {0, objectFromWorld_, false}).normal;
+    }
     // The smallest box of the mapped shape.
     virtual BoundsD boxUnder(const Transform& worldFromObject) const = 0;
 
@@ -80,8 +93,18 @@ private:
         return isStatic_ ? worldFromObject_ : motion_.at(static_cast<double>(time));
     }
 
+    // What surface() needs of the whole shape.
+    struct Size {
+        double reach = kInfinity; // of a ray along the surface; infinite: without end
+        double amplification = 0; // of rounding by the map
+    };
+    Size sizeUnder(const Transform& map, const Transform& inverse) const;
+    Surface surfaceUnder(const Transform& worldFromObject, const Transform& objectFromWorld,
+                         const Size& size, const Ray& ray, const Hit& hit,
+                         SurfaceNeeds needs) const;
+
     Transform worldFromObject_, objectFromWorld_; // of a static shape
-    double amplification_;                        // of these
+    std::optional<Size> size_;
     MovingTransform motion_;
     bool isStatic_;
     std::uint32_t material_, object_;

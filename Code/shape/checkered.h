@@ -24,7 +24,7 @@ public:
     void occludesBatch(const RaySpan& rays, std::span<std::uint8_t> hidden) const override {
         shape_->occludesBatch(rays, hidden);
     }
-    std::optional<StillSphere> stillSphere() const override { return shape_->stillSphere(); }
+    SolidForm solidForm() const override { return shape_->solidForm(); }
     bool seesFront(const Ray& ray, const Hit& hit) const override {
         return shape_->seesFront(ray, hit);
     }

@@ -8,7 +8,9 @@ Cone::Cone(MovingTransform worldFromObject, double radius, double topRadius, boo
            std::uint32_t material, std::uint32_t object)
     : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius),
       topRadius_(topRadius), caps_(caps), slope_((topRadius - radius) / 2),
-      narrowZ_(topRadius < radius ? 1 : -1), narrowRadius_(min(radius, topRadius)) {}
+      narrowZ_(topRadius < radius ? 1 : -1), narrowRadius_(min(radius, topRadius)) {
+    measure();
+}
 
 // Where x^2 + y^2 <= radiusAt(z)^2 and radiusAt(z) >= 0. The quadratic a t^2 + 2 b t + c is set up
 // at the point of the line closest to the narrow end, so its coefficients are exact relative to the
@@ -91,6 +93,11 @@ AnalyticShape::Local Cone::describe(Vec3d p, std::uint32_t part, const Clearance
             {0.5 + exact::atan2(s, c) * kInvTwoPi, 0.5 + 0.5 * z},
             {-s * across, c * across, 0},
             {2 * slope_ * c, 2 * slope_ * s, 2}};
+}
+
+Vec3d Cone::normalAt(Vec3d p, std::uint32_t part) const {
+    if (part != kSide) return AnalyticShape::normalAt(p, part);
+    return {p.x, p.y, -slope_ * std::sqrt(p.x * p.x + p.y * p.y)};
 }
 
 BoundsD Cone::boxUnder(const Transform& worldFromObject) const {

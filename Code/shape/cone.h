@@ -12,10 +12,13 @@ public:
     Cone(MovingTransform worldFromObject, double radius, double topRadius, bool caps,
          std::uint32_t material, std::uint32_t object);
 
+    SolidForm solidForm() const override { return tubeForm(max(radius_, topRadius_)); }
+
 private:
     enum Part : std::uint32_t { kSide, kBottom, kTop };
     Roots roots(const RayD& ray) const override;
     Local describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const override;
+    Vec3d normalAt(Vec3d p, std::uint32_t part) const override;
     BoundsD boxUnder(const Transform& worldFromObject) const override;
 
     Interval insideSide(const RayD& ray) const;

@@ -17,7 +17,9 @@ constexpr Face kFaces[] = {
 } // namespace
 
 Cube::Cube(MovingTransform worldFromObject, std::uint32_t material, std::uint32_t object)
-    : AnalyticShape(std::move(worldFromObject), material, object) {}
+    : AnalyticShape(std::move(worldFromObject), material, object) {
+    measure();
+}
 
 AnalyticShape::Roots Cube::roots(const RayD& ray) const {
     const Interval x = slab(ray.org.x, ray.dir.x, -1, 1, 0, 1);

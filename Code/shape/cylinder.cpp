@@ -6,7 +6,9 @@
 
 Cylinder::Cylinder(MovingTransform worldFromObject, double radius, bool caps,
                    std::uint32_t material, std::uint32_t object)
-    : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius), caps_(caps) {}
+    : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius), caps_(caps) {
+    measure();
+}
 
 // Where x^2 + y^2 <= radius^2.
 Interval Cylinder::insideTube(const RayD& ray) const {

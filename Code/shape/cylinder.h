@@ -11,10 +11,15 @@ public:
     Cylinder(MovingTransform worldFromObject, double radius, bool caps, std::uint32_t material,
              std::uint32_t object);
 
+    SolidForm solidForm() const override { return tubeForm(radius_); }
+
 private:
     enum Part : std::uint32_t { kSide, kBottom, kTop };
     Roots roots(const RayD& ray) const override;
     Local describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const override;
+    Vec3d normalAt(Vec3d p, std::uint32_t part) const override {
+        return part == kSide ? Vec3d{p.x, p.y, 0} : Vec3d{0, 0, part == kTop ? 1.0 : -1.0};
+    }
     BoundsD boxUnder(const Transform& worldFromObject) const override;
 
     Interval insideTube(const RayD& ray) const;

@@ -4,7 +4,9 @@
 
 Disk::Disk(MovingTransform worldFromObject, double radius, std::uint32_t material,
            std::uint32_t object)
-    : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius) {}
+    : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius) {
+    measure();
+}
 
 AnalyticShape::Roots Disk::roots(const RayD& ray) const {
     if (ray.dir.z == 0 || !(radius_ > 0)) return {};

@@ -4,7 +4,9 @@
 
 InfinitePlane::InfinitePlane(MovingTransform worldFromObject, std::uint32_t material,
                              std::uint32_t object)
-    : AnalyticShape(std::move(worldFromObject), material, object) {}
+    : AnalyticShape(std::move(worldFromObject), material, object) {
+    measure();
+}
 
 AnalyticShape::Roots InfinitePlane::roots(const RayD& ray) const {
     Roots found;

@@ -26,6 +26,8 @@ public:
     void occludesBatch(const RaySpan& rays, std::span<std::uint8_t> hidden) const override {
         shape_->occludesBatch(rays, hidden);
     }
+    // Not as a sphere: the kernels know no sides.
+    SolidForm solidForm() const override { return {shape_->solidForm().hull, {}}; }
     bool seesFront(const Ray& ray, const Hit& hit) const override {
         return shape_->seesFront(ray, hit);
     }
@@ -38,6 +40,9 @@ public:
     }
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override {
         return shape_->derivatives(ray, hit);
+    }
+    std::optional<TieOrder> tieOrder(const Ray& ray, const Hit& hit) const override {
+        return shape_->tieOrder(ray, hit);
     }
 
 private:

@@ -21,6 +21,7 @@ Plane::Plane(MovingTransform worldFromObject, const Corners& corners, std::uint3
     axisX_ = (widest + 1) % 3;
     axisY_ = (widest + 2) % 3;
     if (normal_[widest] < 0) std::swap(axisX_, axisY_);
+    measure();
 }
 
 AnalyticShape::Roots Plane::roots(const RayD& ray) const {

@@ -7,7 +7,7 @@
 // the ray and the shape.
 #pragma once
 
-#include "accel/still_sphere.h"
+#include "accel/solid_form.h"
 #include "base/bounds.h"
 #include "base/hit.h"
 #include "base/ray.h"
@@ -16,6 +16,17 @@
 #include <cstdint>
 #include <optional>
 #include <vector>
+
+// Who is first of two triangles that a ray hits at the same t: the larger key, 1/depth before it
+// was rounded to t, then the object that the scene names first.
+struct TieOrder {
+    float key = 0;
+    std::uint32_t object = 0;
+    bool operator==(const TieOrder&) const = default;
+    bool isBefore(const TieOrder& other) const {
+        return key != other.key ? key > other.key : object < other.object;
+    }
+};
 
 class Shape {
 public:
@@ -55,8 +66,8 @@ public:
         for (std::size_t i = 0; i < rays.size(); ++i) hidden[i] = occludes(rays[i]);
     }
 
-    // Shapes that rays meet as they meet this sphere: kernels do that by themselves.
-    virtual std::optional<StillSphere> stillSphere() const { return {}; }
+    // What helps a kernel to find candidates; not asked of unbounded shapes.
+    virtual SolidForm solidForm() const { return {ballAround(toDouble(bounds())), {}}; }
 
     // Does the ray come from the outside of the surface at this hit?
     virtual bool seesFront(const Ray& ray, const Hit& hit) const {
@@ -70,4 +81,8 @@ public:
         return surface(ray, hit);
     }
     virtual SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const = 0;
+
+    // Of a hit on a triangle, which may have come into one mesh with others or not; shapes of other
+    // kinds go by their numbers.
+    virtual std::optional<TieOrder> tieOrder(const Ray&, const Hit&) const { return {}; }
 };

@@ -4,12 +4,22 @@
 
 Sphere::Sphere(MovingTransform worldFromObject, double radius, std::uint32_t material,
                std::uint32_t object)
-    : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius) {}
+    : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius) {
+    measure();
+}
 
-std::optional<StillSphere> Sphere::stillSphere() const {
-    const Transform* const map = stillMap();
-    if (!map) return {};
-    return StillSphere{map->rows(), radius_};
+SolidForm Sphere::solidForm() const {
+    if (!isStill()) return AnalyticShape::solidForm();
+    const Transform& map = worldFromObject();
+    // Bounds of the map's stretch, by Gershgorin's circles about its Gram matrix.
+    const Vec3d x = map.column(0), y = map.column(1), z = map.column(2);
+    const double xy = std::fabs(dot(x, y)), yz = std::fabs(dot(y, z)), zx = std::fabs(dot(z, x));
+    const double xx = dot(x, x), yy = dot(y, y), zz = dot(z, z);
+    const double most = max(xx + xy + zx, max(yy + xy + yz, zz + yz + zx));
+    const double least = max(0.0, min(xx - xy - zx, min(yy - xy - yz, zz - yz - zx)));
+    const RoundHull hull{
+        map.translation(), {}, radius_ * std::sqrt(most), radius_ * std::sqrt(least)};
+    return {hull, StillSphere{objectFromWorld().rows(), radius_}};
 }
 
 AnalyticShape::Roots Sphere::roots(const RayD& ray) const {

@@ -10,7 +10,7 @@ public:
     Sphere(MovingTransform worldFromObject, double radius, std::uint32_t material,
            std::uint32_t object);
 
-    std::optional<StillSphere> stillSphere() const override;
+    SolidForm solidForm() const override;
 
 private:
     Roots roots(const RayD& ray) const override;

@@ -91,7 +91,7 @@ def main():
     args = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     args.add_argument('raytracer')
     args.add_argument('scenes', nargs='*', metavar='SCENE[:SIZE]', help='of ' + ', '.join(SCENES))
-    args.add_argument('--resolution', default='1024x1024', metavar='WxH')
+    args.add_argument('--resolution', default='512x512', metavar='WxH')
     args.add_argument('--runs', type=int, default=5)
     args.add_argument('--keep', metavar='FOLDER', help='scenes and pictures stay there')
     args = args.parse_args()

@@ -1,6 +1,7 @@
 #include "accel/kernels/solids.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace {
 
@@ -87,13 +88,27 @@ private:
 
 } // namespace
 
+void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const SolidForm& form) {
+    Solid solid{.box = box, .number = number, .hides = hides};
+    solid.isTube = form.hull.axis != Vec3d{};
+    solid.centre = toFloat(form.hull.centre), solid.axis = toFloat(form.hull.axis);
+    solid.radius = floatAbove(form.hull.radius * (1 + 0x1p-20));
+    // Not where the exact formula might over- or underflow.
+    if (form.sphere && form.sphere->radius > 0x1p-100 && form.sphere->radius < 0x1p100)
+        solid.innerRadius = static_cast<float>(form.hull.innerRadius * (1 - 0x1p-20));
+    if (form.sphere) {
+        solid.sphere = static_cast<std::uint32_t>(spheres.size());
+        const auto& m = form.sphere->objectFromWorld;
+        const bool turned =
+            m[1] != 0 || m[2] != 0 || m[4] != 0 || m[6] != 0 || m[8] != 0 || m[9] != 0;
+        spheres.push_back({*form.sphere, turned});
+    }
+    solids.push_back(solid);
+}
+
 void SolidTree::build(int nodeWidth, const Bvh& bvh) {
     width = nodeWidth;
     lines.clear();
-    for (Sphere& sphere : spheres) {
-        const auto& m = sphere.exact.objectFromWorld;
-        sphere.turned = m[1] != 0 || m[2] != 0 || m[4] != 0 || m[6] != 0 || m[8] != 0 || m[9] != 0;
-    }
     if (nodeWidth == 16)
         Widener<16>(*this, bvh).run();
     else
@@ -102,8 +117,10 @@ void SolidTree::build(int nodeWidth, const Bvh& bvh) {
 
 #define SOLID_FUNCTIONS(isa)                                                                       \
     namespace kernels::isa {                                                                       \
-    void closestSolids(const SolidTree&, const SolidCalls&, const RaySpan&, std::span<Hit>);       \
-    void anySolids(const SolidTree&, const SolidCalls&, const RaySpan&, std::span<std::uint8_t>);  \
+    void closestSolids(const SolidTree&, const SolidCalls&, const RaySpan&,                        \
+                       std::span<const std::uint32_t>, Hit*);                                      \
+    void anySolids(const SolidTree&, const SolidCalls&, const RaySpan&,                            \
+                   std::span<const std::uint32_t>, std::uint8_t*);                                 \
     }
 SOLID_FUNCTIONS(sse)
 SOLID_FUNCTIONS(avx2)
@@ -121,4 +138,76 @@ const SolidKernel* solidKernel(const Kernel& kernel) {
         if (std::string_view(row.name) == kernel.name) return &row;
 #endif
     return nullptr;
+}
+
+namespace {
+
+// Sorts the rays of a batch that are still asked for by their origins: the shadow rays of a wave
+// come lamp by lamp for every hit, and packets want those of one lamp.
+class Origins {
+public:
+    template <class WantedFn> void sort(const RaySpan& rays, WantedFn&& wanted) {
+        ends_.clear();
+        order_.clear();
+        origins_.clear();
+        groups_.clear();
+        std::size_t guess = 0; // lamps take turns
+        for (std::uint32_t i = 0; i < rays.size(); ++i) {
+            if (!wanted(i)) continue;
+            order_.push_back(i);
+            if (origins_.size() > kMostOrigins) continue;
+            const Vec3 origin = rays.org[i];
+            if (guess >= origins_.size() || !(origins_[guess] == origin)) {
+                guess = 0;
+                while (guess < origins_.size() && !(origins_[guess] == origin)) ++guess;
+                if (guess == origins_.size()) origins_.push_back(origin), ends_.push_back(0);
+            }
+            ++ends_[guess];
+            groups_.push_back(static_cast<std::uint8_t>(guess));
+            if (++guess == origins_.size()) guess = 0;
+        }
+        // Origins of their own, as after a bounce, stay in their order.
+        if (origins_.size() > kMostOrigins) ends_.assign(1, order_.size());
+        if (ends_.size() < 2) return;
+        std::size_t sum = 0;
+        for (std::size_t& end : ends_) end = std::exchange(sum, sum + end);
+        sorted_.resize(order_.size());
+        for (std::size_t k = 0; k < order_.size(); ++k) sorted_[ends_[groups_[k]]++] = order_[k];
+        order_.swap(sorted_);
+    }
+
+    template <class CallFn> void forEachGroup(CallFn&& call) const {
+        std::size_t begin = 0;
+        for (const std::size_t end : ends_) {
+            call(std::span(order_).subspan(begin, end - begin));
+            begin = end;
+        }
+    }
+
+private:
+    static constexpr std::size_t kMostOrigins = 16;
+    std::vector<std::uint32_t> order_, sorted_;
+    std::vector<std::uint8_t> groups_; // of the rays in order_
+    std::vector<std::size_t> ends_;    // of the groups in order_
+    std::vector<Vec3> origins_;
+};
+
+} // namespace
+
+void closestSolids(const SolidKernel& kernel, const SolidTree& tree, const SolidCalls& calls,
+                   const RaySpan& rays, std::span<Hit> hits) {
+    thread_local Origins origins;
+    origins.sort(rays, [](std::uint32_t) { return true; });
+    origins.forEachGroup([&](std::span<const std::uint32_t> order) {
+        kernel.closest(tree, calls, rays, order, hits.data());
+    });
+}
+
+void anySolids(const SolidKernel& kernel, const SolidTree& tree, const SolidCalls& calls,
+               const RaySpan& rays, std::span<std::uint8_t> hidden) {
+    thread_local Origins origins;
+    origins.sort(rays, [&](std::uint32_t i) { return hidden[i] == 0; });
+    origins.forEachGroup([&](std::span<const std::uint32_t> order) {
+        kernel.any(tree, calls, rays, order, hidden.data());
+    });
 }

@@ -7,7 +7,7 @@
 #include "accel/bvh.h"
 #include "accel/kernels/kernels.h"
 #include "accel/kernels/wide_tree.h"
-#include "accel/still_sphere.h"
+#include "accel/solid_form.h"
 #include "base/hit.h"
 
 #include <array>
@@ -23,6 +23,9 @@ struct SolidTree {
         std::uint32_t number = 0;         // what hits and calls name it by
         std::uint32_t sphere = kNoSphere; // in `spheres`
         bool hides = true;                // counts when any hit is asked for
+        bool isTube = false;              // a RoundHull with an axis
+        Vec3 centre{}, axis{};
+        float radius = kInfinityF, innerRadius = 0;
     };
     struct Sphere {
         StillSphere exact;
@@ -39,7 +42,8 @@ struct SolidTree {
         return *reinterpret_cast<const WideNode<W>*>(
             reinterpret_cast<const std::byte*>(lines.data()) + byteOffset(ref));
     }
-    // `solids` with `spheres` are filled; `bvh` is over their boxes.
+    void add(const Bounds& box, std::uint32_t number, bool hides, const SolidForm& form);
+    // Once after the last add(); `bvh` is over the boxes in the order of adding.
     void build(int nodeWidth, const Bvh& bvh);
 };
 
@@ -55,12 +59,21 @@ struct SolidCalls {
 struct SolidKernel {
     const char* name; // of the Kernel that it belongs to
     int width;
+    // Only rays in `order` are looked at; it pays to have those from one point in a row.
     // hits[i] is the best hit of ray i so far, or what .t allows, and becomes the best of all:
     // the smallest (t, number), t not before the entry into the solid's box.
-    void (*closest)(const SolidTree&, const SolidCalls&, const RaySpan&, std::span<Hit> hits);
-    // hidden[i] becomes 1 where a solid is in (tMin, tMax); rays with 1 are left alone.
+    void (*closest)(const SolidTree&, const SolidCalls&, const RaySpan&,
+                    std::span<const std::uint32_t> order, Hit* hits);
+    // hidden[i] becomes 1 where a solid is in (tMin, tMax).
     void (*any)(const SolidTree&, const SolidCalls&, const RaySpan&,
-                std::span<std::uint8_t> hidden);
+                std::span<const std::uint32_t> order, std::uint8_t* hidden);
 };
 // Null for the scalar kernel.
 const SolidKernel* solidKernel(const Kernel& kernel);
+
+// Calls the kernel with the rays of a batch in groups that share their origin.
+void closestSolids(const SolidKernel& kernel, const SolidTree& tree, const SolidCalls& calls,
+                   const RaySpan& rays, std::span<Hit> hits);
+// Leaves rays alone that are hidden already.
+void anySolids(const SolidKernel& kernel, const SolidTree& tree, const SolidCalls& calls,
+               const RaySpan& rays, std::span<std::uint8_t> hidden);

@@ -15,9 +15,9 @@ public:
     SolidPackets(const SolidTree& tree, const SolidCalls& calls, const RaySpan& rays)
         : tree_(tree), calls_(calls), rays_(rays) {}
 
-    template <class Result> void run(std::span<Result> results) {
-        for (first_ = 0; first_ < rays_.size(); first_ += W) {
-            live_ = setUp(results);
+    template <class Result> void run(std::span<const std::uint32_t> order, Result* results) {
+        for (; !order.empty(); order = order.subspan(std::min<std::size_t>(W, order.size()))) {
+            live_ = setUp(order, results);
             if (live_ != 0) traverse(results);
         }
     }
@@ -30,43 +30,38 @@ private:
     // ---- rays
 
     // RaySetup for W rays; the formulas are its own, lane by lane. Returns the lanes to be traced.
-    template <class Result> unsigned setUp(std::span<Result> results) {
-        const std::size_t count = std::min<std::size_t>(W, rays_.size() - first_);
+    template <class Result>
+    unsigned setUp(std::span<const std::uint32_t> order, const Result* results) {
+        const std::size_t count = std::min<std::size_t>(W, order.size());
+        for (std::size_t i = 0; i < W; ++i) ray_[i] = order[i < count ? i : 0];
         Floats o[3], d[3], tMax;
-        if (count == W) {
-            loadVectors(&rays_.org[first_].x, o[0], o[1], o[2]);
-            loadVectors(&rays_.dir[first_].x, d[0], d[1], d[2]);
-            tMin_ = Floats::unaligned(&rays_.tMin[first_]);
-            tMax = Floats::unaligned(&rays_.tMax[first_]);
+        if (const std::size_t first = ray_[0]; count == W && ray_[W - 1] - first == W - 1) {
+            loadVectors(&rays_.org[first].x, o[0], o[1], o[2]);
+            loadVectors(&rays_.dir[first].x, d[0], d[1], d[2]);
+            tMin_ = Floats::unaligned(&rays_.tMin[first]);
+            tMax = Floats::unaligned(&rays_.tMax[first]);
         } else {
             alignas(64) float org[3][W], dir[3][W], lo[W], hi[W];
             for (std::size_t i = 0; i < W; ++i) {
-                const std::size_t ray = first_ + (i < count ? i : 0);
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    org[axis][i] = rays_.org[ray][axis];
-                    dir[axis][i] = rays_.dir[ray][axis];
-                }
-                lo[i] = rays_.tMin[ray], hi[i] = rays_.tMax[ray];
+                const Vec3 from = rays_.org[ray_[i]], along = rays_.dir[ray_[i]];
+                org[0][i] = from.x, org[1][i] = from.y, org[2][i] = from.z;
+                dir[0][i] = along.x, dir[1][i] = along.y, dir[2][i] = along.z;
+                lo[i] = rays_.tMin[ray_[i]], hi[i] = rays_.tMax[ray_[i]];
             }
             for (int axis = 0; axis < 3; ++axis)
                 o[axis] = Floats::load(org[axis]), d[axis] = Floats::load(dir[axis]);
             tMin_ = Floats::load(lo), tMax = Floats::load(hi);
         }
-        unsigned lanes = count == W ? kAll : (1u << count) - 1;
+        unsigned lanes = (1u << count) - 1;
         if constexpr (A == Answer::Any) {
-            for (std::size_t i = 0; i < count; ++i)
-                if (results[first_ + i] != 0) lanes &= ~(1u << i);
-            if (lanes == 0) return 0;
             best_ = tMax;
         } else {
             alignas(64) float t[W];
-            alignas(64) std::uint32_t number[W];
             for (std::size_t i = 0; i < W; ++i) {
-                const Hit& hit = results[first_ + (i < count ? i : 0)];
-                t[i] = hit.t, number[i] = hit.shape;
+                const Hit& hit = results[ray_[i]];
+                t[i] = hit.t, number_[i] = hit.shape;
             }
             best_ = Floats::load(t);
-            for (int i = 0; i < W; ++i) number_[i] = number[i];
         }
 
         const Floats one(1.0f), zero(0.0f);
@@ -98,6 +93,11 @@ private:
         slab(1, pick(rx, sign, ry), pick(px, e, py));
         slab(2, pick(ry, rx, sign), pick(py, px, e));
         zCut_ = cutOf(best_);
+        const Floats length2 = fma(d[0], d[0], fma(d[1], d[1], d[2] * d[2]));
+        length_ = sqrt(length2);
+        perLength_ = one / length_;
+        perLength2_ = one / length2;
+        slack_ = max(Floats(tree_.extent), oMax) * Floats(0x1p-18f);
 
         // isTraceable()
         const Floats sum = ((d[0] + d[1]) + d[2]) + ((o[0] + o[1]) + o[2]);
@@ -149,7 +149,7 @@ private:
         unsigned lanes;
     };
 
-    template <class Result> void traverse(std::span<Result> results) {
+    template <class Result> void traverse(Result* results) {
         std::array<Entry, (kMaxBvhDepth + 1) * W> stack;
         std::size_t size = 0;
         WideRef at = wideRef(0, WideKind::Node);
@@ -157,12 +157,12 @@ private:
         for (;;) {
             if (kindOf(at) == WideKind::Leaf) {
                 solid(at >> 2, lanes, results);
-                if (A == Answer::Any && live_ == 0) return;
             } else if (together_ && std::popcount(lanes) >= kFewestForInterval) {
-                size = stepTogether(tree_.node<W>(at), lanes, stack.data(), size);
+                size = stepTogether(tree_.node<W>(at), lanes, stack.data(), size, results);
             } else {
                 size = stepApart(tree_.node<W>(at), lanes, stack.data(), size);
             }
+            if (A == Answer::Any && live_ == 0) return;
             do {
                 if (size == 0) return;
                 --size;
@@ -184,8 +184,9 @@ private:
     }
 
     // Over all r of the interval, a child is entered not before `entry` and left not after `exit`.
+    template <class Result>
     std::size_t stepTogether(const WideNode<W>& node, unsigned lanes, Entry* stack,
-                             std::size_t size) const {
+                             std::size_t size, Result* results) {
         Floats entry(0.0f), exit(zTop_);
         for (int axis = 0; axis < 3; ++axis) {
             const Floats o(origin_[axis]), lo(rLo_[axis]), hi(rHi_[axis]), pad(mostPad_[axis]);
@@ -202,6 +203,12 @@ private:
             const int i = std::countr_zero(hit);
             const WideRef ref = node.child[i];
             unsigned inside = lanes;
+            if (A == Answer::Any && kindOf(ref) == WideKind::Leaf) {
+                solid(ref >> 2, inside, results);
+                lanes &= live_;
+                if (lanes == 0) return size;
+                continue;
+            }
             if (kindOf(ref) == WideKind::Node) {
                 Floats from(0.0f), to = zCut_;
                 for (int axis = 0; axis < 3; ++axis) {
@@ -255,10 +262,21 @@ private:
 
     // ---- solids
 
-    template <class Result>
-    void solid(std::uint32_t place, unsigned lanes, std::span<Result> results) {
+    template <class Result> void solid(std::uint32_t place, unsigned lanes, Result* results) {
         const SolidTree::Solid& solid = tree_.solids[place];
         if (A == Answer::Any && !solid.hides) return;
+        if (solid.isTube) {
+            lanes &= nearAxis(solid);
+        } else {
+            unsigned certain = 0;
+            lanes &= nearCentre(solid, certain);
+            if constexpr (A == Answer::Any) {
+                certain &= lanes;
+                if (certain != 0) hide(certain, results);
+                lanes &= ~certain;
+            }
+        }
+        if (lanes == 0) return;
         Floats entry(0.0f), exit = zCut_;
         for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
@@ -275,16 +293,52 @@ private:
             ask(solid, entry, lanes, results);
     }
 
+    void hide(unsigned lanes, std::uint8_t* hidden) {
+        live_ &= ~lanes;
+        for (; lanes != 0; lanes &= lanes - 1) hidden[ray_[std::countr_zero(lanes)]] = 1;
+    }
+
+    // Lines that come near enough to the solid's round hull: a ball, or a tube without ends. With u
+    // the unit of rounding and s the largest coordinate, the way to the centre is off by 4 u s, the
+    // foot of the perpendicular by some 16 u s more, and `slack` is 64 u s.
+    // certain: rays that enter a ball within a sphere, and so the sphere, inside of their range.
+    unsigned nearCentre(const SolidTree::Solid& solid, unsigned& certain) const {
+        const Floats x = Floats(solid.centre.x) - o_[0], y = Floats(solid.centre.y) - o_[1],
+                     z = Floats(solid.centre.z) - o_[2];
+        const Floats foot = fma(x, d_[0], fma(y, d_[1], z * d_[2])) * perLength2_;
+        const Floats px = fnma(foot, d_[0], x), py = fnma(foot, d_[1], y),
+                     pz = fnma(foot, d_[2], z);
+        const Floats distance2 = fma(px, px, fma(py, py, pz * pz));
+        const Floats reach = Floats(solid.radius) + slack_;
+        if constexpr (A == Answer::Any) {
+            const Floats inner = max(Floats(solid.innerRadius) - slack_, Floats(0.0f));
+            certain = bits((distance2 < inner * inner) & (foot - reach * perLength_ > tMin_) &
+                           (foot + slack_ * perLength_ < best_));
+        }
+        return bits(notGreater(distance2, reach * reach));
+    }
+    // n = d x axis: the distance of the lines is |w n| / |n|, and w n is off by 16 u s |d|.
+    unsigned nearAxis(const SolidTree::Solid& solid) const {
+        const Floats x = Floats(solid.centre.x) - o_[0], y = Floats(solid.centre.y) - o_[1],
+                     z = Floats(solid.centre.z) - o_[2];
+        const Floats ax(solid.axis.x), ay(solid.axis.y), az(solid.axis.z);
+        const Floats nx = fms(d_[1], az, d_[2] * ay), ny = fms(d_[2], ax, d_[0] * az),
+                     nz = fms(d_[0], ay, d_[1] * ax);
+        const Floats across = fma(x, nx, fma(y, ny, z * nz));
+        const Floats n2 = fma(nx, nx, fma(ny, ny, nz * nz));
+        const Floats reach = fma(Floats(solid.radius), sqrt(n2), slack_ * length_);
+        return bits(notGreater(abs(across), reach));
+    }
+
     [[gnu::noinline]] void ask(const SolidTree::Solid& solid, Floats entry, unsigned lanes,
-                               std::span<Hit> hits) {
+                               Hit* hits) {
         alignas(64) float z[W], dz[W], best[W];
         entry.store(z), dz_.store(dz), best_.store(best);
         bool improved = false;
         for (; lanes != 0; lanes &= lanes - 1) {
             const int i = std::countr_zero(lanes);
-            Hit& hit = hits[first_ + static_cast<std::size_t>(i)];
-            if (!calls_.nearer(calls_.set, rays_[first_ + static_cast<std::size_t>(i)],
-                               solid.number, z[i] / dz[i], hit))
+            Hit& hit = hits[ray_[i]];
+            if (!calls_.nearer(calls_.set, rays_[ray_[i]], solid.number, z[i] / dz[i], hit))
                 continue;
             best[i] = hit.t;
             number_[i] = hit.shape;
@@ -293,12 +347,11 @@ private:
         if (improved) limit(Floats::load(best));
     }
     [[gnu::noinline]] void ask(const SolidTree::Solid& solid, Floats, unsigned lanes,
-                               std::span<std::uint8_t> hidden) {
+                               std::uint8_t* hidden) {
         for (; lanes != 0; lanes &= lanes - 1) {
             const int i = std::countr_zero(lanes);
-            const std::size_t ray = first_ + static_cast<std::size_t>(i);
-            if (!calls_.hides(calls_.set, rays_[ray], solid.number)) continue;
-            hidden[ray] = 1;
+            if (!calls_.hides(calls_.set, rays_[ray_[i]], solid.number)) continue;
+            hidden[ray_[i]] = 1;
             live_ &= ~(1u << i);
         }
     }
@@ -313,7 +366,7 @@ private:
     // Sphere::roots() and insideRound().
     template <class Result>
     void sphere(const SolidTree::Solid& solid, const SolidTree::Sphere& sphere, Floats entry,
-                unsigned lanes, std::span<Result> results) {
+                unsigned lanes, Result* results) {
         const auto& m = sphere.exact.objectFromWorld;
         const Doubles X(o_[0]), Y(o_[1]), Z(o_[2]), U(d_[0]), V(d_[1]), T(d_[2]);
         const auto times = [&](std::size_t i, const Doubles& x) { return Doubles(m[i]) * x; };
@@ -347,9 +400,7 @@ private:
         const Floats t0 = enter.toFloats(), t1 = exit.toFloats();
         if constexpr (A == Answer::Any) {
             lanes &= bits(((t0 > tMin_) & (t0 < best_)) | ((t1 > tMin_) & (t1 < best_)));
-            live_ &= ~lanes;
-            for (; lanes != 0; lanes &= lanes - 1)
-                results[first_ + static_cast<std::size_t>(std::countr_zero(lanes))] = 1;
+            hide(lanes, results);
         } else {
             const Mask first = t0 > tMin_;
             const Floats t = select(first, t0, t1);
@@ -366,8 +417,7 @@ private:
             select(first, lost0.toFloats(), lost1.toFloats()).store(us);
             for (unsigned rest = better; rest != 0; rest &= rest - 1) {
                 const int i = std::countr_zero(rest);
-                results[first_ + static_cast<std::size_t>(i)] = {
-                    .t = ts[i], .u = us[i], .shape = solid.number};
+                results[ray_[i]] = {.t = ts[i], .u = us[i], .shape = solid.number};
                 number_[i] = solid.number;
             }
             limit(select(maskOf(better), nearest, best_));
@@ -386,9 +436,10 @@ private:
     const SolidTree& tree_;
     const SolidCalls& calls_;
     const RaySpan& rays_;
-    std::size_t first_ = 0;
-    unsigned live_ = 0; // lanes that still ask
+    std::uint32_t ray_[W]; // of the lane
+    unsigned live_ = 0;    // lanes that still ask
     Floats o_[3], d_[3], r_[3], near_[3], far_[3], pad_[3], dz_, tMin_;
+    Floats length_, perLength_, perLength2_, slack_; // of the directions; see nearCentre()
     Floats best_, zCut_; // t up to which hits count, and the depth behind which none is
     std::uint32_t number_[W];
     unsigned backwards_[3]; // lanes with r < 0
@@ -401,10 +452,10 @@ private:
 };
 
 void closestSolids(const SolidTree& tree, const SolidCalls& calls, const RaySpan& rays,
-                   std::span<Hit> hits) {
-    SolidPackets<Answer::Closest>(tree, calls, rays).run(hits);
+                   std::span<const std::uint32_t> order, Hit* hits) {
+    SolidPackets<Answer::Closest>(tree, calls, rays).run(order, hits);
 }
 void anySolids(const SolidTree& tree, const SolidCalls& calls, const RaySpan& rays,
-               std::span<std::uint8_t> hidden) {
-    SolidPackets<Answer::Any>(tree, calls, rays).run(hidden);
+               std::span<const std::uint32_t> order, std::uint8_t* hidden) {
+    SolidPackets<Answer::Any>(tree, calls, rays).run(order, hidden);
 }

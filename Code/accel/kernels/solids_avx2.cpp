@@ -15,6 +15,7 @@ KERNEL_REGION_BEGIN("avx2,fma,bmi,bmi2,lzcnt,popcnt")
 namespace kernels::avx2 {
 #include "accel/kernels/simd_avx2.inl"
 
+inline Floats sqrt(Floats a) { return _mm256_sqrt_ps(a.v); }
 inline Doubles sqrt(const Doubles& a) { return {_mm256_sqrt_pd(a.lo), _mm256_sqrt_pd(a.hi)}; }
 inline unsigned atMost(const Doubles& a, const Doubles& b) {
     const auto half = [](__m256d x, __m256d y) {

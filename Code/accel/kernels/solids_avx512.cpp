@@ -20,6 +20,7 @@ KERNEL_REGION_BEGIN("avx512f,avx512dq,avx512bw,avx512vl,avx512cd,avx2,fma,bmi,bm
 namespace kernels::avx512 {
 #include "accel/kernels/simd_avx512.inl"
 
+inline Floats sqrt(Floats a) { return _mm512_sqrt_ps(a.v); }
 inline Doubles sqrt(const Doubles& a) { return {_mm512_sqrt_pd(a.lo), _mm512_sqrt_pd(a.hi)}; }
 inline unsigned atMost(const Doubles& a, const Doubles& b) {
     return _mm512_cmp_pd_mask(a.lo, b.lo, _CMP_LE_OQ) |

@@ -15,6 +15,7 @@ KERNEL_REGION_BEGIN("sse4.2,popcnt")
 namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
 
+inline Floats sqrt(Floats a) { return {_mm_sqrt_ps(a.lo), _mm_sqrt_ps(a.hi)}; }
 inline Doubles sqrt(const Doubles& a) {
     return {_mm_sqrt_pd(a.v[0]), _mm_sqrt_pd(a.v[1]), _mm_sqrt_pd(a.v[2]), _mm_sqrt_pd(a.v[3])};
 }

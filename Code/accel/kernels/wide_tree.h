@@ -60,8 +60,8 @@ struct WideTree {
     }
 };
 
-// Binned SAH, top down. `width` is 8 or 16. The tree is the same on every machine and for any number
-// of threads, 0 being as many as the machine has.
+// Binned SAH, top down. `width` is 8 or 16. The tree is the same on every machine and for any
+// number of threads, 0 being as many as the machine has.
 WideTree buildWide(int width, std::span<const Vec3> points,
                    std::span<const std::array<std::uint32_t, 3>> triangles, int threads = 1);
 

@@ -14,8 +14,8 @@ template <int W> constexpr std::size_t kLeafLines = sizeof(WideLeaf<W>) / sizeof
 
 template <int W> class TreeWriter {
 public:
-    TreeWriter(WideTree& tree, std::vector<BinaryNode>& top,
-               std::span<const SubtreeRange> subtrees, std::vector<Grown>& grown, ThreadPool& pool)
+    TreeWriter(WideTree& tree, std::vector<BinaryNode>& top, std::span<const SubtreeRange> subtrees,
+               std::vector<Grown>& grown, ThreadPool& pool)
         : tree_(tree), top_(top), subtrees_(subtrees), grown_(grown), pool_(pool) {}
 
     void run() {
@@ -72,9 +72,9 @@ private:
     void choose(std::uint32_t at) {
         const BinaryNode& node = nodes_[at];
         const float area = halfAreaOf(node);
-        choices_[at] = node.isLeaf() ? leafChoice<W>(area)
-                                     : innerChoice<W>(choices_[node.left], choices_[node.left + 1],
-                                                      area);
+        choices_[at] = node.isLeaf()
+                           ? leafChoice<W>(area)
+                           : innerChoice<W>(choices_[node.left], choices_[node.left + 1], area);
     }
 
     void chooseTop() {
@@ -102,7 +102,8 @@ private:
         std::uint32_t depth = 0;
         double area = 0;
         const auto nodeAt = [&](std::uint32_t number) -> WideNode<W>& {
-            return *reinterpret_cast<WideNode<W>*>(&tree_.lines[firstLine + number * kNodeLines<W>]);
+            return *reinterpret_cast<WideNode<W>*>(
+                &tree_.lines[firstLine + number * kNodeLines<W>]);
         };
         std::uint32_t count = 0;
         while (!tasks.empty()) {
@@ -119,8 +120,8 @@ private:
                     write(nodeAt(number), children);
             for (std::size_t i = children.count; i-- > 0;)
                 if (!nodes_[children.node[i]].isLeaf())
-                    tasks.push_back({children.node[i], number, static_cast<std::uint32_t>(i),
-                                     task.depth + 1});
+                    tasks.push_back(
+                        {children.node[i], number, static_cast<std::uint32_t>(i), task.depth + 1});
         }
         tree_.nodes = count;
         tree_.root = wideRef(firstLine, WideKind::Node);
@@ -132,6 +133,7 @@ private:
     // Returns the area of the triangles' leaves, once for each triangle.
     double write(WideNode<W>& to, const WideChildren<W>& children) const {
         WideNode<W> node;
+        std::memset(&node, 0, sizeof node); // behind the members, too: trees compare by bytes
         for (auto& planes : node.plane) {
             std::fill_n(planes[0], W, std::numeric_limits<float>::infinity());
             std::fill_n(planes[1], W, -std::numeric_limits<float>::infinity());
@@ -146,8 +148,8 @@ private:
             }
             if (!child.isLeaf()) continue;
             node.child[i] = leafRef(child.leaf);
-            area += static_cast<double>(halfAreaOf(child)) *
-                    tree_.at<WideLeaf<W>>(node.child[i]).count;
+            area +=
+                static_cast<double>(halfAreaOf(child)) * tree_.at<WideLeaf<W>>(node.child[i]).count;
         }
         std::memcpy(&to, &node, sizeof node);
         return area;
@@ -166,9 +168,8 @@ private:
 } // namespace
 
 template <int W>
-void writeTree(WideTree& tree, std::vector<BinaryNode>& top,
-               std::span<const SubtreeRange> subtrees, std::vector<Grown>& grown,
-               ThreadPool& pool) {
+void writeTree(WideTree& tree, std::vector<BinaryNode>& top, std::span<const SubtreeRange> subtrees,
+               std::vector<Grown>& grown, ThreadPool& pool) {
     TreeWriter<W>(tree, top, subtrees, grown, pool).run();
 }
 template void writeTree<8>(WideTree&, std::vector<BinaryNode>&, std::span<const SubtreeRange>,
