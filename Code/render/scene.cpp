@@ -301,11 +301,11 @@ private:
     }
 
     void addMerged(MergedMesh merged, ObjectDesc::Sides sides) {
+        scene_.degenerateCount_ += merged.degenerateCount;
         if (merged.geometry.triangles.empty()) return;
         auto geometry = std::make_unique<MeshGeometry>(std::move(merged.geometry));
         geometry->finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel),
                          settings_.threads);
-        scene_.degenerateCount_ += merged.degenerateCount;
         auto mesh = std::make_unique<Mesh>(*geometry, merged.materials, std::move(merged.parts));
         scene_.shapes_.add(withSides(std::move(mesh), sides), shadowOf(merged.materials));
         scene_.geometries_.push_back(std::move(geometry));
@@ -318,12 +318,14 @@ private:
         const auto [at, isNew] = shared_.try_emplace(mesh);
         if (isNew) {
             auto geometry = std::make_unique<MeshGeometry>(toSharedGeometry(desc_.meshes[mesh]));
-            scene_.degenerateCount_ += geometry->dropDegenerate();
-            geometry->finish(settings_.accel == AccelKind::Bvh);
-            at->second = geometry.get();
+            at->second.degenerateCount = geometry->dropDegenerate();
+            geometry->finish(settings_.accel == AccelKind::Bvh, chooseKernel("scalar"),
+                             settings_.threads);
+            at->second.geometry = geometry.get();
             scene_.geometries_.push_back(std::move(geometry));
         }
-        const MeshGeometry& geometry = *at->second;
+        scene_.degenerateCount_ += at->second.degenerateCount; // of each, as if it were a copy
+        const MeshGeometry& geometry = *at->second.geometry;
         if (geometry.triangles.empty()) return;
         const ShapeSet::Shadow shadow = shadowOf(materials);
         auto shape = std::make_unique<MeshInstance>(geometry, place, std::move(materials), id);
@@ -354,13 +356,18 @@ private:
         scene_.shapes_.add(std::move(body), ShapeSet::Shadow::None);
     }
 
+    struct SharedMesh {
+        const MeshGeometry* geometry = nullptr;
+        std::uint64_t degenerateCount = 0;
+    };
+
     Scene& scene_;
     const SceneDesc& desc_;
     const SourceFile& source_;
     const RenderSettings& settings_;
     Switches on_;
-    const CameraDesc* cameraDesc_ = nullptr;            // the one that is used
-    std::map<std::size_t, const MeshGeometry*> shared_; // of instances, by mesh
+    const CameraDesc* cameraDesc_ = nullptr;   // the one that is used
+    std::map<std::size_t, SharedMesh> shared_; // of instances, by mesh
 };
 
 Scene::Scene(const SceneDesc& desc, const SourceFile& source, const RenderSettings& settings) {

@@ -90,7 +90,7 @@ void MeshGeometry::finish(bool withTree, const Kernel& forKernel, int threads) {
         std::vector<Bounds> boxes(triangles.size());
         for (std::size_t i = 0; i < triangles.size(); ++i)
             for (const std::uint32_t corner : triangles[i]) boxes[i].extend(points[corner]);
-        bvh = buildBvh(boxes);
+        bvh = buildBvh(boxes, threads);
     }
     bvh.nodes.shrink_to_fit();
     if (!exactPoints.empty()) longestSide = longestSides(*this);

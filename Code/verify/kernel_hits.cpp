@@ -39,7 +39,7 @@ std::string shown(const TriangleHit& hit) {
 std::vector<Hit> compare(const Meshes& meshes, const RayList& rays, const char* name,
                          Tally& tally) {
     const std::size_t n = rays.size();
-    const Mesh oracle(meshes.scalar, MovingTransform(), {0}, {{0, 0}});
+    const Mesh oracle(meshes.scalar, {0}, {{0, 0}});
     std::vector<Hit> right(n);
     std::vector<TriangleHit> expected(n), hits(n);
     std::vector<std::uint8_t> isHidden(n), hidden(n);

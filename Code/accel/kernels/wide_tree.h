@@ -80,7 +80,8 @@ void traverseWidth(const WideTree& tree, const RaySetup& ray, float zCut, LeafFn
             continue;
         }
         const auto& node = tree.at<WideNode<W>>(ref);
-        for (std::size_t i = W; i-- > 0;) {
+        for (std::size_t end = W; end > 0; --end) {
+            const std::size_t i = end - 1;
             Bounds box;
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 box.lo[axis] = node.plane[axis][0][i];

@@ -55,14 +55,15 @@ private:
             std::memcpy(&tree_.lines[firstLeaf_[i] * kLeafLines<W>],
                         &from.lines[s.firstLeaf * kLeafLines<W>],
                         (s.endLeaf - s.firstLeaf) * sizeof(WideLeaf<W>));
-        const std::uint32_t shift = firstNode_[i] - s.firstNode - 1;
-        for (std::uint32_t n = s.endNode; n-- > s.firstNode;) {
+        const auto placeOf = [&](std::uint32_t n) { return n - s.firstNode - 1 + firstNode_[i]; };
+        for (std::uint32_t end = s.endNode; end > s.firstNode; --end) {
+            const std::uint32_t n = end - 1;
             BinaryNode node = from.nodes[n];
             if (node.isLeaf())
-                node.leaf += firstLeaf_[i] - s.firstLeaf;
+                node.leaf = node.leaf - s.firstLeaf + firstLeaf_[i];
             else
-                node.left += shift;
-            const std::uint32_t at = n == s.firstNode ? s.range.node : n + shift;
+                node.left = placeOf(node.left);
+            const std::uint32_t at = n == s.firstNode ? s.range.node : placeOf(n);
             nodes_[at] = node;
             choose(at);
         }
@@ -81,7 +82,8 @@ private:
         std::vector<bool> done(top_.size());
         for (const SubtreeRange& s : subtrees_) done[s.range.node] = true;
         done[1] = true; // a gap
-        for (auto at = static_cast<std::uint32_t>(top_.size()); at-- > 0;) {
+        for (auto end = static_cast<std::uint32_t>(top_.size()); end > 0; --end) {
+            const std::uint32_t at = end - 1;
             if (done[at]) continue;
             nodes_[at] = top_[at];
             choose(at);
@@ -118,10 +120,12 @@ private:
             const auto children = childrenOf<W>(task.binary, nodes_, choices_);
             area += static_cast<double>(halfAreaOf(nodes_[task.binary])) +
                     write(nodeAt(number), children);
-            for (std::size_t i = children.count; i-- > 0;)
+            for (std::size_t end = children.count; end > 0; --end) {
+                const std::size_t i = end - 1;
                 if (!nodes_[children.node[i]].isLeaf())
                     tasks.push_back(
                         {children.node[i], number, static_cast<std::uint32_t>(i), task.depth + 1});
+            }
         }
         tree_.nodes = count;
         tree_.root = wideRef(firstLine, WideKind::Node);
