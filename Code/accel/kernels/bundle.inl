@@ -140,6 +140,10 @@ void traceFromPoint(const WideMesh& mesh, const RaySpan& rays, std::span<const s
         reinterpret_cast<Entry*>(scratchMemory((mesh.tree.stackSize + W) * sizeof(Entry)));
     Bundle<Q> bundle(mesh, rays, rays.org[order[0]], stack);
     std::vector<std::uint32_t> givenBack;
+    if (mesh.tree.lines.size() > BundleLeaf<Q>::kMostLines) { // 16 GB
+        givenBack.assign(order.begin(), order.end());
+        order = {};
+    }
     while (!order.empty()) {
         const auto list = order.first(std::min(size.get(), order.size()));
         order = order.subspan(list.size());

@@ -13,6 +13,9 @@ public:
     BundleLeaf(const WideMesh& mesh, const BundleRays<Q>& rays)
         : mesh_(mesh), rays_(rays), pad_(::max(mesh.extent, maxAbs(rays.origin)) * 0x1p-21f) {}
 
+    // Of trees: hits are remembered by the lines of their leaves, in 28 bits.
+    static constexpr std::size_t kMostLines = std::size_t{1} << 28;
+
     // Behind BundleRays::nextRound().
     void start() {
         open_ = rays_.packets;
@@ -22,7 +25,7 @@ public:
             const Floats above = Floats::load(rays_.above[q]);
             above.store(keyLo_[q]), above.store(keyHi_[q]);
             Ints(kNowhere).store(place_[q]);
-            missing_[q] = Q == Query::Any ? rays_.active[q] : 0;
+            if constexpr (Q == Query::Any) missing_[q] = rays_.active[q];
             zTop_ = ::max(rays_.zFar[q], zTop_);
         }
         limitDepth();
@@ -50,7 +53,7 @@ public:
                 rays_.write(q, Floats(kInfinityF), none, hits);
                 continue;
             }
-            const Ints triangle = settle(q, found);
+            const Ints triangle = settle(static_cast<unsigned>(q), found);
             const Floats t = Floats(1.0f) / (Floats::load(keyLo_[q]) * Floats::load(rays_.dz[q]));
             const Mask hit = maskOf(found) & (t <= Floats::load(rays_.tMax[q]));
             rays_.write(q, select(hit, t, Floats(kInfinityF)), select(hit, triangle, none), hits);
@@ -293,7 +296,7 @@ private:
     };
 
     // Of the triangles with these corners; point(i, axis): the axis of corner i.
-    template <class PointFn> Planes planesOf(PointFn&& point) const {
+    template <class PointFn> [[gnu::always_inline]] Planes planesOf(PointFn&& point) const {
         const auto exact = [&](int i, std::size_t axis) { // in double, as planeKey() has it
             return Doubles(point(i, axis)) - Doubles(static_cast<double>(rays_.origin[axis]));
         };
@@ -373,7 +376,7 @@ private:
         Floats key = keysOf(p, q, inside, clamped);
         const std::uint32_t place = b.firstPlace + j;
         if (clamped != 0) [[unlikely]]
-            key = clampedKeys(place, q, clamped, key);
+            key = clampedKeys(Ints(place), q, clamped, key);
         inside = inside & (key < Floats::load(rays_.below[q]));
         if constexpr (Q == Query::Any) {
             const Mask better = inside & (key > Floats::load(keyHi_[q]));
@@ -394,13 +397,14 @@ private:
         }
     }
 
-    [[gnu::noinline]] Floats clampedKeys(std::uint32_t place, unsigned q, unsigned lanes,
+    [[gnu::noinline]] Floats clampedKeys(Ints places, unsigned q, unsigned lanes,
                                          Floats key) const {
         alignas(64) float keys[W];
-        key.store(keys);
+        alignas(64) std::uint32_t place[W];
+        key.store(keys), places.store(place);
         for (; lanes != 0; lanes &= lanes - 1) {
             const int i = std::countr_zero(lanes);
-            keys[i] = exactKeyOf(place, q, i);
+            keys[i] = exactKeyOf(place[i], q, i);
         }
         return Floats::load(keys);
     }
@@ -416,40 +420,40 @@ private:
         return lower;
     }
 
-    // Computes the keys of these hits that were left open, and returns the triangles.
-    [[gnu::noinline]] Ints settle(int q, unsigned lanes) {
-        alignas(64) std::uint32_t id[W];
-        alignas(64) float point[3][3][W]; // corner, axis
-        const Floats lo = Floats::load(keyLo_[q]), hi = Floats::load(keyHi_[q]);
-        const unsigned open = bits(lo < hi) & lanes;
-        // The other lanes compute what nobody wants, of numbers that are in no one's way.
-        const auto first = static_cast<unsigned>(std::countr_zero(lanes));
-        for (unsigned i = 0; i < W; ++i) {
-            const std::uint32_t place = place_[q][lanes >> i & 1 ? i : first];
+    // Computes the keys of these hits that were left open, and returns the triangles. Neighbours
+    // mostly meet the same few triangles: each is fetched once, into a column.
+    [[gnu::noinline]] Ints settle(unsigned q, unsigned lanes) {
+        alignas(64) std::uint32_t id[W] = {};
+        alignas(64) float point[3][3][W] = {}; // corner, axis
+        const Ints places = Ints::load(place_[q]);
+        Ints column(0u);
+        std::uint32_t columns = 0;
+        for (unsigned left = lanes; left != 0; ++columns) {
+            const std::uint32_t place = place_[q][std::countr_zero(left)];
+            const Mask same = places == Ints(place);
+            column = select(same, Ints(columns), column);
+            left &= ~bits(same);
             const WideLeaf<W>& l = leafOf(place);
             const std::uint32_t j = place & 15;
-            id[i] = mesh_.tree.triangleIds[l.first + j];
+            id[columns] = mesh_.tree.triangleIds[l.first + j];
             for (std::size_t c = 0; c < 3; ++c)
                 for (std::size_t axis = 0; axis < 3; ++axis)
-                    point[c][axis][i] = l.point[axis][l.corner[c][j]];
+                    point[c][axis][columns] = l.point[axis][l.corner[c][j]];
         }
-        if (open != 0) {
-            const Planes p =
-                planesOf([&](int i, std::size_t axis) { return Floats::load(point[i][axis]); });
+        const Floats lo = Floats::load(keyLo_[q]), hi = Floats::load(keyHi_[q]);
+        if (const unsigned open = bits(lo < hi) & lanes; open != 0) {
+            const Planes p = planesOf([&](int i, std::size_t axis) {
+                return permute(Floats::load(point[i][axis]), column);
+            });
             Mask inside = maskOf(open);
             unsigned clamped = 0;
-            const auto packet = static_cast<unsigned>(q);
-            alignas(64) float key[W];
-            keysOf(p, packet, inside, clamped).store(key);
-            for (; clamped != 0; clamped &= clamped - 1) {
-                const int i = std::countr_zero(clamped);
-                key[i] = exactKeyOf(place_[q][i], packet, i);
-            }
-            const Floats exact = Floats::load(key);
-            select(maskOf(open), exact, lo).store(keyLo_[q]);
-            select(maskOf(open), exact, hi).store(keyHi_[q]);
+            Floats key = keysOf(p, q, inside, clamped);
+            if (clamped != 0) [[unlikely]]
+                key = clampedKeys(places, q, clamped, key);
+            select(maskOf(open), key, lo).store(keyLo_[q]);
+            select(maskOf(open), key, hi).store(keyHi_[q]);
         }
-        return Ints::load(id);
+        return permute(Ints::load(id), column);
     }
 
     void closePackets() {

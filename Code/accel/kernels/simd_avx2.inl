@@ -80,6 +80,9 @@ inline Mask operator<(Ints a, Ints b) {
     return {_mm256_castsi256_ps(
         _mm256_cmpgt_epi32(_mm256_xor_si256(b.v, top), _mm256_xor_si256(a.v, top)))};
 }
+inline Mask operator==(Ints a, Ints b) {
+    return {_mm256_castsi256_ps(_mm256_cmpeq_epi32(a.v, b.v))};
+}
 inline Mask operator&(Mask a, Mask b) { return {_mm256_and_ps(a.v, b.v)}; }
 inline Mask operator|(Mask a, Mask b) { return {_mm256_or_ps(a.v, b.v)}; }
 inline unsigned bits(Mask m) { return static_cast<unsigned>(_mm256_movemask_ps(m.v)); }
@@ -93,6 +96,7 @@ inline Ints select(Mask m, Ints a, Ints b) {
     return _mm256_blendv_epi8(b.v, a.v, _mm256_castps_si256(m.v));
 }
 inline Floats permute(Floats a, Ints lanes) { return _mm256_permutevar8x32_ps(a.v, lanes.v); }
+inline Ints permute(Ints a, Ints lanes) { return _mm256_permutevar8x32_epi32(a.v, lanes.v); }
 
 inline float smallest(Floats a) {
     __m128 m = _mm_min_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));

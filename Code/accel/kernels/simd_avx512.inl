@@ -81,6 +81,7 @@ inline Mask operator==(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v
 // True for NaN.
 inline Mask notGreater(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_NGT_UQ)}; }
 inline Mask operator<(Ints a, Ints b) { return {_mm512_cmplt_epu32_mask(a.v, b.v)}; }
+inline Mask operator==(Ints a, Ints b) { return {_mm512_cmpeq_epi32_mask(a.v, b.v)}; }
 inline Mask operator&(Mask a, Mask b) { return {static_cast<__mmask16>(a.v & b.v)}; }
 inline Mask operator|(Mask a, Mask b) { return {static_cast<__mmask16>(a.v | b.v)}; }
 inline unsigned bits(Mask m) { return m.v; }
@@ -88,6 +89,7 @@ inline Mask maskOf(unsigned laneBits) { return {static_cast<__mmask16>(laneBits)
 inline Floats select(Mask m, Floats a, Floats b) { return _mm512_mask_blend_ps(m.v, b.v, a.v); }
 inline Ints select(Mask m, Ints a, Ints b) { return _mm512_mask_blend_epi32(m.v, b.v, a.v); }
 inline Floats permute(Floats a, Ints lanes) { return _mm512_permutexvar_ps(lanes.v, a.v); }
+inline Ints permute(Ints a, Ints lanes) { return _mm512_permutexvar_epi32(lanes.v, a.v); }
 
 inline float smallest(Floats a) { return _mm512_reduce_min_ps(a.v); }
 inline float largest(Floats a) { return _mm512_reduce_max_ps(a.v); }

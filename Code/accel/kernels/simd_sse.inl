@@ -118,6 +118,10 @@ inline Mask operator<(Ints a, Ints b) {
     };
     return {less(a.lo, b.lo), less(a.hi, b.hi)};
 }
+inline Mask operator==(Ints a, Ints b) {
+    return {_mm_castsi128_ps(_mm_cmpeq_epi32(a.lo, b.lo)),
+            _mm_castsi128_ps(_mm_cmpeq_epi32(a.hi, b.hi))};
+}
 inline Mask operator&(Mask a, Mask b) { return {_mm_and_ps(a.lo, b.lo), _mm_and_ps(a.hi, b.hi)}; }
 inline Mask operator|(Mask a, Mask b) { return {_mm_or_ps(a.lo, b.lo), _mm_or_ps(a.hi, b.hi)}; }
 inline unsigned bits(Mask m) {
@@ -148,6 +152,10 @@ inline Floats permute(Floats a, Ints lanes) {
                                              _mm_shuffle_epi8(_mm_castps_si128(a.hi), inHigh)));
     };
     return {half(lanes.lo), half(lanes.hi)};
+}
+inline Ints permute(Ints a, Ints lanes) {
+    const Floats b = permute(Floats(_mm_castsi128_ps(a.lo), _mm_castsi128_ps(a.hi)), lanes);
+    return {_mm_castps_si128(b.lo), _mm_castps_si128(b.hi)};
 }
 
 inline float smallest(Floats a) {

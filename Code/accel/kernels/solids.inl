@@ -1,6 +1,6 @@
 // Packets of W rays that walk the tree of the solids together, each child with the rays that enter
-// it. Rays from one point into one octant (camera rays, shadow rays of a lamp) see a node as one
-// interval of rays that looks at W children at once; of rays that go apart each looks at them for
+// it. Rays into one octant (most camera rays, shadow rays of a lamp) see a node as one interval of
+// rays that looks at W children at once; of rays that go apart each looks at them for
 // itself, as in queue.inl, but the node is fetched once and the steps overlap.
 // What decides is exact: entries into a solid's own box as RaySetup::enters() rounds them, spheres
 // as AnalyticShape and Sphere compute them, operation by operation in double. Everything before
@@ -25,7 +25,7 @@ public:
 private:
     static constexpr unsigned kAll = (1u << W) - 1;
     // Fewer rays than this look at a node one by one.
-    static constexpr int kFewestForInterval = 3;
+    static constexpr int kFewestForInterval = 6;
 
     // ---- rays
 
@@ -115,10 +115,10 @@ private:
                       Floats(std::numeric_limits<float>::max()));
     }
 
-    // The ranges of r, for packets from one point into one octant.
+    // The ranges of origins and r, for packets into one octant.
     void findInterval(unsigned lanes) {
         const Mask on = maskOf(lanes);
-        const int one = std::countr_zero(lanes);
+
         together_ = std::popcount(lanes) >= kFewestForInterval;
         for (int axis = 0; axis < 3; ++axis) {
             r_[axis].store(rays1_.r[axis]);
@@ -127,12 +127,9 @@ private:
             const unsigned backwards = bits(r_[axis] < Floats(0.0f));
             backwards_[axis] = backwards;
             if (!together_) continue;
-            alignas(64) float o[W];
-            o_[axis].store(o);
-            origin_[axis] = o[one];
-            const unsigned same = bits(o_[axis] == Floats(o[one]));
-            together_ = (same & lanes) == lanes &&
-                        ((backwards & lanes) == 0 || (backwards & lanes) == lanes);
+            together_ = (backwards & lanes) == 0 || (backwards & lanes) == lanes;
+            oLo_[axis] = smallest(select(on, o_[axis], Floats(kInfinityF)));
+            oHi_[axis] = largest(select(on, o_[axis], Floats(-kInfinityF)));
             rLo_[axis] = smallest(select(on, r_[axis], Floats(kInfinityF)));
             rHi_[axis] = largest(select(on, r_[axis], Floats(-kInfinityF)));
             mostPad_[axis] = largest(select(on, pad_[axis], Floats(0.0f)));
@@ -189,10 +186,12 @@ private:
                              std::size_t size, Result* results) {
         Floats entry(0.0f), exit(zTop_);
         for (int axis = 0; axis < 3; ++axis) {
-            const Floats o(origin_[axis]), lo(rLo_[axis]), hi(rHi_[axis]), pad(mostPad_[axis]);
+            const Floats lo(rLo_[axis]), hi(rHi_[axis]), pad(mostPad_[axis]);
             const int back = backwards_[axis] & live_ ? 1 : 0;
-            const Floats front = Floats::load(node.plane[axis][back]) - o;
-            const Floats behind = Floats::load(node.plane[axis][1 - back]) - o;
+            const Floats first(back ? oLo_[axis] : oHi_[axis]),
+                last(back ? oHi_[axis] : oLo_[axis]);
+            const Floats front = Floats::load(node.plane[axis][back]) - first;
+            const Floats behind = Floats::load(node.plane[axis][1 - back]) - last;
             entry = max(min(front * lo, front * hi) - pad, entry);
             exit = min(max(behind * lo, behind * hi) + pad, exit);
         }
@@ -448,7 +447,7 @@ private:
         float r[3][W], nearOffset[3][W], farOffset[3][W], zCut[W];
     } rays1_;
     bool together_ = false;
-    float origin_[3], rLo_[3], rHi_[3], mostPad_[3], zTop_ = 0;
+    float oLo_[3], oHi_[3], rLo_[3], rHi_[3], mostPad_[3], zTop_ = 0;
 };
 
 void closestSolids(const SolidTree& tree, const SolidCalls& calls, const RaySpan& rays,
