@@ -262,7 +262,8 @@ private:
     void join() {
         std::vector<double> cost(top_.size());
         std::vector<bool> isList(top_.size());
-        for (std::size_t i = top_.size(); i-- > 0;) {
+        for (std::size_t end = top_.size(); end > 0; --end) {
+            const std::size_t i = end - 1;
             const Top& t = top_[i];
             const double area = halfAreaOf(t.box, lists_.pad), asLeaf = area * t.count;
             cost[i] =

@@ -41,11 +41,14 @@ using Pixel = std::array<std::uint8_t, 3>;
 struct Picture {
     int width = 0, height = 0;
     std::vector<Pixel> pixels; // row after row from the top
-    Pixel at(int x, int y) const { return pixels[static_cast<std::size_t>(y * width + x)]; }
+    Pixel at(int x, int y) const {
+        return pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(x)];
+    }
 };
 
 // Jitter is left out. Mesh files are looked for from here, then in `folder`. Throws
 // std::runtime_error for scenes that lack what the assignment requires.
-Picture render(const JsonValue& scene, const std::string& folder);
+Picture render(const JsonValue& json, const std::string& folder);
 
 } // namespace assignment

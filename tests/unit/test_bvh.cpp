@@ -166,10 +166,12 @@ TEST(bvh_is_the_same_for_any_threads) {
         const Bvh a = buildBvh(input.boxes, 1, kAnyLeaf);
         for (const int threads : {1, 2, 3, 4, 8}) {
             const Bvh b = buildBvh(input.boxes, threads, kAnyLeaf);
+            const auto sameBits = [](const BvhNode& x, const BvhNode& y) {
+                // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): -0 is not 0
+                return std::memcmp(&x, &y, sizeof x) == 0;
+            };
             const bool same = std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(),
-                                         b.nodes.end(), [](const BvhNode& x, const BvhNode& y) {
-                                             return std::memcmp(&x, &y, sizeof x) == 0;
-                                         });
+                                         b.nodes.end(), sameBits);
             CHECK_INFO(same && a.primIds == b.primIds, input.name << ", threads " << threads);
         }
     }
