@@ -5,7 +5,7 @@ shift
 . "$(dirname "$0")/cli/kit.sh"
 export TSAN_OPTIONS='halt_on_error=1 exitcode=66'
 
-words='parallel wide_build bvh_is_the_same same_bits sameBits texture_threads film'
+words='parallel wide_build bvh_is_the_same same_bits sameBits texture_threads film read_threads image_files'
 check "unit tests: $words" "$unit" $words
 for threads in 1 4; do
     for option in '-i whitted' '-i ao' '--aov depth,id -i normal'; do
