@@ -54,7 +54,7 @@ END
         got=$(bash complete.bash "$@")
         check "bash: $name ($got)" [ "$got" = "$expected" ]
     }
-    offers 'an option' '--spp' raytracer scene.txt --sp
+    offers 'an option' '--spp' raytracer scene.txt --spp
     offers 'both forms' '--no-dof' raytracer --no-do
     offers 'values' 'sobol stratified' raytracer --sampler s
     offers 'values after =' 'json' raytracer --stats = j
