@@ -14,83 +14,10 @@ import subprocess
 import sys
 from xml.sax.saxutils import escape
 
-try:
-    from PIL import Image as Picture
-    from reportlab import rl_config
-    from reportlab.lib.colors import HexColor
-    from reportlab.lib.pagesizes import A4
-    from reportlab.lib.styles import ParagraphStyle
-    from reportlab.lib.units import mm
-    from reportlab.platypus import (Image, KeepTogether, PageBreak, Paragraph, Preformatted,
-                                    SimpleDocTemplate, Spacer, Table, TableStyle)
-except ImportError as error:
-    sys.exit(f"make_report.py: {error}\nInstall what it needs: pip install reportlab pillow")
-
-rl_config.invariant = 1  # no dates, no random ids
-rl_config.useA85 = 0     # streams as bytes, not as text: a fifth smaller
-
-TOP = os.path.abspath(os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
-MARGIN = 20 * mm
-WIDTH = A4[0] - 2 * MARGIN
-COLUMNS = 3
-GAP = 5 * mm
-CELL = (WIDTH - (COLUMNS - 1) * GAP) / COLUMNS
-WIDE = 4  # a picture with more features than this gets a row of its own
-FRONT = "showcase"  # the picture of page 1
-
-INK, GREY, RULE, PALE = (HexColor(c) for c in ("#1d2328", "#68727a", "#c9d0d5", "#f1f4f5"))
-ACCENT = HexColor("#14706f")
-
-BODY = ParagraphStyle("body", fontName="Helvetica", fontSize=9.5, leading=13.8, textColor=INK)
-LEAD = ParagraphStyle("lead", BODY, fontSize=11, leading=16.5)
-TITLE = ParagraphStyle("title", BODY, fontName="Helvetica-Bold", fontSize=30, leading=36)
-H1 = ParagraphStyle("h1", BODY, fontName="Helvetica-Bold", fontSize=16, leading=20, spaceAfter=3 * mm)
-H2 = ParagraphStyle("h2", BODY, fontName="Helvetica-Bold", fontSize=10.5, leading=14,
-                    textColor=ACCENT, spaceBefore=2.8 * mm, spaceAfter=0.8 * mm)
-BULLET = ParagraphStyle("bullet", BODY, leftIndent=4 * mm, bulletIndent=0.5 * mm, spaceAfter=1 * mm)
-CAPTION = ParagraphStyle("caption", BODY, fontSize=8.2, leading=10.4, leftIndent=2.6 * mm,
-                         bulletIndent=0, bulletFontSize=8.2, spaceAfter=0.7 * mm)
-NOTE = ParagraphStyle("note", CAPTION, leftIndent=0)
-LABEL = ParagraphStyle("label", BODY, fontName="Courier", fontSize=7.2, leading=9.5, textColor=GREY)
-CODE = ParagraphStyle("code", BODY, fontName="Courier", fontSize=9, leading=14)
-HEAD = ParagraphStyle("head", BODY, fontName="Helvetica-Bold", fontSize=8.2, leading=10.5)
-HEAD_RIGHT = ParagraphStyle("headRight", HEAD, alignment=2)
-CELL_TEXT = ParagraphStyle("cellText", BODY, fontSize=8.5, leading=11)
-
-
-class Failure(Exception):
-    pass
-
-
-def read(path):
-    try:
-        with open(os.path.join(TOP, path), encoding="utf-8") as file:
-            return file.read()
-    except OSError as error:
-        raise Failure(f"can't read {path}: {error.strerror}") from None
-
-
-def markup(text):
-    """Plain or README text as the markup of a paragraph: `code` in Courier, links as their text."""
-    text = escape(re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", text))
-    return re.sub(r"`([^`]*)`", r'<font face="Courier">\1</font>', text)
-
-
-def picture(path, width, height, pixels):
-    """The picture as a JPEG of at most `pixels` across, fitted into width x height."""
-    try:
-        with Picture.open(os.path.join(TOP, path)) as opened:
-            image = opened.convert("RGB")
-    except OSError:
-        raise Failure(f"can't read the picture {path}; `make demo gallery` renders it") from None
-    if image.width > pixels:
-        image = image.resize((pixels, round(image.height * pixels / image.width)), Picture.LANCZOS)
-    data = io.BytesIO()
-    image.save(data, "JPEG", quality=88, subsampling=0, optimize=True)
-    data.seek(0)
-    factor = min(width / image.width, height / image.height)
-    return Image(data, image.width * factor, image.height * factor)
-
+from page import (A4, ACCENT, BODY, BULLET, CAPTION, CELL, CODE, COLUMNS, FLUSH, FRONT, Failure, GAP, GREY, H1, H2,
+                  Image, KeepTogether, LABEL, LEAD, MARGIN, NOTE, PALE, PageBreak, Paragraph, Picture, Preformatted,
+                  SimpleDocTemplate, Spacer, TITLE, TOP, Table, WIDE, WIDTH, figures, markup, mm, picture, read,
+                  rule)
 
 # ---- what the repository says ----
 
@@ -152,11 +79,6 @@ def bench(saved, raytracer):
 
 # ---- pages ----
 
-def rule():
-    return Table([[""]], colWidths=[WIDTH], rowHeights=[1],
-                 style=[("LINEABOVE", (0, 0), (-1, 0), 0.6, RULE)])
-
-
 def front():
     title, about, commands = readme()
     code = Table([[Preformatted(commands, CODE)]], colWidths=[WIDTH],
@@ -182,9 +104,6 @@ def card(stem, path, names):
                 style=[("ALIGN", (0, 0), (-1, -1), "CENTER"), ("VALIGN", (0, 0), (-1, -1), "MIDDLE"),
                        ("BACKGROUND", (0, 0), (-1, -1), PALE), *FLUSH])
     return [box, Spacer(1, 1 * mm), Paragraph(stem, LABEL), Spacer(1, 0.4 * mm), *captions(names)]
-
-
-FLUSH = [(f"{side}PADDING", (0, 0), (-1, -1), 0) for side in ("LEFT", "RIGHT", "TOP", "BOTTOM")]
 
 
 def wideRow(stem, names, left):
@@ -219,7 +138,7 @@ def gallery(groups):
             continue
         story.append(KeepTogether([rule(), Spacer(1, 3 * mm), wideRow(stem, names, left),
                                    Spacer(1, 4 * mm)]))
-    return story + [PageBreak()]
+    return story + [Spacer(1, 8 * mm)]
 
 
 def milliseconds(seconds):
@@ -232,32 +151,105 @@ def times(rows):
     what = {}
     for name, scene, options in re.findall(r"^row (\S+) (\S+) ?(.*)$", script, re.MULTILINE):
         what[name] = ("the ball" if scene.startswith('"') else scene, options)
-    table = [[Paragraph("what", HEAD), Paragraph("scene and options", HEAD)] +
-             [Paragraph(text, HEAD_RIGHT) for text in
-              ("read<br/>ms", "build<br/>ms", "render<br/>ms", "write<br/>ms", "million rays<br/>a second",
-               "peak memory<br/>MB")]]
+    table = []
     for name, parse, build, render, write, rays, peak in rows:
         scene, options = what.get(name, ("", ""))
-        table.append([name, Paragraph(f'{markup(scene)} <font face="Courier" size="7.5">{escape(options)}</font>',
-                                      CELL_TEXT),
-                      *map(milliseconds, (parse, build, render, write)), f"{rays / 1e6:.2f}",
-                      f"{peak / 1e6:.1f}"])
-    style = TableStyle([("FONT", (0, 1), (-1, -1), "Helvetica", 8.5), ("TEXTCOLOR", (0, 0), (-1, -1), INK),
-                        ("ALIGN", (2, 0), (-1, -1), "RIGHT"), ("VALIGN", (0, 0), (-1, 0), "BOTTOM"),
-                        ("VALIGN", (0, 1), (-1, -1), "MIDDLE"),
-                        ("LINEBELOW", (0, 0), (-1, 0), 0.9, INK), ("LINEBELOW", (0, 1), (-1, -2), 0.4, RULE),
-                        ("LINEBELOW", (0, -1), (-1, -1), 0.9, INK),
-                        ("LEFTPADDING", (0, 0), (-1, -1), 1.2 * mm), ("RIGHTPADDING", (0, 0), (-1, -1), 1.2 * mm),
-                        ("TOPPADDING", (0, 0), (-1, -1), 1.1 * mm), ("BOTTOMPADDING", (0, 0), (-1, -1), 1.5 * mm)])
+        table.append([name, f'{markup(scene)} <font face="Courier" size="7.5">{escape(options)}</font>',
+                      *map(milliseconds, (parse, build, render, write)), f"{rays / 1e6:.2f}", f"{peak / 1e6:.1f}"])
+    heading = ["what", "scene and options", "read<br/>ms", "build<br/>ms", "render<br/>ms", "write<br/>ms",
+               "million rays<br/>a second", "peak memory<br/>MB"]
     widths = [22 * mm, 59 * mm, 12 * mm, 13 * mm, 14 * mm, 13 * mm, 20 * mm]
-    widths.append(WIDTH - sum(widths))
     triangles = re.search(r"a wavy ball of ([\d,]+) triangles", script)
     ball = f" The ball is a wavy mesh of {triangles.group(1)} triangles that the script makes." if triangles else ""
     return [Paragraph("Times", H1),
             Paragraph("Medians of five runs on one thread of the machine that made them, by "
                       f"{markup('`tests/bench/bench.sh`')}.{ball} Absolute times say little on a shared machine; compare two "
                       "builds in one interleaved run.", BODY), Spacer(1, 3 * mm),
-            Table(table, colWidths=widths, style=style, repeatRows=1), Spacer(1, 8 * mm)]
+            figures(heading, table, widths, 2), Spacer(1, 8 * mm)]
+
+
+def tsv(path):
+    """The rows of a table of the repository, as dictionaries."""
+    lines = [line.split("\t") for line in read(path).splitlines()]
+    return [dict(zip(lines[0], line)) for line in lines[1:]]
+
+
+def newest(rows):
+    """Those of the last commit that was measured."""
+    return [row for row in rows if row["commit"] == rows[-1]["commit"]]
+
+
+def rays():
+    """Rates per kernel, and beside Embree's."""
+    rates = newest(tsv("tests/bench/results.tsv"))
+    names = ["primary_mrays_s", "primary_uv_mrays_s", "shadow_mrays_s", "bounce_mrays_s", "bounceany_mrays_s", "build_ms",
+             "bytes_per_triangle"]
+    story = [Paragraph("Rays", H1),
+             Paragraph("Million rays a second through a mesh of 69,432 triangles (ball) and one of 1,110,912 (balls), "
+                       f"{'one thread' if rates[0]['threads'] == '1' else rates[0]['threads'] + ' threads'} of an "
+                       f"{escape(rates[0]['cpu'])}: camera rays, the same with u and v, shadow rays from a point light, and "
+                       "diffuse bounces, nearest and any hit. All kernels find the same hits to the last bit. "
+                       f"{markup('`make bench`')} adds rows to {markup('`tests/bench/results.tsv`')}.", BODY),
+             Spacer(1, 3 * mm),
+             figures(["mesh, kernel", "primary", "with u, v", "shadow", "bounce", "any bounce", "build<br/>ms",
+                      "bytes per<br/>triangle"],
+                     [[f"{os.path.splitext(row['mesh'])[0]}, {row['kernel']}"] + [f"{float(row[n]):.1f}" for n in names]
+                      for row in rates],
+                     [37 * mm] + [19 * mm] * 6), Spacer(1, 5 * mm)]
+    peers = newest(tsv("tests/bench/peers.tsv"))
+    story += [Paragraph(f"The same rays through {escape(peers[0]['peer'])} in alternating rounds, best of its modes (single "
+                        "rays, packets of 8 and 16, streams): how many times as fast raytracer is, and the least and most "
+                        f"of the rounds ({markup('`make bench-peers`')}).", BODY), Spacer(1, 3 * mm),
+              figures(["mesh, kernel", "rays", "raytracer", "Embree", "its mode", "ratio", "in the rounds"],
+                      [[f"{os.path.splitext(row['mesh'])[0]}, {row['kernel']}", row["what"], row["ours"], row["theirs"],
+                        row["mode"], row["ratio"], f"{row['least']} to {row['most']}"] for row in peers],
+                      [32 * mm, 36 * mm, 20 * mm, 18 * mm, 22 * mm, 16 * mm], 2), Spacer(1, 8 * mm)]
+    return story
+
+
+def growth():
+    path = "tests/bench/growth.png"
+    try:
+        with Picture.open(os.path.join(TOP, path)) as opened:
+            height = WIDTH * opened.height / opened.width
+    except OSError:
+        raise Failure(f"can't read {path}; `make bench-growth` draws it") from None
+    render = [float(row["render_s"]) for row in tsv("tests/bench/growth.tsv") if row["what"] == "triangles"]
+    return [KeepTogether([Paragraph("Growth", H1),
+                          Paragraph("Time of one thread against what a scene has: triangles of one mesh, pixels, point "
+                                    "lights, bounces between mirrors. From the smallest mesh to the largest rendering "
+                                    f"takes {render[-1] / render[0]:.1f} times as long; reading and building grow in "
+                                    f"proportion ({markup('`make bench-growth`')}, {markup('`tests/bench/growth.tsv`')}).",
+                                    BODY), Spacer(1, 2 * mm),
+                          Image(os.path.join(TOP, path), WIDTH, height), Spacer(1, 6 * mm)])]
+
+
+def battery():
+    """What tests/STRESS.md says, by subject, and all of it that has figures of other programs."""
+    rows = [[cell.strip() for cell in line.strip("|\n").split("|")] for line in read("tests/STRESS.md").splitlines()
+            if re.match(r"\| T\d", line) and line.count("|") == 8]
+    if not rows:
+        raise Failure("tests/STRESS.md has no table of tests")
+    cases = sum(int(row[2].replace(",", "")) for row in rows)
+    kept = sum(row[5] == "ok" for row in rows)
+    short = [[f"{row[0]} {row[1]}", row[2], row[3], row[4]] for row in rows
+             if row[6] or row[0] in ("T4a", "T5a", "T10", "T11a", "T12a", "T13a", "T18", "T19a", "T20c", "T21a")]
+    others = [f"{row[0]}: {row[6]}" for row in rows if row[6]]
+    missed = [f"{row[0]} {row[1]}: {row[3]}" for row in rows if row[5] != "ok"]
+    story = [Paragraph("Does it hold?", H1),
+             Paragraph(f"{markup('`raytracer verify`')} tests the numbers behind the pictures on any machine; "
+                       f"{markup('`make stress`')} runs all of it and writes {markup('`tests/STRESS.md`')}: {len(rows)} tests "
+                       f"with {cases / 1e6:.0f} million cases, of which {kept} keep their marks. The truth comes from outside of "
+                       "the program: closed forms, wider arithmetic, brute force. Some of the rows:", BODY),
+             Spacer(1, 3 * mm),
+             figures(["test", "cases", "found", "mark"], [[markup(cell) if i == 0 else cell for i, cell in enumerate(row)]
+                                                          for row in short],
+                     [82 * mm, 24 * mm, 44 * mm]), Spacer(1, 4 * mm),
+             Paragraph("Other programs with cases of the same kind: " + escape("; ".join(others)) + ".", BODY)]
+    if missed:
+        story += [Spacer(1, 2 * mm), Paragraph("Marks that are not kept yet:", BODY), Spacer(1, 1 * mm),
+                  *(Paragraph(markup(text), BULLET, bulletText="\u2022") for text in missed)]
+    return story + [Spacer(1, 8 * mm)]
 
 
 # From the comments of the named files.
@@ -278,6 +270,16 @@ EXACT = [
      "says yes (Edelsbrunner and M\u00fccke 1990). Depth is that of the triangle\u2019s plane, clamped to the "
      "triangle\u2019s own range and to the entry of its own padded box: culling by boxes never removes the "
      "nearest hit."),
+    ("Many rays at once, the same bits", "accel/kernels/kernels.h",
+     "Rays travel in batches through trees of 8 or 16 children per node, with SSE4.2, AVX2 or AVX-512, whichever the "
+     "processor has. Rays from one point, as those of the camera and of a point light, go as bundles that use the "
+     "tree to decide which pixels a triangle can cover; the rest goes through queues of nodes and leaves. Both only "
+     "choose candidates; the canonical hit decides, so every kernel gives the picture of the scalar code."),
+    ("Three front ends, one description", "desc/scene_desc.h",
+     "The native text, COMP 557 JSON in all its dialects, NFF, and meshes by themselves (OBJ with MTL, PLY) become one "
+     "SceneDesc of plain data; the quirks of each format end in its reader. --convert writes any of them as native "
+     "text that renders to the same bits. Readers are fuzzed under sanitizers, and say file, line, column, what is "
+     "wrong and what would be right."),
     ("The scene, normalised once", "render/scene.h",
      "Everything is placed in double, moved by the centre of the scene and scaled by a power of two so that its "
      "extent lies in [1, 2), and only then becomes float. A scene far from the origin, or of any size, renders "
@@ -319,7 +321,7 @@ def main():
         groups, notes = features()
         story = front() + gallery(groups)
         story += times(bench(arguments.bench, os.path.abspath(arguments.raytracer)))
-        story += exactness() + missing(notes)
+        story += rays() + growth() + battery() + exactness() + missing(notes)
         data = io.BytesIO()
         SimpleDocTemplate(data, pagesize=A4, leftMargin=MARGIN - 6, rightMargin=MARGIN - 6, topMargin=16 * mm,
                           bottomMargin=17 * mm, title="raytracer", author="", subject="Report", invariant=1,

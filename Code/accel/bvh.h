@@ -27,7 +27,7 @@ struct Bvh {
 // Binned SAH, top down (Wald 2007), the same tree on every machine. Depth is at most kMaxDepth for
 // any input: a split that does not separate centres halves the list instead. `nodes` may have room
 // to spare: giving that back means a copy, best made when the boxes are gone.
-Bvh buildBvh(std::span<const Bounds> boxes);
+Bvh buildBvh(std::span<const Bounds> boxes, int threads = 1);
 
 // Expected cost of a ray through the tree by the surface area heuristic, node and primitive 1 each.
 double sahCost(const Bvh& bvh);
@@ -35,10 +35,16 @@ std::size_t leafCount(const Bvh& bvh);
 
 inline constexpr int kMaxBvhDepth = 96;
 
+inline bool enters(const RaySetup& ray, const Bvh& bvh, std::uint32_t node, float zCut,
+                   float& zEntry) {
+    return ray.enters(bvh.nodes[node].box, zCut, zEntry);
+}
+
 // Visits the leaves in the order of their entry depth. leaf(primId, zCut) is called for every
 // primitive of a leaf that the ray enters in front of zCut; it may lower zCut; true stops.
-template <class LeafFn>
-void traverse(const Bvh& bvh, const RaySetup& ray, float zCut, LeafFn&& leaf) {
+// The ray is a RaySetup, or what else says with enters() which nodes it enters.
+template <class BoxRay, class LeafFn>
+void traverse(const Bvh& bvh, const BoxRay& ray, float zCut, LeafFn&& leaf) {
     struct Entry {
         std::uint32_t node;
         float z;
@@ -47,7 +53,7 @@ void traverse(const Bvh& bvh, const RaySetup& ray, float zCut, LeafFn&& leaf) {
     std::array<Entry, kMaxBvhDepth + 1> stack;
     std::size_t size = 0;
     float z = 0;
-    if (!ray.enters(bvh.nodes[0].box, zCut, z)) return;
+    if (!enters(ray, bvh, 0, zCut, z)) return;
     std::uint32_t at = 0;
     for (;;) {
         const BvhNode& node = bvh.nodes[at];
@@ -56,8 +62,8 @@ void traverse(const Bvh& bvh, const RaySetup& ray, float zCut, LeafFn&& leaf) {
                 if (leaf(bvh.primIds[i], zCut)) return;
         } else {
             float zLeft = 0, zRight = 0;
-            const bool left = ray.enters(bvh.nodes[node.first].box, zCut, zLeft);
-            const bool right = ray.enters(bvh.nodes[node.first + 1].box, zCut, zRight);
+            const bool left = enters(ray, bvh, node.first, zCut, zLeft);
+            const bool right = enters(ray, bvh, node.first + 1, zCut, zRight);
             if (left && right) {
                 const bool leftFirst = zLeft <= zRight;
                 stack[size++] = {node.first + (leftFirst ? 1u : 0u), leftFirst ? zRight : zLeft};

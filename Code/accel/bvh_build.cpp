@@ -1,140 +1,326 @@
+// The plain builder: the same way as that of the kernels (kernels/wide_build.cpp), for boxes of
+// anything and in C++ alone. A pass over a range sorts its primitives into two halves and into the
+// bins of both; the ranges of the top are divided level by level, one thread each, what is below
+// are subtrees, one thread each.
 #include "accel/bvh.h"
+#include "accel/bvh_bins.h"
+#include "base/pages.h"
+#include "base/parallel.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
-#include <numeric>
+#include <memory>
 
 namespace {
 
-constexpr int kBins = 16;
+using namespace bvh_build;
+
+// More primitives than these are split, whether it pays or not; whether it did is seen afterwards.
 constexpr std::uint32_t kMaxLeaf = 8;
+// A tree over more primitives than these must cost less than this part of what their plain list
+// does: a list is read in the order of memory, which is up to ten times as fast.
+constexpr std::uint32_t kMany = 1000;
+constexpr double kWorthwhile = 0.8;
 // From this depth on every split halves the list, which ends after at most 32 more levels.
 constexpr int kHalvingDepth = kMaxBvhDepth - 34;
+// From which depth on the top is no longer divided: what is so lopsided is left to a subtree.
+constexpr int kTopDepth = 40;
 
-struct Bin {
-    Bounds box;
-    std::uint32_t count = 0;
-};
-
-struct Split {
-    double cost = std::numeric_limits<double>::infinity(); // area-weighted primitive count
-    std::size_t axis = 0;
-    int bin = 0; // primitives of bins <= bin go left
-};
-
-double halfAreaOf(const Bounds& box) {
-    const Vec3d d = toDouble(box.hi) - toDouble(box.lo);
-    return d.x * d.y + d.y * d.z + d.z * d.x;
+std::uint32_t subtreeSize(std::size_t count) {
+    return std::max(4096u, static_cast<std::uint32_t>(count / 64));
 }
+
+Bounds boundsOf(const PrimBox& b) {
+    return {{b.lo[0], b.lo[1], b.lo[2]}, {-b.negHi[0], -b.negHi[1], -b.negHi[2]}};
+}
+
+struct Range {
+    std::uint32_t first, count;
+    int depth;
+    bool inSpare; // in which of the two lists it lies
+    PrimBox box;
+    BinGrid grid;
+    Split split;
+};
+
+// Both lists, and what leaves hold, by position.
+struct Lists {
+    PageVector<PrimBox> prims, spare;
+    std::uint32_t* ids = nullptr;
+    double pad = 0; // by which rays see boxes larger
+    PrimBox* of(const Range& r, bool other = false) {
+        return (r.inSpare != other ? spare : prims).data() + r.first;
+    }
+};
+
+// A split by exact bounds of the centres.
+void splitExactly(Range& r, Lists& lists) {
+    const PrimBox* const prims = lists.of(r);
+    std::array<float, 3> lo = {kHuge, kHuge, kHuge}, hi = {-kHuge, -kHuge, -kHuge};
+    for (std::uint32_t i = 0; i < r.count; ++i)
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            lo[axis] = min(twiceCentre(prims[i], axis), lo[axis]);
+            hi[axis] = max(twiceCentre(prims[i], axis), hi[axis]);
+        }
+    r.grid = BinGrid::over(lo, hi, r.count);
+    Bins bins;
+    bins.clear(r.grid.bins);
+    for (std::uint32_t i = 0; i < r.count; ++i) bins.add(r.grid, prims[i]);
+    r.split = bestSplit(bins, r.grid.bins, r.count, lists.pad);
+}
+
+// A child's centres are within its box, and on its side of the cut: close enough for bins.
+BinGrid childGrid(const Range& r, const PrimBox& box, bool right, std::uint32_t count) {
+    std::array<float, 3> lo, hi;
+    for (std::size_t i = 0; i < 3; ++i) {
+        lo[i] = max(r.grid.lo[i], 2 * box.lo[i]);
+        hi[i] = min(r.grid.hi[i], -2 * box.negHi[i]);
+    }
+    const std::size_t axis = r.split.axis;
+    const float cut = r.grid.lo[axis] + static_cast<float>(r.split.bin) / r.grid.scale[axis];
+    if (right)
+        lo[axis] = max(lo[axis], cut);
+    else
+        hi[axis] = min(hi[axis], cut);
+    return BinGrid::over(lo, hi, count);
+}
+
+struct Halves {
+    Range left, right;
+};
+
+Halves divide(const Range& r, Lists& lists) {
+    const std::uint32_t nLeft = r.split.leftCount, nRight = r.count - nLeft;
+    Halves out{{r.first,
+                nLeft,
+                r.depth + 1,
+                !r.inSpare,
+                r.split.left,
+                childGrid(r, r.split.left, false, nLeft),
+                {}},
+               {r.first + nLeft,
+                nRight,
+                r.depth + 1,
+                !r.inSpare,
+                r.split.right,
+                childGrid(r, r.split.right, true, nRight),
+                {}}};
+    Range* const sides[2] = {&out.left, &out.right};
+    Bins bins[2];
+    for (std::size_t side = 0; side < 2; ++side)
+        if (sides[side]->count > 1) bins[side].clear(sides[side]->grid.bins);
+    const PrimBox* const from = lists.of(r);
+    PrimBox* const to = lists.of(r, true);
+    std::uint32_t next[2] = {0, nLeft};
+    for (std::uint32_t i = 0; i < r.count; ++i) {
+        const std::size_t side = r.grid.binOf(from[i], r.split.axis) < r.split.bin ? 0 : 1;
+        to[next[side]++] = from[i];
+        if (sides[side]->count > 1) bins[side].add(sides[side]->grid, from[i]);
+    }
+    for (std::size_t side = 0; side < 2; ++side)
+        if (sides[side]->count > 1)
+            sides[side]->split =
+                bestSplit(bins[side], sides[side]->grid.bins, sides[side]->count, lists.pad);
+    return out;
+}
+
+// Where no split separates the centres, any two halves are as good.
+Halves halve(const Range& r, Lists& lists) {
+    Halves out{r, r};
+    out.left.count = r.count / 2;
+    out.right.first += out.left.count, out.right.count -= out.left.count;
+    for (Range* half : {&out.left, &out.right}) {
+        ++half->depth;
+        half->box = kEmpty;
+        const PrimBox* const prims = lists.of(*half);
+        for (std::uint32_t i = 0; i < half->count; ++i) extend(half->box, prims[i]);
+        half->split = {};
+    }
+    return out;
+}
+
+// The tree of a range. Costs are areas: a step into children costs as much as a primitive.
+class Subtree {
+public:
+    Subtree(Lists& lists, const Range& root) : lists_(lists) {
+        nodes.push_back({boundsOf(root.box), 0, 0});
+        Range r = root;
+        cost = grow(0, r);
+    }
+    std::vector<BvhNode> nodes;
+    double cost = 0;
+
+private:
+    double grow(std::uint32_t at, Range& r) {
+        const double area = halfAreaOf(r.box, lists_.pad), asLeaf = area * r.count;
+        const PrimBox* const prims = lists_.of(r);
+        if (r.count > 1 && !r.split.exists()) splitExactly(r, lists_);
+        const bool worthIt = r.split.exists() && r.split.cost + area < asLeaf;
+        if (r.count == 1 || (!worthIt && r.count <= kMaxLeaf)) {
+            makeLeaf(at, r);
+            for (std::uint32_t i = 0; i < r.count; ++i) lists_.ids[r.first + i] = prims[i].id();
+            return asLeaf;
+        }
+        Halves halves =
+            r.split.exists() && r.depth < kHalvingDepth ? divide(r, lists_) : halve(r, lists_);
+        const auto child = static_cast<std::uint32_t>(nodes.size());
+        nodes[at].first = child;
+        nodes.push_back({boundsOf(halves.left.box), 0, 0});
+        nodes.push_back({boundsOf(halves.right.box), 0, 0});
+        const double left = grow(child, halves.left);
+        const double inTree = area + left + grow(child + 1, halves.right);
+        if (inTree <= asLeaf) return inTree; // boxes without area stay in a tree
+        nodes.resize(child); // all in vain: rays that get here try nearly all primitives
+        std::sort(lists_.ids + r.first, lists_.ids + r.first + r.count);
+        makeLeaf(at, r);
+        return asLeaf;
+    }
+    void makeLeaf(std::uint32_t at, const Range& r) {
+        nodes[at].first = r.first, nodes[at].count = r.count;
+    }
+
+    Lists& lists_;
+};
 
 class Builder {
 public:
-    explicit Builder(std::span<const Bounds> boxes) : boxes_(boxes), centres_(boxes.size()) {
-        for (std::size_t i = 0; i < boxes.size(); ++i)
-            centres_[i] = 0.5f * boxes[i].lo + 0.5f * boxes[i].hi;
-        bvh_.primIds.resize(boxes.size());
-        std::iota(bvh_.primIds.begin(), bvh_.primIds.end(), 0u);
-        if (boxes.empty()) return;
-        bvh_.nodes.reserve(2 * boxes.size());
-        bvh_.nodes.emplace_back();
-        build(0, 0, static_cast<std::uint32_t>(boxes.size()), 0);
+    Builder(std::span<const Bounds> boxes, int threads)
+        : count_(static_cast<std::uint32_t>(boxes.size())),
+          // Few boxes are sorted before another thread has woken up.
+          pool_(count_ < 2 * subtreeSize(count_) ? 1 : threads) {
+        bvh_.primIds.resize(count_);
+        lists_.ids = bvh_.primIds.data();
+        lists_.prims.resize(count_), lists_.spare.resize(count_);
+        Range root{0, count_, 0, false, kEmpty, {}, {}};
+        for (std::uint32_t i = 0; i < count_; ++i) {
+            const Vec3 lo = boxes[i].lo, hi = boxes[i].hi;
+            lists_.prims[i] = {{lo.x, lo.y, lo.z, std::bit_cast<float>(i | PrimBox::kNormal)},
+                               {-hi.x, -hi.y, -hi.z, 0}};
+            extend(root.box, lists_.prims[i]);
+        }
+        float extent = 0;
+        for (std::size_t i = 0; i < 3; ++i)
+            extent = max(extent, max(std::fabs(root.box.lo[i]), std::fabs(root.box.negHi[i])));
+        lists_.pad = static_cast<double>(extent) * 0x1p-17; // RaySetup: twice 2^-19 on each side
+        splitExactly(root, lists_);
+        divideTop(root);
+        subtrees_.resize(ranges_.size());
+        pool_.run(ranges_.size(), [&](std::size_t i, int) {
+            subtrees_[i] = std::make_unique<Subtree>(lists_, ranges_[i]);
+        });
+        lists_.prims = {}, lists_.spare = {}; // before the nodes are there twice
+        join();
     }
     Bvh take() { return std::move(bvh_); }
 
 private:
-    int binOf(std::uint32_t prim, std::size_t axis, const Bounds& centreBox) const {
-        const float lo = centreBox.lo[axis], width = centreBox.hi[axis] - lo;
-        const float position = (centres_[prim][axis] - lo) / width * kBins;
-        return std::min(kBins - 1, static_cast<int>(position));
-    }
+    // A node above the subtrees, or the root of one.
+    struct Top {
+        PrimBox box;
+        std::uint32_t first, count;
+        std::uint32_t left = 0; // children left, left + 1; 0: a subtree
+        std::uint32_t subtree = 0;
+    };
 
-    // Cheapest split over the bins of all three axes. An axis without extent offers none.
-    Split bestSplit(std::span<const std::uint32_t> prims, const Bounds& centreBox) const {
-        Split best;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            if (!(centreBox.hi[axis] > centreBox.lo[axis])) continue;
-            std::array<Bin, kBins> bins;
-            for (const std::uint32_t prim : prims) {
-                Bin& bin = bins[static_cast<std::size_t>(binOf(prim, axis, centreBox))];
-                bin.box.extend(boxes_[prim]);
-                ++bin.count;
-            }
-            std::array<double, kBins> rightCost{};
-            Bin right;
-            for (std::size_t i = kBins - 1; i > 0; --i) {
-                right.box.extend(bins[i].box);
-                right.count += bins[i].count;
-                rightCost[i] = right.count ? halfAreaOf(right.box) * right.count : 0;
-            }
-            Bin left;
-            for (std::size_t i = 0; i + 1 < kBins; ++i) {
-                left.box.extend(bins[i].box);
-                left.count += bins[i].count;
-                if (left.count == 0 || left.count == prims.size()) continue;
-                const double cost = halfAreaOf(left.box) * left.count + rightCost[i + 1];
-                if (cost < best.cost) best = {cost, axis, static_cast<int>(i)};
-            }
-        }
-        return best;
-    }
-
-    void build(std::uint32_t at, std::uint32_t begin, std::uint32_t end, int depth) {
-        Bounds box, centreBox;
-        for (std::uint32_t i = begin; i < end; ++i) {
-            const std::uint32_t prim = bvh_.primIds[i];
-            box.extend(boxes_[prim]);
-            centreBox.extend(centres_[prim]);
-        }
-        const std::uint32_t count = end - begin;
-        bvh_.nodes[at].box = box;
-        const auto makeLeaf = [&] {
-            bvh_.nodes[at].first = begin;
-            bvh_.nodes[at].count = count;
+    void divideTop(const Range& root) {
+        struct Open {
+            std::uint32_t top;
+            Range range;
         };
-        if (count == 1) return makeLeaf();
-
-        const auto prims = std::span(bvh_.primIds).subspan(begin, count);
-        const Split split = bestSplit(prims, centreBox);
-        const bool splittable = split.cost < std::numeric_limits<double>::infinity();
-        const double area = halfAreaOf(box);
-        // Cost of a step into the children is that of one primitive.
-        const bool worthIt = splittable && split.cost + area < area * count;
-        if (!worthIt && count <= kMaxLeaf) return makeLeaf();
-
-        std::uint32_t middle = begin + count / 2;
-        if (splittable && depth < kHalvingDepth) {
-            const auto goesLeft = [&](std::uint32_t p) {
-                return binOf(p, split.axis, centreBox) <= split.bin;
+        std::vector<Open> level{{0, root}}, next;
+        top_.push_back({root.box, root.first, root.count});
+        const std::uint32_t most = subtreeSize(count_);
+        while (!level.empty()) {
+            const auto isSubtree = [&](const Open& o) {
+                return o.range.count <= most || !o.range.split.exists() ||
+                       o.range.depth >= kTopDepth;
             };
-            const auto right = std::stable_partition(prims.begin(), prims.end(), goesLeft);
-            middle = begin + static_cast<std::uint32_t>(right - prims.begin());
+            for (const Open& o : level) {
+                if (!isSubtree(o)) continue;
+                top_[o.top].subtree = static_cast<std::uint32_t>(ranges_.size());
+                ranges_.push_back(o.range);
+            }
+            std::erase_if(level, isSubtree);
+            std::vector<Halves> halves(level.size());
+            pool_.run(level.size(),
+                      [&](std::size_t i, int) { halves[i] = divide(level[i].range, lists_); });
+            next.clear();
+            for (std::size_t i = 0; i < level.size(); ++i) {
+                top_[level[i].top].left = static_cast<std::uint32_t>(top_.size());
+                for (const Range& r : {halves[i].left, halves[i].right}) {
+                    next.push_back({static_cast<std::uint32_t>(top_.size()), r});
+                    top_.push_back({r.box, r.first, r.count});
+                }
+            }
+            std::swap(level, next);
         }
-        const auto child = static_cast<std::uint32_t>(bvh_.nodes.size());
-        bvh_.nodes.resize(bvh_.nodes.size() + 2);
-        bvh_.nodes[at].first = child;
-        build(child, begin, middle, depth + 1);
-        build(child + 1, middle, end, depth + 1);
     }
 
-    std::span<const Bounds> boxes_;
-    std::vector<Vec3> centres_;
+    // Depth first. A node of the top whose subtrees cost more than a list is a list, too.
+    void join() {
+        std::vector<double> cost(top_.size());
+        std::vector<bool> isList(top_.size());
+        for (std::size_t i = top_.size(); i-- > 0;) {
+            const Top& t = top_[i];
+            const double area = halfAreaOf(t.box, lists_.pad), asLeaf = area * t.count;
+            cost[i] =
+                t.left == 0 ? subtrees_[t.subtree]->cost : area + cost[t.left] + cost[t.left + 1];
+            isList[i] = cost[i] > (t.count > kMany ? kWorthwhile : 1) * asLeaf;
+            if (isList[i]) cost[i] = asLeaf;
+        }
+        std::size_t size = top_.size();
+        for (const auto& s : subtrees_) size += s->nodes.size();
+        bvh_.nodes.reserve(size);
+        struct Open {
+            std::uint32_t top, node;
+        };
+        std::vector<Open> open{{0, 0}};
+        bvh_.nodes.push_back({});
+        while (!open.empty()) {
+            const auto [i, node] = open.back();
+            open.pop_back();
+            const Top& t = top_[i];
+            if (isList[i]) {
+                std::sort(&bvh_.primIds[t.first], &bvh_.primIds[t.first] + t.count);
+                bvh_.nodes[node] = {boundsOf(t.box), t.first, t.count};
+                continue;
+            }
+            if (t.left == 0) {
+                append(subtrees_[t.subtree]->nodes, node);
+                subtrees_[t.subtree].reset();
+                continue;
+            }
+            const auto child = static_cast<std::uint32_t>(bvh_.nodes.size());
+            bvh_.nodes[node] = {boundsOf(t.box), child, 0};
+            bvh_.nodes.resize(child + 2);
+            open.push_back({t.left + 1, child + 1});
+            open.push_back({t.left, child});
+        }
+    }
+
+    // A subtree whose root has its place already.
+    void append(const std::vector<BvhNode>& nodes, std::uint32_t root) {
+        const auto shift = static_cast<std::uint32_t>(bvh_.nodes.size()) - 1;
+        const auto moved = [&](BvhNode n) {
+            if (!n.isLeaf()) n.first += shift;
+            return n;
+        };
+        bvh_.nodes[root] = moved(nodes[0]);
+        for (std::size_t i = 1; i < nodes.size(); ++i) bvh_.nodes.push_back(moved(nodes[i]));
+    }
+
+    std::uint32_t count_;
+    ThreadPool pool_;
+    Lists lists_;
+    std::vector<Top> top_;
+    std::vector<Range> ranges_; // of the subtrees
+    std::vector<std::unique_ptr<Subtree>> subtrees_;
     Bvh bvh_;
 };
 
 } // namespace
 
-Bvh buildBvh(std::span<const Bounds> boxes) { return Builder(boxes).take(); }
-
-double sahCost(const Bvh& bvh) {
-    if (bvh.nodes.empty()) return 0;
-    double sum = 0;
-    for (const BvhNode& node : bvh.nodes)
-        sum += halfAreaOf(node.box) * (node.isLeaf() ? node.count : 1);
-    const double root = halfAreaOf(bvh.nodes[0].box);
-    return root > 0 ? sum / root : static_cast<double>(bvh.nodes.size());
-}
-
-std::size_t leafCount(const Bvh& bvh) {
-    return static_cast<std::size_t>(std::count_if(bvh.nodes.begin(), bvh.nodes.end(),
-                                                  [](const BvhNode& n) { return n.isLeaf(); }));
+Bvh buildBvh(std::span<const Bounds> boxes, int threads) {
+    return boxes.empty() ? Bvh{} : Builder(boxes, threads).take();
 }

@@ -21,12 +21,12 @@ template <class T> struct PageAllocator {
     template <class U> PageAllocator(const PageAllocator<U>&) {}
 
     // Small arrays stay where all others are.
-    static bool isLarge(std::size_t bytes) { return bytes >= 2 * kLargePage; }
+    static bool isLarge(std::size_t bytes) { return bytes >= kLargePage / 2; }
 
     T* allocate(std::size_t count) {
-        const std::size_t bytes = count * sizeof(T);
-        if (!isLarge(bytes)) return std::allocator<T>().allocate(count);
-        void* const p = ::operator new(bytes, std::align_val_t{kLargePage});
+        const std::size_t bytes = (count * sizeof(T) + kLargePage - 1) / kLargePage * kLargePage;
+        if (!isLarge(count * sizeof(T))) return std::allocator<T>().allocate(count);
+        void* const p = ::operator new (bytes, std::align_val_t{kLargePage});
 #if defined(__linux__)
         madvise(p, bytes, MADV_HUGEPAGE); // advice: it works without
 #endif
@@ -34,7 +34,7 @@ template <class T> struct PageAllocator {
     }
     void deallocate(T* p, std::size_t count) {
         if (!isLarge(count * sizeof(T))) return std::allocator<T>().deallocate(p, count);
-        ::operator delete(p, std::align_val_t{kLargePage});
+        ::operator delete (p, std::align_val_t{kLargePage});
     }
     // resize(n) leaves new elements of plain types as they are.
     template <class U> void construct(U* p) { ::new (static_cast<void*>(p)) U; }

@@ -113,30 +113,7 @@ Transform Transform::lookAt(Vec3d eye, Vec3d target, Vec3d up) {
     return translate(eye) * fromRows({x.x, y.x, z.x, 0, x.y, y.y, z.y, 0, x.z, y.z, z.z, 0});
 }
 
-Vec3d Transform::column(int i) const {
-    const auto c = static_cast<std::size_t>(i);
-    return {rows_[c], rows_[4 + c], rows_[8 + c]};
-}
-
-Vec3d Transform::point(Vec3d p) const {
-    const Rows& m = rows_;
-    return {m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3],
-            m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7],
-            m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]};
-}
-
-Vec3d Transform::vector(Vec3d v) const {
-    const Rows& m = rows_;
-    return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[4] * v.x + m[5] * v.y + m[6] * v.z,
-            m[8] * v.x + m[9] * v.y + m[10] * v.z};
-}
-
-Vec3d Transform::normal(Vec3d n) const {
-    if (!singular_) { // the transposed inverse, which is at hand
-        const Rows& m = inverse_;
-        return {m[0] * n.x + m[4] * n.y + m[8] * n.z, m[1] * n.x + m[5] * n.y + m[9] * n.z,
-                m[2] * n.x + m[6] * n.y + m[10] * n.z};
-    }
+Vec3d Transform::normalOfFlattened(Vec3d n) const {
     const std::array<double, 9> c = cofactors(rows_);
     return {c[0] * n.x + c[1] * n.y + c[2] * n.z, c[3] * n.x + c[4] * n.y + c[5] * n.z,
             c[6] * n.x + c[7] * n.y + c[8] * n.z};

@@ -26,16 +26,33 @@ public:
     static Transform lookAt(Vec3d eye, Vec3d target, Vec3d up);
 
     const Rows& rows() const { return rows_; }
-    Vec3d column(int i) const; // 0, 1, 2: images of the axes; 3: image of the origin
+    Vec3d column(int i) const { // 0, 1, 2: images of the axes; 3: image of the origin
+        const auto c = static_cast<std::size_t>(i);
+        return {rows_[c], rows_[4 + c], rows_[8 + c]};
+    }
     Vec3d translation() const { return column(3); }
 
-    Vec3d point(Vec3d p) const;
-    Vec3d vector(Vec3d v) const;
+    Vec3d point(Vec3d p) const {
+        const Rows& m = rows_;
+        return {m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3],
+                m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7],
+                m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]};
+    }
+    Vec3d vector(Vec3d v) const {
+        const Rows& m = rows_;
+        return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[4] * v.x + m[5] * v.y + m[6] * v.z,
+                m[8] * v.x + m[9] * v.y + m[10] * v.z};
+    }
     // The normal of the mapped surface, not normalised: by the inverse transpose, the cofactor
     // matrix over the determinant. So an outward normal stays outward under mirrors too. (The cross
     // product of two mapped edges does NOT: it flips when mirrors() is true.) Singular maps take
     // the cofactor matrix alone: what was flattened to a plane gets the plane's normal.
-    Vec3d normal(Vec3d n) const;
+    Vec3d normal(Vec3d n) const {
+        if (singular_) return normalOfFlattened(n);
+        const Rows& m = inverse_; // transposed
+        return {m[0] * n.x + m[4] * n.y + m[8] * n.z, m[1] * n.x + m[5] * n.y + m[9] * n.z,
+                m[2] * n.x + m[6] * n.y + m[10] * n.z};
+    }
     // dir is not normalised, so t stays the same number on both rays.
     RayD ray(const RayD& r) const { return {point(r.org), vector(r.dir)}; }
     Ray ray(const Ray& r) const; // rounded to float; tMin, tMax, time are kept
@@ -60,6 +77,8 @@ private:
 
     Transform(const Rows& rows, const Rows& inverse, bool mirrors, bool singular)
         : rows_(rows), inverse_(inverse), mirrors_(mirrors), singular_(singular) {}
+
+    Vec3d normalOfFlattened(Vec3d n) const;
 
     Rows rows_ = kIdentity, inverse_ = kIdentity;
     bool mirrors_ = false, singular_ = false;

@@ -33,7 +33,7 @@ Subject subjectOf(const std::string& file) {
         const MeshDesc& mesh = loaded.desc.meshes[static_cast<std::size_t>(object.mesh)];
         std::uint32_t slots = 1;
         for (const std::uint32_t slot : mesh.triangleMaterials) slots = std::max(slots, slot + 1);
-        merged.add(mesh, Transform::fromRows(object.worldFromObject[0]), frame,
+        merged.add(mesh, frame.placed(object.worldFromObject[0]),
                    std::vector<std::uint32_t>(slots, 0), 0);
     }
     if (merged.geometry.triangles.empty()) failUsage(cat(file, " has no triangles"));
@@ -60,7 +60,8 @@ public:
         std::vector<double> wall, cpu;
         for (int run = 0; run <= options_.runs; ++run) {
             MeshGeometry fresh = unbuilt;
-            const BenchSeconds s = secondsOf([&] { fresh.finish(true, kernel_); });
+            const BenchSeconds s =
+                secondsOf([&] { fresh.finish(true, kernel_, options_.threads); });
             built = std::move(fresh);
             if (run == 0) continue;
             wall.push_back(s.wall * 1e3), cpu.push_back(s.cpu * 1e3);
@@ -179,7 +180,7 @@ ExitCode bench(const BenchOptions& options) {
     auto [geometry, frame] = subjectOf(options.mesh);
     if (!options.raysFile.empty()) {
         checkWritable(options.raysFile);
-        geometry.finish(true, kernel);
+        geometry.finish(true, kernel, options.threads);
         writeFileAtomically(options.raysFile,
                             encodeBenchFile(geometry, frame, benchRays(geometry)));
         return ExitCode::Ok;

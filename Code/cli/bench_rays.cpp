@@ -89,7 +89,7 @@ void BenchRays::push(Vec3 from, Vec3 towards, float tEnd) {
 
 std::vector<BenchRays> benchRays(const MeshGeometry& geometry) {
     const View view = viewOf(geometry);
-    const Mesh mesh(geometry, MovingTransform(), {0}, {{0, 0}});
+    const Mesh mesh(geometry, {0}, {{0, 0}});
     std::vector<BenchRays> sets(4);
     BenchRays &primary = sets[0], &shadow = sets[1], &bounce = sets[2], &bounceAny = sets[3];
     primary.name = "primary", shadow.name = "shadow";

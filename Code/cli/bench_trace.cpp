@@ -12,8 +12,8 @@ constexpr std::size_t kRaysPerJob = 4096;
 } // namespace
 
 BenchTracer::BenchTracer(const MeshGeometry& geometry, const BenchRays& rays, ThreadPool& pool)
-    : geometry_(geometry), mesh_(geometry, MovingTransform(), {0}, {{0, 0}}), rays_(rays),
-      pool_(pool), nearest_(rays.anyHit ? 0 : rays.size()), withUv_(nearest_.size()),
+    : geometry_(geometry), mesh_(geometry, {0}, {{0, 0}}), rays_(rays), pool_(pool),
+      nearest_(rays.anyHit ? 0 : rays.size()), withUv_(nearest_.size()),
       hidden_(rays.anyHit ? rays.size() : 0) {}
 
 void BenchTracer::trace(bool withUv) {

@@ -21,7 +21,7 @@ public:
     std::size_t hitCount() const;
 
 private:
-    void traceBatch(std::size_t batch, bool withUv);
+    void traceBatch(std::size_t number, bool withUv);
 
     const MeshGeometry& geometry_;
     Mesh mesh_;

@@ -39,8 +39,14 @@ public:
     // centre() is asked: the lamp is behind the horizon, or the point out of the lamp's cone. Costs
     // little beside those; false says nothing.
     virtual bool cannotReach(Vec3 point, Vec3 n) const = 0;
-    // A box that holds the places where light for points in `points` starts; for lamps at infinity,
-    // places on the way there that are outside of the scene, whose coordinates are at most 1.
+    // centre() for a point that it can reach, else false: both at once.
+    virtual bool shine(Vec3 point, Vec3 n, LightSample& sample) const {
+        if (cannotReach(point, n)) return false;
+        sample = centre(point);
+        return true;
+    }
+    // A box in which the lines end along which light comes to places in `points`; for lamps at
+    // infinity they go on, outside of the scene, whose coordinates are at most 1.
     virtual Bounds sourcesFor(const Bounds& points) const = 0;
     bool castsShadows() const { return castsShadows_; }
     bool isDark() const { return isDark_; }

@@ -17,16 +17,6 @@ PointLight::PointLight(Vec3 position, Rgb intensity, Attenuation attenuation, fl
     : Light(castsShadows, intensity), position_(position), intensity_(intensity),
       attenuation_(attenuation), radius_(radius), cone_(cone) {}
 
-LightSample PointLight::centre(Vec3 point) const {
-    const Vec3 d = position_ - point;
-    const float distance2 = dot(d, d);
-    if (!(distance2 > 0)) return {};
-    const float distance = std::sqrt(distance2);
-    const Vec3 toLight = d / distance;
-    const float cone = cone_ ? cone_->attenuation(-toLight) : 1.0f;
-    return {toLight, distance, intensity_ * (cone / attenuation_.at(distance, distance2))};
-}
-
 LightSample PointLight::sample(Vec3 point, Vec2 u) const {
     const Vec3 toCentre = position_ - point;
     if (radius_ == 0 || !(dot(toCentre, toCentre) > 0)) return centre(point);
@@ -50,6 +40,23 @@ bool PointLight::cannotReach(Vec3 point, Vec3 n) const {
     if (!cone_ || radius_ > 0) return false;
     const float along = -dot(cone_->axis, d), limit = cone_->cosHalfAngle - kHorizonSlack;
     return limit > 0 && (!(along > 0) || along * along < limit * limit * distance2);
+}
+
+LightSample PointLight::centre(Vec3 point) const {
+    const Vec3 d = position_ - point;
+    const float distance2 = dot(d, d);
+    if (!(distance2 > 0)) return {};
+    const float distance = std::sqrt(distance2);
+    const Vec3 toLight = d / distance;
+    const float cone = cone_ ? cone_->attenuation(-toLight) : 1.0f;
+    return {toLight, distance, intensity_ * (cone / attenuation_.at(distance, distance2))};
+}
+
+// As in the base class; here both are one function, and share what they begin with.
+bool PointLight::shine(Vec3 point, Vec3 n, LightSample& sample) const {
+    if (cannotReach(point, n)) return false;
+    sample = centre(point);
+    return true;
 }
 
 // The disk faces the point: all of it is in the ball.

@@ -31,6 +31,7 @@ public:
     LightSample sample(Vec3 point, Vec2 u) const override;
     LightSample centre(Vec3 point) const override;
     bool cannotReach(Vec3 point, Vec3 n) const override;
+    bool shine(Vec3 point, Vec3 n, LightSample& sample) const override;
     Bounds sourcesFor(const Bounds& points) const override;
     std::optional<Vec3> origin() const override { return position_; }
 

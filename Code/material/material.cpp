@@ -31,32 +31,27 @@ Rgb totallyReflected(const Material& material) {
 
 } // namespace
 
-Rgb reflectedLight(const Material& material, Vec3 n, Vec3 toEye, Vec3 toLight) {
+Rgb highlight(const Material& material, Vec3 n, Vec3 toEye, Vec3 toLight) {
     const float cosLight = dot(n, toLight);
-    if (!(cosLight > 0)) return {};
-    Rgb sum = material.diffuse * (kInvPiF * cosLight);
-    if (isBlack(material.specular)) return sum;
     if (material.specularModel == SpecularModel::Phong) {
         // R.V with R = 2 N.L N - L, in a form that eye and light enter alike.
         const float cosMirror = min(2 * (cosLight * dot(n, toEye)) - dot(toLight, toEye), 1.0f);
-        return cosMirror > 0 ? sum + material.specular * exact::pow(cosMirror, material.exponent)
-                             : sum;
+        return cosMirror > 0 ? material.specular * exact::pow(cosMirror, material.exponent) : Rgb{};
     }
     const Vec3 half = toEye + toLight;
     const float length2 = dot(half, half);
-    if (!(length2 > 0)) return sum;
+    if (!(length2 > 0)) return {};
     const float sumLength = std::sqrt(length2);
     const Vec3 h = half / sumLength;
     const float cosHalf = min(dot(n, h), 1.0f);
-    if (!(cosHalf > 0)) return sum;
+    if (!(cosHalf > 0)) return {};
     const float lobe = exact::pow(cosHalf, material.exponent);
-    if (material.specularModel == SpecularModel::Blinn) return sum + material.specular * lobe;
+    if (material.specularModel == SpecularModel::Blinn) return material.specular * lobe;
     const float cosEye = dot(n, toEye);
     const float norm = (material.exponent + 1) * (kInvPiF / 8);
     // Half the length of V + L is H.V and H.L: the same when eye and light change places.
     const float cosHalfEye = 0.5f * sumLength;
-    return sum +
-           material.specular * (norm * lobe * cosLight / (cosHalfEye * max(cosLight, cosEye)));
+    return material.specular * (norm * lobe * cosLight / (cosHalfEye * max(cosLight, cosEye)));
 }
 
 Bounces bounces(const Material& material, Vec3 n, Vec3 ng, Vec3 toEye, float eta, Vec2 u) {

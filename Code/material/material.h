@@ -2,6 +2,7 @@
 // already. Materials turn directions and light into light and directions; they never trace rays.
 #pragma once
 
+#include "base/math.h"
 #include "base/vec.h"
 
 #include <optional>
@@ -28,7 +29,9 @@ struct Material {
 // Blinn: diffuse/pi * N.L + specular * (N.H)^n (the classic form has no cosine in its highlight).
 // Phong: the same with R.V for N.H, where R is the mirrored direction to the light.
 // Ashikhmin: specular * (n+1)/(8 pi) (N.H)^n / ((H.V) max(N.L, N.V)) * N.L, Cycles' lobe.
-Rgb reflectedLight(const Material& material, Vec3 n, Vec3 toEye, Vec3 toLight);
+inline Rgb reflectedLight(const Material& material, Vec3 n, Vec3 toEye, Vec3 toLight);
+// The specular part of it, where N.L > 0.
+Rgb highlight(const Material& material, Vec3 n, Vec3 toEye, Vec3 toLight);
 
 // A traced continuation of the light path: the radiance that comes back is multiplied by weight.
 struct Bounce {
@@ -44,3 +47,10 @@ struct Bounces {
     std::optional<Bounce> reflected, refracted;
 };
 Bounces bounces(const Material& material, Vec3 n, Vec3 ng, Vec3 toEye, float eta, Vec2 u);
+
+inline Rgb reflectedLight(const Material& material, Vec3 n, Vec3 toEye, Vec3 toLight) {
+    const float cosLight = dot(n, toLight);
+    if (!(cosLight > 0)) return {};
+    const Rgb diffuse = material.diffuse * (static_cast<float>(kInvPi) * cosLight);
+    return isBlack(material.specular) ? diffuse : diffuse + highlight(material, n, toEye, toLight);
+}

@@ -2,11 +2,14 @@
 #pragma once
 
 #include "base/text.h"
+#include "desc/name_table.h"
 #include "desc/names.h"
 
+#include <cstddef>
+#include <cstdint>
+#include <deque>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 
 class UniqueNames {
 public:
@@ -21,14 +24,22 @@ public:
             good += '_';
             name.remove_prefix(bad + 1);
         }
-        // An entry is the number that the name had last, 1 without any.
-        if (last_.try_emplace(good, 1).second) return good;
+        if (isNew(good)) return good;
+        std::size_t& last = last_[*table_.find(good)];
         while (true) {
-            std::string numbered = cat(good, ".", ++last_[good]);
-            if (last_.try_emplace(numbered, 1).second) return numbered;
+            std::string numbered = cat(good, ".", ++last);
+            if (isNew(numbered)) return numbered;
         }
     }
 
 private:
-    std::unordered_map<std::string, std::size_t> last_;
+    bool isNew(const std::string& name) {
+        if (table_.find(name)) return false;
+        table_.insert(names_.emplace_back(name), static_cast<std::uint32_t>(last_.size()));
+        last_.push_back(1);
+        return true;
+    }
+    std::deque<std::string> names_; // which stay where they are
+    NameTable table_;
+    std::deque<std::size_t> last_; // the number that each name had last, 1 without any
 };

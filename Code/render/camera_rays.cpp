@@ -22,20 +22,24 @@ CameraRays::CameraRays(const IntegratorContext& context)
 
 // Which pixel and sample each slot is, and where in the picture it lies.
 void CameraRays::choosePlaces(const Tile& tile, int first, int count, SampleChunk& chunk) const {
-    const Sampler& sampler = context_.sampler;
-    chunk.ids.clear();
-    chunk.places.clear();
-    chunk.offsets.clear();
+    const auto samples = static_cast<std::size_t>(count);
+    const auto begin = static_cast<std::uint32_t>(first);
+    const auto all = static_cast<std::size_t>(tile.width() * tile.height()) * samples;
+    chunk.ids.resize(all);
+    chunk.places.resize(all);
+    chunk.offsets.resize(all);
+    std::size_t slot = 0;
     for (int y = tile.y0; y < tile.y1; ++y)
         for (int x = tile.x0; x < tile.x1; ++x) {
             const std::uint32_t pixel =
                 static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_) +
                 static_cast<std::uint32_t>(x); // wraps in huge pictures
-            const auto begin = static_cast<std::uint32_t>(first);
-            for (std::uint32_t s = begin; s < begin + static_cast<std::uint32_t>(count); ++s) {
-                chunk.ids.push_back({pixel, s});
-                chunk.places.push_back(middle(x, y));
-                if (!corners_) chunk.offsets.push_back(sampler.get2D(pixel, s, kPixelDimension));
+            if (!corners_)
+                context_.sampler.get2D(pixel, begin, kPixelDimension,
+                                       std::span(chunk.offsets).subspan(slot, samples));
+            for (std::uint32_t s = begin; s < begin + samples; ++s, ++slot) {
+                chunk.ids[slot] = {pixel, s};
+                chunk.places[slot] = middle(x, y);
             }
         }
     if (corners_) return;
@@ -53,7 +57,11 @@ void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk
 
     PathBatch& rays = chunk.cameraRays;
     rays.setSize(chunk.ids.size());
-    const bool isPinhole = camera.hasSharedOrigin() && !context_.scene.moves();
+    // The general form draws what it may not need; who does not use it does not notice.
+    const bool isGeneral = !context_.settings.specialise;
+    const bool hasTime = isGeneral || context_.scene.moves();
+    const bool hasLens = isGeneral || camera.hasLens();
+    const bool isPinhole = !hasTime && !hasLens && camera.hasSharedOrigin();
     if (isPinhole) camera.pinholeRays(chunk.places, rays.dir, rays.tMin);
     const Vec3 origin = camera.ray({0, 0}, {0.5f, 0.5f}, 0.5f).org;
     for (std::size_t i = 0; i < rays.size(); ++i) {
@@ -69,10 +77,9 @@ void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk
             rays.org[i] = origin;
             continue;
         }
-        if (context_.scene.moves())
-            rays.time[i] = sampler.get1D(id.pixel, id.index, kTimeDimension);
+        if (hasTime) rays.time[i] = sampler.get1D(id.pixel, id.index, kTimeDimension);
         Vec2 lens{0.5f, 0.5f};
-        if (camera.hasLens()) lens = sampler.get2D(id.pixel, id.index, kLensDimension);
+        if (hasLens) lens = sampler.get2D(id.pixel, id.index, kLensDimension);
         const Ray ray = camera.ray(chunk.places[i], lens, rays.time[i]);
         rays.org[i] = ray.org;
         rays.dir[i] = ray.dir;

@@ -18,18 +18,16 @@ public:
     }
 
     void add(int x, int y, Rgb value) {
-        Place& place = sums_[static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                             static_cast<std::size_t>(x)];
+        Place& place = sums_[index(x, y)];
         place.sum += Vec3d{value.r, value.g, value.b};
         ++place.count;
     }
 
-    // The mean of each place's samples, black where there are none, from (x0, y0) of `image` on.
+    // The mean of the place's samples, black where there are none.
+    Rgb mean(int x, int y) const { return sums_[index(x, y)].mean(); }
+    // The means of all places, from (x0, y0) of `image` on.
     void writeMeans(Image& image, int x0, int y0) const {
-        writeEach(image, x0, y0, [](const Place& place) {
-            const Vec3 m = toFloat(place.sum / static_cast<double>(place.count ? place.count : 1));
-            return Rgb{m.x, m.y, m.z};
-        });
+        writeEach(image, x0, y0, [](const Place& place) { return place.mean(); });
     }
     // How many samples each place has, as a grey picture.
     void writeCounts(Image& image, int x0, int y0) const {
@@ -62,7 +60,16 @@ private:
     struct Place {
         Vec3d sum;
         std::uint32_t count = 0;
+        Rgb mean() const {
+            const Vec3 m = toFloat(count <= 1 ? sum : sum / static_cast<double>(count));
+            return {m.x, m.y, m.z};
+        }
     };
+
+    std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
+               static_cast<std::size_t>(x);
+    }
 
     template <class ValueOf>
     void writeEach(Image& image, int x0, int y0, const ValueOf& valueOf) const {

@@ -100,16 +100,24 @@ struct PointGroup {
     bool mayBeHidden = true; // from the lamp that is looked at
 };
 
+// What lamps ask of a point, in one piece: they go over all points of a wave, one after the other.
+struct LitPoint {
+    std::uint32_t point, group;
+    bool isLifted; // ns of its surface has a say
+    Vec3 p, n, ng, toEye;
+    Rgb weight;
+    const Material* material;
+};
+
 // Scratch memory of one worker, kept between chunks.
 struct WaveMemory {
     PathBatch rays, next;
     std::vector<Hit> hits;
     PointBatch points;
     MediumTree media;
-    std::vector<std::uint32_t> litPoints; // that answer lamps
-    std::vector<PointGroup> groups;       // of these
-    std::vector<std::uint32_t> groupOf;   // by point
-    RayBatch shadowRays;                  // of one lamp; their samples are points
+    std::vector<LitPoint> litPoints; // that answer lamps
+    std::vector<PointGroup> groups;  // of these
+    RayBatch shadowRays;             // of one lamp; their samples are points
     std::vector<std::uint8_t> hidden;
     std::vector<Rgb> transmittance;
     std::vector<Arrival> arrivals, arrivalsInOrder;

@@ -6,32 +6,39 @@ namespace {
 
 using Corners = MeshGeometry::Corners;
 
-Vec3 unit(Vec3d n) {
-    const double length2 = dot(n, n);
-    return length2 > 0 ? toFloat(n / std::sqrt(length2)) : Vec3{};
-}
-
 // Appends corner indices, raised by `base`; `flip` swaps two corners to turn the triangle over.
 void append(std::vector<Corners>& to, const std::vector<Corners>& from, std::size_t base,
-            bool flip) {
+            bool flip = false) {
     const auto b = static_cast<std::uint32_t>(base);
-    to.reserve(to.size() + from.size());
-    for (const Corners& c : from)
-        to.push_back(flip ? Corners{c[0] + b, c[2] + b, c[1] + b}
-                          : Corners{c[0] + b, c[1] + b, c[2] + b});
+    if (to.empty()) to.reserve(from.size()); // and not each time: many small parts
+    for (const Corners& c : from) {
+        if (c == MeshGeometry::kWithout)
+            to.push_back(c);
+        else
+            to.push_back(flip ? Corners{c[0] + b, c[2] + b, c[1] + b}
+                              : Corners{c[0] + b, c[1] + b, c[2] + b});
+    }
 }
 
-// The mesh placed by a transform and normalised, slots raised by `slotBase`.
-MeshGeometry placedGeometry(const MeshDesc& mesh, const Transform& worldFromMesh,
-                            const SceneFrame& frame, std::uint32_t slotBase) {
+// Appends the corners in normals or coordinates of a part. Where one of the two has none but the
+// other does, its triangles are marked: they look as they do alone.
+void appendOptional(std::vector<Corners>& to, std::size_t before, const std::vector<Corners>& from,
+                    std::size_t count, std::size_t base) {
+    if (to.empty() && from.empty()) return;
+    to.resize(before, MeshGeometry::kWithout);
+    append(to, from, base);
+    to.resize(before + count, MeshGeometry::kWithout);
+}
+
+// The mesh placed by a transform, slots raised by `slotBase`.
+MeshGeometry placedGeometry(const MeshDesc& mesh, const Transform& sceneFromMesh,
+                            std::uint32_t slotBase) {
     MeshGeometry out;
-    const bool flip = worldFromMesh.mirrors();
+    const bool flip = sceneFromMesh.mirrors();
     out.points.reserve(mesh.points.size());
-    for (const Vec3d p : mesh.points)
-        out.points.push_back(toFloat(frame.point(worldFromMesh.point(p))));
+    for (const Vec3d p : mesh.points) out.points.push_back(placedPoint(sceneFromMesh, p));
     append(out.triangles, mesh.triangles, 0, flip);
-    for (const Vec3 n : mesh.normals)
-        out.normals.push_back(unit(worldFromMesh.normal(toDouble(n))));
+    for (const Vec3 n : mesh.normals) out.normals.push_back(placedNormal(sceneFromMesh, n));
     append(out.normalTriangles, mesh.normalTriangles, 0, flip);
     out.uvs = mesh.uvs;
     append(out.uvTriangles, mesh.uvTriangles, 0, flip);
@@ -41,35 +48,26 @@ MeshGeometry placedGeometry(const MeshDesc& mesh, const Transform& worldFromMesh
     return out;
 }
 
-// Gives a geometry without normals or uvs those that mean the same: flat normals, no coordinates.
-void completeNormals(MeshGeometry& g) {
-    if (!g.normalTriangles.empty()) return;
-    for (const Corners& c : g.triangles) {
-        const Vec3d v0 = toDouble(g.points[c[0]]);
-        const auto n = static_cast<std::uint32_t>(g.normals.size());
-        g.normals.push_back(
-            unit(cross(toDouble(g.points[c[1]]) - v0, toDouble(g.points[c[2]]) - v0)));
-        g.normalTriangles.push_back({n, n, n});
-    }
-}
-
-void completeUvs(MeshGeometry& g) {
-    if (!g.uvTriangles.empty()) return;
-    const auto zero = static_cast<std::uint32_t>(g.uvs.size());
-    g.uvs.push_back({});
-    g.uvTriangles.assign(g.triangles.size(), {zero, zero, zero});
-}
-
 } // namespace
 
 MeshGeometry toGeometry(const MeshDesc& mesh, const SceneFrame& frame) {
-    return placedGeometry(mesh, Transform(), frame, 0);
+    return placedGeometry(mesh, frame.placed(Transform().rows()), 0);
 }
 
-void MergedMesh::add(const MeshDesc& mesh, const Transform& worldFromMesh, const SceneFrame& frame,
+MeshGeometry toSharedGeometry(const MeshDesc& mesh) {
+    const SceneFrame own = frameOf(mesh);
+    const Transform treeFromObject = own.placed(Transform().rows());
+    MeshGeometry out = placedGeometry(mesh, treeFromObject, 0);
+    out.treeFromObject = treeFromObject;
+    out.exactPoints = mesh.points;
+    out.normals = mesh.normals;
+    return out;
+}
+
+void MergedMesh::add(const MeshDesc& mesh, const Transform& sceneFromMesh,
                      const std::vector<std::uint32_t>& meshMaterials, std::uint32_t object) {
     MeshGeometry part =
-        placedGeometry(mesh, worldFromMesh, frame, static_cast<std::uint32_t>(materials.size()));
+        placedGeometry(mesh, sceneFromMesh, static_cast<std::uint32_t>(materials.size()));
     degenerateCount += part.dropDegenerate();
     if (part.triangles.empty()) return;
     parts.push_back({static_cast<std::uint32_t>(geometry.triangles.size()), object});
@@ -78,17 +76,11 @@ void MergedMesh::add(const MeshDesc& mesh, const Transform& worldFromMesh, const
         geometry = std::move(part);
         return;
     }
-    if (geometry.normalTriangles.empty() != part.normalTriangles.empty()) {
-        completeNormals(geometry);
-        completeNormals(part);
-    }
-    if (geometry.uvTriangles.empty() != part.uvTriangles.empty()) {
-        completeUvs(geometry);
-        completeUvs(part);
-    }
-    append(geometry.triangles, part.triangles, geometry.points.size(), false);
-    append(geometry.normalTriangles, part.normalTriangles, geometry.normals.size(), false);
-    append(geometry.uvTriangles, part.uvTriangles, geometry.uvs.size(), false);
+    const std::size_t before = geometry.triangles.size(), count = part.triangles.size();
+    append(geometry.triangles, part.triangles, geometry.points.size());
+    appendOptional(geometry.normalTriangles, before, part.normalTriangles, count,
+                   geometry.normals.size());
+    appendOptional(geometry.uvTriangles, before, part.uvTriangles, count, geometry.uvs.size());
     geometry.points.insert(geometry.points.end(), part.points.begin(), part.points.end());
     geometry.normals.insert(geometry.normals.end(), part.normals.begin(), part.normals.end());
     geometry.uvs.insert(geometry.uvs.end(), part.uvs.begin(), part.uvs.end());

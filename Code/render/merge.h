@@ -1,4 +1,4 @@
-// MeshDesc -> MeshGeometry, and the merging of many meshes into one.
+// MeshDesc -> MeshGeometry: as instances share it, or merged with others into one in the scene.
 #pragma once
 
 #include "render/frame.h"
@@ -10,6 +10,9 @@
 // The mesh in the normalised space of `frame`, with its slots as they are.
 MeshGeometry toGeometry(const MeshDesc& mesh, const SceneFrame& frame);
 
+// The mesh for instances: with its exact points, and a tree in a normalised space of its own.
+MeshGeometry toSharedGeometry(const MeshDesc& mesh);
+
 // Meshes that stand still, placed into one geometry in the scene's space.
 struct MergedMesh {
     MeshGeometry geometry;
@@ -17,8 +20,8 @@ struct MergedMesh {
     std::vector<MeshPart> parts;
     std::uint64_t degenerateCount = 0;
 
-    // `meshMaterials` by slot of the mesh. Mirrored meshes are turned, so that counter-clockwise
-    // stays outside.
-    void add(const MeshDesc& mesh, const Transform& worldFromMesh, const SceneFrame& frame,
+    // `sceneFromMesh` is SceneFrame::placed(). `meshMaterials` by slot of the mesh. Mirrored meshes
+    // are turned, so that counter-clockwise stays outside.
+    void add(const MeshDesc& mesh, const Transform& sceneFromMesh,
              const std::vector<std::uint32_t>& meshMaterials, std::uint32_t object);
 };

@@ -91,24 +91,19 @@ private:
     };
 
     void renderTile(const Tile& tile, Worker& worker) {
+        if (emptyTiles_.isEmpty(tile)) return showBackground(tile, worker);
         worker.color.reset(tile.width(), tile.height());
         for (Film& film : worker.aovs) film.reset(tile.width(), tile.height());
         const int pixels = tile.width() * tile.height();
         const int samples = settings_.picture.samplesPerPixel;
         const int perChunk = std::max(1, settings_.chunkSamples / pixels);
-        const bool isEmpty = emptyTiles_.isEmpty(tile);
         for (int first = 0; first < samples; first += perChunk) {
             const int count = std::min(perChunk, samples - first);
-            const auto all = static_cast<std::size_t>(pixels) * static_cast<std::size_t>(count);
-            if (isEmpty) {
-                worker.chunk.radiance.assign(all, background());
-                worker.rays.camera += all;
-            } else {
-                cameraRays_.make(tile, first, count, worker.chunk);
-                worker.chunk.radiance.assign(all, Rgb{});
-            }
-            if (context_.wantsFirstHits) worker.chunk.first.assign(all, FirstHit{});
-            if (!isEmpty) integrate(worker);
+            cameraRays_.make(tile, first, count, worker.chunk);
+            worker.chunk.radiance.assign(worker.chunk.ids.size(), Rgb{});
+            if (context_.wantsFirstHits)
+                worker.chunk.first.assign(worker.chunk.ids.size(), FirstHit{});
+            integrate(worker);
             collect(tile, first, count, worker);
         }
         const int x = tile.x0 - area_.x0, y = tile.y0 - area_.y0;
@@ -118,6 +113,29 @@ private:
                 worker.aovs[a].writeCounts(aovs_[a], x, y);
             else
                 worker.aovs[a].writeMeans(aovs_[a], x, y);
+    }
+
+    // What renderTile() would, of samples that are all the same.
+    void showBackground(const Tile& tile, Worker& worker) {
+        const Rgb seen = background();
+        const auto count = static_cast<std::uint64_t>(settings_.picture.samplesPerPixel);
+        worker.rays.camera += count * static_cast<std::uint64_t>(tile.width() * tile.height());
+        const auto meanOf = [&](Rgb sample) {
+            worker.color.reset(1, 1);
+            for (std::uint64_t s = 0; s < count; ++s) worker.color.add(0, 0, sample);
+            return worker.color.mean(0, 0);
+        };
+        fill(color_, tile, meanOf(seen));
+        const float samples = static_cast<float>(count);
+        for (std::size_t a = 0; a < aovs_.size(); ++a)
+            if (settings_.aovs[a] == Aov::Samples)
+                fill(aovs_[a], tile, {samples, samples, samples}); // else nothing was met: black
+    }
+
+    void fill(Image& image, const Tile& tile, Rgb value) const {
+        for (int y = tile.y0; y < tile.y1; ++y)
+            for (int x = tile.x0; x < tile.x1; ++x)
+                image.setPixel(x - area_.x0, y - area_.y0, value);
     }
 
     Image pixelsOf(Image places, bool areNumbers) const {

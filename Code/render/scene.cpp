@@ -6,15 +6,18 @@
 #include "base/math.h"
 #include "base/text.h"
 #include "desc/enum_tables.h"
+#include "desc/scene_bounds.h"
 #include "image/image.h"
 #include "render/make_light.h"
 #include "render/make_shape.h"
 #include "render/merge.h"
 #include "render/texture_files.h"
 #include "render/to_float.h"
+#include "shape/mesh_instance.h"
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
 class SceneBuilder {
@@ -225,32 +228,43 @@ private:
     }
 
     void buildObjects() {
-        std::vector<int> uses(desc_.meshes.size(), 0);
-        for (const ObjectDesc& object : desc_.objects)
-            if (object.kind == ObjectDesc::Kind::Mesh)
+        const auto isMesh = [](const ObjectDesc& object) {
+            return object.kind == ObjectDesc::Kind::Mesh;
+        };
+        std::vector<std::uint64_t> uses(desc_.meshes.size(), 0);
+        for (std::size_t i = 0; i < desc_.objects.size(); ++i) {
+            const ObjectDesc& object = desc_.objects[i];
+            if (isMesh(object)) {
                 ++uses[static_cast<std::size_t>(object.mesh)];
+                continue;
+            }
+            const std::vector<std::uint32_t> materials = materialIds(object);
+            scene_.shapes_.add(makeShape(object, placed(object.worldFromObject), materials,
+                                         static_cast<std::uint32_t>(i)),
+                               shadowOf(materials));
+        }
+        const std::vector<bool> isCopied = meshesToCopy(uses);
 
-        // Meshes that are used once and stand still become one, with one tree over all triangles;
-        // see-through ones apart, as their shadows have to look at every hit, and those apart of
-        // which not all sides are seen.
+        // Meshes that stand still become one, with one tree over all triangles; see-through ones
+        // apart, as their shadows have to look at every hit, and those apart of which not all sides
+        // are seen. Meshes that move or have too many copies are instances. After the other shapes:
+        // ShapeSet::isBefore() needs those with triangles in a row.
         constexpr std::size_t kSides = kEnumNames<ObjectDesc::Sides>.size();
         std::array<MergedMesh, kSides> opaque, seeThrough;
         for (std::size_t i = 0; i < desc_.objects.size(); ++i) {
             const ObjectDesc& object = desc_.objects[i];
+            if (!isMesh(object)) continue;
             const auto id = static_cast<std::uint32_t>(i);
-            MovingTransform place = placed(object.worldFromObject);
-            if (object.kind != ObjectDesc::Kind::Mesh) {
-                const std::vector<std::uint32_t> materials = materialIds(object);
-                scene_.shapes_.add(makeShape(object, std::move(place), materials, id),
-                                   shadowOf(materials));
-                continue;
-            }
+            const MovingTransform place = placed(object.worldFromObject);
             const auto mesh = static_cast<std::size_t>(object.mesh);
             const auto materials = materialsBySlot(object, desc_.meshes[mesh]);
-            if (uses[mesh] == 1 && place.isStatic()) {
+            if (isCopied[mesh] && place.isStatic() && isInScene(object, place.at(0))) {
                 const bool solid = shadowOf(materials) == ShapeSet::Shadow::Opaque;
-                (solid ? opaque : seeThrough)[static_cast<std::size_t>(object.sides)].add(
-                    desc_.meshes[mesh], worldRows(object), scene_.frame_, materials, id);
+                MergedMesh& merged =
+                    (solid ? opaque : seeThrough)[static_cast<std::size_t>(object.sides)];
+                const std::uint64_t before = merged.degenerateCount;
+                merged.add(desc_.meshes[mesh], place.at(0), materials, id);
+                countDegenerate(mesh, merged.degenerateCount - before);
             } else {
                 addInstance(object, place, materials, id);
             }
@@ -260,13 +274,30 @@ private:
                 addMerged(std::move((*group)[sides]), static_cast<ObjectDesc::Sides>(sides));
     }
 
-    // Where a mesh that stands still is, before the frame: its points are placed one by one.
-    Transform worldRows(const ObjectDesc& object) const {
-        if (object.worldFromObject.size() == 1)
-            return Transform::fromRows(object.worldFromObject[0]);
-        std::vector<Transform> maps;
-        for (const Rows& rows : object.worldFromObject) maps.push_back(Transform::fromRows(rows));
-        return MovingTransform(std::span<const Transform>(maps)).at(0.5);
+    // Once for all copies and instances of a mesh.
+    void countDegenerate(std::size_t mesh, std::uint64_t count) {
+        if (counted_.insert(mesh).second) scene_.degenerateCount_ += count;
+    }
+
+    // By mesh: those that are used once, and others as long as there is room for all their copies.
+    std::vector<bool> meshesToCopy(const std::vector<std::uint64_t>& uses) const {
+        std::vector<bool> out(uses.size());
+        std::uint64_t room = settings_.copiedTriangles;
+        for (std::size_t mesh = 0; mesh < uses.size(); ++mesh) {
+            const std::uint64_t triangles = uses[mesh] * desc_.meshes[mesh].triangles.size();
+            out[mesh] = uses[mesh] == 1 || triangles <= room;
+            if (uses[mesh] > 1 && out[mesh]) room -= triangles;
+        }
+        return out;
+    }
+
+    // Within kSceneExtent, on which the pads of all that is merged depend. Only an object that has
+    // several keys, and whose movement is switched off, may be elsewhere in between.
+    bool isInScene(const ObjectDesc& object, const Transform& place) const {
+        if (object.worldFromObject.size() == 1) return true;
+        const BoundsD box =
+            place.bounds(boundsOf(desc_.meshes[static_cast<std::size_t>(object.mesh)]));
+        return max(maxAbs(box.lo), maxAbs(box.hi)) <= static_cast<double>(kSceneExtent);
     }
 
     std::vector<std::uint32_t> materialsBySlot(const ObjectDesc& object,
@@ -281,35 +312,30 @@ private:
     void addMerged(MergedMesh merged, ObjectDesc::Sides sides) {
         if (merged.geometry.triangles.empty()) return;
         auto geometry = std::make_unique<MeshGeometry>(std::move(merged.geometry));
-        geometry->finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel));
-        scene_.degenerateCount_ += merged.degenerateCount;
-        auto mesh = std::make_unique<Mesh>(*geometry, MovingTransform(), merged.materials,
-                                           std::move(merged.parts));
+        geometry->finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel),
+                         settings_.threads);
+        auto mesh = std::make_unique<Mesh>(*geometry, merged.materials, std::move(merged.parts));
         scene_.shapes_.add(withSides(std::move(mesh), sides), shadowOf(merged.materials));
         scene_.geometries_.push_back(std::move(geometry));
     }
 
-    // One geometry per mesh, in a frame of its own; as many transforms as there are instances.
+    // One geometry per mesh; as many transforms as there are instances.
     void addInstance(const ObjectDesc& object, const MovingTransform& place,
                      std::vector<std::uint32_t> materials, std::uint32_t id) {
         const auto mesh = static_cast<std::size_t>(object.mesh);
-        const auto [at, isNew] = instanced_.try_emplace(mesh);
+        const auto [at, isNew] = shared_.try_emplace(mesh);
         if (isNew) {
-            at->second.frame = frameOf(desc_.meshes[mesh]);
-            auto geometry =
-                std::make_unique<MeshGeometry>(toGeometry(desc_.meshes[mesh], at->second.frame));
-            scene_.degenerateCount_ += geometry->dropDegenerate();
-            geometry->finish(settings_.accel == AccelKind::Bvh);
-            at->second.geometry = geometry.get();
+            auto geometry = std::make_unique<MeshGeometry>(toSharedGeometry(desc_.meshes[mesh]));
+            countDegenerate(mesh, geometry->dropDegenerate());
+            geometry->finish(settings_.accel == AccelKind::Bvh, chooseKernel("scalar"),
+                             settings_.threads);
+            at->second = geometry.get();
             scene_.geometries_.push_back(std::move(geometry));
         }
-        const Instanced& shared = at->second;
-        if (shared.geometry->triangles.empty()) return;
+        const MeshGeometry& geometry = *at->second;
+        if (geometry.triangles.empty()) return;
         const ShapeSet::Shadow shadow = shadowOf(materials);
-        const Transform objectFromMesh =
-            Transform::translate(shared.frame.centre) * Transform::scale(1 / shared.frame.scale);
-        auto shape = std::make_unique<Mesh>(*shared.geometry, place, std::move(materials),
-                                            std::vector<MeshPart>{{0, id}}, objectFromMesh);
+        auto shape = std::make_unique<MeshInstance>(geometry, place, std::move(materials), id);
         scene_.shapes_.add(withSides(std::move(shape), object.sides), shadow);
     }
 
@@ -337,18 +363,14 @@ private:
         scene_.shapes_.add(std::move(body), ShapeSet::Shadow::None);
     }
 
-    struct Instanced {
-        SceneFrame frame;
-        const MeshGeometry* geometry = nullptr;
-    };
-
     Scene& scene_;
     const SceneDesc& desc_;
     const SourceFile& source_;
     const RenderSettings& settings_;
     Switches on_;
-    const CameraDesc* cameraDesc_ = nullptr;     // the one that is used
-    std::map<std::size_t, Instanced> instanced_; // by mesh
+    const CameraDesc* cameraDesc_ = nullptr;            // the one that is used
+    std::map<std::size_t, const MeshGeometry*> shared_; // of instances, by mesh
+    std::set<std::size_t> counted_;                     // meshes; see countDegenerate()
 };
 
 Scene::Scene(const SceneDesc& desc, const SourceFile& source, const RenderSettings& settings) {

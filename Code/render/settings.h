@@ -39,4 +39,7 @@ struct RenderSettings {
     // for the cache.
     int tileSide = 16;
     int chunkSamples = 4096;
+    // Instances are copied into the scene, where rays are faster, as long as the copies have no
+    // more triangles than this together.
+    std::uint64_t copiedTriangles = 1 << 18;
 };

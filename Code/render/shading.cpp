@@ -90,5 +90,3 @@ Rgb straightTransmission(const Scene& scene, const Ray& ray, const Hit& hit) {
     if (material.opacity) opacity *= material.opacity->value(surface.uv);
     return material.base.filter * (1 - opacity);
 }
-
-Vec3 leave(const Surface& surface, Vec3 side) { return surface.p + side * surface.error; }

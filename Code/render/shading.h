@@ -33,4 +33,4 @@ Rgb straightTransmission(const Scene& scene, const Ray& ray, const Hit& hit);
 
 // Where a ray starts that leaves the surface at `point` to the side of `side` (+-ng): far enough
 // off, by the error bound of the hit, never to meet the same surface again by rounding.
-Vec3 leave(const Surface& surface, Vec3 side);
+inline Vec3 leave(const Surface& surface, Vec3 side) { return surface.p + side * surface.error; }

@@ -76,26 +76,33 @@ void ShapeSet::visit(const RaySetup& setup, float zCut, Ask ask, VisitFn&& fn) c
              [&](std::uint32_t position, float& cut) { return leaf(inTree_[position], cut); });
 }
 
-// Takes the hit of a shape if it is nearer than the best one, equal ones by number.
-static bool takeNearer(Hit hit, std::uint32_t number, float tEntry, Hit& best) {
+// A total order, because shapes with triangles have numbers in a row (render/scene.cpp).
+bool ShapeSet::isBefore(const Ray& ray, const Hit& a, const Hit& b) const {
+    const auto orderA = shapes[a.shape]->tieOrder(ray, a);
+    const auto orderB = shapes[b.shape]->tieOrder(ray, b);
+    if (orderA && orderB && *orderA != *orderB) return orderA->isBefore(*orderB);
+    return std::tie(a.shape, a.prim) < std::tie(b.shape, b.prim);
+}
+
+bool ShapeSet::takeNearer(const Ray& ray, Hit hit, std::uint32_t number, float tEntry,
+                          Hit& best) const {
     hit.t = max(tEntry, hit.t);
-    if (hit.t > best.t || (hit.t == best.t && number > best.shape)) return false;
+    hit.shape = number;
+    if (hit.t > best.t) return false;
+    if (hit.t == best.t && best.isHit() && !isBefore(ray, hit, best)) return false;
     best = hit;
-    best.shape = number;
     return true;
 }
 
-// The nearest hit of a shape that is nearer than `best`, which then becomes it.
-static bool nearer(const Shape& shape, const Ray& ray, std::uint32_t number, float tEntry,
-                   Hit& best) {
+bool ShapeSet::nearer(const Ray& ray, std::uint32_t number, float tEntry, Hit& best) const {
     Hit hit = best;
-    return shape.intersect(ray, hit) && takeNearer(hit, number, tEntry, best);
+    return shapes[number]->intersect(ray, hit) && takeNearer(ray, hit, number, tEntry, best);
 }
 
 void ShapeSet::visitNearer(const Ray& ray, const RaySetup& setup, Ask ask, Hit& best) const {
     visit(setup, depthCut(1.0f / (best.t * setup.dz)), ask,
           [&](std::uint32_t number, float zEntry, float& zCut) {
-              if (nearer(*shapes[number], ray, number, zEntry / setup.dz, best))
+              if (nearer(ray, number, zEntry / setup.dz, best))
                   zCut = min(depthCut(1.0f / (best.t * setup.dz)), zCut);
               return false;
           });
@@ -117,8 +124,7 @@ void ShapeSet::closest(const RaySpan& rays, std::vector<Hit>& hits) const {
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const Ray ray = rays[i];
             if (!canHit(ray)) continue;
-            for (const std::uint32_t number : unbounded)
-                nearer(*shapes[number], ray, number, 0, hits[i]);
+            for (const std::uint32_t number : unbounded) nearer(ray, number, 0, hits[i]);
         }
     }
     if (bounded.size() == batched.size()) return;
@@ -126,8 +132,7 @@ void ShapeSet::closest(const RaySpan& rays, std::vector<Hit>& hits) const {
         const SolidCalls calls{
             this,
             [](const void* set, const Ray& ray, std::uint32_t number, float tEntry, Hit& best) {
-                const Shape& shape = *static_cast<const ShapeSet*>(set)->shapes[number];
-                return nearer(shape, ray, number, tEntry, best);
+                return static_cast<const ShapeSet*>(set)->nearer(ray, number, tEntry, best);
             },
             nullptr};
         return closestSolids(*kernel_, solids_, calls, rays, hits);
@@ -150,7 +155,7 @@ void ShapeSet::closestOfBatched(const RaySpan& rays, std::vector<Hit>& hits) con
             float zEntry = 0;
             const float zCut = depthCut(1.0f / (hits[i].t * setup.dz));
             if (setup.enters(boxes[number], zCut, zEntry))
-                takeNearer(found[i], number, zEntry / setup.dz, hits[i]);
+                takeNearer(rays[i], found[i], number, zEntry / setup.dz, hits[i]);
         }
     }
 }
@@ -219,8 +224,7 @@ void ShapeSet::seeThroughHits(const Ray& ray, std::vector<Hit>& hits) const {
               for (std::size_t i = first; i < hits.size(); ++i) hits[i].shape = number;
               return false;
           });
-    std::sort(hits.begin() + static_cast<std::ptrdiff_t>(before), hits.end(),
-              [](const Hit& a, const Hit& b) {
-                  return std::tie(a.t, a.shape, a.prim) < std::tie(b.t, b.shape, b.prim);
-              });
+    std::sort(
+        hits.begin() + static_cast<std::ptrdiff_t>(before), hits.end(),
+        [&](const Hit& a, const Hit& b) { return a.t != b.t ? a.t < b.t : isBefore(ray, a, b); });
 }

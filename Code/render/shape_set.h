@@ -4,6 +4,7 @@
 
 #include "accel/bvh.h"
 #include "accel/kernels/solids.h"
+#include "shape/mesh_geometry.h"
 #include "shape/shape.h"
 
 #include <cstdint>
@@ -18,8 +19,8 @@ struct ShapeSet {
     std::vector<Bounds> boxes;
     std::vector<Shadow> shadows;
     std::vector<std::uint32_t> bounded, unbounded; // shape numbers; `bounded` in ascending order
-    Bvh bvh;          // over the bounded ones that take no batches; empty: linear search
-    float extent = 0; // largest |coordinate| of a finite box
+    Bvh bvh;                     // over the bounded ones that take no batches; empty: linear search
+    float extent = kSceneExtent; // no |coordinate| of a finite box is larger
 
     void add(std::unique_ptr<const Shape> shape, Shadow shadow);
     // Call once after the last add(). Batches are answered by the kernel, if it has a part for
@@ -28,7 +29,8 @@ struct ShapeSet {
     // Bounded shapes that take batches themselves; the batch queries ask them first.
     std::vector<std::uint32_t> batched;
 
-    // The hit with the smallest (t, shape) in (tMin, tMax]; Hit::isHit() tells if there is one.
+    // The nearest hit in (tMin, tMax]; Hit::isHit() tells if there is one. Of several at the same t
+    // the first one by the order of triangles (TieOrder), else by the number of the shape.
     // t is at least the entry into the shape's own box, so that no tree can change the answer.
     Hit closest(const Ray& ray) const;
     // Is an opaque shape in (tMin, tMax)?
@@ -36,7 +38,7 @@ struct ShapeSet {
     // The same for all rays of a batch.
     void closest(const RaySpan& rays, std::vector<Hit>& hits) const;
     void occluded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;
-    // Appends every hit of the see-through shapes in (tMin, tMax), nearest first, ties by number.
+    // Appends every hit of the see-through shapes in (tMin, tMax), nearest first, ties as above.
     void seeThroughHits(const Ray& ray, std::vector<Hit>& hits) const;
 
 private:
@@ -46,6 +48,12 @@ private:
     void visit(const RaySetup& setup, float zCut, Ask ask, VisitFn&& fn) const;
     void visitNearer(const Ray& ray, const RaySetup& setup, Ask ask, Hit& best) const;
     bool isHidden(const Ray& ray, const RaySetup& setup, Ask ask) const;
+    // Which of two hits at the same t is first.
+    bool isBefore(const Ray& ray, const Hit& a, const Hit& b) const;
+    // Takes the hit of a shape if it is nearer than the best one.
+    bool takeNearer(const Ray& ray, Hit hit, std::uint32_t number, float tEntry, Hit& best) const;
+    // Asks the shape for a nearer hit than the best one, which then becomes it.
+    bool nearer(const Ray& ray, std::uint32_t number, float tEntry, Hit& best) const;
     void buildSolids(int width);
     void closestOfBatched(const RaySpan& rays, std::vector<Hit>& hits) const;
     void hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;

@@ -115,23 +115,32 @@ float Sampler::get1D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t di
     return inCell(permuted(index, count_, mixBits(bits + pass)), unitFloat(offset), count_);
 }
 
-Vec2 Sampler::get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension) const {
+void Sampler::get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension,
+                    std::span<Vec2> out) const {
     const bool isPixel = dimension == kPixelDimension && !isStream_;
-    if (isPixel && !jitter_ && count_ == 1) return {0.5f, 0.5f};
-    const std::uint64_t bits = hash(seed_, pixel, dimension), more = mixBits(bits + kHashStep);
-    switch (kind_) {
-    case SamplerKind::Sobol: {
-        const std::uint32_t a = low32(bits), b = high32(bits);
-        const std::uint32_t shuffled = reversed(scrambledReversed(reversed(sample), a));
-        return {unitFloat(reversed(scrambledReversed(shuffled, b))),
-                unitFloat(reversed(scrambledReversed(pascalReversed(shuffled), low32(more))))};
+    if (isPixel && !jitter_ && count_ == 1) {
+        std::fill(out.begin(), out.end(), Vec2{0.5f, 0.5f});
+        return;
     }
-    case SamplerKind::Random: {
+    const std::uint64_t bits = hash(seed_, pixel, dimension), more = mixBits(bits + kHashStep);
+    if (kind_ == SamplerKind::Sobol) {
+        const std::uint32_t a = low32(bits), b = high32(bits), c = low32(more);
+        for (Vec2& u : out) {
+            const std::uint32_t shuffled = reversed(scrambledReversed(reversed(sample++), a));
+            u = {unitFloat(reversed(scrambledReversed(shuffled, b))),
+                 unitFloat(reversed(scrambledReversed(pascalReversed(shuffled), c)))};
+        }
+        return;
+    }
+    for (Vec2& u : out) u = otherPair(bits, more, sample++, isPixel);
+}
+
+// Of the kinds but Sobol.
+Vec2 Sampler::otherPair(std::uint64_t bits, std::uint64_t more, std::uint32_t sample,
+                        bool isPixel) const {
+    if (kind_ == SamplerKind::Random) {
         const std::uint64_t both = mixBits(bits + sample * kHashStep);
         return {unitFloat(low32(both)), unitFloat(high32(both))};
-    }
-    case SamplerKind::Stratified:
-    case SamplerKind::Grid: break;
     }
     const std::uint32_t pass = sample / count_, index = sample % count_;
     const bool inOrder = isPixel && kind_ == SamplerKind::Grid;

@@ -5,6 +5,7 @@
 #include "base/vec.h"
 
 #include <cstdint>
+#include <span>
 
 enum class SamplerKind {
     Sobol,      // hash-based Owen-scrambled Sobol (Burley 2020), 2D pairs padded by shuffling
@@ -26,7 +27,14 @@ public:
     float get1D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension) const;
     // Dimensions `dimension` (even) and dimension + 1, evenly spread in the square over the samples
     // of a pixel. Its x is not the number of get1D in the same dimension.
-    Vec2 get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension) const;
+    Vec2 get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension) const {
+        Vec2 out;
+        get2D(pixel, sample, dimension, std::span(&out, 1));
+        return out;
+    }
+    // The same for consecutive samples of a pixel, the first of them `sample`.
+    void get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension,
+               std::span<Vec2> out) const;
 
     // An independent sampler of the same kind, for the n-th thing of a loop inside a sample, such
     // as a light with `repeats` light samples each: ask it for sample = sample * repeats + k, so
@@ -39,6 +47,9 @@ public:
     std::uint32_t seed() const { return seed_; }
 
 private:
+    Vec2 otherPair(std::uint64_t bits, std::uint64_t more, std::uint32_t sample,
+                   bool isPixel) const;
+
     SamplerKind kind_;
     bool jitter_;
     bool isStream_ = false;

@@ -1,49 +1,37 @@
-// The point of a hit on a mesh: where rays leave it, its normals, its texture coordinates.
-#include "shape/mesh.h"
-
-#include <algorithm>
+#include "shape/mesh_surface.h"
 
 namespace {
 
-Vec3d crossOfEdges(Vec3 v0, Vec3 v1, Vec3 v2) {
-    return cross(toDouble(v1) - toDouble(v0), toDouble(v2) - toDouble(v0));
-}
-
-// A triangle without area faces the ray, wherever that comes from.
-Vec3d unitNormal(Vec3 v0, Vec3 v1, Vec3 v2, Vec3d rayDir) {
-    const Vec3d n = crossOfEdges(v0, v1, v2);
-    return n == Vec3d{} ? -normalize(rayDir) : normalize(n);
-}
-
-template <class T> T interpolate(T a, T b, T c, float u, float v) {
-    return a * (1 - u - v) + b * u + c * v;
+template <class T> T interpolate(const std::array<T, 3>& at, float u, float v) {
+    return at[0] * (1 - u - v) + at[1] * u + at[2] * v;
 }
 
 // The vertex's part of the error of a hit: what Woop's test and the plane key lose to rounding,
 // about 8 units of the largest coordinate difference, doubled. See RaySetup for the pads.
 constexpr double kTriangleError = 0x1p-20;
 
-// The ray's part of it, of a ray from far: slopes and differences in float.
-constexpr float kRayError = 0x1p-22f;
+// The ray's part of it: slopes and differences of the corners in float move what it meets by up to
+// 4 units of its length to the side, its depth is rounded thrice.
+constexpr float kRayError = 0x1p-20f;
 
 // Rays leave a surface kTriangleError off its plane; this many times as far from its edges they are
 // on the inner side of the neighbours as well, down to an angle of 30 degrees between both.
 constexpr double kEdgeClearance = 2;
 
+using Corners = std::array<Vec3d, 3>;
+
 // Moves a point of a triangle towards the centre of its incircle until it keeps `clearance` from
 // all edges. A point right on the edge of two walls would let light from outside in between them.
-Vec3d awayFromEdges(Vec3d weights, Vec3 v0, Vec3 v1, Vec3 v2, double clearance) {
-    const Vec3d a = toDouble(v0), b = toDouble(v1), c = toDouble(v2);
+Vec3d awayFromEdges(Vec3d weights, const Corners& v, double twiceArea, double clearance) {
     // Mostly a point is far from them, and squares say so without a root; 1 % is for rounding.
-    const Vec3d n = crossOfEdges(v0, v1, v2);
-    const double far2 = 1.01 * clearance * clearance, area2 = dot(n, n);
+    const double far2 = 1.01 * clearance * clearance, area2 = twiceArea * twiceArea;
     const auto isFar = [&](double weight, Vec3d side) {
         return weight > 0 && weight * weight * area2 > far2 * dot(side, side);
     };
-    if (isFar(weights.x, c - b) && isFar(weights.y, a - c) && isFar(weights.z, b - a))
+    if (isFar(weights.x, v[2] - v[1]) && isFar(weights.y, v[0] - v[2]) &&
+        isFar(weights.z, v[1] - v[0]))
         return weights;
-    const Vec3d sides{length(c - b), length(a - c), length(b - a)};
-    const double twiceArea = std::sqrt(area2);
+    const Vec3d sides{length(v[2] - v[1]), length(v[0] - v[2]), length(v[1] - v[0])};
     const double perimeter = sides.x + sides.y + sides.z, inradius = twiceArea / perimeter;
     const double nearest =
         min(weights.x / sides.x, min(weights.y / sides.y, weights.z / sides.z)) * twiceArea;
@@ -55,118 +43,79 @@ Vec3d awayFromEdges(Vec3d weights, Vec3 v0, Vec3 v1, Vec3 v2, double clearance) 
 // Hanika 2021, "Hacking the shadow terminator": p projected onto the tangent planes of the corners
 // it lies below, weighted with its barycentrics. `side` is 1 when the outside is seen, -1 for the
 // inside, from where the surface is convex where it is concave from outside.
-Vec3d liftToCurve(Vec3d p, const std::array<Vec3d, 3>& corners, const std::array<Vec3d, 3>& normals,
+Vec3d liftToCurve(Vec3d p, const Corners& corners, const std::array<Vec3, 3>& normals,
                   Vec3d weights, double side) {
     Vec3d lift;
     for (std::size_t i = 0; i < 3; ++i) {
-        const double length2 = dot(normals[i], normals[i]);
-        const double below = side * dot(p - corners[i], normals[i]);
-        if (length2 > 0 && below < 0) lift -= normals[i] * (weights[i] * side * below / length2);
+        const Vec3d normal = toDouble(normals[i]);
+        const double length2 = dot(normal, normal);
+        const double below = side * dot(p - corners[i], normal);
+        if (length2 > 0 && below < 0) lift -= normal * (weights[i] * side * below / length2);
     }
     return lift;
 }
 
 } // namespace
 
-bool Mesh::seesFront(const Ray& ray, const Hit& hit) const {
-    const auto& c = geometry_.triangles[hit.prim];
-    const Vec3d n =
-        crossOfEdges(geometry_.points[c[0]], geometry_.points[c[1]], geometry_.points[c[2]]);
-    const Vec3d dir = toDouble(ray.dir);
-    const double facing = dot(n, dir);
-    // The sign is asked of the surface's normal, which is rounded.
-    const bool isSure = facing * facing > 0x1p-40 * dot(n, n) * dot(dir, dir);
-    return identity_ && isSure ? facing < 0 : Shape::seesFront(ray, hit);
+SurfaceTriangle::SurfaceTriangle(const MeshGeometry& geometry, std::uint32_t triangle,
+                                 const TriangleCorners& placed)
+    : corners(placed) {
+    if (!geometry.normalTriangles.empty()) {
+        const auto& k = geometry.normalTriangles[triangle];
+        hasNormals = k != MeshGeometry::kWithout;
+        if (hasNormals)
+            normals = {geometry.normals[k[0]], geometry.normals[k[1]], geometry.normals[k[2]]};
+    }
+    if (!geometry.uvTriangles.empty()) {
+        const auto& k = geometry.uvTriangles[triangle];
+        hasUvs = k != MeshGeometry::kWithout;
+        if (hasUvs) uvs = {geometry.uvs[k[0]], geometry.uvs[k[1]], geometry.uvs[k[2]]};
+    }
 }
 
-Surface Mesh::surfaceFor(const Ray& worldRay, const Hit& hit, SurfaceNeeds needs) const {
-    const auto& c = geometry_.triangles[hit.prim];
-    const Vec3 v0 = geometry_.points[c[0]], v1 = geometry_.points[c[1]],
-               v2 = geometry_.points[c[2]];
-    const double u = hit.u, v = hit.v;
-    const auto pointOff = [&](double error) { // in the mesh's space, this far from the edges
-        const Vec3d b = awayFromEdges({1 - u - v, u, v}, v0, v1, v2, kEdgeClearance * error);
-        return toDouble(v0) * b.x + toDouble(v1) * b.y + toDouble(v2) * b.z;
-    };
-    const Vec3d n = unitNormal(v0, v1, v2, toDouble(meshRay(worldRay).dir));
-    const float scale = max(maxAbs(v0), max(maxAbs(v1), maxAbs(v2)));
+Surface surfaceOf(const SurfaceTriangle& triangle, const Ray& ray, const Hit& hit,
+                  SurfaceNeeds needs) {
+    const auto& [v0, v1, v2] = triangle.corners;
+    const Corners v{toDouble(v0), toDouble(v1), toDouble(v2)};
+    const Vec3d across = cross(v[1] - v[0], v[2] - v[0]);
+    const double twiceArea = length(across);
+    // A triangle without area faces the ray, wherever that comes from.
+    const Vec3d n = across == Vec3d{} ? -normalize(toDouble(ray.dir)) : normalize(across);
+    const double error = kTriangleError * max(maxAbs(v0), max(maxAbs(v1), maxAbs(v2)));
+    const Vec3d weights{1 - static_cast<double>(hit.u) - hit.v, hit.u, hit.v};
+    const Vec3d b = awayFromEdges(weights, v, twiceArea, kEdgeClearance * error);
 
     Surface s;
+    s.p = toFloat(v[0] * b.x + v[1] * b.y + v[2] * b.z);
+    s.ng = toFloat(n);
+    s.error = static_cast<float>(error);
+    s.rayError = kRayError;
     Vec3d ns = n;
-    if (!geometry_.normalTriangles.empty()) {
-        const auto& k = geometry_.normalTriangles[hit.prim];
-        ns = toDouble(interpolate(geometry_.normals[k[0]], geometry_.normals[k[1]],
-                                  geometry_.normals[k[2]], hit.u, hit.v));
-    }
-    if (identity_) {
-        s.p = toFloat(pointOff(kTriangleError * scale));
-        s.ng = toFloat(n);
-        s.error = static_cast<float>(kTriangleError * scale);
-        s.rayError = kRayError;
-    } else {
-        const Transform worldFromMesh = worldFromMeshAt(worldRay.time);
-        const Vec3d normal = worldFromMesh.normal(n);
-        s.ng = toFloat(normalize(normal));
-        ns = worldFromMesh.normal(ns);
-        // A step h along the world normal moves the point by h times this off the mesh's plane.
-        const Transform meshFromWorld = worldFromMesh.inverse();
-        const double offPlane = dot(meshFromWorld.vector(normalize(normal)), n);
-        const double lost = kTriangleError * scale + 0x1p-22 * maxAbs(meshFromWorld.point({}));
-        const Vec3d p = worldFromMesh.point(pointOff(0));
-        const double error = lost / std::fabs(offPlane) + 0x1p-22 * maxAbs(p);
-        const double stretch =
-            max(length(meshFromWorld.column(0)),
-                max(length(meshFromWorld.column(1)), length(meshFromWorld.column(2))));
-        s.p = toFloat(worldFromMesh.point(pointOff(error * stretch)));
-        s.error = static_cast<float>(error);
-        s.rayError = kRayError * static_cast<float>(stretch / std::fabs(offPlane));
-    }
-    if (needs.lift && !geometry_.normalTriangles.empty()) {
-        const auto& k = geometry_.normalTriangles[hit.prim];
-        const Transform worldFromMesh = identity_ ? Transform() : worldFromMeshAt(worldRay.time);
-        const auto normal = [&](std::size_t i) {
-            return worldFromMesh.normal(toDouble(geometry_.normals[k[i]]));
-        };
-        const auto corner = [&](Vec3 p) { return worldFromMesh.point(toDouble(p)); };
-        s.lift = toFloat(liftToCurve(toDouble(s.p), {corner(v0), corner(v1), corner(v2)},
-                                     {normal(0), normal(1), normal(2)}, {1 - u - v, u, v},
-                                     dot(s.ng, worldRay.dir) <= 0 ? 1 : -1));
+    if (triangle.hasNormals) {
+        ns = toDouble(interpolate(triangle.normals, hit.u, hit.v));
+        if (needs.lift)
+            s.lift = toFloat(liftToCurve(toDouble(s.p), v, triangle.normals, weights,
+                                         dot(s.ng, ray.dir) <= 0 ? 1 : -1));
     }
     const double length2 = dot(ns, ns);
     s.ns = length2 > 0 ? toFloat(ns / std::sqrt(length2)) : s.ng;
     if (!(dot(s.ns, s.ng) > 0)) s.ns = s.ng;
-    if (!geometry_.uvTriangles.empty()) {
-        const auto& k = geometry_.uvTriangles[hit.prim];
-        s.uv = interpolate(geometry_.uvs[k[0]], geometry_.uvs[k[1]], geometry_.uvs[k[2]], hit.u,
-                           hit.v);
-    } else {
-        s.uv = {hit.u, hit.v};
-    }
-    s.material = materials_[geometry_.slots.empty() ? 0 : geometry_.slots[hit.prim]];
-    const auto part = std::upper_bound(
-        parts_.begin(), parts_.end(), hit.prim,
-        [](std::uint32_t prim, const MeshPart& other) { return prim < other.firstTriangle; });
-    s.object = std::prev(part)->object;
+    s.uv = triangle.hasUvs ? interpolate(triangle.uvs, hit.u, hit.v) : Vec2{hit.u, hit.v};
     return s;
 }
 
-SurfaceDerivatives Mesh::derivatives(const Ray& worldRay, const Hit& hit) const {
-    const auto& c = geometry_.triangles[hit.prim];
-    const Vec3d v0 = toDouble(geometry_.points[c[0]]);
-    const Vec3d e1 = toDouble(geometry_.points[c[1]]) - v0;
-    const Vec3d e2 = toDouble(geometry_.points[c[2]]) - v0;
+SurfaceDerivatives derivativesOf(const SurfaceTriangle& triangle) {
+    const Vec3d v0 = toDouble(triangle.corners[0]);
+    const Vec3d e1 = toDouble(triangle.corners[1]) - v0;
+    const Vec3d e2 = toDouble(triangle.corners[2]) - v0;
     Vec3d dpdu = e1, dpdv = e2; // of the barycentrics, when there are no texture coordinates
-    if (!geometry_.uvTriangles.empty()) {
-        const auto& k = geometry_.uvTriangles[hit.prim];
-        const Vec2 t0 = geometry_.uvs[k[0]];
-        const Vec2 d1 = geometry_.uvs[k[1]] - t0, d2 = geometry_.uvs[k[2]] - t0;
+    if (triangle.hasUvs) {
+        const Vec2 d1 = triangle.uvs[1] - triangle.uvs[0], d2 = triangle.uvs[2] - triangle.uvs[0];
         const double det = static_cast<double>(d1.x) * d2.y - static_cast<double>(d1.y) * d2.x;
         if (det != 0) {
             dpdu = (e1 * static_cast<double>(d2.y) - e2 * static_cast<double>(d1.y)) / det;
             dpdv = (e2 * static_cast<double>(d1.x) - e1 * static_cast<double>(d2.x)) / det;
         }
     }
-    if (identity_) return {toFloat(dpdu), toFloat(dpdv)};
-    const Transform worldFromMesh = worldFromMeshAt(worldRay.time);
-    return {toFloat(worldFromMesh.vector(dpdu)), toFloat(worldFromMesh.vector(dpdv))};
+    return {toFloat(dpdu), toFloat(dpdv)};
 }

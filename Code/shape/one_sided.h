@@ -41,6 +41,9 @@ public:
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override {
         return shape_->derivatives(ray, hit);
     }
+    std::optional<TieOrder> tieOrder(const Ray& ray, const Hit& hit) const override {
+        return shape_->tieOrder(ray, hit);
+    }
 
 private:
     bool isVisible(const Ray& ray, const Hit& hit) const;

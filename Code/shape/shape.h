@@ -14,7 +14,19 @@
 #include "base/ray_span.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
+
+// Who is first of two triangles that a ray hits at the same t: the larger key, 1/depth before it
+// was rounded to t, then the object that the scene names first.
+struct TieOrder {
+    float key = 0;
+    std::uint32_t object = 0;
+    bool operator==(const TieOrder&) const = default;
+    bool isBefore(const TieOrder& other) const {
+        return key != other.key ? key > other.key : object < other.object;
+    }
+};
 
 class Shape {
 public:
@@ -69,4 +81,8 @@ public:
         return surface(ray, hit);
     }
     virtual SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const = 0;
+
+    // Of a hit on a triangle, which may have come into one mesh with others or not; shapes of other
+    // kinds go by their numbers.
+    virtual std::optional<TieOrder> tieOrder(const Ray&, const Hit&) const { return {}; }
 };

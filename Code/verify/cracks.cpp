@@ -70,13 +70,12 @@ Ball ball(Random& random, Form form, bool otherRings) {
                    offset == Vec3d{} ? "" : ", far");
     if (form == Form::Merged) {
         MergedMesh merged;
-        merged.add(above, map, frame, {7}, 5);
-        merged.add(below, map, frame, {7}, 6);
+        merged.add(above, frame.placed(map.rows()), {7}, 5);
+        merged.add(below, frame.placed(map.rows()), {7}, 6);
         out.merged = std::make_unique<MeshGeometry>(std::move(merged.geometry));
         out.merged->finish(true);
-        out.set.add(
-            std::make_unique<Mesh>(*out.merged, MovingTransform(), merged.materials, merged.parts),
-            ShapeSet::Shadow::Opaque);
+        out.set.add(std::make_unique<Mesh>(*out.merged, merged.materials, merged.parts),
+                    ShapeSet::Shadow::Opaque);
     } else {
         const Transform mirrored = map * Transform::scale({1, 1, -1});
         if (form == Form::Separate) {
@@ -128,18 +127,14 @@ template <std::uint64_t Seed, Form form, bool otherRings> Tally crack(const Effo
     return atBorder(effort, Seed, form, otherRings);
 }
 
-constexpr const char* kOwnSpace =
-    "each instance sees the ray rounded to floats in a space of its own";
-
 constexpr Row kRows[] = {
     {"T4a", "rays at the border of two halves of a ball, two objects", "", 0, true,
      crack<41, Form::Separate, false>},
     {"T4b", "the same, merged", "", 0, true, crack<42, Form::Merged, false>},
-    {"T4c", "the same, two instances of one half", "", 0, true, crack<43, Form::Instances, false>,
-     "", kOwnSpace},
+    {"T4c", "the same, two instances of one half", "", 0, true, crack<43, Form::Instances, false>},
     {"T4d", "halves of other tessellation that share the border", "", 0, true,
      crack<44, Form::Separate, true>},
-    {"T4e", "the same as instances", "", 0, true, crack<45, Form::Instances, true>, "", kOwnSpace},
+    {"T4e", "the same as instances", "", 0, true, crack<45, Form::Instances, true>},
 };
 
 } // namespace

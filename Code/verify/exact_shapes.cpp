@@ -1,6 +1,7 @@
 #include "verify/exact_shapes.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace battery {
 
@@ -16,8 +17,8 @@ bool isInCircle(Vec3w p, Wide radius) { return p.x * p.x + p.y * p.y <= radius *
 
 } // namespace
 
-ExactShape::ExactShape(const ObjectDesc& object, const Transform& worldFromObject)
-    : object_(object) {
+ExactShape::ExactShape(ObjectDesc object, const Transform& worldFromObject)
+    : object_(std::move(object)) {
     const auto& m = worldFromObject.rows();
     const Vec3w rows[3] = {toWide(Vec3d{m[0], m[1], m[2]}), toWide(Vec3d{m[4], m[5], m[6]}),
                            toWide(Vec3d{m[8], m[9], m[10]})};

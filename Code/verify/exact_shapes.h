@@ -20,7 +20,7 @@ struct ExactHit {
 class ExactShape {
 public:
     // Any kind but Mesh, with the map as its numbers say.
-    ExactShape(const ObjectDesc& object, const Transform& worldFromObject);
+    ExactShape(ObjectDesc object, const Transform& worldFromObject);
 
     // All hits with t > 0, nearest first. The ray's floats are taken as exact.
     std::vector<ExactHit> hits(const Ray& ray) const;

@@ -103,7 +103,7 @@ struct Sheet {
 
 void trySheet(Random& random, Tally& tally) {
     const Sheet sheet(random);
-    const Mesh mesh(sheet.geometry, MovingTransform(), {0}, {{0, 0}});
+    const Mesh mesh(sheet.geometry, {0}, {{0, 0}});
     const std::size_t axis = sheet.axis, u = (axis + 1) % 3, v = (axis + 2) % 3;
     for (int i = 0; i < 100; ++i) {
         Vec3d target = random.inBox(1), normal;

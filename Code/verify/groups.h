@@ -13,6 +13,7 @@ std::span<const Row> leavingRows();       // T5: rays that leave a surface; acne
 std::span<const Row> contactRows();       // T6: shadows where things touch
 std::span<const Row> placementRows();     // T7 to T9: the same picture at every size and place
 std::span<const Row> sameBitsRows();      // T10, T11, T17: the same bits however it is rendered
+std::span<const Row> kernelRows();        // T10: the same hits by every kernel
 std::span<const Row> elementaryRows();    // T12: sin, exp, pow and so on against binary128
 std::span<const Row> shapeRows();         // T13: where rays meet shapes with a formula
 std::span<const Row> solverRows();        // T14: roots of quadratics
@@ -28,10 +29,10 @@ std::span<const Row> treeRows();          // T24: trees over what builders are a
 std::span<const Row> terminatorRows();    // T25: the edge of the light on coarse meshes
 
 inline constexpr std::array kGroups = {
-    leakRows,     crackRows,         leavingRows, contactRows,    placementRows,
-    sameBitsRows, elementaryRows,    shapeRows,   solverRows,     grazingRows,
-    hostileRows,  hostileCornerRows, badRayRows,  coplanarRows,   mediaRows,
-    furnaceRows,  lightRows,         treeRows,    terminatorRows,
+    leakRows,     crackRows,   leavingRows,       contactRows, placementRows,
+    sameBitsRows, kernelRows,  elementaryRows,    shapeRows,   solverRows,
+    grazingRows,  hostileRows, hostileCornerRows, badRayRows,  coplanarRows,
+    mediaRows,    furnaceRows, lightRows,         treeRows,    terminatorRows,
 };
 
 } // namespace battery

@@ -127,6 +127,7 @@ Picture rendered(const SceneDesc& desc, AccelKind accel, Stats& stats) {
     RenderSettings settings;
     settings.picture = desc.settings;
     settings.accel = accel;
+    settings.copiedTriangles = 0; // what is used twice is an instance
     const Scene scene(desc, {}, settings);
     scene.describe(stats);
     return render(scene, settings, {}, stats);

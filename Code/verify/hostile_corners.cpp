@@ -72,7 +72,7 @@ struct Answers {
     std::vector<std::uint8_t> hidden;
 };
 Answers ask(const MeshGeometry& geometry, const RaySpan& rays) {
-    const Mesh mesh(geometry, MovingTransform(), {0}, {{0, 0}});
+    const Mesh mesh(geometry, {0}, {{0, 0}});
     Answers out{std::vector<Hit>(rays.size()), std::vector<std::uint8_t>(rays.size())};
     mesh.intersectBatch(rays, 0, out.hits);
     mesh.occludesBatch(rays, out.hidden);

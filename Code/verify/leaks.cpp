@@ -22,7 +22,7 @@ const Solid& someSolid(Random& random) { return solids()[random.below(solids().s
 // Moves each coordinate by up to `k` floats.
 Vec3 beside(Random& random, Vec3 v, int k) {
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto steps = random.below(static_cast<std::size_t>(2 * k + 1));
+        const auto steps = random.below(2 * static_cast<std::size_t>(k) + 1);
         v[i] = meshes::stepped(v[i], static_cast<int>(steps) - k);
     }
     return v;

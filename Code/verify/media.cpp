@@ -172,8 +172,9 @@ Tally furnace(const Effort& effort) {
             sum += value;
             if (!(value <= 1 + 1e-5)) tally.fail([&] { return cat("a path brings ", value); });
         }
-        const double count = kPixels * kPixels;
-        tally.cases += kPixels * kPixels;
+        constexpr std::uint64_t kCount = std::uint64_t{kPixels} * kPixels;
+        const auto count = static_cast<double>(kCount);
+        tally.cases += kCount;
         tally.measure(std::fabs(sum / count - 1), [&] {
             return cat("mean ", sum / count, ", eye ", outside ? "outside" : "in the water");
         });

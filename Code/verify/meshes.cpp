@@ -1,6 +1,7 @@
 #include "verify/meshes.h"
 
 #include "base/math.h"
+#include "shape/mesh_instance.h"
 
 #include <algorithm>
 #include <map>
@@ -295,30 +296,30 @@ SceneFrame frameFor(const MeshDesc& mesh, const Transform& worldFromMesh) {
     return frameOf(desc);
 }
 
+Vec3 Ready::corner(std::uint32_t n, std::size_t c) const {
+    const std::uint32_t i = geometry->triangles[n][c];
+    return geometry->exactPoints.empty() ? geometry->points[i]
+                                         : placedPoint(sceneFromMesh, geometry->exactPoints[i]);
+}
+
 Ready baked(const MeshDesc& mesh, const Transform& worldFromMesh, const SceneFrame& frame) {
     MergedMesh merged;
-    merged.add(mesh, worldFromMesh, frame, {7}, 5);
+    merged.add(mesh, frame.placed(worldFromMesh.rows()), {7}, 5);
     Ready out;
     out.geometry = std::make_unique<MeshGeometry>(std::move(merged.geometry));
     out.geometry->finish(true);
-    out.shape =
-        std::make_unique<Mesh>(*out.geometry, MovingTransform(), merged.materials, merged.parts);
+    out.shape = std::make_unique<Mesh>(*out.geometry, merged.materials, merged.parts);
     return out;
 }
 
 Ready instance(const MeshDesc& mesh, const Transform& worldFromMesh, const SceneFrame& frame) {
-    const SceneFrame own = frameOf(mesh);
     Ready out;
-    out.geometry = std::make_unique<MeshGeometry>(toGeometry(mesh, own));
+    out.geometry = std::make_unique<MeshGeometry>(toSharedGeometry(mesh));
     out.geometry->dropDegenerate();
     out.geometry->finish(true);
-    const Transform sceneFromObject = frame.placed(worldFromMesh.rows());
-    const Transform objectFromMesh =
-        Transform::translate(own.centre) * Transform::scale(1 / own.scale);
-    out.sceneFromMesh = sceneFromObject * objectFromMesh;
-    out.shape = std::make_unique<Mesh>(*out.geometry, MovingTransform(sceneFromObject),
-                                       std::vector<std::uint32_t>{7}, std::vector<MeshPart>{{0, 5}},
-                                       objectFromMesh);
+    out.sceneFromMesh = frame.placed(worldFromMesh.rows());
+    out.shape = std::make_unique<MeshInstance>(*out.geometry, MovingTransform(out.sceneFromMesh),
+                                               std::vector<std::uint32_t>{7}, 5);
     return out;
 }
 

@@ -51,8 +51,10 @@ MeshGeometry geometryOf(const std::vector<std::array<Vec3, 3>>& triangles, bool 
 // of the world's box of the mesh; both share the scene's normalised space.
 struct Ready {
     std::unique_ptr<MeshGeometry> geometry;
-    std::unique_ptr<Mesh> shape;
-    Transform sceneFromMesh; // to the scene's space, in double
+    std::unique_ptr<Shape> shape;
+    Transform sceneFromMesh; // for the exact points of an instance
+    // Corner c of triangle n of the geometry, where rays meet it.
+    Vec3 corner(std::uint32_t n, std::size_t c) const;
 };
 Ready baked(const MeshDesc& mesh, const Transform& worldFromMesh, const SceneFrame& frame);
 Ready instance(const MeshDesc& mesh, const Transform& worldFromMesh, const SceneFrame& frame);

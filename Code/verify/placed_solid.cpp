@@ -78,8 +78,7 @@ PlacedSolid::PlacedSolid(const Solid& from, const MeshDesc& mesh, const Transfor
 }
 
 Vec3d PlacedSolid::corner(std::uint32_t n, std::size_t c) const {
-    const MeshGeometry& g = *ready.geometry;
-    return ready.sceneFromMesh.point(toDouble(g.points[g.triangles[n][c]]));
+    return toDouble(ready.corner(n, c));
 }
 
 std::uint32_t PlacedSolid::someTriangle(Random& random) const {

@@ -103,6 +103,23 @@ Tally runs(const Effort& effort) {
     return forScenes(effort, 111, again, 0.1);
 }
 
+// Instances as instances, as copies, and some as these and some as those.
+Tally copies(const Effort& effort) {
+    return forScenes(effort, 112, [](auto* name, auto& desc, Random& random, Tally& tally) {
+        const auto upTo = [](std::uint64_t triangles) {
+            return [triangles](RenderSettings& s) { s.copiedTriangles = triangles; };
+        };
+        const std::uint64_t hash = hashWith(desc, upTo(0));
+        for (const std::uint64_t triangles :
+             {std::uint64_t{random.below(3000)}, ~std::uint64_t{}}) {
+            ++tally.cases;
+            if (hashWith(desc, upTo(triangles)) != hash)
+                tally.fail(
+                    [&] { return cat(name, ": copies of up to ", triangles, " triangles"); });
+        }
+    });
+}
+
 // ---- T17
 
 struct NamedSwitch {
@@ -141,11 +158,29 @@ Tally unusedFeatures(const Effort& effort) {
     });
 }
 
+// What is left out for a scene may be done all the same.
+Tally generalForm(const Effort& effort) {
+    return forScenes(effort, 171, [](auto* name, auto& desc, Random& random, Tally& tally) {
+        const char* kernel = kernelsHere()[random.below(kernelsHere().size())];
+        const auto hash = [&](bool specialise) {
+            return hashWith(desc, [&](RenderSettings& s) {
+                s.kernel = kernel;
+                s.specialise = specialise;
+            });
+        };
+        ++tally.cases;
+        if (hash(true) != hash(false))
+            tally.fail([&] { return cat(name, " with kernel ", kernel); });
+    });
+}
+
 constexpr Row kRows[] = {
     {"T10", "pictures without trees, with, any kernel: the same bits", "", 0, true, accelerators},
     {"T11a", "1, 2, 3, 8, 64 threads, tiles, queues: the same bits", "", 0, true, cuts},
     {"T11b", "a picture 20 times on three threads: the same bits", "", 0, true, runs},
-    {"T17", "unused features switched off: the same bits", "", 0, true, unusedFeatures},
+    {"T11c", "instances kept, or copied into one mesh: the same bits", "", 0, true, copies},
+    {"T17a", "unused features switched off: the same bits", "", 0, true, unusedFeatures},
+    {"T17b", "every step for every scene: the same bits", "", 0, true, generalForm},
 };
 
 } // namespace

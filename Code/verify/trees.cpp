@@ -121,7 +121,7 @@ Tally hits(const Effort& effort) {
         const Triangles triangles = set.make(random, count);
         const MeshGeometry tree = meshes::geometryOf(triangles, true);
         const MeshGeometry list = meshes::geometryOf(triangles, false);
-        const Mesh withTree(tree, {}, {0}, {{0, 0}}), without(list, {}, {0}, {{0, 0}});
+        const Mesh withTree(tree, {0}, {{0, 0}}), without(list, {0}, {{0, 0}});
         for (int i = 0; i < rays; ++i) {
             const Ray ray = someRay(random, triangles);
             ++tally.cases;
@@ -157,7 +157,7 @@ Tally traceTimes(const Effort& effort) {
         const Triangles triangles = set.make(random, triangleCount(effort));
         const MeshGeometry tree = meshes::geometryOf(triangles, true);
         const MeshGeometry list = meshes::geometryOf(triangles, false);
-        const Mesh withTree(tree, {}, {0}, {{0, 0}}), without(list, {}, {0}, {{0, 0}});
+        const Mesh withTree(tree, {0}, {{0, 0}}), without(list, {0}, {{0, 0}});
         std::vector<Ray> rays;
         for (int i = 0; i < 6; ++i) {
             rays.push_back(someRay(random, triangles));

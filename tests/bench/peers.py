@@ -5,7 +5,8 @@
                                  [--rounds N] [--runs N] [--quality medium|high] [--cxx COMMAND]
 
 Rounds alternate: raytracer, Embree, raytracer, ... so that both meet the same state of the machine.
-Figures are medians over the rounds, Embree's those of its best mode for each set of rays.
+Figures are medians over the rounds, Embree's those of its best mode for each set of rays. They are
+appended to tests/bench/peers.tsv.
 """
 import argparse
 import collections
@@ -16,6 +17,10 @@ import tempfile
 
 import measured
 import meshes
+
+
+COLUMNS = ["date", "commit", "cpu", "load", "threads", "kernel", "mesh", "peer", "what", "ours", "theirs", "mode", "ratio",
+           "least", "most"]
 
 
 def hasHeader(compiler, header):
@@ -30,7 +35,9 @@ def buildPeer(compiler, folder):
     os.makedirs(folder, exist_ok=True)
     program = os.path.join(folder, "peer_embree")
     source = os.path.join(measured.TOP, "tests", "bench", "peer_embree.cpp")
-    subprocess.run([*compiler, "-O3", "-march=native", "-std=c++20", source, "-o", program, f"-lembree{version}", "-pthread"],
+    # Not vectorised: g++ -O3 fills streams of rays in pieces that Embree's wide loads then wait for, and
+    # its any-hit streams lose a tenth.
+    subprocess.run([*compiler, "-O3", "-fno-tree-vectorize", "-march=native", "-std=c++20", source, "-o", program, f"-lembree{version}", "-pthread"],
                    check=True)
     return program
 
@@ -49,6 +56,7 @@ def compare(raytracer, peer, mesh, folder, arguments):
             hits[who] = measured.hits(text)
             for key, numbers in measured.figures(text).items():
                 found[key].append(numbers[0])
+    peerName = text.split(",", 3)[2]  # behind BUILD and the mesh
     os.remove(rays)
     for what, count in hits["raytracer"].items():
         if abs(count - hits["Embree"][what]) > 64 + count // 10000:
@@ -63,15 +71,18 @@ def compare(raytracer, peer, mesh, folder, arguments):
             mode, other = max(((kind, values) for (kind, w), values in theirs.items() if w == what),
                               key=lambda entry: measured.median(entry[1]))
             ratios = [a / b for a, b in zip(mine, other)]
-        return [label + suffix, f"{measured.median(mine):.2f}", f"{measured.median(other):.2f}", mode,
-                f"{measured.median(ratios):.2f}", f"{min(ratios):.2f} to {max(ratios):.2f}"]
+        return [label + suffix, f"{measured.median(mine):.2f}", f"{measured.median(other):.2f}", mode or "-",
+                *(f"{value:.2f}" for value in (measured.median(ratios), min(ratios), max(ratios)))]
 
     rows = [row(f"{s}, Mray/s", s, suffix) for s in measured.SETS for suffix in ("", " with u, v")
             if not suffix or s in ("primary", "bounce")]
     rows.append(row("build, ms", "build", ""))
     kernel = next(kind for kind, _ in ours if not kind.endswith("+uv"))
     measured.printTable([f"{os.path.basename(mesh)}, {arguments.threads} thread{'s'[:arguments.threads > 1]}", kernel,
-                         "Embree", "its mode", "ratio", "in the rounds"], rows)
+                         "Embree", "its mode", "ratio", "least", "most"], rows)
+    where = [measured.today(), measured.commit(), measured.cpuName(), measured.load(), arguments.threads, kernel,
+             os.path.basename(mesh), peerName]
+    measured.appendRows("peers.tsv", COLUMNS, [where + r for r in rows])
 
 
 def main():

@@ -39,6 +39,7 @@ for kernel in sse avx2 avx512; do
         check "--kernel $kernel" grep -q "this CPU can't run the kernel '$kernel'" err
     fi
 done
+same 'every step for every scene' --no-specialise
 same 'AOVs beside it' --aov depth,id
 same 'statistics' --stats
 same 'the scene'\''s own settings' --spp 8 --seed 0 --sampler sobol --filter blackman-harris,1.5 --jitter \

@@ -16,7 +16,7 @@ std::string numbers(std::initializer_list<double> values) {
     std::string out;
     for (const double value : values) {
         char text[32];
-        std::snprintf(text, sizeof text, " %g", value);
+        static_cast<void>(std::snprintf(text, sizeof text, " %g", value));
         out += text;
     }
     return out;

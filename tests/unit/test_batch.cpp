@@ -19,8 +19,9 @@ TEST(batch_keeps_rays_together) {
     CHECK(batch.medium[7] == 1 && batch.medium[6] == MediumTree::kNothing);
     CHECK(!batch.seesLights[7] && batch.seesLights[9]);
     batch.clear();
-    CHECK(batch.empty() && batch.dir.empty() && batch.tMin.empty() && batch.tMax.empty() &&
-          batch.time.empty());
-    CHECK(batch.sample.empty() && batch.weight.empty() && batch.medium.empty() &&
-          batch.stream.empty() && batch.seesLights.empty());
+    CHECK(batch.empty() && batch.span().size() == 0);
+    batch.setSize(20);
+    CHECK(batch.size() == 20 && batch.span().org.size() == 20 && batch.span().time.size() == 20);
+    CHECK(batch.sample.size() >= 20 && batch.weight.size() >= 20 && batch.medium.size() >= 20);
+    CHECK(batch.stream.size() >= 20 && batch.seesLights.size() >= 20);
 }

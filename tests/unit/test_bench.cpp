@@ -96,7 +96,7 @@ TEST(bench_walk_against_all_boxes) {
     std::size_t misses = 0;
     double entered = 0, visited = 0; // leaves, of the rays that hit
     const BenchRays& all = plain.sets[0];
-    const Mesh mesh(plain.geometry, MovingTransform(), {0}, {{0, 0}});
+    const Mesh mesh(plain.geometry, {0}, {{0, 0}});
     for (std::size_t i = 0; i < all.size(); i += 997) {
         BenchRays one;
         one.push(all.org[i], all.dir[i], kInfinityF);

@@ -286,3 +286,29 @@ TEST(camera_moves_with_its_keys) {
     CHECK(ray.dir == (Vec3{0, 0, -1}));
     CHECK(camera.view(1).eye == (Vec3d{2, 0, 0}));
 }
+
+// Camera rays are made in batches: their bits are those of ray().
+TEST(camera_pinhole_rays_are_rays) {
+    Random random(417);
+    for (int i = 0; i < check::scaled(200); ++i) {
+        CameraParams p;
+        p.worldFromCamera = kit::randomMap(random);
+        p.width = 64, p.height = 48;
+        p.clipStart = random.coin() ? 0 : random.uniform(0, 2);
+        p.shiftX = random.uniform(-1, 1);
+        const Camera camera(p);
+        CHECK(camera.hasSharedOrigin());
+        std::vector<Vec2d> places;
+        for (int k = 0; k < 16; ++k)
+            places.push_back({random.uniform(-3, 67), random.uniform(-3, 51)});
+        std::vector<Vec3> dir(places.size());
+        std::vector<float> tMin(places.size());
+        camera.pinholeRays(places, dir, tMin);
+        for (std::size_t k = 0; k < places.size(); ++k) {
+            const Ray ray = camera.ray(places[k], {0.25f, 0.75f}, 0.5f);
+            CHECK(dir[k] == ray.dir && tMin[k] == ray.tMin);
+            const Camera::Line line = camera.line(places[k]);
+            CHECK(toFloat(line.org) == ray.org && toFloat(normalize(line.dir)) == ray.dir);
+        }
+    }
+}

@@ -63,8 +63,8 @@ TEST(frame_powers_of_two_change_no_bit) {
                           frame.placed(desc.objects[i].worldFromObject[key]));
             MergedMesh a, b;
             const Rows& rows = desc.objects.back().worldFromObject[0];
-            a.add(desc.meshes[0], Transform::fromRows(rows), frame, {0}, 0);
-            b.add(desc.meshes[0], Transform::fromRows(scaledRows(rows, factor, {})), other, {0}, 0);
+            a.add(desc.meshes[0], frame.placed(rows), {0}, 0);
+            b.add(desc.meshes[0], other.placed(scaledRows(rows, factor, {})), {0}, 0);
             CHECK(a.geometry.points == b.geometry.points &&
                   a.geometry.normals == b.geometry.normals);
             MeshDesc big = desc.meshes[0];

@@ -5,12 +5,13 @@
 #include "base/error.h"
 #include "check.h"
 #include "render/shape_set.h"
-#include "verify/meshes.h"
+#include "verify/hostile_rays.h"
 
 #include <algorithm>
 #include <array>
 #include <cstring>
 
+using namespace battery;
 using meshes::Random;
 
 namespace {
@@ -21,16 +22,6 @@ std::vector<const Kernel*> vectorKernels() {
         if (kernel.supported() && kernel.width > 0) out.push_back(&kernel);
     return out;
 }
-
-struct Rays {
-    std::vector<Vec3> org, dir;
-    std::vector<float> tMin, tMax, time;
-    void push(const Ray& ray) {
-        org.push_back(ray.org), dir.push_back(ray.dir);
-        tMin.push_back(ray.tMin), tMax.push_back(ray.tMax), time.push_back(ray.time);
-    }
-    RaySpan span() const { return {org, dir, tMin, tMax, time}; }
-};
 
 // The same mesh with the tree of each kernel, and with none.
 struct Meshes {
@@ -67,9 +58,9 @@ struct Counts {
 };
 
 // Asks all kernels about the rays; the scalar code says what is right.
-void compare(const Meshes& meshes, const Rays& rays, const std::string& name, Counts& counts) {
+void compare(const Meshes& meshes, const RayList& rays, const std::string& name, Counts& counts) {
     const std::size_t n = rays.org.size();
-    const Mesh oracle(meshes.scalar, MovingTransform(), {0}, {{0, 0}});
+    const Mesh oracle(meshes.scalar, {0}, {{0, 0}});
     std::vector<Hit> expected(n), got(n);
     std::vector<std::uint8_t> expectedHidden(n), hidden(n);
     for (std::size_t i = 0; i < n; ++i) {
@@ -81,7 +72,7 @@ void compare(const Meshes& meshes, const Rays& rays, const std::string& name, Co
     }
     counts.rays += n;
     for (const auto& geometry : meshes.wide) {
-        const Mesh mesh(*geometry, MovingTransform(), {0}, {{0, 0}});
+        const Mesh mesh(*geometry, {0}, {{0, 0}});
         CHECK(mesh.takesBatches());
         mesh.intersectBatch(rays.span(), 3, got);
         mesh.occludesBatch(rays.span(), hidden);
@@ -97,76 +88,6 @@ void compare(const Meshes& meshes, const Rays& rays, const std::string& name, Co
     }
 }
 
-// A point of a triangle: a corner, on an edge, inside, or close beside one of them.
-Vec3d target(Random& random, const MeshGeometry& g) {
-    const auto& c = g.triangles[random.below(g.triangles.size())];
-    const Vec3d a = toDouble(g.points[c[0]]), b = toDouble(g.points[c[1]]),
-                d = toDouble(g.points[c[2]]);
-    Vec3d p = a;
-    switch (random.below(4)) {
-    case 0: break;
-    case 1: p = lerp(a, b, random.unit()); break;
-    case 2: p = (a + b + d) * (1.0 / 3); break;
-    default: {
-        const double u = random.unit(), v = random.unit() * (1 - u);
-        p = a + (b - a) * u + (d - a) * v;
-    }
-    }
-    return random.chance(0.2) ? p + random.direction() * 1e-6 : p;
-}
-
-Vec3 someOrigin(Random& random, const MeshGeometry& g) {
-    switch (random.below(6)) {
-    case 0: return toFloat(random.direction() * 3.0);
-    case 1: return toFloat(random.inBox(1));
-    case 2: return toFloat(target(random, g));
-    case 3: return toFloat(target(random, g) + random.direction() * 1e-6);
-    case 4: return toFloat(random.direction() * random.logUniform(10, 1e6));
-    default: { // on the line of an edge: the triangle is seen from its edge
-        const auto& c = g.triangles[random.below(g.triangles.size())];
-        return toFloat(
-            lerp(toDouble(g.points[c[0]]), toDouble(g.points[c[1]]), random.uniform(-1, 2)));
-    }
-    }
-}
-
-Ray someRay(Random& random, const MeshGeometry& g, Vec3 org) {
-    Ray ray{org, toFloat(target(random, g)) - org};
-    if (random.chance(0.1)) ray.dir = toFloat(random.direction());
-    if (random.chance(0.1)) ray.dir[random.below(3)] = 0;
-    if (random.chance(0.05))
-        ray.dir = Vec3{}, ray.dir[random.below(3)] = random.chance(0.5) ? 1.0f : -1.0f;
-    if (random.chance(0.2)) ray.dir = ray.dir * static_cast<float>(random.logUniform(1e-3, 1e3));
-    if (random.chance(0.3)) ray.tMax = static_cast<float>(random.logUniform(1e-2, 10));
-    if (random.chance(0.2)) ray.tMax = 1;
-    if (random.chance(0.2)) ray.tMin = static_cast<float>(random.logUniform(1e-4, 2));
-    return ray;
-}
-
-Rays looseRays(Random& random, const MeshGeometry& g, std::size_t count) {
-    Rays rays;
-    while (rays.org.size() < count) rays.push(someRay(random, g, someOrigin(random, g)));
-    return rays;
-}
-
-// Rays from a few points: narrow pencils as of camera tiles, and all over the place.
-Rays bundledRays(Random& random, const MeshGeometry& g, std::size_t count) {
-    Rays rays;
-    while (rays.org.size() < count) {
-        const Vec3 org = someOrigin(random, g);
-        const bool pencil = random.chance(0.6);
-        const Vec3d axis = target(random, g) - toDouble(org);
-        const double spread = random.logUniform(1e-3, 0.3) * length(axis);
-        const std::size_t size = 33 + random.below(600);
-        for (std::size_t i = 0; i < size; ++i) {
-            Ray ray = someRay(random, g, org);
-            if (pencil && random.chance(0.95)) ray.dir = toFloat(axis + random.inBox(spread));
-            rays.push(ray);
-        }
-    }
-    return rays;
-}
-
 } // namespace
 
 TEST(kernels_on_hostile_triangles) {
@@ -177,7 +98,7 @@ TEST(kernels_on_hostile_triangles) {
         const Meshes meshes(meshes::geometryOf(meshes::soup(random, size[round]), false));
         const auto n = static_cast<std::size_t>(check::scaled(round < 3 ? 500 : 3000));
         compare(meshes, looseRays(random, meshes.scalar, n), "soup", counts);
-        compare(meshes, bundledRays(random, meshes.scalar, n), "soup from points", counts);
+        compare(meshes, raysFromPoints(random, meshes.scalar, n), "soup from points", counts);
     }
     std::printf("%zu rays, %zu hits, %zu hidden, seed 71\n", counts.rays, counts.hits,
                 counts.hidden);
@@ -192,35 +113,19 @@ TEST(kernels_on_closed_meshes) {
         const Meshes meshes(toGeometry(desc, {}));
         const auto n = static_cast<std::size_t>(check::scaled(3000));
         compare(meshes, looseRays(random, meshes.scalar, n), "mesh", counts);
-        compare(meshes, bundledRays(random, meshes.scalar, n), "mesh from points", counts);
+        compare(meshes, raysFromPoints(random, meshes.scalar, n), "mesh from points", counts);
     }
     std::printf("%zu rays, %zu hits, %zu hidden, seed 72\n", counts.rays, counts.hits,
                 counts.hidden);
 }
 
-// Triangles seen from within their own plane: where along them a ray hits is rounding, and the
-// clamps of the canonical key decide.
 TEST(kernels_on_edge_on_triangles) {
     Random random(77);
     Counts counts;
     for (int round = 0; round < 4; ++round) {
         const Meshes meshes(meshes::geometryOf(meshes::soup(random, 50), false));
-        const MeshGeometry& g = meshes.scalar;
-        Rays rays;
-        const std::size_t n = check::scaled(8000u);
-        while (rays.org.size() < n) {
-            const auto& c = g.triangles[random.below(g.triangles.size())];
-            const Vec3d a = toDouble(g.points[c[0]]), b = toDouble(g.points[c[1]]) - a,
-                        d = toDouble(g.points[c[2]]) - a;
-            const auto inPlane = [&](double lo, double hi) {
-                return a + b * random.uniform(lo, hi) + d * random.uniform(lo, hi);
-            };
-            const Vec3 org = toFloat(inPlane(-2, 2));
-            for (int i = 0; i < 40; ++i) {
-                const Vec3d noise = random.direction() * random.logUniform(1e-9, 1e-6);
-                rays.push({org, toFloat(inPlane(0, 0.5) + noise) - org});
-            }
-        }
+        const auto n = static_cast<std::size_t>(check::scaled(8000));
+        const RayList rays = raysInPlanes(random, meshes.scalar, n);
         compare(meshes, rays, "in the plane", counts);
     }
     std::printf("%zu rays, %zu hits, %zu hidden, seed 77\n", counts.rays, counts.hits,
@@ -237,16 +142,16 @@ TEST(kernels_skip_broken_rays) {
                           {{0, 0, 3}, {nan, 0, -1}},  {{nan, 0, 3}, {0, 0, -1}},
                           {{0, -inf, 3}, {0, 0, -1}}, {{0, 0, 3}, {0, 1e-35f, -1e-32f}},
                           {{1e35f, 0, 0}, {-1, 0, 0}}};
-    Rays loose = looseRays(random, meshes.scalar, 300), bundle;
+    RayList loose = looseRays(random, meshes.scalar, 300), bundle;
     for (const Ray& ray : broken) loose.push(ray);
     for (int i = 0; i < 300; ++i) {
-        bundle.push({{0, 0, 3}, toFloat(target(random, meshes.scalar)) - Vec3{0, 0, 3}});
+        bundle.push({{0, 0, 3}, toFloat(targetOn(random, meshes.scalar)) - Vec3{0, 0, 3}});
         if (i % 50 == 7) bundle.push(broken[i / 50 % 3]);
     }
     compare(meshes, loose, "broken rays", counts);
     compare(meshes, bundle, "broken rays in a bundle", counts);
     for (const Vec3 org : {Vec3{nan, 0, 0}, Vec3{inf, 0, 0}, Vec3{0, 0, 1e36f}}) {
-        Rays all;
+        RayList all;
         for (int i = 0; i < 100; ++i) all.push({org, toFloat(random.direction())});
         compare(meshes, all, "a broken origin", counts);
     }
@@ -271,8 +176,7 @@ TEST(kernels_in_a_shape_set) {
                 if (n == 3 || n == 8) {
                     MeshGeometry& g = (isFast ? fast : plain)[n == 3 ? 0 : 1];
                     g.finish(isFast, *kernel);
-                    set.add(std::make_unique<Mesh>(g, MovingTransform(),
-                                                   std::vector<std::uint32_t>{0},
+                    set.add(std::make_unique<Mesh>(g, std::vector<std::uint32_t>{0},
                                                    std::vector<MeshPart>{{0, 0}}),
                             n == 3 ? ShapeSet::Shadow::Opaque : ShapeSet::Shadow::SeeThrough);
                 } else {
@@ -284,8 +188,8 @@ TEST(kernels_in_a_shape_set) {
         }
         CHECK_EQUAL(batched.batched.size(), 2u);
         CHECK(linear.batched.empty());
-        Rays rays = looseRays(random, plain[0], check::scaled(1000u));
-        const Rays bundles = bundledRays(random, plain[1], check::scaled(1000u));
+        RayList rays = looseRays(random, plain[0], check::scaled(1000u));
+        const RayList bundles = raysFromPoints(random, plain[1], check::scaled(1000u));
         for (std::size_t i = 0; i < bundles.org.size(); ++i) rays.push(bundles.span()[i]);
         std::vector<Hit> hits, some, expected;
         std::vector<std::uint8_t> hidden;

@@ -6,6 +6,8 @@
 #include "light/sun_light.h"
 #include "verify/meshes.h"
 
+#include <memory>
+
 using meshes::Random;
 
 namespace {
@@ -199,4 +201,91 @@ TEST(light_spread) {
     const FlatLight wide = flat(FlatLight::Outline::Rectangle, {0, 0, 1}),
                     half = flat(FlatLight::Outline::Rectangle, {0, 0, 1}, kHalfPi);
     CHECK(wide.centre({1, 1, 0}).irradiance == half.centre({1, 1, 0}).irradiance);
+}
+
+namespace {
+
+// Lamps of every kind somewhere about the origin, of every size.
+std::unique_ptr<const Light> randomLamp(Random& random) {
+    const Vec3 place = toFloat(random.inBox(3));
+    const Vec3 way = toFloat(random.direction());
+    const auto size = static_cast<float>(random.logUniform(1e-3, 3));
+    const std::uint32_t kind = random.below(6);
+    if (kind == 0)
+        return std::make_unique<PointLight>(place, kWhite, Attenuation{}, 0, std::nullopt, true);
+    if (kind == 1)
+        return std::make_unique<PointLight>(place, kWhite, Attenuation{}, size, std::nullopt, true);
+    if (kind == 2) {
+        const SpotCone cone{way, static_cast<float>(random.uniform(-0.5, 1)),
+                            static_cast<float>(random.unit())};
+        return std::make_unique<PointLight>(place, kWhite, Attenuation{},
+                                            random.chance(0.5) ? 0 : size, cone, true);
+    }
+    if (kind == 3)
+        return std::make_unique<SunLight>(
+            way, kWhite, random.chance(0.5) ? 0 : random.logUniform(1e-3, 3.1), true);
+    if (kind == 4) return std::make_unique<SphereLight>(place, size, kWhite, true);
+    const Vec3d x = random.direction(), y = cross(x, random.direction());
+    return std::make_unique<FlatLight>(
+        random.chance(0.5) ? FlatLight::Outline::Rectangle : FlatLight::Outline::Ellipse, place,
+        toFloat(x) * size, toFloat(y), toFloat(normalize(cross(x, y))), kWhite, kHalfPi, true);
+}
+
+} // namespace
+
+// cannotReach() is said only where no sample gives light to that normal, down to grazing ones, and
+// mostly where it could be said.
+TEST(light_cannot_reach_what_stays_dark) {
+    Random random(72);
+    int said = 0, dark = 0;
+    for (int i = 0; i < check::scaled(20000); ++i) {
+        const std::unique_ptr<const Light> lamp = randomLamp(random);
+        const Vec3 p = toFloat(random.inBox(3));
+        // Half of the normals are level with the lamp's centre, to a few units of rounding.
+        Vec3d n = random.direction();
+        const LightSample centre = lamp->centre(p);
+        if (random.chance(0.5) && centre.distance > 0) {
+            const Vec3d to = toDouble(centre.toLight);
+            n = cross(n, to) + to * (random.uniform(-1, 1) * random.logUniform(1e-8, 1e-3));
+        }
+        const Vec3 normal = toFloat(normalize(n));
+        bool isDark = true;
+        for (int k = 0; k < 12; ++k) {
+            const LightSample s = k == 0 ? centre : lamp->sample(p, random.square());
+            isDark &= isBlack(s.irradiance) || !(dot(normal, s.toLight) > 0);
+        }
+        dark += isDark;
+        if (!lamp->cannotReach(p, normal)) continue;
+        ++said;
+        CHECK_INFO(isDark, "case " << i << " of seed 72");
+    }
+    CHECK_INFO(said > dark * 2 / 3, said << " of " << dark);
+}
+
+// The line of a sample's light ends in the box that is said to hold its sources, not before the
+// sample does.
+TEST(light_sources_are_in_their_box) {
+    Random random(73);
+    for (int i = 0; i < check::scaled(20000); ++i) {
+        const std::unique_ptr<const Light> lamp = randomLamp(random);
+        const Vec3 p = toFloat(random.inBox(3));
+        const LightSample s =
+            random.chance(0.2) ? lamp->centre(p) : lamp->sample(p, random.square());
+        if (isBlack(s.irradiance)) continue;
+        Bounds points{p, p};
+        points.extend(p + toFloat(random.inBox(0.5)));
+        const Bounds box = lamp->sourcesFor(points).padded(1e-5f);
+        float enter = 0, leave = kInfinityF;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const float a = (box.lo[axis] - p[axis]) / s.toLight[axis],
+                        b = (box.hi[axis] - p[axis]) / s.toLight[axis];
+            enter = max(min(a, b), enter);
+            leave = min(max(a, b), leave);
+        }
+        CHECK_INFO(enter <= leave * 1.00001f, "case " << i << " of seed 73");
+        if (s.distance < kInfinityF)
+            CHECK_INFO(s.distance <= leave * 1.00001f, "case " << i << " of seed 73");
+        else // a sun: outside of the scene
+            CHECK_INFO(leave > 2 + maxAbs(p), "case " << i << " of seed 73");
+    }
 }

@@ -34,7 +34,7 @@ TEST(merge_keeps_outside_outside) {
         const Transform map = random.affine(3, 1);
         mirrored += map.mirrors();
         MergedMesh merged;
-        merged.add(meshes::uvSphere(24, 12), map, {}, {0}, 0);
+        merged.add(meshes::uvSphere(24, 12), map, {0}, 0);
         const MeshGeometry& g = merged.geometry;
         const double expected = std::fabs(map.determinant()) * 4 / 3 * kPi;
         CHECK_NEAR(volume(g) / expected, 0.96, 0.03); // inscribed
@@ -59,12 +59,12 @@ TEST(merge_slots_and_parts) {
     two.triangles = {{0, 1, 2}, {2, 1, 3}, {1, 1, 1}};
     two.triangleMaterials = {1, 0, 1};
     MergedMesh merged;
-    merged.add(two, {}, {}, {10, 11}, 4);
-    merged.add(triangle(), Transform::translate({0, 0, 1}), {}, {12}, 6);
+    merged.add(two, {}, {10, 11}, 4);
+    merged.add(triangle(), Transform::translate({0, 0, 1}), {12}, 6);
     MeshDesc flat = triangle();
     flat.points[2] = flat.points[1];
-    merged.add(flat, {}, {}, {99}, 7); // nothing is left of it
-    merged.add(two, Transform::translate({0, 0, 2}), {}, {13, 14}, 9);
+    merged.add(flat, {}, {99}, 7); // nothing is left of it
+    merged.add(two, Transform::translate({0, 0, 2}), {13, 14}, 9);
     const MeshGeometry& g = merged.geometry;
     CHECK_EQUAL(merged.degenerateCount, 3u);
     CHECK_EQUAL(g.triangles.size(), 5u);
@@ -80,30 +80,38 @@ TEST(merge_slots_and_parts) {
     // And the shape that is made of it says the same.
     MeshGeometry copy = g;
     copy.finish(true);
-    const Mesh mesh(copy, MovingTransform(), merged.materials, merged.parts);
+    const Mesh mesh(copy, merged.materials, merged.parts);
     const Ray ray{{0.25f, 0.25f, 1.5f}, {0, 0, -1}};
     Hit hit;
     CHECK(mesh.intersect(ray, hit) && hit.prim == 2);
     CHECK(mesh.surface(ray, hit).material == 12 && mesh.surface(ray, hit).object == 6);
 }
 
-// Meshes with and without normals or coordinates: the missing ones are made up to mean the same.
-TEST(merge_completes_lists) {
+// Of meshes with and without normals or coordinates each looks as it does alone.
+TEST(merge_marks_what_is_missing) {
     const MeshDesc smooth = meshes::uvSphere(8, 4);
     for (const bool smoothFirst : {true, false}) {
         MergedMesh merged;
-        if (smoothFirst) merged.add(smooth, {}, {}, {0}, 0);
-        merged.add(triangle(), Transform::scale({1, 1, -1}), {}, {0}, 1);
-        if (!smoothFirst) merged.add(smooth, {}, {}, {0}, 0);
+        if (smoothFirst) merged.add(smooth, {}, {0}, 0);
+        merged.add(triangle(), Transform::scale({1, 1, -1}), {0}, 1);
+        if (!smoothFirst) merged.add(smooth, {}, {0}, 0);
         const MeshGeometry& g = merged.geometry;
         const std::size_t lone = smoothFirst ? g.triangles.size() - 1 : 0;
         CHECK(g.normalTriangles.size() == g.triangles.size());
         CHECK(g.uvTriangles.size() == g.triangles.size() && g.slots.size() == g.triangles.size());
-        for (std::size_t k = 0; k < 3; ++k) {
-            CHECK(g.normals[g.normalTriangles[lone][k]] ==
-                  (Vec3{0, 0, -1})); // mirrored: it faces down
-            CHECK(g.uvs[g.uvTriangles[lone][k]] == Vec2{});
-        }
+        CHECK(g.normalTriangles[lone] == MeshGeometry::kWithout);
+        CHECK(g.uvTriangles[lone] == MeshGeometry::kWithout);
+        MeshGeometry copy = g;
+        copy.finish(true);
+        const Mesh mesh(copy, merged.materials, merged.parts);
+        const Ray ray{{0.25f, 0.25f, -3}, {0, 0, 3}, 0.9f};
+        std::vector<Hit> hits;
+        mesh.collect(ray, hits);
+        std::erase_if(hits, [&](const Hit& hit) { return hit.prim != lone; });
+        CHECK_EQUAL(hits.size(), 1u);
+        const Surface s = mesh.surface(ray, hits.at(0));
+        CHECK(s.ns == (Vec3{0, 0, -1}) && s.lift == Vec3{}); // mirrored: it faces down
+        CHECK(s.uv == (Vec2{hits[0].u, hits[0].v}));
         for (std::size_t i = 0; i < g.triangles.size(); ++i) {
             if (i == lone) continue;
             for (std::size_t k = 0; k < 3; ++k) {
@@ -119,8 +127,8 @@ TEST(merge_completes_lists) {
     }
     // Two without stay without.
     MergedMesh plain;
-    plain.add(triangle(), {}, {}, {0}, 0);
-    plain.add(triangle(), {}, {}, {0}, 1);
+    plain.add(triangle(), {}, {0}, 0);
+    plain.add(triangle(), {}, {0}, 1);
     CHECK(plain.geometry.normals.empty() && plain.geometry.uvs.empty());
     CHECK(MergedMesh().geometry.triangles.empty());
 }
@@ -134,6 +142,6 @@ TEST(merge_places_in_double) {
     CHECK(g.points[0] == (Vec3{0, 0, 0}) && g.points[1] == (Vec3{0x1p-10f, 0, 0}) &&
           g.points[2] == (Vec3{0, 0x1p-10f, 0}));
     MergedMesh merged;
-    merged.add(mesh, {}, frame, {0}, 0);
+    merged.add(mesh, frame.placed(Transform().rows()), {0}, 0);
     CHECK(merged.geometry.points == g.points && merged.degenerateCount == 0);
 }

@@ -1,7 +1,8 @@
-// Mesh and MeshGeometry: what a hit says about its point, instances, motion, broken triangles; and
-// numbers that others published for a scene.
+// Mesh, MeshInstance and MeshGeometry: what a hit says about its point, instances, motion, broken
+// triangles; and numbers that others published for a scene.
 #include "check.h"
 #include "render/shape_set.h"
+#include "shape/mesh_instance.h"
 #include "verify/meshes.h"
 
 #include <algorithm>
@@ -35,7 +36,7 @@ MeshDesc squareWithUvs() {
 
 TEST(mesh_uv_and_position) {
     const MeshGeometry geometry = toGeometry(squareWithUvs(), {});
-    const Mesh mesh(geometry, MovingTransform(), {3}, {{0, 9}});
+    const Mesh mesh(geometry, {3}, {{0, 9}});
     Random random(51);
     for (int i = 0; i < 20000; ++i) {
         const double x = random.uniform(0.001, 1.999), y = random.uniform(0.001, 0.999);
@@ -74,13 +75,11 @@ TEST(mesh_derivatives) {
                 rayTo(map.point(random.direction() * 3.0), map.point(random.inBox(0.5)));
             Hit hit;
             if (!r.shape->intersect(ray, hit)) continue;
-            const auto& c = g.triangles[hit.prim];
             const auto& t = g.uvTriangles[hit.prim];
             const SurfaceDerivatives d = r.shape->derivatives(ray, hit);
             const Surface s = r.shape->surface(ray, hit);
             Vec3d p[3];
-            for (std::size_t k = 0; k < 3; ++k)
-                p[k] = r.sceneFromMesh.point(toDouble(g.points[c[k]]));
+            for (std::size_t k = 0; k < 3; ++k) p[k] = toDouble(r.corner(hit.prim, k));
             const double size = length(p[1] - p[0]) + length(p[2] - p[0]);
             for (std::size_t k = 0; k < 3; ++k) {
                 // The map uv -> p is affine: it must take the difference to each corner with it.
@@ -102,8 +101,9 @@ TEST(mesh_derivatives) {
 TEST(mesh_without_uvs) {
     MeshDesc desc = squareWithUvs();
     desc.uvs.clear(), desc.uvTriangles.clear();
-    const MeshGeometry geometry = toGeometry(desc, {});
-    const Mesh mesh(geometry, MovingTransform(Transform::scale({2, 2, -2})), {0}, kOnePart);
+    MeshGeometry geometry = toSharedGeometry(desc);
+    geometry.finish(true);
+    const MeshInstance mesh(geometry, MovingTransform(Transform::scale({2, 2, -2})), {0}, 0);
     const Ray ray = rayTo({2.4, 0.6, 5}, {2.4, 0.6, 0});
     Hit hit;
     CHECK(mesh.intersect(ray, hit));
@@ -113,7 +113,8 @@ TEST(mesh_without_uvs) {
     CHECK_NEAR(hit.u, 0.3, 1e-6); // p = 0.4 v0 + 0.3 v1 + 0.3 v2, in object space (1.2, 0.3)
     CHECK_NEAR(hit.v, 0.3, 1e-6);
     const SurfaceDerivatives d = mesh.derivatives(ray, hit);
-    CHECK(d.dpdu == (Vec3{4, 0, 0}) && d.dpdv == (Vec3{4, 2, 0}));
+    // The mirror has turned the triangle over: its last two corners have changed places.
+    CHECK(d.dpdu == (Vec3{4, 2, 0}) && d.dpdv == (Vec3{4, 0, 0}));
 }
 
 // Outward normals from outside and inside, under maps of any handedness, baked and as instances,
@@ -145,11 +146,10 @@ TEST(mesh_normals_point_outward) {
             // Normal of the ellipsoid at the nearest place: the gradient of |q|^2.
             const Vec3d q = scene.inverse().point(toDouble(s.p));
             worstSmooth = std::max(worstSmooth, angleBetween(s.ns, scene.normal(q)));
-            const auto& c = r.geometry->triangles[hit.prim];
             Vec3d p[3];
-            for (std::size_t k = 0; k < 3; ++k)
-                p[k] = r.sceneFromMesh.point(toDouble(r.geometry->points[c[k]]));
-            worst = std::max(worst, angleBetween(s.ng, cross(p[1] - p[0], p[2] - p[0])));
+            for (std::size_t k = 0; k < 3; ++k) p[k] = toDouble(r.corner(hit.prim, k));
+            const double turned = n % 2 && map.mirrors() ? -1 : 1;
+            worst = std::max(worst, angleBetween(s.ng, cross(p[1] - p[0], p[2] - p[0]) * turned));
             CHECK_NEAR(length(s.ng), 1, 3e-7);
             CHECK_NEAR(length(s.ns), 1, 3e-7);
         }
@@ -188,7 +188,7 @@ TEST(mesh_drops_triangles_whose_corners_coincide) {
     none.triangles = {{0, 0, 0}};
     CHECK_EQUAL(none.dropDegenerate(), 1u);
     none.finish(true);
-    const Mesh empty(none, MovingTransform(), {0}, kOnePart);
+    const Mesh empty(none, {0}, kOnePart);
     Hit hit;
     CHECK(empty.bounds().isEmpty() && !empty.intersect(rayTo({0, 0, 0}, {1, 2, 3}), hit));
 }
@@ -204,7 +204,7 @@ TEST(mesh_needles_do_not_hit_themselves) {
             MeshGeometry g = meshes::geometryOf({t}, false);
             if (g.dropDegenerate()) continue;
             g.finish(false);
-            const Mesh mesh(g, MovingTransform(), {0}, kOnePart);
+            const Mesh mesh(g, {0}, kOnePart);
             const double u = 1 - std::sqrt(random.unit()), v = random.unit() * (1 - u);
             const Vec3d aim =
                 toDouble(t[0]) * (1 - u - v) + toDouble(t[1]) * u + toDouble(t[2]) * v;
@@ -243,19 +243,19 @@ TEST(mesh_needles_do_not_hit_themselves) {
 TEST(mesh_moves_as_its_transform_says) {
     Random random(55);
     const MeshDesc desc = meshes::icosphere(2);
-    MeshGeometry g = toGeometry(desc, {});
+    MeshGeometry g = toSharedGeometry(desc);
     g.finish(true);
     long long wrong = 0, hits = 0, outside = 0;
     for (int n = 0; n < 10; ++n) {
         const Transform keys[3] = {random.affine(2, 1), random.affine(2, 1), random.affine(2, 1)};
         const MovingTransform motion{std::span<const Transform>(keys)};
-        const Mesh moving(g, motion, {0}, kOnePart);
+        const MeshInstance moving(g, motion, {0}, 0);
         const Bounds box = moving.bounds();
         for (int i = 0; i < 500; ++i) {
             Ray ray = rayTo(random.direction() * 4.0, random.inBox(1));
             ray.time = random.chance(0.1) ? 0.5f : static_cast<float>(random.unit());
             const Transform now = motion.at(static_cast<double>(ray.time));
-            const Mesh still(g, MovingTransform(now), {0}, kOnePart);
+            const MeshInstance still(g, MovingTransform(now), {0}, 0);
             Hit a, b;
             const bool hitA = moving.intersect(ray, a), hitB = still.intersect(ray, b);
             if (hitA != hitB || !(a == b)) ++wrong;
@@ -280,13 +280,11 @@ TEST(mesh_moves_as_its_transform_says) {
 TEST(mesh_turns_about_the_origin_of_its_object) {
     MeshDesc desc = meshes::icosphere(3);
     for (Vec3d& p : desc.points) p = p * 0.25 + Vec3d{1, 0, 0};
-    const SceneFrame own = frameOf(desc);
-    MeshGeometry g = toGeometry(desc, own);
+    MeshGeometry g = toSharedGeometry(desc);
     g.finish(true);
     const Transform keys[2] = {Transform(), Transform::rotate({0, 0, 1}, kHalfPi)};
     const MovingTransform motion{std::span<const Transform>(keys)};
-    const Mesh mesh(g, motion, {0}, kOnePart,
-                    Transform::translate(own.centre) * Transform::scale(1 / own.scale));
+    const MeshInstance mesh(g, motion, {0}, 0);
     for (const double time : {0.0, 0.25, 0.5, 1.0}) {
         const double angle = time * kHalfPi;
         const Vec3d middle{std::cos(angle), std::sin(angle), 0};
@@ -308,7 +306,7 @@ TEST(mesh_ranges_and_ties) {
     for (const bool withTree : {true, false}) {
         MeshGeometry g = toGeometry(desc, {});
         g.finish(withTree);
-        const Mesh mesh(g, MovingTransform(), {0}, kOnePart);
+        const Mesh mesh(g, {0}, kOnePart);
         Ray ray = rayTo({0.5, 0.75, 2}, {0.5, 0.75, 1}); // meets z = 0 at t = 2 in triangle 1
         Hit hit;
         CHECK(mesh.intersect(ray, hit) && hit.prim == 1);
@@ -334,7 +332,7 @@ TEST(mesh_parts_and_slots) {
     MeshDesc desc = squareWithUvs();
     desc.triangleMaterials = {1, 0};
     const MeshGeometry g = toGeometry(desc, {});
-    const Mesh mesh(g, MovingTransform(), {40, 41}, {{0, 7}, {1, 8}});
+    const Mesh mesh(g, {40, 41}, {{0, 7}, {1, 8}});
     Hit hit;
     const Ray a = rayTo({1.5, 0.25, 1}, {1.5, 0.25, 0}), b = rayTo({0.5, 0.75, 1}, {0.5, 0.75, 0});
     CHECK(mesh.intersect(a, hit));

@@ -300,3 +300,17 @@ TEST(sampler_same_numbers) {
     CHECK_EQUAL(sampler.get1D(0, 0, kTimeDimension), 0.0261703134f);
     CHECK_EQUAL(mixBits(1), 0x5692161d100b05e5u);
 }
+
+// Many samples of a pixel at once are the same numbers.
+TEST(sampler_runs_are_samples) {
+    for (const SamplerKind kind : kKinds)
+        for (const bool jitter : {true, false})
+            for (const int count : {1, 12}) {
+                const Sampler sampler(kind, count, 5, jitter);
+                for (const std::uint32_t dim : {kPixelDimension, kLensDimension}) {
+                    std::vector<Vec2> run(7);
+                    sampler.get2D(99, 3, dim, run);
+                    CHECK(run == pairsOf(sampler, 99, dim, 7, 3));
+                }
+            }
+}

@@ -3,6 +3,7 @@
 #include "analytic_kit.h"
 #include "check.h"
 #include "render/shape_set.h"
+#include "shape/mesh_instance.h"
 #include "verify/meshes.h"
 
 #include <algorithm>
@@ -34,13 +35,17 @@ struct Scene {
     explicit Scene(std::uint64_t seed) {
         Random random(seed);
         const auto kinds = kit::kinds();
+        MeshDesc soup;
+        for (const auto& triangle : meshes::soup(random, 100)) {
+            const auto n = static_cast<std::uint32_t>(soup.points.size());
+            for (const Vec3 p : triangle) soup.points.push_back(toDouble(p) * 0.02);
+            soup.triangles.push_back({n, n + 1, n + 2});
+        }
         for (const MeshDesc& desc :
-             {meshes::icosphere(2), meshes::cube(), meshes::torus(0.3, 16, 8)}) {
-            geometries.push_back(std::make_unique<MeshGeometry>(toGeometry(desc, {})));
+             {meshes::icosphere(2), meshes::cube(), meshes::torus(0.3, 16, 8), soup}) {
+            geometries.push_back(std::make_unique<MeshGeometry>(toSharedGeometry(desc)));
             geometries.back()->finish(true);
         }
-        geometries.push_back(
-            std::make_unique<MeshGeometry>(meshes::geometryOf(meshes::soup(random, 100), true)));
         MovingTransform last;
         for (std::size_t n = 0; n < 240; ++n) {
             const MovingTransform map =
@@ -59,9 +64,9 @@ struct Scene {
                     shape = kinds[endless && n > 100 ? 0 : kind].make(map);
                 } else {
                     const std::size_t mesh = kind - kinds.size();
-                    shape = std::make_unique<Mesh>(
-                        *geometries[mesh], map, std::vector<std::uint32_t>{0},
-                        std::vector<MeshPart>{{0, 0}}, Transform::scale(mesh == 3 ? 0.02 : 1));
+                    shape = std::make_unique<MeshInstance>(*geometries[mesh], map,
+                                                           std::vector<std::uint32_t>{0},
+                                                           static_cast<std::uint32_t>(n));
                 }
                 set->add(std::move(shape), shadow);
             }
@@ -91,8 +96,15 @@ Ray someRay(Random& random, const ShapeSet& set) {
     return ray;
 }
 
-bool nearer(const Hit& a, const Hit& b) {
-    return std::tie(a.t, a.shape, a.prim) < std::tie(b.t, b.shape, b.prim);
+// By t; of triangles by their own order, of others by number.
+auto nearerIn(const ShapeSet& set, const Ray& ray) {
+    return [&set, ray](const Hit& a, const Hit& b) {
+        if (a.t != b.t) return a.t < b.t;
+        const auto orderA = set.shapes[a.shape]->tieOrder(ray, a);
+        const auto orderB = set.shapes[b.shape]->tieOrder(ray, b);
+        if (orderA && orderB && *orderA != *orderB) return orderA->isBefore(*orderB);
+        return std::tie(a.shape, a.prim) < std::tie(b.shape, b.prim);
+    };
 }
 
 } // namespace
@@ -109,6 +121,7 @@ TEST(shape_set_tree_equals_linear_search) {
         std::vector<Hit> a, b;
         for (int i = 0; i < 52000; ++i) {
             const Ray ray = someRay(random, scene.tree);
+            const auto nearer = nearerIn(scene.tree, ray);
             ++rays;
             const Hit hit = scene.tree.closest(ray);
             if (!(hit == scene.linear.closest(ray)) && ++closestWrong <= 3)
@@ -137,8 +150,8 @@ TEST(shape_set_tree_equals_linear_search) {
                 if (scene.tree.shadows[n] == Shadow::Opaque) opaque = opaque || shape.occludes(ray);
                 if (!shape.intersect(ray, own)) continue;
                 if (own.t == best.t && best.isHit()) ++ties;
-                if (own.t < best.t || (own.t == best.t && !best.isHit()))
-                    best = own, best.shape = n;
+                own.shape = n;
+                if (!best.isHit() || nearer(own, best)) best = own;
             }
             if (opaque != occluded || seen != a.size()) ++bruteWrong;
             // t is clamped to the entry into the shape's padded box, which is not behind the hit

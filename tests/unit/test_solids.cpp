@@ -59,7 +59,7 @@ public:
 
 private:
     static std::unique_ptr<const Shape> mesh(const MeshGeometry& geometry) {
-        return std::make_unique<Mesh>(geometry, MovingTransform(), std::vector<std::uint32_t>{0},
+        return std::make_unique<Mesh>(geometry, std::vector<std::uint32_t>{0},
                                       std::vector<MeshPart>{{0, 0}});
     }
 

@@ -359,8 +359,8 @@ TEST(triangle_tree_equals_brute_force) {
         const MeshGeometry withTree = meshes::geometryOf(triangles, true);
         const MeshGeometry without = meshes::geometryOf(triangles, false);
         CHECK(!withTree.bvh.nodes.empty() && without.bvh.nodes.empty());
-        const Mesh tree(withTree, MovingTransform(), {0}, {{0, 0}});
-        const Mesh all(without, MovingTransform(), {0}, {{0, 0}});
+        const Mesh tree(withTree, {0}, {{0, 0}});
+        const Mesh all(without, {0}, {{0, 0}});
         for (int i = 0; i < 28000; ++i) {
             Ray ray = adversarialRay(random, triangles);
             if (random.chance(0.3)) ray.tMax = static_cast<float>(random.logUniform(0.01, 2));

@@ -20,6 +20,10 @@ namespace kernels::avx2 {
 
 #include "accel/kernels/queue.inl"
 
+#include "accel/kernels/bundle_rays.inl"
+
+#include "accel/kernels/bundle_leaf.inl"
+
 #include "accel/kernels/bundle.inl"
 } // namespace kernels::avx2
 KERNEL_REGION_END

@@ -26,6 +26,10 @@ namespace kernels::avx512 {
 
 #include "accel/kernels/queue.inl"
 
+#include "accel/kernels/bundle_rays.inl"
+
+#include "accel/kernels/bundle_leaf.inl"
+
 #include "accel/kernels/bundle.inl"
 } // namespace kernels::avx512
 KERNEL_REGION_END

@@ -12,6 +12,8 @@ constexpr int kMostSteps = 16; // 3 are the most that random rays took
 // The largest key with t >= tMax; 0 for rays without an end, infinite for those that end at once.
 inline Floats keyAbove(Floats tMax, Floats dz) {
     const Floats one(1.0f), most(std::numeric_limits<float>::max());
+    const Mask endless = tMax == Floats(kInfinityF);
+    if (bits(endless) == (1u << W) - 1) return Floats(0.0f);
     const auto isFar = [&](Floats key) { return tMax <= one / (key * dz); };
     Floats key = min(one / (tMax * dz), most);
     for (int i = 0; i < kMostSteps; ++i) {
@@ -21,11 +23,11 @@ inline Floats keyAbove(Floats tMax, Floats dz) {
     }
     for (int i = 0; i < kMostSteps; ++i) {
         const Floats next = nextUp(key);
-        const Mask far = isFar(next);
-        if (bits(far) == 0) break;
-        key = select(far, next, key);
+        const unsigned far = bits(isFar(next)) & ~bits(endless);
+        if (far == 0) break;
+        key = select(maskOf(far), next, key);
     }
-    key = select(tMax == Floats(kInfinityF), Floats(0.0f), key);
+    key = select(endless, Floats(0.0f), key);
     return select(tMax <= Floats(0.0f), Floats(kInfinityF), key);
 }
 

@@ -27,7 +27,7 @@ public:
     Queue(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order)
         : mesh_(mesh), rays_(rays), order_(order), base_(mesh.tree.base()),
           // An odd number of lines between stacks spreads them over the sets of the cache.
-          stride_(((mesh.tree.stackSize + 2 * W + 15) / 16 | 1) * 16) {
+          stride_(((mesh.tree.stackSize + std::size_t{2} * W + 15) / 16 | 1) * 16) {
         const std::size_t stacks = kSlots * stride_ * sizeof(std::uint32_t);
         std::byte* const memory = scratchMemory(kBlocks * sizeof(RayBlock) + 2 * stacks);
         blocks_ = reinterpret_cast<RayBlock*>(memory);
@@ -36,20 +36,19 @@ public:
     }
 
     template <class Result> void run(Result* results) {
-        for (std::uint32_t b = 0; b < kBlocks && next_ < order_.size(); ++b) start(b);
+        Lists now{lists_[0], lists_[1], lists_[2]}, next{lists_[3], lists_[4], lists_[2]};
+        for (std::uint32_t b = 0; b < kBlocks && next_ < order_.size(); ++b) start(b, next);
         while (live_ > 0) {
-            std::swap(nodesNow_, nodesNext_);
-            std::swap(leavesNow_, leavesNext_);
-            const std::uint32_t nodes = nodeCount_, leaves = leafCount_;
-            nodeCount_ = leafCount_ = doneCount_ = 0;
-            for (std::uint32_t i = 0; i < nodes; ++i) nodeStep(nodesNow_[i]);
-            for (std::uint32_t i = 0; i < leaves; ++i) leafStep(leavesNow_[i]);
-            for (std::uint32_t i = 0; i < doneCount_; ++i) {
-                const std::uint32_t b = done_[i] / W;
+            std::swap(now, next);
+            next.nodeCount = next.leafCount = next.doneCount = 0;
+            for (std::uint32_t i = 0; i < now.nodeCount; ++i) nodeStep(now.nodes[i], next);
+            for (std::uint32_t i = 0; i < now.leafCount; ++i) leafStep(now.leaves[i], next);
+            for (std::uint32_t i = 0; i < next.doneCount; ++i) {
+                const std::uint32_t b = next.done[i] / W;
                 --live_;
                 if (--blocks_[b].live > 0) continue;
                 finish(blocks_[b], results);
-                if (next_ < order_.size()) start(b);
+                if (next_ < order_.size()) start(b, next);
             }
         }
     }
@@ -58,10 +57,16 @@ private:
     static constexpr std::uint32_t kSlots = 64; // rays on their way at most
     static constexpr std::uint32_t kBlocks = kSlots / W;
 
+    // What the rays are at, by their slots.
+    struct Lists {
+        std::uint32_t *nodes, *leaves, *done;
+        std::uint32_t nodeCount = 0, leafCount = 0, doneCount = 0;
+    };
+
     // ---- rays in, hits out
 
     // RaySetup for the next W rays; the formulas are its own, lane by lane.
-    void start(std::uint32_t number) {
+    void start(std::uint32_t number, Lists& to) {
         RayBlock& b = blocks_[number];
         const std::size_t count = std::min<std::size_t>(W, order_.size() - next_);
         alignas(64) float o[3][W], d[3][W], tMin[W], tMax[W];
@@ -142,7 +147,7 @@ private:
             b.stackTop[i] = 1;
             refs_[slot * stride_] = wideRef(0, WideKind::None); // the end of every stack
             entries_[slot * stride_] = 0;
-            nodesNext_[nodeCount_++] = slot;
+            to.nodes[to.nodeCount++] = slot;
         }
     }
 
@@ -162,20 +167,20 @@ private:
     // ---- steps
 
     // Takes the ray to `ref`: three stores, of which one counts.
-    void send(std::uint32_t slot, WideRef ref) {
+    [[gnu::always_inline]] void send(std::uint32_t slot, WideRef ref, Lists& to) const {
         const std::byte* const line = base_ + byteOffset(ref);
         for (int k = 0; k < 4; ++k) __builtin_prefetch(line + std::ptrdiff_t{64} * k);
-        nodesNext_[nodeCount_] = slot;
-        leavesNext_[leafCount_] = slot;
-        done_[doneCount_] = slot;
-        nodeCount_ += kindOf(ref) == WideKind::Node;
-        leafCount_ += kindOf(ref) == WideKind::Leaf;
-        doneCount_ += kindOf(ref) == WideKind::None;
+        to.nodes[to.nodeCount] = slot;
+        to.leaves[to.leafCount] = slot;
+        to.done[to.doneCount] = slot;
+        to.nodeCount += kindOf(ref) == WideKind::Node;
+        to.leafCount += kindOf(ref) == WideKind::Leaf;
+        to.doneCount += kindOf(ref) == WideKind::None;
     }
 
     // RaySetup::enters() for W boxes. With FMA or without: the pads of the slabs are twice those of
     // the canonical hit, and the difference covers either rounding several times.
-    [[gnu::always_inline]] void nodeStep(std::uint32_t slot) {
+    [[gnu::always_inline]] void nodeStep(std::uint32_t slot, Lists& to) {
         RayBlock& b = blocks_[slot / W];
         const std::uint32_t i = slot % W;
         const std::byte* const node = base_ + byteOffset(b.at[i]);
@@ -192,20 +197,26 @@ private:
             reinterpret_cast<const WideRef*>(node + std::ptrdiff_t{6} * W * 4);
         std::uint32_t* const refs = refs_ + slot * stride_;
         const std::uint32_t top = b.stackTop[i];
-        if constexpr (Q == Query::Any)
+        // The next one is taken from registers: what was just stored takes long to come back.
+        WideRef nearest;
+        if constexpr (Q == Query::Any) {
             storeChosen(hit, child, refs + top);
-        else
-            pushSorted(hit, entry, child, refs + top, entries_ + slot * stride_ + top);
-        // Without a child this is the ref that was on top before.
-        const std::uint32_t newTop = top + static_cast<std::uint32_t>(std::popcount(hit)) - 1;
-        b.stackTop[i] = newTop;
-        b.at[i] = refs[newTop];
-        send(slot, refs[newTop]);
+            nearest = child[(std::bit_width(hit) - 1) & (W - 1)];
+        } else {
+            nearest = pushSorted(hit, entry, child, refs + top, entries_ + slot * stride_ + top);
+        }
+        // Without a child, what was on top before.
+        const WideRef before = refs[top - 1];
+        const WideRef next = hit != 0 ? nearest : before;
+        b.stackTop[i] = top + static_cast<std::uint32_t>(std::popcount(hit)) - 1;
+        b.at[i] = next;
+        send(slot, next, to);
     }
 
-    // The farthest child first. Up to four, 97 to 99 of 100 steps, by a sorting network.
-    static void pushSorted(unsigned hit, Floats entry, const WideRef* child, WideRef* refs,
-                           std::uint32_t* entries) {
+    // The farthest child first. Up to four, 97 to 99 of 100 steps, by a sorting network. Returns
+    // the nearest.
+    static WideRef pushSorted(unsigned hit, Floats entry, const WideRef* child, WideRef* refs,
+                              std::uint32_t* entries) {
         const auto keys = keysOf(hit, entry);
         if (std::popcount(hit) > 4) [[unlikely]] {
             alignas(64) std::uint32_t sorted[W];
@@ -219,7 +230,7 @@ private:
                 sorted[place] = key;
             }
             for (int a = 0; a < n; ++a) entries[a] = sorted[a], refs[a] = child[sorted[a] & 15];
-            return;
+            return refs[n - 1];
         }
         __m128i k = firstFour(keys);
         const auto exchange = [](__m128i x, __m128i y, auto lower) {
@@ -235,10 +246,12 @@ private:
                                         std::integral_constant<int, 4>());
         k = _mm_blend_epi16(k, middle, 0x3c);
         _mm_storeu_si128(reinterpret_cast<__m128i*>(entries), k);
-        _mm_storeu_si128(reinterpret_cast<__m128i*>(refs), pick(k, child));
+        const __m128i sorted = pick(k, child);
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(refs), sorted);
+        return element(sorted, std::popcount(hit) - 1);
     }
 
-    void leafStep(std::uint32_t slot) {
+    [[gnu::always_inline]] void leafStep(std::uint32_t slot, Lists& to) {
         RayBlock& b = blocks_[slot / W];
         const std::uint32_t i = slot % W;
         const unsigned candidates = leafCandidates(b, i);
@@ -248,7 +261,7 @@ private:
         const std::uint32_t top = b.stackTop[i] - 1;
         b.stackTop[i] = top;
         b.at[i] = refs[top];
-        send(slot, refs[top]);
+        send(slot, refs[top], to);
     }
 
     // Triangles of the leaf that may be better than what the ray has. ShearedTriangle of
@@ -321,11 +334,9 @@ private:
     std::size_t stride_, next_ = 0;
     RayBlock* blocks_;
     std::uint32_t *refs_, *entries_; // a stack per slot; entries only for nearest hits
-    std::uint32_t live_ = 0, nodeCount_ = 0, leafCount_ = 0, doneCount_ = 0;
+    std::uint32_t live_ = 0;
     // One place more than rays: send() writes to lists that are full.
     std::uint32_t lists_[5][kSlots + 1];
-    std::uint32_t *nodesNow_ = lists_[0], *nodesNext_ = lists_[1];
-    std::uint32_t *leavesNow_ = lists_[2], *leavesNext_ = lists_[3], *done_ = lists_[4];
 };
 
 void closest(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order,

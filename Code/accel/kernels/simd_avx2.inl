@@ -80,6 +80,9 @@ inline Mask operator<(Ints a, Ints b) {
     return {_mm256_castsi256_ps(
         _mm256_cmpgt_epi32(_mm256_xor_si256(b.v, top), _mm256_xor_si256(a.v, top)))};
 }
+inline Mask operator==(Ints a, Ints b) {
+    return {_mm256_castsi256_ps(_mm256_cmpeq_epi32(a.v, b.v))};
+}
 inline Mask operator&(Mask a, Mask b) { return {_mm256_and_ps(a.v, b.v)}; }
 inline Mask operator|(Mask a, Mask b) { return {_mm256_or_ps(a.v, b.v)}; }
 inline unsigned bits(Mask m) { return static_cast<unsigned>(_mm256_movemask_ps(m.v)); }
@@ -93,6 +96,7 @@ inline Ints select(Mask m, Ints a, Ints b) {
     return _mm256_blendv_epi8(b.v, a.v, _mm256_castps_si256(m.v));
 }
 inline Floats permute(Floats a, Ints lanes) { return _mm256_permutevar8x32_ps(a.v, lanes.v); }
+inline Ints permute(Ints a, Ints lanes) { return _mm256_permutevar8x32_epi32(a.v, lanes.v); }
 
 inline float smallest(Floats a) {
     __m128 m = _mm_min_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));
@@ -144,4 +148,8 @@ inline void storeKeys(__m256i keys, std::uint32_t* to) {
 inline __m128i pick(__m128i keys, const std::uint32_t* from) {
     const __m256i all = _mm256_load_si256(reinterpret_cast<const __m256i*>(from));
     return _mm256_castsi256_si128(_mm256_permutevar8x32_epi32(all, _mm256_castsi128_si256(keys)));
+}
+inline std::uint32_t element(__m128i four, int i) {
+    return static_cast<std::uint32_t>(_mm_cvtsi128_si32(
+        _mm_castps_si128(_mm_permutevar_ps(_mm_castsi128_ps(four), _mm_cvtsi32_si128(i)))));
 }

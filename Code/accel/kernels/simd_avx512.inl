@@ -81,6 +81,7 @@ inline Mask operator==(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v
 // True for NaN.
 inline Mask notGreater(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_NGT_UQ)}; }
 inline Mask operator<(Ints a, Ints b) { return {_mm512_cmplt_epu32_mask(a.v, b.v)}; }
+inline Mask operator==(Ints a, Ints b) { return {_mm512_cmpeq_epi32_mask(a.v, b.v)}; }
 inline Mask operator&(Mask a, Mask b) { return {static_cast<__mmask16>(a.v & b.v)}; }
 inline Mask operator|(Mask a, Mask b) { return {static_cast<__mmask16>(a.v | b.v)}; }
 inline unsigned bits(Mask m) { return m.v; }
@@ -88,6 +89,7 @@ inline Mask maskOf(unsigned laneBits) { return {static_cast<__mmask16>(laneBits)
 inline Floats select(Mask m, Floats a, Floats b) { return _mm512_mask_blend_ps(m.v, b.v, a.v); }
 inline Ints select(Mask m, Ints a, Ints b) { return _mm512_mask_blend_epi32(m.v, b.v, a.v); }
 inline Floats permute(Floats a, Ints lanes) { return _mm512_permutexvar_ps(lanes.v, a.v); }
+inline Ints permute(Ints a, Ints lanes) { return _mm512_permutexvar_epi32(lanes.v, a.v); }
 
 inline float smallest(Floats a) { return _mm512_reduce_min_ps(a.v); }
 inline float largest(Floats a) { return _mm512_reduce_max_ps(a.v); }
@@ -132,4 +134,9 @@ inline void storeKeys(__m512i keys, std::uint32_t* to) { _mm512_storeu_si512(to,
 inline __m128i pick(__m128i keys, const std::uint32_t* from) {
     return _mm512_castsi512_si128(
         _mm512_permutexvar_epi32(_mm512_castsi128_si512(keys), _mm512_load_si512(from)));
+}
+// Element i, 0 to 3.
+inline std::uint32_t element(__m128i four, int i) {
+    return static_cast<std::uint32_t>(_mm_cvtsi128_si32(
+        _mm_castps_si128(_mm_permutevar_ps(_mm_castsi128_ps(four), _mm_cvtsi32_si128(i)))));
 }

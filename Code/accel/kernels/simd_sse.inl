@@ -118,6 +118,10 @@ inline Mask operator<(Ints a, Ints b) {
     };
     return {less(a.lo, b.lo), less(a.hi, b.hi)};
 }
+inline Mask operator==(Ints a, Ints b) {
+    return {_mm_castsi128_ps(_mm_cmpeq_epi32(a.lo, b.lo)),
+            _mm_castsi128_ps(_mm_cmpeq_epi32(a.hi, b.hi))};
+}
 inline Mask operator&(Mask a, Mask b) { return {_mm_and_ps(a.lo, b.lo), _mm_and_ps(a.hi, b.hi)}; }
 inline Mask operator|(Mask a, Mask b) { return {_mm_or_ps(a.lo, b.lo), _mm_or_ps(a.hi, b.hi)}; }
 inline unsigned bits(Mask m) {
@@ -148,6 +152,10 @@ inline Floats permute(Floats a, Ints lanes) {
                                              _mm_shuffle_epi8(_mm_castps_si128(a.hi), inHigh)));
     };
     return {half(lanes.lo), half(lanes.hi)};
+}
+inline Ints permute(Ints a, Ints lanes) {
+    const Floats b = permute(Floats(_mm_castsi128_ps(a.lo), _mm_castsi128_ps(a.hi)), lanes);
+    return {_mm_castps_si128(b.lo), _mm_castps_si128(b.hi)};
 }
 
 inline float smallest(Floats a) {
@@ -203,4 +211,9 @@ inline __m128i pick(__m128i keys, const std::uint32_t* from) {
     const auto at = [&](int key) { return static_cast<int>(from[key & 15]); };
     return _mm_setr_epi32(at(_mm_extract_epi32(keys, 0)), at(_mm_extract_epi32(keys, 1)),
                           at(_mm_extract_epi32(keys, 2)), at(_mm_extract_epi32(keys, 3)));
+}
+inline std::uint32_t element(__m128i four, int i) {
+    alignas(16) std::uint32_t all[4];
+    _mm_store_si128(reinterpret_cast<__m128i*>(all), four);
+    return all[i & 3];
 }

@@ -111,7 +111,7 @@ private:
         std::size_t division;
         std::uint32_t first, count; // within the range
         std::uint32_t left, right;  // how many have gone there before
-        std::array<Bins, 2> bins;
+        Bins bins[2];
     };
 
     // Returns what is to be divided further. The rest becomes subtrees.
@@ -140,7 +140,7 @@ private:
             const BinGrid grids[2] = {d.left.grid, d.right.grid};
             PrimBox* const to = lists_.of(*d.range, true);
             code_.divide(in_, *d.range, grids, lists_.of(*d.range) + job.first, job.count,
-                         to + job.left, to + d.range->count - 1 - job.right, job.bins.data());
+                         to + job.left, to + d.range->count - 1 - job.right, job.bins);
         });
         std::vector<BuildRange> next;
         for (Division& d : divisions) {
@@ -179,9 +179,10 @@ private:
     }
 
     void growSubtrees() {
-        std::sort(subtrees_.begin(), subtrees_.end(), [](const SubtreeRange& a, const SubtreeRange& b) {
-            return a.range.first < b.range.first;
-        });
+        std::sort(subtrees_.begin(), subtrees_.end(),
+                  [](const SubtreeRange& a, const SubtreeRange& b) {
+                      return a.range.first < b.range.first;
+                  });
         // A scanned mesh has a leaf for 11 triangles, one without common points for 5.
         const std::size_t leafLines = width_ == 16 ? 4 : 2, share = count_ / workers();
         for (Grown& grown : grown_) {
@@ -213,8 +214,7 @@ private:
 
 } // namespace
 
-WideTree kernels::build::buildWideBy(const BuildCode& code, int width,
-                                     std::span<const Vec3> points,
+WideTree kernels::build::buildWideBy(const BuildCode& code, int width, std::span<const Vec3> points,
                                      std::span<const Corners> triangles, int threads) {
     if (triangles.empty()) return {};
     return WideBuilder(code, width, points, triangles, threads).run();

@@ -60,8 +60,8 @@ struct WideTree {
     }
 };
 
-// Binned SAH, top down. `width` is 8 or 16. The tree is the same on every machine and for any number
-// of threads, 0 being as many as the machine has.
+// Binned SAH, top down. `width` is 8 or 16. The tree is the same on every machine and for any
+// number of threads, 0 being as many as the machine has.
 WideTree buildWide(int width, std::span<const Vec3> points,
                    std::span<const std::array<std::uint32_t, 3>> triangles, int threads = 1);
 
@@ -80,7 +80,8 @@ void traverseWidth(const WideTree& tree, const RaySetup& ray, float zCut, LeafFn
             continue;
         }
         const auto& node = tree.at<WideNode<W>>(ref);
-        for (std::size_t i = W; i-- > 0;) {
+        for (std::size_t end = W; end > 0; --end) {
+            const std::size_t i = end - 1;
             Bounds box;
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 box.lo[axis] = node.plane[axis][0][i];

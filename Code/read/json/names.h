@@ -2,32 +2,38 @@
 #pragma once
 
 #include "base/text.h"
+#include "desc/name_table.h"
 #include "desc/scene_desc.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <deque>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 // From names to places in a vector of SceneDesc.
 class JsonNames {
 public:
     // False when the name is there already; then the first one counts.
-    bool add(const std::string& name, Handle handle) {
-        const auto [entry, isNew] = entries_.try_emplace(name, Entry{handle, 0});
-        ++entry->second.uses;
-        if (isNew && known_.size() < kKnown && name.size() <= kLength) known_.push_back(name);
-        return isNew;
+    bool add(std::string_view name, Handle handle) {
+        if (const auto first = table_.find(name)) {
+            ++entries_[*first].uses;
+            return false;
+        }
+        table_.insert(names_.emplace_back(name), static_cast<std::uint32_t>(entries_.size()));
+        entries_.push_back({handle, 1});
+        if (known_.size() < kKnown && name.size() <= kLength) known_.emplace_back(name);
+        return true;
     }
-    Handle find(const std::string& name) const {
-        const auto found = entries_.find(name);
-        return found == entries_.end() ? kNone : found->second.handle;
+    Handle find(std::string_view name) const {
+        const auto found = table_.find(name);
+        return found ? entries_[*found].handle : kNone;
     }
     // How often it was added.
-    std::size_t uses(const std::string& name) const {
-        const auto found = entries_.find(name);
-        return found == entries_.end() ? 0 : found->second.uses;
+    std::size_t uses(std::string_view name) const {
+        const auto found = table_.find(name);
+        return found ? entries_[*found].uses : 0;
     }
     // For messages; the nearest name is looked for among so many and so short ones that it cannot
     // take long.
@@ -39,6 +45,8 @@ private:
         Handle handle;
         std::size_t uses;
     };
-    std::unordered_map<std::string, Entry> entries_;
+    std::deque<std::string> names_; // which stay where they are
+    NameTable table_;               // numbers of entries
+    std::vector<Entry> entries_;
     std::vector<std::string> known_;
 };

@@ -5,15 +5,9 @@
 
 #include <cstring>
 
-LineReader::LineReader(const SourceFile& source) : source_(source) {
-    end_ = source.text.data() + source.text.size();
-    rewind();
-}
-
-void LineReader::rewind() {
-    p_ = source_.text.data();
-    if (source_.text.starts_with("\xef\xbb\xbf")) p_ += 3; // what some editors put first
-    atStart_ = true;
+LineReader::LineReader(const SourceFile& source)
+    : source_(&source), p_(source.text.data()), end_(p_ + source.text.size()) {
+    if (source.text.starts_with("\xef\xbb\xbf")) p_ += 3; // what some editors put first
 }
 
 void LineReader::skipLine() {

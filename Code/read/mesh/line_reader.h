@@ -15,6 +15,9 @@
 class LineReader {
 public:
     explicit LineReader(const SourceFile& source); // the file must outlive the reader
+    // For some lines of it: `last` is the end, or the start of a line that begins with no blank.
+    LineReader(const SourceFile& source, const char* first, const char* last)
+        : source_(&source), p_(first), end_(last) {}
 
     // Goes to the first word of the next line that has one, from wherever the reader is in its
     // line. False at the end of the file.
@@ -31,7 +34,7 @@ public:
     const char* text() const { return p_; } // of this line, not yet read
     std::size_t offset() const { return offsetOf(p_); }
     std::size_t offsetOf(const char* p) const {
-        return static_cast<std::size_t>(p - source_.text.data());
+        return static_cast<std::size_t>(p - source_->text.data());
     }
     std::size_t offsetOf(std::string_view part) const { return offsetOf(part.data()); }
     // Is the next word exactly this? Then the reader is behind it.
@@ -76,12 +79,11 @@ public:
     bool atNumber();
 
     void moveTo(const char* p) { p_ = p; }
-    void rewind(); // to the start of the file
     bool isNumberEnd(const char* p) const { return isWordEnd(p) || *p == '#'; }
     // For messages about the next word: "'abc'", "the end of the line".
     std::string nextWord();
     [[noreturn]] void failAt(std::size_t offset, std::string_view what) const {
-        ::failAt(source_, offset, what);
+        ::failAt(*source_, offset, what);
     }
 
 private:
@@ -108,8 +110,8 @@ private:
     void skipLine();
     [[noreturn]] void failNumber(std::string_view keyword, double largest);
 
-    const SourceFile& source_;
+    const SourceFile* source_;
     const char* p_;
-    const char* end_; // *end_ is the string's terminating zero
+    const char* end_; // *end_ is the string's terminating zero, or the start of a line
     bool atStart_ = true;
 };

@@ -32,6 +32,16 @@ void append(std::vector<T>& array, bool isNeeded, std::size_t before, std::size_
     array.push_back(value);
 }
 
+template <class T>
+void appendAll(std::vector<T>& array, const std::vector<T>& more, std::size_t before,
+               std::size_t count, std::size_t expected, const T& missing) {
+    if (array.empty() && more.empty()) return;
+    if (array.empty()) array.reserve(std::max(expected, before + count));
+    array.resize(before, missing);
+    array.insert(array.end(), more.begin(), more.end());
+    array.resize(before + count, missing);
+}
+
 // Leaves out the values that no corner uses; returns how many.
 template <class T> std::size_t dropUnused(std::vector<T>& values, std::vector<Corners>& corners) {
     std::vector<bool> used(values.size());
@@ -61,7 +71,7 @@ void MeshBuilder::reserve(std::size_t triangles) {
 
 bool MeshBuilder::addTriangle(const Corner& a, const Corner& b, const Corner& c) {
     if (a.point == b.point || b.point == c.point || c.point == a.point ||
-        !hasArea(mesh.points[a.point], mesh.points[b.point], mesh.points[c.point]))
+        !hasArea(points()[a.point], points()[b.point], points()[c.point]))
         return false;
     const std::size_t before = mesh.triangles.size();
     mesh.triangles.push_back({a.point, b.point, c.point});
@@ -76,13 +86,34 @@ bool MeshBuilder::addTriangle(const Corner& a, const Corner& b, const Corner& c)
 bool MeshBuilder::addFace(std::span<const Corner> corners) {
     if (corners.size() == 3) return addTriangle(corners[0], corners[1], corners[2]);
     polygon_.clear();
-    for (const Corner& c : corners) polygon_.push_back(mesh.points[c.point]);
+    for (const Corner& c : corners) polygon_.push_back(points()[c.point]);
     pieces_.clear();
     triangulate(polygon_, pieces_);
     bool any = false;
     for (const Corners& t : pieces_)
         any = addTriangle(corners[t[0]], corners[t[1]], corners[t[2]]) || any;
     return any;
+}
+
+MeshBuilder MeshBuilder::part() const {
+    MeshBuilder some;
+    some.slot = slot;
+    some.group = group;
+    some.points_ = &mesh.points;
+    return some;
+}
+
+void MeshBuilder::addFaces(const MeshBuilder& part) {
+    const std::size_t before = mesh.triangles.size(), count = part.mesh.triangles.size();
+    const auto add = [&](auto& array, const auto& more, const auto& missing) {
+        appendAll(array, more, before, count, expected_, missing);
+    };
+    mesh.triangles.insert(mesh.triangles.end(), part.mesh.triangles.begin(),
+                          part.mesh.triangles.end());
+    add(mesh.uvTriangles, part.mesh.uvTriangles, kAllMissing);
+    add(mesh.normalTriangles, part.mesh.normalTriangles, kAllMissing);
+    add(mesh.triangleMaterials, part.mesh.triangleMaterials, 0u);
+    add(groups_, part.groups_, 0u);
 }
 
 void MeshBuilder::fillUvs() {

@@ -25,6 +25,11 @@ public:
     // area are left out; false when none is left.
     bool addFace(std::span<const Corner> corners);
 
+    // A builder for some of the faces, of this slot and group; it looks at the points here. Its
+    // faces are added when it has all of them.
+    MeshBuilder part() const;
+    void addFaces(const MeshBuilder& part);
+
     struct Dropped {
         std::size_t points = 0; // that nothing used
     };
@@ -37,6 +42,9 @@ private:
     void fillNormals();
     void fillUvs();
 
+    const std::vector<Vec3d>& points() const { return points_ ? *points_ : mesh.points; }
+
+    const std::vector<Vec3d>* points_ = nullptr; // of another builder; nullptr: its own
     std::size_t expected_ = 0;
     std::vector<std::uint32_t> groups_; // per triangle; empty: none is smooth
     std::vector<Vec3d> polygon_;

@@ -48,6 +48,7 @@ public:
         withType(property.type, [&]<class T>() {
             listStart_ = take(count * sizeof(T));
             for (std::size_t i = 0; i < count; ++i)
+                // NOLINTNEXTLINE(bugprone-signed-char-misuse): a negative one is too large then
                 items[i] = static_cast<std::uint32_t>(load<T>(listStart_ + i * sizeof(T)));
         });
     }

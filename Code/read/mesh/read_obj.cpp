@@ -1,11 +1,12 @@
 #include "read/mesh/read_obj.h"
 
+#include "base/for_each.h"
 #include "base/text.h"
 #include "desc/names.h"
-#include "desc/range.h"
 #include "read/mesh/line_reader.h"
 #include "read/mesh/mesh_builder.h"
-#include "read/mesh/triangulate.h"
+#include "read/mesh/obj_chunks.h"
+#include "read/mesh/obj_corners.h"
 
 #include <algorithm>
 #include <array>
@@ -15,8 +16,6 @@
 
 namespace {
 
-constexpr double kLargestFloat = 1e15; // as in native meshes: its square is far from the end
-
 // What the standard knows besides faces: points, lines, free-form curves and surfaces, display.
 constexpr std::string_view kOtherStatements[] = {
     "p",     "l",    "vp",     "cstype", "deg",      "bmat",     "step",       "curv",      "curv2",
@@ -25,13 +24,6 @@ constexpr std::string_view kOtherStatements[] = {
     "call",  "csh",  "usemap", "maplib", "c_interp", "d_interp", "shadow_obj", "trace_obj",
 };
 
-// How often something happened, and where first.
-struct Counted {
-    std::size_t count = 0, first = 0;
-    void add(std::size_t offset) {
-        if (count++ == 0) first = offset;
-    }
-};
 std::string counted(std::size_t count, std::string_view one, std::string_view many) {
     return cat(count, " ", count == 1 ? one : many);
 }
@@ -46,179 +38,95 @@ public:
     MeshFile read() {
         if (source_.text.size() >= SourceLoc::kUnknown)
             in_.failAt(0, "the file is larger than 4 GiB");
-        count();
-        in_.rewind();
-        readVertices();
-        in_.rewind();
+        chunks_ = chunksOf(source_, context_.options.threads);
+        colours_ = readVertices(source_, chunks_, builder_.mesh, context_.options.threads);
+        builder_.reserve(chunks_.triangles);
         readFaces();
         finish();
         return std::move(file_);
     }
 
 private:
-    struct Counts {
-        std::size_t points = 0, uvs = 0, normals = 0;
-    };
-
-    void count() {
-        std::size_t triangles = 0;
-        while (in_.nextLine()) {
-            const char first = *in_.text();
-            if (first == 'v') {
-                countVertex(total_);
-            } else if (first == 'f' && takeFace()) {
-                std::size_t corners = 0;
-                for (; !in_.word().empty(); ++corners)
-                    ;
-                triangles += corners < 3 ? 0 : corners - 2;
-            }
-        }
-        MeshDesc& mesh = builder_.mesh;
-        mesh.points.reserve(total_.points);
-        mesh.uvs.reserve(total_.uvs);
-        mesh.normals.reserve(total_.normals);
-        builder_.reserve(triangles);
-    }
-    bool countVertex(Counts& counts) {
-        if (in_.take("v"))
-            ++counts.points;
-        else if (in_.take("vn"))
-            ++counts.normals;
-        else if (in_.take("vt"))
-            ++counts.uvs;
-        else
-            return false;
-        return true;
-    }
-    bool takeFace() { return in_.take("f") || in_.take("fo"); } // fo: an old word for the same
-
-    void readVertices() {
-        MeshDesc& mesh = builder_.mesh;
-        while (in_.nextLine()) {
-            if (*in_.text() != 'v') continue;
-            if (in_.take("v")) {
-                readPoint();
-            } else if (in_.take("vn")) {
-                const float x = in_.number<float>("vn", kLargestFloat),
-                            y = in_.number<float>("vn", kLargestFloat),
-                            z = in_.number<float>("vn", kLargestFloat);
-                mesh.normals.push_back({x, y, z});
-                expectLineEnd("vn");
-            } else if (in_.take("vt")) {
-                Vec2 uv;
-                uv.x = in_.number<float>("vt", kLargestFloat);
-                if (!in_.atLineEnd()) uv.y = in_.number<float>("vt", kLargestFloat);
-                if (!in_.atLineEnd())
-                    in_.number<float>("vt", kLargestFloat); // of pictures with depth
-                mesh.uvs.push_back(uv);
-                expectLineEnd("vt");
-            }
-        }
-    }
-    // x y z, then w (of curves) or r g b or both.
-    void readPoint() {
-        Vec3d p;
-        p.x = in_.number<double>("v", kLargestLength);
-        p.y = in_.number<double>("v", kLargestLength);
-        p.z = in_.number<double>("v", kLargestLength);
-        builder_.mesh.points.push_back(p);
-        int more = 0;
-        for (; more < 4 && !in_.atLineEnd(); ++more) in_.number<double>("v", kLargestLength);
-        if (more == 2)
-            in_.failAt(in_.offset(), "'v' has 5 numbers; x y z, then w or r g b or both are known");
-        if (more >= 3) colours_.add(in_.offset());
-        expectLineEnd("v");
-    }
-    void expectLineEnd(std::string_view keyword) {
-        if (!in_.atLineEnd())
-            in_.failAt(in_.offset(), cat("expected the end of the line after '", keyword, "', got ",
-                                         in_.nextWord()));
-    }
-
     void readFaces() {
+        const std::vector<ObjChunk>& chunks = chunks_.chunks;
+        for (std::size_t i = 0; i < chunks.size();) {
+            std::size_t count = 0;
+            // Behind the first face of a part and material, plain chunks belong to these.
+            const bool isSettled = inPart_ && slot_ && !partIsNew_;
+            if (isSettled && context_.options.threads != 1)
+                while (count < kTogether && i + count < chunks.size() && chunks[i + count].isPlain)
+                    ++count;
+            if (count > 1)
+                readTogether(std::span(chunks).subspan(i, count));
+            else
+                readInOrder(chunks[i]);
+            i += std::max<std::size_t>(count, 1);
+        }
+    }
+
+    // Their faces are there twice until they are added.
+    static constexpr std::size_t kTogether = 64;
+
+    // Some of the faces, as one thread reads them.
+    struct Faces {
+        MeshBuilder builder;
+        Counted tooFewCorners, noArea;
+    };
+    void readTogether(std::span<const ObjChunk> chunks) {
+        std::vector<Faces> faces(chunks.size());
+        forEachOn(context_.options.threads, chunks.size(),
+                  [&](std::size_t i) { faces[i] = facesOf(chunks[i]); });
+        for (const Faces& some : faces) {
+            builder_.addFaces(some.builder);
+            tooFewCorners_.add(some.tooFewCorners);
+            noArea_.add(some.noArea);
+        }
+    }
+    Faces facesOf(const ObjChunk& chunk) const {
+        Faces faces{builder_.part(), {}, {}};
+        faces.builder.reserve(chunk.triangles);
+        LineReader in(source_, chunk.first, chunk.last);
+        ObjCounts soFar = chunk.before;
+        CornerReader reader(in, chunks_.total, soFar);
+        while (in.nextLine()) {
+            if (*in.text() == 'v' && takeVertex(in, soFar)) continue;
+            const std::size_t start = in.offset();
+            takeFace(in); // there is nothing else in a plain chunk
+            const auto corners = reader.readFace();
+            if (corners.size() < 3)
+                faces.tooFewCorners.add(start);
+            else if (!faces.builder.addFace(corners))
+                faces.noArea.add(start);
+        }
+        return faces;
+    }
+
+    void readInOrder(const ObjChunk& chunk) {
+        in_ = LineReader(source_, chunk.first, chunk.last);
+        soFar_ = chunk.before;
         while (in_.nextLine()) {
             const char first = *in_.text();
-            if (first == 'v' && countVertex(soFar_)) continue;
+            if (first == 'v' && takeVertex(in_, soFar_)) continue;
             const std::size_t start = in_.offset();
-            if (first == 'f' && takeFace())
+            if (first == 'f' && takeFace(in_))
                 readFace(start);
             else
                 readOther();
         }
     }
-
     void readFace(std::size_t start) {
-        corners_.clear();
-        while (!in_.atLineEnd()) {
-            if (corners_.size() == kMostCorners)
-                in_.failAt(in_.offset(),
-                           cat("a face with more than ", kMostCorners, " corners; divide it"));
-            readCorner();
-        }
-        if (corners_.size() < 3) return tooFewCorners_.add(start);
+        const auto corners = corners_.readFace();
+        if (corners.size() < 3) return tooFewCorners_.add(start);
         if (!inPart_) startPart();
         if (!slot_) startMaterial();
         builder_.slot = *slot_;
         const std::size_t before = builder_.mesh.triangles.size();
-        if (!builder_.addFace(corners_)) return noArea_.add(start);
+        if (!builder_.addFace(corners)) return noArea_.add(start);
         if (partIsNew_) {
             file_.parts.push_back(
                 {partName(), static_cast<std::uint32_t>(before), locOf(partOffset_)});
             partIsNew_ = false;
         }
-    }
-
-    // v, v/vt, v//vn, v/vt/vn; as some programs write it also v/ v// v/vt/
-    void readCorner() {
-        const std::size_t start = in_.offset();
-        const char* p = in_.text();
-        MeshBuilder::Corner corner;
-        corner.point = readIndex(p, total_.points, soFar_.points, "vertex", "vertices");
-        if (*p == '/') {
-            ++p;
-            if (*p != '/' && !in_.isNumberEnd(p))
-                corner.uv = readIndex(p, total_.uvs, soFar_.uvs, "'vt'", "of them");
-            if (*p == '/' && !in_.isNumberEnd(++p))
-                corner.normal = readIndex(p, total_.normals, soFar_.normals, "'vn'", "of them");
-        }
-        if (!in_.isNumberEnd(p)) failCorner(start);
-        constexpr std::uint32_t kMissing = MeshBuilder::kMissing;
-        if (!corners_.empty() && ((corner.uv == kMissing) != (corners_[0].uv == kMissing) ||
-                                  (corner.normal == kMissing) != (corners_[0].normal == kMissing)))
-            in_.failAt(start, cat("corner ", in_.nextWord(),
-                                  " is not written as the first one of its face; all are v, v/vt, "
-                                  "v//vn or v/vt/vn"));
-        corners_.push_back(corner);
-        in_.moveTo(p);
-    }
-    [[noreturn]] void failCorner(std::size_t start) {
-        in_.failAt(start, cat("expected a corner of a face (v, v/vt, v//vn or v/vt/vn), got ",
-                              in_.nextWord()));
-    }
-
-    // From 1, or from -1 for the last one so far. The reader still stands at the corner.
-    std::uint32_t readIndex(const char*& p, std::size_t total, std::size_t soFar,
-                            std::string_view one, std::string_view many) {
-        const char* const start = p;
-        const bool fromEnd = *p == '-';
-        const auto index = readUnsigned(p + (fromEnd ? 1 : 0));
-        if (index.fault == NumberFault::NotANumber) failCorner(in_.offset());
-        const std::uint32_t value = index.value;
-        if (index.fault == NumberFault::TooLarge || value == 0 ||
-            value > (fromEnd ? soFar : total)) {
-            const char* last = start + (fromEnd ? 1 : 0);
-            while (*last >= '0' && *last <= '9') ++last;
-            const std::string written = shown({start, static_cast<std::size_t>(last - start)});
-            if (value == 0 && index.fault == NumberFault::None)
-                in_.failAt(in_.offsetOf(start), "there is no index 0; the first is 1, the last -1");
-            in_.failAt(in_.offsetOf(start),
-                       fromEnd ? cat("there is no ", one, " ", written, "; only ", soFar, " ",
-                                     soFar == 1 ? "comes" : "come", " before this line")
-                               : cat("there is no ", one, " ", written, "; the file has ", total,
-                                     " ", many));
-        }
-        p = index.end;
-        return static_cast<std::uint32_t>(fromEnd ? soFar - value : value - 1);
     }
 
     void readOther() {
@@ -361,8 +269,9 @@ private:
     LineReader in_;
     MeshFile file_;
     MeshBuilder builder_;
-    Counts total_, soFar_;
-    std::vector<MeshBuilder::Corner> corners_;
+    ObjChunks chunks_;
+    ObjCounts soFar_;
+    CornerReader corners_{in_, chunks_.total, soFar_};
 
     std::string_view object_, group_, material_;
     bool inPart_ = false, partIsNew_ = false, namesParts_ = false, namesMaterials_ = false;

@@ -88,21 +88,34 @@ private:
     void readBlock(const Token& word) {
         if (word.text == "settings") return readSingle(desc_.settings, word);
         if (word.text == "world") return readSingle(desc_.world, word);
-        if (word.text == "camera") return readProperties(desc_.cameras.emplace_back(), word);
-        if (word.text == "texture") return readProperties(desc_.textures.emplace_back(), word);
-        if (word.text == "material") return readProperties(desc_.materials.emplace_back(), word);
-        if (word.text == "light") return readProperties(desc_.lights.emplace_back(), word);
+        if (word.text == "camera") return readProperties(added(desc_.cameras), word);
+        if (word.text == "texture") return readProperties(added(desc_.textures), word);
+        if (word.text == "material") return readProperties(added(desc_.materials), word);
+        if (word.text == "light") return readProperties(added(desc_.lights), word);
         if (word.text == "mesh") {
-            MeshDesc& mesh = desc_.meshes.emplace_back();
+            MeshDesc& mesh = added(desc_.meshes);
             readHeading(mesh, word);
             return readMesh(in_, errors_, word, mesh);
         }
         if (const auto kind = valueNamed<ObjectDesc::Kind>(word.text)) {
-            ObjectDesc& object = desc_.objects.emplace_back();
+            ObjectDesc& object = added(desc_.objects);
             object.kind = *kind;
             return readProperties(object, word);
         }
         in_.failAt(word.offset, cat("unknown block ", unknownName(shown(word.text), blockWords())));
+    }
+
+    // One block more. Doubling touches memory twice, which for many blocks costs as much as reading
+    // them; the part of the text that the blocks so far took says how many there will be.
+    template <class Block> Block& added(std::vector<Block>& blocks) const {
+        constexpr std::size_t kMany = 1000, kMostGrowth = 16;
+        if (blocks.size() == blocks.capacity() && blocks.size() >= kMany) {
+            const double part = static_cast<double>(in_.offset()) /
+                                static_cast<double>(in_.offset() + in_.bytesLeft());
+            const double growth = std::clamp(1.05 / part, 1.5, double{kMostGrowth});
+            blocks.reserve(static_cast<std::size_t>(static_cast<double>(blocks.size()) * growth));
+        }
+        return blocks.emplace_back();
     }
 
     template <class Block> void readSingle(Block& block, const Token& word) {

@@ -28,8 +28,9 @@ template <Steps kSteps> void addGlow(const Wave& wave) {
             if (material.opacity < 1 && isBlack(weight)) continue;
         wave.add(slot, weight * (material.emission + material.diffuse * scene.ambient()));
         if (wave.context.openLamps.empty() || !answersLamps(material)) continue;
+        const LitPoint lit = litPoint(wave, here);
         for (const Lamp& lamp : wave.context.openLamps)
             forEachLampSample<kSteps>(
-                wave, lamp, here, [&](const LightSample&, Rgb light) { wave.add(slot, light); });
+                wave, lamp, lit, [&](const LightSample&, Rgb light) { wave.add(slot, light); });
     }
 }

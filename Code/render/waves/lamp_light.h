@@ -8,10 +8,24 @@ inline bool answersLamps(const Material& material) {
     return !isBlack(material.diffuse) || !isBlack(material.specular);
 }
 
+inline LitPoint litPoint(const Wave& wave, std::size_t k) {
+    const PointBatch& points = wave.memory.points;
+    const ShadedPoint& at = points.at[k];
+    return {static_cast<std::uint32_t>(k),
+            0,
+            at.surface.lift != Vec3{},
+            at.surface.p,
+            at.lit.n,
+            at.lit.ng,
+            at.toEye,
+            points.weight[k],
+            points.material[k]};
+}
+
 // Is the light above the horizon, of the triangle or of the curve that its normals pretend?
-inline bool rises(const ShadedPoint& at, Vec3 toLight) {
-    return dot(at.lit.ng, toLight) > 0 ||
-           (at.surface.lift != Vec3{} && dot(at.lit.ns, toLight) > 0);
+inline bool rises(const Wave& wave, const LitPoint& lit, Vec3 toLight) {
+    return dot(lit.ng, toLight) > 0 ||
+           (lit.isLifted && dot(wave.memory.points.at[lit.point].lit.ns, toLight) > 0);
 }
 
 // Random place on the lamp for its k-th sample at the hit of ray i.
@@ -23,26 +37,25 @@ inline Vec2 placeOn(const Lamp& lamp, int k, const Wave& wave, std::size_t i) {
                               dimension(wave.depth, BounceSlot::LightUv));
 }
 
-// fn(sample, light) for every sample of the lamp that sends light from point k to the eye: `light`
-// is what the sample of the picture gets if nothing is in between.
+// fn(sample, light) for every sample of the lamp that sends light from the point to the eye:
+// `light` is what the sample of the picture gets if nothing is in between.
 template <Steps kSteps, class Fn>
-void forEachLampSample(const Wave& wave, const Lamp& lamp, std::size_t k, Fn&& fn) {
-    const PointBatch& points = wave.memory.points;
-    const ShadedPoint& at = points.at[k];
-    if (lamp.light.cannotReach(at.surface.p, at.lit.n)) return;
+void forEachLampSample(const Wave& wave, const Lamp& lamp, const LitPoint& lit, Fn&& fn) {
     const auto take = [&](const LightSample& sample, float share) {
-        if (isBlack(sample.irradiance) || !rises(at, sample.toLight)) return;
-        const Rgb reflected =
-            reflectedLight(*points.material[k], at.lit.n, at.toEye, sample.toLight);
-        const Rgb light = points.weight[k] * reflected * sample.irradiance * share;
+        if (isBlack(sample.irradiance) || !rises(wave, lit, sample.toLight)) return;
+        const Rgb reflected = reflectedLight(*lit.material, lit.n, lit.toEye, sample.toLight);
+        const Rgb light = lit.weight * reflected * sample.irradiance * share;
         if (!isBlack(light)) fn(sample, light);
     };
     if constexpr (kSteps.softLamps)
         if (lamp.isSoft) {
+            if (lamp.light.cannotReach(lit.p, lit.n)) return;
+            const std::uint32_t ray = wave.memory.points.ray[lit.point];
             for (int s = 0; s < lamp.samples; ++s)
-                take(lamp.light.sample(at.surface.p, placeOn(lamp, s, wave, points.ray[k])),
+                take(lamp.light.sample(lit.p, placeOn(lamp, s, wave, ray)),
                      1.0f / static_cast<float>(lamp.samples));
             return;
         }
-    take(lamp.light.centre(at.surface.p), 1);
+    LightSample sample;
+    if (lamp.light.shine(lit.p, lit.n, sample)) take(sample, 1);
 }

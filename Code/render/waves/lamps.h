@@ -57,10 +57,9 @@ inline bool groupPoints(const Wave& wave) {
     if (wave.depth > 0 || !context.settings.specialise || !context.occluders.canTell())
         return false;
     memory.groups.clear();
-    memory.groupOf.resize(memory.points.count);
-    for (const std::uint32_t k : memory.litPoints) {
-        const std::uint32_t shape = memory.hits[memory.points.ray[k]].shape;
-        const ShadedPoint& at = memory.points.at[k];
+    for (LitPoint& lit : memory.litPoints) {
+        const std::uint32_t shape = memory.hits[memory.points.ray[lit.point]].shape;
+        const ShadedPoint& at = memory.points.at[lit.point];
         const bool inside = !(at.front || at.of->litOutside);
         std::size_t g = 0;
         while (g < memory.groups.size() &&
@@ -70,7 +69,7 @@ inline bool groupPoints(const Wave& wave) {
         if (g == memory.groups.size()) memory.groups.push_back({shape, inside, {}});
         memory.groups[g].box.extend(at.surface.p);
         memory.groups[g].box.extend(at.surface.p + at.surface.lift);
-        memory.groupOf[k] = static_cast<std::uint32_t>(g);
+        lit.group = static_cast<std::uint32_t>(g);
     }
     return true;
 }
@@ -83,7 +82,7 @@ template <Steps kSteps> void addLamps(const Wave& wave) {
     memory.litPoints.clear();
     for (std::size_t k = 0; k < points.count; ++k)
         if (answersLamps(*points.material[k]) && !isBlack(points.weight[k]))
-            memory.litPoints.push_back(static_cast<std::uint32_t>(k));
+            memory.litPoints.push_back(litPoint(wave, k));
     if (memory.litPoints.empty() || wave.context.shadingLamps.empty()) return;
 
     const bool isInOrder = wave.depth == 0 || wave.context.shadingLamps.size() == 1;
@@ -101,9 +100,10 @@ template <Steps kSteps> void addLamps(const Wave& wave) {
                 group.mayBeHidden = wave.context.occluders.mayHide(
                     group.box, group.shape, group.inside, lamp.light.sourcesFor(group.box));
         memory.shadowRays.clear();
-        for (const std::uint32_t k : memory.litPoints) {
-            const bool mayBeHidden = !isGrouped || memory.groups[memory.groupOf[k]].mayBeHidden;
-            forEachLampSample<kSteps>(wave, lamp, k, [&](const LightSample& sample, Rgb light) {
+        for (const LitPoint& lit : memory.litPoints) {
+            const std::uint32_t k = lit.point;
+            const bool mayBeHidden = !isGrouped || memory.groups[lit.group].mayBeHidden;
+            forEachLampSample<kSteps>(wave, lamp, lit, [&](const LightSample& sample, Rgb light) {
                 if (!mayBeHidden) return arrive(k, light);
                 const float time = wave.rays.time[points.ray[k]];
                 memory.shadowRays.push(waves::shadowRay(lamp, points.at[k], sample, time), k,

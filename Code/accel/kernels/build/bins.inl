@@ -7,7 +7,6 @@ inline Box emptyBox() { return Box::of(_mm_set1_ps(kHuge), _mm_set1_ps(kHuge)); 
 inline __m128 negated(__m128 v) { return _mm_sub_ps(_mm_setzero_ps(), v); }
 inline __m128 twiceCentre(Box p) { return _mm_sub_ps(p.lo(), p.negHi()); }
 inline Box pointBox(__m128 p) { return Box::of(p, negated(p)); }
-inline std::uint32_t idOf(const PrimBox& p) { return std::bit_cast<std::uint32_t>(p.lo[3]) & ~kNormal; }
 
 // Products of two sides: xy, yz, zx. Both signs of a size do.
 inline __m128 sideProducts(Box b) {
@@ -64,18 +63,17 @@ inline void add(Bins& bins, const BinGrid& grid, Box p) {
     // 16 bytes per bin of counts, twice that per bin of boxes: one number addresses both.
     const __m128i at = _mm_slli_epi32(_mm_cvttps_epi32(inside), 4);
     const auto xy = static_cast<std::uint64_t>(_mm_cvtsi128_si64(at));
-    const std::size_t offset[3] = {xy & 0xffffffffu, xy >> 32,
-                                   static_cast<std::uint32_t>(_mm_extract_epi32(at, 2))};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        auto& box = *reinterpret_cast<PrimBox*>(
-            reinterpret_cast<std::byte*>(bins.box[axis].data()) + 2 * offset[axis]);
-        Box grown = Box::load(box);
+    const auto addTo = [&](std::size_t axis, std::size_t offset) {
+        auto* const box = reinterpret_cast<std::byte*>(bins.box[axis].data()) + 2 * offset;
+        Box grown = Box::load(*reinterpret_cast<PrimBox*>(box));
         grown.extend(p);
-        grown.store(box);
-        ++*(reinterpret_cast<std::uint32_t*>(reinterpret_cast<std::byte*>(bins.count.data()) +
-                                             offset[axis]) +
-            axis);
-    }
+        grown.store(*reinterpret_cast<PrimBox*>(box));
+        auto* const count = reinterpret_cast<std::byte*>(bins.count.data()) + offset + 4 * axis;
+        ++*reinterpret_cast<std::uint32_t*>(count);
+    };
+    addTo(0, static_cast<std::uint32_t>(xy));
+    addTo(1, xy >> 32);
+    addTo(2, static_cast<std::uint32_t>(_mm_extract_epi32(at, 2)));
 }
 
 inline __m128i countsOf(const Bins& bins, std::uint32_t b) {
@@ -107,8 +105,8 @@ void chooseSplit(BuildRange& r, const Bins& bins) {
         // Nothing on one side: no split, and its cost is no number.
         const __m128i none =
             _mm_or_si128(_mm_cmpeq_epi32(count, _mm_setzero_si128()), _mm_cmpeq_epi32(count, all));
-        const __m128 cost = _mm_add_ps(_mm_mul_ps(halfAreas(x, y, z), _mm_cvtepi32_ps(count)),
-                                       rightCost[b]);
+        const __m128 cost =
+            _mm_add_ps(_mm_mul_ps(halfAreas(x, y, z), _mm_cvtepi32_ps(count)), rightCost[b]);
         const __m128 better = _mm_andnot_ps(_mm_castsi128_ps(none), _mm_cmplt_ps(cost, least));
         least = _mm_blendv_ps(least, cost, better);
         cut = _mm_blendv_ps(cut, _mm_set1_ps(static_cast<float>(b)), better);

@@ -30,8 +30,8 @@ template <int W> struct NumberSet {
         const __m256i value = _mm256_set1_epi32(static_cast<int>(x));
         const __m256i place = _mm256_set1_epi32(static_cast<int>(at));
         for (int i = 0; i < W / 8; ++i) {
-            const __m256i lane =
-                _mm256_add_epi32(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7), _mm256_set1_epi32(8 * i));
+            const __m256i lane = _mm256_add_epi32(_mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7),
+                                                  _mm256_set1_epi32(8 * i));
             lanes[i] = _mm256_blendv_epi8(lanes[i], value, _mm256_cmpeq_epi32(lane, place));
         }
     }

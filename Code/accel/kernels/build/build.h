@@ -4,6 +4,7 @@
 #pragma once
 
 #include "accel/kernels/wide_tree.h"
+#include "accel/prim_box.h"
 #include "base/pages.h"
 
 #include <array>
@@ -16,16 +17,6 @@
 namespace kernels::build {
 
 using Corners = std::array<std::uint32_t, 3>;
-
-// The upper corner is negated: growing a box is one minimum over all lanes. The fourth lane of lo
-// is the number of the triangle while it is sorted, that of negHi is free.
-struct alignas(32) PrimBox {
-    std::array<float, 4> lo, negHi;
-};
-static_assert(sizeof(PrimBox) == 32);
-
-// The numbers are kept as normal floats: arithmetic on denormal ones is slow.
-inline constexpr std::uint32_t kNormal = 0x40000000u;
 
 inline constexpr std::size_t kBins = 16;
 // Binned by their centres, for all three axes at once.
@@ -89,7 +80,7 @@ struct BuildInput {
 
 // What one thread has made, of one subtree after the other.
 struct Grown {
-    PageVector<BinaryNode> nodes; // children behind their parents
+    PageVector<BinaryNode> nodes;     // children behind their parents
     PageVector<WideTree::Line> lines; // of the leaves
     std::uint32_t leaves = 0;
 };
@@ -106,7 +97,7 @@ struct BuildCode {
     void (*makeChildren)(const BuildRange&, BuildRange& left, BuildRange& right);
     std::uint32_t (*countLeft)(const BuildRange&, const PrimBox* from, std::uint32_t count);
     void (*divide)(const BuildInput&, const BuildRange&, const BinGrid* grids, const PrimBox* from,
-                   std::uint32_t count, PrimBox* left, PrimBox* right, Bins* bins);
+                   std::uint32_t count, PrimBox* left, PrimBox* right, Bins (&bins)[2]);
     void (*growSubtree8)(const BuildInput&, const BuildRange&, Grown&);
     void (*growSubtree16)(const BuildInput&, const BuildRange&, Grown&);
 };

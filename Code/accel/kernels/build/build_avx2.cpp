@@ -22,7 +22,6 @@ namespace kernels::build::avx2 {
 
 #include "accel/kernels/build/subtree.inl"
 
-
 } // namespace kernels::build::avx2
 KERNEL_REGION_END
 #endif

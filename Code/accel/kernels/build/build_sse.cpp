@@ -22,7 +22,6 @@ namespace kernels::build::sse {
 
 #include "accel/kernels/build/subtree.inl"
 
-
 } // namespace kernels::build::sse
 KERNEL_REGION_END
 #endif

@@ -58,7 +58,8 @@ WideChildren<W> childrenOf(std::uint32_t at, std::span<const BinaryNode> nodes,
         // Sorted in behind those of its area.
         std::size_t i = out.count++;
         const float area = halfAreaOf(nodes[o.node]);
-        for (; i > 0 && halfAreaOf(nodes[out.node[i - 1]]) < area; --i) out.node[i] = out.node[i - 1];
+        for (; i > 0 && halfAreaOf(nodes[out.node[i - 1]]) < area; --i)
+            out.node[i] = out.node[i - 1];
         out.node[i] = o.node;
     }
     return out;
@@ -66,7 +67,8 @@ WideChildren<W> childrenOf(std::uint32_t at, std::span<const BinaryNode> nodes,
 
 template CollapseChoice<8> leafChoice<8>(float);
 template CollapseChoice<16> leafChoice<16>(float);
-template CollapseChoice<8> innerChoice<8>(const CollapseChoice<8>&, const CollapseChoice<8>&, float);
+template CollapseChoice<8> innerChoice<8>(const CollapseChoice<8>&, const CollapseChoice<8>&,
+                                          float);
 template CollapseChoice<16> innerChoice<16>(const CollapseChoice<16>&, const CollapseChoice<16>&,
                                             float);
 template WideChildren<8> childrenOf<8>(std::uint32_t, std::span<const BinaryNode>,

@@ -1,7 +1,7 @@
 // Passes over the triangles of a range. Included inside a kernel's namespace.
 
 void makePrims(const BuildInput& in, std::uint32_t first, std::uint32_t count, PrimBox& box,
-                      PrimBox& centres) {
+               PrimBox& centres) {
     const __m128i last = _mm_setr_epi32(0, 0, 0, -1);
     Box all = emptyBox(), middle = all;
     for (std::uint32_t i = first; i < first + count; ++i) {
@@ -12,7 +12,7 @@ void makePrims(const BuildInput& in, std::uint32_t first, std::uint32_t count, P
         }
         all.extend(b);
         middle.extend(pointBox(twiceCentre(b)));
-        const __m128i id = _mm_set1_epi32(static_cast<int>(i | kNormal));
+        const __m128i id = _mm_set1_epi32(static_cast<int>(i | PrimBox::kNormal));
         Box::of(_mm_castsi128_ps(_mm_blendv_epi8(_mm_castps_si128(b.lo()), id, last)), b.negHi())
             .store(in.lists->prims[i]);
     }
@@ -25,7 +25,7 @@ void fillBins(const BinGrid& grid, const PrimBox* from, std::uint32_t count, Bin
 }
 
 inline bool goesLeft(const BuildRange& r, __m128 cut, Box p) {
-    const __m128 below = _mm_cmplt_ps(positionIn(r.grid, p), cut);
+    const __m128 below = _mm_cmpnge_ps(positionIn(r.grid, p), cut);
     return static_cast<unsigned>(_mm_movemask_ps(below)) >> r.split.axis & 1;
 }
 
@@ -71,8 +71,8 @@ void makeChildren(const BuildRange& r, BuildRange& left, BuildRange& right) {
 // from `right` on downwards, each into the bins of its child.
 template <bool kPrefetch>
 inline void divideRange(const BuildInput& in, const BuildRange& r, const BinGrid* grids,
-                   const PrimBox* from, std::uint32_t count, PrimBox* left, PrimBox* right,
-                   Bins* bins) {
+                        const PrimBox* from, std::uint32_t count, PrimBox* left, PrimBox* right,
+                        Bins (&bins)[2]) {
     const __m128 cut = _mm_set1_ps(r.split.cut);
     std::ptrdiff_t low = 0, high = right - left;
     for (std::uint32_t i = 0; i < count; ++i) {
@@ -81,16 +81,17 @@ inline void divideRange(const BuildInput& in, const BuildRange& r, const BinGrid
         // No branches to guess: the sides come as they like.
         p.store(left[high ^ ((high ^ low) & -isLeft)]);
         low += isLeft, high -= 1 - isLeft;
-        add(bins[1 - isLeft], grids[1 - isLeft], p);
+        const auto side = static_cast<std::size_t>(1 - isLeft);
+        add(bins[side], grids[side], p);
         if constexpr (kPrefetch)
-            _mm_prefetch(reinterpret_cast<const char*>(in.triangles.data() + idOf(from[i])),
+            _mm_prefetch(reinterpret_cast<const char*>(in.triangles.data() + from[i].id()),
                          _MM_HINT_T0);
     }
 }
 
 void divide(const BuildInput& in, const BuildRange& r, const BinGrid* grids, const PrimBox* from,
-            std::uint32_t count, PrimBox* left, PrimBox* right, Bins* bins) {
-    for (int side = 0; side < 2; ++side) clear(bins[side], grids[side].bins());
+            std::uint32_t count, PrimBox* left, PrimBox* right, Bins (&bins)[2]) {
+    for (std::size_t side = 0; side < 2; ++side) clear(bins[side], grids[side].bins());
     // Triples of numbers of this many triangles stay in the nearest cache until they are needed.
     constexpr std::uint32_t kPrefetched = 64;
     if (r.count <= kPrefetched)

@@ -14,7 +14,7 @@ namespace kernels::build {
     void makeChildren(const BuildRange&, BuildRange&, BuildRange&);                                \
     std::uint32_t countLeft(const BuildRange&, const PrimBox*, std::uint32_t);                     \
     void divide(const BuildInput&, const BuildRange&, const BinGrid*, const PrimBox*,              \
-                std::uint32_t, PrimBox*, PrimBox*, Bins*);                                         \
+                std::uint32_t, PrimBox*, PrimBox*, Bins (&)[2]);                                   \
     void growSubtree8(const BuildInput&, const BuildRange&, Grown&);                               \
     void growSubtree16(const BuildInput&, const BuildRange&, Grown&);                              \
     }

@@ -2,26 +2,28 @@
 
 // False when the triangles have more than W different points.
 template <int W>
-inline bool makeLeaf(const BuildInput& in, const PrimBox* prims, const BuildRange& r, Grown& grown) {
-    alignas(64) WideLeaf<W> leaf{};
+inline bool makeLeaf(const BuildInput& in, const PrimBox* prims, const BuildRange& r,
+                     Grown& grown) {
+    WideLeaf<W> leaf;
+    std::memset(&leaf, 0, sizeof leaf); // what is between the members, too: trees compare by bytes
     NumberSet<W> known;
     known.fill(0xffffffffu);
-    std::uint32_t count = 0;
+    std::uint32_t count = 0; // known ones are in front
+    const auto placeOf = [&](unsigned found) {
+        const auto at = std::countr_zero(found | std::uint64_t{1} << count);
+        count += found == 0;
+        return static_cast<std::uint32_t>(at);
+    };
     for (std::uint32_t i = 0; i < r.count; ++i) {
-        const Corners& corners = in.triangles[idOf(prims[i])];
+        const auto [a, b, c] = in.triangles[prims[i].id()];
         // All three are looked for before one is added; one that comes twice costs a place.
-        std::uint32_t found[3], at[3];
-        for (std::size_t k = 0; k < 3; ++k) found[k] = known.find(corners[k]);
-        for (std::size_t k = 0; k < 3; ++k) {
-            at[k] = static_cast<std::uint32_t>(
-                std::countr_zero(found[k] | std::uint64_t{1} << count)); // known ones are in front
-            count += found[k] == 0;
-        }
+        const unsigned foundA = known.find(a), foundB = known.find(b), foundC = known.find(c);
+        const std::uint32_t atA = placeOf(foundA), atB = placeOf(foundB), atC = placeOf(foundC);
         if (count > W) return false;
-        for (std::size_t k = 0; k < 3; ++k) {
-            known.put(corners[k], at[k]);
-            leaf.corner[k][i] = static_cast<std::uint8_t>(at[k]);
-        }
+        known.put(a, atA), known.put(b, atB), known.put(c, atC);
+        leaf.corner[0][i] = static_cast<std::uint8_t>(atA);
+        leaf.corner[1][i] = static_cast<std::uint8_t>(atB);
+        leaf.corner[2][i] = static_cast<std::uint8_t>(atC);
     }
     alignas(64) std::array<std::uint32_t, W> points;
     known.store(points.data());
@@ -33,7 +35,7 @@ inline bool makeLeaf(const BuildInput& in, const PrimBox* prims, const BuildRang
     leaf.count = static_cast<std::uint8_t>(r.count);
     __m128 longest = _mm_setzero_ps();
     for (std::uint32_t i = 0; i < r.count; ++i) {
-        in.ids[r.first + i] = idOf(prims[i]);
+        in.ids[r.first + i] = prims[i].id();
         const Box b = Box::load(prims[i]);
         longest = _mm_max_ps(negated(_mm_add_ps(b.lo(), b.negHi())), longest);
     }

@@ -11,7 +11,8 @@ template <int W> class Subtree {
 public:
     Subtree(const BuildInput& in, Grown& grown) : in_(in), grown_(grown) {}
 
-    void grow(BuildRange current) {
+    void grow(const BuildRange& root) {
+        BuildRange current = root;
         current.node = static_cast<std::uint32_t>(grown_.nodes.size());
         grown_.nodes.push_back(leafNode(current.box));
         std::vector<BuildRange> waiting;
@@ -39,7 +40,9 @@ public:
     }
 
 private:
-    PrimBox* listOf(const BuildRange& r, bool other = false) const { return in_.lists->of(r, other); }
+    PrimBox* listOf(const BuildRange& r, bool other = false) const {
+        return in_.lists->of(r, other);
+    }
 
     bool isLeaf(const BuildRange& r) {
         if (r.count > W) return false;

@@ -14,8 +14,8 @@ template <int W> constexpr std::size_t kLeafLines = sizeof(WideLeaf<W>) / sizeof
 
 template <int W> class TreeWriter {
 public:
-    TreeWriter(WideTree& tree, std::vector<BinaryNode>& top,
-               std::span<const SubtreeRange> subtrees, std::vector<Grown>& grown, ThreadPool& pool)
+    TreeWriter(WideTree& tree, std::vector<BinaryNode>& top, std::span<const SubtreeRange> subtrees,
+               std::vector<Grown>& grown, ThreadPool& pool)
         : tree_(tree), top_(top), subtrees_(subtrees), grown_(grown), pool_(pool) {}
 
     void run() {
@@ -55,14 +55,15 @@ private:
             std::memcpy(&tree_.lines[firstLeaf_[i] * kLeafLines<W>],
                         &from.lines[s.firstLeaf * kLeafLines<W>],
                         (s.endLeaf - s.firstLeaf) * sizeof(WideLeaf<W>));
-        const std::uint32_t shift = firstNode_[i] - s.firstNode - 1;
-        for (std::uint32_t n = s.endNode; n-- > s.firstNode;) {
+        const auto placeOf = [&](std::uint32_t n) { return n - s.firstNode - 1 + firstNode_[i]; };
+        for (std::uint32_t end = s.endNode; end > s.firstNode; --end) {
+            const std::uint32_t n = end - 1;
             BinaryNode node = from.nodes[n];
             if (node.isLeaf())
-                node.leaf += firstLeaf_[i] - s.firstLeaf;
+                node.leaf = node.leaf - s.firstLeaf + firstLeaf_[i];
             else
-                node.left += shift;
-            const std::uint32_t at = n == s.firstNode ? s.range.node : n + shift;
+                node.left = placeOf(node.left);
+            const std::uint32_t at = n == s.firstNode ? s.range.node : placeOf(n);
             nodes_[at] = node;
             choose(at);
         }
@@ -72,16 +73,17 @@ private:
     void choose(std::uint32_t at) {
         const BinaryNode& node = nodes_[at];
         const float area = halfAreaOf(node);
-        choices_[at] = node.isLeaf() ? leafChoice<W>(area)
-                                     : innerChoice<W>(choices_[node.left], choices_[node.left + 1],
-                                                      area);
+        choices_[at] = node.isLeaf()
+                           ? leafChoice<W>(area)
+                           : innerChoice<W>(choices_[node.left], choices_[node.left + 1], area);
     }
 
     void chooseTop() {
         std::vector<bool> done(top_.size());
         for (const SubtreeRange& s : subtrees_) done[s.range.node] = true;
         done[1] = true; // a gap
-        for (auto at = static_cast<std::uint32_t>(top_.size()); at-- > 0;) {
+        for (auto end = static_cast<std::uint32_t>(top_.size()); end > 0; --end) {
+            const std::uint32_t at = end - 1;
             if (done[at]) continue;
             nodes_[at] = top_[at];
             choose(at);
@@ -102,7 +104,8 @@ private:
         std::uint32_t depth = 0;
         double area = 0;
         const auto nodeAt = [&](std::uint32_t number) -> WideNode<W>& {
-            return *reinterpret_cast<WideNode<W>*>(&tree_.lines[firstLine + number * kNodeLines<W>]);
+            return *reinterpret_cast<WideNode<W>*>(
+                &tree_.lines[firstLine + number * kNodeLines<W>]);
         };
         std::uint32_t count = 0;
         while (!tasks.empty()) {
@@ -117,10 +120,12 @@ private:
             const auto children = childrenOf<W>(task.binary, nodes_, choices_);
             area += static_cast<double>(halfAreaOf(nodes_[task.binary])) +
                     write(nodeAt(number), children);
-            for (std::size_t i = children.count; i-- > 0;)
+            for (std::size_t end = children.count; end > 0; --end) {
+                const std::size_t i = end - 1;
                 if (!nodes_[children.node[i]].isLeaf())
-                    tasks.push_back({children.node[i], number, static_cast<std::uint32_t>(i),
-                                     task.depth + 1});
+                    tasks.push_back(
+                        {children.node[i], number, static_cast<std::uint32_t>(i), task.depth + 1});
+            }
         }
         tree_.nodes = count;
         tree_.root = wideRef(firstLine, WideKind::Node);
@@ -132,6 +137,7 @@ private:
     // Returns the area of the triangles' leaves, once for each triangle.
     double write(WideNode<W>& to, const WideChildren<W>& children) const {
         WideNode<W> node;
+        std::memset(&node, 0, sizeof node); // behind the members, too: trees compare by bytes
         for (auto& planes : node.plane) {
             std::fill_n(planes[0], W, std::numeric_limits<float>::infinity());
             std::fill_n(planes[1], W, -std::numeric_limits<float>::infinity());
@@ -146,8 +152,8 @@ private:
             }
             if (!child.isLeaf()) continue;
             node.child[i] = leafRef(child.leaf);
-            area += static_cast<double>(halfAreaOf(child)) *
-                    tree_.at<WideLeaf<W>>(node.child[i]).count;
+            area +=
+                static_cast<double>(halfAreaOf(child)) * tree_.at<WideLeaf<W>>(node.child[i]).count;
         }
         std::memcpy(&to, &node, sizeof node);
         return area;
@@ -166,9 +172,8 @@ private:
 } // namespace
 
 template <int W>
-void writeTree(WideTree& tree, std::vector<BinaryNode>& top,
-               std::span<const SubtreeRange> subtrees, std::vector<Grown>& grown,
-               ThreadPool& pool) {
+void writeTree(WideTree& tree, std::vector<BinaryNode>& top, std::span<const SubtreeRange> subtrees,
+               std::vector<Grown>& grown, ThreadPool& pool) {
     TreeWriter<W>(tree, top, subtrees, grown, pool).run();
 }
 template void writeTree<8>(WideTree&, std::vector<BinaryNode>&, std::span<const SubtreeRange>,

@@ -15,7 +15,7 @@ struct SubtreeRange {
 
 // `top` is the binary tree down to the roots of the subtrees, which are in the order of the leaves.
 template <int W>
-void writeTree(WideTree& tree, std::vector<BinaryNode>& top,
-               std::span<const SubtreeRange> subtrees, std::vector<Grown>& grown, ThreadPool& pool);
+void writeTree(WideTree& tree, std::vector<BinaryNode>& top, std::span<const SubtreeRange> subtrees,
+               std::vector<Grown>& grown, ThreadPool& pool);
 
 } // namespace kernels::build

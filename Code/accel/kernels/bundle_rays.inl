@@ -1,0 +1,295 @@
+// The rays of a bundle, W to a packet. Around the dominant axis of their directions, rays from one
+// point are points S = (x/z, y/z) of a plane, a packet is a rectangle in it and so is a bundle.
+// Only rays with the same dominant axis and sign share a plane: a bundle is traced in rounds, and a
+// ray is active in one of them.
+// Included like queue.inl, behind it.
+
+template <Query Q> class BundleRays {
+public:
+    static constexpr std::size_t kMostRays = 256;
+    static constexpr int kPackets = static_cast<int>(kMostRays) / W;
+
+    struct Range {
+        float lo, hi;
+    };
+    struct Rect {
+        Range x, y; // padded, about the bundle's centre
+        float centreX, centreY, halfX, halfY;
+    };
+
+    BundleRays(const WideMesh& mesh, const RaySpan& rays, Vec3 org)
+        : origin(org), mesh_(mesh), rays_(rays), finiteOrigin_(maxAbs(org) < 1e30f) {}
+
+    // `list`: numbers of rays, in ascending order, at most kMostRays.
+    void load(std::span<const std::uint32_t> list) {
+        list_ = list;
+        loaded_ = (static_cast<int>(list.size()) + W - 1) / W;
+        inARow_ = list.back() - list.front() + 1 == list.size();
+        for (int p = 0; p < loaded_; ++p) left_[p] = traceable_[p] = loadDirections(p);
+    }
+
+    // Makes the next rays active that can be traced together; false when none are left.
+    bool nextRound() {
+        int p = 0;
+        while (p < loaded_ && left_[p] == 0) ++p;
+        if (p == loaded_) return false;
+        chooseAxis(p, std::countr_zero(left_[p]));
+        unsigned chosen[kPackets];
+        for (int r = 0; r < loaded_; ++r) chosen[r] = left_[r] & slopes(r);
+        if constexpr (Q == Query::Any) cutGaps(chosen);
+        for (int r = 0; r < loaded_; ++r) left_[r] &= ~chosen[r];
+        setUp(chosen);
+        return true;
+    }
+
+    // Misses for the rays that isTraceable() refuses.
+    template <class Result> void refuse(Result* results) const {
+        for (int p = 0; p < loaded_; ++p) {
+            const std::size_t rays = std::min<std::size_t>(W, list_.size() - at(p, 0));
+            unsigned refused = ~traceable_[p] & ((1u << rays) - 1);
+            for (; refused != 0; refused &= refused - 1)
+                results[list_[at(p, std::countr_zero(refused))]] = Result();
+        }
+    }
+
+    // The active rays go into `to`, without an answer.
+    void giveBack(std::vector<std::uint32_t>& to) const {
+        for (int q = 0; q < packets; ++q)
+            for (unsigned lanes = active[q]; lanes != 0; lanes &= lanes - 1)
+                to.push_back(list_[at(packet_[q], std::countr_zero(lanes))]);
+    }
+
+    // Answers of the active rays of packet q.
+    void write(int q, Floats t, Ints triangle, TriangleHit* hits) const {
+        const int p = packet_[q];
+        if (active[q] == (1u << W) - 1 && isFull(p)) {
+            storePairs(t, triangle, &hits[list_[at(p, 0)]].t);
+            return;
+        }
+        alignas(64) float ts[W];
+        alignas(64) std::uint32_t triangles[W];
+        t.store(ts), triangle.store(triangles);
+        for (unsigned lanes = active[q]; lanes != 0; lanes &= lanes - 1) {
+            const int i = std::countr_zero(lanes);
+            hits[list_[at(p, i)]] = {ts[i], triangles[i]};
+        }
+    }
+    void write(int q, unsigned found, std::uint8_t* hidden) const {
+        for (unsigned lanes = active[q]; lanes != 0; lanes &= lanes - 1) {
+            const int i = std::countr_zero(lanes);
+            hidden[list_[at(packet_[q], i)]] = found >> i & 1;
+        }
+    }
+
+    Vec3 direction(int q, int lane) const {
+        const int p = packet_[q];
+        return {dir_[0][p][lane], dir_[1][p][lane], dir_[2][p][lane]};
+    }
+
+    // ---- of the active rays; packets without any are left out
+
+    Vec3 origin;
+    std::size_t k = 2, kx = 0, ky = 1; // RaySetup's
+    float sign = 1;
+    Range x, y; // of the bundle
+    Rect all;
+    float centreX, centreY, halfX, halfY;
+    float slopeSum; // of the largest |Sx| and |Sy|
+    int packets = 0;
+    unsigned active[kPackets];
+    Rect rect[kPackets];
+    float zFar[kPackets]; // behind it no ray of the packet asks
+    alignas(64) float Sx[kPackets][W];
+    float Sy[kPackets][W], relX[kPackets][W], relY[kPackets][W], dz[kPackets][W]; // rel: to centre
+    float tMax[kPackets][W];
+    // Keys that count are in (above, below), as t is in (tMin, tMax): KeyRange of shape/mesh.cpp.
+    // Lanes without an active ray are copies of another one that nothing is near enough for.
+    float above[kPackets][W], below[kPackets][W];
+    float leastBelow;
+
+private:
+    static std::size_t at(int p, int lane) {
+        return static_cast<std::size_t>(p) * W + static_cast<std::size_t>(lane);
+    }
+
+    // Is every lane of the packet a ray, and do they follow each other in the batch?
+    bool isFull(int p) const { return inARow_ && at(p + 1, 0) <= list_.size(); }
+
+    // Returns the lanes that hold a ray that isTraceable().
+    unsigned loadDirections(int p) {
+        const std::size_t first = at(p, 0);
+        Floats dx, dy, dz_;
+        if (isFull(p)) {
+            const std::uint32_t ray = list_[first];
+            if (ray + kMostRays + W <= rays_.size()) { // for the next bundle, probably
+                const float* const next = &rays_.dir[ray + kMostRays].x;
+                for (int i = 0; i < 3 * W; i += 16) __builtin_prefetch(next + i);
+                __builtin_prefetch(&rays_.tMin[ray + kMostRays]);
+                __builtin_prefetch(&rays_.tMax[ray + kMostRays]);
+            }
+            loadVectors(&rays_.dir[ray].x, dx, dy, dz_);
+            dx.store(dir_[0][p]), dy.store(dir_[1][p]), dz_.store(dir_[2][p]);
+        } else {
+            for (std::size_t i = 0; i < W; ++i) {
+                const Vec3 d = first + i < list_.size() ? rays_.dir[list_[first + i]] : Vec3{};
+                dir_[0][p][i] = d.x, dir_[1][p][i] = d.y, dir_[2][p][i] = d.z;
+            }
+            dx = Floats::load(dir_[0][p]), dy = Floats::load(dir_[1][p]);
+            dz_ = Floats::load(dir_[2][p]);
+        }
+        if (!finiteOrigin_) return 0;
+        const Floats sum = ((dx + dy) + dz_) + Floats((origin.x + origin.y) + origin.z);
+        const Floats size = max(max(abs(dx), abs(dy)), abs(dz_));
+        return bits((size > Floats(1e-30f)) & (size < Floats(1e30f)) & (sum - sum == Floats(0.0f)));
+    }
+
+    void chooseAxis(int p, int lane) {
+        const RaySetup ray(origin, {dir_[0][p][lane], dir_[1][p][lane], dir_[2][p][lane]},
+                           mesh_.extent);
+        k = ray.k, kx = ray.kx, ky = ray.ky, sign = ray.sign;
+    }
+
+    // Computes the slopes of a packet; returns the lanes of the chosen axis and sign.
+    unsigned slopes(int p) {
+        const Floats d = Floats::load(dir_[k][p]), dx = Floats::load(dir_[kx][p]),
+                     dy = Floats::load(dir_[ky][p]);
+        const Floats size = abs(d);
+        const Mask beatsX = kx < k ? size >= abs(dx) : size > abs(dx); // equal: z, then y, then x
+        const Mask beatsY = ky < k ? size >= abs(dy) : size > abs(dy);
+        const unsigned negative = bits(d < Floats(0.0f));
+        (dx / size).store(rawX_[p]);
+        (dy / size).store(rawY_[p]);
+        size.store(rawZ_[p]);
+        return bits(beatsX & beatsY) & (sign < 0 ? negative : ~negative);
+    }
+
+    // Shadow rays of a tile end on surfaces far apart: while nearly half of the rectangle is an
+    // empty stretch, the rays on the far side of it wait for the next round.
+    void cutGaps(unsigned* chosen) const {
+        constexpr float kGap = 0.45f;
+        for (int round = 0; round < 6; ++round) {
+            const auto gap = [&](const float(*raw)[W], float& middle) {
+                Floats lo(kInfinityF), hi(-kInfinityF);
+                for (int p = 0; p < loaded_; ++p) {
+                    const Mask m = maskOf(chosen[p]);
+                    const Floats s = Floats::load(raw[p]);
+                    lo = min(lo, select(m, s, Floats(kInfinityF)));
+                    hi = max(hi, select(m, s, Floats(-kInfinityF)));
+                }
+                const float first = smallest(lo), last = largest(hi);
+                middle = 0.5f * (first + last);
+                Floats under(-kInfinityF), over(kInfinityF);
+                for (int p = 0; p < loaded_; ++p) {
+                    const Mask m = maskOf(chosen[p]);
+                    const Floats s = Floats::load(raw[p]);
+                    const Mask upper = s > Floats(middle);
+                    over = min(over, select(m & upper, s, Floats(kInfinityF)));
+                    under = max(under, select(upper, under, select(m, s, under)));
+                }
+                const float width = smallest(over) - largest(under);
+                return width < kInfinityF && width > kGap * (last - first) ? width : 0.0f;
+            };
+            float middleX = 0, middleY = 0;
+            const float gapX = gap(rawX_, middleX), gapY = gap(rawY_, middleY);
+            if (gapX == 0 && gapY == 0) return;
+            const auto* raw = gapX > gapY ? rawX_ : rawY_;
+            const float middle = gapX > gapY ? middleX : middleY;
+            int first = 0;
+            while (chosen[first] == 0) ++first;
+            const bool keepUpper = raw[first][std::countr_zero(chosen[first])] > middle;
+            for (int p = 0; p < loaded_; ++p) {
+                const unsigned upper = bits(Floats::load(raw[p]) > Floats(middle));
+                chosen[p] &= keepUpper ? upper : ~upper;
+            }
+        }
+    }
+
+    static Range rangeOf(Floats v, Mask lanes) {
+        return {smallest(select(lanes, v, Floats(kInfinityF))),
+                largest(select(lanes, v, Floats(-kInfinityF)))};
+    }
+
+    // Packets with the chosen lanes, their rectangles and that of the bundle.
+    void setUp(const unsigned* chosen) {
+        packets = 0;
+        x = y = {kInfinityF, -kInfinityF};
+        leastBelow = kInfinityF;
+        Range xs[kPackets], ys[kPackets];
+        for (int p = 0; p < loaded_; ++p) {
+            if (chosen[p] == 0) continue;
+            const int q = packets++;
+            packet_[q] = p;
+            active[q] = chosen[p];
+            const Mask on = maskOf(chosen[p]);
+            const int first = std::countr_zero(chosen[p]);
+            const auto spread = [&](const float(&raw)[W]) {
+                return select(on, Floats::load(raw), Floats(raw[first]));
+            };
+            const Floats sx = spread(rawX_[p]), sy = spread(rawY_[p]), z = spread(rawZ_[p]);
+            sx.store(Sx[q]), sy.store(Sy[q]), z.store(dz[q]);
+            setRange(p, q, on, first, z);
+            xs[q] = rangeOf(sx, on), ys[q] = rangeOf(sy, on);
+            x = {::min(xs[q].lo, x.lo), ::max(xs[q].hi, x.hi)};
+            y = {::min(ys[q].lo, y.lo), ::max(ys[q].hi, y.hi)};
+        }
+        centreX = 0.5f * (x.lo + x.hi), centreY = 0.5f * (y.lo + y.hi);
+        halfX = 0.5000001f * (x.hi - x.lo) + 1e-7f;
+        halfY = 0.5000001f * (y.hi - y.lo) + 1e-7f;
+        slopeSum =
+            ::max(std::fabs(x.lo), std::fabs(x.hi)) + ::max(std::fabs(y.lo), std::fabs(y.hi));
+        // What roughInverse() is off by at the rim of the rectangle, and a few roundings.
+        const float rough = W == 16 ? 3e-4f : 2e-3f;
+        const float padX = rough * halfX + 2e-6f, padY = rough * halfY + 2e-6f;
+        const auto padded = [](Range r, float centre, float pad) {
+            return Range{r.lo - centre - pad, r.hi - centre + pad};
+        };
+        for (int q = 0; q < packets; ++q) {
+            Rect& r = rect[q];
+            r.x = padded(xs[q], centreX, padX), r.y = padded(ys[q], centreY, padY);
+            r.centreX = 0.5f * (xs[q].lo + xs[q].hi) - centreX;
+            r.centreY = 0.5f * (ys[q].lo + ys[q].hi) - centreY;
+            r.halfX = 0.5f * (xs[q].hi - xs[q].lo) * 1.00001f + 2e-6f;
+            r.halfY = 0.5f * (ys[q].hi - ys[q].lo) * 1.00001f + 2e-6f;
+            (Floats::load(Sx[q]) - Floats(centreX)).store(relX[q]);
+            (Floats::load(Sy[q]) - Floats(centreY)).store(relY[q]);
+        }
+        all.x = padded(x, centreX, padX), all.y = padded(y, centreY, padY);
+    }
+
+    // Lanes without a ray ask what lane `spare` asks.
+    void setRange(int p, int q, Mask on, int spare, Floats z) {
+        Floats lo, hi;
+        if (isFull(p)) {
+            lo = Floats::unaligned(&rays_.tMin[list_[at(p, 0)]]);
+            hi = Floats::unaligned(&rays_.tMax[list_[at(p, 0)]]);
+        } else {
+            alignas(64) float tLo[W], tHi[W];
+            for (int i = 0; i < W; ++i) {
+                const std::uint32_t ray = list_[at(p, at(p, i) < list_.size() ? i : spare)];
+                tLo[i] = rays_.tMin[ray], tHi[i] = rays_.tMax[ray];
+            }
+            lo = Floats::load(tLo), hi = Floats::load(tHi);
+        }
+        hi.store(tMax[q]);
+        Floats keyOver(0.0f), keyUnder(kInfinityF);
+        zFar[q] = depthCut(0);
+        // For most rays without an end (0, infinity), which takes long to compute.
+        if (bits((lo == Floats(0.0f)) & (hi == Floats(kInfinityF))) != (1u << W) - 1) {
+            keyOver = keyAbove(hi, z), keyUnder = keyBelow(lo, z);
+            zFar[q] = depthCut(smallest(keyOver));
+            leastBelow = ::min(smallest(keyUnder), leastBelow);
+        }
+        select(on, Q == Query::Any ? keyOver : Floats(0.0f), Floats(kInfinityF)).store(above[q]);
+        keyUnder.store(below[q]);
+    }
+
+    const WideMesh& mesh_;
+    const RaySpan& rays_;
+    std::span<const std::uint32_t> list_;
+    bool inARow_ = false, finiteOrigin_;
+    int loaded_ = 0; // packets
+    unsigned traceable_[kPackets], left_[kPackets];
+    int packet_[kPackets]; // of the active ones
+    alignas(64) float dir_[3][kPackets][W];
+    float rawX_[kPackets][W], rawY_[kPackets][W], rawZ_[kPackets][W];
+};

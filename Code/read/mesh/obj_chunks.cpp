@@ -1,0 +1,146 @@
+#include "read/mesh/obj_chunks.h"
+
+#include "base/for_each.h"
+#include "base/text.h"
+#include "desc/range.h"
+
+#include <cstring>
+
+namespace {
+
+constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
+constexpr double kLargestFloat = 1e15; // as in native meshes: its square is far from the end
+
+// Behind a line end, where no backslash joins the lines and no reader at the end of a chunk would
+// go on over blanks.
+const char* lineStartFrom(const char* p, const char* end) {
+    while (true) {
+        const void* const found = std::memchr(p, '\n', static_cast<std::size_t>(end - p));
+        if (!found) return end;
+        const char* const newline = static_cast<const char*>(found);
+        const char* last = newline; // p is behind the first byte of the text
+        if (last[-1] == '\r') --last;
+        p = newline + 1;
+        const bool joins = last[-1] == '\\', blank = *p == ' ' || *p == '\t' || *p == '\r';
+        if (!joins && !blank && *p != '\\') return p;
+    }
+}
+
+std::vector<ObjChunk> divided(const std::string& text) {
+    const char* first = text.data();
+    const char* const end = first + text.size();
+    if (text.starts_with("\xef\xbb\xbf")) first += 3; // what some editors put first
+    std::vector<ObjChunk> chunks;
+    while (first < end) {
+        const auto left = static_cast<std::size_t>(end - first);
+        const char* const last =
+            left <= kChunkBytes ? end : lineStartFrom(first + kChunkBytes - 1, end);
+        chunks.push_back({first, last, {}, 0, true});
+        first = last;
+    }
+    return chunks;
+}
+
+// Its own numbers, until it is known what comes in front.
+ObjCounts count(const SourceFile& source, ObjChunk& chunk) {
+    LineReader in(source, chunk.first, chunk.last);
+    ObjCounts counts;
+    while (in.nextLine()) {
+        const char first = *in.text();
+        if (first == 'v' && takeVertex(in, counts)) continue;
+        if (first == 'f' && takeFace(in)) {
+            std::size_t corners = 0;
+            while (!in.word().empty()) ++corners;
+            chunk.triangles += corners < 3 ? 0 : corners - 2;
+        } else {
+            chunk.isPlain = false;
+        }
+    }
+    return counts;
+}
+
+class VertexReader {
+public:
+    VertexReader(const SourceFile& source, const ObjChunk& chunk, MeshDesc& mesh)
+        : in_(source, chunk.first, chunk.last), at_(chunk.before), mesh_(mesh) {}
+
+    Counted read() {
+        while (in_.nextLine()) {
+            if (*in_.text() != 'v') continue;
+            if (in_.take("v")) {
+                readPoint();
+            } else if (in_.take("vn")) {
+                const float x = in_.number<float>("vn", kLargestFloat),
+                            y = in_.number<float>("vn", kLargestFloat),
+                            z = in_.number<float>("vn", kLargestFloat);
+                mesh_.normals[at_.normals++] = {x, y, z};
+                expectLineEnd("vn");
+            } else if (in_.take("vt")) {
+                Vec2 uv;
+                uv.x = in_.number<float>("vt", kLargestFloat);
+                if (!in_.atLineEnd()) uv.y = in_.number<float>("vt", kLargestFloat);
+                if (!in_.atLineEnd())
+                    in_.number<float>("vt", kLargestFloat); // of pictures with depth
+                mesh_.uvs[at_.uvs++] = uv;
+                expectLineEnd("vt");
+            }
+        }
+        return colours_;
+    }
+
+private:
+    // x y z, then w (of curves) or r g b or both.
+    void readPoint() {
+        Vec3d& p = mesh_.points[at_.points++];
+        p.x = in_.number<double>("v", kLargestLength);
+        p.y = in_.number<double>("v", kLargestLength);
+        p.z = in_.number<double>("v", kLargestLength);
+        int more = 0;
+        for (; more < 4 && !in_.atLineEnd(); ++more) in_.number<double>("v", kLargestLength);
+        if (more == 2)
+            in_.failAt(in_.offset(), "'v' has 5 numbers; x y z, then w or r g b or both are known");
+        if (more >= 3) colours_.add(in_.offset());
+        expectLineEnd("v");
+    }
+    void expectLineEnd(std::string_view keyword) {
+        if (!in_.atLineEnd())
+            in_.failAt(in_.offset(), cat("expected the end of the line after '", keyword, "', got ",
+                                         in_.nextWord()));
+    }
+
+    LineReader in_;
+    ObjCounts at_;
+    MeshDesc& mesh_;
+    Counted colours_;
+};
+
+} // namespace
+
+ObjChunks chunksOf(const SourceFile& source, int threads) {
+    ObjChunks out{divided(source.text), {}, 0};
+    std::vector<ObjCounts> counts(out.chunks.size());
+    forEachOn(threads, counts.size(),
+              [&](std::size_t i) { counts[i] = count(source, out.chunks[i]); });
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        out.chunks[i].before = out.total;
+        out.total.points += counts[i].points;
+        out.total.uvs += counts[i].uvs;
+        out.total.normals += counts[i].normals;
+        out.triangles += out.chunks[i].triangles;
+    }
+    return out;
+}
+
+Counted readVertices(const SourceFile& source, const ObjChunks& chunks, MeshDesc& mesh,
+                     int threads) {
+    mesh.points.resize(chunks.total.points);
+    mesh.uvs.resize(chunks.total.uvs);
+    mesh.normals.resize(chunks.total.normals);
+    std::vector<Counted> colours(chunks.chunks.size());
+    forEachOn(threads, colours.size(), [&](std::size_t i) {
+        colours[i] = VertexReader(source, chunks.chunks[i], mesh).read();
+    });
+    Counted all;
+    for (const Counted& some : colours) all.add(some);
+    return all;
+}

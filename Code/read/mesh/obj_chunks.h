@@ -1,0 +1,60 @@
+// The text of an OBJ file in chunks of whole lines, which threads can read at the same time: where
+// they are, how much is in each, and their vertices.
+#pragma once
+
+#include "desc/scene_desc.h"
+#include "read/mesh/line_reader.h"
+
+#include <cstddef>
+#include <vector>
+
+// How often something happened, and where first.
+struct Counted {
+    std::size_t count = 0, first = 0;
+    void add(std::size_t offset) {
+        if (count++ == 0) first = offset;
+    }
+    // What happened behind it.
+    void add(const Counted& later) {
+        if (count == 0) first = later.first;
+        count += later.count;
+    }
+};
+
+struct ObjCounts {
+    std::size_t points = 0, uvs = 0, normals = 0;
+};
+
+struct ObjChunk {
+    const char *first = nullptr, *last = nullptr;
+    ObjCounts before;          // how many vertices come in front of it
+    std::size_t triangles = 0; // at most
+    bool isPlain = true;       // vertices and faces only, which need to know nothing else
+};
+
+struct ObjChunks {
+    std::vector<ObjChunk> chunks; // they do not depend on the number of threads
+    ObjCounts total;
+    std::size_t triangles = 0;
+};
+
+ObjChunks chunksOf(const SourceFile& source, int threads);
+// Fails at the first vertex that is wrong. Returns how many have a colour.
+Counted readVertices(const SourceFile& source, const ObjChunks& chunks, MeshDesc& mesh,
+                     int threads);
+
+// Is this the line of a vertex? Then the reader is behind its keyword, and it is counted.
+inline bool takeVertex(LineReader& in, ObjCounts& counts) {
+    if (in.take("v"))
+        ++counts.points;
+    else if (in.take("vn"))
+        ++counts.normals;
+    else if (in.take("vt"))
+        ++counts.uvs;
+    else
+        return false;
+    return true;
+}
+inline bool takeFace(LineReader& in) {
+    return in.take("f") || in.take("fo"); // fo: an old word for the same
+}

@@ -1,0 +1,105 @@
+#include "shape/mesh_geometry.h"
+
+#include <algorithm>
+
+namespace {
+
+float longestSideOf(const MeshGeometry& mesh, std::uint32_t triangle) {
+    const auto& c = mesh.triangles[triangle];
+    double longest = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+        longest = max(length(mesh.exactPoints[c[i]] - mesh.exactPoints[c[(i + 1) % 3]]), longest);
+    return floatAbove(longest);
+}
+
+std::vector<float> longestSides(const MeshGeometry& mesh) {
+    const auto& nodes = mesh.bvh.nodes;
+    std::vector<std::uint32_t> fromTheRoot{0};
+    for (std::size_t i = 0; i < fromTheRoot.size(); ++i) {
+        const BvhNode& node = nodes[fromTheRoot[i]];
+        if (!node.isLeaf()) fromTheRoot.insert(fromTheRoot.end(), {node.first, node.first + 1});
+    }
+    std::vector<float> out(nodes.size(), 0);
+    for (; !fromTheRoot.empty(); fromTheRoot.pop_back()) {
+        const BvhNode& node = nodes[fromTheRoot.back()];
+        float& longest = out[fromTheRoot.back()];
+        if (node.isLeaf())
+            for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+                longest = max(longestSideOf(mesh, mesh.bvh.primIds[i]), longest);
+        else
+            longest = max(out[node.first], out[node.first + 1]);
+    }
+    return out;
+}
+
+} // namespace
+
+std::uint64_t MeshGeometry::dropDegenerate() {
+    const auto coincide = [this](std::uint32_t a, std::uint32_t b) {
+        return exactPoints.empty() ? points[a] == points[b] : exactPoints[a] == exactPoints[b];
+    };
+    std::uint64_t withoutArea = 0;
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const Corners c = triangles[i];
+        const Vec3d v0 = toDouble(points[c[0]]);
+        if (cross(toDouble(points[c[1]]) - v0, toDouble(points[c[2]]) - v0) == Vec3d{})
+            ++withoutArea;
+        if (coincide(c[0], c[1]) || coincide(c[1], c[2]) || coincide(c[2], c[0])) continue;
+        triangles[kept] = c;
+        if (!normalTriangles.empty()) normalTriangles[kept] = normalTriangles[i];
+        if (!uvTriangles.empty()) uvTriangles[kept] = uvTriangles[i];
+        if (!slots.empty()) slots[kept] = slots[i];
+        ++kept;
+    }
+    triangles.resize(kept);
+    if (!normalTriangles.empty()) normalTriangles.resize(kept);
+    if (!uvTriangles.empty()) uvTriangles.resize(kept);
+    if (!slots.empty()) slots.resize(kept);
+    return withoutArea;
+}
+
+void MeshGeometry::collapseEndless() {
+    const auto isNowhere = [](Vec3 p) { return p * 0.0f != Vec3{}; };
+    if (std::none_of(points.begin(), points.end(), isNowhere)) return;
+    for (Corners& c : triangles) {
+        const auto nowhere = [&](std::uint32_t corner) { return isNowhere(points[corner]); };
+        const auto* const bad = std::find_if(c.begin(), c.end(), nowhere);
+        if (bad != c.end()) c = {*bad, *bad, *bad};
+    }
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!isNowhere(points[i])) continue;
+        points[i] = {};
+        if (!exactPoints.empty()) exactPoints[i] = {};
+    }
+}
+
+void MeshGeometry::finish(bool withTree, const Kernel& forKernel, int threads) {
+    collapseEndless();
+    extent = kSceneExtent;
+    for (const Vec3 p : points) extent = max(maxAbs(p), extent);
+    exactBox = {};
+    for (const Vec3d p : exactPoints) exactBox.extend(p);
+    if (!withTree || triangles.empty()) return;
+    if (forKernel.width > 0) {
+        kernel = &forKernel;
+        wide = buildWide(forKernel.width, points, triangles, threads);
+        return;
+    }
+    {
+        std::vector<Bounds> boxes(triangles.size());
+        for (std::size_t i = 0; i < triangles.size(); ++i)
+            for (const std::uint32_t corner : triangles[i]) boxes[i].extend(points[corner]);
+        bvh = buildBvh(boxes, threads);
+    }
+    bvh.nodes.shrink_to_fit();
+    if (!exactPoints.empty()) longestSide = longestSides(*this);
+}
+
+std::size_t MeshGeometry::bytes() const {
+    return bvh.bytes() + longestSide.size() * sizeof(float) + wide.bytes() +
+           points.size() * sizeof(Vec3) + exactPoints.size() * sizeof(Vec3d) +
+           triangles.size() * sizeof(Corners) + normals.size() * sizeof(Vec3) +
+           normalTriangles.size() * sizeof(Corners) + uvs.size() * sizeof(Vec2) +
+           uvTriangles.size() * sizeof(Corners) + slots.size() * 4;
+}

@@ -1,0 +1,110 @@
+#include "shape/mesh_instance.h"
+
+#include <utility>
+
+MeshInstance::MeshInstance(const MeshGeometry& geometry, MovingTransform sceneFromObject,
+                           std::vector<std::uint32_t> materials, std::uint32_t object)
+    : geometry_(geometry), motion_(std::move(sceneFromObject)), still_(geometry, motion_.at(0)),
+      materials_(std::move(materials)), object_(object) {
+    if (geometry.triangles.empty()) return;
+    if (motion_.isStatic())
+        for (const Vec3d p : geometry.exactPoints)
+            bounds_.extend(placedPoint(still_.sceneFromObject, p));
+    else
+        bounds_ = outward(motion_.bounds(geometry.exactBox));
+    extent_ = max(max(maxAbs(bounds_.lo), maxAbs(bounds_.hi)), extent_);
+}
+
+// A mirror turns triangles over: then two corners change places, as in a copy (render/merge.cpp).
+TriangleCorners MeshInstance::corners(const Transform& sceneFromObject,
+                                      std::uint32_t triangle) const {
+    const auto& c = geometry_.triangles[triangle];
+    const auto at = [&](std::uint32_t i) {
+        return placedPoint(sceneFromObject, geometry_.exactPoints[i]);
+    };
+    TriangleCorners v{at(c[0]), at(c[1]), at(c[2])};
+    if (sceneFromObject.mirrors()) std::swap(v[1], v[2]);
+    return v;
+}
+
+template <class LeafFn>
+void MeshInstance::candidates(const Transform& sceneFromObject,
+                              const std::optional<TreeRay>& treeRay, const RaySetup& setup,
+                              float zCut, LeafFn&& leaf) const {
+    const auto test = [&](std::uint32_t triangle) {
+        return leaf(triangle, corners(sceneFromObject, triangle), zCut);
+    };
+    if (!treeRay) {
+        for (std::uint32_t i = 0; i < geometry_.triangles.size(); ++i)
+            if (test(i)) return;
+        return;
+    }
+    const auto& points = geometry_.points;
+    traverse(geometry_.bvh, *treeRay, treeRay->depthAt(zCut / setup.dz),
+             [&](std::uint32_t triangle, float& treeCut) {
+                 const auto& c = geometry_.triangles[triangle];
+                 if (!treeRay->mayMeet(points[c[0]], points[c[1]], points[c[2]])) return false;
+                 const bool stop = test(triangle);
+                 treeCut = min(treeRay->depthAt(zCut / setup.dz), treeCut);
+                 return stop;
+             });
+}
+
+// query(candidates), as triangle_queries.h wants them, at the time of the ray; false when there are
+// none before tMax.
+template <class Query> bool MeshInstance::ask(const Ray& ray, float tMax, Query&& query) const {
+    if (!isTraceable(ray)) return false;
+    const auto at = [&](const Place& place) {
+        const auto treeRay =
+            geometry_.bvh.nodes.empty() ? std::nullopt : place.filter.treeRay(ray, extent_);
+        float z = 0;
+        if (treeRay && !enters(*treeRay, geometry_.bvh, 0, treeRay->depthAt(tMax), z)) return false;
+        return query([&](const RaySetup& setup, float zCut, auto&& leaf) {
+            candidates(place.sceneFromObject, treeRay, setup, zCut, leaf);
+        });
+    };
+    return motion_.isStatic() ? at(still_) : at(Place(geometry_, placeAt(ray.time)));
+}
+
+bool MeshInstance::intersect(const Ray& ray, Hit& hit) const {
+    return ask(ray, hit.t,
+               [&](auto&& found) { return nearestTriangle(ray, setupFor(ray), hit, found); });
+}
+
+bool MeshInstance::occludes(const Ray& ray) const {
+    return ask(ray, ray.tMax, [&](auto&& found) { return anyTriangle(ray, setupFor(ray), found); });
+}
+
+void MeshInstance::collect(const Ray& ray, std::vector<Hit>& hits) const {
+    ask(ray, ray.tMax, [&](auto&& found) {
+        allTriangles(ray, setupFor(ray), hits, found);
+        return true;
+    });
+}
+
+SurfaceTriangle MeshInstance::surfaceTriangle(const Transform& sceneFromObject,
+                                              std::uint32_t triangle) const {
+    SurfaceTriangle out(geometry_, triangle, corners(sceneFromObject, triangle));
+    if (out.hasNormals)
+        for (Vec3& n : out.normals) n = placedNormal(sceneFromObject, n);
+    if (sceneFromObject.mirrors()) {
+        std::swap(out.normals[1], out.normals[2]);
+        std::swap(out.uvs[1], out.uvs[2]);
+    }
+    return out;
+}
+
+Surface MeshInstance::surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const {
+    Surface s = surfaceOf(surfaceTriangle(placeAt(ray.time), hit.prim), ray, hit, needs);
+    s.material = materials_[geometry_.slots.empty() ? 0 : geometry_.slots[hit.prim]];
+    s.object = object_;
+    return s;
+}
+
+SurfaceDerivatives MeshInstance::derivatives(const Ray& ray, const Hit& hit) const {
+    return derivativesOf(surfaceTriangle(placeAt(ray.time), hit.prim));
+}
+
+std::optional<TieOrder> MeshInstance::tieOrder(const Ray& ray, const Hit& hit) const {
+    return TieOrder{canonicalKey(setupFor(ray), corners(placeAt(ray.time), hit.prim)), object_};
+}

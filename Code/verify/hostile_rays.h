@@ -1,0 +1,31 @@
+// Batches of rays that are hard on kernels, at the triangles of a mesh: loose ones, and from few
+// points as the rays of cameras and lamps are.
+#pragma once
+
+#include "base/ray_span.h"
+#include "verify/meshes.h"
+
+namespace battery {
+
+struct RayList {
+    std::vector<Vec3> org, dir;
+    std::vector<float> tMin, tMax, time;
+
+    void push(const Ray& ray);
+    std::size_t size() const { return org.size(); }
+    RaySpan span() const { return {org, dir, tMin, tMax, time}; }
+};
+
+// At a corner, on an edge, inside, or close beside one of them.
+Vec3d targetOn(meshes::Random& random, const MeshGeometry& mesh);
+
+// From outside, inside, surfaces, close beside them, far away, and the lines of edges, along which
+// triangles are seen from their edge; at targets, along axes, with ends and late starts.
+RayList looseRays(meshes::Random& random, const MeshGeometry& mesh, std::size_t count);
+// Narrow pencils as of a camera's tiles, and rays from one point to all over the place.
+RayList raysFromPoints(meshes::Random& random, const MeshGeometry& mesh, std::size_t count);
+// Within the planes of triangles, up to 1e-6: where along them a ray hits is rounding, and the
+// clamps of the canonical key decide.
+RayList raysInPlanes(meshes::Random& random, const MeshGeometry& mesh, std::size_t count);
+
+} // namespace battery

@@ -1,0 +1,172 @@
+// What a scene does not need is left out, and nothing of it shows: the forms of the wave loop,
+// empty tiles, shadow rays that nothing can meet.
+#include "check.h"
+#include "shot.h"
+
+#include "render/empty_tiles.h"
+#include "render/waves/steps.h"
+#include "verify/scenes.h"
+
+#include <cstring>
+
+namespace {
+
+const shot::TopView kView{.pixels = 24, .side = 4, .samples = 2};
+const std::string kBall =
+    "sphere s {\n material m\n}\nsphere t {\n translate 1.2 0 0.3\n radius 0.5\n}\n";
+const std::string kPoint = "light l {\n translate 1 2 5\n color 80 80 80\n}\n";
+const std::string kPlain = "material m {\n diffuse 1 0.5 0.2\n specular 0.3 0.3 0.3\n}\n";
+
+bool sameBits(const Image& a, const Image& b) {
+    return a.width() == b.width() && a.height() == b.height() &&
+           std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
+}
+
+shot::Shot general(const std::string& text) {
+    return shot::render(text, [](RenderSettings& s) { s.specialise = false; });
+}
+
+// Renders both ways; the specialised shot.
+shot::Shot checkedShot(const std::string& text) {
+    const shot::Shot special = shot::render(text), all = general(text);
+    CHECK_INFO(sameBits(special.color, all.color), "differs from the general form:\n" << text);
+    CHECK_EQUAL(special.stats.rays.camera, all.stats.rays.camera);
+    CHECK_EQUAL(special.stats.cameraHits, all.stats.cameraHits);
+    return special;
+}
+
+} // namespace
+
+// A scene for each form of the wave loop: it is chosen, and gives the bits of the general one.
+TEST(specialisedFormsGiveTheSameBits) {
+    shot::writeTexture("spots.pfm", 2, 2, [](double u, double v) {
+        return Rgb{static_cast<float>(u), static_cast<float>(v), 0.5f};
+    });
+    const std::string soft =
+        "light k {\n type rectangle\n visible true\n look_at -2 0 4 0 0 0 0 1 0\n"
+        " size 1 1\n color 9 9 9\n}\n";
+    const std::string mirror = "material m {\n diffuse 0.2 0.2 0.2\n mirror 0.7 0.7 0.7\n}\n";
+    const std::string texture = "texture t {\n file spots.pfm\n}\n";
+    const std::string textured = texture + "material m {\n diffuse_texture t\n diffuse 1 1 1\n";
+    const std::vector<std::string> scenes = {
+        kPlain + kPoint,
+        kPlain + kPoint + soft,
+        mirror + kPoint,
+        mirror + kPoint + soft,
+        textured + "}\n" + kPoint,
+        textured + " mirror 0.5 0.5 0.5\n}\n" + soft,
+        "material m {\n diffuse 1 1 1\n opacity 0.5\n mirror 0.2 0.2 0.2\n}\n" + kPoint + soft,
+    };
+    CHECK_EQUAL(scenes.size(), kCompiledSteps.size());
+    for (std::size_t form = 0; form < scenes.size(); ++form) {
+        const std::string text = kView.text() + kBall + scenes[form];
+        RenderSettings settings;
+        const SceneDesc desc = shot::parse(text);
+        settings.picture = desc.settings;
+        settings.textureFolder = shot::textureFolder();
+        const Scene scene(desc, {"scene", ""}, settings);
+        CHECK_EQUAL(compiledFor(stepsFor(scene, settings)), form);
+        settings.specialise = false;
+        CHECK_EQUAL(compiledFor(stepsFor(scene, settings)), kCompiledSteps.size() - 1);
+        CHECK(shot::largest(checkedShot(text).color) > 0.1);
+    }
+}
+
+// A tile is called empty only if no ray of its places meets anything; and most of those are found
+// whose neighbourhood shows nothing.
+TEST(emptyTilesAreEmpty) {
+    meshes::Random random(603);
+    int empty = 0, blank = 0;
+    for (int i = 0; i < check::scaled(40); ++i) {
+        SceneDesc desc = shot::parse(kView.text() + kPlain + kBall);
+        for (ObjectDesc& object : desc.objects) {
+            const Transform there = Transform::translate(random.inBox(2));
+            object.worldFromObject = {(there * random.affine(4, 0.1)).rows()};
+        }
+        CameraDesc& camera = desc.cameras[0];
+        camera.kind =
+            random.chance(0.5) ? CameraDesc::Kind::Orthographic : CameraDesc::Kind::Perspective;
+        camera.orthoScale = random.uniform(2, 12);
+        camera.lensMm = random.logUniform(10, 90);
+        camera.clipStart = 0;
+        const Vec3d eye = random.direction() * random.uniform(3, 9);
+        camera.worldFromCamera = {Transform::lookAt(eye, random.inBox(2), {0, 0, 1}).rows()};
+        RenderSettings settings;
+        settings.picture = desc.settings;
+        settings.picture.filterWidth = random.uniform(0, 3);
+        settings.picture.samplesPerPixel = 4;
+        if (random.chance(0.3)) settings.picture.sampler = SettingsDesc::Sampler::Corners;
+        const Scene scene(desc, {"scene", ""}, settings);
+        const IntegratorContext context(scene, settings);
+        const CameraRays rays(context);
+        const EmptyTiles tiles(context, rays);
+        const int side = 1 + static_cast<int>(random.below(6));
+        for (int y = 0; y + side <= 24; y += side)
+            for (int x = 0; x + side <= 24; x += side) {
+                SampleChunk chunk;
+                rays.make({x, y, x + side, y + side}, 0, 4, chunk);
+                bool isBlank = true;
+                for (std::size_t k = 0; k < chunk.cameraRays.size(); ++k)
+                    isBlank &= !scene.shapes().closest(chunk.cameraRays.ray(k)).isHit();
+                const bool isEmpty = tiles.isEmpty({x, y, x + side, y + side});
+                CHECK_INFO(isBlank || !isEmpty,
+                           "scene " << i << " of seed 603, tile " << x << " " << y);
+                empty += isEmpty, blank += isBlank;
+            }
+    }
+    CHECK_INFO(empty > blank / 2, empty << " of " << blank); // boxes are larger than spheres
+}
+
+// Whatever is in the way of telling: surfaces without end, lenses, moving cameras, environments.
+TEST(emptyTilesNeedAClearView) {
+    const auto isEmpty = [](const std::string& text) {
+        const SceneDesc desc = shot::parse(kView.text() + text);
+        RenderSettings settings;
+        settings.picture = desc.settings;
+        settings.textureFolder = shot::textureFolder();
+        const Scene scene(desc, {"scene", ""}, settings);
+        const IntegratorContext context(scene, settings);
+        const CameraRays rays(context);
+        return EmptyTiles(context, rays).isEmpty({0, 0, 4, 4});
+    };
+    CHECK(isEmpty(kPlain + kBall));
+    CHECK(!isEmpty(kPlain + "infinite_plane s {\n material m\n}\n"));
+    CHECK(!isEmpty(kPlain + "sphere s {\n radius 5\n}\n"));
+    const std::string picture = "texture t {\n file sky.pfm\n}\nworld {\n environment t\n}\n";
+    shot::writeTexture("sky.pfm", 2, 1, [](double, double) { return Rgb{1, 1, 1}; });
+    CHECK(!isEmpty(picture + kPlain + kBall));
+}
+
+// No light in the place of a sample, no ray: outside of a spot's cone, behind the horizon, from a
+// black lamp, and where nothing can be in between.
+TEST(shadowRaysThatCannotMatter) {
+    const auto shadowRays = [](const std::string& text) {
+        return checkedShot(kView.text() + text).stats.rays.shadow;
+    };
+    const std::string floor = kPlain + "plane p {\n scale 3 3 1\n material m\n}\n";
+    const std::string block = "cube c {\n translate 0 0 2\n scale 0.2 0.2 0.2\n}\n";
+    const auto spot = [](const std::string& target) {
+        return "light l {\n type spot\n cone_angle 20\n color 9 9 9\n look_at 0 0 4 " + target +
+               " 0 1 0\n}\n";
+    };
+    CHECK(shadowRays(floor + block + spot("0 0 0")) > 20);
+    CHECK_EQUAL(shadowRays(floor + block + spot("9 0 4")), 0u); // over the floor
+    CHECK_EQUAL(shadowRays(floor + block + "light l {\n translate 0 0 -4\n}\n"), 0u);
+    CHECK_EQUAL(shadowRays(floor + block + "light l {\n translate 0 0 4\n color 0 0 0\n}\n"), 0u);
+    // Nothing but the floor, or a ball; the block's shadow falls on a part of the floor only.
+    const std::string far = "light l {\n translate 2.5 0 1.5\n}\n";
+    CHECK_EQUAL(shadowRays(floor + far), 0u);
+    CHECK(general(kView.text() + floor + far).stats.rays.shadow > 1000);
+    CHECK_EQUAL(shadowRays(kPlain + "sphere s {\n material m\n}\n" + kPoint), 0u);
+    const std::string all = floor + block + "light l {\n translate 0 0 4\n}\n";
+    CHECK(shadowRays(all) > 100);
+    CHECK(shadowRays(all) < general(kView.text() + all).stats.rays.shadow);
+    // A ball seen from the inside is in its own way: the lamp is outside of it.
+    const std::string around = kPlain + "sphere s {\n radius 30\n material m\n}\n";
+    CHECK(shadowRays(around + "light l {\n translate 0 0 40\n}\n") > 1000);
+    // A mesh may always be.
+    CHECK(shadowRays(kPlain +
+                     "mesh q {\n points 4\n -2 -2 0 2 -2 0 2 2 0 -2 2 0\n triangles 2\n 0 1 2 0 2 "
+                     "3\n}\ninstance i {\n mesh q\n material m\n}\n" +
+                     kPoint) > 500);
+}

@@ -1,0 +1,99 @@
+// Which shadow rays need not be traced: what is said of boxes, against the rays themselves.
+#include "render/occluders.h"
+
+#include "analytic_kit.h"
+#include "check.h"
+
+using kit::Random;
+
+namespace {
+
+// A few shapes in [-1,1]^3, as scenes have them.
+ShapeSet scatter(Random& random, int count) {
+    ShapeSet set;
+    for (int i = 0; i < count; ++i) {
+        const kit::Kind& kind = kit::kinds()[random.below(kit::kinds().size())];
+        const Vec3d factors{random.logUniform(0.05, 0.5), random.logUniform(0.05, 0.5),
+                            random.logUniform(0.05, 0.5)};
+        set.add(kind.make(kit::placed(random, factors, random.inBox(0.6))),
+                random.chance(0.2) ? ShapeSet::Shadow::SeeThrough : ShapeSet::Shadow::Opaque);
+    }
+    set.finish(true);
+    return set;
+}
+
+} // namespace
+
+// Points on one shape, a few next to each other or far apart, and a lamp: where nothing may be in
+// between, no ray between the points and the lamp meets anything.
+TEST(occluders_never_miss_one) {
+    Random random(511);
+    int clear = 0, shaded = 0;
+    for (int i = 0; i < check::scaled(1500); ++i) {
+        const ShapeSet set = scatter(random, 1 + static_cast<int>(random.below(8)));
+        const Occluders occluders(set);
+        CHECK(occluders.canTell());
+        // Rays at one place of the picture: the points that they meet on the first shape.
+        const Vec3d eye = random.outwards(1.5, 3), target = random.inBox(0.7);
+        const double spread = random.logUniform(1e-3, 0.3);
+        struct Met {
+            Surface surface;
+            Vec3 side;
+        };
+        std::vector<Met> met;
+        Bounds box;
+        std::uint32_t shape = Hit::kNoShape;
+        bool inside = false;
+        for (int k = 0; k < 12; ++k) {
+            const Ray ray = kit::rayThrough(eye, target + random.inBox(spread));
+            const Hit hit = set.closest(ray);
+            if (!hit.isHit()) continue;
+            const Surface s = set.shapes[hit.shape]->surface(ray, hit);
+            const bool isBack = dot(s.ng, ray.dir) > 0;
+            if (shape == Hit::kNoShape) shape = hit.shape, inside = isBack;
+            if (hit.shape != shape || isBack != inside) continue;
+            met.push_back({s, isBack ? -s.ng : s.ng});
+            box.extend(s.p);
+        }
+        if (met.empty()) continue;
+        const Vec3 lamp = toFloat(random.inBox(2));
+        const bool mayHide = occluders.mayHide(box, shape, inside, {lamp, lamp});
+        for (const Met& m : met) {
+            if (!(dot(m.side, lamp - m.surface.p) > 0)) continue;
+            const Vec3 start = m.surface.p + m.side * m.surface.error;
+            const Ray ray{start, lamp - start, 0, 1, 0};
+            std::vector<Hit> through;
+            set.seeThroughHits(ray, through);
+            const bool isHidden = set.occluded(ray) || !through.empty();
+            CHECK_INFO(!isHidden || mayHide, "case " << i << ", shape " << shape);
+            ++(isHidden ? shaded : clear);
+        }
+    }
+    // Both happen, or the test says nothing.
+    CHECK_INFO(clear > check::scaled(1000) && shaded > check::scaled(100),
+               clear << " clear, " << shaded << " shaded");
+}
+
+// And it is said where it is plain to see.
+TEST(occluders_see_what_is_clear) {
+    ShapeSet set;
+    const kit::Kind& sphere = kit::kindNamed("sphere");
+    set.add(sphere.make(Transform::scale(0.5)), ShapeSet::Shadow::Opaque);
+    set.add(sphere.make(Transform::translate({3, 0, 0})), ShapeSet::Shadow::Opaque);
+    set.finish(true);
+    const Occluders occluders(set);
+    const Bounds top{{-0.1f, -0.1f, 0.45f}, {0.1f, 0.1f, 0.5f}}, above{{0, 0, 4}, {0, 0, 4}};
+    CHECK(!occluders.mayHide(top, 0, false, above)); // its own inside is below
+    CHECK(occluders.mayHide(top, 0, true, above));   // from there the shape is in between
+    CHECK(occluders.mayHide(top, 1, false, above));  // and for what lies on another shape
+    const Bounds behind{{6, 0, 0.5f}, {6, 0, 0.5f}};
+    CHECK(occluders.mayHide(top, 0, false, behind)); // the other sphere
+    const Bounds aside{{0, 6, 0.5f}, {0, 6, 0.5f}};
+    CHECK(!occluders.mayHide(top, 0, false, aside));
+
+    ShapeSet crowd;
+    for (int i = 0; i < 100; ++i)
+        crowd.add(sphere.make(Transform::translate({3.0 * i, 0, 0})), ShapeSet::Shadow::Opaque);
+    crowd.finish(true);
+    CHECK(!Occluders(crowd).canTell());
+}

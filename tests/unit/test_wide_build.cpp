@@ -1,0 +1,192 @@
+// The builder of wide trees: the same bytes for any number of threads and any instruction set, and
+// trees that kernels can rely on, over meshes that are friendly and those that are not.
+#include "accel/kernels/build/build.h"
+#include "base/text.h"
+#include "check.h"
+#include "verify/hostile_trees.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <functional>
+
+using kernels::build::BuildCode;
+using meshes::Random;
+
+namespace {
+
+struct Input {
+    std::string name;
+    std::vector<Vec3> points;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+};
+
+Input inputOf(const std::string& name, const MeshDesc& mesh) {
+    Input in{name, {}, mesh.triangles};
+    for (const Vec3d p : mesh.points) in.points.push_back(toFloat(p));
+    return in;
+}
+
+Input inputOf(const std::string& name, const std::vector<std::array<Vec3, 3>>& triangles) {
+    MeshGeometry g = meshes::geometryOf(triangles, false);
+    return {name, std::move(g.points), std::move(g.triangles)};
+}
+
+// Above 2 * 4096 triangles there are several subtrees, above 16384 several jobs for a range.
+std::vector<Input> inputs() {
+    Random random(31);
+    std::vector<Input> out;
+    out.push_back(inputOf("one triangle", meshes::soup(random, 1)));
+    out.push_back(inputOf("cube", meshes::cube()));
+    out.push_back(inputOf("fan", meshes::doubleFan(3000)));
+    out.push_back(inputOf("sphere", meshes::uvSphere(200, 100)));
+    out.push_back(inputOf("torus", meshes::torus(0.3, 200, 90))); // 36000
+    out.push_back(inputOf("soup", meshes::soup(random, 20000)));
+    for (const auto& set : battery::hostileTrees())
+        out.push_back(inputOf(set.name, set.make(random, 9000)));
+    // Corners that are one and the same point of the list, and all triangles over few points.
+    Input few{"few points", {}, {}};
+    for (int i = 0; i < 12; ++i) few.points.push_back(toFloat(random.inBox(1)));
+    for (int i = 0; i < 9000; ++i)
+        few.triangles.push_back({random.below(12), random.below(12), random.below(12)});
+    out.push_back(few);
+    return out;
+}
+
+bool sameBytes(const WideTree& a, const WideTree& b) {
+    return a.width == b.width && a.root == b.root && a.stackSize == b.stackSize &&
+           a.nodes == b.nodes && a.leaves == b.leaves &&
+           std::bit_cast<std::uint64_t>(a.sah) == std::bit_cast<std::uint64_t>(b.sah) &&
+           a.triangleIds == b.triangleIds && a.lines.size() == b.lines.size() &&
+           std::memcmp(a.base(), b.base(), a.lines.size() * sizeof(WideTree::Line)) == 0;
+}
+
+// What is wrong with a tree, in words; "" if nothing.
+template <int W> class Inspection {
+public:
+    Inspection(const WideTree& tree, const Input& in) : tree_(tree), in_(in) {
+        seen_.resize(in.triangles.size());
+        Bounds all;
+        for (const auto& t : in.triangles)
+            for (const std::uint32_t corner : t) all.extend(in.points[corner]);
+        visit(tree.root, all, 1);
+        if (std::count(seen_.begin(), seen_.end(), 1) != std::ptrdiff_t(seen_.size()))
+            wrong("a triangle is missing or there twice");
+        if (nodes_ != tree.nodes || leaves_ != tree.leaves) wrong("numbers of nodes or leaves");
+        if (std::uint64_t{tree.stackSize} < std::uint64_t{depth_} * (W - 1) + 1) wrong("stack");
+        if (depth_ > 96) wrong("depth");
+    }
+    std::string text() const { return text_; }
+
+private:
+    void wrong(const char* what) {
+        if (text_.find(what) == std::string::npos) text_ += text_.empty() ? what : cat(", ", what);
+    }
+
+    void visit(WideRef ref, const Bounds& within, std::uint32_t depth) {
+        if (byteOffset(ref) >= tree_.lines.size() * sizeof(WideTree::Line))
+            return wrong("reference to nowhere");
+        if (kindOf(ref) == WideKind::Leaf) return visitLeaf(tree_.at<WideLeaf<W>>(ref), within);
+        ++nodes_, depth_ = std::max(depth_, depth);
+        const auto& node = tree_.at<WideNode<W>>(ref);
+        float before = kInfinityF;
+        bool ended = false;
+        for (std::size_t i = 0; i < W; ++i) {
+            Bounds box;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                box.lo[axis] = node.plane[axis][0][i];
+                box.hi[axis] = node.plane[axis][1][i];
+            }
+            if (box.isEmpty()) {
+                ended = true;
+                if (kindOf(node.child[i]) != WideKind::Leaf ||
+                    tree_.at<WideLeaf<W>>(node.child[i]).count != 0)
+                    wrong("what an empty slot refers to");
+                continue;
+            }
+            if (ended) wrong("an empty slot before a child");
+            if (!within.contains(box.lo) || !within.contains(box.hi)) wrong("box of a child");
+            const Vec3 d = box.size();
+            const float area = d.x * d.y + d.y * d.z + d.z * d.x;
+            if (area > before) wrong("order of areas");
+            before = area;
+            visit(node.child[i], box, depth + 1);
+        }
+    }
+
+    void visitLeaf(const WideLeaf<W>& leaf, const Bounds& within) {
+        ++leaves_;
+        if (leaf.count == 0 || leaf.count > W) return wrong("size of a leaf");
+        const float reach = std::bit_cast<float>(static_cast<std::uint32_t>(leaf.reach) << 16);
+        for (std::size_t i = 0; i < leaf.count; ++i) {
+            const std::uint32_t id = tree_.triangleIds[leaf.first + i];
+            if (id >= seen_.size()) return wrong("number of a triangle");
+            ++seen_[id];
+            Bounds box;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const Vec3 p = in_.points[in_.triangles[id][k]];
+                const std::size_t at = leaf.corner[k][i];
+                if (at >= W ||
+                    !(Vec3{leaf.point[0][at], leaf.point[1][at], leaf.point[2][at]} == p))
+                    wrong("corner of a triangle");
+                box.extend(p);
+            }
+            if (!within.contains(box.lo) || !within.contains(box.hi)) wrong("box of a leaf");
+            if (max(max(box.size().x, box.size().y), box.size().z) > reach) wrong("reach");
+        }
+    }
+
+    const WideTree& tree_;
+    const Input& in_;
+    std::vector<int> seen_;
+    std::uint64_t nodes_ = 0, leaves_ = 0;
+    std::uint32_t depth_ = 0;
+    std::string text_;
+};
+
+} // namespace
+
+TEST(wide_build_same_for_any_threads) {
+    for (const Input& in : inputs())
+        for (const int width : {8, 16}) {
+            const WideTree one = buildWide(width, in.points, in.triangles, 1);
+            for (const int threads : {2, 3, 4, 8})
+                CHECK_INFO(sameBytes(buildWide(width, in.points, in.triangles, threads), one),
+                           in.name << ", width " << width << ", threads " << threads);
+        }
+}
+
+TEST(wide_build_same_for_any_instructions) {
+    std::vector<const BuildCode*> codes;
+    for (const BuildCode& code : kernels::build::allBuildCodes())
+        if (code.supported()) codes.push_back(&code);
+    for (const Input& in : inputs())
+        for (const int width : {8, 16})
+            for (std::size_t i = 1; i < codes.size(); ++i)
+                CHECK_INFO(sameBytes(buildWideBy(*codes[i], width, in.points, in.triangles, 1),
+                                     buildWideBy(*codes[0], width, in.points, in.triangles, 1)),
+                           in.name << ", width " << width << ", " << codes[i]->name);
+}
+
+TEST(wide_build_trees_hold_everything) {
+    for (const Input& in : inputs()) {
+        const WideTree narrow = buildWide(8, in.points, in.triangles);
+        const WideTree wide = buildWide(16, in.points, in.triangles);
+        CHECK_INFO(Inspection<8>(narrow, in).text().empty(),
+                   in.name << ", width 8: " << Inspection<8>(narrow, in).text());
+        CHECK_INFO(Inspection<16>(wide, in).text().empty(),
+                   in.name << ", width 16: " << Inspection<16>(wide, in).text());
+    }
+    CHECK(buildWide(16, {}, {}, 4).isEmpty());
+}
+
+// A mesh whose triangles share their points: the leaves take what they have room for, about 11 of
+// 16, and there is a node for about ten of them.
+TEST(wide_build_leaves_are_full) {
+    const Input in = inputOf("sphere", meshes::uvSphere(200, 100));
+    const WideTree tree = buildWide(16, in.points, in.triangles);
+    const double triangles = static_cast<double>(in.triangles.size());
+    CHECK_INFO(triangles / static_cast<double>(tree.leaves) > 9, tree.leaves);
+    CHECK_INFO(static_cast<double>(tree.leaves) / static_cast<double>(tree.nodes) > 7, tree.nodes);
+    CHECK_INFO(static_cast<double>(tree.bytes()) / triangles < 40, tree.bytes());
+}
