@@ -1,7 +1,7 @@
 // Which keys count, as KeyRange of shape/mesh.cpp says it of t = 1 / (key dz): t > tMin is
-// key < keyBelow(), t < tMax is key > keyAbove(). Both roundings of t are monotone, so there is such
-// a key; it is a few floats from 1 / (t dz).
-// Included by the file of each instruction set inside its namespace.
+// key < keyBelow(), t < tMax is key > keyAbove(). Both roundings of t are monotone, so there is
+// such a key; it is a few floats from 1 / (t dz). Included by the file of each instruction set
+// inside its namespace.
 
 // The neighbours of a positive float: 0.53 to 1.06 units of its last place rounds to one.
 inline Floats nextUp(Floats x) { return x + x * Floats(0x1.1p-24f); }
