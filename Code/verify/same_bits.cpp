@@ -175,7 +175,7 @@ Tally generalForm(const Effort& effort) {
 }
 
 constexpr Row kRows[] = {
-    {"T10", "pictures without trees, with, any kernel: the same bits", "", 0, true, accelerators},
+    {"T10a", "pictures without trees, with, any kernel: the same bits", "", 0, true, accelerators},
     {"T11a", "1, 2, 3, 8, 64 threads, tiles, queues: the same bits", "", 0, true, cuts},
     {"T11b", "a picture 20 times on three threads: the same bits", "", 0, true, runs},
     {"T11c", "instances kept, or copied into one mesh: the same bits", "", 0, true, copies},
