@@ -16,6 +16,7 @@ struct RaySetup {
     std::size_t k = 2, kx = 0, ky = 1; // dominant axis and the two lateral ones
     float sign = 1;                    // of the direction's dominant component
     float dz = 1;                      // its magnitude
+    float dx = 0, dy = 0;              // the lateral components
     float Sx = 0, Sy = 0;              // slopes: lateral movement per unit of z
     float rx = 0, ry = 0;              // their inverses, kept finite
     float px = 0, py = 0;              // pads of the lateral box test of a triangle
@@ -31,8 +32,9 @@ struct RaySetup {
         ky = kx == 2 ? 0 : kx + 1;
         sign = rayDir[k] < 0 ? -1.0f : 1.0f;
         dz = std::fabs(rayDir[k]);
-        Sx = rayDir[kx] / dz;
-        Sy = rayDir[ky] / dz;
+        dx = rayDir[kx], dy = rayDir[ky];
+        Sx = dx / dz;
+        Sy = dy / dz;
         rx = 1.0f / std::copysign(max(std::fabs(Sx), kSmallestSlope), Sx);
         ry = 1.0f / std::copysign(max(std::fabs(Sy), kSmallestSlope), Sy);
         // 2^-19 of the scale covers 32 roundings of a coordinate difference, with slack 2 to 3.

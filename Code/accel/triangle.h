@@ -61,7 +61,8 @@ struct ShearedTriangle {
 
 // 1/z where the ray meets the triangle's plane. In double: the cross product of long, nearly
 // parallel edges cancels, and a float plane of a needle is met anywhere along the needle, by rays
-// that leave it or that end on it. Double takes needles of 1e8.
+// that leave it or that end on it. Double takes needles of 1e8. The direction as it is, not its
+// rounded slopes: those move the hit of a triangle that is seen edge-on far along the ray.
 inline float planeKey(const RaySetup& ray, Vec3 p0, Vec3 p1, Vec3 p2) {
     const auto relative = [&](Vec3 p) {
         const Vec3d q = toDouble(p) - toDouble(ray.org);
@@ -69,8 +70,8 @@ inline float planeKey(const RaySetup& ray, Vec3 p0, Vec3 p1, Vec3 p2) {
     };
     const Vec3d v0 = relative(p0);
     const Vec3d n = cross(relative(p1) - v0, relative(p2) - v0);
-    const Vec3d slope{ray.Sx, ray.Sy, 1};
-    return static_cast<float>(dot(n, slope) / dot(n, v0));
+    const Vec3d dir{ray.dx, ray.dy, ray.dz};
+    return static_cast<float>(dot(n, dir) / (dot(n, v0) * static_cast<double>(ray.dz)));
 }
 
 // Key of the hit, 1/z: the larger, the nearer. 0 when the ray misses the triangle.

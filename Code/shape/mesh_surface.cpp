@@ -12,7 +12,7 @@ constexpr double kTriangleError = 0x1p-20;
 
 // The ray's part of it: slopes and differences of the corners in float move what it meets by up to
 // 4 units of its length to the side, its depth is rounded thrice.
-constexpr float kRayError = 0x1p-20f;
+constexpr float kRayError = 0x1p-21f;
 
 // Rays leave a surface kTriangleError off its plane; this many times as far from its edges they are
 // on the inner side of the neighbours as well, down to an angle of 30 degrees between both.

@@ -334,8 +334,10 @@ private:
     [[gnu::always_inline]] Floats keysOf(const Planes& p, unsigned q, Mask& inside,
                                          unsigned& clamped) const {
         const Floats Sx = Floats::load(rays_.Sx[q]), Sy = Floats::load(rays_.Sy[q]);
-        const Doubles slope = p.nx * Doubles(Sx) + p.ny * Doubles(Sy) + p.nz;
-        const Floats plane = (slope / p.n0).toFloats();
+        const Doubles dz(Floats::load(rays_.dz[q]));
+        const Doubles along = p.nx * Doubles(Floats::load(rays_.dirX[q])) +
+                              p.ny * Doubles(Floats::load(rays_.dirY[q])) + p.nz * dz;
+        const Floats plane = (along / (p.n0 * dz)).toFloats();
         const unsigned behind = bits(p.straddling) & ~bits(plane > Floats(0.0f));
         inside = maskOf(bits(inside) & ~behind);
         const Floats key = min(max(plane, p.farthest), p.nearest);

@@ -100,7 +100,8 @@ public:
     Rect rect[kPackets];
     float zFar[kPackets]; // behind it no ray of the packet asks
     alignas(64) float Sx[kPackets][W];
-    float Sy[kPackets][W], relX[kPackets][W], relY[kPackets][W], dz[kPackets][W]; // rel: to centre
+    float Sy[kPackets][W], dirX[kPackets][W], dirY[kPackets][W]; // lateral parts of the direction
+    float relX[kPackets][W], relY[kPackets][W], dz[kPackets][W]; // rel: to centre
     float tMax[kPackets][W];
     // Keys that count are in (above, below), as t is in (tMin, tMax): KeyRange of shape/mesh.cpp.
     // Lanes without an active ray are copies of another one that nothing is near enough for.
@@ -227,6 +228,7 @@ private:
             };
             const Floats sx = spread(rawX_[p]), sy = spread(rawY_[p]), z = spread(rawZ_[p]);
             sx.store(Sx[q]), sy.store(Sy[q]), z.store(dz[q]);
+            spread(dir_[kx][p]).store(dirX[q]), spread(dir_[ky][p]).store(dirY[q]);
             setRange(p, q, on, first, z);
             xs[q] = rangeOf(sx, on), ys[q] = rangeOf(sy, on);
             x = {::min(xs[q].lo, x.lo), ::max(xs[q].hi, x.hi)};

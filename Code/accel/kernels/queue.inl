@@ -267,8 +267,9 @@ private:
     // Triangles of the leaf that may be better than what the ray has. ShearedTriangle of
     // accel/triangle.h for W triangles: edge functions with the same bits, then whether depth T/det
     // is certain to be out of range. Error of T and of the exact plane's, times |det|: with b the
-    // size of the triangle across the ray and M its depth, below 60 u b (M + 2b)^2, u = 2^-24: 36
-    // for the arithmetic here, 24 for corners that are rounded to float relative to the ray.
+    // size of the triangle across the ray and M its depth, below 68 u b (M + 2b)^2, u = 2^-24: 36
+    // for the arithmetic here, 24 for corners that are rounded to float relative to the ray, 8 for
+    // its rounded slopes.
     unsigned leafCandidates(const RayBlock& b, std::uint32_t i) const {
         const std::byte* const p = base_ + byteOffset(b.at[i]);
         const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(p);
@@ -290,7 +291,7 @@ private:
         const float size = 2 * std::bit_cast<float>(static_cast<std::uint32_t>(leaf.reach) << 16) +
                            b.lateralError[i];
         const Floats m = max(max(abs(z0), abs(z1)), abs(z2)) + Floats(2 * size);
-        const Floats noise = (Floats(60 * 0x1p-24f * size) * m) * m;
+        const Floats noise = (Floats(68 * 0x1p-24f * size) * m) * m;
         const Floats limit = Floats(b.zCut[i] * 1.000001f) * abs(det) + noise;
         const Mask wanted = notGreater(depth, limit) & notGreater(zero - noise, depth);
         return bits(inside & wanted) & ((1u << leaf.count) - 1);
