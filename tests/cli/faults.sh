@@ -196,8 +196,8 @@ else
     sweep 'many threads' '' 0 400 scene.txt tight.ppm -q -t 32
 
     # Points, indices and tree of a closed or wavy mesh: 6 + 12 + 4 + 36 bytes per triangle. The
-    # most is while the tree is built: also 24 for its box, 12 for the centre, 24 for the scene as
-    # it was read and 40 for the text.
+    # most is while the tree is built: also 64 for two lists of boxes, 24 for the scene as it was
+    # read and 40 for the text; and each of these arrays ends somewhere in a page of 2 MB.
     triangles=200000
     [ "$stress" -ge 10 ] && triangles=10000000
     field() { sed 's/.*"'"$1"'":\([0-9]*\).*/\1/' out; }
@@ -207,9 +207,9 @@ else
     run 0 waves.txt waves.ppm -q --stats=json
     check "memory: $triangles triangles are drawn" [ "$(field triangles)" -ge $triangles ]
     check 'memory: at most 64 bytes per triangle' [ "$(field bytes_per_triangle)" -le 64 ]
-    most=$(($(field peak_bytes) - base))
+    most=$(($(field peak_bytes) - base - 4 * 2097152))
     echo "$triangles triangles: $(field bytes_per_triangle) bytes each, $((most / triangles)) at most"
-    check 'memory: at most 170 bytes per triangle at any time' [ $((most / triangles)) -le 170 ]
+    check 'memory: at most 190 bytes per triangle at any time' [ $((most / triangles)) -le 190 ]
 fi
 
 finish
