@@ -66,6 +66,11 @@ std::optional<long long> parseInteger(std::string_view text) {
     return value;
 }
 
+std::string afterLast(std::string_view text, std::string_view characters) {
+    const std::size_t last = text.find_last_of(characters);
+    return std::string(last == std::string_view::npos ? text : text.substr(last + 1));
+}
+
 std::string join(std::span<const std::string> words, std::string_view separator) {
     std::string out;
     for (std::size_t i = 0; i < words.size(); ++i) {

@@ -23,6 +23,9 @@ std::string shortest(float value);
 std::optional<double> parseDouble(std::string_view text);
 std::optional<long long> parseInteger(std::string_view text);
 
+// What stands behind the last of these characters: all of it when there is none.
+std::string afterLast(std::string_view text, std::string_view characters);
+
 // "a, b, c"
 std::string join(std::span<const std::string> words, std::string_view separator = ", ");
 

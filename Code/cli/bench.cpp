@@ -52,8 +52,8 @@ class Report {
 public:
     Report(const BenchOptions& options, const Kernel& kernel)
         : options_(options), kernel_(kernel), pool_(options.threads),
-          who_(cat(options.mesh.substr(options.mesh.find_last_of('/') + 1), ",raytracer-", kVersion,
-                   ",sah,exact,", options.threads, ",", kernel.name)) {}
+          who_(cat(afterLast(options.mesh, "/"), ",raytracer-", kVersion, ",sah,exact,",
+                   options.threads, ",", kernel.name)) {}
 
     MeshGeometry build(const MeshGeometry& unbuilt) const {
         MeshGeometry built;

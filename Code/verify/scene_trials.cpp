@@ -63,7 +63,7 @@ std::uint64_t hashOf(const Picture& picture) {
     const auto add = [&](const Image& image) {
         for (const Rgb& p : image.pixels())
             for (const float value : {p.r, p.g, p.b})
-                sum = mixBits(sum + kHashStep + std::bit_cast<std::uint32_t>(value));
+                sum = mixBits(sum ^ (kHashStep + std::bit_cast<std::uint32_t>(value)));
     };
     add(picture.color);
     for (const AovImage& aov : picture.aovs) add(aov.image);

@@ -28,7 +28,8 @@ shot::Shot general(const std::string& text) {
 
 // Renders both ways; the specialised shot.
 shot::Shot checkedShot(const std::string& text) {
-    const shot::Shot special = shot::render(text), all = general(text);
+    shot::Shot special = shot::render(text);
+    const shot::Shot all = general(text);
     CHECK_INFO(sameBits(special.color, all.color), "differs from the general form:\n" << text);
     CHECK_EQUAL(special.stats.rays.camera, all.stats.rays.camera);
     CHECK_EQUAL(special.stats.cameraHits, all.stats.cameraHits);

@@ -7,6 +7,7 @@
 #include "read/txt/read_txt.h"
 #include "render/scene.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -153,8 +154,8 @@ TEST(read_threads_find_the_same_error_in_obj) {
     const auto lineAt = [&](std::size_t place) { return text.find("\nf ", place) + 1; };
     const auto with = [&](std::vector<std::pair<std::size_t, std::string>> lines) {
         std::string out = text;
-        for (auto line = lines.rbegin(); line != lines.rend(); ++line)
-            out.insert(lineAt(line->first), line->second + "\n");
+        std::reverse(lines.begin(), lines.end());
+        for (const auto& [place, line] : lines) out.insert(lineAt(place), line + "\n");
         return out;
     };
     const std::size_t first = text.size() / 3, second = text.size() / 2, third = text.size() - 500;

@@ -92,3 +92,10 @@ TEST(text_unknown_name) {
     CHECK(text.find("name13332") == std::string::npos);
     CHECK(text.ends_with(", name12221 and 3 more"));
 }
+
+TEST(text_after_the_last) {
+    CHECK_EQUAL(afterLast("a/b.obj", "/"), "b.obj");
+    CHECK_EQUAL(afterLast("a/b\\c.obj", "/\\"), "c.obj");
+    CHECK_EQUAL(afterLast("c.obj", "/\\"), "c.obj");
+    CHECK_EQUAL(afterLast("a/", "/"), "");
+}

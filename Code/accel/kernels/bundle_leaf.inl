@@ -231,7 +231,7 @@ private:
             const Floats lo = Floats::load(keyLo_[q]), hi = Floats::load(keyHi_[q]);
             const Mask front = inside & (Floats(b.keyLo[j]) > hi);
             const unsigned may = bits(inside & (Floats(b.keyHi[j]) >= lo));
-            const unsigned wide = 0u - (b.wide >> j & 1);
+            const unsigned wide = (b.wide >> j & 1) != 0 ? ~0u : 0u;
             if ((may & (~bits(front) | wide)) != 0) [[unlikely]] {
                 better |= compare(b, q, j, may);
                 continue;
@@ -372,7 +372,7 @@ private:
                        b.xHi[j],
                        b.yLo[j],
                        b.yHi[j],
-                       maskOf(0u - (b.straddling >> j & 1))};
+                       maskOf((b.straddling >> j & 1) != 0 ? ~0u : 0u)};
         Mask inside = maskOf(lanes);
         unsigned clamped = 0;
         Floats key = keysOf(p, q, inside, clamped);

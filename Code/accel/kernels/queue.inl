@@ -201,7 +201,7 @@ private:
         WideRef nearest;
         if constexpr (Q == Query::Any) {
             storeChosen(hit, child, refs + top);
-            nearest = child[(std::bit_width(hit) - 1) & (W - 1)];
+            nearest = child[(static_cast<int>(std::bit_width(hit)) - 1) & (W - 1)]; // 0: any
         } else {
             nearest = pushSorted(hit, entry, child, refs + top, entries_ + slot * stride_ + top);
         }

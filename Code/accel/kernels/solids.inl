@@ -35,7 +35,7 @@ private:
         const std::size_t count = std::min<std::size_t>(W, order.size());
         for (std::size_t i = 0; i < W; ++i) ray_[i] = order[i < count ? i : 0];
         Floats o[3], d[3], tMax;
-        if (const std::size_t first = ray_[0]; count == W && ray_[W - 1] - first == W - 1) {
+        if (const std::size_t first = ray_[0]; count == W && ray_[W - 1] == first + (W - 1)) {
             loadVectors(&rays_.org[first].x, o[0], o[1], o[2]);
             loadVectors(&rays_.dir[first].x, d[0], d[1], d[2]);
             tMin_ = Floats::unaligned(&rays_.tMin[first]);

@@ -132,7 +132,7 @@ Handle JsonMeshes::read(JsonFields& fields) {
     mesh.file = file;
     mesh.fileLoc = value ? value->loc() : fields.loc();
     mesh.smoothAngleDeg = smoothAngleDeg;
-    const std::string baseName = file.substr(file.find_last_of("/\\") + 1);
+    const std::string baseName = afterLast(file, "/\\");
     const std::string stem = baseName.substr(0, baseName.find_last_of('.'));
     mesh.name = names_.of(stem.empty() ? "mesh" : stem);
     return handle;

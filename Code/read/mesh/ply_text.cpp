@@ -65,7 +65,8 @@ std::uint32_t PlyText::whole() {
     p_ = read.end;
     // Negative ones wrap around, as they do in PlyBytes.
     if (isNegative && read.value > 0x80000000u) fail(cat(word(last_), " is too large"));
-    return isNegative ? 0 - read.value : read.value;
+    const auto value = static_cast<std::int64_t>(read.value);
+    return static_cast<std::uint32_t>(isNegative ? -value : value);
 }
 
 std::size_t PlyText::listCount(const PlyProperty& property, std::size_t most) {
