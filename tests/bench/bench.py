@@ -42,12 +42,7 @@ def main():
     arguments = parser.parse_args()
     raytracer = os.path.abspath(arguments.raytracer)
     with tempfile.TemporaryDirectory() as folder:
-        files = [os.path.abspath(mesh) for mesh in arguments.mesh]
-        if not files:
-            for name, copies in meshes.COPIES.items():
-                files.append(os.path.join(folder, name + ".obj"))
-                with open(files[-1], "w", encoding="ascii") as out:
-                    meshes.write(out, copies)
+        files = [os.path.abspath(mesh) for mesh in arguments.mesh] or meshes.writeAll(folder)
         rows = [rowOf(raytracer, mesh, kernel, arguments) for mesh in files for kernel in arguments.kernels.split()]
     # The table lies down in the file and stands here: a line per figure.
     measured.printTable([f"{rows[0][1]}, {rows[0][2]}"] + [f"{row[6]} {row[5]}" for row in rows],

@@ -5,6 +5,7 @@ ball   69,432 triangles: a wavy ball, most of them smaller than a pixel of the b
 balls  1,110,912 triangles: 16 of them, each turned another way, in 4 x 4 places
 """
 import math
+import os
 import sys
 
 ROWS, COLUMNS = 132, 263
@@ -40,6 +41,16 @@ def write(file, copies):
 
 
 COPIES = {"ball": 1, "balls": 4}
+
+
+def writeAll(folder):
+    """Writes every mesh of COPIES into the folder; returns the files."""
+    files = [os.path.join(folder, name + ".obj") for name in COPIES]
+    for file, copies in zip(files, COPIES.values()):
+        with open(file, "w", encoding="ascii") as out:
+            write(out, copies)
+    return files
+
 
 if __name__ == "__main__":
     if len(sys.argv) != 3 or sys.argv[1] not in COPIES:

@@ -101,12 +101,7 @@ def main():
     raytracer = os.path.abspath(arguments.raytracer)
     print(f"{measured.cpuName()}, load {measured.load()}, {arguments.rounds} rounds, commit {measured.commit()}")
     with tempfile.TemporaryDirectory() as folder:
-        files = [os.path.abspath(mesh) for mesh in arguments.mesh]
-        if not files:
-            for name, copies in meshes.COPIES.items():
-                files.append(os.path.join(folder, name + ".obj"))
-                with open(files[-1], "w", encoding="ascii") as out:
-                    meshes.write(out, copies)
+        files = [os.path.abspath(mesh) for mesh in arguments.mesh] or meshes.writeAll(folder)
         for mesh in files:
             compare(raytracer, peer, mesh, folder, arguments)
 

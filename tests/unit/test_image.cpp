@@ -5,6 +5,7 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "image/image.h"
+#include "temporary_folder.h"
 
 #include <algorithm>
 #include <atomic>
@@ -13,33 +14,10 @@
 #include <fstream>
 #include <string>
 #include <thread>
-#include <unistd.h>
 
 namespace {
 
 namespace fs = std::filesystem;
-
-// An empty folder for one test, removed at its end.
-class Folder {
-public:
-    explicit Folder(const char* name)
-        : path_(fs::temp_directory_path() / cat("raytracer-", name, "-", getpid())) {
-        fs::create_directories(path_);
-    }
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    std::string operator/(const char* name) const { return (path_ / name).string(); }
-    std::ptrdiff_t files() const {
-        return std::distance(fs::directory_iterator(path_), fs::directory_iterator());
-    }
-
-private:
-    fs::path path_;
-};
 
 Image gradient(int width, int height) {
     Image image(width, height);
@@ -99,7 +77,7 @@ TEST(image_pixels_are_rows_from_the_top) {
 }
 
 TEST(image_writes_by_extension_and_reads_by_content) {
-    const Folder folder("write");
+    const TemporaryFolder folder("write");
     const Image image = gradient(20, 11);
     image.write(folder / "a.pfm");
     CHECK(Image(folder / "a.pfm") == image);
@@ -114,7 +92,7 @@ TEST(image_writes_by_extension_and_reads_by_content) {
 }
 
 TEST(image_write_fails_with_reason) {
-    const Folder folder("fail");
+    const TemporaryFolder folder("fail");
     const Image image(1, 1);
     CHECK_THROWS(image.write(folder / "a.pngg"),
                  "a.pngg: error: unknown picture extension 'pngg'; did you mean 'png'? known: ppm");
@@ -133,7 +111,7 @@ TEST(image_write_fails_with_reason) {
 }
 
 TEST(file_reads_whole_files) {
-    const Folder folder("read");
+    const TemporaryFolder folder("read");
     CHECK_THROWS(readWholeFile(folder / "none"), "none: error: cannot read: No such file");
     CHECK_THROWS(readWholeFile("/"), "it is a folder");
     CHECK_THROWS(readWholeFile("/dev/zero"), "it is a device");
@@ -146,7 +124,7 @@ TEST(file_reads_whole_files) {
 }
 
 TEST(file_write_keeps_links_and_old_content) {
-    const Folder folder("links");
+    const TemporaryFolder folder("links");
     const std::vector<std::uint8_t> first{1}, second{2, 2};
     writeFileAtomically(folder / "real", first);
     fs::create_symlink("real", folder / "link");
@@ -161,7 +139,7 @@ TEST(file_write_keeps_links_and_old_content) {
 
 // What an interrupt has to remove.
 TEST(file_pending_name_is_known_while_writing) {
-    const Folder folder("pending");
+    const TemporaryFolder folder("pending");
     const std::vector<std::uint8_t> bytes(16 << 20);
     std::atomic<bool> done = false;
     std::string seen;

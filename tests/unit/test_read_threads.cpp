@@ -6,41 +6,15 @@
 #include "read/mesh/read_obj.h"
 #include "read/txt/read_txt.h"
 #include "render/scene.h"
+#include "temporary_folder.h"
 
 #include <algorithm>
-#include <filesystem>
-#include <fstream>
 #include <string>
-#include <unistd.h>
 #include <vector>
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr int kThreads[] = {2, 3, 8};
-
-// A folder for one test, removed at its end.
-class Folder {
-public:
-    explicit Folder(const char* name)
-        : path_(fs::temp_directory_path() / cat("raytracer-", name, "-", getpid())) {
-        fs::create_directories(path_);
-    }
-    ~Folder() {
-        std::error_code ignored;
-        fs::remove_all(path_, ignored);
-    }
-    Folder(const Folder&) = delete;
-    Folder& operator=(const Folder&) = delete;
-    std::string write(const std::string& name, const std::string& text) const {
-        std::ofstream(path_ / name, std::ios::binary) << text;
-        return (path_ / name).string();
-    }
-
-private:
-    fs::path path_;
-};
 
 // All that was read or said, so that it can be compared.
 struct Outcome {
@@ -174,7 +148,7 @@ TEST(read_threads_find_the_same_error_in_obj) {
 
 // Meshes of a scene: each file has a warning (colours) or an error, in the order of the scene.
 TEST(read_threads_read_the_files_of_a_scene_in_its_order) {
-    const Folder folder("read-threads");
+    const TemporaryFolder folder("read-threads");
     std::string scene = "raytracer 1\ncamera c {\n}\nlight l {\n}\n", broken;
     for (int i = 0; i < 12; ++i) {
         const std::string name = cat("m", i);

@@ -103,8 +103,9 @@ public:
     float Sy[kPackets][W], dirX[kPackets][W], dirY[kPackets][W]; // lateral parts of the direction
     float relX[kPackets][W], relY[kPackets][W], dz[kPackets][W]; // rel: to centre
     float tMax[kPackets][W];
-    // Keys that count are in (above, below), as t is in (tMin, tMax): KeyRange of shape/mesh.cpp.
-    // Lanes without an active ray are copies of another one that nothing is near enough for.
+    // Keys that count are in (above, below), as t is in (tMin, tMax): KeyRange of
+    // shape/triangle_queries.h. Lanes without an active ray are copies of another one that nothing
+    // is near enough for.
     float above[kPackets][W], below[kPackets][W];
     float leastBelow;
 

@@ -1,5 +1,5 @@
-// Which keys count, as KeyRange of shape/mesh.cpp says it of t = 1 / (key dz): t > tMin is
-// key < keyBelow(), t < tMax is key > keyAbove(). Both roundings of t are monotone, so there is
+// Which keys count, as KeyRange of shape/triangle_queries.h says it of t = 1 / (key dz): t > tMin
+// is key < keyBelow(), t < tMax is key > keyAbove(). Both roundings of t are monotone, so there is
 // such a key; it is a few floats from 1 / (t dz). Included by the file of each instruction set
 // inside its namespace.
 

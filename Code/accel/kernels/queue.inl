@@ -125,7 +125,7 @@ private:
         sign.store(b.sign);
         (e * Floats(0.125f)).store(b.lateralError);
         dMax.store(b.dz);
-        // Keys that count are in (above, below); see KeyRange of shape/mesh.cpp.
+        // Keys that count are in (above, below); see KeyRange of shape/triangle_queries.h.
         const Floats above = keyAbove(Floats::load(tMax), dMax);
         const Floats zCut = select(above > zero, (one / above) * Floats(1.0000005f),
                                    Floats(std::numeric_limits<float>::max()));
