@@ -55,19 +55,18 @@ public:
                     rays_.write(q, never, none, hits.brief);
                 continue;
             }
-            const Columns columns = columnsOf(static_cast<unsigned>(q), found);
-            settle(static_cast<unsigned>(q), found, columns);
-            const Ints triangle = permute(Ints::load(columns.id), columns.ofLane);
+            const Winners winners = winnersOf(static_cast<unsigned>(q), found);
+            settle(static_cast<unsigned>(q), found, winners);
             const Floats t = Floats(1.0f) / (Floats::load(keyLo_[q]) * Floats::load(rays_.dz[q]));
             const Mask hit = maskOf(found) & (t <= tMax);
             if (hits.whole != nullptr) {
-                const Weights w = weightsOf(columns, static_cast<unsigned>(q));
+                const Weights w = weightsOf(winners, static_cast<unsigned>(q));
                 rays_.write(q, select(hit, t, tMax),
                             {select(hit, w.u, zero), select(hit, w.v, zero)},
-                            select(hit, triangle, Ints(0u)), select(hit, Ints(hits.shape), noShape),
-                            hits.whole);
+                            select(hit, winners.id, Ints(0u)),
+                            select(hit, Ints(hits.shape), noShape), hits.whole);
             } else {
-                rays_.write(q, select(hit, t, never), select(hit, triangle, none), hits.brief);
+                rays_.write(q, select(hit, t, never), select(hit, winners.id, none), hits.brief);
             }
         }
     }
@@ -400,7 +399,7 @@ private:
             // Keys of hits that were left open, where they matter.
             const Floats lo = Floats::load(keyLo_[q]), hi = Floats::load(keyHi_[q]);
             const unsigned open = bits(inside & (lo < hi) & (key >= lo) & (key <= hi));
-            if (open != 0) settle(q, open, columnsOf(q, open));
+            if (open != 0) settle(q, open, winnersOf(q, open));
             const Floats best = Floats::load(keyHi_[q]);
             Mask better = inside & (key > best);
             const unsigned equal = bits(inside & (key == best));
@@ -434,41 +433,38 @@ private:
         return lower;
     }
 
-    // The triangles of the hits of a packet. Neighbours mostly meet the same few: each is fetched
-    // once, into a column.
-    struct Columns {
-        alignas(64) float point[3][3][W] = {}; // corner, axis
-        alignas(64) std::uint32_t id[W] = {};
-        Ints ofLane{0u};
-
-        Floats get(int corner, std::size_t axis) const {
-            return permute(Floats::load(point[corner][axis]), ofLane);
-        }
+    // The triangles of the best hits of a packet, lane by lane; zeros for the others.
+    struct Winners {
+        Floats point[3][3]; // corner, axis
+        Ints id{0u};
     };
-    Columns columnsOf(unsigned q, unsigned lanes) const {
-        Columns to;
+    // Neighbours mostly meet the same few triangles: each is fetched once.
+    [[gnu::always_inline]] Winners winnersOf(unsigned q, unsigned lanes) const {
+        Winners w;
+        for (auto& corner : w.point)
+            for (Floats& p : corner) p = Floats(0.0f);
         const Ints places = Ints::load(place_[q]);
-        for (std::uint32_t column = 0; lanes != 0; ++column) {
+        while (lanes != 0) {
             const std::uint32_t place = place_[q][std::countr_zero(lanes)];
             const Mask same = places == Ints(place);
-            to.ofLane = select(same, Ints(column), to.ofLane);
             lanes &= ~bits(same);
             const WideLeaf<W>& l = leafOf(place);
             const std::uint32_t j = place & 15;
-            to.id[column] = mesh_.tree.triangleIds[l.first + j];
+            w.id = select(same, Ints(mesh_.tree.triangleIds[l.first + j]), w.id);
             for (std::size_t c = 0; c < 3; ++c)
                 for (std::size_t axis = 0; axis < 3; ++axis)
-                    to.point[c][axis][column] = l.point[axis][l.corner[c][j]];
+                    w.point[c][axis] =
+                        select(same, Floats(l.point[axis][l.corner[c][j]]), w.point[c][axis]);
         }
-        return to;
+        return w;
     }
 
     // Computes the keys of these hits that were left open.
-    [[gnu::noinline]] void settle(unsigned q, unsigned lanes, const Columns& columns) {
+    [[gnu::noinline]] void settle(unsigned q, unsigned lanes, const Winners& winners) {
         const Floats lo = Floats::load(keyLo_[q]), hi = Floats::load(keyHi_[q]);
         const unsigned open = bits(lo < hi) & lanes;
         if (open == 0) return;
-        const Planes p = planesOf([&](int i, std::size_t axis) { return columns.get(i, axis); });
+        const Planes p = planesOf([&](int i, std::size_t axis) { return winners.point[i][axis]; });
         Mask inside = maskOf(open);
         unsigned clamped = 0;
         Floats key = keysOf(p, q, inside, clamped);
@@ -478,11 +474,11 @@ private:
         select(maskOf(open), key, hi).store(keyHi_[q]);
     }
 
-    Weights weightsOf(const Columns& columns, unsigned q) const {
+    Weights weightsOf(const Winners& winners, unsigned q) const {
         Floats x[3], y[3];
         for (int i = 0; i < 3; ++i) {
             const auto relative = [&](std::size_t axis) {
-                return columns.get(i, axis) - Floats(rays_.origin[axis]);
+                return winners.point[i][axis] - Floats(rays_.origin[axis]);
             };
             const Floats z = relative(rays_.k) * Floats(rays_.sign);
             x[i] = relative(rays_.kx) - Floats::load(rays_.Sx[q]) * z;

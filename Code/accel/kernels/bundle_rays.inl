@@ -78,7 +78,12 @@ public:
     void write(int q, Floats t, Weights weights, Ints triangle, Ints shape, Hit* hits) const {
         const int p = packet_[q];
         if (active[q] == (1u << W) - 1 && isFull(p)) {
-            storeRows(t, weights.u, weights.v, triangle, shape, &hits[list_[at(p, 0)]].t);
+            const std::uint32_t ray = list_[at(p, 0)];
+            if (ray + kMostRays + W <= rays_.size()) { // as for the directions
+                const float* const next = &hits[ray + kMostRays].t;
+                for (int i = 0; i < 5 * W; i += 16) __builtin_prefetch(next + i, 1);
+            }
+            storeRows(t, weights.u, weights.v, triangle, shape, &hits[ray].t);
             return;
         }
         alignas(64) Hit rows[W];
