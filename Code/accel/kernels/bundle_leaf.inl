@@ -15,10 +15,10 @@ public:
 
     // Behind BundleRays::nextRound().
     void start() {
-        open_ = rays_.packets;
+        open_ = static_cast<std::uint32_t>((std::uint64_t{1} << rays_.packets) - 1);
         zTop_ = 0;
-        for (int q = 0; q < open_; ++q) {
-            packet_[q] = q;
+        unmet_ = 0;
+        for (int q = 0; q < rays_.packets; ++q) {
             const Floats above = Floats::load(rays_.above[q]);
             above.store(keyLo_[q]), above.store(keyHi_[q]);
             Ints(kNowhere).store(place_[q]);
@@ -187,8 +187,17 @@ private:
         // Which packets overlap which triangles and are outside none of its edges.
         const Floats least = zero - noise;
         int pairs = 0;
-        for (int i = 0; i < open_; ++i) {
-            const auto q = packet_[i];
+        std::uint32_t packets = open_;
+        if ((live & close) == 0) {
+            const Mask on = maskOf(live);
+            const auto range = [&](Floats lo, Floats hi) {
+                return typename BundleRays<Q>::Range{smallest(select(on, lo, Floats(kInfinityF))),
+                                                     largest(select(on, hi, Floats(-kInfinityF)))};
+            };
+            packets &= rays_.overlapping(range(xLo, xHi), range(yLo, yHi));
+        }
+        for (; packets != 0; packets &= packets - 1) {
+            const auto q = static_cast<std::size_t>(std::countr_zero(packets));
             const auto& r = rays_.rect[q];
             unsigned wanted = live & overlap(r);
             const Floats cx(r.centreX), cy(r.centreY), hx(r.halfX), hy(r.halfY);
@@ -198,7 +207,7 @@ private:
             };
             wanted &= uncertain | bits(notGreater(least, min(min(most(0), most(1)), most(2))));
             if constexpr (Q == Query::Any) wanted &= bits(zMin <= Floats(rays_.zFar[q]));
-            storeChosen(wanted, kPair[static_cast<std::size_t>(q)].data(), b.pair + pairs);
+            storeChosen(wanted, kPair[q].data(), b.pair + pairs);
             pairs += std::popcount(wanted);
         }
         if (pairs == 0) return false;
@@ -488,20 +497,25 @@ private:
     }
 
     void closePackets() {
-        int still = 0;
-        for (int i = 0; i < open_; ++i) {
-            const int q = packet_[i];
-            packet_[still] = q;
-            still += missing_[q] != 0;
-        }
-        open_ = still;
+        for (std::uint32_t left = open_; left != 0; left &= left - 1)
+            if (missing_[std::countr_zero(left)] == 0) open_ ^= left & -left;
     }
 
     void limitDepth() {
         if constexpr (Q == Query::Any) {
             zCut_ = -1;
-            for (int i = 0; i < open_; ++i) zCut_ = ::max(rays_.zFar[packet_[i]], zCut_);
+            for (std::uint32_t left = open_; left != 0; left &= left - 1)
+                zCut_ = ::max(rays_.zFar[std::countr_zero(left)], zCut_);
         } else {
+            // Nothing is hidden as long as a ray has met nothing.
+            const auto met = [&](int q) {
+                return bits(Floats::load(keyLo_[q]) <= Floats(0.0f)) == 0;
+            };
+            while (unmet_ < rays_.packets && met(unmet_)) ++unmet_;
+            if (unmet_ < rays_.packets) {
+                zCut_ = zTop_;
+                return;
+            }
             Floats least = Floats::load(keyLo_[0]);
             for (int q = 1; q < rays_.packets; ++q) least = min(least, Floats::load(keyLo_[q]));
             zCut_ = ::min(depthCut(smallest(least)), zTop_);
@@ -524,8 +538,9 @@ private:
     const BundleRays<Q>& rays_;
     float pad_;
     float zTop_ = 0, zCut_ = 0;
-    int open_ = 0, packet_[kPackets]; // packets that still ask
-    unsigned missing_[kPackets];      // rays that are not hidden yet
+    std::uint32_t open_ = 0;     // packets that still ask, a bit each
+    int unmet_ = 0;              // the first packet with a ray that has met nothing
+    unsigned missing_[kPackets]; // rays that are not hidden yet
     // Of the best hit: bounds of its key, which are equal when it is known, and where it is.
     alignas(64) float keyLo_[kPackets][W], keyHi_[kPackets][W];
     std::uint32_t place_[kPackets][W];
