@@ -52,7 +52,8 @@ struct IntegratorContext {
     std::size_t compiledSteps; // which form of the wave loop: waves/steps.h
     bool wantsFirstHits;
     SurfaceNeeds surfaceNeeds;
-    MediumTree media; // what camera rays start in, and room for what rays enter
+    SphereSurfacesFn sphereSurfaces; // null: one by one
+    MediumTree media;                // what camera rays start in, and room for what rays enter
     MediumTree::Inside cameraMedium;
 
     IntegratorContext(const Scene& scene, const RenderSettings& settings);
