@@ -34,7 +34,7 @@ void CameraRays::choosePlaces(const Tile& tile, int first, int count, SampleChun
             const std::uint32_t pixel =
                 static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_) +
                 static_cast<std::uint32_t>(x); // wraps in huge pictures
-            if (!corners_)
+            if (!corners_ && samples > 1)
                 context_.sampler.get2D(pixel, begin, kPixelDimension,
                                        std::span(chunk.offsets).subspan(slot, samples));
             for (std::uint32_t s = begin; s < begin + samples; ++s, ++slot) {
@@ -43,6 +43,11 @@ void CameraRays::choosePlaces(const Tile& tile, int first, int count, SampleChun
             }
         }
     if (corners_) return;
+    if (samples == 1) {
+        chunk.pixels.resize(all);
+        for (std::size_t i = 0; i < all; ++i) chunk.pixels[i] = chunk.ids[i].pixel;
+        context_.sampler.get2D(chunk.pixels, begin, kPixelDimension, chunk.offsets);
+    }
     filter_.sample(chunk.offsets);
     for (std::size_t i = 0; i < chunk.places.size(); ++i) {
         const Vec2d middle = chunk.places[i];

@@ -62,6 +62,7 @@ struct IntegratorContext {
 // The samples of one chunk of a tile, and what comes out of them; slot i is sample i everywhere.
 struct SampleChunk {
     std::vector<SampleId> ids;
+    std::vector<std::uint32_t> pixels; // of the ids, where each has one sample
     std::vector<Vec2d> places; // in the picture, in pixels
     std::vector<Vec2> offsets; // of these from the middle of their pixel
     PathBatch cameraRays;
