@@ -66,6 +66,7 @@ struct SampleChunk {
     std::vector<Vec2d> places; // in the picture, in pixels
     std::vector<Vec2> offsets; // of these from the middle of their pixel
     PathBatch cameraRays;
+    std::size_t raysWithConstants = 0; // see CameraRays::make()
     std::vector<Rgb> radiance;
     std::vector<FirstHit> first; // filled only if the context wants it
 };
