@@ -7,11 +7,13 @@
 // the ray and the shape.
 #pragma once
 
+#include "accel/kernels/sphere_surfaces.h"
 #include "accel/solid_form.h"
 #include "base/bounds.h"
 #include "base/hit.h"
 #include "base/ray.h"
 #include "base/ray_span.h"
+#include "base/strided.h"
 
 #include <cstdint>
 #include <optional>
@@ -26,6 +28,15 @@ struct TieOrder {
     bool isBefore(const TieOrder& other) const {
         return key != other.key ? key > other.key : object < other.object;
     }
+};
+
+// Surfaces that are asked for together: of the hits of some rays of a batch, all on one shape.
+struct SurfaceQuery {
+    RaySpan rays;
+    std::span<const Hit> hits; // of all rays
+    std::span<const std::uint32_t> which;
+    SurfaceNeeds needs;
+    SphereSurfacesFn spheres = nullptr; // does spheres by the register
 };
 
 class Shape {
@@ -79,6 +90,13 @@ public:
     // The same, where a shape may leave out what is not asked for.
     virtual Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds) const {
         return surface(ray, hit);
+    }
+    // out[k] = surfaceFor(ray, hit) of ray which[k].
+    virtual void surfaces(const SurfaceQuery& query, Strided<Surface> out) const {
+        for (std::size_t k = 0; k < query.which.size(); ++k) {
+            const std::uint32_t i = query.which[k];
+            out[k] = surfaceFor(query.rays[i], query.hits[i], query.needs);
+        }
     }
     virtual SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const = 0;
 
