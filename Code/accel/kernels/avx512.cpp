@@ -24,6 +24,8 @@ namespace kernels::avx512 {
 
 #include "accel/kernels/key_range.inl"
 
+#include "accel/kernels/barycentrics.inl"
+
 #include "accel/kernels/queue.inl"
 
 #include "accel/kernels/bundle_rays.inl"

@@ -13,9 +13,6 @@ public:
     BundleLeaf(const WideMesh& mesh, const BundleRays<Q>& rays)
         : mesh_(mesh), rays_(rays), pad_(::max(mesh.extent, maxAbs(rays.origin)) * 0x1p-21f) {}
 
-    // Of trees: hits are remembered by the lines of their leaves, in 28 bits.
-    static constexpr std::size_t kMostLines = std::size_t{1} << 28;
-
     // Behind BundleRays::nextRound().
     void start() {
         open_ = rays_.packets;
@@ -45,18 +42,33 @@ public:
         limitDepth();
     }
 
-    void finish(TriangleHit* hits) {
+    void finish(const HitLists& hits) {
+        const Ints none(TriangleHit::kNone), noShape(Hit::kNoShape);
+        const Floats zero(0.0f), never(kInfinityF);
         for (int q = 0; q < rays_.packets; ++q) {
-            const Ints none(TriangleHit::kNone);
+            const Floats tMax = Floats::load(rays_.tMax[q]);
             const unsigned found = bits(Ints::load(place_[q]) < Ints(kNowhere)) & rays_.active[q];
             if (found == 0) {
-                rays_.write(q, Floats(kInfinityF), none, hits);
+                if (hits.whole != nullptr)
+                    rays_.write(q, tMax, {zero, zero}, Ints(0u), noShape, hits.whole);
+                else
+                    rays_.write(q, never, none, hits.brief);
                 continue;
             }
-            const Ints triangle = settle(static_cast<unsigned>(q), found);
+            const Columns columns = columnsOf(static_cast<unsigned>(q), found);
+            settle(static_cast<unsigned>(q), found, columns);
+            const Ints triangle = permute(Ints::load(columns.id), columns.ofLane);
             const Floats t = Floats(1.0f) / (Floats::load(keyLo_[q]) * Floats::load(rays_.dz[q]));
-            const Mask hit = maskOf(found) & (t <= Floats::load(rays_.tMax[q]));
-            rays_.write(q, select(hit, t, Floats(kInfinityF)), select(hit, triangle, none), hits);
+            const Mask hit = maskOf(found) & (t <= tMax);
+            if (hits.whole != nullptr) {
+                const Weights w = weightsOf(columns, static_cast<unsigned>(q));
+                rays_.write(q, select(hit, t, tMax),
+                            {select(hit, w.u, zero), select(hit, w.v, zero)},
+                            select(hit, triangle, Ints(0u)), select(hit, Ints(hits.shape), noShape),
+                            hits.whole);
+            } else {
+                rays_.write(q, select(hit, t, never), select(hit, triangle, none), hits.brief);
+            }
         }
     }
     void finish(std::uint8_t* hidden) const {
@@ -388,7 +400,7 @@ private:
             // Keys of hits that were left open, where they matter.
             const Floats lo = Floats::load(keyLo_[q]), hi = Floats::load(keyHi_[q]);
             const unsigned open = bits(inside & (lo < hi) & (key >= lo) & (key <= hi));
-            if (open != 0) settle(q, open);
+            if (open != 0) settle(q, open, columnsOf(q, open));
             const Floats best = Floats::load(keyHi_[q]);
             Mask better = inside & (key > best);
             const unsigned equal = bits(inside & (key == best));
@@ -422,40 +434,61 @@ private:
         return lower;
     }
 
-    // Computes the keys of these hits that were left open, and returns the triangles. Neighbours
-    // mostly meet the same few triangles: each is fetched once, into a column.
-    [[gnu::noinline]] Ints settle(unsigned q, unsigned lanes) {
-        alignas(64) std::uint32_t id[W] = {};
+    // The triangles of the hits of a packet. Neighbours mostly meet the same few: each is fetched
+    // once, into a column.
+    struct Columns {
         alignas(64) float point[3][3][W] = {}; // corner, axis
+        alignas(64) std::uint32_t id[W] = {};
+        Ints ofLane{0u};
+
+        Floats get(int corner, std::size_t axis) const {
+            return permute(Floats::load(point[corner][axis]), ofLane);
+        }
+    };
+    Columns columnsOf(unsigned q, unsigned lanes) const {
+        Columns to;
         const Ints places = Ints::load(place_[q]);
-        Ints column(0u);
-        std::uint32_t columns = 0;
-        for (unsigned left = lanes; left != 0; ++columns) {
-            const std::uint32_t place = place_[q][std::countr_zero(left)];
+        for (std::uint32_t column = 0; lanes != 0; ++column) {
+            const std::uint32_t place = place_[q][std::countr_zero(lanes)];
             const Mask same = places == Ints(place);
-            column = select(same, Ints(columns), column);
-            left &= ~bits(same);
+            to.ofLane = select(same, Ints(column), to.ofLane);
+            lanes &= ~bits(same);
             const WideLeaf<W>& l = leafOf(place);
             const std::uint32_t j = place & 15;
-            id[columns] = mesh_.tree.triangleIds[l.first + j];
+            to.id[column] = mesh_.tree.triangleIds[l.first + j];
             for (std::size_t c = 0; c < 3; ++c)
                 for (std::size_t axis = 0; axis < 3; ++axis)
-                    point[c][axis][columns] = l.point[axis][l.corner[c][j]];
+                    to.point[c][axis][column] = l.point[axis][l.corner[c][j]];
         }
+        return to;
+    }
+
+    // Computes the keys of these hits that were left open.
+    [[gnu::noinline]] void settle(unsigned q, unsigned lanes, const Columns& columns) {
         const Floats lo = Floats::load(keyLo_[q]), hi = Floats::load(keyHi_[q]);
-        if (const unsigned open = bits(lo < hi) & lanes; open != 0) {
-            const Planes p = planesOf([&](int i, std::size_t axis) {
-                return permute(Floats::load(point[i][axis]), column);
-            });
-            Mask inside = maskOf(open);
-            unsigned clamped = 0;
-            Floats key = keysOf(p, q, inside, clamped);
-            if (clamped != 0) [[unlikely]]
-                key = clampedKeys(places, q, clamped, key);
-            select(maskOf(open), key, lo).store(keyLo_[q]);
-            select(maskOf(open), key, hi).store(keyHi_[q]);
+        const unsigned open = bits(lo < hi) & lanes;
+        if (open == 0) return;
+        const Planes p = planesOf([&](int i, std::size_t axis) { return columns.get(i, axis); });
+        Mask inside = maskOf(open);
+        unsigned clamped = 0;
+        Floats key = keysOf(p, q, inside, clamped);
+        if (clamped != 0) [[unlikely]]
+            key = clampedKeys(Ints::load(place_[q]), q, clamped, key);
+        select(maskOf(open), key, lo).store(keyLo_[q]);
+        select(maskOf(open), key, hi).store(keyHi_[q]);
+    }
+
+    Weights weightsOf(const Columns& columns, unsigned q) const {
+        Floats x[3], y[3];
+        for (int i = 0; i < 3; ++i) {
+            const auto relative = [&](std::size_t axis) {
+                return columns.get(i, axis) - Floats(rays_.origin[axis]);
+            };
+            const Floats z = relative(rays_.k) * Floats(rays_.sign);
+            x[i] = relative(rays_.kx) - Floats::load(rays_.Sx[q]) * z;
+            y[i] = relative(rays_.ky) - Floats::load(rays_.Sy[q]) * z;
         }
-        return permute(Ints::load(id), column);
+        return barycentrics(x, y);
     }
 
     void closePackets() {

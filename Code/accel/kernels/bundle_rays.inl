@@ -43,12 +43,12 @@ public:
     }
 
     // Misses for the rays that isTraceable() refuses.
-    template <class Result> void refuse(Result* results) const {
+    template <class Results> void refuse(const Results& results) const {
         for (int p = 0; p < loaded_; ++p) {
             const std::size_t rays = std::min<std::size_t>(W, list_.size() - at(p, 0));
             unsigned refused = ~traceable_[p] & ((1u << rays) - 1);
             for (; refused != 0; refused &= refused - 1)
-                results[list_[at(p, std::countr_zero(refused))]] = Result();
+                miss(results, list_[at(p, std::countr_zero(refused))]);
         }
     }
 
@@ -72,6 +72,20 @@ public:
         for (unsigned lanes = active[q]; lanes != 0; lanes &= lanes - 1) {
             const int i = std::countr_zero(lanes);
             hits[list_[at(p, i)]] = {ts[i], triangles[i]};
+        }
+    }
+    // With u and v: lanes that are no hit have the ray's end for t, and zeros.
+    void write(int q, Floats t, Weights weights, Ints triangle, Ints shape, Hit* hits) const {
+        const int p = packet_[q];
+        if (active[q] == (1u << W) - 1 && isFull(p)) {
+            storeRows(t, weights.u, weights.v, triangle, shape, &hits[list_[at(p, 0)]].t);
+            return;
+        }
+        alignas(64) Hit rows[W];
+        storeRows(t, weights.u, weights.v, triangle, shape, &rows[0].t);
+        for (unsigned lanes = active[q]; lanes != 0; lanes &= lanes - 1) {
+            const int i = std::countr_zero(lanes);
+            hits[list_[at(p, i)]] = rows[i];
         }
     }
     void write(int q, unsigned found, std::uint8_t* hidden) const {
@@ -113,6 +127,9 @@ private:
     static std::size_t at(int p, int lane) {
         return static_cast<std::size_t>(p) * W + static_cast<std::size_t>(lane);
     }
+
+    void miss(const HitLists& hits, std::uint32_t ray) const { hits.miss(ray, rays_.tMax[ray]); }
+    static void miss(std::uint8_t* hidden, std::uint32_t ray) { hidden[ray] = 0; }
 
     // Is every lane of the packet a ray, and do they follow each other in the batch?
     bool isFull(int p) const { return inARow_ && at(p + 1, 0) <= list_.size(); }

@@ -46,6 +46,7 @@ bool improve(const WideMesh& mesh, Vec3 org, Vec3 dir, const WideLeaf<W>& leaf, 
         if (key == best.key && triangle > best.triangle) continue;
         best.key = key;
         best.triangle = triangle;
+        best.lane = lane;
         better = true;
     }
     return better;

@@ -10,6 +10,7 @@
 struct RayBest {
     float key, below;
     std::uint32_t triangle;
+    std::uint32_t lane = 0; // of its leaf
 };
 
 // canonicalKey() of a leaf's triangle, from the leaf's own copy of the points: it is in the cache.

@@ -19,7 +19,8 @@ struct alignas(64) RayBlock {
     float lateralError[W];      // of a vertex in the ray's frame, 4 units of the space's size
     float key[W], below[W], dz[W];
     std::uint32_t at[W], stackTop[W], triangle[W], ray[W];
-    std::uint32_t count, live; // rays at the start and now
+    std::uint32_t bestLeaf[W], bestLane[W]; // where the triangle is
+    std::uint32_t count, live;              // rays at the start and now
 };
 
 template <Query Q> class Queue {
@@ -35,7 +36,7 @@ public:
         entries_ = refs_ + kSlots * stride_;
     }
 
-    template <class Result> void run(Result* results) {
+    template <class Results> void run(const Results& results) {
         Lists now{lists_[0], lists_[1], lists_[2]}, next{lists_[3], lists_[4], lists_[2]};
         for (std::uint32_t b = 0; b < kBlocks && next_ < order_.size(); ++b) start(b, next);
         while (live_ > 0) {
@@ -151,12 +152,49 @@ private:
         }
     }
 
-    void finish(const RayBlock& b, TriangleHit* hits) const {
+    void finish(const RayBlock& b, const HitLists& hits) const {
         alignas(64) float t[W];
         (Floats(1.0f) / (Floats::load(b.key) * Floats::load(b.dz))).store(t);
+        unsigned found = 0;
         for (std::size_t i = 0; i < b.count; ++i) {
-            const bool hit = b.triangle[i] != TriangleHit::kNone && t[i] <= rays_.tMax[b.ray[i]];
-            hits[b.ray[i]] = hit ? TriangleHit{t[i], b.triangle[i]} : TriangleHit{};
+            const float tMax = rays_.tMax[b.ray[i]];
+            const bool hit = b.triangle[i] != TriangleHit::kNone && t[i] <= tMax;
+            found |= static_cast<unsigned>(hit) << i;
+            if (!hit)
+                hits.miss(b.ray[i], tMax);
+            else if (hits.whole == nullptr)
+                hits.brief[b.ray[i]] = {t[i], b.triangle[i]};
+        }
+        if (hits.whole != nullptr && found != 0) finishWhole(b, t, found, hits);
+    }
+    void finishWhole(const RayBlock& b, const float* t, unsigned found,
+                     const HitLists& hits) const {
+        alignas(64) float point[3][3][W] = {}; // axis as in the block, corner
+        for (unsigned lanes = found; lanes != 0; lanes &= lanes - 1) {
+            const int i = std::countr_zero(lanes);
+            const std::byte* const p = base_ + byteOffset(b.bestLeaf[i]);
+            const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(p);
+            for (int c = 0; c < 3; ++c) {
+                const std::uint8_t corner = leaf.corner[c][b.bestLane[i]];
+                for (int axis = 0; axis < 3; ++axis)
+                    point[axis][c][i] = reinterpret_cast<const float*>(p + b.axis[axis][i])[corner];
+            }
+        }
+        Floats x[3], y[3];
+        for (int c = 0; c < 3; ++c) {
+            const auto relative = [&](int axis) {
+                return Floats::load(point[axis][c]) - Floats::load(b.origin[axis]);
+            };
+            const Floats z = relative(2);
+            x[c] = relative(0) - Floats::load(b.shearX) * z;
+            y[c] = relative(1) - Floats::load(b.shearY) * z;
+        }
+        const Weights weights = barycentrics(x, y);
+        alignas(64) float u[W], v[W];
+        weights.u.store(u), weights.v.store(v);
+        for (; found != 0; found &= found - 1) {
+            const int i = std::countr_zero(found);
+            hits.whole[b.ray[i]] = {t[i], u[i], v[i], b.triangle[i], hits.shape};
         }
     }
     void finish(const RayBlock& b, std::uint8_t* hidden) const {
@@ -310,6 +348,7 @@ private:
             if (!improve(mesh_, org, dir, leaf, candidates, best)) return;
             b.key[i] = best.key;
             b.triangle[i] = best.triangle;
+            b.bestLeaf[i] = b.at[i], b.bestLane[i] = best.lane;
             b.zCut[i] = ::min(depthCut(best.key), b.zCut[i]);
             dropHidden(slot, b, i);
         }
@@ -341,7 +380,7 @@ private:
 };
 
 void closest(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order,
-             TriangleHit* hits) {
+             const HitLists& hits) {
     Queue<Query::Closest>(mesh, rays, order).run(hits);
 }
 void any(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order,

@@ -116,6 +116,26 @@ inline void storePairs(Floats a, Ints b, float* to) {
     _mm512_storeu_ps(to + 16, _mm512_permutex2var_ps(a.v, high, other));
 }
 
+// W rows (a, b, c, d, e) that follow each other.
+inline void storeRows(Floats a, Floats b, Floats c, Ints d, Ints e, float* to) {
+    const __m512 other = _mm512_castsi512_ps(d.v);
+    const __m512d abLow = _mm512_castps_pd(_mm512_unpacklo_ps(a.v, b.v));
+    const __m512d abHigh = _mm512_castps_pd(_mm512_unpackhi_ps(a.v, b.v));
+    const __m512d cdLow = _mm512_castps_pd(_mm512_unpacklo_ps(c.v, other));
+    const __m512d cdHigh = _mm512_castps_pd(_mm512_unpackhi_ps(c.v, other));
+    alignas(64) float four[W][4], fifth[W];
+    // Rows 0, 4, 8 and 12, then 1, 5, 9 and 13 and so on.
+    _mm512_store_pd(four[0], _mm512_unpacklo_pd(abLow, cdLow));
+    _mm512_store_pd(four[4], _mm512_unpackhi_pd(abLow, cdLow));
+    _mm512_store_pd(four[8], _mm512_unpacklo_pd(abHigh, cdHigh));
+    _mm512_store_pd(four[12], _mm512_unpackhi_pd(abHigh, cdHigh));
+    Floats(_mm512_castsi512_ps(e.v)).store(fifth);
+    for (int i = 0; i < W; ++i) {
+        _mm_storeu_ps(to + 5 * i, _mm_load_ps(four[i % 4 * 4 + i / 4]));
+        to[5 * i + 4] = fifth[i];
+    }
+}
+
 // Writes the chosen lanes one after the other; what follows them is overwritten too.
 inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_t* to) {
     _mm512_storeu_si512(

@@ -18,6 +18,8 @@ namespace kernels::sse {
 
 #include "accel/kernels/key_range.inl"
 
+#include "accel/kernels/barycentrics.inl"
+
 #include "accel/kernels/queue.inl"
 
 #include "accel/kernels/bundle_rays.inl"
