@@ -25,7 +25,7 @@ const char* behindLineEnd(const char* p) {
 
 std::vector<LineChunk> chunksOfLines(const char* text, const char* end, std::size_t count,
                                      int threads) {
-    constexpr std::size_t kChunkBytes = std::size_t{1} << 18;
+    constexpr std::size_t kChunkBytes = std::size_t{1} << 16;
     // So many at a time: an array that is short for the file has few.
     const std::size_t atOnce = 8 * static_cast<std::size_t>(threads);
     std::vector<LineChunk> chunks;
