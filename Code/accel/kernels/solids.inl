@@ -253,7 +253,7 @@ private:
         for (; any != 0; any &= any - 1) {
             const int i = std::countr_zero(any);
             const WideRef ref = node.child[i];
-            if (A == Answer::Any && kindOf(ref) == WideKind::Leaf) {
+            if (kindOf(ref) == WideKind::Leaf) {
                 if (const unsigned asking = entered.column(i) & live_; asking != 0)
                     solid(ref >> 2, asking, results);
                 continue;
