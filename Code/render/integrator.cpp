@@ -39,6 +39,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       compiledSteps(compiledFor(stepsFor(theScene, theSettings))),
       wantsFirstHits(needsFirstHits(theSettings)),
       surfaceNeeds(surfaceNeedsOf(theScene, theSettings)),
+      sphereSurfaces(::sphereSurfaces(chooseKernel(theSettings.kernel))),
       cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
     const int samples = settings.picture.lightSamples;
     for (std::size_t i = 0; i < scene.lights().size(); ++i) {

@@ -55,7 +55,8 @@ struct IntegratorContext {
     std::size_t compiledSteps; // which form of the wave loop: waves/steps.h
     bool wantsFirstHits;
     SurfaceNeeds surfaceNeeds;
-    MediumTree media; // what camera rays start in, and room for what rays enter
+    SphereSurfacesFn sphereSurfaces; // null: one by one
+    MediumTree media;                // what camera rays start in, and room for what rays enter
     MediumTree::Inside cameraMedium;
 
     IntegratorContext(const Scene& scene, const RenderSettings& settings);
@@ -64,9 +65,11 @@ struct IntegratorContext {
 // The samples of one chunk of a tile, and what comes out of them; slot i is sample i everywhere.
 struct SampleChunk {
     std::vector<SampleId> ids;
+    std::vector<std::uint32_t> pixels; // of the ids, where each has one sample
     std::vector<Vec2d> places; // in the picture, in pixels
     std::vector<Vec2> offsets; // of these from the middle of their pixel
     PathBatch cameraRays;
+    std::size_t raysWithConstants = 0; // see CameraRays::make()
     std::vector<Rgb> radiance;
     std::vector<FirstHit> first; // filled only if the context wants it
 };

@@ -176,6 +176,9 @@ Surface AnalyticShape::surfaceUnder(const Transform& worldFromObject,
     return surface;
 }
 
+double AnalyticShape::errorOfSize() const { return kFloatUlp * size_->reach; }
+double AnalyticShape::errorPerPlace() const { return 0x1p-48 * size_->amplification; }
+
 Surface AnalyticShape::surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const {
     if (size_) return surfaceUnder(worldFromObject_, objectFromWorld_, *size_, ray, hit, needs);
     const Transform map = worldFromObjectAt(ray.time), inverse = map.inverse();

@@ -33,6 +33,29 @@ std::vector<float> longestSides(const MeshGeometry& mesh) {
     return out;
 }
 
+template <int W> float longestSideBelow(const MeshGeometry& mesh, WideRef ref, float* byLine) {
+    float longest = 0;
+    if (kindOf(ref) == WideKind::None) return longest;
+    if (kindOf(ref) == WideKind::Leaf) {
+        const auto& leaf = mesh.wide.at<WideLeaf<W>>(ref);
+        for (std::uint32_t i = 0; i < leaf.count; ++i)
+            longest = max(longestSideOf(mesh, mesh.wide.triangleIds[leaf.first + i]), longest);
+    } else {
+        for (const WideRef child : mesh.wide.at<WideNode<W>>(ref).child)
+            longest = max(longestSideBelow<W>(mesh, child, byLine), longest);
+    }
+    return byLine[ref >> 2] = longest;
+}
+
+std::vector<float> longestSidesByLine(const MeshGeometry& mesh) {
+    std::vector<float> out(mesh.wide.lines.size(), 0);
+    if (mesh.wide.width == 16)
+        longestSideBelow<16>(mesh, mesh.wide.root, out.data());
+    else
+        longestSideBelow<8>(mesh, mesh.wide.root, out.data());
+    return out;
+}
+
 } // namespace
 
 std::uint64_t MeshGeometry::dropDegenerate() {
@@ -85,6 +108,7 @@ void MeshGeometry::finish(bool withTree, const Kernel& forKernel, int threads) {
     if (forKernel.width > 0) {
         kernel = &forKernel;
         wide = buildWide(forKernel.width, points, triangles, threads);
+        if (!exactPoints.empty()) longestSide = longestSidesByLine(*this);
         return;
     }
     {

@@ -6,6 +6,20 @@ Sphere::Sphere(MovingTransform worldFromObject, double radius, std::uint32_t mat
                std::uint32_t object)
     : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius) {
     measure();
+    if (isStill() && !this->worldFromObject().isSingular())
+        inLanes_ = SphereToShade{this->worldFromObject().rows(),
+                                 objectFromWorld().rows(),
+                                 radius_,
+                                 errorOfSize(),
+                                 errorPerPlace(),
+                                 maxAbs(this->worldFromObject().translation()),
+                                 material,
+                                 object};
+}
+
+void Sphere::surfaces(const SurfaceQuery& query, Strided<Surface> out) const {
+    if (!inLanes_ || !query.spheres || query.needs.uv) return AnalyticShape::surfaces(query, out);
+    query.spheres(*inLanes_, query.rays, query.hits, query.which, out);
 }
 
 SolidForm Sphere::solidForm() const {

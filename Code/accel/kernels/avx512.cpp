@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <immintrin.h>
 #include <limits>
 #include <vector>
@@ -23,6 +24,12 @@ namespace kernels::avx512 {
 #include "accel/kernels/simd_avx512.inl"
 
 #include "accel/kernels/key_range.inl"
+
+#include "accel/kernels/barycentrics.inl"
+
+#include "accel/kernels/queue_rays.inl"
+
+#include "accel/kernels/queue_exact.inl"
 
 #include "accel/kernels/queue.inl"
 

@@ -13,15 +13,12 @@ public:
     BundleLeaf(const WideMesh& mesh, const BundleRays<Q>& rays)
         : mesh_(mesh), rays_(rays), pad_(::max(mesh.extent, maxAbs(rays.origin)) * 0x1p-21f) {}
 
-    // Of trees: hits are remembered by the lines of their leaves, in 28 bits.
-    static constexpr std::size_t kMostLines = std::size_t{1} << 28;
-
     // Behind BundleRays::nextRound().
     void start() {
-        open_ = rays_.packets;
+        open_ = static_cast<std::uint32_t>((std::uint64_t{1} << rays_.packets) - 1);
         zTop_ = 0;
-        for (int q = 0; q < open_; ++q) {
-            packet_[q] = q;
+        unmet_ = 0;
+        for (int q = 0; q < rays_.packets; ++q) {
             const Floats above = Floats::load(rays_.above[q]);
             above.store(keyLo_[q]), above.store(keyHi_[q]);
             Ints(kNowhere).store(place_[q]);
@@ -45,18 +42,32 @@ public:
         limitDepth();
     }
 
-    void finish(TriangleHit* hits) {
+    void finish(const HitLists& hits) {
+        const Ints none(TriangleHit::kNone), noShape(Hit::kNoShape);
+        const Floats zero(0.0f), never(kInfinityF);
         for (int q = 0; q < rays_.packets; ++q) {
-            const Ints none(TriangleHit::kNone);
+            const Floats tMax = Floats::load(rays_.tMax[q]);
             const unsigned found = bits(Ints::load(place_[q]) < Ints(kNowhere)) & rays_.active[q];
             if (found == 0) {
-                rays_.write(q, Floats(kInfinityF), none, hits);
+                if (hits.whole != nullptr)
+                    rays_.write(q, tMax, {zero, zero}, Ints(0u), noShape, hits.whole);
+                else
+                    rays_.write(q, never, none, hits.brief);
                 continue;
             }
-            const Ints triangle = settle(static_cast<unsigned>(q), found);
+            const Winners winners = winnersOf(static_cast<unsigned>(q), found);
+            settle(static_cast<unsigned>(q), found, winners);
             const Floats t = Floats(1.0f) / (Floats::load(keyLo_[q]) * Floats::load(rays_.dz[q]));
-            const Mask hit = maskOf(found) & (t <= Floats::load(rays_.tMax[q]));
-            rays_.write(q, select(hit, t, Floats(kInfinityF)), select(hit, triangle, none), hits);
+            const Mask hit = maskOf(found) & (t <= tMax);
+            if (hits.whole != nullptr) {
+                const Weights w = weightsOf(winners, static_cast<unsigned>(q));
+                rays_.write(q, select(hit, t, tMax),
+                            {select(hit, w.u, zero), select(hit, w.v, zero)},
+                            select(hit, winners.id, Ints(0u)),
+                            select(hit, Ints(hits.shape), noShape), hits.whole);
+            } else {
+                rays_.write(q, select(hit, t, never), select(hit, winners.id, none), hits.brief);
+            }
         }
     }
     void finish(std::uint8_t* hidden) const {
@@ -176,8 +187,17 @@ private:
         // Which packets overlap which triangles and are outside none of its edges.
         const Floats least = zero - noise;
         int pairs = 0;
-        for (int i = 0; i < open_; ++i) {
-            const auto q = packet_[i];
+        std::uint32_t packets = open_;
+        if ((live & close) == 0) {
+            const Mask on = maskOf(live);
+            const auto range = [&](Floats lo, Floats hi) {
+                return typename BundleRays<Q>::Range{smallest(select(on, lo, Floats(kInfinityF))),
+                                                     largest(select(on, hi, Floats(-kInfinityF)))};
+            };
+            packets &= rays_.overlapping(range(xLo, xHi), range(yLo, yHi));
+        }
+        for (; packets != 0; packets &= packets - 1) {
+            const auto q = static_cast<std::size_t>(std::countr_zero(packets));
             const auto& r = rays_.rect[q];
             unsigned wanted = live & overlap(r);
             const Floats cx(r.centreX), cy(r.centreY), hx(r.halfX), hy(r.halfY);
@@ -187,7 +207,7 @@ private:
             };
             wanted &= uncertain | bits(notGreater(least, min(min(most(0), most(1)), most(2))));
             if constexpr (Q == Query::Any) wanted &= bits(zMin <= Floats(rays_.zFar[q]));
-            storeChosen(wanted, kPair[static_cast<std::size_t>(q)].data(), b.pair + pairs);
+            storeChosen(wanted, kPair[q].data(), b.pair + pairs);
             pairs += std::popcount(wanted);
         }
         if (pairs == 0) return false;
@@ -388,7 +408,7 @@ private:
             // Keys of hits that were left open, where they matter.
             const Floats lo = Floats::load(keyLo_[q]), hi = Floats::load(keyHi_[q]);
             const unsigned open = bits(inside & (lo < hi) & (key >= lo) & (key <= hi));
-            if (open != 0) settle(q, open);
+            if (open != 0) settle(q, open, winnersOf(q, open));
             const Floats best = Floats::load(keyHi_[q]);
             Mask better = inside & (key > best);
             const unsigned equal = bits(inside & (key == best));
@@ -422,57 +442,80 @@ private:
         return lower;
     }
 
-    // Computes the keys of these hits that were left open, and returns the triangles. Neighbours
-    // mostly meet the same few triangles: each is fetched once, into a column.
-    [[gnu::noinline]] Ints settle(unsigned q, unsigned lanes) {
-        alignas(64) std::uint32_t id[W] = {};
-        alignas(64) float point[3][3][W] = {}; // corner, axis
+    // The triangles of the best hits of a packet, lane by lane; zeros for the others.
+    struct Winners {
+        Floats point[3][3]; // corner, axis
+        Ints id{0u};
+    };
+    // Neighbours mostly meet the same few triangles: each is fetched once.
+    [[gnu::always_inline]] Winners winnersOf(unsigned q, unsigned lanes) const {
+        Winners w;
+        for (auto& corner : w.point)
+            for (Floats& p : corner) p = Floats(0.0f);
         const Ints places = Ints::load(place_[q]);
-        Ints column(0u);
-        std::uint32_t columns = 0;
-        for (unsigned left = lanes; left != 0; ++columns) {
-            const std::uint32_t place = place_[q][std::countr_zero(left)];
+        while (lanes != 0) {
+            const std::uint32_t place = place_[q][std::countr_zero(lanes)];
             const Mask same = places == Ints(place);
-            column = select(same, Ints(columns), column);
-            left &= ~bits(same);
+            lanes &= ~bits(same);
             const WideLeaf<W>& l = leafOf(place);
             const std::uint32_t j = place & 15;
-            id[columns] = mesh_.tree.triangleIds[l.first + j];
+            w.id = select(same, Ints(mesh_.tree.triangleIds[l.first + j]), w.id);
             for (std::size_t c = 0; c < 3; ++c)
                 for (std::size_t axis = 0; axis < 3; ++axis)
-                    point[c][axis][columns] = l.point[axis][l.corner[c][j]];
+                    w.point[c][axis] =
+                        select(same, Floats(l.point[axis][l.corner[c][j]]), w.point[c][axis]);
         }
+        return w;
+    }
+
+    // Computes the keys of these hits that were left open.
+    [[gnu::noinline]] void settle(unsigned q, unsigned lanes, const Winners& winners) {
         const Floats lo = Floats::load(keyLo_[q]), hi = Floats::load(keyHi_[q]);
-        if (const unsigned open = bits(lo < hi) & lanes; open != 0) {
-            const Planes p = planesOf([&](int i, std::size_t axis) {
-                return permute(Floats::load(point[i][axis]), column);
-            });
-            Mask inside = maskOf(open);
-            unsigned clamped = 0;
-            Floats key = keysOf(p, q, inside, clamped);
-            if (clamped != 0) [[unlikely]]
-                key = clampedKeys(places, q, clamped, key);
-            select(maskOf(open), key, lo).store(keyLo_[q]);
-            select(maskOf(open), key, hi).store(keyHi_[q]);
+        const unsigned open = bits(lo < hi) & lanes;
+        if (open == 0) return;
+        const Planes p = planesOf([&](int i, std::size_t axis) { return winners.point[i][axis]; });
+        Mask inside = maskOf(open);
+        unsigned clamped = 0;
+        Floats key = keysOf(p, q, inside, clamped);
+        if (clamped != 0) [[unlikely]]
+            key = clampedKeys(Ints::load(place_[q]), q, clamped, key);
+        select(maskOf(open), key, lo).store(keyLo_[q]);
+        select(maskOf(open), key, hi).store(keyHi_[q]);
+    }
+
+    Weights weightsOf(const Winners& winners, unsigned q) const {
+        Floats x[3], y[3];
+        for (int i = 0; i < 3; ++i) {
+            const auto relative = [&](std::size_t axis) {
+                return winners.point[i][axis] - Floats(rays_.origin[axis]);
+            };
+            const Floats z = relative(rays_.k) * Floats(rays_.sign);
+            x[i] = relative(rays_.kx) - Floats::load(rays_.Sx[q]) * z;
+            y[i] = relative(rays_.ky) - Floats::load(rays_.Sy[q]) * z;
         }
-        return permute(Ints::load(id), column);
+        return barycentrics(x, y);
     }
 
     void closePackets() {
-        int still = 0;
-        for (int i = 0; i < open_; ++i) {
-            const int q = packet_[i];
-            packet_[still] = q;
-            still += missing_[q] != 0;
-        }
-        open_ = still;
+        for (std::uint32_t left = open_; left != 0; left &= left - 1)
+            if (missing_[std::countr_zero(left)] == 0) open_ ^= left & -left;
     }
 
     void limitDepth() {
         if constexpr (Q == Query::Any) {
             zCut_ = -1;
-            for (int i = 0; i < open_; ++i) zCut_ = ::max(rays_.zFar[packet_[i]], zCut_);
+            for (std::uint32_t left = open_; left != 0; left &= left - 1)
+                zCut_ = ::max(rays_.zFar[std::countr_zero(left)], zCut_);
         } else {
+            // Nothing is hidden as long as a ray has met nothing.
+            const auto met = [&](int q) {
+                return bits(Floats::load(keyLo_[q]) <= Floats(0.0f)) == 0;
+            };
+            while (unmet_ < rays_.packets && met(unmet_)) ++unmet_;
+            if (unmet_ < rays_.packets) {
+                zCut_ = zTop_;
+                return;
+            }
             Floats least = Floats::load(keyLo_[0]);
             for (int q = 1; q < rays_.packets; ++q) least = min(least, Floats::load(keyLo_[q]));
             zCut_ = ::min(depthCut(smallest(least)), zTop_);
@@ -495,8 +538,9 @@ private:
     const BundleRays<Q>& rays_;
     float pad_;
     float zTop_ = 0, zCut_ = 0;
-    int open_ = 0, packet_[kPackets]; // packets that still ask
-    unsigned missing_[kPackets];      // rays that are not hidden yet
+    std::uint32_t open_ = 0;     // packets that still ask, a bit each
+    int unmet_ = 0;              // the first packet with a ray that has met nothing
+    unsigned missing_[kPackets]; // rays that are not hidden yet
     // Of the best hit: bounds of its key, which are equal when it is known, and where it is.
     alignas(64) float keyLo_[kPackets][W], keyHi_[kPackets][W];
     std::uint32_t place_[kPackets][W];

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <immintrin.h>
 #include <limits>
 #include <vector>
@@ -17,6 +18,12 @@ namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
 
 #include "accel/kernels/key_range.inl"
+
+#include "accel/kernels/barycentrics.inl"
+
+#include "accel/kernels/queue_rays.inl"
+
+#include "accel/kernels/queue_exact.inl"
 
 #include "accel/kernels/queue.inl"
 
