@@ -157,7 +157,7 @@ private:
             } else if (together_ && std::popcount(lanes) >= kFewestForInterval) {
                 size = stepTogether(tree_.node<W>(at), lanes, stack.data(), size, results);
             } else {
-                size = stepApart(tree_.node<W>(at), lanes, stack.data(), size);
+                size = stepApart(tree_.node<W>(at), lanes, stack.data(), size, results);
             }
             if (A == Answer::Any && live_ == 0) return;
             do {
@@ -223,9 +223,10 @@ private:
         return size;
     }
 
-    std::size_t stepApart(const WideNode<W>& node, unsigned lanes, Entry* stack,
-                          std::size_t size) const {
-        unsigned inside[W];
+    template <class Result>
+    std::size_t stepApart(const WideNode<W>& node, unsigned lanes, Entry* stack, std::size_t size,
+                          Result* results) {
+        LaneMatrix entered; // rows are rays, columns children
         unsigned any = 0;
         Floats nearest(kInfinityF);
         for (; lanes != 0; lanes &= lanes - 1) {
@@ -241,20 +242,24 @@ private:
                                Floats(rays1_.farOffset[axis][ray])),
                            exit);
             }
-            const Mask entered = entry <= exit;
-            nearest = min(nearest, select(entered, entry, nearest));
-            for (unsigned hit = bits(entered); hit != 0; hit &= hit - 1) {
-                const int i = std::countr_zero(hit);
-                inside[i] = (any >> i & 1 ? inside[i] : 0) | 1u << ray;
-                any |= 1u << i;
-            }
+            const Mask hit = entry <= exit;
+            if constexpr (A == Answer::Closest) nearest = min(nearest, select(hit, entry, nearest));
+            entered.set(ray, bits(hit));
+            any |= bits(hit);
         }
         alignas(64) float z[W];
-        nearest.store(z);
+        if constexpr (A == Answer::Closest) nearest.store(z);
         const std::size_t bottom = size;
         for (; any != 0; any &= any - 1) {
             const int i = std::countr_zero(any);
-            size = push(stack, bottom, size, {z[i], node.child[i], inside[i]});
+            const WideRef ref = node.child[i];
+            if (kindOf(ref) == WideKind::Leaf) {
+                if (const unsigned asking = entered.column(i) & live_; asking != 0)
+                    solid(ref >> 2, asking, results);
+                continue;
+            }
+            const float from = A == Answer::Closest ? z[i] : 0;
+            size = push(stack, bottom, size, {from, ref, entered.column(i)});
         }
         return size;
     }
