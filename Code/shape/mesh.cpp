@@ -70,7 +70,7 @@ bool Mesh::seesFront(const Ray& ray, const Hit& hit) const {
 
 Surface Mesh::surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const {
     const std::uint32_t slot = geometry_.slots.empty() ? 0 : geometry_.slots[hit.prim];
-    Surface s = surfaceOf({geometry_, hit.prim, corners(hit.prim)}, ray, hit, needs);
+    Surface s = surfaceOf({geometry_, hit.prim, corners(hit.prim), needs}, ray, hit, needs);
     s.material = materials_[slot];
     s.object = objectOf(hit.prim);
     return s;

@@ -78,7 +78,12 @@ public:
     void write(int q, Floats t, Weights weights, Ints triangle, Ints shape, Hit* hits) const {
         const int p = packet_[q];
         if (active[q] == (1u << W) - 1 && isFull(p)) {
-            storeRows(t, weights.u, weights.v, triangle, shape, &hits[list_[at(p, 0)]].t);
+            const std::uint32_t ray = list_[at(p, 0)];
+            if (ray + kMostRays + W <= rays_.size()) { // as for the directions
+                const float* const next = &hits[ray + kMostRays].t;
+                for (int i = 0; i < 5 * W; i += 16) __builtin_prefetch(next + i, 1);
+            }
+            storeRows(t, weights.u, weights.v, triangle, shape, &hits[ray].t);
             return;
         }
         alignas(64) Hit rows[W];
@@ -98,6 +103,19 @@ public:
     Vec3 direction(int q, int lane) const {
         const int p = packet_[q];
         return {dir_[0][p][lane], dir_[1][p][lane], dir_[2][p][lane]};
+    }
+
+    // Packets whose rectangles overlap this one, a bit each.
+    std::uint32_t overlapping(Range xs, Range ys) const {
+        std::uint32_t found = 0;
+        for (int q = 0; q < packets; q += W) {
+            const auto meets = [&](const Sides& sides, Range range) {
+                return (Floats(range.lo) <= Floats::load(sides.hi + q)) &
+                       (Floats::load(sides.lo + q) <= Floats(range.hi));
+            };
+            found |= bits(meets(sidesX_, xs) & meets(sidesY_, ys)) << q;
+        }
+        return found;
     }
 
     // ---- of the active rays; packets without any are left out
@@ -266,6 +284,8 @@ private:
         for (int q = 0; q < packets; ++q) {
             Rect& r = rect[q];
             r.x = padded(xs[q], centreX, padX), r.y = padded(ys[q], centreY, padY);
+            sidesX_.lo[q] = r.x.lo, sidesX_.hi[q] = r.x.hi;
+            sidesY_.lo[q] = r.y.lo, sidesY_.hi[q] = r.y.hi;
             r.centreX = 0.5f * (xs[q].lo + xs[q].hi) - centreX;
             r.centreY = 0.5f * (ys[q].lo + ys[q].hi) - centreY;
             r.halfX = 0.5f * (xs[q].hi - xs[q].lo) * 1.00001f + 2e-6f;
@@ -310,6 +330,9 @@ private:
     int loaded_ = 0; // packets
     unsigned traceable_[kPackets], left_[kPackets];
     int packet_[kPackets]; // of the active ones
+    struct alignas(64) Sides {
+        float lo[kPackets], hi[kPackets];
+    } sidesX_, sidesY_; // of the packets' rectangles
     alignas(64) float dir_[3][kPackets][W];
     float rawX_[kPackets][W], rawY_[kPackets][W], rawZ_[kPackets][W];
 };
