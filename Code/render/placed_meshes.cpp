@@ -39,7 +39,8 @@ protected:
         s.number = number;
         s.tEntry = zEntry / s.setup->dz;
         s.nearest = {};
-        s.visit.emplace(*set_.shapes[number]->meshInstance(), s.ray);
+        s.visit.emplace(*set_.shapes[number]->meshInstance(), s.ray,
+                        MeshInstance::Visit::KnownSetup{&*s.setup, set_.extent});
         return s.visit->treeRay().has_value();
     }
     const Shape& shapeOf(const Slot& s) const { return *set_.shapes[s.number]; }
@@ -73,9 +74,10 @@ public:
         to = s.visit->inTree(s.zCut);
         return true;
     }
-    float test(std::uint32_t slot, std::uint32_t triangle) override {
+    float test(std::uint32_t slot, std::uint32_t triangle, const Vec3d& a, const Vec3d& b,
+               const Vec3d& c) override {
         Slot& s = slots_[slot];
-        s.nearest.show(s.visit->setup(), s.ray.tMin, triangle, s.visit->corners(triangle), s.zCut);
+        s.nearest.show(s.visit->setup(), s.ray.tMin, triangle, s.visit->placed(a, b, c), s.zCut);
         return s.visit->treeCut(s.zCut);
     }
     float leave(std::uint32_t slot) override {
@@ -112,9 +114,10 @@ public:
         to = s.visit->inTree(rangeOf(s).farthest());
         return true;
     }
-    float test(std::uint32_t slot, std::uint32_t triangle) override {
+    float test(std::uint32_t slot, std::uint32_t, const Vec3d& a, const Vec3d& b,
+               const Vec3d& c) override {
         Slot& s = slots_[slot];
-        const float key = canonicalKey(s.visit->setup(), s.visit->corners(triangle));
+        const float key = canonicalKey(s.visit->setup(), s.visit->placed(a, b, c));
         if (!rangeOf(s).contains(key)) return s.visit->treeCut(rangeOf(s).farthest());
         hidden_[s.index] = 1;
         return -1;

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "accel/bvh.h"
-#include "accel/kernels/kernels.h"
+#include "accel/kernels/placed.h"
 #include "base/transform.h"
 
 #include <array>
@@ -46,6 +46,9 @@ struct MeshGeometry {
     // By node of the bvh, or by line of the nodes and leaves of the wide tree: of the exact
     // triangles below.
     std::vector<float> longestSide;
+
+    // Copies of the exact points for the leaves of the wide tree; see TreeVisit::exactPoints.
+    PageVector<Vec3d> leafPoints;
 
     // At most one of the trees; both empty: every triangle is tested (--accel none).
     Bvh bvh;

@@ -16,6 +16,10 @@ struct TreeVisit {
     // By line of the tree's nodes and leaves: the longest side of a triangle in it.
     const float* longestSide = nullptr;
     const RaySetup* setup = nullptr;
+    // As the object has them, of the points of the leaves: of the leaf at line n from kPerLine n
+    // on.
+    const Vec3d* exactPoints = nullptr;
+    static constexpr std::size_t kPerLine = 4;
     // How far before or behind the place where the ray passes a triangle its hit may be, for each
     // unit of the triangle's longest side.
     float depthPerSide = 0;
@@ -33,8 +37,10 @@ public:
     // It enters the box of a mesh, at depth zEntry in the scene. False: there is nothing to walk.
     virtual bool enter(std::uint32_t slot, std::uint32_t number, float zEntry,
                        TreeVisit& visit) = 0;
-    // It may meet the triangle. The new TreeVisit::zCut; negative: it has seen enough of the mesh.
-    virtual float test(std::uint32_t slot, std::uint32_t triangle) = 0;
+    // It may meet the triangle of these exact corners. The new TreeVisit::zCut; negative: it has
+    // seen enough of the mesh.
+    virtual float test(std::uint32_t slot, std::uint32_t triangle, const Vec3d& a, const Vec3d& b,
+                       const Vec3d& c) = 0;
     // It is through with what enter() has let it into, or not. The new zCut in the scene; negative:
     // it is through with everything.
     virtual float leave(std::uint32_t slot) = 0;

@@ -1,5 +1,5 @@
 // The queue of queue.inl in two levels: rays walk the tree over the boxes of the meshes, and in
-// between the tree of one mesh after the other, all of them at once. Five lists say where each is.
+// between the tree of one mesh after the other, all of them at once. Lists say what each does next.
 // The steps in the tree of a mesh are those of queue.inl with room for what is not known exactly:
 // a box is entered when the ray passes it within the room that the triangles in it ask for, and a
 // triangle may be met when moved corners could be.
@@ -33,6 +33,7 @@ public:
                 leafStep(now.slots[Leaves][i], next);
             for (std::uint32_t i = 0; i < now.count[Entries]; ++i)
                 enter(now.slots[Entries][i], next);
+            for (std::uint32_t i = 0; i < now.count[Tests]; ++i) test(now.slots[Tests][i], next);
             for (std::uint32_t i = 0; i < now.count[Exits]; ++i) leave(now.slots[Exits][i], next);
         }
     }
@@ -42,7 +43,7 @@ private:
 
     // What a ray does next: a step in the tree over the boxes or in that of a mesh, going into a
     // mesh and out of it.
-    enum Place { Boxes, Nodes, Leaves, Entries, Exits, kPlaces };
+    enum Place { Boxes, Nodes, Leaves, Tests, Entries, Exits, kPlaces };
     // One more place than slots: send() writes to lists that are full.
     using SlotList = std::uint32_t[kSlots + 1];
     struct Lists {
@@ -70,7 +71,9 @@ private:
         std::uint32_t axis[3]; // where in a leaf, in bytes
         float shearX, shearY;  // the slopes, for depths without the sign of the direction
         float sign, lateralError;
+        unsigned candidates; // of the leaf
         const std::uint32_t* triangleIds;
+        const Vec3d* exactPoints;
         // Boxes of meshes in the scene.
         const RaySetup* scene;
         float sceneCut;
@@ -162,6 +165,7 @@ private:
         s.longestSide = visit.longestSide;
         s.base = visit.tree->base();
         s.triangleIds = visit.tree->triangleIds.data();
+        s.exactPoints = visit.exactPoints;
         s.top = 1;
         inMesh_.refs[slot * stride_] = wideRef(0, WideKind::None); // the end of the stack
         inMesh_.entries[slot * stride_] = 0;
@@ -215,10 +219,15 @@ private:
         send(slot, hit != 0 ? nearest : before, to);
     }
 
+    // Candidates are tested in the next round, when their corners are in the cache.
     [[gnu::always_inline]] void leafStep(std::uint32_t slot, Lists& to) {
         Slot& s = slots_[slot];
-        if (const unsigned candidates = leafCandidates(s); candidates != 0) test(slot, candidates);
-        send(slot, inMesh_.refs[slot * stride_ + --s.top], to);
+        s.candidates = leafCandidates(s);
+        if (s.candidates == 0) return send(slot, inMesh_.refs[slot * stride_ + --s.top], to);
+        forEachCandidate(s, [](std::uint32_t, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+            for (const Vec3d* corner : {&a, &b, &c}) __builtin_prefetch(corner);
+        });
+        to.add(Tests, slot);
     }
 
     // TreeRay::mayMeet() for W triangles, and whether they are at depths where a hit counts.
@@ -246,17 +255,28 @@ private:
         return ~bits(outside | hidden) & ((1u << leaf.count) - 1);
     }
 
-    [[gnu::noinline]] void test(std::uint32_t slot, unsigned candidates) {
-        Slot& s = slots_[slot];
+    // fn(triangle, its exact corners)
+    template <class Fn> void forEachCandidate(const Slot& s, Fn&& fn) const {
         const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(s.base + byteOffset(s.at));
+        const Vec3d* const points = s.exactPoints + (s.at >> 2) * TreeVisit::kPerLine;
+        for (unsigned rest = s.candidates; rest != 0; rest &= rest - 1) {
+            const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
+            fn(s.triangleIds[leaf.first + i], points[leaf.corner[0][i]], points[leaf.corner[1][i]],
+               points[leaf.corner[2][i]]);
+        }
+    }
+
+    void test(std::uint32_t slot, Lists& to) {
+        Slot& s = slots_[slot];
         float zCut = s.zCut;
-        for (; candidates != 0 && zCut >= 0; candidates &= candidates - 1)
-            zCut = query_.test(slot, s.triangleIds[leaf.first + static_cast<std::uint32_t>(
-                                                                    std::countr_zero(candidates))]);
+        forEachCandidate(
+            s, [&](std::uint32_t triangle, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+                if (zCut >= 0) zCut = query_.test(slot, triangle, a, b, c);
+            });
         if (zCut < 0) s.top = 1; // only the end
-        if (!(zCut < s.zCut)) return;
+        if (zCut < s.zCut) s.top = dropHidden(inMesh_, slot * stride_, s.top, zCut);
         s.zCut = zCut;
-        if (NearFirst) s.top = dropHidden(inMesh_, slot * stride_, s.top, zCut);
+        send(slot, inMesh_.refs[slot * stride_ + --s.top], to);
     }
 
     // ---- stacks
