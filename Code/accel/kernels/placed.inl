@@ -140,11 +140,11 @@ private:
 
     void enter(std::uint32_t slot, Lists& to) {
         Slot& s = slots_[slot];
-        const SolidTree::Solid& solid = tree_.solids[s.sceneAt >> 2];
+        const std::uint32_t place = s.sceneAt >> 2;
         float zEntry = 0;
-        if (!s.scene->enters(solid.box, s.sceneCut, zEntry)) return popInScene(slot, to);
+        if (!s.scene->enters(tree_.boxes[place], s.sceneCut, zEntry)) return popInScene(slot, to);
         TreeVisit visit;
-        if (!query_.enter(slot, solid.number, zEntry, visit)) return leave(slot, to);
+        if (!query_.enter(slot, tree_.solids[place].number, zEntry, visit)) return leave(slot, to);
         const RaySetup& ray = *visit.setup;
         constexpr std::uint32_t kRow = W * 4;
         for (std::size_t axis = 0; axis < 3; ++axis) {
