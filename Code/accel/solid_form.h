@@ -11,7 +11,10 @@
 struct RoundHull {
     Vec3d centre, axis;
     double radius = kInfinity;
-    double innerRadius = 0; // a ball about the centre that is inside of a sphere
+    // A ball about the centre that is inside of a sphere; with an axis: that of a straight round
+    // tube, of which the shape has all of the side.
+    double innerRadius = 0;
+    double halfLength = kInfinity; // along the axis, to both sides of the centre
 };
 
 // A sphere about the origin of an object space that does not move. A kernel that meets it repeats
@@ -27,5 +30,5 @@ struct SolidForm {
 };
 
 inline RoundHull ballAround(const BoundsD& box) {
-    return {box.centre(), {}, 0.5 * length(box.size()), 0};
+    return {.centre = box.centre(), .axis = {}, .radius = 0.5 * length(box.size())};
 }

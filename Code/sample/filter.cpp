@@ -80,9 +80,9 @@ template <FilterKind kKind> float Filter::offsetAt(float u) const {
         x = size / (1 + std::sqrt(1 - size));
     } else if constexpr (kKind != FilterKind::Box) {
         const double at = std::sqrt(1 - size) * kSteps;
-        const auto i = std::min(static_cast<std::size_t>(at), inverse_.size() - 2);
-        x = lerp(static_cast<double>(inverse_[i]), static_cast<double>(inverse_[i + 1]),
-                 at - static_cast<double>(i));
+        const int i = std::min(static_cast<int>(at), kSteps - 1);
+        const float* step = inverse_.data() + i;
+        x = lerp(static_cast<double>(step[0]), static_cast<double>(step[1]), at - i);
     }
     return static_cast<float>(std::copysign(x * radius_, place));
 }

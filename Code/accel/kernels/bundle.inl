@@ -20,8 +20,8 @@ public:
 
     // Answers the rays of the list. Those that are rays from one point to places all over the
     // scene, and no bundle, are given back: the queue is faster for them.
-    template <class Result>
-    void trace(std::span<const std::uint32_t> list, Result* results,
+    template <class Results>
+    void trace(std::span<const std::uint32_t> list, const Results& results,
                std::vector<std::uint32_t>& givenBack) {
         leaves_ = 0;
         mostLeaves_ = list.size() + list.size() / 4 + 16;
@@ -131,16 +131,16 @@ private:
     std::size_t size_ = BundleRays<Q>::kMostRays;
 };
 
-template <Query Q, class Result>
+template <Query Q, class Results>
 void traceFromPoint(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order,
-                    Result* results) {
+                    const Results& results) {
     using Entry = typename Bundle<Q>::Entry;
     thread_local BundleSize<Q> size;
     auto* const stack =
         reinterpret_cast<Entry*>(scratchMemory((mesh.tree.stackSize + W) * sizeof(Entry)));
     Bundle<Q> bundle(mesh, rays, rays.org[order[0]], stack);
     std::vector<std::uint32_t> givenBack;
-    if (mesh.tree.lines.size() > BundleLeaf<Q>::kMostLines) { // 16 GB
+    if (mesh.tree.lines.size() > mesh.mostLinesForBundles) {
         givenBack.assign(order.begin(), order.end());
         order = {};
     }
@@ -158,7 +158,7 @@ void traceFromPoint(const WideMesh& mesh, const RaySpan& rays, std::span<const s
 }
 
 void closestFromPoint(const WideMesh& mesh, const RaySpan& rays,
-                      std::span<const std::uint32_t> order, TriangleHit* hits) {
+                      std::span<const std::uint32_t> order, const HitLists& hits) {
     traceFromPoint<Query::Closest>(mesh, rays, order, hits);
 }
 void anyFromPoint(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order,

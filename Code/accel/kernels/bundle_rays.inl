@@ -43,12 +43,12 @@ public:
     }
 
     // Misses for the rays that isTraceable() refuses.
-    template <class Result> void refuse(Result* results) const {
+    template <class Results> void refuse(const Results& results) const {
         for (int p = 0; p < loaded_; ++p) {
             const std::size_t rays = std::min<std::size_t>(W, list_.size() - at(p, 0));
             unsigned refused = ~traceable_[p] & ((1u << rays) - 1);
             for (; refused != 0; refused &= refused - 1)
-                results[list_[at(p, std::countr_zero(refused))]] = Result();
+                miss(results, list_[at(p, std::countr_zero(refused))]);
         }
     }
 
@@ -74,6 +74,25 @@ public:
             hits[list_[at(p, i)]] = {ts[i], triangles[i]};
         }
     }
+    // With u and v: lanes that are no hit have the ray's end for t, and zeros.
+    void write(int q, Floats t, Weights weights, Ints triangle, Ints shape, Hit* hits) const {
+        const int p = packet_[q];
+        if (active[q] == (1u << W) - 1 && isFull(p)) {
+            const std::uint32_t ray = list_[at(p, 0)];
+            if (ray + kMostRays + W <= rays_.size()) { // as for the directions
+                const float* const next = &hits[ray + kMostRays].t;
+                for (int i = 0; i < 5 * W; i += 16) __builtin_prefetch(next + i, 1);
+            }
+            storeRows(t, weights.u, weights.v, triangle, shape, &hits[ray].t);
+            return;
+        }
+        alignas(64) Hit rows[W];
+        storeRows(t, weights.u, weights.v, triangle, shape, &rows[0].t);
+        for (unsigned lanes = active[q]; lanes != 0; lanes &= lanes - 1) {
+            const int i = std::countr_zero(lanes);
+            hits[list_[at(p, i)]] = rows[i];
+        }
+    }
     void write(int q, unsigned found, std::uint8_t* hidden) const {
         for (unsigned lanes = active[q]; lanes != 0; lanes &= lanes - 1) {
             const int i = std::countr_zero(lanes);
@@ -84,6 +103,19 @@ public:
     Vec3 direction(int q, int lane) const {
         const int p = packet_[q];
         return {dir_[0][p][lane], dir_[1][p][lane], dir_[2][p][lane]};
+    }
+
+    // Packets whose rectangles overlap this one, a bit each.
+    std::uint32_t overlapping(Range xs, Range ys) const {
+        std::uint32_t found = 0;
+        for (int q = 0; q < packets; q += W) {
+            const auto meets = [&](const Sides& sides, Range range) {
+                return (Floats(range.lo) <= Floats::load(sides.hi + q)) &
+                       (Floats::load(sides.lo + q) <= Floats(range.hi));
+            };
+            found |= bits(meets(sidesX_, xs) & meets(sidesY_, ys)) << q;
+        }
+        return found;
     }
 
     // ---- of the active rays; packets without any are left out
@@ -113,6 +145,9 @@ private:
     static std::size_t at(int p, int lane) {
         return static_cast<std::size_t>(p) * W + static_cast<std::size_t>(lane);
     }
+
+    void miss(const HitLists& hits, std::uint32_t ray) const { hits.miss(ray, rays_.tMax[ray]); }
+    static void miss(std::uint8_t* hidden, std::uint32_t ray) { hidden[ray] = 0; }
 
     // Is every lane of the packet a ray, and do they follow each other in the batch?
     bool isFull(int p) const { return inARow_ && at(p + 1, 0) <= list_.size(); }
@@ -249,6 +284,8 @@ private:
         for (int q = 0; q < packets; ++q) {
             Rect& r = rect[q];
             r.x = padded(xs[q], centreX, padX), r.y = padded(ys[q], centreY, padY);
+            sidesX_.lo[q] = r.x.lo, sidesX_.hi[q] = r.x.hi;
+            sidesY_.lo[q] = r.y.lo, sidesY_.hi[q] = r.y.hi;
             r.centreX = 0.5f * (xs[q].lo + xs[q].hi) - centreX;
             r.centreY = 0.5f * (ys[q].lo + ys[q].hi) - centreY;
             r.halfX = 0.5f * (xs[q].hi - xs[q].lo) * 1.00001f + 2e-6f;
@@ -293,6 +330,9 @@ private:
     int loaded_ = 0; // packets
     unsigned traceable_[kPackets], left_[kPackets];
     int packet_[kPackets]; // of the active ones
+    struct alignas(64) Sides {
+        float lo[kPackets], hi[kPackets];
+    } sidesX_, sidesY_; // of the packets' rectangles
     alignas(64) float dir_[3][kPackets][W];
     float rawX_[kPackets][W], rawY_[kPackets][W], rawZ_[kPackets][W];
 };

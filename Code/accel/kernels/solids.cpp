@@ -93,8 +93,10 @@ void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const S
     solid.isTube = form.hull.axis != Vec3d{};
     solid.centre = toFloat(form.hull.centre), solid.axis = toFloat(form.hull.axis);
     solid.radius = floatAbove(form.hull.radius * (1 + 0x1p-20));
+    solid.halfLength = floatAbove(form.hull.halfLength * (1 + 0x1p-20));
     // Not where the exact formula might over- or underflow.
-    if (form.sphere && form.sphere->radius > 0x1p-100 && form.sphere->radius < 0x1p100)
+    const double size = form.sphere ? form.sphere->radius : form.hull.innerRadius;
+    if (size > 0x1p-100 && size < 0x1p100)
         solid.innerRadius = static_cast<float>(form.hull.innerRadius * (1 - 0x1p-20));
     if (form.sphere) {
         solid.sphere = static_cast<std::uint32_t>(spheres.size());

@@ -25,7 +25,7 @@ struct SolidTree {
         bool hides = true;                // counts when any hit is asked for
         bool isTube = false;              // a RoundHull with an axis
         Vec3 centre{}, axis{};
-        float radius = kInfinityF, innerRadius = 0;
+        float radius = kInfinityF, innerRadius = 0, halfLength = kInfinityF;
     };
     struct Sphere {
         StillSphere exact;
