@@ -1,5 +1,7 @@
 #include "shape/mesh_geometry.h"
 
+#include "accel/kernels/placed.h"
+
 #include <algorithm>
 #include <limits>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "accel/bvh.h"
-#include "accel/kernels/placed.h"
+#include "accel/kernels/kernels.h"
 #include "base/transform.h"
 
 #include <array>

@@ -31,9 +31,10 @@ struct TreeVisit {
 class PlacedQuery {
 public:
     virtual ~PlacedQuery() = default;
-    // Ray number `ray` begins. Its setup in the scene, and in zCut the depth behind which nothing
-    // is wanted; null: it looks for nothing.
-    virtual const RaySetup* start(std::uint32_t slot, std::uint32_t ray, float& zCut) = 0;
+    // t behind which nothing is wanted before the ray starts.
+    virtual float limit(std::uint32_t ray) const = 0;
+    // The ray comes near the meshes.
+    virtual void start(std::uint32_t slot, std::uint32_t ray) = 0;
     // It enters the box of a mesh, at depth zEntry in the scene. False: there is nothing to walk.
     virtual bool enter(std::uint32_t slot, std::uint32_t number, float zEntry,
                        TreeVisit& visit) = 0;
@@ -48,6 +49,7 @@ public:
 
 struct PlacedTree {
     SolidTree boxes; // of the meshes, by their numbers
+    Bounds whole;
     // Stacks are not larger: of the tree over the boxes, of the trees of the meshes.
     std::uint32_t boxStack = 0, meshStack = 0;
 };
@@ -57,9 +59,11 @@ std::uint32_t stackSize(const SolidTree& tree);
 struct PlacedKernel {
     const char* name; // of the Kernel that it belongs to
     static constexpr std::uint32_t kSlots = 64;
-    // Rays of nearest hits go to near meshes and boxes first.
-    void (*closest)(const PlacedTree&, PlacedQuery&, std::span<const std::uint32_t> rays);
-    void (*any)(const PlacedTree&, PlacedQuery&, std::span<const std::uint32_t> rays);
+    // Only rays in `order` are looked at. Those of nearest hits go to near meshes and boxes first.
+    void (*closest)(const PlacedTree&, PlacedQuery&, const RaySpan&,
+                    std::span<const std::uint32_t> order);
+    void (*any)(const PlacedTree&, PlacedQuery&, const RaySpan&,
+                std::span<const std::uint32_t> order);
 };
 // Null for the scalar kernel.
 const PlacedKernel* placedKernel(const Kernel& kernel);
