@@ -4,7 +4,10 @@
 #include "base/bounds.h"
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 // All of a shape is at most this far from the centre; or, with an axis (of unit length), from the
 // line through the centre along it.
@@ -24,9 +27,19 @@ struct StillSphere {
     double radius = 0;
 };
 
+// A few triangles that stand still, in the order of their numbers: floors, walls and the like.
+struct Facets {
+    enum class Side : std::uint8_t { Both, Front, Back }; // that rays of sight meet
+    static constexpr std::size_t kMost = 4;
+    std::vector<std::array<Vec3, 3>> triangles;
+    float extent = 0; // see RaySetup
+    Side side = Side::Both;
+};
+
 struct SolidForm {
     RoundHull hull;
     std::optional<StillSphere> sphere; // the shape is this one
+    std::optional<Facets> facets{};    // or these
 };
 
 inline RoundHull ballAround(const BoundsD& box) {

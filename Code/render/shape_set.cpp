@@ -28,14 +28,15 @@ void ShapeSet::add(std::unique_ptr<const Shape> shape, Shadow shadow) {
 }
 
 void ShapeSet::finish(bool withBvh, const Kernel& kernel, int threads) {
+    if (withBvh) kernel_ = solidKernel(kernel);
     isBatched_.assign(shapes.size(), 0);
     for (const std::uint32_t number : bounded) {
-        if (!shapes[number]->takesBatches()) continue;
+        if (!shapes[number]->takesBatches() || (kernel_ && shapes[number]->solidForm().facets))
+            continue;
         batched.push_back(number);
         isBatched_[number] = 1;
     }
     if (!withBvh) return;
-    kernel_ = solidKernel(kernel);
     std::vector<Bounds> inOrder;
     for (const std::uint32_t number : bounded)
         if (!isBatched_[number]) inTree_.push_back(number), inOrder.push_back(boxes[number]);
@@ -50,7 +51,8 @@ void ShapeSet::buildBatchTrees(const Kernel& kernel, int threads) {
     for (const std::uint32_t number : inTree_) {
         const MeshInstance* const instance = shapes[number]->meshInstance();
         if (instance != nullptr && instance->geometry().kernel == &kernel) {
-            placed_.add(boxes[number], number, instance->geometry().wide);
+            placed_.add(boxes[number], number, shadows[number] == Shadow::Opaque,
+                        instance->geometry().wide);
             continue;
         }
         others.push_back(boxes[number]);

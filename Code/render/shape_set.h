@@ -30,7 +30,8 @@ struct ShapeSet {
     // Call once after the last add(). Batches are answered by the kernel, if it has a part for
     // solids and a tree is wanted; else as single rays are.
     void finish(bool withBvh, const Kernel& kernel = chooseKernel("scalar"), int threads = 1);
-    // Bounded shapes that take batches themselves; the batch queries ask them first.
+    // Bounded shapes that take batches themselves and are no solids of the kernel; the batch
+    // queries ask them first.
     std::vector<std::uint32_t> batched;
 
     // The nearest hit in (tMin, tMax]; Hit::isHit() tells if there is one. Of several at the same t

@@ -47,6 +47,9 @@ struct MeshGeometry {
     // triangles below.
     std::vector<float> longestSide;
 
+    // Copies of the exact points for the leaves of the wide tree; see TreeVisit::exactPoints.
+    PageVector<Vec3d> leafPoints;
+
     // At most one of the trees; both empty: every triangle is tested (--accel none).
     Bvh bvh;
     WideTree wide;                  // for the kernel

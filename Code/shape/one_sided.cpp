@@ -5,6 +5,18 @@
 OneSided::OneSided(std::unique_ptr<const Shape> shape, Side visible)
     : shape_(std::move(shape)), visible_(visible) {}
 
+// Of spheres the kernels know no sides.
+SolidForm OneSided::solidForm() const {
+    SolidForm form = shape_->solidForm();
+    form.sphere.reset();
+    if (!form.facets) return form;
+    if (form.facets->side != Facets::Side::Both)
+        form.facets.reset();
+    else
+        form.facets->side = visible_ == Side::Front ? Facets::Side::Front : Facets::Side::Back;
+    return form;
+}
+
 bool OneSided::isVisible(const Ray& ray, const Hit& hit) const {
     return shape_->seesFront(ray, hit) == (visible_ == Side::Front);
 }

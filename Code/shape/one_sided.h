@@ -28,8 +28,7 @@ public:
     }
     const MeshInstance* meshInstance() const override { return shape_->meshInstance(); }
     bool seesHit(const Ray& ray, float tMax, Hit& hit) const override;
-    // Not as a sphere: the kernels know no sides.
-    SolidForm solidForm() const override { return {shape_->solidForm().hull, {}}; }
+    SolidForm solidForm() const override;
     bool seesFront(const Ray& ray, const Hit& hit) const override {
         return shape_->seesFront(ray, hit);
     }

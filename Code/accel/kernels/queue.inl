@@ -295,17 +295,12 @@ private:
             const Ints at = Ints::bytes(leaf.corner[c]);
             s.x[c] = permute(xs, at), s.y[c] = permute(ys, at), s.z[c] = permute(z, at);
         }
-        Verdict v = judge<Q>(s, Floats(b.sign[i]), Floats(reachOf(leaf) + b.lateralError[i]),
-                             Floats(b.zCut[i]));
+        Verdict v = judge<Q>(s, Floats(b.sign[i]), Floats(b.zCut[i]));
         const unsigned all = (1u << leaf.count) - 1;
         v.candidates &= all;
         v.certain &= b.below[i] == kInfinityF ? all : 0;
         return v;
     }
-    static float reachOf(const WideLeaf<W>& leaf) {
-        return 2 * std::bit_cast<float>(static_cast<std::uint32_t>(leaf.reach) << 16);
-    }
-
     // ---- canonical keys
 
     void settleWaiting(Lists& to) {
@@ -400,7 +395,6 @@ private:
             (py - Floats::load(b.shearY) * depth).store(y[i]);
         }
         const Floats sign = Floats::load(b.sign), zCut = Floats::load(b.zCut);
-        const Floats size = Floats(reachOf(leaf)) + Floats::load(b.lateralError);
         const unsigned endless = bits(Floats::load(b.below) == Floats(kInfinityF));
         std::uint32_t n = 0;
         unsigned hidden = 0;
@@ -411,7 +405,7 @@ private:
                 s.x[c] = Floats::load(x[i]), s.y[c] = Floats::load(y[i]);
                 s.z[c] = Floats::load(z[i]);
             }
-            const Verdict v = judge<Q>(s, sign, size, zCut);
+            const Verdict v = judge<Q>(s, sign, zCut);
             hidden |= v.certain & endless & lanes;
             for (unsigned left = v.candidates & lanes & ~hidden; left != 0; left &= left - 1)
                 pairs_[n++] = {static_cast<std::uint32_t>(std::countr_zero(left)), ref, j};

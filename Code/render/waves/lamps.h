@@ -136,19 +136,23 @@ void shineInLanes(const Wave& wave, const Lamp& lamp, bool isGrouped, ArriveFn&&
         const LitBlock& block = memory.litBlocks[b];
         const unsigned hidden = mayBeHidden(memory, b, isGrouped);
         lamp.inLanes(*lamp.emission, block, hidden, by);
-        for (unsigned rest = by.lit; rest != 0; rest &= rest - 1) {
+        const auto lightAt = [&](std::size_t i) {
+            return Rgb{by.light[0][i], by.light[1][i], by.light[2][i]};
+        };
+        for (unsigned rest = by.lit & ~hidden; rest != 0; rest &= rest - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-            const std::uint32_t k = block.point[i];
-            const Rgb light{by.light[0][i], by.light[1][i], by.light[2][i]};
-            if ((hidden >> i & 1) == 0)
-                arrive(k, light);
-            else
-                memory.shadowRays.push({*lamp.origin,
-                                        {by.dir[0][i], by.dir[1][i], by.dir[2][i]},
-                                        0,
-                                        by.tMax[i],
-                                        wave.rays.time[memory.points.ray[k]]},
-                                       k, light);
+            arrive(block.point[i], lightAt(i));
+        }
+        RayBatch& rays = memory.shadowRays;
+        std::size_t to = rays.extend(static_cast<std::size_t>(std::popcount(by.lit & hidden)));
+        for (unsigned rest = by.lit & hidden; rest != 0; rest &= rest - 1, ++to) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+            rays.org[to] = *lamp.origin;
+            rays.dir[to] = {by.dir[0][i], by.dir[1][i], by.dir[2][i]};
+            rays.tMin[to] = 0, rays.tMax[to] = by.tMax[i];
+            rays.time[to] = wave.rays.time[memory.points.ray[block.point[i]]];
+            rays.sample[to] = block.point[i];
+            rays.weight[to] = lightAt(i);
         }
     }
 }
