@@ -14,6 +14,7 @@ struct BenchOptions {
     std::string kernel = "auto";
     int threads = 1;
     int runs = 5;
+    bool bestTree = false;
     bool uv = false;
     bool picture = true;
     std::string raysFile; // written instead of measuring; empty: none
