@@ -130,6 +130,7 @@ RenderSettings settingsFrom(const SceneDesc& desc, const Options& options) {
     settings.switches = options.switches;
     settings.integrator = options.integrator;
     settings.accel = options.accel;
+    settings.tree = options.tree;
     settings.specialise = options.specialise;
     settings.kernel = chooseKernel(options.kernel).name;
     settings.threads = options.threads > 0 ? options.threads : hardwareThreads();

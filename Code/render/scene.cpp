@@ -11,6 +11,7 @@
 #include "render/make_light.h"
 #include "render/make_shape.h"
 #include "render/merge.h"
+#include "render/predicted_rays.h"
 #include "render/texture_files.h"
 #include "render/to_float.h"
 #include "shape/mesh_instance.h"
@@ -314,10 +315,15 @@ private:
         if (merged.geometry.triangles.empty()) return;
         auto geometry = std::make_unique<MeshGeometry>(std::move(merged.geometry));
         geometry->finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel),
-                         settings_.threads);
+                         settings_.threads, raysForTree());
         auto mesh = std::make_unique<Mesh>(*geometry, merged.materials, std::move(merged.parts));
         scene_.shapes_.add(withSides(std::move(mesh), sides), shadowOf(merged.materials));
         scene_.geometries_.push_back(std::move(geometry));
+    }
+
+    double raysForTree() const {
+        if (settings_.tree == TreeKind::Auto) return predictedRays(desc_, settings_);
+        return settings_.tree == TreeKind::Best ? kCountlessRays : 0;
     }
 
     // One geometry per mesh; as many transforms as there are instances.

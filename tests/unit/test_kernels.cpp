@@ -26,14 +26,16 @@ std::vector<const Kernel*> vectorKernels() {
     return out;
 }
 
-// The same mesh with the tree of each kernel, and with none.
+// The same mesh with the trees of each kernel, the fast one and the best, and that of the scalar
+// code.
 struct Meshes {
     explicit Meshes(const MeshGeometry& bare) : scalar(bare) {
         scalar.finish(true);
-        for (const Kernel* kernel : vectorKernels()) {
-            wide.push_back(std::make_unique<MeshGeometry>(bare));
-            wide.back()->finish(true, *kernel);
-        }
+        for (const Kernel* kernel : vectorKernels())
+            for (const double rays : {0.0, kCountlessRays}) {
+                wide.push_back(std::make_unique<MeshGeometry>(bare));
+                wide.back()->finish(true, *kernel, 1, rays);
+            }
     }
     MeshGeometry scalar;
     std::vector<std::unique_ptr<MeshGeometry>> wide;
