@@ -34,7 +34,8 @@ void addFirstHit(Film& film, Aov aov, int x, int y, const FirstHit& first) {
 class Renderer {
 public:
     Renderer(const Scene& scene, const RenderSettings& settings)
-        : context_(scene, settings), settings_(settings), cameraRays_(context_),
+        : pool_(settings.threads), context_(scene, settings), settings_(settings),
+          cameraRays_(context_, &pool_),
           emptyTiles_(context_, cameraRays_), area_{0, 0, settings.picture.width,
                                                     settings.picture.height} {
         if (const auto& crop = settings.picture.crop)
@@ -52,8 +53,7 @@ public:
     }
 
     Picture run(const RenderControl& control, Stats& stats) {
-        ThreadPool pool(settings_.threads);
-        std::vector<Worker> workers(static_cast<std::size_t>(pool.threads()));
+        std::vector<Worker> workers(static_cast<std::size_t>(pool_.threads()));
         for (Worker& worker : workers) worker.aovs.resize(aovs_.size());
         std::mutex progressMutex;
         std::atomic<std::size_t> done{0};
@@ -70,7 +70,7 @@ public:
             control.progress(static_cast<double>(done) / static_cast<double>(tiles_.size()));
         };
         Picture picture;
-        picture.finished = pool.run(tiles_.size(), tile, control.stop);
+        picture.finished = pool_.run(tiles_.size(), tile, control.stop);
         for (const Worker& worker : workers) {
             stats.rays += worker.rays;
             stats.cameraHits += worker.cameraHits;
@@ -199,6 +199,7 @@ private:
                 }
     }
 
+    ThreadPool pool_; // first: its threads start while the rest is set up
     IntegratorContext context_;
     const RenderSettings& settings_;
     CameraRays cameraRays_;
