@@ -47,9 +47,13 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
         if (light.isDark()) continue;
         const bool isSoft = light.isSoft() && settings.switches.softShadows;
         const bool shades = light.castsShadows() && settings.switches.shadows;
-        (shades ? shadingLamps : openLamps)
-            .push_back({light, isSoft, samples,
-                        sampler.stream(static_cast<std::uint32_t>(i) + 1, samples),
-                        isSoft ? std::optional<Vec3>() : light.origin()});
+        Lamp lamp{light,
+                  isSoft,
+                  samples,
+                  sampler.stream(static_cast<std::uint32_t>(i) + 1, samples),
+                  isSoft ? std::optional<Vec3>() : light.origin(),
+                  light.emission()};
+        if (!isSoft && lamp.emission) lamp.inLanes = lightByLamp(chooseKernel(settings.kernel));
+        (shades ? shadingLamps : openLamps).push_back(lamp);
     }
 }

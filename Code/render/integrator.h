@@ -6,6 +6,7 @@
 #include "render/occluders.h"
 #include "render/query.h"
 #include "render/shading.h"
+#include "render/waves/lamp_lanes.h"
 #include "sample/dimensions.h"
 #include "sample/hash.h"
 #include "sample/sampler.h"
@@ -38,6 +39,8 @@ struct Lamp {
     int samples;
     Sampler sampler;
     std::optional<Vec3> origin; // where its shadow rays start; none: at the point that is lit
+    std::optional<PointEmission> emission;
+    LightByLampFn inLanes = nullptr; // asks many points at once; null: one by one
 };
 
 // Choices that hold for a whole picture, made once.
@@ -103,9 +106,9 @@ struct PointGroup {
     bool mayBeHidden = true; // from the lamp that is looked at
 };
 
-// What lamps ask of a point, in one piece: they go over all points of a wave, one after the other.
+// What lamps ask of a point, in one piece.
 struct LitPoint {
-    std::uint32_t point, group;
+    std::uint32_t point;
     bool isLifted; // ns of its surface has a say
     Vec3 p, n, ng, toEye;
     Rgb weight;
@@ -118,9 +121,11 @@ struct WaveMemory {
     std::vector<Hit> hits;
     PointBatch points;
     MediumTree media;
-    std::vector<LitPoint> litPoints; // that answer lamps
-    std::vector<PointGroup> groups;  // of these
-    RayBatch shadowRays;             // of one lamp; their samples are points
+    std::vector<std::uint32_t> answering; // points that answer lamps
+    std::vector<LitBlock> litBlocks;      // these, if lamps want blocks
+    std::vector<PointGroup> groups;       // of these, and which of them each is in
+    std::vector<std::uint8_t> groupOf;
+    RayBatch shadowRays; // of one lamp; their samples are points
     std::vector<std::uint8_t> hidden;
     std::vector<Rgb> transmittance;
     std::vector<Arrival> arrivals, arrivalsInOrder;

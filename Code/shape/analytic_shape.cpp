@@ -57,7 +57,14 @@ SolidForm AnalyticShape::tubeForm(double radius) const {
     // The largest stretch of the disks, which is also a bound across the axis.
     const double xx = dot(x, x), yy = dot(y, y), xy = dot(x, y);
     const double stretch = std::sqrt(0.5 * (xx + yy) + std::sqrt(sqr(0.5 * (xx - yy)) + xy * xy));
-    return {{worldFromObject_.translation(), axis / size, radius * stretch, 0}, {}};
+    // The disks may lean.
+    const Vec3d unit = axis / size;
+    const double lean = length(Vec3d{dot(x, unit), dot(y, unit), 0});
+    return {{.centre = worldFromObject_.translation(),
+             .axis = unit,
+             .radius = radius * stretch,
+             .halfLength = size + radius * lean},
+            {}};
 }
 
 void AnalyticShape::measure() {

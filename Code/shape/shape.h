@@ -39,6 +39,8 @@ struct SurfaceQuery {
     SphereSurfacesFn spheres = nullptr; // does spheres by the register
 };
 
+class MeshInstance;
+
 class Shape {
 public:
     virtual ~Shape() = default;
@@ -76,6 +78,12 @@ public:
     virtual void occludesBatch(const RaySpan& rays, std::span<std::uint8_t> hidden) const {
         for (std::size_t i = 0; i < rays.size(); ++i) hidden[i] = occludes(rays[i]);
     }
+
+    // The mesh that this is an instance of, if it is one: kernels take the rays through its tree.
+    virtual const MeshInstance* meshInstance() const { return nullptr; }
+    // What intersect() makes of the instance's nearest hit not behind tMax, as not all of its sides
+    // may be seen. False: nothing.
+    virtual bool seesHit(const Ray& /*ray*/, float /*tMax*/, Hit& /*hit*/) const { return true; }
 
     // What helps a kernel to find candidates; not asked of unbounded shapes.
     virtual SolidForm solidForm() const { return {ballAround(toDouble(bounds())), {}}; }

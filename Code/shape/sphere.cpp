@@ -31,8 +31,10 @@ SolidForm Sphere::solidForm() const {
     const double xx = dot(x, x), yy = dot(y, y), zz = dot(z, z);
     const double most = max(xx + xy + zx, max(yy + xy + yz, zz + yz + zx));
     const double least = max(0.0, min(xx - xy - zx, min(yy - xy - yz, zz - yz - zx)));
-    const RoundHull hull{
-        map.translation(), {}, radius_ * std::sqrt(most), radius_ * std::sqrt(least)};
+    const RoundHull hull{.centre = map.translation(),
+                         .axis = {},
+                         .radius = radius_ * std::sqrt(most),
+                         .innerRadius = radius_ * std::sqrt(least)};
     return {hull, StillSphere{objectFromWorld().rows(), radius_}};
 }
 
