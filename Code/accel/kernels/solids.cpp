@@ -69,10 +69,12 @@ private:
                 node.plane[axis][0][i] = box.lo[axis];
                 node.plane[axis][1][i] = box.hi[axis];
             }
-            node.child[i] = !used              ? wideRef(0, WideKind::None)
-                            : parts[i].isSolid ? addSolid(parts[i].index)
-                                               : addNode(open(parts[i].index));
+            node.child[i] = used && parts[i].isSolid ? addSolid(parts[i].index)
+                                                     : wideRef(0, WideKind::None);
         }
+        // After all solids of the node, which so lie in a row.
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            if (!parts[i].isSolid) node.child[i] = addNode(open(parts[i].index));
         std::copy_n(reinterpret_cast<const WideTree::Line*>(&node), kLines,
                     tree_.lines.begin() + static_cast<std::ptrdiff_t>(line));
         return wideRef(line, WideKind::Node);
