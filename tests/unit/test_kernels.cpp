@@ -220,6 +220,87 @@ TEST(kernels_on_trees_too_large_for_bundles) {
     }
 }
 
+// A handful of triangles, that are tested in place, and a few more, that are not. Every third ray
+// starts at one point, so that bundles and the others are scattered over the batch.
+TEST(kernels_on_tiny_meshes) {
+    Random random(78);
+    Counts counts;
+    for (const std::size_t size : {1u, 2u, 3u, 8u, 9u, 12u, 16u, 17u, 24u, 40u}) {
+        const Meshes meshes(meshes::geometryOf(meshes::soup(random, size), false));
+        const auto n = static_cast<std::size_t>(check::scaled(1200));
+        const RayList loose = looseRays(random, meshes.scalar, n);
+        const Vec3 from = toFloat(targetOn(random, meshes.scalar) * 2.0);
+        RayList mixed;
+        for (std::size_t i = 0; i < n; ++i) {
+            Ray ray = loose.span()[i];
+            if (i % 3 == 0) ray.org = from;
+            mixed.push(ray);
+        }
+        compare(meshes, loose, "tiny", counts);
+        compare(meshes, raysInPlanes(random, meshes.scalar, n / 2), "tiny, in the plane", counts);
+        compare(meshes, mixed, "tiny, mixed", counts);
+    }
+    std::printf("%zu rays, %zu hits, %zu hidden, seed 78\n", counts.rays, counts.hits,
+                counts.hidden);
+    CHECK(counts.hits > counts.rays / 4 && counts.hits < counts.rays);
+}
+
+// Rays that leave the tree at its root, among some that don't: before the mesh, beside it, and
+// through the hole of a ring, where they are in its box and in none of the root's children.
+TEST(kernels_on_rays_that_miss) {
+    Random random(79);
+    Counts counts;
+    const Meshes meshes(toGeometry(meshes::torus(0.1, 64, 24), {}));
+    for (const double hits : {0.0, 0.01, 0.5}) {
+        RayList loose, bundle;
+        const auto n = static_cast<std::size_t>(check::scaled(4000));
+        for (std::size_t i = 0; i < n; ++i) {
+            const bool meets = random.unit() < hits;
+            const Vec3d target = meets ? targetOn(random, meshes.scalar)
+                                       : Vec3d{0.2 * random.unit(), 0.2 * random.unit(), 0};
+            const Vec3d away{random.unit() - 0.5, random.unit() - 0.5, 9};
+            const float end = i % 3 == 0 ? 1.5f : i % 3 == 1 ? 0.5f : kInfinityF;
+            const Vec3 org = toFloat(target + away);
+            const double turn = i % 5 == 0 && !meets ? 1 : -1; // 1: from the mesh away
+            loose.push({org, toFloat(away * turn), i % 7 == 0 ? 0.99f : 0.0f, end});
+            const Vec3 lamp{0, 0, 9};
+            bundle.push({lamp, (toFloat(target) - lamp) * static_cast<float>(-turn), 0, end});
+        }
+        const std::size_t before = counts.hits;
+        compare(meshes, loose, "missing", counts);
+        compare(meshes, bundle, "missing bundles", counts);
+        CHECK_INFO(hits == 0 ? counts.hits == before : counts.hits > before, hits);
+    }
+    std::printf("%zu rays, %zu hits, %zu hidden, seed 79\n", counts.rays, counts.hits,
+                counts.hidden);
+}
+
+// From one point to all over a thicket, batch after batch: bundles are given up, then left to the
+// queue for a while, then tried again.
+TEST(kernels_in_a_thicket) {
+    Random random(80);
+    Counts counts;
+    std::vector<std::array<Vec3, 3>> triangles;
+    for (int i = 0; i < 6000; ++i) {
+        const auto corner = [&](Vec3 middle) { return middle + toFloat(random.inBox(0.04)); };
+        const Vec3 middle = toFloat(random.inBox(1));
+        triangles.push_back({corner(middle), corner(middle), corner(middle)});
+    }
+    const Meshes meshes(meshes::geometryOf(triangles, false));
+    for (int batch = 0; batch < check::scaled(24); ++batch) {
+        RayList rays;
+        const Vec3d lamp = random.inBox(2);
+        for (int i = 0; i < 150; ++i) {
+            const Vec3d target = targetOn(random, meshes.scalar);
+            rays.push({toFloat(lamp), toFloat(target - lamp), 0, i % 2 ? 0.999f : kInfinityF});
+        }
+        compare(meshes, rays, "thicket", counts);
+    }
+    std::printf("%zu rays, %zu hits, %zu hidden, seed 80\n", counts.rays, counts.hits,
+                counts.hidden);
+    CHECK(counts.hits > counts.rays / 2 && counts.hidden < counts.rays);
+}
+
 // Zero, infinite and NaN rays meet nothing, wherever in a batch they are.
 TEST(kernels_skip_broken_rays) {
     Random random(73);
