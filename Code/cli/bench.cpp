@@ -117,6 +117,7 @@ std::vector<Flag> benchFlags(BenchOptions& o) {
     const std::string group = "options";
     std::vector<std::string> kernels = kernelNames();
     kernels.insert(kernels.begin(), "auto");
+    const std::vector<std::string> views = {"outside", "inside"}; // as BenchView
     return {
         {.name = "--kernel",
          .argument = join(kernels, "|"),
@@ -141,6 +142,15 @@ std::vector<Flag> benchFlags(BenchOptions& o) {
          .set = [&o](const FlagValue& v) { o.runs = v.whole(1, 1000); },
          .value = Flag::Value::Required,
          .example = "3"},
+        {.name = "--view",
+         .argument = join(views, "|"),
+         .help = "where the camera is: before the box around the mesh, or in it (outside)",
+         .group = group,
+         .set = [&o,
+                 views](const FlagValue& v) { o.view = static_cast<BenchView>(v.choice(views)); },
+         .value = Flag::Value::Required,
+         .choices = views,
+         .example = "inside"},
         {.name = "--uv",
          .help = "nearest hits a second time, with u and v as well as t and triangle",
          .group = group,
@@ -182,12 +192,12 @@ ExitCode bench(const BenchOptions& options) {
         checkWritable(options.raysFile);
         geometry.finish(true, kernel, options.threads);
         writeFileAtomically(options.raysFile,
-                            encodeBenchFile(geometry, frame, benchRays(geometry)));
+                            encodeBenchFile(geometry, frame, benchRays(geometry, options.view)));
         return ExitCode::Ok;
     }
     Report report(options, kernel);
     geometry = report.build(geometry);
-    for (const BenchRays& rays : benchRays(geometry)) {
+    for (const BenchRays& rays : benchRays(geometry, options.view)) {
         report.trace(geometry, rays, false);
         if (options.uv && !rays.anyHit) report.trace(geometry, rays, true);
     }

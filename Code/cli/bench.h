@@ -2,6 +2,7 @@
 // makes a picture of it.
 #pragma once
 
+#include "cli/bench_rays.h"
 #include "cli/exit_codes.h"
 #include "cli/flag.h"
 
@@ -14,6 +15,7 @@ struct BenchOptions {
     std::string kernel = "auto";
     int threads = 1;
     int runs = 5;
+    BenchView view = BenchView::Outside;
     bool uv = false;
     bool picture = true;
     std::string raysFile; // written instead of measuring; empty: none

@@ -13,19 +13,23 @@ struct View {
     double diagonal;
 };
 
-// Eye 0.9 diagonals of the box from its centre, 45 degrees up and down; light above and behind.
-View viewOf(const MeshGeometry& geometry) {
+View viewOf(const MeshGeometry& geometry, BenchView from) {
     Bounds box;
     for (const auto& corners : geometry.triangles)
         for (const std::uint32_t corner : corners) box.extend(geometry.points[corner]);
     const Vec3d lo = toDouble(box.lo), hi = toDouble(box.hi), centre = (lo + hi) * 0.5;
     View view;
     view.diagonal = length(hi - lo);
-    view.eye = centre + normalize(Vec3d{0.6, 0.4, 1}) * (0.9 * view.diagonal);
-    view.light = centre + Vec3d{-0.8, 1.2, 0.6} * view.diagonal;
-    view.forward = normalize(centre - view.eye);
+    const auto at = [&](double x, double y, double z) {
+        return lo + Vec3d{x * (hi - lo).x, y * (hi - lo).y, z * (hi - lo).z};
+    };
+    const bool inside = from == BenchView::Inside;
+    view.eye = inside ? at(0.15, 0.3, 0.55)
+                      : centre + normalize(Vec3d{0.6, 0.4, 1}) * (0.9 * view.diagonal);
+    view.light = inside ? at(0.5, 0.8, 0.5) : centre + Vec3d{-0.8, 1.2, 0.6} * view.diagonal;
+    view.forward = normalize((inside ? at(1, 0.35, 0.5) : centre) - view.eye);
     const Vec3d right = normalize(cross(view.forward, Vec3d{0, 1, 0}));
-    const double tangent = exact::tan(radians(22.5));
+    const double tangent = exact::tan(radians(inside ? 30.0 : 22.5)); // half the height
     view.right = right * tangent;
     view.up = cross(right, view.forward) * tangent;
     return view;
@@ -87,8 +91,8 @@ void BenchRays::push(Vec3 from, Vec3 towards, float tEnd) {
     tMin.push_back(0), tMax.push_back(tEnd), time.push_back(0);
 }
 
-std::vector<BenchRays> benchRays(const MeshGeometry& geometry) {
-    const View view = viewOf(geometry);
+std::vector<BenchRays> benchRays(const MeshGeometry& geometry, BenchView from) {
+    const View view = viewOf(geometry, from);
     const Mesh mesh(geometry, {0}, {{0, 0}});
     std::vector<BenchRays> sets(4);
     BenchRays &primary = sets[0], &shadow = sets[1], &bounce = sets[2], &bounceAny = sets[3];

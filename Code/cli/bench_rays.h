@@ -25,7 +25,11 @@ struct BenchRays {
     void endBatch() { batches.push_back(size()); }
 };
 
+// Outside: off the box around the mesh, which fills a third of the picture; light above and behind.
+// Inside: from one end of the box along it, light below its ceiling.
+enum class BenchView { Outside, Inside };
+
 // primary: 1024 x 1024 camera rays; shadow: from a point light to every hit; bounce: a diffuse
 // direction from every hit, nearest and any. In tiles of 16 x 16 pixels, 4 x 4 inside.
 // The mesh must have been finished, with any tree.
-std::vector<BenchRays> benchRays(const MeshGeometry& geometry);
+std::vector<BenchRays> benchRays(const MeshGeometry& geometry, BenchView from = BenchView::Outside);

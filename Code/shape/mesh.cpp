@@ -43,23 +43,21 @@ void Mesh::collect(const Ray& ray, std::vector<Hit>& hits) const {
 
 void Mesh::intersectBatch(const RaySpan& rays, std::uint32_t number, std::span<Hit> hits) const {
     if (!takesBatches()) return Shape::intersectBatch(rays, number, hits);
-    thread_local std::vector<TriangleHit> found;
-    found.resize(rays.size());
-    closestHits(*geometry_.kernel, geometry_.wideMesh(), rays, found);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        hits[i] = {.t = rays.tMax[i]};
-        if (found[i].triangle == TriangleHit::kNone) continue;
-        const TriangleCorners v = corners(found[i].triangle);
-        const RaySetup setup(rays.org[i], rays.dir[i], geometry_.extent);
-        const Vec2 uv = barycentrics({setup, v[0], v[1], v[2]});
-        hits[i] = {
-            .t = found[i].t, .u = uv.x, .v = uv.y, .prim = found[i].triangle, .shape = number};
-    }
+    closestHits(*geometry_.kernel, geometry_.wideMesh(), rays, number, hits);
 }
 
 void Mesh::occludesBatch(const RaySpan& rays, std::span<std::uint8_t> hidden) const {
     if (!takesBatches()) return Shape::occludesBatch(rays, hidden);
     anyHits(*geometry_.kernel, geometry_.wideMesh(), rays, hidden);
+}
+
+SolidForm Mesh::solidForm() const {
+    SolidForm form = Shape::solidForm();
+    const std::size_t count = geometry_.triangles.size();
+    if (count == 0 || count > Facets::kMost) return form;
+    form.facets = Facets{.triangles = {}, .extent = geometry_.extent};
+    for (std::uint32_t i = 0; i < count; ++i) form.facets->triangles.push_back(corners(i));
+    return form;
 }
 
 std::uint32_t Mesh::objectOf(std::uint32_t triangle) const {
@@ -81,7 +79,7 @@ bool Mesh::seesFront(const Ray& ray, const Hit& hit) const {
 
 Surface Mesh::surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const {
     const std::uint32_t slot = geometry_.slots.empty() ? 0 : geometry_.slots[hit.prim];
-    Surface s = surfaceOf({geometry_, hit.prim, corners(hit.prim)}, ray, hit, needs);
+    Surface s = surfaceOf({geometry_, hit.prim, corners(hit.prim), needs}, ray, hit, needs);
     s.material = materials_[slot];
     s.object = objectOf(hit.prim);
     return s;

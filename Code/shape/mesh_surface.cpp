@@ -58,7 +58,7 @@ Vec3d liftToCurve(Vec3d p, const Corners& corners, const std::array<Vec3, 3>& no
 } // namespace
 
 SurfaceTriangle::SurfaceTriangle(const MeshGeometry& geometry, std::uint32_t triangle,
-                                 const TriangleCorners& placed)
+                                 const TriangleCorners& placed, SurfaceNeeds needs)
     : corners(placed) {
     if (!geometry.normalTriangles.empty()) {
         const auto& k = geometry.normalTriangles[triangle];
@@ -66,7 +66,7 @@ SurfaceTriangle::SurfaceTriangle(const MeshGeometry& geometry, std::uint32_t tri
         if (hasNormals)
             normals = {geometry.normals[k[0]], geometry.normals[k[1]], geometry.normals[k[2]]};
     }
-    if (!geometry.uvTriangles.empty()) {
+    if (needs.uv && !geometry.uvTriangles.empty()) {
         const auto& k = geometry.uvTriangles[triangle];
         hasUvs = k != MeshGeometry::kWithout;
         if (hasUvs) uvs = {geometry.uvs[k[0]], geometry.uvs[k[1]], geometry.uvs[k[2]]};
@@ -90,16 +90,16 @@ Surface surfaceOf(const SurfaceTriangle& triangle, const Ray& ray, const Hit& hi
     s.ng = toFloat(n);
     s.error = static_cast<float>(error);
     s.rayError = kRayError;
-    Vec3d ns = n;
+    s.ns = s.ng;
     if (triangle.hasNormals) {
-        ns = toDouble(interpolate(triangle.normals, hit.u, hit.v));
+        const Vec3d ns = toDouble(interpolate(triangle.normals, hit.u, hit.v));
+        const double length2 = dot(ns, ns);
+        const Vec3 smooth = length2 > 0 ? toFloat(ns / std::sqrt(length2)) : s.ng;
+        if (dot(smooth, s.ng) > 0) s.ns = smooth;
         if (needs.lift)
             s.lift = toFloat(liftToCurve(toDouble(s.p), v, triangle.normals, weights,
                                          dot(s.ng, ray.dir) <= 0 ? 1 : -1));
     }
-    const double length2 = dot(ns, ns);
-    s.ns = length2 > 0 ? toFloat(ns / std::sqrt(length2)) : s.ng;
-    if (!(dot(s.ns, s.ng) > 0)) s.ns = s.ng;
     s.uv = triangle.hasUvs ? interpolate(triangle.uvs, hit.u, hit.v) : Vec2{hit.u, hit.v};
     return s;
 }

@@ -12,9 +12,9 @@ struct SurfaceTriangle {
     std::array<Vec3, 3> normals{};
     std::array<Vec2, 3> uvs{};
 
-    // Normals and coordinates as the lists have them.
+    // Normals and, if needed, coordinates as the lists have them.
     SurfaceTriangle(const MeshGeometry& geometry, std::uint32_t triangle,
-                    const TriangleCorners& placed);
+                    const TriangleCorners& placed, SurfaceNeeds needs = {});
 };
 
 // All but the material and the object.

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <immintrin.h>
 #include <limits>
 #include <vector>
@@ -18,9 +19,21 @@ namespace kernels::avx2 {
 
 #include "accel/kernels/key_range.inl"
 
+#include "accel/kernels/barycentrics.inl"
+
+#include "accel/kernels/queue_rays.inl"
+
+#include "accel/kernels/queue_exact.inl"
+
 #include "accel/kernels/queue.inl"
 
 #include "accel/kernels/bundle_rays.inl"
+
+#include "accel/kernels/bundle_keys.inl"
+
+#include "accel/kernels/bundle_block.inl"
+
+#include "accel/kernels/bundle_best.inl"
 
 #include "accel/kernels/bundle_leaf.inl"
 

@@ -20,14 +20,22 @@ public:
 
     // Answers the rays of the list. Those that are rays from one point to places all over the
     // scene, and no bundle, are given back: the queue is faster for them.
-    template <class Result>
-    void trace(std::span<const std::uint32_t> list, Result* results,
+    template <class Results>
+    void trace(std::span<const std::uint32_t> list, const Results& results,
                std::vector<std::uint32_t>& givenBack) {
         leaves_ = 0;
         mostLeaves_ = list.size() + list.size() / 4 + 16;
         rays_.load(list);
         rays_.refuse(results);
         while (rays_.nextRound()) {
+            const float noLimit = std::numeric_limits<float>::max();
+            alignas(64) float entry[W];
+            const auto& root = mesh_.tree.at<WideNode<W>>(mesh_.tree.root);
+            if (enteredChildren(root, noLimit, entry) == 0) {
+                rays_.writeMisses(results);
+                continue;
+            }
+            rays_.setUp();
             leaf_.start();
             if (traverse())
                 leaf_.finish(results);
@@ -63,7 +71,7 @@ private:
     void enter(const WideNode<W>& node) {
         alignas(64) float z[W];
         const std::uint32_t before = size_;
-        for (unsigned hit = enteredChildren(node, z); hit != 0; hit &= hit - 1) {
+        for (unsigned hit = enteredChildren(node, leaf_.zCut(), z); hit != 0; hit &= hit - 1) {
             const int i = std::countr_zero(hit);
             prefetch(node.child[i]);
             std::uint32_t place = size_++; // the nearest on top
@@ -79,14 +87,14 @@ private:
         for (int i = 0; i < lines; ++i) __builtin_prefetch(line + std::ptrdiff_t{64} * i);
     }
 
-    // Children that the rectangle's pyramid enters in front of leaf_.zCut(), and their depths.
-    unsigned enteredChildren(const WideNode<W>& node, float* entry) const {
+    // Children that the rectangle's pyramid enters in front of zCut, and their depths.
+    unsigned enteredChildren(const WideNode<W>& node, float zCut, float* entry) const {
         const Floats s(rays_.sign), zero(0.0f), oz(rays_.origin[rays_.k]);
         const bool backwards = rays_.sign < 0;
         const Floats zNear = (Floats::load(node.plane[rays_.k][backwards ? 1 : 0]) - oz) * s;
         const Floats zFar = (Floats::load(node.plane[rays_.k][backwards ? 0 : 1]) - oz) * s;
         max(zNear, zero).store(entry);
-        const Mask ahead = (zFar > zero) & (zNear <= Floats(leaf_.zCut()));
+        const Mask ahead = (zFar > zero) & (zNear <= Floats(zCut));
         // Of S z with S in the range and z in the box, the extremes are at corners.
         if (bits(ahead & (zNear < zero)) != 0) [[unlikely]] {
             const auto meets = [&](std::size_t axis, Range S) {
@@ -116,39 +124,55 @@ private:
     std::size_t leaves_ = 0, mostLeaves_ = 0;
 };
 
-// How many rays make a bundle: large bundles of fine triangles touch too many of them. It follows
-// what the thread's last bundles met; no answer depends on it.
+// How many rays make a bundle: large bundles of fine triangles touch too many of them, and in a
+// thicket no bundle pays. It follows what the thread's last bundles met; no answer depends on it.
 template <Query Q> class BundleSize {
 public:
     std::size_t get() const { return size_; }
-    void learn(std::size_t leaves) {
+    // Are the next get() rays better left to the queue?
+    bool passes() {
+        if (pause_ == 0) return false;
+        --pause_;
+        return true;
+    }
+    void learn(std::size_t leaves, bool gaveUp) {
         if (leaves > kManyLeaves) size_ = kFewRays;
         if (leaves > 0 && leaves < kFewLeaves) size_ = BundleRays<Q>::kMostRays;
+        // Twice as long a pause every time that the next try fails too.
+        lastPause_ = gaveUp ? std::min(2 * lastPause_ + 1, kLongestPause) : lastPause_ / 2;
+        pause_ = gaveUp ? lastPause_ : 0;
     }
 
 private:
     static constexpr std::size_t kFewRays = 64, kFewLeaves = 6, kManyLeaves = 40;
+    static constexpr unsigned kLongestPause = 31;
     std::size_t size_ = BundleRays<Q>::kMostRays;
+    unsigned pause_ = 0, lastPause_ = 0; // in bundles
 };
 
-template <Query Q, class Result>
+template <Query Q, class Results>
 void traceFromPoint(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order,
-                    Result* results) {
+                    const Results& results) {
     using Entry = typename Bundle<Q>::Entry;
     thread_local BundleSize<Q> size;
     auto* const stack =
         reinterpret_cast<Entry*>(scratchMemory((mesh.tree.stackSize + W) * sizeof(Entry)));
     Bundle<Q> bundle(mesh, rays, rays.org[order[0]], stack);
     std::vector<std::uint32_t> givenBack;
-    if (mesh.tree.lines.size() > BundleLeaf<Q>::kMostLines) { // 16 GB
+    if (mesh.tree.lines.size() > mesh.mostLinesForBundles) {
         givenBack.assign(order.begin(), order.end());
         order = {};
     }
     while (!order.empty()) {
         const auto list = order.first(std::min(size.get(), order.size()));
         order = order.subspan(list.size());
+        if (size.passes()) {
+            givenBack.insert(givenBack.end(), list.begin(), list.end());
+            continue;
+        }
+        const std::size_t before = givenBack.size();
         bundle.trace(list, results, givenBack);
-        size.learn(bundle.leaves());
+        size.learn(bundle.leaves(), givenBack.size() - before > list.size() / 2);
     }
     if (givenBack.empty()) return;
     if constexpr (Q == Query::Any)
@@ -158,7 +182,7 @@ void traceFromPoint(const WideMesh& mesh, const RaySpan& rays, std::span<const s
 }
 
 void closestFromPoint(const WideMesh& mesh, const RaySpan& rays,
-                      std::span<const std::uint32_t> order, TriangleHit* hits) {
+                      std::span<const std::uint32_t> order, const HitLists& hits) {
     traceFromPoint<Query::Closest>(mesh, rays, order, hits);
 }
 void anyFromPoint(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order,

@@ -2,8 +2,6 @@
 
 #include "accel/triangle.h"
 
-#include <bit>
-
 namespace {
 
 template <int W> float keyOf(const RaySetup& setup, const WideLeaf<W>& leaf, unsigned lane) {
@@ -33,42 +31,8 @@ float exactKey(const WideMesh& mesh, Vec3 org, Vec3 dir, const WideLeaf<W>& leaf
     return keyOf(RaySetup(org, dir, mesh.extent), leaf, lane);
 }
 
-template <int W>
-bool improve(const WideMesh& mesh, Vec3 org, Vec3 dir, const WideLeaf<W>& leaf, unsigned lanes,
-             RayBest& best) {
-    const RaySetup setup(org, dir, mesh.extent);
-    bool better = false;
-    for (; lanes != 0; lanes &= lanes - 1) {
-        const auto lane = static_cast<unsigned>(std::countr_zero(lanes));
-        const float key = keyOf(setup, leaf, lane);
-        if (!(key > 0 && key < best.below) || key < best.key) continue;
-        const std::uint32_t triangle = mesh.tree.triangleIds[leaf.first + lane];
-        if (key == best.key && triangle > best.triangle) continue;
-        best.key = key;
-        best.triangle = triangle;
-        better = true;
-    }
-    return better;
-}
-
-template <int W>
-bool hits(const WideMesh& mesh, Vec3 org, Vec3 dir, const WideLeaf<W>& leaf, unsigned lanes,
-          const RayBest& best) {
-    const RaySetup setup(org, dir, mesh.extent);
-    for (; lanes != 0; lanes &= lanes - 1) {
-        const float key = keyOf(setup, leaf, static_cast<unsigned>(std::countr_zero(lanes)));
-        if (key > best.key && key < best.below) return true;
-    }
-    return false;
-}
-
-#define EXACT_HIT_FOR(W)                                                                           \
-    template float exactKey(const WideMesh&, Vec3, Vec3, const WideLeaf<W>&, unsigned);            \
-    template bool improve(const WideMesh&, Vec3, Vec3, const WideLeaf<W>&, unsigned, RayBest&);    \
-    template bool hits(const WideMesh&, Vec3, Vec3, const WideLeaf<W>&, unsigned, const RayBest&);
-EXACT_HIT_FOR(8)
-EXACT_HIT_FOR(16)
-#undef EXACT_HIT_FOR
+template float exactKey(const WideMesh&, Vec3, Vec3, const WideLeaf<8>&, unsigned);
+template float exactKey(const WideMesh&, Vec3, Vec3, const WideLeaf<16>&, unsigned);
 
 std::byte* scratchMemory(std::size_t bytes) {
     thread_local std::vector<WideTree::Line> lines;

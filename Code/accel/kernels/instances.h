@@ -5,10 +5,11 @@
 
 #define KERNEL_FUNCTIONS(isa)                                                                      \
     namespace kernels::isa {                                                                       \
-    void closest(const WideMesh&, const RaySpan&, std::span<const std::uint32_t>, TriangleHit*);   \
+    void closest(const WideMesh&, const RaySpan&, std::span<const std::uint32_t>,                  \
+                 const HitLists&);                                                                 \
     void any(const WideMesh&, const RaySpan&, std::span<const std::uint32_t>, std::uint8_t*);      \
     void closestFromPoint(const WideMesh&, const RaySpan&, std::span<const std::uint32_t>,         \
-                          TriangleHit*);                                                           \
+                          const HitLists&);                                                        \
     void anyFromPoint(const WideMesh&, const RaySpan&, std::span<const std::uint32_t>,             \
                       std::uint8_t*);                                                              \
     }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "accel/kernels/wide_tree.h"
+#include "base/hit.h"
 #include "base/ray_span.h"
 
 #include <cstdint>
@@ -18,6 +19,9 @@ struct WideMesh {
     std::span<const Vec3> points;
     std::span<const std::array<std::uint32_t, 3>> triangles;
     float extent; // see RaySetup
+    // Rays are bundled in trees up to this size: bundles remember hits by the lines of their
+    // leaves, in 28 bits (16 GB). Tests lower it.
+    std::size_t mostLinesForBundles = std::size_t{1} << 28;
 };
 
 struct TriangleHit {
@@ -25,11 +29,26 @@ struct TriangleHit {
     std::uint32_t triangle = kNone;
     static constexpr std::uint32_t kNone = 0xffffffffu;
 };
-static_assert(sizeof(TriangleHit) == 8); // bundles write pairs
+static_assert(sizeof(TriangleHit) == 8 && sizeof(Hit) == 20); // bundles write pairs and rows
 
-// hits[i] and hidden[i] belong to ray i; only those of the rays in `order` are written.
+// Where nearest hits go, ray i's to element i: whole ones, with u and v, or t and triangle. The
+// list that is null is not asked for.
+struct HitLists {
+    TriangleHit* brief = nullptr;
+    Hit* whole = nullptr;
+    std::uint32_t shape = 0; // of whole hits
+
+    void miss(std::size_t ray, float tMax) const {
+        if (whole != nullptr)
+            whole[ray] = {.t = tMax};
+        else
+            brief[ray] = {};
+    }
+};
+
+// Ray i is answered in element i of the list; only the rays in `order` are.
 using ClosestFn = void (*)(const WideMesh& mesh, const RaySpan& rays,
-                           std::span<const std::uint32_t> order, TriangleHit* hits);
+                           std::span<const std::uint32_t> order, const HitLists& hits);
 using AnyFn = void (*)(const WideMesh& mesh, const RaySpan& rays,
                        std::span<const std::uint32_t> order, std::uint8_t* hidden);
 
@@ -51,6 +70,9 @@ const Kernel& chooseKernel(std::string_view name);
 // Nearest hit with tMin < t <= tMax of every ray of the batch, kNone where there is none.
 void closestHits(const Kernel& kernel, const WideMesh& mesh, const RaySpan& rays,
                  std::span<TriangleHit> hits);
+// The same with u and v, as hits of shape `number`; a ray that meets nothing keeps t = tMax.
+void closestHits(const Kernel& kernel, const WideMesh& mesh, const RaySpan& rays,
+                 std::uint32_t number, std::span<Hit> hits);
 // hidden[i]: is there a hit with tMin < t < tMax?
 void anyHits(const Kernel& kernel, const WideMesh& mesh, const RaySpan& rays,
              std::span<std::uint8_t> hidden);

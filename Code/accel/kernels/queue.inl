@@ -1,31 +1,16 @@
 // The kernel for rays of any kind. Many rays are on their way at once, each at its next node or
 // leaf; two lists say which. A round takes one step with every ray of a list: the steps don't
 // depend on each other, so the CPU overlaps their memory accesses and latencies, and nothing but
-// the length of the lists is a branch.
-// Included by the file of each instruction set inside its namespace.
-
-enum class Query { Closest, Any };
-
-// What every step of a ray reads, for W rays: RaySetup of accel/ray_setup.h by columns.
-struct alignas(64) RayBlock {
-    float r[3][W], nearOffset[3][W], farOffset[3][W]; // slabs of boxes by axis, in z
-    std::uint32_t nearPlane[3][W];                    // where in a node, in bytes
-    float zCut[W];
-    // Triangles: origin and coordinates in the order lateral x, lateral y, depth.
-    float origin[3][W];
-    std::uint32_t axis[3][W];   // where in a leaf, in bytes
-    float shearX[W], shearY[W]; // the slopes, for depths without the sign of the direction
-    float sign[W];              // of the direction along z
-    float lateralError[W];      // of a vertex in the ray's frame, 4 units of the space's size
-    float key[W], below[W], dz[W];
-    std::uint32_t at[W], stackTop[W], triangle[W], ray[W];
-    std::uint32_t count, live; // rays at the start and now
-};
+// the length of the lists is a branch. Rays whose leaf has triangles that they may meet wait, until
+// there are enough of them for the canonical keys of W pairs at once.
+// Included by the file of each instruction set inside its namespace, behind queue_rays.inl and
+// queue_exact.inl.
 
 template <Query Q> class Queue {
 public:
     Queue(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order)
         : mesh_(mesh), rays_(rays), order_(order), base_(mesh.tree.base()),
+          root_(mesh.tree.at<WideNode<W>>(mesh.tree.root)),
           // An odd number of lines between stacks spreads them over the sets of the cache.
           stride_(((mesh.tree.stackSize + std::size_t{2} * W + 15) / 16 | 1) * 16) {
         const std::size_t stacks = kSlots * stride_ * sizeof(std::uint32_t);
@@ -33,22 +18,31 @@ public:
         blocks_ = reinterpret_cast<RayBlock*>(memory);
         refs_ = reinterpret_cast<std::uint32_t*>(memory + kBlocks * sizeof(RayBlock));
         entries_ = refs_ + kSlots * stride_;
+        for (std::size_t slot = 0; slot < std::min<std::size_t>(kSlots, order.size()); ++slot) {
+            refs_[slot * stride_] = wideRef(0, WideKind::None); // the end of every stack
+            entries_[slot * stride_] = 0;
+        }
+        while (children_ < W && root_.plane[0][0][children_] <= root_.plane[0][1][children_])
+            ++children_;
     }
 
-    template <class Result> void run(Result* results) {
+    template <class Results> void run(const Results& results) {
+        if (mesh_.tree.leaves <= kFewLeaves) return runInLeaves(results);
         Lists now{lists_[0], lists_[1], lists_[2]}, next{lists_[3], lists_[4], lists_[2]};
-        for (std::uint32_t b = 0; b < kBlocks && next_ < order_.size(); ++b) start(b, next);
+        for (std::uint32_t b = 0; b < kBlocks; ++b) refill(b, next, results);
         while (live_ > 0) {
             std::swap(now, next);
             next.nodeCount = next.leafCount = next.doneCount = 0;
             for (std::uint32_t i = 0; i < now.nodeCount; ++i) nodeStep(now.nodes[i], next);
             for (std::uint32_t i = 0; i < now.leafCount; ++i) leafStep(now.leaves[i], next);
+            if (waitingPairs_ >= W || next.nodeCount + next.leafCount < kFewBusy)
+                settleWaiting(next);
             for (std::uint32_t i = 0; i < next.doneCount; ++i) {
                 const std::uint32_t b = next.done[i] / W;
                 --live_;
                 if (--blocks_[b].live > 0) continue;
                 finish(blocks_[b], results);
-                if (next_ < order_.size()) start(b, next);
+                refill(b, next, results);
             }
         }
     }
@@ -56,112 +50,123 @@ public:
 private:
     static constexpr std::uint32_t kSlots = 64; // rays on their way at most
     static constexpr std::uint32_t kBlocks = kSlots / W;
+    // Rays that are not waiting for others; with fewer, the others don't wait either.
+    static constexpr std::uint32_t kFewBusy = kSlots / 2;
+    // Of a tree in which no ray is worth a way of its own.
+    static constexpr std::uint64_t kFewLeaves = 2;
 
     // What the rays are at, by their slots.
     struct Lists {
         std::uint32_t *nodes, *leaves, *done;
         std::uint32_t nodeCount = 0, leafCount = 0, doneCount = 0;
     };
+    struct Waiting {
+        std::uint32_t slot, candidates; // triangles of the leaf that the ray is at
+    };
+    struct Pair {
+        std::uint32_t slot;
+        WideRef leaf;
+        std::uint32_t triangle; // number in the leaf
+    };
+
+    const WideLeaf<W>& leafAt(WideRef ref) const { return mesh_.tree.at<WideLeaf<W>>(ref); }
 
     // ---- rays in, hits out
 
-    // RaySetup for the next W rays; the formulas are its own, lane by lane.
-    void start(std::uint32_t number, Lists& to) {
+    // The next rays that enter the tree, if there are any left, take this block. Those that don't
+    // are answered at once.
+    template <class Results> void refill(std::uint32_t number, Lists& to, const Results& results) {
         RayBlock& b = blocks_[number];
-        const std::size_t count = std::min<std::size_t>(W, order_.size() - next_);
-        alignas(64) float o[3][W], d[3][W], tMin[W], tMax[W];
-        for (std::size_t i = 0; i < W; ++i) {
-            const std::uint32_t ray = order_[next_ + (i < count ? i : 0)];
-            const Vec3 org = rays_.org[ray], dir = rays_.dir[ray];
-            o[0][i] = org.x, o[1][i] = org.y, o[2][i] = org.z;
-            d[0][i] = dir.x, d[1][i] = dir.y, d[2][i] = dir.z;
-            tMin[i] = rays_.tMin[ray], tMax[i] = rays_.tMax[ray];
-            b.ray[i] = ray;
-        }
-        next_ += count;
-        const Floats one(1.0f), zero(0.0f);
-        const Floats ox = Floats::load(o[0]), oy = Floats::load(o[1]), oz = Floats::load(o[2]);
-        const Floats dx = Floats::load(d[0]), dy = Floats::load(d[1]), dz = Floats::load(d[2]);
-        const Floats ax = abs(dx), ay = abs(dy), az = abs(dz);
-        const Mask alongZ = (az >= ax) & (az >= ay), alongY = ay >= ax;
-        const auto pick = [&](Floats x, Floats y, Floats z) {
-            return select(alongZ, z, select(alongY, y, x));
-        };
-        const Floats depth = pick(dx, dy, dz), dMax = abs(depth);
-        const Floats sign = select(depth < zero, Floats(-1.0f), one);
-        const Floats Sx = pick(dy, dz, dx) / dMax, Sy = pick(dz, dx, dy) / dMax;
-        const Floats smallest(RaySetup::kSmallestSlope);
-        const Floats rx = one / withSign(max(abs(Sx), smallest), Sx);
-        const Floats ry = one / withSign(max(abs(Sy), smallest), Sy);
-        const Floats oMax = max(max(abs(ox), abs(oy)), abs(oz));
-        const Floats e = max(Floats(mesh_.extent), oMax) * Floats(0x1p-19f);
-        const Floats px = e * abs(rx), py = e * abs(ry);
-        const auto slab = [&](std::size_t axis, Floats org, Floats r, Floats pad) {
-            const Floats at = (zero - org) * r, twice = pad + pad;
-            r.store(b.r[axis]);
-            (at - twice).store(b.nearOffset[axis]);
-            (at + twice).store(b.farOffset[axis]);
-            const auto plane = [&](std::uint32_t upper) {
-                return Ints(static_cast<std::uint32_t>(axis * 2 + upper) * W * 4);
-            };
-            select(r < zero, plane(1), plane(0)).store(b.nearPlane[axis]);
-        };
-        slab(0, ox, pick(sign, ry, rx), pick(e, py, px));
-        slab(1, oy, pick(rx, sign, ry), pick(px, e, py));
-        slab(2, oz, pick(ry, rx, sign), pick(py, px, e));
-
-        pick(oy, oz, ox).store(b.origin[0]);
-        pick(oz, ox, oy).store(b.origin[1]);
-        pick(ox, oy, oz).store(b.origin[2]);
-        const auto place = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-            constexpr std::uint32_t row = W * 4;
-            return select(alongZ, Ints(z * row), select(alongY, Ints(y * row), Ints(x * row)));
-        };
-        place(1, 2, 0).store(b.axis[0]);
-        place(2, 0, 1).store(b.axis[1]);
-        place(0, 1, 2).store(b.axis[2]);
-        (Sx * sign).store(b.shearX);
-        (Sy * sign).store(b.shearY);
-        sign.store(b.sign);
-        (e * Floats(0.125f)).store(b.lateralError);
-        dMax.store(b.dz);
-        // Keys that count are in (above, below); see KeyRange of shape/triangle_queries.h.
-        const Floats above = keyAbove(Floats::load(tMax), dMax);
-        const Floats zCut = select(above > zero, (one / above) * Floats(1.0000005f),
-                                   Floats(std::numeric_limits<float>::max()));
-        (Q == Query::Any ? above : zero).store(b.key);
-        keyBelow(Floats::load(tMin), dMax).store(b.below);
-        // isTraceable(): what it refuses enters no box.
-        const Floats sum = ((dx + dy) + dz) + ((ox + oy) + oz);
-        const Floats dLargest = max(max(ax, ay), az);
-        const Mask traceable = (dLargest > Floats(1e-30f)) & (dLargest < Floats(1e30f)) &
-                               (oMax < Floats(1e30f)) & (sum - sum == zero);
-        select(traceable, zCut, Floats(-1.0f)).store(b.zCut);
-
-        b.count = b.live = static_cast<std::uint32_t>(count);
-        live_ += b.live;
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const std::uint32_t slot = number * W + i;
-            b.triangle[i] = TriangleHit::kNone;
-            b.at[i] = mesh_.tree.root;
-            b.stackTop[i] = 1;
-            refs_[slot * stride_] = wideRef(0, WideKind::None); // the end of every stack
-            entries_[slot * stride_] = 0;
-            to.nodes[to.nodeCount++] = slot;
+        while (next_ < order_.size()) {
+            const unsigned entered = enterTree(takeRays(b), b);
+            if (entered == 0) {
+                finish(b, results);
+                continue;
+            }
+            Ints(mesh_.tree.root).store(b.at);
+            Ints(1u).store(b.stackTop);
+            b.live = static_cast<std::uint32_t>(std::popcount(entered));
+            live_ += b.live;
+            for (unsigned lanes = entered; lanes != 0; lanes &= lanes - 1)
+                to.nodes[to.nodeCount++] =
+                    number * W + static_cast<std::uint32_t>(std::countr_zero(lanes));
+            return;
         }
     }
 
-    void finish(const RayBlock& b, TriangleHit* hits) const {
-        alignas(64) float t[W];
-        (Floats(1.0f) / (Floats::load(b.key) * Floats::load(b.dz))).store(t);
-        for (std::size_t i = 0; i < b.count; ++i) {
-            const bool hit = b.triangle[i] != TriangleHit::kNone && t[i] <= rays_.tMax[b.ray[i]];
-            hits[b.ray[i]] = hit ? TriangleHit{t[i], b.triangle[i]} : TriangleHit{};
+    unsigned takeRays(RayBlock& b) {
+        const std::size_t count = std::min<std::size_t>(W, order_.size() - next_);
+        const unsigned lanes = setUpRays<Q>(rays_, &order_[next_], count, mesh_.extent, b);
+        next_ += count;
+        return lanes;
+    }
+
+    // Of the lanes those whose rays enter a child of the root. All of them, where most rays do:
+    // then it is quicker not to ask W rays at once what each will ask itself.
+    unsigned enterTree(unsigned lanes, const RayBlock& b) {
+        if (asked_ >= 4 * W && missed_ * 8 < asked_) return lanes;
+        unsigned entered = 0;
+        for (std::size_t i = 0; i < children_ && entered != lanes; ++i)
+            entered |= raysEntering(b, root_, i, lanes & ~entered);
+        asked_ += W;
+        missed_ += static_cast<std::uint32_t>(std::popcount(lanes & ~entered));
+        return entered;
+    }
+
+    void finish(const RayBlock& b, const HitLists& hits) const {
+        const Floats t = Floats(1.0f) / (Floats::load(b.key) * Floats::load(b.dz));
+        const Ints none(TriangleHit::kNone), triangle = Ints::load(b.triangle);
+        const Mask hit = (triangle < none) & (t <= Floats::load(b.tMax));
+        const unsigned found = bits(hit) & ((1u << b.count) - 1);
+        if (hits.whole == nullptr && b.inARow) {
+            storePairs(select(hit, t, Floats(kInfinityF)), select(hit, triangle, none),
+                       &hits.brief[b.ray[0]].t);
+            return;
+        }
+        alignas(64) float ts[W];
+        t.store(ts);
+        for (std::uint32_t i = 0; i < b.count; ++i) {
+            if ((found >> i & 1) == 0)
+                hits.miss(b.ray[i], b.tMax[i]);
+            else if (hits.whole == nullptr)
+                hits.brief[b.ray[i]] = {ts[i], b.triangle[i]};
+        }
+        if (hits.whole != nullptr && found != 0) finishWhole(b, ts, found, hits);
+    }
+    void finishWhole(const RayBlock& b, const float* t, unsigned found,
+                     const HitLists& hits) const {
+        alignas(64) float point[3][3][W] = {}; // axis as in the block, corner
+        for (unsigned lanes = found; lanes != 0; lanes &= lanes - 1) {
+            const int i = std::countr_zero(lanes);
+            const std::byte* const p = base_ + byteOffset(b.bestLeaf[i]);
+            const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(p);
+            for (int c = 0; c < 3; ++c) {
+                const std::uint8_t corner = leaf.corner[c][b.bestLane[i]];
+                for (int axis = 0; axis < 3; ++axis)
+                    point[axis][c][i] = reinterpret_cast<const float*>(p + b.axis[axis][i])[corner];
+            }
+        }
+        Floats x[3], y[3];
+        for (int c = 0; c < 3; ++c) {
+            const auto relative = [&](int axis) {
+                return Floats::load(point[axis][c]) - Floats::load(b.origin[axis]);
+            };
+            const Floats z = relative(2);
+            x[c] = relative(0) - Floats::load(b.shearX) * z;
+            y[c] = relative(1) - Floats::load(b.shearY) * z;
+        }
+        const Weights weights = barycentrics(x, y);
+        alignas(64) float u[W], v[W];
+        weights.u.store(u), weights.v.store(v);
+        for (; found != 0; found &= found - 1) {
+            const int i = std::countr_zero(found);
+            hits.whole[b.ray[i]] = {t[i], u[i], v[i], b.triangle[i], hits.shape};
         }
     }
     void finish(const RayBlock& b, std::uint8_t* hidden) const {
-        for (std::size_t i = 0; i < b.count; ++i)
-            hidden[b.ray[i]] = b.triangle[i] != TriangleHit::kNone;
+        const unsigned found = bits(Ints::load(b.triangle) < Ints(TriangleHit::kNone));
+        if (b.inARow) return storeFlags(found, hidden + b.ray[0]);
+        for (std::uint32_t i = 0; i < b.count; ++i) hidden[b.ray[i]] = found >> i & 1;
     }
 
     // ---- steps
@@ -254,65 +259,160 @@ private:
     [[gnu::always_inline]] void leafStep(std::uint32_t slot, Lists& to) {
         RayBlock& b = blocks_[slot / W];
         const std::uint32_t i = slot % W;
-        const unsigned candidates = leafCandidates(b, i);
-        std::uint32_t* const refs = refs_ + slot * stride_;
-        if (candidates != 0) [[unlikely]]
-            test(b, i, slot, candidates);
-        const std::uint32_t top = b.stackTop[i] - 1;
-        b.stackTop[i] = top;
-        b.at[i] = refs[top];
-        send(slot, refs[top], to);
+        const Verdict v = leafCandidates(b, i);
+        if constexpr (Q == Query::Any) {
+            b.triangle[i] = v.certain != 0 ? 0 : b.triangle[i];
+            b.stackTop[i] = v.certain != 0 ? 1 : b.stackTop[i];
+        }
+        const unsigned candidates = v.certain != 0 ? 0 : v.candidates;
+        if (candidates != 0) [[unlikely]] {
+            waiting_[waitingCount_++] = {slot, candidates};
+            waitingPairs_ += static_cast<std::uint32_t>(std::popcount(candidates));
+            return;
+        }
+        pop(slot, to);
     }
 
-    // Triangles of the leaf that may be better than what the ray has. ShearedTriangle of
-    // accel/triangle.h for W triangles: edge functions with the same bits, then whether depth T/det
-    // is certain to be out of range. Error of T and of the exact plane's, times |det|: with b the
-    // size of the triangle across the ray and M its depth, below 68 u b (M + 2b)^2, u = 2^-24: 36
-    // for the arithmetic here, 24 for corners that are rounded to float relative to the ray, 8 for
-    // its rounded slopes.
-    unsigned leafCandidates(const RayBlock& b, std::uint32_t i) const {
+    [[gnu::always_inline]] void pop(std::uint32_t slot, Lists& to) {
+        RayBlock& b = blocks_[slot / W];
+        const std::uint32_t i = slot % W, top = b.stackTop[i] - 1;
+        const WideRef ref = refs_[slot * stride_ + top];
+        b.stackTop[i] = top;
+        b.at[i] = ref;
+        send(slot, ref, to);
+    }
+
+    // ShearedTriangle of accel/triangle.h for the triangles of a leaf: they share their points.
+    Verdict leafCandidates(const RayBlock& b, std::uint32_t i) const {
         const std::byte* const p = base_ + byteOffset(b.at[i]);
         const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(p);
         const Floats x = Floats::load(p + b.axis[0][i]) - Floats(b.origin[0][i]);
         const Floats y = Floats::load(p + b.axis[1][i]) - Floats(b.origin[1][i]);
         const Floats z = Floats::load(p + b.axis[2][i]) - Floats(b.origin[2][i]);
         const Floats xs = x - Floats(b.shearX[i]) * z, ys = y - Floats(b.shearY[i]) * z;
-        const Ints i0 = Ints::bytes(leaf.corner[0]), i1 = Ints::bytes(leaf.corner[1]),
-                   i2 = Ints::bytes(leaf.corner[2]);
-        const Floats x0 = permute(xs, i0), x1 = permute(xs, i1), x2 = permute(xs, i2);
-        const Floats y0 = permute(ys, i0), y1 = permute(ys, i1), y2 = permute(ys, i2);
-        const Floats z0 = permute(z, i0), z1 = permute(z, i1), z2 = permute(z, i2);
-        const Floats U = x2 * y1 - y2 * x1, V = x0 * y2 - y0 * x2, R = x1 * y0 - y1 * x0;
-        const Floats zero(0.0f);
-        const Mask inside =
-            (zero <= min(min(U, V), R)) | (max(max(U, V), R) <= zero); // NaN never passes later
-        const Floats det = (U + V) + R, T = (U * z0 + V * z1) + R * z2;
-        const Floats depth = flipSign(flipSign(T, det), Floats(b.sign[i]));
-        const float size = 2 * std::bit_cast<float>(static_cast<std::uint32_t>(leaf.reach) << 16) +
-                           b.lateralError[i];
-        const Floats m = max(max(abs(z0), abs(z1)), abs(z2)) + Floats(2 * size);
-        const Floats noise = (Floats(68 * 0x1p-24f * size) * m) * m;
-        const Floats limit = Floats(b.zCut[i] * 1.000001f) * abs(det) + noise;
-        const Mask wanted = notGreater(depth, limit) & notGreater(zero - noise, depth);
-        return bits(inside & wanted) & ((1u << leaf.count) - 1);
+        Sheared s;
+        for (int c = 0; c < 3; ++c) {
+            const Ints at = Ints::bytes(leaf.corner[c]);
+            s.x[c] = permute(xs, at), s.y[c] = permute(ys, at), s.z[c] = permute(z, at);
+        }
+        Verdict v = judge<Q>(s, Floats(b.sign[i]), Floats(b.zCut[i]));
+        const unsigned all = (1u << leaf.count) - 1;
+        v.candidates &= all;
+        v.certain &= b.below[i] == kInfinityF ? all : 0;
+        return v;
+    }
+    // ---- canonical keys
+
+    void settleWaiting(Lists& to) {
+        std::uint32_t n = 0;
+        for (std::uint32_t w = 0; w < waitingCount_; ++w) {
+            const auto [slot, candidates] = waiting_[w];
+            const WideRef leaf = blocks_[slot / W].at[slot % W];
+            for (unsigned left = candidates; left != 0; left &= left - 1)
+                pairs_[n++] = {slot, leaf, static_cast<std::uint32_t>(std::countr_zero(left))};
+        }
+        takePairs(n);
+        for (std::uint32_t w = 0; w < waitingCount_; ++w) pop(waiting_[w].slot, to);
+        waitingCount_ = waitingPairs_ = 0;
     }
 
-    [[gnu::noinline]] void test(RayBlock& b, std::uint32_t i, std::uint32_t slot,
-                                unsigned candidates) {
-        const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(base_ + byteOffset(b.at[i]));
-        const Vec3 org = rays_.org[b.ray[i]], dir = rays_.dir[b.ray[i]];
-        RayBest best{b.key[i], b.below[i], b.triangle[i]};
+    // Improves the hits of the rays of pairs_[0 .. n - 1].
+    [[gnu::noinline]] void takePairs(std::uint32_t n) {
+        for (std::uint32_t first = 0; first < n; first += W) {
+            const std::uint32_t count = std::min<std::uint32_t>(n - first, W);
+            PairColumns columns;
+            for (std::uint32_t i = 0; i < W; ++i) {
+                const Pair& p = pairs_[first + (i < count ? i : 0)];
+                columns.set(i, blocks_[p.slot / W], p.slot % W, leafAt(p.leaf), p.triangle);
+            }
+            unsigned undecided = 0;
+            alignas(64) float key[W];
+            canonicalKeys(columns, undecided).store(key);
+            for (undecided &= (1u << count) - 1; undecided != 0; undecided &= undecided - 1) {
+                const auto i = static_cast<std::uint32_t>(std::countr_zero(undecided));
+                const Pair& p = pairs_[first + i];
+                const std::uint32_t ray = blocks_[p.slot / W].ray[p.slot % W];
+                key[i] =
+                    exactKey(mesh_, rays_.org[ray], rays_.dir[ray], leafAt(p.leaf), p.triangle);
+            }
+            for (std::uint32_t i = 0; i < count; ++i) improve(pairs_[first + i], key[i]);
+        }
+    }
+
+    void improve(const Pair& p, float key) {
+        RayBlock& b = blocks_[p.slot / W];
+        const std::uint32_t i = p.slot % W;
+        if (!(key > 0 && key < b.below[i]) || key < b.key[i]) return;
         if constexpr (Q == Query::Any) {
-            if (!hits(mesh_, org, dir, leaf, candidates, best)) return;
+            if (key == b.key[i]) return;
             b.triangle[i] = 0;
             b.stackTop[i] = 1;
         } else {
-            if (!improve(mesh_, org, dir, leaf, candidates, best)) return;
-            b.key[i] = best.key;
-            b.triangle[i] = best.triangle;
-            b.zCut[i] = ::min(depthCut(best.key), b.zCut[i]);
-            dropHidden(slot, b, i);
+            const std::uint32_t id = mesh_.tree.triangleIds[leafAt(p.leaf).first + p.triangle];
+            if (key == b.key[i] && id > b.triangle[i]) return;
+            b.key[i] = key;
+            b.triangle[i] = id;
+            b.bestLeaf[i] = p.leaf, b.bestLane[i] = p.triangle;
+            b.zCut[i] = ::min(depthCut(key), b.zCut[i]);
+            dropHidden(p.slot, b, i);
         }
+    }
+
+    // ---- trees of a few leaves
+
+    // W rays at once against one triangle after the other.
+    template <class Results> void runInLeaves(const Results& results) {
+        RayBlock& b = blocks_[0];
+        while (next_ < order_.size()) {
+            const unsigned lanes = takeRays(b);
+            Ints(0u).store(b.stackTop); // the queue's stacks are not used
+            for (std::size_t i = 0; i < children_; ++i)
+                if (const unsigned entered = raysEntering(b, root_, i, lanes); entered != 0)
+                    testLeaf(b, root_.child[i], entered);
+            finish(b, results);
+        }
+    }
+
+    void testLeaf(RayBlock& b, WideRef ref, unsigned lanes) {
+        const WideLeaf<W>& leaf = leafAt(ref);
+        alignas(64) float x[W][W], y[W][W], z[W][W]; // of a point, by ray
+        int points = 0;
+        for (int c = 0; c < 3; ++c)
+            for (int j = 0; j < leaf.count; ++j) points = std::max(points, leaf.corner[c][j] + 1);
+        const Mask alongZ = Ints::load(b.axis[2]) == Ints(2 * W * 4);
+        const Mask alongY = Ints::load(b.axis[2]) == Ints(W * 4);
+        const auto pick = [&](const float* p, int ifX, int ifY, int ifZ) {
+            const auto at = [&](int axis) { return Floats(p[axis * W]); };
+            return select(alongZ, at(ifZ), select(alongY, at(ifY), at(ifX)));
+        };
+        for (int i = 0; i < points; ++i) {
+            const float* const p = &leaf.point[0][i];
+            const Floats depth = pick(p, 0, 1, 2) - Floats::load(b.origin[2]);
+            const Floats px = pick(p, 1, 2, 0) - Floats::load(b.origin[0]);
+            const Floats py = pick(p, 2, 0, 1) - Floats::load(b.origin[1]);
+            depth.store(z[i]);
+            (px - Floats::load(b.shearX) * depth).store(x[i]);
+            (py - Floats::load(b.shearY) * depth).store(y[i]);
+        }
+        const Floats sign = Floats::load(b.sign), zCut = Floats::load(b.zCut);
+        const unsigned endless = bits(Floats::load(b.below) == Floats(kInfinityF));
+        std::uint32_t n = 0;
+        unsigned hidden = 0;
+        for (std::uint32_t j = 0; j < leaf.count; ++j) {
+            Sheared s;
+            for (int c = 0; c < 3; ++c) {
+                const std::uint8_t i = leaf.corner[c][j];
+                s.x[c] = Floats::load(x[i]), s.y[c] = Floats::load(y[i]);
+                s.z[c] = Floats::load(z[i]);
+            }
+            const Verdict v = judge<Q>(s, sign, zCut);
+            hidden |= v.certain & endless & lanes;
+            for (unsigned left = v.candidates & lanes & ~hidden; left != 0; left &= left - 1)
+                pairs_[n++] = {static_cast<std::uint32_t>(std::countr_zero(left)), ref, j};
+        }
+        if constexpr (Q == Query::Any)
+            select(maskOf(hidden), Ints(0u), Ints::load(b.triangle)).store(b.triangle);
+        if (n != 0) takePairs(n);
     }
 
     // Takes out of the stack what starts behind the best hit, so that no pop has to look.
@@ -332,16 +432,21 @@ private:
     const RaySpan& rays_;
     std::span<const std::uint32_t> order_;
     const std::byte* base_;
-    std::size_t stride_, next_ = 0;
+    const WideNode<W>& root_;
+    std::size_t stride_, next_ = 0, children_ = 0; // of the root
     RayBlock* blocks_;
     std::uint32_t *refs_, *entries_; // a stack per slot; entries only for nearest hits
     std::uint32_t live_ = 0;
     // One place more than rays: send() writes to lists that are full.
     std::uint32_t lists_[5][kSlots + 1];
+    Waiting waiting_[kSlots];
+    std::uint32_t waitingCount_ = 0, waitingPairs_ = 0;
+    std::uint32_t asked_ = 0, missed_ = 0; // of enterTree()
+    Pair pairs_[kSlots * W];
 };
 
 void closest(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order,
-             TriangleHit* hits) {
+             const HitLists& hits) {
     Queue<Query::Closest>(mesh, rays, order).run(hits);
 }
 void any(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order,

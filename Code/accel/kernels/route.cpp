@@ -74,26 +74,31 @@ private:
     }
 };
 
-template <class Result>
-void route(void (*queue)(const WideMesh&, const RaySpan&, std::span<const std::uint32_t>, Result*),
-           void (*bundle)(const WideMesh&, const RaySpan&, std::span<const std::uint32_t>, Result*),
-           const WideMesh& mesh, const RaySpan& rays, std::span<Result> results) {
+template <class KernelFn, class Results>
+void route(KernelFn queue, KernelFn bundle, const WideMesh& mesh, const RaySpan& rays,
+           const Results& results) {
     thread_local Groups groups;
     groups.sort(rays);
     for (std::size_t g = 0; g < groups.used; ++g)
         if (const auto& list = groups.fromPoint[g].rays; !list.empty())
-            bundle(mesh, rays, list, results.data());
-    if (!groups.rest.empty()) queue(mesh, rays, groups.rest, results.data());
+            bundle(mesh, rays, list, results);
+    if (!groups.rest.empty()) queue(mesh, rays, groups.rest, results);
 }
 
 } // namespace
 
 void closestHits(const Kernel& kernel, const WideMesh& mesh, const RaySpan& rays,
                  std::span<TriangleHit> hits) {
-    route(kernel.closest, kernel.closestFromPoint, mesh, rays, hits);
+    route(kernel.closest, kernel.closestFromPoint, mesh, rays, HitLists{.brief = hits.data()});
+}
+
+void closestHits(const Kernel& kernel, const WideMesh& mesh, const RaySpan& rays,
+                 std::uint32_t number, std::span<Hit> hits) {
+    route(kernel.closest, kernel.closestFromPoint, mesh, rays,
+          HitLists{.whole = hits.data(), .shape = number});
 }
 
 void anyHits(const Kernel& kernel, const WideMesh& mesh, const RaySpan& rays,
              std::span<std::uint8_t> hidden) {
-    route(kernel.any, kernel.anyFromPoint, mesh, rays, hidden);
+    route(kernel.any, kernel.anyFromPoint, mesh, rays, hidden.data());
 }

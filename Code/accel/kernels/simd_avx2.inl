@@ -123,6 +123,25 @@ inline void storePairs(Floats a, Ints b, float* to) {
     _mm256_storeu_ps(to + 8, _mm256_permute2f128_ps(low, high, 0x31));
 }
 
+inline void storeRows(Floats a, Floats b, Floats c, Ints d, Ints e, float* to) {
+    const __m256 other = _mm256_castsi256_ps(d.v);
+    const __m256d abLow = _mm256_castps_pd(_mm256_unpacklo_ps(a.v, b.v));
+    const __m256d abHigh = _mm256_castps_pd(_mm256_unpackhi_ps(a.v, b.v));
+    const __m256d cdLow = _mm256_castps_pd(_mm256_unpacklo_ps(c.v, other));
+    const __m256d cdHigh = _mm256_castps_pd(_mm256_unpackhi_ps(c.v, other));
+    const __m256 rows[4] = {_mm256_castpd_ps(_mm256_unpacklo_pd(abLow, cdLow)), // rows 0 and 4
+                            _mm256_castpd_ps(_mm256_unpackhi_pd(abLow, cdLow)),
+                            _mm256_castpd_ps(_mm256_unpacklo_pd(abHigh, cdHigh)),
+                            _mm256_castpd_ps(_mm256_unpackhi_pd(abHigh, cdHigh))};
+    alignas(32) float fifth[W];
+    Floats(_mm256_castsi256_ps(e.v)).store(fifth);
+    for (int i = 0; i < 4; ++i) {
+        _mm_storeu_ps(to + 5 * i, _mm256_castps256_ps128(rows[i]));
+        _mm_storeu_ps(to + 5 * (i + 4), _mm256_extractf128_ps(rows[i], 1));
+    }
+    for (int i = 0; i < W; ++i) to[5 * i + 4] = fifth[i];
+}
+
 // AVX2 has no compress: a table says for every mask which lane goes where.
 inline __m256i chosenLanes(unsigned chosen) {
     return _mm256_cvtepu8_epi32(

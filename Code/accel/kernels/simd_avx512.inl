@@ -116,6 +116,26 @@ inline void storePairs(Floats a, Ints b, float* to) {
     _mm512_storeu_ps(to + 16, _mm512_permutex2var_ps(a.v, high, other));
 }
 
+// W rows (a, b, c, d, e) that follow each other. Register r starts with element 16 r, which is in
+// row 16 r / 5 and column r.
+inline void storeRows(Floats a, Floats b, Floats c, Ints d, Ints e, float* to) {
+    alignas(64) static constexpr auto kRow = [] {
+        std::array<std::array<std::uint32_t, W>, 5> rows{};
+        for (std::uint32_t i = 0; i < 5 * W; ++i) rows[i / W][i % W] = i / 5;
+        return rows;
+    }();
+    constexpr __mmask16 kEveryFifth[5] = {0x8421, 0x0842, 0x1084, 0x2108, 0x4210}; // from lane i
+    const __m512 column[5] = {a.v, b.v, c.v, _mm512_castsi512_ps(d.v), _mm512_castsi512_ps(e.v)};
+    for (std::size_t r = 0; r < 5; ++r) {
+        const __m512i row = _mm512_load_si512(kRow[r].data());
+        __m512 elements = _mm512_permutexvar_ps(row, column[r]);
+        for (std::size_t i = 1; i < 5; ++i)
+            elements =
+                _mm512_mask_permutexvar_ps(elements, kEveryFifth[i], row, column[(r + i) % 5]);
+        _mm512_storeu_ps(to + r * W, elements);
+    }
+}
+
 // Writes the chosen lanes one after the other; what follows them is overwritten too.
 inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_t* to) {
     _mm512_storeu_si512(

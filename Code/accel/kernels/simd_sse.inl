@@ -185,6 +185,21 @@ inline void storePairs(Floats a, Ints b, float* to) {
     _mm_storeu_ps(to + 12, _mm_unpackhi_ps(a.hi, hi));
 }
 
+inline void storeRows(Floats a, Floats b, Floats c, Ints d, Ints e, float* to) {
+    const auto four = [](__m128 x, __m128 y, __m128 z, __m128 w, __m128 last, float* rows) {
+        _MM_TRANSPOSE4_PS(x, y, z, w);
+        alignas(16) float fifth[4];
+        _mm_store_ps(fifth, last);
+        const __m128 all[4] = {x, y, z, w};
+        for (int i = 0; i < 4; ++i) {
+            _mm_storeu_ps(rows + 5 * i, all[i]);
+            rows[5 * i + 4] = fifth[i];
+        }
+    };
+    four(a.lo, b.lo, c.lo, _mm_castsi128_ps(d.lo), _mm_castsi128_ps(e.lo), to);
+    four(a.hi, b.hi, c.hi, _mm_castsi128_ps(d.hi), _mm_castsi128_ps(e.hi), to + 20);
+}
+
 inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_t* to) {
     for (; chosen != 0; chosen &= chosen - 1) *to++ = from[__builtin_ctz(chosen)];
 }

@@ -1,0 +1,116 @@
+// The two decisions about a ray and a triangle that the queue takes in vectors: which pairs are
+// worth the canonical key, and that key. Lanes are triangles of a leaf for one ray, or rays for one
+// triangle, or pairs of both.
+// Included by the file of each instruction set inside its namespace, in front of queue.inl.
+
+// Corners in the ray's frame: lateral distances from the ray as ShearedTriangle has them, and
+// depths without the sign of the direction.
+struct Sheared {
+    Floats x[3], y[3], z[3];
+};
+
+struct Verdict {
+    unsigned candidates; // may be hits within the ray's range
+    unsigned certain;    // are some: of these only whether, not where
+};
+
+// Edge functions with the bits of ShearedTriangle, then whether depth T/det is certain to be out of
+// range. How far T may be off z det, z the canonical depth of a hit, with b the largest lateral
+// distance of a corner from the ray, M the largest depth and u = 2^-24: a lateral distance is off
+// by u (4M + 2b) at most (corner relative to the ray, slope, product, difference), an edge function
+// by 4b times that and 3u b^2, which is u b (16M + 11b); T sums three of them times a depth, with
+// products and sums of its own below 24u b^2 M, and z det three more with 12u b^2 M: together below
+// u b M (96M + 102b).
+template <Query Q>
+[[gnu::always_inline]] inline Verdict judge(const Sheared& s, Floats sign, Floats zCut) {
+    const Floats zero(0.0f);
+    const Floats U = s.x[2] * s.y[1] - s.y[2] * s.x[1], V = s.x[0] * s.y[2] - s.y[0] * s.x[2],
+                 R = s.x[1] * s.y[0] - s.y[1] * s.x[0];
+    const Floats least = min(min(U, V), R), most = max(max(U, V), R);
+    const Mask inside = (zero <= least) | (most <= zero); // NaN never passes later
+    const Floats det = (U + V) + R, T = (U * s.z[0] + V * s.z[1]) + R * s.z[2];
+    const Floats depth = flipSign(flipSign(T, det), sign);
+    const auto largest = [](const Floats(&v)[3]) {
+        return max(max(abs(v[0]), abs(v[1])), abs(v[2]));
+    };
+    const Floats b = max(largest(s.x), largest(s.y)), M = largest(s.z);
+    const Floats noise = (Floats(128 * 0x1p-24f) * b) * (M * (M + b));
+    const Floats end = zCut * abs(det);
+    const Mask wanted =
+        notGreater(depth, end * Floats(1.000001f) + noise) & notGreater(zero - noise, depth);
+    Verdict v{bits(inside & wanted), 0};
+    if constexpr (Q == Query::Any) {
+        // zCut is 8 units of rounding more than the end of the ray.
+        const Mask in = ((zero < least) | (most < zero)) & (noise < depth) &
+                        (depth + noise < end * Floats(0.999998f));
+        v.certain = bits(in);
+    }
+    return v;
+}
+
+// Pairs of a ray and a triangle, one to a lane.
+struct alignas(64) PairColumns {
+    float point[3][3][W]; // corner, axis in the ray's order
+    float origin[3][W], sign[W], shearX[W], shearY[W], dirX[W], dirY[W], dz[W], lateralError[W];
+
+    void set(std::uint32_t to, const RayBlock& b, std::uint32_t i, const WideLeaf<W>& leaf,
+             std::uint32_t triangle) {
+        const std::byte* const p = reinterpret_cast<const std::byte*>(&leaf);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const auto* const row = reinterpret_cast<const float*>(p + b.axis[axis][i]);
+            for (std::size_t c = 0; c < 3; ++c) point[c][axis][to] = row[leaf.corner[c][triangle]];
+            origin[axis][to] = b.origin[axis][i];
+        }
+        sign[to] = b.sign[i];
+        shearX[to] = b.shearX[i], shearY[to] = b.shearY[i];
+        dirX[to] = b.dirX[i], dirY[to] = b.dirY[i], dz[to] = b.dz[i];
+        lateralError[to] = b.lateralError[i];
+    }
+};
+
+// canonicalKey() of accel/triangle.h, operation by operation. `undecided` gets the lanes whose
+// edges have to be asked in double, and those that the canonical lateral clamp may change: a key
+// that is inside the triangle's box, padded by a quarter of the canonical pad, is none of these.
+inline Floats canonicalKeys(const PairColumns& p, unsigned& undecided) {
+    const Floats zero(0.0f), one(1.0f), sign = Floats::load(p.sign);
+    const Floats Sx = Floats::load(p.shearX) * sign, Sy = Floats::load(p.shearY) * sign;
+    const auto rounded = [&](std::size_t c, std::size_t axis) {
+        return Floats::load(p.point[c][axis]) - Floats::load(p.origin[axis]);
+    };
+    const Floats vx[3] = {rounded(0, 0), rounded(1, 0), rounded(2, 0)};
+    const Floats vy[3] = {rounded(0, 1), rounded(1, 1), rounded(2, 1)};
+    const Floats vz[3] = {rounded(0, 2) * sign, rounded(1, 2) * sign, rounded(2, 2) * sign};
+    Floats x[3], y[3];
+    for (int c = 0; c < 3; ++c) x[c] = vx[c] - Sx * vz[c], y[c] = vy[c] - Sy * vz[c];
+    const Floats U = x[2] * y[1] - y[2] * x[1], V = x[0] * y[2] - y[0] * x[2],
+                 R = x[1] * y[0] - y[1] * x[0];
+    const Mask inside =
+        ((U >= zero) & (V >= zero) & (R >= zero)) | ((U <= zero) & (V <= zero) & (R <= zero));
+    const auto least = [](const Floats(&v)[3]) { return min(min(v[0], v[1]), v[2]); };
+    const auto most = [](const Floats(&v)[3]) { return max(max(v[0], v[1]), v[2]); };
+    const Floats zMin = least(vz), zMax = most(vz);
+
+    // planeKey()
+    const auto exact = [&](std::size_t c, std::size_t axis) {
+        return Doubles(Floats::load(p.point[c][axis])) - Doubles(Floats::load(p.origin[axis]));
+    };
+    const Doubles exactSign(sign);
+    const Doubles x0 = exact(0, 0), y0 = exact(0, 1), z0 = exact(0, 2) * exactSign;
+    const Doubles ax = exact(1, 0) - x0, ay = exact(1, 1) - y0, az = exact(1, 2) * exactSign - z0;
+    const Doubles bx = exact(2, 0) - x0, by = exact(2, 1) - y0, bz = exact(2, 2) * exactSign - z0;
+    const Doubles nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
+    const Doubles dz(Floats::load(p.dz));
+    const Doubles along =
+        nx * Doubles(Floats::load(p.dirX)) + ny * Doubles(Floats::load(p.dirY)) + nz * dz;
+    const Floats plane = (along / ((nx * x0 + ny * y0 + nz * z0) * dz)).toFloats();
+
+    const Mask met = (zMax > zero) & ((zMin > zero) | (plane > zero));
+    const Floats nearest = select(zMin > zero, one / zMin, Floats(kInfinityF));
+    const Floats key = min(max(plane, one / zMax), nearest);
+    const Floats pad = Floats::load(p.lateralError) + Floats::load(p.lateralError);
+    const Mask inBox = ((least(vx) - pad) * key <= Sx) & (Sx <= (most(vx) + pad) * key) &
+                       ((least(vy) - pad) * key <= Sy) & (Sy <= (most(vy) + pad) * key);
+    const unsigned zeros = bits((U == zero) | (V == zero) | (R == zero));
+    undecided = bits(inside & met) & (zeros | ~bits(inBox));
+    return select(inside & met, key, zero);
+}
