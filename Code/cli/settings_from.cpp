@@ -108,7 +108,6 @@ void setErrorGoal(RenderSettings& settings, const Options& options) {
                       " or more: fewer samples show no error"));
     // A .pfm has no white that ends its values.
     if (lowerExtension(options.output) != ".pfm") goal.white = 1;
-    if (std::getenv("TCLIP")) goal.white = 1;
     picture.samplesPerPixel = ErrorGoal::kFirstSamples;
     settings.errorGoal = goal;
 }
