@@ -37,6 +37,18 @@ void merge(Bins& to, const Bins& from, std::uint32_t used) {
         }
 }
 
+// Neighbours in a range that one job divides; `left` of them go to the left.
+struct Part {
+    std::uint32_t count, left;
+};
+
+std::uint32_t leftOf(const BinSplit& split, const Bins& bins) {
+    std::uint32_t sum = 0;
+    for (std::uint32_t b = 0; split.axis >= 0 && b < static_cast<std::uint32_t>(split.cut); ++b)
+        sum += bins.count[b][static_cast<std::size_t>(split.axis)];
+    return sum;
+}
+
 class WideBuilder {
 public:
     WideBuilder(const BuildCode& code, int width, std::span<const Vec3> points,
@@ -55,8 +67,8 @@ public:
         in_.ids = tree.triangleIds.data();
         lists_.prims.resize(count_), lists_.spare.resize(count_);
         top_.resize(2); // the root, and a place that keeps pairs of children together
-        std::vector<BuildRange> level{root()};
-        top_[0] = leafNode(level[0].box);
+        std::vector<Open> level{root()};
+        top_[0] = leafNode(level[0].range.box);
         while (!level.empty()) level = divideLevel(level);
         growSubtrees();
         lists_.spare = {}; // 32 bytes a triangle, before the tree takes its place
@@ -68,13 +80,25 @@ public:
 private:
     std::size_t workers() const { return static_cast<std::size_t>(pool_.threads()); }
 
-    // One thread divides a range at once; several need to know first what goes where.
+    // A range with its split, in the parts in which it has been looked at.
+    struct Open {
+        BuildRange range;
+        std::vector<Part> parts;
+        void add(Part part) {
+            if (!parts.empty() && parts.back().count + part.count <= kJobSize)
+                parts.back().count += part.count, parts.back().left += part.left;
+            else
+                parts.push_back(part);
+        }
+    };
+
+    // One thread divides a range at once.
     std::uint32_t jobSize() const { return pool_.threads() == 1 ? count_ : kJobSize; }
     std::size_t jobCount(std::uint32_t count) const {
         return (std::size_t{count} + jobSize() - 1) / jobSize();
     }
 
-    BuildRange root() {
+    Open root() {
         const std::size_t jobs = jobCount(count_);
         struct Bounded {
             PrimBox box, centres;
@@ -97,9 +121,13 @@ private:
         pool_.run(jobs, [&](std::size_t job, int) {
             code_.fillBins(r.grid, lists_.of(r) + job * jobSize(), sizeOf(job), bins[job]);
         });
-        for (std::size_t job = 1; job < jobs; ++job) merge(bins[0], bins[job], r.grid.bins());
-        code_.chooseSplit(r, bins[0]);
-        return r;
+        Bins all = bins[0];
+        for (std::size_t job = 1; job < jobs; ++job) merge(all, bins[job], r.grid.bins());
+        code_.chooseSplit(r, all);
+        Open open{r, {}};
+        for (std::size_t job = 0; job < jobs; ++job)
+            open.parts.push_back({sizeOf(job), leftOf(r.split, bins[job])});
+        return open;
     }
 
     struct Division {
@@ -109,73 +137,70 @@ private:
     };
     struct Job {
         std::size_t division;
-        std::uint32_t first, count; // within the range
-        std::uint32_t left, right;  // how many have gone there before
+        Part part;
+        std::uint32_t first;       // within the range
+        std::uint32_t left, right; // how many go there before
         Bins bins[2];
     };
 
     // Returns what is to be divided further. The rest becomes subtrees.
-    std::vector<BuildRange> divideLevel(const std::vector<BuildRange>& level) {
+    std::vector<Open> divideLevel(const std::vector<Open>& level) {
         std::vector<Division> divisions;
         std::vector<Job> jobs;
-        for (const BuildRange& r : level) {
+        for (const auto& [r, parts] : level) {
             if (r.count <= subtreeSize(count_) || r.split.axis < 0 || r.depth >= kTopDepth) {
                 ranges_.push_back(r);
                 continue;
             }
             const auto division = divisions.size();
-            divisions.push_back({&r, {}, {}, jobs.size(), jobCount(r.count)});
+            divisions.push_back({&r, {}, {}, jobs.size(), parts.size()});
             code_.makeChildren(r, divisions.back().left, divisions.back().right);
-            for (std::uint32_t first = 0; first < r.count; first += jobSize()) {
+            std::uint32_t first = 0, left = 0;
+            for (const Part& part : parts) {
                 Job& job = jobs.emplace_back();
-                job.division = division;
-                job.first = first, job.count = std::min(jobSize(), r.count - first);
-                job.left = job.right = 0;
+                job.division = division, job.part = part;
+                job.first = first, job.left = left, job.right = first - left;
+                first += part.count, left += part.left;
             }
         }
-        findPlaces(divisions, jobs);
         pool_.run(jobs.size(), [&](std::size_t i, int) {
             Job& job = jobs[i];
             const Division& d = divisions[job.division];
             const BinGrid grids[2] = {d.left.grid, d.right.grid};
             PrimBox* const to = lists_.of(*d.range, true);
-            code_.divide(in_, *d.range, grids, lists_.of(*d.range) + job.first, job.count,
+            code_.divide(in_, *d.range, grids, lists_.of(*d.range) + job.first, job.part.count,
                          to + job.left, to + d.range->count - 1 - job.right, job.bins);
         });
-        std::vector<BuildRange> next;
+        std::vector<Open> next;
         for (Division& d : divisions) {
-            auto& bins = jobs[d.firstJob].bins;
+            const std::span<const Job> mine(&jobs[d.firstJob], d.jobs);
             BuildRange* const kids[2] = {&d.left, &d.right};
             const auto child = static_cast<std::uint32_t>(top_.size());
             top_[d.range->node].left = child;
             for (std::size_t side = 0; side < 2; ++side) {
                 BuildRange& kid = *kids[side];
-                for (std::size_t job = 1; job < d.jobs; ++job)
-                    merge(bins[side], jobs[d.firstJob + job].bins[side], kid.grid.bins());
-                code_.chooseSplit(kid, bins[side]);
+                Bins all = mine[0].bins[side];
+                for (const Job& job : mine.subspan(1)) merge(all, job.bins[side], kid.grid.bins());
+                code_.chooseSplit(kid, all);
                 kid.node = child + static_cast<std::uint32_t>(side);
                 top_.push_back(leafNode(kid.box));
-                next.push_back(kid);
+                next.push_back(open(kid, mine, side));
             }
         }
         return next;
     }
 
-    // How many go to each side in the jobs before each one of its range.
-    void findPlaces(const std::vector<Division>& divisions, std::vector<Job>& jobs) {
-        if (jobs.size() == divisions.size()) return;
-        pool_.run(jobs.size(), [&](std::size_t i, int) {
-            const BuildRange& r = *divisions[jobs[i].division].range;
-            jobs[i].left = code_.countLeft(r, lists_.of(r) + jobs[i].first, jobs[i].count);
-        });
-        for (const Division& d : divisions) {
-            std::uint32_t left = 0, right = 0;
-            for (std::size_t i = d.firstJob; i < d.firstJob + d.jobs; ++i) {
-                const std::uint32_t here = jobs[i].left;
-                jobs[i].left = left, jobs[i].right = right;
-                left += here, right += jobs[i].count - here;
-            }
+    // What each job has put into a child lies together: on the right in the opposite order. Its
+    // bins tell how many of them will go to the left.
+    Open open(const BuildRange& kid, std::span<const Job> jobs, std::size_t side) const {
+        Open out{kid, {}};
+        for (std::size_t i = 0; i < jobs.size(); ++i) {
+            const Job& job = jobs[side == 0 ? i : jobs.size() - 1 - i];
+            const Part& part = job.part;
+            out.add({side == 0 ? part.left : part.count - part.left,
+                     leftOf(kid.split, job.bins[side])});
         }
+        return out;
     }
 
     void growSubtrees() {

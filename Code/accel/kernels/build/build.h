@@ -95,7 +95,6 @@ struct BuildCode {
     void (*fillBins)(const BinGrid&, const PrimBox* from, std::uint32_t count, Bins&);
     void (*chooseSplit)(BuildRange&, const Bins&);
     void (*makeChildren)(const BuildRange&, BuildRange& left, BuildRange& right);
-    std::uint32_t (*countLeft)(const BuildRange&, const PrimBox* from, std::uint32_t count);
     void (*divide)(const BuildInput&, const BuildRange&, const BinGrid* grids, const PrimBox* from,
                    std::uint32_t count, PrimBox* left, PrimBox* right, Bins (&bins)[2]);
     void (*growSubtree8)(const BuildInput&, const BuildRange&, Grown&);

@@ -14,7 +14,7 @@ using namespace kernels::build;
 #define BUILD_CODE(isa, supported)                                                                 \
     {                                                                                              \
 #isa, supported, isa::makePrims, isa::gridOver, isa::fillBins, isa::chooseSplit,           \
-            isa::makeChildren, isa::countLeft, isa::divide, isa::growSubtree8, isa::growSubtree16  \
+            isa::makeChildren, isa::divide, isa::growSubtree8, isa::growSubtree16                  \
     }
 constexpr BuildCode kTable[] = {BUILD_CODE(avx2, hasAvx2), BUILD_CODE(sse, hasSse)};
 

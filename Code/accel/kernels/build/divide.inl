@@ -29,13 +29,6 @@ inline bool goesLeft(const BuildRange& r, __m128 cut, Box p) {
     return static_cast<unsigned>(_mm_movemask_ps(below)) >> r.split.axis & 1;
 }
 
-std::uint32_t countLeft(const BuildRange& r, const PrimBox* from, std::uint32_t count) {
-    const __m128 cut = _mm_set1_ps(r.split.cut);
-    std::uint32_t left = 0;
-    for (std::uint32_t i = 0; i < count; ++i) left += goesLeft(r, cut, Box::load(from[i]));
-    return left;
-}
-
 // The children of a split range. Their centres are within their boxes, and on their sides of the
 // cut: close enough for bins, and known before anyone has looked at a triangle.
 void makeChildren(const BuildRange& r, BuildRange& left, BuildRange& right) {

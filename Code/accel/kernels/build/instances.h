@@ -12,7 +12,6 @@ namespace kernels::build {
     void fillBins(const BinGrid&, const PrimBox*, std::uint32_t, Bins&);                           \
     void chooseSplit(BuildRange&, const Bins&);                                                    \
     void makeChildren(const BuildRange&, BuildRange&, BuildRange&);                                \
-    std::uint32_t countLeft(const BuildRange&, const PrimBox*, std::uint32_t);                     \
     void divide(const BuildInput&, const BuildRange&, const BinGrid*, const PrimBox*,              \
                 std::uint32_t, PrimBox*, PrimBox*, Bins (&)[2]);                                   \
     void growSubtree8(const BuildInput&, const BuildRange&, Grown&);                               \
