@@ -41,8 +41,10 @@ private:
         double r = 0, g = 0, b = 0, a = 0;
     };
     Tap tap(double s, int size, Extension extension) const;
-    Channels stored(int x, int y) const;
-    double number(std::size_t index) const;
+    // Of the image's `numbers`, which are those of its depth.
+    template <class Number> Channels stored(const std::vector<Number>& numbers, int x, int y) const;
+    template <class Number>
+    Channels mixed(const std::vector<Number>& numbers, const Tap& x, const Tap& y) const;
 
     StoredImage image_;
     bool isSrgb_, isNearest_;

@@ -299,7 +299,7 @@ TEST(camera_pinhole_rays_are_rays) {
         const Camera camera(p);
         CHECK(camera.hasSharedOrigin());
         std::vector<Vec2d> places;
-        for (int k = 0; k < 16; ++k)
+        for (int k = 0; k < 15; ++k)
             places.push_back({random.uniform(-3, 67), random.uniform(-3, 51)});
         std::vector<Vec3> dir(places.size());
         std::vector<float> tMin(places.size());
