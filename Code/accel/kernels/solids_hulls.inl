@@ -66,8 +66,9 @@ protected:
             const auto meets = [&](Floats t) {
                 return (t - early > tMin_) & (t + early < best_) & (abs(fms(t, da, xa)) < tallest);
             };
-            certain = bits((meets(middle - inside) | meets(middle + inside)) &
-                           (abs(across) < Floats(0.9f) * inner) & (n > Floats(0.5f) * length_));
+            certain =
+                bits((meets(middle - inside) | meets(middle + inside)) &
+                     (abs(across) + slack < Floats(0.9f) * inner) & (n > Floats(0.5f) * length_));
         }
         return lanes;
     }
