@@ -43,6 +43,7 @@ struct Options {
 
     // Quality
     std::optional<int> samplesPerPixel, lightSamples, maxDepth;
+    std::optional<double> error; // RMSE; samplesPerPixel is then the most
     std::optional<SettingsDesc::Sampler> sampler;
     std::optional<bool> jitter;
     std::optional<std::uint32_t> seed;
@@ -52,6 +53,7 @@ struct Options {
     // Method
     IntegratorKind integrator = IntegratorKind::Whitted;
     AccelKind accel = AccelKind::Bvh;
+    TreeKind tree = TreeKind::Auto;
     std::string kernel = "auto";
     int threads = 0; // 0: all that the machine has
 

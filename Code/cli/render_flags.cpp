@@ -239,6 +239,12 @@ void addQualityFlags(std::vector<Flag>& flags, Options& o) {
                .help = "samples per pixel; powers of two are best",
                .set = [&o](const FlagValue& v) { o.samplesPerPixel = wholeLike("samples", v); },
                .example = "4"});
+    group.add({.name = "--error", .argument = "E",
+               .help = "samples where they are needed, until the estimated error of the picture "
+                       "is below E: the RMSE of its linear values, 1 is white; --spp is then the "
+                       "most per pixel (4096)",
+               .set = [&o](const FlagValue& v) { o.error = v.number(1e-6, 1e6); },
+               .example = "0.01"});
     group.add({.name = "--light-samples", .argument = "N",
                .help = "shadow rays per soft light and hit",
                .set = [&o](const FlagValue& v) { o.lightSamples = wholeLike("light_samples", v); },
@@ -277,6 +283,10 @@ void addMethodFlags(std::vector<Flag>& flags, Options& o) {
                    o.accel = v.on ? AccelKind::Bvh : AccelKind::None;
                },
                .negatable = true});
+    group.add({.name = "--tree", .argument = alternatives<TreeKind>(),
+               .help = "time for the trees of meshes; the picture is the same (auto: by its rays)",
+               .set = [&o](const FlagValue& v) { o.tree = enumValue<TreeKind>(v); },
+               .choices = namesOf<TreeKind>(), .example = "best"});
     std::vector<std::string> kernels = kernelNames();
     kernels.insert(kernels.begin(), "auto");
     group.add({.name = "--kernel", .argument = join(kernels, "|"),

@@ -13,8 +13,8 @@ namespace {
 // What a ray is doing.
 struct Slot {
     Ray ray;
-    std::uint32_t index = 0; // in the batch
-    std::optional<RaySetup> setup;
+    std::uint32_t index = 0;       // in the batch
+    std::optional<RaySetup> setup; // in the scene, from the first instance on
     // At an instance:
     std::optional<MeshInstance::Visit> visit;
     std::uint32_t number = 0;
@@ -26,20 +26,22 @@ class Query : public PlacedQuery {
 public:
     Query(const ShapeSet& set, const RaySpan& rays) : set_(set), rays_(rays) {}
 
-protected:
-    bool begin(Slot& s, std::uint32_t ray) const {
+    void start(std::uint32_t slot, std::uint32_t ray) final {
+        Slot& s = slots_[slot];
         s.index = ray;
         s.ray = rays_[ray];
-        if (!canHit(s.ray)) return false;
-        s.setup.emplace(s.ray.org, s.ray.dir, set_.extent);
-        return true;
+        s.setup.reset();
     }
+
+protected:
     // False when no tree can help.
     bool visit(Slot& s, std::uint32_t number, float zEntry) const {
         s.number = number;
+        if (!s.setup) s.setup.emplace(s.ray.org, s.ray.dir, set_.extent);
         s.tEntry = zEntry / s.setup->dz;
         s.nearest = {};
-        s.visit.emplace(*set_.shapes[number]->meshInstance(), s.ray);
+        s.visit.emplace(*set_.shapes[number]->meshInstance(), s.ray,
+                        MeshInstance::Visit::KnownSetup{&*s.setup, set_.extent});
         return s.visit->treeRay().has_value();
     }
     const Shape& shapeOf(const Slot& s) const { return *set_.shapes[s.number]; }
@@ -54,12 +56,7 @@ public:
     Closest(const ShapeSet& set, const RaySpan& rays, std::span<Hit> hits)
         : Query(set, rays), hits_(hits) {}
 
-    const RaySetup* start(std::uint32_t slot, std::uint32_t ray, float& zCut) override {
-        Slot& s = slots_[slot];
-        if (!begin(s, ray)) return nullptr;
-        zCut = depthCut(1.0f / (hits_[ray].t * s.setup->dz));
-        return &*s.setup;
-    }
+    float limit(std::uint32_t ray) const override { return hits_[ray].t; }
     bool enter(std::uint32_t slot, std::uint32_t number, float zEntry, TreeVisit& to) override {
         Slot& s = slots_[slot];
         Hit& best = hits_[s.index];
@@ -73,9 +70,10 @@ public:
         to = s.visit->inTree(s.zCut);
         return true;
     }
-    float test(std::uint32_t slot, std::uint32_t triangle) override {
+    float test(std::uint32_t slot, std::uint32_t triangle, const Vec3d& a, const Vec3d& b,
+               const Vec3d& c) override {
         Slot& s = slots_[slot];
-        s.nearest.show(s.visit->setup(), s.ray.tMin, triangle, s.visit->corners(triangle), s.zCut);
+        s.nearest.show(s.visit->setup(), s.ray.tMin, triangle, s.visit->placed(a, b, c), s.zCut);
         return s.visit->treeCut(s.zCut);
     }
     float leave(std::uint32_t slot) override {
@@ -96,25 +94,22 @@ public:
     Any(const ShapeSet& set, const RaySpan& rays, std::span<std::uint8_t> hidden)
         : Query(set, rays), hidden_(hidden) {}
 
-    const RaySetup* start(std::uint32_t slot, std::uint32_t ray, float& zCut) override {
-        Slot& s = slots_[slot];
-        if (!begin(s, ray)) return nullptr;
-        s.zCut = zCut = depthCut(1.0f / (s.ray.tMax * s.setup->dz));
-        return &*s.setup;
-    }
+    float limit(std::uint32_t ray) const override { return rays_.tMax[ray]; }
     bool enter(std::uint32_t slot, std::uint32_t number, float zEntry, TreeVisit& to) override {
         Slot& s = slots_[slot];
-        if (set_.shadows[number] != ShapeSet::Shadow::Opaque) return false;
-        if (!visit(s, number, zEntry)) {
+        const bool hasTree = visit(s, number, zEntry);
+        s.zCut = depthCut(1.0f / (s.ray.tMax * s.setup->dz));
+        if (!hasTree) {
             hidden_[s.index] = shapeOf(s).occludes(s.ray);
             return false;
         }
         to = s.visit->inTree(rangeOf(s).farthest());
         return true;
     }
-    float test(std::uint32_t slot, std::uint32_t triangle) override {
+    float test(std::uint32_t slot, std::uint32_t, const Vec3d& a, const Vec3d& b,
+               const Vec3d& c) override {
         Slot& s = slots_[slot];
-        const float key = canonicalKey(s.visit->setup(), s.visit->corners(triangle));
+        const float key = canonicalKey(s.visit->setup(), s.visit->placed(a, b, c));
         if (!rangeOf(s).contains(key)) return s.visit->treeCut(rangeOf(s).farthest());
         hidden_[s.index] = 1;
         return -1;
@@ -132,15 +127,16 @@ private:
 
 } // namespace
 
-void PlacedMeshes::add(const Bounds& box, std::uint32_t number, const WideTree& tree) {
+void PlacedMeshes::add(const Bounds& box, std::uint32_t number, bool hides, const WideTree& tree) {
     boxes_.push_back(box);
-    tree_.boxes.add(box, number, true, {});
+    tree_.boxes.add(box, number, hides, {});
     tree_.meshStack = std::max(tree.stackSize, tree_.meshStack);
 }
 
 void PlacedMeshes::build(const Kernel& kernel, float extent, int threads) {
     kernel_ = placedKernel(kernel);
     tree_.boxes.extent = extent;
+    for (const Bounds& box : boxes_) tree_.whole.extend(box);
     tree_.boxes.build(kernel.width, buildBvh(boxes_, threads));
     tree_.boxStack = stackSize(tree_.boxes);
 }
@@ -150,7 +146,7 @@ void PlacedMeshes::closest(const ShapeSet& set, const RaySpan& rays, std::span<H
     order.resize(rays.size());
     std::iota(order.begin(), order.end(), 0u);
     Closest query(set, rays, hits);
-    kernel_->closest(tree_, query, order);
+    kernel_->closest(tree_, query, rays, order);
 }
 
 void PlacedMeshes::occluded(const ShapeSet& set, const RaySpan& rays,
@@ -160,5 +156,5 @@ void PlacedMeshes::occluded(const ShapeSet& set, const RaySpan& rays,
     for (std::uint32_t i = 0; i < rays.size(); ++i)
         if (hidden[i] == 0) order.push_back(i);
     Any query(set, rays, hidden);
-    kernel_->any(tree_, query, order);
+    kernel_->any(tree_, query, rays, order);
 }

@@ -13,8 +13,8 @@ struct ShapeSet;
 
 class PlacedMeshes {
 public:
-    // By the number of a shape that is a MeshInstance with a wide tree.
-    void add(const Bounds& box, std::uint32_t number, const WideTree& tree);
+    // By the number of a shape that is a MeshInstance with a wide tree; whether it is opaque.
+    void add(const Bounds& box, std::uint32_t number, bool hides, const WideTree& tree);
     // Once after the last add().
     void build(const Kernel& kernel, float extent, int threads);
     bool isEmpty() const { return boxes_.empty(); }

@@ -51,7 +51,8 @@ void ShapeSet::buildBatchTrees(const Kernel& kernel, int threads) {
     for (const std::uint32_t number : inTree_) {
         const MeshInstance* const instance = shapes[number]->meshInstance();
         if (instance != nullptr && instance->geometry().kernel == &kernel) {
-            placed_.add(boxes[number], number, instance->geometry().wide);
+            placed_.add(boxes[number], number, shadows[number] == Shadow::Opaque,
+                        instance->geometry().wide);
             continue;
         }
         others.push_back(boxes[number]);

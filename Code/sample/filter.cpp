@@ -37,17 +37,25 @@ double shape(FilterKind kind, double x) {
 
 // Entry i is the x in [0,1] where the share of the upper half that lies between 0 and x is
 // 1 - (i / kSteps)^2.
-std::vector<float> inverseOfCdf(FilterKind kind) {
-    constexpr int kPieces = 16384;
+std::vector<float> inverseOfCdf(FilterKind kind, ThreadPool* pool) {
+    constexpr std::size_t kPieces = 16384, kPerJob = 2048;
+    constexpr double h = 1.0 / kPieces;
+    std::vector<double> ends(kPieces + 1, shape(kind, 0)), middles(kPieces);
+    const auto fill = [&](std::size_t job, int) {
+        for (std::size_t i = job * kPerJob; i < (job + 1) * kPerJob; ++i) {
+            const double x = static_cast<double>(i) * h;
+            ends[i + 1] = shape(kind, x + h);
+            middles[i] = shape(kind, x + 0.5 * h);
+        }
+    };
+    constexpr std::size_t kJobs = kPieces / kPerJob;
+    if (pool)
+        pool->run(kJobs, fill);
+    else
+        for (std::size_t job = 0; job < kJobs; ++job) fill(job, 0);
     std::vector<double> cdf(kPieces + 1, 0.0);
-    double left = shape(kind, 0);
-    for (int i = 0; i < kPieces; ++i) { // Simpson on each piece
-        const double h = 1.0 / kPieces, x = i * h;
-        const double right = shape(kind, x + h);
-        const double area = (left + 4 * shape(kind, x + 0.5 * h) + right) * (h / 6);
-        cdf[static_cast<std::size_t>(i) + 1] = cdf[static_cast<std::size_t>(i)] + area;
-        left = right;
-    }
+    for (std::size_t i = 0; i < kPieces; ++i) // Simpson on each piece
+        cdf[i + 1] = cdf[i] + (ends[i] + 4 * middles[i] + ends[i + 1]) * (h / 6);
     std::vector<float> inverse{1};
     std::size_t piece = kPieces - 1;
     for (int i = 1; i < kSteps; ++i) {
@@ -62,10 +70,10 @@ std::vector<float> inverseOfCdf(FilterKind kind) {
 
 } // namespace
 
-Filter::Filter(FilterKind kind, double width)
+Filter::Filter(FilterKind kind, double width, ThreadPool* pool)
     : kind_(kind), width_(max(width, 0.0)), radius_(radiusOf(kind, width_)) {
     if (kind == FilterKind::Gaussian || kind == FilterKind::BlackmanHarris)
-        inverse_ = inverseOfCdf(kind);
+        inverse_ = inverseOfCdf(kind, pool);
 }
 
 double Filter::value(double offset) const {

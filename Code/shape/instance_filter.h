@@ -22,8 +22,14 @@ public:
         return static_cast<float>(min(static_cast<double>(t) * depthPerT_, 0x1p100));
     }
     // For the kernels.
-    TreeVisit visit(const WideTree& tree, float zCut) const {
-        return {&tree, longestSide_, &setup_, depthPerSide_, lateralError_, zCut};
+    TreeVisit visit(const MeshGeometry& mesh, float zCut) const {
+        return {.tree = &mesh.wide,
+                .longestSide = longestSide_,
+                .setup = &setup_,
+                .exactPoints = mesh.leafPoints.data(),
+                .depthPerSide = depthPerSide_,
+                .lateralError = lateralError_,
+                .zCut = zCut};
     }
     // traverse() of the tree that the mesh has.
     template <class LeafFn>
@@ -35,8 +41,7 @@ public:
     // Does the ray come near the whole mesh?
     bool entersRoot(const MeshGeometry& mesh, float zCut) const {
         float z = 0;
-        return mesh.bvh.nodes.empty() ||
-               enters(mesh.bvh.nodes[0].box, longestSide_[0], zCut, z);
+        return mesh.bvh.nodes.empty() || enters(mesh.bvh.nodes[0].box, longestSide_[0], zCut, z);
     }
     // For traverse() of the mesh's bvh: RaySetup::enters() with as much room before the start of
     // the ray and behind the cut as the triangles of the node ask for.

@@ -16,19 +16,25 @@ MeshInstance::MeshInstance(const MeshGeometry& geometry, MovingTransform sceneFr
 }
 
 // A mirror turns triangles over: then two corners change places, as in a copy (render/merge.cpp).
-TriangleCorners MeshInstance::corners(const Transform& sceneFromObject,
-                                      std::uint32_t triangle) const {
-    const auto& c = geometry_.triangles[triangle];
-    const auto at = [&](std::uint32_t i) {
-        return placedPoint(sceneFromObject, geometry_.exactPoints[i]);
-    };
-    TriangleCorners v{at(c[0]), at(c[1]), at(c[2])};
+TriangleCorners MeshInstance::placedCorners(const Transform& sceneFromObject, const Vec3d& a,
+                                            const Vec3d& b, const Vec3d& c) {
+    TriangleCorners v{placedPoint(sceneFromObject, a), placedPoint(sceneFromObject, b),
+                      placedPoint(sceneFromObject, c)};
     if (sceneFromObject.mirrors()) std::swap(v[1], v[2]);
     return v;
 }
 
-MeshInstance::Visit::Visit(const MeshInstance& instance, const Ray& ray)
-    : instance_(instance), place_(&instance.still_), setup_(instance.setupFor(ray)) {
+TriangleCorners MeshInstance::corners(const Transform& sceneFromObject,
+                                      std::uint32_t triangle) const {
+    const auto& c = geometry_.triangles[triangle];
+    const auto& points = geometry_.exactPoints;
+    return placedCorners(sceneFromObject, points[c[0]], points[c[1]], points[c[2]]);
+}
+
+MeshInstance::Visit::Visit(const MeshInstance& instance, const Ray& ray, KnownSetup inScene)
+    : instance_(instance), place_(&instance.still_), setup_(inScene.setup) {
+    if (setup_ == nullptr || inScene.extent != instance.extent_)
+        setup_ = &ownSetup_.emplace(instance.setupFor(ray));
     if (!instance.motion_.isStatic())
         place_ = &moved_.emplace(instance.geometry_, instance.placeAt(ray.time));
     if (instance.geometry_.hasTree()) treeRay_ = place_->filter.treeRay(ray, instance.extent_);

@@ -45,6 +45,8 @@ private:
     template <class Query> bool ask(const Ray& ray, float tMax, Query&& query) const;
     RaySetup setupFor(const Ray& ray) const { return {ray.org, ray.dir, extent_}; }
     Transform placeAt(float time) const { return motion_.at(static_cast<double>(time)); }
+    static TriangleCorners placedCorners(const Transform& sceneFromObject, const Vec3d& a,
+                                         const Vec3d& b, const Vec3d& c);
     TriangleCorners corners(const Transform& sceneFromObject, std::uint32_t triangle) const;
     SurfaceTriangle surfaceTriangle(const Transform& sceneFromObject, std::uint32_t triangle) const;
 
@@ -61,20 +63,29 @@ private:
 // of triangle_queries.h, here or in a kernel.
 class MeshInstance::Visit {
 public:
-    Visit(const MeshInstance& instance, const Ray& ray);
+    // `inScene`: the ray's setup with an extent, if it is known.
+    struct KnownSetup {
+        const RaySetup* setup;
+        float extent;
+    };
+    Visit(const MeshInstance& instance, const Ray& ray, KnownSetup inScene = {nullptr, 0});
     Visit(const Visit&) = delete;
     Visit& operator=(const Visit&) = delete;
 
-    const RaySetup& setup() const { return setup_; } // in the scene
+    const RaySetup& setup() const { return *setup_; } // in the scene
     TriangleCorners corners(std::uint32_t triangle) const {
         return instance_.corners(place_->sceneFromObject, triangle);
+    }
+    // From corners as the object has them.
+    TriangleCorners placed(const Vec3d& a, const Vec3d& b, const Vec3d& c) const {
+        return placedCorners(place_->sceneFromObject, a, b, c);
     }
     // Nothing when no tree can tell: then every triangle is a candidate.
     const std::optional<TreeRay>& treeRay() const { return treeRay_; }
     // Depth in the tree behind which nothing is wanted.
-    float treeCut(float zCut) const { return treeRay_->depthAt(zCut / setup_.dz); }
+    float treeCut(float zCut) const { return treeRay_->depthAt(zCut / setup_->dz); }
     TreeVisit inTree(float zCut) const {
-        return treeRay_->visit(instance_.geometry_.wide, treeCut(zCut));
+        return treeRay_->visit(instance_.geometry_, treeCut(zCut));
     }
     // All of them but those that the ray is certain to miss before zCut.
     template <class LeafFn> void candidates(float zCut, LeafFn&& leaf) const;
@@ -84,6 +95,7 @@ private:
     const MeshInstance& instance_;
     std::optional<Place> moved_;
     const Place* place_;
-    RaySetup setup_;
+    std::optional<RaySetup> ownSetup_;
+    const RaySetup* setup_;
     std::optional<TreeRay> treeRay_;
 };

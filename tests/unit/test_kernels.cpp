@@ -4,11 +4,14 @@
 #include "analytic_kit.h"
 #include "base/error.h"
 #include "check.h"
+#include "render/merge.h"
 #include "render/shape_set.h"
+#include "shape/mesh_instance.h"
 #include "verify/hostile_rays.h"
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstring>
 
 using namespace battery;
@@ -23,14 +26,16 @@ std::vector<const Kernel*> vectorKernels() {
     return out;
 }
 
-// The same mesh with the tree of each kernel, and with none.
+// The same mesh with the trees of each kernel, the fast one and the best, and that of the scalar
+// code.
 struct Meshes {
     explicit Meshes(const MeshGeometry& bare) : scalar(bare) {
         scalar.finish(true);
-        for (const Kernel* kernel : vectorKernels()) {
-            wide.push_back(std::make_unique<MeshGeometry>(bare));
-            wide.back()->finish(true, *kernel);
-        }
+        for (const Kernel* kernel : vectorKernels())
+            for (const double rays : {0.0, kCountlessRays}) {
+                wide.push_back(std::make_unique<MeshGeometry>(bare));
+                wide.back()->finish(true, *kernel, 1, rays);
+            }
     }
     MeshGeometry scalar;
     std::vector<std::unique_ptr<MeshGeometry>> wide;
@@ -53,6 +58,16 @@ std::string shown(const Hit& h) {
     return out.str();
 }
 
+// -0 is not 0.
+bool sameBits(const Hit& a, const Hit& b) {
+    using Words = std::array<std::uint32_t, 5>;
+    return std::bit_cast<Words>(a) == std::bit_cast<Words>(b);
+}
+bool sameBits(const TriangleHit& a, const Hit& b) {
+    if (!b.isHit()) return a.t == kInfinityF && a.triangle == TriangleHit::kNone;
+    return a.t == b.t && a.triangle == b.prim;
+}
+
 struct Counts {
     std::size_t rays = 0, hits = 0, hidden = 0;
 };
@@ -62,6 +77,7 @@ void compare(const Meshes& meshes, const RayList& rays, const std::string& name,
     const std::size_t n = rays.org.size();
     const Mesh oracle(meshes.scalar, {0}, {{0, 0}});
     std::vector<Hit> expected(n), got(n);
+    std::vector<TriangleHit> brief(n);
     std::vector<std::uint8_t> expectedHidden(n), hidden(n);
     for (std::size_t i = 0; i < n; ++i) {
         const Ray ray = rays.span()[i];
@@ -74,13 +90,16 @@ void compare(const Meshes& meshes, const RayList& rays, const std::string& name,
     for (const auto& geometry : meshes.wide) {
         const Mesh mesh(*geometry, {0}, {{0, 0}});
         CHECK(mesh.takesBatches());
+        got.assign(n, {.t = -7}), brief.assign(n, {.t = -7}); // for rays that nobody answers
         mesh.intersectBatch(rays.span(), 3, got);
+        closestHits(*geometry->kernel, geometry->wideMesh(), rays.span(), brief);
         mesh.occludesBatch(rays.span(), hidden);
         for (std::size_t i = 0; i < n; ++i) {
-            CHECK_INFO(got[i] == expected[i], name << ", " << geometry->kernel->name << ", ray "
-                                                   << i << " of " << n << ": "
-                                                   << shown(rays.span()[i]) << ": " << shown(got[i])
-                                                   << ", expected " << shown(expected[i]));
+            CHECK_INFO(sameBits(got[i], expected[i]) && sameBits(brief[i], expected[i]),
+                       name << ", " << geometry->kernel->name << ", ray " << i << " of " << n
+                            << ": " << shown(rays.span()[i]) << ": " << shown(got[i])
+                            << ", without u and v: " << brief[i].triangle << " at " << brief[i].t
+                            << ", expected " << shown(expected[i]));
             CHECK_INFO(hidden[i] == expectedHidden[i],
                        name << ", " << geometry->kernel->name << ", ray " << i << " of " << n
                             << ": " << shown(rays.span()[i]) << ": hidden " << int(hidden[i]));
@@ -130,6 +149,156 @@ TEST(kernels_on_edge_on_triangles) {
     }
     std::printf("%zu rays, %zu hits, %zu hidden, seed 77\n", counts.rays, counts.hits,
                 counts.hidden);
+}
+
+// A moving mesh is at each time the copy of it that the kernels trace, with u and v.
+TEST(kernels_on_copies_of_a_moving_mesh) {
+    kit::Random random(78);
+    std::size_t rays = 0, hits = 0;
+    for (int n = 0; n < check::scaled(6); ++n) {
+        const MeshDesc desc = n % 2 != 0 ? meshes::torus(0.3, 24, 12) : meshes::doubleFan(20);
+        MeshGeometry shared = toSharedGeometry(desc);
+        shared.finish(true);
+        const Transform keys[2] = {Transform::scale(0.3) * random.turn(),
+                                   Transform::translate(random.inBox(0.4)) * random.turn() *
+                                       Transform::scale(0.4)};
+        const MovingTransform motion{std::span<const Transform>(keys)};
+        const MeshInstance moving(shared, motion, {0}, 0);
+        for (const float time : {0.0f, 0.3f, 0.75f}) {
+            const Transform now = motion.at(static_cast<double>(time));
+            MeshGeometry copy;
+            for (const Vec3d p : shared.exactPoints) copy.points.push_back(placedPoint(now, p));
+            copy.triangles = shared.triangles;
+            const Meshes copies(copy);
+            for (RayList list : {looseRays(random, copies.scalar, 200),
+                                 raysFromPoints(random, copies.scalar, 200)}) {
+                list.time.assign(list.size(), time);
+                std::vector<Hit> expected(list.size()), got(list.size());
+                moving.intersectBatch(list.span(), 3, expected);
+                for (const auto& geometry : copies.wide) {
+                    Mesh(*geometry, {0}, {{0, 0}}).intersectBatch(list.span(), 3, got);
+                    for (std::size_t i = 0; i < list.size(); ++i)
+                        CHECK_INFO(sameBits(got[i], expected[i]),
+                                   geometry->kernel->name
+                                       << ", time " << time << ": " << shown(list.span()[i]) << ": "
+                                       << shown(got[i]) << ", expected " << shown(expected[i]));
+                }
+                rays += list.size();
+                for (const Hit& hit : expected) hits += hit.isHit();
+            }
+        }
+    }
+    CHECK_INFO(hits > rays / 3, hits << " of " << rays);
+}
+
+// What has more lines than bundles can tell apart is answered without them, all the same.
+TEST(kernels_on_trees_too_large_for_bundles) {
+    Random random(79);
+    const Meshes meshes(toGeometry(meshes::icosphere(4), {}));
+    const RayList rays = raysFromPoints(random, meshes.scalar, 1000);
+    const std::size_t n = rays.size();
+    const Mesh oracle(meshes.scalar, {0}, {{0, 0}});
+    for (const auto& geometry : meshes.wide) {
+        const std::size_t lines = geometry->wide.lines.size();
+        for (const std::size_t most : {std::size_t{0}, lines - 1, lines}) {
+            WideMesh mesh = geometry->wideMesh();
+            mesh.mostLinesForBundles = most;
+            std::vector<Hit> got(n, {.t = -7});
+            std::vector<std::uint8_t> hidden(n, 7);
+            closestHits(*geometry->kernel, mesh, rays.span(), 3, got);
+            anyHits(*geometry->kernel, mesh, rays.span(), hidden);
+            for (std::size_t i = 0; i < n; ++i) {
+                const Ray ray = rays.span()[i];
+                Hit expected{.t = ray.tMax};
+                if (oracle.intersect(ray, expected)) expected.shape = 3;
+                CHECK_INFO(sameBits(got[i], expected) && hidden[i] == oracle.occludes(ray),
+                           geometry->kernel->name
+                               << ", " << most << " of " << lines << " lines: " << shown(ray)
+                               << ": " << shown(got[i]) << ", hidden " << int(hidden[i]));
+            }
+        }
+    }
+}
+
+// A handful of triangles, that are tested in place, and a few more, that are not. Every third ray
+// starts at one point, so that bundles and the others are scattered over the batch.
+TEST(kernels_on_tiny_meshes) {
+    Random random(78);
+    Counts counts;
+    for (const std::size_t size : {1u, 2u, 3u, 8u, 9u, 12u, 16u, 17u, 24u, 40u}) {
+        const Meshes meshes(meshes::geometryOf(meshes::soup(random, size), false));
+        const auto n = static_cast<std::size_t>(check::scaled(1200));
+        const RayList loose = looseRays(random, meshes.scalar, n);
+        const Vec3 from = toFloat(targetOn(random, meshes.scalar) * 2.0);
+        RayList mixed;
+        for (std::size_t i = 0; i < n; ++i) {
+            Ray ray = loose.span()[i];
+            if (i % 3 == 0) ray.org = from;
+            mixed.push(ray);
+        }
+        compare(meshes, loose, "tiny", counts);
+        compare(meshes, raysInPlanes(random, meshes.scalar, n / 2), "tiny, in the plane", counts);
+        compare(meshes, mixed, "tiny, mixed", counts);
+    }
+    std::printf("%zu rays, %zu hits, %zu hidden, seed 78\n", counts.rays, counts.hits,
+                counts.hidden);
+    CHECK(counts.hits > counts.rays / 4 && counts.hits < counts.rays);
+}
+
+// Rays that leave the tree at its root, among some that don't: before the mesh, beside it, and
+// through the hole of a ring, where they are in its box and in none of the root's children.
+TEST(kernels_on_rays_that_miss) {
+    Random random(79);
+    Counts counts;
+    const Meshes meshes(toGeometry(meshes::torus(0.1, 64, 24), {}));
+    for (const double hits : {0.0, 0.01, 0.5}) {
+        RayList loose, bundle;
+        const auto n = static_cast<std::size_t>(check::scaled(4000));
+        for (std::size_t i = 0; i < n; ++i) {
+            const bool meets = random.unit() < hits;
+            const Vec3d target = meets ? targetOn(random, meshes.scalar)
+                                       : Vec3d{0.2 * random.unit(), 0.2 * random.unit(), 0};
+            const Vec3d away{random.unit() - 0.5, random.unit() - 0.5, 9};
+            const float end = i % 3 == 0 ? 1.5f : i % 3 == 1 ? 0.5f : kInfinityF;
+            const Vec3 org = toFloat(target + away);
+            const double turn = i % 5 == 0 && !meets ? 1 : -1; // 1: from the mesh away
+            loose.push({org, toFloat(away * turn), i % 7 == 0 ? 0.99f : 0.0f, end});
+            const Vec3 lamp{0, 0, 9};
+            bundle.push({lamp, (toFloat(target) - lamp) * static_cast<float>(-turn), 0, end});
+        }
+        const std::size_t before = counts.hits;
+        compare(meshes, loose, "missing", counts);
+        compare(meshes, bundle, "missing bundles", counts);
+        CHECK_INFO(hits == 0 ? counts.hits == before : counts.hits > before, hits);
+    }
+    std::printf("%zu rays, %zu hits, %zu hidden, seed 79\n", counts.rays, counts.hits,
+                counts.hidden);
+}
+
+// From one point to all over a thicket, batch after batch: bundles are given up, then left to the
+// queue for a while, then tried again.
+TEST(kernels_in_a_thicket) {
+    Random random(80);
+    Counts counts;
+    std::vector<std::array<Vec3, 3>> triangles;
+    for (int i = 0; i < 6000; ++i) {
+        const auto corner = [&](Vec3 middle) { return middle + toFloat(random.inBox(0.04)); };
+        const Vec3 middle = toFloat(random.inBox(1));
+        triangles.push_back({corner(middle), corner(middle), corner(middle)});
+    }
+    const Meshes meshes(meshes::geometryOf(triangles, false));
+    for (int batch = 0; batch < check::scaled(24); ++batch) {
+        RayList rays;
+        const Vec3d lamp = random.inBox(2);
+        for (int i = 0; i < 150; ++i) {
+            const Vec3d target = targetOn(random, meshes.scalar);
+            rays.push({toFloat(lamp), toFloat(target - lamp), 0, i % 2 ? 0.999f : kInfinityF});
+        }
+        compare(meshes, rays, "thicket", counts);
+    }
+    std::printf("%zu rays, %zu hits, %zu hidden, seed 80\n", counts.rays, counts.hits,
+                counts.hidden);
+    CHECK(counts.hits > counts.rays / 2 && counts.hidden < counts.rays);
 }
 
 // Zero, infinite and NaN rays meet nothing, wherever in a batch they are.

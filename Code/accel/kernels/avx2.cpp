@@ -29,6 +29,12 @@ namespace kernels::avx2 {
 
 #include "accel/kernels/bundle_rays.inl"
 
+#include "accel/kernels/bundle_keys.inl"
+
+#include "accel/kernels/bundle_block.inl"
+
+#include "accel/kernels/bundle_best.inl"
+
 #include "accel/kernels/bundle_leaf.inl"
 
 #include "accel/kernels/bundle.inl"

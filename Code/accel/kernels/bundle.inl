@@ -28,6 +28,14 @@ public:
         rays_.load(list);
         rays_.refuse(results);
         while (rays_.nextRound()) {
+            const float noLimit = std::numeric_limits<float>::max();
+            alignas(64) float entry[W];
+            const auto& root = mesh_.tree.at<WideNode<W>>(mesh_.tree.root);
+            if (enteredChildren(root, noLimit, entry) == 0) {
+                rays_.writeMisses(results);
+                continue;
+            }
+            rays_.setUp();
             leaf_.start();
             if (traverse())
                 leaf_.finish(results);
@@ -63,7 +71,7 @@ private:
     void enter(const WideNode<W>& node) {
         alignas(64) float z[W];
         const std::uint32_t before = size_;
-        for (unsigned hit = enteredChildren(node, z); hit != 0; hit &= hit - 1) {
+        for (unsigned hit = enteredChildren(node, leaf_.zCut(), z); hit != 0; hit &= hit - 1) {
             const int i = std::countr_zero(hit);
             prefetch(node.child[i]);
             std::uint32_t place = size_++; // the nearest on top
@@ -79,14 +87,14 @@ private:
         for (int i = 0; i < lines; ++i) __builtin_prefetch(line + std::ptrdiff_t{64} * i);
     }
 
-    // Children that the rectangle's pyramid enters in front of leaf_.zCut(), and their depths.
-    unsigned enteredChildren(const WideNode<W>& node, float* entry) const {
+    // Children that the rectangle's pyramid enters in front of zCut, and their depths.
+    unsigned enteredChildren(const WideNode<W>& node, float zCut, float* entry) const {
         const Floats s(rays_.sign), zero(0.0f), oz(rays_.origin[rays_.k]);
         const bool backwards = rays_.sign < 0;
         const Floats zNear = (Floats::load(node.plane[rays_.k][backwards ? 1 : 0]) - oz) * s;
         const Floats zFar = (Floats::load(node.plane[rays_.k][backwards ? 0 : 1]) - oz) * s;
         max(zNear, zero).store(entry);
-        const Mask ahead = (zFar > zero) & (zNear <= Floats(leaf_.zCut()));
+        const Mask ahead = (zFar > zero) & (zNear <= Floats(zCut));
         // Of S z with S in the range and z in the box, the extremes are at corners.
         if (bits(ahead & (zNear < zero)) != 0) [[unlikely]] {
             const auto meets = [&](std::size_t axis, Range S) {
@@ -116,19 +124,30 @@ private:
     std::size_t leaves_ = 0, mostLeaves_ = 0;
 };
 
-// How many rays make a bundle: large bundles of fine triangles touch too many of them. It follows
-// what the thread's last bundles met; no answer depends on it.
+// How many rays make a bundle: large bundles of fine triangles touch too many of them, and in a
+// thicket no bundle pays. It follows what the thread's last bundles met; no answer depends on it.
 template <Query Q> class BundleSize {
 public:
     std::size_t get() const { return size_; }
-    void learn(std::size_t leaves) {
+    // Are the next get() rays better left to the queue?
+    bool passes() {
+        if (pause_ == 0) return false;
+        --pause_;
+        return true;
+    }
+    void learn(std::size_t leaves, bool gaveUp) {
         if (leaves > kManyLeaves) size_ = kFewRays;
         if (leaves > 0 && leaves < kFewLeaves) size_ = BundleRays<Q>::kMostRays;
+        // Twice as long a pause every time that the next try fails too.
+        lastPause_ = gaveUp ? std::min(2 * lastPause_ + 1, kLongestPause) : lastPause_ / 2;
+        pause_ = gaveUp ? lastPause_ : 0;
     }
 
 private:
     static constexpr std::size_t kFewRays = 64, kFewLeaves = 6, kManyLeaves = 40;
+    static constexpr unsigned kLongestPause = 31;
     std::size_t size_ = BundleRays<Q>::kMostRays;
+    unsigned pause_ = 0, lastPause_ = 0; // in bundles
 };
 
 template <Query Q, class Results>
@@ -147,8 +166,13 @@ void traceFromPoint(const WideMesh& mesh, const RaySpan& rays, std::span<const s
     while (!order.empty()) {
         const auto list = order.first(std::min(size.get(), order.size()));
         order = order.subspan(list.size());
+        if (size.passes()) {
+            givenBack.insert(givenBack.end(), list.begin(), list.end());
+            continue;
+        }
+        const std::size_t before = givenBack.size();
         bundle.trace(list, results, givenBack);
-        size.learn(bundle.leaves());
+        size.learn(bundle.leaves(), givenBack.size() - before > list.size() / 2);
     }
     if (givenBack.empty()) return;
     if constexpr (Q == Query::Any)

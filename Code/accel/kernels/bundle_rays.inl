@@ -28,7 +28,8 @@ public:
         for (int p = 0; p < loaded_; ++p) left_[p] = traceable_[p] = loadDirections(p);
     }
 
-    // Makes the next rays active that can be traced together; false when none are left.
+    // Makes the next rays active that can be traced together, and finds the range of their slopes;
+    // false when none are left.
     bool nextRound() {
         int p = 0;
         while (p < loaded_ && left_[p] == 0) ++p;
@@ -38,8 +39,51 @@ public:
         for (int r = 0; r < loaded_; ++r) chosen[r] = left_[r] & slopes(r);
         if constexpr (Q == Query::Any) cutGaps(chosen);
         for (int r = 0; r < loaded_; ++r) left_[r] &= ~chosen[r];
-        setUp(chosen);
+        activate(chosen);
         return true;
+    }
+
+    // Behind nextRound(), for bundles that come near the mesh: the packets and their rectangles.
+    void setUp() {
+        leastBelow = kInfinityF;
+        Range xs[kPackets], ys[kPackets];
+        for (int q = 0; q < packets; ++q) {
+            const int p = packet_[q];
+            const Mask on = maskOf(active[q]);
+            const int first = std::countr_zero(active[q]);
+            const auto spread = [&](const float(&raw)[W]) {
+                return select(on, Floats::load(raw), Floats(raw[first]));
+            };
+            const Floats sx = spread(rawX_[p]), sy = spread(rawY_[p]), z = spread(rawZ_[p]);
+            sx.store(Sx[q]), sy.store(Sy[q]), z.store(dz[q]);
+            spread(dir_[kx][p]).store(dirX[q]), spread(dir_[ky][p]).store(dirY[q]);
+            setRange(p, q, on, first, z);
+            xs[q] = rangeOf(sx, on), ys[q] = rangeOf(sy, on);
+        }
+        centreX = 0.5f * (x.lo + x.hi), centreY = 0.5f * (y.lo + y.hi);
+        halfX = 0.5000001f * (x.hi - x.lo) + 1e-7f;
+        halfY = 0.5000001f * (y.hi - y.lo) + 1e-7f;
+        slopeSum =
+            ::max(std::fabs(x.lo), std::fabs(x.hi)) + ::max(std::fabs(y.lo), std::fabs(y.hi));
+        // What roughInverse() is off by at the rim of the rectangle, and a few roundings.
+        const float rough = W == 16 ? 3e-4f : 2e-3f;
+        const float padX = rough * halfX + 2e-6f, padY = rough * halfY + 2e-6f;
+        const auto padded = [](Range r, float centre, float pad) {
+            return Range{r.lo - centre - pad, r.hi - centre + pad};
+        };
+        for (int q = 0; q < packets; ++q) {
+            Rect& r = rect[q];
+            r.x = padded(xs[q], centreX, padX), r.y = padded(ys[q], centreY, padY);
+            sidesX_.lo[q] = r.x.lo, sidesX_.hi[q] = r.x.hi;
+            sidesY_.lo[q] = r.y.lo, sidesY_.hi[q] = r.y.hi;
+            r.centreX = 0.5f * (xs[q].lo + xs[q].hi) - centreX;
+            r.centreY = 0.5f * (ys[q].lo + ys[q].hi) - centreY;
+            r.halfX = 0.5f * (xs[q].hi - xs[q].lo) * 1.00001f + 2e-6f;
+            r.halfY = 0.5f * (ys[q].hi - ys[q].lo) * 1.00001f + 2e-6f;
+            (Floats::load(Sx[q]) - Floats(centreX)).store(relX[q]);
+            (Floats::load(Sy[q]) - Floats(centreY)).store(relY[q]);
+        }
+        all.x = padded(x, centreX, padX), all.y = padded(y, centreY, padY);
     }
 
     // Misses for the rays that isTraceable() refuses.
@@ -50,6 +94,19 @@ public:
             for (; refused != 0; refused &= refused - 1)
                 miss(results, list_[at(p, std::countr_zero(refused))]);
         }
+    }
+
+    // Misses for the active rays.
+    void writeMisses(const HitLists& hits) const {
+        for (int q = 0; q < packets; ++q)
+            if (hits.whole == nullptr)
+                write(q, Floats(kInfinityF), Ints(TriangleHit::kNone), hits.brief);
+            else
+                for (unsigned lanes = active[q]; lanes != 0; lanes &= lanes - 1)
+                    miss(hits, list_[at(packet_[q], std::countr_zero(lanes))]);
+    }
+    void writeMisses(std::uint8_t* hidden) const {
+        for (int q = 0; q < packets; ++q) write(q, 0, hidden);
     }
 
     // The active rays go into `to`, without an answer.
@@ -94,6 +151,8 @@ public:
         }
     }
     void write(int q, unsigned found, std::uint8_t* hidden) const {
+        if (active[q] == (1u << W) - 1 && isFull(packet_[q]))
+            return storeFlags(found, hidden + list_[at(packet_[q], 0)]);
         for (unsigned lanes = active[q]; lanes != 0; lanes &= lanes - 1) {
             const int i = std::countr_zero(lanes);
             hidden[list_[at(packet_[q], i)]] = found >> i & 1;
@@ -152,18 +211,21 @@ private:
     // Is every lane of the packet a ray, and do they follow each other in the batch?
     bool isFull(int p) const { return inARow_ && at(p + 1, 0) <= list_.size(); }
 
+    // For the next bundle, probably; behind the end of a batch, the next batch often follows.
+    template <class T> static void prefetchAhead(std::span<const T> all, std::uint32_t ray) {
+        const auto next = reinterpret_cast<std::uintptr_t>(&all[ray]) + kMostRays * sizeof(T);
+        for (std::size_t byte = 0; byte < W * sizeof(T); byte += 64)
+            __builtin_prefetch(reinterpret_cast<const void*>(next + byte));
+    }
+
     // Returns the lanes that hold a ray that isTraceable().
     unsigned loadDirections(int p) {
         const std::size_t first = at(p, 0);
         Floats dx, dy, dz_;
         if (isFull(p)) {
             const std::uint32_t ray = list_[first];
-            if (ray + kMostRays + W <= rays_.size()) { // for the next bundle, probably
-                const float* const next = &rays_.dir[ray + kMostRays].x;
-                for (int i = 0; i < 3 * W; i += 16) __builtin_prefetch(next + i);
-                __builtin_prefetch(&rays_.tMin[ray + kMostRays]);
-                __builtin_prefetch(&rays_.tMax[ray + kMostRays]);
-            }
+            prefetchAhead(rays_.org, ray), prefetchAhead(rays_.dir, ray);
+            prefetchAhead(rays_.tMin, ray), prefetchAhead(rays_.tMax, ray);
             loadVectors(&rays_.dir[ray].x, dx, dy, dz_);
             dx.store(dir_[0][p]), dy.store(dir_[1][p]), dz_.store(dir_[2][p]);
         } else {
@@ -246,54 +308,21 @@ private:
                 largest(select(lanes, v, Floats(-kInfinityF)))};
     }
 
-    // Packets with the chosen lanes, their rectangles and that of the bundle.
-    void setUp(const unsigned* chosen) {
+    void activate(const unsigned* chosen) {
         packets = 0;
-        x = y = {kInfinityF, -kInfinityF};
-        leastBelow = kInfinityF;
-        Range xs[kPackets], ys[kPackets];
+        Floats xLo(kInfinityF), xHi(-kInfinityF), yLo(kInfinityF), yHi(-kInfinityF);
+        const Floats never(kInfinityF), least(-kInfinityF);
         for (int p = 0; p < loaded_; ++p) {
             if (chosen[p] == 0) continue;
             const int q = packets++;
             packet_[q] = p;
             active[q] = chosen[p];
             const Mask on = maskOf(chosen[p]);
-            const int first = std::countr_zero(chosen[p]);
-            const auto spread = [&](const float(&raw)[W]) {
-                return select(on, Floats::load(raw), Floats(raw[first]));
-            };
-            const Floats sx = spread(rawX_[p]), sy = spread(rawY_[p]), z = spread(rawZ_[p]);
-            sx.store(Sx[q]), sy.store(Sy[q]), z.store(dz[q]);
-            spread(dir_[kx][p]).store(dirX[q]), spread(dir_[ky][p]).store(dirY[q]);
-            setRange(p, q, on, first, z);
-            xs[q] = rangeOf(sx, on), ys[q] = rangeOf(sy, on);
-            x = {::min(xs[q].lo, x.lo), ::max(xs[q].hi, x.hi)};
-            y = {::min(ys[q].lo, y.lo), ::max(ys[q].hi, y.hi)};
+            const Floats sx = Floats::load(rawX_[p]), sy = Floats::load(rawY_[p]);
+            xLo = min(xLo, select(on, sx, never)), xHi = max(xHi, select(on, sx, least));
+            yLo = min(yLo, select(on, sy, never)), yHi = max(yHi, select(on, sy, least));
         }
-        centreX = 0.5f * (x.lo + x.hi), centreY = 0.5f * (y.lo + y.hi);
-        halfX = 0.5000001f * (x.hi - x.lo) + 1e-7f;
-        halfY = 0.5000001f * (y.hi - y.lo) + 1e-7f;
-        slopeSum =
-            ::max(std::fabs(x.lo), std::fabs(x.hi)) + ::max(std::fabs(y.lo), std::fabs(y.hi));
-        // What roughInverse() is off by at the rim of the rectangle, and a few roundings.
-        const float rough = W == 16 ? 3e-4f : 2e-3f;
-        const float padX = rough * halfX + 2e-6f, padY = rough * halfY + 2e-6f;
-        const auto padded = [](Range r, float centre, float pad) {
-            return Range{r.lo - centre - pad, r.hi - centre + pad};
-        };
-        for (int q = 0; q < packets; ++q) {
-            Rect& r = rect[q];
-            r.x = padded(xs[q], centreX, padX), r.y = padded(ys[q], centreY, padY);
-            sidesX_.lo[q] = r.x.lo, sidesX_.hi[q] = r.x.hi;
-            sidesY_.lo[q] = r.y.lo, sidesY_.hi[q] = r.y.hi;
-            r.centreX = 0.5f * (xs[q].lo + xs[q].hi) - centreX;
-            r.centreY = 0.5f * (ys[q].lo + ys[q].hi) - centreY;
-            r.halfX = 0.5f * (xs[q].hi - xs[q].lo) * 1.00001f + 2e-6f;
-            r.halfY = 0.5f * (ys[q].hi - ys[q].lo) * 1.00001f + 2e-6f;
-            (Floats::load(Sx[q]) - Floats(centreX)).store(relX[q]);
-            (Floats::load(Sy[q]) - Floats(centreY)).store(relY[q]);
-        }
-        all.x = padded(x, centreX, padX), all.y = padded(y, centreY, padY);
+        x = {smallest(xLo), largest(xHi)}, y = {smallest(yLo), largest(yHi)};
     }
 
     // Lanes without a ray ask what lane `spare` asks.

@@ -26,8 +26,10 @@ std::uint32_t stackSize(const SolidTree& tree) {
 
 #define PLACED_FUNCTIONS(isa)                                                                      \
     namespace kernels::isa {                                                                       \
-    void closestPlaced(const PlacedTree&, PlacedQuery&, std::span<const std::uint32_t>);           \
-    void anyPlaced(const PlacedTree&, PlacedQuery&, std::span<const std::uint32_t>);               \
+    void closestPlaced(const PlacedTree&, PlacedQuery&, const RaySpan&,                            \
+                       std::span<const std::uint32_t>);                                            \
+    void anyPlaced(const PlacedTree&, PlacedQuery&, const RaySpan&,                                \
+                   std::span<const std::uint32_t>);                                                \
     }
 PLACED_FUNCTIONS(sse)
 PLACED_FUNCTIONS(avx2)

@@ -16,6 +16,10 @@ struct TreeVisit {
     // By line of the tree's nodes and leaves: the longest side of a triangle in it.
     const float* longestSide = nullptr;
     const RaySetup* setup = nullptr;
+    // As the object has them, of the points of the leaves: of the leaf at line n from kPerLine n
+    // on.
+    const Vec3d* exactPoints = nullptr;
+    static constexpr std::size_t kPerLine = 4;
     // How far before or behind the place where the ray passes a triangle its hit may be, for each
     // unit of the triangle's longest side.
     float depthPerSide = 0;
@@ -27,14 +31,17 @@ struct TreeVisit {
 class PlacedQuery {
 public:
     virtual ~PlacedQuery() = default;
-    // Ray number `ray` begins. Its setup in the scene, and in zCut the depth behind which nothing
-    // is wanted; null: it looks for nothing.
-    virtual const RaySetup* start(std::uint32_t slot, std::uint32_t ray, float& zCut) = 0;
+    // t behind which nothing is wanted before the ray starts.
+    virtual float limit(std::uint32_t ray) const = 0;
+    // The ray comes near the meshes.
+    virtual void start(std::uint32_t slot, std::uint32_t ray) = 0;
     // It enters the box of a mesh, at depth zEntry in the scene. False: there is nothing to walk.
     virtual bool enter(std::uint32_t slot, std::uint32_t number, float zEntry,
                        TreeVisit& visit) = 0;
-    // It may meet the triangle. The new TreeVisit::zCut; negative: it has seen enough of the mesh.
-    virtual float test(std::uint32_t slot, std::uint32_t triangle) = 0;
+    // It may meet the triangle of these exact corners. The new TreeVisit::zCut; negative: it has
+    // seen enough of the mesh.
+    virtual float test(std::uint32_t slot, std::uint32_t triangle, const Vec3d& a, const Vec3d& b,
+                       const Vec3d& c) = 0;
     // It is through with what enter() has let it into, or not. The new zCut in the scene; negative:
     // it is through with everything.
     virtual float leave(std::uint32_t slot) = 0;
@@ -42,6 +49,7 @@ public:
 
 struct PlacedTree {
     SolidTree boxes; // of the meshes, by their numbers
+    Bounds whole;
     // Stacks are not larger: of the tree over the boxes, of the trees of the meshes.
     std::uint32_t boxStack = 0, meshStack = 0;
 };
@@ -51,9 +59,11 @@ std::uint32_t stackSize(const SolidTree& tree);
 struct PlacedKernel {
     const char* name; // of the Kernel that it belongs to
     static constexpr std::uint32_t kSlots = 64;
-    // Rays of nearest hits go to near meshes and boxes first.
-    void (*closest)(const PlacedTree&, PlacedQuery&, std::span<const std::uint32_t> rays);
-    void (*any)(const PlacedTree&, PlacedQuery&, std::span<const std::uint32_t> rays);
+    // Only rays in `order` are looked at. Those of nearest hits go to near meshes and boxes first.
+    void (*closest)(const PlacedTree&, PlacedQuery&, const RaySpan&,
+                    std::span<const std::uint32_t> order);
+    void (*any)(const PlacedTree&, PlacedQuery&, const RaySpan&,
+                std::span<const std::uint32_t> order);
 };
 // Null for the scalar kernel.
 const PlacedKernel* placedKernel(const Kernel& kernel);

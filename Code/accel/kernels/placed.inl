@@ -1,5 +1,5 @@
 // The queue of queue.inl in two levels: rays walk the tree over the boxes of the meshes, and in
-// between the tree of one mesh after the other, all of them at once. Five lists say where each is.
+// between the tree of one mesh after the other, all of them at once. Lists say what each does next.
 // The steps in the tree of a mesh are those of queue.inl with room for what is not known exactly:
 // a box is entered when the ray passes it within the room that the triangles in it ask for, and a
 // triangle may be met when moved corners could be.
@@ -7,9 +7,10 @@
 
 template <bool NearFirst> class PlacedQueue {
 public:
-    PlacedQueue(const PlacedTree& tree, PlacedQuery& query, std::span<const std::uint32_t> rays)
-        : tree_(tree.boxes), query_(query), rays_(rays), sceneStride_(strideFor(tree.boxStack)),
-          stride_(strideFor(tree.meshStack)) {
+    PlacedQueue(const PlacedTree& tree, PlacedQuery& query, const RaySpan& rays,
+                std::span<const std::uint32_t> order)
+        : tree_(tree.boxes), whole_(tree.whole), query_(query), rays_(rays), order_(order),
+          sceneStride_(strideFor(tree.boxStack)), stride_(strideFor(tree.meshStack)) {
         const std::size_t stacks = kSlots * (sceneStride_ + stride_);
         std::byte* const memory =
             scratchMemory(kSlots * sizeof(Slot) + 2 * stacks * sizeof(std::uint32_t));
@@ -33,6 +34,7 @@ public:
                 leafStep(now.slots[Leaves][i], next);
             for (std::uint32_t i = 0; i < now.count[Entries]; ++i)
                 enter(now.slots[Entries][i], next);
+            for (std::uint32_t i = 0; i < now.count[Tests]; ++i) test(now.slots[Tests][i], next);
             for (std::uint32_t i = 0; i < now.count[Exits]; ++i) leave(now.slots[Exits][i], next);
         }
     }
@@ -42,7 +44,7 @@ private:
 
     // What a ray does next: a step in the tree over the boxes or in that of a mesh, going into a
     // mesh and out of it.
-    enum Place { Boxes, Nodes, Leaves, Entries, Exits, kPlaces };
+    enum Place { Boxes, Nodes, Leaves, Tests, Entries, Exits, kPlaces };
     // One more place than slots: send() writes to lists that are full.
     using SlotList = std::uint32_t[kSlots + 1];
     struct Lists {
@@ -70,10 +72,11 @@ private:
         std::uint32_t axis[3]; // where in a leaf, in bytes
         float shearX, shearY;  // the slopes, for depths without the sign of the direction
         float sign, lateralError;
+        unsigned candidates; // of the leaf
         const std::uint32_t* triangleIds;
+        const Vec3d* exactPoints;
         // Boxes of meshes in the scene.
-        const RaySetup* scene;
-        float sceneCut;
+        float rScene[3], nearScene[3], farScene[3], sceneCut;
         std::uint32_t sceneAt, sceneTop;
     };
 
@@ -84,20 +87,60 @@ private:
 
     // ---- the tree over the boxes
 
-    // The next ray that looks for something.
-    void start(std::uint32_t slot, Lists& to) {
-        Slot& s = slots_[slot];
-        while (next_ < rays_.size()) {
-            s.scene = query_.start(slot, rays_[next_++], s.sceneCut);
-            if (s.scene == nullptr) continue;
-            ++live_;
-            s.sceneAt = wideRef(0, WideKind::Node);
-            s.sceneTop = 1;
-            inScene_.refs[slot * sceneStride_] = wideRef(0, WideKind::None);
-            inScene_.entries[slot * sceneStride_] = 0;
-            to.add(Boxes, slot);
-            return;
+    // Rays that come near the meshes, before they have a slot.
+    struct alignas(64) Waiting {
+        float r[3][W], nearOffset[3][W], farOffset[3][W], zCut[W];
+        std::uint32_t ray[W];
+        unsigned lanes = 0;
+    };
+
+    // The next W rays of the order.
+    void prepare() {
+        const std::size_t count = std::min<std::size_t>(W, order_.size() - next_);
+        alignas(64) float org[3][W], dir[3][W], lo[W], hi[W];
+        for (std::size_t i = 0; i < W; ++i) {
+            const std::uint32_t ray = order_[next_ + (i < count ? i : 0)];
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                org[axis][i] = rays_.org[ray][axis], dir[axis][i] = rays_.dir[ray][axis];
+            lo[i] = rays_.tMin[ray], hi[i] = query_.limit(ray);
+            waiting_.ray[i] = ray;
         }
+        next_ += count;
+        const Floats o[3] = {Floats::load(org[0]), Floats::load(org[1]), Floats::load(org[2])};
+        const Floats d[3] = {Floats::load(dir[0]), Floats::load(dir[1]), Floats::load(dir[2])};
+        unsigned lanes = (1u << count) - 1;
+        const RayLanes rays(o, d, Floats::load(lo), Floats::load(hi), tree_.extent, lanes);
+        waiting_.lanes = lanes & rays.entering(whole_);
+        if (waiting_.lanes == 0) return;
+        for (int axis = 0; axis < 3; ++axis) {
+            rays.r[axis].store(waiting_.r[axis]);
+            rays.nearOffset[axis].store(waiting_.nearOffset[axis]);
+            rays.farOffset[axis].store(waiting_.farOffset[axis]);
+        }
+        rays.zCut.store(waiting_.zCut);
+    }
+
+    void start(std::uint32_t slot, Lists& to) {
+        while (waiting_.lanes == 0) {
+            if (next_ == order_.size()) return;
+            prepare();
+        }
+        const auto lane = static_cast<std::size_t>(std::countr_zero(waiting_.lanes));
+        waiting_.lanes &= waiting_.lanes - 1;
+        Slot& s = slots_[slot];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            s.rScene[axis] = waiting_.r[axis][lane];
+            s.nearScene[axis] = waiting_.nearOffset[axis][lane];
+            s.farScene[axis] = waiting_.farOffset[axis][lane];
+        }
+        s.sceneCut = waiting_.zCut[lane];
+        s.sceneAt = wideRef(0, WideKind::Node);
+        s.sceneTop = 1;
+        inScene_.refs[slot * sceneStride_] = wideRef(0, WideKind::None);
+        inScene_.entries[slot * sceneStride_] = 0;
+        ++live_;
+        query_.start(slot, waiting_.ray[lane]);
+        to.add(Boxes, slot);
     }
 
     void sendInScene(std::uint32_t slot, WideRef ref, Lists& to) {
@@ -117,16 +160,15 @@ private:
     // RaySetup::enters() for W boxes.
     void boxStep(std::uint32_t slot, Lists& to) {
         Slot& s = slots_[slot];
-        const RaySetup& ray = *s.scene;
         const auto& node = tree_.node<W>(s.sceneAt);
         Floats entry(0.0f), exit(s.sceneCut);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const std::size_t back = ray.r[axis] < 0;
-            const Floats r(ray.r[axis]);
-            entry =
-                max(Floats::load(node.plane[axis][back]) * r + Floats(ray.nearOffset[axis]), entry);
-            exit = min(Floats::load(node.plane[axis][1 - back]) * r + Floats(ray.farOffset[axis]),
-                       exit);
+            const std::size_t back = s.rScene[axis] < 0;
+            const Floats r(s.rScene[axis]);
+            const Floats front = Floats::load(node.plane[axis][back]) * r;
+            const Floats behind = Floats::load(node.plane[axis][1 - back]) * r;
+            entry = max(front + Floats(s.nearScene[axis]), entry);
+            exit = min(behind + Floats(s.farScene[axis]), exit);
         }
         const unsigned hit = bits(entry <= exit);
         if (hit == 0) return popInScene(slot, to);
@@ -135,13 +177,29 @@ private:
         sendInScene(slot, push(hit, entry, node.child, inScene_, at), to);
     }
 
+    // RaySetup::enters() for the box of a mesh.
+    bool enters(const Slot& s, const Bounds& box, float& zEntry) const {
+        float exit = s.sceneCut;
+        zEntry = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const bool back = s.rScene[axis] < 0;
+            const float front = (back ? box.hi[axis] : box.lo[axis]) * s.rScene[axis];
+            const float behind = (back ? box.lo[axis] : box.hi[axis]) * s.rScene[axis];
+            zEntry = ::max(front + s.nearScene[axis], zEntry);
+            exit = ::min(behind + s.farScene[axis], exit);
+        }
+        return zEntry <= exit;
+    }
+
     void enter(std::uint32_t slot, Lists& to) {
         Slot& s = slots_[slot];
         const std::uint32_t place = s.sceneAt >> 2;
+        const SolidTree::Solid& solid = tree_.solids[place];
+        const bool counts = NearFirst || solid.hides;
         float zEntry = 0;
-        if (!s.scene->enters(tree_.boxes[place], s.sceneCut, zEntry)) return popInScene(slot, to);
+        if (!counts || !enters(s, tree_.boxes[place], zEntry)) return popInScene(slot, to);
         TreeVisit visit;
-        if (!query_.enter(slot, tree_.solids[place].number, zEntry, visit)) return leave(slot, to);
+        if (!query_.enter(slot, solid.number, zEntry, visit)) return leave(slot, to);
         const RaySetup& ray = *visit.setup;
         constexpr std::uint32_t kRow = W * 4;
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -162,6 +220,7 @@ private:
         s.longestSide = visit.longestSide;
         s.base = visit.tree->base();
         s.triangleIds = visit.tree->triangleIds.data();
+        s.exactPoints = visit.exactPoints;
         s.top = 1;
         inMesh_.refs[slot * stride_] = wideRef(0, WideKind::None); // the end of the stack
         inMesh_.entries[slot * stride_] = 0;
@@ -215,10 +274,15 @@ private:
         send(slot, hit != 0 ? nearest : before, to);
     }
 
+    // Candidates are tested in the next round, when their corners are in the cache.
     [[gnu::always_inline]] void leafStep(std::uint32_t slot, Lists& to) {
         Slot& s = slots_[slot];
-        if (const unsigned candidates = leafCandidates(s); candidates != 0) test(slot, candidates);
-        send(slot, inMesh_.refs[slot * stride_ + --s.top], to);
+        s.candidates = leafCandidates(s);
+        if (s.candidates == 0) return send(slot, inMesh_.refs[slot * stride_ + --s.top], to);
+        forEachCandidate(s, [](std::uint32_t, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+            for (const Vec3d* corner : {&a, &b, &c}) __builtin_prefetch(corner);
+        });
+        to.add(Tests, slot);
     }
 
     // TreeRay::mayMeet() for W triangles, and whether they are at depths where a hit counts.
@@ -246,17 +310,28 @@ private:
         return ~bits(outside | hidden) & ((1u << leaf.count) - 1);
     }
 
-    [[gnu::noinline]] void test(std::uint32_t slot, unsigned candidates) {
-        Slot& s = slots_[slot];
+    // fn(triangle, its exact corners)
+    template <class Fn> void forEachCandidate(const Slot& s, Fn&& fn) const {
         const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(s.base + byteOffset(s.at));
+        const Vec3d* const points = s.exactPoints + (s.at >> 2) * TreeVisit::kPerLine;
+        for (unsigned rest = s.candidates; rest != 0; rest &= rest - 1) {
+            const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
+            fn(s.triangleIds[leaf.first + i], points[leaf.corner[0][i]], points[leaf.corner[1][i]],
+               points[leaf.corner[2][i]]);
+        }
+    }
+
+    void test(std::uint32_t slot, Lists& to) {
+        Slot& s = slots_[slot];
         float zCut = s.zCut;
-        for (; candidates != 0 && zCut >= 0; candidates &= candidates - 1)
-            zCut = query_.test(slot, s.triangleIds[leaf.first + static_cast<std::uint32_t>(
-                                                                    std::countr_zero(candidates))]);
+        forEachCandidate(
+            s, [&](std::uint32_t triangle, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+                if (zCut >= 0) zCut = query_.test(slot, triangle, a, b, c);
+            });
         if (zCut < 0) s.top = 1; // only the end
-        if (!(zCut < s.zCut)) return;
+        if (zCut < s.zCut) s.top = dropHidden(inMesh_, slot * stride_, s.top, zCut);
         s.zCut = zCut;
-        if (NearFirst) s.top = dropHidden(inMesh_, slot * stride_, s.top, zCut);
+        send(slot, inMesh_.refs[slot * stride_ + --s.top], to);
     }
 
     // ---- stacks
@@ -286,8 +361,11 @@ private:
     }
 
     const SolidTree& tree_;
+    const Bounds whole_;
     PlacedQuery& query_;
-    std::span<const std::uint32_t> rays_;
+    const RaySpan& rays_;
+    std::span<const std::uint32_t> order_;
+    Waiting waiting_;
     std::size_t sceneStride_, stride_, next_ = 0;
     Slot* slots_;
     Stacks inScene_, inMesh_;
@@ -295,10 +373,11 @@ private:
     SlotList lists_[2][kPlaces];
 };
 
-void closestPlaced(const PlacedTree& tree, PlacedQuery& query,
-                   std::span<const std::uint32_t> rays) {
-    PlacedQueue<true>(tree, query, rays).run();
+void closestPlaced(const PlacedTree& tree, PlacedQuery& query, const RaySpan& rays,
+                   std::span<const std::uint32_t> order) {
+    PlacedQueue<true>(tree, query, rays, order).run();
 }
-void anyPlaced(const PlacedTree& tree, PlacedQuery& query, std::span<const std::uint32_t> rays) {
-    PlacedQueue<false>(tree, query, rays).run();
+void anyPlaced(const PlacedTree& tree, PlacedQuery& query, const RaySpan& rays,
+               std::span<const std::uint32_t> order) {
+    PlacedQueue<false>(tree, query, rays, order).run();
 }

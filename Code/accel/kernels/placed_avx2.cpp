@@ -17,6 +17,8 @@ namespace kernels::avx2 {
 
 #include "accel/kernels/push_sorted.inl"
 
+#include "accel/kernels/ray_lanes.inl"
+
 #include "accel/kernels/placed.inl"
 } // namespace kernels::avx2
 KERNEL_REGION_END

@@ -22,6 +22,8 @@ namespace kernels::avx512 {
 
 #include "accel/kernels/push_sorted.inl"
 
+#include "accel/kernels/ray_lanes.inl"
+
 #include "accel/kernels/placed.inl"
 } // namespace kernels::avx512
 KERNEL_REGION_END

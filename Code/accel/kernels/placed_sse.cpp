@@ -17,6 +17,8 @@ namespace kernels::sse {
 
 #include "accel/kernels/push_sorted.inl"
 
+#include "accel/kernels/ray_lanes.inl"
+
 #include "accel/kernels/placed.inl"
 } // namespace kernels::sse
 KERNEL_REGION_END

@@ -11,6 +11,7 @@ public:
     Queue(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order)
         : mesh_(mesh), rays_(rays), order_(order), base_(mesh.tree.base()),
           root_(mesh.tree.at<WideNode<W>>(mesh.tree.root)),
+          prefetches_(mesh.tree.lines.size() > kManyLines),
           // An odd number of lines between stacks spreads them over the sets of the cache.
           stride_(((mesh.tree.stackSize + std::size_t{2} * W + 15) / 16 | 1) * 16) {
         const std::size_t stacks = kSlots * stride_ * sizeof(std::uint32_t);
@@ -22,8 +23,8 @@ public:
             refs_[slot * stride_] = wideRef(0, WideKind::None); // the end of every stack
             entries_[slot * stride_] = 0;
         }
-        while (children_ < W && root_.plane[0][0][children_] <= root_.plane[0][1][children_])
-            ++children_;
+        for (; children_ < W && boxOf(children_).lo.x <= boxOf(children_).hi.x; ++children_)
+            box_.extend(boxOf(children_));
     }
 
     template <class Results> void run(const Results& results) {
@@ -48,10 +49,12 @@ public:
     }
 
 private:
-    static constexpr std::uint32_t kSlots = 64; // rays on their way at most
+    static constexpr std::uint32_t kSlots = 96; // rays on their way at most
     static constexpr std::uint32_t kBlocks = kSlots / W;
     // Rays that are not waiting for others; with fewer, the others don't wait either.
-    static constexpr std::uint32_t kFewBusy = kSlots / 2;
+    static constexpr std::uint32_t kFewBusy = kSlots / 3;
+    // Of a tree that the caches don't hold; for others prefetches are work in vain. 8 MB.
+    static constexpr std::size_t kManyLines = std::size_t{1} << 17;
     // Of a tree in which no ray is worth a way of its own.
     static constexpr std::uint64_t kFewLeaves = 2;
 
@@ -69,6 +72,11 @@ private:
         std::uint32_t triangle; // number in the leaf
     };
 
+    Bounds boxOf(std::size_t child) const { // of the root
+        const auto& p = root_.plane;
+        return {{p[0][0][child], p[1][0][child], p[2][0][child]},
+                {p[0][1][child], p[1][1][child], p[2][1][child]}};
+    }
     const WideLeaf<W>& leafAt(WideRef ref) const { return mesh_.tree.at<WideLeaf<W>>(ref); }
 
     // ---- rays in, hits out
@@ -105,9 +113,10 @@ private:
     // then it is quicker not to ask W rays at once what each will ask itself.
     unsigned enterTree(unsigned lanes, const RayBlock& b) {
         if (asked_ >= 4 * W && missed_ * 8 < asked_) return lanes;
+        const unsigned near = raysEntering(b, box_) & lanes;
         unsigned entered = 0;
-        for (std::size_t i = 0; i < children_ && entered != lanes; ++i)
-            entered |= raysEntering(b, root_, i, lanes & ~entered);
+        for (std::size_t i = 0; i < children_ && entered != near; ++i)
+            entered |= raysEntering(b, boxOf(i)) & near;
         asked_ += W;
         missed_ += static_cast<std::uint32_t>(std::popcount(lanes & ~entered));
         return entered;
@@ -133,6 +142,7 @@ private:
         }
         if (hits.whole != nullptr && found != 0) finishWhole(b, ts, found, hits);
     }
+    // With u and v, from the leaves of the best hits: they were in the cache not long ago.
     void finishWhole(const RayBlock& b, const float* t, unsigned found,
                      const HitLists& hits) const {
         alignas(64) float point[3][3][W] = {}; // axis as in the block, corner
@@ -174,7 +184,8 @@ private:
     // Takes the ray to `ref`: three stores, of which one counts.
     [[gnu::always_inline]] void send(std::uint32_t slot, WideRef ref, Lists& to) const {
         const std::byte* const line = base_ + byteOffset(ref);
-        for (int k = 0; k < 4; ++k) __builtin_prefetch(line + std::ptrdiff_t{64} * k);
+        if (prefetches_)
+            for (int k = 0; k < 4; ++k) __builtin_prefetch(line + std::ptrdiff_t{64} * k);
         to.nodes[to.nodeCount] = slot;
         to.leaves[to.leafCount] = slot;
         to.done[to.doneCount] = slot;
@@ -295,17 +306,12 @@ private:
             const Ints at = Ints::bytes(leaf.corner[c]);
             s.x[c] = permute(xs, at), s.y[c] = permute(ys, at), s.z[c] = permute(z, at);
         }
-        Verdict v = judge<Q>(s, Floats(b.sign[i]), Floats(reachOf(leaf) + b.lateralError[i]),
-                             Floats(b.zCut[i]));
+        Verdict v = judge<Q>(s, Floats(b.sign[i]), Floats(b.zCut[i]));
         const unsigned all = (1u << leaf.count) - 1;
         v.candidates &= all;
         v.certain &= b.below[i] == kInfinityF ? all : 0;
         return v;
     }
-    static float reachOf(const WideLeaf<W>& leaf) {
-        return 2 * std::bit_cast<float>(static_cast<std::uint32_t>(leaf.reach) << 16);
-    }
-
     // ---- canonical keys
 
     void settleWaiting(Lists& to) {
@@ -372,7 +378,7 @@ private:
             const unsigned lanes = takeRays(b);
             Ints(0u).store(b.stackTop); // the queue's stacks are not used
             for (std::size_t i = 0; i < children_; ++i)
-                if (const unsigned entered = raysEntering(b, root_, i, lanes); entered != 0)
+                if (const unsigned entered = raysEntering(b, boxOf(i)) & lanes; entered != 0)
                     testLeaf(b, root_.child[i], entered);
             finish(b, results);
         }
@@ -400,7 +406,6 @@ private:
             (py - Floats::load(b.shearY) * depth).store(y[i]);
         }
         const Floats sign = Floats::load(b.sign), zCut = Floats::load(b.zCut);
-        const Floats size = Floats(reachOf(leaf)) + Floats::load(b.lateralError);
         const unsigned endless = bits(Floats::load(b.below) == Floats(kInfinityF));
         std::uint32_t n = 0;
         unsigned hidden = 0;
@@ -411,7 +416,7 @@ private:
                 s.x[c] = Floats::load(x[i]), s.y[c] = Floats::load(y[i]);
                 s.z[c] = Floats::load(z[i]);
             }
-            const Verdict v = judge<Q>(s, sign, size, zCut);
+            const Verdict v = judge<Q>(s, sign, zCut);
             hidden |= v.certain & endless & lanes;
             for (unsigned left = v.candidates & lanes & ~hidden; left != 0; left &= left - 1)
                 pairs_[n++] = {static_cast<std::uint32_t>(std::countr_zero(left)), ref, j};
@@ -425,11 +430,16 @@ private:
     void dropHidden(std::uint32_t slot, RayBlock& b, std::uint32_t i) {
         std::uint32_t* const refs = refs_ + slot * stride_;
         std::uint32_t* const entries = entries_ + slot * stride_;
-        const auto cut = std::bit_cast<std::uint32_t>(b.zCut[i]);
+        // The lowest four bits of an entry don't count.
+        const Ints limit((std::bit_cast<std::uint32_t>(b.zCut[i]) | 15) + 1);
         std::uint32_t kept = 0;
-        for (std::uint32_t k = 0; k < b.stackTop[i]; ++k) {
-            refs[kept] = refs[k], entries[kept] = entries[k];
-            kept += (entries[k] & ~15u) <= cut;
+        for (std::uint32_t k = 0; k < b.stackTop[i]; k += W) {
+            const std::uint32_t left = b.stackTop[i] - k;
+            const unsigned keep =
+                bits(Ints::load(entries + k) < limit) & ((left < W ? 1u << left : 0u) - 1);
+            storeChosen(keep, refs + k, refs + kept);
+            storeChosen(keep, entries + k, entries + kept);
+            kept += static_cast<std::uint32_t>(std::popcount(keep));
         }
         b.stackTop[i] = kept;
     }
@@ -439,6 +449,8 @@ private:
     std::span<const std::uint32_t> order_;
     const std::byte* base_;
     const WideNode<W>& root_;
+    const bool prefetches_;
+    Bounds box_;                                   // of the tree
     std::size_t stride_, next_ = 0, children_ = 0; // of the root
     RayBlock* blocks_;
     std::uint32_t *refs_, *entries_; // a stack per slot; entries only for nearest hits

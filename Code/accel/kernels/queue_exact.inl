@@ -15,12 +15,14 @@ struct Verdict {
 };
 
 // Edge functions with the bits of ShearedTriangle, then whether depth T/det is certain to be out of
-// range. Error of T and of the exact plane's, times |det|: with b the size of the triangle across
-// the ray and M its depth, below 68 u b (M + 2b)^2, u = 2^-24: 36 for the arithmetic here, 24 for
-// corners that are rounded to float relative to the ray, 8 for its rounded slopes.
+// range. How far T may be off z det, z the canonical depth of a hit, with b the largest lateral
+// distance of a corner from the ray, M the largest depth and u = 2^-24: a lateral distance is off
+// by u (4M + 2b) at most (corner relative to the ray, slope, product, difference), an edge function
+// by 4b times that and 3u b^2, which is u b (16M + 11b); T sums three of them times a depth, with
+// products and sums of its own below 24u b^2 M, and z det three more with 12u b^2 M: together below
+// u b M (96M + 102b).
 template <Query Q>
-[[gnu::always_inline]] inline Verdict judge(const Sheared& s, Floats sign, Floats size,
-                                            Floats zCut) {
+[[gnu::always_inline]] inline Verdict judge(const Sheared& s, Floats sign, Floats zCut) {
     const Floats zero(0.0f);
     const Floats U = s.x[2] * s.y[1] - s.y[2] * s.x[1], V = s.x[0] * s.y[2] - s.y[0] * s.x[2],
                  R = s.x[1] * s.y[0] - s.y[1] * s.x[0];
@@ -28,8 +30,11 @@ template <Query Q>
     const Mask inside = (zero <= least) | (most <= zero); // NaN never passes later
     const Floats det = (U + V) + R, T = (U * s.z[0] + V * s.z[1]) + R * s.z[2];
     const Floats depth = flipSign(flipSign(T, det), sign);
-    const Floats m = max(max(abs(s.z[0]), abs(s.z[1])), abs(s.z[2])) + (size + size);
-    const Floats noise = ((Floats(68 * 0x1p-24f) * size) * m) * m;
+    const auto largest = [](const Floats(&v)[3]) {
+        return max(max(abs(v[0]), abs(v[1])), abs(v[2]));
+    };
+    const Floats b = max(largest(s.x), largest(s.y)), M = largest(s.z);
+    const Floats noise = (Floats(128 * 0x1p-24f) * b) * (M * (M + b));
     const Floats end = zCut * abs(det);
     const Mask wanted =
         notGreater(depth, end * Floats(1.000001f) + noise) & notGreater(zero - noise, depth);

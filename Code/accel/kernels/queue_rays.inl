@@ -136,17 +136,14 @@ unsigned setUpRays(const RaySpan& rays, const std::uint32_t* order, std::size_t 
     return bits(traceable) & ((1u << count) - 1);
 }
 
-// Of the lanes those whose rays enter box i of the node. Boxes without a child are entered by none.
-template <int NodeWidth>
-unsigned raysEntering(const RayBlock& b, const WideNode<NodeWidth>& node, std::size_t i,
-                      unsigned lanes) {
+// Lanes whose rays enter a box; RaySetup::enters().
+inline unsigned raysEntering(const RayBlock& b, const Bounds& box) {
     Floats entry(0.0f), exit = Floats::load(b.zCut);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Floats r = Floats::load(b.r[axis]);
+        const Floats r = Floats::load(b.r[axis]), lo(box.lo[axis]), hi(box.hi[axis]);
         const Mask backwards = r < Floats(0.0f);
-        const Floats lo(node.plane[axis][0][i]), hi(node.plane[axis][1][i]);
         entry = max(fma(select(backwards, hi, lo), r, Floats::load(b.nearOffset[axis])), entry);
         exit = min(fma(select(backwards, lo, hi), r, Floats::load(b.farOffset[axis])), exit);
     }
-    return lanes & bits(entry <= exit);
+    return bits(entry <= exit);
 }

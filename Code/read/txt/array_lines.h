@@ -5,6 +5,7 @@
 #include "base/for_each.h"
 #include "desc/range.h"
 #include "desc/scene_desc.h"
+#include "read/line_chunks.h"
 #include "read/number.h"
 #include "read/txt/scanner.h"
 
@@ -47,15 +48,12 @@ template <> struct GroupOf<std::uint32_t> {
     static std::uint32_t& number(std::uint32_t& n, std::size_t) { return n; }
 };
 
-struct LineChunk {
-    const char* first = nullptr;       // the start of a line
-    std::size_t before = 0, lines = 0; // of the array: those in front, those in here
-};
-// The next `count` lines of the text; fewer when there are not so many.
-std::vector<LineChunk> chunksOfLines(const char* text, const char* end, std::size_t count,
-                                     int threads);
 // Behind the end of the line, if nothing else is left of it; else nullptr.
-const char* behindLineEnd(const char* p);
+inline const char* behindLineEnd(const char* p) {
+    while (*p == ' ' || *p == '\t') ++p;
+    if (*p == '\r') ++p;
+    return *p == '\n' ? p + 1 : nullptr;
+}
 
 struct LinesRead {
     const char* end = nullptr; // behind the last number

@@ -19,12 +19,13 @@ inline Ray shadowRay(const Lamp& lamp, const ShadedPoint& at, const LightSample&
 }
 
 // fn(point, light) for what arrives of the shadow rays' light.
-template <Steps kSteps, class ArriveFn> void traceShadowRays(const Wave& wave, ArriveFn&& arrive) {
+template <bool kSeeThrough, class ArriveFn>
+void traceShadowRays(const Wave& wave, ArriveFn&& arrive) {
     WaveMemory& memory = wave.memory;
     const RayBatch& rays = memory.shadowRays;
     if (rays.empty()) return;
     wave.counts.shadow += rays.size();
-    if constexpr (kSteps.seeThrough) {
+    if constexpr (kSeeThrough) {
         transmitted(wave.context.scene, rays, memory.transmittance);
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const Rgb part = memory.transmittance[i];
@@ -161,14 +162,14 @@ void shineInLanes(const Wave& wave, const Lamp& lamp, bool isGrouped, ArriveFn&&
 }
 
 // The same point by point, for any lamp.
-template <Steps kSteps, class ArriveFn>
+template <bool kSoftLamps, class ArriveFn>
 void shineOneByOne(const Wave& wave, const Lamp& lamp, bool isGrouped, ArriveFn&& arrive) {
     WaveMemory& memory = wave.memory;
     for (std::size_t i = 0; i < memory.answering.size(); ++i) {
         const std::uint32_t k = memory.answering[i];
         const bool mayBeHidden = !isGrouped || memory.groups[memory.groupOf[i]].mayBeHidden;
         const LitPoint lit = litPoint(wave, k);
-        forEachLampSample<kSteps>(wave, lamp, lit, [&](const LightSample& sample, Rgb light) {
+        forEachLampSample<kSoftLamps>(wave, lamp, lit, [&](const LightSample& sample, Rgb light) {
             if (!mayBeHidden) return arrive(k, light);
             const float time = wave.rays.time[memory.points.ray[k]];
             memory.shadowRays.push(shadowRay(lamp, memory.points.at[k], sample, time), k, light);
@@ -178,7 +179,7 @@ void shineOneByOne(const Wave& wave, const Lamp& lamp, bool isGrouped, ArriveFn&
 
 } // namespace waves
 
-template <Steps kSteps> void addLamps(const Wave& wave) {
+template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
     WaveMemory& memory = wave.memory;
     const PointBatch& points = memory.points;
     const std::vector<Lamp>& lamps = wave.context.shadingLamps;
@@ -209,8 +210,8 @@ template <Steps kSteps> void addLamps(const Wave& wave) {
         if (lamp.inLanes)
             waves::shineInLanes(wave, lamp, isGrouped, arrive);
         else
-            waves::shineOneByOne<kSteps>(wave, lamp, isGrouped, arrive);
-        waves::traceShadowRays<kSteps>(wave, arrive);
+            waves::shineOneByOne<kSoftLamps>(wave, lamp, isGrouped, arrive);
+        waves::traceShadowRays<kSeeThrough>(wave, arrive);
     }
     if (!isInOrder) waves::addInOrderOfPoints(wave);
 }

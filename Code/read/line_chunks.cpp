@@ -1,5 +1,8 @@
-#include "read/txt/array_lines.h"
+#include "read/line_chunks.h"
 
+#include "base/for_each.h"
+
+#include <algorithm>
 #include <cstring>
 
 namespace {
@@ -16,12 +19,6 @@ std::size_t linesIn(const char* p, const char* end) {
 }
 
 } // namespace
-
-const char* behindLineEnd(const char* p) {
-    while (*p == ' ' || *p == '\t') ++p;
-    if (*p == '\r') ++p;
-    return *p == '\n' ? p + 1 : nullptr;
-}
 
 std::vector<LineChunk> chunksOfLines(const char* text, const char* end, std::size_t count,
                                      int threads) {
