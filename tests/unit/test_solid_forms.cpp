@@ -9,6 +9,9 @@
 #include "solid_checks.h"
 #include "verify/meshes.h"
 
+#include <algorithm>
+#include <utility>
+
 using meshes::Random;
 using solid_checks::compare;
 using solid_checks::Rays;
@@ -229,5 +232,39 @@ TEST(solid_facets_are_no_batches) {
             CHECK_INFO(set.batched.size() == (kernel.width > 0 && count > Facets::kMost),
                        kernel.name << ' ' << count);
         }
+    }
+}
+
+// However many primitives a leaf has: every solid is in the tree once, and in its parents' boxes.
+TEST(solid_tree_of_large_leaves) {
+    for (const std::uint32_t largest : {1u, kUsualLeaf, 1000u}) {
+        SolidTree tree;
+        std::vector<Bounds> boxes;
+        for (std::uint32_t i = 0; i < 700; ++i) {
+            const float x = i % 3 == 0 ? static_cast<float>(i) : 0; // two thirds in one place
+            boxes.push_back({{x, 0, 0}, {x + 1, 1, 1}});
+            tree.add(boxes.back(), i, true, {});
+        }
+        tree.build(16, buildBvh(boxes, 1, largest));
+        std::vector<int> found(boxes.size());
+        std::vector<std::pair<WideRef, Bounds>> open{
+            {wideRef(0, WideKind::Node), {{-1e9f, -1e9f, -1e9f}, {1e9f, 1e9f, 1e9f}}}};
+        while (!open.empty()) {
+            const auto [ref, around] = open.back();
+            open.pop_back();
+            if (kindOf(ref) == WideKind::Leaf) {
+                ++found[tree.solids[ref >> 2].number];
+                CHECK(tree.boxes[ref >> 2].lo.x >= around.lo.x &&
+                      tree.boxes[ref >> 2].hi.x <= around.hi.x);
+            }
+            if (kindOf(ref) != WideKind::Node) continue;
+            const WideNode<16>& node = tree.node<16>(ref);
+            for (std::size_t i = 0; i < 16; ++i) {
+                const Bounds box{{node.plane[0][0][i], node.plane[1][0][i], node.plane[2][0][i]},
+                                 {node.plane[0][1][i], node.plane[1][1][i], node.plane[2][1][i]}};
+                if (kindOf(node.child[i]) != WideKind::None) open.push_back({node.child[i], box});
+            }
+        }
+        CHECK(std::all_of(found.begin(), found.end(), [](int times) { return times == 1; }));
     }
 }

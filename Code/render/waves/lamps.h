@@ -18,21 +18,25 @@ inline Ray shadowRay(const Lamp& lamp, const ShadedPoint& at, const LightSample&
             sample.distance * (1 - 0x1p-20f), time};
 }
 
-// What arrives of the shadow rays' light replaces their weights; black: all is hidden.
-template <bool kSeeThrough> void traceShadowRays(const Wave& wave) {
+// fn(point, light) for what arrives of the shadow rays' light.
+template <bool kSeeThrough, class ArriveFn>
+void traceShadowRays(const Wave& wave, ArriveFn&& arrive) {
     WaveMemory& memory = wave.memory;
-    RayBatch& rays = memory.shadowRays;
+    const RayBatch& rays = memory.shadowRays;
+    if (rays.empty()) return;
     wave.counts.shadow += rays.size();
     if constexpr (kSeeThrough) {
         transmitted(wave.context.scene, rays, memory.transmittance);
         for (std::size_t i = 0; i < rays.size(); ++i) {
-            const Rgb part = memory.transmittance[i]; // black hides even what is infinite
-            rays.weight[i] = isBlack(part) ? part : rays.weight[i] * part;
+            const Rgb part = memory.transmittance[i];
+            if (isBlack(part)) continue; // hides even what is infinite
+            const Rgb light = rays.weight[i] * part;
+            if (!isBlack(light)) arrive(rays.sample[i], light);
         }
     } else {
         wave.context.scene.shapes().occluded(rays.span(), memory.hidden);
         for (std::size_t i = 0; i < rays.size(); ++i)
-            if (memory.hidden[i] != 0) rays.weight[i] = {};
+            if (memory.hidden[i] == 0) arrive(rays.sample[i], rays.weight[i]);
     }
 }
 
@@ -207,11 +211,7 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
             waves::shineInLanes(wave, lamp, isGrouped, arrive);
         else
             waves::shineOneByOne<kSoftLamps>(wave, lamp, isGrouped, arrive);
-        if (memory.shadowRays.empty()) continue;
-        waves::traceShadowRays<kSeeThrough>(wave);
-        const RayBatch& rays = memory.shadowRays;
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            if (!isBlack(rays.weight[i])) arrive(rays.sample[i], rays.weight[i]);
+        waves::traceShadowRays<kSeeThrough>(wave, arrive);
     }
     if (!isInOrder) waves::addInOrderOfPoints(wave);
 }

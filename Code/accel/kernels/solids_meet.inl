@@ -1,0 +1,211 @@
+// Solids that rays of a packet may meet: hits and shadows, with the bits of asking each shape for
+// each ray.
+// Included by solids.inl.
+
+class PacketSolids : public PacketFacets {
+protected:
+    PacketSolids(const SolidTree& tree, const SolidCalls& calls, const RaySpan& rays)
+        : PacketFacets(tree, rays), calls_(calls) {}
+
+    template <Answer A, class Result>
+    void solid(std::uint32_t place, unsigned lanes, Result* results) {
+        const SolidTree::Solid& solid = tree_.solids[place];
+        if (A == Answer::Any && !solid.hides) return;
+        unsigned certain = 0;
+        lanes &= solid.isTube ? nearAxis<A>(solid, lanes, certain) : nearCentre<A>(solid, certain);
+        if constexpr (A == Answer::Any) {
+            certain &= lanes;
+            if (certain != 0) hide(certain, results);
+            lanes &= ~certain;
+        }
+        if (lanes == 0) return;
+        const Bounds& box = tree_.boxes[place];
+        Floats entry(0.0f), exit = zCut_;
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto a = static_cast<std::size_t>(axis);
+            const Mask back = maskOf(backwards_[axis]);
+            const Floats lo(box.lo[a]), hi(box.hi[a]);
+            entry = max(select(back, hi, lo) * r_[axis] + near_[axis], entry);
+            exit = min(select(back, lo, hi) * r_[axis] + far_[axis], exit);
+        }
+        lanes &= bits(entry <= exit);
+        if (lanes == 0) return;
+        if (solid.kind == SolidTree::Kind::Sphere)
+            sphere<A>(solid, tree_.spheres[solid.part], entry, lanes, results);
+        else if (solid.kind == SolidTree::Kind::Facets)
+            facets(solid, tree_.facets[solid.part], entry, lanes, results);
+        else
+            ask(solid, entry, lanes, results);
+    }
+
+private:
+    void hide(unsigned lanes, std::uint8_t* hidden) {
+        live_ &= ~lanes;
+        for (; lanes != 0; lanes &= lanes - 1) hidden[ray_[std::countr_zero(lanes)]] = 1;
+    }
+
+    [[gnu::noinline]] void ask(const SolidTree::Solid& solid, Floats entry, unsigned lanes,
+                               Hit* hits) {
+        alignas(64) float z[W], dz[W], best[W];
+        entry.store(z), dz_.store(dz), best_.store(best);
+        bool improved = false;
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const int i = std::countr_zero(lanes);
+            Hit& hit = hits[ray_[i]];
+            if (!calls_.nearer(calls_.set, rays_[ray_[i]], solid.number, z[i] / dz[i], hit))
+                continue;
+            best[i] = hit.t;
+            number_[i] = hit.shape;
+            improved = true;
+        }
+        if (improved) limit(Floats::load(best));
+    }
+    [[gnu::noinline]] void ask(const SolidTree::Solid& solid, Floats, unsigned lanes,
+                               std::uint8_t* hidden) {
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const int i = std::countr_zero(lanes);
+            if (!calls_.hides(calls_.set, rays_[ray_[i]], solid.number)) continue;
+            hidden[ray_[i]] = 1;
+            live_ &= ~(1u << i);
+        }
+    }
+
+    // Sphere::roots() and insideRound().
+    template <Answer A, class Result>
+    void sphere(const SolidTree::Solid& solid, const SolidTree::Sphere& sphere, Floats entry,
+                unsigned lanes, Result* results) {
+        const auto& m = sphere.exact.objectFromWorld;
+        const Doubles X(o_[0]), Y(o_[1]), Z(o_[2]), U(d_[0]), V(d_[1]), T(d_[2]);
+        const auto times = [&](std::size_t i, const Doubles& x) { return Doubles(m[i]) * x; };
+        // A zero of the map adds a zero, which changes no number.
+        const auto point = [&](std::size_t i, const Doubles& along) {
+            if (!sphere.turned) return along + Doubles(m[i + 3]);
+            return ((times(i, X) + times(i + 1, Y)) + times(i + 2, Z)) + Doubles(m[i + 3]);
+        };
+        const auto direction = [&](std::size_t i, const Doubles& along) {
+            if (!sphere.turned) return along;
+            return (times(i, U) + times(i + 1, V)) + times(i + 2, T);
+        };
+        const Doubles ox = point(0, times(0, X)), oy = point(4, times(5, Y)),
+                      oz = point(8, times(10, Z));
+        const Doubles dx = direction(0, times(0, U)), dy = direction(4, times(5, V)),
+                      dz = direction(8, times(10, T));
+        const Doubles dd = (dx * dx + dy * dy) + dz * dz, od = (ox * dx + oy * dy) + oz * dz;
+        const Doubles along = od / dd;
+        const Doubles px = ox - dx * along, py = oy - dy * along, pz = oz - dz * along;
+        const Doubles ll = (px * px + py * py) + pz * pz;
+        const double radius = sphere.exact.radius;
+        const Doubles rr(radius * radius);
+        lanes &= atMost(ll, rr);
+        if (lanes == 0 || !(radius > 0)) return;
+
+        const Doubles most(std::numeric_limits<double>::max());
+        const Doubles oo = (ox * ox + oy * oy) + oz * oz;
+        lanes &= atMost(dd, most) & atMost(oo, most);
+        const Doubles middle = Doubles(0.0) - along, half = sqrt((rr - ll) / dd);
+        const Doubles enter = middle - half, exit = middle + half;
+        const Floats t0 = enter.toFloats(), t1 = exit.toFloats();
+        if constexpr (A == Answer::Any) {
+            lanes &= bits(((t0 > tMin_) & (t0 < best_)) | ((t1 > tMin_) & (t1 < best_)));
+            hide(lanes, results);
+        } else {
+            const Mask first = t0 > tMin_;
+            const Floats t = select(first, t0, t1);
+            lanes &= bits((t > tMin_) & (t <= best_) & (t < Floats(kInfinityF)));
+            if (lanes == 0) return;
+            const Floats nearest = max(entry / dz_, t);
+            const Mask equal = nearest == best_;
+            unsigned better = bits(nearest < best_) | lowerNumbers(bits(equal) & lanes, solid);
+            better &= lanes;
+            if (better == 0) return;
+            const Doubles lost0 = enter - Doubles(t0), lost1 = exit - Doubles(t1);
+            alignas(64) float ts[W], us[W];
+            nearest.store(ts);
+            select(first, lost0.toFloats(), lost1.toFloats()).store(us);
+            for (unsigned rest = better; rest != 0; rest &= rest - 1) {
+                const int i = std::countr_zero(rest);
+                results[ray_[i]] = {.t = ts[i], .u = us[i], .shape = solid.number};
+                number_[i] = solid.number;
+            }
+            limit(select(maskOf(better), nearest, best_));
+        }
+    }
+
+    // Mesh::intersect(), OneSided::intersect() and the choice between their hit and the best one.
+    // Who can't be sure here asks the shape.
+    [[gnu::noinline]] void facets(const SolidTree::Solid& solid, const SolidTree::FacetGroup& group,
+                                  Floats entry, unsigned lanes, Hit* hits) {
+        const Floats zero(0.0f), one(1.0f), endless(kInfinityF);
+        Floats bestKey(0.0f), u(0.0f), v(0.0f);
+        std::uint32_t prim[W] = {};
+        unsigned asking = 0, unseen = 0;
+        for (std::uint32_t f = 0; f < group.count; ++f) {
+            const SolidTree::Facet& facet = group.facet[f];
+            const FacetHit hit = meet(facet, group.extent);
+            asking |= hit.undecided;
+            const Floats t = one / (hit.key * dz_);
+            const unsigned better = lanes & bits((hit.key > bestKey) & (t > tMin_) & (t < endless));
+            if (better == 0) continue;
+            bestKey = select(maskOf(better), hit.key, bestKey);
+            const auto edge = [&](int a, int b) {
+                return Doubles(hit.x[a]) * Doubles(hit.y[b]) -
+                       Doubles(hit.y[a]) * Doubles(hit.x[b]);
+            };
+            const Doubles e0 = edge(2, 1), e1 = edge(0, 2), e2 = edge(1, 0), sum = (e0 + e1) + e2;
+            u = select(maskOf(better), (e1 / sum).toFloats(), u);
+            v = select(maskOf(better), (e2 / sum).toFloats(), v);
+            for (unsigned rest = better; rest != 0; rest &= rest - 1)
+                prim[std::countr_zero(rest)] = f;
+            if (group.side != ::Facets::Side::Both)
+                unseen = (unseen & ~better) | (better & ~seesSide(facet.n, group.side));
+        }
+        const Floats t = one / (bestKey * dz_);
+        unsigned better = lanes & bits((bestKey > zero) & (t <= best_)) & ~asking;
+        asking = (asking & lanes) | (better & unseen);
+        const Floats nearest = max(entry / dz_, t);
+        for (unsigned equal = better & bits(nearest == best_); equal != 0; equal &= equal - 1)
+            if (number_[std::countr_zero(equal)] != Hit::kNoShape) asking |= equal & (~equal + 1);
+        better &= bits(nearest <= best_) & ~asking;
+        if (better != 0) {
+            alignas(64) float ts[W], us[W], vs[W];
+            nearest.store(ts), u.store(us), v.store(vs);
+            for (unsigned rest = better; rest != 0; rest &= rest - 1) {
+                const int i = std::countr_zero(rest);
+                hits[ray_[i]] = {
+                    .t = ts[i], .u = us[i], .v = vs[i], .prim = prim[i], .shape = solid.number};
+                number_[i] = solid.number;
+            }
+            limit(select(maskOf(better), nearest, best_));
+        }
+        if (asking != 0) ask(solid, entry, asking, hits);
+    }
+
+    [[gnu::noinline]] void facets(const SolidTree::Solid& solid, const SolidTree::FacetGroup& group,
+                                  Floats entry, unsigned lanes, std::uint8_t* hidden) {
+        const Floats one(1.0f);
+        for (std::uint32_t f = 0; f < group.count; ++f) {
+            const FacetHit hit = meet(group.facet[f], group.extent);
+            const Floats t = one / (hit.key * dz_);
+            const unsigned met =
+                lanes & ~hit.undecided & bits((hit.key > Floats(0.0f)) & (t > tMin_) & (t < best_));
+            hide(met, hidden);
+            lanes &= ~met;
+            if (const unsigned asking = lanes & hit.undecided; asking != 0) {
+                ask(solid, entry, asking, hidden);
+                lanes &= ~asking;
+            }
+            if (lanes == 0) return;
+        }
+    }
+
+    unsigned lowerNumbers(unsigned lanes, const SolidTree::Solid& solid) const {
+        unsigned lower = 0;
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const int i = std::countr_zero(lanes);
+            if (solid.number < number_[i]) lower |= 1u << i;
+        }
+        return lower;
+    }
+
+    const SolidCalls& calls_;
+};
