@@ -4,14 +4,20 @@
 #include "base/bounds.h"
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <optional>
+#include <vector>
 
 // All of a shape is at most this far from the centre; or, with an axis (of unit length), from the
 // line through the centre along it.
 struct RoundHull {
     Vec3d centre, axis;
     double radius = kInfinity;
-    double innerRadius = 0; // a ball about the centre that is inside of a sphere
+    // A ball about the centre that is inside of a sphere; with an axis: that of a straight round
+    // tube, of which the shape has all of the side.
+    double innerRadius = 0;
+    double halfLength = kInfinity; // along the axis, to both sides of the centre
 };
 
 // A sphere about the origin of an object space that does not move. A kernel that meets it repeats
@@ -21,11 +27,21 @@ struct StillSphere {
     double radius = 0;
 };
 
+// A few triangles that stand still, in the order of their numbers: floors, walls and the like.
+struct Facets {
+    enum class Side : std::uint8_t { Both, Front, Back }; // that rays of sight meet
+    static constexpr std::size_t kMost = 4;
+    std::vector<std::array<Vec3, 3>> triangles;
+    float extent = 0; // see RaySetup
+    Side side = Side::Both;
+};
+
 struct SolidForm {
     RoundHull hull;
     std::optional<StillSphere> sphere; // the shape is this one
+    std::optional<Facets> facets{};    // or these
 };
 
 inline RoundHull ballAround(const BoundsD& box) {
-    return {box.centre(), {}, 0.5 * length(box.size()), 0};
+    return {.centre = box.centre(), .axis = {}, .radius = 0.5 * length(box.size())};
 }

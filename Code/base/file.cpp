@@ -1,6 +1,7 @@
 #include "base/file.h"
 
 #include "base/error.h"
+#include "base/large_pages.h"
 #include "base/text.h"
 
 #include <algorithm>
@@ -13,9 +14,6 @@
 #include <memory>
 #include <mutex>
 #include <unistd.h>
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
 
 namespace {
 
@@ -60,24 +58,14 @@ private:
 }
 
 // Writes and closes; nothing is on the disk for sure before fclose() succeeds.
-void writeBytes(const std::string& path, const std::string& fileName,
-                std::span<const std::uint8_t> bytes) {
+void writeBytes(const std::string& path, const std::string& fileName, const ByteSource& produce) {
     File file(std::fopen(path.c_str(), "wb"));
     if (!file) failWriting(fileName, errno);
-    if (!bytes.empty() && std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
-        failWriting(fileName, errno);
+    produce([&](std::span<const std::uint8_t> bytes) {
+        if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
+            failWriting(fileName, errno);
+    });
     if (std::fclose(file.release()) != 0) failWriting(fileName, errno);
-}
-
-// Before the first touch of memory for a large file, of which the touches cost more than the copy.
-void adviseLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t size) {
-#if defined(__linux__)
-    constexpr std::uintptr_t kPage = std::uintptr_t{1} << 21;
-    const auto start = reinterpret_cast<std::uintptr_t>(memory);
-    const std::uintptr_t inside = (kPage - start % kPage) % kPage;
-    if (size < inside + kPage) return;
-    madvise(static_cast<char*>(memory) + inside, (size - inside) / kPage * kPage, MADV_HUGEPAGE);
-#endif
 }
 
 template <class Bytes> Bytes readWhole(const std::string& fileName) {
@@ -123,6 +111,10 @@ std::vector<std::uint8_t> readWholeFile(const std::string& fileName) {
 std::string readWholeText(const std::string& fileName) { return readWhole<std::string>(fileName); }
 
 void writeFileAtomically(const std::string& fileName, std::span<const std::uint8_t> bytes) {
+    writeFileAtomically(fileName, [&](const ByteSink& write) { write(bytes); });
+}
+
+void writeFileAtomically(const std::string& fileName, const ByteSource& produce) {
     const std::scoped_lock lock(oneWriteAtATime);
     std::error_code status;
     std::string target = fileName;
@@ -133,13 +125,14 @@ void writeFileAtomically(const std::string& fileName, std::span<const std::uint8
     }
     const fs::file_status kind = fs::status(target, status);
     if (fs::is_directory(kind)) failWriting(fileName, EISDIR);
-    if (fs::exists(kind) && !fs::is_regular_file(kind)) return writeBytes(target, fileName, bytes);
+    if (fs::exists(kind) && !fs::is_regular_file(kind))
+        return writeBytes(target, fileName, produce);
     // rename() asks for rights in the folder only; a write-protected file stays protected.
     if (fs::exists(kind) && access(target.c_str(), W_OK) != 0) failWriting(fileName, errno);
 
     const std::string temporary = cat(target, ".", getpid(), ".tmp");
     const PendingFile pendingFile(temporary);
-    writeBytes(temporary, fileName, bytes);
+    writeBytes(temporary, fileName, produce);
     if (std::rename(temporary.c_str(), target.c_str()) != 0) failWriting(fileName, errno);
 }
 

@@ -2,8 +2,11 @@
 // Knows nothing about what the bytes mean; "-" for stdin and stdout is the caller's business.
 #pragma once
 
+#include "base/in_order.h"
+
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -18,6 +21,10 @@ std::string readWholeText(const std::string& fileName);
 // until then. What is no regular file (/dev/null, a pipe) is written to directly. One write at a
 // time: threads wait for each other. Fails with ErrorKind::Output and leaves no temporary file.
 void writeFileAtomically(const std::string& fileName, std::span<const std::uint8_t> bytes);
+// The same for bytes that are made meanwhile: produce(write) gives them to `write` one piece after
+// the other, from any thread.
+using ByteSource = std::function<void(const ByteSink& write)>;
+void writeFileAtomically(const std::string& fileName, const ByteSource& produce);
 
 // The temporary file that exists right now, nullptr when there is none. Safe in a signal handler,
 // which may unlink() it before the program ends.

@@ -1,5 +1,9 @@
 #include "base/transform.h"
 
+#include "base/affine.h"
+
+#include <bit>
+
 namespace {
 
 using Rows = Transform::Rows;
@@ -14,18 +18,37 @@ std::array<double, 9> cofactors(const Rows& m) {
 
 double largestLinear(const Rows& m) {
     double largest = 0;
-    for (const std::size_t i : {0u, 1u, 2u, 4u, 5u, 6u, 8u, 9u, 10u}) {
-        if (!(std::fabs(m[i]) <= largest)) largest = std::fabs(m[i]);
-        if (largest != largest) return largest;
-    }
+    for (const std::size_t i : {0u, 1u, 2u, 4u, 5u, 6u, 8u, 9u, 10u})
+        largest = max(largest, std::fabs(m[i]));
     return largest;
 }
 
+// Without a branch per number: what is infinite or NaN gives NaN.
 bool isFinite(const Rows& m) {
-    for (const double x : m)
-        if (!(std::fabs(x) < kInfinity)) return false;
-    return true;
+    double zero = 0;
+    for (const double x : m) zero += x * 0;
+    return zero == 0;
 }
+
+// Multiplies by the power of two that brings `largest` into [0.5, 1).
+class PowerOfTwo {
+public:
+    explicit PowerOfTwo(double largest) {
+        const auto biased = static_cast<int>(std::bit_cast<std::uint64_t>(largest) >> 52);
+        exponent_ = biased - 1022;
+        if (biased == 0) std::frexp(largest, &exponent_);
+        // By multiplication where the power is a normal number: ldexp() is a call each time.
+        isNormal_ = std::abs(exponent_) <= 1000;
+        if (isNormal_)
+            power_ = std::bit_cast<double>(static_cast<std::uint64_t>(1023 - exponent_) << 52);
+    }
+    double operator()(double x) const { return isNormal_ ? x * power_ : std::ldexp(x, -exponent_); }
+
+private:
+    int exponent_ = 0;
+    bool isNormal_ = false;
+    double power_ = 0;
+};
 
 Vec3d unit(Vec3d v) {
     const double size = maxAbs(v); // first, so that squares neither overflow nor underflow
@@ -35,16 +58,12 @@ Vec3d unit(Vec3d v) {
 } // namespace
 
 Transform Transform::fromRows(const Rows& rows) {
-    const Transform singular(rows, Rows{}, false, true);
+    const auto singular = [&] { return Transform(rows, Rows{}, false, true); };
+    if (!isFinite(rows)) return singular();
     const double largest = largestLinear(rows);
-    if (!isFinite(rows) || largest == 0) return singular;
+    if (largest == 0) return singular();
     // Scaled to about 1 by a power of two: exact, and products of three stay in range.
-    int exponent = 0;
-    std::frexp(largest, &exponent);
-    // By multiplication where the power is a normal number: ldexp() is a call each time.
-    const bool isNormal = std::abs(exponent) <= 1000;
-    const double power = isNormal ? std::ldexp(1.0, -exponent) : 0;
-    const auto scaled = [&](double x) { return isNormal ? x * power : std::ldexp(x, -exponent); };
+    const PowerOfTwo scaled(largest);
     Rows m = rows;
     for (double& x : m) x = scaled(x);
     const std::array<double, 9> c = cofactors(m);
@@ -58,14 +77,14 @@ Transform Transform::fromRows(const Rows& rows) {
                                   {2, 4, 9},
                                   {2, 5, 8}})
         products += std::fabs(m[i] * m[j] * m[k]);
-    if (!(std::fabs(determinant) > 8 * 0x1p-53 * products)) return singular;
+    if (!(std::fabs(determinant) > 8 * 0x1p-53 * products)) return singular();
     const auto entry = [&](std::size_t i) { return scaled(c[i] / determinant); };
     Rows inverse{entry(0), entry(3), entry(6), 0,        entry(1), entry(4),
                  entry(7), 0,        entry(2), entry(5), entry(8), 0};
     for (const std::size_t i : {0u, 4u, 8u})
         inverse[i + 3] =
             -(inverse[i] * rows[3] + inverse[i + 1] * rows[7] + inverse[i + 2] * rows[11]);
-    if (!isFinite(inverse)) return singular;
+    if (!isFinite(inverse)) return singular();
     return {rows, inverse, determinant < 0, false};
 }
 
@@ -124,27 +143,7 @@ Ray Transform::ray(const Ray& r) const {
             r.time};
 }
 
-// Arvo, Graphics Gems 1990: each entry of the matrix takes the side that is smaller or larger.
-BoundsD Transform::bounds(const BoundsD& box) const {
-    if (box.isEmpty()) return {};
-    BoundsD out;
-    for (std::size_t i = 0; i < 3; ++i) {
-        double lo = rows_[4 * i + 3], hi = lo, size = std::fabs(lo);
-        for (std::size_t j = 0; j < 3; ++j) {
-            const double factor = rows_[4 * i + j];
-            if (factor == 0) continue; // also where the box is infinite
-            const double a = factor * box.lo[j], b = factor * box.hi[j];
-            lo += min(a, b);
-            hi += max(a, b);
-            size += max(std::fabs(a), std::fabs(b));
-        }
-        // Rounding here and in point(): four products and sums each.
-        const double pad = size < kInfinity ? 2 * roundingBoundD(5) * size : 0;
-        out.lo[i] = lo - pad;
-        out.hi[i] = hi + pad;
-    }
-    return out;
-}
+BoundsD Transform::bounds(const BoundsD& box) const { return boundsOf(rows_, box); }
 
 Transform Transform::inverse() const {
     return singular_ ? fromRows(Rows{}) : Transform(inverse_, rows_, mirrors_, false);
@@ -156,14 +155,6 @@ double Transform::determinant() const {
 }
 
 Transform operator*(const Transform& aFromB, const Transform& bFromC) {
-    const auto product = [](const Rows& a, const Rows& b) {
-        Rows out;
-        for (std::size_t i = 0; i < 12; i += 4)
-            for (std::size_t j = 0; j < 4; ++j)
-                out[i + j] = a[i] * b[j] + a[i + 1] * b[4 + j] + a[i + 2] * b[8 + j] +
-                             (j == 3 ? a[i + 3] : 0);
-        return out;
-    };
     const Rows rows = product(aFromB.rows_, bFromC.rows_);
     const Rows inverse = product(bFromC.inverse_, aFromB.inverse_);
     if (aFromB.singular_ || bFromC.singular_ || !isFinite(rows) || !isFinite(inverse))

@@ -51,10 +51,35 @@ Ray Camera::rayFrom(const Axes& axes, Vec2d pixel, Vec2 lens, float time) const 
     return ray;
 }
 
+// Two places at a time in registers of the compiler's, in the steps of lineFrom() and normalize().
 void Camera::pinholeRays(std::span<const Vec2d> pixels, std::span<Vec3> dir,
                          std::span<float> tMin) const {
+    using Two __attribute__((vector_size(16))) = double;
+    using Twice = Vec3T<Two>;
+    const auto both = [](double a, double b) {
+        const Two pair = {a, b};
+        return pair;
+    };
+    const auto twice = [&](Vec3d v) {
+        return Twice{both(v.x, v.x), both(v.y, v.y), both(v.z, v.z)};
+    };
     const Axes axes = atRest_;
-    for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const Twice right = twice(axes.right), up = twice(axes.up), forward = twice(axes.forward);
+    std::size_t i = 0;
+    for (; i + 2 <= pixels.size(); i += 2) {
+        const Two x = both(pixels[i].x, pixels[i + 1].x), y = both(pixels[i].y, pixels[i + 1].y);
+        const Twice across = right * (topLeft_.x + x * step_.x) + up * (topLeft_.y - y * step_.y);
+        const Twice line = across + forward;
+        const Two length2 = dot(line, line);
+        const Twice d = line / both(std::sqrt(length2[0]), std::sqrt(length2[1]));
+        // A division by what is positive would change no zero.
+        const Two clip = params_.clipStart == 0 ? Two{} : params_.clipStart / dot(d, forward);
+        for (std::size_t k = 0; k < 2; ++k) {
+            dir[i + k] = toFloat({d.x[k], d.y[k], d.z[k]});
+            tMin[i + k] = static_cast<float>(clip[k]);
+        }
+    }
+    for (; i < pixels.size(); ++i) {
         const Vec3d d = normalize(lineFrom(axes, pixels[i]).dir);
         dir[i] = toFloat(d);
         tMin[i] = clipDepth(d, axes);

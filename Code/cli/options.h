@@ -43,6 +43,7 @@ struct Options {
 
     // Quality
     std::optional<int> samplesPerPixel, lightSamples, maxDepth;
+    std::optional<double> error; // RMSE; samplesPerPixel is then the most
     std::optional<SettingsDesc::Sampler> sampler;
     std::optional<bool> jitter;
     std::optional<std::uint32_t> seed;

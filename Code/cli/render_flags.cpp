@@ -239,6 +239,12 @@ void addQualityFlags(std::vector<Flag>& flags, Options& o) {
                .help = "samples per pixel; powers of two are best",
                .set = [&o](const FlagValue& v) { o.samplesPerPixel = wholeLike("samples", v); },
                .example = "4"});
+    group.add({.name = "--error", .argument = "E",
+               .help = "samples where they are needed, until the estimated error of the picture "
+                       "is below E: the RMSE of its linear values, 1 is white; --spp is then the "
+                       "most per pixel (4096)",
+               .set = [&o](const FlagValue& v) { o.error = v.number(1e-6, 1e6); },
+               .example = "0.01"});
     group.add({.name = "--light-samples", .argument = "N",
                .help = "shadow rays per soft light and hit",
                .set = [&o](const FlagValue& v) { o.lightSamples = wholeLike("light_samples", v); },

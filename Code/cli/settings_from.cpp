@@ -3,6 +3,7 @@
 #include "accel/kernels/kernels.h"
 #include "base/parallel.h"
 #include "base/text.h"
+#include "cli/output.h"
 #include "image/image.h"
 
 #include <algorithm>
@@ -87,6 +88,31 @@ void setQuality(SettingsDesc& picture, const Options& options) {
     picture.filterWidth = 0;
 }
 
+// The scene's own number of samples says how good its picture shall be, and so does --error.
+void setErrorGoal(RenderSettings& settings, const Options& options) {
+    if (!options.error || options.action != Options::Action::Render) return;
+    using Sampler = SettingsDesc::Sampler;
+    SettingsDesc& picture = settings.picture;
+    const bool hasPlaces =
+        picture.sampler == Sampler::Stratified || picture.sampler == Sampler::Grid;
+    if (picture.sampler == Sampler::Corners)
+        failUsage("--error has no use with --sampler corners, whose rays have fixed places; sobol, "
+                  "stratified, random and grid can be asked for an error");
+    if (hasPlaces && !picture.jitter && picture.filterWidth > 0)
+        failUsage("--error has no use with --no-jitter: samples in fixed places do not know what "
+                  "is between them; --sampler sobol and random need no jitter");
+    ErrorGoal goal{.rmse = *options.error};
+    goal.mostSamples = options.samplesPerPixel.value_or(goal.mostSamples);
+    if (goal.mostSamples < ErrorGoal::kFirstSamples)
+        failUsage(cat("--error needs --spp ", ErrorGoal::kFirstSamples,
+                      " or more: fewer samples show no error"));
+    // A .pfm has no white that ends its values.
+    if (lowerExtension(options.output) != ".pfm") goal.white = 1;
+    if (std::getenv("TCLIP")) goal.white = 1;
+    picture.samplesPerPixel = ErrorGoal::kFirstSamples;
+    settings.errorGoal = goal;
+}
+
 } // namespace
 
 RenderSettings settingsFrom(const SceneDesc& desc, const Options& options) {
@@ -109,6 +135,7 @@ RenderSettings settingsFrom(const SceneDesc& desc, const Options& options) {
     settings.threads = options.threads > 0 ? options.threads : hardwareThreads();
     settings.background = options.background;
     settings.aovs = options.aovs;
+    setErrorGoal(settings, options);
     settings.textureFolder = options.textureFolder;
     return settings;
 }

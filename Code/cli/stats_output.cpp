@@ -98,12 +98,19 @@ private:
 
 void addFeatures(Table& table, const Stats& stats) {
     table.heading("features");
+    table.line("shading  " + stats.shading);
     table.line("needed   " + (stats.featuresNeeded.empty() ? "none" : join(stats.featuresNeeded)));
     for (std::size_t i = 0; i < stats.featuresSkipped.size(); ++i)
         table.line((i == 0 ? "skipped  " : "         ") + stats.featuresSkipped[i]);
 }
 
 } // namespace
+
+std::string significant(double value) {
+    std::ostringstream out;
+    out << std::setprecision(3) << value;
+    return out.str();
+}
 
 std::string statsTable(const Stats& s) {
     Table table;
@@ -135,10 +142,17 @@ std::string statsTable(const Stats& s) {
     table.row("peak memory", megabytes(s.peakBytes));
     table.row("threads", std::to_string(s.threads));
     table.row("kernel", s.kernel);
-    table.row("samples per pixel", shortest(s.samplesMean),
+    table.row("samples per pixel",
+              s.samplesMin == s.samplesMax ? shortest(s.samplesMean) : fixed(s.samplesMean, 1),
               s.samplesMin == s.samplesMax
                   ? ""
                   : cat("(", shortest(s.samplesMin), " to ", shortest(s.samplesMax), ")"));
+    if (s.error) {
+        table.row("estimated error", significant(s.error->estimate),
+                  cat("(goal ", shortest(s.error->goal), ")"));
+        table.row("pixels short of goal", grouped(s.error->cappedPixels),
+                  cat("(at ", s.error->mostSamples, " samples)"));
+    }
     table.heading("numeric");
     table.row("nan samples", grouped(s.nanSamples));
     table.row("degenerate primitives", grouped(s.degeneratePrimitives));
@@ -166,7 +180,12 @@ std::string statsJson(const Stats& s) {
     all.add("seconds", seconds.text()).add("rays", rays.text()).add("hits", hits.text());
     all.add("rays_per_second", raysPerSecond(s)).add("accel", accel.text());
     all.add("peak_bytes", s.peakBytes).add("threads", static_cast<std::uint64_t>(s.threads));
-    all.add("kernel", quoted(s.kernel)).add("features", features.text());
+    all.add("kernel", quoted(s.kernel)).add("shading", quoted(s.shading));
+    all.add("features", features.text());
+    if (s.error) {
+        all.add("error_estimate", s.error->estimate).add("error_goal", s.error->goal);
+        all.add("capped_pixels", s.error->cappedPixels);
+    }
     all.add("samples", samples.text()).add("numeric", numeric.text());
     return all.text() + "\n";
 }

@@ -7,9 +7,12 @@
 
 std::string statsTable(const Stats& stats);
 
-// One object on one line, with the keys of DESIGN.md section 3 (error_estimate: there is none
-// without --error). Numbers that are not finite become null.
+// One object on one line, with the keys of DESIGN.md section 3 (error_estimate, error_goal and
+// capped_pixels only with --error). Numbers that are not finite become null.
 std::string statsJson(const Stats& stats);
+
+// Three digits that count: "0.00594".
+std::string significant(double value);
 
 // The most memory that the process has used so far.
 std::uint64_t peakBytes();

@@ -1,6 +1,6 @@
 #include "desc/scene_bounds.h"
 
-#include "base/transform.h"
+#include "base/affine.h"
 
 #include <vector>
 
@@ -43,8 +43,7 @@ BoundsD boundsOf(const SceneDesc& desc) {
     for (const ObjectDesc& object : desc.objects) {
         const BoundsD local = objectBox(object, meshBoxes);
         if (local.isEmpty()) continue;
-        for (const Rows& key : object.worldFromObject)
-            box.extend(Transform::fromRows(key).bounds(local));
+        for (const Rows& key : object.worldFromObject) box.extend(boundsOf(key, local));
     }
     return box;
 }

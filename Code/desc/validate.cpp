@@ -24,12 +24,12 @@ template <class Block> std::string called(const Block& block) {
         return std::string(wordOf(block));
 }
 
-// "a, b, c and 4 more"
-std::string listed(const std::vector<std::string>& names) {
-    constexpr std::size_t kListed = 10;
+constexpr std::size_t kListed = 10;
+// "a, b, c and 4 more"; `names` are at least the first kListed of `count`.
+std::string listed(const std::vector<std::string>& names, std::size_t count) {
     const std::span<const std::string> all = names;
     const std::string head = join(all.first(std::min(names.size(), kListed)));
-    return names.size() > kListed ? cat(head, " and ", names.size() - kListed, " more") : head;
+    return count > kListed ? cat(head, " and ", count - kListed, " more") : head;
 }
 
 std::string mustHave(std::string_view keyword, const Range& range, double value) {
@@ -91,21 +91,22 @@ private:
     }
 
     template <class Block> void checkProperties(const Block& block) {
-        for (const Property<Block>& property : propertiesOf<Block>()) {
-            const auto checkNumbers = [&](const Field<Block>& field) {
-                forEachNumber(block, field, [&](const auto& number) {
-                    const auto value = static_cast<double>(number);
-                    if (!property.range.contains(value) && (property.kinds & kindOf(block)))
-                        error(block, mustHave(property.keyword, property.range, value));
-                });
+        forEachRow<Block>([&](auto row) {
+            constexpr const Property<Block>& property = propertiesOf<Block>()[decltype(row)::value];
+            const auto checkNumber = [&](const auto& number) {
+                const auto value = static_cast<double>(number);
+                if (!property.range.contains(value) && (property.kinds & kindOf(block)))
+                    error(block, mustHave(property.keyword, property.range, value));
             };
-            checkNumbers(property.first);
-            if (property.second) checkNumbers(*property.second);
+            forEachNumberOf(block, std::get<property.first.index()>(property.first), checkNumber);
+            if constexpr (property.second)
+                forEachNumberOf(block, std::get<property.second->index()>(*property.second),
+                                checkNumber);
             if constexpr (std::is_same_v<Block, LightDesc>)
                 if (!(property.kinds & kindOf(block)) && !isDefault(block, property))
                     warn(block.loc, cat(called(block), ": '", property.keyword,
                                         "' has no effect on type ", nameOf(block.kind)));
-        }
+        });
         forEachReference(block, [&](Handle handle, Target target, std::string_view keyword) {
             if (handle != kNone &&
                 (handle < 0 || static_cast<std::size_t>(handle) >= countOf(target)))
@@ -116,7 +117,7 @@ private:
 
     template <class Block>
     static bool isDefault(const Block& block, const Property<Block>& property) {
-        const Block defaults{};
+        static const Block defaults{};
         return sameField(block, defaults, property.first) &&
                (!property.second || sameField(block, defaults, *property.second));
     }
@@ -142,11 +143,13 @@ private:
 
     template <class Block>
     void checkNames(const std::vector<Block>& blocks, std::string_view kind) {
+        constexpr std::size_t kAhead = 8;
         NameTable seen(blocks.size());
         for (std::size_t i = 0; i < blocks.size(); ++i) {
             const Block& block = blocks[i];
             if (block.name.empty() || findBadText(block.name) != std::string_view::npos)
                 error(block, "a name is UTF-8 without control characters, and not empty");
+            if (i + kAhead < blocks.size()) seen.prepare(blocks[i + kAhead].name);
             if (const auto first = seen.insert(block.name, static_cast<std::uint32_t>(i)))
                 error(block, "another ", kind, " has this name", atLine(blocks[*first].loc));
         }
@@ -290,15 +293,16 @@ private:
         });
         const auto tell = [&](const auto& blocks, Target target, std::string_view plural) {
             std::vector<std::string> names;
+            std::size_t count = 0;
             SourceLoc first;
             for (std::size_t i = 0; i < blocks.size(); ++i) {
                 if (used[static_cast<std::size_t>(target)][i]) continue;
-                if (names.empty()) first = blocks[i].loc;
-                names.push_back(shown(blocks[i].name));
+                if (count++ == 0) first = blocks[i].loc;
+                if (names.size() < kListed) names.push_back(shown(blocks[i].name));
             }
-            if (!names.empty())
-                warn(first, cat("nothing uses the ", names.size() == 1 ? nameOf(target) : plural,
-                                " ", listed(names)));
+            if (count > 0)
+                warn(first, cat("nothing uses the ", count == 1 ? nameOf(target) : plural, " ",
+                                listed(names, count)));
         };
         tell(desc_.textures, Target::Texture, "textures");
         tell(desc_.materials, Target::Material, "materials");

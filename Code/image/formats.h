@@ -17,8 +17,8 @@ StoredImage decodePpm(Bytes file, const std::string& name);
 StoredImage decodePfm(Bytes file, const std::string& name);
 StoredImage decodePng(Bytes file, const std::string& name);
 
-std::vector<std::uint8_t> encodePpm(const Image& image, Encoding encoding, int threads);
-std::vector<std::uint8_t> encodePfm(const Image& image, int threads);
+void encodePpm(const Image& image, Encoding encoding, int threads, const ByteSink& use);
+void encodePfm(const Image& image, int threads, const ByteSink& use);
 std::vector<std::uint8_t> encodePng(const Image& image, Encoding encoding, int threads);
 
 // Fails unless both sides are in 1..kMaxSide and the area is at most kMaxPixels.

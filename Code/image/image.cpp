@@ -110,7 +110,9 @@ void Image::write(const std::string& fileName, Encoding encoding, int threads) c
     if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end())
         fail(ErrorKind::Output, cat(fileName, ": error: unknown picture extension ",
                                     unknownName(extension, kExtensions)));
-    writeFileAtomically(fileName, encodeImage(*this, extension, encoding, threads));
+    writeFileAtomically(fileName, [&](const ByteSink& write) {
+        encodeImage(*this, extension, encoding, threads, write);
+    });
 }
 
 StoredImage readStoredImage(const std::string& fileName) {
@@ -131,11 +133,20 @@ StoredImage decodeImage(std::span<const std::uint8_t> file, const std::string& n
 
 std::vector<std::uint8_t> encodeImage(const Image& image, const std::string& extension,
                                       Encoding encoding, int threads) {
+    std::vector<std::uint8_t> file;
+    encodeImage(image, extension, encoding, threads, [&](std::span<const std::uint8_t> piece) {
+        file.insert(file.end(), piece.begin(), piece.end());
+    });
+    return file;
+}
+
+void encodeImage(const Image& image, const std::string& extension, Encoding encoding, int threads,
+                 const ByteSink& use) {
     if (encoding.bits != 8 && encoding.bits != 16)
         fail(ErrorKind::Usage, cat("error: ", encoding.bits, " bits per channel; 8 or 16"));
-    if (extension == "ppm") return encodePpm(image, encoding, threads);
-    if (extension == "png") return encodePng(image, encoding, threads);
-    if (extension == "pfm") return encodePfm(image, threads);
+    if (extension == "ppm") return encodePpm(image, encoding, threads, use);
+    if (extension == "png") return use(encodePng(image, encoding, threads));
+    if (extension == "pfm") return encodePfm(image, threads, use);
     fail(ErrorKind::Output,
          cat("error: unknown picture extension ", unknownName(extension, kExtensions)));
 }

@@ -2,7 +2,9 @@
 // Knows nothing about scenes or rendering.
 #pragma once
 
+#include "base/in_order.h"
 #include "base/vec.h"
+#include "base/zeroed.h"
 
 #include <cstdint>
 #include <span>
@@ -66,7 +68,7 @@ private:
                static_cast<std::size_t>(x);
     }
     int width_ = 0, height_ = 0;
-    std::vector<Rgb> pixels_;
+    ZeroedVector<Rgb> pixels_;
 };
 
 // Reads any supported file as it is stored. Palette and 1-, 2-, 4-bit PNG become 8 bits, a PPM with
@@ -78,3 +80,6 @@ StoredImage decodeImage(std::span<const std::uint8_t> file, const std::string& n
 // Bytes of a file, the same for any number of threads; `extension` is "ppm", "png" or "pfm".
 std::vector<std::uint8_t> encodeImage(const Image& image, const std::string& extension,
                                       Encoding encoding, int threads = 1);
+// The same in pieces, which are used one after the other while others are made.
+void encodeImage(const Image& image, const std::string& extension, Encoding encoding, int threads,
+                 const ByteSink& use);

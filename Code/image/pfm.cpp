@@ -45,20 +45,19 @@ StoredImage decodePfm(Bytes file, const std::string& name) {
     return image;
 }
 
-std::vector<std::uint8_t> encodePfm(const Image& image, int threads) {
+void encodePfm(const Image& image, int threads, const ByteSink& use) {
     const std::string header = cat("PF\n", image.width(), " ", image.height(), "\n-1.0\n");
     const auto width = static_cast<std::size_t>(image.width());
     const auto height = static_cast<std::size_t>(image.height());
     // The lowest row comes first.
-    return rawFile(header, height, 12 * width, threads,
-                   [&](std::size_t first, std::size_t count, std::span<std::uint8_t> out) {
-                       std::uint8_t* to = out.data();
-                       for (std::size_t i = first; i < first + count; ++i)
-                           for (const Rgb& p :
-                                image.pixels().subspan((height - 1 - i) * width, width))
-                               for (const float value : {p.r, p.g, p.b}) {
-                                   storeLittle(to, std::bit_cast<std::uint32_t>(value));
-                                   to += 4;
-                               }
-                   });
+    makeRawFile(header, height, 12 * width, threads, use,
+                [&](std::size_t first, std::size_t count, std::span<std::uint8_t> out) {
+                    std::uint8_t* to = out.data();
+                    for (std::size_t i = first; i < first + count; ++i)
+                        for (const Rgb& p : image.pixels().subspan((height - 1 - i) * width, width))
+                            for (const float value : {p.r, p.g, p.b}) {
+                                storeLittle(to, std::bit_cast<std::uint32_t>(value));
+                                to += 4;
+                            }
+                });
 }

@@ -78,12 +78,12 @@ StoredImage decodePpm(Bytes file, const std::string& name) {
     return image;
 }
 
-std::vector<std::uint8_t> encodePpm(const Image& image, Encoding encoding, int threads) {
+void encodePpm(const Image& image, Encoding encoding, int threads, const ByteSink& use) {
     const std::string header = cat("P6\n", image.width(), " ", image.height(), "\n",
                                    encoding.bits == 8 ? kMost8 : kMost16, "\n");
     const std::size_t pixelBytes = 3 * static_cast<std::size_t>(encoding.bits / 8);
-    return rawFile(header, image.pixels().size(), pixelBytes, threads,
-                   [&](std::size_t first, std::size_t count, std::span<std::uint8_t> out) {
-                       encodePixels(image.pixels().subspan(first, count), encoding, out);
-                   });
+    makeRawFile(header, image.pixels().size(), pixelBytes, threads, use,
+                [&](std::size_t first, std::size_t count, std::span<std::uint8_t> out) {
+                    encodePixels(image.pixels().subspan(first, count), encoding, out);
+                });
 }

@@ -3,26 +3,30 @@
 #pragma once
 
 #include "base/for_each.h"
+#include "base/in_order.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string_view>
-#include <vector>
+#include <utility>
 
-// `count` items of `itemBytes` each; encode(first, count, out) writes some of them.
+// `count` items of `itemBytes` each; encode(first, count, out) writes some of them. The pieces are
+// made on many threads and used in their order.
 template <class Encode>
-std::vector<std::uint8_t> rawFile(std::string_view header, std::size_t count, std::size_t itemBytes,
-                                  int threads, const Encode& encode) {
-    constexpr std::size_t kPartBytes = std::size_t{1} << 18;
-    std::vector<std::uint8_t> file(header.size() + count * itemBytes);
-    std::copy(header.begin(), header.end(), file.begin());
-    const std::span<std::uint8_t> body = std::span(file).subspan(header.size());
-    const std::size_t perPart = std::max<std::size_t>(1, kPartBytes / itemBytes);
-    forEachOn(threads, (count + perPart - 1) / perPart, [&](std::size_t part) {
-        const std::size_t first = part * perPart, items = std::min(perPart, count - first);
-        encode(first, items, body.subspan(first * itemBytes, items * itemBytes));
+void makeRawFile(std::string_view header, std::size_t count, std::size_t itemBytes, int threads,
+                 const ByteSink& use, const Encode& encode) {
+    constexpr std::size_t kPieceBytes = std::size_t{1} << 17;
+    const std::size_t perPiece = std::max<std::size_t>(1, kPieceBytes / itemBytes);
+    const std::size_t pieces = (count + perPiece - 1) / perPiece;
+    use({reinterpret_cast<const std::uint8_t*>(header.data()), header.size()});
+    InOrder inOrder(pieces, use);
+    forEachOn(threads, pieces, [&](std::size_t piece) {
+        const std::size_t first = piece * perPiece, items = std::min(perPiece, count - first);
+        InOrder::Bytes bytes = inOrder.buffer();
+        bytes.resize(items * itemBytes);
+        encode(first, items, bytes);
+        inOrder.put(piece, std::move(bytes));
     });
-    return file;
 }

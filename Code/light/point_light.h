@@ -12,15 +12,6 @@ struct SpotCone {
     float attenuation(Vec3 fromLight) const;
 };
 
-// Light at distance d is the intensity over this polynomial of d: d^2 for all real lamps, others
-// for scenes whose lamps fade less or not at all.
-struct Attenuation {
-    float quadratic = 1, linear = 0, constant = 0;
-    float at(float distance, float distance2) const {
-        return quadratic * distance2 + linear * distance + constant;
-    }
-};
-
 class PointLight final : public Light {
 public:
     // Intensity in W/sr. With a radius, light comes from a disk about the centre that always faces
@@ -34,6 +25,10 @@ public:
     bool shine(Vec3 point, Vec3 n, LightSample& sample) const override;
     Bounds sourcesFor(const Bounds& points) const override;
     std::optional<Vec3> origin() const override { return position_; }
+    std::optional<PointEmission> emission() const override {
+        if (cone_) return {};
+        return PointEmission{position_, intensity_, attenuation_, radius_};
+    }
 
 private:
     Vec3 position_;

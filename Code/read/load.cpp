@@ -24,7 +24,8 @@ struct Format {
     SceneDesc (*read)(const SourceFile&, const ReadContext&);
 };
 constexpr auto kFormats = std::to_array<Format>({
-    {".txt", [](const SourceFile& source, const ReadContext&) { return readTxt(source); }},
+    {".txt", [](const SourceFile& source,
+                const ReadContext& context) { return readTxt(source, context.options.threads); }},
     {".json", readJson},
     {".nff", readNff},
     {".obj", readMeshScene},
@@ -98,7 +99,7 @@ LoadedScene load(const std::string& fileName, Diagnostics& diagnostics,
     LoadedScene scene;
     if (fileName == "-") {
         scene.source = {"<stdin>", readStdin()};
-        scene.desc = readTxt(scene.source);
+        scene.desc = readTxt(scene.source, options.threads);
     } else {
         checkFile(fileName);
         const Format& format = formatOf(fileName);

@@ -92,7 +92,8 @@ void loadMesh(MeshDesc& mesh, const SourceFile& scene, const ReadContext& contex
         loaded.normals.clear();
         loaded.normalTriangles.clear();
     }
-    if (mesh.smoothAngleDeg > 0) smoothByAngle(loaded, mesh.smoothAngleDeg);
+    if (mesh.smoothAngleDeg > 0)
+        smoothByAngle(loaded, mesh.smoothAngleDeg, context.options.threads);
     loaded.name = std::move(mesh.name);
     loaded.loc = mesh.loc;
     mesh = std::move(loaded);

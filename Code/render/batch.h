@@ -40,6 +40,13 @@ struct RayBatch {
         weight[i] = rayWeight;
     }
     void clear() { count_ = 0; }
+    // So many more rays, which are then written into the arrays from the place returned.
+    std::size_t extend(std::size_t rays) {
+        const std::size_t first = count_;
+        count_ += rays;
+        if (count_ > org.size()) makeRoom(std::max<std::size_t>(64, 2 * count_));
+        return first;
+    }
 
 protected:
     void makeRoom(std::size_t rays) {

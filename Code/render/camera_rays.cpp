@@ -1,5 +1,7 @@
 #include "render/camera_rays.h"
 
+#include <algorithm>
+
 namespace {
 
 FilterKind filterKind(SettingsDesc::Filter kind) {
@@ -15,8 +17,8 @@ FilterKind filterKind(SettingsDesc::Filter kind) {
 } // namespace
 
 CameraRays::CameraRays(const IntegratorContext& context)
-    : context_(context),
-      filter_(filterKind(context.settings.picture.filter), context.settings.picture.filterWidth),
+    : context_(context), filter_(filterKind(context.settings.picture.filter),
+                                 context.settings.picture.filterWidth, context.settings.threads),
       corners_(context.settings.picture.sampler == SettingsDesc::Sampler::Corners),
       width_(context.settings.picture.width + corners_) {}
 
@@ -34,7 +36,7 @@ void CameraRays::choosePlaces(const Tile& tile, int first, int count, SampleChun
             const std::uint32_t pixel =
                 static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_) +
                 static_cast<std::uint32_t>(x); // wraps in huge pictures
-            if (!corners_)
+            if (!corners_ && samples > 1)
                 context_.sampler.get2D(pixel, begin, kPixelDimension,
                                        std::span(chunk.offsets).subspan(slot, samples));
             for (std::uint32_t s = begin; s < begin + samples; ++s, ++slot) {
@@ -43,6 +45,11 @@ void CameraRays::choosePlaces(const Tile& tile, int first, int count, SampleChun
             }
         }
     if (corners_) return;
+    if (samples == 1) {
+        chunk.pixels.resize(all);
+        for (std::size_t i = 0; i < all; ++i) chunk.pixels[i] = chunk.ids[i].pixel;
+        context_.sampler.get2D(chunk.pixels, begin, kPixelDimension, chunk.offsets);
+    }
     filter_.sample(chunk.offsets);
     for (std::size_t i = 0; i < chunk.places.size(); ++i) {
         const Vec2d middle = chunk.places[i];
@@ -56,7 +63,10 @@ void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk
     choosePlaces(tile, first, count, chunk);
 
     PathBatch& rays = chunk.cameraRays;
+    // What all rays of a picture share is written once.
+    const std::size_t known = chunk.raysWithConstants;
     rays.setSize(chunk.ids.size());
+    chunk.raysWithConstants = std::max(known, rays.size());
     // The general form draws what it may not need; who does not use it does not notice.
     const bool isGeneral = !context_.settings.specialise;
     const bool hasTime = isGeneral || context_.scene.moves();
@@ -64,19 +74,19 @@ void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk
     const bool isPinhole = !hasTime && !hasLens && camera.hasSharedOrigin();
     if (isPinhole) camera.pinholeRays(chunk.places, rays.dir, rays.tMin);
     const Vec3 origin = camera.ray({0, 0}, {0.5f, 0.5f}, 0.5f).org;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const SampleId id = chunk.ids[i];
+    for (std::size_t i = known; i < rays.size(); ++i) {
+        rays.org[i] = origin;
         rays.sample[i] = static_cast<std::uint32_t>(i);
         rays.weight[i] = {1, 1, 1};
         rays.medium[i] = context_.cameraMedium;
-        rays.stream[i] = id.pixel;
         rays.seesLights[i] = true;
         rays.tMax[i] = kInfinityF;
         rays.time[i] = 0.5f; // what stands still looks the same at any time
-        if (isPinhole) {
-            rays.org[i] = origin;
-            continue;
-        }
+    }
+    for (std::size_t i = 0; i < rays.size(); ++i) rays.stream[i] = chunk.ids[i].pixel;
+    if (isPinhole) return;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const SampleId id = chunk.ids[i];
         if (hasTime) rays.time[i] = sampler.get1D(id.pixel, id.index, kTimeDimension);
         Vec2 lens{0.5f, 0.5f};
         if (hasLens) lens = sampler.get2D(id.pixel, id.index, kLensDimension);

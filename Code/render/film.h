@@ -11,6 +11,15 @@
 
 class Film {
 public:
+    struct Place {
+        Vec3d sum;
+        std::uint32_t count = 0;
+        Rgb mean() const {
+            const Vec3 m = toFloat(count <= 1 ? sum : sum / static_cast<double>(count));
+            return {m.x, m.y, m.z};
+        }
+    };
+
     // Empty places.
     void reset(int width, int height) {
         width_ = width;
@@ -23,6 +32,29 @@ public:
         ++place.count;
     }
 
+    // As many samples more of every place, all the same. Sums of one value are exact, so this is
+    // what adding one after the other gives.
+    void addToAll(Rgb value, int samples) {
+        const auto count = static_cast<std::uint32_t>(samples);
+        for (Place& place : sums_) {
+            place.sum += Vec3d{value.r, value.g, value.b} * static_cast<double>(count);
+            place.count += count;
+        }
+    }
+    // What another film has seen of the places from (x0, y0) on.
+    void add(const Film& part, int x0, int y0) {
+        std::size_t from = 0;
+        const std::size_t rows = part.sums_.size() / static_cast<std::size_t>(part.width_);
+        for (std::size_t row = 0; row < rows; ++row) {
+            std::size_t to = index(x0, y0 + static_cast<int>(row));
+            for (int x = 0; x < part.width_; ++x, ++from, ++to) {
+                sums_[to].sum += part.sums_[from].sum;
+                sums_[to].count += part.sums_[from].count;
+            }
+        }
+    }
+
+    const Place& at(int x, int y) const { return sums_[index(x, y)]; }
     // The mean of the place's samples, black where there are none.
     Rgb mean(int x, int y) const { return sums_[index(x, y)].mean(); }
     // The means of all places, from (x0, y0) of `image` on.
@@ -57,15 +89,6 @@ public:
     }
 
 private:
-    struct Place {
-        Vec3d sum;
-        std::uint32_t count = 0;
-        Rgb mean() const {
-            const Vec3 m = toFloat(count <= 1 ? sum : sum / static_cast<double>(count));
-            return {m.x, m.y, m.z};
-        }
-    };
-
     std::size_t index(int x, int y) const {
         return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
                static_cast<std::size_t>(x);

@@ -39,6 +39,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       compiledSteps(compiledFor(stepsFor(theScene, theSettings))),
       wantsFirstHits(needsFirstHits(theSettings)),
       surfaceNeeds(surfaceNeedsOf(theScene, theSettings)),
+      sphereSurfaces(::sphereSurfaces(chooseKernel(theSettings.kernel))),
       cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
     const int samples = settings.picture.lightSamples;
     for (std::size_t i = 0; i < scene.lights().size(); ++i) {
@@ -46,9 +47,13 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
         if (light.isDark()) continue;
         const bool isSoft = light.isSoft() && settings.switches.softShadows;
         const bool shades = light.castsShadows() && settings.switches.shadows;
-        (shades ? shadingLamps : openLamps)
-            .push_back({light, isSoft, samples,
-                        sampler.stream(static_cast<std::uint32_t>(i) + 1, samples),
-                        isSoft ? std::optional<Vec3>() : light.origin()});
+        Lamp lamp{light,
+                  isSoft,
+                  samples,
+                  sampler.stream(static_cast<std::uint32_t>(i) + 1, samples),
+                  isSoft ? std::optional<Vec3>() : light.origin(),
+                  light.emission()};
+        if (!isSoft && lamp.emission) lamp.inLanes = lightByLamp(chooseKernel(settings.kernel));
+        (shades ? shadingLamps : openLamps).push_back(lamp);
     }
 }

@@ -6,6 +6,7 @@
 #include "render/occluders.h"
 #include "render/query.h"
 #include "render/shading.h"
+#include "render/waves/lamp_lanes.h"
 #include "sample/dimensions.h"
 #include "sample/hash.h"
 #include "sample/sampler.h"
@@ -38,6 +39,8 @@ struct Lamp {
     int samples;
     Sampler sampler;
     std::optional<Vec3> origin; // where its shadow rays start; none: at the point that is lit
+    std::optional<PointEmission> emission;
+    LightByLampFn inLanes = nullptr; // asks many points at once; null: one by one
 };
 
 // Choices that hold for a whole picture, made once.
@@ -52,7 +55,8 @@ struct IntegratorContext {
     std::size_t compiledSteps; // which form of the wave loop: waves/steps.h
     bool wantsFirstHits;
     SurfaceNeeds surfaceNeeds;
-    MediumTree media; // what camera rays start in, and room for what rays enter
+    SphereSurfacesFn sphereSurfaces; // null: one by one
+    MediumTree media;                // what camera rays start in, and room for what rays enter
     MediumTree::Inside cameraMedium;
 
     IntegratorContext(const Scene& scene, const RenderSettings& settings);
@@ -61,9 +65,11 @@ struct IntegratorContext {
 // The samples of one chunk of a tile, and what comes out of them; slot i is sample i everywhere.
 struct SampleChunk {
     std::vector<SampleId> ids;
+    std::vector<std::uint32_t> pixels; // of the ids, where each has one sample
     std::vector<Vec2d> places; // in the picture, in pixels
     std::vector<Vec2> offsets; // of these from the middle of their pixel
     PathBatch cameraRays;
+    std::size_t raysWithConstants = 0; // see CameraRays::make()
     std::vector<Rgb> radiance;
     std::vector<FirstHit> first; // filled only if the context wants it
 };
@@ -100,9 +106,9 @@ struct PointGroup {
     bool mayBeHidden = true; // from the lamp that is looked at
 };
 
-// What lamps ask of a point, in one piece: they go over all points of a wave, one after the other.
+// What lamps ask of a point, in one piece.
 struct LitPoint {
-    std::uint32_t point, group;
+    std::uint32_t point;
     bool isLifted; // ns of its surface has a say
     Vec3 p, n, ng, toEye;
     Rgb weight;
@@ -115,9 +121,11 @@ struct WaveMemory {
     std::vector<Hit> hits;
     PointBatch points;
     MediumTree media;
-    std::vector<LitPoint> litPoints; // that answer lamps
-    std::vector<PointGroup> groups;  // of these
-    RayBatch shadowRays;             // of one lamp; their samples are points
+    std::vector<std::uint32_t> answering; // points that answer lamps
+    std::vector<LitBlock> litBlocks;      // these, if lamps want blocks
+    std::vector<PointGroup> groups;       // of these, and which of them each is in
+    std::vector<std::uint8_t> groupOf;
+    RayBatch shadowRays; // of one lamp; their samples are points
     std::vector<std::uint8_t> hidden;
     std::vector<Rgb> transmittance;
     std::vector<Arrival> arrivals, arrivalsInOrder;

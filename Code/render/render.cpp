@@ -4,7 +4,9 @@
 #include "render/camera_rays.h"
 #include "render/empty_tiles.h"
 #include "render/film.h"
+#include "render/goal_film.h"
 #include "render/integrator.h"
+#include "render/shading_form.h"
 
 #include <algorithm>
 #include <atomic>
@@ -55,29 +57,17 @@ public:
         ThreadPool pool(settings_.threads);
         std::vector<Worker> workers(static_cast<std::size_t>(pool.threads()));
         for (Worker& worker : workers) worker.aovs.resize(aovs_.size());
-        std::mutex progressMutex;
-        std::atomic<std::size_t> done{0};
-        const auto tile = [&](std::size_t index, int worker) {
-            renderTile(tiles_[index], workers[static_cast<std::size_t>(worker)]);
-            const bool isLast = ++done == tiles_.size();
-            if (!control.progress) return;
-            // Nobody waits to tell: who tells now counts this tile as well. The end has to be told.
-            std::unique_lock lock(progressMutex, std::defer_lock);
-            if (isLast)
-                lock.lock();
-            else if (!lock.try_lock())
-                return;
-            control.progress(static_cast<double>(done) / static_cast<double>(tiles_.size()));
-        };
         Picture picture;
-        picture.finished = pool.run(tiles_.size(), tile, control.stop);
+        if (settings_.errorGoal)
+            picture.finished = renderToGoal(pool, workers, control, picture, stats);
+        else
+            picture.finished = renderTiles(pool, workers, control, stats);
+        stats.shading = shadingForm(context_);
         for (const Worker& worker : workers) {
             stats.rays += worker.rays;
             stats.cameraHits += worker.cameraHits;
             stats.nanSamples += worker.nanSamples;
         }
-        const double samples = settings_.picture.samplesPerPixel;
-        stats.samplesMin = stats.samplesMean = stats.samplesMax = samples;
         picture.color = pixelsOf(std::move(color_), false);
         for (std::size_t i = 0; i < aovs_.size(); ++i) {
             const Aov aov = settings_.aovs[i];
@@ -97,15 +87,95 @@ private:
         std::uint64_t cameraHits = 0, nanSamples = 0;
     };
 
+    // Calls job(index, worker) for all; they are the part from `begun` to `finished` of the work.
+    template <class Job>
+    static bool runJobs(ThreadPool& pool, std::size_t count, const RenderControl& control,
+                        double begun, double finished, const Job& job) {
+        std::mutex progressMutex;
+        std::atomic<std::size_t> done{0};
+        const auto one = [&](std::size_t index, int worker) {
+            job(index, static_cast<std::size_t>(worker));
+            const bool isLast = ++done == count;
+            if (!control.progress) return;
+            // Nobody waits to tell: who tells now counts this job as well. The end has to be told.
+            std::unique_lock lock(progressMutex, std::defer_lock);
+            if (isLast)
+                lock.lock();
+            else if (!lock.try_lock())
+                return;
+            const double part = static_cast<double>(done) / static_cast<double>(count);
+            control.progress(begun + part * (finished - begun));
+        };
+        return pool.run(count, one, control.stop);
+    }
+
+    bool renderTiles(ThreadPool& pool, std::vector<Worker>& workers, const RenderControl& control,
+                     Stats& stats) {
+        stats.samplesMin = stats.samplesMean = stats.samplesMax = settings_.picture.samplesPerPixel;
+        return runJobs(pool, tiles_.size(), control, 0, 1, [&](std::size_t i, std::size_t worker) {
+            renderTile(tiles_[i], workers[worker]);
+        });
+    }
+
+    // In rounds, each of which adds samples where the picture needs them.
+    bool renderToGoal(ThreadPool& pool, std::vector<Worker>& workers, const RenderControl& control,
+                      Picture& picture, Stats& stats) {
+        GoalFilm film(area_.width(), area_.height(), settings_);
+        double told = 0; // progress never falls, though the work ahead may turn out to be more
+        for (;;) {
+            const std::vector<Tile> parts = film.nextRound();
+            if (parts.empty()) break;
+            const double begun = std::max(told, film.share().begun);
+            told = std::max(begun, film.share().done);
+            const auto addBatch = [&](std::size_t index, std::size_t number) {
+                const Tile& part = parts[index];
+                Worker& worker = workers[number];
+                traceSamples({part.x0 + area_.x0, part.y0 + area_.y0, part.x1 + area_.x0,
+                              part.y1 + area_.y0},
+                             film.samplesOf(part), film.batchOf(part), worker);
+                film.add(part, worker.color, worker.aovs);
+            };
+            if (!runJobs(pool, parts.size(), control, begun, told, addBatch)) return false;
+        }
+        if (control.progress) control.progress(1);
+        film.color().writeMeans(color_, 0, 0);
+        for (std::size_t a = 0; a < aovs_.size(); ++a) writeAov(film.aov(a), a, 0, 0);
+        picture.error = film.error();
+        film.describe(stats);
+        return true;
+    }
+
+    void writeAov(const Film& film, std::size_t number, int x, int y) {
+        if (settings_.aovs[number] == Aov::Samples)
+            film.writeCounts(aovs_[number], x, y);
+        else
+            film.writeMeans(aovs_[number], x, y);
+    }
+
     void renderTile(const Tile& tile, Worker& worker) {
         if (emptyTiles_.isEmpty(tile)) return showBackground(tile, worker);
+        traceSamples(tile, 0, settings_.picture.samplesPerPixel, worker);
+        const int x = tile.x0 - area_.x0, y = tile.y0 - area_.y0;
+        worker.color.writeMeans(color_, x, y);
+        for (std::size_t a = 0; a < aovs_.size(); ++a) writeAov(worker.aovs[a], a, x, y);
+    }
+
+    // The samples first .. first + samples - 1 of all places of the tile, into the worker's films.
+    void traceSamples(const Tile& tile, int begin, int samples, Worker& worker) {
         worker.color.reset(tile.width(), tile.height());
         for (Film& film : worker.aovs) film.reset(tile.width(), tile.height());
         const int pixels = tile.width() * tile.height();
-        const int samples = settings_.picture.samplesPerPixel;
+        if (settings_.errorGoal && emptyTiles_.isEmpty(tile)) {
+            worker.rays.camera +=
+                static_cast<std::uint64_t>(samples) * static_cast<std::uint64_t>(pixels);
+            worker.color.addToAll(background(), samples);
+            for (Film& film : worker.aovs) film.addToAll({}, samples); // nothing was met
+            return;
+        }
         const int perChunk = std::max(1, settings_.chunkSamples / pixels);
-        for (int first = 0; first < samples; first += perChunk) {
-            const int count = std::min(perChunk, samples - first);
+        const int end = begin + samples;
+        for (int first = begin; first < end; first += perChunk) {
+            const int count = std::min(perChunk, end - first);
             cameraRays_.make(tile, first, count, worker.chunk);
             worker.chunk.radiance.assign(worker.chunk.ids.size(), Rgb{});
             if (context_.wantsFirstHits)
@@ -113,13 +183,6 @@ private:
             integrate(worker);
             collect(tile, first, count, worker);
         }
-        const int x = tile.x0 - area_.x0, y = tile.y0 - area_.y0;
-        worker.color.writeMeans(color_, x, y);
-        for (std::size_t a = 0; a < aovs_.size(); ++a)
-            if (settings_.aovs[a] == Aov::Samples)
-                worker.aovs[a].writeCounts(aovs_[a], x, y);
-            else
-                worker.aovs[a].writeMeans(aovs_[a], x, y);
     }
 
     // What renderTile() would, of samples that are all the same.

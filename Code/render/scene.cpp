@@ -328,7 +328,7 @@ private:
         if (isNew) {
             auto geometry = std::make_unique<MeshGeometry>(toSharedGeometry(desc_.meshes[mesh]));
             countDegenerate(mesh, geometry->dropDegenerate());
-            geometry->finish(settings_.accel == AccelKind::Bvh, chooseKernel("scalar"),
+            geometry->finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel),
                              settings_.threads);
             at->second = geometry.get();
             scene_.geometries_.push_back(std::move(geometry));

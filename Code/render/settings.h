@@ -2,6 +2,7 @@
 // SettingsDesc and the command line (cli/), read by the renderer.
 #pragma once
 
+#include "base/math.h"
 #include "desc/scene_desc.h"
 
 #include <array>
@@ -21,10 +22,23 @@ struct Switches {
     bool operator==(const Switches&) const = default;
 };
 
+// --error: samples where they are needed, until the picture is as good as asked for.
+struct ErrorGoal {
+    // Of the first look at a pixel, in two halves; samplers that spread a known number of samples
+    // spread so many, again and again.
+    static constexpr int kFirstSamples = 4;
+
+    double rmse;              // of the linear values with the exposure applied
+    int mostSamples = 4096;   // per pixel, at least kFirstSamples
+    double white = kInfinity; // values above are written as this
+};
+
 struct RenderSettings {
     SettingsDesc picture; // resolution, crop, samples, filter, exposure ...; --no-aa sets 1 sample
     std::string camera;   // name; empty: the first one of the scene
     Switches switches;
+    // Then `picture` has samples for the first look only.
+    std::optional<ErrorGoal> errorGoal;
     IntegratorKind integrator = IntegratorKind::Whitted;
     AccelKind accel = AccelKind::Bvh;
     std::string kernel = "scalar"; // resolved name, never "auto"

@@ -30,17 +30,19 @@ Vec3 mapped(Vec3 n, const SurfaceDerivatives& d, Rgb texel, float strength) {
     return dot(mixed, mixed) > 0 ? normalize(mixed) : n;
 }
 
-// A normal that faces away from the eye would reflect light that the eye can't see.
-Vec3 turnedTo(Vec3 toEye, const ShadedPoint::Side& side) {
-    if (dot(side.n, toEye) > 0) return side.n;
+} // namespace
+
+Vec3 shading::turnedAway(Vec3 toEye, const ShadedPoint::Side& side) {
     const Vec3 level = side.n - toEye * (dot(side.n, toEye) * 1.001f);
     const Vec3 n =
         dot(level, level) > 1e-12f && dot(level, side.ng) > 0 ? normalize(level) : side.ng;
     return dot(n, toEye) > 0 ? n : side.ng;
 }
 
-Vec3 bentNormal(const Shape& shape, const Ray& ray, const Hit& hit, const Surface& surface,
-                const SceneMaterial& material) {
+Vec3 shading::bentNormal(const Scene& scene, const Ray& ray, const Hit& hit,
+                         const Surface& surface) {
+    const Shape& shape = *scene.shapes().shapes[hit.shape];
+    const SceneMaterial& material = scene.materials()[surface.material];
     const SurfaceDerivatives d = shape.derivatives(ray, hit);
     Vec3 n = surface.ns;
     if (material.normalMap)
@@ -48,29 +50,6 @@ Vec3 bentNormal(const Shape& shape, const Ray& ray, const Hit& hit, const Surfac
     if (material.bumpMap)
         n = bumped(n, d, material.bumpMap->gradient(surface.uv), material.bumpHeight);
     return dot(n, surface.ng) > 0 ? n : surface.ns;
-}
-
-} // namespace
-
-void shade(const Scene& scene, const Ray& ray, const Hit& hit, SurfaceNeeds needs,
-           ShadedPoint& at) {
-    const Shape& shape = *scene.shapes().shapes[hit.shape];
-    at.surface = shape.surfaceFor(ray, hit, needs);
-    const Surface& surface = at.surface;
-    const SceneMaterial& material = scene.materials()[surface.material];
-    at.of = &material;
-    at.toEye = -normalize(ray.dir);
-    at.front = dot(at.toEye, surface.ng) >= 0;
-    const Vec3 n =
-        material.bendsNormals() ? bentNormal(shape, ray, hit, surface, material) : surface.ns;
-    const ShadedPoint::Side outside{surface.ng, surface.ns, n};
-    at.eye = at.front ? outside : ShadedPoint::Side{-outside.ng, -outside.ns, -n};
-    at.eye.n = turnedTo(at.toEye, at.eye);
-    at.lit = at.eye;
-    if (material.litOutside && !at.front) {
-        at.lit = outside;
-        at.surface.lift = {}; // it was for the side of the eye
-    }
 }
 
 Material materialAt(const ShadedPoint& at) {

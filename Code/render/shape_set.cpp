@@ -1,5 +1,7 @@
 #include "render/shape_set.h"
 
+#include "shape/mesh_instance.h"
+
 #include <algorithm>
 #include <tuple>
 #include <utility>
@@ -8,9 +10,6 @@ namespace {
 
 // A tree over fewer shapes costs more than it saves; the answer is the same either way.
 constexpr std::size_t kFewestForTree = 5;
-
-// Rays of NaN or without a range would look for what there can't be.
-bool canHit(const Ray& ray) { return isTraceable(ray) && ray.tMin < ray.tMax; }
 
 } // namespace
 
@@ -29,29 +28,41 @@ void ShapeSet::add(std::unique_ptr<const Shape> shape, Shadow shadow) {
 }
 
 void ShapeSet::finish(bool withBvh, const Kernel& kernel, int threads) {
+    if (withBvh) kernel_ = solidKernel(kernel);
     isBatched_.assign(shapes.size(), 0);
     for (const std::uint32_t number : bounded) {
-        if (!shapes[number]->takesBatches()) continue;
+        if (!shapes[number]->takesBatches() || (kernel_ && shapes[number]->solidForm().facets))
+            continue;
         batched.push_back(number);
         isBatched_[number] = 1;
     }
     if (!withBvh) return;
-    kernel_ = solidKernel(kernel);
     std::vector<Bounds> inOrder;
     for (const std::uint32_t number : bounded)
         if (!isBatched_[number]) inTree_.push_back(number), inOrder.push_back(boxes[number]);
     if (!kernel_ && inTree_.size() < kFewestForTree) return inTree_.clear();
     bvh = buildBvh(inOrder, threads);
     bvh.nodes.shrink_to_fit();
-    if (kernel_) buildSolids(kernel_->width);
+    if (kernel_) buildBatchTrees(kernel, threads);
 }
 
-void ShapeSet::buildSolids(int width) {
-    for (const std::uint32_t number : inTree_)
+void ShapeSet::buildBatchTrees(const Kernel& kernel, int threads) {
+    std::vector<Bounds> others;
+    for (const std::uint32_t number : inTree_) {
+        const MeshInstance* const instance = shapes[number]->meshInstance();
+        if (instance != nullptr && instance->geometry().kernel == &kernel) {
+            placed_.add(boxes[number], number, shadows[number] == Shadow::Opaque,
+                        instance->geometry().wide);
+            continue;
+        }
+        others.push_back(boxes[number]);
         solids_.add(boxes[number], number, shadows[number] == Shadow::Opaque,
                     shapes[number]->solidForm());
+    }
     solids_.extent = extent;
-    solids_.build(width, bvh);
+    solids_.build(kernel_->width,
+                  others.size() == inTree_.size() ? bvh : buildBvh(others, threads));
+    if (!placed_.isEmpty()) placed_.build(kernel, extent, threads);
 }
 
 // fn(shape, zEntry, zCut) for every shape whose box the ray enters in front of zCut; true stops.
@@ -135,7 +146,9 @@ void ShapeSet::closest(const RaySpan& rays, std::vector<Hit>& hits) const {
                 return static_cast<const ShapeSet*>(set)->nearer(ray, number, tEntry, best);
             },
             nullptr};
-        return closestSolids(*kernel_, solids_, calls, rays, hits);
+        if (!solids_.solids.empty()) closestSolids(*kernel_, solids_, calls, rays, hits);
+        if (!placed_.isEmpty()) placed_.closest(*this, rays, hits);
+        return;
     }
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Ray ray = rays[i];
@@ -193,7 +206,9 @@ void ShapeSet::occluded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) 
             this, nullptr, [](const void* set, const Ray& ray, std::uint32_t number) {
                 return static_cast<const ShapeSet*>(set)->shapes[number]->occludes(ray);
             }};
-        return anySolids(*kernel_, solids_, calls, rays, hidden);
+        if (!solids_.solids.empty()) anySolids(*kernel_, solids_, calls, rays, hidden);
+        if (!placed_.isEmpty()) placed_.occluded(*this, rays, hidden);
+        return;
     }
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Ray ray = rays[i];

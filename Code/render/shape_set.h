@@ -4,12 +4,16 @@
 
 #include "accel/bvh.h"
 #include "accel/kernels/solids.h"
+#include "render/placed_meshes.h"
 #include "shape/mesh_geometry.h"
 #include "shape/shape.h"
 
 #include <cstdint>
 #include <memory>
 #include <vector>
+
+// Rays of NaN or without a range would look for what there can't be.
+inline bool canHit(const Ray& ray) { return isTraceable(ray) && ray.tMin < ray.tMax; }
 
 struct ShapeSet {
     // How shadow rays see a shape.
@@ -26,7 +30,8 @@ struct ShapeSet {
     // Call once after the last add(). Batches are answered by the kernel, if it has a part for
     // solids and a tree is wanted; else as single rays are.
     void finish(bool withBvh, const Kernel& kernel = chooseKernel("scalar"), int threads = 1);
-    // Bounded shapes that take batches themselves; the batch queries ask them first.
+    // Bounded shapes that take batches themselves and are no solids of the kernel; the batch
+    // queries ask them first.
     std::vector<std::uint32_t> batched;
 
     // The nearest hit in (tMin, tMax]; Hit::isHit() tells if there is one. Of several at the same t
@@ -41,6 +46,9 @@ struct ShapeSet {
     // Appends every hit of the see-through shapes in (tMin, tMax), nearest first, ties as above.
     void seeThroughHits(const Ray& ray, std::vector<Hit>& hits) const;
 
+    // Takes the hit of a shape if it is nearer than the best one.
+    bool takeNearer(const Ray& ray, Hit hit, std::uint32_t number, float tEntry, Hit& best) const;
+
 private:
     // Which bounded shapes a query still has to ask.
     enum class Ask : std::uint8_t { All, ButBatched };
@@ -50,16 +58,15 @@ private:
     bool isHidden(const Ray& ray, const RaySetup& setup, Ask ask) const;
     // Which of two hits at the same t is first.
     bool isBefore(const Ray& ray, const Hit& a, const Hit& b) const;
-    // Takes the hit of a shape if it is nearer than the best one.
-    bool takeNearer(const Ray& ray, Hit hit, std::uint32_t number, float tEntry, Hit& best) const;
     // Asks the shape for a nearer hit than the best one, which then becomes it.
     bool nearer(const Ray& ray, std::uint32_t number, float tEntry, Hit& best) const;
-    void buildSolids(int width);
+    void buildBatchTrees(const Kernel& kernel, int threads);
     void closestOfBatched(const RaySpan& rays, std::vector<Hit>& hits) const;
     void hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;
 
     std::vector<std::uint8_t> isBatched_; // by shape
     std::vector<std::uint32_t> inTree_;   // shapes by their number in the tree
     const SolidKernel* kernel_ = nullptr; // null: the scalar code answers
-    SolidTree solids_;                    // the shapes of the tree
+    SolidTree solids_;                    // the shapes of the tree that are no instances
+    PlacedMeshes placed_;                 // those that are
 };

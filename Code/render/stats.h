@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,13 @@ struct AccelStats {
     double sah = 0; // surface-area-heuristic cost of the top tree and its meshes
 };
 
+// Of a picture with an error goal.
+struct ErrorStats {
+    double goal = 0, estimate = 0;  // RMSE
+    int mostSamples = 0;            // that a pixel may have
+    std::uint64_t cappedPixels = 0; // have as many, and an error above the goal
+};
+
 struct Stats {
     double parseSeconds = 0, buildSeconds = 0, renderSeconds = 0, writeSeconds = 0,
            totalSeconds = 0;
@@ -31,9 +39,11 @@ struct Stats {
     std::uint64_t peakBytes = 0;
     int threads = 1;
     std::string kernel;
+    std::string shading; // which compiled form of it
     std::vector<std::string> featuresNeeded,
         featuresSkipped; // skipped: "dof: aperture_radius is 0"
     double samplesMin = 0, samplesMean = 0, samplesMax = 0;
+    std::optional<ErrorStats> error;        // with --error
     std::uint64_t nanSamples = 0;           // samples dropped because a value was not finite
     std::uint64_t degeneratePrimitives = 0; // triangles without area, left out of the trees
 };

@@ -10,7 +10,10 @@
 
 namespace {
 
-constexpr std::uint32_t reversed(std::uint32_t x) {
+// Four numbers in a register of the compiler's: what is templated below takes them as well.
+using Four __attribute__((vector_size(16))) = std::uint32_t;
+
+template <class Bits> constexpr Bits reversed(Bits x) {
     x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
     x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
     x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
@@ -20,10 +23,10 @@ constexpr std::uint32_t reversed(std::uint32_t x) {
 
 // Owen scrambling of a number whose bits are reversed: every bit is flipped by a hash of the bits
 // below it. Constants of Vegdahl, "Building a Better LK Hash" (2021), after Laine and Karras.
-constexpr std::uint32_t scrambledReversed(std::uint32_t x, std::uint32_t seed) {
+template <class Bits> constexpr Bits scrambledReversed(Bits x, Bits seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
-    x *= (seed >> 16) | 1;
+    x *= (seed >> 16) | 1u;
     x ^= x * 0x05526c56u;
     x ^= x * 0x53a22864u;
     return x;
@@ -31,13 +34,23 @@ constexpr std::uint32_t scrambledReversed(std::uint32_t x, std::uint32_t seed) {
 
 // The second dimension of Sobol, bits reversed. Its matrix is Pascal's triangle modulo 2, which is
 // five steps of sums over supersets of the bit positions (Ahmed 2024).
-constexpr std::uint32_t pascalReversed(std::uint32_t index) {
+template <class Bits> constexpr Bits pascalReversed(Bits index) {
     index ^= index >> 16;
     index ^= (index >> 8) & 0x00ff00ffu;
     index ^= (index >> 4) & 0x0f0f0f0fu;
     index ^= (index >> 2) & 0x33333333u;
     index ^= (index >> 1) & 0x55555555u;
     return index;
+}
+
+// Both dimensions of Sobol as bits, of an index shuffled by the seed a and scrambled by b and c.
+// Shuffling the index is Owen scrambling of the index; the first dimension of Sobol is the reversed
+// index, so the two reversals between them cancel.
+template <class Bits> struct Pair { Bits x, y; };
+template <class Bits> constexpr Pair<Bits> sobolPair(Bits sample, Bits a, Bits b, Bits c) {
+    const Bits shuffled = reversed(scrambledReversed(reversed(sample), a));
+    return {reversed(scrambledReversed(shuffled, b)),
+            reversed(scrambledReversed(pascalReversed(shuffled), c))};
 }
 
 // The index-th of `count` in a random order; a bijection on [0, count) for every key. Steps that
@@ -73,6 +86,17 @@ std::uint32_t squareDivisor(std::uint32_t n) {
     for (std::uint64_t d = 2; d * d <= n; ++d)
         if (n % d == 0) best = static_cast<std::uint32_t>(d);
     return best;
+}
+
+// unitFloat() of four pairs; 24 bits fit into a signed number, which SSE2 can convert.
+void storePairs(const Pair<Four>& bits, Vec2* out) {
+    using FourSigned __attribute__((vector_size(16))) = std::int32_t;
+    using FourFloats __attribute__((vector_size(16))) = float;
+    const auto unit = [](Four x) {
+        return __builtin_convertvector(reinterpret_cast<FourSigned>(x >> 8), FourFloats) * 0x1p-24f;
+    };
+    const FourFloats x = unit(bits.x), y = unit(bits.y);
+    for (std::size_t k = 0; k < 4; ++k) out[k] = {x[k], y[k]};
 }
 
 // Keeps the hashes of one dimension used alone and in a pair apart.
@@ -123,16 +147,37 @@ void Sampler::get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dim
         return;
     }
     const std::uint64_t bits = hash(seed_, pixel, dimension), more = mixBits(bits + kHashStep);
-    if (kind_ == SamplerKind::Sobol) {
-        const std::uint32_t a = low32(bits), b = high32(bits), c = low32(more);
-        for (Vec2& u : out) {
-            const std::uint32_t shuffled = reversed(scrambledReversed(reversed(sample++), a));
-            u = {unitFloat(reversed(scrambledReversed(shuffled, b))),
-                 unitFloat(reversed(scrambledReversed(pascalReversed(shuffled), c)))};
-        }
+    if (kind_ != SamplerKind::Sobol) {
+        for (Vec2& u : out) u = otherPair(bits, more, sample++, isPixel);
         return;
     }
-    for (Vec2& u : out) u = otherPair(bits, more, sample++, isPixel);
+    const std::uint32_t a = low32(bits), b = high32(bits), c = low32(more);
+    std::size_t i = 0;
+    for (; i + 4 <= out.size(); i += 4, sample += 4) {
+        const Four samples = {sample, sample + 1, sample + 2, sample + 3};
+        const Four fourA = {a, a, a, a}, fourB = {b, b, b, b}, fourC = {c, c, c, c};
+        storePairs(sobolPair(samples, fourA, fourB, fourC), &out[i]);
+    }
+    for (; i < out.size(); ++i) {
+        const auto [x, y] = sobolPair(sample++, a, b, c);
+        out[i] = {unitFloat(x), unitFloat(y)};
+    }
+}
+
+void Sampler::get2D(std::span<const std::uint32_t> pixels, std::uint32_t sample,
+                    std::uint32_t dimension, std::span<Vec2> out) const {
+    const bool isCentre = dimension == kPixelDimension && !isStream_ && !jitter_ && count_ == 1;
+    std::size_t i = 0;
+    for (; kind_ == SamplerKind::Sobol && !isCentre && i + 4 <= pixels.size(); i += 4) {
+        const Four samples = {sample, sample, sample, sample};
+        Four a{}, b{}, c{};
+        for (std::size_t k = 0; k < 4; ++k) {
+            const std::uint64_t bits = hash(seed_, pixels[i + k], dimension);
+            a[k] = low32(bits), b[k] = high32(bits), c[k] = low32(mixBits(bits + kHashStep));
+        }
+        storePairs(sobolPair(samples, a, b, c), &out[i]);
+    }
+    for (; i < pixels.size(); ++i) out[i] = get2D(pixels[i], sample, dimension);
 }
 
 // Of the kinds but Sobol.

@@ -36,6 +36,10 @@ public:
     void get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension,
                std::span<Vec2> out) const;
 
+    // get2D() of one sample for many pixels.
+    void get2D(std::span<const std::uint32_t> pixels, std::uint32_t sample, std::uint32_t dimension,
+               std::span<Vec2> out) const;
+
     // An independent sampler of the same kind, for the n-th thing of a loop inside a sample, such
     // as a light with `repeats` light samples each: ask it for sample = sample * repeats + k, so
     // all sampleCount * repeats numbers of a pixel are spread evenly together. The id is hashed

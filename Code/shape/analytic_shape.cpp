@@ -57,7 +57,14 @@ SolidForm AnalyticShape::tubeForm(double radius) const {
     // The largest stretch of the disks, which is also a bound across the axis.
     const double xx = dot(x, x), yy = dot(y, y), xy = dot(x, y);
     const double stretch = std::sqrt(0.5 * (xx + yy) + std::sqrt(sqr(0.5 * (xx - yy)) + xy * xy));
-    return {{worldFromObject_.translation(), axis / size, radius * stretch, 0}, {}};
+    // The disks may lean.
+    const Vec3d unit = axis / size;
+    const double lean = length(Vec3d{dot(x, unit), dot(y, unit), 0});
+    return {{.centre = worldFromObject_.translation(),
+             .axis = unit,
+             .radius = radius * stretch,
+             .halfLength = size + radius * lean},
+            {}};
 }
 
 void AnalyticShape::measure() {
@@ -168,6 +175,9 @@ Surface AnalyticShape::surfaceUnder(const Transform& worldFromObject,
     surface.error = floatAbove(3 * kFloatUlp * sumOfProducts(normal, p) + fixedError);
     return surface;
 }
+
+double AnalyticShape::errorOfSize() const { return kFloatUlp * size_->reach; }
+double AnalyticShape::errorPerPlace() const { return 0x1p-48 * size_->amplification; }
 
 Surface AnalyticShape::surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const {
     if (size_) return surfaceUnder(worldFromObject_, objectFromWorld_, *size_, ray, hit, needs);

@@ -68,6 +68,9 @@ protected:
     // Of a shape that stands still.
     const Transform& worldFromObject() const { return worldFromObject_; }
     const Transform& objectFromWorld() const { return objectFromWorld_; }
+    // Of a shape that stands still and has an end: parts of the error of its surfaces.
+    double errorOfSize() const;
+    double errorPerPlace() const;
     // Around disks of at most this radius about the z axis, of z from -1 to 1.
     SolidForm tubeForm(double radius) const;
 

@@ -10,6 +10,19 @@ Cylinder::Cylinder(MovingTransform worldFromObject, double radius, bool caps,
     measure();
 }
 
+SolidForm Cylinder::solidForm() const {
+    SolidForm form = tubeForm(radius_);
+    if (form.hull.axis == Vec3d{}) return form;
+    const Vec3d x = worldFromObject().column(0), y = worldFromObject().column(1);
+    const Vec3d axis = form.hull.axis;
+    // Round and straight but for 2^-30, which `form.hull` covers as it does rounding.
+    const double xx = dot(x, x), yy = dot(y, y), most = 0x1p-30 * xx;
+    const double lean = max(std::fabs(dot(x, axis)), std::fabs(dot(y, axis)));
+    if (std::fabs(xx - yy) <= most && std::fabs(dot(x, y)) <= most && lean * lean <= most * 0x1p-30)
+        form.hull.innerRadius = radius_ * std::sqrt(xx);
+    return form;
+}
+
 // Where x^2 + y^2 <= radius^2.
 Interval Cylinder::insideTube(const RayD& ray) const {
     const double ox = ray.org.x, oy = ray.org.y, dx = ray.dir.x, dy = ray.dir.y;

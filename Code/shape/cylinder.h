@@ -11,7 +11,7 @@ public:
     Cylinder(MovingTransform worldFromObject, double radius, bool caps, std::uint32_t material,
              std::uint32_t object);
 
-    SolidForm solidForm() const override { return tubeForm(radius_); }
+    SolidForm solidForm() const override;
 
 private:
     enum Part : std::uint32_t { kSide, kBottom, kTop };

@@ -59,7 +59,7 @@ TreeRay::TreeRay(const MeshGeometry& mesh, const RaySetup& setup, float lateralE
 }
 
 InstanceFilter::InstanceFilter(const MeshGeometry& mesh, const Transform& sceneFromObject)
-    : mesh_(mesh) {
+    : mesh_(&mesh) {
     if (sceneFromObject.isSingular()) {
         own_ = kInfinity;
         return;
@@ -102,6 +102,6 @@ std::optional<TreeRay> InstanceFilter::treeRay(const Ray& ray, float sceneExtent
     if (!isTraceable(inTree) || !(extent < 0x1p18f)) return {};
     const RaySetup setup(inTree.org, inTree.dir, extent);
     const double depthPerT = kDepthSlack * static_cast<double>(setup.dz);
-    return TreeRay(mesh_, setup, max(extent, maxAbs(inTree.org)) * 0x1p-18f, depthPerT,
+    return TreeRay(*mesh_, setup, max(extent, maxAbs(inTree.org)) * 0x1p-18f, depthPerT,
                    depthPerT * longer_ / static_cast<double>(maxAbs(ray.dir)));
 }

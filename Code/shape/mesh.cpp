@@ -51,6 +51,15 @@ void Mesh::occludesBatch(const RaySpan& rays, std::span<std::uint8_t> hidden) co
     anyHits(*geometry_.kernel, geometry_.wideMesh(), rays, hidden);
 }
 
+SolidForm Mesh::solidForm() const {
+    SolidForm form = Shape::solidForm();
+    const std::size_t count = geometry_.triangles.size();
+    if (count == 0 || count > Facets::kMost) return form;
+    form.facets = Facets{.triangles = {}, .extent = geometry_.extent};
+    for (std::uint32_t i = 0; i < count; ++i) form.facets->triangles.push_back(corners(i));
+    return form;
+}
+
 std::uint32_t Mesh::objectOf(std::uint32_t triangle) const {
     const auto part = std::upper_bound(
         parts_.begin(), parts_.end(), triangle,

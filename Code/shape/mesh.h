@@ -31,6 +31,7 @@ public:
     void intersectBatch(const RaySpan& rays, std::uint32_t number,
                         std::span<Hit> hits) const override;
     void occludesBatch(const RaySpan& rays, std::span<std::uint8_t> hidden) const override;
+    SolidForm solidForm() const override;
     bool seesFront(const Ray& ray, const Hit& hit) const override;
     Surface surface(const Ray& ray, const Hit& hit) const override {
         return surfaceFor(ray, hit, {});

@@ -1,5 +1,7 @@
 #include "shape/mesh_geometry.h"
 
+#include "accel/kernels/placed.h"
+
 #include <algorithm>
 #include <limits>
 
@@ -31,6 +33,37 @@ std::vector<float> longestSides(const MeshGeometry& mesh) {
             longest = max(out[node.first], out[node.first + 1]);
     }
     return out;
+}
+
+// What a wide tree does not say of the exact triangles of its nodes and leaves, from `ref` down.
+template <int W> float describeExact(MeshGeometry& mesh, WideRef ref) {
+    static_assert(sizeof(WideLeaf<W>) / sizeof(WideTree::Line) * TreeVisit::kPerLine == W);
+    float longest = 0;
+    if (kindOf(ref) == WideKind::None) return longest;
+    const std::size_t line = ref >> 2;
+    if (kindOf(ref) == WideKind::Leaf) {
+        const auto& leaf = mesh.wide.at<WideLeaf<W>>(ref);
+        Vec3d* const points = &mesh.leafPoints[line * TreeVisit::kPerLine];
+        for (std::uint32_t i = 0; i < leaf.count; ++i) {
+            const std::uint32_t triangle = mesh.wide.triangleIds[leaf.first + i];
+            longest = max(longestSideOf(mesh, triangle), longest);
+            for (std::size_t corner = 0; corner < 3; ++corner)
+                points[leaf.corner[corner][i]] = mesh.exactPoints[mesh.triangles[triangle][corner]];
+        }
+    } else {
+        for (const WideRef child : mesh.wide.at<WideNode<W>>(ref).child)
+            longest = max(describeExact<W>(mesh, child), longest);
+    }
+    return mesh.longestSide[line] = longest;
+}
+
+void describeExact(MeshGeometry& mesh) {
+    mesh.longestSide.assign(mesh.wide.lines.size(), 0);
+    mesh.leafPoints.resize(mesh.wide.lines.size() * TreeVisit::kPerLine);
+    if (mesh.wide.width == 16)
+        describeExact<16>(mesh, mesh.wide.root);
+    else
+        describeExact<8>(mesh, mesh.wide.root);
 }
 
 } // namespace
@@ -85,6 +118,7 @@ void MeshGeometry::finish(bool withTree, const Kernel& forKernel, int threads) {
     if (forKernel.width > 0) {
         kernel = &forKernel;
         wide = buildWide(forKernel.width, points, triangles, threads);
+        if (!exactPoints.empty()) describeExact(*this);
         return;
     }
     {
@@ -98,8 +132,8 @@ void MeshGeometry::finish(bool withTree, const Kernel& forKernel, int threads) {
 }
 
 std::size_t MeshGeometry::bytes() const {
-    return bvh.bytes() + longestSide.size() * sizeof(float) + wide.bytes() +
-           points.size() * sizeof(Vec3) + exactPoints.size() * sizeof(Vec3d) +
+    return bvh.bytes() + longestSide.size() * sizeof(float) + leafPoints.size() * sizeof(Vec3d) +
+           wide.bytes() + points.size() * sizeof(Vec3) + exactPoints.size() * sizeof(Vec3d) +
            triangles.size() * sizeof(Corners) + normals.size() * sizeof(Vec3) +
            normalTriangles.size() * sizeof(Corners) + uvs.size() * sizeof(Vec2) +
            uvTriangles.size() * sizeof(Corners) + slots.size() * 4;

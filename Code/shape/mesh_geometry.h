@@ -41,9 +41,14 @@ struct MeshGeometry {
     // Of a mesh for instances: its points as they are in the object, of which each instance makes
     // those of the scene; `points` are theirs, rounded in the space of the tree. Else empty.
     std::vector<Vec3d> exactPoints;
-    Transform treeFromObject;       // moves and scales, alike along all axes
-    BoundsD exactBox;               // of the exact points
-    std::vector<float> longestSide; // by node of the bvh: of the exact triangles below
+    Transform treeFromObject; // moves and scales, alike along all axes
+    BoundsD exactBox;         // of the exact points
+    // By node of the bvh, or by line of the nodes and leaves of the wide tree: of the exact
+    // triangles below.
+    std::vector<float> longestSide;
+
+    // Copies of the exact points for the leaves of the wide tree; see TreeVisit::exactPoints.
+    PageVector<Vec3d> leafPoints;
 
     // At most one of the trees; both empty: every triangle is tested (--accel none).
     Bvh bvh;
@@ -60,6 +65,7 @@ struct MeshGeometry {
     // Does that, computes extent, what is said of the exact points and, if wanted, the tree that
     // the kernel needs, the same for any number of threads. The lists do not change afterwards.
     void finish(bool withTree, const Kernel& forKernel = chooseKernel("scalar"), int threads = 1);
+    bool hasTree() const { return !bvh.nodes.empty() || !wide.isEmpty(); }
     WideMesh wideMesh() const { return {wide, points, triangles, extent}; }
     std::size_t bytes() const;
 };

@@ -16,54 +16,61 @@ MeshInstance::MeshInstance(const MeshGeometry& geometry, MovingTransform sceneFr
 }
 
 // A mirror turns triangles over: then two corners change places, as in a copy (render/merge.cpp).
-TriangleCorners MeshInstance::corners(const Transform& sceneFromObject,
-                                      std::uint32_t triangle) const {
-    const auto& c = geometry_.triangles[triangle];
-    const auto at = [&](std::uint32_t i) {
-        return placedPoint(sceneFromObject, geometry_.exactPoints[i]);
-    };
-    TriangleCorners v{at(c[0]), at(c[1]), at(c[2])};
+TriangleCorners MeshInstance::placedCorners(const Transform& sceneFromObject, const Vec3d& a,
+                                            const Vec3d& b, const Vec3d& c) {
+    TriangleCorners v{placedPoint(sceneFromObject, a), placedPoint(sceneFromObject, b),
+                      placedPoint(sceneFromObject, c)};
     if (sceneFromObject.mirrors()) std::swap(v[1], v[2]);
     return v;
 }
 
-template <class LeafFn>
-void MeshInstance::candidates(const Transform& sceneFromObject,
-                              const std::optional<TreeRay>& treeRay, const RaySetup& setup,
-                              float zCut, LeafFn&& leaf) const {
+TriangleCorners MeshInstance::corners(const Transform& sceneFromObject,
+                                      std::uint32_t triangle) const {
+    const auto& c = geometry_.triangles[triangle];
+    const auto& points = geometry_.exactPoints;
+    return placedCorners(sceneFromObject, points[c[0]], points[c[1]], points[c[2]]);
+}
+
+MeshInstance::Visit::Visit(const MeshInstance& instance, const Ray& ray, KnownSetup inScene)
+    : instance_(instance), place_(&instance.still_), setup_(inScene.setup) {
+    if (setup_ == nullptr || inScene.extent != instance.extent_)
+        setup_ = &ownSetup_.emplace(instance.setupFor(ray));
+    if (!instance.motion_.isStatic())
+        place_ = &moved_.emplace(instance.geometry_, instance.placeAt(ray.time));
+    if (instance.geometry_.hasTree()) treeRay_ = place_->filter.treeRay(ray, instance.extent_);
+}
+
+bool MeshInstance::Visit::reaches(float tMax) const {
+    return !treeRay_ || treeRay_->entersRoot(instance_.geometry_, treeRay_->depthAt(tMax));
+}
+
+template <class LeafFn> void MeshInstance::Visit::candidates(float zCut, LeafFn&& leaf) const {
+    const MeshGeometry& geometry = instance_.geometry_;
     const auto test = [&](std::uint32_t triangle) {
-        return leaf(triangle, corners(sceneFromObject, triangle), zCut);
+        return leaf(triangle, corners(triangle), zCut);
     };
-    if (!treeRay) {
-        for (std::uint32_t i = 0; i < geometry_.triangles.size(); ++i)
+    if (!treeRay_) {
+        for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i)
             if (test(i)) return;
         return;
     }
-    const auto& points = geometry_.points;
-    traverse(geometry_.bvh, *treeRay, treeRay->depthAt(zCut / setup.dz),
-             [&](std::uint32_t triangle, float& treeCut) {
-                 const auto& c = geometry_.triangles[triangle];
-                 if (!treeRay->mayMeet(points[c[0]], points[c[1]], points[c[2]])) return false;
-                 const bool stop = test(triangle);
-                 treeCut = min(treeRay->depthAt(zCut / setup.dz), treeCut);
-                 return stop;
-             });
+    const auto& points = geometry.points;
+    treeRay_->traverse(geometry, treeCut(zCut), [&](std::uint32_t triangle, float& cut) {
+        const auto& c = geometry.triangles[triangle];
+        if (!treeRay_->mayMeet(points[c[0]], points[c[1]], points[c[2]])) return false;
+        const bool stop = test(triangle);
+        cut = min(treeCut(zCut), cut);
+        return stop;
+    });
 }
 
 // query(candidates), as triangle_queries.h wants them, at the time of the ray; false when there are
 // none before tMax.
 template <class Query> bool MeshInstance::ask(const Ray& ray, float tMax, Query&& query) const {
     if (!isTraceable(ray)) return false;
-    const auto at = [&](const Place& place) {
-        const auto treeRay =
-            geometry_.bvh.nodes.empty() ? std::nullopt : place.filter.treeRay(ray, extent_);
-        float z = 0;
-        if (treeRay && !enters(*treeRay, geometry_.bvh, 0, treeRay->depthAt(tMax), z)) return false;
-        return query([&](const RaySetup& setup, float zCut, auto&& leaf) {
-            candidates(place.sceneFromObject, treeRay, setup, zCut, leaf);
-        });
-    };
-    return motion_.isStatic() ? at(still_) : at(Place(geometry_, placeAt(ray.time)));
+    const Visit visit(*this, ray);
+    if (!visit.reaches(tMax)) return false;
+    return query([&](const RaySetup&, float zCut, auto&& leaf) { visit.candidates(zCut, leaf); });
 }
 
 bool MeshInstance::intersect(const Ray& ray, Hit& hit) const {

@@ -29,6 +29,10 @@ public:
     Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const override;
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override;
     std::optional<TieOrder> tieOrder(const Ray& ray, const Hit& hit) const override;
+    const MeshInstance* meshInstance() const override { return this; }
+
+    const MeshGeometry& geometry() const { return geometry_; }
+    class Visit;
 
 private:
     // Where the instance is at a time.
@@ -39,11 +43,10 @@ private:
             : sceneFromObject(there), filter(geometry, there) {}
     };
     template <class Query> bool ask(const Ray& ray, float tMax, Query&& query) const;
-    template <class LeafFn>
-    void candidates(const Transform& sceneFromObject, const std::optional<TreeRay>& treeRay,
-                    const RaySetup& setup, float zCut, LeafFn&& leaf) const;
     RaySetup setupFor(const Ray& ray) const { return {ray.org, ray.dir, extent_}; }
     Transform placeAt(float time) const { return motion_.at(static_cast<double>(time)); }
+    static TriangleCorners placedCorners(const Transform& sceneFromObject, const Vec3d& a,
+                                         const Vec3d& b, const Vec3d& c);
     TriangleCorners corners(const Transform& sceneFromObject, std::uint32_t triangle) const;
     SurfaceTriangle surfaceTriangle(const Transform& sceneFromObject, std::uint32_t triangle) const;
 
@@ -54,4 +57,45 @@ private:
     std::uint32_t object_;
     Bounds bounds_;
     float extent_ = kSceneExtent; // of what the corners are in the scene
+};
+
+// One ray at an instance, where that is at the ray's time: what finds candidates for the questions
+// of triangle_queries.h, here or in a kernel.
+class MeshInstance::Visit {
+public:
+    // `inScene`: the ray's setup with an extent, if it is known.
+    struct KnownSetup {
+        const RaySetup* setup;
+        float extent;
+    };
+    Visit(const MeshInstance& instance, const Ray& ray, KnownSetup inScene = {nullptr, 0});
+    Visit(const Visit&) = delete;
+    Visit& operator=(const Visit&) = delete;
+
+    const RaySetup& setup() const { return *setup_; } // in the scene
+    TriangleCorners corners(std::uint32_t triangle) const {
+        return instance_.corners(place_->sceneFromObject, triangle);
+    }
+    // From corners as the object has them.
+    TriangleCorners placed(const Vec3d& a, const Vec3d& b, const Vec3d& c) const {
+        return placedCorners(place_->sceneFromObject, a, b, c);
+    }
+    // Nothing when no tree can tell: then every triangle is a candidate.
+    const std::optional<TreeRay>& treeRay() const { return treeRay_; }
+    // Depth in the tree behind which nothing is wanted.
+    float treeCut(float zCut) const { return treeRay_->depthAt(zCut / setup_->dz); }
+    TreeVisit inTree(float zCut) const {
+        return treeRay_->visit(instance_.geometry_, treeCut(zCut));
+    }
+    // All of them but those that the ray is certain to miss before zCut.
+    template <class LeafFn> void candidates(float zCut, LeafFn&& leaf) const;
+    bool reaches(float tMax) const; // the mesh, before tMax?
+
+private:
+    const MeshInstance& instance_;
+    std::optional<Place> moved_;
+    const Place* place_;
+    std::optional<RaySetup> ownSetup_;
+    const RaySetup* setup_;
+    std::optional<TreeRay> treeRay_;
 };

@@ -5,6 +5,18 @@
 OneSided::OneSided(std::unique_ptr<const Shape> shape, Side visible)
     : shape_(std::move(shape)), visible_(visible) {}
 
+// Of spheres the kernels know no sides.
+SolidForm OneSided::solidForm() const {
+    SolidForm form = shape_->solidForm();
+    form.sphere.reset();
+    if (!form.facets) return form;
+    if (form.facets->side != Facets::Side::Both)
+        form.facets.reset();
+    else
+        form.facets->side = visible_ == Side::Front ? Facets::Side::Front : Facets::Side::Back;
+    return form;
+}
+
 bool OneSided::isVisible(const Ray& ray, const Hit& hit) const {
     return shape_->seesFront(ray, hit) == (visible_ == Side::Front);
 }
@@ -31,11 +43,16 @@ bool OneSided::lookThrough(const Ray& ray, Hit& hit) const {
 
 bool OneSided::intersect(const Ray& ray, Hit& hit) const {
     Hit nearest = hit;
-    if (!shape_->intersect(ray, nearest)) return false;
-    // Rare for closed surfaces, whose near side is the visible one: all crossings are looked at.
-    if (!isVisible(ray, nearest)) return lookThrough(ray, hit);
+    if (!shape_->intersect(ray, nearest) || !seesHit(ray, hit.t, nearest)) return false;
     hit = nearest;
     return true;
+}
+
+bool OneSided::seesHit(const Ray& ray, float tMax, Hit& hit) const {
+    if (isVisible(ray, hit)) return true;
+    // Rare for closed surfaces, whose near side is the visible one: all crossings are looked at.
+    hit = {.t = tMax, .shape = hit.shape};
+    return lookThrough(ray, hit);
 }
 
 void OneSided::intersectBatch(const RaySpan& rays, std::uint32_t number,
@@ -43,9 +60,6 @@ void OneSided::intersectBatch(const RaySpan& rays, std::uint32_t number,
     shape_->intersectBatch(rays, number, hits);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         if (!hits[i].isHit()) continue;
-        const Ray ray = rays[i];
-        if (isVisible(ray, hits[i])) continue;
-        hits[i] = {.t = ray.tMax};
-        if (lookThrough(ray, hits[i])) hits[i].shape = number;
+        if (!seesHit(rays[i], rays.tMax[i], hits[i])) hits[i] = {.t = rays.tMax[i]};
     }
 }

@@ -26,8 +26,9 @@ public:
     void occludesBatch(const RaySpan& rays, std::span<std::uint8_t> hidden) const override {
         shape_->occludesBatch(rays, hidden);
     }
-    // Not as a sphere: the kernels know no sides.
-    SolidForm solidForm() const override { return {shape_->solidForm().hull, {}}; }
+    const MeshInstance* meshInstance() const override { return shape_->meshInstance(); }
+    bool seesHit(const Ray& ray, float tMax, Hit& hit) const override;
+    SolidForm solidForm() const override;
     bool seesFront(const Ray& ray, const Hit& hit) const override {
         return shape_->seesFront(ray, hit);
     }

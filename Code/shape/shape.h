@@ -7,11 +7,13 @@
 // the ray and the shape.
 #pragma once
 
+#include "accel/kernels/sphere_surfaces.h"
 #include "accel/solid_form.h"
 #include "base/bounds.h"
 #include "base/hit.h"
 #include "base/ray.h"
 #include "base/ray_span.h"
+#include "base/strided.h"
 
 #include <cstdint>
 #include <optional>
@@ -27,6 +29,17 @@ struct TieOrder {
         return key != other.key ? key > other.key : object < other.object;
     }
 };
+
+// Surfaces that are asked for together: of the hits of some rays of a batch, all on one shape.
+struct SurfaceQuery {
+    RaySpan rays;
+    std::span<const Hit> hits; // of all rays
+    std::span<const std::uint32_t> which;
+    SurfaceNeeds needs;
+    SphereSurfacesFn spheres = nullptr; // does spheres by the register
+};
+
+class MeshInstance;
 
 class Shape {
 public:
@@ -66,6 +79,12 @@ public:
         for (std::size_t i = 0; i < rays.size(); ++i) hidden[i] = occludes(rays[i]);
     }
 
+    // The mesh that this is an instance of, if it is one: kernels take the rays through its tree.
+    virtual const MeshInstance* meshInstance() const { return nullptr; }
+    // What intersect() makes of the instance's nearest hit not behind tMax, as not all of its sides
+    // may be seen. False: nothing.
+    virtual bool seesHit(const Ray& /*ray*/, float /*tMax*/, Hit& /*hit*/) const { return true; }
+
     // What helps a kernel to find candidates; not asked of unbounded shapes.
     virtual SolidForm solidForm() const { return {ballAround(toDouble(bounds())), {}}; }
 
@@ -79,6 +98,13 @@ public:
     // The same, where a shape may leave out what is not asked for.
     virtual Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds) const {
         return surface(ray, hit);
+    }
+    // out[k] = surfaceFor(ray, hit) of ray which[k].
+    virtual void surfaces(const SurfaceQuery& query, Strided<Surface> out) const {
+        for (std::size_t k = 0; k < query.which.size(); ++k) {
+            const std::uint32_t i = query.which[k];
+            out[k] = surfaceFor(query.rays[i], query.hits[i], query.needs);
+        }
     }
     virtual SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const = 0;
 

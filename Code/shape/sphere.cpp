@@ -6,6 +6,20 @@ Sphere::Sphere(MovingTransform worldFromObject, double radius, std::uint32_t mat
                std::uint32_t object)
     : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius) {
     measure();
+    if (isStill() && !this->worldFromObject().isSingular())
+        inLanes_ = SphereToShade{this->worldFromObject().rows(),
+                                 objectFromWorld().rows(),
+                                 radius_,
+                                 errorOfSize(),
+                                 errorPerPlace(),
+                                 maxAbs(this->worldFromObject().translation()),
+                                 material,
+                                 object};
+}
+
+void Sphere::surfaces(const SurfaceQuery& query, Strided<Surface> out) const {
+    if (!inLanes_ || !query.spheres || query.needs.uv) return AnalyticShape::surfaces(query, out);
+    query.spheres(*inLanes_, query.rays, query.hits, query.which, out);
 }
 
 SolidForm Sphere::solidForm() const {
@@ -17,8 +31,10 @@ SolidForm Sphere::solidForm() const {
     const double xx = dot(x, x), yy = dot(y, y), zz = dot(z, z);
     const double most = max(xx + xy + zx, max(yy + xy + yz, zz + yz + zx));
     const double least = max(0.0, min(xx - xy - zx, min(yy - xy - yz, zz - yz - zx)));
-    const RoundHull hull{
-        map.translation(), {}, radius_ * std::sqrt(most), radius_ * std::sqrt(least)};
+    const RoundHull hull{.centre = map.translation(),
+                         .axis = {},
+                         .radius = radius_ * std::sqrt(most),
+                         .innerRadius = radius_ * std::sqrt(least)};
     return {hull, StillSphere{objectFromWorld().rows(), radius_}};
 }
 

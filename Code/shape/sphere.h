@@ -11,6 +11,7 @@ public:
            std::uint32_t object);
 
     SolidForm solidForm() const override;
+    void surfaces(const SurfaceQuery& query, Strided<Surface> out) const override;
 
 private:
     Roots roots(const RayD& ray) const override;
@@ -18,4 +19,5 @@ private:
     BoundsD boxUnder(const Transform& worldFromObject) const override;
 
     double radius_;
+    std::optional<SphereToShade> inLanes_; // unless it moves or is flat
 };

@@ -36,33 +36,48 @@ inline Vec2 barycentrics(const ShearedTriangle& sheared) {
     return {static_cast<float>(e.y / sum), static_cast<float>(e.z / sum)};
 }
 
+// The nearest of the triangles that it was shown.
+class NearestTriangle {
+public:
+    // Takes the triangle if it is nearer; lowers zCut then.
+    void show(const RaySetup& setup, float tMin, std::uint32_t triangle, const TriangleCorners& v,
+              float& zCut) {
+        const float key = canonicalKey(setup, v);
+        if (!KeyRange{setup.dz, tMin, kInfinityF}.contains(key)) return;
+        if (key < key_ || (key == key_ && triangle > triangle_)) return;
+        key_ = key;
+        triangle_ = triangle;
+        corners_ = v;
+        zCut = min(depthCut(key), zCut);
+    }
+    // Writes t, u, v and prim if it is not behind hit.t.
+    bool becomes(const RaySetup& setup, Hit& hit) const {
+        const float t = 1.0f / (key_ * setup.dz);
+        if (key_ == 0 || !(t <= hit.t)) return false;
+        const Vec2 uv = barycentrics({setup, corners_[0], corners_[1], corners_[2]});
+        hit.t = t;
+        hit.u = uv.x;
+        hit.v = uv.y;
+        hit.prim = triangle_;
+        return true;
+    }
+
+private:
+    float key_ = 0;
+    std::uint32_t triangle_ = 0;
+    TriangleCorners corners_;
+};
+
 // Shape::intersect()
 template <class Candidates>
 bool nearestTriangle(const Ray& ray, const RaySetup& setup, Hit& hit, Candidates&& candidates) {
-    const KeyRange range{setup.dz, ray.tMin, kInfinityF};
-    float bestKey = 0;
-    std::uint32_t best = 0;
-    TriangleCorners bestCorners;
+    NearestTriangle nearest;
     const float zLimit = depthCut(1.0f / (hit.t * setup.dz)); // behind it nothing is wanted
     candidates(setup, zLimit, [&](std::uint32_t triangle, const TriangleCorners& v, float& zCut) {
-        const float key = canonicalKey(setup, v);
-        if (!range.contains(key)) return false;
-        if (key > bestKey || (key == bestKey && triangle < best)) {
-            bestKey = key;
-            best = triangle;
-            bestCorners = v;
-            zCut = min(depthCut(key), zCut);
-        }
+        nearest.show(setup, ray.tMin, triangle, v, zCut);
         return false;
     });
-    const float t = 1.0f / (bestKey * setup.dz);
-    if (bestKey == 0 || !(t <= hit.t)) return false;
-    const Vec2 uv = barycentrics({setup, bestCorners[0], bestCorners[1], bestCorners[2]});
-    hit.t = t;
-    hit.u = uv.x;
-    hit.v = uv.y;
-    hit.prim = best;
-    return true;
+    return nearest.becomes(setup, hit);
 }
 
 // Shape::occludes()

@@ -172,3 +172,39 @@ TEST(smooth_normals_around_many_triangles) {
                    n << ": " << mean.x << ' ' << mean.y << ' ' << mean.z);
     }
 }
+
+// Points are smoothed in parts by several threads; numbers and bits of the normals are the same.
+TEST(smooth_normals_do_not_depend_on_threads) {
+    constexpr std::uint32_t kSide = 150; // 22500 points: three parts
+    std::mt19937 random(11);
+    const auto upTo = [&](double most) {
+        return std::uniform_real_distribution<double>(0, most)(random);
+    };
+    MeshDesc mesh;
+    for (std::uint32_t i = 0; i < kSide * kSide; ++i)
+        mesh.points.push_back({double(i / kSide), double(i % kSide), upTo(2)});
+    std::vector<std::uint32_t> groups;
+    for (std::uint32_t i = 0; i + kSide + 1 < kSide * kSide; ++i) {
+        if (i % kSide == kSide - 1) continue;
+        mesh.triangles.push_back({i, i + 1, i + kSide + 1});
+        mesh.triangles.push_back({i, i + kSide + 1, i + kSide});
+        const auto group = static_cast<std::uint32_t>(upTo(3));
+        groups.insert(groups.end(), {group, group});
+    }
+    const auto smoothed = [&](double angle, int threads) {
+        MeshDesc out = mesh;
+        if (angle > 0)
+            smoothByAngle(out, angle, threads);
+        else
+            smoothByGroup(out, groups, threads);
+        return out;
+    };
+    for (const double angle : {0.0, 40.0, 180.0}) {
+        const MeshDesc one = smoothed(angle, 1);
+        CHECK_INFO(one.normals.size() >= kSide * kSide, one.normals.size());
+        // One normal for each point, numbered as these are.
+        CHECK_INFO((one.normalTriangles == one.triangles) == (angle == 180), angle << " degrees");
+        for (const int threads : {2, 5})
+            CHECK_INFO(smoothed(angle, threads) == one, angle << " degrees, " << threads);
+    }
+}

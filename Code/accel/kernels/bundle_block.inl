@@ -124,10 +124,10 @@ private:
     static constexpr float kWide = 1.02f;
     // The numbers of pairs, for storeChosen().
     alignas(64) static constexpr auto kPair = [] {
-        std::array<std::array<std::uint32_t, W>, kPackets> pairs{};
+        std::array<std::array<std::uint32_t, W>, kPackets> numbers{};
         for (std::uint32_t q = 0; q < kPackets; ++q)
-            for (std::uint32_t j = 0; j < W; ++j) pairs[q][j] = q << 4 | j;
-        return pairs;
+            for (std::uint32_t j = 0; j < W; ++j) numbers[q][j] = q << 4 | j;
+        return numbers;
     }();
 
     struct Corners {

@@ -142,6 +142,7 @@ private:
         }
         if (hits.whole != nullptr && found != 0) finishWhole(b, ts, found, hits);
     }
+    // With u and v, from the leaves of the best hits: they were in the cache not long ago.
     void finishWhole(const RayBlock& b, const float* t, unsigned found,
                      const HitLists& hits) const {
         alignas(64) float point[3][3][W] = {}; // axis as in the block, corner

@@ -1,6 +1,7 @@
 #include "accel/kernels/solids.h"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 namespace {
@@ -8,10 +9,11 @@ namespace {
 // Puts W children below every node of a binary tree: the largest is opened first.
 template <int W> class Widener {
 public:
-    Widener(SolidTree& tree, const Bvh& bvh) : tree_(tree), bvh_(bvh), from_(tree.solids) {}
+    Widener(SolidTree& tree, const Bvh& bvh)
+        : tree_(tree), bvh_(bvh), solids_(std::move(tree.solids)), boxes_(std::move(tree.boxes)) {}
 
     void run() {
-        tree_.solids.clear();
+        tree_.solids.clear(), tree_.boxes.clear();
         if (!bvh_.nodes.empty()) addNode({open(0)});
     }
 
@@ -32,7 +34,7 @@ private:
         return parts;
     }
     const Bounds& boxOf(Part part) const {
-        return part.isSolid ? from_[part.index].box : bvh_.nodes[part.index].box;
+        return part.isSolid ? boxes_[part.index] : bvh_.nodes[part.index].box;
     }
     std::size_t sizeOpened(Part part) const {
         const BvhNode& node = bvh_.nodes[part.index];
@@ -77,33 +79,53 @@ private:
     }
 
     WideRef addSolid(std::uint32_t index) {
-        tree_.solids.push_back(from_[index]);
+        tree_.solids.push_back(solids_[index]);
+        tree_.boxes.push_back(boxes_[index]);
         return wideRef(tree_.solids.size() - 1, WideKind::Leaf);
     }
 
     SolidTree& tree_;
     const Bvh& bvh_;
-    const std::vector<SolidTree::Solid> from_;
+    const std::vector<SolidTree::Solid> solids_;
+    const std::vector<Bounds> boxes_;
 };
 
 } // namespace
 
 void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const SolidForm& form) {
-    Solid solid{.box = box, .number = number, .hides = hides};
+    Solid solid{.number = number, .hides = hides};
     solid.isTube = form.hull.axis != Vec3d{};
     solid.centre = toFloat(form.hull.centre), solid.axis = toFloat(form.hull.axis);
     solid.radius = floatAbove(form.hull.radius * (1 + 0x1p-20));
+    solid.halfLength = floatAbove(form.hull.halfLength * (1 + 0x1p-20));
     // Not where the exact formula might over- or underflow.
-    if (form.sphere && form.sphere->radius > 0x1p-100 && form.sphere->radius < 0x1p100)
+    const double size = form.sphere ? form.sphere->radius : form.hull.innerRadius;
+    if (size > 0x1p-100 && size < 0x1p100)
         solid.innerRadius = static_cast<float>(form.hull.innerRadius * (1 - 0x1p-20));
     if (form.sphere) {
-        solid.sphere = static_cast<std::uint32_t>(spheres.size());
+        solid.kind = Kind::Sphere;
+        solid.part = static_cast<std::uint32_t>(spheres.size());
         const auto& m = form.sphere->objectFromWorld;
         const bool turned =
             m[1] != 0 || m[2] != 0 || m[4] != 0 || m[6] != 0 || m[8] != 0 || m[9] != 0;
         spheres.push_back({*form.sphere, turned});
     }
+    if (form.facets) {
+        solid.kind = Kind::Facets;
+        solid.part = static_cast<std::uint32_t>(facets.size());
+        FacetGroup group{.facet = {},
+                         .count = static_cast<std::uint32_t>(form.facets->triangles.size()),
+                         .extent = form.facets->extent,
+                         .side = form.facets->side};
+        for (std::size_t i = 0; i < group.count; ++i) {
+            const auto& p = form.facets->triangles[i];
+            const Vec3d p0 = toDouble(p[0]);
+            group.facet[i] = {p, cross(toDouble(p[1]) - p0, toDouble(p[2]) - p0)};
+        }
+        facets.push_back(group);
+    }
     solids.push_back(solid);
+    boxes.push_back(box);
 }
 
 void SolidTree::build(int nodeWidth, const Bvh& bvh) {
@@ -151,6 +173,16 @@ public:
         order_.clear();
         origins_.clear();
         groups_.clear();
+        if (areFromOnePoint(rays)) {
+            order_.resize(rays.size());
+            std::size_t count = 0;
+            for (std::uint32_t i = 0; i < rays.size(); ++i) {
+                order_[count] = i;
+                count += wanted(i);
+            }
+            order_.resize(count);
+            return ends_.push_back(count);
+        }
         std::size_t guess = 0; // lamps take turns
         for (std::uint32_t i = 0; i < rays.size(); ++i) {
             if (!wanted(i)) continue;
@@ -185,6 +217,11 @@ public:
     }
 
 private:
+    static bool areFromOnePoint(const RaySpan& rays) {
+        const auto bytes = (rays.size() - 1) * sizeof(Vec3);
+        return rays.size() > 0 && std::memcmp(rays.org.data(), rays.org.data() + 1, bytes) == 0;
+    }
+
     static constexpr std::size_t kMostOrigins = 16;
     std::vector<std::uint32_t> order_, sorted_;
     std::vector<std::uint8_t> groups_; // of the rays in order_

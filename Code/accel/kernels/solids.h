@@ -1,6 +1,7 @@
 // Solids: everything with a box of its own that is no triangle, as vector kernels want it. Packets
-// of rays walk one wide tree together; spheres that stand still are met in the kernel itself, with
-// the bits of shape/sphere.cpp, and any other shape is asked where a ray enters its box.
+// of rays walk one wide tree together; spheres that stand still and meshes of a few triangles are
+// met in the kernel itself, with the bits of shape/sphere.cpp and shape/mesh.cpp, and any other
+// shape is asked where a ray enters its box.
 // Knows nothing about what the shapes are.
 #pragma once
 
@@ -17,23 +18,37 @@
 #include <vector>
 
 struct SolidTree {
-    static constexpr std::uint32_t kNoSphere = 0xffffffffu;
-    struct Solid {
-        Bounds box;
-        std::uint32_t number = 0;         // what hits and calls name it by
-        std::uint32_t sphere = kNoSphere; // in `spheres`
-        bool hides = true;                // counts when any hit is asked for
-        bool isTube = false;              // a RoundHull with an axis
+    // What the solid is to a kernel.
+    enum class Kind : std::uint8_t { Other, Sphere, Facets };
+    // What is looked at first, in one line of the cache.
+    struct alignas(64) Solid {
+        std::uint32_t number = 0; // what hits and calls name it by
+        std::uint32_t part = 0;   // in `spheres` or `facets`
+        Kind kind = Kind::Other;
+        bool hides = true;   // counts when any hit is asked for
+        bool isTube = false; // a RoundHull with an axis
         Vec3 centre{}, axis{};
-        float radius = kInfinityF, innerRadius = 0;
+        float radius = kInfinityF, innerRadius = 0, halfLength = kInfinityF;
     };
     struct Sphere {
         StillSphere exact;
         bool turned = false; // the map does more than move and scale along the axes
     };
+    struct Facet {
+        std::array<Vec3, 3> corner;
+        Vec3d n; // of the plane; any length
+    };
+    struct FacetGroup {
+        std::array<Facet, ::Facets::kMost> facet;
+        std::uint32_t count = 0;
+        float extent = 0;
+        ::Facets::Side side = ::Facets::Side::Both;
+    };
     int width = 0;
     std::vector<Solid> solids; // in the order of the tree's leaves
+    std::vector<Bounds> boxes; // of the solids
     std::vector<Sphere> spheres;
+    std::vector<FacetGroup> facets;
     // WideNode<width>, root first. A child of kind Leaf is one solid, by its place in `solids`.
     std::vector<WideTree::Line> lines;
     float extent = 0; // see RaySetup

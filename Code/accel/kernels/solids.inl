@@ -70,10 +70,12 @@ private:
         const auto pick = [&](Floats x, Floats y, Floats z) {
             return select(alongZ, z, select(alongY, y, x));
         };
+        alongZ_ = alongZ, alongY_ = alongY;
         const Floats depth = pick(d[0], d[1], d[2]);
         dz_ = abs(depth);
         const Floats sign = select(depth < zero, Floats(-1.0f), one);
         const Floats Sx = pick(d[1], d[2], d[0]) / dz_, Sy = pick(d[2], d[0], d[1]) / dz_;
+        sign_ = sign, Sx_ = Sx, Sy_ = Sy;
         const Floats smallestSlope(RaySetup::kSmallestSlope);
         const Floats rx = one / withSign(max(abs(Sx), smallestSlope), Sx);
         const Floats ry = one / withSign(max(abs(Sy), smallestSlope), Sy);
@@ -98,6 +100,7 @@ private:
         perLength_ = one / length_;
         perLength2_ = one / length2;
         slack_ = max(Floats(tree_.extent), oMax) * Floats(0x1p-18f);
+        oMax_ = oMax;
 
         // isTraceable(), and a range to be hit in.
         const Floats sum = ((d[0] + d[1]) + d[2]) + ((o[0] + o[1]) + o[2]);
@@ -157,7 +160,7 @@ private:
             } else if (together_ && std::popcount(lanes) >= kFewestForInterval) {
                 size = stepTogether(tree_.node<W>(at), lanes, stack.data(), size, results);
             } else {
-                size = stepApart(tree_.node<W>(at), lanes, stack.data(), size);
+                size = stepApart(tree_.node<W>(at), lanes, stack.data(), size, results);
             }
             if (A == Answer::Any && live_ == 0) return;
             do {
@@ -223,9 +226,10 @@ private:
         return size;
     }
 
-    std::size_t stepApart(const WideNode<W>& node, unsigned lanes, Entry* stack,
-                          std::size_t size) const {
-        unsigned inside[W];
+    template <class Result>
+    std::size_t stepApart(const WideNode<W>& node, unsigned lanes, Entry* stack, std::size_t size,
+                          Result* results) {
+        LaneMatrix entered; // rows are rays, columns children
         unsigned any = 0;
         Floats nearest(kInfinityF);
         for (; lanes != 0; lanes &= lanes - 1) {
@@ -241,20 +245,24 @@ private:
                                Floats(rays1_.farOffset[axis][ray])),
                            exit);
             }
-            const Mask entered = entry <= exit;
-            nearest = min(nearest, select(entered, entry, nearest));
-            for (unsigned hit = bits(entered); hit != 0; hit &= hit - 1) {
-                const int i = std::countr_zero(hit);
-                inside[i] = (any >> i & 1 ? inside[i] : 0) | 1u << ray;
-                any |= 1u << i;
-            }
+            const Mask hit = entry <= exit;
+            if constexpr (A == Answer::Closest) nearest = min(nearest, select(hit, entry, nearest));
+            entered.set(ray, bits(hit));
+            any |= bits(hit);
         }
         alignas(64) float z[W];
-        nearest.store(z);
+        if constexpr (A == Answer::Closest) nearest.store(z);
         const std::size_t bottom = size;
         for (; any != 0; any &= any - 1) {
             const int i = std::countr_zero(any);
-            size = push(stack, bottom, size, {z[i], node.child[i], inside[i]});
+            const WideRef ref = node.child[i];
+            if (kindOf(ref) == WideKind::Leaf) {
+                if (const unsigned asking = entered.column(i) & live_; asking != 0)
+                    solid(ref >> 2, asking, results);
+                continue;
+            }
+            const float from = A == Answer::Closest ? z[i] : 0;
+            size = push(stack, bottom, size, {from, ref, entered.column(i)});
         }
         return size;
     }
@@ -264,30 +272,29 @@ private:
     template <class Result> void solid(std::uint32_t place, unsigned lanes, Result* results) {
         const SolidTree::Solid& solid = tree_.solids[place];
         if (A == Answer::Any && !solid.hides) return;
-        if (solid.isTube) {
-            lanes &= nearAxis(solid);
-        } else {
-            unsigned certain = 0;
-            lanes &= nearCentre(solid, certain);
-            if constexpr (A == Answer::Any) {
-                certain &= lanes;
-                if (certain != 0) hide(certain, results);
-                lanes &= ~certain;
-            }
+        unsigned certain = 0;
+        lanes &= solid.isTube ? nearAxis(solid, lanes, certain) : nearCentre(solid, certain);
+        if constexpr (A == Answer::Any) {
+            certain &= lanes;
+            if (certain != 0) hide(certain, results);
+            lanes &= ~certain;
         }
         if (lanes == 0) return;
+        const Bounds& box = tree_.boxes[place];
         Floats entry(0.0f), exit = zCut_;
         for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
             const Mask back = maskOf(backwards_[axis]);
-            const Floats lo(solid.box.lo[a]), hi(solid.box.hi[a]);
+            const Floats lo(box.lo[a]), hi(box.hi[a]);
             entry = max(select(back, hi, lo) * r_[axis] + near_[axis], entry);
             exit = min(select(back, lo, hi) * r_[axis] + far_[axis], exit);
         }
         lanes &= bits(entry <= exit);
         if (lanes == 0) return;
-        if (solid.sphere != SolidTree::kNoSphere)
-            sphere(solid, tree_.spheres[solid.sphere], entry, lanes, results);
+        if (solid.kind == SolidTree::Kind::Sphere)
+            sphere(solid, tree_.spheres[solid.part], entry, lanes, results);
+        else if (solid.kind == SolidTree::Kind::Facets)
+            facets(solid, tree_.facets[solid.part], entry, lanes, results);
         else
             ask(solid, entry, lanes, results);
     }
@@ -316,8 +323,12 @@ private:
         }
         return bits(notGreater(distance2, reach * reach));
     }
-    // n = d x axis: the distance of the lines is |w n| / |n|, and w n is off by 16 u s |d|.
-    unsigned nearAxis(const SolidTree::Solid& solid) const {
+    // n = d x axis: the distance of the lines is |w n| / |n|, and w n is off by 16 u s |d|. The ray
+    // is in the endless tube from `middle` - `half` to `middle` + `half`, where `half` has the
+    // slack for the errors of both: 16 u s |d| / n n.
+    // certain: rays that meet the side of a round tube, well within their range and the tube's
+    // length, at an angle that keeps errors below 30 times the slack.
+    unsigned nearAxis(const SolidTree::Solid& solid, unsigned lanes, unsigned& certain) const {
         const Floats x = Floats(solid.centre.x) - o_[0], y = Floats(solid.centre.y) - o_[1],
                      z = Floats(solid.centre.z) - o_[2];
         const Floats ax(solid.axis.x), ay(solid.axis.y), az(solid.axis.z);
@@ -325,8 +336,33 @@ private:
                      nz = fms(d_[0], ay, d_[1] * ax);
         const Floats across = fma(x, nx, fma(y, ny, z * nz));
         const Floats n2 = fma(nx, nx, fma(ny, ny, nz * nz));
-        const Floats reach = fma(Floats(solid.radius), sqrt(n2), slack_ * length_);
-        return bits(notGreater(abs(across), reach));
+        const Floats n = sqrt(n2), slack = slack_ * length_;
+        const Floats reach = fma(Floats(solid.radius), n, slack);
+        lanes &= bits(notGreater(abs(across), reach));
+        if (lanes == 0) return 0;
+
+        const Floats zero(0.0f), perN2 = Floats(1.0f) / n2;
+        const Floats da = fma(d_[0], ax, fma(d_[1], ay, d_[2] * az));
+        const Floats xa = fma(x, ax, fma(y, ay, z * az));
+        const Floats xd = fma(x, d_[0], fma(y, d_[1], z * d_[2]));
+        const Floats middle = fnma(xa, da, xd) * perN2, height = fms(middle, da, xa);
+        const auto halfIn = [&](Floats r) { return sqrt(max(fnma(across, across, r * r), zero)); };
+        const Floats half = (halfIn(reach) + slack) * perN2;
+        const Floats up = abs(da);
+        lanes &= bits(notGreater(fnma(half, up, abs(height)), Floats(solid.halfLength) + slack_)) &
+                 bits(notGreater(tMin_, middle + half)) & bits(notGreater(middle - half, best_));
+        if constexpr (A == Answer::Any) {
+            if (lanes == 0 || !(solid.innerRadius > 0)) return lanes;
+            const Floats inner = Floats(solid.innerRadius) * n, margin = Floats(64.0f) * slack_;
+            const Floats inside = halfIn(inner) * perN2, early = margin * perLength_;
+            const Floats tallest = Floats(solid.halfLength * (1 - 0x1p-18f)) - margin;
+            const auto meets = [&](Floats t) {
+                return (t - early > tMin_) & (t + early < best_) & (abs(fms(t, da, xa)) < tallest);
+            };
+            certain = bits((meets(middle - inside) | meets(middle + inside)) &
+                           (abs(across) < Floats(0.9f) * inner) & (n > Floats(0.25f) * length_));
+        }
+        return lanes;
     }
 
     [[gnu::noinline]] void ask(const SolidTree::Solid& solid, Floats entry, unsigned lanes,
@@ -361,6 +397,8 @@ private:
         zCut_.store(rays1_.zCut);
         zTop_ = largest(select(maskOf(live_), zCut_, Floats(-1.0f)));
     }
+
+#include "accel/kernels/solids_facets.inl"
 
     // Sphere::roots() and insideRound().
     template <class Result>
@@ -439,6 +477,9 @@ private:
     unsigned live_ = 0;    // lanes that still ask
     Floats o_[3], d_[3], r_[3], near_[3], far_[3], pad_[3], dz_, tMin_;
     Floats length_, perLength_, perLength2_, slack_; // of the directions; see nearCentre()
+    // What a facet asks: the dominant axis, and RaySetup's numbers for it.
+    Mask alongZ_, alongY_;
+    Floats sign_, Sx_, Sy_, oMax_;
     Floats best_, zCut_; // t up to which hits count, and the depth behind which none is
     std::uint32_t number_[W];
     unsigned backwards_[3]; // lanes with r < 0

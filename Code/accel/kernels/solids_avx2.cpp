@@ -24,6 +24,20 @@ inline unsigned atMost(const Doubles& a, const Doubles& b) {
     return half(a.lo, b.lo) | half(a.hi, b.hi) << 4;
 }
 
+// Bits of 8 rows of 8, asked for by columns.
+class LaneMatrix {
+public:
+    void set(int row, unsigned columns) { rows_ |= std::uint64_t{columns} << 8 * row; }
+    // The factor brings bit 0 of byte k to bit 56 + k, and no two products meet.
+    unsigned column(int i) const {
+        return static_cast<unsigned>((rows_ >> i & 0x0101010101010101u) * 0x0102040810204080u >>
+                                     56);
+    }
+
+private:
+    std::uint64_t rows_ = 0;
+};
+
 #include "accel/kernels/solids.inl"
 } // namespace kernels::avx2
 KERNEL_REGION_END

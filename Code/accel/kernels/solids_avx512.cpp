@@ -27,6 +27,22 @@ inline unsigned atMost(const Doubles& a, const Doubles& b) {
            static_cast<unsigned>(_mm512_cmp_pd_mask(a.hi, b.hi, _CMP_LE_OQ)) << 8;
 }
 
+// Bits of W rows, asked for by columns.
+class LaneMatrix {
+public:
+    LaneMatrix() : rows_(_mm256_setzero_si256()) {}
+    void set(int row, unsigned columns) {
+        rows_ = _mm256_mask_set1_epi16(rows_, static_cast<__mmask16>(1u << row),
+                                       static_cast<short>(columns));
+    }
+    unsigned column(int i) const {
+        return _mm256_movepi16_mask(_mm256_sll_epi16(rows_, _mm_cvtsi32_si128(15 - i)));
+    }
+
+private:
+    __m256i rows_;
+};
+
 #include "accel/kernels/solids.inl"
 } // namespace kernels::avx512
 KERNEL_REGION_END

@@ -58,11 +58,9 @@ public:
         top_[0] = leafNode(level[0].box);
         while (!level.empty()) level = divideLevel(level);
         growSubtrees();
-        lists_ = {}; // 64 bytes a triangle, before the tree takes its place
-        if (width_ == 16)
-            writeTree<16>(tree, top_, subtrees_, grown_, pool_);
-        else
-            writeTree<8>(tree, top_, subtrees_, grown_, pool_);
+        lists_.spare = {}; // 32 bytes a triangle, before the tree takes its place
+        (width_ == 16 ? writeTree<16> : writeTree<8>)(tree, top_, subtrees_, grown_,
+                                                      std::move(lists_.prims), pool_);
         return tree;
     }
 

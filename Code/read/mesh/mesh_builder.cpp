@@ -128,18 +128,18 @@ void MeshBuilder::fillUvs() {
     dropUnused(mesh.uvs, mesh.uvTriangles);
 }
 
-void MeshBuilder::fillNormals() {
+void MeshBuilder::fillNormals(int threads) {
     std::vector<Corners>& corners = mesh.normalTriangles;
     if (corners.empty()) {
         mesh.normals.clear();
-        if (!groups_.empty()) smoothByGroup(mesh, groups_);
+        if (!groups_.empty()) smoothByGroup(mesh, groups_, threads);
         return;
     }
     if (std::find(corners.begin(), corners.end(), kAllMissing) != corners.end()) {
         std::vector<Vec3> given = std::move(mesh.normals);
         std::vector<Corners> givenCorners = std::exchange(corners, {});
         groups_.resize(mesh.triangles.size());
-        smoothByGroup(mesh, groups_);
+        smoothByGroup(mesh, groups_, threads);
         const auto offset = static_cast<std::uint32_t>(given.size());
         given.insert(given.end(), mesh.normals.begin(), mesh.normals.end());
         mesh.normals = std::move(given);
@@ -151,10 +151,10 @@ void MeshBuilder::fillNormals() {
     dropUnused(mesh.normals, corners);
 }
 
-MeshBuilder::Dropped MeshBuilder::finish() {
+MeshBuilder::Dropped MeshBuilder::finish(int threads) {
     Dropped dropped;
     dropped.points = dropUnused(mesh.points, mesh.triangles);
     fillUvs();
-    fillNormals();
+    fillNormals(threads);
     return dropped;
 }

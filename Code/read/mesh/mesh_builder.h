@@ -35,11 +35,11 @@ public:
     };
     // Completes the arrays: corners without a normal get that of their smoothing group or of their
     // triangle, corners without uv get 0 0. Then `mesh` is done.
-    Dropped finish();
+    Dropped finish(int threads = 1);
 
 private:
     bool addTriangle(const Corner& a, const Corner& b, const Corner& c);
-    void fillNormals();
+    void fillNormals(int threads);
     void fillUvs();
 
     const std::vector<Vec3d>& points() const { return points_ ? *points_ : mesh.points; }

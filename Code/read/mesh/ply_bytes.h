@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "read/mesh/ply_header.h"
+#include "read/mesh/row_chunk.h"
 
 #include <algorithm>
 #include <bit>
@@ -15,7 +16,7 @@
 template <PlyFormat kFormat> class PlyBytes {
 public:
     PlyBytes(const SourceFile& source, std::size_t offset)
-        : source_(source), p_(source.text.data() + offset),
+        : source_(&source), p_(source.text.data() + offset),
           end_(source.text.data() + source.text.size()) {}
 
     // Fails when the file cannot hold the rows that the header promises.
@@ -27,9 +28,35 @@ public:
             rowBytes += sizeOf(p.countType.value_or(p.type));
         if (rowBytes == 0) return;
         if (const std::size_t possible = bytesLeft() / rowBytes; element.count > possible)
-            failAt(source_, element.offset,
+            failAt(*source_, element.offset,
                    cat("'element ", shown(element.name), " ", element.count,
                        "' is more than the rest of the file can hold (", possible, " at most)"));
+    }
+    // From here on, or from the start of another row of the same element on.
+    PlyBytes at(const char* p, std::size_t row) const {
+        PlyBytes other = *this;
+        other.p_ = p;
+        other.row_ = row;
+        return other;
+    }
+    const char* rowEnd() const { return p_; }
+    // The rows of the element that has begun in parts, if all are as long as the first one.
+    std::vector<RowChunk> chunks(int) const {
+        constexpr std::size_t kChunkBytes = std::size_t{1} << 17;
+        PlyBytes firstRow = *this;
+        for (const PlyProperty& p : element_->properties) {
+            if (p.countType)
+                firstRow.skipList(p);
+            else
+                firstRow.skip(p.type);
+        }
+        const auto rowBytes = static_cast<std::size_t>(firstRow.p_ - p_);
+        const std::size_t rows = std::min<std::size_t>(element_->count, bytesLeft() / rowBytes),
+                          most = std::max<std::size_t>(1, kChunkBytes / rowBytes);
+        std::vector<RowChunk> out;
+        for (std::size_t row = 0; row < rows; row += most)
+            out.push_back({p_ + row * rowBytes, row, std::min(most, rows - row)});
+        return out;
     }
     void beginRow() {}
     void endRow() { ++row_; }
@@ -121,12 +148,12 @@ private:
     }
 
     [[noreturn]] void failAtByte(const char* p, std::string_view what) const {
-        failAt(source_, element_->offset,
-               cat("byte ", p - source_.text.data(), ", row ", row_, " of '", shown(element_->name),
-                   "': ", what));
+        failAt(*source_, element_->offset,
+               cat("byte ", p - source_->text.data(), ", row ", row_, " of '",
+                   shown(element_->name), "': ", what));
     }
 
-    const SourceFile& source_;
+    const SourceFile* source_;
     const PlyElement* element_ = nullptr;
     std::size_t row_ = 0;
     const char* p_;

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "desc/names.h"
+#include "read/line_chunks.h"
 #include "read/number.h"
 
 #include <algorithm>
@@ -13,9 +14,18 @@ void PlyText::begin(const PlyElement& element) {
     const std::size_t rowBytes = 2 * element.properties.size();
     if (rowBytes == 0) return;
     if (const std::size_t possible = (bytesLeft() + 1) / rowBytes; element.count > possible)
-        failAt(source_, element.offset,
+        failAt(*source_, element.offset,
                cat("'element ", shown(element.name), " ", element.count,
                    "' is more than the rest of the file can hold (", possible, " at most)"));
+}
+
+std::vector<RowChunk> PlyText::chunks(int threads) const {
+    const char* first = p_;
+    while (isBlank(*first) || *first == '\n') ++first;
+    std::vector<RowChunk> out;
+    for (const LineChunk& lines : chunksOfLines(first, end_, element_->count, threads))
+        out.push_back({lines.first, lines.before, lines.lines});
+    return out;
 }
 
 void PlyText::beginRow() {
@@ -100,7 +110,7 @@ void PlyText::failAtItem(const PlyProperty&, std::size_t i, std::string_view wha
 std::optional<std::pair<std::size_t, std::string>> PlyText::rest() {
     while (isBlank(*p_) || *p_ == '\n') ++p_;
     if (p_ == end_) return {};
-    return std::pair(static_cast<std::size_t>(p_ - source_.text.data()),
+    return std::pair(static_cast<std::size_t>(p_ - source_->text.data()),
                      std::string("this follows the last element and was not read"));
 }
 

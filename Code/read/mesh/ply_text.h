@@ -3,6 +3,7 @@
 #pragma once
 
 #include "read/mesh/ply_header.h"
+#include "read/mesh/row_chunk.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -15,10 +16,22 @@
 class PlyText {
 public:
     PlyText(const SourceFile& source, std::size_t offset)
-        : source_(source), p_(source.text.data() + offset),
+        : source_(&source), p_(source.text.data() + offset),
           end_(source.text.data() + source.text.size()) {}
 
     void begin(const PlyElement& element);
+    // From here on, or from the start of another row of the same element on.
+    PlyText at(const char* p, std::size_t row) const {
+        PlyText other = *this;
+        other.p_ = p;
+        other.row_ = row;
+        return other;
+    }
+    // Where the row ended that was read last, or would end if it took one line of its own.
+    const char* rowEnd() const { return p_ < end_ ? p_ + 1 : end_; }
+    // The rows of the element that has begun in parts, if each has one line.
+    std::vector<RowChunk> chunks(int threads) const;
+
     void beginRow(); // moves over empty lines
     void endRow();
 
@@ -56,10 +69,10 @@ private:
 
     [[noreturn]] void failMissing() const;
     [[noreturn]] void failAtText(const char* p, std::string_view what) const {
-        failAt(source_, static_cast<std::size_t>(p - source_.text.data()), what);
+        failAt(*source_, static_cast<std::size_t>(p - source_->text.data()), what);
     }
 
-    const SourceFile& source_;
+    const SourceFile* source_;
     const PlyElement* element_ = nullptr;
     std::size_t row_ = 0;
     const char* p_;

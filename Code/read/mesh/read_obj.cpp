@@ -226,7 +226,7 @@ private:
                                      : cat("none of the ", counted(faces, "face", "faces"),
                                            " has three corners and an area"));
         }
-        const MeshBuilder::Dropped dropped = builder_.finish();
+        const MeshBuilder::Dropped dropped = builder_.finish(context_.options.threads);
         file_.mesh = std::move(builder_.mesh);
         file_.mesh.loc = locOf(0);
         if (!namesMaterials_) {

@@ -1,151 +1,58 @@
 #include "read/mesh/read_ply.h"
 
+#include "base/for_each.h"
 #include "base/text.h"
 #include "desc/names.h"
-#include "desc/range.h"
 #include "read/mesh/ply_bytes.h"
 #include "read/mesh/ply_header.h"
+#include "read/mesh/ply_rows.h"
 #include "read/mesh/ply_text.h"
-#include "read/mesh/triangulate.h"
 
 #include <algorithm>
-#include <array>
-#include <cmath>
+#include <optional>
 
 namespace {
-
-// What the properties of a vertex are to us.
-enum class Role { X, Y, Z, NormalX, NormalY, NormalZ, U, V, None };
-constexpr std::size_t kRoleCount = static_cast<std::size_t>(Role::None);
-
-// Groups of properties that count only together, in the order of preference: of several names for
-// the same the first ones.
-struct Group {
-    Role first;
-    std::array<std::string_view, 3> names; // the last one may be empty
-};
-constexpr auto kGroups = std::to_array<Group>({
-    {Role::X, {"x", "y", "z"}},
-    {Role::NormalX, {"nx", "ny", "nz"}},
-    {Role::U, {"s", "t"}},
-    {Role::U, {"u", "v"}},
-    {Role::U, {"texture_u", "texture_v"}},
-    {Role::U, {"texture_s", "texture_t"}},
-});
-
-struct VertexRoles {
-    std::vector<Role> roles; // per property
-    std::array<bool, kRoleCount> has{};
-    bool hasRole(Role role) const { return has[static_cast<std::size_t>(role)]; }
-};
-
-VertexRoles rolesOf(const PlyElement& vertex) {
-    VertexRoles out;
-    out.roles.assign(vertex.properties.size(), Role::None);
-    for (const Group& group : kGroups) {
-        auto role = static_cast<std::size_t>(group.first);
-        std::vector<std::size_t> found;
-        bool isComplete = !out.has[role];
-        for (const std::string_view name : group.names) {
-            if (name.empty()) continue;
-            const PlyProperty* const p = vertex.property(name);
-            isComplete = isComplete && p && !p->countType;
-            if (isComplete) found.push_back(static_cast<std::size_t>(p - vertex.properties.data()));
-        }
-        if (!isComplete) continue;
-        for (const std::size_t i : found) {
-            out.roles[i] = static_cast<Role>(role);
-            out.has[role++] = true;
-        }
-    }
-    return out;
-}
-
-// An index as it was written: negative ones were wrapped around.
-std::string indexText(const PlyProperty& property, std::uint32_t index) {
-    const bool isSigned = property.type == PlyType::Int8 || property.type == PlyType::Int16 ||
-                          property.type == PlyType::Int32;
-    return isSigned ? cat(static_cast<std::int32_t>(index)) : cat(index);
-}
 
 // The body of the file: the rows of one element after the other. Input: PlyText or PlyBytes.
 template <class Input> class BodyReader {
 public:
-    BodyReader(const PlyHeader& header, const SourceFile& source, MeshDesc& mesh)
-        : in_(source, header.dataOffset), source_(source), mesh_(mesh) {}
+    BodyReader(const PlyHeader& header, const SourceFile& source, int threads, MeshDesc& mesh)
+        : rows_(Input(source, header.dataOffset)), source_(source),
+          threads_(threads > 0 ? threads : hardwareThreads()), mesh_(mesh) {}
 
     void read(const PlyElement& element) {
-        in_.begin(element);
+        rows_.in.begin(element);
         if (element.properties.empty()) return;
         if (element.name == "vertex")
             readVertices(element);
         else if (element.name == "face")
-            readLists(element, kMostCorners, [this](const PlyProperty& p) { addFace(p); });
+            readFaces(element, PlyFaces::Kind::Polygons);
         else if (element.name == "tristrips")
-            readLists(element, source_.text.size(), [this](const PlyProperty& p) { addStrip(p); });
+            readFaces(element, PlyFaces::Kind::Strips);
         else
-            for (std::uint32_t row = 0; row < element.count; ++row) {
-                in_.beginRow();
-                for (const PlyProperty& p : element.properties) skip(p);
-                in_.endRow();
-            }
+            rows_.skipRows(element);
     }
-    std::optional<std::pair<std::size_t, std::string>> rest() { return in_.rest(); }
-    std::size_t degenerateCount() const { return degenerateCount_; }
-    std::size_t firstDegenerate() const { return firstDegenerate_; }
+    std::optional<std::pair<std::size_t, std::string>> finish() {
+        mesh_.triangles = std::move(rows_.triangles);
+        return rows_.in.rest();
+    }
+    std::size_t degenerateCount() const { return rows_.degenerateCount; }
+    std::size_t firstDegenerate() const { return rows_.firstDegenerate; }
 
 private:
-    void skip(const PlyProperty& p) {
-        if (p.countType)
-            in_.skipList(p);
-        else
-            in_.skip(p.type);
-    }
-
     void readVertices(const PlyElement& element) {
         const VertexRoles roles = rolesOf(element);
-        if (!roles.hasRole(Role::X))
+        if (!roles.hasRole(PlyRole::X))
             failAt(source_, element.offset, "'vertex' needs the properties x, y and z");
         mesh_.points.resize(element.count);
-        if (roles.hasRole(Role::NormalX)) mesh_.normals.resize(element.count);
-        if (roles.hasRole(Role::U)) mesh_.uvs.resize(element.count);
-        std::array<double, kRoleCount> values{};
-        const auto value = [&](Role role) { return values[static_cast<std::size_t>(role)]; };
-        const auto narrow = [&](Role role) { return static_cast<float>(value(role)); };
-        for (std::uint32_t row = 0; row < element.count; ++row) {
-            in_.beginRow();
-            for (std::size_t i = 0; i < element.properties.size(); ++i) {
-                const Role role = roles.roles[i];
-                if (role == Role::None)
-                    skip(element.properties[i]);
-                else
-                    values[static_cast<std::size_t>(role)] =
-                        vertexNumber(element.properties[i], role);
-            }
-            in_.endRow();
-            mesh_.points[row] = {value(Role::X), value(Role::Y), value(Role::Z)};
-            if (!mesh_.normals.empty())
-                mesh_.normals[row] = {narrow(Role::NormalX), narrow(Role::NormalY),
-                                      narrow(Role::NormalZ)};
-            if (!mesh_.uvs.empty()) mesh_.uvs[row] = {narrow(Role::U), narrow(Role::V)};
-        }
+        if (roles.hasRole(PlyRole::NormalX)) mesh_.normals.resize(element.count);
+        if (roles.hasRole(PlyRole::U)) mesh_.uvs.resize(element.count);
+        readRows(element, [&](PlyRows<Input>& rows, std::size_t first, std::size_t count) {
+            rows.readVertices(element, roles, first, count, mesh_);
+        });
     }
 
-    double vertexNumber(const PlyProperty& property, Role role) {
-        constexpr double kLargestFloat = 1e15; // its square is far from the end of float
-        const double value = in_.number(property.type);
-        const double largest = role <= Role::Z ? kLargestLength : kLargestFloat;
-        if (!(std::fabs(value) <= largest))
-            in_.fail(
-                std::isfinite(value)
-                    ? cat("'", shown(property.name), "' is too large; at most ", shortest(largest))
-                    : cat("'", shown(property.name), "' is not a finite number"));
-        return value;
-    }
-
-    // Calls with the list of indices of every row in items_.
-    template <class Call>
-    void readLists(const PlyElement& element, std::size_t most, const Call& call) {
+    void readFaces(const PlyElement& element, PlyFaces::Kind kind) {
         const PlyProperty* indices = element.property("vertex_indices");
         if (!indices) indices = element.property("vertex_index");
         if (!indices || !indices->countType || !isWhole(indices->type))
@@ -153,78 +60,66 @@ private:
                    cat("'", shown(element.name),
                        "' needs a list of whole numbers, such as 'property list uchar int "
                        "vertex_indices'"));
-        mesh_.triangles.reserve(mesh_.triangles.size() + element.count);
-        for (row_ = 0; row_ < element.count; ++row_) {
-            in_.beginRow();
-            for (const PlyProperty& p : element.properties) {
-                if (&p != indices) {
-                    skip(p);
-                    continue;
-                }
-                in_.list(p, most, items_);
-                call(p);
-            }
-            in_.endRow();
+        const PlyFaces faces{kind, indices};
+        readRows(element, [&](PlyRows<Input>& rows, std::size_t first, std::size_t count) {
+            rows.readFaces(element, faces, first, count, mesh_.points);
+        });
+    }
+
+    // read(rows, first, count)
+    template <class Read> void readRows(const PlyElement& element, const Read& read) {
+        constexpr std::uint32_t kWorthThreads = 10'000;
+        if (threads_ > 1 && element.count >= kWorthThreads && readTogether(element, read)) return;
+        read(rows_, 0, element.count);
+    }
+
+    // False when the rows are not where they were taken to be, or when there is a mistake: then
+    // nothing has changed but vertices that will be read again.
+    template <class Read> bool readTogether(const PlyElement& element, const Read& read) {
+        std::vector<RowChunk> chunks;
+        try {
+            chunks = rows_.in.chunks(threads_);
+        } catch (const Error&) {
+            return false;
         }
-    }
-
-    void checkIndex(const PlyProperty& property, std::size_t i) {
-        if (items_[i] < mesh_.points.size()) return;
-        in_.failAtItem(property, i,
-                       cat("there is no vertex ", indexText(property, items_[i]), "; the file has ",
-                           mesh_.points.size(), ", counted from 0"));
-    }
-
-    bool addTriangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-        if (a == b || b == c || c == a) return false;
-        mesh_.triangles.push_back({a, b, c});
+        if (chunks.size() < 2 || chunks.back().firstRow + chunks.back().count < element.count)
+            return false;
+        std::vector<std::optional<PlyRows<Input>>> parts(chunks.size());
+        forEachOn(threads_, chunks.size(), [&](std::size_t i) {
+            const RowChunk& chunk = chunks[i];
+            PlyRows<Input> rows(rows_.in.at(chunk.first, chunk.firstRow));
+            try {
+                read(rows, chunk.firstRow, chunk.count);
+            } catch (const Error&) {
+                return; // who reads one row after the other says it
+            }
+            // Where a chunk ends as it was taken to, the next one begins rightly.
+            if (i + 1 == chunks.size() || rows.in.rowEnd() == chunks[i + 1].first)
+                parts[i].emplace(std::move(rows));
+        });
+        if (!std::all_of(parts.begin(), parts.end(), [](const auto& part) { return !!part; }))
+            return false;
+        join(parts);
         return true;
     }
 
-    void addFace(const PlyProperty& property) {
-        for (std::size_t i = 0; i < items_.size(); ++i) checkIndex(property, i);
-        bool shows = false;
-        if (items_.size() == 3) {
-            shows = addTriangle(items_[0], items_[1], items_[2]);
-        } else if (items_.size() > 3) {
-            corners_.clear();
-            for (const std::uint32_t index : items_) corners_.push_back(mesh_.points[index]);
-            triangles_.clear();
-            triangulate(corners_, triangles_);
-            for (const auto& [a, b, c] : triangles_)
-                shows = addTriangle(items_[a], items_[b], items_[c]) || shows;
+    void join(std::vector<std::optional<PlyRows<Input>>>& parts) {
+        std::size_t count = rows_.triangles.size();
+        for (const auto& part : parts) count += part->triangles.size();
+        rows_.triangles.reserve(count);
+        for (const auto& part : parts) {
+            rows_.triangles.insert(rows_.triangles.end(), part->triangles.begin(),
+                                   part->triangles.end());
+            if (rows_.degenerateCount == 0) rows_.firstDegenerate = part->firstDegenerate;
+            rows_.degenerateCount += part->degenerateCount;
         }
-        if (!shows && degenerateCount_++ == 0) firstDegenerate_ = row_;
+        rows_.in = parts.back()->in;
     }
 
-    // Every corner makes a triangle with the two before it, every second one turned round; -1 ends
-    // the strip and begins another. Equal corners stitch strips together and show nothing.
-    void addStrip(const PlyProperty& property) {
-        constexpr std::uint32_t kEnd = 0xffffffffu;
-        std::size_t first = 0;
-        for (std::size_t i = 0; i < items_.size(); ++i) {
-            if (items_[i] == kEnd) {
-                first = i + 1;
-                continue;
-            }
-            checkIndex(property, i);
-            if (i < first + 2) continue;
-            if ((i - first) % 2 == 0)
-                addTriangle(items_[i - 2], items_[i - 1], items_[i]);
-            else
-                addTriangle(items_[i - 1], items_[i - 2], items_[i]);
-        }
-    }
-
-    Input in_;
+    PlyRows<Input> rows_;
     const SourceFile& source_;
+    int threads_;
     MeshDesc& mesh_;
-    std::uint32_t row_ = 0;
-    std::size_t degenerateCount_ = 0, firstDegenerate_ = 0;
-    // Of the row that is read; kept for their memory.
-    std::vector<std::uint32_t> items_;
-    std::vector<Vec3d> corners_;
-    std::vector<MeshDesc::Corners> triangles_;
 };
 
 // Before megabytes are read: is there something to show?
@@ -276,12 +171,13 @@ template <class Input>
 MeshFile readBody(const PlyHeader& header, const SourceFile& source, const ReadContext& context) {
     MeshFile file;
     MeshDesc& mesh = file.mesh;
-    BodyReader<Input> body(header, source, mesh);
+    BodyReader<Input> body(header, source, context.options.threads, mesh);
     for (const PlyElement& element : header.elements) body.read(element);
     const std::size_t vertexOffset = header.element("vertex")->offset;
+    const auto rest = body.finish();
     if (mesh.triangles.empty())
         failAt(source, vertexOffset, "none of the faces has three different corners");
-    if (const auto rest = body.rest()) context.warn(source, rest->first, rest->second);
+    if (rest) context.warn(source, rest->first, rest->second);
     if (const std::size_t count = body.degenerateCount())
         context.warn(source, header.element("face")->offset,
                      cat("left out ", count, " of ", header.element("face")->count,

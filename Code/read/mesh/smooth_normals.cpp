@@ -1,6 +1,8 @@
 #include "read/mesh/smooth_normals.h"
 
+#include "base/for_each.h"
 #include "base/math.h"
+#include "read/mesh/triangle_corners.h"
 
 #include <algorithm>
 #include <utility>
@@ -10,81 +12,19 @@ namespace {
 
 using Index = std::uint32_t;
 
-// Unit normals; zero for a triangle without area, so that it has no weight.
-std::vector<Vec3d> triangleNormals(const MeshDesc& mesh) {
-    std::vector<Vec3d> normals;
-    normals.reserve(mesh.triangles.size());
-    for (const MeshDesc::Corners& t : mesh.triangles) {
-        const Vec3d a = mesh.points[t[1]] - mesh.points[t[0]],
-                    b = mesh.points[t[2]] - mesh.points[t[0]];
-        // The sides' own lengths first: their squares could leave double.
-        const double sizeA = maxAbs(a), sizeB = maxAbs(b);
-        const Vec3d n = sizeA > 0 && sizeB > 0 ? cross(a / sizeA, b / sizeB) : Vec3d{};
-        const double size = maxAbs(n);
-        normals.push_back(size > 0 ? normalize(n / size) : Vec3d{});
-    }
-    return normals;
-}
-
-double angleBetween(Vec3d a, Vec3d b) {
-    const double sizeA = maxAbs(a), sizeB = maxAbs(b);
-    if (!(sizeA > 0 && sizeB > 0)) return 0;
-    a = a / sizeA;
-    b = b / sizeB;
-    return exact::atan2(length(cross(a, b)), dot(a, b));
-}
-
 // A corner of a triangle as seen from its point.
 struct Around {
     Index triangle = 0, corner = 0;
     Vec3d weighted; // the triangle's normal times its angle here
 };
 
-// The corners of all triangles in the order of their points, by counting: those of point i are
-// [starts[i], starts[i + 1]) of `corners`, numbered 3 * triangle + corner.
-struct CornersByPoint {
-    std::vector<Index> starts, corners;
-
-    explicit CornersByPoint(const MeshDesc& mesh)
-        : starts(mesh.points.size() + 1), corners(mesh.triangles.size() * 3) {
-        for (const MeshDesc::Corners& t : mesh.triangles)
-            for (const Index point : t) ++starts[point];
-        Index sum = 0;
-        for (Index& start : starts) sum += std::exchange(start, sum);
-        for (Index i = 0; i < mesh.triangles.size(); ++i)
-            for (Index k = 0; k < 3; ++k) corners[starts[mesh.triangles[i][k]]++] = 3 * i + k;
-        // Each start has moved to the next one's place.
-        std::move_backward(starts.begin(), starts.end() - 1, starts.end());
-        starts.front() = 0;
-    }
-};
-
-class Smoother {
+// The normals of some points, numbered from 0.
+class PointNormals {
 public:
-    explicit Smoother(MeshDesc& mesh) : mesh_(mesh), flat_(triangleNormals(mesh)) {
-        mesh.normals.clear();
-        mesh.normalTriangles.assign(mesh.triangles.size(), {});
-    }
+    PointNormals(MeshDesc& mesh, const std::vector<TriangleShape>& shapes)
+        : mesh_(mesh), shapes_(shapes) {}
 
-    const Vec3d& flat(Index triangle) const { return flat_[triangle]; }
-
-    // Calls with the corners around each point that has any.
-    template <class Visit> void forEachPoint(Visit visit) {
-        const CornersByPoint byPoint(mesh_);
-        std::vector<Around> around;
-        for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
-            around.clear();
-            for (Index at = byPoint.starts[i]; at < byPoint.starts[i + 1]; ++at) {
-                const Index triangle = byPoint.corners[at] / 3, k = byPoint.corners[at] % 3;
-                const MeshDesc::Corners& t = mesh_.triangles[triangle];
-                const Vec3d p = mesh_.points[i];
-                const double angle = angleBetween(mesh_.points[t[(k + 1) % 3]] - p,
-                                                  mesh_.points[t[(k + 2) % 3]] - p);
-                around.push_back({triangle, k, flat_[triangle] * angle});
-            }
-            if (!around.empty()) visit(std::span<Around>(around));
-        }
-    }
+    const Vec3d& flat(Index triangle) const { return shapes_[triangle].normal; }
 
     // A sum without direction (sides that face each other) leaves the triangle as flat as it is.
     Index add(Vec3d sum, Index triangle) {
@@ -92,13 +32,12 @@ public:
         const Vec3d n = size > 1e-12                 ? normalize(sum / size)
                         : maxAbs(flat(triangle)) > 0 ? flat(triangle)
                                                      : Vec3d{0, 0, 1};
-        mesh_.normals.push_back(toFloat(n));
-        return static_cast<Index>(mesh_.normals.size() - 1);
+        normals.push_back(toFloat(n));
+        return static_cast<Index>(normals.size() - 1);
     }
     void set(const Around& a, Index normal) {
         mesh_.normalTriangles[a.triangle][a.corner] = normal;
     }
-
     void shareAll(std::span<const Around> around) {
         Vec3d sum;
         for (const Around& a : around) sum += a.weighted;
@@ -106,9 +45,82 @@ public:
         for (const Around& a : around) set(a, normal);
     }
 
+    std::vector<Vec3> normals;
+
 private:
     MeshDesc& mesh_;
-    std::vector<Vec3d> flat_;
+    const std::vector<TriangleShape>& shapes_;
+};
+
+class Smoother {
+public:
+    // Triangles of group 0 are left alone; without groups there are none.
+    Smoother(MeshDesc& mesh, std::span<const Index> groups, int threads)
+        : mesh_(mesh), groups_(groups), threads_(threads), shapes_(triangleShapes(mesh, threads)) {
+        mesh.normals.clear();
+        mesh.normalTriangles.assign(mesh.triangles.size(), {});
+    }
+
+    void keepFlat(Index triangle) {
+        PointNormals one(mesh_, shapes_);
+        const auto normal = static_cast<Index>(mesh_.normals.size());
+        one.add({}, triangle);
+        mesh_.normals.push_back(one.normals.front());
+        mesh_.normalTriangles[triangle] = {normal, normal, normal};
+    }
+
+    // Calls visit(PointNormals&, the corners around a point) for each point that has any. Points
+    // are visited in parts by several threads; the normals are numbered in the order of the points.
+    template <class Visit> void forEachPoint(const Visit& visit) {
+        const CornersByPoint byPoint(mesh_);
+        constexpr std::size_t kTogether = 1 << 13;
+        const std::size_t points = mesh_.points.size();
+        std::vector<PointNormals> parts((points + kTogether - 1) / kTogether,
+                                        PointNormals(mesh_, shapes_));
+        forEachOn(threads_, parts.size(), [&](std::size_t i) {
+            visitPoints(byPoint, i * kTogether, std::min(points, (i + 1) * kTogether), parts[i],
+                        visit);
+        });
+        std::vector<Index> before(parts.size());
+        auto count = static_cast<Index>(mesh_.normals.size());
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            before[i] = std::exchange(count, count + static_cast<Index>(parts[i].normals.size()));
+        mesh_.normals.resize(count);
+        forEachOn(threads_, parts.size(), [&](std::size_t i) {
+            std::copy(parts[i].normals.begin(), parts[i].normals.end(),
+                      mesh_.normals.begin() + before[i]);
+            moveNumbers(byPoint, i * kTogether, std::min(points, (i + 1) * kTogether), before[i]);
+        });
+    }
+
+private:
+    template <class Visit>
+    void visitPoints(const CornersByPoint& byPoint, std::size_t first, std::size_t last,
+                     PointNormals& normals, const Visit& visit) const {
+        std::vector<Around> around;
+        for (std::size_t i = first; i < last; ++i) {
+            around.clear();
+            for (Index at = byPoint.starts[i]; at < byPoint.starts[i + 1]; ++at) {
+                const Index triangle = byPoint.corners[at] / 3, k = byPoint.corners[at] % 3;
+                const TriangleShape& shape = shapes_[triangle];
+                around.push_back({triangle, k, shape.normal * shape.angle[k]});
+            }
+            if (!around.empty()) visit(normals, std::span<Around>(around));
+        }
+    }
+    void moveNumbers(const CornersByPoint& byPoint, std::size_t first, std::size_t last,
+                     Index before) {
+        for (Index at = byPoint.starts[first]; at < byPoint.starts[last]; ++at) {
+            const Index triangle = byPoint.corners[at] / 3, k = byPoint.corners[at] % 3;
+            if (groups_.empty() || groups_[triangle] != 0)
+                mesh_.normalTriangles[triangle][k] += before;
+        }
+    }
+
+    MeshDesc& mesh_;
+    std::span<const Index> groups_;
+    int threads_;
+    std::vector<TriangleShape> shapes_;
 };
 
 // Directions in cells of about ten degrees, 9 x 9 on each side of a cube. Around points with very
@@ -146,80 +158,83 @@ std::vector<Vec3d> sumsWithin(std::span<const Bundle> bundles, double cosine) {
     return sums;
 }
 
-void smoothFew(Smoother& smoother, std::span<const Around> around, double cosine) {
+void smoothFew(PointNormals& normals, std::span<const Around> around, double cosine) {
     std::vector<Bundle> bundles;
     bundles.reserve(around.size());
-    for (const Around& a : around) bundles.push_back({smoother.flat(a.triangle), a.weighted});
+    for (const Around& a : around) bundles.push_back({normals.flat(a.triangle), a.weighted});
     const std::vector<Vec3d> sums = sumsWithin(bundles, cosine);
     // Equal sums are one normal.
-    std::vector<Index> normals(around.size());
+    std::vector<Index> numbers(around.size());
     for (std::size_t i = 0; i < around.size(); ++i) {
         const std::size_t first =
             static_cast<std::size_t>(std::find(sums.begin(), sums.end(), sums[i]) - sums.begin());
-        normals[i] = first < i ? normals[first] : smoother.add(sums[i], around[i].triangle);
-        smoother.set(around[i], normals[i]);
+        numbers[i] = first < i ? numbers[first] : normals.add(sums[i], around[i].triangle);
+        normals.set(around[i], numbers[i]);
     }
 }
 
-void smoothMany(Smoother& smoother, std::span<const Around> around, double cosine) {
+void smoothMany(PointNormals& normals, std::span<const Around> around, double cosine) {
     constexpr Index kNone = 0xffffffffu;
     std::vector<Index> bundleOfCell(kCells, kNone);
     std::vector<Bundle> bundles;
     std::vector<Index> bundleOf, firstTriangle;
     for (const Around& a : around) {
-        Index& bundle = bundleOfCell[cellOf(smoother.flat(a.triangle))];
+        Index& bundle = bundleOfCell[cellOf(normals.flat(a.triangle))];
         if (bundle == kNone) {
             bundle = static_cast<Index>(bundles.size());
             bundles.push_back({});
             firstTriangle.push_back(a.triangle);
         }
-        bundles[bundle].direction += smoother.flat(a.triangle);
+        bundles[bundle].direction += normals.flat(a.triangle);
         bundles[bundle].weighted += a.weighted;
         bundleOf.push_back(bundle);
     }
     for (Bundle& b : bundles)
         if (maxAbs(b.direction) > 0) b.direction = normalize(b.direction);
     const std::vector<Vec3d> sums = sumsWithin(bundles, cosine);
-    std::vector<Index> normals;
+    std::vector<Index> numbers;
     for (std::size_t i = 0; i < bundles.size(); ++i)
-        normals.push_back(smoother.add(sums[i], firstTriangle[i]));
-    for (std::size_t i = 0; i < around.size(); ++i) smoother.set(around[i], normals[bundleOf[i]]);
+        numbers.push_back(normals.add(sums[i], firstTriangle[i]));
+    for (std::size_t i = 0; i < around.size(); ++i) normals.set(around[i], numbers[bundleOf[i]]);
 }
 
 } // namespace
 
-void smoothByAngle(MeshDesc& mesh, double smoothAngleDeg) {
+void smoothByAngle(MeshDesc& mesh, double smoothAngleDeg, int threads) {
     if (!(smoothAngleDeg > 0)) {
         mesh.normals.clear();
         mesh.normalTriangles.clear();
         return;
     }
-    Smoother smoother(mesh);
+    Smoother smoother(mesh, {}, threads);
     if (smoothAngleDeg >= 180)
-        return smoother.forEachPoint([&](std::span<Around> around) { smoother.shareAll(around); });
+        return smoother.forEachPoint([](PointNormals& normals, std::span<const Around> around) {
+            normals.shareAll(around);
+        });
     const double cosine = exact::cos(radians(smoothAngleDeg));
-    smoother.forEachPoint([&](std::span<Around> around) {
+    smoother.forEachPoint([&](PointNormals& normals, std::span<const Around> around) {
         if (around.size() > kManyTriangles)
-            smoothMany(smoother, around, cosine);
+            smoothMany(normals, around, cosine);
         else
-            smoothFew(smoother, around, cosine);
+            smoothFew(normals, around, cosine);
     });
 }
 
-void smoothByGroup(MeshDesc& mesh, std::span<const std::uint32_t> groups) {
-    Smoother smoother(mesh);
+void smoothByGroup(MeshDesc& mesh, std::span<const std::uint32_t> groups, int threads) {
+    Smoother smoother(mesh, groups, threads);
     for (Index i = 0; i < mesh.triangles.size(); ++i)
-        if (groups[i] == 0) {
-            const Index normal = smoother.add({}, i);
-            mesh.normalTriangles[i] = {normal, normal, normal};
-        }
-    smoother.forEachPoint([&](std::span<Around> around) {
-        const auto groupOf = [&](const Around& a) { return groups[a.triangle]; };
-        std::stable_sort(around.begin(), around.end(),
-                         [&](const Around& a, const Around& b) { return groupOf(a) < groupOf(b); });
+        if (groups[i] == 0) smoother.keepFlat(i);
+    smoother.forEachPoint([&](PointNormals& normals, std::span<Around> around) {
+        const auto isBefore = [&](const Around& a, const Around& b) {
+            return groups[a.triangle] < groups[b.triangle];
+        };
+        // Most points have triangles of one group only.
+        if (!std::is_sorted(around.begin(), around.end(), isBefore))
+            std::stable_sort(around.begin(), around.end(), isBefore);
         for (std::size_t first = 0, last = 0; first < around.size(); first = last) {
-            while (last < around.size() && groupOf(around[last]) == groupOf(around[first])) ++last;
-            if (groupOf(around[first]) != 0) smoother.shareAll(around.subspan(first, last - first));
+            const Index group = groups[around[first].triangle];
+            while (last < around.size() && groups[around[last].triangle] == group) ++last;
+            if (group != 0) normals.shareAll(around.subspan(first, last - first));
         }
     });
 }

@@ -6,6 +6,7 @@
 #include "desc/names.h"
 #include "desc/properties.h"
 #include "read/number.h"
+#include "read/txt/references.h"
 #include "read/txt/scanner.h"
 
 #include <optional>
@@ -48,12 +49,11 @@ private:
     std::size_t count_, got_ = 0;
 };
 
-// Reads the values of a property. A reference becomes its position in `names`; all are looked up
-// when the whole file is known.
+// Reads the values of a property.
 template <class Block> class PropertyLine {
 public:
-    PropertyLine(Scanner& in, ErrorList& errors, std::vector<Token>& names, const Token& open)
-        : in_(in), errors_(errors), names_(names), open_(open) {}
+    PropertyLine(Scanner& in, ErrorList& errors, References& references, const Token& open)
+        : in_(in), errors_(errors), references_(references), open_(open) {}
 
     void read(Block& block, const Property<Block>& property) {
         keyword_ = property.keyword;
@@ -82,7 +82,7 @@ private:
         } else if (const auto* reference = std::get_if<Reference<Block>>(&field)) {
             const Token t = in_.next();
             if (!isName(t)) failExpected(t, cat("the name of a ", nameOf(reference->target)));
-            block.*(reference->handle) = remember(t);
+            block.*(reference->handle) = references_.use(reference->target, t);
         } else if (const auto* choice = std::get_if<Choice<Block>>(&field)) {
             readChoice(block, *choice);
         } else if (const auto* list = std::get_if<MaterialList<Block>>(&field)) {
@@ -102,8 +102,9 @@ private:
         const Token first = nextName("the name of a material");
         if (!handles.empty())
             errors_.add(locOf(first), [] { return "give 'material' or 'materials', not both"; });
-        handles.assign(1, remember(first));
-        while (many && isName(in_.peek())) handles.push_back(remember(in_.next()));
+        handles.assign(1, references_.use(Target::Material, first));
+        while (many && isName(in_.peek()))
+            handles.push_back(references_.use(Target::Material, in_.next()));
     }
 
     static bool isName(const Token& t) {
@@ -115,17 +116,13 @@ private:
         if (!isName(t)) failExpected(t, what);
         return t;
     }
-    Handle remember(const Token& t) {
-        names_.push_back(t);
-        return static_cast<Handle>(names_.size() - 1);
-    }
     [[noreturn]] void failExpected(const Token& t, std::string_view what) const {
         in_.failAt(t.offset, cat("expected ", what, " after '", keyword_, "', got ", described(t)));
     }
 
     Scanner& in_;
     ErrorList& errors_;
-    std::vector<Token>& names_;
+    References& references_;
     const Token& open_;
     std::string_view keyword_;
 };

@@ -4,6 +4,7 @@
 #include "desc/names.h"
 #include "desc/properties.h"
 #include "read/number.h"
+#include "read/txt/array_lines.h"
 #include "read/txt/property_line.h"
 
 #include <algorithm>
@@ -11,37 +12,6 @@
 #include <type_traits>
 
 namespace {
-
-// How a number of an array is read, and how many make a group.
-template <class Group> struct GroupOf;
-template <> struct GroupOf<Vec3d> {
-    static constexpr std::size_t kSize = 3;
-    static constexpr double kLargest = kLargestLength;
-    static NumberRead<double> read(const char* p) { return readDouble(p); }
-    static double& number(Vec3d& v, std::size_t i) { return v[i]; }
-};
-template <> struct GroupOf<Vec3> {
-    static constexpr std::size_t kSize = 3;
-    static constexpr float kLargest = 1e15f; // its square is far from the end of float
-    static NumberRead<float> read(const char* p) { return readFloat(p); }
-    static float& number(Vec3& v, std::size_t i) { return v[i]; }
-};
-template <> struct GroupOf<Vec2> {
-    static constexpr std::size_t kSize = 2;
-    static constexpr float kLargest = 1e15f;
-    static NumberRead<float> read(const char* p) { return readFloat(p); }
-    static float& number(Vec2& v, std::size_t i) { return i == 0 ? v.x : v.y; }
-};
-template <> struct GroupOf<MeshDesc::Corners> {
-    static constexpr std::size_t kSize = 3;
-    static NumberRead<std::uint32_t> read(const char* p) { return readUnsigned(p); }
-    static std::uint32_t& number(MeshDesc::Corners& c, std::size_t i) { return c[i]; }
-};
-template <> struct GroupOf<std::uint32_t> {
-    static constexpr std::size_t kSize = 1;
-    static NumberRead<std::uint32_t> read(const char* p) { return readUnsigned(p); }
-    static std::uint32_t& number(std::uint32_t& n, std::size_t) { return n; }
-};
 
 // What was read of an array, for the check of the indices when the whole block is known.
 struct ArrayRead {
@@ -54,8 +24,8 @@ struct ArrayRead {
 
 class MeshReader {
 public:
-    MeshReader(Scanner& in, ErrorList& errors, const Token& open, MeshDesc& mesh)
-        : in_(in), errors_(errors), open_(open), mesh_(mesh) {}
+    MeshReader(Scanner& in, ErrorList& errors, const Token& open, MeshDesc& mesh, int threads)
+        : in_(in), errors_(errors), open_(open), mesh_(mesh), threads_(threads) {}
 
     void read() {
         while (true) {
@@ -83,7 +53,8 @@ private:
             in_.failAt(t.offset,
                        cat("'", t.text, "' was given already at line ", in_.lineOf(before)));
         before = t.offset;
-        PropertyLine<MeshDesc>(in_, errors_, names_, open_).read(mesh_, *row);
+        References none(in_.source(), false); // a mesh names nothing
+        PropertyLine<MeshDesc>(in_, errors_, none, open_).read(mesh_, *row);
         if (row->keyword == "file") mesh_.fileLoc = {static_cast<std::uint32_t>(t.offset)};
         return true;
     }
@@ -133,6 +104,15 @@ private:
         read.numbers = read.groups * GroupOf<Group>::kSize;
         groups.resize(read.groups);
         const std::size_t start = in_.offset();
+        if (threads_ > 1) {
+            const char* const text = in_.source().text.data();
+            if (const auto lines = readLines(text + start, text + in_.source().text.size(),
+                                             std::span(groups), threads_)) {
+                read.offset = start;
+                read.largestIndex = lines->largestIndex;
+                return in_.moveTo(lines->end);
+            }
+        }
         for (Group& group : groups)
             for (std::size_t i = 0; i < GroupOf<Group>::kSize; ++i) {
                 const char* const p = in_.skipToValue();
@@ -213,14 +193,14 @@ private:
     ErrorList& errors_;
     const Token& open_;
     MeshDesc& mesh_;
+    int threads_;
     std::array<ArrayRead, kMeshArrays.size()> reads_{};
     std::array<std::size_t, kMeshProperties.size()> given_{}; // where; no property stands at 0
-    std::vector<Token> names_;                                // of references: there are none
     std::string_view last_; // the keyword of the array that was begun last
 };
 
 } // namespace
 
-void readMesh(Scanner& in, ErrorList& errors, const Token& open, MeshDesc& mesh) {
-    MeshReader(in, errors, open, mesh).read();
+void readMesh(Scanner& in, ErrorList& errors, const Token& open, MeshDesc& mesh, int threads) {
+    MeshReader(in, errors, open, mesh, threads).read();
 }

@@ -5,5 +5,6 @@
 #include "desc/scene_desc.h"
 #include "read/txt/scanner.h"
 
-// Reads from behind the '{' and its line end to behind the '}'. `open` is the word "mesh".
-void readMesh(Scanner& in, ErrorList& errors, const Token& open, MeshDesc& mesh);
+// Reads from behind the '{' and its line end to behind the '}'. `open` is the word "mesh". Long
+// arrays are read by so many threads.
+void readMesh(Scanner& in, ErrorList& errors, const Token& open, MeshDesc& mesh, int threads = 1);

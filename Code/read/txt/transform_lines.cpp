@@ -1,5 +1,6 @@
 #include "read/txt/transform_lines.h"
 
+#include "base/affine.h"
 #include "base/math.h"
 #include "base/transform.h"
 
@@ -12,13 +13,12 @@ using Numbers = std::span<const double>;
 Vec3d at(Numbers n, std::size_t i) { return {n[i], n[i + 1], n[i + 2]}; }
 
 // The first line is taken as it is: a product with the identity could lose the sign of a zero.
-Rows product(const Rows& before, const Rows& next) {
-    if (before == kIdentityRows) return next;
-    return (Transform::fromRows(before) * Transform::fromRows(next)).rows();
+Rows placed(const Rows& before, const Rows& next) {
+    return before == kIdentityRows ? next : product(before, next);
 }
 
 Rows translate(const Rows& before, Numbers n, std::string_view&) {
-    return product(before, Transform::translate(at(n, 0)).rows());
+    return placed(before, Transform::translate(at(n, 0)).rows());
 }
 Rows rotate(const Rows& before, Numbers n, std::string_view& fault) {
     const Vec3d axis = at(n, 1);
@@ -28,15 +28,15 @@ Rows rotate(const Rows& before, Numbers n, std::string_view& fault) {
     }
     // Its square must not underflow.
     const Vec3d direction = axis / maxAbs(axis);
-    return product(before, Transform::rotate(direction, radians(n[0])).rows());
+    return placed(before, Transform::rotate(direction, radians(n[0])).rows());
 }
 Rows scale(const Rows& before, Numbers n, std::string_view&) {
-    return product(before, Transform::scale(at(n, 0)).rows());
+    return placed(before, Transform::scale(at(n, 0)).rows());
 }
 Rows transform(const Rows& before, Numbers n, std::string_view&) {
     Rows rows{};
     std::copy(n.begin(), n.end(), rows.begin());
-    return product(before, rows);
+    return placed(before, rows);
 }
 Rows lookAt(const Rows& before, Numbers n, std::string_view& fault) {
     if (at(n, 0) == at(n, 3))
@@ -44,7 +44,7 @@ Rows lookAt(const Rows& before, Numbers n, std::string_view& fault) {
     else if (at(n, 6) == Vec3d{})
         fault = "the up direction of 'look_at' is 0 0 0";
     if (!fault.empty()) return before;
-    return product(before, Transform::lookAt(at(n, 0), at(n, 3), at(n, 6)).rows());
+    return placed(before, Transform::lookAt(at(n, 0), at(n, 3), at(n, 6)).rows());
 }
 
 constexpr auto kLines = std::to_array<TransformLine>({

@@ -12,7 +12,6 @@ inline LitPoint litPoint(const Wave& wave, std::size_t k) {
     const PointBatch& points = wave.memory.points;
     const ShadedPoint& at = points.at[k];
     return {static_cast<std::uint32_t>(k),
-            0,
             at.surface.lift != Vec3{},
             at.surface.p,
             at.lit.n,

@@ -5,17 +5,40 @@
 #include "render/waves/steps.h"
 #include "render/waves/wave.h"
 
+namespace waves {
+
+// Of points in a row on one shape together.
+inline void findSurfaces(const Wave& wave) {
+    const IntegratorContext& context = wave.context;
+    const std::vector<Hit>& hits = wave.memory.hits;
+    PointBatch& points = wave.memory.points;
+    std::size_t end = 0;
+    for (std::size_t begin = 0; begin < points.count; begin = end) {
+        const std::uint32_t shape = hits[points.ray[begin]].shape;
+        for (end = begin + 1; end < points.count && hits[points.ray[end]].shape == shape;) ++end;
+        const std::span run(points.ray.data() + begin, end - begin);
+        context.scene.shapes().shapes[shape]->surfaces(
+            {wave.rays.span(), hits, run, context.surfaceNeeds, context.sphereSurfaces},
+            {&points.at[begin].surface, sizeof(ShadedPoint)});
+    }
+}
+
+} // namespace waves
+
 template <Steps kSteps> void findPoints(const Wave& wave) {
     const IntegratorContext& context = wave.context;
     const std::vector<Hit>& hits = wave.memory.hits;
     PointBatch& points = wave.memory.points;
     points.clear(wave.rays.size());
-    for (std::size_t i = 0; i < wave.rays.size(); ++i) {
-        if (!hits[i].isHit()) continue;
-        const std::size_t k = points.count++;
+    for (std::uint32_t i = 0; i < wave.rays.size(); ++i) {
+        points.ray[points.count] = i;
+        points.count += hits[i].isHit();
+    }
+    waves::findSurfaces(wave);
+    for (std::size_t k = 0; k < points.count; ++k) {
+        const std::uint32_t i = points.ray[k];
         ShadedPoint& at = points.at[k];
-        shade(context.scene, wave.rays.ray(i), hits[i], context.surfaceNeeds, at);
-        points.ray[k] = static_cast<std::uint32_t>(i);
+        shadeSurface<kSteps.textures>(context.scene, wave.rays.ray(i), hits[i], at);
         points.weight[k] = wave.rays.weight[i];
         points.material[k] = &at.of->base;
         if constexpr (kSteps.textures)

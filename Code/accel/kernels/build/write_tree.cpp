@@ -1,9 +1,11 @@
 #include "accel/kernels/build/write_tree.h"
 
 #include "accel/kernels/build/collapse.h"
+#include "accel/kernels/build/second_hand.h"
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 namespace kernels::build {
 
@@ -14,51 +16,65 @@ template <int W> constexpr std::size_t kLeafLines = sizeof(WideLeaf<W>) / sizeof
 
 template <int W> class TreeWriter {
 public:
-    TreeWriter(WideTree& tree, std::vector<BinaryNode>& top, std::span<const SubtreeRange> subtrees,
-               std::vector<Grown>& grown, ThreadPool& pool)
-        : tree_(tree), top_(top), subtrees_(subtrees), grown_(grown), pool_(pool) {}
+    TreeWriter(WideTree& tree, std::span<const BinaryNode> top,
+               std::span<const SubtreeRange> subtrees, std::vector<Grown>& grown,
+               PageVector<PrimBox> scrap, ThreadPool& pool)
+        : tree_(tree), binaryTop_(top), subtrees_(subtrees), grown_(grown),
+          scrap_(std::move(scrap)), pool_(pool) {}
 
     void run() {
         place();
         pool_.run(subtrees_.size(), [&](std::size_t i, int) { take(i); });
         chooseTop();
-        writeNodes();
+        plan(top_, true);
+        pool_.run(parts_.size(), [&](std::size_t i, int) { plan(parts_[i], false); });
+        makeRoom();
+        pool_.run(subtrees_.size(), [&](std::size_t i, int) { copyLeaves(i); });
+        write(top_);
+        pool_.run(parts_.size(), [&](std::size_t i, int) { write(parts_[i]); });
+        describe();
     }
 
 private:
     using Choice = CollapseChoice<W>;
 
+    // A wide node to be.
+    struct Step {
+        std::uint32_t binary, parent, slot, depth; // parent: in the same part, or in the top
+        WideChildren<W> children;
+    };
+    // Wide nodes that lie next to each other: those above the subtrees, then a part for each of
+    // their children within one. What a part is does not depend on the threads that write it.
+    struct Part {
+        Step root{0, 0, 0, 1, {}};
+        std::vector<Step> steps{}; // depth first, children in the order of their areas
+        std::uint32_t first = 0, depth = 0;
+        double area = 0;
+    };
+
     // Where the nodes and leaves of each subtree come to lie.
     void place() {
-        auto node = static_cast<std::uint32_t>(top_.size());
+        auto node = static_cast<std::uint32_t>(binaryTop_.size());
         std::uint32_t leaf = 0;
+        isRoot_.resize(binaryTop_.size());
         for (const SubtreeRange& s : subtrees_) {
+            isRoot_[s.range.node] = true;
             firstNode_.push_back(node), firstLeaf_.push_back(leaf);
             node += s.endNode - s.firstNode - 1; // its root is in the top already
             leaf += s.endLeaf - s.firstLeaf;
         }
         tree_.leaves = leaf;
-        nodes_.resize(node), choices_.resize(node);
-        const std::size_t lines = (leaf + std::size_t{1}) * kLeafLines<W>;
-        if (grown_.size() == 1) tree_.lines = std::move(grown_[0].lines); // in order already
-        tree_.lines.reserve(lines + (leaf / 6 + 16) * kNodeLines<W>);
-        tree_.lines.resize(lines);
-        // Behind the last leaf an empty one, for slots without a child.
-        std::memset(&tree_.lines[lines - kLeafLines<W>], 0, sizeof(WideLeaf<W>));
+        nodes_ = scrap_.take(node, freshNodes_);
+        choices_ = scrap_.take(node, freshChoices_);
     }
 
-    // Copies a subtree to its place and chooses for all of its nodes.
+    // Copies the nodes of a subtree to their places and chooses for all of them.
     void take(std::size_t i) {
         const SubtreeRange& s = subtrees_[i];
-        const Grown& from = grown_[s.grower];
-        if (grown_.size() > 1 && s.endLeaf > s.firstLeaf)
-            std::memcpy(&tree_.lines[firstLeaf_[i] * kLeafLines<W>],
-                        &from.lines[s.firstLeaf * kLeafLines<W>],
-                        (s.endLeaf - s.firstLeaf) * sizeof(WideLeaf<W>));
         const auto placeOf = [&](std::uint32_t n) { return n - s.firstNode - 1 + firstNode_[i]; };
         for (std::uint32_t end = s.endNode; end > s.firstNode; --end) {
             const std::uint32_t n = end - 1;
-            BinaryNode node = from.nodes[n];
+            BinaryNode node = grown_[s.grower].nodes[n];
             if (node.isLeaf())
                 node.leaf = node.leaf - s.firstLeaf + firstLeaf_[i];
             else
@@ -67,7 +83,6 @@ private:
             nodes_[at] = node;
             choose(at);
         }
-        top_[s.range.node] = nodes_[s.range.node];
     }
 
     void choose(std::uint32_t at) {
@@ -79,59 +94,81 @@ private:
     }
 
     void chooseTop() {
-        std::vector<bool> done(top_.size());
-        for (const SubtreeRange& s : subtrees_) done[s.range.node] = true;
-        done[1] = true; // a gap
-        for (auto end = static_cast<std::uint32_t>(top_.size()); end > 0; --end) {
+        for (auto end = static_cast<std::uint32_t>(binaryTop_.size()); end > 0; --end) {
             const std::uint32_t at = end - 1;
-            if (done[at]) continue;
-            nodes_[at] = top_[at];
+            if (at == 1 || isRoot_[at]) continue; // 1: a gap
+            nodes_[at] = binaryTop_[at];
             choose(at);
         }
     }
 
-    WideRef leafRef(std::uint32_t leaf) const {
+    bool isInSubtree(std::uint32_t at) const { return at >= binaryTop_.size() || isRoot_[at]; }
+
+    void plan(Part& part, bool isTop) {
+        std::vector<Step> open{part.root};
+        while (!open.empty()) {
+            Step step = open.back();
+            open.pop_back();
+            part.depth = std::max(part.depth, step.depth);
+            step.children = childrenOf<W>(step.binary, std::span<const BinaryNode>(nodes_),
+                                          std::span<const Choice>(choices_));
+            const auto number = static_cast<std::uint32_t>(part.steps.size());
+            for (std::size_t end = step.children.count; end > 0; --end) {
+                const std::uint32_t child = step.children.node[end - 1];
+                if (nodes_[child].isLeaf()) continue;
+                const Step below{
+                    child, number, static_cast<std::uint32_t>(end - 1), step.depth + 1, {}};
+                if (isTop && isInSubtree(child))
+                    parts_.push_back({below});
+                else
+                    open.push_back(below);
+            }
+            part.steps.push_back(step);
+        }
+    }
+
+    // For the leaves, an empty one behind them for slots without a child, and the nodes.
+    void makeRoom() {
+        auto nodes = static_cast<std::uint32_t>(top_.steps.size());
+        for (Part& part : parts_) {
+            part.first = nodes;
+            nodes += static_cast<std::uint32_t>(part.steps.size());
+        }
+        tree_.nodes = nodes;
+        if (grown_.size() == 1) tree_.lines = std::move(grown_[0].lines); // in order already
+        firstLine_ = (tree_.leaves + 1) * kLeafLines<W>;
+        const std::size_t lines = firstLine_ + nodes * kNodeLines<W>;
+        tree_.lines.reserve(lines);
+        tree_.lines.resize(lines);
+        std::memset(&tree_.lines[firstLine_ - kLeafLines<W>], 0, sizeof(WideLeaf<W>));
+    }
+
+    void copyLeaves(std::size_t i) {
+        const SubtreeRange& s = subtrees_[i];
+        if (grown_.size() == 1 || s.endLeaf == s.firstLeaf) return;
+        std::memcpy(&tree_.lines[firstLeaf_[i] * kLeafLines<W>],
+                    &grown_[s.grower].lines[s.firstLeaf * kLeafLines<W>],
+                    (s.endLeaf - s.firstLeaf) * sizeof(WideLeaf<W>));
+    }
+
+    std::size_t lineOf(std::size_t node) const { return firstLine_ + node * kNodeLines<W>; }
+    WideNode<W>& nodeAt(std::size_t number) {
+        return *reinterpret_cast<WideNode<W>*>(&tree_.lines[lineOf(number)]);
+    }
+    WideRef leafRef(std::uint64_t leaf) const {
         return wideRef(leaf * kLeafLines<W>, WideKind::Leaf);
     }
 
-    // Depth first; a node's children in the order of their areas.
-    void writeNodes() {
-        struct Task {
-            std::uint32_t binary, parent, slot, depth;
-        };
-        std::vector<Task> tasks{{0, 0, 0, 1}};
-        const std::size_t firstLine = tree_.lines.size();
-        std::uint32_t depth = 0;
-        double area = 0;
-        const auto nodeAt = [&](std::uint32_t number) -> WideNode<W>& {
-            return *reinterpret_cast<WideNode<W>*>(
-                &tree_.lines[firstLine + number * kNodeLines<W>]);
-        };
-        std::uint32_t count = 0;
-        while (!tasks.empty()) {
-            const Task task = tasks.back();
-            tasks.pop_back();
-            depth = std::max(depth, task.depth);
-            const std::uint32_t number = count++;
-            tree_.lines.resize(tree_.lines.size() + kNodeLines<W>);
-            if (number > 0)
-                nodeAt(task.parent).child[task.slot] =
-                    wideRef(firstLine + number * kNodeLines<W>, WideKind::Node);
-            const auto children = childrenOf<W>(task.binary, nodes_, choices_);
-            area += static_cast<double>(halfAreaOf(nodes_[task.binary])) +
-                    write(nodeAt(number), children);
-            for (std::size_t end = children.count; end > 0; --end) {
-                const std::size_t i = end - 1;
-                if (!nodes_[children.node[i]].isLeaf())
-                    tasks.push_back(
-                        {children.node[i], number, static_cast<std::uint32_t>(i), task.depth + 1});
-            }
+    void write(Part& part) {
+        for (std::size_t i = 0; i < part.steps.size(); ++i) {
+            const Step& step = part.steps[i];
+            const std::size_t at = part.first + i;
+            part.area += static_cast<double>(halfAreaOf(nodes_[step.binary])) +
+                         write(nodeAt(at), step.children);
+            if (at > 0)
+                nodeAt(step.parent + (i > 0 ? part.first : 0)).child[step.slot] =
+                    wideRef(lineOf(at), WideKind::Node);
         }
-        tree_.nodes = count;
-        tree_.root = wideRef(firstLine, WideKind::Node);
-        tree_.stackSize = depth * (W - 1) + 1;
-        const double root = static_cast<double>(halfAreaOf(nodes_[0]));
-        tree_.sah = root > 0 ? area / root : static_cast<double>(count);
     }
 
     // Returns the area of the triangles' leaves, once for each triangle.
@@ -142,7 +179,7 @@ private:
             std::fill_n(planes[0], W, std::numeric_limits<float>::infinity());
             std::fill_n(planes[1], W, -std::numeric_limits<float>::infinity());
         }
-        std::fill_n(node.child, W, leafRef(static_cast<std::uint32_t>(tree_.leaves)));
+        std::fill_n(node.child, W, leafRef(tree_.leaves));
         double area = 0;
         for (std::size_t i = 0; i < children.count; ++i) {
             const BinaryNode& child = nodes_[children.node[i]];
@@ -159,26 +196,44 @@ private:
         return area;
     }
 
+    void describe() {
+        std::uint32_t depth = top_.depth;
+        double area = top_.area;
+        for (const Part& part : parts_) depth = std::max(depth, part.depth), area += part.area;
+        tree_.root = wideRef(firstLine_, WideKind::Node);
+        tree_.stackSize = depth * (W - 1) + 1;
+        const double root = static_cast<double>(halfAreaOf(nodes_[0]));
+        tree_.sah = root > 0 ? area / root : static_cast<double>(tree_.nodes);
+    }
+
     WideTree& tree_;
-    std::vector<BinaryNode>& top_;
+    std::span<const BinaryNode> binaryTop_;
     std::span<const SubtreeRange> subtrees_;
     std::vector<Grown>& grown_;
+    SecondHand<PrimBox> scrap_;
     ThreadPool& pool_;
+    std::vector<bool> isRoot_;                         // of a subtree; by node of the binary top
     std::vector<std::uint32_t> firstNode_, firstLeaf_; // of each subtree
-    PageVector<BinaryNode> nodes_;                     // children behind their parents
-    PageVector<Choice> choices_;
+    std::span<BinaryNode> nodes_;                      // children behind their parents
+    std::span<Choice> choices_;
+    PageVector<BinaryNode> freshNodes_;
+    PageVector<Choice> freshChoices_;
+    Part top_;
+    std::vector<Part> parts_;
+    std::size_t firstLine_ = 0; // of the nodes
 };
 
 } // namespace
 
 template <int W>
-void writeTree(WideTree& tree, std::vector<BinaryNode>& top, std::span<const SubtreeRange> subtrees,
-               std::vector<Grown>& grown, ThreadPool& pool) {
-    TreeWriter<W>(tree, top, subtrees, grown, pool).run();
+void writeTree(WideTree& tree, std::span<const BinaryNode> top,
+               std::span<const SubtreeRange> subtrees, std::vector<Grown>& grown,
+               PageVector<PrimBox> scrap, ThreadPool& pool) {
+    TreeWriter<W>(tree, top, subtrees, grown, std::move(scrap), pool).run();
 }
-template void writeTree<8>(WideTree&, std::vector<BinaryNode>&, std::span<const SubtreeRange>,
-                           std::vector<Grown>&, ThreadPool&);
-template void writeTree<16>(WideTree&, std::vector<BinaryNode>&, std::span<const SubtreeRange>,
-                            std::vector<Grown>&, ThreadPool&);
+template void writeTree<8>(WideTree&, std::span<const BinaryNode>, std::span<const SubtreeRange>,
+                           std::vector<Grown>&, PageVector<PrimBox>, ThreadPool&);
+template void writeTree<16>(WideTree&, std::span<const BinaryNode>, std::span<const SubtreeRange>,
+                            std::vector<Grown>&, PageVector<PrimBox>, ThreadPool&);
 
 } // namespace kernels::build

@@ -14,8 +14,10 @@ struct SubtreeRange {
 };
 
 // `top` is the binary tree down to the roots of the subtrees, which are in the order of the leaves.
+// The boxes in `scrap` are not needed any more: their memory is used again.
 template <int W>
-void writeTree(WideTree& tree, std::vector<BinaryNode>& top, std::span<const SubtreeRange> subtrees,
-               std::vector<Grown>& grown, ThreadPool& pool);
+void writeTree(WideTree& tree, std::span<const BinaryNode> top,
+               std::span<const SubtreeRange> subtrees, std::vector<Grown>& grown,
+               PageVector<PrimBox> scrap, ThreadPool& pool);
 
 } // namespace kernels::build

@@ -1,0 +1,383 @@
+// The queue of queue.inl in two levels: rays walk the tree over the boxes of the meshes, and in
+// between the tree of one mesh after the other, all of them at once. Lists say what each does next.
+// The steps in the tree of a mesh are those of queue.inl with room for what is not known exactly:
+// a box is entered when the ray passes it within the room that the triangles in it ask for, and a
+// triangle may be met when moved corners could be.
+// Included by the file of each instruction set inside its namespace.
+
+template <bool NearFirst> class PlacedQueue {
+public:
+    PlacedQueue(const PlacedTree& tree, PlacedQuery& query, const RaySpan& rays,
+                std::span<const std::uint32_t> order)
+        : tree_(tree.boxes), whole_(tree.whole), query_(query), rays_(rays), order_(order),
+          sceneStride_(strideFor(tree.boxStack)), stride_(strideFor(tree.meshStack)) {
+        const std::size_t stacks = kSlots * (sceneStride_ + stride_);
+        std::byte* const memory =
+            scratchMemory(kSlots * sizeof(Slot) + 2 * stacks * sizeof(std::uint32_t));
+        slots_ = reinterpret_cast<Slot*>(memory);
+        auto* const words = reinterpret_cast<std::uint32_t*>(memory + kSlots * sizeof(Slot));
+        inScene_ = {words, words + kSlots * sceneStride_};
+        inMesh_ = {words + 2 * kSlots * sceneStride_,
+                   words + 2 * kSlots * sceneStride_ + kSlots * stride_};
+    }
+
+    void run() {
+        Lists now(lists_[0]), next(lists_[1]);
+        for (std::uint32_t slot = 0; slot < kSlots; ++slot) start(slot, next);
+        while (live_ > 0) {
+            std::swap(now, next);
+            next.clear();
+            for (std::uint32_t i = 0; i < now.count[Boxes]; ++i) boxStep(now.slots[Boxes][i], next);
+            for (std::uint32_t i = 0; i < now.count[Nodes]; ++i)
+                nodeStep(now.slots[Nodes][i], next);
+            for (std::uint32_t i = 0; i < now.count[Leaves]; ++i)
+                leafStep(now.slots[Leaves][i], next);
+            for (std::uint32_t i = 0; i < now.count[Entries]; ++i)
+                enter(now.slots[Entries][i], next);
+            for (std::uint32_t i = 0; i < now.count[Tests]; ++i) test(now.slots[Tests][i], next);
+            for (std::uint32_t i = 0; i < now.count[Exits]; ++i) leave(now.slots[Exits][i], next);
+        }
+    }
+
+private:
+    static constexpr std::uint32_t kSlots = PlacedKernel::kSlots;
+
+    // What a ray does next: a step in the tree over the boxes or in that of a mesh, going into a
+    // mesh and out of it.
+    enum Place { Boxes, Nodes, Leaves, Tests, Entries, Exits, kPlaces };
+    // One more place than slots: send() writes to lists that are full.
+    using SlotList = std::uint32_t[kSlots + 1];
+    struct Lists {
+        SlotList* slots;
+        std::uint32_t count[kPlaces] = {};
+        explicit Lists(SlotList* memory) : slots(memory) {}
+        void clear() { std::fill_n(count, kPlaces, 0u); }
+        void add(Place place, std::uint32_t slot) { slots[place][count[place]++] = slot; }
+    };
+
+    struct Stacks {
+        std::uint32_t *refs = nullptr, *entries = nullptr;
+    };
+
+    struct alignas(64) Slot {
+        // Boxes in the tree of a mesh.
+        float r[3], nearOffset[3], farOffset[3];
+        std::uint32_t nearPlane[3]; // where in a node, in bytes
+        float zCut, depthPerSide;
+        const std::byte* base;
+        const float* longestSide;
+        std::uint32_t at, top;
+        // Triangles: the origin in the order lateral x, lateral y, depth.
+        float origin[3];
+        std::uint32_t axis[3]; // where in a leaf, in bytes
+        float shearX, shearY;  // the slopes, for depths without the sign of the direction
+        float sign, lateralError;
+        unsigned candidates; // of the leaf
+        const std::uint32_t* triangleIds;
+        const Vec3d* exactPoints;
+        // Boxes of meshes in the scene.
+        float rScene[3], nearScene[3], farScene[3], sceneCut;
+        std::uint32_t sceneAt, sceneTop;
+    };
+
+    // An odd number of lines between stacks spreads them over the sets of the cache.
+    static std::size_t strideFor(std::size_t most) {
+        return ((most + std::size_t{2} * W + 15) / 16 | 1) * 16;
+    }
+
+    // ---- the tree over the boxes
+
+    // Rays that come near the meshes, before they have a slot.
+    struct alignas(64) Waiting {
+        float r[3][W], nearOffset[3][W], farOffset[3][W], zCut[W];
+        std::uint32_t ray[W];
+        unsigned lanes = 0;
+    };
+
+    // The next W rays of the order.
+    void prepare() {
+        const std::size_t count = std::min<std::size_t>(W, order_.size() - next_);
+        alignas(64) float org[3][W], dir[3][W], lo[W], hi[W];
+        for (std::size_t i = 0; i < W; ++i) {
+            const std::uint32_t ray = order_[next_ + (i < count ? i : 0)];
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                org[axis][i] = rays_.org[ray][axis], dir[axis][i] = rays_.dir[ray][axis];
+            lo[i] = rays_.tMin[ray], hi[i] = query_.limit(ray);
+            waiting_.ray[i] = ray;
+        }
+        next_ += count;
+        const Floats o[3] = {Floats::load(org[0]), Floats::load(org[1]), Floats::load(org[2])};
+        const Floats d[3] = {Floats::load(dir[0]), Floats::load(dir[1]), Floats::load(dir[2])};
+        unsigned lanes = (1u << count) - 1;
+        const RayLanes rays(o, d, Floats::load(lo), Floats::load(hi), tree_.extent, lanes);
+        waiting_.lanes = lanes & rays.entering(whole_);
+        if (waiting_.lanes == 0) return;
+        for (int axis = 0; axis < 3; ++axis) {
+            rays.r[axis].store(waiting_.r[axis]);
+            rays.nearOffset[axis].store(waiting_.nearOffset[axis]);
+            rays.farOffset[axis].store(waiting_.farOffset[axis]);
+        }
+        rays.zCut.store(waiting_.zCut);
+    }
+
+    void start(std::uint32_t slot, Lists& to) {
+        while (waiting_.lanes == 0) {
+            if (next_ == order_.size()) return;
+            prepare();
+        }
+        const auto lane = static_cast<std::size_t>(std::countr_zero(waiting_.lanes));
+        waiting_.lanes &= waiting_.lanes - 1;
+        Slot& s = slots_[slot];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            s.rScene[axis] = waiting_.r[axis][lane];
+            s.nearScene[axis] = waiting_.nearOffset[axis][lane];
+            s.farScene[axis] = waiting_.farOffset[axis][lane];
+        }
+        s.sceneCut = waiting_.zCut[lane];
+        s.sceneAt = wideRef(0, WideKind::Node);
+        s.sceneTop = 1;
+        inScene_.refs[slot * sceneStride_] = wideRef(0, WideKind::None);
+        inScene_.entries[slot * sceneStride_] = 0;
+        ++live_;
+        query_.start(slot, waiting_.ray[lane]);
+        to.add(Boxes, slot);
+    }
+
+    void sendInScene(std::uint32_t slot, WideRef ref, Lists& to) {
+        slots_[slot].sceneAt = ref;
+        if (kindOf(ref) == WideKind::None) {
+            --live_;
+            start(slot, to);
+        } else {
+            to.add(kindOf(ref) == WideKind::Node ? Boxes : Entries, slot);
+        }
+    }
+    void popInScene(std::uint32_t slot, Lists& to) {
+        Slot& s = slots_[slot];
+        sendInScene(slot, inScene_.refs[slot * sceneStride_ + --s.sceneTop], to);
+    }
+
+    // RaySetup::enters() for W boxes.
+    void boxStep(std::uint32_t slot, Lists& to) {
+        Slot& s = slots_[slot];
+        const auto& node = tree_.node<W>(s.sceneAt);
+        Floats entry(0.0f), exit(s.sceneCut);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::size_t back = s.rScene[axis] < 0;
+            const Floats r(s.rScene[axis]);
+            const Floats front = Floats::load(node.plane[axis][back]) * r;
+            const Floats behind = Floats::load(node.plane[axis][1 - back]) * r;
+            entry = max(front + Floats(s.nearScene[axis]), entry);
+            exit = min(behind + Floats(s.farScene[axis]), exit);
+        }
+        const unsigned hit = bits(entry <= exit);
+        if (hit == 0) return popInScene(slot, to);
+        const std::size_t at = slot * sceneStride_ + s.sceneTop;
+        s.sceneTop += static_cast<std::uint32_t>(std::popcount(hit)) - 1;
+        sendInScene(slot, push(hit, entry, node.child, inScene_, at), to);
+    }
+
+    // RaySetup::enters() for the box of a mesh.
+    bool enters(const Slot& s, const Bounds& box, float& zEntry) const {
+        float exit = s.sceneCut;
+        zEntry = 0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const bool back = s.rScene[axis] < 0;
+            const float front = (back ? box.hi[axis] : box.lo[axis]) * s.rScene[axis];
+            const float behind = (back ? box.lo[axis] : box.hi[axis]) * s.rScene[axis];
+            zEntry = ::max(front + s.nearScene[axis], zEntry);
+            exit = ::min(behind + s.farScene[axis], exit);
+        }
+        return zEntry <= exit;
+    }
+
+    void enter(std::uint32_t slot, Lists& to) {
+        Slot& s = slots_[slot];
+        const std::uint32_t place = s.sceneAt >> 2;
+        const SolidTree::Solid& solid = tree_.solids[place];
+        const bool counts = NearFirst || solid.hides;
+        float zEntry = 0;
+        if (!counts || !enters(s, tree_.boxes[place], zEntry)) return popInScene(slot, to);
+        TreeVisit visit;
+        if (!query_.enter(slot, solid.number, zEntry, visit)) return leave(slot, to);
+        const RaySetup& ray = *visit.setup;
+        constexpr std::uint32_t kRow = W * 4;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            s.r[axis] = ray.r[axis];
+            s.nearOffset[axis] = ray.nearOffset[axis], s.farOffset[axis] = ray.farOffset[axis];
+            s.nearPlane[axis] = (2 * static_cast<std::uint32_t>(axis) + (ray.r[axis] < 0)) * kRow;
+        }
+        const std::size_t order[3] = {ray.kx, ray.ky, ray.k};
+        for (std::size_t i = 0; i < 3; ++i) {
+            s.origin[i] = ray.org[order[i]];
+            s.axis[i] = static_cast<std::uint32_t>(order[i]) * kRow;
+        }
+        s.sign = ray.sign;
+        s.shearX = ray.Sx * ray.sign, s.shearY = ray.Sy * ray.sign;
+        s.zCut = visit.zCut;
+        s.depthPerSide = visit.depthPerSide;
+        s.lateralError = visit.lateralError;
+        s.longestSide = visit.longestSide;
+        s.base = visit.tree->base();
+        s.triangleIds = visit.tree->triangleIds.data();
+        s.exactPoints = visit.exactPoints;
+        s.top = 1;
+        inMesh_.refs[slot * stride_] = wideRef(0, WideKind::None); // the end of the stack
+        inMesh_.entries[slot * stride_] = 0;
+        send(slot, visit.tree->root, to);
+    }
+
+    void leave(std::uint32_t slot, Lists& to) {
+        Slot& s = slots_[slot];
+        s.sceneCut = query_.leave(slot);
+        if (s.sceneCut < 0) return sendInScene(slot, wideRef(0, WideKind::None), to);
+        s.sceneTop = dropHidden(inScene_, slot * sceneStride_, s.sceneTop, s.sceneCut);
+        popInScene(slot, to);
+    }
+
+    // ---- the tree of a mesh
+
+    [[gnu::always_inline]] void send(std::uint32_t slot, WideRef ref, Lists& to) {
+        Slot& s = slots_[slot];
+        s.at = ref;
+        const std::byte* const line = s.base + byteOffset(ref);
+        for (int k = 0; k < 4; ++k) __builtin_prefetch(line + std::ptrdiff_t{64} * k);
+        __builtin_prefetch(s.longestSide + (ref >> 2));
+        to.slots[Nodes][to.count[Nodes]] = slot;
+        to.slots[Leaves][to.count[Leaves]] = slot;
+        to.slots[Exits][to.count[Exits]] = slot;
+        to.count[Nodes] += kindOf(ref) == WideKind::Node;
+        to.count[Leaves] += kindOf(ref) == WideKind::Leaf;
+        to.count[Exits] += kindOf(ref) == WideKind::None;
+    }
+
+    // TreeRay's enters() of shape/instance_filter.h for W boxes, with the room that the node needs.
+    [[gnu::always_inline]] void nodeStep(std::uint32_t slot, Lists& to) {
+        Slot& s = slots_[slot];
+        const std::byte* const node = s.base + byteOffset(s.at);
+        const Floats room(s.longestSide[s.at >> 2] * s.depthPerSide);
+        Floats entry = Floats(0.0f) - room, exit = Floats(s.zCut) + room;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const std::uint32_t nearPlane = s.nearPlane[axis], farPlane = nearPlane ^ (W * 4);
+            const Floats r(s.r[axis]);
+            entry = max(fma(Floats::load(node + nearPlane), r, Floats(s.nearOffset[axis])), entry);
+            exit = min(fma(Floats::load(node + farPlane), r, Floats(s.farOffset[axis])), exit);
+        }
+        const unsigned hit = bits(entry <= exit);
+        const auto* const child =
+            reinterpret_cast<const WideRef*>(node + std::ptrdiff_t{6} * W * 4);
+        const std::size_t at = slot * stride_ + s.top;
+        const WideRef nearest = push(hit, max(entry - room, Floats(0.0f)), child, inMesh_, at);
+        // Without a child, what was on top before.
+        const WideRef before = inMesh_.refs[at - 1];
+        s.top += static_cast<std::uint32_t>(std::popcount(hit)) - 1;
+        send(slot, hit != 0 ? nearest : before, to);
+    }
+
+    // Candidates are tested in the next round, when their corners are in the cache.
+    [[gnu::always_inline]] void leafStep(std::uint32_t slot, Lists& to) {
+        Slot& s = slots_[slot];
+        s.candidates = leafCandidates(s);
+        if (s.candidates == 0) return send(slot, inMesh_.refs[slot * stride_ + --s.top], to);
+        forEachCandidate(s, [](std::uint32_t, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+            for (const Vec3d* corner : {&a, &b, &c}) __builtin_prefetch(corner);
+        });
+        to.add(Tests, slot);
+    }
+
+    // TreeRay::mayMeet() for W triangles, and whether they are at depths where a hit counts.
+    unsigned leafCandidates(const Slot& s) const {
+        const std::byte* const p = s.base + byteOffset(s.at);
+        const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(p);
+        const Floats x = Floats::load(p + s.axis[0]) - Floats(s.origin[0]);
+        const Floats y = Floats::load(p + s.axis[1]) - Floats(s.origin[1]);
+        const Floats z = Floats::load(p + s.axis[2]) - Floats(s.origin[2]);
+        const Floats xs = x - Floats(s.shearX) * z, ys = y - Floats(s.shearY) * z;
+        const Floats depth = flipSign(z, Floats(s.sign)), size = max(abs(xs), abs(ys));
+        const Ints i0 = Ints::bytes(leaf.corner[0]), i1 = Ints::bytes(leaf.corner[1]),
+                   i2 = Ints::bytes(leaf.corner[2]);
+        const Floats x0 = permute(xs, i0), x1 = permute(xs, i1), x2 = permute(xs, i2);
+        const Floats y0 = permute(ys, i0), y1 = permute(ys, i1), y2 = permute(ys, i2);
+        const Floats z0 = permute(depth, i0), z1 = permute(depth, i1), z2 = permute(depth, i2);
+        const Floats U = x2 * y1 - y2 * x1, V = x0 * y2 - y0 * x2, R = x1 * y0 - y1 * x0;
+        const Floats most = max(max(U, V), R), least = min(min(U, V), R);
+        const Floats farthest = max(max(permute(size, i0), permute(size, i1)), permute(size, i2));
+        const Floats error = Floats(5 * s.lateralError) * farthest;
+        const Mask outside = (least < Floats(0.0f) - error) & (error < most);
+        const float room = s.longestSide[s.at >> 2] * s.depthPerSide + s.lateralError;
+        const Mask hidden =
+            (Floats(s.zCut + room) < min(min(z0, z1), z2)) | (max(max(z0, z1), z2) < Floats(-room));
+        return ~bits(outside | hidden) & ((1u << leaf.count) - 1);
+    }
+
+    // fn(triangle, its exact corners)
+    template <class Fn> void forEachCandidate(const Slot& s, Fn&& fn) const {
+        const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(s.base + byteOffset(s.at));
+        const Vec3d* const points = s.exactPoints + (s.at >> 2) * TreeVisit::kPerLine;
+        for (unsigned rest = s.candidates; rest != 0; rest &= rest - 1) {
+            const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
+            fn(s.triangleIds[leaf.first + i], points[leaf.corner[0][i]], points[leaf.corner[1][i]],
+               points[leaf.corner[2][i]]);
+        }
+    }
+
+    void test(std::uint32_t slot, Lists& to) {
+        Slot& s = slots_[slot];
+        float zCut = s.zCut;
+        forEachCandidate(
+            s, [&](std::uint32_t triangle, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+                if (zCut >= 0) zCut = query_.test(slot, triangle, a, b, c);
+            });
+        if (zCut < 0) s.top = 1; // only the end
+        if (zCut < s.zCut) s.top = dropHidden(inMesh_, slot * stride_, s.top, zCut);
+        s.zCut = zCut;
+        send(slot, inMesh_.refs[slot * stride_ + --s.top], to);
+    }
+
+    // ---- stacks
+
+    // Puts the chosen children on a stack, the farthest first, and returns the nearest.
+    static WideRef push(unsigned hit, Floats entry, const WideRef* child, const Stacks& stacks,
+                        std::size_t at) {
+        if constexpr (NearFirst)
+            return pushSorted(hit, entry, child, stacks.refs + at, stacks.entries + at);
+        storeChosen(hit, child, stacks.refs + at);
+        return child[(static_cast<int>(std::bit_width(hit)) - 1) & (W - 1)]; // 0: any
+    }
+
+    // Takes out what starts behind the cut, but not the end. Returns the new top.
+    static std::uint32_t dropHidden(const Stacks& stacks, std::size_t first, std::uint32_t top,
+                                    float zCut) {
+        if (!NearFirst || zCut < 0) return top;
+        std::uint32_t* const refs = stacks.refs + first;
+        std::uint32_t* const entries = stacks.entries + first;
+        const auto cut = std::bit_cast<std::uint32_t>(zCut);
+        std::uint32_t kept = 0;
+        for (std::uint32_t k = 0; k < top; ++k) {
+            refs[kept] = refs[k], entries[kept] = entries[k];
+            kept += (entries[k] & ~15u) <= cut;
+        }
+        return kept;
+    }
+
+    const SolidTree& tree_;
+    const Bounds whole_;
+    PlacedQuery& query_;
+    const RaySpan& rays_;
+    std::span<const std::uint32_t> order_;
+    Waiting waiting_;
+    std::size_t sceneStride_, stride_, next_ = 0;
+    Slot* slots_;
+    Stacks inScene_, inMesh_;
+    std::uint32_t live_ = 0;
+    SlotList lists_[2][kPlaces];
+};
+
+void closestPlaced(const PlacedTree& tree, PlacedQuery& query, const RaySpan& rays,
+                   std::span<const std::uint32_t> order) {
+    PlacedQueue<true>(tree, query, rays, order).run();
+}
+void anyPlaced(const PlacedTree& tree, PlacedQuery& query, const RaySpan& rays,
+               std::span<const std::uint32_t> order) {
+    PlacedQueue<false>(tree, query, rays, order).run();
+}

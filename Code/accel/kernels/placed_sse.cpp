@@ -1,0 +1,25 @@
+// placed.inl for the registers of sse.cpp.
+#include "accel/kernels/placed.h"
+
+#if defined(__x86_64__)
+#include "accel/kernels/exact_hit.h"
+#include "accel/kernels/target.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <immintrin.h>
+#include <limits>
+
+KERNEL_REGION_BEGIN("sse4.2,popcnt")
+namespace kernels::sse {
+#include "accel/kernels/simd_sse.inl"
+
+#include "accel/kernels/push_sorted.inl"
+
+#include "accel/kernels/ray_lanes.inl"
+
+#include "accel/kernels/placed.inl"
+} // namespace kernels::sse
+KERNEL_REGION_END
+#endif

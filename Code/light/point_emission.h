@@ -1,0 +1,20 @@
+// PointEmission: all there is to know of a lamp that shines from a point alike in all directions.
+#pragma once
+
+#include "base/vec.h"
+
+// Light at distance d is the intensity over this polynomial of d: d^2 for all real lamps, others
+// for scenes whose lamps fade less or not at all.
+struct Attenuation {
+    float quadratic = 1, linear = 0, constant = 0;
+    float at(float distance, float distance2) const {
+        return quadratic * distance2 + linear * distance + constant;
+    }
+};
+
+struct PointEmission {
+    Vec3 position;
+    Rgb intensity;
+    Attenuation attenuation;
+    float radius = 0; // of the lamp's body, when it is asked for its centre alone
+};

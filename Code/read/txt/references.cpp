@@ -1,0 +1,69 @@
+#include "read/txt/references.h"
+
+#include "base/text.h"
+#include "desc/names.h"
+
+namespace {
+
+std::string unknownReference(const SceneDesc& desc, Target target, std::string_view name) {
+    // The nearest name is looked for among so many and so short ones that it cannot take long.
+    constexpr std::size_t kCandidates = 1000, kLength = 100;
+    std::vector<std::string> known;
+    const auto collect = [&](const auto& blocks) {
+        for (const auto& block : blocks)
+            if (known.size() < kCandidates && block.name.size() <= kLength)
+                known.push_back(block.name);
+    };
+    if (target == Target::Texture)
+        collect(desc.textures);
+    else if (target == Target::Material)
+        collect(desc.materials);
+    else
+        collect(desc.meshes);
+    return cat("unknown ", nameOf(target), " ", unknownName(shown(name), known));
+}
+
+} // namespace
+
+std::string_view References::keptText(const Token& name) {
+    if (name.kind == TokenKind::Word) return name.text;
+    const std::string_view inside = name.text.substr(1, name.text.size() - 2);
+    if (inside.find('\\') == std::string_view::npos) return inside;
+    return quoted_.emplace_back(Scanner(*source_).nameIn(name));
+}
+
+Handle References::use(Target target, const Token& name) {
+    if (isFirst_ && name.kind == TokenKind::Word)
+        if (const auto found = known_[static_cast<std::size_t>(target)].find(name.text))
+            return static_cast<Handle>(*found);
+    waiting_.push_back(name);
+    return waitingAs(waiting_.size() - 1);
+}
+
+void References::resolve(SceneDesc& desc, const NameTables& names, ErrorList& errors) const {
+    if (isComplete()) return;
+    const Scanner in(*source_);
+    forEachBlock(desc, [&](auto& block) {
+        forEachReference(block, [&](Handle& handle, Target target, std::string_view) {
+            if (handle >= kNone) return;
+            const Token& t = waiting_[static_cast<std::size_t>(waitingAs(0) - handle)];
+            const std::string quoted = t.kind == TokenKind::Word ? "" : in.nameIn(t);
+            const std::string_view name = t.kind == TokenKind::Word ? t.text : quoted;
+            const auto found = names[static_cast<std::size_t>(target)].find(name);
+            handle = found ? static_cast<Handle>(*found) : kNone;
+            if (!found)
+                errors.add({static_cast<std::uint32_t>(t.offset)},
+                           [&] { return unknownReference(desc, target, name); });
+        });
+    });
+}
+
+void addNames(NameTables& names, NameCounts& before, const SceneDesc& desc) {
+    const auto add = [&](const auto& blocks, Target target, std::uint32_t& number) {
+        for (const auto& block : blocks)
+            names[static_cast<std::size_t>(target)].insert(block.name, number++);
+    };
+    add(desc.textures, Target::Texture, before.textures);
+    add(desc.materials, Target::Material, before.materials);
+    add(desc.meshes, Target::Mesh, before.meshes);
+}

@@ -1,0 +1,10 @@
+// The name of what shades a picture, for --stats.
+#pragma once
+
+#include "render/integrator.h"
+
+#include <string>
+
+// "form 4 of 7: soft lamps, lamp bodies, bounces" for waves (waves/steps.h); other integrators have
+// one form only.
+std::string shadingForm(const IntegratorContext& context);

@@ -1,0 +1,38 @@
+// Light of a point lamp at many points of a wave, a register of points at a time: what
+// forEachLampSample() gives and the shadow rays of rayFromLamp(), operation by operation and so bit
+// by bit. Knows numbers only; render/waves/lamps.h brings them here and takes them away.
+#pragma once
+
+#include "accel/kernels/kernels.h"
+#include "light/point_emission.h"
+#include "material/material.h"
+
+#include <cstddef>
+#include <cstdint>
+
+// Points of a wave that answer lamps, component by component.
+struct alignas(64) LitBlock {
+    static constexpr std::size_t kPoints = 16;
+    static constexpr std::size_t kModels = 3; // of SpecularModel
+    float p[3][kPoints], lift[3][kPoints], n[3][kPoints], ng[3][kPoints], ns[3][kPoints];
+    float toEye[3][kPoints], weight[3][kPoints], diffuse[3][kPoints], specular[3][kPoints];
+    float exponent[kPoints], error[kPoints], rayError[kPoints];
+    std::uint32_t point[kPoints], group[kPoints];
+    // One bit for each point.
+    unsigned used = 0;
+    unsigned lifted = 0;          // the horizon of ns has a say
+    unsigned shiny[kModels] = {}; // has a highlight of this model
+};
+
+// What a lamp does to the points of a block; only what belongs to a bit is written.
+struct alignas(64) LitByLamp {
+    float light[3][LitBlock::kPoints]; // what the sample gets if nothing is in between
+    float dir[3][LitBlock::kPoints], tMax[LitBlock::kPoints]; // the ray from the lamp
+    unsigned lit = 0;
+};
+
+// Rays are made for the lit points of `withRays`.
+using LightByLampFn = void (*)(const PointEmission& lamp, const LitBlock& block, unsigned withRays,
+                               LitByLamp& out);
+// Null for the scalar kernel.
+LightByLampFn lightByLamp(const Kernel& kernel);
