@@ -18,6 +18,9 @@ template <>
 inline constexpr auto kEnumNames<AccelKind> =
     std::to_array<EnumName<AccelKind>>({{AccelKind::Bvh, "bvh"}, {AccelKind::None, "none"}});
 template <>
+inline constexpr auto kEnumNames<TreeKind> = std::to_array<EnumName<TreeKind>>(
+    {{TreeKind::Auto, "auto"}, {TreeKind::Fast, "fast"}, {TreeKind::Best, "best"}});
+template <>
 inline constexpr auto kEnumNames<Aov> = std::to_array<EnumName<Aov>>({{Aov::Depth, "depth"},
                                                                       {Aov::Normal, "normal"},
                                                                       {Aov::Albedo, "albedo"},
@@ -30,5 +33,5 @@ inline constexpr auto kEnumNames<Options::Progress> =
                                                 {Options::Progress::Plain, "plain"},
                                                 {Options::Progress::None, "none"}});
 
-static_assert(isInOrder<IntegratorKind>() && isInOrder<AccelKind>() && isInOrder<Aov>() &&
-              isInOrder<Options::Progress>());
+static_assert(isInOrder<IntegratorKind>() && isInOrder<AccelKind>() && isInOrder<TreeKind>() &&
+              isInOrder<Aov>() && isInOrder<Options::Progress>());

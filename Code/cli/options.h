@@ -53,6 +53,7 @@ struct Options {
     // Method
     IntegratorKind integrator = IntegratorKind::Whitted;
     AccelKind accel = AccelKind::Bvh;
+    TreeKind tree = TreeKind::Auto;
     std::string kernel = "auto";
     int threads = 0; // 0: all that the machine has
 

@@ -162,7 +162,6 @@ ExitCode renderScene(const LoadedScene& loaded, const RenderSettings& settings,
     printShortfall(stats, options);
 
     step = {"writing the picture", ExitCode::Output};
-    if (const char* t = std::getenv("TEPFM")) picture.error.write(t, {}, 1);
     if (options.preview) printPreview(picture, settings);
     watch.lap();
     writePicture(std::move(picture), settings, options, output);

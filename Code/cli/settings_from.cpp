@@ -108,7 +108,6 @@ void setErrorGoal(RenderSettings& settings, const Options& options) {
                       " or more: fewer samples show no error"));
     // A .pfm has no white that ends its values.
     if (lowerExtension(options.output) != ".pfm") goal.white = 1;
-    if (std::getenv("TCLIP")) goal.white = 1;
     picture.samplesPerPixel = ErrorGoal::kFirstSamples;
     settings.errorGoal = goal;
 }
@@ -130,6 +129,7 @@ RenderSettings settingsFrom(const SceneDesc& desc, const Options& options) {
     settings.switches = options.switches;
     settings.integrator = options.integrator;
     settings.accel = options.accel;
+    settings.tree = options.tree;
     settings.specialise = options.specialise;
     settings.kernel = chooseKernel(options.kernel).name;
     settings.threads = options.threads > 0 ? options.threads : hardwareThreads();

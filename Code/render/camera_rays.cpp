@@ -16,9 +16,9 @@ FilterKind filterKind(SettingsDesc::Filter kind) {
 
 } // namespace
 
-CameraRays::CameraRays(const IntegratorContext& context)
+CameraRays::CameraRays(const IntegratorContext& context, ThreadPool* pool)
     : context_(context), filter_(filterKind(context.settings.picture.filter),
-                                 context.settings.picture.filterWidth, context.settings.threads),
+                                 context.settings.picture.filterWidth, pool),
       corners_(context.settings.picture.sampler == SettingsDesc::Sampler::Corners),
       width_(context.settings.picture.width + corners_) {}
 

@@ -7,7 +7,8 @@
 
 class CameraRays {
 public:
-    explicit CameraRays(const IntegratorContext& context);
+    // The pool, if there is one, helps to set up.
+    explicit CameraRays(const IntegratorContext& context, ThreadPool* pool = nullptr);
 
     // Fills in ids and rays of the samples first .. first + count - 1 of every place, place after
     // place, row after row.

@@ -17,9 +17,11 @@ constexpr double kWorstBlock = 3;
 // estimates, so that too low ones stay; half of the past makes them rarer.
 constexpr double kNewsWeight = 0.5;
 
-// What a doubling leaves of the squared error, to foresee how many are needed: 1/2 for independent
-// samples, 0.35 for well spread ones at an edge (Mitchell 1996). Only the way depends on it.
+// What is foreseen: squared errors of well spread samples at an edge fall as samples^-3/2 (Mitchell
+// 1996), which leaves this of them when samples double. Independent ones leave 1/2: then it takes
+// some rounds more.
 constexpr double kLeftByDoubling = 0.35;
+double leftByTimes(double times) { return 1 / (times * std::sqrt(times)); }
 
 // Gains are sorted into steps of an eighth of an octave, and chosen by whole steps.
 constexpr int kStepsPerOctave = 8;
@@ -34,8 +36,8 @@ int stepOf(double gain) {
     return static_cast<int>(clamp(octave * kStepsPerOctave, 0.0, kSteps - 1.0));
 }
 
-// So many steps lower is what a doubling has left to gain: a smaller error, for twice the samples.
-const int kFall = static_cast<int>(-kStepsPerOctave * std::log2(kLeftByDoubling / 2));
+// A doubling leaves this much less to gain by the next one: a smaller error, for twice the samples.
+constexpr int kFall = 20; // 8 log2(2 / 0.35)
 
 } // namespace
 
@@ -93,9 +95,15 @@ double ErrorPlan::errorAt(int x, int y) const {
     return std::sqrt(b.expected / (3.0 * b.pixels));
 }
 
+bool ErrorPlan::isHopeless(const Block& b) const {
+    if (!(b.expected < kInfinity)) return false; // who knows
+    const double times = static_cast<double>(goal_.mostSamples) / b.samples;
+    return b.expected * leftByTimes(times) > wantedSquares(b.pixels);
+}
+
 bool ErrorPlan::isChosen(const Block& b, int step) const {
     if (isFull(b)) return false;
-    return !(b.expected < kInfinity) || stepOf(b.perSample()) > step ||
+    return !(b.expected < kInfinity) || stepOf(b.perSample()) > step || isHopeless(b) ||
            b.expected > sqr(kWorstBlock) * wantedSquares(b.pixels);
 }
 
@@ -107,8 +115,8 @@ int ErrorPlan::chooseStep() {
     for (const Block& b : blocks_) {
         done += b.cost();
         // Errors that nothing can be done about are no reason to work on the others.
-        left += isFull(b) ? min(b.expected, wantedSquares(b.pixels)) : b.expected;
-        if (isFull(b) || !(b.expected < kInfinity)) continue;
+        left += isHopeless(b) ? wantedSquares(b.pixels) : b.expected;
+        if (isFull(b) || isHopeless(b) || !(b.expected < kInfinity)) continue;
         const auto step = static_cast<std::size_t>(stepOf(b.perSample()));
         squares[step] += b.expected;
         cost[step] += b.cost();

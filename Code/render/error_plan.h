@@ -78,6 +78,8 @@ private:
     static void addBatch(Block& block, int batch, double squares);
     void askNeighbours();
     bool isFull(const Block& block) const { return block.samples >= goal_.mostSamples; }
+    // Its error will be above the goal with the most samples.
+    bool isHopeless(const Block& block) const;
     // What errors of the goal's size come to in so many pixels.
     double wantedSquares(double pixels) const { return sqr(goal_.rmse) * 3 * pixels; }
     int chooseStep();

@@ -36,8 +36,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       sampler(samplerKind(theSettings.picture.sampler), theSettings.picture.samplesPerPixel,
               theSettings.picture.seed, theSettings.picture.jitter),
       occluders(theScene.shapes()), cutoff(toFloat(theSettings.picture.cutoff)),
-      compiledSteps(compiledFor(stepsFor(theScene, theSettings))),
-      wantsFirstHits(needsFirstHits(theSettings)),
+      steps(stepsFor(theScene, theSettings)), wantsFirstHits(needsFirstHits(theSettings)),
       surfaceNeeds(surfaceNeedsOf(theScene, theSettings)),
       sphereSurfaces(::sphereSurfaces(chooseKernel(theSettings.kernel))),
       cameraMedium(mediumOfCamera(theScene, theSettings, media)) {

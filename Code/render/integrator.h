@@ -7,6 +7,7 @@
 #include "render/query.h"
 #include "render/shading.h"
 #include "render/waves/lamp_lanes.h"
+#include "render/waves/steps.h"
 #include "sample/dimensions.h"
 #include "sample/hash.h"
 #include "sample/sampler.h"
@@ -51,8 +52,8 @@ struct IntegratorContext {
     // Lamps that give light, in the order of the scene: with shadows, and without.
     std::vector<Lamp> shadingLamps, openLamps;
     Occluders occluders;
-    float cutoff;              // rays with less weight are not traced
-    std::size_t compiledSteps; // which form of the wave loop: waves/steps.h
+    float cutoff; // rays with less weight are not traced
+    Steps steps;  // of the waves
     bool wantsFirstHits;
     SurfaceNeeds surfaceNeeds;
     SphereSurfacesFn sphereSurfaces; // null: one by one
@@ -66,8 +67,8 @@ struct IntegratorContext {
 struct SampleChunk {
     std::vector<SampleId> ids;
     std::vector<std::uint32_t> pixels; // of the ids, where each has one sample
-    std::vector<Vec2d> places; // in the picture, in pixels
-    std::vector<Vec2> offsets; // of these from the middle of their pixel
+    std::vector<Vec2d> places;         // in the picture, in pixels
+    std::vector<Vec2> offsets;         // of these from the middle of their pixel
     PathBatch cameraRays;
     std::size_t raysWithConstants = 0; // see CameraRays::make()
     std::vector<Rgb> radiance;

@@ -36,7 +36,8 @@ void addFirstHit(Film& film, Aov aov, int x, int y, const FirstHit& first) {
 class Renderer {
 public:
     Renderer(const Scene& scene, const RenderSettings& settings)
-        : context_(scene, settings), settings_(settings), cameraRays_(context_),
+        : pool_(settings.threads), context_(scene, settings), settings_(settings),
+          cameraRays_(context_, &pool_),
           emptyTiles_(context_, cameraRays_), area_{0, 0, settings.picture.width,
                                                     settings.picture.height} {
         if (const auto& crop = settings.picture.crop)
@@ -54,14 +55,13 @@ public:
     }
 
     Picture run(const RenderControl& control, Stats& stats) {
-        ThreadPool pool(settings_.threads);
-        std::vector<Worker> workers(static_cast<std::size_t>(pool.threads()));
+        std::vector<Worker> workers(static_cast<std::size_t>(pool_.threads()));
         for (Worker& worker : workers) worker.aovs.resize(aovs_.size());
         Picture picture;
         if (settings_.errorGoal)
-            picture.finished = renderToGoal(pool, workers, control, picture, stats);
+            picture.finished = renderToGoal(pool_, workers, control, picture, stats);
         else
-            picture.finished = renderTiles(pool, workers, control, stats);
+            picture.finished = renderTiles(pool_, workers, control, stats);
         stats.shading = shadingForm(context_);
         for (const Worker& worker : workers) {
             stats.rays += worker.rays;
@@ -262,6 +262,7 @@ private:
                 }
     }
 
+    ThreadPool pool_; // first: its threads start while the rest is set up
     IntegratorContext context_;
     const RenderSettings& settings_;
     CameraRays cameraRays_;

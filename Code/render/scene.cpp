@@ -1,23 +1,18 @@
-// Builds a Scene from a SceneDesc. Which class is behind a shape or a light: make_shape.cpp and
+// Builds a Scene from a SceneDesc. Which class is behind a shape or a light: make_shapes.cpp and
 // make_light.cpp.
 #include "render/scene.h"
 
 #include "base/for_each.h"
 #include "base/math.h"
 #include "base/text.h"
-#include "desc/enum_tables.h"
-#include "desc/scene_bounds.h"
 #include "image/image.h"
 #include "render/make_light.h"
-#include "render/make_shape.h"
-#include "render/merge.h"
+#include "render/make_shapes.h"
 #include "render/texture_files.h"
 #include "render/to_float.h"
-#include "shape/mesh_instance.h"
 
 #include <algorithm>
-#include <map>
-#include <set>
+#include <functional>
 #include <utility>
 
 class SceneBuilder {
@@ -31,10 +26,9 @@ public:
         scene_.frame_ = frameOf(desc_);
         scene_.accelKind_ = settings_.accel;
         buildCamera();
-        buildPictures();
+        buildPicturesAndShapes();
         buildMaterials();
         buildWorld();
-        buildObjects();
         buildLights();
         scene_.shapes_.finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel),
                               settings_.threads);
@@ -44,12 +38,24 @@ public:
 private:
     // ---- textures and materials
 
-    // At the same time; of several that fail the one that is used first is told. Pictures that
-    // nothing uses are not read.
-    void buildPictures() {
+    // At the same time, because shapes need no more of a material than whether it is see-through.
+    // Shapes come first, as one that is late would be waited for; of pictures that cannot be read
+    // the one that is used first is told.
+    void buildPicturesAndShapes() {
+        const std::vector<bool> seeThrough = seeThroughMaterials();
+        ShapeMaker maker(desc_, settings_, scene_.frame_, seeThrough);
+        std::vector<std::function<void()>> jobs = maker.jobs();
+        addPictures(jobs);
+        forEachOn(settings_.threads, jobs.size(), [&](std::size_t i) { jobs[i](); });
+        maker.finish(scene_.shapes_, scene_.geometries_);
+        scene_.moves_ = scene_.moves_ || maker.moves();
+        scene_.degenerateCount_ = maker.degenerateCount();
+    }
+
+    // Pictures that nothing uses are not read.
+    void addPictures(std::vector<std::function<void()>>& jobs) {
         scene_.textures_.resize(desc_.textures.size());
         if (!on_.textures) return;
-        std::vector<std::size_t> used;
         std::vector<bool> isUsed(desc_.textures.size());
         for (const MaterialDesc& m : desc_.materials)
             for (const Handle handle : {m.diffuseTexture, m.specularTexture, m.emissionTexture,
@@ -57,15 +63,20 @@ private:
                 const auto i = static_cast<std::size_t>(handle);
                 if (handle == kNone || isUsed[i]) continue;
                 isUsed[i] = true;
-                used.push_back(i);
+                jobs.emplace_back(
+                    [this, i] { scene_.textures_[i] = makeTexture(desc_.textures[i]); });
             }
-        const bool surrounded = desc_.world.environment != kNone && !settings_.background;
-        forEachOn(settings_.threads, used.size() + (surrounded ? 1 : 0), [&](std::size_t i) {
-            if (i < used.size())
-                scene_.textures_[used[i]] = makeTexture(desc_.textures[used[i]]);
-            else
-                buildEnvironment();
-        });
+        if (desc_.world.environment != kNone && !settings_.background)
+            jobs.emplace_back([this] { buildEnvironment(); });
+    }
+
+    // SceneMaterial::seeThrough() before there are pictures; the default material is the last.
+    std::vector<bool> seeThroughMaterials() const {
+        std::vector<bool> out;
+        for (const MaterialDesc& m : desc_.materials)
+            out.push_back(toFloat(m.opacity) < 1 || (on_.textures && m.opacityTexture != kNone));
+        out.push_back(false);
+        return out;
     }
 
     std::unique_ptr<const Texture> makeTexture(const TextureDesc& desc) const {
@@ -143,29 +154,7 @@ private:
         return m;
     }
 
-    // The scene's number of a material; objects without one get the default, which is the last.
-    std::uint32_t materialId(Handle handle) const {
-        return handle == kNone ? static_cast<std::uint32_t>(desc_.materials.size())
-                               : static_cast<std::uint32_t>(handle);
-    }
-    // At least one.
-    std::vector<std::uint32_t> materialIds(const ObjectDesc& object) const {
-        std::vector<std::uint32_t> ids;
-        for (const Handle handle : object.materials) ids.push_back(materialId(handle));
-        if (ids.empty()) ids.push_back(materialId(kNone));
-        return ids;
-    }
-
     // ---- camera and world
-
-    MovingTransform placed(const Keys& keys) {
-        std::vector<Transform> maps;
-        for (const Rows& rows : keys) maps.push_back(scene_.frame_.placed(rows));
-        MovingTransform moving{std::span<const Transform>(maps)};
-        if (!on_.motionBlur) return MovingTransform(moving.at(0.5));
-        if (!moving.isStatic()) scene_.moves_ = true;
-        return moving;
-    }
 
     void buildCamera() {
         const auto wanted =
@@ -184,7 +173,8 @@ private:
         CameraParams params;
         params.kind = desc.kind == CameraDesc::Kind::Orthographic ? CameraParams::Kind::Orthographic
                                                                   : CameraParams::Kind::Perspective;
-        params.worldFromCamera = placed(desc.worldFromCamera);
+        params.worldFromCamera = placedKeys(desc.worldFromCamera, scene_.frame_, on_.motionBlur);
+        scene_.moves_ = !params.worldFromCamera.isStatic();
         params.width = settings_.picture.width;
         params.height = settings_.picture.height;
         params.pixelAspect = settings_.picture.pixelAspect;
@@ -219,127 +209,6 @@ private:
             radians(desc_.world.rotationDeg));
     }
 
-    // ---- objects
-
-    ShapeSet::Shadow shadowOf(const std::vector<std::uint32_t>& materials) const {
-        const bool seeThrough =
-            std::any_of(materials.begin(), materials.end(),
-                        [&](std::uint32_t m) { return scene_.materials_[m].seeThrough(); });
-        return seeThrough ? ShapeSet::Shadow::SeeThrough : ShapeSet::Shadow::Opaque;
-    }
-
-    void buildObjects() {
-        const auto isMesh = [](const ObjectDesc& object) {
-            return object.kind == ObjectDesc::Kind::Mesh;
-        };
-        std::vector<std::uint64_t> uses(desc_.meshes.size(), 0);
-        for (std::size_t i = 0; i < desc_.objects.size(); ++i) {
-            const ObjectDesc& object = desc_.objects[i];
-            if (isMesh(object)) {
-                ++uses[static_cast<std::size_t>(object.mesh)];
-                continue;
-            }
-            const std::vector<std::uint32_t> materials = materialIds(object);
-            scene_.shapes_.add(makeShape(object, placed(object.worldFromObject), materials,
-                                         static_cast<std::uint32_t>(i)),
-                               shadowOf(materials));
-        }
-        const std::vector<bool> isCopied = meshesToCopy(uses);
-
-        // Meshes that stand still become one, with one tree over all triangles; see-through ones
-        // apart, as their shadows have to look at every hit, and those apart of which not all sides
-        // are seen. Meshes that move or have too many copies are instances. After the other shapes:
-        // ShapeSet::isBefore() needs those with triangles in a row.
-        constexpr std::size_t kSides = kEnumNames<ObjectDesc::Sides>.size();
-        std::array<MergedMesh, kSides> opaque, seeThrough;
-        for (std::size_t i = 0; i < desc_.objects.size(); ++i) {
-            const ObjectDesc& object = desc_.objects[i];
-            if (!isMesh(object)) continue;
-            const auto id = static_cast<std::uint32_t>(i);
-            const MovingTransform place = placed(object.worldFromObject);
-            const auto mesh = static_cast<std::size_t>(object.mesh);
-            const auto materials = materialsBySlot(object, desc_.meshes[mesh]);
-            if (isCopied[mesh] && place.isStatic() && isInScene(object, place.at(0))) {
-                const bool solid = shadowOf(materials) == ShapeSet::Shadow::Opaque;
-                MergedMesh& merged =
-                    (solid ? opaque : seeThrough)[static_cast<std::size_t>(object.sides)];
-                const std::uint64_t before = merged.degenerateCount;
-                merged.add(desc_.meshes[mesh], place.at(0), materials, id);
-                countDegenerate(mesh, merged.degenerateCount - before);
-            } else {
-                addInstance(object, place, materials, id);
-            }
-        }
-        for (auto* group : {&opaque, &seeThrough})
-            for (std::size_t sides = 0; sides < kSides; ++sides)
-                addMerged(std::move((*group)[sides]), static_cast<ObjectDesc::Sides>(sides));
-    }
-
-    // Once for all copies and instances of a mesh.
-    void countDegenerate(std::size_t mesh, std::uint64_t count) {
-        if (counted_.insert(mesh).second) scene_.degenerateCount_ += count;
-    }
-
-    // By mesh: those that are used once, and others as long as there is room for all their copies.
-    std::vector<bool> meshesToCopy(const std::vector<std::uint64_t>& uses) const {
-        std::vector<bool> out(uses.size());
-        std::uint64_t room = settings_.copiedTriangles;
-        for (std::size_t mesh = 0; mesh < uses.size(); ++mesh) {
-            const std::uint64_t triangles = uses[mesh] * desc_.meshes[mesh].triangles.size();
-            out[mesh] = uses[mesh] == 1 || triangles <= room;
-            if (uses[mesh] > 1 && out[mesh]) room -= triangles;
-        }
-        return out;
-    }
-
-    // Within kSceneExtent, on which the pads of all that is merged depend. Only an object that has
-    // several keys, and whose movement is switched off, may be elsewhere in between.
-    bool isInScene(const ObjectDesc& object, const Transform& place) const {
-        if (object.worldFromObject.size() == 1) return true;
-        const BoundsD box =
-            place.bounds(boundsOf(desc_.meshes[static_cast<std::size_t>(object.mesh)]));
-        return max(maxAbs(box.lo), maxAbs(box.hi)) <= static_cast<double>(kSceneExtent);
-    }
-
-    std::vector<std::uint32_t> materialsBySlot(const ObjectDesc& object,
-                                               const MeshDesc& mesh) const {
-        std::vector<std::uint32_t> out = materialIds(object);
-        std::uint32_t slots = 1;
-        for (const std::uint32_t slot : mesh.triangleMaterials) slots = std::max(slots, slot + 1);
-        while (out.size() < slots) out.push_back(out.back());
-        return out;
-    }
-
-    void addMerged(MergedMesh merged, ObjectDesc::Sides sides) {
-        if (merged.geometry.triangles.empty()) return;
-        auto geometry = std::make_unique<MeshGeometry>(std::move(merged.geometry));
-        geometry->finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel),
-                         settings_.threads);
-        auto mesh = std::make_unique<Mesh>(*geometry, merged.materials, std::move(merged.parts));
-        scene_.shapes_.add(withSides(std::move(mesh), sides), shadowOf(merged.materials));
-        scene_.geometries_.push_back(std::move(geometry));
-    }
-
-    // One geometry per mesh; as many transforms as there are instances.
-    void addInstance(const ObjectDesc& object, const MovingTransform& place,
-                     std::vector<std::uint32_t> materials, std::uint32_t id) {
-        const auto mesh = static_cast<std::size_t>(object.mesh);
-        const auto [at, isNew] = shared_.try_emplace(mesh);
-        if (isNew) {
-            auto geometry = std::make_unique<MeshGeometry>(toSharedGeometry(desc_.meshes[mesh]));
-            countDegenerate(mesh, geometry->dropDegenerate());
-            geometry->finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel),
-                             settings_.threads);
-            at->second = geometry.get();
-            scene_.geometries_.push_back(std::move(geometry));
-        }
-        const MeshGeometry& geometry = *at->second;
-        if (geometry.triangles.empty()) return;
-        const ShapeSet::Shadow shadow = shadowOf(materials);
-        auto shape = std::make_unique<MeshInstance>(geometry, place, std::move(materials), id);
-        scene_.shapes_.add(withSides(std::move(shape), object.sides), shadow);
-    }
-
     // ---- lights
 
     void buildLights() {
@@ -369,9 +238,7 @@ private:
     const SourceFile& source_;
     const RenderSettings& settings_;
     Switches on_;
-    const CameraDesc* cameraDesc_ = nullptr;            // the one that is used
-    std::map<std::size_t, const MeshGeometry*> shared_; // of instances, by mesh
-    std::set<std::size_t> counted_;                     // meshes; see countDegenerate()
+    const CameraDesc* cameraDesc_ = nullptr; // the one that is used
 };
 
 Scene::Scene(const SceneDesc& desc, const SourceFile& source, const RenderSettings& settings) {

@@ -13,6 +13,8 @@
 
 enum class IntegratorKind { Whitted, Ao, Normal, Depth, Albedo, Id, Uv };
 enum class AccelKind { Bvh, None };
+// How much time the trees over meshes may take: as many rays pay for, little, or a lot.
+enum class TreeKind { Auto, Fast, Best };
 enum class Aov { Depth, Normal, Albedo, Position, Id, Samples };
 
 // The features that --no-x switches off. All true: the scene decides.
@@ -41,6 +43,7 @@ struct RenderSettings {
     std::optional<ErrorGoal> errorGoal;
     IntegratorKind integrator = IntegratorKind::Whitted;
     AccelKind accel = AccelKind::Bvh;
+    TreeKind tree = TreeKind::Auto;
     std::string kernel = "scalar"; // resolved name, never "auto"
     int threads = 1;               // resolved, at least 1
     std::optional<Rgbd> background;

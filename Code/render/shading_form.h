@@ -5,6 +5,5 @@
 
 #include <string>
 
-// "form 4 of 7: soft lamps, lamp bodies, bounces" for waves (waves/steps.h); other integrators have
-// one form only.
+// "soft lamps, lamp bodies, bounces" for waves (waves/steps.h); other integrators have one form.
 std::string shadingForm(const IntegratorContext& context);

@@ -7,41 +7,32 @@
 #include "render/waves/lamps.h"
 #include "render/waves/points.h"
 
-#include <array>
 #include <utility>
 
-namespace {
-
-template <Steps kSteps>
-void runWaves(const IntegratorContext& context, SampleChunk& chunk, WaveMemory& memory,
-              RayCounts& counts, std::uint64_t& cameraHits) {
+void integrateWhitted(const IntegratorContext& context, SampleChunk& chunk, WaveMemory& memory,
+                      RayCounts& counts, std::uint64_t& cameraHits) {
+    const Steps& steps = context.steps;
     counts.camera += chunk.cameraRays.size();
-    if constexpr (kSteps.bounces) memory.media = context.media;
+    if (steps.bounces) memory.media = context.media;
     const PathBatch* rays = &chunk.cameraRays;
     for (int depth = 0; !rays->empty(); ++depth) {
         const Wave wave{context, *rays, depth, chunk, memory, counts};
         closest(context.scene, *rays, memory.hits);
-        findPoints<kSteps>(wave);
+        compiledFor(
+            [&]<bool kTextures, bool kSeeThrough> { findPoints<kTextures, kSeeThrough>(wave); },
+            steps.textures, steps.seeThrough);
         if (depth == 0) cameraHits += memory.points.count;
-        addGlow<kSteps>(wave);
-        addLamps<kSteps>(wave);
-        if constexpr (!kSteps.bounces && !kSteps.seeThrough) return;
-        spawnBounces<kSteps>(wave);
+        compiledFor(
+            [&]<bool kLampBodies, bool kSeeThrough> { addGlow<kLampBodies, kSeeThrough>(wave); },
+            steps.lampBodies, steps.seeThrough);
+        compiledFor(
+            [&]<bool kSoftLamps, bool kSeeThrough> { addLamps<kSoftLamps, kSeeThrough>(wave); },
+            steps.softLamps, steps.seeThrough);
+        if (!steps.bounces && !steps.seeThrough) return;
+        compiledFor(
+            [&]<bool kBounces, bool kSeeThrough> { spawnBounces<kBounces, kSeeThrough>(wave); },
+            steps.bounces, steps.seeThrough);
         std::swap(memory.rays, memory.next);
         rays = &memory.rays;
     }
-}
-
-using Integrate = decltype(&runWaves<Steps{}>);
-template <std::size_t... kIndices>
-constexpr std::array<Integrate, sizeof...(kIndices)> compiled(std::index_sequence<kIndices...>) {
-    return {&runWaves<kCompiledSteps[kIndices]>...};
-}
-constexpr auto kCompiledWaves = compiled(std::make_index_sequence<kCompiledSteps.size()>());
-
-} // namespace
-
-void integrateWhitted(const IntegratorContext& context, SampleChunk& chunk, WaveMemory& memory,
-                      RayCounts& counts, std::uint64_t& cameraHits) {
-    kCompiledWaves[context.compiledSteps](context, chunk, memory, counts, cameraHits);
 }

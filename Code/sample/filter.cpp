@@ -1,6 +1,5 @@
 #include "sample/filter.h"
 
-#include "base/for_each.h"
 #include "base/math.h"
 
 #include <algorithm>
@@ -38,17 +37,22 @@ double shape(FilterKind kind, double x) {
 
 // Entry i is the x in [0,1] where the share of the upper half that lies between 0 and x is
 // 1 - (i / kSteps)^2.
-std::vector<float> inverseOfCdf(FilterKind kind, int threads) {
+std::vector<float> inverseOfCdf(FilterKind kind, ThreadPool* pool) {
     constexpr std::size_t kPieces = 16384, kPerJob = 2048;
     constexpr double h = 1.0 / kPieces;
     std::vector<double> ends(kPieces + 1, shape(kind, 0)), middles(kPieces);
-    forEachOn(threads, kPieces / kPerJob, [&](std::size_t job) { // this takes a millisecond
+    const auto fill = [&](std::size_t job, int) {
         for (std::size_t i = job * kPerJob; i < (job + 1) * kPerJob; ++i) {
             const double x = static_cast<double>(i) * h;
             ends[i + 1] = shape(kind, x + h);
             middles[i] = shape(kind, x + 0.5 * h);
         }
-    });
+    };
+    constexpr std::size_t kJobs = kPieces / kPerJob;
+    if (pool)
+        pool->run(kJobs, fill);
+    else
+        for (std::size_t job = 0; job < kJobs; ++job) fill(job, 0);
     std::vector<double> cdf(kPieces + 1, 0.0);
     for (std::size_t i = 0; i < kPieces; ++i) // Simpson on each piece
         cdf[i + 1] = cdf[i] + (ends[i] + 4 * middles[i] + ends[i + 1]) * (h / 6);
@@ -66,10 +70,10 @@ std::vector<float> inverseOfCdf(FilterKind kind, int threads) {
 
 } // namespace
 
-Filter::Filter(FilterKind kind, double width, int threads)
+Filter::Filter(FilterKind kind, double width, ThreadPool* pool)
     : kind_(kind), width_(max(width, 0.0)), radius_(radiusOf(kind, width_)) {
     if (kind == FilterKind::Gaussian || kind == FilterKind::BlackmanHarris)
-        inverse_ = inverseOfCdf(kind, threads);
+        inverse_ = inverseOfCdf(kind, pool);
 }
 
 double Filter::value(double offset) const {

@@ -87,6 +87,7 @@ AnalyticShape::Local Cone::describe(Vec3d p, std::uint32_t part, const Clearance
         w = leastRadius;
         z = narrowZ_ + (w - narrowRadius_) / slope_;
     }
+    if (!clearance.wantsUv) return {{c * w, s * w, z}, normal, {}, {}, {}};
     const double across = kTwoPi * max(w, 0x1p-20 * wide);
     return {{c * w, s * w, z},
             normal,

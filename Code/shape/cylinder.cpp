@@ -57,6 +57,7 @@ AnalyticShape::Local Cylinder::describe(Vec3d p, std::uint32_t part,
     const double c = around > 0 ? p.x / around : 1, s = around > 0 ? p.y / around : 0;
     const double limit = 1 - min(inset.z, 0.5);
     const double z = clamp(p.z, -limit, limit);
+    if (!clearance.wantsUv) return {{c * radius_, s * radius_, z}, {c, s, 0}, {}, {}, {}};
     return {{c * radius_, s * radius_, z},
             {c, s, 0},
             {0.5 + exact::atan2(s, c) * kInvTwoPi, 0.5 + 0.5 * z},

@@ -108,7 +108,7 @@ void MeshGeometry::collapseEndless() {
     }
 }
 
-void MeshGeometry::finish(bool withTree, const Kernel& forKernel, int threads) {
+void MeshGeometry::finish(bool withTree, const Kernel& forKernel, int threads, double rays) {
     collapseEndless();
     extent = kSceneExtent;
     for (const Vec3 p : points) extent = max(maxAbs(p), extent);
@@ -117,7 +117,7 @@ void MeshGeometry::finish(bool withTree, const Kernel& forKernel, int threads) {
     if (!withTree || triangles.empty()) return;
     if (forKernel.width > 0) {
         kernel = &forKernel;
-        wide = buildWide(forKernel.width, points, triangles, threads);
+        wide = buildWide(forKernel.width, points, triangles, threads, rays);
         if (!exactPoints.empty()) describeExact(*this);
         return;
     }

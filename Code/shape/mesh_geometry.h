@@ -63,8 +63,10 @@ struct MeshGeometry {
     // Triangles with a corner at NaN or infinity become points, which no ray meets.
     void collapseEndless();
     // Does that, computes extent, what is said of the exact points and, if wanted, the tree that
-    // the kernel needs, the same for any number of threads. The lists do not change afterwards.
-    void finish(bool withTree, const Kernel& forKernel = chooseKernel("scalar"), int threads = 1);
+    // the kernel needs, the same for any number of threads; `rays`: see buildWide(). The lists do
+    // not change afterwards.
+    void finish(bool withTree, const Kernel& forKernel = chooseKernel("scalar"), int threads = 1,
+                double rays = 0);
     bool hasTree() const { return !bvh.nodes.empty() || !wide.isEmpty(); }
     WideMesh wideMesh() const { return {wide, points, triangles, extent}; }
     std::size_t bytes() const;

@@ -17,7 +17,8 @@ using meshes::Random;
 
 constexpr std::size_t kRays = 2048; // of each kind and set of triangles
 
-// The same triangles with the tree of each kernel, and for the scalar code.
+// The same triangles with the tree of each kernel, and for the scalar code. Those that have no tree
+// there have the best one here.
 struct Meshes {
     MeshGeometry scalar;
     std::vector<MeshGeometry> wide;
@@ -27,7 +28,7 @@ struct Meshes {
         for (const Kernel& kernel : allKernels()) {
             if (!kernel.supported() || kernel.width == 0) continue;
             wide.push_back(bare);
-            wide.back().finish(true, kernel);
+            wide.back().finish(true, kernel, 1, withTree ? 0 : kCountlessRays);
         }
     }
 };

@@ -48,11 +48,13 @@ Tally accelerators(const Effort& effort) {
     return forScenes(effort, 10, [](auto* name, auto& desc, Random&, Tally& tally) {
         const auto linear = [](RenderSettings& s) { s.accel = AccelKind::None; };
         const std::uint64_t hash = hashWith(desc, linear);
-        for (const char* kernel : kernelsHere()) {
-            ++tally.cases;
-            if (hashWith(desc, [&](RenderSettings& s) { s.kernel = kernel; }) != hash)
-                tally.fail([&] { return cat(name, ": trees with kernel ", kernel); });
-        }
+        for (const char* kernel : kernelsHere())
+            for (const TreeKind tree : {TreeKind::Fast, TreeKind::Best}) {
+                ++tally.cases;
+                const auto set = [&](RenderSettings& s) { s.kernel = kernel, s.tree = tree; };
+                if (hashWith(desc, set) != hash)
+                    tally.fail([&] { return cat(name, ": trees with kernel ", kernel); });
+            }
     });
 }
 

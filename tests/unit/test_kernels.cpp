@@ -26,14 +26,16 @@ std::vector<const Kernel*> vectorKernels() {
     return out;
 }
 
-// The same mesh with the tree of each kernel, and with none.
+// The same mesh with the trees of each kernel, the fast one and the best, and that of the scalar
+// code.
 struct Meshes {
     explicit Meshes(const MeshGeometry& bare) : scalar(bare) {
         scalar.finish(true);
-        for (const Kernel* kernel : vectorKernels()) {
-            wide.push_back(std::make_unique<MeshGeometry>(bare));
-            wide.back()->finish(true, *kernel);
-        }
+        for (const Kernel* kernel : vectorKernels())
+            for (const double rays : {0.0, kCountlessRays}) {
+                wide.push_back(std::make_unique<MeshGeometry>(bare));
+                wide.back()->finish(true, *kernel, 1, rays);
+            }
     }
     MeshGeometry scalar;
     std::vector<std::unique_ptr<MeshGeometry>> wide;
@@ -149,6 +151,75 @@ TEST(kernels_on_edge_on_triangles) {
                 counts.hidden);
 }
 
+// A moving mesh is at each time the copy of it that the kernels trace, with u and v.
+TEST(kernels_on_copies_of_a_moving_mesh) {
+    kit::Random random(78);
+    std::size_t rays = 0, hits = 0;
+    for (int n = 0; n < check::scaled(6); ++n) {
+        const MeshDesc desc = n % 2 != 0 ? meshes::torus(0.3, 24, 12) : meshes::doubleFan(20);
+        MeshGeometry shared = toSharedGeometry(desc);
+        shared.finish(true);
+        const Transform keys[2] = {Transform::scale(0.3) * random.turn(),
+                                   Transform::translate(random.inBox(0.4)) * random.turn() *
+                                       Transform::scale(0.4)};
+        const MovingTransform motion{std::span<const Transform>(keys)};
+        const MeshInstance moving(shared, motion, {0}, 0);
+        for (const float time : {0.0f, 0.3f, 0.75f}) {
+            const Transform now = motion.at(static_cast<double>(time));
+            MeshGeometry copy;
+            for (const Vec3d p : shared.exactPoints) copy.points.push_back(placedPoint(now, p));
+            copy.triangles = shared.triangles;
+            const Meshes copies(copy);
+            for (RayList list : {looseRays(random, copies.scalar, 200),
+                                 raysFromPoints(random, copies.scalar, 200)}) {
+                list.time.assign(list.size(), time);
+                std::vector<Hit> expected(list.size()), got(list.size());
+                moving.intersectBatch(list.span(), 3, expected);
+                for (const auto& geometry : copies.wide) {
+                    Mesh(*geometry, {0}, {{0, 0}}).intersectBatch(list.span(), 3, got);
+                    for (std::size_t i = 0; i < list.size(); ++i)
+                        CHECK_INFO(sameBits(got[i], expected[i]),
+                                   geometry->kernel->name
+                                       << ", time " << time << ": " << shown(list.span()[i]) << ": "
+                                       << shown(got[i]) << ", expected " << shown(expected[i]));
+                }
+                rays += list.size();
+                for (const Hit& hit : expected) hits += hit.isHit();
+            }
+        }
+    }
+    CHECK_INFO(hits > rays / 3, hits << " of " << rays);
+}
+
+// What has more lines than bundles can tell apart is answered without them, all the same.
+TEST(kernels_on_trees_too_large_for_bundles) {
+    Random random(79);
+    const Meshes meshes(toGeometry(meshes::icosphere(4), {}));
+    const RayList rays = raysFromPoints(random, meshes.scalar, 1000);
+    const std::size_t n = rays.size();
+    const Mesh oracle(meshes.scalar, {0}, {{0, 0}});
+    for (const auto& geometry : meshes.wide) {
+        const std::size_t lines = geometry->wide.lines.size();
+        for (const std::size_t most : {std::size_t{0}, lines - 1, lines}) {
+            WideMesh mesh = geometry->wideMesh();
+            mesh.mostLinesForBundles = most;
+            std::vector<Hit> got(n, {.t = -7});
+            std::vector<std::uint8_t> hidden(n, 7);
+            closestHits(*geometry->kernel, mesh, rays.span(), 3, got);
+            anyHits(*geometry->kernel, mesh, rays.span(), hidden);
+            for (std::size_t i = 0; i < n; ++i) {
+                const Ray ray = rays.span()[i];
+                Hit expected{.t = ray.tMax};
+                if (oracle.intersect(ray, expected)) expected.shape = 3;
+                CHECK_INFO(sameBits(got[i], expected) && hidden[i] == oracle.occludes(ray),
+                           geometry->kernel->name
+                               << ", " << most << " of " << lines << " lines: " << shown(ray)
+                               << ": " << shown(got[i]) << ", hidden " << int(hidden[i]));
+            }
+        }
+    }
+}
+
 // A handful of triangles, that are tested in place, and a few more, that are not. Every third ray
 // starts at one point, so that bundles and the others are scattered over the batch.
 TEST(kernels_on_tiny_meshes) {
@@ -228,73 +299,6 @@ TEST(kernels_in_a_thicket) {
     std::printf("%zu rays, %zu hits, %zu hidden, seed 80\n", counts.rays, counts.hits,
                 counts.hidden);
     CHECK(counts.hits > counts.rays / 2 && counts.hidden < counts.rays);
-// A moving mesh is at each time the copy of it that the kernels trace, with u and v.
-TEST(kernels_on_copies_of_a_moving_mesh) {
-    kit::Random random(78);
-    std::size_t rays = 0, hits = 0;
-    for (int n = 0; n < check::scaled(6); ++n) {
-        const MeshDesc desc = n % 2 != 0 ? meshes::torus(0.3, 24, 12) : meshes::doubleFan(20);
-        MeshGeometry shared = toSharedGeometry(desc);
-        shared.finish(true);
-        const Transform keys[2] = {Transform::scale(0.3) * random.turn(),
-                                   Transform::translate(random.inBox(0.4)) * random.turn() *
-                                       Transform::scale(0.4)};
-        const MovingTransform motion{std::span<const Transform>(keys)};
-        const MeshInstance moving(shared, motion, {0}, 0);
-        for (const float time : {0.0f, 0.3f, 0.75f}) {
-            const Transform now = motion.at(static_cast<double>(time));
-            MeshGeometry copy;
-            for (const Vec3d p : shared.exactPoints) copy.points.push_back(placedPoint(now, p));
-            copy.triangles = shared.triangles;
-            const Meshes copies(copy);
-            for (RayList list : {looseRays(random, copies.scalar, 200),
-                                 raysFromPoints(random, copies.scalar, 200)}) {
-                list.time.assign(list.size(), time);
-                std::vector<Hit> expected(list.size()), got(list.size());
-                moving.intersectBatch(list.span(), 3, expected);
-                for (const auto& geometry : copies.wide) {
-                    Mesh(*geometry, {0}, {{0, 0}}).intersectBatch(list.span(), 3, got);
-                    for (std::size_t i = 0; i < list.size(); ++i)
-                        CHECK_INFO(sameBits(got[i], expected[i]),
-                                   geometry->kernel->name
-                                       << ", time " << time << ": " << shown(list.span()[i]) << ": "
-                                       << shown(got[i]) << ", expected " << shown(expected[i]));
-                }
-                rays += list.size();
-                for (const Hit& hit : expected) hits += hit.isHit();
-            }
-        }
-    }
-    CHECK_INFO(hits > rays / 3, hits << " of " << rays);
-}
-
-// What has more lines than bundles can tell apart is answered without them, all the same.
-TEST(kernels_on_trees_too_large_for_bundles) {
-    Random random(79);
-    const Meshes meshes(toGeometry(meshes::icosphere(4), {}));
-    const RayList rays = raysFromPoints(random, meshes.scalar, 1000);
-    const std::size_t n = rays.size();
-    const Mesh oracle(meshes.scalar, {0}, {{0, 0}});
-    for (const auto& geometry : meshes.wide) {
-        const std::size_t lines = geometry->wide.lines.size();
-        for (const std::size_t most : {std::size_t{0}, lines - 1, lines}) {
-            WideMesh mesh = geometry->wideMesh();
-            mesh.mostLinesForBundles = most;
-            std::vector<Hit> got(n, {.t = -7});
-            std::vector<std::uint8_t> hidden(n, 7);
-            closestHits(*geometry->kernel, mesh, rays.span(), 3, got);
-            anyHits(*geometry->kernel, mesh, rays.span(), hidden);
-            for (std::size_t i = 0; i < n; ++i) {
-                const Ray ray = rays.span()[i];
-                Hit expected{.t = ray.tMax};
-                if (oracle.intersect(ray, expected)) expected.shape = 3;
-                CHECK_INFO(sameBits(got[i], expected) && hidden[i] == oracle.occludes(ray),
-                           geometry->kernel->name
-                               << ", " << most << " of " << lines << " lines: " << shown(ray)
-                               << ": " << shown(got[i]) << ", hidden " << int(hidden[i]));
-            }
-        }
-    }
 }
 
 // Zero, infinite and NaN rays meet nothing, wherever in a batch they are.

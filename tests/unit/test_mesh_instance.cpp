@@ -3,6 +3,7 @@
 #include "shape/mesh_instance.h"
 
 #include "check.h"
+#include "render/shape_set.h"
 #include "verify/meshes.h"
 
 #include <algorithm>
@@ -171,6 +172,59 @@ TEST(instance_is_its_copy) {
             Hit hit;
             hits += pair.copy.shape->intersect(ray, hit);
             CHECK_INFO(difference.empty(), difference << shown(ray, kSeed, n, i));
+        }
+    }
+    std::printf("%lld rays, %lld hits, seed %d\n", rays, hits, static_cast<int>(kSeed));
+    CHECK(hits * 4 > rays);
+}
+
+// The same through the wide trees of the kernels.
+TEST(instance_in_batches_is_its_copy) {
+    constexpr std::uint64_t kSeed = 64;
+    Random random(kSeed);
+    long long rays = 0, hits = 0;
+    for (int n = 0; n < check::scaled(150); ++n) {
+        const MeshDesc mesh = someMesh(random);
+        const Transform map = someMap(random);
+        const SceneFrame frame = meshes::frameFor(mesh, map);
+        Pair pair(mesh, map, frame);
+        if (pair.number.empty()) continue;
+        std::vector<Ray> batch;
+        for (int i = 0; i < 150; ++i) batch.push_back(someRay(random, pair));
+        std::vector<Vec3> org, dir;
+        std::vector<float> tMin, tMax;
+        for (const Ray& ray : batch) {
+            org.push_back(ray.org), dir.push_back(ray.dir);
+            tMin.push_back(ray.tMin), tMax.push_back(ray.tMax);
+        }
+        const std::vector<float> time(batch.size(), 0.0f);
+        ShapeSet copy;
+        copy.add(std::move(pair.copy.shape), ShapeSet::Shadow::Opaque);
+        copy.finish(false);
+        for (const Kernel& kernel : allKernels()) {
+            if (!kernel.supported()) continue;
+            pair.instance.geometry->finish(true, kernel);
+            ShapeSet set;
+            set.add(std::make_unique<MeshInstance>(*pair.instance.geometry,
+                                                   MovingTransform(pair.instance.sceneFromMesh),
+                                                   std::vector<std::uint32_t>{7}, 5),
+                    ShapeSet::Shadow::Opaque);
+            set.finish(true, kernel);
+            std::vector<Hit> found;
+            std::vector<std::uint8_t> hidden;
+            set.closest({org, dir, tMin, tMax, time}, found);
+            set.occluded({org, dir, tMin, tMax, time}, hidden);
+            for (std::size_t i = 0; i < batch.size(); ++i) {
+                Hit hit = copy.closest(batch[i]);
+                if (hit.isHit()) hit.prim = pair.number[hit.prim];
+                CHECK_INFO(found[i] == hit && (hidden[i] != 0) == copy.occluded(batch[i]),
+                           kernel.name << ": other hits"
+                                       << shown(batch[i], kSeed, n, static_cast<int>(i)));
+                ++rays;
+                hits += hit.isHit();
+            }
+            pair.instance.geometry->wide = {};
+            pair.instance.geometry->bvh = {};
         }
     }
     std::printf("%lld rays, %lld hits, seed %d\n", rays, hits, static_cast<int>(kSeed));

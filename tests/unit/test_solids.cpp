@@ -2,15 +2,16 @@
 // without any tree, whether the rays come from one point, from lamps in turn, or from anywhere.
 #include "analytic_kit.h"
 #include "check.h"
-#include "render/shape_set.h"
 #include "shape/checkered.h"
 #include "shape/mesh.h"
 #include "shape/one_sided.h"
+#include "solid_checks.h"
 #include "verify/meshes.h"
 
-#include <set>
-
 using meshes::Random;
+using solid_checks::compare;
+using solid_checks::Rays;
+using solid_checks::Score;
 using Shadow = ShapeSet::Shadow;
 
 namespace {
@@ -90,17 +91,6 @@ private:
     std::vector<Ball> balls_;
 };
 
-struct Rays {
-    std::vector<Vec3> org, dir;
-    std::vector<float> tMin, tMax, time;
-
-    void push(const Ray& ray) {
-        org.push_back(ray.org), dir.push_back(ray.dir);
-        tMin.push_back(ray.tMin), tMax.push_back(ray.tMax), time.push_back(ray.time);
-    }
-    RaySpan span() const { return {org, dir, tMin, tMax, time}; }
-};
-
 Vec3d besides(Random& random, Vec3d way) { return normalize(cross(way, random.direction())); }
 
 // A ray from `from` that touches a ball, or misses or meets it by a few roundings.
@@ -154,35 +144,6 @@ Rays someRays(Random& random, const std::vector<Ball>& balls) {
         rays.push(ray);
     }
     return rays;
-}
-
-struct Score {
-    long long rays = 0, hits = 0, hidden = 0, wrongHits = 0, wrongHidden = 0;
-    std::set<std::uint32_t> seen; // shapes
-};
-
-void compare(const char* kernel, std::uint64_t seed, const ShapeSet& batches,
-             const ShapeSet& single, const Rays& rays, Score& score) {
-    std::vector<Hit> hits;
-    std::vector<std::uint8_t> hidden;
-    batches.closest(rays.span(), hits);
-    batches.occluded(rays.span(), hidden);
-    for (std::size_t i = 0; i < rays.org.size(); ++i) {
-        const Ray ray = rays.span()[i];
-        const Hit wanted = single.closest(ray);
-        ++score.rays;
-        score.hits += wanted.isHit();
-        if (wanted.isHit()) score.seen.insert(wanted.shape);
-        if (!(hits[i] == wanted) && ++score.wrongHits <= 3)
-            CHECK_INFO(false, kernel << " seed " << seed << " ray " << i << ": shape "
-                                     << hits[i].shape << " at " << hits[i].t << " and "
-                                     << wanted.shape << " at " << wanted.t);
-        const bool isHidden = single.occluded(ray);
-        score.hidden += isHidden;
-        if ((hidden[i] != 0) != isHidden && ++score.wrongHidden <= 3)
-            CHECK_INFO(false, kernel << " seed " << seed << " ray " << i << ": hidden "
-                                     << static_cast<int>(hidden[i]) << " and " << isHidden);
-    }
 }
 
 } // namespace

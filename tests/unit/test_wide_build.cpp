@@ -32,6 +32,24 @@ Input inputOf(const std::string& name, const std::vector<std::array<Vec3, 3>>& t
     return {name, std::move(g.points), std::move(g.triangles)};
 }
 
+// Long thin boxes in all directions, whose own bounding boxes overlap wherever they lie.
+Input wires() {
+    Random random(33);
+    MeshDesc mesh;
+    for (int i = 0; i < 700; ++i) {
+        const Vec3d centre = random.inBox(1), along = random.direction();
+        const Vec3d across = normalize(cross(along, random.direction()));
+        const Vec3d sides[] = {along * 0.3, across * 0.003, cross(along, across) * 0.003};
+        const MeshDesc cube = meshes::cube();
+        const auto first = static_cast<std::uint32_t>(mesh.points.size());
+        for (const Vec3d p : cube.points)
+            mesh.points.push_back(centre + sides[0] * p.x + sides[1] * p.y + sides[2] * p.z);
+        for (const auto& t : cube.triangles)
+            mesh.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    }
+    return inputOf("wires", mesh);
+}
+
 // Above 2 * 4096 triangles there are several subtrees, above 16384 several jobs for a range.
 std::vector<Input> inputs() {
     Random random(31);
@@ -50,6 +68,7 @@ std::vector<Input> inputs() {
     for (int i = 0; i < 9000; ++i)
         few.triangles.push_back({random.below(12), random.below(12), random.below(12)});
     out.push_back(few);
+    out.push_back(wires());
     return out;
 }
 
@@ -154,6 +173,13 @@ TEST(wide_build_same_for_any_threads) {
                 CHECK_INFO(sameBytes(buildWide(width, in.points, in.triangles, threads), one),
                            in.name << ", width " << width << ", threads " << threads);
         }
+    for (const Input& in : inputs()) {
+        const WideTree one = buildWide(16, in.points, in.triangles, 1, kCountlessRays);
+        for (const int threads : {2, 5})
+            CHECK_INFO(
+                sameBytes(buildWide(16, in.points, in.triangles, threads, kCountlessRays), one),
+                in.name << ", best, threads " << threads);
+    }
 }
 
 TEST(wide_build_same_for_any_instructions) {
@@ -170,12 +196,14 @@ TEST(wide_build_same_for_any_instructions) {
 
 TEST(wide_build_trees_hold_everything) {
     for (const Input& in : inputs()) {
-        const WideTree narrow = buildWide(8, in.points, in.triangles);
-        const WideTree wide = buildWide(16, in.points, in.triangles);
-        CHECK_INFO(Inspection<8>(narrow, in).text().empty(),
-                   in.name << ", width 8: " << Inspection<8>(narrow, in).text());
-        CHECK_INFO(Inspection<16>(wide, in).text().empty(),
-                   in.name << ", width 16: " << Inspection<16>(wide, in).text());
+        for (const double rays : {0.0, kCountlessRays}) {
+            const WideTree narrow = buildWide(8, in.points, in.triangles, 1, rays);
+            const WideTree wide = buildWide(16, in.points, in.triangles, 1, rays);
+            CHECK_INFO(Inspection<8>(narrow, in).text().empty(),
+                       in.name << ", width 8: " << Inspection<8>(narrow, in).text());
+            CHECK_INFO(Inspection<16>(wide, in).text().empty(),
+                       in.name << ", width 16: " << Inspection<16>(wide, in).text());
+        }
     }
     CHECK(buildWide(16, {}, {}, 4).isEmpty());
 }
@@ -189,4 +217,25 @@ TEST(wide_build_leaves_are_full) {
     CHECK_INFO(triangles / static_cast<double>(tree.leaves) > 9, tree.leaves);
     CHECK_INFO(static_cast<double>(tree.leaves) / static_cast<double>(tree.nodes) > 7, tree.nodes);
     CHECK_INFO(static_cast<double>(tree.bytes()) / triangles < 40, tree.bytes());
+}
+
+// The same leaves below other nodes, which cost less: for wires 0.99 of the whole, most of which
+// the leaves are. Few rays are not worth it.
+TEST(wide_build_many_rays_make_better_trees) {
+    for (const Input& in : inputs()) {
+        const WideTree fast = buildWide(16, in.points, in.triangles);
+        const WideTree best = buildWide(16, in.points, in.triangles, 1, kCountlessRays);
+        CHECK_INFO(best.sah <= fast.sah * 1.001, in.name << ": " << best.sah << ", " << fast.sah);
+        CHECK_EQUAL(best.leaves, fast.leaves);
+        CHECK_INFO(best.triangleIds == fast.triangleIds, in.name);
+        CHECK_INFO(std::memcmp(best.base(), fast.base(), fast.leaves * sizeof(WideLeaf<16>)) == 0,
+                   in.name);
+        CHECK_INFO(sameBytes(buildWide(16, in.points, in.triangles, 1, 1000), fast), in.name);
+    }
+    const Input in = wires();
+    const double fast = buildWide(16, in.points, in.triangles).sah;
+    for (const double rays : {1e8, 1e9, kCountlessRays}) {
+        const double sah = buildWide(16, in.points, in.triangles, 1, rays).sah;
+        CHECK_INFO(sah < 0.995 * fast, rays << " rays: " << sah << ", fast " << fast);
+    }
 }

@@ -14,31 +14,49 @@ public:
 
     void run() {
         tree_.solids.clear(), tree_.boxes.clear();
-        if (!bvh_.nodes.empty()) addNode({open(0)});
+        if (!bvh_.nodes.empty()) addNode(open({0}));
     }
 
 private:
-    // A node of the binary tree, or one primitive of a leaf.
+    // A node of the binary tree, or some primitives of a leaf in a row.
     struct Part {
-        std::uint32_t index = 0;
-        bool isSolid = false;
+        std::uint32_t first = 0; // node, or place in primIds
+        std::uint32_t count = 0; // primitives; 0: a node
+        bool isSolid() const { return count == 1; }
     };
     using Parts = std::vector<Part>;
 
-    Parts open(std::uint32_t index) const {
-        const BvhNode& node = bvh_.nodes[index];
-        if (!node.isLeaf()) return {{node.first}, {node.first + 1}};
+    // A leaf of more than W primitives falls into W pieces.
+    Parts open(Part part) const {
+        if (part.count == 0) {
+            const BvhNode& node = bvh_.nodes[part.first];
+            if (!node.isLeaf()) return {{node.first}, {node.first + 1}};
+            part = {node.first, node.count};
+        }
         Parts parts;
-        for (std::uint32_t i = 0; i < node.count; ++i)
-            parts.push_back({bvh_.primIds[node.first + i], true});
+        const std::uint32_t pieces = std::min<std::uint32_t>(part.count, W);
+        for (std::uint32_t i = 0, at = 0; i < pieces; ++i) {
+            const std::uint32_t end = (i + 1) * part.count / pieces;
+            parts.push_back({part.first + at, end - at});
+            at = end;
+        }
         return parts;
     }
-    const Bounds& boxOf(Part part) const {
-        return part.isSolid ? boxes_[part.index] : bvh_.nodes[part.index].box;
-    }
     std::size_t sizeOpened(Part part) const {
-        const BvhNode& node = bvh_.nodes[part.index];
-        return node.isLeaf() ? node.count : 2;
+        if (part.count == 0) {
+            const BvhNode& node = bvh_.nodes[part.first];
+            if (!node.isLeaf()) return 2;
+            part.count = node.count;
+        }
+        return std::min<std::size_t>(part.count, W);
+    }
+    std::uint32_t solidOf(Part part) const { return bvh_.primIds[part.first]; }
+    Bounds boxOf(Part part) const {
+        if (part.count == 0) return bvh_.nodes[part.first].box;
+        Bounds box;
+        for (std::uint32_t i = 0; i < part.count; ++i)
+            box.extend(boxes_[bvh_.primIds[part.first + i]]);
+        return box;
     }
 
     WideRef addNode(Parts parts) {
@@ -46,15 +64,14 @@ private:
             std::size_t largest = parts.size();
             float area = -1;
             for (std::size_t i = 0; i < parts.size(); ++i) {
+                if (parts[i].isSolid() || parts.size() - 1 + sizeOpened(parts[i]) > W) continue;
                 const float size = boxOf(parts[i]).halfArea();
-                if (parts[i].isSolid || !(size > area) ||
-                    parts.size() - 1 + sizeOpened(parts[i]) > W)
-                    continue;
+                if (!(size > area)) continue;
                 largest = i;
                 area = size;
             }
             if (largest == parts.size()) break;
-            const Parts inner = open(parts[largest].index);
+            const Parts inner = open(parts[largest]);
             parts[largest] = inner[0];
             parts.insert(parts.end(), inner.begin() + 1, inner.end());
         }
@@ -69,10 +86,12 @@ private:
                 node.plane[axis][0][i] = box.lo[axis];
                 node.plane[axis][1][i] = box.hi[axis];
             }
-            node.child[i] = !used              ? wideRef(0, WideKind::None)
-                            : parts[i].isSolid ? addSolid(parts[i].index)
-                                               : addNode(open(parts[i].index));
+            node.child[i] = used && parts[i].isSolid() ? addSolid(solidOf(parts[i]))
+                                                       : wideRef(0, WideKind::None);
         }
+        // After all solids of the node, which so lie in a row.
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            if (!parts[i].isSolid()) node.child[i] = addNode(open(parts[i]));
         std::copy_n(reinterpret_cast<const WideTree::Line*>(&node), kLines,
                     tree_.lines.begin() + static_cast<std::ptrdiff_t>(line));
         return wideRef(line, WideKind::Node);

@@ -323,11 +323,13 @@ private:
         }
         return bits(notGreater(distance2, reach * reach));
     }
-    // n = d x axis: the distance of the lines is |w n| / |n|, and w n is off by 16 u s |d|. The ray
-    // is in the endless tube from `middle` - `half` to `middle` + `half`, where `half` has the
-    // slack for the errors of both: 16 u s |d| / n n.
-    // certain: rays that meet the side of a round tube, well within their range and the tube's
-    // length, at an angle that keeps errors below 30 times the slack.
+    // n = d x axis: the distance of the lines is |w n| / |n|, and w n is off by 41 u s |d|. The ray
+    // is in the endless tube from `middle` - `half` to `middle` + `half`. n is off by 7 u |d|, with
+    // FMA or without, so n n, for rays at 1/16 to the axis at least, by 227 u of it, and both by
+    // 16.5 slack |d| / n n together. Rays along the axis are asked whatever its ends are.
+    // certain: rays that meet the side of a round tube at 30 degrees to its axis at least and not
+    // flat, which keeps these errors below 20 times the slack, by 64 within their range and the
+    // tube's length.
     unsigned nearAxis(const SolidTree::Solid& solid, unsigned lanes, unsigned& certain) const {
         const Floats x = Floats(solid.centre.x) - o_[0], y = Floats(solid.centre.y) - o_[1],
                      z = Floats(solid.centre.z) - o_[2];
@@ -347,10 +349,11 @@ private:
         const Floats xd = fma(x, d_[0], fma(y, d_[1], z * d_[2]));
         const Floats middle = fnma(xa, da, xd) * perN2, height = fms(middle, da, xa);
         const auto halfIn = [&](Floats r) { return sqrt(max(fnma(across, across, r * r), zero)); };
-        const Floats half = (halfIn(reach) + slack) * perN2;
+        const Floats half = fma(Floats(24.0f), slack, halfIn(reach)) * perN2;
         const Floats up = abs(da);
-        lanes &= bits(notGreater(fnma(half, up, abs(height)), Floats(solid.halfLength) + slack_)) &
-                 bits(notGreater(tMin_, middle + half)) & bits(notGreater(middle - half, best_));
+        lanes &= bits(n < Floats(0.0625f) * length_) |
+                 (bits(notGreater(fnma(half, up, abs(height)), Floats(solid.halfLength) + slack_)) &
+                  bits(notGreater(tMin_, middle + half)) & bits(notGreater(middle - half, best_)));
         if constexpr (A == Answer::Any) {
             if (lanes == 0 || !(solid.innerRadius > 0)) return lanes;
             const Floats inner = Floats(solid.innerRadius) * n, margin = Floats(64.0f) * slack_;
@@ -360,7 +363,7 @@ private:
                 return (t - early > tMin_) & (t + early < best_) & (abs(fms(t, da, xa)) < tallest);
             };
             certain = bits((meets(middle - inside) | meets(middle + inside)) &
-                           (abs(across) < Floats(0.9f) * inner) & (n > Floats(0.25f) * length_));
+                           (abs(across) < Floats(0.9f) * inner) & (n > Floats(0.5f) * length_));
         }
         return lanes;
     }

@@ -40,8 +40,9 @@ void merge(Bins& to, const Bins& from, std::uint32_t used) {
 class WideBuilder {
 public:
     WideBuilder(const BuildCode& code, int width, std::span<const Vec3> points,
-                std::span<const Corners> triangles, int threads)
-        : code_(code), width_(width), count_(static_cast<std::uint32_t>(triangles.size())),
+                std::span<const Corners> triangles, int threads, double rays)
+        : code_(code), width_(width), rays_(rays),
+          count_(static_cast<std::uint32_t>(triangles.size())),
           // Few triangles are sorted before another thread has woken up.
           pool_(count_ < 2 * subtreeSize(count_) ? 1 : threads), grown_(workers()) {
         in_ = {points, triangles, &lists_, nullptr};
@@ -60,7 +61,7 @@ public:
         growSubtrees();
         lists_.spare = {}; // 32 bytes a triangle, before the tree takes its place
         (width_ == 16 ? writeTree<16> : writeTree<8>)(tree, top_, subtrees_, grown_,
-                                                      std::move(lists_.prims), pool_);
+                                                      std::move(lists_.prims), rays_, pool_);
         return tree;
     }
 
@@ -203,6 +204,7 @@ private:
 
     const BuildCode& code_;
     int width_;
+    double rays_;
     std::uint32_t count_;
     ThreadPool pool_;
     PrimLists lists_;
@@ -216,14 +218,15 @@ private:
 } // namespace
 
 WideTree kernels::build::buildWideBy(const BuildCode& code, int width, std::span<const Vec3> points,
-                                     std::span<const Corners> triangles, int threads) {
+                                     std::span<const Corners> triangles, int threads, double rays) {
     if (triangles.empty()) return {};
-    return WideBuilder(code, width, points, triangles, threads).run();
+    return WideBuilder(code, width, points, triangles, threads, rays).run();
 }
 
 WideTree buildWide(int width, std::span<const Vec3> points,
-                   std::span<const std::array<std::uint32_t, 3>> triangles, int threads) {
+                   std::span<const std::array<std::uint32_t, 3>> triangles, int threads,
+                   double rays) {
     for (const BuildCode& code : allBuildCodes())
-        if (code.supported()) return buildWideBy(code, width, points, triangles, threads);
+        if (code.supported()) return buildWideBy(code, width, points, triangles, threads, rays);
     return {}; // no kernel here wants one
 }

@@ -60,10 +60,14 @@ struct WideTree {
     }
 };
 
+inline constexpr double kCountlessRays = 1e18; // any time is well spent
+
 // Binned SAH, top down. `width` is 8 or 16. The tree is the same on every machine and for any
-// number of threads, 0 being as many as the machine has.
+// number of threads, 0 being as many as the machine has. `rays`: how many will be traced through
+// it, as far as that can be told; the more they are, the more time is spent on a better tree.
 WideTree buildWide(int width, std::span<const Vec3> points,
-                   std::span<const std::array<std::uint32_t, 3>> triangles, int threads = 1);
+                   std::span<const std::array<std::uint32_t, 3>> triangles, int threads = 1,
+                   double rays = 0);
 
 // traverse() of bvh.h for one ray in a wide tree, in plain C++: for the questions that the kernels
 // don't answer. leaf(triangle, zCut) may lower zCut; true stops. In any order.

@@ -68,18 +68,18 @@ inline void bounce(const Wave& wave, std::size_t k) {
 
 } // namespace waves
 
-template <Steps kSteps> void spawnBounces(const Wave& wave) {
+template <bool kBounces, bool kSeeThrough> void spawnBounces(const Wave& wave) {
     wave.memory.next.clear();
     if (wave.depth >= wave.context.settings.picture.maxDepth) return;
     const PointBatch& points = wave.memory.points;
     for (std::size_t k = 0; k < points.count; ++k) {
         const Material& material = *points.material[k];
         if (points.at[k].of->isLamp) continue;
-        if constexpr (kSteps.seeThrough) {
+        if constexpr (kSeeThrough) {
             waves::goStraight(wave, k);
             if (isBlack(points.weight[k])) continue;
         }
-        if constexpr (kSteps.bounces)
+        if constexpr (kBounces)
             if (!isBlack(material.mirror) || !isBlack(material.transmission))
                 waves::bounce(wave, k);
     }

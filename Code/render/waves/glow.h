@@ -4,7 +4,7 @@
 
 #include "render/waves/lamp_light.h"
 
-template <Steps kSteps> void addGlow(const Wave& wave) {
+template <bool kLampBodies, bool kSeeThrough> void addGlow(const Wave& wave) {
     const Scene& scene = wave.context.scene;
     const PathBatch& rays = wave.rays;
     const PointBatch& points = wave.memory.points;
@@ -17,20 +17,20 @@ template <Steps kSteps> void addGlow(const Wave& wave) {
         }
         const std::size_t here = k++;
         const Material& material = *points.material[here];
-        if constexpr (kSteps.lampBodies)
+        if constexpr (kLampBodies)
             if (points.at[here].of->isLamp) {
                 if (points.at[here].front && rays.seesLights[i])
                     wave.add(slot, rays.weight[i] * material.emission);
                 continue;
             }
         const Rgb weight = points.weight[here];
-        if constexpr (kSteps.seeThrough)
+        if constexpr (kSeeThrough)
             if (material.opacity < 1 && isBlack(weight)) continue;
         wave.add(slot, weight * (material.emission + material.diffuse * scene.ambient()));
         if (wave.context.openLamps.empty() || !answersLamps(material)) continue;
         const LitPoint lit = litPoint(wave, here);
         for (const Lamp& lamp : wave.context.openLamps)
-            forEachLampSample<kSteps>(
-                wave, lamp, lit, [&](const LightSample&, Rgb light) { wave.add(slot, light); });
+            forEachLampSample<true>(wave, lamp, lit,
+                                    [&](const LightSample&, Rgb light) { wave.add(slot, light); });
     }
 }

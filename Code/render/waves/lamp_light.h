@@ -38,7 +38,7 @@ inline Vec2 placeOn(const Lamp& lamp, int k, const Wave& wave, std::size_t i) {
 
 // fn(sample, light) for every sample of the lamp that sends light from the point to the eye:
 // `light` is what the sample of the picture gets if nothing is in between.
-template <Steps kSteps, class Fn>
+template <bool kSoftLamps, class Fn>
 void forEachLampSample(const Wave& wave, const Lamp& lamp, const LitPoint& lit, Fn&& fn) {
     const auto take = [&](const LightSample& sample, float share) {
         if (isBlack(sample.irradiance) || !rises(wave, lit, sample.toLight)) return;
@@ -46,7 +46,7 @@ void forEachLampSample(const Wave& wave, const Lamp& lamp, const LitPoint& lit, 
         const Rgb light = lit.weight * reflected * sample.irradiance * share;
         if (!isBlack(light)) fn(sample, light);
     };
-    if constexpr (kSteps.softLamps)
+    if constexpr (kSoftLamps)
         if (lamp.isSoft) {
             if (lamp.light.cannotReach(lit.p, lit.n)) return;
             const std::uint32_t ray = wave.memory.points.ray[lit.point];

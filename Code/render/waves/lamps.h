@@ -19,11 +19,11 @@ inline Ray shadowRay(const Lamp& lamp, const ShadedPoint& at, const LightSample&
 }
 
 // What arrives of the shadow rays' light replaces their weights; black: all is hidden.
-template <Steps kSteps> void traceShadowRays(const Wave& wave) {
+template <bool kSeeThrough> void traceShadowRays(const Wave& wave) {
     WaveMemory& memory = wave.memory;
     RayBatch& rays = memory.shadowRays;
     wave.counts.shadow += rays.size();
-    if constexpr (kSteps.seeThrough) {
+    if constexpr (kSeeThrough) {
         transmitted(wave.context.scene, rays, memory.transmittance);
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const Rgb part = memory.transmittance[i]; // black hides even what is infinite
@@ -158,14 +158,14 @@ void shineInLanes(const Wave& wave, const Lamp& lamp, bool isGrouped, ArriveFn&&
 }
 
 // The same point by point, for any lamp.
-template <Steps kSteps, class ArriveFn>
+template <bool kSoftLamps, class ArriveFn>
 void shineOneByOne(const Wave& wave, const Lamp& lamp, bool isGrouped, ArriveFn&& arrive) {
     WaveMemory& memory = wave.memory;
     for (std::size_t i = 0; i < memory.answering.size(); ++i) {
         const std::uint32_t k = memory.answering[i];
         const bool mayBeHidden = !isGrouped || memory.groups[memory.groupOf[i]].mayBeHidden;
         const LitPoint lit = litPoint(wave, k);
-        forEachLampSample<kSteps>(wave, lamp, lit, [&](const LightSample& sample, Rgb light) {
+        forEachLampSample<kSoftLamps>(wave, lamp, lit, [&](const LightSample& sample, Rgb light) {
             if (!mayBeHidden) return arrive(k, light);
             const float time = wave.rays.time[memory.points.ray[k]];
             memory.shadowRays.push(shadowRay(lamp, memory.points.at[k], sample, time), k, light);
@@ -175,7 +175,7 @@ void shineOneByOne(const Wave& wave, const Lamp& lamp, bool isGrouped, ArriveFn&
 
 } // namespace waves
 
-template <Steps kSteps> void addLamps(const Wave& wave) {
+template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
     WaveMemory& memory = wave.memory;
     const PointBatch& points = memory.points;
     const std::vector<Lamp>& lamps = wave.context.shadingLamps;
@@ -206,9 +206,9 @@ template <Steps kSteps> void addLamps(const Wave& wave) {
         if (lamp.inLanes)
             waves::shineInLanes(wave, lamp, isGrouped, arrive);
         else
-            waves::shineOneByOne<kSteps>(wave, lamp, isGrouped, arrive);
+            waves::shineOneByOne<kSoftLamps>(wave, lamp, isGrouped, arrive);
         if (memory.shadowRays.empty()) continue;
-        waves::traceShadowRays<kSteps>(wave);
+        waves::traceShadowRays<kSeeThrough>(wave);
         const RayBatch& rays = memory.shadowRays;
         for (std::size_t i = 0; i < rays.size(); ++i)
             if (!isBlack(rays.weight[i])) arrive(rays.sample[i], rays.weight[i]);

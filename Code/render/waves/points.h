@@ -25,7 +25,7 @@ inline void findSurfaces(const Wave& wave) {
 
 } // namespace waves
 
-template <Steps kSteps> void findPoints(const Wave& wave) {
+template <bool kTextures, bool kSeeThrough> void findPoints(const Wave& wave) {
     const IntegratorContext& context = wave.context;
     const std::vector<Hit>& hits = wave.memory.hits;
     PointBatch& points = wave.memory.points;
@@ -38,15 +38,15 @@ template <Steps kSteps> void findPoints(const Wave& wave) {
     for (std::size_t k = 0; k < points.count; ++k) {
         const std::uint32_t i = points.ray[k];
         ShadedPoint& at = points.at[k];
-        shadeSurface<kSteps.textures>(context.scene, wave.rays.ray(i), hits[i], at);
+        shadeSurface<kTextures>(context.scene, wave.rays.ray(i), hits[i], at);
         points.weight[k] = wave.rays.weight[i];
         points.material[k] = &at.of->base;
-        if constexpr (kSteps.textures)
+        if constexpr (kTextures)
             if (at.of->isTextured()) {
                 points.textured[k] = materialAt(at);
                 points.material[k] = &points.textured[k];
             }
-        if constexpr (kSteps.seeThrough)
+        if constexpr (kSeeThrough)
             if (points.material[k]->opacity < 1)
                 points.weight[k] = points.weight[k] * points.material[k]->opacity;
         if (wave.depth == 0 && context.wantsFirstHits)

@@ -1,13 +1,10 @@
-// Steps: what the wave loop does for some scenes only. The loop is compiled for a few sets of steps
-// (whitted.cpp); a picture is made by the first that covers what its scene needs. A step may be
-// left out only where it would change nothing, so that all sets that cover a scene give the same
-// bits: T17 of the battery compares them.
+// Steps: what the wave loop does for some scenes only. Every stage of the loop is compiled with and
+// without the steps that are its own, and a picture runs the stages for just what its scene needs
+// (whitted.cpp), so that a step that is not needed takes no time. A step may be left out only where
+// it would change nothing: T17 of the battery compares what scenes give with all of them.
 #pragma once
 
 #include "render/scene.h"
-
-#include <array>
-#include <cstddef>
 
 struct Steps {
     bool softLamps = false;  // lamps are sampled at random places
@@ -16,25 +13,20 @@ struct Steps {
     bool textures = false;   // pictures on materials; texture coordinates are asked for
     bool seeThrough = false; // surfaces that let rays go straight on, and light through to others
 
-    constexpr bool cover(const Steps& need) const {
-        return (softLamps || !need.softLamps) && (lampBodies || !need.lampBodies) &&
-               (bounces || !need.bounces) && (textures || !need.textures) &&
-               (seeThrough || !need.seeThrough);
-    }
-};
-
-// The sets that the loop is compiled for, narrowest first; the last one is everything.
-inline constexpr std::array kCompiledSteps{
-    Steps{},
-    Steps{.softLamps = true, .lampBodies = true},
-    Steps{.bounces = true},
-    Steps{.softLamps = true, .lampBodies = true, .bounces = true},
-    Steps{.softLamps = true, .lampBodies = true, .textures = true},
-    Steps{.softLamps = true, .lampBodies = true, .bounces = true, .textures = true},
-    Steps{true, true, true, true, true},
+    constexpr bool operator==(const Steps&) const = default;
 };
 
 // What pictures of this scene need; everything unless the settings let pictures be specialised.
 Steps stepsFor(const Scene& scene, const RenderSettings& settings);
-// Which of kCompiledSteps does it: the first that covers the need.
-std::size_t compiledFor(const Steps& need);
+
+// Calls fn<answers...>(): what is known when it runs becomes known to the compiler.
+template <bool... kAnswers, class Fn> void compiledFor(const Fn& fn) {
+    fn.template operator()<kAnswers...>();
+}
+template <bool... kAnswers, class Fn, class... More>
+void compiledFor(const Fn& fn, bool answer, More... more) {
+    if (answer)
+        compiledFor<kAnswers..., true>(fn, more...);
+    else
+        compiledFor<kAnswers..., false>(fn, more...);
+}

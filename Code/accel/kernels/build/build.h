@@ -105,6 +105,6 @@ std::span<const BuildCode> allBuildCodes(); // best first
 
 // buildWide() by one of them.
 WideTree buildWideBy(const BuildCode& code, int width, std::span<const Vec3> points,
-                     std::span<const Corners> triangles, int threads);
+                     std::span<const Corners> triangles, int threads, double rays = 0);
 
 } // namespace kernels::build

@@ -14,10 +14,11 @@ struct SubtreeRange {
 };
 
 // `top` is the binary tree down to the roots of the subtrees, which are in the order of the leaves.
-// The boxes in `scrap` are not needed any more: their memory is used again.
+// The boxes in `scrap` are not needed any more: their memory is used again. Many `rays` make a
+// better tree (reinsert.h).
 template <int W>
 void writeTree(WideTree& tree, std::span<const BinaryNode> top,
                std::span<const SubtreeRange> subtrees, std::vector<Grown>& grown,
-               PageVector<PrimBox> scrap, ThreadPool& pool);
+               PageVector<PrimBox> scrap, double rays, ThreadPool& pool);
 
 } // namespace kernels::build

@@ -1,0 +1,236 @@
+#include "render/make_shapes.h"
+
+#include "base/for_each.h"
+#include "desc/enum_tables.h"
+#include "desc/scene_bounds.h"
+#include "render/make_shape.h"
+#include "render/predicted_rays.h"
+#include "shape/mesh.h"
+#include "shape/mesh_instance.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace {
+
+constexpr std::size_t kNotShared = static_cast<std::size_t>(-1);
+// Trees of more triangles are built by all threads together.
+constexpr std::size_t kLargeTree = std::size_t{1} << 16;
+
+} // namespace
+
+MovingTransform placedKeys(const Keys& keys, const SceneFrame& frame, bool motionBlur) {
+    std::vector<Transform> maps;
+    for (const Rows& rows : keys) maps.push_back(frame.placed(rows));
+    const MovingTransform moving{std::span<const Transform>(maps)};
+    return motionBlur ? moving : MovingTransform(moving.at(0.5));
+}
+
+ShapeMaker::ShapeMaker(const SceneDesc& desc, const RenderSettings& settings,
+                       const SceneFrame& frame, const std::vector<bool>& seeThrough)
+    : desc_(desc), settings_(settings), frame_(frame), seeThrough_(seeThrough),
+      sharedOf_(desc.meshes.size(), kNotShared) {
+    for (const bool isSolid : {true, false})
+        for (const auto& row : kEnumNames<ObjectDesc::Sides>)
+            merged_.push_back({row.value, isSolid, {}, {}, {}});
+    const std::vector<bool> isCopied = meshesToCopy();
+    for (std::uint32_t i = 0; i < desc_.objects.size(); ++i) {
+        const ObjectDesc& object = desc_.objects[i];
+        if (object.kind != ObjectDesc::Kind::Mesh) {
+            simple_.push_back(i);
+            moves_ = moves_ ||
+                     (object.worldFromObject.size() > 1 &&
+                      !placedKeys(object.worldFromObject, frame_, settings_.switches.motionBlur)
+                           .isStatic());
+            continue;
+        }
+        Placed placed{i, placedKeys(object.worldFromObject, frame_, settings_.switches.motionBlur),
+                      materialsBySlot(object)};
+        moves_ = moves_ || !placed.place.isStatic();
+        // Meshes that move or have too many copies are instances.
+        const auto mesh = static_cast<std::size_t>(object.mesh);
+        placed.isCopied =
+            isCopied[mesh] && placed.place.isStatic() && isInScene(object, placed.place.at(0));
+        if (placed.isCopied) {
+            const bool isSolid = shadowOf(placed.materials) == ShapeSet::Shadow::Opaque;
+            for (Merged& merged : merged_)
+                if (merged.isSolid == isSolid && merged.sides == object.sides)
+                    merged.members.push_back(placed_.size());
+        } else if (sharedOf_[mesh] == kNotShared) {
+            sharedOf_[mesh] = shared_.size();
+            shared_.push_back({mesh, nullptr, 0});
+        }
+        placed_.push_back(std::move(placed));
+    }
+    simpleShapes_.resize(simple_.size());
+}
+
+std::vector<std::function<void()>> ShapeMaker::jobs() {
+    std::vector<std::function<void()>> out;
+    for (Merged& merged : merged_)
+        if (!merged.members.empty()) out.emplace_back([this, &merged] { merge(merged); });
+    for (Shared& shared : shared_) out.emplace_back([this, &shared] { share(shared); });
+    constexpr std::size_t kTogether = 4096;
+    for (std::size_t first = 0; first < simple_.size(); first += kTogether)
+        out.emplace_back(
+            [this, first] { makeSimple(first, std::min(simple_.size(), first + kTogether)); });
+    return out;
+}
+
+// After the other shapes come those with triangles in a row: ShapeSet::isBefore() needs that.
+void ShapeMaker::finish(ShapeSet& shapes,
+                        std::vector<std::unique_ptr<const MeshGeometry>>& geometries) {
+    for (std::size_t i = 0; i < simple_.size(); ++i) {
+        shapes.add(std::move(simpleShapes_[i]), shadowOf(materialIds(desc_.objects[simple_[i]])));
+    }
+    const auto finishLarge = [&](MeshGeometry& geometry) {
+        if (geometry.triangles.size() > kLargeTree) finishTree(geometry, settings_.threads);
+    };
+    for (Shared& shared : shared_) finishLarge(*shared.geometry);
+    for (Merged& merged : merged_)
+        if (merged.geometry) finishLarge(*merged.geometry);
+    addInstances(shapes);
+    for (Shared& shared : shared_) geometries.push_back(std::move(shared.geometry));
+    for (Merged& merged : merged_) {
+        if (!merged.geometry) continue;
+        auto mesh = std::make_unique<Mesh>(*merged.geometry, merged.mesh.materials,
+                                           std::move(merged.mesh.parts));
+        shapes.add(withSides(std::move(mesh), merged.sides), shadowOf(merged.mesh.materials));
+        geometries.push_back(std::move(merged.geometry));
+    }
+}
+
+// Once for all copies and instances of a mesh, as the first of them has it.
+std::uint64_t ShapeMaker::degenerateCount() const {
+    std::vector<bool> isCounted(desc_.meshes.size());
+    std::uint64_t count = 0;
+    for (const Placed& placed : placed_) {
+        const auto mesh = static_cast<std::size_t>(desc_.objects[placed.object].mesh);
+        if (isCounted[mesh]) continue;
+        isCounted[mesh] = true;
+        count +=
+            placed.isCopied ? placed.degenerateCount : shared_[sharedOf_[mesh]].degenerateCount;
+    }
+    return count;
+}
+
+// The scene's numbers of its materials, at least one; objects without one get the default.
+std::vector<std::uint32_t> ShapeMaker::materialIds(const ObjectDesc& object) const {
+    const auto none = static_cast<std::uint32_t>(desc_.materials.size());
+    std::vector<std::uint32_t> ids;
+    for (const Handle handle : object.materials)
+        ids.push_back(handle == kNone ? none : static_cast<std::uint32_t>(handle));
+    if (ids.empty()) ids.push_back(none);
+    return ids;
+}
+
+std::vector<std::uint32_t> ShapeMaker::materialsBySlot(const ObjectDesc& object) const {
+    std::vector<std::uint32_t> out = materialIds(object);
+    std::uint32_t slots = 1;
+    for (const std::uint32_t slot :
+         desc_.meshes[static_cast<std::size_t>(object.mesh)].triangleMaterials)
+        slots = std::max(slots, slot + 1);
+    while (out.size() < slots) out.push_back(out.back());
+    return out;
+}
+
+ShapeSet::Shadow ShapeMaker::shadowOf(std::span<const std::uint32_t> materials) const {
+    const bool seeThrough = std::any_of(materials.begin(), materials.end(),
+                                        [&](std::uint32_t m) { return seeThrough_[m]; });
+    return seeThrough ? ShapeSet::Shadow::SeeThrough : ShapeSet::Shadow::Opaque;
+}
+
+// By mesh: those that are used once, and others as long as there is room for all their copies.
+std::vector<bool> ShapeMaker::meshesToCopy() const {
+    std::vector<std::uint64_t> uses(desc_.meshes.size(), 0);
+    for (const ObjectDesc& object : desc_.objects)
+        if (object.kind == ObjectDesc::Kind::Mesh) ++uses[static_cast<std::size_t>(object.mesh)];
+    std::vector<bool> out(uses.size());
+    std::uint64_t room = settings_.copiedTriangles;
+    for (std::size_t mesh = 0; mesh < uses.size(); ++mesh) {
+        const std::uint64_t triangles = uses[mesh] * desc_.meshes[mesh].triangles.size();
+        out[mesh] = uses[mesh] == 1 || triangles <= room;
+        if (uses[mesh] > 1 && out[mesh]) room -= triangles;
+    }
+    return out;
+}
+
+// Within kSceneExtent, on which the pads of all that is merged depend. Only an object that has
+// several keys, and whose movement is switched off, may be elsewhere in between.
+bool ShapeMaker::isInScene(const ObjectDesc& object, const Transform& place) const {
+    if (object.worldFromObject.size() == 1) return true;
+    const BoundsD box = place.bounds(boundsOf(desc_.meshes[static_cast<std::size_t>(object.mesh)]));
+    return max(maxAbs(box.lo), maxAbs(box.hi)) <= static_cast<double>(kSceneExtent);
+}
+
+const MeshDesc& ShapeMaker::meshOf(const Placed& placed) const {
+    return desc_.meshes[static_cast<std::size_t>(desc_.objects[placed.object].mesh)];
+}
+
+void ShapeMaker::finishTree(MeshGeometry& geometry, int threads) const {
+    geometry.finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel), threads,
+                    raysPerTree());
+}
+
+// As if every tree got the same share of them.
+double ShapeMaker::raysPerTree() const {
+    if (settings_.tree != TreeKind::Auto)
+        return settings_.tree == TreeKind::Best ? kCountlessRays : 0;
+    const auto merged = std::count_if(merged_.begin(), merged_.end(),
+                                      [](const Merged& m) { return !m.members.empty(); });
+    return predictedRays(desc_, settings_) /
+           static_cast<double>(shared_.size() + static_cast<std::size_t>(merged));
+}
+
+void ShapeMaker::merge(Merged& merged) {
+    for (const std::size_t i : merged.members) {
+        Placed& placed = placed_[i];
+        const std::uint64_t before = merged.mesh.degenerateCount;
+        merged.mesh.add(meshOf(placed), placed.place.at(0), placed.materials, placed.object);
+        placed.degenerateCount = merged.mesh.degenerateCount - before;
+    }
+    if (merged.mesh.geometry.triangles.empty()) return;
+    merged.geometry = std::make_unique<MeshGeometry>(std::move(merged.mesh.geometry));
+    if (merged.geometry->triangles.size() <= kLargeTree) finishTree(*merged.geometry, 1);
+}
+
+void ShapeMaker::share(Shared& shared) {
+    shared.geometry = std::make_unique<MeshGeometry>(toSharedGeometry(desc_.meshes[shared.mesh]));
+    shared.degenerateCount = shared.geometry->dropDegenerate();
+    if (shared.geometry->triangles.size() <= kLargeTree) finishTree(*shared.geometry, 1);
+}
+
+void ShapeMaker::makeSimple(std::size_t first, std::size_t last) {
+    for (std::size_t i = first; i < last; ++i) {
+        const ObjectDesc& object = desc_.objects[simple_[i]];
+        MovingTransform place =
+            placedKeys(object.worldFromObject, frame_, settings_.switches.motionBlur);
+        simpleShapes_[i] = makeShape(object, std::move(place), materialIds(object), simple_[i]);
+    }
+}
+
+// One geometry per mesh; as many transforms as there are instances.
+void ShapeMaker::addInstances(ShapeSet& shapes) {
+    const auto geometryOf = [&](const Placed& placed) -> const MeshGeometry& {
+        const auto mesh = static_cast<std::size_t>(desc_.objects[placed.object].mesh);
+        return *shared_[sharedOf_[mesh]].geometry;
+    };
+    std::vector<Placed*> instances;
+    for (Placed& placed : placed_)
+        if (!placed.isCopied && !geometryOf(placed).triangles.empty()) instances.push_back(&placed);
+    std::vector<std::unique_ptr<const Shape>> made(instances.size());
+    std::vector<ShapeSet::Shadow> shadows(instances.size());
+    constexpr std::size_t kTogether = 64;
+    forEachOn(settings_.threads, (made.size() + kTogether - 1) / kTogether, [&](std::size_t part) {
+        const std::size_t last = std::min(made.size(), (part + 1) * kTogether);
+        for (std::size_t i = part * kTogether; i < last; ++i) {
+            Placed& placed = *instances[i];
+            shadows[i] = shadowOf(placed.materials);
+            made[i] = withSides(
+                std::make_unique<MeshInstance>(geometryOf(placed), std::move(placed.place),
+                                               std::move(placed.materials), placed.object),
+                desc_.objects[placed.object].sides);
+        }
+    });
+    for (std::size_t i = 0; i < made.size(); ++i) shapes.add(std::move(made[i]), shadows[i]);
+}

@@ -1,0 +1,86 @@
+// All shapes of a scene from its objects: which meshes are merged and which are instances, and the
+// preparing of both, on several threads and beside other work.
+#pragma once
+
+#include "base/motion.h"
+#include "desc/scene_desc.h"
+#include "render/frame.h"
+#include "render/merge.h"
+#include "render/settings.h"
+#include "render/shape_set.h"
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+// normalisedFromObject while the shutter is open; without motion blur as it is at half time.
+MovingTransform placedKeys(const Keys& keys, const SceneFrame& frame, bool motionBlur);
+
+class ShapeMaker {
+public:
+    // `seeThrough`: by material, the default one last. What is handed in must outlive it.
+    ShapeMaker(const SceneDesc& desc, const RenderSettings& settings, const SceneFrame& frame,
+               const std::vector<bool>& seeThrough);
+
+    // What one thread each can do, all at the same time: merging, and the trees of small meshes.
+    std::vector<std::function<void()>> jobs();
+    // When those are done: large trees, by all threads one after the other, and the shapes.
+    void finish(ShapeSet& shapes, std::vector<std::unique_ptr<const MeshGeometry>>& geometries);
+
+    bool moves() const { return moves_; } // does anything?
+    std::uint64_t degenerateCount() const;
+
+private:
+    // An object that shows a mesh.
+    struct Placed {
+        std::uint32_t object = 0;
+        MovingTransform place;
+        std::vector<std::uint32_t> materials; // by slot of the mesh
+        bool isCopied = false;                // into one of the merged meshes
+        std::uint64_t degenerateCount = 0;    // of its copy
+    };
+    // A mesh for instances.
+    struct Shared {
+        std::size_t mesh = 0;
+        std::unique_ptr<MeshGeometry> geometry;
+        std::uint64_t degenerateCount = 0;
+    };
+    // Meshes that stand still become one, with one tree over all triangles; see-through ones apart,
+    // as their shadows have to look at every hit, and those apart of which not all sides are seen.
+    struct Merged {
+        ObjectDesc::Sides sides = ObjectDesc::Sides::Both;
+        bool isSolid = true;
+        std::vector<std::size_t> members; // of placed_
+        MergedMesh mesh;
+        std::unique_ptr<MeshGeometry> geometry;
+    };
+
+    std::vector<std::uint32_t> materialIds(const ObjectDesc& object) const;
+    std::vector<std::uint32_t> materialsBySlot(const ObjectDesc& object) const;
+    ShapeSet::Shadow shadowOf(std::span<const std::uint32_t> materials) const;
+    std::vector<bool> meshesToCopy() const;
+    bool isInScene(const ObjectDesc& object, const Transform& place) const;
+    const MeshDesc& meshOf(const Placed& placed) const;
+    void merge(Merged& merged);
+    void share(Shared& shared);
+    void finishTree(MeshGeometry& geometry, int threads) const;
+    double raysPerTree() const;
+    void makeSimple(std::size_t first, std::size_t last);
+    void addInstances(ShapeSet& shapes);
+
+    const SceneDesc& desc_;
+    const RenderSettings& settings_;
+    const SceneFrame& frame_;
+    const std::vector<bool>& seeThrough_;
+    bool moves_ = false;
+    // Objects that are no meshes, and their shapes.
+    std::vector<std::uint32_t> simple_;
+    std::vector<std::unique_ptr<const Shape>> simpleShapes_;
+    std::vector<Placed> placed_;        // in the order of the objects
+    std::vector<Shared> shared_;        // in the order of their first use
+    std::vector<std::size_t> sharedOf_; // by mesh: its number in shared_
+    std::vector<Merged> merged_;
+};

@@ -1,0 +1,155 @@
+// Light by the register: every lane has the bits of asking the lamp, the material and the shadow
+// ray for its point alone.
+#include "check.h"
+#include "light/point_light.h"
+#include "render/lamp_ray.h"
+#include "render/waves/lamp_lanes.h"
+#include "verify/meshes.h"
+
+#include <bit>
+#include <cstring>
+
+using meshes::Random;
+
+namespace {
+
+struct Point {
+    Surface surface;
+    Vec3 n, toEye;
+    Rgb weight;
+    Material material;
+};
+
+Rgb someLight(Random& random, double black) {
+    if (random.chance(black)) return {};
+    const auto channel = [&] { return static_cast<float>(random.unit()); };
+    return {channel(), random.chance(0.1) ? 0 : channel(), channel()};
+}
+
+Point somePoint(Random& random, Vec3 lamp) {
+    Point point;
+    Surface& s = point.surface;
+    s.p = toFloat(random.inBox(random.chance(0.1) ? 1e4 : 1));
+    if (random.chance(0.05)) s.p = lamp;
+    if (random.chance(0.05))
+        s.p = lamp + toFloat(random.direction() * random.logUniform(1e-22, 1e-5));
+    s.ng = toFloat(random.direction());
+    const Vec3d toLamp = normalize(toDouble(lamp) - toDouble(s.p));
+    if (random.chance(0.3)) // the lamp near the horizon
+        s.ng = toFloat(normalize(cross(toLamp, random.direction()) +
+                                 toLamp * random.uniform(-1, 1) * 0x1p-14));
+    s.ns =
+        random.chance(0.5) ? s.ng : toFloat(normalize(toDouble(s.ng) + random.direction() * 0.5));
+    point.n =
+        random.chance(0.5) ? s.ns : toFloat(normalize(toDouble(s.ns) + random.direction() * 0.3));
+    s.error = random.chance(0.1) ? 0 : static_cast<float>(random.logUniform(1e-9, 1e-2));
+    s.rayError = random.chance(0.5) ? 0 : 0x1p-22f;
+    if (random.chance(0.3)) s.lift = s.ng * static_cast<float>(random.logUniform(1e-8, 1e-2));
+    point.toEye = toFloat(random.direction());
+    if (random.chance(0.2)) // in the middle of the highlight
+        point.toEye =
+            toFloat(normalize(toDouble(point.n) * (2 * dot(toDouble(point.n), toLamp)) - toLamp));
+    point.weight = someLight(random, 0.05);
+    point.material.diffuse = someLight(random, 0.1);
+    point.material.specular = someLight(random, 0.4);
+    point.material.specularModel = static_cast<SpecularModel>(random.below(LitBlock::kModels));
+    point.material.exponent =
+        random.chance(0.1) ? 0 : static_cast<float>(random.logUniform(1, 1e5));
+    return point;
+}
+
+void put(float (*to)[LitBlock::kPoints], std::size_t i, Vec3 v) {
+    to[0][i] = v.x, to[1][i] = v.y, to[2][i] = v.z;
+}
+Vec3 taken(const float (*from)[LitBlock::kPoints], std::size_t i) {
+    return {from[0][i], from[1][i], from[2][i]};
+}
+// Of numbers that are none the payload may be another one.
+bool sameBits(float a, float b) {
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) || (a != a && b != b);
+}
+bool sameBits(Vec3 a, Vec3 b) {
+    return sameBits(a.x, b.x) && sameBits(a.y, b.y) && sameBits(a.z, b.z);
+}
+
+LitBlock blockOf(const std::vector<Point>& points) {
+    LitBlock block;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const auto& [s, n, toEye, weight, m] = points[i];
+        put(block.p, i, s.p), put(block.lift, i, s.lift), put(block.ng, i, s.ng);
+        put(block.ns, i, s.ns), put(block.n, i, n), put(block.toEye, i, toEye);
+        put(block.weight, i, {weight.r, weight.g, weight.b});
+        put(block.diffuse, i, {m.diffuse.r, m.diffuse.g, m.diffuse.b});
+        put(block.specular, i, {m.specular.r, m.specular.g, m.specular.b});
+        block.exponent[i] = m.exponent, block.error[i] = s.error, block.rayError[i] = s.rayError;
+        block.used |= 1u << i;
+        if (s.lift != Vec3{}) block.lifted |= 1u << i;
+        if (!isBlack(m.specular)) block.shiny[static_cast<std::size_t>(m.specularModel)] |= 1u << i;
+    }
+    return block;
+}
+
+} // namespace
+
+TEST(lamp_lanes_have_the_bits_of_single_points) {
+    for (const Kernel& kernel : allKernels()) {
+        const LightByLampFn inLanes = kernel.supported() ? lightByLamp(kernel) : nullptr;
+        if (!inLanes) continue;
+        Random random(77);
+        long long asked = 0, lit = 0, highlights = 0, wrong = 0;
+        for (int i = 0; i < check::scaled(3000); ++i) {
+            const Vec3 at = toFloat(random.direction() * random.logUniform(0.1, 100));
+            const double kind = random.unit();
+            const Attenuation fade = kind < 0.6   ? Attenuation{}
+                                     : kind < 0.8 ? Attenuation{0.2f, 0.3f, 0.5f}
+                                                  : Attenuation{0, 0, 1};
+            const float radius = random.chance(0.2) ? 0.3f : 0;
+            const PointLight lamp(at, someLight(random, 0.02), fade, radius, {}, true);
+            const auto emission = lamp.emission();
+            CHECK(emission.has_value());
+            std::vector<Point> points;
+            const std::size_t count = random.chance(0.3) ? 1 + random.below(16) : 16;
+            for (std::size_t k = 0; k < count; ++k) points.push_back(somePoint(random, at));
+            const LitBlock block = blockOf(points);
+            LitByLamp out;
+            inLanes(*emission, block, ~0u, out);
+            CHECK_INFO((out.lit & ~block.used) == 0, kernel.name << " block " << i);
+            for (std::size_t k = 0; k < count; ++k) {
+                const Point& p = points[k];
+                LightSample sample;
+                Rgb light;
+                const bool isBlocked =
+                    !lamp.shine(p.surface.p, p.n, sample) || isBlack(sample.irradiance) ||
+                    !(dot(p.surface.ng, sample.toLight) > 0 ||
+                      (p.surface.lift != Vec3{} && dot(p.surface.ns, sample.toLight) > 0));
+                if (!isBlocked)
+                    light = p.weight * reflectedLight(p.material, p.n, p.toEye, sample.toLight) *
+                            sample.irradiance;
+                const bool isLit = (out.lit >> k & 1) != 0;
+                bool same = isLit == !isBlack(light);
+                if (same && isLit) {
+                    const Ray ray = rayFromLamp(p.surface, p.surface.ng, at, 0);
+                    same = sameBits(taken(out.light, k), {light.r, light.g, light.b}) &&
+                           sameBits(taken(out.dir, k), ray.dir) && sameBits(out.tMax[k], ray.tMax);
+                    highlights += !isBlack(p.material.specular);
+                }
+                ++asked, lit += isLit;
+                if (!same && ++wrong <= 3)
+                    CHECK_INFO(false, kernel.name << " block " << i << " point " << k << ": lit "
+                                                  << isLit << ", light " << light.r);
+            }
+        }
+        std::printf("%s: %lld points, %lld lit, %lld of them shiny\n", kernel.name, asked, lit,
+                    highlights);
+        CHECK_INFO(lit > asked / 5 && highlights > asked / 10, kernel.name);
+        CHECK_EQUAL(wrong, 0);
+    }
+}
+
+// Spots and lamps that are asked at random places are not for lanes.
+TEST(lamp_lanes_are_for_bare_points) {
+    const SpotCone cone{{0, 0, -1}, 0.5f, 0, false};
+    CHECK(!PointLight({}, {1, 1, 1}, {}, 0, cone, true).emission());
+    CHECK(PointLight({}, {1, 1, 1}, {}, 0, {}, true).emission().has_value());
+    CHECK(lightByLamp(chooseKernel("scalar")) == nullptr);
+}
