@@ -3,7 +3,7 @@
 
     python3 tests/bench/bench.py RAYTRACER [--mesh FILE]... [--kernels NAMES] [--threads N] [--runs N]
 
-Without --mesh: the two meshes of meshes.py. Names of kernels with spaces between them.
+Without --mesh: the two scans of meshes.py. Names of kernels with spaces between them.
 """
 import argparse
 import os
@@ -42,7 +42,7 @@ def main():
     arguments = parser.parse_args()
     raytracer = os.path.abspath(arguments.raytracer)
     with tempfile.TemporaryDirectory() as folder:
-        files = [os.path.abspath(mesh) for mesh in arguments.mesh] or meshes.writeAll(folder)
+        files = [os.path.abspath(mesh) for mesh in arguments.mesh] or meshes.writeAll(folder, meshes.SCANS)
         rows = [rowOf(raytracer, mesh, kernel, arguments) for mesh in files for kernel in arguments.kernels.split()]
     # The table lies down in the file and stands here: a line per figure.
     measured.printTable([f"{rows[0][1]}, {rows[0][2]}"] + [f"{row[6]} {row[5]}" for row in rows],

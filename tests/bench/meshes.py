@@ -153,19 +153,20 @@ def cube():
     return box((-1, -1, -1), (1, 1, 1))
 
 
-# All that is measured: what each is for, and how many triangles it has, is in the README's table.
+SCANS = ("ball", "balls")
+# Triangles, and what each is for.
 MESHES = {
     "ball": ball,         # 69,432: a scan
     "balls": balls,       # 1,110,912: more than the caches hold
     "sphere": sphere,     # 504,000: no ray that starts outside meets it twice
     "on-floor": onFloor,  # 69,434: fine and coarse side by side
-    "terrain": terrain,   # 180,000
-    "soup": soup,         # 200,000
-    "hair": hair,         # 100,096
-    "city": city,         # 10,802
-    "room": room,         # 792: few and large
-    "cube": cube,         # 12
-    "pair": pair,         # 2
+    "terrain": terrain,   # 180,000: rays that hardly meet anything twice, along the ground
+    "soup": soup,         # 200,000: boxes that overlap everywhere
+    "hair": hair,         # 100,096: boxes that are nearly empty
+    "city": city,         # 10,802: large triangles, some of them hidden
+    "room": room,         # 792: few and large, and every ray meets one
+    "cube": cube,         # 12: no tree is worth while
+    "pair": pair,         # 2: what a ray costs at least
 }
 
 

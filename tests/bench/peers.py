@@ -6,7 +6,8 @@
 
 Rounds alternate: raytracer, Embree, raytracer, ... so that both meet the same state of the machine.
 Figures are medians over the rounds, Embree's those of its best mode for each set of rays. They are
-appended to tests/bench/peers.tsv.
+appended to tests/bench/peers.tsv. Without --mesh: two meshes like scans, and behind them a line for
+each mesh of meshes.py and each view with the ratios alone, of one round.
 """
 import argparse
 import collections
@@ -42,47 +43,75 @@ def buildPeer(compiler, folder):
     return program
 
 
+class Rates:
+    """What both make of the same rays: for each of the sets, or "build", figures of every round."""
+
+    def __init__(self, raytracer, peer, mesh, folder, view, rounds, arguments):
+        rays = os.path.join(folder, "peers.rays")
+        measured.output(raytracer, "bench", mesh, "--view", view, "--write-rays", rays)
+        self.ours, self.theirs = collections.defaultdict(list), collections.defaultdict(list)
+        hits = {}
+        for _ in range(rounds):
+            for who, found, command in (
+                    ("raytracer", self.ours, (raytracer, "bench", mesh, "--view", view, "--no-picture", "--uv",
+                                              "--kernel", arguments.kernel)),
+                    ("Embree", self.theirs, (peer, rays, "--quality", arguments.quality))):
+                text = measured.output(*command, "--threads", str(arguments.threads), "--runs", str(arguments.runs))
+                hits[who] = measured.hits(text)
+                for key, numbers in measured.figures(text).items():
+                    found[key].append(numbers[0])
+        self.peerName = text.split(",", 3)[2]  # behind BUILD and the mesh
+        self.kernel = next(kind for kind, _ in self.ours if not kind.endswith("+uv"))
+        os.remove(rays)
+        for what, count in hits["raytracer"].items():
+            if abs(count - hits["Embree"][what]) > 64 + count // 10000:
+                sys.exit(f"{mesh}: {what} rays hit {count} times in raytracer, {hits['Embree'][what]} times in Embree")
+
+    def of(self, what, suffix=""):
+        """Ours, Embree's in its best mode, that mode, and how many times as fast ours are."""
+        mine = next(v for (kind, w), v in self.ours.items() if w == what and kind.endswith("+uv") == bool(suffix))
+        if what == "build":
+            other = self.theirs["all", "build"]
+            return mine, other, "-", [b / a for a, b in zip(mine, other)]
+        mode, other = max(((kind, v) for (kind, w), v in self.theirs.items() if w == what),
+                          key=lambda entry: measured.median(entry[1]))
+        return mine, other, mode, [a / b for a, b in zip(mine, other)]
+
+
 def compare(raytracer, peer, mesh, folder, arguments):
-    name = os.path.splitext(os.path.basename(mesh))[0]
-    rays = os.path.join(folder, name + ".rays")
-    measured.output(raytracer, "bench", mesh, "--write-rays", rays)
-    ours, theirs = collections.defaultdict(list), collections.defaultdict(list)
-    hits = {}
-    for _ in range(arguments.rounds):
-        for who, found, command in (
-                ("raytracer", ours, (raytracer, "bench", mesh, "--no-picture", "--uv", "--kernel", arguments.kernel)),
-                ("Embree", theirs, (peer, rays, "--quality", arguments.quality))):
-            text = measured.output(*command, "--threads", str(arguments.threads), "--runs", str(arguments.runs))
-            hits[who] = measured.hits(text)
-            for key, numbers in measured.figures(text).items():
-                found[key].append(numbers[0])
-    peerName = text.split(",", 3)[2]  # behind BUILD and the mesh
-    os.remove(rays)
-    for what, count in hits["raytracer"].items():
-        if abs(count - hits["Embree"][what]) > 64 + count // 10000:
-            sys.exit(f"{mesh}: {what} rays hit {count} times in raytracer, {hits['Embree'][what]} times in Embree")
+    rates = Rates(raytracer, peer, mesh, folder, "outside", arguments.rounds, arguments)
 
     def row(label, what, suffix):
-        mine = next(values for (kind, w), values in ours.items() if w == what and kind.endswith("+uv") == bool(suffix))
-        if what == "build":
-            mode, other = "", theirs["all", "build"]
-            ratios = [b / a for a, b in zip(mine, other)]
-        else:
-            mode, other = max(((kind, values) for (kind, w), values in theirs.items() if w == what),
-                              key=lambda entry: measured.median(entry[1]))
-            ratios = [a / b for a, b in zip(mine, other)]
-        return [label + suffix, f"{measured.median(mine):.2f}", f"{measured.median(other):.2f}", mode or "-",
+        mine, other, mode, ratios = rates.of(what, suffix)
+        return [label + suffix, f"{measured.median(mine):.2f}", f"{measured.median(other):.2f}", mode,
                 *(f"{value:.2f}" for value in (measured.median(ratios), min(ratios), max(ratios)))]
 
     rows = [row(f"{s}, Mray/s", s, suffix) for s in measured.SETS for suffix in ("", " with u, v")
             if not suffix or s in ("primary", "bounce")]
     rows.append(row("build, ms", "build", ""))
-    kernel = next(kind for kind, _ in ours if not kind.endswith("+uv"))
-    measured.printTable([f"{os.path.basename(mesh)}, {arguments.threads} thread{'s'[:arguments.threads > 1]}", kernel,
+    measured.printTable([f"{os.path.basename(mesh)}, {arguments.threads} thread{'s'[:arguments.threads > 1]}", rates.kernel,
                          "Embree", "its mode", "ratio", "least", "most"], rows)
-    where = [measured.today(), measured.commit(), measured.cpuName(), measured.load(), arguments.threads, kernel,
-             os.path.basename(mesh), peerName]
+    where = [measured.today(), measured.commit(), measured.cpuName(), measured.load(), arguments.threads,
+             rates.kernel, os.path.basename(mesh), rates.peerName]
     measured.appendRows("peers.tsv", COLUMNS, [where + r for r in rows])
+
+
+def survey(raytracer, peer, folder, arguments):
+    arguments.runs = 1
+    rows = []
+    for mesh in meshes.writeAll(folder, meshes.MESHES):
+        for view in ("outside", "inside"):
+            rates = Rates(raytracer, peer, mesh, folder, view, 1, arguments)
+            name = f"{os.path.basename(mesh)}, {view}"
+            found = {what: rates.of(what) for what in measured.SETS}
+            rows.append([name] + [f"{ratios[0]:.2f}" for _, _, _, ratios in found.values()])
+            where = [measured.today(), measured.commit(), measured.cpuName(), measured.load(), arguments.threads,
+                     rates.kernel, name, rates.peerName]
+            measured.appendRows("peers.tsv", COLUMNS, [
+                where + [f"{what}, Mray/s", f"{mine[0]:.2f}", f"{other[0]:.2f}", mode] + [f"{ratios[0]:.2f}"] * 3
+                for what, (mine, other, mode, ratios) in found.items()])
+    print()
+    measured.printTable(["times as fast as Embree's best mode", *measured.SETS], rows)
 
 
 def main():
@@ -101,9 +130,10 @@ def main():
     raytracer = os.path.abspath(arguments.raytracer)
     print(f"{measured.cpuName()}, load {measured.load()}, {arguments.rounds} rounds, commit {measured.commit()}")
     with tempfile.TemporaryDirectory() as folder:
-        files = [os.path.abspath(mesh) for mesh in arguments.mesh] or meshes.writeAll(folder)
-        for mesh in files:
+        for mesh in [os.path.abspath(mesh) for mesh in arguments.mesh] or meshes.writeAll(folder, meshes.SCANS):
             compare(raytracer, peer, mesh, folder, arguments)
+        if not arguments.mesh:
+            survey(raytracer, peer, folder, arguments)
 
 
 if __name__ == "__main__":
