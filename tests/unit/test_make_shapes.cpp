@@ -127,12 +127,14 @@ TEST(make_shapes_do_not_depend_on_threads) {
                 };
                 int hits = 0;
                 for (int i = 0; i < 2000; ++i) {
-                    const Ray ray{{upTo(1), upTo(1), 2}, {upTo(0.2f), upTo(0.2f), -1}};
+                    const Bounds& box = one.shapes().boxes[random() % one.shapes().boxes.size()];
+                    const Vec3 from{upTo(1), upTo(1), 2};
+                    const Ray ray{from, box.centre() - from};
                     const Hit x = one.shapes().closest(ray), y = some.shapes().closest(ray);
                     hits += x.isHit() ? 1 : 0;
                     CHECK_INFO(x == y, what << ", ray " << i);
                 }
-                CHECK_INFO(hits > 100, hits << " of 2000 rays, " << what);
+                CHECK_INFO(hits > 1000, hits << " of 2000 rays, " << what);
             }
         }
 }
