@@ -41,6 +41,9 @@ std::string_view withoutPlus(std::string_view text) {
 
 } // namespace
 
+void appendWhole(std::string& out, long long value) { out += shortestOf(value); }
+void appendWhole(std::string& out, unsigned long long value) { out += shortestOf(value); }
+
 std::string shortest(double value) { return shortestOf(value); }
 std::string shortest(float value) { return shortestOf(value); }
 

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -24,20 +25,25 @@ public:
             good += '_';
             name.remove_prefix(bad + 1);
         }
-        if (isNew(good)) return good;
-        std::size_t& last = last_[*table_.find(good)];
+        const auto first = numberOf(good);
+        if (!first) return good;
+        std::size_t& last = last_[*first];
         while (true) {
             std::string numbered = cat(good, ".", ++last);
-            if (isNew(numbered)) return numbered;
+            if (!numberOf(numbered)) return numbered;
         }
     }
 
 private:
-    bool isNew(const std::string& name) {
-        if (table_.find(name)) return false;
-        table_.insert(names_.emplace_back(name), static_cast<std::uint32_t>(last_.size()));
-        last_.push_back(1);
-        return true;
+    // The number of a name that was there; nothing for a new one, which then has one.
+    std::optional<std::uint32_t> numberOf(const std::string& name) {
+        const auto first =
+            table_.insert(names_.emplace_back(name), static_cast<std::uint32_t>(last_.size()));
+        if (first)
+            names_.pop_back();
+        else
+            last_.push_back(1);
+        return first;
     }
     std::deque<std::string> names_; // which stay where they are
     NameTable table_;

@@ -22,6 +22,7 @@ public:
 
     JsonGeometries read(std::span<const JsonValue> objects) {
         std::size_t total = 0;
+        all_.reserve(objects.size());
         for (const JsonValue& value : objects) {
             const auto index = readOne(value, true);
             if (!index) continue;

@@ -17,11 +17,13 @@ class JsonNames {
 public:
     // False when the name is there already; then the first one counts.
     bool add(std::string_view name, Handle handle) {
-        if (const auto first = table_.find(name)) {
+        const auto first =
+            table_.insert(names_.emplace_back(name), static_cast<std::uint32_t>(entries_.size()));
+        if (first) {
+            names_.pop_back();
             ++entries_[*first].uses;
             return false;
         }
-        table_.insert(names_.emplace_back(name), static_cast<std::uint32_t>(entries_.size()));
         entries_.push_back({handle, 1});
         if (known_.size() < kKnown && name.size() <= kLength) known_.emplace_back(name);
         return true;

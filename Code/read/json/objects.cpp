@@ -17,6 +17,7 @@ public:
         : geometries_(geometries), problems_(problems) {}
 
     std::vector<ObjectDesc> run() {
+        objects_.reserve(geometries_.roots.size());
         for (const std::size_t root : geometries_.roots)
             flatten(geometries_.all[root], {kIdentityRows}, {}, "");
         return std::move(objects_);

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "desc/error_list.h"
+#include "desc/name_table.h"
 #include "desc/names.h"
 #include "read/mesh/triangulate.h"
 #include "read/nff/terms.h"
@@ -10,7 +11,7 @@
 
 #include <array>
 #include <cmath>
-#include <map>
+#include <deque>
 #include <span>
 #include <utility>
 #include <vector>
@@ -129,6 +130,7 @@ private:
 
     // What is made for a fill when the first thing uses it: equal fills share it.
     struct Slot {
+        std::array<double, 8> fill{}; // its numbers, whose bytes are what tells fills apart
         Handle material = kNone;
         std::array<Handle, 2> meshes{kNone, kNone}; // of polygons, of patches
     };
@@ -139,8 +141,19 @@ private:
             return noFill_;
         }
         const auto [r, g, b] = fill_.color;
-        slot_ = &slots_[{r, g, b, fill_.diffuse, fill_.specular, fill_.shine, fill_.transmittance,
-                         fill_.ior}];
+        Slot& made = slots_.emplace_back();
+        made.fill = {
+            r, g, b, fill_.diffuse, fill_.specular, fill_.shine, fill_.transmittance, fill_.ior};
+        for (double& number : made.fill) number += 0.0; // -0 becomes 0
+        const std::string_view bytes(reinterpret_cast<const char*>(made.fill.data()),
+                                     sizeof made.fill);
+        const auto number = static_cast<std::uint32_t>(slots_.size() - 1);
+        if (const auto first = slotOf_.insert(bytes, number)) {
+            slots_.pop_back();
+            slot_ = &slots_[*first];
+        } else {
+            slot_ = &made;
+        }
         if (slot_->material == kNone) {
             slot_->material = static_cast<Handle>(desc_.materials.size());
             MaterialDesc& material = desc_.materials.emplace_back(nffMaterial(fill_));
@@ -290,7 +303,8 @@ private:
     std::vector<std::size_t> uncoloured_; // lights
     NffFill fill_;
     NffWord fillWord_;
-    std::map<std::array<double, 8>, Slot> slots_;
+    std::deque<Slot> slots_; // which stay where they are
+    NameTable slotOf_;       // by the bytes of its fill
     Slot noFill_;
     Slot* slot_ = nullptr; // of fill_, once something uses it
     std::size_t sphereCount_ = 0, coneCount_ = 0;
