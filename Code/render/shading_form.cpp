@@ -12,10 +12,9 @@ std::string shadingForm(const IntegratorContext& context) {
         {&Steps::bounces, "bounces"},
         {&Steps::textures, "textures"},
         {&Steps::seeThrough, "see-through surfaces"}};
-    const Steps& steps = kCompiledSteps[context.compiledSteps];
+    const Steps steps = stepsFor(context.scene, context.settings);
     std::vector<std::string> done;
     for (const auto& [member, name] : kNames)
         if (steps.*member) done.emplace_back(name);
-    return cat("form ", context.compiledSteps + 1, " of ", kCompiledSteps.size(), ": ",
-               done.empty() ? "point lamps and opaque surfaces" : join(done));
+    return cat("waves: ", done.empty() ? "point lamps and opaque surfaces" : join(done));
 }

@@ -5,6 +5,6 @@
 
 #include <string>
 
-// "form 4 of 7: soft lamps, lamp bodies, bounces" for waves (waves/steps.h); other integrators have
-// one form only.
+// "waves: soft lamps, lamp bodies, bounces": the steps that the waves are compiled with for this
+// picture (waves/steps.h); other integrators have one form only.
 std::string shadingForm(const IntegratorContext& context);
