@@ -15,5 +15,5 @@ std::string shadingForm(const IntegratorContext& context) {
     std::vector<std::string> done;
     for (const auto& [member, name] : kNames)
         if (context.steps.*member) done.emplace_back(name);
-    return done.empty() ? "point lamps and opaque surfaces" : join(done);
+    return cat("waves: ", done.empty() ? "point lamps and opaque surfaces" : join(done));
 }

@@ -5,5 +5,6 @@
 
 #include <string>
 
-// "soft lamps, lamp bodies, bounces" for waves (waves/steps.h); other integrators have one form.
+// "waves: soft lamps, lamp bodies, bounces": the steps that the waves are compiled with for this
+// picture (waves/steps.h); other integrators have one form only.
 std::string shadingForm(const IntegratorContext& context);

@@ -119,16 +119,16 @@ TEST(stats_of_an_error_goal) {
     CHECK(statsTable(stats).find("error") == std::string::npos);
     stats.samplesMin = 4, stats.samplesMean = 17.26, stats.samplesMax = 512;
     stats.error = {0.01, 0.0123456, 512, 1234};
-    stats.shading = "form 2 of 7: soft lamps, lamp bodies";
+    stats.shading = "waves: soft lamps, lamp bodies";
     const std::string json = statsJson(stats), table = statsTable(stats);
     CHECK(isJson(json));
     for (const char* part :
          {"\"error_estimate\":0.0123456,\"error_goal\":0.01,\"capped_pixels\":1234",
           "\"samples\":{\"min\":4,\"mean\":17.26,\"max\":512}",
-          "\"shading\":\"form 2 of 7: soft lamps, lamp bodies\""})
+          "\"shading\":\"waves: soft lamps, lamp bodies\""})
         CHECK_INFO(json.find(part) != std::string::npos, part << " in " << json);
     for (const char* part : {" 17.3 (4 to 512)", "0.0123 (goal 0.01)", "1 234 (at 512 samples)",
-                             "shading  form 2 of 7"})
+                             "shading  waves: soft lamps"})
         CHECK_INFO(table.find(part) != std::string::npos, part << " in\n" << table);
 }
 
