@@ -163,16 +163,25 @@ MovingTransform::Matrix MovingTransform::stretchAt(const Segment& segment, doubl
     return out;
 }
 
-Transform MovingTransform::at(double time) const {
-    if (segments_.empty()) return keys_[0];
+MovingTransform::Moment MovingTransform::momentAt(double time) const {
     const double place = clamp(time, 0.0, 1.0) * static_cast<double>(segments_.size());
     const auto i = static_cast<std::size_t>(place);
-    const double s = place - static_cast<double>(i);
-    if (s == 0) return keys_[i];
+    return {i, place - static_cast<double>(i)};
+}
+
+std::optional<MovingTransform::Shift> MovingTransform::shiftAt(double time) const {
+    const auto [i, s] = momentAt(time);
+    if (s == 0) return Shift{i, {}};
     const Segment& segment = segments_[i];
-    if (segment.translates) // the common case, without a new inverse
-        return Transform::translate((segment.to.translation - segment.from.translation) * s) *
-               keys_[i];
+    if (!segment.translates) return {};
+    return Shift{i, (segment.to.translation - segment.from.translation) * s};
+}
+
+Transform MovingTransform::at(double time) const {
+    const auto [i, s] = momentAt(time);
+    if (s == 0) return keys_[i];
+    if (const auto shift = shiftAt(time)) return Transform::translate(shift->offset) * keys_[i];
+    const Segment& segment = segments_[i];
     const Parts parts{lerp(segment.from.translation, segment.to.translation, s),
                       rotationAt(segment, s), stretchAt(segment, s)};
     return affine(linearPart(parts), parts.translation);

@@ -5,6 +5,7 @@
 #include "base/transform.h"
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,6 +29,13 @@ public:
     // Keys are met to the last bit at their times; outside [0,1] the ends hold, NaN is 0.
     Transform at(double time) const;
     bool isStatic() const { return segments_.empty(); }
+    // The common movement, which asks for no new inverse: between two keys that differ by a
+    // translation, at() is the first one, moved by `offset`.
+    struct Shift {
+        std::size_t key = 0;
+        Vec3d offset;
+    };
+    std::optional<Shift> shiftAt(double time) const;
     std::span<const Transform> keys() const { return keys_; }
     // A world box around the mapped box over the whole shutter: not the smallest, but no point at
     // any time is outside.
@@ -45,6 +53,11 @@ private:
         double arcRad = 0;       // angle between the quaternions: half the turn of the body
         bool translates = false; // the linear parts are equal to the last bit
     };
+    struct Moment {
+        std::size_t segment; // one more than there are, at the end
+        double s;            // within it
+    };
+    Moment momentAt(double time) const;
     static Parts decompose(const Transform& map, bool linearOnly);
     static Matrix linearPart(const Parts& parts);
     static Quaternion rotationAt(const Segment& segment, double s);

@@ -58,7 +58,8 @@ TreeRay::TreeRay(const MeshGeometry& mesh, const RaySetup& setup, float lateralE
     originY_ = static_cast<float>(-dot(toDouble(acrossY_), toDouble(setup.org)));
 }
 
-InstanceFilter::InstanceFilter(const MeshGeometry& mesh, const Transform& sceneFromObject)
+InstanceFilter::InstanceFilter(const MeshGeometry& mesh, const Transform& sceneFromObject,
+                               Vec3d farthest)
     : mesh_(&mesh) {
     if (sceneFromObject.isSingular()) {
         own_ = kInfinity;
@@ -76,7 +77,8 @@ InstanceFilter::InstanceFilter(const MeshGeometry& mesh, const Transform& sceneF
     for (std::size_t i = 0; i < 3; ++i) largest[i] = std::fabs(centre[i]) + half[i];
     double error = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-        terms[i] = sumOfSizes(forth, i, largest) + std::fabs(forth[4 * i + 3]);
+        terms[i] =
+            sumOfSizes(forth, i, largest) + std::fabs(forth[4 * i + 3]) + std::fabs(farthest[i]);
         const Vec3d row{forth[4 * i], forth[4 * i + 1], forth[4 * i + 2]};
         longer_ = max(kDepthSlack * length(row), longer_);
     }
@@ -89,6 +91,13 @@ InstanceFilter::InstanceFilter(const MeshGeometry& mesh, const Transform& sceneF
         treeFromScene_[4 * i + 3] += tree[4 * i + 3];
     }
     own_ = static_cast<double>(mesh.extent) + 0x1p24 * error;
+}
+
+InstanceFilter InstanceFilter::moved(Vec3d offset) const {
+    InstanceFilter out = *this;
+    const Vec3d inTree = linear(treeFromScene_, offset);
+    for (std::size_t i = 0; i < 3; ++i) out.treeFromScene_[4 * i + 3] -= inTree[i];
+    return out;
 }
 
 std::optional<TreeRay> InstanceFilter::treeRay(const Ray& ray, float sceneExtent) const {

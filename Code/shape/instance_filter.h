@@ -123,7 +123,10 @@ private:
 
 class InstanceFilter {
 public:
-    InstanceFilter(const MeshGeometry& mesh, const Transform& sceneFromObject);
+    // Also for moved() by no more than `farthest` along an axis.
+    InstanceFilter(const MeshGeometry& mesh, const Transform& sceneFromObject, Vec3d farthest = {});
+    // That of the same instance elsewhere in the scene.
+    InstanceFilter moved(Vec3d offset) const;
     // `sceneExtent` is that of the canonical hit. Nothing when the tree can't tell, as the instance
     // is flat or tiny: then every triangle may be hit.
     std::optional<TreeRay> treeRay(const Ray& ray, float sceneExtent) const;

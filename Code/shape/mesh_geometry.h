@@ -16,8 +16,14 @@ inline constexpr float kSceneExtent = 1;
 
 // Where a corner and its normal come to lie in the scene. A mesh that is copied into the scene and
 // an instance of it both ask here, so that they are the same to the last bit.
+inline Vec3 placedPoint(const Transform::Rows& sceneFromObject, Vec3d p) {
+    const Transform::Rows& m = sceneFromObject;
+    return toFloat(Vec3d{m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3],
+                         m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7],
+                         m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]});
+}
 inline Vec3 placedPoint(const Transform& sceneFromObject, Vec3d p) {
-    return toFloat(sceneFromObject.point(p));
+    return placedPoint(sceneFromObject.rows(), p);
 }
 inline Vec3 placedNormal(const Transform& sceneFromObject, Vec3 n) {
     const Vec3d normal = sceneFromObject.normal(toDouble(n));

@@ -4,39 +4,50 @@
 
 MeshInstance::MeshInstance(const MeshGeometry& geometry, MovingTransform sceneFromObject,
                            std::vector<std::uint32_t> materials, std::uint32_t object)
-    : geometry_(geometry), motion_(std::move(sceneFromObject)), still_(geometry, motion_.at(0)),
+    : geometry_(geometry), motion_(std::move(sceneFromObject)), atFirstKey_(placeOfKey(0)),
       materials_(std::move(materials)), object_(object) {
+    for (std::size_t key = 1; key < motion_.keys().size(); ++key)
+        atLaterKeys_.push_back(placeOfKey(key));
     if (geometry.triangles.empty()) return;
     if (motion_.isStatic())
         for (const Vec3d p : geometry.exactPoints)
-            bounds_.extend(placedPoint(still_.sceneFromObject, p));
+            bounds_.extend(placedPoint(atFirstKey_.sceneFromObject, p));
     else
         bounds_ = outward(motion_.bounds(geometry.exactBox));
     extent_ = max(max(maxAbs(bounds_.lo), maxAbs(bounds_.hi)), extent_);
 }
 
-// A mirror turns triangles over: then two corners change places, as in a copy (render/merge.cpp).
-TriangleCorners MeshInstance::placedCorners(const Transform& sceneFromObject, const Vec3d& a,
-                                            const Vec3d& b, const Vec3d& c) {
-    TriangleCorners v{placedPoint(sceneFromObject, a), placedPoint(sceneFromObject, b),
-                      placedPoint(sceneFromObject, c)};
-    if (sceneFromObject.mirrors()) std::swap(v[1], v[2]);
-    return v;
+MeshInstance::Place MeshInstance::placeOfKey(std::size_t key) const {
+    const auto keys = motion_.keys();
+    const Vec3d toNext =
+        key + 1 < keys.size() ? keys[key + 1].translation() - keys[key].translation() : Vec3d{};
+    return Place(geometry_, keys[key], toNext);
+}
+
+MeshInstance::Place MeshInstance::Place::moved(Vec3d offset) const {
+    Place out = *this;
+    for (std::size_t i = 0; i < 3; ++i) out.sceneFromObject[4 * i + 3] += offset[i];
+    out.filter = filter.moved(offset);
+    return out;
 }
 
 TriangleCorners MeshInstance::corners(const Transform& sceneFromObject,
                                       std::uint32_t triangle) const {
     const auto& c = geometry_.triangles[triangle];
     const auto& points = geometry_.exactPoints;
-    return placedCorners(sceneFromObject, points[c[0]], points[c[1]], points[c[2]]);
+    return placedCorners(sceneFromObject.rows(), sceneFromObject.mirrors(), points[c[0]],
+                         points[c[1]], points[c[2]]);
 }
 
 MeshInstance::Visit::Visit(const MeshInstance& instance, const Ray& ray, KnownSetup inScene)
-    : instance_(instance), place_(&instance.still_), setup_(inScene.setup) {
+    : instance_(instance), place_(&instance.atFirstKey_), setup_(inScene.setup) {
     if (setup_ == nullptr || inScene.extent != instance.extent_)
         setup_ = &ownSetup_.emplace(instance.setupFor(ray));
-    if (!instance.motion_.isStatic())
-        place_ = &moved_.emplace(instance.geometry_, instance.placeAt(ray.time));
+    if (!instance.motion_.isStatic()) {
+        const auto shift = instance.motion_.shiftAt(static_cast<double>(ray.time));
+        place_ = shift ? &moved_.emplace(instance.atKey(shift->key).moved(shift->offset))
+                       : &moved_.emplace(instance.geometry_, instance.placeAt(ray.time));
+    }
     if (instance.geometry_.hasTree()) treeRay_ = place_->filter.treeRay(ray, instance.extent_);
 }
 
@@ -47,7 +58,9 @@ bool MeshInstance::Visit::reaches(float tMax) const {
 template <class LeafFn> void MeshInstance::Visit::candidates(float zCut, LeafFn&& leaf) const {
     const MeshGeometry& geometry = instance_.geometry_;
     const auto test = [&](std::uint32_t triangle) {
-        return leaf(triangle, corners(triangle), zCut);
+        const auto& c = geometry.triangles[triangle];
+        const auto& points = geometry.exactPoints;
+        return leaf(triangle, placed(points[c[0]], points[c[1]], points[c[2]]), zCut);
     };
     if (!treeRay_) {
         for (std::uint32_t i = 0; i < geometry.triangles.size(); ++i)

@@ -11,7 +11,17 @@
 #include "shape/shape.h"
 
 #include <cstdint>
+#include <utility>
 #include <vector>
+
+// A mirror turns triangles over: then two corners change places, as in a copy (render/merge.cpp).
+inline TriangleCorners placedCorners(const Transform::Rows& sceneFromObject, bool mirrors,
+                                     const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+    TriangleCorners v{placedPoint(sceneFromObject, a), placedPoint(sceneFromObject, b),
+                      placedPoint(sceneFromObject, c)};
+    if (mirrors) std::swap(v[1], v[2]);
+    return v;
+}
 
 class MeshInstance final : public Shape {
 public:
@@ -37,22 +47,30 @@ public:
 private:
     // Where the instance is at a time.
     struct Place {
-        Transform sceneFromObject;
+        Transform::Rows sceneFromObject;
+        bool mirrors;
         InstanceFilter filter;
-        Place(const MeshGeometry& geometry, const Transform& there)
-            : sceneFromObject(there), filter(geometry, there) {}
+        // Also for moved() by no more than `farthest` along an axis.
+        Place(const MeshGeometry& geometry, const Transform& there, Vec3d farthest = {})
+            : sceneFromObject(there.rows()), mirrors(there.mirrors()),
+              filter(geometry, there, farthest) {}
+        // As MovingTransform::at() moves a key.
+        Place moved(Vec3d offset) const;
     };
     template <class Query> bool ask(const Ray& ray, float tMax, Query&& query) const;
     RaySetup setupFor(const Ray& ray) const { return {ray.org, ray.dir, extent_}; }
     Transform placeAt(float time) const { return motion_.at(static_cast<double>(time)); }
-    static TriangleCorners placedCorners(const Transform& sceneFromObject, const Vec3d& a,
-                                         const Vec3d& b, const Vec3d& c);
+    Place placeOfKey(std::size_t key) const;
+    const Place& atKey(std::size_t key) const {
+        return key == 0 ? atFirstKey_ : atLaterKeys_[key - 1];
+    }
     TriangleCorners corners(const Transform& sceneFromObject, std::uint32_t triangle) const;
     SurfaceTriangle surfaceTriangle(const Transform& sceneFromObject, std::uint32_t triangle) const;
 
     const MeshGeometry& geometry_;
     MovingTransform motion_; // sceneFromObject
-    Place still_;            // when it does not move
+    Place atFirstKey_;       // for good when it does not move: in one piece with the rest
+    std::vector<Place> atLaterKeys_;
     std::vector<std::uint32_t> materials_;
     std::uint32_t object_;
     Bounds bounds_;
@@ -73,12 +91,9 @@ public:
     Visit& operator=(const Visit&) = delete;
 
     const RaySetup& setup() const { return *setup_; } // in the scene
-    TriangleCorners corners(std::uint32_t triangle) const {
-        return instance_.corners(place_->sceneFromObject, triangle);
-    }
     // From corners as the object has them.
     TriangleCorners placed(const Vec3d& a, const Vec3d& b, const Vec3d& c) const {
-        return placedCorners(place_->sceneFromObject, a, b, c);
+        return placedCorners(place_->sceneFromObject, place_->mirrors, a, b, c);
     }
     // Nothing when no tree can tell: then every triangle is a candidate.
     const std::optional<TreeRay>& treeRay() const { return treeRay_; }

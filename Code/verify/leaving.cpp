@@ -132,6 +132,14 @@ bool aimedSurface(Random& random, const PlacedSolid& at, Surface& surface) {
     return true;
 }
 
+// A start on the inside is off the surface by its error; where the solid is thinner than that, as
+// at the rim of a small fan far from the middle of the scene, it is out of the other side, and its
+// ray proves nothing.
+bool isOutBehind(const PlacedSolid& at, const Surface& s, Vec3 start) {
+    const double off = length(toDouble(start) - toDouble(s.p));
+    return off < 1.5 * static_cast<double>(s.error) && !at.contains(start);
+}
+
 Tally fromMeshes(const Effort& effort) {
     constexpr int kPoints = 120, kRays = 40; // of a solid, from a point
     return inBatches(effort, 52, 32, [](Random& random, Tally& tally) {
@@ -151,7 +159,7 @@ Tally fromMeshes(const Effort& effort) {
                 ray.org = leave(s, -s.ng);
                 ray.dir = leavingTo(random, -ng, 0);
                 ++tally.cases;
-                if (!at.set.closest(ray).isHit())
+                if (!at.set.closest(ray).isHit() && !isOutBehind(at, s, ray.org))
                     tally.fail([&] { return cat("leaks: ", at.name, ", ", shown(ray)); });
             }
         }

@@ -90,6 +90,16 @@ Vec3d PlacedSolid::onTriangle(Random& random, std::uint32_t n) const {
     return corner(n, 0) * (1 - u - v) + corner(n, 1) * u + corner(n, 2) * v;
 }
 
+bool PlacedSolid::contains(Vec3 p) const {
+    const double turned = ready.sceneFromMesh.mirrors() ? -1 : 1; // an instance keeps the order
+    for (std::uint32_t n = 0; n < ready.geometry->triangles.size(); ++n) {
+        const Vec3d v = corner(n, 0);
+        const Vec3d normal = cross(corner(n, 1) - v, corner(n, 2) - v) * turned;
+        if (dot(normal, toDouble(p) - v) > 0) return false;
+    }
+    return true;
+}
+
 PlacedSolid placedNear(Random& random, const Solid& solid) {
     const bool asInstance = random.chance(0.5);
     const auto alone = [&](const Transform& map, const char* place) {

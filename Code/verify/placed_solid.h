@@ -39,6 +39,9 @@ struct PlacedSolid {
     Vec3d corner(std::uint32_t n, std::size_t c) const;
     std::uint32_t someTriangle(meshes::Random& random) const;
     Vec3d onTriangle(meshes::Random& random, std::uint32_t n) const;
+    // Is a point in a convex solid, behind every triangle as rays meet it? By the exact signs but
+    // for 2^-50 of the products.
+    bool contains(Vec3 p) const;
 };
 
 // As it is, turned and stretched, mirrored, or small in a large scene; baked or as an instance.

@@ -280,7 +280,8 @@ private:
         s.candidates = leafCandidates(s);
         if (s.candidates == 0) return send(slot, inMesh_.refs[slot * stride_ + --s.top], to);
         forEachCandidate(s, [](std::uint32_t, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-            for (const Vec3d* corner : {&a, &b, &c}) __builtin_prefetch(corner);
+            for (const Vec3d* corner : {&a, &b, &c}) // may lie in two lines
+                __builtin_prefetch(&corner->x), __builtin_prefetch(&corner->z);
         });
         to.add(Tests, slot);
     }
