@@ -262,7 +262,7 @@ TEST(solid_tree_of_large_leaves) {
             for (std::size_t i = 0; i < 16; ++i) {
                 const Bounds box{{node.plane[0][0][i], node.plane[1][0][i], node.plane[2][0][i]},
                                  {node.plane[0][1][i], node.plane[1][1][i], node.plane[2][1][i]}};
-                if (kindOf(node.child[i]) != WideKind::None) open.push_back({node.child[i], box});
+                if (kindOf(node.child[i]) != WideKind::None) open.emplace_back(node.child[i], box);
             }
         }
         CHECK(std::all_of(found.begin(), found.end(), [](int times) { return times == 1; }));

@@ -2,17 +2,14 @@
 
 #include <string_view>
 
-namespace kernels {
-namespace sse {
-void lightByLamp(const PointEmission&, const LitBlock&, unsigned, LitByLamp&);
-}
-namespace avx2 {
-void lightByLamp(const PointEmission&, const LitBlock&, unsigned, LitByLamp&);
-}
-namespace avx512 {
-void lightByLamp(const PointEmission&, const LitBlock&, unsigned, LitByLamp&);
-}
-} // namespace kernels
+#define LIGHT_BY_LAMP(isa)                                                                         \
+    namespace kernels::isa {                                                                       \
+    void lightByLamp(const PointEmission&, const LitBlock&, unsigned, LitByLamp&);                 \
+    }
+LIGHT_BY_LAMP(sse)
+LIGHT_BY_LAMP(avx2)
+LIGHT_BY_LAMP(avx512)
+#undef LIGHT_BY_LAMP
 
 LightByLampFn lightByLamp(const Kernel& kernel) {
 #if defined(__x86_64__)
