@@ -10,7 +10,7 @@ public:
     PlacedQueue(const PlacedTree& tree, PlacedQuery& query, const RaySpan& rays,
                 std::span<const std::uint32_t> order)
         : tree_(tree.boxes), whole_(tree.whole), query_(query), rays_(rays), order_(order),
-          sceneStride_(strideFor(tree.boxStack)), stride_(strideFor(tree.meshStack)) {
+          sceneStride_(strideOfStacks(tree.boxStack)), stride_(strideOfStacks(tree.meshStack)) {
         const std::size_t stacks = kSlots * (sceneStride_ + stride_);
         std::byte* const memory =
             scratchMemory(kSlots * sizeof(Slot) + 2 * stacks * sizeof(std::uint32_t));
@@ -80,11 +80,6 @@ private:
         std::uint32_t sceneAt, sceneTop;
     };
 
-    // An odd number of lines between stacks spreads them over the sets of the cache.
-    static std::size_t strideFor(std::size_t most) {
-        return ((most + std::size_t{2} * W + 15) / 16 | 1) * 16;
-    }
-
     // ---- the tree over the boxes
 
     // Rays that come near the meshes, before they have a slot.
@@ -97,27 +92,23 @@ private:
     // The next W rays of the order.
     void prepare() {
         const std::size_t count = std::min<std::size_t>(W, order_.size() - next_);
-        alignas(64) float org[3][W], dir[3][W], lo[W], hi[W];
-        for (std::size_t i = 0; i < W; ++i) {
-            const std::uint32_t ray = order_[next_ + (i < count ? i : 0)];
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                org[axis][i] = rays_.org[ray][axis], dir[axis][i] = rays_.dir[ray][axis];
-            lo[i] = rays_.tMin[ray], hi[i] = query_.limit(ray);
-            waiting_.ray[i] = ray;
-        }
+        RayColumns columns = loadRays(rays_, &order_[next_], count, waiting_.ray);
+        alignas(64) float limit[W];
+        for (int i = 0; i < W; ++i) limit[i] = query_.limit(waiting_.ray[i]);
+        columns.tMax = Floats::load(limit);
         next_ += count;
-        const Floats o[3] = {Floats::load(org[0]), Floats::load(org[1]), Floats::load(org[2])};
-        const Floats d[3] = {Floats::load(dir[0]), Floats::load(dir[1]), Floats::load(dir[2])};
-        unsigned lanes = (1u << count) - 1;
-        const RayLanes rays(o, d, Floats::load(lo), Floats::load(hi), tree_.extent, lanes);
-        waiting_.lanes = lanes & rays.entering(whole_);
+        const RayLanes rays(columns, tree_.extent);
+        const Floats zCut = rays.cutAt(columns.tMax);
+        Floats entry;
+        waiting_.lanes = rays.traceable & bits(columns.tMin < columns.tMax) &
+                         rays.entering(whole_, zCut, entry) & ((1u << count) - 1);
         if (waiting_.lanes == 0) return;
         for (int axis = 0; axis < 3; ++axis) {
             rays.r[axis].store(waiting_.r[axis]);
             rays.nearOffset[axis].store(waiting_.nearOffset[axis]);
             rays.farOffset[axis].store(waiting_.farOffset[axis]);
         }
-        rays.zCut.store(waiting_.zCut);
+        zCut.store(waiting_.zCut);
     }
 
     void start(std::uint32_t slot, Lists& to) {
@@ -231,7 +222,7 @@ private:
         Slot& s = slots_[slot];
         s.sceneCut = query_.leave(slot);
         if (s.sceneCut < 0) return sendInScene(slot, wideRef(0, WideKind::None), to);
-        s.sceneTop = dropHidden(inScene_, slot * sceneStride_, s.sceneTop, s.sceneCut);
+        s.sceneTop = drop(inScene_, slot * sceneStride_, s.sceneTop, s.sceneCut);
         popInScene(slot, to);
     }
 
@@ -330,7 +321,7 @@ private:
                 if (zCut >= 0) zCut = query_.test(slot, triangle, a, b, c);
             });
         if (zCut < 0) s.top = 1; // only the end
-        if (zCut < s.zCut) s.top = dropHidden(inMesh_, slot * stride_, s.top, zCut);
+        if (zCut < s.zCut) s.top = drop(inMesh_, slot * stride_, s.top, zCut);
         s.zCut = zCut;
         send(slot, inMesh_.refs[slot * stride_ + --s.top], to);
     }
@@ -342,23 +333,14 @@ private:
                         std::size_t at) {
         if constexpr (NearFirst)
             return pushSorted(hit, entry, child, stacks.refs + at, stacks.entries + at);
-        storeChosen(hit, child, stacks.refs + at);
-        return child[(static_cast<int>(std::bit_width(hit)) - 1) & (W - 1)]; // 0: any
+        return pushAny(hit, child, stacks.refs + at);
     }
 
-    // Takes out what starts behind the cut, but not the end. Returns the new top.
-    static std::uint32_t dropHidden(const Stacks& stacks, std::size_t first, std::uint32_t top,
-                                    float zCut) {
+    // Takes out what starts behind the cut. Returns the new top.
+    static std::uint32_t drop(const Stacks& stacks, std::size_t first, std::uint32_t top,
+                              float zCut) {
         if (!NearFirst || zCut < 0) return top;
-        std::uint32_t* const refs = stacks.refs + first;
-        std::uint32_t* const entries = stacks.entries + first;
-        const auto cut = std::bit_cast<std::uint32_t>(zCut);
-        std::uint32_t kept = 0;
-        for (std::uint32_t k = 0; k < top; ++k) {
-            refs[kept] = refs[k], entries[kept] = entries[k];
-            kept += (entries[k] & ~15u) <= cut;
-        }
-        return kept;
+        return dropHidden(stacks.refs + first, stacks.entries + first, top, zCut);
     }
 
     const SolidTree& tree_;

@@ -15,7 +15,7 @@ KERNEL_REGION_BEGIN("avx2,fma,bmi,bmi2,lzcnt,popcnt")
 namespace kernels::avx2 {
 #include "accel/kernels/simd_avx2.inl"
 
-#include "accel/kernels/push_sorted.inl"
+#include "accel/kernels/stack.inl"
 
 #include "accel/kernels/ray_lanes.inl"
 

@@ -20,7 +20,7 @@ KERNEL_REGION_BEGIN("avx512f,avx512dq,avx512bw,avx512vl,avx512cd,avx2,fma,bmi,bm
 namespace kernels::avx512 {
 #include "accel/kernels/simd_avx512.inl"
 
-#include "accel/kernels/push_sorted.inl"
+#include "accel/kernels/stack.inl"
 
 #include "accel/kernels/ray_lanes.inl"
 

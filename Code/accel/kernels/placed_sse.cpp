@@ -15,7 +15,7 @@ KERNEL_REGION_BEGIN("sse4.2,popcnt")
 namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
 
-#include "accel/kernels/push_sorted.inl"
+#include "accel/kernels/stack.inl"
 
 #include "accel/kernels/ray_lanes.inl"
 

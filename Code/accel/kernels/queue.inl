@@ -12,8 +12,7 @@ public:
         : mesh_(mesh), rays_(rays), order_(order), base_(mesh.tree.base()),
           root_(mesh.tree.at<WideNode<W>>(mesh.tree.root)),
           prefetches_(mesh.tree.lines.size() > kManyLines),
-          // An odd number of lines between stacks spreads them over the sets of the cache.
-          stride_(((mesh.tree.stackSize + std::size_t{2} * W + 15) / 16 | 1) * 16) {
+          stride_(strideOfStacks(mesh.tree.stackSize)) {
         const std::size_t stacks = kSlots * stride_ * sizeof(std::uint32_t);
         std::byte* const memory = scratchMemory(kBlocks * sizeof(RayBlock) + 2 * stacks);
         blocks_ = reinterpret_cast<RayBlock*>(memory);
@@ -216,8 +215,7 @@ private:
         // The next one is taken from registers: what was just stored takes long to come back.
         WideRef nearest;
         if constexpr (Q == Query::Any) {
-            storeChosen(hit, child, refs + top);
-            nearest = child[(static_cast<int>(std::bit_width(hit)) - 1) & (W - 1)]; // 0: any
+            nearest = pushAny(hit, child, refs + top);
         } else {
             nearest = pushSorted(hit, entry, child, refs + top, entries_ + slot * stride_ + top);
         }
@@ -227,44 +225,6 @@ private:
         b.stackTop[i] = top + static_cast<std::uint32_t>(std::popcount(hit)) - 1;
         b.at[i] = next;
         send(slot, next, to);
-    }
-
-    // The farthest child first. Up to four, 97 to 99 of 100 steps, by a sorting network. Returns
-    // the nearest.
-    static WideRef pushSorted(unsigned hit, Floats entry, const WideRef* child, WideRef* refs,
-                              std::uint32_t* entries) {
-        const auto keys = keysOf(hit, entry);
-        if (std::popcount(hit) > 4) [[unlikely]] {
-            alignas(64) std::uint32_t sorted[W];
-            storeKeys(keys, sorted);
-            const int n = std::popcount(hit);
-            for (int a = 1; a < n; ++a) {
-                const std::uint32_t key = sorted[a];
-                int place = a;
-                for (; place > 0 && sorted[place - 1] < key; --place)
-                    sorted[place] = sorted[place - 1];
-                sorted[place] = key;
-            }
-            for (int a = 0; a < n; ++a) entries[a] = sorted[a], refs[a] = child[sorted[a] & 15];
-            return refs[n - 1];
-        }
-        __m128i k = firstFour(keys);
-        const auto exchange = [](__m128i x, __m128i y, auto lower) {
-            return _mm_castps_si128(_mm_blend_ps(_mm_castsi128_ps(_mm_max_epu32(x, y)),
-                                                 _mm_castsi128_ps(_mm_min_epu32(x, y)),
-                                                 decltype(lower)::value));
-        };
-        k = exchange(k, _mm_shuffle_epi32(k, _MM_SHUFFLE(1, 0, 3, 2)),
-                     std::integral_constant<int, 12>());
-        k = exchange(k, _mm_shuffle_epi32(k, _MM_SHUFFLE(2, 3, 0, 1)),
-                     std::integral_constant<int, 10>());
-        const __m128i middle = exchange(k, _mm_shuffle_epi32(k, _MM_SHUFFLE(3, 1, 2, 0)),
-                                        std::integral_constant<int, 4>());
-        k = _mm_blend_epi16(k, middle, 0x3c);
-        _mm_storeu_si128(reinterpret_cast<__m128i*>(entries), k);
-        const __m128i sorted = pick(k, child);
-        _mm_storeu_si128(reinterpret_cast<__m128i*>(refs), sorted);
-        return element(sorted, std::popcount(hit) - 1);
     }
 
     [[gnu::always_inline]] void leafStep(std::uint32_t slot, Lists& to) {
@@ -365,7 +325,8 @@ private:
             b.triangle[i] = id;
             b.bestLeaf[i] = p.leaf, b.bestLane[i] = p.triangle;
             b.zCut[i] = ::min(depthCut(key), b.zCut[i]);
-            dropHidden(p.slot, b, i);
+            b.stackTop[i] = dropHidden(refs_ + p.slot * stride_, entries_ + p.slot * stride_,
+                                       b.stackTop[i], b.zCut[i]);
         }
     }
 
@@ -424,24 +385,6 @@ private:
         if constexpr (Q == Query::Any)
             select(maskOf(hidden), Ints(0u), Ints::load(b.triangle)).store(b.triangle);
         if (n != 0) takePairs(n);
-    }
-
-    // Takes out of the stack what starts behind the best hit, so that no pop has to look.
-    void dropHidden(std::uint32_t slot, RayBlock& b, std::uint32_t i) {
-        std::uint32_t* const refs = refs_ + slot * stride_;
-        std::uint32_t* const entries = entries_ + slot * stride_;
-        // The lowest four bits of an entry don't count.
-        const Ints limit((std::bit_cast<std::uint32_t>(b.zCut[i]) | 15) + 1);
-        std::uint32_t kept = 0;
-        for (std::uint32_t k = 0; k < b.stackTop[i]; k += W) {
-            const std::uint32_t left = b.stackTop[i] - k;
-            const unsigned keep =
-                bits(Ints::load(entries + k) < limit) & ((left < W ? 1u << left : 0u) - 1);
-            storeChosen(keep, refs + k, refs + kept);
-            storeChosen(keep, entries + k, entries + kept);
-            kept += static_cast<std::uint32_t>(std::popcount(keep));
-        }
-        b.stackTop[i] = kept;
     }
 
     const WideMesh& mesh_;

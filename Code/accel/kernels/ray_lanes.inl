@@ -1,49 +1,101 @@
-// RaySetup of accel/ray_setup.h for the boxes of the scene, for W rays at once: the same formulas,
-// lane by lane, and the same bits. Included by the file of each instruction set inside its
-// namespace.
+// W rays in the lanes of registers: how they come from a batch, and RaySetup of accel/ray_setup.h
+// for all of them at once, by the same formulas and with the same bits.
+// Included by the file of each instruction set inside its namespace, in front of all that traces.
+
+struct RayColumns {
+    Floats org[3], dir[3], tMin, tMax;
+    bool inARow; // W rays that follow each other in the batch
+};
+
+// The rays order[0 .. count - 1]; lanes behind them repeat the first. Their numbers go into `ray`.
+inline RayColumns loadRays(const RaySpan& rays, const std::uint32_t* order, std::size_t count,
+                           std::uint32_t (&ray)[W]) {
+    RayColumns c;
+    c.inARow = count == W;
+    for (std::uint32_t i = 0; i < W; ++i) {
+        ray[i] = order[i < count ? i : 0];
+        c.inARow &= ray[i] == order[0] + i;
+    }
+    if (c.inARow) {
+        loadVectors(&rays.org[order[0]].x, c.org[0], c.org[1], c.org[2]);
+        loadVectors(&rays.dir[order[0]].x, c.dir[0], c.dir[1], c.dir[2]);
+        c.tMin = Floats::unaligned(&rays.tMin[order[0]]);
+        c.tMax = Floats::unaligned(&rays.tMax[order[0]]);
+        return c;
+    }
+    alignas(64) float o[3][W], d[3][W], tMin[W], tMax[W];
+    for (std::size_t i = 0; i < W; ++i) {
+        const Vec3 org = rays.org[ray[i]], dir = rays.dir[ray[i]];
+        o[0][i] = org.x, o[1][i] = org.y, o[2][i] = org.z;
+        d[0][i] = dir.x, d[1][i] = dir.y, d[2][i] = dir.z;
+        tMin[i] = rays.tMin[ray[i]], tMax[i] = rays.tMax[ray[i]];
+    }
+    for (int axis = 0; axis < 3; ++axis)
+        c.org[axis] = Floats::load(o[axis]), c.dir[axis] = Floats::load(d[axis]);
+    c.tMin = Floats::load(tMin), c.tMax = Floats::load(tMax);
+    return c;
+}
+
+// depthCut() of positive keys; without an end for others.
+inline Floats depthCuts(Floats key) {
+    return select(key > Floats(0.0f), (Floats(1.0f) / key) * Floats(1.0000005f),
+                  Floats(std::numeric_limits<float>::max()));
+}
 
 struct RayLanes {
-    Floats r[3], nearOffset[3], farOffset[3], zCut;
+    Mask alongZ, alongY; // the dominant axis; x if neither
+    Floats sign, dz, Sx, Sy;
+    Floats oMax, error; // largest |coordinate| of the origin; 2^-19 of the scale
+    Floats r[3], nearOffset[3], farOffset[3], room[3]; // slabs; room: of the offsets
+    unsigned traceable;                                // isTraceable(), a bit each
 
-    // `limit`: t behind which nothing is wanted. What is not isTraceable(), or has no range, is not
-    // in `lanes` afterwards.
-    RayLanes(const Floats (&o)[3], const Floats (&d)[3], Floats tMin, Floats limit, float extent,
-             unsigned& lanes) {
+    RayLanes() = default;
+    [[gnu::always_inline]] RayLanes(const RayColumns& c, float extent) {
         const Floats one(1.0f), zero(0.0f);
-        const Floats ax = abs(d[0]), ay = abs(d[1]), az = abs(d[2]);
-        const Mask alongZ = (az >= ax) & (az >= ay), alongY = ay >= ax;
-        const auto pick = [&](Floats x, Floats y, Floats z) {
-            return select(alongZ, z, select(alongY, y, x));
-        };
-        const Floats depth = pick(d[0], d[1], d[2]), dz = abs(depth);
-        const Floats sign = select(depth < zero, Floats(-1.0f), one);
-        const Floats Sx = pick(d[1], d[2], d[0]) / dz, Sy = pick(d[2], d[0], d[1]) / dz;
-        const Floats smallest(RaySetup::kSmallestSlope);
-        const Floats rx = one / withSign(max(abs(Sx), smallest), Sx);
-        const Floats ry = one / withSign(max(abs(Sy), smallest), Sy);
-        const Floats oMax = max(max(abs(o[0]), abs(o[1])), abs(o[2]));
-        const Floats e = max(Floats(extent), oMax) * Floats(0x1p-19f);
-        const Floats px = e * abs(rx), py = e * abs(ry);
+        const Floats ax = abs(c.dir[0]), ay = abs(c.dir[1]), az = abs(c.dir[2]);
+        alongZ = (az >= ax) & (az >= ay), alongY = ay >= ax;
+        const Floats depth = dominant(c.dir);
+        dz = abs(depth);
+        sign = select(depth < zero, Floats(-1.0f), one);
+        Sx = lateralX(c.dir) / dz, Sy = lateralY(c.dir) / dz;
+        const Floats smallestSlope(RaySetup::kSmallestSlope);
+        const Floats rx = one / withSign(max(abs(Sx), smallestSlope), Sx);
+        const Floats ry = one / withSign(max(abs(Sy), smallestSlope), Sy);
+        oMax = max(max(abs(c.org[0]), abs(c.org[1])), abs(c.org[2]));
+        error = max(Floats(extent), oMax) * Floats(0x1p-19f);
+        const Floats px = error * abs(rx), py = error * abs(ry);
         const auto slab = [&](int axis, Floats inverse, Floats pad) {
-            const Floats at = (zero - o[axis]) * inverse, twice = pad + pad;
+            const Floats at = (zero - c.org[axis]) * inverse;
             r[axis] = inverse;
-            nearOffset[axis] = at - twice;
-            farOffset[axis] = at + twice;
+            room[axis] = pad + pad;
+            nearOffset[axis] = at - room[axis];
+            farOffset[axis] = at + room[axis];
         };
-        slab(0, pick(sign, ry, rx), pick(e, py, px));
-        slab(1, pick(rx, sign, ry), pick(px, e, py));
-        slab(2, pick(ry, rx, sign), pick(py, px, e));
-        const Floats key = one / (limit * dz); // depthCut()
-        zCut = select(key > zero, (one / key) * Floats(1.0000005f),
-                      Floats(std::numeric_limits<float>::max()));
-        const Floats sum = ((d[0] + d[1]) + d[2]) + ((o[0] + o[1]) + o[2]);
+        slab(0, byAxis(sign, ry, rx), byAxis(error, py, px));
+        slab(1, byAxis(rx, sign, ry), byAxis(px, error, py));
+        slab(2, byAxis(ry, rx, sign), byAxis(py, px, error));
+        const Floats sum = ((c.dir[0] + c.dir[1]) + c.dir[2]) + ((c.org[0] + c.org[1]) + c.org[2]);
         const Floats longest = max(max(ax, ay), az);
-        lanes &= bits((longest > Floats(1e-30f)) & (longest < Floats(1e30f)) &
-                      (oMax < Floats(1e30f)) & (sum - sum == zero) & (tMin < limit));
+        traceable = bits((longest > Floats(1e-30f)) & (longest < Floats(1e30f)) &
+                         (oMax < Floats(1e30f)) & (sum - sum == zero));
     }
 
-    unsigned entering(const Bounds& box) const {
-        Floats entry(0.0f), exit = zCut;
+    // By the dominant axis.
+    Floats byAxis(Floats ifX, Floats ifY, Floats ifZ) const {
+        return select(alongZ, ifZ, select(alongY, ifY, ifX));
+    }
+    // In the order (lateral x, lateral y, depth) of each ray's own axes.
+    Floats lateralX(const Floats (&v)[3]) const { return byAxis(v[1], v[2], v[0]); }
+    Floats lateralY(const Floats (&v)[3]) const { return byAxis(v[2], v[0], v[1]); }
+    Floats dominant(const Floats (&v)[3]) const { return byAxis(v[0], v[1], v[2]); }
+
+    // The depth behind which nothing is at t or before.
+    Floats cutAt(Floats t) const { return depthCuts(Floats(1.0f) / (t * dz)); }
+
+    // RaySetup::enters(), and where.
+    unsigned entering(const Bounds& box, Floats zCut, Floats& entry) const {
+        Floats exit = zCut;
+        entry = Floats(0.0f);
         for (int axis = 0; axis < 3; ++axis) {
             const auto a = static_cast<std::size_t>(axis);
             const Mask back = r[axis] < Floats(0.0f);

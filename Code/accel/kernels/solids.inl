@@ -103,8 +103,12 @@ private:
                 Floats from(0.0f), to = zCut_;
                 for (int axis = 0; axis < 3; ++axis) {
                     const int back = backwards_[axis] & live_ ? 1 : 0;
-                    from = max(fma(Floats(node.plane[axis][back][i]), r_[axis], near_[axis]), from);
-                    to = min(fma(Floats(node.plane[axis][1 - back][i]), r_[axis], far_[axis]), to);
+                    from = max(fma(Floats(node.plane[axis][back][i]), lanes_.r[axis],
+                                   lanes_.nearOffset[axis]),
+                               from);
+                    to = min(fma(Floats(node.plane[axis][1 - back][i]), lanes_.r[axis],
+                                 lanes_.farOffset[axis]),
+                             to);
                 }
                 inside &= bits(from <= to);
                 if (inside == 0) continue;

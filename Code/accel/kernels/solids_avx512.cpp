@@ -43,6 +43,8 @@ private:
     __m256i rows_;
 };
 
+#include "accel/kernels/ray_lanes.inl"
+
 #include "accel/kernels/solids.inl"
 } // namespace kernels::avx512
 KERNEL_REGION_END

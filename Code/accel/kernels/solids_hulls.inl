@@ -12,17 +12,20 @@ protected:
     // certain: rays that enter a ball within a sphere, and so the sphere, inside of their range.
     template <Answer A>
     unsigned nearCentre(const SolidTree::Solid& solid, unsigned& certain) const {
-        const Floats x = Floats(solid.centre.x) - o_[0], y = Floats(solid.centre.y) - o_[1],
-                     z = Floats(solid.centre.z) - o_[2];
-        const Floats foot = fma(x, d_[0], fma(y, d_[1], z * d_[2])) * perLength2_;
-        const Floats px = fnma(foot, d_[0], x), py = fnma(foot, d_[1], y),
-                     pz = fnma(foot, d_[2], z);
+        const Floats x = Floats(solid.centre.x) - columns_.org[0],
+                     y = Floats(solid.centre.y) - columns_.org[1],
+                     z = Floats(solid.centre.z) - columns_.org[2];
+        const Floats foot =
+            fma(x, columns_.dir[0], fma(y, columns_.dir[1], z * columns_.dir[2])) * perLength2_;
+        const Floats px = fnma(foot, columns_.dir[0], x), py = fnma(foot, columns_.dir[1], y),
+                     pz = fnma(foot, columns_.dir[2], z);
         const Floats distance2 = fma(px, px, fma(py, py, pz * pz));
         const Floats reach = Floats(solid.radius) + slack_;
         if constexpr (A == Answer::Any) {
             const Floats inner = max(Floats(solid.innerRadius) - slack_, Floats(0.0f));
-            certain = bits((distance2 < inner * inner) & (foot - reach * perLength_ > tMin_) &
-                           (foot + slack_ * perLength_ < best_));
+            certain =
+                bits((distance2 < inner * inner) & (foot - reach * perLength_ > columns_.tMin) &
+                     (foot + slack_ * perLength_ < best_));
         }
         return bits(notGreater(distance2, reach * reach));
     }
@@ -35,11 +38,13 @@ protected:
     // tube's length.
     template <Answer A>
     unsigned nearAxis(const SolidTree::Solid& solid, unsigned lanes, unsigned& certain) const {
-        const Floats x = Floats(solid.centre.x) - o_[0], y = Floats(solid.centre.y) - o_[1],
-                     z = Floats(solid.centre.z) - o_[2];
+        const Floats x = Floats(solid.centre.x) - columns_.org[0],
+                     y = Floats(solid.centre.y) - columns_.org[1],
+                     z = Floats(solid.centre.z) - columns_.org[2];
         const Floats ax(solid.axis.x), ay(solid.axis.y), az(solid.axis.z);
-        const Floats nx = fms(d_[1], az, d_[2] * ay), ny = fms(d_[2], ax, d_[0] * az),
-                     nz = fms(d_[0], ay, d_[1] * ax);
+        const Floats nx = fms(columns_.dir[1], az, columns_.dir[2] * ay),
+                     ny = fms(columns_.dir[2], ax, columns_.dir[0] * az),
+                     nz = fms(columns_.dir[0], ay, columns_.dir[1] * ax);
         const Floats across = fma(x, nx, fma(y, ny, z * nz));
         const Floats n2 = fma(nx, nx, fma(ny, ny, nz * nz));
         const Floats n = sqrt(n2), slack = slack_ * length_;
@@ -48,23 +53,25 @@ protected:
         if (lanes == 0) return 0;
 
         const Floats zero(0.0f), perN2 = Floats(1.0f) / n2;
-        const Floats da = fma(d_[0], ax, fma(d_[1], ay, d_[2] * az));
+        const Floats da = fma(columns_.dir[0], ax, fma(columns_.dir[1], ay, columns_.dir[2] * az));
         const Floats xa = fma(x, ax, fma(y, ay, z * az));
-        const Floats xd = fma(x, d_[0], fma(y, d_[1], z * d_[2]));
+        const Floats xd = fma(x, columns_.dir[0], fma(y, columns_.dir[1], z * columns_.dir[2]));
         const Floats middle = fnma(xa, da, xd) * perN2, height = fms(middle, da, xa);
         const auto halfIn = [&](Floats r) { return sqrt(max(fnma(across, across, r * r), zero)); };
         const Floats half = fma(Floats(24.0f), slack, halfIn(reach)) * perN2;
         const Floats up = abs(da);
         lanes &= bits(n < Floats(0.0625f) * length_) |
                  (bits(notGreater(fnma(half, up, abs(height)), Floats(solid.halfLength) + slack_)) &
-                  bits(notGreater(tMin_, middle + half)) & bits(notGreater(middle - half, best_)));
+                  bits(notGreater(columns_.tMin, middle + half)) &
+                  bits(notGreater(middle - half, best_)));
         if constexpr (A == Answer::Any) {
             if (lanes == 0 || !(solid.innerRadius > 0)) return lanes;
             const Floats inner = Floats(solid.innerRadius) * n, margin = Floats(64.0f) * slack_;
             const Floats inside = halfIn(inner) * perN2, early = margin * perLength_;
             const Floats tallest = Floats(solid.halfLength * (1 - 0x1p-18f)) - margin;
             const auto meets = [&](Floats t) {
-                return (t - early > tMin_) & (t + early < best_) & (abs(fms(t, da, xa)) < tallest);
+                return (t - early > columns_.tMin) & (t + early < best_) &
+                       (abs(fms(t, da, xa)) < tallest);
             };
             certain =
                 bits((meets(middle - inside) | meets(middle + inside)) &

@@ -19,16 +19,8 @@ protected:
             lanes &= ~certain;
         }
         if (lanes == 0) return;
-        const Bounds& box = tree_.boxes[place];
-        Floats entry(0.0f), exit = zCut_;
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto a = static_cast<std::size_t>(axis);
-            const Mask back = maskOf(backwards_[axis]);
-            const Floats lo(box.lo[a]), hi(box.hi[a]);
-            entry = max(select(back, hi, lo) * r_[axis] + near_[axis], entry);
-            exit = min(select(back, lo, hi) * r_[axis] + far_[axis], exit);
-        }
-        lanes &= bits(entry <= exit);
+        Floats entry;
+        lanes &= lanes_.entering(tree_.boxes[place], zCut_, entry);
         if (lanes == 0) return;
         if (solid.kind == SolidTree::Kind::Sphere)
             sphere<A>(solid, tree_.spheres[solid.part], entry, lanes, results);
@@ -47,7 +39,7 @@ private:
     [[gnu::noinline]] void ask(const SolidTree::Solid& solid, Floats entry, unsigned lanes,
                                Hit* hits) {
         alignas(64) float z[W], dz[W], best[W];
-        entry.store(z), dz_.store(dz), best_.store(best);
+        entry.store(z), lanes_.dz.store(dz), best_.store(best);
         bool improved = false;
         for (; lanes != 0; lanes &= lanes - 1) {
             const int i = std::countr_zero(lanes);
@@ -75,7 +67,8 @@ private:
     void sphere(const SolidTree::Solid& solid, const SolidTree::Sphere& sphere, Floats entry,
                 unsigned lanes, Result* results) {
         const auto& m = sphere.exact.objectFromWorld;
-        const Doubles X(o_[0]), Y(o_[1]), Z(o_[2]), U(d_[0]), V(d_[1]), T(d_[2]);
+        const Doubles X(columns_.org[0]), Y(columns_.org[1]), Z(columns_.org[2]),
+            U(columns_.dir[0]), V(columns_.dir[1]), T(columns_.dir[2]);
         const auto times = [&](std::size_t i, const Doubles& x) { return Doubles(m[i]) * x; };
         // A zero of the map adds a zero, which changes no number.
         const auto point = [&](std::size_t i, const Doubles& along) {
@@ -106,14 +99,15 @@ private:
         const Doubles enter = middle - half, exit = middle + half;
         const Floats t0 = enter.toFloats(), t1 = exit.toFloats();
         if constexpr (A == Answer::Any) {
-            lanes &= bits(((t0 > tMin_) & (t0 < best_)) | ((t1 > tMin_) & (t1 < best_)));
+            lanes &=
+                bits(((t0 > columns_.tMin) & (t0 < best_)) | ((t1 > columns_.tMin) & (t1 < best_)));
             hide(lanes, results);
         } else {
-            const Mask first = t0 > tMin_;
+            const Mask first = t0 > columns_.tMin;
             const Floats t = select(first, t0, t1);
-            lanes &= bits((t > tMin_) & (t <= best_) & (t < Floats(kInfinityF)));
+            lanes &= bits((t > columns_.tMin) & (t <= best_) & (t < Floats(kInfinityF)));
             if (lanes == 0) return;
-            const Floats nearest = max(entry / dz_, t);
+            const Floats nearest = max(entry / lanes_.dz, t);
             const Mask equal = nearest == best_;
             unsigned better = bits(nearest < best_) | lowerNumbers(bits(equal) & lanes, solid);
             better &= lanes;
@@ -143,8 +137,9 @@ private:
             const SolidTree::Facet& facet = group.facet[f];
             const FacetHit hit = meet(facet, group.extent);
             asking |= hit.undecided;
-            const Floats t = one / (hit.key * dz_);
-            const unsigned better = lanes & bits((hit.key > bestKey) & (t > tMin_) & (t < endless));
+            const Floats t = one / (hit.key * lanes_.dz);
+            const unsigned better =
+                lanes & bits((hit.key > bestKey) & (t > columns_.tMin) & (t < endless));
             if (better == 0) continue;
             bestKey = select(maskOf(better), hit.key, bestKey);
             const auto edge = [&](int a, int b) {
@@ -159,10 +154,10 @@ private:
             if (group.side != ::Facets::Side::Both)
                 unseen = (unseen & ~better) | (better & ~seesSide(facet.n, group.side));
         }
-        const Floats t = one / (bestKey * dz_);
+        const Floats t = one / (bestKey * lanes_.dz);
         unsigned better = lanes & bits((bestKey > zero) & (t <= best_)) & ~asking;
         asking = (asking & lanes) | (better & unseen);
-        const Floats nearest = max(entry / dz_, t);
+        const Floats nearest = max(entry / lanes_.dz, t);
         for (unsigned equal = better & bits(nearest == best_); equal != 0; equal &= equal - 1)
             if (number_[std::countr_zero(equal)] != Hit::kNoShape) asking |= equal & (~equal + 1);
         better &= bits(nearest <= best_) & ~asking;
@@ -185,9 +180,9 @@ private:
         const Floats one(1.0f);
         for (std::uint32_t f = 0; f < group.count; ++f) {
             const FacetHit hit = meet(group.facet[f], group.extent);
-            const Floats t = one / (hit.key * dz_);
-            const unsigned met =
-                lanes & ~hit.undecided & bits((hit.key > Floats(0.0f)) & (t > tMin_) & (t < best_));
+            const Floats t = one / (hit.key * lanes_.dz);
+            const unsigned met = lanes & ~hit.undecided &
+                                 bits((hit.key > Floats(0.0f)) & (t > columns_.tMin) & (t < best_));
             hide(met, hidden);
             lanes &= ~met;
             if (const unsigned asking = lanes & hit.undecided; asking != 0) {

@@ -40,6 +40,8 @@ private:
     std::uint64_t rows_ = 0;
 };
 
+#include "accel/kernels/ray_lanes.inl"
+
 #include "accel/kernels/solids.inl"
 } // namespace kernels::sse
 KERNEL_REGION_END

@@ -21,6 +21,10 @@ namespace kernels::sse {
 
 #include "accel/kernels/barycentrics.inl"
 
+#include "accel/kernels/stack.inl"
+
+#include "accel/kernels/ray_lanes.inl"
+
 #include "accel/kernels/queue_rays.inl"
 
 #include "accel/kernels/queue_exact.inl"
