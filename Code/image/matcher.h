@@ -53,6 +53,7 @@ public:
             const std::size_t length = lengthAt(at, at - 1);
             if (length > atLeast) best = {length, 1};
         }
+        if (best.length == kLongestMatch) return best;
         const std::size_t distance = at + 1 - place;
         if (place != 0 && distance <= kWindow && startsEqual(at, place - 1, kShortMatch)) {
             const std::size_t length = lengthAt(at, place - 1);
