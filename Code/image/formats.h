@@ -19,7 +19,7 @@ StoredImage decodePng(Bytes file, const std::string& name);
 
 void encodePpm(const Image& image, Encoding encoding, int threads, const ByteSink& use);
 void encodePfm(const Image& image, int threads, const ByteSink& use);
-std::vector<std::uint8_t> encodePng(const Image& image, Encoding encoding, int threads);
+void encodePng(const Image& image, Encoding encoding, int threads, const ByteSink& use);
 
 // Fails unless both sides are in 1..kMaxSide and the area is at most kMaxPixels.
 void checkSize(long long width, long long height, const std::string& name);

@@ -145,7 +145,7 @@ void encodeImage(const Image& image, const std::string& extension, Encoding enco
     if (encoding.bits != 8 && encoding.bits != 16)
         fail(ErrorKind::Usage, cat("error: ", encoding.bits, " bits per channel; 8 or 16"));
     if (extension == "ppm") return encodePpm(image, encoding, threads, use);
-    if (extension == "png") return use(encodePng(image, encoding, threads));
+    if (extension == "png") return encodePng(image, encoding, threads, use);
     if (extension == "pfm") return encodePfm(image, threads, use);
     fail(ErrorKind::Output,
          cat("error: unknown picture extension ", unknownName(extension, kExtensions)));

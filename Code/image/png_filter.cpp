@@ -31,8 +31,8 @@ Lanes average(Lanes a, Lanes b) {
     return (a & b) + reinterpret_cast<Lanes>(halves);
 }
 
-// paethPredictor() in bytes: where c is between a and b, its distance to a + b - c is the difference
-// of the others; else it is their sum, and a or b is nearer or as near.
+// paethPredictor() in bytes: where c is between a and b, its distance to a + b - c is the
+// difference of the others; else it is their sum, and a or b is nearer or as near.
 Lanes paeth(const Neighbours& n) {
     const Lanes toA = difference(n.b, n.c), toB = difference(n.a, n.c);
     const auto isBetween = (n.a < n.c) == (n.c < n.b);
@@ -105,6 +105,13 @@ private:
 
 PngFilter filterRow(const PngRow& row, const PngRow& above, std::size_t pixelBytes,
                     std::span<std::uint8_t> out) {
+    // The same row again, as in a plain background: Up leaves nothing, None is as good for zeros.
+    if (std::memcmp(row.data(), above.data(), row.size()) == 0) {
+        std::fill_n(out.begin(), row.size(), std::uint8_t{0});
+        const std::span<const std::uint8_t> bytes(row.data(), row.size());
+        const bool isZero = std::ranges::all_of(bytes, [](std::uint8_t b) { return b == 0; });
+        return isZero ? PngFilter::None : PngFilter::Up;
+    }
     const RowFilter filter(row, above, pixelBytes);
     const auto costs = filter.costs();
     const auto best =

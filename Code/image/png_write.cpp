@@ -1,5 +1,6 @@
 // Writes PNG: 8- or 16-bit RGB, filtered row by row, packed by deflate.h.
 #include "base/for_each.h"
+#include "base/in_order.h"
 #include "image/checksum.h"
 #include "image/deflate.h"
 #include "image/formats.h"
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <string_view>
+#include <utility>
 
 namespace {
 
@@ -15,19 +17,26 @@ void putNumber(std::vector<std::uint8_t>& out, std::size_t value) {
     for (const int shift : {24, 16, 8, 0}) out.push_back(static_cast<std::uint8_t>(value >> shift));
 }
 
-void putChunk(std::vector<std::uint8_t>& out, std::string_view type, Bytes data) {
-    putNumber(out, data.size());
+// The data are `first` and `second` behind it.
+void putChunk(std::vector<std::uint8_t>& out, std::string_view type, Bytes first,
+              Bytes second = {}) {
+    putNumber(out, first.size() + second.size());
     const std::size_t start = out.size();
     out.insert(out.end(), type.begin(), type.end());
-    out.insert(out.end(), data.begin(), data.end());
+    out.insert(out.end(), first.begin(), first.end());
+    out.insert(out.end(), second.begin(), second.end());
     putNumber(out, crc32(std::span(out).subspan(start)));
 }
 
 // Some rows, filtered and packed as an IDAT chunk of their own.
 struct Part {
+    // Of the rows before they were packed.
+    struct Sum {
+        std::size_t bytes = 0;
+        std::uint32_t adler = 1;
+    };
     std::vector<std::uint8_t> chunk;
-    std::size_t bytes = 0; // before they were packed
-    std::uint32_t adler = 1;
+    Sum sum;
 };
 
 // The picture in parts, which threads can work on: as many rows each as give kPartBytes, so that
@@ -43,19 +52,15 @@ public:
 
     std::size_t count() const { return (height_ + rows_ - 1) / rows_; }
 
-    Part part(std::size_t i) const {
+    // The chunk is made in `memory`, of any content.
+    Part part(std::size_t i, std::vector<std::uint8_t> memory) const {
         const std::size_t first = i * rows_, end = std::min(height_, first + rows_);
         const std::vector<std::uint8_t> filtered = filteredRows(first, end);
         const bool isLast = end == height_;
         const std::vector<std::uint8_t> packed = deflatePiece(filtered, isLast);
-        std::vector<std::uint8_t> data;
-        if (i == 0) data.assign(kZlibHeader.begin(), kZlibHeader.end());
-        data.insert(data.end(), packed.begin(), packed.end());
-        Part out;
-        putChunk(out.chunk, "IDAT", data);
-        out.bytes = filtered.size();
-        out.adler = adler32(filtered);
-        return out;
+        memory.clear();
+        putChunk(memory, "IDAT", i == 0 ? Bytes(kZlibHeader) : Bytes(), packed);
+        return {std::move(memory), {filtered.size(), adler32(filtered)}};
     }
 
 private:
@@ -86,33 +91,36 @@ private:
 
 } // namespace
 
-std::vector<std::uint8_t> encodePng(const Image& image, Encoding encoding, int threads) {
-    std::vector<std::uint8_t> file(kPngSignature.begin(), kPngSignature.end());
+void encodePng(const Image& image, Encoding encoding, int threads, const ByteSink& use) {
+    std::vector<std::uint8_t> start(kPngSignature.begin(), kPngSignature.end());
     std::vector<std::uint8_t> header;
     putNumber(header, static_cast<std::size_t>(image.width()));
     putNumber(header, static_cast<std::size_t>(image.height()));
     constexpr std::uint8_t kRgb = 2;
     header.insert(header.end(), {static_cast<std::uint8_t>(encoding.bits), kRgb, 0, 0, 0});
-    putChunk(file, "IHDR", header);
+    putChunk(start, "IHDR", header);
     if (encoding.transfer == Encoding::Transfer::Srgb) {
-        putChunk(file, "sRGB", std::array<std::uint8_t, 1>{0}); // intent: perceptual
+        putChunk(start, "sRGB", std::array<std::uint8_t, 1>{0}); // intent: perceptual
     } else {
         std::vector<std::uint8_t> gamma;
         putNumber(gamma, 100000); // 1.0
-        putChunk(file, "gAMA", gamma);
+        putChunk(start, "gAMA", gamma);
     }
+    use(start);
+
     const PartEncoder encoder(image, encoding);
-    std::vector<Part> parts(encoder.count());
-    forEachOn(threads, parts.size(), [&](std::size_t i) { parts[i] = encoder.part(i); });
-    std::size_t size = file.size() + 64;
-    for (const Part& part : parts) size += part.chunk.size();
-    file.reserve(size);
+    std::vector<Part::Sum> sums(encoder.count());
+    InOrder inOrder(encoder.count(), use);
+    forEachOn(threads, encoder.count(), [&](std::size_t i) {
+        Part part = encoder.part(i, inOrder.buffer());
+        sums[i] = part.sum;
+        inOrder.put(i, std::move(part.chunk));
+    });
+
     std::uint32_t adler = 1;
-    for (const Part& part : parts) {
-        file.insert(file.end(), part.chunk.begin(), part.chunk.end());
-        adler = adler32Joined(adler, part.adler, part.bytes);
-    }
-    putChunk(file, "IDAT", zlibEnd(adler));
-    putChunk(file, "IEND", {});
-    return file;
+    for (const Part::Sum& sum : sums) adler = adler32Joined(adler, sum.adler, sum.bytes);
+    std::vector<std::uint8_t> end;
+    putChunk(end, "IDAT", zlibEnd(adler));
+    putChunk(end, "IEND", {});
+    use(end);
 }
