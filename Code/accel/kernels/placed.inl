@@ -261,7 +261,7 @@ private:
         const WideRef nearest = push(hit, max(entry - room, Floats(0.0f)), child, inMesh_, at);
         // Without a child, what was on top before.
         const WideRef before = inMesh_.refs[at - 1];
-        s.top += static_cast<std::uint32_t>(std::popcount(hit)) - 1;
+        s.top = s.top + static_cast<std::uint32_t>(std::popcount(hit)) - 1;
         send(slot, hit != 0 ? nearest : before, to);
     }
 
