@@ -61,8 +61,6 @@ private:
 void writeBytes(const std::string& path, const std::string& fileName, const ByteSource& produce) {
     File file(std::fopen(path.c_str(), "wb"));
     if (!file) failWriting(fileName, errno);
-    // Pieces are large: each goes to the system as it is, none is cut up and copied.
-    static_cast<void>(std::setvbuf(file.get(), nullptr, _IONBF, 0));
     produce([&](std::span<const std::uint8_t> bytes) {
         if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
             failWriting(fileName, errno);

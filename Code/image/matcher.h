@@ -19,15 +19,9 @@ struct Match {
 // The number of equal bytes.
 inline std::size_t commonLength(const std::uint8_t* a, const std::uint8_t* b, std::size_t most) {
     std::size_t n = 0;
-    const auto difference = [&](std::size_t at) {
-        return loadLittle<std::uint64_t>(a + at) ^ loadLittle<std::uint64_t>(b + at);
-    };
-    // Most of the bytes are in long runs.
-    while (n + 32 <= most &&
-           (difference(n) | difference(n + 8) | difference(n + 16) | difference(n + 24)) == 0)
-        n += 32;
     for (; n + 8 <= most; n += 8) {
-        const std::uint64_t different = difference(n);
+        const std::uint64_t different =
+            loadLittle<std::uint64_t>(a + n) ^ loadLittle<std::uint64_t>(b + n);
         if (different != 0) return n + static_cast<std::size_t>(std::countr_zero(different)) / 8;
     }
     while (n < most && a[n] == b[n]) ++n;

@@ -8,6 +8,7 @@
 #include "image/png_filter.h"
 
 #include <algorithm>
+#include <cstring>
 #include <string_view>
 #include <utility>
 
@@ -69,19 +70,36 @@ private:
     // With their filter types in front.
     std::vector<std::uint8_t> filteredRows(std::size_t first, std::size_t end) const {
         PngRow row(rowBytes_ - 1), above(rowBytes_ - 1);
-        if (first > 0) encodeRow(first - 1, above);
+        if (first > 0) encodePixels(pixelsOf(first - 1), encoding_, above.bytes());
         std::vector<std::uint8_t> out(rowBytes_ * (end - first));
         std::span<std::uint8_t> left = out;
         for (std::size_t y = first; y < end; ++y, left = left.subspan(rowBytes_)) {
-            encodeRow(y, row);
+            if (y == 0)
+                encodePixels(pixelsOf(y), encoding_, row.bytes());
+            else
+                encodeBelow(y, above, row);
             const PngFilter filter = filterRow(row, above, pixelBytes_, left.subspan(1));
             left[0] = static_cast<std::uint8_t>(filter);
             std::swap(row, above);
         }
         return out;
     }
-    void encodeRow(std::size_t y, PngRow& row) const {
-        encodePixels(image_.pixels().subspan(y * width_, width_), encoding_, row.bytes());
+    // Row y > 0, `above` with the codes of the one before. Where its pixels are the same, as in a
+    // plain background, so are the codes, and comparing is faster than encoding.
+    void encodeBelow(std::size_t y, const PngRow& above, PngRow& row) const {
+        constexpr std::size_t kRun = 32;
+        const std::span<const Rgb> here = pixelsOf(y), up = pixelsOf(y - 1);
+        for (std::size_t x = 0; x < width_; x += kRun) {
+            const std::size_t count = std::min(kRun, width_ - x), at = pixelBytes_ * x;
+            const std::span<std::uint8_t> out = row.bytes().subspan(at, pixelBytes_ * count);
+            if (std::memcmp(here.data() + x, up.data() + x, count * sizeof(Rgb)) == 0)
+                std::memcpy(out.data(), above.data() + at, out.size());
+            else
+                encodePixels(here.subspan(x, count), encoding_, out);
+        }
+    }
+    std::span<const Rgb> pixelsOf(std::size_t y) const {
+        return image_.pixels().subspan(y * width_, width_);
     }
 
     const Image& image_;

@@ -51,6 +51,26 @@ TEST(checksum_known_values) {
     CHECK_EQUAL(crc32(large), 0x68C6CEC4u);
 }
 
+// Code/image/checksum.h goes in blocks of vectors; RFC 1950 section 8.2 goes byte by byte.
+TEST(adler32_is_that_of_the_standard) {
+    std::uint32_t state = 11;
+    // The largest bytes as well: nothing may overflow in a block.
+    for (const std::uint32_t least : {0u, 255u})
+        for (std::size_t size = 0; size < 12000; size += 1 + size / 3) {
+            Buffer bytes(size);
+            for (std::uint8_t& byte : bytes)
+                byte = static_cast<std::uint8_t>(nextRandom(state) | least);
+            std::uint32_t a = 65520, b = 65519;
+            const std::uint32_t before = b << 16 | a;
+            for (const std::uint8_t byte : bytes) {
+                a = (a + byte) % 65521;
+                b = (b + a) % 65521;
+            }
+            CHECK_INFO(adler32(bytes, before) == (b << 16 | a),
+                       size << " bytes of at least " << least);
+        }
+}
+
 // Streams that Python's zlib has made: stored, fixed and dynamic blocks.
 TEST(inflate_known_streams) {
     const Buffer hello = bytesOf("hello hello hello hello");

@@ -114,3 +114,20 @@ TEST(png_is_much_smaller_than_stored) {
     CHECK_INFO(file.size() < 640 * 360 * 3 / 20, file.size());
     CHECK(encodeImage(Image(decodeImage(file, "back")), "png", {}) == file);
 }
+
+// Codes are copied where the row above has the same pixels: one other pixel, wherever it is, is
+// still its own. PPM has no such short cut.
+TEST(png_keeps_single_pixels_in_a_flat_picture) {
+    for (const int width : {1, 31, 32, 33, 70}) {
+        Image image(width, 2 * width + 1);
+        for (Rgb& pixel : image.pixels()) pixel = {0.25f, 0.5f, 0.75f};
+        for (int x = 0; x < width; ++x) image.setPixel(x, 2 * x + 1, {0.25f, 0.5f, 0.7f});
+        for (const int bits : {8, 16}) {
+            const Encoding encoding{Encoding::Transfer::Srgb, bits};
+            const StoredImage png = decodeImage(encodeImage(image, "png", encoding), "png");
+            const StoredImage ppm = decodeImage(encodeImage(image, "ppm", encoding), "ppm");
+            CHECK_INFO(png.bytes == ppm.bytes && png.words == ppm.words,
+                       "width " << width << ", " << bits << " bits");
+        }
+    }
+}

@@ -60,22 +60,27 @@ void put(PngRow& to, const Row& from) { std::copy(from.begin(), from.end(), to.b
 TEST(png_filter_writes_what_the_specification_says) {
     std::array<int, kPngFilterCount> chosen{};
     std::uint32_t state = 3;
+    constexpr std::uint32_t kRepeated = 5, kZeros = 6;
     // Every length up to three vectors, and one that fills more than one block of sums.
     for (std::size_t size = 3; size <= 51; ++size)
         for (const std::size_t length : {size, std::size_t{4112}})
-            for (std::uint32_t kind = 0; kind < 5; ++kind) {
+            for (std::uint32_t kind = 0; kind < 7; ++kind) {
                 if (length == 4112 && size > 4) continue;
                 const std::size_t pixelBytes = state >> 20 & 1 ? 3 : 6;
                 Row row(length), above(length);
                 fill(above, above, 0, state);
                 for (std::uint8_t& byte : above) byte = static_cast<std::uint8_t>(byte * 37);
                 fill(row, above, kind, state);
+                if (kind == kZeros) above.assign(length, 0);
+                if (kind >= kRepeated) row = above;
                 PngRow here(length), up(length);
                 put(here, row);
                 put(up, above);
-                Row out(length);
+                Row out(length, 77);
                 const PngFilter filter = filterRow(here, up, pixelBytes, out);
                 ++chosen[static_cast<std::size_t>(filter)];
+                if (kind >= kRepeated)
+                    CHECK(filter == (kind == kZeros ? PngFilter::None : PngFilter::Up));
                 CHECK_INFO(out == filtered(row, above, pixelBytes, filter),
                            "length " << length << " kind " << kind << " filter "
                                      << static_cast<int>(filter));
