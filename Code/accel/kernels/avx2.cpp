@@ -27,7 +27,11 @@ namespace kernels::avx2 {
 
 #include "accel/kernels/queue_rays.inl"
 
+#include "accel/kernels/queue_answers.inl"
+
 #include "accel/kernels/queue_exact.inl"
+
+#include "accel/kernels/handful.inl"
 
 #include "accel/kernels/queue.inl"
 

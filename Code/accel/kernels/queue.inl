@@ -3,14 +3,12 @@
 // depend on each other, so the CPU overlaps their memory accesses and latencies, and nothing but
 // the length of the lists is a branch. Rays whose leaf has triangles that they may meet wait, until
 // there are enough of them for the canonical keys of W pairs at once.
-// Included by the file of each instruction set inside its namespace, behind queue_rays.inl and
-// queue_exact.inl.
+// Included by the file of each instruction set inside its namespace, behind handful.inl.
 
 template <Query Q> class Queue {
 public:
     Queue(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order)
-        : mesh_(mesh), rays_(rays), order_(order), base_(mesh.tree.base()),
-          root_(mesh.tree.at<WideNode<W>>(mesh.tree.root)),
+        : mesh_(mesh), rays_(rays), order_(order), base_(mesh.tree.base()), root_(mesh.tree),
           prefetches_(mesh.tree.lines.size() > kManyLines),
           stride_(strideOfStacks(mesh.tree.stackSize)) {
         const std::size_t stacks = kSlots * stride_ * sizeof(std::uint32_t);
@@ -22,12 +20,9 @@ public:
             refs_[slot * stride_] = wideRef(0, WideKind::None); // the end of every stack
             entries_[slot * stride_] = 0;
         }
-        for (; children_ < W && boxOf(children_).lo.x <= boxOf(children_).hi.x; ++children_)
-            box_.extend(boxOf(children_));
     }
 
     template <class Results> void run(const Results& results) {
-        if (mesh_.tree.leaves <= kFewLeaves) return runInLeaves(results);
         Lists now{lists_[0], lists_[1], lists_[2]}, next{lists_[3], lists_[4], lists_[2]};
         for (std::uint32_t b = 0; b < kBlocks; ++b) refill(b, next, results);
         while (live_ > 0) {
@@ -41,7 +36,7 @@ public:
                 const std::uint32_t b = next.done[i] / W;
                 --live_;
                 if (--blocks_[b].live > 0) continue;
-                finish(blocks_[b], results);
+                writeAnswers(blocks_[b], mesh_.tree, results);
                 refill(b, next, results);
             }
         }
@@ -54,8 +49,6 @@ private:
     static constexpr std::uint32_t kFewBusy = kSlots / 3;
     // Of a tree that the caches don't hold; for others prefetches are work in vain. 8 MB.
     static constexpr std::size_t kManyLines = std::size_t{1} << 17;
-    // Of a tree in which no ray is worth a way of its own.
-    static constexpr std::uint64_t kFewLeaves = 2;
 
     // What the rays are at, by their slots.
     struct Lists {
@@ -65,18 +58,6 @@ private:
     struct Waiting {
         std::uint32_t slot, candidates; // triangles of the leaf that the ray is at
     };
-    struct Pair {
-        std::uint32_t slot;
-        WideRef leaf;
-        std::uint32_t triangle; // number in the leaf
-    };
-
-    Bounds boxOf(std::size_t child) const { // of the root
-        const auto& p = root_.plane;
-        return {{p[0][0][child], p[1][0][child], p[2][0][child]},
-                {p[0][1][child], p[1][1][child], p[2][1][child]}};
-    }
-    const WideLeaf<W>& leafAt(WideRef ref) const { return mesh_.tree.at<WideLeaf<W>>(ref); }
 
     // ---- rays in, hits out
 
@@ -87,7 +68,7 @@ private:
         while (next_ < order_.size()) {
             const unsigned entered = enterTree(takeRays(b), b);
             if (entered == 0) {
-                finish(b, results);
+                writeAnswers(b, mesh_.tree, results);
                 continue;
             }
             Ints(mesh_.tree.root).store(b.at);
@@ -112,70 +93,13 @@ private:
     // then it is quicker not to ask W rays at once what each will ask itself.
     unsigned enterTree(unsigned lanes, const RayBlock& b) {
         if (asked_ >= 4 * W && missed_ * 8 < asked_) return lanes;
-        const unsigned near = raysEntering(b, box_) & lanes;
+        const unsigned near = raysEntering(b, root_.whole) & lanes;
         unsigned entered = 0;
-        for (std::size_t i = 0; i < children_ && entered != near; ++i)
-            entered |= raysEntering(b, boxOf(i)) & near;
+        for (std::size_t i = 0; i < root_.count && entered != near; ++i)
+            entered |= raysEntering(b, root_[i]) & near;
         asked_ += W;
         missed_ += static_cast<std::uint32_t>(std::popcount(lanes & ~entered));
         return entered;
-    }
-
-    void finish(const RayBlock& b, const HitLists& hits) const {
-        const Floats t = Floats(1.0f) / (Floats::load(b.key) * Floats::load(b.dz));
-        const Ints none(TriangleHit::kNone), triangle = Ints::load(b.triangle);
-        const Mask hit = (triangle < none) & (t <= Floats::load(b.tMax));
-        const unsigned found = bits(hit) & ((1u << b.count) - 1);
-        if (hits.whole == nullptr && b.inARow) {
-            storePairs(select(hit, t, Floats(kInfinityF)), select(hit, triangle, none),
-                       &hits.brief[b.ray[0]].t);
-            return;
-        }
-        alignas(64) float ts[W];
-        t.store(ts);
-        for (std::uint32_t i = 0; i < b.count; ++i) {
-            if ((found >> i & 1) == 0)
-                hits.miss(b.ray[i], b.tMax[i]);
-            else if (hits.whole == nullptr)
-                hits.brief[b.ray[i]] = {ts[i], b.triangle[i]};
-        }
-        if (hits.whole != nullptr && found != 0) finishWhole(b, ts, found, hits);
-    }
-    // With u and v, from the leaves of the best hits: they were in the cache not long ago.
-    void finishWhole(const RayBlock& b, const float* t, unsigned found,
-                     const HitLists& hits) const {
-        alignas(64) float point[3][3][W] = {}; // axis as in the block, corner
-        for (unsigned lanes = found; lanes != 0; lanes &= lanes - 1) {
-            const int i = std::countr_zero(lanes);
-            const std::byte* const p = base_ + byteOffset(b.bestLeaf[i]);
-            const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(p);
-            for (int c = 0; c < 3; ++c) {
-                const std::uint8_t corner = leaf.corner[c][b.bestLane[i]];
-                for (int axis = 0; axis < 3; ++axis)
-                    point[axis][c][i] = reinterpret_cast<const float*>(p + b.axis[axis][i])[corner];
-            }
-        }
-        Floats x[3], y[3];
-        for (int c = 0; c < 3; ++c) {
-            const auto relative = [&](int axis) {
-                return Floats::load(point[axis][c]) - Floats::load(b.origin[axis]);
-            };
-            const Floats z = relative(2);
-            x[c] = relative(0) - Floats::load(b.shearX) * z;
-            y[c] = relative(1) - Floats::load(b.shearY) * z;
-        }
-        const Weights weights = barycentrics(x, y);
-        alignas(64) float u[W], v[W];
-        weights.u.store(u), weights.v.store(v);
-        for (; found != 0; found &= found - 1) {
-            const int i = std::countr_zero(found);
-            hits.whole[b.ray[i]] = {t[i], u[i], v[i], b.triangle[i], hits.shape};
-        }
-    }
-    void finish(const RayBlock& b, std::uint8_t* hidden) const {
-        const unsigned found = bits(Ints::load(b.triangle) < Ints(TriangleHit::kNone));
-        if (b.inARow) return storeFlags(found, hidden + b.ray[0]);
-        for (std::uint32_t i = 0; i < b.count; ++i) hidden[b.ray[i]] = found >> i & 1;
     }
 
     // ---- steps
@@ -213,12 +137,9 @@ private:
         std::uint32_t* const refs = refs_ + slot * stride_;
         const std::uint32_t top = b.stackTop[i];
         // The next one is taken from registers: what was just stored takes long to come back.
-        WideRef nearest;
-        if constexpr (Q == Query::Any) {
-            nearest = pushAny(hit, child, refs + top);
-        } else {
-            nearest = pushSorted(hit, entry, child, refs + top, entries_ + slot * stride_ + top);
-        }
+        const WideRef nearest = Q == Query::Any ? pushAny(hit, child, refs + top)
+                                                : pushSorted(hit, entry, child, refs + top,
+                                                             entries_ + slot * stride_ + top);
         // Without a child, what was on top before.
         const WideRef before = refs[top - 1];
         const WideRef next = hit != 0 ? nearest : before;
@@ -272,6 +193,7 @@ private:
         v.certain &= b.below[i] == kInfinityF ? all : 0;
         return v;
     }
+
     // ---- canonical keys
 
     void settleWaiting(Lists& to) {
@@ -287,114 +209,24 @@ private:
         waitingCount_ = waitingPairs_ = 0;
     }
 
-    // Improves the hits of the rays of pairs_[0 .. n - 1].
-    [[gnu::noinline]] void takePairs(std::uint32_t n) {
-        for (std::uint32_t first = 0; first < n; first += W) {
-            const std::uint32_t count = std::min<std::uint32_t>(n - first, W);
-            PairColumns columns;
-            for (std::uint32_t i = 0; i < W; ++i) {
-                const Pair& p = pairs_[first + (i < count ? i : 0)];
-                columns.set(i, blocks_[p.slot / W], p.slot % W, leafAt(p.leaf), p.triangle);
-            }
-            unsigned undecided = 0;
-            alignas(64) float key[W];
-            canonicalKeys(columns, undecided).store(key);
-            for (undecided &= (1u << count) - 1; undecided != 0; undecided &= undecided - 1) {
-                const auto i = static_cast<std::uint32_t>(std::countr_zero(undecided));
-                const Pair& p = pairs_[first + i];
-                const std::uint32_t ray = blocks_[p.slot / W].ray[p.slot % W];
-                key[i] =
-                    exactKey(mesh_, rays_.org[ray], rays_.dir[ray], leafAt(p.leaf), p.triangle);
-            }
-            for (std::uint32_t i = 0; i < count; ++i) improve(pairs_[first + i], key[i]);
-        }
-    }
-
-    void improve(const Pair& p, float key) {
-        RayBlock& b = blocks_[p.slot / W];
-        const std::uint32_t i = p.slot % W;
-        if (!(key > 0 && key < b.below[i]) || key < b.key[i]) return;
-        if constexpr (Q == Query::Any) {
-            if (key == b.key[i]) return;
-            b.triangle[i] = 0;
-            b.stackTop[i] = 1;
-        } else {
-            const std::uint32_t id = mesh_.tree.triangleIds[leafAt(p.leaf).first + p.triangle];
-            if (key == b.key[i] && id > b.triangle[i]) return;
-            b.key[i] = key;
-            b.triangle[i] = id;
-            b.bestLeaf[i] = p.leaf, b.bestLane[i] = p.triangle;
-            b.zCut[i] = ::min(depthCut(key), b.zCut[i]);
-            b.stackTop[i] = dropHidden(refs_ + p.slot * stride_, entries_ + p.slot * stride_,
-                                       b.stackTop[i], b.zCut[i]);
-        }
-    }
-
-    // ---- trees of a few leaves
-
-    // W rays at once against one triangle after the other.
-    template <class Results> void runInLeaves(const Results& results) {
-        RayBlock& b = blocks_[0];
-        while (next_ < order_.size()) {
-            const unsigned lanes = takeRays(b);
-            Ints(0u).store(b.stackTop); // the queue's stacks are not used
-            for (std::size_t i = 0; i < children_; ++i)
-                if (const unsigned entered = raysEntering(b, boxOf(i)) & lanes; entered != 0)
-                    testLeaf(b, root_.child[i], entered);
-            finish(b, results);
-        }
-    }
-
-    void testLeaf(RayBlock& b, WideRef ref, unsigned lanes) {
-        const WideLeaf<W>& leaf = leafAt(ref);
-        alignas(64) float x[W][W], y[W][W], z[W][W]; // of a point, by ray
-        int points = 0;
-        for (int c = 0; c < 3; ++c)
-            for (int j = 0; j < leaf.count; ++j) points = std::max(points, leaf.corner[c][j] + 1);
-        const Mask alongZ = Ints::load(b.axis[2]) == Ints(2 * W * 4);
-        const Mask alongY = Ints::load(b.axis[2]) == Ints(W * 4);
-        const auto pick = [&](const float* p, int ifX, int ifY, int ifZ) {
-            const auto at = [&](int axis) { return Floats(p[axis * W]); };
-            return select(alongZ, at(ifZ), select(alongY, at(ifY), at(ifX)));
-        };
-        for (int i = 0; i < points; ++i) {
-            const float* const p = &leaf.point[0][i];
-            const Floats depth = pick(p, 0, 1, 2) - Floats::load(b.origin[2]);
-            const Floats px = pick(p, 1, 2, 0) - Floats::load(b.origin[0]);
-            const Floats py = pick(p, 2, 0, 1) - Floats::load(b.origin[1]);
-            depth.store(z[i]);
-            (px - Floats::load(b.shearX) * depth).store(x[i]);
-            (py - Floats::load(b.shearY) * depth).store(y[i]);
-        }
-        const Floats sign = Floats::load(b.sign), zCut = Floats::load(b.zCut);
-        const unsigned endless = bits(Floats::load(b.below) == Floats(kInfinityF));
-        std::uint32_t n = 0;
-        unsigned hidden = 0;
-        for (std::uint32_t j = 0; j < leaf.count; ++j) {
-            Sheared s;
-            for (int c = 0; c < 3; ++c) {
-                const std::uint8_t i = leaf.corner[c][j];
-                s.x[c] = Floats::load(x[i]), s.y[c] = Floats::load(y[i]);
-                s.z[c] = Floats::load(z[i]);
-            }
-            const Verdict v = judge<Q>(s, sign, zCut);
-            hidden |= v.certain & endless & lanes;
-            for (unsigned left = v.candidates & lanes & ~hidden; left != 0; left &= left - 1)
-                pairs_[n++] = {static_cast<std::uint32_t>(std::countr_zero(left)), ref, j};
-        }
-        if constexpr (Q == Query::Any)
-            select(maskOf(hidden), Ints(0u), Ints::load(b.triangle)).store(b.triangle);
-        if (n != 0) takePairs(n);
+    void takePairs(std::uint32_t n) {
+        settlePairs<Q>(mesh_, rays_, blocks_, {pairs_, n}, [this](std::uint32_t slot) {
+            RayBlock& b = blocks_[slot / W];
+            std::uint32_t& top = b.stackTop[slot % W];
+            const std::size_t stack = slot * stride_;
+            top = Q == Query::Any
+                      ? 1 // only the end
+                      : dropHidden(refs_ + stack, entries_ + stack, top, b.zCut[slot % W]);
+        });
     }
 
     const WideMesh& mesh_;
     const RaySpan& rays_;
     std::span<const std::uint32_t> order_;
     const std::byte* base_;
-    const WideNode<W>& root_;
+    const RootBoxes root_;
     const bool prefetches_;
-    Bounds box_;                                   // of the tree
-    std::size_t stride_, next_ = 0, children_ = 0; // of the root
+    std::size_t stride_, next_ = 0;
     RayBlock* blocks_;
     std::uint32_t *refs_, *entries_; // a stack per slot; entries only for nearest hits
     std::uint32_t live_ = 0;
@@ -403,14 +235,23 @@ private:
     Waiting waiting_[kSlots];
     std::uint32_t waitingCount_ = 0, waitingPairs_ = 0;
     std::uint32_t asked_ = 0, missed_ = 0; // of enterTree()
-    Pair pairs_[kSlots * W];
+    RayTriangle pairs_[kSlots * W];
 };
+
+template <Query Q, class Results>
+void traceOneByOne(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order,
+                   const Results& results) {
+    if (mesh.tree.leaves <= Handful<Q>::kMostLeaves)
+        Handful<Q>(mesh, rays).run(order, results);
+    else
+        Queue<Q>(mesh, rays, order).run(results);
+}
 
 void closest(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order,
              const HitLists& hits) {
-    Queue<Query::Closest>(mesh, rays, order).run(hits);
+    traceOneByOne<Query::Closest>(mesh, rays, order, hits);
 }
 void any(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order,
          std::uint8_t* hidden) {
-    Queue<Query::Any>(mesh, rays, order).run(hidden);
+    traceOneByOne<Query::Any>(mesh, rays, order, hidden);
 }

@@ -1,7 +1,7 @@
-// The two decisions about a ray and a triangle that the queue takes in vectors: which pairs are
-// worth the canonical key, and that key. Lanes are triangles of a leaf for one ray, or rays for one
-// triangle, or pairs of both.
-// Included by the file of each instruction set inside its namespace, in front of queue.inl.
+// What is decided about a ray and a triangle in vectors: which pairs are worth the canonical key,
+// that key, and whether it improves the ray's hit. Lanes are triangles of a leaf for one ray, or
+// rays for one triangle, or pairs of both. Included by the file of each instruction set inside its
+// namespace, in front of queue.inl.
 
 // Corners in the ray's frame: lateral distances from the ray as ShearedTriangle has them, and
 // depths without the sign of the direction.
@@ -113,4 +113,59 @@ inline Floats canonicalKeys(const PairColumns& p, unsigned& undecided) {
     const unsigned zeros = bits((U == zero) | (V == zero) | (R == zero));
     undecided = bits(inside & met) & (zeros | ~bits(inBox));
     return select(inside & met, key, zero);
+}
+
+// A lane of a block, by slot, and a triangle of a leaf.
+struct RayTriangle {
+    std::uint32_t slot;
+    WideRef leaf;
+    std::uint32_t triangle; // number in the leaf
+};
+
+// Takes the key as the ray's best one if it counts and is better.
+template <Query Q>
+bool improve(const WideTree& tree, RayBlock& b, const RayTriangle& p, float key) {
+    const std::uint32_t i = p.slot % W;
+    if (!(key > 0 && key < b.below[i]) || key < b.key[i]) return false;
+    if constexpr (Q == Query::Any) {
+        if (key == b.key[i]) return false;
+        b.triangle[i] = 0;
+    } else {
+        const std::uint32_t id = tree.triangleIds[tree.at<WideLeaf<W>>(p.leaf).first + p.triangle];
+        if (key == b.key[i] && id > b.triangle[i]) return false;
+        b.key[i] = key;
+        b.triangle[i] = id;
+        b.bestLeaf[i] = p.leaf, b.bestLane[i] = p.triangle;
+        b.zCut[i] = ::min(depthCut(key), b.zCut[i]);
+    }
+    return true;
+}
+
+// Improves the best hits of the pairs' rays, and calls improved(slot) for each that it does.
+template <Query Q, class ImprovedFn>
+[[gnu::noinline]] void settlePairs(const WideMesh& mesh, const RaySpan& rays, RayBlock* blocks,
+                                   std::span<const RayTriangle> pairs, ImprovedFn&& improved) {
+    for (; !pairs.empty(); pairs = pairs.subspan(std::min<std::size_t>(W, pairs.size()))) {
+        const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(W, pairs.size()));
+        const auto leafOf = [&](const RayTriangle& p) -> const WideLeaf<W>& {
+            return mesh.tree.at<WideLeaf<W>>(p.leaf);
+        };
+        PairColumns columns;
+        for (std::uint32_t i = 0; i < W; ++i) {
+            const RayTriangle& p = pairs[i < count ? i : 0];
+            columns.set(i, blocks[p.slot / W], p.slot % W, leafOf(p), p.triangle);
+        }
+        unsigned undecided = 0;
+        alignas(64) float key[W];
+        canonicalKeys(columns, undecided).store(key);
+        for (undecided &= (1u << count) - 1; undecided != 0; undecided &= undecided - 1) {
+            const auto i = static_cast<std::uint32_t>(std::countr_zero(undecided));
+            const RayTriangle& p = pairs[i];
+            const std::uint32_t ray = blocks[p.slot / W].ray[p.slot % W];
+            key[i] = exactKey(mesh, rays.org[ray], rays.dir[ray], leafOf(p), p.triangle);
+        }
+        for (std::uint32_t i = 0; i < count; ++i)
+            if (improve<Q>(mesh.tree, blocks[pairs[i].slot / W], pairs[i], key[i]))
+                improved(pairs[i].slot);
+    }
 }

@@ -22,16 +22,6 @@ struct alignas(64) RayBlock {
     bool inARow;                            // W rays that follow each other in the batch
 };
 
-// Bits 0 to W - 1 as bytes 0 or 1.
-inline void storeFlags(unsigned flags, std::uint8_t* to) {
-    for (int i = 0; i < W; i += 8) {
-        const std::uint64_t each = (flags >> i & 0xff) * 0x0101010101010101u;
-        const std::uint64_t bit = each & 0x8040201008040201u; // bit i of byte i
-        const std::uint64_t bytes = (bit + 0x7f7f7f7f7f7f7f7fu) >> 7 & 0x0101010101010101u;
-        std::memcpy(to + i, &bytes, 8);
-    }
-}
-
 // Fills the block. Returns the lanes of the rays that isTraceable().
 template <Query Q>
 unsigned setUpRays(const RaySpan& rays, const std::uint32_t* order, std::size_t count, float extent,
@@ -88,3 +78,20 @@ inline unsigned raysEntering(const RayBlock& b, const Bounds& box) {
     }
     return bits(entry <= exit);
 }
+
+// The children of the root, asked one by one for W rays.
+struct RootBoxes {
+    const WideNode<W>& node;
+    std::size_t count = 0;
+    Bounds whole;
+
+    explicit RootBoxes(const WideTree& tree) : node(tree.at<WideNode<W>>(tree.root)) {
+        for (; count < W && (*this)[count].lo.x <= (*this)[count].hi.x; ++count)
+            whole.extend((*this)[count]);
+    }
+    Bounds operator[](std::size_t child) const {
+        const auto& p = node.plane;
+        return {{p[0][0][child], p[1][0][child], p[2][0][child]},
+                {p[0][1][child], p[1][1][child], p[2][1][child]}};
+    }
+};
