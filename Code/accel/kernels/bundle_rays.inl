@@ -215,6 +215,7 @@ private:
     template <class T> static void prefetchAhead(std::span<const T> all, std::uint32_t ray) {
         const auto next = reinterpret_cast<std::uintptr_t>(&all[ray]) + kMostRays * sizeof(T);
         for (std::size_t byte = 0; byte < W * sizeof(T); byte += 64)
+            // NOLINTNEXTLINE(performance-no-int-to-ptr): may be behind the end
             __builtin_prefetch(reinterpret_cast<const void*>(next + byte));
     }
 

@@ -27,8 +27,8 @@ private:
         const auto& leaf = mesh_.tree.at<WideLeaf<W>>(ref);
         alignas(64) float x[W][W], y[W][W], z[W][W]; // of a point, by ray
         int points = 0;
-        for (int c = 0; c < 3; ++c)
-            for (int j = 0; j < leaf.count; ++j) points = std::max(points, leaf.corner[c][j] + 1);
+        for (const auto& corner : leaf.corner)
+            for (int j = 0; j < leaf.count; ++j) points = std::max(points, corner[j] + 1);
         const Mask alongZ = Ints::load(b.axis[2]) == Ints(2 * W * 4);
         const Mask alongY = Ints::load(b.axis[2]) == Ints(W * 4);
         const auto pick = [&](const float* p, int ifX, int ifY, int ifZ) {

@@ -61,7 +61,7 @@ inline std::uint32_t dropHidden(WideRef* refs, std::uint32_t* entries, std::uint
     for (std::uint32_t k = 0; k < top; k += W) {
         const std::uint32_t left = top - k;
         const unsigned keep =
-            bits(Ints::load(entries + k) < limit) & ((left < W ? 1u << left : 0u) - 1);
+            bits(Ints::load(entries + k) < limit) & (left < W ? (1u << left) - 1 : ~0u);
         storeChosen(keep, refs + k, refs + kept);
         storeChosen(keep, entries + k, entries + kept);
         kept += static_cast<std::uint32_t>(std::popcount(keep));
