@@ -56,8 +56,10 @@ public:
     void settle(unsigned q, unsigned lanes) { settle(q, lanes, winnersOf(q, lanes)); }
 
     void closePackets() {
-        for (std::uint32_t left = open_; left != 0; left &= left - 1)
-            if (missing_[std::countr_zero(left)] == 0) open_ ^= left & -left;
+        for (std::uint32_t left = open_; left != 0; left &= left - 1) {
+            const int packet = std::countr_zero(left);
+            if (missing_[packet] == 0) open_ &= ~(1u << packet);
+        }
     }
 
     // Nothing behind this depth can be better for any ray; below 0: all rays are done.
