@@ -1,4 +1,4 @@
-// W rays of the queue, by columns: what its steps read, and the boxes below the root for all of them.
+// W rays of the queue, by columns: what its steps read, and the boxes below the root for all W.
 // Included by the file of each instruction set inside its namespace, behind ray_lanes.inl.
 
 enum class Query { Closest, Any };
