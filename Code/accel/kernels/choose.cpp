@@ -1,3 +1,4 @@
+// The table of kernels, and what the CPU has of it.
 #include "accel/kernels/instances.h"
 
 #include "base/error.h"

@@ -1,3 +1,4 @@
+// What kernels call in plain code: see exact_hit.h.
 #include "accel/kernels/exact_hit.h"
 
 #include "accel/triangle.h"

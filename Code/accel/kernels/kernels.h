@@ -1,6 +1,19 @@
 // Kernels: the questions that batches of rays ask of one mesh, answered with vector instructions.
 // Every answer is that of the scalar traversal with canonicalKey() of accel/triangle.h, bit for
 // bit: kernels find the candidates in their own ways, and the canonical hit decides.
+//
+// The folder. .inl files are written for any number of lanes: the file of each instruction set
+// (sse, avx2, avx512) includes one simd_*.inl and then, in this order,
+//   [isa].cpp         key_range, barycentrics, stack, ray_lanes;
+//                     rays one by one: queue_rays, _answers, _exact, handful (tiny trees), queue;
+//                     rays from one point: bundle_rays, _keys, _block, _best, _leaf, bundle
+//   solids_[isa].cpp  ray_lanes; solids, which includes _rays, _hulls, _facets and _meet
+//   placed_[isa].cpp  stack, ray_lanes, placed_mesh, placed
+//   sphere_surfaces_[isa].cpp  sphere_surfaces
+// choose.cpp has the table of kernels and route.cpp deals the rays of a batch out to queue and
+// bundles; solids.cpp does both for solids, placed.cpp has the table for placed meshes, which call
+// back to a PlacedQuery. exact_hit.cpp decides what lanes leave open, in plain code. wide_build.cpp
+// and build/ make the trees.
 #pragma once
 
 #include "accel/kernels/wide_tree.h"

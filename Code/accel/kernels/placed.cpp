@@ -1,3 +1,4 @@
+// The table of placed kernels, and how deep their stacks become.
 #include "accel/kernels/placed.h"
 
 #include <algorithm>

@@ -1,9 +1,6 @@
 // The queue of queue.inl in two levels: rays walk the tree over the boxes of the meshes, and in
 // between the tree of one mesh after the other, all of them at once. Lists say what each does next.
-// The steps in the tree of a mesh are those of queue.inl with room for what is not known exactly:
-// a box is entered when the ray passes it within the room that the triangles in it ask for, and a
-// triangle may be met when moved corners could be.
-// Included by the file of each instruction set inside its namespace.
+// Included by the file of each instruction set inside its namespace, behind placed_mesh.inl.
 
 template <bool NearFirst> class PlacedQueue {
 public:
@@ -60,21 +57,8 @@ private:
     };
 
     struct alignas(64) Slot {
-        // Boxes in the tree of a mesh.
-        float r[3], nearOffset[3], farOffset[3];
-        std::uint32_t nearPlane[3]; // where in a node, in bytes
-        float zCut, depthPerSide;
-        const std::byte* base;
-        const float* longestSide;
-        std::uint32_t at, top;
-        // Triangles: the origin in the order lateral x, lateral y, depth.
-        float origin[3];
-        std::uint32_t axis[3]; // where in a leaf, in bytes
-        float shearX, shearY;  // the slopes, for depths without the sign of the direction
-        float sign, lateralError;
-        unsigned candidates; // of the leaf
-        const std::uint32_t* triangleIds;
-        const Vec3d* exactPoints;
+        MeshRay mesh;
+        std::uint32_t top; // of its stack in the tree of the mesh
         // Boxes of meshes in the scene.
         float rScene[3], nearScene[3], farScene[3], sceneCut;
         std::uint32_t sceneAt, sceneTop;
@@ -191,27 +175,7 @@ private:
         if (!counts || !enters(s, tree_.boxes[place], zEntry)) return popInScene(slot, to);
         TreeVisit visit;
         if (!query_.enter(slot, solid.number, zEntry, visit)) return leave(slot, to);
-        const RaySetup& ray = *visit.setup;
-        constexpr std::uint32_t kRow = W * 4;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            s.r[axis] = ray.r[axis];
-            s.nearOffset[axis] = ray.nearOffset[axis], s.farOffset[axis] = ray.farOffset[axis];
-            s.nearPlane[axis] = (2 * static_cast<std::uint32_t>(axis) + (ray.r[axis] < 0)) * kRow;
-        }
-        const std::size_t order[3] = {ray.kx, ray.ky, ray.k};
-        for (std::size_t i = 0; i < 3; ++i) {
-            s.origin[i] = ray.org[order[i]];
-            s.axis[i] = static_cast<std::uint32_t>(order[i]) * kRow;
-        }
-        s.sign = ray.sign;
-        s.shearX = ray.Sx * ray.sign, s.shearY = ray.Sy * ray.sign;
-        s.zCut = visit.zCut;
-        s.depthPerSide = visit.depthPerSide;
-        s.lateralError = visit.lateralError;
-        s.longestSide = visit.longestSide;
-        s.base = visit.tree->base();
-        s.triangleIds = visit.tree->triangleIds.data();
-        s.exactPoints = visit.exactPoints;
+        s.mesh.enter(visit);
         s.top = 1;
         inMesh_.refs[slot * stride_] = wideRef(0, WideKind::None); // the end of the stack
         inMesh_.entries[slot * stride_] = 0;
@@ -230,10 +194,10 @@ private:
 
     [[gnu::always_inline]] void send(std::uint32_t slot, WideRef ref, Lists& to) {
         Slot& s = slots_[slot];
-        s.at = ref;
-        const std::byte* const line = s.base + byteOffset(ref);
+        s.mesh.at = ref;
+        const std::byte* const line = s.mesh.base + byteOffset(ref);
         for (int k = 0; k < 4; ++k) __builtin_prefetch(line + std::ptrdiff_t{64} * k);
-        __builtin_prefetch(s.longestSide + (ref >> 2));
+        __builtin_prefetch(s.mesh.longestSide + (ref >> 2));
         to.slots[Nodes][to.count[Nodes]] = slot;
         to.slots[Leaves][to.count[Leaves]] = slot;
         to.slots[Exits][to.count[Exits]] = slot;
@@ -242,23 +206,12 @@ private:
         to.count[Exits] += kindOf(ref) == WideKind::None;
     }
 
-    // TreeRay's enters() of shape/instance_filter.h for W boxes, with the room that the node needs.
     [[gnu::always_inline]] void nodeStep(std::uint32_t slot, Lists& to) {
         Slot& s = slots_[slot];
-        const std::byte* const node = s.base + byteOffset(s.at);
-        const Floats room(s.longestSide[s.at >> 2] * s.depthPerSide);
-        Floats entry = Floats(0.0f) - room, exit = Floats(s.zCut) + room;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const std::uint32_t nearPlane = s.nearPlane[axis], farPlane = nearPlane ^ (W * 4);
-            const Floats r(s.r[axis]);
-            entry = max(fma(Floats::load(node + nearPlane), r, Floats(s.nearOffset[axis])), entry);
-            exit = min(fma(Floats::load(node + farPlane), r, Floats(s.farOffset[axis])), exit);
-        }
-        const unsigned hit = bits(entry <= exit);
-        const auto* const child =
-            reinterpret_cast<const WideRef*>(node + std::ptrdiff_t{6} * W * 4);
+        Floats entry;
+        const unsigned hit = s.mesh.entered(entry);
         const std::size_t at = slot * stride_ + s.top;
-        const WideRef nearest = push(hit, max(entry - room, Floats(0.0f)), child, inMesh_, at);
+        const WideRef nearest = push(hit, entry, s.mesh.children(), inMesh_, at);
         // Without a child, what was on top before.
         const WideRef before = inMesh_.refs[at - 1];
         s.top = s.top + static_cast<std::uint32_t>(std::popcount(hit)) - 1;
@@ -268,61 +221,25 @@ private:
     // Candidates are tested in the next round, when their corners are in the cache.
     [[gnu::always_inline]] void leafStep(std::uint32_t slot, Lists& to) {
         Slot& s = slots_[slot];
-        s.candidates = leafCandidates(s);
-        if (s.candidates == 0) return send(slot, inMesh_.refs[slot * stride_ + --s.top], to);
-        forEachCandidate(s, [](std::uint32_t, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+        s.mesh.findCandidates();
+        if (s.mesh.candidates == 0) return send(slot, inMesh_.refs[slot * stride_ + --s.top], to);
+        s.mesh.forEachCandidate([](std::uint32_t, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
             for (const Vec3d* corner : {&a, &b, &c}) // may lie in two lines
                 __builtin_prefetch(&corner->x), __builtin_prefetch(&corner->z);
         });
         to.add(Tests, slot);
     }
 
-    // TreeRay::mayMeet() for W triangles, and whether they are at depths where a hit counts.
-    unsigned leafCandidates(const Slot& s) const {
-        const std::byte* const p = s.base + byteOffset(s.at);
-        const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(p);
-        const Floats x = Floats::load(p + s.axis[0]) - Floats(s.origin[0]);
-        const Floats y = Floats::load(p + s.axis[1]) - Floats(s.origin[1]);
-        const Floats z = Floats::load(p + s.axis[2]) - Floats(s.origin[2]);
-        const Floats xs = x - Floats(s.shearX) * z, ys = y - Floats(s.shearY) * z;
-        const Floats depth = flipSign(z, Floats(s.sign)), size = max(abs(xs), abs(ys));
-        const Ints i0 = Ints::bytes(leaf.corner[0]), i1 = Ints::bytes(leaf.corner[1]),
-                   i2 = Ints::bytes(leaf.corner[2]);
-        const Floats x0 = permute(xs, i0), x1 = permute(xs, i1), x2 = permute(xs, i2);
-        const Floats y0 = permute(ys, i0), y1 = permute(ys, i1), y2 = permute(ys, i2);
-        const Floats z0 = permute(depth, i0), z1 = permute(depth, i1), z2 = permute(depth, i2);
-        const Floats U = x2 * y1 - y2 * x1, V = x0 * y2 - y0 * x2, R = x1 * y0 - y1 * x0;
-        const Floats most = max(max(U, V), R), least = min(min(U, V), R);
-        const Floats farthest = max(max(permute(size, i0), permute(size, i1)), permute(size, i2));
-        const Floats error = Floats(5 * s.lateralError) * farthest;
-        const Mask outside = (least < Floats(0.0f) - error) & (error < most);
-        const float room = s.longestSide[s.at >> 2] * s.depthPerSide + s.lateralError;
-        const Mask hidden =
-            (Floats(s.zCut + room) < min(min(z0, z1), z2)) | (max(max(z0, z1), z2) < Floats(-room));
-        return ~bits(outside | hidden) & ((1u << leaf.count) - 1);
-    }
-
-    // fn(triangle, its exact corners)
-    template <class Fn> void forEachCandidate(const Slot& s, Fn&& fn) const {
-        const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(s.base + byteOffset(s.at));
-        const Vec3d* const points = s.exactPoints + (s.at >> 2) * TreeVisit::kPerLine;
-        for (unsigned rest = s.candidates; rest != 0; rest &= rest - 1) {
-            const auto i = static_cast<std::uint32_t>(std::countr_zero(rest));
-            fn(s.triangleIds[leaf.first + i], points[leaf.corner[0][i]], points[leaf.corner[1][i]],
-               points[leaf.corner[2][i]]);
-        }
-    }
-
     void test(std::uint32_t slot, Lists& to) {
         Slot& s = slots_[slot];
-        float zCut = s.zCut;
-        forEachCandidate(
-            s, [&](std::uint32_t triangle, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
+        float zCut = s.mesh.zCut;
+        s.mesh.forEachCandidate(
+            [&](std::uint32_t triangle, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
                 if (zCut >= 0) zCut = query_.test(slot, triangle, a, b, c);
             });
         if (zCut < 0) s.top = 1; // only the end
-        if (zCut < s.zCut) s.top = drop(inMesh_, slot * stride_, s.top, zCut);
-        s.zCut = zCut;
+        if (zCut < s.mesh.zCut) s.top = drop(inMesh_, slot * stride_, s.top, zCut);
+        s.mesh.zCut = zCut;
         send(slot, inMesh_.refs[slot * stride_ + --s.top], to);
     }
 

@@ -19,6 +19,8 @@ namespace kernels::avx2 {
 
 #include "accel/kernels/ray_lanes.inl"
 
+#include "accel/kernels/placed_mesh.inl"
+
 #include "accel/kernels/placed.inl"
 } // namespace kernels::avx2
 KERNEL_REGION_END

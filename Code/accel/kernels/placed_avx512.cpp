@@ -24,6 +24,8 @@ namespace kernels::avx512 {
 
 #include "accel/kernels/ray_lanes.inl"
 
+#include "accel/kernels/placed_mesh.inl"
+
 #include "accel/kernels/placed.inl"
 } // namespace kernels::avx512
 KERNEL_REGION_END

@@ -19,6 +19,8 @@ namespace kernels::sse {
 
 #include "accel/kernels/ray_lanes.inl"
 
+#include "accel/kernels/placed_mesh.inl"
+
 #include "accel/kernels/placed.inl"
 } // namespace kernels::sse
 KERNEL_REGION_END

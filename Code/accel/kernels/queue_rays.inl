@@ -1,5 +1,5 @@
-// W rays of the queue, by columns, and how they come from a batch.
-// Included by the file of each instruction set inside its namespace, in front of queue.inl.
+// W rays of the queue, by columns: what its steps read, and the boxes below the root for all W.
+// Included by the file of each instruction set inside its namespace, behind ray_lanes.inl.
 
 enum class Query { Closest, Any };
 

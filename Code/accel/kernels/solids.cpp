@@ -1,3 +1,4 @@
+// The wide tree over solids, the table of its kernels, and the batches that go to them by origin.
 #include "accel/kernels/solids.h"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 // as AnalyticShape and Sphere compute them, operation by operation in double. Everything before
 // that only leaves out: the boxes' pads are 64 roundings of the coordinates wide, and what a ray
 // meets lies inside of the box without the pad.
-// Included by the file of each instruction set inside its namespace.
+// Included by the file of each instruction set inside its namespace, behind ray_lanes.inl.
 
 #include "accel/kernels/solids_rays.inl"
 

@@ -1,3 +1,4 @@
+// The table of the functions for sphere surfaces.
 #include "accel/kernels/sphere_surfaces.h"
 
 #define SPHERE_SURFACES(isa)                                                                       \

@@ -1,7 +1,7 @@
 // Stacks of rays that take their steps one by one: the nodes that a ray goes to later, the farthest
 // at the bottom, and with them the depths at which it enters them. A stack is as long as its tree
 // allows, and 2 W places more: stores write W places whatever they keep.
-// Included by the file of each instruction set inside its namespace.
+// Included by the file of each instruction set inside its namespace, behind a simd_*.inl.
 
 // An odd number of lines between stacks spreads them over the sets of the cache.
 inline std::size_t strideOfStacks(std::size_t mostEntries) {
