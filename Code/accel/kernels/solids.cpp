@@ -238,8 +238,9 @@ public:
 
 private:
     static bool areFromOnePoint(const RaySpan& rays) {
-        const auto bytes = (rays.size() - 1) * sizeof(Vec3);
-        return rays.size() > 0 && std::memcmp(rays.org.data(), rays.org.data() + 1, bytes) == 0;
+        const auto* const first = rays.org.data();
+        return rays.size() > 0 &&
+               std::memcmp(first, first + 1, (rays.size() - 1) * sizeof(Vec3)) == 0;
     }
 
     static constexpr std::size_t kMostOrigins = 16;
