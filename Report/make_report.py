@@ -197,13 +197,25 @@ def rays():
                       for row in rates],
                      [37 * mm] + [19 * mm] * 6), Spacer(1, 5 * mm)]
     peers = newest(tsv("tests/bench/peers.tsv"))
+    survey = [row for row in peers if row["mesh"].endswith((", outside", ", inside"))]
+    peers = [row for row in peers if row not in survey]
     story += [Paragraph(f"The same rays through {escape(peers[0]['peer'])} in alternating rounds, best of its modes (single "
                         "rays, packets of 8 and 16, streams): how many times as fast raytracer is, and the least and most "
                         f"of the rounds ({markup('`make bench-peers`')}).", BODY), Spacer(1, 3 * mm),
               figures(["mesh, kernel", "rays", "raytracer", "Embree", "its mode", "ratio", "in the rounds"],
                       [[f"{os.path.splitext(row['mesh'])[0]}, {row['kernel']}", row["what"], row["ours"], row["theirs"],
                         row["mode"], row["ratio"], f"{row['least']} to {row['most']}"] for row in peers],
-                      [32 * mm, 36 * mm, 20 * mm, 18 * mm, 22 * mm, 16 * mm], 2), Spacer(1, 8 * mm)]
+                      [32 * mm, 36 * mm, 20 * mm, 18 * mm, 22 * mm, 16 * mm], 2), Spacer(1, 5 * mm)]
+    ratios = {}
+    for row in survey:
+        ratios.setdefault(row["mesh"].replace(".obj", ""), {})[row["what"].split(",")[0]] = row["ratio"]
+    kinds = ["primary", "shadow", "bounce", "bounceany"]
+    if ratios:
+        story += [Paragraph("The ratios alone, of one round each, on meshes of other kinds and from two views "
+                            "(tests/bench/meshes.py makes them). One round is a rough figure: on a machine that does other "
+                            "things, too, some are off by half.", BODY), Spacer(1, 3 * mm),
+                  figures(["mesh, view", *kinds], [[mesh, *(found[kind] for kind in kinds)] for mesh, found in ratios.items()],
+                          [44 * mm] + [24 * mm] * 4), Spacer(1, 8 * mm)]
     return story
 
 
