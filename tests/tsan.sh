@@ -6,6 +6,7 @@ shift
 export TSAN_OPTIONS='halt_on_error=1 exitcode=66'
 
 words='parallel wide_build bvh_is_the_same same_bits sameBits texture_threads film read_threads image_files'
+words="$words kernels_on_closed kernels_in_a_shape solids_batches" # as hard for a compiler as code gets
 check "unit tests: $words" "$unit" $words
 for threads in 1 4; do
     for option in '-i whitted' '-i ao' '--aov depth,id -i normal'; do

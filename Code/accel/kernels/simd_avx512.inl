@@ -84,7 +84,14 @@ inline Mask operator<(Ints a, Ints b) { return {_mm512_cmplt_epu32_mask(a.v, b.v
 inline Mask operator==(Ints a, Ints b) { return {_mm512_cmpeq_epi32_mask(a.v, b.v)}; }
 inline Mask operator&(Mask a, Mask b) { return {static_cast<__mmask16>(a.v & b.v)}; }
 inline Mask operator|(Mask a, Mask b) { return {static_cast<__mmask16>(a.v | b.v)}; }
-inline unsigned bits(Mask m) { return m.v; }
+inline unsigned bits(Mask m) {
+    unsigned lanes = m.v;
+#if !defined(__clang__)
+    // g++ 12 may spill the 16 bits of a mask and load 32: they are made 32 in a register.
+    asm("" : "+r"(lanes));
+#endif
+    return lanes;
+}
 inline Mask maskOf(unsigned laneBits) { return {static_cast<__mmask16>(laneBits)}; }
 inline Floats select(Mask m, Floats a, Floats b) { return _mm512_mask_blend_ps(m.v, b.v, a.v); }
 inline Ints select(Mask m, Ints a, Ints b) { return _mm512_mask_blend_epi32(m.v, b.v, a.v); }

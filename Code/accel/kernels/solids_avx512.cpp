@@ -23,8 +23,8 @@ namespace kernels::avx512 {
 inline Floats sqrt(Floats a) { return _mm512_sqrt_ps(a.v); }
 inline Doubles sqrt(const Doubles& a) { return {_mm512_sqrt_pd(a.lo), _mm512_sqrt_pd(a.hi)}; }
 inline unsigned atMost(const Doubles& a, const Doubles& b) {
-    return _mm512_cmp_pd_mask(a.lo, b.lo, _CMP_LE_OQ) |
-           static_cast<unsigned>(_mm512_cmp_pd_mask(a.hi, b.hi, _CMP_LE_OQ)) << 8;
+    return bits({_mm512_cmp_pd_mask(a.lo, b.lo, _CMP_LE_OQ)}) |
+           bits({_mm512_cmp_pd_mask(a.hi, b.hi, _CMP_LE_OQ)}) << 8;
 }
 
 // Bits of W rows, asked for by columns.
@@ -36,7 +36,7 @@ public:
                                        static_cast<short>(columns));
     }
     unsigned column(int i) const {
-        return _mm256_movepi16_mask(_mm256_sll_epi16(rows_, _mm_cvtsi32_si128(15 - i)));
+        return bits({_mm256_movepi16_mask(_mm256_sll_epi16(rows_, _mm_cvtsi32_si128(15 - i)))});
     }
 
 private:

@@ -27,8 +27,8 @@ inline Doubles max(const Doubles& a, const Doubles& b) {
     return {_mm512_max_pd(a.lo, b.lo), _mm512_max_pd(a.hi, b.hi)};
 }
 inline unsigned less(const Doubles& a, const Doubles& b) {
-    return _mm512_cmp_pd_mask(a.lo, b.lo, _CMP_LT_OQ) |
-           static_cast<unsigned>(_mm512_cmp_pd_mask(a.hi, b.hi, _CMP_LT_OQ)) << 8;
+    return bits({_mm512_cmp_pd_mask(a.lo, b.lo, _CMP_LT_OQ)}) |
+           bits({_mm512_cmp_pd_mask(a.hi, b.hi, _CMP_LT_OQ)}) << 8;
 }
 
 #include "render/waves/lamp_lanes.inl"
