@@ -53,6 +53,15 @@ inline Doubles operator*(Doubles a, Doubles b) {
 inline Doubles operator/(Doubles a, Doubles b) {
     return {_mm256_div_pd(a.lo, b.lo), _mm256_div_pd(a.hi, b.hi)};
 }
+inline Floats sqrt(Floats a) { return _mm256_sqrt_ps(a.v); }
+inline Doubles sqrt(const Doubles& a) { return {_mm256_sqrt_pd(a.lo), _mm256_sqrt_pd(a.hi)}; }
+inline Doubles abs(const Doubles& a) {
+    const __m256d sign = _mm256_set1_pd(-0.0);
+    return {_mm256_andnot_pd(sign, a.lo), _mm256_andnot_pd(sign, a.hi)};
+}
+inline Doubles max(const Doubles& a, const Doubles& b) {
+    return {_mm256_max_pd(a.lo, b.lo), _mm256_max_pd(a.hi, b.hi)};
+}
 inline Floats fma(Floats a, Floats b, Floats c) { return _mm256_fmadd_ps(a.v, b.v, c.v); }
 inline Floats fnma(Floats a, Floats b, Floats c) {
     return _mm256_fnmadd_ps(a.v, b.v, c.v);
@@ -97,6 +106,23 @@ inline Ints select(Mask m, Ints a, Ints b) {
 }
 inline Floats permute(Floats a, Ints lanes) { return _mm256_permutevar8x32_ps(a.v, lanes.v); }
 inline Ints permute(Ints a, Ints lanes) { return _mm256_permutevar8x32_epi32(a.v, lanes.v); }
+
+inline unsigned bitsOf(__m256d lo, __m256d hi) {
+    return static_cast<unsigned>(_mm256_movemask_pd(lo) | _mm256_movemask_pd(hi) << 4);
+}
+inline unsigned less(const Doubles& a, const Doubles& b) {
+    return bitsOf(_mm256_cmp_pd(a.lo, b.lo, _CMP_LT_OQ), _mm256_cmp_pd(a.hi, b.hi, _CMP_LT_OQ));
+}
+inline unsigned atMost(const Doubles& a, const Doubles& b) {
+    return bitsOf(_mm256_cmp_pd(a.lo, b.lo, _CMP_LE_OQ), _mm256_cmp_pd(a.hi, b.hi, _CMP_LE_OQ));
+}
+inline Doubles orWhereZero(const Doubles& size, const Doubles& a, double b) {
+    const auto half = [b](__m256d s, __m256d x) {
+        return _mm256_blendv_pd(_mm256_set1_pd(b), x,
+                                _mm256_cmp_pd(s, _mm256_setzero_pd(), _CMP_GT_OQ));
+    };
+    return {half(size.lo, a.lo), half(size.hi, a.hi)};
+}
 
 inline float smallest(Floats a) {
     __m128 m = _mm_min_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));

@@ -80,6 +80,18 @@ inline Doubles operator/(const Doubles& a, const Doubles& b) {
     return {_mm_div_pd(a.v[0], b.v[0]), _mm_div_pd(a.v[1], b.v[1]), _mm_div_pd(a.v[2], b.v[2]),
             _mm_div_pd(a.v[3], b.v[3])};
 }
+inline Floats sqrt(Floats a) { return {_mm_sqrt_ps(a.lo), _mm_sqrt_ps(a.hi)}; }
+// fn(i) for each of the four registers.
+template <class Fn> inline Doubles quarters(Fn&& fn) { return {fn(0), fn(1), fn(2), fn(3)}; }
+inline Doubles sqrt(const Doubles& a) {
+    return quarters([&](int i) { return _mm_sqrt_pd(a.v[i]); });
+}
+inline Doubles abs(const Doubles& a) {
+    return quarters([&](int i) { return _mm_andnot_pd(_mm_set1_pd(-0.0), a.v[i]); });
+}
+inline Doubles max(const Doubles& a, const Doubles& b) {
+    return quarters([&](int i) { return _mm_max_pd(a.v[i], b.v[i]); });
+}
 // Two roundings here: fma() is used only where the pads cover either way.
 inline Floats fma(Floats a, Floats b, Floats c) { return a * b + c; }
 inline Floats fnma(Floats a, Floats b, Floats c) { return c - a * b; } // c - a b
@@ -156,6 +168,23 @@ inline Floats permute(Floats a, Ints lanes) {
 inline Ints permute(Ints a, Ints lanes) {
     const Floats b = permute(Floats(_mm_castsi128_ps(a.lo), _mm_castsi128_ps(a.hi)), lanes);
     return {_mm_castps_si128(b.lo), _mm_castps_si128(b.hi)};
+}
+
+template <class Fn> inline unsigned bitsOf(Fn&& fn) {
+    unsigned all = 0;
+    for (int i = 0; i < 4; ++i) all |= static_cast<unsigned>(_mm_movemask_pd(fn(i))) << 2 * i;
+    return all;
+}
+inline unsigned less(const Doubles& a, const Doubles& b) {
+    return bitsOf([&](int i) { return _mm_cmplt_pd(a.v[i], b.v[i]); });
+}
+inline unsigned atMost(const Doubles& a, const Doubles& b) {
+    return bitsOf([&](int i) { return _mm_cmple_pd(a.v[i], b.v[i]); });
+}
+inline Doubles orWhereZero(const Doubles& size, const Doubles& a, double b) {
+    return quarters([&](int i) {
+        return _mm_blendv_pd(_mm_set1_pd(b), a.v[i], _mm_cmpgt_pd(size.v[i], _mm_setzero_pd()));
+    });
 }
 
 inline float smallest(Floats a) {

@@ -11,34 +11,11 @@
 #include <immintrin.h>
 #include <limits>
 
-KERNEL_REGION_BEGIN("sse4.2,popcnt")
+SSE_REGION_BEGIN
 namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
 
-inline Floats sqrt(Floats a) { return {_mm_sqrt_ps(a.lo), _mm_sqrt_ps(a.hi)}; }
-inline Doubles sqrt(const Doubles& a) {
-    return {_mm_sqrt_pd(a.v[0]), _mm_sqrt_pd(a.v[1]), _mm_sqrt_pd(a.v[2]), _mm_sqrt_pd(a.v[3])};
-}
-inline unsigned atMost(const Doubles& a, const Doubles& b) {
-    unsigned all = 0;
-    for (int i = 0; i < 4; ++i)
-        all |= static_cast<unsigned>(_mm_movemask_pd(_mm_cmple_pd(a.v[i], b.v[i]))) << 2 * i;
-    return all;
-}
-
-// Bits of 8 rows of 8, asked for by columns.
-class LaneMatrix {
-public:
-    void set(int row, unsigned columns) { rows_ |= std::uint64_t{columns} << 8 * row; }
-    // The factor brings bit 0 of byte k to bit 56 + k, and no two products meet.
-    unsigned column(int i) const {
-        return static_cast<unsigned>((rows_ >> i & 0x0101010101010101u) * 0x0102040810204080u >>
-                                     56);
-    }
-
-private:
-    std::uint64_t rows_ = 0;
-};
+#include "accel/kernels/lane_matrix.inl"
 
 #include "accel/kernels/ray_lanes.inl"
 
