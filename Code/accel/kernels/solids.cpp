@@ -1,116 +1,10 @@
-// The wide tree over solids, the table of its kernels, and the batches that go to them by origin.
+// What kernels are told of solids, the table of the kernels, and the batches that go to them by
+// origin.
 #include "accel/kernels/solids.h"
 
 #include <algorithm>
 #include <cstring>
 #include <utility>
-
-namespace {
-
-// Puts W children below every node of a binary tree: the largest is opened first.
-template <int W> class Widener {
-public:
-    Widener(SolidTree& tree, const Bvh& bvh)
-        : tree_(tree), bvh_(bvh), solids_(std::move(tree.solids)), boxes_(std::move(tree.boxes)) {}
-
-    void run() {
-        tree_.solids.clear(), tree_.boxes.clear();
-        if (!bvh_.nodes.empty()) addNode(open({0}));
-    }
-
-private:
-    // A node of the binary tree, or some primitives of a leaf in a row.
-    struct Part {
-        std::uint32_t first = 0; // node, or place in primIds
-        std::uint32_t count = 0; // primitives; 0: a node
-        bool isSolid() const { return count == 1; }
-    };
-    using Parts = std::vector<Part>;
-
-    // A leaf of more than W primitives falls into W pieces.
-    Parts open(Part part) const {
-        if (part.count == 0) {
-            const BvhNode& node = bvh_.nodes[part.first];
-            if (!node.isLeaf()) return {{node.first}, {node.first + 1}};
-            part = {node.first, node.count};
-        }
-        Parts parts;
-        const std::uint32_t pieces = std::min<std::uint32_t>(part.count, W);
-        for (std::uint32_t i = 0, at = 0; i < pieces; ++i) {
-            const std::uint32_t end = (i + 1) * part.count / pieces;
-            parts.push_back({part.first + at, end - at});
-            at = end;
-        }
-        return parts;
-    }
-    std::size_t sizeOpened(Part part) const {
-        if (part.count == 0) {
-            const BvhNode& node = bvh_.nodes[part.first];
-            if (!node.isLeaf()) return 2;
-            part.count = node.count;
-        }
-        return std::min<std::size_t>(part.count, W);
-    }
-    std::uint32_t solidOf(Part part) const { return bvh_.primIds[part.first]; }
-    Bounds boxOf(Part part) const {
-        if (part.count == 0) return bvh_.nodes[part.first].box;
-        Bounds box;
-        for (std::uint32_t i = 0; i < part.count; ++i)
-            box.extend(boxes_[bvh_.primIds[part.first + i]]);
-        return box;
-    }
-
-    WideRef addNode(Parts parts) {
-        for (;;) {
-            std::size_t largest = parts.size();
-            float area = -1;
-            for (std::size_t i = 0; i < parts.size(); ++i) {
-                if (parts[i].isSolid() || parts.size() - 1 + sizeOpened(parts[i]) > W) continue;
-                const float size = boxOf(parts[i]).halfArea();
-                if (!(size > area)) continue;
-                largest = i;
-                area = size;
-            }
-            if (largest == parts.size()) break;
-            const Parts inner = open(parts[largest]);
-            parts[largest] = inner[0];
-            parts.insert(parts.end(), inner.begin() + 1, inner.end());
-        }
-        constexpr std::size_t kLines = sizeof(WideNode<W>) / sizeof(WideTree::Line);
-        const std::size_t line = tree_.lines.size();
-        tree_.lines.resize(line + kLines);
-        WideNode<W> node;
-        for (std::size_t i = 0; i < W; ++i) {
-            const bool used = i < parts.size();
-            const Bounds box = used ? boxOf(parts[i]) : Bounds();
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                node.plane[axis][0][i] = box.lo[axis];
-                node.plane[axis][1][i] = box.hi[axis];
-            }
-            node.child[i] = used && parts[i].isSolid() ? addSolid(solidOf(parts[i]))
-                                                       : wideRef(0, WideKind::None);
-        }
-        // After all solids of the node, which so lie in a row.
-        for (std::size_t i = 0; i < parts.size(); ++i)
-            if (!parts[i].isSolid()) node.child[i] = addNode(open(parts[i]));
-        std::copy_n(reinterpret_cast<const WideTree::Line*>(&node), kLines,
-                    tree_.lines.begin() + static_cast<std::ptrdiff_t>(line));
-        return wideRef(line, WideKind::Node);
-    }
-
-    WideRef addSolid(std::uint32_t index) {
-        tree_.solids.push_back(solids_[index]);
-        tree_.boxes.push_back(boxes_[index]);
-        return wideRef(tree_.solids.size() - 1, WideKind::Leaf);
-    }
-
-    SolidTree& tree_;
-    const Bvh& bvh_;
-    const std::vector<SolidTree::Solid> solids_;
-    const std::vector<Bounds> boxes_;
-};
-
-} // namespace
 
 void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const SolidForm& form) {
     Solid solid{.number = number, .hides = hides};
@@ -146,15 +40,6 @@ void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const S
     }
     solids.push_back(solid);
     boxes.push_back(box);
-}
-
-void SolidTree::build(int nodeWidth, const Bvh& bvh) {
-    width = nodeWidth;
-    lines.clear();
-    if (nodeWidth == 16)
-        Widener<16>(*this, bvh).run();
-    else
-        Widener<8>(*this, bvh).run();
 }
 
 #define SOLID_FUNCTIONS(isa)                                                                       \
