@@ -1,5 +1,6 @@
 #include "read/txt/read_blocks.h"
 
+#include "base/large_pages.h"
 #include "base/text.h"
 #include "desc/names.h"
 #include "desc/properties.h"
@@ -83,6 +84,7 @@ private:
                                 static_cast<double>(part_.last - part_.first);
             const double growth = std::clamp(1.05 / done, 1.5, double{kMostGrowth});
             blocks.reserve(static_cast<std::size_t>(static_cast<double>(blocks.size()) * growth));
+            adviseLargePages(blocks.data(), blocks.capacity() * sizeof(Block));
         }
         return blocks.emplace_back();
     }
