@@ -3,9 +3,13 @@
 // than what is done with it.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <initializer_list>
+#include <span>
+#include <stdexcept>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 template <class T> class OneOrMore {
@@ -28,6 +32,11 @@ public:
     T* end() { return data() + size(); }
     const T& operator[](std::size_t i) const { return data()[i]; }
     T& operator[](std::size_t i) { return data()[i]; }
+    const T& at(std::size_t i) const {
+        if (i >= size()) throw std::out_of_range("OneOrMore::at");
+        return data()[i];
+    }
+    T& at(std::size_t i) { return const_cast<T&>(std::as_const(*this).at(i)); }
     const T& front() const { return *data(); }
     T& front() { return *data(); }
     const T& back() const { return data()[size() - 1]; }
@@ -60,14 +69,14 @@ public:
         for (; first != last; ++first) push_back(*first);
     }
 
-    bool operator==(const OneOrMore& other) const {
-        if (size() != other.size()) return false;
-        for (std::size_t i = 0; i < size(); ++i)
-            if (!((*this)[i] == other[i])) return false;
-        return true;
-    }
+    bool operator==(const OneOrMore& other) const { return equals(other); }
+    bool operator==(const std::vector<T>& other) const { return equals(other); }
 
 private:
+    bool equals(std::span<const T> other) const {
+        return std::equal(begin(), end(), other.begin(), other.end());
+    }
+
     T one_{}; // the only element, if hasOne_ and nothing is in more_
     bool hasOne_ = false;
     std::vector<T> more_; // all elements when there are several
