@@ -38,7 +38,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       occluders(theScene.shapes()), cutoff(toFloat(theSettings.picture.cutoff)),
       steps(stepsFor(theScene, theSettings)), wantsFirstHits(needsFirstHits(theSettings)),
       surfaceNeeds(surfaceNeedsOf(theScene, theSettings)),
-      sphereSurfaces(::sphereSurfaces(chooseKernel(theSettings.kernel))),
+      surfaceLanes(::surfaceLanes(chooseKernel(theSettings.kernel))),
       cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
     const int samples = settings.picture.lightSamples;
     for (std::size_t i = 0; i < scene.lights().size(); ++i) {

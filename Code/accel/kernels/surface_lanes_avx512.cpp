@@ -1,5 +1,5 @@
-// sphere_surfaces.inl for the registers of avx512.cpp.
-#include "accel/kernels/sphere_surfaces.h"
+// Surfaces in the registers of avx512.cpp.
+#include "accel/kernels/surface_lanes.h"
 
 #if defined(__x86_64__)
 #include "accel/kernels/exact_hit.h"
@@ -28,17 +28,21 @@ inline Doubles abs(const Doubles& a) { return {_mm512_abs_pd(a.lo), _mm512_abs_p
 inline Doubles max(const Doubles& a, const Doubles& b) {
     return {_mm512_max_pd(a.lo, b.lo), _mm512_max_pd(a.hi, b.hi)};
 }
-// a, but b where `size` is not positive.
-inline Doubles orWhereZero(const Doubles& size, const Doubles& a, double b) {
-    const auto half = [b](__m512d s, __m512d x) {
-        return _mm512_mask_blend_pd(_mm512_cmp_pd_mask(s, _mm512_setzero_pd(), _CMP_GT_OQ),
-                                    _mm512_set1_pd(b), x);
-    };
-    return {half(size.lo, a.lo), half(size.hi, a.hi)};
+inline Mask operator<(const Doubles& a, const Doubles& b) {
+    const unsigned lo = _mm512_cmp_pd_mask(a.lo, b.lo, _CMP_LT_OQ),
+                   hi = _mm512_cmp_pd_mask(a.hi, b.hi, _CMP_LT_OQ);
+    return maskOf(lo | hi << 8);
+}
+inline Doubles select(Mask m, const Doubles& a, const Doubles& b) {
+    return {_mm512_mask_blend_pd(static_cast<__mmask8>(m.v), b.lo, a.lo),
+            _mm512_mask_blend_pd(static_cast<__mmask8>(m.v >> 8), b.hi, a.hi)};
 }
 } // namespace
 
+#include "accel/kernels/vectors3.inl"
+
 #include "accel/kernels/sphere_surfaces.inl"
+#include "accel/kernels/triangle_surfaces.inl"
 } // namespace kernels::avx512
 KERNEL_REGION_END
 #endif
