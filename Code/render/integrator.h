@@ -57,6 +57,7 @@ struct IntegratorContext {
     bool wantsFirstHits;
     SurfaceNeeds surfaceNeeds;
     SurfaceLanes surfaceLanes;
+    std::vector<const SphereToShade*> spheres; // by shape; empty: lanes do none
     MediumTree media; // what camera rays start in, and room for what rays enter
     MediumTree::Inside cameraMedium;
 

@@ -7,6 +7,12 @@
 
 namespace waves {
 
+// Thousands of spheres are more than the nearest caches hold.
+inline void prefetch(const SphereToShade& sphere) {
+    const auto* const bytes = reinterpret_cast<const char*>(&sphere);
+    for (std::size_t at = 0; at < sizeof(sphere); at += 64) __builtin_prefetch(bytes + at);
+}
+
 // All that are on spheres together, the others by runs on one shape: what is left when the spheres
 // in front of a floor are taken out is long runs on the floor.
 inline void findSurfaces(const Wave& wave) {
@@ -18,17 +24,16 @@ inline void findSurfaces(const Wave& wave) {
     std::vector<const SphereToShade*>& spheres = wave.memory.spheres;
     spheres.clear();
     const auto& shapes = context.scene.shapes().shapes;
-    const bool takesSpheres = context.surfaceLanes.spheres && !context.surfaceNeeds.uv;
-    std::uint32_t last = Hit::kNoShape;
-    const SphereToShade* sphere = nullptr;
+    const bool takesSpheres = !context.spheres.empty();
     for (std::uint32_t k = 0; k < points.count; ++k) {
         const std::uint32_t ray = points.ray[k];
-        if (takesSpheres && hits[ray].shape != last) {
-            last = hits[ray].shape;
-            sphere = shapes[last]->sphereToShade();
-        }
+        const SphereToShade* const sphere =
+            takesSpheres ? context.spheres[hits[ray].shape] : nullptr;
         (sphere ? onSpheres : others).push(ray, k);
-        if (sphere) spheres.push_back(sphere);
+        if (sphere) {
+            prefetch(*sphere);
+            spheres.push_back(sphere);
+        }
     }
     if (points.count == 0) return;
     const Strided out{&points.at[0].surface, sizeof(ShadedPoint)};
