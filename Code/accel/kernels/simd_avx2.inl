@@ -116,12 +116,18 @@ inline unsigned less(const Doubles& a, const Doubles& b) {
 inline unsigned atMost(const Doubles& a, const Doubles& b) {
     return bitsOf(_mm256_cmp_pd(a.lo, b.lo, _CMP_LE_OQ), _mm256_cmp_pd(a.hi, b.hi, _CMP_LE_OQ));
 }
-inline Doubles orWhereZero(const Doubles& size, const Doubles& a, double b) {
-    const auto half = [b](__m256d s, __m256d x) {
-        return _mm256_blendv_pd(_mm256_set1_pd(b), x,
-                                _mm256_cmp_pd(s, _mm256_setzero_pd(), _CMP_GT_OQ));
-    };
-    return {half(size.lo, a.lo), half(size.hi, a.hi)};
+inline Mask operator<(const Doubles& a, const Doubles& b) {
+    const __m256 lo = _mm256_castpd_ps(_mm256_cmp_pd(a.lo, b.lo, _CMP_LT_OQ)),
+                 hi = _mm256_castpd_ps(_mm256_cmp_pd(a.hi, b.hi, _CMP_LT_OQ));
+    const __m256d pairs = _mm256_castps_pd(_mm256_shuffle_ps(lo, hi, 0x88));
+    return {_mm256_castpd_ps(_mm256_permute4x64_pd(pairs, 0xd8))};
+}
+inline Doubles select(Mask m, const Doubles& a, const Doubles& b) {
+    const __m256i lanes = _mm256_castps_si256(m.v);
+    const __m256i lo = _mm256_cvtepi32_epi64(_mm256_castsi256_si128(lanes)),
+                  hi = _mm256_cvtepi32_epi64(_mm256_extracti128_si256(lanes, 1));
+    return {_mm256_blendv_pd(b.lo, a.lo, _mm256_castsi256_pd(lo)),
+            _mm256_blendv_pd(b.hi, a.hi, _mm256_castsi256_pd(hi))};
 }
 
 inline float smallest(Floats a) {

@@ -113,13 +113,10 @@ inline unsigned atMost(const Doubles& a, const Doubles& b) {
     return bits({_mm512_cmp_pd_mask(a.lo, b.lo, _CMP_LE_OQ)}) |
            bits({_mm512_cmp_pd_mask(a.hi, b.hi, _CMP_LE_OQ)}) << 8;
 }
-// a, but b where `size` is not positive.
-inline Doubles orWhereZero(const Doubles& size, const Doubles& a, double b) {
-    const auto half = [b](__m512d s, __m512d x) {
-        return _mm512_mask_blend_pd(_mm512_cmp_pd_mask(s, _mm512_setzero_pd(), _CMP_GT_OQ),
-                                    _mm512_set1_pd(b), x);
-    };
-    return {half(size.lo, a.lo), half(size.hi, a.hi)};
+inline Mask operator<(const Doubles& a, const Doubles& b) { return maskOf(less(a, b)); }
+inline Doubles select(Mask m, const Doubles& a, const Doubles& b) {
+    return {_mm512_mask_blend_pd(static_cast<__mmask8>(bits(m)), b.lo, a.lo),
+            _mm512_mask_blend_pd(static_cast<__mmask8>(bits(m) >> 8), b.hi, a.hi)};
 }
 
 inline float smallest(Floats a) { return _mm512_reduce_min_ps(a.v); }

@@ -181,10 +181,14 @@ inline unsigned less(const Doubles& a, const Doubles& b) {
 inline unsigned atMost(const Doubles& a, const Doubles& b) {
     return bitsOf([&](int i) { return _mm_cmple_pd(a.v[i], b.v[i]); });
 }
-inline Doubles orWhereZero(const Doubles& size, const Doubles& a, double b) {
-    return quarters([&](int i) {
-        return _mm_blendv_pd(_mm_set1_pd(b), a.v[i], _mm_cmpgt_pd(size.v[i], _mm_setzero_pd()));
-    });
+inline Mask operator<(const Doubles& a, const Doubles& b) {
+    const auto less = [&](int i) { return _mm_castpd_ps(_mm_cmplt_pd(a.v[i], b.v[i])); };
+    return {_mm_shuffle_ps(less(0), less(1), 0x88), _mm_shuffle_ps(less(2), less(3), 0x88)};
+}
+inline Doubles select(Mask m, const Doubles& a, const Doubles& b) {
+    const __m128 twice[4] = {_mm_unpacklo_ps(m.lo, m.lo), _mm_unpackhi_ps(m.lo, m.lo),
+                             _mm_unpacklo_ps(m.hi, m.hi), _mm_unpackhi_ps(m.hi, m.hi)};
+    return quarters([&](int i) { return _mm_blendv_pd(b.v[i], a.v[i], _mm_castps_pd(twice[i])); });
 }
 
 inline float smallest(Floats a) {
