@@ -92,8 +92,7 @@ template <class Bytes> Bytes readWhole(const std::string& fileName) {
     // One byte more than promised: the end is seen without another allocation.
     const auto size =
         static_cast<std::size_t>(status ? kFirstPart : std::max(promised + 1, kFirstPart));
-    bytes.reserve(size);
-    adviseLargePages(bytes.data(), size);
+    reserveInLargePages(bytes, size);
     bytes.resize(size);
     while (true) {
         const std::size_t read =
