@@ -1,7 +1,6 @@
 #include "image/inflate.h"
 
 #include "base/error.h"
-#include "base/large_pages.h"
 #include "base/text.h"
 #include "image/checksum.h"
 #include "image/deflate_codes.h"
@@ -135,10 +134,7 @@ private:
 class Inflater {
 public:
     Inflater(std::span<const std::uint8_t> bytes, std::size_t size, const std::string& name)
-        : bits_(bytes, name), name_(name) {
-        reserveInLargePages(out_, size);
-        out_.resize(size);
-    }
+        : bits_(bytes, name), out_(size), name_(name) {}
 
     void run() {
         bool last = false;

@@ -1,7 +1,6 @@
 // Reads PNG: every colour type, depth and interlace method of the specification. Ancillary chunks
 // other than tRNS are skipped; colour management is the caller's business.
 #include "base/error.h"
-#include "base/large_pages.h"
 #include "base/text.h"
 #include "image/checksum.h"
 #include "image/formats.h"
@@ -191,7 +190,7 @@ private:
     void takePixels(Bytes data) {
         if (!chunks_.packed.empty() && previous_ != "IDAT")
             broken("the IDAT chunks do not follow each other");
-        if (chunks_.packed.empty()) reserveInLargePages(chunks_.packed, file_.size());
+        if (chunks_.packed.empty()) chunks_.packed.reserve(file_.size());
         chunks_.packed.insert(chunks_.packed.end(), data.begin(), data.end());
     }
 
@@ -268,10 +267,8 @@ public:
             header.width * header.height * static_cast<std::size_t>(out_.channels);
         if (header.depth == 16) {
             out_.depth = StoredImage::Depth::Bits16;
-            reserveInLargePages(out_.words, count);
             out_.words.resize(count);
         } else {
-            reserveInLargePages(out_.bytes, count);
             out_.bytes.resize(count);
         }
     }
