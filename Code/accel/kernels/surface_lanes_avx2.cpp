@@ -43,7 +43,7 @@ inline Doubles select(Mask m, const Doubles& a, const Doubles& b) {
 
 #include "accel/kernels/vectors3.inl"
 
-#include "accel/kernels/sphere_surfaces.inl"
+#include "accel/kernels/round_surfaces.inl"
 #include "accel/kernels/triangle_surfaces.inl"
 } // namespace kernels::avx2
 KERNEL_REGION_END
