@@ -1,8 +1,9 @@
 // The kernel for rays of any kind. Many rays are on their way at once, each at its next node or
 // leaf; two lists say which. A round takes one step with every ray of a list: the steps don't
 // depend on each other, so the CPU overlaps their memory accesses and latencies, and nothing but
-// the length of the lists is a branch. Rays whose leaf has triangles that they may meet wait, until
-// there are enough of them for the canonical keys of W pairs at once.
+// the length of the lists is a branch. A nearest hit that is certain in float is taken at once, and
+// its canonical key is computed when W rays are done; where bounds overlap, rays wait until there
+// are enough of them for the keys of W pairs at once.
 // Included by the file of each instruction set inside its namespace, behind handful.inl.
 
 template <Query Q> class Queue {

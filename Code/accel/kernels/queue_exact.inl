@@ -37,12 +37,11 @@ struct Judged {
 };
 
 // Edge functions with the bits of ShearedTriangle, and depth T/det. How far T may be off z det, z
-// the canonical depth of a hit, with b the largest lateral
-// distance of a corner from the ray, M the largest depth and u = 2^-24: a lateral distance is off
-// by u (4M + 2b) at most (corner relative to the ray, slope, product, difference), an edge function
-// by 4b times that and 3u b^2, which is u b (16M + 11b); T sums three of them times a depth, with
-// products and sums of its own below 24u b^2 M, and z det three more with 12u b^2 M: together below
-// u b M (96M + 102b).
+// the canonical depth of a hit, with b the largest lateral distance of a corner from the ray, M the
+// largest depth and u = 2^-24: a lateral distance is off by u (4M + 2b) at most (corner relative to
+// the ray, slope, product, difference), an edge function by 4b times that and 3u b^2, which is
+// u b (16M + 11b); T sums three of them times a depth, with products and sums of its own below
+// 24u b^2 M, and z det three more with 12u b^2 M: together below u b M (96M + 102b).
 [[gnu::always_inline]] inline Judged judge(const Sheared& s, Floats sign) {
     const Floats U = s.x[2] * s.y[1] - s.y[2] * s.x[1], V = s.x[0] * s.y[2] - s.y[0] * s.x[2],
                  R = s.x[1] * s.y[0] - s.y[1] * s.x[0];
