@@ -57,15 +57,10 @@ private:
     fail(ErrorKind::Output, cat(fileName, ": error: cannot write: ", std::strerror(reason), hint));
 }
 
-// Pictures come in pieces of some KB; stdio's own buffer is one page.
-constexpr std::size_t kBufferBytes = 1 << 16;
-
 // Writes and closes; nothing is on the disk for sure before fclose() succeeds.
 void writeBytes(const std::string& path, const std::string& fileName, const ByteSource& produce) {
-    std::vector<char> buffer(kBufferBytes); // outlives the file
     File file(std::fopen(path.c_str(), "wb"));
     if (!file) failWriting(fileName, errno);
-    static_cast<void>(std::setvbuf(file.get(), buffer.data(), _IOFBF, buffer.size()));
     produce([&](std::span<const std::uint8_t> bytes) {
         if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
             failWriting(fileName, errno);

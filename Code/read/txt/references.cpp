@@ -3,6 +3,8 @@
 #include "base/text.h"
 #include "desc/names.h"
 
+#include <optional>
+
 namespace {
 
 std::string unknownReference(const SceneDesc& desc, Target target, std::string_view name) {
@@ -23,19 +25,26 @@ std::string unknownReference(const SceneDesc& desc, Target target, std::string_v
     return cat("unknown ", nameOf(target), " ", unknownName(shown(name), known));
 }
 
+// The name, where it is written as it is; nothing when there are escapes.
+std::optional<std::string_view> plainText(const Token& name) {
+    if (name.kind == TokenKind::Word) return name.text;
+    const std::string_view inside = name.text.substr(1, name.text.size() - 2);
+    if (inside.find('\\') != std::string_view::npos) return {};
+    return inside;
+}
+
 } // namespace
 
 std::string_view References::keptText(const Token& name) {
-    if (name.kind == TokenKind::Word) return name.text;
-    const std::string_view inside = name.text.substr(1, name.text.size() - 2);
-    if (inside.find('\\') == std::string_view::npos) return inside;
+    if (const auto plain = plainText(name)) return *plain;
     return quoted_.emplace_back(Scanner(*source_).nameIn(name));
 }
 
 Handle References::use(Target target, const Token& name) {
-    if (isFirst_ && name.kind == TokenKind::Word)
-        if (const auto found = known_[static_cast<std::size_t>(target)].find(name.text))
-            return static_cast<Handle>(*found);
+    if (isFirst_)
+        if (const auto plain = plainText(name))
+            if (const auto found = known_[static_cast<std::size_t>(target)].find(*plain))
+                return static_cast<Handle>(*found);
     waiting_.push_back(name);
     return waitingAs(waiting_.size() - 1);
 }
