@@ -3,6 +3,7 @@
 #include "accel/kernels/solids.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -23,6 +24,13 @@ void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const S
         const bool turned =
             m[1] != 0 || m[2] != 0 || m[4] != 0 || m[6] != 0 || m[8] != 0 || m[9] != 0;
         spheres.push_back({*form.sphere, turned});
+    }
+    if (form.tube) {
+        solid.kind = Kind::Tube;
+        solid.part = static_cast<std::uint32_t>(tubes.size());
+        const auto& m = form.tube->objectFromWorld;
+        const Vec3d x{m[0], m[1], m[2]}, y{m[4], m[5], m[6]}, z{m[8], m[9], m[10]};
+        tubes.push_back({*form.tube, max(dot(x, x), dot(y, y)) + std::fabs(dot(x, y)), dot(z, z)});
     }
     if (form.facets) {
         solid.kind = Kind::Facets;

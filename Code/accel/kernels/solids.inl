@@ -14,6 +14,8 @@
 
 #include "accel/kernels/solids_facets.inl"
 
+#include "accel/kernels/solids_tubes.inl"
+
 #include "accel/kernels/solids_meet.inl"
 
 class SolidPackets : PacketSolids {

@@ -17,6 +17,12 @@ namespace kernels::avx2 {
 
 inline Floats sqrt(Floats a) { return _mm256_sqrt_ps(a.v); }
 inline Doubles sqrt(const Doubles& a) { return {_mm256_sqrt_pd(a.lo), _mm256_sqrt_pd(a.hi)}; }
+inline Doubles min(const Doubles& a, const Doubles& b) {
+    return {_mm256_min_pd(a.lo, b.lo), _mm256_min_pd(a.hi, b.hi)};
+}
+inline Doubles max(const Doubles& a, const Doubles& b) {
+    return {_mm256_max_pd(a.lo, b.lo), _mm256_max_pd(a.hi, b.hi)};
+}
 inline unsigned atMost(const Doubles& a, const Doubles& b) {
     const auto half = [](__m256d x, __m256d y) {
         return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(x, y, _CMP_LE_OQ)));

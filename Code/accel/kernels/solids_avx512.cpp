@@ -22,6 +22,12 @@ namespace kernels::avx512 {
 
 inline Floats sqrt(Floats a) { return _mm512_sqrt_ps(a.v); }
 inline Doubles sqrt(const Doubles& a) { return {_mm512_sqrt_pd(a.lo), _mm512_sqrt_pd(a.hi)}; }
+inline Doubles min(const Doubles& a, const Doubles& b) {
+    return {_mm512_min_pd(a.lo, b.lo), _mm512_min_pd(a.hi, b.hi)};
+}
+inline Doubles max(const Doubles& a, const Doubles& b) {
+    return {_mm512_max_pd(a.lo, b.lo), _mm512_max_pd(a.hi, b.hi)};
+}
 inline unsigned atMost(const Doubles& a, const Doubles& b) {
     return bits({_mm512_cmp_pd_mask(a.lo, b.lo, _CMP_LE_OQ)}) |
            bits({_mm512_cmp_pd_mask(a.hi, b.hi, _CMP_LE_OQ)}) << 8;

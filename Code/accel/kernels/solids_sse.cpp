@@ -19,6 +19,14 @@ inline Floats sqrt(Floats a) { return {_mm_sqrt_ps(a.lo), _mm_sqrt_ps(a.hi)}; }
 inline Doubles sqrt(const Doubles& a) {
     return {_mm_sqrt_pd(a.v[0]), _mm_sqrt_pd(a.v[1]), _mm_sqrt_pd(a.v[2]), _mm_sqrt_pd(a.v[3])};
 }
+inline Doubles min(const Doubles& a, const Doubles& b) {
+    return {_mm_min_pd(a.v[0], b.v[0]), _mm_min_pd(a.v[1], b.v[1]), _mm_min_pd(a.v[2], b.v[2]),
+            _mm_min_pd(a.v[3], b.v[3])};
+}
+inline Doubles max(const Doubles& a, const Doubles& b) {
+    return {_mm_max_pd(a.v[0], b.v[0]), _mm_max_pd(a.v[1], b.v[1]), _mm_max_pd(a.v[2], b.v[2]),
+            _mm_max_pd(a.v[3], b.v[3])};
+}
 inline unsigned atMost(const Doubles& a, const Doubles& b) {
     unsigned all = 0;
     for (int i = 0; i < 4; ++i)
