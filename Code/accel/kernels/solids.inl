@@ -27,6 +27,8 @@ public:
     void run(std::span<const std::uint32_t> order, Result* results) {
         for (; !order.empty(); order = order.subspan(std::min<std::size_t>(W, order.size()))) {
             live_ = setUp<A>(order, results);
+            if (A == Answer::Any && lastHider_ < tree_.solids.size())
+                solid<A>(lastHider_, live_, results);
             if (live_ != 0) traverse<A>(results);
         }
     }

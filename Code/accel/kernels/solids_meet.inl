@@ -11,6 +11,7 @@ protected:
     void solid(std::uint32_t place, unsigned lanes, Result* results) {
         const SolidTree::Solid& solid = tree_.solids[place];
         if (A == Answer::Any && !solid.hides) return;
+        asked_ = place;
         unsigned certain = 0;
         lanes &= solid.isTube ? nearAxis<A>(solid, lanes, certain) : nearCentre<A>(solid, certain);
         if constexpr (A == Answer::Any) {
@@ -32,8 +33,12 @@ protected:
             ask(solid, entry, lanes, results);
     }
 
+    // Hides what comes next from the lamp, too, more often than not.
+    std::uint32_t lastHider_ = std::numeric_limits<std::uint32_t>::max();
+
 private:
     void hide(unsigned lanes, std::uint8_t* hidden) {
+        if (lanes != 0) lastHider_ = asked_;
         live_ &= ~lanes;
         for (; lanes != 0; lanes &= lanes - 1) hidden[ray_[std::countr_zero(lanes)]] = 1;
     }
@@ -59,8 +64,7 @@ private:
         for (; lanes != 0; lanes &= lanes - 1) {
             const int i = std::countr_zero(lanes);
             if (!calls_.hides(calls_.set, rays_[ray_[i]], solid.number)) continue;
-            hidden[ray_[i]] = 1;
-            live_ &= ~(1u << i);
+            hide(1u << i, hidden);
         }
     }
 
@@ -256,4 +260,5 @@ private:
     }
 
     const SolidCalls& calls_;
+    std::uint32_t asked_ = 0; // place of the solid
 };
