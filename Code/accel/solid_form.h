@@ -37,11 +37,15 @@ struct Facets {
 };
 
 // A tube about the z axis of an object space that does not move, |z| <= 1. A kernel that meets it
-// repeats the formulas of shape/cylinder.cpp.
+// repeats the formulas of shape/cylinder.cpp or shape/cone.cpp.
 struct StillTube {
     std::array<double, 12> objectFromWorld; // Transform::rows()
-    double radius = 0;
-    bool caps = false;                               // has ends, too
+    bool caps = false;                      // has ends, too
+    double radius = 0;                      // of a cone: at the narrow end
+    struct Cone {
+        double slope = 0, narrowZ = 0;
+    };
+    std::optional<Cone> cone{};                      // else a cylinder
     Facets::Side side = Facets::Side::Both;          // that rays of sight meet
     enum Part : std::uint32_t { Wall, Bottom, Top }; // Hit::prim
 };

@@ -1,7 +1,7 @@
 // Solids: everything with a box of its own that is no triangle, as vector kernels want it. Packets
-// of rays walk one wide tree together; spheres and cylinders that stand still and meshes of a few
-// triangles are met in the kernel itself, with the bits of shape/, and any other shape is asked
-// where a ray enters its box.
+// of rays walk one wide tree together; spheres, cylinders and cones that stand still and meshes of
+// a few triangles are met in the kernel itself, with the bits of shape/, and any other shape is
+// asked where a ray enters its box.
 // Knows nothing about what the shapes are.
 #pragma once
 

@@ -23,6 +23,13 @@ inline Doubles min(const Doubles& a, const Doubles& b) {
 inline Doubles max(const Doubles& a, const Doubles& b) {
     return {_mm256_max_pd(a.lo, b.lo), _mm256_max_pd(a.hi, b.hi)};
 }
+inline Doubles withSign(const Doubles& a, const Doubles& of) {
+    const __m256d sign = _mm256_set1_pd(-0.0);
+    const auto half = [&](__m256d x, __m256d y) {
+        return _mm256_or_pd(_mm256_andnot_pd(sign, x), _mm256_and_pd(sign, y));
+    };
+    return {half(a.lo, of.lo), half(a.hi, of.hi)};
+}
 inline unsigned atMost(const Doubles& a, const Doubles& b) {
     const auto half = [](__m256d x, __m256d y) {
         return static_cast<unsigned>(_mm256_movemask_pd(_mm256_cmp_pd(x, y, _CMP_LE_OQ)));

@@ -28,6 +28,13 @@ inline Doubles min(const Doubles& a, const Doubles& b) {
 inline Doubles max(const Doubles& a, const Doubles& b) {
     return {_mm512_max_pd(a.lo, b.lo), _mm512_max_pd(a.hi, b.hi)};
 }
+inline Doubles withSign(const Doubles& a, const Doubles& of) {
+    const __m512d sign = _mm512_set1_pd(-0.0);
+    const auto half = [&](__m512d x, __m512d y) {
+        return _mm512_or_pd(_mm512_andnot_pd(sign, x), _mm512_and_pd(sign, y));
+    };
+    return {half(a.lo, of.lo), half(a.hi, of.hi)};
+}
 inline unsigned atMost(const Doubles& a, const Doubles& b) {
     return bits({_mm512_cmp_pd_mask(a.lo, b.lo, _CMP_LE_OQ)}) |
            bits({_mm512_cmp_pd_mask(a.hi, b.hi, _CMP_LE_OQ)}) << 8;
