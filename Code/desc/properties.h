@@ -30,7 +30,7 @@ template <class Block> struct Reference {
 };
 // The same list under two keywords: one name for all, or a name per material slot.
 template <class Block> struct MaterialList {
-    std::vector<Handle> Block::*handles;
+    OneOrMore<Handle> Block::*handles;
     bool many;
 };
 // An enum whose type is forgotten; values are positions in `names`.

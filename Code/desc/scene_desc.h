@@ -4,6 +4,7 @@
 // format. Lengths are in scene units (metres), angles in degrees as written, light is linear RGB.
 #pragma once
 
+#include "base/one_or_more.h"
 #include "base/vec.h"
 
 #include <array>
@@ -25,7 +26,7 @@ struct SourceLoc {
 using Rows = std::array<double, 12>;
 inline constexpr Rows kIdentityRows = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 // Keys of a moving thing, equally spaced from shutter opening to closing; one key stands still.
-using Keys = std::vector<Rows>;
+using Keys = OneOrMore<Rows>;
 
 struct Rgbd {
     double r = 0, g = 0, b = 0;
@@ -172,7 +173,7 @@ struct ObjectDesc {
     Keys worldFromObject{kIdentityRows};
     // Mesh: by slot. InfinitePlane: two alternate on the unit squares of its x and y, the first
     // where floor(x) + floor(y) is even. Others: the first. Empty: the default material.
-    std::vector<Handle> materials;
+    OneOrMore<Handle> materials;
     Sides sides = Sides::Both;
     double radius = 1;
     double topRadius = 0;

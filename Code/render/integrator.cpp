@@ -29,6 +29,15 @@ SurfaceNeeds surfaceNeedsOf(const Scene& scene, const RenderSettings& settings) 
             .lift = !scene.lights().empty()};
 }
 
+// What lanes need of each shape, to be looked up without touching the shape.
+std::vector<const SphereToShade*> spheresOf(const ShapeSet& set, SurfaceLanes lanes,
+                                            SurfaceNeeds needs) {
+    if (lanes.spheres == nullptr || needs.uv) return {};
+    std::vector<const SphereToShade*> spheres(set.shapes.size());
+    for (std::size_t i = 0; i < spheres.size(); ++i) spheres[i] = set.shapes[i]->sphereToShade();
+    return spheres;
+}
+
 } // namespace
 
 IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings& theSettings)
@@ -38,7 +47,8 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       occluders(theScene.shapes()), cutoff(toFloat(theSettings.picture.cutoff)),
       steps(stepsFor(theScene, theSettings)), wantsFirstHits(needsFirstHits(theSettings)),
       surfaceNeeds(surfaceNeedsOf(theScene, theSettings)),
-      sphereSurfaces(::sphereSurfaces(chooseKernel(theSettings.kernel))),
+      surfaceLanes(::surfaceLanes(chooseKernel(theSettings.kernel))),
+      spheres(spheresOf(theScene.shapes(), surfaceLanes, surfaceNeeds)),
       cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
     const int samples = settings.picture.lightSamples;
     for (std::size_t i = 0; i < scene.lights().size(); ++i) {

@@ -56,8 +56,9 @@ struct IntegratorContext {
     Steps steps;  // of the waves
     bool wantsFirstHits;
     SurfaceNeeds surfaceNeeds;
-    SphereSurfacesFn sphereSurfaces; // null: one by one
-    MediumTree media;                // what camera rays start in, and room for what rays enter
+    SurfaceLanes surfaceLanes;
+    std::vector<const SphereToShade*> spheres; // by shape; empty: lanes do none
+    MediumTree media; // what camera rays start in, and room for what rays enter
     MediumTree::Inside cameraMedium;
 
     IntegratorContext(const Scene& scene, const RenderSettings& settings);
@@ -93,6 +94,15 @@ struct PointBatch {
     }
 };
 
+// Some of them, whose surfaces are found together, and their rays.
+struct PointsToDescribe {
+    std::vector<std::uint32_t> rays, points;
+    void clear() { rays.clear(), points.clear(); }
+    void push(std::uint32_t ray, std::uint32_t point) {
+        rays.push_back(ray), points.push_back(point);
+    }
+};
+
 // Light that a lamp sends by way of a point.
 struct Arrival {
     std::uint32_t point;
@@ -121,6 +131,8 @@ struct WaveMemory {
     PathBatch rays, next;
     std::vector<Hit> hits;
     PointBatch points;
+    PointsToDescribe onSpheres, onOthers;
+    std::vector<const SphereToShade*> spheres; // of the former
     MediumTree media;
     std::vector<std::uint32_t> answering; // points that answer lamps
     std::vector<LitBlock> litBlocks;      // these, if lamps want blocks

@@ -78,11 +78,25 @@ bool Mesh::seesFront(const Ray& ray, const Hit& hit) const {
 }
 
 Surface Mesh::surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const {
-    const std::uint32_t slot = geometry_.slots.empty() ? 0 : geometry_.slots[hit.prim];
     Surface s = surfaceOf({geometry_, hit.prim, corners(hit.prim), needs}, ray, hit, needs);
-    s.material = materials_[slot];
+    s.material = materialOf(hit.prim);
     s.object = objectOf(hit.prim);
     return s;
+}
+
+void Mesh::surfaces(const SurfaceQuery& query, Strided<Surface> out) const {
+    if (query.lanes.triangles == nullptr) return Shape::surfaces(query, out);
+    surfacesOf(
+        query,
+        [&](const Hit& hit) {
+            return SurfaceTriangle(geometry_, hit.prim, corners(hit.prim), query.needs);
+        },
+        out);
+    for (std::size_t k = 0; k < query.which.size(); ++k) {
+        const std::uint32_t triangle = query.hits[query.which[k]].prim;
+        out[query.to[k]].material = materialOf(triangle);
+        out[query.to[k]].object = objectOf(triangle);
+    }
 }
 
 SurfaceDerivatives Mesh::derivatives(const Ray&, const Hit& hit) const {

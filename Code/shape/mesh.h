@@ -37,6 +37,7 @@ public:
         return surfaceFor(ray, hit, {});
     }
     Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const override;
+    void surfaces(const SurfaceQuery& query, Strided<Surface> out) const override;
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override;
     std::optional<TieOrder> tieOrder(const Ray& ray, const Hit& hit) const override;
 
@@ -47,6 +48,9 @@ private:
         return {geometry_.points[c[0]], geometry_.points[c[1]], geometry_.points[c[2]]};
     }
     template <class LeafFn> void candidates(const RaySetup& setup, float zCut, LeafFn&& leaf) const;
+    std::uint32_t materialOf(std::uint32_t triangle) const {
+        return materials_[geometry_.slots.empty() ? 0 : geometry_.slots[triangle]];
+    }
     std::uint32_t objectOf(std::uint32_t triangle) const;
 
     const MeshGeometry& geometry_;

@@ -116,9 +116,20 @@ SurfaceTriangle MeshInstance::surfaceTriangle(const Transform& sceneFromObject,
 
 Surface MeshInstance::surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const {
     Surface s = surfaceOf(surfaceTriangle(placeAt(ray.time), hit.prim), ray, hit, needs);
-    s.material = materials_[geometry_.slots.empty() ? 0 : geometry_.slots[hit.prim]];
+    s.material = materialOf(hit.prim);
     s.object = object_;
     return s;
+}
+
+void MeshInstance::surfaces(const SurfaceQuery& query, Strided<Surface> out) const {
+    if (query.lanes.triangles == nullptr || !motion_.isStatic()) return Shape::surfaces(query, out);
+    const Transform place = placeAt(0);
+    surfacesOf(
+        query, [&](const Hit& hit) { return surfaceTriangle(place, hit.prim); }, out);
+    for (std::size_t k = 0; k < query.which.size(); ++k) {
+        out[query.to[k]].material = materialOf(query.hits[query.which[k]].prim);
+        out[query.to[k]].object = object_;
+    }
 }
 
 SurfaceDerivatives MeshInstance::derivatives(const Ray& ray, const Hit& hit) const {

@@ -37,6 +37,7 @@ public:
         return surfaceFor(ray, hit, {});
     }
     Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const override;
+    void surfaces(const SurfaceQuery& query, Strided<Surface> out) const override;
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override;
     std::optional<TieOrder> tieOrder(const Ray& ray, const Hit& hit) const override;
     const MeshInstance* meshInstance() const override { return this; }
@@ -59,6 +60,9 @@ private:
     };
     template <class Query> bool ask(const Ray& ray, float tMax, Query&& query) const;
     RaySetup setupFor(const Ray& ray) const { return {ray.org, ray.dir, extent_}; }
+    std::uint32_t materialOf(std::uint32_t triangle) const {
+        return materials_[geometry_.slots.empty() ? 0 : geometry_.slots[triangle]];
+    }
     Transform placeAt(float time) const { return motion_.at(static_cast<double>(time)); }
     Place placeOfKey(std::size_t key) const;
     const Place& atKey(std::size_t key) const {

@@ -6,17 +6,9 @@ template <class T> T interpolate(const std::array<T, 3>& at, float u, float v) {
     return at[0] * (1 - u - v) + at[1] * u + at[2] * v;
 }
 
-// The vertex's part of the error of a hit: what Woop's test and the plane key lose to rounding,
-// about 8 units of the largest coordinate difference, doubled. See RaySetup for the pads.
-constexpr double kTriangleError = 0x1p-20;
-
 // The ray's part of it: slopes and differences of the corners in float move what it meets by up to
 // 4 units of its length to the side, its depth is rounded thrice.
 constexpr float kRayError = 0x1p-21f;
-
-// Rays leave a surface kTriangleError off its plane; this many times as far from its edges they are
-// on the inner side of the neighbours as well, down to an angle of 30 degrees between both.
-constexpr double kEdgeClearance = 2;
 
 using Corners = std::array<Vec3d, 3>;
 
@@ -53,6 +45,10 @@ Vec3d liftToCurve(Vec3d p, const Corners& corners, const std::array<Vec3, 3>& no
         if (length2 > 0 && below < 0) lift -= normal * (weights[i] * side * below / length2);
     }
     return lift;
+}
+
+Vec2 coordinates(const SurfaceTriangle& triangle, const Hit& hit) {
+    return triangle.hasUvs ? interpolate(triangle.uvs, hit.u, hit.v) : Vec2{hit.u, hit.v};
 }
 
 } // namespace
@@ -100,7 +96,38 @@ Surface surfaceOf(const SurfaceTriangle& triangle, const Ray& ray, const Hit& hi
             s.lift = toFloat(liftToCurve(toDouble(s.p), v, triangle.normals, weights,
                                          dot(s.ng, ray.dir) <= 0 ? 1 : -1));
     }
-    s.uv = triangle.hasUvs ? interpolate(triangle.uvs, hit.u, hit.v) : Vec2{hit.u, hit.v};
+    s.uv = coordinates(triangle, hit);
+    return s;
+}
+
+void TriangleSurfaceBatch::put(std::size_t lane, const SurfaceTriangle& triangle, const Hit& hit,
+                               Vec3 dir) {
+    const auto set = [lane](TrianglesMet::Lane(&to)[3], Vec3 v) {
+        to[0][lane] = v.x, to[1][lane] = v.y, to[2][lane] = v.z;
+    };
+    for (std::size_t i = 0; i < 3; ++i) set(met_.corner[i], triangle.corners[i]);
+    if (triangle.hasNormals) {
+        for (std::size_t i = 0; i < 3; ++i) set(met_.normal[i], triangle.normals[i]);
+        set(met_.dir, dir);
+        met_.smooth |= 1u << lane;
+    }
+    met_.u[lane] = hit.u, met_.v[lane] = hit.v;
+    met_.used |= 1u << lane;
+    uv_[lane] = coordinates(triangle, hit);
+}
+
+Surface TriangleSurfaceBatch::take(std::size_t lane) const {
+    const auto vector = [lane](const TrianglesMet::Lane(&v)[3]) {
+        return Vec3{v[0][lane], v[1][lane], v[2][lane]};
+    };
+    Surface s;
+    s.p = vector(found_.p);
+    s.ng = vector(found_.ng);
+    s.ns = vector(found_.ns);
+    s.uv = uv_[lane];
+    s.error = found_.error[lane];
+    s.rayError = kRayError;
+    s.lift = vector(found_.lift);
     return s;
 }
 

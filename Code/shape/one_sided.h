@@ -39,6 +39,10 @@ public:
     Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const override {
         return shape_->surfaceFor(ray, hit, needs);
     }
+    void surfaces(const SurfaceQuery& query, Strided<Surface> out) const override {
+        shape_->surfaces(query, out);
+    }
+    const SphereToShade* sphereToShade() const override { return shape_->sphereToShade(); }
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override {
         return shape_->derivatives(ray, hit);
     }

@@ -7,7 +7,7 @@
 // the ray and the shape.
 #pragma once
 
-#include "accel/kernels/sphere_surfaces.h"
+#include "accel/kernels/surface_lanes.h"
 #include "accel/solid_form.h"
 #include "base/bounds.h"
 #include "base/hit.h"
@@ -33,10 +33,11 @@ struct TieOrder {
 // Surfaces that are asked for together: of the hits of some rays of a batch, all on one shape.
 struct SurfaceQuery {
     RaySpan rays;
-    std::span<const Hit> hits; // of all rays
-    std::span<const std::uint32_t> which;
+    std::span<const Hit> hits;            // of all rays
+    std::span<const std::uint32_t> which; // rays
+    std::span<const std::uint32_t> to;    // places of their surfaces
     SurfaceNeeds needs;
-    SphereSurfacesFn spheres = nullptr; // does spheres by the register
+    SurfaceLanes lanes; // of the kernel, for who has use for them
 };
 
 class MeshInstance;
@@ -99,13 +100,16 @@ public:
     virtual Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds) const {
         return surface(ray, hit);
     }
-    // out[k] = surfaceFor(ray, hit) of ray which[k].
+    // out[to[k]] = surfaceFor(ray, hit) of ray which[k].
     virtual void surfaces(const SurfaceQuery& query, Strided<Surface> out) const {
         for (std::size_t k = 0; k < query.which.size(); ++k) {
             const std::uint32_t i = query.which[k];
-            out[k] = surfaceFor(query.rays[i], query.hits[i], query.needs);
+            out[query.to[k]] = surfaceFor(query.rays[i], query.hits[i], query.needs);
         }
     }
+    // What lanes need that do the hits of many spheres together, but no texture coordinates; null:
+    // this is none, or they can't.
+    virtual const SphereToShade* sphereToShade() const { return nullptr; }
     virtual SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const = 0;
 
     // Of a hit on a triangle, which may have come into one mesh with others or not; shapes of other

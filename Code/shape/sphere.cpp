@@ -1,25 +1,24 @@
 #include "shape/sphere.h"
 
+#include <algorithm>
 #include <utility>
 
 Sphere::Sphere(MovingTransform worldFromObject, double radius, std::uint32_t material,
                std::uint32_t object)
     : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius) {
     measure();
-    if (isStill() && !this->worldFromObject().isSingular())
-        inLanes_ = SphereToShade{this->worldFromObject().rows(),
-                                 objectFromWorld().rows(),
-                                 radius_,
-                                 errorOfSize(),
-                                 errorPerPlace(),
-                                 maxAbs(this->worldFromObject().translation()),
-                                 material,
-                                 object};
-}
-
-void Sphere::surfaces(const SurfaceQuery& query, Strided<Surface> out) const {
-    if (!inLanes_ || !query.spheres || query.needs.uv) return AnalyticShape::surfaces(query, out);
-    query.spheres(*inLanes_, query.rays, query.hits, query.which, out);
+    if (!isStill() || this->worldFromObject().isSingular()) return;
+    using Number = SphereToShade::Number;
+    SphereToShade& lane = inLanes_.emplace(SphereToShade{{}, material, object});
+    const auto put = [&](Number first, const Transform& map) {
+        std::copy(map.rows().begin(), map.rows().end(), lane.numbers.begin() + first);
+    };
+    put(Number::WorldFromObject, this->worldFromObject());
+    put(Number::ObjectFromWorld, objectFromWorld());
+    lane.numbers[Number::Radius] = radius_;
+    lane.numbers[Number::LeastError] = errorOfSize();
+    lane.numbers[Number::ErrorPerPlace] = errorPerPlace();
+    lane.numbers[Number::Farthest] = maxAbs(this->worldFromObject().translation());
 }
 
 SolidForm Sphere::solidForm() const {

@@ -11,7 +11,7 @@ public:
            std::uint32_t object);
 
     SolidForm solidForm() const override;
-    void surfaces(const SurfaceQuery& query, Strided<Surface> out) const override;
+    const SphereToShade* sphereToShade() const override { return inLanes_ ? &*inLanes_ : nullptr; }
 
 private:
     Roots roots(const RayD& ray) const override;

@@ -1,8 +1,9 @@
-// Surfaces of many hits on one sphere: every kernel gives the bits of asking hit by hit, whichever
-// rays of the batch have met it.
+// Surfaces of many hits on spheres: every kernel gives the bits of asking hit by hit, whichever
+// rays of the batch have met which sphere.
 #include "analytic_kit.h"
 #include "check.h"
 
+#include <algorithm>
 #include <bit>
 
 using kit::Random;
@@ -21,38 +22,48 @@ bool sameBits(const Surface& a, const Surface& b) {
            a.rayError == b.rayError && a.lift == b.lift;
 }
 
-// Some rays of the batch miss, by `missing` of them, so that those that hit have gaps; they start
-// in one point or in many, outside of the ball or in it.
-void checkSphere(const Sphere& sphere, const Transform& map, Random& random, double missing) {
+// Rays from one point or from many, outside of the balls or in them, each at one of the spheres;
+// some miss, by `missing` of them, so that those that hit have gaps. Spheres change from ray to
+// ray, or rarely, so that registers are full of one, or of many.
+void checkSpheres(const std::vector<Sphere>& spheres, const std::vector<Transform>& maps,
+                  Random& random, double missing, double changes) {
     std::vector<Vec3> org, dir;
     std::vector<float> tMin, tMax, time;
     std::vector<Hit> hits;
-    std::vector<std::uint32_t> which;
+    std::vector<std::uint32_t> which, to;
+    std::vector<const Sphere*> met;
+    std::vector<const SphereToShade*> toShade;
     const bool fromOnePoint = random.coin();
-    const Vec3d eye = map.point(random.inBox(3));
+    const Vec3d eye = maps[0].point(random.inBox(3));
+    std::size_t number = 0;
     for (std::uint32_t i = 0; i < 61; ++i) {
-        const Vec3d from = fromOnePoint ? eye : map.point(random.inBox(3));
-        const Vec3d to = map.point(random.inBox(1));
-        const Ray ray{toFloat(from), toFloat(to - from), 0, kInfinityF, 0};
+        if (random.chance(changes))
+            number = std::min(
+                static_cast<std::size_t>(random.uniform(0, static_cast<double>(spheres.size()))),
+                spheres.size() - 1);
+        const Vec3d from = fromOnePoint ? eye : maps[number].point(random.inBox(3));
+        const Vec3d at = maps[number].point(random.inBox(1));
+        const Ray ray{toFloat(from), toFloat(at - from), 0, kInfinityF, 0};
         org.push_back(ray.org), dir.push_back(ray.dir);
         tMin.push_back(ray.tMin), tMax.push_back(ray.tMax), time.push_back(ray.time);
         hits.emplace_back();
-        if (!random.chance(missing) && sphere.intersect(ray, hits.back())) which.push_back(i);
+        if (random.chance(missing) || !spheres[number].intersect(ray, hits.back())) continue;
+        which.push_back(i), to.push_back(i);
+        met.push_back(&spheres[number]), toShade.push_back(spheres[number].sphereToShade());
     }
+    if (which.empty()) return;
+    std::reverse(to.begin(), to.end()); // places are not those of the rays
     const RaySpan rays{org, dir, tMin, tMax, time};
     for (const Kernel& kernel : allKernels()) {
-        if (!kernel.supported()) continue;
-        for (const SurfaceNeeds needs : {SurfaceNeeds{true, true}, {false, true}}) {
-            std::vector<std::pair<int, Surface>> out(which.size());
-            if (out.empty()) continue;
-            sphere.surfaces({rays, hits, which, needs, sphereSurfaces(kernel)},
-                            {&out[0].second, sizeof(out[0])});
-            for (std::size_t k = 0; k < which.size(); ++k)
-                CHECK_INFO(sameBits(out[k].second,
-                                    sphere.surfaceFor(rays[which[k]], hits[which[k]], needs)),
-                           std::string(kernel.name) + ", hit " + std::to_string(k) + " of " +
-                               std::to_string(which.size()) + ", ray " + std::to_string(which[k]));
-        }
+        const SphereSurfacesFn lanes = surfaceLanes(kernel).spheres;
+        if (!kernel.supported() || lanes == nullptr) continue;
+        std::vector<std::pair<int, Surface>> out(hits.size());
+        lanes({rays, hits, which, to, toShade}, {&out[0].second, sizeof(out[0])});
+        for (std::size_t k = 0; k < which.size(); ++k)
+            CHECK_INFO(sameBits(out[to[k]].second,
+                                met[k]->surfaceFor(rays[which[k]], hits[which[k]], {false, true})),
+                       std::string(kernel.name) + ", hit " + std::to_string(k) + " of " +
+                           std::to_string(which.size()) + ", ray " + std::to_string(which[k]));
     }
 }
 
@@ -60,22 +71,28 @@ void checkSphere(const Sphere& sphere, const Transform& map, Random& random, dou
 
 TEST(sphere_surfaces_are_those_of_single_hits) {
     Random random(3301);
-    for (int i = 0; i < check::scaled(400); ++i) {
-        const Transform map =
-            i % 3 == 0 ? Transform::translate(random.inBox(5)) : kit::randomMap(random);
-        const double radius = i % 5 == 0 ? random.logUniform(1e-6, 1e3) : 1;
-        const Sphere sphere(map, radius, 7, 9);
-        checkSphere(sphere, map * Transform::scale(radius), random, i % 2 == 0 ? 0.1 : 0);
+    for (int i = 0; i < check::scaled(300); ++i) {
+        std::vector<Sphere> spheres;
+        std::vector<Transform> maps;
+        for (std::uint32_t k = 0; k < 5; ++k) {
+            const Transform map =
+                i % 3 == 0 ? Transform::translate(random.inBox(5)) : kit::randomMap(random);
+            const double radius = i % 5 == 0 ? random.logUniform(1e-6, 1e3) : 1;
+            spheres.emplace_back(map, radius, 7 + k, 9 + k);
+            maps.push_back(map * Transform::scale(radius));
+        }
+        checkSpheres(spheres, maps, random, i % 2 == 0 ? 0.1 : 0, i % 4 == 0 ? 0.05 : 0.9);
     }
 }
 
-// What lanes are not for is asked one by one.
-TEST(sphere_surfaces_of_moving_and_flat_spheres) {
+// They are asked one by one: their maps change, or have no inverse.
+TEST(sphere_surfaces_of_moving_and_flat_spheres_are_not_for_lanes) {
     Random random(3302);
     for (int i = 0; i < check::scaled(20); ++i) {
         const Transform keys[] = {kit::randomMap(random), kit::randomMap(random)};
-        checkSphere(Sphere(MovingTransform{std::span(keys)}, 1, 2, 3), keys[0], random, 0.1);
+        CHECK(Sphere(MovingTransform{std::span(keys)}, 1, 2, 3).sphereToShade() == nullptr);
         const Transform flat = kit::randomMap(random) * Transform::scale({1, 1, 0});
-        checkSphere(Sphere(flat, 1, 2, 3), flat, random, 0.1);
+        CHECK(Sphere(flat, 1, 2, 3).sphereToShade() == nullptr);
+        CHECK(Sphere(keys[0], 1, 2, 3).sphereToShade() != nullptr);
     }
 }

@@ -13,7 +13,7 @@
 #include <limits>
 #include <vector>
 
-KERNEL_REGION_BEGIN("avx2,fma,bmi,bmi2,lzcnt,popcnt")
+AVX2_REGION_BEGIN
 namespace kernels::avx2 {
 #include "accel/kernels/simd_avx2.inl"
 

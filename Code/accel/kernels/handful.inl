@@ -55,9 +55,10 @@ private:
                 s.x[c] = Floats::load(x[i]), s.y[c] = Floats::load(y[i]);
                 s.z[c] = Floats::load(z[i]);
             }
-            const Verdict v = judge<Q>(s, sign, zCut);
-            hidden |= v.certain & endless & lanes;
-            for (unsigned left = v.candidates & lanes & ~hidden; left != 0; left &= left - 1)
+            const Judged judged = judge(s, sign);
+            if constexpr (Q == Query::Any) hidden |= judged.certain(zCut) & endless & lanes;
+            unsigned left = judged.candidates(zCut) & lanes & ~hidden;
+            for (; left != 0; left &= left - 1)
                 pairs_[n++] = {static_cast<std::uint32_t>(std::countr_zero(left)), ref, j};
         }
         if constexpr (Q == Query::Any)

@@ -11,7 +11,7 @@
 #include <immintrin.h>
 #include <limits>
 
-KERNEL_REGION_BEGIN("avx2,fma,bmi,bmi2,lzcnt,popcnt")
+AVX2_REGION_BEGIN
 namespace kernels::avx2 {
 #include "accel/kernels/simd_avx2.inl"
 

@@ -11,12 +11,7 @@
 #include <immintrin.h>
 #include <limits>
 
-// g++ 12 takes the undefined operands of its own intrinsics for mistakes (GCC bug 105593).
-#if !defined(__clang__)
-#pragma GCC diagnostic ignored "-Wuninitialized"
-#pragma GCC diagnostic ignored "-Wmaybe-uninitialized"
-#endif
-KERNEL_REGION_BEGIN("avx512f,avx512dq,avx512bw,avx512vl,avx512cd,avx2,fma,bmi,bmi2,lzcnt,popcnt")
+AVX512_REGION_BEGIN
 namespace kernels::avx512 {
 #include "accel/kernels/simd_avx512.inl"
 

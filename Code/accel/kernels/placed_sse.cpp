@@ -11,7 +11,7 @@
 #include <immintrin.h>
 #include <limits>
 
-KERNEL_REGION_BEGIN("sse4.2,popcnt")
+SSE_REGION_BEGIN
 namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
 

@@ -30,12 +30,14 @@ public:
             next.nodeCount = next.leafCount = next.doneCount = 0;
             for (std::uint32_t i = 0; i < now.nodeCount; ++i) nodeStep(now.nodes[i], next);
             for (std::uint32_t i = 0; i < now.leafCount; ++i) leafStep(now.leaves[i], next);
+            if constexpr (Q == Query::Closest) acceptMet(next);
             if (waitingPairs_ >= W || next.nodeCount + next.leafCount < kFewBusy)
                 settleWaiting(next);
             for (std::uint32_t i = 0; i < next.doneCount; ++i) {
                 const std::uint32_t b = next.done[i] / W;
                 --live_;
                 if (--blocks_[b].live > 0) continue;
+                if (blocks_[b].open != 0) settleOpen(mesh_, rays_, blocks_[b]);
                 writeAnswers(blocks_[b], mesh_.tree, results);
                 refill(b, next, results);
             }
@@ -57,6 +59,12 @@ private:
     };
     struct Waiting {
         std::uint32_t slot, candidates; // triangles of the leaf that the ray is at
+    };
+
+    // Triangles of the leaf that a ray is at, and the depths between which it meets them.
+    struct alignas(64) Met {
+        float nearest[W], farthest[W];
+        std::uint32_t slot, candidates, certain; // certain: to be hits
     };
 
     // ---- rays in, hits out
@@ -151,18 +159,66 @@ private:
     [[gnu::always_inline]] void leafStep(std::uint32_t slot, Lists& to) {
         RayBlock& b = blocks_[slot / W];
         const std::uint32_t i = slot % W;
-        const Verdict v = leafCandidates(b, i);
+        const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(base_ + byteOffset(b.at[i]));
+        const Judged judged = judge(sheared(b, i, leaf), Floats(b.sign[i]));
+        const unsigned all = (1u << leaf.count) - 1;
+        const Floats zCut(b.zCut[i]);
+        unsigned candidates = judged.candidates(zCut) & all;
         if constexpr (Q == Query::Any) {
-            b.triangle[i] = v.certain != 0 ? 0 : b.triangle[i];
-            b.stackTop[i] = v.certain != 0 ? 1 : b.stackTop[i];
+            const bool met = (judged.certain(zCut) & all) != 0 && b.below[i] == kInfinityF;
+            b.triangle[i] = met ? 0 : b.triangle[i];
+            b.stackTop[i] = met ? 1 : b.stackTop[i];
+            candidates = met ? 0 : candidates;
         }
-        const unsigned candidates = v.certain != 0 ? 0 : v.candidates;
-        if (candidates != 0) [[unlikely]] {
-            waiting_[waitingCount_++] = {slot, candidates};
-            waitingPairs_ += static_cast<std::uint32_t>(std::popcount(candidates));
-            return;
+        if (candidates == 0) [[likely]]
+            return pop(slot, to);
+        if constexpr (Q == Query::Any) {
+            wait(slot, candidates);
+        } else {
+            const Floats inverse = Floats(1.0f) / judged.det;
+            Met& met = met_[metCount_++];
+            met.slot = slot, met.candidates = candidates;
+            met.certain = bits(judged.certain()) & candidates;
+            judged.nearest(inverse).store(met.nearest);
+            judged.farthest(inverse).store(met.farthest);
         }
-        pop(slot, to);
+    }
+
+    void wait(std::uint32_t slot, std::uint32_t candidates) {
+        waiting_[waitingCount_++] = {slot, candidates};
+        waitingPairs_ += static_cast<std::uint32_t>(std::popcount(candidates));
+    }
+
+    // Takes for each ray the candidate that is nearest, if that is certain without keys; the key of
+    // what remains the best one is computed at the end.
+    void acceptMet(Lists& to) {
+        for (std::uint32_t m = 0; m < metCount_; ++m) {
+            const Met& met = met_[m];
+            if (accept(met))
+                pop(met.slot, to);
+            else
+                wait(met.slot, met.candidates);
+        }
+        metCount_ = 0;
+    }
+
+    [[gnu::always_inline]] bool accept(const Met& met) {
+        RayBlock& b = blocks_[met.slot / W];
+        const std::uint32_t i = met.slot % W;
+        const Floats never(kInfinityF), farthest = Floats::load(met.farthest);
+        const float depth = smallest(select(maskOf(met.certain), farthest, never));
+        const unsigned rivals =
+            bits(notGreater(Floats::load(met.nearest), Floats(depth))) & met.candidates;
+        if (!std::has_single_bit(rivals) || (rivals & met.certain) == 0 || !(depth < b.depth[i]) ||
+            b.below[i] != kInfinityF) [[unlikely]]
+            return false;
+        b.bestLane[i] = static_cast<std::uint32_t>(std::countr_zero(rivals));
+        b.bestLeaf[i] = b.at[i];
+        b.depth[i] = met.nearest[b.bestLane[i]];
+        b.zCut[i] = ::min(depth, b.zCut[i]);
+        b.open |= 1u << i;
+        dropBehind(met.slot);
+        return true;
     }
 
     [[gnu::always_inline]] void pop(std::uint32_t slot, Lists& to) {
@@ -175,9 +231,9 @@ private:
     }
 
     // ShearedTriangle of accel/triangle.h for the triangles of a leaf: they share their points.
-    Verdict leafCandidates(const RayBlock& b, std::uint32_t i) const {
-        const std::byte* const p = base_ + byteOffset(b.at[i]);
-        const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(p);
+    [[gnu::always_inline]] static Sheared sheared(const RayBlock& b, std::uint32_t i,
+                                                  const WideLeaf<W>& leaf) {
+        const std::byte* const p = reinterpret_cast<const std::byte*>(&leaf);
         const Floats x = Floats::load(p + b.axis[0][i]) - Floats(b.origin[0][i]);
         const Floats y = Floats::load(p + b.axis[1][i]) - Floats(b.origin[1][i]);
         const Floats z = Floats::load(p + b.axis[2][i]) - Floats(b.origin[2][i]);
@@ -187,11 +243,15 @@ private:
             const Ints at = Ints::bytes(leaf.corner[c]);
             s.x[c] = permute(xs, at), s.y[c] = permute(ys, at), s.z[c] = permute(z, at);
         }
-        Verdict v = judge<Q>(s, Floats(b.sign[i]), Floats(b.zCut[i]));
-        const unsigned all = (1u << leaf.count) - 1;
-        v.candidates &= all;
-        v.certain &= b.below[i] == kInfinityF ? all : 0;
-        return v;
+        return s;
+    }
+
+    // What the best hit hides is taken off the ray's stack.
+    void dropBehind(std::uint32_t slot) {
+        RayBlock& b = blocks_[slot / W];
+        const std::size_t stack = slot * stride_;
+        std::uint32_t& top = b.stackTop[slot % W];
+        top = dropHidden(refs_ + stack, entries_ + stack, top, b.zCut[slot % W]);
     }
 
     // ---- canonical keys
@@ -201,6 +261,7 @@ private:
         for (std::uint32_t w = 0; w < waitingCount_; ++w) {
             const auto [slot, candidates] = waiting_[w];
             const WideRef leaf = blocks_[slot / W].at[slot % W];
+            if constexpr (Q == Query::Closest) reopen(slot, n);
             for (unsigned left = candidates; left != 0; left &= left - 1)
                 pairs_[n++] = {slot, leaf, static_cast<std::uint32_t>(std::countr_zero(left))};
         }
@@ -209,14 +270,21 @@ private:
         waitingCount_ = waitingPairs_ = 0;
     }
 
+    // A hit without a key that others come near needs one, too.
+    void reopen(std::uint32_t slot, std::uint32_t& n) {
+        RayBlock& b = blocks_[slot / W];
+        const std::uint32_t i = slot % W;
+        if ((b.open >> i & 1) == 0) return;
+        b.open &= ~(1u << i);
+        pairs_[n++] = {slot, b.bestLeaf[i], b.bestLane[i]};
+    }
+
     void takePairs(std::uint32_t n) {
         settlePairs<Q>(mesh_, rays_, blocks_, {pairs_, n}, [this](std::uint32_t slot) {
-            RayBlock& b = blocks_[slot / W];
-            std::uint32_t& top = b.stackTop[slot % W];
-            const std::size_t stack = slot * stride_;
-            top = Q == Query::Any
-                      ? 1 // only the end
-                      : dropHidden(refs_ + stack, entries_ + stack, top, b.zCut[slot % W]);
+            if constexpr (Q == Query::Any)
+                blocks_[slot / W].stackTop[slot % W] = 1; // only the end
+            else
+                dropBehind(slot);
         });
     }
 
@@ -233,9 +301,11 @@ private:
     // One place more than rays: send() writes to lists that are full.
     std::uint32_t lists_[5][kSlots + 1];
     Waiting waiting_[kSlots];
+    Met met_[kSlots];
+    std::uint32_t metCount_ = 0;
     std::uint32_t waitingCount_ = 0, waitingPairs_ = 0;
     std::uint32_t asked_ = 0, missed_ = 0; // of enterTree()
-    RayTriangle pairs_[kSlots * W];
+    RayTriangle pairs_[kSlots * (W + 1)];
 };
 
 template <Query Q, class Results>

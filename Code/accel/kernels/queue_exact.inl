@@ -9,43 +9,50 @@ struct Sheared {
     Floats x[3], y[3], z[3];
 };
 
-struct Verdict {
-    unsigned candidates; // may be hits within the ray's range
-    unsigned certain;    // are some: of these only whether, not where
+// Where W lines meet W planes of triangles, in float, and how far that may be off.
+struct Judged {
+    Floats least, most;       // of the edge functions
+    Floats depth, noise, det; // depth times det >= 0; not NaN where it is certain
+
+    // May be hits up to zCut.
+    [[gnu::always_inline]] unsigned candidates(Floats zCut) const {
+        const Floats zero(0.0f);
+        const Mask inside = (zero <= least) | (most <= zero); // NaN never passes later
+        const Mask wanted = notGreater(depth, zCut * det * Floats(1.000001f) + noise) &
+                            notGreater(zero - noise, depth);
+        return bits(inside & wanted);
+    }
+    // Are hits, behind the start.
+    [[gnu::always_inline]] Mask certain() const {
+        const Floats zero(0.0f);
+        return ((zero < least) | (most < zero)) & (noise < depth);
+    }
+    // The same, and in front of zCut, which is 8 units of rounding more than the end of the ray.
+    [[gnu::always_inline]] unsigned certain(Floats zCut) const {
+        return bits(certain() & (depth + noise < zCut * det * Floats(0.999998f)));
+    }
+    // The depth is between these.
+    Floats nearest(Floats inverse) const { return (depth - noise) * inverse * Floats(0.999999f); }
+    Floats farthest(Floats inverse) const { return (depth + noise) * inverse * Floats(1.000001f); }
 };
 
-// Edge functions with the bits of ShearedTriangle, then whether depth T/det is certain to be out of
-// range. How far T may be off z det, z the canonical depth of a hit, with b the largest lateral
+// Edge functions with the bits of ShearedTriangle, and depth T/det. How far T may be off z det, z
+// the canonical depth of a hit, with b the largest lateral
 // distance of a corner from the ray, M the largest depth and u = 2^-24: a lateral distance is off
 // by u (4M + 2b) at most (corner relative to the ray, slope, product, difference), an edge function
 // by 4b times that and 3u b^2, which is u b (16M + 11b); T sums three of them times a depth, with
 // products and sums of its own below 24u b^2 M, and z det three more with 12u b^2 M: together below
 // u b M (96M + 102b).
-template <Query Q>
-[[gnu::always_inline]] inline Verdict judge(const Sheared& s, Floats sign, Floats zCut) {
-    const Floats zero(0.0f);
+[[gnu::always_inline]] inline Judged judge(const Sheared& s, Floats sign) {
     const Floats U = s.x[2] * s.y[1] - s.y[2] * s.x[1], V = s.x[0] * s.y[2] - s.y[0] * s.x[2],
                  R = s.x[1] * s.y[0] - s.y[1] * s.x[0];
-    const Floats least = min(min(U, V), R), most = max(max(U, V), R);
-    const Mask inside = (zero <= least) | (most <= zero); // NaN never passes later
     const Floats det = (U + V) + R, T = (U * s.z[0] + V * s.z[1]) + R * s.z[2];
-    const Floats depth = flipSign(flipSign(T, det), sign);
     const auto largest = [](const Floats(&v)[3]) {
         return max(max(abs(v[0]), abs(v[1])), abs(v[2]));
     };
     const Floats b = max(largest(s.x), largest(s.y)), M = largest(s.z);
-    const Floats noise = (Floats(128 * 0x1p-24f) * b) * (M * (M + b));
-    const Floats end = zCut * abs(det);
-    const Mask wanted =
-        notGreater(depth, end * Floats(1.000001f) + noise) & notGreater(zero - noise, depth);
-    Verdict v{bits(inside & wanted), 0};
-    if constexpr (Q == Query::Any) {
-        // zCut is 8 units of rounding more than the end of the ray.
-        const Mask in = ((zero < least) | (most < zero)) & (noise < depth) &
-                        (depth + noise < end * Floats(0.999998f));
-        v.certain = bits(in);
-    }
-    return v;
+    return {min(min(U, V), R), max(max(U, V), R), flipSign(flipSign(T, det), sign),
+            (Floats(128 * 0x1p-24f) * b) * (M * (M + b)), abs(det)};
 }
 
 // Pairs of a ray and a triangle, one to a lane.
@@ -53,14 +60,34 @@ struct alignas(64) PairColumns {
     float point[3][3][W]; // corner, axis in the ray's order
     float origin[3][W], sign[W], shearX[W], shearY[W], dirX[W], dirY[W], dz[W], lateralError[W];
 
-    void set(std::uint32_t to, const RayBlock& b, std::uint32_t i, const WideLeaf<W>& leaf,
-             std::uint32_t triangle) {
+    PairColumns() = default;
+    // The rays of a block, each with a triangle that is still to be set.
+    explicit PairColumns(const RayBlock& b) {
+        const auto copy = [](const float(&from)[W], float(&to)[W]) {
+            Floats::load(from).store(to);
+        };
+        copy(b.origin[0], origin[0]), copy(b.origin[1], origin[1]), copy(b.origin[2], origin[2]);
+        copy(b.sign, sign);
+        copy(b.shearX, shearX), copy(b.shearY, shearY);
+        copy(b.dirX, dirX), copy(b.dirY, dirY), copy(b.dz, dz);
+        copy(b.lateralError, lateralError);
+        for (auto& corner : point)
+            for (auto& coordinates : corner) Floats(0.0f).store(coordinates);
+    }
+
+    // The triangle of ray i.
+    void setTriangle(std::uint32_t to, const RayBlock& b, std::uint32_t i, const WideLeaf<W>& leaf,
+                     std::uint32_t triangle) {
         const std::byte* const p = reinterpret_cast<const std::byte*>(&leaf);
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const auto* const row = reinterpret_cast<const float*>(p + b.axis[axis][i]);
             for (std::size_t c = 0; c < 3; ++c) point[c][axis][to] = row[leaf.corner[c][triangle]];
-            origin[axis][to] = b.origin[axis][i];
         }
+    }
+    void set(std::uint32_t to, const RayBlock& b, std::uint32_t i, const WideLeaf<W>& leaf,
+             std::uint32_t triangle) {
+        setTriangle(to, b, i, leaf, triangle);
+        for (std::size_t axis = 0; axis < 3; ++axis) origin[axis][to] = b.origin[axis][i];
         sign[to] = b.sign[i];
         shearX[to] = b.shearX[i], shearY[to] = b.shearY[i];
         dirX[to] = b.dirX[i], dirY[to] = b.dirY[i], dz[to] = b.dz[i];
@@ -137,6 +164,7 @@ bool improve(const WideTree& tree, RayBlock& b, const RayTriangle& p, float key)
         b.triangle[i] = id;
         b.bestLeaf[i] = p.leaf, b.bestLane[i] = p.triangle;
         b.zCut[i] = ::min(depthCut(key), b.zCut[i]);
+        b.depth[i] = depthCut(key) * 0.999998f;
     }
     return true;
 }
@@ -168,4 +196,27 @@ template <Query Q, class ImprovedFn>
             if (improve<Q>(mesh.tree, blocks[pairs[i].slot / W], pairs[i], key[i]))
                 improved(pairs[i].slot);
     }
+}
+
+// Keys of the hits that were accepted without one.
+[[gnu::noinline]] inline void settleOpen(const WideMesh& mesh, const RaySpan& rays, RayBlock& b) {
+    const auto leafOf = [&](std::uint32_t i) -> const WideLeaf<W>& {
+        return mesh.tree.at<WideLeaf<W>>(b.bestLeaf[i]);
+    };
+    const auto forEach = [](unsigned lanes, auto&& body) {
+        for (; lanes != 0; lanes &= lanes - 1)
+            body(static_cast<std::uint32_t>(std::countr_zero(lanes)));
+    };
+    PairColumns columns(b);
+    forEach(b.open, [&](std::uint32_t i) {
+        columns.setTriangle(i, b, i, leafOf(i), b.bestLane[i]);
+        b.triangle[i] = mesh.tree.triangleIds[leafOf(i).first + b.bestLane[i]];
+    });
+    unsigned undecided = 0;
+    const Floats keys = canonicalKeys(columns, undecided);
+    select(maskOf(b.open), keys, Floats::load(b.key)).store(b.key);
+    forEach(undecided & b.open, [&](std::uint32_t i) {
+        b.key[i] = exactKey(mesh, rays.org[b.ray[i]], rays.dir[b.ray[i]], leafOf(i), b.bestLane[i]);
+    });
+    b.open = 0;
 }

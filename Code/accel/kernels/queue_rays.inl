@@ -18,6 +18,8 @@ struct alignas(64) RayBlock {
     float key[W], below[W], tMax[W]; // of the best hit; see KeyRange of shape/triangle_queries.h
     std::uint32_t at[W], stackTop[W], triangle[W], ray[W];
     std::uint32_t bestLeaf[W], bestLane[W]; // where the triangle is
+    float depth[W];                         // nearest hits: the best one is not nearer
+    std::uint32_t open;                     // lanes whose best hit has no key yet
     std::uint32_t count, live;              // rays at the start and now
     bool inARow;                            // W rays that follow each other in the batch
 };
@@ -63,6 +65,8 @@ unsigned setUpRays(const RaySpan& rays, const std::uint32_t* order, std::size_t 
     keyBelow(columns.tMin, lanes.dz).store(b.below);
     depthCuts(above).store(b.zCut);
     Ints(TriangleHit::kNone).store(b.triangle);
+    Floats(kInfinityF).store(b.depth);
+    b.open = 0;
     b.count = static_cast<std::uint32_t>(count);
     return lanes.traceable & ((1u << count) - 1);
 }

@@ -53,6 +53,25 @@ inline Doubles operator*(Doubles a, Doubles b) {
 inline Doubles operator/(Doubles a, Doubles b) {
     return {_mm256_div_pd(a.lo, b.lo), _mm256_div_pd(a.hi, b.hi)};
 }
+inline Floats sqrt(Floats a) { return _mm256_sqrt_ps(a.v); }
+inline Doubles sqrt(const Doubles& a) { return {_mm256_sqrt_pd(a.lo), _mm256_sqrt_pd(a.hi)}; }
+inline Doubles abs(const Doubles& a) {
+    const __m256d sign = _mm256_set1_pd(-0.0);
+    return {_mm256_andnot_pd(sign, a.lo), _mm256_andnot_pd(sign, a.hi)};
+}
+inline Doubles min(const Doubles& a, const Doubles& b) {
+    return {_mm256_min_pd(a.lo, b.lo), _mm256_min_pd(a.hi, b.hi)};
+}
+inline Doubles max(const Doubles& a, const Doubles& b) {
+    return {_mm256_max_pd(a.lo, b.lo), _mm256_max_pd(a.hi, b.hi)};
+}
+inline Doubles withSign(const Doubles& a, const Doubles& of) {
+    const __m256d sign = _mm256_set1_pd(-0.0);
+    const auto half = [&](__m256d x, __m256d y) {
+        return _mm256_or_pd(_mm256_andnot_pd(sign, x), _mm256_and_pd(sign, y));
+    };
+    return {half(a.lo, of.lo), half(a.hi, of.hi)};
+}
 inline Floats fma(Floats a, Floats b, Floats c) { return _mm256_fmadd_ps(a.v, b.v, c.v); }
 inline Floats fnma(Floats a, Floats b, Floats c) {
     return _mm256_fnmadd_ps(a.v, b.v, c.v);
@@ -97,6 +116,29 @@ inline Ints select(Mask m, Ints a, Ints b) {
 }
 inline Floats permute(Floats a, Ints lanes) { return _mm256_permutevar8x32_ps(a.v, lanes.v); }
 inline Ints permute(Ints a, Ints lanes) { return _mm256_permutevar8x32_epi32(a.v, lanes.v); }
+
+inline unsigned bitsOf(__m256d lo, __m256d hi) {
+    return static_cast<unsigned>(_mm256_movemask_pd(lo) | _mm256_movemask_pd(hi) << 4);
+}
+inline unsigned less(const Doubles& a, const Doubles& b) {
+    return bitsOf(_mm256_cmp_pd(a.lo, b.lo, _CMP_LT_OQ), _mm256_cmp_pd(a.hi, b.hi, _CMP_LT_OQ));
+}
+inline unsigned atMost(const Doubles& a, const Doubles& b) {
+    return bitsOf(_mm256_cmp_pd(a.lo, b.lo, _CMP_LE_OQ), _mm256_cmp_pd(a.hi, b.hi, _CMP_LE_OQ));
+}
+inline Mask operator<(const Doubles& a, const Doubles& b) {
+    const __m256 lo = _mm256_castpd_ps(_mm256_cmp_pd(a.lo, b.lo, _CMP_LT_OQ)),
+                 hi = _mm256_castpd_ps(_mm256_cmp_pd(a.hi, b.hi, _CMP_LT_OQ));
+    const __m256d pairs = _mm256_castps_pd(_mm256_shuffle_ps(lo, hi, 0x88));
+    return {_mm256_castpd_ps(_mm256_permute4x64_pd(pairs, 0xd8))};
+}
+inline Doubles select(Mask m, const Doubles& a, const Doubles& b) {
+    const __m256i lanes = _mm256_castps_si256(m.v);
+    const __m256i lo = _mm256_cvtepi32_epi64(_mm256_castsi256_si128(lanes)),
+                  hi = _mm256_cvtepi32_epi64(_mm256_extracti128_si256(lanes, 1));
+    return {_mm256_blendv_pd(b.lo, a.lo, _mm256_castsi256_pd(lo)),
+            _mm256_blendv_pd(b.hi, a.hi, _mm256_castsi256_pd(hi))};
+}
 
 inline float smallest(Floats a) {
     __m128 m = _mm_min_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));

@@ -56,6 +56,22 @@ inline Doubles operator*(Doubles a, Doubles b) {
 inline Doubles operator/(Doubles a, Doubles b) {
     return {_mm512_div_pd(a.lo, b.lo), _mm512_div_pd(a.hi, b.hi)};
 }
+inline Floats sqrt(Floats a) { return _mm512_sqrt_ps(a.v); }
+inline Doubles sqrt(const Doubles& a) { return {_mm512_sqrt_pd(a.lo), _mm512_sqrt_pd(a.hi)}; }
+inline Doubles abs(const Doubles& a) { return {_mm512_abs_pd(a.lo), _mm512_abs_pd(a.hi)}; }
+inline Doubles min(const Doubles& a, const Doubles& b) {
+    return {_mm512_min_pd(a.lo, b.lo), _mm512_min_pd(a.hi, b.hi)};
+}
+inline Doubles max(const Doubles& a, const Doubles& b) {
+    return {_mm512_max_pd(a.lo, b.lo), _mm512_max_pd(a.hi, b.hi)};
+}
+inline Doubles withSign(const Doubles& a, const Doubles& of) {
+    const __m512d sign = _mm512_set1_pd(-0.0);
+    const auto half = [&](__m512d x, __m512d y) {
+        return _mm512_or_pd(_mm512_andnot_pd(sign, x), _mm512_and_pd(sign, y));
+    };
+    return {half(a.lo, of.lo), half(a.hi, of.hi)};
+}
 inline Floats fma(Floats a, Floats b, Floats c) { return _mm512_fmadd_ps(a.v, b.v, c.v); }
 inline Floats fnma(Floats a, Floats b, Floats c) {
     return _mm512_fnmadd_ps(a.v, b.v, c.v);
@@ -97,6 +113,21 @@ inline Floats select(Mask m, Floats a, Floats b) { return _mm512_mask_blend_ps(m
 inline Ints select(Mask m, Ints a, Ints b) { return _mm512_mask_blend_epi32(m.v, b.v, a.v); }
 inline Floats permute(Floats a, Ints lanes) { return _mm512_permutexvar_ps(lanes.v, a.v); }
 inline Ints permute(Ints a, Ints lanes) { return _mm512_permutexvar_epi32(lanes.v, a.v); }
+
+// Bits of the lanes where it holds.
+inline unsigned less(const Doubles& a, const Doubles& b) {
+    return bits({_mm512_cmp_pd_mask(a.lo, b.lo, _CMP_LT_OQ)}) |
+           bits({_mm512_cmp_pd_mask(a.hi, b.hi, _CMP_LT_OQ)}) << 8;
+}
+inline unsigned atMost(const Doubles& a, const Doubles& b) {
+    return bits({_mm512_cmp_pd_mask(a.lo, b.lo, _CMP_LE_OQ)}) |
+           bits({_mm512_cmp_pd_mask(a.hi, b.hi, _CMP_LE_OQ)}) << 8;
+}
+inline Mask operator<(const Doubles& a, const Doubles& b) { return maskOf(less(a, b)); }
+inline Doubles select(Mask m, const Doubles& a, const Doubles& b) {
+    return {_mm512_mask_blend_pd(static_cast<__mmask8>(bits(m)), b.lo, a.lo),
+            _mm512_mask_blend_pd(static_cast<__mmask8>(bits(m) >> 8), b.hi, a.hi)};
+}
 
 inline float smallest(Floats a) { return _mm512_reduce_min_ps(a.v); }
 inline float largest(Floats a) { return _mm512_reduce_max_ps(a.v); }

@@ -80,6 +80,30 @@ inline Doubles operator/(const Doubles& a, const Doubles& b) {
     return {_mm_div_pd(a.v[0], b.v[0]), _mm_div_pd(a.v[1], b.v[1]), _mm_div_pd(a.v[2], b.v[2]),
             _mm_div_pd(a.v[3], b.v[3])};
 }
+inline Floats sqrt(Floats a) { return {_mm_sqrt_ps(a.lo), _mm_sqrt_ps(a.hi)}; }
+// fn(i) for each of the four registers.
+template <class Fn> inline Doubles quarters(Fn&& fn) { return {fn(0), fn(1), fn(2), fn(3)}; }
+inline Doubles sqrt(const Doubles& a) {
+    return quarters([&](int i) { return _mm_sqrt_pd(a.v[i]); });
+}
+inline Doubles abs(const Doubles& a) {
+    return quarters([&](int i) { return _mm_andnot_pd(_mm_set1_pd(-0.0), a.v[i]); });
+}
+inline Doubles min(const Doubles& a, const Doubles& b) {
+    return {_mm_min_pd(a.v[0], b.v[0]), _mm_min_pd(a.v[1], b.v[1]), _mm_min_pd(a.v[2], b.v[2]),
+            _mm_min_pd(a.v[3], b.v[3])};
+}
+inline Doubles max(const Doubles& a, const Doubles& b) {
+    return quarters([&](int i) { return _mm_max_pd(a.v[i], b.v[i]); });
+}
+inline Doubles withSign(const Doubles& a, const Doubles& of) {
+    const __m128d sign = _mm_set1_pd(-0.0);
+    const auto part = [&](__m128d x, __m128d y) {
+        return _mm_or_pd(_mm_andnot_pd(sign, x), _mm_and_pd(sign, y));
+    };
+    return {part(a.v[0], of.v[0]), part(a.v[1], of.v[1]), part(a.v[2], of.v[2]),
+            part(a.v[3], of.v[3])};
+}
 // Two roundings here: fma() is used only where the pads cover either way.
 inline Floats fma(Floats a, Floats b, Floats c) { return a * b + c; }
 inline Floats fnma(Floats a, Floats b, Floats c) { return c - a * b; } // c - a b
@@ -156,6 +180,27 @@ inline Floats permute(Floats a, Ints lanes) {
 inline Ints permute(Ints a, Ints lanes) {
     const Floats b = permute(Floats(_mm_castsi128_ps(a.lo), _mm_castsi128_ps(a.hi)), lanes);
     return {_mm_castps_si128(b.lo), _mm_castps_si128(b.hi)};
+}
+
+template <class Fn> inline unsigned bitsOf(Fn&& fn) {
+    unsigned all = 0;
+    for (int i = 0; i < 4; ++i) all |= static_cast<unsigned>(_mm_movemask_pd(fn(i))) << 2 * i;
+    return all;
+}
+inline unsigned less(const Doubles& a, const Doubles& b) {
+    return bitsOf([&](int i) { return _mm_cmplt_pd(a.v[i], b.v[i]); });
+}
+inline unsigned atMost(const Doubles& a, const Doubles& b) {
+    return bitsOf([&](int i) { return _mm_cmple_pd(a.v[i], b.v[i]); });
+}
+inline Mask operator<(const Doubles& a, const Doubles& b) {
+    const auto less = [&](int i) { return _mm_castpd_ps(_mm_cmplt_pd(a.v[i], b.v[i])); };
+    return {_mm_shuffle_ps(less(0), less(1), 0x88), _mm_shuffle_ps(less(2), less(3), 0x88)};
+}
+inline Doubles select(Mask m, const Doubles& a, const Doubles& b) {
+    const __m128 twice[4] = {_mm_unpacklo_ps(m.lo, m.lo), _mm_unpackhi_ps(m.lo, m.lo),
+                             _mm_unpacklo_ps(m.hi, m.hi), _mm_unpackhi_ps(m.hi, m.hi)};
+    return quarters([&](int i) { return _mm_blendv_pd(b.v[i], a.v[i], _mm_castps_pd(twice[i])); });
 }
 
 inline float smallest(Floats a) {

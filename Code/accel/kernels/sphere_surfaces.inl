@@ -1,30 +1,40 @@
-// The surface of a sphere at W hits, as AnalyticShape::surfaceUnder() and Sphere::describe() have
-// it: the same operations in the same order. Included by the file of each instruction set inside
+// The surfaces of W hits on spheres, as AnalyticShape::surfaceUnder() and Sphere::describe() have
+// them: the same operations in the same order. Included by the file of each instruction set inside
 // its namespace.
 
 namespace {
 
-struct Doubles3 {
-    Doubles x, y, z;
+// The numbers of a sphere that all lanes are on, or of one for each lane.
+struct NumbersOfOne {
+    explicit NumbersOfOne(const SphereToShade& sphere) : of(sphere.numbers) {}
+    Doubles operator()(std::size_t number) const { return Doubles(of[number]); }
+    const std::array<double, SphereToShade::kNumbers>& of;
+};
+struct NumbersOfMany {
+    // Lanes behind the last sphere repeat it.
+    explicit NumbersOfMany(std::span<const SphereToShade* const> spheres) {
+        for (std::size_t i = 0; i < W; ++i) {
+            const auto& from = spheres[i < spheres.size() ? i : spheres.size() - 1]->numbers;
+            for (std::size_t k = 0; k < from.size(); ++k) of[k][i] = from[k];
+        }
+    }
+    Doubles operator()(std::size_t number) const { return Doubles::load(of[number]); }
+    alignas(64) double of[SphereToShade::kNumbers][W];
 };
 
-inline Doubles dot(const Doubles3& a, const Doubles3& b) {
-    return (a.x * b.x + a.y * b.y) + a.z * b.z;
-}
-inline Doubles3 along(const Doubles3& from, const Doubles3& dir, const Doubles& t) {
-    return {from.x + dir.x * t, from.y + dir.y * t, from.z + dir.z * t};
-}
 // Rows i, i + step .. of a map's linear part.
-inline Doubles row(const std::array<double, 12>& m, std::size_t i, std::size_t step,
-                   const Doubles3& v) {
-    return (Doubles(m[i]) * v.x + Doubles(m[i + step]) * v.y) + Doubles(m[i + 2 * step]) * v.z;
+template <class Numbers>
+Doubles row(const Numbers& m, std::size_t i, std::size_t step, const Doubles3& v) {
+    return (m(i) * v.x + m(i + step) * v.y) + m(i + 2 * step) * v.z;
 }
-inline Doubles3 vectorOf(const std::array<double, 12>& m, const Doubles3& v) {
-    return {row(m, 0, 1, v), row(m, 4, 1, v), row(m, 8, 1, v)};
+template <class Numbers>
+Doubles3 vectorOf(const Numbers& m, SphereToShade::Number map, const Doubles3& v) {
+    return {row(m, map, 1, v), row(m, map + 4, 1, v), row(m, map + 8, 1, v)};
 }
-inline Doubles3 pointOf(const std::array<double, 12>& m, const Doubles3& p) {
-    const Doubles3 v = vectorOf(m, p);
-    return {v.x + Doubles(m[3]), v.y + Doubles(m[7]), v.z + Doubles(m[11])};
+template <class Numbers>
+Doubles3 pointOf(const Numbers& m, SphereToShade::Number map, const Doubles3& p) {
+    const Doubles3 v = vectorOf(m, map, p);
+    return {v.x + m(map + 3), v.y + m(map + 7), v.z + m(map + 11)};
 }
 
 struct RaysInLanes {
@@ -32,8 +42,8 @@ struct RaysInLanes {
     Doubles t;
 };
 
-inline Doubles3 inDouble(const Floats& x, const Floats& y, const Floats& z) {
-    return {Doubles(x), Doubles(y), Doubles(z)};
+inline Doubles3 along(const Doubles3& from, const Doubles3& dir, const Doubles& t) {
+    return {from.x + dir.x * t, from.y + dir.y * t, from.z + dir.z * t};
 }
 
 // Lanes behind the last of `which` repeat it.
@@ -48,7 +58,7 @@ inline RaysInLanes raysOf(const RaySpan& rays, std::span<const Hit> hits,
         Floats o[3], d[3];
         loadVectors(&rays.org[first].x, o[0], o[1], o[2]);
         loadVectors(&rays.dir[first].x, d[0], d[1], d[2]);
-        return {inDouble(o[0], o[1], o[2]), inDouble(d[0], d[1], d[2]), exact};
+        return {Doubles3::of(o[0], o[1], o[2]), Doubles3::of(d[0], d[1], d[2]), exact};
     }
     alignas(64) float org[3][W], dir[3][W];
     for (std::size_t i = 0; i < W; ++i) {
@@ -57,65 +67,72 @@ inline RaysInLanes raysOf(const RaySpan& rays, std::span<const Hit> hits,
         dir[0][i] = to.x, dir[1][i] = to.y, dir[2][i] = to.z;
     }
     const auto load = [](const float(&v)[3][W]) {
-        return inDouble(Floats::load(v[0]), Floats::load(v[1]), Floats::load(v[2]));
+        return Doubles3::of(Floats::load(v[0]), Floats::load(v[1]), Floats::load(v[2]));
     };
     return {load(org), load(dir), exact};
 }
 
+struct SurfacesInLanes {
+    alignas(64) float p[3][W], n[3][W];
+    alignas(64) double error[W];
+};
+
+// Rounded, by axis.
+inline void store(const Doubles3& v, float (&to)[3][W]) {
+    v.x.toFloats().store(to[0]), v.y.toFloats().store(to[1]), v.z.toFloats().store(to[2]);
+}
+
+template <class Numbers>
+void describe(const Numbers& sphere, const RaysInLanes& world, SurfacesInLanes& out) {
+    constexpr double kThreeUlps = 3 * 0x1p-24;
+    using enum SphereToShade::Number;
+    const Doubles3 seen = along(world.org, world.dir, world.t);
+    const Doubles place = max(max(abs(seen.x), abs(seen.y)), abs(seen.z));
+    const Doubles fixedError =
+        sphere(LeastError) + sphere(ErrorPerPlace) * (place + sphere(Farthest));
+
+    const Doubles3 met = along(pointOf(sphere, ObjectFromWorld, world.org),
+                               vectorOf(sphere, ObjectFromWorld, world.dir), world.t);
+    const Doubles distance = sqrt(dot(met, met));
+    const Doubles zero(0.0);
+    const Doubles3 n = select(zero < distance, met / distance, Doubles3{zero, zero, Doubles(1.0)});
+    const Doubles3 local = n * sphere(Radius);
+    const Doubles3 rough = pointOf(sphere, WorldFromObject, local);
+    const Doubles3 back = pointOf(sphere, ObjectFromWorld, rough);
+    const Doubles3 p = rough + vectorOf(sphere, WorldFromObject, local - back);
+
+    const Doubles3 steep{row(sphere, ObjectFromWorld, 4, n), row(sphere, ObjectFromWorld + 1, 4, n),
+                         row(sphere, ObjectFromWorld + 2, 4, n)};
+    const Doubles3 normal = steep / sqrt(dot(steep, steep));
+    const Doubles rounding = (abs(normal.x * p.x) + abs(normal.y * p.y)) + abs(normal.z * p.z);
+    store(p, out.p), store(normal, out.n);
+    (Doubles(kThreeUlps) * rounding + fixedError).store(out.error);
+}
+
 } // namespace
 
-void sphereSurfaces(const SphereToShade& sphere, const RaySpan& rays, std::span<const Hit> hits,
-                    std::span<const std::uint32_t> which, Strided<Surface> out) {
-    constexpr double kThreeUlps = 3 * 0x1p-24;
-    for (std::size_t first = 0; first < which.size(); first += W) {
-        const std::size_t count = std::min<std::size_t>(W, which.size() - first);
-        const RaysInLanes world = raysOf(rays, hits, which.subspan(first, count));
-
-        const Doubles3 seen = along(world.org, world.dir, world.t);
-        const Doubles place = max(max(abs(seen.x), abs(seen.y)), abs(seen.z));
-        const Doubles fixedError =
-            Doubles(sphere.leastError) +
-            Doubles(sphere.errorPerPlace) * (place + Doubles(sphere.farthest));
-
-        const Doubles3 met = along(pointOf(sphere.objectFromWorld, world.org),
-                                   vectorOf(sphere.objectFromWorld, world.dir), world.t);
-        const Doubles distance = sqrt(dot(met, met));
-        const Doubles3 n{orWhereZero(distance, met.x / distance, 0),
-                         orWhereZero(distance, met.y / distance, 0),
-                         orWhereZero(distance, met.z / distance, 1)};
-        const Doubles radius(sphere.radius);
-        const Doubles3 local{n.x * radius, n.y * radius, n.z * radius};
-        const Doubles3 rough = pointOf(sphere.worldFromObject, local);
-        const Doubles3 back = pointOf(sphere.objectFromWorld, rough);
-        const Doubles3 more = vectorOf(sphere.worldFromObject,
-                                       {local.x - back.x, local.y - back.y, local.z - back.z});
-        const Doubles3 p{rough.x + more.x, rough.y + more.y, rough.z + more.z};
-
-        const Doubles3 steep{row(sphere.objectFromWorld, 0, 4, n),
-                             row(sphere.objectFromWorld, 1, 4, n),
-                             row(sphere.objectFromWorld, 2, 4, n)};
-        const Doubles size = sqrt(dot(steep, steep));
-        const Doubles3 normal{steep.x / size, steep.y / size, steep.z / size};
-        const Doubles rounding = (abs(normal.x * p.x) + abs(normal.y * p.y)) + abs(normal.z * p.z);
-        const Doubles error = Doubles(kThreeUlps) * rounding + fixedError;
-
-        alignas(64) float at[6][W];
-        alignas(64) double errors[W];
-        p.x.toFloats().store(at[0]), p.y.toFloats().store(at[1]), p.z.toFloats().store(at[2]);
-        normal.x.toFloats().store(at[3]), normal.y.toFloats().store(at[4]);
-        normal.z.toFloats().store(at[5]);
-        error.store(errors);
+void sphereSurfaces(const SpheresMet& met, Strided<Surface> out) {
+    SurfacesInLanes found;
+    for (std::size_t first = 0; first < met.which.size(); first += W) {
+        const std::size_t count = std::min<std::size_t>(W, met.which.size() - first);
+        const RaysInLanes rays = raysOf(met.rays, met.hits, met.which.subspan(first, count));
+        const auto spheres = met.spheres.subspan(first, count);
+        const auto isFirst = [&](const SphereToShade* other) { return other == spheres[0]; };
+        if (std::all_of(spheres.begin() + 1, spheres.end(), isFirst))
+            describe(NumbersOfOne(*spheres[0]), rays, found);
+        else
+            describe(NumbersOfMany(spheres), rays, found);
         for (std::size_t i = 0; i < count; ++i) {
-            const Vec3 ng{at[3][i], at[4][i], at[5][i]};
-            out[first + i] = {.p = {at[0][i], at[1][i], at[2][i]},
-                              .ng = ng,
-                              .ns = ng,
-                              .uv = {},
-                              .material = sphere.material,
-                              .object = sphere.object,
-                              .error = floatAbove(errors[i]),
-                              .rayError = 0,
-                              .lift = {}};
+            const Vec3 ng{found.n[0][i], found.n[1][i], found.n[2][i]};
+            out[met.to[first + i]] = {.p = {found.p[0][i], found.p[1][i], found.p[2][i]},
+                                      .ng = ng,
+                                      .ns = ng,
+                                      .uv = {},
+                                      .material = spheres[i]->material,
+                                      .object = spheres[i]->object,
+                                      .error = floatAbove(found.error[i]),
+                                      .rayError = 0,
+                                      .lift = {}};
         }
     }
 }

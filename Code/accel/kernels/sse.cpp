@@ -13,7 +13,7 @@
 #include <limits>
 #include <vector>
 
-KERNEL_REGION_BEGIN("sse4.2,popcnt")
+SSE_REGION_BEGIN
 namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
 

@@ -98,7 +98,7 @@ private:
             if (choice.names[i] == t.text) return choice.set(block, i);
         errors_.add(locOf(t), [&] { return unknownValue(keyword_, shown(t.text), choice.names); });
     }
-    void readMaterials(std::vector<Handle>& handles, bool many) {
+    void readMaterials(OneOrMore<Handle>& handles, bool many) {
         const Token first = nextName("the name of a material");
         if (!handles.empty())
             errors_.add(locOf(first), [] { return "give 'material' or 'materials', not both"; });

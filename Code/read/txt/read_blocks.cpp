@@ -1,5 +1,6 @@
 #include "read/txt/read_blocks.h"
 
+#include "base/large_pages.h"
 #include "base/text.h"
 #include "desc/names.h"
 #include "desc/properties.h"
@@ -75,14 +76,18 @@ private:
     }
 
     // One block more. Doubling touches memory twice, which for many blocks costs as much as reading
-    // them; the part of the text that the blocks so far took says how many there will be.
+    // them; the text that those so far took, and others between them, says how many there will be.
+    // Memory that is not touched costs nothing.
     template <class Block> Block& added(std::vector<Block>& blocks) const {
-        constexpr std::size_t kMany = 1000, kMostGrowth = 16;
+        constexpr std::size_t kMany = 1000;
+        constexpr double kMargin = 1.1, kLeast = 1.5, kMost = 256;
         if (blocks.size() == blocks.capacity() && blocks.size() >= kMany) {
-            const double done = static_cast<double>(in_.offset() - part_.first) /
-                                static_cast<double>(part_.last - part_.first);
-            const double growth = std::clamp(1.05 / done, 1.5, double{kMostGrowth});
-            blocks.reserve(static_cast<std::size_t>(static_cast<double>(blocks.size()) * growth));
+            const std::size_t first = blocks.front().loc.offset, here = in_.offset();
+            const double left = here < part_.last ? static_cast<double>(part_.last - here) : 0;
+            const double growth = 1 + kMargin * left / static_cast<double>(here - first);
+            blocks.reserve(static_cast<std::size_t>(static_cast<double>(blocks.size()) *
+                                                    std::clamp(growth, kLeast, kMost)));
+            adviseLargePages(blocks.data(), blocks.capacity() * sizeof(Block));
         }
         return blocks.emplace_back();
     }

@@ -1,6 +1,7 @@
 #include "read/txt/read_txt.h"
 
 #include "base/for_each.h"
+#include "base/large_pages.h"
 #include "base/text.h"
 #include "desc/error_list.h"
 #include "read/txt/property_line.h"
@@ -98,6 +99,7 @@ std::optional<SceneDesc> joined(const SourceFile& source, std::vector<std::optio
         std::size_t count = 0;
         for (const auto& part : parts) count += (part->desc.*blocks).size();
         (all.*blocks).reserve(count);
+        adviseLargePages((all.*blocks).data(), count * sizeof(all.*blocks)[0]);
         for (auto& part : parts) {
             auto& some = part->desc.*blocks;
             std::move(some.begin(), some.end(), std::back_inserter(all.*blocks));

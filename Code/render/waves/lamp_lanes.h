@@ -14,9 +14,10 @@
 struct alignas(64) LitBlock {
     static constexpr std::size_t kPoints = 16;
     static constexpr std::size_t kModels = 3; // of SpecularModel
-    float p[3][kPoints], lift[3][kPoints], n[3][kPoints], ng[3][kPoints], ns[3][kPoints];
-    float toEye[3][kPoints], weight[3][kPoints], diffuse[3][kPoints], specular[3][kPoints];
-    float exponent[kPoints], error[kPoints], rayError[kPoints];
+    float p[3][kPoints], lift[3][kPoints], n[3][kPoints], ng[3][kPoints];
+    float weight[3][kPoints], diffuse[3][kPoints], error[kPoints], rayError[kPoints];
+    float ns[3][kPoints];                                             // of the lifted ones
+    float toEye[3][kPoints], specular[3][kPoints], exponent[kPoints]; // of the shiny ones
     std::uint32_t point[kPoints], group[kPoints];
     // One bit for each point.
     unsigned used = 0;

@@ -106,17 +106,21 @@ inline void fillBlocks(const Wave& wave) {
                 put(to, {c.r, c.g, c.b});
             };
             put(block.p, at.surface.p), put(block.lift, at.surface.lift);
-            put(block.n, at.lit.n), put(block.ng, at.lit.ng), put(block.ns, at.lit.ns);
-            put(block.toEye, at.toEye);
+            put(block.n, at.lit.n), put(block.ng, at.lit.ng);
             putLight(block.weight, memory.points.weight[k]);
-            putLight(block.diffuse, material.diffuse), putLight(block.specular, material.specular);
-            block.exponent[i] = material.exponent;
+            putLight(block.diffuse, material.diffuse);
             block.error[i] = at.surface.error, block.rayError[i] = at.surface.rayError;
             block.point[i] = k;
             const unsigned bit = 1u << i;
-            if (at.surface.lift != Vec3{}) block.lifted |= bit;
-            if (!isBlack(material.specular))
+            if (at.surface.lift != Vec3{}) {
+                put(block.ns, at.lit.ns);
+                block.lifted |= bit;
+            }
+            if (!isBlack(material.specular)) {
+                put(block.toEye, at.toEye), putLight(block.specular, material.specular);
+                block.exponent[i] = material.exponent;
                 block.shiny[static_cast<std::size_t>(material.specularModel)] |= bit;
+            }
         }
     }
 }

@@ -10,7 +10,7 @@
 #include <immintrin.h>
 #include <limits>
 
-KERNEL_REGION_BEGIN("avx2,fma,bmi,bmi2,lzcnt,popcnt")
+AVX2_REGION_BEGIN
 namespace kernels::build::avx2 {
 #include "accel/kernels/build/box_avx2.inl"
 

@@ -10,7 +10,7 @@
 #include <immintrin.h>
 #include <limits>
 
-KERNEL_REGION_BEGIN("sse4.2,popcnt")
+SSE_REGION_BEGIN
 namespace kernels::build::sse {
 #include "accel/kernels/build/box_sse.inl"
 

@@ -1,0 +1,25 @@
+// Surfaces in the registers of avx512.cpp.
+#include "accel/kernels/surface_lanes.h"
+
+#if defined(__x86_64__)
+#include "accel/kernels/exact_hit.h"
+#include "accel/kernels/target.h"
+#include "base/math.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <immintrin.h>
+#include <limits>
+
+AVX512_REGION_BEGIN
+namespace kernels::avx512 {
+#include "accel/kernels/simd_avx512.inl"
+
+#include "accel/kernels/vectors3.inl"
+
+#include "accel/kernels/sphere_surfaces.inl"
+#include "accel/kernels/triangle_surfaces.inl"
+} // namespace kernels::avx512
+KERNEL_REGION_END
+#endif
