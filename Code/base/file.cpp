@@ -57,10 +57,15 @@ private:
     fail(ErrorKind::Output, cat(fileName, ": error: cannot write: ", std::strerror(reason), hint));
 }
 
+// Pictures come in pieces of some KB; stdio's own buffer is one page.
+constexpr std::size_t kBufferBytes = 1 << 16;
+
 // Writes and closes; nothing is on the disk for sure before fclose() succeeds.
 void writeBytes(const std::string& path, const std::string& fileName, const ByteSource& produce) {
+    std::vector<char> buffer(kBufferBytes); // outlives the file
     File file(std::fopen(path.c_str(), "wb"));
     if (!file) failWriting(fileName, errno);
+    static_cast<void>(std::setvbuf(file.get(), buffer.data(), _IOFBF, buffer.size()));
     produce([&](std::span<const std::uint8_t> bytes) {
         if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
             failWriting(fileName, errno);
@@ -87,8 +92,7 @@ template <class Bytes> Bytes readWhole(const std::string& fileName) {
     // One byte more than promised: the end is seen without another allocation.
     const auto size =
         static_cast<std::size_t>(status ? kFirstPart : std::max(promised + 1, kFirstPart));
-    bytes.reserve(size);
-    adviseLargePages(bytes.data(), size);
+    reserveInLargePages(bytes, size);
     bytes.resize(size);
     while (true) {
         const std::size_t read =

@@ -6,3 +6,9 @@
 // Before the first touch: asks the system for its largest pages. Memory that is too small for one
 // is left as it is.
 void adviseLargePages(void* memory, std::size_t bytes);
+
+// Room for so many elements, in such pages.
+template <class Vector> void reserveInLargePages(Vector& vector, std::size_t count) {
+    vector.reserve(count);
+    adviseLargePages(vector.data(), count * sizeof(typename Vector::value_type));
+}

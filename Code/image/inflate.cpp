@@ -20,7 +20,7 @@ namespace {
 class BitReader {
 public:
     BitReader(std::span<const std::uint8_t> bytes, const std::string& name)
-        : bytes_(bytes), name_(name) {}
+        : bytes_(bytes), name_(&name) {}
 
     // Afterwards at least 48 bits wait, or all that are left.
     void refill() {
@@ -40,7 +40,7 @@ public:
         return static_cast<std::uint32_t>(waiting_ & ((std::uint64_t{1} << n) - 1));
     }
     void consume(unsigned n) {
-        if (n > count_) broken(name_, "the file ends in the middle of it");
+        if (n > count_) broken(*name_, "the file ends in the middle of it");
         waiting_ >>= n;
         count_ -= n;
     }
@@ -61,7 +61,7 @@ public:
 
 private:
     std::span<const std::uint8_t> bytes_;
-    const std::string& name_;
+    const std::string* name_;
     std::size_t position_ = 0;
     std::uint64_t waiting_ = 0; // bits above count_ are those of later bytes, or zero
     unsigned count_ = 0;
@@ -125,7 +125,7 @@ public:
     }
 
 private:
-    static constexpr unsigned kFastBits = 10;
+    static constexpr unsigned kFastBits = 11;
     std::array<std::uint16_t, 1 << kFastBits> fast_{}; // symbol << 4 | length; 0: not here
     std::array<std::uint16_t, kMaxCodeLength + 1> count_{};
     std::array<std::uint16_t, 288> symbols_{};
@@ -155,9 +155,9 @@ public:
     std::vector<std::uint8_t> result() && { return std::move(out_); }
 
 private:
-    void room(std::size_t count) const {
-        if (count > out_.size() - used_)
-            broken(name_, cat("it unpacks to more than ", out_.size(), " bytes"));
+    void checkRoom(std::span<const std::uint8_t> out, std::size_t used, std::size_t count) const {
+        if (count > out.size() - used)
+            broken(name_, cat("it unpacks to more than ", out.size(), " bytes"));
     }
 
     void storedBlock() {
@@ -168,7 +168,7 @@ private:
             broken(name_, "a stored block contradicts its length");
         rest = rest.subspan(4);
         if (length > rest.size()) broken(name_, "the file ends in the middle of it");
-        room(length);
+        checkRoom(out_, used_, length);
         std::copy_n(rest.begin(), length, out_.begin() + static_cast<std::ptrdiff_t>(used_));
         used_ += length;
         bits_.continueAt(rest.subspan(length));
@@ -217,34 +217,53 @@ private:
     }
 
     void block(const HuffmanDecoder& literals, const HuffmanDecoder& distances) {
+        // In variables of its own: for the compiler, any byte of out_ may be one of a member.
+        BitReader bits = bits_;
+        const std::span<std::uint8_t> out = out_;
+        std::size_t used = used_;
         while (true) {
-            bits_.refill(); // 48 bits: a length (15 + 5) and a distance (15 + 13)
-            const std::size_t symbol = literals.decode(bits_, name_);
+            bits.refill(); // 48 bits: three literals (15 each)
+            std::size_t symbol = literals.decode(bits, name_);
+            for (int i = 0; i < 2 && symbol < kEndOfBlock; ++i) {
+                putLiteral(out, used, symbol);
+                symbol = literals.decode(bits, name_);
+            }
             if (symbol < kEndOfBlock) {
-                room(1);
-                out_[used_++] = static_cast<std::uint8_t>(symbol);
+                putLiteral(out, used, symbol);
                 continue;
             }
-            if (symbol == kEndOfBlock) return;
+            if (symbol == kEndOfBlock) break;
             if (symbol >= kLiteralCodes) broken(name_, "an unknown match length");
+            bits.refill(); // the rest of a length (5) and a distance (15 + 13)
             const CodeRange lengthRange = kLengthRanges[symbol - kEndOfBlock - 1];
-            const std::size_t length = lengthRange.base + bits_.take(lengthRange.extra);
-            const std::size_t distanceSymbol = distances.decode(bits_, name_);
+            const std::size_t length = lengthRange.base + bits.take(lengthRange.extra);
+            const std::size_t distanceSymbol = distances.decode(bits, name_);
             if (distanceSymbol >= kDistanceCodes) broken(name_, "an unknown distance");
             const CodeRange distanceRange = kDistanceRanges[distanceSymbol];
-            const std::size_t distance = distanceRange.base + bits_.take(distanceRange.extra);
-            if (distance > used_) broken(name_, "a distance that reaches before the start");
-            room(length);
-            copyMatch(length, distance);
+            const std::size_t distance = distanceRange.base + bits.take(distanceRange.extra);
+            if (distance > used) broken(name_, "a distance that reaches before the start");
+            checkRoom(out, used, length);
+            copyMatch(out, used, length, distance);
+            used += length;
         }
+        bits_ = bits;
+        used_ = used;
+    }
+    void putLiteral(std::span<std::uint8_t> out, std::size_t& used, std::size_t symbol) const {
+        checkRoom(out, used, 1);
+        out[used++] = static_cast<std::uint8_t>(symbol);
     }
 
     // The copied bytes may overlap their source: then they repeat.
-    void copyMatch(std::size_t length, std::size_t distance) {
-        std::uint8_t* to = out_.data() + used_;
-        const std::uint8_t* from = to - distance;
-        used_ += length;
-        if (distance >= length)
+    static void copyMatch(std::span<std::uint8_t> out, std::size_t used, std::size_t length,
+                          std::size_t distance) {
+        std::uint8_t* const to = out.data() + used;
+        const std::uint8_t* const from = to - distance;
+        constexpr std::size_t kWord = 8, kLong = 64;
+        // Most are short: in words, which may write behind the end what comes later.
+        if (distance >= kWord && length <= kLong && out.size() - used >= length + kWord)
+            for (std::size_t i = 0; i < length; i += kWord) std::memcpy(to + i, from + i, kWord);
+        else if (distance >= length)
             std::memcpy(to, from, length);
         else if (distance == 1)
             std::memset(to, *from, length);

@@ -33,7 +33,7 @@ Lanes average(Lanes a, Lanes b) {
 
 // paethPredictor() in bytes: where c is between a and b, its distance to a + b - c is the
 // difference of the others; else it is their sum, and a or b is nearer or as near.
-Lanes paeth(const Neighbours& n) {
+[[gnu::always_inline]] inline Lanes paeth(const Neighbours& n) {
     const Lanes toA = difference(n.b, n.c), toB = difference(n.a, n.c);
     const auto isBetween = (n.a < n.c) == (n.c < n.b);
     const Lanes toC = isBetween ? difference(toA, toB) : larger(toA, toB);
@@ -47,6 +47,14 @@ template <PngFilter filter> Lanes predict(const Neighbours& n) {
     if constexpr (filter == PngFilter::Up) return n.b;
     if constexpr (filter == PngFilter::Average) return average(n.a, n.b);
     if constexpr (filter == PngFilter::Paeth) return paeth(n);
+}
+
+// One colour as far as the 16 bytes and their neighbours reach?
+bool isPlain(Lanes here, const Neighbours& n) {
+    const Lanes different = (here ^ n.a) | (here ^ n.b) | (here ^ n.c);
+    std::array<std::uint64_t, 2> halves;
+    std::memcpy(halves.data(), &different, sizeof different);
+    return (halves[0] | halves[1]) == 0;
 }
 
 class RowFilter {
@@ -64,6 +72,7 @@ public:
                 const Lanes here = load(row_.data() + i);
                 const Neighbours n = neighbours(i);
                 addTo<PngFilter::None>(sums, here, n);
+                if (isPlain(here, n)) continue; // the others leave nothing
                 addTo<PngFilter::Sub>(sums, here, n);
                 addTo<PngFilter::Up>(sums, here, n);
                 addTo<PngFilter::Average>(sums, here, n);

@@ -190,6 +190,7 @@ private:
     void takePixels(Bytes data) {
         if (!chunks_.packed.empty() && previous_ != "IDAT")
             broken("the IDAT chunks do not follow each other");
+        if (chunks_.packed.empty()) chunks_.packed.reserve(file_.size());
         chunks_.packed.insert(chunks_.packed.end(), data.begin(), data.end());
     }
 
@@ -206,29 +207,49 @@ private:
     std::string_view previous_; // type of the chunk before
 };
 
-// Adds what the filter has subtracted. `above` is all zero for the first row.
-void unfilterRow(PngFilter filter, std::span<std::uint8_t> row, Bytes above, std::size_t back) {
-    const auto add = [&](std::size_t i, int value) {
-        row[i] = static_cast<std::uint8_t>(row[i] + value);
-    };
-    const std::size_t first = std::min(back, row.size()); // nothing to the left of these
+// Adds what the filter has subtracted; left of the first pixel all is zero. With the pixel before
+// in registers: each byte waits for the one `kBack` before it.
+template <std::size_t kBack, class Predict>
+void addPredicted(std::span<std::uint8_t> row, Bytes above, Predict predict) {
+    std::array<std::uint8_t, kBack> left{}, corner{};
+    for (std::size_t i = 0; i + kBack <= row.size(); i += kBack)
+        for (std::size_t k = 0; k < kBack; ++k) {
+            const std::uint8_t up = above[i + k];
+            left[k] = static_cast<std::uint8_t>(row[i + k] + predict(left[k], up, corner[k]));
+            corner[k] = up;
+            row[i + k] = left[k];
+        }
+}
+
+// `above` is all zero for the first row.
+template <std::size_t kBack>
+void unfilterRow(PngFilter filter, std::span<std::uint8_t> row, Bytes above) {
+    using Byte = std::uint8_t;
     switch (filter) {
     case PngFilter::None: break;
     case PngFilter::Sub:
-        for (std::size_t i = first; i < row.size(); ++i) add(i, row[i - back]);
+        addPredicted<kBack>(row, above, [](Byte a, Byte, Byte) { return a; });
         break;
-    case PngFilter::Up:
-        for (std::size_t i = 0; i < row.size(); ++i) add(i, above[i]);
+    case PngFilter::Up: // no byte waits for another
+        for (std::size_t i = 0; i < row.size(); ++i) row[i] = static_cast<Byte>(row[i] + above[i]);
         break;
     case PngFilter::Average:
-        for (std::size_t i = 0; i < first; ++i) add(i, above[i] / 2);
-        for (std::size_t i = first; i < row.size(); ++i) add(i, (row[i - back] + above[i]) / 2);
+        addPredicted<kBack>(row, above, [](Byte a, Byte b, Byte) { return (a + b) / 2; });
         break;
-    case PngFilter::Paeth:
-        for (std::size_t i = 0; i < first; ++i) add(i, above[i]);
-        for (std::size_t i = first; i < row.size(); ++i)
-            add(i, paethPredictor(row[i - back], above[i], above[i - back]));
-        break;
+    case PngFilter::Paeth: addPredicted<kBack>(row, above, paethPredictor); break;
+    }
+}
+
+using UnfilterRow = void (*)(PngFilter, std::span<std::uint8_t>, Bytes);
+// For pixels of so many bytes, 1 where they are smaller.
+UnfilterRow unfilterFor(std::size_t pixelBytes) {
+    switch (pixelBytes) {
+    case 2: return unfilterRow<2>;
+    case 3: return unfilterRow<3>;
+    case 4: return unfilterRow<4>;
+    case 6: return unfilterRow<6>;
+    case 8: return unfilterRow<8>;
+    default: return unfilterRow<1>;
     }
 }
 
@@ -256,6 +277,12 @@ public:
         const Header& header = chunks_.header;
         const auto channels = static_cast<std::size_t>(out_.channels);
         const std::size_t samples = header.samples();
+        if (header.depth == 8 && channels == samples && dx == 1 && header.colourType != kPalette) {
+            std::copy(row.begin(), row.end(),
+                      out_.bytes.begin() +
+                          static_cast<std::ptrdiff_t>((y * header.width + x0) * channels));
+            return;
+        }
         // 1, 2, 4 bits to 8: multiplied by 255, 85, 17.
         const unsigned toByte = header.depth < 8 ? 255u / ((1u << header.depth) - 1) : 1;
         for (std::size_t i = 0; i < columns; ++i) {
@@ -323,7 +350,7 @@ StoredImage decodePng(Bytes file, const std::string& name) {
     std::vector<std::uint8_t> rows = inflateZlib(chunks.packed, size, name);
 
     PixelWriter picture(chunks, name);
-    const std::size_t back = std::max<std::size_t>(1, header.samples() * header.depth / 8);
+    const UnfilterRow unfilter = unfilterFor(header.samples() * header.depth / 8);
     const std::vector<std::uint8_t> zeros(header.rowBytes(header.width));
     std::span<std::uint8_t> rest(rows);
     for (const Pass& pass : passesOf(header)) {
@@ -336,7 +363,7 @@ StoredImage decodePng(Bytes file, const std::string& name) {
                 fail(ErrorKind::Input, cat(name, ": error: row ", y, " has the filter ",
                                            rest[0] + 0, "; it must be 0 to 4"));
             const auto row = rest.subspan(1, rowBytes);
-            unfilterRow(static_cast<PngFilter>(rest[0]), row, above, back);
+            unfilter(static_cast<PngFilter>(rest[0]), row, above);
             picture.putRow(row, columns, y, pass.x0, pass.dx);
             above = row;
             rest = rest.subspan(1 + rowBytes);

@@ -29,13 +29,13 @@ SurfaceNeeds surfaceNeedsOf(const Scene& scene, const RenderSettings& settings) 
             .lift = !scene.lights().empty()};
 }
 
-// What lanes need of each shape, to be looked up without touching the shape.
-std::vector<const SphereToShade*> spheresOf(const ShapeSet& set, SurfaceLanes lanes,
-                                            SurfaceNeeds needs) {
-    if (lanes.spheres == nullptr || needs.uv) return {};
-    std::vector<const SphereToShade*> spheres(set.shapes.size());
-    for (std::size_t i = 0; i < spheres.size(); ++i) spheres[i] = set.shapes[i]->sphereToShade();
-    return spheres;
+std::vector<RoundShape> roundShapesOf(const ShapeSet& set, SurfaceLanes lanes, SurfaceNeeds needs) {
+    if (lanes.round == nullptr || needs.uv) return {};
+    std::vector<RoundShape> shapes(set.shapes.size());
+    for (std::size_t i = 0; i < shapes.size(); ++i)
+        if (const RoundToShade* const shape = set.shapes[i]->roundToShade())
+            shapes[i] = {shape, shape->part, shape->kind};
+    return shapes;
 }
 
 } // namespace
@@ -48,7 +48,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       steps(stepsFor(theScene, theSettings)), wantsFirstHits(needsFirstHits(theSettings)),
       surfaceNeeds(surfaceNeedsOf(theScene, theSettings)),
       surfaceLanes(::surfaceLanes(chooseKernel(theSettings.kernel))),
-      spheres(spheresOf(theScene.shapes(), surfaceLanes, surfaceNeeds)),
+      roundShapes(roundShapesOf(theScene.shapes(), surfaceLanes, surfaceNeeds)),
       cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
     const int samples = settings.picture.lightSamples;
     for (std::size_t i = 0; i < scene.lights().size(); ++i) {

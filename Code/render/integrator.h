@@ -12,6 +12,7 @@
 #include "sample/hash.h"
 #include "sample/sampler.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -44,6 +45,13 @@ struct Lamp {
     LightByLampFn inLanes = nullptr; // asks many points at once; null: one by one
 };
 
+// A shape whose surfaces lanes find, to be looked up without touching it.
+struct RoundShape {
+    const RoundToShade* shape = nullptr; // null: it is none
+    std::uint32_t part = 0;
+    RoundToShade::Kind kind{};
+};
+
 // Choices that hold for a whole picture, made once.
 struct IntegratorContext {
     const Scene& scene;
@@ -57,8 +65,8 @@ struct IntegratorContext {
     bool wantsFirstHits;
     SurfaceNeeds surfaceNeeds;
     SurfaceLanes surfaceLanes;
-    std::vector<const SphereToShade*> spheres; // by shape; empty: lanes do none
-    MediumTree media; // what camera rays start in, and room for what rays enter
+    std::vector<RoundShape> roundShapes; // by shape; empty: lanes do none
+    MediumTree media;                    // what camera rays start in, and room for what rays enter
     MediumTree::Inside cameraMedium;
 
     IntegratorContext(const Scene& scene, const RenderSettings& settings);
@@ -97,7 +105,8 @@ struct PointBatch {
 // Some of them, whose surfaces are found together, and their rays.
 struct PointsToDescribe {
     std::vector<std::uint32_t> rays, points;
-    void clear() { rays.clear(), points.clear(); }
+    std::vector<const RoundToShade*> shapes; // of those for lanes
+    void clear() { rays.clear(), points.clear(), shapes.clear(); }
     void push(std::uint32_t ray, std::uint32_t point) {
         rays.push_back(ray), points.push_back(point);
     }
@@ -131,8 +140,8 @@ struct WaveMemory {
     PathBatch rays, next;
     std::vector<Hit> hits;
     PointBatch points;
-    PointsToDescribe onSpheres, onOthers;
-    std::vector<const SphereToShade*> spheres; // of the former
+    std::array<PointsToDescribe, RoundToShade::kKinds> onRound;
+    PointsToDescribe onOthers;
     MediumTree media;
     std::vector<std::uint32_t> answering; // points that answer lamps
     std::vector<LitBlock> litBlocks;      // these, if lamps want blocks

@@ -1,5 +1,6 @@
 #include "shape/analytic_shape.h"
 
+#include <algorithm>
 #include <utility>
 
 namespace {
@@ -176,8 +177,23 @@ Surface AnalyticShape::surfaceUnder(const Transform& worldFromObject,
     return surface;
 }
 
-double AnalyticShape::errorOfSize() const { return kFloatUlp * size_->reach; }
-double AnalyticShape::errorPerPlace() const { return 0x1p-48 * size_->amplification; }
+std::optional<RoundToShade> AnalyticShape::toShade(RoundToShade::Kind kind, std::uint32_t part,
+                                                   double radius) const {
+    if (!size_ || !(size_->reach < kInfinity) || worldFromObject_.isSingular()) return {};
+    using Number = RoundToShade::Number;
+    RoundToShade shade{{}, kind, part, material_, object_};
+    const auto put = [&](Number first, const Transform& map) {
+        std::copy(map.rows().begin(), map.rows().end(), shade.numbers.begin() + first);
+    };
+    put(Number::WorldFromObject, worldFromObject_);
+    put(Number::ObjectFromWorld, objectFromWorld_);
+    shade.numbers[Number::Radius] = radius;
+    shade.numbers[Number::LeastError] = kFloatUlp * size_->reach;
+    shade.numbers[Number::ErrorPerPlace] = 0x1p-48 * size_->amplification;
+    shade.numbers[Number::Farthest] = maxAbs(worldFromObject_.translation());
+    shade.numbers[Number::SteepnessOfZ] = length(row(objectFromWorld_, 2));
+    return shade;
+}
 
 Surface AnalyticShape::surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const {
     if (size_) return surfaceUnder(worldFromObject_, objectFromWorld_, *size_, ray, hit, needs);

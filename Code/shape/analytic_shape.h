@@ -68,9 +68,9 @@ protected:
     // Of a shape that stands still.
     const Transform& worldFromObject() const { return worldFromObject_; }
     const Transform& objectFromWorld() const { return objectFromWorld_; }
-    // Of a shape that stands still and has an end: parts of the error of its surfaces.
-    double errorOfSize() const;
-    double errorPerPlace() const;
+    // What lanes need, of a shape that stands still, has an end, and whose map has an inverse.
+    std::optional<RoundToShade> toShade(RoundToShade::Kind kind, std::uint32_t part,
+                                        double radius) const;
     // Around disks of at most this radius about the z axis, of z from -1 to 1.
     SolidForm tubeForm(double radius) const;
 

@@ -8,6 +8,7 @@ Cylinder::Cylinder(MovingTransform worldFromObject, double radius, bool caps,
                    std::uint32_t material, std::uint32_t object)
     : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius), caps_(caps) {
     measure();
+    inLanes_ = toShade(RoundToShade::Kind::Cylinder, kSide, radius_);
 }
 
 SolidForm Cylinder::solidForm() const {

@@ -12,6 +12,7 @@ public:
              std::uint32_t object);
 
     SolidForm solidForm() const override;
+    const RoundToShade* roundToShade() const override { return inLanes_ ? &*inLanes_ : nullptr; }
 
 private:
     enum Part : std::uint32_t {
@@ -30,4 +31,5 @@ private:
 
     double radius_;
     bool caps_;
+    std::optional<RoundToShade> inLanes_; // unless it moves or is flat
 };

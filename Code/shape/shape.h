@@ -107,9 +107,9 @@ public:
             out[query.to[k]] = surfaceFor(query.rays[i], query.hits[i], query.needs);
         }
     }
-    // What lanes need that do the hits of many spheres together, but no texture coordinates; null:
-    // this is none, or they can't.
-    virtual const SphereToShade* sphereToShade() const { return nullptr; }
+    // What lanes need that do the hits of many shapes together, but no texture coordinates; null:
+    // they can't.
+    virtual const RoundToShade* roundToShade() const { return nullptr; }
     virtual SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const = 0;
 
     // Of a hit on a triangle, which may have come into one mesh with others or not; shapes of other

@@ -1,24 +1,12 @@
 #include "shape/sphere.h"
 
-#include <algorithm>
 #include <utility>
 
 Sphere::Sphere(MovingTransform worldFromObject, double radius, std::uint32_t material,
                std::uint32_t object)
     : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius) {
     measure();
-    if (!isStill() || this->worldFromObject().isSingular()) return;
-    using Number = SphereToShade::Number;
-    SphereToShade& lane = inLanes_.emplace(SphereToShade{{}, material, object});
-    const auto put = [&](Number first, const Transform& map) {
-        std::copy(map.rows().begin(), map.rows().end(), lane.numbers.begin() + first);
-    };
-    put(Number::WorldFromObject, this->worldFromObject());
-    put(Number::ObjectFromWorld, objectFromWorld());
-    lane.numbers[Number::Radius] = radius_;
-    lane.numbers[Number::LeastError] = errorOfSize();
-    lane.numbers[Number::ErrorPerPlace] = errorPerPlace();
-    lane.numbers[Number::Farthest] = maxAbs(this->worldFromObject().translation());
+    inLanes_ = toShade(RoundToShade::Kind::Sphere, 0, radius_);
 }
 
 SolidForm Sphere::solidForm() const {

@@ -11,7 +11,7 @@ public:
            std::uint32_t object);
 
     SolidForm solidForm() const override;
-    const SphereToShade* sphereToShade() const override { return inLanes_ ? &*inLanes_ : nullptr; }
+    const RoundToShade* roundToShade() const override { return inLanes_ ? &*inLanes_ : nullptr; }
 
 private:
     Roots roots(const RayD& ray) const override;
@@ -19,5 +19,5 @@ private:
     BoundsD boxUnder(const Transform& worldFromObject) const override;
 
     double radius_;
-    std::optional<SphereToShade> inLanes_; // unless it moves or is flat
+    std::optional<RoundToShade> inLanes_; // unless it moves or is flat
 };

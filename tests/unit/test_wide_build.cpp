@@ -1,6 +1,7 @@
 // The builder of wide trees: the same bytes for any number of threads and any instruction set, and
 // trees that kernels can rely on, over meshes that are friendly and those that are not.
 #include "accel/kernels/build/build.h"
+#include "accel/kernels/build/visit_order.h"
 #include "base/text.h"
 #include "check.h"
 #include "verify/hostile_trees.h"
@@ -102,13 +103,27 @@ private:
         if (text_.find(what) == std::string::npos) text_ += text_.empty() ? what : cat(", ", what);
     }
 
-    void visit(WideRef ref, const Bounds& within, std::uint32_t depth) {
-        if (byteOffset(ref) >= tree_.lines.size() * sizeof(WideTree::Line))
-            return wrong("reference to nowhere");
-        if (kindOf(ref) == WideKind::Leaf) return visitLeaf(tree_.at<WideLeaf<W>>(ref), within);
+    static float halfArea(const Bounds& box) {
+        const Vec3 d = box.size();
+        return d.x * d.y + d.y * d.z + d.z * d.x;
+    }
+
+    // Returns what rays that enter the box meet; see build/visit_order.h.
+    kernels::build::Prospect visit(WideRef ref, const Bounds& within, std::uint32_t depth) {
+        if (byteOffset(ref) >= tree_.lines.size() * sizeof(WideTree::Line)) {
+            wrong("reference to nowhere");
+            return {};
+        }
+        if (kindOf(ref) == WideKind::Leaf) {
+            const auto& leaf = tree_.at<WideLeaf<W>>(ref);
+            visitLeaf(leaf, within);
+            return kernels::build::prospectOfLeaf(leaf.cover * kernels::build::kCoverUnit,
+                                                  halfArea(within));
+        }
         ++nodes_, depth_ = std::max(depth_, depth);
         const auto& node = tree_.at<WideNode<W>>(ref);
-        float before = kInfinityF;
+        kernels::build::Prospect whole{0, 1};
+        float before = 0;
         bool ended = false;
         for (std::size_t i = 0; i < W; ++i) {
             Bounds box;
@@ -125,18 +140,22 @@ private:
             }
             if (ended) wrong("an empty slot before a child");
             if (!within.contains(box.lo) || !within.contains(box.hi)) wrong("box of a child");
-            const Vec3 d = box.size();
-            const float area = d.x * d.y + d.y * d.z + d.z * d.x;
-            if (area > before) wrong("order of areas");
-            before = area;
-            visit(node.child[i], box, depth + 1);
+            const auto child = visit(node.child[i], box, depth + 1);
+            const float area = halfArea(box);
+            const float worth = kernels::build::coverOf(child.triangles, area) / child.steps;
+            // Sums and quotients of a few hundred, in another order than the builder's.
+            if (worth < before * 0.9999f) wrong("order of children");
+            before = worth;
+            whole.triangles += child.triangles;
+            whole.steps += child.steps * (area < halfArea(within) ? area / halfArea(within) : 1.0f);
         }
+        return whole;
     }
 
     void visitLeaf(const WideLeaf<W>& leaf, const Bounds& within) {
         ++leaves_;
         if (leaf.count == 0 || leaf.count > W) return wrong("size of a leaf");
-        const float reach = std::bit_cast<float>(static_cast<std::uint32_t>(leaf.reach) << 16);
+        float sides = 0; // half areas of the triangles' boxes
         for (std::size_t i = 0; i < leaf.count; ++i) {
             const std::uint32_t id = tree_.triangleIds[leaf.first + i];
             if (id >= seen_.size()) return wrong("number of a triangle");
@@ -151,8 +170,10 @@ private:
                 box.extend(p);
             }
             if (!within.contains(box.lo) || !within.contains(box.hi)) wrong("box of a leaf");
-            if (max(max(box.size().x, box.size().y), box.size().z) > reach) wrong("reach");
+            sides += halfArea(box);
         }
+        const float cover = kernels::build::coverOf(0.5f * sides, halfArea(within));
+        if (std::fabs(static_cast<float>(leaf.cover) - cover * 255) > 1.001f) wrong("cover");
     }
 
     const WideTree& tree_;

@@ -103,8 +103,12 @@ private:
         if (asked_ >= 4 * W && missed_ * 8 < asked_) return lanes;
         const unsigned near = raysEntering(b, root_.whole) & lanes;
         unsigned entered = 0;
-        for (std::size_t i = 0; i < root_.count && entered != near; ++i)
-            entered |= raysEntering(b, root_[i]) & near;
+        if (near != 0) {
+            entered = raysEntering(b, root_[root_.largest]) & near;
+            const unsigned most = entered | (raysEntering(b, root_.others) & near);
+            for (std::size_t i = 0; i < root_.count && entered != most; ++i)
+                entered |= raysEntering(b, root_[i]) & most;
+        }
         asked_ += W;
         missed_ += static_cast<std::uint32_t>(std::popcount(lanes & ~entered));
         return entered;

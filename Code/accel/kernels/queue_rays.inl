@@ -83,15 +83,24 @@ inline unsigned raysEntering(const RayBlock& b, const Bounds& box) {
     return bits(entry <= exit);
 }
 
-// The children of the root, asked one by one for W rays.
+// The children of the root, asked one by one for W rays, and boxes around all of them and around
+// all but the largest: what stands on a wide floor is met by few of the rays that leave it.
 struct RootBoxes {
     const WideNode<W>& node;
-    std::size_t count = 0;
-    Bounds whole;
+    std::size_t count = 0, largest = 0;
+    Bounds whole, others;
 
     explicit RootBoxes(const WideTree& tree) : node(tree.at<WideNode<W>>(tree.root)) {
-        for (; count < W && (*this)[count].lo.x <= (*this)[count].hi.x; ++count)
-            whole.extend((*this)[count]);
+        float most = -1;
+        for (; count < W && (*this)[count].lo.x <= (*this)[count].hi.x; ++count) {
+            const Bounds box = (*this)[count];
+            whole.extend(box);
+            const Vec3 d = box.size();
+            const float area = d.x * d.y + d.y * d.z + d.z * d.x;
+            if (area > most) most = area, largest = count;
+        }
+        for (std::size_t i = 0; i < count; ++i)
+            if (i != largest) others.extend((*this)[i]);
     }
     Bounds operator[](std::size_t child) const {
         const auto& p = node.plane;

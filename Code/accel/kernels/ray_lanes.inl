@@ -11,11 +11,10 @@ struct RayColumns {
 inline RayColumns loadRays(const RaySpan& rays, const std::uint32_t* order, std::size_t count,
                            std::uint32_t (&ray)[W]) {
     RayColumns c;
-    c.inARow = count == W;
-    for (std::uint32_t i = 0; i < W; ++i) {
-        ray[i] = order[i < count ? i : 0];
-        c.inARow &= ray[i] == order[0] + i;
-    }
+    for (std::uint32_t i = 0; i < W; ++i) ray[i] = order[i < count ? i : 0];
+    std::uint32_t off = 0;
+    for (std::uint32_t i = 0; i < W; ++i) off |= ray[i] ^ (order[0] + i);
+    c.inARow = count == W && off == 0;
     if (c.inARow) {
         loadVectors(&rays.org[order[0]].x, c.org[0], c.org[1], c.org[2]);
         loadVectors(&rays.dir[order[0]].x, c.dir[0], c.dir[1], c.dir[2]);

@@ -14,6 +14,10 @@ constexpr std::size_t kFewestForBundle = 32;
 // Origins that are looked for: the point lights of a wave.
 constexpr std::size_t kMostOrigins = 8;
 
+bool allEqual(std::span<const Vec3> v) {
+    return v.empty() || std::memcmp(v.data(), v.data() + 1, v.size_bytes() - sizeof(Vec3)) == 0;
+}
+
 class Groups {
 public:
     struct Group {
@@ -24,16 +28,16 @@ public:
     std::size_t used = 0;
     std::vector<std::uint32_t> rest;
 
-    void sort(const RaySpan& rays) {
+    // False when no rays are worth a bundle; then the lists are not complete.
+    bool sort(std::span<const Vec3> origins) {
         used = 0;
         rest.clear();
-        const auto n = static_cast<std::uint32_t>(rays.size());
+        const auto n = static_cast<std::uint32_t>(origins.size());
         std::size_t strangers = 0;
         for (std::uint32_t i = 0; i < n;) {
-            const Vec3 origin = rays.org[i];
+            const Vec3 origin = origins[i];
             const std::uint32_t first = i++;
-            if (first == 0 && allEqual(rays.org)) i = n;
-            while (i < n && rays.org[i] == origin) ++i;
+            while (i < n && origins[i] == origin) ++i;
             if (std::vector<std::uint32_t>* group = groupOf(origin)) {
                 append(*group, first, i);
                 continue;
@@ -41,20 +45,32 @@ public:
             // Origins of their own, as after a bounce: don't look at all the others.
             append(rest, first, i);
             if (++strangers < kFewestForBundle) continue;
+            if (!hasBundles()) return false;
             append(rest, i, n);
             break;
         }
+        if (!hasBundles()) return false;
         for (std::size_t g = 0; g < used; ++g) {
             auto& few = fromPoint[g].rays;
             if (few.size() >= kFewestForBundle) continue;
             rest.insert(rest.end(), few.begin(), few.end());
             few.clear();
         }
+        return true;
+    }
+
+    // 0 to count - 1.
+    std::span<const std::uint32_t> numbers(std::size_t count) {
+        if (numbers_.size() < count)
+            append(numbers_, static_cast<std::uint32_t>(numbers_.size()),
+                   static_cast<std::uint32_t>(count));
+        return std::span(numbers_).first(count);
     }
 
 private:
-    static bool allEqual(std::span<const Vec3> v) {
-        return std::memcmp(v.data(), v.data() + 1, v.size_bytes() - sizeof(Vec3)) == 0;
+    bool hasBundles() const {
+        return std::any_of(fromPoint.begin(), fromPoint.begin() + static_cast<std::ptrdiff_t>(used),
+                           [](const Group& g) { return g.rays.size() >= kFewestForBundle; });
     }
 
     static void append(std::vector<std::uint32_t>& list, std::uint32_t first, std::uint32_t end) {
@@ -72,13 +88,21 @@ private:
         fromPoint[used].rays.clear();
         return &fromPoint[used++].rays;
     }
+
+    std::vector<std::uint32_t> numbers_;
 };
 
 template <class KernelFn, class Results>
 void route(KernelFn queue, KernelFn bundle, const WideMesh& mesh, const RaySpan& rays,
            const Results& results) {
     thread_local Groups groups;
-    groups.sort(rays);
+    const auto all = groups.numbers(rays.size());
+    if (all.size() >= kFewestForBundle && allEqual(rays.org))
+        return bundle(mesh, rays, all, results);
+    if (!groups.sort(rays.org)) {
+        if (!all.empty()) queue(mesh, rays, all, results);
+        return;
+    }
     for (std::size_t g = 0; g < groups.used; ++g)
         if (const auto& list = groups.fromPoint[g].rays; !list.empty())
             bundle(mesh, rays, list, results);

@@ -7,7 +7,7 @@
 
 #define SURFACE_LANES(isa)                                                                         \
     namespace kernels::isa {                                                                       \
-    void sphereSurfaces(const SpheresMet&, Strided<Surface>);                                      \
+    void roundSurfaces(const RoundsMet&, Strided<Surface>);                                        \
     void triangleSurfaces(const TrianglesMet&, TriangleSurfaces&);                                 \
     }
 SURFACE_LANES(sse)
@@ -21,9 +21,9 @@ SurfaceLanes surfaceLanes([[maybe_unused]] const Kernel& kernel) {
         std::string_view name;
         SurfaceLanes lanes;
     } kTable[] = {
-        {"avx512", {kernels::avx512::sphereSurfaces, kernels::avx512::triangleSurfaces}},
-        {"avx2", {kernels::avx2::sphereSurfaces, kernels::avx2::triangleSurfaces}},
-        {"sse", {kernels::sse::sphereSurfaces, kernels::sse::triangleSurfaces}},
+        {"avx512", {kernels::avx512::roundSurfaces, kernels::avx512::triangleSurfaces}},
+        {"avx2", {kernels::avx2::roundSurfaces, kernels::avx2::triangleSurfaces}},
+        {"sse", {kernels::sse::roundSurfaces, kernels::sse::triangleSurfaces}},
     };
     for (const auto& row : kTable)
         if (row.name == kernel.name) return row.lanes;

@@ -1,13 +1,13 @@
 // What a kernel does for surfaces; the scalar one leaves them to the shapes.
 #pragma once
 
-#include "accel/kernels/sphere_surfaces.h"
+#include "accel/kernels/round_surfaces.h"
 #include "accel/kernels/triangle_surfaces.h"
 
 struct Kernel;
 
 struct SurfaceLanes {
-    SphereSurfacesFn spheres = nullptr;
+    RoundSurfacesFn round = nullptr;
     TriangleSurfacesFn triangles = nullptr;
 };
 SurfaceLanes surfaceLanes(const Kernel& kernel);

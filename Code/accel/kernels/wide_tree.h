@@ -22,8 +22,9 @@ constexpr WideRef wideRef(std::size_t line, WideKind kind) {
 constexpr WideKind kindOf(WideRef ref) { return static_cast<WideKind>(ref & 3); }
 constexpr std::size_t byteOffset(WideRef ref) { return static_cast<std::size_t>(ref & ~3u) * 16; }
 
-// Children in the order of their areas, the largest first. A slot without a child has a box that
-// no ray enters and that of an empty leaf.
+// Children in the order in which rays that any hit ends had better visit them, the first one last
+// (build/visit_order.h). A slot without a child has a box that no ray enters and that of an empty
+// leaf.
 template <int W> struct alignas(64) WideNode {
     float plane[3][2][W]; // axis, lower or upper
     WideRef child[W];
@@ -34,7 +35,7 @@ template <int W> struct alignas(64) WideLeaf {
     float point[3][W];         // axis; unused places repeat the first point
     std::uint8_t corner[3][W]; // of triangle i: corner[0..2][i], numbers of points
     std::uint32_t first;       // triangle i is number triangleIds[first + i] of the mesh
-    std::uint16_t reach;       // longest side of a triangle along an axis, upper half of a float
+    std::uint8_t cover;        // how much of its box they fill; see build/visit_order.h
     std::uint8_t count;        // triangles
 };
 static_assert(sizeof(WideLeaf<16>) == 256 && sizeof(WideLeaf<8>) == 128);
@@ -84,8 +85,7 @@ void traverseWidth(const WideTree& tree, const RaySetup& ray, float zCut, LeafFn
             continue;
         }
         const auto& node = tree.at<WideNode<W>>(ref);
-        for (std::size_t end = W; end > 0; --end) {
-            const std::size_t i = end - 1;
+        for (std::size_t i = 0; i < W; ++i) {
             Bounds box;
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 box.lo[axis] = node.plane[axis][0][i];

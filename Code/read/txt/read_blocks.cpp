@@ -85,9 +85,9 @@ private:
             const std::size_t first = blocks.front().loc.offset, here = in_.offset();
             const double left = here < part_.last ? static_cast<double>(part_.last - here) : 0;
             const double growth = 1 + kMargin * left / static_cast<double>(here - first);
-            blocks.reserve(static_cast<std::size_t>(static_cast<double>(blocks.size()) *
-                                                    std::clamp(growth, kLeast, kMost)));
-            adviseLargePages(blocks.data(), blocks.capacity() * sizeof(Block));
+            const double wanted =
+                static_cast<double>(blocks.size()) * std::clamp(growth, kLeast, kMost);
+            reserveInLargePages(blocks, static_cast<std::size_t>(wanted));
         }
         return blocks.emplace_back();
     }

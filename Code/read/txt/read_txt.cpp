@@ -98,8 +98,7 @@ std::optional<SceneDesc> joined(const SourceFile& source, std::vector<std::optio
     const auto join = [&](auto blocks) { // a list of SceneDesc
         std::size_t count = 0;
         for (const auto& part : parts) count += (part->desc.*blocks).size();
-        (all.*blocks).reserve(count);
-        adviseLargePages((all.*blocks).data(), count * sizeof(all.*blocks)[0]);
+        reserveInLargePages(all.*blocks, count);
         for (auto& part : parts) {
             auto& some = part->desc.*blocks;
             std::move(some.begin(), some.end(), std::back_inserter(all.*blocks));

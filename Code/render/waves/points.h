@@ -7,49 +7,57 @@
 
 namespace waves {
 
-// Thousands of spheres are more than the nearest caches hold.
-inline void prefetch(const SphereToShade& sphere) {
-    const auto* const bytes = reinterpret_cast<const char*>(&sphere);
-    for (std::size_t at = 0; at < sizeof(sphere); at += 64) __builtin_prefetch(bytes + at);
+// Thousands of shapes are more than the nearest caches hold.
+inline void prefetch(const RoundToShade& shape) {
+    const auto* const bytes = reinterpret_cast<const char*>(&shape);
+    for (std::size_t at = 0; at < sizeof(shape); at += 64) __builtin_prefetch(bytes + at);
 }
 
-// All that are on spheres together, the others by runs on one shape: what is left when the spheres
-// in front of a floor are taken out is long runs on the floor.
+// Puts points that lanes do into lists by kind, the others into one of their own.
+inline void sortPoints(const Wave& wave) {
+    const IntegratorContext& context = wave.context;
+    const std::vector<Hit>& hits = wave.memory.hits;
+    const PointBatch& points = wave.memory.points;
+    for (PointsToDescribe& list : wave.memory.onRound) list.clear();
+    wave.memory.onOthers.clear();
+    const bool hasLanes = !context.roundShapes.empty();
+    for (std::uint32_t k = 0; k < points.count; ++k) {
+        const std::uint32_t ray = points.ray[k];
+        const RoundShape round = hasLanes ? context.roundShapes[hits[ray].shape] : RoundShape{};
+        if (round.shape == nullptr || round.part != hits[ray].prim) {
+            wave.memory.onOthers.push(ray, k);
+            continue;
+        }
+        prefetch(*round.shape);
+        PointsToDescribe& list = wave.memory.onRound[static_cast<std::size_t>(round.kind)];
+        list.push(ray, k);
+        list.shapes.push_back(round.shape);
+    }
+}
+
+// All that are on round shapes together, the others by runs on one shape: what is left when the
+// spheres in front of a floor are taken out is long runs on the floor.
 inline void findSurfaces(const Wave& wave) {
     const IntegratorContext& context = wave.context;
     const std::vector<Hit>& hits = wave.memory.hits;
     PointBatch& points = wave.memory.points;
-    PointsToDescribe &onSpheres = wave.memory.onSpheres, &others = wave.memory.onOthers;
-    onSpheres.clear(), others.clear();
-    std::vector<const SphereToShade*>& spheres = wave.memory.spheres;
-    spheres.clear();
-    const auto& shapes = context.scene.shapes().shapes;
-    const bool takesSpheres = !context.spheres.empty();
-    for (std::uint32_t k = 0; k < points.count; ++k) {
-        const std::uint32_t ray = points.ray[k];
-        const SphereToShade* const sphere =
-            takesSpheres ? context.spheres[hits[ray].shape] : nullptr;
-        (sphere ? onSpheres : others).push(ray, k);
-        if (sphere) {
-            prefetch(*sphere);
-            spheres.push_back(sphere);
-        }
-    }
     if (points.count == 0) return;
+    sortPoints(wave);
     const Strided out{&points.at[0].surface, sizeof(ShadedPoint)};
-    if (!spheres.empty())
-        context.surfaceLanes.spheres(
-            {wave.rays.span(), hits, onSpheres.rays, onSpheres.points, spheres}, out);
-    const std::vector<std::uint32_t>& rays = others.rays;
+    for (const PointsToDescribe& list : wave.memory.onRound)
+        if (!list.rays.empty())
+            context.surfaceLanes.round(
+                {wave.rays.span(), hits, list.rays, list.points, list.shapes}, out);
+    const std::span<const std::uint32_t> rays = wave.memory.onOthers.rays,
+                                         to = wave.memory.onOthers.points;
     std::size_t end = 0;
     for (std::size_t begin = 0; begin < rays.size(); begin = end) {
         const std::uint32_t shape = hits[rays[begin]].shape;
         for (end = begin + 1; end < rays.size() && hits[rays[end]].shape == shape;) ++end;
-        shapes[shape]->surfaces({wave.rays.span(), hits,
-                                 std::span(rays).subspan(begin, end - begin),
-                                 std::span(others.points).subspan(begin, end - begin),
-                                 context.surfaceNeeds, context.surfaceLanes},
-                                out);
+        context.scene.shapes().shapes[shape]->surfaces(
+            {wave.rays.span(), hits, rays.subspan(begin, end - begin),
+             to.subspan(begin, end - begin), context.surfaceNeeds, context.surfaceLanes},
+            out);
     }
 }
 

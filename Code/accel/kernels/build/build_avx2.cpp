@@ -1,5 +1,6 @@
 // Boxes in one register of eight lanes: AVX2 as of 2013.
 #include "accel/kernels/build/instances.h"
+#include "accel/kernels/build/visit_order.h"
 
 #if defined(__x86_64__)
 #include "accel/kernels/target.h"

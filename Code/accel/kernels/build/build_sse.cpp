@@ -1,5 +1,6 @@
 // Boxes in two registers of four lanes: SSE4.2 as of 2008.
 #include "accel/kernels/build/instances.h"
+#include "accel/kernels/build/visit_order.h"
 
 #if defined(__x86_64__)
 #include "accel/kernels/target.h"

@@ -33,18 +33,19 @@ inline bool makeLeaf(const BuildInput& in, const PrimBox* prims, const BuildRang
     }
     leaf.first = r.first;
     leaf.count = static_cast<std::uint8_t>(r.count);
-    __m128 longest = _mm_setzero_ps();
+    __m128 sides = _mm_setzero_ps(); // products of two, in the lower three lanes
     for (std::uint32_t i = 0; i < r.count; ++i) {
         in.ids[r.first + i] = prims[i].id();
         const Box b = Box::load(prims[i]);
-        longest = _mm_max_ps(negated(_mm_add_ps(b.lo(), b.negHi())), longest);
+        const __m128 side = _mm_add_ps(b.lo(), b.negHi()); // both signs do
+        const __m128 next = _mm_shuffle_ps(side, side, _MM_SHUFFLE(3, 0, 2, 1));
+        sides = _mm_add_ps(sides, _mm_mul_ps(side, next));
     }
-    alignas(16) std::array<float, 4> side;
-    _mm_store_ps(side.data(), longest);
-    const float reach = std::max(std::max(side[0], side[1]), side[2]);
-    // Rounded up, and the infinite stays infinite.
-    leaf.reach = static_cast<std::uint16_t>(
-        std::min(std::bit_cast<std::uint32_t>(reach) + 0xffffu, 0x7f800000u) >> 16);
+    alignas(16) std::array<float, 4> sum;
+    _mm_store_ps(sum.data(), sides);
+    // A triangle is half of its box's largest side, or less.
+    leaf.cover = static_cast<std::uint8_t>(
+        coverOf(0.5f * (sum[0] + sum[1] + sum[2]), halfAreaOf(leafNode(r.box))) / kCoverUnit);
 
     constexpr std::size_t kLines = sizeof(leaf) / sizeof(WideTree::Line);
     grown.lines.resize(grown.lines.size() + kLines);

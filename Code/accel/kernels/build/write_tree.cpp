@@ -3,6 +3,7 @@
 #include "accel/kernels/build/collapse.h"
 #include "accel/kernels/build/reinsert.h"
 #include "accel/kernels/build/second_hand.h"
+#include "accel/kernels/build/visit_order.h"
 
 #include <algorithm>
 #include <cstring>
@@ -33,6 +34,9 @@ public:
         pool_.run(parts_.size(), [&](std::size_t i, int) { plan(parts_[i], false); });
         makeRoom();
         pool_.run(subtrees_.size(), [&](std::size_t i, int) { copyLeaves(i); });
+        prospects_.resize(nodes_.size());
+        pool_.run(parts_.size(), [&](std::size_t i, int) { sortForVisits(parts_[i]); });
+        sortForVisits(top_);
         write(top_);
         pool_.run(parts_.size(), [&](std::size_t i, int) { write(parts_[i]); });
         describe();
@@ -43,13 +47,13 @@ private:
 
     // A wide node to be.
     struct Step {
-        std::uint32_t binary, parent, slot, depth; // parent: in the same part, or in the top
+        std::uint32_t binary, parent, depth; // parent: in the same part, or in the top
         WideChildren<W> children;
     };
     // Wide nodes that lie next to each other: those above the subtrees, then a part for each of
     // their children within one. What a part is does not depend on the threads that write it.
     struct Part {
-        Step root{0, 0, 0, 1, {}};
+        Step root{0, 0, 1, {}};
         std::vector<Step> steps{}; // depth first, children in the order of their areas
         std::uint32_t first = 0, depth = 0;
         double area = 0;
@@ -125,8 +129,7 @@ private:
             for (std::size_t end = step.children.count; end > 0; --end) {
                 const std::uint32_t child = step.children.node[end - 1];
                 if (nodes_[child].isLeaf()) continue;
-                const Step below{
-                    child, number, static_cast<std::uint32_t>(end - 1), step.depth + 1, {}};
+                const Step below{child, number, step.depth + 1, {}};
                 if (isTop && isInSubtree(child))
                     parts_.push_back({below});
                 else
@@ -168,15 +171,33 @@ private:
         return wideRef(leaf * kLeafLines<W>, WideKind::Leaf);
     }
 
+    // From the leaves up.
+    void sortForVisits(Part& part) {
+        const auto prospectOf = [&](std::uint32_t node) {
+            const BinaryNode& n = nodes_[node];
+            if (!n.isLeaf()) return prospects_[node];
+            const std::uint8_t cover = tree_.at<WideLeaf<W>>(leafRef(n.leaf)).cover;
+            return prospectOfLeaf(cover * kCoverUnit, halfAreaOf(n));
+        };
+        for (std::size_t end = part.steps.size(); end > 0; --end) {
+            Step& step = part.steps[end - 1];
+            prospects_[step.binary] = kernels::build::sortForVisits<W>(
+                step.children, nodes_, halfAreaOf(nodes_[step.binary]), prospectOf);
+        }
+    }
+
     void write(Part& part) {
         for (std::size_t i = 0; i < part.steps.size(); ++i) {
             const Step& step = part.steps[i];
             const std::size_t at = part.first + i;
             part.area += static_cast<double>(halfAreaOf(nodes_[step.binary])) +
                          write(nodeAt(at), step.children);
-            if (at > 0)
-                nodeAt(step.parent + (i > 0 ? part.first : 0)).child[step.slot] =
-                    wideRef(lineOf(at), WideKind::Node);
+            if (at == 0) continue;
+            const auto& siblings = (i > 0 ? part : top_).steps[step.parent].children.node;
+            const auto slot = std::find(siblings.begin(), siblings.end(), step.binary);
+            nodeAt(step.parent + (i > 0 ? part.first : 0))
+                .child[static_cast<std::size_t>(slot - siblings.begin())] =
+                wideRef(lineOf(at), WideKind::Node);
         }
     }
 
@@ -228,6 +249,7 @@ private:
     std::span<Choice> choices_;
     PageVector<BinaryNode> freshNodes_;
     PageVector<Choice> freshChoices_;
+    std::vector<Prospect> prospects_; // of the binary nodes that become wide ones
     Part top_;
     std::vector<Part> parts_;
     std::size_t firstLine_ = 0; // of the nodes

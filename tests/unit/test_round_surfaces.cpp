@@ -1,10 +1,12 @@
-// Surfaces of many hits on spheres: every kernel gives the bits of asking hit by hit, whichever
-// rays of the batch have met which sphere.
+// Surfaces of many hits on spheres and cylinders: every kernel gives the bits of asking hit by hit,
+// whichever rays of the batch have met which shape.
 #include "analytic_kit.h"
 #include "check.h"
+#include "shape/cylinder.h"
 
 #include <algorithm>
 #include <bit>
+#include <memory>
 
 using kit::Random;
 
@@ -22,40 +24,42 @@ bool sameBits(const Surface& a, const Surface& b) {
            a.rayError == b.rayError && a.lift == b.lift;
 }
 
-// Rays from one point or from many, outside of the balls or in them, each at one of the spheres;
-// some miss, by `missing` of them, so that those that hit have gaps. Spheres change from ray to
-// ray, or rarely, so that registers are full of one, or of many.
-void checkSpheres(const std::vector<Sphere>& spheres, const std::vector<Transform>& maps,
-                  Random& random, double missing, double changes) {
+using Shapes = std::vector<std::unique_ptr<const AnalyticShape>>;
+
+// Rays from one point or from many, outside of the shapes or in them, each at one of them; some
+// miss, by `missing` of them, so that those that hit have gaps. Shapes change from ray to ray, or
+// rarely, so that registers are full of one, or of many. Returns how many hits were compared.
+std::size_t checkShapes(const Shapes& shapes, const std::vector<Transform>& maps, Random& random,
+                        double missing, double changes) {
     std::vector<Vec3> org, dir;
     std::vector<float> tMin, tMax, time;
     std::vector<Hit> hits;
     std::vector<std::uint32_t> which, to;
-    std::vector<const Sphere*> met;
-    std::vector<const SphereToShade*> toShade;
+    std::vector<const Shape*> met;
+    std::vector<const RoundToShade*> toShade;
     const bool fromOnePoint = random.coin();
     const Vec3d eye = maps[0].point(random.inBox(3));
     std::size_t number = 0;
     for (std::uint32_t i = 0; i < 61; ++i) {
         if (random.chance(changes))
-            number = std::min(
-                static_cast<std::size_t>(random.uniform(0, static_cast<double>(spheres.size()))),
-                spheres.size() - 1);
+            number = random.below(static_cast<std::uint32_t>(shapes.size()));
         const Vec3d from = fromOnePoint ? eye : maps[number].point(random.inBox(3));
         const Vec3d at = maps[number].point(random.inBox(1));
         const Ray ray{toFloat(from), toFloat(at - from), 0, kInfinityF, 0};
         org.push_back(ray.org), dir.push_back(ray.dir);
         tMin.push_back(ray.tMin), tMax.push_back(ray.tMax), time.push_back(ray.time);
         hits.emplace_back();
-        if (random.chance(missing) || !spheres[number].intersect(ray, hits.back())) continue;
+        if (random.chance(missing) || !shapes[number]->intersect(ray, hits.back())) continue;
+        const RoundToShade* const shade = shapes[number]->roundToShade();
+        if (shade->part != hits.back().prim) continue; // the cap of a cylinder
         which.push_back(i), to.push_back(i);
-        met.push_back(&spheres[number]), toShade.push_back(spheres[number].sphereToShade());
+        met.push_back(shapes[number].get()), toShade.push_back(shade);
     }
-    if (which.empty()) return;
+    if (which.empty()) return 0;
     std::reverse(to.begin(), to.end()); // places are not those of the rays
     const RaySpan rays{org, dir, tMin, tMax, time};
     for (const Kernel& kernel : allKernels()) {
-        const SphereSurfacesFn lanes = surfaceLanes(kernel).spheres;
+        const RoundSurfacesFn lanes = surfaceLanes(kernel).round;
         if (!kernel.supported() || lanes == nullptr) continue;
         std::vector<std::pair<int, Surface>> out(hits.size());
         lanes({rays, hits, which, to, toShade}, {&out[0].second, sizeof(out[0])});
@@ -65,34 +69,56 @@ void checkSpheres(const std::vector<Sphere>& spheres, const std::vector<Transfor
                        std::string(kernel.name) + ", hit " + std::to_string(k) + " of " +
                            std::to_string(which.size()) + ", ray " + std::to_string(which[k]));
     }
+    return which.size();
+}
+
+// make(map, radius, number)
+template <class MakeFn> void checkKind(Random& random, MakeFn&& make) {
+    std::size_t compared = 0;
+    for (int i = 0; i < check::scaled(300); ++i) {
+        Shapes shapes;
+        std::vector<Transform> maps;
+        for (std::uint32_t k = 0; k < 5; ++k) {
+            const Transform map =
+                i % 3 == 0 ? Transform::translate(random.inBox(5)) : kit::randomMap(random);
+            const double radius = i % 5 == 0 ? random.logUniform(1e-6, 1e3) : 1;
+            shapes.push_back(make(map, radius, k));
+            maps.push_back(map * Transform::scale({radius, radius, i % 2 == 0 ? radius : 1}));
+        }
+        compared +=
+            checkShapes(shapes, maps, random, i % 2 == 0 ? 0.1 : 0, i % 4 == 0 ? 0.05 : 0.9);
+    }
+    CHECK(compared > 1000);
 }
 
 } // namespace
 
 TEST(sphere_surfaces_are_those_of_single_hits) {
     Random random(3301);
-    for (int i = 0; i < check::scaled(300); ++i) {
-        std::vector<Sphere> spheres;
-        std::vector<Transform> maps;
-        for (std::uint32_t k = 0; k < 5; ++k) {
-            const Transform map =
-                i % 3 == 0 ? Transform::translate(random.inBox(5)) : kit::randomMap(random);
-            const double radius = i % 5 == 0 ? random.logUniform(1e-6, 1e3) : 1;
-            spheres.emplace_back(map, radius, 7 + k, 9 + k);
-            maps.push_back(map * Transform::scale(radius));
-        }
-        checkSpheres(spheres, maps, random, i % 2 == 0 ? 0.1 : 0, i % 4 == 0 ? 0.05 : 0.9);
-    }
+    checkKind(random, [](const Transform& map, double radius, std::uint32_t k) {
+        return std::make_unique<const Sphere>(map, radius, 7 + k, 9 + k);
+    });
+}
+
+TEST(cylinder_surfaces_are_those_of_single_hits) {
+    Random random(3304);
+    checkKind(random, [](const Transform& map, double radius, std::uint32_t k) {
+        return std::make_unique<const Cylinder>(map, radius, k % 2 == 0, 7 + k, 9 + k);
+    });
 }
 
 // They are asked one by one: their maps change, or have no inverse.
-TEST(sphere_surfaces_of_moving_and_flat_spheres_are_not_for_lanes) {
+TEST(round_surfaces_of_moving_and_flat_shapes_are_not_for_lanes) {
     Random random(3302);
     for (int i = 0; i < check::scaled(20); ++i) {
         const Transform keys[] = {kit::randomMap(random), kit::randomMap(random)};
-        CHECK(Sphere(MovingTransform{std::span(keys)}, 1, 2, 3).sphereToShade() == nullptr);
+        const MovingTransform moving{std::span(keys)};
+        CHECK(Sphere(moving, 1, 2, 3).roundToShade() == nullptr);
+        CHECK(Cylinder(moving, 1, false, 2, 3).roundToShade() == nullptr);
         const Transform flat = kit::randomMap(random) * Transform::scale({1, 1, 0});
-        CHECK(Sphere(flat, 1, 2, 3).sphereToShade() == nullptr);
-        CHECK(Sphere(keys[0], 1, 2, 3).sphereToShade() != nullptr);
+        CHECK(Sphere(flat, 1, 2, 3).roundToShade() == nullptr);
+        CHECK(Cylinder(flat, 1, false, 2, 3).roundToShade() == nullptr);
+        CHECK(Sphere(keys[0], 1, 2, 3).roundToShade() != nullptr);
+        CHECK(Cylinder(keys[0], 1, true, 2, 3).roundToShade() != nullptr);
     }
 }

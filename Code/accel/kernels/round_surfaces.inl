@@ -1,25 +1,25 @@
-// The surfaces of W hits on spheres, as AnalyticShape::surfaceUnder() and Sphere::describe() have
+// The surfaces of W hits, as AnalyticShape::surfaceUnder() and the describe() of the shapes have
 // them: the same operations in the same order. Included by the file of each instruction set inside
 // its namespace.
 
 namespace {
 
-// The numbers of a sphere that all lanes are on, or of one for each lane.
+// The numbers of a shape that all lanes are on, or of one for each lane.
 struct NumbersOfOne {
-    explicit NumbersOfOne(const SphereToShade& sphere) : of(sphere.numbers) {}
+    explicit NumbersOfOne(const RoundToShade& shape) : of(shape.numbers) {}
     Doubles operator()(std::size_t number) const { return Doubles(of[number]); }
-    const std::array<double, SphereToShade::kNumbers>& of;
+    const std::array<double, RoundToShade::kNumbers>& of;
 };
 struct NumbersOfMany {
-    // Lanes behind the last sphere repeat it.
-    explicit NumbersOfMany(std::span<const SphereToShade* const> spheres) {
+    // Lanes behind the last shape repeat it.
+    explicit NumbersOfMany(std::span<const RoundToShade* const> shapes) {
         for (std::size_t i = 0; i < W; ++i) {
-            const auto& from = spheres[i < spheres.size() ? i : spheres.size() - 1]->numbers;
+            const auto& from = shapes[i < shapes.size() ? i : shapes.size() - 1]->numbers;
             for (std::size_t k = 0; k < from.size(); ++k) of[k][i] = from[k];
         }
     }
     Doubles operator()(std::size_t number) const { return Doubles::load(of[number]); }
-    alignas(64) double of[SphereToShade::kNumbers][W];
+    alignas(64) double of[RoundToShade::kNumbers][W];
 };
 
 // Rows i, i + step .. of a map's linear part.
@@ -28,11 +28,11 @@ Doubles row(const Numbers& m, std::size_t i, std::size_t step, const Doubles3& v
     return (m(i) * v.x + m(i + step) * v.y) + m(i + 2 * step) * v.z;
 }
 template <class Numbers>
-Doubles3 vectorOf(const Numbers& m, SphereToShade::Number map, const Doubles3& v) {
+Doubles3 vectorOf(const Numbers& m, RoundToShade::Number map, const Doubles3& v) {
     return {row(m, map, 1, v), row(m, map + 4, 1, v), row(m, map + 8, 1, v)};
 }
 template <class Numbers>
-Doubles3 pointOf(const Numbers& m, SphereToShade::Number map, const Doubles3& p) {
+Doubles3 pointOf(const Numbers& m, RoundToShade::Number map, const Doubles3& p) {
     const Doubles3 v = vectorOf(m, map, p);
     return {v.x + m(map + 3), v.y + m(map + 7), v.z + m(map + 11)};
 }
@@ -82,57 +82,90 @@ inline void store(const Doubles3& v, float (&to)[3][W]) {
     v.x.toFloats().store(to[0]), v.y.toFloats().store(to[1]), v.z.toFloats().store(to[2]);
 }
 
+// Points of the surface in object space.
+struct Local {
+    Doubles3 p, normal;
+};
+
+template <class Numbers> Local onSphere(const Numbers& shape, const Doubles3& met) {
+    const Doubles distance = sqrt(dot(met, met)), zero(0.0);
+    const Doubles3 n = select(zero < distance, met / distance, Doubles3{zero, zero, Doubles(1.0)});
+    return {n * shape(RoundToShade::Radius), n};
+}
+
+// `clearance`: how far, in the world, the origin of a ray may be from the point.
 template <class Numbers>
-void describe(const Numbers& sphere, const RaysInLanes& world, SurfacesInLanes& out) {
+Local onCylinder(const Numbers& shape, const Doubles3& met, const Doubles& clearance) {
+    const Doubles around = sqrt(met.x * met.x + met.y * met.y), zero(0.0), one(1.0), half(0.5);
+    const Mask isOff = zero < around;
+    const Doubles c = select(isOff, met.x / around, one), s = select(isOff, met.y / around, zero);
+    const Doubles inset = clearance * shape(RoundToShade::SteepnessOfZ);
+    const Doubles limit = one - select(inset < half, inset, half);
+    const Doubles z = max(met.z, zero - limit);
+    const Doubles radius = shape(RoundToShade::Radius);
+    return {{c * radius, s * radius, select(z < limit, z, limit)}, {c, s, zero}};
+}
+
+template <RoundToShade::Kind kKind, class Numbers>
+void describe(const Numbers& shape, const RaysInLanes& world, SurfacesInLanes& out) {
     constexpr double kThreeUlps = 3 * 0x1p-24;
-    using enum SphereToShade::Number;
+    using enum RoundToShade::Number;
     const Doubles3 seen = along(world.org, world.dir, world.t);
     const Doubles place = max(max(abs(seen.x), abs(seen.y)), abs(seen.z));
-    const Doubles fixedError =
-        sphere(LeastError) + sphere(ErrorPerPlace) * (place + sphere(Farthest));
+    const Doubles fixedError = shape(LeastError) + shape(ErrorPerPlace) * (place + shape(Farthest));
 
-    const Doubles3 met = along(pointOf(sphere, ObjectFromWorld, world.org),
-                               vectorOf(sphere, ObjectFromWorld, world.dir), world.t);
-    const Doubles distance = sqrt(dot(met, met));
-    const Doubles zero(0.0);
-    const Doubles3 n = select(zero < distance, met / distance, Doubles3{zero, zero, Doubles(1.0)});
-    const Doubles3 local = n * sphere(Radius);
-    const Doubles3 rough = pointOf(sphere, WorldFromObject, local);
-    const Doubles3 back = pointOf(sphere, ObjectFromWorld, rough);
-    const Doubles3 p = rough + vectorOf(sphere, WorldFromObject, local - back);
+    const Doubles3 met = along(pointOf(shape, ObjectFromWorld, world.org),
+                               vectorOf(shape, ObjectFromWorld, world.dir), world.t);
+    const auto local = [&] {
+        if constexpr (kKind == RoundToShade::Kind::Sphere) return onSphere(shape, met);
+        const Doubles far = Doubles(kThreeUlps) * sqrt(dot(seen, seen)) + fixedError;
+        return onCylinder(shape, met, Doubles(2.0) * far);
+    }();
+    const Doubles3 rough = pointOf(shape, WorldFromObject, local.p);
+    const Doubles3 back = pointOf(shape, ObjectFromWorld, rough);
+    const Doubles3 p = rough + vectorOf(shape, WorldFromObject, local.p - back);
 
-    const Doubles3 steep{row(sphere, ObjectFromWorld, 4, n), row(sphere, ObjectFromWorld + 1, 4, n),
-                         row(sphere, ObjectFromWorld + 2, 4, n)};
+    const Doubles3& n = local.normal;
+    const Doubles3 steep{row(shape, ObjectFromWorld, 4, n), row(shape, ObjectFromWorld + 1, 4, n),
+                         row(shape, ObjectFromWorld + 2, 4, n)};
     const Doubles3 normal = steep / sqrt(dot(steep, steep));
     const Doubles rounding = (abs(normal.x * p.x) + abs(normal.y * p.y)) + abs(normal.z * p.z);
     store(p, out.p), store(normal, out.n);
     (Doubles(kThreeUlps) * rounding + fixedError).store(out.error);
 }
 
-} // namespace
-
-void sphereSurfaces(const SpheresMet& met, Strided<Surface> out) {
+template <RoundToShade::Kind kKind>
+void surfacesOf(const RoundsMet& met, const Strided<Surface>& out) {
     SurfacesInLanes found;
     for (std::size_t first = 0; first < met.which.size(); first += W) {
         const std::size_t count = std::min<std::size_t>(W, met.which.size() - first);
         const RaysInLanes rays = raysOf(met.rays, met.hits, met.which.subspan(first, count));
-        const auto spheres = met.spheres.subspan(first, count);
-        const auto isFirst = [&](const SphereToShade* other) { return other == spheres[0]; };
-        if (std::all_of(spheres.begin() + 1, spheres.end(), isFirst))
-            describe(NumbersOfOne(*spheres[0]), rays, found);
+        const auto shapes = met.shapes.subspan(first, count);
+        const auto isFirst = [&](const RoundToShade* other) { return other == shapes[0]; };
+        if (std::all_of(shapes.begin() + 1, shapes.end(), isFirst))
+            describe<kKind>(NumbersOfOne(*shapes[0]), rays, found);
         else
-            describe(NumbersOfMany(spheres), rays, found);
+            describe<kKind>(NumbersOfMany(shapes), rays, found);
         for (std::size_t i = 0; i < count; ++i) {
             const Vec3 ng{found.n[0][i], found.n[1][i], found.n[2][i]};
             out[met.to[first + i]] = {.p = {found.p[0][i], found.p[1][i], found.p[2][i]},
                                       .ng = ng,
                                       .ns = ng,
                                       .uv = {},
-                                      .material = spheres[i]->material,
-                                      .object = spheres[i]->object,
+                                      .material = shapes[i]->material,
+                                      .object = shapes[i]->object,
                                       .error = floatAbove(found.error[i]),
                                       .rayError = 0,
                                       .lift = {}};
         }
     }
+}
+
+} // namespace
+
+void roundSurfaces(const RoundsMet& met, Strided<Surface> out) {
+    if (met.shapes.empty()) return;
+    using enum RoundToShade::Kind;
+    if (met.shapes[0]->kind == Sphere) return surfacesOf<Sphere>(met, out);
+    surfacesOf<Cylinder>(met, out);
 }
