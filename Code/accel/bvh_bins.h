@@ -46,11 +46,11 @@ inline double halfAreaOf(const PrimBox& box, double pad) {
 
 // Where bins lie, in doubled centres. What is outside falls into the outmost ones, so an estimate
 // of the bounds will do.
-struct BinGrid {
-    std::array<float, 3> lo, hi, scale; // scale 0: an axis without extent
+struct alignas(16) BinGrid {
+    std::array<float, 4> lo, hi, scale; // scale 0: an axis without extent
     std::uint32_t bins;
 
-    static BinGrid over(const std::array<float, 3>& lo, const std::array<float, 3>& hi,
+    static BinGrid over(const std::array<float, 4>& lo, const std::array<float, 4>& hi,
                         std::uint32_t count) {
         BinGrid g{lo, hi, {}, std::min(kBins, 6 + count / 8)};
         for (std::size_t i = 0; i < 3; ++i)
@@ -63,6 +63,21 @@ struct BinGrid {
         return position > 0
                    ? static_cast<std::uint32_t>(min(position, static_cast<float>(bins - 1)))
                    : 0;
+    }
+    // The same for all axes; the fourth number means nothing.
+    std::array<std::uint32_t, 4> binsOf(const PrimBox& p) const {
+#if defined(__SSE2__)
+        const __m128 centre = _mm_sub_ps(_mm_load_ps(p.lo.data()), _mm_load_ps(p.negHi.data()));
+        const __m128 position =
+            _mm_mul_ps(_mm_sub_ps(centre, _mm_load_ps(lo.data())), _mm_load_ps(scale.data()));
+        const __m128 inside = _mm_min_ps(_mm_max_ps(position, _mm_setzero_ps()),
+                                         _mm_set1_ps(static_cast<float>(bins - 1)));
+        alignas(16) std::array<std::uint32_t, 4> at;
+        _mm_store_si128(reinterpret_cast<__m128i*>(at.data()), _mm_cvttps_epi32(inside));
+        return at;
+#else
+        return {binOf(p, 0), binOf(p, 1), binOf(p, 2), 0};
+#endif
     }
 };
 
@@ -77,8 +92,9 @@ struct Bins {
         }
     }
     void add(const BinGrid& grid, const PrimBox& p) {
+        const std::array<std::uint32_t, 4> at = grid.binsOf(p);
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const std::uint32_t b = grid.binOf(p, axis);
+            const std::uint32_t b = at[axis];
             extend(box[axis][b], p);
             ++count[axis][b];
         }
@@ -98,26 +114,46 @@ struct Split {
 inline Split bestSplit(const Bins& bins, std::uint32_t used, std::uint32_t count, double pad) {
     Split best;
     for (std::size_t axis = 0; axis < 3; ++axis) {
+        // Cuts on both sides of an empty bin are the same one: the first counts.
         std::array<double, kBins> rightCost;
         PrimBox box = kEmpty;
         std::uint32_t n = 0;
+        double cost = 0;
         for (std::uint32_t b = used - 1; b > 0; --b) {
-            extend(box, bins.box[axis][b]);
-            n += bins.count[axis][b];
-            rightCost[b] = n > 0 ? halfAreaOf(box, pad) * n : 0;
+            if (bins.count[axis][b] > 0) {
+                extend(box, bins.box[axis][b]);
+                n += bins.count[axis][b];
+                cost = halfAreaOf(box, pad) * n;
+            }
+            rightCost[b] = cost;
         }
         box = kEmpty, n = 0;
         for (std::uint32_t b = 1; b < used; ++b) {
+            if (bins.count[axis][b - 1] == 0) continue;
             extend(box, bins.box[axis][b - 1]);
             n += bins.count[axis][b - 1];
-            if (n == 0 || n == count) continue;
-            const double cost = halfAreaOf(box, pad) * n + rightCost[b];
+            if (n == count) break;
+            cost = halfAreaOf(box, pad) * n + rightCost[b];
             if (cost < best.cost) best = {cost, axis, b, n, box, kEmpty};
         }
     }
     if (best.exists())
         for (std::uint32_t b = best.bin; b < used; ++b) extend(best.right, bins.box[best.axis][b]);
     return best;
+}
+
+// bestSplit() of the bins of two primitives.
+inline Split splitOfTwo(const BinGrid& grid, const PrimBox& p, const PrimBox& q, double pad) {
+    const std::array<std::uint32_t, 4> a = grid.binsOf(p), b = grid.binsOf(q);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (a[axis] == b[axis]) continue;
+        const bool isInOrder = a[axis] < b[axis];
+        const PrimBox &left = isInOrder ? p : q, &right = isInOrder ? q : p;
+        const double cost = halfAreaOf(left, pad) + halfAreaOf(right, pad);
+        if (!(cost < std::numeric_limits<double>::infinity())) continue;
+        return {cost, axis, min(a[axis], b[axis]) + 1, 1, left, right};
+    }
+    return {};
 }
 
 } // namespace bvh_build

@@ -56,7 +56,7 @@ struct Lists {
 // A split by exact bounds of the centres.
 void splitExactly(Range& r, Lists& lists) {
     const PrimBox* const prims = lists.of(r);
-    std::array<float, 3> lo = {kHuge, kHuge, kHuge}, hi = {-kHuge, -kHuge, -kHuge};
+    std::array<float, 4> lo = {kHuge, kHuge, kHuge}, hi = {-kHuge, -kHuge, -kHuge};
     for (std::uint32_t i = 0; i < r.count; ++i)
         for (std::size_t axis = 0; axis < 3; ++axis) {
             lo[axis] = min(twiceCentre(prims[i], axis), lo[axis]);
@@ -71,7 +71,7 @@ void splitExactly(Range& r, Lists& lists) {
 
 // A child's centres are within its box, and on its side of the cut: close enough for bins.
 BinGrid childGrid(const Range& r, const PrimBox& box, bool right, std::uint32_t count) {
-    std::array<float, 3> lo, hi;
+    std::array<float, 4> lo{}, hi{};
     for (std::size_t i = 0; i < 3; ++i) {
         lo[i] = max(r.grid.lo[i], 2 * box.lo[i]);
         hi[i] = min(r.grid.hi[i], -2 * box.negHi[i]);
@@ -108,19 +108,23 @@ Halves divide(const Range& r, Lists& lists) {
     Range* const sides[2] = {&out.left, &out.right};
     Bins bins[2];
     for (std::size_t side = 0; side < 2; ++side)
-        if (sides[side]->count > 1) bins[side].clear(sides[side]->grid.bins);
+        if (sides[side]->count > 2) bins[side].clear(sides[side]->grid.bins);
     const PrimBox* const from = lists.of(r);
     PrimBox* const to = lists.of(r, true);
     std::uint32_t next[2] = {0, nLeft};
     for (std::uint32_t i = 0; i < r.count; ++i) {
         const std::size_t side = r.grid.binOf(from[i], r.split.axis) < r.split.bin ? 0 : 1;
         to[next[side]++] = from[i];
-        if (sides[side]->count > 1) bins[side].add(sides[side]->grid, from[i]);
+        if (sides[side]->count > 2) bins[side].add(sides[side]->grid, from[i]);
     }
-    for (std::size_t side = 0; side < 2; ++side)
-        if (sides[side]->count > 1)
-            sides[side]->split =
-                bestSplit(bins[side], sides[side]->grid.bins, sides[side]->count, lists.pad);
+    for (std::size_t side = 0; side < 2; ++side) {
+        Range& child = *sides[side];
+        const PrimBox* const prims = to + (side == 0 ? 0 : nLeft);
+        if (child.count == 2)
+            child.split = splitOfTwo(child.grid, prims[0], prims[1], lists.pad);
+        else if (child.count > 2)
+            child.split = bestSplit(bins[side], child.grid.bins, child.count, lists.pad);
+    }
     return out;
 }
 

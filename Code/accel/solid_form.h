@@ -36,10 +36,25 @@ struct Facets {
     Side side = Side::Both;
 };
 
+// A tube about the z axis of an object space that does not move, |z| <= 1. A kernel that meets it
+// repeats the formulas of shape/cylinder.cpp or shape/cone.cpp.
+struct StillTube {
+    std::array<double, 12> objectFromWorld; // Transform::rows()
+    bool caps = false;                      // has ends, too
+    double radius = 0;                      // of a cone: at the narrow end
+    struct Cone {
+        double slope = 0, narrowZ = 0;
+    };
+    std::optional<Cone> cone{};                      // else a cylinder
+    Facets::Side side = Facets::Side::Both;          // that rays of sight meet
+    enum Part : std::uint32_t { Wall, Bottom, Top }; // Hit::prim
+};
+
 struct SolidForm {
     RoundHull hull;
     std::optional<StillSphere> sphere; // the shape is this one
     std::optional<Facets> facets{};    // or these
+    std::optional<StillTube> tube{};   // or this one
 };
 
 inline RoundHull ballAround(const BoundsD& box) {

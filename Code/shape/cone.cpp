@@ -12,6 +12,16 @@ Cone::Cone(MovingTransform worldFromObject, double radius, double topRadius, boo
     measure();
 }
 
+SolidForm Cone::solidForm() const {
+    SolidForm form = tubeForm(max(radius_, topRadius_));
+    if (form.hull.axis == Vec3d{}) return form;
+    form.tube = {.objectFromWorld = objectFromWorld().rows(),
+                 .caps = caps_,
+                 .radius = narrowRadius_,
+                 .cone = StillTube::Cone{slope_, narrowZ_}};
+    return form;
+}
+
 // Where x^2 + y^2 <= radiusAt(z)^2 and radiusAt(z) >= 0. The quadratic a t^2 + 2 b t + c is set up
 // at the point of the line closest to the narrow end, so its coefficients are exact relative to the
 // distance from the tip, where the sides come together, however far the ray starts.

@@ -12,10 +12,14 @@ public:
     Cone(MovingTransform worldFromObject, double radius, double topRadius, bool caps,
          std::uint32_t material, std::uint32_t object);
 
-    SolidForm solidForm() const override { return tubeForm(max(radius_, topRadius_)); }
+    SolidForm solidForm() const override;
 
 private:
-    enum Part : std::uint32_t { kSide, kBottom, kTop };
+    enum Part : std::uint32_t {
+        kSide = StillTube::Wall,
+        kBottom = StillTube::Bottom,
+        kTop = StillTube::Top
+    };
     Roots roots(const RayD& ray) const override;
     Local describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const override;
     Vec3d normalAt(Vec3d p, std::uint32_t part) const override;

@@ -14,6 +14,7 @@ Cylinder::Cylinder(MovingTransform worldFromObject, double radius, bool caps,
 SolidForm Cylinder::solidForm() const {
     SolidForm form = tubeForm(radius_);
     if (form.hull.axis == Vec3d{}) return form;
+    form.tube = {.objectFromWorld = objectFromWorld().rows(), .caps = caps_, .radius = radius_};
     const Vec3d x = worldFromObject().column(0), y = worldFromObject().column(1);
     const Vec3d axis = form.hull.axis;
     // Round and straight but for 2^-30, which `form.hull` covers as it does rounding.

@@ -15,7 +15,11 @@ public:
     const RoundToShade* roundToShade() const override { return inLanes_ ? &*inLanes_ : nullptr; }
 
 private:
-    enum Part : std::uint32_t { kSide, kBottom, kTop };
+    enum Part : std::uint32_t {
+        kSide = StillTube::Wall,
+        kBottom = StillTube::Bottom,
+        kTop = StillTube::Top
+    };
     Roots roots(const RayD& ray) const override;
     Local describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const override;
     Vec3d normalAt(Vec3d p, std::uint32_t part) const override {

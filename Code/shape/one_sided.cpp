@@ -9,11 +9,13 @@ OneSided::OneSided(std::unique_ptr<const Shape> shape, Side visible)
 SolidForm OneSided::solidForm() const {
     SolidForm form = shape_->solidForm();
     form.sphere.reset();
-    if (!form.facets) return form;
-    if (form.facets->side != Facets::Side::Both)
-        form.facets.reset();
-    else
-        form.facets->side = visible_ == Side::Front ? Facets::Side::Front : Facets::Side::Back;
+    const auto restrict = [&](auto& part) {
+        if (!part) return;
+        if (part->side != Facets::Side::Both) return part.reset();
+        part->side = visible_ == Side::Front ? Facets::Side::Front : Facets::Side::Back;
+    };
+    restrict(form.facets);
+    restrict(form.tube);
     return form;
 }
 

@@ -59,8 +59,18 @@ inline Doubles abs(const Doubles& a) {
     const __m256d sign = _mm256_set1_pd(-0.0);
     return {_mm256_andnot_pd(sign, a.lo), _mm256_andnot_pd(sign, a.hi)};
 }
+inline Doubles min(const Doubles& a, const Doubles& b) {
+    return {_mm256_min_pd(a.lo, b.lo), _mm256_min_pd(a.hi, b.hi)};
+}
 inline Doubles max(const Doubles& a, const Doubles& b) {
     return {_mm256_max_pd(a.lo, b.lo), _mm256_max_pd(a.hi, b.hi)};
+}
+inline Doubles withSign(const Doubles& a, const Doubles& of) {
+    const __m256d sign = _mm256_set1_pd(-0.0);
+    const auto half = [&](__m256d x, __m256d y) {
+        return _mm256_or_pd(_mm256_andnot_pd(sign, x), _mm256_and_pd(sign, y));
+    };
+    return {half(a.lo, of.lo), half(a.hi, of.hi)};
 }
 inline Floats fma(Floats a, Floats b, Floats c) { return _mm256_fmadd_ps(a.v, b.v, c.v); }
 inline Floats fnma(Floats a, Floats b, Floats c) {

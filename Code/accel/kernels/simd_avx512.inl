@@ -59,8 +59,18 @@ inline Doubles operator/(Doubles a, Doubles b) {
 inline Floats sqrt(Floats a) { return _mm512_sqrt_ps(a.v); }
 inline Doubles sqrt(const Doubles& a) { return {_mm512_sqrt_pd(a.lo), _mm512_sqrt_pd(a.hi)}; }
 inline Doubles abs(const Doubles& a) { return {_mm512_abs_pd(a.lo), _mm512_abs_pd(a.hi)}; }
+inline Doubles min(const Doubles& a, const Doubles& b) {
+    return {_mm512_min_pd(a.lo, b.lo), _mm512_min_pd(a.hi, b.hi)};
+}
 inline Doubles max(const Doubles& a, const Doubles& b) {
     return {_mm512_max_pd(a.lo, b.lo), _mm512_max_pd(a.hi, b.hi)};
+}
+inline Doubles withSign(const Doubles& a, const Doubles& of) {
+    const __m512d sign = _mm512_set1_pd(-0.0);
+    const auto half = [&](__m512d x, __m512d y) {
+        return _mm512_or_pd(_mm512_andnot_pd(sign, x), _mm512_and_pd(sign, y));
+    };
+    return {half(a.lo, of.lo), half(a.hi, of.hi)};
 }
 inline Floats fma(Floats a, Floats b, Floats c) { return _mm512_fmadd_ps(a.v, b.v, c.v); }
 inline Floats fnma(Floats a, Floats b, Floats c) {

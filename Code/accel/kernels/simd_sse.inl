@@ -89,8 +89,20 @@ inline Doubles sqrt(const Doubles& a) {
 inline Doubles abs(const Doubles& a) {
     return quarters([&](int i) { return _mm_andnot_pd(_mm_set1_pd(-0.0), a.v[i]); });
 }
+inline Doubles min(const Doubles& a, const Doubles& b) {
+    return {_mm_min_pd(a.v[0], b.v[0]), _mm_min_pd(a.v[1], b.v[1]), _mm_min_pd(a.v[2], b.v[2]),
+            _mm_min_pd(a.v[3], b.v[3])};
+}
 inline Doubles max(const Doubles& a, const Doubles& b) {
     return quarters([&](int i) { return _mm_max_pd(a.v[i], b.v[i]); });
+}
+inline Doubles withSign(const Doubles& a, const Doubles& of) {
+    const __m128d sign = _mm_set1_pd(-0.0);
+    const auto part = [&](__m128d x, __m128d y) {
+        return _mm_or_pd(_mm_andnot_pd(sign, x), _mm_and_pd(sign, y));
+    };
+    return {part(a.v[0], of.v[0]), part(a.v[1], of.v[1]), part(a.v[2], of.v[2]),
+            part(a.v[3], of.v[3])};
 }
 // Two roundings here: fma() is used only where the pads cover either way.
 inline Floats fma(Floats a, Floats b, Floats c) { return a * b + c; }

@@ -3,6 +3,7 @@
 #include "accel/kernels/solids.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <utility>
 
@@ -23,6 +24,19 @@ void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const S
         const bool turned =
             m[1] != 0 || m[2] != 0 || m[4] != 0 || m[6] != 0 || m[8] != 0 || m[9] != 0;
         spheres.push_back({*form.sphere, turned});
+    }
+    if (form.tube) {
+        solid.kind = Kind::Tube;
+        solid.part = static_cast<std::uint32_t>(tubes.size());
+        const auto& m = form.tube->objectFromWorld;
+        const Vec3d x{m[0], m[1], m[2]}, y{m[4], m[5], m[6]}, z{m[8], m[9], m[10]};
+        // Gershgorin's circles about the Gram matrix.
+        const double xx = dot(x, x), yy = dot(y, y), zz = dot(z, z);
+        const double xy = std::fabs(dot(x, y)), yz = std::fabs(dot(y, z)),
+                     zx = std::fabs(dot(z, x));
+        const double across = max(xx, yy) + xy;
+        const double any = max(max(xx + zx, yy + yz) + xy, zz + yz + zx);
+        tubes.push_back({*form.tube, form.tube->cone ? any : across, zz});
     }
     if (form.facets) {
         solid.kind = Kind::Facets;

@@ -1,7 +1,7 @@
 // Solids: everything with a box of its own that is no triangle, as vector kernels want it. Packets
-// of rays walk one wide tree together; spheres that stand still and meshes of a few triangles are
-// met in the kernel itself, with the bits of shape/sphere.cpp and shape/mesh.cpp, and any other
-// shape is asked where a ray enters its box.
+// of rays walk one wide tree together; spheres, cylinders and cones that stand still and meshes of
+// a few triangles are met in the kernel itself, with the bits of shape/, and any other shape is
+// asked where a ray enters its box.
 // Knows nothing about what the shapes are.
 #pragma once
 
@@ -19,11 +19,11 @@
 
 struct SolidTree {
     // What the solid is to a kernel.
-    enum class Kind : std::uint8_t { Other, Sphere, Facets };
+    enum class Kind : std::uint8_t { Other, Sphere, Facets, Tube };
     // What is looked at first, in one line of the cache.
     struct alignas(64) Solid {
         std::uint32_t number = 0; // what hits and calls name it by
-        std::uint32_t part = 0;   // in `spheres` or `facets`
+        std::uint32_t part = 0;   // in `spheres`, `facets` or `tubes`
         Kind kind = Kind::Other;
         bool hides = true;   // counts when any hit is asked for
         bool isTube = false; // a RoundHull with an axis
@@ -33,6 +33,12 @@ struct SolidTree {
     struct Sphere {
         StillSphere exact;
         bool turned = false; // the map does more than move and scale along the axes
+    };
+    struct Tube {
+        StillTube exact;
+        // At least the square of how much longer a normal of the wall, or of an end, is in the
+        // world.
+        double wallStretch = 0, endStretch = 0;
     };
     struct Facet {
         std::array<Vec3, 3> corner;
@@ -48,6 +54,7 @@ struct SolidTree {
     std::vector<Solid> solids; // in the order of the tree's leaves
     std::vector<Bounds> boxes; // of the solids
     std::vector<Sphere> spheres;
+    std::vector<Tube> tubes;
     std::vector<FacetGroup> facets;
     // WideNode<width>, root first. A child of kind Leaf is one solid, by its place in `solids`.
     std::vector<WideTree::Line> lines;

@@ -14,6 +14,8 @@
 
 #include "accel/kernels/solids_facets.inl"
 
+#include "accel/kernels/solids_tubes.inl"
+
 #include "accel/kernels/solids_meet.inl"
 
 class SolidPackets : PacketSolids {
@@ -25,6 +27,8 @@ public:
     void run(std::span<const std::uint32_t> order, Result* results) {
         for (; !order.empty(); order = order.subspan(std::min<std::size_t>(W, order.size()))) {
             live_ = setUp<A>(order, results);
+            if (A == Answer::Any && lastHider_ < tree_.solids.size())
+                solid<A>(lastHider_, live_, results);
             if (live_ != 0) traverse<A>(results);
         }
     }

@@ -2,15 +2,16 @@
 // each ray.
 // Included by solids.inl.
 
-class PacketSolids : public PacketFacets {
+class PacketSolids : public PacketTubes {
 protected:
     PacketSolids(const SolidTree& tree, const SolidCalls& calls, const RaySpan& rays)
-        : PacketFacets(tree, rays), calls_(calls) {}
+        : PacketTubes(tree, rays), calls_(calls) {}
 
     template <Answer A, class Result>
     void solid(std::uint32_t place, unsigned lanes, Result* results) {
         const SolidTree::Solid& solid = tree_.solids[place];
         if (A == Answer::Any && !solid.hides) return;
+        asked_ = place;
         unsigned certain = 0;
         lanes &= solid.isTube ? nearAxis<A>(solid, lanes, certain) : nearCentre<A>(solid, certain);
         if constexpr (A == Answer::Any) {
@@ -26,12 +27,18 @@ protected:
             sphere<A>(solid, tree_.spheres[solid.part], entry, lanes, results);
         else if (solid.kind == SolidTree::Kind::Facets)
             facets(solid, tree_.facets[solid.part], entry, lanes, results);
+        else if (solid.kind == SolidTree::Kind::Tube)
+            tube(solid, tree_.tubes[solid.part], entry, lanes, results);
         else
             ask(solid, entry, lanes, results);
     }
 
+    // Hides what comes next from the lamp, too, more often than not.
+    std::uint32_t lastHider_ = std::numeric_limits<std::uint32_t>::max();
+
 private:
     void hide(unsigned lanes, std::uint8_t* hidden) {
+        if (lanes != 0) lastHider_ = asked_;
         live_ &= ~lanes;
         for (; lanes != 0; lanes &= lanes - 1) hidden[ray_[std::countr_zero(lanes)]] = 1;
     }
@@ -57,8 +64,7 @@ private:
         for (; lanes != 0; lanes &= lanes - 1) {
             const int i = std::countr_zero(lanes);
             if (!calls_.hides(calls_.set, rays_[ray_[i]], solid.number)) continue;
-            hidden[ray_[i]] = 1;
-            live_ &= ~(1u << i);
+            hide(1u << i, hidden);
         }
     }
 
@@ -108,9 +114,7 @@ private:
             lanes &= bits((t > columns_.tMin) & (t <= best_) & (t < Floats(kInfinityF)));
             if (lanes == 0) return;
             const Floats nearest = max(entry / lanes_.dz, t);
-            const Mask equal = nearest == best_;
-            unsigned better = bits(nearest < best_) | lowerNumbers(bits(equal) & lanes, solid);
-            better &= lanes;
+            const unsigned better = nearerLanes(solid, lanes, nearest);
             if (better == 0) return;
             const Doubles lost0 = enter - Doubles(t0), lost1 = exit - Doubles(t1);
             alignas(64) float ts[W], us[W];
@@ -123,6 +127,53 @@ private:
             }
             limit(select(maskOf(better), nearest, best_));
         }
+    }
+
+    // AnalyticShape::intersect(), OneSided::intersect() and the choice between their hit and the
+    // best one. Who can't be sure here asks the shape.
+    [[gnu::noinline]] void tube(const SolidTree::Solid& solid, const SolidTree::Tube& tube,
+                                Floats entry, unsigned lanes, Hit* hits) {
+        const TubeRoots roots = meet(tube.exact);
+        unsigned asking = lanes & roots.undecided;
+        const unsigned first = roots.met[0] & bits(roots.t[0] > columns_.tMin);
+        const Mask isFirst = maskOf(first);
+        const Floats t = select(isFirst, roots.t[0], roots.t[1]);
+        const Floats lost = select(isFirst, roots.lost[0], roots.lost[1]);
+        lanes &= ~asking & (first | roots.met[1]) &
+                 bits((t > columns_.tMin) & (t <= best_) & (t < Floats(kInfinityF)));
+        const unsigned ends = (first & roots.end[0]) | (~first & roots.end[1]);
+        if (lanes != 0 && tube.exact.side != ::Facets::Side::Both) {
+            const unsigned seen = seesSide(tube, roots, ends, first, t, lost);
+            asking |= lanes & ~seen;
+            lanes &= seen;
+        }
+        const Floats nearest = max(entry / lanes_.dz, t);
+        if (const unsigned better = nearerLanes(solid, lanes, nearest); better != 0) {
+            alignas(64) float ts[W], us[W];
+            nearest.store(ts), lost.store(us);
+            const unsigned bottom = ~(first ^ roots.ahead);
+            for (unsigned rest = better; rest != 0; rest &= rest - 1) {
+                const int i = std::countr_zero(rest);
+                const std::uint32_t prim = (ends >> i & 1) == 0     ? StillTube::Wall
+                                           : (bottom >> i & 1) != 0 ? StillTube::Bottom
+                                                                    : StillTube::Top;
+                hits[ray_[i]] = {.t = ts[i], .u = us[i], .prim = prim, .shape = solid.number};
+                number_[i] = solid.number;
+            }
+            limit(select(maskOf(better), nearest, best_));
+        }
+        if (asking != 0) ask(solid, entry, asking, hits);
+    }
+
+    [[gnu::noinline]] void tube(const SolidTree::Solid& solid, const SolidTree::Tube& tube,
+                                Floats entry, unsigned lanes, std::uint8_t* hidden) {
+        const TubeRoots roots = meet(tube.exact);
+        const auto hides = [&](std::size_t i) {
+            return roots.met[i] & bits((roots.t[i] > columns_.tMin) & (roots.t[i] < best_));
+        };
+        const unsigned asking = lanes & roots.undecided;
+        hide(lanes & ~asking & (hides(0) | hides(1)), hidden);
+        if (asking != 0) ask(solid, entry, asking, hidden);
     }
 
     // Mesh::intersect(), OneSided::intersect() and the choice between their hit and the best one.
@@ -193,6 +244,12 @@ private:
         }
     }
 
+    // Lanes whose new hit is the best one.
+    unsigned nearerLanes(const SolidTree::Solid& solid, unsigned lanes, Floats nearest) const {
+        const unsigned equal = lanes & bits(nearest == best_);
+        return (lanes & bits(nearest < best_)) | lowerNumbers(equal, solid);
+    }
+
     unsigned lowerNumbers(unsigned lanes, const SolidTree::Solid& solid) const {
         unsigned lower = 0;
         for (; lanes != 0; lanes &= lanes - 1) {
@@ -203,4 +260,5 @@ private:
     }
 
     const SolidCalls& calls_;
+    std::uint32_t asked_ = 0; // place of the solid
 };

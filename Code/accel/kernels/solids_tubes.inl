@@ -1,0 +1,159 @@
+// Cylinders and cones: where all rays of a packet meet one, with the bits of shape/cylinder.cpp and
+// shape/cone.cpp, and which side of it they see.
+// Included by solids.inl.
+
+class PacketTubes : public PacketFacets {
+protected:
+    using PacketFacets::PacketFacets, PacketFacets::meet, PacketFacets::seesSide;
+
+    // The rays in the object space of a tube.
+    struct TubeRays {
+        Doubles ox, oy, oz, dx, dy, dz;
+    };
+    // Where they are inside of its wall, which has no end.
+    struct WallRange {
+        Doubles enter, exit;
+        unsigned met, undecided; // lanes; the others miss it
+    };
+    struct TubeRoots {
+        TubeRays rays;
+        Floats t[2], lost[2]; // ascending; lost: by rounding, as in Hit::u
+        unsigned met[2];      // lanes
+        unsigned end[2];      // lanes that meet an end there, not the wall
+        unsigned ahead;       // lanes along the axis
+        unsigned undecided;
+    };
+
+    // AnalyticShape::rootsOf() with Cylinder::roots() or Cone::roots(), operation by operation.
+    TubeRoots meet(const StillTube& tube) const {
+        const TubeRays rays = mapped(tube.objectFromWorld);
+        const auto& [ox, oy, oz, dx, dy, dz] = rays;
+        const Doubles zero(0.0), one(1.0), most(std::numeric_limits<double>::max());
+        WallRange wall =
+            tube.cone ? inCone(rays, tube.radius, *tube.cone) : inCylinder(rays, tube.radius);
+        wall.met &= atMost((dx * dx + dy * dy) + dz * dz, most) &
+                    atMost((ox * ox + oy * oy) + oz * oz, most);
+        TubeRoots out{rays, {}, {}, {wall.met, wall.met}, {0, 0}, 0, wall.undecided};
+        if (tube.caps) {
+            out.ahead = ~atMost(dz, zero);
+            out.undecided |= ~out.ahead & atMost(zero, dz);
+            const Doubles low = (Doubles(-1.0) - oz) / dz, high = (one - oz) / dz;
+            const Doubles in = min(low, high), beyond = max(low, high);
+            // A cylinder's rim is of its end, that of a cone of its wall.
+            out.end[0] = tube.cone ? ~atMost(in, wall.enter) : atMost(wall.enter, in);
+            out.end[1] = tube.cone ? ~atMost(wall.exit, beyond) : atMost(beyond, wall.exit);
+            wall.enter = max(wall.enter, in), wall.exit = min(wall.exit, beyond);
+            out.met[0] &= atMost(wall.enter, wall.exit), out.met[1] = out.met[0];
+        } else {
+            const auto isWithin = [&](const Doubles& t) {
+                const Doubles z = rays.oz + rays.dz * t;
+                return atMost(z, one) & atMost(Doubles(-1.0), z);
+            };
+            out.met[0] &= isWithin(wall.enter), out.met[1] &= isWithin(wall.exit);
+        }
+        out.t[0] = wall.enter.toFloats(), out.t[1] = wall.exit.toFloats();
+        out.lost[0] = (wall.enter - Doubles(out.t[0])).toFloats();
+        out.lost[1] = (wall.exit - Doubles(out.t[1])).toFloats();
+        return out;
+    }
+
+    // Lanes that see the wanted side for certain, of what they meet at (t, lost), which is their
+    // first root or the other one: AnalyticShape::seesFront() with twice its threshold. Maps take
+    // normals one way and directions the other, so that their product is the same in both spaces.
+    unsigned seesSide(const SolidTree::Tube& tube, const TubeRoots& roots, unsigned ends,
+                      unsigned first, Floats t, Floats lost) const {
+        const auto& [ox, oy, oz, dx, dy, dz] = roots.rays;
+        const Doubles zero(0.0), at = Doubles(t) + Doubles(lost);
+        const Doubles x = ox + dx * at, y = oy + dy * at;
+        const Doubles X(columns_.dir[0]), Y(columns_.dir[1]), Z(columns_.dir[2]);
+        const Doubles least = Doubles(0x1p-19) * ((X * X + Y * Y) + Z * Z);
+        Doubles facing = x * dx + y * dy, nn = x * x + y * y;
+        unsigned end = ~atMost(dz * dz, least * Doubles(tube.endStretch));
+        if (tube.exact.cone) {
+            const Doubles z = Doubles(-tube.exact.cone->slope) * sqrt(nn);
+            facing = facing + z * dz, nn = nn + z * z;
+            if (!(tube.exact.radius > 0)) end = 0; // a tip is no end
+        }
+        const unsigned wall = ~atMost(facing * facing, least * (Doubles(tube.wallStretch) * nn));
+        const bool isFront = tube.exact.side == ::Facets::Side::Front;
+        return (ends & end & (isFront ? first : ~first)) |
+               (~ends & wall & ~(isFront ? atMost(zero, facing) : atMost(facing, zero)));
+    }
+
+private:
+    TubeRays mapped(const std::array<double, 12>& m) const {
+        const Doubles X(columns_.org[0]), Y(columns_.org[1]), Z(columns_.org[2]),
+            U(columns_.dir[0]), V(columns_.dir[1]), T(columns_.dir[2]);
+        const auto direction = [&](std::size_t i) {
+            return (Doubles(m[i]) * U + Doubles(m[i + 1]) * V) + Doubles(m[i + 2]) * T;
+        };
+        const auto point = [&](std::size_t i) {
+            return ((Doubles(m[i]) * X + Doubles(m[i + 1]) * Y) + Doubles(m[i + 2]) * Z) +
+                   Doubles(m[i + 3]);
+        };
+        return {point(0), point(4), point(8), direction(0), direction(4), direction(8)};
+    }
+
+    // -0.0 - x is -x to the last bit, zeros included: the sign of b may choose between two roots.
+
+    // Cylinder::insideTube().
+    static WallRange inCylinder(const TubeRays& rays, double radius) {
+        const Doubles &ox = rays.ox, &oy = rays.oy, &dx = rays.dx, &dy = rays.dy;
+        const Doubles zero(0.0), minus(-0.0);
+        const Doubles dd = dx * dx + dy * dy, od = ox * dx + oy * dy;
+        const Doubles along = od / dd;
+        const Doubles px = ox - dx * along, py = oy - dy * along;
+        const Doubles ll = px * px + py * py, rr(radius * radius);
+        const Doubles middle = minus - along, half = sqrt((rr - ll) / dd);
+        return {middle - half, middle + half, radius > 0 ? atMost(ll, rr) : 0, atMost(dd, zero)};
+    }
+
+    // Cone::insideSide(), but for lines that are no steeper than the side: a > 0.
+    static WallRange inCone(const TubeRays& rays, double narrowRadius,
+                            const StillTube::Cone& cone) {
+        const auto& [ox, oy, oz, dx, dy, dz] = rays;
+        const Doubles zero(0.0), minus(-0.0), most(std::numeric_limits<double>::max());
+        const Doubles oTip = oz - Doubles(cone.narrowZ);
+        const Doubles shift =
+            minus - ((ox * dx + oy * dy) + oTip * dz) / ((dx * dx + dy * dy) + dz * dz);
+        const Doubles x = ox + dx * shift, y = oy + dy * shift, z = oTip + dz * shift;
+        const Doubles slope(cone.slope);
+        const Doubles w = Doubles(narrowRadius) + slope * z, dw = slope * dz;
+        const Doubles a = (dx * dx + dy * dy) - dw * dw, b = (x * dx + y * dy) - w * dw,
+                      c = (x * x + y * y) - w * w;
+        const Doubles discriminant = differenceOfProducts(b, b, a, c);
+        const Doubles q = minus - (b + withSign(sqrt(max(discriminant, zero)), b));
+        const Doubles stable = c / q, other = q / a;
+        const unsigned isRoot =
+            ~(atMost(q, zero) & atMost(zero, q)) & atMost(q, most) & atMost(minus - most, q);
+        const unsigned isShallow = ~atMost(a, zero) & atMost(a, most);
+        return {shift + min(stable, other), shift + max(stable, other), atMost(zero, discriminant),
+                ~(isShallow & (isRoot | ~atMost(zero, discriminant)))};
+    }
+
+    // As in base/math.h and base/double_double.h.
+    static Doubles differenceOfProducts(const Doubles& a, const Doubles& b, const Doubles& c,
+                                        const Doubles& d) {
+        struct Sum {
+            Doubles hi, lo;
+        };
+        const auto twoSum = [](const Doubles& x, const Doubles& y) -> Sum {
+            const Doubles sum = x + y, y2 = sum - x;
+            return {sum, (x - (sum - y2)) + (y - y2)};
+        };
+        const auto split = [](const Doubles& x) -> Sum {
+            const Doubles scaled = x * Doubles(134217729.0), hi = scaled - (scaled - x);
+            return {hi, x - hi};
+        };
+        const auto twoProduct = [&](const Doubles& x, const Doubles& y) -> Sum {
+            const Doubles product = x * y;
+            const Sum p = split(x), r = split(y);
+            return {product, p.lo * r.lo - (((product - p.hi * r.hi) - p.lo * r.hi) - p.hi * r.lo)};
+        };
+        const Sum ab = twoProduct(a, b), cd = twoProduct(c, d);
+        const Doubles minus(-0.0);
+        const Sum hi = twoSum(ab.hi, minus - cd.hi), lo = twoSum(ab.lo, minus - cd.lo);
+        const Sum sum = twoSum(hi.hi, lo.hi);
+        return sum.hi + (sum.lo + (hi.lo + lo.lo));
+    }
+};
