@@ -56,7 +56,8 @@ TEST(one_or_more_takes_its_own_elements) {
     CHECK((list == List{7, 7, 7, 7}));
     CHECK((List(3, 2) == List{2, 2, 2}));
     CHECK((List(1) == std::vector<int>{0}));
-    CHECK(!(List{4} == std::vector<int>{}));
+    CHECK(!(List{4} == std::vector<int>{5}));
+    CHECK(!(List{4} == std::vector<int>{4, 4}));
     CHECK(List{4}.at(0) == 4);
     CHECK(check::thrown([] { List{4}.at(1); }) != "");
 }
