@@ -109,6 +109,7 @@ private:
     }
 
     void buildMaterials() {
+        scene_.materials_.reserve(desc_.materials.size() + 1);
         for (const MaterialDesc& desc : desc_.materials)
             scene_.materials_.push_back(makeMaterial(desc));
         scene_.materials_.push_back(makeMaterial(MaterialDesc{}));

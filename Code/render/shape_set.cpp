@@ -48,6 +48,7 @@ void ShapeSet::finish(bool withBvh, const Kernel& kernel, int threads) {
 
 void ShapeSet::buildBatchTrees(const Kernel& kernel, int threads) {
     std::vector<Bounds> others;
+    others.reserve(inTree_.size()), solids_.reserve(inTree_.size());
     for (const std::uint32_t number : inTree_) {
         const MeshInstance* const instance = shapes[number]->meshInstance();
         if (instance != nullptr && instance->geometry().kernel == &kernel) {

@@ -36,12 +36,13 @@ double amplification(const Transform& map, const Transform& inverse) {
 AnalyticShape::AnalyticShape(MovingTransform worldFromObject, std::uint32_t material,
                              std::uint32_t object)
     : worldFromObject_(worldFromObject.at(0)), objectFromWorld_(worldFromObject_.inverse()),
-      motion_(std::move(worldFromObject)), isStatic_(motion_.isStatic()), material_(material),
-      object_(object) {}
+      material_(material), object_(object) {
+    if (!worldFromObject.isStatic()) motion_ = std::move(worldFromObject);
+}
 
 Bounds AnalyticShape::bounds() const {
     const BoundsD box =
-        isStatic_ ? boxUnder(worldFromObject_) : motion_.bounds(boxUnder(Transform()));
+        isStill() ? boxUnder(worldFromObject_) : motion_->bounds(boxUnder(Transform()));
     if (!box.isFinite()) {
         const float inf = kInfinityF;
         return {{-inf, -inf, -inf}, {inf, inf, inf}};
@@ -69,7 +70,7 @@ SolidForm AnalyticShape::tubeForm(double radius) const {
 }
 
 void AnalyticShape::measure() {
-    if (isStatic_) size_ = sizeUnder(worldFromObject_, objectFromWorld_);
+    if (isStill()) size_ = sizeUnder(worldFromObject_, objectFromWorld_);
 }
 
 AnalyticShape::Size AnalyticShape::sizeUnder(const Transform& map, const Transform& inverse) const {
@@ -90,7 +91,7 @@ static RayD mapped(const Transform& map, const RayD& ray) {
 
 AnalyticShape::Roots AnalyticShape::rootsOf(const Ray& ray) const {
     const RayD world = toDouble(ray);
-    const RayD local = isStatic_ ? mapped(objectFromWorld_, world)
+    const RayD local = isStill() ? mapped(objectFromWorld_, world)
                                  : worldFromObjectAt(ray.time).inverse().ray(world);
     // Zero, NaN or infinite rays meet nothing.
     const double dd = dot(local.dir, local.dir);
@@ -204,7 +205,7 @@ Surface AnalyticShape::surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds n
 // The sign is asked of the surface's rounded normal. Its error, and that of a point which has not
 // been kept clear of edges, is far below the angle of 2^-10 up to which it is computed.
 bool AnalyticShape::seesFront(const Ray& ray, const Hit& hit) const {
-    if (!isStatic_) return Shape::seesFront(ray, hit);
+    if (!isStill()) return Shape::seesFront(ray, hit);
     const RayD local = mapped(objectFromWorld_, toDouble(ray));
     const double t = static_cast<double>(hit.t) + static_cast<double>(hit.u);
     const Vec3d n = normalAt(local.at(t), hit.prim);

@@ -64,7 +64,7 @@ protected:
     // Called at the end of a constructor: what surface() would compute again for every hit.
     void measure();
 
-    bool isStill() const { return isStatic_; }
+    bool isStill() const { return !motion_; }
     // Of a shape that stands still.
     const Transform& worldFromObject() const { return worldFromObject_; }
     const Transform& objectFromWorld() const { return objectFromWorld_; }
@@ -93,7 +93,7 @@ private:
                          double amplification, const Ray& ray, const Hit& hit,
                          SurfaceNeeds needs) const;
     Transform worldFromObjectAt(float time) const {
-        return isStatic_ ? worldFromObject_ : motion_.at(static_cast<double>(time));
+        return isStill() ? worldFromObject_ : motion_->at(static_cast<double>(time));
     }
 
     // What surface() needs of the whole shape.
@@ -108,8 +108,7 @@ private:
 
     Transform worldFromObject_, objectFromWorld_; // of a static shape
     std::optional<Size> size_;
-    MovingTransform motion_;
-    bool isStatic_;
+    std::optional<MovingTransform> motion_; // of one that moves
     std::uint32_t material_, object_;
 };
 

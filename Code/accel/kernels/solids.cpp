@@ -7,6 +7,11 @@
 #include <cstring>
 #include <utility>
 
+void SolidTree::reserve(std::size_t count) {
+    solids.reserve(count), boxes.reserve(count);
+    spheres.reserve(count), tubes.reserve(count);
+}
+
 void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const SolidForm& form) {
     Solid solid{.number = number, .hides = hides};
     solid.isTube = form.hull.axis != Vec3d{};

@@ -64,6 +64,8 @@ struct SolidTree {
         return *reinterpret_cast<const WideNode<W>*>(
             reinterpret_cast<const std::byte*>(lines.data()) + byteOffset(ref));
     }
+    // Room for so many of each common kind: what isn't touched costs nothing, growing would.
+    void reserve(std::size_t count);
     void add(const Bounds& box, std::uint32_t number, bool hides, const SolidForm& form);
     // Once after the last add(); `bvh` is over the boxes in the order of adding.
     void build(int nodeWidth, const Bvh& bvh);

@@ -4,6 +4,7 @@
 #include "desc/error_list.h"
 #include "desc/name_table.h"
 #include "desc/names.h"
+#include "read/added_by_text.h"
 #include "read/mesh/triangulate.h"
 #include "read/nff/terms.h"
 #include "read/nff/view.h"
@@ -156,7 +157,8 @@ private:
         }
         if (slot_->material == kNone) {
             slot_->material = static_cast<Handle>(desc_.materials.size());
-            MaterialDesc& material = desc_.materials.emplace_back(nffMaterial(fill_));
+            MaterialDesc& material = added(desc_.materials, user);
+            material = nffMaterial(fill_);
             material.name = cat("fill", desc_.materials.size());
             material.loc = fillWord_.loc();
         }
@@ -169,7 +171,10 @@ private:
         object.name = cat(kind, number);
         object.loc = word.loc();
         if (slot.material != kNone) object.materials = {slot.material};
-        desc_.objects.push_back(std::move(object));
+        added(desc_.objects, word) = std::move(object);
+    }
+    template <class Block> Block& added(std::vector<Block>& blocks, const NffWord& word) const {
+        return addedByText(blocks, word.offset, in_.source().text.size());
     }
 
     void readSphere(const NffWord& word) {

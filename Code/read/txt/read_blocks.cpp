@@ -1,9 +1,9 @@
 #include "read/txt/read_blocks.h"
 
-#include "base/large_pages.h"
 #include "base/text.h"
 #include "desc/names.h"
 #include "desc/properties.h"
+#include "read/added_by_text.h"
 #include "read/txt/property_line.h"
 #include "read/txt/read_mesh.h"
 #include "read/txt/scanner.h"
@@ -75,21 +75,8 @@ private:
         in_.failAt(word.offset, cat("unknown block ", unknownName(shown(word.text), blockWords())));
     }
 
-    // One block more. Doubling touches memory twice, which for many blocks costs as much as reading
-    // them; the text that those so far took, and others between them, says how many there will be.
-    // Memory that is not touched costs nothing.
     template <class Block> Block& added(std::vector<Block>& blocks) const {
-        constexpr std::size_t kMany = 1000;
-        constexpr double kMargin = 1.1, kLeast = 1.5, kMost = 256;
-        if (blocks.size() == blocks.capacity() && blocks.size() >= kMany) {
-            const std::size_t first = blocks.front().loc.offset, here = in_.offset();
-            const double left = here < part_.last ? static_cast<double>(part_.last - here) : 0;
-            const double growth = 1 + kMargin * left / static_cast<double>(here - first);
-            const double wanted =
-                static_cast<double>(blocks.size()) * std::clamp(growth, kLeast, kMost);
-            reserveInLargePages(blocks, static_cast<std::size_t>(wanted));
-        }
-        return blocks.emplace_back();
+        return addedByText(blocks, in_.offset(), part_.last);
     }
 
     template <class Block> void readSingle(Block& block, const Token& word) {
