@@ -95,9 +95,7 @@ struct RootBoxes {
         for (; count < W && (*this)[count].lo.x <= (*this)[count].hi.x; ++count) {
             const Bounds box = (*this)[count];
             whole.extend(box);
-            const Vec3 d = box.size();
-            const float area = d.x * d.y + d.y * d.z + d.z * d.x;
-            if (area > most) most = area, largest = count;
+            if (box.halfArea() > most) most = box.halfArea(), largest = count;
         }
         for (std::size_t i = 0; i < count; ++i)
             if (i != largest) others.extend((*this)[i]);
