@@ -50,11 +50,18 @@ struct StillTube {
     enum Part : std::uint32_t { Wall, Bottom, Top }; // Hit::prim
 };
 
+// z = 0 of an object space that does not move, without end. A kernel that meets it repeats the
+// formulas of shape/infinite_plane.cpp.
+struct StillPlane {
+    std::array<double, 12> objectFromWorld; // Transform::rows()
+};
+
 struct SolidForm {
     RoundHull hull;
     std::optional<StillSphere> sphere; // the shape is this one
     std::optional<Facets> facets{};    // or these
     std::optional<StillTube> tube{};   // or this one
+    std::optional<StillPlane> plane{}; // or this one, the only form without end
 };
 
 inline RoundHull ballAround(const BoundsD& box) {

@@ -180,16 +180,17 @@ Surface AnalyticShape::surfaceUnder(const Transform& worldFromObject,
 
 std::optional<RoundToShade> AnalyticShape::toShade(RoundToShade::Kind kind, std::uint32_t part,
                                                    double radius) const {
-    if (!size_ || !(size_->reach < kInfinity) || worldFromObject_.isSingular()) return {};
+    const bool hasEnd = kind != RoundToShade::Kind::Plane;
+    if (!size_ || (size_->reach < kInfinity) != hasEnd || worldFromObject_.isSingular()) return {};
     using Number = RoundToShade::Number;
-    RoundToShade shade{{}, kind, part, material_, object_};
+    RoundToShade shade{{}, kind, part, material_, material_, object_};
     const auto put = [&](Number first, const Transform& map) {
         std::copy(map.rows().begin(), map.rows().end(), shade.numbers.begin() + first);
     };
     put(Number::WorldFromObject, worldFromObject_);
     put(Number::ObjectFromWorld, objectFromWorld_);
     shade.numbers[Number::Radius] = radius;
-    shade.numbers[Number::LeastError] = kFloatUlp * size_->reach;
+    shade.numbers[Number::LeastError] = kFloatUlp * (hasEnd ? size_->reach : kSceneReach);
     shade.numbers[Number::ErrorPerPlace] = 0x1p-48 * size_->amplification;
     shade.numbers[Number::Farthest] = maxAbs(worldFromObject_.translation());
     shade.numbers[Number::SteepnessOfZ] = length(row(objectFromWorld_, 2));

@@ -6,6 +6,13 @@ InfinitePlane::InfinitePlane(MovingTransform worldFromObject, std::uint32_t mate
                              std::uint32_t object)
     : AnalyticShape(std::move(worldFromObject), material, object) {
     measure();
+    inLanes_ = toShade(RoundToShade::Kind::Plane, 0, 0);
+}
+
+SolidForm InfinitePlane::solidForm() const {
+    SolidForm form;
+    if (isStill()) form.plane = StillPlane{objectFromWorld().rows()};
+    return form;
 }
 
 AnalyticShape::Roots InfinitePlane::roots(const RayD& ray) const {

@@ -1,7 +1,7 @@
-// Surfaces of spheres and of the sides of cylinders that stand still, a register of them at a time,
-// each on a shape of its own: rays that have bounced off many small shapes rarely follow each other
-// on one. Every lane repeats the steps of shape/analytic_shape.cpp and of the shape's describe() in
-// double, so that the bits are the same.
+// Surfaces of spheres, of the sides of cylinders and of planes without end that stand still, a
+// register of them at a time, each on a shape of its own: rays that have bounced off many small
+// shapes rarely follow each other on one. Every lane repeats the steps of shape/analytic_shape.cpp
+// and of the shape's describe() in double, so that the bits are the same.
 #pragma once
 
 #include "base/hit.h"
@@ -20,18 +20,22 @@ struct RoundToShade {
         WorldFromObject = 0,  // Transform::rows()
         ObjectFromWorld = 12, // the same
         Radius = 24,
-        LeastError,    // of a surface's error: what does not depend on the point
+        LeastError,    // of a surface's error: what does not depend on the point, but that it
+                       // grows with coordinates above 1 where the surface has no end
         ErrorPerPlace, // what it grows by per unit of the largest coordinate
         Farthest,      // of those that is, besides the point's: of the shape's own place
         SteepnessOfZ,  // how much z, of a cylinder, changes over a unit of the world
         kNumbers
     };
-    enum class Kind : std::uint8_t { Sphere, Cylinder };
-    static constexpr std::size_t kKinds = 2;
+    enum class Kind : std::uint8_t { Sphere, Cylinder, Plane };
+    static constexpr std::size_t kKinds = 3;
     std::array<double, kNumbers> numbers;
     Kind kind;
     std::uint32_t part; // Hit::prim of what this is about
-    std::uint32_t material, object;
+    // Of planes: where floor(x) + floor(y) of the object's coordinates is even, and where odd.
+    // Others have one.
+    std::uint32_t material, oddMaterial;
+    std::uint32_t object;
 };
 
 // Hit k is that of ray which[k] on *shapes[k], all of one kind.

@@ -73,9 +73,15 @@ inline RaysInLanes raysOf(const RaySpan& rays, std::span<const Hit> hits,
 }
 
 struct SurfacesInLanes {
-    alignas(64) float p[3][W], n[3][W];
+    alignas(64) float p[3][W], n[3][W], uv[2][W]; // uv: of planes
     alignas(64) double error[W];
 };
+
+// Of the squares that a plane is divided into.
+inline bool isOdd(float u, float v) {
+    const float squares = std::floor(u) + std::floor(v);
+    return std::floor(squares / 2) != squares / 2;
+}
 
 // Rounded, by axis.
 inline void store(const Doubles3& v, float (&to)[3][W]) {
@@ -112,14 +118,24 @@ void describe(const Numbers& shape, const RaysInLanes& world, SurfacesInLanes& o
     using enum RoundToShade::Number;
     const Doubles3 seen = along(world.org, world.dir, world.t);
     const Doubles place = max(max(abs(seen.x), abs(seen.y)), abs(seen.z));
-    const Doubles fixedError = shape(LeastError) + shape(ErrorPerPlace) * (place + shape(Farthest));
+    Doubles leastError = shape(LeastError);
+    if constexpr (kKind == RoundToShade::Kind::Plane)
+        leastError = leastError * max(place, Doubles(1.0));
+    const Doubles fixedError = leastError + shape(ErrorPerPlace) * (place + shape(Farthest));
 
     const Doubles3 met = along(pointOf(shape, ObjectFromWorld, world.org),
                                vectorOf(shape, ObjectFromWorld, world.dir), world.t);
     const auto local = [&] {
-        if constexpr (kKind == RoundToShade::Kind::Sphere) return onSphere(shape, met);
-        const Doubles far = Doubles(kThreeUlps) * sqrt(dot(seen, seen)) + fixedError;
-        return onCylinder(shape, met, Doubles(2.0) * far);
+        if constexpr (kKind == RoundToShade::Kind::Sphere) {
+            return onSphere(shape, met);
+        } else if constexpr (kKind == RoundToShade::Kind::Cylinder) {
+            const Doubles far = Doubles(kThreeUlps) * sqrt(dot(seen, seen)) + fixedError;
+            return onCylinder(shape, met, Doubles(2.0) * far);
+        } else {
+            const Doubles zero(0.0);
+            met.x.toFloats().store(out.uv[0]), met.y.toFloats().store(out.uv[1]);
+            return Local{{met.x, met.y, zero}, {zero, zero, Doubles(1.0)}};
+        }
     }();
     const Doubles3 rough = pointOf(shape, WorldFromObject, local.p);
     const Doubles3 back = pointOf(shape, ObjectFromWorld, rough);
@@ -148,11 +164,15 @@ void surfacesOf(const RoundsMet& met, const Strided<Surface>& out) {
             describe<kKind>(NumbersOfMany(shapes), rays, found);
         for (std::size_t i = 0; i < count; ++i) {
             const Vec3 ng{found.n[0][i], found.n[1][i], found.n[2][i]};
+            std::uint32_t material = shapes[i]->material;
+            if constexpr (kKind == RoundToShade::Kind::Plane)
+                if (shapes[i]->oddMaterial != material && isOdd(found.uv[0][i], found.uv[1][i]))
+                    material = shapes[i]->oddMaterial;
             out[met.to[first + i]] = {.p = {found.p[0][i], found.p[1][i], found.p[2][i]},
                                       .ng = ng,
                                       .ns = ng,
                                       .uv = {},
-                                      .material = shapes[i]->material,
+                                      .material = material,
                                       .object = shapes[i]->object,
                                       .error = floatAbove(found.error[i]),
                                       .rayError = 0,
@@ -167,5 +187,6 @@ void roundSurfaces(const RoundsMet& met, Strided<Surface> out) {
     if (met.shapes.empty()) return;
     using enum RoundToShade::Kind;
     if (met.shapes[0]->kind == Sphere) return surfacesOf<Sphere>(met, out);
+    if (met.shapes[0]->kind == Plane) return surfacesOf<Plane>(met, out);
     surfacesOf<Cylinder>(met, out);
 }
