@@ -65,7 +65,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
         const Kernel& kernel = chooseKernel(settings.kernel);
         if (!isSoft && lamp.emission) lamp.inLanes = lightByLamp(kernel);
         if (isSoft && lamp.emission && sampler.kind() == SamplerKind::Sobol)
-            lamp.bySamples = lightBySamples(kernel);
+            lamp.bySamples = lightBySamples(kernel), lamp.mayBeHidden = ::mayBeHidden(kernel);
         (shades ? shadingLamps : openLamps).push_back(lamp);
     }
 }

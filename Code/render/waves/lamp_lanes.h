@@ -19,10 +19,11 @@ struct alignas(64) LitBlock {
     float weight[3][kPoints], diffuse[3][kPoints], error[kPoints], rayError[kPoints];
     float ns[3][kPoints];                                             // of the lifted ones
     float toEye[3][kPoints], specular[3][kPoints], exponent[kPoints]; // of the shiny ones
-    std::uint32_t point[kPoints], group[kPoints];
+    std::uint32_t point[kPoints], shape[kPoints];                     // the shape that it is on
     // One bit for each point.
     unsigned used = 0;
     unsigned lifted = 0;          // the horizon of ns has a say
+    unsigned inside = 0;          // lamps are seen from the inside of the shape
     unsigned shiny[kModels] = {}; // has a highlight of this model
 };
 
@@ -56,6 +57,13 @@ using LightByLampFn = void (*)(const PointEmission& lamp, const LitBlock& block,
                                LitByLamp& out);
 using LightBySamplesFn = void (*)(const PointEmission& lamp, const LitBlock& block,
                                   const SamplesOnLamp& samples, LitBySamples& out);
+
+// The points of a block that something may hide from a place on the lamp.
+class Occluders;
+using MayBeHiddenFn = unsigned (*)(const Occluders& occluders, const LitBlock& block,
+                                   const PointEmission& lamp);
+
 // Null for the scalar kernel.
+MayBeHiddenFn mayBeHidden(const Kernel& kernel);
 LightBySamplesFn lightBySamples(const Kernel& kernel);
 LightByLampFn lightByLamp(const Kernel& kernel);

@@ -6,6 +6,7 @@
 #include "accel/kernels/target.h"
 #include "base/math.h"
 #include "light/light.h"
+#include "render/occluders.h"
 #include "sample/warp.h"
 
 #include <algorithm>
@@ -22,6 +23,7 @@ namespace kernels::avx2 {
 constexpr std::size_t kSobolLanes = 8;
 #include "render/waves/lit_lanes.inl"
 
+#include "render/waves/hidden_lanes.inl"
 #include "render/waves/lamp_lanes.inl"
 #include "render/waves/soft_lamp_lanes.inl"
 } // namespace kernels::avx2

@@ -5,6 +5,7 @@
 #include "accel/kernels/target.h"
 #include "base/math.h"
 #include "light/light.h"
+#include "render/occluders.h"
 #include "sample/warp.h"
 
 #include <algorithm>
@@ -21,6 +22,7 @@ namespace kernels::avx512 {
 constexpr std::size_t kSobolLanes = 16;
 #include "render/waves/lit_lanes.inl"
 
+#include "render/waves/hidden_lanes.inl"
 #include "render/waves/lamp_lanes.inl"
 #include "render/waves/soft_lamp_lanes.inl"
 } // namespace kernels::avx512

@@ -59,7 +59,7 @@ inline bool groupPoints(const Wave& wave) {
     for (const std::uint32_t k : memory.answering) {
         const std::uint32_t shape = memory.hits[memory.points.ray[k]].shape;
         const ShadedPoint& at = memory.points.at[k];
-        const bool inside = !(at.front || at.of->litOutside);
+        const bool inside = seesLampsFromInside(at);
         std::size_t g = 0;
         while (g < memory.groups.size() &&
                (memory.groups[g].shape != shape || memory.groups[g].inside != inside))
@@ -124,7 +124,7 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
         if (lamp.inLanes)
             waves::shineInLanes(wave, lamp, isGrouped, arrive);
         else if (isBySamples(lamp))
-            waves::shineBySamples(wave, lamp, isGrouped, arrive);
+            waves::shineBySamples(wave, lamp, arrive);
         else
             waves::shineOneByOne<kSoftLamps>(wave, lamp, isGrouped, arrive);
         waves::traceShadowRays<kSeeThrough>(wave, arrive);

@@ -10,6 +10,8 @@
 
 namespace waves {
 
+inline bool seesLampsFromInside(const ShadedPoint& at) { return !(at.front || at.of->litOutside); }
+
 inline Ray shadowRay(const Lamp& lamp, const ShadedPoint& at, const LightSample& sample,
                      float time) {
     if (lamp.origin) return rayFromLamp(at.surface, at.lit.ng, *lamp.origin, time);
@@ -28,7 +30,7 @@ inline void fillBlocks(const Wave& wave) {
         const std::size_t first = b * LitBlock::kPoints;
         const std::size_t size = std::min(count - first, LitBlock::kPoints);
         block.used = (1u << size) - 1;
-        block.lifted = 0;
+        block.lifted = block.inside = 0;
         for (unsigned& shiny : block.shiny) shiny = 0;
         for (std::size_t i = 0; i < size; ++i) {
             const std::uint32_t k = memory.answering[first + i];
@@ -46,7 +48,9 @@ inline void fillBlocks(const Wave& wave) {
             putLight(block.diffuse, material.diffuse);
             block.error[i] = at.surface.error, block.rayError[i] = at.surface.rayError;
             block.point[i] = k;
+            block.shape[i] = memory.hits[memory.points.ray[k]].shape;
             const unsigned bit = 1u << i;
+            if (seesLampsFromInside(at)) block.inside |= bit;
             if (at.surface.lift != Vec3{}) {
                 put(block.ns, at.lit.ns);
                 block.lifted |= bit;
@@ -61,7 +65,7 @@ inline void fillBlocks(const Wave& wave) {
 }
 
 // The points of a block that something may hide from the lamp that is looked at.
-inline unsigned mayBeHidden(const WaveMemory& memory, std::size_t block, bool isGrouped) {
+inline unsigned hiddenByGroup(const WaveMemory& memory, std::size_t block, bool isGrouped) {
     if (!isGrouped) return ~0u;
     const std::size_t first = block * LitBlock::kPoints;
     unsigned points = 0;
@@ -78,7 +82,7 @@ void shineInLanes(const Wave& wave, const Lamp& lamp, bool isGrouped, ArriveFn&&
     LitByLamp by;
     for (std::size_t b = 0; b * LitBlock::kPoints < memory.answering.size(); ++b) {
         const LitBlock& block = memory.litBlocks[b];
-        const unsigned hidden = mayBeHidden(memory, b, isGrouped);
+        const unsigned hidden = hiddenByGroup(memory, b, isGrouped);
         lamp.inLanes(*lamp.emission, block, hidden, by);
         const auto lightAt = [&](std::size_t i) {
             return Rgb{by.light[0][i], by.light[1][i], by.light[2][i]};
@@ -118,16 +122,19 @@ inline SamplesOnLamp samplesOf(const Wave& wave, const Lamp& lamp, const LitBloc
     return samples;
 }
 
-// The same of such a lamp.
+// The same of such a lamp. A point's many shadow rays make it worth while to look at each point for
+// itself.
 template <class ArriveFn>
-void shineBySamples(const Wave& wave, const Lamp& lamp, bool isGrouped, ArriveFn&& arrive) {
+void shineBySamples(const Wave& wave, const Lamp& lamp, ArriveFn&& arrive) {
     WaveMemory& memory = wave.memory;
+    const Occluders& occluders = wave.context.occluders;
+    const bool canTell = wave.context.settings.specialise && occluders.canTell();
     RayBatch& rays = memory.shadowRays;
     constexpr int kMost = LitBySamples::kMost;
     LitBySamples by;
     for (std::size_t b = 0; b * LitBlock::kPoints < memory.answering.size(); ++b) {
         const LitBlock& block = memory.litBlocks[b];
-        const unsigned hidden = mayBeHidden(memory, b, isGrouped);
+        const unsigned hidden = canTell ? lamp.mayBeHidden(occluders, block, *lamp.emission) : ~0u;
         for (int first = 0; first < lamp.samples; first += kMost) {
             const int count = std::min(kMost, lamp.samples - first);
             lamp.bySamples(*lamp.emission, block, samplesOf(wave, lamp, block, first, count), by);
