@@ -1,7 +1,6 @@
 #include "material/material.h"
 
 #include "base/math.h"
-#include "material/fresnel.h"
 #include "sample/warp.h"
 
 namespace {
@@ -83,8 +82,7 @@ Bounces bounces(const Material& material, Vec3 n, Vec3 ng, Vec3 toEye, float eta
             reflected = totallyReflected(material);
     }
     if (!isBlack(reflected)) {
-        Vec3 dir = normalize(reflectAbout(toEye, h));
-        if (!(dot(dir, ng) > 0)) dir = normalize(reflectAbout(toEye, ng));
+        const Vec3 dir = mirrored(toEye, h, ng);
         // Importance sampling of the Ashikhmin-Shirley lobe leaves N.L / max(N.L, N.V).
         const float cosOut = dot(n, dir), cosEye = dot(n, toEye);
         const float weight =

@@ -4,6 +4,7 @@
 
 #include "base/math.h"
 #include "base/vec.h"
+#include "material/fresnel.h"
 
 #include <optional>
 
@@ -38,6 +39,19 @@ struct Bounce {
     Vec3 dir; // unit
     Rgb weight;
 };
+
+// Is all that leaves a point of it one ray that does not depend on what is behind the surface?
+inline bool isPlainMirror(const Material& material) {
+    return isBlack(material.transmission) && material.roughness <= 0 &&
+           material.fresnel == FresnelModel::None;
+}
+
+// The mirrored direction about h, or, where that leads below the surface, about ng. All on the side
+// of the eye.
+inline Vec3 mirrored(Vec3 toEye, Vec3 h, Vec3 ng) {
+    const Vec3 dir = normalize(reflectAbout(toEye, h));
+    return dot(dir, ng) > 0 ? dir : normalize(reflectAbout(toEye, ng));
+}
 
 // The rays that leave a point of a mirroring or transmitting surface. `n` is the shading normal and
 // `ng` the geometric one, both on the side of the eye; `eta` is the ior on the eye's side over the

@@ -7,6 +7,9 @@
 
 namespace waves {
 
+// Branches of the tree of rays: numbers for Sampler.
+inline constexpr std::uint32_t kReflected = 1, kRefracted = 2;
+
 inline bool worthTracing(const Wave& wave, Rgb weight) {
     const float most = maxChannel(weight);
     return most > 0 && most >= wave.context.cutoff;
@@ -30,16 +33,37 @@ inline void goStraight(const Wave& wave, std::size_t k) {
                           rays.seesLights[i] != 0);
 }
 
+inline void push(const Wave& wave, std::size_t k, const Bounce& ray, Vec3 side,
+                 MediumTree::Inside medium, std::uint32_t branch, std::uint64_t& counter) {
+    const Rgb weight = wave.memory.points.weight[k] * ray.weight;
+    if (!worthTracing(wave, weight)) return;
+    ++counter;
+    const Material& material = *wave.memory.points.material[k];
+    // A rough surface's highlight has counted the lamps; a sharp mirror shows their bodies.
+    const bool seesLights = material.roughness <= 0 || isBlack(material.specular);
+    const std::size_t i = wave.memory.points.ray[k];
+    const PathBatch& rays = wave.rays;
+    wave.memory.next.push(
+        {leave(wave.memory.points.at[k].surface, side), ray.dir, 0, kInfinityF, rays.time[i]},
+        rays.sample[i], weight, medium, low32(hash(rays.stream[i], branch)), seesLights);
+}
+
+inline void mirror(const Wave& wave, std::size_t k) {
+    const PointBatch& points = wave.memory.points;
+    const ShadedPoint& at = points.at[k];
+    push(wave, k, {mirrored(at.toEye, at.eye.n, at.eye.ng), points.material[k]->mirror}, at.eye.ng,
+         wave.rays.medium[points.ray[k]], kReflected, wave.counts.reflect);
+}
+
 inline void bounce(const Wave& wave, std::size_t k) {
     const Scene& scene = wave.context.scene;
     const PathBatch& rays = wave.rays;
     const ShadedPoint& at = wave.memory.points.at[k];
     const Material& material = *wave.memory.points.material[k];
     const std::size_t i = wave.memory.points.ray[k];
-    const std::uint32_t slot = rays.sample[i], stream = rays.stream[i];
     Vec2 u{0.5f, 0.5f};
     if (material.roughness > 0)
-        u = wave.context.sampler.get2D(stream, wave.chunk.ids[slot].index,
+        u = wave.context.sampler.get2D(rays.stream[i], wave.chunk.ids[rays.sample[i]].index,
                                        dimension(wave.depth, BounceSlot::BsdfUv));
 
     MediumTree& media = wave.memory.media;
@@ -52,18 +76,10 @@ inline void bounce(const Wave& wave, std::size_t k) {
     const float eta = iorHere / iorOf(scene, media.top(after));
 
     const Bounces out = bounces(material, at.eye.n, at.eye.ng, at.toEye, eta, u);
-    // A rough surface's highlight has counted the lamps; a sharp mirror shows their bodies.
-    const bool seesLights = material.roughness <= 0 || isBlack(material.specular);
-    const auto spawn = [&](const Bounce& ray, Vec3 side, MediumTree::Inside medium,
-                           std::uint32_t branch, std::uint64_t& counter) {
-        const Rgb weight = wave.memory.points.weight[k] * ray.weight;
-        if (!worthTracing(wave, weight)) return;
-        ++counter;
-        wave.memory.next.push({leave(at.surface, side), ray.dir, 0, kInfinityF, rays.time[i]}, slot,
-                              weight, medium, low32(hash(stream, branch)), seesLights);
-    };
-    if (out.reflected) spawn(*out.reflected, at.eye.ng, before, 1, wave.counts.reflect);
-    if (out.refracted) spawn(*out.refracted, -at.eye.ng, after, 2, wave.counts.refract);
+    if (out.reflected)
+        push(wave, k, *out.reflected, at.eye.ng, before, kReflected, wave.counts.reflect);
+    if (out.refracted)
+        push(wave, k, *out.refracted, -at.eye.ng, after, kRefracted, wave.counts.refract);
 }
 
 } // namespace waves
@@ -80,7 +96,11 @@ template <bool kBounces, bool kSeeThrough> void spawnBounces(const Wave& wave) {
             if (isBlack(points.weight[k])) continue;
         }
         if constexpr (kBounces)
-            if (!isBlack(material.mirror) || !isBlack(material.transmission))
-                waves::bounce(wave, k);
+            if (!isBlack(material.mirror) || !isBlack(material.transmission)) {
+                if (isPlainMirror(material))
+                    waves::mirror(wave, k);
+                else
+                    waves::bounce(wave, k);
+            }
     }
 }
