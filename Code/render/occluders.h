@@ -31,7 +31,7 @@ public:
     // from the outside of that shape or from its inside? True says nothing.
     bool mayHide(const Bounds& points, std::uint32_t shape, bool fromInside,
                  const Bounds& lamp) const;
-    // False: there are too many shapes to look at.
+    // False: there are too many shapes to look at; then the other questions have no answer.
     bool canTell() const { return canTell_; }
 
     // For who looks at many points at once: all of them, and how far from them what is said to pass

@@ -4,10 +4,16 @@
 #include "light/point_light.h"
 #include "render/lamp_ray.h"
 #include "render/waves/lamp_lanes.h"
+#include "sample/hash.h"
+#include "sample/sampler.h"
 #include "verify/meshes.h"
 
 #include <bit>
 #include <cstring>
+
+namespace sobol {
+#include "sample/sobol.inl"
+} // namespace sobol
 
 using meshes::Random;
 
@@ -146,10 +152,116 @@ TEST(lamp_lanes_have_the_bits_of_single_points) {
     }
 }
 
-// Spots and lamps that are asked at random places are not for lanes.
+namespace {
+
+// What a sample of the lamp sends from the point to the eye; black: nothing.
+Rgb lightOf(const PointLight& lamp, const Point& p, const LightSample& sample, float share) {
+    if (lamp.cannotReach(p.surface.p, p.n) || isBlack(sample.irradiance)) return {};
+    const bool rises = dot(p.surface.ng, sample.toLight) > 0 ||
+                       (p.surface.lift != Vec3{} && dot(p.surface.ns, sample.toLight) > 0);
+    if (!rises) return {};
+    return p.weight * reflectedLight(p.material, p.n, p.toEye, sample.toLight) * sample.irradiance *
+           share;
+}
+
+} // namespace
+
+TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
+    for (const Kernel& kernel : allKernels()) {
+        const LightBySamplesFn inLanes = kernel.supported() ? lightBySamples(kernel) : nullptr;
+        if (!inLanes) continue;
+        Random random(78);
+        long long asked = 0, lit = 0, wrong = 0;
+        for (int i = 0; i < check::scaled(1500); ++i) {
+            const Vec3 at = toFloat(random.direction() * random.logUniform(0.1, 100));
+            const Attenuation fade = random.chance(0.5)
+                                         ? Attenuation{}
+                                         : Attenuation{0.2f, 0.3f, random.chance(0.5) ? 0.5f : 0};
+            const auto radius = static_cast<float>(random.logUniform(1e-3, 3));
+            const PointLight lamp(at, someLight(random, 0.02), fade, radius, {}, true);
+            std::vector<Point> points;
+            const std::size_t used = random.chance(0.5) ? 1 + random.below(16) : 16;
+            for (std::size_t k = 0; k < used; ++k) points.push_back(somePoint(random, at));
+            const Sampler sampler =
+                Sampler(SamplerKind::Sobol, 4, random.below(std::size_t{1} << 32))
+                    .stream(random.below(4), 16);
+            SamplesOnLamp samples;
+            samples.count = random.chance(0.4)   ? LitBySamples::kMost
+                            : random.chance(0.2) ? 8
+                                                 : 1 + random.below(16);
+            samples.share = 1.0f / static_cast<float>(samples.count);
+            std::uint32_t pixel[16], dimension = 8 * random.below(3);
+            for (std::size_t k = 0; k < used; ++k) {
+                pixel[k] = random.below(std::size_t{1} << 32);
+                samples.first[k] = random.below(1000);
+                const Sampler::PairSeeds seeds = sampler.pairSeeds(pixel[k], dimension);
+                samples.index[k] = seeds.index, samples.x[k] = seeds.x, samples.y[k] = seeds.y;
+            }
+            LitBySamples out;
+            inLanes(*lamp.emission(), blockOf(points), samples, out);
+            for (std::size_t n = 0; n < used * samples.count; ++n) {
+                const std::size_t k = n / samples.count;
+                const auto s = samples.first[k] + static_cast<std::uint32_t>(n % samples.count);
+                const Point& p = points[k];
+                const LightSample sample =
+                    lamp.sample(p.surface.p, sampler.get2D(pixel[k], s, dimension));
+                const Rgb light = lightOf(lamp, p, sample, samples.share);
+                bool same = out.isLit(n) == !isBlack(light);
+                if (same && out.isLit(n)) {
+                    const auto taken = [&](const float(*v)[LitBySamples::kRoom]) {
+                        return Vec3{v[0][n], v[1][n], v[2][n]};
+                    };
+                    same = sameBits(taken(out.light), {light.r, light.g, light.b}) &&
+                           sameBits(taken(out.dir), sample.toLight) &&
+                           sameBits(out.tMax[n], sample.distance * (1 - 0x1p-20f));
+                }
+                ++asked, lit += out.isLit(n);
+                if (!same && ++wrong <= 3)
+                    CHECK_INFO(false, kernel.name << " block " << i << " point " << k << " sample "
+                                                  << s << " of " << samples.count);
+            }
+        }
+        std::printf("%s: %lld samples, %lld lit\n", kernel.name, asked, lit);
+        CHECK_INFO(lit > asked / 5, kernel.name);
+        CHECK_EQUAL(wrong, 0);
+    }
+}
+
+// Sobol numbers with a half, and on both diagonals of the square: there the disk has other ways.
+TEST(lamp_samples_in_lanes_take_the_seams_of_the_disk) {
+    Random random(79);
+    const Vec3 at{0, 0, 3};
+    const PointLight lamp(at, {1, 1, 1}, {}, 1, {}, true);
+    for (const std::uint32_t sample : {3323653u, 17871133u, 26008033u}) {
+        for (const Kernel& kernel : allKernels()) {
+            const LightBySamplesFn inLanes = kernel.supported() ? lightBySamples(kernel) : nullptr;
+            if (!inLanes) continue;
+            Point point = somePoint(random, at);
+            point.surface.p = {0.25f, 0.5f, 0}, point.surface.ng = point.n = {0, 0, 1};
+            point.surface.lift = {}, point.weight = {1, 1, 1};
+            point.material = {};
+            SamplesOnLamp samples;
+            samples.count = 1;
+            samples.index[0] = 1, samples.x[0] = 2, samples.y[0] = 3, samples.first[0] = sample;
+            const sobol::Pair<std::uint32_t> bits =
+                sobol::sobolPair<std::uint32_t>(sample, 1, 2, 3);
+            const Vec2 u{unitFloat(bits.x), unitFloat(bits.y)};
+            CHECK_INFO(u.x == 0.5f || u.y == 0.5f || u.x == u.y || u.x + u.y == 1, sample);
+            LitBySamples out;
+            inLanes(*lamp.emission(), blockOf({point}), samples, out);
+            const LightSample alone = lamp.sample(point.surface.p, u);
+            CHECK_INFO(out.isLit(0) &&
+                           sameBits({out.dir[0][0], out.dir[1][0], out.dir[2][0]}, alone.toLight),
+                       kernel.name << " sample " << sample);
+        }
+    }
+}
+
+// Spots are not for lanes.
 TEST(lamp_lanes_are_for_bare_points) {
     const SpotCone cone{{0, 0, -1}, 0.5f, 0, false};
     CHECK(!PointLight({}, {1, 1, 1}, {}, 0, cone, true).emission());
     CHECK(PointLight({}, {1, 1, 1}, {}, 0, {}, true).emission().has_value());
     CHECK(lightByLamp(chooseKernel("scalar")) == nullptr);
+    CHECK(lightBySamples(chooseKernel("scalar")) == nullptr);
 }

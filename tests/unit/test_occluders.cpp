@@ -3,6 +3,7 @@
 
 #include "analytic_kit.h"
 #include "check.h"
+#include "render/waves/lamp_lanes.h"
 
 using kit::Random;
 
@@ -72,6 +73,63 @@ TEST(occluders_never_miss_one) {
     // Both happen, or the test says nothing.
     CHECK_INFO(clear > check::scaled(1000) && shaded > check::scaled(100),
                clear << " clear, " << shaded << " shaded");
+}
+
+// The same for each point by itself, by the lanes of every kernel, and a lamp with a size.
+TEST(occluders_in_lanes_never_miss_one) {
+    Random random(512);
+    int clear = 0, shaded = 0, known = 0;
+    for (int i = 0; i < check::scaled(600); ++i) {
+        const ShapeSet set = scatter(random, 1 + static_cast<int>(random.below(8)));
+        const Occluders occluders(set);
+        LitBlock block{};
+        std::vector<Vec3> starts, sides;
+        for (int k = 0; k < 60 && starts.size() < LitBlock::kPoints; ++k) {
+            const Ray ray = kit::rayThrough(random.outwards(1.5, 3), random.inBox(0.7));
+            const Hit hit = set.closest(ray);
+            if (!hit.isHit()) continue;
+            const Surface s = set.shapes[hit.shape]->surface(ray, hit);
+            const bool isBack = dot(s.ng, ray.dir) > 0;
+            const std::size_t to = starts.size();
+            const Vec3 side = isBack ? -s.ng : s.ng;
+            const Vec3 lift = random.chance(0.2) ? side * 1e-3f : Vec3{};
+            for (std::size_t axis = 0; axis < 3; ++axis)
+                block.p[axis][to] = s.p[axis], block.lift[axis][to] = lift[axis];
+            block.shape[to] = hit.shape;
+            block.used |= 1u << to;
+            if (isBack) block.inside |= 1u << to;
+            starts.push_back(s.p + side * s.error + lift), sides.push_back(side);
+        }
+        PointEmission lamp{toFloat(random.inBox(2)), {1, 1, 1}, {}, 0};
+        lamp.radius = static_cast<float>(random.logUniform(1e-3, 1));
+        for (const Kernel& kernel : allKernels()) {
+            const MayBeHiddenFn inLanes = kernel.supported() ? mayBeHidden(kernel) : nullptr;
+            if (!inLanes) continue;
+            const unsigned hidden = inLanes(occluders, block, lamp);
+            CHECK_INFO((hidden & ~block.used) == 0, kernel.name << " case " << i);
+            for (std::size_t k = 0; k < starts.size(); ++k) {
+                const bool mayHide = (hidden >> k & 1) != 0;
+                known += !mayHide;
+                for (int n = 0; n < 6; ++n) {
+                    const Vec3 place =
+                        lamp.position + toFloat(random.direction() *
+                                                (static_cast<double>(lamp.radius) * random.unit()));
+                    const Vec3 way = place - starts[k];
+                    if (!(dot(sides[k], way) > 0)) continue;
+                    const Ray ray{starts[k], way, 0, 1, 0};
+                    std::vector<Hit> through;
+                    set.seeThroughHits(ray, through);
+                    const bool isHidden = set.occluded(ray) || !through.empty();
+                    CHECK_INFO(!isHidden || mayHide,
+                               kernel.name << " case " << i << " point " << k);
+                    ++(isHidden ? shaded : clear);
+                }
+            }
+        }
+    }
+    CHECK_INFO(clear > check::scaled(1000) && shaded > check::scaled(1000) &&
+                   known > check::scaled(1000),
+               clear << " clear, " << shaded << " shaded, " << known << " points known");
 }
 
 // And it is said where it is plain to see.
