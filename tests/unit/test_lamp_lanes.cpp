@@ -227,12 +227,17 @@ TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
     }
 }
 
-// Sobol numbers with a half, and on both diagonals of the square: there the disk has other ways.
+// Sobol numbers in the middle of the square, with a half, and on both diagonals: there the disk has
+// other ways.
 TEST(lamp_samples_in_lanes_take_the_seams_of_the_disk) {
     Random random(79);
     const Vec3 at{0, 0, 3};
     const PointLight lamp(at, {1, 1, 1}, {}, 1, {}, true);
-    for (const std::uint32_t sample : {3323653u, 17871133u, 26008033u}) {
+    struct Seam {
+        std::uint32_t sample, x, y; // number and seeds
+    };
+    for (const auto& [sample, x, y] : {Seam{0, 48784392, 12573123}, Seam{3323653, 2, 3},
+                                       Seam{17871133, 2, 3}, Seam{26008033, 2, 3}}) {
         for (const Kernel& kernel : allKernels()) {
             const LightBySamplesFn inLanes = kernel.supported() ? lightBySamples(kernel) : nullptr;
             if (!inLanes) continue;
@@ -242,9 +247,9 @@ TEST(lamp_samples_in_lanes_take_the_seams_of_the_disk) {
             point.material = {};
             SamplesOnLamp samples;
             samples.count = 1;
-            samples.index[0] = 1, samples.x[0] = 2, samples.y[0] = 3, samples.first[0] = sample;
+            samples.index[0] = 1, samples.x[0] = x, samples.y[0] = y, samples.first[0] = sample;
             const sobol::Pair<std::uint32_t> bits =
-                sobol::sobolPair<std::uint32_t>(sample, 1, 2, 3);
+                sobol::sobolPair<std::uint32_t>(sample, 1, x, y);
             const Vec2 u{unitFloat(bits.x), unitFloat(bits.y)};
             CHECK_INFO(u.x == 0.5f || u.y == 0.5f || u.x == u.y || u.x + u.y == 1, sample);
             LitBySamples out;

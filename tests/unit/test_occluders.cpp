@@ -14,8 +14,9 @@ ShapeSet scatter(Random& random, int count) {
     ShapeSet set;
     for (int i = 0; i < count; ++i) {
         const kit::Kind& kind = kit::kinds()[random.below(kit::kinds().size())];
-        const Vec3d factors{random.logUniform(0.05, 0.5), random.logUniform(0.05, 0.5),
-                            random.logUniform(0.05, 0.5)};
+        Vec3d factors{random.logUniform(0.05, 0.5), random.logUniform(0.05, 0.5),
+                      random.logUniform(0.05, 0.5)};
+        if (random.coin()) factors = Vec3d{1, 1, 1} * factors.x;
         set.add(kind.make(kit::placed(random, factors, random.inBox(0.6))),
                 random.chance(0.2) ? ShapeSet::Shadow::SeeThrough : ShapeSet::Shadow::Opaque);
     }
