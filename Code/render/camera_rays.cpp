@@ -57,6 +57,15 @@ void CameraRays::choosePlaces(const Tile& tile, int first, int count, SampleChun
     }
 }
 
+// The samples of a place follow each other.
+void CameraRays::chooseLensPlaces(int first, int count, SampleChunk& chunk) const {
+    const auto samples = static_cast<std::size_t>(count);
+    chunk.onLens.resize(chunk.ids.size());
+    for (std::size_t slot = 0; slot < chunk.ids.size(); slot += samples)
+        context_.sampler.get2D(chunk.ids[slot].pixel, static_cast<std::uint32_t>(first),
+                               kLensDimension, std::span(chunk.onLens).subspan(slot, samples));
+}
+
 void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk) const {
     const Camera& camera = context_.scene.camera();
     const Sampler& sampler = context_.sampler;
@@ -85,11 +94,12 @@ void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk
     }
     for (std::size_t i = 0; i < rays.size(); ++i) rays.stream[i] = chunk.ids[i].pixel;
     if (isPinhole) return;
+    if (hasLens) chooseLensPlaces(first, count, chunk);
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const SampleId id = chunk.ids[i];
         if (hasTime) rays.time[i] = sampler.get1D(id.pixel, id.index, kTimeDimension);
         Vec2 lens{0.5f, 0.5f};
-        if (hasLens) lens = sampler.get2D(id.pixel, id.index, kLensDimension);
+        if (hasLens) lens = chunk.onLens[i];
         const Ray ray = camera.ray(chunk.places[i], lens, rays.time[i]);
         rays.org[i] = ray.org;
         rays.dir[i] = ray.dir;

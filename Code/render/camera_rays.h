@@ -26,6 +26,7 @@ public:
 
 private:
     void choosePlaces(const Tile& tile, int first, int count, SampleChunk& chunk) const;
+    void chooseLensPlaces(int first, int count, SampleChunk& chunk) const;
 
     const IntegratorContext& context_;
     Filter filter_;

@@ -42,8 +42,14 @@ inline void addInOrderOfPoints(const Wave& wave) {
     memory.arrivalsInOrder.resize(memory.arrivals.size());
     for (const Arrival& arrival : memory.arrivals)
         memory.arrivalsInOrder[next[arrival.point]++] = arrival;
-    for (const Arrival& arrival : memory.arrivalsInOrder)
-        wave.add(wave.rays.sample[memory.points.ray[arrival.point]], arrival.light);
+    // Sums of a point's many arrivals stay in registers.
+    const std::vector<Arrival>& arrivals = memory.arrivalsInOrder;
+    for (std::size_t i = 0; i < arrivals.size();) {
+        const std::uint32_t point = arrivals[i].point, slot = wave.slotOf(point);
+        Rgb sum = wave.chunk.radiance[slot];
+        for (; i < arrivals.size() && arrivals[i].point == point; ++i) sum += arrivals[i].light;
+        wave.chunk.radiance[slot] = sum;
+    }
 }
 
 // Divides the points that answer lamps by the shape that they are on. False when there is nothing
@@ -106,7 +112,7 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
     const bool isInOrder = wave.depth == 0 || (lamps.size() == 1 && !isBySamples(lamps[0]));
     const auto arrive = [&](std::uint32_t k, Rgb light) {
         if (isInOrder)
-            wave.add(wave.rays.sample[points.ray[k]], light);
+            wave.add(wave.slotOf(k), light);
         else
             memory.arrivals.push_back({k, light});
     };
@@ -124,7 +130,7 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
         if (lamp.inLanes)
             waves::shineInLanes(wave, lamp, isGrouped, arrive);
         else if (isBySamples(lamp))
-            waves::shineBySamples(wave, lamp, arrive);
+            waves::shineBySamples(wave, lamp, isInOrder);
         else
             waves::shineOneByOne<kSoftLamps>(wave, lamp, isGrouped, arrive);
         waves::traceShadowRays<kSeeThrough>(wave, arrive);

@@ -122,41 +122,59 @@ inline SamplesOnLamp samplesOf(const Wave& wave, const Lamp& lamp, const LitBloc
     return samples;
 }
 
-// The same of such a lamp. A point's many shadow rays make it worth while to look at each point for
-// itself.
-template <class ArriveFn>
-void shineBySamples(const Wave& wave, const Lamp& lamp, ArriveFn&& arrive) {
+// What a lamp's samples s of one point do: fn(s, light) for those that are lit.
+template <class Fn>
+void forEachLit(const LitBySamples& by, std::size_t i, std::size_t count, Fn&& fn) {
+    for (std::size_t s = i * count; s < (i + 1) * count; ++s)
+        if (by.isLit(s)) fn(s, Rgb{by.light[0][s], by.light[1][s], by.light[2][s]});
+}
+
+inline void pushShadowRays(const Wave& wave, std::uint32_t k, const LitBySamples& by, std::size_t i,
+                           std::size_t count) {
+    RayBatch& rays = wave.memory.shadowRays;
+    const ShadedPoint& at = wave.memory.points.at[k];
+    const Vec3 org = leave(at.surface, at.lit.ng) + at.surface.lift;
+    const float time = wave.rays.time[wave.memory.points.ray[k]];
+    std::size_t lit = 0;
+    for (std::size_t s = i * count; s < (i + 1) * count; ++s) lit += by.isLit(s);
+    std::size_t to = rays.extend(lit);
+    forEachLit(by, i, count, [&](std::size_t s, Rgb light) {
+        rays.org[to] = org, rays.dir[to] = {by.dir[0][s], by.dir[1][s], by.dir[2][s]};
+        rays.tMin[to] = 0, rays.tMax[to] = by.tMax[s], rays.time[to] = time;
+        rays.sample[to] = k, rays.weight[to] = light;
+        ++to;
+    });
+}
+
+// forEachLampSample() of such a lamp. A point's many shadow rays make it worth while to look at
+// each point for itself.
+inline void shineBySamples(const Wave& wave, const Lamp& lamp, bool isInOrder) {
     WaveMemory& memory = wave.memory;
     const Occluders& occluders = wave.context.occluders;
     const bool canTell = wave.context.settings.specialise && occluders.canTell();
-    RayBatch& rays = memory.shadowRays;
     constexpr int kMost = LitBySamples::kMost;
     LitBySamples by;
     for (std::size_t b = 0; b * LitBlock::kPoints < memory.answering.size(); ++b) {
         const LitBlock& block = memory.litBlocks[b];
         const unsigned hidden = canTell ? lamp.mayBeHidden(occluders, block, *lamp.emission) : ~0u;
         for (int first = 0; first < lamp.samples; first += kMost) {
-            const int count = std::min(kMost, lamp.samples - first);
-            lamp.bySamples(*lamp.emission, block, samplesOf(wave, lamp, block, first, count), by);
-            const auto each = [&](std::size_t i, auto&& fn) {
-                const auto n = static_cast<std::size_t>(count);
-                for (std::size_t s = i * n; s < (i + 1) * n; ++s)
-                    if (by.isLit(s)) fn(s, Rgb{by.light[0][s], by.light[1][s], by.light[2][s]});
-            };
+            const int some = std::min(kMost, lamp.samples - first);
+            const auto count = static_cast<std::size_t>(some);
+            lamp.bySamples(*lamp.emission, block, samplesOf(wave, lamp, block, first, some), by);
             for (unsigned rest = block.used; rest != 0; rest &= rest - 1) {
                 const auto i = static_cast<std::size_t>(std::countr_zero(rest));
                 const std::uint32_t k = block.point[i];
-                if ((hidden >> i & 1) == 0) {
-                    each(i, [&](std::size_t, Rgb light) { arrive(k, light); });
-                    continue;
+                if ((hidden >> i & 1) != 0) {
+                    pushShadowRays(wave, k, by, i, count);
+                } else if (isInOrder) {
+                    Rgb sum = wave.chunk.radiance[wave.slotOf(k)];
+                    forEachLit(by, i, count, [&](std::size_t, Rgb light) { sum += light; });
+                    wave.chunk.radiance[wave.slotOf(k)] = sum;
+                } else {
+                    forEachLit(by, i, count, [&](std::size_t, Rgb light) {
+                        memory.arrivals.push_back({k, light});
+                    });
                 }
-                const ShadedPoint& at = memory.points.at[k];
-                const Vec3 org = leave(at.surface, at.lit.ng) + at.surface.lift;
-                const float time = wave.rays.time[memory.points.ray[k]];
-                each(i, [&](std::size_t s, Rgb light) {
-                    const Vec3 dir{by.dir[0][s], by.dir[1][s], by.dir[2][s]};
-                    rays.push({org, dir, 0, by.tMax[s], time}, k, light);
-                });
             }
         }
     }

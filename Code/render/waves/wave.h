@@ -14,4 +14,8 @@ struct Wave {
     RayCounts& counts;
 
     void add(std::uint32_t slot, Rgb radiance) const { chunk.radiance[slot] += radiance; }
+    // The slot of the sample that a point belongs to.
+    std::uint32_t slotOf(std::uint32_t point) const {
+        return rays.sample[memory.points.ray[point]];
+    }
 };
