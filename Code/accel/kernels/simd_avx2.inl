@@ -20,6 +20,13 @@ struct Ints {
     static Ints load(const std::uint32_t* p) {
         return _mm256_load_si256(reinterpret_cast<const __m256i*>(p));
     }
+    static Ints unaligned(const std::uint32_t* p) {
+        return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
+    }
+    static Ints from(std::uint32_t first) {
+        return _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(first)),
+                                _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+    }
     static Ints bytes(const std::uint8_t* p) {
         return _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
     }

@@ -19,6 +19,12 @@ struct Ints {
     Ints(__m512i a) : v(a) {}
     Ints(std::uint32_t a) : v(_mm512_set1_epi32(static_cast<int>(a))) {}
     static Ints load(const std::uint32_t* p) { return _mm512_load_si512(p); }
+    static Ints unaligned(const std::uint32_t* p) { return _mm512_loadu_si512(p); }
+    static Ints from(std::uint32_t first) { // first, first + 1, ...
+        const __m512i lane =
+            _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+        return _mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(first)), lane);
+    }
     static Ints bytes(const std::uint8_t* p) {
         return _mm512_cvtepu8_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(p)));
     }

@@ -24,6 +24,15 @@ struct Ints {
         const auto* v = reinterpret_cast<const __m128i*>(p);
         return {_mm_load_si128(v), _mm_load_si128(v + 1)};
     }
+    static Ints unaligned(const std::uint32_t* p) {
+        const auto* v = reinterpret_cast<const __m128i*>(p);
+        return {_mm_loadu_si128(v), _mm_loadu_si128(v + 1)};
+    }
+    static Ints from(std::uint32_t first) {
+        const __m128i all = _mm_set1_epi32(static_cast<int>(first));
+        return {_mm_add_epi32(all, _mm_setr_epi32(0, 1, 2, 3)),
+                _mm_add_epi32(all, _mm_setr_epi32(4, 5, 6, 7))};
+    }
     static Ints bytes(const std::uint8_t* p) {
         const __m128i all = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(p));
         return {_mm_cvtepu8_epi32(all), _mm_cvtepu8_epi32(_mm_srli_si128(all, 4))};
