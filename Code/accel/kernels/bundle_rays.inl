@@ -36,7 +36,9 @@ public:
         if (p == loaded_) return false;
         chooseAxis(p, std::countr_zero(left_[p]));
         unsigned chosen[kPackets];
-        for (int r = 0; r < loaded_; ++r) chosen[r] = left_[r] & slopes(r);
+        Extent xs, ys;
+        for (int r = 0; r < loaded_; ++r) chosen[r] = left_[r] & slopes(r, left_[r], xs, ys);
+        x = xs.range(), y = ys.range();
         if constexpr (Q == Query::Any) cutGaps(chosen);
         for (int r = 0; r < loaded_; ++r) left_[r] &= ~chosen[r];
         activate(chosen);
@@ -249,58 +251,69 @@ private:
         k = ray.k, kx = ray.kx, ky = ray.ky, sign = ray.sign;
     }
 
-    // Computes the slopes of a packet; returns the lanes of the chosen axis and sign.
-    unsigned slopes(int p) {
+    // Of slopes, lane by lane.
+    struct Extent {
+        Floats lo{kInfinityF}, hi{-kInfinityF};
+
+        void extend(Floats s, Mask lanes) {
+            lo = min(lo, select(lanes, s, Floats(kInfinityF)));
+            hi = max(hi, select(lanes, s, Floats(-kInfinityF)));
+        }
+        Range range() const { return {smallest(lo), largest(hi)}; }
+    };
+
+    // Computes the slopes of a packet; returns the lanes of the chosen axis and sign, and extends
+    // the extents by those of `wanted`.
+    unsigned slopes(int p, unsigned wanted, Extent& xs, Extent& ys) {
         const Floats d = Floats::load(dir_[k][p]), dx = Floats::load(dir_[kx][p]),
                      dy = Floats::load(dir_[ky][p]);
         const Floats size = abs(d);
         const Mask beatsX = kx < k ? size >= abs(dx) : size > abs(dx); // equal: z, then y, then x
         const Mask beatsY = ky < k ? size >= abs(dy) : size > abs(dy);
         const unsigned negative = bits(d < Floats(0.0f));
-        (dx / size).store(rawX_[p]);
-        (dy / size).store(rawY_[p]);
-        size.store(rawZ_[p]);
-        return bits(beatsX & beatsY) & (sign < 0 ? negative : ~negative);
+        const Floats sx = dx / size, sy = dy / size;
+        sx.store(rawX_[p]), sy.store(rawY_[p]), size.store(rawZ_[p]);
+        const unsigned chosen = bits(beatsX & beatsY) & (sign < 0 ? negative : ~negative);
+        const Mask on = maskOf(chosen & wanted);
+        xs.extend(sx, on), ys.extend(sy, on);
+        return chosen;
     }
 
     // Shadow rays of a tile end on surfaces far apart: while nearly half of the rectangle is an
     // empty stretch, the rays on the far side of it wait for the next round.
-    void cutGaps(unsigned* chosen) const {
+    void cutGaps(unsigned* chosen) {
         constexpr float kGap = 0.45f;
         for (int round = 0; round < 6; ++round) {
-            const auto gap = [&](const float(*raw)[W], float& middle) {
-                Floats lo(kInfinityF), hi(-kInfinityF);
-                for (int p = 0; p < loaded_; ++p) {
-                    const Mask m = maskOf(chosen[p]);
-                    const Floats s = Floats::load(raw[p]);
-                    lo = min(lo, select(m, s, Floats(kInfinityF)));
-                    hi = max(hi, select(m, s, Floats(-kInfinityF)));
-                }
-                const float first = smallest(lo), last = largest(hi);
-                middle = 0.5f * (first + last);
-                Floats under(-kInfinityF), over(kInfinityF);
-                for (int p = 0; p < loaded_; ++p) {
-                    const Mask m = maskOf(chosen[p]);
-                    const Floats s = Floats::load(raw[p]);
-                    const Mask upper = s > Floats(middle);
-                    over = min(over, select(m & upper, s, Floats(kInfinityF)));
-                    under = max(under, select(upper, under, select(m, s, under)));
-                }
-                const float width = smallest(over) - largest(under);
-                return width < kInfinityF && width > kGap * (last - first) ? width : 0.0f;
+            const float middleX = 0.5f * (x.lo + x.hi), middleY = 0.5f * (y.lo + y.hi);
+            Extent left, right, under, over;
+            for (int p = 0; p < loaded_; ++p) {
+                const Mask m = maskOf(chosen[p]);
+                const Floats sx = Floats::load(rawX_[p]), sy = Floats::load(rawY_[p]);
+                const Mask toRight = m & (sx > Floats(middleX)), up = m & (sy > Floats(middleY));
+                right.lo = min(right.lo, select(toRight, sx, Floats(kInfinityF)));
+                over.lo = min(over.lo, select(up, sy, Floats(kInfinityF)));
+                left.hi = max(left.hi, select(m & (sx <= Floats(middleX)), sx, Floats(-kInfinityF)));
+                under.hi = max(under.hi, select(m & (sy <= Floats(middleY)), sy, Floats(-kInfinityF)));
+            }
+            const auto gap = [&](const Extent& before, const Extent& behind, Range whole) {
+                const float width = smallest(behind.lo) - largest(before.hi);
+                return width < kInfinityF && width > kGap * (whole.hi - whole.lo) ? width : 0.0f;
             };
-            float middleX = 0, middleY = 0;
-            const float gapX = gap(rawX_, middleX), gapY = gap(rawY_, middleY);
+            const float gapX = gap(left, right, x), gapY = gap(under, over, y);
             if (gapX == 0 && gapY == 0) return;
             const auto* raw = gapX > gapY ? rawX_ : rawY_;
             const float middle = gapX > gapY ? middleX : middleY;
             int first = 0;
             while (chosen[first] == 0) ++first;
             const bool keepUpper = raw[first][std::countr_zero(chosen[first])] > middle;
+            Extent xs, ys;
             for (int p = 0; p < loaded_; ++p) {
                 const unsigned upper = bits(Floats::load(raw[p]) > Floats(middle));
                 chosen[p] &= keepUpper ? upper : ~upper;
+                const Mask m = maskOf(chosen[p]);
+                xs.extend(Floats::load(rawX_[p]), m), ys.extend(Floats::load(rawY_[p]), m);
             }
+            x = xs.range(), y = ys.range();
         }
     }
 
@@ -311,19 +324,11 @@ private:
 
     void activate(const unsigned* chosen) {
         packets = 0;
-        Floats xLo(kInfinityF), xHi(-kInfinityF), yLo(kInfinityF), yHi(-kInfinityF);
-        const Floats never(kInfinityF), least(-kInfinityF);
         for (int p = 0; p < loaded_; ++p) {
             if (chosen[p] == 0) continue;
-            const int q = packets++;
-            packet_[q] = p;
-            active[q] = chosen[p];
-            const Mask on = maskOf(chosen[p]);
-            const Floats sx = Floats::load(rawX_[p]), sy = Floats::load(rawY_[p]);
-            xLo = min(xLo, select(on, sx, never)), xHi = max(xHi, select(on, sx, least));
-            yLo = min(yLo, select(on, sy, never)), yHi = max(yHi, select(on, sy, least));
+            packet_[packets] = p;
+            active[packets++] = chosen[p];
         }
-        x = {smallest(xLo), largest(xHi)}, y = {smallest(yLo), largest(yHi)};
     }
 
     // Lanes without a ray ask what lane `spare` asks.
