@@ -13,8 +13,7 @@ public:
         float lo, hi;
     };
     struct Rect {
-        Range x, y; // padded, about the bundle's centre
-        float centreX, centreY, halfX, halfY;
+        Range x, y;
     };
 
     BundleRays(const WideMesh& mesh, const RaySpan& rays, Vec3 org)
@@ -48,7 +47,7 @@ public:
     // Behind nextRound(), for bundles that come near the mesh: the packets and their rectangles.
     void setUp() {
         leastBelow = kInfinityF;
-        Range xs[kPackets], ys[kPackets];
+        bool endless = true;
         for (int q = 0; q < packets; ++q) {
             const int p = packet_[q];
             const Mask on = maskOf(active[q]);
@@ -56,11 +55,11 @@ public:
             const auto spread = [&](const float(&raw)[W]) {
                 return select(on, Floats::load(raw), Floats(raw[first]));
             };
-            const Floats sx = spread(rawX_[p]), sy = spread(rawY_[p]), z = spread(rawZ_[p]);
-            sx.store(Sx[q]), sy.store(Sy[q]), z.store(dz[q]);
-            spread(dir_[kx][p]).store(dirX[q]), spread(dir_[ky][p]).store(dirY[q]);
-            setRange(p, q, on, first, z);
-            xs[q] = rangeOf(sx, on), ys[q] = rangeOf(sy, on);
+            const Floats sx = spread(rawX_[p]), sy = spread(rawY_[p]);
+            sx.store(Sx[q]), sy.store(Sy[q]);
+            endless &= setRange(p, q, on, first, spread(rawZ_[p]));
+            rects.xLo[q] = smallest(sx), rects.xHi[q] = largest(sx);
+            rects.yLo[q] = smallest(sy), rects.yHi[q] = largest(sy);
         }
         centreX = 0.5f * (x.lo + x.hi), centreY = 0.5f * (y.lo + y.hi);
         halfX = 0.5000001f * (x.hi - x.lo) + 1e-7f;
@@ -70,22 +69,27 @@ public:
         // What roughInverse() is off by at the rim of the rectangle, and a few roundings.
         const float rough = W == 16 ? 3e-4f : 2e-3f;
         const float padX = rough * halfX + 2e-6f, padY = rough * halfY + 2e-6f;
-        const auto padded = [](Range r, float centre, float pad) {
-            return Range{r.lo - centre - pad, r.hi - centre + pad};
-        };
+        for (int q = 0; q < packets; q += W) {
+            const auto place = [q](float* lo, float* hi, float* centre, float* half, float about,
+                                   float pad) {
+                const Floats least = Floats::load(lo + q), most = Floats::load(hi + q);
+                const Floats middle(about), room(pad), scale(0.5f);
+                (least - middle - room).store(lo + q), (most - middle + room).store(hi + q);
+                (scale * (least + most) - middle).store(centre + q);
+                (scale * (most - least) * Floats(1.00001f) + Floats(2e-6f)).store(half + q);
+            };
+            place(rects.xLo, rects.xHi, rects.centreX, rects.halfX, centreX, padX);
+            place(rects.yLo, rects.yHi, rects.centreY, rects.halfY, centreY, padY);
+            const Floats far = endless ? Floats(std::numeric_limits<float>::max())
+                                       : depthCuts(Floats::load(zFar + q));
+            far.store(zFar + q);
+        }
         for (int q = 0; q < packets; ++q) {
-            Rect& r = rect[q];
-            r.x = padded(xs[q], centreX, padX), r.y = padded(ys[q], centreY, padY);
-            sidesX_.lo[q] = r.x.lo, sidesX_.hi[q] = r.x.hi;
-            sidesY_.lo[q] = r.y.lo, sidesY_.hi[q] = r.y.hi;
-            r.centreX = 0.5f * (xs[q].lo + xs[q].hi) - centreX;
-            r.centreY = 0.5f * (ys[q].lo + ys[q].hi) - centreY;
-            r.halfX = 0.5f * (xs[q].hi - xs[q].lo) * 1.00001f + 2e-6f;
-            r.halfY = 0.5f * (ys[q].hi - ys[q].lo) * 1.00001f + 2e-6f;
             (Floats::load(Sx[q]) - Floats(centreX)).store(relX[q]);
             (Floats::load(Sy[q]) - Floats(centreY)).store(relY[q]);
         }
-        all.x = padded(x, centreX, padX), all.y = padded(y, centreY, padY);
+        all = {{x.lo - centreX - padX, x.hi - centreX + padX},
+               {y.lo - centreY - padY, y.hi - centreY + padY}};
     }
 
     // Misses for the rays that isTraceable() refuses.
@@ -170,14 +174,21 @@ public:
     std::uint32_t overlapping(Range xs, Range ys) const {
         std::uint32_t found = 0;
         for (int q = 0; q < packets; q += W) {
-            const auto meets = [&](const Sides& sides, Range range) {
-                return (Floats(range.lo) <= Floats::load(sides.hi + q)) &
-                       (Floats::load(sides.lo + q) <= Floats(range.hi));
+            const auto meets = [q](const float* lo, const float* hi, Range range) {
+                return (Floats(range.lo) <= Floats::load(hi + q)) &
+                       (Floats::load(lo + q) <= Floats(range.hi));
             };
-            found |= bits(meets(sidesX_, xs) & meets(sidesY_, ys)) << q;
+            found |= bits(meets(rects.xLo, rects.xHi, xs) & meets(rects.yLo, rects.yHi, ys)) << q;
         }
         return found;
     }
+
+    // Of all rays of a packet, active or not.
+    Floats lateralX(unsigned q) const { return Floats::load(dir_[kx][packet_[q]]); }
+    Floats lateralY(unsigned q) const { return Floats::load(dir_[ky][packet_[q]]); }
+    Floats depth(unsigned q) const { return Floats::load(rawZ_[packet_[q]]); }
+    // The largest key at which a ray of the packet has ended: KeyRange of shape/triangle_queries.h.
+    Floats keyAtEnd(unsigned q) const { return keyAbove(Floats::load(tMax[q]), depth(q)); }
 
     // ---- of the active rays; packets without any are left out
 
@@ -190,16 +201,18 @@ public:
     float slopeSum; // of the largest |Sx| and |Sy|
     int packets = 0;
     unsigned active[kPackets];
-    Rect rect[kPackets];
-    float zFar[kPackets]; // behind it no ray of the packet asks
+    struct alignas(64) Rects { // of the packets, padded, about the bundle's centre
+        float xLo[kPackets], xHi[kPackets], yLo[kPackets], yHi[kPackets];
+        float centreX[kPackets], centreY[kPackets], halfX[kPackets], halfY[kPackets];
+    } rects;
+    alignas(64) float zFar[kPackets]; // behind it no ray of the packet asks
     alignas(64) float Sx[kPackets][W];
-    float Sy[kPackets][W], dirX[kPackets][W], dirY[kPackets][W]; // lateral parts of the direction
-    float relX[kPackets][W], relY[kPackets][W], dz[kPackets][W]; // rel: to centre
+    float Sy[kPackets][W], relX[kPackets][W], relY[kPackets][W]; // rel: to centre
     float tMax[kPackets][W];
     // Keys that count are in (above, below), as t is in (tMin, tMax): KeyRange of
-    // shape/triangle_queries.h. Lanes without an active ray are copies of another one that nothing
-    // is near enough for.
-    float above[kPackets][W], below[kPackets][W];
+    // shape/triangle_queries.h. above is between these. Lanes without an active ray are copies of
+    // another one that nothing is near enough for.
+    float aboveLo[kPackets][W], aboveHi[kPackets][W], below[kPackets][W];
     float leastBelow;
 
 private:
@@ -292,8 +305,10 @@ private:
                 const Mask toRight = m & (sx > Floats(middleX)), up = m & (sy > Floats(middleY));
                 right.lo = min(right.lo, select(toRight, sx, Floats(kInfinityF)));
                 over.lo = min(over.lo, select(up, sy, Floats(kInfinityF)));
-                left.hi = max(left.hi, select(m & (sx <= Floats(middleX)), sx, Floats(-kInfinityF)));
-                under.hi = max(under.hi, select(m & (sy <= Floats(middleY)), sy, Floats(-kInfinityF)));
+                left.hi =
+                    max(left.hi, select(m & (sx <= Floats(middleX)), sx, Floats(-kInfinityF)));
+                under.hi =
+                    max(under.hi, select(m & (sy <= Floats(middleY)), sy, Floats(-kInfinityF)));
             }
             const auto gap = [&](const Extent& before, const Extent& behind, Range whole) {
                 const float width = smallest(behind.lo) - largest(before.hi);
@@ -317,11 +332,6 @@ private:
         }
     }
 
-    static Range rangeOf(Floats v, Mask lanes) {
-        return {smallest(select(lanes, v, Floats(kInfinityF))),
-                largest(select(lanes, v, Floats(-kInfinityF)))};
-    }
-
     void activate(const unsigned* chosen) {
         packets = 0;
         for (int p = 0; p < loaded_; ++p) {
@@ -331,8 +341,9 @@ private:
         }
     }
 
-    // Lanes without a ray ask what lane `spare` asks.
-    void setRange(int p, int q, Mask on, int spare, Floats z) {
+    // Lanes without a ray ask what lane `spare` asks. True when no ray has an end; zFar gets the
+    // key at the end of the last ray.
+    bool setRange(int p, int q, Mask on, int spare, Floats z) {
         Floats lo, hi;
         if (isFull(p)) {
             lo = Floats::unaligned(&rays_.tMin[list_[at(p, 0)]]);
@@ -346,16 +357,34 @@ private:
             lo = Floats::load(tLo), hi = Floats::load(tHi);
         }
         hi.store(tMax[q]);
-        Floats keyOver(0.0f), keyUnder(kInfinityF);
-        zFar[q] = depthCut(0);
+        const Floats zero(0.0f), never(kInfinityF);
+        Floats overLo(zero), overHi(zero), under(never);
+        zFar[q] = 0;
         // For most rays without an end (0, infinity), which takes long to compute.
-        if (bits((lo == Floats(0.0f)) & (hi == Floats(kInfinityF))) != (1u << W) - 1) {
-            keyOver = keyAbove(hi, z), keyUnder = keyBelow(lo, z);
-            zFar[q] = depthCut(smallest(keyOver));
-            leastBelow = ::min(smallest(keyUnder), leastBelow);
+        const bool endless = bits((lo == zero) & (hi == never)) == (1u << W) - 1;
+        if (!endless) {
+            boundsAtEnd(hi, z, overLo, overHi);
+            under = keyBelow(lo, z);
+            zFar[q] = smallest(overLo);
+            leastBelow = ::min(smallest(under), leastBelow);
         }
-        select(on, Q == Query::Any ? keyOver : Floats(0.0f), Floats(kInfinityF)).store(above[q]);
-        keyUnder.store(below[q]);
+        const bool any = Q == Query::Any;
+        select(on, any ? overLo : zero, never).store(aboveLo[q]);
+        select(on, any ? overHi : zero, never).store(aboveHi[q]);
+        under.store(below[q]);
+        return endless;
+    }
+
+    // keyAbove() is at most 5 units of rounding from 1 / (t z).
+    static void boundsAtEnd(Floats t, Floats z, Floats& lo, Floats& hi) {
+        const Floats zero(0.0f), never(kInfinityF);
+        const Floats key = Floats(1.0f) / (t * z);
+        const Mask normal = (key > Floats(1e-30f)) & (key < Floats(1e30f));
+        lo = select(normal, key * Floats(1 - 0x1p-21f), zero);
+        hi = select(normal, key * Floats(1 + 0x1p-21f), never);
+        const Mask endless = t == never, nothing = t <= zero;
+        lo = select(nothing, never, lo);
+        hi = select(endless, zero, hi);
     }
 
     const WideMesh& mesh_;
@@ -365,9 +394,6 @@ private:
     int loaded_ = 0; // packets
     unsigned traceable_[kPackets], left_[kPackets];
     int packet_[kPackets]; // of the active ones
-    struct alignas(64) Sides {
-        float lo[kPackets], hi[kPackets];
-    } sidesX_, sidesY_; // of the packets' rectangles
     alignas(64) float dir_[3][kPackets][W];
     float rawX_[kPackets][W], rawY_[kPackets][W], rawZ_[kPackets][W];
 };
