@@ -14,10 +14,16 @@ public:
         zTop_ = 0;
         unmet_ = 0;
         for (int q = 0; q < rays_.packets; ++q) {
-            Floats::load(rays_.aboveLo[q]).store(keyLo_[q]);
-            Floats::load(rays_.aboveHi[q]).store(keyHi_[q]);
-            Ints(kNowhere).store(place_[q]);
-            if constexpr (Q == Query::Any) missing_[q] = rays_.active[q];
+            if constexpr (Q == Query::Any) {
+                Floats::load(rays_.aboveLo[q]).store(keyLo_[q]);
+                Floats::load(rays_.aboveHi[q]).store(keyHi_[q]);
+                missing_[q] = rays_.active[q];
+            } else {
+                const Floats none =
+                    select(maskOf(rays_.active[q]), Floats(0.0f), Floats(kInfinityF));
+                none.store(keyLo_[q]), none.store(keyHi_[q]);
+                Ints(kNowhere).store(place_[q]);
+            }
             zTop_ = ::max(rays_.zFar[q], zTop_);
         }
     }

@@ -58,8 +58,6 @@ public:
             const Floats sx = spread(rawX_[p]), sy = spread(rawY_[p]);
             sx.store(Sx[q]), sy.store(Sy[q]);
             endless &= setRange(p, q, on, first, spread(rawZ_[p]));
-            rects.xLo[q] = smallest(sx), rects.xHi[q] = largest(sx);
-            rects.yLo[q] = smallest(sy), rects.yHi[q] = largest(sy);
         }
         centreX = 0.5f * (x.lo + x.hi), centreY = 0.5f * (y.lo + y.hi);
         halfX = 0.5000001f * (x.hi - x.lo) + 1e-7f;
@@ -70,18 +68,18 @@ public:
         const float rough = W == 16 ? 3e-4f : 2e-3f;
         const float padX = rough * halfX + 2e-6f, padY = rough * halfY + 2e-6f;
         for (int q = 0; q < packets; q += W) {
-            const auto place = [q](float* lo, float* hi, float* centre, float* half, float about,
-                                   float pad) {
-                const Floats least = Floats::load(lo + q), most = Floats::load(hi + q);
+            const auto place = [q](const float(*s)[W], float* lo, float* hi, float* centre,
+                                   float* half, float about, float pad) {
+                const Floats least = smallestOfRows(s + q), most = largestOfRows(s + q);
                 const Floats middle(about), room(pad), scale(0.5f);
                 (least - middle - room).store(lo + q), (most - middle + room).store(hi + q);
                 (scale * (least + most) - middle).store(centre + q);
                 (scale * (most - least) * Floats(1.00001f) + Floats(2e-6f)).store(half + q);
             };
-            place(rects.xLo, rects.xHi, rects.centreX, rects.halfX, centreX, padX);
-            place(rects.yLo, rects.yHi, rects.centreY, rects.halfY, centreY, padY);
+            place(Sx, rects.xLo, rects.xHi, rects.centreX, rects.halfX, centreX, padX);
+            place(Sy, rects.yLo, rects.yHi, rects.centreY, rects.halfY, centreY, padY);
             const Floats far = endless ? Floats(std::numeric_limits<float>::max())
-                                       : depthCuts(Floats::load(zFar + q));
+                                       : depthCuts(smallestOfRows(aboveLo + q));
             far.store(zFar + q);
         }
         for (int q = 0; q < packets; ++q) {
@@ -341,8 +339,7 @@ private:
         }
     }
 
-    // Lanes without a ray ask what lane `spare` asks. True when no ray has an end; zFar gets the
-    // key at the end of the last ray.
+    // Lanes without a ray ask what lane `spare` asks. True when no ray has an end.
     bool setRange(int p, int q, Mask on, int spare, Floats z) {
         Floats lo, hi;
         if (isFull(p)) {
@@ -359,18 +356,15 @@ private:
         hi.store(tMax[q]);
         const Floats zero(0.0f), never(kInfinityF);
         Floats overLo(zero), overHi(zero), under(never);
-        zFar[q] = 0;
         // For most rays without an end (0, infinity), which takes long to compute.
         const bool endless = bits((lo == zero) & (hi == never)) == (1u << W) - 1;
         if (!endless) {
             boundsAtEnd(hi, z, overLo, overHi);
             under = keyBelow(lo, z);
-            zFar[q] = smallest(overLo);
             leastBelow = ::min(smallest(under), leastBelow);
         }
-        const bool any = Q == Query::Any;
-        select(on, any ? overLo : zero, never).store(aboveLo[q]);
-        select(on, any ? overHi : zero, never).store(aboveHi[q]);
+        select(on, overLo, never).store(aboveLo[q]);
+        select(on, overHi, never).store(aboveHi[q]);
         under.store(below[q]);
         return endless;
     }

@@ -12,7 +12,7 @@ inline RayColumns loadRays(const RaySpan& rays, const std::uint32_t* order, std:
                            std::uint32_t (&ray)[W]) {
     RayColumns c;
     if (count == W)
-        std::memcpy(ray, order, sizeof ray);
+        std::copy_n(order, W, ray);
     else
         for (std::uint32_t i = 0; i < W; ++i) ray[i] = order[i < count ? i : 0];
     c.inARow = count == W && bits(Ints::unaligned(order) == Ints::from(order[0])) == (1u << W) - 1;

@@ -154,6 +154,24 @@ inline float smallest(Floats a) {
 }
 inline float largest(Floats a) { return -smallest(Floats(0.0f) - a); }
 
+template <bool Largest> inline Floats foldRows(const float (*rows)[W]) {
+    const auto fold = [&](__m256 a, __m256 b) {
+        return Largest ? _mm256_max_ps(a, b) : _mm256_min_ps(a, b);
+    };
+    __m256 two[4];
+    for (int i = 0; i < 4; ++i) {
+        const __m256 a = _mm256_load_ps(rows[i]), b = _mm256_load_ps(rows[i + 4]);
+        two[i] = fold(_mm256_permute2f128_ps(a, b, 0x20), _mm256_permute2f128_ps(a, b, 0x31));
+    }
+    const auto four = [&](__m256 a, __m256 b) {
+        return fold(_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
+    };
+    const __m256 a = four(two[0], two[1]), b = four(two[2], two[3]);
+    return fold(_mm256_shuffle_ps(a, b, 0x44), _mm256_shuffle_ps(a, b, 0xee));
+}
+inline Floats smallestOfRows(const float (*rows)[W]) { return foldRows<false>(rows); }
+inline Floats largestOfRows(const float (*rows)[W]) { return foldRows<true>(rows); }
+
 inline void loadVectors(const float* p, Floats& x, Floats& y, Floats& z) {
     const auto halves = [&](int at) { // 4 floats of the first 4 vectors and 4 of the others
         return _mm256_set_m128(_mm_loadu_ps(p + at + 12), _mm_loadu_ps(p + at));

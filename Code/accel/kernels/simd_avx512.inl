@@ -138,6 +138,29 @@ inline Doubles select(Mask m, const Doubles& a, const Doubles& b) {
 inline float smallest(Floats a) { return _mm512_reduce_min_ps(a.v); }
 inline float largest(Floats a) { return _mm512_reduce_max_ps(a.v); }
 
+// Lane i is the smallest or largest number of row i.
+template <bool Largest> inline Floats foldRows(const float (*rows)[W]) {
+    const auto fold = [&](__m512 a, __m512 b) {
+        return Largest ? _mm512_max_ps(a, b) : _mm512_min_ps(a, b);
+    };
+    __m512 two[8], four[4];
+    for (int i = 0; i < 8; ++i) { // two rows to a register, and so on
+        const __m512 a = _mm512_load_ps(rows[i]), b = _mm512_load_ps(rows[i + 8]);
+        two[i] = fold(_mm512_shuffle_f32x4(a, b, 0x44), _mm512_shuffle_f32x4(a, b, 0xee));
+    }
+    for (int i = 0; i < 4; ++i)
+        four[i] = fold(_mm512_shuffle_f32x4(two[i], two[i + 4], 0x88),
+                       _mm512_shuffle_f32x4(two[i], two[i + 4], 0xdd));
+    const auto eight = [&](__m512 a, __m512 b) {
+        return fold(_mm512_unpacklo_ps(a, b), _mm512_unpackhi_ps(a, b));
+    };
+    const __m512 a = eight(four[0], four[1]), b = eight(four[2], four[3]);
+    const __m512 all = fold(_mm512_shuffle_ps(a, b, 0x44), _mm512_shuffle_ps(a, b, 0xee));
+    return _mm512_shuffle_f32x4(all, all, _MM_SHUFFLE(3, 1, 2, 0));
+}
+inline Floats smallestOfRows(const float (*rows)[W]) { return foldRows<false>(rows); }
+inline Floats largestOfRows(const float (*rows)[W]) { return foldRows<true>(rows); }
+
 // x, y, z of W vectors that follow each other.
 inline void loadVectors(const float* p, Floats& x, Floats& y, Floats& z) {
     const __m512 a = _mm512_loadu_ps(p), b = _mm512_loadu_ps(p + 16), c = _mm512_loadu_ps(p + 32);

@@ -219,6 +219,26 @@ inline float smallest(Floats a) {
 }
 inline float largest(Floats a) { return -smallest(Floats(0.0f) - a); }
 
+template <bool Largest> inline Floats foldRows(const float (*rows)[W]) {
+    const auto fold = [&](__m128 a, __m128 b) {
+        return Largest ? _mm_max_ps(a, b) : _mm_min_ps(a, b);
+    };
+    const auto half = [&](int first) {
+        const auto row = [&](int i) {
+            const float* const p = rows[first + i];
+            return fold(_mm_load_ps(p), _mm_load_ps(p + 4));
+        };
+        const auto two = [&](__m128 a, __m128 b) {
+            return fold(_mm_unpacklo_ps(a, b), _mm_unpackhi_ps(a, b));
+        };
+        const __m128 a = two(row(0), row(1)), b = two(row(2), row(3));
+        return fold(_mm_movelh_ps(a, b), _mm_movehl_ps(b, a));
+    };
+    return {half(0), half(4)};
+}
+inline Floats smallestOfRows(const float (*rows)[W]) { return foldRows<false>(rows); }
+inline Floats largestOfRows(const float (*rows)[W]) { return foldRows<true>(rows); }
+
 inline void loadVectors(const float* p, Floats& x, Floats& y, Floats& z) {
     const auto four = [](const float* q, __m128& u, __m128& v, __m128& w) {
         const __m128 a = _mm_loadu_ps(q), b = _mm_loadu_ps(q + 4), c = _mm_loadu_ps(q + 8);
