@@ -89,6 +89,7 @@ inline Floats fms(Floats a, Floats b, Floats c) {
 inline Floats min(Floats a, Floats b) { return _mm256_min_ps(a.v, b.v); }
 inline Floats max(Floats a, Floats b) { return _mm256_max_ps(a.v, b.v); }
 inline Floats abs(Floats a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v); }
+inline Floats maxAbs(Floats a, Floats b) { return max(abs(a), abs(b)); }
 inline Floats flipSign(Floats a, Floats by) {
     return _mm256_xor_ps(a.v, _mm256_and_ps(by.v, _mm256_set1_ps(-0.0f)));
 }

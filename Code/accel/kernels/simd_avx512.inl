@@ -89,6 +89,7 @@ inline Floats fms(Floats a, Floats b, Floats c) {
 inline Floats min(Floats a, Floats b) { return _mm512_min_ps(a.v, b.v); }
 inline Floats max(Floats a, Floats b) { return _mm512_max_ps(a.v, b.v); }
 inline Floats abs(Floats a) { return _mm512_abs_ps(a.v); }
+inline Floats maxAbs(Floats a, Floats b) { return _mm512_range_ps(a.v, b.v, 0b1011); }
 inline Floats flipSign(Floats a, Floats by) {
     return _mm512_xor_ps(a.v, _mm512_and_ps(by.v, _mm512_set1_ps(-0.0f)));
 }

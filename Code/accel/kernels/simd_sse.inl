@@ -123,6 +123,7 @@ inline Floats abs(Floats a) {
     const __m128 sign = _mm_set1_ps(-0.0f);
     return {_mm_andnot_ps(sign, a.lo), _mm_andnot_ps(sign, a.hi)};
 }
+inline Floats maxAbs(Floats a, Floats b) { return max(abs(a), abs(b)); }
 inline Floats flipSign(Floats a, Floats by) {
     const __m128 sign = _mm_set1_ps(-0.0f);
     return {_mm_xor_ps(a.lo, _mm_and_ps(by.lo, sign)), _mm_xor_ps(a.hi, _mm_and_ps(by.hi, sign))};
