@@ -24,7 +24,7 @@ protected:
         lanes &= lanes_.entering(tree_.boxes[place], zCut_, entry);
         if (lanes == 0) return;
         if (solid.kind == SolidTree::Kind::Sphere)
-            sphere<A>(solid, tree_.spheres[solid.part], entry, lanes, results);
+            sphere<A>(solid, entry, lanes, results);
         else if (solid.kind == SolidTree::Kind::Facets)
             facets(solid, tree_.facets[solid.part], entry, lanes, results);
         else if (solid.kind == SolidTree::Kind::Tube)
@@ -70,19 +70,18 @@ private:
 
     // Sphere::roots() and insideRound().
     template <Answer A, class Result>
-    void sphere(const SolidTree::Solid& solid, const SolidTree::Sphere& sphere, Floats entry,
-                unsigned lanes, Result* results) {
-        const auto& m = sphere.exact.objectFromWorld;
+    void sphere(const SolidTree::Solid& solid, Floats entry, unsigned lanes, Result* results) {
+        const AffineRows& m = solid.sphere->objectFromWorld();
         const Doubles X(columns_.org[0]), Y(columns_.org[1]), Z(columns_.org[2]),
             U(columns_.dir[0]), V(columns_.dir[1]), T(columns_.dir[2]);
         const auto times = [&](std::size_t i, const Doubles& x) { return Doubles(m[i]) * x; };
         // A zero of the map adds a zero, which changes no number.
         const auto point = [&](std::size_t i, const Doubles& along) {
-            if (!sphere.turned) return along + Doubles(m[i + 3]);
+            if (!solid.turned) return along + Doubles(m[i + 3]);
             return ((times(i, X) + times(i + 1, Y)) + times(i + 2, Z)) + Doubles(m[i + 3]);
         };
         const auto direction = [&](std::size_t i, const Doubles& along) {
-            if (!sphere.turned) return along;
+            if (!solid.turned) return along;
             return (times(i, U) + times(i + 1, V)) + times(i + 2, T);
         };
         const Doubles ox = point(0, times(0, X)), oy = point(4, times(5, Y)),
@@ -93,7 +92,7 @@ private:
         const Doubles along = od / dd;
         const Doubles px = ox - dx * along, py = oy - dy * along, pz = oz - dz * along;
         const Doubles ll = (px * px + py * py) + pz * pz;
-        const double radius = sphere.exact.radius;
+        const double radius = solid.sphere->radius;
         const Doubles rr(radius * radius);
         lanes &= atMost(ll, rr);
         if (lanes == 0 || !(radius > 0)) return;

@@ -26,7 +26,7 @@ protected:
 
     // AnalyticShape::rootsOf() with Cylinder::roots() or Cone::roots(), operation by operation.
     TubeRoots meet(const StillTube& tube) const {
-        const TubeRays rays = mapped(tube.objectFromWorld);
+        const TubeRays rays = mapped(tube.shape->objectFromWorld());
         const auto& [ox, oy, oz, dx, dy, dz] = rays;
         const Doubles zero(0.0), one(1.0), most(std::numeric_limits<double>::max());
         WallRange wall =
