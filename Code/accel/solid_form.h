@@ -44,13 +44,20 @@ struct StillTube {
     enum Part : std::uint32_t { Wall, Bottom, Top }; // Hit::prim
 };
 
+// z = 0 of an object space that does not move, without end. A kernel that meets it repeats the
+// formulas of shape/infinite_plane.cpp.
+struct StillPlane {
+    AffineRows objectFromWorld;
+};
+
 struct SolidForm {
     RoundHull hull;
     // The shape is a sphere about the origin of its object space. A kernel that meets it repeats
     // the formulas of shape/sphere.cpp.
     const StillShape* sphere = nullptr;
-    std::optional<Facets> facets{};  // or these
-    std::optional<StillTube> tube{}; // or this one
+    std::optional<Facets> facets{};    // or these
+    std::optional<StillTube> tube{};   // or this one
+    std::optional<StillPlane> plane{}; // or this one, the only form without end
 };
 
 inline RoundHull ballAround(const BoundsD& box) {

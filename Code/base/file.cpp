@@ -61,6 +61,8 @@ private:
 void writeBytes(const std::string& path, const std::string& fileName, const ByteSource& produce) {
     File file(std::fopen(path.c_str(), "wb"));
     if (!file) failWriting(fileName, errno);
+    // Pieces are large: gathering them in a buffer would only copy them.
+    static_cast<void>(std::setvbuf(file.get(), nullptr, _IONBF, 0));
     produce([&](std::span<const std::uint8_t> bytes) {
         if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
             failWriting(fileName, errno);

@@ -32,7 +32,12 @@ void ShapeSet::add(std::unique_ptr<const Shape> shape, Shadow shadow) {
 }
 
 void ShapeSet::finish(bool withBvh, const Kernel& kernel, int threads) {
-    if (withBvh) kernel_ = solidKernel(kernel);
+    if (withBvh) kernel_ = solidKernel(kernel), planeKernel_ = planeKernel(kernel);
+    for (const std::uint32_t number : unbounded)
+        if (const auto form = shapes[number]->solidForm(); form.plane && planeKernel_)
+            floors_.push_back({*form.plane, number});
+        else
+            askedAlone_.push_back(number);
     isBatched_.assign(shapes.size(), 0);
     for (const std::uint32_t number : bounded) {
         if (!shapes[number]->takesBatches() || (kernel_ && shapes[number]->solidForm().facets))
@@ -141,13 +146,7 @@ void ShapeSet::closest(const RaySpan& rays, std::vector<Hit>& hits) const {
     hits.resize(rays.size());
     for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = {.t = rays.tMax[i]};
     if (!batched.empty()) closestOfBatched(rays, hits);
-    if (!unbounded.empty()) {
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            const Ray ray = rays[i];
-            if (!canHit(ray)) continue;
-            for (const std::uint32_t number : unbounded) nearer(ray, number, 0, hits[i]);
-        }
-    }
+    if (!unbounded.empty()) closestOfUnbounded(rays, hits);
     if (bounded.size() == batched.size()) return;
     if (kernel_) {
         const SolidCalls calls{
@@ -200,16 +199,7 @@ bool ShapeSet::occluded(const Ray& ray) const {
 void ShapeSet::occluded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const {
     hidden.assign(rays.size(), 0);
     if (!batched.empty()) hideByBatched(rays, hidden);
-    const auto isOpaque = [&](std::uint32_t number) { return shadows[number] == Shadow::Opaque; };
-    if (!unbounded.empty()) {
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            const Ray ray = rays[i];
-            if (hidden[i] != 0 || !canHit(ray)) continue;
-            hidden[i] = std::any_of(unbounded.begin(), unbounded.end(), [&](std::uint32_t number) {
-                return isOpaque(number) && shapes[number]->occludes(ray);
-            });
-        }
-    }
+    if (!unbounded.empty()) hideByUnbounded(rays, hidden);
     if (bounded.size() == batched.size()) return;
     if (kernel_) {
         const SolidCalls calls{
@@ -234,6 +224,36 @@ void ShapeSet::hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hid
         if (shadows[number] != Shadow::Opaque) continue;
         shapes[number]->occludesBatch(rays, found);
         for (std::size_t i = 0; i < rays.size(); ++i) hidden[i] |= found[i];
+    }
+}
+
+void ShapeSet::closestOfUnbounded(const RaySpan& rays, std::vector<Hit>& hits) const {
+    thread_local std::vector<PlaneHit> found;
+    found.resize(std::max(found.size(), rays.size()));
+    for (const Floor& floor : floors_) {
+        const std::size_t count = planeKernel_->closest(floor.plane, rays, hits, found.data());
+        for (const PlaneHit& at : std::span(found).first(count))
+            takeNearer(rays[at.ray], {.t = at.t, .u = at.u}, floor.number, 0, hits[at.ray]);
+    }
+    if (askedAlone_.empty()) return;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Ray ray = rays[i];
+        if (!canHit(ray)) continue;
+        for (const std::uint32_t number : askedAlone_) nearer(ray, number, 0, hits[i]);
+    }
+}
+
+void ShapeSet::hideByUnbounded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const {
+    const auto isOpaque = [&](std::uint32_t number) { return shadows[number] == Shadow::Opaque; };
+    for (const Floor& floor : floors_)
+        if (isOpaque(floor.number)) planeKernel_->any(floor.plane, rays, hidden.data());
+    if (askedAlone_.empty()) return;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Ray ray = rays[i];
+        if (hidden[i] != 0 || !canHit(ray)) continue;
+        hidden[i] = std::any_of(askedAlone_.begin(), askedAlone_.end(), [&](std::uint32_t number) {
+            return isOpaque(number) && shapes[number]->occludes(ray);
+        });
     }
 }
 

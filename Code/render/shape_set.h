@@ -3,6 +3,7 @@
 #pragma once
 
 #include "accel/bvh.h"
+#include "accel/kernels/planes.h"
 #include "accel/kernels/solids.h"
 #include "render/placed_meshes.h"
 #include "shape/mesh_geometry.h"
@@ -66,10 +67,20 @@ private:
     void buildBatchTrees(const Kernel& kernel, int threads);
     void closestOfBatched(const RaySpan& rays, std::vector<Hit>& hits) const;
     void hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;
+    void closestOfUnbounded(const RaySpan& rays, std::vector<Hit>& hits) const;
+    void hideByUnbounded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;
 
     std::vector<std::uint8_t> isBatched_; // by shape
     std::vector<std::uint32_t> inTree_;   // shapes by their number in the tree
-    const SolidKernel* kernel_ = nullptr; // null: the scalar code answers
-    SolidTree solids_;                    // the shapes of the tree that are no instances
-    PlacedMeshes placed_;                 // those that are
+    // The unbounded shapes: planes of the kernel, and those that are asked ray by ray.
+    struct Floor {
+        StillPlane plane;
+        std::uint32_t number;
+    };
+    std::vector<Floor> floors_;
+    std::vector<std::uint32_t> askedAlone_;
+    const PlaneKernel* planeKernel_ = nullptr; // null: the scalar code answers
+    const SolidKernel* kernel_ = nullptr;      // the same
+    SolidTree solids_;                         // the shapes of the tree that are no instances
+    PlacedMeshes placed_;                      // those that are
 };

@@ -32,6 +32,7 @@ AnalyticShape::AnalyticShape(const MovingTransform& worldFromObject, std::uint32
     : still_{.worldFromObject = worldFromObject.keys().front(),
              .radius = radius,
              .material = material,
+             .oddMaterial = material,
              .object = object} {
     if (!worldFromObject.isStatic())
         motion_ = std::make_unique<const MovingTransform>(worldFromObject);
@@ -69,7 +70,8 @@ SolidForm AnalyticShape::tubeForm(double radius) const {
 void AnalyticShape::measure(StillShape::Round round, std::uint32_t part) {
     if (!isStill()) return;
     still_ = stillUnder(still_.worldFromObject);
-    if (!(still_.leastError < kInfinity) || still_.worldFromObject.isSingular()) return;
+    const bool wantsEnd = round != StillShape::Round::Plane;
+    if (still_.hasEnd != wantsEnd || still_.worldFromObject.isSingular()) return;
     still_.round = round, still_.part = part;
 }
 
@@ -77,8 +79,9 @@ StillShape AnalyticShape::stillUnder(const Transform& worldFromObject) const {
     const BoundsD box = boxUnder(worldFromObject);
     StillShape shape = still_;
     shape.worldFromObject = worldFromObject;
+    shape.hasEnd = box.isFinite();
     // The reach of a ray along the surface.
-    shape.leastError = box.isFinite() ? kFloatUlp * length(box.size()) : kInfinity;
+    shape.leastError = kFloatUlp * (shape.hasEnd ? length(box.size()) : kSceneReach);
     shape.errorPerPlace =
         0x1p-48 * amplification(worldFromObject.rows(), worldFromObject.inverseRows());
     return shape;
@@ -154,9 +157,7 @@ Surface AnalyticShape::surfaceOf(const StillShape& shape, const Ray& ray, const 
     const double t = static_cast<double>(hit.t) + static_cast<double>(hit.u);
     const Vec3d seen = toDouble(ray).at(t);
 
-    const double leastError = shape.leastError < kInfinity
-                                  ? shape.leastError
-                                  : kFloatUlp * (kSceneReach * max(1.0, maxAbs(seen)));
+    const double leastError = shape.leastError * (shape.hasEnd ? 1 : max(1.0, maxAbs(seen)));
     const double fixedError =
         leastError + shape.errorPerPlace * (maxAbs(seen) + maxAbs(worldFromObject.translation()));
     // Twice the largest error that any normal can give.

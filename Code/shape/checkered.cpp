@@ -4,7 +4,12 @@
 #include <utility>
 
 Checkered::Checkered(std::unique_ptr<const Shape> shape, std::uint32_t otherMaterial)
-    : shape_(std::move(shape)), otherMaterial_(otherMaterial) {}
+    : shape_(std::move(shape)), otherMaterial_(otherMaterial) {
+    const StillShape* const inLanes = shape_->roundToShade();
+    if (inLanes == nullptr || inLanes->round != StillShape::Round::Plane) return;
+    inLanes_ = *inLanes;
+    inLanes_->oddMaterial = otherMaterial;
+}
 
 Surface Checkered::surface(const Ray& ray, const Hit& hit) const {
     Surface surface = shape_->surface(ray, hit);

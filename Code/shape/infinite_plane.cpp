@@ -5,7 +5,13 @@
 InfinitePlane::InfinitePlane(MovingTransform worldFromObject, std::uint32_t material,
                              std::uint32_t object)
     : AnalyticShape(std::move(worldFromObject), material, object) {
-    measure();
+    measure(StillShape::Round::Plane);
+}
+
+SolidForm InfinitePlane::solidForm() const {
+    SolidForm form;
+    if (isStill()) form.plane = StillPlane{still().objectFromWorld()};
+    return form;
 }
 
 AnalyticShape::Roots InfinitePlane::roots(const RayD& ray) const {

@@ -7,6 +7,7 @@ class InfinitePlane final : public AnalyticShape {
 public:
     InfinitePlane(MovingTransform worldFromObject, std::uint32_t material, std::uint32_t object);
     bool hidesFromItself(bool) const override { return false; } // flat
+    SolidForm solidForm() const override;
 
 private:
     Roots roots(const RayD& ray) const override;

@@ -5,10 +5,11 @@
 OneSided::OneSided(std::unique_ptr<const Shape> shape, Side visible)
     : shape_(std::move(shape)), visible_(visible) {}
 
-// Of spheres the kernels know no sides.
+// Of spheres and planes the kernels know no sides.
 SolidForm OneSided::solidForm() const {
     SolidForm form = shape_->solidForm();
     form.sphere = nullptr;
+    form.plane.reset();
     const auto restrict = [&](auto& part) {
         if (!part) return;
         if (part->side != Facets::Side::Both) return part.reset();

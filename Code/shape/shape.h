@@ -86,7 +86,7 @@ public:
     // may be seen. False: nothing.
     virtual bool seesHit(const Ray& /*ray*/, float /*tMax*/, Hit& /*hit*/) const { return true; }
 
-    // What helps a kernel to find candidates; not asked of unbounded shapes.
+    // What helps a kernel to find candidates; the hull is not asked for of unbounded shapes.
     virtual SolidForm solidForm() const { return {ballAround(toDouble(bounds())), {}}; }
 
     // Does the ray come from the outside of the surface at this hit?

@@ -1,19 +1,16 @@
 #!/usr/bin/env python3
-"""Whole pictures against POV-Ray 3.7 (Debian: povray), one thread, one ray per pixel:
+"""Whole pictures against POV-Ray 3.7 (Debian: povray), one thread:
     povray.py RAYTRACER [SCENE[:SIZE]...] [--resolution WxH] [--runs N] [--keep FOLDER]
-Writes every scene as NFF and as POV-Ray's text, renders both in turn and prints, tab-separated, the
-median seconds of the whole processes (start, reading, rendering, writing a PNG) on the clock and of the
+Writes every scene as NFF or, where that can't say it, as native text, and as POV-Ray's text, renders
+both in turn and prints, tab-separated, the median seconds of the whole processes (start, reading, rendering, writing a PNG) on the clock and of the
 processor (POV-Ray also waits for itself), their ratios, and how far the pictures differ (mean absolute difference of a channel, of 255). Needs only python3."""
 import argparse, os, resource, shutil, subprocess, sys, tempfile, time
 sys.dont_write_bytecode = True
+from pov_scenes import VIEWS, numbers, vector, write_native, write_pov as write_view_pov
 from spd_scenes import SCENES, Cone, Polygon, Sphere, cross, mul, sub, unit
 import math
 
 DEPTH = 4  # bounces after the camera ray; POV-Ray counts that one, too
-
-
-def numbers(v): return ' '.join('%.9g' % x for x in v)
-def vector(v): return '<' + ','.join('%.9g' % x for x in v) + '>'
 
 
 def write_nff(scene, width, height, out):
@@ -72,6 +69,21 @@ def write_pov(scene, width, height, out):
         out.write('texture { %s } }\n' % name)
 
 
+def written(name, size, path, resolution):
+    """The scene, the file of it that is ours, its samples per pixel, and how large its picture is."""
+    pixels = resolution and tuple(map(int, resolution.split('x')))
+    if name in VIEWS:
+        view = VIEWS[name](size) if size else VIEWS[name]()
+        if pixels: view = view._replace(width=pixels[0], height=pixels[1])
+        write_native(view, path)
+        write_view_pov(view, path)
+        return view, path + '.txt', view.samples, (view.width, view.height)
+    scene, pixels = SCENES[name](int(size)) if size else SCENES[name](), pixels or (512, 512)
+    with open(path + '.nff', 'w') as out: write_nff(scene, *pixels, out)
+    with open(path + '.pov', 'w') as out: write_pov(scene, *pixels, out)
+    return scene, path + '.nff', 1, pixels
+
+
 def seconds(command):
     """Of the whole process: on the clock, and of the processor, which a busy machine changes less."""
     start, before = time.perf_counter(), resource.getrusage(resource.RUSAGE_CHILDREN)
@@ -92,26 +104,26 @@ def difference(raytracer, a, b):
 def main():
     args = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     args.add_argument('raytracer')
-    args.add_argument('scenes', nargs='*', metavar='SCENE[:SIZE]', help='of ' + ', '.join(SCENES))
-    args.add_argument('--resolution', default='512x512', metavar='WxH')
+    args.add_argument('scenes', nargs='*', metavar='SCENE[:SIZE]',
+                      help='of %s; mesh:FILE.obj shows that file' % ', '.join([*SCENES, *VIEWS]))
+    args.add_argument('--resolution', metavar='WxH', help="512x512, or the scene's own")
     args.add_argument('--runs', type=int, default=5)
     args.add_argument('--keep', metavar='FOLDER', help='scenes and pictures stay there')
     args = args.parse_args()
     povray = shutil.which('povray')
     if not povray: sys.exit('povray.py: there is no povray here; Debian has it as the package povray')
-    width, height = map(int, args.resolution.split('x'))
     print('scene\titems\tours_s\tpovray_s\tratio\tours_cpu_s\tpovray_cpu_s\tcpu_ratio\tdifference', flush=True)
     with tempfile.TemporaryDirectory() as folder:
         folder = args.keep or folder
         os.makedirs(folder, exist_ok=True)
-        for word in args.scenes or SCENES:
+        for word in args.scenes or [*SCENES, *VIEWS]:
             name, _, size = word.partition(':')
-            if name not in SCENES: sys.exit('povray.py: no scene %s; known: %s' % (name, ', '.join(SCENES)))
-            scene = SCENES[name](int(size)) if size else SCENES[name]()
-            path = os.path.join(folder, name + size)
-            with open(path + '.nff', 'w') as out: write_nff(scene, width, height, out)
-            with open(path + '.pov', 'w') as out: write_pov(scene, width, height, out)
-            ours = [args.raytracer, path + '.nff', path + '.png', '--no-aa', '--threads', '1', '--quiet']
+            if name not in SCENES and name not in VIEWS:
+                sys.exit('povray.py: no scene %s; known: %s' % (name, ', '.join([*SCENES, *VIEWS])))
+            path = os.path.join(folder, name + os.path.basename(size))
+            scene, file, samples, (width, height) = written(name, size, path, args.resolution)
+            ours = [args.raytracer, file, path + '.png', '--threads', '1', '--quiet']
+            if samples == 1: ours.append('--no-aa')
             theirs = [povray, '+I%s.pov' % path, '+O%s_pov.png' % path, '+W%d' % width, '+H%d' % height,
                       '-D', '-A', '+WT1', '+FN8', 'File_Gamma=srgb', '-GA']
             times = [seconds(ours) + seconds(theirs) for _ in range(args.runs)]

@@ -1,8 +1,10 @@
-// Surfaces of many hits on spheres and cylinders: every kernel gives the bits of asking hit by hit,
-// whichever rays of the batch have met which shape.
+// Surfaces of many hits on spheres, cylinders and planes: every kernel gives the bits of asking hit
+// by hit, whichever rays of the batch have met which shape.
 #include "analytic_kit.h"
 #include "check.h"
+#include "shape/checkered.h"
 #include "shape/cylinder.h"
+#include "shape/infinite_plane.h"
 
 #include <algorithm>
 #include <bit>
@@ -24,7 +26,7 @@ bool sameBits(const Surface& a, const Surface& b) {
            a.rayError == b.rayError && a.lift == b.lift;
 }
 
-using Shapes = std::vector<std::unique_ptr<const AnalyticShape>>;
+using Shapes = std::vector<std::unique_ptr<const Shape>>;
 
 // Rays from one point or from many, outside of the shapes or in them, each at one of them; some
 // miss, by `missing` of them, so that those that hit have gaps. Shapes change from ray to ray, or
@@ -63,11 +65,13 @@ std::size_t checkShapes(const Shapes& shapes, const std::vector<Transform>& maps
         if (!kernel.supported() || lanes == nullptr) continue;
         std::vector<std::pair<int, Surface>> out(hits.size());
         lanes({rays, hits, which, to, toShade}, {&out[0].second, sizeof(out[0])});
-        for (std::size_t k = 0; k < which.size(); ++k)
-            CHECK_INFO(sameBits(out[to[k]].second,
-                                met[k]->surfaceFor(rays[which[k]], hits[which[k]], {false, true})),
+        for (std::size_t k = 0; k < which.size(); ++k) {
+            Surface alone = met[k]->surfaceFor(rays[which[k]], hits[which[k]], {false, true});
+            alone.uv = {}; // lanes are not asked for them
+            CHECK_INFO(sameBits(out[to[k]].second, alone),
                        std::string(kernel.name) + ", hit " + std::to_string(k) + " of " +
                            std::to_string(which.size()) + ", ray " + std::to_string(which[k]));
+        }
     }
     return which.size();
 }
@@ -107,6 +111,18 @@ TEST(cylinder_surfaces_are_those_of_single_hits) {
     });
 }
 
+TEST(plane_surfaces_are_those_of_single_hits) {
+    Random random(3305);
+    checkKind(random, [&](const Transform& map, double, std::uint32_t k) {
+        // Some far off, where the error grows with the coordinates.
+        const Transform moved = map * Transform::translate({0, 0, k == 0 ? 0 : random.unit() * 50});
+        std::unique_ptr<const Shape> shape =
+            std::make_unique<const InfinitePlane>(moved, 7 + k, 9 + k);
+        if (k % 2 == 0) shape = std::make_unique<const Checkered>(std::move(shape), 20 + k);
+        return shape;
+    });
+}
+
 // They are asked one by one: their maps change, or have no inverse.
 TEST(round_surfaces_of_moving_and_flat_shapes_are_not_for_lanes) {
     Random random(3302);
@@ -115,10 +131,13 @@ TEST(round_surfaces_of_moving_and_flat_shapes_are_not_for_lanes) {
         const MovingTransform moving{std::span(keys)};
         CHECK(Sphere(moving, 1, 2, 3).roundToShade() == nullptr);
         CHECK(Cylinder(moving, 1, false, 2, 3).roundToShade() == nullptr);
+        CHECK(InfinitePlane(moving, 2, 3).roundToShade() == nullptr);
         const Transform flat = kit::randomMap(random) * Transform::scale({1, 1, 0});
         CHECK(Sphere(flat, 1, 2, 3).roundToShade() == nullptr);
         CHECK(Cylinder(flat, 1, false, 2, 3).roundToShade() == nullptr);
+        CHECK(InfinitePlane(flat, 2, 3).roundToShade() == nullptr);
         CHECK(Sphere(keys[0], 1, 2, 3).roundToShade() != nullptr);
         CHECK(Cylinder(keys[0], 1, true, 2, 3).roundToShade() != nullptr);
+        CHECK(InfinitePlane(keys[0], 2, 3).roundToShade() != nullptr);
     }
 }

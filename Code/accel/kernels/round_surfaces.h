@@ -1,7 +1,7 @@
-// Surfaces of spheres and of the sides of cylinders that stand still, a register of them at a time,
-// each on a shape of its own: rays that have bounced off many small shapes rarely follow each other
-// on one. Every lane repeats the steps of shape/analytic_shape.cpp and of the shape's describe() in
-// double, so that the bits are the same.
+// Surfaces of spheres, of the sides of cylinders and of planes without end that stand still, a
+// register of them at a time, each on a shape of its own: rays that have bounced off many small
+// shapes rarely follow each other on one. Every lane repeats the steps of shape/analytic_shape.cpp
+// and of the shape's describe() in double, so that the bits are the same.
 #pragma once
 
 #include "accel/still_shape.h"
@@ -12,8 +12,7 @@
 #include <cstdint>
 #include <span>
 
-// Hit k is that of ray which[k] on *shapes[k], all of one kind
-// and with their parts.
+// Hit k is that of ray which[k] on *shapes[k], all of one kind.
 struct RoundsMet {
     RaySpan rays;
     std::span<const Hit> hits; // of all rays

@@ -93,9 +93,15 @@ inline RaysInLanes raysOf(const RaySpan& rays, std::span<const Hit> hits,
 }
 
 struct SurfacesInLanes {
-    alignas(64) float p[3][W], n[3][W];
+    alignas(64) float p[3][W], n[3][W], uv[2][W]; // uv: of planes
     alignas(64) double error[W];
 };
+
+// Of the squares that a plane is divided into.
+inline bool isOdd(float u, float v) {
+    const float squares = std::floor(u) + std::floor(v);
+    return std::floor(squares / 2) != squares / 2;
+}
 
 // Rounded, by axis.
 inline void store(const Doubles3& v, float (&to)[3][W]) {
@@ -136,15 +142,25 @@ void describe(const Numbers& shape, const RaysInLanes& world, SurfacesInLanes& o
     const auto largest = [](const Doubles3& v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); };
     const Doubles3 centre{shape(WorldFromObject + 3), shape(WorldFromObject + 7),
                           shape(WorldFromObject + 11)};
+    Doubles leastError = shape(LeastError);
+    if constexpr (kRound == StillShape::Round::Plane)
+        leastError = leastError * max(largest(seen), Doubles(1.0));
     const Doubles fixedError =
-        shape(LeastError) + shape(ErrorPerPlace) * (largest(seen) + largest(centre));
+        leastError + shape(ErrorPerPlace) * (largest(seen) + largest(centre));
 
     const Doubles3 met = along(pointOf(shape, ObjectFromWorld, world.org),
                                vectorOf(shape, ObjectFromWorld, world.dir), world.t);
     const auto local = [&] {
-        if constexpr (kRound == StillShape::Round::Sphere) return onSphere(shape, met);
-        const Doubles far = Doubles(kThreeUlps) * sqrt(dot(seen, seen)) + fixedError;
-        return onCylinder(shape, met, Doubles(2.0) * far);
+        if constexpr (kRound == StillShape::Round::Sphere) {
+            return onSphere(shape, met);
+        } else if constexpr (kRound == StillShape::Round::Cylinder) {
+            const Doubles far = Doubles(kThreeUlps) * sqrt(dot(seen, seen)) + fixedError;
+            return onCylinder(shape, met, Doubles(2.0) * far);
+        } else {
+            const Doubles zero(0.0);
+            met.x.toFloats().store(out.uv[0]), met.y.toFloats().store(out.uv[1]);
+            return Local{{met.x, met.y, zero}, {zero, zero, Doubles(1.0)}};
+        }
     }();
     const Doubles3 rough = pointOf(shape, WorldFromObject, local.p);
     const Doubles3 back = pointOf(shape, ObjectFromWorld, rough);
@@ -173,11 +189,15 @@ void surfacesOf(const RoundsMet& met, const Strided<Surface>& out) {
             describe<kRound>(NumbersOfMany(shapes), rays, found);
         for (std::size_t i = 0; i < count; ++i) {
             const Vec3 ng{found.n[0][i], found.n[1][i], found.n[2][i]};
+            std::uint32_t material = shapes[i]->material;
+            if constexpr (kRound == StillShape::Round::Plane)
+                if (shapes[i]->oddMaterial != material && isOdd(found.uv[0][i], found.uv[1][i]))
+                    material = shapes[i]->oddMaterial;
             out[met.to[first + i]] = {.p = {found.p[0][i], found.p[1][i], found.p[2][i]},
                                       .ng = ng,
                                       .ns = ng,
                                       .uv = {},
-                                      .material = shapes[i]->material,
+                                      .material = material,
                                       .object = shapes[i]->object,
                                       .error = floatAbove(found.error[i]),
                                       .rayError = 0,
@@ -192,5 +212,6 @@ void roundSurfaces(const RoundsMet& met, Strided<Surface> out) {
     if (met.shapes.empty()) return;
     using enum StillShape::Round;
     if (met.shapes[0]->round == Sphere) return surfacesOf<Sphere>(met, out);
+    if (met.shapes[0]->round == Plane) return surfacesOf<Plane>(met, out);
     surfacesOf<Cylinder>(met, out);
 }

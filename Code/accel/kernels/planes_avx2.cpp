@@ -1,0 +1,24 @@
+// planes.inl for the registers of AVX2.
+#include "accel/kernels/planes.h"
+
+#if defined(__x86_64__)
+#include "accel/kernels/exact_hit.h" // kChosenLanes
+#include "accel/kernels/target.h"
+#include "base/math.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <immintrin.h>
+#include <limits>
+
+AVX2_REGION_BEGIN
+namespace kernels::avx2 {
+#include "accel/kernels/simd_avx2.inl"
+
+#include "accel/kernels/vectors3.inl"
+
+#include "accel/kernels/planes.inl"
+} // namespace kernels::avx2
+KERNEL_REGION_END
+#endif
