@@ -30,7 +30,7 @@ protected:
         lanes &= lanes_.entering(tree_.boxes[place], zCut_, entry);
         if (lanes == 0) return;
         if (solid.kind == SolidTree::Kind::Sphere)
-            sphere<A>(solid, tree_.spheres[solid.part], entry, lanes, results);
+            sphere<A>(solid, entry, lanes, results);
         else if (solid.kind == SolidTree::Kind::Facets)
             facets(solid, tree_.facets[solid.part], entry, lanes, results);
         else if (solid.kind == SolidTree::Kind::Tube)
@@ -76,10 +76,9 @@ private:
     }
 
     template <Answer A, class Result>
-    void sphere(const SolidTree::Solid& solid, const SolidTree::Sphere& sphere, Floats entry,
-                unsigned lanes, Result* results) {
-        const SphereRoots roots =
-            meet(SameMap{sphere.exact.objectFromWorld}, sphere.turned, sphere.exact.radius, lanes);
+    void sphere(const SolidTree::Solid& solid, Floats entry, unsigned lanes, Result* results) {
+        const SphereRoots roots = meet(SameMap{solid.sphere->objectFromWorld()}, solid.turned,
+                                       solid.sphere->radius, lanes);
         if (roots.met == 0) return;
         if constexpr (A == Answer::Any) {
             hide(hides(roots), results);

@@ -4,7 +4,7 @@
 
 // One map in all lanes, or one in each.
 struct SameMap {
-    const std::array<double, 12>& rows;
+    const AffineRows& rows;
     Doubles operator()(std::size_t i) const { return Doubles(rows[i]); }
 };
 struct MapLanes {
@@ -22,8 +22,9 @@ template <class Map> struct Tubes {
 inline Tubes<SameMap> sameTube(const SolidTree::Tube& tube) {
     const StillTube& t = tube.exact;
     const StillTube::Cone cone = t.cone.value_or(StillTube::Cone{});
-    return {t.caps,     t.cone.has_value(), t.side,           {t.objectFromWorld}, t.radius,
-            cone.slope, cone.narrowZ,       tube.wallStretch, tube.endStretch};
+    return {t.caps,         t.cone.has_value(), t.side,       {t.shape->objectFromWorld()},
+            t.radius,       cone.slope,         cone.narrowZ, tube.wallStretch,
+            tube.endStretch};
 }
 
 class PacketTubes : public PacketFacets {
