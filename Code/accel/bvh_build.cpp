@@ -147,6 +147,7 @@ Halves halve(const Range& r, Lists& lists) {
 class Subtree {
 public:
     Subtree(Lists& lists, const Range& root) : lists_(lists) {
+        nodes.reserve(2 * std::size_t{root.count});
         nodes.push_back({boundsOf(root.box), 0, 0});
         Range r = root;
         cost = grow(0, r);

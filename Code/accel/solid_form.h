@@ -1,6 +1,7 @@
 // SolidForm: what kernels know of a shape besides its box (accel/kernels/solids.h).
 #pragma once
 
+#include "accel/still_shape.h"
 #include "base/bounds.h"
 
 #include <array>
@@ -20,13 +21,6 @@ struct RoundHull {
     double halfLength = kInfinity; // along the axis, to both sides of the centre
 };
 
-// A sphere about the origin of an object space that does not move. A kernel that meets it repeats
-// the formulas of shape/sphere.cpp.
-struct StillSphere {
-    std::array<double, 12> objectFromWorld; // Transform::rows()
-    double radius = 0;
-};
-
 // A few triangles that stand still, in the order of their numbers: floors, walls and the like.
 struct Facets {
     enum class Side : std::uint8_t { Both, Front, Back }; // that rays of sight meet
@@ -39,9 +33,9 @@ struct Facets {
 // A tube about the z axis of an object space that does not move, |z| <= 1. A kernel that meets it
 // repeats the formulas of shape/cylinder.cpp or shape/cone.cpp.
 struct StillTube {
-    std::array<double, 12> objectFromWorld; // Transform::rows()
-    bool caps = false;                      // has ends, too
-    double radius = 0;                      // of a cone: at the narrow end
+    const StillShape* shape = nullptr;
+    bool caps = false; // has ends, too
+    double radius = 0; // of a cone: at the narrow end
     struct Cone {
         double slope = 0, narrowZ = 0;
     };
@@ -53,12 +47,14 @@ struct StillTube {
 // z = 0 of an object space that does not move, without end. A kernel that meets it repeats the
 // formulas of shape/infinite_plane.cpp.
 struct StillPlane {
-    std::array<double, 12> objectFromWorld; // Transform::rows()
+    AffineRows objectFromWorld;
 };
 
 struct SolidForm {
     RoundHull hull;
-    std::optional<StillSphere> sphere; // the shape is this one
+    // The shape is a sphere about the origin of its object space. A kernel that meets it repeats
+    // the formulas of shape/sphere.cpp.
+    const StillShape* sphere = nullptr;
     std::optional<Facets> facets{};    // or these
     std::optional<StillTube> tube{};   // or this one
     std::optional<StillPlane> plane{}; // or this one, the only form without end

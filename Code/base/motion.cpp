@@ -107,13 +107,12 @@ double size(Quaternion q) { return std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y +
 
 } // namespace
 
-MovingTransform::MovingTransform(std::span<const Transform> keys)
-    : keys_(keys.begin(), keys.end()) {
-    if (keys_.empty()) keys_.emplace_back();
+MovingTransform::MovingTransform(std::span<const Transform> keys) : keys_(1) {
+    if (!keys.empty()) keys_.assign(keys.begin(), keys.end());
     const bool allEqual =
         std::all_of(keys_.begin(), keys_.end(), [&](const Transform& k) { return k == keys_[0]; });
     if (allEqual) {
-        keys_.resize(1);
+        keys_.assign(1, keys_.front());
         return;
     }
     for (std::size_t i = 0; i + 1 < keys_.size(); ++i) {

@@ -2,6 +2,7 @@
 // Knows nothing about shapes; a shape's box comes in, the box over the whole shutter goes out.
 #pragma once
 
+#include "base/one_or_more.h"
 #include "base/transform.h"
 
 #include <array>
@@ -36,7 +37,7 @@ public:
         Vec3d offset;
     };
     std::optional<Shift> shiftAt(double time) const;
-    std::span<const Transform> keys() const { return keys_; }
+    std::span<const Transform> keys() const { return {keys_.data(), keys_.size()}; }
     // A world box around the mapped box over the whole shutter: not the smallest, but no point at
     // any time is outside.
     BoundsD bounds(const BoundsD& objectBox) const;
@@ -64,6 +65,6 @@ private:
     static Matrix stretchAt(const Segment& segment, double s);
     static BoundsD sweptBounds(const Segment& segment, const BoundsD& box);
 
-    std::vector<Transform> keys_ = std::vector<Transform>(1);
+    OneOrMore<Transform> keys_ = OneOrMore<Transform>(1);
     std::vector<Segment> segments_; // one less than keys; empty when all keys are equal
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <initializer_list>
+#include <memory>
 #include <span>
 #include <stdexcept>
 #include <type_traits>
@@ -19,13 +20,26 @@ public:
     using value_type = T;
 
     OneOrMore() = default;
+    OneOrMore(const OneOrMore& other) { *this = other; }
+    OneOrMore(OneOrMore&&) noexcept = default;
+    OneOrMore& operator=(const OneOrMore& other) {
+        one_ = other.one_;
+        hasOne_ = other.hasOne_;
+        more_ = other.more_ ? std::make_unique<std::vector<T>>(*other.more_) : nullptr;
+        return *this;
+    }
+    OneOrMore& operator=(OneOrMore&&) noexcept = default;
+    ~OneOrMore() = default;
     explicit OneOrMore(std::size_t count, const T& value = T{}) { assign(count, value); }
-    OneOrMore(std::initializer_list<T> list) { assign(list.begin(), list.end()); }
+    OneOrMore(std::initializer_list<T> list)
+        : one_(list.size() == 1 ? *list.begin() : T{}), hasOne_(list.size() == 1) {
+        if (list.size() > 1) assign(list.begin(), list.end());
+    }
 
-    std::size_t size() const { return more_.empty() ? (hasOne_ ? 1 : 0) : more_.size(); }
+    std::size_t size() const { return more_ ? more_->size() : hasOne_ ? 1 : 0; }
     bool empty() const { return size() == 0; }
-    const T* data() const { return more_.empty() ? &one_ : more_.data(); }
-    T* data() { return more_.empty() ? &one_ : more_.data(); }
+    const T* data() const { return more_ ? more_->data() : &one_; }
+    T* data() { return more_ ? more_->data() : &one_; }
     const T* begin() const { return data(); }
     const T* end() const { return data() + size(); }
     T* begin() { return data(); }
@@ -48,17 +62,17 @@ public:
             hasOne_ = true;
             return;
         }
-        if (more_.empty()) more_.push_back(one_);
-        more_.push_back(value);
+        if (!more_) more_ = std::make_unique<std::vector<T>>(1, one_);
+        more_->push_back(value);
     }
     void clear() {
-        more_.clear();
+        more_.reset();
         hasOne_ = false;
     }
     void assign(std::size_t count, T value) {
         clear();
         if (count > 1)
-            more_.assign(count, value);
+            more_ = std::make_unique<std::vector<T>>(count, value);
         else if (count == 1)
             push_back(value);
     }
@@ -77,7 +91,7 @@ private:
         return std::equal(begin(), end(), other.begin(), other.end());
     }
 
-    T one_{}; // the only element, if hasOne_ and nothing is in more_
+    T one_{}; // the only element, if hasOne_ and there is no more_
     bool hasOne_ = false;
-    std::vector<T> more_; // all elements when there are several
+    std::unique_ptr<std::vector<T>> more_; // all elements when there are several
 };

@@ -50,6 +50,25 @@ private:
     double power_ = 0;
 };
 
+// Of a linear part that is scaled to about 1 by a power of two: that is exact, and products of
+// three stay in range.
+struct Determinant {
+    Determinant(const Rows& rows, const PowerOfTwo& scaled) {
+        Rows m = rows;
+        for (double& x : m) x = scaled(x);
+        cofactor = cofactors(m);
+        value = m[0] * cofactor[0] + m[1] * cofactor[1] + m[2] * cofactor[2];
+        products = std::fabs(m[0] * m[5] * m[10]) + std::fabs(m[0] * m[6] * m[9]) +
+                   std::fabs(m[1] * m[6] * m[8]) + std::fabs(m[1] * m[4] * m[10]) +
+                   std::fabs(m[2] * m[4] * m[9]) + std::fabs(m[2] * m[5] * m[8]);
+    }
+    // Rounding errs by at most 5 u times the sum of the sizes of all six products.
+    bool isCertain() const { return std::fabs(value) > 8 * 0x1p-53 * products; }
+
+    std::array<double, 9> cofactor;
+    double value = 0, products = 0;
+};
+
 Vec3d unit(Vec3d v) {
     const double size = maxAbs(v); // first, so that squares neither overflow nor underflow
     return normalize(v / size);
@@ -62,37 +81,40 @@ Transform Transform::fromRows(const Rows& rows) {
     if (!isFinite(rows)) return singular();
     const double largest = largestLinear(rows);
     if (largest == 0) return singular();
-    // Scaled to about 1 by a power of two: exact, and products of three stay in range.
     const PowerOfTwo scaled(largest);
-    Rows m = rows;
-    for (double& x : m) x = scaled(x);
-    const std::array<double, 9> c = cofactors(m);
-    const double determinant = m[0] * c[0] + m[1] * c[1] + m[2] * c[2];
-    // The sum of the sizes of all six products: rounding errs by at most 5 u times that.
-    double products = 0;
-    for (const auto& [i, j, k] : {std::array<std::size_t, 3>{0, 5, 10},
-                                  {0, 6, 9},
-                                  {1, 6, 8},
-                                  {1, 4, 10},
-                                  {2, 4, 9},
-                                  {2, 5, 8}})
-        products += std::fabs(m[i] * m[j] * m[k]);
-    if (!(std::fabs(determinant) > 8 * 0x1p-53 * products)) return singular();
-    const auto entry = [&](std::size_t i) { return scaled(c[i] / determinant); };
+    const Determinant d(rows, scaled);
+    if (!d.isCertain()) return singular();
+    const auto entry = [&](std::size_t i) { return scaled(d.cofactor[i] / d.value); };
     Rows inverse{entry(0), entry(3), entry(6), 0,        entry(1), entry(4),
                  entry(7), 0,        entry(2), entry(5), entry(8), 0};
     for (const std::size_t i : {0u, 4u, 8u})
         inverse[i + 3] =
             -(inverse[i] * rows[3] + inverse[i + 1] * rows[7] + inverse[i + 2] * rows[11]);
     if (!isFinite(inverse)) return singular();
-    return {rows, inverse, determinant < 0, false};
+    return {rows, inverse, d.value < 0, false};
+}
+
+Transform::Orientation Transform::orientationOf(const Rows& rows) {
+    const double largest = largestLinear(rows);
+    double farthest = 0; // NaN where a number is none
+    for (const std::size_t i : {3u, 7u, 11u}) farthest += std::fabs(rows[i]);
+    if (largest > 0x1p-250 && largest < 0x1p250 && farthest < 0x1p250) {
+        const Determinant d(rows, PowerOfTwo(largest));
+        // Cofactors are below 2: so the inverse's numbers are below 2^501, its offsets finite.
+        if (std::fabs(d.value) > 0x1p-250 && d.isCertain())
+            return d.value < 0 ? Orientation::Mirrored : Orientation::Kept;
+    }
+    const Transform map = fromRows(rows);
+    if (map.isSingular()) return Orientation::Lost;
+    return map.mirrors() ? Orientation::Mirrored : Orientation::Kept;
 }
 
 Transform Transform::translate(Vec3d offset) {
     Rows rows = kIdentity, inverse = kIdentity;
     rows[3] = offset.x, rows[7] = offset.y, rows[11] = offset.z;
     inverse[3] = -offset.x, inverse[7] = -offset.y, inverse[11] = -offset.z;
-    return {rows, inverse, false, !isFinite(rows)};
+    if (!isFinite(rows)) return {rows, Rows{}, false, true};
+    return {rows, inverse, false, false};
 }
 
 // Rodrigues; the inverse of a rotation is its transpose.
@@ -107,7 +129,8 @@ Transform Transform::rotate(Vec3d axis, double angleRad) {
                     zx - s * a.y,      yz + s * a.x,      c + k * a.z * a.z, 0};
     const Rows inverse{rows[0], rows[4], rows[8], 0,       rows[1],  rows[5],
                        rows[9], 0,       rows[2], rows[6], rows[10], 0};
-    return {rows, inverse, false, !isFinite(rows)};
+    if (!isFinite(rows)) return {rows, Rows{}, false, true};
+    return {rows, inverse, false, false};
 }
 
 Transform Transform::scale(Vec3d f) {

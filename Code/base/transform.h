@@ -2,6 +2,7 @@
 // Names carry the frames: worldFromObject.point(p) takes an object point to the world.
 #pragma once
 
+#include "base/affine.h"
 #include "base/bounds.h"
 #include "base/ray.h"
 #include "base/vec.h"
@@ -11,11 +12,14 @@
 class Transform {
 public:
     // Row-major 3x4: x' = r[0] x + r[1] y + r[2] z + r[3], then y' from r[4].., z' from r[8]..
-    using Rows = std::array<double, 12>;
+    using Rows = AffineRows;
 
     Transform() = default; // the identity
 
     static Transform fromRows(const Rows& rows);
+    // What fromRows(rows) would be, for who needs no inverse.
+    enum class Orientation { Kept, Mirrored, Lost }; // lost: singular
+    static Orientation orientationOf(const Rows& rows);
     static Transform translate(Vec3d offset);
     // Right-handed turn about an axis through the origin; the axis has any length but zero.
     static Transform rotate(Vec3d axis, double angleRad);
@@ -26,23 +30,16 @@ public:
     static Transform lookAt(Vec3d eye, Vec3d target, Vec3d up);
 
     const Rows& rows() const { return rows_; }
+    // Those of inverse().
+    const Rows& inverseRows() const { return inverse_; }
     Vec3d column(int i) const { // 0, 1, 2: images of the axes; 3: image of the origin
         const auto c = static_cast<std::size_t>(i);
         return {rows_[c], rows_[4 + c], rows_[8 + c]};
     }
     Vec3d translation() const { return column(3); }
 
-    Vec3d point(Vec3d p) const {
-        const Rows& m = rows_;
-        return {m[0] * p.x + m[1] * p.y + m[2] * p.z + m[3],
-                m[4] * p.x + m[5] * p.y + m[6] * p.z + m[7],
-                m[8] * p.x + m[9] * p.y + m[10] * p.z + m[11]};
-    }
-    Vec3d vector(Vec3d v) const {
-        const Rows& m = rows_;
-        return {m[0] * v.x + m[1] * v.y + m[2] * v.z, m[4] * v.x + m[5] * v.y + m[6] * v.z,
-                m[8] * v.x + m[9] * v.y + m[10] * v.z};
-    }
+    Vec3d point(Vec3d p) const { return pointUnder(rows_, p); }
+    Vec3d vector(Vec3d v) const { return vectorUnder(rows_, v); }
     // The normal of the mapped surface, not normalised: by the inverse transpose, the cofactor
     // matrix over the determinant. So an outward normal stays outward under mirrors too. (The cross
     // product of two mapped edges does NOT: it flips when mirrors() is true.) Singular maps take

@@ -22,6 +22,12 @@ public:
         messages_.push_back(std::move(message));
         ++count_;
     }
+    // Those of another list behind these.
+    void append(const ErrorList& other) {
+        for (const std::string& message : other.messages_)
+            if (hasRoom()) messages_.push_back(message);
+        count_ += other.count_;
+    }
     std::size_t count() const { return count_; }
     void throwIfAny() const;
     // located(), or only the file where the place is not known.

@@ -52,12 +52,13 @@ template <auto member> constexpr auto choice() {
 }
 
 using Corners4 = std::array<Vec3d, 4>;
+using SeldomCorners = decltype(ObjectDesc::corners);
 using Crop = std::optional<std::array<int, 4>>;
 template <class Block>
-using Field =
-    std::variant<double Block::*, Vec2d Block::*, Vec3d Block::*, Rgbd Block::*, Corners4 Block::*,
-                 int Block::*, std::uint32_t Block::*, Crop Block::*, bool Block::*,
-                 std::string Block::*, Reference<Block>, MaterialList<Block>, Choice<Block>>;
+using Field = std::variant<double Block::*, Vec2d Block::*, Vec3d Block::*, Rgbd Block::*,
+                           SeldomCorners Block::*, int Block::*, std::uint32_t Block::*,
+                           Crop Block::*, bool Block::*, std::string Block::*, Reference<Block>,
+                           MaterialList<Block>, Choice<Block>>;
 
 using KindMask = std::uint32_t;
 inline constexpr KindMask kAllKinds = ~KindMask{0};
@@ -247,6 +248,9 @@ template <class Block, class Call> constexpr void forEachRow(Call&& call) {
     (std::make_index_sequence<propertiesOf<Block>().size()>());
 }
 
+inline const Corners4& allOf(const SeldomCorners& corners) { return *corners; }
+inline Corners4& allOf(SeldomCorners& corners) { return corners.own(); }
+
 // Calls with every number of a field (a reference to double, int or std::uint32_t) in the order of
 // the file. A crop that is not there has no numbers. `f` is one of the alternatives of Field.
 template <class Block, class Member, class Call>
@@ -264,8 +268,8 @@ void forEachNumberOf(Block& block, const Member& f, Call&& call) {
             call(value.x), call(value.y), call(value.z);
         else if constexpr (std::is_same_v<Value, Rgbd>)
             call(value.r), call(value.g), call(value.b);
-        else if constexpr (std::is_same_v<Value, Corners4>)
-            for (auto& p : value) call(p.x), call(p.y), call(p.z);
+        else if constexpr (std::is_same_v<Value, SeldomCorners>)
+            for (auto& p : allOf(value)) call(p.x), call(p.y), call(p.z);
         else if constexpr (std::is_same_v<Value, Crop>)
             if (value)
                 for (auto& edge : *value) call(edge);

@@ -19,7 +19,7 @@ BoundsD objectBox(const ObjectDesc& object, const std::vector<BoundsD>& meshBoxe
     }
     case ObjectDesc::Kind::Plane: {
         BoundsD box;
-        for (const Vec3d corner : object.corners) box.extend(corner);
+        for (const Vec3d corner : *object.corners) box.extend(corner);
         return box;
     }
     case ObjectDesc::Kind::Mesh: return meshBoxes[static_cast<std::size_t>(object.mesh)];

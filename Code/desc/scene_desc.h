@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/one_or_more.h"
+#include "base/seldom.h"
 #include "base/vec.h"
 
 #include <array>
@@ -59,35 +60,34 @@ struct TextureDesc {
 struct MaterialDesc {
     // Blinn: specular * (N.H)^exponent, unnormalised. Ashikhmin: normalised, energy conserving.
     // Phong: specular * (R.V)^exponent with R the mirrored direction to the light, unnormalised.
-    enum class SpecularModel { Blinn, Ashikhmin, Phong };
+    enum class SpecularModel : std::uint8_t { Blinn, Ashikhmin, Phong };
     // How mirror and transmission share the light. None: as written. Dielectric: exact Fresnel by
     // ior (mirror*F, transmission*(1-F)). Schlick: mirror + (1-mirror)(1-cos)^5.
-    enum class Fresnel { None, Dielectric, Schlick };
+    enum class Fresnel : std::uint8_t { None, Dielectric, Schlick };
     // Which lamps a surface answers: those on the side from which it is seen, or those outside of
     // it, also when its inside is seen (COMP 557 never turns normals to the eye).
-    enum class LitSide { Eye, Outside };
+    enum class LitSide : std::uint8_t { Eye, Outside };
     std::string name;
     SourceLoc loc;
-    Rgbd diffuse{0.8, 0.8, 0.8};   // reflectance
-    Handle diffuseTexture = kNone; // multiplies diffuse
-    Rgbd specular{0, 0, 0};
-    Handle specularTexture = kNone;
     SpecularModel specularModel = SpecularModel::Blinn;
-    double exponent = 50;
+    Fresnel fresnel = Fresnel::None;
     LitSide litSide = LitSide::Eye;
+    // Pictures multiply the number of their name.
+    Handle diffuseTexture = kNone, specularTexture = kNone, emissionTexture = kNone,
+           opacityTexture = kNone;
+    Handle normalMap = kNone; // tangent space, +Y up
+    Handle bumpMap = kNone;
+    Rgbd diffuse{0.8, 0.8, 0.8}; // reflectance
+    Rgbd specular{0, 0, 0};
+    double exponent = 50;
     Rgbd mirror{0, 0, 0};       // traced reflection
     Rgbd transmission{0, 0, 0}; // traced refraction
     double ior = 1.5;
-    Fresnel fresnel = Fresnel::None;
     double roughness = 0;   // 0 sharp; spreads mirror and transmission, Blender's scale
     Rgbd emission{0, 0, 0}; // radiance, seen but lighting nothing else
-    Handle emissionTexture = kNone;
-    double opacity = 1; // 1 - opacity of the light goes straight through, tinted by filter
-    Handle opacityTexture = kNone;
+    double opacity = 1;     // 1 - opacity of the light goes straight through, tinted by filter
     Rgbd filter{1, 1, 1};
-    Handle normalMap = kNone; // tangent space, +Y up
     double normalStrength = 1;
-    Handle bumpMap = kNone;
     double bumpStrength = 1;
     double bumpDistance = 1; // height of a white texel over a black one
     bool operator==(const MaterialDesc&) const = default;
@@ -159,27 +159,40 @@ struct MeshDesc {
     bool operator==(const MeshDesc&) const = default;
 };
 
+// The square in z = 0, from -1 to 1.
+inline constexpr std::array<Vec3d, 4> kSquareCorners = {Vec3d{-1, -1, 0}, Vec3d{1, -1, 0},
+                                                        Vec3d{1, 1, 0}, Vec3d{-1, 1, 0}};
+
+// Scenes have millions of them: what is short stands together, what is rare elsewhere.
 struct ObjectDesc {
     // In object space: Sphere radius `radius` about the origin. Cube [-1,1]^3. Plane: the four
     // `corners` in order. InfinitePlane z = 0. Disk `radius` in z = 0. Cylinder |z| <= 1, `radius`.
     // Cone: `radius` at z = -1 to `topRadius` at z = 1. Mesh: `mesh`.
-    enum class Kind { Sphere, Cube, Plane, InfinitePlane, Disk, Cylinder, Cone, Mesh };
+    enum class Kind : std::uint8_t {
+        Sphere,
+        Cube,
+        Plane,
+        InfinitePlane,
+        Disk,
+        Cylinder,
+        Cone,
+        Mesh
+    };
     // Front is the outside, +Z of flat shapes. Rays of sight (camera, mirror, glass) pass through a
     // side that is not there; shadows fall from both.
-    enum class Sides { Both, Front, Back };
+    enum class Sides : std::uint8_t { Both, Front, Back };
     std::string name;
     SourceLoc loc;
     Kind kind = Kind::Sphere;
+    Sides sides = Sides::Both;
+    bool caps = true; // Cylinder, Cone
     Keys worldFromObject{kIdentityRows};
     // Mesh: by slot. InfinitePlane: two alternate on the unit squares of its x and y, the first
     // where floor(x) + floor(y) is even. Others: the first. Empty: the default material.
     OneOrMore<Handle> materials;
-    Sides sides = Sides::Both;
     double radius = 1;
     double topRadius = 0;
-    bool caps = true; // Cylinder, Cone
-    std::array<Vec3d, 4> corners{Vec3d{-1, -1, 0}, Vec3d{1, -1, 0}, Vec3d{1, 1, 0},
-                                 Vec3d{-1, 1, 0}};
+    Seldom<std::array<Vec3d, 4>, kSquareCorners> corners;
     Handle mesh = kNone;
     bool operator==(const ObjectDesc&) const = default;
 };

@@ -9,7 +9,9 @@
 #include "desc/scene_bounds.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 #include <vector>
 
 namespace {
@@ -59,35 +61,61 @@ std::string_view faultOfCorners(const Corners4& c) {
 class Validator {
 public:
     Validator(const SceneDesc& desc, const SourceFile& source, Diagnostics& diagnostics)
-        : desc_(desc), errors_(source), source_(source), diagnostics_(diagnostics) {}
+        : desc_(desc), source_(source), diagnostics_(diagnostics) {
+        for (const auto& row : kEnumNames<Target>)
+            used_[static_cast<std::size_t>(row.value)].resize(countOf(row.value));
+    }
 
     void run() {
-        forEachBlock(desc_, [&](const auto& block) { checkProperties(block); });
+        checkProperties(desc_.settings);
+        checkProperties(desc_.world);
+        stage_ = Stage::Names;
         checkSettings();
-        checkNames(desc_.cameras, "camera");
-        checkNames(desc_.textures, "texture");
-        checkNames(desc_.materials, "material");
-        checkNames(desc_.lights, "light");
-        checkNames(desc_.meshes, "mesh");
-        checkNames(desc_.objects, "object");
-        if (desc_.cameras.empty()) errors_.add({}, [] { return "the scene has no camera"; });
-        for (const CameraDesc& camera : desc_.cameras) checkKeys(camera, camera.worldFromCamera);
-        for (const TextureDesc& texture : desc_.textures) checkTexture(texture);
-        for (const LightDesc& light : desc_.lights) checkLight(light);
-        for (const MeshDesc& mesh : desc_.meshes) checkMesh(mesh);
-        for (const ObjectDesc& object : desc_.objects) checkObject(object);
-        errors_.throwIfAny();
+        stage_ = Stage::Wholes;
+        if (desc_.cameras.empty()) errors().add({}, [] { return "the scene has no camera"; });
+        checkBlocks(desc_.cameras, "camera");
+        checkBlocks(desc_.textures, "texture");
+        checkBlocks(desc_.materials, "material");
+        checkBlocks(desc_.lights, "light");
+        checkBlocks(desc_.meshes, "mesh"); // before those who show them
+        checkBlocks(desc_.objects, "object");
+        ErrorList all(source_);
+        for (const ErrorList& some : errors_) all.append(some);
+        all.throwIfAny();
         warnUnused();
         warnDark();
         warnFar();
     }
 
 private:
+    // Messages come in this order: of single properties, of names, of blocks as wholes.
+    enum class Stage : std::size_t { Properties, Names, Wholes };
+    ErrorList& errors() { return errors_[static_cast<std::size_t>(stage_)]; }
     template <class Block, class... Parts> void error(const Block& block, const Parts&... parts) {
-        errors_.add(block.loc, [&] { return cat(called(block), ": ", parts...); });
+        errors().add(block.loc, [&] { return cat(called(block), ": ", parts...); });
     }
     void warn(SourceLoc loc, std::string_view what) {
-        diagnostics_.warnings.push_back(errors_.locatedAt(loc, what, "warning"));
+        diagnostics_.warnings.push_back(errors().locatedAt(loc, what, "warning"));
+    }
+
+    // All stages of a few blocks before the next ones: those of large files come from the memory
+    // once.
+    template <class Block>
+    void checkBlocks(const std::vector<Block>& blocks, std::string_view kind) {
+        constexpr std::size_t kTogether = 32;
+        NameTable seen(blocks.size());
+        for (std::size_t first = 0; first < blocks.size(); first += kTogether) {
+            const std::size_t last = std::min(blocks.size(), first + kTogether);
+            stage_ = Stage::Properties;
+            for (std::size_t i = first; i < last; ++i) {
+                seen.prepare(blocks[i].name);
+                checkProperties(blocks[i]);
+            }
+            stage_ = Stage::Names;
+            for (std::size_t i = first; i < last; ++i) checkName(blocks, i, kind, seen);
+            stage_ = Stage::Wholes;
+            for (std::size_t i = first; i < last; ++i) checkWhole(blocks[i]);
+        }
     }
 
     template <class Block> void checkProperties(const Block& block) {
@@ -108,10 +136,11 @@ private:
                                         "' has no effect on type ", nameOf(block.kind)));
         });
         forEachReference(block, [&](Handle handle, Target target, std::string_view keyword) {
-            if (handle != kNone &&
-                (handle < 0 || static_cast<std::size_t>(handle) >= countOf(target)))
-                error(block, "'", keyword, "' refers to ", nameOf(target), " ", handle, " of ",
-                      countOf(target));
+            if (handle == kNone) return;
+            if (handle < 0 || static_cast<std::size_t>(handle) >= countOf(target))
+                return error(block, "'", keyword, "' refers to ", nameOf(target), " ", handle,
+                             " of ", countOf(target));
+            used_[static_cast<std::size_t>(target)][static_cast<std::size_t>(handle)] = true;
         });
     }
 
@@ -142,17 +171,13 @@ private:
     }
 
     template <class Block>
-    void checkNames(const std::vector<Block>& blocks, std::string_view kind) {
-        constexpr std::size_t kAhead = 8;
-        NameTable seen(blocks.size());
-        for (std::size_t i = 0; i < blocks.size(); ++i) {
-            const Block& block = blocks[i];
-            if (block.name.empty() || findBadText(block.name) != std::string_view::npos)
-                error(block, "a name is UTF-8 without control characters, and not empty");
-            if (i + kAhead < blocks.size()) seen.prepare(blocks[i + kAhead].name);
-            if (const auto first = seen.insert(block.name, static_cast<std::uint32_t>(i)))
-                error(block, "another ", kind, " has this name", atLine(blocks[*first].loc));
-        }
+    void checkName(const std::vector<Block>& blocks, std::size_t i, std::string_view kind,
+                   NameTable& seen) {
+        const Block& block = blocks[i];
+        if (block.name.empty() || findBadText(block.name) != std::string_view::npos)
+            error(block, "a name is UTF-8 without control characters, and not empty");
+        if (const auto first = seen.insert(block.name, static_cast<std::uint32_t>(i)))
+            error(block, "another ", kind, " has this name", atLine(blocks[*first].loc));
     }
     std::string atLine(SourceLoc loc) const {
         if (loc.offset >= source_.text.size()) return "";
@@ -161,7 +186,7 @@ private:
                    1 + std::count(begin, begin + static_cast<std::ptrdiff_t>(loc.offset), '\n'));
     }
 
-    template <class Block> void checkKeys(const Block& block, const Keys& keys) {
+    template <class Block> void checkKeys(const Block& block, std::span<const Rows> keys) {
         if (keys.empty()) error(block, "has no transform at all; one key is needed");
         bool mirrors = false, turnsOver = false;
         for (const Rows& rows : keys) {
@@ -169,18 +194,21 @@ private:
                                              [](double x) { return kAnyNumber.contains(x); });
             if (!inRange)
                 return error(block, "its transform has numbers beyond ", shortest(kLargestLength));
-            const Transform transform = Transform::fromRows(rows);
-            if (transform.isSingular())
+            const Transform::Orientation orientation = Transform::orientationOf(rows);
+            if (orientation == Transform::Orientation::Lost)
                 return error(block, "its transform flattens it: a scale is 0");
-            if (&rows == &keys.front()) mirrors = transform.mirrors();
-            turnsOver = turnsOver || transform.mirrors() != mirrors;
+            const bool isMirror = orientation == Transform::Orientation::Mirrored;
+            if (&rows == &keys.front()) mirrors = isMirror;
+            turnsOver = turnsOver || isMirror != mirrors;
         }
         if (turnsOver)
             error(block,
                   "one of its keys mirrors and another does not: on the way it would be flat");
     }
 
-    void checkTexture(const TextureDesc& texture) {
+    void checkWhole(const CameraDesc& camera) { checkKeys(camera, camera.worldFromCamera); }
+    void checkWhole(const MaterialDesc&) {}
+    void checkWhole(const TextureDesc& texture) {
         if (texture.file.empty())
             error(texture, "has no 'file'");
         else if (texture.file.find('\0') != std::string::npos ||
@@ -188,15 +216,15 @@ private:
             error(texture, "its 'file' is not UTF-8 without control characters");
     }
 
-    void checkLight(const LightDesc& light) {
-        checkKeys(light, {light.worldFromLight});
+    void checkWhole(const LightDesc& light) {
+        checkKeys(light, {&light.worldFromLight, 1});
         if (light.kind == LightDesc::Kind::Sphere && !(light.radius > 0))
             error(light, "a light of type sphere needs a 'radius' > 0");
         if (light.attenuation == Vec3d{})
             error(light, "'attenuation' 0 0 0 would be light without end; 1 0 0 is the usual one");
     }
 
-    void checkObject(const ObjectDesc& object) {
+    void checkWhole(const ObjectDesc& object) {
         checkKeys(object, object.worldFromObject);
         if (std::find(object.materials.begin(), object.materials.end(), kNone) !=
             object.materials.end())
@@ -210,7 +238,7 @@ private:
         if (object.kind == Cone && object.radius == 0 && object.topRadius == 0)
             error(object, "'radius' and 'top_radius' are both 0");
         if (object.kind == Plane)
-            if (const auto fault = faultOfCorners(object.corners); !fault.empty())
+            if (const auto fault = faultOfCorners(*object.corners); !fault.empty())
                 error(object, fault);
     }
 
@@ -225,7 +253,7 @@ private:
                   object.materials.size(), " materials (slots count from 0)");
     }
 
-    void checkMesh(const MeshDesc& mesh) {
+    void checkWhole(const MeshDesc& mesh) {
         if (!mesh.file.empty()) return slots_.push_back(1); // not read yet
         if (mesh.triangles.empty()) error(mesh, "has no triangles");
         for (std::size_t i = 0; i < mesh.points.size(); ++i) {
@@ -282,21 +310,12 @@ private:
     }
 
     void warnUnused() {
-        std::array<std::vector<bool>, kEnumNames<Target>.size()> used;
-        for (const auto& row : kEnumNames<Target>)
-            used[static_cast<std::size_t>(row.value)].resize(countOf(row.value));
-        forEachBlock(desc_, [&](const auto& block) {
-            forEachReference(block, [&](Handle handle, Target target, std::string_view) {
-                if (handle != kNone)
-                    used[static_cast<std::size_t>(target)][static_cast<std::size_t>(handle)] = true;
-            });
-        });
         const auto tell = [&](const auto& blocks, Target target, std::string_view plural) {
             std::vector<std::string> names;
             std::size_t count = 0;
             SourceLoc first;
             for (std::size_t i = 0; i < blocks.size(); ++i) {
-                if (used[static_cast<std::size_t>(target)][i]) continue;
+                if (used_[static_cast<std::size_t>(target)][i]) continue;
                 if (count++ == 0) first = blocks[i].loc;
                 if (names.size() < kListed) names.push_back(shown(blocks[i].name));
             }
@@ -343,9 +362,11 @@ private:
     }
 
     const SceneDesc& desc_;
-    ErrorList errors_;
     const SourceFile& source_;
     Diagnostics& diagnostics_;
+    Stage stage_ = Stage::Properties;
+    std::array<ErrorList, 3> errors_{ErrorList(source_), ErrorList(source_), ErrorList(source_)};
+    std::array<std::vector<bool>, kEnumNames<Target>.size()> used_; // by what refers to them
     std::vector<std::uint32_t> slots_; // per mesh: how many material slots its triangles use
 };
 

@@ -19,6 +19,15 @@ struct Match {
 // The number of equal bytes.
 inline std::size_t commonLength(const std::uint8_t* a, const std::uint8_t* b, std::size_t most) {
     std::size_t n = 0;
+    for (; n + 16 <= most; n += 16) {
+        const std::uint64_t first =
+            loadLittle<std::uint64_t>(a + n) ^ loadLittle<std::uint64_t>(b + n);
+        const std::uint64_t second =
+            loadLittle<std::uint64_t>(a + n + 8) ^ loadLittle<std::uint64_t>(b + n + 8);
+        if ((first | second) == 0) continue;
+        const std::uint64_t different = first != 0 ? first : second;
+        return n + (first != 0 ? 0 : 8) + static_cast<std::size_t>(std::countr_zero(different)) / 8;
+    }
     for (; n + 8 <= most; n += 8) {
         const std::uint64_t different =
             loadLittle<std::uint64_t>(a + n) ^ loadLittle<std::uint64_t>(b + n);
@@ -39,31 +48,34 @@ public:
     explicit MatchFinder(std::span<const std::uint8_t> bytes)
         : bytes_(bytes), latest_(std::size_t{1} << kHashBits) {}
 
-    bool canLook(std::size_t at) const { return at + sizeof(std::uint64_t) <= bytes_.size(); }
+    // Of the places that can be looked at: eight bytes are there.
+    std::size_t end() const { return bytes_.size() - std::min<std::size_t>(bytes_.size(), 7); }
+    bool canLook(std::size_t at) const { return at < end(); }
     // Places go in once, in order, before any place after them is looked for.
-    void insert(std::size_t at) { latest_[hashAt(at)] = static_cast<std::uint32_t>(at + 1); }
+    void insert(std::size_t at) { latest_[hashAt(at)] = static_cast<std::uint16_t>(at + 1); }
     // Inserts the place; a match longer than `atLeast`, or none. Runs of one byte come first: a
     // filtered picture is full of them.
     Match look(std::size_t at, std::size_t atLeast) {
-        std::uint32_t& latest = latest_[hashAt(at)];
-        const std::size_t place = latest; // 0: nowhere
-        latest = static_cast<std::uint32_t>(at + 1);
+        std::uint16_t& latest = latest_[hashAt(at)];
+        // Wrong for places of long ago: what is there is compared anyway.
+        const std::size_t distance = static_cast<std::uint16_t>(at + 1 - latest);
+        const bool isThere = latest != 0 && distance != 0 && distance <= std::min(at, kWindow);
+        latest = static_cast<std::uint16_t>(at + 1);
         Match best;
         if (at > 0 && startsEqual(at, at - 1, kShortRun)) {
             const std::size_t length = lengthAt(at, at - 1);
             if (length > atLeast) best = {length, 1};
         }
         if (best.length == kLongestMatch) return best;
-        const std::size_t distance = at + 1 - place;
-        if (place != 0 && distance <= kWindow && startsEqual(at, place - 1, kShortMatch)) {
-            const std::size_t length = lengthAt(at, place - 1);
+        if (isThere && startsEqual(at, at - distance, kShortMatch)) {
+            const std::size_t length = lengthAt(at, at - distance);
             if (length > std::max(atLeast, best.length)) best = {length, distance};
         }
         return best;
     }
 
 private:
-    static constexpr unsigned kHashBits = 14; // 64 KiB: stays near the processor
+    static constexpr unsigned kHashBits = 14; // 32 KiB: stays near the processor
 
     std::uint64_t eightAt(std::size_t at) const {
         return loadLittle<std::uint64_t>(bytes_.data() + at);
@@ -81,7 +93,7 @@ private:
     }
 
     std::span<const std::uint8_t> bytes_;
-    std::vector<std::uint32_t> latest_; // by hash: place + 1
+    std::vector<std::uint16_t> latest_; // by hash: the last bits of place + 1; 0 is none
 };
 
 // Goes through the bytes from the front and hands out steps.
@@ -110,8 +122,10 @@ public:
     // The places in a match; of long ones, which are runs most of the time, the last two.
     void skip(std::size_t at, std::size_t length) {
         constexpr std::size_t kLong = 32;
-        for (std::size_t i = length <= kLong ? at + 1 : at + length - 2; i < at + length; ++i)
-            if (i > looked_ && finder_.canLook(i)) finder_.insert(i);
+        const std::size_t end = std::min(at + length, finder_.end());
+        for (std::size_t i = std::max(length <= kLong ? at + 1 : at + length - 2, looked_ + 1);
+             i < end; ++i)
+            finder_.insert(i);
     }
 
 private:

@@ -117,8 +117,7 @@ PngFilter filterRow(const PngRow& row, const PngRow& above, std::size_t pixelByt
     // The same row again, as in a plain background: Up leaves nothing, None is as good for zeros.
     if (std::memcmp(row.data(), above.data(), row.size()) == 0) {
         std::fill_n(out.begin(), row.size(), std::uint8_t{0});
-        const std::span<const std::uint8_t> bytes(row.data(), row.size());
-        const bool isZero = std::ranges::all_of(bytes, [](std::uint8_t b) { return b == 0; });
+        const bool isZero = std::memcmp(row.data(), out.data(), row.size()) == 0;
         return isZero ? PngFilter::None : PngFilter::Up;
     }
     const RowFilter filter(row, above, pixelBytes);

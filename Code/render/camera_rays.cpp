@@ -31,19 +31,18 @@ void CameraRays::choosePlaces(const Tile& tile, int first, int count, SampleChun
     chunk.places.resize(all);
     chunk.offsets.resize(all);
     std::size_t slot = 0;
-    for (int y = tile.y0; y < tile.y1; ++y)
-        for (int x = tile.x0; x < tile.x1; ++x) {
-            const std::uint32_t pixel =
-                static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_) +
-                static_cast<std::uint32_t>(x); // wraps in huge pictures
-            if (!corners_ && samples > 1)
-                context_.sampler.get2D(pixel, begin, kPixelDimension,
-                                       std::span(chunk.offsets).subspan(slot, samples));
-            for (std::uint32_t s = begin; s < begin + samples; ++s, ++slot) {
-                chunk.ids[slot] = {pixel, s};
-                chunk.places[slot] = middle(x, y);
-            }
+    forEachPlace(tile, [&](int x, int y) {
+        const std::uint32_t pixel =
+            static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_) +
+            static_cast<std::uint32_t>(x); // wraps in huge pictures
+        if (!corners_ && samples > 1)
+            context_.sampler.get2D(pixel, begin, kPixelDimension,
+                                   std::span(chunk.offsets).subspan(slot, samples));
+        for (std::uint32_t s = begin; s < begin + samples; ++s, ++slot) {
+            chunk.ids[slot] = {pixel, s};
+            chunk.places[slot] = middle(x, y);
         }
+    });
     if (corners_) return;
     if (samples == 1) {
         chunk.pixels.resize(all);

@@ -33,8 +33,8 @@ std::vector<RoundShape> roundShapesOf(const ShapeSet& set, SurfaceLanes lanes, S
     if (lanes.round == nullptr || needs.uv) return {};
     std::vector<RoundShape> shapes(set.shapes.size());
     for (std::size_t i = 0; i < shapes.size(); ++i)
-        if (const RoundToShade* const shape = set.shapes[i]->roundToShade())
-            shapes[i] = {shape, shape->part, shape->kind};
+        if (const StillShape* const shape = set.shapes[i]->roundToShade())
+            shapes[i] = {shape, shape->part, shape->round};
     return shapes;
 }
 

@@ -50,9 +50,9 @@ struct Lamp {
 
 // A shape whose surfaces lanes find, to be looked up without touching it.
 struct RoundShape {
-    const RoundToShade* shape = nullptr; // null: it is none
+    const StillShape* shape = nullptr; // null: it is none
     std::uint32_t part = 0;
-    RoundToShade::Kind kind{};
+    StillShape::Round kind{};
 };
 
 // Choices that hold for a whole picture, made once.
@@ -109,7 +109,7 @@ struct PointBatch {
 // Some of them, whose surfaces are found together, and their rays.
 struct PointsToDescribe {
     std::vector<std::uint32_t> rays, points;
-    std::vector<const RoundToShade*> shapes; // of those for lanes
+    std::vector<const StillShape*> shapes; // of those for lanes
     void clear() { rays.clear(), points.clear(), shapes.clear(); }
     void push(std::uint32_t ray, std::uint32_t point) {
         rays.push_back(ray), points.push_back(point);
@@ -144,7 +144,7 @@ struct WaveMemory {
     PathBatch rays, next;
     std::vector<Hit> hits;
     PointBatch points;
-    std::array<PointsToDescribe, RoundToShade::kKinds> onRound;
+    std::array<PointsToDescribe, StillShape::kRounds> onRound;
     PointsToDescribe onOthers;
     MediumTree media;
     std::vector<std::uint32_t> answering; // points that answer lamps

@@ -73,7 +73,7 @@ std::unique_ptr<const Shape> makeLampBody(const LightDesc& desc, const SceneFram
     const MovingTransform flat(place * size * Transform::rotate({1, 0, 0}, kPi));
     switch (desc.kind) {
     case LightDesc::Kind::Rectangle:
-        return std::make_unique<Plane>(flat, ObjectDesc{}.corners, material, id);
+        return std::make_unique<Plane>(flat, kSquareCorners, material, id);
     case LightDesc::Kind::Disk: return std::make_unique<Disk>(flat, 1.0, material, id);
     case LightDesc::Kind::Sphere:
         return std::make_unique<Sphere>(MovingTransform(Transform::translate(place.point({}))),

@@ -22,7 +22,7 @@ std::unique_ptr<const Shape> bareShape(const ObjectDesc& object, MovingTransform
         return std::make_unique<Sphere>(std::move(place), object.radius, material, id);
     case ObjectDesc::Kind::Cube: return std::make_unique<Cube>(std::move(place), material, id);
     case ObjectDesc::Kind::Plane:
-        return std::make_unique<Plane>(std::move(place), object.corners, material, id);
+        return std::make_unique<Plane>(std::move(place), *object.corners, material, id);
     case ObjectDesc::Kind::InfinitePlane:
         return std::make_unique<InfinitePlane>(std::move(place), material, id);
     case ObjectDesc::Kind::Disk:

@@ -20,6 +20,7 @@ constexpr std::size_t kLargeTree = std::size_t{1} << 16;
 } // namespace
 
 MovingTransform placedKeys(const Keys& keys, const SceneFrame& frame, bool motionBlur) {
+    if (keys.size() == 1) return frame.placed(keys.front());
     std::vector<Transform> maps;
     for (const Rows& rows : keys) maps.push_back(frame.placed(rows));
     const MovingTransform moving{std::span<const Transform>(maps)};
@@ -33,24 +34,20 @@ ShapeMaker::ShapeMaker(const SceneDesc& desc, const RenderSettings& settings,
     for (const bool isSolid : {true, false})
         for (const auto& row : kEnumNames<ObjectDesc::Sides>)
             merged_.push_back({row.value, isSolid, {}, {}, {}});
+    simple_.reserve(desc_.objects.size());
     const std::vector<bool> isCopied = meshesToCopy();
     for (std::uint32_t i = 0; i < desc_.objects.size(); ++i) {
         const ObjectDesc& object = desc_.objects[i];
+        const bool isStill = object.worldFromObject.size() == 1 || placeOf(i).isStatic();
+        moves_ = moves_ || !isStill;
         if (object.kind != ObjectDesc::Kind::Mesh) {
             simple_.push_back(i);
-            moves_ = moves_ ||
-                     (object.worldFromObject.size() > 1 &&
-                      !placedKeys(object.worldFromObject, frame_, settings_.switches.motionBlur)
-                           .isStatic());
             continue;
         }
-        Placed placed{i, placedKeys(object.worldFromObject, frame_, settings_.switches.motionBlur),
-                      materialsBySlot(object)};
-        moves_ = moves_ || !placed.place.isStatic();
+        Placed placed{i, materialsBySlot(object)};
         // Meshes that move or have too many copies are instances.
         const auto mesh = static_cast<std::size_t>(object.mesh);
-        placed.isCopied =
-            isCopied[mesh] && placed.place.isStatic() && isInScene(object, placed.place.at(0));
+        placed.isCopied = isCopied[mesh] && isStill && isInScene(i);
         if (placed.isCopied) {
             const bool isSolid = shadowOf(placed.materials) == ShapeSet::Shadow::Opaque;
             for (Merged& merged : merged_)
@@ -80,9 +77,9 @@ std::vector<std::function<void()>> ShapeMaker::jobs() {
 // After the other shapes come those with triangles in a row: ShapeSet::isBefore() needs that.
 void ShapeMaker::finish(ShapeSet& shapes,
                         std::vector<std::unique_ptr<const MeshGeometry>>& geometries) {
-    for (std::size_t i = 0; i < simple_.size(); ++i) {
+    shapes.reserve(simple_.size() + placed_.size());
+    for (std::size_t i = 0; i < simple_.size(); ++i)
         shapes.add(std::move(simpleShapes_[i]), shadowOf(materialIds(desc_.objects[simple_[i]])));
-    }
     const auto finishLarge = [&](MeshGeometry& geometry) {
         if (geometry.triangles.size() > kLargeTree) finishTree(geometry, settings_.threads);
     };
@@ -115,9 +112,9 @@ std::uint64_t ShapeMaker::degenerateCount() const {
 }
 
 // The scene's numbers of its materials, at least one; objects without one get the default.
-std::vector<std::uint32_t> ShapeMaker::materialIds(const ObjectDesc& object) const {
+OneOrMore<std::uint32_t> ShapeMaker::materialIds(const ObjectDesc& object) const {
     const auto none = static_cast<std::uint32_t>(desc_.materials.size());
-    std::vector<std::uint32_t> ids;
+    OneOrMore<std::uint32_t> ids;
     for (const Handle handle : object.materials)
         ids.push_back(handle == kNone ? none : static_cast<std::uint32_t>(handle));
     if (ids.empty()) ids.push_back(none);
@@ -125,7 +122,8 @@ std::vector<std::uint32_t> ShapeMaker::materialIds(const ObjectDesc& object) con
 }
 
 std::vector<std::uint32_t> ShapeMaker::materialsBySlot(const ObjectDesc& object) const {
-    std::vector<std::uint32_t> out = materialIds(object);
+    const OneOrMore<std::uint32_t> ids = materialIds(object);
+    std::vector<std::uint32_t> out(ids.begin(), ids.end());
     std::uint32_t slots = 1;
     for (const std::uint32_t slot :
          desc_.meshes[static_cast<std::size_t>(object.mesh)].triangleMaterials)
@@ -155,11 +153,17 @@ std::vector<bool> ShapeMaker::meshesToCopy() const {
     return out;
 }
 
+MovingTransform ShapeMaker::placeOf(std::uint32_t object) const {
+    return placedKeys(desc_.objects[object].worldFromObject, frame_, settings_.switches.motionBlur);
+}
+
 // Within kSceneExtent, on which the pads of all that is merged depend. Only an object that has
 // several keys, and whose movement is switched off, may be elsewhere in between.
-bool ShapeMaker::isInScene(const ObjectDesc& object, const Transform& place) const {
+bool ShapeMaker::isInScene(std::uint32_t number) const {
+    const ObjectDesc& object = desc_.objects[number];
     if (object.worldFromObject.size() == 1) return true;
-    const BoundsD box = place.bounds(boundsOf(desc_.meshes[static_cast<std::size_t>(object.mesh)]));
+    const BoundsD box =
+        placeOf(number).at(0).bounds(boundsOf(desc_.meshes[static_cast<std::size_t>(object.mesh)]));
     return max(maxAbs(box.lo), maxAbs(box.hi)) <= static_cast<double>(kSceneExtent);
 }
 
@@ -186,7 +190,8 @@ void ShapeMaker::merge(Merged& merged) {
     for (const std::size_t i : merged.members) {
         Placed& placed = placed_[i];
         const std::uint64_t before = merged.mesh.degenerateCount;
-        merged.mesh.add(meshOf(placed), placed.place.at(0), placed.materials, placed.object);
+        merged.mesh.add(meshOf(placed), placeOf(placed.object).at(0), placed.materials,
+                        placed.object, settings_.threads);
         placed.degenerateCount = merged.mesh.degenerateCount - before;
     }
     if (merged.mesh.geometry.triangles.empty()) return;
@@ -195,17 +200,16 @@ void ShapeMaker::merge(Merged& merged) {
 }
 
 void ShapeMaker::share(Shared& shared) {
-    shared.geometry = std::make_unique<MeshGeometry>(toSharedGeometry(desc_.meshes[shared.mesh]));
-    shared.degenerateCount = shared.geometry->dropDegenerate();
+    shared.geometry = std::make_unique<MeshGeometry>(
+        toSharedGeometry(desc_.meshes[shared.mesh], settings_.threads));
+    shared.degenerateCount = shared.geometry->dropDegenerate(settings_.threads);
     if (shared.geometry->triangles.size() <= kLargeTree) finishTree(*shared.geometry, 1);
 }
 
 void ShapeMaker::makeSimple(std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
         const ObjectDesc& object = desc_.objects[simple_[i]];
-        MovingTransform place =
-            placedKeys(object.worldFromObject, frame_, settings_.switches.motionBlur);
-        simpleShapes_[i] = makeShape(object, std::move(place), materialIds(object), simple_[i]);
+        simpleShapes_[i] = makeShape(object, placeOf(simple_[i]), materialIds(object), simple_[i]);
     }
 }
 
@@ -227,7 +231,7 @@ void ShapeMaker::addInstances(ShapeSet& shapes) {
             Placed& placed = *instances[i];
             shadows[i] = shadowOf(placed.materials);
             made[i] = withSides(
-                std::make_unique<MeshInstance>(geometryOf(placed), std::move(placed.place),
+                std::make_unique<MeshInstance>(geometryOf(placed), placeOf(placed.object),
                                                std::move(placed.materials), placed.object),
                 desc_.objects[placed.object].sides);
         }

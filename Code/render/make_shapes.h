@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/motion.h"
+#include "base/one_or_more.h"
 #include "desc/scene_desc.h"
 #include "render/frame.h"
 #include "render/merge.h"
@@ -37,7 +38,6 @@ private:
     // An object that shows a mesh.
     struct Placed {
         std::uint32_t object = 0;
-        MovingTransform place;
         std::vector<std::uint32_t> materials; // by slot of the mesh
         bool isCopied = false;                // into one of the merged meshes
         std::uint64_t degenerateCount = 0;    // of its copy
@@ -58,11 +58,12 @@ private:
         std::unique_ptr<MeshGeometry> geometry;
     };
 
-    std::vector<std::uint32_t> materialIds(const ObjectDesc& object) const;
+    OneOrMore<std::uint32_t> materialIds(const ObjectDesc& object) const;
     std::vector<std::uint32_t> materialsBySlot(const ObjectDesc& object) const;
     ShapeSet::Shadow shadowOf(std::span<const std::uint32_t> materials) const;
     std::vector<bool> meshesToCopy() const;
-    bool isInScene(const ObjectDesc& object, const Transform& place) const;
+    MovingTransform placeOf(std::uint32_t object) const;
+    bool isInScene(std::uint32_t number) const;
     const MeshDesc& meshOf(const Placed& placed) const;
     void merge(Merged& merged);
     void share(Shared& shared);

@@ -245,21 +245,20 @@ private:
     // Samples go to the film in the order of their numbers, whatever the size of the chunks.
     void collect(const Tile& tile, int first, int count, Worker& worker) {
         std::size_t slot = 0;
-        for (int y = 0; y < tile.height(); ++y)
-            for (int x = 0; x < tile.width(); ++x)
-                for (int s = first; s < first + count; ++s, ++slot) {
-                    const Rgb radiance = worker.chunk.radiance[slot];
-                    if (isFinite(radiance))
-                        worker.color.add(x, y, radiance);
-                    else
-                        ++worker.nanSamples;
-                    for (std::size_t a = 0; a < aovs_.size(); ++a) {
-                        // Numbers of objects can't be averaged: the first sample stands for all.
-                        if (settings_.aovs[a] == Aov::Id && s > 0) continue;
-                        addFirstHit(worker.aovs[a], settings_.aovs[a], x, y,
-                                    worker.chunk.first[slot]);
-                    }
+        forEachPlace({0, 0, tile.width(), tile.height()}, [&](int x, int y) {
+            for (int s = first; s < first + count; ++s, ++slot) {
+                const Rgb radiance = worker.chunk.radiance[slot];
+                if (isFinite(radiance))
+                    worker.color.add(x, y, radiance);
+                else
+                    ++worker.nanSamples;
+                for (std::size_t a = 0; a < aovs_.size(); ++a) {
+                    // Numbers of objects can't be averaged: the first sample stands for all.
+                    if (settings_.aovs[a] == Aov::Id && s > 0) continue;
+                    addFirstHit(worker.aovs[a], settings_.aovs[a], x, y, worker.chunk.first[slot]);
                 }
+            }
+        });
     }
 
     ThreadPool pool_; // first: its threads start while the rest is set up

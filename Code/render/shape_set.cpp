@@ -13,6 +13,10 @@ constexpr std::size_t kFewestForTree = 5;
 
 } // namespace
 
+void ShapeSet::reserve(std::size_t count) {
+    shapes.reserve(count), boxes.reserve(count), shadows.reserve(count), bounded.reserve(count);
+}
+
 void ShapeSet::add(std::unique_ptr<const Shape> shape, Shadow shadow) {
     const auto number = static_cast<std::uint32_t>(shapes.size());
     const Bounds box = shape->bounds();
@@ -42,18 +46,24 @@ void ShapeSet::finish(bool withBvh, const Kernel& kernel, int threads) {
         isBatched_[number] = 1;
     }
     if (!withBvh) return;
-    std::vector<Bounds> inOrder;
+    inTree_.reserve(bounded.size());
     for (const std::uint32_t number : bounded)
-        if (!isBatched_[number]) inTree_.push_back(number), inOrder.push_back(boxes[number]);
+        if (!isBatched_[number]) inTree_.push_back(number);
     if (!kernel_ && inTree_.size() < kFewestForTree) return inTree_.clear();
-    bvh = buildBvh(inOrder, threads);
+    bvh = buildBvh(boxesInTree(), threads);
     bvh.nodes.shrink_to_fit();
     if (kernel_) buildBatchTrees(kernel, threads);
 }
 
+std::vector<Bounds> ShapeSet::boxesInTree() const {
+    std::vector<Bounds> out;
+    out.reserve(inTree_.size());
+    for (const std::uint32_t number : inTree_) out.push_back(boxes[number]);
+    return out;
+}
+
 void ShapeSet::buildBatchTrees(const Kernel& kernel, int threads) {
-    std::vector<Bounds> others;
-    others.reserve(inTree_.size()), solids_.reserve(inTree_.size());
+    solids_.reserve(inTree_.size());
     for (const std::uint32_t number : inTree_) {
         const MeshInstance* const instance = shapes[number]->meshInstance();
         if (instance != nullptr && instance->geometry().kernel == &kernel) {
@@ -61,13 +71,12 @@ void ShapeSet::buildBatchTrees(const Kernel& kernel, int threads) {
                         instance->geometry().wide);
             continue;
         }
-        others.push_back(boxes[number]);
         solids_.add(boxes[number], number, shadows[number] == Shadow::Opaque,
                     shapes[number]->solidForm());
     }
     solids_.extent = extent;
     solids_.build(kernel_->width,
-                  others.size() == inTree_.size() ? bvh : buildBvh(others, threads));
+                  solids_.boxes.size() == inTree_.size() ? bvh : buildBvh(solids_.boxes, threads));
     if (!placed_.isEmpty()) placed_.build(kernel, extent, threads);
 }
 

@@ -27,6 +27,8 @@ struct ShapeSet {
     Bvh bvh;                     // over the bounded ones that take no batches; empty: linear search
     float extent = kSceneExtent; // no |coordinate| of a finite box is larger
 
+    // Room for so many; growing would touch the memory twice.
+    void reserve(std::size_t count);
     void add(std::unique_ptr<const Shape> shape, Shadow shadow);
     // Call once after the last add(). Batches are answered by the kernel, if it has a part for
     // solids and a tree is wanted; else as single rays are.
@@ -61,6 +63,7 @@ private:
     bool isBefore(const Ray& ray, const Hit& a, const Hit& b) const;
     // Asks the shape for a nearer hit than the best one, which then becomes it.
     bool nearer(const Ray& ray, std::uint32_t number, float tEntry, Hit& best) const;
+    std::vector<Bounds> boxesInTree() const;
     void buildBatchTrees(const Kernel& kernel, int threads);
     void closestOfBatched(const RaySpan& rays, std::vector<Hit>& hits) const;
     void hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;

@@ -1,8 +1,5 @@
 #include "shape/analytic_shape.h"
 
-#include <algorithm>
-#include <utility>
-
 namespace {
 
 constexpr double kFloatUlp = 0x1p-24; // half an ulp, relative: error of one rounding to float
@@ -16,14 +13,11 @@ double sumOfProducts(Vec3d a, Vec3d b) {
 }
 
 // Row i of the linear part.
-Vec3d row(const Transform& map, std::size_t i) {
-    const Transform::Rows& r = map.rows();
-    return {r[4 * i], r[4 * i + 1], r[4 * i + 2]};
-}
+Vec3d row(const AffineRows& r, std::size_t i) { return {r[4 * i], r[4 * i + 1], r[4 * i + 2]}; }
 
 // Largest row sum of |M| |M^-1|: how much a relative error of the object's coordinates grows when
 // it is seen as a distance in the world. At most 3 for a rotation, else about the condition number.
-double amplification(const Transform& map, const Transform& inverse) {
+double amplification(const AffineRows& map, const AffineRows& inverse) {
     Vec3d sums; // of the rows of |M^-1|
     for (std::size_t i = 0; i < 3; ++i) sums[i] = sumOfProducts(row(inverse, i), {1, 1, 1});
     double largest = 0;
@@ -33,16 +27,20 @@ double amplification(const Transform& map, const Transform& inverse) {
 
 } // namespace
 
-AnalyticShape::AnalyticShape(MovingTransform worldFromObject, std::uint32_t material,
-                             std::uint32_t object)
-    : worldFromObject_(worldFromObject.at(0)), objectFromWorld_(worldFromObject_.inverse()),
-      material_(material), object_(object) {
-    if (!worldFromObject.isStatic()) motion_ = std::move(worldFromObject);
+AnalyticShape::AnalyticShape(const MovingTransform& worldFromObject, std::uint32_t material,
+                             std::uint32_t object, double radius)
+    : still_{.worldFromObject = worldFromObject.keys().front(),
+             .radius = radius,
+             .material = material,
+             .oddMaterial = material,
+             .object = object} {
+    if (!worldFromObject.isStatic())
+        motion_ = std::make_unique<const MovingTransform>(worldFromObject);
 }
 
 Bounds AnalyticShape::bounds() const {
     const BoundsD box =
-        isStill() ? boxUnder(worldFromObject_) : motion_->bounds(boxUnder(Transform()));
+        isStill() ? boxUnder(worldFromObject()) : motion_->bounds(boxUnder(Transform()));
     if (!box.isFinite()) {
         const float inf = kInfinityF;
         return {{-inf, -inf, -inf}, {inf, inf, inf}};
@@ -52,8 +50,8 @@ Bounds AnalyticShape::bounds() const {
 
 SolidForm AnalyticShape::tubeForm(double radius) const {
     if (!isStill()) return Shape::solidForm();
-    const Vec3d x = worldFromObject_.column(0), y = worldFromObject_.column(1);
-    const Vec3d axis = worldFromObject_.column(2);
+    const Vec3d x = worldFromObject().column(0), y = worldFromObject().column(1);
+    const Vec3d axis = worldFromObject().column(2);
     const double size = length(axis);
     if (!(size > 0x1p-100)) return Shape::solidForm();
     // The largest stretch of the disks, which is also a bound across the axis.
@@ -62,37 +60,41 @@ SolidForm AnalyticShape::tubeForm(double radius) const {
     // The disks may lean.
     const Vec3d unit = axis / size;
     const double lean = length(Vec3d{dot(x, unit), dot(y, unit), 0});
-    return {{.centre = worldFromObject_.translation(),
+    return {{.centre = worldFromObject().translation(),
              .axis = unit,
              .radius = radius * stretch,
              .halfLength = size + radius * lean},
             {}};
 }
 
-void AnalyticShape::measure() {
-    if (isStill()) size_ = sizeUnder(worldFromObject_, objectFromWorld_);
+void AnalyticShape::measure(StillShape::Round round, std::uint32_t part) {
+    if (!isStill()) return;
+    still_ = stillUnder(still_.worldFromObject);
+    const bool wantsEnd = round != StillShape::Round::Plane;
+    if (still_.hasEnd != wantsEnd || still_.worldFromObject.isSingular()) return;
+    still_.round = round, still_.part = part;
 }
 
-AnalyticShape::Size AnalyticShape::sizeUnder(const Transform& map, const Transform& inverse) const {
-    const BoundsD box = boxUnder(map);
-    return {box.isFinite() ? length(box.size()) : kInfinity, amplification(map, inverse)};
+StillShape AnalyticShape::stillUnder(const Transform& worldFromObject) const {
+    const BoundsD box = boxUnder(worldFromObject);
+    StillShape shape = still_;
+    shape.worldFromObject = worldFromObject;
+    shape.hasEnd = box.isFinite();
+    // The reach of a ray along the surface.
+    shape.leastError = kFloatUlp * (shape.hasEnd ? length(box.size()) : kSceneReach);
+    shape.errorPerPlace =
+        0x1p-48 * amplification(worldFromObject.rows(), worldFromObject.inverseRows());
+    return shape;
 }
 
-// Transform::ray() without a call: this is what most rays are asked.
-static RayD mapped(const Transform& map, const RayD& ray) {
-    const Transform::Rows& m = map.rows();
-    const Vec3d o = ray.org, d = ray.dir;
-    return {{m[0] * o.x + m[1] * o.y + m[2] * o.z + m[3],
-             m[4] * o.x + m[5] * o.y + m[6] * o.z + m[7],
-             m[8] * o.x + m[9] * o.y + m[10] * o.z + m[11]},
-            {m[0] * d.x + m[1] * d.y + m[2] * d.z, m[4] * d.x + m[5] * d.y + m[6] * d.z,
-             m[8] * d.x + m[9] * d.y + m[10] * d.z}};
+static RayD mapped(const AffineRows& map, const RayD& ray) {
+    return {pointUnder(map, ray.org), vectorUnder(map, ray.dir)};
 }
 
 AnalyticShape::Roots AnalyticShape::rootsOf(const Ray& ray) const {
     const RayD world = toDouble(ray);
-    const RayD local = isStill() ? mapped(objectFromWorld_, world)
-                                 : worldFromObjectAt(ray.time).inverse().ray(world);
+    const RayD local = isStill() ? mapped(still_.objectFromWorld(), world)
+                                 : mapped(worldFromObjectAt(ray.time).inverseRows(), world);
     // Zero, NaN or infinite rays meet nothing.
     const double dd = dot(local.dir, local.dir);
     if (!(dd > 0 && dd < kInfinity && dot(local.org, local.org) < kInfinity)) return {};
@@ -148,16 +150,16 @@ void AnalyticShape::collect(const Ray& ray, std::vector<Hit>& hits) const {
 //    (the rest of this term, 0.13 u reach, covers the rounding of the formulas in double)
 //  - the map to object space and back in double, whose error is 2^-53 times a dozen operations
 //    times the amplification of the map:                          2^-48 amplification (|p| + |T|)
-Surface AnalyticShape::surfaceUnder(const Transform& worldFromObject,
-                                    const Transform& objectFromWorld, const Size& size,
-                                    const Ray& ray, const Hit& hit, SurfaceNeeds needs) const {
+Surface AnalyticShape::surfaceOf(const StillShape& shape, const Ray& ray, const Hit& hit,
+                                 SurfaceNeeds needs) const {
+    const Transform& worldFromObject = shape.worldFromObject;
+    const AffineRows& objectFromWorld = shape.objectFromWorld();
     const double t = static_cast<double>(hit.t) + static_cast<double>(hit.u);
     const Vec3d seen = toDouble(ray).at(t);
 
-    const double reach = size.reach < kInfinity ? size.reach : kSceneReach * max(1.0, maxAbs(seen));
+    const double leastError = shape.leastError * (shape.hasEnd ? 1 : max(1.0, maxAbs(seen)));
     const double fixedError =
-        kFloatUlp * reach +
-        0x1p-48 * size.amplification * (maxAbs(seen) + maxAbs(worldFromObject.translation()));
+        leastError + shape.errorPerPlace * (maxAbs(seen) + maxAbs(worldFromObject.translation()));
     // Twice the largest error that any normal can give.
     const double distance = 2 * (3 * kFloatUlp * length(seen) + fixedError);
 
@@ -165,52 +167,32 @@ Surface AnalyticShape::surfaceUnder(const Transform& worldFromObject,
                                  {distance, objectFromWorld, needs.uv});
     // One step of refinement: p is where the inverse, which rays are mapped with, sees local.p.
     Vec3d p = worldFromObject.point(local.p);
-    p += worldFromObject.vector(local.p - objectFromWorld.point(p));
+    p += worldFromObject.vector(local.p - pointUnder(objectFromWorld, p));
     const Vec3d normal = normalize(worldFromObject.normal(local.normal));
 
     Surface surface;
     surface.p = toFloat(p);
     surface.ng = surface.ns = toFloat(normal);
     surface.uv = {static_cast<float>(local.uv.x), static_cast<float>(local.uv.y)};
-    surface.material = material_;
-    surface.object = object_;
+    surface.material = shape.material;
+    surface.object = shape.object;
     surface.error = floatAbove(3 * kFloatUlp * sumOfProducts(normal, p) + fixedError);
     return surface;
 }
 
-std::optional<RoundToShade> AnalyticShape::toShade(RoundToShade::Kind kind, std::uint32_t part,
-                                                   double radius) const {
-    const bool hasEnd = kind != RoundToShade::Kind::Plane;
-    if (!size_ || (size_->reach < kInfinity) != hasEnd || worldFromObject_.isSingular()) return {};
-    using Number = RoundToShade::Number;
-    RoundToShade shade{{}, kind, part, material_, material_, object_};
-    const auto put = [&](Number first, const Transform& map) {
-        std::copy(map.rows().begin(), map.rows().end(), shade.numbers.begin() + first);
-    };
-    put(Number::WorldFromObject, worldFromObject_);
-    put(Number::ObjectFromWorld, objectFromWorld_);
-    shade.numbers[Number::Radius] = radius;
-    shade.numbers[Number::LeastError] = kFloatUlp * (hasEnd ? size_->reach : kSceneReach);
-    shade.numbers[Number::ErrorPerPlace] = 0x1p-48 * size_->amplification;
-    shade.numbers[Number::Farthest] = maxAbs(worldFromObject_.translation());
-    shade.numbers[Number::SteepnessOfZ] = length(row(objectFromWorld_, 2));
-    return shade;
-}
-
 Surface AnalyticShape::surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const {
-    if (size_) return surfaceUnder(worldFromObject_, objectFromWorld_, *size_, ray, hit, needs);
-    const Transform map = worldFromObjectAt(ray.time), inverse = map.inverse();
-    return surfaceUnder(map, inverse, sizeUnder(map, inverse), ray, hit, needs);
+    if (isStill()) return surfaceOf(still_, ray, hit, needs);
+    return surfaceOf(stillUnder(worldFromObjectAt(ray.time)), ray, hit, needs);
 }
 
 // The sign is asked of the surface's rounded normal. Its error, and that of a point which has not
 // been kept clear of edges, is far below the angle of 2^-10 up to which it is computed.
 bool AnalyticShape::seesFront(const Ray& ray, const Hit& hit) const {
     if (!isStill()) return Shape::seesFront(ray, hit);
-    const RayD local = mapped(objectFromWorld_, toDouble(ray));
+    const RayD local = mapped(still_.objectFromWorld(), toDouble(ray));
     const double t = static_cast<double>(hit.t) + static_cast<double>(hit.u);
     const Vec3d n = normalAt(local.at(t), hit.prim);
-    const Vec3d normal = worldFromObject_.normal(n), dir = toDouble(ray.dir);
+    const Vec3d normal = worldFromObject().normal(n), dir = toDouble(ray.dir);
     const double facing = dot(normal, dir);
     if (facing * facing > 0x1p-20 * dot(normal, normal) * dot(dir, dir)) return facing < 0;
     return Shape::seesFront(ray, hit);
@@ -219,8 +201,8 @@ bool AnalyticShape::seesFront(const Ray& ray, const Hit& hit) const {
 SurfaceDerivatives AnalyticShape::derivatives(const Ray& ray, const Hit& hit) const {
     const Transform worldFromObject = worldFromObjectAt(ray.time);
     const double t = static_cast<double>(hit.t) + static_cast<double>(hit.u);
-    const Transform objectFromWorld = worldFromObject.inverse();
-    const Vec3d p = objectFromWorld.ray(toDouble(ray)).at(t);
+    const AffineRows& objectFromWorld = worldFromObject.inverseRows();
+    const Vec3d p = mapped(objectFromWorld, toDouble(ray)).at(t);
     const Local local = describe(p, hit.prim, {0, objectFromWorld, true});
     return {toFloat(worldFromObject.vector(local.dpdu)),
             toFloat(worldFromObject.vector(local.dpdv))};
@@ -240,7 +222,7 @@ BoundsD diskBox(const Transform& worldFromObject, Vec3d centre, double radius) {
     const Vec3d middle = worldFromObject.point(centre);
     Vec3d half;
     for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3d m = row(worldFromObject, i);
+        const Vec3d m = row(worldFromObject.rows(), i);
         half[i] = radius * std::sqrt(m.x * m.x + m.y * m.y);
     }
     return {middle - half, middle + half};

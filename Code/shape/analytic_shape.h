@@ -2,13 +2,14 @@
 // meets it in object space and what is there; the ray's way there and back is here, once.
 #pragma once
 
+#include "accel/still_shape.h"
 #include "base/motion.h"
 #include "shape/interval.h"
 #include "shape/shape.h"
 
 #include <array>
 #include <cstddef>
-#include <optional>
+#include <memory>
 
 class AnalyticShape : public Shape {
 public:
@@ -22,6 +23,9 @@ public:
     bool hidesFromItself(bool inside) const override { return inside; } // all are convex
     Surface surface(const Ray& ray, const Hit& hit) const final { return surfaceFor(ray, hit, {}); }
     Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const final;
+    const StillShape* roundToShade() const final {
+        return still_.round == StillShape::Round::None ? nullptr : &still_;
+    }
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const final;
 
 protected:
@@ -51,7 +55,7 @@ protected:
     // How far, in the world, the origin of a ray may be from the point that it leaves.
     struct Clearance {
         double distance;
-        const Transform& objectFromWorld;
+        const AffineRows& objectFromWorld;
         bool wantsUv; // else describe() may leave them out
         // The most that the object's coordinates change over the distance.
         Vec3d inset() const;
@@ -59,18 +63,18 @@ protected:
         double steepness(Vec3d n) const;
     };
 
-    AnalyticShape(MovingTransform worldFromObject, std::uint32_t material, std::uint32_t object);
+    AnalyticShape(const MovingTransform& worldFromObject, std::uint32_t material,
+                  std::uint32_t object, double radius = 0);
 
-    // Called at the end of a constructor: what surface() would compute again for every hit.
-    void measure();
+    // Called at the end of a constructor: what surface() would compute again for every hit. What is
+    // round is done by lanes where it stands still, has an end, and the map has an inverse.
+    void measure(StillShape::Round round = StillShape::Round::None, std::uint32_t part = 0);
 
+    double radius() const { return still_.radius; }
     bool isStill() const { return !motion_; }
     // Of a shape that stands still.
-    const Transform& worldFromObject() const { return worldFromObject_; }
-    const Transform& objectFromWorld() const { return objectFromWorld_; }
-    // What lanes need, of a shape that stands still, has an end, and whose map has an inverse.
-    std::optional<RoundToShade> toShade(RoundToShade::Kind kind, std::uint32_t part,
-                                        double radius) const;
+    const StillShape& still() const { return still_; }
+    const Transform& worldFromObject() const { return still_.worldFromObject; }
     // Around disks of at most this radius about the z axis, of z from -1 to 1.
     SolidForm tubeForm(double radius) const;
 
@@ -82,34 +86,23 @@ protected:
     virtual Local describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const = 0;
     // Its normal alone, about as exact.
     virtual Vec3d normalAt(Vec3d p, std::uint32_t part) const {
-        return describe(p, part, {0, objectFromWorld_, false}).normal;
+        return describe(p, part, {0, still_.objectFromWorld(), false}).normal;
     }
     // The smallest box of the mapped shape.
     virtual BoundsD boxUnder(const Transform& worldFromObject) const = 0;
 
 private:
     Roots rootsOf(const Ray& ray) const;
-    Surface surfaceUnder(const Transform& worldFromObject, const Transform& objectFromWorld,
-                         double amplification, const Ray& ray, const Hit& hit,
-                         SurfaceNeeds needs) const;
     Transform worldFromObjectAt(float time) const {
-        return isStill() ? worldFromObject_ : motion_->at(static_cast<double>(time));
+        return isStill() ? still_.worldFromObject : motion_->at(static_cast<double>(time));
     }
+    // As it is under a map, measured.
+    StillShape stillUnder(const Transform& worldFromObject) const;
+    Surface surfaceOf(const StillShape& shape, const Ray& ray, const Hit& hit,
+                      SurfaceNeeds needs) const;
 
-    // What surface() needs of the whole shape.
-    struct Size {
-        double reach = kInfinity; // of a ray along the surface; infinite: without end
-        double amplification = 0; // of rounding by the map
-    };
-    Size sizeUnder(const Transform& map, const Transform& inverse) const;
-    Surface surfaceUnder(const Transform& worldFromObject, const Transform& objectFromWorld,
-                         const Size& size, const Ray& ray, const Hit& hit,
-                         SurfaceNeeds needs) const;
-
-    Transform worldFromObject_, objectFromWorld_; // of a static shape
-    std::optional<Size> size_;
-    std::optional<MovingTransform> motion_; // of one that moves
-    std::uint32_t material_, object_;
+    StillShape still_;                              // of one that moves: at time 0, not measured
+    std::unique_ptr<const MovingTransform> motion_; // of one that moves
 };
 
 // Smallest box of a disk about `centre` in a plane of constant z, mapped.

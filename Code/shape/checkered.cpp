@@ -5,8 +5,8 @@
 
 Checkered::Checkered(std::unique_ptr<const Shape> shape, std::uint32_t otherMaterial)
     : shape_(std::move(shape)), otherMaterial_(otherMaterial) {
-    const RoundToShade* const inLanes = shape_->roundToShade();
-    if (inLanes == nullptr || inLanes->kind != RoundToShade::Kind::Plane) return;
+    const StillShape* const inLanes = shape_->roundToShade();
+    if (inLanes == nullptr || inLanes->round != StillShape::Round::Plane) return;
     inLanes_ = *inLanes;
     inLanes_->oddMaterial = otherMaterial;
 }

@@ -25,7 +25,7 @@ public:
         shape_->occludesBatch(rays, hidden);
     }
     SolidForm solidForm() const override { return shape_->solidForm(); }
-    const RoundToShade* roundToShade() const override { return inLanes_ ? &*inLanes_ : nullptr; }
+    const StillShape* roundToShade() const override { return inLanes_ ? &*inLanes_ : nullptr; }
     bool seesFront(const Ray& ray, const Hit& hit) const override {
         return shape_->seesFront(ray, hit);
     }
@@ -38,5 +38,5 @@ public:
 private:
     std::unique_ptr<const Shape> shape_;
     std::uint32_t otherMaterial_;
-    std::optional<RoundToShade> inLanes_; // of planes
+    std::optional<StillShape> inLanes_; // of planes
 };

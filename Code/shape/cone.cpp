@@ -15,7 +15,7 @@ Cone::Cone(MovingTransform worldFromObject, double radius, double topRadius, boo
 SolidForm Cone::solidForm() const {
     SolidForm form = tubeForm(max(radius_, topRadius_));
     if (form.hull.axis == Vec3d{}) return form;
-    form.tube = {.objectFromWorld = objectFromWorld().rows(),
+    form.tube = {.shape = &still(),
                  .caps = caps_,
                  .radius = narrowRadius_,
                  .cone = StillTube::Cone{slope_, narrowZ_}};

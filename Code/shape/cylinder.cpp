@@ -6,22 +6,21 @@
 
 Cylinder::Cylinder(MovingTransform worldFromObject, double radius, bool caps,
                    std::uint32_t material, std::uint32_t object)
-    : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius), caps_(caps) {
-    measure();
-    inLanes_ = toShade(RoundToShade::Kind::Cylinder, kSide, radius_);
+    : AnalyticShape(std::move(worldFromObject), material, object, radius), caps_(caps) {
+    measure(StillShape::Round::Cylinder, kSide);
 }
 
 SolidForm Cylinder::solidForm() const {
-    SolidForm form = tubeForm(radius_);
+    SolidForm form = tubeForm(radius());
     if (form.hull.axis == Vec3d{}) return form;
-    form.tube = {.objectFromWorld = objectFromWorld().rows(), .caps = caps_, .radius = radius_};
+    form.tube = {.shape = &still(), .caps = caps_, .radius = radius()};
     const Vec3d x = worldFromObject().column(0), y = worldFromObject().column(1);
     const Vec3d axis = form.hull.axis;
     // Round and straight but for 2^-30, which `form.hull` covers as it does rounding.
     const double xx = dot(x, x), yy = dot(y, y), most = 0x1p-30 * xx;
     const double lean = max(std::fabs(dot(x, axis)), std::fabs(dot(y, axis)));
     if (std::fabs(xx - yy) <= most && std::fabs(dot(x, y)) <= most && lean * lean <= most * 0x1p-30)
-        form.hull.innerRadius = radius_ * std::sqrt(xx);
+        form.hull.innerRadius = radius() * std::sqrt(xx);
     return form;
 }
 
@@ -29,9 +28,9 @@ SolidForm Cylinder::solidForm() const {
 Interval Cylinder::insideTube(const RayD& ray) const {
     const double ox = ray.org.x, oy = ray.org.y, dx = ray.dir.x, dy = ray.dir.y;
     const double dd = dx * dx + dy * dy, od = ox * dx + oy * dy;
-    if (dd == 0) return Interval::all(radius_ > 0 && ox * ox + oy * oy <= radius_ * radius_);
+    if (dd == 0) return Interval::all(radius() > 0 && ox * ox + oy * oy <= radius() * radius());
     const double px = ox - dx * (od / dd), py = oy - dy * (od / dd);
-    return insideRound(dd, od, px * px + py * py, radius_, kSide);
+    return insideRound(dd, od, px * px + py * py, radius(), kSide);
 }
 
 AnalyticShape::Roots Cylinder::roots(const RayD& ray) const {
@@ -52,22 +51,22 @@ AnalyticShape::Local Cylinder::describe(Vec3d p, std::uint32_t part,
     const Vec3d inset = clearance.inset();
     if (part != kSide) {
         const double radialInset = std::sqrt(inset.x * inset.x + inset.y * inset.y);
-        const Cap at = cap(p, part == kTop, radius_, radialInset);
+        const Cap at = cap(p, part == kTop, radius(), radialInset);
         return {at.p, at.normal, at.uv, at.dpdu, at.dpdv};
     }
     const double around = std::sqrt(p.x * p.x + p.y * p.y);
     const double c = around > 0 ? p.x / around : 1, s = around > 0 ? p.y / around : 0;
     const double limit = 1 - min(inset.z, 0.5);
     const double z = clamp(p.z, -limit, limit);
-    if (!clearance.wantsUv) return {{c * radius_, s * radius_, z}, {c, s, 0}, {}, {}, {}};
-    return {{c * radius_, s * radius_, z},
+    if (!clearance.wantsUv) return {{c * radius(), s * radius(), z}, {c, s, 0}, {}, {}, {}};
+    return {{c * radius(), s * radius(), z},
             {c, s, 0},
             {0.5 + exact::atan2(s, c) * kInvTwoPi, 0.5 + 0.5 * z},
-            {-s * kTwoPi * radius_, c * kTwoPi * radius_, 0},
+            {-s * kTwoPi * radius(), c * kTwoPi * radius(), 0},
             {0, 0, 2}};
 }
 
 BoundsD Cylinder::boxUnder(const Transform& worldFromObject) const {
-    return merge(diskBox(worldFromObject, {0, 0, -1}, radius_),
-                 diskBox(worldFromObject, {0, 0, 1}, radius_));
+    return merge(diskBox(worldFromObject, {0, 0, -1}, radius()),
+                 diskBox(worldFromObject, {0, 0, 1}, radius()));
 }

@@ -12,7 +12,6 @@ public:
              std::uint32_t object);
 
     SolidForm solidForm() const override;
-    const RoundToShade* roundToShade() const override { return inLanes_ ? &*inLanes_ : nullptr; }
 
 private:
     enum Part : std::uint32_t {
@@ -29,7 +28,5 @@ private:
 
     Interval insideTube(const RayD& ray) const;
 
-    double radius_;
     bool caps_;
-    std::optional<RoundToShade> inLanes_; // unless it moves or is flat
 };

@@ -5,13 +5,12 @@
 InfinitePlane::InfinitePlane(MovingTransform worldFromObject, std::uint32_t material,
                              std::uint32_t object)
     : AnalyticShape(std::move(worldFromObject), material, object) {
-    measure();
-    inLanes_ = toShade(RoundToShade::Kind::Plane, 0, 0);
+    measure(StillShape::Round::Plane);
 }
 
 SolidForm InfinitePlane::solidForm() const {
     SolidForm form;
-    if (isStill()) form.plane = StillPlane{objectFromWorld().rows()};
+    if (isStill()) form.plane = StillPlane{still().objectFromWorld()};
     return form;
 }
 

@@ -8,12 +8,9 @@ public:
     InfinitePlane(MovingTransform worldFromObject, std::uint32_t material, std::uint32_t object);
     bool hidesFromItself(bool) const override { return false; } // flat
     SolidForm solidForm() const override;
-    const RoundToShade* roundToShade() const override { return inLanes_ ? &*inLanes_ : nullptr; }
 
 private:
     Roots roots(const RayD& ray) const override;
     Local describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const override;
     BoundsD boxUnder(const Transform& worldFromObject) const override;
-
-    std::optional<RoundToShade> inLanes_; // unless it moves
 };

@@ -42,7 +42,7 @@ public:
     void surfaces(const SurfaceQuery& query, Strided<Surface> out) const override {
         shape_->surfaces(query, out);
     }
-    const RoundToShade* roundToShade() const override { return shape_->roundToShade(); }
+    const StillShape* roundToShade() const override { return shape_->roundToShade(); }
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override {
         return shape_->derivatives(ray, hit);
     }

@@ -11,13 +11,9 @@ public:
            std::uint32_t object);
 
     SolidForm solidForm() const override;
-    const RoundToShade* roundToShade() const override { return inLanes_ ? &*inLanes_ : nullptr; }
 
 private:
     Roots roots(const RayD& ray) const override;
     Local describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const override;
     BoundsD boxUnder(const Transform& worldFromObject) const override;
-
-    double radius_;
-    std::optional<RoundToShade> inLanes_; // unless it moves or is flat
 };

@@ -51,8 +51,8 @@ bool ExactShape::isInside(Vec3w p, Vec3w normal) const {
                (normal.z != 0 || isWithin(p.z, 1));
     case Kind::Plane:
         for (std::size_t i = 0; i < 4; ++i) {
-            const Vec3w from = toWide(object_.corners[i]),
-                        to = toWide(object_.corners[(i + 1) % 4]);
+            const Vec3w from = toWide((*object_.corners)[i]),
+                        to = toWide((*object_.corners)[(i + 1) % 4]);
             if (dot(cross(to - from, p - from), normal) < 0) return false;
         }
         return true;
@@ -124,7 +124,7 @@ std::vector<ExactHit> ExactShape::hits(const Ray& ray) const {
         meetPlane(line, {}, {0, 0, 1}, found);
     if (object_.kind == Kind::Plane) {
         Vec3w c[4];
-        for (std::size_t i = 0; i < 4; ++i) c[i] = toWide(object_.corners[i]);
+        for (std::size_t i = 0; i < 4; ++i) c[i] = toWide((*object_.corners)[i]);
         meetPlane(line, c[0], cross(c[2] - c[0], c[3] - c[1]), found);
     }
     std::sort(found.begin(), found.end(),

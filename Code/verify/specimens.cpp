@@ -44,7 +44,7 @@ Vec3d Specimen::surfacePoint(Random& random, double nearest) const {
     case Kind::Disk: return place.point(inCircle(random, r, 0));
     case Kind::InfinitePlane: return place.point(onCircle(random, random.uniform(0, 3), 0));
     case Kind::Plane: {
-        const auto& c = object.corners;
+        const auto& c = *object.corners;
         const double u = random.unit();
         const Vec3d from = lerp(c[0], c[1], u), to = lerp(c[3], c[2], u);
         return place.point(lerp(from, to, random.unit()));

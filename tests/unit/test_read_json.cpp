@@ -438,7 +438,7 @@ TEST(read_json_upright_shapes) {
         "corners": [[0, 0, 0], [2, 0, 0], [2, 3, 0], [0, 3, 0]]})")
                                 .at(0);
     CHECK(quad.kind == ObjectDesc::Kind::Plane && quad.sides == ObjectDesc::Sides::Front);
-    checkPoint(quad.corners[2], {2, 3, 0}, 0);
+    checkPoint((*quad.corners)[2], {2, 3, 0}, 0);
 }
 
 // Copies of copies: the sum is known before any is made.

@@ -38,7 +38,7 @@ std::size_t checkShapes(const Shapes& shapes, const std::vector<Transform>& maps
     std::vector<Hit> hits;
     std::vector<std::uint32_t> which, to;
     std::vector<const Shape*> met;
-    std::vector<const RoundToShade*> toShade;
+    std::vector<const StillShape*> toShade;
     const bool fromOnePoint = random.coin();
     const Vec3d eye = maps[0].point(random.inBox(3));
     std::size_t number = 0;
@@ -52,7 +52,7 @@ std::size_t checkShapes(const Shapes& shapes, const std::vector<Transform>& maps
         tMin.push_back(ray.tMin), tMax.push_back(ray.tMax), time.push_back(ray.time);
         hits.emplace_back();
         if (random.chance(missing) || !shapes[number]->intersect(ray, hits.back())) continue;
-        const RoundToShade* const shade = shapes[number]->roundToShade();
+        const StillShape* const shade = shapes[number]->roundToShade();
         if (shade->part != hits.back().prim) continue; // the cap of a cylinder
         which.push_back(i), to.push_back(i);
         met.push_back(shapes[number].get()), toShade.push_back(shade);

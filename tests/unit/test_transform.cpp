@@ -2,7 +2,9 @@
 #include "base/transform.h"
 #include "check.h"
 
+#include <array>
 #include <random>
+#include <string>
 
 namespace {
 
@@ -68,6 +70,35 @@ TEST(transform_singular) {
 }
 
 // The closed form: turns about one axis add up, about two axes they are the quaternion product.
+// From the determinant alone, or where that is not certain from the inverse: rows of all sizes, of
+// which many are nearly or wholly flat.
+TEST(transform_orientation_is_that_of_the_map) {
+    Draw draw;
+    std::array<int, 3> counts{};
+    for (int i = 0; i < check::scaled(20000); ++i) {
+        const double size = std::exp2(draw.uniform(-1070, 1000));
+        Transform::Rows rows;
+        for (double& x : rows) x = draw.uniform(-1, 1) * size;
+        const std::size_t row = draw.engine() % 3, other = draw.engine() % 3;
+        const int kind = static_cast<int>(draw.engine() % 5);
+        for (std::size_t k = 0; k < 3; ++k) {
+            double& x = rows[4 * row + k];
+            if (kind == 1) x = rows[4 * other + k] * 3;
+            if (kind == 2) x = rows[4 * other + k] * (1 + 0x1p-50 * static_cast<double>(k));
+            if (kind == 3) x *= std::exp2(draw.uniform(-700, 0));
+        }
+        if (kind == 4) rows[draw.engine() % 12] = i % 2 == 0 ? kInfinity : std::nan("");
+        const Transform map = Transform::fromRows(rows);
+        const auto expected = map.isSingular() ? Transform::Orientation::Lost
+                              : map.mirrors()  ? Transform::Orientation::Mirrored
+                                               : Transform::Orientation::Kept;
+        CHECK_INFO(Transform::orientationOf(rows) == expected,
+                   "map " + std::to_string(i) + " of kind " + std::to_string(kind));
+        ++counts[static_cast<std::size_t>(expected)];
+    }
+    for (const int count : counts) CHECK(count > check::scaled(20000) / 20);
+}
+
 TEST(transform_rotations) {
     Draw draw;
     for (int i = 0; i < 10000; ++i) {

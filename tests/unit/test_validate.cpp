@@ -5,6 +5,7 @@
 #include "check.h"
 #include "desc/properties.h"
 
+#include <algorithm>
 #include <functional>
 #include <limits>
 
@@ -247,6 +248,41 @@ TEST(validate_corners) {
         for (Vec3d& corner : corners) corner *= scale;
         CHECK_EQUAL(with(corners), "");
     }
+}
+
+// First of single properties, then of names, then of blocks as wholes, each in the order of the
+// scene: also where blocks are looked at some at a time.
+TEST(validate_messages_come_by_stage) {
+    constexpr std::size_t kMany = 200;
+    for (std::size_t apart = 1; apart < kMany; apart += 13) {
+        const std::string errors = errorsAfter([&](SceneDesc& d) {
+            d.objects.resize(kMany);
+            for (std::size_t i = 2; i < kMany; ++i) d.objects[i].name = cat("ball", i);
+            d.objects[1].worldFromObject = {Rows{}};        // flat
+            d.objects[1 + apart % (kMany - 1)].radius = -1; // a property
+            d.objects[kMany - apart].name = "ball" + std::to_string(kMany + 1);
+            d.objects.emplace_back().name = "ball" + std::to_string(kMany + 1); // a name
+            d.materials[0].ior = -2;
+        });
+        const std::size_t ior = errors.find("'ior'"), radius = errors.find("'radius'"),
+                          name = errors.find("has this name"), flat = errors.find("flattens it");
+        CHECK_INFO(ior < radius && radius < name && name < flat && flat != std::string::npos,
+                   apart << " apart: " << errors);
+        CHECK(std::count(errors.begin(), errors.end(), '\n') == 3);
+    }
+}
+
+// More than are shown are counted, whichever stage they are of.
+TEST(validate_counts_messages_of_all_stages) {
+    const std::string errors = errorsAfter([](SceneDesc& d) {
+        for (int i = 0; i < 30; ++i) {
+            ObjectDesc& ball = d.objects.emplace_back();
+            ball.name = "same";
+            ball.radius = -1;
+        }
+    });
+    checkError(errors, "and 39 more errors"); // 30 radii and 29 names, of which 20 are shown
+    CHECK(errors.find("has this name") == std::string::npos);
 }
 
 TEST(validate_settings_and_rest) {

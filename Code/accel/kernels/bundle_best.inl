@@ -14,10 +14,16 @@ public:
         zTop_ = 0;
         unmet_ = 0;
         for (int q = 0; q < rays_.packets; ++q) {
-            const Floats above = Floats::load(rays_.above[q]);
-            above.store(keyLo_[q]), above.store(keyHi_[q]);
-            Ints(kNowhere).store(place_[q]);
-            if constexpr (Q == Query::Any) missing_[q] = rays_.active[q];
+            if constexpr (Q == Query::Any) {
+                Floats::load(rays_.aboveLo[q]).store(keyLo_[q]);
+                Floats::load(rays_.aboveHi[q]).store(keyHi_[q]);
+                missing_[q] = rays_.active[q];
+            } else {
+                const Floats none =
+                    select(maskOf(rays_.active[q]), Floats(0.0f), Floats(kInfinityF));
+                none.store(keyLo_[q]), none.store(keyHi_[q]);
+                Ints(kNowhere).store(place_[q]);
+            }
             zTop_ = ::max(rays_.zFar[q], zTop_);
         }
     }
@@ -50,6 +56,13 @@ public:
             if (place_[q][i] != kNowhere && id < keys_.triangleAt(place_[q][i])) lower |= 1u << i;
         }
         return lower;
+    }
+
+    // Computes the keys at the ends of the rays: until then only bounds of them are known.
+    void settleEnds(unsigned q) {
+        const Mask on = maskOf(rays_.active[q]);
+        const Floats key = select(on, rays_.keyAtEnd(q), Floats(kInfinityF));
+        key.store(keyLo_[q]), key.store(keyHi_[q]);
     }
 
     // Computes the keys of these hits where they were left open.
@@ -97,7 +110,8 @@ public:
             }
             const Winners winners = winnersOf(static_cast<unsigned>(q), found);
             settle(static_cast<unsigned>(q), found, winners);
-            const Floats t = Floats(1.0f) / (Floats::load(keyLo_[q]) * Floats::load(rays_.dz[q]));
+            const Floats t =
+                Floats(1.0f) / (Floats::load(keyLo_[q]) * rays_.depth(static_cast<unsigned>(q)));
             const Mask hit = maskOf(found) & (t <= tMax);
             if (hits.whole != nullptr) {
                 const Weights w = weightsOf(winners, static_cast<unsigned>(q));

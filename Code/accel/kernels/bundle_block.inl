@@ -36,11 +36,11 @@ template <Query Q> struct alignas(64) BundleBlock {
         const Floats xHi = max(max(seenX[0], seenX[1]), seenX[2]);
         const Floats yLo = min(min(seenY[0], seenY[1]), seenY[2]);
         const Floats yHi = max(max(seenY[0], seenY[1]), seenY[2]);
-        const auto overlap = [&](const typename BundleRays<Q>::Rect& r) {
-            return close | (bits((xLo <= Floats(r.x.hi)) & (xHi >= Floats(r.x.lo))) &
-                            bits((yLo <= Floats(r.y.hi)) & (yHi >= Floats(r.y.lo))));
+        const auto overlap = [&](Floats xLeast, Floats xMost, Floats yLeast, Floats yMost) {
+            return close | (bits((xLo <= xMost) & (xHi >= xLeast)) &
+                            bits((yLo <= yMost) & (yHi >= yLeast)));
         };
-        live &= overlap(rays.all);
+        live &= overlap(rays.all.x.lo, rays.all.x.hi, rays.all.y.lo, rays.all.y.hi);
         if (live == 0) return false;
 
         // Edge functions as affine functions of S - centre, turned so that inside is positive.
@@ -88,9 +88,9 @@ template <Query Q> struct alignas(64) BundleBlock {
         }
         for (; packets != 0; packets &= packets - 1) {
             const auto q = static_cast<std::size_t>(std::countr_zero(packets));
-            const auto& r = rays.rect[q];
-            unsigned wanted = live & overlap(r);
-            const Floats cx(r.centreX), cy(r.centreY), hx(r.halfX), hy(r.halfY);
+            const auto& r = rays.rects;
+            unsigned wanted = live & overlap(r.xLo[q], r.xHi[q], r.yLo[q], r.yHi[q]);
+            const Floats cx(r.centreX[q]), cy(r.centreY[q]), hx(r.halfX[q]), hy(r.halfY[q]);
             const auto most = [&](int e) {
                 return fma(hx, abs(alongX[e]),
                            fma(hy, abs(alongY[e]), fma(cx, alongX[e], fma(cy, alongY[e], at[e]))));

@@ -120,9 +120,9 @@ public:
     [[gnu::always_inline]] Floats keysOf(const BundlePlanes& p, Ints places, unsigned q,
                                          Mask& inside) const {
         const Floats Sx = Floats::load(rays_.Sx[q]), Sy = Floats::load(rays_.Sy[q]);
-        const Doubles dz(Floats::load(rays_.dz[q]));
-        const Doubles along = p.nx * Doubles(Floats::load(rays_.dirX[q])) +
-                              p.ny * Doubles(Floats::load(rays_.dirY[q])) + p.nz * dz;
+        const Doubles dz(rays_.depth(q));
+        const Doubles along =
+            p.nx * Doubles(rays_.lateralX(q)) + p.ny * Doubles(rays_.lateralY(q)) + p.nz * dz;
         const Floats plane = (along / (p.n0 * dz)).toFloats();
         const unsigned behind = bits(p.straddling) & ~bits(plane > Floats(0.0f));
         inside = maskOf(bits(inside) & ~behind);

@@ -13,8 +13,7 @@ public:
         float lo, hi;
     };
     struct Rect {
-        Range x, y; // padded, about the bundle's centre
-        float centreX, centreY, halfX, halfY;
+        Range x, y;
     };
 
     BundleRays(const WideMesh& mesh, const RaySpan& rays, Vec3 org)
@@ -36,7 +35,9 @@ public:
         if (p == loaded_) return false;
         chooseAxis(p, std::countr_zero(left_[p]));
         unsigned chosen[kPackets];
-        for (int r = 0; r < loaded_; ++r) chosen[r] = left_[r] & slopes(r);
+        Extent xs, ys;
+        for (int r = 0; r < loaded_; ++r) chosen[r] = left_[r] & slopes(r, left_[r], xs, ys);
+        x = xs.range(), y = ys.range();
         if constexpr (Q == Query::Any) cutGaps(chosen);
         for (int r = 0; r < loaded_; ++r) left_[r] &= ~chosen[r];
         activate(chosen);
@@ -46,7 +47,7 @@ public:
     // Behind nextRound(), for bundles that come near the mesh: the packets and their rectangles.
     void setUp() {
         leastBelow = kInfinityF;
-        Range xs[kPackets], ys[kPackets];
+        bool endless = true;
         for (int q = 0; q < packets; ++q) {
             const int p = packet_[q];
             const Mask on = maskOf(active[q]);
@@ -54,11 +55,9 @@ public:
             const auto spread = [&](const float(&raw)[W]) {
                 return select(on, Floats::load(raw), Floats(raw[first]));
             };
-            const Floats sx = spread(rawX_[p]), sy = spread(rawY_[p]), z = spread(rawZ_[p]);
-            sx.store(Sx[q]), sy.store(Sy[q]), z.store(dz[q]);
-            spread(dir_[kx][p]).store(dirX[q]), spread(dir_[ky][p]).store(dirY[q]);
-            setRange(p, q, on, first, z);
-            xs[q] = rangeOf(sx, on), ys[q] = rangeOf(sy, on);
+            const Floats sx = spread(rawX_[p]), sy = spread(rawY_[p]);
+            sx.store(Sx[q]), sy.store(Sy[q]);
+            endless &= setRange(p, q, on, first, spread(rawZ_[p]));
         }
         centreX = 0.5f * (x.lo + x.hi), centreY = 0.5f * (y.lo + y.hi);
         halfX = 0.5000001f * (x.hi - x.lo) + 1e-7f;
@@ -68,22 +67,27 @@ public:
         // What roughInverse() is off by at the rim of the rectangle, and a few roundings.
         const float rough = W == 16 ? 3e-4f : 2e-3f;
         const float padX = rough * halfX + 2e-6f, padY = rough * halfY + 2e-6f;
-        const auto padded = [](Range r, float centre, float pad) {
-            return Range{r.lo - centre - pad, r.hi - centre + pad};
-        };
+        for (int q = 0; q < packets; q += W) {
+            const auto place = [q](const float(*s)[W], float* lo, float* hi, float* centre,
+                                   float* half, float about, float pad) {
+                const Floats least = smallestOfRows(s + q), most = largestOfRows(s + q);
+                const Floats middle(about), room(pad), scale(0.5f);
+                (least - middle - room).store(lo + q), (most - middle + room).store(hi + q);
+                (scale * (least + most) - middle).store(centre + q);
+                (scale * (most - least) * Floats(1.00001f) + Floats(2e-6f)).store(half + q);
+            };
+            place(Sx, rects.xLo, rects.xHi, rects.centreX, rects.halfX, centreX, padX);
+            place(Sy, rects.yLo, rects.yHi, rects.centreY, rects.halfY, centreY, padY);
+            const Floats far = endless ? Floats(std::numeric_limits<float>::max())
+                                       : depthCuts(smallestOfRows(aboveLo + q));
+            far.store(zFar + q);
+        }
         for (int q = 0; q < packets; ++q) {
-            Rect& r = rect[q];
-            r.x = padded(xs[q], centreX, padX), r.y = padded(ys[q], centreY, padY);
-            sidesX_.lo[q] = r.x.lo, sidesX_.hi[q] = r.x.hi;
-            sidesY_.lo[q] = r.y.lo, sidesY_.hi[q] = r.y.hi;
-            r.centreX = 0.5f * (xs[q].lo + xs[q].hi) - centreX;
-            r.centreY = 0.5f * (ys[q].lo + ys[q].hi) - centreY;
-            r.halfX = 0.5f * (xs[q].hi - xs[q].lo) * 1.00001f + 2e-6f;
-            r.halfY = 0.5f * (ys[q].hi - ys[q].lo) * 1.00001f + 2e-6f;
             (Floats::load(Sx[q]) - Floats(centreX)).store(relX[q]);
             (Floats::load(Sy[q]) - Floats(centreY)).store(relY[q]);
         }
-        all.x = padded(x, centreX, padX), all.y = padded(y, centreY, padY);
+        all = {{x.lo - centreX - padX, x.hi - centreX + padX},
+               {y.lo - centreY - padY, y.hi - centreY + padY}};
     }
 
     // Misses for the rays that isTraceable() refuses.
@@ -168,14 +172,21 @@ public:
     std::uint32_t overlapping(Range xs, Range ys) const {
         std::uint32_t found = 0;
         for (int q = 0; q < packets; q += W) {
-            const auto meets = [&](const Sides& sides, Range range) {
-                return (Floats(range.lo) <= Floats::load(sides.hi + q)) &
-                       (Floats::load(sides.lo + q) <= Floats(range.hi));
+            const auto meets = [q](const float* lo, const float* hi, Range range) {
+                return (Floats(range.lo) <= Floats::load(hi + q)) &
+                       (Floats::load(lo + q) <= Floats(range.hi));
             };
-            found |= bits(meets(sidesX_, xs) & meets(sidesY_, ys)) << q;
+            found |= bits(meets(rects.xLo, rects.xHi, xs) & meets(rects.yLo, rects.yHi, ys)) << q;
         }
         return found;
     }
+
+    // Of all rays of a packet, active or not.
+    Floats lateralX(unsigned q) const { return Floats::load(dir_[kx][packet_[q]]); }
+    Floats lateralY(unsigned q) const { return Floats::load(dir_[ky][packet_[q]]); }
+    Floats depth(unsigned q) const { return Floats::load(rawZ_[packet_[q]]); }
+    // The largest key at which a ray of the packet has ended: KeyRange of shape/triangle_queries.h.
+    Floats keyAtEnd(unsigned q) const { return keyAbove(Floats::load(tMax[q]), depth(q)); }
 
     // ---- of the active rays; packets without any are left out
 
@@ -188,16 +199,18 @@ public:
     float slopeSum; // of the largest |Sx| and |Sy|
     int packets = 0;
     unsigned active[kPackets];
-    Rect rect[kPackets];
-    float zFar[kPackets]; // behind it no ray of the packet asks
+    struct alignas(64) Rects { // of the packets, padded, about the bundle's centre
+        float xLo[kPackets], xHi[kPackets], yLo[kPackets], yHi[kPackets];
+        float centreX[kPackets], centreY[kPackets], halfX[kPackets], halfY[kPackets];
+    } rects;
+    alignas(64) float zFar[kPackets]; // behind it no ray of the packet asks
     alignas(64) float Sx[kPackets][W];
-    float Sy[kPackets][W], dirX[kPackets][W], dirY[kPackets][W]; // lateral parts of the direction
-    float relX[kPackets][W], relY[kPackets][W], dz[kPackets][W]; // rel: to centre
+    float Sy[kPackets][W], relX[kPackets][W], relY[kPackets][W]; // rel: to centre
     float tMax[kPackets][W];
     // Keys that count are in (above, below), as t is in (tMin, tMax): KeyRange of
-    // shape/triangle_queries.h. Lanes without an active ray are copies of another one that nothing
-    // is near enough for.
-    float above[kPackets][W], below[kPackets][W];
+    // shape/triangle_queries.h. above is between these. Lanes without an active ray are copies of
+    // another one that nothing is near enough for.
+    float aboveLo[kPackets][W], aboveHi[kPackets][W], below[kPackets][W];
     float leastBelow;
 
 private:
@@ -249,85 +262,85 @@ private:
         k = ray.k, kx = ray.kx, ky = ray.ky, sign = ray.sign;
     }
 
-    // Computes the slopes of a packet; returns the lanes of the chosen axis and sign.
-    unsigned slopes(int p) {
+    // Of slopes, lane by lane.
+    struct Extent {
+        Floats lo{kInfinityF}, hi{-kInfinityF};
+
+        void extend(Floats s, Mask lanes) {
+            lo = min(lo, select(lanes, s, Floats(kInfinityF)));
+            hi = max(hi, select(lanes, s, Floats(-kInfinityF)));
+        }
+        Range range() const { return {smallest(lo), largest(hi)}; }
+    };
+
+    // Computes the slopes of a packet; returns the lanes of the chosen axis and sign, and extends
+    // the extents by those of `wanted`.
+    unsigned slopes(int p, unsigned wanted, Extent& xs, Extent& ys) {
         const Floats d = Floats::load(dir_[k][p]), dx = Floats::load(dir_[kx][p]),
                      dy = Floats::load(dir_[ky][p]);
         const Floats size = abs(d);
         const Mask beatsX = kx < k ? size >= abs(dx) : size > abs(dx); // equal: z, then y, then x
         const Mask beatsY = ky < k ? size >= abs(dy) : size > abs(dy);
         const unsigned negative = bits(d < Floats(0.0f));
-        (dx / size).store(rawX_[p]);
-        (dy / size).store(rawY_[p]);
-        size.store(rawZ_[p]);
-        return bits(beatsX & beatsY) & (sign < 0 ? negative : ~negative);
+        const Floats sx = dx / size, sy = dy / size;
+        sx.store(rawX_[p]), sy.store(rawY_[p]), size.store(rawZ_[p]);
+        const unsigned chosen = bits(beatsX & beatsY) & (sign < 0 ? negative : ~negative);
+        const Mask on = maskOf(chosen & wanted);
+        xs.extend(sx, on), ys.extend(sy, on);
+        return chosen;
     }
 
     // Shadow rays of a tile end on surfaces far apart: while nearly half of the rectangle is an
     // empty stretch, the rays on the far side of it wait for the next round.
-    void cutGaps(unsigned* chosen) const {
+    void cutGaps(unsigned* chosen) {
         constexpr float kGap = 0.45f;
         for (int round = 0; round < 6; ++round) {
-            const auto gap = [&](const float(*raw)[W], float& middle) {
-                Floats lo(kInfinityF), hi(-kInfinityF);
-                for (int p = 0; p < loaded_; ++p) {
-                    const Mask m = maskOf(chosen[p]);
-                    const Floats s = Floats::load(raw[p]);
-                    lo = min(lo, select(m, s, Floats(kInfinityF)));
-                    hi = max(hi, select(m, s, Floats(-kInfinityF)));
-                }
-                const float first = smallest(lo), last = largest(hi);
-                middle = 0.5f * (first + last);
-                Floats under(-kInfinityF), over(kInfinityF);
-                for (int p = 0; p < loaded_; ++p) {
-                    const Mask m = maskOf(chosen[p]);
-                    const Floats s = Floats::load(raw[p]);
-                    const Mask upper = s > Floats(middle);
-                    over = min(over, select(m & upper, s, Floats(kInfinityF)));
-                    under = max(under, select(upper, under, select(m, s, under)));
-                }
-                const float width = smallest(over) - largest(under);
-                return width < kInfinityF && width > kGap * (last - first) ? width : 0.0f;
+            const float middleX = 0.5f * (x.lo + x.hi), middleY = 0.5f * (y.lo + y.hi);
+            Extent left, right, under, over;
+            for (int p = 0; p < loaded_; ++p) {
+                const Mask m = maskOf(chosen[p]);
+                const Floats sx = Floats::load(rawX_[p]), sy = Floats::load(rawY_[p]);
+                const Mask toRight = m & (sx > Floats(middleX)), up = m & (sy > Floats(middleY));
+                right.lo = min(right.lo, select(toRight, sx, Floats(kInfinityF)));
+                over.lo = min(over.lo, select(up, sy, Floats(kInfinityF)));
+                left.hi =
+                    max(left.hi, select(m & (sx <= Floats(middleX)), sx, Floats(-kInfinityF)));
+                under.hi =
+                    max(under.hi, select(m & (sy <= Floats(middleY)), sy, Floats(-kInfinityF)));
+            }
+            const auto gap = [&](const Extent& before, const Extent& behind, Range whole) {
+                const float width = smallest(behind.lo) - largest(before.hi);
+                return width < kInfinityF && width > kGap * (whole.hi - whole.lo) ? width : 0.0f;
             };
-            float middleX = 0, middleY = 0;
-            const float gapX = gap(rawX_, middleX), gapY = gap(rawY_, middleY);
+            const float gapX = gap(left, right, x), gapY = gap(under, over, y);
             if (gapX == 0 && gapY == 0) return;
             const auto* raw = gapX > gapY ? rawX_ : rawY_;
             const float middle = gapX > gapY ? middleX : middleY;
             int first = 0;
             while (chosen[first] == 0) ++first;
             const bool keepUpper = raw[first][std::countr_zero(chosen[first])] > middle;
+            Extent xs, ys;
             for (int p = 0; p < loaded_; ++p) {
                 const unsigned upper = bits(Floats::load(raw[p]) > Floats(middle));
                 chosen[p] &= keepUpper ? upper : ~upper;
+                const Mask m = maskOf(chosen[p]);
+                xs.extend(Floats::load(rawX_[p]), m), ys.extend(Floats::load(rawY_[p]), m);
             }
+            x = xs.range(), y = ys.range();
         }
-    }
-
-    static Range rangeOf(Floats v, Mask lanes) {
-        return {smallest(select(lanes, v, Floats(kInfinityF))),
-                largest(select(lanes, v, Floats(-kInfinityF)))};
     }
 
     void activate(const unsigned* chosen) {
         packets = 0;
-        Floats xLo(kInfinityF), xHi(-kInfinityF), yLo(kInfinityF), yHi(-kInfinityF);
-        const Floats never(kInfinityF), least(-kInfinityF);
         for (int p = 0; p < loaded_; ++p) {
             if (chosen[p] == 0) continue;
-            const int q = packets++;
-            packet_[q] = p;
-            active[q] = chosen[p];
-            const Mask on = maskOf(chosen[p]);
-            const Floats sx = Floats::load(rawX_[p]), sy = Floats::load(rawY_[p]);
-            xLo = min(xLo, select(on, sx, never)), xHi = max(xHi, select(on, sx, least));
-            yLo = min(yLo, select(on, sy, never)), yHi = max(yHi, select(on, sy, least));
+            packet_[packets] = p;
+            active[packets++] = chosen[p];
         }
-        x = {smallest(xLo), largest(xHi)}, y = {smallest(yLo), largest(yHi)};
     }
 
-    // Lanes without a ray ask what lane `spare` asks.
-    void setRange(int p, int q, Mask on, int spare, Floats z) {
+    // Lanes without a ray ask what lane `spare` asks. True when no ray has an end.
+    bool setRange(int p, int q, Mask on, int spare, Floats z) {
         Floats lo, hi;
         if (isFull(p)) {
             lo = Floats::unaligned(&rays_.tMin[list_[at(p, 0)]]);
@@ -341,16 +354,31 @@ private:
             lo = Floats::load(tLo), hi = Floats::load(tHi);
         }
         hi.store(tMax[q]);
-        Floats keyOver(0.0f), keyUnder(kInfinityF);
-        zFar[q] = depthCut(0);
+        const Floats zero(0.0f), never(kInfinityF);
+        Floats overLo(zero), overHi(zero), under(never);
         // For most rays without an end (0, infinity), which takes long to compute.
-        if (bits((lo == Floats(0.0f)) & (hi == Floats(kInfinityF))) != (1u << W) - 1) {
-            keyOver = keyAbove(hi, z), keyUnder = keyBelow(lo, z);
-            zFar[q] = depthCut(smallest(keyOver));
-            leastBelow = ::min(smallest(keyUnder), leastBelow);
+        const bool endless = bits((lo == zero) & (hi == never)) == (1u << W) - 1;
+        if (!endless) {
+            boundsAtEnd(hi, z, overLo, overHi);
+            under = keyBelow(lo, z);
+            leastBelow = ::min(smallest(under), leastBelow);
         }
-        select(on, Q == Query::Any ? keyOver : Floats(0.0f), Floats(kInfinityF)).store(above[q]);
-        keyUnder.store(below[q]);
+        select(on, overLo, never).store(aboveLo[q]);
+        select(on, overHi, never).store(aboveHi[q]);
+        under.store(below[q]);
+        return endless;
+    }
+
+    // keyAbove() is at most 5 units of rounding from 1 / (t z).
+    static void boundsAtEnd(Floats t, Floats z, Floats& lo, Floats& hi) {
+        const Floats zero(0.0f), never(kInfinityF);
+        const Floats key = Floats(1.0f) / (t * z);
+        const Mask normal = (key > Floats(1e-30f)) & (key < Floats(1e30f));
+        lo = select(normal, key * Floats(1 - 0x1p-21f), zero);
+        hi = select(normal, key * Floats(1 + 0x1p-21f), never);
+        const Mask endless = t == never, nothing = t <= zero;
+        lo = select(nothing, never, lo);
+        hi = select(endless, zero, hi);
     }
 
     const WideMesh& mesh_;
@@ -360,9 +388,6 @@ private:
     int loaded_ = 0; // packets
     unsigned traceable_[kPackets], left_[kPackets];
     int packet_[kPackets]; // of the active ones
-    struct alignas(64) Sides {
-        float lo[kPackets], hi[kPackets];
-    } sidesX_, sidesY_; // of the packets' rectangles
     alignas(64) float dir_[3][kPackets][W];
     float rawX_[kPackets][W], rawY_[kPackets][W], rawZ_[kPackets][W];
 };

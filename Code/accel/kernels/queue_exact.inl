@@ -18,7 +18,7 @@ struct Judged {
     [[gnu::always_inline]] unsigned candidates(Floats zCut) const {
         const Floats zero(0.0f);
         const Mask inside = (zero <= least) | (most <= zero); // NaN never passes later
-        const Mask wanted = notGreater(depth, zCut * det * Floats(1.000001f) + noise) &
+        const Mask wanted = notGreater(depth, fma(zCut * Floats(1.000001f), det, noise)) &
                             notGreater(zero - noise, depth);
         return bits(inside & wanted);
     }
@@ -45,11 +45,10 @@ struct Judged {
 [[gnu::always_inline]] inline Judged judge(const Sheared& s, Floats sign) {
     const Floats U = s.x[2] * s.y[1] - s.y[2] * s.x[1], V = s.x[0] * s.y[2] - s.y[0] * s.x[2],
                  R = s.x[1] * s.y[0] - s.y[1] * s.x[0];
-    const Floats det = (U + V) + R, T = (U * s.z[0] + V * s.z[1]) + R * s.z[2];
-    const auto largest = [](const Floats(&v)[3]) {
-        return max(max(abs(v[0]), abs(v[1])), abs(v[2]));
-    };
-    const Floats b = max(largest(s.x), largest(s.y)), M = largest(s.z);
+    const Floats det = (U + V) + R, T = fma(R, s.z[2], fma(V, s.z[1], U * s.z[0]));
+    const Floats M = maxAbs(maxAbs(s.z[0], s.z[1]), s.z[2]);
+    const Floats b =
+        max(max(maxAbs(s.x[0], s.y[0]), maxAbs(s.x[1], s.y[1])), maxAbs(s.x[2], s.y[2]));
     return {min(min(U, V), R), max(max(U, V), R), flipSign(flipSign(T, det), sign),
             (Floats(128 * 0x1p-24f) * b) * (M * (M + b)), abs(det)};
 }

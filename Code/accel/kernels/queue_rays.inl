@@ -24,13 +24,50 @@ struct alignas(64) RayBlock {
     bool inARow;                            // W rays that follow each other in the batch
 };
 
+// What the answers of W rays need, and which hits count.
+template <Query Q>
+void setUpAnswers(const RayColumns& columns, const RayAxes& axes, std::size_t count, RayBlock& b) {
+    b.inARow = columns.inARow;
+    axes.dz.store(b.dz);
+    columns.tMax.store(b.tMax);
+    // Keys that count are in (above, below); see KeyRange of shape/triangle_queries.h.
+    const Floats above = keyAbove(columns.tMax, axes.dz);
+    (Q == Query::Any ? above : Floats(0.0f)).store(b.key);
+    keyBelow(columns.tMin, axes.dz).store(b.below);
+    depthCuts(above).store(b.zCut);
+    Ints(TriangleHit::kNone).store(b.triangle);
+    Floats(kInfinityF).store(b.depth);
+    b.open = 0;
+    b.count = static_cast<std::uint32_t>(count);
+}
+
+// What triangles are asked with.
+inline void setUpTriangles(const RayColumns& columns, const RayAxes& axes, float extent,
+                           RayBlock& b) {
+    axes.lateralX(columns.org).store(b.origin[0]);
+    axes.lateralY(columns.org).store(b.origin[1]);
+    axes.dominant(columns.org).store(b.origin[2]);
+    const auto place = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
+        constexpr std::uint32_t row = W * 4;
+        return select(axes.alongZ, Ints(z * row),
+                      select(axes.alongY, Ints(y * row), Ints(x * row)));
+    };
+    place(1, 2, 0).store(b.axis[0]);
+    place(2, 0, 1).store(b.axis[1]);
+    place(0, 1, 2).store(b.axis[2]);
+    (axes.Sx * axes.sign).store(b.shearX);
+    (axes.Sy * axes.sign).store(b.shearY);
+    axes.sign.store(b.sign);
+    (axes.errorIn(extent) * Floats(0.125f)).store(b.lateralError);
+    axes.lateralX(columns.dir).store(b.dirX), axes.lateralY(columns.dir).store(b.dirY);
+}
+
 // Fills the block. Returns the lanes of the rays that isTraceable().
 template <Query Q>
 unsigned setUpRays(const RaySpan& rays, const std::uint32_t* order, std::size_t count, float extent,
                    RayBlock& b) {
     const RayColumns columns = loadRays(rays, order, count, b.ray);
     const RayLanes lanes(columns, extent);
-    b.inARow = columns.inARow;
     const auto storeSlab = [&](std::size_t axis) {
         lanes.r[axis].store(b.r[axis]);
         lanes.nearOffset[axis].store(b.nearOffset[axis]);
@@ -41,33 +78,8 @@ unsigned setUpRays(const RaySpan& rays, const std::uint32_t* order, std::size_t 
         select(lanes.r[axis] < Floats(0.0f), plane(1), plane(0)).store(b.nearPlane[axis]);
     };
     storeSlab(0), storeSlab(1), storeSlab(2);
-    lanes.lateralX(columns.org).store(b.origin[0]);
-    lanes.lateralY(columns.org).store(b.origin[1]);
-    lanes.dominant(columns.org).store(b.origin[2]);
-    const auto place = [&](std::uint32_t x, std::uint32_t y, std::uint32_t z) {
-        constexpr std::uint32_t row = W * 4;
-        return select(lanes.alongZ, Ints(z * row),
-                      select(lanes.alongY, Ints(y * row), Ints(x * row)));
-    };
-    place(1, 2, 0).store(b.axis[0]);
-    place(2, 0, 1).store(b.axis[1]);
-    place(0, 1, 2).store(b.axis[2]);
-    (lanes.Sx * lanes.sign).store(b.shearX);
-    (lanes.Sy * lanes.sign).store(b.shearY);
-    lanes.sign.store(b.sign);
-    (lanes.error * Floats(0.125f)).store(b.lateralError);
-    lanes.lateralX(columns.dir).store(b.dirX), lanes.lateralY(columns.dir).store(b.dirY);
-    lanes.dz.store(b.dz);
-    columns.tMax.store(b.tMax);
-    // Keys that count are in (above, below); see KeyRange of shape/triangle_queries.h.
-    const Floats above = keyAbove(columns.tMax, lanes.dz);
-    (Q == Query::Any ? above : Floats(0.0f)).store(b.key);
-    keyBelow(columns.tMin, lanes.dz).store(b.below);
-    depthCuts(above).store(b.zCut);
-    Ints(TriangleHit::kNone).store(b.triangle);
-    Floats(kInfinityF).store(b.depth);
-    b.open = 0;
-    b.count = static_cast<std::uint32_t>(count);
+    setUpTriangles(columns, lanes, extent, b);
+    setUpAnswers<Q>(columns, lanes, count, b);
     return lanes.traceable & ((1u << count) - 1);
 }
 

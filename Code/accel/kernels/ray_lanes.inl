@@ -11,10 +11,11 @@ struct RayColumns {
 inline RayColumns loadRays(const RaySpan& rays, const std::uint32_t* order, std::size_t count,
                            std::uint32_t (&ray)[W]) {
     RayColumns c;
-    for (std::uint32_t i = 0; i < W; ++i) ray[i] = order[i < count ? i : 0];
-    std::uint32_t off = 0;
-    for (std::uint32_t i = 0; i < W; ++i) off |= ray[i] ^ (order[0] + i);
-    c.inARow = count == W && off == 0;
+    if (count == W)
+        std::copy_n(order, W, ray);
+    else
+        for (std::uint32_t i = 0; i < W; ++i) ray[i] = order[i < count ? i : 0];
+    c.inARow = count == W && bits(Ints::unaligned(order) == Ints::from(order[0])) == (1u << W) - 1;
     if (c.inARow) {
         loadVectors(&rays.org[order[0]].x, c.org[0], c.org[1], c.org[2]);
         loadVectors(&rays.dir[order[0]].x, c.dir[0], c.dir[1], c.dir[2]);
@@ -41,43 +42,31 @@ inline Floats depthCuts(Floats key) {
                   Floats(std::numeric_limits<float>::max()));
 }
 
-struct RayLanes {
+// The axes of W rays and what they move along them.
+struct RayAxes {
     Mask alongZ, alongY; // the dominant axis; x if neither
     Floats sign, dz, Sx, Sy;
-    Floats oMax, error; // largest |coordinate| of the origin; 2^-19 of the scale
-    Floats r[3], nearOffset[3], farOffset[3], room[3]; // slabs; room: of the offsets
-    unsigned traceable;                                // isTraceable(), a bit each
+    Floats oMax;        // largest |coordinate| of the origin
+    unsigned traceable; // isTraceable(), a bit each
 
-    RayLanes() = default;
-    [[gnu::always_inline]] RayLanes(const RayColumns& c, float extent) {
-        const Floats one(1.0f), zero(0.0f);
+    RayAxes() = default;
+    [[gnu::always_inline]] explicit RayAxes(const RayColumns& c) {
+        const Floats zero(0.0f);
         const Floats ax = abs(c.dir[0]), ay = abs(c.dir[1]), az = abs(c.dir[2]);
         alongZ = (az >= ax) & (az >= ay), alongY = ay >= ax;
         const Floats depth = dominant(c.dir);
         dz = abs(depth);
-        sign = select(depth < zero, Floats(-1.0f), one);
+        sign = select(depth < zero, Floats(-1.0f), Floats(1.0f));
         Sx = lateralX(c.dir) / dz, Sy = lateralY(c.dir) / dz;
-        const Floats smallestSlope(RaySetup::kSmallestSlope);
-        const Floats rx = one / withSign(max(abs(Sx), smallestSlope), Sx);
-        const Floats ry = one / withSign(max(abs(Sy), smallestSlope), Sy);
         oMax = max(max(abs(c.org[0]), abs(c.org[1])), abs(c.org[2]));
-        error = max(Floats(extent), oMax) * Floats(0x1p-19f);
-        const Floats px = error * abs(rx), py = error * abs(ry);
-        const auto slab = [&](int axis, Floats inverse, Floats pad) {
-            const Floats at = (zero - c.org[axis]) * inverse;
-            r[axis] = inverse;
-            room[axis] = pad + pad;
-            nearOffset[axis] = at - room[axis];
-            farOffset[axis] = at + room[axis];
-        };
-        slab(0, byAxis(sign, ry, rx), byAxis(error, py, px));
-        slab(1, byAxis(rx, sign, ry), byAxis(px, error, py));
-        slab(2, byAxis(ry, rx, sign), byAxis(py, px, error));
         const Floats sum = ((c.dir[0] + c.dir[1]) + c.dir[2]) + ((c.org[0] + c.org[1]) + c.org[2]);
         const Floats longest = max(max(ax, ay), az);
         traceable = bits((longest > Floats(1e-30f)) & (longest < Floats(1e30f)) &
                          (oMax < Floats(1e30f)) & (sum - sum == zero));
     }
+
+    // 2^-19 of the scale.
+    Floats errorIn(float extent) const { return max(Floats(extent), oMax) * Floats(0x1p-19f); }
 
     // By the dominant axis.
     Floats byAxis(Floats ifX, Floats ifY, Floats ifZ) const {
@@ -90,6 +79,34 @@ struct RayLanes {
 
     // The depth behind which nothing is at t or before.
     Floats cutAt(Floats t) const { return depthCuts(Floats(1.0f) / (t * dz)); }
+};
+
+// With what boxes ask.
+struct RayLanes : RayAxes {
+    Floats error;
+    Floats r[3], nearOffset[3], farOffset[3], room[3]; // slabs; room: of the offsets
+
+    RayLanes() = default;
+    [[gnu::always_inline]] RayLanes(const RayColumns& c, float extent)
+        : RayLanes(c, RayAxes(c), extent) {}
+    [[gnu::always_inline]] RayLanes(const RayColumns& c, const RayAxes& axes, float extent)
+        : RayAxes(axes), error(errorIn(extent)) {
+        const Floats one(1.0f), zero(0.0f);
+        const Floats smallestSlope(RaySetup::kSmallestSlope);
+        const Floats rx = one / withSign(max(abs(Sx), smallestSlope), Sx);
+        const Floats ry = one / withSign(max(abs(Sy), smallestSlope), Sy);
+        const Floats px = error * abs(rx), py = error * abs(ry);
+        const auto slab = [&](int axis, Floats inverse, Floats pad) {
+            const Floats at = (zero - c.org[axis]) * inverse;
+            r[axis] = inverse;
+            room[axis] = pad + pad;
+            nearOffset[axis] = at - room[axis];
+            farOffset[axis] = at + room[axis];
+        };
+        slab(0, byAxis(sign, ry, rx), byAxis(error, py, px));
+        slab(1, byAxis(rx, sign, ry), byAxis(px, error, py));
+        slab(2, byAxis(ry, rx, sign), byAxis(py, px, error));
+    }
 
     // RaySetup::enters(), and where.
     unsigned entering(const Bounds& box, Floats zCut, Floats& entry) const {

@@ -4,22 +4,44 @@
 
 namespace {
 
+// Places of a shape's numbers.
+enum Number : std::size_t {
+    WorldFromObject = 0,  // Transform::rows()
+    ObjectFromWorld = 12, // the same
+    Radius = 24,
+    LeastError,
+    ErrorPerPlace,
+    kNumbers
+};
+
+// put(place, number) for all of a shape.
+template <class PutFn> void forEachNumber(const StillShape& shape, PutFn&& put) {
+    const AffineRows& there = shape.worldFromObject.rows();
+    const AffineRows& back = shape.objectFromWorld();
+    for (std::size_t k = 0; k < 12; ++k) put(WorldFromObject + k, there[k]);
+    for (std::size_t k = 0; k < 12; ++k) put(ObjectFromWorld + k, back[k]);
+    put(Radius, shape.radius);
+    put(LeastError, shape.leastError);
+    put(ErrorPerPlace, shape.errorPerPlace);
+}
+
 // The numbers of a shape that all lanes are on, or of one for each lane.
 struct NumbersOfOne {
-    explicit NumbersOfOne(const RoundToShade& shape) : of(shape.numbers) {}
+    explicit NumbersOfOne(const StillShape& shape) {
+        forEachNumber(shape, [&](std::size_t place, double number) { of[place] = number; });
+    }
     Doubles operator()(std::size_t number) const { return Doubles(of[number]); }
-    const std::array<double, RoundToShade::kNumbers>& of;
+    double of[kNumbers];
 };
 struct NumbersOfMany {
     // Lanes behind the last shape repeat it.
-    explicit NumbersOfMany(std::span<const RoundToShade* const> shapes) {
-        for (std::size_t i = 0; i < W; ++i) {
-            const auto& from = shapes[i < shapes.size() ? i : shapes.size() - 1]->numbers;
-            for (std::size_t k = 0; k < from.size(); ++k) of[k][i] = from[k];
-        }
+    explicit NumbersOfMany(std::span<const StillShape* const> shapes) {
+        for (std::size_t i = 0; i < W; ++i)
+            forEachNumber(*shapes[i < shapes.size() ? i : shapes.size() - 1],
+                          [&](std::size_t place, double number) { of[place][i] = number; });
     }
     Doubles operator()(std::size_t number) const { return Doubles::load(of[number]); }
-    alignas(64) double of[RoundToShade::kNumbers][W];
+    alignas(64) double of[kNumbers][W];
 };
 
 // Rows i, i + step .. of a map's linear part.
@@ -27,12 +49,10 @@ template <class Numbers>
 Doubles row(const Numbers& m, std::size_t i, std::size_t step, const Doubles3& v) {
     return (m(i) * v.x + m(i + step) * v.y) + m(i + 2 * step) * v.z;
 }
-template <class Numbers>
-Doubles3 vectorOf(const Numbers& m, RoundToShade::Number map, const Doubles3& v) {
+template <class Numbers> Doubles3 vectorOf(const Numbers& m, Number map, const Doubles3& v) {
     return {row(m, map, 1, v), row(m, map + 4, 1, v), row(m, map + 8, 1, v)};
 }
-template <class Numbers>
-Doubles3 pointOf(const Numbers& m, RoundToShade::Number map, const Doubles3& p) {
+template <class Numbers> Doubles3 pointOf(const Numbers& m, Number map, const Doubles3& p) {
     const Doubles3 v = vectorOf(m, map, p);
     return {v.x + m(map + 3), v.y + m(map + 7), v.z + m(map + 11)};
 }
@@ -96,7 +116,7 @@ struct Local {
 template <class Numbers> Local onSphere(const Numbers& shape, const Doubles3& met) {
     const Doubles distance = sqrt(dot(met, met)), zero(0.0);
     const Doubles3 n = select(zero < distance, met / distance, Doubles3{zero, zero, Doubles(1.0)});
-    return {n * shape(RoundToShade::Radius), n};
+    return {n * shape(Radius), n};
 }
 
 // `clearance`: how far, in the world, the origin of a ray may be from the point.
@@ -105,30 +125,35 @@ Local onCylinder(const Numbers& shape, const Doubles3& met, const Doubles& clear
     const Doubles around = sqrt(met.x * met.x + met.y * met.y), zero(0.0), one(1.0), half(0.5);
     const Mask isOff = zero < around;
     const Doubles c = select(isOff, met.x / around, one), s = select(isOff, met.y / around, zero);
-    const Doubles inset = clearance * shape(RoundToShade::SteepnessOfZ);
+    // How much z changes over a unit of the world.
+    const Doubles3 steep{shape(ObjectFromWorld + 8), shape(ObjectFromWorld + 9),
+                         shape(ObjectFromWorld + 10)};
+    const Doubles inset = clearance * sqrt(dot(steep, steep));
     const Doubles limit = one - select(inset < half, inset, half);
     const Doubles z = max(met.z, zero - limit);
-    const Doubles radius = shape(RoundToShade::Radius);
+    const Doubles radius = shape(Radius);
     return {{c * radius, s * radius, select(z < limit, z, limit)}, {c, s, zero}};
 }
 
-template <RoundToShade::Kind kKind, class Numbers>
+template <StillShape::Round kRound, class Numbers>
 void describe(const Numbers& shape, const RaysInLanes& world, SurfacesInLanes& out) {
     constexpr double kThreeUlps = 3 * 0x1p-24;
-    using enum RoundToShade::Number;
     const Doubles3 seen = along(world.org, world.dir, world.t);
-    const Doubles place = max(max(abs(seen.x), abs(seen.y)), abs(seen.z));
+    const auto largest = [](const Doubles3& v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); };
+    const Doubles3 centre{shape(WorldFromObject + 3), shape(WorldFromObject + 7),
+                          shape(WorldFromObject + 11)};
     Doubles leastError = shape(LeastError);
-    if constexpr (kKind == RoundToShade::Kind::Plane)
-        leastError = leastError * max(place, Doubles(1.0));
-    const Doubles fixedError = leastError + shape(ErrorPerPlace) * (place + shape(Farthest));
+    if constexpr (kRound == StillShape::Round::Plane)
+        leastError = leastError * max(largest(seen), Doubles(1.0));
+    const Doubles fixedError =
+        leastError + shape(ErrorPerPlace) * (largest(seen) + largest(centre));
 
     const Doubles3 met = along(pointOf(shape, ObjectFromWorld, world.org),
                                vectorOf(shape, ObjectFromWorld, world.dir), world.t);
     const auto local = [&] {
-        if constexpr (kKind == RoundToShade::Kind::Sphere) {
+        if constexpr (kRound == StillShape::Round::Sphere) {
             return onSphere(shape, met);
-        } else if constexpr (kKind == RoundToShade::Kind::Cylinder) {
+        } else if constexpr (kRound == StillShape::Round::Cylinder) {
             const Doubles far = Doubles(kThreeUlps) * sqrt(dot(seen, seen)) + fixedError;
             return onCylinder(shape, met, Doubles(2.0) * far);
         } else {
@@ -150,22 +175,22 @@ void describe(const Numbers& shape, const RaysInLanes& world, SurfacesInLanes& o
     (Doubles(kThreeUlps) * rounding + fixedError).store(out.error);
 }
 
-template <RoundToShade::Kind kKind>
+template <StillShape::Round kRound>
 void surfacesOf(const RoundsMet& met, const Strided<Surface>& out) {
     SurfacesInLanes found;
     for (std::size_t first = 0; first < met.which.size(); first += W) {
         const std::size_t count = std::min<std::size_t>(W, met.which.size() - first);
         const RaysInLanes rays = raysOf(met.rays, met.hits, met.which.subspan(first, count));
         const auto shapes = met.shapes.subspan(first, count);
-        const auto isFirst = [&](const RoundToShade* other) { return other == shapes[0]; };
+        const auto isFirst = [&](const StillShape* other) { return other == shapes[0]; };
         if (std::all_of(shapes.begin() + 1, shapes.end(), isFirst))
-            describe<kKind>(NumbersOfOne(*shapes[0]), rays, found);
+            describe<kRound>(NumbersOfOne(*shapes[0]), rays, found);
         else
-            describe<kKind>(NumbersOfMany(shapes), rays, found);
+            describe<kRound>(NumbersOfMany(shapes), rays, found);
         for (std::size_t i = 0; i < count; ++i) {
             const Vec3 ng{found.n[0][i], found.n[1][i], found.n[2][i]};
             std::uint32_t material = shapes[i]->material;
-            if constexpr (kKind == RoundToShade::Kind::Plane)
+            if constexpr (kRound == StillShape::Round::Plane)
                 if (shapes[i]->oddMaterial != material && isOdd(found.uv[0][i], found.uv[1][i]))
                     material = shapes[i]->oddMaterial;
             out[met.to[first + i]] = {.p = {found.p[0][i], found.p[1][i], found.p[2][i]},
@@ -185,8 +210,8 @@ void surfacesOf(const RoundsMet& met, const Strided<Surface>& out) {
 
 void roundSurfaces(const RoundsMet& met, Strided<Surface> out) {
     if (met.shapes.empty()) return;
-    using enum RoundToShade::Kind;
-    if (met.shapes[0]->kind == Sphere) return surfacesOf<Sphere>(met, out);
-    if (met.shapes[0]->kind == Plane) return surfacesOf<Plane>(met, out);
+    using enum StillShape::Round;
+    if (met.shapes[0]->round == Sphere) return surfacesOf<Sphere>(met, out);
+    if (met.shapes[0]->round == Plane) return surfacesOf<Plane>(met, out);
     surfacesOf<Cylinder>(met, out);
 }

@@ -20,6 +20,13 @@ struct Ints {
     static Ints load(const std::uint32_t* p) {
         return _mm256_load_si256(reinterpret_cast<const __m256i*>(p));
     }
+    static Ints unaligned(const std::uint32_t* p) {
+        return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(p));
+    }
+    static Ints from(std::uint32_t first) {
+        return _mm256_add_epi32(_mm256_set1_epi32(static_cast<int>(first)),
+                                _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7));
+    }
     static Ints bytes(const std::uint8_t* p) {
         return _mm256_cvtepu8_epi32(_mm_loadl_epi64(reinterpret_cast<const __m128i*>(p)));
     }
@@ -82,6 +89,7 @@ inline Floats fms(Floats a, Floats b, Floats c) {
 inline Floats min(Floats a, Floats b) { return _mm256_min_ps(a.v, b.v); }
 inline Floats max(Floats a, Floats b) { return _mm256_max_ps(a.v, b.v); }
 inline Floats abs(Floats a) { return _mm256_andnot_ps(_mm256_set1_ps(-0.0f), a.v); }
+inline Floats maxAbs(Floats a, Floats b) { return max(abs(a), abs(b)); }
 inline Floats flipSign(Floats a, Floats by) {
     return _mm256_xor_ps(a.v, _mm256_and_ps(by.v, _mm256_set1_ps(-0.0f)));
 }
@@ -146,6 +154,24 @@ inline float smallest(Floats a) {
     return _mm_cvtss_f32(_mm_min_ss(m, _mm_shuffle_ps(m, m, 1)));
 }
 inline float largest(Floats a) { return -smallest(Floats(0.0f) - a); }
+
+template <bool Largest> inline Floats foldRows(const float (*rows)[W]) {
+    const auto fold = [&](__m256 a, __m256 b) {
+        return Largest ? _mm256_max_ps(a, b) : _mm256_min_ps(a, b);
+    };
+    __m256 two[4];
+    for (int i = 0; i < 4; ++i) {
+        const __m256 a = _mm256_load_ps(rows[i]), b = _mm256_load_ps(rows[i + 4]);
+        two[i] = fold(_mm256_permute2f128_ps(a, b, 0x20), _mm256_permute2f128_ps(a, b, 0x31));
+    }
+    const auto four = [&](__m256 a, __m256 b) {
+        return fold(_mm256_unpacklo_ps(a, b), _mm256_unpackhi_ps(a, b));
+    };
+    const __m256 a = four(two[0], two[1]), b = four(two[2], two[3]);
+    return fold(_mm256_shuffle_ps(a, b, 0x44), _mm256_shuffle_ps(a, b, 0xee));
+}
+inline Floats smallestOfRows(const float (*rows)[W]) { return foldRows<false>(rows); }
+inline Floats largestOfRows(const float (*rows)[W]) { return foldRows<true>(rows); }
 
 inline void loadVectors(const float* p, Floats& x, Floats& y, Floats& z) {
     const auto halves = [&](int at) { // 4 floats of the first 4 vectors and 4 of the others

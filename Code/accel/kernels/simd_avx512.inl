@@ -19,6 +19,12 @@ struct Ints {
     Ints(__m512i a) : v(a) {}
     Ints(std::uint32_t a) : v(_mm512_set1_epi32(static_cast<int>(a))) {}
     static Ints load(const std::uint32_t* p) { return _mm512_load_si512(p); }
+    static Ints unaligned(const std::uint32_t* p) { return _mm512_loadu_si512(p); }
+    static Ints from(std::uint32_t first) { // first, first + 1, ...
+        const __m512i lane =
+            _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+        return _mm512_add_epi32(_mm512_set1_epi32(static_cast<int>(first)), lane);
+    }
     static Ints bytes(const std::uint8_t* p) {
         return _mm512_cvtepu8_epi32(_mm_load_si128(reinterpret_cast<const __m128i*>(p)));
     }
@@ -83,6 +89,7 @@ inline Floats fms(Floats a, Floats b, Floats c) {
 inline Floats min(Floats a, Floats b) { return _mm512_min_ps(a.v, b.v); }
 inline Floats max(Floats a, Floats b) { return _mm512_max_ps(a.v, b.v); }
 inline Floats abs(Floats a) { return _mm512_abs_ps(a.v); }
+inline Floats maxAbs(Floats a, Floats b) { return _mm512_range_ps(a.v, b.v, 0b1011); }
 inline Floats flipSign(Floats a, Floats by) {
     return _mm512_xor_ps(a.v, _mm512_and_ps(by.v, _mm512_set1_ps(-0.0f)));
 }
@@ -131,6 +138,29 @@ inline Doubles select(Mask m, const Doubles& a, const Doubles& b) {
 
 inline float smallest(Floats a) { return _mm512_reduce_min_ps(a.v); }
 inline float largest(Floats a) { return _mm512_reduce_max_ps(a.v); }
+
+// Lane i is the smallest or largest number of row i.
+template <bool Largest> inline Floats foldRows(const float (*rows)[W]) {
+    const auto fold = [&](__m512 a, __m512 b) {
+        return Largest ? _mm512_max_ps(a, b) : _mm512_min_ps(a, b);
+    };
+    __m512 two[8], four[4];
+    for (int i = 0; i < 8; ++i) { // two rows to a register, and so on
+        const __m512 a = _mm512_load_ps(rows[i]), b = _mm512_load_ps(rows[i + 8]);
+        two[i] = fold(_mm512_shuffle_f32x4(a, b, 0x44), _mm512_shuffle_f32x4(a, b, 0xee));
+    }
+    for (int i = 0; i < 4; ++i)
+        four[i] = fold(_mm512_shuffle_f32x4(two[i], two[i + 4], 0x88),
+                       _mm512_shuffle_f32x4(two[i], two[i + 4], 0xdd));
+    const auto eight = [&](__m512 a, __m512 b) {
+        return fold(_mm512_unpacklo_ps(a, b), _mm512_unpackhi_ps(a, b));
+    };
+    const __m512 a = eight(four[0], four[1]), b = eight(four[2], four[3]);
+    const __m512 all = fold(_mm512_shuffle_ps(a, b, 0x44), _mm512_shuffle_ps(a, b, 0xee));
+    return _mm512_shuffle_f32x4(all, all, _MM_SHUFFLE(3, 1, 2, 0));
+}
+inline Floats smallestOfRows(const float (*rows)[W]) { return foldRows<false>(rows); }
+inline Floats largestOfRows(const float (*rows)[W]) { return foldRows<true>(rows); }
 
 // x, y, z of W vectors that follow each other.
 inline void loadVectors(const float* p, Floats& x, Floats& y, Floats& z) {

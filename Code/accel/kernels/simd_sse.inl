@@ -24,6 +24,15 @@ struct Ints {
         const auto* v = reinterpret_cast<const __m128i*>(p);
         return {_mm_load_si128(v), _mm_load_si128(v + 1)};
     }
+    static Ints unaligned(const std::uint32_t* p) {
+        const auto* v = reinterpret_cast<const __m128i*>(p);
+        return {_mm_loadu_si128(v), _mm_loadu_si128(v + 1)};
+    }
+    static Ints from(std::uint32_t first) {
+        const __m128i all = _mm_set1_epi32(static_cast<int>(first));
+        return {_mm_add_epi32(all, _mm_setr_epi32(0, 1, 2, 3)),
+                _mm_add_epi32(all, _mm_setr_epi32(4, 5, 6, 7))};
+    }
     static Ints bytes(const std::uint8_t* p) {
         const __m128i all = _mm_loadl_epi64(reinterpret_cast<const __m128i*>(p));
         return {_mm_cvtepu8_epi32(all), _mm_cvtepu8_epi32(_mm_srli_si128(all, 4))};
@@ -114,6 +123,7 @@ inline Floats abs(Floats a) {
     const __m128 sign = _mm_set1_ps(-0.0f);
     return {_mm_andnot_ps(sign, a.lo), _mm_andnot_ps(sign, a.hi)};
 }
+inline Floats maxAbs(Floats a, Floats b) { return max(abs(a), abs(b)); }
 inline Floats flipSign(Floats a, Floats by) {
     const __m128 sign = _mm_set1_ps(-0.0f);
     return {_mm_xor_ps(a.lo, _mm_and_ps(by.lo, sign)), _mm_xor_ps(a.hi, _mm_and_ps(by.hi, sign))};
@@ -209,6 +219,26 @@ inline float smallest(Floats a) {
     return _mm_cvtss_f32(_mm_min_ss(m, _mm_shuffle_ps(m, m, 1)));
 }
 inline float largest(Floats a) { return -smallest(Floats(0.0f) - a); }
+
+template <bool Largest> inline Floats foldRows(const float (*rows)[W]) {
+    const auto fold = [&](__m128 a, __m128 b) {
+        return Largest ? _mm_max_ps(a, b) : _mm_min_ps(a, b);
+    };
+    const auto half = [&](int first) {
+        const auto row = [&](int i) {
+            const float* const p = rows[first + i];
+            return fold(_mm_load_ps(p), _mm_load_ps(p + 4));
+        };
+        const auto two = [&](__m128 a, __m128 b) {
+            return fold(_mm_unpacklo_ps(a, b), _mm_unpackhi_ps(a, b));
+        };
+        const __m128 a = two(row(0), row(1)), b = two(row(2), row(3));
+        return fold(_mm_movelh_ps(a, b), _mm_movehl_ps(b, a));
+    };
+    return {half(0), half(4)};
+}
+inline Floats smallestOfRows(const float (*rows)[W]) { return foldRows<false>(rows); }
+inline Floats largestOfRows(const float (*rows)[W]) { return foldRows<true>(rows); }
 
 inline void loadVectors(const float* p, Floats& x, Floats& y, Floats& z) {
     const auto four = [](const float* q, __m128& u, __m128& v, __m128& w) {

@@ -8,8 +8,7 @@
 #include <utility>
 
 void SolidTree::reserve(std::size_t count) {
-    solids.reserve(count), boxes.reserve(count);
-    spheres.reserve(count), tubes.reserve(count);
+    solids.reserve(count), boxes.reserve(count), tubes.reserve(count);
 }
 
 void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const SolidForm& form) {
@@ -24,16 +23,14 @@ void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const S
         solid.innerRadius = static_cast<float>(form.hull.innerRadius * (1 - 0x1p-20));
     if (form.sphere) {
         solid.kind = Kind::Sphere;
-        solid.part = static_cast<std::uint32_t>(spheres.size());
-        const auto& m = form.sphere->objectFromWorld;
-        const bool turned =
-            m[1] != 0 || m[2] != 0 || m[4] != 0 || m[6] != 0 || m[8] != 0 || m[9] != 0;
-        spheres.push_back({*form.sphere, turned});
+        solid.sphere = form.sphere;
+        const AffineRows& m = form.sphere->objectFromWorld();
+        solid.turned = m[1] != 0 || m[2] != 0 || m[4] != 0 || m[6] != 0 || m[8] != 0 || m[9] != 0;
     }
     if (form.tube) {
         solid.kind = Kind::Tube;
         solid.part = static_cast<std::uint32_t>(tubes.size());
-        const auto& m = form.tube->objectFromWorld;
+        const AffineRows& m = form.tube->shape->objectFromWorld();
         const Vec3d x{m[0], m[1], m[2]}, y{m[4], m[5], m[6]}, z{m[8], m[9], m[10]};
         // Gershgorin's circles about the Gram matrix.
         const double xx = dot(x, x), yy = dot(y, y), zz = dot(z, z);

@@ -23,16 +23,14 @@ struct SolidTree {
     // What is looked at first, in one line of the cache.
     struct alignas(64) Solid {
         std::uint32_t number = 0; // what hits and calls name it by
-        std::uint32_t part = 0;   // in `spheres`, `facets` or `tubes`
+        std::uint32_t part = 0;   // in `facets` or `tubes`
         Kind kind = Kind::Other;
         bool hides = true;   // counts when any hit is asked for
         bool isTube = false; // a RoundHull with an axis
+        bool turned = false; // a sphere whose map does more than move and scale along the axes
         Vec3 centre{}, axis{};
         float radius = kInfinityF, innerRadius = 0, halfLength = kInfinityF;
-    };
-    struct Sphere {
-        StillSphere exact;
-        bool turned = false; // the map does more than move and scale along the axes
+        const StillShape* sphere = nullptr; // of a sphere
     };
     struct Tube {
         StillTube exact;
@@ -53,7 +51,6 @@ struct SolidTree {
     int width = 0;
     std::vector<Solid> solids; // in the order of the tree's leaves
     std::vector<Bounds> boxes; // of the solids
-    std::vector<Sphere> spheres;
     std::vector<Tube> tubes;
     std::vector<FacetGroup> facets;
     // WideNode<width>, root first. A child of kind Leaf is one solid, by its place in `solids`.

@@ -8,13 +8,17 @@
 // meets lies inside of the box without the pad.
 // Included by the file of each instruction set inside its namespace, behind ray_lanes.inl.
 
-#include "accel/kernels/solids_rays.inl"
+enum class Answer { Closest, Any };
 
 #include "accel/kernels/solids_hulls.inl"
+
+#include "accel/kernels/solids_rays.inl"
 
 #include "accel/kernels/solids_facets.inl"
 
 #include "accel/kernels/solids_tubes.inl"
+
+#include "accel/kernels/solids_spheres.inl"
 
 #include "accel/kernels/solids_meet.inl"
 

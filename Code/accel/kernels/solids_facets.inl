@@ -2,9 +2,9 @@
 // shape/mesh.cpp and shape/one_sided.cpp.
 // Included by solids.inl.
 
-class PacketFacets : public PacketHulls {
+class PacketFacets : public PacketRays {
 protected:
-    using PacketHulls::PacketHulls;
+    using PacketRays::PacketRays;
 
     // canonicalKey() of accel/triangle.h and barycentrics(), operation by operation.
     struct FacetHit {

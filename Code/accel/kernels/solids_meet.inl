@@ -2,20 +2,26 @@
 // each ray.
 // Included by solids.inl.
 
-class PacketSolids : public PacketTubes {
+class PacketSolids : public PacketSpheres {
 protected:
     PacketSolids(const SolidTree& tree, const SolidCalls& calls, const RaySpan& rays)
-        : PacketTubes(tree, rays), calls_(calls) {}
+        : PacketSpheres(tree, rays), calls_(calls) {}
 
     template <Answer A, class Result>
     void solid(std::uint32_t place, unsigned lanes, Result* results) {
         const SolidTree::Solid& solid = tree_.solids[place];
         if (A == Answer::Any && !solid.hides) return;
         asked_ = place;
-        unsigned certain = 0;
-        lanes &= solid.isTube ? nearAxis<A>(solid, lanes, certain) : nearCentre<A>(solid, certain);
+        const BallLanes ball{
+            {solid.centre.x, solid.centre.y, solid.centre.z}, solid.radius, solid.innerRadius};
+        const Nearness near =
+            solid.isTube
+                ? nearTube<A>(lines(), ball,
+                              {{solid.axis.x, solid.axis.y, solid.axis.z}, solid.halfLength}, lanes)
+                : nearBall<A>(lines(), ball);
+        lanes &= near.may;
         if constexpr (A == Answer::Any) {
-            certain &= lanes;
+            const unsigned certain = near.certain & lanes;
             if (certain != 0) hide(certain, results);
             lanes &= ~certain;
         }
@@ -24,7 +30,7 @@ protected:
         lanes &= lanes_.entering(tree_.boxes[place], zCut_, entry);
         if (lanes == 0) return;
         if (solid.kind == SolidTree::Kind::Sphere)
-            sphere<A>(solid, tree_.spheres[solid.part], entry, lanes, results);
+            sphere<A>(solid, entry, lanes, results);
         else if (solid.kind == SolidTree::Kind::Facets)
             facets(solid, tree_.facets[solid.part], entry, lanes, results);
         else if (solid.kind == SolidTree::Kind::Tube)
@@ -35,6 +41,7 @@ protected:
 
     // Hides what comes next from the lamp, too, more often than not.
     std::uint32_t lastHider_ = std::numeric_limits<std::uint32_t>::max();
+    const SolidCalls& calls_;
 
 private:
     void hide(unsigned lanes, std::uint8_t* hidden) {
@@ -68,58 +75,21 @@ private:
         }
     }
 
-    // Sphere::roots() and insideRound().
     template <Answer A, class Result>
-    void sphere(const SolidTree::Solid& solid, const SolidTree::Sphere& sphere, Floats entry,
-                unsigned lanes, Result* results) {
-        const auto& m = sphere.exact.objectFromWorld;
-        const Doubles X(columns_.org[0]), Y(columns_.org[1]), Z(columns_.org[2]),
-            U(columns_.dir[0]), V(columns_.dir[1]), T(columns_.dir[2]);
-        const auto times = [&](std::size_t i, const Doubles& x) { return Doubles(m[i]) * x; };
-        // A zero of the map adds a zero, which changes no number.
-        const auto point = [&](std::size_t i, const Doubles& along) {
-            if (!sphere.turned) return along + Doubles(m[i + 3]);
-            return ((times(i, X) + times(i + 1, Y)) + times(i + 2, Z)) + Doubles(m[i + 3]);
-        };
-        const auto direction = [&](std::size_t i, const Doubles& along) {
-            if (!sphere.turned) return along;
-            return (times(i, U) + times(i + 1, V)) + times(i + 2, T);
-        };
-        const Doubles ox = point(0, times(0, X)), oy = point(4, times(5, Y)),
-                      oz = point(8, times(10, Z));
-        const Doubles dx = direction(0, times(0, U)), dy = direction(4, times(5, V)),
-                      dz = direction(8, times(10, T));
-        const Doubles dd = (dx * dx + dy * dy) + dz * dz, od = (ox * dx + oy * dy) + oz * dz;
-        const Doubles along = od / dd;
-        const Doubles px = ox - dx * along, py = oy - dy * along, pz = oz - dz * along;
-        const Doubles ll = (px * px + py * py) + pz * pz;
-        const double radius = sphere.exact.radius;
-        const Doubles rr(radius * radius);
-        lanes &= atMost(ll, rr);
-        if (lanes == 0 || !(radius > 0)) return;
-
-        const Doubles most(std::numeric_limits<double>::max());
-        const Doubles oo = (ox * ox + oy * oy) + oz * oz;
-        lanes &= atMost(dd, most) & atMost(oo, most);
-        const Doubles middle = Doubles(0.0) - along, half = sqrt((rr - ll) / dd);
-        const Doubles enter = middle - half, exit = middle + half;
-        const Floats t0 = enter.toFloats(), t1 = exit.toFloats();
+    void sphere(const SolidTree::Solid& solid, Floats entry, unsigned lanes, Result* results) {
+        const SphereRoots roots = meet(SameMap{solid.sphere->objectFromWorld()}, solid.turned,
+                                       solid.sphere->radius, lanes);
+        if (roots.met == 0) return;
         if constexpr (A == Answer::Any) {
-            lanes &=
-                bits(((t0 > columns_.tMin) & (t0 < best_)) | ((t1 > columns_.tMin) & (t1 < best_)));
-            hide(lanes, results);
+            hide(hides(roots), results);
         } else {
-            const Mask first = t0 > columns_.tMin;
-            const Floats t = select(first, t0, t1);
-            lanes &= bits((t > columns_.tMin) & (t <= best_) & (t < Floats(kInfinityF)));
-            if (lanes == 0) return;
-            const Floats nearest = max(entry / lanes_.dz, t);
-            const unsigned better = nearerLanes(solid, lanes, nearest);
+            const SphereHits hit = firstOf(roots);
+            if (hit.met == 0) return;
+            const Floats nearest = max(entry / lanes_.dz, hit.t);
+            const unsigned better = nearerLanes(solid, hit.met, nearest);
             if (better == 0) return;
-            const Doubles lost0 = enter - Doubles(t0), lost1 = exit - Doubles(t1);
             alignas(64) float ts[W], us[W];
-            nearest.store(ts);
-            select(first, lost0.toFloats(), lost1.toFloats()).store(us);
+            nearest.store(ts), hit.lost.store(us);
             for (unsigned rest = better; rest != 0; rest &= rest - 1) {
                 const int i = std::countr_zero(rest);
                 results[ray_[i]] = {.t = ts[i], .u = us[i], .shape = solid.number};
@@ -133,7 +103,8 @@ private:
     // best one. Who can't be sure here asks the shape.
     [[gnu::noinline]] void tube(const SolidTree::Solid& solid, const SolidTree::Tube& tube,
                                 Floats entry, unsigned lanes, Hit* hits) {
-        const TubeRoots roots = meet(tube.exact);
+        const Tubes<SameMap> tubes = sameTube(tube);
+        const TubeRoots roots = meet(tubes);
         unsigned asking = lanes & roots.undecided;
         const unsigned first = roots.met[0] & bits(roots.t[0] > columns_.tMin);
         const Mask isFirst = maskOf(first);
@@ -142,8 +113,8 @@ private:
         lanes &= ~asking & (first | roots.met[1]) &
                  bits((t > columns_.tMin) & (t <= best_) & (t < Floats(kInfinityF)));
         const unsigned ends = (first & roots.end[0]) | (~first & roots.end[1]);
-        if (lanes != 0 && tube.exact.side != ::Facets::Side::Both) {
-            const unsigned seen = seesSide(tube, roots, ends, first, t, lost);
+        if (lanes != 0 && tubes.side != ::Facets::Side::Both) {
+            const unsigned seen = seesSide(tubes, roots, ends, first, t, lost);
             asking |= lanes & ~seen;
             lanes &= seen;
         }
@@ -167,7 +138,7 @@ private:
 
     [[gnu::noinline]] void tube(const SolidTree::Solid& solid, const SolidTree::Tube& tube,
                                 Floats entry, unsigned lanes, std::uint8_t* hidden) {
-        const TubeRoots roots = meet(tube.exact);
+        const TubeRoots roots = meet(sameTube(tube));
         const auto hides = [&](std::size_t i) {
             return roots.met[i] & bits((roots.t[i] > columns_.tMin) & (roots.t[i] < best_));
         };
@@ -259,6 +230,5 @@ private:
         return lower;
     }
 
-    const SolidCalls& calls_;
     std::uint32_t asked_ = 0; // place of the solid
 };

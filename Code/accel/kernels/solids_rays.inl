@@ -1,8 +1,6 @@
-// A packet of W rays as PacketHulls and those who build on it ask it, and what its rays have in
+// A packet of W rays as PacketFacets and those who build on it ask it, and what its rays have in
 // common.
 // Included by solids.inl.
-
-enum class Answer { Closest, Any };
 
 class PacketRays {
 protected:
@@ -11,6 +9,18 @@ protected:
     static constexpr unsigned kAll = (1u << W) - 1;
     // Fewer rays than this look at a node one by one.
     static constexpr int kFewestForInterval = 6;
+
+    Lines lines() const {
+        const auto& [org, dir, tMin, tMax, inARow] = columns_;
+        return {{org[0], org[1], org[2]},
+                {dir[0], dir[1], dir[2]},
+                length_,
+                perLength_,
+                perLength2_,
+                slack_,
+                tMin,
+                best_};
+    }
 
     // Takes the first W rays of the order. Returns the lanes to be traced.
     template <Answer A, class Result>
@@ -77,7 +87,7 @@ protected:
     unsigned live_ = 0;    // lanes that still ask
     RayColumns columns_;
     RayLanes lanes_;
-    Floats length_, perLength_, perLength2_, slack_; // of the directions; see nearCentre()
+    Floats length_, perLength_, perLength2_, slack_; // see Lines
     Floats best_, zCut_; // t up to which hits count, and the depth behind which none is
     std::uint32_t number_[W];
     unsigned backwards_[3]; // lanes with r < 0

@@ -2,6 +2,31 @@
 // shape/cone.cpp, and which side of it they see.
 // Included by solids.inl.
 
+// One map in all lanes, or one in each.
+struct SameMap {
+    const AffineRows& rows;
+    Doubles operator()(std::size_t i) const { return Doubles(rows[i]); }
+};
+struct MapLanes {
+    const double (*rows)[W];
+    Doubles operator()(std::size_t i) const { return Doubles::load(rows[i]); }
+};
+
+// Tubes of one form.
+template <class Map> struct Tubes {
+    bool caps, isCone;
+    ::Facets::Side side;
+    Map map;
+    Doubles radius, slope, narrowZ, wallStretch, endStretch; // see StillTube, SolidTree::Tube
+};
+inline Tubes<SameMap> sameTube(const SolidTree::Tube& tube) {
+    const StillTube& t = tube.exact;
+    const StillTube::Cone cone = t.cone.value_or(StillTube::Cone{});
+    return {t.caps,         t.cone.has_value(), t.side,       {t.shape->objectFromWorld()},
+            t.radius,       cone.slope,         cone.narrowZ, tube.wallStretch,
+            tube.endStretch};
+}
+
 class PacketTubes : public PacketFacets {
 protected:
     using PacketFacets::PacketFacets, PacketFacets::meet, PacketFacets::seesSide;
@@ -25,12 +50,12 @@ protected:
     };
 
     // AnalyticShape::rootsOf() with Cylinder::roots() or Cone::roots(), operation by operation.
-    TubeRoots meet(const StillTube& tube) const {
-        const TubeRays rays = mapped(tube.objectFromWorld);
+    template <class Map> TubeRoots meet(const Tubes<Map>& tube) const {
+        const TubeRays rays = mapped(tube.map);
         const auto& [ox, oy, oz, dx, dy, dz] = rays;
         const Doubles zero(0.0), one(1.0), most(std::numeric_limits<double>::max());
-        WallRange wall =
-            tube.cone ? inCone(rays, tube.radius, *tube.cone) : inCylinder(rays, tube.radius);
+        WallRange wall = tube.isCone ? inCone(rays, tube.radius, tube.slope, tube.narrowZ)
+                                     : inCylinder(rays, tube.radius);
         wall.met &= atMost((dx * dx + dy * dy) + dz * dz, most) &
                     atMost((ox * ox + oy * oy) + oz * oz, most);
         TubeRoots out{rays, {}, {}, {wall.met, wall.met}, {0, 0}, 0, wall.undecided};
@@ -40,8 +65,8 @@ protected:
             const Doubles low = (Doubles(-1.0) - oz) / dz, high = (one - oz) / dz;
             const Doubles in = min(low, high), beyond = max(low, high);
             // A cylinder's rim is of its end, that of a cone of its wall.
-            out.end[0] = tube.cone ? ~atMost(in, wall.enter) : atMost(wall.enter, in);
-            out.end[1] = tube.cone ? ~atMost(wall.exit, beyond) : atMost(beyond, wall.exit);
+            out.end[0] = tube.isCone ? ~atMost(in, wall.enter) : atMost(wall.enter, in);
+            out.end[1] = tube.isCone ? ~atMost(wall.exit, beyond) : atMost(beyond, wall.exit);
             wall.enter = max(wall.enter, in), wall.exit = min(wall.exit, beyond);
             out.met[0] &= atMost(wall.enter, wall.exit), out.met[1] = out.met[0];
         } else {
@@ -60,36 +85,36 @@ protected:
     // Lanes that see the wanted side for certain, of what they meet at (t, lost), which is their
     // first root or the other one: AnalyticShape::seesFront() with twice its threshold. Maps take
     // normals one way and directions the other, so that their product is the same in both spaces.
-    unsigned seesSide(const SolidTree::Tube& tube, const TubeRoots& roots, unsigned ends,
-                      unsigned first, Floats t, Floats lost) const {
+    template <class Map>
+    unsigned seesSide(const Tubes<Map>& tube, const TubeRoots& roots, unsigned ends, unsigned first,
+                      Floats t, Floats lost) const {
         const auto& [ox, oy, oz, dx, dy, dz] = roots.rays;
         const Doubles zero(0.0), at = Doubles(t) + Doubles(lost);
         const Doubles x = ox + dx * at, y = oy + dy * at;
         const Doubles X(columns_.dir[0]), Y(columns_.dir[1]), Z(columns_.dir[2]);
         const Doubles least = Doubles(0x1p-19) * ((X * X + Y * Y) + Z * Z);
         Doubles facing = x * dx + y * dy, nn = x * x + y * y;
-        unsigned end = ~atMost(dz * dz, least * Doubles(tube.endStretch));
-        if (tube.exact.cone) {
-            const Doubles z = Doubles(-tube.exact.cone->slope) * sqrt(nn);
+        unsigned end = ~atMost(dz * dz, least * tube.endStretch);
+        if (tube.isCone) {
+            const Doubles z = (Doubles(-0.0) - tube.slope) * sqrt(nn);
             facing = facing + z * dz, nn = nn + z * z;
-            if (!(tube.exact.radius > 0)) end = 0; // a tip is no end
+            end &= less(zero, tube.radius); // a tip is no end
         }
-        const unsigned wall = ~atMost(facing * facing, least * (Doubles(tube.wallStretch) * nn));
-        const bool isFront = tube.exact.side == ::Facets::Side::Front;
+        const unsigned wall = ~atMost(facing * facing, least * (tube.wallStretch * nn));
+        const bool isFront = tube.side == ::Facets::Side::Front;
         return (ends & end & (isFront ? first : ~first)) |
                (~ends & wall & ~(isFront ? atMost(zero, facing) : atMost(facing, zero)));
     }
 
 private:
-    TubeRays mapped(const std::array<double, 12>& m) const {
+    template <class Map> TubeRays mapped(const Map& m) const {
         const Doubles X(columns_.org[0]), Y(columns_.org[1]), Z(columns_.org[2]),
             U(columns_.dir[0]), V(columns_.dir[1]), T(columns_.dir[2]);
         const auto direction = [&](std::size_t i) {
-            return (Doubles(m[i]) * U + Doubles(m[i + 1]) * V) + Doubles(m[i + 2]) * T;
+            return (m(i) * U + m(i + 1) * V) + m(i + 2) * T;
         };
         const auto point = [&](std::size_t i) {
-            return ((Doubles(m[i]) * X + Doubles(m[i + 1]) * Y) + Doubles(m[i + 2]) * Z) +
-                   Doubles(m[i + 3]);
+            return ((m(i) * X + m(i + 1) * Y) + m(i + 2) * Z) + m(i + 3);
         };
         return {point(0), point(4), point(8), direction(0), direction(4), direction(8)};
     }
@@ -97,28 +122,28 @@ private:
     // -0.0 - x is -x to the last bit, zeros included: the sign of b may choose between two roots.
 
     // Cylinder::insideTube().
-    static WallRange inCylinder(const TubeRays& rays, double radius) {
+    static WallRange inCylinder(const TubeRays& rays, const Doubles& radius) {
         const Doubles &ox = rays.ox, &oy = rays.oy, &dx = rays.dx, &dy = rays.dy;
         const Doubles zero(0.0), minus(-0.0);
         const Doubles dd = dx * dx + dy * dy, od = ox * dx + oy * dy;
         const Doubles along = od / dd;
         const Doubles px = ox - dx * along, py = oy - dy * along;
-        const Doubles ll = px * px + py * py, rr(radius * radius);
+        const Doubles ll = px * px + py * py, rr = radius * radius;
         const Doubles middle = minus - along, half = sqrt((rr - ll) / dd);
-        return {middle - half, middle + half, radius > 0 ? atMost(ll, rr) : 0, atMost(dd, zero)};
+        return {middle - half, middle + half, less(zero, radius) & atMost(ll, rr),
+                atMost(dd, zero)};
     }
 
     // Cone::insideSide(), but for lines that are no steeper than the side: a > 0.
-    static WallRange inCone(const TubeRays& rays, double narrowRadius,
-                            const StillTube::Cone& cone) {
+    static WallRange inCone(const TubeRays& rays, const Doubles& narrowRadius, const Doubles& slope,
+                            const Doubles& narrowZ) {
         const auto& [ox, oy, oz, dx, dy, dz] = rays;
         const Doubles zero(0.0), minus(-0.0), most(std::numeric_limits<double>::max());
-        const Doubles oTip = oz - Doubles(cone.narrowZ);
+        const Doubles oTip = oz - narrowZ;
         const Doubles shift =
             minus - ((ox * dx + oy * dy) + oTip * dz) / ((dx * dx + dy * dy) + dz * dz);
         const Doubles x = ox + dx * shift, y = oy + dy * shift, z = oTip + dz * shift;
-        const Doubles slope(cone.slope);
-        const Doubles w = Doubles(narrowRadius) + slope * z, dw = slope * dz;
+        const Doubles w = narrowRadius + slope * z, dw = slope * dz;
         const Doubles a = (dx * dx + dy * dy) - dw * dw, b = (x * dx + y * dy) - w * dw,
                       c = (x * x + y * y) - w * w;
         const Doubles discriminant = differenceOfProducts(b, b, a, c);

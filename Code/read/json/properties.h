@@ -68,7 +68,7 @@ void readJsonProperty(const JsonValue& value, const Property<Block>& row, const 
     forEachNumber(block, row.first, countOne);
     if (row.second) forEachNumber(block, *row.second, countOne);
     JsonPropertyValues values(value, row.keyword, count,
-                              std::holds_alternative<Corners4 Block::*>(row.first), problems);
+                              std::holds_alternative<SeldomCorners Block::*>(row.first), problems);
     if (!values.hasAll()) return;
     if (choice)
         if (const auto position = values.readWord(choice->names)) choice->set(block, *position);

@@ -56,22 +56,24 @@ private:
     }
 
     void readBlock(const Token& word) {
-        if (word.text == "settings") return readSingle(blocks_.desc.settings, word);
-        if (word.text == "world") return readSingle(blocks_.desc.world, word);
-        if (word.text == "camera") return readProperties(added(blocks_.desc.cameras), word);
-        if (word.text == "texture") return readProperties(added(blocks_.desc.textures), word);
-        if (word.text == "material") return readProperties(added(blocks_.desc.materials), word);
-        if (word.text == "light") return readProperties(added(blocks_.desc.lights), word);
-        if (word.text == "mesh") {
+        const auto is = [&](std::string_view kind) { return isSameWord(kind, word.text); };
+        for (const auto& row : kEnumNames<ObjectDesc::Kind>) {
+            if (!is(row.name)) continue;
+            ObjectDesc& object = added(blocks_.desc.objects);
+            object.kind = row.value;
+            return readProperties(object, word);
+        }
+        if (is("material")) return readProperties(added(blocks_.desc.materials), word);
+        if (is("light")) return readProperties(added(blocks_.desc.lights), word);
+        if (is("mesh")) {
             MeshDesc& mesh = added(blocks_.desc.meshes);
             readHeading(mesh, word);
             return readMesh(in_, errors_, word, mesh, part_.threads);
         }
-        if (const auto kind = valueNamed<ObjectDesc::Kind>(word.text)) {
-            ObjectDesc& object = added(blocks_.desc.objects);
-            object.kind = *kind;
-            return readProperties(object, word);
-        }
+        if (is("camera")) return readProperties(added(blocks_.desc.cameras), word);
+        if (is("texture")) return readProperties(added(blocks_.desc.textures), word);
+        if (is("settings")) return readSingle(blocks_.desc.settings, word);
+        if (is("world")) return readSingle(blocks_.desc.world, word);
         in_.failAt(word.offset, cat("unknown block ", unknownName(shown(word.text), blockWords())));
     }
 
@@ -178,6 +180,7 @@ private:
     }
 
     bool readTransformLine(const Token& t, const Token& word, Keys& keys) {
+        if (!mayPlace(t.text.front())) return false;
         if (isSameWord(t.text, "key")) {
             if (word.text == "light")
                 in_.failAt(t.offset, "lights stand still; 'key' is for cameras and objects");
@@ -187,11 +190,11 @@ private:
         }
         for (const TransformLine& line : transformLines()) {
             if (!isSameWord(line.keyword, t.text)) continue;
-            std::array<double, 12> numbers{};
+            std::array<double, 12> numbers;
             const std::size_t faultsBefore = errors_.count();
             NumberLine reader(in_, errors_, line.keyword, line.count);
             for (std::size_t i = 0; i < line.count; ++i)
-                reader.read(numbers[i], line.keyword == "rotate" && i == 0 ? kTurn : kAnyNumber);
+                reader.read(numbers[i], i == 0 && line.startsWithTurn ? kTurn : kAnyNumber);
             reader.finish(word);
             if (errors_.count() > faultsBefore) return true;
             std::string_view fault;

@@ -37,8 +37,7 @@ Token Scanner::peek() {
     return token;
 }
 
-Token Scanner::next() {
-    skipBlanks();
+Token Scanner::nextButWord() {
     const std::size_t start = offset();
     if (p_ == end_) return {TokenKind::FileEnd, start, {}};
     const auto one = [&](TokenKind kind) { return Token{kind, start, {p_++, 1}}; };
@@ -46,9 +45,6 @@ Token Scanner::next() {
     if (*p_ == '{') return one(TokenKind::Open);
     if (*p_ == '}') return one(TokenKind::Close);
     if (*p_ == '"') return quoted();
-    const char* const first = p_;
-    while (isBareChar(*p_)) ++p_;
-    if (p_ != first) return {TokenKind::Word, start, {first, static_cast<std::size_t>(p_ - first)}};
     const std::string_view rest(p_, static_cast<std::size_t>(end_ - p_));
     const std::string character = shown(firstCharacter(rest));
     if (findBadText(rest.substr(0, 4)) == 0)
@@ -74,6 +70,7 @@ std::string Scanner::nameIn(const Token& token) const {
     if (const std::size_t bad = findBadText(inside); bad != std::string_view::npos)
         failAt(token.offset + 1 + bad, cat("unexpected byte '", shown(inside.substr(bad, 1)),
                                            "'; names are UTF-8 without control characters"));
+    if (inside.find('\\') == std::string_view::npos) return std::string(inside);
     std::string name;
     name.reserve(inside.size());
     for (std::size_t i = 0; i < inside.size(); ++i) {

@@ -34,7 +34,15 @@ public:
     std::size_t bytesLeft() const { return source_.text.size() - offset(); }
 
     // Fails on characters that start no token.
-    Token next();
+    Token next() {
+        skipBlanks();
+        const char* const first = p_;
+        while (isBareChar(*p_)) ++p_;
+        if (p_ == first) return nextButWord();
+        return {TokenKind::Word,
+                static_cast<std::size_t>(first - source_.text.data()),
+                {first, static_cast<std::size_t>(p_ - first)}};
+    }
     Token peek();
     // Goes behind the end of the line when nothing else is left of it.
     bool takeLineEnd() {
@@ -81,6 +89,7 @@ private:
         if (*p_ == '#') skipComment();
     }
     void skipComment();
+    Token nextButWord();
     Token quoted();
 
     const SourceFile& source_;

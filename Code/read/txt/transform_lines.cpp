@@ -12,13 +12,14 @@ using Numbers = std::span<const double>;
 
 Vec3d at(Numbers n, std::size_t i) { return {n[i], n[i + 1], n[i + 2]}; }
 
-// The first line is taken as it is: a product with the identity could lose the sign of a zero.
+// The first line is taken as it is: a product with the identity could lose the sign of a zero. No
+// inverse is made on the way: nobody asks for it here.
 Rows placed(const Rows& before, const Rows& next) {
     return before == kIdentityRows ? next : product(before, next);
 }
 
 Rows translate(const Rows& before, Numbers n, std::string_view&) {
-    return placed(before, Transform::translate(at(n, 0)).rows());
+    return placed(before, {1, 0, 0, n[0], 0, 1, 0, n[1], 0, 0, 1, n[2]});
 }
 Rows rotate(const Rows& before, Numbers n, std::string_view& fault) {
     const Vec3d axis = at(n, 1);
@@ -31,7 +32,7 @@ Rows rotate(const Rows& before, Numbers n, std::string_view& fault) {
     return placed(before, Transform::rotate(direction, radians(n[0])).rows());
 }
 Rows scale(const Rows& before, Numbers n, std::string_view&) {
-    return placed(before, Transform::scale(at(n, 0)).rows());
+    return placed(before, {n[0], 0, 0, 0, 0, n[1], 0, 0, 0, 0, n[2], 0});
 }
 Rows transform(const Rows& before, Numbers n, std::string_view&) {
     Rows rows{};
@@ -48,13 +49,24 @@ Rows lookAt(const Rows& before, Numbers n, std::string_view& fault) {
 }
 
 constexpr auto kLines = std::to_array<TransformLine>({
-    {"translate", 3, translate},
-    {"rotate", 4, rotate},
-    {"scale", 3, scale},
-    {"transform", 12, transform},
-    {"look_at", 9, lookAt},
+    {"translate", 3, false, translate},
+    {"rotate", 4, true, rotate},
+    {"scale", 3, false, scale},
+    {"transform", 12, false, transform},
+    {"look_at", 9, false, lookAt},
 });
 
 } // namespace
 
 std::span<const TransformLine> transformLines() { return kLines; }
+
+bool mayPlace(char first) {
+    static constexpr auto kFirst = [] {
+        std::array<bool, 256> table{};
+        table['k'] = true;
+        for (const TransformLine& line : kLines)
+            table[static_cast<unsigned char>(line.keyword.front())] = true;
+        return table;
+    }();
+    return kFirst[static_cast<unsigned char>(first)];
+}

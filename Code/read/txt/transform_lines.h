@@ -10,8 +10,11 @@
 
 struct TransformLine {
     std::string_view keyword;
-    std::size_t count; // of numbers
+    std::size_t count;   // of numbers
+    bool startsWithTurn; // the first one is an angle
     // worldFromObject times what the line says; sets `fault` when the numbers say nothing.
     Rows (*apply)(const Rows& before, std::span<const double> numbers, std::string_view& fault);
 };
 std::span<const TransformLine> transformLines();
+// Does one of their keywords, or "key", begin with this letter? Most lines say something else.
+bool mayPlace(char first);

@@ -8,7 +8,7 @@
 namespace waves {
 
 // Thousands of shapes are more than the nearest caches hold.
-inline void prefetch(const RoundToShade& shape) {
+inline void prefetch(const StillShape& shape) {
     const auto* const bytes = reinterpret_cast<const char*>(&shape);
     for (std::size_t at = 0; at < sizeof(shape); at += 64) __builtin_prefetch(bytes + at);
 }
