@@ -364,7 +364,7 @@ private:
             leastBelow = ::min(smallest(under), leastBelow);
         }
         select(on, overLo, never).store(aboveLo[q]);
-        select(on, overHi, never).store(aboveHi[q]);
+        if constexpr (Q == Query::Any) select(on, overHi, never).store(aboveHi[q]);
         under.store(below[q]);
         return endless;
     }
