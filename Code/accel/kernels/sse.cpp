@@ -35,6 +35,8 @@ namespace kernels::sse {
 
 #include "accel/kernels/queue.inl"
 
+#include "accel/kernels/bundle_gaps.inl"
+
 #include "accel/kernels/bundle_rays.inl"
 
 #include "accel/kernels/bundle_keys.inl"
