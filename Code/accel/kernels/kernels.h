@@ -3,7 +3,7 @@
 // bit: kernels find the candidates in their own ways, and the canonical hit decides.
 //
 // The folder. .inl files are written for any number of lanes: the file of each instruction set
-// (sse, avx2, avx512) includes one simd_*.inl and then, in this order,
+// (sse, avx2, avx512) includes region_includes.h, one simd_*.inl and then, in this order,
 //   [isa].cpp         key_range, barycentrics, stack, ray_lanes;
 //                     rays one by one: queue_rays, _answers, _exact, handful (tiny trees), queue;
 //                     rays from one point: bundle_gaps, _rays, _keys, _block, _best, _leaf, bundle
