@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 
 using namespace battery;
@@ -243,6 +244,32 @@ TEST(kernels_on_tiny_meshes) {
     std::printf("%zu rays, %zu hits, %zu hidden, seed 78\n", counts.rays, counts.hits,
                 counts.hidden);
     CHECK(counts.hits > counts.rays / 4 && counts.hits < counts.rays);
+}
+
+// Rays of points that end where they hit, and a float in front of it or behind: bundles, and trees
+// too small for them, know first only bounds of the key at the end of a ray.
+TEST(kernels_on_rays_that_end_at_their_hits) {
+    Random random(81);
+    Counts counts;
+    for (const std::size_t size : {1u, 2u, 4u, 5u, 12u, 17u, 300u}) {
+        const Meshes meshes(meshes::geometryOf(meshes::soup(random, size), false));
+        const Mesh oracle(meshes.scalar, {0}, {{0, 0}});
+        const auto n = static_cast<std::size_t>(check::scaled(2000));
+        const RayList all = raysFromPoints(random, meshes.scalar, n);
+        RayList ending;
+        for (std::size_t i = 0; i < n; ++i) {
+            Ray ray = all.span()[i];
+            Hit hit;
+            if (oracle.intersect(ray, hit)) ray.tMax = hit.t;
+            if (i % 3 == 1) ray.tMax = std::nextafter(ray.tMax, 0.0f);
+            if (i % 3 == 2) ray.tMax = std::nextafter(ray.tMax, kInfinityF);
+            ending.push(ray);
+        }
+        compare(meshes, ending, "ending at hits", counts);
+    }
+    std::printf("%zu rays, %zu hits, %zu hidden, seed 81\n", counts.rays, counts.hits,
+                counts.hidden);
+    CHECK(counts.hits > counts.hidden && counts.hidden > counts.rays / 10);
 }
 
 // Rays that leave the tree at its root, among some that don't: before the mesh, beside it, and

@@ -9,9 +9,7 @@ public:
     static constexpr std::size_t kMostRays = 256;
     static constexpr int kPackets = static_cast<int>(kMostRays) / W;
 
-    struct Range {
-        float lo, hi;
-    };
+    using Range = SlopeRange;
     struct Rect {
         Range x, y;
     };
@@ -35,10 +33,10 @@ public:
         if (p == loaded_) return false;
         chooseAxis(p, std::countr_zero(left_[p]));
         unsigned chosen[kPackets];
-        Extent xs, ys;
+        SlopeExtent xs, ys;
         for (int r = 0; r < loaded_; ++r) chosen[r] = left_[r] & slopes(r, left_[r], xs, ys);
         x = xs.range(), y = ys.range();
-        if constexpr (Q == Query::Any) cutGaps(chosen);
+        if constexpr (Q == Query::Any) cutGaps(rawX_, rawY_, loaded_, chosen, x, y);
         for (int r = 0; r < loaded_; ++r) left_[r] &= ~chosen[r];
         activate(chosen);
         return true;
@@ -262,20 +260,9 @@ private:
         k = ray.k, kx = ray.kx, ky = ray.ky, sign = ray.sign;
     }
 
-    // Of slopes, lane by lane.
-    struct Extent {
-        Floats lo{kInfinityF}, hi{-kInfinityF};
-
-        void extend(Floats s, Mask lanes) {
-            lo = min(lo, select(lanes, s, Floats(kInfinityF)));
-            hi = max(hi, select(lanes, s, Floats(-kInfinityF)));
-        }
-        Range range() const { return {smallest(lo), largest(hi)}; }
-    };
-
     // Computes the slopes of a packet; returns the lanes of the chosen axis and sign, and extends
     // the extents by those of `wanted`.
-    unsigned slopes(int p, unsigned wanted, Extent& xs, Extent& ys) {
+    unsigned slopes(int p, unsigned wanted, SlopeExtent& xs, SlopeExtent& ys) {
         const Floats d = Floats::load(dir_[k][p]), dx = Floats::load(dir_[kx][p]),
                      dy = Floats::load(dir_[ky][p]);
         const Floats size = abs(d);
@@ -288,46 +275,6 @@ private:
         const Mask on = maskOf(chosen & wanted);
         xs.extend(sx, on), ys.extend(sy, on);
         return chosen;
-    }
-
-    // Shadow rays of a tile end on surfaces far apart: while nearly half of the rectangle is an
-    // empty stretch, the rays on the far side of it wait for the next round.
-    void cutGaps(unsigned* chosen) {
-        constexpr float kGap = 0.45f;
-        for (int round = 0; round < 6; ++round) {
-            const float middleX = 0.5f * (x.lo + x.hi), middleY = 0.5f * (y.lo + y.hi);
-            Extent left, right, under, over;
-            for (int p = 0; p < loaded_; ++p) {
-                const Mask m = maskOf(chosen[p]);
-                const Floats sx = Floats::load(rawX_[p]), sy = Floats::load(rawY_[p]);
-                const Mask toRight = m & (sx > Floats(middleX)), up = m & (sy > Floats(middleY));
-                right.lo = min(right.lo, select(toRight, sx, Floats(kInfinityF)));
-                over.lo = min(over.lo, select(up, sy, Floats(kInfinityF)));
-                left.hi =
-                    max(left.hi, select(m & (sx <= Floats(middleX)), sx, Floats(-kInfinityF)));
-                under.hi =
-                    max(under.hi, select(m & (sy <= Floats(middleY)), sy, Floats(-kInfinityF)));
-            }
-            const auto gap = [&](const Extent& before, const Extent& behind, Range whole) {
-                const float width = smallest(behind.lo) - largest(before.hi);
-                return width < kInfinityF && width > kGap * (whole.hi - whole.lo) ? width : 0.0f;
-            };
-            const float gapX = gap(left, right, x), gapY = gap(under, over, y);
-            if (gapX == 0 && gapY == 0) return;
-            const auto* raw = gapX > gapY ? rawX_ : rawY_;
-            const float middle = gapX > gapY ? middleX : middleY;
-            int first = 0;
-            while (chosen[first] == 0) ++first;
-            const bool keepUpper = raw[first][std::countr_zero(chosen[first])] > middle;
-            Extent xs, ys;
-            for (int p = 0; p < loaded_; ++p) {
-                const unsigned upper = bits(Floats::load(raw[p]) > Floats(middle));
-                chosen[p] &= keepUpper ? upper : ~upper;
-                const Mask m = maskOf(chosen[p]);
-                xs.extend(Floats::load(rawX_[p]), m), ys.extend(Floats::load(rawY_[p]), m);
-            }
-            x = xs.range(), y = ys.range();
-        }
     }
 
     void activate(const unsigned* chosen) {
@@ -364,7 +311,7 @@ private:
             leastBelow = ::min(smallest(under), leastBelow);
         }
         select(on, overLo, never).store(aboveLo[q]);
-        select(on, overHi, never).store(aboveHi[q]);
+        if constexpr (Q == Query::Any) select(on, overHi, never).store(aboveHi[q]);
         under.store(below[q]);
         return endless;
     }

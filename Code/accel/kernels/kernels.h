@@ -3,13 +3,13 @@
 // bit: kernels find the candidates in their own ways, and the canonical hit decides.
 //
 // The folder. .inl files are written for any number of lanes: the file of each instruction set
-// (sse, avx2, avx512) includes one simd_*.inl and then, in this order,
+// (sse, avx2, avx512) includes region_includes.h, one simd_*.inl and then, in this order,
 //   [isa].cpp         key_range, barycentrics, stack, ray_lanes;
 //                     rays one by one: queue_rays, _answers, _exact, handful (tiny trees), queue;
-//                     rays from one point: bundle_rays, _keys, _block, _best, _leaf, bundle
+//                     rays from one point: bundle_gaps, _rays, _keys, _block, _best, _leaf, bundle
 //   solids_[isa].cpp  ray_lanes; solids, which includes _rays, _hulls, _facets and _meet
 //   placed_[isa].cpp  stack, ray_lanes, placed_mesh, placed
-//   sphere_surfaces_[isa].cpp  sphere_surfaces
+//   surface_lanes_[isa].cpp  vectors3, round_surfaces, triangle_surfaces
 // choose.cpp has the table of kernels and route.cpp deals the rays of a batch out to queue and
 // bundles; solids.cpp does both for solids, placed.cpp has the table for placed meshes, which call
 // back to a PlacedQuery. exact_hit.cpp decides what lanes leave open, in plain code. wide_build.cpp

@@ -2,14 +2,7 @@
 #include "accel/kernels/placed.h"
 
 #if defined(__x86_64__)
-#include "accel/kernels/exact_hit.h"
-#include "accel/kernels/target.h"
-
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <immintrin.h>
-#include <limits>
+#include "accel/kernels/region_includes.h"
 
 AVX2_REGION_BEGIN
 namespace kernels::avx2 {

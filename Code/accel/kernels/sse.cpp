@@ -2,15 +2,8 @@
 #include "accel/kernels/instances.h"
 
 #if defined(__x86_64__)
-#include "accel/kernels/exact_hit.h"
-#include "accel/kernels/target.h"
+#include "accel/kernels/region_includes.h"
 
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <cstring>
-#include <immintrin.h>
-#include <limits>
 #include <vector>
 
 SSE_REGION_BEGIN
@@ -34,6 +27,8 @@ namespace kernels::sse {
 #include "accel/kernels/handful.inl"
 
 #include "accel/kernels/queue.inl"
+
+#include "accel/kernels/bundle_gaps.inl"
 
 #include "accel/kernels/bundle_rays.inl"
 

@@ -2,18 +2,11 @@
 #include "render/waves/lamp_lanes.h"
 
 #if defined(__x86_64__)
-#include "accel/kernels/target.h"
+#include "accel/kernels/region_includes.h"
 #include "base/math.h"
 #include "light/light.h"
 #include "render/occluders.h"
 #include "sample/warp.h"
-
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <cstring>
-#include <immintrin.h>
-#include <limits>
 
 SSE_REGION_BEGIN
 namespace kernels::sse {

@@ -1,0 +1,14 @@
+// What the code that is compiled for several sets of instructions needs: it is included inside a
+// region of target.h, and headers have to come in front of that.
+#pragma once
+
+#include "accel/kernels/exact_hit.h"
+#include "accel/kernels/target.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <immintrin.h>
+#include <limits>
