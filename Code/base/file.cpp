@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fcntl.h>
 #include <filesystem>
 #include <memory>
 #include <mutex>
@@ -57,16 +58,36 @@ private:
     fail(ErrorKind::Output, cat(fileName, ": error: cannot write: ", std::strerror(reason), hint));
 }
 
+// What takes its room as it comes gets it from ext4 when it replaces another file, and that takes
+// longer than all the writing. Where there is no such call, or no room, writing goes on without.
+bool takeRoom([[maybe_unused]] std::FILE* file, [[maybe_unused]] std::size_t bytes) {
+#if defined(__linux__)
+    return bytes > 0 &&
+           fallocate(fileno(file), FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(bytes)) == 0;
+#else
+    return false;
+#endif
+}
+
 // Writes and closes; nothing is on the disk for sure before fclose() succeeds.
-void writeBytes(const std::string& path, const std::string& fileName, const ByteSource& produce) {
+void writeBytes(const std::string& path, const std::string& fileName, std::size_t expected,
+                const ByteSource& produce) {
     File file(std::fopen(path.c_str(), "wb"));
     if (!file) failWriting(fileName, errno);
     // Pieces are large: gathering them in a buffer would only copy them.
     static_cast<void>(std::setvbuf(file.get(), nullptr, _IONBF, 0));
+    const bool hasRoom = takeRoom(file.get(), expected);
+    std::size_t written = 0;
     produce([&](std::span<const std::uint8_t> bytes) {
         if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
             failWriting(fileName, errno);
+        written += bytes.size();
     });
+    // Gives back what was too much.
+    if (hasRoom && written < expected &&
+        (std::fflush(file.get()) != 0 ||
+         ftruncate(fileno(file.get()), static_cast<off_t>(written)) != 0))
+        failWriting(fileName, errno);
     if (std::fclose(file.release()) != 0) failWriting(fileName, errno);
 }
 
@@ -112,10 +133,11 @@ std::vector<std::uint8_t> readWholeFile(const std::string& fileName) {
 std::string readWholeText(const std::string& fileName) { return readWhole<std::string>(fileName); }
 
 void writeFileAtomically(const std::string& fileName, std::span<const std::uint8_t> bytes) {
-    writeFileAtomically(fileName, [&](const ByteSink& write) { write(bytes); });
+    writeFileAtomically(fileName, bytes.size(), [&](const ByteSink& write) { write(bytes); });
 }
 
-void writeFileAtomically(const std::string& fileName, const ByteSource& produce) {
+void writeFileAtomically(const std::string& fileName, std::size_t expected,
+                         const ByteSource& produce) {
     const std::scoped_lock lock(oneWriteAtATime);
     std::error_code status;
     std::string target = fileName;
@@ -127,13 +149,13 @@ void writeFileAtomically(const std::string& fileName, const ByteSource& produce)
     const fs::file_status kind = fs::status(target, status);
     if (fs::is_directory(kind)) failWriting(fileName, EISDIR);
     if (fs::exists(kind) && !fs::is_regular_file(kind))
-        return writeBytes(target, fileName, produce);
+        return writeBytes(target, fileName, 0, produce);
     // rename() asks for rights in the folder only; a write-protected file stays protected.
     if (fs::exists(kind) && access(target.c_str(), W_OK) != 0) failWriting(fileName, errno);
 
     const std::string temporary = cat(target, ".", getpid(), ".tmp");
     const PendingFile pendingFile(temporary);
-    writeBytes(temporary, fileName, produce);
+    writeBytes(temporary, fileName, expected, produce);
     if (std::rename(temporary.c_str(), target.c_str()) != 0) failWriting(fileName, errno);
 }
 

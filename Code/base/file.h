@@ -22,9 +22,10 @@ std::string readWholeText(const std::string& fileName);
 // time: threads wait for each other. Fails with ErrorKind::Output and leaves no temporary file.
 void writeFileAtomically(const std::string& fileName, std::span<const std::uint8_t> bytes);
 // The same for bytes that are made meanwhile: produce(write) gives them to `write` one piece after
-// the other, from any thread.
+// the other, from any thread. There is room on the disk for `expected` of them before they come.
 using ByteSource = std::function<void(const ByteSink& write)>;
-void writeFileAtomically(const std::string& fileName, const ByteSource& produce);
+void writeFileAtomically(const std::string& fileName, std::size_t expected,
+                         const ByteSource& produce);
 
 // The temporary file that exists right now, nullptr when there is none. Safe in a signal handler,
 // which may unlink() it before the program ends.

@@ -18,3 +18,11 @@ template <class Job> void forEachOn(int threads, std::size_t count, const Job& j
     ThreadPool pool(static_cast<int>(std::min(wanted, count)));
     pool.run(count, [&](std::size_t i, int) { job(i); });
 }
+
+// The same for 0 .. count-1 in parts of `together` or, at the end, fewer: job(first, last).
+template <class Job>
+void forEachPart(int threads, std::size_t count, std::size_t together, const Job& job) {
+    forEachOn(threads, (count + together - 1) / together, [&](std::size_t part) {
+        job(part * together, std::min(count, (part + 1) * together));
+    });
+}

@@ -1,8 +1,15 @@
 #include "base/large_pages.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <cstdlib>
+#include <limits>
 #if defined(__linux__)
 #include <sys/mman.h>
+#endif
+#if defined(__GLIBC__)
+#include <malloc.h>
+#include <unistd.h>
 #endif
 
 void adviseLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
@@ -12,5 +19,27 @@ void adviseLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_
     const std::uintptr_t inside = (kPage - start % kPage) % kPage;
     if (bytes < inside + kPage) return;
     madvise(static_cast<char*>(memory) + inside, (bytes - inside) / kPage * kPage, MADV_HUGEPAGE);
+#endif
+}
+
+void useLargePages([[maybe_unused]] std::size_t bytes) {
+#if defined(__GLIBC__)
+    // The heap is to grow at once by what is asked for, which the first piece makes it do, and
+    // arrays are to come from there, too. 32 MB is the most that glibc takes for the latter.
+    constexpr std::size_t kPiece = std::size_t{1} << 20, kMost = std::size_t{1} << 30;
+    constexpr int kPad = 1 << 20, kLargestArray = 1 << 25;
+    const std::size_t room = std::min(bytes, kMost);
+    if (mallopt(M_MMAP_THRESHOLD, kLargestArray) == 0 ||
+        mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max()) == 0 ||
+        mallopt(M_TOP_PAD, static_cast<int>(room)) == 0)
+        return;
+    void* const first = std::malloc(kPiece);
+    const auto start = reinterpret_cast<std::uintptr_t>(first),
+               end = reinterpret_cast<std::uintptr_t>(sbrk(0));
+    // Tools that watch the memory have a malloc of their own, elsewhere.
+    if (first && start < end && end - start <= room + 2 * kPiece)
+        adviseLargePages(first, end - start);
+    std::free(first);
+    mallopt(M_TOP_PAD, kPad);
 #endif
 }

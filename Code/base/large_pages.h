@@ -7,6 +7,10 @@
 // is left as it is.
 void adviseLargePages(void* memory, std::size_t bytes);
 
+// The same for what malloc will hand out next, to the main thread: about so many bytes in small and
+// large pieces. They stay with the program when they are freed.
+void useLargePages(std::size_t bytes);
+
 // Room for so many elements, in such pages.
 template <class Vector> void reserveInLargePages(Vector& vector, std::size_t count) {
     vector.reserve(count);

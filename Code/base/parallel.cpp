@@ -1,74 +1,171 @@
 #include "base/parallel.h"
 
 #include <cfenv>
+#include <iterator>
 #include <new>
 #include <system_error>
+#include <thread>
 #include <utility>
+
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#endif
+
+namespace {
+
+// Waits until the value is not `old` any more. What comes next is often a few microseconds away,
+// and waking up takes 50: a thread that has a processor of its own stays awake for that long.
+std::uint32_t changed(const std::atomic<std::uint32_t>& value, std::uint32_t old, bool staysAwake) {
+    for (int i = staysAwake ? 2000 : 0; i > 0; --i) {
+        if (const std::uint32_t now = value.load(); now != old) return now;
+#if defined(__SSE2__)
+        _mm_pause();
+#endif
+    }
+    value.wait(old);
+    return value.load();
+}
+
+bool haveOwnProcessors(int threads) {
+    static const int processors = hardwareThreads();
+    return threads <= processors;
+}
+
+} // namespace
 
 int hardwareThreads() {
     const unsigned count = std::thread::hardware_concurrency(); // 0 when unknown
     return count > 0 ? static_cast<int>(count) : 1;
 }
 
+// A thread that serves one pool after the other.
+struct ThreadPool::Helper {
+    Helper() : thread([this] { live(); }) {}
+    ~Helper() {
+        hire(nullptr, 0);
+        thread.join();
+    }
+    Helper(const Helper&) = delete;
+    Helper& operator=(const Helper&) = delete;
+
+    void hire(ThreadPool* by, int as) {
+        pool = by;
+        worker = as;
+        ++turn;
+        turn.notify_one();
+    }
+    void awaitFree() const {
+        for (std::uint32_t now = turn; now % 2 == 1;) now = changed(turn, now, true);
+    }
+    void live() {
+        for (;;) {
+            std::uint32_t now = turn;
+            while (now % 2 == 0) now = changed(turn, now, haveOwnProcessors(2));
+            if (!pool) return;
+            pool->serve(worker);
+            ++turn;
+            turn.notify_one();
+        }
+    }
+
+    std::atomic<std::uint32_t> turn{0}; // odd: it belongs to a pool
+    ThreadPool* pool = nullptr;         // nullptr: the end
+    int worker = 0;
+    std::thread thread; // last: it finds the rest ready
+};
+
+// Those that no pool has.
+class ThreadPool::Crew {
+public:
+    // As many as the system gives, if it has to start any.
+    std::vector<std::unique_ptr<Helper>> take(std::size_t count) {
+        std::vector<std::unique_ptr<Helper>> taken;
+        taken.reserve(count);
+        {
+            const std::lock_guard lock(mutex_);
+            for (; taken.size() < count && !free_.empty(); free_.pop_back())
+                taken.push_back(std::move(free_.back()));
+        }
+        try {
+            while (taken.size() < count) taken.push_back(std::make_unique<Helper>());
+        } catch (const std::system_error&) {
+            // The system gives no more threads: those that run do all the work.
+        } catch (const std::bad_alloc&) {
+            // Nor memory for one.
+        }
+        return taken;
+    }
+    void giveBack(std::vector<std::unique_ptr<Helper>> helpers) {
+        const std::lock_guard lock(mutex_);
+        try {
+            std::move(helpers.rbegin(), helpers.rend(), std::back_inserter(free_));
+        } catch (const std::bad_alloc&) {
+            // No memory for the list: the threads end with `helpers`.
+        }
+    }
+
+private:
+    std::mutex mutex_;
+    std::vector<std::unique_ptr<Helper>> free_; // the next one to be taken is the last
+};
+
+ThreadPool::Crew& ThreadPool::crew() {
+    static Crew all;
+    return all;
+}
+
 ThreadPool::ThreadPool(int threads) {
     const int count = threads > 0 ? threads : hardwareThreads();
-    // Now, not between two starts: an exception there would find threads that nobody joins.
-    workers_.reserve(static_cast<std::size_t>(count) - 1);
-    try {
-        for (int worker = 1; worker < count; ++worker)
-            workers_.emplace_back([this, worker] { workerLoop(worker); });
-    } catch (const std::system_error&) {
-        // The system gives no more threads: those that run do all the work.
-    } catch (const std::bad_alloc&) {
-        // Nor memory for one.
-    }
+    if (count > 1) helpers_ = crew().take(static_cast<std::size_t>(count) - 1);
+    int worker = 0;
+    for (const auto& helper : helpers_) helper->hire(this, ++worker);
 }
 
 ThreadPool::~ThreadPool() {
-    {
-        const std::lock_guard lock(mutex_);
-        quit_ = true;
-    }
-    wake_.notify_all();
-    for (std::thread& worker : workers_) worker.join();
+    if (helpers_.empty()) return;
+    quit_ = true;
+    generation_ += 2;
+    generation_.notify_all();
+    for (const auto& helper : helpers_) helper->awaitFree();
+    crew().giveBack(std::move(helpers_));
 }
 
 bool ThreadPool::run(std::size_t count, const std::function<void(std::size_t, int)>& job,
                      const std::atomic<bool>* stop) {
-    {
-        const std::lock_guard lock(mutex_);
-        job_ = &job;
-        stop_ = stop;
-        count_ = count;
-        next_ = 0;
-        finished_ = 0;
-        failed_ = false;
-        error_ = nullptr;
-        busy_ = static_cast<int>(workers_.size());
+    job_ = &job;
+    stop_ = stop;
+    count_ = count;
+    next_ = 0;
+    finished_ = 0;
+    failed_ = false;
+    error_ = nullptr;
+    const bool alone = helpers_.empty() || count <= 1;
+    if (!alone) {
         ++generation_;
+        generation_.notify_all();
     }
-    wake_.notify_all();
     work(0);
-    std::unique_lock lock(mutex_);
-    done_.wait(lock, [this] { return busy_ == 0; });
+    if (!alone) {
+        ++generation_;
+        for (std::uint32_t in = inside_; in > 0;)
+            in = changed(inside_, in, haveOwnProcessors(threads()));
+    }
     job_ = nullptr;
     if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
     return finished_ == count;
 }
 
-void ThreadPool::workerLoop(int worker) {
+void ThreadPool::serve(int worker) {
     std::fesetenv(FE_DFL_ENV); // threads inherit the modes of whoever started them
-    std::uint64_t seen = 0;
-    for (;;) {
-        {
-            std::unique_lock lock(mutex_);
-            wake_.wait(lock, [&] { return quit_ || generation_ != seen; });
-            if (quit_) return;
-            seen = generation_;
+    const bool staysAwake = haveOwnProcessors(threads());
+    std::uint32_t seen = 0;
+    while (!quit_) {
+        if (seen % 2 == 1) {
+            ++inside_;
+            if (generation_ == seen) work(worker);
+            if (--inside_ == 0) inside_.notify_one();
         }
-        work(worker);
-        const std::lock_guard lock(mutex_);
-        if (--busy_ == 0) done_.notify_one();
+        seen = changed(generation_, seen, staysAwake);
     }
 }
 

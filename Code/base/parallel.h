@@ -3,13 +3,12 @@
 #pragma once
 
 #include <atomic>
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
 #include <functional>
+#include <memory>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 // How many threads the machine runs at once, at least 1.
@@ -18,16 +17,19 @@ int hardwareThreads();
 // Floating point stays as the standard has it in all threads: round to nearest, denormals kept
 // (no FTZ/DAZ), so that no result depends on which thread made it. The workers set that; the
 // caller's own modes are left as they are.
+//
+// A pool's threads go on to the next one: starting a thread costs more than many a run, and where
+// there are 64 nobody but the caller could start them.
 class ThreadPool {
 public:
-    // 0 means hardwareThreads(). The caller of run() is worker 0, so threads - 1 are started, or
+    // 0 means hardwareThreads(). The caller of run() is worker 0, so it has threads - 1 others, or
     // as many as the system gives.
     explicit ThreadPool(int threads = 0);
     ~ThreadPool();
     ThreadPool(const ThreadPool&) = delete;
     ThreadPool& operator=(const ThreadPool&) = delete;
 
-    int threads() const { return static_cast<int>(workers_.size()) + 1; }
+    int threads() const { return static_cast<int>(helpers_.size()) + 1; }
 
     // Calls job(index, worker) for index = 0 .. count-1, each once, handed out in ascending order;
     // worker in [0, threads) tells whose scratch memory to use. Returns when all are done. With
@@ -39,21 +41,26 @@ public:
              const std::atomic<bool>* stop = nullptr);
 
 private:
+    struct Helper;
+    class Crew;
+    static Crew& crew();
+
     void work(int worker);
-    void workerLoop(int worker);
+    void serve(int worker);
 
-    std::vector<std::thread> workers_;
-    std::mutex mutex_;
-    std::condition_variable wake_, done_;
-    std::uint64_t generation_ = 0; // of the current run; guarded by mutex_
-    int busy_ = 0;                 // workers inside the current run; guarded by mutex_
-    bool quit_ = false;            // guarded by mutex_
+    std::vector<std::unique_ptr<Helper>> helpers_;
 
-    // The current run.
+    // Odd while a run is open: helpers go in, and are counted in inside_ before they look whether
+    // they still may. Whoever wakes up after the last job was handed out is not waited for.
+    std::atomic<std::uint32_t> generation_{0}, inside_{0};
+    std::atomic<bool> quit_{false};
+
+    // The open run.
     const std::function<void(std::size_t, int)>* job_ = nullptr;
     const std::atomic<bool>* stop_ = nullptr;
     std::size_t count_ = 0;
     std::atomic<std::size_t> next_{0}, finished_{0};
+    std::mutex mutex_;
     std::exception_ptr error_;   // guarded by mutex_
     std::size_t errorIndex_ = 0; // guarded by mutex_
     std::atomic<bool> failed_{false};

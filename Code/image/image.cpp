@@ -110,7 +110,10 @@ void Image::write(const std::string& fileName, Encoding encoding, int threads) c
     if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end())
         fail(ErrorKind::Output, cat(fileName, ": error: unknown picture extension ",
                                     unknownName(extension, kExtensions)));
-    writeFileAtomically(fileName, [&](const ByteSink& write) {
+    // Of a raw file without its header; a PNG file is smaller.
+    const std::size_t pixelBytes =
+        extension == "pfm" ? sizeof(Rgb) : 3 * static_cast<std::size_t>(encoding.bits / 8);
+    writeFileAtomically(fileName, pixels_.size() * pixelBytes + 64, [&](const ByteSink& write) {
         encodeImage(*this, extension, encoding, threads, write);
     });
 }

@@ -62,7 +62,10 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
                   sampler.stream(static_cast<std::uint32_t>(i) + 1, samples),
                   isSoft ? std::optional<Vec3>() : light.origin(),
                   light.emission()};
-        if (!isSoft && lamp.emission) lamp.inLanes = lightByLamp(chooseKernel(settings.kernel));
+        const Kernel& kernel = chooseKernel(settings.kernel);
+        if (!isSoft && lamp.emission) lamp.inLanes = lightByLamp(kernel);
+        if (isSoft && lamp.emission && sampler.kind() == SamplerKind::Sobol)
+            lamp.bySamples = lightBySamples(kernel), lamp.mayBeHidden = ::mayBeHidden(kernel);
         (shades ? shadingLamps : openLamps).push_back(lamp);
     }
 }

@@ -42,7 +42,10 @@ struct Lamp {
     Sampler sampler;
     std::optional<Vec3> origin; // where its shadow rays start; none: at the point that is lit
     std::optional<PointEmission> emission;
-    LightByLampFn inLanes = nullptr; // asks many points at once; null: one by one
+    // Ask many points at once, in its centre or at its samples; null: one by one.
+    LightByLampFn inLanes = nullptr;
+    LightBySamplesFn bySamples = nullptr;
+    MayBeHiddenFn mayBeHidden = nullptr; // of what bySamples asks
 };
 
 // A shape whose surfaces lanes find, to be looked up without touching it.

@@ -191,7 +191,7 @@ void ShapeMaker::merge(Merged& merged) {
         Placed& placed = placed_[i];
         const std::uint64_t before = merged.mesh.degenerateCount;
         merged.mesh.add(meshOf(placed), placeOf(placed.object).at(0), placed.materials,
-                        placed.object);
+                        placed.object, settings_.threads);
         placed.degenerateCount = merged.mesh.degenerateCount - before;
     }
     if (merged.mesh.geometry.triangles.empty()) return;
@@ -200,8 +200,9 @@ void ShapeMaker::merge(Merged& merged) {
 }
 
 void ShapeMaker::share(Shared& shared) {
-    shared.geometry = std::make_unique<MeshGeometry>(toSharedGeometry(desc_.meshes[shared.mesh]));
-    shared.degenerateCount = shared.geometry->dropDegenerate();
+    shared.geometry = std::make_unique<MeshGeometry>(
+        toSharedGeometry(desc_.meshes[shared.mesh], settings_.threads));
+    shared.degenerateCount = shared.geometry->dropDegenerate(settings_.threads);
     if (shared.geometry->triangles.size() <= kLargeTree) finishTree(*shared.geometry, 1);
 }
 

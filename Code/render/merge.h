@@ -11,7 +11,7 @@
 MeshGeometry toGeometry(const MeshDesc& mesh, const SceneFrame& frame);
 
 // The mesh for instances: with its exact points, and a tree in a normalised space of its own.
-MeshGeometry toSharedGeometry(const MeshDesc& mesh);
+MeshGeometry toSharedGeometry(const MeshDesc& mesh, int threads = 1);
 
 // Meshes that stand still, placed into one geometry in the scene's space.
 struct MergedMesh {
@@ -23,5 +23,6 @@ struct MergedMesh {
     // `sceneFromMesh` is SceneFrame::placed(). `meshMaterials` by slot of the mesh. Mirrored meshes
     // are turned, so that counter-clockwise stays outside.
     void add(const MeshDesc& mesh, const Transform& sceneFromMesh,
-             const std::vector<std::uint32_t>& meshMaterials, std::uint32_t object);
+             const std::vector<std::uint32_t>& meshMaterials, std::uint32_t object,
+             int threads = 1);
 };

@@ -29,24 +29,62 @@ bool sweepMeets(const Bounds& from, const Bounds& to, const Bounds& box, float s
     return !(times.lo > times.hi * (1 + 0x1p-18f));
 }
 
+// Are all of both boxes on one side of the plane?
+bool areBeside(const Occluder::Sides& plane, const Bounds& a, const Bounds& b, float slack) {
+    const auto height = [&](const Bounds& box) {
+        const Vec3 middle = (box.lo + box.hi) * 0.5f, half = (box.hi - box.lo) * 0.5f;
+        const float at = dot(plane.n, middle) + plane.offset;
+        const float reach = std::fabs(plane.n.x) * half.x + std::fabs(plane.n.y) * half.y +
+                            std::fabs(plane.n.z) * half.z + slack;
+        return at > reach ? 1 : at < -reach ? -1 : 0;
+    };
+    const int side = height(a);
+    return side != 0 && side == height(b);
+}
+
+std::optional<Occluder::Sides> sidesOf(const Shape& shape, const Bounds& box) {
+    if (box.isFinite()) return {};
+    const auto plane = shape.solidForm().plane;
+    if (!plane) return {};
+    const auto& m = plane->objectFromWorld;
+    const Vec3d n{m[8], m[9], m[10]};
+    const double size = length(n);
+    if (!(size > 0x1p-100 && size < 0x1p100)) return {};
+    return Occluder::Sides{toFloat(n / size), static_cast<float>(m[11] / size)};
+}
+
 } // namespace
 
 Occluders::Occluders(const ShapeSet& shapes) : shapes_(shapes) {
-    for (std::uint32_t i = 0; i < shapes.shapes.size(); ++i)
-        if (shapes.shadows[i] != ShapeSet::Shadow::None && !shapes.boxes[i].isEmpty())
-            casters_.push_back({i, shapes.boxes[i]});
-    canTell_ = casters_.size() <= kMostCasters;
+    std::size_t count = 0;
+    const auto casts = [&](std::size_t i) {
+        return shapes.shadows[i] != ShapeSet::Shadow::None && !shapes.boxes[i].isEmpty();
+    };
+    for (std::size_t i = 0; i < shapes.shapes.size(); ++i) count += casts(i);
+    canTell_ = count <= kMostCasters;
+    if (!canTell_) return;
+    for (std::uint32_t i = 0; i < shapes.shapes.size(); ++i) {
+        const Shape& shape = *shapes.shapes[i];
+        if (!casts(i)) continue;
+        Occluder caster{i, shape.hidesFromItself(false), shape.hidesFromItself(true),
+                        shapes.boxes[i], sidesOf(shape, shapes.boxes[i])};
+        if (const SolidForm form = shape.solidForm(); form.sphere) {
+            caster.centre = toFloat(form.hull.centre);
+            caster.radius = floatAbove(form.hull.radius * (1 + 0x1p-20));
+        }
+        casters_.push_back(caster);
+    }
 }
 
 bool Occluders::mayHide(const Bounds& points, std::uint32_t shape, bool fromInside,
                         const Bounds& lamp) const {
-    // Rays are rounded to 2^-24 of their coordinates, start some 2^-20 off the points, and a shape
-    // may be met 2^-20 off its box.
-    const float extent = max(shapes_.extent, max(max(maxAbs(points.lo), maxAbs(points.hi)),
-                                                 max(maxAbs(lamp.lo), maxAbs(lamp.hi))));
-    for (const Caster& caster : casters_) {
-        if (caster.shape == shape && !shapes_.shapes[shape]->hidesFromItself(fromInside)) continue;
-        if (sweepMeets(points, lamp, caster.box, 0x1p-16f * extent)) return true;
+    const float margin = slack(
+        max(max(maxAbs(points.lo), maxAbs(points.hi)), max(maxAbs(lamp.lo), maxAbs(lamp.hi))));
+    for (const Occluder& caster : casters_) {
+        if (caster.shape == shape && !(fromInside ? caster.hidesInside : caster.hidesOutside))
+            continue;
+        if (caster.plane && areBeside(*caster.plane, points, lamp, margin)) continue;
+        if (sweepMeets(points, lamp, caster.box, margin)) return true;
     }
     return false;
 }

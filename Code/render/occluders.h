@@ -4,6 +4,25 @@
 
 #include "render/shape_set.h"
 
+#include <optional>
+#include <span>
+
+// A shape that casts shadows, as who looks for what can't be hidden sees it.
+struct Occluder {
+    // Where n.p + offset has one sign for a point and all of a lamp, a plane is not in between.
+    struct Sides {
+        Vec3 n; // unit
+        float offset;
+    };
+    std::uint32_t shape;
+    bool hidesOutside, hidesInside; // from itself
+    Bounds box;
+    std::optional<Sides> plane; // without end, and so is its box
+    // Of a sphere, which is nearly all of it; else infinite.
+    Vec3 centre{};
+    float radius = kInfinityF;
+};
+
 class Occluders {
 public:
     explicit Occluders(const ShapeSet& shapes);
@@ -15,12 +34,15 @@ public:
     // False: there are too many shapes to look at.
     bool canTell() const { return canTell_; }
 
+    // For who looks at many points at once: all of them, and how far from them what is said to pass
+    // by has to stay, for points and lamps of coordinates up to `extent`. Rays are rounded to 2^-24
+    // of their coordinates, start some 2^-20 off the points, and a shape may be met 2^-20 off its
+    // box.
+    std::span<const Occluder> all() const { return casters_; }
+    float slack(float extent) const { return 0x1p-16f * max(shapes_.extent, extent); }
+
 private:
-    struct Caster {
-        std::uint32_t shape;
-        Bounds box;
-    };
     const ShapeSet& shapes_;
     bool canTell_;
-    std::vector<Caster> casters_;
+    std::vector<Occluder> casters_;
 };

@@ -10,7 +10,9 @@ double pixelsOf(const SettingsDesc& picture) {
     return static_cast<double>(x1 - x0) * (y1 - y0);
 }
 
-// Rays to lamps from each point that is seen.
+// Rays to lamps for each place of the picture: where nothing is seen, or what is seen looks away
+// from the lamp, there are none. 0.06 to 0.35 of a ray for each lamp in pictures of meshes.
+constexpr double kShareOfLit = 1.0 / 3;
 double shadowRays(const SceneDesc& desc, const RenderSettings& settings) {
     if (!settings.switches.shadows) return 0;
     double sum = 0;
@@ -20,7 +22,7 @@ double shadowRays(const SceneDesc& desc, const RenderSettings& settings) {
                             light.kind == LightDesc::Kind::Sphere;
         sum += isArea && settings.switches.softShadows ? settings.picture.lightSamples : 1;
     }
-    return sum;
+    return sum * kShareOfLit;
 }
 
 bool hasBounces(const SceneDesc& desc, const RenderSettings& settings) {

@@ -10,48 +10,10 @@
 
 namespace {
 
-// Four numbers in a register of the compiler's: what is templated below takes them as well.
+// Four numbers in a register of the compiler's.
 using Four __attribute__((vector_size(16))) = std::uint32_t;
 
-template <class Bits> constexpr Bits reversed(Bits x) {
-    x = ((x >> 1) & 0x55555555u) | ((x & 0x55555555u) << 1);
-    x = ((x >> 2) & 0x33333333u) | ((x & 0x33333333u) << 2);
-    x = ((x >> 4) & 0x0f0f0f0fu) | ((x & 0x0f0f0f0fu) << 4);
-    // The order of the bytes, in the form that compilers know an instruction for.
-    return (x >> 24) | ((x >> 8) & 0xff00u) | ((x << 8) & 0xff0000u) | (x << 24);
-}
-
-// Owen scrambling of a number whose bits are reversed: every bit is flipped by a hash of the bits
-// below it. Constants of Vegdahl, "Building a Better LK Hash" (2021), after Laine and Karras.
-template <class Bits> constexpr Bits scrambledReversed(Bits x, Bits seed) {
-    x ^= x * 0x3d20adeau;
-    x += seed;
-    x *= (seed >> 16) | 1u;
-    x ^= x * 0x05526c56u;
-    x ^= x * 0x53a22864u;
-    return x;
-}
-
-// The second dimension of Sobol, bits reversed. Its matrix is Pascal's triangle modulo 2, which is
-// five steps of sums over supersets of the bit positions (Ahmed 2024).
-template <class Bits> constexpr Bits pascalReversed(Bits index) {
-    index ^= index >> 16;
-    index ^= (index >> 8) & 0x00ff00ffu;
-    index ^= (index >> 4) & 0x0f0f0f0fu;
-    index ^= (index >> 2) & 0x33333333u;
-    index ^= (index >> 1) & 0x55555555u;
-    return index;
-}
-
-// Both dimensions of Sobol as bits, of an index shuffled by the seed a and scrambled by b and c.
-// Shuffling the index is Owen scrambling of the index; the first dimension of Sobol is the reversed
-// index, so the two reversals between them cancel.
-template <class Bits> struct Pair { Bits x, y; };
-template <class Bits> constexpr Pair<Bits> sobolPair(Bits sample, Bits a, Bits b, Bits c) {
-    const Bits shuffled = reversed(scrambledReversed(reversed(sample), a));
-    return {reversed(scrambledReversed(shuffled, b)),
-            reversed(scrambledReversed(pascalReversed(shuffled), c))};
-}
+#include "sample/sobol.inl"
 
 // The index-th of `count` in a random order; a bijection on [0, count) for every key. Steps that
 // are invertible modulo the next power of two, repeated until the result is in range (Kensler,
@@ -120,6 +82,11 @@ Sampler Sampler::stream(std::uint32_t id, int repeats) const {
     return out;
 }
 
+Sampler::PairSeeds Sampler::pairSeeds(std::uint32_t pixel, std::uint32_t dimension) const {
+    const std::uint64_t bits = hash(seed_, pixel, dimension);
+    return {low32(bits), high32(bits), low32(mixBits(bits + kHashStep))};
+}
+
 float Sampler::get1D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension) const {
     const std::uint64_t bits = hash(seed_, pixel, dimension | kAlone);
     switch (kind_) {
@@ -146,12 +113,12 @@ void Sampler::get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dim
         std::fill(out.begin(), out.end(), Vec2{0.5f, 0.5f});
         return;
     }
-    const std::uint64_t bits = hash(seed_, pixel, dimension), more = mixBits(bits + kHashStep);
     if (kind_ != SamplerKind::Sobol) {
+        const std::uint64_t bits = hash(seed_, pixel, dimension), more = mixBits(bits + kHashStep);
         for (Vec2& u : out) u = otherPair(bits, more, sample++, isPixel);
         return;
     }
-    const std::uint32_t a = low32(bits), b = high32(bits), c = low32(more);
+    const auto [a, b, c] = pairSeeds(pixel, dimension);
     std::size_t i = 0;
     for (; i + 4 <= out.size(); i += 4, sample += 4) {
         const Four samples = {sample, sample + 1, sample + 2, sample + 3};
@@ -172,8 +139,8 @@ void Sampler::get2D(std::span<const std::uint32_t> pixels, std::uint32_t sample,
         const Four samples = {sample, sample, sample, sample};
         Four a{}, b{}, c{};
         for (std::size_t k = 0; k < 4; ++k) {
-            const std::uint64_t bits = hash(seed_, pixels[i + k], dimension);
-            a[k] = low32(bits), b[k] = high32(bits), c[k] = low32(mixBits(bits + kHashStep));
+            const PairSeeds seeds = pairSeeds(pixels[i + k], dimension);
+            a[k] = seeds.index, b[k] = seeds.x, c[k] = seeds.y;
         }
         storePairs(sobolPair(samples, a, b, c), &out[i]);
     }

@@ -40,6 +40,13 @@ public:
     void get2D(std::span<const std::uint32_t> pixels, std::uint32_t sample, std::uint32_t dimension,
                std::span<Vec2> out) const;
 
+    // What the pairs of a pixel are shuffled and scrambled by, for who makes many himself with
+    // sample/sobol.inl: of a sampler of the kind Sobol, for other than pixel dimensions.
+    struct PairSeeds {
+        std::uint32_t index, x, y;
+    };
+    PairSeeds pairSeeds(std::uint32_t pixel, std::uint32_t dimension) const;
+
     // An independent sampler of the same kind, for the n-th thing of a loop inside a sample, such
     // as a light with `repeats` light samples each: ask it for sample = sample * repeats + k, so
     // all sampleCount * repeats numbers of a pixel are spread evenly together. The id is hashed

@@ -7,10 +7,7 @@
 
 Mesh::Mesh(const MeshGeometry& geometry, std::vector<std::uint32_t> materials,
            std::vector<MeshPart> parts)
-    : geometry_(geometry), materials_(std::move(materials)), parts_(std::move(parts)) {
-    for (const auto& triangle : geometry.triangles)
-        for (const std::uint32_t corner : triangle) bounds_.extend(geometry.points[corner]);
-}
+    : geometry_(geometry), materials_(std::move(materials)), parts_(std::move(parts)) {}
 
 template <class LeafFn>
 void Mesh::candidates(const RaySetup& setup, float zCut, LeafFn&& leaf) const {

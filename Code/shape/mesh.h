@@ -19,11 +19,11 @@ struct MeshPart {
 class Mesh final : public Shape {
 public:
     // `materials` by slot, `parts` in ascending order, the first starting at triangle 0.
-    // The geometry must outlive the shape.
+    // The geometry is finished, and must outlive the shape.
     Mesh(const MeshGeometry& geometry, std::vector<std::uint32_t> materials,
          std::vector<MeshPart> parts);
 
-    Bounds bounds() const override { return bounds_; }
+    Bounds bounds() const override { return geometry_.box; }
     bool intersect(const Ray& ray, Hit& hit) const override;
     bool occludes(const Ray& ray) const override;
     void collect(const Ray& ray, std::vector<Hit>& hits) const override;
@@ -56,5 +56,4 @@ private:
     const MeshGeometry& geometry_;
     std::vector<std::uint32_t> materials_;
     std::vector<MeshPart> parts_;
-    Bounds bounds_;
 };

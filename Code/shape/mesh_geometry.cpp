@@ -1,11 +1,15 @@
 #include "shape/mesh_geometry.h"
 
 #include "accel/kernels/placed.h"
+#include "base/for_each.h"
 
 #include <algorithm>
+#include <atomic>
 #include <limits>
 
 namespace {
+
+constexpr std::size_t kTogether = 1 << 13; // triangles and points that one thread looks at
 
 float longestSideOf(const MeshGeometry& mesh, std::uint32_t triangle) {
     const auto& c = mesh.triangles[triangle];
@@ -68,18 +72,30 @@ void describeExact(MeshGeometry& mesh) {
 
 } // namespace
 
-std::uint64_t MeshGeometry::dropDegenerate() {
+std::uint64_t MeshGeometry::dropDegenerate(int threads) {
     const auto coincide = [this](std::uint32_t a, std::uint32_t b) {
         return exactPoints.empty() ? points[a] == points[b] : exactPoints[a] == exactPoints[b];
     };
-    std::uint64_t withoutArea = 0;
+    const auto isDropped = [&](const Corners& c) {
+        return coincide(c[0], c[1]) || coincide(c[1], c[2]) || coincide(c[2], c[0]);
+    };
+    std::atomic<std::uint64_t> withoutArea{0};
+    std::atomic<bool> someDropped{false};
+    forEachPart(threads, triangles.size(), kTogether, [&](std::size_t first, std::size_t last) {
+        std::uint64_t count = 0;
+        for (std::size_t i = first; i < last; ++i) {
+            const Corners& c = triangles[i];
+            const Vec3d v0 = toDouble(points[c[0]]);
+            if (cross(toDouble(points[c[1]]) - v0, toDouble(points[c[2]]) - v0) == Vec3d{}) ++count;
+            if (isDropped(c)) someDropped = true;
+        }
+        withoutArea += count;
+    });
+    if (!someDropped) return withoutArea;
     std::size_t kept = 0;
     for (std::size_t i = 0; i < triangles.size(); ++i) {
         const Corners c = triangles[i];
-        const Vec3d v0 = toDouble(points[c[0]]);
-        if (cross(toDouble(points[c[1]]) - v0, toDouble(points[c[2]]) - v0) == Vec3d{})
-            ++withoutArea;
-        if (coincide(c[0], c[1]) || coincide(c[1], c[2]) || coincide(c[2], c[0])) continue;
+        if (isDropped(c)) continue;
         triangles[kept] = c;
         if (!normalTriangles.empty()) normalTriangles[kept] = normalTriangles[i];
         if (!uvTriangles.empty()) uvTriangles[kept] = uvTriangles[i];
@@ -108,12 +124,36 @@ void MeshGeometry::collapseEndless() {
     }
 }
 
+void MeshGeometry::measure(int threads) {
+    struct Measured {
+        float extent = kSceneExtent;
+        BoundsD exactBox;
+        Bounds box;
+    };
+    const std::size_t most = std::max(points.size(), triangles.size());
+    std::vector<Measured> parts((most + kTogether - 1) / kTogether);
+    forEachPart(threads, most, kTogether, [&](std::size_t first, std::size_t last) {
+        Measured part; // far from those of other threads
+        for (std::size_t i = first; i < std::min(last, points.size()); ++i)
+            part.extent = max(maxAbs(points[i]), part.extent);
+        for (std::size_t i = first; i < std::min(last, exactPoints.size()); ++i)
+            part.exactBox.extend(exactPoints[i]);
+        for (std::size_t i = first; i < std::min(last, triangles.size()); ++i)
+            for (const std::uint32_t corner : triangles[i]) part.box.extend(points[corner]);
+        parts[first / kTogether] = part;
+    });
+    Measured all;
+    for (const Measured& part : parts) {
+        all.extent = max(part.extent, all.extent);
+        all.exactBox.extend(part.exactBox);
+        all.box.extend(part.box);
+    }
+    extent = all.extent, exactBox = all.exactBox, box = all.box;
+}
+
 void MeshGeometry::finish(bool withTree, const Kernel& forKernel, int threads, double rays) {
     collapseEndless();
-    extent = kSceneExtent;
-    for (const Vec3 p : points) extent = max(maxAbs(p), extent);
-    exactBox = {};
-    for (const Vec3d p : exactPoints) exactBox.extend(p);
+    measure(threads);
     if (!withTree || triangles.empty()) return;
     if (forKernel.width > 0) {
         kernel = &forKernel;

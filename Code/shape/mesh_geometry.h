@@ -61,19 +61,23 @@ struct MeshGeometry {
     WideTree wide;                  // for the kernel
     const Kernel* kernel = nullptr; // answers batches; null: the scalar code does
     float extent = kSceneExtent;    // no |coordinate| of a point is larger
+    Bounds box;                     // of the triangles
 
     // Takes triangles with two corners in one place out of the lists: no ray meets them. Returns
     // how many have no area. Those with three corners on a line stay: to a ray, whose arithmetic
     // rounds each corner by itself, such a triangle closes the gap between its neighbours.
-    std::uint64_t dropDegenerate();
+    std::uint64_t dropDegenerate(int threads = 1);
     // Triangles with a corner at NaN or infinity become points, which no ray meets.
     void collapseEndless();
-    // Does that, computes extent, what is said of the exact points and, if wanted, the tree that
-    // the kernel needs, the same for any number of threads; `rays`: see buildWide(). The lists do
-    // not change afterwards.
+    // Does that, computes extent, boxes, what is said of the exact points and, if wanted, the tree
+    // that the kernel needs, the same for any number of threads; `rays`: see buildWide(). The lists
+    // do not change afterwards.
     void finish(bool withTree, const Kernel& forKernel = chooseKernel("scalar"), int threads = 1,
                 double rays = 0);
     bool hasTree() const { return !bvh.nodes.empty() || !wide.isEmpty(); }
     WideMesh wideMesh() const { return {wide, points, triangles, extent}; }
     std::size_t bytes() const;
+
+private:
+    void measure(int threads);
 };

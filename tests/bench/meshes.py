@@ -139,6 +139,32 @@ def hair():
     return joined(parts)
 
 
+def boxes():
+    """From 0.01 to 0.5 long on each side, in and through each other."""
+    draw = random.Random(8)
+    parts = []
+    for _ in range(5000):
+        middle = [draw.uniform(-1, 1) for _ in range(3)]
+        size = [0.005 * 50 ** draw.random() for _ in range(3)]
+        parts.append(box([c - s for c, s in zip(middle, size)], [c + s for c, s in zip(middle, size)]))
+    return joined(parts)
+
+
+def wires():
+    """Straight strips in all directions, up to 1.5 long and 0.004 wide."""
+    draw = random.Random(9)
+    parts = []
+    for _ in range(5000):
+        x, y, z = (draw.gauss(0, 1) for _ in range(3))
+        long = draw.uniform(0.2, 1.5) / math.sqrt(x * x + y * y + z * z)
+        start = [draw.uniform(-1, 1) for _ in range(3)]
+        end = [s + long * d for s, d in zip(start, (x, y, z))]
+        side = math.hypot(x, y) / 0.004
+        parts.append(([(p[0] - y * w / side, p[1] + x * w / side, p[2]) for p in (start, end) for w in (0, 1)],
+                      [(0, 2, 3), (0, 3, 1)]))
+    return joined(parts)
+
+
 def terrain():
     def height(u, v):
         return sum(0.5 ** k * math.sin(2.1 ** k * (3 * u + k)) * math.cos(2.3 ** k * (2.5 * v - k)) for k in range(7))
@@ -163,6 +189,8 @@ MESHES = {
     "terrain": terrain,   # 180,000: rays that hardly meet anything twice, along the ground
     "soup": soup,         # 200,000: boxes that overlap everywhere
     "hair": hair,         # 100,096: boxes that are nearly empty
+    "boxes": boxes,       # 60,000: large and small across each other
+    "wires": wires,       # 10,000: no box is full, and all overlap
     "city": city,         # 10,802: large triangles, some of them hidden
     "room": room,         # 792: few and large, and every ray meets one
     "cube": cube,         # 12: no tree is worth while

@@ -3,8 +3,11 @@
 
 #include <cfenv>
 #include <chrono>
+#include <mutex>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <thread>
 
 TEST(parallel_each_index_once) {
     for (const int threads : {1, 2, 3, 8}) {
@@ -123,4 +126,50 @@ TEST(parallel_rounding_is_default) {
         std::this_thread::yield();
     });
     CHECK_EQUAL(wrong.load(), 0);
+}
+
+// A pool's threads go on to the next one: a hundred pools need no more of them than one.
+TEST(parallel_threads_are_kept) {
+    std::mutex mutex;
+    std::set<std::thread::id> seen;
+    const int repeats = 100;
+    for (int repeat = 0; repeat < repeats; ++repeat) {
+        ThreadPool pool(2);
+        std::atomic<int> there{0};
+        pool.run(2, [&](std::size_t, int) {
+            ++there;
+            while (there < 2) std::this_thread::yield(); // so that both have one job
+            const std::lock_guard lock(mutex);
+            seen.insert(std::this_thread::get_id());
+        });
+    }
+    // Other tests may leave some that take turns.
+    CHECK(seen.size() < repeats / 2);
+}
+
+// Jobs may have pools of their own, and pools may be there at the same time.
+TEST(parallel_pools_in_jobs) {
+    std::atomic<int> calls{0};
+    ThreadPool outer(4);
+    for (int repeat = 0; repeat < 20; ++repeat)
+        outer.run(8, [&](std::size_t, int) {
+            ThreadPool inner(3), other(2);
+            inner.run(10, [&](std::size_t, int) { ++calls; });
+            other.run(5, [&](std::size_t, int) { ++calls; });
+        });
+    CHECK_EQUAL(calls.load(), 20 * 8 * 15);
+}
+
+// Whoever wakes up late finds the run over, or the next one open, but never jobs of the last one.
+TEST(parallel_short_runs) {
+    ThreadPool pool(8);
+    std::size_t wrong = 0;
+    for (int repeat = 0; repeat < check::scaled(20000); ++repeat) {
+        std::vector<std::atomic<int>> calls(static_cast<std::size_t>(1 + repeat % 5));
+        const std::size_t count = calls.size();
+        pool.run(count, [&](std::size_t index, int) { ++calls[index]; });
+        for (const std::atomic<int>& n : calls)
+            if (n != 1) ++wrong;
+    }
+    CHECK_EQUAL(wrong, 0u);
 }

@@ -30,8 +30,16 @@ public:
             std::swap(now, next);
             next.nodeCount = next.leafCount = next.doneCount = 0;
             for (std::uint32_t i = 0; i < now.nodeCount; ++i) nodeStep(now.nodes[i], next);
-            for (std::uint32_t i = 0; i < now.leafCount; ++i) leafStep(now.leaves[i], next);
-            if constexpr (Q == Query::Closest) acceptMet(next);
+            if (Q == Query::Closest && meetsOften_)
+                for (std::uint32_t i = 0; i < now.leafCount; ++i)
+                    leafStep<true>(now.leaves[i], next);
+            else
+                for (std::uint32_t i = 0; i < now.leafCount; ++i)
+                    leafStep<false>(now.leaves[i], next);
+            if constexpr (Q == Query::Closest) {
+                meetsOften_ = metCount_ * 3 > now.leafCount;
+                acceptMet(next);
+            }
             if (waitingPairs_ >= W || next.nodeCount + next.leafCount < kFewBusy)
                 settleWaiting(next);
             for (std::uint32_t i = 0; i < next.doneCount; ++i) {
@@ -62,9 +70,9 @@ private:
         std::uint32_t slot, candidates; // triangles of the leaf that the ray is at
     };
 
-    // Triangles of the leaf that a ray is at, and the depths between which it meets them.
+    // Triangles of the leaf that a ray is at, and what Judged says of their depths.
     struct alignas(64) Met {
-        float nearest[W], farthest[W];
+        float depth[W], noise[W], det[W];
         std::uint32_t slot, candidates, certain; // certain: to be hits
     };
 
@@ -161,7 +169,7 @@ private:
         send(slot, next, to);
     }
 
-    [[gnu::always_inline]] void leafStep(std::uint32_t slot, Lists& to) {
+    template <bool MeetsOften> [[gnu::always_inline]] void leafStep(std::uint32_t slot, Lists& to) {
         RayBlock& b = blocks_[slot / W];
         const std::uint32_t i = slot % W;
         const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(base_ + byteOffset(b.at[i]));
@@ -175,17 +183,19 @@ private:
             b.stackTop[i] = met ? 1 : b.stackTop[i];
             candidates = met ? 0 : candidates;
         }
-        if (candidates == 0) [[likely]]
+        if (!MeetsOften && candidates == 0) [[likely]]
             return pop(slot, to);
         if constexpr (Q == Query::Any) {
             wait(slot, candidates);
         } else {
-            const Floats inverse = Floats(1.0f) / judged.det;
-            Met& met = met_[metCount_++];
+            passed_[passedCount_] = slot;
+            passedCount_ += candidates == 0;
+            Met& met = met_[metCount_];
+            metCount_ += candidates != 0;
             met.slot = slot, met.candidates = candidates;
             met.certain = bits(judged.certain()) & candidates;
-            judged.nearest(inverse).store(met.nearest);
-            judged.farthest(inverse).store(met.farthest);
+            judged.depth.store(met.depth), judged.noise.store(met.noise);
+            judged.det.store(met.det);
         }
     }
 
@@ -197,6 +207,8 @@ private:
     // Takes for each ray the candidate that is nearest, if that is certain without keys; the key of
     // what remains the best one is computed at the end.
     void acceptMet(Lists& to) {
+        for (std::uint32_t i = 0; i < passedCount_; ++i) pop(passed_[i], to);
+        passedCount_ = 0;
         for (std::uint32_t m = 0; m < metCount_; ++m) {
             const Met& met = met_[m];
             if (accept(met))
@@ -210,16 +222,20 @@ private:
     [[gnu::always_inline]] bool accept(const Met& met) {
         RayBlock& b = blocks_[met.slot / W];
         const std::uint32_t i = met.slot % W;
-        const Floats never(kInfinityF), farthest = Floats::load(met.farthest);
+        Judged judged;
+        judged.depth = Floats::load(met.depth), judged.noise = Floats::load(met.noise);
+        const Floats never(kInfinityF), inverse = Floats(1.0f) / Floats::load(met.det);
+        const Floats nearest = judged.nearest(inverse), farthest = judged.farthest(inverse);
+        alignas(64) float each[W];
+        nearest.store(each);
         const float depth = smallest(select(maskOf(met.certain), farthest, never));
-        const unsigned rivals =
-            bits(notGreater(Floats::load(met.nearest), Floats(depth))) & met.candidates;
+        const unsigned rivals = bits(notGreater(nearest, Floats(depth))) & met.candidates;
         if (!std::has_single_bit(rivals) || (rivals & met.certain) == 0 || !(depth < b.depth[i]) ||
             b.below[i] != kInfinityF) [[unlikely]]
             return false;
         b.bestLane[i] = static_cast<std::uint32_t>(std::countr_zero(rivals));
         b.bestLeaf[i] = b.at[i];
-        b.depth[i] = met.nearest[b.bestLane[i]];
+        b.depth[i] = each[b.bestLane[i]];
         b.zCut[i] = ::min(depth, b.zCut[i]);
         b.open |= 1u << i;
         dropBehind(met.slot);
@@ -306,8 +322,10 @@ private:
     // One place more than rays: send() writes to lists that are full.
     std::uint32_t lists_[5][kSlots + 1];
     Waiting waiting_[kSlots];
-    Met met_[kSlots];
-    std::uint32_t metCount_ = 0;
+    Met met_[kSlots + 1];
+    std::uint32_t passed_[kSlots + 1]; // rays that met nothing in their leaves
+    std::uint32_t metCount_ = 0, passedCount_ = 0;
+    bool meetsOften_ = false; // in the last round
     std::uint32_t waitingCount_ = 0, waitingPairs_ = 0;
     std::uint32_t asked_ = 0, missed_ = 0; // of enterTree()
     RayTriangle pairs_[kSlots * (W + 1)];

@@ -15,9 +15,10 @@ namespace {
 
 using namespace kernels::build;
 
-// Triangles of a subtree, at most; and of one job in the passes above.
+// Triangles of a subtree, at most; and of one job in the passes above: many enough for any number
+// of threads to end at about the same time.
 std::uint32_t subtreeSize(std::uint32_t count) { return std::max(4096u, count / 64); }
-constexpr std::uint32_t kJobSize = 1u << 14;
+std::uint32_t jobSizeFor(std::uint32_t count) { return std::clamp(count / 256, 2048u, 1u << 14); }
 
 // From which depth on the top is no longer divided: what is so lopsided is left to a subtree.
 constexpr std::uint16_t kTopDepth = 40;
@@ -84,8 +85,8 @@ private:
     struct Open {
         BuildRange range;
         std::vector<Part> parts;
-        void add(Part part) {
-            if (!parts.empty() && parts.back().count + part.count <= kJobSize)
+        void add(Part part, std::uint32_t most) {
+            if (!parts.empty() && parts.back().count + part.count <= most)
                 parts.back().count += part.count, parts.back().left += part.left;
             else
                 parts.push_back(part);
@@ -93,7 +94,7 @@ private:
     };
 
     // One thread divides a range at once.
-    std::uint32_t jobSize() const { return pool_.threads() == 1 ? count_ : kJobSize; }
+    std::uint32_t jobSize() const { return pool_.threads() == 1 ? count_ : jobSizeFor(count_); }
     std::size_t jobCount(std::uint32_t count) const {
         return (std::size_t{count} + jobSize() - 1) / jobSize();
     }
@@ -197,8 +198,9 @@ private:
         for (std::size_t i = 0; i < jobs.size(); ++i) {
             const Job& job = jobs[side == 0 ? i : jobs.size() - 1 - i];
             const Part& part = job.part;
-            out.add({side == 0 ? part.left : part.count - part.left,
-                     leftOf(kid.split, job.bins[side])});
+            out.add(
+                {side == 0 ? part.left : part.count - part.left, leftOf(kid.split, job.bins[side])},
+                jobSize());
         }
         return out;
     }

@@ -38,11 +38,14 @@ public:
     }
     std::size_t offsetOf(std::string_view part) const { return offsetOf(part.data()); }
     // Is the next word exactly this? Then the reader is behind it.
-    bool take(std::string_view word) {
+    template <std::size_t kSize> bool take(const char (&word)[kSize]) {
+        constexpr std::size_t kLength = kSize - 1;
         skipBlanks();
-        const std::string_view left(p_, static_cast<std::size_t>(end_ - p_));
-        if (!left.starts_with(word) || !isWordEnd(p_ + word.size())) return false;
-        p_ += word.size();
+        if (static_cast<std::size_t>(end_ - p_) < kLength) return false;
+        for (std::size_t i = 0; i < kLength; ++i) // one or two: no call
+            if (p_[i] != word[i]) return false;
+        if (!isWordEnd(p_ + kLength)) return false;
+        p_ += kLength;
         return true;
     }
 

@@ -1,10 +1,12 @@
 #include "read/mesh/mesh_builder.h"
 
+#include "base/for_each.h"
 #include "read/mesh/exact_orientation.h"
 #include "read/mesh/smooth_normals.h"
 #include "read/mesh/triangulate.h"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 namespace {
@@ -43,20 +45,27 @@ void appendAll(std::vector<T>& array, const std::vector<T>& more, std::size_t be
 }
 
 // Leaves out the values that no corner uses; returns how many.
-template <class T> std::size_t dropUnused(std::vector<T>& values, std::vector<Corners>& corners) {
-    std::vector<bool> used(values.size());
-    for (const Corners& c : corners)
-        for (const std::uint32_t i : c) used[i] = true;
-    if (std::find(used.begin(), used.end(), false) == used.end()) return 0;
+template <class T>
+std::size_t dropUnused(std::vector<T>& values, std::vector<Corners>& corners, int threads) {
+    constexpr std::size_t kTogether = 1 << 15;
+    std::vector<std::uint8_t> used(values.size());
+    forEachPart(threads, corners.size(), kTogether, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            for (const std::uint32_t value : corners[i])
+                std::atomic_ref(used[value]).store(1, std::memory_order_relaxed);
+    });
+    if (std::find(used.begin(), used.end(), 0) == used.end()) return 0;
     std::vector<std::uint32_t> newIndex(values.size());
     std::uint32_t count = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
-        if (!used[i]) continue;
+        if (used[i] == 0) continue;
         newIndex[i] = count;
         values[count++] = values[i];
     }
-    for (Corners& c : corners)
-        for (std::uint32_t& i : c) i = newIndex[i];
+    forEachPart(threads, corners.size(), kTogether, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            for (std::uint32_t& value : corners[i]) value = newIndex[value];
+    });
     const std::size_t dropped = values.size() - count;
     values.resize(count);
     return dropped;
@@ -116,7 +125,7 @@ void MeshBuilder::addFaces(const MeshBuilder& part) {
     add(groups_, part.groups_, 0u);
 }
 
-void MeshBuilder::fillUvs() {
+void MeshBuilder::fillUvs(int threads) {
     if (mesh.uvTriangles.empty()) return mesh.uvs.clear();
     if (std::find(mesh.uvTriangles.begin(), mesh.uvTriangles.end(), kAllMissing) !=
         mesh.uvTriangles.end()) {
@@ -125,7 +134,7 @@ void MeshBuilder::fillUvs() {
         for (Corners& c : mesh.uvTriangles)
             if (c == kAllMissing) c = {zero, zero, zero};
     }
-    dropUnused(mesh.uvs, mesh.uvTriangles);
+    dropUnused(mesh.uvs, mesh.uvTriangles, threads);
 }
 
 void MeshBuilder::fillNormals(int threads) {
@@ -148,13 +157,13 @@ void MeshBuilder::fillNormals(int threads) {
                 corners[i][k] =
                     givenCorners[i] == kAllMissing ? offset + corners[i][k] : givenCorners[i][k];
     }
-    dropUnused(mesh.normals, corners);
+    dropUnused(mesh.normals, corners, threads);
 }
 
 MeshBuilder::Dropped MeshBuilder::finish(int threads) {
     Dropped dropped;
-    dropped.points = dropUnused(mesh.points, mesh.triangles);
-    fillUvs();
+    dropped.points = dropUnused(mesh.points, mesh.triangles, threads);
+    fillUvs(threads);
     fillNormals(threads);
     return dropped;
 }

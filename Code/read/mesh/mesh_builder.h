@@ -40,7 +40,7 @@ public:
 private:
     bool addTriangle(const Corner& a, const Corner& b, const Corner& c);
     void fillNormals(int threads);
-    void fillUvs();
+    void fillUvs(int threads);
 
     const std::vector<Vec3d>& points() const { return points_ ? *points_ : mesh.points; }
 

@@ -1,10 +1,13 @@
 #include "read/mesh/mesh_scene.h"
 
 #include "base/bounds.h"
+#include "base/for_each.h"
 #include "base/transform.h"
 #include "read/mesh/split_mesh.h"
 #include "read/unique_names.h"
 
+#include <algorithm>
+#include <span>
 #include <unordered_map>
 #include <utility>
 
@@ -18,17 +21,28 @@ struct Ball {
     Vec3d centre;
     double radius = 0;
 };
-Ball ballAround(const MeshDesc& mesh) {
+Ball ballAround(const MeshDesc& mesh, int threads) {
+    constexpr std::size_t kTogether = 1 << 14;
+    const std::span<const Vec3d> points(mesh.points);
+    std::vector<BoundsD> boxes((points.size() + kTogether - 1) / kTogether);
+    std::vector<double> farthest(boxes.size());
+    forEachPart(threads, points.size(), kTogether, [&](std::size_t first, std::size_t last) {
+        for (const Vec3d& p : points.subspan(first, last - first))
+            boxes[first / kTogether].extend(p);
+    });
     BoundsD bounds;
-    for (const Vec3d& p : mesh.points) bounds.extend(p);
+    for (const BoundsD& box : boxes) bounds.extend(box);
     const Vec3d centre = bounds.centre();
     const double size = maxAbs(bounds.size()); // squares of very small lengths would vanish
-    double farthest = 0;
-    for (const Vec3d& p : mesh.points) {
-        const Vec3d d = (p - centre) / size;
-        farthest = max(farthest, dot(d, d));
-    }
-    return {centre, size * std::sqrt(farthest)};
+    forEachPart(threads, points.size(), kTogether, [&](std::size_t first, std::size_t last) {
+        double most = 0;
+        for (const Vec3d& p : points.subspan(first, last - first)) {
+            const Vec3d d = (p - centre) / size;
+            most = max(most, dot(d, d));
+        }
+        farthest[first / kTogether] = most;
+    });
+    return {centre, size * std::sqrt(*std::max_element(farthest.begin(), farthest.end()))};
 }
 
 CameraDesc cameraFor(const Ball& ball, const SettingsDesc& settings) {
@@ -169,7 +183,7 @@ std::string_view stemOf(std::string_view fileName) {
 SceneDesc sceneAround(MeshFile file, std::span<const MtlFile> libraries, const SourceFile& source,
                       const ReadContext& context) {
     SceneDesc scene;
-    const Ball ball = ballAround(file.mesh);
+    const Ball ball = ballAround(file.mesh, context.options.threads);
     scene.cameras.push_back(cameraFor(ball, scene.settings));
     addLights(scene, ball);
 

@@ -8,7 +8,8 @@
 
 namespace {
 
-constexpr std::size_t kChunkBytes = std::size_t{1} << 20;
+// Small enough that a file of some megabytes is work for many threads.
+constexpr std::size_t kChunkBytes = std::size_t{1} << 16;
 constexpr double kLargestFloat = 1e15; // as in native meshes: its square is far from the end
 
 // Behind a line end, where no backslash joins the lines and no reader at the end of a chunk would

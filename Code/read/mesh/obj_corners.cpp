@@ -15,6 +15,20 @@ std::span<const MeshBuilder::Corner> CornerReader::readFace() {
     return corners_;
 }
 
+inline std::uint32_t CornerReader::readIndex(const char*& p, std::size_t total, std::size_t soFar,
+                                             std::string_view one, std::string_view many) {
+    // Nearly all are: a number from 1 that there is.
+    constexpr std::ptrdiff_t kDigits = 9;
+    std::uint32_t value = 0;
+    const char* end = p;
+    for (; *end >= '0' && *end <= '9' && end - p < kDigits; ++end)
+        value = value * 10 + static_cast<std::uint32_t>(*end - '0');
+    if (value == 0 || value > total || end - p == kDigits)
+        return readOtherIndex(p, total, soFar, one, many);
+    p = end;
+    return value - 1;
+}
+
 // v, v/vt, v//vn, v/vt/vn; as some programs write it also v/ v// v/vt/
 void CornerReader::readCorner() {
     const std::size_t start = in_.offset();
@@ -45,8 +59,8 @@ void CornerReader::failCorner(std::size_t start) {
 }
 
 // From 1, or from -1 for the last one so far. The reader still stands at the corner.
-std::uint32_t CornerReader::readIndex(const char*& p, std::size_t total, std::size_t soFar,
-                                      std::string_view one, std::string_view many) {
+std::uint32_t CornerReader::readOtherIndex(const char*& p, std::size_t total, std::size_t soFar,
+                                           std::string_view one, std::string_view many) {
     const char* const start = p;
     const bool fromEnd = *p == '-';
     const auto index = readUnsigned(p + (fromEnd ? 1 : 0));

@@ -21,6 +21,8 @@ private:
     void readCorner();
     std::uint32_t readIndex(const char*& p, std::size_t total, std::size_t soFar,
                             std::string_view one, std::string_view many);
+    std::uint32_t readOtherIndex(const char*& p, std::size_t total, std::size_t soFar,
+                                 std::string_view one, std::string_view many);
     [[noreturn]] void failCorner(std::size_t start);
 
     LineReader& in_;

@@ -64,8 +64,8 @@ private:
         }
     }
 
-    // Their faces are there twice until they are added.
-    static constexpr std::size_t kTogether = 64;
+    // Chunks. Their faces are there twice until they are added.
+    static constexpr std::size_t kTogether = 1024;
 
     // Some of the faces, as one thread reads them.
     struct Faces {

@@ -2,28 +2,44 @@
 
 #include <string_view>
 
-#define LIGHT_BY_LAMP(isa)                                                                         \
+#define LIGHT_IN_LANES(isa)                                                                        \
     namespace kernels::isa {                                                                       \
     void lightByLamp(const PointEmission&, const LitBlock&, unsigned, LitByLamp&);                 \
+    void lightBySamples(const PointEmission&, const LitBlock&, const SamplesOnLamp&,               \
+                        LitBySamples&);                                                            \
+    unsigned mayBeHidden(const Occluders&, const LitBlock&, const PointEmission&);                 \
     }
-LIGHT_BY_LAMP(sse)
-LIGHT_BY_LAMP(avx2)
-LIGHT_BY_LAMP(avx512)
-#undef LIGHT_BY_LAMP
+LIGHT_IN_LANES(sse)
+LIGHT_IN_LANES(avx2)
+LIGHT_IN_LANES(avx512)
+#undef LIGHT_IN_LANES
 
-LightByLampFn lightByLamp(const Kernel& kernel) {
+namespace {
+
+struct Row {
+    std::string_view name;
+    LightByLampFn byLamp = nullptr;
+    LightBySamplesFn bySamples = nullptr;
+    MayBeHiddenFn mayBeHidden = nullptr;
+};
+
+Row rowOf([[maybe_unused]] const Kernel& kernel) {
 #if defined(__x86_64__)
-    struct Row {
-        std::string_view name;
-        LightByLampFn fn;
-    };
     static constexpr Row kTable[] = {
-        {"avx512", kernels::avx512::lightByLamp},
-        {"avx2", kernels::avx2::lightByLamp},
-        {"sse", kernels::sse::lightByLamp},
+        {"avx512", kernels::avx512::lightByLamp, kernels::avx512::lightBySamples,
+         kernels::avx512::mayBeHidden},
+        {"avx2", kernels::avx2::lightByLamp, kernels::avx2::lightBySamples,
+         kernels::avx2::mayBeHidden},
+        {"sse", kernels::sse::lightByLamp, kernels::sse::lightBySamples, kernels::sse::mayBeHidden},
     };
     for (const Row& row : kTable)
-        if (row.name == kernel.name) return row.fn;
+        if (row.name == kernel.name) return row;
 #endif
-    return nullptr;
+    return {};
 }
+
+} // namespace
+
+MayBeHiddenFn mayBeHidden(const Kernel& kernel) { return rowOf(kernel).mayBeHidden; }
+LightByLampFn lightByLamp(const Kernel& kernel) { return rowOf(kernel).byLamp; }
+LightBySamplesFn lightBySamples(const Kernel& kernel) { return rowOf(kernel).bySamples; }

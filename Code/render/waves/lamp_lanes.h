@@ -1,5 +1,5 @@
-// Light of a point lamp at many points of a wave, a register of points at a time: what
-// forEachLampSample() gives and the shadow rays of rayFromLamp(), operation by operation and so bit
+// Light of a point lamp at many points of a wave, a register of points, or of places on the lamp,
+// at a time: what forEachLampSample() gives and the shadow rays, operation by operation and so bit
 // by bit. Knows numbers only; render/waves/lamps.h brings them here and takes them away.
 #pragma once
 
@@ -7,6 +7,7 @@
 #include "light/point_emission.h"
 #include "material/material.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -18,10 +19,11 @@ struct alignas(64) LitBlock {
     float weight[3][kPoints], diffuse[3][kPoints], error[kPoints], rayError[kPoints];
     float ns[3][kPoints];                                             // of the lifted ones
     float toEye[3][kPoints], specular[3][kPoints], exponent[kPoints]; // of the shiny ones
-    std::uint32_t point[kPoints], group[kPoints];
+    std::uint32_t point[kPoints], shape[kPoints];                     // the shape that it is on
     // One bit for each point.
     unsigned used = 0;
     unsigned lifted = 0;          // the horizon of ns has a say
+    unsigned inside = 0;          // lamps are seen from the inside of the shape
     unsigned shiny[kModels] = {}; // has a highlight of this model
 };
 
@@ -32,8 +34,36 @@ struct alignas(64) LitByLamp {
     unsigned lit = 0;
 };
 
+// Some samples of a lamp that has a size, for every point of a block: the numbers of the pairs that
+// say where, and what they are shuffled and scrambled by (Sampler::PairSeeds).
+struct SamplesOnLamp {
+    std::size_t count = 0;
+    float share = 1; // of each sample in the light
+    std::uint32_t first[LitBlock::kPoints], index[LitBlock::kPoints], x[LitBlock::kPoints],
+        y[LitBlock::kPoints];
+};
+
+// What they do: sample s of point k is element k * count + s.
+struct alignas(64) LitBySamples {
+    static constexpr std::size_t kMost = 16; // samples at a time
+    static constexpr std::size_t kRoom = LitBlock::kPoints * kMost;
+    float light[3][kRoom], dir[3][kRoom], tMax[kRoom]; // the ray from the point
+    std::array<std::uint16_t, kRoom / 16> lit;         // a bit for each
+    bool isLit(std::size_t i) const { return lit[i / 16] >> i % 16 & 1; }
+};
+
 // Rays are made for the lit points of `withRays`.
 using LightByLampFn = void (*)(const PointEmission& lamp, const LitBlock& block, unsigned withRays,
                                LitByLamp& out);
+using LightBySamplesFn = void (*)(const PointEmission& lamp, const LitBlock& block,
+                                  const SamplesOnLamp& samples, LitBySamples& out);
+
+// The points of a block that something may hide from a place on the lamp.
+class Occluders;
+using MayBeHiddenFn = unsigned (*)(const Occluders& occluders, const LitBlock& block,
+                                   const PointEmission& lamp);
+
 // Null for the scalar kernel.
+MayBeHiddenFn mayBeHidden(const Kernel& kernel);
+LightBySamplesFn lightBySamples(const Kernel& kernel);
 LightByLampFn lightByLamp(const Kernel& kernel);

@@ -1,33 +1,11 @@
-// The formulas of PointLight::shine(), reflectedLight() and rayFromLamp(), lane by lane and in
-// their order. Where those return early, lanes go on with numbers that nobody takes.
+// The formulas of PointLight::shine() and rayFromLamp(), as in lit_lanes.inl.
 // Included by the file of each instruction set inside its namespace.
-
-struct Three {
-    Floats x, y, z;
-    static Three load(const float (*v)[LitBlock::kPoints], std::size_t first) {
-        return {Floats::load(v[0] + first), Floats::load(v[1] + first), Floats::load(v[2] + first)};
-    }
-    static Three all(float x, float y, float z) { return {Floats(x), Floats(y), Floats(z)}; }
-};
-inline Three operator+(Three a, Three b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Three operator-(Three a, Three b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Three operator*(Three a, Three b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-inline Three operator*(Three a, Floats s) { return {a.x * s, a.y * s, a.z * s}; }
-inline Three operator/(Three a, Floats s) { return {a.x / s, a.y / s, a.z / s}; }
-inline Three select(Mask m, Three a, Three b) {
-    return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
-}
-inline Floats dot(Three a, Three b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline unsigned black(Three a) {
-    const Floats zero(0.0f);
-    return bits((a.x == zero) & (a.y == zero) & (a.z == zero));
-}
 
 // The W points of a block from `first` on.
 class LampLanes {
 public:
     LampLanes(const PointEmission& lamp, const LitBlock& block, std::size_t first)
-        : lamp_(lamp), block_(block), first_(first),
+        : lamp_(lamp), block_(block), lit_(block, {first}), first_(first),
           at_(Three::all(lamp.position.x, lamp.position.y, lamp.position.z)),
           p_(Three::load(block.p, first)), n_(Three::load(block.n, first)) {}
 
@@ -51,18 +29,10 @@ public:
             Three::all(lamp_.intensity.r, lamp_.intensity.g, lamp_.intensity.b) * (one / faded);
         lanes &= ~black(irradiance);
 
-        unsigned rises = bits(dot(Three::load(block_.ng, first_), toLight) > zero);
-        if (const unsigned lifted = lanesOf(block_.lifted); lifted != 0)
-            rises |= lifted & bits(dot(Three::load(block_.ns, first_), toLight) > zero);
-        lanes &= rises;
+        lanes &= lit_.rises(toLight);
         if (lanes == 0) return 0;
 
-        const Floats cosLight = dot(n_, toLight);
-        const Mask answers = cosLight > zero;
-        Three reflected =
-            Three::load(block_.diffuse, first_) * (Floats(static_cast<float>(kInvPi)) * cosLight);
-        reflected = withHighlights(reflected, toLight, cosLight, lanes & bits(answers));
-        reflected = select(answers, reflected, Three::all(0, 0, 0));
+        const Three reflected = lit_.reflected(n_, toLight, lanes);
         const Three light = Three::load(block_.weight, first_) * reflected * irradiance;
         light.x.store(out.light[0] + first_);
         light.y.store(out.light[1] + first_);
@@ -102,55 +72,12 @@ public:
         select(fits, below, Floats(0.0f)).store(out.tMax + first_);
     }
 
-    unsigned lanesOf(unsigned points) const { return points >> first_ & kAll; }
+    unsigned lanesOf(unsigned points) const { return lit_.lanesOf(points); }
 
 private:
-    static constexpr unsigned kAll = (1u << W) - 1;
-    static constexpr float kInvPiF = static_cast<float>(kInvPi);
-
-    Three withHighlights(Three reflected, Three toLight, Floats cosLight, unsigned lanes) const {
-        const auto shiny = [&](SpecularModel model) {
-            return lanes & lanesOf(block_.shiny[static_cast<std::size_t>(model)]);
-        };
-        const unsigned phong = shiny(SpecularModel::Phong), blinn = shiny(SpecularModel::Blinn),
-                       ashikhmin = shiny(SpecularModel::Ashikhmin);
-        lanes &= phong | blinn | ashikhmin;
-        if (lanes == 0) return reflected;
-        const Floats zero(0.0f), one(1.0f);
-        const Three toEye = Three::load(block_.toEye, first_);
-        const Floats cosEye = dot(n_, toEye);
-        Floats base(0.0f), sumLength(0.0f);
-        if (phong != 0) base = min(Floats(2.0f) * (cosLight * cosEye) - dot(toLight, toEye), one);
-        if ((blinn | ashikhmin) != 0) {
-            const Three half = toEye + toLight;
-            const Floats length2 = dot(half, half);
-            sumLength = sqrt(length2);
-            const Floats cosHalf =
-                select(length2 > zero, min(dot(n_, half / sumLength), one), zero);
-            base = select(maskOf(phong), base, cosHalf);
-        }
-        const Mask glitters = base > zero;
-        alignas(64) float lobes[W];
-        base.store(lobes);
-        for (unsigned rest = lanes & bits(glitters); rest != 0; rest &= rest - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-            lobes[i] = exact::pow(lobes[i], block_.exponent[first_ + i]);
-        }
-        Floats lobe = Floats::load(lobes);
-        if (ashikhmin != 0) {
-            const Floats norm =
-                (Floats::load(block_.exponent + first_) + one) * Floats(kInvPiF / 8);
-            const Floats cosHalfEye = Floats(0.5f) * sumLength;
-            lobe = select(maskOf(ashikhmin),
-                          norm * lobe * cosLight / (cosHalfEye * max(cosLight, cosEye)), lobe);
-        }
-        const Three highlight =
-            select(glitters, Three::load(block_.specular, first_) * lobe, Three::all(0, 0, 0));
-        return select(maskOf(lanes), reflected + highlight, reflected);
-    }
-
     const PointEmission& lamp_;
     const LitBlock& block_;
+    LitLanes<PointsInRow> lit_;
     std::size_t first_;
     Three at_, p_, n_;
 };

@@ -1,4 +1,4 @@
-// lamp_lanes.inl for the registers of AVX2.
+// Lamps in the registers of AVX2.
 #include "render/waves/lamp_lanes.h"
 
 #if defined(__x86_64__)
@@ -6,9 +6,13 @@
 #include "accel/kernels/target.h"
 #include "base/math.h"
 #include "light/light.h"
+#include "render/occluders.h"
+#include "sample/warp.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <immintrin.h>
 #include <limits>
 
@@ -16,7 +20,12 @@ AVX2_REGION_BEGIN
 namespace kernels::avx2 {
 #include "accel/kernels/simd_avx2.inl"
 
+constexpr std::size_t kSobolLanes = 8;
+#include "render/waves/lit_lanes.inl"
+
+#include "render/waves/hidden_lanes.inl"
 #include "render/waves/lamp_lanes.inl"
+#include "render/waves/soft_lamp_lanes.inl"
 } // namespace kernels::avx2
 KERNEL_REGION_END
 #endif

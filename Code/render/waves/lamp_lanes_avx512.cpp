@@ -1,13 +1,17 @@
-// lamp_lanes.inl for the registers of AVX-512.
+// Lamps in the registers of AVX-512.
 #include "render/waves/lamp_lanes.h"
 
 #if defined(__x86_64__)
 #include "accel/kernels/target.h"
 #include "base/math.h"
 #include "light/light.h"
+#include "render/occluders.h"
+#include "sample/warp.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <immintrin.h>
 #include <limits>
 
@@ -15,7 +19,12 @@ AVX512_REGION_BEGIN
 namespace kernels::avx512 {
 #include "accel/kernels/simd_avx512.inl"
 
+constexpr std::size_t kSobolLanes = 16;
+#include "render/waves/lit_lanes.inl"
+
+#include "render/waves/hidden_lanes.inl"
 #include "render/waves/lamp_lanes.inl"
+#include "render/waves/soft_lamp_lanes.inl"
 } // namespace kernels::avx512
 KERNEL_REGION_END
 #endif

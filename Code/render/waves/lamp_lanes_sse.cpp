@@ -1,13 +1,17 @@
-// lamp_lanes.inl for the registers of SSE4.2.
+// Lamps in the registers of SSE4.2.
 #include "render/waves/lamp_lanes.h"
 
 #if defined(__x86_64__)
 #include "accel/kernels/target.h"
 #include "base/math.h"
 #include "light/light.h"
+#include "render/occluders.h"
+#include "sample/warp.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <immintrin.h>
 #include <limits>
 
@@ -15,7 +19,12 @@ SSE_REGION_BEGIN
 namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
 
+constexpr std::size_t kSobolLanes = 4;
+#include "render/waves/lit_lanes.inl"
+
+#include "render/waves/hidden_lanes.inl"
 #include "render/waves/lamp_lanes.inl"
+#include "render/waves/soft_lamp_lanes.inl"
 } // namespace kernels::sse
 KERNEL_REGION_END
 #endif

@@ -27,12 +27,15 @@ inline bool rises(const Wave& wave, const LitPoint& lit, Vec3 toLight) {
            (lit.isLifted && dot(wave.memory.points.at[lit.point].lit.ns, toLight) > 0);
 }
 
+// Number of the lamp's first random place at the hit of ray i.
+inline std::uint32_t firstSample(const Lamp& lamp, const Wave& wave, std::size_t i) {
+    return wave.chunk.ids[wave.rays.sample[i]].index * static_cast<std::uint32_t>(lamp.samples);
+}
+
 // Random place on the lamp for its k-th sample at the hit of ray i.
 inline Vec2 placeOn(const Lamp& lamp, int k, const Wave& wave, std::size_t i) {
-    const SampleId id = wave.chunk.ids[wave.rays.sample[i]];
-    const auto samples = static_cast<std::uint32_t>(lamp.samples);
     return lamp.sampler.get2D(wave.rays.stream[i],
-                              id.index * samples + static_cast<std::uint32_t>(k),
+                              firstSample(lamp, wave, i) + static_cast<std::uint32_t>(k),
                               dimension(wave.depth, BounceSlot::LightUv));
 }
 

@@ -1,0 +1,126 @@
+// What W points of a block answer to light: the formulas of reflectedLight() and rises(), lane by
+// lane and in their order. Where those return early, lanes go on with numbers that nobody takes.
+// Included by the file of each instruction set inside its namespace.
+
+struct Three {
+    Floats x, y, z;
+    static Three load(const float (*v)[LitBlock::kPoints], std::size_t first) {
+        return {Floats::load(v[0] + first), Floats::load(v[1] + first), Floats::load(v[2] + first)};
+    }
+    static Three all(float x, float y, float z) { return {Floats(x), Floats(y), Floats(z)}; }
+};
+inline Three operator+(Three a, Three b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+inline Three operator-(Three a, Three b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+inline Three operator*(Three a, Three b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
+inline Three operator*(Three a, Floats s) { return {a.x * s, a.y * s, a.z * s}; }
+inline Three operator/(Three a, Floats s) { return {a.x / s, a.y / s, a.z / s}; }
+inline Three select(Mask m, Three a, Three b) {
+    return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
+}
+inline Floats dot(Three a, Three b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
+inline unsigned black(Three a) {
+    const Floats zero(0.0f);
+    return bits((a.x == zero) & (a.y == zero) & (a.z == zero));
+}
+
+// Which point of a block each lane is: those from `first` on ..
+struct PointsInRow {
+    std::size_t first;
+    Floats each(const float (&v)[LitBlock::kPoints]) const { return Floats::load(v + first); }
+    unsigned lanesOf(unsigned points) const { return points >> first & ((1u << W) - 1); }
+    std::size_t point(std::size_t lane) const { return first + lane; }
+};
+// .. or all the same ..
+struct PointForAll {
+    std::size_t only;
+    Floats each(const float (&v)[LitBlock::kPoints]) const { return Floats(v[only]); }
+    unsigned lanesOf(unsigned points) const { return (points >> only & 1) * ((1u << W) - 1); }
+    std::size_t point(std::size_t) const { return only; }
+};
+// .. or any.
+struct PointsByLane {
+    std::size_t points[W];
+    Floats each(const float (&v)[LitBlock::kPoints]) const {
+        alignas(64) float all[W];
+        for (std::size_t i = 0; i < W; ++i) all[i] = v[points[i]];
+        return Floats::load(all);
+    }
+    unsigned lanesOf(unsigned of) const {
+        unsigned lanes = 0;
+        for (std::size_t i = 0; i < W; ++i) lanes |= (of >> points[i] & 1) << i;
+        return lanes;
+    }
+    std::size_t point(std::size_t lane) const { return points[lane]; }
+};
+
+template <class Points> class LitLanes {
+public:
+    LitLanes(const LitBlock& block, const Points& points) : block_(block), points_(points) {}
+
+    Three three(const float (&v)[3][LitBlock::kPoints]) const {
+        return {points_.each(v[0]), points_.each(v[1]), points_.each(v[2])};
+    }
+    Floats each(const float (&v)[LitBlock::kPoints]) const { return points_.each(v); }
+    unsigned lanesOf(unsigned points) const { return points_.lanesOf(points); }
+
+    unsigned rises(const Three& toLight) const {
+        unsigned lanes = bits(dot(three(block_.ng), toLight) > Floats(0.0f));
+        if (const unsigned lifted = lanesOf(block_.lifted); lifted != 0)
+            lanes |= lifted & bits(dot(three(block_.ns), toLight) > Floats(0.0f));
+        return lanes;
+    }
+
+    Three reflected(const Three& n, const Three& toLight, unsigned lanes) const {
+        const Floats cosLight = dot(n, toLight);
+        const Mask answers = cosLight > Floats(0.0f);
+        Three reflected = three(block_.diffuse) * (Floats(static_cast<float>(kInvPi)) * cosLight);
+        reflected = withHighlights(reflected, n, toLight, cosLight, lanes & bits(answers));
+        return select(answers, reflected, Three::all(0, 0, 0));
+    }
+
+private:
+    static constexpr float kInvPiF = static_cast<float>(kInvPi);
+
+    Three withHighlights(Three reflected, const Three& n, const Three& toLight, Floats cosLight,
+                         unsigned lanes) const {
+        const auto shiny = [&](SpecularModel model) {
+            return lanes & lanesOf(block_.shiny[static_cast<std::size_t>(model)]);
+        };
+        const unsigned phong = shiny(SpecularModel::Phong), blinn = shiny(SpecularModel::Blinn),
+                       ashikhmin = shiny(SpecularModel::Ashikhmin);
+        lanes &= phong | blinn | ashikhmin;
+        if (lanes == 0) return reflected;
+        const Floats zero(0.0f), one(1.0f);
+        const Three toEye = three(block_.toEye);
+        const Floats cosEye = dot(n, toEye);
+        Floats base(0.0f), sumLength(0.0f);
+        if (phong != 0) base = min(Floats(2.0f) * (cosLight * cosEye) - dot(toLight, toEye), one);
+        if ((blinn | ashikhmin) != 0) {
+            const Three half = toEye + toLight;
+            const Floats length2 = dot(half, half);
+            sumLength = sqrt(length2);
+            const Floats cosHalf = select(length2 > zero, min(dot(n, half / sumLength), one), zero);
+            base = select(maskOf(phong), base, cosHalf);
+        }
+        const Mask glitters = base > zero;
+        alignas(64) float lobes[W];
+        base.store(lobes);
+        for (unsigned rest = lanes & bits(glitters); rest != 0; rest &= rest - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+            lobes[i] = exact::pow(lobes[i], block_.exponent[points_.point(i)]);
+        }
+        Floats lobe = Floats::load(lobes);
+        if (ashikhmin != 0) {
+            const Floats norm = (each(block_.exponent) + one) * Floats(kInvPiF / 8);
+            const Floats cosHalfEye = Floats(0.5f) * sumLength;
+            lobe = select(maskOf(ashikhmin),
+                          norm * lobe * cosLight / (cosHalfEye * max(cosLight, cosEye)), lobe);
+        }
+        const Three highlight =
+            select(glitters, three(block_.specular) * lobe, Three::all(0, 0, 0));
+        return select(maskOf(lanes), reflected + highlight, reflected);
+    }
+
+    const LitBlock& block_;
+    Points points_;
+};
