@@ -50,6 +50,7 @@ struct StillPlane {
     AffineRows objectFromWorld;
 };
 
+// What it points to is the shape's own.
 struct SolidForm {
     RoundHull hull;
     // The shape is a sphere about the origin of its object space. A kernel that meets it repeats

@@ -2,11 +2,27 @@
 
 #include "base/affine.h"
 
+#include <optional>
 #include <vector>
 
 namespace {
 
-BoundsD objectBox(const ObjectDesc& object, const std::vector<BoundsD>& meshBoxes) {
+// Of the meshes that somebody asks for.
+class MeshBoxes {
+public:
+    explicit MeshBoxes(const SceneDesc& desc) : desc_(desc), boxes_(desc.meshes.size()) {}
+    const BoundsD& operator[](Handle mesh) {
+        const auto i = static_cast<std::size_t>(mesh);
+        if (!boxes_[i]) boxes_[i] = boundsOf(desc_.meshes[i]);
+        return *boxes_[i];
+    }
+
+private:
+    const SceneDesc& desc_;
+    std::vector<std::optional<BoundsD>> boxes_;
+};
+
+BoundsD objectBox(const ObjectDesc& object, MeshBoxes& meshBoxes) {
     const double r = object.radius;
     switch (object.kind) {
     case ObjectDesc::Kind::Sphere: return {{-r, -r, -r}, {r, r, r}};
@@ -22,7 +38,7 @@ BoundsD objectBox(const ObjectDesc& object, const std::vector<BoundsD>& meshBoxe
         for (const Vec3d corner : *object.corners) box.extend(corner);
         return box;
     }
-    case ObjectDesc::Kind::Mesh: return meshBoxes[static_cast<std::size_t>(object.mesh)];
+    case ObjectDesc::Kind::Mesh: return meshBoxes[object.mesh];
     case ObjectDesc::Kind::InfinitePlane: break;
     }
     return {};
@@ -36,14 +52,14 @@ BoundsD boundsOf(const MeshDesc& mesh) {
     return box;
 }
 
-BoundsD boundsOf(const SceneDesc& desc) {
-    std::vector<BoundsD> meshBoxes;
-    for (const MeshDesc& mesh : desc.meshes) meshBoxes.push_back(boundsOf(mesh));
+BoundsD boundsOf(const SceneDesc& desc, double enough) {
+    MeshBoxes meshBoxes(desc);
     BoundsD box;
     for (const ObjectDesc& object : desc.objects) {
         const BoundsD local = objectBox(object, meshBoxes);
         if (local.isEmpty()) continue;
         for (const Rows& key : object.worldFromObject) box.extend(boundsOf(key, local));
+        if (maxAbs(box.size()) >= enough) break;
     }
     return box;
 }

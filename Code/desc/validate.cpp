@@ -39,6 +39,16 @@ std::string mustHave(std::string_view keyword, const Range& range, double value)
     return cat("'", keyword, "' ", mustBe(range, value), ", got ", shortest(value));
 }
 
+// The largest size of some numbers; infinite where one is none.
+double largestOf(std::span<const double> numbers) {
+    double largest = 0, zero = 0;
+    for (const double x : numbers) {
+        largest = std::max(largest, std::fabs(x));
+        zero += x * 0;
+    }
+    return zero == 0 ? largest : kInfinity;
+}
+
 // Are four corners in one plane, in order around a convex quadrilateral with an area?
 std::string_view faultOfCorners(const Corners4& c) {
     const Vec3d normal = cross(c[2] - c[0], c[3] - c[1]); // twice the area vector
@@ -190,9 +200,9 @@ private:
         if (keys.empty()) error(block, "has no transform at all; one key is needed");
         bool mirrors = false, turnsOver = false;
         for (const Rows& rows : keys) {
-            const bool inRange = std::all_of(rows.begin(), rows.end(),
-                                             [](double x) { return kAnyNumber.contains(x); });
-            if (!inRange)
+            const double largest = largestOf(rows);
+            largestOfMaps_ = std::max(largest, largestOfMaps_);
+            if (!(largest <= kLargestLength))
                 return error(block, "its transform has numbers beyond ", shortest(kLargestLength));
             const Transform::Orientation orientation = Transform::orientationOf(rows);
             if (orientation == Transform::Orientation::Lost)
@@ -226,6 +236,7 @@ private:
 
     void checkWhole(const ObjectDesc& object) {
         checkKeys(object, object.worldFromObject);
+        reach_ = std::max({reach_, object.radius, object.topRadius});
         if (std::find(object.materials.begin(), object.materials.end(), kNone) !=
             object.materials.end())
             error(object, "one of its material slots is empty");
@@ -237,9 +248,10 @@ private:
                   " materials; only an instance has more than ", most == 1 ? "one" : "two");
         if (object.kind == Cone && object.radius == 0 && object.topRadius == 0)
             error(object, "'radius' and 'top_radius' are both 0");
-        if (object.kind == Plane)
-            if (const auto fault = faultOfCorners(*object.corners); !fault.empty())
-                error(object, fault);
+        if (object.kind != Plane) return;
+        if (const auto fault = faultOfCorners(*object.corners); !fault.empty())
+            error(object, fault);
+        for (const Vec3d& corner : *object.corners) reach_ = std::max(reach_, maxAbs(corner));
     }
 
     void checkInstance(const ObjectDesc& object) {
@@ -258,11 +270,12 @@ private:
         if (mesh.triangles.empty()) error(mesh, "has no triangles");
         for (std::size_t i = 0; i < mesh.points.size(); ++i) {
             const Vec3d& p = mesh.points[i];
-            if (!kAnyNumber.contains(p.x) || !kAnyNumber.contains(p.y) ||
-                !kAnyNumber.contains(p.z)) {
+            const double size = largestOf(std::array{p.x, p.y, p.z});
+            if (!(size <= kLargestLength)) {
                 error(mesh, "point ", i, " is not finite or beyond ", shortest(kLargestLength));
                 break;
             }
+            reach_ = std::max(reach_, size);
         }
         checkCorners(mesh, mesh.triangles, mesh.points.size(), "points", "triangles");
         checkCorners(mesh, mesh.normalTriangles, mesh.normals.size(), "normals",
@@ -351,11 +364,14 @@ private:
     // from the origin doubles are 2^-52 of the distance apart; where that is more than a float's
     // rounding of 2^-24 of the scene's extent, the file has lost what the picture could show.
     void warnFar() {
-        const BoundsD box = boundsOf(desc_);
+        constexpr double kMost = 0x1p28;
+        // No point is farther: how long the box has to be, which most often its first object is.
+        const double farthest = 1.01 * largestOfMaps_ * (3 * reach_ + 1);
+        const BoundsD box = boundsOf(desc_, farthest / kMost);
         if (box.isEmpty()) return;
         const double extent = maxAbs(box.size());
         const double times = std::max(maxAbs(box.lo), maxAbs(box.hi)) / extent;
-        if (extent > 0 && times > 0x1p28)
+        if (extent > 0 && times > kMost)
             warn({}, cat("the scene lies more than 10^", std::floor(std::log10(times)),
                          " times its size away from the origin, where numbers are too coarse for "
                          "its details; it would be right about the origin"));
@@ -367,6 +383,8 @@ private:
     Stage stage_ = Stage::Properties;
     std::array<ErrorList, 3> errors_{ErrorList(source_), ErrorList(source_), ErrorList(source_)};
     std::array<std::vector<bool>, kEnumNames<Target>.size()> used_; // by what refers to them
+    // Of what places things, and of things in spaces of their own.
+    double largestOfMaps_ = 0, reach_ = 1;
     std::vector<std::uint32_t> slots_; // per mesh: how many material slots its triangles use
 };
 

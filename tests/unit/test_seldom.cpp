@@ -29,7 +29,8 @@ TEST(seldom_has_a_value_of_its_own) {
     CHECK((*value == Three{4, 5, 6}) && (*other == Three{7, 5, 6}));
     const Value moved = std::move(other);
     CHECK((*moved == Three{7, 5, 6}));
-    value = Value();
+    const Value usual;
+    value = usual; // by a copy, too
     CHECK(*value == kUsual);
 }
 

@@ -4,10 +4,12 @@
 #include "base/text.h"
 #include "check.h"
 #include "desc/properties.h"
+#include "desc/scene_bounds.h"
 
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <random>
 
 namespace {
 
@@ -371,4 +373,42 @@ TEST(validate_warnings) {
     checkError(warningsAfter(moveBy(1e11)), "the scene lies more than 10^10 times its size away");
     checkError(warningsAfter([](SceneDesc& d) { d.lights[0].coneAngleDeg = 10; }),
                "light 'lamp': 'cone_angle' has no effect on type point");
+}
+
+// Scenes of a few objects of any kind, size and place, about the distance at which it is told: the
+// short way to the answer is the one by the box of the whole scene.
+TEST(validate_tells_what_is_far_by_the_box_of_all) {
+    std::mt19937_64 engine(610);
+    const auto uniform = [&](double lo, double hi) {
+        return lo + (hi - lo) * (static_cast<double>(engine() >> 11) * 0x1p-53);
+    };
+    int farCount = 0;
+    const int count = check::scaled(2000);
+    for (int i = 0; i < count; ++i) {
+        SceneDesc desc = soundScene();
+        for (Vec3d& p : desc.meshes[0].points) p *= std::exp2(uniform(-10, 10));
+        const Vec3d away =
+            Vec3d{uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)} * std::exp2(uniform(20, 36));
+        desc.objects.resize(1 + engine() % 4);
+        for (std::size_t k = 1; k < desc.objects.size(); ++k) {
+            ObjectDesc& object = desc.objects[k];
+            object.name = cat("object", k);
+            object.kind = static_cast<ObjectDesc::Kind>(engine() % 7); // no meshes
+            object.radius = std::exp2(uniform(-5, 5));
+        }
+        for (ObjectDesc& object : desc.objects) {
+            const double size = std::exp2(uniform(-3, 3));
+            const Vec3d p = away + Vec3d{uniform(-9, 9), uniform(-9, 9), uniform(-9, 9)};
+            object.worldFromObject = {{size, 0, 0, p.x, 0, size, 0, p.y, 0, 0, size, p.z}};
+        }
+        Diagnostics diagnostics;
+        validate(desc, {"s.json", ""}, diagnostics);
+        const bool told = join(diagnostics.warnings, " ").find("lies more") != std::string::npos;
+        const BoundsD box = boundsOf(desc);
+        const double extent = maxAbs(box.size());
+        const bool isFar = max(maxAbs(box.lo), maxAbs(box.hi)) / extent > 0x1p28;
+        CHECK_INFO(told == isFar, "scene " << i << " of seed 610");
+        farCount += isFar;
+    }
+    CHECK(farCount > count / 10 && farCount < count - count / 10);
 }

@@ -23,12 +23,13 @@ void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const S
         solid.innerRadius = static_cast<float>(form.hull.innerRadius * (1 - 0x1p-20));
     if (form.sphere) {
         solid.kind = Kind::Sphere;
-        solid.sphere = form.sphere;
+        solid.shape = form.sphere;
         const AffineRows& m = form.sphere->objectFromWorld();
         solid.turned = m[1] != 0 || m[2] != 0 || m[4] != 0 || m[6] != 0 || m[8] != 0 || m[9] != 0;
     }
     if (form.tube) {
         solid.kind = Kind::Tube;
+        solid.shape = form.tube->shape;
         solid.part = static_cast<std::uint32_t>(tubes.size());
         const AffineRows& m = form.tube->shape->objectFromWorld();
         const Vec3d x{m[0], m[1], m[2]}, y{m[4], m[5], m[6]}, z{m[8], m[9], m[10]};

@@ -30,7 +30,7 @@ struct SolidTree {
         bool turned = false; // a sphere whose map does more than move and scale along the axes
         Vec3 centre{}, axis{};
         float radius = kInfinityF, innerRadius = 0, halfLength = kInfinityF;
-        const StillShape* sphere = nullptr; // of a sphere
+        const StillShape* shape = nullptr; // of a sphere or a tube
     };
     struct Tube {
         StillTube exact;

@@ -26,6 +26,7 @@ protected:
             lanes &= ~certain;
         }
         if (lanes == 0) return;
+        prefetch(solid);
         Floats entry;
         lanes &= lanes_.entering(tree_.boxes[place], zCut_, entry);
         if (lanes == 0) return;
@@ -44,6 +45,15 @@ protected:
     const SolidCalls& calls_;
 
 private:
+    // What it will be met by, while its box is entered: shapes lie anywhere in the memory.
+    void prefetch(const SolidTree::Solid& solid) const {
+        if (solid.shape == nullptr) return;
+        const auto* const bytes =
+            reinterpret_cast<const std::byte*>(&solid.shape->objectFromWorld());
+        for (std::size_t at = 0; at < sizeof(AffineRows); at += 64) __builtin_prefetch(bytes + at);
+        if (solid.kind == SolidTree::Kind::Tube) __builtin_prefetch(&tree_.tubes[solid.part]);
+    }
+
     void hide(unsigned lanes, std::uint8_t* hidden) {
         if (lanes != 0) lastHider_ = asked_;
         live_ &= ~lanes;
@@ -77,8 +87,8 @@ private:
 
     template <Answer A, class Result>
     void sphere(const SolidTree::Solid& solid, Floats entry, unsigned lanes, Result* results) {
-        const SphereRoots roots = meet(SameMap{solid.sphere->objectFromWorld()}, solid.turned,
-                                       solid.sphere->radius, lanes);
+        const SphereRoots roots =
+            meet(SameMap{solid.shape->objectFromWorld()}, solid.turned, solid.shape->radius, lanes);
         if (roots.met == 0) return;
         if constexpr (A == Answer::Any) {
             hide(hides(roots), results);
