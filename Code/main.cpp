@@ -1,6 +1,5 @@
 // The program: arguments in, exit code out. The only place that catches and prints errors.
 #include "base/error.h"
-#include "base/heap.h"
 #include "cli/run.h"
 
 #include <cstdio>
@@ -10,7 +9,6 @@
 #include <vector>
 
 int main(int argc, char** argv) {
-    growHeapInLargeSteps();
     Step step;
     try {
         const std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);

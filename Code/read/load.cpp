@@ -92,14 +92,15 @@ void checkFile(const std::string& fileName) {
         fail(ErrorKind::Input, cat(fileName, ": error: the file is larger than 4 GiB"));
 }
 
-// A large file becomes many small things, up to 20 times its bytes before they are a scene: half of
-// the time of reading it would be spent on touching their pages for the first time.
+// A file becomes many small things, up to 20 times its bytes before they are a scene: half of the
+// time of reading it would be spent on touching their pages for the first time. Small files do not
+// say how much it will be, as they may ask for a large picture.
 void makeRoomFor(const std::string& fileName) {
-    constexpr std::uintmax_t kLarge = 1 << 20, kTimes = 24;
+    constexpr std::uintmax_t kLeast = 24 << 20, kTimes = 24;
     std::error_code status;
     const std::uintmax_t size =
         fs::is_regular_file(fileName, status) ? fs::file_size(fileName, status) : 0;
-    if (!status && size >= kLarge) useLargePages(static_cast<std::size_t>(kTimes * size));
+    useLargePages(static_cast<std::size_t>(std::max(kLeast, status ? 0 : kTimes * size)));
 }
 
 } // namespace
