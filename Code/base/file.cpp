@@ -1,6 +1,7 @@
 #include "base/file.h"
 
 #include "base/error.h"
+#include "base/for_each.h"
 #include "base/large_pages.h"
 #include "base/text.h"
 
@@ -91,7 +92,21 @@ void writeBytes(const std::string& path, const std::string& fileName, std::size_
     if (std::fclose(file.release()) != 0) failWriting(fileName, errno);
 }
 
-template <class Bytes> Bytes readWhole(const std::string& fileName) {
+// The bytes in front of the first that could not be read; the reader of a stream goes on there.
+std::size_t readParts(std::FILE* file, std::span<char> to, int threads) {
+    constexpr std::size_t kPart = std::size_t{1} << 19;
+    std::vector<std::size_t> got((to.size() + kPart - 1) / kPart);
+    forEachPart(threads, to.size(), kPart, [&](std::size_t first, std::size_t last) {
+        const ssize_t count =
+            pread(fileno(file), to.data() + first, last - first, static_cast<off_t>(first));
+        got[first / kPart] = count > 0 ? static_cast<std::size_t>(count) : 0;
+    });
+    std::size_t used = 0;
+    for (std::size_t part = 0; part < got.size() && used == part * kPart; ++part) used += got[part];
+    return used;
+}
+
+template <class Bytes> Bytes readWhole(const std::string& fileName, int threads) {
     const auto failReading = [&](const std::string& reason) {
         fail(ErrorKind::Input, cat(fileName, ": error: cannot read: ", reason));
     };
@@ -112,6 +127,11 @@ template <class Bytes> Bytes readWhole(const std::string& fileName) {
         static_cast<std::size_t>(status ? kFirstPart : std::max(promised + 1, kFirstPart));
     reserveInLargePages(bytes, size);
     bytes.resize(size);
+    if (!status && promised > kFirstPart && threads != 1) {
+        used = readParts(file.get(), {reinterpret_cast<char*>(bytes.data()), size - 1}, threads);
+        if (fseeko(file.get(), static_cast<off_t>(used), SEEK_SET) != 0)
+            failReading(std::strerror(errno));
+    }
     while (true) {
         const std::size_t read =
             std::fread(bytes.data() + used, 1, bytes.size() - used, file.get());
@@ -127,10 +147,12 @@ template <class Bytes> Bytes readWhole(const std::string& fileName) {
 } // namespace
 
 std::vector<std::uint8_t> readWholeFile(const std::string& fileName) {
-    return readWhole<std::vector<std::uint8_t>>(fileName);
+    return readWhole<std::vector<std::uint8_t>>(fileName, 1);
 }
 
-std::string readWholeText(const std::string& fileName) { return readWhole<std::string>(fileName); }
+std::string readWholeText(const std::string& fileName, int threads) {
+    return readWhole<std::string>(fileName, threads);
+}
 
 void writeFileAtomically(const std::string& fileName, std::span<const std::uint8_t> bytes) {
     writeFileAtomically(fileName, bytes.size(), [&](const ByteSink& write) { write(bytes); });

@@ -14,8 +14,8 @@
 // All bytes of a regular file or pipe. Fails with ErrorKind::Input: the name and the system's
 // reason.
 std::vector<std::uint8_t> readWholeFile(const std::string& fileName);
-// The same as text.
-std::string readWholeText(const std::string& fileName);
+// The same as text, read by several threads where it is long (0: as many as the machine has).
+std::string readWholeText(const std::string& fileName, int threads = 1);
 
 // Writes a temporary file in the same folder and renames it; an existing file keeps its content
 // until then. What is no regular file (/dev/null, a pipe) is written to directly. One write at a

@@ -22,6 +22,39 @@ void adviseLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_
 #endif
 }
 
+namespace {
+
+[[maybe_unused]] void* filler = nullptr; // of the heap; tools that look for leaks find it here
+
+// What is smaller comes from malloc. calloc would write the zeros of larger things, too, where the
+// heap has grown ahead of them.
+[[maybe_unused]] constexpr std::size_t kOwnPages = std::size_t{1} << 21;
+
+} // namespace
+
+void* zeroedMemory(std::size_t bytes) {
+#if defined(__linux__)
+    if (bytes >= kOwnPages) {
+        void* const memory =
+            mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+        if (memory == MAP_FAILED) return nullptr;
+        adviseLargePages(memory, bytes);
+        return memory;
+    }
+#endif
+    return std::calloc(1, std::max<std::size_t>(1, bytes));
+}
+
+void freeZeroedMemory(void* memory, [[maybe_unused]] std::size_t bytes) {
+#if defined(__linux__)
+    if (bytes >= kOwnPages) {
+        munmap(memory, bytes);
+        return;
+    }
+#endif
+    std::free(memory);
+}
+
 void useLargePages([[maybe_unused]] std::size_t bytes) {
 #if defined(__GLIBC__)
     // The heap is to grow at once by what is asked for, which the first piece makes it do, and
@@ -37,9 +70,12 @@ void useLargePages([[maybe_unused]] std::size_t bytes) {
     const auto start = reinterpret_cast<std::uintptr_t>(first),
                end = reinterpret_cast<std::uintptr_t>(sbrk(0));
     // Tools that watch the memory have a malloc of their own, elsewhere.
-    if (first && start < end && end - start <= room + 2 * kPiece)
-        adviseLargePages(first, end - start);
+    const bool isHeap = first && start < end && end - start <= room + 2 * kPiece;
+    if (isHeap) adviseLargePages(first, end - start);
     std::free(first);
+    // The heap begins somewhere in a page: what is in front of the first whole one is left out.
+    constexpr std::uintptr_t kPage = std::uintptr_t{1} << 21;
+    if (isHeap && room > 2 * kPage) filler = std::malloc((kPage - start % kPage) % kPage);
     mallopt(M_TOP_PAD, kPad);
 #endif
 }

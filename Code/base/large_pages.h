@@ -11,6 +11,10 @@ void adviseLargePages(void* memory, std::size_t bytes);
 // large pieces. They stay with the program when they are freed.
 void useLargePages(std::size_t bytes);
 
+// Zeros that nobody has written, in such pages; nullptr when there is no memory.
+void* zeroedMemory(std::size_t bytes);
+void freeZeroedMemory(void* memory, std::size_t bytes);
+
 // Room for so many elements, in such pages.
 template <class Vector> void reserveInLargePages(Vector& vector, std::size_t count) {
     vector.reserve(count);

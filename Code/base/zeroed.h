@@ -5,7 +5,6 @@
 #include "base/large_pages.h"
 
 #include <cstddef>
-#include <cstdlib>
 #include <memory>
 #include <new>
 #include <type_traits>
@@ -20,12 +19,14 @@ template <class T> struct ZeroedAllocator {
     template <class U> explicit ZeroedAllocator(const ZeroedAllocator<U>&) {}
 
     T* allocate(std::size_t count) {
-        void* memory = std::calloc(count, sizeof(T)); // checks the product
+        if (count > static_cast<std::size_t>(-1) / sizeof(T)) throw std::bad_array_new_length();
+        void* memory = zeroedMemory(count * sizeof(T));
         if (!memory) throw std::bad_alloc();
-        adviseLargePages(memory, count * sizeof(T));
         return static_cast<T*>(memory);
     }
-    void deallocate(T* memory, std::size_t) noexcept { std::free(memory); }
+    void deallocate(T* memory, std::size_t count) noexcept {
+        freeZeroedMemory(memory, count * sizeof(T));
+    }
 
     // Of a vector's new elements; the zeros are there.
     template <class U> void construct(U*) noexcept {}

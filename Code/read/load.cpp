@@ -116,7 +116,7 @@ LoadedScene load(const std::string& fileName, Diagnostics& diagnostics,
         checkFile(fileName);
         const Format& format = formatOf(fileName);
         makeRoomFor(fileName);
-        scene.source = {fileName, readWholeText(fileName)};
+        scene.source = {fileName, readWholeText(fileName, options.threads)};
         scene.desc = format.read(scene.source, context);
     }
     loadMeshFiles(scene.desc, scene.source, context);

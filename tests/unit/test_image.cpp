@@ -123,6 +123,33 @@ TEST(file_reads_whole_files) {
     }
 }
 
+// In parts of half a megabyte, of which the last one may be short.
+TEST(file_reads_text_with_many_threads) {
+    const TemporaryFolder folder("threads");
+    for (const std::size_t size : {70000u, 1u << 19, 1u << 20, 3500001u}) {
+        std::vector<std::uint8_t> bytes(size);
+        for (std::size_t i = 0; i < size; ++i) bytes[i] = static_cast<std::uint8_t>(i * i >> 7);
+        writeFileAtomically(folder / "f", bytes);
+        const std::string text = readWholeText(folder / "f");
+        CHECK(std::equal(text.begin(), text.end(), bytes.begin(), bytes.end(),
+                         [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; }));
+        for (const int threads : {2, 7}) CHECK(readWholeText(folder / "f", threads) == text);
+    }
+}
+
+// Room that was taken for more, or for less, does not show.
+TEST(file_room_leaves_no_trace) {
+    const TemporaryFolder folder("room");
+    const std::vector<std::uint8_t> bytes(100000, 7);
+    for (const std::size_t expected : {0u, 10u, 99999u, 100000u, 100001u, 5000000u}) {
+        writeFileAtomically(folder / "f", expected, [&](const ByteSink& write) {
+            for (std::size_t i = 0; i < 4; ++i) write(std::span(bytes).subspan(i * 25000, 25000));
+        });
+        CHECK(readWholeFile(folder / "f") == bytes);
+    }
+    CHECK_EQUAL(folder.files(), 1);
+}
+
 TEST(file_write_keeps_links_and_old_content) {
     const TemporaryFolder folder("links");
     const std::vector<std::uint8_t> first{1}, second{2, 2};

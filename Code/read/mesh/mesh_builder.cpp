@@ -104,11 +104,16 @@ bool MeshBuilder::addFace(std::span<const Corner> corners) {
     return any;
 }
 
-MeshBuilder MeshBuilder::part() const {
+MeshBuilder MeshBuilder::part(std::size_t triangles) const {
     MeshBuilder some;
     some.slot = slot;
     some.group = group;
     some.points_ = &mesh.points;
+    some.reserve(triangles);
+    if (!mesh.uvs.empty()) some.mesh.uvTriangles.reserve(triangles);
+    if (!mesh.normals.empty()) some.mesh.normalTriangles.reserve(triangles);
+    if (slot != 0) some.mesh.triangleMaterials.reserve(triangles);
+    if (group != 0) some.groups_.reserve(triangles);
     return some;
 }
 

@@ -25,9 +25,9 @@ public:
     // area are left out; false when none is left.
     bool addFace(std::span<const Corner> corners);
 
-    // A builder for some of the faces, of this slot and group; it looks at the points here. Its
-    // faces are added when it has all of them.
-    MeshBuilder part() const;
+    // A builder for some of the faces, at most so many triangles of this slot and group; it looks
+    // at the points here. Its faces are added when it has all of them.
+    MeshBuilder part(std::size_t triangles) const;
     void addFaces(const MeshBuilder& part);
 
     struct Dropped {

@@ -73,18 +73,20 @@ private:
         Counted tooFewCorners, noArea;
     };
     void readTogether(std::span<const ObjChunk> chunks) {
-        std::vector<Faces> faces(chunks.size());
+        std::vector<Faces> faces;
+        faces.reserve(chunks.size());
+        // Memory is asked for here: of one thread, malloc takes it from where all the rest lies.
+        for (const ObjChunk& chunk : chunks)
+            faces.push_back({builder_.part(chunk.triangles), {}, {}});
         forEachOn(context_.options.threads, chunks.size(),
-                  [&](std::size_t i) { faces[i] = facesOf(chunks[i]); });
+                  [&](std::size_t i) { readFaces(chunks[i], faces[i]); });
         for (const Faces& some : faces) {
             builder_.addFaces(some.builder);
             tooFewCorners_.add(some.tooFewCorners);
             noArea_.add(some.noArea);
         }
     }
-    Faces facesOf(const ObjChunk& chunk) const {
-        Faces faces{builder_.part(), {}, {}};
-        faces.builder.reserve(chunk.triangles);
+    void readFaces(const ObjChunk& chunk, Faces& faces) const {
         LineReader in(source_, chunk.first, chunk.last);
         ObjCounts soFar = chunk.before;
         CornerReader reader(in, chunks_.total, soFar);
@@ -98,7 +100,6 @@ private:
             else if (!faces.builder.addFace(corners))
                 faces.noArea.add(start);
         }
-        return faces;
     }
 
     void readInOrder(const ObjChunk& chunk) {
