@@ -74,7 +74,7 @@ template <bool kTextures, bool kSeeThrough> void findPoints(const Wave& wave) {
     }
     waves::findSurfaces(wave);
     if constexpr (kTextures) wave.memory.texturedPoints.clear();
-    for (std::uint32_t k = 0; k < points.count; ++k) {
+    for (std::size_t k = 0; k < points.count; ++k) {
         const std::uint32_t i = points.ray[k];
         ShadedPoint& at = points.at[k];
         shadeSurface<kTextures>(context.scene, wave.rays.ray(i), hits[i], at);
@@ -82,7 +82,7 @@ template <bool kTextures, bool kSeeThrough> void findPoints(const Wave& wave) {
         points.material[k] = &at.of->base;
         if constexpr (kTextures)
             if (at.of->isTextured()) {
-                wave.memory.texturedPoints.add(*at.of, k);
+                wave.memory.texturedPoints.add(*at.of, static_cast<std::uint32_t>(k));
                 points.material[k] = &points.textured[k];
             }
         if (wave.depth == 0 && context.wantsFirstHits)
