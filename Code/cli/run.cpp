@@ -18,8 +18,10 @@
 #include "cli/version.h"
 #include "desc/write_txt.h"
 #include "read/load.h"
+#include "render/picture_reader.h"
 #include "render/render.h"
 #include "render/scene.h"
+#include "render/texture_files.h"
 
 #include <bit>
 #include <chrono>
@@ -136,8 +138,9 @@ void printStats(const Stats& stats, const Options& options) {
     if (options.stats == Options::StatsFormat::Json) writeStdout(statsJson(stats));
 }
 
-ExitCode renderScene(const LoadedScene& loaded, const RenderSettings& settings,
-                     const Options& options, Stopwatch& watch, Stats& stats, Step& step) {
+ExitCode renderScene(const LoadedScene& loaded, PictureReader& pictures,
+                     const RenderSettings& settings, const Options& options, Stopwatch& watch,
+                     Stats& stats, Step& step) {
     checkPixelCount(settings.picture, options.cropPad);
     const std::string output = preparedOutput(options);
     if (output != "-") checkWritable(output);
@@ -145,7 +148,7 @@ ExitCode renderScene(const LoadedScene& loaded, const RenderSettings& settings,
     printAdvice(settings, options);
 
     step = {"building the scene", ExitCode::Input};
-    const Scene scene(loaded.desc, loaded.source, settings);
+    const Scene scene(loaded.desc, loaded.source, settings, &pictures);
     scene.describe(stats);
     stats.threads = settings.threads;
     stats.kernel = settings.kernel;
@@ -222,18 +225,23 @@ ExitCode runScene(const Options& options, Step& step) {
     Diagnostics diagnostics;
     ReadOptions read = options.read;
     read.threads = options.threads; // both take 0 for what the machine has
-    const LoadedScene loaded = load(options.scene, diagnostics, read);
+    PictureReader pictures(options.textureFolder, options.threads);
+    const auto foreseen = [&](const SceneDesc& desc, const std::string& sceneFile) {
+        if (options.action != Action::Convert && options.switches.textures)
+            pictures.begin(desc, usedTextures(desc, !options.background), sceneFile);
+    };
+    const LoadedScene loaded = load(options.scene, diagnostics, read, foreseen);
     stats.parseSeconds = watch.lap();
     printWarnings(diagnostics);
     RenderSettings settings = settingsFrom(loaded.desc, options);
     if (isTooStrict(options, diagnostics)) return ExitCode::StrictWarnings;
     if (options.action == Action::Convert) return convert(loaded, options);
     if (options.action == Action::Render)
-        return renderScene(loaded, settings, options, watch, stats, step);
+        return renderScene(loaded, pictures, settings, options, watch, stats, step);
 
     step = {"building the scene", ExitCode::Input};
     settings.accel = AccelKind::None; // nothing is traced
-    const Scene scene(loaded.desc, loaded.source, settings);
+    const Scene scene(loaded.desc, loaded.source, settings, &pictures);
     if (options.action == Action::Info)
         writeStdout(infoText(loaded.source, loaded.desc, settings, scene));
     else

@@ -8,7 +8,8 @@
 
 namespace {
 
-constexpr double kDecodeThreshold = 0.04045, kEncodeThreshold = 0.0031308;
+using srgb::DecodeNode, srgb::kDecodeThreshold;
+constexpr double kEncodeThreshold = 0.0031308;
 
 constexpr double power(double x, int exponent) {
     double product = 1;
@@ -36,9 +37,6 @@ constexpr double decode(double encoded, double start = 1) {
 
 // A node of the decoding table: the curve's value there (also left of the threshold, since floats
 // between both use the node 10) and 1 / (encoded + 0.055).
-struct DecodeNode {
-    double value, inverse;
-};
 constexpr auto kDecode = [] {
     std::array<DecodeNode, 256> table{};
     for (int k = 0; k < 256; ++k) {
@@ -141,6 +139,8 @@ const Tables16& tables16() {
 }
 
 } // namespace
+
+std::span<const DecodeNode, 256> srgb::decodeNodes() { return kDecode; }
 
 float linearFromSrgb(float encoded) {
     const double s = static_cast<double>(clampToUnit(encoded));

@@ -22,6 +22,16 @@ std::uint16_t srgb16FromLinear(float linear);
 // Many at once: three codes per pixel.
 void srgb8FromLinear(std::span<const Rgb> pixels, std::uint8_t* out);
 
+// What linearFromSrgb() is made of, for who decodes by the register: the curve's value at k / 255,
+// and 1 / (k / 255 + 0.055). Up to the threshold it is encoded / 12.92.
+namespace srgb {
+struct DecodeNode {
+    double value, inverse;
+};
+constexpr double kDecodeThreshold = 0.04045;
+std::span<const DecodeNode, 256> decodeNodes();
+} // namespace srgb
+
 // Without a transfer: code / 255 or code / 65535, and round(255 * x), round(65535 * x).
 inline float unitFrom8(std::uint8_t code) { return static_cast<float>(code / 255.0); }
 inline float unitFrom16(std::uint16_t code) { return static_cast<float>(code / 65535.0); }

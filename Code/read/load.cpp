@@ -103,10 +103,25 @@ void makeRoomFor(const std::string& fileName) {
     useLargePages(static_cast<std::size_t>(std::max(kLeast, status ? 0 : kTimes * size)));
 }
 
+// What stands above the first mesh of a long text: exporters write textures and materials there.
+void foreseeStart(const SourceFile& source, const Foreseen& foreseen) {
+    constexpr std::size_t kLong = 1 << 20;
+    if (source.text.size() < kLong) return;
+    const std::string_view start = std::string_view(source.text).substr(0, kLong);
+    const std::size_t end = start.find("\nmesh ");
+    if (end == std::string_view::npos) return;
+    try {
+        const SourceFile part{source.name, std::string(start.substr(0, end + 1))};
+        foreseen(readTxt(part, 1), source.name);
+    } catch (const Error&) {
+        // Reading all of it tells.
+    }
+}
+
 } // namespace
 
-LoadedScene load(const std::string& fileName, Diagnostics& diagnostics,
-                 const ReadOptions& options) {
+LoadedScene load(const std::string& fileName, Diagnostics& diagnostics, const ReadOptions& options,
+                 const Foreseen& foreseen) {
     const ReadContext context{options, diagnostics};
     LoadedScene scene;
     if (fileName == "-") {
@@ -117,8 +132,10 @@ LoadedScene load(const std::string& fileName, Diagnostics& diagnostics,
         const Format& format = formatOf(fileName);
         makeRoomFor(fileName);
         scene.source = {fileName, readWholeText(fileName, options.threads)};
+        if (foreseen && format.extension == ".txt") foreseeStart(scene.source, foreseen);
         scene.desc = format.read(scene.source, context);
     }
+    if (foreseen) foreseen(scene.desc, scene.source.name);
     loadMeshFiles(scene.desc, scene.source, context);
     validate(scene.desc, scene.source, diagnostics);
     return scene;

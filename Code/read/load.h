@@ -6,6 +6,7 @@
 #include "desc/scene_desc.h"
 #include "read/read_context.h"
 
+#include <functional>
 #include <string>
 
 struct LoadedScene {
@@ -15,5 +16,8 @@ struct LoadedScene {
 
 // The reader is chosen by the extension; "-" is native text on stdin. The meshes that the scene
 // keeps in files are read as well. Throws Error (Input).
+// foreseen(desc, name of the scene's file): what is known of it so far and may still be wrong, for
+// who can begin something with that. Called once or more often, and does not throw.
+using Foreseen = std::function<void(const SceneDesc& desc, const std::string& sceneFile)>;
 LoadedScene load(const std::string& fileName, Diagnostics& diagnostics,
-                 const ReadOptions& options = {});
+                 const ReadOptions& options = {}, const Foreseen& foreseen = {});

@@ -8,6 +8,7 @@
 #include "render/shading.h"
 #include "render/waves/lamp_lanes.h"
 #include "render/waves/steps.h"
+#include "render/waves/texture_points.h"
 #include "sample/dimensions.h"
 #include "sample/hash.h"
 #include "sample/sampler.h"
@@ -68,6 +69,7 @@ struct IntegratorContext {
     bool wantsFirstHits;
     SurfaceNeeds surfaceNeeds;
     SurfaceLanes surfaceLanes;
+    TextureColorsFn textureColors;       // null: one by one
     std::vector<RoundShape> roundShapes; // by shape; empty: lanes do none
     MediumTree media;                    // what camera rays start in, and room for what rays enter
     MediumTree::Inside cameraMedium;
@@ -146,6 +148,7 @@ struct WaveMemory {
     PointBatch points;
     std::array<PointsToDescribe, StillShape::kRounds> onRound;
     PointsToDescribe onOthers;
+    TexturedPoints texturedPoints;
     MediumTree media;
     std::vector<std::uint32_t> answering; // points that answer lamps
     std::vector<LitBlock> litBlocks;      // these, if lamps want blocks

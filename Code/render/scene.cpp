@@ -8,6 +8,7 @@
 #include "image/image.h"
 #include "render/make_light.h"
 #include "render/make_shapes.h"
+#include "render/picture_reader.h"
 #include "render/texture_files.h"
 #include "render/to_float.h"
 
@@ -18,9 +19,9 @@
 class SceneBuilder {
 public:
     SceneBuilder(Scene& scene, const SceneDesc& desc, const SourceFile& source,
-                 const RenderSettings& settings)
-        : scene_(scene), desc_(desc), source_(source), settings_(settings), on_(settings.switches) {
-    }
+                 const RenderSettings& settings, PictureReader* pictures)
+        : scene_(scene), desc_(desc), source_(source), settings_(settings), pictures_(pictures),
+          on_(settings.switches) {}
 
     void build() {
         scene_.frame_ = frameOf(desc_);
@@ -45,6 +46,7 @@ private:
         const std::vector<bool> seeThrough = seeThroughMaterials();
         ShapeMaker maker(desc_, settings_, scene_.frame_, seeThrough);
         std::vector<std::function<void()>> jobs = maker.jobs();
+        if (pictures_ != nullptr) pictures_->beginNoMore(); // they are jobs like others
         addPictures(jobs);
         forEachOn(settings_.threads, jobs.size(), [&](std::size_t i) { jobs[i](); });
         maker.finish(scene_.shapes_, scene_.geometries_);
@@ -56,16 +58,8 @@ private:
     void addPictures(std::vector<std::function<void()>>& jobs) {
         scene_.textures_.resize(desc_.textures.size());
         if (!on_.textures) return;
-        std::vector<bool> isUsed(desc_.textures.size());
-        for (const MaterialDesc& m : desc_.materials)
-            for (const Handle handle : {m.diffuseTexture, m.specularTexture, m.emissionTexture,
-                                        m.opacityTexture, m.normalMap, m.bumpMap}) {
-                const auto i = static_cast<std::size_t>(handle);
-                if (handle == kNone || isUsed[i]) continue;
-                isUsed[i] = true;
-                jobs.emplace_back(
-                    [this, i] { scene_.textures_[i] = makeTexture(desc_.textures[i]); });
-            }
+        for (const std::size_t i : usedTextures(desc_, false))
+            jobs.emplace_back([this, i] { scene_.textures_[i] = makeTexture(desc_.textures[i]); });
         if (desc_.world.environment != kNone && !settings_.background)
             jobs.emplace_back([this] { buildEnvironment(); });
     }
@@ -92,8 +86,13 @@ private:
         params.scale = desc.scale;
         params.rotationRad = radians(desc.rotationDeg);
         params.offset = desc.offset;
-        return std::make_unique<const Texture>(loadPicture(desc, source_, settings_.textureFolder),
-                                               params);
+        return std::make_unique<const Texture>(pictureOf(desc), params);
+    }
+
+    StoredImage pictureOf(const TextureDesc& desc) const {
+        if (pictures_ != nullptr)
+            if (auto image = pictures_->take(desc)) return std::move(*image);
+        return loadPicture(desc, source_, settings_.textureFolder);
     }
 
     static ColorSpace spaceOf(const TextureDesc& desc) {
@@ -204,8 +203,7 @@ private:
         const TextureDesc& picture =
             desc_.textures[static_cast<std::size_t>(desc_.world.environment)];
         scene_.environment_ = std::make_unique<const Environment>(
-            loadPicture(picture, source_, settings_.textureFolder), spaceOf(picture),
-            interpolationOf(picture),
+            pictureOf(picture), spaceOf(picture), interpolationOf(picture),
             desc_.world.environmentUp == WorldDesc::Up::Z ? Environment::Up::Z : Environment::Up::Y,
             radians(desc_.world.rotationDeg));
     }
@@ -238,12 +236,14 @@ private:
     const SceneDesc& desc_;
     const SourceFile& source_;
     const RenderSettings& settings_;
+    PictureReader* pictures_; // may be null
     Switches on_;
     const CameraDesc* cameraDesc_ = nullptr; // the one that is used
 };
 
-Scene::Scene(const SceneDesc& desc, const SourceFile& source, const RenderSettings& settings) {
-    SceneBuilder(*this, desc, source, settings).build();
+Scene::Scene(const SceneDesc& desc, const SourceFile& source, const RenderSettings& settings,
+             PictureReader* pictures) {
+    SceneBuilder(*this, desc, source, settings, pictures).build();
 }
 
 void Scene::describe(Stats& stats) const {

@@ -20,6 +20,8 @@
 #include <memory>
 #include <vector>
 
+class PictureReader;
+
 // A material of the scene: its numbers, and the pictures that change them from place to place.
 struct SceneMaterial {
     Material base;
@@ -41,8 +43,10 @@ struct SceneMaterial {
 
 class Scene {
 public:
-    // Fails with the place in `source` when a texture can't be read.
-    Scene(const SceneDesc& desc, const SourceFile& source, const RenderSettings& settings);
+    // Fails with the place in `source` when a texture can't be read. `pictures`: some that are read
+    // already.
+    Scene(const SceneDesc& desc, const SourceFile& source, const RenderSettings& settings,
+          PictureReader* pictures = nullptr);
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
 

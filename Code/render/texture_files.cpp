@@ -10,11 +10,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<fs::path> candidates(const std::string& file, const SourceFile& source,
+std::vector<fs::path> candidates(const std::string& file, const std::string& sceneFile,
                                  const std::string& textureFolder) {
     const fs::path written(file);
     if (written.is_absolute()) return {written};
-    std::vector<fs::path> folders{fs::path(source.name).parent_path()};
+    std::vector<fs::path> folders{fs::path(sceneFile).parent_path()};
     if (!textureFolder.empty()) folders.emplace_back(textureFolder);
     folders.emplace_back("Textures");
     std::vector<fs::path> out;
@@ -26,15 +26,42 @@ std::vector<fs::path> candidates(const std::string& file, const SourceFile& sour
     return out;
 }
 
+bool isPicture(const fs::path& path) {
+    std::error_code ignored;
+    return fs::is_regular_file(path, ignored);
+}
+
 } // namespace
+
+std::vector<std::size_t> usedTextures(const SceneDesc& desc, bool showsEnvironment) {
+    std::vector<std::size_t> used;
+    const auto use = [&](Handle handle) {
+        const auto i = static_cast<std::size_t>(handle);
+        if (handle != kNone && i < desc.textures.size() &&
+            std::find(used.begin(), used.end(), i) == used.end())
+            used.push_back(i);
+    };
+    for (const MaterialDesc& m : desc.materials)
+        for (const Handle handle : {m.diffuseTexture, m.specularTexture, m.emissionTexture,
+                                    m.opacityTexture, m.normalMap, m.bumpMap})
+            use(handle);
+    if (showsEnvironment) use(desc.world.environment);
+    return used;
+}
+
+std::optional<std::string> findPicture(const std::string& file, const std::string& sceneFile,
+                                       const std::string& textureFolder) {
+    for (const fs::path& path : candidates(file, sceneFile, textureFolder))
+        if (isPicture(path)) return path.string();
+    return {};
+}
 
 StoredImage loadPicture(const TextureDesc& texture, const SourceFile& source,
                         const std::string& textureFolder) {
     std::vector<std::string> tried;
-    for (const fs::path& path : candidates(texture.file, source, textureFolder)) {
+    for (const fs::path& path : candidates(texture.file, source.name, textureFolder)) {
         tried.push_back(path.string());
-        std::error_code ignored;
-        if (!fs::is_regular_file(path, ignored)) continue;
+        if (!isPicture(path)) continue;
         try {
             return readStoredImage(path.string());
         } catch (const Error& error) {

@@ -14,5 +14,5 @@ Rgb Environment::radiance(Vec3 dir) const {
     const double u = 0.5 - exact::atan2(d.y, d.x) * kInvTwoPi + turns_;
     // asin(z) of a unit vector, without its loss of digits near the poles.
     const double v = 0.5 + exact::atan2(d.z, std::sqrt(d.x * d.x + d.y * d.y)) * kInvPi;
-    return grid_.at(u, v, Extension::Repeat, Extension::Extend).color;
+    return grid_.color(u, v, Extension::Repeat, Extension::Extend);
 }

@@ -4,20 +4,14 @@
 #include "base/math.h"
 #include "image/colour.h"
 
-#include <array>
 #include <utility>
 
 namespace {
 
-// Whole codes as parts of the largest; of 8 bits by a table, as dividing is slow.
-constexpr auto kUnit8 = [] {
-    std::array<double, 256> table{};
-    for (int code = 0; code < 256; ++code) table[static_cast<std::size_t>(code)] = code / 255.0;
-    return table;
-}();
-double unitOf(std::uint8_t code) { return kUnit8[code]; }
-double unitOf(std::uint16_t code) { return code / 65535.0; }
-double unitOf(float value) { return static_cast<double>(value); }
+// What stands for 1.
+constexpr double largest(std::uint8_t) { return 255; }
+constexpr double largest(std::uint16_t) { return 65535; }
+constexpr double largest(float) { return 1; }
 
 // std::floor() is a call on plain x86-64.
 double floorOf(double x) {
@@ -69,49 +63,55 @@ TexelGrid::Tap TexelGrid::tap(double s, int size, Extension extension) const {
     return {texel(lo), texel(lo + 1), x - below};
 }
 
-// y from the bottom, the file's rows from the top.
-template <class Number>
-TexelGrid::Channels TexelGrid::stored(const std::vector<Number>& numbers, int x, int y) const {
-    if (x == kOutside || y == kOutside) return {};
-    const auto row = static_cast<std::size_t>(image_.height - 1 - y);
-    const auto channels = static_cast<std::size_t>(image_.channels);
-    const std::size_t first =
-        (row * static_cast<std::size_t>(image_.width) + static_cast<std::size_t>(x)) * channels;
-    Channels c;
-    const Number* number = numbers.data() + first;
-    c.r = c.g = c.b = unitOf(number[0]);
-    if (channels >= 3) {
-        c.g = unitOf(number[1]);
-        c.b = unitOf(number[2]);
-    }
-    c.a = channels % 2 == 0 ? unitOf(number[channels - 1]) : 1;
-    return c;
-}
-
-template <class Number>
-TexelGrid::Channels TexelGrid::mixed(const std::vector<Number>& numbers, const Tap& x,
-                                     const Tap& y) const {
-    const Channels first = stored(numbers, x.lo, y.lo);
-    if (isNearest_) return first;
-    const auto mix = [](const Channels& a, const Channels& b, double weight) {
-        return Channels{lerp(a.r, b.r, weight), lerp(a.g, b.g, weight), lerp(a.b, b.b, weight),
-                        lerp(a.a, b.a, weight)};
+template <class Fn> auto TexelGrid::mixedAt(const Tap& x, const Tap& y, Fn&& fn) const {
+    const auto of = [&]<class Number>(const std::vector<Number>& numbers) {
+        // y from the bottom, the file's rows from the top.
+        const auto texel = [&](int i, int j) -> const Number* {
+            if (i == kOutside || j == kOutside) return nullptr;
+            const auto row = static_cast<std::size_t>(image_.height - 1 - j);
+            return numbers.data() +
+                   (row * static_cast<std::size_t>(image_.width) + static_cast<std::size_t>(i)) *
+                       static_cast<std::size_t>(image_.channels);
+        };
+        constexpr double kOne = largest(Number{});
+        const auto number = [](const Number* at, int i) {
+            if (at == nullptr) return 0.0;
+            return i == kOpaque ? kOne : static_cast<double>(at[i]);
+        };
+        const Number* const first = texel(x.lo, y.lo);
+        if (isNearest_) return fn([&](int i) { return number(first, i) / kOne; });
+        const Number* const second = texel(x.hi, y.lo);
+        const Number* const third = texel(x.lo, y.hi);
+        const Number* const fourth = texel(x.hi, y.hi);
+        return fn([&](int i) {
+            return lerp(lerp(number(first, i), number(second, i), x.weight),
+                        lerp(number(third, i), number(fourth, i), x.weight), y.weight) /
+                   kOne;
+        });
     };
-    return mix(mix(first, stored(numbers, x.hi, y.lo), x.weight),
-               mix(stored(numbers, x.lo, y.hi), stored(numbers, x.hi, y.hi), x.weight), y.weight);
-}
-
-Texel TexelGrid::at(double s, double t, Extension extensionS, Extension extensionT) const {
-    const Tap x = tap(s, image_.width, extensionS), y = tap(t, image_.height, extensionT);
-    Channels c;
     switch (image_.depth) {
-    case StoredImage::Depth::Bits8: c = mixed(image_.bytes, x, y); break;
-    case StoredImage::Depth::Bits16: c = mixed(image_.words, x, y); break;
-    case StoredImage::Depth::Float: c = mixed(image_.floats, x, y); break;
+    case StoredImage::Depth::Bits8: return of(image_.bytes);
+    case StoredImage::Depth::Bits16: return of(image_.words);
+    case StoredImage::Depth::Float: break;
     }
-    const auto decoded = [&](double encoded) {
-        const float value = static_cast<float>(encoded);
-        return isSrgb_ ? linearFromSrgb(value) : value;
-    };
-    return {{decoded(c.r), decoded(c.g), decoded(c.b)}, static_cast<float>(c.a)};
+    return of(image_.floats);
+}
+
+Rgb TexelGrid::color(double s, double t, Extension extensionS, Extension extensionT) const {
+    const Tap x = tap(s, image_.width, extensionS), y = tap(t, image_.height, extensionT);
+    return mixedAt(x, y, [&](const auto& unit) {
+        const auto decoded = [&](int i) {
+            const float value = static_cast<float>(unit(i));
+            return isSrgb_ ? linearFromSrgb(value) : value;
+        };
+        const float first = decoded(0);
+        if (image_.channels < 3) return Rgb{first, first, first};
+        return Rgb{first, decoded(1), decoded(2)};
+    });
+}
+
+float TexelGrid::alpha(double s, double t, Extension extensionS, Extension extensionT) const {
+    const Tap x = tap(s, image_.width, extensionS), y = tap(t, image_.height, extensionT);
+    const int number = image_.channels % 2 == 0 ? image_.channels - 1 : kOpaque;
+    return mixedAt(x, y, [&](const auto& unit) { return static_cast<float>(unit(number)); });
 }

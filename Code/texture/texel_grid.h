@@ -9,12 +9,6 @@ enum class Interpolation { Bilinear, Nearest };
 // How a file's whole numbers encode light. Float files are always linear.
 enum class ColorSpace { Srgb, Linear };
 
-// Colour, and alpha (never encoded) beside it: transparency does not darken the colour.
-struct Texel {
-    Rgb color;
-    float alpha = 0;
-};
-
 class TexelGrid {
 public:
     // Fails (ErrorKind::Input) when the picture's numbers do not fill its rectangle.
@@ -22,13 +16,18 @@ public:
 
     int width() const { return image_.width; }
     int height() const { return image_.height; }
+    const StoredImage& image() const { return image_; }
+    bool isSrgb() const { return isSrgb_; }
+    bool isNearest() const { return isNearest_; }
 
     // s from left to right, t from BOTTOM to top, both 0..1 over the picture; any number is safe.
     // Bilinear: x = s width - 1/2 between the centres of texels. Numbers are filtered as they are
     // stored and decoded to linear afterwards: this is what Cycles does with 8-bit sRGB (decoding
     // first is off by 0.23 on black/white edges), and 16-bit files look the same as 8-bit ones.
     // Clip: everything outside is transparent black, and bilinear fades into it.
-    Texel at(double s, double t, Extension extensionS, Extension extensionT) const;
+    Rgb color(double s, double t, Extension extensionS, Extension extensionT) const;
+    // Never encoded, and transparency does not darken the colour; 1 without an alpha channel.
+    float alpha(double s, double t, Extension extensionS, Extension extensionT) const;
 
 private:
     // Texels that a coordinate falls between; kOutside for none.
@@ -37,14 +36,11 @@ private:
         double weight; // of hi
     };
     static constexpr int kOutside = -1;
-    struct Channels {
-        double r = 0, g = 0, b = 0, a = 0;
-    };
     Tap tap(double s, int size, Extension extension) const;
-    // Of the image's `numbers`, which are those of its depth.
-    template <class Number> Channels stored(const std::vector<Number>& numbers, int x, int y) const;
-    template <class Number>
-    Channels mixed(const std::vector<Number>& numbers, const Tap& x, const Tap& y) const;
+    // fn(unit): unit(i) is number i of the texels, mixed, as a part of the largest; kOpaque stands
+    // for the alpha of pictures without one.
+    static constexpr int kOpaque = -1;
+    template <class Fn> auto mixedAt(const Tap& x, const Tap& y, Fn&& fn) const;
 
     StoredImage image_;
     bool isSrgb_, isNearest_;

@@ -21,17 +21,42 @@ Vec2d Texture::mapped(Vec2 uv) const {
 
 Rgb Texture::color(Vec2 uv) const {
     const Vec2d st = mapped(uv);
-    const Texel texel = grid_.at(st.x, st.y, extension_, extension_);
-    if (channel_ == TextureParams::Channel::Color) return texel.color;
-    return {texel.alpha, texel.alpha, texel.alpha};
+    if (channel_ == TextureParams::Channel::Color)
+        return grid_.color(st.x, st.y, extension_, extension_);
+    const float alpha = grid_.alpha(st.x, st.y, extension_, extension_);
+    return {alpha, alpha, alpha};
 }
 
 float Texture::valueAt(Vec2d st) const {
-    const Texel texel = grid_.at(st.x, st.y, extension_, extension_);
-    return channel_ == TextureParams::Channel::Color ? luminance(texel.color) : texel.alpha;
+    if (channel_ == TextureParams::Channel::Color)
+        return luminance(grid_.color(st.x, st.y, extension_, extension_));
+    return grid_.alpha(st.x, st.y, extension_, extension_);
+}
+
+float Texture::valueOf(Rgb color) const {
+    return channel_ == TextureParams::Channel::Color ? luminance(color) : color.r;
 }
 
 float Texture::value(Vec2 uv) const { return valueAt(mapped(uv)); }
+
+std::optional<ByteTexture> Texture::bytes() const {
+    const StoredImage& image = grid_.image();
+    if (image.depth != StoredImage::Depth::Bits8) return {};
+    return ByteTexture{image.bytes,
+                       image.width,
+                       image.height,
+                       image.channels,
+                       grid_.isSrgb(),
+                       grid_.isNearest(),
+                       channel_ == TextureParams::Channel::Alpha,
+                       extension_,
+                       sFromU_,
+                       sFromV_,
+                       tFromU_,
+                       tFromV_,
+                       offset_.x,
+                       offset_.y};
+}
 
 Vec2 Texture::gradient(Vec2 uv) const {
     const Vec2d st = mapped(uv);

@@ -2,7 +2,9 @@
 // Row 0 of the file is the top; v goes up, (0,0) is the lower left corner of the picture.
 #pragma once
 
-#include "texture/texel_grid.h"
+#include "texture/byte_texture.h"
+
+#include <optional>
 
 struct TextureParams {
     enum class Channel { Color, Alpha }; // Alpha: the file's alpha channel as a grey picture
@@ -24,9 +26,13 @@ public:
 
     Rgb color(Vec2 uv) const;   // linear
     float value(Vec2 uv) const; // luminance, or alpha
+    // value() where color() is this.
+    float valueOf(Rgb color) const;
     // d value / du and / dv of uv as given, for bump maps: the central difference over one texel
     // of the picture, which is the slope that bilinear filtering has half-way between two texels.
     Vec2 gradient(Vec2 uv) const;
+    // The same texture as plain data, valid as long as this one; empty unless it is of bytes.
+    std::optional<ByteTexture> bytes() const;
 
 private:
     Vec2d mapped(Vec2 uv) const;

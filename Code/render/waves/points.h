@@ -73,6 +73,7 @@ template <bool kTextures, bool kSeeThrough> void findPoints(const Wave& wave) {
         points.count += hits[i].isHit();
     }
     waves::findSurfaces(wave);
+    if constexpr (kTextures) wave.memory.texturedPoints.clear();
     for (std::size_t k = 0; k < points.count; ++k) {
         const std::uint32_t i = points.ray[k];
         ShadedPoint& at = points.at[k];
@@ -81,14 +82,17 @@ template <bool kTextures, bool kSeeThrough> void findPoints(const Wave& wave) {
         points.material[k] = &at.of->base;
         if constexpr (kTextures)
             if (at.of->isTextured()) {
-                points.textured[k] = materialAt(at);
+                wave.memory.texturedPoints.add(*at.of, static_cast<std::uint32_t>(k));
                 points.material[k] = &points.textured[k];
             }
-        if constexpr (kSeeThrough)
-            if (points.material[k]->opacity < 1)
-                points.weight[k] = points.weight[k] * points.material[k]->opacity;
         if (wave.depth == 0 && context.wantsFirstHits)
             wave.chunk.first[wave.rays.sample[i]] =
                 describeFirstHit(context.scene, wave.rays.ray(i), at);
     }
+    if constexpr (kTextures)
+        wave.memory.texturedPoints.apply(context.textureColors, points.at, points.textured);
+    if constexpr (kSeeThrough)
+        for (std::size_t k = 0; k < points.count; ++k)
+            if (points.material[k]->opacity < 1)
+                points.weight[k] = points.weight[k] * points.material[k]->opacity;
 }

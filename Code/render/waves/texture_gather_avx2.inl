@@ -1,0 +1,27 @@
+// What look-ups in tables need beside simd_avx2.inl: see texture_gather_avx512.inl.
+inline Doubles floor(const Doubles& a) { return {_mm256_floor_pd(a.lo), _mm256_floor_pd(a.hi)}; }
+inline Ints wholeOf(const Doubles& a) {
+    return _mm256_inserti128_si256(_mm256_castsi128_si256(_mm256_cvttpd_epi32(a.lo)),
+                                   _mm256_cvttpd_epi32(a.hi), 1);
+}
+inline __m128i upperHalf(Ints a) { return _mm256_extracti128_si256(a.v, 1); }
+inline Doubles doublesOf(Ints a) {
+    return {_mm256_cvtepi32_pd(_mm256_castsi256_si128(a.v)), _mm256_cvtepi32_pd(upperHalf(a))};
+}
+inline Ints byteOf(Ints a, int i) {
+    return _mm256_and_si256(_mm256_srl_epi32(a.v, _mm_cvtsi32_si128(8 * i)),
+                            _mm256_set1_epi32(255));
+}
+inline Ints fourBytesAt(const std::uint8_t* from, Ints offset) {
+    return _mm256_i32gather_epi32(static_cast<const int*>(static_cast<const void*>(from)), offset.v,
+                                  1);
+}
+template <int kStride> Doubles elementsAt(const double* table, Ints i) {
+    const __m256d all = _mm256_castsi256_pd(_mm256_set1_epi64x(-1));
+    const auto at = [&](__m128i row) {
+        // With a mask: g++ 12 takes the undefined operand of the one without for a mistake.
+        return _mm256_mask_i32gather_pd(
+            all, table, _mm_mullo_epi32(row, _mm_set1_epi32(kStride)), all, 8);
+    };
+    return {at(_mm256_castsi256_si128(i.v)), at(upperHalf(i))};
+}

@@ -1,0 +1,30 @@
+// What look-ups in tables need beside simd_sse.inl: see texture_gather_avx512.inl.
+inline Doubles floor(const Doubles& a) {
+    return quarters([&](int i) { return _mm_floor_pd(a.v[i]); });
+}
+inline Ints wholeOf(const Doubles& a) {
+    return {_mm_unpacklo_epi64(_mm_cvttpd_epi32(a.v[0]), _mm_cvttpd_epi32(a.v[1])),
+            _mm_unpacklo_epi64(_mm_cvttpd_epi32(a.v[2]), _mm_cvttpd_epi32(a.v[3]))};
+}
+inline Doubles doublesOf(Ints a) {
+    return {_mm_cvtepi32_pd(a.lo), _mm_cvtepi32_pd(_mm_unpackhi_epi64(a.lo, a.lo)),
+            _mm_cvtepi32_pd(a.hi), _mm_cvtepi32_pd(_mm_unpackhi_epi64(a.hi, a.hi))};
+}
+inline Ints byteOf(Ints a, int i) {
+    const __m128i shift = _mm_cvtsi32_si128(8 * i), byte = _mm_set1_epi32(255);
+    return {_mm_and_si128(_mm_srl_epi32(a.lo, shift), byte),
+            _mm_and_si128(_mm_srl_epi32(a.hi, shift), byte)};
+}
+inline Ints fourBytesAt(const std::uint8_t* from, Ints offset) {
+    alignas(16) std::uint32_t at[W];
+    offset.store(at);
+    for (std::uint32_t& x : at) std::memcpy(&x, from + x, sizeof x);
+    return Ints::load(at);
+}
+template <int kStride> Doubles elementsAt(const double* table, Ints i) {
+    alignas(16) std::uint32_t at[W];
+    i.store(at);
+    alignas(16) double out[W];
+    for (std::size_t k = 0; k < W; ++k) out[k] = table[kStride * at[k]];
+    return Doubles::load(out);
+}

@@ -1,0 +1,24 @@
+// texture_lanes.inl for the registers of AVX2.
+#include "render/waves/texture_lanes.h"
+
+#if defined(__x86_64__)
+#include "accel/kernels/exact_hit.h" // kChosenLanes
+#include "accel/kernels/target.h"
+#include "image/colour.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <immintrin.h>
+#include <limits>
+
+AVX2_REGION_BEGIN
+namespace kernels::avx2 {
+#include "accel/kernels/simd_avx2.inl"
+
+#include "render/waves/texture_gather_avx2.inl"
+
+#include "render/waves/texture_lanes.inl"
+} // namespace kernels::avx2
+KERNEL_REGION_END
+#endif

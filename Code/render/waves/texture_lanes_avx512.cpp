@@ -1,0 +1,23 @@
+// texture_lanes.inl for the registers of AVX-512.
+#include "render/waves/texture_lanes.h"
+
+#if defined(__x86_64__)
+#include "accel/kernels/target.h"
+#include "image/colour.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <immintrin.h>
+#include <limits>
+
+AVX512_REGION_BEGIN
+namespace kernels::avx512 {
+#include "accel/kernels/simd_avx512.inl"
+
+#include "render/waves/texture_gather_avx512.inl"
+
+#include "render/waves/texture_lanes.inl"
+} // namespace kernels::avx512
+KERNEL_REGION_END
+#endif

@@ -1,0 +1,23 @@
+// texture_lanes.inl for the registers of SSE4.2.
+#include "render/waves/texture_lanes.h"
+
+#if defined(__x86_64__)
+#include "accel/kernels/target.h"
+#include "image/colour.h"
+
+#include <algorithm>
+#include <array>
+#include <cstring>
+#include <immintrin.h>
+#include <limits>
+
+SSE_REGION_BEGIN
+namespace kernels::sse {
+#include "accel/kernels/simd_sse.inl"
+
+#include "render/waves/texture_gather_sse.inl"
+
+#include "render/waves/texture_lanes.inl"
+} // namespace kernels::sse
+KERNEL_REGION_END
+#endif

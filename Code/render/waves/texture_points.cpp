@@ -1,0 +1,92 @@
+#include "render/waves/texture_points.h"
+
+#include <algorithm>
+
+namespace {
+
+// More materials than this are rare in one wave, and looking for a group takes time.
+constexpr std::size_t kMostGroups = 16;
+// Of a group; below, look-ups one by one are faster than a register that is almost empty.
+constexpr std::size_t kFewestPoints = 3;
+
+// take(point, the picture's colour there) for all points.
+template <class TakeFn>
+void lookUp(const ByteTexture& texture, TextureColorsFn colors,
+            std::span<const std::uint32_t> points, std::span<const ShadedPoint> at,
+            const TakeFn& take) {
+    TextureBlock block;
+    while (!points.empty()) {
+        const auto here = points.first(std::min(points.size(), TextureBlock::kPoints));
+        points = points.subspan(here.size());
+        for (std::size_t i = 0; i < here.size(); ++i) {
+            const Vec2 uv = at[here[i]].surface.uv;
+            block.u[i] = uv.x, block.v[i] = uv.y;
+        }
+        colors(texture, block, here.size());
+        for (std::size_t i = 0; i < here.size(); ++i)
+            take(here[i], Rgb{block.color[0][i], block.color[1][i], block.color[2][i]});
+    }
+}
+
+// The same for any texture.
+template <class TakeFn>
+void lookUp(const Texture& texture, TextureColorsFn colors, std::span<const std::uint32_t> points,
+            std::span<const ShadedPoint> at, const TakeFn& take) {
+    if (const auto bytes = texture.bytes()) return lookUp(*bytes, colors, points, at, take);
+    for (const std::uint32_t point : points) take(point, texture.color(at[point].surface.uv));
+}
+
+// The steps of materialAt(), each for all points.
+void applyTo(const SceneMaterial& material, TextureColorsFn colors,
+             std::span<const std::uint32_t> points, std::span<const ShadedPoint> at,
+             std::span<Material> numbers) {
+    for (const std::uint32_t point : points) numbers[point] = material.base;
+    const auto multiply = [&](const Texture* texture, Rgb Material::*number) {
+        if (texture == nullptr) return;
+        lookUp(*texture, colors, points, at,
+               [&](std::uint32_t point, Rgb color) { numbers[point].*number *= color; });
+    };
+    multiply(material.diffuse, &Material::diffuse);
+    multiply(material.specular, &Material::specular);
+    multiply(material.emission, &Material::emission);
+    if (material.opacity != nullptr)
+        lookUp(*material.opacity, colors, points, at, [&](std::uint32_t point, Rgb color) {
+            numbers[point].opacity *= material.opacity->valueOf(color);
+        });
+}
+
+} // namespace
+
+void TexturedPoints::clear() {
+    used_ = last_ = 0;
+    others_.clear();
+}
+
+void TexturedPoints::add(const SceneMaterial& material, std::uint32_t point) {
+    const auto isOf = [&](std::size_t group) { return groups_[group].material == &material; };
+    if (used_ == 0 || !isOf(last_)) {
+        std::size_t group = 0;
+        while (group < used_ && !isOf(group)) ++group;
+        if (group == kMostGroups) return others_.push_back(point);
+        if (group == used_) {
+            if (used_ == groups_.size()) groups_.emplace_back();
+            groups_[used_].material = &material;
+            groups_[used_++].points.clear();
+        }
+        last_ = group;
+    }
+    groups_[last_].points.push_back(point);
+}
+
+void TexturedPoints::apply(TextureColorsFn colors, std::span<const ShadedPoint> at,
+                           std::span<Material> numbers) const {
+    const auto oneByOne = [&](std::span<const std::uint32_t> points) {
+        for (const std::uint32_t point : points) numbers[point] = materialAt(at[point]);
+    };
+    for (const Group& group : std::span(groups_).first(used_))
+        if (colors == nullptr || group.points.size() < kFewestPoints)
+            oneByOne(group.points);
+        else
+            applyTo(*group.material, colors, group.points, at, numbers);
+    oneByOne(others_);
+}

@@ -1,0 +1,29 @@
+// TexturedPoints: the points of a wave whose materials have pictures, sorted by material, so that a
+// picture is looked up at all of its points at once.
+#pragma once
+
+#include "render/shading.h"
+#include "render/waves/texture_lanes.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+class TexturedPoints {
+public:
+    void clear();
+    void add(const SceneMaterial& material, std::uint32_t point);
+    // materialAt() for all points that were added: numbers[point] from at[point]. Null `colors`:
+    // one by one.
+    void apply(TextureColorsFn colors, std::span<const ShadedPoint> at,
+               std::span<Material> numbers) const;
+
+private:
+    struct Group {
+        const SceneMaterial* material;
+        std::vector<std::uint32_t> points;
+    };
+    std::vector<Group> groups_; // of which `used_` are used
+    std::size_t used_ = 0, last_ = 0;
+    std::vector<std::uint32_t> others_; // of rarer materials
+};
