@@ -154,6 +154,8 @@ private:
 
     void renderTile(const Tile& tile, Worker& worker) {
         if (emptyTiles_.isEmpty(tile)) return showBackground(tile, worker);
+        if (settings_.picture.samplesPerPixel == 1 && aovs_.empty())
+            return showSamples(tile, worker);
         traceSamples(tile, 0, settings_.picture.samplesPerPixel, worker);
         const int x = tile.x0 - area_.x0, y = tile.y0 - area_.y0;
         worker.color.writeMeans(color_, x, y);
@@ -176,13 +178,30 @@ private:
         const int end = begin + samples;
         for (int first = begin; first < end; first += perChunk) {
             const int count = std::min(perChunk, end - first);
-            cameraRays_.make(tile, first, count, worker.chunk);
-            worker.chunk.radiance.assign(worker.chunk.ids.size(), Rgb{});
-            if (context_.wantsFirstHits)
-                worker.chunk.first.assign(worker.chunk.ids.size(), FirstHit{});
-            integrate(worker);
+            traceChunk(tile, first, count, worker);
             collect(tile, first, count, worker);
         }
+    }
+
+    void traceChunk(const Tile& tile, int first, int count, Worker& worker) {
+        cameraRays_.make(tile, first, count, worker.chunk);
+        worker.chunk.radiance.assign(worker.chunk.ids.size(), Rgb{});
+        if (context_.wantsFirstHits) worker.chunk.first.assign(worker.chunk.ids.size(), FirstHit{});
+        integrate(worker);
+    }
+
+    // What a film would of one sample in each place.
+    void showSamples(const Tile& tile, Worker& worker) {
+        traceChunk(tile, 0, 1, worker);
+        std::size_t slot = 0;
+        forEachPlace(tile, [&](int x, int y) {
+            Rgb sum; // a sum is never -0
+            if (const Rgb radiance = worker.chunk.radiance[slot++]; isFinite(radiance))
+                sum += radiance;
+            else
+                ++worker.nanSamples;
+            color_.setPixel(x - area_.x0, y - area_.y0, sum);
+        });
     }
 
     // What renderTile() would, of samples that are all the same.
