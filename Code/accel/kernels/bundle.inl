@@ -153,8 +153,6 @@ private:
 template <Query Q, class Results>
 void traceFromPoint(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order,
                     const Results& results) {
-    if (Q == Query::Any && mesh.triangles.size() <= Handful<Q>::kFewTriangles)
-        return Handful<Q>(mesh, rays).run(order, results);
     using Entry = typename Bundle<Q>::Entry;
     thread_local BundleSize<Q> size;
     auto* const stack =
