@@ -57,10 +57,10 @@ void freeZeroedMemory(void* memory, [[maybe_unused]] std::size_t bytes) {
 
 void useLargePages([[maybe_unused]] std::size_t bytes) {
 #if defined(__GLIBC__)
-    // The heap is to grow at once by what is asked for, which the first piece makes it do, and
-    // arrays are to come from there, too. 32 MB is the most that glibc takes for the latter.
+    // The heap is to grow at once by what is asked for, which the first piece makes it do. As long
+    // as that lasts, arrays come from there, too; later only those of less than 4 MB.
     constexpr std::size_t kPiece = std::size_t{1} << 20, kMost = std::size_t{1} << 30;
-    constexpr int kPad = 1 << 20, kLargestArray = 1 << 25;
+    constexpr int kPad = 1 << 20, kLargestArray = 1 << 22;
     const std::size_t room = std::min(bytes, kMost);
     if (mallopt(M_MMAP_THRESHOLD, kLargestArray) == 0 ||
         mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max()) == 0 ||

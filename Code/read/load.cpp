@@ -23,14 +23,15 @@ namespace fs = std::filesystem;
 struct Format {
     std::string_view extension; // lower case
     SceneDesc (*read)(const SourceFile&, const ReadContext&);
+    bool isMesh = false;
 };
 constexpr auto kFormats = std::to_array<Format>({
     {".txt", [](const SourceFile& source,
                 const ReadContext& context) { return readTxt(source, context.options.threads); }},
     {".json", readJson},
     {".nff", readNff},
-    {".obj", readMeshScene},
-    {".ply", readMeshScene},
+    {".obj", readMeshScene, true},
+    {".ply", readMeshScene, true},
 });
 
 std::vector<std::string> extensions() {
@@ -92,15 +93,14 @@ void checkFile(const std::string& fileName) {
         fail(ErrorKind::Input, cat(fileName, ": error: the file is larger than 4 GiB"));
 }
 
-// A file becomes many small things, up to 20 times its bytes before they are a scene: half of the
-// time of reading it would be spent on touching their pages for the first time. Small files do not
-// say how much it will be, as they may ask for a large picture.
-void makeRoomFor(const std::string& fileName) {
-    constexpr std::uintmax_t kLeast = 24 << 20, kTimes = 24;
-    std::error_code status;
-    const std::uintmax_t size =
-        fs::is_regular_file(fileName, status) ? fs::file_size(fileName, status) : 0;
-    useLargePages(static_cast<std::size_t>(std::max(kLeast, status ? 0 : kTimes * size)));
+// Objects and materials are many small things, up to 20 times the bytes of their text before they
+// are a scene: half of the time of reading them would be spent on touching their pages for the
+// first time. Meshes are a few large arrays: in the heap they would leave holes where the tree gets
+// no room. Small texts do not say how much it will be, as they may ask for a large picture.
+void makeRoomFor(const std::string& text, const Format& format) {
+    constexpr std::size_t kLeast = std::size_t{24} << 20, kTimes = 24;
+    const bool isMesh = format.isMesh || text.find("\nmesh ") != std::string::npos;
+    useLargePages(isMesh ? kLeast : std::max(kLeast, kTimes * text.size()));
 }
 
 // What stands above the first mesh of a long text: exporters write textures and materials there.
@@ -130,8 +130,8 @@ LoadedScene load(const std::string& fileName, Diagnostics& diagnostics, const Re
     } else {
         checkFile(fileName);
         const Format& format = formatOf(fileName);
-        makeRoomFor(fileName);
         scene.source = {fileName, readWholeText(fileName, options.threads)};
+        makeRoomFor(scene.source.text, format);
         if (foreseen && format.extension == ".txt") foreseeStart(scene.source, foreseen);
         scene.desc = format.read(scene.source, context);
     }
