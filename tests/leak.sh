@@ -15,9 +15,12 @@ listing=$(mktemp) || exit 1
 trap 'rm -f "$listing"' EXIT
 objdump -d -C --no-show-raw-insn "$raytracer" > "$listing"
 functions=$(grep -c '^[0-9a-f]* <.*>:$' "$listing")
-# Of what objdump shows, VEX and EVEX instructions begin with v; verr, verw and vm* do not count.
+# Of what objdump shows, VEX and EVEX instructions begin with v; verr, verw and vm* do not count. Under
+# clang's -fsanitize=function the first instruction jumps over six bytes that are no code.
 leaks=$(awk '
-    /^[0-9a-f]+ <.*>:$/ { name = $0; kernel = name ~ /avx2::|avx512::/ }
+    /^[0-9a-f]+ <.*>:$/ { name = $0; kernel = name ~ /avx2::|avx512::/; first = 1; code = ""; next }
+    first { first = 0; if ($2 == "jmp" && /\+0x8>$/) code = $3 ":" }
+    length($1) == length(code) && $1 < code { next }
     name ~ /avx2::/ && name !~ /avx512::/ && /%zmm|%k[0-7]/ && !(name in seen) { seen[name]; print name ": " $0 }
     !kernel && $2 ~ /^v[a-z]/ && $2 !~ /^(verr|verw|vm)/ && !(name in seen) { seen[name]; print name ": " $2 }
 ' "$listing")

@@ -46,7 +46,8 @@ double largestOf(std::span<const double> numbers) {
         largest = std::max(largest, std::fabs(x));
         zero += x * 0;
     }
-    return zero == 0 ? largest : kInfinity;
+    if (zero == 0) return largest;
+    return kInfinity;
 }
 
 // Are four corners in one plane, in order around a convex quadrilateral with an area?

@@ -2,13 +2,11 @@
 
 #include "shape/cap.h"
 
-#include <utility>
-
-Cone::Cone(MovingTransform worldFromObject, double radius, double topRadius, bool caps,
+Cone::Cone(const MovingTransform& worldFromObject, double radius, double topRadius, bool caps,
            std::uint32_t material, std::uint32_t object)
-    : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius),
-      topRadius_(topRadius), caps_(caps), slope_((topRadius - radius) / 2),
-      narrowZ_(topRadius < radius ? 1 : -1), narrowRadius_(min(radius, topRadius)) {
+    : AnalyticShape(worldFromObject, material, object), radius_(radius), topRadius_(topRadius),
+      caps_(caps), slope_((topRadius - radius) / 2), narrowZ_(topRadius < radius ? 1 : -1),
+      narrowRadius_(min(radius, topRadius)) {
     measure();
 }
 

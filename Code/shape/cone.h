@@ -9,7 +9,7 @@ public:
     // Side: u = 1/2 + angle / 2 pi from +x towards +y, v = 0 at z = -1 to 1 at z = 1. Caps: the
     // square around the disk, unmirrored from outside (u along x on top, along -x at the bottom).
     // At a tip dpdu, which would vanish, keeps 2^-20 of its length.
-    Cone(MovingTransform worldFromObject, double radius, double topRadius, bool caps,
+    Cone(const MovingTransform& worldFromObject, double radius, double topRadius, bool caps,
          std::uint32_t material, std::uint32_t object);
 
     SolidForm solidForm() const override;

@@ -1,7 +1,5 @@
 #include "shape/cube.h"
 
-#include <utility>
-
 namespace {
 
 struct Face {
@@ -16,8 +14,8 @@ constexpr Face kFaces[] = {
 
 } // namespace
 
-Cube::Cube(MovingTransform worldFromObject, std::uint32_t material, std::uint32_t object)
-    : AnalyticShape(std::move(worldFromObject), material, object) {
+Cube::Cube(const MovingTransform& worldFromObject, std::uint32_t material, std::uint32_t object)
+    : AnalyticShape(worldFromObject, material, object) {
     measure();
 }
 

@@ -7,7 +7,7 @@ class Cube final : public AnalyticShape {
 public:
     // Every face shows the whole unit square, unmirrored from outside: on the four sides v goes up
     // along z and u to the right, on top u = x, v = y, at the bottom u = -x, v = y.
-    Cube(MovingTransform worldFromObject, std::uint32_t material, std::uint32_t object);
+    Cube(const MovingTransform& worldFromObject, std::uint32_t material, std::uint32_t object);
 
 private:
     // part: 0 -x, 1 +x, 2 -y, 3 +y, 4 -z, 5 +z

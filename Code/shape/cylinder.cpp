@@ -2,11 +2,9 @@
 
 #include "shape/cap.h"
 
-#include <utility>
-
-Cylinder::Cylinder(MovingTransform worldFromObject, double radius, bool caps,
+Cylinder::Cylinder(const MovingTransform& worldFromObject, double radius, bool caps,
                    std::uint32_t material, std::uint32_t object)
-    : AnalyticShape(std::move(worldFromObject), material, object, radius), caps_(caps) {
+    : AnalyticShape(worldFromObject, material, object, radius), caps_(caps) {
     measure(StillShape::Round::Cylinder, kSide);
 }
 

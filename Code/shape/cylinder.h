@@ -8,8 +8,8 @@ class Cylinder final : public AnalyticShape {
 public:
     // Side: u = 1/2 + angle / 2 pi from +x towards +y, v = 0 at z = -1 to 1 at z = 1. Caps: the
     // square around the disk, unmirrored from outside (u along x on top, along -x at the bottom).
-    Cylinder(MovingTransform worldFromObject, double radius, bool caps, std::uint32_t material,
-             std::uint32_t object);
+    Cylinder(const MovingTransform& worldFromObject, double radius, bool caps,
+             std::uint32_t material, std::uint32_t object);
 
     SolidForm solidForm() const override;
 

@@ -1,10 +1,8 @@
 #include "shape/disk.h"
 
-#include <utility>
-
-Disk::Disk(MovingTransform worldFromObject, double radius, std::uint32_t material,
+Disk::Disk(const MovingTransform& worldFromObject, double radius, std::uint32_t material,
            std::uint32_t object)
-    : AnalyticShape(std::move(worldFromObject), material, object), radius_(radius) {
+    : AnalyticShape(worldFromObject, material, object), radius_(radius) {
     measure();
 }
 

@@ -6,7 +6,7 @@
 
 class Disk final : public AnalyticShape {
 public:
-    Disk(MovingTransform worldFromObject, double radius, std::uint32_t material,
+    Disk(const MovingTransform& worldFromObject, double radius, std::uint32_t material,
          std::uint32_t object);
     bool hidesFromItself(bool) const override { return false; } // flat
 

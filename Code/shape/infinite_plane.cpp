@@ -1,10 +1,8 @@
 #include "shape/infinite_plane.h"
 
-#include <utility>
-
-InfinitePlane::InfinitePlane(MovingTransform worldFromObject, std::uint32_t material,
+InfinitePlane::InfinitePlane(const MovingTransform& worldFromObject, std::uint32_t material,
                              std::uint32_t object)
-    : AnalyticShape(std::move(worldFromObject), material, object) {
+    : AnalyticShape(worldFromObject, material, object) {
     measure(StillShape::Round::Plane);
 }
 

@@ -5,7 +5,8 @@
 
 class InfinitePlane final : public AnalyticShape {
 public:
-    InfinitePlane(MovingTransform worldFromObject, std::uint32_t material, std::uint32_t object);
+    InfinitePlane(const MovingTransform& worldFromObject, std::uint32_t material,
+                  std::uint32_t object);
     bool hidesFromItself(bool) const override { return false; } // flat
     SolidForm solidForm() const override;
 

@@ -9,9 +9,9 @@ double dot2(Vec2d a, Vec2d b) { return a.x * b.x + a.y * b.y; }
 
 } // namespace
 
-Plane::Plane(MovingTransform worldFromObject, const Corners& corners, std::uint32_t material,
+Plane::Plane(const MovingTransform& worldFromObject, const Corners& corners, std::uint32_t material,
              std::uint32_t object)
-    : AnalyticShape(std::move(worldFromObject), material, object), corners_(corners) {
+    : AnalyticShape(worldFromObject, material, object), corners_(corners) {
     // The diagonals serve all quadrilaterals, also those with a straight or a doubled corner.
     normal_ = cross(corners[2] - corners[0], corners[3] - corners[1]);
     centre_ = (corners[0] + corners[1] + corners[2] + corners[3]) * 0.25;

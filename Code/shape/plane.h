@@ -9,7 +9,7 @@ public:
     // Corners in order around the edge; the normal points to where they turn counter-clockwise (+z
     // for the square of scene_desc.h). uv is (0,0), (1,0), (1,1), (0,1) at the corners, and between
     // them p = bilinear(uv). Corners on a line give a shape that no ray meets.
-    Plane(MovingTransform worldFromObject, const Corners& corners, std::uint32_t material,
+    Plane(const MovingTransform& worldFromObject, const Corners& corners, std::uint32_t material,
           std::uint32_t object);
     bool hidesFromItself(bool) const override { return false; } // flat
 

@@ -1,10 +1,8 @@
 #include "shape/sphere.h"
 
-#include <utility>
-
-Sphere::Sphere(MovingTransform worldFromObject, double radius, std::uint32_t material,
+Sphere::Sphere(const MovingTransform& worldFromObject, double radius, std::uint32_t material,
                std::uint32_t object)
-    : AnalyticShape(std::move(worldFromObject), material, object, radius) {
+    : AnalyticShape(worldFromObject, material, object, radius) {
     measure(StillShape::Round::Sphere);
 }
 

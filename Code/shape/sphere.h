@@ -7,7 +7,7 @@ class Sphere final : public AnalyticShape {
 public:
     // u = 1/2 + longitude / 2 pi, longitude 0 along +x, growing towards +y; v = 1/2 + latitude/pi,
     // 0 at the lower pole. At the poles dpdu, which would vanish, keeps 2^-20 of its length.
-    Sphere(MovingTransform worldFromObject, double radius, std::uint32_t material,
+    Sphere(const MovingTransform& worldFromObject, double radius, std::uint32_t material,
            std::uint32_t object);
 
     SolidForm solidForm() const override;

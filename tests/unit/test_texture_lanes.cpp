@@ -24,7 +24,9 @@ StoredImage someImage(Random& random, StoredImage::Depth depth) {
     image.width = size[0], image.height = size[1];
     image.channels = static_cast<int>(1 + random.below(4));
     image.depth = depth;
-    const auto count = static_cast<std::size_t>(image.width * image.height * image.channels);
+    const auto count = static_cast<std::size_t>(image.width) *
+                       static_cast<std::size_t>(image.height) *
+                       static_cast<std::size_t>(image.channels);
     const bool isDark = random.chance(0.2); // where the sRGB curve is a line
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t code = random.chance(0.1)   ? 0
