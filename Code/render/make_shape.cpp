@@ -15,24 +15,22 @@
 
 namespace {
 
-std::unique_ptr<const Shape> bareShape(const ObjectDesc& object, MovingTransform place,
+std::unique_ptr<const Shape> bareShape(const ObjectDesc& object, const MovingTransform& place,
                                        std::uint32_t material, std::uint32_t id) {
     switch (object.kind) {
     case ObjectDesc::Kind::Sphere:
-        return std::make_unique<Sphere>(std::move(place), object.radius, material, id);
-    case ObjectDesc::Kind::Cube: return std::make_unique<Cube>(std::move(place), material, id);
+        return std::make_unique<Sphere>(place, object.radius, material, id);
+    case ObjectDesc::Kind::Cube: return std::make_unique<Cube>(place, material, id);
     case ObjectDesc::Kind::Plane:
-        return std::make_unique<Plane>(std::move(place), *object.corners, material, id);
+        return std::make_unique<Plane>(place, *object.corners, material, id);
     case ObjectDesc::Kind::InfinitePlane:
-        return std::make_unique<InfinitePlane>(std::move(place), material, id);
-    case ObjectDesc::Kind::Disk:
-        return std::make_unique<Disk>(std::move(place), object.radius, material, id);
+        return std::make_unique<InfinitePlane>(place, material, id);
+    case ObjectDesc::Kind::Disk: return std::make_unique<Disk>(place, object.radius, material, id);
     case ObjectDesc::Kind::Cylinder:
-        return std::make_unique<Cylinder>(std::move(place), object.radius, object.caps, material,
-                                          id);
+        return std::make_unique<Cylinder>(place, object.radius, object.caps, material, id);
     case ObjectDesc::Kind::Cone:
-        return std::make_unique<Cone>(std::move(place), object.radius, object.topRadius,
-                                      object.caps, material, id);
+        return std::make_unique<Cone>(place, object.radius, object.topRadius, object.caps, material,
+                                      id);
     case ObjectDesc::Kind::Mesh: break;
     }
     fail(ErrorKind::Input, "error: an object of a kind that is not known");
@@ -40,9 +38,9 @@ std::unique_ptr<const Shape> bareShape(const ObjectDesc& object, MovingTransform
 
 } // namespace
 
-std::unique_ptr<const Shape> makeShape(const ObjectDesc& object, MovingTransform place,
+std::unique_ptr<const Shape> makeShape(const ObjectDesc& object, const MovingTransform& place,
                                        std::span<const std::uint32_t> materials, std::uint32_t id) {
-    auto shape = bareShape(object, std::move(place), materials[0], id);
+    auto shape = bareShape(object, place, materials[0], id);
     if (materials.size() > 1) shape = std::make_unique<Checkered>(std::move(shape), materials[1]);
     return withSides(std::move(shape), object.sides);
 }

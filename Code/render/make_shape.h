@@ -10,7 +10,7 @@
 
 // Any kind but Mesh, whose geometry is shared (merge.h). `place` is normalisedFromObject; there is
 // at least one material, two for a checkerboard.
-std::unique_ptr<const Shape> makeShape(const ObjectDesc& object, MovingTransform place,
+std::unique_ptr<const Shape> makeShape(const ObjectDesc& object, const MovingTransform& place,
                                        std::span<const std::uint32_t> materials, std::uint32_t id);
 
 // The shape, of which only some sides can be seen.
