@@ -53,6 +53,7 @@ struct Row {
     Tally (*run)(const Effort&);
     const char* peers = ""; // what was measured of other programs
     const char* open = "";  // why the program does not keep the mark yet: a failure is no news
+    bool timed = false; // `worst` is a time: one of sanitizers or of a busy machine says nothing
 };
 std::vector<Row> rows(); // of all groups (groups.h), in the order of their ids: T2, T10, T10b
 

@@ -2,10 +2,16 @@
 #pragma once
 
 #include "base/math.h"
+#include "verify/battery.h"
 
 #include <ctime>
 
 namespace battery {
+
+constexpr Row timed(Row row) {
+    row.timed = true;
+    return row;
+}
 
 // Least time of `first` over least time of `second` in so many turns. Processor time of one thread:
 // what else the machine does counts only as far as it takes caches away.

