@@ -230,7 +230,8 @@ ExitCode runScene(const Options& options, Step& step) {
         if (options.action != Action::Convert && options.switches.textures)
             pictures.begin(desc, usedTextures(desc, !options.background), sceneFile);
     };
-    const LoadedScene loaded = load(options.scene, diagnostics, read, foreseen);
+    const LoadedScene loaded = load(options.scene, diagnostics, read,
+                                    pictures.hasThreads() ? Foreseen(foreseen) : Foreseen());
     stats.parseSeconds = watch.lap();
     printWarnings(diagnostics);
     RenderSettings settings = settingsFrom(loaded.desc, options);

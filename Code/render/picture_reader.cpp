@@ -27,7 +27,7 @@ PictureReader::~PictureReader() {
 
 void PictureReader::begin(const SceneDesc& desc, const std::vector<std::size_t>& textures,
                           const std::string& sceneFile) {
-    if (mostThreads_ == 0) return;
+    if (!hasThreads()) return;
     const std::lock_guard lock(mutex_);
     for (const std::size_t i : textures) {
         const TextureDesc& texture = desc.textures[i];

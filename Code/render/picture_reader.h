@@ -23,6 +23,7 @@ public:
     PictureReader(const PictureReader&) = delete;
     PictureReader& operator=(const PictureReader&) = delete;
 
+    bool hasThreads() const { return mostThreads_ > 0; }
     // Begins with these textures, of the scene in `sceneFile`, that it has not seen before. They
     // may be wrong in any way.
     void begin(const SceneDesc& desc, const std::vector<std::size_t>& textures,

@@ -2,15 +2,8 @@
 #include "accel/kernels/planes.h"
 
 #if defined(__x86_64__)
-#include "accel/kernels/exact_hit.h" // kChosenLanes
-#include "accel/kernels/target.h"
+#include "accel/kernels/region_includes.h"
 #include "base/math.h"
-
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <immintrin.h>
-#include <limits>
 
 SSE_REGION_BEGIN
 namespace kernels::sse {

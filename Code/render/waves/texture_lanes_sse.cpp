@@ -2,14 +2,8 @@
 #include "render/waves/texture_lanes.h"
 
 #if defined(__x86_64__)
-#include "accel/kernels/target.h"
+#include "accel/kernels/region_includes.h"
 #include "image/colour.h"
-
-#include <algorithm>
-#include <array>
-#include <cstring>
-#include <immintrin.h>
-#include <limits>
 
 SSE_REGION_BEGIN
 namespace kernels::sse {
