@@ -5,8 +5,21 @@
 
 #include "base/transform.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+
+// A flat convex quadrilateral, with its sides as two axes of its space see them, in which it is
+// widest: counter-clockwise.
+struct StillCorners {
+    struct Edge {
+        Vec2d from, way;
+    };
+    Vec3d normal, centre; // normal: of any length
+    std::array<Edge, 4> edges;
+    std::size_t axisX = 0, axisY = 1;
+    Vec2d flat(Vec3d p) const { return {p[axisX], p[axisY]}; }
+};
 
 struct StillShape {
     // What lanes can describe the surface of: a sphere, the side of a cylinder, a plane without
@@ -27,6 +40,8 @@ struct StillShape {
     std::uint32_t part = 0; // Hit::prim of what lanes can describe
     Round round = Round::None;
     bool hasEnd = true;
+
+    const StillCorners* corners = nullptr; // of a plane by corners: the shape's own
 
     const AffineRows& objectFromWorld() const { return worldFromObject.inverseRows(); }
 };

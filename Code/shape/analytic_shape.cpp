@@ -67,8 +67,10 @@ SolidForm AnalyticShape::tubeForm(double radius) const {
             {}};
 }
 
-void AnalyticShape::measure(StillShape::Round round, std::uint32_t part) {
+void AnalyticShape::measure(StillShape::Round round, std::uint32_t part,
+                            const StillCorners* corners) {
     if (!isStill()) return;
+    still_.corners = corners;
     still_ = stillUnder(still_.worldFromObject);
     const bool wantsEnd = round != StillShape::Round::Plane;
     if (still_.hasEnd != wantsEnd || still_.worldFromObject.isSingular()) return;

@@ -68,7 +68,8 @@ protected:
 
     // Called at the end of a constructor: what surface() would compute again for every hit. What is
     // round is done by lanes where it stands still, has an end, and the map has an inverse.
-    void measure(StillShape::Round round = StillShape::Round::None, std::uint32_t part = 0);
+    void measure(StillShape::Round round = StillShape::Round::None, std::uint32_t part = 0,
+                 const StillCorners* corners = nullptr);
 
     double radius() const { return still_.radius; }
     bool isStill() const { return !motion_; }

@@ -19,6 +19,26 @@ Cube::Cube(const MovingTransform& worldFromObject, std::uint32_t material, std::
     measure();
 }
 
+SolidForm Cube::solidForm() const {
+    if (!isStill()) return AnalyticShape::solidForm();
+    const Transform& map = worldFromObject();
+    double farthest = 0; // corner
+    for (int i = 0; i < 4; ++i) {
+        const Vec3d corner = BoundsD{{-1, -1, -1}, {1, 1, 1}}.corner(i);
+        farthest = max(farthest, length(map.vector(corner)));
+    }
+    RoundHull hull{.centre = map.translation(), .axis = {}, .radius = farthest};
+    // Up to the nearest face.
+    const AffineRows& m = map.inverseRows();
+    double steepest = 0;
+    for (std::size_t i = 0; i < 12; i += 4)
+        steepest = max(steepest, length(Vec3d{m[i], m[i + 1], m[i + 2]}));
+    if (steepest > 0) hull.innerRadius = 1 / steepest;
+    SolidForm form{hull};
+    form.faces = {.shape = &still(), .of = StillFaces::Of::Cube};
+    return form;
+}
+
 AnalyticShape::Roots Cube::roots(const RayD& ray) const {
     const Interval x = slab(ray.org.x, ray.dir.x, -1, 1, 0, 1);
     const Interval y = slab(ray.org.y, ray.dir.y, -1, 1, 2, 3);

@@ -17,6 +17,7 @@ SolidForm OneSided::solidForm() const {
     };
     restrict(form.facets);
     restrict(form.tube);
+    restrict(form.faces);
     return form;
 }
 

@@ -24,8 +24,14 @@ void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const S
     if (form.sphere) {
         solid.kind = Kind::Sphere;
         solid.shape = form.sphere;
-        const AffineRows& m = form.sphere->objectFromWorld();
-        solid.turned = m[1] != 0 || m[2] != 0 || m[4] != 0 || m[6] != 0 || m[8] != 0 || m[9] != 0;
+    }
+    if (form.faces) {
+        using enum StillFaces::Of;
+        solid.kind = form.faces->of == Cube   ? Kind::Cube
+                     : form.faces->of == Disk ? Kind::Disk
+                                              : Kind::Corners;
+        solid.shape = form.faces->shape;
+        solid.side = form.faces->side;
     }
     if (form.tube) {
         solid.kind = Kind::Tube;
@@ -40,6 +46,10 @@ void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const S
         const double across = max(xx, yy) + xy;
         const double any = max(max(xx + zx, yy + yz) + xy, zz + yz + zx);
         tubes.push_back({*form.tube, form.tube->cone ? any : across, zz});
+    }
+    if (solid.shape != nullptr) {
+        const AffineRows& m = solid.shape->objectFromWorld();
+        solid.turned = m[1] != 0 || m[2] != 0 || m[4] != 0 || m[6] != 0 || m[8] != 0 || m[9] != 0;
     }
     if (form.facets) {
         solid.kind = Kind::Facets;

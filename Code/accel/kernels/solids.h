@@ -1,7 +1,7 @@
 // Solids: everything with a box of its own that is no triangle, as vector kernels want it. Packets
-// of rays walk one wide tree together; spheres, cylinders and cones that stand still and meshes of
-// a few triangles are met in the kernel itself, with the bits of shape/, and any other shape is
-// asked where a ray enters its box.
+// of rays walk one wide tree together; shapes with a formula that stand still and meshes of a few
+// triangles are met in the kernel itself, with the bits of shape/, and any other shape is asked
+// where a ray enters its box.
 // Knows nothing about what the shapes are.
 #pragma once
 
@@ -19,7 +19,7 @@
 
 struct SolidTree {
     // What the solid is to a kernel.
-    enum class Kind : std::uint8_t { Other, Sphere, Facets, Tube };
+    enum class Kind : std::uint8_t { Other, Sphere, Facets, Tube, Cube, Disk, Corners };
     // What is looked at first, in one line of the cache.
     struct alignas(64) Solid {
         std::uint32_t number = 0; // what hits and calls name it by
@@ -27,10 +27,11 @@ struct SolidTree {
         Kind kind = Kind::Other;
         bool hides = true;   // counts when any hit is asked for
         bool isTube = false; // a RoundHull with an axis
-        bool turned = false; // a sphere whose map does more than move and scale along the axes
+        bool turned = false; // the shape's map does more than move and scale along the axes
+        ::Facets::Side side = ::Facets::Side::Both; // of a cube, a disk or a plane by corners
         Vec3 centre{}, axis{};
         float radius = kInfinityF, innerRadius = 0, halfLength = kInfinityF;
-        const StillShape* shape = nullptr; // of a sphere or a tube
+        const StillShape* shape = nullptr; // of all but facets and what is asked ray by ray
     };
     struct Tube {
         StillTube exact;

@@ -36,6 +36,12 @@ protected:
             facets(solid, tree_.facets[solid.part], entry, lanes, results);
         else if (solid.kind == SolidTree::Kind::Tube)
             tube(solid, tree_.tubes[solid.part], entry, lanes, results);
+        else if (solid.kind == SolidTree::Kind::Cube)
+            take(solid, meetCube<A>(columns_, {columns_.tMin, best_}, solid), entry, lanes,
+                 results);
+        else if (solid.kind == SolidTree::Kind::Disk || solid.kind == SolidTree::Kind::Corners)
+            take(solid, meetFlat<A>(columns_, {columns_.tMin, best_}, solid), entry, lanes,
+                 results);
         else
             ask(solid, entry, lanes, results);
     }
@@ -107,6 +113,32 @@ private:
             }
             limit(select(maskOf(better), nearest, best_));
         }
+    }
+
+    // The choice between hits and the best ones.
+    void take(const SolidTree::Solid& solid, const FoundLanes& found, Floats entry, unsigned lanes,
+              Hit* hits) {
+        const Floats nearest = max(entry / lanes_.dz, found.t);
+        const unsigned better = nearerLanes(solid, lanes & found.met & ~found.undecided, nearest);
+        if (better != 0) {
+            alignas(64) float ts[W], us[W];
+            nearest.store(ts), found.lost.store(us);
+            for (unsigned rest = better; rest != 0; rest &= rest - 1) {
+                const int i = std::countr_zero(rest);
+                hits[ray_[i]] = {
+                    .t = ts[i], .u = us[i], .prim = found.partOf(i), .shape = solid.number};
+                number_[i] = solid.number;
+            }
+            limit(select(maskOf(better), nearest, best_));
+        }
+        if (const unsigned asking = lanes & found.undecided; asking != 0)
+            ask(solid, entry, asking, hits);
+    }
+    void take(const SolidTree::Solid& solid, const FoundLanes& found, Floats entry, unsigned lanes,
+              std::uint8_t* hidden) {
+        hide(lanes & found.met & ~found.undecided, hidden);
+        if (const unsigned asking = lanes & found.undecided; asking != 0)
+            ask(solid, entry, asking, hidden);
     }
 
     // AnalyticShape::intersect(), OneSided::intersect() and the choice between their hit and the
