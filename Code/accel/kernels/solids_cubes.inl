@@ -69,9 +69,17 @@ template <Answer A>
         found.met = roots.met & (ranges.hides(t0) | ranges.hides(t1));
         return found;
     }
+    const CubeAxes in = enteredBy(roots), out = leftBy(roots);
     unsigned first = bits(t0 > ranges.tMin); // lanes that meet the cube where they enter it
-    if (solid.side == ::Facets::Side::Front) first = (1u << W) - 1;
-    if (solid.side == ::Facets::Side::Back) first = 0;
+    if (solid.side != ::Facets::Side::Both) {
+        // The side that is seen is where rays enter, or where they leave.
+        first = solid.side == ::Facets::Side::Front ? (1u << W) - 1 : 0;
+        const unsigned steep[3] = {isSteep(roots.rays.dx, rowLength(map, 0), rays),
+                                   isSteep(roots.rays.dy, rowLength(map, 1), rays),
+                                   isSteep(roots.rays.dz, rowLength(map, 2), rays)};
+        found.undecided |= roots.met & ~(in.choose(steep[0], steep[1], steep[2]) &
+                                         out.choose(steep[0], steep[1], steep[2]));
+    }
     const Mask isFirst = maskOf(first);
     found.t = select(isFirst, t0, t1);
     found.met = roots.met & ranges.hits(found.t);
@@ -79,8 +87,6 @@ template <Answer A>
     const Floats lost0 = (roots.first - Doubles(t0)).toFloats(),
                  lost1 = (roots.last - Doubles(t1)).toFloats();
     found.lost = select(isFirst, lost0, lost1);
-
-    const CubeAxes in = enteredBy(roots), out = leftBy(roots);
     const auto ahead = [&](const CubeAxes& axes) {
         const Doubles zero(0.0);
         return axes.choose(less(zero, roots.rays.dx), less(zero, roots.rays.dy),
@@ -89,12 +95,5 @@ template <Answer A>
     found.part[0] = (first & ~ahead(in)) | (~first & ahead(out));
     found.part[1] = (first & in.y) | (~first & out.y);
     found.part[2] = (first & in.z) | (~first & out.z);
-    if (solid.side != ::Facets::Side::Both) {
-        const unsigned steep[3] = {isSteep(roots.rays.dx, rowLength(map, 0), rays),
-                                   isSteep(roots.rays.dy, rowLength(map, 1), rays),
-                                   isSteep(roots.rays.dz, rowLength(map, 2), rays)};
-        found.undecided |=
-            ~(in.choose(steep[0], steep[1], steep[2]) & out.choose(steep[0], steep[1], steep[2]));
-    }
     return found;
 }
