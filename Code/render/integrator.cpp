@@ -34,7 +34,7 @@ std::vector<RoundShape> roundShapesOf(const ShapeSet& set, SurfaceLanes lanes, S
     std::vector<RoundShape> shapes(set.shapes.size());
     for (std::size_t i = 0; i < shapes.size(); ++i)
         if (const StillShape* const shape = set.shapes[i]->roundToShade())
-            shapes[i] = {shape, shape->part, shape->round};
+            shapes[i] = {shape, shape->parts, shape->kind};
     return shapes;
 }
 

@@ -52,8 +52,8 @@ struct Lamp {
 // A shape whose surfaces lanes find, to be looked up without touching it.
 struct RoundShape {
     const StillShape* shape = nullptr; // null: it is none
-    std::uint32_t part = 0;
-    StillShape::Round kind{};
+    std::uint8_t parts = 0;
+    StillShape::Kind kind{};
 };
 
 // Choices that hold for a whole picture, made once.
@@ -146,7 +146,7 @@ struct WaveMemory {
     PathBatch rays, next;
     std::vector<Hit> hits;
     PointBatch points;
-    std::array<PointsToDescribe, StillShape::kRounds> onRound;
+    std::array<PointsToDescribe, StillShape::kKinds> onRound;
     PointsToDescribe onOthers;
     TexturedPoints texturedPoints;
     MediumTree media;

@@ -33,7 +33,8 @@ AnalyticShape::AnalyticShape(const MovingTransform& worldFromObject, std::uint32
              .radius = radius,
              .material = material,
              .oddMaterial = material,
-             .object = object} {
+             .object = object,
+             .corners = nullptr} {
     if (!worldFromObject.isStatic())
         motion_ = std::make_unique<const MovingTransform>(worldFromObject);
 }
@@ -67,14 +68,12 @@ SolidForm AnalyticShape::tubeForm(double radius) const {
             {}};
 }
 
-void AnalyticShape::measure(StillShape::Round round, std::uint32_t part,
-                            const StillCorners* corners) {
+void AnalyticShape::measure(StillShape::Kind kind, int parts) {
     if (!isStill()) return;
-    still_.corners = corners;
     still_ = stillUnder(still_.worldFromObject);
-    const bool wantsEnd = round != StillShape::Round::Plane;
+    const bool wantsEnd = kind != StillShape::Kind::Plane;
     if (still_.hasEnd != wantsEnd || still_.worldFromObject.isSingular()) return;
-    still_.round = round, still_.part = part;
+    still_.kind = kind, still_.parts = static_cast<std::uint8_t>((1 << parts) - 1);
 }
 
 StillShape AnalyticShape::stillUnder(const Transform& worldFromObject) const {

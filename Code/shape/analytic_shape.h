@@ -24,7 +24,7 @@ public:
     Surface surface(const Ray& ray, const Hit& hit) const final { return surfaceFor(ray, hit, {}); }
     Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const final;
     const StillShape* roundToShade() const final {
-        return still_.round == StillShape::Round::None ? nullptr : &still_;
+        return still_.kind == StillShape::Kind::None ? nullptr : &still_;
     }
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const final;
 
@@ -66,10 +66,12 @@ protected:
     AnalyticShape(const MovingTransform& worldFromObject, std::uint32_t material,
                   std::uint32_t object, double radius = 0);
 
-    // Called at the end of a constructor: what surface() would compute again for every hit. What is
-    // round is done by lanes where it stands still, has an end, and the map has an inverse.
-    void measure(StillShape::Round round = StillShape::Round::None, std::uint32_t part = 0,
-                 const StillCorners* corners = nullptr);
+    // Called at the end of a constructor: what surface() would compute again for every hit. Lanes
+    // do the first `parts` where the shape stands still and the map has an inverse.
+    void measure(StillShape::Kind kind, int parts = 1);
+    // Before that: what kernels look up in the shape itself, which is never moved.
+    void lend(const StillCorners& corners) { still_.corners = &corners; }
+    void lend(const StillCone& cone) { still_.cone = &cone; }
 
     double radius() const { return still_.radius; }
     bool isStill() const { return !motion_; }

@@ -16,7 +16,7 @@ constexpr Face kFaces[] = {
 
 Cube::Cube(const MovingTransform& worldFromObject, std::uint32_t material, std::uint32_t object)
     : AnalyticShape(worldFromObject, material, object) {
-    measure();
+    measure(StillShape::Kind::Cube, static_cast<int>(std::size(kFaces)));
 }
 
 SolidForm Cube::solidForm() const {

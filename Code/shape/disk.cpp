@@ -3,7 +3,7 @@
 Disk::Disk(const MovingTransform& worldFromObject, double radius, std::uint32_t material,
            std::uint32_t object)
     : AnalyticShape(worldFromObject, material, object, radius) {
-    measure();
+    measure(StillShape::Kind::Disk);
 }
 
 SolidForm Disk::solidForm() const {

@@ -31,7 +31,8 @@ Plane::Plane(const MovingTransform& worldFromObject, const Corners& corners, std
              std::uint32_t object)
     : AnalyticShape(worldFromObject, material, object), corners_(corners),
       flat_(flattened(corners)) {
-    measure(StillShape::Round::None, 0, &flat_);
+    lend(flat_);
+    measure(StillShape::Kind::Corners);
 }
 
 SolidForm Plane::solidForm() const {

@@ -3,7 +3,7 @@
 Sphere::Sphere(const MovingTransform& worldFromObject, double radius, std::uint32_t material,
                std::uint32_t object)
     : AnalyticShape(worldFromObject, material, object, radius) {
-    measure(StillShape::Round::Sphere);
+    measure(StillShape::Kind::Sphere);
 }
 
 SolidForm Sphere::solidForm() const {

@@ -1,4 +1,4 @@
-// Surfaces of spheres, of the sides of cylinders and of planes without end that stand still, a
+// Surfaces of shapes with a formula that stand still, but for the ends of cylinders and cones, a
 // register of them at a time, each on a shape of its own: rays that have bounced off many small
 // shapes rarely follow each other on one. Every lane repeats the steps of shape/analytic_shape.cpp
 // and of the shape's describe() in double, so that the bits are the same.

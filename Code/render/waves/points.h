@@ -24,7 +24,7 @@ inline void sortPoints(const Wave& wave) {
     for (std::uint32_t k = 0; k < points.count; ++k) {
         const std::uint32_t ray = points.ray[k];
         const RoundShape round = hasLanes ? context.roundShapes[hits[ray].shape] : RoundShape{};
-        if (round.shape == nullptr || round.part != hits[ray].prim) {
+        if (round.shape == nullptr || (round.parts >> hits[ray].prim & 1) == 0) {
             wave.memory.onOthers.push(ray, k);
             continue;
         }
