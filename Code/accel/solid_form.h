@@ -3,6 +3,7 @@
 
 #include "accel/still_shape.h"
 #include "base/bounds.h"
+#include "base/motion.h"
 
 #include <array>
 #include <cstddef>
@@ -65,11 +66,12 @@ struct SolidForm {
     RoundHull hull;
     // The shape is a sphere about the origin of its object space. A kernel that meets it repeats
     // the formulas of shape/sphere.cpp.
-    const StillShape* sphere = nullptr;
-    std::optional<Facets> facets{};    // or these
-    std::optional<StillTube> tube{};   // or this one
-    std::optional<StillFaces> faces{}; // or these
-    std::optional<StillPlane> plane{}; // or this one, the only form without end
+    const StillShape* sphere = nullptr; // of one that moves: its first key
+    std::optional<Facets> facets{};     // or these
+    std::optional<StillTube> tube{};    // or this one
+    std::optional<StillFaces> faces{};  // or these
+    std::optional<Drift> drift{};       // of a sphere or of faces: how they move
+    std::optional<StillPlane> plane{};  // or this one, the only form without end
 };
 
 inline RoundHull ballAround(const BoundsD& box) {

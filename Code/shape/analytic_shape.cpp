@@ -68,6 +68,13 @@ SolidForm AnalyticShape::tubeForm(double radius) const {
             {}};
 }
 
+SolidForm AnalyticShape::facesForm(StillFaces::Of of) const {
+    SolidForm form = Shape::solidForm();
+    form.drift = drift();
+    if (isStill() || form.drift) form.faces = {.shape = &still_, .of = of};
+    return form;
+}
+
 void AnalyticShape::measure(StillShape::Kind kind, int parts) {
     if (!isStill()) return;
     still_ = stillUnder(still_.worldFromObject);

@@ -75,11 +75,15 @@ protected:
 
     double radius() const { return still_.radius; }
     bool isStill() const { return !motion_; }
-    // Of a shape that stands still.
+    // Of a shape that moves: its first key.
     const StillShape& still() const { return still_; }
     const Transform& worldFromObject() const { return still_.worldFromObject; }
+    // How it moves, if lanes can follow.
+    std::optional<Drift> drift() const { return isStill() ? std::nullopt : motion_->drift(); }
     // Around disks of at most this radius about the z axis, of z from -1 to 1.
     SolidForm tubeForm(double radius) const;
+    // Within a ball around the box.
+    SolidForm facesForm(StillFaces::Of of) const;
 
     // The whole line, in double; org and dir are finite, dir is not zero nor of unit length.
     virtual Roots roots(const RayD& ray) const = 0;

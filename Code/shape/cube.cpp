@@ -20,7 +20,7 @@ Cube::Cube(const MovingTransform& worldFromObject, std::uint32_t material, std::
 }
 
 SolidForm Cube::solidForm() const {
-    if (!isStill()) return AnalyticShape::solidForm();
+    if (!isStill()) return facesForm(StillFaces::Of::Cube);
     const Transform& map = worldFromObject();
     double farthest = 0; // corner
     for (int i = 0; i < 4; ++i) {
@@ -34,8 +34,8 @@ SolidForm Cube::solidForm() const {
     for (std::size_t i = 0; i < 12; i += 4)
         steepest = max(steepest, length(Vec3d{m[i], m[i + 1], m[i + 2]}));
     if (steepest > 0) hull.innerRadius = 1 / steepest;
-    SolidForm form{hull};
-    form.faces = {.shape = &still(), .of = StillFaces::Of::Cube};
+    SolidForm form = facesForm(StillFaces::Of::Cube);
+    form.hull = hull;
     return form;
 }
 

@@ -35,11 +35,7 @@ Plane::Plane(const MovingTransform& worldFromObject, const Corners& corners, std
     measure(StillShape::Kind::Corners);
 }
 
-SolidForm Plane::solidForm() const {
-    SolidForm form = AnalyticShape::solidForm();
-    if (isStill()) form.faces = {.shape = &still(), .of = StillFaces::Of::Corners};
-    return form;
-}
+SolidForm Plane::solidForm() const { return facesForm(StillFaces::Of::Corners); }
 
 AnalyticShape::Roots Plane::roots(const RayD& ray) const {
     const auto& [normal, centre, edges, axisX, axisY] = flat_;

@@ -7,7 +7,12 @@ Sphere::Sphere(const MovingTransform& worldFromObject, double radius, std::uint3
 }
 
 SolidForm Sphere::solidForm() const {
-    if (!isStill()) return AnalyticShape::solidForm();
+    if (!isStill()) {
+        SolidForm form = AnalyticShape::solidForm();
+        form.drift = drift();
+        if (form.drift) form.sphere = &still();
+        return form;
+    }
     const Transform& map = worldFromObject();
     // Bounds of the map's stretch, by Gershgorin's circles about its Gram matrix.
     const Vec3d x = map.column(0), y = map.column(1), z = map.column(2);

@@ -1,5 +1,5 @@
-// Cubes, disks and planes by corners in registers: batches have the bits of asking every shape,
-// along faces and edges, from the inside, and where shapes are flat, huge or far away.
+// Cubes, disks and planes by corners in registers, still or moving: batches have the bits of asking
+// every shape, along faces and edges, from the inside, and where shapes are flat, huge or far away.
 #include "analytic_kit.h"
 #include "check.h"
 #include "shape/one_sided.h"
@@ -59,6 +59,16 @@ Plane::Corners someCorners(Random& random) {
     return corners;
 }
 
+// Two to four keys; lanes follow most of such movements.
+MovingTransform moving(Random& random, const Transform& map) {
+    std::vector<Transform> keys{map};
+    const std::size_t more = 1 + random.below(3);
+    for (std::size_t i = 0; i < more; ++i)
+        keys.push_back(Transform::translate(random.inBox(0.1)) * map);
+    if (random.chance(0.1)) keys.back() = keys.back() * Transform::scale(1.1);
+    return MovingTransform(std::span<const Transform>(keys));
+}
+
 // Moved and scaled only, turned, sheared, mirrored, flattened; some twice in one place, some seen
 // from one side.
 std::vector<Face> addFaces(std::uint64_t seed, std::size_t count, ShapeSet& set) {
@@ -79,14 +89,16 @@ std::vector<Face> addFaces(std::uint64_t seed, std::size_t count, ShapeSet& set)
         if (random.chance(0.15)) map = last; // ties
         last = map;
         const double radius = random.chance(0.02) ? 0 : random.logUniform(1e-3, 2);
+        const MovingTransform place =
+            random.chance(0.3) ? moving(random, map) : MovingTransform(map);
         Face face{map, radius, static_cast<Face::Of>(random.below(3)), someCorners(random)};
         std::unique_ptr<const Shape> shape;
         if (face.of == Face::Of::Cube)
-            shape = std::make_unique<Cube>(map, 0u, 0u);
+            shape = std::make_unique<Cube>(place, 0u, 0u);
         else if (face.of == Face::Of::Disk)
-            shape = std::make_unique<Disk>(map, radius, 0u, 0u);
+            shape = std::make_unique<Disk>(place, radius, 0u, 0u);
         else
-            shape = std::make_unique<Plane>(map, face.corners, 0u, 0u);
+            shape = std::make_unique<Plane>(place, face.corners, 0u, 0u);
         if (random.chance(0.3))
             shape = std::make_unique<OneSided>(std::move(shape), random.chance(0.5)
                                                                      ? OneSided::Side::Front
@@ -123,6 +135,8 @@ Rays faceRays(Random& random, const std::vector<Face>& faces) {
             ray.dir[random.below(3)] = random.chance(0.5) ? 0.0f : -0.0f;
             if (random.chance(0.5)) ray.dir[random.below(3)] = 0;
         }
+        const float times[] = {0, 1, static_cast<float>(random.unit()), 0.5f};
+        ray.time = times[random.below(4)];
         rays.push(ray);
     }
     return rays;

@@ -47,6 +47,11 @@ void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const S
         const double any = max(max(xx + zx, yy + yz) + xy, zz + yz + zx);
         tubes.push_back({*form.tube, form.tube->cone ? any : across, zz});
     }
+    if (form.drift) {
+        solid.moves = true;
+        solid.part = static_cast<std::uint32_t>(drifts.size());
+        drifts.push_back(*form.drift);
+    }
     if (solid.shape != nullptr) {
         const AffineRows& m = solid.shape->objectFromWorld();
         solid.turned = m[1] != 0 || m[2] != 0 || m[4] != 0 || m[6] != 0 || m[8] != 0 || m[9] != 0;

@@ -1,8 +1,8 @@
 // Solids: everything with a box of its own that is no triangle, as vector kernels want it. Packets
-// of rays walk one wide tree together; shapes with a formula that stand still and meshes of a few
-// triangles are met in the kernel itself, with the bits of shape/, and any other shape is asked
-// where a ray enters its box.
-// Knows nothing about what the shapes are.
+// of rays walk one wide tree together; shapes with a formula that stand still, most that move
+// without turning, and meshes of a few triangles are met in the kernel itself, with the bits of
+// shape/, and any other shape is asked where a ray enters its box. Knows nothing about what the
+// shapes are.
 #pragma once
 
 #include "accel/bvh.h"
@@ -23,11 +23,12 @@ struct SolidTree {
     // What is looked at first, in one line of the cache.
     struct alignas(64) Solid {
         std::uint32_t number = 0; // what hits and calls name it by
-        std::uint32_t part = 0;   // in `facets` or `tubes`
+        std::uint32_t part = 0;   // in `facets`, `tubes` or `drifts`
         Kind kind = Kind::Other;
         bool hides = true;   // counts when any hit is asked for
         bool isTube = false; // a RoundHull with an axis
         bool turned = false; // the shape's map does more than move and scale along the axes
+        bool moves = false;  // as in `drifts`
         ::Facets::Side side = ::Facets::Side::Both; // of a cube, a disk or a plane by corners
         Vec3 centre{}, axis{};
         float radius = kInfinityF, innerRadius = 0, halfLength = kInfinityF;
@@ -54,6 +55,7 @@ struct SolidTree {
     std::vector<Bounds> boxes; // of the solids
     std::vector<Tube> tubes;
     std::vector<FacetGroup> facets;
+    std::vector<Drift> drifts;
     // WideNode<width>, root first. A child of kind Leaf is one solid, by its place in `solids`.
     std::vector<WideTree::Line> lines;
     float extent = 0; // see RaySetup

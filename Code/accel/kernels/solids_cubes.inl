@@ -56,10 +56,9 @@ inline CubeAxes leftBy(const CubeRoots& roots) {
     return {less(roots.exit[1], roots.exit[0]) & ~z, z};
 }
 
-template <Answer A>
+template <Answer A, class Map>
 [[gnu::noinline]] FoundLanes meetCube(const RayColumns& rays, const RayRanges& ranges,
-                                      const SolidTree::Solid& solid) {
-    const AffineRows& map = solid.shape->objectFromWorld();
+                                      const SolidTree::Solid& solid, const Map& map) {
     const CubeRoots roots = cubeRoots(objectRays(rays, map, solid.turned));
     FoundLanes found{.t = Floats(0.0f), .lost = Floats(0.0f)};
     found.undecided = roots.undecided;
@@ -74,9 +73,9 @@ template <Answer A>
     if (solid.side != ::Facets::Side::Both) {
         // The side that is seen is where rays enter, or where they leave.
         first = solid.side == ::Facets::Side::Front ? (1u << W) - 1 : 0;
-        const unsigned steep[3] = {isSteep(roots.rays.dx, rowLength(map, 0), rays),
-                                   isSteep(roots.rays.dy, rowLength(map, 1), rays),
-                                   isSteep(roots.rays.dz, rowLength(map, 2), rays)};
+        const unsigned steep[3] = {isSteep(roots.rays.dx, rowLength(map.rows, 0), rays),
+                                   isSteep(roots.rays.dy, rowLength(map.rows, 1), rays),
+                                   isSteep(roots.rays.dz, rowLength(map.rows, 2), rays)};
         found.undecided |= roots.met & ~(in.choose(steep[0], steep[1], steep[2]) &
                                          out.choose(steep[0], steep[1], steep[2]));
     }

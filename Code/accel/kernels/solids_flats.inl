@@ -47,10 +47,10 @@ inline FlatRoots cornerRoots(const ObjectRays& rays, const StillShape& shape) {
                 std::fabs(n.z) * rowLength(m, 2)};
 }
 
-template <Answer A>
+template <Answer A, class Map>
 [[gnu::noinline]] FoundLanes meetFlat(const RayColumns& rays, const RayRanges& ranges,
-                                      const SolidTree::Solid& solid) {
-    const ObjectRays local = objectRays(rays, solid.shape->objectFromWorld(), solid.turned);
+                                      const SolidTree::Solid& solid, const Map& map) {
+    const ObjectRays local = objectRays(rays, map, solid.turned);
     const FlatRoots roots = solid.kind == SolidTree::Kind::Disk ? diskRoots(local, *solid.shape)
                                                                 : cornerRoots(local, *solid.shape);
     const Floats t = roots.t.toFloats();

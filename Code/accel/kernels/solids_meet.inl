@@ -36,12 +36,8 @@ protected:
             facets(solid, tree_.facets[solid.part], entry, lanes, results);
         else if (solid.kind == SolidTree::Kind::Tube)
             tube(solid, tree_.tubes[solid.part], entry, lanes, results);
-        else if (solid.kind == SolidTree::Kind::Cube)
-            take(solid, meetCube<A>(columns_, {columns_.tMin, best_}, solid), entry, lanes,
-                 results);
-        else if (solid.kind == SolidTree::Kind::Disk || solid.kind == SolidTree::Kind::Corners)
-            take(solid, meetFlat<A>(columns_, {columns_.tMin, best_}, solid), entry, lanes,
-                 results);
+        else if (solid.kind != SolidTree::Kind::Other)
+            take(solid, meetFaces<A>(solid), entry, lanes, results);
         else
             ask(solid, entry, lanes, results);
     }
@@ -93,8 +89,9 @@ private:
 
     template <Answer A, class Result>
     void sphere(const SolidTree::Solid& solid, Floats entry, unsigned lanes, Result* results) {
-        const SphereRoots roots =
-            meet(SameMap{solid.shape->objectFromWorld()}, solid.turned, solid.shape->radius, lanes);
+        const SphereRoots roots = solid.moves ? movingSphere(solid, lanes)
+                                              : meet(SameMap{solid.shape->objectFromWorld()},
+                                                     solid.turned, solid.shape->radius, lanes);
         if (roots.met == 0) return;
         if constexpr (A == Answer::Any) {
             hide(hides(roots), results);
@@ -113,6 +110,24 @@ private:
             }
             limit(select(maskOf(better), nearest, best_));
         }
+    }
+
+    DriftLanes driftOf(const SolidTree::Solid& solid) const {
+        return {solid.shape->objectFromWorld(), tree_.drifts[solid.part], rays_, ray_};
+    }
+    [[gnu::noinline]] SphereRoots movingSphere(const SolidTree::Solid& solid,
+                                               unsigned lanes) const {
+        return meet(driftOf(solid), solid.turned, solid.shape->radius, lanes);
+    }
+
+    template <Answer A> FoundLanes meetFaces(const SolidTree::Solid& solid) const {
+        const auto meetIn = [&](const auto& map) {
+            const RayRanges ranges{columns_.tMin, best_};
+            return solid.kind == SolidTree::Kind::Cube ? meetCube<A>(columns_, ranges, solid, map)
+                                                       : meetFlat<A>(columns_, ranges, solid, map);
+        };
+        return solid.moves ? meetIn(driftOf(solid))
+                           : meetIn(SameMap{solid.shape->objectFromWorld()});
     }
 
     // The choice between hits and the best ones.

@@ -13,27 +13,44 @@ struct ObjectRays {
     }
 };
 
+// One map in all lanes, or one in each.
+struct SameMap {
+    const AffineRows& rows;
+    Doubles operator()(std::size_t i) const { return Doubles(rows[i]); }
+};
+struct MapLanes {
+    const double (*rows)[W];
+    Doubles operator()(std::size_t i) const { return Doubles::load(rows[i]); }
+};
+// Of what moves without turning, at the times of W rays: one offset in each.
+struct DriftLanes {
+    DriftLanes(const AffineRows& map, const Drift& drift, const RaySpan& rays,
+               const std::uint32_t (&ray)[W])
+        : rows(map) {
+        for (std::size_t i = 0; i < W; ++i) {
+            const Vec3d at = drift.offsetAt(static_cast<double>(rays.time[ray[i]]));
+            offset[0][i] = at.x, offset[1][i] = at.y, offset[2][i] = at.z;
+        }
+    }
+    Doubles operator()(std::size_t i) const {
+        return i % 4 == 3 ? Doubles::load(offset[i / 4]) : Doubles(rows[i]);
+    }
+    const AffineRows& rows; // but for the offsets
+    alignas(64) double offset[3][W];
+};
+
 // turned: the map does more than move and scale along the axes. A zero of it adds a zero, which
 // changes no number.
-[[gnu::always_inline]] inline ObjectRays objectRays(const RayColumns& rays, const AffineRows& m,
+template <class Map>
+[[gnu::always_inline]] inline ObjectRays objectRays(const RayColumns& rays, const Map& m,
                                                     bool turned) {
     const Doubles X(rays.org[0]), Y(rays.org[1]), Z(rays.org[2]);
     const Doubles U(rays.dir[0]), V(rays.dir[1]), T(rays.dir[2]);
-    if (!turned) {
-        const Doubles a(m[0]), b(m[5]), c(m[10]);
-        return {a * X + Doubles(m[3]),
-                b * Y + Doubles(m[7]),
-                c * Z + Doubles(m[11]),
-                a * U,
-                b * V,
-                c * T};
-    }
-    const auto direction = [&](std::size_t i) {
-        return (Doubles(m[i]) * U + Doubles(m[i + 1]) * V) + Doubles(m[i + 2]) * T;
-    };
+    if (!turned)
+        return {m(0) * X + m(3), m(5) * Y + m(7), m(10) * Z + m(11), m(0) * U, m(5) * V, m(10) * T};
+    const auto direction = [&](std::size_t i) { return (m(i) * U + m(i + 1) * V) + m(i + 2) * T; };
     const auto point = [&](std::size_t i) {
-        return ((Doubles(m[i]) * X + Doubles(m[i + 1]) * Y) + Doubles(m[i + 2]) * Z) +
-               Doubles(m[i + 3]);
+        return ((m(i) * X + m(i + 1) * Y) + m(i + 2) * Z) + m(i + 3);
     };
     return {point(0), point(4), point(8), direction(0), direction(4), direction(8)};
 }
