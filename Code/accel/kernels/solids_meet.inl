@@ -37,7 +37,7 @@ protected:
         else if (solid.kind == SolidTree::Kind::Tube)
             tube(solid, tree_.tubes[solid.part], entry, lanes, results);
         else if (solid.kind != SolidTree::Kind::Other)
-            take(solid, meetFaces<A>(solid), entry, lanes, results);
+            take(solid, meetFaces<A>(solid, lanes), entry, lanes, results);
         else
             ask(solid, entry, lanes, results);
     }
@@ -112,21 +112,21 @@ private:
         }
     }
 
-    DriftLanes driftOf(const SolidTree::Solid& solid) const {
-        return {solid.shape->objectFromWorld(), tree_.drifts[solid.part], rays_, ray_};
+    DriftLanes driftOf(const SolidTree::Solid& solid, unsigned lanes) const {
+        return {solid.shape->objectFromWorld(), tree_.drifts[solid.part], rays_, ray_, lanes};
     }
     [[gnu::noinline]] SphereRoots movingSphere(const SolidTree::Solid& solid,
                                                unsigned lanes) const {
-        return meet(driftOf(solid), solid.turned, solid.shape->radius, lanes);
+        return meet(driftOf(solid, lanes), solid.turned, solid.shape->radius, lanes);
     }
 
-    template <Answer A> FoundLanes meetFaces(const SolidTree::Solid& solid) const {
+    template <Answer A> FoundLanes meetFaces(const SolidTree::Solid& solid, unsigned lanes) const {
         const auto meetIn = [&](const auto& map) {
             const RayRanges ranges{columns_.tMin, best_};
             return solid.kind == SolidTree::Kind::Cube ? meetCube<A>(columns_, ranges, solid, map)
                                                        : meetFlat<A>(columns_, ranges, solid, map);
         };
-        return solid.moves ? meetIn(driftOf(solid))
+        return solid.moves ? meetIn(driftOf(solid, lanes))
                            : meetIn(SameMap{solid.shape->objectFromWorld()});
     }
 

@@ -22,12 +22,13 @@ struct MapLanes {
     const double (*rows)[W];
     Doubles operator()(std::size_t i) const { return Doubles::load(rows[i]); }
 };
-// Of what moves without turning, at the times of W rays: one offset in each.
+// Of what moves without turning, at the times of some of W rays: one offset in each.
 struct DriftLanes {
     DriftLanes(const AffineRows& map, const Drift& drift, const RaySpan& rays,
-               const std::uint32_t (&ray)[W])
+               const std::uint32_t (&ray)[W], unsigned lanes)
         : rows(map) {
-        for (std::size_t i = 0; i < W; ++i) {
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
             const Vec3d at = drift.offsetAt(static_cast<double>(rays.time[ray[i]]));
             offset[0][i] = at.x, offset[1][i] = at.y, offset[2][i] = at.z;
         }
@@ -36,7 +37,7 @@ struct DriftLanes {
         return i % 4 == 3 ? Doubles::load(offset[i / 4]) : Doubles(rows[i]);
     }
     const AffineRows& rows; // but for the offsets
-    alignas(64) double offset[3][W];
+    alignas(64) double offset[3][W] = {};
 };
 
 // turned: the map does more than move and scale along the axes. A zero of it adds a zero, which
