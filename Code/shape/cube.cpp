@@ -28,12 +28,12 @@ SolidForm Cube::solidForm() const {
         farthest = max(farthest, length(map.vector(corner)));
     }
     RoundHull hull{.centre = map.translation(), .axis = {}, .radius = farthest};
-    // Up to the nearest face.
+    // Up to the nearest face; not of those so slim or slanted that the inverse is no good for it.
     const AffineRows& m = map.inverseRows();
     double steepest = 0;
     for (std::size_t i = 0; i < 12; i += 4)
         steepest = max(steepest, length(Vec3d{m[i], m[i + 1], m[i + 2]}));
-    if (steepest > 0) hull.innerRadius = 1 / steepest;
+    if (steepest > 0 && steepest * farthest < 0x1p20) hull.innerRadius = 1 / steepest;
     SolidForm form = facesForm(StillFaces::Of::Cube);
     form.hull = hull;
     return form;
