@@ -180,13 +180,10 @@ std::optional<MovingTransform::Shift> MovingTransform::shiftAt(double time) cons
     return Shift{i, (segment.to.translation - segment.from.translation) * s};
 }
 
-// Between the keys: Transform::translate(offset) * key, operation by operation.
+// Transform::translate(offset) * key, operation by operation; at keys that adds zeros.
 Vec3d Drift::offsetAt(double time) const {
     const auto [i, s] = momentOf(time, legs_.size() - 1);
-    const Leg& leg = legs_[i];
-    if (s == 0) return leg.offset;
-    const Vec3d back = -(leg.step * s);
-    return vectorUnder(inverse_, back) + leg.offset;
+    return vectorUnder(inverse_, -(legs_[i].step * s)) + legs_[i].offset;
 }
 
 std::optional<Drift> MovingTransform::drift() const {

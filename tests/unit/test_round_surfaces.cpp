@@ -52,6 +52,7 @@ std::size_t checkShapes(const Shapes& shapes, const std::vector<Transform>& maps
         tMin.push_back(ray.tMin), tMax.push_back(ray.tMax), time.push_back(ray.time);
         hits.emplace_back();
         if (random.chance(missing) || !shapes[number]->intersect(ray, hits.back())) continue;
+        if (random.chance(0.3)) hits.back().u = 0; // off the surface
         const StillShape* const shade = shapes[number]->roundToShade();
         if ((shade->parts >> hits.back().prim & 1) == 0) continue; // the cap of a cylinder
         which.push_back(i), to.push_back(i);

@@ -167,6 +167,32 @@ TEST(solid_faces_have_the_bits_of_single_rays) {
     }
 }
 
+// The rims of faces belong to them: from straight above, and a rounding off.
+TEST(solid_faces_have_their_rims) {
+    const Plane::Corners square = {Vec3d{-1, -1, 0}, Vec3d{1, -1, 0}, Vec3d{1, 1, 0},
+                                   Vec3d{-1, 1, 0}};
+    for (const Kernel& kernel : allKernels()) {
+        if (!kernel.supported()) continue;
+        ShapeSet set;
+        set.add(std::make_unique<Disk>(Transform(), 1, 0u, 0u), Shadow::Opaque);
+        set.add(std::make_unique<Plane>(Transform::translate({4, 0, 0}), square, 0u, 0u),
+                Shadow::Opaque);
+        set.finish(true, kernel);
+        for (const float x :
+             {-1.0f, 1.0f, nextUp(1.0f), -nextUp(1.0f), 3.0f, nextDown(3.0f), 5.0f, nextUp(5.0f)}) {
+            Rays rays;
+            for (int i = 0; i < 20; ++i) rays.push({{x, 0, 2}, {0, 0, -1}});
+            std::vector<Hit> hits;
+            std::vector<std::uint8_t> hidden;
+            set.closest(rays.span(), hits);
+            set.occluded(rays.span(), hidden);
+            const bool met = std::fabs(x) <= 1 || (x >= 3 && x <= 5);
+            for (std::size_t i = 0; i < 20; ++i)
+                CHECK_INFO(hits[i].isHit() == met && hidden[i] == met, kernel.name << ' ' << x);
+        }
+    }
+}
+
 // On a unit cube all can be told beforehand: rays on a face's plane, along an edge, and what they
 // hit where two cubes share a face.
 TEST(solid_cubes_on_their_faces) {
