@@ -57,8 +57,8 @@ inline CubeAxes leftBy(const CubeRoots& roots) {
 }
 
 template <Answer A, class Map>
-[[gnu::noinline]] FoundLanes meetCube(const RayColumns& rays, const RayRanges& ranges,
-                                      const SolidTree::Solid& solid, const Map& map) {
+FoundLanes meetCube(const RayColumns& rays, const RayRanges& ranges, const SolidTree::Solid& solid,
+                    const Map& map) {
     const CubeRoots roots = cubeRoots(objectRays(rays, map, solid.turned));
     FoundLanes found{.t = Floats(0.0f), .lost = Floats(0.0f)};
     found.undecided = roots.undecided;

@@ -48,8 +48,8 @@ inline FlatRoots cornerRoots(const ObjectRays& rays, const StillShape& shape) {
 }
 
 template <Answer A, class Map>
-[[gnu::noinline]] FoundLanes meetFlat(const RayColumns& rays, const RayRanges& ranges,
-                                      const SolidTree::Solid& solid, const Map& map) {
+FoundLanes meetFlat(const RayColumns& rays, const RayRanges& ranges, const SolidTree::Solid& solid,
+                    const Map& map) {
     const ObjectRays local = objectRays(rays, map, solid.turned);
     const FlatRoots roots = solid.kind == SolidTree::Kind::Disk ? diskRoots(local, *solid.shape)
                                                                 : cornerRoots(local, *solid.shape);

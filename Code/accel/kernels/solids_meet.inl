@@ -37,7 +37,7 @@ protected:
         else if (solid.kind == SolidTree::Kind::Tube)
             tube(solid, tree_.tubes[solid.part], entry, lanes, results);
         else if (solid.kind != SolidTree::Kind::Other)
-            take(solid, meetFaces<A>(solid, lanes), entry, lanes, results);
+            faces<A>(solid, entry, lanes, results);
         else
             ask(solid, entry, lanes, results);
     }
@@ -120,14 +120,18 @@ private:
         return meet(driftOf(solid, lanes), solid.turned, solid.shape->radius, lanes);
     }
 
-    template <Answer A> FoundLanes meetFaces(const SolidTree::Solid& solid, unsigned lanes) const {
-        const auto meetIn = [&](const auto& map) {
+    template <Answer A, class Result>
+    [[gnu::noinline]] void faces(const SolidTree::Solid& solid, Floats entry, unsigned lanes,
+                                 Result* results) {
+        const auto found = [&](const auto& map) {
             const RayRanges ranges{columns_.tMin, best_};
             return solid.kind == SolidTree::Kind::Cube ? meetCube<A>(columns_, ranges, solid, map)
                                                        : meetFlat<A>(columns_, ranges, solid, map);
         };
-        return solid.moves ? meetIn(driftOf(solid, lanes))
-                           : meetIn(SameMap{solid.shape->objectFromWorld()});
+        take(solid,
+             solid.moves ? found(driftOf(solid, lanes))
+                         : found(SameMap{solid.shape->objectFromWorld()}),
+             entry, lanes, results);
     }
 
     // The choice between hits and the best ones.
