@@ -71,7 +71,8 @@ private:
 
     void readEntity(const NffWord& word) {
         for (const Entity& entity : entities())
-            if (entity.word == word.text) return (this->*entity.read)(word);
+            if (entity.word.front() == word.text.front() && entity.word == word.text)
+                return (this->*entity.read)(word);
         if (startsNumber(word) && !previous_.text.empty())
             in_.failAt(word,
                        cat("expected an entity, got ", described(word), "; the '", previous_.text,
