@@ -28,7 +28,8 @@ struct Format {
 constexpr auto kFormats = std::to_array<Format>({
     {".txt", [](const SourceFile& source,
                 const ReadContext& context) { return readTxt(source, context.options.threads); }},
-    {".json", readJson},
+    {".json", [](const SourceFile& source,
+                 const ReadContext& context) { return readJson(source, context); }},
     {".nff", readNff},
     {".obj", readMeshScene, true},
     {".ply", readMeshScene, true},

@@ -61,7 +61,7 @@ TEST(plain_number_ends_where_digits_end) {
 TEST(plain_number_reads_random_digits) {
     constexpr unsigned kSeed = 17;
     std::mt19937 engine(kSeed);
-    const auto random = [&](unsigned below) { return engine() % below; };
+    const auto random = [&](unsigned below) { return static_cast<unsigned>(engine()) % below; };
     const int cases = check::scaled(200'000);
     int plain = 0;
     for (int i = 0; i < cases; ++i) {
@@ -69,10 +69,10 @@ TEST(plain_number_reads_random_digits) {
         const auto add = [&](unsigned count) {
             for (; count > 0; --count) number += static_cast<char>('0' + random(10));
         };
-        add(1 + random(random(2) ? 2 : 9));
+        add(1 + random(random(2) == 0 ? 2u : 9u));
         if (random(8)) {
             number += '.';
-            add(random(random(2) ? 9 : 18));
+            add(random(random(2) == 0 ? 9u : 18u));
         }
         if (random(30) == 0) number += "e-7";
         plain += isPlain(number);
