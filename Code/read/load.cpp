@@ -28,8 +28,7 @@ struct Format {
 constexpr auto kFormats = std::to_array<Format>({
     {".txt", [](const SourceFile& source,
                 const ReadContext& context) { return readTxt(source, context.options.threads); }},
-    {".json", [](const SourceFile& source,
-                 const ReadContext& context) { return readJson(source, context); }},
+    {".json", readJson},
     {".nff", readNff},
     {".obj", readMeshScene, true},
     {".ply", readMeshScene, true},

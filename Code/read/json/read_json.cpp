@@ -68,6 +68,11 @@ std::optional<SceneDesc> readInParts(const SourceFile& source, const ReadContext
 
 } // namespace
 
+SceneDesc readJson(const SourceFile& source, const ReadContext& context) {
+    constexpr std::size_t kPartBytes = std::size_t{1} << 17;
+    return readJson(source, context, kPartBytes);
+}
+
 SceneDesc readJson(const SourceFile& source, const ReadContext& context, std::size_t partBytes) {
     // One thread reads in parts, too: a tree of all values takes longer to store than to make.
     if (source.text.size() > partBytes)

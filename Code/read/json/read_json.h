@@ -7,7 +7,7 @@
 
 #include <cstddef>
 
+SceneDesc readJson(const SourceFile& source, const ReadContext& context);
 // Texts of more than partBytes are read in parts of about so much. Nothing that is read and no
 // message depends on it.
-SceneDesc readJson(const SourceFile& source, const ReadContext& context,
-                   std::size_t partBytes = std::size_t{1} << 17);
+SceneDesc readJson(const SourceFile& source, const ReadContext& context, std::size_t partBytes);

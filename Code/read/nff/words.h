@@ -26,7 +26,8 @@ bool startsNumber(const NffWord& word);
 
 class NffWords {
 public:
-    explicit NffWords(const SourceFile& source); // the file must outlive the words
+    // From a place between words on. The file must outlive the words.
+    NffWords(const SourceFile& source, std::size_t first);
 
     const SourceFile& source() const { return source_; }
     NffWord next();
