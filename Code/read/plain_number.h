@@ -38,11 +38,12 @@ inline EightDigits digitsAt(const char* p) {
 inline const char* readPlainNumber(const char* text, const char* end, double& value) {
     if constexpr (std::endian::native != std::endian::little) return nullptr;
     constexpr std::ptrdiff_t kMostRead = 32;
+    constexpr int kMostDigits = 15; // 10^15 < 2^53
     if (end - text < kMostRead) return nullptr;
     static constexpr std::uint64_t kTens[] = {1,      10,      100,      1000,     10000,
                                               100000, 1000000, 10000000, 100000000};
-    static constexpr double kPowers[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6,  1e7,
-                                         1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15};
+    static constexpr double kPowers[] = {1e0, 1e1, 1e2,  1e3,  1e4,  1e5,  1e6, 1e7,
+                                         1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14};
     const bool isNegative = *text == '-';
     const char* p = text + isNegative;
     const EightDigits whole = digitsAt(p);
@@ -58,17 +59,15 @@ inline const char* readPlainNumber(const char* text, const char* end, double& va
         behindPoint = first.count;
         if (first.count == 8) {
             const EightDigits second = digitsAt(p);
-            if (second.count == 8) return nullptr;
             p += second.count;
-            // At most 10^15 * 10^7: what does not fit is not below 2^53 before, either.
-            if (digits > (std::uint64_t{1} << 53) / kTens[second.count]) return nullptr;
             digits = digits * kTens[second.count] + second.value;
             behindPoint += second.count;
         }
     }
-    if (*p == 'e' || *p == 'E' || digits > (std::uint64_t{1} << 53)) return nullptr;
+    if (*p == 'e' || *p == 'E' || whole.count + behindPoint > kMostDigits) return nullptr;
     // Clinger 1990, as in readDouble().
-    const double size = static_cast<double>(digits) / kPowers[behindPoint];
+    const double size =
+        static_cast<double>(static_cast<std::int64_t>(digits)) / kPowers[behindPoint];
     value = isNegative ? -size : size;
     return p;
 }

@@ -32,11 +32,28 @@ bool isPlain(const std::string& number, const std::string& after = kAfter) {
 TEST(plain_number_knows_what_is_plain) {
     for (const char* number :
          {"0", "-0", "7", "1234567", "-0.5", "0.00000001", "12.3779449", "-0.00060021938",
-          "1.234567890123", "9007199.254740992", "0.007199254740992", "9007199.254740993"})
-        CHECK_INFO(isPlain(number) == (std::string(number) != "9007199.254740993"), number);
-    for (const char* other :
-         {"", "-", ".", ".5", "5.", "-.5", "+1", "01", "-00.5", "12345678", "1e5", "1.5E-3",
-          "1.2345678901234567", "99999999.5", "1234567.123456789012", "a", "-a", "1.a", "\xb1"})
+          "1.234567890123", "9999999.99999999", "0.00719925474099"})
+        CHECK_INFO(isPlain(number), number);
+    for (const char* other : {"",
+                              "-",
+                              ".",
+                              ".5",
+                              "5.",
+                              "-.5",
+                              "+1",
+                              "01",
+                              "-00.5",
+                              "12345678",
+                              "1e5",
+                              "1.5E-3",
+                              "1.2345678901234567",
+                              "0.007199254740992",
+                              "99999999.5",
+                              "1234567.123456789012",
+                              "a",
+                              "-a",
+                              "1.a",
+                              "\xb1"})
         CHECK_INFO(!isPlain(other), other);
     // Whoever comes near the end of the text takes the way byte by byte.
     CHECK(isPlain("12.25", std::string(27, ' ')) && !isPlain("12.25", std::string(26, ' ')));

@@ -71,7 +71,7 @@ private:
         std::uint64_t out = wasEscaping_ ? 1 : 0;
         wasEscaping_ = false;
         for (; backslashes != 0; backslashes &= backslashes - 1) {
-            const std::uint64_t one = backslashes & -backslashes;
+            const std::uint64_t one = std::uint64_t{1} << std::countr_zero(backslashes);
             if (out & one) continue;
             out |= one << 1;
             wasEscaping_ = one >> 63 != 0;
