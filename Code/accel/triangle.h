@@ -2,7 +2,8 @@
 // the last bit, so that no tree, width or order of traversal can change a picture.
 // Edges: Woop, Benthin, Wald 2013 without FMA. Rounding is monotone, so the float sign of an edge
 // function is never wrong, it can only be zero; zeros are decided in double, where the products of
-// two floats are exact. Both triangles of an edge see the same bits: closed meshes do not leak.
+// two floats are exact, and what is zero there by one rule for all triangles. Both triangles of an
+// edge see the same bits: closed meshes do not leak.
 // Depth: of the triangle's plane, clamped to the triangle's own depth range and to the entry of its
 // own padded box, so that culling by boxes never removes the nearest hit.
 #pragma once
@@ -32,27 +33,25 @@ struct ShearedTriangle {
         return {edge(2, 1), edge(0, 2), edge(1, 0)};
     }
 
+    // Does the ray meet the triangle? Of those that share the edge or corner that it meets and face
+    // the same way exactly one says yes: the one that contains the ray when it is moved by
+    // (e, e^2), e infinitely small (Edelsbrunner and Muecke 1990). So a ray crosses a closed mesh
+    // as often inwards as outwards, also when it goes on where it met something.
     bool containsRay() const {
         const float U = x[2] * y[1] - y[2] * x[1];
         const float V = x[0] * y[2] - y[0] * x[2];
         const float W = x[1] * y[0] - y[1] * x[0];
         if (!(U >= 0 && V >= 0 && W >= 0) && !(U <= 0 && V <= 0 && W <= 0)) return false;
-        if (U != 0 && V != 0 && W != 0) return true;
-        const Vec3d e = edgesExact();
-        const bool negative = e.x < 0 || e.y < 0 || e.z < 0;
-        const bool positive = e.x > 0 || e.y > 0 || e.z > 0;
-        return negative != positive; // mixed signs: outside; all zero: edge-on, no hit
+        return (U != 0 && V != 0 && W != 0) || ownsRay();
     }
 
-    // For a ray that containsRay(): of all triangles that share the edge or corner that the ray
-    // meets, exactly one of those that face the same way says yes. It is the one that contains the
-    // ray when it is moved by (e, e^2), e infinitely small (Edelsbrunner and Muecke 1990).
+private:
     bool ownsRay() const {
         const Vec3d e = edgesExact();
         const auto side = [this](double edge, int a, int b) {
             if (edge != 0) return edge > 0 ? 1 : -1;
             if (y[a] != y[b]) return y[a] > y[b] ? 1 : -1;
-            return x[b] > x[a] ? 1 : x[b] < x[a] ? -1 : 0;
+            return x[b] > x[a] ? 1 : x[b] < x[a] ? -1 : 0; // 0: seen edge-on, not met
         };
         const int u = side(e.x, 2, 1);
         return u != 0 && u == side(e.y, 0, 2) && u == side(e.z, 1, 0);

@@ -92,7 +92,7 @@ bool anyTriangle(const Ray& ray, const RaySetup& setup, Candidates&& candidates)
     return found;
 }
 
-// Shape::collect(). What crosses a surface on an edge crosses it once.
+// Shape::collect()
 template <class Candidates>
 void allTriangles(const Ray& ray, const RaySetup& setup, std::vector<Hit>& hits,
                   Candidates&& candidates) {
@@ -100,9 +100,7 @@ void allTriangles(const Ray& ray, const RaySetup& setup, std::vector<Hit>& hits,
     const auto leaf = [&](std::uint32_t triangle, const TriangleCorners& v, float&) {
         const float key = canonicalKey(setup, v);
         if (!range.contains(key)) return false;
-        const ShearedTriangle sheared(setup, v[0], v[1], v[2]);
-        if (!sheared.ownsRay()) return false;
-        const Vec2 uv = barycentrics(sheared);
+        const Vec2 uv = barycentrics({setup, v[0], v[1], v[2]});
         hits.push_back({.t = 1.0f / (key * setup.dz), .u = uv.x, .v = uv.y, .prim = triangle});
         return false;
     };
