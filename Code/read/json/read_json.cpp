@@ -1,5 +1,6 @@
 #include "read/json/read_json.h"
 
+#include "read/attempt.h"
 #include "read/json/camera.h"
 #include "read/json/dialect.h"
 #include "read/json/fields.h"
@@ -10,7 +11,9 @@
 #include "read/json/problems.h"
 #include "read/json/settings.h"
 
-#include <iterator>
+#include <optional>
+#include <utility>
+#include <vector>
 
 namespace {
 
@@ -42,28 +45,19 @@ SceneDesc readInOrder(const SourceFile& source, const ReadContext& context) {
 // refer to each other, or when they decide what dialect it is.
 std::optional<SceneDesc> readInParts(const SourceFile& source, const ReadContext& context,
                                      std::size_t partBytes) {
-    try {
-        const JsonOutline outline = parseJsonOutline(source, "objects", partBytes);
-        const JsonValue& root = outline.document.root;
-        const auto rules = jsonRulesWithoutObjects(root);
-        if (outline.list.parts.empty() || !rules) return {};
-        Diagnostics said;
-        const ReadContext own{context.options, said};
-        JsonProblems problems(source, own);
-        bool isGood = false;
-        SceneDesc desc = readScene(root, *rules, problems, [&](const JsonSurroundings& with) {
-            auto objects =
-                readJsonObjectsInParts(source, outline.list, context.options.threads, with);
-            isGood = objects.has_value();
-            return isGood ? std::move(*objects) : std::vector<ObjectDesc>();
-        });
-        if (!isGood) return {};
-        std::move(said.warnings.begin(), said.warnings.end(),
-                  std::back_inserter(context.diagnostics.warnings));
-        return desc;
-    } catch (const Error&) {
-        return {}; // reading in order tells
-    }
+    const JsonOutline outline = parseJsonOutline(source, "objects", partBytes);
+    const JsonValue& root = outline.document.root;
+    const auto rules = jsonRulesWithoutObjects(root);
+    if (outline.list.parts.empty() || !rules) return {};
+    JsonProblems problems(source, context);
+    bool isGood = false;
+    SceneDesc desc = readScene(root, *rules, problems, [&](const JsonSurroundings& with) {
+        auto objects = readJsonObjectsInParts(source, outline.list, context.options.threads, with);
+        isGood = objects.has_value();
+        return isGood ? std::move(*objects) : std::vector<ObjectDesc>();
+    });
+    if (!isGood) return {};
+    return desc;
 }
 
 } // namespace
@@ -76,6 +70,9 @@ SceneDesc readJson(const SourceFile& source, const ReadContext& context) {
 SceneDesc readJson(const SourceFile& source, const ReadContext& context, std::size_t partBytes) {
     // One thread reads in parts, too: a tree of all values takes longer to store than to make.
     if (source.text.size() > partBytes)
-        if (auto scene = readInParts(source, context, partBytes)) return std::move(*scene);
+        if (auto scene = attempt(context, [&](const ReadContext& own) {
+                return readInParts(source, own, partBytes);
+            }))
+            return std::move(*scene);
     return readInOrder(source, context);
 }

@@ -1,12 +1,11 @@
 #include "read/nff/read_nff.h"
 
 #include "base/text.h"
+#include "read/attempt.h"
 #include "read/in_turn.h"
 #include "read/nff/scene.h"
 #include "read/nff/split.h"
 
-#include <algorithm>
-#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -52,35 +51,26 @@ std::vector<NffRange> rangesOf(const SourceFile& source, std::size_t partBytes, 
 std::optional<SceneDesc> readInParts(const SourceFile& source, const ReadContext& context,
                                      std::size_t partBytes) {
     const int threads = context.options.threads;
-    try {
-        ErrorList errors(source);
-        const std::vector<NffRange> ranges = rangesOf(source, partBytes, threads, errors);
-        if (ranges.size() == 1) return {};
-        Diagnostics said;
-        const ReadContext own{context.options, said};
-        NffScene scene(source, own);
-        bool isGood = true;
-        const auto make = [&](std::size_t i) -> std::optional<NffEntities> {
-            ErrorList unheard(source);
-            auto part = readNffEntities(source, ranges[i], context.options, unheard);
-            if (unheard.count() > 0) return {};
-            return part;
-        };
-        std::size_t used = 0;
-        inTurn<std::optional<NffEntities>>(
-            threads, ranges.size(), make, [&](std::optional<NffEntities> part) {
-                isGood = isGood && part && scene.add(std::move(*part), ranges[used].fill);
-                ++used;
-            });
-        if (!isGood) return {};
-        SceneDesc desc = scene.finish(errors);
-        if (errors.count() > 0) return {};
-        std::move(said.warnings.begin(), said.warnings.end(),
-                  std::back_inserter(context.diagnostics.warnings));
-        return desc;
-    } catch (const Error&) {
-        return {}; // reading in order tells
-    }
+    ErrorList errors(source);
+    const std::vector<NffRange> ranges = rangesOf(source, partBytes, threads, errors);
+    if (ranges.size() == 1) return {};
+    NffScene scene(source, context);
+    const auto make = [&](std::size_t i) -> std::optional<NffEntities> {
+        ErrorList unheard(source);
+        auto part = readNffEntities(source, ranges[i], context.options, unheard);
+        if (unheard.count() > 0) return {};
+        return part;
+    };
+    bool isGood = true;
+    auto range = ranges.begin();
+    inTurn<std::optional<NffEntities>>(threads, ranges.size(), make, [&](auto part) {
+        isGood = isGood && part && scene.add(std::move(*part), range->fill);
+        ++range;
+    });
+    if (!isGood) return {};
+    SceneDesc desc = scene.finish(errors);
+    if (errors.count() > 0) return {};
+    return desc;
 }
 
 } // namespace
@@ -97,6 +87,9 @@ SceneDesc readNff(const SourceFile& source, const ReadContext& context, std::siz
     if (source.text.size() >= SourceLoc::kUnknown)
         fail(ErrorKind::Input, cat(source.name, ": error: the file is larger than 4 GiB"));
     if (context.options.threads != 1 && source.text.size() > partBytes)
-        if (auto scene = readInParts(source, context, partBytes)) return std::move(*scene);
+        if (auto scene = attempt(context, [&](const ReadContext& own) {
+                return readInParts(source, own, partBytes);
+            }))
+            return std::move(*scene);
     return readInOrder(source, context);
 }
