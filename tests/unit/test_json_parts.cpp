@@ -86,6 +86,11 @@ TEST(json_parts_give_the_same_scene) {
     CHECK_EQUAL(all.desc.objects.back().name, "sphere4");
     CHECK_EQUAL(all.desc.objects.at(3).name, "x.2");
     CHECK(all.desc.objects.at(8).materials == std::vector<Handle>({0, 1}));
+    // Of two that could be meant the first one is, though it is read elsewhere.
+    std::vector<std::string> named = kObjects;
+    named.insert(named.begin(), R"({"name": "in", "type": "sphere", "radius": 3})");
+    named.push_back(R"({"type": "instance", "ref": "in"})");
+    CHECK_EQUAL(checkSame(sceneOf(named), "a reference").desc.objects.back().radius, 3.0);
     for (const char* list : {"", "1", "\"a\", [], {}", "null, {\"type\": \"sphere\"}"})
         checkSame(sceneOf({list}), list);
     checkSame("{\"objects\": {\"objects\": [{}]}}", "no list");
