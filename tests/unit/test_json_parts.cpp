@@ -90,7 +90,8 @@ TEST(json_parts_give_the_same_scene) {
     std::vector<std::string> named = kObjects;
     named.insert(named.begin(), R"({"name": "in", "type": "sphere", "radius": 3})");
     named.push_back(R"({"type": "instance", "ref": "in"})");
-    CHECK_EQUAL(checkSame(sceneOf(named), "a reference").desc.objects.back().radius, 3.0);
+    const Outcome referring = checkSame(sceneOf(named), "a reference");
+    CHECK_EQUAL(referring.desc.objects.back().radius, 3.0);
     for (const char* list : {"", "1", "\"a\", [], {}", "null, {\"type\": \"sphere\"}"})
         checkSame(sceneOf({list}), list);
     checkSame("{\"objects\": {\"objects\": [{}]}}", "no list");

@@ -27,7 +27,8 @@ std::vector<std::size_t> nffPartStarts(std::string_view text, std::size_t partBy
 }
 
 std::optional<std::size_t> lastNffFill(std::string_view text, std::size_t first, std::size_t last) {
-    for (std::size_t i = last; i-- > first;) {
+    for (std::size_t end = last; end > first; --end) {
+        const std::size_t i = end - 1;
         if (text[i] != 'f' || i + 1 >= last || !isBlank(text[i + 1])) continue;
         std::size_t before = i;
         while (before > first && (text[before - 1] == ' ' || text[before - 1] == '\t')) --before;
