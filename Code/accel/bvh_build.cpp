@@ -215,7 +215,8 @@ public:
         pool_.run(ranges_.size(), [&](std::size_t i, int) {
             subtrees_[i] = std::make_unique<Subtree>(lists_, ranges_[i]);
         });
-        lists_.prims = {}, lists_.spare = {}; // before the nodes are there twice
+        for (auto* list : {&lists_.prims, &lists_.spare}) // before the nodes are there twice
+            PageVector<PrimBox>().swap(*list);
         join();
     }
     Bvh take() { return std::move(bvh_); }

@@ -10,9 +10,11 @@
 #include "accel/kernels/wide_tree.h"
 #include "accel/solid_form.h"
 #include "base/hit.h"
+#include "base/zeroed.h"
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -49,13 +51,14 @@ struct SolidTree {
         ::Facets::Side side = ::Facets::Side::Both;
     };
     int width = 0;
-    std::vector<Solid> solids; // in the order of the tree's leaves
-    std::vector<Bounds> boxes; // of the solids
+    ZeroedVector<Solid> solids; // in the order of the tree's leaves
+    ZeroedVector<Bounds> boxes; // of the solids
     std::vector<Tube> tubes;
     std::vector<FacetGroup> facets;
     // WideNode<width>, root first. A child of kind Leaf is one solid, by its place in `solids`.
-    std::vector<WideTree::Line> lines;
+    PageVector<WideTree::Line> lines;
     float extent = 0; // see RaySetup
+    double sah = 0;   // as sahCost() of bvh.h counts
 
     template <int W> const WideNode<W>& node(WideRef ref) const {
         return *reinterpret_cast<const WideNode<W>*>(
@@ -65,7 +68,30 @@ struct SolidTree {
     void reserve(std::size_t count);
     void add(const Bounds& box, std::uint32_t number, bool hides, const SolidForm& form);
     // Once after the last add(); `bvh` is over the boxes in the order of adding.
-    void build(int nodeWidth, const Bvh& bvh);
+    void build(int nodeWidth, Bvh bvh);
+
+    // Or, instead of add() for each of many: what describe(i) says of the solid in box i of the
+    // `bvh`, asked by several threads, once each. The same for any number of them.
+    struct Described {
+        std::uint32_t number = 0;
+        bool hides = true;
+        SolidForm form;
+    };
+    using Describe = std::function<Described(std::uint32_t)>;
+    void build(int nodeWidth, Bvh bvh, std::span<const Bounds> of, const Describe& describe,
+               int threads);
+
+    std::size_t nodes() const { return lines.size() * sizeof(WideTree::Line) / nodeBytes(); }
+    std::size_t bytes() const;
+
+private:
+    std::size_t nodeBytes() const {
+        return width == 16 ? sizeof(WideNode<16>) : sizeof(WideNode<8>);
+    }
+    // Returns which box each leaf has.
+    std::vector<std::uint32_t> writeNodes(Bvh bvh, std::span<const Bounds> of, int threads);
+    void take(std::span<const std::uint32_t> order, std::span<const Bounds> of,
+              const Describe& describe, int threads);
 };
 
 // How the kernels ask solids that are no spheres.
