@@ -199,12 +199,7 @@ public:
         lists_.largestLeaf = largestLeaf;
         lists_.prims.resize(count_), lists_.spare.resize(count_);
         Range root{0, count_, 0, false, kEmpty, {}, {}};
-        for (std::uint32_t i = 0; i < count_; ++i) {
-            const Vec3 lo = boxes[i].lo, hi = boxes[i].hi;
-            lists_.prims[i] = {{lo.x, lo.y, lo.z, std::bit_cast<float>(i | PrimBox::kNormal)},
-                               {-hi.x, -hi.y, -hi.z, 0}};
-            extend(root.box, lists_.prims[i]);
-        }
+        list(boxes, root.box);
         float extent = 0;
         for (std::size_t i = 0; i < 3; ++i)
             extent = max(extent, max(std::fabs(root.box.lo[i]), std::fabs(root.box.negHi[i])));
@@ -229,6 +224,22 @@ private:
         std::uint32_t left = 0; // children left, left + 1; 0: a subtree
         std::uint32_t subtree = 0;
     };
+
+    // Boxes in parts, by all threads.
+    void list(std::span<const Bounds> boxes, PrimBox& around) {
+        constexpr std::uint32_t kTogether = 1 << 14;
+        std::vector<PrimBox> parts((count_ + kTogether - 1) / kTogether, kEmpty);
+        pool_.run(parts.size(), [&](std::size_t part, int) {
+            const auto first = static_cast<std::uint32_t>(part) * kTogether;
+            for (std::uint32_t i = first; i < std::min(count_, first + kTogether); ++i) {
+                const Vec3 lo = boxes[i].lo, hi = boxes[i].hi;
+                lists_.prims[i] = {{lo.x, lo.y, lo.z, std::bit_cast<float>(i | PrimBox::kNormal)},
+                                   {-hi.x, -hi.y, -hi.z, 0}};
+                extend(parts[part], lists_.prims[i]);
+            }
+        });
+        for (const PrimBox& part : parts) extend(around, part);
+    }
 
     void divideTop(const Range& root) {
         struct Open {

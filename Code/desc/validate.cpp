@@ -368,7 +368,7 @@ private:
         constexpr double kMost = 0x1p28;
         // No point is farther: how long the box has to be, which most often its first object is.
         const double farthest = 1.01 * largestOfMaps_ * (3 * reach_ + 1);
-        const BoundsD box = boundsOf(desc_, farthest / kMost);
+        const BoundsD box = boundsUpTo(desc_, farthest / kMost);
         if (box.isEmpty()) return;
         const double extent = maxAbs(box.size());
         const double times = std::max(maxAbs(box.lo), maxAbs(box.hi)) / extent;

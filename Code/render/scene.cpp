@@ -25,7 +25,7 @@ public:
           pictures_(pictures), on_(settings.switches), objectCount_(desc.objects.size()) {}
 
     void build() {
-        scene_.frame_ = frameOf(desc_);
+        scene_.frame_ = frameOf(desc_, settings_.threads);
         scene_.accelKind_ = settings_.accel;
         buildCamera();
         scene_.features_ = featuresOf(desc_, *cameraDesc_, settings_);

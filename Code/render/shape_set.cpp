@@ -45,7 +45,7 @@ void ShapeSet::add(std::unique_ptr<const Shape> shape, Shadow shadow) {
 
 void ShapeSet::finish(bool withBvh, const Kernel& kernel, int threads) {
     if (withBvh) kernel_ = solidKernel(kernel), planeKernel_ = planeKernel(kernel);
-    sortByBounds();
+    sortByBounds(threads);
     for (const std::uint32_t number : unbounded)
         if (const auto form = shapes[number]->solidForm(); form.plane && planeKernel_)
             floors_.push_back({*form.plane, number});
@@ -65,16 +65,31 @@ void ShapeSet::finish(bool withBvh, const Kernel& kernel, int threads) {
     bvh.nodes.shrink_to_fit();
 }
 
-void ShapeSet::sortByBounds() {
-    bounded.reserve(shapes.size());
-    for (std::uint32_t number = 0; number < shapes.size(); ++number) {
-        const Bounds& box = boxes[number];
-        if (box.isFinite()) {
-            bounded.push_back(number);
-            extent = max(max(maxAbs(box.lo), maxAbs(box.hi)), extent);
-        } else if (!box.isEmpty()) {
-            unbounded.push_back(number);
+void ShapeSet::sortByBounds(int threads) {
+    constexpr std::size_t kTogether = 1 << 14;
+    struct Part {
+        std::vector<std::uint32_t> bounded, unbounded;
+        float extent = 0;
+    };
+    std::vector<Part> parts((shapes.size() + kTogether - 1) / kTogether);
+    forEachPart(threads, shapes.size(), kTogether, [&](std::size_t first, std::size_t last) {
+        Part& part = parts[first / kTogether];
+        part.bounded.reserve(last - first);
+        for (std::size_t number = first; number < last; ++number) {
+            const Bounds& box = boxes[number];
+            if (box.isFinite()) {
+                part.bounded.push_back(static_cast<std::uint32_t>(number));
+                part.extent = max(max(maxAbs(box.lo), maxAbs(box.hi)), part.extent);
+            } else if (!box.isEmpty()) {
+                part.unbounded.push_back(static_cast<std::uint32_t>(number));
+            }
         }
+    });
+    bounded.reserve(shapes.size());
+    for (const Part& part : parts) {
+        bounded.insert(bounded.end(), part.bounded.begin(), part.bounded.end());
+        unbounded.insert(unbounded.end(), part.unbounded.begin(), part.unbounded.end());
+        extent = max(part.extent, extent);
     }
 }
 
@@ -90,7 +105,9 @@ void ShapeSet::buildBatchTrees(const Kernel& kernel, int threads) {
         else
             numbers.push_back(number);
     }
-    const auto describe = [&](std::uint32_t i) -> SolidTree::Described {
+    const auto describe = [&](std::uint32_t i, std::uint32_t next) -> SolidTree::Described {
+        const auto* const soon = reinterpret_cast<const char*>(shapes[numbers[next]].get());
+        for (std::size_t line = 0; line < 4; ++line) __builtin_prefetch(soon + 64 * line);
         const std::uint32_t number = numbers[i];
         return {number, shadows[number] == Shadow::Opaque, shapes[number]->solidForm()};
     };

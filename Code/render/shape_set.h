@@ -73,7 +73,7 @@ private:
     bool isBefore(const Ray& ray, const Hit& a, const Hit& b) const;
     // Asks the shape for a nearer hit than the best one, which then becomes it.
     bool nearer(const Ray& ray, std::uint32_t number, float tEntry, Hit& best) const;
-    void sortByBounds();
+    void sortByBounds(int threads);
     void buildBatchTrees(const Kernel& kernel, int threads);
     void closestOfBatched(const RaySpan& rays, std::vector<Hit>& hits) const;
     void hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;

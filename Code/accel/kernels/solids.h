@@ -70,14 +70,15 @@ struct SolidTree {
     // Once after the last add(); `bvh` is over the boxes in the order of adding.
     void build(int nodeWidth, Bvh bvh);
 
-    // Or, instead of add() for each of many: what describe(i) says of the solid in box i of the
-    // `bvh`, asked by several threads, once each. The same for any number of them.
+    // Or, instead of add() for each of many: what describe(i, next) says of the solid in box i of
+    // the `bvh`, asked by several threads, once each; `next` comes soon. The same for any number of
+    // them.
     struct Described {
         std::uint32_t number = 0;
         bool hides = true;
         SolidForm form;
     };
-    using Describe = std::function<Described(std::uint32_t)>;
+    using Describe = std::function<Described(std::uint32_t i, std::uint32_t next)>;
     void build(int nodeWidth, Bvh bvh, std::span<const Bounds> of, const Describe& describe,
                int threads);
 

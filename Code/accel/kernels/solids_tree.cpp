@@ -279,7 +279,7 @@ void SolidTree::build(int nodeWidth, Bvh bvh, std::span<const Bounds> of, const 
 // Each part of the solids has its own lists of what has a `part` there, which are joined then.
 void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bounds> of,
                      const Describe& describe, int threads) {
-    constexpr std::size_t kTogether = 1024;
+    constexpr std::size_t kTogether = 1024, kAhead = 8;
     struct Rest {
         std::vector<Tube> tubes;
         std::vector<FacetGroup> facets;
@@ -293,9 +293,10 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
     forEachPart(threads, order.size(), kTogether, [&](std::size_t first, std::size_t last) {
         SolidTree part;
         part.solids.reserve(last - first), part.boxes.reserve(last - first);
-        for (const std::uint32_t i : order.subspan(first, last - first)) {
-            const Described solid = describe(i);
-            part.add(of[i], solid.number, solid.hides, solid.form);
+        for (std::size_t i = first; i < last; ++i) {
+            const std::uint32_t at = order[i];
+            const Described solid = describe(at, order[std::min(i + kAhead, last - 1)]);
+            part.add(of[at], solid.number, solid.hides, solid.form);
         }
         std::copy(part.solids.begin(), part.solids.end(), ofPart(solids, first));
         std::copy(part.boxes.begin(), part.boxes.end(), ofPart(boxes, first));
