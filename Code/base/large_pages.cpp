@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <cstring>
 #include <limits>
 #if defined(__linux__)
 #include <sys/mman.h>
@@ -27,8 +26,8 @@ namespace {
 
 [[maybe_unused]] void* filler = nullptr; // of the heap; tools that look for leaks find it here
 
-// What is smaller comes from the heap, which would write the zeros of larger things, too, where it
-// has grown ahead of them.
+// What is smaller comes from malloc. calloc would write the zeros of larger things, too, where the
+// heap has grown ahead of them.
 [[maybe_unused]] constexpr std::size_t kOwnPages = std::size_t{1} << 21;
 
 } // namespace
@@ -43,9 +42,7 @@ void* zeroedMemory(std::size_t bytes) {
         return memory;
     }
 #endif
-    const std::size_t whole = (bytes / kZeroedAlignment + 1) * kZeroedAlignment;
-    void* const memory = std::aligned_alloc(kZeroedAlignment, whole);
-    return memory ? std::memset(memory, 0, whole) : nullptr;
+    return std::calloc(1, std::max<std::size_t>(1, bytes));
 }
 
 void freeZeroedMemory(void* memory, [[maybe_unused]] std::size_t bytes) {

@@ -12,7 +12,6 @@ void adviseLargePages(void* memory, std::size_t bytes);
 void useLargePages(std::size_t bytes);
 
 // Zeros that nobody has written, in such pages; nullptr when there is no memory.
-inline constexpr std::size_t kZeroedAlignment = 64; // a line of the cache
 void* zeroedMemory(std::size_t bytes);
 void freeZeroedMemory(void* memory, std::size_t bytes);
 

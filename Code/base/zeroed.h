@@ -13,7 +13,6 @@
 
 template <class T> struct ZeroedAllocator {
     static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>);
-    static_assert(alignof(T) <= kZeroedAlignment);
     using value_type = T;
 
     ZeroedAllocator() = default;

@@ -137,6 +137,6 @@ LoadedScene load(const std::string& fileName, Diagnostics& diagnostics, const Re
     }
     if (foreseen) foreseen(scene.desc, scene.source.name);
     loadMeshFiles(scene.desc, scene.source, context);
-    validate(scene.desc, scene.source, diagnostics);
+    validate(scene.desc, scene.source, diagnostics, options.threads);
     return scene;
 }

@@ -13,10 +13,10 @@ namespace {
 // A tree over fewer shapes costs more than it saves; the answer is the same either way.
 constexpr std::size_t kFewestForTree = 5;
 
-ZeroedVector<Bounds> boxesOf(std::span<const std::uint32_t> numbers, std::span<const Bounds> all,
+RawVector<Bounds> boxesOf(std::span<const std::uint32_t> numbers, std::span<const Bounds> all,
                              int threads) {
     constexpr std::size_t kTogether = 1 << 14;
-    ZeroedVector<Bounds> out(numbers.size());
+    RawVector<Bounds> out(numbers.size());
     forEachPart(threads, numbers.size(), kTogether, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) out[i] = all[numbers[i]];
     });
@@ -111,8 +111,8 @@ void ShapeSet::buildBatchTrees(const Kernel& kernel, int threads) {
         const std::uint32_t number = numbers[i];
         return {number, shadows[number] == Shadow::Opaque, shapes[number]->solidForm()};
     };
-    const ZeroedVector<Bounds> some =
-        numbers.size() < boxes.size() ? boxesOf(numbers, boxes, threads) : ZeroedVector<Bounds>();
+    const RawVector<Bounds> some =
+        numbers.size() < boxes.size() ? boxesOf(numbers, boxes, threads) : RawVector<Bounds>();
     const std::span<const Bounds> of = some.empty() ? std::span<const Bounds>(boxes) : some;
     solids_.extent = extent;
     if (!numbers.empty())

@@ -21,7 +21,7 @@ struct ShapeSet {
     enum class Shadow : std::uint8_t { Opaque, SeeThrough, None };
 
     std::vector<std::unique_ptr<const Shape>> shapes; // number = Hit::shape
-    ZeroedVector<Bounds> boxes;
+    RawVector<Bounds> boxes;
     std::vector<Shadow> shadows;
 
     // Room for so many.

@@ -10,7 +10,7 @@
 #include "accel/kernels/wide_tree.h"
 #include "accel/solid_form.h"
 #include "base/hit.h"
-#include "base/zeroed.h"
+#include "base/raw_vector.h"
 
 #include <array>
 #include <cstdint>
@@ -51,8 +51,8 @@ struct SolidTree {
         ::Facets::Side side = ::Facets::Side::Both;
     };
     int width = 0;
-    ZeroedVector<Solid> solids; // in the order of the tree's leaves
-    ZeroedVector<Bounds> boxes; // of the solids
+    RawVector<Solid> solids; // in the order of the tree's leaves
+    RawVector<Bounds> boxes; // of the solids
     std::vector<Tube> tubes;
     std::vector<FacetGroup> facets;
     // WideNode<width>, root first. A child of kind Leaf is one solid, by its place in `solids`.

@@ -101,9 +101,9 @@ private:
 // Puts W children below every node.
 template <int W> class TreeWriter {
 public:
-    TreeWriter(const Singles& singles, int threads)
-        : nodes_(singles.nodes), roots_(singles.roots), tops_(singles.tops), threads_(threads),
-          plans_(singles.nodes.size()) {}
+    TreeWriter(Singles singles, int threads)
+        : nodes_(std::move(singles.nodes)), roots_(std::move(singles.roots)),
+          tops_(std::move(singles.tops)), threads_(threads), plans_(nodes_.size()) {}
 
     std::vector<std::uint32_t> run(SolidTree& tree) {
         planAll();
@@ -163,8 +163,8 @@ private:
     }
 
     WideRef write(Piece& piece, std::uint32_t at, bool inTop) {
-        const WideChildren<W> children =
-            childrenOf<W>(at, nodes_, std::span<const CollapsePlan<W>>(plans_));
+        const WideChildren<W> children = childrenOf<W>(at, std::span<const BinaryNode>(nodes_),
+                                                       std::span<const CollapsePlan<W>>(plans_));
         const std::size_t line = piece.lines.size();
         piece.lines.resize(line + kLines);
         piece.area += static_cast<double>(halfAreaOf(nodes_[at]));
@@ -202,6 +202,9 @@ private:
     // The top, and the pieces behind it.
     std::vector<std::uint32_t> join(SolidTree& tree, Piece& top) {
         std::vector<std::size_t> firstLine, firstSolid;
+        const auto root = static_cast<double>(halfAreaOf(nodes_[0]));
+        PageVector<BinaryNode>().swap(nodes_); // for the tree to take their place
+        PageVector<CollapsePlan<W>>().swap(plans_);
         std::size_t lines = top.lines.size(), solids = top.order.size();
         double area = top.area;
         for (const Piece& piece : pieces_) {
@@ -235,14 +238,12 @@ private:
                       order.begin() + static_cast<std::ptrdiff_t>(firstSolid[i]));
             piece = {};
         });
-        const auto root = static_cast<double>(halfAreaOf(nodes_[0]));
         tree.sah = root > 0 ? area / root : static_cast<double>(tree.nodes() + solids);
         return order;
     }
 
-    std::span<const BinaryNode> nodes_;
-    std::span<const std::uint32_t> roots_;
-    std::vector<std::uint32_t> tops_;
+    PageVector<BinaryNode> nodes_;
+    std::vector<std::uint32_t> roots_, tops_;
     int threads_;
     PageVector<CollapsePlan<W>> plans_; // by node
     std::vector<Piece> pieces_;         // in the order of the links to them
@@ -254,10 +255,10 @@ private:
 std::vector<std::uint32_t> SolidTree::writeNodes(Bvh bvh, std::span<const Bounds> of, int threads) {
     lines.clear();
     if (bvh.nodes.empty()) return {};
-    const Singles singles(bvh, of, threads);
+    Singles singles(bvh, of, threads);
     bvh = {}; // makes room
-    return width == 16 ? TreeWriter<16>(singles, threads).run(*this)
-                       : TreeWriter<8>(singles, threads).run(*this);
+    return width == 16 ? TreeWriter<16>(std::move(singles), threads).run(*this)
+                       : TreeWriter<8>(std::move(singles), threads).run(*this);
 }
 
 void SolidTree::build(int nodeWidth, Bvh bvh) {
