@@ -87,44 +87,109 @@ BinGrid childGrid(const Range& r, const PrimBox& box, bool right, std::uint32_t 
 
 struct Halves {
     Range left, right;
+    Range& side(std::size_t i) { return i == 0 ? left : right; }
+    const Range& side(std::size_t i) const { return i == 0 ? left : right; }
 };
 
-Halves divide(const Range& r, Lists& lists) {
+Halves childrenOf(const Range& r) {
     const std::uint32_t nLeft = r.split.leftCount, nRight = r.count - nLeft;
-    Halves out{{r.first,
-                nLeft,
-                r.depth + 1,
-                !r.inSpare,
-                r.split.left,
-                childGrid(r, r.split.left, false, nLeft),
-                {}},
-               {r.first + nLeft,
-                nRight,
-                r.depth + 1,
-                !r.inSpare,
-                r.split.right,
-                childGrid(r, r.split.right, true, nRight),
-                {}}};
-    Range* const sides[2] = {&out.left, &out.right};
-    Bins bins[2];
-    for (std::size_t side = 0; side < 2; ++side)
-        if (sides[side]->count > 2) bins[side].clear(sides[side]->grid.bins);
+    return {{r.first,
+             nLeft,
+             r.depth + 1,
+             !r.inSpare,
+             r.split.left,
+             childGrid(r, r.split.left, false, nLeft),
+             {}},
+            {r.first + nLeft,
+             nRight,
+             r.depth + 1,
+             !r.inSpare,
+             r.split.right,
+             childGrid(r, r.split.right, true, nRight),
+             {}}};
+}
+
+// Of both children.
+struct BothBins {
+    Bins side[2];
+    void clear(const Halves& halves) {
+        for (std::size_t i = 0; i < 2; ++i)
+            if (halves.side(i).count > 2) side[i].clear(halves.side(i).grid.bins);
+    }
+};
+
+std::size_t sideOf(const Range& r, const PrimBox& prim) {
+    return r.grid.binOf(prim, r.split.axis) < r.split.bin ? 0 : 1;
+}
+
+// Those from `first` on to the places from next[side] on.
+void sortInto(const Range& r, std::uint32_t first, std::uint32_t last, Lists& lists,
+              std::array<std::uint32_t, 2> next, const Halves& halves, BothBins& bins) {
     const PrimBox* const from = lists.of(r);
     PrimBox* const to = lists.of(r, true);
-    std::uint32_t next[2] = {0, nLeft};
-    for (std::uint32_t i = 0; i < r.count; ++i) {
-        const std::size_t side = r.grid.binOf(from[i], r.split.axis) < r.split.bin ? 0 : 1;
+    for (std::uint32_t i = first; i < last; ++i) {
+        const std::size_t side = sideOf(r, from[i]);
+        const Range& child = halves.side(side);
         to[next[side]++] = from[i];
-        if (sides[side]->count > 2) bins[side].add(sides[side]->grid, from[i]);
+        if (child.count > 2) bins.side[side].add(child.grid, from[i]);
     }
+}
+
+void chooseSplits(Halves& halves, const BothBins& bins, Lists& lists) {
     for (std::size_t side = 0; side < 2; ++side) {
-        Range& child = *sides[side];
-        const PrimBox* const prims = to + (side == 0 ? 0 : nLeft);
+        Range& child = halves.side(side);
+        const PrimBox* const prims = lists.of(child);
         if (child.count == 2)
             child.split = splitOfTwo(child.grid, prims[0], prims[1], lists.pad);
         else if (child.count > 2)
-            child.split = bestSplit(bins[side], child.grid.bins, child.count, lists.pad);
+            child.split = bestSplit(bins.side[side], child.grid.bins, child.count, lists.pad);
     }
+}
+
+Halves divide(const Range& r, Lists& lists) {
+    Halves out = childrenOf(r);
+    BothBins bins;
+    bins.clear(out);
+    sortInto(r, 0, r.count, lists, {0, out.left.count}, out, bins);
+    chooseSplits(out, bins, lists);
+    return out;
+}
+
+// The same by all threads, in parts.
+Halves divideTogether(const Range& r, Lists& lists, ThreadPool& pool) {
+    constexpr std::uint32_t kTogether = 1 << 14;
+    struct Part {
+        std::array<std::uint32_t, 2> count{}, next{};
+        BothBins bins;
+    };
+    Halves out = childrenOf(r);
+    std::vector<Part> parts((r.count + kTogether - 1) / kTogether);
+    const auto forParts = [&](const auto& job) {
+        pool.run(parts.size(), [&](std::size_t i, int) {
+            const auto first = static_cast<std::uint32_t>(i) * kTogether;
+            job(parts[i], first, std::min(r.count, first + kTogether));
+        });
+    };
+    forParts([&](Part& part, std::uint32_t first, std::uint32_t last) {
+        const PrimBox* const from = lists.of(r);
+        for (std::uint32_t i = first; i < last; ++i) ++part.count[sideOf(r, from[i])];
+    });
+    std::array<std::uint32_t, 2> next{0, out.left.count};
+    for (Part& part : parts) {
+        part.next = next;
+        for (std::size_t side = 0; side < 2; ++side) next[side] += part.count[side];
+    }
+    forParts([&](Part& part, std::uint32_t first, std::uint32_t last) {
+        part.bins.clear(out);
+        sortInto(r, first, last, lists, part.next, out, part.bins);
+    });
+    BothBins bins;
+    bins.clear(out);
+    for (const Part& part : parts)
+        for (std::size_t side = 0; side < 2; ++side)
+            if (out.side(side).count > 2)
+                bins.side[side].add(part.bins.side[side], out.side(side).grid.bins);
+    chooseSplits(out, bins, lists);
     return out;
 }
 
@@ -261,8 +326,13 @@ private:
             }
             std::erase_if(level, isSubtree);
             std::vector<Halves> halves(level.size());
-            pool_.run(level.size(),
-                      [&](std::size_t i, int) { halves[i] = divide(level[i].range, lists_); });
+            const auto threads = static_cast<std::size_t>(pool_.threads());
+            if (level.size() < 2 * threads && threads > 1)
+                for (std::size_t i = 0; i < level.size(); ++i)
+                    halves[i] = divideTogether(level[i].range, lists_, pool_);
+            else
+                pool_.run(level.size(),
+                          [&](std::size_t i, int) { halves[i] = divide(level[i].range, lists_); });
             next.clear();
             for (std::size_t i = 0; i < level.size(); ++i) {
                 top_[level[i].top].left = static_cast<std::uint32_t>(top_.size());

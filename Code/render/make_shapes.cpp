@@ -34,9 +34,24 @@ ShapeMaker::ShapeMaker(const SceneDesc& desc, const RenderSettings& settings,
     for (const bool isSolid : {true, false})
         for (const auto& row : kEnumNames<ObjectDesc::Sides>)
             merged_.push_back({row.value, isSolid, {}, {}, {}});
+    // Of millions most are neither meshes nor do they move.
+    constexpr std::size_t kTogether = 1 << 14;
+    std::vector<std::uint8_t> isPlain(desc_.objects.size());
+    forEachPart(settings_.threads, isPlain.size(), kTogether,
+                [&](std::size_t first, std::size_t last) {
+                    for (std::size_t i = first; i < last; ++i) {
+                        const ObjectDesc& object = desc_.objects[i];
+                        isPlain[i] = object.kind != ObjectDesc::Kind::Mesh &&
+                                     object.worldFromObject.size() == 1;
+                    }
+                });
     simple_.reserve(desc_.objects.size());
     const std::vector<bool> isCopied = meshesToCopy();
     for (std::uint32_t i = 0; i < desc_.objects.size(); ++i) {
+        if (isPlain[i] != 0) {
+            simple_.push_back(i);
+            continue;
+        }
         const ObjectDesc& object = desc_.objects[i];
         const bool isStill = object.worldFromObject.size() == 1 || placeOf(i).isStatic();
         moves_ = moves_ || !isStill;
@@ -139,6 +154,7 @@ ShapeSet::Shadow ShapeMaker::shadowOf(std::span<const std::uint32_t> materials) 
 // By mesh: those that are used once, and others as long as there is room for all their copies.
 std::vector<bool> ShapeMaker::meshesToCopy() const {
     std::vector<std::uint64_t> uses(desc_.meshes.size(), 0);
+    if (uses.empty()) return {};
     for (const ObjectDesc& object : desc_.objects)
         if (object.kind == ObjectDesc::Kind::Mesh) ++uses[static_cast<std::size_t>(object.mesh)];
     std::vector<bool> out(uses.size());
