@@ -5,7 +5,6 @@
 #include "verify/meshes.h"
 
 #include <algorithm>
-#include <cstring>
 
 using meshes::Random;
 
@@ -56,9 +55,11 @@ template <int W> bool sameNodes(const SolidTree& a, const SolidTree& b) {
     for (std::size_t line = 0; line < a.lines.size(); line += kLines) {
         const WideNode<W>& x = a.node<W>(wideRef(line, WideKind::Node));
         const WideNode<W>& y = b.node<W>(wideRef(line, WideKind::Node));
-        if (std::memcmp(x.plane, y.plane, sizeof x.plane) != 0 ||
-            std::memcmp(x.child, y.child, sizeof x.child) != 0)
-            return false;
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            for (std::size_t side = 0; side < 2; ++side)
+                if (!std::equal(x.plane[axis][side], x.plane[axis][side] + W, y.plane[axis][side]))
+                    return false;
+        if (!std::equal(x.child, x.child + W, y.child)) return false;
     }
     return true;
 }
