@@ -38,6 +38,10 @@ public:
         names_.push_back({name.data(), static_cast<std::uint32_t>(name.size()), number});
         return {};
     }
+    // Fetches the memory that the look-up of a name, some names later, will need.
+    void prepare(std::string_view name) const {
+        __builtin_prefetch(&places_[hashOf(name) & (places_.size() - 1)]);
+    }
     std::optional<std::uint32_t> find(std::string_view name) const {
         const Place& place = places_[placeOf(name, hashOf(name))];
         if (place.isEmpty()) return {};
