@@ -48,6 +48,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       steps(stepsFor(theScene, theSettings)), wantsFirstHits(needsFirstHits(theSettings)),
       surfaceNeeds(surfaceNeedsOf(theScene, theSettings)),
       surfaceLanes(::surfaceLanes(chooseKernel(theSettings.kernel))),
+      shadeLanes(::shadeLanes(chooseKernel(theSettings.kernel))),
       textureColors(::textureColors(chooseKernel(theSettings.kernel))),
       roundShapes(roundShapesOf(theScene.shapes(), surfaceLanes, surfaceNeeds)),
       cameraMedium(mediumOfCamera(theScene, theSettings, media)) {

@@ -4,9 +4,11 @@
 
 #include "render/batch.h"
 #include "render/occluders.h"
+#include "render/point_columns.h"
 #include "render/query.h"
 #include "render/shading.h"
 #include "render/waves/lamp_lanes.h"
+#include "render/waves/shade_lanes.h"
 #include "render/waves/steps.h"
 #include "render/waves/texture_points.h"
 #include "sample/dimensions.h"
@@ -69,6 +71,7 @@ struct IntegratorContext {
     bool wantsFirstHits;
     SurfaceNeeds surfaceNeeds;
     SurfaceLanes surfaceLanes;
+    ShadeLanes shadeLanes;
     TextureColorsFn textureColors;       // null: one by one
     std::vector<RoundShape> roundShapes; // by shape; empty: lanes do none
     MediumTree media;                    // what camera rays start in, and room for what rays enter
@@ -94,18 +97,29 @@ struct SampleChunk {
 struct PointBatch {
     std::size_t count = 0;          // the arrays may be longer
     std::vector<std::uint32_t> ray; // ascending
-    std::vector<ShadedPoint> at;
+    PointColumns at;
     std::vector<const Material*> material; // numbers at this point
+    std::vector<const Material*> painted;  // by block: those of all its points; null: they differ
     std::vector<Material> textured;        // those with textures applied
     std::vector<Rgb> weight;               // of what the surface sends to the eye
 
-    // Makes room for `most` points.
+    // Makes room for `most` points; lanes may look at whole blocks.
     void clear(std::size_t most) {
         count = 0;
-        if (ray.size() >= most) return;
-        ray.resize(most), at.resize(most), material.resize(most), textured.resize(most);
-        weight.resize(most);
+        if (most == 0 || ray.size() >= most) return;
+        at.resize(most);
+        const std::size_t room = at.size();
+        ray.resize(room), material.resize(room), textured.resize(room), weight.resize(room);
+        painted.resize(room / PointColumns::kPoints);
     }
+    std::size_t blocks() const {
+        return (count + PointColumns::kPoints - 1) / PointColumns::kPoints;
+    }
+    // How many points of a block there are, and a bit for each.
+    std::size_t sizeOf(std::size_t block) const {
+        return std::min(count - block * PointColumns::kPoints, PointColumns::kPoints);
+    }
+    unsigned usedOf(std::size_t block) const { return (1u << sizeOf(block)) - 1; }
 };
 
 // Some of them, whose surfaces are found together, and their rays.

@@ -105,9 +105,12 @@ void TriangleSurfaceBatch::put(std::size_t lane, const SurfaceTriangle& triangle
     const auto set = [lane](TrianglesMet::Lane(&to)[3], Vec3 v) {
         to[0][lane] = v.x, to[1][lane] = v.y, to[2][lane] = v.z;
     };
-    for (std::size_t i = 0; i < 3; ++i) set(met_.corner[i], triangle.corners[i]);
+    const bool isNew = lane == 0 || !met_.onOne;
+    if (isNew)
+        for (std::size_t i = 0; i < 3; ++i) set(met_.corner[i], triangle.corners[i]);
     if (triangle.hasNormals) {
-        for (std::size_t i = 0; i < 3; ++i) set(met_.normal[i], triangle.normals[i]);
+        if (isNew)
+            for (std::size_t i = 0; i < 3; ++i) set(met_.normal[i], triangle.normals[i]);
         set(met_.dir, dir);
         met_.smooth |= 1u << lane;
     }

@@ -76,7 +76,7 @@ TEST(specialisedFormsGiveTheSameBits) {
         const Scene scene(desc, {"scene", ""}, settings);
         CHECK_INFO(stepsFor(scene, settings) == need, whole);
         settings.specialise = false;
-        CHECK_INFO(stepsFor(scene, settings) == (Steps{true, true, true, true, true}), whole);
+        CHECK_INFO(stepsFor(scene, settings) == (Steps{true, true, true, true, true, true}), whole);
         CHECK_INFO(shot::largest(checkedShot(whole).color) > 0.1, whole);
     }
 }

@@ -63,12 +63,13 @@ std::size_t checkShapes(const Shapes& shapes, const std::vector<Transform>& maps
     for (const Kernel& kernel : allKernels()) {
         const RoundSurfacesFn lanes = surfaceLanes(kernel).round;
         if (!kernel.supported() || lanes == nullptr) continue;
-        std::vector<std::pair<int, Surface>> out(hits.size());
-        lanes({rays, hits, which, to, toShade}, {&out[0].second, sizeof(out[0])});
+        std::vector<SurfaceBlock> out(4);
+        const SurfacePlaces places(out.data());
+        lanes({rays, hits, which, to, toShade}, places);
         for (std::size_t k = 0; k < which.size(); ++k) {
             Surface alone = met[k]->surfaceFor(rays[which[k]], hits[which[k]], {false, true});
             alone.uv = {}; // lanes are not asked for them
-            CHECK_INFO(sameBits(out[to[k]].second, alone),
+            CHECK_INFO(sameBits(places[to[k]].surface(), alone),
                        std::string(kernel.name) + ", hit " + std::to_string(k) + " of " +
                            std::to_string(which.size()) + ", ray " + std::to_string(which[k]));
         }

@@ -7,7 +7,7 @@
 #include "accel/still_shape.h"
 #include "base/hit.h"
 #include "base/ray_span.h"
-#include "base/strided.h"
+#include "base/surface_block.h"
 
 #include <cstdint>
 #include <span>
@@ -22,4 +22,4 @@ struct RoundsMet {
 };
 
 // out[to[k]] becomes the surface of hit k, without texture coordinates.
-using RoundSurfacesFn = void (*)(const RoundsMet&, Strided<Surface> out);
+using RoundSurfacesFn = void (*)(const RoundsMet&, SurfacePlaces out);

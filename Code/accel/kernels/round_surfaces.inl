@@ -176,7 +176,7 @@ void describe(const Numbers& shape, const RaysInLanes& world, SurfacesInLanes& o
 }
 
 template <StillShape::Round kRound>
-void surfacesOf(const RoundsMet& met, const Strided<Surface>& out) {
+void surfacesOf(const RoundsMet& met, const SurfacePlaces& out) {
     SurfacesInLanes found;
     for (std::size_t first = 0; first < met.which.size(); first += W) {
         const std::size_t count = std::min<std::size_t>(W, met.which.size() - first);
@@ -208,7 +208,7 @@ void surfacesOf(const RoundsMet& met, const Strided<Surface>& out) {
 
 } // namespace
 
-void roundSurfaces(const RoundsMet& met, Strided<Surface> out) {
+void roundSurfaces(const RoundsMet& met, SurfacePlaces out) {
     if (met.shapes.empty()) return;
     using enum StillShape::Round;
     if (met.shapes[0]->round == Sphere) return surfacesOf<Sphere>(met, out);

@@ -7,7 +7,7 @@
 
 #define SURFACE_LANES(isa)                                                                         \
     namespace kernels::isa {                                                                       \
-    void roundSurfaces(const RoundsMet&, Strided<Surface>);                                        \
+    void roundSurfaces(const RoundsMet&, SurfacePlaces);                                        \
     void triangleSurfaces(const TrianglesMet&, TriangleSurfaces&);                                 \
     }
 SURFACE_LANES(sse)

@@ -2,13 +2,11 @@
 // on through what is not opaque, then reflected, then refracted.
 #pragma once
 
+#include "render/waves/mirrors.h"
 #include "render/waves/steps.h"
 #include "render/waves/wave.h"
 
 namespace waves {
-
-// Branches of the tree of rays: numbers for Sampler.
-inline constexpr std::uint32_t kReflected = 1, kRefracted = 2;
 
 inline bool worthTracing(const Wave& wave, Rgb weight) {
     const float most = maxChannel(weight);
@@ -39,8 +37,7 @@ inline void push(const Wave& wave, std::size_t k, const Bounce& ray, Vec3 side,
     if (!worthTracing(wave, weight)) return;
     ++counter;
     const Material& material = *wave.memory.points.material[k];
-    // A rough surface's highlight has counted the lamps; a sharp mirror shows their bodies.
-    const bool seesLights = material.roughness <= 0 || isBlack(material.specular);
+    const bool seesLights = showsLamps(material);
     const std::size_t i = wave.memory.points.ray[k];
     const PathBatch& rays = wave.rays;
     wave.memory.next.push(
@@ -89,6 +86,14 @@ template <bool kBounces, bool kSeeThrough> void spawnBounces(const Wave& wave) {
     if (wave.depth >= wave.context.settings.picture.maxDepth) return;
     const PointBatch& points = wave.memory.points;
     for (std::size_t k = 0; k < points.count; ++k) {
+        if constexpr (kBounces && !kSeeThrough)
+            if (const std::size_t b = k / PointColumns::kPoints;
+                k % PointColumns::kPoints == 0 && wave.context.shadeLanes.mirror != nullptr)
+                if (const auto mirrors = waves::plainMirrors(wave, b)) {
+                    waves::mirrorInLanes(wave, b, *mirrors);
+                    k += points.sizeOf(b) - 1;
+                    continue;
+                }
         const Material& material = *points.material[k];
         if (points.at[k].of->isLamp) continue;
         if constexpr (kSeeThrough) {

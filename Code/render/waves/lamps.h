@@ -64,7 +64,7 @@ inline bool groupPoints(const Wave& wave) {
     memory.groupOf.clear();
     for (const std::uint32_t k : memory.answering) {
         const std::uint32_t shape = memory.hits[memory.points.ray[k]].shape;
-        const ShadedPoint& at = memory.points.at[k];
+        const ShadedPoint at = memory.points.at[k];
         const bool inside = seesLampsFromInside(at);
         std::size_t g = 0;
         while (g < memory.groups.size() &&
@@ -109,7 +109,9 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
     if (memory.answering.empty()) return;
 
     const auto isBySamples = [](const Lamp& lamp) { return lamp.bySamples != nullptr; };
-    const bool isInOrder = wave.depth == 0 || (lamps.size() == 1 && !isBySamples(lamps[0]));
+    // A sample with one ray has one point.
+    const bool isInOrder = wave.depth == 0 || !wave.context.steps.branches ||
+                           (lamps.size() == 1 && !isBySamples(lamps[0]));
     const auto arrive = [&](std::uint32_t k, Rgb light) {
         if (isInOrder)
             wave.add(wave.slotOf(k), light);

@@ -3,65 +3,18 @@
 #pragma once
 
 #include "render/lamp_ray.h"
-#include "render/waves/lamp_light.h"
+#include "render/waves/fill_blocks.h"
 
 #include <algorithm>
 #include <bit>
 
 namespace waves {
 
-inline bool seesLampsFromInside(const ShadedPoint& at) { return !(at.front || at.of->litOutside); }
-
 inline Ray shadowRay(const Lamp& lamp, const ShadedPoint& at, const LightSample& sample,
                      float time) {
     if (lamp.origin) return rayFromLamp(at.surface, at.lit.ng, *lamp.origin, time);
     return {leave(at.surface, at.lit.ng) + at.surface.lift, sample.toLight, 0,
             sample.distance * (1 - 0x1p-20f), time};
-}
-
-// In the form that lanes want.
-inline void fillBlocks(const Wave& wave) {
-    WaveMemory& memory = wave.memory;
-    const std::size_t count = memory.answering.size();
-    const std::size_t blocks = (count + LitBlock::kPoints - 1) / LitBlock::kPoints;
-    if (memory.litBlocks.size() < blocks) memory.litBlocks.resize(blocks);
-    for (std::size_t b = 0; b < blocks; ++b) {
-        LitBlock& block = memory.litBlocks[b];
-        const std::size_t first = b * LitBlock::kPoints;
-        const std::size_t size = std::min(count - first, LitBlock::kPoints);
-        block.used = (1u << size) - 1;
-        block.lifted = block.inside = 0;
-        for (unsigned& shiny : block.shiny) shiny = 0;
-        for (std::size_t i = 0; i < size; ++i) {
-            const std::uint32_t k = memory.answering[first + i];
-            const ShadedPoint& at = memory.points.at[k];
-            const Material& material = *memory.points.material[k];
-            const auto put = [i](float(*to)[LitBlock::kPoints], Vec3 v) {
-                to[0][i] = v.x, to[1][i] = v.y, to[2][i] = v.z;
-            };
-            const auto putLight = [&](float(*to)[LitBlock::kPoints], Rgb c) {
-                put(to, {c.r, c.g, c.b});
-            };
-            put(block.p, at.surface.p), put(block.lift, at.surface.lift);
-            put(block.n, at.lit.n), put(block.ng, at.lit.ng);
-            putLight(block.weight, memory.points.weight[k]);
-            putLight(block.diffuse, material.diffuse);
-            block.error[i] = at.surface.error, block.rayError[i] = at.surface.rayError;
-            block.point[i] = k;
-            block.shape[i] = memory.hits[memory.points.ray[k]].shape;
-            const unsigned bit = 1u << i;
-            if (seesLampsFromInside(at)) block.inside |= bit;
-            if (at.surface.lift != Vec3{}) {
-                put(block.ns, at.lit.ns);
-                block.lifted |= bit;
-            }
-            if (!isBlack(material.specular)) {
-                put(block.toEye, at.toEye), putLight(block.specular, material.specular);
-                block.exponent[i] = material.exponent;
-                block.shiny[static_cast<std::size_t>(material.specularModel)] |= bit;
-            }
-        }
-    }
 }
 
 // The points of a block that something may hide from the lamp that is looked at.
