@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
 
 struct alignas(64) SurfaceBlock {
     static constexpr std::size_t kPoints = 16;
@@ -30,6 +31,15 @@ struct alignas(64) SurfaceBlock {
             return;
         set(ns, i, s.ns), set(lift, i, s.lift);
         curved |= bit;
+    }
+    // One whose normals are that of the geometry, without texture coordinates.
+    void putFlat(std::size_t i, Vec3 at, Vec3 normal, float bound, std::uint32_t of,
+                 std::uint32_t part) {
+        set(p, i, at), set(ng, i, normal);
+        uv[0][i] = uv[1][i] = 0;
+        error[i] = bound, rayError[i] = 0;
+        material[i] = of, object[i] = part;
+        curved &= ~(1u << i);
     }
     bool isCurved(std::size_t i) const { return (curved >> i & 1) != 0; }
     Surface at(std::size_t i) const {
@@ -70,6 +80,14 @@ public:
     };
     Place operator[](std::size_t k) const {
         return {block(k / SurfaceBlock::kPoints), k % SurfaceBlock::kPoints};
+    }
+    // The block of which these are all the places, in order; null: they are not.
+    SurfaceBlock* whole(std::span<const std::uint32_t> places) const {
+        constexpr std::size_t kAll = SurfaceBlock::kPoints;
+        if (places.size() != kAll || places[0] % kAll != 0) return nullptr;
+        for (std::size_t i = 1; i < kAll; ++i)
+            if (places[i] != places[0] + i) return nullptr;
+        return &block(places[0] / kAll);
     }
     SurfaceBlock& block(std::size_t number) const {
         return *reinterpret_cast<SurfaceBlock*>(first_ + number * step_);

@@ -95,8 +95,9 @@ struct SampleChunk {
 
 // The points that the rays of a wave have met; element k of every array is point k.
 struct PointBatch {
-    std::size_t count = 0;          // the arrays may be longer
-    std::vector<std::uint32_t> ray; // ascending
+    std::size_t count = 0;           // the arrays may be longer
+    std::vector<std::uint32_t> ray;  // ascending
+    std::vector<std::uint32_t> slot; // of its sample
     PointColumns at;
     std::vector<const Material*> material; // numbers at this point
     std::vector<const Material*> painted;  // by block: those of all its points; null: they differ
@@ -109,7 +110,8 @@ struct PointBatch {
         if (most == 0 || ray.size() >= most) return;
         at.resize(most);
         const std::size_t room = at.size();
-        ray.resize(room), material.resize(room), textured.resize(room), weight.resize(room);
+        ray.resize(room), slot.resize(room), material.resize(room), textured.resize(room),
+            weight.resize(room);
         painted.resize(room / PointColumns::kPoints);
     }
     std::size_t blocks() const {
@@ -123,13 +125,27 @@ struct PointBatch {
 };
 
 // Some of them, whose surfaces are found together, and their rays.
-struct PointsToDescribe {
-    std::vector<std::uint32_t> rays, points;
-    std::vector<const StillShape*> shapes; // of those for lanes
-    void clear() { rays.clear(), points.clear(), shapes.clear(); }
-    void push(std::uint32_t ray, std::uint32_t point) {
-        rays.push_back(ray), points.push_back(point);
+class PointsToDescribe {
+public:
+    // Makes room for `most`.
+    void clear(std::size_t most) {
+        count_ = 0;
+        if (rays_.size() >= most) return;
+        rays_.resize(most), points_.resize(most), shapes_.resize(most);
     }
+    // `shape`: of those for lanes.
+    void push(std::uint32_t ray, std::uint32_t point, const StillShape* shape = nullptr) {
+        rays_[count_] = ray, points_[count_] = point, shapes_[count_] = shape;
+        ++count_;
+    }
+    std::span<const std::uint32_t> rays() const { return std::span(rays_).first(count_); }
+    std::span<const std::uint32_t> points() const { return std::span(points_).first(count_); }
+    std::span<const StillShape* const> shapes() const { return std::span(shapes_).first(count_); }
+
+private:
+    std::size_t count_ = 0; // the arrays may be longer
+    std::vector<std::uint32_t> rays_, points_;
+    std::vector<const StillShape*> shapes_;
 };
 
 // Light that a lamp sends by way of a point.

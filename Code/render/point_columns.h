@@ -22,7 +22,11 @@ public:
     // Where shapes write surfaces to.
     SurfacePlaces surfaces() { return SurfacePlaces(blocks_.data(), sizeof(PointBlock)); }
 
-    ShadedPoint operator[](std::size_t k) const {
+    const SceneMaterial& of(std::size_t k) const {
+        return materials_[blocks_[k / kPoints].material[k % kPoints]];
+    }
+    // Inlined: most callers look at a part of it.
+    [[gnu::always_inline]] ShadedPoint operator[](std::size_t k) const {
         const PointBlock& block = blocks_[k / kPoints];
         const std::size_t i = k % kPoints;
         ShadedPoint at;

@@ -37,15 +37,17 @@ public:
     }
     void put(std::size_t lane, const SurfaceTriangle& triangle, const Hit& hit, Vec3 dir);
     void find() { fn_(met_, found_); }
-    // Else it has to be asked by itself.
-    bool knows(std::size_t lane) const { return (found_.unknown >> lane & 1) == 0; }
-    Surface take(std::size_t lane) const;
+    // Those have to be asked by themselves.
+    unsigned unknown() const { return found_.unknown; }
+    // The surfaces that were found, but for what the triangles are made of and belong to.
+    void take(std::size_t lane, SurfaceBlock& to, std::size_t place) const;
+    void takeAll(SurfaceBlock& to) const;
 
 private:
     TriangleSurfacesFn fn_;
     TrianglesMet met_;
     TriangleSurfaces found_;
-    std::array<Vec2, kHits> uv_;
+    SurfaceBlock::Lane uv_[2];
 };
 
 // What a triangle is made of and belongs to.
@@ -78,15 +80,19 @@ void surfacesOf(const SurfaceQuery& query, TriangleFn&& triangleOf, SourceFn&& s
                           query.rays.dir[rays[i]]);
         }
         batch.find();
+        SurfaceBlock* const whole = out.whole(to);
+        if (whole != nullptr) batch.takeAll(*whole);
         TriangleSource source{};
         for (std::size_t i = 0; i < count; ++i) {
             const Hit& hit = query.hits[rays[i]];
-            Surface surface = batch.knows(i) ? batch.take(i)
-                                             : surfaceOf(triangleOf(hit.prim), query.rays[rays[i]],
-                                                         hit, query.needs);
+            const SurfacePlaces::Place place = out[to[i]];
             if (i == 0 || !onOne) source = sourceOf(hit.prim);
-            surface.material = source.material, surface.object = source.object;
-            out[to[i]] = surface;
+            if ((batch.unknown() >> i & 1) != 0)
+                place = surfaceOf(triangleOf(hit.prim), query.rays[rays[i]], hit, query.needs);
+            else if (whole == nullptr)
+                batch.take(i, place.block, place.lane);
+            place.block.material[place.lane] = source.material;
+            place.block.object[place.lane] = source.object;
         }
     }
 }

@@ -188,20 +188,14 @@ void surfacesOf(const RoundsMet& met, const SurfacePlaces& out) {
         else
             describe<kRound>(NumbersOfMany(shapes), rays, found);
         for (std::size_t i = 0; i < count; ++i) {
-            const Vec3 ng{found.n[0][i], found.n[1][i], found.n[2][i]};
             std::uint32_t material = shapes[i]->material;
             if constexpr (kRound == StillShape::Round::Plane)
                 if (shapes[i]->oddMaterial != material && isOdd(found.uv[0][i], found.uv[1][i]))
                     material = shapes[i]->oddMaterial;
-            out[met.to[first + i]] = {.p = {found.p[0][i], found.p[1][i], found.p[2][i]},
-                                      .ng = ng,
-                                      .ns = ng,
-                                      .uv = {},
-                                      .material = material,
-                                      .object = shapes[i]->object,
-                                      .error = floatAbove(found.error[i]),
-                                      .rayError = 0,
-                                      .lift = {}};
+            const SurfacePlaces::Place to = out[met.to[first + i]];
+            to.block.putFlat(to.lane, {found.p[0][i], found.p[1][i], found.p[2][i]},
+                             {found.n[0][i], found.n[1][i], found.n[2][i]},
+                             floatAbove(found.error[i]), material, shapes[i]->object);
         }
     }
 }

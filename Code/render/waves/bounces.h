@@ -95,7 +95,7 @@ template <bool kBounces, bool kSeeThrough> void spawnBounces(const Wave& wave) {
                     continue;
                 }
         const Material& material = *points.material[k];
-        if (points.at[k].of->isLamp) continue;
+        if (points.at.of(k).isLamp) continue;
         if constexpr (kSeeThrough) {
             waves::goStraight(wave, k);
             if (isBlack(points.weight[k])) continue;

@@ -9,9 +9,9 @@
 
 namespace waves {
 
-// fn(point, light) for what arrives of the shadow rays' light.
-template <bool kSeeThrough, class ArriveFn>
-void traceShadowRays(const Wave& wave, ArriveFn&& arrive) {
+// Takes what arrives of the shadow rays' light.
+template <bool kSeeThrough, class Arrivals>
+void traceShadowRays(const Wave& wave, const Arrivals& arrive) {
     WaveMemory& memory = wave.memory;
     const RayBatch& rays = memory.shadowRays;
     if (rays.empty()) return;
@@ -26,10 +26,32 @@ void traceShadowRays(const Wave& wave, ArriveFn&& arrive) {
         }
     } else {
         wave.context.scene.shapes().occluded(rays.span(), memory.hidden);
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            if (memory.hidden[i] == 0) arrive(rays.sample[i], rays.weight[i]);
+        arrive.unlessHidden(rays, memory.hidden);
     }
 }
+
+// Light that arrives at points: goes to their samples at once, or is kept until all of it is there.
+struct Arrivals {
+    const Wave& wave;
+    bool inOrder;
+
+    void operator()(std::uint32_t point, Rgb light) const {
+        if (inOrder)
+            wave.add(wave.slotOf(point), light);
+        else
+            wave.memory.arrivals.push_back({point, light});
+    }
+    void unlessHidden(const RayBatch& rays, const std::vector<std::uint8_t>& hidden) const {
+        if (!inOrder) {
+            for (std::size_t i = 0; i < rays.size(); ++i)
+                if (hidden[i] == 0) (*this)(rays.sample[i], rays.weight[i]);
+            return;
+        }
+        // Nobody can foresee what is hidden. Nothing changes a sum by nothing: it is never -0.
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            wave.add(wave.slotOf(rays.sample[i]), hidden[i] == 0 ? rays.weight[i] : Rgb{});
+    }
+};
 
 // Sums run over the rays of a wave in their order, and for each over the lamps. After the first
 // wave a sample may have several rays: then what came lamp by lamp is sorted by points first.
@@ -64,16 +86,18 @@ inline bool groupPoints(const Wave& wave) {
     memory.groupOf.clear();
     for (const std::uint32_t k : memory.answering) {
         const std::uint32_t shape = memory.hits[memory.points.ray[k]].shape;
-        const ShadedPoint at = memory.points.at[k];
-        const bool inside = seesLampsFromInside(at);
+        const PointBlock& block = memory.points.at.block(k / PointColumns::kPoints);
+        const std::size_t i = k % PointColumns::kPoints;
+        const bool inside = !block.isFront(i) && !block.isLitApart(i);
         std::size_t g = 0;
         while (g < memory.groups.size() &&
                (memory.groups[g].shape != shape || memory.groups[g].inside != inside))
             ++g;
         if (g == kMostGroups) return false;
         if (g == memory.groups.size()) memory.groups.push_back({shape, inside, {}});
-        memory.groups[g].box.extend(at.surface.p);
-        memory.groups[g].box.extend(at.surface.p + at.surface.lift);
+        const Vec3 p = SurfaceBlock::get(block.p, i);
+        memory.groups[g].box.extend(p);
+        if (block.isCurved(i)) memory.groups[g].box.extend(p + SurfaceBlock::get(block.lift, i));
         memory.groupOf.push_back(static_cast<std::uint8_t>(g));
     }
     return true;
@@ -109,15 +133,9 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
     if (memory.answering.empty()) return;
 
     const auto isBySamples = [](const Lamp& lamp) { return lamp.bySamples != nullptr; };
-    // A sample with one ray has one point.
-    const bool isInOrder = wave.depth == 0 || !wave.context.steps.branches ||
-                           (lamps.size() == 1 && !isBySamples(lamps[0]));
-    const auto arrive = [&](std::uint32_t k, Rgb light) {
-        if (isInOrder)
-            wave.add(wave.slotOf(k), light);
-        else
-            memory.arrivals.push_back({k, light});
-    };
+    const bool isInOrder =
+        wave.hasOneRayPerSample() || (lamps.size() == 1 && !isBySamples(lamps[0]));
+    const waves::Arrivals arrive{wave, isInOrder};
     const bool isGrouped = waves::groupPoints(wave);
     if (std::any_of(lamps.begin(), lamps.end(),
                     [&](const Lamp& lamp) { return lamp.inLanes || isBySamples(lamp); }))

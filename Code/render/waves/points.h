@@ -22,8 +22,8 @@ inline void sortPoints(const Wave& wave) {
     const IntegratorContext& context = wave.context;
     const std::vector<Hit>& hits = wave.memory.hits;
     const PointBatch& points = wave.memory.points;
-    for (PointsToDescribe& list : wave.memory.onRound) list.clear();
-    wave.memory.onOthers.clear();
+    for (PointsToDescribe& list : wave.memory.onRound) list.clear(points.count);
+    wave.memory.onOthers.clear(points.count);
     const bool hasLanes = !context.roundShapes.empty();
     for (std::uint32_t k = 0; k < points.count; ++k) {
         const std::uint32_t ray = points.ray[k];
@@ -33,9 +33,7 @@ inline void sortPoints(const Wave& wave) {
             continue;
         }
         prefetch(*round.shape);
-        PointsToDescribe& list = wave.memory.onRound[static_cast<std::size_t>(round.kind)];
-        list.push(ray, k);
-        list.shapes.push_back(round.shape);
+        wave.memory.onRound[static_cast<std::size_t>(round.kind)].push(ray, k, round.shape);
     }
 }
 
@@ -50,11 +48,11 @@ inline void findSurfaces(const Wave& wave) {
     for (std::size_t b = 0; b < points.blocks(); ++b) points.at.block(b).curved = 0;
     const SurfacePlaces out = points.at.surfaces();
     for (const PointsToDescribe& list : wave.memory.onRound)
-        if (!list.rays.empty())
+        if (!list.rays().empty())
             context.surfaceLanes.round(
-                {wave.rays.span(), hits, list.rays, list.points, list.shapes}, out);
-    const std::span<const std::uint32_t> rays = wave.memory.onOthers.rays,
-                                         to = wave.memory.onOthers.points;
+                {wave.rays.span(), hits, list.rays(), list.points(), list.shapes()}, out);
+    const std::span<const std::uint32_t> rays = wave.memory.onOthers.rays(),
+                                         to = wave.memory.onOthers.points();
     std::size_t end = 0;
     for (std::size_t begin = 0; begin < rays.size(); begin = end) {
         const std::uint32_t shape = hits[rays[begin]].shape;
@@ -164,8 +162,10 @@ template <bool kTextures, bool kSeeThrough> void findPoints(const Wave& wave) {
         waves::paintBlock<kTextures>(wave, b, litOutside);
         waves::seeBlock<kTextures>(wave, b, litOutside);
     }
-    for (std::size_t k = 0; k < points.count; ++k)
-        points.weight[k] = wave.rays.weight[points.ray[k]];
+    for (std::size_t k = 0; k < points.count; ++k) {
+        const std::uint32_t ray = points.ray[k];
+        points.weight[k] = wave.rays.weight[ray], points.slot[k] = wave.rays.sample[ray];
+    }
     if (wave.depth == 0 && context.wantsFirstHits)
         for (std::size_t k = 0; k < points.count; ++k) {
             const std::uint32_t i = points.ray[k];
