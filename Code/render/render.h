@@ -19,7 +19,7 @@ struct AovImage {
 struct Picture {
     Image color; // linear radiance, exposure not applied
     std::vector<AovImage> aovs;
-    Image error;           // with an error goal: the RMSE that is estimated around each pixel
+    Image error; // with an error goal: the RMSE that is estimated around each pixel
     bool finished = false; // false: stopped before every tile was done
 };
 struct RenderControl {
