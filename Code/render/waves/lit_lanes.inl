@@ -103,13 +103,9 @@ private:
             base = select(maskOf(phong), base, cosHalf);
         }
         const Mask glitters = base > zero;
-        alignas(64) float lobes[W];
-        base.store(lobes);
-        for (unsigned rest = lanes & bits(glitters); rest != 0; rest &= rest - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-            lobes[i] = exact::pow(lobes[i], block_.exponent[points_.point(i)]);
-        }
-        Floats lobe = Floats::load(lobes);
+        const unsigned shining = lanes & bits(glitters);
+        Floats lobe(0.0f);
+        if (shining != 0) lobe = powOf(base, each(block_.exponent), shining);
         if (ashikhmin != 0) {
             const Floats norm = (each(block_.exponent) + one) * Floats(kInvPiF / 8);
             const Floats cosHalfEye = Floats(0.5f) * sumLength;
