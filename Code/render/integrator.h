@@ -171,6 +171,12 @@ struct LitPoint {
     const Material* material;
 };
 
+// Shadow rays of point lamps: most of what they are made of is the same for all.
+struct LampRays {
+    RayBatch rays;
+    std::size_t ready = 0; // so many have it
+};
+
 // Scratch memory of one worker, kept between chunks.
 struct WaveMemory {
     PathBatch rays, next;
@@ -185,6 +191,9 @@ struct WaveMemory {
     std::vector<PointGroup> groups;       // of these, and which of them each is in
     std::vector<std::uint8_t> groupOf;
     RayBatch shadowRays; // of one lamp; their samples are points
+    LampRays lampRays;
+    std::vector<LitByLamp> byLamp;    // by block
+    std::vector<LightSums> lightSums; // the same
     std::vector<std::uint8_t> hidden;
     std::vector<Rgb> transmittance;
     std::vector<Arrival> arrivals, arrivalsInOrder;

@@ -3,15 +3,15 @@
 // so are one bundle, however many lamps there are.
 #pragma once
 
-#include "render/waves/lit_blocks.h"
+#include "render/waves/lamp_sums.h"
 
 #include <algorithm>
 
 namespace waves {
 
-// Takes what arrives of the shadow rays' light.
-template <bool kSeeThrough, class Arrivals>
-void traceShadowRays(const Wave& wave, const Arrivals& arrive) {
+// fn(point, light) for what arrives of the shadow rays' light.
+template <bool kSeeThrough, class ArriveFn>
+void traceShadowRays(const Wave& wave, ArriveFn&& arrive) {
     WaveMemory& memory = wave.memory;
     const RayBatch& rays = memory.shadowRays;
     if (rays.empty()) return;
@@ -26,32 +26,10 @@ void traceShadowRays(const Wave& wave, const Arrivals& arrive) {
         }
     } else {
         wave.context.scene.shapes().occluded(rays.span(), memory.hidden);
-        arrive.unlessHidden(rays, memory.hidden);
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            if (memory.hidden[i] == 0) arrive(rays.sample[i], rays.weight[i]);
     }
 }
-
-// Light that arrives at points: goes to their samples at once, or is kept until all of it is there.
-struct Arrivals {
-    const Wave& wave;
-    bool inOrder;
-
-    void operator()(std::uint32_t point, Rgb light) const {
-        if (inOrder)
-            wave.add(wave.slotOf(point), light);
-        else
-            wave.memory.arrivals.push_back({point, light});
-    }
-    void unlessHidden(const RayBatch& rays, const std::vector<std::uint8_t>& hidden) const {
-        if (!inOrder) {
-            for (std::size_t i = 0; i < rays.size(); ++i)
-                if (hidden[i] == 0) (*this)(rays.sample[i], rays.weight[i]);
-            return;
-        }
-        // Nobody can foresee what is hidden. Nothing changes a sum by nothing: it is never -0.
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            wave.add(wave.slotOf(rays.sample[i]), hidden[i] == 0 ? rays.weight[i] : Rgb{});
-    }
-};
 
 // Sums run over the rays of a wave in their order, and for each over the lamps. After the first
 // wave a sample may have several rays: then what came lamp by lamp is sorted by points first.
@@ -135,17 +113,21 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
     const auto isBySamples = [](const Lamp& lamp) { return lamp.bySamples != nullptr; };
     const bool isInOrder =
         wave.hasOneRayPerSample() || (lamps.size() == 1 && !isBySamples(lamps[0]));
-    const waves::Arrivals arrive{wave, isInOrder};
+    const auto arrive = [&](std::uint32_t k, Rgb light) {
+        if (isInOrder)
+            wave.add(wave.slotOf(k), light);
+        else
+            memory.arrivals.push_back({k, light});
+    };
     const bool isGrouped = waves::groupPoints(wave);
     if (std::any_of(lamps.begin(), lamps.end(),
                     [&](const Lamp& lamp) { return lamp.inLanes || isBySamples(lamp); }))
         waves::fillBlocks(wave);
+    if constexpr (!kSeeThrough)
+        if (waves::canSumInLanes(wave)) return waves::addLampsInLanes(wave, isGrouped);
     memory.arrivals.clear();
     for (const Lamp& lamp : lamps) {
-        if (isGrouped)
-            for (PointGroup& group : memory.groups)
-                group.mayBeHidden = wave.context.occluders.mayHide(
-                    group.box, group.shape, group.inside, lamp.light.sourcesFor(group.box));
+        if (isGrouped) waves::askGroups(wave, lamp);
         memory.shadowRays.clear();
         if (lamp.inLanes)
             waves::shineInLanes(wave, lamp, isGrouped, arrive);

@@ -12,7 +12,8 @@
     void paintPoints(const Material&, LitBlock&);                                                  \
     unsigned mirrorPoints(const PointBlock&, const Rgb*, const Rgb*, unsigned, float,              \
                           MirroredBlock&);                                                         \
-    constexpr ShadeLanes kShadeLanes{seePoints, lightPoints, paintPoints, mirrorPoints};           \
+    void addLight(const LitByLamp&, unsigned, LightSums&);                                         \
+    constexpr ShadeLanes kShadeLanes{seePoints, lightPoints, paintPoints, mirrorPoints, addLight}; \
     }
 SHADE_LANES(sse)
 SHADE_LANES(avx2)

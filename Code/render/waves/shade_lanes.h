@@ -15,6 +15,11 @@ struct alignas(64) MirroredBlock {
     SurfaceBlock::Lane org[3], dir[3], weight[3];
 };
 
+// What the samples of a block's points have got so far.
+struct alignas(64) LightSums {
+    SurfaceBlock::Lane sum[3];
+};
+
 struct ShadeLanes {
     // The rest of the `used` points of a block whose surfaces are known, seen along `dirs` (of all
     // sixteen). `litOutside`: those whose materials are. Returns the points whose normals face away
@@ -30,6 +35,9 @@ struct ShadeLanes {
     // Rays that the used points mirror. Returns those that weigh enough.
     unsigned (*mirror)(const PointBlock& block, const Rgb* weights, const Rgb* mirrors,
                        unsigned used, float cutoff, MirroredBlock& out) = nullptr;
+    // Adds a lamp's light to the sums of some points. Others get nothing: they stay, as no sum is
+    // ever -0.
+    void (*add)(const LitByLamp& by, unsigned points, LightSums& sums) = nullptr;
 };
 // Null for the scalar kernel.
 ShadeLanes shadeLanes(const Kernel& kernel);

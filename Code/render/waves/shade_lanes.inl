@@ -140,3 +140,12 @@ unsigned mirrorPoints(const PointBlock& block, const Rgb* weights, const Rgb* mi
     }
     return worth;
 }
+
+void addLight(const LitByLamp& by, unsigned points, LightSums& sums) {
+    for (std::size_t first = 0; first < SurfaceBlock::kPoints; first += W) {
+        const Floats zero(0.0f);
+        const Floats3 none{zero, zero, zero};
+        const Floats3 light = select(maskOf(points >> first & kEvery), load(by.light, first), none);
+        store(load(sums.sum, first) + light, sums.sum, first);
+    }
+}
