@@ -5,6 +5,7 @@
 #include "render/waves/lit_blocks.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 
 namespace waves {
@@ -23,6 +24,8 @@ inline void askGroups(const Wave& wave, const Lamp& lamp) {
                                                            lamp.light.sourcesFor(group.box));
 }
 
+using LampOrigins = std::array<Vec3, LitBlock::kPoints>;
+
 // fn(sample's radiance, block, place) for all points that answer lamps.
 template <class Fn> void forEachSum(const Wave& wave, Fn&& fn) {
     const std::vector<std::uint32_t>& answering = wave.memory.answering;
@@ -31,25 +34,24 @@ template <class Fn> void forEachSum(const Wave& wave, Fn&& fn) {
            wave.memory.lightSums[i / LitBlock::kPoints].sum, i % LitBlock::kPoints);
 }
 
-// Shadow rays for the points of a block, from the lamp.
-inline void pushLampRays(const Wave& wave, const Lamp& lamp, const LitBlock& block,
+// Shadow rays for the points of a block, from the lamp whose place, sixteen times, is `origins`.
+inline void pushLampRays(const Wave& wave, const LampOrigins& origins, const LitBlock& block,
                          const LitByLamp& by, unsigned points) {
+    if (points == 0) return;
     LampRays& batch = wave.memory.lampRays;
     RayBatch& rays = batch.rays;
-    std::size_t to = rays.extend(static_cast<std::size_t>(std::popcount(points)));
-    const bool moves = wave.context.scene.moves();
+    const std::size_t to = rays.extend(LitBlock::kPoints); // lanes write whole registers
+    std::copy(origins.begin(), origins.end(), rays.org.begin() + static_cast<std::ptrdiff_t>(to));
+    wave.context.shadeLanes.aim(by, points, {nullptr, &rays.dir[to], &rays.tMax[to], nullptr});
     for (; batch.ready < rays.size(); ++batch.ready) {
         rays.tMin[batch.ready] = 0;
         rays.time[batch.ready] = wave.rays.time[0];
     }
-    const Vec3 origin = *lamp.origin;
-    for (; points != 0; points &= points - 1, ++to) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(points));
-        rays.org[to] = origin;
-        rays.dir[to] = SurfaceBlock::get(by.dir, i);
-        rays.tMax[to] = by.tMax[i];
-        if (moves) rays.time[to] = wave.rays.time[wave.memory.points.ray[block.point[i]]];
-    }
+    rays.shrink(to + static_cast<std::size_t>(std::popcount(points)));
+    if (!wave.context.scene.moves()) return;
+    for (std::size_t ray = to; points != 0; points &= points - 1, ++ray)
+        rays.time[ray] =
+            wave.rays.time[wave.memory.points.ray[block.point[std::countr_zero(points)]]];
 }
 
 inline void addLampsInLanes(const Wave& wave, bool isGrouped) {
@@ -65,22 +67,23 @@ inline void addLampsInLanes(const Wave& wave, bool isGrouped) {
     for (const Lamp& lamp : wave.context.shadingLamps) {
         if (isGrouped) askGroups(wave, lamp);
         rays.clear();
+        LampOrigins origins;
+        origins.fill(*lamp.origin);
         for (std::size_t b = 0; b < blocks; ++b) {
             const unsigned hidden = hiddenByGroup(memory, b, isGrouped);
             LitByLamp& by = memory.byLamp[b];
             lamp.inLanes(*lamp.emission, memory.litBlocks[b], hidden, by);
-            pushLampRays(wave, lamp, memory.litBlocks[b], by, by.lit & hidden);
+            pushLampRays(wave, origins, memory.litBlocks[b], by, by.lit & hidden);
         }
         wave.counts.shadow += rays.size();
         if (!rays.empty()) wave.context.scene.shapes().occluded(rays.span(), memory.hidden);
+        memory.hidden.resize(rays.size() + LitBlock::kPoints); // lanes look at whole registers
         std::size_t ray = 0;
         for (std::size_t b = 0; b < blocks; ++b) {
             const LitByLamp& by = memory.byLamp[b];
-            unsigned seen = by.lit;
-            for (unsigned rest = by.lit & hiddenByGroup(memory, b, isGrouped); rest != 0;
-                 rest &= rest - 1)
-                seen &= ~(unsigned{memory.hidden[ray++] != 0} << std::countr_zero(rest));
-            if (seen != 0) wave.context.shadeLanes.add(by, seen, memory.lightSums[b]);
+            const unsigned shadowed = by.lit & hiddenByGroup(memory, b, isGrouped);
+            wave.context.shadeLanes.add(by, shadowed, &memory.hidden[ray], memory.lightSums[b]);
+            ray += static_cast<std::size_t>(std::popcount(shadowed));
         }
     }
     forEachSum(wave, [](Rgb& radiance, const SurfaceBlock::Lane(&sum)[3], std::size_t i) {

@@ -46,23 +46,21 @@ inline void mirrorInLanes(const Wave& wave, std::size_t b, unsigned mirrors) {
     std::array<Rgb, PointColumns::kPoints> colours;
     for (std::size_t i = 0; i < points.sizeOf(b); ++i)
         colours[i] = points.material[first + i]->mirror;
-    MirroredBlock by;
-    unsigned worth =
-        wave.context.shadeLanes.mirror(points.at.block(b), &points.weight[first], colours.data(),
-                                       mirrors, wave.context.cutoff, by);
-    const auto count = static_cast<std::size_t>(std::popcount(worth));
-    wave.counts.reflect += count;
     const PathBatch& rays = wave.rays;
     PathBatch& next = wave.memory.next;
     std::size_t to = next.size();
+    next.setSize(to + PointColumns::kPoints); // lanes write whole registers
+    unsigned worth = wave.context.shadeLanes.mirror(
+        points.at.block(b), &points.weight[first], colours.data(), mirrors, wave.context.cutoff,
+        {&next.org[to], &next.dir[to], nullptr, &next.weight[to]});
+    const auto count = static_cast<std::size_t>(std::popcount(worth));
+    wave.counts.reflect += count;
     next.setSize(to + count);
     for (; worth != 0; worth &= worth - 1, ++to) {
         const auto i = static_cast<std::size_t>(std::countr_zero(worth));
         const std::size_t from = points.ray[first + i];
-        next.org[to] = SurfaceBlock::get(by.org, i), next.dir[to] = SurfaceBlock::get(by.dir, i);
         next.tMin[to] = 0, next.tMax[to] = kInfinityF, next.time[to] = rays.time[from];
         next.sample[to] = rays.sample[from];
-        next.weight[to] = {by.weight[0][i], by.weight[1][i], by.weight[2][i]};
         next.medium[to] = rays.medium[from];
         next.stream[to] = low32(hash(rays.stream[from], kReflected));
         next.seesLights[to] = showsLamps(*points.material[first + i]);

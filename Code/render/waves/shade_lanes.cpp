@@ -11,9 +11,11 @@
     void lightPoints(const PointBlock&, const Rgb*, unsigned, LitBlock&);                          \
     void paintPoints(const Material&, LitBlock&);                                                  \
     unsigned mirrorPoints(const PointBlock&, const Rgb*, const Rgb*, unsigned, float,              \
-                          MirroredBlock&);                                                         \
-    void addLight(const LitByLamp&, unsigned, LightSums&);                                         \
-    constexpr ShadeLanes kShadeLanes{seePoints, lightPoints, paintPoints, mirrorPoints, addLight}; \
+                          const RayPlaces&);                                                       \
+    void aimAtPoints(const LitByLamp&, unsigned, const RayPlaces&);                                \
+    void addLight(const LitByLamp&, unsigned, const std::uint8_t*, LightSums&);                    \
+    constexpr ShadeLanes kShadeLanes{seePoints,    lightPoints, paintPoints,                       \
+                                     mirrorPoints, aimAtPoints, addLight};                         \
     }
 SHADE_LANES(sse)
 SHADE_LANES(avx2)

@@ -10,9 +10,11 @@
 
 struct Kernel;
 
-// Rays that leave the points of a block along their mirrored directions.
-struct alignas(64) MirroredBlock {
-    SurfaceBlock::Lane org[3], dir[3], weight[3];
+// Where rays go, one after the other; up to sixteen places behind the last one are overwritten.
+struct RayPlaces {
+    Vec3 *org, *dir;
+    float* tMax;
+    Rgb* weight;
 };
 
 // What the samples of a block's points have got so far.
@@ -32,12 +34,17 @@ struct ShadeLanes {
                   LitBlock& lit) = nullptr;
     // The numbers of a material that all of them have.
     void (*paint)(const Material& material, LitBlock& lit) = nullptr;
-    // Rays that the used points mirror. Returns those that weigh enough.
+    // Origins, directions and weights of the rays that the used points mirror. Returns the points
+    // whose rays weigh enough.
     unsigned (*mirror)(const PointBlock& block, const Rgb* weights, const Rgb* mirrors,
-                       unsigned used, float cutoff, MirroredBlock& out) = nullptr;
-    // Adds a lamp's light to the sums of some points. Others get nothing: they stay, as no sum is
-    // ever -0.
-    void (*add)(const LitByLamp& by, unsigned points, LightSums& sums) = nullptr;
+                       unsigned used, float cutoff, const RayPlaces& out) = nullptr;
+    // Directions and ends of the rays from a lamp to some points.
+    void (*aim)(const LitByLamp& by, unsigned points, const RayPlaces& out) = nullptr;
+    // Adds a lamp's light to the sums of the points that it reaches: of those of `shadowed` there
+    // is a ray for each, in order, and sixteen numbers, not 0 for a hidden one. Others get nothing:
+    // they stay as they are, as no sum is ever -0.
+    void (*add)(const LitByLamp& by, unsigned shadowed, const std::uint8_t* hidden,
+                LightSums& sums) = nullptr;
 };
 // Null for the scalar kernel.
 ShadeLanes shadeLanes(const Kernel& kernel);

@@ -18,6 +18,10 @@ template <class T> Floats3 loadRow(const T* v, std::size_t first) {
     loadVectors(reinterpret_cast<const float*>(v + first), out.x, out.y, out.z);
     return out;
 }
+template <class T> void storeChosen(unsigned lanes, const Floats3& v, T* to) {
+    static_assert(sizeof(T) == 3 * sizeof(float));
+    storeChosenVectors(lanes, v.x, v.y, v.z, reinterpret_cast<float*>(to));
+}
 inline Floats3 operator*(const Floats3& a, Floats s) { return {a.x * s, a.y * s, a.z * s}; }
 inline Floats3 operator/(const Floats3& a, Floats s) { return {a.x / s, a.y / s, a.z / s}; }
 inline Floats3 operator+(const Floats3& a, const Floats3& b) {
@@ -119,7 +123,7 @@ void paintPoints(const Material& material, LitBlock& lit) {
 }
 
 unsigned mirrorPoints(const PointBlock& block, const Rgb* weights, const Rgb* mirrors,
-                      unsigned used, float cutoff, MirroredBlock& out) {
+                      unsigned used, float cutoff, const RayPlaces& out) {
     unsigned worth = 0;
     for (std::size_t first = 0; first < SurfaceBlock::kPoints && used >> first != 0; first += W) {
         const Floats zero(0.0f);
@@ -129,19 +133,39 @@ unsigned mirrorPoints(const PointBlock& block, const Rgb* weights, const Rgb* mi
         const unsigned lanes =
             bits((most > zero) & (most >= Floats(cutoff))) & used >> first & kEvery;
         if (lanes == 0) continue;
-        worth |= lanes << first;
         const Floats3 toEye = load(block.toEye, first);
         const Floats3 ng = seen(block, first, load(block.ng, first));
         Floats3 dir = mirroredAbout(toEye, load(block.n, first));
         const Mask leaves = dot(dir, ng) > zero;
         if ((lanes & ~bits(leaves)) != 0) dir = select(leaves, dir, mirroredAbout(toEye, ng));
-        store(load(block.p, first) + ng * Floats::load(block.error + first), out.org, first);
-        store(dir, out.dir, first), store(all, out.weight, first);
+        const auto to = static_cast<std::size_t>(std::popcount(worth));
+        storeChosen(lanes, load(block.p, first) + ng * Floats::load(block.error + first),
+                    out.org + to);
+        storeChosen(lanes, dir, out.dir + to);
+        storeChosen(lanes, all, out.weight + to);
+        worth |= lanes << first;
     }
     return worth;
 }
 
-void addLight(const LitByLamp& by, unsigned points, LightSums& sums) {
+void aimAtPoints(const LitByLamp& by, unsigned points, const RayPlaces& out) {
+    std::size_t to = 0;
+    for (std::size_t first = 0; first < SurfaceBlock::kPoints && points >> first != 0; first += W) {
+        const unsigned lanes = points >> first & kEvery;
+        storeChosen(lanes, load(by.dir, first), out.dir + to);
+        storeChosenFloats(lanes, Floats::load(by.tMax + first), out.tMax + to);
+        to += static_cast<std::size_t>(std::popcount(lanes));
+    }
+}
+
+void addLight(const LitByLamp& by, unsigned shadowed, const std::uint8_t* hidden, LightSums& sums) {
+    unsigned points = by.lit & ~shadowed;
+    if (shadowed != 0) {
+        const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(hidden));
+        const __m128i isSeen = _mm_cmpeq_epi8(bytes, _mm_setzero_si128());
+        points |= spread(static_cast<unsigned>(_mm_movemask_epi8(isSeen)), shadowed);
+    }
+    if (points == 0) return;
     for (std::size_t first = 0; first < SurfaceBlock::kPoints; first += W) {
         const Floats zero(0.0f);
         const Floats3 none{zero, zero, zero};
