@@ -156,6 +156,7 @@ struct Arrival {
 
 // Points of a wave that lie on one shape.
 struct PointGroup {
+    static constexpr std::size_t kMost = 4; // of a wave
     std::uint32_t shape;
     bool inside; // lamps are seen from the inside of the shape
     Bounds box;
@@ -188,8 +189,9 @@ struct WaveMemory {
     MediumTree media;
     std::vector<std::uint32_t> answering; // points that answer lamps
     std::vector<LitBlock> litBlocks;      // these, if lamps want blocks
-    std::vector<PointGroup> groups;       // of these, and which of them each is in
-    std::vector<std::uint8_t> groupOf;
+    std::vector<PointGroup> groups;       // of these
+    // By block of sixteen of them: a bit for each that is in the group.
+    std::vector<std::array<std::uint16_t, PointGroup::kMost>> inGroups;
     RayBatch shadowRays; // of one lamp; their samples are points
     LampRays lampRays;
     std::vector<LitByLamp> byLamp;    // by block

@@ -56,6 +56,13 @@ inline void fillInLanes(const Wave& wave, std::size_t b, LitBlock& block) {
     for (std::size_t i = 0; i < size; ++i) paintPoint(*points.material[first + i], i, block);
 }
 
+// Are these numbers, which ascend, all the points of one block?
+inline bool isWholeBlock(const PointBatch& points, std::span<const std::uint32_t> numbers) {
+    return numbers[0] % PointColumns::kPoints == 0 &&
+           numbers.back() - numbers[0] == numbers.size() - 1 &&
+           numbers.size() == points.sizeOf(numbers[0] / PointColumns::kPoints);
+}
+
 inline void fillBlocks(const Wave& wave) {
     static_assert(LitBlock::kPoints == PointColumns::kPoints);
     WaveMemory& memory = wave.memory;
@@ -67,12 +74,8 @@ inline void fillBlocks(const Wave& wave) {
         const std::size_t first = b * LitBlock::kPoints;
         const auto here =
             answering.subspan(first, std::min(answering.size() - first, LitBlock::kPoints));
-        // Numbers ascend: these are the points of one block.
-        const bool isWhole = here[0] % LitBlock::kPoints == 0 &&
-                             here.back() - here[0] == here.size() - 1 &&
-                             here.size() == memory.points.sizeOf(here[0] / LitBlock::kPoints);
         block.used = (1u << here.size()) - 1;
-        if (isWhole && wave.context.shadeLanes.light != nullptr)
+        if (isWholeBlock(memory.points, here) && wave.context.shadeLanes.light != nullptr)
             fillInLanes(wave, here[0] / LitBlock::kPoints, block);
         else
             fillOneByOne(memory, here, block);

@@ -17,13 +17,6 @@ inline bool canSumInLanes(const Wave& wave) {
                        [](const Lamp& lamp) { return lamp.inLanes != nullptr; });
 }
 
-// Which groups of points something may hide from a lamp.
-inline void askGroups(const Wave& wave, const Lamp& lamp) {
-    for (PointGroup& group : wave.memory.groups)
-        group.mayBeHidden = wave.context.occluders.mayHide(group.box, group.shape, group.inside,
-                                                           lamp.light.sourcesFor(group.box));
-}
-
 using LampOrigins = std::array<Vec3, LitBlock::kPoints>;
 
 // fn(sample's radiance, block, place) for all points that answer lamps.

@@ -3,6 +3,7 @@
 // so are one bundle, however many lamps there are.
 #pragma once
 
+#include "render/waves/groups.h"
 #include "render/waves/lamp_sums.h"
 
 #include <algorithm>
@@ -52,42 +53,15 @@ inline void addInOrderOfPoints(const Wave& wave) {
     }
 }
 
-// Divides the points that answer lamps by the shape that they are on. False when there is nothing
-// to win: points of later waves are far apart, those of many shapes have many boxes.
-inline bool groupPoints(const Wave& wave) {
-    constexpr std::size_t kMostGroups = 4;
-    const IntegratorContext& context = wave.context;
-    WaveMemory& memory = wave.memory;
-    if (wave.depth > 0 || !context.settings.specialise || !context.occluders.canTell())
-        return false;
-    memory.groups.clear();
-    memory.groupOf.clear();
-    for (const std::uint32_t k : memory.answering) {
-        const std::uint32_t shape = memory.hits[memory.points.ray[k]].shape;
-        const PointBlock& block = memory.points.at.block(k / PointColumns::kPoints);
-        const std::size_t i = k % PointColumns::kPoints;
-        const bool inside = !block.isFront(i) && !block.isLitApart(i);
-        std::size_t g = 0;
-        while (g < memory.groups.size() &&
-               (memory.groups[g].shape != shape || memory.groups[g].inside != inside))
-            ++g;
-        if (g == kMostGroups) return false;
-        if (g == memory.groups.size()) memory.groups.push_back({shape, inside, {}});
-        const Vec3 p = SurfaceBlock::get(block.p, i);
-        memory.groups[g].box.extend(p);
-        if (block.isCurved(i)) memory.groups[g].box.extend(p + SurfaceBlock::get(block.lift, i));
-        memory.groupOf.push_back(static_cast<std::uint8_t>(g));
-    }
-    return true;
-}
-
 // forEachLampSample() for all points, one by one, for any lamp.
 template <bool kSoftLamps, class ArriveFn>
 void shineOneByOne(const Wave& wave, const Lamp& lamp, bool isGrouped, ArriveFn&& arrive) {
     WaveMemory& memory = wave.memory;
     for (std::size_t i = 0; i < memory.answering.size(); ++i) {
         const std::uint32_t k = memory.answering[i];
-        const bool mayBeHidden = !isGrouped || memory.groups[memory.groupOf[i]].mayBeHidden;
+        const bool mayBeHidden =
+            (hiddenByGroup(memory, i / LitBlock::kPoints, isGrouped) >> i % LitBlock::kPoints &
+             1) != 0;
         const LitPoint lit = litPoint(wave, k);
         forEachLampSample<kSoftLamps>(wave, lamp, lit, [&](const LightSample& sample, Rgb light) {
             if (!mayBeHidden) return arrive(k, light);

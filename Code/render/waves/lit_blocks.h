@@ -4,6 +4,7 @@
 
 #include "render/lamp_ray.h"
 #include "render/waves/fill_blocks.h"
+#include "render/waves/groups.h"
 
 #include <algorithm>
 #include <bit>
@@ -15,16 +16,6 @@ inline Ray shadowRay(const Lamp& lamp, const ShadedPoint& at, const LightSample&
     if (lamp.origin) return rayFromLamp(at.surface, at.lit.ng, *lamp.origin, time);
     return {leave(at.surface, at.lit.ng) + at.surface.lift, sample.toLight, 0,
             sample.distance * (1 - 0x1p-20f), time};
-}
-
-// The points of a block that something may hide from the lamp that is looked at.
-inline unsigned hiddenByGroup(const WaveMemory& memory, std::size_t block, bool isGrouped) {
-    if (!isGrouped) return ~0u;
-    const std::size_t first = block * LitBlock::kPoints;
-    unsigned points = 0;
-    for (std::size_t i = 0; i < LitBlock::kPoints && first + i < memory.groupOf.size(); ++i)
-        if (memory.groups[memory.groupOf[first + i]].mayBeHidden) points |= 1u << i;
-    return points;
 }
 
 // forEachLampSample() for all points, by the lanes of a kernel: of a lamp that is asked in its

@@ -12,10 +12,11 @@
     void paintPoints(const Material&, LitBlock&);                                                  \
     unsigned mirrorPoints(const PointBlock&, const Rgb*, const Rgb*, unsigned, float,              \
                           const RayPlaces&);                                                       \
+    Bounds boundsOfPoints(const PointBlock&, unsigned);                                            \
     void aimAtPoints(const LitByLamp&, unsigned, const RayPlaces&);                                \
     void addLight(const LitByLamp&, unsigned, const std::uint8_t*, LightSums&);                    \
-    constexpr ShadeLanes kShadeLanes{seePoints,    lightPoints, paintPoints,                       \
-                                     mirrorPoints, aimAtPoints, addLight};                         \
+    constexpr ShadeLanes kShadeLanes{seePoints,      lightPoints, paintPoints, mirrorPoints,       \
+                                     boundsOfPoints, aimAtPoints, addLight};                       \
     }
 SHADE_LANES(sse)
 SHADE_LANES(avx2)

@@ -3,6 +3,7 @@
 // Knows numbers only; points.h, fill_blocks.h and mirrors.h bring them here.
 #pragma once
 
+#include "base/bounds.h"
 #include "base/vec.h"
 #include "material/material.h"
 #include "render/point_block.h"
@@ -38,6 +39,8 @@ struct ShadeLanes {
     // whose rays weigh enough.
     unsigned (*mirror)(const PointBlock& block, const Rgb* weights, const Rgb* mirrors,
                        unsigned used, float cutoff, const RayPlaces& out) = nullptr;
+    // The box around the used points and where they are lifted to.
+    Bounds (*bounds)(const PointBlock& block, unsigned used) = nullptr;
     // Directions and ends of the rays from a lamp to some points.
     void (*aim)(const LitByLamp& by, unsigned points, const RayPlaces& out) = nullptr;
     // Adds a lamp's light to the sums of the points that it reaches: of those of `shadowed` there

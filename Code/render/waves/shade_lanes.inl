@@ -148,6 +148,24 @@ unsigned mirrorPoints(const PointBlock& block, const Rgb* weights, const Rgb* mi
     return worth;
 }
 
+Bounds boundsOfPoints(const PointBlock& block, unsigned used) {
+    Bounds box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        Floats lo(std::numeric_limits<float>::infinity()), hi = Floats(0.0f) - lo;
+        for (std::size_t first = 0; first < SurfaceBlock::kPoints; first += W) {
+            const unsigned lanes = used >> first & kEvery, curved = block.curved >> first & lanes;
+            const Floats p = Floats::load(block.p[axis] + first);
+            const auto extend = [&](Floats to, unsigned of) {
+                lo = select(maskOf(of), min(to, lo), lo), hi = select(maskOf(of), max(to, hi), hi);
+            };
+            extend(p, lanes);
+            if (curved != 0) extend(p + Floats::load(block.lift[axis] + first), curved);
+        }
+        box.lo[axis] = smallest(lo), box.hi[axis] = largest(hi);
+    }
+    return box;
+}
+
 void aimAtPoints(const LitByLamp& by, unsigned points, const RayPlaces& out) {
     std::size_t to = 0;
     for (std::size_t first = 0; first < SurfaceBlock::kPoints && points >> first != 0; first += W) {
