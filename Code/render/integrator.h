@@ -167,7 +167,7 @@ struct PointGroup {
 struct LitPoint {
     std::uint32_t point;
     bool isLifted; // ns of its surface has a say
-    Vec3 p, n, ng, toEye;
+    Vec3 p, n, ng, ns, toEye;
     Rgb weight;
     const Material* material;
 };

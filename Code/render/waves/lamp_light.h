@@ -8,23 +8,22 @@ inline bool answersLamps(const Material& material) {
     return !isBlack(material.diffuse) || !isBlack(material.specular);
 }
 
-inline LitPoint litPoint(const Wave& wave, std::size_t k) {
+inline LitPoint litPoint(const Wave& wave, std::size_t k, const ShadedPoint& at) {
     const PointBatch& points = wave.memory.points;
-    const ShadedPoint& at = points.at[k];
     return {static_cast<std::uint32_t>(k),
             at.surface.lift != Vec3{},
             at.surface.p,
             at.lit.n,
             at.lit.ng,
+            at.lit.ns,
             at.toEye,
             points.weight[k],
             points.material[k]};
 }
 
 // Is the light above the horizon, of the triangle or of the curve that its normals pretend?
-inline bool rises(const Wave& wave, const LitPoint& lit, Vec3 toLight) {
-    return dot(lit.ng, toLight) > 0 ||
-           (lit.isLifted && dot(wave.memory.points.at[lit.point].lit.ns, toLight) > 0);
+inline bool rises(const LitPoint& lit, Vec3 toLight) {
+    return dot(lit.ng, toLight) > 0 || (lit.isLifted && dot(lit.ns, toLight) > 0);
 }
 
 // Number of the lamp's first random place at the hit of ray i.
@@ -44,7 +43,7 @@ inline Vec2 placeOn(const Lamp& lamp, int k, const Wave& wave, std::size_t i) {
 template <bool kSoftLamps, class Fn>
 void forEachLampSample(const Wave& wave, const Lamp& lamp, const LitPoint& lit, Fn&& fn) {
     const auto take = [&](const LightSample& sample, float share) {
-        if (isBlack(sample.irradiance) || !rises(wave, lit, sample.toLight)) return;
+        if (isBlack(sample.irradiance) || !rises(lit, sample.toLight)) return;
         const Rgb reflected = reflectedLight(*lit.material, lit.n, lit.toEye, sample.toLight);
         const Rgb light = lit.weight * reflected * sample.irradiance * share;
         if (!isBlack(light)) fn(sample, light);

@@ -57,17 +57,19 @@ inline void addInOrderOfPoints(const Wave& wave) {
 template <bool kSoftLamps, class ArriveFn>
 void shineOneByOne(const Wave& wave, const Lamp& lamp, bool isGrouped, ArriveFn&& arrive) {
     WaveMemory& memory = wave.memory;
+    unsigned hidden = 0; // of the block
     for (std::size_t i = 0; i < memory.answering.size(); ++i) {
         const std::uint32_t k = memory.answering[i];
-        const bool mayBeHidden =
-            (hiddenByGroup(memory, i / LitBlock::kPoints, isGrouped) >> i % LitBlock::kPoints &
-             1) != 0;
-        const LitPoint lit = litPoint(wave, k);
-        forEachLampSample<kSoftLamps>(wave, lamp, lit, [&](const LightSample& sample, Rgb light) {
-            if (!mayBeHidden) return arrive(k, light);
-            const float time = wave.rays.time[memory.points.ray[k]];
-            memory.shadowRays.push(shadowRay(lamp, memory.points.at[k], sample, time), k, light);
-        });
+        const std::size_t place = i % LitBlock::kPoints;
+        if (place == 0) hidden = hiddenByGroup(memory, i / LitBlock::kPoints, isGrouped);
+        const bool mayBeHidden = (hidden >> place & 1) != 0;
+        const ShadedPoint at = memory.points.at[k];
+        forEachLampSample<kSoftLamps>(
+            wave, lamp, litPoint(wave, k, at), [&](const LightSample& sample, Rgb light) {
+                if (!mayBeHidden) return arrive(k, light);
+                const float time = wave.rays.time[memory.points.ray[k]];
+                memory.shadowRays.push(shadowRay(lamp, at, sample, time), k, light);
+            });
     }
 }
 
