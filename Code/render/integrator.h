@@ -166,8 +166,10 @@ struct PointGroup {
 // What lamps ask of a point, in one piece.
 struct LitPoint {
     std::uint32_t point;
-    bool isLifted; // ns of its surface has a say
-    Vec3 p, n, ng, ns, toEye;
+    Vec3 p, n, ng; // on the side that is lit
+    Vec3 ns, lift; // where it is lifted, ns has a say
+    Vec3 toEye;
+    float error, rayError;
     Rgb weight;
     const Material* material;
 };

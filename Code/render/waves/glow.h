@@ -73,7 +73,7 @@ template <bool kLampBodies, bool kSeeThrough> void addGlow(const Wave& wave) {
             if (material.opacity < 1 && isBlack(weight)) continue;
         wave.add(slot, weight * waves::glowOf(scene, material));
         if (wave.context.openLamps.empty() || !answersLamps(material)) continue;
-        const LitPoint lit = litPoint(wave, here, points.at[here]);
+        const LitPoint lit = litPoint(wave, here);
         for (const Lamp& lamp : wave.context.openLamps)
             forEachLampSample<true>(wave, lamp, lit,
                                     [&](const LightSample&, Rgb light) { wave.add(slot, light); });

@@ -8,22 +8,33 @@ inline bool answersLamps(const Material& material) {
     return !isBlack(material.diffuse) || !isBlack(material.specular);
 }
 
-inline LitPoint litPoint(const Wave& wave, std::size_t k, const ShadedPoint& at) {
+inline LitPoint litPoint(const Wave& wave, std::size_t k) {
     const PointBatch& points = wave.memory.points;
-    return {static_cast<std::uint32_t>(k),
-            at.surface.lift != Vec3{},
-            at.surface.p,
-            at.lit.n,
-            at.lit.ng,
-            at.lit.ns,
-            at.toEye,
-            points.weight[k],
-            points.material[k]};
+    const PointBlock& block = points.at.block(k / PointColumns::kPoints);
+    const std::size_t i = k % PointColumns::kPoints;
+    const bool isApart = block.isLitApart(i), isCurved = block.isCurved(i);
+    const float side = isApart || block.isFront(i) ? 1.0f : -1.0f; // times it is exact
+    LitPoint lit{static_cast<std::uint32_t>(k),
+                 SurfaceBlock::get(block.p, i),
+                 SurfaceBlock::get(isApart ? block.litN : block.n, i),
+                 SurfaceBlock::get(block.ng, i) * side,
+                 {},
+                 {},
+                 SurfaceBlock::get(block.toEye, i),
+                 block.error[i],
+                 block.rayError[i],
+                 points.weight[k],
+                 points.material[k]};
+    if (isCurved) {
+        lit.ns = SurfaceBlock::get(block.ns, i) * side;
+        lit.lift = SurfaceBlock::get(block.lift, i);
+    }
+    return lit;
 }
 
 // Is the light above the horizon, of the triangle or of the curve that its normals pretend?
 inline bool rises(const LitPoint& lit, Vec3 toLight) {
-    return dot(lit.ng, toLight) > 0 || (lit.isLifted && dot(lit.ns, toLight) > 0);
+    return dot(lit.ng, toLight) > 0 || (lit.lift != Vec3{} && dot(lit.ns, toLight) > 0);
 }
 
 // Number of the lamp's first random place at the hit of ray i.

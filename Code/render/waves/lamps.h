@@ -63,13 +63,12 @@ void shineOneByOne(const Wave& wave, const Lamp& lamp, bool isGrouped, ArriveFn&
         const std::size_t place = i % LitBlock::kPoints;
         if (place == 0) hidden = hiddenByGroup(memory, i / LitBlock::kPoints, isGrouped);
         const bool mayBeHidden = (hidden >> place & 1) != 0;
-        const ShadedPoint at = memory.points.at[k];
-        forEachLampSample<kSoftLamps>(
-            wave, lamp, litPoint(wave, k, at), [&](const LightSample& sample, Rgb light) {
-                if (!mayBeHidden) return arrive(k, light);
-                const float time = wave.rays.time[memory.points.ray[k]];
-                memory.shadowRays.push(shadowRay(lamp, at, sample, time), k, light);
-            });
+        const LitPoint lit = litPoint(wave, k);
+        forEachLampSample<kSoftLamps>(wave, lamp, lit, [&](const LightSample& sample, Rgb light) {
+            if (!mayBeHidden) return arrive(k, light);
+            const float time = wave.rays.time[memory.points.ray[k]];
+            memory.shadowRays.push(shadowRay(lamp, lit, sample, time), k, light);
+        });
     }
 }
 

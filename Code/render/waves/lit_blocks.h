@@ -11,11 +11,17 @@
 
 namespace waves {
 
-inline Ray shadowRay(const Lamp& lamp, const ShadedPoint& at, const LightSample& sample,
-                     float time) {
-    if (lamp.origin) return rayFromLamp(at.surface, at.lit.ng, *lamp.origin, time);
-    return {leave(at.surface, at.lit.ng) + at.surface.lift, sample.toLight, 0,
-            sample.distance * (1 - 0x1p-20f), time};
+inline Ray shadowRay(const Lamp& lamp, const LitPoint& lit, const LightSample& sample, float time) {
+    const Surface surface{.p = lit.p,
+                          .ng = {},
+                          .ns = {},
+                          .uv = {},
+                          .error = lit.error,
+                          .rayError = lit.rayError,
+                          .lift = lit.lift};
+    if (lamp.origin) return rayFromLamp(surface, lit.ng, *lamp.origin, time);
+    return {leave(surface, lit.ng) + lit.lift, sample.toLight, 0, sample.distance * (1 - 0x1p-20f),
+            time};
 }
 
 // forEachLampSample() for all points, by the lanes of a kernel: of a lamp that is asked in its
