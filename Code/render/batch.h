@@ -47,6 +47,8 @@ struct RayBatch {
         if (count_ > org.size()) makeRoom(std::max<std::size_t>(64, 2 * count_));
         return first;
     }
+    // Without the last ones, so that so many are left.
+    void shrink(std::size_t rays) { count_ = rays; }
 
 protected:
     void makeRoom(std::size_t rays) {

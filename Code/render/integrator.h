@@ -157,6 +157,7 @@ struct WaveMemory {
     RayBatch shadowRays; // of one lamp; their samples are points
     std::vector<std::uint8_t> hidden;
     std::vector<Rgb> transmittance;
+    std::vector<Rgb> lampLight; // of a lamp with a size, by point
     std::vector<Arrival> arrivals, arrivalsInOrder;
     std::vector<std::uint32_t> arrivalStarts;
 };

@@ -197,28 +197,48 @@ TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
                 const Sampler::PairSeeds seeds = sampler.pairSeeds(pixel[k], dimension);
                 samples.index[k] = seeds.index, samples.x[k] = seeds.x, samples.y[k] = seeds.y;
             }
+            // Points with rays, and points with sums that begin with the lamp before.
+            const auto withRays = static_cast<unsigned>(random.below(1u << 16));
             LitBySamples out;
-            inLanes(*lamp.emission(), blockOf(points), samples, out);
-            for (std::size_t n = 0; n < used * samples.count; ++n) {
-                const std::size_t k = n / samples.count;
-                const auto s = samples.first[k] + static_cast<std::uint32_t>(n % samples.count);
-                const Point& p = points[k];
-                const LightSample sample =
-                    lamp.sample(p.surface.p, sampler.get2D(pixel[k], s, dimension));
-                const Rgb light = lightOf(lamp, p, sample, samples.share);
-                bool same = out.isLit(n) == !isBlack(light);
-                if (same && out.isLit(n)) {
-                    const auto taken = [&](const float(*v)[LitBySamples::kRoom]) {
-                        return Vec3{v[0][n], v[1][n], v[2][n]};
-                    };
-                    same = sameBits(taken(out.light), {light.r, light.g, light.b}) &&
-                           sameBits(taken(out.dir), sample.toLight) &&
-                           sameBits(out.tMax[n], sample.distance * (1 - 0x1p-20f));
-                }
-                ++asked, lit += out.isLit(n);
-                if (!same && ++wrong <= 3)
+            Rgb sums[16];
+            for (std::size_t k = 0; k < used; ++k) {
+                sums[k] = someLight(random, 0.5);
+                put(out.sum, k, {sums[k].r, sums[k].g, sums[k].b});
+            }
+            inLanes(*lamp.emission(), blockOf(points), samples, withRays, out);
+            const auto tell = [&](std::size_t k, std::size_t s) {
+                if (++wrong <= 3)
                     CHECK_INFO(false, kernel.name << " block " << i << " point " << k << " sample "
                                                   << s << " of " << samples.count);
+            };
+            for (std::size_t k = 0; k < used; ++k) {
+                const bool hasRays = (withRays >> k & 1) != 0;
+                for (std::size_t s = 0; s < samples.count; ++s) {
+                    const Point& p = points[k];
+                    const std::uint32_t number = samples.first[k] + static_cast<std::uint32_t>(s);
+                    const LightSample sample =
+                        lamp.sample(p.surface.p, sampler.get2D(pixel[k], number, dimension));
+                    const Rgb light = lightOf(lamp, p, sample, samples.share);
+                    ++asked, lit += !isBlack(light);
+                    if (!hasRays) {
+                        sums[k] += light;
+                        if (out.isLit(s, k)) tell(k, s);
+                        continue;
+                    }
+                    bool same = out.isLit(s, k) == !isBlack(light);
+                    if (same && out.isLit(s, k)) {
+                        const std::size_t n = s * LitBlock::kPoints + k;
+                        const auto taken = [&](const float(*v)[LitBySamples::kRoom]) {
+                            return Vec3{v[0][n], v[1][n], v[2][n]};
+                        };
+                        same = sameBits(taken(out.light), {light.r, light.g, light.b}) &&
+                               sameBits(taken(out.dir), sample.toLight) &&
+                               sameBits(out.tMax[n], sample.distance * (1 - 0x1p-20f));
+                    }
+                    if (!same) tell(k, s);
+                }
+                if (!sameBits(taken(out.sum, k), {sums[k].r, sums[k].g, sums[k].b}))
+                    tell(k, samples.count);
             }
         }
         std::printf("%s: %lld samples, %lld lit\n", kernel.name, asked, lit);
@@ -253,9 +273,9 @@ TEST(lamp_samples_in_lanes_take_the_seams_of_the_disk) {
             const Vec2 u{unitFloat(bits.x), unitFloat(bits.y)};
             CHECK_INFO(u.x == 0.5f || u.y == 0.5f || u.x == u.y || u.x + u.y == 1, sample);
             LitBySamples out;
-            inLanes(*lamp.emission(), blockOf({point}), samples, out);
+            inLanes(*lamp.emission(), blockOf({point}), samples, ~0u, out);
             const LightSample alone = lamp.sample(point.surface.p, u);
-            CHECK_INFO(out.isLit(0) &&
+            CHECK_INFO(out.isLit(0, 0) &&
                            sameBits({out.dir[0][0], out.dir[1][0], out.dir[2][0]}, alone.toLight),
                        kernel.name << " sample " << sample);
         }

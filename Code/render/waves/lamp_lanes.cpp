@@ -5,7 +5,7 @@
 #define LIGHT_IN_LANES(isa)                                                                        \
     namespace kernels::isa {                                                                       \
     void lightByLamp(const PointEmission&, const LitBlock&, unsigned, LitByLamp&);                 \
-    void lightBySamples(const PointEmission&, const LitBlock&, const SamplesOnLamp&,               \
+    void lightBySamples(const PointEmission&, const LitBlock&, const SamplesOnLamp&, unsigned,     \
                         LitBySamples&);                                                            \
     unsigned mayBeHidden(const Occluders&, const LitBlock&, const PointEmission&);                 \
     }

@@ -39,24 +39,27 @@ struct alignas(64) LitByLamp {
 struct SamplesOnLamp {
     std::size_t count = 0;
     float share = 1; // of each sample in the light
-    std::uint32_t first[LitBlock::kPoints], index[LitBlock::kPoints], x[LitBlock::kPoints],
-        y[LitBlock::kPoints];
+    std::uint32_t first[LitBlock::kPoints] = {}, index[LitBlock::kPoints] = {},
+                  x[LitBlock::kPoints] = {}, y[LitBlock::kPoints] = {};
 };
 
-// What they do: sample s of point k is element k * count + s.
+// What they do: their light is added to the sum of a point, or, if something may hide it, there is
+// a ray for each. Sample s of point k is element s * kPoints + k.
 struct alignas(64) LitBySamples {
     static constexpr std::size_t kMost = 16; // samples at a time
     static constexpr std::size_t kRoom = LitBlock::kPoints * kMost;
+    float sum[3][LitBlock::kPoints] = {};
     float light[3][kRoom], dir[3][kRoom], tMax[kRoom]; // the ray from the point
-    std::array<std::uint16_t, kRoom / 16> lit;         // a bit for each
-    bool isLit(std::size_t i) const { return lit[i / 16] >> i % 16 & 1; }
+    std::array<std::uint16_t, kMost> lit;              // the points that have one
+    bool isLit(std::size_t s, std::size_t k) const { return lit[s] >> k & 1; }
 };
 
 // Rays are made for the lit points of `withRays`.
 using LightByLampFn = void (*)(const PointEmission& lamp, const LitBlock& block, unsigned withRays,
                                LitByLamp& out);
 using LightBySamplesFn = void (*)(const PointEmission& lamp, const LitBlock& block,
-                                  const SamplesOnLamp& samples, LitBySamples& out);
+                                  const SamplesOnLamp& samples, unsigned withRays,
+                                  LitBySamples& out);
 
 // The points of a block that something may hide from a place on the lamp.
 class Occluders;

@@ -42,14 +42,8 @@ inline void addInOrderOfPoints(const Wave& wave) {
     memory.arrivalsInOrder.resize(memory.arrivals.size());
     for (const Arrival& arrival : memory.arrivals)
         memory.arrivalsInOrder[next[arrival.point]++] = arrival;
-    // Sums of a point's many arrivals stay in registers.
-    const std::vector<Arrival>& arrivals = memory.arrivalsInOrder;
-    for (std::size_t i = 0; i < arrivals.size();) {
-        const std::uint32_t point = arrivals[i].point, slot = wave.slotOf(point);
-        Rgb sum = wave.chunk.radiance[slot];
-        for (; i < arrivals.size() && arrivals[i].point == point; ++i) sum += arrivals[i].light;
-        wave.chunk.radiance[slot] = sum;
-    }
+    for (const Arrival& arrival : memory.arrivalsInOrder)
+        wave.add(wave.slotOf(arrival.point), arrival.light);
 }
 
 // Divides the points that answer lamps by the shape that they are on. False when there is nothing
@@ -108,8 +102,7 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
             memory.answering.push_back(static_cast<std::uint32_t>(k));
     if (memory.answering.empty()) return;
 
-    const auto isBySamples = [](const Lamp& lamp) { return lamp.bySamples != nullptr; };
-    const bool isInOrder = wave.depth == 0 || (lamps.size() == 1 && !isBySamples(lamps[0]));
+    const bool isInOrder = wave.depth == 0 || lamps.size() == 1;
     const auto arrive = [&](std::uint32_t k, Rgb light) {
         if (isInOrder)
             wave.add(wave.slotOf(k), light);
@@ -118,7 +111,7 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
     };
     const bool isGrouped = waves::groupPoints(wave);
     if (std::any_of(lamps.begin(), lamps.end(),
-                    [&](const Lamp& lamp) { return lamp.inLanes || isBySamples(lamp); }))
+                    [&](const Lamp& lamp) { return lamp.inLanes || lamp.bySamples; }))
         waves::fillBlocks(wave);
     memory.arrivals.clear();
     for (const Lamp& lamp : lamps) {
@@ -127,12 +120,23 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
                 group.mayBeHidden = wave.context.occluders.mayHide(
                     group.box, group.shape, group.inside, lamp.light.sourcesFor(group.box));
         memory.shadowRays.clear();
+        if constexpr (kSoftLamps)
+            if (lamp.isSoft) {
+                // All samples of a point first, which come in any order of points.
+                memory.lampLight.assign(points.count, Rgb{});
+                const auto add = [&](std::uint32_t k, Rgb light) { memory.lampLight[k] += light; };
+                if (lamp.bySamples)
+                    waves::shineBySamples(wave, lamp, add);
+                else
+                    waves::shineOneByOne<true>(wave, lamp, isGrouped, add);
+                waves::traceShadowRays<kSeeThrough>(wave, add);
+                for (const std::uint32_t k : memory.answering) arrive(k, memory.lampLight[k]);
+                continue;
+            }
         if (lamp.inLanes)
             waves::shineInLanes(wave, lamp, isGrouped, arrive);
-        else if (isBySamples(lamp))
-            waves::shineBySamples(wave, lamp, isInOrder);
         else
-            waves::shineOneByOne<kSoftLamps>(wave, lamp, isGrouped, arrive);
+            waves::shineOneByOne<false>(wave, lamp, isGrouped, arrive);
         waves::traceShadowRays<kSeeThrough>(wave, arrive);
     }
     if (!isInOrder) waves::addInOrderOfPoints(wave);

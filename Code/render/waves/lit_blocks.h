@@ -111,44 +111,45 @@ inline SamplesOnLamp samplesOf(const Wave& wave, const Lamp& lamp, const LitBloc
     SamplesOnLamp samples;
     samples.count = static_cast<std::size_t>(count);
     samples.share = 1.0f / static_cast<float>(lamp.samples);
-    for (unsigned rest = block.used; rest != 0; rest &= rest - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+    Sampler::PairSeeds seeds{};
+    std::uint32_t stream = 0;
+    for (unsigned i = 0; i < static_cast<unsigned>(std::popcount(block.used)); ++i) {
         const std::size_t ray = wave.memory.points.ray[block.point[i]];
-        const Sampler::PairSeeds seeds = lamp.sampler.pairSeeds(
-            wave.rays.stream[ray], dimension(wave.depth, BounceSlot::LightUv));
+        if (i == 0 || wave.rays.stream[ray] != stream) { // else as the last one of its pixel
+            stream = wave.rays.stream[ray];
+            seeds = lamp.sampler.pairSeeds(stream, dimension(wave.depth, BounceSlot::LightUv));
+        }
         samples.index[i] = seeds.index, samples.x[i] = seeds.x, samples.y[i] = seeds.y;
         samples.first[i] = firstSample(lamp, wave, ray) + static_cast<std::uint32_t>(first);
     }
     return samples;
 }
 
-// What a lamp's samples s of one point do: fn(s, light) for those that are lit.
-template <class Fn>
-void forEachLit(const LitBySamples& by, std::size_t i, std::size_t count, Fn&& fn) {
-    for (std::size_t s = i * count; s < (i + 1) * count; ++s)
-        if (by.isLit(s)) fn(s, Rgb{by.light[0][s], by.light[1][s], by.light[2][s]});
-}
-
+// The rays of point i of a block, whose number is k.
 inline void pushShadowRays(const Wave& wave, std::uint32_t k, const LitBySamples& by, std::size_t i,
                            std::size_t count) {
     RayBatch& rays = wave.memory.shadowRays;
     const ShadedPoint& at = wave.memory.points.at[k];
     const Vec3 org = leave(at.surface, at.lit.ng) + at.surface.lift;
     const float time = wave.rays.time[wave.memory.points.ray[k]];
-    std::size_t lit = 0;
-    for (std::size_t s = i * count; s < (i + 1) * count; ++s) lit += by.isLit(s);
-    std::size_t to = rays.extend(lit);
-    forEachLit(by, i, count, [&](std::size_t s, Rgb light) {
-        rays.org[to] = org, rays.dir[to] = {by.dir[0][s], by.dir[1][s], by.dir[2][s]};
-        rays.tMin[to] = 0, rays.tMax[to] = by.tMax[s], rays.time[to] = time;
-        rays.sample[to] = k, rays.weight[to] = light;
-        ++to;
-    });
+    std::size_t to = rays.extend(count), lit = 0;
+    const std::size_t first = to;
+    for (std::size_t s = 0; s < count; ++s) {
+        const std::size_t from = s * LitBlock::kPoints + i;
+        rays.org[to] = org, rays.dir[to] = {by.dir[0][from], by.dir[1][from], by.dir[2][from]};
+        rays.tMin[to] = 0, rays.tMax[to] = by.tMax[from], rays.time[to] = time;
+        rays.sample[to] = k;
+        rays.weight[to] = {by.light[0][from], by.light[1][from], by.light[2][from]};
+        lit += by.isLit(s, i);
+        to = first + lit; // those without light are overwritten
+    }
+    rays.shrink(first + lit);
 }
 
 // forEachLampSample() of such a lamp. A point's many shadow rays make it worth while to look at
 // each point for itself.
-inline void shineBySamples(const Wave& wave, const Lamp& lamp, bool isInOrder) {
+template <class ArriveFn>
+void shineBySamples(const Wave& wave, const Lamp& lamp, ArriveFn&& arrive) {
     WaveMemory& memory = wave.memory;
     const Occluders& occluders = wave.context.occluders;
     const bool canTell = wave.context.settings.specialise && occluders.canTell();
@@ -157,25 +158,22 @@ inline void shineBySamples(const Wave& wave, const Lamp& lamp, bool isInOrder) {
     for (std::size_t b = 0; b * LitBlock::kPoints < memory.answering.size(); ++b) {
         const LitBlock& block = memory.litBlocks[b];
         const unsigned hidden = canTell ? lamp.mayBeHidden(occluders, block, *lamp.emission) : ~0u;
+        for (float(&channel)[LitBlock::kPoints] : by.sum)
+            std::fill_n(channel, LitBlock::kPoints, 0.0f);
         for (int first = 0; first < lamp.samples; first += kMost) {
             const int some = std::min(kMost, lamp.samples - first);
-            const auto count = static_cast<std::size_t>(some);
-            lamp.bySamples(*lamp.emission, block, samplesOf(wave, lamp, block, first, some), by);
-            for (unsigned rest = block.used; rest != 0; rest &= rest - 1) {
-                const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-                const std::uint32_t k = block.point[i];
-                if ((hidden >> i & 1) != 0) {
-                    pushShadowRays(wave, k, by, i, count);
-                } else if (isInOrder) {
-                    Rgb sum = wave.chunk.radiance[wave.slotOf(k)];
-                    forEachLit(by, i, count, [&](std::size_t, Rgb light) { sum += light; });
-                    wave.chunk.radiance[wave.slotOf(k)] = sum;
-                } else {
-                    forEachLit(by, i, count, [&](std::size_t, Rgb light) {
-                        memory.arrivals.push_back({k, light});
-                    });
-                }
+            lamp.bySamples(*lamp.emission, block, samplesOf(wave, lamp, block, first, some), hidden,
+                           by);
+            unsigned lit = 0;
+            for (const std::uint16_t points : by.lit) lit |= points;
+            for (; lit != 0; lit &= lit - 1) {
+                const auto i = static_cast<std::size_t>(std::countr_zero(lit));
+                pushShadowRays(wave, block.point[i], by, i, static_cast<std::size_t>(some));
             }
+        }
+        for (unsigned rest = block.used & ~hidden; rest != 0; rest &= rest - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+            arrive(block.point[i], Rgb{by.sum[0][i], by.sum[1][i], by.sum[2][i]});
         }
     }
 }

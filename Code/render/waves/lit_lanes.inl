@@ -23,36 +23,13 @@ inline unsigned black(Three a) {
     return bits((a.x == zero) & (a.y == zero) & (a.z == zero));
 }
 
-// Which point of a block each lane is: those from `first` on ..
+// Which point of a block each lane is: those from `first` on.
 struct PointsInRow {
     std::size_t first;
     Floats each(const float (&v)[LitBlock::kPoints]) const { return Floats::load(v + first); }
     unsigned lanesOf(unsigned points) const { return points >> first & ((1u << W) - 1); }
     std::size_t point(std::size_t lane) const { return first + lane; }
 };
-// .. or all the same ..
-struct PointForAll {
-    std::size_t only;
-    Floats each(const float (&v)[LitBlock::kPoints]) const { return Floats(v[only]); }
-    unsigned lanesOf(unsigned points) const { return (points >> only & 1) * ((1u << W) - 1); }
-    std::size_t point(std::size_t) const { return only; }
-};
-// .. or any.
-struct PointsByLane {
-    std::size_t points[W];
-    Floats each(const float (&v)[LitBlock::kPoints]) const {
-        alignas(64) float all[W];
-        for (std::size_t i = 0; i < W; ++i) all[i] = v[points[i]];
-        return Floats::load(all);
-    }
-    unsigned lanesOf(unsigned of) const {
-        unsigned lanes = 0;
-        for (std::size_t i = 0; i < W; ++i) lanes |= (of >> points[i] & 1) << i;
-        return lanes;
-    }
-    std::size_t point(std::size_t lane) const { return points[lane]; }
-};
-
 template <class Points> class LitLanes {
 public:
     LitLanes(const LitBlock& block, const Points& points) : block_(block), points_(points) {}
