@@ -1,6 +1,5 @@
 // Pairs of Sobol numbers and places on a disk, a register of them at a time: the formulas of
-// Sampler::get2D() and diskFromSquare(). Included by the file of each instruction set inside its
-// namespace, after kSobolLanes and pickBytes().
+// Sampler::get2D() and diskFromSquare(). Included by sobol_*.inl of each instruction set.
 
 namespace {
 

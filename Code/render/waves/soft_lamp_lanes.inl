@@ -46,8 +46,7 @@ public:
     Sample sample(const DiskLanes& disk, float share) const {
         unsigned lit = lanes();
         const Floats radius(lamp_.radius);
-        const Three d =
-            seen_.toCentre + seen_.x * (disk.x * radius) + seen_.y * (disk.y * radius);
+        const Three d = seen_.toCentre + seen_.x * (disk.x * radius) + seen_.y * (disk.y * radius);
         const Floats distance2 = dot(d, d), distance = sqrt(distance2);
         const Three toLight = d / distance;
         const Floats cosAtDisk = dot(toLight, seen_.z);
