@@ -28,9 +28,12 @@ inline void raysFrom(const Camera::RoundLens& lens, LensBlock& block, std::size_
     const DoubleVectors line = right * (Doubles(lens.topLeft.x) + px * Doubles(lens.step.x)) +
                                up * (Doubles(lens.topLeft.y) - py * Doubles(lens.step.y)) + forward;
     const DoubleVectors sharp = eye + line * (Doubles(lens.focusDistance) / dot(line, forward));
-    const DiskLanes place = onDisk(Floats::load(block.u + first), Floats::load(block.v + first));
+    DiskRow place;
+    Floats::load(block.u + first).store(place.u), Floats::load(block.v + first).store(place.v);
+    placeOnDisk(&place, 1);
     const DoubleVectors onLens =
-        right * (Doubles(place.x) / Doubles(lens.apertureRatio)) + up * Doubles(place.y);
+        right * (Doubles(Floats::load(place.x)) / Doubles(lens.apertureRatio)) +
+        up * Doubles(Floats::load(place.y));
     const DoubleVectors from = eye + onLens * Doubles(lens.apertureRadius);
     const Floats x = from.x.toFloats(), y = from.y.toFloats(), z = from.z.toFloats();
     const DoubleVectors way = sharp - DoubleVectors{Doubles(x), Doubles(y), Doubles(z)};

@@ -45,14 +45,12 @@ struct PairsInLanes {
     alignas(64) std::uint32_t index[W], x[W], y[W], sample[W];
 
     // Those of the samples that are `later` than the first ones.
-    void make(std::uint32_t later, Floats& outX, Floats& outY) const {
-        alignas(64) float u[W], v[W];
+    void make(std::uint32_t later, float (&u)[W], float (&v)[W]) const {
         for (std::size_t i = 0; i < W; i += kSobolLanes) {
             const auto pair = sobolPair<Bits>(loadBits(sample + i) + later, loadBits(index + i),
                                               loadBits(x + i), loadBits(y + i));
             storeUnit(pair.x, u + i), storeUnit(pair.y, v + i);
         }
-        outX = Floats::load(u), outY = Floats::load(v);
     }
 };
 
@@ -81,7 +79,9 @@ inline Doubles cosineOf(const Doubles& x) {
     return main + (((one - main) - half) + z2 * (low + z4 * high));
 }
 
-inline DiskLanes onDisk(Floats u, Floats v) {
+// Without the places that exact::sinCos() has other ways for, those of the angle 0 and from pi/4
+// on: their lanes are added to `seams`.
+[[gnu::always_inline]] inline DiskLanes betweenSeams(Floats u, Floats v, unsigned& seams) {
     // Exact, as u and v are of 24 bits.
     const Floats two(2.0f), one(1.0f), x = two * u - one, y = two * v - one;
     const Mask isSide = abs(y) < abs(x);
@@ -89,18 +89,28 @@ inline DiskLanes onDisk(Floats u, Floats v) {
     const Doubles radius(longer), angle = Doubles(kPi / 4) * (Doubles(shorter) / radius);
     const Floats along = (radius * cosineOf(angle)).toFloats(),
                  across = (radius * sineOf(angle)).toFloats();
-    DiskLanes disk{select(isSide, along, across), select(isSide, across, along)};
-    // Angles that exact::sinCos() has other ways for: 0, and those from pi/4 on.
-    unsigned others = bits((shorter == Floats(0.0f)) | (abs(x) == abs(y)));
-    if (others == 0) return disk;
-    alignas(64) float us[W], vs[W], xs[W], ys[W];
-    u.store(us), v.store(vs), disk.x.store(xs), disk.y.store(ys);
-    for (; others != 0; others &= others - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(others));
-        const Vec2 place = diskFromSquare({us[i], vs[i]});
-        xs[i] = place.x, ys[i] = place.y;
+    seams |= bits((shorter == Floats(0.0f)) | (abs(x) == abs(y)));
+    return {select(isSide, along, across), select(isSide, across, along)};
+}
+
+// Places in the unit square and on the disk, in rows of lanes.
+struct DiskRow {
+    alignas(64) float u[W], v[W], x[W], y[W];
+};
+
+// x and y from u and v. Row by row, and nothing is called: the processor works at several.
+inline void placeOnDisk(DiskRow* rows, std::size_t count) {
+    unsigned seams = 0;
+    for (DiskRow* row = rows; row != rows + count; ++row) {
+        const DiskLanes disk = betweenSeams(Floats::load(row->u), Floats::load(row->v), seams);
+        disk.x.store(row->x), disk.y.store(row->y);
     }
-    return {Floats::load(xs), Floats::load(ys)};
+    for (; seams != 0; seams &= seams - 1)
+        for (DiskRow* row = rows; row != rows + count; ++row) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(seams));
+            const Vec2 place = diskFromSquare({row->u[i], row->v[i]});
+            row->x[i] = place.x, row->y[i] = place.y;
+        }
 }
 
 } // namespace

@@ -47,11 +47,16 @@ public:
         return lanes;
     }
 
+    bool isShiny() const { return (block_.shiny[0] | block_.shiny[1] | block_.shiny[2]) != 0; }
+
+    // kMayShine: points of the block may have highlights.
+    template <bool kMayShine = true>
     Three reflected(const Three& n, const Three& toLight, unsigned lanes) const {
         const Floats cosLight = dot(n, toLight);
         const Mask answers = cosLight > Floats(0.0f);
         Three reflected = three(block_.diffuse) * (Floats(static_cast<float>(kInvPi)) * cosLight);
-        reflected = withHighlights(reflected, n, toLight, cosLight, lanes & bits(answers));
+        if constexpr (kMayShine)
+            reflected = withHighlights(reflected, n, toLight, cosLight, lanes & bits(answers));
         return select(answers, reflected, Three::all(0, 0, 0));
     }
 

@@ -43,7 +43,8 @@ public:
         Floats distance;
         unsigned lit; // by it
     };
-    Sample sample(const DiskLanes& disk, float share) const {
+    bool isShiny() const { return lit_.isShiny(); }
+    template <bool kMayShine> Sample sample(const DiskLanes& disk, float share) const {
         unsigned lit = lanes();
         const Floats radius(lamp_.radius);
         const Three d = seen_.toCentre + seen_.x * (disk.x * radius) + seen_.y * (disk.y * radius);
@@ -57,7 +58,8 @@ public:
             Three::all(lamp_.intensity.r, lamp_.intensity.g, lamp_.intensity.b) *
             (cosAtDisk / faded);
         lit &= ~black(irradiance) & lit_.rises(toLight);
-        const Three reflected = lit_.reflected(Three::load(block_.n, first_), toLight, lit);
+        const Three reflected =
+            lit_.template reflected<kMayShine>(Three::load(block_.n, first_), toLight, lit);
         const Three light =
             Three::load(block_.weight, first_) * reflected * irradiance * Floats(share);
         return {light, toLight, distance, lit & ~black(light)};
@@ -75,33 +77,45 @@ inline void store(const Three& v, float* x, float* y, float* z) {
     v.x.store(x), v.y.store(y), v.z.store(z);
 }
 
+template <bool kMayShine>
+void sumSamples(const SoftLanes& lanes, const SamplesOnLamp& samples, unsigned withRays,
+                std::size_t first, LitBySamples& out) {
+    constexpr std::size_t kPoints = LitBlock::kPoints;
+    DiskRow places[LitBySamples::kMost];
+    PairsInLanes pairs;
+    for (std::size_t i = 0; i < W; ++i)
+        pairs.index[i] = samples.index[first + i], pairs.x[i] = samples.x[first + i],
+        pairs.y[i] = samples.y[first + i], pairs.sample[i] = samples.first[first + i];
+    for (std::size_t s = 0; s < samples.count; ++s)
+        pairs.make(static_cast<std::uint32_t>(s), places[s].u, places[s].v);
+    placeOnDisk(places, samples.count);
+    const unsigned rays = withRays >> first & ((1u << W) - 1);
+    Three sum = Three::load(out.sum, first);
+    for (std::size_t s = 0; s < samples.count; ++s) {
+        const DiskLanes disk{Floats::load(places[s].x), Floats::load(places[s].y)};
+        const SoftLanes::Sample by = lanes.sample<kMayShine>(disk, samples.share);
+        sum = select(maskOf(by.lit & ~rays), sum + by.light, sum);
+        if ((by.lit & rays) == 0) continue;
+        const std::size_t to = s * kPoints + first;
+        store(by.light, out.light[0] + to, out.light[1] + to, out.light[2] + to);
+        store(by.toLight, out.dir[0] + to, out.dir[1] + to, out.dir[2] + to);
+        (Doubles(by.distance) * Doubles(1 - 0x1p-20)).toFloats().store(out.tMax + to);
+        out.lit[s] |= static_cast<std::uint16_t>((by.lit & rays) << first);
+    }
+    store(sum, out.sum[0] + first, out.sum[1] + first, out.sum[2] + first);
+}
+
 } // namespace
 
 void lightBySamples(const PointEmission& lamp, const LitBlock& block, const SamplesOnLamp& places,
                     unsigned withRays, LitBySamples& out) {
-    constexpr std::size_t kPoints = LitBlock::kPoints;
     std::fill(out.lit.begin(), out.lit.end(), std::uint16_t{0});
-    for (std::size_t first = 0; first < kPoints; first += W) {
+    for (std::size_t first = 0; first < LitBlock::kPoints; first += W) {
         const SoftLanes lanes(lamp, block, first);
         if (lanes.lanes() == 0) continue;
-        PairsInLanes pairs;
-        for (std::size_t i = 0; i < W; ++i)
-            pairs.index[i] = places.index[first + i], pairs.x[i] = places.x[first + i],
-            pairs.y[i] = places.y[first + i], pairs.sample[i] = places.first[first + i];
-        const unsigned rays = withRays >> first & ((1u << W) - 1);
-        Three sum = Three::load(out.sum, first);
-        for (std::size_t s = 0; s < places.count; ++s) {
-            Floats u(0.0f), v(0.0f);
-            pairs.make(static_cast<std::uint32_t>(s), u, v);
-            const SoftLanes::Sample by = lanes.sample(onDisk(u, v), places.share);
-            sum = select(maskOf(by.lit & ~rays), sum + by.light, sum);
-            if ((by.lit & rays) == 0) continue;
-            const std::size_t to = s * kPoints + first;
-            store(by.light, out.light[0] + to, out.light[1] + to, out.light[2] + to);
-            store(by.toLight, out.dir[0] + to, out.dir[1] + to, out.dir[2] + to);
-            (Doubles(by.distance) * Doubles(1 - 0x1p-20)).toFloats().store(out.tMax + to);
-            out.lit[s] |= static_cast<std::uint16_t>((by.lit & rays) << first);
-        }
-        store(sum, out.sum[0] + first, out.sum[1] + first, out.sum[2] + first);
+        if (lanes.isShiny())
+            sumSamples<true>(lanes, places, withRays, first, out);
+        else
+            sumSamples<false>(lanes, places, withRays, first, out);
     }
 }
