@@ -49,6 +49,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       surfaceNeeds(surfaceNeedsOf(theScene, theSettings)),
       surfaceLanes(::surfaceLanes(chooseKernel(theSettings.kernel))),
       textureColors(::textureColors(chooseKernel(theSettings.kernel))),
+      bouncesInLanes(::bouncesInLanes(chooseKernel(theSettings.kernel))),
       roundShapes(roundShapesOf(theScene.shapes(), surfaceLanes, surfaceNeeds)),
       cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
     const int samples = settings.picture.lightSamples;

@@ -6,6 +6,7 @@
 #include "render/occluders.h"
 #include "render/query.h"
 #include "render/shading.h"
+#include "render/waves/bounce_lanes.h"
 #include "render/waves/lamp_lanes.h"
 #include "render/waves/steps.h"
 #include "render/waves/texture_points.h"
@@ -70,6 +71,7 @@ struct IntegratorContext {
     SurfaceNeeds surfaceNeeds;
     SurfaceLanes surfaceLanes;
     TextureColorsFn textureColors;       // null: one by one
+    BouncesFn bouncesInLanes;            // null: one by one
     std::vector<RoundShape> roundShapes; // by shape; empty: lanes do none
     MediumTree media;                    // what camera rays start in, and room for what rays enter
     MediumTree::Inside cameraMedium;
