@@ -47,7 +47,7 @@ struct Lamp {
     // Ask many points at once, in its centre or at its samples; null: one by one.
     LightByLampFn inLanes = nullptr;
     LightBySamplesFn bySamples = nullptr;
-    MayBeHiddenFn mayBeHidden = nullptr; // of what bySamples asks
+    HiddenPointsFn hiddenPoints = nullptr; // of what bySamples asks
 };
 
 // A shape whose surfaces lanes find, to be looked up without touching it.

@@ -71,6 +71,8 @@ Occluders::Occluders(const ShapeSet& shapes) : shapes_(shapes) {
         if (const SolidForm form = shape.solidForm(); form.sphere) {
             caster.centre = toFloat(form.hull.centre);
             caster.radius = floatAbove(form.hull.radius * (1 + 0x1p-20));
+            if (shapes.shadows[i] == ShapeSet::Shadow::Opaque)
+                caster.core = floatBelow(form.hull.innerRadius * (1 - 0x1p-20));
         }
         casters_.push_back(caster);
     }

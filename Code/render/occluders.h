@@ -21,6 +21,7 @@ struct Occluder {
     // Of a sphere, which is nearly all of it; else infinite.
     Vec3 centre{};
     float radius = kInfinityF;
+    float core = 0; // radius of a ball about the centre that no light passes; 0: none is known
 };
 
 class Occluders {

@@ -186,6 +186,7 @@ TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
                 Sampler(SamplerKind::Sobol, 4, random.below(std::size_t{1} << 32))
                     .stream(random.below(4), 16);
             SamplesOnLamp samples;
+            samples.points = random.chance(0.8) ? ~0u : random.below(1u << 16);
             samples.count = random.chance(0.4)   ? LitBySamples::kMost
                             : random.chance(0.2) ? 8
                                                  : 1 + random.below(16);
@@ -198,7 +199,7 @@ TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
                 samples.index[k] = seeds.index, samples.x[k] = seeds.x, samples.y[k] = seeds.y;
             }
             // Points with rays, and points with sums that begin with the lamp before.
-            const auto withRays = static_cast<unsigned>(random.below(1u << 16));
+            const unsigned withRays = random.below(1u << 16);
             LitBySamples out;
             Rgb sums[16];
             for (std::size_t k = 0; k < used; ++k) {
@@ -218,7 +219,8 @@ TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
                     const std::uint32_t number = samples.first[k] + static_cast<std::uint32_t>(s);
                     const LightSample sample =
                         lamp.sample(p.surface.p, sampler.get2D(pixel[k], number, dimension));
-                    const Rgb light = lightOf(lamp, p, sample, samples.share);
+                    const bool isAsked = (samples.points >> k & 1) != 0;
+                    const Rgb light = isAsked ? lightOf(lamp, p, sample, samples.share) : Rgb{};
                     ++asked, lit += !isBlack(light);
                     if (!hasRays) {
                         sums[k] += light;
@@ -266,7 +268,7 @@ TEST(lamp_samples_in_lanes_take_the_seams_of_the_disk) {
             point.surface.lift = {}, point.weight = {1, 1, 1};
             point.material = {};
             SamplesOnLamp samples;
-            samples.count = 1;
+            samples.count = samples.points = 1;
             samples.index[0] = 1, samples.x[0] = x, samples.y[0] = y, samples.first[0] = sample;
             const sobol::Pair<std::uint32_t> bits =
                 sobol::sobolPair<std::uint32_t>(sample, 1, x, y);

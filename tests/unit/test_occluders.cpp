@@ -79,7 +79,7 @@ TEST(occluders_never_miss_one) {
 // The same for each point by itself, by the lanes of every kernel, and a lamp with a size.
 TEST(occluders_in_lanes_never_miss_one) {
     Random random(512);
-    int clear = 0, shaded = 0, known = 0;
+    int clear = 0, shaded = 0, known = 0, dark = 0;
     for (int i = 0; i < check::scaled(600); ++i) {
         const ShapeSet set = scatter(random, 1 + static_cast<int>(random.below(8)));
         const Occluders occluders(set);
@@ -104,13 +104,14 @@ TEST(occluders_in_lanes_never_miss_one) {
         PointEmission lamp{toFloat(random.inBox(2)), {1, 1, 1}, {}, 0};
         lamp.radius = static_cast<float>(random.logUniform(1e-3, 1));
         for (const Kernel& kernel : allKernels()) {
-            const MayBeHiddenFn inLanes = kernel.supported() ? mayBeHidden(kernel) : nullptr;
+            const HiddenPointsFn inLanes = kernel.supported() ? hiddenPoints(kernel) : nullptr;
             if (!inLanes) continue;
-            const unsigned hidden = inLanes(occluders, block, lamp);
+            const auto [hidden, surely] = inLanes(occluders, block, lamp);
             CHECK_INFO((hidden & ~block.used) == 0, kernel.name << " case " << i);
+            CHECK_INFO((surely & ~hidden) == 0, kernel.name << " case " << i);
             for (std::size_t k = 0; k < starts.size(); ++k) {
-                const bool mayHide = (hidden >> k & 1) != 0;
-                known += !mayHide;
+                const bool mayHide = (hidden >> k & 1) != 0, hides = (surely >> k & 1) != 0;
+                known += !mayHide, dark += hides;
                 for (int n = 0; n < 6; ++n) {
                     const Vec3 place =
                         lamp.position + toFloat(random.direction() *
@@ -120,17 +121,20 @@ TEST(occluders_in_lanes_never_miss_one) {
                     const Ray ray{starts[k], way, 0, 1, 0};
                     std::vector<Hit> through;
                     set.seeThroughHits(ray, through);
-                    const bool isHidden = set.occluded(ray) || !through.empty();
+                    const bool isOpaque = set.occluded(ray);
+                    const bool isHidden = isOpaque || !through.empty();
                     CHECK_INFO(!isHidden || mayHide,
                                kernel.name << " case " << i << " point " << k);
+                    CHECK_INFO(isOpaque || !hides, kernel.name << " case " << i << " point " << k);
                     ++(isHidden ? shaded : clear);
                 }
             }
         }
     }
     CHECK_INFO(clear > check::scaled(1000) && shaded > check::scaled(1000) &&
-                   known > check::scaled(1000),
-               clear << " clear, " << shaded << " shaded, " << known << " points known");
+                   known > check::scaled(1000) && dark > check::scaled(100),
+               clear << " clear, " << shaded << " shaded, " << known << " points known, " << dark
+                     << " of them dark");
 }
 
 // And it is said where it is plain to see.

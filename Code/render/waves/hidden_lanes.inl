@@ -50,18 +50,37 @@ public:
         return ~bits(times.lo > times.hi * Floats(1 + 0x1p-18f));
     }
 
-    // Is the ball off the hull of the point and of a ball around the lamp? That is a cone of the
-    // angle whose sine is lampRadius / distance; `height` over its axis and `along` it.
-    unsigned passBy(const Occluder& ball, float slack) const {
+    // The hull of the point and of a ball around the lamp is a cone of the angle whose sine is
+    // lampRadius / distance. A ball is `height` over its axis and `along` it. How far from the
+    // cone's sides is the centre, outwards, and the same across the axis?
+    struct BallSeen {
+        Floats along, height, distance2, cosine, sine, out;
+    };
+    BallSeen look(const Occluder& ball) const {
         const Three d = Three::all(ball.centre.x, ball.centre.y, ball.centre.z) - p_;
         const Floats along = dot(d, unit_), one(1.0f);
         const Three across = d - unit_ * along;
         const Floats height = sqrt(dot(across, across)), sine = Floats(lampRadius_) / distance_;
         const Floats cosine = sqrt(one - sine * sine); // NaN in the lamp: then nothing is known
+        return {along, height, dot(d, d), cosine, sine, height * cosine - along * sine};
+    }
+
+    // Is the ball off the cone?
+    unsigned passBy(const Occluder& ball, const BallSeen& seen, float slack) const {
         const Floats room = Floats(ball.radius + slack) + lift_;
-        const Mask isBehind = along * cosine + height * sine < Floats(0.0f);
-        return bits(height * cosine - along * sine > room) |
-               bits(isBehind & (dot(d, d) > room * room));
+        const Mask isBehind = seen.along * seen.cosine + seen.height * seen.sine < Floats(0.0f);
+        return bits(seen.out > room) | bits(isBehind & (seen.distance2 > room * room));
+    }
+
+    // Does all of the cone go through the ball in front of the lamp? The line that is farthest from
+    // the centre is on the other side of the axis.
+    unsigned areBehind(const Occluder& ball, const BallSeen& seen, float slack) const {
+        const Floats around = Floats(slack) + lift_, core(ball.core), outside = core + around;
+        const Floats farthest = seen.height * seen.cosine + seen.along * seen.sine;
+        const Mask isAhead = seen.along * seen.cosine > seen.height * seen.sine;
+        const Mask isNearer = seen.along + seen.height + around < distance_ - Floats(lampRadius_);
+        return bits((farthest + around < core) & isAhead & isNearer &
+                    (seen.distance2 > outside * outside));
     }
 
     unsigned areBeside(const Occluder::Sides& plane, float slack) const {
@@ -90,26 +109,33 @@ private:
 
 } // namespace
 
-unsigned mayBeHidden(const Occluders& occluders, const LitBlock& block, const PointEmission& lamp) {
-    unsigned hidden = 0;
+HiddenPoints hiddenPoints(const Occluders& occluders, const LitBlock& block,
+                          const PointEmission& lamp) {
+    HiddenPoints hidden;
     for (std::size_t first = 0; first < LitBlock::kPoints; first += W) {
         const unsigned all = block.used >> first & ((1u << W) - 1);
         const PointsToLamp points(block, first, lamp);
         const float slack = occluders.slack(points.extent());
         const Ints shapes = Ints::load(block.shape + first);
-        unsigned met = 0;
+        unsigned met = 0, behind = 0;
         for (const Occluder& caster : occluders.all()) {
             const unsigned inside = block.inside >> first;
             const unsigned others = ~bits(shapes == Ints(caster.shape)) |
                                     (inside & (caster.hidesInside ? ~0u : 0)) |
                                     (~inside & (caster.hidesOutside ? ~0u : 0));
-            unsigned asked = all & ~met & others;
+            unsigned asked = all & ~behind & others;
+            if (caster.core == 0) asked &= ~met;
             if (asked != 0 && caster.plane) asked &= ~points.areBeside(*caster.plane, slack);
-            if (asked != 0 && caster.radius < kInfinityF) asked &= ~points.passBy(caster, slack);
+            if (asked != 0 && caster.radius < kInfinityF) {
+                const auto seen = points.look(caster);
+                asked &= ~points.passBy(caster, seen, slack);
+                behind |= asked & points.areBehind(caster, seen, slack);
+            }
+            asked &= ~met;
             if (asked != 0) met |= asked & points.meet(caster.box, slack);
-            if (met == all) break;
+            if (behind == all) break;
         }
-        hidden |= met << first;
+        hidden.maybe |= (met | behind) << first, hidden.surely |= behind << first;
     }
     return hidden;
 }

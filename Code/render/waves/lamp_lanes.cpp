@@ -7,7 +7,7 @@
     void lightByLamp(const PointEmission&, const LitBlock&, unsigned, LitByLamp&);                 \
     void lightBySamples(const PointEmission&, const LitBlock&, const SamplesOnLamp&, unsigned,     \
                         LitBySamples&);                                                            \
-    unsigned mayBeHidden(const Occluders&, const LitBlock&, const PointEmission&);                 \
+    HiddenPoints hiddenPoints(const Occluders&, const LitBlock&, const PointEmission&);            \
     }
 LIGHT_IN_LANES(sse)
 LIGHT_IN_LANES(avx2)
@@ -20,17 +20,18 @@ struct Row {
     std::string_view name;
     LightByLampFn byLamp = nullptr;
     LightBySamplesFn bySamples = nullptr;
-    MayBeHiddenFn mayBeHidden = nullptr;
+    HiddenPointsFn hiddenPoints = nullptr;
 };
 
 Row rowOf([[maybe_unused]] const Kernel& kernel) {
 #if defined(__x86_64__)
     static constexpr Row kTable[] = {
         {"avx512", kernels::avx512::lightByLamp, kernels::avx512::lightBySamples,
-         kernels::avx512::mayBeHidden},
+         kernels::avx512::hiddenPoints},
         {"avx2", kernels::avx2::lightByLamp, kernels::avx2::lightBySamples,
-         kernels::avx2::mayBeHidden},
-        {"sse", kernels::sse::lightByLamp, kernels::sse::lightBySamples, kernels::sse::mayBeHidden},
+         kernels::avx2::hiddenPoints},
+        {"sse", kernels::sse::lightByLamp, kernels::sse::lightBySamples,
+         kernels::sse::hiddenPoints},
     };
     for (const Row& row : kTable)
         if (row.name == kernel.name) return row;
@@ -40,6 +41,6 @@ Row rowOf([[maybe_unused]] const Kernel& kernel) {
 
 } // namespace
 
-MayBeHiddenFn mayBeHidden(const Kernel& kernel) { return rowOf(kernel).mayBeHidden; }
+HiddenPointsFn hiddenPoints(const Kernel& kernel) { return rowOf(kernel).hiddenPoints; }
 LightByLampFn lightByLamp(const Kernel& kernel) { return rowOf(kernel).byLamp; }
 LightBySamplesFn lightBySamples(const Kernel& kernel) { return rowOf(kernel).bySamples; }

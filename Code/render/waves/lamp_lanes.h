@@ -38,7 +38,8 @@ struct alignas(64) LitByLamp {
 // say where, and what they are shuffled and scrambled by (Sampler::PairSeeds).
 struct SamplesOnLamp {
     std::size_t count = 0;
-    float share = 1; // of each sample in the light
+    float share = 1;     // of each sample in the light
+    unsigned points = 0; // that are asked: a bit for each
     std::uint32_t first[LitBlock::kPoints] = {}, index[LitBlock::kPoints] = {},
                   x[LitBlock::kPoints] = {}, y[LitBlock::kPoints] = {};
 };
@@ -61,12 +62,16 @@ using LightBySamplesFn = void (*)(const PointEmission& lamp, const LitBlock& blo
                                   const SamplesOnLamp& samples, unsigned withRays,
                                   LitBySamples& out);
 
-// The points of a block that something may hide from a place on the lamp.
+// The points of a block that something may hide from a place on the lamp, and those of them that
+// something hides from all of it.
+struct HiddenPoints {
+    unsigned maybe = 0, surely = 0;
+};
 class Occluders;
-using MayBeHiddenFn = unsigned (*)(const Occluders& occluders, const LitBlock& block,
-                                   const PointEmission& lamp);
+using HiddenPointsFn = HiddenPoints (*)(const Occluders& occluders, const LitBlock& block,
+                                        const PointEmission& lamp);
 
 // Null for the scalar kernel.
-MayBeHiddenFn mayBeHidden(const Kernel& kernel);
+HiddenPointsFn hiddenPoints(const Kernel& kernel);
 LightBySamplesFn lightBySamples(const Kernel& kernel);
 LightByLampFn lightByLamp(const Kernel& kernel);

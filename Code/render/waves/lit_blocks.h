@@ -105,11 +105,11 @@ void shineInLanes(const Wave& wave, const Lamp& lamp, bool isGrouped, ArriveFn&&
     }
 }
 
-// The samples first .. first + count - 1 of a lamp that has a size, for the points of a block.
-inline SamplesOnLamp samplesOf(const Wave& wave, const Lamp& lamp, const LitBlock& block, int first,
-                               int count) {
+// The samples first .. first + count - 1 of a lamp that has a size, for those points of a block.
+inline SamplesOnLamp samplesOf(const Wave& wave, const Lamp& lamp, const LitBlock& block,
+                               unsigned points, int first, int count) {
     SamplesOnLamp samples;
-    samples.count = static_cast<std::size_t>(count);
+    samples.count = static_cast<std::size_t>(count), samples.points = points;
     samples.share = 1.0f / static_cast<float>(lamp.samples);
     Sampler::PairSeeds seeds{};
     std::uint32_t stream = 0;
@@ -157,13 +157,16 @@ void shineBySamples(const Wave& wave, const Lamp& lamp, ArriveFn&& arrive) {
     LitBySamples by;
     for (std::size_t b = 0; b * LitBlock::kPoints < memory.answering.size(); ++b) {
         const LitBlock& block = memory.litBlocks[b];
-        const unsigned hidden = canTell ? lamp.mayBeHidden(occluders, block, *lamp.emission) : ~0u;
+        const HiddenPoints hidden = canTell ? lamp.hiddenPoints(occluders, block, *lamp.emission)
+                                            : HiddenPoints{block.used, 0};
+        const unsigned asked = block.used & ~hidden.surely;
+        if (asked == 0) continue;
         for (float(&channel)[LitBlock::kPoints] : by.sum)
             std::fill_n(channel, LitBlock::kPoints, 0.0f);
         for (int first = 0; first < lamp.samples; first += kMost) {
             const int some = std::min(kMost, lamp.samples - first);
-            lamp.bySamples(*lamp.emission, block, samplesOf(wave, lamp, block, first, some), hidden,
-                           by);
+            lamp.bySamples(*lamp.emission, block, samplesOf(wave, lamp, block, asked, first, some),
+                           hidden.maybe, by);
             unsigned lit = 0;
             for (const std::uint16_t points : by.lit) lit |= points;
             for (; lit != 0; lit &= lit - 1) {
@@ -171,7 +174,7 @@ void shineBySamples(const Wave& wave, const Lamp& lamp, ArriveFn&& arrive) {
                 pushShadowRays(wave, block.point[i], by, i, static_cast<std::size_t>(some));
             }
         }
-        for (unsigned rest = block.used & ~hidden; rest != 0; rest &= rest - 1) {
+        for (unsigned rest = asked & ~hidden.maybe; rest != 0; rest &= rest - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(rest));
             arrive(block.point[i], Rgb{by.sum[0][i], by.sum[1][i], by.sum[2][i]});
         }

@@ -35,8 +35,8 @@ public:
         : lamp_(lamp), block_(block), first_(first), lit_(block, {first}),
           seen_(lookAtLamp(lamp, block, first)) {}
 
-    // Those that may be lit.
-    unsigned lanes() const { return lit_.lanesOf(block_.used) & seen_.seen; }
+    // Those of them that may be lit.
+    unsigned lanesOf(unsigned points) const { return lit_.lanesOf(points) & seen_.seen; }
 
     struct Sample {
         Three light, toLight;
@@ -44,8 +44,9 @@ public:
         unsigned lit; // by it
     };
     bool isShiny() const { return lit_.isShiny(); }
-    template <bool kMayShine> Sample sample(const DiskLanes& disk, float share) const {
-        unsigned lit = lanes();
+    template <bool kMayShine>
+    Sample sample(const DiskLanes& disk, unsigned asked, float share) const {
+        unsigned lit = asked;
         const Floats radius(lamp_.radius);
         const Three d = seen_.toCentre + seen_.x * (disk.x * radius) + seen_.y * (disk.y * radius);
         const Floats distance2 = dot(d, d), distance = sqrt(distance2);
@@ -89,11 +90,12 @@ void sumSamples(const SoftLanes& lanes, const SamplesOnLamp& samples, unsigned w
     for (std::size_t s = 0; s < samples.count; ++s)
         pairs.make(static_cast<std::uint32_t>(s), places[s].u, places[s].v);
     placeOnDisk(places, samples.count);
+    const unsigned asked = lanes.lanesOf(samples.points);
     const unsigned rays = withRays >> first & ((1u << W) - 1);
     Three sum = Three::load(out.sum, first);
     for (std::size_t s = 0; s < samples.count; ++s) {
         const DiskLanes disk{Floats::load(places[s].x), Floats::load(places[s].y)};
-        const SoftLanes::Sample by = lanes.sample<kMayShine>(disk, samples.share);
+        const SoftLanes::Sample by = lanes.sample<kMayShine>(disk, asked, samples.share);
         sum = select(maskOf(by.lit & ~rays), sum + by.light, sum);
         if ((by.lit & rays) == 0) continue;
         const std::size_t to = s * kPoints + first;
@@ -112,7 +114,7 @@ void lightBySamples(const PointEmission& lamp, const LitBlock& block, const Samp
     std::fill(out.lit.begin(), out.lit.end(), std::uint16_t{0});
     for (std::size_t first = 0; first < LitBlock::kPoints; first += W) {
         const SoftLanes lanes(lamp, block, first);
-        if (lanes.lanes() == 0) continue;
+        if (lanes.lanesOf(places.points) == 0) continue;
         if (lanes.isShiny())
             sumSamples<true>(lanes, places, withRays, first, out);
         else
