@@ -74,6 +74,11 @@ struct PathBatch : RayBatch {
         stream[i] = branch;
         seesLights[i] = seesLamps;
     }
+    std::size_t extend(std::size_t rays) {
+        const std::size_t first = RayBatch::extend(rays);
+        makeRoomForMore();
+        return first;
+    }
     // So many rays, which are then written into the arrays; those in use keep what they were.
     void setSize(std::size_t rays) {
         if (org.size() < rays) makeRoom(rays);

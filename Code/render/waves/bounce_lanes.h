@@ -19,11 +19,12 @@ struct alignas(64) BounceBlock {
     static constexpr std::size_t kPoints = 16;
     float n[3][kPoints] = {}, ng[3][kPoints] = {}, toEye[3][kPoints] = {};
     float mirror[3][kPoints] = {}, transmission[3][kPoints] = {}, eta[kPoints] = {};
-    float reflectedDir[3][kPoints], reflected[3][kPoints]; // and weights
+    float weight[3][kPoints] = {}, cutoff = 0; // of the points; rays of less are not traced
+    alignas(64) float reflectedDir[3][kPoints], reflected[3][kPoints]; // and the rays' weights
     float refractedDir[3][kPoints], refracted[3][kPoints];
     unsigned used = 0, glass = 0; // a bit for each point; who is no glass is a plain mirror
-    // Bits of the points that reflect and refract, and of those whose bent normals ask for more
-    // than lanes do.
+    // Bits of the points that reflect and refract something to trace, and of those whose bent
+    // normals ask for more than lanes do.
     unsigned reflects, refracts, bent;
 };
 

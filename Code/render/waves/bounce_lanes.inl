@@ -7,6 +7,9 @@ namespace {
 inline Floats3 operator-(const Floats3& a, const Floats3& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
+inline Floats3 operator*(const Floats3& a, const Floats3& b) {
+    return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
 inline Floats3 operator*(const Floats3& a, Floats s) { return {a.x * s, a.y * s, a.z * s}; }
 inline Floats3 normalize(const Floats3& a) {
     const Floats length = sqrt(dot(a, a));
@@ -56,16 +59,24 @@ inline void bounce(BounceBlock& block, std::size_t first) {
     const unsigned passes = transmits & bits(cos2Out > zero),
                    refracts = passes & bits(dot(through, ng) < zero);
     store(through, block.refractedDir, first);
-    store(transmission * (one - f), block.refracted, first);
+    const Floats3 weight = load(block.weight, first);
+    const auto isWorthTracing = [&](const Floats3& all) {
+        const Floats most = max(max(all.x, all.y), all.z);
+        return bits((most > zero) & (most >= Floats(block.cutoff)));
+    };
+    const Floats3 on = weight * (transmission * (one - f));
+    store(on, block.refracted, first);
 
     const Floats3 all = select(isBlack(mirror), transmission, mirror); // under total reflection
     Floats3 reflected = select(isGlass, mirror * f, mirror);
     reflected = select(maskOf(transmits & ~passes), all, reflected);
     const Floats3 back = normalize(n * (Floats(2.0f) * cosIn) - toEye);
     const unsigned reflects = lanes & ~bits(isBlack(reflected));
-    store(back, block.reflectedDir, first), store(reflected, block.reflected, first);
+    const Floats3 returned = weight * reflected;
+    store(back, block.reflectedDir, first), store(returned, block.reflected, first);
 
-    block.reflects |= reflects << first, block.refracts |= refracts << first;
+    block.reflects |= (reflects & isWorthTracing(returned)) << first;
+    block.refracts |= (refracts & isWorthTracing(on)) << first;
     block.bent |= ((passes & ~refracts) | (reflects & ~bits(dot(back, ng) > zero))) << first;
 }
 

@@ -6,7 +6,6 @@
 #include "render/waves/wave.h"
 
 #include <cstddef>
-#include <tuple>
 
 namespace waves {
 
@@ -61,10 +60,10 @@ inline void mirror(const Wave& wave, std::size_t k) {
 // What a ray is inside of on both sides of a point, and the ior on the eye's side over that on the
 // other side.
 struct Boundary {
-    MediumTree::Inside before, after;
-    float eta;
+    MediumTree::Inside before = MediumTree::kNothing, after = MediumTree::kNothing;
+    float eta = 1;
 };
-inline Boundary boundaryAt(const Wave& wave, std::size_t k) {
+[[gnu::always_inline]] inline Boundary boundaryAt(const Wave& wave, std::size_t k) {
     const Scene& scene = wave.context.scene;
     const ShadedPoint& at = wave.memory.points.at[k];
     MediumTree& media = wave.memory.media;
@@ -106,30 +105,32 @@ inline void bounceAlone(const Wave& wave, std::size_t k) {
 // Points that wait for lanes, in their order.
 class BouncesInLanes {
 public:
-    explicit BouncesInLanes(const Wave& wave) : wave_(wave) {}
+    explicit BouncesInLanes(const Wave& wave) : wave_(wave) { block_.cutoff = wave.context.cutoff; }
 
     void add(std::size_t k) {
-        const ShadedPoint& at = wave_.memory.points.at[k];
-        const Material& material = *wave_.memory.points.material[k];
+        const PointBatch& points = wave_.memory.points;
+        const ShadedPoint& at = points.at[k];
+        const Material& material = *points.material[k];
         const std::size_t i = count_++;
-        const auto put = [i](float(*to)[BounceBlock::kPoints], float x, float y, float z) {
-            to[0][i] = x, to[1][i] = y, to[2][i] = z;
+        const auto put = [i](float(*to)[BounceBlock::kPoints], Vec3 v) {
+            to[0][i] = v.x, to[1][i] = v.y, to[2][i] = v.z;
         };
-        const auto [n, ng, toEye] = std::tuple(at.eye.n, at.eye.ng, at.toEye);
-        put(block_.n, n.x, n.y, n.z), put(block_.ng, ng.x, ng.y, ng.z);
-        put(block_.toEye, toEye.x, toEye.y, toEye.z);
-        const Rgb mirror = material.mirror, transmission = material.transmission;
-        put(block_.mirror, mirror.r, mirror.g, mirror.b);
-        put(block_.transmission, transmission.r, transmission.g, transmission.b);
+        const auto putLight = [&](float(*to)[BounceBlock::kPoints], Rgb c) {
+            put(to, {c.r, c.g, c.b});
+        };
+        put(block_.n, at.eye.n), put(block_.ng, at.eye.ng), put(block_.toEye, at.toEye);
+        putLight(block_.mirror, material.mirror);
+        putLight(block_.transmission, material.transmission);
+        putLight(block_.weight, points.weight[k]);
         points_[i] = k;
+        Boundary boundary;
         if (isPlainMirror(material)) {
-            const MediumTree::Inside here = wave_.rays.medium[wave_.memory.points.ray[k]];
-            boundaries_[i] = {here, here, 1};
+            boundary.before = boundary.after = wave_.rays.medium[points.ray[k]];
         } else {
-            boundaries_[i] = boundaryAt(wave_, k);
+            boundary = boundaryAt(wave_, k);
             block_.glass |= 1u << i;
         }
-        block_.eta[i] = boundaries_[i].eta;
+        before_[i] = boundary.before, after_[i] = boundary.after, block_.eta[i] = boundary.eta;
         if (count_ == BounceBlock::kPoints) send();
     }
 
@@ -138,34 +139,46 @@ public:
         if (count_ == 0) return;
         block_.used = (1u << count_) - 1;
         wave_.context.bouncesInLanes(block_);
-        const auto pushFrom = [&](std::size_t i, const auto& dir, const auto& weight, Vec3 side,
-                                  MediumTree::Inside medium, std::uint32_t branch,
-                                  std::uint64_t& counter) {
-            push(wave_, points_[i],
-                 {{dir[0][i], dir[1][i], dir[2][i]}, {weight[0][i], weight[1][i], weight[2][i]}},
-                 side, medium, branch, counter);
-        };
         for (std::size_t i = 0; i < count_; ++i) {
-            const Vec3 ng = wave_.memory.points.at[points_[i]].eye.ng;
             if ((block_.bent >> i & 1) != 0) {
                 bounceAlone(wave_, points_[i]);
                 continue;
             }
-            if ((block_.reflects >> i & 1) != 0)
-                pushFrom(i, block_.reflectedDir, block_.reflected, ng, boundaries_[i].before,
-                         kReflected, wave_.counts.reflect);
-            if ((block_.refracts >> i & 1) != 0)
-                pushFrom(i, block_.refractedDir, block_.refracted, -ng, boundaries_[i].after,
-                         kRefracted, wave_.counts.refract);
+            const bool reflects = (block_.reflects >> i & 1) != 0;
+            const bool refracts = (block_.refracts >> i & 1) != 0;
+            wave_.counts.reflect += reflects, wave_.counts.refract += refracts;
+            std::size_t to =
+                wave_.memory.next.extend(std::size_t{reflects} + std::size_t{refracts});
+            const Vec3 ng = wave_.memory.points.at[points_[i]].eye.ng;
+            if (reflects)
+                write(to++, i, block_.reflectedDir, block_.reflected, ng, before_[i], kReflected);
+            if (refracts)
+                write(to, i, block_.refractedDir, block_.refracted, -ng, after_[i], kRefracted);
         }
         count_ = 0, block_.glass = 0;
     }
 
 private:
+    // What push() does, of point i.
+    void write(std::size_t to, std::size_t i, const float (&dir)[3][BounceBlock::kPoints],
+               const float (&weight)[3][BounceBlock::kPoints], Vec3 side, MediumTree::Inside medium,
+               std::uint32_t branch) const {
+        const PathBatch& from = wave_.rays;
+        PathBatch& next = wave_.memory.next;
+        const std::size_t ray = wave_.memory.points.ray[points_[i]];
+        next.org[to] = leave(wave_.memory.points.at[points_[i]].surface, side);
+        next.dir[to] = {dir[0][i], dir[1][i], dir[2][i]};
+        next.tMin[to] = 0, next.tMax[to] = kInfinityF, next.time[to] = from.time[ray];
+        next.sample[to] = from.sample[ray];
+        next.weight[to] = {weight[0][i], weight[1][i], weight[2][i]};
+        next.medium[to] = medium, next.stream[to] = low32(hash(from.stream[ray], branch));
+        next.seesLights[to] = true; // nothing is rough
+    }
+
     const Wave& wave_;
     BounceBlock block_;
     std::size_t count_ = 0, points_[BounceBlock::kPoints];
-    Boundary boundaries_[BounceBlock::kPoints];
+    MediumTree::Inside before_[BounceBlock::kPoints], after_[BounceBlock::kPoints];
 };
 
 } // namespace waves
