@@ -126,6 +126,13 @@ struct Arrival {
     Rgb light;
 };
 
+// Light of a lamp's sample that waits for a ray, or behind one that does.
+struct WaitingLight {
+    static constexpr std::uint32_t kNoRay = 0xffffffffu;
+    std::uint32_t point, ray; // of memory.shadowRays
+    Rgb light;
+};
+
 // Points of a wave that lie on one shape.
 struct PointGroup {
     std::uint32_t shape;
@@ -159,7 +166,8 @@ struct WaveMemory {
     RayBatch shadowRays; // of one lamp; their samples are points
     std::vector<std::uint8_t> hidden;
     std::vector<Rgb> transmittance;
-    std::vector<Rgb> lampLight; // of a lamp with a size, by point
+    std::vector<Rgb> lampLight;        // of a lamp with a size, by point
+    std::vector<WaitingLight> waiting; // to be added to it
     std::vector<Arrival> arrivals, arrivalsInOrder;
     std::vector<std::uint32_t> arrivalStarts;
 };

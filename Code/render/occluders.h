@@ -26,6 +26,9 @@ struct Occluder {
 
 class Occluders {
 public:
+    // Looking at more boxes than these costs more than it saves.
+    static constexpr std::size_t kMost = 16;
+
     explicit Occluders(const ShapeSet& shapes);
 
     // Can a shape be in between a place in `points`, all on `shape`, and a place in `lamp`, seen

@@ -5,8 +5,8 @@
 #define LIGHT_IN_LANES(isa)                                                                        \
     namespace kernels::isa {                                                                       \
     void lightByLamp(const PointEmission&, const LitBlock&, unsigned, LitByLamp&);                 \
-    void lightBySamples(const PointEmission&, const LitBlock&, const SamplesOnLamp&, unsigned,     \
-                        LitBySamples&);                                                            \
+    void lightBySamples(const PointEmission&, const LitBlock&, const SamplesOnLamp&,               \
+                        const Occluders&, const HiddenPoints&, LitBySamples&);                     \
     HiddenPoints hiddenPoints(const Occluders&, const LitBlock&, const PointEmission&);            \
     }
 LIGHT_IN_LANES(sse)

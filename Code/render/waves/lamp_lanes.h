@@ -44,32 +44,39 @@ struct SamplesOnLamp {
                   x[LitBlock::kPoints] = {}, y[LitBlock::kPoints] = {};
 };
 
-// What they do: their light is added to the sum of a point, or, if something may hide it, there is
-// a ray for each. Sample s of point k is element s * kPoints + k.
+// What they do: their light is added to the sum of a point. Where it takes a ray to know whether
+// a sample is hidden, the point waits for it, and this and all that follow it are listed: sample s
+// of point k is element s * kPoints + k.
 struct alignas(64) LitBySamples {
     static constexpr std::size_t kMost = 16; // samples at a time
     static constexpr std::size_t kRoom = LitBlock::kPoints * kMost;
     float sum[3][LitBlock::kPoints] = {};
     float light[3][kRoom], dir[3][kRoom], tMax[kRoom]; // the ray from the point
-    std::array<std::uint16_t, kMost> lit;              // the points that have one
+    std::array<std::uint16_t, kMost> lit, unsure;      // a bit for each point
+    unsigned waiting = 0;
     bool isLit(std::size_t s, std::size_t k) const { return lit[s] >> k & 1; }
+    bool isUnsure(std::size_t s, std::size_t k) const { return unsure[s] >> k & 1; }
 };
 
 // Rays are made for the lit points of `withRays`.
 using LightByLampFn = void (*)(const PointEmission& lamp, const LitBlock& block, unsigned withRays,
                                LitByLamp& out);
-using LightBySamplesFn = void (*)(const PointEmission& lamp, const LitBlock& block,
-                                  const SamplesOnLamp& samples, unsigned withRays,
-                                  LitBySamples& out);
 
 // The points of a block that something may hide from a place on the lamp, and those of them that
-// something hides from all of it.
-struct HiddenPoints {
-    unsigned maybe = 0, surely = 0;
-};
+// something hides from all of it; and which points each shape may hide.
 class Occluders;
+struct alignas(64) HiddenPoints {
+    static constexpr std::size_t kMostShapes = 16;
+    float room[LitBlock::kPoints]; // for rounding, about the lines to the lamp
+    std::array<std::uint16_t, kMostShapes> byShape;
+    unsigned maybe = 0, surely = 0;
+    bool areShapesKnown = false;
+};
 using HiddenPointsFn = HiddenPoints (*)(const Occluders& occluders, const LitBlock& block,
                                         const PointEmission& lamp);
+using LightBySamplesFn = void (*)(const PointEmission& lamp, const LitBlock& block,
+                                  const SamplesOnLamp& samples, const Occluders& occluders,
+                                  const HiddenPoints& hidden, LitBySamples& out);
 
 // Null for the scalar kernel.
 HiddenPointsFn hiddenPoints(const Kernel& kernel);

@@ -9,26 +9,43 @@
 
 namespace waves {
 
+// Which of the shadow rays are hidden, or, with kSeeThrough, what part of their light arrives.
+template <bool kSeeThrough> void askShadowRays(const Wave& wave) {
+    const RayBatch& rays = wave.memory.shadowRays;
+    if (rays.empty()) return;
+    wave.counts.shadow += rays.size();
+    if constexpr (kSeeThrough)
+        transmitted(wave.context.scene, rays, wave.memory.transmittance);
+    else
+        wave.context.scene.shapes().occluded(rays.span(), wave.memory.hidden);
+}
+
+// What arrives of `light` by such a ray.
+template <bool kSeeThrough> Rgb arriving(const WaveMemory& memory, std::size_t ray, Rgb light) {
+    if constexpr (kSeeThrough) {
+        const Rgb part = memory.transmittance[ray];
+        return isBlack(part) ? Rgb{} : light * part; // black hides even what is infinite
+    }
+    return memory.hidden[ray] == 0 ? light : Rgb{};
+}
+
 // fn(point, light) for what arrives of the shadow rays' light.
 template <bool kSeeThrough, class ArriveFn>
 void traceShadowRays(const Wave& wave, ArriveFn&& arrive) {
-    WaveMemory& memory = wave.memory;
-    const RayBatch& rays = memory.shadowRays;
-    if (rays.empty()) return;
-    wave.counts.shadow += rays.size();
-    if constexpr (kSeeThrough) {
-        transmitted(wave.context.scene, rays, memory.transmittance);
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            const Rgb part = memory.transmittance[i];
-            if (isBlack(part)) continue; // hides even what is infinite
-            const Rgb light = rays.weight[i] * part;
-            if (!isBlack(light)) arrive(rays.sample[i], light);
-        }
-    } else {
-        wave.context.scene.shapes().occluded(rays.span(), memory.hidden);
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            if (memory.hidden[i] == 0) arrive(rays.sample[i], rays.weight[i]);
+    askShadowRays<kSeeThrough>(wave);
+    const RayBatch& rays = wave.memory.shadowRays;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Rgb light = arriving<kSeeThrough>(wave.memory, i, rays.weight[i]);
+        if (!isBlack(light)) arrive(rays.sample[i], light);
     }
+}
+
+// The same for all that waits for them.
+template <bool kSeeThrough, class ArriveFn> void addWaiting(const Wave& wave, ArriveFn&& arrive) {
+    askShadowRays<kSeeThrough>(wave);
+    for (const auto& [point, ray, light] : wave.memory.waiting)
+        arrive(point, ray == WaitingLight::kNoRay ? light
+                                                  : arriving<kSeeThrough>(wave.memory, ray, light));
 }
 
 // Sums run over the rays of a wave in their order, and for each over the lamps. After the first
@@ -125,11 +142,13 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
                 // All samples of a point first, which come in any order of points.
                 memory.lampLight.assign(points.count, Rgb{});
                 const auto add = [&](std::uint32_t k, Rgb light) { memory.lampLight[k] += light; };
-                if (lamp.bySamples)
+                if (lamp.bySamples) {
                     waves::shineBySamples(wave, lamp, add);
-                else
+                    waves::addWaiting<kSeeThrough>(wave, add);
+                } else {
                     waves::shineOneByOne<true>(wave, lamp, isGrouped, add);
-                waves::traceShadowRays<kSeeThrough>(wave, add);
+                    waves::traceShadowRays<kSeeThrough>(wave, add);
+                }
                 for (const std::uint32_t k : memory.answering) arrive(k, memory.lampLight[k]);
                 continue;
             }

@@ -125,56 +125,59 @@ inline SamplesOnLamp samplesOf(const Wave& wave, const Lamp& lamp, const LitBloc
     return samples;
 }
 
-// The rays of point i of a block, whose number is k.
-inline void pushShadowRays(const Wave& wave, std::uint32_t k, const LitBySamples& by, std::size_t i,
-                           std::size_t count) {
-    RayBatch& rays = wave.memory.shadowRays;
-    const ShadedPoint& at = wave.memory.points.at[k];
+// The samples of point i of a block that wait, and their rays.
+inline void listWaiting(const Wave& wave, const LitBlock& block, const LitBySamples& by,
+                        std::size_t i, std::size_t count) {
+    WaveMemory& memory = wave.memory;
+    const std::uint32_t k = block.point[i];
+    const ShadedPoint& at = memory.points.at[k];
     const Vec3 org = leave(at.surface, at.lit.ng) + at.surface.lift;
-    const float time = wave.rays.time[wave.memory.points.ray[k]];
-    std::size_t to = rays.extend(count), lit = 0;
-    const std::size_t first = to;
+    const float time = wave.rays.time[memory.points.ray[k]];
     for (std::size_t s = 0; s < count; ++s) {
+        if (!by.isLit(s, i)) continue;
         const std::size_t from = s * LitBlock::kPoints + i;
-        rays.org[to] = org, rays.dir[to] = {by.dir[0][from], by.dir[1][from], by.dir[2][from]};
-        rays.tMin[to] = 0, rays.tMax[to] = by.tMax[from], rays.time[to] = time;
-        rays.sample[to] = k;
-        rays.weight[to] = {by.light[0][from], by.light[1][from], by.light[2][from]};
-        lit += by.isLit(s, i);
-        to = first + lit; // those without light are overwritten
+        const Rgb light{by.light[0][from], by.light[1][from], by.light[2][from]};
+        std::uint32_t ray = WaitingLight::kNoRay;
+        if (by.isUnsure(s, i)) {
+            ray = static_cast<std::uint32_t>(memory.shadowRays.size());
+            const Vec3 dir{by.dir[0][from], by.dir[1][from], by.dir[2][from]};
+            memory.shadowRays.push({org, dir, 0, by.tMax[from], time}, k, light);
+        }
+        memory.waiting.push_back({k, ray, light});
     }
-    rays.shrink(first + lit);
 }
 
 // forEachLampSample() of such a lamp. A point's many shadow rays make it worth while to look at
-// each point for itself.
+// each point for itself, and at each line to the lamp. What has to wait for rays is listed.
 template <class ArriveFn>
 void shineBySamples(const Wave& wave, const Lamp& lamp, ArriveFn&& arrive) {
     WaveMemory& memory = wave.memory;
     const Occluders& occluders = wave.context.occluders;
     const bool canTell = wave.context.settings.specialise && occluders.canTell();
     constexpr int kMost = LitBySamples::kMost;
+    memory.waiting.clear();
     LitBySamples by;
+    HiddenPoints hidden;
     for (std::size_t b = 0; b * LitBlock::kPoints < memory.answering.size(); ++b) {
         const LitBlock& block = memory.litBlocks[b];
-        const HiddenPoints hidden = canTell ? lamp.hiddenPoints(occluders, block, *lamp.emission)
-                                            : HiddenPoints{block.used, 0};
+        if (canTell)
+            hidden = lamp.hiddenPoints(occluders, block, *lamp.emission);
+        else
+            hidden.maybe = block.used;
         const unsigned asked = block.used & ~hidden.surely;
         if (asked == 0) continue;
+        by.waiting = 0;
         for (float(&channel)[LitBlock::kPoints] : by.sum)
             std::fill_n(channel, LitBlock::kPoints, 0.0f);
         for (int first = 0; first < lamp.samples; first += kMost) {
             const int some = std::min(kMost, lamp.samples - first);
             lamp.bySamples(*lamp.emission, block, samplesOf(wave, lamp, block, asked, first, some),
-                           hidden.maybe, by);
-            unsigned lit = 0;
-            for (const std::uint16_t points : by.lit) lit |= points;
-            for (; lit != 0; lit &= lit - 1) {
-                const auto i = static_cast<std::size_t>(std::countr_zero(lit));
-                pushShadowRays(wave, block.point[i], by, i, static_cast<std::size_t>(some));
-            }
+                           occluders, hidden, by);
+            for (unsigned rest = by.waiting; rest != 0; rest &= rest - 1)
+                listWaiting(wave, block, by, static_cast<std::size_t>(std::countr_zero(rest)),
+                            static_cast<std::size_t>(some));
         }
-        for (unsigned rest = asked & ~hidden.maybe; rest != 0; rest &= rest - 1) {
+        for (unsigned rest = asked; rest != 0; rest &= rest - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(rest));
             arrive(block.point[i], Rgb{by.sum[0][i], by.sum[1][i], by.sum[2][i]});
         }

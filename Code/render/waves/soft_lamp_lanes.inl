@@ -79,8 +79,8 @@ inline void store(const Three& v, float* x, float* y, float* z) {
 }
 
 template <bool kMayShine>
-void sumSamples(const SoftLanes& lanes, const SamplesOnLamp& samples, unsigned withRays,
-                std::size_t first, LitBySamples& out) {
+void sumSamples(const SoftLanes& lanes, const SamplesOnLamp& samples, const LinesToLamp& lines,
+                unsigned mayBeHidden, std::size_t first, LitBySamples& out) {
     constexpr std::size_t kPoints = LitBlock::kPoints;
     DiskRow places[LitBySamples::kMost];
     PairsInLanes pairs;
@@ -91,33 +91,42 @@ void sumSamples(const SoftLanes& lanes, const SamplesOnLamp& samples, unsigned w
         pairs.make(static_cast<std::uint32_t>(s), places[s].u, places[s].v);
     placeOnDisk(places, samples.count);
     const unsigned asked = lanes.lanesOf(samples.points);
-    const unsigned rays = withRays >> first & ((1u << W) - 1);
-    Three sum = Three::load(out.sum, first);
+    mayBeHidden = mayBeHidden >> first & ((1u << W) - 1);
+    unsigned waiting = out.waiting >> first & ((1u << W) - 1);
+    const Three before = Three::load(out.sum, first);
+    Three sum = before;
     for (std::size_t s = 0; s < samples.count; ++s) {
         const DiskLanes disk{Floats::load(places[s].x), Floats::load(places[s].y)};
-        const SoftLanes::Sample by = lanes.sample<kMayShine>(disk, asked, samples.share);
-        sum = select(maskOf(by.lit & ~rays), sum + by.light, sum);
-        if ((by.lit & rays) == 0) continue;
-        const std::size_t to = s * kPoints + first;
-        store(by.light, out.light[0] + to, out.light[1] + to, out.light[2] + to);
-        store(by.toLight, out.dir[0] + to, out.dir[1] + to, out.dir[2] + to);
-        (Doubles(by.distance) * Doubles(1 - 0x1p-20)).toFloats().store(out.tMax + to);
-        out.lit[s] |= static_cast<std::uint16_t>((by.lit & rays) << first);
+        SoftLanes::Sample by = lanes.sample<kMayShine>(disk, asked, samples.share);
+        if ((by.lit & mayBeHidden) != 0) {
+            const auto [hidden, unsure] = lines.ask(by.toLight, by.distance, by.lit & mayBeHidden);
+            by.lit &= ~hidden, waiting |= unsure;
+            const std::size_t to = s * kPoints + first;
+            store(by.light, out.light[0] + to, out.light[1] + to, out.light[2] + to);
+            store(by.toLight, out.dir[0] + to, out.dir[1] + to, out.dir[2] + to);
+            (Doubles(by.distance) * Doubles(1 - 0x1p-20)).toFloats().store(out.tMax + to);
+            out.lit[s] |= static_cast<std::uint16_t>((by.lit & mayBeHidden) << first);
+            out.unsure[s] |= static_cast<std::uint16_t>(unsure << first);
+        }
+        sum = select(maskOf(by.lit), sum + by.light, sum);
     }
-    store(sum, out.sum[0] + first, out.sum[1] + first, out.sum[2] + first);
+    out.waiting |= waiting << first;
+    store(select(maskOf(waiting), before, sum), out.sum[0] + first, out.sum[1] + first,
+          out.sum[2] + first);
 }
 
 } // namespace
 
 void lightBySamples(const PointEmission& lamp, const LitBlock& block, const SamplesOnLamp& places,
-                    unsigned withRays, LitBySamples& out) {
-    std::fill(out.lit.begin(), out.lit.end(), std::uint16_t{0});
+                    const Occluders& occluders, const HiddenPoints& hidden, LitBySamples& out) {
+    out.lit.fill(0), out.unsure.fill(0);
     for (std::size_t first = 0; first < LitBlock::kPoints; first += W) {
         const SoftLanes lanes(lamp, block, first);
         if (lanes.lanesOf(places.points) == 0) continue;
+        const LinesToLamp lines(block, occluders, hidden, first);
         if (lanes.isShiny())
-            sumSamples<true>(lanes, places, withRays, first, out);
+            sumSamples<true>(lanes, places, lines, hidden.maybe, first, out);
         else
-            sumSamples<false>(lanes, places, withRays, first, out);
+            sumSamples<false>(lanes, places, lines, hidden.maybe, first, out);
     }
 }
