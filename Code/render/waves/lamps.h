@@ -126,7 +126,9 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
         else
             memory.arrivals.push_back({k, light});
     };
-    const bool isGrouped = waves::groupPoints(wave);
+    const auto looksAtGroups = [](const Lamp& lamp) { return lamp.bySamples == nullptr; };
+    const bool isGrouped =
+        std::any_of(lamps.begin(), lamps.end(), looksAtGroups) && waves::groupPoints(wave);
     if (std::any_of(lamps.begin(), lamps.end(),
                     [&](const Lamp& lamp) { return lamp.inLanes || lamp.bySamples; }))
         waves::fillBlocks(wave);
