@@ -13,11 +13,19 @@ namespace {
 ShapeSet scatter(Random& random, int count) {
     ShapeSet set;
     for (int i = 0; i < count; ++i) {
-        const kit::Kind& kind = kit::kinds()[random.below(kit::kinds().size())];
+        // Spheres are told more of.
+        const kit::Kind& kind = random.chance(0.4)
+                                    ? kit::kindNamed("sphere")
+                                    : kit::kinds()[random.below(kit::kinds().size())];
         Vec3d factors{random.logUniform(0.05, 0.5), random.logUniform(0.05, 0.5),
                       random.logUniform(0.05, 0.5)};
         if (random.coin()) factors = Vec3d{1, 1, 1} * factors.x;
-        set.add(kind.make(kit::placed(random, factors, random.inBox(0.6))),
+        // Upright ones fill their boxes.
+        const Vec3d at = random.inBox(0.6);
+        const Transform map = random.chance(0.4)
+                                  ? Transform::translate(at) * Transform::scale(factors)
+                                  : kit::placed(random, factors, at);
+        set.add(kind.make(map),
                 random.chance(0.2) ? ShapeSet::Shadow::SeeThrough : ShapeSet::Shadow::Opaque);
     }
     set.finish(true);
@@ -119,7 +127,7 @@ TEST(occluders_in_lanes_never_miss_one) {
         const Occluders occluders(set);
         const auto [block, starts, sides] = meet(random, set);
         PointEmission lamp{toFloat(random.inBox(2)), {1, 1, 1}, {}, 0};
-        lamp.radius = static_cast<float>(random.logUniform(1e-3, 1));
+        lamp.radius = static_cast<float>(random.logUniform(1e-3, random.coin() ? 1 : 0.1));
         for (const Kernel& kernel : allKernels()) {
             const HiddenPointsFn inLanes = kernel.supported() ? hiddenPoints(kernel) : nullptr;
             if (!inLanes) continue;
