@@ -5,6 +5,8 @@
 #include "render/waves/steps.h"
 #include "render/waves/wave.h"
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 
 namespace waves {
@@ -139,40 +141,59 @@ public:
         if (count_ == 0) return;
         block_.used = (1u << count_) - 1;
         wave_.context.bouncesInLanes(block_);
-        for (std::size_t i = 0; i < count_; ++i) {
-            if ((block_.bent >> i & 1) != 0) {
-                bounceAlone(wave_, points_[i]);
-                continue;
-            }
-            const bool reflects = (block_.reflects >> i & 1) != 0;
-            const bool refracts = (block_.refracts >> i & 1) != 0;
-            wave_.counts.reflect += reflects, wave_.counts.refract += refracts;
-            std::size_t to =
-                wave_.memory.next.extend(std::size_t{reflects} + std::size_t{refracts});
-            const Vec3 ng = wave_.memory.points.at[points_[i]].eye.ng;
-            if (reflects)
-                write(to++, i, block_.reflectedDir, block_.reflected, ng, before_[i], kReflected);
-            if (refracts)
-                write(to, i, block_.refractedDir, block_.refracted, -ng, after_[i], kRefracted);
+        std::size_t begin = 0;
+        for (unsigned rest = block_.bent; rest != 0; rest &= rest - 1) {
+            const auto bent = static_cast<std::size_t>(std::countr_zero(rest));
+            write(begin, bent);
+            bounceAlone(wave_, points_[bent]);
+            begin = bent + 1;
         }
+        write(begin, count_);
         count_ = 0, block_.glass = 0;
     }
 
 private:
-    // What push() does, of point i.
-    void write(std::size_t to, std::size_t i, const float (&dir)[3][BounceBlock::kPoints],
-               const float (&weight)[3][BounceBlock::kPoints], Vec3 side, MediumTree::Inside medium,
-               std::uint32_t branch) const {
+    // What push() does, of the points begin .. end - 1.
+    void write(std::size_t begin, std::size_t end) const {
+        const unsigned range = (1u << end) - (1u << begin);
+        const unsigned reflects = block_.reflects & range, refracts = block_.refracts & range;
+        const auto reflected = static_cast<std::size_t>(std::popcount(reflects));
+        const auto refracted = static_cast<std::size_t>(std::popcount(refracts));
+        wave_.counts.reflect += reflected, wave_.counts.refract += refracted;
+        const PointBatch& points = wave_.memory.points;
         const PathBatch& from = wave_.rays;
         PathBatch& next = wave_.memory.next;
-        const std::size_t ray = wave_.memory.points.ray[points_[i]];
-        next.org[to] = leave(wave_.memory.points.at[points_[i]].surface, side);
-        next.dir[to] = {dir[0][i], dir[1][i], dir[2][i]};
-        next.tMin[to] = 0, next.tMax[to] = kInfinityF, next.time[to] = from.time[ray];
-        next.sample[to] = from.sample[ray];
-        next.weight[to] = {weight[0][i], weight[1][i], weight[2][i]};
-        next.medium[to] = medium, next.stream[to] = low32(hash(from.stream[ray], branch));
-        next.seesLights[to] = true; // nothing is rough
+        std::size_t to = next.extend(reflected + refracted);
+        // Nothing is rough.
+        std::fill_n(next.seesLights.begin() + static_cast<std::ptrdiff_t>(to),
+                    reflected + refracted, std::uint8_t{true});
+        Vec3 *const org = next.org.data(), *const dirs = next.dir.data();
+        float *const tMin = next.tMin.data(), *const tMax = next.tMax.data(),
+                     *const time = next.time.data();
+        std::uint32_t *const sample = next.sample.data(), *const stream = next.stream.data();
+        Rgb* const weights = next.weight.data();
+        MediumTree::Inside* const inside = next.medium.data();
+        using Rows = float[3][BounceBlock::kPoints];
+        const auto put = [&](std::size_t i, std::size_t ray, const Rows& dir, const Rows& weight,
+                             Vec3 start, MediumTree::Inside medium, std::uint32_t branch) {
+            org[to] = start, dirs[to] = {dir[0][i], dir[1][i], dir[2][i]};
+            tMin[to] = 0, tMax[to] = kInfinityF, time[to] = from.time[ray];
+            weights[to] = {weight[0][i], weight[1][i], weight[2][i]};
+            sample[to] = from.sample[ray], inside[to] = medium;
+            stream[to] = low32(hash(from.stream[ray], branch));
+            ++to;
+        };
+        for (unsigned rest = reflects | refracts; rest != 0; rest &= rest - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+            const std::size_t ray = points.ray[points_[i]];
+            const ShadedPoint& at = points.at[points_[i]];
+            if ((reflects >> i & 1) != 0)
+                put(i, ray, block_.reflectedDir, block_.reflected, leave(at.surface, at.eye.ng),
+                    before_[i], kReflected);
+            if ((refracts >> i & 1) != 0)
+                put(i, ray, block_.refractedDir, block_.refracted, leave(at.surface, -at.eye.ng),
+                    after_[i], kRefracted);
+        }
     }
 
     const Wave& wave_;
