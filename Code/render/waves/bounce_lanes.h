@@ -10,7 +10,7 @@
 
 struct Kernel;
 
-// Sharp is who has no roughness; lanes do sharp dielectrics and plain mirrors.
+// Lanes do this and plain mirrors.
 inline bool isSharpGlass(const Material& material) {
     return material.roughness <= 0 && material.fresnel == FresnelModel::Dielectric;
 }

@@ -45,8 +45,8 @@ struct SamplesOnLamp {
 };
 
 // What they do: their light is added to the sum of a point. Where it takes a ray to know whether
-// a sample is hidden, the point waits for it, and this and all that follow it are listed: sample s
-// of point k is element s * kPoints + k.
+// one of them is hidden, the point waits: then its sum stays, and these samples and all later ones
+// are listed instead. Sample s of point k is element s * kPoints + k.
 struct alignas(64) LitBySamples {
     static constexpr std::size_t kMost = 16; // samples at a time
     static constexpr std::size_t kRoom = LitBlock::kPoints * kMost;
