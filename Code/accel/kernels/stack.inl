@@ -10,7 +10,8 @@ inline std::size_t strideOfStacks(std::size_t mostEntries) {
 
 // Pushes the children in `hit`, the farthest first, and returns the nearest. Up to four, 97 to 99
 // of 100 steps where boxes overlap little, by a sorting network; more, by counting for each how
-// many are farther. entries: the depths' bits, the lowest four replaced.
+// many are farther. entries: the depths' bits, the lowest four replaced. Of boxes that the ray
+// starts in the last is the nearest, as for rays that any hit ends.
 inline WideRef pushSorted(unsigned hit, Floats entry, const WideRef* child, WideRef* refs,
                           std::uint32_t* entries) {
     const auto keys = keysOf(hit, entry);
@@ -23,7 +24,7 @@ inline WideRef pushSorted(unsigned hit, Floats entry, const WideRef* child, Wide
             // As many are farther: no two keys are equal.
             const unsigned farther = bits(Ints(each[a]) < all) & ((1u << n) - 1);
             const int place = std::popcount(farther);
-            entries[place] = each[a], refs[place] = child[each[a] & 15];
+            entries[place] = each[a], refs[place] = child[(each[a] & 15) ^ (W - 1)];
         }
         return refs[n - 1];
     }
