@@ -91,6 +91,14 @@ struct Bins {
             std::fill_n(count[axis], used, 0u);
         }
     }
+    // What others hold, of the same grid.
+    void add(const Bins& others, std::uint32_t used) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            for (std::uint32_t b = 0; b < used; ++b) {
+                extend(box[axis][b], others.box[axis][b]);
+                count[axis][b] += others.count[axis][b];
+            }
+    }
     void add(const BinGrid& grid, const PrimBox& p) {
         const std::array<std::uint32_t, 4> at = grid.binsOf(p);
         for (std::size_t axis = 0; axis < 3; ++axis) {

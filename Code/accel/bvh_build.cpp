@@ -1,10 +1,9 @@
 // The plain builder: the same way as that of the kernels (kernels/wide_build.cpp), for boxes of
 // anything and in C++ alone. A pass over a range sorts its primitives into two halves and into the
-// bins of both; the ranges of the top are divided level by level, one thread each, what is below
-// are subtrees, one thread each.
+// bins of both (bvh_divide.h); the ranges of the top are divided level by level, each by all
+// threads or, where there are enough of them, by one, what is below are subtrees, one thread each.
 #include "accel/bvh.h"
-#include "accel/bvh_bins.h"
-#include "base/pages.h"
+#include "accel/bvh_divide.h"
 #include "base/parallel.h"
 
 #include <algorithm>
@@ -31,116 +30,6 @@ std::uint32_t subtreeSize(std::size_t count) {
 
 Bounds boundsOf(const PrimBox& b) {
     return {{b.lo[0], b.lo[1], b.lo[2]}, {-b.negHi[0], -b.negHi[1], -b.negHi[2]}};
-}
-
-struct Range {
-    std::uint32_t first, count;
-    int depth;
-    bool inSpare; // in which of the two lists it lies
-    PrimBox box;
-    BinGrid grid;
-    Split split;
-};
-
-// Both lists, and what leaves hold, by position.
-struct Lists {
-    PageVector<PrimBox> prims, spare;
-    std::uint32_t* ids = nullptr;
-    double pad = 0; // by which rays see boxes larger
-    std::uint32_t largestLeaf = kUsualLeaf;
-    PrimBox* of(const Range& r, bool other = false) {
-        return (r.inSpare != other ? spare : prims).data() + r.first;
-    }
-};
-
-// A split by exact bounds of the centres.
-void splitExactly(Range& r, Lists& lists) {
-    const PrimBox* const prims = lists.of(r);
-    std::array<float, 4> lo = {kHuge, kHuge, kHuge}, hi = {-kHuge, -kHuge, -kHuge};
-    for (std::uint32_t i = 0; i < r.count; ++i)
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            lo[axis] = min(twiceCentre(prims[i], axis), lo[axis]);
-            hi[axis] = max(twiceCentre(prims[i], axis), hi[axis]);
-        }
-    r.grid = BinGrid::over(lo, hi, r.count);
-    Bins bins;
-    bins.clear(r.grid.bins);
-    for (std::uint32_t i = 0; i < r.count; ++i) bins.add(r.grid, prims[i]);
-    r.split = bestSplit(bins, r.grid.bins, r.count, lists.pad);
-}
-
-// A child's centres are within its box, and on its side of the cut: close enough for bins.
-BinGrid childGrid(const Range& r, const PrimBox& box, bool right, std::uint32_t count) {
-    std::array<float, 4> lo{}, hi{};
-    for (std::size_t i = 0; i < 3; ++i) {
-        lo[i] = max(r.grid.lo[i], 2 * box.lo[i]);
-        hi[i] = min(r.grid.hi[i], -2 * box.negHi[i]);
-    }
-    const std::size_t axis = r.split.axis;
-    const float cut = r.grid.lo[axis] + static_cast<float>(r.split.bin) / r.grid.scale[axis];
-    if (right)
-        lo[axis] = max(lo[axis], cut);
-    else
-        hi[axis] = min(hi[axis], cut);
-    return BinGrid::over(lo, hi, count);
-}
-
-struct Halves {
-    Range left, right;
-};
-
-Halves divide(const Range& r, Lists& lists) {
-    const std::uint32_t nLeft = r.split.leftCount, nRight = r.count - nLeft;
-    Halves out{{r.first,
-                nLeft,
-                r.depth + 1,
-                !r.inSpare,
-                r.split.left,
-                childGrid(r, r.split.left, false, nLeft),
-                {}},
-               {r.first + nLeft,
-                nRight,
-                r.depth + 1,
-                !r.inSpare,
-                r.split.right,
-                childGrid(r, r.split.right, true, nRight),
-                {}}};
-    Range* const sides[2] = {&out.left, &out.right};
-    Bins bins[2];
-    for (std::size_t side = 0; side < 2; ++side)
-        if (sides[side]->count > 2) bins[side].clear(sides[side]->grid.bins);
-    const PrimBox* const from = lists.of(r);
-    PrimBox* const to = lists.of(r, true);
-    std::uint32_t next[2] = {0, nLeft};
-    for (std::uint32_t i = 0; i < r.count; ++i) {
-        const std::size_t side = r.grid.binOf(from[i], r.split.axis) < r.split.bin ? 0 : 1;
-        to[next[side]++] = from[i];
-        if (sides[side]->count > 2) bins[side].add(sides[side]->grid, from[i]);
-    }
-    for (std::size_t side = 0; side < 2; ++side) {
-        Range& child = *sides[side];
-        const PrimBox* const prims = to + (side == 0 ? 0 : nLeft);
-        if (child.count == 2)
-            child.split = splitOfTwo(child.grid, prims[0], prims[1], lists.pad);
-        else if (child.count > 2)
-            child.split = bestSplit(bins[side], child.grid.bins, child.count, lists.pad);
-    }
-    return out;
-}
-
-// Where no split separates the centres, any two halves are as good.
-Halves halve(const Range& r, Lists& lists) {
-    Halves out{r, r};
-    out.left.count = r.count / 2;
-    out.right.first += out.left.count, out.right.count -= out.left.count;
-    for (Range* half : {&out.left, &out.right}) {
-        ++half->depth;
-        half->box = kEmpty;
-        const PrimBox* const prims = lists.of(*half);
-        for (std::uint32_t i = 0; i < half->count; ++i) extend(half->box, prims[i]);
-        half->split = {};
-    }
-    return out;
 }
 
 // The tree of a range. Costs are areas: a step into children costs as much as a primitive.
@@ -199,12 +88,7 @@ public:
         lists_.largestLeaf = largestLeaf;
         lists_.prims.resize(count_), lists_.spare.resize(count_);
         Range root{0, count_, 0, false, kEmpty, {}, {}};
-        for (std::uint32_t i = 0; i < count_; ++i) {
-            const Vec3 lo = boxes[i].lo, hi = boxes[i].hi;
-            lists_.prims[i] = {{lo.x, lo.y, lo.z, std::bit_cast<float>(i | PrimBox::kNormal)},
-                               {-hi.x, -hi.y, -hi.z, 0}};
-            extend(root.box, lists_.prims[i]);
-        }
+        list(boxes, root.box);
         float extent = 0;
         for (std::size_t i = 0; i < 3; ++i)
             extent = max(extent, max(std::fabs(root.box.lo[i]), std::fabs(root.box.negHi[i])));
@@ -215,7 +99,8 @@ public:
         pool_.run(ranges_.size(), [&](std::size_t i, int) {
             subtrees_[i] = std::make_unique<Subtree>(lists_, ranges_[i]);
         });
-        lists_.prims = {}, lists_.spare = {}; // before the nodes are there twice
+        for (auto* list : {&lists_.prims, &lists_.spare}) // before the nodes are there twice
+            PageVector<PrimBox>().swap(*list);
         join();
     }
     Bvh take() { return std::move(bvh_); }
@@ -228,6 +113,22 @@ private:
         std::uint32_t left = 0; // children left, left + 1; 0: a subtree
         std::uint32_t subtree = 0;
     };
+
+    // Boxes in parts, by all threads.
+    void list(std::span<const Bounds> boxes, PrimBox& around) {
+        constexpr std::uint32_t kTogether = 1 << 14;
+        std::vector<PrimBox> parts((count_ + kTogether - 1) / kTogether, kEmpty);
+        pool_.run(parts.size(), [&](std::size_t part, int) {
+            const auto first = static_cast<std::uint32_t>(part) * kTogether;
+            for (std::uint32_t i = first; i < std::min(count_, first + kTogether); ++i) {
+                const Vec3 lo = boxes[i].lo, hi = boxes[i].hi;
+                lists_.prims[i] = {{lo.x, lo.y, lo.z, std::bit_cast<float>(i | PrimBox::kNormal)},
+                                   {-hi.x, -hi.y, -hi.z, 0}};
+                extend(parts[part], lists_.prims[i]);
+            }
+        });
+        for (const PrimBox& part : parts) extend(around, part);
+    }
 
     void divideTop(const Range& root) {
         struct Open {
@@ -249,8 +150,13 @@ private:
             }
             std::erase_if(level, isSubtree);
             std::vector<Halves> halves(level.size());
-            pool_.run(level.size(),
-                      [&](std::size_t i, int) { halves[i] = divide(level[i].range, lists_); });
+            const auto threads = static_cast<std::size_t>(pool_.threads());
+            if (level.size() < 2 * threads && threads > 1)
+                for (std::size_t i = 0; i < level.size(); ++i)
+                    halves[i] = divideTogether(level[i].range, lists_, pool_);
+            else
+                pool_.run(level.size(),
+                          [&](std::size_t i, int) { halves[i] = divide(level[i].range, lists_); });
             next.clear();
             for (std::size_t i = 0; i < level.size(); ++i) {
                 top_[level[i].top].left = static_cast<std::uint32_t>(top_.size());

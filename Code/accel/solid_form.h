@@ -3,6 +3,7 @@
 
 #include "accel/still_shape.h"
 #include "base/bounds.h"
+#include "base/motion.h"
 
 #include <array>
 #include <cstddef>
@@ -15,8 +16,8 @@
 struct RoundHull {
     Vec3d centre, axis;
     double radius = kInfinity;
-    // A ball about the centre that is inside of a sphere; with an axis: that of a straight round
-    // tube, of which the shape has all of the side.
+    // A ball about the centre that is inside of a sphere or a cube; with an axis: that of a
+    // straight round tube, of which the shape has all of the side.
     double innerRadius = 0;
     double halfLength = kInfinity; // along the axis, to both sides of the centre
 };
@@ -44,6 +45,16 @@ struct StillTube {
     enum Part : std::uint32_t { Wall, Bottom, Top }; // Hit::prim
 };
 
+// Flat faces in an object space that does not move: the cube [-1,1]^3, a disk about the origin in
+// z = 0, or a plane by corners. A kernel that meets them repeats the formulas of shape/cube.cpp,
+// shape/disk.cpp or shape/plane.cpp.
+struct StillFaces {
+    enum class Of : std::uint8_t { Cube, Disk, Corners };
+    const StillShape* shape = nullptr;
+    Of of = Of::Cube;
+    Facets::Side side = Facets::Side::Both; // that rays of sight meet
+};
+
 // z = 0 of an object space that does not move, without end. A kernel that meets it repeats the
 // formulas of shape/infinite_plane.cpp.
 struct StillPlane {
@@ -55,10 +66,12 @@ struct SolidForm {
     RoundHull hull;
     // The shape is a sphere about the origin of its object space. A kernel that meets it repeats
     // the formulas of shape/sphere.cpp.
-    const StillShape* sphere = nullptr;
-    std::optional<Facets> facets{};    // or these
-    std::optional<StillTube> tube{};   // or this one
-    std::optional<StillPlane> plane{}; // or this one, the only form without end
+    const StillShape* sphere = nullptr; // of one that moves: its first key
+    std::optional<Facets> facets{};     // or these
+    std::optional<StillTube> tube{};    // or this one
+    std::optional<StillFaces> faces{};  // or these
+    std::optional<Drift> drift{};       // of a sphere or of faces: how they move
+    std::optional<StillPlane> plane{};  // or this one, the only form without end
 };
 
 inline RoundHull ballAround(const BoundsD& box) {

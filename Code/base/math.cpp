@@ -1,6 +1,7 @@
 #include "base/math.h"
 
 #include "base/double_double.h"
+#include "base/pow_tables.h"
 
 #include <array>
 
@@ -220,7 +221,7 @@ struct LogRow {
     double c = 1;
     DoubleDouble log;
 };
-constexpr int kHalvedFrom = 53; // m > 1.414
+using exact::kHalvedFrom; // m > 1.414
 
 constexpr DoubleDouble logBySeries(DoubleDouble x) { // x in [0.5, 2]: 2 atanh((x-1)/(x+1))
     const DoubleDouble z = (x - DoubleDouble{1, 0}) / (x + DoubleDouble{1, 0}), z2 = z * z;
@@ -419,6 +420,15 @@ double cbrt(double x) {
     return std::copysign(t * unit, x);
 }
 
+constinit const PowTables kPowTables = [] {
+    PowTables tables{};
+    for (std::size_t j = 0; j < kLogTable.size(); ++j)
+        tables.c[j] = kLogTable[j].c, tables.log[j] = kLogTable[j].log.hi;
+    for (std::size_t j = 0; j < kExp2Table.size(); ++j)
+        tables.powersHi[j] = kExp2Table[j].hi, tables.powersLo[j] = kExp2Table[j].lo;
+    return tables;
+}();
+
 // The same steps as above in plain double: its error of 1e-12 decides the float's last bit rarely.
 float pow(float base, float exponent) {
     if (exponent == 0 || base == 1) return 1;
@@ -431,8 +441,8 @@ float pow(float base, float exponent) {
     const double log =
         parts.exponent * kLn2.hi + parts.row->log.hi + (r + r2 * (-0.5 + r * logTail(r)));
     const double power = exponent * log;
-    if (power < -104) return 0; // below half of the smallest float; faster than rounding to it
-    return static_cast<float>(expOf(min(power, 709.0), 0));
+    if (power < kLeastPower) return 0; // faster than rounding to it
+    return static_cast<float>(expOf(min(power, kMostPower), 0));
 }
 
 } // namespace exact

@@ -105,6 +105,16 @@ Quaternion combine(double a, Quaternion p, double b, Quaternion q) {
 
 double size(Quaternion q) { return std::sqrt(q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z); }
 
+struct Moment {
+    std::size_t segment; // one more than there are, at the end
+    double s;            // within it
+};
+Moment momentOf(double time, std::size_t segments) {
+    const double place = clamp(time, 0.0, 1.0) * static_cast<double>(segments);
+    const auto i = static_cast<std::size_t>(place);
+    return {i, place - static_cast<double>(i)};
+}
+
 } // namespace
 
 MovingTransform::MovingTransform(std::span<const Transform> keys) : keys_(1) {
@@ -162,22 +172,40 @@ MovingTransform::Matrix MovingTransform::stretchAt(const Segment& segment, doubl
     return out;
 }
 
-MovingTransform::Moment MovingTransform::momentAt(double time) const {
-    const double place = clamp(time, 0.0, 1.0) * static_cast<double>(segments_.size());
-    const auto i = static_cast<std::size_t>(place);
-    return {i, place - static_cast<double>(i)};
-}
-
 std::optional<MovingTransform::Shift> MovingTransform::shiftAt(double time) const {
-    const auto [i, s] = momentAt(time);
+    const auto [i, s] = momentOf(time, segments_.size());
     if (s == 0) return Shift{i, {}};
     const Segment& segment = segments_[i];
     if (!segment.translates) return {};
     return Shift{i, (segment.to.translation - segment.from.translation) * s};
 }
 
+// Transform::translate(offset) * key, operation by operation; at keys that adds zeros.
+Vec3d Drift::offsetAt(double time) const {
+    const auto [i, s] = momentOf(time, legs_.size() - 1);
+    return vectorUnder(inverse_, -(legs_[i].step * s)) + legs_[i].offset;
+}
+
+std::optional<Drift> MovingTransform::drift() const {
+    constexpr double kMost = 0x1p200; // nothing overflows
+    const AffineRows& inverse = keys_[0].inverseRows();
+    std::vector<Drift::Leg> legs;
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+        const Transform& key = keys_[i];
+        const AffineRows& m = key.inverseRows();
+        const Vec3d offset{m[3], m[7], m[11]};
+        if (key.isSingular() || linearOf(m) != linearOf(inverse)) return {};
+        if (!(maxAbs(offset) < kMost && maxAbs(key.translation()) < kMost)) return {};
+        legs.push_back({offset, {}});
+        if (i == segments_.size()) break;
+        if (!segments_[i].translates) return {};
+        legs[i].step = segments_[i].to.translation - segments_[i].from.translation;
+    }
+    return Drift(inverse, std::move(legs));
+}
+
 Transform MovingTransform::at(double time) const {
-    const auto [i, s] = momentAt(time);
+    const auto [i, s] = momentOf(time, segments_.size());
     if (s == 0) return keys_[i];
     if (const auto shift = shiftAt(time)) return Transform::translate(shift->offset) * keys_[i];
     const Segment& segment = segments_[i];

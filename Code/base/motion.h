@@ -8,12 +8,30 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 // A unit quaternion w + xi + yj + zk.
 struct Quaternion {
     double w = 1, x = 0, y = 0, z = 0;
     bool operator==(const Quaternion&) const = default;
+};
+
+// A movement without turns, for who maps many points back: of the inverse map only the offset
+// changes, and at() has these bits.
+class Drift {
+public:
+    // At each key: the inverse's offset, and what the body moves by up to the next one.
+    struct Leg {
+        Vec3d offset, step;
+    };
+    Drift(const AffineRows& inverse, std::vector<Leg> legs)
+        : inverse_(inverse), legs_(std::move(legs)) {}
+    Vec3d offsetAt(double time) const;
+
+private:
+    AffineRows inverse_;
+    std::vector<Leg> legs_;
 };
 
 class MovingTransform {
@@ -37,6 +55,8 @@ public:
         Vec3d offset;
     };
     std::optional<Shift> shiftAt(double time) const;
+    // Where nothing else happens between any two keys.
+    std::optional<Drift> drift() const;
     std::span<const Transform> keys() const { return {keys_.data(), keys_.size()}; }
     // A world box around the mapped box over the whole shutter: not the smallest, but no point at
     // any time is outside.
@@ -54,11 +74,6 @@ private:
         double arcRad = 0;       // angle between the quaternions: half the turn of the body
         bool translates = false; // the linear parts are equal to the last bit
     };
-    struct Moment {
-        std::size_t segment; // one more than there are, at the end
-        double s;            // within it
-    };
-    Moment momentAt(double time) const;
     static Parts decompose(const Transform& map, bool linearOnly);
     static Matrix linearPart(const Parts& parts);
     static Quaternion rotationAt(const Segment& segment, double s);

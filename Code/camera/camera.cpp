@@ -51,6 +51,16 @@ Ray Camera::rayFrom(const Axes& axes, Vec2d pixel, Vec2 lens, float time) const 
     return ray;
 }
 
+std::optional<Camera::RoundLens> Camera::roundLens() const {
+    const CameraParams& p = params_;
+    if (p.kind != CameraParams::Kind::Perspective || isMoving() || !hasLens() ||
+        p.apertureBlades >= 3)
+        return {};
+    return RoundLens{atRest_.right,   atRest_.up, atRest_.forward, atRest_.eye,
+                     topLeft_,        step_,      p.focusDistance, p.apertureRadius,
+                     p.apertureRatio, p.clipStart};
+}
+
 // Two places at a time in registers of the compiler's, in the steps of lineFrom() and normalize().
 void Camera::pinholeRays(std::span<const Vec2d> pixels, std::span<Vec3> dir,
                          std::span<float> tMin) const {

@@ -6,6 +6,7 @@
 #include "base/ray.h"
 #include "base/vec.h"
 
+#include <optional>
 #include <span>
 
 // Lengths in normalised world units but for the millimetres of lens and sensor.
@@ -43,6 +44,15 @@ public:
     // dir and tMin of ray() for many places; of cameras with a shared origin.
     void pinholeRays(std::span<const Vec2d> pixels, std::span<Vec3> dir,
                      std::span<float> tMin) const;
+
+    // All that ray() is made of, of a perspective camera at rest with a round lens: for who makes
+    // many rays at once.
+    struct RoundLens {
+        Vec3d right, up, forward, eye;
+        Vec2d topLeft, step; // at depth 1, of the picture and of its pixels
+        double focusDistance, apertureRadius, apertureRatio, clipStart;
+    };
+    std::optional<RoundLens> roundLens() const;
 
     // What ray() rounds: for cameras without a lens at rest, the line of a place in the picture.
     struct Line {

@@ -138,9 +138,8 @@ void printStats(const Stats& stats, const Options& options) {
     if (options.stats == Options::StatsFormat::Json) writeStdout(statsJson(stats));
 }
 
-ExitCode renderScene(const LoadedScene& loaded, PictureReader& pictures,
-                     const RenderSettings& settings, const Options& options, Stopwatch& watch,
-                     Stats& stats, Step& step) {
+ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, const RenderSettings& settings,
+                     const Options& options, Stopwatch& watch, Stats& stats, Step& step) {
     checkPixelCount(settings.picture, options.cropPad);
     const std::string output = preparedOutput(options);
     if (output != "-") checkWritable(output);
@@ -148,7 +147,9 @@ ExitCode renderScene(const LoadedScene& loaded, PictureReader& pictures,
     printAdvice(settings, options);
 
     step = {"building the scene", ExitCode::Input};
-    const Scene scene(loaded.desc, loaded.source, settings, &pictures);
+    // What else is to be told of places in the text is of pictures that can't be read.
+    if (loaded.desc.textures.empty()) std::string().swap(loaded.source.text);
+    const Scene scene(std::move(loaded.desc), loaded.source, settings, &pictures);
     scene.describe(stats);
     stats.threads = settings.threads;
     stats.kernel = settings.kernel;
@@ -230,15 +231,15 @@ ExitCode runScene(const Options& options, Step& step) {
         if (options.action != Action::Convert && options.switches.textures)
             pictures.begin(desc, usedTextures(desc, !options.background), sceneFile);
     };
-    const LoadedScene loaded = load(options.scene, diagnostics, read,
-                                    pictures.hasThreads() ? Foreseen(foreseen) : Foreseen());
+    LoadedScene loaded = load(options.scene, diagnostics, read,
+                              pictures.hasThreads() ? Foreseen(foreseen) : Foreseen());
     stats.parseSeconds = watch.lap();
     printWarnings(diagnostics);
     RenderSettings settings = settingsFrom(loaded.desc, options);
     if (isTooStrict(options, diagnostics)) return ExitCode::StrictWarnings;
     if (options.action == Action::Convert) return convert(loaded, options);
     if (options.action == Action::Render)
-        return renderScene(loaded, pictures, settings, options, watch, stats, step);
+        return renderScene(std::move(loaded), pictures, settings, options, watch, stats, step);
 
     step = {"building the scene", ExitCode::Input};
     settings.accel = AccelKind::None; // nothing is traced

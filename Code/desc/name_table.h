@@ -23,7 +23,11 @@ public:
 
     // Remembers the number, unless the name was there already; then says the number that it has.
     std::optional<std::uint32_t> insert(std::string_view name, std::uint32_t number) {
-        const std::uint32_t hash = hashOf(name);
+        return insert(name, hashOf(name), number);
+    }
+    // Where the hash is known, most names themselves are not looked at.
+    std::optional<std::uint32_t> insert(std::string_view name, std::uint32_t hash,
+                                        std::uint32_t number) {
         std::size_t at = placeOf(name, hash);
         if (!places_[at].isEmpty()) return nameAt(places_[at]).number;
         if (2 * (names_.size() + 1) > places_.size()) {
@@ -44,17 +48,6 @@ public:
         return nameAt(place).number;
     }
 
-private:
-    struct Name {
-        const char* first = nullptr;
-        std::uint32_t size = 0, number = 0; // files are smaller than 4 GiB
-        std::string_view text() const { return {first, size}; }
-    };
-    struct Place {
-        static constexpr std::uint32_t kEmpty = 0xffffffffu;
-        std::uint32_t hash = 0, index = kEmpty; // in names_
-        bool isEmpty() const { return index == kEmpty; }
-    };
     // Eight bytes at a time, each mixed by a product (Fibonacci hashing, Knuth) whose upper half is
     // folded down. Most names are shorter than a call of the library's hash is worth.
     static std::uint32_t hashOf(std::string_view name) {
@@ -81,6 +74,18 @@ private:
         mix(0); // the last bytes reach all bits
         return static_cast<std::uint32_t>(hash);
     }
+
+private:
+    struct Name {
+        const char* first = nullptr;
+        std::uint32_t size = 0, number = 0; // files are smaller than 4 GiB
+        std::string_view text() const { return {first, size}; }
+    };
+    struct Place {
+        static constexpr std::uint32_t kEmpty = 0xffffffffu;
+        std::uint32_t hash = 0, index = kEmpty; // in names_
+        bool isEmpty() const { return index == kEmpty; }
+    };
     const Name& nameAt(const Place& place) const { return names_[place.index]; }
     // Where the name is, or where it would be.
     std::size_t placeOf(std::string_view name, std::uint32_t hash) const {

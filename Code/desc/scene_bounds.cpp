@@ -1,6 +1,7 @@
 #include "desc/scene_bounds.h"
 
 #include "base/affine.h"
+#include "base/for_each.h"
 
 #include <optional>
 #include <vector>
@@ -15,6 +16,11 @@ public:
         const auto i = static_cast<std::size_t>(mesh);
         if (!boxes_[i]) boxes_[i] = boundsOf(desc_.meshes[i]);
         return *boxes_[i];
+    }
+    // All of them; then several threads may ask.
+    void prepare(int threads) {
+        forEachOn(threads, boxes_.size(),
+                  [&](std::size_t i) { boxes_[i] = boundsOf(desc_.meshes[i]); });
     }
 
 private:
@@ -44,6 +50,12 @@ BoundsD objectBox(const ObjectDesc& object, MeshBoxes& meshBoxes) {
     return {};
 }
 
+void extendBy(BoundsD& box, const ObjectDesc& object, MeshBoxes& meshBoxes) {
+    const BoundsD local = objectBox(object, meshBoxes);
+    if (local.isEmpty()) return;
+    for (const Rows& key : object.worldFromObject) box.extend(boundsOf(key, local));
+}
+
 } // namespace
 
 BoundsD boundsOf(const MeshDesc& mesh) {
@@ -52,14 +64,27 @@ BoundsD boundsOf(const MeshDesc& mesh) {
     return box;
 }
 
-BoundsD boundsOf(const SceneDesc& desc, double enough) {
+BoundsD boundsUpTo(const SceneDesc& desc, double enough) {
     MeshBoxes meshBoxes(desc);
     BoundsD box;
     for (const ObjectDesc& object : desc.objects) {
-        const BoundsD local = objectBox(object, meshBoxes);
-        if (local.isEmpty()) continue;
-        for (const Rows& key : object.worldFromObject) box.extend(boundsOf(key, local));
+        extendBy(box, object, meshBoxes);
         if (maxAbs(box.size()) >= enough) break;
     }
+    return box;
+}
+
+BoundsD boundsOf(const SceneDesc& desc, int threads) {
+    constexpr std::size_t kTogether = 1 << 14;
+    const std::size_t count = desc.objects.size();
+    std::vector<BoundsD> parts((count + kTogether - 1) / kTogether);
+    MeshBoxes meshBoxes(desc);
+    meshBoxes.prepare(threads);
+    forEachPart(threads, count, kTogether, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            extendBy(parts[first / kTogether], desc.objects[i], meshBoxes);
+    });
+    BoundsD box;
+    for (const BoundsD& part : parts) box.extend(part);
     return box;
 }

@@ -5,7 +5,8 @@
 #include "desc/scene_desc.h"
 
 // Around all bounded objects at all their keys, in the world; empty when there are none.
-// Stops where it is as long as `enough` along an axis.
-BoundsD boundsOf(const SceneDesc& desc, double enough = kInfinity);
+BoundsD boundsOf(const SceneDesc& desc, int threads = 1);
+// The same, but only until they are as long as `enough` along an axis.
+BoundsD boundsUpTo(const SceneDesc& desc, double enough);
 // Around its points; empty when they are still to be read from a file.
 BoundsD boundsOf(const MeshDesc& mesh);

@@ -10,4 +10,6 @@
 // number that has an effect is finite and in its range (desc/properties.h), every transform can be
 // inverted. Meshes that still name a file
 // (read/mesh_files.h) are not looked into.
-void validate(const SceneDesc& desc, const SourceFile& source, Diagnostics& diagnostics);
+// The same for any number of threads.
+void validate(const SceneDesc& desc, const SourceFile& source, Diagnostics& diagnostics,
+              int threads = 1);

@@ -1,6 +1,7 @@
 #include "read/load.h"
 
 #include "base/file.h"
+#include "base/for_each.h"
 #include "base/large_pages.h"
 #include "base/text.h"
 #include "desc/validate.h"
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <string_view>
@@ -67,6 +69,8 @@ std::vector<std::string> sceneNamesIn(const fs::path& folder) {
     return names;
 }
 
+constexpr std::string_view kMeshBlock = "\nmesh "; // begins one in native text
+
 std::string readStdin() {
     std::string text;
     char part[1 << 16];
@@ -93,13 +97,25 @@ void checkFile(const std::string& fileName) {
         fail(ErrorKind::Input, cat(fileName, ": error: the file is larger than 4 GiB"));
 }
 
+bool hasMeshBlock(std::string_view text, int threads) {
+    constexpr std::size_t kTogether = std::size_t{1} << 20;
+    std::atomic<bool> has{false};
+    forEachPart(threads, text.size(), kTogether, [&](std::size_t first, std::size_t last) {
+        if (has) return;
+        const std::size_t reach = last - first + kMeshBlock.size() - 1;
+        if (text.substr(first, reach).find(kMeshBlock) != std::string_view::npos) has = true;
+    });
+    return has;
+}
+
 // Objects and materials are many small things, up to 20 times the bytes of their text before they
 // are a scene: half of the time of reading them would be spent on touching their pages for the
 // first time. Meshes are a few large arrays: in the heap they would leave holes where the tree gets
 // no room. Small texts do not say how much it will be, as they may ask for a large picture.
-void makeRoomFor(const std::string& text, const Format& format) {
+void makeRoomFor(const std::string& text, const Format& format, int threads) {
     constexpr std::size_t kLeast = std::size_t{24} << 20, kTimes = 24;
-    const bool isMesh = format.isMesh || text.find("\nmesh ") != std::string::npos;
+    const bool isMesh =
+        format.isMesh || (format.extension == ".txt" && hasMeshBlock(text, threads));
     useLargePages(isMesh ? kLeast : std::max(kLeast, kTimes * text.size()));
 }
 
@@ -108,7 +124,7 @@ void foreseeStart(const SourceFile& source, const Foreseen& foreseen) {
     constexpr std::size_t kLong = 1 << 20;
     if (source.text.size() < kLong) return;
     const std::string_view start = std::string_view(source.text).substr(0, kLong);
-    const std::size_t end = start.find("\nmesh ");
+    const std::size_t end = start.find(kMeshBlock);
     if (end == std::string_view::npos) return;
     try {
         const SourceFile part{source.name, std::string(start.substr(0, end + 1))};
@@ -131,12 +147,12 @@ LoadedScene load(const std::string& fileName, Diagnostics& diagnostics, const Re
         checkFile(fileName);
         const Format& format = formatOf(fileName);
         scene.source = {fileName, readWholeText(fileName, options.threads)};
-        makeRoomFor(scene.source.text, format);
+        makeRoomFor(scene.source.text, format, options.threads);
         if (foreseen && format.extension == ".txt") foreseeStart(scene.source, foreseen);
         scene.desc = format.read(scene.source, context);
     }
     if (foreseen) foreseen(scene.desc, scene.source.name);
     loadMeshFiles(scene.desc, scene.source, context);
-    validate(scene.desc, scene.source, diagnostics);
+    validate(scene.desc, scene.source, diagnostics, options.threads);
     return scene;
 }

@@ -47,6 +47,8 @@ struct RayBatch {
         if (count_ > org.size()) makeRoom(std::max<std::size_t>(64, 2 * count_));
         return first;
     }
+    // Without the last ones, so that so many are left.
+    void shrink(std::size_t rays) { count_ = rays; }
 
 protected:
     void makeRoom(std::size_t rays) {
@@ -71,6 +73,11 @@ struct PathBatch : RayBatch {
         medium[i] = inside;
         stream[i] = branch;
         seesLights[i] = seesLamps;
+    }
+    std::size_t extend(std::size_t rays) {
+        const std::size_t first = RayBatch::extend(rays);
+        makeRoomForMore();
+        return first;
     }
     // So many rays, which are then written into the arrays; those in use keep what they were.
     void setSize(std::size_t rays) {

@@ -19,6 +19,7 @@ FilterKind filterKind(SettingsDesc::Filter kind) {
 CameraRays::CameraRays(const IntegratorContext& context, ThreadPool* pool)
     : context_(context), filter_(filterKind(context.settings.picture.filter),
                                  context.settings.picture.filterWidth, pool),
+      lanes_(cameraLanes(chooseKernel(context.settings.kernel))),
       corners_(context.settings.picture.sampler == SettingsDesc::Sampler::Corners),
       width_(context.settings.picture.width + corners_) {}
 
@@ -35,9 +36,6 @@ void CameraRays::choosePlaces(const Tile& tile, int first, int count, SampleChun
         const std::uint32_t pixel =
             static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_) +
             static_cast<std::uint32_t>(x); // wraps in huge pictures
-        if (!corners_ && samples > 1)
-            context_.sampler.get2D(pixel, begin, kPixelDimension,
-                                   std::span(chunk.offsets).subspan(slot, samples));
         for (std::uint32_t s = begin; s < begin + samples; ++s, ++slot) {
             chunk.ids[slot] = {pixel, s};
             chunk.places[slot] = middle(x, y);
@@ -48,6 +46,8 @@ void CameraRays::choosePlaces(const Tile& tile, int first, int count, SampleChun
         chunk.pixels.resize(all);
         for (std::size_t i = 0; i < all; ++i) chunk.pixels[i] = chunk.ids[i].pixel;
         context_.sampler.get2D(chunk.pixels, begin, kPixelDimension, chunk.offsets);
+    } else {
+        drawPairs(first, count, kPixelDimension, chunk.ids, chunk.offsets);
     }
     filter_.sample(chunk.offsets);
     for (std::size_t i = 0; i < chunk.places.size(); ++i) {
@@ -56,13 +56,49 @@ void CameraRays::choosePlaces(const Tile& tile, int first, int count, SampleChun
     }
 }
 
-// The samples of a place follow each other.
-void CameraRays::chooseLensPlaces(int first, int count, SampleChunk& chunk) const {
+void CameraRays::drawPairs(int first, int count, std::uint32_t dimension,
+                           std::span<const SampleId> ids, std::span<Vec2> out) const {
+    const Sampler& sampler = context_.sampler;
     const auto samples = static_cast<std::size_t>(count);
-    chunk.onLens.resize(chunk.ids.size());
-    for (std::size_t slot = 0; slot < chunk.ids.size(); slot += samples)
-        context_.sampler.get2D(chunk.ids[slot].pixel, static_cast<std::uint32_t>(first),
-                               kLensDimension, std::span(chunk.onLens).subspan(slot, samples));
+    if (lanes_.pairs == nullptr || sampler.kind() != SamplerKind::Sobol ||
+        sampler.sampleCount() == 1) {
+        for (std::size_t slot = 0; slot < ids.size(); slot += samples)
+            sampler.get2D(ids[slot].pixel, static_cast<std::uint32_t>(first), dimension,
+                          out.subspan(slot, samples));
+        return;
+    }
+    Sampler::PairSeeds seeds{};
+    PairBlock block;
+    for (std::size_t slot = 0; slot < ids.size(); slot += PairBlock::kPairs) {
+        const std::size_t some = std::min(PairBlock::kPairs, ids.size() - slot);
+        for (std::size_t i = 0; i < some; ++i) {
+            const SampleId id = ids[slot + i];
+            if (id.index == static_cast<std::uint32_t>(first))
+                seeds = sampler.pairSeeds(id.pixel, dimension);
+            block.sample[i] = id.index, block.index[i] = seeds.index;
+            block.x[i] = seeds.x, block.y[i] = seeds.y;
+        }
+        lanes_.pairs(block);
+        for (std::size_t i = 0; i < some; ++i) out[slot + i] = {block.u[i], block.v[i]};
+    }
+}
+
+void CameraRays::sendThroughLens(const Camera::RoundLens& lens, SampleChunk& chunk) const {
+    PathBatch& rays = chunk.cameraRays;
+    LensBlock block;
+    for (std::size_t first = 0; first < rays.size(); first += LensBlock::kRays) {
+        const std::size_t some = std::min(LensBlock::kRays, rays.size() - first);
+        for (std::size_t i = 0; i < some; ++i) {
+            block.x[i] = chunk.places[first + i].x, block.y[i] = chunk.places[first + i].y;
+            block.u[i] = chunk.onLens[first + i].x, block.v[i] = chunk.onLens[first + i].y;
+        }
+        lanes_.rays(lens, block);
+        for (std::size_t i = 0; i < some; ++i) {
+            rays.org[first + i] = {block.org[0][i], block.org[1][i], block.org[2][i]};
+            rays.dir[first + i] = {block.dir[0][i], block.dir[1][i], block.dir[2][i]};
+            rays.tMin[first + i] = block.tMin[i];
+        }
+    }
 }
 
 void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk) const {
@@ -93,7 +129,12 @@ void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk
     }
     for (std::size_t i = 0; i < rays.size(); ++i) rays.stream[i] = chunk.ids[i].pixel;
     if (isPinhole) return;
-    if (hasLens) chooseLensPlaces(first, count, chunk);
+    if (hasLens) {
+        chunk.onLens.resize(rays.size());
+        drawPairs(first, count, kLensDimension, chunk.ids, chunk.onLens);
+        if (const auto lens = camera.roundLens(); lens && lanes_.rays && !hasTime)
+            return sendThroughLens(*lens, chunk);
+    }
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const SampleId id = chunk.ids[i];
         if (hasTime) rays.time[i] = sampler.get1D(id.pixel, id.index, kTimeDimension);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "render/integrator.h"
+#include "render/lens_lanes.h"
 #include "render/tile.h"
 #include "sample/filter.h"
 
@@ -26,10 +27,14 @@ public:
 
 private:
     void choosePlaces(const Tile& tile, int first, int count, SampleChunk& chunk) const;
-    void chooseLensPlaces(int first, int count, SampleChunk& chunk) const;
+    // Sampler::get2D() of all slots, the samples of a place following each other.
+    void drawPairs(int first, int count, std::uint32_t dimension, std::span<const SampleId> ids,
+                   std::span<Vec2> out) const;
+    void sendThroughLens(const Camera::RoundLens& lens, SampleChunk& chunk) const;
 
     const IntegratorContext& context_;
     Filter filter_;
+    CameraLanes lanes_;
     bool corners_; // samples lie on the corners of pixels; places are those, one more each way
     int width_;
 };

@@ -48,12 +48,14 @@ EmptyTiles::EmptyTiles(const IntegratorContext& context, const CameraRays& rays)
     canTell_ = context.settings.specialise && !context.scene.hasEnvironment() &&
                shapes.unbounded.empty() && !camera_.hasLens() && !camera_.isMoving();
     if (!canTell_) return;
+    const bool areFew = shapes.bounded.size() <= kMostBoxes;
     BoundsD all;
     for (const std::uint32_t number : shapes.bounded) {
-        boxes_.push_back(toDouble(shapes.boxes[number]));
-        all.extend(boxes_.back());
+        const BoundsD box = toDouble(shapes.boxes[number]);
+        if (areFew) boxes_.push_back(box);
+        all.extend(box);
     }
-    if (boxes_.size() > kMostBoxes) boxes_ = {all};
+    if (!areFew) boxes_.push_back(all);
     // Rays are rounded to 2^-24 of their coordinates, boxes padded, and a triangle may be met 2^-20
     // of them off its edges.
     const Camera::Line line = camera_.line({0, 0});

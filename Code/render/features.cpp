@@ -1,7 +1,10 @@
 #include "render/features.h"
 
+#include "base/for_each.h"
+
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <functional>
 
 namespace {
@@ -37,9 +40,14 @@ bool moves(const Keys& keys) {
 }
 
 bool hasMotion(const Situation& s) {
-    return moves(s.camera.worldFromCamera) ||
-           std::any_of(s.desc.objects.begin(), s.desc.objects.end(),
-                       [](const ObjectDesc& o) { return moves(o.worldFromObject); });
+    constexpr std::size_t kTogether = 1 << 14;
+    std::atomic<bool> has{moves(s.camera.worldFromCamera)};
+    forEachPart(s.settings.threads, s.desc.objects.size(), kTogether,
+                [&](std::size_t first, std::size_t last) {
+                    for (std::size_t i = first; i < last && !has; ++i)
+                        if (moves(s.desc.objects[i].worldFromObject)) has = true;
+                });
+    return has;
 }
 
 // Pictures that nothing uses are not read either.
@@ -53,6 +61,7 @@ bool usesTextures(const Situation& s) {
 }
 
 bool sharesMeshes(const Situation& s) {
+    if (s.desc.meshes.empty()) return false;
     std::vector<Handle> meshes;
     for (const ObjectDesc& object : s.desc.objects)
         if (object.kind == ObjectDesc::Kind::Mesh) meshes.push_back(object.mesh);

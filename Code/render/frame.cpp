@@ -26,8 +26,8 @@ Transform SceneFrame::placed(const Rows& worldFromObject) const {
     return Transform::fromRows(rows);
 }
 
-SceneFrame frameOf(const SceneDesc& desc) {
-    BoundsD box = boundsOf(desc);
+SceneFrame frameOf(const SceneDesc& desc, int threads) {
+    BoundsD box = boundsOf(desc, threads);
     if (box.isEmpty()) {
         for (const CameraDesc& camera : desc.cameras)
             for (const Rows& key : camera.worldFromCamera)

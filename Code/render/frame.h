@@ -16,5 +16,5 @@ struct SceneFrame {
 
 // Centre and size of all bounded objects; of lights and cameras when there are none. The largest
 // side of the box comes to lie in [1,2).
-SceneFrame frameOf(const SceneDesc& desc);
+SceneFrame frameOf(const SceneDesc& desc, int threads = 1);
 SceneFrame frameOf(const MeshDesc& mesh);

@@ -34,7 +34,7 @@ std::vector<RoundShape> roundShapesOf(const ShapeSet& set, SurfaceLanes lanes, S
     std::vector<RoundShape> shapes(set.shapes.size());
     for (std::size_t i = 0; i < shapes.size(); ++i)
         if (const StillShape* const shape = set.shapes[i]->roundToShade())
-            shapes[i] = {shape, shape->part, shape->round};
+            shapes[i] = {shape, shape->parts, shape->kind};
     return shapes;
 }
 
@@ -48,7 +48,9 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       steps(stepsFor(theScene, theSettings)), wantsFirstHits(needsFirstHits(theSettings)),
       surfaceNeeds(surfaceNeedsOf(theScene, theSettings)),
       surfaceLanes(::surfaceLanes(chooseKernel(theSettings.kernel))),
+      shadeLanes(::shadeLanes(chooseKernel(theSettings.kernel))),
       textureColors(::textureColors(chooseKernel(theSettings.kernel))),
+      bouncesInLanes(::bouncesInLanes(chooseKernel(theSettings.kernel))),
       roundShapes(roundShapesOf(theScene.shapes(), surfaceLanes, surfaceNeeds)),
       cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
     const int samples = settings.picture.lightSamples;
@@ -66,7 +68,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
         const Kernel& kernel = chooseKernel(settings.kernel);
         if (!isSoft && lamp.emission) lamp.inLanes = lightByLamp(kernel);
         if (isSoft && lamp.emission && sampler.kind() == SamplerKind::Sobol)
-            lamp.bySamples = lightBySamples(kernel), lamp.mayBeHidden = ::mayBeHidden(kernel);
+            lamp.bySamples = lightBySamples(kernel), lamp.hiddenPoints = ::hiddenPoints(kernel);
         (shades ? shadingLamps : openLamps).push_back(lamp);
     }
 }

@@ -4,9 +4,12 @@
 
 #include "render/batch.h"
 #include "render/occluders.h"
+#include "render/point_columns.h"
 #include "render/query.h"
 #include "render/shading.h"
+#include "render/waves/bounce_lanes.h"
 #include "render/waves/lamp_lanes.h"
+#include "render/waves/shade_lanes.h"
 #include "render/waves/steps.h"
 #include "render/waves/texture_points.h"
 #include "sample/dimensions.h"
@@ -46,14 +49,14 @@ struct Lamp {
     // Ask many points at once, in its centre or at its samples; null: one by one.
     LightByLampFn inLanes = nullptr;
     LightBySamplesFn bySamples = nullptr;
-    MayBeHiddenFn mayBeHidden = nullptr; // of what bySamples asks
+    HiddenPointsFn hiddenPoints = nullptr; // of what bySamples asks
 };
 
 // A shape whose surfaces lanes find, to be looked up without touching it.
 struct RoundShape {
     const StillShape* shape = nullptr; // null: it is none
-    std::uint32_t part = 0;
-    StillShape::Round kind{};
+    std::uint8_t parts = 0;
+    StillShape::Kind kind{};
 };
 
 // Choices that hold for a whole picture, made once.
@@ -69,7 +72,9 @@ struct IntegratorContext {
     bool wantsFirstHits;
     SurfaceNeeds surfaceNeeds;
     SurfaceLanes surfaceLanes;
+    ShadeLanes shadeLanes;
     TextureColorsFn textureColors;       // null: one by one
+    BouncesFn bouncesInLanes;            // null: one by one
     std::vector<RoundShape> roundShapes; // by shape; empty: lanes do none
     MediumTree media;                    // what camera rays start in, and room for what rays enter
     MediumTree::Inside cameraMedium;
@@ -92,30 +97,57 @@ struct SampleChunk {
 
 // The points that the rays of a wave have met; element k of every array is point k.
 struct PointBatch {
-    std::size_t count = 0;          // the arrays may be longer
-    std::vector<std::uint32_t> ray; // ascending
-    std::vector<ShadedPoint> at;
+    std::size_t count = 0;           // the arrays may be longer
+    std::vector<std::uint32_t> ray;  // ascending
+    std::vector<std::uint32_t> slot; // of its sample
+    PointColumns at;
     std::vector<const Material*> material; // numbers at this point
+    std::vector<const Material*> painted;  // by block: those of all its points; null: they differ
     std::vector<Material> textured;        // those with textures applied
     std::vector<Rgb> weight;               // of what the surface sends to the eye
 
-    // Makes room for `most` points.
+    // Makes room for `most` points; lanes may look at whole blocks.
     void clear(std::size_t most) {
         count = 0;
-        if (ray.size() >= most) return;
-        ray.resize(most), at.resize(most), material.resize(most), textured.resize(most);
-        weight.resize(most);
+        if (most == 0 || ray.size() >= most) return;
+        at.resize(most);
+        const std::size_t room = at.size();
+        ray.resize(room), slot.resize(room), material.resize(room), textured.resize(room),
+            weight.resize(room);
+        painted.resize(room / PointColumns::kPoints);
     }
+    std::size_t blocks() const {
+        return (count + PointColumns::kPoints - 1) / PointColumns::kPoints;
+    }
+    // How many points of a block there are, and a bit for each.
+    std::size_t sizeOf(std::size_t block) const {
+        return std::min(count - block * PointColumns::kPoints, PointColumns::kPoints);
+    }
+    unsigned usedOf(std::size_t block) const { return (1u << sizeOf(block)) - 1; }
 };
 
 // Some of them, whose surfaces are found together, and their rays.
-struct PointsToDescribe {
-    std::vector<std::uint32_t> rays, points;
-    std::vector<const StillShape*> shapes; // of those for lanes
-    void clear() { rays.clear(), points.clear(), shapes.clear(); }
-    void push(std::uint32_t ray, std::uint32_t point) {
-        rays.push_back(ray), points.push_back(point);
+class PointsToDescribe {
+public:
+    // Makes room for `most`.
+    void clear(std::size_t most) {
+        count_ = 0;
+        if (rays_.size() >= most) return;
+        rays_.resize(most), points_.resize(most), shapes_.resize(most);
     }
+    // `shape`: of those for lanes.
+    void push(std::uint32_t ray, std::uint32_t point, const StillShape* shape = nullptr) {
+        rays_[count_] = ray, points_[count_] = point, shapes_[count_] = shape;
+        ++count_;
+    }
+    std::span<const std::uint32_t> rays() const { return std::span(rays_).first(count_); }
+    std::span<const std::uint32_t> points() const { return std::span(points_).first(count_); }
+    std::span<const StillShape* const> shapes() const { return std::span(shapes_).first(count_); }
+
+private:
+    std::size_t count_ = 0; // the arrays may be longer
+    std::vector<std::uint32_t> rays_, points_;
+    std::vector<const StillShape*> shapes_;
 };
 
 // Light that a lamp sends by way of a point.
@@ -124,8 +156,16 @@ struct Arrival {
     Rgb light;
 };
 
+// Light of a lamp's sample that waits for a ray, or behind one that does.
+struct WaitingLight {
+    static constexpr std::uint32_t kNoRay = 0xffffffffu;
+    std::uint32_t point, ray; // of memory.shadowRays
+    Rgb light;
+};
+
 // Points of a wave that lie on one shape.
 struct PointGroup {
+    static constexpr std::size_t kMost = 4; // of a wave
     std::uint32_t shape;
     bool inside; // lamps are seen from the inside of the shape
     Bounds box;
@@ -135,10 +175,18 @@ struct PointGroup {
 // What lamps ask of a point, in one piece.
 struct LitPoint {
     std::uint32_t point;
-    bool isLifted; // ns of its surface has a say
-    Vec3 p, n, ng, toEye;
+    Vec3 p, n, ng; // on the side that is lit
+    Vec3 ns, lift; // where it is lifted, ns has a say
+    Vec3 toEye;
+    float error, rayError;
     Rgb weight;
     const Material* material;
+};
+
+// Shadow rays of point lamps: most of what they are made of is the same for all.
+struct LampRays {
+    RayBatch rays;
+    std::size_t ready = 0; // so many have it
 };
 
 // Scratch memory of one worker, kept between chunks.
@@ -146,17 +194,23 @@ struct WaveMemory {
     PathBatch rays, next;
     std::vector<Hit> hits;
     PointBatch points;
-    std::array<PointsToDescribe, StillShape::kRounds> onRound;
+    std::array<PointsToDescribe, StillShape::kKinds> onRound;
     PointsToDescribe onOthers;
     TexturedPoints texturedPoints;
     MediumTree media;
     std::vector<std::uint32_t> answering; // points that answer lamps
     std::vector<LitBlock> litBlocks;      // these, if lamps want blocks
-    std::vector<PointGroup> groups;       // of these, and which of them each is in
-    std::vector<std::uint8_t> groupOf;
+    std::vector<PointGroup> groups;       // of these
+    // By block of sixteen of them: a bit for each that is in the group.
+    std::vector<std::array<std::uint16_t, PointGroup::kMost>> inGroups;
     RayBatch shadowRays; // of one lamp; their samples are points
+    LampRays lampRays;
+    std::vector<LitByLamp> byLamp;    // by block
+    std::vector<LightSums> lightSums; // the same
     std::vector<std::uint8_t> hidden;
     std::vector<Rgb> transmittance;
+    std::vector<Rgb> lampLight;        // of a lamp with a size, by point
+    std::vector<WaitingLight> waiting; // to be added to it
     std::vector<Arrival> arrivals, arrivalsInOrder;
     std::vector<std::uint32_t> arrivalStarts;
 };

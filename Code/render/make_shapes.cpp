@@ -34,9 +34,24 @@ ShapeMaker::ShapeMaker(const SceneDesc& desc, const RenderSettings& settings,
     for (const bool isSolid : {true, false})
         for (const auto& row : kEnumNames<ObjectDesc::Sides>)
             merged_.push_back({row.value, isSolid, {}, {}, {}});
+    // Of millions most are neither meshes nor do they move.
+    constexpr std::size_t kTogether = 1 << 14;
+    std::vector<std::uint8_t> isPlain(desc_.objects.size());
+    forEachPart(settings_.threads, isPlain.size(), kTogether,
+                [&](std::size_t first, std::size_t last) {
+                    for (std::size_t i = first; i < last; ++i) {
+                        const ObjectDesc& object = desc_.objects[i];
+                        isPlain[i] = object.kind != ObjectDesc::Kind::Mesh &&
+                                     object.worldFromObject.size() == 1;
+                    }
+                });
     simple_.reserve(desc_.objects.size());
     const std::vector<bool> isCopied = meshesToCopy();
     for (std::uint32_t i = 0; i < desc_.objects.size(); ++i) {
+        if (isPlain[i] != 0) {
+            simple_.push_back(i);
+            continue;
+        }
         const ObjectDesc& object = desc_.objects[i];
         const bool isStill = object.worldFromObject.size() == 1 || placeOf(i).isStatic();
         moves_ = moves_ || !isStill;
@@ -59,27 +74,25 @@ ShapeMaker::ShapeMaker(const SceneDesc& desc, const RenderSettings& settings,
         }
         placed_.push_back(std::move(placed));
     }
-    simpleShapes_.resize(simple_.size());
 }
 
-std::vector<std::function<void()>> ShapeMaker::jobs() {
+std::vector<std::function<void()>> ShapeMaker::jobs(ShapeSet& shapes) {
+    shapes.resize(simple_.size());
     std::vector<std::function<void()>> out;
     for (Merged& merged : merged_)
         if (!merged.members.empty()) out.emplace_back([this, &merged] { merge(merged); });
     for (Shared& shared : shared_) out.emplace_back([this, &shared] { share(shared); });
     constexpr std::size_t kTogether = 4096;
     for (std::size_t first = 0; first < simple_.size(); first += kTogether)
-        out.emplace_back(
-            [this, first] { makeSimple(first, std::min(simple_.size(), first + kTogether)); });
+        out.emplace_back([this, &shapes, first] {
+            makeSimple(shapes, first, std::min(simple_.size(), first + kTogether));
+        });
     return out;
 }
 
 // After the other shapes come those with triangles in a row: ShapeSet::isBefore() needs that.
 void ShapeMaker::finish(ShapeSet& shapes,
                         std::vector<std::unique_ptr<const MeshGeometry>>& geometries) {
-    shapes.reserve(simple_.size() + placed_.size());
-    for (std::size_t i = 0; i < simple_.size(); ++i)
-        shapes.add(std::move(simpleShapes_[i]), shadowOf(materialIds(desc_.objects[simple_[i]])));
     const auto finishLarge = [&](MeshGeometry& geometry) {
         if (geometry.triangles.size() > kLargeTree) finishTree(geometry, settings_.threads);
     };
@@ -141,6 +154,7 @@ ShapeSet::Shadow ShapeMaker::shadowOf(std::span<const std::uint32_t> materials) 
 // By mesh: those that are used once, and others as long as there is room for all their copies.
 std::vector<bool> ShapeMaker::meshesToCopy() const {
     std::vector<std::uint64_t> uses(desc_.meshes.size(), 0);
+    if (uses.empty()) return {};
     for (const ObjectDesc& object : desc_.objects)
         if (object.kind == ObjectDesc::Kind::Mesh) ++uses[static_cast<std::size_t>(object.mesh)];
     std::vector<bool> out(uses.size());
@@ -206,10 +220,12 @@ void ShapeMaker::share(Shared& shared) {
     if (shared.geometry->triangles.size() <= kLargeTree) finishTree(*shared.geometry, 1);
 }
 
-void ShapeMaker::makeSimple(std::size_t first, std::size_t last) {
+void ShapeMaker::makeSimple(ShapeSet& shapes, std::size_t first, std::size_t last) {
     for (std::size_t i = first; i < last; ++i) {
         const ObjectDesc& object = desc_.objects[simple_[i]];
-        simpleShapes_[i] = makeShape(object, placeOf(simple_[i]), materialIds(object), simple_[i]);
+        const OneOrMore<std::uint32_t> materials = materialIds(object);
+        shapes.set(i, makeShape(object, placeOf(simple_[i]), materials, simple_[i]),
+                   shadowOf(materials));
     }
 }
 
@@ -222,19 +238,20 @@ void ShapeMaker::addInstances(ShapeSet& shapes) {
     std::vector<Placed*> instances;
     for (Placed& placed : placed_)
         if (!placed.isCopied && !geometryOf(placed).triangles.empty()) instances.push_back(&placed);
-    std::vector<std::unique_ptr<const Shape>> made(instances.size());
-    std::vector<ShapeSet::Shadow> shadows(instances.size());
+    const std::size_t before = shapes.shapes.size();
+    shapes.resize(before + instances.size());
     constexpr std::size_t kTogether = 64;
-    forEachOn(settings_.threads, (made.size() + kTogether - 1) / kTogether, [&](std::size_t part) {
-        const std::size_t last = std::min(made.size(), (part + 1) * kTogether);
-        for (std::size_t i = part * kTogether; i < last; ++i) {
-            Placed& placed = *instances[i];
-            shadows[i] = shadowOf(placed.materials);
-            made[i] = withSides(
-                std::make_unique<MeshInstance>(geometryOf(placed), placeOf(placed.object),
-                                               std::move(placed.materials), placed.object),
-                desc_.objects[placed.object].sides);
-        }
-    });
-    for (std::size_t i = 0; i < made.size(); ++i) shapes.add(std::move(made[i]), shadows[i]);
+    forEachPart(
+        settings_.threads, instances.size(), kTogether, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                Placed& placed = *instances[i];
+                const ShapeSet::Shadow shadow = shadowOf(placed.materials);
+                auto instance =
+                    std::make_unique<MeshInstance>(geometryOf(placed), placeOf(placed.object),
+                                                   std::move(placed.materials), placed.object);
+                shapes.set(before + i,
+                           withSides(std::move(instance), desc_.objects[placed.object].sides),
+                           shadow);
+            }
+        });
 }

@@ -26,9 +26,10 @@ public:
     ShapeMaker(const SceneDesc& desc, const RenderSettings& settings, const SceneFrame& frame,
                const std::vector<bool>& seeThrough);
 
-    // What one thread each can do, all at the same time: merging, and the trees of small meshes.
-    std::vector<std::function<void()>> jobs();
-    // When those are done: large trees, by all threads one after the other, and the shapes.
+    // What one thread each can do, all at the same time: merging, the trees of small meshes, and
+    // the shapes that are no meshes, which become the first ones of the set.
+    std::vector<std::function<void()>> jobs(ShapeSet& shapes);
+    // When those are done: large trees, by all threads one after the other, and the other shapes.
     void finish(ShapeSet& shapes, std::vector<std::unique_ptr<const MeshGeometry>>& geometries);
 
     bool moves() const { return moves_; } // does anything?
@@ -69,7 +70,7 @@ private:
     void share(Shared& shared);
     void finishTree(MeshGeometry& geometry, int threads) const;
     double raysPerTree() const;
-    void makeSimple(std::size_t first, std::size_t last);
+    void makeSimple(ShapeSet& shapes, std::size_t first, std::size_t last);
     void addInstances(ShapeSet& shapes);
 
     const SceneDesc& desc_;
@@ -77,10 +78,8 @@ private:
     const SceneFrame& frame_;
     const std::vector<bool>& seeThrough_;
     bool moves_ = false;
-    // Objects that are no meshes, and their shapes.
-    std::vector<std::uint32_t> simple_;
-    std::vector<std::unique_ptr<const Shape>> simpleShapes_;
-    std::vector<Placed> placed_;        // in the order of the objects
+    std::vector<std::uint32_t> simple_; // objects that are no meshes
+    std::vector<Placed> placed_;        // the others, in the same order
     std::vector<Shared> shared_;        // in the order of their first use
     std::vector<std::size_t> sharedOf_; // by mesh: its number in shared_
     std::vector<Merged> merged_;

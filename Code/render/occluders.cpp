@@ -2,9 +2,6 @@
 
 namespace {
 
-// Looking at more boxes than these costs more than it saves.
-constexpr std::size_t kMostCasters = 16;
-
 // The part of [0,1] where linear functions a + t b are not negative, after some of them.
 struct Times {
     float lo = 0, hi = 1;
@@ -61,7 +58,7 @@ Occluders::Occluders(const ShapeSet& shapes) : shapes_(shapes) {
         return shapes.shadows[i] != ShapeSet::Shadow::None && !shapes.boxes[i].isEmpty();
     };
     for (std::size_t i = 0; i < shapes.shapes.size(); ++i) count += casts(i);
-    canTell_ = count <= kMostCasters;
+    canTell_ = count <= kMost;
     if (!canTell_) return;
     for (std::uint32_t i = 0; i < shapes.shapes.size(); ++i) {
         const Shape& shape = *shapes.shapes[i];
@@ -71,6 +68,8 @@ Occluders::Occluders(const ShapeSet& shapes) : shapes_(shapes) {
         if (const SolidForm form = shape.solidForm(); form.sphere) {
             caster.centre = toFloat(form.hull.centre);
             caster.radius = floatAbove(form.hull.radius * (1 + 0x1p-20));
+            if (shapes.shadows[i] == ShapeSet::Shadow::Opaque)
+                caster.core = floatBelow(form.hull.innerRadius * (1 - 0x1p-20));
         }
         casters_.push_back(caster);
     }

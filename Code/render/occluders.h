@@ -21,10 +21,14 @@ struct Occluder {
     // Of a sphere, which is nearly all of it; else infinite.
     Vec3 centre{};
     float radius = kInfinityF;
+    float core = 0; // radius of a ball about the centre that no light passes; 0: none is known
 };
 
 class Occluders {
 public:
+    // Looking at more boxes than these costs more than it saves.
+    static constexpr std::size_t kMost = 16;
+
     explicit Occluders(const ShapeSet& shapes);
 
     // Can a shape be in between a place in `points`, all on `shape`, and a place in `lamp`, seen

@@ -18,6 +18,7 @@ public:
     // Once after the last add().
     void build(const Kernel& kernel, float extent, int threads);
     bool isEmpty() const { return boxes_.empty(); }
+    const SolidTree& boxes() const { return tree_.boxes; } // the tree, by the shapes' numbers
 
     // hits[i] is the best hit of ray i so far and becomes the best of all.
     void closest(const ShapeSet& set, const RaySpan& rays, std::span<Hit> hits) const;

@@ -47,7 +47,8 @@ public:
         color_ = Image(area_.width(), area_.height());
         for (std::size_t i = 0; i < settings.aovs.size(); ++i)
             aovs_.emplace_back(area_.width(), area_.height());
-        const int side = settings.tileSide;
+        // About a thousand rays make a wave; those of one sample each are in a larger tile.
+        const int side = settings.tileSide * (settings.picture.samplesPerPixel == 1 ? 2 : 1);
         for (int y = area_.y0; y < area_.y1; y += side)
             for (int x = area_.x0; x < area_.x1; x += side)
                 tiles_.push_back(

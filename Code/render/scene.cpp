@@ -18,22 +18,23 @@
 
 class SceneBuilder {
 public:
-    SceneBuilder(Scene& scene, const SceneDesc& desc, const SourceFile& source,
+    // `spent`: the description once more, where nobody else needs its objects and meshes.
+    SceneBuilder(Scene& scene, const SceneDesc& desc, SceneDesc* spent, const SourceFile& source,
                  const RenderSettings& settings, PictureReader* pictures)
-        : scene_(scene), desc_(desc), source_(source), settings_(settings), pictures_(pictures),
-          on_(settings.switches) {}
+        : scene_(scene), desc_(desc), spent_(spent), source_(source), settings_(settings),
+          pictures_(pictures), on_(settings.switches), objectCount_(desc.objects.size()) {}
 
     void build() {
-        scene_.frame_ = frameOf(desc_);
+        scene_.frame_ = frameOf(desc_, settings_.threads);
         scene_.accelKind_ = settings_.accel;
         buildCamera();
+        scene_.features_ = featuresOf(desc_, *cameraDesc_, settings_);
         buildPicturesAndShapes();
         buildMaterials();
         buildWorld();
         buildLights();
         scene_.shapes_.finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel),
                               settings_.threads);
-        scene_.features_ = featuresOf(desc_, *cameraDesc_, settings_);
     }
 
 private:
@@ -45,13 +46,16 @@ private:
     void buildPicturesAndShapes() {
         const std::vector<bool> seeThrough = seeThroughMaterials();
         ShapeMaker maker(desc_, settings_, scene_.frame_, seeThrough);
-        std::vector<std::function<void()>> jobs = maker.jobs();
+        std::vector<std::function<void()>> jobs = maker.jobs(scene_.shapes_);
         if (pictures_ != nullptr) pictures_->beginNoMore(); // they are jobs like others
         addPictures(jobs);
         forEachOn(settings_.threads, jobs.size(), [&](std::size_t i) { jobs[i](); });
         maker.finish(scene_.shapes_, scene_.geometries_);
         scene_.moves_ = scene_.moves_ || maker.moves();
         scene_.degenerateCount_ = maker.degenerateCount();
+        if (spent_ == nullptr) return;
+        std::vector<ObjectDesc>().swap(spent_->objects);
+        std::vector<MeshDesc>().swap(spent_->meshes);
     }
 
     // Pictures that nothing uses are not read.
@@ -214,8 +218,7 @@ private:
         for (std::size_t i = 0; i < desc_.lights.size(); ++i) {
             const LightDesc& light = desc_.lights[i];
             scene_.lights_.push_back(makeLight(light, scene_.frame_));
-            if (light.visible)
-                addLampBody(light, static_cast<std::uint32_t>(desc_.objects.size() + i));
+            if (light.visible) addLampBody(light, static_cast<std::uint32_t>(objectCount_ + i));
         }
     }
 
@@ -234,16 +237,23 @@ private:
 
     Scene& scene_;
     const SceneDesc& desc_;
+    SceneDesc* spent_; // may be null
     const SourceFile& source_;
     const RenderSettings& settings_;
     PictureReader* pictures_; // may be null
     Switches on_;
+    std::size_t objectCount_;
     const CameraDesc* cameraDesc_ = nullptr; // the one that is used
 };
 
 Scene::Scene(const SceneDesc& desc, const SourceFile& source, const RenderSettings& settings,
              PictureReader* pictures) {
-    SceneBuilder(*this, desc, source, settings, pictures).build();
+    SceneBuilder(*this, desc, nullptr, source, settings, pictures).build();
+}
+
+Scene::Scene(SceneDesc&& desc, const SourceFile& source, const RenderSettings& settings,
+             PictureReader* pictures) {
+    SceneBuilder(*this, desc, &desc, source, settings, pictures).build();
 }
 
 void Scene::describe(Stats& stats) const {
@@ -257,6 +267,13 @@ void Scene::describe(Stats& stats) const {
         stats.accel.bytes += bvh.bytes();
     };
     addTree(shapes_.bvh);
+    for (const SolidTree* tree : {&shapes_.solids(), &shapes_.placed().boxes()}) {
+        if (tree->lines.empty()) continue;
+        stats.accel.nodes += tree->nodes();
+        stats.accel.leaves += tree->solids.size();
+        stats.accel.sah += tree->sah;
+        stats.accel.bytes += tree->bytes();
+    }
     for (const auto& geometry : geometries_) {
         addTree(geometry->bvh);
         stats.accel.nodes += geometry->wide.nodes;

@@ -47,6 +47,10 @@ public:
     // already.
     Scene(const SceneDesc& desc, const SourceFile& source, const RenderSettings& settings,
           PictureReader* pictures = nullptr);
+    // Lets go of what the description has of objects and meshes as soon as shapes are made of it:
+    // with millions, both and the trees are not in memory at once.
+    Scene(SceneDesc&& desc, const SourceFile& source, const RenderSettings& settings,
+          PictureReader* pictures = nullptr);
     Scene(const Scene&) = delete;
     Scene& operator=(const Scene&) = delete;
 

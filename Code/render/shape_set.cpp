@@ -1,5 +1,7 @@
 #include "render/shape_set.h"
 
+#include "accel/kernels/solids_walk.h"
+#include "base/for_each.h"
 #include "shape/mesh_instance.h"
 
 #include <algorithm>
@@ -11,72 +13,109 @@ namespace {
 // A tree over fewer shapes costs more than it saves; the answer is the same either way.
 constexpr std::size_t kFewestForTree = 5;
 
+RawVector<Bounds> boxesOf(std::span<const std::uint32_t> numbers, std::span<const Bounds> all,
+                          int threads) {
+    constexpr std::size_t kTogether = 1 << 14;
+    RawVector<Bounds> out(numbers.size());
+    forEachPart(threads, numbers.size(), kTogether, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i) out[i] = all[numbers[i]];
+    });
+    return out;
+}
+
 } // namespace
 
-void ShapeSet::reserve(std::size_t count) {
-    shapes.reserve(count), boxes.reserve(count), shadows.reserve(count), bounded.reserve(count);
+void ShapeSet::resize(std::size_t count) {
+    shapes.resize(count), boxes.resize(count), shadows.resize(count), ways_.resize(count);
+}
+
+void ShapeSet::set(std::size_t number, std::unique_ptr<const Shape> shape, Shadow shadow) {
+    boxes[number] = shape->bounds();
+    shadows[number] = shadow;
+    ways_[number] = shape->takesBatches()   ? Way::Batched
+                    : shape->meshInstance() ? Way::Instance
+                                            : Way::Alone;
+    shapes[number] = std::move(shape);
 }
 
 void ShapeSet::add(std::unique_ptr<const Shape> shape, Shadow shadow) {
-    const auto number = static_cast<std::uint32_t>(shapes.size());
-    const Bounds box = shape->bounds();
-    if (box.isFinite()) {
-        bounded.push_back(number);
-        extent = max(max(maxAbs(box.lo), maxAbs(box.hi)), extent);
-    } else if (!box.isEmpty()) {
-        unbounded.push_back(number);
-    }
-    boxes.push_back(box);
-    shapes.push_back(std::move(shape));
-    shadows.push_back(shadow);
+    resize(shapes.size() + 1);
+    set(shapes.size() - 1, std::move(shape), shadow);
 }
 
 void ShapeSet::finish(bool withBvh, const Kernel& kernel, int threads) {
     if (withBvh) kernel_ = solidKernel(kernel), planeKernel_ = planeKernel(kernel);
+    sortByBounds(threads);
     for (const std::uint32_t number : unbounded)
         if (const auto form = shapes[number]->solidForm(); form.plane && planeKernel_)
             floors_.push_back({*form.plane, number});
         else
             askedAlone_.push_back(number);
-    isBatched_.assign(shapes.size(), 0);
     for (const std::uint32_t number : bounded) {
-        if (!shapes[number]->takesBatches() || (kernel_ && shapes[number]->solidForm().facets))
-            continue;
-        batched.push_back(number);
-        isBatched_[number] = 1;
+        if (ways_[number] == Way::Batched && kernel_ && shapes[number]->solidForm().facets)
+            ways_[number] = Way::Alone;
+        if (ways_[number] == Way::Batched) batched.push_back(number);
     }
     if (!withBvh) return;
-    inTree_.reserve(bounded.size());
+    if (kernel_) return buildBatchTrees(kernel, threads);
     for (const std::uint32_t number : bounded)
-        if (!isBatched_[number]) inTree_.push_back(number);
-    if (!kernel_ && inTree_.size() < kFewestForTree) return inTree_.clear();
-    bvh = buildBvh(boxesInTree(), threads);
+        if (ways_[number] != Way::Batched) inTree_.push_back(number);
+    if (inTree_.size() < kFewestForTree) return inTree_.clear();
+    bvh = buildBvh(boxesOf(inTree_, boxes, threads), threads);
     bvh.nodes.shrink_to_fit();
-    if (kernel_) buildBatchTrees(kernel, threads);
 }
 
-std::vector<Bounds> ShapeSet::boxesInTree() const {
-    std::vector<Bounds> out;
-    out.reserve(inTree_.size());
-    for (const std::uint32_t number : inTree_) out.push_back(boxes[number]);
-    return out;
+void ShapeSet::sortByBounds(int threads) {
+    constexpr std::size_t kTogether = 1 << 14;
+    struct Part {
+        std::vector<std::uint32_t> bounded, unbounded;
+        float extent = 0;
+    };
+    std::vector<Part> parts((shapes.size() + kTogether - 1) / kTogether);
+    forEachPart(threads, shapes.size(), kTogether, [&](std::size_t first, std::size_t last) {
+        Part& part = parts[first / kTogether];
+        part.bounded.reserve(last - first);
+        for (std::size_t number = first; number < last; ++number) {
+            const Bounds& box = boxes[number];
+            if (box.isFinite()) {
+                part.bounded.push_back(static_cast<std::uint32_t>(number));
+                part.extent = max(max(maxAbs(box.lo), maxAbs(box.hi)), part.extent);
+            } else if (!box.isEmpty()) {
+                part.unbounded.push_back(static_cast<std::uint32_t>(number));
+            }
+        }
+    });
+    bounded.reserve(shapes.size());
+    for (const Part& part : parts) {
+        bounded.insert(bounded.end(), part.bounded.begin(), part.bounded.end());
+        unbounded.insert(unbounded.end(), part.unbounded.begin(), part.unbounded.end());
+        extent = max(part.extent, extent);
+    }
 }
 
 void ShapeSet::buildBatchTrees(const Kernel& kernel, int threads) {
-    solids_.reserve(inTree_.size());
-    for (const std::uint32_t number : inTree_) {
-        const MeshInstance* const instance = shapes[number]->meshInstance();
-        if (instance != nullptr && instance->geometry().kernel == &kernel) {
+    std::vector<std::uint32_t> numbers; // of the solids
+    numbers.reserve(bounded.size());
+    for (const std::uint32_t number : bounded) {
+        if (ways_[number] == Way::Batched) continue;
+        const auto isOf = [&](const MeshGeometry& mesh) { return mesh.kernel == &kernel; };
+        if (ways_[number] == Way::Instance && isOf(shapes[number]->meshInstance()->geometry()))
             placed_.add(boxes[number], number, shadows[number] == Shadow::Opaque,
-                        instance->geometry().wide);
-            continue;
-        }
-        solids_.add(boxes[number], number, shadows[number] == Shadow::Opaque,
-                    shapes[number]->solidForm());
+                        shapes[number]->meshInstance()->geometry().wide);
+        else
+            numbers.push_back(number);
     }
+    const auto describe = [&](std::uint32_t i, std::uint32_t next) -> SolidTree::Described {
+        const auto* const soon = reinterpret_cast<const char*>(shapes[numbers[next]].get());
+        for (std::size_t line = 0; line < 4; ++line) __builtin_prefetch(soon + 64 * line);
+        const std::uint32_t number = numbers[i];
+        return {number, shadows[number] == Shadow::Opaque, shapes[number]->solidForm()};
+    };
+    const RawVector<Bounds> some =
+        numbers.size() < boxes.size() ? boxesOf(numbers, boxes, threads) : RawVector<Bounds>();
+    const std::span<const Bounds> of = some.empty() ? std::span<const Bounds>(boxes) : some;
     solids_.extent = extent;
-    solids_.build(kernel_->width,
-                  solids_.boxes.size() == inTree_.size() ? bvh : buildBvh(solids_.boxes, threads));
+    if (!numbers.empty()) solids_.build(kernel.width, buildBvh(of, threads), of, describe, threads);
     if (!placed_.isEmpty()) placed_.build(kernel, extent, threads);
 }
 
@@ -90,14 +129,18 @@ void ShapeSet::visit(const RaySetup& setup, float zCut, Ask ask, VisitFn&& fn) c
         float zEntry = 0;
         return setup.enters(boxes[number], cut, zEntry) && fn(number, zEntry, cut);
     };
-    if (bvh.nodes.empty()) {
+    if (!kernel_ && bvh.nodes.empty()) {
         for (const std::uint32_t number : bounded)
-            if ((ask == Ask::All || !isBatched_[number]) && leaf(number, zCut)) return;
+            if ((ask == Ask::All || ways_[number] != Way::Batched) && leaf(number, zCut)) return;
         return;
     }
     if (ask == Ask::All)
         for (const std::uint32_t number : batched)
             if (leaf(number, zCut)) return;
+    if (kernel_) {
+        if (!traverse(solids_, setup, zCut, leaf)) traverse(placed_.boxes(), setup, zCut, leaf);
+        return;
+    }
     traverse(bvh, setup, zCut,
              [&](std::uint32_t position, float& cut) { return leaf(inTree_[position], cut); });
 }

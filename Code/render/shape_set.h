@@ -21,18 +21,24 @@ struct ShapeSet {
     enum class Shadow : std::uint8_t { Opaque, SeeThrough, None };
 
     std::vector<std::unique_ptr<const Shape>> shapes; // number = Hit::shape
-    std::vector<Bounds> boxes;
+    RawVector<Bounds> boxes;
     std::vector<Shadow> shadows;
-    std::vector<std::uint32_t> bounded, unbounded; // shape numbers; `bounded` in ascending order
-    Bvh bvh;                     // over the bounded ones that take no batches; empty: linear search
-    float extent = kSceneExtent; // no |coordinate| of a finite box is larger
 
-    // Room for so many; growing would touch the memory twice.
-    void reserve(std::size_t count);
+    // Room for so many.
+    void resize(std::size_t count);
+    // Once for each of them, by any thread.
+    void set(std::size_t number, std::unique_ptr<const Shape> shape, Shadow shadow);
+    // One more.
     void add(std::unique_ptr<const Shape> shape, Shadow shadow);
-    // Call once after the last add(). Batches are answered by the kernel, if it has a part for
+    // Call once when all are there. Batches are answered by the kernel, if it has a part for
     // solids and a tree is wanted; else as single rays are.
     void finish(bool withBvh, const Kernel& kernel = chooseKernel("scalar"), int threads = 1);
+
+    std::vector<std::uint32_t> bounded, unbounded; // shape numbers; `bounded` in ascending order
+    float extent = kSceneExtent;                   // no |coordinate| of a finite box is larger
+    // Over the bounded ones that take no batches, where no kernel has trees of its own over them;
+    // empty: linear search.
+    Bvh bvh;
     // Bounded shapes that take batches themselves and are no solids of the kernel; the batch
     // queries ask them first.
     std::vector<std::uint32_t> batched;
@@ -49,6 +55,10 @@ struct ShapeSet {
     // Appends every hit of the see-through shapes in (tMin, tMax), nearest first, ties as above.
     void seeThroughHits(const Ray& ray, std::vector<Hit>& hits) const;
 
+    // Those of the kernel; empty without one.
+    const SolidTree& solids() const { return solids_; }
+    const PlacedMeshes& placed() const { return placed_; }
+
     // Takes the hit of a shape if it is nearer than the best one.
     bool takeNearer(const Ray& ray, Hit hit, std::uint32_t number, float tEntry, Hit& best) const;
 
@@ -63,15 +73,17 @@ private:
     bool isBefore(const Ray& ray, const Hit& a, const Hit& b) const;
     // Asks the shape for a nearer hit than the best one, which then becomes it.
     bool nearer(const Ray& ray, std::uint32_t number, float tEntry, Hit& best) const;
-    std::vector<Bounds> boxesInTree() const;
+    void sortByBounds(int threads);
     void buildBatchTrees(const Kernel& kernel, int threads);
     void closestOfBatched(const RaySpan& rays, std::vector<Hit>& hits) const;
     void hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;
     void closestOfUnbounded(const RaySpan& rays, std::vector<Hit>& hits) const;
     void hideByUnbounded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;
 
-    std::vector<std::uint8_t> isBatched_; // by shape
-    std::vector<std::uint32_t> inTree_;   // shapes by their number in the tree
+    // By shape: what it is asked for when it comes, as memory of millions is slow to come back to.
+    enum class Way : std::uint8_t { Alone, Batched, Instance };
+    std::vector<Way> ways_;
+    std::vector<std::uint32_t> inTree_; // shapes by their number in `bvh`
     // The unbounded shapes: planes of the kernel, and those that are asked ray by ray.
     struct Floor {
         StillPlane plane;

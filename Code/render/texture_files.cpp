@@ -26,9 +26,16 @@ std::vector<fs::path> candidates(const std::string& file, const std::string& sce
     return out;
 }
 
-bool isPicture(const fs::path& path) {
-    std::error_code ignored;
-    return fs::is_regular_file(path, ignored);
+// The first of the candidates that is a file; into `tried` goes what was looked for.
+std::optional<std::string> firstFile(const std::string& file, const std::string& sceneFile,
+                                     const std::string& textureFolder,
+                                     std::vector<std::string>& tried) {
+    for (const fs::path& path : candidates(file, sceneFile, textureFolder)) {
+        std::error_code ignored;
+        if (fs::is_regular_file(path, ignored)) return path.string();
+        tried.push_back(path.string());
+    }
+    return {};
 }
 
 } // namespace
@@ -51,25 +58,22 @@ std::vector<std::size_t> usedTextures(const SceneDesc& desc, bool showsEnvironme
 
 std::optional<std::string> findPicture(const std::string& file, const std::string& sceneFile,
                                        const std::string& textureFolder) {
-    for (const fs::path& path : candidates(file, sceneFile, textureFolder))
-        if (isPicture(path)) return path.string();
-    return {};
+    std::vector<std::string> tried;
+    return firstFile(file, sceneFile, textureFolder, tried);
 }
 
 StoredImage loadPicture(const TextureDesc& texture, const SourceFile& source,
                         const std::string& textureFolder) {
     std::vector<std::string> tried;
-    for (const fs::path& path : candidates(texture.file, source.name, textureFolder)) {
-        tried.push_back(path.string());
-        if (!isPicture(path)) continue;
-        try {
-            return readStoredImage(path.string());
-        } catch (const Error& error) {
-            failAt(source, texture.fileLoc.offset,
-                   cat("texture '", texture.name, "' can't be read: ", error.what()));
-        }
+    const auto path = firstFile(texture.file, source.name, textureFolder, tried);
+    if (!path)
+        failAt(source, texture.fileLoc.offset,
+               cat("texture '", texture.name, "': no file '", texture.file, "'; looked for ",
+                   join(tried), "; put it there or name its folder with --textures"));
+    try {
+        return readStoredImage(*path);
+    } catch (const Error& error) {
+        failAt(source, texture.fileLoc.offset,
+               cat("texture '", texture.name, "' can't be read: ", error.what()));
     }
-    failAt(source, texture.fileLoc.offset,
-           cat("texture '", texture.name, "': no file '", texture.file, "'; looked for ",
-               join(tried), "; put it there or name its folder with --textures"));
 }

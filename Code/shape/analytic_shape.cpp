@@ -33,7 +33,8 @@ AnalyticShape::AnalyticShape(const MovingTransform& worldFromObject, std::uint32
              .radius = radius,
              .material = material,
              .oddMaterial = material,
-             .object = object} {
+             .object = object,
+             .corners = nullptr} {
     if (!worldFromObject.isStatic())
         motion_ = std::make_unique<const MovingTransform>(worldFromObject);
 }
@@ -67,12 +68,19 @@ SolidForm AnalyticShape::tubeForm(double radius) const {
             {}};
 }
 
-void AnalyticShape::measure(StillShape::Round round, std::uint32_t part) {
+SolidForm AnalyticShape::facesForm(StillFaces::Of of) const {
+    SolidForm form = Shape::solidForm();
+    form.drift = drift();
+    if (isStill() || form.drift) form.faces = {.shape = &still_, .of = of};
+    return form;
+}
+
+void AnalyticShape::measure(StillShape::Kind kind, int parts) {
     if (!isStill()) return;
     still_ = stillUnder(still_.worldFromObject);
-    const bool wantsEnd = round != StillShape::Round::Plane;
+    const bool wantsEnd = kind != StillShape::Kind::Plane;
     if (still_.hasEnd != wantsEnd || still_.worldFromObject.isSingular()) return;
-    still_.round = round, still_.part = part;
+    still_.kind = kind, still_.parts = static_cast<std::uint8_t>((1 << parts) - 1);
 }
 
 StillShape AnalyticShape::stillUnder(const Transform& worldFromObject) const {

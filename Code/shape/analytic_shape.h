@@ -24,7 +24,7 @@ public:
     Surface surface(const Ray& ray, const Hit& hit) const final { return surfaceFor(ray, hit, {}); }
     Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const final;
     const StillShape* roundToShade() const final {
-        return still_.round == StillShape::Round::None ? nullptr : &still_;
+        return still_.kind == StillShape::Kind::None ? nullptr : &still_;
     }
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const final;
 
@@ -66,17 +66,24 @@ protected:
     AnalyticShape(const MovingTransform& worldFromObject, std::uint32_t material,
                   std::uint32_t object, double radius = 0);
 
-    // Called at the end of a constructor: what surface() would compute again for every hit. What is
-    // round is done by lanes where it stands still, has an end, and the map has an inverse.
-    void measure(StillShape::Round round = StillShape::Round::None, std::uint32_t part = 0);
+    // Called at the end of a constructor: what surface() would compute again for every hit. Lanes
+    // do the first `parts` where the shape stands still and the map has an inverse.
+    void measure(StillShape::Kind kind, int parts = 1);
+    // Before that: what kernels look up in the shape itself, which is never moved.
+    void lend(const StillCorners& corners) { still_.corners = &corners; }
+    void lend(const StillCone& cone) { still_.cone = &cone; }
 
     double radius() const { return still_.radius; }
     bool isStill() const { return !motion_; }
-    // Of a shape that stands still.
+    // Of a shape that moves: its first key.
     const StillShape& still() const { return still_; }
     const Transform& worldFromObject() const { return still_.worldFromObject; }
+    // How it moves, if lanes can follow.
+    std::optional<Drift> drift() const { return isStill() ? std::nullopt : motion_->drift(); }
     // Around disks of at most this radius about the z axis, of z from -1 to 1.
     SolidForm tubeForm(double radius) const;
+    // Within a ball around the box.
+    SolidForm facesForm(StillFaces::Of of) const;
 
     // The whole line, in double; org and dir are finite, dir is not zero nor of unit length.
     virtual Roots roots(const RayD& ray) const = 0;

@@ -4,19 +4,26 @@
 
 Cone::Cone(const MovingTransform& worldFromObject, double radius, double topRadius, bool caps,
            std::uint32_t material, std::uint32_t object)
-    : AnalyticShape(worldFromObject, material, object), radius_(radius), topRadius_(topRadius),
-      caps_(caps), slope_((topRadius - radius) / 2), narrowZ_(topRadius < radius ? 1 : -1),
-      narrowRadius_(min(radius, topRadius)) {
-    measure();
+    : AnalyticShape(worldFromObject, material, object), side_{.radius = radius,
+                                                              .topRadius = topRadius,
+                                                              .slope = (topRadius - radius) / 2,
+                                                              .narrowZ =
+                                                                  topRadius < radius ? 1.0 : -1.0,
+                                                              .narrowRadius =
+                                                                  min(radius, topRadius)},
+      caps_(caps) {
+    static_assert(kSide == 0);
+    lend(side_);
+    measure(StillShape::Kind::Cone);
 }
 
 SolidForm Cone::solidForm() const {
-    SolidForm form = tubeForm(max(radius_, topRadius_));
+    SolidForm form = tubeForm(max(side_.radius, side_.topRadius));
     if (form.hull.axis == Vec3d{}) return form;
     form.tube = {.shape = &still(),
                  .caps = caps_,
-                 .radius = narrowRadius_,
-                 .cone = StillTube::Cone{slope_, narrowZ_}};
+                 .radius = side_.narrowRadius,
+                 .cone = StillTube::Cone{side_.slope, side_.narrowZ}};
     return form;
 }
 
@@ -25,10 +32,10 @@ SolidForm Cone::solidForm() const {
 // distance from the tip, where the sides come together, however far the ray starts.
 Interval Cone::insideSide(const RayD& ray) const {
     const Vec3d d = ray.dir;
-    const Vec3d org = ray.org - Vec3d{0, 0, narrowZ_};
+    const Vec3d org = ray.org - Vec3d{0, 0, side_.narrowZ};
     const double shift = -dot(org, d) / dot(d, d);
     const Vec3d o = org + d * shift;
-    const double w = narrowRadius_ + slope_ * o.z, dw = slope_ * d.z;
+    const double w = side_.narrowRadius + side_.slope * o.z, dw = side_.slope * d.z;
 
     const double a = d.x * d.x + d.y * d.y - dw * dw;
     const double b = o.x * d.x + o.y * d.y - w * dw;
@@ -66,26 +73,27 @@ AnalyticShape::Roots Cone::roots(const RayD& ray) const {
 AnalyticShape::Local Cone::describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const {
     const Vec3d inset = clearance.inset();
     const double radialInset = std::sqrt(inset.x * inset.x + inset.y * inset.y);
-    const double capRadius = part == kTop ? topRadius_ : radius_;
+    const double capRadius = part == kTop ? side_.topRadius : side_.radius;
     if (part != kSide && capRadius > 0) { // a tip may round to its cap without size
-        const Cap at = cap(p, part == kTop, capRadius, radialInset + std::fabs(slope_) * inset.z);
+        const Cap at =
+            cap(p, part == kTop, capRadius, radialInset + std::fabs(side_.slope) * inset.z);
         return {at.p, at.normal, at.uv, at.dpdu, at.dpdv};
     }
 
     const double around = std::sqrt(p.x * p.x + p.y * p.y);
     const double limit = 1 - min(inset.z, 0.5);
     double z = clamp(p.z, -limit, limit);
-    double w = radiusAt(z);
+    double w = side_.radiusAt(z);
     // The tip itself takes a normal of the side too: along the axis, a ray inwards would leave a
     // slim or slanted cone at once.
     const double c = around > 0 ? p.x / around : 1, s = around > 0 ? p.y / around : 0;
-    const Vec3d normal{c, s, -slope_};
+    const Vec3d normal{c, s, -side_.slope};
 
     // Near the tip the side is so curved that a step inwards may end outside: a step e (half the
     // clearance) goes in by e steepness, but with rounding it may go round by 3/4 radialInset, and
     // so out again by the square of that over 2 w. p goes down the side to where there is room,
     // with a factor of 4 to spare.
-    const double wide = max(radius_, topRadius_);
+    const double wide = max(side_.radius, side_.topRadius);
     double leastRadius = 0;
     if (radialInset > 0 && w < wide / 2) {
         const double inwards = 0.5 * clearance.distance * clearance.steepness(normal);
@@ -93,7 +101,7 @@ AnalyticShape::Local Cone::describe(Vec3d p, std::uint32_t part, const Clearance
     }
     if (w < leastRadius) {
         w = leastRadius;
-        z = narrowZ_ + (w - narrowRadius_) / slope_;
+        z = side_.narrowZ + (w - side_.narrowRadius) / side_.slope;
     }
     if (!clearance.wantsUv) return {{c * w, s * w, z}, normal, {}, {}, {}};
     const double across = kTwoPi * max(w, 0x1p-20 * wide);
@@ -101,15 +109,15 @@ AnalyticShape::Local Cone::describe(Vec3d p, std::uint32_t part, const Clearance
             normal,
             {0.5 + exact::atan2(s, c) * kInvTwoPi, 0.5 + 0.5 * z},
             {-s * across, c * across, 0},
-            {2 * slope_ * c, 2 * slope_ * s, 2}};
+            {2 * side_.slope * c, 2 * side_.slope * s, 2}};
 }
 
 Vec3d Cone::normalAt(Vec3d p, std::uint32_t part) const {
     if (part != kSide) return AnalyticShape::normalAt(p, part);
-    return {p.x, p.y, -slope_ * std::sqrt(p.x * p.x + p.y * p.y)};
+    return {p.x, p.y, -side_.slope * std::sqrt(p.x * p.x + p.y * p.y)};
 }
 
 BoundsD Cone::boxUnder(const Transform& worldFromObject) const {
-    return merge(diskBox(worldFromObject, {0, 0, -1}, radius_),
-                 diskBox(worldFromObject, {0, 0, 1}, topRadius_));
+    return merge(diskBox(worldFromObject, {0, 0, -1}, side_.radius),
+                 diskBox(worldFromObject, {0, 0, 1}, side_.topRadius));
 }

@@ -12,6 +12,7 @@ public:
     Cone(const MovingTransform& worldFromObject, double radius, double topRadius, bool caps,
          std::uint32_t material, std::uint32_t object);
 
+    Cone(const Cone&) = delete; // others point to what is in it
     SolidForm solidForm() const override;
 
 private:
@@ -26,10 +27,7 @@ private:
     BoundsD boxUnder(const Transform& worldFromObject) const override;
 
     Interval insideSide(const RayD& ray) const;
-    double radiusAt(double z) const { return narrowRadius_ + slope_ * (z - narrowZ_); }
 
-    double radius_, topRadius_;
+    StillCone side_;
     bool caps_;
-    double slope_;                  // growth of the radius with z
-    double narrowZ_, narrowRadius_; // at the narrow end, the tip of a true cone
 };

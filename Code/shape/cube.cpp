@@ -16,7 +16,27 @@ constexpr Face kFaces[] = {
 
 Cube::Cube(const MovingTransform& worldFromObject, std::uint32_t material, std::uint32_t object)
     : AnalyticShape(worldFromObject, material, object) {
-    measure();
+    measure(StillShape::Kind::Cube, static_cast<int>(std::size(kFaces)));
+}
+
+SolidForm Cube::solidForm() const {
+    if (!isStill()) return facesForm(StillFaces::Of::Cube);
+    const Transform& map = worldFromObject();
+    double farthest = 0; // corner
+    for (int i = 0; i < 4; ++i) {
+        const Vec3d corner = BoundsD{{-1, -1, -1}, {1, 1, 1}}.corner(i);
+        farthest = max(farthest, length(map.vector(corner)));
+    }
+    RoundHull hull{.centre = map.translation(), .axis = {}, .radius = farthest};
+    // Up to the nearest face; not of those so slim or slanted that the inverse is no good for it.
+    const AffineRows& m = map.inverseRows();
+    double steepest = 0;
+    for (std::size_t i = 0; i < 12; i += 4)
+        steepest = max(steepest, length(Vec3d{m[i], m[i + 1], m[i + 2]}));
+    if (steepest > 0 && steepest * farthest < 0x1p20) hull.innerRadius = 1 / steepest;
+    SolidForm form = facesForm(StillFaces::Of::Cube);
+    form.hull = hull;
+    return form;
 }
 
 AnalyticShape::Roots Cube::roots(const RayD& ray) const {

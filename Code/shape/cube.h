@@ -9,6 +9,8 @@ public:
     // along z and u to the right, on top u = x, v = y, at the bottom u = -x, v = y.
     Cube(const MovingTransform& worldFromObject, std::uint32_t material, std::uint32_t object);
 
+    SolidForm solidForm() const override;
+
 private:
     // part: 0 -x, 1 +x, 2 -y, 3 +y, 4 -z, 5 +z
     Roots roots(const RayD& ray) const override;

@@ -5,7 +5,8 @@
 Cylinder::Cylinder(const MovingTransform& worldFromObject, double radius, bool caps,
                    std::uint32_t material, std::uint32_t object)
     : AnalyticShape(worldFromObject, material, object, radius), caps_(caps) {
-    measure(StillShape::Round::Cylinder, kSide);
+    static_assert(kSide == 0);
+    measure(StillShape::Kind::Cylinder);
 }
 
 SolidForm Cylinder::solidForm() const {

@@ -9,11 +9,10 @@ public:
     Disk(const MovingTransform& worldFromObject, double radius, std::uint32_t material,
          std::uint32_t object);
     bool hidesFromItself(bool) const override { return false; } // flat
+    SolidForm solidForm() const override;
 
 private:
     Roots roots(const RayD& ray) const override;
     Local describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const override;
     BoundsD boxUnder(const Transform& worldFromObject) const override;
-
-    double radius_;
 };

@@ -3,7 +3,7 @@
 InfinitePlane::InfinitePlane(const MovingTransform& worldFromObject, std::uint32_t material,
                              std::uint32_t object)
     : AnalyticShape(worldFromObject, material, object) {
-    measure(StillShape::Round::Plane);
+    measure(StillShape::Kind::Plane);
 }
 
 SolidForm InfinitePlane::solidForm() const {

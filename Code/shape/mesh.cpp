@@ -81,19 +81,17 @@ Surface Mesh::surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) con
     return s;
 }
 
-void Mesh::surfaces(const SurfaceQuery& query, Strided<Surface> out) const {
+void Mesh::surfaces(const SurfaceQuery& query, SurfacePlaces out) const {
     if (query.lanes.triangles == nullptr) return Shape::surfaces(query, out);
     surfacesOf(
         query,
-        [&](const Hit& hit) {
-            return SurfaceTriangle(geometry_, hit.prim, corners(hit.prim), query.needs);
+        [&](std::uint32_t triangle) {
+            return SurfaceTriangle(geometry_, triangle, corners(triangle), query.needs);
+        },
+        [&](std::uint32_t triangle) {
+            return TriangleSource{materialOf(triangle), objectOf(triangle)};
         },
         out);
-    for (std::size_t k = 0; k < query.which.size(); ++k) {
-        const std::uint32_t triangle = query.hits[query.which[k]].prim;
-        out[query.to[k]].material = materialOf(triangle);
-        out[query.to[k]].object = objectOf(triangle);
-    }
 }
 
 SurfaceDerivatives Mesh::derivatives(const Ray&, const Hit& hit) const {

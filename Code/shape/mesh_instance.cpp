@@ -121,15 +121,15 @@ Surface MeshInstance::surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds ne
     return s;
 }
 
-void MeshInstance::surfaces(const SurfaceQuery& query, Strided<Surface> out) const {
+void MeshInstance::surfaces(const SurfaceQuery& query, SurfacePlaces out) const {
     if (query.lanes.triangles == nullptr || !motion_.isStatic()) return Shape::surfaces(query, out);
     const Transform place = placeAt(0);
     surfacesOf(
-        query, [&](const Hit& hit) { return surfaceTriangle(place, hit.prim); }, out);
-    for (std::size_t k = 0; k < query.which.size(); ++k) {
-        out[query.to[k]].material = materialOf(query.hits[query.which[k]].prim);
-        out[query.to[k]].object = object_;
-    }
+        query, [&](std::uint32_t triangle) { return surfaceTriangle(place, triangle); },
+        [&](std::uint32_t triangle) {
+            return TriangleSource{materialOf(triangle), object_};
+        },
+        out);
 }
 
 SurfaceDerivatives MeshInstance::derivatives(const Ray& ray, const Hit& hit) const {

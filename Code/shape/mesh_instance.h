@@ -37,7 +37,7 @@ public:
         return surfaceFor(ray, hit, {});
     }
     Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const override;
-    void surfaces(const SurfaceQuery& query, Strided<Surface> out) const override;
+    void surfaces(const SurfaceQuery& query, SurfacePlaces out) const override;
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override;
     std::optional<TieOrder> tieOrder(const Ray& ray, const Hit& hit) const override;
     const MeshInstance* meshInstance() const override { return this; }

@@ -1,5 +1,8 @@
 #include "shape/mesh_surface.h"
 
+#include <algorithm>
+#include <cstring>
+
 namespace {
 
 template <class T> T interpolate(const std::array<T, 3>& at, float u, float v) {
@@ -105,30 +108,46 @@ void TriangleSurfaceBatch::put(std::size_t lane, const SurfaceTriangle& triangle
     const auto set = [lane](TrianglesMet::Lane(&to)[3], Vec3 v) {
         to[0][lane] = v.x, to[1][lane] = v.y, to[2][lane] = v.z;
     };
-    for (std::size_t i = 0; i < 3; ++i) set(met_.corner[i], triangle.corners[i]);
+    const bool isNew = lane == 0 || !met_.onOne;
+    if (isNew)
+        for (std::size_t i = 0; i < 3; ++i) set(met_.corner[i], triangle.corners[i]);
     if (triangle.hasNormals) {
-        for (std::size_t i = 0; i < 3; ++i) set(met_.normal[i], triangle.normals[i]);
+        if (isNew)
+            for (std::size_t i = 0; i < 3; ++i) set(met_.normal[i], triangle.normals[i]);
         set(met_.dir, dir);
         met_.smooth |= 1u << lane;
     }
     met_.u[lane] = hit.u, met_.v[lane] = hit.v;
     met_.used |= 1u << lane;
-    uv_[lane] = coordinates(triangle, hit);
+    const Vec2 uv = coordinates(triangle, hit);
+    uv_[0][lane] = uv.x, uv_[1][lane] = uv.y;
 }
 
-Surface TriangleSurfaceBatch::take(std::size_t lane) const {
-    const auto vector = [lane](const TrianglesMet::Lane(&v)[3]) {
-        return Vec3{v[0][lane], v[1][lane], v[2][lane]};
+void TriangleSurfaceBatch::take(std::size_t lane, SurfaceBlock& to, std::size_t place) const {
+    const auto vector = [&](const TrianglesMet::Lane(&from)[3], SurfaceBlock::Lane(&into)[3]) {
+        for (std::size_t axis = 0; axis < 3; ++axis) into[axis][place] = from[axis][lane];
     };
-    Surface s;
-    s.p = vector(found_.p);
-    s.ng = vector(found_.ng);
-    s.ns = vector(found_.ns);
-    s.uv = uv_[lane];
-    s.error = found_.error[lane];
-    s.rayError = kRayError;
-    s.lift = vector(found_.lift);
-    return s;
+    vector(found_.p, to.p), vector(found_.ng, to.ng);
+    to.uv[0][place] = uv_[0][lane], to.uv[1][place] = uv_[1][lane];
+    to.error[place] = found_.error[lane], to.rayError[place] = kRayError;
+    const unsigned bit = 1u << place;
+    to.curved &= ~bit;
+    if ((met_.smooth >> lane & 1) == 0) return;
+    vector(found_.ns, to.ns), vector(found_.lift, to.lift);
+    to.curved |= bit;
+}
+
+void TriangleSurfaceBatch::takeAll(SurfaceBlock& to) const {
+    static_assert(kHits == SurfaceBlock::kPoints);
+    std::memcpy(to.p, found_.p, sizeof(to.p));
+    std::memcpy(to.ng, found_.ng, sizeof(to.ng));
+    std::memcpy(to.uv, uv_, sizeof(to.uv));
+    std::memcpy(to.error, found_.error, sizeof(to.error));
+    std::fill_n(to.rayError, kHits, kRayError);
+    to.curved = met_.smooth;
+    if (met_.smooth == 0) return;
+    std::memcpy(to.ns, found_.ns, sizeof(to.ns));
+    std::memcpy(to.lift, found_.lift, sizeof(to.lift));
 }
 
 SurfaceDerivatives derivativesOf(const SurfaceTriangle& triangle) {

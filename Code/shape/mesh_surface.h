@@ -6,6 +6,8 @@
 #include "shape/shape.h"
 #include "shape/triangle_queries.h"
 
+#include <algorithm>
+
 struct SurfaceTriangle {
     TriangleCorners corners;
     bool hasNormals = false, hasUvs = false;
@@ -28,38 +30,69 @@ public:
     TriangleSurfaceBatch(TriangleSurfacesFn fn, SurfaceNeeds needs) : fn_(fn) {
         met_.wantsLift = needs.lift;
     }
-    void clear() { met_.used = met_.smooth = 0; }
+    // `onOne`: all hits to come are on the triangle of the first one.
+    void clear(bool onOne) {
+        met_.used = met_.smooth = 0;
+        met_.onOne = onOne;
+    }
     void put(std::size_t lane, const SurfaceTriangle& triangle, const Hit& hit, Vec3 dir);
     void find() { fn_(met_, found_); }
-    // Else it has to be asked by itself.
-    bool knows(std::size_t lane) const { return (found_.unknown >> lane & 1) == 0; }
-    Surface take(std::size_t lane) const;
+    // Those have to be asked by themselves.
+    unsigned unknown() const { return found_.unknown; }
+    // The surfaces that were found, but for what the triangles are made of and belong to.
+    void take(std::size_t lane, SurfaceBlock& to, std::size_t place) const;
+    void takeAll(SurfaceBlock& to) const;
 
 private:
     TriangleSurfacesFn fn_;
     TrianglesMet met_;
     TriangleSurfaces found_;
-    std::array<Vec2, kHits> uv_;
+    SurfaceBlock::Lane uv_[2];
 };
 
-// The same of all hits of a query. triangleOf(hit) is the SurfaceTriangle.
-template <class TriangleFn>
-void surfacesOf(const SurfaceQuery& query, TriangleFn&& triangleOf, Strided<Surface> out) {
+// What a triangle is made of and belongs to.
+struct TriangleSource {
+    std::uint32_t material, object;
+};
+
+// The same of all hits of a query. triangleOf(number) is the SurfaceTriangle, sourceOf(number) its
+// TriangleSource.
+template <class TriangleFn, class SourceFn>
+void surfacesOf(const SurfaceQuery& query, TriangleFn&& triangleOf, SourceFn&& sourceOf,
+                SurfacePlaces out) {
     TriangleSurfaceBatch batch(query.lanes.triangles, query.needs);
     constexpr std::size_t kHits = TriangleSurfaceBatch::kHits;
     for (std::size_t first = 0; first < query.which.size(); first += kHits) {
         const std::size_t count = min(query.which.size() - first, kHits);
         const auto rays = query.which.subspan(first, count), to = query.to.subspan(first, count);
-        batch.clear();
-        for (std::size_t i = 0; i < count; ++i)
-            batch.put(i, triangleOf(query.hits[rays[i]]), query.hits[rays[i]],
-                      query.rays.dir[rays[i]]);
+        const std::uint32_t number = query.hits[rays[0]].prim;
+        const bool onOne = std::all_of(rays.begin() + 1, rays.end(), [&](std::uint32_t ray) {
+            return query.hits[ray].prim == number;
+        });
+        batch.clear(onOne);
+        if (onOne) {
+            const SurfaceTriangle triangle = triangleOf(number);
+            for (std::size_t i = 0; i < count; ++i)
+                batch.put(i, triangle, query.hits[rays[i]], query.rays.dir[rays[i]]);
+        } else {
+            for (std::size_t i = 0; i < count; ++i)
+                batch.put(i, triangleOf(query.hits[rays[i]].prim), query.hits[rays[i]],
+                          query.rays.dir[rays[i]]);
+        }
         batch.find();
+        SurfaceBlock* const whole = out.whole(to);
+        if (whole != nullptr) batch.takeAll(*whole);
+        TriangleSource source{};
         for (std::size_t i = 0; i < count; ++i) {
             const Hit& hit = query.hits[rays[i]];
-            out[to[i]] = batch.knows(i)
-                             ? batch.take(i)
-                             : surfaceOf(triangleOf(hit), query.rays[rays[i]], hit, query.needs);
+            const SurfacePlaces::Place place = out[to[i]];
+            if (i == 0 || !onOne) source = sourceOf(hit.prim);
+            if ((batch.unknown() >> i & 1) != 0)
+                place = surfaceOf(triangleOf(hit.prim), query.rays[rays[i]], hit, query.needs);
+            else if (whole == nullptr)
+                batch.take(i, place.block, place.lane);
+            place.block.material[place.lane] = source.material;
+            place.block.object[place.lane] = source.object;
         }
     }
 }

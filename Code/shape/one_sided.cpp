@@ -8,7 +8,7 @@ OneSided::OneSided(std::unique_ptr<const Shape> shape, Side visible)
 // Of spheres and planes the kernels know no sides.
 SolidForm OneSided::solidForm() const {
     SolidForm form = shape_->solidForm();
-    form.sphere = nullptr;
+    if (form.sphere) form.sphere = nullptr, form.drift.reset();
     form.plane.reset();
     const auto restrict = [&](auto& part) {
         if (!part) return;
@@ -17,6 +17,7 @@ SolidForm OneSided::solidForm() const {
     };
     restrict(form.facets);
     restrict(form.tube);
+    restrict(form.faces);
     return form;
 }
 

@@ -39,7 +39,7 @@ public:
     Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const override {
         return shape_->surfaceFor(ray, hit, needs);
     }
-    void surfaces(const SurfaceQuery& query, Strided<Surface> out) const override {
+    void surfaces(const SurfaceQuery& query, SurfacePlaces out) const override {
         shape_->surfaces(query, out);
     }
     const StillShape* roundToShade() const override { return shape_->roundToShade(); }

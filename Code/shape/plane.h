@@ -11,17 +11,15 @@ public:
     // them p = bilinear(uv). Corners on a line give a shape that no ray meets.
     Plane(const MovingTransform& worldFromObject, const Corners& corners, std::uint32_t material,
           std::uint32_t object);
+    Plane(const Plane&) = delete;                               // others point to what is in it
     bool hidesFromItself(bool) const override { return false; } // flat
+    SolidForm solidForm() const override;
 
 private:
     Roots roots(const RayD& ray) const override;
     Local describe(Vec3d p, std::uint32_t part, const Clearance& clearance) const override;
     BoundsD boxUnder(const Transform& worldFromObject) const override;
 
-    // Along two axes of the object's space, in which the quadrilateral is widest.
-    Vec2d flat(Vec3d p) const { return {p[axisX_], p[axisY_]}; }
-
     Corners corners_;
-    Vec3d normal_, centre_;
-    std::size_t axisX_ = 0, axisY_ = 1; // chosen so that the corners turn counter-clockwise
+    StillCorners flat_;
 };

@@ -13,7 +13,7 @@
 #include "base/hit.h"
 #include "base/ray.h"
 #include "base/ray_span.h"
-#include "base/strided.h"
+#include "base/surface_block.h"
 
 #include <cstdint>
 #include <optional>
@@ -101,7 +101,7 @@ public:
         return surface(ray, hit);
     }
     // out[to[k]] = surfaceFor(ray, hit) of ray which[k].
-    virtual void surfaces(const SurfaceQuery& query, Strided<Surface> out) const {
+    virtual void surfaces(const SurfaceQuery& query, SurfacePlaces out) const {
         for (std::size_t k = 0; k < query.which.size(); ++k) {
             const std::uint32_t i = query.which[k];
             out[query.to[k]] = surfaceFor(query.rays[i], query.hits[i], query.needs);

@@ -3,11 +3,16 @@
 Sphere::Sphere(const MovingTransform& worldFromObject, double radius, std::uint32_t material,
                std::uint32_t object)
     : AnalyticShape(worldFromObject, material, object, radius) {
-    measure(StillShape::Round::Sphere);
+    measure(StillShape::Kind::Sphere);
 }
 
 SolidForm Sphere::solidForm() const {
-    if (!isStill()) return AnalyticShape::solidForm();
+    if (!isStill()) {
+        SolidForm form = AnalyticShape::solidForm();
+        form.drift = drift();
+        if (form.drift) form.sphere = &still();
+        return form;
+    }
     const Transform& map = worldFromObject();
     // Bounds of the map's stretch, by Gershgorin's circles about its Gram matrix.
     const Vec3d x = map.column(0), y = map.column(1), z = map.column(2);

@@ -5,6 +5,7 @@
 #include "scenes.h"
 #include "shot.h"
 
+#include "base/text.h"
 #include "desc/validate.h"
 #include "image/compare.h"
 #include "verify/scene_trials.h"
@@ -99,6 +100,28 @@ TEST(sameBitsForKernels) {
                       shot::render(desc, with).color);
         }
     }
+}
+
+// Glass between two mirrors: some samples have many rays, others one that goes on and on, and sums
+// run over rays in the order of their parents, whichever of them the registers send on together.
+TEST(sameBitsOfGlassBesideMirrors) {
+    std::string text = "settings {\n resolution 96 72\n samples 4\n max_depth 8\n}\n"
+                       "camera c {\n look_at 0 -6 1  0 0 1  0 0 1\n}\n"
+                       "light l {\n translate -2 -3 2\n color 40 40 35\n}\n"
+                       "material mirror {\n diffuse 0.2 0.2 0.2\n mirror 0.7 0.6 0.6\n}\n"
+                       "material glass {\n diffuse 0.1 0.1 0\n mirror 1 1 1\n transmission 1 0.9 "
+                       "1\n fresnel dielectric\n ior 1.5\n}\n"
+                       "plane floor {\n scale 20 20 1\n material mirror\n}\n"
+                       "plane ceiling {\n translate 0 0 3\n scale 20 20 1\n material mirror\n}\n";
+    for (int i = 0; i < 12; ++i)
+        text += cat("sphere s", i, " {\n translate ", 1.4 * (i % 4 - 1.5), ' ', 1.5 * (i / 4), " ",
+                    0.5 + i % 3, "\n radius 0.3\n material glass\n}\n");
+    const Image scalar = shot::render(text).color;
+    CHECK(shot::largest(scalar) > 0.2);
+    for (const Kernel& kernel : allKernels())
+        if (kernel.supported())
+            checkSame("balls", kernel.name, scalar,
+                      shot::render(text, [&](RenderSettings& s) { s.kernel = kernel.name; }).color);
 }
 
 TEST(sameBitsInCrops) {

@@ -61,11 +61,15 @@ TEST(specialisedFormsGiveTheSameBits) {
         {kPlain + kPoint + rectangle("true"), {.softLamps = true, .lampBodies = true}},
         {mirror + kPoint, {.bounces = true}},
         {textured + "}\n" + kPoint, {.textures = true}},
-        {pane + "}\n" + kPoint, {.seeThrough = true}},
+        {pane + "}\n" + kPoint, {.seeThrough = true, .branches = true}},
         {textured + " mirror 0.5 0.5 0.5\n}\n" + rectangle("true"),
          {.softLamps = true, .lampBodies = true, .bounces = true, .textures = true}},
         {pane + " mirror 0.2 0.2 0.2\n}\n" + kPoint + rectangle("true"),
-         {.softLamps = true, .lampBodies = true, .bounces = true, .seeThrough = true}},
+         {.softLamps = true,
+          .lampBodies = true,
+          .bounces = true,
+          .seeThrough = true,
+          .branches = true}},
     };
     for (const auto& [text, need] : kCases) {
         const std::string whole = kView.text() + kBall + text;
@@ -76,7 +80,7 @@ TEST(specialisedFormsGiveTheSameBits) {
         const Scene scene(desc, {"scene", ""}, settings);
         CHECK_INFO(stepsFor(scene, settings) == need, whole);
         settings.specialise = false;
-        CHECK_INFO(stepsFor(scene, settings) == (Steps{true, true, true, true, true}), whole);
+        CHECK_INFO(stepsFor(scene, settings) == (Steps{true, true, true, true, true, true}), whole);
         CHECK_INFO(shot::largest(checkedShot(whole).color) > 0.1, whole);
     }
 }

@@ -328,6 +328,41 @@ TEST(kernels_in_a_thicket) {
     CHECK(counts.hits > counts.rays / 2 && counts.hidden < counts.rays);
 }
 
+// Pencils of rays through long strips in all directions, whose boxes overlap everywhere: a bundle
+// looks at many more leaves than it has rays and goes on, and a ray enters up to all the boxes of a
+// node at once. Bundles that go too far give up: rays to all sides.
+TEST(kernels_among_wires) {
+    Random random(81);
+    Counts counts;
+    std::vector<std::array<Vec3, 3>> triangles;
+    for (int i = 0; i < 1500; ++i) {
+        const Vec3d from = random.inBox(1), along = random.direction() * random.uniform(0.2, 1.5);
+        const Vec3d across = normalize(cross(along, random.direction())) * 0.01;
+        const Vec3 a = toFloat(from), b = toFloat(from + across), c = toFloat(from + along),
+                   d = toFloat(from + along + across);
+        triangles.insert(triangles.end(), {{a, c, d}, {a, d, b}});
+    }
+    const Meshes meshes(meshes::geometryOf(triangles, false));
+    for (const auto& geometry : meshes.wide)
+        CHECK_INFO(geometry->wide.leavesPerRay > 12, geometry->wide.leavesPerRay);
+    for (int batch = 0; batch < check::scaled(12); ++batch) {
+        RayList pencil, others;
+        const Vec3d eye = random.inBox(batch % 2 == 0 ? 2 : 0.8);
+        const Vec3d ahead = targetOn(random, meshes.scalar) - eye;
+        const double width = std::exp2(random.uniform(-6, 0));
+        for (int i = 0; i < 300; ++i) {
+            const Vec3d dir = ahead + random.inBox(width) * length(ahead);
+            pencil.push({toFloat(eye), toFloat(dir), 0, i % 5 ? kInfinityF : 0.9f});
+            others.push({toFloat(random.inBox(1)), toFloat(random.direction()), 0, kInfinityF});
+        }
+        compare(meshes, pencil, "wires, pencil", counts);
+        compare(meshes, others, "wires, one by one", counts);
+    }
+    std::printf("%zu rays, %zu hits, %zu hidden, seed 81\n", counts.rays, counts.hits,
+                counts.hidden);
+    CHECK(counts.hits > counts.rays / 20 && counts.hits < counts.rays);
+}
+
 // Zero, infinite and NaN rays meet nothing, wherever in a batch they are.
 TEST(kernels_skip_broken_rays) {
     Random random(73);

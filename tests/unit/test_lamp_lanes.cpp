@@ -3,6 +3,7 @@
 #include "check.h"
 #include "light/point_light.h"
 #include "render/lamp_ray.h"
+#include "render/occluders.h"
 #include "render/waves/lamp_lanes.h"
 #include "sample/hash.h"
 #include "sample/sampler.h"
@@ -186,6 +187,7 @@ TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
                 Sampler(SamplerKind::Sobol, 4, random.below(std::size_t{1} << 32))
                     .stream(random.below(4), 16);
             SamplesOnLamp samples;
+            samples.points = random.chance(0.8) ? ~0u : random.below(1u << 16);
             samples.count = random.chance(0.4)   ? LitBySamples::kMost
                             : random.chance(0.2) ? 8
                                                  : 1 + random.below(16);
@@ -197,28 +199,53 @@ TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
                 const Sampler::PairSeeds seeds = sampler.pairSeeds(pixel[k], dimension);
                 samples.index[k] = seeds.index, samples.x[k] = seeds.x, samples.y[k] = seeds.y;
             }
+            // Points with rays, and points with sums that begin with the lamp before.
+            const unsigned withRays = random.below(1u << 16);
             LitBySamples out;
-            inLanes(*lamp.emission(), blockOf(points), samples, out);
-            for (std::size_t n = 0; n < used * samples.count; ++n) {
-                const std::size_t k = n / samples.count;
-                const auto s = samples.first[k] + static_cast<std::uint32_t>(n % samples.count);
-                const Point& p = points[k];
-                const LightSample sample =
-                    lamp.sample(p.surface.p, sampler.get2D(pixel[k], s, dimension));
-                const Rgb light = lightOf(lamp, p, sample, samples.share);
-                bool same = out.isLit(n) == !isBlack(light);
-                if (same && out.isLit(n)) {
-                    const auto taken = [&](const float(*v)[LitBySamples::kRoom]) {
-                        return Vec3{v[0][n], v[1][n], v[2][n]};
-                    };
-                    same = sameBits(taken(out.light), {light.r, light.g, light.b}) &&
-                           sameBits(taken(out.dir), sample.toLight) &&
-                           sameBits(out.tMax[n], sample.distance * (1 - 0x1p-20f));
-                }
-                ++asked, lit += out.isLit(n);
-                if (!same && ++wrong <= 3)
+            Rgb sums[16];
+            for (std::size_t k = 0; k < used; ++k) {
+                sums[k] = someLight(random, 0.5);
+                put(out.sum, k, {sums[k].r, sums[k].g, sums[k].b});
+            }
+            HiddenPoints hidden;
+            hidden.maybe = withRays;
+            inLanes(*lamp.emission(), blockOf(points), samples, Occluders(ShapeSet()), hidden, out);
+            const auto tell = [&](std::size_t k, std::size_t s) {
+                if (++wrong <= 3)
                     CHECK_INFO(false, kernel.name << " block " << i << " point " << k << " sample "
                                                   << s << " of " << samples.count);
+            };
+            for (std::size_t k = 0; k < used; ++k) {
+                const bool hasRays = (withRays >> k & 1) != 0;
+                for (std::size_t s = 0; s < samples.count; ++s) {
+                    const Point& p = points[k];
+                    const std::uint32_t number = samples.first[k] + static_cast<std::uint32_t>(s);
+                    const LightSample sample =
+                        lamp.sample(p.surface.p, sampler.get2D(pixel[k], number, dimension));
+                    const bool isAsked = (samples.points >> k & 1) != 0;
+                    const Rgb light = isAsked ? lightOf(lamp, p, sample, samples.share) : Rgb{};
+                    ++asked, lit += !isBlack(light);
+                    if (!hasRays) {
+                        sums[k] += light;
+                        if (out.isLit(s, k)) tell(k, s);
+                        continue;
+                    }
+                    bool same = out.isLit(s, k) == !isBlack(light) &&
+                                out.isUnsure(s, k) == out.isLit(s, k) &&
+                                (!out.isLit(s, k) || (out.waiting >> k & 1) != 0);
+                    if (same && out.isLit(s, k)) {
+                        const std::size_t n = s * LitBlock::kPoints + k;
+                        const auto taken = [&](const float(*v)[LitBySamples::kRoom]) {
+                            return Vec3{v[0][n], v[1][n], v[2][n]};
+                        };
+                        same = sameBits(taken(out.light), {light.r, light.g, light.b}) &&
+                               sameBits(taken(out.dir), sample.toLight) &&
+                               sameBits(out.tMax[n], sample.distance * (1 - 0x1p-20f));
+                    }
+                    if (!same) tell(k, s);
+                }
+                if (!sameBits(taken(out.sum, k), {sums[k].r, sums[k].g, sums[k].b}))
+                    tell(k, samples.count);
             }
         }
         std::printf("%s: %lld samples, %lld lit\n", kernel.name, asked, lit);
@@ -246,16 +273,19 @@ TEST(lamp_samples_in_lanes_take_the_seams_of_the_disk) {
             point.surface.lift = {}, point.weight = {1, 1, 1};
             point.material = {};
             SamplesOnLamp samples;
-            samples.count = 1;
+            samples.count = samples.points = 1;
             samples.index[0] = 1, samples.x[0] = x, samples.y[0] = y, samples.first[0] = sample;
             const sobol::Pair<std::uint32_t> bits =
                 sobol::sobolPair<std::uint32_t>(sample, 1, x, y);
             const Vec2 u{unitFloat(bits.x), unitFloat(bits.y)};
             CHECK_INFO(u.x == 0.5f || u.y == 0.5f || u.x == u.y || u.x + u.y == 1, sample);
             LitBySamples out;
-            inLanes(*lamp.emission(), blockOf({point}), samples, out);
+            HiddenPoints hidden;
+            hidden.maybe = 1;
+            inLanes(*lamp.emission(), blockOf({point}), samples, Occluders(ShapeSet()), hidden,
+                    out);
             const LightSample alone = lamp.sample(point.surface.p, u);
-            CHECK_INFO(out.isLit(0) &&
+            CHECK_INFO(out.isLit(0, 0) &&
                            sameBits({out.dir[0][0], out.dir[1][0], out.dir[2][0]}, alone.toLight),
                        kernel.name << " sample " << sample);
         }

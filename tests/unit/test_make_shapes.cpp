@@ -101,6 +101,25 @@ TEST(make_shapes_order_and_counts) {
     CHECK_INFO(stopped.shapes().shapes.size() == 3 + 2, stopped.shapes().shapes.size());
 }
 
+// A description that is handed over is the same scene, and its large parts are gone.
+TEST(make_shapes_let_go_of_the_description) {
+    const SceneDesc desc = mixed(300);
+    for (const std::uint64_t copied : {0u, 1u << 18}) {
+        const RenderSettings settings = settingsOf(desc, 2, copied);
+        const Scene kept(desc, {"t", ""}, settings);
+        SceneDesc spent = desc;
+        const Scene handed(std::move(spent), {"t", ""}, settings);
+        // What is left of it may be asked for: NOLINTNEXTLINE(bugprone-use-after-move)
+        CHECK(spent.objects.capacity() == 0 && spent.meshes.capacity() == 0);
+        CHECK(kept.shapes().boxes == handed.shapes().boxes &&
+              kept.shapes().shadows == handed.shapes().shadows);
+        CHECK_EQUAL(statsOf(kept).accel.sah, statsOf(handed).accel.sah);
+        CHECK(kept.moves() == handed.moves() && kept.lights().size() == handed.lights().size());
+        for (std::size_t i = 0; i < kept.features().size(); ++i)
+            CHECK(kept.features()[i].needed == handed.features()[i].needed);
+    }
+}
+
 TEST(make_shapes_do_not_depend_on_threads) {
     const SceneDesc desc = mixed(9000); // spheres in three jobs
     for (const std::uint64_t copied : {0u, 1u << 18})

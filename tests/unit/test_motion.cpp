@@ -109,6 +109,30 @@ TEST(motion_translation) {
     CHECK(hull.padded(1e-12).contains(moving.bounds(box))); // as tight as can be
 }
 
+// What lanes follow: the offset of the inverse, to the last bit, at keys and between them.
+TEST(motion_drift_is_the_inverse_of_at) {
+    Draw draw;
+    for (int n = 0; n < check::scaled(200); ++n) {
+        std::vector<Transform> keys{draw.transform(n % 2 == 0)};
+        for (int k = 0; k < 1 + n % 4; ++k)
+            keys.push_back(Transform::translate(draw.vector(5)) * keys[0]);
+        const MovingTransform moving(keys);
+        const auto drift = moving.drift();
+        CHECK(drift.has_value());
+        if (!drift) continue;
+        for (int k = -1; k < 40; ++k) {
+            const double time = k < 9 ? k / 8.0 : draw.uniform(-0.1, 1.1);
+            const AffineRows inverse = moving.at(time).inverseRows();
+            CHECK_INFO((drift->offsetAt(time) == Vec3d{inverse[3], inverse[7], inverse[11]}),
+                       "motion " << n << " time " << time);
+        }
+        keys.back() = keys.back() * Transform::rotate({0, 0, 1}, 0.1);
+        CHECK(!MovingTransform(keys).drift());
+        keys.back() = Transform::scale(0);
+        CHECK(!MovingTransform(keys).drift());
+    }
+}
+
 // No point at any time leaves the box: 2e5 random points, times and motions.
 TEST(motion_bounds) {
     Draw draw;

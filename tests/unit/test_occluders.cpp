@@ -13,11 +13,19 @@ namespace {
 ShapeSet scatter(Random& random, int count) {
     ShapeSet set;
     for (int i = 0; i < count; ++i) {
-        const kit::Kind& kind = kit::kinds()[random.below(kit::kinds().size())];
+        // Spheres are told more of.
+        const kit::Kind& kind = random.chance(0.4)
+                                    ? kit::kindNamed("sphere")
+                                    : kit::kinds()[random.below(kit::kinds().size())];
         Vec3d factors{random.logUniform(0.05, 0.5), random.logUniform(0.05, 0.5),
                       random.logUniform(0.05, 0.5)};
         if (random.coin()) factors = Vec3d{1, 1, 1} * factors.x;
-        set.add(kind.make(kit::placed(random, factors, random.inBox(0.6))),
+        // Upright ones fill their boxes.
+        const Vec3d at = random.inBox(0.6);
+        const Transform map = random.chance(0.4)
+                                  ? Transform::translate(at) * Transform::scale(factors)
+                                  : kit::placed(random, factors, at);
+        set.add(kind.make(map),
                 random.chance(0.2) ? ShapeSet::Shadow::SeeThrough : ShapeSet::Shadow::Opaque);
     }
     set.finish(true);
@@ -76,41 +84,60 @@ TEST(occluders_never_miss_one) {
                clear << " clear, " << shaded << " shaded");
 }
 
+namespace {
+
+// Places where rays have met a set of shapes, as lanes want them.
+struct MetPoints {
+    LitBlock block{};
+    std::vector<Vec3> starts, sides;
+};
+MetPoints meet(Random& random, const ShapeSet& set) {
+    MetPoints met;
+    LitBlock& block = met.block;
+    for (int k = 0; k < 60 && met.starts.size() < LitBlock::kPoints; ++k) {
+        const Ray ray = kit::rayThrough(random.outwards(1.5, 3), random.inBox(0.7));
+        const Hit hit = set.closest(ray);
+        if (!hit.isHit()) continue;
+        const Surface s = set.shapes[hit.shape]->surface(ray, hit);
+        const bool isBack = dot(s.ng, ray.dir) > 0;
+        const std::size_t to = met.starts.size();
+        const Vec3 side = isBack ? -s.ng : s.ng;
+        const Vec3 lift = random.chance(0.2) ? side * 1e-3f : Vec3{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            block.p[axis][to] = s.p[axis], block.lift[axis][to] = lift[axis];
+            block.n[axis][to] = block.ng[axis][to] = side[axis];
+            block.weight[axis][to] = block.diffuse[axis][to] = 1;
+        }
+        block.shape[to] = hit.shape;
+        block.used |= 1u << to;
+        if (isBack) block.inside |= 1u << to;
+        met.starts.push_back(s.p + side * s.error + lift), met.sides.push_back(side);
+    }
+    return met;
+}
+
+} // namespace
+
 // The same for each point by itself, by the lanes of every kernel, and a lamp with a size.
 TEST(occluders_in_lanes_never_miss_one) {
     Random random(512);
-    int clear = 0, shaded = 0, known = 0;
+    int clear = 0, shaded = 0, known = 0, dark = 0;
     for (int i = 0; i < check::scaled(600); ++i) {
         const ShapeSet set = scatter(random, 1 + static_cast<int>(random.below(8)));
         const Occluders occluders(set);
-        LitBlock block{};
-        std::vector<Vec3> starts, sides;
-        for (int k = 0; k < 60 && starts.size() < LitBlock::kPoints; ++k) {
-            const Ray ray = kit::rayThrough(random.outwards(1.5, 3), random.inBox(0.7));
-            const Hit hit = set.closest(ray);
-            if (!hit.isHit()) continue;
-            const Surface s = set.shapes[hit.shape]->surface(ray, hit);
-            const bool isBack = dot(s.ng, ray.dir) > 0;
-            const std::size_t to = starts.size();
-            const Vec3 side = isBack ? -s.ng : s.ng;
-            const Vec3 lift = random.chance(0.2) ? side * 1e-3f : Vec3{};
-            for (std::size_t axis = 0; axis < 3; ++axis)
-                block.p[axis][to] = s.p[axis], block.lift[axis][to] = lift[axis];
-            block.shape[to] = hit.shape;
-            block.used |= 1u << to;
-            if (isBack) block.inside |= 1u << to;
-            starts.push_back(s.p + side * s.error + lift), sides.push_back(side);
-        }
+        const auto [block, starts, sides] = meet(random, set);
         PointEmission lamp{toFloat(random.inBox(2)), {1, 1, 1}, {}, 0};
-        lamp.radius = static_cast<float>(random.logUniform(1e-3, 1));
+        lamp.radius = static_cast<float>(random.logUniform(1e-3, random.coin() ? 1 : 0.1));
         for (const Kernel& kernel : allKernels()) {
-            const MayBeHiddenFn inLanes = kernel.supported() ? mayBeHidden(kernel) : nullptr;
+            const HiddenPointsFn inLanes = kernel.supported() ? hiddenPoints(kernel) : nullptr;
             if (!inLanes) continue;
-            const unsigned hidden = inLanes(occluders, block, lamp);
+            const HiddenPoints found = inLanes(occluders, block, lamp);
+            const unsigned hidden = found.maybe, surely = found.surely;
             CHECK_INFO((hidden & ~block.used) == 0, kernel.name << " case " << i);
+            CHECK_INFO((surely & ~hidden) == 0, kernel.name << " case " << i);
             for (std::size_t k = 0; k < starts.size(); ++k) {
-                const bool mayHide = (hidden >> k & 1) != 0;
-                known += !mayHide;
+                const bool mayHide = (hidden >> k & 1) != 0, hides = (surely >> k & 1) != 0;
+                known += !mayHide, dark += hides;
                 for (int n = 0; n < 6; ++n) {
                     const Vec3 place =
                         lamp.position + toFloat(random.direction() *
@@ -120,17 +147,73 @@ TEST(occluders_in_lanes_never_miss_one) {
                     const Ray ray{starts[k], way, 0, 1, 0};
                     std::vector<Hit> through;
                     set.seeThroughHits(ray, through);
-                    const bool isHidden = set.occluded(ray) || !through.empty();
+                    const bool isOpaque = set.occluded(ray);
+                    const bool isHidden = isOpaque || !through.empty();
                     CHECK_INFO(!isHidden || mayHide,
                                kernel.name << " case " << i << " point " << k);
+                    CHECK_INFO(isOpaque || !hides, kernel.name << " case " << i << " point " << k);
                     ++(isHidden ? shaded : clear);
                 }
             }
         }
     }
     CHECK_INFO(clear > check::scaled(1000) && shaded > check::scaled(1000) &&
-                   known > check::scaled(1000),
-               clear << " clear, " << shaded << " shaded, " << known << " points known");
+                   known > check::scaled(1000) && dark > check::scaled(100),
+               clear << " clear, " << shaded << " shaded, " << known << " points known, " << dark
+                     << " of them dark");
+}
+
+// What is said of single lines to the lamp is what their shadow rays say.
+TEST(occluders_in_lanes_know_lines) {
+    Random random(513);
+    int clear = 0, hidden = 0, unsure = 0, wrong = 0;
+    for (int i = 0; i < check::scaled(400); ++i) {
+        const ShapeSet set = scatter(random, 1 + static_cast<int>(random.below(8)));
+        const Occluders occluders(set);
+        const MetPoints met = meet(random, set);
+        PointEmission lamp{toFloat(random.inBox(2)), {1, 1, 1}, {}, 0};
+        lamp.radius = static_cast<float>(random.logUniform(1e-3, 1));
+        SamplesOnLamp samples;
+        samples.count = LitBySamples::kMost, samples.points = met.block.used;
+        for (std::size_t k = 0; k < LitBlock::kPoints; ++k)
+            samples.index[k] = random.below(1u << 31), samples.x[k] = random.below(1u << 31),
+            samples.y[k] = random.below(1u << 31);
+        for (const Kernel& kernel : allKernels()) {
+            const LightBySamplesFn inLanes = kernel.supported() ? lightBySamples(kernel) : nullptr;
+            if (!inLanes) continue;
+            LitBySamples all, told; // with a ray for each line, and with what is known
+            HiddenPoints none;
+            none.maybe = met.block.used;
+            inLanes(lamp, met.block, samples, occluders, none, all);
+            const HiddenPoints found = hiddenPoints(kernel)(occluders, met.block, lamp);
+            inLanes(lamp, met.block, samples, occluders, found, told);
+            for (std::size_t n = 0; n < LitBySamples::kRoom; ++n) {
+                const std::size_t s = n / LitBlock::kPoints, k = n % LitBlock::kPoints;
+                if (!all.isLit(s, k) || (found.maybe >> k & 1) == 0) continue;
+                if (told.isUnsure(s, k)) {
+                    wrong += !told.isLit(s, k), ++unsure;
+                    continue;
+                }
+                const Ray ray{met.starts[k],
+                              {all.dir[0][n], all.dir[1][n], all.dir[2][n]},
+                              0,
+                              all.tMax[n],
+                              0};
+                std::vector<Hit> through;
+                set.seeThroughHits(ray, through);
+                const bool isRight =
+                    told.isLit(s, k) ? !set.occluded(ray) && through.empty() : set.occluded(ray);
+                ++(told.isLit(s, k) ? clear : hidden);
+                if (!isRight && ++wrong <= 3)
+                    CHECK_INFO(false,
+                               kernel.name << " case " << i << " point " << k << " sample " << s);
+            }
+        }
+    }
+    CHECK_EQUAL(wrong, 0);
+    CHECK_INFO(clear > check::scaled(2000) && hidden > check::scaled(300) &&
+                   unsure > check::scaled(5000),
+               clear << " clear, " << hidden << " hidden, " << unsure << " unsure");
 }
 
 // And it is said where it is plain to see.

@@ -1,5 +1,5 @@
-// Surfaces of many hits on spheres, cylinders and planes: every kernel gives the bits of asking hit
-// by hit, whichever rays of the batch have met which shape.
+// Surfaces of many hits on shapes with a formula: every kernel gives the bits of asking hit by hit,
+// whichever rays of the batch have met which shape.
 #include "analytic_kit.h"
 #include "check.h"
 #include "shape/checkered.h"
@@ -52,8 +52,9 @@ std::size_t checkShapes(const Shapes& shapes, const std::vector<Transform>& maps
         tMin.push_back(ray.tMin), tMax.push_back(ray.tMax), time.push_back(ray.time);
         hits.emplace_back();
         if (random.chance(missing) || !shapes[number]->intersect(ray, hits.back())) continue;
+        if (random.chance(0.3)) hits.back().u = 0; // off the surface
         const StillShape* const shade = shapes[number]->roundToShade();
-        if (shade->part != hits.back().prim) continue; // the cap of a cylinder
+        if ((shade->parts >> hits.back().prim & 1) == 0) continue; // the cap of a cylinder
         which.push_back(i), to.push_back(i);
         met.push_back(shapes[number].get()), toShade.push_back(shade);
     }
@@ -63,12 +64,13 @@ std::size_t checkShapes(const Shapes& shapes, const std::vector<Transform>& maps
     for (const Kernel& kernel : allKernels()) {
         const RoundSurfacesFn lanes = surfaceLanes(kernel).round;
         if (!kernel.supported() || lanes == nullptr) continue;
-        std::vector<std::pair<int, Surface>> out(hits.size());
-        lanes({rays, hits, which, to, toShade}, {&out[0].second, sizeof(out[0])});
+        std::vector<SurfaceBlock> out(4);
+        const SurfacePlaces places(out.data());
+        lanes({rays, hits, which, to, toShade}, places);
         for (std::size_t k = 0; k < which.size(); ++k) {
             Surface alone = met[k]->surfaceFor(rays[which[k]], hits[which[k]], {false, true});
             alone.uv = {}; // lanes are not asked for them
-            CHECK_INFO(sameBits(out[to[k]].second, alone),
+            CHECK_INFO(sameBits(places[to[k]].surface(), alone),
                        std::string(kernel.name) + ", hit " + std::to_string(k) + " of " +
                            std::to_string(which.size()) + ", ray " + std::to_string(which[k]));
         }
@@ -111,6 +113,35 @@ TEST(cylinder_surfaces_are_those_of_single_hits) {
     });
 }
 
+TEST(cone_surfaces_are_those_of_single_hits) {
+    Random random(3306);
+    checkKind(random, [&](const Transform& map, double radius, std::uint32_t k) {
+        // Up to the tip and around it, where points go down the side.
+        const double top = k % 3 == 0 ? 0 : random.uniform(0, 2);
+        return std::make_unique<const Cone>(map, radius, top * radius, k % 2 == 0, 7 + k, 9 + k);
+    });
+}
+
+TEST(cube_surfaces_are_those_of_single_hits) {
+    Random random(3307);
+    checkKind(random, [](const Transform& map, double, std::uint32_t k) {
+        return std::make_unique<const Cube>(map, 7 + k, 9 + k);
+    });
+}
+
+TEST(disk_and_corner_surfaces_are_those_of_single_hits) {
+    Random random(3308);
+    checkKind(random, [](const Transform& map, double radius, std::uint32_t k) {
+        return std::make_unique<const Disk>(map, radius, 7 + k, 9 + k);
+    });
+    checkKind(random, [&](const Transform& map, double radius, std::uint32_t k) {
+        Plane::Corners corners = kit::kQuad;
+        for (Vec3d& corner : corners) corner = corner * radius + Vec3d{0, 0, random.unit()};
+        corners[3] = corners[0] + corners[2] - corners[1]; // in their plane
+        return std::make_unique<const Plane>(map, corners, 7 + k, 9 + k);
+    });
+}
+
 TEST(plane_surfaces_are_those_of_single_hits) {
     Random random(3305);
     checkKind(random, [&](const Transform& map, double, std::uint32_t k) {
@@ -132,12 +163,17 @@ TEST(round_surfaces_of_moving_and_flat_shapes_are_not_for_lanes) {
         CHECK(Sphere(moving, 1, 2, 3).roundToShade() == nullptr);
         CHECK(Cylinder(moving, 1, false, 2, 3).roundToShade() == nullptr);
         CHECK(InfinitePlane(moving, 2, 3).roundToShade() == nullptr);
+        CHECK(Cone(moving, 1, 0, true, 2, 3).roundToShade() == nullptr);
+        CHECK(Cube(moving, 2, 3).roundToShade() == nullptr);
         const Transform flat = kit::randomMap(random) * Transform::scale({1, 1, 0});
         CHECK(Sphere(flat, 1, 2, 3).roundToShade() == nullptr);
         CHECK(Cylinder(flat, 1, false, 2, 3).roundToShade() == nullptr);
         CHECK(InfinitePlane(flat, 2, 3).roundToShade() == nullptr);
+        CHECK(Cube(flat, 2, 3).roundToShade() == nullptr);
         CHECK(Sphere(keys[0], 1, 2, 3).roundToShade() != nullptr);
         CHECK(Cylinder(keys[0], 1, true, 2, 3).roundToShade() != nullptr);
         CHECK(InfinitePlane(keys[0], 2, 3).roundToShade() != nullptr);
+        CHECK(Cone(keys[0], 1, 0, true, 2, 3).roundToShade() != nullptr);
+        CHECK(Cube(keys[0], 2, 3).roundToShade() != nullptr);
     }
 }

@@ -27,10 +27,18 @@ MovingTransform place(Random& random, bool moves) {
     return MovingTransform(std::span<const Transform>(keys));
 }
 
-// The same shapes twice: with a tree and without.
+// The widest kernel that this machine has.
+const Kernel& someKernel() {
+    const Kernel* best = &chooseKernel("scalar");
+    for (const Kernel& kernel : allKernels())
+        if (kernel.supported() && kernel.width > best->width) best = &kernel;
+    return *best;
+}
+
+// The same shapes: with a tree, without, and with the trees of a kernel.
 struct Scene {
-    std::vector<std::unique_ptr<MeshGeometry>> geometries;
-    ShapeSet tree, linear;
+    std::vector<std::unique_ptr<MeshGeometry>> geometries, wideGeometries;
+    ShapeSet tree, linear, wide;
 
     explicit Scene(std::uint64_t seed) {
         Random random(seed);
@@ -45,6 +53,8 @@ struct Scene {
              {meshes::icosphere(2), meshes::cube(), meshes::torus(0.3, 16, 8), soup}) {
             geometries.push_back(std::make_unique<MeshGeometry>(toSharedGeometry(desc)));
             geometries.back()->finish(true);
+            wideGeometries.push_back(std::make_unique<MeshGeometry>(toSharedGeometry(desc)));
+            wideGeometries.back()->finish(true, someKernel());
         }
         MovingTransform last;
         for (std::size_t n = 0; n < 240; ++n) {
@@ -56,7 +66,7 @@ struct Scene {
                                   : shadowNumber < 9 ? Shadow::SeeThrough
                                                      : Shadow::None;
             const std::size_t kind = n % (kinds.size() + geometries.size());
-            for (ShapeSet* set : {&tree, &linear}) {
+            for (ShapeSet* set : {&tree, &linear, &wide}) {
                 std::unique_ptr<const Shape> shape;
                 // Few planes without end, or nothing else would be seen.
                 if (kind < kinds.size()) {
@@ -64,15 +74,16 @@ struct Scene {
                     shape = kinds[endless && n > 100 ? 0 : kind].make(map);
                 } else {
                     const std::size_t mesh = kind - kinds.size();
-                    shape = std::make_unique<MeshInstance>(*geometries[mesh], map,
-                                                           std::vector<std::uint32_t>{0},
-                                                           static_cast<std::uint32_t>(n));
+                    shape = std::make_unique<MeshInstance>(
+                        *(set == &wide ? wideGeometries : geometries)[mesh], map,
+                        std::vector<std::uint32_t>{0}, static_cast<std::uint32_t>(n));
                 }
                 set->add(std::move(shape), shadow);
             }
         }
         tree.finish(true);
         linear.finish(false);
+        wide.finish(true, someKernel(), 2);
     }
 };
 
@@ -116,24 +127,31 @@ TEST(shape_set_tree_equals_linear_search) {
     for (std::uint64_t seed = 61; seed < 61 + check::scaled(4u); ++seed) {
         const Scene scene(seed);
         CHECK(!scene.tree.bvh.nodes.empty() && scene.linear.bvh.nodes.empty());
+        // A kernel's trees are the only ones.
+        const bool hasKernel = someKernel().width > 0;
+        CHECK(scene.wide.bvh.nodes.empty() == hasKernel &&
+              scene.wide.solids().lines.empty() == !hasKernel);
         CHECK(scene.tree.unbounded.size() >= 4 && scene.tree.shapes.size() == 240);
         Random random(seed + 1000);
-        std::vector<Hit> a, b;
+        std::vector<Hit> a, b, c;
         for (int i = 0; i < 52000; ++i) {
             const Ray ray = someRay(random, scene.tree);
             const auto nearer = nearerIn(scene.tree, ray);
             ++rays;
             const Hit hit = scene.tree.closest(ray);
-            if (!(hit == scene.linear.closest(ray)) && ++closestWrong <= 3)
+            if (!(hit == scene.linear.closest(ray) && hit == scene.wide.closest(ray)) &&
+                ++closestWrong <= 3)
                 CHECK_INFO(false, "seed " << seed << " ray " << i);
             hits += hit.isHit();
             const bool occluded = scene.tree.occluded(ray);
-            if (occluded != scene.linear.occluded(ray)) ++anyWrong;
-            a.clear(), b.clear();
+            if (occluded != scene.linear.occluded(ray) || occluded != scene.wide.occluded(ray))
+                ++anyWrong;
+            a.clear(), b.clear(), c.clear();
             scene.tree.seeThroughHits(ray, a);
             scene.linear.seeThroughHits(ray, b);
+            scene.wide.seeThroughHits(ray, c);
             collected += static_cast<long long>(a.size());
-            if (a != b || !std::is_sorted(a.begin(), a.end(), nearer)) ++seeThroughWrong;
+            if (a != b || a != c || !std::is_sorted(a.begin(), a.end(), nearer)) ++seeThroughWrong;
 
             if (i % 16 != 0) continue; // every shape, without any box
             Hit best;

@@ -163,6 +163,9 @@ TEST(texture_points_get_the_numbers_of_their_materials) {
             m.diffuse = maybe(), m.specular = maybe(), m.emission = maybe(), m.opacity = maybe();
         }
         const std::size_t count = 1 + random.below(400);
+        PointColumns columns;
+        columns.setMaterials(materials);
+        columns.resize(count);
         std::vector<ShadedPoint> at(count);
         std::vector<Material> numbers(count);
         points.clear();
@@ -171,10 +174,12 @@ TEST(texture_points_get_the_numbers_of_their_materials) {
             at[k].of = k > 0 && random.chance(0.7) ? at[k - 1].of
                                                    : &materials[random.below(materials.size())];
             at[k].surface.uv = {someCoordinate(random, 8), someCoordinate(random, 8)};
+            at[k].surface.material = static_cast<std::uint32_t>(at[k].of - materials.data());
+            columns.put(k, at[k]);
             points.add(*at[k].of, static_cast<std::uint32_t>(k));
         }
         const Kernel& kernel = allKernels()[random.below(allKernels().size())];
-        points.apply(kernel.supported() ? textureColors(kernel) : nullptr, at, numbers);
+        points.apply(kernel.supported() ? textureColors(kernel) : nullptr, columns, numbers);
         for (std::size_t k = 0; k < count; ++k) {
             const Material alone = materialAt(at[k]);
             ++asked;

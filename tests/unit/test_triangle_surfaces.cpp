@@ -87,14 +87,14 @@ TEST(triangle_surfaces_are_those_of_single_hits) {
             if (!kernel.supported()) continue;
             for (const SurfaceNeeds needs :
                  {SurfaceNeeds{true, true}, {false, true}, {false, false}}) {
-                std::vector<std::pair<int, Surface>> out(hits.size());
-                mesh.surfaces({rays, hits, which, to, needs, surfaceLanes(kernel)},
-                              {&out[0].second, sizeof(out[0])});
+                std::vector<SurfaceBlock> out(4);
+                const SurfacePlaces places(out.data());
+                mesh.surfaces({rays, hits, which, to, needs, surfaceLanes(kernel)}, places);
                 for (std::size_t k = 0; k < which.size(); ++k) {
                     const std::uint32_t i = which[k];
                     const Surface alone = mesh.surfaceFor(rays[i], hits[i], needs);
                     smooth += !sameBits(alone.ns, alone.ng), lifted += alone.lift != Vec3{};
-                    CHECK_INFO(sameBits(out[to[k]].second, alone),
+                    CHECK_INFO(sameBits(places[to[k]].surface(), alone),
                                std::string(kernel.name) + ", round " + std::to_string(round) +
                                    ", hit " + std::to_string(k) + " of " +
                                    std::to_string(which.size()));

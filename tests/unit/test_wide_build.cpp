@@ -77,6 +77,8 @@ bool sameBytes(const WideTree& a, const WideTree& b) {
     return a.width == b.width && a.root == b.root && a.stackSize == b.stackSize &&
            a.nodes == b.nodes && a.leaves == b.leaves &&
            std::bit_cast<std::uint64_t>(a.sah) == std::bit_cast<std::uint64_t>(b.sah) &&
+           std::bit_cast<std::uint32_t>(a.leavesPerRay) ==
+               std::bit_cast<std::uint32_t>(b.leavesPerRay) &&
            a.triangleIds == b.triangleIds && a.lines.size() == b.lines.size() &&
            std::memcmp(a.base(), b.base(), a.lines.size() * sizeof(WideTree::Line)) == 0;
 }
@@ -95,6 +97,11 @@ public:
         if (nodes_ != tree.nodes || leaves_ != tree.leaves) wrong("numbers of nodes or leaves");
         if (std::uint64_t{tree.stackSize} < std::uint64_t{depth_} * (W - 1) + 1) wrong("stack");
         if (depth_ > 96) wrong("depth");
+        // Half areas in float, of which the builder's are not these bits.
+        const double rootArea = static_cast<double>(halfArea(all));
+        const double perRay = rootArea > 0 ? leafArea_ / rootArea : 0;
+        if (!(std::fabs(static_cast<double>(tree.leavesPerRay) - perRay) <= 1e-5 * perRay))
+            wrong("leaves per ray");
     }
     std::string text() const { return text_; }
 
@@ -154,6 +161,7 @@ private:
 
     void visitLeaf(const WideLeaf<W>& leaf, const Bounds& within) {
         ++leaves_;
+        leafArea_ += static_cast<double>(halfArea(within));
         if (leaf.count == 0 || leaf.count > W) return wrong("size of a leaf");
         float sides = 0; // half areas of the triangles' boxes
         for (std::size_t i = 0; i < leaf.count; ++i) {
@@ -180,6 +188,7 @@ private:
     const Input& in_;
     std::vector<int> seen_;
     std::uint64_t nodes_ = 0, leaves_ = 0;
+    double leafArea_ = 0;
     std::uint32_t depth_ = 0;
     std::string text_;
 };

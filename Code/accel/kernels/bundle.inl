@@ -25,6 +25,7 @@ public:
                std::vector<std::uint32_t>& givenBack) {
         leaves_ = 0;
         mostLeaves_ = list.size() + list.size() / 4 + 16;
+        mostWork_ = kWorthwhile * mesh_.tree.leavesPerRay * static_cast<float>(list.size());
         rays_.load(list);
         rays_.refuse(results);
         while (rays_.nextRound()) {
@@ -55,7 +56,7 @@ private:
             if (kindOf(at) == WideKind::Node) {
                 enter(mesh_.tree.at<WideNode<W>>(at));
             } else {
-                if (leaves_ > mostLeaves_) return false;
+                if (leaves_ > mostLeaves_ && work() > mostWork_) return false;
                 ++leaves_;
                 leaf_.test(at);
             }
@@ -113,6 +114,12 @@ private:
         return bits(ahead & meets(rays_.kx, rays_.x) & meets(rays_.ky, rays_.y));
     }
 
+    // A bundle may look at more leaves than it has rays where each of them alone would look at
+    // many. In the time of a bundle's leaf it tests two pairs, and a ray alone meets two leaves, of
+    // which things hide about half.
+    static constexpr float kWorthwhile = 0.25f;
+    float work() const { return static_cast<float>(leaves_ + leaf_.pairs() / 2); }
+
     static constexpr int kNodeLines = sizeof(WideNode<W>) / 64;
     static constexpr int kLeafLines = sizeof(WideLeaf<W>) / 64;
 
@@ -122,6 +129,7 @@ private:
     Entry* stack_;
     std::uint32_t size_ = 0;
     std::size_t leaves_ = 0, mostLeaves_ = 0;
+    float mostWork_ = 0;
 };
 
 // How many rays make a bundle: large bundles of fine triangles touch too many of them, and in a
@@ -135,8 +143,10 @@ public:
         --pause_;
         return true;
     }
-    void learn(std::size_t leaves, bool gaveUp) {
-        if (leaves > kManyLeaves) size_ = kFewRays;
+    // `leavesPerRay`: of the tree. Where rays meet many leaves anyway, neighbours meet the same.
+    void learn(std::size_t leaves, float leavesPerRay, bool gaveUp) {
+        const float many = ::max(kManyLeaves, kManyTimes * leavesPerRay);
+        if (static_cast<float>(leaves) > many) size_ = kFewRays;
         if (leaves > 0 && leaves < kFewLeaves) size_ = BundleRays<Q>::kMostRays;
         // Twice as long a pause every time that the next try fails too.
         lastPause_ = gaveUp ? std::min(2 * lastPause_ + 1, kLongestPause) : lastPause_ / 2;
@@ -144,7 +154,8 @@ public:
     }
 
 private:
-    static constexpr std::size_t kFewRays = 64, kFewLeaves = 6, kManyLeaves = 40;
+    static constexpr std::size_t kFewRays = 64, kFewLeaves = 6;
+    static constexpr float kManyLeaves = 40, kManyTimes = 15;
     static constexpr unsigned kLongestPause = 31;
     std::size_t size_ = BundleRays<Q>::kMostRays;
     unsigned pause_ = 0, lastPause_ = 0; // in bundles
@@ -172,7 +183,8 @@ void traceFromPoint(const WideMesh& mesh, const RaySpan& rays, std::span<const s
         }
         const std::size_t before = givenBack.size();
         bundle.trace(list, results, givenBack);
-        size.learn(bundle.leaves(), givenBack.size() - before > list.size() / 2);
+        size.learn(bundle.leaves(), mesh.tree.leavesPerRay,
+                   givenBack.size() - before > list.size() / 2);
     }
     if (givenBack.empty()) return;
     if constexpr (Q == Query::Any)

@@ -14,6 +14,7 @@ public:
     // Behind BundleRays::nextRound().
     void start() {
         best_.start();
+        pairs_ = 0;
         zCut_ = best_.depthLimit();
     }
 
@@ -24,10 +25,14 @@ public:
         const auto& leaf = mesh_.tree.at<WideLeaf<W>>(ref);
         if (!block_.setUp(rays_, leaf, best_.open(), zCut_)) return;
         hasPlanes_ = false;
+        pairs_ += static_cast<std::size_t>(block_.pairs);
         if (!testPairs(leaf, keys_.placeOf(ref))) return;
         if constexpr (Q == Query::Any) best_.closePackets();
         zCut_ = best_.depthLimit();
     }
+
+    // That have been tested.
+    std::size_t pairs() const { return pairs_; }
 
     template <class Results> void finish(const Results& results) { best_.write(results); }
 
@@ -107,6 +112,7 @@ private:
     BundleKeys<Q> keys_;
     BundleBest<Q> best_;
     float zCut_ = 0;
+    std::size_t pairs_ = 0;
     BundleBlock<Q> block_;
     bool hasPlanes_ = false; // of the leaf's triangles: only some leaves need them
     BundlePlaneList planes_;

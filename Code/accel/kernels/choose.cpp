@@ -1,4 +1,5 @@
 // The table of kernels, and what the CPU has of it.
+#include "accel/kernels/cpu.h"
 #include "accel/kernels/instances.h"
 
 #include "base/error.h"
@@ -8,18 +9,6 @@
 
 namespace {
 
-#if defined(__x86_64__)
-bool hasSse() { return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt"); }
-bool hasAvx2() {
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-           __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
-}
-bool hasAvx512() {
-    return hasAvx2() && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-           __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
-           __builtin_cpu_supports("avx512cd");
-}
-#endif
 bool always() { return true; }
 
 constexpr Kernel kTable[] = {

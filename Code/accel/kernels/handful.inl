@@ -76,7 +76,7 @@ private:
                 s.x[c] = Floats::load(x[i]), s.y[c] = Floats::load(y[i]);
                 s.z[c] = Floats::load(z[i]);
             }
-            const Judged judged = judge(s, axes.sign);
+            const Judged judged = judge(s, Edges(s), axes.sign);
             if constexpr (Q == Query::Any) hidden_ |= judged.certain(zCut_) & endless_ & lanes;
             const unsigned candidates = judged.candidates(zCut_) & lanes & ~hidden_;
             if (candidates == 0) continue;

@@ -1,8 +1,9 @@
 // The table of placed kernels, and how deep their stacks become.
 #include "accel/kernels/placed.h"
 
+#include "accel/kernels/by_kernel.h"
+
 #include <algorithm>
-#include <string_view>
 
 namespace {
 
@@ -25,27 +26,18 @@ std::uint32_t stackSize(const SolidTree& tree) {
     return 1 + (tree.width == 16 ? stackBelow<16>(tree, kRoot) : stackBelow<8>(tree, kRoot));
 }
 
-#define PLACED_FUNCTIONS(isa)                                                                      \
+#define DECLARE(isa)                                                                               \
     namespace kernels::isa {                                                                       \
     void closestPlaced(const PlacedTree&, PlacedQuery&, const RaySpan&,                            \
                        std::span<const std::uint32_t>);                                            \
     void anyPlaced(const PlacedTree&, PlacedQuery&, const RaySpan&,                                \
                    std::span<const std::uint32_t>);                                                \
     }
-PLACED_FUNCTIONS(sse)
-PLACED_FUNCTIONS(avx2)
-PLACED_FUNCTIONS(avx512)
-#undef PLACED_FUNCTIONS
+DECLARE_BY_KERNEL(DECLARE)
+#define ROW(isa)                                                                                   \
+    { kernels::isa::closestPlaced, kernels::isa::anyPlaced }
 
 const PlacedKernel* placedKernel(const Kernel& kernel) {
-#if defined(__x86_64__)
-    static constexpr PlacedKernel kTable[] = {
-        {"avx512", kernels::avx512::closestPlaced, kernels::avx512::anyPlaced},
-        {"avx2", kernels::avx2::closestPlaced, kernels::avx2::anyPlaced},
-        {"sse", kernels::sse::closestPlaced, kernels::sse::anyPlaced},
-    };
-    for (const PlacedKernel& row : kTable)
-        if (std::string_view(row.name) == kernel.name) return &row;
-#endif
-    return nullptr;
+    static constexpr ByKernel<PlacedKernel> kTable = BY_KERNEL(ROW);
+    return kTable.of(kernel);
 }

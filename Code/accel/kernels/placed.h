@@ -57,7 +57,6 @@ struct PlacedTree {
 std::uint32_t stackSize(const SolidTree& tree);
 
 struct PlacedKernel {
-    const char* name; // of the Kernel that it belongs to
     static constexpr std::uint32_t kSlots = 64;
     // Only rays in `order` are looked at. Those of nearest hits go to near meshes and boxes first.
     void (*closest)(const PlacedTree&, PlacedQuery&, const RaySpan&,

@@ -15,7 +15,6 @@ struct PlaneHit {
 };
 
 struct PlaneKernel {
-    const char* name; // of the Kernel that it belongs to
     // The hits that are not behind the best ones so far, in the order of the rays, into a list with
     // room for all rays. Returns how many.
     std::size_t (*closest)(const StillPlane& plane, const RaySpan& rays, std::span<const Hit> best,

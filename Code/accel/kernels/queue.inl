@@ -30,16 +30,15 @@ public:
             std::swap(now, next);
             next.nodeCount = next.leafCount = next.doneCount = 0;
             for (std::uint32_t i = 0; i < now.nodeCount; ++i) nodeStep(now.nodes[i], next);
-            if (Q == Query::Closest && meetsOften_)
-                for (std::uint32_t i = 0; i < now.leafCount; ++i)
-                    leafStep<true>(now.leaves[i], next);
+            besideCount_ = 0;
+            if (Q == Query::Closest && leafMeetings_ == Meetings::Many)
+                leafSteps<Meetings::Many>(now, next);
+            else if (leafMeetings_ == Meetings::Few)
+                leafSteps<Meetings::Few>(now, next);
             else
-                for (std::uint32_t i = 0; i < now.leafCount; ++i)
-                    leafStep<false>(now.leaves[i], next);
-            if constexpr (Q == Query::Closest) {
-                meetsOften_ = metCount_ * 3 > now.leafCount;
-                acceptMet(next);
-            }
+                leafSteps<Meetings::Some>(now, next);
+            learnMeetings(now.leafCount);
+            if constexpr (Q == Query::Closest) acceptMet(next);
             if (waitingPairs_ >= W || next.nodeCount + next.leafCount < kFewBusy)
                 settleWaiting(next);
             for (std::uint32_t i = 0; i < next.doneCount; ++i) {
@@ -60,6 +59,10 @@ private:
     static constexpr std::uint32_t kFewBusy = kSlots / 3;
     // Of a tree that the caches don't hold; for others prefetches are work in vain. 8 MB.
     static constexpr std::size_t kManyLines = std::size_t{1} << 17;
+
+    // How many rays meet triangles of their leaves: branches are guessed right where nearly all do
+    // the same, and cost more than what they spare elsewhere.
+    enum class Meetings { Many, Some, Few };
 
     // What the rays are at, by their slots.
     struct Lists {
@@ -169,12 +172,31 @@ private:
         send(slot, next, to);
     }
 
-    template <bool MeetsOften> [[gnu::always_inline]] void leafStep(std::uint32_t slot, Lists& to) {
+    template <Meetings M> void leafSteps(const Lists& now, Lists& next) {
+        for (std::uint32_t i = 0; i < now.leafCount; ++i) leafStep<M>(now.leaves[i], next);
+    }
+
+    // From one round for the next.
+    void learnMeetings(std::uint32_t leaves) {
+        leafMeetings_ = metCount_ * 3 > leaves                 ? Meetings::Many
+                        : (leaves - besideCount_) * 8 < leaves ? Meetings::Few
+                                                               : Meetings::Some;
+    }
+
+    template <Meetings M> [[gnu::always_inline]] void leafStep(std::uint32_t slot, Lists& to) {
         RayBlock& b = blocks_[slot / W];
         const std::uint32_t i = slot % W;
         const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(base_ + byteOffset(b.at[i]));
-        const Judged judged = judge(sheared(b, i, leaf), Floats(b.sign[i]));
+        const Sheared corners = sheared(b, i, leaf);
+        const Edges edges(corners);
         const unsigned all = (1u << leaf.count) - 1;
+        if constexpr (M != Meetings::Many) {
+            const bool isBeside = (bits(edges.around()) & all) == 0; // all triangles
+            besideCount_ += isBeside;
+            if (M == Meetings::Few && isBeside) [[likely]]
+                return pop(slot, to);
+        }
+        const Judged judged = judge(corners, edges, Floats(b.sign[i]));
         const Floats zCut(b.zCut[i]);
         unsigned candidates = judged.candidates(zCut) & all;
         if constexpr (Q == Query::Any) {
@@ -183,7 +205,7 @@ private:
             b.stackTop[i] = met ? 1 : b.stackTop[i];
             candidates = met ? 0 : candidates;
         }
-        if (!MeetsOften && candidates == 0) [[likely]]
+        if (M != Meetings::Many && candidates == 0) [[likely]]
             return pop(slot, to);
         if constexpr (Q == Query::Any) {
             wait(slot, candidates);
@@ -325,7 +347,8 @@ private:
     Met met_[kSlots + 1];
     std::uint32_t passed_[kSlots + 1]; // rays that met nothing in their leaves
     std::uint32_t metCount_ = 0, passedCount_ = 0;
-    bool meetsOften_ = false; // in the last round
+    std::uint32_t besideCount_ = 0;
+    Meetings leafMeetings_ = Meetings::Some; // in the last round
     std::uint32_t waitingCount_ = 0, waitingPairs_ = 0;
     std::uint32_t asked_ = 0, missed_ = 0; // of enterTree()
     RayTriangle pairs_[kSlots * (W + 1)];

@@ -9,24 +9,39 @@ struct Sheared {
     Floats x[3], y[3], z[3];
 };
 
+// Edge functions, with the bits of ShearedTriangle.
+struct Edges {
+    Floats U, V, R, least, most;
+
+    [[gnu::always_inline]] explicit Edges(const Sheared& s)
+        : U(s.x[2] * s.y[1] - s.y[2] * s.x[1]), V(s.x[0] * s.y[2] - s.y[0] * s.x[2]),
+          R(s.x[1] * s.y[0] - s.y[1] * s.x[0]), least(min(min(U, V), R)), most(max(max(U, V), R)) {}
+
+    // The ray's line meets the triangle, or its edge; NaN never passes later.
+    [[gnu::always_inline]] Mask around() const {
+        const Floats zero(0.0f);
+        return (zero <= least) | (most <= zero);
+    }
+    [[gnu::always_inline]] Mask certainlyAround() const {
+        const Floats zero(0.0f);
+        return (zero < least) | (most < zero);
+    }
+};
+
 // Where W lines meet W planes of triangles, in float, and how far that may be off.
 struct Judged {
-    Floats least, most;       // of the edge functions
+    Mask around, certainlyAround;
     Floats depth, noise, det; // depth times det >= 0; not NaN where it is certain
 
     // May be hits up to zCut.
     [[gnu::always_inline]] unsigned candidates(Floats zCut) const {
         const Floats zero(0.0f);
-        const Mask inside = (zero <= least) | (most <= zero); // NaN never passes later
         const Mask wanted = notGreater(depth, fma(zCut * Floats(1.000001f), det, noise)) &
                             notGreater(zero - noise, depth);
-        return bits(inside & wanted);
+        return bits(around & wanted);
     }
     // Are hits, behind the start.
-    [[gnu::always_inline]] Mask certain() const {
-        const Floats zero(0.0f);
-        return ((zero < least) | (most < zero)) & (noise < depth);
-    }
+    [[gnu::always_inline]] Mask certain() const { return certainlyAround & (noise < depth); }
     // The same, and in front of zCut, which is 8 units of rounding more than the end of the ray.
     [[gnu::always_inline]] unsigned certain(Floats zCut) const {
         return bits(certain() & (depth + noise < zCut * det * Floats(0.999998f)));
@@ -36,20 +51,18 @@ struct Judged {
     Floats farthest(Floats inverse) const { return (depth + noise) * inverse * Floats(1.000001f); }
 };
 
-// Edge functions with the bits of ShearedTriangle, and depth T/det. How far T may be off z det, z
+// Depth T/det. How far T may be off z det, z
 // the canonical depth of a hit, with b the largest lateral distance of a corner from the ray, M the
 // largest depth and u = 2^-24: a lateral distance is off by u (4M + 2b) at most (corner relative to
 // the ray, slope, product, difference), an edge function by 4b times that and 3u b^2, which is
 // u b (16M + 11b); T sums three of them times a depth, with products and sums of its own below
 // 24u b^2 M, and z det three more with 12u b^2 M: together below u b M (96M + 102b).
-[[gnu::always_inline]] inline Judged judge(const Sheared& s, Floats sign) {
-    const Floats U = s.x[2] * s.y[1] - s.y[2] * s.x[1], V = s.x[0] * s.y[2] - s.y[0] * s.x[2],
-                 R = s.x[1] * s.y[0] - s.y[1] * s.x[0];
-    const Floats det = (U + V) + R, T = fma(R, s.z[2], fma(V, s.z[1], U * s.z[0]));
+[[gnu::always_inline]] inline Judged judge(const Sheared& s, const Edges& e, Floats sign) {
+    const Floats det = (e.U + e.V) + e.R, T = fma(e.R, s.z[2], fma(e.V, s.z[1], e.U * s.z[0]));
     const Floats M = maxAbs(maxAbs(s.z[0], s.z[1]), s.z[2]);
     const Floats b =
         max(max(maxAbs(s.x[0], s.y[0]), maxAbs(s.x[1], s.y[1])), maxAbs(s.x[2], s.y[2]));
-    return {min(min(U, V), R), max(max(U, V), R), flipSign(flipSign(T, det), sign),
+    return {e.around(), e.certainlyAround(), flipSign(flipSign(T, det), sign),
             (Floats(128 * 0x1p-24f) * b) * (M * (M + b)), abs(det)};
 }
 

@@ -1,4 +1,4 @@
-// Surfaces of spheres, of the sides of cylinders and of planes without end that stand still, a
+// Surfaces of shapes with a formula that stand still, but for the ends of cylinders and cones, a
 // register of them at a time, each on a shape of its own: rays that have bounced off many small
 // shapes rarely follow each other on one. Every lane repeats the steps of shape/analytic_shape.cpp
 // and of the shape's describe() in double, so that the bits are the same.
@@ -7,7 +7,7 @@
 #include "accel/still_shape.h"
 #include "base/hit.h"
 #include "base/ray_span.h"
-#include "base/strided.h"
+#include "base/surface_block.h"
 
 #include <cstdint>
 #include <span>
@@ -22,4 +22,4 @@ struct RoundsMet {
 };
 
 // out[to[k]] becomes the surface of hit k, without texture coordinates.
-using RoundSurfacesFn = void (*)(const RoundsMet&, Strided<Surface> out);
+using RoundSurfacesFn = void (*)(const RoundsMet&, SurfacePlaces out);

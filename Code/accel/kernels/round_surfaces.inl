@@ -1,8 +1,10 @@
-// The surfaces of W hits, as AnalyticShape::surfaceUnder() and the describe() of the shapes have
+// The surfaces of W hits, as AnalyticShape::surfaceOf() and the describe() of the shapes have
 // them: the same operations in the same order. Included by the file of each instruction set inside
 // its namespace.
 
 namespace {
+
+using Kind = StillShape::Kind;
 
 // Places of a shape's numbers.
 enum Number : std::size_t {
@@ -11,11 +13,22 @@ enum Number : std::size_t {
     Radius = 24,
     LeastError,
     ErrorPerPlace,
-    kNumbers
+    Own, // what only some kinds have
+    NormalX = Own,
+    NormalY,
+    NormalZ,
+    CentreX,
+    CentreY,
+    CentreZ,
+    kNumbers,
+    Slope = Own,
+    NarrowZ,
+    NarrowRadius,
+    Widest
 };
 
 // put(place, number) for all of a shape.
-template <class PutFn> void forEachNumber(const StillShape& shape, PutFn&& put) {
+template <Kind kKind, class PutFn> void forEachNumber(const StillShape& shape, PutFn&& put) {
     const AffineRows& there = shape.worldFromObject.rows();
     const AffineRows& back = shape.objectFromWorld();
     for (std::size_t k = 0; k < 12; ++k) put(WorldFromObject + k, there[k]);
@@ -23,22 +36,32 @@ template <class PutFn> void forEachNumber(const StillShape& shape, PutFn&& put) 
     put(Radius, shape.radius);
     put(LeastError, shape.leastError);
     put(ErrorPerPlace, shape.errorPerPlace);
+    if constexpr (kKind == Kind::Corners) {
+        const auto& [n, centre, edges, axisX, axisY] = *shape.corners;
+        put(NormalX, n.x), put(NormalY, n.y), put(NormalZ, n.z);
+        put(CentreX, centre.x), put(CentreY, centre.y), put(CentreZ, centre.z);
+    }
+    if constexpr (kKind == Kind::Cone) {
+        const StillCone& cone = *shape.cone;
+        put(Slope, cone.slope), put(NarrowZ, cone.narrowZ), put(NarrowRadius, cone.narrowRadius);
+        put(Widest, ::max(cone.radius, cone.topRadius));
+    }
 }
 
 // The numbers of a shape that all lanes are on, or of one for each lane.
-struct NumbersOfOne {
+template <Kind kKind> struct NumbersOfOne {
     explicit NumbersOfOne(const StillShape& shape) {
-        forEachNumber(shape, [&](std::size_t place, double number) { of[place] = number; });
+        forEachNumber<kKind>(shape, [&](std::size_t place, double number) { of[place] = number; });
     }
     Doubles operator()(std::size_t number) const { return Doubles(of[number]); }
     double of[kNumbers];
 };
-struct NumbersOfMany {
+template <Kind kKind> struct NumbersOfMany {
     // Lanes behind the last shape repeat it.
     explicit NumbersOfMany(std::span<const StillShape* const> shapes) {
         for (std::size_t i = 0; i < W; ++i)
-            forEachNumber(*shapes[i < shapes.size() ? i : shapes.size() - 1],
-                          [&](std::size_t place, double number) { of[place][i] = number; });
+            forEachNumber<kKind>(*shapes[i < shapes.size() ? i : shapes.size() - 1],
+                                 [&](std::size_t place, double number) { of[place][i] = number; });
     }
     Doubles operator()(std::size_t number) const { return Doubles::load(of[number]); }
     alignas(64) double of[kNumbers][W];
@@ -108,59 +131,45 @@ inline void store(const Doubles3& v, float (&to)[3][W]) {
     v.x.toFloats().store(to[0]), v.y.toFloats().store(to[1]), v.z.toFloats().store(to[2]);
 }
 
-// Points of the surface in object space.
-struct Local {
-    Doubles3 p, normal;
-};
+#include "accel/kernels/round_points.inl"
 
-template <class Numbers> Local onSphere(const Numbers& shape, const Doubles3& met) {
-    const Doubles distance = sqrt(dot(met, met)), zero(0.0);
-    const Doubles3 n = select(zero < distance, met / distance, Doubles3{zero, zero, Doubles(1.0)});
-    return {n * shape(Radius), n};
+// The outward normals of the faces of cubes that are met; lanes behind the last hit repeat it.
+inline Doubles3 facesMet(std::span<const Hit> hits, std::span<const std::uint32_t> which) {
+    alignas(64) double n[3][W] = {};
+    for (std::size_t i = 0; i < W; ++i) {
+        const std::uint32_t face = hits[which[i < which.size() ? i : which.size() - 1]].prim;
+        n[face / 2][i] = face % 2 == 0 ? -1 : 1;
+    }
+    return {Doubles::load(n[0]), Doubles::load(n[1]), Doubles::load(n[2])};
 }
 
-// `clearance`: how far, in the world, the origin of a ray may be from the point.
-template <class Numbers>
-Local onCylinder(const Numbers& shape, const Doubles3& met, const Doubles& clearance) {
-    const Doubles around = sqrt(met.x * met.x + met.y * met.y), zero(0.0), one(1.0), half(0.5);
-    const Mask isOff = zero < around;
-    const Doubles c = select(isOff, met.x / around, one), s = select(isOff, met.y / around, zero);
-    // How much z changes over a unit of the world.
-    const Doubles3 steep{shape(ObjectFromWorld + 8), shape(ObjectFromWorld + 9),
-                         shape(ObjectFromWorld + 10)};
-    const Doubles inset = clearance * sqrt(dot(steep, steep));
-    const Doubles limit = one - select(inset < half, inset, half);
-    const Doubles z = max(met.z, zero - limit);
-    const Doubles radius = shape(Radius);
-    return {{c * radius, s * radius, select(z < limit, z, limit)}, {c, s, zero}};
-}
-
-template <StillShape::Round kRound, class Numbers>
-void describe(const Numbers& shape, const RaysInLanes& world, SurfacesInLanes& out) {
+template <Kind kKind, class Numbers>
+void describe(const Numbers& shape, const RaysInLanes& world, const Doubles3& face,
+              SurfacesInLanes& out) {
     constexpr double kThreeUlps = 3 * 0x1p-24;
     const Doubles3 seen = along(world.org, world.dir, world.t);
     const auto largest = [](const Doubles3& v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); };
     const Doubles3 centre{shape(WorldFromObject + 3), shape(WorldFromObject + 7),
                           shape(WorldFromObject + 11)};
     Doubles leastError = shape(LeastError);
-    if constexpr (kRound == StillShape::Round::Plane)
-        leastError = leastError * max(largest(seen), Doubles(1.0));
+    if constexpr (kKind == Kind::Plane) leastError = leastError * max(largest(seen), Doubles(1.0));
     const Doubles fixedError =
         leastError + shape(ErrorPerPlace) * (largest(seen) + largest(centre));
 
     const Doubles3 met = along(pointOf(shape, ObjectFromWorld, world.org),
                                vectorOf(shape, ObjectFromWorld, world.dir), world.t);
     const auto local = [&] {
-        if constexpr (kRound == StillShape::Round::Sphere) {
-            return onSphere(shape, met);
-        } else if constexpr (kRound == StillShape::Round::Cylinder) {
-            const Doubles far = Doubles(kThreeUlps) * sqrt(dot(seen, seen)) + fixedError;
-            return onCylinder(shape, met, Doubles(2.0) * far);
-        } else {
-            const Doubles zero(0.0);
+        const auto clearance = [&] {
+            return Doubles(2.0) * (Doubles(kThreeUlps) * sqrt(dot(seen, seen)) + fixedError);
+        };
+        if constexpr (kKind == Kind::Sphere) return onSphere(shape, met);
+        if constexpr (kKind == Kind::Cylinder) return onCylinder(shape, met, clearance());
+        if constexpr (kKind == Kind::Cone) return onCone(shape, met, clearance());
+        if constexpr (kKind == Kind::Cube) return onCube(shape, met, face, clearance());
+        if constexpr (kKind == Kind::Corners) return onCorners(shape, met);
+        if constexpr (kKind == Kind::Plane)
             met.x.toFloats().store(out.uv[0]), met.y.toFloats().store(out.uv[1]);
-            return Local{{met.x, met.y, zero}, {zero, zero, Doubles(1.0)}};
-        }
+        if constexpr (kKind == Kind::Plane || kKind == Kind::Disk) return onDisk(met);
     }();
     const Doubles3 rough = pointOf(shape, WorldFromObject, local.p);
     const Doubles3 back = pointOf(shape, ObjectFromWorld, rough);
@@ -175,43 +184,44 @@ void describe(const Numbers& shape, const RaysInLanes& world, SurfacesInLanes& o
     (Doubles(kThreeUlps) * rounding + fixedError).store(out.error);
 }
 
-template <StillShape::Round kRound>
-void surfacesOf(const RoundsMet& met, const Strided<Surface>& out) {
+template <Kind kKind> void surfacesOf(const RoundsMet& met, const SurfacePlaces& out) {
     SurfacesInLanes found;
     for (std::size_t first = 0; first < met.which.size(); first += W) {
         const std::size_t count = std::min<std::size_t>(W, met.which.size() - first);
-        const RaysInLanes rays = raysOf(met.rays, met.hits, met.which.subspan(first, count));
+        const auto which = met.which.subspan(first, count);
+        const RaysInLanes rays = raysOf(met.rays, met.hits, which);
+        const Doubles3 face = kKind == Kind::Cube ? facesMet(met.hits, which) : rays.dir;
         const auto shapes = met.shapes.subspan(first, count);
         const auto isFirst = [&](const StillShape* other) { return other == shapes[0]; };
         if (std::all_of(shapes.begin() + 1, shapes.end(), isFirst))
-            describe<kRound>(NumbersOfOne(*shapes[0]), rays, found);
+            describe<kKind>(NumbersOfOne<kKind>(*shapes[0]), rays, face, found);
         else
-            describe<kRound>(NumbersOfMany(shapes), rays, found);
+            describe<kKind>(NumbersOfMany<kKind>(shapes), rays, face, found);
         for (std::size_t i = 0; i < count; ++i) {
-            const Vec3 ng{found.n[0][i], found.n[1][i], found.n[2][i]};
             std::uint32_t material = shapes[i]->material;
-            if constexpr (kRound == StillShape::Round::Plane)
+            if constexpr (kKind == Kind::Plane)
                 if (shapes[i]->oddMaterial != material && isOdd(found.uv[0][i], found.uv[1][i]))
                     material = shapes[i]->oddMaterial;
-            out[met.to[first + i]] = {.p = {found.p[0][i], found.p[1][i], found.p[2][i]},
-                                      .ng = ng,
-                                      .ns = ng,
-                                      .uv = {},
-                                      .material = material,
-                                      .object = shapes[i]->object,
-                                      .error = floatAbove(found.error[i]),
-                                      .rayError = 0,
-                                      .lift = {}};
+            const SurfacePlaces::Place to = out[met.to[first + i]];
+            to.block.putFlat(to.lane, {found.p[0][i], found.p[1][i], found.p[2][i]},
+                             {found.n[0][i], found.n[1][i], found.n[2][i]},
+                             floatAbove(found.error[i]), material, shapes[i]->object);
         }
     }
 }
 
 } // namespace
 
-void roundSurfaces(const RoundsMet& met, Strided<Surface> out) {
+void roundSurfaces(const RoundsMet& met, SurfacePlaces out) {
     if (met.shapes.empty()) return;
-    using enum StillShape::Round;
-    if (met.shapes[0]->round == Sphere) return surfacesOf<Sphere>(met, out);
-    if (met.shapes[0]->round == Plane) return surfacesOf<Plane>(met, out);
-    surfacesOf<Cylinder>(met, out);
+    switch (met.shapes[0]->kind) {
+    case Kind::Sphere: return surfacesOf<Kind::Sphere>(met, out);
+    case Kind::Cylinder: return surfacesOf<Kind::Cylinder>(met, out);
+    case Kind::Cone: return surfacesOf<Kind::Cone>(met, out);
+    case Kind::Cube: return surfacesOf<Kind::Cube>(met, out);
+    case Kind::Disk: return surfacesOf<Kind::Disk>(met, out);
+    case Kind::Corners: return surfacesOf<Kind::Corners>(met, out);
+    case Kind::Plane: return surfacesOf<Kind::Plane>(met, out);
+    case Kind::None: break;
+    }
 }

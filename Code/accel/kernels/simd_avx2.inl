@@ -222,8 +222,9 @@ inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_
 }
 inline __m256i keysOf(unsigned chosen, Floats a) {
     const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
+    const __m256i last = _mm256_xor_si256(lane, _mm256_set1_epi32(W - 1));
     const __m256i keys =
-        _mm256_or_si256(_mm256_andnot_si256(_mm256_set1_epi32(15), _mm256_castps_si256(a.v)), lane);
+        _mm256_or_si256(_mm256_andnot_si256(_mm256_set1_epi32(15), _mm256_castps_si256(a.v)), last);
     const __m256i count = _mm256_set1_epi32(__builtin_popcount(chosen));
     return _mm256_and_si256(_mm256_permutevar8x32_epi32(keys, chosenLanes(chosen)),
                             _mm256_cmpgt_epi32(count, lane));
@@ -234,7 +235,8 @@ inline void storeKeys(__m256i keys, std::uint32_t* to) {
 }
 inline __m128i pick(__m128i keys, const std::uint32_t* from) {
     const __m256i all = _mm256_load_si256(reinterpret_cast<const __m256i*>(from));
-    return _mm256_castsi256_si128(_mm256_permutevar8x32_epi32(all, _mm256_castsi128_si256(keys)));
+    const __m128i lanes = _mm_xor_si128(keys, _mm_set1_epi32(W - 1));
+    return _mm256_castsi256_si128(_mm256_permutevar8x32_epi32(all, _mm256_castsi128_si256(lanes)));
 }
 inline std::uint32_t element(__m128i four, int i) {
     return static_cast<std::uint32_t>(_mm_cvtsi128_si32(

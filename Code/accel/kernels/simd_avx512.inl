@@ -209,10 +209,10 @@ inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_
     _mm512_storeu_si512(
         to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(chosen), _mm512_load_si512(from)));
 }
-// Bits of the chosen numbers (not negative), the number of the lane in the lowest four; zeros
-// follow. They sort like the numbers.
+// Bits of the chosen numbers (not negative), in the lowest four how many lanes come behind; zeros
+// follow. They sort like the numbers, of equal ones the last first.
 inline __m512i keysOf(unsigned chosen, Floats a) {
-    const __m512i lane = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    const __m512i lane = _mm512_setr_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
     const __m512i keys =
         _mm512_or_si512(_mm512_andnot_si512(_mm512_set1_epi32(15), _mm512_castps_si512(a.v)), lane);
     return _mm512_maskz_compress_epi32(static_cast<__mmask16>(chosen), keys);
@@ -220,8 +220,9 @@ inline __m512i keysOf(unsigned chosen, Floats a) {
 inline __m128i firstFour(__m512i keys) { return _mm512_castsi512_si128(keys); }
 inline void storeKeys(__m512i keys, std::uint32_t* to) { _mm512_storeu_si512(to, keys); }
 inline __m128i pick(__m128i keys, const std::uint32_t* from) {
+    const __m128i lanes = _mm_xor_si128(keys, _mm_set1_epi32(W - 1));
     return _mm512_castsi512_si128(
-        _mm512_permutexvar_epi32(_mm512_castsi128_si512(keys), _mm512_load_si512(from)));
+        _mm512_permutexvar_epi32(_mm512_castsi128_si512(lanes), _mm512_load_si512(from)));
 }
 // Element i, 0 to 3.
 inline std::uint32_t element(__m128i four, int i) {

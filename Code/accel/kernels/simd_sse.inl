@@ -287,7 +287,7 @@ inline Keys keysOf(unsigned chosen, Floats a) {
     Keys keys{};
     for (int n = 0; chosen != 0; chosen &= chosen - 1, ++n) {
         const int lane = __builtin_ctz(chosen);
-        keys.v[n] = (near[lane] & ~15u) | static_cast<std::uint32_t>(lane);
+        keys.v[n] = (near[lane] & ~15u) | static_cast<std::uint32_t>(lane ^ (W - 1));
     }
     return keys;
 }
@@ -298,7 +298,7 @@ inline void storeKeys(const Keys& keys, std::uint32_t* to) {
     for (int i = 0; i < W; ++i) to[i] = keys.v[i];
 }
 inline __m128i pick(__m128i keys, const std::uint32_t* from) {
-    const auto at = [&](int key) { return static_cast<int>(from[key & 15]); };
+    const auto at = [&](int key) { return static_cast<int>(from[(key & 15) ^ (W - 1)]); };
     return _mm_setr_epi32(at(_mm_extract_epi32(keys, 0)), at(_mm_extract_epi32(keys, 1)),
                           at(_mm_extract_epi32(keys, 2)), at(_mm_extract_epi32(keys, 3)));
 }

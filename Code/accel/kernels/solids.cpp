@@ -2,6 +2,8 @@
 // origin.
 #include "accel/kernels/solids.h"
 
+#include "accel/kernels/by_kernel.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -24,8 +26,14 @@ void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const S
     if (form.sphere) {
         solid.kind = Kind::Sphere;
         solid.shape = form.sphere;
-        const AffineRows& m = form.sphere->objectFromWorld();
-        solid.turned = m[1] != 0 || m[2] != 0 || m[4] != 0 || m[6] != 0 || m[8] != 0 || m[9] != 0;
+    }
+    if (form.faces) {
+        using enum StillFaces::Of;
+        solid.kind = form.faces->of == Cube   ? Kind::Cube
+                     : form.faces->of == Disk ? Kind::Disk
+                                              : Kind::Corners;
+        solid.shape = form.faces->shape;
+        solid.side = form.faces->side;
     }
     if (form.tube) {
         solid.kind = Kind::Tube;
@@ -40,6 +48,15 @@ void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const S
         const double across = max(xx, yy) + xy;
         const double any = max(max(xx + zx, yy + yz) + xy, zz + yz + zx);
         tubes.push_back({*form.tube, form.tube->cone ? any : across, zz});
+    }
+    if (form.drift) {
+        solid.moves = true;
+        solid.part = static_cast<std::uint32_t>(drifts.size());
+        drifts.push_back(*form.drift);
+    }
+    if (solid.shape != nullptr) {
+        const AffineRows& m = solid.shape->objectFromWorld();
+        solid.turned = m[1] != 0 || m[2] != 0 || m[4] != 0 || m[6] != 0 || m[8] != 0 || m[9] != 0;
     }
     if (form.facets) {
         solid.kind = Kind::Facets;
@@ -59,29 +76,20 @@ void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const S
     boxes.push_back(box);
 }
 
-#define SOLID_FUNCTIONS(isa)                                                                       \
+#define DECLARE(isa)                                                                               \
     namespace kernels::isa {                                                                       \
     void closestSolids(const SolidTree&, const SolidCalls&, const RaySpan&,                        \
                        std::span<const std::uint32_t>, Hit*);                                      \
     void anySolids(const SolidTree&, const SolidCalls&, const RaySpan&,                            \
                    std::span<const std::uint32_t>, std::uint8_t*);                                 \
     }
-SOLID_FUNCTIONS(sse)
-SOLID_FUNCTIONS(avx2)
-SOLID_FUNCTIONS(avx512)
-#undef SOLID_FUNCTIONS
+DECLARE_BY_KERNEL(DECLARE)
+#define ROW(isa)                                                                                   \
+    { kernels::isa::closestSolids, kernels::isa::anySolids }
 
 const SolidKernel* solidKernel(const Kernel& kernel) {
-#if defined(__x86_64__)
-    static constexpr SolidKernel kTable[] = {
-        {"avx512", 16, kernels::avx512::closestSolids, kernels::avx512::anySolids},
-        {"avx2", 8, kernels::avx2::closestSolids, kernels::avx2::anySolids},
-        {"sse", 8, kernels::sse::closestSolids, kernels::sse::anySolids},
-    };
-    for (const SolidKernel& row : kTable)
-        if (std::string_view(row.name) == kernel.name) return &row;
-#endif
-    return nullptr;
+    static constexpr ByKernel<SolidKernel> kTable = BY_KERNEL(ROW);
+    return kTable.of(kernel);
 }
 
 namespace {

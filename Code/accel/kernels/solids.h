@@ -1,8 +1,8 @@
 // Solids: everything with a box of its own that is no triangle, as vector kernels want it. Packets
-// of rays walk one wide tree together; spheres, cylinders and cones that stand still and meshes of
-// a few triangles are met in the kernel itself, with the bits of shape/, and any other shape is
-// asked where a ray enters its box.
-// Knows nothing about what the shapes are.
+// of rays walk one wide tree together; shapes with a formula that stand still, most that move
+// without turning, and meshes of a few triangles are met in the kernel itself, with the bits of
+// shape/, and any other shape is asked where a ray enters its box. Knows nothing about what the
+// shapes are.
 #pragma once
 
 #include "accel/bvh.h"
@@ -10,27 +10,31 @@
 #include "accel/kernels/wide_tree.h"
 #include "accel/solid_form.h"
 #include "base/hit.h"
+#include "base/raw_vector.h"
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 struct SolidTree {
     // What the solid is to a kernel.
-    enum class Kind : std::uint8_t { Other, Sphere, Facets, Tube };
+    enum class Kind : std::uint8_t { Other, Sphere, Facets, Tube, Cube, Disk, Corners };
     // What is looked at first, in one line of the cache.
     struct alignas(64) Solid {
         std::uint32_t number = 0; // what hits and calls name it by
-        std::uint32_t part = 0;   // in `facets` or `tubes`
+        std::uint32_t part = 0;   // in `facets`, `tubes` or `drifts`
         Kind kind = Kind::Other;
         bool hides = true;   // counts when any hit is asked for
         bool isTube = false; // a RoundHull with an axis
-        bool turned = false; // a sphere whose map does more than move and scale along the axes
+        bool turned = false; // the shape's map does more than move and scale along the axes
+        bool moves = false;  // as in `drifts`
+        ::Facets::Side side = ::Facets::Side::Both; // of a cube, a disk or a plane by corners
         Vec3 centre{}, axis{};
         float radius = kInfinityF, innerRadius = 0, halfLength = kInfinityF;
-        const StillShape* shape = nullptr; // of a sphere or a tube
+        const StillShape* shape = nullptr; // of all but facets and what is asked ray by ray
     };
     struct Tube {
         StillTube exact;
@@ -49,13 +53,15 @@ struct SolidTree {
         ::Facets::Side side = ::Facets::Side::Both;
     };
     int width = 0;
-    std::vector<Solid> solids; // in the order of the tree's leaves
-    std::vector<Bounds> boxes; // of the solids
+    RawVector<Solid> solids; // in the order of the tree's leaves
+    RawVector<Bounds> boxes; // of the solids
     std::vector<Tube> tubes;
     std::vector<FacetGroup> facets;
+    std::vector<Drift> drifts;
     // WideNode<width>, root first. A child of kind Leaf is one solid, by its place in `solids`.
-    std::vector<WideTree::Line> lines;
+    PageVector<WideTree::Line> lines;
     float extent = 0; // see RaySetup
+    double sah = 0;   // as sahCost() of bvh.h counts
 
     template <int W> const WideNode<W>& node(WideRef ref) const {
         return *reinterpret_cast<const WideNode<W>*>(
@@ -65,7 +71,31 @@ struct SolidTree {
     void reserve(std::size_t count);
     void add(const Bounds& box, std::uint32_t number, bool hides, const SolidForm& form);
     // Once after the last add(); `bvh` is over the boxes in the order of adding.
-    void build(int nodeWidth, const Bvh& bvh);
+    void build(int nodeWidth, Bvh bvh);
+
+    // Or, instead of add() for each of many: what describe(i, next) says of the solid in box i of
+    // the `bvh`, asked by several threads, once each; `next` comes soon. The same for any number of
+    // them.
+    struct Described {
+        std::uint32_t number = 0;
+        bool hides = true;
+        SolidForm form;
+    };
+    using Describe = std::function<Described(std::uint32_t i, std::uint32_t next)>;
+    void build(int nodeWidth, Bvh bvh, std::span<const Bounds> of, const Describe& describe,
+               int threads);
+
+    std::size_t nodes() const { return lines.size() * sizeof(WideTree::Line) / nodeBytes(); }
+    std::size_t bytes() const;
+
+private:
+    std::size_t nodeBytes() const {
+        return width == 16 ? sizeof(WideNode<16>) : sizeof(WideNode<8>);
+    }
+    // Returns which box each leaf has.
+    std::vector<std::uint32_t> writeNodes(Bvh bvh, std::span<const Bounds> of, int threads);
+    void take(std::span<const std::uint32_t> order, std::span<const Bounds> of,
+              const Describe& describe, int threads);
 };
 
 // How the kernels ask solids that are no spheres.
@@ -78,8 +108,6 @@ struct SolidCalls {
 };
 
 struct SolidKernel {
-    const char* name; // of the Kernel that it belongs to
-    int width;
     // Only rays in `order` are looked at; it pays to have those from one point in a row.
     // hits[i] is the best hit of ray i so far, or what .t allows, and becomes the best of all:
     // the smallest (t, number), t not before the entry into the solid's box.
@@ -89,7 +117,7 @@ struct SolidKernel {
     void (*any)(const SolidTree&, const SolidCalls&, const RaySpan&,
                 std::span<const std::uint32_t> order, std::uint8_t* hidden);
 };
-// Null for the scalar kernel.
+// Null for the scalar kernel. The trees are as wide as those of the Kernel.
 const SolidKernel* solidKernel(const Kernel& kernel);
 
 // Calls the kernel with the rays of a batch in groups that share their origin.

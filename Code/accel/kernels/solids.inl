@@ -16,7 +16,13 @@ enum class Answer { Closest, Any };
 
 #include "accel/kernels/solids_facets.inl"
 
+#include "accel/kernels/solids_objects.inl"
+
 #include "accel/kernels/solids_tubes.inl"
+
+#include "accel/kernels/solids_cubes.inl"
+
+#include "accel/kernels/solids_flats.inl"
 
 #include "accel/kernels/solids_spheres.inl"
 

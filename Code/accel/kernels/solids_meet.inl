@@ -36,6 +36,8 @@ protected:
             facets(solid, tree_.facets[solid.part], entry, lanes, results);
         else if (solid.kind == SolidTree::Kind::Tube)
             tube(solid, tree_.tubes[solid.part], entry, lanes, results);
+        else if (solid.kind != SolidTree::Kind::Other)
+            faces<A>(solid, entry, lanes, results);
         else
             ask(solid, entry, lanes, results);
     }
@@ -87,8 +89,9 @@ private:
 
     template <Answer A, class Result>
     void sphere(const SolidTree::Solid& solid, Floats entry, unsigned lanes, Result* results) {
-        const SphereRoots roots =
-            meet(SameMap{solid.shape->objectFromWorld()}, solid.turned, solid.shape->radius, lanes);
+        const SphereRoots roots = solid.moves ? movingSphere(solid, lanes)
+                                              : meet(SameMap{solid.shape->objectFromWorld()},
+                                                     solid.turned, solid.shape->radius, lanes);
         if (roots.met == 0) return;
         if constexpr (A == Answer::Any) {
             hide(hides(roots), results);
@@ -107,6 +110,54 @@ private:
             }
             limit(select(maskOf(better), nearest, best_));
         }
+    }
+
+    DriftLanes driftOf(const SolidTree::Solid& solid, unsigned lanes) const {
+        return {solid.shape->objectFromWorld(), tree_.drifts[solid.part], rays_, ray_, lanes};
+    }
+    [[gnu::noinline]] SphereRoots movingSphere(const SolidTree::Solid& solid,
+                                               unsigned lanes) const {
+        return meet(driftOf(solid, lanes), solid.turned, solid.shape->radius, lanes);
+    }
+
+    template <Answer A, class Result>
+    [[gnu::noinline]] void faces(const SolidTree::Solid& solid, Floats entry, unsigned lanes,
+                                 Result* results) {
+        const auto found = [&](const auto& map) {
+            const RayRanges ranges{columns_.tMin, best_};
+            return solid.kind == SolidTree::Kind::Cube ? meetCube<A>(columns_, ranges, solid, map)
+                                                       : meetFlat<A>(columns_, ranges, solid, map);
+        };
+        take(solid,
+             solid.moves ? found(driftOf(solid, lanes))
+                         : found(SameMap{solid.shape->objectFromWorld()}),
+             entry, lanes, results);
+    }
+
+    // The choice between hits and the best ones.
+    void take(const SolidTree::Solid& solid, const FoundLanes& found, Floats entry, unsigned lanes,
+              Hit* hits) {
+        const Floats nearest = max(entry / lanes_.dz, found.t);
+        const unsigned better = nearerLanes(solid, lanes & found.met & ~found.undecided, nearest);
+        if (better != 0) {
+            alignas(64) float ts[W], us[W];
+            nearest.store(ts), found.lost.store(us);
+            for (unsigned rest = better; rest != 0; rest &= rest - 1) {
+                const int i = std::countr_zero(rest);
+                hits[ray_[i]] = {
+                    .t = ts[i], .u = us[i], .prim = found.partOf(i), .shape = solid.number};
+                number_[i] = solid.number;
+            }
+            limit(select(maskOf(better), nearest, best_));
+        }
+        if (const unsigned asking = lanes & found.undecided; asking != 0)
+            ask(solid, entry, asking, hits);
+    }
+    void take(const SolidTree::Solid& solid, const FoundLanes& found, Floats entry, unsigned lanes,
+              std::uint8_t* hidden) {
+        hide(lanes & found.met & ~found.undecided, hidden);
+        if (const unsigned asking = lanes & found.undecided; asking != 0)
+            ask(solid, entry, asking, hidden);
     }
 
     // AnalyticShape::intersect(), OneSided::intersect() and the choice between their hit and the

@@ -1,10 +1,14 @@
 // The wide tree over solids: the binary one down to single solids, collapsed with the least area.
-// (Moving parts of it before, as meshes do, takes more time than 10^6 rays win by it.)
+// (Moving parts of it before, as meshes do, takes more time than 10^6 rays win by it.) Subtrees are
+// one thread's work; where they are cut depends on the solids alone.
 #include "accel/kernels/build/collapse.h"
 #include "accel/kernels/solids.h"
+#include "base/for_each.h"
+#include "base/pages.h"
 
 #include <algorithm>
 #include <cstring>
+#include <map>
 #include <utility>
 
 namespace {
@@ -15,89 +19,155 @@ BinaryNode nodeOf(const Bounds& box) {
     return {{box.lo.x, box.lo.y, box.lo.z}, 0, {-box.hi.x, -box.hi.y, -box.hi.z}, 0};
 }
 
-// A tree with a leaf for every solid: where the other one has lists, these are halved.
-class Singles {
-public:
-    Singles(const Bvh& bvh, std::span<const Bounds> boxes) : bvh_(bvh), boxes_(boxes) {
-        nodes_.reserve(2 * boxes.size());
-        nodes_.push_back(nodeOf(bvh.nodes[0].box));
-        struct Open {
-            std::uint32_t from, to;
-        };
-        std::vector<Open> open{{0, 0}};
-        while (!open.empty()) {
-            const auto [from, to] = open.back();
-            open.pop_back();
-            const BvhNode& node = bvh_.nodes[from];
-            if (node.isLeaf()) {
-                halve(to, std::span(bvh_.primIds).subspan(node.first, node.count));
-                continue;
-            }
-            const std::uint32_t child =
-                addChildren(to, bvh_.nodes[node.first].box, bvh_.nodes[node.first + 1].box);
-            open.push_back({node.first + 1, child + 1});
-            open.push_back({node.first, child});
-        }
+// A tree with a leaf for every solid: where the other one has lists, these are halved. What is
+// below a node lies in a row, its children first, so that its place is known before it is written.
+struct Singles {
+    Singles(const Bvh& bvh, std::span<const Bounds> boxes, int threads)
+        : bvh_(bvh), boxes_(boxes), largestPart_(std::max(std::size_t{4096}, boxes.size() / 64)) {
+        nodes.resize(2 * boxes.size() - 1);
+        nodes[0] = nodeOf(bvh.nodes[0].box);
+        cut({0, 0, 1});
+        forEachOn(threads, parts_.size(), [&](std::size_t i) { fill(parts_[i]); });
     }
-    std::vector<BinaryNode> take() { return std::move(nodes_); } // children behind their parents
+
+    PageVector<BinaryNode> nodes;
+    std::vector<std::uint32_t> tops;  // nodes above the parts, parents first
+    std::vector<std::uint32_t> roots; // of the parts
 
 private:
-    std::uint32_t addChildren(std::uint32_t at, const Bounds& left, const Bounds& right) {
-        const auto child = static_cast<std::uint32_t>(nodes_.size());
-        nodes_[at].left = child;
-        nodes_.push_back(nodeOf(left));
-        nodes_.push_back(nodeOf(right));
-        return child;
+    // A node of the other tree, its place here and that of its children.
+    struct Place {
+        std::uint32_t from, at, below;
+    };
+
+    std::uint32_t solidsIn(std::uint32_t from) const {
+        const BvhNode *first = &bvh_.nodes[from], *last = first;
+        while (!first->isLeaf()) first = &bvh_.nodes[first->first];
+        while (!last->isLeaf()) last = &bvh_.nodes[last->first + 1];
+        return last->first + last->count - first->first;
+    }
+    void setChildren(std::uint32_t at, std::uint32_t below, const Bounds& left,
+                     const Bounds& right) {
+        nodes[at].left = below;
+        nodes[below] = nodeOf(left);
+        nodes[below + 1] = nodeOf(right);
+    }
+    void cut(const Place& p) {
+        const BvhNode& node = bvh_.nodes[p.from];
+        if (node.isLeaf() || solidsIn(p.from) <= largestPart_) {
+            parts_.push_back(p);
+            return roots.push_back(p.at);
+        }
+        tops.push_back(p.at);
+        const auto left = node.first, right = left + 1;
+        setChildren(p.at, p.below, bvh_.nodes[left].box, bvh_.nodes[right].box);
+        cut({left, p.below, p.below + 2});
+        cut({right, p.below + 1, p.below + 2 * solidsIn(left)});
+    }
+    // Returns how many solids are in it.
+    std::uint32_t fill(const Place& p) {
+        const BvhNode& node = bvh_.nodes[p.from];
+        if (node.isLeaf()) {
+            halve(p.at, p.below, std::span(bvh_.primIds).subspan(node.first, node.count));
+            return node.count;
+        }
+        const auto left = node.first, right = left + 1;
+        setChildren(p.at, p.below, bvh_.nodes[left].box, bvh_.nodes[right].box);
+        const std::uint32_t onLeft = fill({left, p.below, p.below + 2});
+        return onLeft + fill({right, p.below + 1, p.below + 2 * onLeft});
     }
     Bounds boxOf(std::span<const std::uint32_t> solids) const {
         Bounds box;
         for (const std::uint32_t id : solids) box.extend(boxes_[id]);
         return box;
     }
-    void halve(std::uint32_t at, std::span<const std::uint32_t> solids) {
+    void halve(std::uint32_t at, std::uint32_t below, std::span<const std::uint32_t> solids) {
         if (solids.size() == 1) {
-            nodes_[at].leaf = solids[0];
+            nodes[at].leaf = solids[0];
             return;
         }
         const auto left = solids.first(solids.size() / 2), right = solids.subspan(left.size());
-        const std::uint32_t child = addChildren(at, boxOf(left), boxOf(right));
-        halve(child, left);
-        halve(child + 1, right);
+        setChildren(at, below, boxOf(left), boxOf(right));
+        halve(below, below + 2, left);
+        halve(below + 1, below + 2 * static_cast<std::uint32_t>(left.size()), right);
     }
 
     const Bvh& bvh_;
     std::span<const Bounds> boxes_;
-    std::vector<BinaryNode> nodes_;
+    const std::size_t largestPart_;
+    std::vector<Place> parts_;
 };
 
 // Puts W children below every node.
 template <int W> class TreeWriter {
 public:
-    TreeWriter(SolidTree& tree, std::span<const BinaryNode> nodes)
-        : tree_(tree), nodes_(nodes), choices_(nodes.size()), solids_(std::move(tree.solids)),
-          boxes_(std::move(tree.boxes)) {}
+    TreeWriter(Singles singles, int threads)
+        : nodes_(std::move(singles.nodes)), roots_(std::move(singles.roots)),
+          tops_(std::move(singles.tops)), threads_(threads), plans_(nodes_.size()) {}
 
-    void run() {
-        for (std::size_t end = nodes_.size(); end > 0; --end) {
-            const std::size_t at = end - 1;
-            const BinaryNode& node = nodes_[at];
-            const float area = halfAreaOf(node);
-            choices_[at] = node.isLeaf()
-                               ? leafChoice<W>(area)
-                               : innerChoice<W>(choices_[node.left], choices_[node.left + 1], area);
+    std::vector<std::uint32_t> run(SolidTree& tree) {
+        planAll();
+        Piece top;
+        if (tops_.empty())
+            pieces_.push_back({0, {}, {}, 0});
+        else {
+            std::sort(tops_.begin(), tops_.end());
+            write(top, 0, true);
         }
-        tree_.solids.clear(), tree_.boxes.clear();
-        tree_.solids.reserve(solids_.size()), tree_.boxes.reserve(boxes_.size());
-        write(0);
+        forEachOn(threads_, pieces_.size(),
+                  [&](std::size_t i) { write(pieces_[i], pieces_[i].root, false); });
+        return join(tree, top);
     }
 
 private:
-    WideRef write(std::uint32_t at) {
-        const WideChildren<W> children =
-            childrenOf<W>(at, nodes_, std::span<const CollapseChoice<W>>(choices_));
-        constexpr std::size_t kLines = sizeof(WideNode<W>) / sizeof(WideTree::Line);
-        const std::size_t line = tree_.lines.size();
-        tree_.lines.resize(line + kLines);
+    static constexpr std::size_t kLines = sizeof(WideNode<W>) / sizeof(WideTree::Line);
+
+    // Wide nodes that lie in a row, and the solids in their leaves; references count from there.
+    struct Piece {
+        std::uint32_t root = 0;
+        PageVector<WideTree::Line> lines{};
+        std::vector<std::uint32_t> order{};
+        double area = 0; // of nodes and leaves
+    };
+    // A child in the top that is the root of a piece.
+    struct Link {
+        std::size_t line, slot;
+    };
+
+    // What is chosen stays; costs are asked for by the parent alone.
+    CollapseChoice<W> keep(std::uint32_t at, const CollapseChoice<W>& choice) {
+        plans_[at] = choice;
+        return choice;
+    }
+    CollapseChoice<W> plan(std::uint32_t at) {
+        const BinaryNode& node = nodes_[at];
+        const float area = halfAreaOf(node);
+        if (node.isLeaf()) return keep(at, leafChoice<W>(area));
+        const CollapseChoice<W> left = plan(node.left), right = plan(node.left + 1);
+        return keep(at, innerChoice<W>(left, right, area));
+    }
+    void planAll() {
+        std::vector<CollapseChoice<W>> ofRoots(roots_.size());
+        forEachOn(threads_, roots_.size(), [&](std::size_t i) { ofRoots[i] = plan(roots_[i]); });
+        std::map<std::uint32_t, CollapseChoice<W>> known;
+        for (std::size_t i = 0; i < roots_.size(); ++i) known[roots_[i]] = ofRoots[i];
+        for (std::size_t end = tops_.size(); end > 0; --end) { // children before parents
+            const std::uint32_t at = tops_[end - 1], left = nodes_[at].left;
+            known[at] = keep(
+                at, innerChoice<W>(known.at(left), known.at(left + 1), halfAreaOf(nodes_[at])));
+        }
+    }
+
+    bool isTop(std::uint32_t at) const {
+        return std::binary_search(tops_.begin(), tops_.end(), at);
+    }
+
+    WideRef write(Piece& piece, std::uint32_t at, bool inTop) {
+        const WideChildren<W> children = childrenOf<W>(at, std::span<const BinaryNode>(nodes_),
+                                                       std::span<const CollapsePlan<W>>(plans_));
+        const std::size_t line = piece.lines.size();
+        piece.lines.resize(line + kLines);
+        piece.area += static_cast<double>(halfAreaOf(nodes_[at]));
         WideNode<W> node;
         for (auto& planes : node.plane) {
             std::fill_n(planes[0], W, kInfinityF);
@@ -110,36 +180,83 @@ private:
                 node.plane[axis][0][i] = child.lo[axis];
                 node.plane[axis][1][i] = -child.negHi[axis];
             }
-            if (child.isLeaf()) node.child[i] = addSolid(child.leaf);
+            if (!child.isLeaf()) continue;
+            piece.area += static_cast<double>(halfAreaOf(child));
+            node.child[i] = wideRef(piece.order.size(), WideKind::Leaf);
+            piece.order.push_back(child.leaf);
         }
         // After all solids of the node, which so lie in a row.
-        for (std::size_t i = 0; i < children.count; ++i)
-            if (!nodes_[children.node[i]].isLeaf()) node.child[i] = write(children.node[i]);
-        std::memcpy(&tree_.lines[line], &node, sizeof node);
+        for (std::size_t i = 0; i < children.count; ++i) {
+            const std::uint32_t child = children.node[i];
+            if (nodes_[child].isLeaf()) continue;
+            if (inTop && !isTop(child)) {
+                pieces_.push_back({child, {}, {}, 0});
+                links_.push_back({line, i});
+            } else
+                node.child[i] = write(piece, child, inTop);
+        }
+        std::memcpy(&piece.lines[line], &node, sizeof node);
         return wideRef(line, WideKind::Node);
     }
-    WideRef addSolid(std::uint32_t index) {
-        tree_.solids.push_back(solids_[index]);
-        tree_.boxes.push_back(boxes_[index]);
-        return wideRef(tree_.solids.size() - 1, WideKind::Leaf);
+
+    // The top, and the pieces behind it.
+    std::vector<std::uint32_t> join(SolidTree& tree, Piece& top) {
+        std::vector<std::size_t> firstLine, firstSolid;
+        const auto root = static_cast<double>(halfAreaOf(nodes_[0]));
+        PageVector<BinaryNode>().swap(nodes_); // for the tree to take their place
+        PageVector<CollapsePlan<W>>().swap(plans_);
+        std::size_t lines = top.lines.size(), solids = top.order.size();
+        double area = top.area;
+        for (const Piece& piece : pieces_) {
+            firstLine.push_back(lines), firstSolid.push_back(solids);
+            lines += piece.lines.size(), solids += piece.order.size();
+            area += piece.area;
+        }
+        for (std::size_t i = 0; i < links_.size(); ++i) {
+            const Link& link = links_[i];
+            reinterpret_cast<WideNode<W>*>(&top.lines[link.line])->child[link.slot] =
+                wideRef(firstLine[i], WideKind::Node);
+        }
+        tree.lines.resize(lines);
+        std::copy(top.lines.begin(), top.lines.end(), tree.lines.begin());
+        std::vector<std::uint32_t> order(solids);
+        std::copy(top.order.begin(), top.order.end(), order.begin());
+        forEachOn(threads_, pieces_.size(), [&](std::size_t i) {
+            Piece& piece = pieces_[i];
+            WideTree::Line* to = &tree.lines[firstLine[i]];
+            for (std::size_t line = 0; line < piece.lines.size(); line += kLines, to += kLines) {
+                WideNode<W> node;
+                std::memcpy(&node, &piece.lines[line], sizeof node);
+                for (WideRef& child : node.child) {
+                    const bool isNode = kindOf(child) == WideKind::Node;
+                    if (isNode || kindOf(child) == WideKind::Leaf)
+                        child += wideRef(isNode ? firstLine[i] : firstSolid[i], WideKind::Node);
+                }
+                std::memcpy(to, &node, sizeof node);
+            }
+            std::copy(piece.order.begin(), piece.order.end(),
+                      order.begin() + static_cast<std::ptrdiff_t>(firstSolid[i]));
+            piece = {};
+        });
+        tree.sah = root > 0 ? area / root : static_cast<double>(tree.nodes() + solids);
+        return order;
     }
 
-    SolidTree& tree_;
-    std::span<const BinaryNode> nodes_;
-    std::vector<CollapseChoice<W>> choices_;
-    const std::vector<SolidTree::Solid> solids_;
-    const std::vector<Bounds> boxes_;
+    PageVector<BinaryNode> nodes_;
+    std::vector<std::uint32_t> roots_, tops_;
+    int threads_;
+    PageVector<CollapsePlan<W>> plans_; // by node
+    std::vector<Piece> pieces_;         // in the order of the links to them
+    std::vector<Link> links_;
 };
 
 } // namespace
 
-void SolidTree::build(int nodeWidth, const Bvh& bvh) {
-    width = nodeWidth;
+std::vector<std::uint32_t> SolidTree::writeNodes(Bvh bvh, std::span<const Bounds> of, int threads) {
     lines.clear();
-    if (bvh.nodes.empty()) return;
-    const std::vector<BinaryNode> nodes = Singles(bvh, boxes).take();
-    if (nodeWidth == 16)
-        TreeWriter<16>(*this, nodes).run();
-    else
-        TreeWriter<8>(*this, nodes).run();
+    if (bvh.nodes.empty()) return {};
+    Singles singles(bvh, of, threads);
+    bvh = {}; // makes room
+    return width == 16 ? TreeWriter<16>(std::move(singles), threads).run(*this)
+                       : TreeWriter<8>(std::move(singles), threads).run(*this);
 }

@@ -2,16 +2,6 @@
 // shape/cone.cpp, and which side of it they see.
 // Included by solids.inl.
 
-// One map in all lanes, or one in each.
-struct SameMap {
-    const AffineRows& rows;
-    Doubles operator()(std::size_t i) const { return Doubles(rows[i]); }
-};
-struct MapLanes {
-    const double (*rows)[W];
-    Doubles operator()(std::size_t i) const { return Doubles::load(rows[i]); }
-};
-
 // Tubes of one form.
 template <class Map> struct Tubes {
     bool caps, isCone;
@@ -31,17 +21,13 @@ class PacketTubes : public PacketFacets {
 protected:
     using PacketFacets::PacketFacets, PacketFacets::meet, PacketFacets::seesSide;
 
-    // The rays in the object space of a tube.
-    struct TubeRays {
-        Doubles ox, oy, oz, dx, dy, dz;
-    };
     // Where they are inside of its wall, which has no end.
     struct WallRange {
         Doubles enter, exit;
         unsigned met, undecided; // lanes; the others miss it
     };
     struct TubeRoots {
-        TubeRays rays;
+        ObjectRays rays;
         Floats t[2], lost[2]; // ascending; lost: by rounding, as in Hit::u
         unsigned met[2];      // lanes
         unsigned end[2];      // lanes that meet an end there, not the wall
@@ -51,7 +37,7 @@ protected:
 
     // AnalyticShape::rootsOf() with Cylinder::roots() or Cone::roots(), operation by operation.
     template <class Map> TubeRoots meet(const Tubes<Map>& tube) const {
-        const TubeRays rays = mapped(tube.map);
+        const ObjectRays rays = objectRays(columns_, tube.map, true);
         const auto& [ox, oy, oz, dx, dy, dz] = rays;
         const Doubles zero(0.0), one(1.0), most(std::numeric_limits<double>::max());
         WallRange wall = tube.isCone ? inCone(rays, tube.radius, tube.slope, tube.narrowZ)
@@ -107,22 +93,10 @@ protected:
     }
 
 private:
-    template <class Map> TubeRays mapped(const Map& m) const {
-        const Doubles X(columns_.org[0]), Y(columns_.org[1]), Z(columns_.org[2]),
-            U(columns_.dir[0]), V(columns_.dir[1]), T(columns_.dir[2]);
-        const auto direction = [&](std::size_t i) {
-            return (m(i) * U + m(i + 1) * V) + m(i + 2) * T;
-        };
-        const auto point = [&](std::size_t i) {
-            return ((m(i) * X + m(i + 1) * Y) + m(i + 2) * Z) + m(i + 3);
-        };
-        return {point(0), point(4), point(8), direction(0), direction(4), direction(8)};
-    }
-
     // -0.0 - x is -x to the last bit, zeros included: the sign of b may choose between two roots.
 
     // Cylinder::insideTube().
-    static WallRange inCylinder(const TubeRays& rays, const Doubles& radius) {
+    static WallRange inCylinder(const ObjectRays& rays, const Doubles& radius) {
         const Doubles &ox = rays.ox, &oy = rays.oy, &dx = rays.dx, &dy = rays.dy;
         const Doubles zero(0.0), minus(-0.0);
         const Doubles dd = dx * dx + dy * dy, od = ox * dx + oy * dy;
@@ -135,8 +109,8 @@ private:
     }
 
     // Cone::insideSide(), but for lines that are no steeper than the side: a > 0.
-    static WallRange inCone(const TubeRays& rays, const Doubles& narrowRadius, const Doubles& slope,
-                            const Doubles& narrowZ) {
+    static WallRange inCone(const ObjectRays& rays, const Doubles& narrowRadius,
+                            const Doubles& slope, const Doubles& narrowZ) {
         const auto& [ox, oy, oz, dx, dy, dz] = rays;
         const Doubles zero(0.0), minus(-0.0), most(std::numeric_limits<double>::max());
         const Doubles oTip = oz - narrowZ;

@@ -16,6 +16,7 @@ struct alignas(64) TrianglesMet {
     // One bit for each hit.
     unsigned used = 0;
     unsigned smooth = 0; // the corners have normals
+    bool onOne = false;  // corners and normals are those of the first hit
     bool wantsLift = true;
 };
 

@@ -7,8 +7,8 @@ namespace {
 class TriangleLanes {
 public:
     TriangleLanes(const TrianglesMet& met, std::size_t first)
-        : met_(met), first_(first), v_{vectors(met.corner[0]), vectors(met.corner[1]),
-                                       vectors(met.corner[2])} {}
+        : met_(met), first_(first), v_{ofTriangle(met.corner[0]), ofTriangle(met.corner[1]),
+                                       ofTriangle(met.corner[2])} {}
 
     // Returns the lanes that it does not know.
     unsigned describe(TriangleSurfaces& out) const {
@@ -39,8 +39,10 @@ private:
     static constexpr unsigned kAll = (1u << W) - 1;
     using Lane = TrianglesMet::Lane;
     Floats load(const Lane& lane) const { return Floats::load(lane + first_); }
-    Doubles3 vectors(const Lane (&v)[3]) const {
-        return Doubles3::of(load(v[0]), load(v[1]), load(v[2]));
+    // A number of the triangle, or of each lane's.
+    Floats ofTriangle(const Lane& lane) const { return met_.onOne ? Floats(lane[0]) : load(lane); }
+    Doubles3 ofTriangle(const Lane (&v)[3]) const {
+        return Doubles3::of(ofTriangle(v[0]), ofTriangle(v[1]), ofTriangle(v[2]));
     }
     void store(const Floats3& v, Lane (&to)[3]) const {
         v.x.store(to[0] + first_), v.y.store(to[1] + first_), v.z.store(to[2] + first_);
@@ -49,7 +51,7 @@ private:
     Floats largestCoordinate() const {
         Floats most(0.0f);
         for (const auto& corner : met_.corner)
-            for (const Lane& axis : corner) most = max(most, abs(load(axis)));
+            for (const Lane& axis : corner) most = max(most, abs(ofTriangle(axis)));
         return most;
     }
 
@@ -72,8 +74,8 @@ private:
     Floats3 interpolated(const Floats3& ng) const {
         const Floats u = load(met_.u), v = load(met_.v), w = (Floats(1.0f) - u) - v;
         const auto mix = [&](std::size_t axis) {
-            return (load(met_.normal[0][axis]) * w + load(met_.normal[1][axis]) * u) +
-                   load(met_.normal[2][axis]) * v;
+            return (ofTriangle(met_.normal[0][axis]) * w + ofTriangle(met_.normal[1][axis]) * u) +
+                   ofTriangle(met_.normal[2][axis]) * v;
         };
         const Doubles3 ns = Doubles3::of(mix(0), mix(1), mix(2));
         const Doubles length2 = dot(ns, ns), zero(0.0);
@@ -88,7 +90,7 @@ private:
         const Doubles weight[3] = {weights.x, weights.y, weights.z};
         Doubles3 lift{zero, zero, zero};
         for (std::size_t i = 0; i < 3; ++i) {
-            const Doubles3 normal = vectors(met_.normal[i]);
+            const Doubles3 normal = ofTriangle(met_.normal[i]);
             const Doubles length2 = dot(normal, normal);
             const Doubles below = side * dot(p - v_[i], normal);
             const Mask lifts = (zero < length2) & (below < zero);

@@ -72,7 +72,8 @@ public:
         top_[0] = leafNode(level[0].range.box);
         while (!level.empty()) level = divideLevel(level);
         growSubtrees();
-        lists_.spare = {}; // 32 bytes a triangle, before the tree takes its place
+        // 32 bytes a triangle, before the tree takes its place.
+        decltype(lists_.spare)().swap(lists_.spare);
         (width_ == 16 ? writeTree<16> : writeTree<8>)(tree, top_, subtrees_, grown_,
                                                       std::move(lists_.prims), rays_, pool_);
         return tree;

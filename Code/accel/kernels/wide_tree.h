@@ -44,6 +44,7 @@ struct WideTree {
     int width = 0; // 0: there is none
     WideRef root = wideRef(0, WideKind::None);
     std::uint32_t stackSize = 0; // more than a traversal ever has on its stack
+    float leavesPerRay = 0;      // that a ray through the root enters, if nothing hides any
     std::vector<std::uint32_t> triangleIds;
     std::uint64_t nodes = 0, leaves = 0;
     double sah = 0; // as sahCost() of bvh.h counts

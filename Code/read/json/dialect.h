@@ -5,6 +5,8 @@
 #include "base/vec.h"
 #include "read/json/json.h"
 
+#include <optional>
+
 struct JsonRules {
     Vec3d attenuation;        // of a light that gives none
     bool directionalHasPower; // or its power is 1, whatever the file says
@@ -15,3 +17,5 @@ struct JsonRules {
 };
 
 JsonRules jsonRulesOf(const JsonValue& scene);
+// Without its objects; nothing when these decide.
+std::optional<JsonRules> jsonRulesWithoutObjects(const JsonValue& scene);

@@ -6,10 +6,13 @@
 #include "read/json/dialect.h"
 #include "read/json/fields.h"
 #include "read/json/materials.h"
+#include "read/json/shapes.h"
 
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <unordered_map>
 #include <vector>
 
 struct JsonGeometry {
@@ -29,15 +32,56 @@ struct JsonGeometry {
     int depth = 1;
 };
 
-struct JsonGeometries {
-    std::vector<JsonGeometry> all;
-    std::vector<std::size_t> roots; // those of the list "objects"
-};
-
 // So many geometries may a scene have when instances are written out, and so deep may they nest.
 inline constexpr std::size_t kMostJsonGeometries = std::size_t{1} << 20;
 inline constexpr int kDeepestJsonGeometry = 1000;
 
-JsonGeometries readJsonGeometries(JsonFields& scene, const JsonRules& rules,
-                                  const JsonNames& textures, const JsonMaterials& materials,
-                                  std::vector<MeshDesc>& meshes);
+class JsonGeometryReader {
+public:
+    // What is not `named` can't be referred to: then that is an error.
+    JsonGeometryReader(JsonProblems& problems, const JsonRules& rules, const JsonNames& textures,
+                       const JsonMaterials& materials, std::vector<MeshDesc>& meshes,
+                       bool named = true);
+
+    const std::vector<JsonGeometry>& all() const { return all_; }
+    // An item of the list "objects", by its place in all(). Nothing when it is skipped or wrong.
+    std::optional<std::size_t> addRoot(const JsonValue& value);
+
+    // A shape that has to do with no other object, for readers of a part of the list: it is in no
+    // list, and its name is empty if it has none. Nothing for all others.
+    struct Lone {
+        JsonGeometry geometry;
+        std::size_t type = 0;
+    };
+    std::optional<Lone> readLone(const JsonValue& value);
+    // Of a lone one that another reader has read: counts it, and gives it the name of its number.
+    void addLone(ObjectDesc& shape, std::size_t type);
+
+private:
+    using Index = std::optional<std::size_t>;
+
+    Index readOne(const JsonValue& value, bool isTopLevel);
+    bool isKnown(const JsonValue* typeValue, const std::string& type, const JsonValue& value);
+    void readHead(JsonGeometry& geometry, JsonFields& fields);
+    void readShape(JsonGeometry& geometry, std::string_view type, JsonFields& fields);
+    void readNode(JsonGeometry& node, JsonFields& fields);
+    void readInstance(JsonGeometry& instance, JsonFields& fields);
+    void readReference(JsonGeometry& instance, const std::string& ref, const JsonValue& refValue);
+    void addChild(JsonGeometry& parent, std::size_t index) const;
+    void checkDepth(const JsonGeometry& geometry);
+    void count(std::size_t geometries, SourceLoc loc);
+    Index find(const JsonNames& names, const std::string& name, const JsonValue& ref,
+               std::string_view what);
+
+    JsonProblems& problems_;
+    const JsonRules& rules_;
+    const JsonNames& textures_;
+    const JsonMaterials& materials_;
+    bool named_;
+    JsonMeshes meshes_;
+    std::vector<std::string> types_ = jsonShapeWords(); // and those that are no shapes
+    std::size_t total_ = 0;
+    std::vector<JsonGeometry> all_;
+    JsonNames anywhere_, topNodes_;
+    std::unordered_map<std::string, int> unnamed_; // by type
+};

@@ -3,5 +3,42 @@
 #pragma once
 
 #include "read/json/geometry.h"
+#include "read/unique_names.h"
 
-std::vector<ObjectDesc> flattenJson(const JsonGeometries& geometries, JsonProblems& problems);
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+class JsonObjects {
+public:
+    JsonObjects(JsonProblems& problems, std::size_t expected);
+
+    // A geometry that stands in the list "objects", with all that is below it.
+    void addRoot(const std::vector<JsonGeometry>& all, std::size_t root);
+    // Objects that loneObject() made; their names are made unique.
+    void add(std::vector<ObjectDesc>::iterator first, std::vector<ObjectDesc>::iterator last);
+
+    // An empty list after an error.
+    std::vector<ObjectDesc> take();
+
+private:
+    using Handles = std::span<const Handle>;
+
+    void flatten(const std::vector<JsonGeometry>& all, const JsonGeometry& geometry,
+                 const Keys& worldFromParent, Handles inherited, const std::string& path);
+    void add(ObjectDesc& object);
+    bool hasRoomFor(const Keys& keys, std::size_t materials, SourceLoc loc);
+    void failKeys(const JsonGeometry& geometry, const Keys& worldFromParent);
+
+    JsonProblems& problems_;
+    std::vector<ObjectDesc> objects_;
+    UniqueNames names_;
+    std::size_t size_ = 0; // of all keys and material lists
+    bool failed_ = false;
+};
+
+// The object of a shape that stands in the list by itself, but for its name being that of the file.
+// Nothing when it has no place.
+std::optional<ObjectDesc> loneObject(JsonGeometry geometry);

@@ -1,21 +1,27 @@
 #include "read/json/read_json.h"
 
+#include "read/attempt.h"
 #include "read/json/camera.h"
 #include "read/json/dialect.h"
 #include "read/json/fields.h"
-#include "read/json/geometry.h"
 #include "read/json/json.h"
 #include "read/json/lights.h"
 #include "read/json/materials.h"
-#include "read/json/objects.h"
+#include "read/json/object_list.h"
 #include "read/json/problems.h"
 #include "read/json/settings.h"
 
-SceneDesc readJson(const SourceFile& source, const ReadContext& context) {
-    const JsonDocument document = parseJson(source);
-    JsonProblems problems(source, context);
-    JsonFields scene(document.root, "the scene", problems);
-    const JsonRules rules = jsonRulesOf(document.root);
+#include <optional>
+#include <utility>
+#include <vector>
+
+namespace {
+
+// readObjects(what they are read with) gives the objects.
+template <class ReadObjects>
+SceneDesc readScene(const JsonValue& root, const JsonRules& rules, JsonProblems& problems,
+                    const ReadObjects& readObjects) {
+    JsonFields scene(root, "the scene", problems);
     SceneDesc desc;
     readJsonSettings(scene, rules, desc.settings);
     const JsonNames textures = readJsonTextures(scene, desc.textures);
@@ -24,11 +30,49 @@ SceneDesc readJson(const SourceFile& source, const ReadContext& context) {
         desc.cameras.push_back(readJsonCamera(*camera, problems));
     const JsonMaterials materials(scene, textures, desc.materials);
     readJsonLights(scene, rules, desc.lights);
-    const JsonGeometries geometries =
-        readJsonGeometries(scene, rules, textures, materials, desc.meshes);
-    scene.reportUnknown();
-    // A tree with errors could be larger than any memory.
-    if (!problems.hasErrors()) desc.objects = flattenJson(geometries, problems);
+    desc.objects = readObjects(JsonSurroundings{scene, rules, textures, materials, desc.meshes});
     problems.finish();
     return desc;
+}
+
+SceneDesc readInOrder(const SourceFile& source, const ReadContext& context) {
+    const JsonDocument document = parseJson(source);
+    JsonProblems problems(source, context);
+    return readScene(document.root, jsonRulesOf(document.root), problems, readJsonObjects);
+}
+
+// Nothing when the text has a mistake, when there is anything to say of its objects, when these
+// refer to each other, or when they decide what dialect it is.
+std::optional<SceneDesc> readInParts(const SourceFile& source, const ReadContext& context,
+                                     std::size_t partBytes) {
+    const JsonOutline outline = parseJsonOutline(source, "objects", partBytes);
+    const JsonValue& root = outline.document.root;
+    const auto rules = jsonRulesWithoutObjects(root);
+    if (outline.list.parts.empty() || !rules) return {};
+    JsonProblems problems(source, context);
+    bool isGood = false;
+    SceneDesc desc = readScene(root, *rules, problems, [&](const JsonSurroundings& with) {
+        auto objects = readJsonObjectsInParts(source, outline.list, context.options.threads, with);
+        isGood = objects.has_value();
+        return isGood ? std::move(*objects) : std::vector<ObjectDesc>();
+    });
+    if (!isGood) return {};
+    return desc;
+}
+
+} // namespace
+
+SceneDesc readJson(const SourceFile& source, const ReadContext& context) {
+    constexpr std::size_t kPartBytes = std::size_t{1} << 17;
+    return readJson(source, context, kPartBytes);
+}
+
+SceneDesc readJson(const SourceFile& source, const ReadContext& context, std::size_t partBytes) {
+    // One thread reads in parts, too: a tree of all values takes longer to store than to make.
+    if (source.text.size() > partBytes)
+        if (auto scene = attempt(context, [&](const ReadContext& own) {
+                return readInParts(source, own, partBytes);
+            }))
+            return std::move(*scene);
+    return readInOrder(source, context);
 }

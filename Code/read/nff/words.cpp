@@ -7,12 +7,6 @@
 #include <algorithm>
 #include <cmath>
 
-namespace {
-
-constexpr bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-
-} // namespace
-
 std::string described(const NffWord& word) {
     return word.text.empty() ? "the end of the file" : cat("'", shown(word.text), "'");
 }
@@ -23,24 +17,17 @@ bool startsNumber(const NffWord& word) {
     return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.';
 }
 
-NffWords::NffWords(const SourceFile& source)
-    : source_(source), p_(source.text.data()), end_(p_ + source.text.size()) {
+NffWords::NffWords(const SourceFile& source, std::size_t first)
+    : source_(source), p_(source.text.data() + first),
+      end_(source.text.data() + source.text.size()) {
     constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf"; // some editors on Windows
-    if (source.text.starts_with(kByteOrderMark)) p_ += kByteOrderMark.size();
-}
-
-void NffWords::skipBlanks() {
-    while (true) {
-        while (isBlank(*p_)) ++p_;
-        if (*p_ != '#') return;
-        while (p_ != end_ && *p_ != '\n' && *p_ != '\r') ++p_;
-    }
+    if (first == 0 && source.text.starts_with(kByteOrderMark)) p_ += kByteOrderMark.size();
 }
 
 NffWord NffWords::next() {
     skipBlanks();
     const char* const first = p_;
-    while (p_ != end_ && !isBlank(*p_) && *p_ != '#') ++p_;
+    while (!isBehindWord(p_)) ++p_;
     return {static_cast<std::size_t>(first - source_.text.data()),
             {first, static_cast<std::size_t>(p_ - first)}};
 }
@@ -50,17 +37,6 @@ NffWord NffWords::peek() {
     const NffWord word = next();
     p_ = here;
     return word;
-}
-
-bool NffWords::number(double& value, std::size_t& offset) {
-    skipBlanks();
-    const auto read = readDouble(p_);
-    if (read.fault != NumberFault::None) return false;
-    if (read.end != end_ && !isBlank(*read.end) && *read.end != '#') return false;
-    value = read.value;
-    offset = static_cast<std::size_t>(p_ - source_.text.data());
-    p_ = read.end;
-    return true;
 }
 
 std::size_t NffWords::lineOf(std::size_t offset) const {
@@ -75,23 +51,19 @@ void NffWords::refuseSecond(const NffWord& word, std::size_t& given) const {
     given = word.offset;
 }
 
-double NffNumbers::number(const Range& range) {
-    double value = 0;
-    std::size_t offset = 0;
-    if (!in_.number(value, offset)) {
-        const NffWord word = in_.next();
-        if (!word.text.empty() && readDouble(word.text.data()).fault == NumberFault::TooLarge)
-            in_.failAt(word, cat(described(word), " is too large"));
-        in_.failAt(word, cat("expected ", count_, count_ == 1 ? " number" : " numbers", " after '",
-                             keyword_.text, "', got ", described(word), " as number ", got_ + 1));
-    }
-    ++got_;
-    if (!range.contains(value))
-        errors_.add({static_cast<std::uint32_t>(offset)}, [&] {
-            return cat(count_ == 1 ? "" : cat("number ", got_, " of "), "'", keyword_.text, "' ",
-                       mustBe(range, value), ", got ", shortest(value));
-        });
-    return value;
+void NffNumbers::failMissing() {
+    const NffWord word = in_.next();
+    if (!word.text.empty() && readDouble(word.text.data()).fault == NumberFault::TooLarge)
+        in_.failAt(word, cat(described(word), " is too large"));
+    in_.failAt(word, cat("expected ", count_, count_ == 1 ? " number" : " numbers", " after '",
+                         keyword_.text, "', got ", described(word), " as number ", got_ + 1));
+}
+
+void NffNumbers::addOutside(const Range& range, double value, std::size_t offset) {
+    errors_.add({static_cast<std::uint32_t>(offset)}, [&] {
+        return cat(count_ == 1 ? "" : cat("number ", got_, " of "), "'", keyword_.text, "' ",
+                   mustBe(range, value), ", got ", shortest(value));
+    });
 }
 
 int NffNumbers::whole(const Range& range) {

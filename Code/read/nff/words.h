@@ -8,6 +8,7 @@
 #include "desc/error_list.h"
 #include "desc/range.h"
 #include "desc/scene_desc.h"
+#include "read/plain_number.h"
 
 #include <cstddef>
 #include <string>
@@ -25,7 +26,8 @@ bool startsNumber(const NffWord& word);
 
 class NffWords {
 public:
-    explicit NffWords(const SourceFile& source); // the file must outlive the words
+    // From a place between words on. The file must outlive the words.
+    NffWords(const SourceFile& source, std::size_t first);
 
     const SourceFile& source() const { return source_; }
     NffWord next();
@@ -44,12 +46,32 @@ public:
     void refuseSecond(const NffWord& word, std::size_t& given) const;
 
 private:
+    static constexpr bool isBlank(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
     void skipBlanks();
+    bool isBehindWord(const char* p) const { return isBlank(*p) || *p == '#' || p == end_; }
 
     const SourceFile& source_;
     const char* p_;
     const char* end_; // *end_ is the string's terminating zero
 };
+
+inline void NffWords::skipBlanks() {
+    while (true) {
+        while (isBlank(*p_)) ++p_;
+        if (*p_ != '#') return;
+        while (p_ != end_ && *p_ != '\n' && *p_ != '\r') ++p_;
+    }
+}
+
+inline bool NffWords::number(double& value, std::size_t& offset) {
+    skipBlanks();
+    const NumberRead<double> read = readDouble(p_, end_);
+    if (read.fault != NumberFault::None || !isBehindWord(read.end)) return false;
+    value = read.value;
+    offset = static_cast<std::size_t>(p_ - source_.text.data());
+    p_ = read.end;
+    return true;
+}
 
 // The numbers behind a keyword. Missing ones stop the reader; those out of range are collected.
 class NffNumbers {
@@ -57,7 +79,14 @@ public:
     NffNumbers(NffWords& in, ErrorList& errors, const NffWord& keyword, std::size_t count)
         : in_(in), errors_(errors), keyword_(keyword), count_(count) {}
 
-    double number(const Range& range = kAnyNumber);
+    double number(const Range& range = kAnyNumber) {
+        double value = 0;
+        std::size_t offset = 0;
+        if (!in_.number(value, offset)) failMissing();
+        ++got_;
+        if (!range.contains(value)) addOutside(range, value, offset);
+        return value;
+    }
     int whole(const Range& range); // of a range that fits
     Vec3d point();
     Rgbd color();
@@ -65,8 +94,11 @@ public:
     bool more(std::size_t count);
 
 private:
+    [[noreturn]] void failMissing();
+    void addOutside(const Range& range, double value, std::size_t offset);
+
     NffWords& in_;
     ErrorList& errors_;
-    NffWord keyword_;
+    const NffWord& keyword_;
     std::size_t count_, got_ = 0;
 };

@@ -102,6 +102,7 @@ std::optional<SceneDesc> joined(const SourceFile& source, std::vector<std::optio
         for (auto& part : parts) {
             auto& some = part->desc.*blocks;
             std::move(some.begin(), some.end(), std::back_inserter(all.*blocks));
+            std::remove_reference_t<decltype(some)>().swap(some);
         }
     };
     for (const auto& part : parts)

@@ -4,10 +4,55 @@
 
 #include "render/waves/lamp_light.h"
 
+namespace waves {
+
+// Light that comes from the surface itself to where its point is seen.
+inline Rgb glowOf(const Scene& scene, const Material& material) {
+    return material.emission + material.diffuse * scene.ambient();
+}
+
+// Of points that are neither lamps nor looked through.
+inline void addGlowOfBlock(const Wave& wave, std::size_t b) {
+    const PointBatch& points = wave.memory.points;
+    const std::size_t first = b * PointColumns::kPoints, size = points.sizeOf(b);
+    if (const Material* const all = points.painted[b]) {
+        const Rgb glow = glowOf(wave.context.scene, *all);
+        for (std::size_t k = first; k < first + size; ++k)
+            wave.add(points.slot[k], points.weight[k] * glow);
+        return;
+    }
+    for (std::size_t k = first; k < first + size; ++k)
+        wave.add(points.slot[k],
+                 points.weight[k] * glowOf(wave.context.scene, *points.material[k]));
+}
+
+inline void addBackground(const Wave& wave, std::size_t first, std::size_t last) {
+    const PathBatch& rays = wave.rays;
+    for (std::size_t i = first; i < last; ++i)
+        wave.add(rays.sample[i], rays.weight[i] * wave.context.scene.background(rays.dir[i]));
+}
+
+} // namespace waves
+
+// Where every sample has one ray: nobody asks for an order.
+inline void addPlainGlow(const Wave& wave) {
+    const PointBatch& points = wave.memory.points;
+    std::size_t next = 0;
+    if (points.count < wave.rays.size())
+        for (std::size_t k = 0; k <= points.count; ++k) {
+            const std::size_t met = k < points.count ? points.ray[k] : wave.rays.size();
+            waves::addBackground(wave, next, met);
+            next = met + 1;
+        }
+    for (std::size_t b = 0; b < points.blocks(); ++b) waves::addGlowOfBlock(wave, b);
+}
+
 template <bool kLampBodies, bool kSeeThrough> void addGlow(const Wave& wave) {
     const Scene& scene = wave.context.scene;
     const PathBatch& rays = wave.rays;
     const PointBatch& points = wave.memory.points;
+    if constexpr (!kLampBodies && !kSeeThrough)
+        if (wave.hasOneRayPerSample() && wave.context.openLamps.empty()) return addPlainGlow(wave);
     std::size_t k = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const std::uint32_t slot = rays.sample[i];
@@ -18,7 +63,7 @@ template <bool kLampBodies, bool kSeeThrough> void addGlow(const Wave& wave) {
         const std::size_t here = k++;
         const Material& material = *points.material[here];
         if constexpr (kLampBodies)
-            if (points.at[here].of->isLamp) {
+            if (points.at.of(here).isLamp) {
                 if (points.at[here].front && rays.seesLights[i])
                     wave.add(slot, rays.weight[i] * material.emission);
                 continue;
@@ -26,7 +71,7 @@ template <bool kLampBodies, bool kSeeThrough> void addGlow(const Wave& wave) {
         const Rgb weight = points.weight[here];
         if constexpr (kSeeThrough)
             if (material.opacity < 1 && isBlack(weight)) continue;
-        wave.add(slot, weight * (material.emission + material.diffuse * scene.ambient()));
+        wave.add(slot, weight * waves::glowOf(scene, material));
         if (wave.context.openLamps.empty() || !answersLamps(material)) continue;
         const LitPoint lit = litPoint(wave, here);
         for (const Lamp& lamp : wave.context.openLamps)

@@ -50,19 +50,41 @@ public:
         return ~bits(times.lo > times.hi * Floats(1 + 0x1p-18f));
     }
 
-    // Is the ball off the hull of the point and of a ball around the lamp? That is a cone of the
-    // angle whose sine is lampRadius / distance; `height` over its axis and `along` it.
-    unsigned passBy(const Occluder& ball, float slack) const {
+    // The hull of the point and of a ball around the lamp is a cone of the angle whose sine is
+    // lampRadius / distance. A ball is `height` over its axis and `along` it. How far from the
+    // cone's sides is the centre, outwards, and the same across the axis?
+    struct BallSeen {
+        Floats along, height, distance2, cosine, sine, out;
+    };
+    BallSeen look(const Occluder& ball) const {
         const Three d = Three::all(ball.centre.x, ball.centre.y, ball.centre.z) - p_;
         const Floats along = dot(d, unit_), one(1.0f);
         const Three across = d - unit_ * along;
         const Floats height = sqrt(dot(across, across)), sine = Floats(lampRadius_) / distance_;
         const Floats cosine = sqrt(one - sine * sine); // NaN in the lamp: then nothing is known
-        const Floats room = Floats(ball.radius + slack) + lift_;
-        const Mask isBehind = along * cosine + height * sine < Floats(0.0f);
-        return bits(height * cosine - along * sine > room) |
-               bits(isBehind & (dot(d, d) > room * room));
+        return {along, height, dot(d, d), cosine, sine, height * cosine - along * sine};
     }
+
+    // Is the ball off the cone?
+    unsigned passBy(const Occluder& ball, const BallSeen& seen, float slack) const {
+        const Floats room = Floats(ball.radius + slack) + lift_;
+        const Mask isBehind = seen.along * seen.cosine + seen.height * seen.sine < Floats(0.0f);
+        return bits(seen.out > room) | bits(isBehind & (seen.distance2 > room * room));
+    }
+
+    // Does all of the cone go through the ball in front of the lamp? The line that is farthest from
+    // the centre is on the other side of the axis.
+    unsigned areBehind(const Occluder& ball, const BallSeen& seen, float slack) const {
+        const Floats around = Floats(slack) + lift_, core(ball.core);
+        const Floats outside = Floats(ball.radius) + around; // rays have to come in
+        const Floats farthest = seen.height * seen.cosine + seen.along * seen.sine;
+        const Mask isAhead = seen.along * seen.cosine > seen.height * seen.sine;
+        const Mask isNearer = seen.along + seen.height + around < distance_ - Floats(lampRadius_);
+        return bits((farthest + around < core) & isAhead & isNearer &
+                    (seen.distance2 > outside * outside));
+    }
+
+    Floats room(float slack) const { return Floats(slack) + lift_; }
 
     unsigned areBeside(const Occluder::Sides& plane, float slack) const {
         float lampLo = plane.offset, lampHi = plane.offset;
@@ -88,28 +110,111 @@ private:
     Floats lo_[3], hi_[3];
 };
 
+// What is known of single lines from W points of a block to places on the lamp.
+class LinesToLamp {
+public:
+    LinesToLamp(const LitBlock& block, const Occluders& occluders, const HiddenPoints& hidden,
+                std::size_t first)
+        : block_(block), occluders_(occluders), hidden_(hidden), first_(first) {}
+
+    // Lines that something hides, and others of which only a ray can tell.
+    struct Answer {
+        unsigned hidden = 0, unsure = 0;
+    };
+    Answer ask(const Three& toLight, Floats distance, unsigned lanes) const {
+        Answer answer;
+        if (!hidden_.areShapesKnown) return {0, lanes};
+        const Three p = Three::load(block_.p, first_);
+        const Floats room = Floats::load(hidden_.room + first_);
+        for (std::size_t i = 0; i < occluders_.all().size(); ++i) {
+            const unsigned asked = hidden_.byShape[i] >> first_ & lanes & ~answer.hidden;
+            if (asked == 0) continue;
+            const Occluder& caster = occluders_.all()[i];
+            const Answer by = caster.radius < kInfinityF
+                                  ? askBall(caster, p, room, toLight, distance)
+                                  : Answer{0, meetBox(caster.box, p, room, toLight, distance)};
+            answer.hidden |= asked & by.hidden, answer.unsure |= asked & by.unsure;
+        }
+        answer.unsure &= ~answer.hidden;
+        return answer;
+    }
+
+private:
+    static Answer askBall(const Occluder& ball, const Three& p, Floats room, const Three& toLight,
+                          Floats distance) {
+        const Three d = Three::all(ball.centre.x, ball.centre.y, ball.centre.z) - p;
+        const Floats along = dot(d, toLight), zero(0.0f);
+        const Three across = d - toLight * along;
+        const Floats height2 = dot(across, across);
+        const Floats outer = Floats(ball.radius) + room, inner = Floats(ball.core) - room;
+        const Mask isOff =
+            (height2 > outer * outer) | (along + outer < zero) | (along - outer > distance);
+        // From outside of the ball through its core, the middle of which is in front of the lamp.
+        const Mask goesIn = (inner > zero) & (height2 < inner * inner) & (along > zero) &
+                            (along + room < distance) & (dot(d, d) > outer * outer);
+        return {bits(goesIn), ~bits(isOff)};
+    }
+
+    // By the axes that may separate a line from a box: three of the box, and three across both.
+    static unsigned meetBox(const Bounds& box, const Three& p, Floats room, const Three& toLight,
+                            Floats distance) {
+        if (!box.isFinite()) return ~0u;
+        const Vec3 centre = (box.lo + box.hi) * 0.5f, half = (box.hi - box.lo) * 0.5f;
+        const Three h = toLight * (distance * Floats(0.5f));
+        const Three m = p + h - Three::all(centre.x, centre.y, centre.z);
+        const Three e{Floats(half.x) + room, Floats(half.y) + room, Floats(half.z) + room};
+        const Three size{abs(h.x), abs(h.y), abs(h.z)};
+        const auto across = [&](Floats mA, Floats mB, Floats hA, Floats hB, Floats eA, Floats eB,
+                                Floats sizeA, Floats sizeB) {
+            return abs(mA * hB - mB * hA) > eA * sizeB + eB * sizeA;
+        };
+        const Mask apart = (abs(m.x) > e.x + size.x) | (abs(m.y) > e.y + size.y) |
+                           (abs(m.z) > e.z + size.z) |
+                           across(m.x, m.y, h.x, h.y, e.x, e.y, size.x, size.y) |
+                           across(m.y, m.z, h.y, h.z, e.y, e.z, size.y, size.z) |
+                           across(m.z, m.x, h.z, h.x, e.z, e.x, size.z, size.x);
+        return ~bits(apart);
+    }
+
+    const LitBlock& block_;
+    const Occluders& occluders_;
+    const HiddenPoints& hidden_;
+    std::size_t first_;
+};
+
 } // namespace
 
-unsigned mayBeHidden(const Occluders& occluders, const LitBlock& block, const PointEmission& lamp) {
-    unsigned hidden = 0;
+HiddenPoints hiddenPoints(const Occluders& occluders, const LitBlock& block,
+                          const PointEmission& lamp) {
+    static_assert(HiddenPoints::kMostShapes >= Occluders::kMost);
+    HiddenPoints hidden;
+    hidden.areShapesKnown = true;
+    hidden.byShape.fill(0);
     for (std::size_t first = 0; first < LitBlock::kPoints; first += W) {
         const unsigned all = block.used >> first & ((1u << W) - 1);
         const PointsToLamp points(block, first, lamp);
         const float slack = occluders.slack(points.extent());
+        points.room(slack).store(hidden.room + first);
         const Ints shapes = Ints::load(block.shape + first);
-        unsigned met = 0;
-        for (const Occluder& caster : occluders.all()) {
+        for (std::size_t i = 0; i < occluders.all().size(); ++i) {
+            const Occluder& caster = occluders.all()[i];
             const unsigned inside = block.inside >> first;
             const unsigned others = ~bits(shapes == Ints(caster.shape)) |
                                     (inside & (caster.hidesInside ? ~0u : 0)) |
                                     (~inside & (caster.hidesOutside ? ~0u : 0));
-            unsigned asked = all & ~met & others;
-            if (asked != 0 && caster.plane) asked &= ~points.areBeside(*caster.plane, slack);
-            if (asked != 0 && caster.radius < kInfinityF) asked &= ~points.passBy(caster, slack);
-            if (asked != 0) met |= asked & points.meet(caster.box, slack);
-            if (met == all) break;
+            unsigned met = all & ~(hidden.surely >> first) & others;
+            if (met != 0 && caster.plane) met &= ~points.areBeside(*caster.plane, slack);
+            if (met != 0 && caster.radius < kInfinityF) {
+                const auto seen = points.look(caster);
+                met &= ~points.passBy(caster, seen, slack);
+                hidden.surely |= (met & points.areBehind(caster, seen, slack)) << first;
+            }
+            if (met != 0) met &= points.meet(caster.box, slack);
+            hidden.byShape[i] |= static_cast<std::uint16_t>(met << first);
+            hidden.maybe |= met << first;
+            if ((hidden.surely >> first) == all) break;
         }
-        hidden |= met << first;
     }
+    hidden.maybe |= hidden.surely;
     return hidden;
 }

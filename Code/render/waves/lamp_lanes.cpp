@@ -1,45 +1,34 @@
 #include "render/waves/lamp_lanes.h"
 
-#include <string_view>
+#include "accel/kernels/by_kernel.h"
 
-#define LIGHT_IN_LANES(isa)                                                                        \
+#define DECLARE(isa)                                                                               \
     namespace kernels::isa {                                                                       \
     void lightByLamp(const PointEmission&, const LitBlock&, unsigned, LitByLamp&);                 \
     void lightBySamples(const PointEmission&, const LitBlock&, const SamplesOnLamp&,               \
-                        LitBySamples&);                                                            \
-    unsigned mayBeHidden(const Occluders&, const LitBlock&, const PointEmission&);                 \
+                        const Occluders&, const HiddenPoints&, LitBySamples&);                     \
+    HiddenPoints hiddenPoints(const Occluders&, const LitBlock&, const PointEmission&);            \
     }
-LIGHT_IN_LANES(sse)
-LIGHT_IN_LANES(avx2)
-LIGHT_IN_LANES(avx512)
-#undef LIGHT_IN_LANES
+DECLARE_BY_KERNEL(DECLARE)
+#define ROW(isa)                                                                                   \
+    { kernels::isa::lightByLamp, kernels::isa::lightBySamples, kernels::isa::hiddenPoints }
 
 namespace {
 
-struct Row {
-    std::string_view name;
+struct Functions {
     LightByLampFn byLamp = nullptr;
     LightBySamplesFn bySamples = nullptr;
-    MayBeHiddenFn mayBeHidden = nullptr;
+    HiddenPointsFn hiddenPoints = nullptr;
 };
 
-Row rowOf([[maybe_unused]] const Kernel& kernel) {
-#if defined(__x86_64__)
-    static constexpr Row kTable[] = {
-        {"avx512", kernels::avx512::lightByLamp, kernels::avx512::lightBySamples,
-         kernels::avx512::mayBeHidden},
-        {"avx2", kernels::avx2::lightByLamp, kernels::avx2::lightBySamples,
-         kernels::avx2::mayBeHidden},
-        {"sse", kernels::sse::lightByLamp, kernels::sse::lightBySamples, kernels::sse::mayBeHidden},
-    };
-    for (const Row& row : kTable)
-        if (row.name == kernel.name) return row;
-#endif
-    return {};
+Functions functionsOf(const Kernel& kernel) {
+    static constexpr ByKernel<Functions> kTable = BY_KERNEL(ROW);
+    const Functions* const functions = kTable.of(kernel);
+    return functions ? *functions : Functions{};
 }
 
 } // namespace
 
-MayBeHiddenFn mayBeHidden(const Kernel& kernel) { return rowOf(kernel).mayBeHidden; }
-LightByLampFn lightByLamp(const Kernel& kernel) { return rowOf(kernel).byLamp; }
-LightBySamplesFn lightBySamples(const Kernel& kernel) { return rowOf(kernel).bySamples; }
+HiddenPointsFn hiddenPoints(const Kernel& kernel) { return functionsOf(kernel).hiddenPoints; }
+LightByLampFn lightByLamp(const Kernel& kernel) { return functionsOf(kernel).byLamp; }
+LightBySamplesFn lightBySamples(const Kernel& kernel) { return functionsOf(kernel).bySamples; }

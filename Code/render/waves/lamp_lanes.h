@@ -38,32 +38,47 @@ struct alignas(64) LitByLamp {
 // say where, and what they are shuffled and scrambled by (Sampler::PairSeeds).
 struct SamplesOnLamp {
     std::size_t count = 0;
-    float share = 1; // of each sample in the light
-    std::uint32_t first[LitBlock::kPoints], index[LitBlock::kPoints], x[LitBlock::kPoints],
-        y[LitBlock::kPoints];
+    float share = 1;     // of each sample in the light
+    unsigned points = 0; // that are asked: a bit for each
+    std::uint32_t first[LitBlock::kPoints] = {}, index[LitBlock::kPoints] = {},
+                  x[LitBlock::kPoints] = {}, y[LitBlock::kPoints] = {};
 };
 
-// What they do: sample s of point k is element k * count + s.
+// What they do: their light is added to the sum of a point. Where it takes a ray to know whether
+// one of them is hidden, the point waits: then its sum stays, and these samples and all later ones
+// are listed instead. Sample s of point k is element s * kPoints + k.
 struct alignas(64) LitBySamples {
     static constexpr std::size_t kMost = 16; // samples at a time
     static constexpr std::size_t kRoom = LitBlock::kPoints * kMost;
+    float sum[3][LitBlock::kPoints] = {};
     float light[3][kRoom], dir[3][kRoom], tMax[kRoom]; // the ray from the point
-    std::array<std::uint16_t, kRoom / 16> lit;         // a bit for each
-    bool isLit(std::size_t i) const { return lit[i / 16] >> i % 16 & 1; }
+    std::array<std::uint16_t, kMost> lit, unsure;      // a bit for each point
+    unsigned waiting = 0;
+    bool isLit(std::size_t s, std::size_t k) const { return lit[s] >> k & 1; }
+    bool isUnsure(std::size_t s, std::size_t k) const { return unsure[s] >> k & 1; }
 };
 
 // Rays are made for the lit points of `withRays`.
 using LightByLampFn = void (*)(const PointEmission& lamp, const LitBlock& block, unsigned withRays,
                                LitByLamp& out);
-using LightBySamplesFn = void (*)(const PointEmission& lamp, const LitBlock& block,
-                                  const SamplesOnLamp& samples, LitBySamples& out);
 
-// The points of a block that something may hide from a place on the lamp.
+// The points of a block that something may hide from a place on the lamp, and those of them that
+// something hides from all of it; and which points each shape may hide.
 class Occluders;
-using MayBeHiddenFn = unsigned (*)(const Occluders& occluders, const LitBlock& block,
-                                   const PointEmission& lamp);
+struct alignas(64) HiddenPoints {
+    static constexpr std::size_t kMostShapes = 16;
+    float room[LitBlock::kPoints]; // for rounding, about the lines to the lamp
+    std::array<std::uint16_t, kMostShapes> byShape;
+    unsigned maybe = 0, surely = 0;
+    bool areShapesKnown = false;
+};
+using HiddenPointsFn = HiddenPoints (*)(const Occluders& occluders, const LitBlock& block,
+                                        const PointEmission& lamp);
+using LightBySamplesFn = void (*)(const PointEmission& lamp, const LitBlock& block,
+                                  const SamplesOnLamp& samples, const Occluders& occluders,
+                                  const HiddenPoints& hidden, LitBySamples& out);
 
 // Null for the scalar kernel.
-MayBeHiddenFn mayBeHidden(const Kernel& kernel);
+HiddenPointsFn hiddenPoints(const Kernel& kernel);
 LightBySamplesFn lightBySamples(const Kernel& kernel);
 LightByLampFn lightByLamp(const Kernel& kernel);

@@ -10,21 +10,31 @@ inline bool answersLamps(const Material& material) {
 
 inline LitPoint litPoint(const Wave& wave, std::size_t k) {
     const PointBatch& points = wave.memory.points;
-    const ShadedPoint& at = points.at[k];
-    return {static_cast<std::uint32_t>(k),
-            at.surface.lift != Vec3{},
-            at.surface.p,
-            at.lit.n,
-            at.lit.ng,
-            at.toEye,
-            points.weight[k],
-            points.material[k]};
+    const PointBlock& block = points.at.block(k / PointColumns::kPoints);
+    const std::size_t i = k % PointColumns::kPoints;
+    const bool isApart = block.isLitApart(i), isCurved = block.isCurved(i);
+    const float side = isApart || block.isFront(i) ? 1.0f : -1.0f; // times it is exact
+    LitPoint lit{static_cast<std::uint32_t>(k),
+                 SurfaceBlock::get(block.p, i),
+                 SurfaceBlock::get(isApart ? block.litN : block.n, i),
+                 SurfaceBlock::get(block.ng, i) * side,
+                 {},
+                 {},
+                 SurfaceBlock::get(block.toEye, i),
+                 block.error[i],
+                 block.rayError[i],
+                 points.weight[k],
+                 points.material[k]};
+    if (isCurved) {
+        lit.ns = SurfaceBlock::get(block.ns, i) * side;
+        lit.lift = SurfaceBlock::get(block.lift, i);
+    }
+    return lit;
 }
 
 // Is the light above the horizon, of the triangle or of the curve that its normals pretend?
-inline bool rises(const Wave& wave, const LitPoint& lit, Vec3 toLight) {
-    return dot(lit.ng, toLight) > 0 ||
-           (lit.isLifted && dot(wave.memory.points.at[lit.point].lit.ns, toLight) > 0);
+inline bool rises(const LitPoint& lit, Vec3 toLight) {
+    return dot(lit.ng, toLight) > 0 || (lit.lift != Vec3{} && dot(lit.ns, toLight) > 0);
 }
 
 // Number of the lamp's first random place at the hit of ray i.
@@ -44,7 +54,7 @@ inline Vec2 placeOn(const Lamp& lamp, int k, const Wave& wave, std::size_t i) {
 template <bool kSoftLamps, class Fn>
 void forEachLampSample(const Wave& wave, const Lamp& lamp, const LitPoint& lit, Fn&& fn) {
     const auto take = [&](const LightSample& sample, float share) {
-        if (isBlack(sample.irradiance) || !rises(wave, lit, sample.toLight)) return;
+        if (isBlack(sample.irradiance) || !rises(lit, sample.toLight)) return;
         const Rgb reflected = reflectedLight(*lit.material, lit.n, lit.toEye, sample.toLight);
         const Rgb light = lit.weight * reflected * sample.irradiance * share;
         if (!isBlack(light)) fn(sample, light);

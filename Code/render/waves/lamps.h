@@ -3,32 +3,50 @@
 // so are one bundle, however many lamps there are.
 #pragma once
 
-#include "render/waves/lit_blocks.h"
+#include "render/waves/groups.h"
+#include "render/waves/lamp_sums.h"
 
 #include <algorithm>
 
 namespace waves {
 
+// Which of the shadow rays are hidden, or, with kSeeThrough, what part of their light arrives.
+template <bool kSeeThrough> void askShadowRays(const Wave& wave) {
+    const RayBatch& rays = wave.memory.shadowRays;
+    if (rays.empty()) return;
+    wave.counts.shadow += rays.size();
+    if constexpr (kSeeThrough)
+        transmitted(wave.context.scene, rays, wave.memory.transmittance);
+    else
+        wave.context.scene.shapes().occluded(rays.span(), wave.memory.hidden);
+}
+
+// What arrives of `light` by such a ray.
+template <bool kSeeThrough> Rgb arriving(const WaveMemory& memory, std::size_t ray, Rgb light) {
+    if constexpr (kSeeThrough) {
+        const Rgb part = memory.transmittance[ray];
+        return isBlack(part) ? Rgb{} : light * part; // black hides even what is infinite
+    }
+    return memory.hidden[ray] == 0 ? light : Rgb{};
+}
+
 // fn(point, light) for what arrives of the shadow rays' light.
 template <bool kSeeThrough, class ArriveFn>
 void traceShadowRays(const Wave& wave, ArriveFn&& arrive) {
-    WaveMemory& memory = wave.memory;
-    const RayBatch& rays = memory.shadowRays;
-    if (rays.empty()) return;
-    wave.counts.shadow += rays.size();
-    if constexpr (kSeeThrough) {
-        transmitted(wave.context.scene, rays, memory.transmittance);
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            const Rgb part = memory.transmittance[i];
-            if (isBlack(part)) continue; // hides even what is infinite
-            const Rgb light = rays.weight[i] * part;
-            if (!isBlack(light)) arrive(rays.sample[i], light);
-        }
-    } else {
-        wave.context.scene.shapes().occluded(rays.span(), memory.hidden);
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            if (memory.hidden[i] == 0) arrive(rays.sample[i], rays.weight[i]);
+    askShadowRays<kSeeThrough>(wave);
+    const RayBatch& rays = wave.memory.shadowRays;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const Rgb light = arriving<kSeeThrough>(wave.memory, i, rays.weight[i]);
+        if (!isBlack(light)) arrive(rays.sample[i], light);
     }
+}
+
+// The same for all that waits for them.
+template <bool kSeeThrough, class ArriveFn> void addWaiting(const Wave& wave, ArriveFn&& arrive) {
+    askShadowRays<kSeeThrough>(wave);
+    for (const auto& [point, ray, light] : wave.memory.waiting)
+        arrive(point, ray == WaitingLight::kNoRay ? light
+                                                  : arriving<kSeeThrough>(wave.memory, ray, light));
 }
 
 // Sums run over the rays of a wave in their order, and for each over the lamps. After the first
@@ -42,55 +60,25 @@ inline void addInOrderOfPoints(const Wave& wave) {
     memory.arrivalsInOrder.resize(memory.arrivals.size());
     for (const Arrival& arrival : memory.arrivals)
         memory.arrivalsInOrder[next[arrival.point]++] = arrival;
-    // Sums of a point's many arrivals stay in registers.
-    const std::vector<Arrival>& arrivals = memory.arrivalsInOrder;
-    for (std::size_t i = 0; i < arrivals.size();) {
-        const std::uint32_t point = arrivals[i].point, slot = wave.slotOf(point);
-        Rgb sum = wave.chunk.radiance[slot];
-        for (; i < arrivals.size() && arrivals[i].point == point; ++i) sum += arrivals[i].light;
-        wave.chunk.radiance[slot] = sum;
-    }
-}
-
-// Divides the points that answer lamps by the shape that they are on. False when there is nothing
-// to win: points of later waves are far apart, those of many shapes have many boxes.
-inline bool groupPoints(const Wave& wave) {
-    constexpr std::size_t kMostGroups = 4;
-    const IntegratorContext& context = wave.context;
-    WaveMemory& memory = wave.memory;
-    if (wave.depth > 0 || !context.settings.specialise || !context.occluders.canTell())
-        return false;
-    memory.groups.clear();
-    memory.groupOf.clear();
-    for (const std::uint32_t k : memory.answering) {
-        const std::uint32_t shape = memory.hits[memory.points.ray[k]].shape;
-        const ShadedPoint& at = memory.points.at[k];
-        const bool inside = seesLampsFromInside(at);
-        std::size_t g = 0;
-        while (g < memory.groups.size() &&
-               (memory.groups[g].shape != shape || memory.groups[g].inside != inside))
-            ++g;
-        if (g == kMostGroups) return false;
-        if (g == memory.groups.size()) memory.groups.push_back({shape, inside, {}});
-        memory.groups[g].box.extend(at.surface.p);
-        memory.groups[g].box.extend(at.surface.p + at.surface.lift);
-        memory.groupOf.push_back(static_cast<std::uint8_t>(g));
-    }
-    return true;
+    for (const Arrival& arrival : memory.arrivalsInOrder)
+        wave.add(wave.slotOf(arrival.point), arrival.light);
 }
 
 // forEachLampSample() for all points, one by one, for any lamp.
 template <bool kSoftLamps, class ArriveFn>
 void shineOneByOne(const Wave& wave, const Lamp& lamp, bool isGrouped, ArriveFn&& arrive) {
     WaveMemory& memory = wave.memory;
+    unsigned hidden = 0; // of the block
     for (std::size_t i = 0; i < memory.answering.size(); ++i) {
         const std::uint32_t k = memory.answering[i];
-        const bool mayBeHidden = !isGrouped || memory.groups[memory.groupOf[i]].mayBeHidden;
+        const std::size_t place = i % LitBlock::kPoints;
+        if (place == 0) hidden = hiddenByGroup(memory, i / LitBlock::kPoints, isGrouped);
+        const bool mayBeHidden = (hidden >> place & 1) != 0;
         const LitPoint lit = litPoint(wave, k);
         forEachLampSample<kSoftLamps>(wave, lamp, lit, [&](const LightSample& sample, Rgb light) {
             if (!mayBeHidden) return arrive(k, light);
             const float time = wave.rays.time[memory.points.ray[k]];
-            memory.shadowRays.push(shadowRay(lamp, memory.points.at[k], sample, time), k, light);
+            memory.shadowRays.push(shadowRay(lamp, lit, sample, time), k, light);
         });
     }
 }
@@ -108,31 +96,44 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
             memory.answering.push_back(static_cast<std::uint32_t>(k));
     if (memory.answering.empty()) return;
 
-    const auto isBySamples = [](const Lamp& lamp) { return lamp.bySamples != nullptr; };
-    const bool isInOrder = wave.depth == 0 || (lamps.size() == 1 && !isBySamples(lamps[0]));
+    const bool isInOrder = wave.hasOneRayPerSample() || lamps.size() == 1;
     const auto arrive = [&](std::uint32_t k, Rgb light) {
         if (isInOrder)
             wave.add(wave.slotOf(k), light);
         else
             memory.arrivals.push_back({k, light});
     };
-    const bool isGrouped = waves::groupPoints(wave);
+    const auto looksAtGroups = [](const Lamp& lamp) { return lamp.bySamples == nullptr; };
+    const bool isGrouped =
+        std::any_of(lamps.begin(), lamps.end(), looksAtGroups) && waves::groupPoints(wave);
     if (std::any_of(lamps.begin(), lamps.end(),
-                    [&](const Lamp& lamp) { return lamp.inLanes || isBySamples(lamp); }))
+                    [&](const Lamp& lamp) { return lamp.inLanes || lamp.bySamples; }))
         waves::fillBlocks(wave);
+    if constexpr (!kSeeThrough)
+        if (waves::canSumInLanes(wave)) return waves::addLampsInLanes(wave, isGrouped);
     memory.arrivals.clear();
     for (const Lamp& lamp : lamps) {
-        if (isGrouped)
-            for (PointGroup& group : memory.groups)
-                group.mayBeHidden = wave.context.occluders.mayHide(
-                    group.box, group.shape, group.inside, lamp.light.sourcesFor(group.box));
+        if (isGrouped) waves::askGroups(wave, lamp);
         memory.shadowRays.clear();
+        if constexpr (kSoftLamps)
+            if (lamp.isSoft) {
+                // They come in any order of points.
+                memory.lampLight.assign(points.count, Rgb{});
+                const auto add = [&](std::uint32_t k, Rgb light) { memory.lampLight[k] += light; };
+                if (lamp.bySamples) {
+                    waves::shineBySamples(wave, lamp, add);
+                    waves::addWaiting<kSeeThrough>(wave, add);
+                } else {
+                    waves::shineOneByOne<true>(wave, lamp, isGrouped, add);
+                    waves::traceShadowRays<kSeeThrough>(wave, add);
+                }
+                for (const std::uint32_t k : memory.answering) arrive(k, memory.lampLight[k]);
+                continue;
+            }
         if (lamp.inLanes)
             waves::shineInLanes(wave, lamp, isGrouped, arrive);
-        else if (isBySamples(lamp))
-            waves::shineBySamples(wave, lamp, isInOrder);
         else
-            waves::shineOneByOne<kSoftLamps>(wave, lamp, isGrouped, arrive);
+            waves::shineOneByOne<false>(wave, lamp, isGrouped, arrive);
         waves::traceShadowRays<kSeeThrough>(wave, arrive);
     }
     if (!isInOrder) waves::addInOrderOfPoints(wave);

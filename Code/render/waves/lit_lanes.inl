@@ -23,36 +23,13 @@ inline unsigned black(Three a) {
     return bits((a.x == zero) & (a.y == zero) & (a.z == zero));
 }
 
-// Which point of a block each lane is: those from `first` on ..
+// Which point of a block each lane is: those from `first` on.
 struct PointsInRow {
     std::size_t first;
     Floats each(const float (&v)[LitBlock::kPoints]) const { return Floats::load(v + first); }
     unsigned lanesOf(unsigned points) const { return points >> first & ((1u << W) - 1); }
     std::size_t point(std::size_t lane) const { return first + lane; }
 };
-// .. or all the same ..
-struct PointForAll {
-    std::size_t only;
-    Floats each(const float (&v)[LitBlock::kPoints]) const { return Floats(v[only]); }
-    unsigned lanesOf(unsigned points) const { return (points >> only & 1) * ((1u << W) - 1); }
-    std::size_t point(std::size_t) const { return only; }
-};
-// .. or any.
-struct PointsByLane {
-    std::size_t points[W];
-    Floats each(const float (&v)[LitBlock::kPoints]) const {
-        alignas(64) float all[W];
-        for (std::size_t i = 0; i < W; ++i) all[i] = v[points[i]];
-        return Floats::load(all);
-    }
-    unsigned lanesOf(unsigned of) const {
-        unsigned lanes = 0;
-        for (std::size_t i = 0; i < W; ++i) lanes |= (of >> points[i] & 1) << i;
-        return lanes;
-    }
-    std::size_t point(std::size_t lane) const { return points[lane]; }
-};
-
 template <class Points> class LitLanes {
 public:
     LitLanes(const LitBlock& block, const Points& points) : block_(block), points_(points) {}
@@ -70,11 +47,16 @@ public:
         return lanes;
     }
 
+    bool isShiny() const { return (block_.shiny[0] | block_.shiny[1] | block_.shiny[2]) != 0; }
+
+    // kMayShine: points of the block may have highlights.
+    template <bool kMayShine = true>
     Three reflected(const Three& n, const Three& toLight, unsigned lanes) const {
         const Floats cosLight = dot(n, toLight);
         const Mask answers = cosLight > Floats(0.0f);
         Three reflected = three(block_.diffuse) * (Floats(static_cast<float>(kInvPi)) * cosLight);
-        reflected = withHighlights(reflected, n, toLight, cosLight, lanes & bits(answers));
+        if constexpr (kMayShine)
+            reflected = withHighlights(reflected, n, toLight, cosLight, lanes & bits(answers));
         return select(answers, reflected, Three::all(0, 0, 0));
     }
 
@@ -103,13 +85,9 @@ private:
             base = select(maskOf(phong), base, cosHalf);
         }
         const Mask glitters = base > zero;
-        alignas(64) float lobes[W];
-        base.store(lobes);
-        for (unsigned rest = lanes & bits(glitters); rest != 0; rest &= rest - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-            lobes[i] = exact::pow(lobes[i], block_.exponent[points_.point(i)]);
-        }
-        Floats lobe = Floats::load(lobes);
+        const unsigned shining = lanes & bits(glitters);
+        Floats lobe(0.0f);
+        if (shining != 0) lobe = powOf(base, each(block_.exponent), shining);
         if (ashikhmin != 0) {
             const Floats norm = (each(block_.exponent) + one) * Floats(kInvPiF / 8);
             const Floats cosHalfEye = Floats(0.5f) * sumLength;

@@ -5,6 +5,10 @@
 #include "render/waves/steps.h"
 #include "render/waves/wave.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
+
 namespace waves {
 
 // Thousands of shapes are more than the nearest caches hold.
@@ -18,38 +22,37 @@ inline void sortPoints(const Wave& wave) {
     const IntegratorContext& context = wave.context;
     const std::vector<Hit>& hits = wave.memory.hits;
     const PointBatch& points = wave.memory.points;
-    for (PointsToDescribe& list : wave.memory.onRound) list.clear();
-    wave.memory.onOthers.clear();
+    for (PointsToDescribe& list : wave.memory.onRound) list.clear(points.count);
+    wave.memory.onOthers.clear(points.count);
     const bool hasLanes = !context.roundShapes.empty();
     for (std::uint32_t k = 0; k < points.count; ++k) {
         const std::uint32_t ray = points.ray[k];
         const RoundShape round = hasLanes ? context.roundShapes[hits[ray].shape] : RoundShape{};
-        if (round.shape == nullptr || round.part != hits[ray].prim) {
+        if (round.shape == nullptr || (round.parts >> hits[ray].prim & 1) == 0) {
             wave.memory.onOthers.push(ray, k);
             continue;
         }
         prefetch(*round.shape);
-        PointsToDescribe& list = wave.memory.onRound[static_cast<std::size_t>(round.kind)];
-        list.push(ray, k);
-        list.shapes.push_back(round.shape);
+        wave.memory.onRound[static_cast<std::size_t>(round.kind)].push(ray, k, round.shape);
     }
 }
 
 // All that are on round shapes together, the others by runs on one shape: what is left when the
-// spheres in front of a floor are taken out is long runs on the floor.
+// wave's memory is warm is the work itself.
 inline void findSurfaces(const Wave& wave) {
     const IntegratorContext& context = wave.context;
     const std::vector<Hit>& hits = wave.memory.hits;
     PointBatch& points = wave.memory.points;
     if (points.count == 0) return;
     sortPoints(wave);
-    const Strided out{&points.at[0].surface, sizeof(ShadedPoint)};
+    for (std::size_t b = 0; b < points.blocks(); ++b) points.at.block(b).curved = 0;
+    const SurfacePlaces out = points.at.surfaces();
     for (const PointsToDescribe& list : wave.memory.onRound)
-        if (!list.rays.empty())
+        if (!list.rays().empty())
             context.surfaceLanes.round(
-                {wave.rays.span(), hits, list.rays, list.points, list.shapes}, out);
-    const std::span<const std::uint32_t> rays = wave.memory.onOthers.rays,
-                                         to = wave.memory.onOthers.points;
+                {wave.rays.span(), hits, list.rays(), list.points(), list.shapes()}, out);
+    const std::span<const std::uint32_t> rays = wave.memory.onOthers.rays(),
+                                         to = wave.memory.onOthers.points();
     std::size_t end = 0;
     for (std::size_t begin = 0; begin < rays.size(); begin = end) {
         const std::uint32_t shape = hits[rays[begin]].shape;
@@ -58,6 +61,85 @@ inline void findSurfaces(const Wave& wave) {
             {wave.rays.span(), hits, rays.subspan(begin, end - begin),
              to.subspan(begin, end - begin), context.surfaceNeeds, context.surfaceLanes},
             out);
+    }
+}
+
+// Numbers of rays that lanes want to find next to each other: the part of an array where they are,
+// or a copy.
+template <class T> class RowOfRays {
+public:
+    RowOfRays(const std::vector<T>& all, const std::uint32_t* rays, std::size_t count) {
+        constexpr std::size_t kPoints = PointColumns::kPoints;
+        row_ = &all[rays[0]];
+        if (count == kPoints && rays[kPoints - 1] - rays[0] == kPoints - 1) return;
+        for (std::size_t i = 0; i < kPoints; ++i) copy_[i] = all[rays[i < count ? i : 0]];
+        row_ = copy_.data();
+    }
+    const T* data() const { return row_; }
+
+private:
+    const T* row_;
+    std::array<T, PointColumns::kPoints> copy_;
+};
+
+// shadeSurface() of a block's points.
+template <bool kMayBend> void seeBlock(const Wave& wave, std::size_t b, unsigned litOutside) {
+    const IntegratorContext& context = wave.context;
+    PointBatch& points = wave.memory.points;
+    const std::size_t first = b * PointColumns::kPoints, size = points.sizeOf(b);
+    const auto isBent = [&](std::size_t i) {
+        return context.scene.materials()[points.at.block(b).material[i]].bendsNormals();
+    };
+    bool inLanes = context.shadeLanes.see != nullptr;
+    if constexpr (kMayBend)
+        for (std::size_t i = 0; i < size && inLanes; ++i) inLanes = !isBent(i);
+    if (inLanes) {
+        const RowOfRays<Vec3> dirs(wave.rays.dir, &points.ray[first], size);
+        unsigned away =
+            context.shadeLanes.see(points.at.block(b), dirs.data(), points.usedOf(b), litOutside);
+        for (; away != 0; away &= away - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(away));
+            const ShadedPoint at = points.at[first + i];
+            SurfaceBlock::set(points.at.block(b).n, i, shading::turnedAway(at.toEye, at.eye));
+        }
+        return;
+    }
+    for (std::size_t k = first; k < first + size; ++k) {
+        ShadedPoint at;
+        at.surface = points.at.block(b).at(k - first);
+        const std::uint32_t ray = points.ray[k];
+        shadeSurface<kMayBend>(context.scene, wave.rays.ray(ray), wave.memory.hits[ray], at);
+        points.at.put(k, at);
+    }
+}
+
+// What its points are made of.
+template <bool kTextures> void paintBlock(const Wave& wave, std::size_t b, unsigned& litOutside) {
+    const SceneMaterial* const materials = wave.context.scene.materials().data();
+    PointBatch& points = wave.memory.points;
+    const PointBlock& block = points.at.block(b);
+    const std::size_t first = b * PointColumns::kPoints, size = points.sizeOf(b);
+    const std::uint32_t one = block.material[0];
+    bool isOne = true;
+    for (std::size_t i = 1; i < size; ++i) isOne &= block.material[i] == one;
+    if (isOne && !(kTextures && materials[one].isTextured())) {
+        std::fill_n(&points.material[first], size, &materials[one].base);
+        points.painted[b] = &materials[one].base;
+        litOutside = materials[one].litOutside ? ~0u : 0;
+        return;
+    }
+    points.painted[b] = nullptr;
+    litOutside = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+        const std::size_t k = first + i;
+        const SceneMaterial& of = materials[block.material[i]];
+        litOutside |= static_cast<unsigned>(of.litOutside) << i;
+        points.material[k] = &of.base;
+        if constexpr (kTextures)
+            if (of.isTextured()) {
+                wave.memory.texturedPoints.add(of, static_cast<std::uint32_t>(k));
+                points.material[k] = &points.textured[k];
+            }
     }
 }
 
@@ -72,23 +154,24 @@ template <bool kTextures, bool kSeeThrough> void findPoints(const Wave& wave) {
         points.ray[points.count] = i;
         points.count += hits[i].isHit();
     }
+    points.at.setMaterials(context.scene.materials());
     waves::findSurfaces(wave);
     if constexpr (kTextures) wave.memory.texturedPoints.clear();
-    for (std::size_t k = 0; k < points.count; ++k) {
-        const std::uint32_t i = points.ray[k];
-        ShadedPoint& at = points.at[k];
-        shadeSurface<kTextures>(context.scene, wave.rays.ray(i), hits[i], at);
-        points.weight[k] = wave.rays.weight[i];
-        points.material[k] = &at.of->base;
-        if constexpr (kTextures)
-            if (at.of->isTextured()) {
-                wave.memory.texturedPoints.add(*at.of, static_cast<std::uint32_t>(k));
-                points.material[k] = &points.textured[k];
-            }
-        if (wave.depth == 0 && context.wantsFirstHits)
-            wave.chunk.first[wave.rays.sample[i]] =
-                describeFirstHit(context.scene, wave.rays.ray(i), at);
+    for (std::size_t b = 0; b < points.blocks(); ++b) {
+        unsigned litOutside = 0;
+        waves::paintBlock<kTextures>(wave, b, litOutside);
+        waves::seeBlock<kTextures>(wave, b, litOutside);
     }
+    for (std::size_t k = 0; k < points.count; ++k) {
+        const std::uint32_t ray = points.ray[k];
+        points.weight[k] = wave.rays.weight[ray], points.slot[k] = wave.rays.sample[ray];
+    }
+    if (wave.depth == 0 && context.wantsFirstHits)
+        for (std::size_t k = 0; k < points.count; ++k) {
+            const std::uint32_t i = points.ray[k];
+            wave.chunk.first[wave.rays.sample[i]] =
+                describeFirstHit(context.scene, wave.rays.ray(i), points.at[k]);
+        }
     if constexpr (kTextures)
         wave.memory.texturedPoints.apply(context.textureColors, points.at, points.textured);
     if constexpr (kSeeThrough)

@@ -1,7 +1,7 @@
 #include "render/waves/steps.h"
 
 Steps stepsFor(const Scene& scene, const RenderSettings& settings) {
-    if (!settings.specialise) return {true, true, true, true, true};
+    if (!settings.specialise) return {true, true, true, true, true, true};
     Steps steps;
     for (const auto& light : scene.lights())
         steps.softLamps |= light->isSoft() && settings.switches.softShadows;
@@ -10,6 +10,7 @@ Steps stepsFor(const Scene& scene, const RenderSettings& settings) {
         steps.bounces |= !isBlack(m.base.mirror) || !isBlack(m.base.transmission);
         steps.textures |= m.isTextured() || m.bendsNormals();
         steps.seeThrough |= m.seeThrough();
+        steps.branches |= m.seeThrough() || !isPlainMirror(m.base);
     }
     return steps;
 }

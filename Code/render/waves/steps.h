@@ -12,6 +12,7 @@ struct Steps {
     bool bounces = false;    // mirrors and transmission: waves after the first
     bool textures = false;   // pictures on materials; texture coordinates are asked for
     bool seeThrough = false; // surfaces that let rays go straight on, and light through to others
+    bool branches = false;   // a ray may give several: not just plain mirrors
 
     constexpr bool operator==(const Steps&) const = default;
 };

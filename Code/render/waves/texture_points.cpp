@@ -12,14 +12,13 @@ constexpr std::size_t kFewestPoints = 3;
 // take(point, the picture's colour there) for all points.
 template <class TakeFn>
 void lookUp(const ByteTexture& texture, TextureColorsFn colors,
-            std::span<const std::uint32_t> points, std::span<const ShadedPoint> at,
-            const TakeFn& take) {
+            std::span<const std::uint32_t> points, const PointColumns& at, const TakeFn& take) {
     TextureBlock block;
     while (!points.empty()) {
         const auto here = points.first(std::min(points.size(), TextureBlock::kPoints));
         points = points.subspan(here.size());
         for (std::size_t i = 0; i < here.size(); ++i) {
-            const Vec2 uv = at[here[i]].surface.uv;
+            const Vec2 uv = at.uv(here[i]);
             block.u[i] = uv.x, block.v[i] = uv.y;
         }
         colors(texture, block, here.size());
@@ -31,14 +30,14 @@ void lookUp(const ByteTexture& texture, TextureColorsFn colors,
 // The same for any texture.
 template <class TakeFn>
 void lookUp(const Texture& texture, TextureColorsFn colors, std::span<const std::uint32_t> points,
-            std::span<const ShadedPoint> at, const TakeFn& take) {
+            const PointColumns& at, const TakeFn& take) {
     if (const auto bytes = texture.bytes()) return lookUp(*bytes, colors, points, at, take);
-    for (const std::uint32_t point : points) take(point, texture.color(at[point].surface.uv));
+    for (const std::uint32_t point : points) take(point, texture.color(at.uv(point)));
 }
 
 // The steps of materialAt(), each for all points.
 void applyTo(const SceneMaterial& material, TextureColorsFn colors,
-             std::span<const std::uint32_t> points, std::span<const ShadedPoint> at,
+             std::span<const std::uint32_t> points, const PointColumns& at,
              std::span<Material> numbers) {
     for (const std::uint32_t point : points) numbers[point] = material.base;
     const auto multiply = [&](const Texture* texture, Rgb Material::*number) {
@@ -78,7 +77,7 @@ void TexturedPoints::add(const SceneMaterial& material, std::uint32_t point) {
     groups_[last_].points.push_back(point);
 }
 
-void TexturedPoints::apply(TextureColorsFn colors, std::span<const ShadedPoint> at,
+void TexturedPoints::apply(TextureColorsFn colors, const PointColumns& at,
                            std::span<Material> numbers) const {
     const auto oneByOne = [&](std::span<const std::uint32_t> points) {
         for (const std::uint32_t point : points) numbers[point] = materialAt(at[point]);

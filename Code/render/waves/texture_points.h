@@ -2,7 +2,7 @@
 // picture is looked up at all of its points at once.
 #pragma once
 
-#include "render/shading.h"
+#include "render/point_columns.h"
 #include "render/waves/texture_lanes.h"
 
 #include <cstdint>
@@ -15,8 +15,7 @@ public:
     void add(const SceneMaterial& material, std::uint32_t point);
     // materialAt() for all points that were added: numbers[point] from at[point]. Null `colors`:
     // one by one.
-    void apply(TextureColorsFn colors, std::span<const ShadedPoint> at,
-               std::span<Material> numbers) const;
+    void apply(TextureColorsFn colors, const PointColumns& at, std::span<Material> numbers) const;
 
 private:
     struct Group {

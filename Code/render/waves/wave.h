@@ -13,9 +13,9 @@ struct Wave {
     WaveMemory& memory;
     RayCounts& counts;
 
+    // Then sums do not depend on the order of the rays.
+    bool hasOneRayPerSample() const { return depth == 0 || !context.steps.branches; }
     void add(std::uint32_t slot, Rgb radiance) const { chunk.radiance[slot] += radiance; }
     // The slot of the sample that a point belongs to.
-    std::uint32_t slotOf(std::uint32_t point) const {
-        return rays.sample[memory.points.ray[point]];
-    }
+    std::uint32_t slotOf(std::uint32_t point) const { return memory.points.slot[point]; }
 };

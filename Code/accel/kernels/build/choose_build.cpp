@@ -1,13 +1,8 @@
 #include "accel/kernels/build/instances.h"
+#include "accel/kernels/cpu.h"
 
 #if defined(__x86_64__)
 namespace {
-
-bool hasSse() { return __builtin_cpu_supports("sse4.2") && __builtin_cpu_supports("popcnt"); }
-bool hasAvx2() {
-    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
-           __builtin_cpu_supports("bmi") && __builtin_cpu_supports("bmi2");
-}
 
 using namespace kernels::build;
 

@@ -29,9 +29,9 @@ CollapseChoice<W> innerChoice(const CollapseChoice<W>& a, const CollapseChoice<W
     return c;
 }
 
-template <int W>
+template <int W, class Plan>
 WideChildren<W> childrenOf(std::uint32_t at, std::span<const BinaryNode> nodes,
-                           std::span<const CollapseChoice<W>> choices) {
+                           std::span<const Plan> plans) {
     WideChildren<W> out;
     if (nodes[at].isLeaf()) { // a tree of one leaf
         out.node[0] = at, out.count = 1;
@@ -47,10 +47,10 @@ WideChildren<W> childrenOf(std::uint32_t at, std::span<const BinaryNode> nodes,
         open[size++] = {nodes[node].left + 1, slots - left};
         open[size++] = {nodes[node].left, left};
     };
-    openBoth(at, choices[at].split, W);
+    openBoth(at, plans[at].split, W);
     while (size > 0) {
         const Open o = open[--size];
-        const int left = choices[o.node].leftOf(o.slots);
+        const int left = plans[o.node].leftOf(o.slots);
         if (o.slots > 1 && left > 0) {
             openBoth(o.node, left, o.slots);
             continue;
@@ -73,7 +73,11 @@ template CollapseChoice<16> innerChoice<16>(const CollapseChoice<16>&, const Col
                                             float);
 template WideChildren<8> childrenOf<8>(std::uint32_t, std::span<const BinaryNode>,
                                        std::span<const CollapseChoice<8>>);
+template WideChildren<8> childrenOf<8>(std::uint32_t, std::span<const BinaryNode>,
+                                       std::span<const CollapsePlan<8>>);
 template WideChildren<16> childrenOf<16>(std::uint32_t, std::span<const BinaryNode>,
                                          std::span<const CollapseChoice<16>>);
+template WideChildren<16> childrenOf<16>(std::uint32_t, std::span<const BinaryNode>,
+                                         std::span<const CollapsePlan<16>>);
 
 } // namespace kernels::build

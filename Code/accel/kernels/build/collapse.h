@@ -12,10 +12,9 @@ inline float halfAreaOf(const BinaryNode& node) {
     return x * y + y * z + z * x;
 }
 
-// Of a subtree. cost[k - 1]: area of the wide nodes below it when it takes at most k places among
-// the children of one; left[k - 1]: how many of these its left child gets, 0: it takes one itself.
-template <int W> struct CollapseChoice {
-    std::array<float, W> cost;
+// Of a subtree that takes at most k places among the children of a wide node. left[k - 1]: how many
+// of these its left child gets, 0: it takes one itself.
+template <int W> struct CollapsePlan {
     std::array<std::uint8_t, W> left;
     std::uint8_t split;  // the same for its own wide node
     std::uint8_t places; // more than these it can't fill; at most W
@@ -23,6 +22,8 @@ template <int W> struct CollapseChoice {
         return left[static_cast<std::size_t>(std::min(slots, int{places})) - 1];
     }
 };
+// With what its parent chooses by: cost[k - 1], the area of the wide nodes below it.
+template <int W> struct CollapseChoice : CollapsePlan<W> { std::array<float, W> cost; };
 
 // From the choices of the two children to that of their parent, or that of a leaf.
 template <int W> CollapseChoice<W> leafChoice(float area);
@@ -34,8 +35,8 @@ template <int W> struct WideChildren {
     std::array<std::uint32_t, W> node;
     std::size_t count = 0;
 };
-template <int W>
+template <int W, class Plan> // CollapsePlan<W>, or what is one
 WideChildren<W> childrenOf(std::uint32_t at, std::span<const BinaryNode> nodes,
-                           std::span<const CollapseChoice<W>> choices);
+                           std::span<const Plan> plans);
 
 } // namespace kernels::build

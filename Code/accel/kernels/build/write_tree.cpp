@@ -45,6 +45,11 @@ public:
 private:
     using Choice = CollapseChoice<W>;
 
+    // Half areas, added up.
+    struct Areas {
+        double leaves = 0, rest = 0; // rest: nodes, and leaves once for each triangle
+        void add(const Areas& a) { leaves += a.leaves, rest += a.rest; }
+    };
     // A wide node to be.
     struct Step {
         std::uint32_t binary, parent, depth; // parent: in the same part, or in the top
@@ -56,7 +61,7 @@ private:
         Step root{0, 0, 1, {}};
         std::vector<Step> steps{}; // depth first, children in the order of their areas
         std::uint32_t first = 0, depth = 0;
-        double area = 0;
+        Areas areas{};
     };
 
     // Where the nodes and leaves of each subtree come to lie.
@@ -190,8 +195,8 @@ private:
         for (std::size_t i = 0; i < part.steps.size(); ++i) {
             const Step& step = part.steps[i];
             const std::size_t at = part.first + i;
-            part.area += static_cast<double>(halfAreaOf(nodes_[step.binary])) +
-                         write(nodeAt(at), step.children);
+            part.areas.rest += static_cast<double>(halfAreaOf(nodes_[step.binary]));
+            part.areas.add(write(nodeAt(at), step.children));
             if (at == 0) continue;
             const auto& siblings = (i > 0 ? part : top_).steps[step.parent].children.node;
             const auto slot = std::find(siblings.begin(), siblings.end(), step.binary);
@@ -201,8 +206,8 @@ private:
         }
     }
 
-    // Returns the area of the triangles' leaves, once for each triangle.
-    double write(WideNode<W>& to, const WideChildren<W>& children) const {
+    // Returns the areas of the children that are leaves.
+    Areas write(WideNode<W>& to, const WideChildren<W>& children) const {
         WideNode<W> node;
         std::memset(&node, 0, sizeof node); // behind the members, too: trees compare by bytes
         for (auto& planes : node.plane) {
@@ -210,7 +215,7 @@ private:
             std::fill_n(planes[1], W, -std::numeric_limits<float>::infinity());
         }
         std::fill_n(node.child, W, leafRef(tree_.leaves));
-        double area = 0;
+        Areas areas{};
         for (std::size_t i = 0; i < children.count; ++i) {
             const BinaryNode& child = nodes_[children.node[i]];
             for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -219,21 +224,22 @@ private:
             }
             if (!child.isLeaf()) continue;
             node.child[i] = leafRef(child.leaf);
-            area +=
-                static_cast<double>(halfAreaOf(child)) * tree_.at<WideLeaf<W>>(node.child[i]).count;
+            const auto area = static_cast<double>(halfAreaOf(child));
+            areas.add({area, area * tree_.at<WideLeaf<W>>(node.child[i]).count});
         }
         std::memcpy(&to, &node, sizeof node);
-        return area;
+        return areas;
     }
 
     void describe() {
         std::uint32_t depth = top_.depth;
-        double area = top_.area;
-        for (const Part& part : parts_) depth = std::max(depth, part.depth), area += part.area;
+        Areas areas = top_.areas;
+        for (const Part& part : parts_) depth = std::max(depth, part.depth), areas.add(part.areas);
         tree_.root = wideRef(firstLine_, WideKind::Node);
         tree_.stackSize = depth * (W - 1) + 1;
         const double root = static_cast<double>(halfAreaOf(nodes_[0]));
-        tree_.sah = root > 0 ? area / root : static_cast<double>(tree_.nodes);
+        tree_.sah = root > 0 ? areas.rest / root : static_cast<double>(tree_.nodes);
+        tree_.leavesPerRay = static_cast<float>(root > 0 ? areas.leaves / root : 0);
     }
 
     WideTree& tree_;

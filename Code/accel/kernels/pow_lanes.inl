@@ -1,0 +1,60 @@
+// exact::pow(float, float) of W numbers with exponents of their own: its steps in base/math.cpp,
+// lane by lane and in their order. Included by the file of each instruction set inside its
+// namespace.
+
+// (log(1+r) - r + r^2/2) / r^3
+inline Doubles logTail(const Doubles& r) {
+    const Doubles r2 = r * r;
+    const Doubles low = (1.0 / 3 - r * (1.0 / 4)) + r2 * (1.0 / 5 - r * (1.0 / 6));
+    const Doubles high = (1.0 / 7 - r * (1.0 / 8)) + r2 * (1.0 / 9 - r * (1.0 / 10));
+    return low + (r2 * r2) * high;
+}
+
+// Of numbers from the smallest normal one to 1.
+inline Doubles logOf(Floats base) {
+    constexpr double ln2 = 0x1.62e42fefa39efp-1;
+    const Ints fraction = masked(bitsOf(base), 0x7fffff);
+    const Ints row = shiftedRight<16>(plus(fraction, 0x8000));
+    const Doubles mantissa(fromBits(plus(fraction, 0x3f800000)));
+    const Doubles exponent = doublesOf(plus(shiftedRight<23>(bitsOf(base)), 0u - 127)) +
+                             select(row < Ints(exact::kHalvedFrom), Doubles(0.0), Doubles(1.0));
+    const Doubles r = mantissa * elementsAt<1>(exact::kPowTables.c.data(), row) - 1.0;
+    const Doubles known = exponent * ln2 + elementsAt<1>(exact::kPowTables.log.data(), row);
+    return known + (r + (r * r) * (-0.5 + r * logTail(r)));
+}
+
+// e^x from kLeastPower to kMostPower.
+inline Doubles expOf(const Doubles& x) {
+    constexpr double rounder = 0x1.8p52, perUnit = 32 / 0x1.62e42fefa39efp-1;
+    constexpr double step1 = 0x1.62e42feep-6, step2 = 0x1.a39ef35793c76p-38;
+    const Doubles n = (x * perUnit + rounder) - rounder;
+    const Doubles r = ((x - n * step1) - n * step2) + 0.0, r2 = r * r;
+    const Doubles low = 0.5 + r * (1.0 / 6), high = 1.0 / 24 + r * (1.0 / 120);
+    const Doubles tail = r2 * (low + r2 * (high + r2 * (1.0 / 720 + r * (1.0 / 5040))));
+    const Ints whole = wholeOf(n), j = masked(whole, 31);
+    const Doubles hi = elementsAt<1>(exact::kPowTables.powersHi.data(), j);
+    const Doubles lo = elementsAt<1>(exact::kPowTables.powersLo.data(), j);
+    return (hi + (lo + hi * (r + tail))) * powersOfTwo(shiftedRight<5>(whole));
+}
+
+// Of the lanes whose bit is set; the others are anything.
+inline Floats powOf(Floats base, Floats exponent, unsigned lanes) {
+    const Floats smallest(std::numeric_limits<float>::min()), one(1.0f), zero(0.0f);
+    const unsigned plain =
+        lanes & bits((base >= smallest) & (base <= one) &
+                     (abs(exponent) < Floats(std::numeric_limits<float>::infinity())));
+    const Floats x = select(maskOf(plain), base, one), y = select(maskOf(plain), exponent, zero);
+    const Doubles power = Doubles(y) * logOf(x);
+    const unsigned vanishes = less(power, Doubles(exact::kLeastPower));
+    const Doubles in =
+        select(maskOf(vanishes), Doubles(0.0), min(power, Doubles(exact::kMostPower)));
+    Floats result = select(maskOf(vanishes), zero, expOf(in).toFloats());
+    if (plain == lanes) return result;
+    alignas(64) float bases[W], exponents[W], powers[W];
+    base.store(bases), exponent.store(exponents), result.store(powers);
+    for (unsigned rest = lanes & ~plain; rest != 0; rest &= rest - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+        powers[i] = exact::pow(bases[i], exponents[i]);
+    }
+    return Floats::load(powers);
+}

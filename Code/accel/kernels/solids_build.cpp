@@ -1,0 +1,81 @@
+// The solids in the order of their tree's leaves: those that were added, or what several threads
+// are told of each.
+#include "accel/kernels/solids.h"
+#include "base/for_each.h"
+
+#include <algorithm>
+#include <utility>
+
+void SolidTree::build(int nodeWidth, Bvh bvh) {
+    width = nodeWidth;
+    const std::vector<std::uint32_t> order = writeNodes(std::move(bvh), boxes, 1);
+    const auto sort = [&](auto& things) {
+        const auto before = things;
+        for (std::size_t i = 0; i < order.size(); ++i) things[i] = before[order[i]];
+    };
+    sort(solids), sort(boxes);
+}
+
+void SolidTree::build(int nodeWidth, Bvh bvh, std::span<const Bounds> of, const Describe& describe,
+                      int threads) {
+    width = nodeWidth;
+    take(writeNodes(std::move(bvh), of, threads), of, describe, threads);
+}
+
+// Each part of the solids has its own lists of what has a `part` there, which are joined then.
+void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bounds> of,
+                     const Describe& describe, int threads) {
+    constexpr std::size_t kTogether = 1024, kAhead = 8;
+    struct Rest {
+        std::vector<Tube> tubes;
+        std::vector<FacetGroup> facets;
+        std::vector<Drift> drifts;
+        std::size_t firstTube = 0, firstFacets = 0, firstDrift = 0;
+    };
+    const auto ofPart = [](auto& things, std::size_t first) {
+        return things.begin() + static_cast<std::ptrdiff_t>(first);
+    };
+    std::vector<Rest> rests((order.size() + kTogether - 1) / kTogether);
+    solids.resize(order.size()), boxes.resize(order.size());
+    forEachPart(threads, order.size(), kTogether, [&](std::size_t first, std::size_t last) {
+        SolidTree part;
+        part.solids.reserve(last - first), part.boxes.reserve(last - first);
+        for (std::size_t i = first; i < last; ++i) {
+            const std::uint32_t at = order[i];
+            const Described solid = describe(at, order[std::min(i + kAhead, last - 1)]);
+            part.add(of[at], solid.number, solid.hides, solid.form);
+        }
+        std::copy(part.solids.begin(), part.solids.end(), ofPart(solids, first));
+        std::copy(part.boxes.begin(), part.boxes.end(), ofPart(boxes, first));
+        rests[first / kTogether] = {std::move(part.tubes), std::move(part.facets),
+                                    std::move(part.drifts)};
+    });
+    const auto join = [](auto& things, const auto& more) {
+        const std::size_t first = things.size();
+        things.insert(things.end(), more.begin(), more.end());
+        return first;
+    };
+    for (Rest& rest : rests) {
+        rest.firstTube = join(tubes, rest.tubes);
+        rest.firstFacets = join(facets, rest.facets);
+        rest.firstDrift = join(drifts, rest.drifts);
+    }
+    if (tubes.empty() && facets.empty() && drifts.empty()) return;
+    forEachPart(threads, order.size(), kTogether, [&](std::size_t first, std::size_t last) {
+        const Rest& rest = rests[first / kTogether];
+        for (std::size_t i = first; i < last; ++i) {
+            Solid& solid = solids[i];
+            const std::size_t before = solid.moves                  ? rest.firstDrift
+                                       : solid.kind == Kind::Tube   ? rest.firstTube
+                                       : solid.kind == Kind::Facets ? rest.firstFacets
+                                                                    : 0;
+            solid.part += static_cast<std::uint32_t>(before);
+        }
+    });
+}
+
+std::size_t SolidTree::bytes() const {
+    return lines.size() * sizeof(WideTree::Line) + solids.size() * sizeof(Solid) +
+           boxes.size() * sizeof(Bounds) + tubes.size() * sizeof(Tube) +
+           facets.size() * sizeof(FacetGroup) + drifts.size() * sizeof(Drift);
+}

@@ -1,0 +1,68 @@
+// Disks and planes by corners: where all rays of a packet meet one, with the bits of shape/disk.cpp
+// and shape/plane.cpp, and which side of it they see.
+// Included by solids.inl, behind solids_objects.inl.
+
+// Lines that meet a flat shape, at most once.
+struct FlatRoots {
+    Doubles t, facing; // facing: along the normal
+    unsigned met;      // t is finite here
+    double steepest;   // at least the length of the normal in the world
+};
+
+// Disk::roots()
+inline FlatRoots diskRoots(const ObjectRays& rays, const StillShape& shape) {
+    const Doubles zero(0.0), minus(-0.0), radius(shape.radius);
+    const Doubles t = (minus - rays.oz) / rays.dz;
+    const Doubles x = rays.ox + rays.dx * t, y = rays.oy + rays.dy * t;
+    const unsigned met =
+        less(zero, abs(rays.dz)) & less(zero, radius) & atMost(x * x + y * y, radius * radius);
+    return {t, rays.dz, met & rays.usable(), rowLength(shape.objectFromWorld(), 2)};
+}
+
+// Plane::roots()
+inline FlatRoots cornerRoots(const ObjectRays& rays, const StillShape& shape) {
+    const auto& [n, centre, edges, axisX, axisY] = *shape.corners;
+    const Doubles zero(0.0), most(std::numeric_limits<double>::max());
+    const Doubles nx(n.x), ny(n.y), nz(n.z);
+    const Doubles slope = (nx * rays.dx + ny * rays.dy) + nz * rays.dz;
+    const Doubles ahead =
+        (nx * (Doubles(centre.x) - rays.ox) + ny * (Doubles(centre.y) - rays.oy)) +
+        nz * (Doubles(centre.z) - rays.oz);
+    const Doubles t = ahead / slope;
+    const auto at = [&](std::size_t axis) {
+        return axis == 0   ? rays.ox + rays.dx * t
+               : axis == 1 ? rays.oy + rays.dy * t
+                           : rays.oz + rays.dz * t;
+    };
+    const Doubles x = at(axisX), y = at(axisY);
+    unsigned met = less(zero, abs(slope)) & atMost(abs(t), most) & rays.usable();
+    for (const StillCorners::Edge& edge : edges) {
+        if (met == 0) break;
+        met &= atMost(zero, Doubles(edge.way.x) * (y - Doubles(edge.from.y)) -
+                                Doubles(edge.way.y) * (x - Doubles(edge.from.x)));
+    }
+    const AffineRows& m = shape.objectFromWorld();
+    return {t, slope, met,
+            (std::fabs(n.x) * rowLength(m, 0) + std::fabs(n.y) * rowLength(m, 1)) +
+                std::fabs(n.z) * rowLength(m, 2)};
+}
+
+template <Answer A, class Map>
+FoundLanes meetFlat(const RayColumns& rays, const RayRanges& ranges, const SolidTree::Solid& solid,
+                    const Map& map) {
+    const ObjectRays local = objectRays(rays, map, solid.turned);
+    const FlatRoots roots = solid.kind == SolidTree::Kind::Disk ? diskRoots(local, *solid.shape)
+                                                                : cornerRoots(local, *solid.shape);
+    const Floats t = roots.t.toFloats();
+    FoundLanes found{.t = t, .lost = Floats(0.0f)};
+    found.met = roots.met & (A == Answer::Any ? ranges.hides(t) : ranges.hits(t));
+    if (A == Answer::Any || found.met == 0) return found;
+    found.lost = (roots.t - Doubles(t)).toFloats();
+    if (solid.side != ::Facets::Side::Both) {
+        const Doubles zero(0.0);
+        const unsigned front = less(roots.facing, zero);
+        found.undecided = found.met & ~isSteep(roots.facing, roots.steepest, rays);
+        found.met &= solid.side == ::Facets::Side::Front ? front : ~front;
+    }
+    return found;
+}

@@ -1,0 +1,91 @@
+// The rays of a packet in the object space of a shape, and what they meet of it.
+// Included by solids.inl.
+
+struct ObjectRays {
+    Doubles ox, oy, oz, dx, dy, dz;
+
+    // Lanes that AnalyticShape::rootsOf() looks at: neither zero nor without end.
+    unsigned usable() const {
+        const Doubles most(std::numeric_limits<double>::max());
+        const Doubles dd = (dx * dx + dy * dy) + dz * dz;
+        return less(Doubles(0.0), dd) & atMost(dd, most) &
+               atMost((ox * ox + oy * oy) + oz * oz, most);
+    }
+};
+
+// One map in all lanes, or one in each.
+struct SameMap {
+    const AffineRows& rows;
+    Doubles operator()(std::size_t i) const { return Doubles(rows[i]); }
+};
+struct MapLanes {
+    const double (*rows)[W];
+    Doubles operator()(std::size_t i) const { return Doubles::load(rows[i]); }
+};
+// Of what moves without turning, at the times of some of W rays: one offset in each.
+struct DriftLanes {
+    DriftLanes(const AffineRows& map, const Drift& drift, const RaySpan& rays,
+               const std::uint32_t (&ray)[W], unsigned lanes)
+        : rows(map) {
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
+            const Vec3d at = drift.offsetAt(static_cast<double>(rays.time[ray[i]]));
+            offset[0][i] = at.x, offset[1][i] = at.y, offset[2][i] = at.z;
+        }
+    }
+    Doubles operator()(std::size_t i) const {
+        return i % 4 == 3 ? Doubles::load(offset[i / 4]) : Doubles(rows[i]);
+    }
+    const AffineRows& rows; // but for the offsets
+    alignas(64) double offset[3][W] = {};
+};
+
+// turned: the map does more than move and scale along the axes. A zero of it adds a zero, which
+// changes no number.
+template <class Map>
+[[gnu::always_inline]] inline ObjectRays objectRays(const RayColumns& rays, const Map& m,
+                                                    bool turned) {
+    const Doubles X(rays.org[0]), Y(rays.org[1]), Z(rays.org[2]);
+    const Doubles U(rays.dir[0]), V(rays.dir[1]), T(rays.dir[2]);
+    if (!turned)
+        return {m(0) * X + m(3), m(5) * Y + m(7), m(10) * Z + m(11), m(0) * U, m(5) * V, m(10) * T};
+    const auto direction = [&](std::size_t i) { return (m(i) * U + m(i + 1) * V) + m(i + 2) * T; };
+    const auto point = [&](std::size_t i) {
+        return ((m(i) * X + m(i + 1) * Y) + m(i + 2) * Z) + m(i + 3);
+    };
+    return {point(0), point(4), point(8), direction(0), direction(4), direction(8)};
+}
+
+// What rays meet of a solid first; of shadow rays, whether they do.
+struct FoundLanes {
+    Floats t, lost;               // lost: by rounding, as in Hit::u
+    unsigned met = 0;             // lanes
+    unsigned undecided = 0;       // who can't be sure here asks the shape
+    unsigned part[3] = {0, 0, 0}; // bits of Hit::prim, by lane
+
+    std::uint32_t partOf(int lane) const {
+        return (part[0] >> lane & 1) | (part[1] >> lane & 1) << 1 | (part[2] >> lane & 1) << 2;
+    }
+};
+
+// Within their ranges: what hits a ray, and what hides it.
+struct RayRanges {
+    Floats tMin, best;
+    unsigned hits(Floats t) const {
+        return bits((t > tMin) & (t <= best) & (t < Floats(kInfinityF)));
+    }
+    unsigned hides(Floats t) const { return bits((t > tMin) & (t < best)); }
+};
+
+// Sides are asked with twice the threshold of AnalyticShape::seesFront(): lanes that see a face
+// steeply enough to be sure. `facing`: the direction along a normal of object space, which is the
+// same number in the world. `most`: at least the length of that normal there; 2^-50 of it covers
+// the rounding of both.
+inline unsigned isSteep(const Doubles& facing, double most, const RayColumns& rays) {
+    const Doubles x(rays.dir[0]), y(rays.dir[1]), z(rays.dir[2]);
+    return less(Doubles(0x1p-19 * (most * most)) * ((x * x + y * y) + z * z), facing * facing);
+}
+inline double rowLength(const AffineRows& m, std::size_t i) {
+    return std::sqrt((m[4 * i] * m[4 * i] + m[4 * i + 1] * m[4 * i + 1]) +
+                     m[4 * i + 2] * m[4 * i + 2]);
+}

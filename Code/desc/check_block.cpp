@@ -1,0 +1,226 @@
+#include "desc/check_block.h"
+
+#include "base/text.h"
+#include "base/transform.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace {
+
+constexpr std::uint32_t kLargestSlot = 65535; // Blender's limit is 32767
+
+std::string mustHave(std::string_view keyword, const Range& range, double value) {
+    if (!std::isfinite(value)) return cat("'", keyword, "' is not a finite number");
+    return cat("'", keyword, "' ", mustBe(range, value), ", got ", shortest(value));
+}
+
+// The largest size of some numbers; infinite where one is none.
+double largestOf(std::span<const double> numbers) {
+    double largest = 0, zero = 0;
+    for (const double x : numbers) {
+        largest = std::max(largest, std::fabs(x));
+        zero += x * 0;
+    }
+    if (zero == 0) return largest;
+    return kInfinity;
+}
+
+// Are four corners in one plane, in order around a convex quadrilateral with an area?
+std::string_view faultOfCorners(const Corners4& c) {
+    const Vec3d normal = cross(c[2] - c[0], c[3] - c[1]); // twice the area vector
+    const double size = std::max(maxAbs(c[2] - c[0]), maxAbs(c[3] - c[1]));
+    double farthest = 0;
+    for (const Vec3d& corner : c) farthest = std::max(farthest, maxAbs(corner));
+    if (!(length(normal) > 1e-12 * size * size)) return "'corners' have no area";
+    const Vec3d unit = normalize(normal);
+    // Corners from a file in single precision are off by an ulp or two, 2.4e-7 of their size.
+    if (!(std::fabs(dot(unit, c[1] - c[0])) <= 1e-5 * size + 2.4e-7 * farthest))
+        return "'corners' do not lie in one plane";
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Vec3d in = c[(i + 1) % 4] - c[i], out = c[(i + 2) % 4] - c[(i + 1) % 4];
+        if (!(dot(cross(in, out), unit) > 1e-12 * size * size))
+            return "'corners' must go around a convex quadrilateral";
+    }
+    return {};
+}
+
+template <class Block> bool isDefault(const Block& block, const Property<Block>& property) {
+    static const Block defaults{};
+    return sameField(block, defaults, property.first) &&
+           (!property.second || sameField(block, defaults, *property.second));
+}
+
+} // namespace
+
+std::vector<std::uint32_t> materialSlots(const SceneDesc& desc) {
+    std::vector<std::uint32_t> out;
+    out.reserve(desc.meshes.size());
+    for (const MeshDesc& mesh : desc.meshes) {
+        std::uint32_t slots = 1;
+        if (mesh.file.empty())
+            for (const std::uint32_t slot : mesh.triangleMaterials) {
+                if (slot > kLargestSlot) break;
+                slots = std::max(slots, slot + 1);
+            }
+        out.push_back(slots);
+    }
+    return out;
+}
+
+template <class Block> void BlockChecker::checkProperties(const Block& block) {
+    forEachRow<Block>([&](auto row) {
+        constexpr const Property<Block>& property = propertiesOf<Block>()[decltype(row)::value];
+        const auto checkNumber = [&](const auto& number) {
+            const auto value = static_cast<double>(number);
+            if (!property.range.contains(value) && (property.kinds & kindOf(block)))
+                add(properties, block, mustHave(property.keyword, property.range, value));
+        };
+        forEachNumberOf(block, std::get<property.first.index()>(property.first), checkNumber);
+        if constexpr (property.second)
+            forEachNumberOf(block, std::get<property.second->index()>(*property.second),
+                            checkNumber);
+        if constexpr (std::is_same_v<Block, LightDesc>)
+            if (!(property.kinds & kindOf(block)) && !isDefault(block, property))
+                warnings.push_back(
+                    properties.locatedAt(block.loc,
+                                         cat(called(block), ": '", property.keyword,
+                                             "' has no effect on type ", nameOf(block.kind)),
+                                         "warning"));
+    });
+    forEachReference(block, [&](Handle handle, Target target, std::string_view keyword) {
+        if (handle == kNone) return;
+        if (handle < 0 || static_cast<std::size_t>(handle) >= countOf(desc_, target))
+            return add(properties, block, "'", keyword, "' refers to ", nameOf(target), " ", handle,
+                       " of ", countOf(desc_, target));
+        used_.mark(target, static_cast<std::size_t>(handle));
+    });
+}
+
+template <class Block>
+void BlockChecker::checkKeys(const Block& block, std::span<const Rows> keys) {
+    if (keys.empty()) error(block, "has no transform at all; one key is needed");
+    bool mirrors = false, turnsOver = false;
+    for (const Rows& rows : keys) {
+        const double largest = largestOf(rows);
+        largestOfMaps = std::max(largest, largestOfMaps);
+        if (!(largest <= kLargestLength))
+            return error(block, "its transform has numbers beyond ", shortest(kLargestLength));
+        const Transform::Orientation orientation = Transform::orientationOf(rows);
+        if (orientation == Transform::Orientation::Lost)
+            return error(block, "its transform flattens it: a scale is 0");
+        const bool isMirror = orientation == Transform::Orientation::Mirrored;
+        if (&rows == &keys.front()) mirrors = isMirror;
+        turnsOver = turnsOver || isMirror != mirrors;
+    }
+    if (turnsOver)
+        error(block, "one of its keys mirrors and another does not: on the way it would be flat");
+}
+
+void BlockChecker::checkWhole(const CameraDesc& camera) {
+    checkKeys(camera, camera.worldFromCamera);
+}
+void BlockChecker::checkWhole(const TextureDesc& texture) {
+    if (texture.file.empty())
+        error(texture, "has no 'file'");
+    else if (texture.file.find('\0') != std::string::npos ||
+             findBadText(texture.file) != std::string::npos)
+        error(texture, "its 'file' is not UTF-8 without control characters");
+}
+
+void BlockChecker::checkWhole(const LightDesc& light) {
+    checkKeys(light, {&light.worldFromLight, 1});
+    if (light.kind == LightDesc::Kind::Sphere && !(light.radius > 0))
+        error(light, "a light of type sphere needs a 'radius' > 0");
+    if (light.attenuation == Vec3d{})
+        error(light, "'attenuation' 0 0 0 would be light without end; 1 0 0 is the usual one");
+}
+
+void BlockChecker::checkWhole(const ObjectDesc& object) {
+    checkKeys(object, object.worldFromObject);
+    reach = std::max({reach, object.radius, object.topRadius});
+    if (std::find(object.materials.begin(), object.materials.end(), kNone) !=
+        object.materials.end())
+        error(object, "one of its material slots is empty");
+    using enum ObjectDesc::Kind;
+    if (object.kind == Mesh) return checkInstance(object);
+    const std::size_t most = object.kind == InfinitePlane ? 2 : 1;
+    if (object.materials.size() > most)
+        error(object, "has ", object.materials.size(),
+              " materials; only an instance has more than ", most == 1 ? "one" : "two");
+    if (object.kind == Cone && object.radius == 0 && object.topRadius == 0)
+        error(object, "'radius' and 'top_radius' are both 0");
+    if (object.kind != Plane) return;
+    if (const auto fault = faultOfCorners(*object.corners); !fault.empty()) error(object, fault);
+    for (const Vec3d& corner : *object.corners) reach = std::max(reach, maxAbs(corner));
+}
+
+void BlockChecker::checkInstance(const ObjectDesc& object) {
+    if (object.mesh == kNone) return error(object, "has no 'mesh'");
+    if (object.mesh < 0 || static_cast<std::size_t>(object.mesh) >= slots_.size())
+        return; // told above
+    // Without materials, all slots show the default one; with one, all show that.
+    const std::uint32_t slots = slots_[static_cast<std::size_t>(object.mesh)];
+    if (object.materials.size() > 1 && slots > object.materials.size())
+        error(object, "its mesh uses material slot ", slots - 1, ", but it has ",
+              object.materials.size(), " materials (slots count from 0)");
+}
+
+void BlockChecker::checkWhole(const MeshDesc& mesh) {
+    if (!mesh.file.empty()) return; // not read yet
+    if (mesh.triangles.empty()) error(mesh, "has no triangles");
+    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
+        const Vec3d& p = mesh.points[i];
+        const double size = largestOf(std::array{p.x, p.y, p.z});
+        if (!(size <= kLargestLength)) {
+            error(mesh, "point ", i, " is not finite or beyond ", shortest(kLargestLength));
+            break;
+        }
+        reach = std::max(reach, size);
+    }
+    checkCorners(mesh, mesh.triangles, mesh.points.size(), "points", "triangles");
+    checkCorners(mesh, mesh.normalTriangles, mesh.normals.size(), "normals", "normal_triangles");
+    checkCorners(mesh, mesh.uvTriangles, mesh.uvs.size(), "uvs", "uv_triangles");
+    for (const Vec3& n : mesh.normals)
+        if (!std::isfinite(dot(n, n))) {
+            error(mesh, "a normal is not finite or too large");
+            break;
+        }
+    for (const Vec2& uv : mesh.uvs)
+        if (!std::isfinite(uv.x) || !std::isfinite(uv.y)) {
+            error(mesh, "a uv is not finite");
+            break;
+        }
+    const auto wrong = std::find_if(mesh.triangleMaterials.begin(), mesh.triangleMaterials.end(),
+                                    [](std::uint32_t slot) { return slot > kLargestSlot; });
+    if (wrong != mesh.triangleMaterials.end())
+        error(mesh, "material slot ", *wrong, " is above ", kLargestSlot);
+    if (!mesh.triangleMaterials.empty() && mesh.triangleMaterials.size() != mesh.triangles.size())
+        error(mesh, "has ", mesh.triangles.size(), " triangles, but ",
+              mesh.triangleMaterials.size(), " triangle_materials");
+}
+
+void BlockChecker::checkCorners(const MeshDesc& mesh, const std::vector<MeshDesc::Corners>& corners,
+                                std::size_t count, std::string_view values,
+                                std::string_view keyword) {
+    if (keyword != "triangles") {
+        if (corners.empty() && count > 0) return error(mesh, "has ", values, ", but no ", keyword);
+        if (!corners.empty() && corners.size() != mesh.triangles.size())
+            return error(mesh, "has ", mesh.triangles.size(), " triangles, but ", corners.size(),
+                         " ", keyword);
+    }
+    std::uint32_t largest = 0;
+    for (const MeshDesc::Corners& c : corners) largest = std::max({largest, c[0], c[1], c[2]});
+    if (!corners.empty() && largest >= count)
+        error(mesh, "'", keyword, "' uses ", largest, " of '", values, "', which has ", count,
+              ", counted from 0");
+}
+
+template void BlockChecker::checkProperties(const SettingsDesc&);
+template void BlockChecker::checkProperties(const WorldDesc&);
+template void BlockChecker::checkProperties(const CameraDesc&);
+template void BlockChecker::checkProperties(const TextureDesc&);
+template void BlockChecker::checkProperties(const MaterialDesc&);
+template void BlockChecker::checkProperties(const LightDesc&);
+template void BlockChecker::checkProperties(const MeshDesc&);
+template void BlockChecker::checkProperties(const ObjectDesc&);

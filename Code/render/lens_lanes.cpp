@@ -1,0 +1,18 @@
+#include "render/lens_lanes.h"
+
+#include "accel/kernels/by_kernel.h"
+
+#define DECLARE(isa)                                                                               \
+    namespace kernels::isa {                                                                       \
+    void sobolPairs(PairBlock&);                                                                   \
+    void lensRays(const Camera::RoundLens&, LensBlock&);                                           \
+    }
+DECLARE_BY_KERNEL(DECLARE)
+#define ROW(isa)                                                                                   \
+    { kernels::isa::sobolPairs, kernels::isa::lensRays }
+
+CameraLanes cameraLanes(const Kernel& kernel) {
+    static constexpr ByKernel<CameraLanes> kTable = BY_KERNEL(ROW);
+    const CameraLanes* const lanes = kTable.of(kernel);
+    return lanes ? *lanes : CameraLanes{};
+}

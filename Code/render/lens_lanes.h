@@ -1,0 +1,34 @@
+// Camera rays by the register: pairs of Sobol numbers, and rays through a round lens, as Sampler
+// and Camera give them one by one, operation by operation and so bit by bit. Knows numbers only;
+// render/camera_rays.cpp brings them here and takes them away.
+#pragma once
+
+#include "camera/camera.h"
+
+#include <cstddef>
+#include <cstdint>
+
+struct Kernel;
+
+// Numbers of samples, what their pairs are shuffled and scrambled by (Sampler::PairSeeds), and the
+// pairs.
+struct alignas(64) PairBlock {
+    static constexpr std::size_t kPairs = 16;
+    std::uint32_t sample[kPairs] = {}, index[kPairs] = {}, x[kPairs] = {}, y[kPairs] = {};
+    float u[kPairs], v[kPairs];
+};
+
+// Places in the picture and on the lens, the latter in the unit square, and their rays.
+struct alignas(64) LensBlock {
+    static constexpr std::size_t kRays = 16;
+    double x[kRays] = {}, y[kRays] = {};
+    float u[kRays] = {}, v[kRays] = {};
+    float org[3][kRays], dir[3][kRays], tMin[kRays];
+};
+
+struct CameraLanes {
+    void (*pairs)(PairBlock& block) = nullptr;
+    void (*rays)(const Camera::RoundLens& lens, LensBlock& block) = nullptr;
+};
+// Null for the scalar kernel.
+CameraLanes cameraLanes(const Kernel& kernel);

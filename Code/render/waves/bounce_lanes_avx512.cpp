@@ -1,0 +1,16 @@
+// bounce_lanes.inl for the registers of AVX-512.
+#include "render/waves/bounce_lanes.h"
+
+#if defined(__x86_64__)
+#include "accel/kernels/region_includes.h"
+
+AVX512_REGION_BEGIN
+namespace kernels::avx512 {
+#include "accel/kernels/simd_avx512.inl"
+
+#include "accel/kernels/vectors3.inl"
+
+#include "render/waves/bounce_lanes.inl"
+} // namespace kernels::avx512
+KERNEL_REGION_END
+#endif

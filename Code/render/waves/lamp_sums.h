@@ -1,0 +1,87 @@
+// Light of point lamps where every sample has one point: the sums of a block's points stay together
+// while one lamp after the other adds to them.
+#pragma once
+
+#include "render/waves/lit_blocks.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+
+namespace waves {
+
+inline bool canSumInLanes(const Wave& wave) {
+    const std::vector<Lamp>& lamps = wave.context.shadingLamps;
+    return wave.hasOneRayPerSample() && wave.context.shadeLanes.add != nullptr &&
+           std::all_of(lamps.begin(), lamps.end(),
+                       [](const Lamp& lamp) { return lamp.inLanes != nullptr; });
+}
+
+using LampOrigins = std::array<Vec3, LitBlock::kPoints>;
+
+// fn(sample's radiance, block, place) for all points that answer lamps.
+template <class Fn> void forEachSum(const Wave& wave, Fn&& fn) {
+    const std::vector<std::uint32_t>& answering = wave.memory.answering;
+    for (std::size_t i = 0; i < answering.size(); ++i)
+        fn(wave.chunk.radiance[wave.slotOf(answering[i])],
+           wave.memory.lightSums[i / LitBlock::kPoints].sum, i % LitBlock::kPoints);
+}
+
+// Shadow rays for the points of a block, from the lamp whose place, sixteen times, is `origins`.
+inline void pushLampRays(const Wave& wave, const LampOrigins& origins, const LitBlock& block,
+                         const LitByLamp& by, unsigned points) {
+    if (points == 0) return;
+    LampRays& batch = wave.memory.lampRays;
+    RayBatch& rays = batch.rays;
+    const std::size_t to = rays.extend(LitBlock::kPoints); // lanes write whole registers
+    std::copy(origins.begin(), origins.end(), rays.org.begin() + static_cast<std::ptrdiff_t>(to));
+    wave.context.shadeLanes.aim(by, points, {nullptr, &rays.dir[to], &rays.tMax[to], nullptr});
+    for (; batch.ready < rays.size(); ++batch.ready) {
+        rays.tMin[batch.ready] = 0;
+        rays.time[batch.ready] = wave.rays.time[0];
+    }
+    rays.shrink(to + static_cast<std::size_t>(std::popcount(points)));
+    if (!wave.context.scene.moves()) return;
+    for (std::size_t ray = to; points != 0; points &= points - 1, ++ray)
+        rays.time[ray] =
+            wave.rays.time[wave.memory.points.ray[block.point[std::countr_zero(points)]]];
+}
+
+inline void addLampsInLanes(const Wave& wave, bool isGrouped) {
+    WaveMemory& memory = wave.memory;
+    const std::size_t blocks =
+        (memory.answering.size() + LitBlock::kPoints - 1) / LitBlock::kPoints;
+    if (memory.byLamp.size() < blocks) memory.byLamp.resize(blocks);
+    if (memory.lightSums.size() < blocks) memory.lightSums.resize(blocks);
+    forEachSum(wave, [](Rgb& radiance, SurfaceBlock::Lane(&sum)[3], std::size_t i) {
+        SurfaceBlock::set(sum, i, {radiance.r, radiance.g, radiance.b});
+    });
+    RayBatch& rays = memory.lampRays.rays;
+    for (const Lamp& lamp : wave.context.shadingLamps) {
+        if (isGrouped) askGroups(wave, lamp);
+        rays.clear();
+        LampOrigins origins;
+        origins.fill(*lamp.origin);
+        for (std::size_t b = 0; b < blocks; ++b) {
+            const unsigned hidden = hiddenByGroup(memory, b, isGrouped);
+            LitByLamp& by = memory.byLamp[b];
+            lamp.inLanes(*lamp.emission, memory.litBlocks[b], hidden, by);
+            pushLampRays(wave, origins, memory.litBlocks[b], by, by.lit & hidden);
+        }
+        wave.counts.shadow += rays.size();
+        if (!rays.empty()) wave.context.scene.shapes().occluded(rays.span(), memory.hidden);
+        memory.hidden.resize(rays.size() + LitBlock::kPoints); // lanes look at whole registers
+        std::size_t ray = 0;
+        for (std::size_t b = 0; b < blocks; ++b) {
+            const LitByLamp& by = memory.byLamp[b];
+            const unsigned shadowed = by.lit & hiddenByGroup(memory, b, isGrouped);
+            wave.context.shadeLanes.add(by, shadowed, &memory.hidden[ray], memory.lightSums[b]);
+            ray += static_cast<std::size_t>(std::popcount(shadowed));
+        }
+    }
+    forEachSum(wave, [](Rgb& radiance, const SurfaceBlock::Lane(&sum)[3], std::size_t i) {
+        radiance = {sum[0][i], sum[1][i], sum[2][i]};
+    });
+}
+
+} // namespace waves

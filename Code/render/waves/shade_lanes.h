@@ -1,0 +1,53 @@
+// What shading makes of a block of points, a register of them at a time: the numbers of
+// shadeSurface(), of fillBlocks() and of plain mirrors, operation by operation and so bit by bit.
+// Knows numbers only; points.h, fill_blocks.h and mirrors.h bring them here.
+#pragma once
+
+#include "base/bounds.h"
+#include "base/vec.h"
+#include "material/material.h"
+#include "render/point_block.h"
+#include "render/waves/lamp_lanes.h"
+
+struct Kernel;
+
+// Where rays go, one after the other; up to sixteen places behind the last one are overwritten.
+struct RayPlaces {
+    Vec3 *org, *dir;
+    float* tMax;
+    Rgb* weight;
+};
+
+// What the samples of a block's points have got so far.
+struct alignas(64) LightSums {
+    SurfaceBlock::Lane sum[3];
+};
+
+struct ShadeLanes {
+    // The rest of the `used` points of a block whose surfaces are known, seen along `dirs` (of all
+    // sixteen). `litOutside`: those whose materials are. Returns the points whose normals face away
+    // from the eye and have to be turned.
+    unsigned (*see)(PointBlock& block, const Vec3* dirs, unsigned used,
+                    unsigned litOutside) = nullptr;
+    // What lamps ask of points, but for their materials' numbers: `lit` gets bits of those that are
+    // used, and for these the place, normals, weights[i], the way to the eye.
+    void (*light)(const PointBlock& block, const Rgb* weights, unsigned used,
+                  LitBlock& lit) = nullptr;
+    // The numbers of a material that all of them have.
+    void (*paint)(const Material& material, LitBlock& lit) = nullptr;
+    // Origins, directions and weights of the rays that the used points mirror. Returns the points
+    // whose rays weigh enough.
+    unsigned (*mirror)(const PointBlock& block, const Rgb* weights, const Rgb* mirrors,
+                       unsigned used, float cutoff, const RayPlaces& out) = nullptr;
+    // The box around the used points and where they are lifted to.
+    Bounds (*bounds)(const PointBlock& block, unsigned used) = nullptr;
+    // Directions and ends of the rays from a lamp to some points.
+    void (*aim)(const LitByLamp& by, unsigned points, const RayPlaces& out) = nullptr;
+    // Adds a lamp's light to the sums of the points that it reaches: of those of `shadowed` there
+    // is a ray for each, in order, and sixteen numbers, not 0 for a hidden one. Others get nothing:
+    // they stay as they are, as no sum is ever -0.
+    void (*add)(const LitByLamp& by, unsigned shadowed, const std::uint8_t* hidden,
+                LightSums& sums) = nullptr;
+};
+// Null for the scalar kernel.
+ShadeLanes shadeLanes(const Kernel& kernel);

@@ -1,0 +1,193 @@
+// The formulas of shadeSurface() and of what takes its results, lane by lane and in their order.
+// Included by the file of each instruction set inside its namespace.
+
+namespace {
+
+using Lane = SurfaceBlock::Lane;
+
+inline Floats3 load(const Lane (&v)[3], std::size_t first) {
+    return {Floats::load(v[0] + first), Floats::load(v[1] + first), Floats::load(v[2] + first)};
+}
+inline void store(const Floats3& v, Lane (&to)[3], std::size_t first) {
+    v.x.store(to[0] + first), v.y.store(to[1] + first), v.z.store(to[2] + first);
+}
+// Sixteen vectors or colours that follow each other.
+template <class T> Floats3 loadRow(const T* v, std::size_t first) {
+    static_assert(sizeof(T) == 3 * sizeof(float));
+    Floats3 out;
+    loadVectors(reinterpret_cast<const float*>(v + first), out.x, out.y, out.z);
+    return out;
+}
+template <class T> void storeChosen(unsigned lanes, const Floats3& v, T* to) {
+    static_assert(sizeof(T) == 3 * sizeof(float));
+    storeChosenVectors(lanes, v.x, v.y, v.z, reinterpret_cast<float*>(to));
+}
+inline Floats3 operator*(const Floats3& a, Floats s) { return {a.x * s, a.y * s, a.z * s}; }
+inline Floats3 operator/(const Floats3& a, Floats s) { return {a.x / s, a.y / s, a.z / s}; }
+inline Floats3 operator+(const Floats3& a, const Floats3& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline Floats3 operator-(const Floats3& a, const Floats3& b) {
+    return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline Floats3 negated(const Floats3& a) {
+    const Floats sign(-0.0f);
+    return {flipSign(a.x, sign), flipSign(a.y, sign), flipSign(a.z, sign)};
+}
+inline Floats3 normalized(const Floats3& a) { return a / sqrt(dot(a, a)); }
+constexpr unsigned kEvery = (1u << W) - 1;
+
+inline Floats3 shadingNormal(const PointBlock& block, std::size_t first, const Floats3& ng) {
+    const unsigned curved = block.curved >> first & kEvery;
+    return curved == 0 ? ng : select(maskOf(curved), load(block.ns, first), ng);
+}
+
+// On the side that the eye sees.
+inline Floats3 seen(const PointBlock& block, std::size_t first, const Floats3& n) {
+    const unsigned front = block.front >> first & kEvery;
+    return front == kEvery ? n : select(maskOf(front), n, negated(n));
+}
+
+inline Floats3 mirroredAbout(const Floats3& toEye, const Floats3& n) {
+    return normalized(n * (Floats(2.0f) * dot(n, toEye)) - toEye);
+}
+
+} // namespace
+
+unsigned seePoints(PointBlock& block, const Vec3* dirs, unsigned used, unsigned litOutside) {
+    unsigned facingAway = 0;
+    block.front = block.litApart = 0;
+    for (std::size_t first = 0; first < SurfaceBlock::kPoints && used >> first != 0; first += W) {
+        const Floats zero(0.0f);
+        const Floats3 toEye = negated(normalized(loadRow(dirs, first)));
+        const Floats3 ng = load(block.ng, first), ns = shadingNormal(block, first, ng);
+        const unsigned lanes = used >> first & kEvery;
+        const unsigned front = bits(dot(toEye, ng) >= zero) & lanes;
+        block.front |= front << first;
+        const Floats3 n = front == lanes ? ns : select(maskOf(front), ns, negated(ns));
+        facingAway |= (bits(notGreater(dot(n, toEye), zero)) & lanes) << first;
+        store(toEye, block.toEye, first), store(n, block.n, first);
+
+        const unsigned apart = litOutside >> first & lanes & ~front;
+        if (apart == 0) continue;
+        block.litApart |= apart << first;
+        store(ns, block.litN, first);
+        if ((block.curved >> first & apart) != 0) { // the lift was for the side of the eye
+            const Floats3 none{zero, zero, zero};
+            store(select(maskOf(apart), none, load(block.lift, first)), block.lift, first);
+        }
+    }
+    return facingAway;
+}
+
+void lightPoints(const PointBlock& block, const Rgb* weights, unsigned used, LitBlock& lit) {
+    lit.used = used;
+    lit.inside = used & ~(block.front | block.litApart);
+    lit.lifted = 0;
+    for (std::size_t first = 0; first < SurfaceBlock::kPoints && used >> first != 0; first += W) {
+        const auto here = [&](unsigned points) { return points >> first & kEvery; };
+        const unsigned apart = here(block.litApart), inside = here(lit.inside);
+        const auto onLitSide = [&](const Floats3& n) {
+            return inside == 0 ? n : select(maskOf(inside), negated(n), n);
+        };
+        const Floats zero(0.0f);
+        const Floats3 ng = load(block.ng, first);
+        Floats3 n = load(block.n, first), lift{zero, zero, zero};
+        if (apart != 0) n = select(maskOf(apart), load(block.litN, first), n);
+        if (const unsigned curved = here(block.curved); curved != 0) {
+            lift = select(maskOf(curved), load(block.lift, first), lift);
+            const unsigned level = bits((lift.x == zero) & (lift.y == zero) & (lift.z == zero));
+            lit.lifted |= (here(used) & ~level) << first;
+            store(onLitSide(shadingNormal(block, first, ng)), lit.ns, first);
+        }
+        store(load(block.p, first), lit.p, first), store(lift, lit.lift, first);
+        store(n, lit.n, first), store(onLitSide(ng), lit.ng, first);
+        store(loadRow(weights, first), lit.weight, first);
+        store(load(block.toEye, first), lit.toEye, first);
+        Floats::load(block.error + first).store(lit.error + first);
+        Floats::load(block.rayError + first).store(lit.rayError + first);
+    }
+}
+
+void paintPoints(const Material& material, LitBlock& lit) {
+    const auto colour = [](Rgb c) { return Floats3{Floats(c.r), Floats(c.g), Floats(c.b)}; };
+    for (unsigned& shiny : lit.shiny) shiny = 0;
+    const bool isShiny = !isBlack(material.specular);
+    for (std::size_t first = 0; first < SurfaceBlock::kPoints; first += W) {
+        store(colour(material.diffuse), lit.diffuse, first);
+        if (!isShiny) continue;
+        store(colour(material.specular), lit.specular, first);
+        Floats(material.exponent).store(lit.exponent + first);
+    }
+    if (isShiny) lit.shiny[static_cast<std::size_t>(material.specularModel)] = lit.used;
+}
+
+unsigned mirrorPoints(const PointBlock& block, const Rgb* weights, const Rgb* mirrors,
+                      unsigned used, float cutoff, const RayPlaces& out) {
+    unsigned worth = 0;
+    for (std::size_t first = 0; first < SurfaceBlock::kPoints && used >> first != 0; first += W) {
+        const Floats zero(0.0f);
+        const Floats3 weight = loadRow(weights, first), mirror = loadRow(mirrors, first);
+        const Floats3 all{weight.x * mirror.x, weight.y * mirror.y, weight.z * mirror.z};
+        const Floats most = max(max(all.x, all.y), all.z);
+        const unsigned lanes =
+            bits((most > zero) & (most >= Floats(cutoff))) & used >> first & kEvery;
+        if (lanes == 0) continue;
+        const Floats3 toEye = load(block.toEye, first);
+        const Floats3 ng = seen(block, first, load(block.ng, first));
+        Floats3 dir = mirroredAbout(toEye, load(block.n, first));
+        const Mask leaves = dot(dir, ng) > zero;
+        if ((lanes & ~bits(leaves)) != 0) dir = select(leaves, dir, mirroredAbout(toEye, ng));
+        const auto to = static_cast<std::size_t>(std::popcount(worth));
+        storeChosen(lanes, load(block.p, first) + ng * Floats::load(block.error + first),
+                    out.org + to);
+        storeChosen(lanes, dir, out.dir + to);
+        storeChosen(lanes, all, out.weight + to);
+        worth |= lanes << first;
+    }
+    return worth;
+}
+
+Bounds boundsOfPoints(const PointBlock& block, unsigned used) {
+    Bounds box;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        Floats lo(std::numeric_limits<float>::infinity()), hi = Floats(0.0f) - lo;
+        for (std::size_t first = 0; first < SurfaceBlock::kPoints; first += W) {
+            const unsigned lanes = used >> first & kEvery, curved = block.curved >> first & lanes;
+            const Floats p = Floats::load(block.p[axis] + first);
+            const auto extend = [&](Floats to, unsigned of) {
+                lo = select(maskOf(of), min(to, lo), lo), hi = select(maskOf(of), max(to, hi), hi);
+            };
+            extend(p, lanes);
+            if (curved != 0) extend(p + Floats::load(block.lift[axis] + first), curved);
+        }
+        box.lo[axis] = smallest(lo), box.hi[axis] = largest(hi);
+    }
+    return box;
+}
+
+void aimAtPoints(const LitByLamp& by, unsigned points, const RayPlaces& out) {
+    std::size_t to = 0;
+    for (std::size_t first = 0; first < SurfaceBlock::kPoints && points >> first != 0; first += W) {
+        const unsigned lanes = points >> first & kEvery;
+        storeChosen(lanes, load(by.dir, first), out.dir + to);
+        storeChosenFloats(lanes, Floats::load(by.tMax + first), out.tMax + to);
+        to += static_cast<std::size_t>(std::popcount(lanes));
+    }
+}
+
+void addLight(const LitByLamp& by, unsigned shadowed, const std::uint8_t* hidden, LightSums& sums) {
+    unsigned points = by.lit & ~shadowed;
+    if (shadowed != 0) {
+        const __m128i bytes = _mm_loadu_si128(reinterpret_cast<const __m128i*>(hidden));
+        const __m128i isSeen = _mm_cmpeq_epi8(bytes, _mm_setzero_si128());
+        points |= spread(static_cast<unsigned>(_mm_movemask_epi8(isSeen)), shadowed);
+    }
+    if (points == 0) return;
+    for (std::size_t first = 0; first < SurfaceBlock::kPoints; first += W) {
+        const Floats zero(0.0f);
+        const Floats3 none{zero, zero, zero};
+        const Floats3 light = select(maskOf(points >> first & kEvery), load(by.light, first), none);
+        store(load(sums.sum, first) + light, sums.sum, first);
+    }
+}

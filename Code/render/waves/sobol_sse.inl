@@ -1,0 +1,10 @@
+// What disk_lanes.inl asks of SSE4.2.
+constexpr std::size_t kSobolLanes = 4;
+
+// In each 16 bytes: those of `from` that the lower half of the bytes of `at` name.
+template <class Bits> inline Bits pickBytes(Bits from, Bits at) {
+    return reinterpret_cast<Bits>(
+        _mm_shuffle_epi8(reinterpret_cast<__m128i>(from), reinterpret_cast<__m128i>(at)));
+}
+
+#include "render/waves/disk_lanes.inl"

@@ -1,0 +1,119 @@
+// Camera rays by the register: every lane has the bits of asking the sampler and the camera alone.
+#include "accel/kernels/kernels.h"
+#include "check.h"
+#include "render/lens_lanes.h"
+#include "sample/sampler.h"
+#include "verify/meshes.h"
+
+#include <bit>
+
+using meshes::Random;
+
+namespace {
+
+bool sameBits(float a, float b) {
+    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
+}
+bool sameBits(Vec3 a, const float (&rows)[3][LensBlock::kRays], std::size_t i) {
+    return sameBits(a.x, rows[0][i]) && sameBits(a.y, rows[1][i]) && sameBits(a.z, rows[2][i]);
+}
+
+CameraParams someCamera(Random& random) {
+    CameraParams params;
+    params.worldFromCamera = Transform::lookAt(random.direction() * random.logUniform(1e-2, 1e2),
+                                               random.direction(), random.direction());
+    params.width = 1 + static_cast<int>(random.below(2000));
+    params.height = 1 + static_cast<int>(random.below(2000));
+    params.lensMm = random.logUniform(5, 500);
+    params.shiftX = random.uniform(-1, 1);
+    params.clipStart = random.chance(0.5) ? 0 : random.logUniform(1e-3, 1);
+    params.apertureRadius = random.logUniform(1e-4, 1);
+    params.focusDistance = random.logUniform(1e-2, 1e3);
+    params.apertureRatio = random.chance(0.5) ? 1 : random.uniform(0.5, 2);
+    return params;
+}
+
+} // namespace
+
+TEST(lens_lanes_have_the_bits_of_single_rays) {
+    for (const Kernel& kernel : allKernels()) {
+        const auto rays = kernel.supported() ? cameraLanes(kernel).rays : nullptr;
+        if (!rays) continue;
+        Random random(41);
+        long long wrong = 0;
+        for (int i = 0; i < check::scaled(3000); ++i) {
+            const CameraParams params = someCamera(random);
+            const Camera camera(params);
+            const auto lens = camera.roundLens();
+            CHECK(lens.has_value());
+            LensBlock block;
+            for (std::size_t k = 0; k < LensBlock::kRays; ++k) {
+                block.x[k] = random.uniform(-1, params.width + 1.0);
+                block.y[k] = random.uniform(-1, params.height + 1.0);
+                // Sobol's grid, with the seams of the disk: its centre, sides, and diagonals.
+                const auto onGrid = [&] {
+                    return static_cast<float>(random.below(1u << 24)) * 0x1p-24f;
+                };
+                block.u[k] = random.chance(0.1) ? 0.5f : onGrid();
+                block.v[k] = random.chance(0.1)   ? 0.5f
+                             : random.chance(0.1) ? block.u[k]
+                             : random.chance(0.1) ? 0
+                                                  : onGrid();
+            }
+            rays(*lens, block);
+            for (std::size_t k = 0; k < LensBlock::kRays; ++k) {
+                const Ray ray =
+                    camera.ray({block.x[k], block.y[k]}, {block.u[k], block.v[k]}, 0.5f);
+                const bool same = sameBits(ray.org, block.org, k) &&
+                                  sameBits(ray.dir, block.dir, k) &&
+                                  sameBits(ray.tMin, block.tMin[k]);
+                if (!same && ++wrong <= 3)
+                    CHECK_INFO(false, kernel.name << " camera " << i << " ray " << k << ": lens "
+                                                  << block.u[k] << ' ' << block.v[k]);
+            }
+        }
+        CHECK_EQUAL(wrong, 0);
+    }
+}
+
+TEST(pairs_in_lanes_have_the_bits_of_the_sampler) {
+    for (const Kernel& kernel : allKernels()) {
+        const auto pairs = kernel.supported() ? cameraLanes(kernel).pairs : nullptr;
+        if (!pairs) continue;
+        Random random(42);
+        long long wrong = 0;
+        for (int i = 0; i < check::scaled(3000); ++i) {
+            const Sampler sampler(SamplerKind::Sobol, 16,
+                                  static_cast<std::uint32_t>(random.below(std::size_t{1} << 32)));
+            PairBlock block;
+            Vec2 alone[PairBlock::kPairs];
+            for (std::size_t k = 0; k < PairBlock::kPairs; ++k) {
+                const auto any = static_cast<std::uint32_t>(random.below(std::size_t{1} << 32));
+                const auto seeds = sampler.pairSeeds(any, 2);
+                block.sample[k] = any >> random.below(32);
+                block.index[k] = seeds.index, block.x[k] = seeds.x, block.y[k] = seeds.y;
+                alone[k] = sampler.get2D(any, block.sample[k], 2);
+            }
+            pairs(block);
+            for (std::size_t k = 0; k < PairBlock::kPairs; ++k)
+                if ((!sameBits(alone[k].x, block.u[k]) || !sameBits(alone[k].y, block.v[k])) &&
+                    ++wrong <= 3)
+                    CHECK_INFO(false,
+                               kernel.name << " block " << i << " sample " << block.sample[k]);
+        }
+        CHECK_EQUAL(wrong, 0);
+    }
+}
+
+// What lanes can't do they are not asked for.
+TEST(lens_lanes_are_for_round_lenses_at_rest) {
+    CameraParams params;
+    CHECK(!Camera(params).roundLens()); // a pinhole
+    params.apertureRadius = 0.1;
+    CHECK(Camera(params).roundLens().has_value());
+    params.apertureBlades = 5;
+    CHECK(!Camera(params).roundLens());
+    params.apertureBlades = 0, params.kind = CameraParams::Kind::Orthographic;
+    CHECK(!Camera(params).roundLens());
+    CHECK(cameraLanes(chooseKernel("scalar")).rays == nullptr);
+}
