@@ -29,11 +29,12 @@ SurfaceNeeds surfaceNeedsOf(const Scene& scene, const RenderSettings& settings) 
             .lift = !scene.lights().empty()};
 }
 
-std::vector<RoundShape> roundShapesOf(const ShapeSet& set, SurfaceLanes lanes, SurfaceNeeds needs) {
-    if (lanes.round == nullptr || needs.uv) return {};
-    std::vector<RoundShape> shapes(set.shapes.size());
+std::vector<StillInLanes> stillsInLanesOf(const ShapeSet& set, SurfaceLanes lanes,
+                                          SurfaceNeeds needs) {
+    if (lanes.stills == nullptr || needs.uv) return {};
+    std::vector<StillInLanes> shapes(set.shapes.size());
     for (std::size_t i = 0; i < shapes.size(); ++i)
-        if (const StillShape* const shape = set.shapes[i]->roundToShade())
+        if (const StillShape* const shape = set.shapes[i]->stillToShade())
             shapes[i] = {shape, shape->parts, shape->kind};
     return shapes;
 }
@@ -51,7 +52,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       shadeLanes(::shadeLanes(chooseKernel(theSettings.kernel))),
       textureColors(::textureColors(chooseKernel(theSettings.kernel))),
       bouncesInLanes(::bouncesInLanes(chooseKernel(theSettings.kernel))),
-      roundShapes(roundShapesOf(theScene.shapes(), surfaceLanes, surfaceNeeds)),
+      stillsInLanes(stillsInLanesOf(theScene.shapes(), surfaceLanes, surfaceNeeds)),
       cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
     const int samples = settings.picture.lightSamples;
     for (std::size_t i = 0; i < scene.lights().size(); ++i) {

@@ -53,7 +53,7 @@ struct Lamp {
 };
 
 // A shape whose surfaces lanes find, to be looked up without touching it.
-struct RoundShape {
+struct StillInLanes {
     const StillShape* shape = nullptr; // null: it is none
     std::uint8_t parts = 0;
     StillShape::Kind kind{};
@@ -73,10 +73,10 @@ struct IntegratorContext {
     SurfaceNeeds surfaceNeeds;
     SurfaceLanes surfaceLanes;
     ShadeLanes shadeLanes;
-    TextureColorsFn textureColors;       // null: one by one
-    BouncesFn bouncesInLanes;            // null: one by one
-    std::vector<RoundShape> roundShapes; // by shape; empty: lanes do none
-    MediumTree media;                    // what camera rays start in, and room for what rays enter
+    TextureColorsFn textureColors;           // null: one by one
+    BouncesFn bouncesInLanes;                // null: one by one
+    std::vector<StillInLanes> stillsInLanes; // by shape; empty: lanes do none
+    MediumTree media; // what camera rays start in, and room for what rays enter
     MediumTree::Inside cameraMedium;
 
     IntegratorContext(const Scene& scene, const RenderSettings& settings);
@@ -194,7 +194,7 @@ struct WaveMemory {
     PathBatch rays, next;
     std::vector<Hit> hits;
     PointBatch points;
-    std::array<PointsToDescribe, StillShape::kKinds> onRound;
+    std::array<PointsToDescribe, StillShape::kKinds> onStills;
     PointsToDescribe onOthers;
     TexturedPoints texturedPoints;
     MediumTree media;

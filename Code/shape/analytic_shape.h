@@ -23,7 +23,7 @@ public:
     bool hidesFromItself(bool inside) const override { return inside; } // all are convex
     Surface surface(const Ray& ray, const Hit& hit) const final { return surfaceFor(ray, hit, {}); }
     Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const final;
-    const StillShape* roundToShade() const final {
+    const StillShape* stillToShade() const final {
         return still_.kind == StillShape::Kind::None ? nullptr : &still_;
     }
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const final;

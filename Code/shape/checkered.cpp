@@ -5,7 +5,7 @@
 
 Checkered::Checkered(std::unique_ptr<const Shape> shape, std::uint32_t otherMaterial)
     : shape_(std::move(shape)), otherMaterial_(otherMaterial) {
-    const StillShape* const inLanes = shape_->roundToShade();
+    const StillShape* const inLanes = shape_->stillToShade();
     if (inLanes == nullptr || inLanes->kind != StillShape::Kind::Plane) return;
     inLanes_ = *inLanes;
     inLanes_->oddMaterial = otherMaterial;

@@ -25,7 +25,7 @@ public:
         shape_->occludesBatch(rays, hidden);
     }
     SolidForm solidForm() const override { return shape_->solidForm(); }
-    const StillShape* roundToShade() const override { return inLanes_ ? &*inLanes_ : nullptr; }
+    const StillShape* stillToShade() const override { return inLanes_ ? &*inLanes_ : nullptr; }
     bool seesFront(const Ray& ray, const Hit& hit) const override {
         return shape_->seesFront(ray, hit);
     }

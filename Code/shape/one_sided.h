@@ -42,7 +42,7 @@ public:
     void surfaces(const SurfaceQuery& query, SurfacePlaces out) const override {
         shape_->surfaces(query, out);
     }
-    const StillShape* roundToShade() const override { return shape_->roundToShade(); }
+    const StillShape* stillToShade() const override { return shape_->stillToShade(); }
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override {
         return shape_->derivatives(ray, hit);
     }

@@ -109,7 +109,7 @@ public:
     }
     // What lanes need that do the hits of many shapes together, but no texture coordinates; null:
     // they can't.
-    virtual const StillShape* roundToShade() const { return nullptr; }
+    virtual const StillShape* stillToShade() const { return nullptr; }
     virtual SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const = 0;
 
     // Of a hit on a triangle, which may have come into one mesh with others or not; shapes of other

@@ -9,7 +9,7 @@
 //                     rays from one point: bundle_gaps, _rays, _keys, _block, _best, _leaf, bundle
 //   solids_[isa].cpp  ray_lanes; solids, which includes _rays, _hulls, _facets and _meet
 //   placed_[isa].cpp  stack, ray_lanes, placed_mesh, placed
-//   surface_lanes_[isa].cpp  vectors3, round_surfaces, triangle_surfaces
+//   surface_lanes_[isa].cpp  vectors3, still_surfaces, triangle_surfaces
 // choose.cpp has the table of kernels and route.cpp deals the rays of a batch out to queue and
 // bundles; solids.cpp does both for solids, placed.cpp has the table for placed meshes, which call
 // back to a PlacedQuery. exact_hit.cpp decides what lanes leave open, in plain code. wide_build.cpp

@@ -5,12 +5,12 @@
 
 #define DECLARE(isa)                                                                               \
     namespace kernels::isa {                                                                       \
-    void roundSurfaces(const RoundsMet&, SurfacePlaces);                                        \
+    void stillSurfaces(const StillsMet&, SurfacePlaces);                                           \
     void triangleSurfaces(const TrianglesMet&, TriangleSurfaces&);                                 \
     }
 DECLARE_BY_KERNEL(DECLARE)
 #define ROW(isa)                                                                                   \
-    { kernels::isa::roundSurfaces, kernels::isa::triangleSurfaces }
+    { kernels::isa::stillSurfaces, kernels::isa::triangleSurfaces }
 
 SurfaceLanes surfaceLanes(const Kernel& kernel) {
     static constexpr ByKernel<SurfaceLanes> kTable = BY_KERNEL(ROW);

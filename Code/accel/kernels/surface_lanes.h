@@ -1,13 +1,13 @@
 // What a kernel does for surfaces; the scalar one leaves them to the shapes.
 #pragma once
 
-#include "accel/kernels/round_surfaces.h"
+#include "accel/kernels/still_surfaces.h"
 #include "accel/kernels/triangle_surfaces.h"
 
 struct Kernel;
 
 struct SurfaceLanes {
-    RoundSurfacesFn round = nullptr;
+    StillSurfacesFn stills = nullptr;
     TriangleSurfacesFn triangles = nullptr;
 };
 SurfaceLanes surfaceLanes(const Kernel& kernel);

@@ -11,7 +11,7 @@ namespace kernels::sse {
 
 #include "accel/kernels/vectors3.inl"
 
-#include "accel/kernels/round_surfaces.inl"
+#include "accel/kernels/still_surfaces.inl"
 #include "accel/kernels/triangle_surfaces.inl"
 } // namespace kernels::sse
 KERNEL_REGION_END

@@ -22,23 +22,23 @@ inline void sortPoints(const Wave& wave) {
     const IntegratorContext& context = wave.context;
     const std::vector<Hit>& hits = wave.memory.hits;
     const PointBatch& points = wave.memory.points;
-    for (PointsToDescribe& list : wave.memory.onRound) list.clear(points.count);
+    for (PointsToDescribe& list : wave.memory.onStills) list.clear(points.count);
     wave.memory.onOthers.clear(points.count);
-    const bool hasLanes = !context.roundShapes.empty();
+    const bool hasLanes = !context.stillsInLanes.empty();
     for (std::uint32_t k = 0; k < points.count; ++k) {
         const std::uint32_t ray = points.ray[k];
-        const RoundShape round = hasLanes ? context.roundShapes[hits[ray].shape] : RoundShape{};
-        if (round.shape == nullptr || (round.parts >> hits[ray].prim & 1) == 0) {
+        const StillInLanes still =
+            hasLanes ? context.stillsInLanes[hits[ray].shape] : StillInLanes{};
+        if (still.shape == nullptr || (still.parts >> hits[ray].prim & 1) == 0) {
             wave.memory.onOthers.push(ray, k);
             continue;
         }
-        prefetch(*round.shape);
-        wave.memory.onRound[static_cast<std::size_t>(round.kind)].push(ray, k, round.shape);
+        prefetch(*still.shape);
+        wave.memory.onStills[static_cast<std::size_t>(still.kind)].push(ray, k, still.shape);
     }
 }
 
-// All that are on round shapes together, the others by runs on one shape: what is left when the
-// wave's memory is warm is the work itself.
+// All that are on still shapes with a formula together, the others by runs on one shape.
 inline void findSurfaces(const Wave& wave) {
     const IntegratorContext& context = wave.context;
     const std::vector<Hit>& hits = wave.memory.hits;
@@ -47,9 +47,9 @@ inline void findSurfaces(const Wave& wave) {
     sortPoints(wave);
     for (std::size_t b = 0; b < points.blocks(); ++b) points.at.block(b).curved = 0;
     const SurfacePlaces out = points.at.surfaces();
-    for (const PointsToDescribe& list : wave.memory.onRound)
+    for (const PointsToDescribe& list : wave.memory.onStills)
         if (!list.rays().empty())
-            context.surfaceLanes.round(
+            context.surfaceLanes.stills(
                 {wave.rays.span(), hits, list.rays(), list.points(), list.shapes()}, out);
     const std::span<const std::uint32_t> rays = wave.memory.onOthers.rays(),
                                          to = wave.memory.onOthers.points();

@@ -13,7 +13,7 @@
 #include <span>
 
 // Hit k is that of ray which[k] on *shapes[k], all of one kind.
-struct RoundsMet {
+struct StillsMet {
     RaySpan rays;
     std::span<const Hit> hits; // of all rays
     std::span<const std::uint32_t> which;
@@ -22,4 +22,4 @@ struct RoundsMet {
 };
 
 // out[to[k]] becomes the surface of hit k, without texture coordinates.
-using RoundSurfacesFn = void (*)(const RoundsMet&, SurfacePlaces out);
+using StillSurfacesFn = void (*)(const StillsMet&, SurfacePlaces out);

@@ -1,5 +1,5 @@
 // The points of surfaces that W hits are pulled onto, in the object spaces of their shapes: what
-// the describe() of each shape does, in the same order. Included by round_surfaces.inl.
+// the describe() of each shape does, in the same order. Included by still_surfaces.inl.
 
 struct Local {
     Doubles3 p, normal;

@@ -53,7 +53,7 @@ std::size_t checkShapes(const Shapes& shapes, const std::vector<Transform>& maps
         hits.emplace_back();
         if (random.chance(missing) || !shapes[number]->intersect(ray, hits.back())) continue;
         if (random.chance(0.3)) hits.back().u = 0; // off the surface
-        const StillShape* const shade = shapes[number]->roundToShade();
+        const StillShape* const shade = shapes[number]->stillToShade();
         if ((shade->parts >> hits.back().prim & 1) == 0) continue; // the cap of a cylinder
         which.push_back(i), to.push_back(i);
         met.push_back(shapes[number].get()), toShade.push_back(shade);
@@ -62,7 +62,7 @@ std::size_t checkShapes(const Shapes& shapes, const std::vector<Transform>& maps
     std::reverse(to.begin(), to.end()); // places are not those of the rays
     const RaySpan rays{org, dir, tMin, tMax, time};
     for (const Kernel& kernel : allKernels()) {
-        const RoundSurfacesFn lanes = surfaceLanes(kernel).round;
+        const StillSurfacesFn lanes = surfaceLanes(kernel).stills;
         if (!kernel.supported() || lanes == nullptr) continue;
         std::vector<SurfaceBlock> out(4);
         const SurfacePlaces places(out.data());
@@ -155,25 +155,25 @@ TEST(plane_surfaces_are_those_of_single_hits) {
 }
 
 // They are asked one by one: their maps change, or have no inverse.
-TEST(round_surfaces_of_moving_and_flat_shapes_are_not_for_lanes) {
+TEST(still_surfaces_of_moving_and_flat_shapes_are_not_for_lanes) {
     Random random(3302);
     for (int i = 0; i < check::scaled(20); ++i) {
         const Transform keys[] = {kit::randomMap(random), kit::randomMap(random)};
         const MovingTransform moving{std::span(keys)};
-        CHECK(Sphere(moving, 1, 2, 3).roundToShade() == nullptr);
-        CHECK(Cylinder(moving, 1, false, 2, 3).roundToShade() == nullptr);
-        CHECK(InfinitePlane(moving, 2, 3).roundToShade() == nullptr);
-        CHECK(Cone(moving, 1, 0, true, 2, 3).roundToShade() == nullptr);
-        CHECK(Cube(moving, 2, 3).roundToShade() == nullptr);
+        CHECK(Sphere(moving, 1, 2, 3).stillToShade() == nullptr);
+        CHECK(Cylinder(moving, 1, false, 2, 3).stillToShade() == nullptr);
+        CHECK(InfinitePlane(moving, 2, 3).stillToShade() == nullptr);
+        CHECK(Cone(moving, 1, 0, true, 2, 3).stillToShade() == nullptr);
+        CHECK(Cube(moving, 2, 3).stillToShade() == nullptr);
         const Transform flat = kit::randomMap(random) * Transform::scale({1, 1, 0});
-        CHECK(Sphere(flat, 1, 2, 3).roundToShade() == nullptr);
-        CHECK(Cylinder(flat, 1, false, 2, 3).roundToShade() == nullptr);
-        CHECK(InfinitePlane(flat, 2, 3).roundToShade() == nullptr);
-        CHECK(Cube(flat, 2, 3).roundToShade() == nullptr);
-        CHECK(Sphere(keys[0], 1, 2, 3).roundToShade() != nullptr);
-        CHECK(Cylinder(keys[0], 1, true, 2, 3).roundToShade() != nullptr);
-        CHECK(InfinitePlane(keys[0], 2, 3).roundToShade() != nullptr);
-        CHECK(Cone(keys[0], 1, 0, true, 2, 3).roundToShade() != nullptr);
-        CHECK(Cube(keys[0], 2, 3).roundToShade() != nullptr);
+        CHECK(Sphere(flat, 1, 2, 3).stillToShade() == nullptr);
+        CHECK(Cylinder(flat, 1, false, 2, 3).stillToShade() == nullptr);
+        CHECK(InfinitePlane(flat, 2, 3).stillToShade() == nullptr);
+        CHECK(Cube(flat, 2, 3).stillToShade() == nullptr);
+        CHECK(Sphere(keys[0], 1, 2, 3).stillToShade() != nullptr);
+        CHECK(Cylinder(keys[0], 1, true, 2, 3).stillToShade() != nullptr);
+        CHECK(InfinitePlane(keys[0], 2, 3).stillToShade() != nullptr);
+        CHECK(Cone(keys[0], 1, 0, true, 2, 3).stillToShade() != nullptr);
+        CHECK(Cube(keys[0], 2, 3).stillToShade() != nullptr);
     }
 }

@@ -131,7 +131,7 @@ inline void store(const Doubles3& v, float (&to)[3][W]) {
     v.x.toFloats().store(to[0]), v.y.toFloats().store(to[1]), v.z.toFloats().store(to[2]);
 }
 
-#include "accel/kernels/round_points.inl"
+#include "accel/kernels/still_points.inl"
 
 // The outward normals of the faces of cubes that are met; lanes behind the last hit repeat it.
 inline Doubles3 facesMet(std::span<const Hit> hits, std::span<const std::uint32_t> which) {
@@ -184,7 +184,7 @@ void describe(const Numbers& shape, const RaysInLanes& world, const Doubles3& fa
     (Doubles(kThreeUlps) * rounding + fixedError).store(out.error);
 }
 
-template <Kind kKind> void surfacesOf(const RoundsMet& met, const SurfacePlaces& out) {
+template <Kind kKind> void surfacesOf(const StillsMet& met, const SurfacePlaces& out) {
     SurfacesInLanes found;
     for (std::size_t first = 0; first < met.which.size(); first += W) {
         const std::size_t count = std::min<std::size_t>(W, met.which.size() - first);
@@ -212,7 +212,7 @@ template <Kind kKind> void surfacesOf(const RoundsMet& met, const SurfacePlaces&
 
 } // namespace
 
-void roundSurfaces(const RoundsMet& met, SurfacePlaces out) {
+void stillSurfaces(const StillsMet& met, SurfacePlaces out) {
     if (met.shapes.empty()) return;
     switch (met.shapes[0]->kind) {
     case Kind::Sphere: return surfacesOf<Kind::Sphere>(met, out);
