@@ -420,7 +420,7 @@ double cbrt(double x) {
     return std::copysign(t * unit, x);
 }
 
-constinit const PowTables kPowTables = [] {
+constexpr PowTables kPowTables = [] {
     PowTables tables{};
     for (std::size_t j = 0; j < kLogTable.size(); ++j)
         tables.c[j] = kLogTable[j].c, tables.log[j] = kLogTable[j].log.hi;

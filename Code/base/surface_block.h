@@ -3,9 +3,10 @@
 
 #include "base/hit.h"
 
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 
 struct alignas(64) SurfaceBlock {
@@ -25,10 +26,9 @@ struct alignas(64) SurfaceBlock {
         const unsigned bit = 1u << i;
         curved &= ~bit;
         // Bit by bit: zeros keep their signs.
-        constexpr Vec3 kNothing{};
-        if (std::memcmp(&s.ns, &s.ng, sizeof(Vec3)) == 0 &&
-            std::memcmp(&s.lift, &kNothing, sizeof(Vec3)) == 0)
-            return;
+        using Bits = std::array<std::uint32_t, 3>;
+        const auto bits = [](Vec3 v) { return std::bit_cast<Bits>(v); };
+        if (bits(s.ns) == bits(s.ng) && bits(s.lift) == Bits{}) return;
         set(ns, i, s.ns), set(lift, i, s.lift);
         curved |= bit;
     }
@@ -64,7 +64,7 @@ struct alignas(64) SurfaceBlock {
 };
 
 // Surfaces are written to place k of a row of blocks, each of which may be part of something
-// larger: out[k] = surface.
+// larger: out[k].put(surface).
 class SurfacePlaces {
 public:
     // `first` is the surface part of the first block, which is `step` bytes before that of the
@@ -75,7 +75,7 @@ public:
     struct Place {
         SurfaceBlock& block;
         std::size_t lane;
-        void operator=(const Surface& surface) const { block.put(lane, surface); }
+        void put(const Surface& surface) const { block.put(lane, surface); }
         Surface surface() const { return block.at(lane); }
     };
     Place operator[](std::size_t k) const {

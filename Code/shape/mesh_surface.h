@@ -88,7 +88,7 @@ void surfacesOf(const SurfaceQuery& query, TriangleFn&& triangleOf, SourceFn&& s
             const SurfacePlaces::Place place = out[to[i]];
             if (i == 0 || !onOne) source = sourceOf(hit.prim);
             if ((batch.unknown() >> i & 1) != 0)
-                place = surfaceOf(triangleOf(hit.prim), query.rays[rays[i]], hit, query.needs);
+                place.put(surfaceOf(triangleOf(hit.prim), query.rays[rays[i]], hit, query.needs));
             else if (whole == nullptr)
                 batch.take(i, place.block, place.lane);
             place.block.material[place.lane] = source.material;

@@ -100,11 +100,11 @@ public:
     virtual Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds) const {
         return surface(ray, hit);
     }
-    // out[to[k]] = surfaceFor(ray, hit) of ray which[k].
+    // out[to[k]] becomes surfaceFor(ray, hit) of ray which[k].
     virtual void surfaces(const SurfaceQuery& query, SurfacePlaces out) const {
         for (std::size_t k = 0; k < query.which.size(); ++k) {
             const std::uint32_t i = query.which[k];
-            out[query.to[k]] = surfaceFor(query.rays[i], query.hits[i], query.needs);
+            out[query.to[k]].put(surfaceFor(query.rays[i], query.hits[i], query.needs));
         }
     }
     // What lanes need that do the hits of many shapes together, but no texture coordinates; null:

@@ -71,7 +71,7 @@ public:
         const bool flat = random.chance(0.3);
         for (std::size_t k = 0; k < count_; ++k) {
             alone_[k].surface = someSurface(random, flat);
-            columns_.surfaces()[k] = alone_[k].surface;
+            columns_.surfaces()[k].put(alone_[k].surface);
             dirs_[k] = someDirection(random) * static_cast<float>(random.logUniform(0.1, 10));
             if (random.chance(0.2)) // grazing
                 dirs_[k] = toFloat(cross(toDouble(alone_[k].surface.ng), random.direction())) +

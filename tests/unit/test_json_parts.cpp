@@ -40,7 +40,7 @@ Outcome readWith(const std::string& text, int threads, std::size_t partBytes, bo
     return out;
 }
 Outcome checkSame(const std::string& text, const std::string& what, bool lenient = false) {
-    const Outcome one = readWith(text, 1, kNever, lenient);
+    Outcome one = readWith(text, 1, kNever, lenient);
     constexpr std::pair<int, std::size_t> kWays[] = {{1, 1}, {3, 1}, {2, 150}};
     for (const auto& [threads, partBytes] : kWays) {
         const Outcome other = readWith(text, threads, partBytes, lenient);
@@ -89,7 +89,7 @@ TEST(json_parts_give_the_same_scene) {
     // Of two that could be meant the first one is, though it is read elsewhere.
     std::vector<std::string> named = kObjects;
     named.insert(named.begin(), R"({"name": "in", "type": "sphere", "radius": 3})");
-    named.push_back(R"({"type": "instance", "ref": "in"})");
+    named.emplace_back(R"({"type": "instance", "ref": "in"})");
     const Outcome referring = checkSame(sceneOf(named), "a reference");
     CHECK_EQUAL(referring.desc.objects.back().radius, 3.0);
     for (const char* list : {"", "1", "\"a\", [], {}", "null, {\"type\": \"sphere\"}"})

@@ -37,7 +37,7 @@ Outcome readWith(const std::string& text, int threads, std::size_t partBytes) {
     return out;
 }
 Outcome checkSame(const std::string& text, const std::string& what) {
-    const Outcome one = readWith(text, 1, 1);
+    Outcome one = readWith(text, 1, 1);
     constexpr std::pair<int, std::size_t> kWays[] = {{2, 1}, {3, 60}, {2, 200}};
     for (const auto& [threads, partBytes] : kWays) {
         const Outcome other = readWith(text, threads, partBytes);

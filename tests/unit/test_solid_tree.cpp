@@ -28,7 +28,7 @@ std::vector<Bounds> someBoxes(Random& random, std::size_t count) {
 // Of three kinds, two of which have lists of their own: number and list tell the same.
 SolidTree::Described describe(std::uint32_t i) {
     SolidTree::Described out{i, i % 5 != 0, {}};
-    static const StillShape still;
+    static const StillShape still{};
     if (i % 3 == 1) {
         out.form.tube = StillTube{.shape = &still, .caps = false, .radius = 1.0 + i};
         out.form.hull = {.centre = {}, .axis = {0, 0, 1}, .radius = 1};

@@ -118,7 +118,9 @@ private:
     // many. In the time of a bundle's leaf it tests two pairs, and a ray alone meets two leaves, of
     // which things hide about half.
     static constexpr float kWorthwhile = 0.25f;
-    float work() const { return static_cast<float>(leaves_ + leaf_.pairs() / 2); }
+    float work() const {
+        return static_cast<float>(leaves_) + 0.5f * static_cast<float>(leaf_.pairs());
+    }
 
     static constexpr int kNodeLines = sizeof(WideNode<W>) / 64;
     static constexpr int kLeafLines = sizeof(WideLeaf<W>) / 64;
