@@ -13,10 +13,11 @@ inline Doubles logTail(const Doubles& r) {
 // Of numbers from the smallest normal one to 1.
 inline Doubles logOf(Floats base) {
     constexpr double ln2 = 0x1.62e42fefa39efp-1;
+    constexpr std::uint32_t minusBias = 0xffffff81; // -127
     const Ints fraction = masked(bitsOf(base), 0x7fffff);
     const Ints row = shiftedRight<16>(plus(fraction, 0x8000));
     const Doubles mantissa(fromBits(plus(fraction, 0x3f800000)));
-    const Doubles exponent = doublesOf(plus(shiftedRight<23>(bitsOf(base)), 0u - 127)) +
+    const Doubles exponent = doublesOf(plus(shiftedRight<23>(bitsOf(base)), minusBias)) +
                              select(row < Ints(exact::kHalvedFrom), Doubles(0.0), Doubles(1.0));
     const Doubles r = mantissa * elementsAt<1>(exact::kPowTables.c.data(), row) - 1.0;
     const Doubles known = exponent * ln2 + elementsAt<1>(exact::kPowTables.log.data(), row);
