@@ -1,6 +1,6 @@
 // What leaves mirrors and glass at many points of a wave, a register of points at a time: what
 // bounces() and mirrored() give, operation by operation and so bit by bit. Knows numbers only;
-// render/waves/bounces.h brings them here and takes them away.
+// render/waves/bounce_blocks.h brings them here and takes them away.
 #pragma once
 
 #include "material/material.h"

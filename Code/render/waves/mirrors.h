@@ -48,14 +48,13 @@ inline void mirrorInLanes(const Wave& wave, std::size_t b, unsigned mirrors) {
         colours[i] = points.material[first + i]->mirror;
     const PathBatch& rays = wave.rays;
     PathBatch& next = wave.memory.next;
-    std::size_t to = next.size();
-    next.setSize(to + PointColumns::kPoints); // lanes write whole registers
+    std::size_t to = next.extend(PointColumns::kPoints); // lanes write whole registers
     unsigned worth = wave.context.shadeLanes.mirror(
         points.at.block(b), &points.weight[first], colours.data(), mirrors, wave.context.cutoff,
         {&next.org[to], &next.dir[to], nullptr, &next.weight[to]});
     const auto count = static_cast<std::size_t>(std::popcount(worth));
     wave.counts.reflect += count;
-    next.setSize(to + count);
+    next.shrink(to + count);
     for (; worth != 0; worth &= worth - 1, ++to) {
         const auto i = static_cast<std::size_t>(std::countr_zero(worth));
         const std::size_t from = points.ray[first + i];
