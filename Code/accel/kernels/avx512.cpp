@@ -22,6 +22,8 @@ namespace kernels::avx512 {
 
 #include "accel/kernels/queue_answers.inl"
 
+#include "accel/kernels/edge_on.inl"
+
 #include "accel/kernels/queue_exact.inl"
 
 #include "accel/kernels/handful.inl"

@@ -14,6 +14,8 @@ enum class Answer { Closest, Any };
 
 #include "accel/kernels/solids_rays.inl"
 
+#include "accel/kernels/edge_on.inl"
+
 #include "accel/kernels/solids_facets.inl"
 
 #include "accel/kernels/solids_objects.inl"
