@@ -1,21 +1,15 @@
 // What kernels know of tubes and of meshes of a few triangles: batches have the bits of asking
 // every shape, where filters might leave out too much or be too certain.
-#include "analytic_kit.h"
-#include "check.h"
 #include "shape/cone.h"
 #include "shape/cylinder.h"
 #include "shape/mesh.h"
-#include "shape/one_sided.h"
 #include "solid_checks.h"
-#include "verify/meshes.h"
 
 #include <algorithm>
-#include <utility>
 
 using meshes::Random;
-using solid_checks::compare;
 using solid_checks::Rays;
-using solid_checks::Score;
+using solid_checks::sided;
 using Shadow = ShapeSet::Shadow;
 
 namespace {
@@ -28,17 +22,11 @@ struct Tube {
     }
 };
 
-std::unique_ptr<const Shape> sided(Random& random, std::unique_ptr<const Shape> shape,
-                                   double often) {
-    if (!random.chance(often)) return shape;
-    return std::make_unique<OneSided>(std::move(shape), random.chance(0.5) ? OneSided::Side::Front
-                                                                           : OneSided::Side::Back);
-}
-
 // Straight ones, stretched ones, needles of 1e-4 to disks of 1e4 times their length, and some
 // without size; open and closed, as cylinders and as cones.
-std::vector<Tube> addTubes(std::uint64_t seed, std::size_t count, ShapeSet& set) {
+std::vector<Tube> addTubes(std::uint64_t seed, const Kernel&, ShapeSet& set) {
     Random random(seed);
+    const std::size_t count = 1 + seed * 7 % 40;
     std::vector<Tube> tubes;
     for (std::size_t n = 0; n < count; ++n) {
         const double size = random.logUniform(1e-6, 0.5);
@@ -83,12 +71,7 @@ Rays tubeRays(Random& random, const std::vector<Tube>& tubes) {
         };
         const Vec3d from = fromLamp ? lamp : random.chance(0.2) ? random.inBox(2) : place();
         const Vec3d to = place();
-        Ray ray = kit::rayFrom(from, to - toDouble(toFloat(from)));
-        if (fromLamp || random.chance(0.3))
-            ray.tMax = static_cast<float>(1 + random.uniform(-2, 2) * 0x1p-20);
-        if (random.chance(0.1))
-            ray.tMin = static_cast<float>(1 + random.uniform(-2, 2) * 0x1p-20),
-            ray.tMax = kInfinityF;
+        Ray ray = solid_checks::rayBetween(random, from, to, fromLamp);
         if (random.chance(0.05))
             ray.dir = toFloat(tube.map.vector({0, 0, 1}) +
                               random.direction() * random.logUniform(1e-12, 1e-6));
@@ -102,8 +85,9 @@ struct Pieces {
     std::vector<std::unique_ptr<MeshGeometry>> geometries;
     std::vector<std::array<Vec3, 3>> triangles;
 
-    Pieces(std::uint64_t seed, std::size_t count, const Kernel& kernel, ShapeSet& set) {
+    Pieces(std::uint64_t seed, const Kernel& kernel, ShapeSet& set) {
         Random random(seed);
+        const std::size_t count = 1 + seed * 5 % 24;
         for (std::size_t n = 0; n < count; ++n) {
             std::vector<std::array<Vec3, 3>> piece;
             if (random.chance(0.5)) {
@@ -138,8 +122,9 @@ private:
 };
 
 // Through and to insides, sides, corners and a few roundings off them; also within the plane.
-Rays pieceRays(Random& random, const std::vector<std::array<Vec3, 3>>& triangles) {
+Rays pieceRays(Random& random, const Pieces& pieces) {
     Rays rays;
+    const auto& triangles = pieces.triangles;
     const Vec3d lamp = random.direction() * random.uniform(0.1, 4);
     const bool fromLamp = random.chance(0.5);
     const auto place = [&] {
@@ -162,53 +147,17 @@ Rays pieceRays(Random& random, const std::vector<std::array<Vec3, 3>>& triangles
     return rays;
 }
 
-void report(const char* name, const Kernel& kernel, const Score& score) {
-    std::printf("%s, %s: %lld rays, %lld hits, %lld hidden\n", name, kernel.name, score.rays,
-                score.hits, score.hidden);
-    CHECK_INFO(score.hits > score.rays / 4 && score.hidden > score.rays / 8, kernel.name);
-    CHECK_EQUAL(score.wrongHits, 0);
-    CHECK_EQUAL(score.wrongHidden, 0);
-}
-
 } // namespace
 
 TEST(solid_tubes_have_the_bits_of_single_rays) {
-    for (const Kernel& kernel : allKernels()) {
-        if (!kernel.supported() || kernel.width == 0) continue;
-        Score score;
-        for (std::uint64_t seed = 2201; seed < 2201 + check::scaled(60u); ++seed) {
-            ShapeSet batches, single;
-            const std::size_t count = 1 + seed * 7 % 40;
-            const std::vector<Tube> tubes = addTubes(seed, count, batches);
-            addTubes(seed, count, single);
-            batches.finish(true, kernel);
-            single.finish(false);
-            Random random(seed);
-            for (int i = 0; i < 8; ++i)
-                compare(kernel.name, seed, batches, single, tubeRays(random, tubes), score);
-        }
-        report("tubes", kernel, score);
-    }
+    solid_checks::compareSets("tubes", 2201, 60, addTubes, tubeRays);
 }
 
 TEST(solid_facets_have_the_bits_of_single_rays) {
-    for (const Kernel& kernel : allKernels()) {
-        if (!kernel.supported() || kernel.width == 0) continue;
-        Score score;
-        for (std::uint64_t seed = 2301; seed < 2301 + check::scaled(60u); ++seed) {
-            ShapeSet batches, single;
-            const std::size_t count = 1 + seed * 5 % 24;
-            const Pieces pieces(seed, count, kernel, batches);
-            const Pieces same(seed, count, chooseKernel("scalar"), single);
-            batches.finish(true, kernel);
-            single.finish(false);
-            Random random(seed);
-            for (int i = 0; i < 8; ++i)
-                compare(kernel.name, seed, batches, single, pieceRays(random, pieces.triangles),
-                        score);
-        }
-        report("facets", kernel, score);
-    }
+    const auto fill = [](std::uint64_t seed, const Kernel& kernel, ShapeSet& set) {
+        return Pieces(seed, kernel, set);
+    };
+    solid_checks::compareSets("facets", 2301, 60, fill, pieceRays);
 }
 
 // A floor is no batch of its own where a kernel takes it as facets.
@@ -259,11 +208,9 @@ TEST(solid_tree_of_large_leaves) {
             }
             if (kindOf(ref) != WideKind::Node) continue;
             const WideNode<16>& node = tree.node<16>(ref);
-            for (std::size_t i = 0; i < 16; ++i) {
-                const Bounds box{{node.plane[0][0][i], node.plane[1][0][i], node.plane[2][0][i]},
-                                 {node.plane[0][1][i], node.plane[1][1][i], node.plane[2][1][i]}};
-                if (kindOf(node.child[i]) != WideKind::None) open.emplace_back(node.child[i], box);
-            }
+            for (std::size_t i = 0; i < 16; ++i)
+                if (kindOf(node.child[i]) != WideKind::None)
+                    open.emplace_back(node.child[i], node.box(i));
         }
         CHECK(std::all_of(found.begin(), found.end(), [](int times) { return times == 1; }));
     }
