@@ -12,6 +12,8 @@
 
 #include "accel/kernels/queue_rays.inl"
 
+#include "accel/kernels/root_boxes.inl"
+
 #include "accel/kernels/queue_answers.inl"
 
 #include "accel/kernels/queue_exact.inl"
