@@ -1,5 +1,5 @@
 // render(): Scene + RenderSettings -> pictures. Tiles, threads, progress and counters live here;
-// what one tile computes is in whitted.h and the other integrators.
+// what one tile computes is in whitted.cpp and first_hit.cpp.
 #pragma once
 
 #include "image/image.h"

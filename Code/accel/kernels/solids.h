@@ -98,7 +98,7 @@ private:
               const Describe& describe, int threads);
 };
 
-// How the kernels ask solids that are no spheres.
+// How the kernels ask solids that they do not meet themselves.
 struct SolidCalls {
     const void* set = nullptr;
     // Is there a hit nearer than `best`? tEntry: where the ray enters the solid's box. Then it is

@@ -1,7 +1,7 @@
 // WideTree: the triangles of a mesh as vector kernels want them. A node tests W boxes at once, a
 // leaf W triangles over at most W vertices that they share: a vertex is moved into the ray's frame
 // once, and both triangles of an edge see the same bits of it.
-// Knows nothing about rays and instruction sets; read by the kernels, written by wide_build.cpp.
+// Knows nothing about rays and instruction sets; read by the kernels, made by wide_build.cpp.
 #pragma once
 
 #include "accel/ray_setup.h"
@@ -23,7 +23,7 @@ constexpr WideKind kindOf(WideRef ref) { return static_cast<WideKind>(ref & 3); 
 constexpr std::size_t byteOffset(WideRef ref) { return static_cast<std::size_t>(ref & ~3u) * 16; }
 
 // Children in the order in which rays that any hit ends had better visit them, the first one last
-// (build/visit_order.h). A slot without a child has a box that no ray enters and that of an empty
+// (build/visit_order.h). A slot without a child has a box that no ray enters, and refers to an empty
 // leaf.
 template <int W> struct alignas(64) WideNode {
     float plane[3][2][W]; // axis, lower or upper
