@@ -6,7 +6,7 @@
 #include "check.h"
 #include "render/shape_set.h"
 #include "shape/one_sided.h"
-#include "verify/meshes.h"
+#include "verify/hostile_rays.h"
 
 #include <cstdio>
 #include <memory>
@@ -24,16 +24,7 @@ inline std::unique_ptr<const Shape> sided(meshes::Random& random,
                                                                            : OneSided::Side::Back);
 }
 
-struct Rays {
-    std::vector<Vec3> org, dir;
-    std::vector<float> tMin, tMax, time;
-
-    void push(const Ray& ray) {
-        org.push_back(ray.org), dir.push_back(ray.dir);
-        tMin.push_back(ray.tMin), tMax.push_back(ray.tMax), time.push_back(ray.time);
-    }
-    RaySpan span() const { return {org, dir, tMin, tMax, time}; }
-};
+using Rays = battery::RayList;
 
 // From a point to another one. Those that are to end do so there, or a few roundings off it; now
 // and then one begins there.

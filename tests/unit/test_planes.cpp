@@ -5,18 +5,13 @@
 #include "check.h"
 #include "render/shape_set.h"
 #include "shape/infinite_plane.h"
+#include "verify/hostile_rays.h"
 
 #include <limits>
 
 using kit::Random;
 
 namespace {
-
-struct Rays {
-    std::vector<Vec3> org, dir;
-    std::vector<float> tMin, tMax, time;
-    RaySpan span() const { return {org, dir, tMin, tMax, time}; }
-};
 
 // Rays towards the plane, along it, away from it, and such as no plane may meet.
 Ray someRay(Random& random, const Transform& map) {
@@ -44,12 +39,11 @@ TEST(planes_in_lanes_have_the_hits_of_single_rays) {
             i % 3 == 0 ? Transform::translate(random.inBox(5)) : kit::randomMap(random);
         const InfinitePlane shape(map, 0, 0);
         const StillPlane plane = *shape.solidForm().plane;
-        Rays rays;
+        battery::RayList rays;
         std::vector<Hit> best;
         for (std::uint32_t k = 0; k < 1 + random.below(40); ++k) {
             const Ray ray = someRay(random, map);
-            rays.org.push_back(ray.org), rays.dir.push_back(ray.dir);
-            rays.tMin.push_back(ray.tMin), rays.tMax.push_back(ray.tMax), rays.time.push_back(0);
+            rays.push(ray);
             best.push_back({.t = ray.tMax});
             if (random.chance(0.2)) shape.intersect(ray, best.back()); // as near as it is itself
         }
