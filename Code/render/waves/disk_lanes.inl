@@ -58,8 +58,8 @@ struct DiskLanes {
     Floats x, y;
 };
 
-// sinKernel() and cosKernel() of base/math_angles.cpp for an angle of no lower part, each the upper
-// part of its result.
+// sinKernel() and cosKernel() of base/math.cpp for an angle of no lower part, each the upper part
+// of its result.
 inline Doubles sineOf(const Doubles& x) {
     constexpr double c3 = -1.0 / 6, c5 = 1.0 / 120, c7 = -1.0 / 5040, c9 = 1.0 / 362880;
     constexpr double c11 = -1.0 / 39916800, c13 = 1.0 / 6227020800, c15 = -1.0 / 1307674368000;
