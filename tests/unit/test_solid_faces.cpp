@@ -95,8 +95,8 @@ std::vector<Face> addFaces(std::uint64_t seed, const Kernel&, ShapeSet& set) {
             shape = std::make_unique<Disk>(place, radius, 0u, 0u);
         else
             shape = std::make_unique<Plane>(place, face.corners, 0u, 0u);
-        set.add(solid_checks::sided(random, std::move(shape), 0.3),
-                random.chance(0.9) ? Shadow::Opaque : Shadow::None);
+        shape = solid_checks::sided(random, std::move(shape), 0.3);
+        set.add(std::move(shape), random.chance(0.9) ? Shadow::Opaque : Shadow::None);
         faces.push_back(face);
     }
     return faces;

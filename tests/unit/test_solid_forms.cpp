@@ -44,8 +44,8 @@ std::vector<Tube> addTubes(std::uint64_t seed, const Kernel&, ShapeSet& set) {
         else
             shape =
                 std::make_unique<Cone>(map, radius, radius * random.uniform(0, 1), caps, 0u, 0u);
-        set.add(sided(random, std::move(shape), 0.3),
-                random.chance(0.9) ? Shadow::Opaque : Shadow::None);
+        shape = sided(random, std::move(shape), 0.3);
+        set.add(std::move(shape), random.chance(0.9) ? Shadow::Opaque : Shadow::None);
     }
     return tubes;
 }
@@ -99,12 +99,11 @@ struct Pieces {
             triangles.insert(triangles.end(), piece.begin(), piece.end());
             auto geometry = std::make_unique<MeshGeometry>(meshes::geometryOf(piece, false));
             geometry->finish(true, kernel);
-            set.add(sided(random,
-                          std::make_unique<Mesh>(
-                              *geometry, std::vector<std::uint32_t>{0},
-                              std::vector<MeshPart>{{0, static_cast<std::uint32_t>(n)}}),
-                          0.5),
-                    random.chance(0.8) ? Shadow::Opaque : Shadow::None);
+            std::unique_ptr<const Shape> mesh =
+                std::make_unique<Mesh>(*geometry, std::vector<std::uint32_t>{0},
+                                       std::vector<MeshPart>{{0, static_cast<std::uint32_t>(n)}});
+            mesh = sided(random, std::move(mesh), 0.5);
+            set.add(std::move(mesh), random.chance(0.8) ? Shadow::Opaque : Shadow::None);
             geometries.push_back(std::move(geometry));
         }
     }
