@@ -30,17 +30,36 @@ namespace {
 // heap has grown ahead of them.
 [[maybe_unused]] constexpr std::size_t kOwnPages = std::size_t{1} << 21;
 
+#if defined(__linux__)
+
+constexpr std::size_t kPage = std::size_t{1} << 21;
+// The last page is a large one if so much of it is needed: it costs as much as some 60 small ones.
+constexpr std::size_t kWorthAPage = std::size_t{1} << 18;
+
+std::size_t inPages(std::size_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }
+
+// From the start of a page on, so that none is lost at the ends.
+void* mapPages(std::size_t bytes) {
+    const std::size_t size = inPages(bytes);
+    if (size < bytes || size + kPage < size) return nullptr;
+    void* const memory =
+        mmap(nullptr, size + kPage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    if (memory == MAP_FAILED) return nullptr;
+    char* const all = static_cast<char*>(memory);
+    const std::size_t before = kPage - reinterpret_cast<std::uintptr_t>(memory) % kPage;
+    munmap(all, before);
+    if (before < kPage) munmap(all + before + size, kPage - before);
+    madvise(all + before, (bytes + kPage - kWorthAPage) / kPage * kPage, MADV_HUGEPAGE);
+    return all + before;
+}
+
+#endif
+
 } // namespace
 
 void* zeroedMemory(std::size_t bytes) {
 #if defined(__linux__)
-    if (bytes >= kOwnPages) {
-        void* const memory =
-            mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-        if (memory == MAP_FAILED) return nullptr;
-        adviseLargePages(memory, bytes);
-        return memory;
-    }
+    if (bytes >= kOwnPages) return mapPages(bytes);
 #endif
     return std::calloc(1, std::max<std::size_t>(1, bytes));
 }
@@ -48,7 +67,7 @@ void* zeroedMemory(std::size_t bytes) {
 void freeZeroedMemory(void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__)
     if (bytes >= kOwnPages) {
-        munmap(memory, bytes);
+        munmap(memory, inPages(bytes));
         return;
     }
 #endif
