@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <memory>
 #if defined(__linux__)
 #include <sys/mman.h>
 #endif
@@ -12,9 +13,16 @@
 #include <unistd.h>
 #endif
 
+#if defined(__linux__)
+namespace {
+
+constexpr std::size_t kPage = std::size_t{1} << 21;
+
+}
+#endif
+
 void adviseLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__)
-    constexpr std::uintptr_t kPage = std::uintptr_t{1} << 21;
     const auto start = reinterpret_cast<std::uintptr_t>(memory);
     const std::uintptr_t inside = (kPage - start % kPage) % kPage;
     if (bytes < inside + kPage) return;
@@ -32,7 +40,6 @@ namespace {
 
 #if defined(__linux__)
 
-constexpr std::size_t kPage = std::size_t{1} << 21;
 // The last page is a large one if so much of it is needed: it costs as much as some 60 small ones.
 constexpr std::size_t kWorthAPage = std::size_t{1} << 18;
 
@@ -78,23 +85,26 @@ void useLargePages([[maybe_unused]] std::size_t bytes) {
 #if defined(__GLIBC__)
     // The heap is to grow at once by what is asked for, which the first piece makes it do. As long
     // as that lasts, arrays come from there, too; later only those of less than 4 MB.
-    constexpr std::size_t kPiece = std::size_t{1} << 20, kMost = std::size_t{1} << 30;
+    constexpr std::size_t kMost = std::size_t{1} << 30, kRecord = 256;
     constexpr int kPad = 1 << 20, kLargestArray = 1 << 22;
     const std::size_t room = std::min(bytes, kMost);
     if (mallopt(M_MMAP_THRESHOLD, kLargestArray) == 0 ||
         mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max()) == 0 ||
         mallopt(M_TOP_PAD, static_cast<int>(room)) == 0)
         return;
-    void* const first = std::malloc(kPiece);
-    const auto start = reinterpret_cast<std::uintptr_t>(first),
-               end = reinterpret_cast<std::uintptr_t>(sbrk(0));
+    // It ends just in front of a page: malloc writes behind it, and a page of which something was
+    // touched before the advice remains one of small ones.
+    const auto addressOf = [](const void* p) { return reinterpret_cast<std::uintptr_t>(p); };
+    const std::unique_ptr<void, decltype(&std::free)> here(std::malloc(1), &std::free);
+    const std::uintptr_t start = addressOf(here.get()), before = addressOf(sbrk(0));
+    const std::uintptr_t page = (before + 2 * kRecord + kPage - 1) / kPage * kPage;
     // Tools that watch the memory have a malloc of their own, elsewhere.
-    const bool isHeap = first && start < end && end - start <= room + 2 * kPiece;
-    if (isHeap) adviseLargePages(first, end - start);
-    std::free(first);
-    // The heap begins somewhere in a page: what is in front of the first whole one is left out.
-    constexpr std::uintptr_t kPage = std::uintptr_t{1} << 21;
-    if (isHeap && room > 2 * kPage) filler = std::malloc((kPage - start % kPage) % kPage);
+    if (start < before && page - start < 2 * kPage) {
+        filler = std::malloc(page - start - kRecord);
+        const std::uintptr_t end = addressOf(sbrk(0));
+        if (filler && start < addressOf(filler) && addressOf(filler) < page && end > page)
+            madvise(reinterpret_cast<void*>(page), (end - page) / kPage * kPage, MADV_HUGEPAGE);
+    }
     mallopt(M_TOP_PAD, kPad);
 #endif
 }
