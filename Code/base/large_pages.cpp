@@ -13,30 +13,11 @@
 #include <unistd.h>
 #endif
 
-#if defined(__linux__)
 namespace {
 
-constexpr std::size_t kPage = std::size_t{1} << 21;
-
-}
-#endif
-
-void adviseLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
-#if defined(__linux__)
-    const auto start = reinterpret_cast<std::uintptr_t>(memory);
-    const std::uintptr_t inside = (kPage - start % kPage) % kPage;
-    if (bytes < inside + kPage) return;
-    madvise(static_cast<char*>(memory) + inside, (bytes - inside) / kPage * kPage, MADV_HUGEPAGE);
-#endif
-}
-
-namespace {
+[[maybe_unused]] constexpr std::size_t kPage = std::size_t{1} << 21;
 
 [[maybe_unused]] void* filler = nullptr; // of the heap; tools that look for leaks find it here
-
-// What is smaller comes from malloc. calloc would write the zeros of larger things, too, where the
-// heap has grown ahead of them.
-[[maybe_unused]] constexpr std::size_t kOwnPages = std::size_t{1} << 21;
 
 #if defined(__linux__)
 
@@ -64,16 +45,27 @@ void* mapPages(std::size_t bytes) {
 
 } // namespace
 
+void adviseLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+#if defined(__linux__)
+    const auto start = reinterpret_cast<std::uintptr_t>(memory);
+    const std::uintptr_t inside = (kPage - start % kPage) % kPage;
+    if (bytes < inside + kPage) return;
+    madvise(static_cast<char*>(memory) + inside, (bytes - inside) / kPage * kPage, MADV_HUGEPAGE);
+#endif
+}
+
 void* zeroedMemory(std::size_t bytes) {
 #if defined(__linux__)
-    if (bytes >= kOwnPages) return mapPages(bytes);
+    // What is smaller comes from malloc. calloc would write the zeros of larger things, too, where
+    // the heap has grown ahead of them.
+    if (bytes >= kPage) return mapPages(bytes);
 #endif
     return std::calloc(1, std::max<std::size_t>(1, bytes));
 }
 
 void freeZeroedMemory(void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__)
-    if (bytes >= kOwnPages) {
+    if (bytes >= kPage) {
         munmap(memory, inPages(bytes));
         return;
     }
