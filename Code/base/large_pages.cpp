@@ -75,27 +75,28 @@ void freeZeroedMemory(void* memory, [[maybe_unused]] std::size_t bytes) {
 
 void useLargePages([[maybe_unused]] std::size_t bytes) {
 #if defined(__GLIBC__)
-    // The heap is to grow at once by what is asked for, which the first piece makes it do. As long
-    // as that lasts, arrays come from there, too; later only those of less than 4 MB.
-    constexpr std::size_t kMost = std::size_t{1} << 30, kRecord = 256;
+    constexpr std::size_t kMost = std::size_t{1} << 30, kRecord = 256, kSome = 1 << 15;
     constexpr int kPad = 1 << 20, kLargestArray = 1 << 22;
     const std::size_t room = std::min(bytes, kMost);
+    const auto addressOf = [](const void* p) { return reinterpret_cast<std::uintptr_t>(p); };
+    // Where the free end of the heap begins: what has been freed in front of it are smaller pieces.
+    const std::unique_ptr<void, decltype(&std::free)> here(std::malloc(kSome), &std::free);
+    const std::uintptr_t start = addressOf(here.get()) + kSome, before = addressOf(sbrk(0));
+    // The heap is to grow at once by what is asked for, which the next piece makes it do. As long
+    // as that lasts, arrays come from there, too; later only those of less than 4 MB.
     if (mallopt(M_MMAP_THRESHOLD, kLargestArray) == 0 ||
         mallopt(M_TRIM_THRESHOLD, std::numeric_limits<int>::max()) == 0 ||
         mallopt(M_TOP_PAD, static_cast<int>(room)) == 0)
         return;
-    // It ends just in front of a page: malloc writes behind it, and a page of which something was
-    // touched before the advice remains one of small ones.
-    const auto addressOf = [](const void* p) { return reinterpret_cast<std::uintptr_t>(p); };
-    const std::unique_ptr<void, decltype(&std::free)> here(std::malloc(1), &std::free);
-    const std::uintptr_t start = addressOf(here.get()), before = addressOf(sbrk(0));
+    // That piece ends just in front of a page: malloc writes behind it, and a page of which
+    // something was touched before the advice remains one of small ones.
     const std::uintptr_t page = (before + 2 * kRecord + kPage - 1) / kPage * kPage;
     // Tools that watch the memory have a malloc of their own, elsewhere.
     if (start < before && page - start < 2 * kPage) {
         filler = std::malloc(page - start - kRecord);
-        const std::uintptr_t end = addressOf(sbrk(0));
-        if (filler && start < addressOf(filler) && addressOf(filler) < page && end > page)
-            madvise(reinterpret_cast<void*>(page), (end - page) / kPage * kPage, MADV_HUGEPAGE);
+        const std::uintptr_t first = addressOf(filler), end = addressOf(sbrk(0));
+        if (filler && start < first && first < page && page < end)
+            adviseLargePages(filler, end - first);
     }
     mallopt(M_TOP_PAD, kPad);
 #endif

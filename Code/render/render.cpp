@@ -59,7 +59,7 @@ public:
         std::vector<Worker> workers(static_cast<std::size_t>(pool_.threads()));
         for (Worker& worker : workers) {
             worker.aovs.resize(aovs_.size());
-            worker.tile = Image(side_, side_);
+            worker.tile = Image(std::min(side_, area_.width()), std::min(side_, area_.height()));
         }
         Picture picture;
         if (settings_.errorGoal)

@@ -70,6 +70,8 @@ TEST(coded_images_give_the_files_of_images) {
 TEST(coded_images_have_the_sizes_of_images) {
     CHECK(CodedImage().isEmpty());
     CHECK(!CodedImage(1, 1, Encoding::Transfer::Srgb).isEmpty());
-    for (const auto& [width, height] : {std::pair{0, 1}, {1, -1}, {Image::kMaxSide + 1, 1}})
-        CHECK_THROWS(CodedImage(width, height, Encoding::Transfer::Srgb), "is not possible");
+    for (const Vec2d size : {Vec2d{0, 1}, {1, -1}, {Image::kMaxSide + 1, 1}})
+        CHECK_THROWS(CodedImage(static_cast<int>(size.x), static_cast<int>(size.y),
+                                Encoding::Transfer::Srgb),
+                     "is not possible");
 }
