@@ -3,6 +3,7 @@
 // once.
 #pragma once
 
+#include "base/zeroed.h"
 #include "image/image.h"
 
 #include <cstddef>
@@ -16,7 +17,7 @@ struct PixelSource;
 class CodedImage {
 public:
     CodedImage() = default;
-    // Any codes: put() is to be called for all of it. Fails as Image does.
+    // Zeros. Fails as Image does.
     CodedImage(int width, int height, Encoding::Transfer transfer);
 
     bool isEmpty() const { return codes_.empty(); }
@@ -34,7 +35,7 @@ public:
 private:
     int width_ = 0, height_ = 0;
     Encoding::Transfer transfer_ = Encoding::Transfer::Srgb;
-    std::vector<std::uint8_t> codes_;
+    ZeroedVector<std::uint8_t> codes_;
 };
 
 // As encodeImage().
