@@ -18,7 +18,8 @@
 
 class SceneBuilder {
 public:
-    // `spent`: the description once more, where nobody else needs its objects and meshes.
+    // `spent`: the description once more, where nobody else needs its objects, meshes and
+    // materials.
     SceneBuilder(Scene& scene, const SceneDesc& desc, SceneDesc* spent, const SourceFile& source,
                  const RenderSettings& settings, PictureReader* pictures)
         : scene_(scene), desc_(desc), spent_(spent), source_(source), settings_(settings),
@@ -118,6 +119,7 @@ private:
         scene_.materials_.push_back(makeMaterial(MaterialDesc{}));
         for (const SceneMaterial& m : scene_.materials_)
             scene_.hasSeeThrough_ = scene_.hasSeeThrough_ || m.seeThrough();
+        if (spent_ != nullptr) std::vector<MaterialDesc>().swap(spent_->materials);
     }
 
     static SpecularModel specularModelOf(MaterialDesc::SpecularModel model) {
