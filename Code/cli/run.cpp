@@ -138,11 +138,6 @@ void printStats(const Stats& stats, const Options& options) {
     if (options.stats == Options::StatsFormat::Json) writeStdout(statsJson(stats));
 }
 
-// The scene that was rendered lasts as long as the program: the system takes its memory back at
-// once, a hundred times as fast as the destructors of all its shapes. Tools that look for leaks
-// find it here.
-const Scene* rendered = nullptr;
-
 ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings settings,
                      const Options& options, Stopwatch& watch, Stats& stats, Step& step) {
     checkPixelCount(settings.picture, options.cropPad);
@@ -155,8 +150,7 @@ ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings
     step = {"building the scene", ExitCode::Input};
     // What else is to be told of places in the text is of pictures that can't be read.
     if (loaded.desc.textures.empty()) std::string().swap(loaded.source.text);
-    rendered = new Scene(std::move(loaded.desc), loaded.source, settings, &pictures);
-    const Scene& scene = *rendered;
+    const Scene scene(std::move(loaded.desc), loaded.source, settings, &pictures);
     scene.describe(stats);
     stats.threads = settings.threads;
     stats.kernel = settings.kernel;
