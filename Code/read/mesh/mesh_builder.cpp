@@ -16,7 +16,9 @@ constexpr Corners kAllMissing{MeshBuilder::kMissing, MeshBuilder::kMissing, Mesh
 
 // Exactly: seen along all three axes, the corners are on one line.
 bool hasArea(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-    return orientation({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) != 0 ||
+    return surelyTurn({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) ||
+           surelyTurn({a.y, a.z}, {b.y, b.z}, {c.y, c.z}) ||
+           orientation({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) != 0 ||
            orientation({a.y, a.z}, {b.y, b.z}, {c.y, c.z}) != 0 ||
            orientation({a.z, a.x}, {b.z, b.x}, {c.z, c.x}) != 0;
 }
