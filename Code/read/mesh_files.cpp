@@ -1,6 +1,7 @@
 #include "read/mesh_files.h"
 
 #include "base/file.h"
+#include "base/find_pages.h"
 #include "base/for_each.h"
 #include "base/text.h"
 #include "desc/names.h"
@@ -72,11 +73,20 @@ std::string notFound(const std::string& file, const SourceFile& scene) {
                join(candidates(withSlashes(file), scene)));
 }
 
-SourceFile open(const std::string& path, const SourceFile& scene, SourceLoc loc) {
-    std::error_code ignored;
-    if (fs::file_size(path, ignored) >= SourceLoc::kUnknown)
+// Text, points and triangles, and lists of the tree's builder in their place and behind them, are
+// three times the text or more.
+void findRoomForMesh(std::size_t textBytes) {
+    constexpr std::size_t kWorthAThread = std::size_t{1} << 20;
+    if (textBytes >= kWorthAThread) findRoomAhead(3 * textBytes);
+}
+
+SourceFile open(const std::string& path, const SourceFile& scene, SourceLoc loc, int threads) {
+    std::error_code status;
+    const std::uintmax_t bytes = fs::file_size(path, status);
+    if (bytes >= SourceLoc::kUnknown)
         failAt(scene, loc.offset, cat("the file '", path, "' is larger than 4 GiB"));
-    return {path, readWholeText(path)};
+    if (threads != 1 && !status) findRoomForMesh(static_cast<std::size_t>(bytes));
+    return {path, readWholeText(path, threads)};
 }
 
 void loadMesh(MeshDesc& mesh, const SourceFile& scene, const ReadContext& context) {
@@ -87,7 +97,8 @@ void loadMesh(MeshDesc& mesh, const SourceFile& scene, const ReadContext& contex
                    unknownName(fs::path(mesh.file).extension().string(), meshFileExtensions())));
     const auto path = placeOf(mesh.file, scene);
     if (!path) failAt(scene, mesh.fileLoc.offset, notFound(mesh.file, scene));
-    MeshDesc loaded = format->read(open(*path, scene, mesh.fileLoc), context).mesh;
+    MeshDesc loaded =
+        format->read(open(*path, scene, mesh.fileLoc, context.options.threads), context).mesh;
     if (mesh.smoothAngleDeg == 0) {
         loaded.normals.clear();
         loaded.normalTriangles.clear();
@@ -108,7 +119,7 @@ MtlFile readLibrary(const MeshFile::Library& library, const SourceFile& source,
         context.warn(source, library.loc.offset, notFound(library.file, source));
         return {};
     }
-    MtlFile file = readMtl(open(*path, source, library.loc), context);
+    MtlFile file = readMtl(open(*path, source, library.loc, 1), context);
     const fs::path folder = fs::absolute(*path).parent_path();
     const fs::path sceneFolder = fs::absolute(source.name).parent_path();
     for (TextureDesc& texture : file.textures)
@@ -142,6 +153,7 @@ void loadMeshFiles(SceneDesc& desc, const SourceFile& scene, const ReadContext& 
 }
 
 SceneDesc readMeshScene(const SourceFile& source, const ReadContext& context) {
+    if (context.options.threads != 1) findRoomForMesh(source.text.size());
     MeshFile file = formatOf(source.name)->read(source, context);
     std::vector<MtlFile> libraries;
     for (const MeshFile::Library& library : file.libraries)

@@ -20,11 +20,13 @@ TEST(pages_vectors_keep_what_they_hold) {
     CHECK_EQUAL(std::accumulate(moved.begin(), moved.end(), 0u), 45u * 7);
 }
 
+// What they leave of their last page is little to them; smaller arrays begin where there is room.
 TEST(pages_large_arrays_start_on_one) {
-    for (const std::size_t bytes : {kLargePage, kLargePage + 1, 5 * kLargePage - 3}) {
+    for (const std::size_t bytes : {8 * kLargePage, 8 * kLargePage + 1, 11 * kLargePage - 3}) {
         PageVector<std::byte> v(bytes);
         CHECK_EQUAL(reinterpret_cast<std::uintptr_t>(v.data()) % kLargePage, 0u);
     }
+    CHECK(!PageAllocator<std::byte>::beginsAPage(8 * kLargePage - 1));
 }
 
 // New elements are left as the memory is, those that are asked for are not.
