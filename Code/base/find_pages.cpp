@@ -42,11 +42,12 @@ void findPages(void* memory, std::size_t bytes, int threads) {
 
 void findRoomAhead([[maybe_unused]] std::size_t bytes) {
 #if defined(__GLIBC__)
-    constexpr std::uintptr_t kPage = std::uintptr_t{1} << 21;
+    constexpr std::uintptr_t kPage = std::uintptr_t{1} << 21, kPiece = kPage / 2;
     static std::jthread finder; // the program's end waits for it
     if (finder.joinable()) return;
-    // Tools that watch the memory have a malloc of their own, elsewhere.
-    const std::unique_ptr<void, decltype(&std::free)> here(std::malloc(1), &std::free);
+    // What is too large for a hole comes from the end of what is used. Tools that watch the memory
+    // have a malloc of their own, elsewhere.
+    const std::unique_ptr<void, decltype(&std::free)> here(std::malloc(kPiece), &std::free);
     const auto start = reinterpret_cast<std::uintptr_t>(here.get()),
                heapEnd = reinterpret_cast<std::uintptr_t>(sbrk(0));
     if (!here || start >= heapEnd) return;

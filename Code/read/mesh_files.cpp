@@ -1,7 +1,6 @@
 #include "read/mesh_files.h"
 
 #include "base/file.h"
-#include "base/find_pages.h"
 #include "base/for_each.h"
 #include "base/text.h"
 #include "desc/names.h"
@@ -73,19 +72,10 @@ std::string notFound(const std::string& file, const SourceFile& scene) {
                join(candidates(withSlashes(file), scene)));
 }
 
-// Text, points and triangles, and lists of the tree's builder in their place and behind them, are
-// three times the text or more.
-void findRoomForMesh(std::size_t textBytes) {
-    constexpr std::size_t kWorthAThread = std::size_t{1} << 20;
-    if (textBytes >= kWorthAThread) findRoomAhead(3 * textBytes);
-}
-
 SourceFile open(const std::string& path, const SourceFile& scene, SourceLoc loc, int threads) {
-    std::error_code status;
-    const std::uintmax_t bytes = fs::file_size(path, status);
-    if (bytes >= SourceLoc::kUnknown)
+    std::error_code ignored;
+    if (fs::file_size(path, ignored) >= SourceLoc::kUnknown)
         failAt(scene, loc.offset, cat("the file '", path, "' is larger than 4 GiB"));
-    if (threads != 1 && !status) findRoomForMesh(static_cast<std::size_t>(bytes));
     return {path, readWholeText(path, threads)};
 }
 
@@ -153,7 +143,6 @@ void loadMeshFiles(SceneDesc& desc, const SourceFile& scene, const ReadContext& 
 }
 
 SceneDesc readMeshScene(const SourceFile& source, const ReadContext& context) {
-    if (context.options.threads != 1) findRoomForMesh(source.text.size());
     MeshFile file = formatOf(source.name)->read(source, context);
     std::vector<MtlFile> libraries;
     for (const MeshFile::Library& library : file.libraries)
