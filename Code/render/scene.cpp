@@ -50,6 +50,9 @@ private:
         if (pictures_ != nullptr) pictures_->beginNoMore(); // they are jobs like others
         addPictures(jobs);
         forEachOn(settings_.threads, jobs.size(), [&](std::size_t i) { jobs[i](); });
+        // Large trees come now, where the meshes were that have been copied.
+        if (spent_ != nullptr)
+            for (MeshDesc& mesh : spent_->meshes) mesh = {};
         maker.finish(scene_.shapes_, scene_.geometries_);
         scene_.moves_ = scene_.moves_ || maker.moves();
         scene_.degenerateCount_ = maker.degenerateCount();
