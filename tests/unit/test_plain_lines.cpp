@@ -223,12 +223,14 @@ TEST(plain_lines_floats) {
     std::mt19937_64 random(11);
     std::size_t halfWay = 0;
     for (int i = 0; i < 40000; ++i) {
-        // The middle of two floats in [64, 128) needs 18 decimals, of those near 2^-3 more: there
-        // are some with 15 digits only where numbers are large.
-        const double middle =
-            (static_cast<double>(random() % (1 << 24)) + 0.5) * (i % 2 == 0 ? 0x1p-3 : 0x1p-10);
+        // In the middle of two floats: 4 decimals are exact, 14 are not, but one in seven of them
+        // has the middle as its double.
+        const double k = static_cast<double>(random() % (1 << 23) + (1 << 23)) + 0.5;
         char number[40];
-        std::snprintf(number, sizeof number, i % 3 == 0 ? "%.8f" : "%.4f", middle);
+        if (i % 2 == 0)
+            std::snprintf(number, sizeof number, "%.4f", k * 0x1p-3);
+        else
+            std::snprintf(number, sizeof number, "%.14f", k * 0x1p-21);
         const std::string text = cat(" ", number, "\n", kAfter);
         std::array<float, 1> value{};
         if (!readPlainNumbers(text.data(), text.data() + text.size(), 1e15, value)) {
