@@ -9,7 +9,6 @@
 
 #include <array>
 #include <bit>
-#include <cfloat>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,16 +19,6 @@
 inline const char* behindLineEnd(const char* p) {
     if (*p == '\r') ++p;
     return *p == '\n' ? p + 1 : nullptr;
-}
-
-// Is a float that was rounded from this one what rounding at once gives? It is not where the double
-// lies half way between two floats, nor, perhaps, where floats are denormal (readFloat()).
-inline bool roundsOnce(double value) {
-    constexpr std::uint64_t kExtra = (std::uint64_t{1} << 29) - 1,
-                            kHalfWay = std::uint64_t{1} << 28;
-    const double size = std::fabs(value);
-    return size == 0 || (size >= static_cast<double>(FLT_MIN) &&
-                         (std::bit_cast<std::uint64_t>(value) & kExtra) != kHalfWay);
 }
 
 // The numbers behind a keyword, all of the line. Returns the next line, or nullptr.
