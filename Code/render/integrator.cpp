@@ -29,14 +29,16 @@ SurfaceNeeds surfaceNeedsOf(const Scene& scene, const RenderSettings& settings) 
             .lift = !scene.lights().empty()};
 }
 
-std::vector<StillInLanes> stillsInLanesOf(const ShapeSet& set, SurfaceLanes lanes,
-                                          SurfaceNeeds needs) {
-    if (lanes.stills == nullptr || needs.uv) return {};
-    std::vector<StillInLanes> shapes(set.shapes.size());
-    for (std::size_t i = 0; i < shapes.size(); ++i)
+StillsInLanes stillsInLanesOf(const ShapeSet& set, SurfaceLanes lanes, SurfaceNeeds needs) {
+    StillsInLanes stills;
+    if (lanes.stills == nullptr || needs.uv) return stills;
+    stills.shapes.resize(set.shapes.size());
+    stills.balls.resize(set.shapes.size());
+    for (std::size_t i = 0; i < set.shapes.size(); ++i)
         if (const StillShape* const shape = set.shapes[i]->stillToShade())
-            shapes[i] = {shape, shape->parts, shape->kind};
-    return shapes;
+            if (!stills.balls.take(i, *shape))
+                stills.shapes[i] = {shape, shape->parts, shape->kind};
+    return stills;
 }
 
 } // namespace

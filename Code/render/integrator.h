@@ -52,11 +52,15 @@ struct Lamp {
     HiddenPointsFn hiddenPoints = nullptr; // of what bySamples asks
 };
 
-// A shape whose surfaces lanes find, to be looked up without touching it.
-struct StillInLanes {
-    const StillShape* shape = nullptr; // null: it is none
-    std::uint8_t parts = 0;
-    StillShape::Kind kind{};
+// Shapes whose surfaces lanes find, to be looked up without touching them.
+struct StillsInLanes {
+    struct One {
+        const StillShape* shape = nullptr; // null: it is none, or a ball
+        std::uint8_t parts = 0;
+        StillShape::Kind kind{};
+    };
+    std::vector<One> shapes; // by number; empty: lanes do none
+    StillBalls balls;
 };
 
 // Choices that hold for a whole picture, made once.
@@ -73,9 +77,9 @@ struct IntegratorContext {
     SurfaceNeeds surfaceNeeds;
     SurfaceLanes surfaceLanes;
     ShadeLanes shadeLanes;
-    TextureColorsFn textureColors;           // null: one by one
-    BouncesFn bouncesInLanes;                // null: one by one
-    std::vector<StillInLanes> stillsInLanes; // by shape; empty: lanes do none
+    TextureColorsFn textureColors; // null: one by one
+    BouncesFn bouncesInLanes;      // null: one by one
+    StillsInLanes stillsInLanes;
     MediumTree media; // what camera rays start in, and room for what rays enter
     MediumTree::Inside cameraMedium;
 
@@ -97,8 +101,10 @@ struct SampleChunk {
 
 // The points that the rays of a wave have met; element k of every array is point k.
 struct PointBatch {
-    std::size_t count = 0;           // the arrays may be longer
-    std::vector<std::uint32_t> ray;  // ascending
+    std::size_t count = 0;             // the arrays may be longer
+    std::vector<std::uint32_t> ray;    // ascending
+    std::vector<std::uint32_t> missed; // rays that have met nothing, ascending
+    std::size_t missedCount = 0;
     std::vector<std::uint32_t> slot; // of its sample
     PointColumns at;
     std::vector<const Material*> material; // numbers at this point
@@ -108,12 +114,12 @@ struct PointBatch {
 
     // Makes room for `most` points; lanes may look at whole blocks.
     void clear(std::size_t most) {
-        count = 0;
+        count = missedCount = 0;
         if (most == 0 || ray.size() >= most) return;
         at.resize(most);
         const std::size_t room = at.size();
-        ray.resize(room), slot.resize(room), material.resize(room), textured.resize(room),
-            weight.resize(room);
+        ray.resize(room), missed.resize(room), slot.resize(room), material.resize(room),
+            textured.resize(room), weight.resize(room);
         painted.resize(room / PointColumns::kPoints);
     }
     std::size_t blocks() const {
@@ -195,7 +201,7 @@ struct WaveMemory {
     std::vector<Hit> hits;
     PointBatch points;
     std::array<PointsToDescribe, StillShape::kKinds> onStills;
-    PointsToDescribe onOthers;
+    PointsToDescribe onBalls, onOthers;
     TexturedPoints texturedPoints;
     MediumTree media;
     std::vector<std::uint32_t> answering; // points that answer lamps

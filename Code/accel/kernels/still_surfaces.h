@@ -21,5 +21,6 @@ struct StillsMet {
     std::span<const StillShape* const> shapes;
 };
 
-// out[to[k]] becomes the surface of hit k, without texture coordinates.
+// out[to[k]] becomes the surface of hit k, without texture coordinates, in a block that was
+// cleared.
 using StillSurfacesFn = void (*)(const StillsMet&, SurfacePlaces out);

@@ -69,13 +69,16 @@ template <Kind kKind> struct NumbersOfMany {
 
 // Rows i, i + step .. of a map's linear part.
 template <class Numbers>
-Doubles row(const Numbers& m, std::size_t i, std::size_t step, const Doubles3& v) {
+[[gnu::always_inline]] inline Doubles row(const Numbers& m, std::size_t i, std::size_t step,
+                                          const Doubles3& v) {
     return (m(i) * v.x + m(i + step) * v.y) + m(i + 2 * step) * v.z;
 }
-template <class Numbers> Doubles3 vectorOf(const Numbers& m, Number map, const Doubles3& v) {
+template <class Numbers>
+[[gnu::always_inline]] inline Doubles3 vectorOf(const Numbers& m, Number map, const Doubles3& v) {
     return {row(m, map, 1, v), row(m, map + 4, 1, v), row(m, map + 8, 1, v)};
 }
-template <class Numbers> Doubles3 pointOf(const Numbers& m, Number map, const Doubles3& p) {
+template <class Numbers>
+[[gnu::always_inline]] inline Doubles3 pointOf(const Numbers& m, Number map, const Doubles3& p) {
     const Doubles3 v = vectorOf(m, map, p);
     return {v.x + m(map + 3), v.y + m(map + 7), v.z + m(map + 11)};
 }
@@ -116,9 +119,24 @@ inline RaysInLanes raysOf(const RaySpan& rays, std::span<const Hit> hits,
 }
 
 struct SurfacesInLanes {
-    alignas(64) float p[3][W], n[3][W], uv[2][W]; // uv: of planes
-    alignas(64) double error[W];
+    alignas(64) float p[3][W], n[3][W], error[W], uv[2][W]; // uv: of planes
+
+    // Lane i, flat and without texture coordinates. The block knows of nothing else.
+    void put(std::size_t i, std::uint32_t material, std::uint32_t object,
+             const SurfacePlaces::Place& to) const {
+        SurfaceBlock::set(to.block.p, to.lane, {p[0][i], p[1][i], p[2][i]});
+        SurfaceBlock::set(to.block.ng, to.lane, {n[0][i], n[1][i], n[2][i]});
+        to.block.error[to.lane] = error[i];
+        to.block.material[to.lane] = material, to.block.object[to.lane] = object;
+    }
 };
+
+// floatAbove() of what is not negative.
+inline float roundedUp(double x) {
+    const auto nearest = static_cast<float>(x);
+    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) +
+                                (static_cast<double>(nearest) < x ? 1 : 0));
+}
 
 // Of the squares that a plane is divided into.
 inline bool isOdd(float u, float v) {
@@ -181,7 +199,9 @@ void describe(const Numbers& shape, const RaysInLanes& world, const Doubles3& fa
     const Doubles3 normal = steep / sqrt(dot(steep, steep));
     const Doubles rounding = (abs(normal.x * p.x) + abs(normal.y * p.y)) + abs(normal.z * p.z);
     store(p, out.p), store(normal, out.n);
-    (Doubles(kThreeUlps) * rounding + fixedError).store(out.error);
+    alignas(64) double error[W];
+    (Doubles(kThreeUlps) * rounding + fixedError).store(error);
+    for (std::size_t i = 0; i < W; ++i) out.error[i] = roundedUp(error[i]);
 }
 
 template <Kind kKind> void surfacesOf(const StillsMet& met, const SurfacePlaces& out) {
@@ -197,15 +217,12 @@ template <Kind kKind> void surfacesOf(const StillsMet& met, const SurfacePlaces&
             describe<kKind>(NumbersOfOne<kKind>(*shapes[0]), rays, face, found);
         else
             describe<kKind>(NumbersOfMany<kKind>(shapes), rays, face, found);
+        bool odd[W] = {};
+        if constexpr (kKind == Kind::Plane)
+            for (std::size_t i = 0; i < W; ++i) odd[i] = isOdd(found.uv[0][i], found.uv[1][i]);
         for (std::size_t i = 0; i < count; ++i) {
-            std::uint32_t material = shapes[i]->material;
-            if constexpr (kKind == Kind::Plane)
-                if (shapes[i]->oddMaterial != material && isOdd(found.uv[0][i], found.uv[1][i]))
-                    material = shapes[i]->oddMaterial;
-            const SurfacePlaces::Place to = out[met.to[first + i]];
-            to.block.putFlat(to.lane, {found.p[0][i], found.p[1][i], found.p[2][i]},
-                             {found.n[0][i], found.n[1][i], found.n[2][i]},
-                             floatAbove(found.error[i]), material, shapes[i]->object);
+            const std::uint32_t material = odd[i] ? shapes[i]->oddMaterial : shapes[i]->material;
+            found.put(i, material, shapes[i]->object, out[met.to[first + i]]);
         }
     }
 }
