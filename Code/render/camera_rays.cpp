@@ -137,7 +137,10 @@ void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk
     const bool hasTime = isGeneral || context_.scene.moves();
     const bool hasLens = isGeneral || camera.hasLens();
     const bool isPinhole = !hasTime && !hasLens && camera.hasSharedOrigin();
-    if (isPinhole) camera.pinholeRays(chunk.places, rays.dir, rays.tMin);
+    if (isPinhole && lanes_.pinhole)
+        lanes_.pinhole(*camera.pinhole(), chunk.places, rays.dir, rays.tMin);
+    else if (isPinhole)
+        camera.pinholeRays(chunk.places, rays.dir, rays.tMin);
     const Vec3 origin = camera.ray({0, 0}, {0.5f, 0.5f}, 0.5f).org;
     for (std::size_t i = known; i < rays.size(); ++i) {
         rays.org[i] = origin;

@@ -6,6 +6,7 @@
 #include "verify/meshes.h"
 
 #include <bit>
+#include <vector>
 
 using meshes::Random;
 
@@ -74,6 +75,49 @@ TEST(lens_lanes_have_the_bits_of_single_rays) {
         }
         CHECK_EQUAL(wrong, 0);
     }
+}
+
+TEST(pinhole_lanes_have_the_bits_of_single_rays) {
+    for (const Kernel& kernel : allKernels()) {
+        const auto rays = kernel.supported() ? cameraLanes(kernel).pinhole : nullptr;
+        if (!rays) continue;
+        Random random(43);
+        long long wrong = 0;
+        for (int i = 0; i < check::scaled(1000); ++i) {
+            CameraParams params = someCamera(random);
+            params.apertureRadius = 0;
+            const Camera camera(params);
+            const auto pinhole = camera.pinhole();
+            CHECK(pinhole.has_value());
+            std::vector<Vec2d> places(random.below(40));
+            for (Vec2d& place : places)
+                place = {random.uniform(-1, params.width + 1.0),
+                         random.uniform(-1, params.height + 1.0)};
+            std::vector<Vec3> dir(places.size() + 1);
+            std::vector<float> tMin(places.size() + 1, -1.0f);
+            rays(*pinhole, places, dir, tMin);
+            CHECK(dir.back() == Vec3{} && tMin.back() == -1); // nobody's
+            for (std::size_t k = 0; k < places.size(); ++k) {
+                const Ray ray = camera.ray(places[k], {0.5f, 0.5f}, 0.5f);
+                const bool same = sameBits(ray.dir.x, dir[k].x) && sameBits(ray.dir.y, dir[k].y) &&
+                                  sameBits(ray.dir.z, dir[k].z) && sameBits(ray.tMin, tMin[k]);
+                if (!same && ++wrong <= 3)
+                    CHECK_INFO(false, kernel.name << " camera " << i << " ray " << k << " of "
+                                                  << places.size());
+            }
+        }
+        CHECK_EQUAL(wrong, 0);
+    }
+}
+
+TEST(only_cameras_whose_rays_start_in_one_point_are_pinholes) {
+    CameraParams params;
+    CHECK(Camera(params).pinhole().has_value());
+    params.kind = CameraParams::Kind::Orthographic;
+    CHECK(!Camera(params).pinhole().has_value());
+    params.kind = CameraParams::Kind::Perspective;
+    params.apertureRadius = 1;
+    CHECK(!Camera(params).pinhole().has_value());
 }
 
 TEST(pairs_in_lanes_have_the_bits_of_the_sampler) {

@@ -6,7 +6,8 @@ namespace {
 // The numbers of a ball for each lane; lanes behind the last hit repeat it.
 class NumbersOfBalls {
 public:
-    NumbersOfBalls(const BallsMet& met, std::span<const std::uint32_t> which)
+    // Writes whose surfaces they are.
+    NumbersOfBalls(const BallsMet& met, std::span<const std::uint32_t> which, SurfacesInLanes& out)
         : scale_(met.balls.shared().scale), back_(met.balls.shared().back),
           errorPerPlace_(met.balls.shared().errorPerPlace) {
         for (std::size_t i = 0; i < W; ++i) {
@@ -15,7 +16,7 @@ public:
             const auto& [x, y, z] = ball.centre;
             centre_[0][i] = x, centre_[1][i] = y, centre_[2][i] = z;
             radius_[i] = ball.radius, leastError_[i] = ball.leastError;
-            material[i] = ball.material, object[i] = ball.object;
+            out.material[i] = ball.material, out.object[i] = ball.object;
         }
     }
     [[gnu::always_inline]] Doubles operator()(std::size_t number) const {
@@ -39,8 +40,6 @@ public:
         }
     }
 
-    std::uint32_t material[W], object[W];
-
 private:
     [[gnu::always_inline]] Doubles backTo(std::size_t axis) const {
         return Doubles(-0.0) - back_ * Doubles::load(centre_[axis]);
@@ -57,9 +56,8 @@ void ballSurfaces(const BallsMet& met, SurfacePlaces out) {
         const std::size_t count = std::min<std::size_t>(W, met.which.size() - first);
         const auto which = met.which.subspan(first, count);
         const RaysInLanes rays = raysOf(met.rays, met.hits, which);
-        const NumbersOfBalls balls(met, which);
+        const NumbersOfBalls balls(met, which, found);
         describe<Kind::Sphere>(balls, rays, rays.dir, found);
-        for (std::size_t i = 0; i < count; ++i)
-            found.put(i, balls.material[i], balls.object[i], out[met.to[first + i]]);
+        found.put(met.to.subspan(first, count), out);
     }
 }

@@ -10,7 +10,9 @@
 #include "base/surface_block.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <type_traits>
 
 // Hit k is that of ray which[k] on *shapes[k], all of one kind.
 struct StillsMet {
