@@ -5,6 +5,7 @@
 
 #include "accel/still_shape.h"
 #include "base/hit.h"
+#include "base/raw_vector.h"
 #include "base/ray_span.h"
 #include "base/surface_block.h"
 
@@ -16,8 +17,8 @@ class StillBalls {
 public:
     struct Ball {
         Vec3d centre;
-        double radius = 0, leastError = 0; // of StillShape
-        std::uint32_t material = 0, object = 0;
+        double radius, leastError; // of StillShape
+        std::uint32_t material, object;
     };
 
     // Of a set of so many shapes.
@@ -41,7 +42,7 @@ private:
     Shared shared_;
     std::size_t count_ = 0;
     std::vector<std::uint8_t> isBall_; // by shape; empty: none is
-    std::vector<Ball> balls_;
+    RawVector<Ball> balls_;            // by shape; only those of balls are written
 };
 
 // Hit k is that of ray which[k] on the ball with the number of its shape.
