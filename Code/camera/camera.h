@@ -53,7 +53,7 @@ public:
         double focusDistance, apertureRadius, apertureRatio, clipStart;
     };
     std::optional<RoundLens> roundLens() const;
-    // The same of one without a lens: then that has no size.
+    // The same for a camera whose rays start in one point: its lens has no size.
     std::optional<RoundLens> pinhole() const;
 
     // What ray() rounds: for cameras without a lens at rest, the line of a place in the picture.

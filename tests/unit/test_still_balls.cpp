@@ -37,7 +37,9 @@ TEST(balls_are_spheres_that_are_placed_and_scaled_alike) {
     balls.resize(3);
     CHECK(balls.isEmpty());
     CHECK(balls.take(1, *Sphere(Transform::translate({1, 2, 3}), 4, 5, 6).stillToShade()));
-    CHECK(!balls.take(0, *Sphere(half, 1, 0, 0).stillToShade())); // another scale than the first
+    const Transform alike = Transform::translate({1, 2, 3});
+    CHECK(takes(Sphere(alike * half, 1, 0, 0))); // but not beside one of another scale:
+    CHECK(!balls.take(0, *Sphere(alike * half, 1, 0, 0).stillToShade()));
     CHECK(!balls.take(0, *Cube(Transform(), 0, 0).stillToShade()));
     CHECK(!balls.isEmpty() && balls.has(1) && !balls.has(0) && !balls.has(2));
     CHECK(balls[1].centre == (Vec3d{1, 2, 3}) && balls[1].radius == 4);
