@@ -51,7 +51,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       surfaceLanes(::surfaceLanes(chooseKernel(theSettings.kernel))),
       shadeLanes(::shadeLanes(chooseKernel(theSettings.kernel))),
       textureColors(::textureColors(chooseKernel(theSettings.kernel))),
-      bouncesInLanes(::bouncesInLanes(chooseKernel(theSettings.kernel))),
+      bounceLanes(::bounceLanes(chooseKernel(theSettings.kernel))),
       stillsInLanes(stillsInLanesOf(theScene.shapes(), surfaceLanes, surfaceNeeds)),
       cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
     const int samples = settings.picture.lightSamples;

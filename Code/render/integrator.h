@@ -74,7 +74,7 @@ struct IntegratorContext {
     SurfaceLanes surfaceLanes;
     ShadeLanes shadeLanes;
     TextureColorsFn textureColors;           // null: one by one
-    BouncesFn bouncesInLanes;                // null: one by one
+    BounceLanes bounceLanes;                 // null: one by one
     std::vector<StillInLanes> stillsInLanes; // by shape; empty: lanes do none
     MediumTree media; // what camera rays start in, and room for what rays enter
     MediumTree::Inside cameraMedium;
