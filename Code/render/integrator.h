@@ -159,7 +159,7 @@ struct Arrival {
 // Light of a lamp's sample that waits for a ray, or behind one that does.
 struct WaitingLight {
     static constexpr std::uint32_t kNoRay = 0xffffffffu;
-    std::uint32_t point, ray; // of memory.shadowRays
+    std::uint32_t place, ray; // among those that answer lamps; of memory.shadowRays
     Rgb light;
 };
 
@@ -209,8 +209,8 @@ struct WaveMemory {
     std::vector<LightSums> lightSums; // the same
     std::vector<std::uint8_t> hidden;
     std::vector<Rgb> transmittance;
-    std::vector<Rgb> lampLight;        // of a lamp with a size, by point
-    std::vector<WaitingLight> waiting; // to be added to it
+    std::vector<WaitingLight> waiting; // to be added to these
+    std::vector<Rgb> lampLight;        // of a lamp with a size that lanes don't do, by point
     std::vector<Arrival> arrivals, arrivalsInOrder;
     std::vector<std::uint32_t> arrivalStarts;
 };

@@ -19,12 +19,11 @@ inline bool canSumInLanes(const Wave& wave) {
 
 using LampOrigins = std::array<Vec3, LitBlock::kPoints>;
 
-// fn(sample's radiance, block, place) for all points that answer lamps.
+// fn(point, its block's sums, its place there) for all points that answer lamps.
 template <class Fn> void forEachSum(const Wave& wave, Fn&& fn) {
     const std::vector<std::uint32_t>& answering = wave.memory.answering;
     for (std::size_t i = 0; i < answering.size(); ++i)
-        fn(wave.chunk.radiance[wave.slotOf(answering[i])],
-           wave.memory.lightSums[i / LitBlock::kPoints].sum, i % LitBlock::kPoints);
+        fn(answering[i], wave.memory.lightSums[i / LitBlock::kPoints].sum, i % LitBlock::kPoints);
 }
 
 // Shadow rays for the points of a block, from the lamp whose place, sixteen times, is `origins`.
@@ -53,7 +52,11 @@ inline void addLampsInLanes(const Wave& wave, bool isGrouped) {
         (memory.answering.size() + LitBlock::kPoints - 1) / LitBlock::kPoints;
     if (memory.byLamp.size() < blocks) memory.byLamp.resize(blocks);
     if (memory.lightSums.size() < blocks) memory.lightSums.resize(blocks);
-    forEachSum(wave, [](Rgb& radiance, SurfaceBlock::Lane(&sum)[3], std::size_t i) {
+    const auto radianceOf = [&](std::uint32_t k) -> Rgb& {
+        return wave.chunk.radiance[wave.slotOf(k)];
+    };
+    forEachSum(wave, [&](std::uint32_t k, SurfaceBlock::Lane(&sum)[3], std::size_t i) {
+        const Rgb radiance = radianceOf(k);
         SurfaceBlock::set(sum, i, {radiance.r, radiance.g, radiance.b});
     });
     RayBatch& rays = memory.lampRays.rays;
@@ -79,8 +82,8 @@ inline void addLampsInLanes(const Wave& wave, bool isGrouped) {
             ray += static_cast<std::size_t>(std::popcount(shadowed));
         }
     }
-    forEachSum(wave, [](Rgb& radiance, const SurfaceBlock::Lane(&sum)[3], std::size_t i) {
-        radiance = {sum[0][i], sum[1][i], sum[2][i]};
+    forEachSum(wave, [&](std::uint32_t k, const SurfaceBlock::Lane(&sum)[3], std::size_t i) {
+        radianceOf(k) = {sum[0][i], sum[1][i], sum[2][i]};
     });
 }
 
