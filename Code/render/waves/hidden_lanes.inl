@@ -3,14 +3,25 @@
 
 namespace {
 
-// The part of [0,1] where linear functions a + t b are not negative, after some of them.
+// How a linear function a + t b changes, for all a: where it is positive is asked of many shapes.
+struct SlopeInLanes {
+    SlopeInLanes() = default;
+    explicit SlopeInLanes(Floats b)
+        : crossing(Floats(-1.0f) / b), rises(b > Floats(0.0f)), falls(b < Floats(0.0f)) {}
+    Floats crossing; // t / a
+    Mask rises, falls;
+};
+
+// The part of [0,1] where linear functions are not negative, after some of them. What two roundings
+// do to an end of it is small against what meet() adds.
 struct TimesInLanes {
     Floats lo{0.0f}, hi{1.0f};
-    void keepPositive(Floats a, Floats b) {
-        const Floats zero(0.0f), crossing = (zero - a) / b;
-        lo = select(b > zero, max(crossing, lo), lo);
-        hi = select(b < zero, min(crossing, hi), hi);
-        lo = select((b == zero) & (a < zero), Floats(2.0f), lo);
+    void keepPositive(Floats a, const SlopeInLanes& b) {
+        const Floats crossing = a * b.crossing;
+        lo = select(b.rises, max(crossing, lo), lo);
+        hi = select(b.falls, min(crossing, hi), hi);
+        const unsigned level = ~(bits(b.rises) | bits(b.falls));
+        lo = select(maskOf(level & bits(a < Floats(0.0f))), Floats(2.0f), lo);
     }
 };
 
@@ -29,7 +40,11 @@ public:
             const Floats p = Floats::load(block.p[axis] + first);
             const Floats lifted = p + Floats::load(block.lift[axis] + first);
             lo_[axis] = min(p, lifted), hi_[axis] = max(p, lifted);
+            fromHi_[axis] = SlopeInLanes(Floats(lamp_.hi[axis]) - hi_[axis]);
+            fromLo_[axis] = SlopeInLanes(lo_[axis] - Floats(lamp_.lo[axis]));
         }
+        sine_ = Floats(lamp.radius) / distance_;
+        cosine_ = sqrt(Floats(1.0f) - sine_ * sine_); // NaN in the lamp: then nothing is known
     }
 
     float extent() const {
@@ -42,10 +57,8 @@ public:
     unsigned meet(const Bounds& box, float slack) const {
         TimesInLanes times;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            times.keepPositive(hi_[axis] - Floats(box.lo[axis] - slack),
-                               Floats(lamp_.hi[axis]) - hi_[axis]);
-            times.keepPositive(Floats(box.hi[axis] + slack) - lo_[axis],
-                               lo_[axis] - Floats(lamp_.lo[axis]));
+            times.keepPositive(hi_[axis] - Floats(box.lo[axis] - slack), fromHi_[axis]);
+            times.keepPositive(Floats(box.hi[axis] + slack) - lo_[axis], fromLo_[axis]);
         }
         return ~bits(times.lo > times.hi * Floats(1 + 0x1p-18f));
     }
@@ -54,21 +67,20 @@ public:
     // lampRadius / distance. A ball is `height` over its axis and `along` it. How far from the
     // cone's sides is the centre, outwards, and the same across the axis?
     struct BallSeen {
-        Floats along, height, distance2, cosine, sine, out;
+        Floats along, height, distance2, out;
     };
     BallSeen look(const Occluder& ball) const {
         const Three d = Three::all(ball.centre.x, ball.centre.y, ball.centre.z) - p_;
-        const Floats along = dot(d, unit_), one(1.0f);
+        const Floats along = dot(d, unit_);
         const Three across = d - unit_ * along;
-        const Floats height = sqrt(dot(across, across)), sine = Floats(lampRadius_) / distance_;
-        const Floats cosine = sqrt(one - sine * sine); // NaN in the lamp: then nothing is known
-        return {along, height, dot(d, d), cosine, sine, height * cosine - along * sine};
+        const Floats height = sqrt(dot(across, across));
+        return {along, height, dot(d, d), height * cosine_ - along * sine_};
     }
 
     // Is the ball off the cone?
     unsigned passBy(const Occluder& ball, const BallSeen& seen, float slack) const {
         const Floats room = Floats(ball.radius + slack) + lift_;
-        const Mask isBehind = seen.along * seen.cosine + seen.height * seen.sine < Floats(0.0f);
+        const Mask isBehind = seen.along * cosine_ + seen.height * sine_ < Floats(0.0f);
         return bits(seen.out > room) | bits(isBehind & (seen.distance2 > room * room));
     }
 
@@ -77,8 +89,8 @@ public:
     unsigned areBehind(const Occluder& ball, const BallSeen& seen, float slack) const {
         const Floats around = Floats(slack) + lift_, core(ball.core);
         const Floats outside = Floats(ball.radius) + around; // rays have to come in
-        const Floats farthest = seen.height * seen.cosine + seen.along * seen.sine;
-        const Mask isAhead = seen.along * seen.cosine > seen.height * seen.sine;
+        const Floats farthest = seen.height * cosine_ + seen.along * sine_;
+        const Mask isAhead = seen.along * cosine_ > seen.height * sine_;
         const Mask isNearer = seen.along + seen.height + around < distance_ - Floats(lampRadius_);
         return bits((farthest + around < core) & isAhead & isNearer &
                     (seen.distance2 > outside * outside));
@@ -106,8 +118,9 @@ private:
     Bounds lamp_;
     float lampRadius_;
     Three p_, unit_;
-    Floats distance_, lift_;
+    Floats distance_, sine_, cosine_, lift_; // of the cone
     Floats lo_[3], hi_[3];
+    SlopeInLanes fromLo_[3], fromHi_[3]; // of the sides, on the way to the lamp
 };
 
 // What is known of single lines from W points of a block to places on the lamp.
