@@ -13,14 +13,14 @@ struct Kernel;
 // Numbers of samples, what their pairs are shuffled and scrambled by (Sampler::PairSeeds), and the
 // pairs.
 struct alignas(64) PairBlock {
-    static constexpr std::size_t kPairs = 16;
+    static constexpr std::size_t kPairs = 64;
     std::uint32_t sample[kPairs] = {}, index[kPairs] = {}, x[kPairs] = {}, y[kPairs] = {};
     float u[kPairs], v[kPairs];
 };
 
 // Places in the picture and on the lens, the latter in the unit square, and their rays.
 struct alignas(64) LensBlock {
-    static constexpr std::size_t kRays = 16;
+    static constexpr std::size_t kRays = 64;
     double x[kRays] = {}, y[kRays] = {};
     float u[kRays] = {}, v[kRays] = {};
     float org[3][kRays], dir[3][kRays], tMin[kRays];
