@@ -50,6 +50,15 @@ std::optional<Occluder::Sides> sidesOf(const Shape& shape, const Bounds& box) {
     return Occluder::Sides{toFloat(n / size), static_cast<float>(m[11] / size)};
 }
 
+// A cube whose faces are those of its box, and not too slim to be met (Cube::solidForm()).
+bool isUpright(const SolidForm& form) {
+    if (!form.faces || form.faces->of != StillFaces::Of::Cube || form.drift) return false;
+    const auto& m = form.faces->shape->objectFromWorld();
+    for (std::size_t row = 0; row < 12; row += 4)
+        if ((m[row] != 0) + (m[row + 1] != 0) + (m[row + 2] != 0) != 1) return false;
+    return form.hull.innerRadius > 0 && form.faces->side == Facets::Side::Both;
+}
+
 } // namespace
 
 Occluders::Occluders(const ShapeSet& shapes) : shapes_(shapes) {
@@ -65,7 +74,9 @@ Occluders::Occluders(const ShapeSet& shapes) : shapes_(shapes) {
         if (!casts(i)) continue;
         Occluder caster{i, shape.hidesFromItself(false), shape.hidesFromItself(true),
                         shapes.boxes[i], sidesOf(shape, shapes.boxes[i])};
-        if (const SolidForm form = shape.solidForm(); form.sphere) {
+        const SolidForm form = shape.solidForm();
+        caster.fillsBox = shapes.shadows[i] == ShapeSet::Shadow::Opaque && isUpright(form);
+        if (form.sphere) {
             caster.centre = toFloat(form.hull.centre);
             caster.radius = floatAbove(form.hull.radius * (1 + 0x1p-20));
             if (shapes.shadows[i] == ShapeSet::Shadow::Opaque)

@@ -145,7 +145,7 @@ public:
             const Occluder& caster = occluders_.all()[i];
             const Answer by = caster.radius < kInfinityF
                                   ? askBall(caster, p, room, toLight, distance)
-                                  : Answer{0, meetBox(caster.box, p, room, toLight, distance)};
+                                  : askBox(caster, p, room, toLight, distance);
             answer.hidden |= asked & by.hidden, answer.unsure |= asked & by.unsure;
         }
         answer.unsure &= ~answer.hidden;
@@ -168,25 +168,43 @@ private:
         return {bits(goesIn), ~bits(isOff)};
     }
 
-    // By the axes that may separate a line from a box: three of the box, and three across both.
-    static unsigned meetBox(const Bounds& box, const Three& p, Floats room, const Three& toLight,
-                            Floats distance) {
-        if (!box.isFinite()) return ~0u;
+    static Answer askBox(const Occluder& caster, const Three& p, Floats room, const Three& toLight,
+                         Floats distance) {
+        const Bounds& box = caster.box;
+        if (!box.isFinite()) return {0, ~0u};
         const Vec3 centre = (box.lo + box.hi) * 0.5f, half = (box.hi - box.lo) * 0.5f;
         const Three h = toLight * (distance * Floats(0.5f));
-        const Three m = p + h - Three::all(centre.x, centre.y, centre.z);
-        const Three e{Floats(half.x) + room, Floats(half.y) + room, Floats(half.z) + room};
+        const Three d = p - Three::all(centre.x, centre.y, centre.z), m = d + h;
+        const auto sizeWith = [&](Floats more) {
+            return Three{Floats(half.x) + more, Floats(half.y) + more, Floats(half.z) + more};
+        };
+        const Three outer = sizeWith(room);
+        const unsigned met = ~bits(areApart(m, h, outer));
+        if (!caster.fillsBox || met == 0) return {0, met};
+        // From one side of its faces to the other: between an end outside of the box and a place in
+        // one that is smaller by more than what the ray may lack of the line.
+        const Floats zero(0.0f);
+        const Three inner = sizeWith(Floats(-2.0f) * room), end = m + h;
+        const auto isOutside = [&](const Three& at) {
+            return (abs(at.x) > outer.x) | (abs(at.y) > outer.y) | (abs(at.z) > outer.z);
+        };
+        const Mask leaves = isOutside(d) | isOutside(end);
+        const Mask isThick = (inner.x > zero) & (inner.y > zero) & (inner.z > zero);
+        return {met & bits(leaves & isThick) & ~bits(areApart(m, h, inner)), met};
+    }
+
+    // Is a line of the halves +-h about m off a box of the halves e about the origin? By the axes
+    // that may separate them: three of the box, and three across both.
+    static Mask areApart(const Three& m, const Three& h, const Three& e) {
         const Three size{abs(h.x), abs(h.y), abs(h.z)};
         const auto across = [&](Floats mA, Floats mB, Floats hA, Floats hB, Floats eA, Floats eB,
                                 Floats sizeA, Floats sizeB) {
             return abs(mA * hB - mB * hA) > eA * sizeB + eB * sizeA;
         };
-        const Mask apart = (abs(m.x) > e.x + size.x) | (abs(m.y) > e.y + size.y) |
-                           (abs(m.z) > e.z + size.z) |
-                           across(m.x, m.y, h.x, h.y, e.x, e.y, size.x, size.y) |
-                           across(m.y, m.z, h.y, h.z, e.y, e.z, size.y, size.z) |
-                           across(m.z, m.x, h.z, h.x, e.z, e.x, size.z, size.x);
-        return ~bits(apart);
+        return (abs(m.x) > e.x + size.x) | (abs(m.y) > e.y + size.y) | (abs(m.z) > e.z + size.z) |
+               across(m.x, m.y, h.x, h.y, e.x, e.y, size.x, size.y) |
+               across(m.y, m.z, h.y, h.z, e.y, e.z, size.y, size.z) |
+               across(m.z, m.x, h.z, h.x, e.z, e.x, size.z, size.x);
     }
 
     const LitBlock& block_;
