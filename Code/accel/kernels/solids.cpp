@@ -58,6 +58,10 @@ void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const S
         const AffineRows& m = solid.shape->objectFromWorld();
         solid.turned = m[1] != 0 || m[2] != 0 || m[4] != 0 || m[6] != 0 || m[8] != 0 || m[9] != 0;
     }
+    if (form.sphere && !solid.moves) solid.meets = Meets::Sphere;
+    if (form.tube && form.tube->side != ::Facets::Side::Back)
+        solid.meets = form.tube->cone ? (form.tube->caps ? Meets::CappedCone : Meets::Cone)
+                                      : (form.tube->caps ? Meets::CappedTube : Meets::Tube);
     if (form.facets) {
         solid.kind = Kind::Facets;
         solid.part = static_cast<std::uint32_t>(facets.size());

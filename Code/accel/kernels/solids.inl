@@ -28,10 +28,12 @@ enum class Answer { Closest, Any };
 
 #include "accel/kernels/solids_meet.inl"
 
-class SolidPackets : PacketSolids {
+#include "accel/kernels/solids_pairs.inl"
+
+class SolidPackets : PacketPairs {
 public:
     SolidPackets(const SolidTree& tree, const SolidCalls& calls, const RaySpan& rays)
-        : PacketSolids(tree, calls, rays) {}
+        : PacketPairs(tree, calls, rays) {}
 
     template <Answer A, class Result>
     void run(std::span<const std::uint32_t> order, Result* results) {
@@ -39,7 +41,10 @@ public:
             live_ = setUp<A>(order, results);
             if (A == Answer::Any && lastHider_ < tree_.solids.size())
                 solid<A>(lastHider_, live_, results);
-            if (live_ != 0) traverse<A>(results);
+            if (live_ == 0) continue;
+            traverse<A>(results);
+            if (live_ != 0) meetAll<A>(results);
+            dropAll();
         }
     }
 
@@ -61,7 +66,8 @@ private:
             } else if (together_ && std::popcount(lanes) >= kFewestForInterval) {
                 size = stepTogether<A>(tree_.node<W>(at), lanes, stack.data(), size, results);
             } else {
-                size = stepApart<A>(tree_.node<W>(at), lanes, stack.data(), size, results);
+                size = stepApart<A>(tree_.node<W>(at), lanes, stack.data(), size);
+                if (waiting_.count >= W) meetFull<A>(results);
             }
             if (A == Answer::Any && live_ == 0) return;
             do {
@@ -132,9 +138,11 @@ private:
         return size;
     }
 
-    template <Answer A, class Result>
-    std::size_t stepApart(const WideNode<W>& node, unsigned lanes, Entry* stack, std::size_t size,
-                          Result* results) {
+    // Solids wait for rays of others.
+    template <Answer A>
+    std::size_t stepApart(const WideNode<W>& node, unsigned lanes, Entry* stack, std::size_t size) {
+        const unsigned leaves = leavesOf(node);
+        std::uint32_t waiting = waiting_.count;
         LaneMatrix entered; // rows are rays, columns children
         unsigned any = 0;
         Floats nearest(kInfinityF);
@@ -151,24 +159,22 @@ private:
                                Floats(rays1_.farOffset[axis][ray])),
                            exit);
             }
-            const Mask hit = entry <= exit;
-            if constexpr (A == Answer::Closest) nearest = min(nearest, select(hit, entry, nearest));
-            entered.set(ray, bits(hit));
-            any |= bits(hit);
+            const Mask isHit = entry <= exit;
+            if constexpr (A == Answer::Closest)
+                nearest = min(nearest, select(isHit, entry, nearest));
+            const unsigned hit = bits(isHit);
+            waiting = wait(ray, hit & leaves, node.child, waiting);
+            entered.set(ray, hit);
+            any |= hit;
         }
         alignas(64) float z[W];
         if constexpr (A == Answer::Closest) nearest.store(z);
         const std::size_t bottom = size;
-        for (; any != 0; any &= any - 1) {
+        waiting_.count = waiting;
+        for (any &= ~leaves; any != 0; any &= any - 1) {
             const int i = std::countr_zero(any);
-            const WideRef ref = node.child[i];
-            if (kindOf(ref) == WideKind::Leaf) {
-                if (const unsigned asking = entered.column(i) & live_; asking != 0)
-                    solid<A>(ref >> 2, asking, results);
-                continue;
-            }
             const float from = A == Answer::Closest ? z[i] : 0;
-            size = push<A>(stack, bottom, size, {from, ref, entered.column(i)});
+            size = push<A>(stack, bottom, size, {from, node.child[i], entered.column(i)});
         }
         return size;
     }

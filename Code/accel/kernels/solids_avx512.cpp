@@ -26,6 +26,8 @@ private:
 
 #include "accel/kernels/ray_lanes.inl"
 
+#include "accel/kernels/solids_rows_avx512.inl"
+
 #include "accel/kernels/solids.inl"
 } // namespace kernels::avx512
 KERNEL_REGION_END

@@ -48,6 +48,7 @@ template <Answer A>
         out.nearest = (foot - half(reach)) - early;
         out.farthest = (foot - half(inner)) + early;
         out.certain = bits((distance2 < inner * inner) & (out.nearest > l.tMin));
+        out.may &= bits(notGreater(out.nearest, l.best));
     }
     return out;
 }
@@ -88,16 +89,22 @@ template <Answer A>
     out.may &= bits(isAlong) |
                (bits(notGreater(fnma(half, up, abs(height)), tube.halfLength + l.slack)) &
                 bits(notGreater(l.tMin, middle + half)) & bits(notGreater(out.nearest, l.best)));
-    if constexpr (A == Answer::Any) {
+    {
         const Floats inner = ball.innerRadius * n, margin = Floats(64.0f) * l.slack;
         const Floats inside = halfIn(inner) * perN2, early = margin * l.perLength;
         const Floats tallest = tube.halfLength * Floats(1 - 0x1p-18f) - margin;
         const auto meets = [&](Floats t) {
             return (t - early > l.tMin) & (t + early < l.best) & (abs(fms(t, da, xa)) < tallest);
         };
-        out.certain =
-            bits((meets(middle - inside) | meets(middle + inside)) &
-                 (abs(across) + slack < Floats(0.9f) * inner) & (n > Floats(0.5f) * l.length));
+        const Mask isSure =
+            (abs(across) + slack < Floats(0.9f) * inner) & (n > Floats(0.5f) * l.length);
+        const Mask in = meets(middle - inside), beyond = meets(middle + inside);
+        if constexpr (A == Answer::Any) {
+            out.certain = bits((in | beyond) & isSure);
+        } else {
+            out.certain = bits(in & isSure);
+            out.farthest = (middle - inside) + early;
+        }
     }
     return out;
 }

@@ -19,7 +19,7 @@ protected:
                 perLength2_,
                 slack_,
                 tMin,
-                best_};
+                bound_};
     }
 
     // Takes the first W rays of the order. Returns the lanes to be traced.
@@ -38,6 +38,7 @@ protected:
             }
             best_ = Floats::load(t);
         }
+        bound_ = best_;
         zCut_ = lanes_.cutAt(best_);
         const Floats(&d)[3] = columns_.dir;
         const Floats length2 = fma(d[0], d[0], fma(d[1], d[1], d[2] * d[2])), one(1.0f);
@@ -76,7 +77,11 @@ protected:
     // Nothing behind these t counts any more.
     void limit(Floats best) {
         best_ = best;
-        zCut_ = min(lanes_.cutAt(best), zCut_);
+        bindTo(min(best, bound_));
+    }
+    void bindTo(Floats bound) {
+        bound_ = bound;
+        zCut_ = min(lanes_.cutAt(bound), zCut_);
         zCut_.store(rays1_.zCut);
         zTop_ = largest(select(maskOf(live_), zCut_, Floats(-1.0f)));
     }
@@ -88,7 +93,9 @@ protected:
     RayColumns columns_;
     RayLanes lanes_;
     Floats length_, perLength_, perLength2_, slack_; // see Lines
-    Floats best_, zCut_; // t up to which hits count, and the depth behind which none is
+    // t up to which hits count, and by which there is one for certain, known or not yet; the depth
+    // behind which none counts.
+    Floats best_, bound_, zCut_;
     std::uint32_t number_[W];
     unsigned backwards_[3]; // lanes with r < 0
     // The same by ray.

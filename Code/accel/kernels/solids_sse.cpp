@@ -12,6 +12,8 @@ namespace kernels::sse {
 
 #include "accel/kernels/ray_lanes.inl"
 
+#include "accel/kernels/solids_rows_sse.inl"
+
 #include "accel/kernels/solids.inl"
 } // namespace kernels::sse
 KERNEL_REGION_END

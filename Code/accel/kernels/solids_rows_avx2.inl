@@ -1,0 +1,18 @@
+// W rows of four numbers become columns: see solids_rows_avx512.inl.
+inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
+    const auto rowsFrom = [&](int first) -> __m256 { // row 4 i + first in half i
+        return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(row[first])),
+                                    _mm_loadu_ps(row[4 + first]), 1);
+    };
+    const __m256 a = rowsFrom(0), b = rowsFrom(1), c = rowsFrom(2), d = rowsFrom(3);
+    const auto low = [&](__m256 x, __m256 y) -> __m256d { return _mm256_castps_pd(_mm256_unpacklo_ps(x, y)); };
+    const auto high = [&](__m256 x, __m256 y) -> __m256d { return _mm256_castps_pd(_mm256_unpackhi_ps(x, y)); };
+    column[0] = _mm256_castpd_ps(_mm256_unpacklo_pd(low(a, b), low(c, d)));
+    column[1] = _mm256_castpd_ps(_mm256_unpackhi_pd(low(a, b), low(c, d)));
+    column[2] = _mm256_castpd_ps(_mm256_unpacklo_pd(high(a, b), high(c, d)));
+    column[3] = _mm256_castpd_ps(_mm256_unpackhi_pd(high(a, b), high(c, d)));
+}
+inline unsigned leavesOf(const WideNode<W>& node) {
+    const __m256i lowest = _mm256_slli_epi32(Ints::load(node.child).v, 31);
+    return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(lowest)));
+}

@@ -1,0 +1,21 @@
+// Numbers of W things that lie anywhere: four that follow each other at row[i], in lane i of four
+// registers. Included like solids.inl, in front of it, as its siblings are.
+inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
+    const auto rowsFrom = [&](int first) -> __m512 { // row 4 i + first in quarter i
+        __m512 rows = _mm512_castps128_ps512(_mm_loadu_ps(row[first]));
+        rows = _mm512_insertf32x4(rows, _mm_loadu_ps(row[4 + first]), 1);
+        rows = _mm512_insertf32x4(rows, _mm_loadu_ps(row[8 + first]), 2);
+        return _mm512_insertf32x4(rows, _mm_loadu_ps(row[12 + first]), 3);
+    };
+    const __m512 a = rowsFrom(0), b = rowsFrom(1), c = rowsFrom(2), d = rowsFrom(3);
+    const auto low = [&](__m512 x, __m512 y) -> __m512d { return _mm512_castps_pd(_mm512_unpacklo_ps(x, y)); };
+    const auto high = [&](__m512 x, __m512 y) -> __m512d { return _mm512_castps_pd(_mm512_unpackhi_ps(x, y)); };
+    column[0] = _mm512_castpd_ps(_mm512_unpacklo_pd(low(a, b), low(c, d)));
+    column[1] = _mm512_castpd_ps(_mm512_unpackhi_pd(low(a, b), low(c, d)));
+    column[2] = _mm512_castpd_ps(_mm512_unpacklo_pd(high(a, b), high(c, d)));
+    column[3] = _mm512_castpd_ps(_mm512_unpackhi_pd(high(a, b), high(c, d)));
+}
+inline unsigned leavesOf(const WideNode<W>& node) {
+    static_assert(static_cast<int>(WideKind::Leaf) == 1 && static_cast<int>(WideKind::None) == 2);
+    return bits({_mm512_test_epi32_mask(Ints::load(node.child).v, _mm512_set1_epi32(1))});
+}

@@ -1,0 +1,17 @@
+// W rows of four numbers become columns: see solids_rows_avx512.inl.
+inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
+    for (int half = 0; half < 2; ++half) {
+        const auto rowAt = [&](int i) { return _mm_loadu_ps(row[4 * half + i]); };
+        __m128 a = rowAt(0), b = rowAt(1), c = rowAt(2), d = rowAt(3);
+        _MM_TRANSPOSE4_PS(a, b, c, d);
+        const __m128 columns[4] = {a, b, c, d};
+        for (int i = 0; i < 4; ++i) (half == 0 ? column[i].lo : column[i].hi) = columns[i];
+    }
+}
+inline unsigned leavesOf(const WideNode<W>& node) {
+    const Ints child = Ints::load(node.child);
+    const auto lowest = [&](__m128i four) {
+        return static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(_mm_slli_epi32(four, 31))));
+    };
+    return lowest(child.lo) | lowest(child.hi) << 4;
+}
