@@ -141,6 +141,7 @@ private:
     // Solids wait for rays of others.
     template <Answer A>
     std::size_t stepApart(const WideNode<W>& node, unsigned lanes, Entry* stack, std::size_t size) {
+        const auto* const planes = reinterpret_cast<const std::byte*>(&node);
         const unsigned leaves = leavesOf(node);
         std::uint32_t waiting = waiting_.count;
         LaneMatrix entered; // rows are rays, columns children
@@ -150,12 +151,13 @@ private:
             const int ray = std::countr_zero(lanes);
             Floats entry(0.0f), exit(rays1_.zCut[ray]);
             for (int axis = 0; axis < 3; ++axis) {
-                const unsigned back = backwards_[axis] >> ray & 1;
+                const std::size_t nearPlane = rays1_.nearPlane[axis][ray],
+                                  farPlane = nearPlane ^ kPlane;
                 const Floats r(rays1_.r[axis][ray]);
-                entry = max(fma(Floats::load(node.plane[axis][back]), r,
+                entry = max(fma(Floats::load(planes + nearPlane), r,
                                 Floats(rays1_.nearOffset[axis][ray])),
                             entry);
-                exit = min(fma(Floats::load(node.plane[axis][1 - back]), r,
+                exit = min(fma(Floats::load(planes + farPlane), r,
                                Floats(rays1_.farOffset[axis][ray])),
                            exit);
             }

@@ -6,6 +6,7 @@ class PacketRays {
 protected:
     PacketRays(const SolidTree& tree, const RaySpan& rays) : tree_(tree), rays_(rays) {}
 
+    static constexpr std::uint32_t kPlane = W * sizeof(float); // bytes between a box's two planes
     static constexpr unsigned kAll = (1u << W) - 1;
     // Fewer rays than this look at a node one by one.
     static constexpr int kFewestForInterval = 6;
@@ -62,6 +63,9 @@ protected:
             lanes_.farOffset[axis].store(rays1_.farOffset[axis]);
             const unsigned backwards = bits(lanes_.r[axis] < Floats(0.0f));
             backwards_[axis] = backwards;
+            const auto plane = static_cast<std::uint32_t>(2 * axis) * kPlane;
+            select(lanes_.r[axis] < Floats(0.0f), Ints(plane + kPlane), Ints(plane))
+                .store(rays1_.nearPlane[axis]);
             if (!together_) continue;
             together_ = (backwards & lanes) == 0 || (backwards & lanes) == lanes;
             oLo_[axis] = smallest(select(on, columns_.org[axis], Floats(kInfinityF)));
@@ -101,6 +105,7 @@ protected:
     // The same by ray.
     struct alignas(64) {
         float r[3][W], nearOffset[3][W], farOffset[3][W], zCut[W];
+        std::uint32_t nearPlane[3][W]; // bytes from the start of a node; see kPlane
     } rays1_;
     bool together_ = false;
     float oLo_[3], oHi_[3], rLo_[3], rHi_[3], mostPad_[3], zTop_ = 0;
