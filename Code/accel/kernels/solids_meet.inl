@@ -60,6 +60,15 @@ protected:
         for (; lanes != 0; lanes &= lanes - 1) hidden[ray_[std::countr_zero(lanes)]] = 1;
     }
 
+    // What it will be met by, while its box is entered: shapes lie anywhere in the memory.
+    void prefetch(const SolidTree::Solid& solid) const {
+        if (solid.shape == nullptr) return;
+        const auto* const bytes =
+            reinterpret_cast<const std::byte*>(&solid.shape->objectFromWorld());
+        for (std::size_t at = 0; at < sizeof(AffineRows); at += 64) __builtin_prefetch(bytes + at);
+        if (solid.kind == SolidTree::Kind::Tube) __builtin_prefetch(&tree_.tubes[solid.part]);
+    }
+
     // Of one lane, that of the shape itself.
     void askFor(const SolidTree::Solid& solid, int lane, float tEntry, Hit* hits) {
         Hit& hit = hits[ray_[lane]];
@@ -74,15 +83,6 @@ protected:
     }
 
 private:
-    // What it will be met by, while its box is entered: shapes lie anywhere in the memory.
-    void prefetch(const SolidTree::Solid& solid) const {
-        if (solid.shape == nullptr) return;
-        const auto* const bytes =
-            reinterpret_cast<const std::byte*>(&solid.shape->objectFromWorld());
-        for (std::size_t at = 0; at < sizeof(AffineRows); at += 64) __builtin_prefetch(bytes + at);
-        if (solid.kind == SolidTree::Kind::Tube) __builtin_prefetch(&tree_.tubes[solid.part]);
-    }
-
     RayRanges ranges() const { return {columns_.tMin, best_}; }
 
     template <Answer A, class Result>

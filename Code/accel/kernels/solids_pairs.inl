@@ -150,6 +150,8 @@ private:
             const auto formula = static_cast<std::size_t>(solid.meets);
             auto& list = passed_[formula];
             list.add(solids[i], lanes[i]);
+            prefetch(solid);
+            __builtin_prefetch(&tree_.boxes[solids[i] >> 2]);
             full |= unsigned{list.count >= W} << formula;
         }
         if (passed_[kFormulas].count != 0) meetAlone<A>(results);
@@ -210,11 +212,11 @@ private:
         const bool isSphere = formula == SolidTree::Meets::Sphere;
         alignas(64) double map[12][W], radius[W], slope[W], narrowZ[W], wallStretch[W], endStretch[W];
         unsigned front = 0;
+        const double* rows[W];
         bool turned = !isSphere;
         for (int i = 0; i < W; ++i) {
             const SolidTree::Solid& solid = solidOf(solids[i]);
-            const AffineRows& rows = solid.shape->objectFromWorld();
-            for (std::size_t k = 0; k < 12; ++k) map[k][i] = rows[k];
+            rows[i] = solid.shape->objectFromWorld().data();
             if (isSphere) {
                 turned |= solid.turned;
                 radius[i] = solid.shape->radius;
@@ -226,6 +228,10 @@ private:
                 front |= unsigned{exact.side == ::Facets::Side::Front} << i;
                 if (exact.cone) slope[i] = exact.cone->slope, narrowZ[i] = exact.cone->narrowZ;
             }
+        }
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            storeRows(rows, map + 4 * axis);
+            for (const double*& from : rows) from += 4;
         }
         FoundLanes found{.t = Floats(0.0f), .lost = Floats(0.0f)};
         if (isSphere) {

@@ -16,3 +16,16 @@ inline unsigned leavesOf(const WideNode<W>& node) {
     const __m256i lowest = _mm256_slli_epi32(Ints::load(node.child).v, 31);
     return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(lowest)));
 }
+inline void storeRows(const double* const (&row)[W], double (*column)[W]) {
+    for (int half = 0; half < 2; ++half) {
+        const auto at = [&](int i) -> __m256d { return _mm256_loadu_pd(row[4 * half + i]); };
+        const __m256d a = at(0), b = at(1), c = at(2), d = at(3);
+        const __m256d even[2] = {_mm256_unpacklo_pd(a, b), _mm256_unpacklo_pd(c, d)},
+                      odd[2] = {_mm256_unpackhi_pd(a, b), _mm256_unpackhi_pd(c, d)};
+        const __m256d columns[4] = {_mm256_permute2f128_pd(even[0], even[1], 0x20),
+                                    _mm256_permute2f128_pd(odd[0], odd[1], 0x20),
+                                    _mm256_permute2f128_pd(even[0], even[1], 0x31),
+                                    _mm256_permute2f128_pd(odd[0], odd[1], 0x31)};
+        for (int i = 0; i < 4; ++i) _mm256_store_pd(column[i] + 4 * half, columns[i]);
+    }
+}

@@ -19,3 +19,20 @@ inline unsigned leavesOf(const WideNode<W>& node) {
     static_assert(static_cast<int>(WideKind::Leaf) == 1 && static_cast<int>(WideKind::None) == 2);
     return bits({_mm512_test_epi32_mask(Ints::load(node.child).v, _mm512_set1_epi32(1))});
 }
+inline void storeRows(const double* const (&row)[W], double (*column)[W]) {
+    for (int half = 0; half < 2; ++half) {
+        const auto rowsFrom = [&](int first) -> __m512d { // and the one after the next
+            const double* const* const at = row + 8 * half + first;
+            return _mm512_insertf64x4(_mm512_castpd256_pd512(_mm256_loadu_pd(at[0])),
+                                      _mm256_loadu_pd(at[2]), 1);
+        };
+        const __m512d a = rowsFrom(0), b = rowsFrom(1), c = rowsFrom(4), d = rowsFrom(5);
+        const __m512d even[2] = {_mm512_unpacklo_pd(a, b), _mm512_unpacklo_pd(c, d)},
+                      odd[2] = {_mm512_unpackhi_pd(a, b), _mm512_unpackhi_pd(c, d)};
+        const __m512d columns[4] = {_mm512_shuffle_f64x2(even[0], even[1], 0x88),
+                                    _mm512_shuffle_f64x2(odd[0], odd[1], 0x88),
+                                    _mm512_shuffle_f64x2(even[0], even[1], 0xdd),
+                                    _mm512_shuffle_f64x2(odd[0], odd[1], 0xdd)};
+        for (int i = 0; i < 4; ++i) _mm512_store_pd(column[i] + 8 * half, columns[i]);
+    }
+}

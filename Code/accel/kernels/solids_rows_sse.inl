@@ -15,3 +15,12 @@ inline unsigned leavesOf(const WideNode<W>& node) {
     };
     return lowest(child.lo) | lowest(child.hi) << 4;
 }
+inline void storeRows(const double* const (&row)[W], double (*column)[W]) {
+    for (int pair = 0; pair < 4; ++pair)
+        for (int half = 0; half < 2; ++half) {
+            const __m128d a = _mm_loadu_pd(row[2 * pair] + 2 * half),
+                          b = _mm_loadu_pd(row[2 * pair + 1] + 2 * half);
+            _mm_store_pd(column[2 * half] + 2 * pair, _mm_unpacklo_pd(a, b));
+            _mm_store_pd(column[2 * half + 1] + 2 * pair, _mm_unpackhi_pd(a, b));
+        }
+}
