@@ -49,52 +49,58 @@ public:
     }
 
 private:
-    struct Entry {
-        float z;
-        WideRef ref;
-        unsigned lanes;
+    // Nodes that are entered later, with the lanes that enter them; and, for nearest hits, at which
+    // depth the first one does: its bits, the lowest four of them any. See stack.inl.
+    struct Stack {
+        static constexpr std::size_t kMost = std::size_t{W} * (kMaxBvhDepth + 3);
+        alignas(64) WideRef ref[kMost];
+        alignas(64) std::uint32_t lanes[kMost], depth[kMost];
+        std::size_t size = 0;
     };
 
     template <Answer A, class Result> void traverse(Result* results) {
-        std::array<Entry, (kMaxBvhDepth + 1) * W> stack;
-        std::size_t size = 0;
+        Stack stack;
         WideRef at = wideRef(0, WideKind::Node);
         unsigned lanes = live_;
         for (;;) {
             if (kindOf(at) == WideKind::Leaf) {
                 solid<A>(at >> 2, lanes, results);
             } else if (together_ && std::popcount(lanes) >= kFewestForInterval) {
-                size = stepTogether<A>(tree_.node<W>(at), lanes, stack.data(), size, results);
+                stepTogether<A>(tree_.node<W>(at), lanes, stack, results);
             } else {
-                size = stepApart<A>(tree_.node<W>(at), lanes, stack.data(), size);
+                stepApart<A>(tree_.node<W>(at), lanes, stack);
                 if (waiting_.count >= W) meetFull<A>(results);
             }
             if (A == Answer::Any && live_ == 0) return;
             do {
-                if (size == 0) return;
-                --size;
-                lanes = stack[size].lanes & live_;
+                if (stack.size == 0) return;
+                const std::size_t top = --stack.size;
+                at = stack.ref[top];
+                lanes = stack.lanes[top] & live_;
                 if constexpr (A == Answer::Closest)
-                    if (stack[size].z > zTop_) lanes = 0;
+                    if (std::bit_cast<float>(stack.depth[top]) > zTop_) lanes = 0;
             } while (lanes == 0);
-            at = stack[size].ref;
         }
     }
 
     template <Answer A>
-    std::size_t push(Entry* stack, std::size_t bottom, std::size_t size, Entry entry) const {
-        std::size_t place = size;
-        if constexpr (A == Answer::Closest) // the nearest on top
-            for (; place > bottom && stack[place - 1].z < entry.z; --place)
-                stack[place] = stack[place - 1];
-        stack[place] = entry;
-        return size + 1;
+    void push(Stack& stack, std::size_t bottom, WideRef ref, unsigned lanes, float z) const {
+        std::size_t place = stack.size++;
+        if constexpr (A == Answer::Closest) { // the nearest on top
+            const auto depth = std::bit_cast<std::uint32_t>(z);
+            for (; place > bottom && stack.depth[place - 1] < depth; --place) {
+                stack.ref[place] = stack.ref[place - 1];
+                stack.lanes[place] = stack.lanes[place - 1];
+                stack.depth[place] = stack.depth[place - 1];
+            }
+            stack.depth[place] = depth;
+        }
+        stack.ref[place] = ref, stack.lanes[place] = lanes;
     }
 
     // Over all r of the interval, a child is entered not before `entry` and left not after `exit`.
     template <Answer A, class Result>
-    std::size_t stepTogether(const WideNode<W>& node, unsigned lanes, Entry* stack,
-                             std::size_t size, Result* results) {
+    void stepTogether(const WideNode<W>& node, unsigned lanes, Stack& stack, Result* results) {
         Floats entry(0.0f), exit(zTop_);
         for (int axis = 0; axis < 3; ++axis) {
             const Floats lo(rLo_[axis]), hi(rHi_[axis]), pad(mostPad_[axis]);
@@ -108,7 +114,7 @@ private:
         }
         alignas(64) float z[W];
         entry.store(z);
-        const std::size_t bottom = size;
+        const std::size_t bottom = stack.size;
         for (unsigned hit = bits(entry <= exit); hit != 0; hit &= hit - 1) {
             const int i = std::countr_zero(hit);
             const WideRef ref = node.child[i];
@@ -116,7 +122,7 @@ private:
             if (A == Answer::Any && kindOf(ref) == WideKind::Leaf) {
                 solid<A>(ref >> 2, inside, results);
                 lanes &= live_;
-                if (lanes == 0) return size;
+                if (lanes == 0) return;
                 continue;
             }
             if (kindOf(ref) == WideKind::Node) {
@@ -133,18 +139,17 @@ private:
                 inside &= bits(from <= to);
                 if (inside == 0) continue;
             }
-            size = push<A>(stack, bottom, size, {z[i], ref, inside});
+            push<A>(stack, bottom, ref, inside, z[i]);
         }
-        return size;
     }
 
     // Solids wait for rays of others.
     template <Answer A>
-    std::size_t stepApart(const WideNode<W>& node, unsigned lanes, Entry* stack, std::size_t size) {
+    void stepApart(const WideNode<W>& node, unsigned lanes, Stack& stack) {
         const auto* const planes = reinterpret_cast<const std::byte*>(&node);
         const unsigned leaves = leavesOf(node);
         std::uint32_t waiting = waiting_.count;
-        LaneMatrix entered; // rows are rays, columns children
+        LaneColumns entered; // rows are rays, columns children
         unsigned any = 0;
         Floats nearest(kInfinityF);
         for (; lanes != 0; lanes &= lanes - 1) {
@@ -166,19 +171,20 @@ private:
                 nearest = min(nearest, select(isHit, entry, nearest));
             const unsigned hit = bits(isHit);
             waiting = wait(ray, hit & leaves, node.child, waiting);
-            entered.set(ray, hit);
+            entered.set(ray, isHit);
             any |= hit;
         }
+        waiting_.count = waiting;
+        any &= ~leaves;
+        alignas(64) std::uint32_t entering[W];
+        entered.store(entering);
         alignas(64) float z[W];
         if constexpr (A == Answer::Closest) nearest.store(z);
-        const std::size_t bottom = size;
-        waiting_.count = waiting;
-        for (any &= ~leaves; any != 0; any &= any - 1) {
+        const std::size_t bottom = stack.size;
+        for (; any != 0; any &= any - 1) {
             const int i = std::countr_zero(any);
-            const float from = A == Answer::Closest ? z[i] : 0;
-            size = push<A>(stack, bottom, size, {from, node.child[i], entered.column(i)});
+            push<A>(stack, bottom, node.child[i], entering[i], A == Answer::Closest ? z[i] : 0);
         }
-        return size;
     }
 };
 

@@ -8,7 +8,7 @@ AVX2_REGION_BEGIN
 namespace kernels::avx2 {
 #include "accel/kernels/simd_avx2.inl"
 
-#include "accel/kernels/lane_matrix.inl"
+#include "accel/kernels/stack.inl"
 
 #include "accel/kernels/ray_lanes.inl"
 

@@ -17,6 +17,7 @@ struct Nearness {
     unsigned may, certain; // lanes
     Floats nearest;        // t before which there is no hit
     Floats farthest;       // of certain ones: t by which they are hit
+    unsigned behind;       // lanes that entered a round tube before their range, for certain
 };
 
 // Lines that come near enough to a solid's round hull: a ball, or a tube without ends. With u the
@@ -103,6 +104,7 @@ template <Answer A>
             out.certain = bits((in | beyond) & isSure);
         } else {
             out.certain = bits(in & isSure);
+            out.behind = bits(isSure & ((middle - inside) + early < l.tMin));
             out.farthest = (middle - inside) + early;
         }
     }

@@ -90,10 +90,10 @@ private:
         loadRows(row, a);
         for (const float*& from : row) from += 4;
         loadRows(row, b);
-        for (const float*& from : row) from += 1;
+        for (const float*& from : row) from += 2;
         loadRows(row, c);
         const BallLanes ball{{a[0], a[1], a[2]}, b[2], b[3]};
-        const TubeLanes tube{{a[3], b[0], b[1]}, c[3]};
+        const TubeLanes tube{{a[3], b[0], b[1]}, c[2]};
 
         const auto at = [&](Floats x) { return permute(x, lane); };
         const RayColumns rays = permuted(columns_, lane);
@@ -114,6 +114,8 @@ private:
             near.may = (near.may & ~isTube) | ofTubes.may;
             near.certain = (near.certain & ~isTube) | (ofTubes.certain & isTube);
             if constexpr (A == Answer::Closest) {
+                // Where they leave it, they see it from inside.
+                near.may &= ~(ofTubes.behind & isTube & bits(c[3] > Floats(0.0f)));
                 near.nearest = select(maskOf(isTube), ofTubes.nearest, near.nearest);
                 near.farthest = select(maskOf(isTube), ofTubes.farthest, near.farthest);
             }

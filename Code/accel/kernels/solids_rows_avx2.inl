@@ -29,3 +29,18 @@ inline void storeRows(const double* const (&row)[W], double (*column)[W]) {
         for (int i = 0; i < 4; ++i) _mm256_store_pd(column[i] + 4 * half, columns[i]);
     }
 }
+class LaneColumns {
+public:
+    LaneColumns() : columns_(_mm256_setzero_si256()) {}
+    void set(int row, Mask columns) {
+        const __m256i bit = _mm256_set1_epi32(static_cast<int>(1u << row));
+        columns_ = _mm256_or_si256(columns_,
+                                   _mm256_and_si256(_mm256_castps_si256(columns.v), bit));
+    }
+    void store(std::uint32_t* to) const {
+        _mm256_store_si256(reinterpret_cast<__m256i*>(to), columns_);
+    }
+
+private:
+    __m256i columns_;
+};

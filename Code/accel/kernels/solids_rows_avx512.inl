@@ -36,3 +36,16 @@ inline void storeRows(const double* const (&row)[W], double (*column)[W]) {
         for (int i = 0; i < 4; ++i) _mm512_store_pd(column[i] + 8 * half, columns[i]);
     }
 }
+// Bits of W rows of W, asked for by columns.
+class LaneColumns {
+public:
+    LaneColumns() : columns_(_mm512_setzero_si512()) {}
+    void set(int row, Mask columns) {
+        const __m512i bit = _mm512_set1_epi32(static_cast<int>(1u << row));
+        columns_ = _mm512_mask_or_epi32(columns_, columns.v, columns_, bit);
+    }
+    void store(std::uint32_t* to) const { _mm512_store_si512(to, columns_); }
+
+private:
+    __m512i columns_;
+};

@@ -24,3 +24,16 @@ inline void storeRows(const double* const (&row)[W], double (*column)[W]) {
             _mm_store_pd(column[2 * half + 1] + 2 * pair, _mm_unpackhi_pd(a, b));
         }
 }
+class LaneColumns {
+public:
+    LaneColumns() : lo_(_mm_setzero_si128()), hi_(lo_) {}
+    void set(int row, Mask columns) {
+        const __m128i bit = _mm_set1_epi32(static_cast<int>(1u << row));
+        lo_ = _mm_or_si128(lo_, _mm_and_si128(_mm_castps_si128(columns.lo), bit));
+        hi_ = _mm_or_si128(hi_, _mm_and_si128(_mm_castps_si128(columns.hi), bit));
+    }
+    void store(std::uint32_t* to) const { Ints(lo_, hi_).store(to); }
+
+private:
+    __m128i lo_, hi_;
+};

@@ -8,7 +8,7 @@ SSE_REGION_BEGIN
 namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
 
-#include "accel/kernels/lane_matrix.inl"
+#include "accel/kernels/stack.inl"
 
 #include "accel/kernels/ray_lanes.inl"
 
