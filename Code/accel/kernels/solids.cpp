@@ -62,7 +62,8 @@ void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const S
     if (form.tube && form.tube->side != ::Facets::Side::Back)
         solid.meets = form.tube->cone ? (form.tube->caps ? Meets::CappedCone : Meets::Cone)
                                       : (form.tube->caps ? Meets::CappedTube : Meets::Tube);
-    solid.isOpenFront = solid.meets == Meets::Tube && form.tube->side == Facets::Side::Front ? 1 : 0;
+    solid.isOpenFront =
+        solid.meets == Meets::Tube && form.tube->side == Facets::Side::Front ? 1 : 0;
     if (form.facets) {
         solid.kind = Kind::Facets;
         solid.part = static_cast<std::uint32_t>(facets.size());

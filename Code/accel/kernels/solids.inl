@@ -144,8 +144,7 @@ private:
     }
 
     // Solids wait for rays of others.
-    template <Answer A>
-    void stepApart(const WideNode<W>& node, unsigned lanes, Stack& stack) {
+    template <Answer A> void stepApart(const WideNode<W>& node, unsigned lanes, Stack& stack) {
         const auto* const planes = reinterpret_cast<const std::byte*>(&node);
         const unsigned leaves = leavesOf(node);
         std::uint32_t waiting = waiting_.count;
@@ -159,12 +158,12 @@ private:
                 const std::size_t nearPlane = rays1_.nearPlane[axis][ray],
                                   farPlane = nearPlane ^ kPlane;
                 const Floats r(rays1_.r[axis][ray]);
-                entry = max(fma(Floats::load(planes + nearPlane), r,
-                                Floats(rays1_.nearOffset[axis][ray])),
-                            entry);
-                exit = min(fma(Floats::load(planes + farPlane), r,
-                               Floats(rays1_.farOffset[axis][ray])),
-                           exit);
+                entry = max(
+                    fma(Floats::load(planes + nearPlane), r, Floats(rays1_.nearOffset[axis][ray])),
+                    entry);
+                exit = min(
+                    fma(Floats::load(planes + farPlane), r, Floats(rays1_.farOffset[axis][ray])),
+                    exit);
             }
             const Mask isHit = entry <= exit;
             if constexpr (A == Answer::Closest)

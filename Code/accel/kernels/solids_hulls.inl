@@ -61,7 +61,9 @@ template <Answer A>
 // certain: rays that meet the side of a round tube at 30 degrees to its axis at least and not flat,
 // which keeps these errors below 20 times the slack, by 64 within their range and the tube's
 // length.
-template <Answer A>
+// Mixed: where the axis is zero, it is a ball: a tube across the line, whose n is as long as d and
+// which has no ends.
+template <Answer A, bool Mixed = false>
 [[gnu::always_inline]] inline Nearness nearTube(const Lines& l, const BallLanes& ball,
                                                 const TubeLanes& tube, unsigned lanes) {
     const Floats x = ball.centre[0] - l.org[0], y = ball.centre[1] - l.org[1],
@@ -70,11 +72,18 @@ template <Answer A>
     const Floats nx = fms(l.dir[1], az, l.dir[2] * ay), ny = fms(l.dir[2], ax, l.dir[0] * az),
                  nz = fms(l.dir[0], ay, l.dir[1] * ax);
     const Floats across = fma(x, nx, fma(y, ny, z * nz));
-    const Floats n2 = fma(nx, nx, fma(ny, ny, nz * nz));
+    Floats across2 = across * across, n2 = fma(nx, nx, fma(ny, ny, nz * nz));
+    if constexpr (Mixed) {
+        const Floats px = fms(y, l.dir[2], z * l.dir[1]), py = fms(z, l.dir[0], x * l.dir[2]),
+                     pz = fms(x, l.dir[1], y * l.dir[0]);
+        const Mask isBall = maxAbs(maxAbs(ax, ay), az) == Floats(0.0f);
+        across2 = select(isBall, fma(px, px, fma(py, py, pz * pz)), across2);
+        n2 = select(isBall, l.length * l.length, n2);
+    }
     const Floats n = sqrt(n2), slack = l.slack * l.length;
     const Floats reach = fma(ball.radius, n, slack);
     Nearness out{};
-    out.may = lanes & bits(notGreater(abs(across), reach));
+    out.may = lanes & bits(notGreater(across2, reach * reach));
     if (out.may == 0) return out;
 
     const Floats zero(0.0f), perN2 = Floats(1.0f) / n2;
@@ -82,7 +91,7 @@ template <Answer A>
     const Floats xa = fma(x, ax, fma(y, ay, z * az));
     const Floats xd = fma(x, l.dir[0], fma(y, l.dir[1], z * l.dir[2]));
     const Floats middle = fnma(xa, da, xd) * perN2, height = fms(middle, da, xa);
-    const auto halfIn = [&](Floats r) { return sqrt(max(fnma(across, across, r * r), zero)); };
+    const auto halfIn = [&](Floats r) { return sqrt(max(fms(r, r, across2), zero)); };
     const Floats half = fma(Floats(24.0f), slack, halfIn(reach)) * perN2;
     const Floats up = abs(da);
     const Mask isAlong = n < Floats(0.0625f) * l.length;
@@ -97,8 +106,8 @@ template <Answer A>
         const auto meets = [&](Floats t) {
             return (t - early > l.tMin) & (t + early < l.best) & (abs(fms(t, da, xa)) < tallest);
         };
-        const Mask isSure =
-            (abs(across) + slack < Floats(0.9f) * inner) & (n > Floats(0.5f) * l.length);
+        const Floats within = max(Floats(0.9f) * inner - slack, zero);
+        const Mask isSure = (across2 < within * within) & (n > Floats(0.5f) * l.length);
         const Mask in = meets(middle - inside), beyond = meets(middle + inside);
         if constexpr (A == Answer::Any) {
             out.certain = bits((in | beyond) & isSure);

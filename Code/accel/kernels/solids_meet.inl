@@ -87,10 +87,10 @@ private:
 
     template <Answer A, class Result>
     void sphere(const SolidTree::Solid& solid, Floats entry, unsigned lanes, Result* results) {
-        const SphereRoots roots =
-            solid.moves ? movingSphere(solid, lanes)
-                        : meet(columns_, SameMap{solid.shape->objectFromWorld()}, solid.turned,
-                               solid.shape->radius, lanes);
+        const SphereRoots roots = solid.moves
+                                      ? movingSphere(solid, lanes)
+                                      : meet(columns_, SameMap{solid.shape->objectFromWorld()},
+                                             solid.turned, solid.shape->radius, lanes);
         if (roots.met == 0) return;
         if constexpr (A == Answer::Any)
             hide(hides(roots, ranges()), results);
@@ -135,8 +135,9 @@ private:
     [[gnu::noinline]] void faces(const SolidTree::Solid& solid, Floats entry, unsigned lanes,
                                  Result* results) {
         const auto found = [&](const auto& map) {
-            return solid.kind == SolidTree::Kind::Cube ? meetCube<A>(columns_, ranges(), solid, map)
-                                                       : meetFlat<A>(columns_, ranges(), solid, map);
+            return solid.kind == SolidTree::Kind::Cube
+                       ? meetCube<A>(columns_, ranges(), solid, map)
+                       : meetFlat<A>(columns_, ranges(), solid, map);
         };
         take(solid,
              solid.moves ? found(driftOf(solid, lanes))

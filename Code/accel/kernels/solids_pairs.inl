@@ -107,18 +107,14 @@ private:
                           at(bound_)};
         const unsigned isTube =
             bits(maxAbs(maxAbs(tube.axis[0], tube.axis[1]), tube.axis[2]) > Floats(0.0f));
-        Nearness near{};
-        if ((on & ~isTube) != 0) near = nearBall<A>(lines, ball);
-        if ((on & isTube) != 0) {
-            const Nearness ofTubes = nearTube<A>(lines, ball, tube, on & isTube);
-            near.may = (near.may & ~isTube) | ofTubes.may;
-            near.certain = (near.certain & ~isTube) | (ofTubes.certain & isTube);
-            if constexpr (A == Answer::Closest) {
-                // Where they leave it, they see it from inside.
-                near.may &= ~(ofTubes.behind & isTube & bits(c[3] > Floats(0.0f)));
-                near.nearest = select(maskOf(isTube), ofTubes.nearest, near.nearest);
-                near.farthest = select(maskOf(isTube), ofTubes.farthest, near.farthest);
-            }
+        Nearness near;
+        if ((on & isTube) == 0) {
+            near = nearBall<A>(lines, ball);
+        } else {
+            near = nearTube<A, true>(lines, ball, tube, on);
+            // Where they leave it, they see it from inside.
+            if constexpr (A == Answer::Closest)
+                near.may &= ~(near.behind & bits(c[3] > Floats(0.0f)));
         }
         on &= near.may;
         alignas(64) float bound[W];
@@ -187,8 +183,7 @@ private:
     }
 
     // The first W that passed.
-    template <Answer A, class Result>
-    void meetPassed(SolidTree::Meets formula, Result* results) {
+    template <Answer A, class Result> void meetPassed(SolidTree::Meets formula, Result* results) {
         auto& list = passed_[static_cast<std::size_t>(formula)];
         const std::uint32_t count = std::min<std::uint32_t>(list.count, W);
         for (std::uint32_t i = count; i < W; ++i)
@@ -212,7 +207,8 @@ private:
         const RayColumns rays = permuted(columns_, lane);
         const RayRanges ranges{rays.tMin, at(best_)};
         const bool isSphere = formula == SolidTree::Meets::Sphere;
-        alignas(64) double map[12][W], radius[W], slope[W], narrowZ[W], wallStretch[W], endStretch[W];
+        alignas(64) double map[12][W], radius[W], slope[W], narrowZ[W], wallStretch[W],
+            endStretch[W];
         unsigned front = 0;
         const double* rows[W];
         bool turned = !isSphere;
@@ -237,8 +233,8 @@ private:
         }
         FoundLanes found{.t = Floats(0.0f), .lost = Floats(0.0f)};
         if (isSphere) {
-            const SphereRoots roots = PacketSpheres::meet(rays, MapLanes{map}, turned,
-                                                          Doubles::load(radius), on);
+            const SphereRoots roots =
+                PacketSpheres::meet(rays, MapLanes{map}, turned, Doubles::load(radius), on);
             if constexpr (A == Answer::Any)
                 found.met = PacketSpheres::hides(roots, ranges);
             else
@@ -285,9 +281,9 @@ private:
         for (int axis = 0; axis < 3; ++axis) {
             const Floats r = permute(lanes_.r[axis], lane);
             const Mask back = r < Floats(0.0f);
-            entry = max(select(back, hi[axis], lo[axis]) * r +
-                            permute(lanes_.nearOffset[axis], lane),
-                        entry);
+            entry =
+                max(select(back, hi[axis], lo[axis]) * r + permute(lanes_.nearOffset[axis], lane),
+                    entry);
             exit = min(select(back, lo[axis], hi[axis]) * r + permute(lanes_.farOffset[axis], lane),
                        exit);
         }
@@ -306,8 +302,7 @@ private:
             const std::uint8_t lane = lanes[i];
             const std::uint32_t number = solidOf(solids[i]).number;
             if (!(t[i] < best[lane] || (t[i] == best[lane] && number < number_[lane]))) continue;
-            hits[ray_[lane]] = {
-                .t = t[i], .u = lost[i], .prim = found.partOf(i), .shape = number};
+            hits[ray_[lane]] = {.t = t[i], .u = lost[i], .prim = found.partOf(i), .shape = number};
             best[lane] = t[i], number_[lane] = number;
             improved = true;
         }

@@ -5,8 +5,12 @@ inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
                                     _mm_loadu_ps(row[4 + first]), 1);
     };
     const __m256 a = rowsFrom(0), b = rowsFrom(1), c = rowsFrom(2), d = rowsFrom(3);
-    const auto low = [&](__m256 x, __m256 y) -> __m256d { return _mm256_castps_pd(_mm256_unpacklo_ps(x, y)); };
-    const auto high = [&](__m256 x, __m256 y) -> __m256d { return _mm256_castps_pd(_mm256_unpackhi_ps(x, y)); };
+    const auto low = [&](__m256 x, __m256 y) -> __m256d {
+        return _mm256_castps_pd(_mm256_unpacklo_ps(x, y));
+    };
+    const auto high = [&](__m256 x, __m256 y) -> __m256d {
+        return _mm256_castps_pd(_mm256_unpackhi_ps(x, y));
+    };
     column[0] = _mm256_castpd_ps(_mm256_unpacklo_pd(low(a, b), low(c, d)));
     column[1] = _mm256_castpd_ps(_mm256_unpackhi_pd(low(a, b), low(c, d)));
     column[2] = _mm256_castpd_ps(_mm256_unpacklo_pd(high(a, b), high(c, d)));
@@ -34,8 +38,7 @@ public:
     LaneColumns() : columns_(_mm256_setzero_si256()) {}
     void set(int row, Mask columns) {
         const __m256i bit = _mm256_set1_epi32(static_cast<int>(1u << row));
-        columns_ = _mm256_or_si256(columns_,
-                                   _mm256_and_si256(_mm256_castps_si256(columns.v), bit));
+        columns_ = _mm256_or_si256(columns_, _mm256_and_si256(_mm256_castps_si256(columns.v), bit));
     }
     void store(std::uint32_t* to) const {
         _mm256_store_si256(reinterpret_cast<__m256i*>(to), columns_);

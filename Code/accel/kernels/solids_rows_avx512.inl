@@ -8,8 +8,12 @@ inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
         return _mm512_insertf32x4(rows, _mm_loadu_ps(row[12 + first]), 3);
     };
     const __m512 a = rowsFrom(0), b = rowsFrom(1), c = rowsFrom(2), d = rowsFrom(3);
-    const auto low = [&](__m512 x, __m512 y) -> __m512d { return _mm512_castps_pd(_mm512_unpacklo_ps(x, y)); };
-    const auto high = [&](__m512 x, __m512 y) -> __m512d { return _mm512_castps_pd(_mm512_unpackhi_ps(x, y)); };
+    const auto low = [&](__m512 x, __m512 y) -> __m512d {
+        return _mm512_castps_pd(_mm512_unpacklo_ps(x, y));
+    };
+    const auto high = [&](__m512 x, __m512 y) -> __m512d {
+        return _mm512_castps_pd(_mm512_unpackhi_ps(x, y));
+    };
     column[0] = _mm512_castpd_ps(_mm512_unpacklo_pd(low(a, b), low(c, d)));
     column[1] = _mm512_castpd_ps(_mm512_unpackhi_pd(low(a, b), low(c, d)));
     column[2] = _mm512_castpd_ps(_mm512_unpacklo_pd(high(a, b), high(c, d)));

@@ -13,8 +13,8 @@ protected:
 
     // Sphere::roots() and insideRound(). A zero of the map adds a zero, which changes no number.
     template <class Map>
-    [[gnu::always_inline]] static SphereRoots meet(const RayColumns& rays, const Map& m, bool turned,
-                                            const Doubles& radius, unsigned lanes) {
+    [[gnu::always_inline]] static SphereRoots
+    meet(const RayColumns& rays, const Map& m, bool turned, const Doubles& radius, unsigned lanes) {
         const Doubles X(rays.org[0]), Y(rays.org[1]), Z(rays.org[2]), U(rays.dir[0]),
             V(rays.dir[1]), T(rays.dir[2]);
         const auto point = [&](std::size_t i, const Doubles& x) {

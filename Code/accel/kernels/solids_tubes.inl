@@ -44,7 +44,8 @@ protected:
 
     // AnalyticShape::rootsOf() with Cylinder::roots() or Cone::roots(), operation by operation.
     template <class Map>
-    [[gnu::always_inline]] static TubeRoots meet(const RayColumns& columns, const Tubes<Map>& tube) {
+    [[gnu::always_inline]] static TubeRoots meet(const RayColumns& columns,
+                                                 const Tubes<Map>& tube) {
         const ObjectRays rays = objectRays(columns, tube.map, true);
         const auto& [ox, oy, oz, dx, dy, dz] = rays;
         const Doubles zero(0.0), one(1.0), most(std::numeric_limits<double>::max());
@@ -98,7 +99,8 @@ protected:
         return found;
     }
     static unsigned hides(const TubeRoots& roots, const RayRanges& ranges) {
-        return (roots.met[0] & ranges.hides(roots.t[0])) | (roots.met[1] & ranges.hides(roots.t[1]));
+        return (roots.met[0] & ranges.hides(roots.t[0])) |
+               (roots.met[1] & ranges.hides(roots.t[1]));
     }
 
     // Lanes that see the wanted side for certain, of what they meet at (t, lost), which is their
