@@ -68,7 +68,7 @@ private:
             } else if (together_ && std::popcount(lanes) >= kFewestForInterval) {
                 stepTogether<A>(tree_.node<W>(at), lanes, stack, results);
             } else {
-                stepApart<A>(tree_.node<W>(at), lanes, stack);
+                stepApart<A>(tree_.node<W>(at), lanes, stack, results);
                 if (waiting_.count >= W) meetFull<A>(results);
             }
             if (A == Answer::Any && live_ == 0) return;
@@ -143,10 +143,11 @@ private:
         }
     }
 
-    // Solids wait for rays of others.
-    template <Answer A> void stepApart(const WideNode<W>& node, unsigned lanes, Stack& stack) {
+    // Solids wait for rays of others, or are met at once.
+    template <Answer A, class Result>
+    void stepApart(const WideNode<W>& node, unsigned lanes, Stack& stack, Result* results) {
         const auto* const planes = reinterpret_cast<const std::byte*>(&node);
-        const unsigned leaves = leavesOf(node);
+        const unsigned leaves = leavesOf(node), inPairs = areInPairs_ ? leaves : 0;
         std::uint32_t waiting = waiting_.count;
         LaneColumns entered; // rows are rays, columns children
         unsigned any = 0;
@@ -169,12 +170,12 @@ private:
             if constexpr (A == Answer::Closest)
                 nearest = min(nearest, select(isHit, entry, nearest));
             const unsigned hit = bits(isHit);
-            waiting = wait(ray, hit & leaves, node.child, waiting);
+            waiting = wait(ray, hit & inPairs, node.child, waiting);
             entered.set(ray, isHit);
             any |= hit;
         }
         waiting_.count = waiting;
-        any &= ~leaves;
+        any &= ~inPairs;
         alignas(64) std::uint32_t entering[W];
         entered.store(entering);
         alignas(64) float z[W];
@@ -182,6 +183,11 @@ private:
         const std::size_t bottom = stack.size;
         for (; any != 0; any &= any - 1) {
             const int i = std::countr_zero(any);
+            if ((leaves >> i & 1) != 0) {
+                if (const unsigned asking = entering[i] & live_; asking != 0)
+                    solid<A>(node.child[i] >> 2, asking, results);
+                continue;
+            }
             push<A>(stack, bottom, node.child[i], entering[i], A == Answer::Closest ? z[i] : 0);
         }
     }

@@ -30,6 +30,9 @@ protected:
 
     Pairs<std::size_t{W} * (W + 1)> waiting_; // for the filters: what is left, and of one step
 
+    // The filter of tubes is long enough for it, that of balls is not.
+    const bool areInPairs_ = kPairsPay && !tree_.tubes.empty();
+
     // Returns how many wait then, who were `count`.
     [[gnu::always_inline]] std::uint32_t wait(int ray, unsigned chosen, const WideRef* solids,
                                               std::uint32_t count) {

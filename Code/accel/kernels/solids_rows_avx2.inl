@@ -1,4 +1,6 @@
 // W rows of four numbers become columns: see solids_rows_avx512.inl.
+constexpr bool kPairsPay = true; // solids_pairs.inl
+
 inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
     const auto rowsFrom = [&](int first) -> __m256 { // row 4 i + first in half i
         return _mm256_insertf128_ps(_mm256_castps128_ps256(_mm_loadu_ps(row[first])),

@@ -1,5 +1,7 @@
 // Numbers of W things that lie anywhere: four that follow each other at row[i], in lane i of four
 // registers. Included like solids.inl, in front of it, as its siblings are.
+constexpr bool kPairsPay = true; // solids_pairs.inl
+
 inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
     const auto rowsFrom = [&](int first) -> __m512 { // row 4 i + first in quarter i
         __m512 rows = _mm512_castps128_ps512(_mm_loadu_ps(row[first]));

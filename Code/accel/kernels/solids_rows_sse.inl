@@ -1,4 +1,6 @@
 // W rows of four numbers become columns: see solids_rows_avx512.inl.
+constexpr bool kPairsPay = false; // solids_pairs.inl
+
 inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
     for (int half = 0; half < 2; ++half) {
         const auto rowAt = [&](int i) { return _mm_loadu_ps(row[4 * half + i]); };
