@@ -49,58 +49,53 @@ public:
     }
 
 private:
-    // Nodes that are entered later, with the lanes that enter them; and, for nearest hits, at which
-    // depth the first one does: its bits, the lowest four of them any. See stack.inl.
-    struct Stack {
-        static constexpr std::size_t kMost = std::size_t{W} * (kMaxBvhDepth + 3);
-        alignas(64) WideRef ref[kMost];
-        alignas(64) std::uint32_t lanes[kMost], depth[kMost];
-        std::size_t size = 0;
+    // A node that is entered later, with the lanes that do, and at which depth the first one does.
+    struct Entry {
+        float z;
+        WideRef ref;
+        unsigned lanes;
     };
 
     template <Answer A, class Result> void traverse(Result* results) {
-        Stack stack;
+        std::array<Entry, (kMaxBvhDepth + 1) * W> stack;
+        std::size_t size = 0;
         WideRef at = wideRef(0, WideKind::Node);
         unsigned lanes = live_;
         for (;;) {
             if (kindOf(at) == WideKind::Leaf) {
                 solid<A>(at >> 2, lanes, results);
             } else if (together_ && std::popcount(lanes) >= kFewestForInterval) {
-                stepTogether<A>(tree_.node<W>(at), lanes, stack, results);
+                size = stepTogether<A>(tree_.node<W>(at), lanes, stack.data(), size, results);
             } else {
-                stepApart<A>(tree_.node<W>(at), lanes, stack, results);
+                size = stepApart<A>(tree_.node<W>(at), lanes, stack.data(), size, results);
                 if (waiting_.count >= W) meetFull<A>(results);
             }
             if (A == Answer::Any && live_ == 0) return;
             do {
-                if (stack.size == 0) return;
-                const std::size_t top = --stack.size;
-                at = stack.ref[top];
-                lanes = stack.lanes[top] & live_;
+                if (size == 0) return;
+                --size;
+                lanes = stack[size].lanes & live_;
                 if constexpr (A == Answer::Closest)
-                    if (std::bit_cast<float>(stack.depth[top]) > zTop_) lanes = 0;
+                    if (stack[size].z > zTop_) lanes = 0;
             } while (lanes == 0);
+            at = stack[size].ref;
         }
     }
 
     template <Answer A>
-    void push(Stack& stack, std::size_t bottom, WideRef ref, unsigned lanes, float z) const {
-        std::size_t place = stack.size++;
-        if constexpr (A == Answer::Closest) { // the nearest on top
-            const auto depth = std::bit_cast<std::uint32_t>(z);
-            for (; place > bottom && stack.depth[place - 1] < depth; --place) {
-                stack.ref[place] = stack.ref[place - 1];
-                stack.lanes[place] = stack.lanes[place - 1];
-                stack.depth[place] = stack.depth[place - 1];
-            }
-            stack.depth[place] = depth;
-        }
-        stack.ref[place] = ref, stack.lanes[place] = lanes;
+    std::size_t push(Entry* stack, std::size_t bottom, std::size_t size, Entry entry) const {
+        std::size_t place = size;
+        if constexpr (A == Answer::Closest) // the nearest on top
+            for (; place > bottom && stack[place - 1].z < entry.z; --place)
+                stack[place] = stack[place - 1];
+        stack[place] = entry;
+        return size + 1;
     }
 
     // Over all r of the interval, a child is entered not before `entry` and left not after `exit`.
     template <Answer A, class Result>
-    void stepTogether(const WideNode<W>& node, unsigned lanes, Stack& stack, Result* results) {
+    std::size_t stepTogether(const WideNode<W>& node, unsigned lanes, Entry* stack,
+                             std::size_t size, Result* results) {
         Floats entry(0.0f), exit(zTop_);
         for (int axis = 0; axis < 3; ++axis) {
             const Floats lo(rLo_[axis]), hi(rHi_[axis]), pad(mostPad_[axis]);
@@ -114,7 +109,7 @@ private:
         }
         alignas(64) float z[W];
         entry.store(z);
-        const std::size_t bottom = stack.size;
+        const std::size_t bottom = size;
         for (unsigned hit = bits(entry <= exit); hit != 0; hit &= hit - 1) {
             const int i = std::countr_zero(hit);
             const WideRef ref = node.child[i];
@@ -122,7 +117,7 @@ private:
             if (A == Answer::Any && kindOf(ref) == WideKind::Leaf) {
                 solid<A>(ref >> 2, inside, results);
                 lanes &= live_;
-                if (lanes == 0) return;
+                if (lanes == 0) return size;
                 continue;
             }
             if (kindOf(ref) == WideKind::Node) {
@@ -139,13 +134,15 @@ private:
                 inside &= bits(from <= to);
                 if (inside == 0) continue;
             }
-            push<A>(stack, bottom, ref, inside, z[i]);
+            size = push<A>(stack, bottom, size, {z[i], ref, inside});
         }
+        return size;
     }
 
     // Solids wait for rays of others, or are met at once.
     template <Answer A, class Result>
-    void stepApart(const WideNode<W>& node, unsigned lanes, Stack& stack, Result* results) {
+    std::size_t stepApart(const WideNode<W>& node, unsigned lanes, Entry* stack, std::size_t size,
+                          Result* results) {
         const auto* const planes = reinterpret_cast<const std::byte*>(&node);
         const unsigned leaves = leavesOf(node), inPairs = areInPairs_ ? leaves : 0;
         std::uint32_t waiting = waiting_.count;
@@ -180,7 +177,7 @@ private:
         entered.store(entering);
         alignas(64) float z[W];
         if constexpr (A == Answer::Closest) nearest.store(z);
-        const std::size_t bottom = stack.size;
+        const std::size_t bottom = size;
         for (; any != 0; any &= any - 1) {
             const int i = std::countr_zero(any);
             if ((leaves >> i & 1) != 0) {
@@ -188,8 +185,10 @@ private:
                     solid<A>(node.child[i] >> 2, asking, results);
                 continue;
             }
-            push<A>(stack, bottom, node.child[i], entering[i], A == Answer::Closest ? z[i] : 0);
+            const float from = A == Answer::Closest ? z[i] : 0;
+            size = push<A>(stack, bottom, size, {from, node.child[i], entering[i]});
         }
+        return size;
     }
 };
 

@@ -8,8 +8,6 @@ AVX2_REGION_BEGIN
 namespace kernels::avx2 {
 #include "accel/kernels/simd_avx2.inl"
 
-#include "accel/kernels/stack.inl"
-
 #include "accel/kernels/ray_lanes.inl"
 
 #include "accel/kernels/solids_rows_avx2.inl"

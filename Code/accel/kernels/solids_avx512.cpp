@@ -8,8 +8,6 @@ AVX512_REGION_BEGIN
 namespace kernels::avx512 {
 #include "accel/kernels/simd_avx512.inl"
 
-#include "accel/kernels/stack.inl"
-
 #include "accel/kernels/ray_lanes.inl"
 
 #include "accel/kernels/solids_rows_avx512.inl"

@@ -49,7 +49,6 @@ template <Answer A>
         out.nearest = (foot - half(reach)) - early;
         out.farthest = (foot - half(inner)) + early;
         out.certain = bits((distance2 < inner * inner) & (out.nearest > l.tMin));
-        out.may &= bits(notGreater(out.nearest, l.best));
     }
     return out;
 }

@@ -8,8 +8,6 @@ SSE_REGION_BEGIN
 namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
 
-#include "accel/kernels/stack.inl"
-
 #include "accel/kernels/ray_lanes.inl"
 
 #include "accel/kernels/solids_rows_sse.inl"
