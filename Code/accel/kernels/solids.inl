@@ -28,6 +28,8 @@ enum class Answer { Closest, Any };
 
 #include "accel/kernels/solids_meet.inl"
 
+#include "accel/kernels/solids_each.inl"
+
 #include "accel/kernels/solids_pairs.inl"
 
 class SolidPackets : PacketPairs {
@@ -167,7 +169,7 @@ private:
             if constexpr (A == Answer::Closest)
                 nearest = min(nearest, select(isHit, entry, nearest));
             const unsigned hit = bits(isHit);
-            waiting = wait(ray, hit & inPairs, node.child, waiting);
+            if (inPairs != 0) waiting = wait(ray, hit & inPairs, node.child, waiting);
             entered.set(ray, isHit);
             any |= hit;
         }

@@ -10,7 +10,7 @@ namespace kernels::avx2 {
 
 #include "accel/kernels/ray_lanes.inl"
 
-#include "accel/kernels/solids_rows_avx2.inl"
+#include "accel/kernels/solids_columns_avx2.inl"
 
 #include "accel/kernels/solids.inl"
 } // namespace kernels::avx2

@@ -10,7 +10,7 @@ namespace kernels::avx512 {
 
 #include "accel/kernels/ray_lanes.inl"
 
-#include "accel/kernels/solids_rows_avx512.inl"
+#include "accel/kernels/solids_columns_avx512.inl"
 
 #include "accel/kernels/solids.inl"
 } // namespace kernels::avx512

@@ -10,7 +10,7 @@ namespace kernels::sse {
 
 #include "accel/kernels/ray_lanes.inl"
 
-#include "accel/kernels/solids_rows_sse.inl"
+#include "accel/kernels/solids_columns_sse.inl"
 
 #include "accel/kernels/solids.inl"
 } // namespace kernels::sse

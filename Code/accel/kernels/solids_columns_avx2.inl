@@ -1,5 +1,5 @@
-// W rows of four numbers become columns: see solids_rows_avx512.inl.
-constexpr bool kPairsPay = true; // solids_pairs.inl
+// See solids_columns_avx512.inl.
+constexpr bool kPairsPay = true;
 
 inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
     const auto rowsFrom = [&](int first) -> __m256 { // row 4 i + first in half i
@@ -18,10 +18,12 @@ inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
     column[2] = _mm256_castpd_ps(_mm256_unpacklo_pd(high(a, b), high(c, d)));
     column[3] = _mm256_castpd_ps(_mm256_unpackhi_pd(high(a, b), high(c, d)));
 }
+
 inline unsigned leavesOf(const WideNode<W>& node) {
     const __m256i lowest = _mm256_slli_epi32(Ints::load(node.child).v, 31);
     return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(lowest)));
 }
+
 inline void storeRows(const double* const (&row)[W], double (*column)[W]) {
     for (int half = 0; half < 2; ++half) {
         const auto at = [&](int i) -> __m256d { return _mm256_loadu_pd(row[4 * half + i]); };
@@ -35,6 +37,7 @@ inline void storeRows(const double* const (&row)[W], double (*column)[W]) {
         for (int i = 0; i < 4; ++i) _mm256_store_pd(column[i] + 4 * half, columns[i]);
     }
 }
+
 class LaneColumns {
 public:
     LaneColumns() : columns_(_mm256_setzero_si256()) {}

@@ -1,5 +1,5 @@
-// W rows of four numbers become columns: see solids_rows_avx512.inl.
-constexpr bool kPairsPay = false; // solids_pairs.inl
+// See solids_columns_avx512.inl.
+constexpr bool kPairsPay = false; // permutations take a store and many loads
 
 inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
     for (int half = 0; half < 2; ++half) {
@@ -10,6 +10,7 @@ inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
         for (int i = 0; i < 4; ++i) (half == 0 ? column[i].lo : column[i].hi) = columns[i];
     }
 }
+
 inline unsigned leavesOf(const WideNode<W>& node) {
     const Ints child = Ints::load(node.child);
     const auto lowest = [&](__m128i four) {
@@ -17,6 +18,7 @@ inline unsigned leavesOf(const WideNode<W>& node) {
     };
     return lowest(child.lo) | lowest(child.hi) << 4;
 }
+
 inline void storeRows(const double* const (&row)[W], double (*column)[W]) {
     for (int pair = 0; pair < 4; ++pair)
         for (int half = 0; half < 2; ++half) {
@@ -26,6 +28,7 @@ inline void storeRows(const double* const (&row)[W], double (*column)[W]) {
             _mm_store_pd(column[2 * half + 1] + 2 * pair, _mm_unpackhi_pd(a, b));
         }
 }
+
 class LaneColumns {
 public:
     LaneColumns() : lo_(_mm_setzero_si128()), hi_(lo_) {}

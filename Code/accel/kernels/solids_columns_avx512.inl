@@ -1,7 +1,8 @@
-// Numbers of W things that lie anywhere: four that follow each other at row[i], in lane i of four
-// registers. Included like solids.inl, in front of it, as its siblings are.
-constexpr bool kPairsPay = true; // solids_pairs.inl
+// Columns of W rows: numbers of things that lie anywhere, and bits. Included like solids.inl, in
+// front of it, as its siblings solids_columns_avx2.inl and solids_columns_sse.inl are.
+constexpr bool kPairsPay = true; // see solids_pairs.inl
 
+// Four numbers that follow each other at row[i], in lane i of four registers.
 inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
     const auto rowsFrom = [&](int first) -> __m512 { // row 4 i + first in quarter i
         __m512 rows = _mm512_castps128_ps512(_mm_loadu_ps(row[first]));
@@ -21,10 +22,14 @@ inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
     column[2] = _mm512_castpd_ps(_mm512_unpacklo_pd(high(a, b), high(c, d)));
     column[3] = _mm512_castpd_ps(_mm512_unpackhi_pd(high(a, b), high(c, d)));
 }
+
+// Children that are leaves.
 inline unsigned leavesOf(const WideNode<W>& node) {
     static_assert(static_cast<int>(WideKind::Leaf) == 1 && static_cast<int>(WideKind::None) == 2);
     return bits({_mm512_test_epi32_mask(Ints::load(node.child).v, _mm512_set1_epi32(1))});
 }
+
+// The same of doubles, in memory.
 inline void storeRows(const double* const (&row)[W], double (*column)[W]) {
     for (int half = 0; half < 2; ++half) {
         const auto rowsFrom = [&](int first) -> __m512d { // and the one after the next
@@ -42,6 +47,7 @@ inline void storeRows(const double* const (&row)[W], double (*column)[W]) {
         for (int i = 0; i < 4; ++i) _mm512_store_pd(column[i] + 8 * half, columns[i]);
     }
 }
+
 // Bits of W rows of W, asked for by columns.
 class LaneColumns {
 public:
