@@ -3,9 +3,11 @@
 #include "analytic_kit.h"
 #include "check.h"
 #include "shape/cone.h"
+#include "shape/cube.h"
 #include "shape/cylinder.h"
 #include "shape/mesh.h"
 #include "shape/one_sided.h"
+#include "shape/sphere.h"
 #include "solid_checks.h"
 #include "verify/meshes.h"
 
@@ -95,6 +97,34 @@ Rays tubeRays(Random& random, const std::vector<Tube>& tubes) {
         rays.push(ray);
     }
     return rays;
+}
+
+// Chains as of wire models, which fill the tree with thin diagonal boxes: straight tubes, most seen
+// from outside only and open, with balls and now and then a cube where they end; many twice.
+std::vector<Tube> addChains(std::uint64_t seed, std::size_t count, ShapeSet& set) {
+    Random random(seed);
+    std::vector<Tube> tubes;
+    for (std::size_t n = 0; n < count; ++n) {
+        const double size = random.logUniform(0.02, 0.4), radius = random.uniform(0.05, 0.4);
+        const Transform turn = random.affine(1, 0);
+        const Transform map =
+            Transform::translate(random.inBox(0.9)) * turn * Transform::scale(size);
+        tubes.push_back({map, radius});
+        for (std::size_t copies = random.chance(0.2) ? 2 : 1; copies > 0; --copies) {
+            auto tube = std::make_unique<Cylinder>(map, radius, random.chance(0.1), 0u, 0u);
+            set.add(sided(random, std::move(tube), 0.7),
+                    random.chance(0.9) ? Shadow::Opaque : Shadow::None);
+        }
+        const Vec3d end = map.point({0, 0, 1});
+        if (random.chance(0.9))
+            set.add(std::make_unique<Sphere>(Transform::translate(end), radius * size, 0u, 0u),
+                    Shadow::Opaque);
+        else
+            set.add(std::make_unique<Cube>(
+                        Transform::translate(end) * Transform::scale(radius * size), 0u, 0u),
+                    Shadow::Opaque);
+    }
+    return tubes;
 }
 
 // Small meshes of one to five triangles: those of five are no facets.
@@ -188,6 +218,26 @@ TEST(solid_tubes_have_the_bits_of_single_rays) {
                 compare(kernel.name, seed, batches, single, tubeRays(random, tubes), score);
         }
         report("tubes", kernel, score);
+    }
+}
+
+// Rays that go apart wait with solids of many kinds and are met by others' registers.
+TEST(solid_chains_have_the_bits_of_single_rays) {
+    for (const Kernel& kernel : allKernels()) {
+        if (!kernel.supported() || kernel.width == 0) continue;
+        Score score;
+        for (std::uint64_t seed = 3301; seed < 3301 + check::scaled(24u); ++seed) {
+            ShapeSet batches, single;
+            const std::size_t count = 100 + seed * 7 % 200;
+            const std::vector<Tube> tubes = addChains(seed, count, batches);
+            addChains(seed, count, single);
+            batches.finish(true, kernel);
+            single.finish(false);
+            Random random(seed);
+            for (int i = 0; i < 4; ++i)
+                compare(kernel.name, seed, batches, single, tubeRays(random, tubes), score);
+        }
+        report("chains", kernel, score);
     }
 }
 

@@ -60,8 +60,9 @@ template <Answer A>
 // certain: rays that meet the side of a round tube at 30 degrees to its axis at least and not flat,
 // which keeps these errors below 20 times the slack, by 64 within their range and the tube's
 // length.
-// Mixed: where the axis is zero, it is a ball: a tube across the line, whose n is as long as d and
-// which has no ends.
+// behind: rays that enter a round tube before their range, so that only its inside is left to them.
+// Mixed: where the axis is zero, it is a ball, which is met as a tube across the line is: with an n
+// as long as d, and without ends. Its inner ball tells only that it is entered.
 template <Answer A, bool Mixed = false>
 [[gnu::always_inline]] inline Nearness nearTube(const Lines& l, const BallLanes& ball,
                                                 const TubeLanes& tube, unsigned lanes) {
@@ -71,11 +72,13 @@ template <Answer A, bool Mixed = false>
     const Floats nx = fms(l.dir[1], az, l.dir[2] * ay), ny = fms(l.dir[2], ax, l.dir[0] * az),
                  nz = fms(l.dir[0], ay, l.dir[1] * ax);
     const Floats across = fma(x, nx, fma(y, ny, z * nz));
+    unsigned balls = 0;
     Floats across2 = across * across, n2 = fma(nx, nx, fma(ny, ny, nz * nz));
     if constexpr (Mixed) {
         const Floats px = fms(y, l.dir[2], z * l.dir[1]), py = fms(z, l.dir[0], x * l.dir[2]),
                      pz = fms(x, l.dir[1], y * l.dir[0]);
         const Mask isBall = maxAbs(maxAbs(ax, ay), az) == Floats(0.0f);
+        balls = bits(isBall);
         across2 = select(isBall, fma(px, px, fma(py, py, pz * pz)), across2);
         n2 = select(isBall, l.length * l.length, n2);
     }
@@ -98,23 +101,21 @@ template <Answer A, bool Mixed = false>
     out.may &= bits(isAlong) |
                (bits(notGreater(fnma(half, up, abs(height)), tube.halfLength + l.slack)) &
                 bits(notGreater(l.tMin, middle + half)) & bits(notGreater(out.nearest, l.best)));
-    {
-        const Floats inner = ball.innerRadius * n, margin = Floats(64.0f) * l.slack;
-        const Floats inside = halfIn(inner) * perN2, early = margin * l.perLength;
-        const Floats tallest = tube.halfLength * Floats(1 - 0x1p-18f) - margin;
-        const auto meets = [&](Floats t) {
-            return (t - early > l.tMin) & (t + early < l.best) & (abs(fms(t, da, xa)) < tallest);
-        };
-        const Floats within = max(Floats(0.9f) * inner - slack, zero);
-        const Mask isSure = (across2 < within * within) & (n > Floats(0.5f) * l.length);
-        const Mask in = meets(middle - inside), beyond = meets(middle + inside);
-        if constexpr (A == Answer::Any) {
-            out.certain = bits((in | beyond) & isSure);
-        } else {
-            out.certain = bits(in & isSure);
-            out.behind = bits(isSure & ((middle - inside) + early < l.tMin));
-            out.farthest = (middle - inside) + early;
-        }
+    const Floats inner = ball.innerRadius * n, margin = Floats(64.0f) * l.slack;
+    const Floats inside = halfIn(inner) * perN2, early = margin * l.perLength;
+    const Floats tallest = tube.halfLength * Floats(1 - 0x1p-18f) - margin;
+    const auto meets = [&](Floats t) {
+        return bits((t - early > l.tMin) & (t + early < l.best) & (abs(fms(t, da, xa)) < tallest));
+    };
+    const Floats within = max(Floats(0.9f) * inner - slack, zero), in = middle - inside;
+    const unsigned isSure = bits((across2 < within * within) & (n > Floats(0.5f) * l.length));
+    const unsigned enters = meets(in) & (~balls | bits(out.nearest > l.tMin));
+    if constexpr (A == Answer::Any) {
+        out.certain = isSure & (enters | (meets(middle + inside) & ~balls));
+    } else {
+        out.certain = isSure & enters;
+        out.farthest = in + early;
+        out.behind = isSure & ~balls & bits(out.farthest < l.tMin);
     }
     return out;
 }
