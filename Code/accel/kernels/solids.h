@@ -38,8 +38,7 @@ struct SolidTree {
         Meets meets = Meets::Alone;
         Vec3 centre{}, axis{};
         float radius = kInfinityF, innerRadius = 0, halfLength = kInfinityF;
-        float isOpenFront =
-            0; // 1: a cylinder without ends that rays of sight only meet from outside
+        float isOpenFront = 0; // 1: a cylinder without ends whose inside rays of sight don't see
         const StillShape* shape = nullptr; // of all but facets and what is asked ray by ray
     };
     struct Tube {

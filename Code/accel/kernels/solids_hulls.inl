@@ -56,13 +56,13 @@ template <Answer A>
 // n = d x axis: the distance of the lines is |w n| / |n|, and w n is off by 41 u s |d|. The ray is
 // in the endless tube from `middle` - `half` to `middle` + `half`. n is off by 7 u |d|, with FMA or
 // without, so n n, for rays at 1/16 to the axis at least, by 227 u of it, and both by
-// 16.5 slack |d| / n n together. Rays along the axis are asked whatever its ends are.
-// certain: rays that meet the side of a round tube at 30 degrees to its axis at least and not flat,
-// which keeps these errors below 20 times the slack, by 64 within their range and the tube's
-// length.
-// behind: rays that enter a round tube before their range, so that only its inside is left to them.
-// Mixed: where the axis is zero, it is a ball, which is met as a tube across the line is: with an n
-// as long as d, and without ends. Its inner ball tells only that it is entered.
+// 16.5 slack |d| / n n together. Rays along the axis are asked whatever its ends are. Squares are
+// off by 4 u of them, and SolidTree keeps radii 16 u too large, or too small, of which squares
+// make 32. certain: rays that meet the side of a round tube at 30 degrees to its axis at least and
+// not flat, which keeps these errors below 20 times the slack, by 64 within their range and the
+// tube's length. behind: rays that enter a round tube before their range, so that only its inside
+// is left to them. Mixed: where the axis is zero, it is a ball, which is met as a tube across the
+// line is: with an n as long as d, and without ends. Its inner ball tells only that it is entered.
 template <Answer A, bool Mixed = false>
 [[gnu::always_inline]] inline Nearness nearTube(const Lines& l, const BallLanes& ball,
                                                 const TubeLanes& tube, unsigned lanes) {
