@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/batch.h"
+#include "render/lamp_map.h"
 #include "render/occluders.h"
 #include "render/point_columns.h"
 #include "render/query.h"
@@ -50,6 +51,8 @@ struct Lamp {
     LightByLampFn inLanes = nullptr;
     LightBySamplesFn bySamples = nullptr;
     HiddenPointsFn hiddenPoints = nullptr; // of what bySamples asks
+    std::shared_ptr<const LampMap> map{};  // of what inLanes asks, if there is one
+    AskLampMapFn askMap = nullptr;
 };
 
 // A shape whose surfaces lanes find, to be looked up without touching it.

@@ -52,6 +52,19 @@ std::optional<Occluder::Sides> sidesOf(const Shape& shape, const Bounds& box) {
 
 } // namespace
 
+Occluder occluderOf(const ShapeSet& shapes, std::uint32_t number) {
+    const Shape& shape = *shapes.shapes[number];
+    Occluder caster{number, shape.hidesFromItself(false), shape.hidesFromItself(true),
+                    shapes.boxes[number], sidesOf(shape, shapes.boxes[number])};
+    if (const SolidForm form = shape.solidForm(); form.sphere) {
+        caster.centre = toFloat(form.hull.centre);
+        caster.radius = floatAbove(form.hull.radius * (1 + 0x1p-20));
+        if (shapes.shadows[number] == ShapeSet::Shadow::Opaque)
+            caster.core = floatBelow(form.hull.innerRadius * (1 - 0x1p-20));
+    }
+    return caster;
+}
+
 Occluders::Occluders(const ShapeSet& shapes) : shapes_(shapes) {
     std::size_t count = 0;
     const auto casts = [&](std::size_t i) {
@@ -60,19 +73,8 @@ Occluders::Occluders(const ShapeSet& shapes) : shapes_(shapes) {
     for (std::size_t i = 0; i < shapes.shapes.size(); ++i) count += casts(i);
     canTell_ = count <= kMost;
     if (!canTell_) return;
-    for (std::uint32_t i = 0; i < shapes.shapes.size(); ++i) {
-        const Shape& shape = *shapes.shapes[i];
-        if (!casts(i)) continue;
-        Occluder caster{i, shape.hidesFromItself(false), shape.hidesFromItself(true),
-                        shapes.boxes[i], sidesOf(shape, shapes.boxes[i])};
-        if (const SolidForm form = shape.solidForm(); form.sphere) {
-            caster.centre = toFloat(form.hull.centre);
-            caster.radius = floatAbove(form.hull.radius * (1 + 0x1p-20));
-            if (shapes.shadows[i] == ShapeSet::Shadow::Opaque)
-                caster.core = floatBelow(form.hull.innerRadius * (1 - 0x1p-20));
-        }
-        casters_.push_back(caster);
-    }
+    for (std::uint32_t i = 0; i < shapes.shapes.size(); ++i)
+        if (casts(i)) casters_.push_back(occluderOf(shapes, i));
 }
 
 bool Occluders::mayHide(const Bounds& points, std::uint32_t shape, bool fromInside,

@@ -24,6 +24,8 @@ struct Occluder {
     float core = 0; // radius of a ball about the centre that no light passes; 0: none is known
 };
 
+Occluder occluderOf(const ShapeSet& shapes, std::uint32_t number);
+
 class Occluders {
 public:
     // Looking at more boxes than these costs more than it saves.

@@ -66,7 +66,13 @@ inline void addLampsInLanes(const Wave& wave, bool isGrouped) {
             const unsigned hidden = hiddenByGroup(memory, b, isGrouped);
             LitByLamp& by = memory.byLamp[b];
             lamp.inLanes(*lamp.emission, memory.litBlocks[b], hidden, by);
-            pushLampRays(wave, origins, memory.litBlocks[b], by, by.lit & hidden);
+            by.unsure = by.lit & hidden;
+            if (lamp.map && by.unsure != 0) {
+                const auto seen =
+                    lamp.askMap(*lamp.map, memory.litBlocks[b], by, by.unsure);
+                by.lit &= ~seen.hidden, by.unsure = seen.unsure;
+            }
+            pushLampRays(wave, origins, memory.litBlocks[b], by, by.unsure);
         }
         wave.counts.shadow += rays.size();
         if (!rays.empty()) wave.context.scene.shapes().occluded(rays.span(), memory.hidden);
@@ -74,9 +80,8 @@ inline void addLampsInLanes(const Wave& wave, bool isGrouped) {
         std::size_t ray = 0;
         for (std::size_t b = 0; b < blocks; ++b) {
             const LitByLamp& by = memory.byLamp[b];
-            const unsigned shadowed = by.lit & hiddenByGroup(memory, b, isGrouped);
-            wave.context.shadeLanes.add(by, shadowed, &memory.hidden[ray], memory.lightSums[b]);
-            ray += static_cast<std::size_t>(std::popcount(shadowed));
+            wave.context.shadeLanes.add(by, by.unsure, &memory.hidden[ray], memory.lightSums[b]);
+            ray += static_cast<std::size_t>(std::popcount(by.unsure));
         }
     }
     forEachSum(wave, [](Rgb& radiance, const SurfaceBlock::Lane(&sum)[3], std::size_t i) {

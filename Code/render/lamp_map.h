@@ -1,0 +1,58 @@
+// LampMap: the solids that a point lamp sees in each direction, nearest first, so that most shadow
+// rays need no walk through the tree (Haines and Greenberg, "The Light Buffer", IEEE CG&A 6, 1986).
+// Directions are the cells of a picture of the solids that the lamp takes. What the map says is
+// sure; where it can't tell, a ray has to be asked.
+#pragma once
+
+#include "accel/kernels/kernels.h"
+#include "light/point_emission.h"
+#include "render/occluders.h"
+#include "render/waves/lamp_lanes.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+struct LampMap {
+    // RoundHull in a line of the cache.
+    struct alignas(64) Hull {
+        Vec3 centre;
+        float radius;
+        Vec3 axis; // zero: a ball
+        float halfLength;
+        float innerRadius;
+        float nearest; // nothing of it is nearer to the lamp
+        std::uint32_t shape;
+    };
+    static constexpr std::size_t kMostOthers = 4;
+
+    Vec3 lamp;
+    // The picture's axes; a direction d is in the column (right d / ahead d) scale[0] + offset[0]
+    // and in a row alike.
+    Vec3 right, up, ahead;
+    float scale[2], offset[2];
+    float leastCosine; // of directions of the picture to `ahead`
+    int logCells = 0;  // columns and rows
+    float slack = 0;   // that covers rounding, as in solids_hulls.inl
+    // hulls[lists[starts[cell]]] up to starts[cell + 1]: what the rays of a cell may meet, by
+    // `nearest`.
+    std::vector<std::uint32_t> starts, lists;
+    std::vector<Hull> hulls;
+    std::vector<Occluder> others; // shapes that are not in the picture
+
+    std::size_t cells() const { return std::size_t{1} << logCells; }
+};
+
+// Null: none can be made, or it would cost more than it saves for so many shadow rays.
+std::shared_ptr<const LampMap> makeLampMap(const ShapeSet& shapes, const PointEmission& lamp,
+                                           double rays);
+
+// Of the points `asked` of a block: which something hides, and of which only a ray can tell.
+struct HiddenByMap {
+    unsigned hidden = 0, unsure = 0;
+};
+using AskLampMapFn = HiddenByMap (*)(const LampMap&, const LitBlock&, const LitByLamp&,
+                                     unsigned asked);
+// Null for the scalar kernel.
+AskLampMapFn askLampMap(const Kernel& kernel);
