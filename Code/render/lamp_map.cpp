@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <optional>
 
 namespace {
@@ -56,7 +57,7 @@ std::optional<MappedShapes> shapesOnMap(const ShapeSet& shapes, Vec3 lamp) {
             continue;
         }
         out.hulls.push_back({solid.centre, solid.radius, solid.isTube ? solid.axis : Vec3{},
-                             solid.isTube ? solid.halfLength : 0, solid.innerRadius, 0,
+                             solid.isTube ? solid.halfLength : 0, solid.innerRadius,
                              solid.number});
         out.box.extend(tree.boxes[i]);
     }
@@ -153,29 +154,20 @@ private:
         return true;
     }
 
-    // By a number that is at most `nearest`, which is what the map keeps.
+    // By the steps that they start in.
     void sortHulls() {
-        constexpr std::size_t kSteps = 4096;
         float lo = kInfinityF, hi = 0;
         for (const Footprint& f : footprints_) lo = min(f.nearest, lo), hi = max(f.nearest, hi);
-        const float perStep = hi > lo ? static_cast<float>(kSteps - 1) / (hi - lo) : 0;
-        const auto stepOf = [&](std::size_t i) {
-            return std::min(static_cast<std::size_t>((footprints_[i].nearest - lo) * perStep),
-                            kSteps - 1);
-        };
-        std::vector<std::uint32_t> next(kSteps + 1, 0);
-        for (std::size_t i = 0; i < footprints_.size(); ++i) ++next[stepOf(i) + 1];
+        map_.firstStep = lo, map_.perStep = static_cast<float>(kSteps - 1) / max(hi - lo, lo * 0x1p-10f);
+        steps_.resize(footprints_.size());
+        std::array<std::uint32_t, kSteps + 1> next{};
+        for (std::size_t i = 0; i < footprints_.size(); ++i) {
+            steps_[i] = std::min(static_cast<std::uint32_t>(map_.stepOf(footprints_[i].nearest)), kSteps - 1);
+            ++next[steps_[i] + 1];
+        }
         for (std::size_t k = 1; k <= kSteps; ++k) next[k] += next[k - 1];
         order_.resize(footprints_.size());
-        map_.hulls.resize(footprints_.size());
-        for (std::uint32_t i = 0; i < footprints_.size(); ++i) {
-            const std::size_t step = stepOf(i);
-            const std::uint32_t to = next[step]++;
-            order_[to] = i;
-            map_.hulls[to] = shapes_.hulls[i];
-            const float from = perStep > 0 ? static_cast<float>(step) / perStep : 0;
-            map_.hulls[to].nearest = (lo + from) * (1 - 0x1p-20f) - map_.slack;
-        }
+        for (std::uint32_t i = 0; i < footprints_.size(); ++i) order_[next[steps_[i]]++] = i;
     }
 
     // Cells of a row.
@@ -187,14 +179,15 @@ private:
         std::vector<std::uint32_t>& starts = map_.starts;
         starts.assign(map_.cells() * map_.cells() + 2, 0);
         runs_.clear();
-        for (std::uint32_t i = 0; i < order_.size(); ++i) addRuns(i, footprints_[order_[i]]);
+        for (const std::uint32_t hull : order_) addRuns(hull, footprints_[hull]);
         for (const Run& run : runs_)
             for (std::uint32_t k = 0; k < run.count; ++k) ++starts[run.first + k + 2];
         for (std::size_t k = 1; k < starts.size(); ++k) starts[k] += starts[k - 1];
         map_.lists.resize(starts.back() + 1); // lanes may look behind the end
         for (const Run& run : runs_)
             for (std::uint32_t k = 0; k < run.count; ++k)
-                map_.lists[starts[run.first + k + 1]++] = run.hull;
+                map_.lists[starts[run.first + k + 1]++] =
+                    steps_[run.hull] << LampMap::kHullBits | run.hull;
     }
 
     // A plane through the lamp: nothing of a hull is where a x + b y + c > 0 in cells.
@@ -230,7 +223,7 @@ private:
         const float x0 = cellAt(f.lo[0], 0, -pad_[0]), x1 = cellAt(f.hi[0], 0, pad_[0]);
         const float y0 = cellAt(f.lo[1], 1, -pad_[1]), y1 = cellAt(f.hi[1], 1, pad_[1]);
         Edge edges[2];
-        const std::size_t count = edgesOf(map_.hulls[number], edges);
+        const std::size_t count = edgesOf(shapes_.hulls[number], edges);
         for (float y = y0; y <= y1; ++y) {
             float from = x0, to = x1;
             for (std::size_t k = 0; k < count; ++k) {
@@ -254,7 +247,8 @@ private:
     LampMap& map_;
     const MappedShapes& shapes_;
     std::vector<Footprint> footprints_;
-    std::vector<std::uint32_t> order_; // of the hulls
+    static constexpr std::uint32_t kSteps = 1u << (32 - LampMap::kHullBits);
+    std::vector<std::uint32_t> order_, steps_; // of the hulls
     std::vector<Run> runs_;
     float pad_[2] = {}; // of a footprint, in cells
 };
@@ -266,11 +260,13 @@ std::shared_ptr<const LampMap> makeLampMap(const ShapeSet& shapes, const PointEm
     if (rays < kRaysForHull * static_cast<double>(shapes.solids().solids.size())) return {};
     if (shapes.solids().solids.size() < kFewestHulls) return {};
     auto mapped = shapesOnMap(shapes, lamp.position);
-    if (!mapped || mapped->hulls.size() < kFewestHulls) return {};
+    if (!mapped || mapped->hulls.size() < kFewestHulls || mapped->hulls.size() >> LampMap::kHullBits)
+        return {};
     auto map = std::make_shared<LampMap>();
     map->lamp = lamp.position;
     map->slack = 0x1p-18f * max(shapes.extent, maxAbs(lamp.position));
     map->others = std::move(mapped->others);
     if (!MapMaker(*map, *mapped).make()) return {};
+    map->hulls = std::move(mapped->hulls);
     return map;
 }

@@ -22,7 +22,6 @@ struct LampMap {
         Vec3 axis; // zero: a ball
         float halfLength;
         float innerRadius;
-        float nearest; // nothing of it is nearer to the lamp
         std::uint32_t shape;
     };
     static constexpr std::size_t kMostOthers = 4;
@@ -35,12 +34,16 @@ struct LampMap {
     float leastCosine; // of directions of the picture to `ahead`
     int logCells = 0;  // columns and rows
     float slack = 0;   // that covers rounding, as in solids_hulls.inl
-    // hulls[lists[starts[cell]]] up to starts[cell + 1]: what the rays of a cell may meet, by
-    // `nearest`.
+    // lists[starts[cell]] up to starts[cell + 1]: what the rays of a cell may meet, the nearest
+    // first. Each is the number of a hull, and above kHullBits in which step from the lamp it
+    // starts.
+    static constexpr int kHullBits = 20;
     std::vector<std::uint32_t> starts, lists;
+    float firstStep, perStep;
     std::vector<Hull> hulls;
     std::vector<Occluder> others; // shapes that are not in the picture
 
+    float stepOf(float reach) const { return (reach - firstStep) * perStep; }
     std::size_t cells() const { return std::size_t{1} << logCells; }
 };
 

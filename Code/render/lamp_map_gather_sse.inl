@@ -6,6 +6,10 @@ inline Ints shiftedUp(Ints a, int by) {
     const __m128i count = _mm_cvtsi32_si128(by);
     return {_mm_sll_epi32(a.lo, count), _mm_sll_epi32(a.hi, count)};
 }
+inline Ints shiftedDown(Ints a, int by) {
+    const __m128i count = _mm_cvtsi32_si128(by);
+    return {_mm_srl_epi32(a.lo, count), _mm_srl_epi32(a.hi, count)};
+}
 inline Ints truncated(Floats a) { return {_mm_cvttps_epi32(a.lo), _mm_cvttps_epi32(a.hi)}; }
 inline void copyAt(const void* from, Ints offset, std::uint32_t (&to)[W]) {
     offset.store(to);

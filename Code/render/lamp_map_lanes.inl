@@ -105,16 +105,28 @@ private:
                shiftedUp(truncated(select(on, y, zero)), map_.logCells);
     }
 
+    // Beyond the last step all numbers are, behind NaN none.
+    Ints endOfReach() const {
+        const Floats step = (reach_ - Floats(map_.firstStep)) * Floats(map_.perStep);
+        constexpr auto kMost = static_cast<float>((1u << (32 - LampMap::kHullBits)) - 2);
+        const Floats next = max(step + Floats(1.0f), Floats(0.0f));
+        return select(next < Floats(kMost), shiftedUp(truncated(min(next, Floats(kMost))), LampMap::kHullBits),
+                      Ints(~0u));
+    }
+
     void walk(Ints cell, unsigned live, HiddenByMap& answer) const {
-        const Ints one(1u);
+        const Ints one(1u), reach = endOfReach();
+        const unsigned inside = block_.inside >> first_;
         Ints at = intsAt(map_.starts.data(), shiftedUp(cell, 2));
         const Ints end = intsAt(map_.starts.data() + 1, shiftedUp(cell, 2));
         for (;; at = select(maskOf(live), at + one, at)) {
             live &= bits(at < end);
             if (live == 0) return;
-            const Ints hull = shiftedUp(intsAt(map_.lists.data(), shiftedUp(at, 2)), 6);
-            live &= bits(number(&LampMap::Hull::nearest, hull) <= reach_);
-            const unsigned inside = block_.inside >> first_;
+            const Ints entry = intsAt(map_.lists.data(), shiftedUp(at, 2));
+            live &= bits(entry < reach);
+            if (live == 0) return;
+            const Ints hull = shiftedDown(shiftedUp(entry, 32 - LampMap::kHullBits),
+                                          32 - LampMap::kHullBits - 6);
             const Ints shape = intsAt(&map_.hulls.data()->shape, hull);
             const unsigned asked = live & (~bits(shape == shape_) | inside);
             if (asked == 0) continue;
