@@ -70,8 +70,11 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
         if (!isSoft && lamp.emission) lamp.inLanes = lightByLamp(kernel);
         if (lamp.inLanes && shades && settings.specialise && !scene.moves()) {
             lamp.askMap = ::askLampMap(kernel);
-            const double pixels = static_cast<double>(settings.picture.width) * settings.picture.height;
-            if (lamp.askMap) lamp.map = makeLampMap(scene.shapes(), *lamp.emission, pixels * settings.picture.samplesPerPixel);
+            const double pixels =
+                static_cast<double>(settings.picture.width) * settings.picture.height;
+            if (lamp.askMap)
+                lamp.map = makeLampMap(scene.shapes(), *lamp.emission,
+                                       pixels * settings.picture.samplesPerPixel);
         }
         if (isSoft && lamp.emission && sampler.kind() == SamplerKind::Sobol)
             lamp.bySamples = lightBySamples(kernel), lamp.hiddenPoints = ::hiddenPoints(kernel);

@@ -57,8 +57,7 @@ std::optional<MappedShapes> shapesOnMap(const ShapeSet& shapes, Vec3 lamp) {
             continue;
         }
         out.hulls.push_back({solid.centre, solid.radius, solid.isTube ? solid.axis : Vec3{},
-                             solid.isTube ? solid.halfLength : 0, solid.innerRadius,
-                             solid.number});
+                             solid.isTube ? solid.halfLength : 0, solid.innerRadius, solid.number});
         out.box.extend(tree.boxes[i]);
     }
     return out;
@@ -158,11 +157,13 @@ private:
     void sortHulls() {
         float lo = kInfinityF, hi = 0;
         for (const Footprint& f : footprints_) lo = min(f.nearest, lo), hi = max(f.nearest, hi);
-        map_.firstStep = lo, map_.perStep = static_cast<float>(kSteps - 1) / max(hi - lo, lo * 0x1p-10f);
+        map_.firstStep = lo,
+        map_.perStep = static_cast<float>(kSteps - 1) / max(hi - lo, lo * 0x1p-10f);
         steps_.resize(footprints_.size());
         std::array<std::uint32_t, kSteps + 1> next{};
         for (std::size_t i = 0; i < footprints_.size(); ++i) {
-            steps_[i] = std::min(static_cast<std::uint32_t>(map_.stepOf(footprints_[i].nearest)), kSteps - 1);
+            steps_[i] = std::min(static_cast<std::uint32_t>(map_.stepOf(footprints_[i].nearest)),
+                                 kSteps - 1);
             ++next[steps_[i] + 1];
         }
         for (std::size_t k = 1; k <= kSteps; ++k) next[k] += next[k - 1];
@@ -205,8 +206,7 @@ private:
         const float sine = radius / distance, cosine = std::sqrt(1 - sine * sine);
         for (std::size_t k = 0; k < 2; ++k) {
             const Vec3 n = side * (k == 0 ? cosine : -cosine) - out * sine;
-            const float a = dot(n, map_.right) / map_.scale[0],
-                        b = dot(n, map_.up) / map_.scale[1];
+            const float a = dot(n, map_.right) / map_.scale[0], b = dot(n, map_.up) / map_.scale[1];
             const float c = dot(n, map_.ahead) - a * map_.offset[0] - b * map_.offset[1];
             const float room = std::fabs(a) * (0.5f + pad_[0]) + std::fabs(b) * (0.5f + pad_[1]);
             edges[k] = {a, b, c - room - 0x1p-16f};
@@ -260,7 +260,8 @@ std::shared_ptr<const LampMap> makeLampMap(const ShapeSet& shapes, const PointEm
     if (rays < kRaysForHull * static_cast<double>(shapes.solids().solids.size())) return {};
     if (shapes.solids().solids.size() < kFewestHulls) return {};
     auto mapped = shapesOnMap(shapes, lamp.position);
-    if (!mapped || mapped->hulls.size() < kFewestHulls || mapped->hulls.size() >> LampMap::kHullBits)
+    if (!mapped || mapped->hulls.size() < kFewestHulls ||
+        mapped->hulls.size() >> LampMap::kHullBits)
         return {};
     auto map = std::make_shared<LampMap>();
     map->lamp = lamp.position;
@@ -268,5 +269,7 @@ std::shared_ptr<const LampMap> makeLampMap(const ShapeSet& shapes, const PointEm
     map->others = std::move(mapped->others);
     if (!MapMaker(*map, *mapped).make()) return {};
     map->hulls = std::move(mapped->hulls);
+    map->hullOf.assign(shapes.shapes.size(), LampMap::kNoHull);
+    for (std::uint32_t i = 0; i < map->hulls.size(); ++i) map->hullOf[map->hulls[i].shape] = i;
     return map;
 }

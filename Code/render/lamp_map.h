@@ -12,6 +12,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <vector>
 
 struct LampMap {
@@ -39,6 +40,8 @@ struct LampMap {
     // starts.
     static constexpr int kHullBits = 20;
     std::vector<std::uint32_t> starts, lists;
+    std::vector<std::uint32_t> hullOf; // by shape; kNoHull: it is not in the picture
+    static constexpr std::uint32_t kNoHull = 0xffffffffu;
     float firstStep, perStep;
     std::vector<Hull> hulls;
     std::vector<Occluder> others; // shapes that are not in the picture
@@ -51,11 +54,9 @@ struct LampMap {
 std::shared_ptr<const LampMap> makeLampMap(const ShapeSet& shapes, const PointEmission& lamp,
                                            double rays);
 
-// Of the points `asked` of a block: which something hides, and of which only a ray can tell.
-struct HiddenByMap {
-    unsigned hidden = 0, unsure = 0;
-};
-using AskLampMapFn = HiddenByMap (*)(const LampMap&, const LitBlock&, const LitByLamp&,
-                                     unsigned asked);
+// Looks for the points of blocks that are `unsure`: those that something hides from the lamp are no
+// longer lit, and unsure are those of which only a ray can tell.
+using AskLampMapFn = void (*)(const LampMap& map, std::span<const LitBlock> blocks,
+                              std::span<LitByLamp> by);
 // Null for the scalar kernel.
 AskLampMapFn askLampMap(const Kernel& kernel);

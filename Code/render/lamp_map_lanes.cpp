@@ -3,7 +3,7 @@
 
 #define DECLARE(isa)                                                                               \
     namespace kernels::isa {                                                                       \
-    HiddenByMap askLampMap(const LampMap&, const LitBlock&, const LitByLamp&, unsigned);           \
+    void askLampMap(const LampMap&, std::span<const LitBlock>, std::span<LitByLamp>);              \
     }
 DECLARE_BY_KERNEL(DECLARE)
 #define ROW(isa) kernels::isa::askLampMap

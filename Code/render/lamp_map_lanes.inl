@@ -8,9 +8,17 @@ enum class Answer { Closest, Any };
 
 namespace {
 
+// Points that something hides, and those of which only a ray can tell.
+struct HiddenByMap {
+    unsigned hidden = 0, unsure = 0;
+};
+
+// W of the points, in three steps, in each of which memory is fetched for the next: many at once
+// have taken one step before the first takes the next.
 class RaysOnMap {
 public:
-    RaysOnMap(const LampMap& map, const LitBlock& block, const LitByLamp& by, std::size_t first)
+    RaysOnMap(const LampMap& map, const LitBlock& block, const LitByLamp& by, std::size_t first,
+              unsigned lanes)
         : map_(map), block_(block), first_(first), shape_(Ints::load(block.shape + first)) {
         const Floats one(1.0f);
         const Floats lamp[3] = {map.lamp.x, map.lamp.y, map.lamp.z};
@@ -24,21 +32,71 @@ public:
         lines_.perLength = one / lines_.length, lines_.perLength2 = one / length2_;
         lines_.slack = map.slack, lines_.tMin = 0.0f;
         lines_.best = Floats::load(by.tMax + first);
-        reach_ = fma(lines_.best, lines_.length, lines_.slack);
+
+        answer_.unsure = lanes & ~sane();
+        live_ = lanes & ~answer_.unsure;
+        answer_.unsure |= besideOthers(live_);
+        const Ints cell = shiftedUp(findCells(), 2);
+        if (live_ == 0) return;
+        at_ = intsAt(map.starts.data(), cell), end_ = intsAt(map.starts.data() + 1, cell);
+        live_ &= bits(at_ < end_);
+        alignas(64) std::uint32_t at[W];
+        at_.store(at);
+        for (unsigned rest = live_; rest != 0; rest &= rest - 1)
+            __builtin_prefetch(&map.lists[at[std::countr_zero(rest)]]);
     }
 
-    HiddenByMap ask(unsigned lanes) const {
-        HiddenByMap answer;
-        answer.unsure = lanes & ~sane();
-        lanes &= ~answer.unsure;
-        answer.unsure |= lanes & besideOthers(lanes);
-        const Ints inside = insideOf(lanes, answer);
-        if (lanes != 0) walk(inside, lanes, answer);
-        answer.unsure &= ~answer.hidden;
-        return answer;
+    void findFirst() {
+        if (live_ == 0) return;
+        reach_ = endOfReach();
+        const Ints shapes = select(maskOf(live_), shape_, Ints(0u));
+        own_ = select(maskOf(block_.inside >> first_), Ints(LampMap::kNoHull),
+                      intsAt(map_.hullOf.data(), shiftedUp(shapes, 2)));
+        fetchEntries();
+        alignas(64) std::uint32_t hull[W];
+        hull_.store(hull);
+        for (unsigned rest = live_ & ~bits(hull_ == own_); rest != 0; rest &= rest - 1)
+            __builtin_prefetch(&map_.hulls[hull[std::countr_zero(rest)]]);
+    }
+
+    HiddenByMap walk() {
+        while (live_ != 0) {
+            if (const unsigned asked = live_ & ~bits(hull_ == own_); asked != 0) {
+                meetAll(asked);
+                live_ &= ~answer_.hidden;
+            }
+            at_ = select(maskOf(live_), at_ + Ints(1u), at_);
+            live_ &= bits(at_ < end_);
+            if (live_ == 0) break;
+            fetchEntries();
+        }
+        answer_.unsure &= ~answer_.hidden;
+        return answer_;
     }
 
 private:
+    static constexpr int kHullShift = 32 - LampMap::kHullBits;
+
+    void fetchEntries() {
+        const Ints entry = intsAt(map_.lists.data(), shiftedUp(at_, 2));
+        live_ &= bits(entry < reach_);
+        hull_ = shiftedDown(shiftedUp(entry, kHullShift), kHullShift);
+    }
+
+    // Points near each other look at the same hulls.
+    void meetAll(unsigned lanes) {
+        alignas(64) std::uint32_t hull[W];
+        hull_.store(hull);
+        while (lanes != 0) {
+            const std::uint32_t number = hull[std::countr_zero(lanes)];
+            const unsigned same = lanes & bits(hull_ == Ints(number));
+            if (std::popcount(same) == 1 && std::popcount(lanes) > kMostAlone)
+                return meetInLanes(lanes);
+            meet(map_.hulls[number], same);
+            lanes &= ~same;
+        }
+    }
+
     // Neither empty, nor without end, nor of NaN.
     unsigned sane() const {
         const Floats zero(0.0f), one(1.0f);
@@ -63,15 +121,15 @@ private:
             Mask apart = maskOf(0);
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const Floats end = fma(lines_.dir[axis], lines_.best, lines_.org[axis]);
-                apart = apart |
-                        (min(end, lines_.org[axis]) > Floats(other.box.hi[axis]) + slack) |
+                apart = apart | (min(end, lines_.org[axis]) > Floats(other.box.hi[axis]) + slack) |
                         (max(end, lines_.org[axis]) < Floats(other.box.lo[axis]) - slack);
             }
             if (other.plane) {
                 const Vec3 n = other.plane->n;
                 const float lamp = dot(n, map_.lamp) + other.plane->offset;
-                const Floats rise = fma(Floats(n.x), lines_.dir[0],
-                                        fma(Floats(n.y), lines_.dir[1], Floats(n.z) * lines_.dir[2]));
+                const Floats rise =
+                    fma(Floats(n.x), lines_.dir[0],
+                        fma(Floats(n.y), lines_.dir[1], Floats(n.z) * lines_.dir[2]));
                 const Floats end = fma(rise, lines_.best, Floats(lamp));
                 if (lamp > 2 * map_.slack) apart = apart | (end > slack + slack);
                 if (lamp < -2 * map_.slack) apart = apart | (end < Floats(-2 * map_.slack));
@@ -87,9 +145,9 @@ private:
     }
 
     // The cells of the lanes that are in the picture; the others are taken away: nothing is there.
-    Ints insideOf(unsigned& lanes, HiddenByMap& answer) const {
+    Ints findCells() {
         const Floats depth = along(map_.ahead), zero(0.0f);
-        const unsigned isBehind = bits(depth <= Floats(map_.leastCosine) * lines_.length);
+        live_ &= ~bits(depth <= Floats(map_.leastCosine) * lines_.length);
         const Floats perDepth = Floats(1.0f) / depth, end(static_cast<float>(map_.cells()));
         const Floats x = fma(along(map_.right) * perDepth, Floats(map_.scale[0]),
                              Floats(map_.offset[0])),
@@ -97,102 +155,112 @@ private:
                              Floats(map_.offset[1]));
         const unsigned isIn = bits((x >= zero) & (x < end) & (y >= zero) & (y < end));
         const unsigned isOut = bits(x < zero) | bits(x >= end) | bits(y < zero) | bits(y >= end);
-        lanes &= ~isBehind;
-        answer.unsure |= lanes & ~isIn & ~isOut; // NaN
-        lanes &= isIn;
-        const Mask on = maskOf(lanes);
+        answer_.unsure |= live_ & ~isIn & ~isOut; // NaN
+        live_ &= isIn;
+        const Mask on = maskOf(live_);
         return truncated(select(on, x, zero)) +
                shiftedUp(truncated(select(on, y, zero)), map_.logCells);
     }
 
     // Beyond the last step all numbers are, behind NaN none.
     Ints endOfReach() const {
-        const Floats step = (reach_ - Floats(map_.firstStep)) * Floats(map_.perStep);
+        const Floats reach = fma(lines_.best, lines_.length, lines_.slack);
+        const Floats step = (reach - Floats(map_.firstStep)) * Floats(map_.perStep);
         constexpr auto kMost = static_cast<float>((1u << (32 - LampMap::kHullBits)) - 2);
         const Floats next = max(step + Floats(1.0f), Floats(0.0f));
-        return select(next < Floats(kMost), shiftedUp(truncated(min(next, Floats(kMost))), LampMap::kHullBits),
+        return select(next < Floats(kMost),
+                      shiftedUp(truncated(min(next, Floats(kMost))), LampMap::kHullBits),
                       Ints(~0u));
     }
 
-    void walk(Ints cell, unsigned live, HiddenByMap& answer) const {
-        const Ints one(1u), reach = endOfReach();
-        const unsigned inside = block_.inside >> first_;
-        Ints at = intsAt(map_.starts.data(), shiftedUp(cell, 2));
-        const Ints end = intsAt(map_.starts.data() + 1, shiftedUp(cell, 2));
-        for (;; at = select(maskOf(live), at + one, at)) {
-            live &= bits(at < end);
-            if (live == 0) return;
-            const Ints entry = intsAt(map_.lists.data(), shiftedUp(at, 2));
-            live &= bits(entry < reach);
-            if (live == 0) return;
-            const Ints hull = shiftedDown(shiftedUp(entry, 32 - LampMap::kHullBits),
-                                          32 - LampMap::kHullBits - 6);
-            const Ints shape = intsAt(&map_.hulls.data()->shape, hull);
-            const unsigned asked = live & (~bits(shape == shape_) | inside);
-            if (asked == 0) continue;
-            const HiddenByMap by = meet(hull, asked);
-            answer.hidden |= by.hidden, answer.unsure |= by.unsure;
-            live &= ~by.hidden;
-        }
+    void meet(const LampMap::Hull& hull, unsigned lanes) {
+        const BallLanes ball{
+            {hull.centre.x, hull.centre.y, hull.centre.z}, hull.radius, hull.innerRadius};
+        if (hull.halfLength == 0) return meetBalls(ball, lanes);
+        meetTubes(ball, {{hull.axis.x, hull.axis.y, hull.axis.z}, hull.halfLength}, lanes);
     }
 
-    Floats number(float LampMap::Hull::*member, Ints hull) const {
-        return floatsAt(&(map_.hulls.data()->*member), hull);
-    }
-    void vector(Vec3 LampMap::Hull::*member, Ints hull, Floats (&to)[3]) const {
-        const Vec3& first = map_.hulls.data()->*member;
-        to[0] = floatsAt(&first.x, hull), to[1] = floatsAt(&first.y, hull),
-        to[2] = floatsAt(&first.z, hull);
+    // Each lane its own.
+    void meetInLanes(unsigned lanes) {
+        const Ints at = shiftedUp(hull_, 6);
+        const LampMap::Hull& first = map_.hulls[0];
+        const BallLanes ball{{floatsAt(&first.centre.x, at), floatsAt(&first.centre.y, at),
+                              floatsAt(&first.centre.z, at)},
+                             floatsAt(&first.radius, at),
+                             floatsAt(&first.innerRadius, at)};
+        const Floats halfLength = floatsAt(&first.halfLength, at);
+        const unsigned balls = lanes & bits(halfLength == Floats(0.0f));
+        if (balls != 0) meetBalls(ball, balls);
+        if (balls == lanes) return;
+        meetTubes(ball,
+                  {{floatsAt(&first.axis.x, at), floatsAt(&first.axis.y, at),
+                    floatsAt(&first.axis.z, at)},
+                   halfLength},
+                  lanes & ~balls);
     }
 
-    HiddenByMap meet(Ints hull, unsigned lanes) const {
-        BallLanes ball;
-        vector(&LampMap::Hull::centre, hull, ball.centre);
-        ball.radius = number(&LampMap::Hull::radius, hull);
-        ball.innerRadius = number(&LampMap::Hull::innerRadius, hull);
-        TubeLanes tube;
-        tube.halfLength = number(&LampMap::Hull::halfLength, hull);
-        const unsigned tubes = lanes & ~bits(tube.halfLength == Floats(0.0f)),
-                       balls = lanes & ~tubes;
-        HiddenByMap by;
-        if (balls != 0) {
-            const Nearness near = nearBall<Answer::Any>(lines_, ball);
-            const auto& d = lines_.dir;
-            const Floats foot = fma(ball.centre[0] - lines_.org[0], d[0],
-                                    fma(ball.centre[1] - lines_.org[1], d[1],
-                                        (ball.centre[2] - lines_.org[2]) * d[2])) *
-                                lines_.perLength2;
-            const Floats early = fnma(ball.radius + lines_.slack, lines_.perLength, foot);
-            by.hidden |= balls & near.may & near.certain;
-            by.unsure |= balls & near.may & bits(notGreater(early, lines_.best));
-        }
-        if (tubes != 0) {
-            vector(&LampMap::Hull::axis, hull, tube.axis);
-            const Nearness near = nearTube<Answer::Any>(lines_, ball, tube, tubes);
-            by.hidden |= tubes & near.may & near.certain;
-            by.unsure |= tubes & near.may;
-        }
-        return by;
+    void meetBalls(const BallLanes& ball, unsigned lanes) {
+        const Nearness near = nearBall<Answer::Any>(lines_, ball);
+        const auto& d = lines_.dir;
+        const Floats foot = fma(ball.centre[0] - lines_.org[0], d[0],
+                                fma(ball.centre[1] - lines_.org[1], d[1],
+                                    (ball.centre[2] - lines_.org[2]) * d[2])) *
+                            lines_.perLength2;
+        const Floats entry = fnma(ball.radius + lines_.slack, lines_.perLength, foot);
+        lanes &= near.may;
+        answer_.hidden |= lanes & near.certain;
+        answer_.unsure |= lanes & bits(notGreater(entry, lines_.best));
     }
+
+    void meetTubes(const BallLanes& ball, const TubeLanes& tube, unsigned lanes) {
+        const Nearness near = nearTube<Answer::Any>(lines_, ball, tube, lanes);
+        answer_.hidden |= lanes & near.may & near.certain;
+        answer_.unsure |= lanes & near.may;
+    }
+
+    static constexpr int kMostAlone = 6; // hulls that are met faster one by one
 
     const LampMap& map_;
     const LitBlock& block_;
     std::size_t first_;
     Ints shape_;
     Lines lines_;
-    Floats length2_, reach_;
+    Floats length2_;
+    unsigned live_ = 0; // lanes that go on
+    Ints at_{0u}, end_{0u}, reach_{0u}, own_{0u}, hull_{0u};
+    HiddenByMap answer_;
 };
 
 } // namespace
 
-HiddenByMap askLampMap(const LampMap& map, const LitBlock& block, const LitByLamp& by,
-                       unsigned asked) {
-    HiddenByMap all;
-    for (std::size_t first = 0; first < LitBlock::kPoints; first += W) {
-        const unsigned lanes = asked >> first & ((1u << W) - 1);
-        if (lanes == 0) continue;
-        const HiddenByMap some = RaysOnMap(map, block, by, first).ask(lanes);
-        all.hidden |= some.hidden << first, all.unsure |= some.unsure << first;
+void askLampMap(const LampMap& map, std::span<const LitBlock> blocks, std::span<LitByLamp> by) {
+    constexpr std::size_t kTogether = 8 * LitBlock::kPoints / W;
+    struct Asked {
+        std::size_t block, first;
+        alignas(64) std::byte rays[sizeof(RaysOnMap)];
+        RaysOnMap& onMap() { return *std::launder(reinterpret_cast<RaysOnMap*>(rays)); }
+    };
+    std::array<Asked, kTogether> asked;
+    std::size_t count = 0;
+    const auto finish = [&] {
+        for (Asked& a : std::span(asked).first(count)) a.onMap().findFirst();
+        for (Asked& a : std::span(asked).first(count)) {
+            const HiddenByMap some = a.onMap().walk();
+            by[a.block].lit &= ~(some.hidden << a.first);
+            by[a.block].unsure |= some.unsure << a.first;
+        }
+        count = 0;
+    };
+    for (std::size_t b = 0; b < blocks.size(); ++b) {
+        const unsigned points = std::exchange(by[b].unsure, 0);
+        for (std::size_t first = 0; first < LitBlock::kPoints; first += W) {
+            const unsigned lanes = points >> first & ((1u << W) - 1);
+            if (lanes == 0) continue;
+            Asked& a = asked[count];
+            a.block = b, a.first = first;
+            new (a.rays) RaysOnMap(map, blocks[b], by[b], first, lanes);
+            if (++count == kTogether) finish();
+        }
     }
-    return all;
+    finish();
 }

@@ -4,6 +4,10 @@
 #if defined(__x86_64__)
 #include "accel/kernels/region_includes.h"
 
+#include <new>
+#include <span>
+#include <utility>
+
 AVX2_REGION_BEGIN
 namespace kernels::avx2 {
 #include "accel/kernels/simd_avx2.inl"

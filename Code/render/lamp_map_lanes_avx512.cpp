@@ -4,6 +4,10 @@
 #if defined(__x86_64__)
 #include "accel/kernels/region_includes.h"
 
+#include <new>
+#include <span>
+#include <utility>
+
 AVX512_REGION_BEGIN
 namespace kernels::avx512 {
 #include "accel/kernels/simd_avx512.inl"

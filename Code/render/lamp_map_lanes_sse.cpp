@@ -4,6 +4,10 @@
 #if defined(__x86_64__)
 #include "accel/kernels/region_includes.h"
 
+#include <new>
+#include <span>
+#include <utility>
+
 SSE_REGION_BEGIN
 namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"

@@ -67,13 +67,13 @@ inline void addLampsInLanes(const Wave& wave, bool isGrouped) {
             LitByLamp& by = memory.byLamp[b];
             lamp.inLanes(*lamp.emission, memory.litBlocks[b], hidden, by);
             by.unsure = by.lit & hidden;
-            if (lamp.map && by.unsure != 0) {
-                const auto seen =
-                    lamp.askMap(*lamp.map, memory.litBlocks[b], by, by.unsure);
-                by.lit &= ~seen.hidden, by.unsure = seen.unsure;
-            }
-            pushLampRays(wave, origins, memory.litBlocks[b], by, by.unsure);
         }
+        if (lamp.map)
+            lamp.askMap(*lamp.map, std::span(memory.litBlocks).first(blocks),
+                        std::span(memory.byLamp).first(blocks));
+        for (std::size_t b = 0; b < blocks; ++b)
+            pushLampRays(wave, origins, memory.litBlocks[b], memory.byLamp[b],
+                         memory.byLamp[b].unsure);
         wave.counts.shadow += rays.size();
         if (!rays.empty()) wave.context.scene.shapes().occluded(rays.span(), memory.hidden);
         memory.hidden.resize(rays.size() + LitBlock::kPoints); // lanes look at whole registers
