@@ -16,7 +16,8 @@ constexpr float kLeastCosine = 0.25f;
 
 // What all of a scene's lamps share: `nearest` is not known yet.
 struct MappedShapes {
-    std::vector<LampMap::Hull> hulls;
+    RawVector<LampMap::Hull> hulls;
+    std::vector<std::uint32_t> numbers; // of their shapes
     std::vector<Occluder> others;
     Bounds box; // of the hulls' shapes
 };
@@ -45,7 +46,7 @@ std::optional<MappedShapes> shapesOnMap(const ShapeSet& shapes, Vec3 lamp) {
     if (std::any_of(shapes.unbounded.begin(), shapes.unbounded.end(), isFull)) return {};
     if (std::any_of(shapes.batched.begin(), shapes.batched.end(), isFull)) return {};
     const SolidTree& tree = shapes.solids();
-    out.hulls.reserve(tree.solids.size());
+    out.hulls.reserve(tree.solids.size()), out.numbers.reserve(tree.solids.size());
     for (std::size_t i = 0; i < tree.solids.size(); ++i) {
         const SolidTree::Solid& solid = tree.solids[i];
         if (!solid.hides) continue;
@@ -56,8 +57,11 @@ std::optional<MappedShapes> shapesOnMap(const ShapeSet& shapes, Vec3 lamp) {
             if (isFull(solid.number)) return {};
             continue;
         }
-        out.hulls.push_back({solid.centre, solid.radius, solid.isTube ? solid.axis : Vec3{},
-                             solid.isTube ? solid.halfLength : 0, solid.innerRadius, solid.number});
+        const bool isFilled = solid.innerRadius > solid.radius * LampMap::kInner;
+        out.hulls.push_back({solid.centre, isFilled ? solid.radius : -solid.radius,
+                             solid.isTube ? solid.axis : Vec3{},
+                             solid.isTube ? solid.halfLength : 0});
+        out.numbers.push_back(solid.number);
         out.box.extend(tree.boxes[i]);
     }
     return out;
@@ -103,7 +107,7 @@ private:
     }
 
     float radiusOf(const LampMap::Hull& hull) const {
-        return hull.radius * (1 + 0x1p-18f) + 2 * map_.slack;
+        return std::fabs(hull.radius) * (1 + 0x1p-18f) + 2 * map_.slack;
     }
 
     bool project(const LampMap::Hull& hull, Footprint& out) const {
@@ -177,7 +181,7 @@ private:
     };
 
     void list() {
-        std::vector<std::uint32_t>& starts = map_.starts;
+        RawVector<std::uint32_t>& starts = map_.starts;
         starts.assign(map_.cells() * map_.cells() + 2, 0);
         runs_.clear();
         for (const std::uint32_t hull : order_) addRuns(hull, footprints_[hull]);
@@ -270,6 +274,6 @@ std::shared_ptr<const LampMap> makeLampMap(const ShapeSet& shapes, const PointEm
     if (!MapMaker(*map, *mapped).make()) return {};
     map->hulls = std::move(mapped->hulls);
     map->hullOf.assign(shapes.shapes.size(), LampMap::kNoHull);
-    for (std::uint32_t i = 0; i < map->hulls.size(); ++i) map->hullOf[map->hulls[i].shape] = i;
+    for (std::uint32_t i = 0; i < map->hulls.size(); ++i) map->hullOf[mapped->numbers[i]] = i;
     return map;
 }

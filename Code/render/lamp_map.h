@@ -5,6 +5,7 @@
 #pragma once
 
 #include "accel/kernels/kernels.h"
+#include "base/raw_vector.h"
 #include "light/point_emission.h"
 #include "render/occluders.h"
 #include "render/waves/lamp_lanes.h"
@@ -16,15 +17,16 @@
 #include <vector>
 
 struct LampMap {
-    // RoundHull in a line of the cache.
-    struct alignas(64) Hull {
+    // Half a line of the cache.
+    struct alignas(32) Hull {
         Vec3 centre;
         float radius;
-        Vec3 axis; // zero: a ball
-        float halfLength;
-        float innerRadius;
-        std::uint32_t shape;
+        Vec3 axis;
+        float halfLength; // 0: a ball
     };
+    // A hull is negative in radius if what is in it is not nearly all of it, and hides nothing for
+    // sure; else the inner radius is this part.
+    static constexpr float kInner = 1 - 0x1p-17f;
     static constexpr std::size_t kMostOthers = 4;
 
     Vec3 lamp;
@@ -39,11 +41,11 @@ struct LampMap {
     // first. Each is the number of a hull, and above kHullBits in which step from the lamp it
     // starts.
     static constexpr int kHullBits = 20;
-    std::vector<std::uint32_t> starts, lists;
+    RawVector<std::uint32_t> starts, lists;
     std::vector<std::uint32_t> hullOf; // by shape; kNoHull: it is not in the picture
     static constexpr std::uint32_t kNoHull = 0xffffffffu;
     float firstStep, perStep;
-    std::vector<Hull> hulls;
+    RawVector<Hull> hulls;
     std::vector<Occluder> others; // shapes that are not in the picture
 
     float stepOf(float reach) const { return (reach - firstStep) * perStep; }

@@ -52,35 +52,36 @@ public:
         const Ints shapes = select(maskOf(live_), shape_, Ints(0u));
         own_ = select(maskOf(block_.inside >> first_), Ints(LampMap::kNoHull),
                       intsAt(map_.hullOf.data(), shiftedUp(shapes, 2)));
-        fetchEntries();
-        alignas(64) std::uint32_t hull[W];
-        hull_.store(hull);
-        for (unsigned rest = live_ & ~bits(hull_ == own_); rest != 0; rest &= rest - 1)
-            __builtin_prefetch(&map_.hulls[hull[std::countr_zero(rest)]]);
+        fetchHulls();
     }
 
-    HiddenByMap walk() {
-        while (live_ != 0) {
-            if (const unsigned asked = live_ & ~bits(hull_ == own_); asked != 0) {
-                meetAll(asked);
-                live_ &= ~answer_.hidden;
-            }
-            at_ = select(maskOf(live_), at_ + Ints(1u), at_);
-            live_ &= bits(at_ < end_);
-            if (live_ == 0) break;
-            fetchEntries();
+    // Returns whether there is more to look at.
+    bool step() {
+        if (live_ == 0) return false;
+        if (asked_ != 0) {
+            meetAll(asked_);
+            live_ &= ~answer_.hidden;
         }
-        answer_.unsure &= ~answer_.hidden;
-        return answer_;
+        at_ = select(maskOf(live_), at_ + Ints(1u), at_);
+        live_ &= bits(at_ < end_);
+        if (live_ != 0) fetchHulls();
+        return live_ != 0;
     }
+
+    HiddenByMap answer() const { return {answer_.hidden, answer_.unsure & ~answer_.hidden}; }
 
 private:
     static constexpr int kHullShift = 32 - LampMap::kHullBits;
 
-    void fetchEntries() {
+    void fetchHulls() {
         const Ints entry = intsAt(map_.lists.data(), shiftedUp(at_, 2));
         live_ &= bits(entry < reach_);
         hull_ = shiftedDown(shiftedUp(entry, kHullShift), kHullShift);
+        asked_ = live_ & ~bits(hull_ == own_);
+        alignas(64) std::uint32_t hull[W];
+        hull_.store(hull);
+        for (unsigned rest = asked_; rest != 0; rest &= rest - 1)
+            __builtin_prefetch(&map_.hulls[hull[std::countr_zero(rest)]]);
     }
 
     // Points near each other look at the same hulls.
@@ -174,20 +175,24 @@ private:
     }
 
     void meet(const LampMap::Hull& hull, unsigned lanes) {
-        const BallLanes ball{
-            {hull.centre.x, hull.centre.y, hull.centre.z}, hull.radius, hull.innerRadius};
+        const BallLanes ball = ballOf({hull.centre.x, hull.centre.y, hull.centre.z}, hull.radius);
         if (hull.halfLength == 0) return meetBalls(ball, lanes);
         meetTubes(ball, {{hull.axis.x, hull.axis.y, hull.axis.z}, hull.halfLength}, lanes);
     }
 
+    static BallLanes ballOf(const Floats (&centre)[3], Floats radius) {
+        return {{centre[0], centre[1], centre[2]},
+                abs(radius),
+                max(radius * Floats(LampMap::kInner), Floats(0.0f))};
+    }
+
     // Each lane its own.
     void meetInLanes(unsigned lanes) {
-        const Ints at = shiftedUp(hull_, 6);
+        const Ints at = shiftedUp(hull_, 5);
         const LampMap::Hull& first = map_.hulls[0];
-        const BallLanes ball{{floatsAt(&first.centre.x, at), floatsAt(&first.centre.y, at),
-                              floatsAt(&first.centre.z, at)},
-                             floatsAt(&first.radius, at),
-                             floatsAt(&first.innerRadius, at)};
+        const BallLanes ball = ballOf({floatsAt(&first.centre.x, at), floatsAt(&first.centre.y, at),
+                                       floatsAt(&first.centre.z, at)},
+                                      floatsAt(&first.radius, at));
         const Floats halfLength = floatsAt(&first.halfLength, at);
         const unsigned balls = lanes & bits(halfLength == Floats(0.0f));
         if (balls != 0) meetBalls(ball, balls);
@@ -226,7 +231,7 @@ private:
     Ints shape_;
     Lines lines_;
     Floats length2_;
-    unsigned live_ = 0; // lanes that go on
+    unsigned live_ = 0, asked_ = 0; // lanes that go on, and those that look at a hull
     Ints at_{0u}, end_{0u}, reach_{0u}, own_{0u}, hull_{0u};
     HiddenByMap answer_;
 };
@@ -243,11 +248,16 @@ void askLampMap(const LampMap& map, std::span<const LitBlock> blocks, std::span<
     std::array<Asked, kTogether> asked;
     std::size_t count = 0;
     const auto finish = [&] {
-        for (Asked& a : std::span(asked).first(count)) a.onMap().findFirst();
-        for (Asked& a : std::span(asked).first(count)) {
-            const HiddenByMap some = a.onMap().walk();
-            by[a.block].lit &= ~(some.hidden << a.first);
-            by[a.block].unsure |= some.unsure << a.first;
+        const auto some = std::span(asked).first(count);
+        for (Asked& a : some) a.onMap().findFirst();
+        for (bool more = true; more;) {
+            more = false;
+            for (Asked& a : some) more |= a.onMap().step();
+        }
+        for (Asked& a : some) {
+            const HiddenByMap answer = a.onMap().answer();
+            by[a.block].lit &= ~(answer.hidden << a.first);
+            by[a.block].unsure |= answer.unsure << a.first;
         }
         count = 0;
     };
