@@ -1,5 +1,6 @@
 #include "render/integrator.h"
 
+#include "base/for_each.h"
 #include "render/camera_medium.h"
 #include "render/to_float.h"
 #include "render/waves/steps.h"
@@ -39,6 +40,27 @@ std::vector<StillInLanes> stillsInLanesOf(const ShapeSet& set, SurfaceLanes lane
     return shapes;
 }
 
+// Where so many samples are asked for that maps pay.
+void mapLamps(const Scene& scene, const RenderSettings& settings, std::vector<Lamp>& lamps) {
+    constexpr double kFewestSamples = 16; // for each solid
+    const SettingsDesc& picture = settings.picture;
+    const double samples =
+        static_cast<double>(picture.width) * picture.height * picture.samplesPerPixel;
+    const AskLampMapFn ask = askLampMap(chooseKernel(settings.kernel));
+    if (samples < kFewestSamples * static_cast<double>(scene.shapes().solids().solids.size()) ||
+        ask == nullptr || scene.hasSeeThrough() ||
+        std::none_of(lamps.begin(), lamps.end(), [](const Lamp& lamp) { return lamp.inLanes; }))
+        return;
+    auto shapes = MappedShapes::of(scene.shapes());
+    if (!shapes) return;
+    const auto shared = std::make_shared<const MappedShapes>(std::move(*shapes));
+    forEachOn(settings.threads, lamps.size(), [&](std::size_t i) {
+        if (!lamps[i].inLanes) return;
+        lamps[i].map = makeLampMap(shared, *lamps[i].origin);
+        lamps[i].askMap = ask;
+    });
+}
+
 } // namespace
 
 IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings& theSettings)
@@ -68,16 +90,9 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
                   light.emission()};
         const Kernel& kernel = chooseKernel(settings.kernel);
         if (!isSoft && lamp.emission) lamp.inLanes = lightByLamp(kernel);
-        if (lamp.inLanes && shades && settings.specialise && !scene.moves()) {
-            lamp.askMap = ::askLampMap(kernel);
-            const double pixels =
-                static_cast<double>(settings.picture.width) * settings.picture.height;
-            if (lamp.askMap)
-                lamp.map = makeLampMap(scene.shapes(), *lamp.emission,
-                                       pixels * settings.picture.samplesPerPixel);
-        }
         if (isSoft && lamp.emission && sampler.kind() == SamplerKind::Sobol)
             lamp.bySamples = lightBySamples(kernel), lamp.hiddenPoints = ::hiddenPoints(kernel);
         (shades ? shadingLamps : openLamps).push_back(lamp);
     }
+    if (settings.specialise) mapLamps(scene, settings, shadingLamps);
 }

@@ -1,28 +1,16 @@
 #include "render/lamp_map.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdlib>
-#include <optional>
+#include <utility>
 
 namespace {
 
-// Fewer solids are found by the tree as fast, and a map takes some rays for each to pay.
+// Fewer solids are found by the tree as fast.
 constexpr std::size_t kFewestHulls = 64;
-constexpr double kRaysForHull = 6;
-// The least cosine of a solid's directions to the middle of the picture.
-constexpr float kLeastCosine = 0.25f;
 
-// What all of a scene's lamps share: `nearest` is not known yet.
-struct MappedShapes {
-    RawVector<LampMap::Hull> hulls;
-    std::vector<std::uint32_t> numbers; // of their shapes
-    std::vector<Occluder> others;
-    Bounds box; // of the hulls' shapes
-};
-
-// One lies in a plane across an axis, far from which the lamp is: then it does not hide itself.
+// All of it lies in a plane across an axis, from which the lamp is far: then it can't hide itself.
 bool isFlatAcross(const Bounds& box, Vec3 lamp, float extent) {
     for (std::size_t axis = 0; axis < 3; ++axis)
         if (box.lo[axis] == box.hi[axis] &&
@@ -31,56 +19,43 @@ bool isFlatAcross(const Bounds& box, Vec3 lamp, float extent) {
     return false;
 }
 
-std::optional<MappedShapes> shapesOnMap(const ShapeSet& shapes, Vec3 lamp) {
-    if (!shapes.placed().isEmpty()) return {};
-    MappedShapes out;
-    const auto isFull = [&](std::uint32_t number) {
-        if (shapes.shadows[number] != ShapeSet::Shadow::Opaque) return false;
-        if (out.others.size() == LampMap::kMostOthers) return true;
-        Occluder other = occluderOf(shapes, number);
-        if (isFlatAcross(other.box, lamp, shapes.extent))
-            other.hidesInside = other.hidesOutside = false;
-        out.others.push_back(other);
-        return false;
-    };
-    if (std::any_of(shapes.unbounded.begin(), shapes.unbounded.end(), isFull)) return {};
-    if (std::any_of(shapes.batched.begin(), shapes.batched.end(), isFull)) return {};
-    const SolidTree& tree = shapes.solids();
-    out.hulls.reserve(tree.solids.size()), out.numbers.reserve(tree.solids.size());
-    for (std::size_t i = 0; i < tree.solids.size(); ++i) {
-        const SolidTree::Solid& solid = tree.solids[i];
-        if (!solid.hides) continue;
-        if (solid.moves) return {};
-        const bool isRound = solid.kind != SolidTree::Kind::Facets && solid.radius < kInfinityF &&
-                             (!solid.isTube || solid.halfLength < kInfinityF);
-        if (!isRound) {
-            if (isFull(solid.number)) return {};
-            continue;
-        }
-        const bool isFilled = solid.innerRadius > solid.radius * LampMap::kInner;
-        out.hulls.push_back({solid.centre, isFilled ? solid.radius : -solid.radius,
-                             solid.isTube ? solid.axis : Vec3{},
-                             solid.isTube ? solid.halfLength : 0});
-        out.numbers.push_back(solid.number);
-        out.box.extend(tree.boxes[i]);
-    }
-    return out;
+bool hasRoundHull(const SolidTree::Solid& solid) {
+    return solid.kind != SolidTree::Kind::Facets && solid.radius < kInfinityF &&
+           (!solid.isTube || solid.halfLength < kInfinityF);
 }
 
-// What the picture shows of a hull, in units of ahead, and how near it is.
+// One does not hide itself from what is outside.
+bool isConvex(const SolidTree::Solid& solid, const ShapeSet& shapes) {
+    return solid.kind != SolidTree::Kind::Other ||
+           !shapes.shapes[solid.number]->hidesFromItself(false);
+}
+
+MappedShapes::Hull hullOf(const SolidTree::Solid& solid) {
+    const bool isFilled = solid.innerRadius > solid.radius * MappedShapes::kInner &&
+                          (!solid.isTube || solid.halfLength > 0);
+    return {solid.centre, isFilled ? solid.radius : -solid.radius,
+            solid.isTube ? solid.axis : Vec3{}, solid.isTube ? solid.halfLength : 0};
+}
+
+// What the picture shows of a hull, as tangents of angles to `ahead`, and how near it is.
 struct Footprint {
-    float lo[2], hi[2], nearest;
+    std::array<float, 2> lo, hi;
+    float nearest;
 };
 
 class MapMaker {
 public:
-    MapMaker(LampMap& map, const MappedShapes& shapes) : map_(map), shapes_(shapes) {}
+    explicit MapMaker(LampMap& map)
+        : map_(map), shapes_(*map.shapes), footprints_(shapes_.hulls.size()) {}
 
     // False: the lamp does not see all of them in front of it.
     bool make() {
-        if (!aim() || !project() || !frame()) return false;
-        sortHulls();
-        list();
+        if (!aim()) return false;
+        for (std::size_t i = 0; i < footprints_.size(); ++i)
+            if (!project(shapes_.hulls[i], footprints_[i])) return false;
+        if (!frame()) return false;
+        sortByStep();
+        makeLists();
         return true;
     }
 
@@ -99,24 +74,17 @@ private:
         return true;
     }
 
-    bool project() {
-        footprints_.resize(shapes_.hulls.size());
-        for (std::size_t i = 0; i < footprints_.size(); ++i)
-            if (!project(shapes_.hulls[i], footprints_[i])) return false;
-        return true;
-    }
-
-    float radiusOf(const LampMap::Hull& hull) const {
+    // What a ray may be off by does not take it out of the footprint.
+    float radiusOf(const MappedShapes::Hull& hull) const {
         return std::fabs(hull.radius) * (1 + 0x1p-18f) + 2 * map_.slack;
     }
 
-    bool project(const LampMap::Hull& hull, Footprint& out) const {
-        const Vec3 way = hull.centre - map_.lamp;
+    bool project(const MappedShapes::Hull& hull, Footprint& out) const {
+        const Vec3 way = hull.centre - map_.lamp, end = hull.axis * hull.halfLength;
         const float radius = radiusOf(hull);
         out = {{kInfinityF, kInfinityF}, {-kInfinityF, -kInfinityF}, 0};
-        if (!extend(out, way + hull.axis * hull.halfLength, radius)) return false;
-        if (hull.halfLength > 0 && !extend(out, way - hull.axis * hull.halfLength, radius))
-            return false;
+        if (!extend(out, way + end, radius)) return false;
+        if (hull.halfLength > 0 && !extend(out, way - end, radius)) return false;
         const float height = max(-hull.halfLength, min(hull.halfLength, -dot(way, hull.axis)));
         out.nearest = length(way + hull.axis * height) - radius;
         return out.nearest > 0;
@@ -124,8 +92,10 @@ private:
 
     // By the planes through the lamp and along an axis of the picture that touch a ball.
     bool extend(Footprint& out, Vec3 centre, float radius) const {
-        const float z = dot(centre, map_.ahead);
-        if (!(z - radius >= kLeastCosine * (length(centre) + radius))) return false;
+        // Its farthest directions have a cosine of more than this over its distance.
+        constexpr float kCosine = LampMap::kLeastCosine * (1 + 0x1p-10f);
+        const float z = dot(centre, map_.ahead), least = z - radius * (1 + kCosine);
+        if (!(least > 0 && least * least > kCosine * kCosine * dot(centre, centre))) return false;
         const float room = z * z - radius * radius, perRoom = 1 / room;
         const auto side = [&](Vec3 axis, std::size_t i) {
             const float x = dot(centre, axis), half = radius * std::sqrt(x * x + room);
@@ -136,72 +106,68 @@ private:
         return true;
     }
 
-    // Fits the cells about all of them, but for one at each border.
+    // Fits the cells about all of them, with one to spare at each border. Two cells for a solid:
+    // with fewer the lists get long, with more filling them takes longer than it saves.
     bool frame() {
-        const auto hulls = static_cast<double>(shapes_.hulls.size());
-        map_.logCells = static_cast<int>(std::lround(std::log2(std::sqrt(2 * hulls))));
+        const double hulls = static_cast<double>(footprints_.size());
+        map_.logCells = std::clamp(static_cast<int>(std::lround(std::log2(2 * hulls) / 2)), 3, 10);
         if (const char* e = std::getenv("LOGCELLS")) map_.logCells = std::atoi(e);
-        map_.logCells = std::clamp(map_.logCells, 3, 10);
-        map_.leastCosine = kLeastCosine * (1 - 0x1p-10f);
         const auto cells = static_cast<float>(map_.cells());
         for (std::size_t i = 0; i < 2; ++i) {
             float lo = kInfinityF, hi = -kInfinityF;
             for (const Footprint& f : footprints_) lo = min(f.lo[i], lo), hi = max(f.hi[i], hi);
             map_.scale[i] = (cells - 2) / (hi - lo);
             map_.offset[i] = 1 - lo * map_.scale[i];
-            // Both the look-up and the footprints are off by some 2^-19 of what they divide.
+            // Look-ups and footprints are off by less than 2^-18 of what is divided by the depth,
+            // which is at least kLeastCosine.
             const float most = max(std::fabs(lo), std::fabs(hi));
-            pad_[i] = map_.scale[i] * (1 + most) * (0x1p-18f / kLeastCosine) + cells * 0x1p-20f;
-            if (!(pad_[i] < 0.5f)) return false;
+            pad_[i] =
+                map_.scale[i] * (1 + most) * (0x1p-18f / LampMap::kLeastCosine) + cells * 0x1p-20f;
+            if (!(pad_[i] < 0.5f)) return false; // too far away
         }
         return true;
     }
 
-    // By the steps that they start in.
-    void sortHulls() {
+    void sortByStep() {
         float lo = kInfinityF, hi = 0;
         for (const Footprint& f : footprints_) lo = min(f.nearest, lo), hi = max(f.nearest, hi);
-        map_.firstStep = lo,
+        map_.firstStep = lo;
         map_.perStep = static_cast<float>(kSteps - 1) / max(hi - lo, lo * 0x1p-10f);
-        steps_.resize(footprints_.size());
-        std::array<std::uint32_t, kSteps + 1> next{};
-        for (std::size_t i = 0; i < footprints_.size(); ++i) {
-            steps_[i] = std::min(static_cast<std::uint32_t>(map_.stepOf(footprints_[i].nearest)),
-                                 kSteps - 1);
-            ++next[steps_[i] + 1];
+        std::vector<std::uint32_t> next(kSteps + 1, 0); // by step: where its next one goes
+        step_.resize(footprints_.size()), order_.resize(footprints_.size());
+        for (std::size_t i = 0; i < step_.size(); ++i) {
+            const float step = map_.stepOf(footprints_[i].nearest);
+            step_[i] = std::min(static_cast<std::uint32_t>(step), kSteps - 1);
+            ++next[step_[i] + 1];
         }
         for (std::size_t k = 1; k <= kSteps; ++k) next[k] += next[k - 1];
-        order_.resize(footprints_.size());
-        for (std::uint32_t i = 0; i < footprints_.size(); ++i) order_[next[steps_[i]]++] = i;
+        for (std::uint32_t i = 0; i < step_.size(); ++i) order_[next[step_[i]]++] = i;
     }
 
-    // Cells of a row.
-    struct Run {
-        std::uint32_t first, count, hull;
-    };
-
-    void list() {
+    void makeLists() {
+        runs_.reserve(4 * order_.size());
+        for (const std::uint32_t hull : order_) addRuns(hull);
         RawVector<std::uint32_t>& starts = map_.starts;
         starts.assign(map_.cells() * map_.cells() + 2, 0);
-        runs_.clear();
-        for (const std::uint32_t hull : order_) addRuns(hull, footprints_[hull]);
         for (const Run& run : runs_)
             for (std::uint32_t k = 0; k < run.count; ++k) ++starts[run.first + k + 2];
         for (std::size_t k = 1; k < starts.size(); ++k) starts[k] += starts[k - 1];
-        map_.lists.resize(starts.back() + 1); // lanes may look behind the end
+        map_.lists.resize(starts.back() + 1); // lanes that are done may look at the end
+        map_.lists.back() = 0;
         for (const Run& run : runs_)
             for (std::uint32_t k = 0; k < run.count; ++k)
                 map_.lists[starts[run.first + k + 1]++] =
-                    steps_[run.hull] << LampMap::kHullBits | run.hull;
+                    step_[run.hull] << LampMap::kHullBits | run.hull;
     }
 
-    // A plane through the lamp: nothing of a hull is where a x + b y + c > 0 in cells.
+    // A line in the picture that a hull is on one side of: nothing of it is where a x + b y + c is
+    // positive, x and y in cells.
     struct Edge {
         float a, b, c;
     };
 
-    // The two planes that touch a tube's side. `room`: of half a cell, and for rounding.
-    std::size_t edgesOf(const LampMap::Hull& hull, Edge (&edges)[2]) const {
+    // Of the two planes through the lamp that touch the side of a tube, for whole cells.
+    std::size_t edgesOf(const MappedShapes::Hull& hull, std::array<Edge, 2>& edges) const {
         const Vec3 way = hull.centre - map_.lamp;
         const Vec3 across = way - hull.axis * dot(way, hull.axis);
         const float distance = length(across), radius = radiusOf(hull);
@@ -218,22 +184,21 @@ private:
         return 2;
     }
 
-    void addRuns(std::uint32_t number, const Footprint& f) {
+    // The cells that show something of a hull, row by row.
+    void addRuns(std::uint32_t number) {
+        const Footprint& f = footprints_[number];
         const float last = static_cast<float>(map_.cells() - 1);
         const auto cellAt = [&](float at, std::size_t i, float pad) {
-            const float x = at * map_.scale[i] + map_.offset[i] + pad;
-            return max(0.0f, min(last, std::floor(x)));
+            return max(0.0f, min(last, std::floor(at * map_.scale[i] + map_.offset[i] + pad)));
         };
         const float x0 = cellAt(f.lo[0], 0, -pad_[0]), x1 = cellAt(f.hi[0], 0, pad_[0]);
         const float y0 = cellAt(f.lo[1], 1, -pad_[1]), y1 = cellAt(f.hi[1], 1, pad_[1]);
-        Edge edges[2];
+        std::array<Edge, 2> edges;
         const std::size_t count = edgesOf(shapes_.hulls[number], edges);
         for (float y = y0; y <= y1; ++y) {
             float from = x0, to = x1;
-            for (std::size_t k = 0; k < count; ++k) {
-                const auto [a, b, c] = edges[k];
-                const float rest = b * (y + 0.5f) + c;
-                const float at = -rest / a - 0.5f; // of cells, whose middles count
+            for (const auto& [a, b, c] : std::span(edges).first(count)) {
+                const float rest = b * (y + 0.5f) + c, at = -rest / a - 0.5f;
                 if (a > 0)
                     to = min(to, std::floor(at));
                 else if (a < 0)
@@ -248,32 +213,66 @@ private:
         }
     }
 
+    static constexpr std::uint32_t kSteps = 1u << (32 - LampMap::kHullBits);
+    struct Run {
+        std::uint32_t first, count, hull; // cells of a row
+    };
+
     LampMap& map_;
     const MappedShapes& shapes_;
-    std::vector<Footprint> footprints_;
-    static constexpr std::uint32_t kSteps = 1u << (32 - LampMap::kHullBits);
-    std::vector<std::uint32_t> order_, steps_; // of the hulls
+    std::vector<Footprint> footprints_;       // by hull
+    std::vector<std::uint32_t> step_, order_; // the same; hulls in the order of their steps
     std::vector<Run> runs_;
-    float pad_[2] = {}; // of a footprint, in cells
+    std::array<float, 2> pad_{}; // of a footprint, in cells
 };
 
 } // namespace
 
-std::shared_ptr<const LampMap> makeLampMap(const ShapeSet& shapes, const PointEmission& lamp,
-                                           double rays) {
-    if (rays < kRaysForHull * static_cast<double>(shapes.solids().solids.size())) return {};
-    if (shapes.solids().solids.size() < kFewestHulls) return {};
-    auto mapped = shapesOnMap(shapes, lamp.position);
-    if (!mapped || mapped->hulls.size() < kFewestHulls ||
-        mapped->hulls.size() >> LampMap::kHullBits)
+std::optional<MappedShapes> MappedShapes::of(const ShapeSet& shapes) {
+    const auto& solids = shapes.solids().solids;
+    if (solids.size() < kFewestHulls || solids.size() >> LampMap::kHullBits != 0 ||
+        !shapes.placed().isEmpty())
         return {};
+    MappedShapes out;
+    out.extent = shapes.extent;
+    const auto addOther = [&](std::uint32_t number) {
+        if (shapes.shadows[number] != ShapeSet::Shadow::Opaque) return true;
+        out.others.push_back(occluderOf(shapes, number));
+        return out.others.size() <= kMostOthers;
+    };
+    if (!std::all_of(shapes.unbounded.begin(), shapes.unbounded.end(), addOther) ||
+        !std::all_of(shapes.batched.begin(), shapes.batched.end(), addOther))
+        return {};
+    out.hulls.reserve(solids.size());
+    out.hullOf.assign(shapes.shapes.size(), kNoHull);
+    std::size_t filled = 0;
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+        if (!solids[i].hides) continue;
+        if (solids[i].moves) return {};
+        if (!hasRoundHull(solids[i])) {
+            if (!addOther(solids[i].number)) return {};
+            continue;
+        }
+        if (isConvex(solids[i], shapes))
+            out.hullOf[solids[i].number] = static_cast<std::uint32_t>(out.hulls.size());
+        out.hulls.push_back(::hullOf(solids[i]));
+        out.box.extend(shapes.boxes[solids[i].number]);
+        filled += out.hulls.back().radius > 0;
+    }
+    // Of the rest too many rays would have to be asked.
+    if (out.hulls.size() < kFewestHulls || filled < out.hulls.size() / 4 * 3) return {};
+    return out;
+}
+
+std::shared_ptr<const LampMap> makeLampMap(std::shared_ptr<const MappedShapes> shapes, Vec3 lamp) {
     auto map = std::make_shared<LampMap>();
-    map->lamp = lamp.position;
-    map->slack = 0x1p-18f * max(shapes.extent, maxAbs(lamp.position));
-    map->others = std::move(mapped->others);
-    if (!MapMaker(*map, *mapped).make()) return {};
-    map->hulls = std::move(mapped->hulls);
-    map->hullOf.assign(shapes.shapes.size(), LampMap::kNoHull);
-    for (std::uint32_t i = 0; i < map->hulls.size(); ++i) map->hullOf[mapped->numbers[i]] = i;
+    map->shapes = std::move(shapes);
+    map->lamp = lamp;
+    map->slack = 0x1p-18f * max(map->shapes->extent, maxAbs(lamp));
+    map->others = map->shapes->others;
+    for (Occluder& other : map->others)
+        if (isFlatAcross(other.box, lamp, map->shapes->extent))
+            other.hidesInside = other.hidesOutside = false;
+    if (!MapMaker(*map).make()) return {};
     return map;
 }

@@ -1,6 +1,6 @@
 // LampMap: the solids that a point lamp sees in each direction, nearest first, so that most shadow
 // rays need no walk through the tree (Haines and Greenberg, "The Light Buffer", IEEE CG&A 6, 1986).
-// Directions are the cells of a picture of the solids that the lamp takes. What the map says is
+// Directions are the cells of a picture that the lamp takes of the solids. What the map says is
 // sure; where it can't tell, a ray has to be asked.
 #pragma once
 
@@ -13,48 +13,58 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
-struct LampMap {
-    // Half a line of the cache.
+// The shapes of a scene as all maps of its lamps know them.
+struct MappedShapes {
+    // What is known of a solid, in half a line of the cache: RoundHull.
     struct alignas(32) Hull {
         Vec3 centre;
-        float radius;
+        float radius; // negative: no inner one is known; else that is kInner of it
         Vec3 axis;
         float halfLength; // 0: a ball
     };
-    // A hull is negative in radius if what is in it is not nearly all of it, and hides nothing for
-    // sure; else the inner radius is this part.
     static constexpr float kInner = 1 - 0x1p-17f;
+    static constexpr std::uint32_t kNoHull = 0xffffffffu;
     static constexpr std::size_t kMostOthers = 4;
 
+    RawVector<Hull> hulls;
+    // By the number of the shape: what does not hide it from a lamp on its outside.
+    std::vector<std::uint32_t> hullOf;
+    Bounds box;                   // of the shapes with a hull
+    std::vector<Occluder> others; // the shapes without
+    float extent = 0;             // see ShapeSet
+
+    // Nothing: a map would not pay, or shapes move.
+    static std::optional<MappedShapes> of(const ShapeSet& shapes);
+};
+
+struct LampMap {
+    std::shared_ptr<const MappedShapes> shapes;
+    std::vector<Occluder> others; // what hides what from this lamp
     Vec3 lamp;
-    // The picture's axes; a direction d is in the column (right d / ahead d) scale[0] + offset[0]
-    // and in a row alike.
+    float slack = 0; // that covers rounding, as in solids_hulls.inl
+    // Direction d is in column (right d / ahead d) scale[0] + offset[0], and in a row alike.
     Vec3 right, up, ahead;
-    float scale[2], offset[2];
-    float leastCosine; // of directions of the picture to `ahead`
-    int logCells = 0;  // columns and rows
-    float slack = 0;   // that covers rounding, as in solids_hulls.inl
-    // lists[starts[cell]] up to starts[cell + 1]: what the rays of a cell may meet, the nearest
-    // first. Each is the number of a hull, and above kHullBits in which step from the lamp it
-    // starts.
+    std::array<float, 2> scale{}, offset{};
+    int logCells = 0; // columns and rows
+    // The picture shows nothing of what is farther from `ahead` than that.
+    static constexpr float kLeastCosine = 0.25f;
+
+    // lists[starts[cell]] up to starts[cell + 1]: what the rays of a cell may meet, nearest first.
+    // Each is the number of a hull, and above kHullBits the step from the lamp that it starts in.
     static constexpr int kHullBits = 20;
     RawVector<std::uint32_t> starts, lists;
-    std::vector<std::uint32_t> hullOf; // by shape; kNoHull: it is not in the picture
-    static constexpr std::uint32_t kNoHull = 0xffffffffu;
-    float firstStep, perStep;
-    RawVector<Hull> hulls;
-    std::vector<Occluder> others; // shapes that are not in the picture
+    float firstStep = 0, perStep = 0;
 
-    float stepOf(float reach) const { return (reach - firstStep) * perStep; }
+    float stepOf(float distance) const { return (distance - firstStep) * perStep; }
     std::size_t cells() const { return std::size_t{1} << logCells; }
 };
 
-// Null: none can be made, or it would cost more than it saves for so many shadow rays.
-std::shared_ptr<const LampMap> makeLampMap(const ShapeSet& shapes, const PointEmission& lamp,
-                                           double rays);
+// Null: the lamp is among the solids, or too near to have all of them in front of it.
+std::shared_ptr<const LampMap> makeLampMap(std::shared_ptr<const MappedShapes> shapes, Vec3 lamp);
 
 // Looks for the points of blocks that are `unsure`: those that something hides from the lamp are no
 // longer lit, and unsure are those of which only a ray can tell.

@@ -13,13 +13,13 @@ struct HiddenByMap {
     unsigned hidden = 0, unsure = 0;
 };
 
-// W of the points, in three steps, in each of which memory is fetched for the next: many at once
-// have taken one step before the first takes the next.
+// W of the points. They go on step by step, so that many take turns and wait for memory together.
 class RaysOnMap {
 public:
     RaysOnMap(const LampMap& map, const LitBlock& block, const LitByLamp& by, std::size_t first,
               unsigned lanes)
-        : map_(map), block_(block), first_(first), shape_(Ints::load(block.shape + first)) {
+        : map_(map), hulls_(map.shapes->hulls.data()), block_(block), first_(first),
+          shape_(Ints::load(block.shape + first)) {
         const Floats one(1.0f);
         const Floats lamp[3] = {map.lamp.x, map.lamp.y, map.lamp.z};
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -40,18 +40,14 @@ public:
         if (live_ == 0) return;
         at_ = intsAt(map.starts.data(), cell), end_ = intsAt(map.starts.data() + 1, cell);
         live_ &= bits(at_ < end_);
-        alignas(64) std::uint32_t at[W];
-        at_.store(at);
-        for (unsigned rest = live_; rest != 0; rest &= rest - 1)
-            __builtin_prefetch(&map.lists[at[std::countr_zero(rest)]]);
     }
 
     void findFirst() {
         if (live_ == 0) return;
         reach_ = endOfReach();
         const Ints shapes = select(maskOf(live_), shape_, Ints(0u));
-        own_ = select(maskOf(block_.inside >> first_), Ints(LampMap::kNoHull),
-                      intsAt(map_.hullOf.data(), shiftedUp(shapes, 2)));
+        own_ = select(maskOf(block_.inside >> first_), Ints(MappedShapes::kNoHull),
+                      intsAt(map_.shapes->hullOf.data(), shiftedUp(shapes, 2)));
         fetchHulls();
     }
 
@@ -78,10 +74,6 @@ private:
         live_ &= bits(entry < reach_);
         hull_ = shiftedDown(shiftedUp(entry, kHullShift), kHullShift);
         asked_ = live_ & ~bits(hull_ == own_);
-        alignas(64) std::uint32_t hull[W];
-        hull_.store(hull);
-        for (unsigned rest = asked_; rest != 0; rest &= rest - 1)
-            __builtin_prefetch(&map_.hulls[hull[std::countr_zero(rest)]]);
     }
 
     // Points near each other look at the same hulls.
@@ -93,7 +85,7 @@ private:
             const unsigned same = lanes & bits(hull_ == Ints(number));
             if (std::popcount(same) == 1 && std::popcount(lanes) > kMostAlone)
                 return meetInLanes(lanes);
-            meet(map_.hulls[number], same);
+            meet(hulls_[number], same);
             lanes &= ~same;
         }
     }
@@ -148,7 +140,7 @@ private:
     // The cells of the lanes that are in the picture; the others are taken away: nothing is there.
     Ints findCells() {
         const Floats depth = along(map_.ahead), zero(0.0f);
-        live_ &= ~bits(depth <= Floats(map_.leastCosine) * lines_.length);
+        live_ &= ~bits(depth <= Floats(LampMap::kLeastCosine) * lines_.length);
         const Floats perDepth = Floats(1.0f) / depth, end(static_cast<float>(map_.cells()));
         const Floats x = fma(along(map_.right) * perDepth, Floats(map_.scale[0]),
                              Floats(map_.offset[0])),
@@ -174,7 +166,7 @@ private:
                       Ints(~0u));
     }
 
-    void meet(const LampMap::Hull& hull, unsigned lanes) {
+    void meet(const MappedShapes::Hull& hull, unsigned lanes) {
         const BallLanes ball = ballOf({hull.centre.x, hull.centre.y, hull.centre.z}, hull.radius);
         if (hull.halfLength == 0) return meetBalls(ball, lanes);
         meetTubes(ball, {{hull.axis.x, hull.axis.y, hull.axis.z}, hull.halfLength}, lanes);
@@ -183,13 +175,13 @@ private:
     static BallLanes ballOf(const Floats (&centre)[3], Floats radius) {
         return {{centre[0], centre[1], centre[2]},
                 abs(radius),
-                max(radius * Floats(LampMap::kInner), Floats(0.0f))};
+                max(radius * Floats(MappedShapes::kInner), Floats(0.0f))};
     }
 
     // Each lane its own.
     void meetInLanes(unsigned lanes) {
         const Ints at = shiftedUp(hull_, 5);
-        const LampMap::Hull& first = map_.hulls[0];
+        const MappedShapes::Hull& first = hulls_[0];
         const BallLanes ball = ballOf({floatsAt(&first.centre.x, at), floatsAt(&first.centre.y, at),
                                        floatsAt(&first.centre.z, at)},
                                       floatsAt(&first.radius, at));
@@ -223,9 +215,10 @@ private:
         answer_.unsure |= lanes & near.may;
     }
 
-    static constexpr int kMostAlone = 6; // hulls that are met faster one by one
+    static constexpr int kMostAlone = 2; // hulls that are met faster one by one
 
     const LampMap& map_;
+    const MappedShapes::Hull* hulls_;
     const LitBlock& block_;
     std::size_t first_;
     Ints shape_;
