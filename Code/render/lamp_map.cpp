@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <utility>
 
 namespace {
 
-// Fewer solids are found by the tree as fast.
-constexpr std::size_t kFewestHulls = 64;
+// Fewer are looked at without a map.
+constexpr std::size_t kFewestHulls = Occluders::kMost + 1;
 
 // All of it lies in a plane across an axis, from which the lamp is far: then it can't hide itself.
 bool isFlatAcross(const Bounds& box, Vec3 lamp, float extent) {
@@ -22,6 +21,11 @@ bool isFlatAcross(const Bounds& box, Vec3 lamp, float extent) {
 bool hasRoundHull(const SolidTree::Solid& solid) {
     return solid.kind != SolidTree::Kind::Facets && solid.radius < kInfinityF &&
            (!solid.isTube || solid.halfLength < kInfinityF);
+}
+
+// Much of the hull of a large thing is air, and lamps may be in it.
+bool isFloor(const SolidTree::Solid& solid, float extent) {
+    return solid.innerRadius == 0 && solid.radius > extent / 8;
 }
 
 // One does not hide itself from what is outside.
@@ -110,8 +114,7 @@ private:
     // with fewer the lists get long, with more filling them takes longer than it saves.
     bool frame() {
         const double hulls = static_cast<double>(footprints_.size());
-        map_.logCells = std::clamp(static_cast<int>(std::lround(std::log2(2 * hulls) / 2)), 3, 10);
-        if (const char* e = std::getenv("LOGCELLS")) map_.logCells = std::atoi(e);
+        map_.logCells = std::clamp(static_cast<int>(std::lround(std::log2(2 * hulls) / 2)), 5, 10);
         const auto cells = static_cast<float>(map_.cells());
         for (std::size_t i = 0; i < 2; ++i) {
             float lo = kInfinityF, hi = -kInfinityF;
@@ -249,7 +252,7 @@ std::optional<MappedShapes> MappedShapes::of(const ShapeSet& shapes) {
     for (std::size_t i = 0; i < solids.size(); ++i) {
         if (!solids[i].hides) continue;
         if (solids[i].moves) return {};
-        if (!hasRoundHull(solids[i])) {
+        if (!hasRoundHull(solids[i]) || isFloor(solids[i], shapes.extent)) {
             if (!addOther(solids[i].number)) return {};
             continue;
         }
