@@ -112,6 +112,16 @@ LitBlock somePoints(Random& random, const ShapeSet& set, double extent) {
     return block;
 }
 
+// From a ball's centre to where the picture shows it farthest to the left, right, top or bottom.
+Vec3d farthest(const LampMap& map, Vec3d centre, double radius, Random& random) {
+    const Vec3d axis = toDouble(random.coin() ? map.right : map.up), ahead = toDouble(map.ahead);
+    const double x = dot(centre, axis), z = dot(centre, ahead);
+    const double side = random.coin() ? 1 : -1;
+    const double angle =
+        std::atan2(x, z) + side * std::asin(std::min(1.0, radius / std::sqrt(x * x + z * z)));
+    return (axis * std::cos(angle) - ahead * std::sin(angle)) * side;
+}
+
 // Directions that maps have to be careful with: borders of cells, edges of solids, none at all.
 void aim(Random& random, const Case& of, std::size_t i, LitByLamp& by) {
     const LampMap& map = *of.map;
@@ -131,9 +141,11 @@ void aim(Random& random, const Case& of, std::size_t i, LitByLamp& by) {
         // Past the hull's edge, and up to where it may begin or end.
         const Vec3d along = toDouble(hull.axis) *
                             (static_cast<double>(hull.halfLength) * random.uniform(-1.01, 1.01));
-        const Vec3d aside = normalize(cross(centre, random.direction()));
+        const double radius = std::fabs(static_cast<double>(hull.radius));
+        const Vec3d aside = random.coin() ? normalize(cross(centre, random.direction()))
+                                          : farthest(map, centre + along, radius, random);
         const double off = random.coin() ? 1 : 1 + random.signedLogUniform(1e-8, 1e-1);
-        dir = centre + along + aside * (off * std::fabs(static_cast<double>(hull.radius)));
+        dir = centre + along + aside * (off * radius);
         if (random.coin()) dir = dir * (1 + random.signedLogUniform(1e-8, 1));
     }
     const Vec3 to = toFloat(dir);
