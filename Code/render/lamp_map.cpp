@@ -59,8 +59,7 @@ public:
             if (!project(shapes_.hulls[i], footprints_[i])) return false;
         if (!frame()) return false;
         sortByStep();
-        makeLists();
-        return true;
+        return makeLists();
     }
 
 private:
@@ -147,20 +146,34 @@ private:
         for (std::uint32_t i = 0; i < step_.size(); ++i) order_[next[step_[i]]++] = i;
     }
 
-    void makeLists() {
+    // False: the solids hide behind each other so often, or are so small in the picture, that the
+    // lists would take more time than the tree.
+    bool makeLists() {
         runs_.reserve(4 * order_.size());
-        for (const std::uint32_t hull : order_) addRuns(hull);
+        const double most = kMeanLength * static_cast<double>(map_.cells() * map_.cells());
+        std::size_t entries = 0;
+        for (const std::uint32_t hull : order_) {
+            entries += addRuns(hull);
+            if (static_cast<double>(entries) > most) return false; // so long if all are alike
+        }
         RawVector<std::uint32_t>& starts = map_.starts;
         starts.assign(map_.cells() * map_.cells() + 2, 0);
         for (const Run& run : runs_)
             for (std::uint32_t k = 0; k < run.count; ++k) ++starts[run.first + k + 2];
-        for (std::size_t k = 1; k < starts.size(); ++k) starts[k] += starts[k - 1];
+        double squares = 0;
+        for (std::size_t k = 2; k < starts.size(); ++k) {
+            if (starts[k] > kLongestList) return false;
+            squares += sqr(static_cast<double>(starts[k]));
+            starts[k] += starts[k - 1];
+        }
+        if (squares > kMeanLength * static_cast<double>(entries)) return false;
         map_.lists.resize(starts.back() + 1); // lanes that are done may look at the end
         map_.lists.back() = 0;
         for (const Run& run : runs_)
             for (std::uint32_t k = 0; k < run.count; ++k)
                 map_.lists[starts[run.first + k + 1]++] =
                     step_[run.hull] << LampMap::kHullBits | run.hull;
+        return true;
     }
 
     // A line in the picture that a hull is on one side of: nothing of it is where a x + b y + c is
@@ -187,8 +200,8 @@ private:
         return 2;
     }
 
-    // The cells that show something of a hull, row by row.
-    void addRuns(std::uint32_t number) {
+    // The cells that show something of a hull, row by row. Returns how many.
+    std::size_t addRuns(std::uint32_t number) {
         const Footprint& f = footprints_[number];
         const float last = static_cast<float>(map_.cells() - 1);
         const auto cellAt = [&](float at, std::size_t i, float pad) {
@@ -198,6 +211,7 @@ private:
         const float y0 = cellAt(f.lo[1], 1, -pad_[1]), y1 = cellAt(f.hi[1], 1, pad_[1]);
         std::array<Edge, 2> edges;
         const std::size_t count = edgesOf(shapes_.hulls[number], edges);
+        std::size_t cells = 0;
         for (float y = y0; y <= y1; ++y) {
             float from = x0, to = x1;
             for (const auto& [a, b, c] : std::span(edges).first(count)) {
@@ -211,11 +225,16 @@ private:
             }
             if (from > to) continue;
             const auto row = static_cast<std::uint32_t>(y) << map_.logCells;
-            runs_.push_back({row + static_cast<std::uint32_t>(from),
-                             static_cast<std::uint32_t>(to - from) + 1, number});
+            const auto length = static_cast<std::uint32_t>(to - from) + 1;
+            runs_.push_back({row + static_cast<std::uint32_t>(from), length, number});
+            cells += length;
         }
+        return cells;
     }
 
+    // Of a list as its entries see it; 15 is fine still, of 20 the tree is as fast.
+    static constexpr double kMeanLength = 18;
+    static constexpr std::uint32_t kLongestList = 256;
     static constexpr std::uint32_t kSteps = 1u << (32 - LampMap::kHullBits);
     struct Run {
         std::uint32_t first, count, hull; // cells of a row
