@@ -5,6 +5,9 @@
 #include "render/to_float.h"
 #include "render/waves/steps.h"
 
+#include <algorithm>
+#include <utility>
+
 namespace {
 
 SamplerKind samplerKind(SettingsDesc::Sampler kind) {
@@ -40,22 +43,23 @@ std::vector<StillInLanes> stillsInLanesOf(const ShapeSet& set, SurfaceLanes lane
     return shapes;
 }
 
-// Where so many samples are asked for that maps pay.
+// Where so many samples are asked for that maps pay, and waves sum up lamps that have some
+// (waves/lamp_sums.h).
 void mapLamps(const Scene& scene, const RenderSettings& settings, std::vector<Lamp>& lamps) {
     constexpr double kFewestSamples = 16; // for each solid
     const SettingsDesc& picture = settings.picture;
     const double samples =
         static_cast<double>(picture.width) * picture.height * picture.samplesPerPixel;
     const AskLampMapFn ask = askLampMap(chooseKernel(settings.kernel));
+    const auto isInLanes = [](const Lamp& lamp) { return lamp.inLanes != nullptr; };
     if (samples < kFewestSamples * static_cast<double>(scene.shapes().solids().solids.size()) ||
         ask == nullptr || scene.hasSeeThrough() ||
-        std::none_of(lamps.begin(), lamps.end(), [](const Lamp& lamp) { return lamp.inLanes; }))
+        !std::all_of(lamps.begin(), lamps.end(), isInLanes))
         return;
     auto shapes = MappedShapes::of(scene.shapes());
     if (!shapes) return;
     const auto shared = std::make_shared<const MappedShapes>(std::move(*shapes));
     forEachOn(settings.threads, lamps.size(), [&](std::size_t i) {
-        if (!lamps[i].inLanes) return;
         lamps[i].map = makeLampMap(shared, *lamps[i].origin);
         lamps[i].askMap = ask;
     });
@@ -94,5 +98,6 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
             lamp.bySamples = lightBySamples(kernel), lamp.hiddenPoints = ::hiddenPoints(kernel);
         (shades ? shadingLamps : openLamps).push_back(lamp);
     }
-    if (settings.specialise) mapLamps(scene, settings, shadingLamps);
+    if (settings.specialise && settings.integrator == IntegratorKind::Whitted)
+        mapLamps(scene, settings, shadingLamps);
 }

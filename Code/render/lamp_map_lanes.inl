@@ -108,7 +108,7 @@ private:
         unsigned met = 0;
         const Floats slack(lines_.slack);
         for (const Occluder& other : map_.others) {
-            unsigned asked =
+            const unsigned asked =
                 lanes & ~met & othersThan(other.shape, other.hidesOutside, other.hidesInside);
             if (asked == 0) continue;
             Mask apart = maskOf(0);
@@ -120,12 +120,11 @@ private:
             if (other.plane) {
                 const Vec3 n = other.plane->n;
                 const float lamp = dot(n, map_.lamp) + other.plane->offset;
-                const Floats rise =
-                    fma(Floats(n.x), lines_.dir[0],
-                        fma(Floats(n.y), lines_.dir[1], Floats(n.z) * lines_.dir[2]));
-                const Floats end = fma(rise, lines_.best, Floats(lamp));
-                if (lamp > 2 * map_.slack) apart = apart | (end > slack + slack);
-                if (lamp < -2 * map_.slack) apart = apart | (end < Floats(-2 * map_.slack));
+                // The point may be far outside of the scene.
+                const Floats room = fma(lines_.length, Floats(0x1p-18f), slack + slack);
+                const Floats rise = fma(along(n), lines_.best, Floats(lamp)), zero(0.0f);
+                if (lamp > 2 * map_.slack) apart = apart | (rise > room);
+                if (lamp < -2 * map_.slack) apart = apart | (rise < zero - room);
             }
             met |= asked & ~bits(apart);
         }
