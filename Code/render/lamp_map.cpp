@@ -6,9 +6,6 @@
 
 namespace {
 
-// Fewer are looked at without a map.
-constexpr std::size_t kFewestHulls = Occluders::kMost + 1;
-
 // All of it lies in a plane across an axis, from which the lamp is far: then it can't hide itself.
 bool isFlatAcross(const Bounds& box, Vec3 lamp, float extent) {
     for (std::size_t axis = 0; axis < 3; ++axis)
@@ -16,29 +13,6 @@ bool isFlatAcross(const Bounds& box, Vec3 lamp, float extent) {
             std::fabs(lamp[axis] - box.lo[axis]) > 0x1p-10f * max(extent, maxAbs(lamp)))
             return true;
     return false;
-}
-
-bool hasRoundHull(const SolidTree::Solid& solid) {
-    return solid.kind != SolidTree::Kind::Facets && solid.radius < kInfinityF &&
-           (!solid.isTube || solid.halfLength < kInfinityF);
-}
-
-// Much of the hull of a large thing is air, and lamps may be in it.
-bool isFloor(const SolidTree::Solid& solid, float extent) {
-    return solid.innerRadius == 0 && solid.radius > extent / 8;
-}
-
-// One does not hide itself from what is outside.
-bool isConvex(const SolidTree::Solid& solid, const ShapeSet& shapes) {
-    return solid.kind != SolidTree::Kind::Other ||
-           !shapes.shapes[solid.number]->hidesFromItself(false);
-}
-
-MappedShapes::Hull hullOf(const SolidTree::Solid& solid) {
-    const bool isFilled = solid.innerRadius > solid.radius * MappedShapes::kInner &&
-                          (!solid.isTube || solid.halfLength > 0);
-    return {solid.centre, isFilled ? solid.radius : -solid.radius,
-            solid.isTube ? solid.axis : Vec3{}, solid.isTube ? solid.halfLength : 0};
 }
 
 // What the picture shows of a hull, as tangents of angles to `ahead`, and how near it is.
@@ -249,42 +223,6 @@ private:
 };
 
 } // namespace
-
-std::optional<MappedShapes> MappedShapes::of(const ShapeSet& shapes) {
-    const auto& solids = shapes.solids().solids;
-    if (solids.size() < kFewestHulls || solids.size() >> LampMap::kHullBits != 0 ||
-        !shapes.placed().isEmpty())
-        return {};
-    MappedShapes out;
-    out.extent = shapes.extent;
-    const auto addOther = [&](std::uint32_t number) {
-        if (shapes.shadows[number] != ShapeSet::Shadow::Opaque) return true;
-        out.others.push_back(occluderOf(shapes, number));
-        return out.others.size() <= kMostOthers;
-    };
-    if (!std::all_of(shapes.unbounded.begin(), shapes.unbounded.end(), addOther) ||
-        !std::all_of(shapes.batched.begin(), shapes.batched.end(), addOther))
-        return {};
-    out.hulls.reserve(solids.size());
-    out.hullOf.assign(shapes.shapes.size(), kNoHull);
-    std::size_t filled = 0;
-    for (std::size_t i = 0; i < solids.size(); ++i) {
-        if (!solids[i].hides) continue;
-        if (solids[i].moves) return {};
-        if (!hasRoundHull(solids[i]) || isFloor(solids[i], shapes.extent)) {
-            if (!addOther(solids[i].number)) return {};
-            continue;
-        }
-        if (isConvex(solids[i], shapes))
-            out.hullOf[solids[i].number] = static_cast<std::uint32_t>(out.hulls.size());
-        out.hulls.push_back(::hullOf(solids[i]));
-        out.box.extend(shapes.boxes[solids[i].number]);
-        filled += out.hulls.back().radius > 0;
-    }
-    // Of the rest too many rays would have to be asked.
-    if (out.hulls.size() < kFewestHulls || filled < out.hulls.size() / 4 * 3) return {};
-    return out;
-}
 
 std::shared_ptr<const LampMap> makeLampMap(std::shared_ptr<const MappedShapes> shapes, Vec3 lamp) {
     auto map = std::make_shared<LampMap>();

@@ -5,41 +5,14 @@
 #pragma once
 
 #include "accel/kernels/kernels.h"
-#include "base/raw_vector.h"
-#include "light/point_emission.h"
-#include "render/occluders.h"
+#include "render/mapped_shapes.h"
 #include "render/waves/lamp_lanes.h"
 
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
-
-// The shapes of a scene as all maps of its lamps know them.
-struct MappedShapes {
-    // What is known of a solid, in half a line of the cache: RoundHull.
-    struct alignas(32) Hull {
-        Vec3 centre;
-        float radius; // negative: no inner one is known; else that is kInner of it
-        Vec3 axis;
-        float halfLength; // 0: a ball
-    };
-    static constexpr float kInner = 1 - 0x1p-17f;
-    static constexpr std::uint32_t kNoHull = 0xffffffffu;
-    static constexpr std::size_t kMostOthers = 4;
-
-    RawVector<Hull> hulls;
-    // By the number of the shape: what does not hide it from a lamp on its outside.
-    std::vector<std::uint32_t> hullOf;
-    Bounds box;                   // of the shapes with a hull
-    std::vector<Occluder> others; // the shapes without
-    float extent = 0;             // see ShapeSet
-
-    // Nothing: a map would not pay, or shapes move.
-    static std::optional<MappedShapes> of(const ShapeSet& shapes);
-};
 
 struct LampMap {
     std::shared_ptr<const MappedShapes> shapes;
@@ -55,7 +28,7 @@ struct LampMap {
 
     // lists[starts[cell]] up to starts[cell + 1]: what the rays of a cell may meet, nearest first.
     // Each is the number of a hull, and above kHullBits the step from the lamp that it starts in.
-    static constexpr int kHullBits = 20;
+    static constexpr int kHullBits = MappedShapes::kNumberBits;
     RawVector<std::uint32_t> starts, lists;
     float firstStep = 0, perStep = 0;
 
