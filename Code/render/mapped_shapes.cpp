@@ -50,17 +50,17 @@ std::optional<MappedShapes> MappedShapes::of(const ShapeSet& shapes) {
     out.hulls.reserve(solids.size());
     out.hullOf.assign(shapes.shapes.size(), kNoHull);
     std::size_t filled = 0;
-    for (std::size_t i = 0; i < solids.size(); ++i) {
-        if (!solids[i].hides) continue;
-        if (solids[i].moves) return {};
-        if (!hasRoundHull(solids[i]) || isFloor(solids[i], shapes.extent)) {
-            if (!addOther(solids[i].number)) return {};
+    for (const SolidTree::Solid& solid : solids) {
+        if (!solid.hides) continue;
+        if (solid.moves) return {};
+        if (!hasRoundHull(solid) || isFloor(solid, shapes.extent)) {
+            if (!addOther(solid.number)) return {};
             continue;
         }
-        if (isConvex(solids[i], shapes))
-            out.hullOf[solids[i].number] = static_cast<std::uint32_t>(out.hulls.size());
-        out.hulls.push_back(::hullOf(solids[i]));
-        out.box.extend(shapes.boxes[solids[i].number]);
+        if (isConvex(solid, shapes))
+            out.hullOf[solid.number] = static_cast<std::uint32_t>(out.hulls.size());
+        out.hulls.push_back(::hullOf(solid));
+        out.box.extend(shapes.boxes[solid.number]);
         filled += out.hulls.back().radius > 0;
     }
     // Of the rest too many rays would have to be asked.
