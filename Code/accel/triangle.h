@@ -4,8 +4,9 @@
 // function is never wrong, it can only be zero; zeros are decided in double, where the products of
 // two floats are exact, and what is zero there by one rule for all triangles. Both triangles of an
 // edge see the same bits: closed meshes do not leak.
-// Depth: of the triangle's plane, clamped to the triangle's own depth range and to the entry of its
-// own padded box, so that culling by boxes never removes the nearest hit.
+// Depth: of the triangle's plane, where that is seen edge-on no farther from the ray than the
+// triangle is, clamped to the triangle's own depth range and to the entry of its own padded box, so
+// that culling by boxes never removes the nearest hit.
 #pragma once
 
 #include "accel/ray_setup.h"
@@ -58,20 +59,59 @@ private:
     }
 };
 
-// 1/z where the ray meets the triangle's plane. In double: the cross product of long, nearly
-// parallel edges cancels, and a float plane of a needle is met anywhere along the needle, by rays
-// that leave it or that end on it. Double takes needles of 1e8. The direction as it is, not its
-// rounded slopes: those move the hit of a triangle that is seen edge-on far along the ray.
-inline float planeKey(const RaySetup& ray, Vec3 p0, Vec3 p1, Vec3 p2) {
-    const auto relative = [&](Vec3 p) {
+// Where a ray meets the triangle's plane. In double: the cross product of long, nearly parallel
+// edges cancels, and a float plane of a needle is met anywhere along the needle, by rays that leave
+// it or that end on it. Double takes needles of 1e8. The direction as it is, not its rounded
+// slopes: those move the hit of a triangle that is seen edge-on far along the ray.
+class TrianglePlane {
+public:
+    TrianglePlane(const RaySetup& ray, Vec3 p0, Vec3 p1, Vec3 p2)
+        : dir_{ray.dx, ray.dy, ray.dz}, v_{relative(ray, p0), relative(ray, p1), relative(ray, p2)},
+          n_(cross(v_[1] - v_[0], v_[2] - v_[0])), along_(dot(n_, dir_)) {}
+
+    float key() const { return static_cast<float>(along_ / (dot(n_, v_[0]) * dir_.z)); } // 1/z
+
+    // A ray that passes the triangle by a rounding, which ShearedTriangle can't know, meets the
+    // plane of one that it sees within 1/kSteep of edge-on far from it.
+    static constexpr double kSteep = 32;
+    bool isEdgeOn() const {
+        return !(kSteep * kSteep * (along_ * along_) >= dot(n_, n_) * dot(dir_, dir_));
+    }
+    // The key where the plane is met no nearer and no farther than the triangle's points are that
+    // are in one plane with the ray and the normal: what moves a ray by a rounding along the normal
+    // leaves them as they are, and changes only which of them is met. With room for the point that
+    // the ray meets by ShearedTriangle: that is 2^-24 (4 M + 2 b) beside the ray at most (M, b as
+    // in kernels/queue_exact.inl), and so 4.3 roundings of the largest coordinate nearer.
+    float keyInChord(float key) const {
+        const Vec3d across = cross(dir_, n_);
+        const double zPerDot = dir_.z / dot(dir_, dir_);
+        double z[3], beside[3], size = 0;
+        for (int i = 0; i < 3; ++i) {
+            z[i] = dot(v_[i], dir_) * zPerDot, beside[i] = dot(v_[i], across);
+            size = max(size, maxAbs(v_[i]));
+        }
+        double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
+        for (int i = 0; i < 3; ++i) {
+            const int j = (i + 1) % 3;
+            if ((beside[i] < 0) == (beside[j] < 0)) continue;
+            const double depth = z[i] + (z[j] - z[i]) * (beside[i] / (beside[i] - beside[j]));
+            nearest = min(nearest, depth), farthest = max(farthest, depth);
+        }
+        const double room = 6 * 0x1p-24 * size;
+        nearest -= room, farthest += room;
+        if (farthest > 0) key = max(key, static_cast<float>(1 / farthest));
+        return nearest > 0 && farthest > 0 ? min(key, static_cast<float>(1 / nearest)) : key;
+    }
+
+private:
+    static Vec3d relative(const RaySetup& ray, Vec3 p) {
         const Vec3d q = toDouble(p) - toDouble(ray.org);
-        return Vec3d{q[ray.kx], q[ray.ky], q[ray.k] * static_cast<double>(ray.sign)};
-    };
-    const Vec3d v0 = relative(p0);
-    const Vec3d n = cross(relative(p1) - v0, relative(p2) - v0);
-    const Vec3d dir{ray.dx, ray.dy, ray.dz};
-    return static_cast<float>(dot(n, dir) / (dot(n, v0) * static_cast<double>(ray.dz)));
-}
+        return {q[ray.kx], q[ray.ky], q[ray.k] * static_cast<double>(ray.sign)};
+    }
+
+    Vec3d dir_, v_[3], n_; // lateral x, lateral y, depth
+    double along_;
+};
 
 // Key of the hit, 1/z: the larger, the nearer. 0 when the ray misses the triangle.
 inline float canonicalKey(const RaySetup& ray, Vec3 v0, Vec3 v1, Vec3 v2) {
@@ -83,10 +123,12 @@ inline float canonicalKey(const RaySetup& ray, Vec3 v0, Vec3 v1, Vec3 v2) {
     const float zMax = max(v[0].z, max(v[1].z, v[2].z));
     if (!(zMax > 0)) return 0;
 
-    const float plane = planeKey(ray, v0, v1, v2);
-    if (!(zMin > 0) && !(plane > 0)) return 0; // straddles the origin and is met behind it
+    const TrianglePlane plane(ray, v0, v1, v2);
+    float key = plane.key();
+    if (!(zMin > 0) && !(key > 0)) return 0; // straddles the origin and is met behind it
+    if (plane.isEdgeOn()) key = plane.keyInChord(key);
     const float nearest = zMin > 0 ? 1.0f / zMin : std::numeric_limits<float>::infinity();
-    float key = min(max(plane, 1.0f / zMax), nearest);
+    key = min(max(key, 1.0f / zMax), nearest);
 
     // Entry into and exit from the triangle's own box on the two lateral axes.
     const float xLo = min(v[0].x, min(v[1].x, v[2].x));

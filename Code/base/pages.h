@@ -2,18 +2,17 @@
 // elements are not zeroed before that, and memory comes in pages of 2 MB where the system has them:
 // the first touch of each 4 KB otherwise is half of what building a tree costs. Only where a whole
 // one is asked for: the system zeroes all of a page, and where memory is virtual the host may have
-// to find it first, which takes up to 5 us for each 4 KB, needed or not.
+// to find it first, which takes up to 5 us for each 4 KB, needed or not. For the same reason arrays
+// of a few pages begin where there is room, best in what others have left, and not with a page.
 #pragma once
+
+#include "base/large_pages.h"
 
 #include <cstddef>
 #include <memory>
 #include <new>
 #include <utility>
 #include <vector>
-
-#if defined(__linux__)
-#include <sys/mman.h>
-#endif
 
 inline constexpr std::size_t kLargePage = std::size_t{1} << 21;
 
@@ -22,20 +21,19 @@ template <class T> struct PageAllocator {
     PageAllocator() = default;
     template <class U> PageAllocator(const PageAllocator<U>&) {}
 
-    // Small arrays stay where all others are.
-    static bool isLarge(std::size_t bytes) { return bytes >= kLargePage; }
+    // What the rest of a page costs is little to these.
+    static bool beginsAPage(std::size_t bytes) { return bytes >= 8 * kLargePage; }
 
     T* allocate(std::size_t count) {
         const std::size_t bytes = count * sizeof(T);
-        if (!isLarge(bytes)) return std::allocator<T>().allocate(count);
-        void* const p = ::operator new (bytes, std::align_val_t{kLargePage});
-#if defined(__linux__)
-        madvise(p, bytes / kLargePage * kLargePage, MADV_HUGEPAGE); // advice: it works without
-#endif
-        return static_cast<T*>(p);
+        T* const p = beginsAPage(bytes)
+                         ? static_cast<T*>(::operator new (bytes, std::align_val_t{kLargePage}))
+                         : std::allocator<T>().allocate(count);
+        if (bytes >= kLargePage) adviseLargePages(p, bytes);
+        return p;
     }
     void deallocate(T* p, std::size_t count) {
-        if (!isLarge(count * sizeof(T))) return std::allocator<T>().deallocate(p, count);
+        if (!beginsAPage(count * sizeof(T))) return std::allocator<T>().deallocate(p, count);
         ::operator delete (p, std::align_val_t{kLargePage});
     }
     // resize(n) leaves new elements of plain types as they are.

@@ -3,6 +3,7 @@
 
 #include "base/hit.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstddef>
@@ -32,14 +33,11 @@ struct alignas(64) SurfaceBlock {
         set(ns, i, s.ns), set(lift, i, s.lift);
         curved |= bit;
     }
-    // One whose normals are that of the geometry, without texture coordinates.
-    void putFlat(std::size_t i, Vec3 at, Vec3 normal, float bound, std::uint32_t of,
-                 std::uint32_t part) {
-        set(p, i, at), set(ng, i, normal);
-        uv[0][i] = uv[1][i] = 0;
-        error[i] = bound, rayError[i] = 0;
-        material[i] = of, object[i] = part;
-        curved &= ~(1u << i);
+    // Before its points are put one by one: those that lanes write have normals of the geometry
+    // only, and no texture coordinates.
+    void clear() {
+        for (float* const lane : {uv[0], uv[1], rayError}) std::fill_n(lane, kPoints, 0.0f);
+        curved = 0;
     }
     bool isCurved(std::size_t i) const { return (curved >> i & 1) != 0; }
     Surface at(std::size_t i) const {

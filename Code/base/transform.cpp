@@ -69,6 +69,29 @@ struct Determinant {
     double value = 0, products = 0;
 };
 
+// Most things are moved and scaled along the axes and no more: zeros beside the diagonal, none of
+// them negative, and numbers above zero on it.
+bool isScaling(const Rows& m) {
+    std::uint64_t others = 0;
+    for (const std::size_t i : {1u, 2u, 4u, 6u, 8u, 9u})
+        others |= std::bit_cast<std::uint64_t>(m[i]);
+    return others == 0 && m[0] > 0 && m[5] > 0 && m[10] > 0;
+}
+
+// The Determinant of such a map, in the same bits: products with its zeros add nothing.
+struct ScalingDeterminant {
+    ScalingDeterminant(const Rows& m, const PowerOfTwo& scaled) {
+        const double x = scaled(m[0]), y = scaled(m[5]), z = scaled(m[10]);
+        cofactor = {y * z, z * x, x * y};
+        value = x * cofactor.x;
+        products = x * y * z;
+    }
+    bool isCertain() const { return value > 8 * 0x1p-53 * products; }
+
+    Vec3d cofactor; // those of the diagonal
+    double value = 0, products = 0;
+};
+
 Vec3d unit(Vec3d v) {
     const double size = maxAbs(v); // first, so that squares neither overflow nor underflow
     return normalize(v / size);
@@ -82,16 +105,25 @@ Transform Transform::fromRows(const Rows& rows) {
     const double largest = largestLinear(rows);
     if (largest == 0) return singular();
     const PowerOfTwo scaled(largest);
-    const Determinant d(rows, scaled);
-    if (!d.isCertain()) return singular();
-    const auto entry = [&](std::size_t i) { return scaled(d.cofactor[i] / d.value); };
-    Rows inverse{entry(0), entry(3), entry(6), 0,        entry(1), entry(4),
-                 entry(7), 0,        entry(2), entry(5), entry(8), 0};
+    Rows inverse{};
+    bool mirrors = false;
+    if (isScaling(rows)) {
+        const ScalingDeterminant d(rows, scaled);
+        if (!d.isCertain()) return singular();
+        for (std::size_t i = 0; i < 3; ++i) inverse[5 * i] = scaled(d.cofactor[i] / d.value);
+    } else {
+        const Determinant d(rows, scaled);
+        if (!d.isCertain()) return singular();
+        for (std::size_t i = 0; i < 3; ++i)
+            for (std::size_t k = 0; k < 3; ++k)
+                inverse[4 * k + i] = scaled(d.cofactor[3 * i + k] / d.value);
+        mirrors = d.value < 0;
+    }
     for (const std::size_t i : {0u, 4u, 8u})
         inverse[i + 3] =
             -(inverse[i] * rows[3] + inverse[i + 1] * rows[7] + inverse[i + 2] * rows[11]);
     if (!isFinite(inverse)) return singular();
-    return {rows, inverse, d.value < 0, false};
+    return {rows, inverse, mirrors, false};
 }
 
 Transform::Orientation Transform::orientationOf(const Rows& rows) {
@@ -99,6 +131,9 @@ Transform::Orientation Transform::orientationOf(const Rows& rows) {
     double farthest = 0; // NaN where a number is none
     for (const std::size_t i : {3u, 7u, 11u}) farthest += std::fabs(rows[i]);
     if (largest > 0x1p-250 && largest < 0x1p250 && farthest < 0x1p250) {
+        constexpr double kLeast = 0x1p-80; // and no product is too small
+        if (isScaling(rows) && largest < 0x1p80 && min(rows[0], min(rows[5], rows[10])) > kLeast)
+            return Orientation::Kept;
         const Determinant d(rows, PowerOfTwo(largest));
         // Cofactors are below 2: so the inverse's numbers are below 2^501, its offsets finite.
         if (std::fabs(d.value) > 0x1p-250 && d.isCertain())

@@ -51,14 +51,23 @@ Ray Camera::rayFrom(const Axes& axes, Vec2d pixel, Vec2 lens, float time) const 
     return ray;
 }
 
-std::optional<Camera::RoundLens> Camera::roundLens() const {
+Camera::RoundLens Camera::lens() const {
     const CameraParams& p = params_;
-    if (p.kind != CameraParams::Kind::Perspective || isMoving() || !hasLens() ||
-        p.apertureBlades >= 3)
-        return {};
     return RoundLens{atRest_.right,   atRest_.up, atRest_.forward, atRest_.eye,
                      topLeft_,        step_,      p.focusDistance, p.apertureRadius,
                      p.apertureRatio, p.clipStart};
+}
+
+std::optional<Camera::RoundLens> Camera::roundLens() const {
+    if (params_.kind != CameraParams::Kind::Perspective || isMoving() || !hasLens() ||
+        params_.apertureBlades >= 3)
+        return {};
+    return lens();
+}
+
+std::optional<Camera::RoundLens> Camera::pinhole() const {
+    if (!hasSharedOrigin()) return {};
+    return lens();
 }
 
 // Two places at a time in registers of the compiler's, in the steps of lineFrom() and normalize().

@@ -53,6 +53,8 @@ public:
         double focusDistance, apertureRadius, apertureRatio, clipStart;
     };
     std::optional<RoundLens> roundLens() const;
+    // The same for a camera whose rays start in one point: its lens has no size.
+    std::optional<RoundLens> pinhole() const;
 
     // What ray() rounds: for cameras without a lens at rest, the line of a place in the picture.
     struct Line {
@@ -77,6 +79,7 @@ private:
     struct Axes {
         Vec3d right, up, forward, eye;
     };
+    RoundLens lens() const;
     static Axes axesOf(const Transform& worldFromCamera);
     Axes axesAt(float time) const {
         return isMoving() ? axesOf(params_.worldFromCamera.at(static_cast<double>(time))) : atRest_;

@@ -115,77 +115,50 @@ private:
 
 } // namespace
 
+// clang-format off
 std::vector<Flag> benchFlags(BenchOptions& o) {
-    const std::string group = "options";
+    std::vector<Flag> flags;
+    FlagGroup group(flags, "options");
     std::vector<std::string> kernels = kernelNames();
     kernels.insert(kernels.begin(), "auto");
-    const std::vector<std::string> views = {"outside", "inside"}; // as BenchView
+    group.add({.name = "--kernel", .argument = join(kernels, "|"),
+               .help = "machine code for the search (auto)",
+               .set = [&o, kernels](const FlagValue& v) { o.kernel = kernels[v.choice(kernels)]; },
+               .choices = kernels, .example = "scalar"});
+    group.add({.name = "--threads", .alias = "-t", .argument = "N",
+               .help = "how many share the work (1)",
+               .set = [&o](const FlagValue& v) { o.threads = v.whole(1, 1024); },
+               .example = "2"});
     const std::vector<std::string> trees = {"fast", "best"};
-    return {
-        {.name = "--kernel",
-         .argument = join(kernels, "|"),
-         .help = "machine code for the search (auto)",
-         .group = group,
-         .set = [&o, kernels](const FlagValue& v) { o.kernel = kernels[v.choice(kernels)]; },
-         .value = Flag::Value::Required,
-         .choices = kernels,
-         .example = "scalar"},
-        {.name = "--threads",
-         .alias = "-t",
-         .argument = "N",
-         .help = "how many share the work (1)",
-         .group = group,
-         .set = [&o](const FlagValue& v) { o.threads = v.whole(1, 1024); },
-         .value = Flag::Value::Required,
-         .example = "2"},
-        {.name = "--tree",
-         .argument = join(trees, "|"),
-         .help = "the tree that is built soonest or the one that is traced soonest (fast)",
-         .group = group,
-         .set = [&o, trees](const FlagValue& v) { o.bestTree = v.choice(trees) == 1; },
-         .value = Flag::Value::Required,
-         .choices = trees,
-         .example = "best"},
-        {.name = "--runs",
-         .argument = "N",
-         .help = "timed runs of each set, behind one that is not timed (5)",
-         .group = group,
-         .set = [&o](const FlagValue& v) { o.runs = v.whole(1, 1000); },
-         .value = Flag::Value::Required,
-         .example = "3"},
-        {.name = "--view",
-         .argument = join(views, "|"),
-         .help = "where the camera is: before the box around the mesh, or in it (outside)",
-         .group = group,
-         .set = [&o,
-                 views](const FlagValue& v) { o.view = static_cast<BenchView>(v.choice(views)); },
-         .value = Flag::Value::Required,
-         .choices = views,
-         .example = "inside"},
-        {.name = "--uv",
-         .help = "nearest hits a second time, with u and v as well as t and triangle",
-         .group = group,
-         .set = [&o](const FlagValue&) { o.uv = true; }},
-        {.name = "--picture",
-         .help = "a whole picture too, or not",
-         .group = group,
-         .set = [&o](const FlagValue& v) { o.picture = v.on; },
-         .negatable = true},
-        {.name = "--write-rays",
-         .argument = "FILE",
-         .help = "writes mesh and rays for another program, and measures nothing",
-         .group = group,
-         .set = [&o](const FlagValue& v) { o.raysFile = v.nonEmpty("the name of a file"); },
-         .value = Flag::Value::Required,
-         .files = Flag::Files::Any,
-         .example = "bunny.rays"},
-        {.name = "--help",
-         .alias = "-h",
-         .help = "this text",
-         .group = group,
-         .set = [&o](const FlagValue&) { o.help = true; }},
-    };
+    group.add({.name = "--tree", .argument = join(trees, "|"),
+               .help = "the tree that is built soonest or the one that is traced soonest (fast)",
+               .set = [&o, trees](const FlagValue& v) { o.bestTree = v.choice(trees) == 1; },
+               .choices = trees, .example = "best"});
+    group.add({.name = "--runs", .argument = "N",
+               .help = "timed runs of each set, behind one that is not timed (5)",
+               .set = [&o](const FlagValue& v) { o.runs = v.whole(1, 1000); },
+               .example = "3"});
+    const std::vector<std::string> views = {"outside", "inside"}; // as BenchView
+    group.add({.name = "--view", .argument = join(views, "|"),
+               .help = "where the camera is: before the box around the mesh, or in it (outside)",
+               .set = [&o, views](const FlagValue& v) {
+                   o.view = static_cast<BenchView>(v.choice(views));
+               },
+               .choices = views, .example = "inside"});
+    group.add({.name = "--uv",
+               .help = "nearest hits a second time, with u and v as well as t and triangle",
+               .set = [&o](const FlagValue&) { o.uv = true; }});
+    group.add({.name = "--picture", .help = "a whole picture too, or not",
+               .set = [&o](const FlagValue& v) { o.picture = v.on; }, .negatable = true});
+    group.add({.name = "--write-rays", .argument = "FILE",
+               .help = "writes mesh and rays for another program, and measures nothing",
+               .set = [&o](const FlagValue& v) { o.raysFile = v.nonEmpty("the name of a file"); },
+               .files = Flag::Files::Any, .example = "bunny.rays"});
+    group.add({.name = "--help", .alias = "-h", .help = "this text",
+               .set = [&o](const FlagValue&) { o.help = true; }});
+    return flags;
 }
+// clang-format on
 
 BenchOptions parseBenchOptions(std::span<const std::string> arguments) {
     BenchOptions options;

@@ -31,14 +31,7 @@ template <int W> struct WideView {
     }
     template <class Fn> void forEachChild(WideRef at, Fn&& child) const {
         const auto& node = tree.at<WideNode<W>>(at);
-        for (std::size_t i = 0; i < W; ++i) {
-            Bounds box;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                box.lo[axis] = node.plane[axis][0][i];
-                box.hi[axis] = node.plane[axis][1][i];
-            }
-            child(node.child[i], box);
-        }
+        for (std::size_t i = 0; i < W; ++i) child(node.child[i], node.box(i));
     }
 };
 

@@ -9,8 +9,6 @@
 
 namespace {
 
-constexpr Flag::Value kRequired = Flag::Value::Required;
-
 std::vector<std::string> metricNames() {
     std::vector<std::string> names;
     for (const Metric& metric : metrics()) names.emplace_back(metric.name);
@@ -20,20 +18,19 @@ std::vector<std::string> metricNames() {
 // NAME,NAME,...
 void setMetrics(DiffOptions& o, const FlagValue& value) {
     o.metrics.clear();
-    std::string_view rest = value.text;
-    while (true) {
-        const std::size_t comma = rest.find(',');
-        o.metrics.push_back(
-            metricNames()[FlagValue{value.flag, rest.substr(0, comma)}.choice(metricNames())]);
-        if (comma == std::string_view::npos) return;
-        rest.remove_prefix(comma + 1);
-    }
+    const std::vector<std::string> names = metricNames();
+    for (const FlagValue& word : value.words()) o.metrics.push_back(names[word.choice(names)]);
 }
 
 const Metric& metricNamed(const std::string& name) {
     const auto all = metrics();
     return *std::find_if(all.begin(), all.end(),
                          [&](const Metric& metric) { return metric.name == name; });
+}
+
+void setOutput(DiffOptions& o, const FlagValue& value) {
+    o.output = value.nonEmpty("the name of a file");
+    if (!hasPictureExtension(o.output)) value.wrong("a name that ends in .ppm, .png or .pfm");
 }
 
 std::string metricsHelp() {
@@ -45,48 +42,27 @@ std::string metricsHelp() {
 
 } // namespace
 
+// clang-format off
 std::vector<Flag> diffFlags(DiffOptions& o) {
-    const std::string group = "options";
-    return {
-        {.name = "--metric",
-         .alias = "-m",
-         .argument = "NAME,...",
-         .help = metricsHelp(),
-         .group = group,
-         .set = [&o](const FlagValue& v) { setMetrics(o, v); },
-         .value = kRequired,
-         .choices = metricNames(),
-         .example = "psnr"},
-        {.name = "--tol",
-         .alias = "-t",
-         .argument = "X",
-         .help = "exit code 5 when the metric is worse than X: above it, or below it where more is "
-                 "better",
-         .group = group,
-         .set = [&o](const FlagValue& v) { o.tolerance = v.number(-1e9, 1e9); },
-         .value = kRequired,
-         .example = "0.5"},
-        {.name = "--output",
-         .alias = "-o",
-         .argument = "FILE",
-         .help = "writes |A - B| as .ppm, .png or .pfm",
-         .group = group,
-         .set =
-             [&o](const FlagValue& v) {
-                 o.output = v.nonEmpty("the name of a file");
-                 if (!hasPictureExtension(o.output))
-                     v.wrong("a name that ends in .ppm, .png or .pfm");
-             },
-         .value = kRequired,
-         .files = Flag::Files::Any,
-         .example = "diff.png"},
-        {.name = "--help",
-         .alias = "-h",
-         .help = "this text",
-         .group = group,
-         .set = [&o](const FlagValue&) { o.help = true; }},
-    };
+    std::vector<Flag> flags;
+    FlagGroup group(flags, "options");
+    group.add({.name = "--metric", .alias = "-m", .argument = "NAME,...", .help = metricsHelp(),
+               .set = [&o](const FlagValue& v) { setMetrics(o, v); },
+               .choices = metricNames(), .example = "psnr"});
+    group.add({.name = "--tol", .alias = "-t", .argument = "X",
+               .help = "exit code 5 when the metric is worse than X: above it, or below it where "
+                       "more is better",
+               .set = [&o](const FlagValue& v) { o.tolerance = v.number(-1e9, 1e9); },
+               .example = "0.5"});
+    group.add({.name = "--output", .alias = "-o", .argument = "FILE",
+               .help = "writes |A - B| as .ppm, .png or .pfm",
+               .set = [&o](const FlagValue& v) { setOutput(o, v); },
+               .files = Flag::Files::Any, .example = "diff.png"});
+    group.add({.name = "--help", .alias = "-h", .help = "this text",
+               .set = [&o](const FlagValue&) { o.help = true; }});
+    return flags;
 }
+// clang-format on
 
 DiffOptions parseDiffOptions(std::span<const std::string> arguments) {
     DiffOptions options;

@@ -127,6 +127,23 @@ std::string FlagValue::nonEmpty(std::string_view expected) const {
     return std::string(text);
 }
 
+std::vector<FlagValue> FlagValue::words() const {
+    std::vector<FlagValue> values;
+    for (std::string_view rest = text;;) {
+        const std::size_t comma = rest.find(',');
+        values.push_back({flag, rest.substr(0, comma), on});
+        if (comma == std::string_view::npos) return values;
+        rest.remove_prefix(comma + 1);
+    }
+}
+
+void FlagGroup::add(Flag flag) {
+    flag.group = name_;
+    if (!flag.argument.empty() && flag.value == Flag::Value::None)
+        flag.value = Flag::Value::Required;
+    flags_.push_back(std::move(flag));
+}
+
 std::vector<std::string> parseFlags(std::span<const Flag> flags,
                                     std::span<const std::string> arguments) {
     std::vector<std::string> others;

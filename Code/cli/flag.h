@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 // Fails with ErrorKind::Usage: "raytracer: error: what" and where to find help.
@@ -32,6 +33,8 @@ struct FlagValue {
     // Position in the list of choices.
     std::size_t choice(std::span<const std::string> choices) const;
     std::string nonEmpty(std::string_view expected) const;
+    // Of WORD,WORD,... each word, as a value of the same flag.
+    std::vector<FlagValue> words() const;
 };
 
 struct Flag {
@@ -53,6 +56,17 @@ struct Flag {
     std::string example = {};              // a right value; tests use every flag with it
 
     std::string negatedName() const { return "--no-" + name.substr(2); }
+};
+
+// Adds rows to one group of --help. An argument is required unless the row says otherwise.
+class FlagGroup {
+public:
+    FlagGroup(std::vector<Flag>& flags, std::string name) : flags_(flags), name_(std::move(name)) {}
+    void add(Flag flag);
+
+private:
+    std::vector<Flag>& flags_;
+    std::string name_;
 };
 
 // Calls the setters in the order of the arguments and returns what is no option. "--" ends the

@@ -87,6 +87,12 @@ void expose(Image& image, double ev) {
         pixel = {exposed(pixel.r), exposed(pixel.g), exposed(pixel.b)};
 }
 
+bool needsOnlyCodes(const RenderSettings& settings, const Options& options,
+                    const std::string& output) {
+    return options.bits.value_or(8) == 8 && settings.picture.exposureEv == 0 && !options.cropPad &&
+           !options.preview && lowerExtension(output) != ".pfm";
+}
+
 void writePicture(Picture picture, const RenderSettings& settings, const Options& options,
                   const std::string& output) {
     expose(picture.color, settings.picture.exposureEv);
@@ -95,11 +101,16 @@ void writePicture(Picture picture, const RenderSettings& settings, const Options
         for (AovImage& aov : picture.aovs) aov.image = padded(aov.image, settings.picture);
     }
     const Encoding encoding = encodingOf(settings, options);
+    const bool isCoded = !picture.codes.isEmpty();
     if (output == "-") {
-        const auto bytes = encodeImage(picture.color, "ppm", encoding, settings.threads);
+        const auto bytes = isCoded ? encodeImage(picture.codes, "ppm", settings.threads)
+                                   : encodeImage(picture.color, "ppm", encoding, settings.threads);
         return writeStdout({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     }
-    picture.color.write(output, encoding, settings.threads);
+    if (isCoded)
+        picture.codes.write(output, settings.threads);
+    else
+        picture.color.write(output, encoding, settings.threads);
     for (const AovImage& aov : picture.aovs)
         aov.image.write(aovFileName(output, aov.aov), {}, settings.threads);
 }

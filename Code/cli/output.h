@@ -33,6 +33,10 @@ Image padded(const Image& crop, const SettingsDesc& picture);
 // Times 2^EV; what would be infinite becomes the largest float.
 void expose(Image& image, double ev);
 
+// Is RenderSettings::onlyCodes all that writePicture() needs?
+bool needsOnlyCodes(const RenderSettings& settings, const Options& options,
+                    const std::string& output);
+
 // Exposure and padding are applied, then the picture and its AOVs are written, each atomically; "-"
 // writes a PPM to stdout.
 void writePicture(Picture picture, const RenderSettings& settings, const Options& options,

@@ -98,13 +98,9 @@ void setFilter(Options& o, const FlagValue& value) {
 // NAME,NAME,...
 void setAovs(Options& o, const FlagValue& value) {
     o.aovs.clear();
-    std::string_view rest = value.text;
-    while (true) {
-        const std::size_t comma = rest.find(',');
-        const Aov aov = enumValue<Aov>({value.flag, rest.substr(0, comma)});
+    for (const FlagValue& word : value.words()) {
+        const Aov aov = enumValue<Aov>(word);
         if (std::find(o.aovs.begin(), o.aovs.end(), aov) == o.aovs.end()) o.aovs.push_back(aov);
-        if (comma == std::string_view::npos) return;
-        rest.remove_prefix(comma + 1);
     }
 }
 
@@ -130,27 +126,11 @@ void setConvert(Options& o, const FlagValue& value) {
     setAction(o, Action::Convert, value);
 }
 
-// Adds rows to one group of --help. An argument is required unless the row says otherwise.
-class Group {
-public:
-    Group(std::vector<Flag>& flags, std::string name) : flags_(flags), name_(std::move(name)) {}
-    void add(Flag flag) {
-        flag.group = name_;
-        if (!flag.argument.empty() && flag.value == Flag::Value::None)
-            flag.value = Flag::Value::Required;
-        flags_.push_back(std::move(flag));
-    }
-
-private:
-    std::vector<Flag>& flags_;
-    std::string name_;
-};
-
 // One row per option, not one line per member.
 // clang-format off
 
 void addPictureFlags(std::vector<Flag>& flags, Options& o) {
-    Group group(flags, "picture");
+    FlagGroup group(flags, "picture");
     group.add({.name = "--resolution", .alias = "-r", .argument = "WxH", .help = "size in pixels",
                .set = [&o](const FlagValue& v) { setResolution(o, v); }, .example = "12x8"});
     group.add({.name = "--scale", .argument = "PCT",
@@ -193,7 +173,7 @@ void addPictureFlags(std::vector<Flag>& flags, Options& o) {
 }
 
 void addSceneFlags(std::vector<Flag>& flags, Options& o) {
-    Group group(flags, "scene");
+    FlagGroup group(flags, "scene");
     group.add({.name = "--lenient",
                .help = "JSON: what is not known is skipped with a warning instead of an error",
                .set = [&o](const FlagValue&) { o.read.lenient = true; }});
@@ -209,7 +189,7 @@ void addSceneFlags(std::vector<Flag>& flags, Options& o) {
 }
 
 void addFeatureFlags(std::vector<Flag>& flags, Options& o) {
-    Group group(flags, kFeatureGroup);
+    FlagGroup group(flags, kFeatureGroup);
     const auto add = [&](const char* name, bool Switches::* member, const char* help) {
         group.add({.name = name, .help = help,
                    .set = [&o, member](const FlagValue& v) { o.switches.*member = v.on; },
@@ -234,7 +214,7 @@ void addFeatureFlags(std::vector<Flag>& flags, Options& o) {
 }
 
 void addQualityFlags(std::vector<Flag>& flags, Options& o) {
-    Group group(flags, "quality");
+    FlagGroup group(flags, "quality");
     group.add({.name = "--spp", .alias = "-s", .argument = "N",
                .help = "samples per pixel; powers of two are best",
                .set = [&o](const FlagValue& v) { o.samplesPerPixel = wholeLike("samples", v); },
@@ -269,7 +249,7 @@ void addQualityFlags(std::vector<Flag>& flags, Options& o) {
 }
 
 void addMethodFlags(std::vector<Flag>& flags, Options& o) {
-    Group group(flags, "method");
+    FlagGroup group(flags, "method");
     group.add({.name = "--integrator", .alias = "-i", .argument = alternatives<IntegratorKind>(),
                .help = "what a pixel shows (whitted)",
                .set = [&o](const FlagValue& v) { o.integrator = enumValue<IntegratorKind>(v); },
@@ -303,7 +283,7 @@ void addMethodFlags(std::vector<Flag>& flags, Options& o) {
 }
 
 void addOutputFlags(std::vector<Flag>& flags, Options& o) {
-    Group group(flags, "output");
+    FlagGroup group(flags, "output");
     group.add({.name = "--output", .alias = "-o", .argument = "FILE",
                .help = "the same as OUTPUT: .ppm, .png or .pfm; - is a PPM on stdout "
                        "(Output/SCENE.ppm)",
@@ -339,7 +319,7 @@ void addOutputFlags(std::vector<Flag>& flags, Options& o) {
 }
 
 void addActionFlags(std::vector<Flag>& flags, Options& o) {
-    Group group(flags, kActionGroup);
+    FlagGroup group(flags, kActionGroup);
     const auto add = [&](const char* name, const char* alias, Action action, const char* help) {
         group.add({.name = name, .alias = alias, .help = help,
                    .set = [&o, action](const FlagValue& v) { setAction(o, action, v); }});

@@ -138,12 +138,13 @@ void printStats(const Stats& stats, const Options& options) {
     if (options.stats == Options::StatsFormat::Json) writeStdout(statsJson(stats));
 }
 
-ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, const RenderSettings& settings,
+ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings settings,
                      const Options& options, Stopwatch& watch, Stats& stats, Step& step) {
     checkPixelCount(settings.picture, options.cropPad);
     const std::string output = preparedOutput(options);
     if (output != "-") checkWritable(output);
     for (const Aov aov : settings.aovs) checkWritable(aovFileName(output, aov));
+    settings.onlyCodes = needsOnlyCodes(settings, options, output);
     printAdvice(settings, options);
 
     step = {"building the scene", ExitCode::Input};
@@ -239,7 +240,8 @@ ExitCode runScene(const Options& options, Step& step) {
     if (isTooStrict(options, diagnostics)) return ExitCode::StrictWarnings;
     if (options.action == Action::Convert) return convert(loaded, options);
     if (options.action == Action::Render)
-        return renderScene(std::move(loaded), pictures, settings, options, watch, stats, step);
+        return renderScene(std::move(loaded), pictures, std::move(settings), options, watch, stats,
+                           step);
 
     step = {"building the scene", ExitCode::Input};
     settings.accel = AccelKind::None; // nothing is traced

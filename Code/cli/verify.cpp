@@ -44,56 +44,35 @@ std::vector<Row> chosenRows(const VerifyOptions& options) {
 
 } // namespace
 
+// clang-format off
 std::vector<Flag> verifyFlags(VerifyOptions& o) {
-    const std::string group = "options";
-    return {
-        {.name = "--effort",
-         .alias = "-e",
-         .argument = "X",
-         .help = "how many cases: X times those of make test (4)",
-         .group = group,
-         .set = [&o](const FlagValue& v) { o.effort = v.number(0.01, 1e6); },
-         .value = Flag::Value::Required,
-         .example = "0.01"},
-        {.name = "--threads",
-         .alias = "-t",
-         .argument = "N",
-         .help = "0: all that the machine has; the findings are the same (0)",
-         .group = group,
-         .set = [&o](const FlagValue& v) { o.threads = v.whole(0, 1024); },
-         .value = Flag::Value::Required,
-         .example = "2"},
-        {.name = "--batch",
-         .alias = "-b",
-         .argument = "N",
-         .help = "only batch N of each TEST, as the line of a case names it",
-         .group = group,
-         .set = [&o](const FlagValue& v) { o.batch = v.whole(0, 1'000'000'000); },
-         .value = Flag::Value::Required,
-         .example = "7"},
-        {.name = "--all",
-         .help = "also the tests that take long",
-         .group = group,
-         .set = [&o](const FlagValue&) { o.all = true; }},
-        {.name = "--list",
-         .help = "names the tests and runs none",
-         .group = group,
-         .set = [&o](const FlagValue&) { o.list = true; }},
-        {.name = "--markdown",
-         .argument = "FILE",
-         .help = "writes the table as a page as well",
-         .group = group,
-         .set = [&o](const FlagValue& v) { o.markdown = v.nonEmpty("the name of a file"); },
-         .value = Flag::Value::Required,
-         .files = Flag::Files::Any,
-         .example = "STRESS.md"},
-        {.name = "--help",
-         .alias = "-h",
-         .help = "this text",
-         .group = group,
-         .set = [&o](const FlagValue&) { o.help = true; }},
-    };
+    std::vector<Flag> flags;
+    FlagGroup group(flags, "options");
+    group.add({.name = "--effort", .alias = "-e", .argument = "X",
+               .help = "how many cases: X times those of make test (4)",
+               .set = [&o](const FlagValue& v) { o.effort = v.number(0.01, 1e6); },
+               .example = "0.01"});
+    group.add({.name = "--threads", .alias = "-t", .argument = "N",
+               .help = "0: all that the machine has; the findings are the same (0)",
+               .set = [&o](const FlagValue& v) { o.threads = v.whole(0, 1024); },
+               .example = "2"});
+    group.add({.name = "--batch", .alias = "-b", .argument = "N",
+               .help = "only batch N of each TEST, as the line of a case names it",
+               .set = [&o](const FlagValue& v) { o.batch = v.whole(0, 1'000'000'000); },
+               .example = "7"});
+    group.add({.name = "--all", .help = "also the tests that take long",
+               .set = [&o](const FlagValue&) { o.all = true; }});
+    group.add({.name = "--list", .help = "names the tests and runs none",
+               .set = [&o](const FlagValue&) { o.list = true; }});
+    group.add({.name = "--markdown", .argument = "FILE",
+               .help = "writes the table as a page as well",
+               .set = [&o](const FlagValue& v) { o.markdown = v.nonEmpty("the name of a file"); },
+               .files = Flag::Files::Any, .example = "STRESS.md"});
+    group.add({.name = "--help", .alias = "-h", .help = "this text",
+               .set = [&o](const FlagValue&) { o.help = true; }});
+    return flags;
 }
+// clang-format on
 
 std::vector<std::string> verifyTests() {
     std::vector<std::string> ids;

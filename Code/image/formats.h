@@ -4,6 +4,7 @@
 
 #include "image/image.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -17,12 +18,35 @@ StoredImage decodePpm(Bytes file, const std::string& name);
 StoredImage decodePfm(Bytes file, const std::string& name);
 StoredImage decodePng(Bytes file, const std::string& name);
 
-void encodePpm(const Image& image, Encoding encoding, int threads, const ByteSink& use);
+// Pixels as 8-bit or 16-bit (high byte first) codes; `out` has 3 * bits / 8 bytes per pixel.
+void encodePixels(std::span<const Rgb> pixels, Encoding encoding, std::span<std::uint8_t> out);
+
+// What is written: pixels that are encoded on the way, or codes that are there.
+struct PixelSource {
+    int width, height;
+    Encoding encoding;
+    std::span<const Rgb> pixels;
+    Bytes codes{}; // if not empty, instead
+
+    std::size_t pixelBytes() const { return 3 * static_cast<std::size_t>(encoding.bits / 8); }
+    std::size_t count() const {
+        return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
+    }
+    // Of some pixels in a row.
+    void encode(std::size_t first, std::size_t number, std::span<std::uint8_t> out) const {
+        if (codes.empty()) return encodePixels(pixels.subspan(first, number), encoding, out);
+        const Bytes some = codes.subspan(pixelBytes() * first, out.size());
+        std::copy(some.begin(), some.end(), out.begin());
+    }
+};
+// "png" for "a.PNG".
+std::string extensionOf(const std::string& fileName);
+// The extension says which of the two.
+void encodeSource(const PixelSource& picture, const std::string& extension, int threads,
+                  const ByteSink& use);
+void encodePpm(const PixelSource& picture, int threads, const ByteSink& use);
+void encodePng(const PixelSource& picture, int threads, const ByteSink& use);
 void encodePfm(const Image& image, int threads, const ByteSink& use);
-void encodePng(const Image& image, Encoding encoding, int threads, const ByteSink& use);
 
 // Fails unless both sides are in 1..kMaxSide and the area is at most kMaxPixels.
 void checkSize(long long width, long long height, const std::string& name);
-
-// Pixels as 8-bit or 16-bit (high byte first) codes; `out` has 3 * bits / 8 bytes per pixel.
-void encodePixels(std::span<const Rgb> pixels, Encoding encoding, std::span<std::uint8_t> out);

@@ -50,13 +50,6 @@ constexpr Format kFormats[] = {
 // NOLINTNEXTLINE(cert-err58-cpp): short strings need no memory
 const std::array<std::string, 3> kExtensions{"ppm", "png", "pfm"};
 
-std::string extensionOf(const std::string& fileName) {
-    std::string extension = std::filesystem::path(fileName).extension().string();
-    if (!extension.empty()) extension.erase(0, 1);
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return extension;
-}
-
 // One Rgb for each pixel of `values`, which has `channels` per pixel; grey fills all three.
 template <class T, class Decode>
 void decodePixels(const std::vector<T>& values, int channels, std::span<Rgb> out, Decode decode) {
@@ -73,6 +66,21 @@ void decodePixels(const std::vector<T>& values, int channels, std::span<Rgb> out
 }
 
 } // namespace
+
+std::string extensionOf(const std::string& fileName) {
+    std::string extension = std::filesystem::path(fileName).extension().string();
+    if (!extension.empty()) extension.erase(0, 1);
+    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return extension;
+}
+
+void encodeSource(const PixelSource& picture, const std::string& extension, int threads,
+                  const ByteSink& use) {
+    if (extension == "ppm") return encodePpm(picture, threads, use);
+    if (extension == "png") return encodePng(picture, threads, use);
+    fail(ErrorKind::Output,
+         cat("error: unknown picture extension ", unknownName(extension, kExtensions)));
+}
 
 void checkSize(long long width, long long height, const std::string& name) {
     if (width < 1 || height < 1 || width > Image::kMaxSide || height > Image::kMaxSide)
@@ -147,11 +155,9 @@ void encodeImage(const Image& image, const std::string& extension, Encoding enco
                  const ByteSink& use) {
     if (encoding.bits != 8 && encoding.bits != 16)
         fail(ErrorKind::Usage, cat("error: ", encoding.bits, " bits per channel; 8 or 16"));
-    if (extension == "ppm") return encodePpm(image, encoding, threads, use);
-    if (extension == "png") return encodePng(image, encoding, threads, use);
     if (extension == "pfm") return encodePfm(image, threads, use);
-    fail(ErrorKind::Output,
-         cat("error: unknown picture extension ", unknownName(extension, kExtensions)));
+    encodeSource({image.width(), image.height(), encoding, image.pixels()}, extension, threads,
+                 use);
 }
 
 void encodePixels(std::span<const Rgb> pixels, Encoding encoding, std::span<std::uint8_t> out) {

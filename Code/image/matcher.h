@@ -130,7 +130,7 @@ public:
 
 private:
     static constexpr std::size_t kGoodMatch = 16; // long enough: no look at the next place
-    static constexpr unsigned kPatience = 4;      // 2^4 looks without a match: longer steps
+    static constexpr unsigned kPatience = 1;      // every 2^1 looks without a match: longer steps
     static constexpr std::size_t kLongestStep = 16;
 
     // A longer match one place later is worth a literal (lazy matching, RFC 1951 section 4).

@@ -44,11 +44,10 @@ struct Part {
 // the file does not depend on how many threads there are. The rows of a part fit into a cache.
 class PartEncoder {
 public:
-    PartEncoder(const Image& image, Encoding encoding)
-        : image_(image), encoding_(encoding),
-          pixelBytes_(3 * static_cast<std::size_t>(encoding.bits / 8)),
-          width_(static_cast<std::size_t>(image.width())),
-          height_(static_cast<std::size_t>(image.height())), rowBytes_(pixelBytes_ * width_ + 1),
+    explicit PartEncoder(const PixelSource& picture)
+        : picture_(picture), pixelBytes_(picture.pixelBytes()),
+          width_(static_cast<std::size_t>(picture.width)),
+          height_(static_cast<std::size_t>(picture.height)), rowBytes_(pixelBytes_ * width_ + 1),
           rows_(std::max<std::size_t>(1, kPartBytes / rowBytes_)) {}
 
     std::size_t count() const { return (height_ + rows_ - 1) / rows_; }
@@ -71,18 +70,21 @@ private:
     // With their filter types in front.
     void filterRows(std::size_t first, std::size_t end, std::vector<std::uint8_t>& out) const {
         PngRow row(rowBytes_ - 1), above(rowBytes_ - 1);
-        if (first > 0) encodePixels(pixelsOf(first - 1), encoding_, above.bytes());
+        if (first > 0) encodeRow(first - 1, above);
         out.resize(rowBytes_ * (end - first));
         std::span<std::uint8_t> left = out;
         for (std::size_t y = first; y < end; ++y, left = left.subspan(rowBytes_)) {
-            if (y == 0)
-                encodePixels(pixelsOf(y), encoding_, row.bytes());
+            if (y == 0 || !picture_.codes.empty())
+                encodeRow(y, row);
             else
                 encodeBelow(y, above, row);
             const PngFilter filter = filterRow(row, above, pixelBytes_, left.subspan(1));
             left[0] = static_cast<std::uint8_t>(filter);
             std::swap(row, above);
         }
+    }
+    void encodeRow(std::size_t y, PngRow& row) const {
+        picture_.encode(y * width_, width_, row.bytes());
     }
     // Row y > 0, `above` with the codes of the one before. Where its pixels are the same, as in a
     // plain background, so are the codes, and comparing is faster than encoding.
@@ -96,7 +98,7 @@ private:
             if (std::memcmp(here.data() + x, up.data() + x, count * sizeof(Rgb)) == 0)
                 std::memcpy(out.data(), above.data() + at, out.size());
             else
-                encodePixels(here.subspan(x, count), encoding_, out);
+                encodePixels(here.subspan(x, count), picture_.encoding, out);
         }
     }
     // Pixels of the row that comes next: the processor does not guess across pages.
@@ -105,25 +107,24 @@ private:
         for (std::size_t at = 0; at < bytes.size(); at += 64) __builtin_prefetch(&bytes[at]);
     }
     std::span<const Rgb> pixelsOf(std::size_t y) const {
-        return image_.pixels().subspan(y * width_, width_);
+        return picture_.pixels.subspan(y * width_, width_);
     }
 
-    const Image& image_;
-    Encoding encoding_;
+    const PixelSource& picture_;
     std::size_t pixelBytes_, width_, height_, rowBytes_, rows_;
 };
 
 } // namespace
 
-void encodePng(const Image& image, Encoding encoding, int threads, const ByteSink& use) {
+void encodePng(const PixelSource& picture, int threads, const ByteSink& use) {
     std::vector<std::uint8_t> start(kPngSignature.begin(), kPngSignature.end());
     std::vector<std::uint8_t> header;
-    putNumber(header, static_cast<std::size_t>(image.width()));
-    putNumber(header, static_cast<std::size_t>(image.height()));
+    putNumber(header, static_cast<std::size_t>(picture.width));
+    putNumber(header, static_cast<std::size_t>(picture.height));
     constexpr std::uint8_t kRgb = 2;
-    header.insert(header.end(), {static_cast<std::uint8_t>(encoding.bits), kRgb, 0, 0, 0});
+    header.insert(header.end(), {static_cast<std::uint8_t>(picture.encoding.bits), kRgb, 0, 0, 0});
     putChunk(start, "IHDR", header);
-    if (encoding.transfer == Encoding::Transfer::Srgb) {
+    if (picture.encoding.transfer == Encoding::Transfer::Srgb) {
         putChunk(start, "sRGB", std::array<std::uint8_t, 1>{0}); // intent: perceptual
     } else {
         std::vector<std::uint8_t> gamma;
@@ -132,7 +133,7 @@ void encodePng(const Image& image, Encoding encoding, int threads, const ByteSin
     }
     use(start);
 
-    const PartEncoder encoder(image, encoding);
+    const PartEncoder encoder(picture);
     std::vector<Part::Sum> sums(encoder.count());
     InOrder inOrder(encoder.count(), use);
     forEachOn(threads, encoder.count(), [&](std::size_t i) {

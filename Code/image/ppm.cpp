@@ -78,12 +78,11 @@ StoredImage decodePpm(Bytes file, const std::string& name) {
     return image;
 }
 
-void encodePpm(const Image& image, Encoding encoding, int threads, const ByteSink& use) {
-    const std::string header = cat("P6\n", image.width(), " ", image.height(), "\n",
-                                   encoding.bits == 8 ? kMost8 : kMost16, "\n");
-    const std::size_t pixelBytes = 3 * static_cast<std::size_t>(encoding.bits / 8);
-    makeRawFile(header, image.pixels().size(), pixelBytes, threads, use,
+void encodePpm(const PixelSource& picture, int threads, const ByteSink& use) {
+    const std::string header = cat("P6\n", picture.width, " ", picture.height, "\n",
+                                   picture.encoding.bits == 8 ? kMost8 : kMost16, "\n");
+    makeRawFile(header, picture.count(), picture.pixelBytes(), threads, use,
                 [&](std::size_t first, std::size_t count, std::span<std::uint8_t> out) {
-                    encodePixels(image.pixels().subspan(first, count), encoding, out);
+                    picture.encode(first, count, out);
                 });
 }

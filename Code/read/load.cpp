@@ -112,11 +112,24 @@ bool hasMeshBlock(std::string_view text, int threads) {
 // are a scene: half of the time of reading them would be spent on touching their pages for the
 // first time. Meshes are a few large arrays: in the heap they would leave holes where the tree gets
 // no room. Small texts do not say how much it will be, as they may ask for a large picture.
-void makeRoomFor(const std::string& text, const Format& format, int threads) {
+void makeRoom(std::size_t textBytes, bool isMesh) {
     constexpr std::size_t kLeast = std::size_t{24} << 20, kTimes = 24;
-    const bool isMesh =
-        format.isMesh || (format.extension == ".txt" && hasMeshBlock(text, threads));
-    useLargePages(isMesh ? kLeast : std::max(kLeast, kTimes * text.size()));
+    useLargePages(isMesh ? kLeast : std::max(kLeast, kTimes * textBytes));
+}
+
+std::string readText(const std::string& fileName, const Format& format, int threads) {
+    // Then holes do no harm, and the text itself is to lie in that memory.
+    constexpr std::uintmax_t kSmall = 3 << 20;
+    std::error_code status;
+    const std::uintmax_t size = fs::file_size(fileName, status);
+    if (!status && size <= kSmall) {
+        makeRoom(static_cast<std::size_t>(size), format.isMesh);
+        return readWholeText(fileName, threads);
+    }
+    std::string text = readWholeText(fileName, threads);
+    makeRoom(text.size(),
+             format.isMesh || (format.extension == ".txt" && hasMeshBlock(text, threads)));
+    return text;
 }
 
 // What stands above the first mesh of a long text: exporters write textures and materials there.
@@ -146,8 +159,7 @@ LoadedScene load(const std::string& fileName, Diagnostics& diagnostics, const Re
     } else {
         checkFile(fileName);
         const Format& format = formatOf(fileName);
-        scene.source = {fileName, readWholeText(fileName, options.threads)};
-        makeRoomFor(scene.source.text, format, options.threads);
+        scene.source = {fileName, readText(fileName, format, options.threads)};
         if (foreseen && format.extension == ".txt") foreseeStart(scene.source, foreseen);
         scene.desc = format.read(scene.source, context);
     }

@@ -72,11 +72,11 @@ std::string notFound(const std::string& file, const SourceFile& scene) {
                join(candidates(withSlashes(file), scene)));
 }
 
-SourceFile open(const std::string& path, const SourceFile& scene, SourceLoc loc) {
+SourceFile open(const std::string& path, const SourceFile& scene, SourceLoc loc, int threads) {
     std::error_code ignored;
     if (fs::file_size(path, ignored) >= SourceLoc::kUnknown)
         failAt(scene, loc.offset, cat("the file '", path, "' is larger than 4 GiB"));
-    return {path, readWholeText(path)};
+    return {path, readWholeText(path, threads)};
 }
 
 void loadMesh(MeshDesc& mesh, const SourceFile& scene, const ReadContext& context) {
@@ -87,7 +87,8 @@ void loadMesh(MeshDesc& mesh, const SourceFile& scene, const ReadContext& contex
                    unknownName(fs::path(mesh.file).extension().string(), meshFileExtensions())));
     const auto path = placeOf(mesh.file, scene);
     if (!path) failAt(scene, mesh.fileLoc.offset, notFound(mesh.file, scene));
-    MeshDesc loaded = format->read(open(*path, scene, mesh.fileLoc), context).mesh;
+    MeshDesc loaded =
+        format->read(open(*path, scene, mesh.fileLoc, context.options.threads), context).mesh;
     if (mesh.smoothAngleDeg == 0) {
         loaded.normals.clear();
         loaded.normalTriangles.clear();
@@ -108,7 +109,7 @@ MtlFile readLibrary(const MeshFile::Library& library, const SourceFile& source,
         context.warn(source, library.loc.offset, notFound(library.file, source));
         return {};
     }
-    MtlFile file = readMtl(open(*path, source, library.loc), context);
+    MtlFile file = readMtl(open(*path, source, library.loc, 1), context);
     const fs::path folder = fs::absolute(*path).parent_path();
     const fs::path sceneFolder = fs::absolute(source.name).parent_path();
     for (TextureDesc& texture : file.textures)

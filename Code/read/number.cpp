@@ -1,9 +1,6 @@
 #include "read/number.h"
 
-#include <bit>
-#include <cfloat>
 #include <charconv>
-#include <cmath>
 #include <system_error>
 
 namespace {
@@ -102,13 +99,6 @@ NumberRead<float> readFloat(const char* text) {
     if (!d.end) return {0, nullptr, NumberFault::NotANumber};
     if (!isExactInDouble(d)) return readSlowly<float>(d);
     const double value = exactly(d);
-    // Rounding twice errs only where the double lies half way between two floats, that is where its
-    // 29 extra bits are 1000...; below the smallest normal float there are more extra bits.
-    constexpr std::uint64_t kExtra = (std::uint64_t{1} << 29) - 1,
-                            kHalfWay = std::uint64_t{1} << 28;
-    const double size = std::fabs(value);
-    if (size != 0 && (size < static_cast<double>(FLT_MIN) || size > static_cast<double>(FLT_MAX) ||
-                      (std::bit_cast<std::uint64_t>(value) & kExtra) == kHalfWay))
-        return readSlowly<float>(d);
+    if (!roundsOnce(value)) return readSlowly<float>(d);
     return {static_cast<float>(value), d.end, NumberFault::None};
 }

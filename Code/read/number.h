@@ -2,6 +2,9 @@
 // of. Text must end in a byte that is no digit; std::string's terminating zero is one.
 #pragma once
 
+#include <bit>
+#include <cfloat>
+#include <cmath>
 #include <cstdint>
 
 enum class NumberFault { None, NotANumber, TooLarge };
@@ -16,6 +19,19 @@ template <class T> struct NumberRead {
 // nan. What is too small becomes zero or a denormal number, as rounding says.
 NumberRead<double> readDouble(const char* text);
 NumberRead<float> readFloat(const char* text);
+
+// Is this double, itself rounded from a number, rounded to the same float as the number? Twice errs
+// only where the double lies half way between two floats, that is where its 29 extra bits are
+// 1000...; below the smallest normal float there are more extra bits, and above the largest no
+// float.
+inline bool roundsOnce(double value) {
+    constexpr std::uint64_t kExtra = (std::uint64_t{1} << 29) - 1,
+                            kHalfWay = std::uint64_t{1} << 28;
+    const double size = std::fabs(value);
+    return size == 0 ||
+           (size >= static_cast<double>(FLT_MIN) && size <= static_cast<double>(FLT_MAX) &&
+            (std::bit_cast<std::uint64_t>(value) & kExtra) != kHalfWay);
+}
 
 // Decimal digits only, up to 2^32 - 1.
 inline NumberRead<std::uint32_t> readUnsigned(const char* text) {

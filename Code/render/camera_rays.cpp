@@ -21,7 +21,23 @@ CameraRays::CameraRays(const IntegratorContext& context, ThreadPool* pool)
                                  context.settings.picture.filterWidth, pool),
       lanes_(cameraLanes(chooseKernel(context.settings.kernel))),
       corners_(context.settings.picture.sampler == SettingsDesc::Sampler::Corners),
-      width_(context.settings.picture.width + corners_) {}
+      width_(context.settings.picture.width + corners_) {
+    const SettingsDesc& picture = context.settings.picture;
+    if (corners_)
+        fixed_ = Vec2{};
+    else if (picture.samplesPerPixel == 1 && !picture.jitter && context.settings.specialise)
+        fixed_ = filter_.sample({0.5f, 0.5f}); // see Sampler
+}
+
+template <class Fn> void CameraRays::forEachSlot(const Tile& tile, const Fn& fn) const {
+    std::size_t slot = 0;
+    forEachPlace(tile, [&](int x, int y) {
+        fn(slot++,
+           static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_) +
+               static_cast<std::uint32_t>(x), // wraps in huge pictures
+           x, y);
+    });
+}
 
 // Which pixel and sample each slot is, and where in the picture it lies.
 void CameraRays::choosePlaces(const Tile& tile, int first, int count, SampleChunk& chunk) const {
@@ -30,14 +46,19 @@ void CameraRays::choosePlaces(const Tile& tile, int first, int count, SampleChun
     const auto all = static_cast<std::size_t>(tile.width() * tile.height()) * samples;
     chunk.ids.resize(all);
     chunk.places.resize(all);
+    if (samples == 1 && fixed_) {
+        const Vec2d corner = middle(0, 0), offset{fixed_->x, fixed_->y};
+        forEachSlot(tile, [&](std::size_t slot, std::uint32_t pixel, int x, int y) {
+            chunk.ids[slot] = {pixel, begin};
+            chunk.places[slot] = {(x + corner.x) + offset.x, (y + corner.y) + offset.y};
+        });
+        return;
+    }
     chunk.offsets.resize(all);
-    std::size_t slot = 0;
-    forEachPlace(tile, [&](int x, int y) {
-        const std::uint32_t pixel =
-            static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_) +
-            static_cast<std::uint32_t>(x); // wraps in huge pictures
-        for (std::uint32_t s = begin; s < begin + samples; ++s, ++slot) {
-            chunk.ids[slot] = {pixel, s};
+    forEachSlot(tile, [&](std::size_t place, std::uint32_t pixel, int x, int y) {
+        for (std::size_t s = 0; s < samples; ++s) {
+            const std::size_t slot = place * samples + s;
+            chunk.ids[slot] = {pixel, begin + static_cast<std::uint32_t>(s)};
             chunk.places[slot] = middle(x, y);
         }
     });
@@ -116,7 +137,10 @@ void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk
     const bool hasTime = isGeneral || context_.scene.moves();
     const bool hasLens = isGeneral || camera.hasLens();
     const bool isPinhole = !hasTime && !hasLens && camera.hasSharedOrigin();
-    if (isPinhole) camera.pinholeRays(chunk.places, rays.dir, rays.tMin);
+    if (isPinhole && lanes_.pinhole)
+        lanes_.pinhole(*camera.pinhole(), chunk.places, rays.dir, rays.tMin);
+    else if (isPinhole)
+        camera.pinholeRays(chunk.places, rays.dir, rays.tMin);
     const Vec3 origin = camera.ray({0, 0}, {0.5f, 0.5f}, 0.5f).org;
     for (std::size_t i = known; i < rays.size(); ++i) {
         rays.org[i] = origin;

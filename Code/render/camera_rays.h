@@ -27,6 +27,8 @@ public:
 
 private:
     void choosePlaces(const Tile& tile, int first, int count, SampleChunk& chunk) const;
+    // fn(slot, pixel, x, y) for all places of the tile.
+    template <class Fn> void forEachSlot(const Tile& tile, const Fn& fn) const;
     // Sampler::get2D() of all slots, the samples of a place following each other.
     void drawPairs(int first, int count, std::uint32_t dimension, std::span<const SampleId> ids,
                    std::span<Vec2> out) const;
@@ -37,4 +39,6 @@ private:
     CameraLanes lanes_;
     bool corners_; // samples lie on the corners of pixels; places are those, one more each way
     int width_;
+    // Where every sample is in its place, if all are in the same one: nobody draws numbers then.
+    std::optional<Vec2> fixed_;
 };

@@ -1,8 +1,12 @@
 #include "render/integrator.h"
 
+#include "base/for_each.h"
 #include "render/camera_medium.h"
 #include "render/to_float.h"
 #include "render/waves/steps.h"
+
+#include <algorithm>
+#include <utility>
 
 namespace {
 
@@ -29,14 +33,38 @@ SurfaceNeeds surfaceNeedsOf(const Scene& scene, const RenderSettings& settings) 
             .lift = !scene.lights().empty()};
 }
 
-std::vector<StillInLanes> stillsInLanesOf(const ShapeSet& set, SurfaceLanes lanes,
-                                          SurfaceNeeds needs) {
-    if (lanes.stills == nullptr || needs.uv) return {};
-    std::vector<StillInLanes> shapes(set.shapes.size());
-    for (std::size_t i = 0; i < shapes.size(); ++i)
+StillsInLanes stillsInLanesOf(const ShapeSet& set, SurfaceLanes lanes, SurfaceNeeds needs) {
+    StillsInLanes stills;
+    if (lanes.stills == nullptr || needs.uv) return stills;
+    stills.shapes.resize(set.shapes.size());
+    stills.balls.resize(set.shapes.size());
+    for (std::size_t i = 0; i < set.shapes.size(); ++i)
         if (const StillShape* const shape = set.shapes[i]->stillToShade())
-            shapes[i] = {shape, shape->parts, shape->kind};
-    return shapes;
+            if (!stills.balls.take(i, *shape))
+                stills.shapes[i] = {shape, shape->parts, shape->kind};
+    return stills;
+}
+
+// Where so many samples are asked for that maps pay, and waves sum up lamps that have some
+// (waves/lamp_sums.h).
+void mapLamps(const Scene& scene, const RenderSettings& settings, std::vector<Lamp>& lamps) {
+    constexpr double kFewestSamples = 16; // for each solid
+    const SettingsDesc& picture = settings.picture;
+    const double samples =
+        static_cast<double>(picture.width) * picture.height * picture.samplesPerPixel;
+    const AskLampMapFn ask = askLampMap(chooseKernel(settings.kernel));
+    const auto isInLanes = [](const Lamp& lamp) { return lamp.inLanes != nullptr; };
+    if (samples < kFewestSamples * static_cast<double>(scene.shapes().solids().solids.size()) ||
+        ask == nullptr || scene.hasSeeThrough() ||
+        !std::all_of(lamps.begin(), lamps.end(), isInLanes))
+        return;
+    auto shapes = MappedShapes::of(scene.shapes());
+    if (!shapes) return;
+    const auto shared = std::make_shared<const MappedShapes>(std::move(*shapes));
+    forEachOn(settings.threads, lamps.size(), [&](std::size_t i) {
+        lamps[i].map = makeLampMap(shared, *lamps[i].origin);
+        lamps[i].askMap = ask;
+    });
 }
 
 } // namespace
@@ -51,7 +79,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       surfaceLanes(::surfaceLanes(chooseKernel(theSettings.kernel))),
       shadeLanes(::shadeLanes(chooseKernel(theSettings.kernel))),
       textureColors(::textureColors(chooseKernel(theSettings.kernel))),
-      bouncesInLanes(::bouncesInLanes(chooseKernel(theSettings.kernel))),
+      bounceLanes(::bounceLanes(chooseKernel(theSettings.kernel))),
       stillsInLanes(stillsInLanesOf(theScene.shapes(), surfaceLanes, surfaceNeeds)),
       cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
     const int samples = settings.picture.lightSamples;
@@ -72,4 +100,6 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
             lamp.bySamples = lightBySamples(kernel), lamp.hiddenPoints = ::hiddenPoints(kernel);
         (shades ? shadingLamps : openLamps).push_back(lamp);
     }
+    if (settings.specialise && settings.integrator == IntegratorKind::Whitted)
+        mapLamps(scene, settings, shadingLamps);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/batch.h"
+#include "render/lamp_map.h"
 #include "render/occluders.h"
 #include "render/point_columns.h"
 #include "render/query.h"
@@ -50,13 +51,19 @@ struct Lamp {
     LightByLampFn inLanes = nullptr;
     LightBySamplesFn bySamples = nullptr;
     HiddenPointsFn hiddenPoints = nullptr; // of what bySamples asks
+    std::shared_ptr<const LampMap> map{};  // of what inLanes asks, if there is one
+    AskLampMapFn askMap = nullptr;
 };
 
-// A shape whose surfaces lanes find, to be looked up without touching it.
-struct StillInLanes {
-    const StillShape* shape = nullptr; // null: it is none
-    std::uint8_t parts = 0;
-    StillShape::Kind kind{};
+// Shapes whose surfaces lanes find, to be looked up without touching them.
+struct StillsInLanes {
+    struct One {
+        const StillShape* shape = nullptr; // null: it is none, or a ball
+        std::uint8_t parts = 0;
+        StillShape::Kind kind{};
+    };
+    std::vector<One> shapes; // by number; empty: lanes do none
+    StillBalls balls;
 };
 
 // Choices that hold for a whole picture, made once.
@@ -73,9 +80,9 @@ struct IntegratorContext {
     SurfaceNeeds surfaceNeeds;
     SurfaceLanes surfaceLanes;
     ShadeLanes shadeLanes;
-    TextureColorsFn textureColors;           // null: one by one
-    BouncesFn bouncesInLanes;                // null: one by one
-    std::vector<StillInLanes> stillsInLanes; // by shape; empty: lanes do none
+    TextureColorsFn textureColors; // null: one by one
+    BounceLanes bounceLanes;       // null: one by one
+    StillsInLanes stillsInLanes;
     MediumTree media; // what camera rays start in, and room for what rays enter
     MediumTree::Inside cameraMedium;
 
@@ -97,8 +104,10 @@ struct SampleChunk {
 
 // The points that the rays of a wave have met; element k of every array is point k.
 struct PointBatch {
-    std::size_t count = 0;           // the arrays may be longer
-    std::vector<std::uint32_t> ray;  // ascending
+    std::size_t count = 0;             // the arrays may be longer
+    std::vector<std::uint32_t> ray;    // ascending
+    std::vector<std::uint32_t> missed; // rays that have met nothing, ascending
+    std::size_t missedCount = 0;
     std::vector<std::uint32_t> slot; // of its sample
     PointColumns at;
     std::vector<const Material*> material; // numbers at this point
@@ -108,12 +117,12 @@ struct PointBatch {
 
     // Makes room for `most` points; lanes may look at whole blocks.
     void clear(std::size_t most) {
-        count = 0;
+        count = missedCount = 0;
         if (most == 0 || ray.size() >= most) return;
         at.resize(most);
         const std::size_t room = at.size();
-        ray.resize(room), slot.resize(room), material.resize(room), textured.resize(room),
-            weight.resize(room);
+        ray.resize(room), missed.resize(room), slot.resize(room), material.resize(room),
+            textured.resize(room), weight.resize(room);
         painted.resize(room / PointColumns::kPoints);
     }
     std::size_t blocks() const {
@@ -159,7 +168,7 @@ struct Arrival {
 // Light of a lamp's sample that waits for a ray, or behind one that does.
 struct WaitingLight {
     static constexpr std::uint32_t kNoRay = 0xffffffffu;
-    std::uint32_t point, ray; // of memory.shadowRays
+    std::uint32_t place, ray; // among those that answer lamps; of memory.shadowRays
     Rgb light;
 };
 
@@ -195,7 +204,7 @@ struct WaveMemory {
     std::vector<Hit> hits;
     PointBatch points;
     std::array<PointsToDescribe, StillShape::kKinds> onStills;
-    PointsToDescribe onOthers;
+    PointsToDescribe onBalls, onOthers;
     TexturedPoints texturedPoints;
     MediumTree media;
     std::vector<std::uint32_t> answering; // points that answer lamps
@@ -209,8 +218,8 @@ struct WaveMemory {
     std::vector<LightSums> lightSums; // the same
     std::vector<std::uint8_t> hidden;
     std::vector<Rgb> transmittance;
-    std::vector<Rgb> lampLight;        // of a lamp with a size, by point
-    std::vector<WaitingLight> waiting; // to be added to it
+    std::vector<WaitingLight> waiting; // to be added to these
+    std::vector<Rgb> lampLight;        // of a lamp with a size that lanes don't do, by point
     std::vector<Arrival> arrivals, arrivalsInOrder;
     std::vector<std::uint32_t> arrivalStarts;
 };

@@ -6,10 +6,12 @@
     namespace kernels::isa {                                                                       \
     void sobolPairs(PairBlock&);                                                                   \
     void lensRays(const Camera::RoundLens&, LensBlock&);                                           \
+    void pinholeRays(const Camera::RoundLens&, std::span<const Vec2d>, std::span<Vec3>,            \
+                     std::span<float>);                                                            \
     }
 DECLARE_BY_KERNEL(DECLARE)
 #define ROW(isa)                                                                                   \
-    { kernels::isa::sobolPairs, kernels::isa::lensRays }
+    { kernels::isa::sobolPairs, kernels::isa::lensRays, kernels::isa::pinholeRays }
 
 CameraLanes cameraLanes(const Kernel& kernel) {
     static constexpr ByKernel<CameraLanes> kTable = BY_KERNEL(ROW);

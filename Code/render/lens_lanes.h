@@ -1,6 +1,6 @@
-// Camera rays by the register: pairs of Sobol numbers, and rays through a round lens, as Sampler
-// and Camera give them one by one, operation by operation and so bit by bit. Knows numbers only;
-// render/camera_rays.cpp brings them here and takes them away.
+// Camera rays by the register: pairs of Sobol numbers, and rays through a round lens or a pinhole,
+// as Sampler and Camera give them one by one, operation by operation and so bit by bit. Knows
+// numbers only; render/camera_rays.cpp brings them here and takes them away.
 #pragma once
 
 #include "camera/camera.h"
@@ -13,14 +13,14 @@ struct Kernel;
 // Numbers of samples, what their pairs are shuffled and scrambled by (Sampler::PairSeeds), and the
 // pairs.
 struct alignas(64) PairBlock {
-    static constexpr std::size_t kPairs = 16;
+    static constexpr std::size_t kPairs = 64;
     std::uint32_t sample[kPairs] = {}, index[kPairs] = {}, x[kPairs] = {}, y[kPairs] = {};
     float u[kPairs], v[kPairs];
 };
 
 // Places in the picture and on the lens, the latter in the unit square, and their rays.
 struct alignas(64) LensBlock {
-    static constexpr std::size_t kRays = 16;
+    static constexpr std::size_t kRays = 64;
     double x[kRays] = {}, y[kRays] = {};
     float u[kRays] = {}, v[kRays] = {};
     float org[3][kRays], dir[3][kRays], tMin[kRays];
@@ -29,6 +29,9 @@ struct alignas(64) LensBlock {
 struct CameraLanes {
     void (*pairs)(PairBlock& block) = nullptr;
     void (*rays)(const Camera::RoundLens& lens, LensBlock& block) = nullptr;
+    // Camera::pinholeRays()
+    void (*pinhole)(const Camera::RoundLens& lens, std::span<const Vec2d> places,
+                    std::span<Vec3> dir, std::span<float> tMin) = nullptr;
 };
 // Null for the scalar kernel.
 CameraLanes cameraLanes(const Kernel& kernel);

@@ -6,12 +6,24 @@ namespace {
 
 inline Doubles3 forAll(Vec3d v) { return {Doubles(v.x), Doubles(v.y), Doubles(v.z)}; }
 
+// Where lines from the eye through places of the picture lead, in units of the depth.
+inline Doubles3 linesThrough(const Camera::RoundLens& lens, const Doubles& x, const Doubles& y) {
+    return forAll(lens.right) * (Doubles(lens.topLeft.x) + x * Doubles(lens.step.x)) +
+           forAll(lens.up) * (Doubles(lens.topLeft.y) - y * Doubles(lens.step.y)) +
+           forAll(lens.forward);
+}
+
+// A division by what is positive would change no zero.
+inline Floats clipAlong(const Camera::RoundLens& lens, const Doubles3& dir) {
+    if (lens.clipStart == 0) return Floats(0.0f);
+    return (Doubles(lens.clipStart) / dot(dir, forAll(lens.forward))).toFloats();
+}
+
 inline void raysFrom(const Camera::RoundLens& lens, LensBlock& block, std::size_t first) {
     const Doubles3 right = forAll(lens.right), up = forAll(lens.up), forward = forAll(lens.forward),
                    eye = forAll(lens.eye);
     const Doubles px = Doubles::load(block.x + first), py = Doubles::load(block.y + first);
-    const Doubles3 line = right * (Doubles(lens.topLeft.x) + px * Doubles(lens.step.x)) +
-                          up * (Doubles(lens.topLeft.y) - py * Doubles(lens.step.y)) + forward;
+    const Doubles3 line = linesThrough(lens, px, py);
     const Doubles3 sharp = eye + line * (Doubles(lens.focusDistance) / dot(line, forward));
     DiskRow place;
     Floats::load(block.u + first).store(place.u), Floats::load(block.v + first).store(place.v);
@@ -26,11 +38,7 @@ inline void raysFrom(const Camera::RoundLens& lens, LensBlock& block, std::size_
     dir.x.toFloats().store(block.dir[0] + first);
     dir.y.toFloats().store(block.dir[1] + first);
     dir.z.toFloats().store(block.dir[2] + first);
-    // A division by what is positive would change no zero.
-    const Floats clip = lens.clipStart == 0
-                            ? Floats(0.0f)
-                            : (Doubles(lens.clipStart) / dot(dir, forward)).toFloats();
-    clip.store(block.tMin + first);
+    clipAlong(lens, dir).store(block.tMin + first);
 }
 
 } // namespace
@@ -45,4 +53,24 @@ void sobolPairs(PairBlock& block) {
 
 void lensRays(const Camera::RoundLens& lens, LensBlock& block) {
     for (std::size_t first = 0; first < LensBlock::kRays; first += W) raysFrom(lens, block, first);
+}
+
+void pinholeRays(const Camera::RoundLens& lens, std::span<const Vec2d> places, std::span<Vec3> dir,
+                 std::span<float> tMin) {
+    alignas(64) double x[W] = {}, y[W] = {};
+    alignas(64) float clip[W];
+    std::array<Vec3, W> last;
+    for (std::size_t first = 0; first < places.size(); first += W) {
+        const std::size_t some = std::min<std::size_t>(W, places.size() - first);
+        for (std::size_t i = 0; i < some; ++i)
+            x[i] = places[first + i].x, y[i] = places[first + i].y;
+        const Doubles3 line = linesThrough(lens, Doubles::load(x), Doubles::load(y));
+        const Doubles3 unit = line / sqrt(dot(line, line));
+        Vec3* const to = some == W ? &dir[first] : last.data();
+        storeChosenVectors((1u << W) - 1, unit.x.toFloats(), unit.y.toFloats(), unit.z.toFloats(),
+                           &to->x);
+        if (some < W) std::copy_n(to, some, &dir[first]);
+        clipAlong(lens, unit).store(clip);
+        std::copy_n(clip, some, &tMin[first]);
+    }
 }

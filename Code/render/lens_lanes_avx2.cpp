@@ -10,6 +10,8 @@ AVX2_REGION_BEGIN
 namespace kernels::avx2 {
 #include "accel/kernels/simd_avx2.inl"
 
+#include "accel/kernels/store_chosen_avx2.inl"
+
 #include "accel/kernels/vectors3.inl"
 
 #include "render/waves/sobol_avx2.inl"

@@ -10,6 +10,8 @@ AVX512_REGION_BEGIN
 namespace kernels::avx512 {
 #include "accel/kernels/simd_avx512.inl"
 
+#include "accel/kernels/store_chosen_avx512.inl"
+
 #include "accel/kernels/vectors3.inl"
 
 #include "render/waves/sobol_avx512.inl"

@@ -10,6 +10,8 @@ SSE_REGION_BEGIN
 namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
 
+#include "accel/kernels/store_chosen_sse.inl"
+
 #include "accel/kernels/vectors3.inl"
 
 #include "render/waves/sobol_sse.inl"

@@ -17,9 +17,9 @@ void append(std::vector<Corners>& to, const std::vector<Corners>& from, std::siz
     forEachPart(threads, from.size(), kTogether, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
             const Corners& c = from[i];
-            to[before + i] = c == MeshGeometry::kWithout ? c
-                             : flip                      ? Corners{c[0] + b, c[2] + b, c[1] + b}
-                                                         : Corners{c[0] + b, c[1] + b, c[2] + b};
+            to[before + i] = c[0] == MeshGeometry::kWithout[0] ? c
+                             : flip ? Corners{c[0] + b, c[2] + b, c[1] + b}
+                                    : Corners{c[0] + b, c[1] + b, c[2] + b};
         }
     });
 }

@@ -50,7 +50,31 @@ std::optional<Occluder::Sides> sidesOf(const Shape& shape, const Bounds& box) {
     return Occluder::Sides{toFloat(n / size), static_cast<float>(m[11] / size)};
 }
 
+// A cube whose faces are those of its box, and not too slim to be met (Cube::solidForm()).
+bool isUpright(const SolidForm& form) {
+    if (!form.faces || form.faces->of != StillFaces::Of::Cube || form.drift) return false;
+    const auto& m = form.faces->shape->objectFromWorld();
+    for (std::size_t row = 0; row < 12; row += 4)
+        if ((m[row] != 0) + (m[row + 1] != 0) + (m[row + 2] != 0) != 1) return false;
+    return form.hull.innerRadius > 0 && form.faces->side == Facets::Side::Both;
+}
+
 } // namespace
+
+Occluder occluderOf(const ShapeSet& shapes, std::uint32_t number) {
+    const Shape& shape = *shapes.shapes[number];
+    Occluder caster{number, shape.hidesFromItself(false), shape.hidesFromItself(true),
+                    shapes.boxes[number], sidesOf(shape, shapes.boxes[number])};
+    const SolidForm form = shape.solidForm();
+    const bool isOpaque = shapes.shadows[number] == ShapeSet::Shadow::Opaque;
+    caster.fillsBox = isOpaque && isUpright(form);
+    if (form.sphere) {
+        caster.centre = toFloat(form.hull.centre);
+        caster.radius = floatAbove(form.hull.radius * (1 + 0x1p-20));
+        if (isOpaque) caster.core = floatBelow(form.hull.innerRadius * (1 - 0x1p-20));
+    }
+    return caster;
+}
 
 Occluders::Occluders(const ShapeSet& shapes) : shapes_(shapes) {
     std::size_t count = 0;
@@ -60,19 +84,8 @@ Occluders::Occluders(const ShapeSet& shapes) : shapes_(shapes) {
     for (std::size_t i = 0; i < shapes.shapes.size(); ++i) count += casts(i);
     canTell_ = count <= kMost;
     if (!canTell_) return;
-    for (std::uint32_t i = 0; i < shapes.shapes.size(); ++i) {
-        const Shape& shape = *shapes.shapes[i];
-        if (!casts(i)) continue;
-        Occluder caster{i, shape.hidesFromItself(false), shape.hidesFromItself(true),
-                        shapes.boxes[i], sidesOf(shape, shapes.boxes[i])};
-        if (const SolidForm form = shape.solidForm(); form.sphere) {
-            caster.centre = toFloat(form.hull.centre);
-            caster.radius = floatAbove(form.hull.radius * (1 + 0x1p-20));
-            if (shapes.shadows[i] == ShapeSet::Shadow::Opaque)
-                caster.core = floatBelow(form.hull.innerRadius * (1 - 0x1p-20));
-        }
-        casters_.push_back(caster);
-    }
+    for (std::uint32_t i = 0; i < shapes.shapes.size(); ++i)
+        if (casts(i)) casters_.push_back(occluderOf(shapes, i));
 }
 
 bool Occluders::mayHide(const Bounds& points, std::uint32_t shape, bool fromInside,

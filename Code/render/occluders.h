@@ -22,7 +22,10 @@ struct Occluder {
     Vec3 centre{};
     float radius = kInfinityF;
     float core = 0; // radius of a ball about the centre that no light passes; 0: none is known
+    bool fillsBox = false; // a cube that does, and no light passes
 };
+
+Occluder occluderOf(const ShapeSet& shapes, std::uint32_t number);
 
 class Occluders {
 public:

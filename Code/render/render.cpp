@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "render/camera_rays.h"
+#include "render/canvas.h"
 #include "render/empty_tiles.h"
 #include "render/film.h"
 #include "render/goal_film.h"
@@ -11,6 +12,7 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <optional>
 
 namespace {
 
@@ -44,20 +46,21 @@ public:
             area_ = {(*crop)[0], (*crop)[1], (*crop)[2], (*crop)[3]};
         area_.x1 += cameraRays_.throughCorners();
         area_.y1 += cameraRays_.throughCorners();
-        color_ = Image(area_.width(), area_.height());
+        color_.emplace(area_.width(), area_.height(), wantedCodes());
         for (std::size_t i = 0; i < settings.aovs.size(); ++i)
             aovs_.emplace_back(area_.width(), area_.height());
-        // About a thousand rays make a wave; those of one sample each are in a larger tile.
-        const int side = settings.tileSide * (settings.picture.samplesPerPixel == 1 ? 2 : 1);
-        for (int y = area_.y0; y < area_.y1; y += side)
-            for (int x = area_.x0; x < area_.x1; x += side)
+        for (int y = area_.y0; y < area_.y1; y += side_)
+            for (int x = area_.x0; x < area_.x1; x += side_)
                 tiles_.push_back(
-                    {x, y, std::min(x + side, area_.x1), std::min(y + side, area_.y1)});
+                    {x, y, std::min(x + side_, area_.x1), std::min(y + side_, area_.y1)});
     }
 
     Picture run(const RenderControl& control, Stats& stats) {
         std::vector<Worker> workers(static_cast<std::size_t>(pool_.threads()));
-        for (Worker& worker : workers) worker.aovs.resize(aovs_.size());
+        for (Worker& worker : workers) {
+            worker.aovs.resize(aovs_.size());
+            worker.tile = Image(std::min(side_, area_.width()), std::min(side_, area_.height()));
+        }
         Picture picture;
         if (settings_.errorGoal)
             picture.finished = renderToGoal(pool_, workers, control, picture, stats);
@@ -69,7 +72,8 @@ public:
             stats.cameraHits += worker.cameraHits;
             stats.nanSamples += worker.nanSamples;
         }
-        picture.color = pixelsOf(std::move(color_), false);
+        picture.codes = std::move(color_->codes());
+        picture.color = pixelsOf(std::move(color_->image()), false);
         for (std::size_t i = 0; i < aovs_.size(); ++i) {
             const Aov aov = settings_.aovs[i];
             picture.aovs.push_back({aov, pixelsOf(std::move(aovs_[i]), aov == Aov::Id)});
@@ -84,6 +88,7 @@ private:
         WaveMemory memory;
         Film color;
         std::vector<Film> aovs;
+        Image tile; // what it becomes
         RayCounts rays;
         std::uint64_t cameraHits = 0, nanSamples = 0;
     };
@@ -139,7 +144,7 @@ private:
             if (!runJobs(pool, parts.size(), control, begun, told, addBatch)) return false;
         }
         if (control.progress) control.progress(1);
-        film.color().writeMeans(color_, 0, 0);
+        film.color().writeMeans(color_->image(), 0, 0);
         for (std::size_t a = 0; a < aovs_.size(); ++a) writeAov(film.aov(a), a, 0, 0);
         picture.error = film.error();
         film.describe(stats);
@@ -158,8 +163,9 @@ private:
         if (settings_.picture.samplesPerPixel == 1 && aovs_.empty())
             return showSamples(tile, worker);
         traceSamples(tile, 0, settings_.picture.samplesPerPixel, worker);
+        worker.color.writeMeans(worker.tile, 0, 0);
+        paint(tile, worker);
         const int x = tile.x0 - area_.x0, y = tile.y0 - area_.y0;
-        worker.color.writeMeans(color_, x, y);
         for (std::size_t a = 0; a < aovs_.size(); ++a) writeAov(worker.aovs[a], a, x, y);
     }
 
@@ -195,14 +201,21 @@ private:
     void showSamples(const Tile& tile, Worker& worker) {
         traceChunk(tile, 0, 1, worker);
         std::size_t slot = 0;
-        forEachPlace(tile, [&](int x, int y) {
+        forEachPlace({0, 0, tile.width(), tile.height()}, [&](int x, int y) {
             Rgb sum; // a sum is never -0
             if (const Rgb radiance = worker.chunk.radiance[slot++]; isFinite(radiance))
                 sum += radiance;
             else
                 ++worker.nanSamples;
-            color_.setPixel(x - area_.x0, y - area_.y0, sum);
+            worker.tile.setPixel(x, y, sum);
         });
+        paint(tile, worker);
+    }
+
+    void paint(const Tile& tile, const Worker& worker) {
+        color_->paint(
+            {tile.x0 - area_.x0, tile.y0 - area_.y0, tile.x1 - area_.x0, tile.y1 - area_.y0},
+            worker.tile);
     }
 
     // What renderTile() would, of samples that are all the same.
@@ -215,7 +228,8 @@ private:
             for (std::uint64_t s = 0; s < count; ++s) worker.color.add(0, 0, sample);
             return worker.color.mean(0, 0);
         };
-        fill(color_, tile, meanOf(seen));
+        std::ranges::fill(worker.tile.pixels(), meanOf(seen));
+        paint(tile, worker);
         const float samples = static_cast<float>(count);
         for (std::size_t a = 0; a < aovs_.size(); ++a)
             if (settings_.aovs[a] == Aov::Samples)
@@ -226,6 +240,14 @@ private:
         for (int y = tile.y0; y < tile.y1; ++y)
             for (int x = tile.x0; x < tile.x1; ++x)
                 image.setPixel(x - area_.x0, y - area_.y0, value);
+    }
+
+    // Where pixels are made of corners or of sums that grow, all of them are needed to the end.
+    std::optional<Encoding::Transfer> wantedCodes() const {
+        if (!settings_.onlyCodes || settings_.errorGoal || cameraRays_.throughCorners()) return {};
+        return settings_.picture.transfer == SettingsDesc::Transfer::Srgb
+                   ? Encoding::Transfer::Srgb
+                   : Encoding::Transfer::Linear;
     }
 
     Image pixelsOf(Image places, bool areNumbers) const {
@@ -287,8 +309,10 @@ private:
     CameraRays cameraRays_;
     EmptyTiles emptyTiles_;
     Tile area_;
+    // About a thousand rays make a wave; those of one sample each are in a larger tile.
+    const int side_ = settings_.tileSide * (settings_.picture.samplesPerPixel == 1 ? 2 : 1);
     std::vector<Tile> tiles_;
-    Image color_; // of places, as the aovs
+    std::optional<Canvas> color_; // of places, as the aovs
     std::vector<Image> aovs_;
 };
 

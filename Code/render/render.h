@@ -1,7 +1,8 @@
 // render(): Scene + RenderSettings -> pictures. Tiles, threads, progress and counters live here;
-// what one tile computes is in whitted.h and the other integrators.
+// what one tile computes is in whitted.cpp and first_hit.cpp.
 #pragma once
 
+#include "image/coded_image.h"
 #include "image/image.h"
 #include "render/settings.h"
 #include "render/stats.h"
@@ -17,9 +18,10 @@ struct AovImage {
     Image image;
 };
 struct Picture {
-    Image color; // linear radiance, exposure not applied
+    Image color;      // linear radiance, exposure not applied
+    CodedImage codes; // or this, where no more is wanted: see RenderSettings
     std::vector<AovImage> aovs;
-    Image error; // with an error goal: the RMSE that is estimated around each pixel
+    Image error;           // with an error goal: the RMSE that is estimated around each pixel
     bool finished = false; // false: stopped before every tile was done
 };
 struct RenderControl {

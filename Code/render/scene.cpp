@@ -18,7 +18,8 @@
 
 class SceneBuilder {
 public:
-    // `spent`: the description once more, where nobody else needs its objects and meshes.
+    // `spent`: the description once more, where nobody else needs its objects, meshes and
+    // materials.
     SceneBuilder(Scene& scene, const SceneDesc& desc, SceneDesc* spent, const SourceFile& source,
                  const RenderSettings& settings, PictureReader* pictures)
         : scene_(scene), desc_(desc), spent_(spent), source_(source), settings_(settings),
@@ -50,6 +51,9 @@ private:
         if (pictures_ != nullptr) pictures_->beginNoMore(); // they are jobs like others
         addPictures(jobs);
         forEachOn(settings_.threads, jobs.size(), [&](std::size_t i) { jobs[i](); });
+        // Large trees come now, where the meshes were that have been copied.
+        if (spent_ != nullptr)
+            for (MeshDesc& mesh : spent_->meshes) mesh = {};
         maker.finish(scene_.shapes_, scene_.geometries_);
         scene_.moves_ = scene_.moves_ || maker.moves();
         scene_.degenerateCount_ = maker.degenerateCount();
@@ -118,6 +122,7 @@ private:
         scene_.materials_.push_back(makeMaterial(MaterialDesc{}));
         for (const SceneMaterial& m : scene_.materials_)
             scene_.hasSeeThrough_ = scene_.hasSeeThrough_ || m.seeThrough();
+        if (spent_ != nullptr) std::vector<MaterialDesc>().swap(spent_->materials);
     }
 
     static SpecularModel specularModelOf(MaterialDesc::SpecularModel model) {

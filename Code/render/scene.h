@@ -23,8 +23,11 @@
 class PictureReader;
 
 // A material of the scene: its numbers, and the pictures that change them from place to place.
-struct SceneMaterial {
+struct alignas(64) SceneMaterial {
     Material base;
+    // Beside the numbers that every point asks for.
+    bool litOutside = false; // answers lamps outside of it, whichever side is seen
+    bool isLamp = false; // the visible body of an area light; emits to the front of its shape only
     const Texture* diffuse = nullptr;
     const Texture* specular = nullptr;
     const Texture* emission = nullptr;
@@ -32,9 +35,7 @@ struct SceneMaterial {
     const Texture* normalMap = nullptr;
     const Texture* bumpMap = nullptr;
     float normalStrength = 1;
-    float bumpHeight = 0;    // strength times distance, in normalised units
-    bool litOutside = false; // answers lamps outside of it, whichever side is seen
-    bool isLamp = false; // the visible body of an area light; emits to the front of its shape only
+    float bumpHeight = 0; // strength times distance, in normalised units
     // Pictures that change its numbers.
     bool isTextured() const { return diffuse || specular || emission || opacity; }
     bool seeThrough() const { return base.opacity < 1 || opacity != nullptr; }

@@ -48,6 +48,9 @@ struct RenderSettings {
     int threads = 1;               // resolved, at least 1
     std::optional<Rgbd> background;
     std::vector<Aov> aovs;
+    // Picture::codes is to take the place of Picture::color where it can: all that is wanted of it
+    // is a file of 8 bits, with the exposure as it is.
+    bool onlyCodes = false;
     // Off: every step is done for every scene, needed or not (the yardstick of T17 and of timings).
     bool specialise = true;
     std::string textureFolder; // --textures DIR; searched after the scene's own folder

@@ -187,9 +187,15 @@ Hit ShapeSet::closest(const Ray& ray) const {
 
 void ShapeSet::closest(const RaySpan& rays, std::vector<Hit>& hits) const {
     hits.resize(rays.size());
-    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = {.t = rays.tMax[i]};
+    std::size_t floorsAsked = 0;
+    if (batched.empty() && !floors_.empty()) {
+        planeKernel_->first(floors_[0].plane, floors_[0].number, rays, hits.data());
+        floorsAsked = 1;
+    } else {
+        for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = {.t = rays.tMax[i]};
+    }
     if (!batched.empty()) closestOfBatched(rays, hits);
-    if (!unbounded.empty()) closestOfUnbounded(rays, hits);
+    if (unbounded.size() > floorsAsked) closestOfUnbounded(rays, floorsAsked, hits);
     if (bounded.size() == batched.size()) return;
     if (kernel_) {
         const SolidCalls calls{
@@ -270,12 +276,14 @@ void ShapeSet::hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hid
     }
 }
 
-void ShapeSet::closestOfUnbounded(const RaySpan& rays, std::vector<Hit>& hits) const {
-    thread_local std::vector<PlaneHit> found;
-    found.resize(std::max(found.size(), rays.size()));
-    for (const Floor& floor : floors_) {
-        const std::size_t count = planeKernel_->closest(floor.plane, rays, hits, found.data());
-        for (const PlaneHit& at : std::span(found).first(count))
+void ShapeSet::closestOfUnbounded(const RaySpan& rays, std::size_t floorsAsked,
+                                  std::vector<Hit>& hits) const {
+    thread_local std::vector<PlaneHit> asFar;
+    asFar.resize(std::max(asFar.size(), rays.size()));
+    for (const Floor& floor : std::span(floors_).subspan(floorsAsked)) {
+        const std::size_t count =
+            planeKernel_->closest(floor.plane, floor.number, rays, hits.data(), asFar.data());
+        for (const PlaneHit& at : std::span(asFar).first(count))
             takeNearer(rays[at.ray], {.t = at.t, .u = at.u}, floor.number, 0, hits[at.ray]);
     }
     if (askedAlone_.empty()) return;

@@ -77,7 +77,9 @@ private:
     void buildBatchTrees(const Kernel& kernel, int threads);
     void closestOfBatched(const RaySpan& rays, std::vector<Hit>& hits) const;
     void hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;
-    void closestOfUnbounded(const RaySpan& rays, std::vector<Hit>& hits) const;
+    // Of all unbounded shapes but the first floors, which were asked already.
+    void closestOfUnbounded(const RaySpan& rays, std::size_t floorsAsked,
+                            std::vector<Hit>& hits) const;
     void hideByUnbounded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;
 
     // By shape: what it is asked for when it comes, as memory of millions is slow to come back to.

@@ -29,9 +29,14 @@ template <class Fn> void forEachPlace(const Tile& tile, const Fn& fn) {
         return steps;
     }();
     for (int top = tile.y0; top < tile.y1; top += kSide)
-        for (int left = tile.x0; left < tile.x1; left += kSide)
+        for (int left = tile.x0; left < tile.x1; left += kSide) {
+            if (tile.x1 - left >= kSide && tile.y1 - top >= kSide) { // most are whole
+                for (const Step step : kCurve) fn(left + step.x, top + step.y);
+                continue;
+            }
             for (const Step step : kCurve) {
                 const int x = left + step.x, y = top + step.y;
                 if (x < tile.x1 && y < tile.y1) fn(x, y);
             }
+        }
 }

@@ -35,8 +35,10 @@ template <class Bits> constexpr Bits pascalReversed(Bits index) {
 // Shuffling the index is Owen scrambling of the index; the first dimension of Sobol is the reversed
 // index, so the two reversals between them cancel.
 template <class Bits> struct Pair { Bits x, y; };
-template <class Bits> constexpr Pair<Bits> sobolPair(Bits sample, Bits a, Bits b, Bits c) {
-    const Bits shuffled = reversed(scrambledReversed(reversed(sample), a));
+template <class Bits> constexpr Pair<Bits> scrambledPair(Bits shuffled, Bits b, Bits c) {
     return {reversed(scrambledReversed(shuffled, b)),
             reversed(scrambledReversed(pascalReversed(shuffled), c))};
+}
+template <class Bits> constexpr Pair<Bits> sobolPair(Bits sample, Bits a, Bits b, Bits c) {
+    return scrambledPair(reversed(scrambledReversed(reversed(sample), a)), b, c);
 }

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "accel/kernels/placed.h"
+#include "accel/kernels/wide_walk.h"
 #include "accel/triangle.h"
 #include "shape/mesh_geometry.h"
 
@@ -34,20 +35,26 @@ public:
     // traverse() of the tree that the mesh has.
     template <class LeafFn>
     void traverse(const MeshGeometry& mesh, float zCut, LeafFn&& leaf) const {
-        if (mesh.wide.width == 16) return traverseWide<16>(mesh.wide, zCut, leaf);
-        if (mesh.wide.width == 8) return traverseWide<8>(mesh.wide, zCut, leaf);
-        ::traverse(mesh.bvh, *this, zCut, leaf);
+        if (mesh.wide.isEmpty())
+            ::traverse(mesh.bvh, *this, zCut, leaf);
+        else
+            ::traverse(mesh.wide, *this, zCut, leaf);
     }
     // Does the ray come near the whole mesh?
     bool entersRoot(const MeshGeometry& mesh, float zCut) const {
         float z = 0;
         return mesh.bvh.nodes.empty() || enters(mesh.bvh.nodes[0].box, longestSide_[0], zCut, z);
     }
-    // For traverse() of the mesh's bvh: RaySetup::enters() with as much room before the start of
+    // For traverse() of the mesh's trees: RaySetup::enters() with as much room before the start of
     // the ray and behind the cut as the triangles of the node ask for.
     [[gnu::always_inline]] friend bool enters(const TreeRay& ray, const Bvh& bvh,
                                               std::uint32_t node, float zCut, float& zEntry) {
         return ray.enters(bvh.nodes[node].box, ray.longestSide_[node], zCut, zEntry);
+    }
+    [[gnu::always_inline]] friend bool enters(const TreeRay& ray, WideRef node, const Bounds& box,
+                                              float zCut) {
+        float z = 0;
+        return ray.enters(box, ray.longestSide_[node >> 2], zCut, z);
     }
     [[gnu::always_inline]] bool enters(const Bounds& box, float longestSide, float zCut,
                                        float& zEntry) const {
@@ -79,35 +86,6 @@ public:
     }
 
 private:
-    // As the one of wide_tree.h.
-    template <int W, class LeafFn>
-    void traverseWide(const WideTree& tree, float zCut, LeafFn&& leaf) const {
-        std::vector<WideRef> stack{tree.root};
-        while (!stack.empty()) {
-            const WideRef ref = stack.back();
-            stack.pop_back();
-            if (kindOf(ref) == WideKind::Leaf) {
-                const auto& l = tree.at<WideLeaf<W>>(ref);
-                for (std::uint32_t i = 0; i < l.count; ++i)
-                    if (leaf(tree.triangleIds[l.first + i], zCut)) return;
-                continue;
-            }
-            const auto& node = tree.at<WideNode<W>>(ref);
-            const float longest = longestSide_[ref >> 2];
-            for (std::size_t end = W; end > 0; --end) {
-                const std::size_t i = end - 1;
-                if (kindOf(node.child[i]) == WideKind::None) continue;
-                Bounds box;
-                for (std::size_t axis = 0; axis < 3; ++axis) {
-                    box.lo[axis] = node.plane[axis][0][i];
-                    box.hi[axis] = node.plane[axis][1][i];
-                }
-                float z = 0;
-                if (enters(box, longest, zCut, z)) stack.push_back(node.child[i]);
-            }
-        }
-    }
-
     // From the ray to a point across the dominant axis; without its order of axes, which costs more
     // than the products with 0 and 1 here.
     Vec2 beside(Vec3 p) const { return {dot(acrossX_, p) + originX_, dot(acrossY_, p) + originY_}; }

@@ -1,5 +1,6 @@
 #include "shape/mesh.h"
 
+#include "accel/kernels/wide_walk.h"
 #include "shape/mesh_surface.h"
 
 #include <algorithm>

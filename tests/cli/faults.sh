@@ -179,7 +179,7 @@ sweep() {
     check "memory: $name: enough in the end" [ -n "$enough" ]
 }
 least=4096
-while limited $least --version && [ $code -ne 0 ] && [ $least -lt 65536 ]; do
+while limited $least --version 2> /dev/null && [ $code -ne 0 ] && [ $least -lt 65536 ]; do
     least=$((least + 512))
 done
 if [ $code -ne 0 ]; then
@@ -188,7 +188,7 @@ else
     sh "$tests/bench/waves.sh" 40000 > waves.txt
     sweep 'a large mesh' 'reading the scene' 2 24 waves.txt tight.ppm -q -t 1 -r 16x16
     sweep 'a tree' 'building the scene' 2 24 waves.txt tight.ppm -q -t 1 -r 16x16
-    sweep 'a large film' 'rendering' 2 48 scene.txt tight.ppm -q -t 1 -r 800x800 --spp 1 -i normal
+    sweep 'a large film' 'rendering' 2 48 scene.txt tight.ppm -q -t 1 -r 1600x1600 --spp 1 -i normal
     sweep 'a large picture' 'writing the picture' 4 96 scene.txt tight.ppm -q -t 1 \
         -r 1600x1600 --crop 0,0,16,16 --crop-pad
     sweep 'many samples' 'rendering' 2 24 scene.txt tight.ppm -q -t 1 --spp 64

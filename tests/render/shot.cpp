@@ -50,6 +50,7 @@ Shot render(const SceneDesc& desc, const Tweak& tweak) {
     Picture picture = ::render(scene, settings, {}, out.stats);
     scene.describe(out.stats);
     out.color = std::move(picture.color);
+    out.codes = std::move(picture.codes);
     out.aovs = std::move(picture.aovs);
     return out;
 }

@@ -16,6 +16,7 @@ namespace shot {
 
 struct Shot {
     Image color;
+    CodedImage codes; // see RenderSettings::onlyCodes
     std::vector<AovImage> aovs;
     Stats stats;
     Rgb at(int x, int y) const { return color.pixel(x, y); }

@@ -1,5 +1,4 @@
-// Points by the register: every lane has the bits of shading, lighting up and mirroring its point
-// alone.
+// Points by the register: every lane has the bits of shading and lighting up its point alone.
 #include "check.h"
 #include "shot.h"
 
@@ -57,7 +56,7 @@ Surface someSurface(Random& random, bool flat) {
 }
 
 struct Cases {
-    long long points = 0, turned = 0, apart = 0, lifted = 0, mirrored = 0, dropped = 0;
+    long long points = 0, turned = 0, apart = 0, lifted = 0;
 };
 
 // What lanes make of a block, and what single points are.
@@ -78,7 +77,6 @@ public:
                            alone_[k].surface.ng * (random.chance(0.5) ? 1e-3f : -1e-3f);
             const auto weight = [&] { return static_cast<float>(random.unit()); };
             weights_[k] = {weight(), weight(), weight()};
-            mirrors_[k] = {weight(), random.chance(0.1) ? 0 : weight(), weight() / 2};
         }
     }
 
@@ -131,30 +129,6 @@ public:
         return same;
     }
 
-    bool mirror(Cases& cases) const {
-        constexpr float cutoff = 0.2f;
-        std::array<Vec3, 2 * kPoints> org, dir;
-        std::array<Rgb, 2 * kPoints> weight;
-        const unsigned worth =
-            lanes_.mirror(columns_.block(0), weights_.data(), mirrors_.data(), used_, cutoff,
-                          {org.data(), dir.data(), nullptr, weight.data()});
-        bool same = (worth & ~used_) == 0;
-        std::size_t ray = 0;
-        for (std::size_t k = 0; k < count_; ++k) {
-            const Rgb all = weights_[k] * mirrors_[k];
-            const bool isWorth = maxChannel(all) > 0 && maxChannel(all) >= cutoff;
-            same &= isWorth == ((worth >> k & 1) != 0);
-            cases.dropped += !isWorth, cases.mirrored += isWorth;
-            if (!isWorth) continue;
-            const ShadedPoint& at = alone_[k];
-            same &= sameBits(org[ray], leave(at.surface, at.eye.ng)) &&
-                    sameBits(dir[ray], mirrored(at.toEye, at.eye.n, at.eye.ng)) &&
-                    sameBits(weight[ray], {all.r, all.g, all.b});
-            ++ray;
-        }
-        return same;
-    }
-
 private:
     const Scene& scene_;
     const ShadeLanes& lanes_;
@@ -163,7 +137,7 @@ private:
     PointColumns columns_;
     std::array<ShadedPoint, kPoints> alone_;
     Vectors dirs_{};
-    Colours weights_{}, mirrors_{};
+    Colours weights_{};
 };
 
 // For the lanes of every kernel that there are.
@@ -184,11 +158,9 @@ TEST(shade_lanes_have_the_bits_of_single_points) {
             Compared block(*scene, lanes, random);
             CHECK_INFO(block.see(cases), name << ": shading of block " << i);
             CHECK_INFO(block.light(cases), name << ": light of block " << i);
-            CHECK_INFO(block.mirror(cases), name << ": mirrors of block " << i);
         }
         // All that there is a branch for has been there.
-        for (const long long some :
-             {cases.turned, cases.apart, cases.lifted, cases.mirrored, cases.dropped})
+        for (const long long some : {cases.turned, cases.apart, cases.lifted})
             CHECK_INFO(some > cases.points / 50, name << ": " << some << " of " << cases.points);
     });
 }

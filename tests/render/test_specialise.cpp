@@ -4,6 +4,7 @@
 #include "shot.h"
 
 #include "render/empty_tiles.h"
+#include "render/lamp_map.h"
 #include "render/waves/steps.h"
 #include "verify/scenes.h"
 
@@ -182,4 +183,29 @@ TEST(shadowRaysThatCannotMatter) {
                      "mesh q {\n points 4\n -2 -2 0 2 -2 0 2 2 0 -2 2 0\n triangles 2\n 0 1 2 0 2 "
                      "3\n}\ninstance i {\n mesh q\n material m\n}\n" +
                      kPoint) > 500);
+}
+
+// Maps of lamps answer for most shadow rays of many solids, also of what mirrors show, and nothing
+// of it shows.
+TEST(mapsOfLampsGiveTheSameBits) {
+    std::string text = kView.text() + "light l {\n translate 1 2 5\n color 80 80 80\n}\n" +
+                       "light k {\n translate -4 1 3\n color 40 40 40\n}\n" +
+                       "material m {\n diffuse 0.6 0.5 0.2\n mirror 0.3 0.3 0.3\n}\n";
+    for (int i = 0; i < 36; ++i) {
+        const std::string at = cat(" translate ", 0.6 * (i % 6) - 1.5, " ", 0.6 * (i / 6) - 1.5,
+                                   " ", 0.1 * (i % 5), "\n");
+        text += i % 3 == 0
+                    ? cat("cylinder c", i, " {\n material m\n scale 0.1 0.1 0.5\n", at, "}\n")
+                    : cat("sphere s", i, " {\n material m\n radius 0.3\n", at, "}\n");
+    }
+    const shot::Shot plain = general(text);
+    for (const Kernel& kernel : allKernels()) {
+        if (!kernel.supported() || askLampMap(kernel) == nullptr) continue;
+        const shot::Shot special =
+            shot::render(text, [&](RenderSettings& s) { s.kernel = kernel.name; });
+        CHECK_INFO(sameBits(special.color, plain.color), kernel.name);
+        const auto asked = special.stats.rays.shadow, all = plain.stats.rays.shadow;
+        CHECK_INFO(all > 1000 && asked < all / 2, asked << " of " << all << " shadow rays");
+        CHECK(special.stats.shading.find("maps of 2") != std::string::npos);
+    }
 }

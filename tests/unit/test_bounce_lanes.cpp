@@ -1,34 +1,29 @@
-// Mirrors and glass by the register: every lane has the bits of asking the material alone.
+// Mirrors and glass by the register: every ray has the bits of asking its point's material alone,
+// and its place among the others.
 #include "accel/kernels/kernels.h"
 #include "check.h"
+#include "render/shading.h"
 #include "render/waves/bounce_lanes.h"
 #include "verify/meshes.h"
 
+#include <array>
 #include <bit>
+#include <vector>
 
 using meshes::Random;
 
 namespace {
 
-using PointRows = float[3][BounceBlock::kPoints];
+constexpr std::size_t kPoints = PointBlock::kPoints;
+constexpr float kCutoff = 0.02f;
 
 bool sameBits(float a, float b) {
     return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
-bool sameBits(const PointRows& rows, std::size_t i, Vec3 v) {
-    return sameBits(rows[0][i], v.x) && sameBits(rows[1][i], v.y) && sameBits(rows[2][i], v.z);
+bool sameBits(Vec3 a, Vec3 b) {
+    return sameBits(a.x, b.x) && sameBits(a.y, b.y) && sameBits(a.z, b.z);
 }
-void put(PointRows& rows, std::size_t i, Vec3 v) {
-    rows[0][i] = v.x, rows[1][i] = v.y, rows[2][i] = v.z;
-}
-Vec3 asVector(Rgb c) { return {c.r, c.g, c.b}; }
-
-struct Point {
-    Vec3 n, ng, toEye;
-    Material material;
-    float eta;
-    Rgb weight;
-};
+bool sameBits(Rgb a, Rgb b) { return sameBits(Vec3{a.r, a.g, a.b}, Vec3{b.r, b.g, b.b}); }
 
 Rgb someLight(Random& random, double black) {
     if (random.chance(black)) return {};
@@ -36,93 +31,183 @@ Rgb someLight(Random& random, double black) {
     return {channel(), random.chance(0.1) ? 0 : channel(), channel()};
 }
 
-Point somePoint(Random& random) {
-    Point point;
-    const Vec3d ng = random.direction();
-    // The eye on the side of both normals, now and then near the horizon.
-    const double height = random.chance(0.3) ? random.logUniform(1e-6, 0.1) : random.uniform(0, 1);
-    const Vec3d eye = normalize(normalize(cross(ng, random.direction())) + ng * height);
-    point.ng = toFloat(ng), point.toEye = toFloat(eye);
-    const Vec3d bent = normalize(ng + random.direction() * random.uniform(0, 0.5));
-    point.n = random.chance(0.3) && dot(bent, eye) > 0 ? toFloat(bent) : point.ng;
-    Material& m = point.material;
+struct Kind {
+    Material material;
+    float eta = 1;
+    std::uint32_t beyond = 0;
+};
+
+Kind someKind(Random& random) {
+    Kind kind;
+    Material& m = kind.material;
     m.mirror = someLight(random, 0.1);
-    if (random.chance(0.7)) {
-        m.fresnel = FresnelModel::Dielectric, m.transmission = someLight(random, 0.1);
-        point.eta = random.chance(0.1) ? 1 : static_cast<float>(random.logUniform(0.4, 2.5));
-    } else {
-        point.eta = 1;
+    if (random.chance(0.3)) return kind;
+    m.fresnel = FresnelModel::Dielectric, m.transmission = someLight(random, 0.1);
+    kind.eta = random.chance(0.1) ? 1 : static_cast<float>(random.logUniform(0.4, 2.5));
+    kind.beyond = random.below(9);
+    return kind;
+}
+
+// Points of a few kinds, some of which send on nothing.
+struct Block {
+    PointBlock points{};
+    std::array<Rgb, kPoints> weights{};
+    std::vector<Kind> kinds;
+    std::vector<AlikePoints> alike; // the first ones of `kinds`
+
+    explicit Block(Random& random) {
+        for (std::size_t k = 0; k < kPoints; ++k) addPoint(random, k);
+        const std::size_t sets = 1 + random.below(4);
+        for (std::size_t i = 0; i < sets; ++i) kinds.push_back(someKind(random));
+        std::array<unsigned, 5> of{}; // the last is for points that do nothing
+        for (std::size_t k = 0; k < kPoints; ++k)
+            of[random.chance(0.1) ? 4 : random.below(static_cast<std::uint32_t>(sets))] |= 1u << k;
+        for (std::size_t i = 0; i < sets; ++i)
+            alike.push_back({of[i], &kinds[i].material, isSharpGlass(kinds[i].material),
+                             kinds[i].eta, kinds[i].beyond});
     }
-    point.weight = random.chance(0.1) ? someLight(random, 1) : someLight(random, 0);
-    return point;
+
+    void addPoint(Random& random, std::size_t k) {
+        const Vec3d ng = random.direction();
+        // The eye on the side of both normals, now and then near the horizon.
+        const double height =
+            random.chance(0.3) ? random.logUniform(1e-6, 0.1) : random.uniform(0, 1);
+        const Vec3d eye = normalize(normalize(cross(ng, random.direction())) + ng * height);
+        // Any way, or away from the eye: rays that hardly leave such glass may come back.
+        const Vec3d bend = random.chance(0.5) ? random.direction() * random.uniform(0, 0.9)
+                                              : eye * (-dot(ng, eye) * random.uniform(0, 1));
+        const Vec3d bent = normalize(ng + bend);
+        const bool isFront = random.chance(0.5);
+        SurfaceBlock::set(points.ng, k, toFloat(isFront ? ng : -ng));
+        points.front |= static_cast<unsigned>(isFront) << k;
+        SurfaceBlock::set(points.n, k,
+                          toFloat(random.chance(0.5) && dot(bent, eye) > 0 ? bent : ng));
+        SurfaceBlock::set(points.toEye, k, toFloat(eye));
+        SurfaceBlock::set(points.p, k, toFloat(random.inBox(3)));
+        points.error[k] = static_cast<float>(random.logUniform(1e-9, 1e-2));
+        weights[k] = random.chance(0.1) ? someLight(random, 1) : someLight(random, 0);
+    }
+};
+
+struct Sent {
+    Vec3 org, dir;
+    Rgb weight;
+};
+struct Cases {
+    long long points = 0, reflected = 0, refracted = 0, total = 0, dropped = 0;
+    long long bentBack = 0, bentDown = 0; // where normals are too bent to be followed
+};
+
+// What single points send on, in their order.
+std::vector<Sent> sentAlone(const Block& block, LeavingRays& told, Cases& cases) {
+    std::vector<Sent> rays;
+    for (std::size_t k = 0; k < kPoints; ++k)
+        for (const AlikePoints& some : block.alike) {
+            if ((some.points >> k & 1) == 0) continue;
+            ++cases.points;
+            const Vec3 n = SurfaceBlock::get(block.points.n, k);
+            const Vec3 ng =
+                SurfaceBlock::get(block.points.ng, k) * (block.points.isFront(k) ? 1.0f : -1.0f);
+            const Vec3 toEye = SurfaceBlock::get(block.points.toEye, k);
+            cases.bentDown += !(dot(reflectAbout(toEye, n), ng) > 0);
+            Bounces out;
+            if (some.isGlass)
+                out = bounces(*some.material, n, ng, toEye, some.eta, {0.5f, 0.5f});
+            else if (!isBlack(some.material->mirror))
+                out.reflected = Bounce{mirrored(toEye, n, ng), some.material->mirror};
+            const auto send = [&](const std::optional<Bounce>& ray, Vec3 side, unsigned which) {
+                if (!ray) return;
+                const Rgb weight = block.weights[k] * ray->weight;
+                const bool isWorth = maxChannel(weight) > 0 && maxChannel(weight) >= kCutoff;
+                cases.dropped += !isWorth;
+                if (!isWorth) return;
+                rays.push_back({leave(block.points.at(k), side), ray->dir, weight});
+                told.rays |= 1u << (2 * k + which);
+                ++(which == 0 ? told.reflected : told.refracted);
+            };
+            send(out.reflected, ng, 0);
+            send(out.refracted, -ng, 1);
+            if (!some.isGlass || isBlack(some.material->transmission)) continue;
+            cases.total += !out.refracted;
+            const auto through = refractThrough(toEye, n, some.eta);
+            cases.bentBack += through && !(dot(*through, ng) < 0);
+        }
+    cases.reflected += static_cast<long long>(told.reflected);
+    cases.refracted += static_cast<long long>(told.refracted);
+    return rays;
+}
+
+template <class Fn> void forAllLanes(const Fn& fn) {
+    for (const Kernel& kernel : allKernels())
+        if (const BounceLanes lanes = bounceLanes(kernel); kernel.supported() && lanes.bounce)
+            fn(kernel.name, lanes);
 }
 
 } // namespace
 
-TEST(bounce_lanes_have_the_bits_of_single_points) {
-    constexpr float kCutoff = 0.02f;
-    const auto isTraced = [](Rgb w) { return maxChannel(w) > 0 && maxChannel(w) >= kCutoff; };
-    for (const Kernel& kernel : allKernels()) {
-        const BouncesFn inLanes = kernel.supported() ? bouncesInLanes(kernel) : nullptr;
-        if (!inLanes) continue;
+TEST(bounce_lanes_have_the_bits_and_the_order_of_single_points) {
+    forAllLanes([](const char* name, const BounceLanes& lanes) {
         Random random(91);
-        int points = 0, bent = 0, reflected = 0, refracted = 0, total = 0, wrong = 0;
+        Cases cases;
         for (int i = 0; i < check::scaled(4000); ++i) {
-            BounceBlock block;
-            block.cutoff = kCutoff;
-            std::vector<Point> all;
-            const std::size_t used = random.chance(0.3) ? 1 + random.below(16) : 16;
-            for (std::size_t k = 0; k < used; ++k) {
-                const Point p = somePoint(random);
-                put(block.n, k, p.n), put(block.ng, k, p.ng), put(block.toEye, k, p.toEye);
-                put(block.mirror, k, asVector(p.material.mirror));
-                put(block.transmission, k, asVector(p.material.transmission));
-                put(block.weight, k, asVector(p.weight));
-                block.eta[k] = p.eta, block.used |= 1u << k;
-                if (isSharpGlass(p.material)) block.glass |= 1u << k;
-                CHECK(isSharpGlass(p.material) || isPlainMirror(p.material));
-                all.push_back(p);
-            }
-            inLanes(block);
-            const unsigned any = block.reflects | block.refracts | block.bent;
-            CHECK_INFO((any & ~block.used) == 0, kernel.name << " block " << i);
-            for (std::size_t k = 0; k < used; ++k) {
-                const Point& p = all[k];
-                ++points;
-                if ((block.bent >> k & 1) != 0) {
-                    ++bent;
-                    // A normal that is not bent may ask at the horizon only.
-                    CHECK_INFO(p.n != p.ng || dot(p.ng, p.toEye) < 1e-3f,
-                               kernel.name << " block " << i << " point " << k);
-                    continue;
-                }
-                const Bounces alone = bounces(p.material, p.n, p.ng, p.toEye, p.eta, {0.5f, 0.5f});
-                const auto isSame = [&](const std::optional<Bounce>& ray, unsigned traced,
-                                        const PointRows& dir, const PointRows& weight) {
-                    const Rgb w = ray ? p.weight * ray->weight : Rgb{};
-                    if (isTraced(w) != ((traced >> k & 1) != 0)) return false;
-                    return !isTraced(w) ||
-                           (sameBits(dir, k, ray->dir) && sameBits(weight, k, asVector(w)));
-                };
-                reflected += (block.reflects >> k & 1) != 0;
-                refracted += (block.refracts >> k & 1) != 0;
-                total += alone.reflected && !alone.refracted && isSharpGlass(p.material);
-                if ((!isSame(alone.reflected, block.reflects, block.reflectedDir,
-                             block.reflected) ||
-                     !isSame(alone.refracted, block.refracts, block.refractedDir,
-                             block.refracted)) &&
-                    ++wrong <= 3)
-                    CHECK_INFO(false,
-                               kernel.name << " block " << i << " point " << k << " eta " << p.eta);
-            }
+            const Block block(random);
+            std::array<Vec3, 3 * kPoints> org, dir;
+            std::array<Rgb, 3 * kPoints> weight;
+            const LeavingRays out =
+                lanes.bounce(block.points, block.weights.data(), block.alike, kCutoff,
+                             {org.data(), dir.data(), nullptr, weight.data()});
+            LeavingRays told;
+            const std::vector<Sent> alone = sentAlone(block, told, cases);
+            bool same = out.rays == told.rays && out.reflected == told.reflected &&
+                        out.refracted == told.refracted;
+            for (std::size_t ray = 0; ray < alone.size() && same; ++ray)
+                same = sameBits(org[ray], alone[ray].org) && sameBits(dir[ray], alone[ray].dir) &&
+                       sameBits(weight[ray], alone[ray].weight);
+            for (std::size_t k = 0; k < kPoints && same; ++k)
+                for (const AlikePoints& some : block.alike)
+                    if ((some.points >> k & 1) != 0 && (told.rays >> (2 * k + 1) & 1) != 0)
+                        same = out.beyond[k] == some.beyond;
+            CHECK_INFO(same, name << ": block " << i);
         }
-        CHECK_EQUAL(wrong, 0);
         // All of it happens, or the test says nothing.
-        CHECK_INFO(bent < points / 10 && bent > points / 1000 && reflected > points / 2 &&
-                       refracted > points / 4 && total > points / 20,
-                   kernel.name << ": of " << points << " points " << bent << " bent, " << reflected
-                               << " reflected, " << refracted << " refracted, " << total
-                               << " totally reflected");
-    }
-    CHECK(bouncesInLanes(chooseKernel("scalar")) == nullptr);
+        CHECK_INFO(cases.reflected > cases.points / 2 && cases.refracted > cases.points / 5 &&
+                       cases.total > cases.points / 20 && cases.dropped > cases.points / 50 &&
+                       cases.bentBack > cases.points / 1000 && cases.bentDown > cases.points / 100,
+                   name << ": of " << cases.points << " points " << cases.reflected
+                        << " reflected, " << cases.refracted << " refracted, " << cases.total
+                        << " totally, " << cases.dropped << " dropped, " << cases.bentBack
+                        << " bent back, " << cases.bentDown << " bent down");
+    });
+    CHECK(bounceLanes(chooseKernel("scalar")).bounce == nullptr);
+}
+
+TEST(bounce_lanes_divide_points_by_what_they_have_in_common) {
+    forAllLanes([](const char* name, const BounceLanes& lanes) {
+        Random random(92);
+        for (int i = 0; i < check::scaled(2000); ++i) {
+            PointBlock block{};
+            std::array<std::uint32_t, kPoints> media{};
+            const std::uint32_t kinds = 1 + random.below(3);
+            for (std::size_t k = 0; k < kPoints; ++k)
+                block.material[k] = random.below(kinds), media[k] = random.below(kinds);
+            block.front = random.chance(0.5) ? 0xffffu : random.below(1u << 16);
+            const unsigned used = (2u << random.below(16)) - 1;
+            std::array<std::uint16_t, kPoints> alike;
+            const std::size_t sets = lanes.divide(block, media.data(), used, alike.data());
+            const auto areAlike = [&](std::size_t a, std::size_t b) {
+                return block.material[a] == block.material[b] && media[a] == media[b] &&
+                       block.isFront(a) == block.isFront(b);
+            };
+            unsigned seen = 0;
+            bool right = true;
+            for (std::size_t s = 0; s < sets; ++s) {
+                const auto first = static_cast<std::size_t>(std::countr_zero(used & ~seen));
+                for (std::size_t k = 0; k < kPoints; ++k)
+                    right &=
+                        ((alike[s] >> k & 1) != 0) == ((used >> k & 1) != 0 && areAlike(first, k));
+                seen |= alike[s];
+            }
+            CHECK_INFO(right && seen == used, name << ": block " << i);
+        }
+    });
 }

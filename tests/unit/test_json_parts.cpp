@@ -2,13 +2,11 @@
 // gives: every object, its place in the file and every message.
 #include "base/text.h"
 #include "check.h"
-#include "desc/properties.h"
 #include "read/json/json.h"
 #include "read/json/read_json.h"
-#include "unit/damage.h"
+#include "unit/read_outcome.h"
 
 #include <cstdint>
-#include <filesystem>
 #include <random>
 #include <string>
 #include <utility>
@@ -18,36 +16,20 @@ namespace {
 
 constexpr std::size_t kNever = static_cast<std::size_t>(-1);
 
-struct Outcome {
-    SceneDesc desc;
-    std::vector<std::uint32_t> places; // two places always compare equal in a desc
-    std::string said;
-    std::vector<std::string> warnings;
-    bool operator==(const Outcome&) const = default;
-};
-Outcome readWith(const std::string& text, int threads, std::size_t partBytes, bool lenient) {
-    Outcome out;
-    Diagnostics diagnostics;
-    ReadOptions options;
-    options.threads = threads;
-    options.lenient = lenient;
-    const SourceFile source{"t.json", text};
-    out.said = check::thrown([&] {
-        out.desc = readJson(source, {options, diagnostics}, partBytes);
-    });
-    forEachBlock(out.desc, [&](const auto& block) { out.places.push_back(block.loc.offset); });
-    out.warnings = std::move(diagnostics.warnings);
-    return out;
-}
+using Outcome = check::ReadOutcome;
+
 Outcome checkSame(const std::string& text, const std::string& what, bool lenient = false) {
-    Outcome one = readWith(text, 1, kNever, lenient);
-    constexpr std::pair<int, std::size_t> kWays[] = {{1, 1}, {3, 1}, {2, 150}};
-    for (const auto& [threads, partBytes] : kWays) {
-        const Outcome other = readWith(text, threads, partBytes, lenient);
-        CHECK_INFO(other == one, what << ": " << threads << " threads, parts of " << partBytes
-                                      << "; '" << other.said << "' instead of '" << one.said
-                                      << "'");
-    }
+    const SourceFile source{"t.json", text};
+    const auto readWith = [&](int threads, std::size_t partBytes) {
+        return check::outcomeOf([&](Diagnostics& diagnostics) {
+            ReadOptions options;
+            options.threads = threads;
+            options.lenient = lenient;
+            return readJson(source, {options, diagnostics}, partBytes);
+        });
+    };
+    Outcome one = readWith(1, kNever);
+    check::checkParts(one, {{1, 1}, {3, 1}, {2, 150}}, what, readWith);
     return one;
 }
 
@@ -143,13 +125,9 @@ TEST(json_parts_give_the_same_messages) {
 }
 
 TEST(json_parts_give_the_same_for_all_examples) {
-    int count = 0;
-    for (const char* folder : {"tests/scenes/json", "tests/bad/json", "ASCII"})
-        for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-            if (entry.path().extension() != ".json") continue;
-            checkSame(damage::contentOf(entry.path()), entry.path().string());
-            ++count;
-        }
+    const int count = check::forEachFile(
+        {"tests/scenes/json", "tests/bad/json", "ASCII"}, ".json",
+        [](const std::string& text, const std::string& name) { checkSame(text, name); });
     CHECK_INFO(count > 40, count << " files");
 }
 

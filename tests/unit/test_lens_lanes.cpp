@@ -3,9 +3,12 @@
 #include "check.h"
 #include "render/lens_lanes.h"
 #include "sample/sampler.h"
+#include "sample/warp.h"
 #include "verify/meshes.h"
 
+#include <array>
 #include <bit>
+#include <vector>
 
 using meshes::Random;
 
@@ -73,6 +76,91 @@ TEST(lens_lanes_have_the_bits_of_single_rays) {
             }
         }
         CHECK_EQUAL(wrong, 0);
+    }
+}
+
+TEST(pinhole_lanes_have_the_bits_of_single_rays) {
+    for (const Kernel& kernel : allKernels()) {
+        const auto rays = kernel.supported() ? cameraLanes(kernel).pinhole : nullptr;
+        if (!rays) continue;
+        Random random(43);
+        long long wrong = 0;
+        for (int i = 0; i < check::scaled(1000); ++i) {
+            CameraParams params = someCamera(random);
+            params.apertureRadius = 0;
+            const Camera camera(params);
+            const auto pinhole = camera.pinhole();
+            CHECK(pinhole.has_value());
+            std::vector<Vec2d> places(random.below(40));
+            for (Vec2d& place : places)
+                place = {random.uniform(-1, params.width + 1.0),
+                         random.uniform(-1, params.height + 1.0)};
+            std::vector<Vec3> dir(places.size() + 1);
+            std::vector<float> tMin(places.size() + 1, -1.0f);
+            rays(*pinhole, places, dir, tMin);
+            CHECK(dir.back() == Vec3{} && tMin.back() == -1); // nobody's
+            for (std::size_t k = 0; k < places.size(); ++k) {
+                const Ray ray = camera.ray(places[k], {0.5f, 0.5f}, 0.5f);
+                const bool same = sameBits(ray.dir.x, dir[k].x) && sameBits(ray.dir.y, dir[k].y) &&
+                                  sameBits(ray.dir.z, dir[k].z) && sameBits(ray.tMin, tMin[k]);
+                if (!same && ++wrong <= 3)
+                    CHECK_INFO(false, kernel.name << " camera " << i << " ray " << k << " of "
+                                                  << places.size());
+            }
+        }
+        CHECK_EQUAL(wrong, 0);
+    }
+}
+
+TEST(only_cameras_whose_rays_start_in_one_point_are_pinholes) {
+    CameraParams params;
+    CHECK(Camera(params).pinhole().has_value());
+    params.kind = CameraParams::Kind::Orthographic;
+    CHECK(!Camera(params).pinhole().has_value());
+    params.kind = CameraParams::Kind::Perspective;
+    params.apertureRadius = 1;
+    CHECK(!Camera(params).pinhole().has_value());
+}
+
+// Lanes reckon places on the disk less exactly and have to notice where that might show: in units
+// of 2^-24, some of the few in a million where it does.
+TEST(places_on_the_lens_in_lanes_round_as_single_ones) {
+    constexpr std::array<std::array<std::uint32_t, 2>, 10> kHard = {{{3300455, 3231371},
+                                                                     {8225380, 1747078},
+                                                                     {9725976, 5417801},
+                                                                     {469998, 11825283},
+                                                                     {7137532, 2204322},
+                                                                     {9766350, 10664176},
+                                                                     {7473108, 11741567},
+                                                                     {5916949, 4693849},
+                                                                     {10358357, 14129310},
+                                                                     {12186846, 3901933}}};
+    CameraParams params; // from the origin through a lens of radius 1
+    params.apertureRadius = 1;
+    const auto lens = Camera(params).roundLens();
+    for (const Kernel& kernel : allKernels()) {
+        const auto rays = kernel.supported() ? cameraLanes(kernel).rays : nullptr;
+        if (!rays) continue;
+        Random random(43);
+        for (int i = 0; i < check::scaled(300); ++i) {
+            LensBlock block;
+            for (std::size_t k = 0; k < LensBlock::kRays; ++k) {
+                const auto& [u, v] = kHard[random.below(kHard.size())];
+                const bool isHard = random.chance(0.1);
+                const auto number = [&](std::uint32_t hard) {
+                    const auto bits = isHard ? hard : random.below(1u << 24);
+                    return static_cast<float>(bits) * 0x1p-24f;
+                };
+                block.u[k] = number(u), block.v[k] = number(v);
+            }
+            rays(*lens, block);
+            for (std::size_t k = 0; k < LensBlock::kRays; ++k) {
+                const Vec2 place = diskFromSquare({block.u[k], block.v[k]});
+                CHECK_INFO(sameBits({place.x, place.y, 0}, block.org, k),
+                           kernel.name << ": place " << block.u[k] * 0x1p24f << ' '
+                                       << block.v[k] * 0x1p24f);
+            }
+        }
     }
 }
 

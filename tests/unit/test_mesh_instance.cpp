@@ -4,7 +4,7 @@
 
 #include "check.h"
 #include "render/shape_set.h"
-#include "verify/meshes.h"
+#include "verify/hostile_rays.h"
 
 #include <algorithm>
 
@@ -189,15 +189,9 @@ TEST(instance_in_batches_is_its_copy) {
         const SceneFrame frame = meshes::frameFor(mesh, map);
         Pair pair(mesh, map, frame);
         if (pair.number.empty()) continue;
-        std::vector<Ray> batch;
-        for (int i = 0; i < 150; ++i) batch.push_back(someRay(random, pair));
-        std::vector<Vec3> org, dir;
-        std::vector<float> tMin, tMax;
-        for (const Ray& ray : batch) {
-            org.push_back(ray.org), dir.push_back(ray.dir);
-            tMin.push_back(ray.tMin), tMax.push_back(ray.tMax);
-        }
-        const std::vector<float> time(batch.size(), 0.0f);
+        battery::RayList list;
+        for (int i = 0; i < 150; ++i) list.push(someRay(random, pair));
+        const RaySpan batch = list.span();
         ShapeSet copy;
         copy.add(std::move(pair.copy.shape), ShapeSet::Shadow::Opaque);
         copy.finish(false);
@@ -212,8 +206,8 @@ TEST(instance_in_batches_is_its_copy) {
             set.finish(true, kernel);
             std::vector<Hit> found;
             std::vector<std::uint8_t> hidden;
-            set.closest({org, dir, tMin, tMax, time}, found);
-            set.occluded({org, dir, tMin, tMax, time}, hidden);
+            set.closest(batch, found);
+            set.occluded(batch, hidden);
             for (std::size_t i = 0; i < batch.size(); ++i) {
                 Hit hit = copy.closest(batch[i]);
                 if (hit.isHit()) hit.prim = pair.number[hit.prim];

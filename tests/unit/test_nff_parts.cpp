@@ -2,50 +2,30 @@
 // every message, wherever parts begin.
 #include "base/text.h"
 #include "check.h"
-#include "desc/properties.h"
 #include "read/nff/read_nff.h"
 #include "read/nff/split.h"
-#include "unit/damage.h"
+#include "unit/read_outcome.h"
 
 #include <cstdint>
-#include <filesystem>
-#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace {
 
-struct Outcome {
-    SceneDesc desc;
-    std::vector<std::uint32_t> places; // two places always compare equal in a desc
-    std::string said;
-    std::vector<std::string> warnings;
-    bool operator==(const Outcome&) const = default;
-};
-Outcome readWith(const std::string& text, int threads, std::size_t partBytes) {
-    Outcome out;
-    Diagnostics diagnostics;
-    ReadOptions options;
-    options.threads = threads;
-    const SourceFile source{"t.nff", text};
-    out.said = check::thrown([&] {
-        out.desc = readNff(source, {options, diagnostics}, partBytes);
-    });
-    forEachBlock(out.desc, [&](const auto& block) { out.places.push_back(block.loc.offset); });
-    out.warnings = std::move(diagnostics.warnings);
-    return out;
-}
+using Outcome = check::ReadOutcome;
+
 Outcome checkSame(const std::string& text, const std::string& what) {
-    Outcome one = readWith(text, 1, 1);
-    constexpr std::pair<int, std::size_t> kWays[] = {{2, 1}, {3, 60}, {2, 200}};
-    for (const auto& [threads, partBytes] : kWays) {
-        const Outcome other = readWith(text, threads, partBytes);
-        CHECK_INFO(other == one, what << ": " << threads << " threads, parts of " << partBytes
-                                      << "; '" << other.said << "' instead of '" << one.said
-                                      << "' of\n"
-                                      << text);
-    }
+    const SourceFile source{"t.nff", text};
+    const auto readWith = [&](int threads, std::size_t partBytes) {
+        return check::outcomeOf([&](Diagnostics& diagnostics) {
+            ReadOptions options;
+            options.threads = threads;
+            return readNff(source, {options, diagnostics}, partBytes);
+        });
+    };
+    Outcome one = readWith(1, 1);
+    check::checkParts(one, {{2, 1}, {3, 60}, {2, 200}}, cat(what, " of\n", text), readWith);
     return one;
 }
 
@@ -117,12 +97,18 @@ TEST(nff_parts_give_the_same_scene) {
 
 TEST(nff_parts_give_the_same_messages) {
     const std::vector<std::pair<std::string, std::string>> cases = {
-        {"s 1 2 3\n", "expected 4 numbers"},          {"s 1 2 3 4 5\n", "expected an entity"},
-        {"s 1 2 3 1e70\n", "number 4 of 's'"},        {"f 1 1 1 -1 0 0 0 0\n", "number 4 of 'f'"},
-        {"f 1 1 x\n", "expected 8 numbers"},          {"q 1\n", "unknown entity"},
-        {"p -3\n", "expected the number of corners"}, {"p 999999999\n", "more than the rest"},
-        {"from 1 2 3\n", "'from'"},        {kView, "given already at line"},
-        {"b 1 1 1\n", "given already at line"},       {"c 0 0 0 1 0 0 1 -1\n", "different signs"},
+        {"s 1 2 3\n", "expected 4 numbers"},
+        {"s 1 2 3 4 5\n", "expected an entity"},
+        {"s 1 2 3 1e70\n", "number 4 of 's'"},
+        {"f 1 1 1 -1 0 0 0 0\n", "number 4 of 'f'"},
+        {"f 1 1 x\n", "expected 8 numbers"},
+        {"q 1\n", "unknown entity"},
+        {"p -3\n", "expected the number of corners"},
+        {"p 999999999\n", "more than the rest"},
+        {"from 1 2 3\n", "'from'"},
+        {kView, "given already at line"},
+        {"b 1 1 1\n", "given already at line"},
+        {"c 0 0 0 1 0 0 1 -1\n", "different signs"},
     };
     for (const auto& [entity, words] : cases)
         for (std::size_t at = kText.find("f 1"); at < kText.size();
@@ -139,13 +125,8 @@ TEST(nff_parts_give_the_same_messages) {
 }
 
 TEST(nff_parts_give_the_same_for_all_examples) {
-    int count = 0;
-    for (const char* folder : {"tests/scenes/nff", "tests/bad/nff", "ASCII"})
-        for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-            if (entry.path().extension() != ".nff") continue;
-            checkSame(damage::contentOf(entry.path()), entry.path().string());
-            ++count;
-        }
+    const int count =
+        check::forEachFile({"tests/scenes/nff", "tests/bad/nff", "ASCII"}, ".nff", checkSame);
     CHECK_INFO(count > 15, count << " files");
 }
 

@@ -13,9 +13,10 @@ namespace {
 ShapeSet scatter(Random& random, int count) {
     ShapeSet set;
     for (int i = 0; i < count; ++i) {
-        // Spheres are told more of.
-        const kit::Kind& kind = random.chance(0.4)
-                                    ? kit::kindNamed("sphere")
+        // Spheres and upright cubes are told more of.
+        const kit::Kind& kind = random.chance(0.4) ? kit::kindNamed("sphere")
+                                : random.chance(0.3)
+                                    ? kit::kindNamed("cube")
                                     : kit::kinds()[random.below(kit::kinds().size())];
         Vec3d factors{random.logUniform(0.05, 0.5), random.logUniform(0.05, 0.5),
                       random.logUniform(0.05, 0.5)};
@@ -163,57 +164,105 @@ TEST(occluders_in_lanes_never_miss_one) {
                      << " of them dark");
 }
 
+namespace {
+
+struct Lines {
+    int clear = 0, hidden = 0, unsure = 0, wrong = 0;
+};
+
 // What is said of single lines to the lamp is what their shadow rays say.
+void judge(Random& random, const ShapeSet& set, const MetPoints& met, const PointEmission& lamp,
+           int number, Lines& lines) {
+    const Occluders occluders(set);
+    SamplesOnLamp samples;
+    samples.count = LitBySamples::kMost, samples.points = met.block.used;
+    for (std::size_t k = 0; k < LitBlock::kPoints; ++k)
+        samples.index[k] = random.below(1u << 31), samples.x[k] = random.below(1u << 31),
+        samples.y[k] = random.below(1u << 31);
+    for (const Kernel& kernel : allKernels()) {
+        const LightBySamplesFn inLanes = kernel.supported() ? lightBySamples(kernel) : nullptr;
+        if (!inLanes) continue;
+        LitBySamples all, told; // with a ray for each line, and with what is known
+        HiddenPoints none;
+        none.maybe = met.block.used;
+        inLanes(lamp, met.block, samples, occluders, none, all);
+        const HiddenPoints found = hiddenPoints(kernel)(occluders, met.block, lamp);
+        inLanes(lamp, met.block, samples, occluders, found, told);
+        for (std::size_t n = 0; n < LitBySamples::kRoom; ++n) {
+            const std::size_t s = n / LitBlock::kPoints, k = n % LitBlock::kPoints;
+            if (!all.isLit(s, k) || (found.maybe >> k & 1) == 0) continue;
+            if (told.isUnsure(s, k)) {
+                lines.wrong += !told.isLit(s, k), ++lines.unsure;
+                continue;
+            }
+            const Ray ray{
+                met.starts[k], {all.dir[0][n], all.dir[1][n], all.dir[2][n]}, 0, all.tMax[n], 0};
+            std::vector<Hit> through;
+            set.seeThroughHits(ray, through);
+            const bool isRight =
+                told.isLit(s, k) ? !set.occluded(ray) && through.empty() : set.occluded(ray);
+            ++(told.isLit(s, k) ? lines.clear : lines.hidden);
+            if (!isRight && ++lines.wrong <= 3)
+                CHECK_INFO(false,
+                           kernel.name << " case " << number << " point " << k << " sample " << s);
+        }
+    }
+}
+
+} // namespace
+
 TEST(occluders_in_lanes_know_lines) {
     Random random(513);
-    int clear = 0, hidden = 0, unsure = 0, wrong = 0;
+    Lines lines;
     for (int i = 0; i < check::scaled(400); ++i) {
         const ShapeSet set = scatter(random, 1 + static_cast<int>(random.below(8)));
-        const Occluders occluders(set);
         const MetPoints met = meet(random, set);
         PointEmission lamp{toFloat(random.inBox(2)), {1, 1, 1}, {}, 0};
         lamp.radius = static_cast<float>(random.logUniform(1e-3, 1));
-        SamplesOnLamp samples;
-        samples.count = LitBySamples::kMost, samples.points = met.block.used;
-        for (std::size_t k = 0; k < LitBlock::kPoints; ++k)
-            samples.index[k] = random.below(1u << 31), samples.x[k] = random.below(1u << 31),
-            samples.y[k] = random.below(1u << 31);
-        for (const Kernel& kernel : allKernels()) {
-            const LightBySamplesFn inLanes = kernel.supported() ? lightBySamples(kernel) : nullptr;
-            if (!inLanes) continue;
-            LitBySamples all, told; // with a ray for each line, and with what is known
-            HiddenPoints none;
-            none.maybe = met.block.used;
-            inLanes(lamp, met.block, samples, occluders, none, all);
-            const HiddenPoints found = hiddenPoints(kernel)(occluders, met.block, lamp);
-            inLanes(lamp, met.block, samples, occluders, found, told);
-            for (std::size_t n = 0; n < LitBySamples::kRoom; ++n) {
-                const std::size_t s = n / LitBlock::kPoints, k = n % LitBlock::kPoints;
-                if (!all.isLit(s, k) || (found.maybe >> k & 1) == 0) continue;
-                if (told.isUnsure(s, k)) {
-                    wrong += !told.isLit(s, k), ++unsure;
-                    continue;
-                }
-                const Ray ray{met.starts[k],
-                              {all.dir[0][n], all.dir[1][n], all.dir[2][n]},
-                              0,
-                              all.tMax[n],
-                              0};
-                std::vector<Hit> through;
-                set.seeThroughHits(ray, through);
-                const bool isRight =
-                    told.isLit(s, k) ? !set.occluded(ray) && through.empty() : set.occluded(ray);
-                ++(told.isLit(s, k) ? clear : hidden);
-                if (!isRight && ++wrong <= 3)
-                    CHECK_INFO(false,
-                               kernel.name << " case " << i << " point " << k << " sample " << s);
-            }
-        }
+        judge(random, set, met, lamp, i, lines);
     }
-    CHECK_EQUAL(wrong, 0);
-    CHECK_INFO(clear > check::scaled(2000) && hidden > check::scaled(300) &&
-                   unsure > check::scaled(5000),
-               clear << " clear, " << hidden << " hidden, " << unsure << " unsure");
+    CHECK_EQUAL(lines.wrong, 0);
+    CHECK_INFO(lines.clear > check::scaled(2000) && lines.hidden > check::scaled(300) &&
+                   lines.unsure > check::scaled(5000),
+               lines.clear << " clear, " << lines.hidden << " hidden, " << lines.unsure
+                           << " unsure");
+}
+
+// Lines that begin or end in an upright cube, that stay in it, and that pass along its faces nearer
+// than rounding is told from passing by.
+TEST(occluders_in_lanes_know_lines_at_upright_cubes) {
+    Random random(514);
+    Lines lines;
+    const double side = 0.25, near = 0x1p-14;
+    for (int i = 0; i < check::scaled(300); ++i) {
+        ShapeSet set;
+        set.add(kit::kindNamed("cube").make(Transform::scale(side)), ShapeSet::Shadow::Opaque);
+        set.finish(true);
+        const bool isLampInside = random.chance(0.3);
+        const Vec3d at = random.inBox(isLampInside ? 0.9 * side : 1);
+        PointEmission lamp{toFloat(at), {1, 1, 1}, {}, 1e-7f};
+        const std::size_t axis = random.below(3);
+        // Over the face of that axis, if the lamp is as high.
+        const double height = side + random.uniform(-near, near);
+        if (!isLampInside && random.coin()) lamp.position[axis] = static_cast<float>(height);
+        MetPoints met;
+        for (std::size_t k = 0; k < LitBlock::kPoints; ++k) {
+            Vec3 p = toFloat(random.inBox(random.chance(0.3) ? 0.9 * side : 1));
+            if (random.coin()) p[axis] = static_cast<float>(side + random.uniform(-near, near));
+            const Vec3 up = normalize(lamp.position - p);
+            for (std::size_t a = 0; a < 3; ++a) {
+                met.block.p[a][k] = p[a], met.block.n[a][k] = met.block.ng[a][k] = up[a];
+                met.block.weight[a][k] = met.block.diffuse[a][k] = 1;
+            }
+            met.block.shape[k] = 1; // another one
+            met.starts.push_back(p), met.sides.push_back(up);
+        }
+        met.block.used = 0xffff;
+        judge(random, set, met, lamp, i, lines);
+    }
+    CHECK_EQUAL(lines.wrong, 0);
+    CHECK_INFO(lines.hidden > check::scaled(20000) && lines.unsure > check::scaled(2000),
+               lines.hidden << " hidden, " << lines.unsure << " unsure");
 }
 
 // And it is said where it is plain to see.

@@ -5,10 +5,11 @@
 #include "shape/mesh_instance.h"
 #include "shape/one_sided.h"
 #include "shape/sphere.h"
-#include "verify/meshes.h"
+#include "verify/hostile_rays.h"
 
 #include <functional>
 
+using battery::RayList;
 using meshes::Random;
 
 namespace {
@@ -86,19 +87,9 @@ struct World {
     }
 };
 
-struct Batch {
-    std::vector<Vec3> org, dir;
-    std::vector<float> tMin, tMax, time;
-    void add(const Ray& ray) {
-        org.push_back(ray.org), dir.push_back(ray.dir);
-        tMin.push_back(ray.tMin), tMax.push_back(ray.tMax), time.push_back(ray.time);
-    }
-    RaySpan span() const { return {org, dir, tMin, tMax, time}; }
-};
-
 // From a point for all and from anywhere, at corners and past them; some start on what they met.
-Batch someRays(Random& random, const World& world, std::size_t count) {
-    Batch batch;
+RayList someRays(Random& random, const World& world, std::size_t count) {
+    RayList batch;
     const Vec3 eye = toFloat(random.direction());
     for (std::size_t i = 0; i < count; ++i) {
         const std::uint32_t number = 1 + random.below(world.set.shapes.size() - 1);
@@ -129,7 +120,7 @@ Batch someRays(Random& random, const World& world, std::size_t count) {
         if (random.chance(0.01)) ray.tMax = ray.tMin;
         if (random.chance(0.01)) ray.dir = {};
         if (random.chance(0.01)) ray.org.x = std::numeric_limits<float>::quiet_NaN();
-        batch.add(ray);
+        batch.push(ray);
     }
     return batch;
 }
@@ -145,7 +136,7 @@ TEST(placed_meshes_have_the_bits_of_single_rays) {
         for (std::uint32_t kind = 0; kind < 3; ++kind) descs.push_back(meshOf(random, kind));
         const std::vector<Place> places = somePlaces(random, descs.size());
         const World plain(descs, places, chooseKernel("scalar"), false);
-        const Batch batch = someRays(random, plain, 300);
+        const RayList batch = someRays(random, plain, 300);
         for (const Kernel& kernel : allKernels()) {
             if (!kernel.supported()) continue;
             const World fast(descs, places, kernel, true);
@@ -226,13 +217,13 @@ TEST(placed_meshes_leave_out_triangles) {
         tree.boxes.build(kernel.width, buildBvh(std::array{instance.bounds()}));
         tree.whole = instance.bounds();
         tree.boxStack = stackSize(tree.boxes), tree.meshStack = geometry.wide.stackSize;
-        Batch batch;
+        RayList batch;
         std::vector<std::uint32_t> order;
         for (std::uint32_t i = 0; i < 200; ++i) {
             Ray ray;
             ray.org = toFloat(random.direction() * 3.0);
             ray.dir = toFloat(map.point(random.inBox(0.5))) - ray.org;
-            batch.add(ray);
+            batch.push(ray);
             order.push_back(i);
         }
         const RaySpan span = batch.span();

@@ -1,14 +1,9 @@
 // Cubes, disks and planes by corners in registers, still or moving: batches have the bits of asking
 // every shape, along faces and edges, from the inside, and where shapes are flat, huge or far away.
-#include "analytic_kit.h"
-#include "check.h"
-#include "shape/one_sided.h"
 #include "solid_checks.h"
 
 using meshes::Random;
-using solid_checks::compare;
 using solid_checks::Rays;
-using solid_checks::Score;
 using Shadow = ShapeSet::Shadow;
 
 namespace {
@@ -71,8 +66,9 @@ MovingTransform moving(Random& random, const Transform& map) {
 
 // Moved and scaled only, turned, sheared, mirrored, flattened; some twice in one place, some seen
 // from one side.
-std::vector<Face> addFaces(std::uint64_t seed, std::size_t count, ShapeSet& set) {
+std::vector<Face> addFaces(std::uint64_t seed, const Kernel&, ShapeSet& set) {
     Random random(seed);
+    const std::size_t count = 1 + seed * 7 % 40;
     std::vector<Face> faces;
     Transform last;
     for (std::size_t n = 0; n < count; ++n) {
@@ -99,10 +95,7 @@ std::vector<Face> addFaces(std::uint64_t seed, std::size_t count, ShapeSet& set)
             shape = std::make_unique<Disk>(place, radius, 0u, 0u);
         else
             shape = std::make_unique<Plane>(place, face.corners, 0u, 0u);
-        if (random.chance(0.3))
-            shape = std::make_unique<OneSided>(std::move(shape), random.chance(0.5)
-                                                                     ? OneSided::Side::Front
-                                                                     : OneSided::Side::Back);
+        shape = solid_checks::sided(random, std::move(shape), 0.3);
         set.add(std::move(shape), random.chance(0.9) ? Shadow::Opaque : Shadow::None);
         faces.push_back(face);
     }
@@ -121,12 +114,7 @@ Rays faceRays(Random& random, const std::vector<Face>& faces) {
                            : random.chance(0.2) ? random.inBox(2)
                                                 : face.place(random);
         const Vec3d to = face.place(random);
-        Ray ray = kit::rayFrom(from, to - toDouble(toFloat(from)));
-        if (fromLamp || random.chance(0.3))
-            ray.tMax = static_cast<float>(1 + random.uniform(-2, 2) * 0x1p-20);
-        if (random.chance(0.1))
-            ray.tMin = static_cast<float>(1 + random.uniform(-2, 2) * 0x1p-20),
-            ray.tMax = kInfinityF;
+        Ray ray = solid_checks::rayBetween(random, from, to, fromLamp);
         if (random.chance(0.1)) // along an axis of the shape, or nearly
             ray.dir = toFloat(face.map.vector({random.chance(0.5) ? 1.0 : 0.0, 0, 1}) +
                               random.direction() *
@@ -145,26 +133,7 @@ Rays faceRays(Random& random, const std::vector<Face>& faces) {
 } // namespace
 
 TEST(solid_faces_have_the_bits_of_single_rays) {
-    for (const Kernel& kernel : allKernels()) {
-        if (!kernel.supported() || kernel.width == 0) continue;
-        Score score;
-        for (std::uint64_t seed = 2401; seed < 2401 + check::scaled(100u); ++seed) {
-            ShapeSet batches, single;
-            const std::size_t count = 1 + seed * 7 % 40;
-            const std::vector<Face> faces = addFaces(seed, count, batches);
-            addFaces(seed, count, single);
-            batches.finish(true, kernel);
-            single.finish(false);
-            Random random(seed);
-            for (int i = 0; i < 8; ++i)
-                compare(kernel.name, seed, batches, single, faceRays(random, faces), score);
-        }
-        std::printf("faces, %s: %lld rays, %lld hits, %lld hidden\n", kernel.name, score.rays,
-                    score.hits, score.hidden);
-        CHECK_INFO(score.hits > score.rays / 4 && score.hidden > score.rays / 8, kernel.name);
-        CHECK_EQUAL(score.wrongHits, 0);
-        CHECK_EQUAL(score.wrongHidden, 0);
-    }
+    solid_checks::compareSets("faces", 2401, 100, addFaces, faceRays);
 }
 
 // The rims of faces belong to them: from straight above, and a rounding off.

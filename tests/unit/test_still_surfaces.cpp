@@ -5,6 +5,7 @@
 #include "shape/checkered.h"
 #include "shape/cylinder.h"
 #include "shape/infinite_plane.h"
+#include "verify/hostile_rays.h"
 
 #include <algorithm>
 #include <bit>
@@ -33,8 +34,7 @@ using Shapes = std::vector<std::unique_ptr<const Shape>>;
 // rarely, so that registers are full of one, or of many. Returns how many hits were compared.
 std::size_t checkShapes(const Shapes& shapes, const std::vector<Transform>& maps, Random& random,
                         double missing, double changes) {
-    std::vector<Vec3> org, dir;
-    std::vector<float> tMin, tMax, time;
+    battery::RayList batch;
     std::vector<Hit> hits;
     std::vector<std::uint32_t> which, to;
     std::vector<const Shape*> met;
@@ -48,8 +48,7 @@ std::size_t checkShapes(const Shapes& shapes, const std::vector<Transform>& maps
         const Vec3d from = fromOnePoint ? eye : maps[number].point(random.inBox(3));
         const Vec3d at = maps[number].point(random.inBox(1));
         const Ray ray{toFloat(from), toFloat(at - from), 0, kInfinityF, 0};
-        org.push_back(ray.org), dir.push_back(ray.dir);
-        tMin.push_back(ray.tMin), tMax.push_back(ray.tMax), time.push_back(ray.time);
+        batch.push(ray);
         hits.emplace_back();
         if (random.chance(missing) || !shapes[number]->intersect(ray, hits.back())) continue;
         if (random.chance(0.3)) hits.back().u = 0; // off the surface
@@ -60,7 +59,7 @@ std::size_t checkShapes(const Shapes& shapes, const std::vector<Transform>& maps
     }
     if (which.empty()) return 0;
     std::reverse(to.begin(), to.end()); // places are not those of the rays
-    const RaySpan rays{org, dir, tMin, tMax, time};
+    const RaySpan rays = batch.span();
     for (const Kernel& kernel : allKernels()) {
         const StillSurfacesFn lanes = surfaceLanes(kernel).stills;
         if (!kernel.supported() || lanes == nullptr) continue;

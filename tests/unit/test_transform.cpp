@@ -3,6 +3,8 @@
 #include "check.h"
 
 #include <array>
+#include <bit>
+#include <cstdint>
 #include <random>
 #include <string>
 
@@ -95,6 +97,38 @@ TEST(transform_orientation_is_that_of_the_map) {
         CHECK_INFO(Transform::orientationOf(rows) == expected,
                    "map " + std::to_string(i) + " of kind " + std::to_string(kind));
         ++counts[static_cast<std::size_t>(expected)];
+    }
+    for (const int count : counts) CHECK(count > check::scaled(20000) / 20);
+}
+
+// Maps that only move and scale along the axes are computed by themselves. A zero with a sign makes
+// one a map like others, of the same numbers.
+TEST(transform_scalings_have_the_bits_of_other_maps) {
+    Draw draw;
+    const auto bitsOf = [](const Transform& map) {
+        std::array<std::uint64_t, 12> bits;
+        // Zeros lose their signs, which differ where those of the rows do.
+        for (std::size_t i = 0; i < bits.size(); ++i)
+            bits[i] = std::bit_cast<std::uint64_t>(map.inverseRows()[i] + 0.0);
+        return bits;
+    };
+    std::array<int, 2> counts{};
+    for (int i = 0; i < check::scaled(20000); ++i) {
+        Transform::Rows rows{};
+        const double size = std::exp2(draw.uniform(-1070, 1000));
+        const double spread = i % 2 == 0 ? 3 : i % 4 == 1 ? 120 : 700;
+        for (const std::size_t k : {0u, 5u, 10u})
+            rows[k] = size * std::exp2(draw.uniform(-spread, 0));
+        for (const std::size_t k : {3u, 7u, 11u}) rows[k] = draw.uniform(-1, 1) * size;
+        if (draw.engine() % 8 == 0) rows[3] = 0;
+        Transform::Rows other = rows;
+        other[8] = -0.0;
+        const Transform map = Transform::fromRows(rows), like = Transform::fromRows(other);
+        const std::string which = "map " + std::to_string(i);
+        CHECK_INFO(map.isSingular() == like.isSingular() && !map.mirrors(), which);
+        CHECK_INFO(bitsOf(map) == bitsOf(like), which);
+        CHECK_INFO(Transform::orientationOf(rows) == Transform::orientationOf(other), which);
+        ++counts[map.isSingular() ? 1 : 0];
     }
     for (const int count : counts) CHECK(count > check::scaled(20000) / 20);
 }

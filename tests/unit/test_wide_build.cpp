@@ -133,11 +133,7 @@ private:
         float before = 0;
         bool ended = false;
         for (std::size_t i = 0; i < W; ++i) {
-            Bounds box;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                box.lo[axis] = node.plane[axis][0][i];
-                box.hi[axis] = node.plane[axis][1][i];
-            }
+            const Bounds box = node.box(i);
             if (box.isEmpty()) {
                 ended = true;
                 if (kindOf(node.child[i]) != WideKind::Leaf ||

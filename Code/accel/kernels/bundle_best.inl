@@ -103,7 +103,7 @@ public:
             const unsigned found = bits(Ints::load(place_[q]) < Ints(kNowhere)) & rays_.active[q];
             if (found == 0) {
                 if (hits.whole != nullptr)
-                    rays_.write(q, tMax, {zero, zero}, Ints(0u), noShape, hits.whole);
+                    rays_.write(q, tMax, Weights{zero, zero}, Ints(0u), noShape, hits.whole);
                 else
                     rays_.write(q, never, none, hits.brief);
                 continue;
@@ -116,7 +116,7 @@ public:
             if (hits.whole != nullptr) {
                 const Weights w = weightsOf(winners, static_cast<unsigned>(q));
                 rays_.write(q, select(hit, t, tMax),
-                            {select(hit, w.u, zero), select(hit, w.v, zero)},
+                            Weights{select(hit, w.u, zero), select(hit, w.v, zero)},
                             select(hit, winners.id, Ints(0u)),
                             select(hit, Ints(hits.shape), noShape), hits.whole);
             } else {

@@ -2,11 +2,12 @@
 // operation, with what is seldom asked left to its own code.
 // Included like queue.inl, behind bundle_rays.inl.
 
-// planeKey() up to the ray, and the bounds of canonicalKey(), for W triangles. The padded box is a
-// quarter of the canonical pad wide of the triangle: a key that is inside it on both lateral axes
-// is not changed by the canonical clamp.
+// TrianglePlane up to the ray, and the bounds of canonicalKey(), for W triangles. The padded box is
+// a quarter of the canonical pad wide of the triangle: a key that is inside it on both lateral axes
+// is not changed by the canonical clamp to the box.
 struct BundlePlanes {
     Doubles nx, ny, nz, n0;                       // normal, and its product with a corner
+    Floats edgeOn;                                // see edgeOnLanes()
     Floats farthest, nearest, xLo, xHi, yLo, yHi; // keys of the corners' depths; the padded box
     Mask straddling;                              // in part behind the origin
 };
@@ -14,28 +15,20 @@ struct BundlePlanes {
 // The same in memory, a column per triangle.
 struct alignas(64) BundlePlaneList {
     double nx[W], ny[W], nz[W], n0[W];
-    float farthest[W], nearest[W], xLo[W], xHi[W], yLo[W], yHi[W];
+    float edgeOn[W], farthest[W], nearest[W], xLo[W], xHi[W], yLo[W], yHi[W];
     unsigned straddling;
 
     void store(const BundlePlanes& p) {
         p.nx.store(nx), p.ny.store(ny), p.nz.store(nz), p.n0.store(n0);
-        p.farthest.store(farthest), p.nearest.store(nearest);
+        p.edgeOn.store(edgeOn), p.farthest.store(farthest), p.nearest.store(nearest);
         p.xLo.store(xLo), p.xHi.store(xHi), p.yLo.store(yLo), p.yHi.store(yHi);
         straddling = bits(p.straddling);
     }
     // That of triangle j in every lane.
     BundlePlanes operator[](unsigned j) const {
-        return {nx[j],
-                ny[j],
-                nz[j],
-                n0[j],
-                farthest[j],
-                nearest[j],
-                xLo[j],
-                xHi[j],
-                yLo[j],
-                yHi[j],
-                maskOf((straddling >> j & 1) != 0 ? ~0u : 0u)};
+        return {nx[j],     ny[j],       nz[j],      n0[j],
+                edgeOn[j], farthest[j], nearest[j], xLo[j],
+                xHi[j],    yLo[j],      yHi[j],     maskOf((straddling >> j & 1) != 0 ? ~0u : 0u)};
     }
 };
 
@@ -84,7 +77,7 @@ public:
 
     // Of the triangles with these corners; point(i, axis): the axis of corner i.
     template <class PointFn> [[gnu::always_inline]] BundlePlanes planesOf(PointFn&& point) const {
-        const auto exact = [&](int i, std::size_t axis) { // in double, as planeKey() has it
+        const auto exact = [&](int i, std::size_t axis) { // in double, as TrianglePlane has it
             return Doubles(point(i, axis)) - Doubles(static_cast<double>(rays_.origin[axis]));
         };
         const auto rounded = [&](int i, std::size_t axis) {
@@ -107,6 +100,7 @@ public:
                 ny,
                 nz,
                 nx * x0 + ny * y0 + nz * z0,
+                edgeOnBound(nx, ny, nz),
                 one / zMax,
                 select(zMin > zero, one / zMin, Floats(kInfinityF)),
                 least(vx[0], vx[1], vx[2]) - pad,
@@ -129,7 +123,8 @@ public:
         const Floats key = min(max(plane, p.farthest), p.nearest);
         const Mask inBox =
             (p.xLo * key <= Sx) & (Sx <= p.xHi * key) & (p.yLo * key <= Sy) & (Sy <= p.yHi * key);
-        const unsigned clamped = bits(inside) & ~bits(inBox) & rays_.active[q];
+        const unsigned edgeOn = edgeOnLanes(along, p.edgeOn, rays_.depth(q));
+        const unsigned clamped = bits(inside) & (edgeOn | ~bits(inBox)) & rays_.active[q];
         if (clamped != 0) [[unlikely]]
             return clampedKeys(places, q, clamped, key);
         return key;

@@ -1,13 +1,15 @@
-// The rays of a bundle, W to a packet. Around the dominant axis of their directions, rays from one
-// point are points S = (x/z, y/z) of a plane, a packet is a rectangle in it and so is a bundle.
-// Only rays with the same dominant axis and sign share a plane: a bundle is traced in rounds, and a
-// ray is active in one of them.
-// Included like queue.inl, behind it.
+// The rays of a bundle that are traced together. Around the dominant axis of their directions, rays
+// from one point are points S = (x/z, y/z) of a plane, a packet is a rectangle in it and so is a
+// bundle. Only rays with the same dominant axis and sign share a plane: a bundle is traced in
+// rounds, and a ray is active in one of them.
+// Included like queue.inl, behind bundle_packets.inl.
 
-template <Query Q> class BundleRays {
+template <Query Q> class BundleRays : private BundlePackets {
 public:
-    static constexpr std::size_t kMostRays = 256;
-    static constexpr int kPackets = static_cast<int>(kMostRays) / W;
+    using BundlePackets::kMostRays;
+    using BundlePackets::kPackets;
+    using BundlePackets::origin;
+    using BundlePackets::refuse;
 
     using Range = SlopeRange;
     struct Rect {
@@ -15,14 +17,12 @@ public:
     };
 
     BundleRays(const WideMesh& mesh, const RaySpan& rays, Vec3 org)
-        : origin(org), mesh_(mesh), rays_(rays), finiteOrigin_(maxAbs(org) < 1e30f) {}
+        : BundlePackets(rays, org), mesh_(mesh) {}
 
     // `list`: numbers of rays, in ascending order, at most kMostRays.
     void load(std::span<const std::uint32_t> list) {
-        list_ = list;
-        loaded_ = (static_cast<int>(list.size()) + W - 1) / W;
-        inARow_ = list.back() - list.front() + 1 == list.size();
-        for (int p = 0; p < loaded_; ++p) left_[p] = traceable_[p] = loadDirections(p);
+        BundlePackets::load(list);
+        std::copy_n(traceable_, loaded_, left_);
     }
 
     // Makes the next rays active that can be traced together, and finds the range of their slopes;
@@ -88,83 +88,24 @@ public:
                {y.lo - centreY - padY, y.hi - centreY + padY}};
     }
 
-    // Misses for the rays that isTraceable() refuses.
-    template <class Results> void refuse(const Results& results) const {
-        for (int p = 0; p < loaded_; ++p) {
-            const std::size_t rays = std::min<std::size_t>(W, list_.size() - at(p, 0));
-            unsigned refused = ~traceable_[p] & ((1u << rays) - 1);
-            for (; refused != 0; refused &= refused - 1)
-                miss(results, list_[at(p, std::countr_zero(refused))]);
-        }
+    // Answers of the active rays of packet q.
+    template <class... Answers> void write(int q, Answers... answers) const {
+        answer(packet_[q], active[q], answers...);
     }
 
     // Misses for the active rays.
-    void writeMisses(const HitLists& hits) const {
-        for (int q = 0; q < packets; ++q)
-            if (hits.whole == nullptr)
-                write(q, Floats(kInfinityF), Ints(TriangleHit::kNone), hits.brief);
-            else
-                for (unsigned lanes = active[q]; lanes != 0; lanes &= lanes - 1)
-                    miss(hits, list_[at(packet_[q], std::countr_zero(lanes))]);
-    }
-    void writeMisses(std::uint8_t* hidden) const {
-        for (int q = 0; q < packets; ++q) write(q, 0, hidden);
+    template <class Results> void writeMisses(const Results& results) const {
+        for (int q = 0; q < packets; ++q) answerMisses(packet_[q], active[q], results);
     }
 
     // The active rays go into `to`, without an answer.
     void giveBack(std::vector<std::uint32_t>& to) const {
         for (int q = 0; q < packets; ++q)
             for (unsigned lanes = active[q]; lanes != 0; lanes &= lanes - 1)
-                to.push_back(list_[at(packet_[q], std::countr_zero(lanes))]);
+                to.push_back(number(packet_[q], std::countr_zero(lanes)));
     }
 
-    // Answers of the active rays of packet q.
-    void write(int q, Floats t, Ints triangle, TriangleHit* hits) const {
-        const int p = packet_[q];
-        if (active[q] == (1u << W) - 1 && isFull(p)) {
-            storePairs(t, triangle, &hits[list_[at(p, 0)]].t);
-            return;
-        }
-        alignas(64) float ts[W];
-        alignas(64) std::uint32_t triangles[W];
-        t.store(ts), triangle.store(triangles);
-        for (unsigned lanes = active[q]; lanes != 0; lanes &= lanes - 1) {
-            const int i = std::countr_zero(lanes);
-            hits[list_[at(p, i)]] = {ts[i], triangles[i]};
-        }
-    }
-    // With u and v: lanes that are no hit have the ray's end for t, and zeros.
-    void write(int q, Floats t, Weights weights, Ints triangle, Ints shape, Hit* hits) const {
-        const int p = packet_[q];
-        if (active[q] == (1u << W) - 1 && isFull(p)) {
-            const std::uint32_t ray = list_[at(p, 0)];
-            if (ray + kMostRays + W <= rays_.size()) { // as for the directions
-                const float* const next = &hits[ray + kMostRays].t;
-                for (int i = 0; i < 5 * W; i += 16) __builtin_prefetch(next + i, 1);
-            }
-            storeRows(t, weights.u, weights.v, triangle, shape, &hits[ray].t);
-            return;
-        }
-        alignas(64) Hit rows[W];
-        storeRows(t, weights.u, weights.v, triangle, shape, &rows[0].t);
-        for (unsigned lanes = active[q]; lanes != 0; lanes &= lanes - 1) {
-            const int i = std::countr_zero(lanes);
-            hits[list_[at(p, i)]] = rows[i];
-        }
-    }
-    void write(int q, unsigned found, std::uint8_t* hidden) const {
-        if (active[q] == (1u << W) - 1 && isFull(packet_[q]))
-            return storeFlags(found, hidden + list_[at(packet_[q], 0)]);
-        for (unsigned lanes = active[q]; lanes != 0; lanes &= lanes - 1) {
-            const int i = std::countr_zero(lanes);
-            hidden[list_[at(packet_[q], i)]] = found >> i & 1;
-        }
-    }
-
-    Vec3 direction(int q, int lane) const {
-        const int p = packet_[q];
-        return {dir_[0][p][lane], dir_[1][p][lane], dir_[2][p][lane]};
-    }
+    Vec3 direction(int q, int lane) const { return directionOf(packet_[q], lane); }
 
     // Packets whose rectangles overlap this one, a bit each.
     std::uint32_t overlapping(Range xs, Range ys) const {
@@ -188,7 +129,6 @@ public:
 
     // ---- of the active rays; packets without any are left out
 
-    Vec3 origin;
     std::size_t k = 2, kx = 0, ky = 1; // RaySetup's
     float sign = 1;
     Range x, y; // of the bundle
@@ -212,51 +152,8 @@ public:
     float leastBelow;
 
 private:
-    static std::size_t at(int p, int lane) {
-        return static_cast<std::size_t>(p) * W + static_cast<std::size_t>(lane);
-    }
-
-    void miss(const HitLists& hits, std::uint32_t ray) const { hits.miss(ray, rays_.tMax[ray]); }
-    static void miss(std::uint8_t* hidden, std::uint32_t ray) { hidden[ray] = 0; }
-
-    // Is every lane of the packet a ray, and do they follow each other in the batch?
-    bool isFull(int p) const { return inARow_ && at(p + 1, 0) <= list_.size(); }
-
-    // For the next bundle, probably; behind the end of a batch, the next batch often follows.
-    template <class T> static void prefetchAhead(std::span<const T> all, std::uint32_t ray) {
-        const auto next = reinterpret_cast<std::uintptr_t>(&all[ray]) + kMostRays * sizeof(T);
-        for (std::size_t byte = 0; byte < W * sizeof(T); byte += 64)
-            // NOLINTNEXTLINE(performance-no-int-to-ptr): may be behind the end
-            __builtin_prefetch(reinterpret_cast<const void*>(next + byte));
-    }
-
-    // Returns the lanes that hold a ray that isTraceable().
-    unsigned loadDirections(int p) {
-        const std::size_t first = at(p, 0);
-        Floats dx, dy, dz_;
-        if (isFull(p)) {
-            const std::uint32_t ray = list_[first];
-            prefetchAhead(rays_.org, ray), prefetchAhead(rays_.dir, ray);
-            prefetchAhead(rays_.tMin, ray), prefetchAhead(rays_.tMax, ray);
-            loadVectors(&rays_.dir[ray].x, dx, dy, dz_);
-            dx.store(dir_[0][p]), dy.store(dir_[1][p]), dz_.store(dir_[2][p]);
-        } else {
-            for (std::size_t i = 0; i < W; ++i) {
-                const Vec3 d = first + i < list_.size() ? rays_.dir[list_[first + i]] : Vec3{};
-                dir_[0][p][i] = d.x, dir_[1][p][i] = d.y, dir_[2][p][i] = d.z;
-            }
-            dx = Floats::load(dir_[0][p]), dy = Floats::load(dir_[1][p]);
-            dz_ = Floats::load(dir_[2][p]);
-        }
-        if (!finiteOrigin_) return 0;
-        const Floats sum = ((dx + dy) + dz_) + Floats((origin.x + origin.y) + origin.z);
-        const Floats size = max(max(abs(dx), abs(dy)), abs(dz_));
-        return bits((size > Floats(1e-30f)) & (size < Floats(1e30f)) & (sum - sum == Floats(0.0f)));
-    }
-
     void chooseAxis(int p, int lane) {
-        const RaySetup ray(origin, {dir_[0][p][lane], dir_[1][p][lane], dir_[2][p][lane]},
-                           mesh_.extent);
+        const RaySetup ray(origin, directionOf(p, lane), mesh_.extent);
         k = ray.k, kx = ray.kx, ky = ray.ky, sign = ray.sign;
     }
 
@@ -290,12 +187,12 @@ private:
     bool setRange(int p, int q, Mask on, int spare, Floats z) {
         Floats lo, hi;
         if (isFull(p)) {
-            lo = Floats::unaligned(&rays_.tMin[list_[at(p, 0)]]);
-            hi = Floats::unaligned(&rays_.tMax[list_[at(p, 0)]]);
+            lo = Floats::unaligned(&rays_.tMin[number(p, 0)]);
+            hi = Floats::unaligned(&rays_.tMax[number(p, 0)]);
         } else {
             alignas(64) float tLo[W], tHi[W];
             for (int i = 0; i < W; ++i) {
-                const std::uint32_t ray = list_[at(p, at(p, i) < list_.size() ? i : spare)];
+                const std::uint32_t ray = number(p, isRay(p, i) ? i : spare);
                 tLo[i] = rays_.tMin[ray], tHi[i] = rays_.tMax[ray];
             }
             lo = Floats::load(tLo), hi = Floats::load(tHi);
@@ -329,12 +226,7 @@ private:
     }
 
     const WideMesh& mesh_;
-    const RaySpan& rays_;
-    std::span<const std::uint32_t> list_;
-    bool inARow_ = false, finiteOrigin_;
-    int loaded_ = 0; // packets
-    unsigned traceable_[kPackets], left_[kPackets];
-    int packet_[kPackets]; // of the active ones
-    alignas(64) float dir_[3][kPackets][W];
-    float rawX_[kPackets][W], rawY_[kPackets][W], rawZ_[kPackets][W];
+    unsigned left_[kPackets]; // rays that no round has had
+    int packet_[kPackets];    // of the active ones
+    alignas(64) float rawX_[kPackets][W], rawY_[kPackets][W], rawZ_[kPackets][W];
 };

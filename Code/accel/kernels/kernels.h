@@ -4,10 +4,10 @@
 //
 // The folder. .inl files are written for any number of lanes: the file of each instruction set
 // (sse, avx2, avx512) includes region_includes.h, one simd_*.inl and then, in this order,
-//   [isa].cpp         key_range, barycentrics, stack, ray_lanes;
-//                     rays one by one: queue_rays, _answers, _exact, handful (tiny trees), queue;
-//                     rays from one point: bundle_gaps, _rays, _keys, _block, _best, _leaf, bundle
-//   solids_[isa].cpp  ray_lanes; solids, which includes _rays, _hulls, _facets and _meet
+//   [isa].cpp         kernel, which includes key_range, barycentrics, stack, ray_lanes; for rays
+//                     one by one: queue_rays, root_boxes, queue_*, handful (tiny trees), queue;
+//                     for rays from one point: bundle_*, bundle
+//   solids_[isa].cpp  lane_matrix, ray_lanes; solids, which includes solids_*
 //   placed_[isa].cpp  stack, ray_lanes, placed_mesh, placed
 //   surface_lanes_[isa].cpp  vectors3, still_surfaces, triangle_surfaces
 // choose.cpp has the table of kernels and route.cpp deals the rays of a batch out to queue and

@@ -4,13 +4,13 @@
 
 #define DECLARE(isa)                                                                               \
     namespace kernels::isa {                                                                       \
-    std::size_t closestOfPlane(const StillPlane&, const RaySpan&, std::span<const Hit>,            \
-                               PlaneHit*);                                                         \
+    void firstOfPlane(const StillPlane&, std::uint32_t, const RaySpan&, Hit*);                     \
+    std::size_t closestOfPlane(const StillPlane&, std::uint32_t, const RaySpan&, Hit*, PlaneHit*); \
     void anyOfPlane(const StillPlane&, const RaySpan&, std::uint8_t*);                             \
     }
 DECLARE_BY_KERNEL(DECLARE)
 #define ROW(isa)                                                                                   \
-    { kernels::isa::closestOfPlane, kernels::isa::anyOfPlane }
+    { kernels::isa::firstOfPlane, kernels::isa::closestOfPlane, kernels::isa::anyOfPlane }
 
 const PlaneKernel* planeKernel(const Kernel& kernel) {
     static constexpr ByKernel<PlaneKernel> kTable = BY_KERNEL(ROW);

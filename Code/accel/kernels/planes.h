@@ -15,10 +15,13 @@ struct PlaneHit {
 };
 
 struct PlaneKernel {
-    // The hits that are not behind the best ones so far, in the order of the rays, into a list with
-    // room for all rays. Returns how many.
-    std::size_t (*closest)(const StillPlane& plane, const RaySpan& rays, std::span<const Hit> best,
-                           PlaneHit* found);
+    // All hits, of rays that nothing else was asked for yet.
+    void (*first)(const StillPlane& plane, std::uint32_t number, const RaySpan& rays, Hit* hits);
+    // Hits in front of the best ones so far become the best. Those that are as far as the best one
+    // go into a list with room for all rays, in their order: somebody else decides. Returns how
+    // many.
+    std::size_t (*closest)(const StillPlane& plane, std::uint32_t number, const RaySpan& rays,
+                           Hit* best, PlaneHit* asFar);
     // hidden[i] becomes 1 where the plane is in (tMin, tMax).
     void (*any)(const StillPlane& plane, const RaySpan& rays, std::uint8_t* hidden);
 };

@@ -1,6 +1,6 @@
-// exact::pow(float, float) of W numbers with exponents of their own: its steps in base/math.cpp,
-// lane by lane and in their order. Included by the file of each instruction set inside its
-// namespace.
+// exact::pow(float, float) of W numbers with exponents of their own: its steps in
+// base/math_powers.cpp, lane by lane and in their order. Included by the file of each instruction
+// set inside its namespace.
 
 // (log(1+r) - r + r^2/2) / r^3
 inline Doubles logTail(const Doubles& r) {

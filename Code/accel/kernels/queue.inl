@@ -86,7 +86,7 @@ private:
     template <class Results> void refill(std::uint32_t number, Lists& to, const Results& results) {
         RayBlock& b = blocks_[number];
         while (next_ < order_.size()) {
-            const unsigned entered = enterTree(takeRays(b), b);
+            const unsigned entered = root_.entering(b, takeRays(b));
             if (entered == 0) {
                 writeAnswers(b, mesh_.tree, results);
                 continue;
@@ -107,23 +107,6 @@ private:
         const unsigned lanes = setUpRays<Q>(rays_, &order_[next_], count, mesh_.extent, b);
         next_ += count;
         return lanes;
-    }
-
-    // Of the lanes those whose rays enter a child of the root. All of them, where most rays do:
-    // then it is quicker not to ask W rays at once what each will ask itself.
-    unsigned enterTree(unsigned lanes, const RayBlock& b) {
-        if (asked_ >= 4 * W && missed_ * 8 < asked_) return lanes;
-        const unsigned near = raysEntering(b, root_.whole) & lanes;
-        unsigned entered = 0;
-        if (near != 0) {
-            entered = raysEntering(b, root_[root_.largest]) & near;
-            const unsigned most = entered | (raysEntering(b, root_.others) & near);
-            for (std::size_t i = 0; i < root_.count && entered != most; ++i)
-                entered |= raysEntering(b, root_[i]) & most;
-        }
-        asked_ += W;
-        missed_ += static_cast<std::uint32_t>(std::popcount(lanes & ~entered));
-        return entered;
     }
 
     // ---- steps
@@ -335,7 +318,7 @@ private:
     const RaySpan& rays_;
     std::span<const std::uint32_t> order_;
     const std::byte* base_;
-    const RootBoxes root_;
+    RootQuestion root_;
     const bool prefetches_;
     std::size_t stride_, next_ = 0;
     RayBlock* blocks_;
@@ -350,7 +333,6 @@ private:
     std::uint32_t besideCount_ = 0;
     Meetings leafMeetings_ = Meetings::Some; // in the last round
     std::uint32_t waitingCount_ = 0, waitingPairs_ = 0;
-    std::uint32_t asked_ = 0, missed_ = 0; // of enterTree()
     RayTriangle pairs_[kSlots * (W + 1)];
 };
 

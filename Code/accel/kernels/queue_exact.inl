@@ -107,8 +107,9 @@ struct alignas(64) PairColumns {
 };
 
 // canonicalKey() of accel/triangle.h, operation by operation. `undecided` gets the lanes whose
-// edges have to be asked in double, and those that the canonical lateral clamp may change: a key
-// that is inside the triangle's box, padded by a quarter of the canonical pad, is none of these.
+// edges have to be asked in double, those that see the triangle edge-on, and those that the
+// canonical lateral clamp may change: a key that is inside the triangle's box, padded by a quarter
+// of the canonical pad, is none of these.
 inline Floats canonicalKeys(const PairColumns& p, unsigned& undecided) {
     const Floats zero(0.0f), one(1.0f), sign = Floats::load(p.sign);
     const Floats Sx = Floats::load(p.shearX) * sign, Sy = Floats::load(p.shearY) * sign;
@@ -128,7 +129,7 @@ inline Floats canonicalKeys(const PairColumns& p, unsigned& undecided) {
     const auto most = [](const Floats(&v)[3]) { return max(max(v[0], v[1]), v[2]); };
     const Floats zMin = least(vz), zMax = most(vz);
 
-    // planeKey()
+    // TrianglePlane
     const auto exact = [&](std::size_t c, std::size_t axis) {
         return Doubles(Floats::load(p.point[c][axis])) - Doubles(Floats::load(p.origin[axis]));
     };
@@ -149,7 +150,8 @@ inline Floats canonicalKeys(const PairColumns& p, unsigned& undecided) {
     const Mask inBox = ((least(vx) - pad) * key <= Sx) & (Sx <= (most(vx) + pad) * key) &
                        ((least(vy) - pad) * key <= Sy) & (Sy <= (most(vy) + pad) * key);
     const unsigned zeros = bits((U == zero) | (V == zero) | (R == zero));
-    undecided = bits(inside & met) & (zeros | ~bits(inBox));
+    const unsigned edgeOn = edgeOnLanes(along, edgeOnBound(nx, ny, nz), Floats::load(p.dz));
+    undecided = bits(inside & met) & (zeros | edgeOn | ~bits(inBox));
     return select(inside & met, key, zero);
 }
 

@@ -1,5 +1,5 @@
-// W rays of the queue, by columns: what its steps read, and the boxes below the root for all W.
-// Included by the file of each instruction set inside its namespace, behind ray_lanes.inl.
+// W rays of the queue, by columns: what its steps read. Included by the file of each
+// instruction set inside its namespace, behind ray_lanes.inl.
 
 enum class Query { Closest, Any };
 
@@ -82,39 +82,3 @@ unsigned setUpRays(const RaySpan& rays, const std::uint32_t* order, std::size_t 
     setUpAnswers<Q>(columns, lanes, count, b);
     return lanes.traceable & ((1u << count) - 1);
 }
-
-// Lanes whose rays enter a box; RaySetup::enters().
-inline unsigned raysEntering(const RayBlock& b, const Bounds& box) {
-    Floats entry(0.0f), exit = Floats::load(b.zCut);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Floats r = Floats::load(b.r[axis]), lo(box.lo[axis]), hi(box.hi[axis]);
-        const Mask backwards = r < Floats(0.0f);
-        entry = max(fma(select(backwards, hi, lo), r, Floats::load(b.nearOffset[axis])), entry);
-        exit = min(fma(select(backwards, lo, hi), r, Floats::load(b.farOffset[axis])), exit);
-    }
-    return bits(entry <= exit);
-}
-
-// The children of the root, asked one by one for W rays, and boxes around all of them and around
-// all but the largest: what stands on a wide floor is met by few of the rays that leave it.
-struct RootBoxes {
-    const WideNode<W>& node;
-    std::size_t count = 0, largest = 0;
-    Bounds whole, others;
-
-    explicit RootBoxes(const WideTree& tree) : node(tree.at<WideNode<W>>(tree.root)) {
-        float most = -1;
-        for (; count < W && (*this)[count].lo.x <= (*this)[count].hi.x; ++count) {
-            const Bounds box = (*this)[count];
-            whole.extend(box);
-            if (box.halfArea() > most) most = box.halfArea(), largest = count;
-        }
-        for (std::size_t i = 0; i < count; ++i)
-            if (i != largest) others.extend((*this)[i]);
-    }
-    Bounds operator[](std::size_t child) const {
-        const auto& p = node.plane;
-        return {{p[0][0][child], p[1][0][child], p[2][0][child]},
-                {p[0][1][child], p[1][1][child], p[2][1][child]}};
-    }
-};

@@ -4,6 +4,7 @@
 
 #include "accel/kernels/exact_hit.h"
 #include "accel/kernels/target.h"
+#include "accel/triangle.h"
 
 #include <algorithm>
 #include <array>

@@ -58,6 +58,12 @@ void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const S
         const AffineRows& m = solid.shape->objectFromWorld();
         solid.turned = m[1] != 0 || m[2] != 0 || m[4] != 0 || m[6] != 0 || m[8] != 0 || m[9] != 0;
     }
+    if (form.sphere && !solid.moves) solid.meets = Meets::Sphere;
+    if (form.tube && form.tube->side != ::Facets::Side::Back)
+        solid.meets = form.tube->cone ? (form.tube->caps ? Meets::CappedCone : Meets::Cone)
+                                      : (form.tube->caps ? Meets::CappedTube : Meets::Tube);
+    solid.isOpenFront =
+        solid.meets == Meets::Tube && form.tube->side == Facets::Side::Front ? 1 : 0;
     if (form.facets) {
         solid.kind = Kind::Facets;
         solid.part = static_cast<std::uint32_t>(facets.size());
@@ -98,65 +104,79 @@ namespace {
 // come lamp by lamp for every hit, and packets want those of one lamp.
 class Origins {
 public:
-    template <class WantedFn> void sort(const RaySpan& rays, WantedFn&& wanted) {
+    // unwanted: a byte for each ray, 1 where it is not asked for; empty: all are.
+    void sort(const RaySpan& rays, std::span<const std::uint8_t> unwanted) {
         ends_.clear();
-        order_.clear();
-        origins_.clear();
-        groups_.clear();
-        if (areFromOnePoint(rays)) {
-            order_.resize(rays.size());
-            std::size_t count = 0;
-            for (std::uint32_t i = 0; i < rays.size(); ++i) {
-                order_[count] = i;
-                count += wanted(i);
-            }
-            order_.resize(count);
-            return ends_.push_back(count);
-        }
+        const bool wantsAll =
+            unwanted.empty() || std::memchr(unwanted.data(), 1, unwanted.size()) == nullptr;
+        const auto keepOrder = [&] {
+            order_ = wantsAll ? firstNumbers(rays.size()) : numbersOf(rays.size(), unwanted);
+            ends_.assign(1, order_.size());
+        };
+        if (areFromOnePoint(rays)) return keepOrder();
+        list_.clear(), origins_.clear(), groups_.clear();
         std::size_t guess = 0; // lamps take turns
         for (std::uint32_t i = 0; i < rays.size(); ++i) {
-            if (!wanted(i)) continue;
-            order_.push_back(i);
-            if (origins_.size() > kMostOrigins) continue;
+            if (!wantsAll && unwanted[i] != 0) continue;
+            list_.push_back(i);
             const Vec3 origin = rays.org[i];
             if (guess >= origins_.size() || !(origins_[guess] == origin)) {
                 guess = 0;
                 while (guess < origins_.size() && !(origins_[guess] == origin)) ++guess;
+                // Origins of their own, as after a bounce.
+                if (guess == kMostOrigins) return keepOrder();
                 if (guess == origins_.size()) origins_.push_back(origin), ends_.push_back(0);
             }
             ++ends_[guess];
             groups_.push_back(static_cast<std::uint8_t>(guess));
             if (++guess == origins_.size()) guess = 0;
         }
-        // Origins of their own, as after a bounce, stay in their order.
-        if (origins_.size() > kMostOrigins) ends_.assign(1, order_.size());
+        order_ = list_;
         if (ends_.size() < 2) return;
         std::size_t sum = 0;
         for (std::size_t& end : ends_) end = std::exchange(sum, sum + end);
         sorted_.resize(order_.size());
         for (std::size_t k = 0; k < order_.size(); ++k) sorted_[ends_[groups_[k]]++] = order_[k];
-        order_.swap(sorted_);
+        order_ = sorted_;
     }
 
     template <class CallFn> void forEachGroup(CallFn&& call) const {
         std::size_t begin = 0;
         for (const std::size_t end : ends_) {
-            call(std::span(order_).subspan(begin, end - begin));
+            call(order_.subspan(begin, end - begin));
             begin = end;
         }
     }
 
 private:
+    // Looks at some: packets of rays from several points are slower and no less right.
     static bool areFromOnePoint(const RaySpan& rays) {
-        const auto* const first = rays.org.data();
-        return rays.size() > 0 &&
-               std::memcmp(first, first + 1, (rays.size() - 1) * sizeof(Vec3)) == 0;
+        constexpr std::size_t kAll = 16, kStep = 13;
+        for (std::size_t i = 1; i < rays.size(); i += i < kAll ? 1 : kStep)
+            if (!(rays.org[i] == rays.org[0])) return false;
+        return rays.size() > 0;
+    }
+
+    std::span<const std::uint32_t> firstNumbers(std::size_t count) {
+        while (all_.size() < count) all_.push_back(static_cast<std::uint32_t>(all_.size()));
+        return std::span(all_).first(count);
+    }
+    std::span<const std::uint32_t> numbersOf(std::size_t rays,
+                                             std::span<const std::uint8_t> unwanted) {
+        list_.resize(rays);
+        std::size_t count = 0;
+        for (std::uint32_t i = 0; i < rays; ++i) {
+            list_[count] = i;
+            count += unwanted[i] == 0;
+        }
+        return std::span(list_).first(count);
     }
 
     static constexpr std::size_t kMostOrigins = 16;
-    std::vector<std::uint32_t> order_, sorted_;
-    std::vector<std::uint8_t> groups_; // of the rays in order_
-    std::vector<std::size_t> ends_;    // of the groups in order_
+    std::span<const std::uint32_t> order_;           // a part of one of these:
+    std::vector<std::uint32_t> all_, list_, sorted_; // all_: 0, 1, 2 ...
+    std::vector<std::uint8_t> groups_;               // of the rays in list_
+    std::vector<std::size_t> ends_;                  // of the groups in order_
     std::vector<Vec3> origins_;
 };
 
@@ -165,7 +185,7 @@ private:
 void closestSolids(const SolidKernel& kernel, const SolidTree& tree, const SolidCalls& calls,
                    const RaySpan& rays, std::span<Hit> hits) {
     thread_local Origins origins;
-    origins.sort(rays, [](std::uint32_t) { return true; });
+    origins.sort(rays, {});
     origins.forEachGroup([&](std::span<const std::uint32_t> order) {
         kernel.closest(tree, calls, rays, order, hits.data());
     });
@@ -174,7 +194,7 @@ void closestSolids(const SolidKernel& kernel, const SolidTree& tree, const Solid
 void anySolids(const SolidKernel& kernel, const SolidTree& tree, const SolidCalls& calls,
                const RaySpan& rays, std::span<std::uint8_t> hidden) {
     thread_local Origins origins;
-    origins.sort(rays, [&](std::uint32_t i) { return hidden[i] == 0; });
+    origins.sort(rays, hidden);
     origins.forEachGroup([&](std::span<const std::uint32_t> order) {
         kernel.any(tree, calls, rays, order, hidden.data());
     });

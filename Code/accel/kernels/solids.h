@@ -22,6 +22,9 @@
 struct SolidTree {
     // What the solid is to a kernel.
     enum class Kind : std::uint8_t { Other, Sphere, Facets, Tube, Cube, Disk, Corners };
+    // With which others it may share a test of W rays, each with a solid of its own: shapes of one
+    // formula that stand still and whose outside rays of sight meet.
+    enum class Meets : std::uint8_t { Sphere, Tube, CappedTube, Cone, CappedCone, Alone };
     // What is looked at first, in one line of the cache.
     struct alignas(64) Solid {
         std::uint32_t number = 0; // what hits and calls name it by
@@ -32,8 +35,10 @@ struct SolidTree {
         bool turned = false; // the shape's map does more than move and scale along the axes
         bool moves = false;  // as in `drifts`
         ::Facets::Side side = ::Facets::Side::Both; // of a cube, a disk or a plane by corners
+        Meets meets = Meets::Alone;
         Vec3 centre{}, axis{};
         float radius = kInfinityF, innerRadius = 0, halfLength = kInfinityF;
+        float isOpenFront = 0; // 1: a cylinder without ends whose inside rays of sight don't see
         const StillShape* shape = nullptr; // of all but facets and what is asked ray by ray
     };
     struct Tube {
@@ -98,7 +103,7 @@ private:
               const Describe& describe, int threads);
 };
 
-// How the kernels ask solids that are no spheres.
+// How the kernels ask solids that they do not meet themselves.
 struct SolidCalls {
     const void* set = nullptr;
     // Is there a hit nearer than `best`? tEntry: where the ray enters the solid's box. Then it is

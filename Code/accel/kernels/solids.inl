@@ -1,18 +1,20 @@
 // Packets of W rays that walk the tree of the solids together, each child with the rays that enter
 // it. Rays into one octant (most camera rays, shadow rays of a lamp) see a node as one interval of
 // rays that looks at W children at once; of rays that go apart each looks at them for
-// itself, as in queue.inl, but the node is fetched once and the steps overlap.
-// What decides is exact: entries into a solid's own box as RaySetup::enters() rounds them, spheres
-// as AnalyticShape and Sphere compute them, operation by operation in double. Everything before
-// that only leaves out: the boxes' pads are 64 roundings of the coordinates wide, and what a ray
-// meets lies inside of the box without the pad.
-// Included by the file of each instruction set inside its namespace, behind ray_lanes.inl.
+// itself, as in queue.inl, but the node is fetched once and the steps overlap, and their solids
+// wait in pairs. What decides is exact: entries into a solid's own box as RaySetup::enters() rounds
+// them, spheres as AnalyticShape and Sphere compute them, operation by operation in double.
+// Everything before that only leaves out: the boxes' pads are 64 roundings of the coordinates wide,
+// and what a ray meets lies inside of the box without the pad. Included by the file of each
+// instruction set inside its namespace, behind ray_lanes.inl.
 
 enum class Answer { Closest, Any };
 
 #include "accel/kernels/solids_hulls.inl"
 
 #include "accel/kernels/solids_rays.inl"
+
+#include "accel/kernels/edge_on.inl"
 
 #include "accel/kernels/solids_facets.inl"
 
@@ -28,10 +30,14 @@ enum class Answer { Closest, Any };
 
 #include "accel/kernels/solids_meet.inl"
 
-class SolidPackets : PacketSolids {
+#include "accel/kernels/solids_each.inl"
+
+#include "accel/kernels/solids_pairs.inl"
+
+class SolidPackets : PacketPairs {
 public:
     SolidPackets(const SolidTree& tree, const SolidCalls& calls, const RaySpan& rays)
-        : PacketSolids(tree, calls, rays) {}
+        : PacketPairs(tree, calls, rays) {}
 
     template <Answer A, class Result>
     void run(std::span<const std::uint32_t> order, Result* results) {
@@ -39,11 +45,15 @@ public:
             live_ = setUp<A>(order, results);
             if (A == Answer::Any && lastHider_ < tree_.solids.size())
                 solid<A>(lastHider_, live_, results);
-            if (live_ != 0) traverse<A>(results);
+            if (live_ == 0) continue;
+            traverse<A>(results);
+            if (live_ != 0) meetAll<A>(results);
+            dropAll();
         }
     }
 
 private:
+    // A node that is entered later, with the lanes that do, and at which depth the first one does.
     struct Entry {
         float z;
         WideRef ref;
@@ -62,6 +72,7 @@ private:
                 size = stepTogether<A>(tree_.node<W>(at), lanes, stack.data(), size, results);
             } else {
                 size = stepApart<A>(tree_.node<W>(at), lanes, stack.data(), size, results);
+                if (waiting_.count >= W) meetFull<A>(results);
             }
             if (A == Answer::Any && live_ == 0) return;
             do {
@@ -132,43 +143,54 @@ private:
         return size;
     }
 
+    // Solids wait for rays of others, or are met at once.
     template <Answer A, class Result>
     std::size_t stepApart(const WideNode<W>& node, unsigned lanes, Entry* stack, std::size_t size,
                           Result* results) {
-        LaneMatrix entered; // rows are rays, columns children
+        const auto* const planes = reinterpret_cast<const std::byte*>(&node);
+        const unsigned leaves = leavesOf(node), inPairs = areInPairs_ ? leaves : 0;
+        std::uint32_t waiting = waiting_.count;
+        LaneColumns entered; // rows are rays, columns children
         unsigned any = 0;
         Floats nearest(kInfinityF);
         for (; lanes != 0; lanes &= lanes - 1) {
             const int ray = std::countr_zero(lanes);
             Floats entry(0.0f), exit(rays1_.zCut[ray]);
             for (int axis = 0; axis < 3; ++axis) {
-                const unsigned back = backwards_[axis] >> ray & 1;
+                const std::size_t nearPlane = rays1_.nearPlane[axis][ray],
+                                  farPlane = nearPlane ^ kPlane;
                 const Floats r(rays1_.r[axis][ray]);
-                entry = max(fma(Floats::load(node.plane[axis][back]), r,
-                                Floats(rays1_.nearOffset[axis][ray])),
-                            entry);
-                exit = min(fma(Floats::load(node.plane[axis][1 - back]), r,
-                               Floats(rays1_.farOffset[axis][ray])),
-                           exit);
+                entry = max(
+                    fma(Floats::load(planes + nearPlane), r, Floats(rays1_.nearOffset[axis][ray])),
+                    entry);
+                exit = min(
+                    fma(Floats::load(planes + farPlane), r, Floats(rays1_.farOffset[axis][ray])),
+                    exit);
             }
-            const Mask hit = entry <= exit;
-            if constexpr (A == Answer::Closest) nearest = min(nearest, select(hit, entry, nearest));
-            entered.set(ray, bits(hit));
-            any |= bits(hit);
+            const Mask isHit = entry <= exit;
+            if constexpr (A == Answer::Closest)
+                nearest = min(nearest, select(isHit, entry, nearest));
+            const unsigned hit = bits(isHit);
+            if (inPairs != 0) waiting = wait(ray, hit & inPairs, node.child, waiting);
+            entered.set(ray, isHit);
+            any |= hit;
         }
+        waiting_.count = waiting;
+        any &= ~inPairs;
+        alignas(64) std::uint32_t entering[W];
+        entered.store(entering);
         alignas(64) float z[W];
         if constexpr (A == Answer::Closest) nearest.store(z);
         const std::size_t bottom = size;
         for (; any != 0; any &= any - 1) {
             const int i = std::countr_zero(any);
-            const WideRef ref = node.child[i];
-            if (kindOf(ref) == WideKind::Leaf) {
-                if (const unsigned asking = entered.column(i) & live_; asking != 0)
-                    solid<A>(ref >> 2, asking, results);
+            if ((leaves >> i & 1) != 0) {
+                if (const unsigned asking = entering[i] & live_; asking != 0)
+                    solid<A>(node.child[i] >> 2, asking, results);
                 continue;
             }
             const float from = A == Answer::Closest ? z[i] : 0;
-            size = push<A>(stack, bottom, size, {from, ref, entered.column(i)});
+            size = push<A>(stack, bottom, size, {from, node.child[i], entering[i]});
         }
         return size;
     }

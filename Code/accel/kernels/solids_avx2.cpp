@@ -8,9 +8,9 @@ AVX2_REGION_BEGIN
 namespace kernels::avx2 {
 #include "accel/kernels/simd_avx2.inl"
 
-#include "accel/kernels/lane_matrix.inl"
-
 #include "accel/kernels/ray_lanes.inl"
+
+#include "accel/kernels/solids_columns_avx2.inl"
 
 #include "accel/kernels/solids.inl"
 } // namespace kernels::avx2

@@ -8,9 +8,10 @@ protected:
 
     // canonicalKey() of accel/triangle.h and barycentrics(), operation by operation.
     struct FacetHit {
-        Floats x[3], y[3];      // as in ShearedTriangle
-        Floats key;             // 0: missed
-        unsigned undecided = 0; // lanes that meet an edge, or that the lateral clamp may change
+        Floats x[3], y[3]; // as in ShearedTriangle
+        Floats key;        // 0: missed
+        unsigned undecided =
+            0; // lanes that meet an edge, see it edge-on, or that the lateral clamp may change
     };
 
     FacetHit meet(const SolidTree::Facet& facet, float extent) const {
@@ -37,7 +38,7 @@ protected:
         const auto most = [](const Floats(&v)[3]) { return max(v[0], max(v[1], v[2])); };
         const Floats zMin = least(vz), zMax = most(vz);
 
-        // planeKey()
+        // TrianglePlane
         const Doubles sign(lanes_.sign), dz(lanes_.dz);
         const auto from = [](Floats p, Floats o) { return Doubles(p) - Doubles(o); };
         const Doubles x0 = from(px[0], ox), y0 = from(py[0], oy), z0 = from(pz[0], oz) * sign;
@@ -59,7 +60,8 @@ protected:
             ((least(vx) - pad) * key <= lanes_.Sx) & (lanes_.Sx <= (most(vx) + pad) * key) &
             ((least(vy) - pad) * key <= lanes_.Sy) & (lanes_.Sy <= (most(vy) + pad) * key);
         const unsigned zeros = bits((U == zero) | (V == zero) | (R == zero));
-        hit.undecided = bits(met) & (zeros | ~bits(inBox));
+        const unsigned edgeOn = edgeOnLanes(along, edgeOnBound(nx, ny, nz), lanes_.dz);
+        hit.undecided = bits(met) & (zeros | edgeOn | ~bits(inBox));
         hit.key = select(met, key, zero);
         return hit;
     }

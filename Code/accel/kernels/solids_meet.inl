@@ -25,7 +25,14 @@ protected:
             if (certain != 0) hide(certain, results);
             lanes &= ~certain;
         }
-        if (lanes == 0) return;
+        if (lanes != 0) meetOne<A>(place, lanes, results);
+    }
+
+    // Without the filters.
+    template <Answer A, class Result>
+    void meetOne(std::uint32_t place, unsigned lanes, Result* results) {
+        const SolidTree::Solid& solid = tree_.solids[place];
+        asked_ = place;
         prefetch(solid);
         Floats entry;
         lanes &= lanes_.entering(tree_.boxes[place], zCut_, entry);
@@ -44,9 +51,15 @@ protected:
 
     // Hides what comes next from the lamp, too, more often than not.
     std::uint32_t lastHider_ = std::numeric_limits<std::uint32_t>::max();
+    std::uint32_t asked_ = 0; // place of the solid
     const SolidCalls& calls_;
 
-private:
+    void hide(unsigned lanes, std::uint8_t* hidden) {
+        if (lanes != 0) lastHider_ = asked_;
+        live_ &= ~lanes;
+        for (; lanes != 0; lanes &= lanes - 1) hidden[ray_[std::countr_zero(lanes)]] = 1;
+    }
+
     // What it will be met by, while its box is entered: shapes lie anywhere in the memory.
     void prefetch(const SolidTree::Solid& solid) const {
         if (solid.shape == nullptr) return;
@@ -56,10 +69,33 @@ private:
         if (solid.kind == SolidTree::Kind::Tube) __builtin_prefetch(&tree_.tubes[solid.part]);
     }
 
-    void hide(unsigned lanes, std::uint8_t* hidden) {
-        if (lanes != 0) lastHider_ = asked_;
-        live_ &= ~lanes;
-        for (; lanes != 0; lanes &= lanes - 1) hidden[ray_[std::countr_zero(lanes)]] = 1;
+    // Of one lane, that of the shape itself.
+    void askFor(const SolidTree::Solid& solid, int lane, float tEntry, Hit* hits) {
+        Hit& hit = hits[ray_[lane]];
+        if (!calls_.nearer(calls_.set, rays_[ray_[lane]], solid.number, tEntry, hit)) return;
+        alignas(64) float best[W];
+        best_.store(best);
+        best[lane] = hit.t, number_[lane] = hit.shape;
+        limit(Floats::load(best));
+    }
+    void askFor(const SolidTree::Solid& solid, int lane, float, std::uint8_t* hidden) {
+        if (calls_.hides(calls_.set, rays_[ray_[lane]], solid.number)) hide(1u << lane, hidden);
+    }
+
+private:
+    RayRanges ranges() const { return {columns_.tMin, best_}; }
+
+    template <Answer A, class Result>
+    void sphere(const SolidTree::Solid& solid, Floats entry, unsigned lanes, Result* results) {
+        const SphereRoots roots = solid.moves
+                                      ? movingSphere(solid, lanes)
+                                      : meet(columns_, SameMap{solid.shape->objectFromWorld()},
+                                             solid.turned, solid.shape->radius, lanes);
+        if (roots.met == 0) return;
+        if constexpr (A == Answer::Any)
+            hide(hides(roots, ranges()), results);
+        else
+            take(solid, firstOf(roots, ranges()), entry, lanes, results);
     }
 
     [[gnu::noinline]] void ask(const SolidTree::Solid& solid, Floats entry, unsigned lanes,
@@ -87,46 +123,21 @@ private:
         }
     }
 
-    template <Answer A, class Result>
-    void sphere(const SolidTree::Solid& solid, Floats entry, unsigned lanes, Result* results) {
-        const SphereRoots roots = solid.moves ? movingSphere(solid, lanes)
-                                              : meet(SameMap{solid.shape->objectFromWorld()},
-                                                     solid.turned, solid.shape->radius, lanes);
-        if (roots.met == 0) return;
-        if constexpr (A == Answer::Any) {
-            hide(hides(roots), results);
-        } else {
-            const SphereHits hit = firstOf(roots);
-            if (hit.met == 0) return;
-            const Floats nearest = max(entry / lanes_.dz, hit.t);
-            const unsigned better = nearerLanes(solid, hit.met, nearest);
-            if (better == 0) return;
-            alignas(64) float ts[W], us[W];
-            nearest.store(ts), hit.lost.store(us);
-            for (unsigned rest = better; rest != 0; rest &= rest - 1) {
-                const int i = std::countr_zero(rest);
-                results[ray_[i]] = {.t = ts[i], .u = us[i], .shape = solid.number};
-                number_[i] = solid.number;
-            }
-            limit(select(maskOf(better), nearest, best_));
-        }
-    }
-
     DriftLanes driftOf(const SolidTree::Solid& solid, unsigned lanes) const {
         return {solid.shape->objectFromWorld(), tree_.drifts[solid.part], rays_, ray_, lanes};
     }
     [[gnu::noinline]] SphereRoots movingSphere(const SolidTree::Solid& solid,
                                                unsigned lanes) const {
-        return meet(driftOf(solid, lanes), solid.turned, solid.shape->radius, lanes);
+        return meet(columns_, driftOf(solid, lanes), solid.turned, solid.shape->radius, lanes);
     }
 
     template <Answer A, class Result>
     [[gnu::noinline]] void faces(const SolidTree::Solid& solid, Floats entry, unsigned lanes,
                                  Result* results) {
         const auto found = [&](const auto& map) {
-            const RayRanges ranges{columns_.tMin, best_};
-            return solid.kind == SolidTree::Kind::Cube ? meetCube<A>(columns_, ranges, solid, map)
-                                                       : meetFlat<A>(columns_, ranges, solid, map);
+            return solid.kind == SolidTree::Kind::Cube
+                       ? meetCube<A>(columns_, ranges(), solid, map)
+                       : meetFlat<A>(columns_, ranges(), solid, map);
         };
         take(solid,
              solid.moves ? found(driftOf(solid, lanes))
@@ -165,47 +176,16 @@ private:
     [[gnu::noinline]] void tube(const SolidTree::Solid& solid, const SolidTree::Tube& tube,
                                 Floats entry, unsigned lanes, Hit* hits) {
         const Tubes<SameMap> tubes = sameTube(tube);
-        const TubeRoots roots = meet(tubes);
-        unsigned asking = lanes & roots.undecided;
-        const unsigned first = roots.met[0] & bits(roots.t[0] > columns_.tMin);
-        const Mask isFirst = maskOf(first);
-        const Floats t = select(isFirst, roots.t[0], roots.t[1]);
-        const Floats lost = select(isFirst, roots.lost[0], roots.lost[1]);
-        lanes &= ~asking & (first | roots.met[1]) &
-                 bits((t > columns_.tMin) & (t <= best_) & (t < Floats(kInfinityF)));
-        const unsigned ends = (first & roots.end[0]) | (~first & roots.end[1]);
-        if (lanes != 0 && tubes.side != ::Facets::Side::Both) {
-            const unsigned seen = seesSide(tubes, roots, ends, first, t, lost);
-            asking |= lanes & ~seen;
-            lanes &= seen;
-        }
-        const Floats nearest = max(entry / lanes_.dz, t);
-        if (const unsigned better = nearerLanes(solid, lanes, nearest); better != 0) {
-            alignas(64) float ts[W], us[W];
-            nearest.store(ts), lost.store(us);
-            const unsigned bottom = ~(first ^ roots.ahead);
-            for (unsigned rest = better; rest != 0; rest &= rest - 1) {
-                const int i = std::countr_zero(rest);
-                const std::uint32_t prim = (ends >> i & 1) == 0     ? StillTube::Wall
-                                           : (bottom >> i & 1) != 0 ? StillTube::Bottom
-                                                                    : StillTube::Top;
-                hits[ray_[i]] = {.t = ts[i], .u = us[i], .prim = prim, .shape = solid.number};
-                number_[i] = solid.number;
-            }
-            limit(select(maskOf(better), nearest, best_));
-        }
-        if (asking != 0) ask(solid, entry, asking, hits);
+        const TubeRoots roots = meet(columns_, tubes);
+        take(solid, firstOf(columns_, tubes, roots, ranges(), lanes), entry, lanes, hits);
     }
 
     [[gnu::noinline]] void tube(const SolidTree::Solid& solid, const SolidTree::Tube& tube,
                                 Floats entry, unsigned lanes, std::uint8_t* hidden) {
-        const TubeRoots roots = meet(sameTube(tube));
-        const auto hides = [&](std::size_t i) {
-            return roots.met[i] & bits((roots.t[i] > columns_.tMin) & (roots.t[i] < best_));
-        };
-        const unsigned asking = lanes & roots.undecided;
-        hide(lanes & ~asking & (hides(0) | hides(1)), hidden);
-        if (asking != 0) ask(solid, entry, asking, hidden);
+        const TubeRoots roots = meet(columns_, sameTube(tube));
+        FoundLanes found{.t = Floats(0.0f), .lost = Floats(0.0f), .undecided = roots.undecided};
+        found.met = hides(roots, ranges());
+        take(solid, found, entry, lanes, hidden);
     }
 
     // Mesh::intersect(), OneSided::intersect() and the choice between their hit and the best one.
@@ -290,6 +270,4 @@ private:
         }
         return lower;
     }
-
-    std::uint32_t asked_ = 0; // place of the solid
 };

@@ -6,6 +6,7 @@ class PacketRays {
 protected:
     PacketRays(const SolidTree& tree, const RaySpan& rays) : tree_(tree), rays_(rays) {}
 
+    static constexpr std::uint32_t kPlane = W * sizeof(float); // bytes between a box's two planes
     static constexpr unsigned kAll = (1u << W) - 1;
     // Fewer rays than this look at a node one by one.
     static constexpr int kFewestForInterval = 6;
@@ -19,7 +20,7 @@ protected:
                 perLength2_,
                 slack_,
                 tMin,
-                best_};
+                bound_};
     }
 
     // Takes the first W rays of the order. Returns the lanes to be traced.
@@ -38,6 +39,7 @@ protected:
             }
             best_ = Floats::load(t);
         }
+        bound_ = best_;
         zCut_ = lanes_.cutAt(best_);
         const Floats(&d)[3] = columns_.dir;
         const Floats length2 = fma(d[0], d[0], fma(d[1], d[1], d[2] * d[2])), one(1.0f);
@@ -61,6 +63,9 @@ protected:
             lanes_.farOffset[axis].store(rays1_.farOffset[axis]);
             const unsigned backwards = bits(lanes_.r[axis] < Floats(0.0f));
             backwards_[axis] = backwards;
+            const auto plane = static_cast<std::uint32_t>(2 * axis) * kPlane;
+            select(lanes_.r[axis] < Floats(0.0f), Ints(plane + kPlane), Ints(plane))
+                .store(rays1_.nearPlane[axis]);
             if (!together_) continue;
             together_ = (backwards & lanes) == 0 || (backwards & lanes) == lanes;
             oLo_[axis] = smallest(select(on, columns_.org[axis], Floats(kInfinityF)));
@@ -76,7 +81,11 @@ protected:
     // Nothing behind these t counts any more.
     void limit(Floats best) {
         best_ = best;
-        zCut_ = min(lanes_.cutAt(best), zCut_);
+        bindTo(min(best, bound_));
+    }
+    void bindTo(Floats bound) {
+        bound_ = bound;
+        zCut_ = min(lanes_.cutAt(bound), zCut_);
         zCut_.store(rays1_.zCut);
         zTop_ = largest(select(maskOf(live_), zCut_, Floats(-1.0f)));
     }
@@ -88,12 +97,15 @@ protected:
     RayColumns columns_;
     RayLanes lanes_;
     Floats length_, perLength_, perLength2_, slack_; // see Lines
-    Floats best_, zCut_; // t up to which hits count, and the depth behind which none is
+    // t up to which hits count, and by which there is one for certain, known or not yet; the depth
+    // behind which none counts.
+    Floats best_, bound_, zCut_;
     std::uint32_t number_[W];
     unsigned backwards_[3]; // lanes with r < 0
     // The same by ray.
     struct alignas(64) {
         float r[3][W], nearOffset[3][W], farOffset[3][W], zCut[W];
+        std::uint32_t nearPlane[3][W]; // bytes from the start of a node; see kPlane
     } rays1_;
     bool together_ = false;
     float oLo_[3], oHi_[3], rLo_[3], rHi_[3], mostPad_[3], zTop_ = 0;

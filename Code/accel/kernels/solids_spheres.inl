@@ -3,25 +3,20 @@
 
 class PacketSpheres : public PacketTubes {
 protected:
-    using PacketTubes::meet, PacketTubes::PacketTubes;
+    using PacketTubes::firstOf, PacketTubes::hides, PacketTubes::meet, PacketTubes::PacketTubes;
 
     struct SphereRoots {
         Doubles enter, exit;
         Floats t[2];  // the same in float
         unsigned met; // lanes
     };
-    // What is met first.
-    struct SphereHits {
-        Floats t, lost; // lost: by rounding, as in Hit::u
-        unsigned met;
-    };
 
     // Sphere::roots() and insideRound(). A zero of the map adds a zero, which changes no number.
     template <class Map>
-    [[gnu::always_inline]] SphereRoots meet(const Map& m, bool turned, const Doubles& radius,
-                                            unsigned lanes) const {
-        const Doubles X(columns_.org[0]), Y(columns_.org[1]), Z(columns_.org[2]),
-            U(columns_.dir[0]), V(columns_.dir[1]), T(columns_.dir[2]);
+    [[gnu::always_inline]] static SphereRoots
+    meet(const RayColumns& rays, const Map& m, bool turned, const Doubles& radius, unsigned lanes) {
+        const Doubles X(rays.org[0]), Y(rays.org[1]), Z(rays.org[2]), U(rays.dir[0]),
+            V(rays.dir[1]), T(rays.dir[2]);
         const auto point = [&](std::size_t i, const Doubles& x) {
             if (!turned) return m(i / 4 * 5) * x + m(i + 3);
             return ((m(i) * X + m(i + 1) * Y) + m(i + 2) * Z) + m(i + 3);
@@ -48,17 +43,17 @@ protected:
         return {enter, exit, {enter.toFloats(), exit.toFloats()}, lanes};
     }
 
-    unsigned hides(const SphereRoots& roots) const {
-        const auto within = [&](Floats t) { return (t > columns_.tMin) & (t < best_); };
-        return roots.met & bits(within(roots.t[0]) | within(roots.t[1]));
+    static unsigned hides(const SphereRoots& roots, const RayRanges& ranges) {
+        return roots.met & (ranges.hides(roots.t[0]) | ranges.hides(roots.t[1]));
     }
 
-    SphereHits firstOf(const SphereRoots& roots) const {
-        const Mask first = roots.t[0] > columns_.tMin;
+    static FoundLanes firstOf(const SphereRoots& roots, const RayRanges& ranges) {
+        const Mask first = roots.t[0] > ranges.tMin;
         const Floats t = select(first, roots.t[0], roots.t[1]);
         const Doubles lost0 = roots.enter - Doubles(roots.t[0]),
                       lost1 = roots.exit - Doubles(roots.t[1]);
-        return {t, select(first, lost0.toFloats(), lost1.toFloats()),
-                roots.met & bits((t > columns_.tMin) & (t <= best_) & (t < Floats(kInfinityF)))};
+        return {.t = t,
+                .lost = select(first, lost0.toFloats(), lost1.toFloats()),
+                .met = roots.met & ranges.hits(t)};
     }
 };

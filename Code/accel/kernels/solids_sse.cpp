@@ -8,9 +8,9 @@ SSE_REGION_BEGIN
 namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
 
-#include "accel/kernels/lane_matrix.inl"
-
 #include "accel/kernels/ray_lanes.inl"
+
+#include "accel/kernels/solids_columns_sse.inl"
 
 #include "accel/kernels/solids.inl"
 } // namespace kernels::sse

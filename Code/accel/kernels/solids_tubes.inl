@@ -5,15 +5,22 @@
 // Tubes of one form.
 template <class Map> struct Tubes {
     bool caps, isCone;
-    ::Facets::Side side;
+    unsigned front, back; // lanes that meet only that side
     Map map;
     Doubles radius, slope, narrowZ, wallStretch, endStretch; // see StillTube, SolidTree::Tube
 };
 inline Tubes<SameMap> sameTube(const SolidTree::Tube& tube) {
     const StillTube& t = tube.exact;
     const StillTube::Cone cone = t.cone.value_or(StillTube::Cone{});
-    return {t.caps,         t.cone.has_value(), t.side,       {t.shape->objectFromWorld()},
-            t.radius,       cone.slope,         cone.narrowZ, tube.wallStretch,
+    return {t.caps,
+            t.cone.has_value(),
+            t.side == ::Facets::Side::Front ? ~0u : 0,
+            t.side == ::Facets::Side::Back ? ~0u : 0,
+            {t.shape->objectFromWorld()},
+            t.radius,
+            cone.slope,
+            cone.narrowZ,
+            tube.wallStretch,
             tube.endStretch};
 }
 
@@ -36,8 +43,10 @@ protected:
     };
 
     // AnalyticShape::rootsOf() with Cylinder::roots() or Cone::roots(), operation by operation.
-    template <class Map> TubeRoots meet(const Tubes<Map>& tube) const {
-        const ObjectRays rays = objectRays(columns_, tube.map, true);
+    template <class Map>
+    [[gnu::always_inline]] static TubeRoots meet(const RayColumns& columns,
+                                                 const Tubes<Map>& tube) {
+        const ObjectRays rays = objectRays(columns, tube.map, true);
         const auto& [ox, oy, oz, dx, dy, dz] = rays;
         const Doubles zero(0.0), one(1.0), most(std::numeric_limits<double>::max());
         WallRange wall = tube.isCone ? inCone(rays, tube.radius, tube.slope, tube.narrowZ)
@@ -68,16 +77,43 @@ protected:
         return out;
     }
 
+    // What is met first. Who can't be sure to see the wanted side is undecided.
+    template <class Map>
+    [[gnu::always_inline]] static FoundLanes firstOf(const RayColumns& columns,
+                                                     const Tubes<Map>& tube, const TubeRoots& roots,
+                                                     const RayRanges& ranges, unsigned lanes) {
+        const unsigned first = roots.met[0] & bits(roots.t[0] > ranges.tMin);
+        const Mask isFirst = maskOf(first);
+        FoundLanes found{.t = select(isFirst, roots.t[0], roots.t[1]),
+                         .lost = select(isFirst, roots.lost[0], roots.lost[1]),
+                         .undecided = roots.undecided};
+        found.met = (first | roots.met[1]) & ranges.hits(found.t);
+        const unsigned ends = (first & roots.end[0]) | (~first & roots.end[1]);
+        const unsigned bottom = ~(first ^ roots.ahead);
+        static_assert(StillTube::Wall == 0 && StillTube::Bottom == 1 && StillTube::Top == 2);
+        found.part[0] = ends & bottom, found.part[1] = ends & ~bottom;
+        lanes &= found.met & (tube.front | tube.back);
+        if (lanes != 0)
+            found.undecided |=
+                lanes & ~seesSide(columns, tube, roots, ends, first, found.t, found.lost);
+        return found;
+    }
+    static unsigned hides(const TubeRoots& roots, const RayRanges& ranges) {
+        return (roots.met[0] & ranges.hides(roots.t[0])) |
+               (roots.met[1] & ranges.hides(roots.t[1]));
+    }
+
     // Lanes that see the wanted side for certain, of what they meet at (t, lost), which is their
     // first root or the other one: AnalyticShape::seesFront() with twice its threshold. Maps take
     // normals one way and directions the other, so that their product is the same in both spaces.
     template <class Map>
-    unsigned seesSide(const Tubes<Map>& tube, const TubeRoots& roots, unsigned ends, unsigned first,
-                      Floats t, Floats lost) const {
+    [[gnu::always_inline]] static unsigned
+    seesSide(const RayColumns& columns, const Tubes<Map>& tube, const TubeRoots& roots,
+             unsigned ends, unsigned first, Floats t, Floats lost) {
         const auto& [ox, oy, oz, dx, dy, dz] = roots.rays;
         const Doubles zero(0.0), at = Doubles(t) + Doubles(lost);
         const Doubles x = ox + dx * at, y = oy + dy * at;
-        const Doubles X(columns_.dir[0]), Y(columns_.dir[1]), Z(columns_.dir[2]);
+        const Doubles X(columns.dir[0]), Y(columns.dir[1]), Z(columns.dir[2]);
         const Doubles least = Doubles(0x1p-19) * ((X * X + Y * Y) + Z * Z);
         Doubles facing = x * dx + y * dy, nn = x * x + y * y;
         unsigned end = ~atMost(dz * dz, least * tube.endStretch);
@@ -87,9 +123,9 @@ protected:
             end &= less(zero, tube.radius); // a tip is no end
         }
         const unsigned wall = ~atMost(facing * facing, least * (tube.wallStretch * nn));
-        const bool isFront = tube.side == ::Facets::Side::Front;
-        return (ends & end & (isFront ? first : ~first)) |
-               (~ends & wall & ~(isFront ? atMost(zero, facing) : atMost(facing, zero)));
+        const unsigned entering = ~atMost(zero, facing), leaving = ~atMost(facing, zero);
+        return (ends & end & ((tube.front & first) | (tube.back & ~first))) |
+               (~ends & wall & ((tube.front & entering) | (tube.back & leaving)));
     }
 
 private:

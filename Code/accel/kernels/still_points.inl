@@ -87,7 +87,7 @@ inline Local onDisk(const Doubles3& met) {
 }
 
 template <class Numbers> Local onCorners(const Numbers& shape, const Doubles3& met) {
-    const Doubles3 n{shape(NormalX), shape(NormalY), shape(NormalZ)};
+    const Doubles3 n = flatNormal<Kind::Corners>(shape);
     const Doubles3 centre{shape(CentreX), shape(CentreY), shape(CentreZ)};
     return {met + n * (dot(n, centre - met) / dot(n, n)), n};
 }

@@ -10,7 +10,9 @@
 #include "base/surface_block.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
+#include <type_traits>
 
 // Hit k is that of ray which[k] on *shapes[k], all of one kind.
 struct StillsMet {
@@ -21,5 +23,6 @@ struct StillsMet {
     std::span<const StillShape* const> shapes;
 };
 
-// out[to[k]] becomes the surface of hit k, without texture coordinates.
+// out[to[k]] becomes the surface of hit k, without texture coordinates, in a block that was
+// cleared.
 using StillSurfacesFn = void (*)(const StillsMet&, SurfacePlaces out);

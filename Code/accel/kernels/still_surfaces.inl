@@ -69,16 +69,44 @@ template <Kind kKind> struct NumbersOfMany {
 
 // Rows i, i + step .. of a map's linear part.
 template <class Numbers>
-Doubles row(const Numbers& m, std::size_t i, std::size_t step, const Doubles3& v) {
+[[gnu::always_inline]] inline Doubles row(const Numbers& m, std::size_t i, std::size_t step,
+                                          const Doubles3& v) {
     return (m(i) * v.x + m(i + step) * v.y) + m(i + 2 * step) * v.z;
 }
-template <class Numbers> Doubles3 vectorOf(const Numbers& m, Number map, const Doubles3& v) {
+template <class Numbers>
+[[gnu::always_inline]] inline Doubles3 vectorOf(const Numbers& m, Number map, const Doubles3& v) {
     return {row(m, map, 1, v), row(m, map + 4, 1, v), row(m, map + 8, 1, v)};
 }
-template <class Numbers> Doubles3 pointOf(const Numbers& m, Number map, const Doubles3& p) {
+template <class Numbers>
+[[gnu::always_inline]] inline Doubles3 pointOf(const Numbers& m, Number map, const Doubles3& p) {
     const Doubles3 v = vectorOf(m, map, p);
     return {v.x + m(map + 3), v.y + m(map + 7), v.z + m(map + 11)};
 }
+
+template <class Numbers> Doubles3 normalOf(const Numbers& m, const Doubles3& n) {
+    const Doubles3 steep{row(m, ObjectFromWorld, 4, n), row(m, ObjectFromWorld + 1, 4, n),
+                         row(m, ObjectFromWorld + 2, 4, n)};
+    return steep / sqrt(dot(steep, steep));
+}
+
+// In the space of a flat shape.
+template <Kind kKind, class Numbers> Doubles3 flatNormal(const Numbers& shape) {
+    if constexpr (kKind == Kind::Corners)
+        return {shape(NormalX), shape(NormalY), shape(NormalZ)};
+    else
+        return {Doubles(0.0), Doubles(0.0), Doubles(1.0)};
+}
+
+// The numbers of a flat shape, with its one normal.
+template <Kind kKind> struct NumbersOfFlat : NumbersOfOne<kKind> {
+    explicit NumbersOfFlat(const StillShape& shape)
+        : NumbersOfOne<kKind>(shape), normal(normalOf(*this, flatNormal<kKind>(*this))) {}
+    Doubles3 normal;
+};
+template <Kind kKind>
+using NumbersOf =
+    std::conditional_t<kKind == Kind::Disk || kKind == Kind::Plane || kKind == Kind::Corners,
+                       NumbersOfFlat<kKind>, NumbersOfOne<kKind>>;
 
 struct RaysInLanes {
     Doubles3 org, dir;
@@ -116,14 +144,55 @@ inline RaysInLanes raysOf(const RaySpan& rays, std::span<const Hit> hits,
 }
 
 struct SurfacesInLanes {
-    alignas(64) float p[3][W], n[3][W], uv[2][W]; // uv: of planes
-    alignas(64) double error[W];
+    alignas(64) float p[3][W], n[3][W], error[W], uv[2][W]; // uv: of planes
+    std::uint32_t material[W], object[W];
+
+    // Lane i into place to[i], flat and without texture coordinates. The blocks know of nothing
+    // else.
+    void put(std::span<const std::uint32_t> to, const SurfacePlaces& out) const {
+        const std::size_t lane = to[0] % SurfaceBlock::kPoints;
+        if (to.size() == W && to[W - 1] - to[0] == W - 1 && lane + W <= SurfaceBlock::kPoints &&
+            areInARow(to))
+            return putRow(out[to[0]].block, lane);
+        for (std::size_t i = 0; i < to.size(); ++i) {
+            const auto [block, at] = out[to[i]];
+            SurfaceBlock::set(block.p, at, {p[0][i], p[1][i], p[2][i]});
+            SurfaceBlock::set(block.ng, at, {n[0][i], n[1][i], n[2][i]});
+            block.error[at] = error[i];
+            block.material[at] = material[i], block.object[at] = object[i];
+        }
+    }
+
+private:
+    static bool areInARow(std::span<const std::uint32_t> to) {
+        unsigned wrong = 0;
+        for (std::uint32_t i = 0; i < W; ++i) wrong |= to[i] ^ (to[0] + i);
+        return wrong == 0;
+    }
+    void putRow(SurfaceBlock& block, std::size_t lane) const {
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            std::copy_n(p[axis], W, block.p[axis] + lane);
+            std::copy_n(n[axis], W, block.ng[axis] + lane);
+        }
+        std::copy_n(error, W, block.error + lane);
+        std::copy_n(material, W, block.material + lane);
+        std::copy_n(object, W, block.object + lane);
+    }
 };
 
-// Of the squares that a plane is divided into.
-inline bool isOdd(float u, float v) {
-    const float squares = std::floor(u) + std::floor(v);
-    return std::floor(squares / 2) != squares / 2;
+// floatAbove() of what is not negative.
+inline float roundedUp(double x) {
+    const auto nearest = static_cast<float>(x);
+    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) +
+                                (static_cast<double>(nearest) < x ? 1 : 0));
+}
+
+// Of the squares that a plane is divided into, the odd ones.
+inline void findOdd(const float (&u)[W], const float (&v)[W], std::uint32_t (&odd)[W]) {
+    for (std::size_t i = 0; i < W; ++i) { // no branches: nobody foresees them
+        const float half = (std::floor(u[i]) + std::floor(v[i])) / 2;
+        odd[i] = std::floor(half) != half;
+    }
 }
 
 // Rounded, by axis.
@@ -175,17 +244,34 @@ void describe(const Numbers& shape, const RaysInLanes& world, const Doubles3& fa
     const Doubles3 back = pointOf(shape, ObjectFromWorld, rough);
     const Doubles3 p = rough + vectorOf(shape, WorldFromObject, local.p - back);
 
-    const Doubles3& n = local.normal;
-    const Doubles3 steep{row(shape, ObjectFromWorld, 4, n), row(shape, ObjectFromWorld + 1, 4, n),
-                         row(shape, ObjectFromWorld + 2, 4, n)};
-    const Doubles3 normal = steep / sqrt(dot(steep, steep));
+    const Doubles3 normal = [&] {
+        if constexpr (requires { shape.normal; })
+            return shape.normal;
+        else
+            return normalOf(shape, local.normal);
+    }();
     const Doubles rounding = (abs(normal.x * p.x) + abs(normal.y * p.y)) + abs(normal.z * p.z);
     store(p, out.p), store(normal, out.n);
-    (Doubles(kThreeUlps) * rounding + fixedError).store(out.error);
+    alignas(64) double error[W];
+    (Doubles(kThreeUlps) * rounding + fixedError).store(error);
+    for (std::size_t i = 0; i < W; ++i) out.error[i] = roundedUp(error[i]);
+}
+
+template <Kind kKind>
+void findMaterials(std::span<const StillShape* const> shapes, SurfacesInLanes& found) {
+    std::uint32_t odd[W] = {};
+    if constexpr (kKind == Kind::Plane) findOdd(found.uv[0], found.uv[1], odd);
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        const StillShape& shape = *shapes[i];
+        found.material[i] = odd[i] != 0 ? shape.oddMaterial : shape.material;
+        found.object[i] = shape.object;
+    }
 }
 
 template <Kind kKind> void surfacesOf(const StillsMet& met, const SurfacePlaces& out) {
     SurfacesInLanes found;
+    const StillShape* last = nullptr;
+    std::optional<NumbersOf<kKind>> ofLast;
     for (std::size_t first = 0; first < met.which.size(); first += W) {
         const std::size_t count = std::min<std::size_t>(W, met.which.size() - first);
         const auto which = met.which.subspan(first, count);
@@ -193,20 +279,14 @@ template <Kind kKind> void surfacesOf(const StillsMet& met, const SurfacePlaces&
         const Doubles3 face = kKind == Kind::Cube ? facesMet(met.hits, which) : rays.dir;
         const auto shapes = met.shapes.subspan(first, count);
         const auto isFirst = [&](const StillShape* other) { return other == shapes[0]; };
-        if (std::all_of(shapes.begin() + 1, shapes.end(), isFirst))
-            describe<kKind>(NumbersOfOne<kKind>(*shapes[0]), rays, face, found);
-        else
+        if (std::all_of(shapes.begin() + 1, shapes.end(), isFirst)) {
+            if (shapes[0] != last) last = shapes[0], ofLast.emplace(*last);
+            describe<kKind>(*ofLast, rays, face, found);
+        } else {
             describe<kKind>(NumbersOfMany<kKind>(shapes), rays, face, found);
-        for (std::size_t i = 0; i < count; ++i) {
-            std::uint32_t material = shapes[i]->material;
-            if constexpr (kKind == Kind::Plane)
-                if (shapes[i]->oddMaterial != material && isOdd(found.uv[0][i], found.uv[1][i]))
-                    material = shapes[i]->oddMaterial;
-            const SurfacePlaces::Place to = out[met.to[first + i]];
-            to.block.putFlat(to.lane, {found.p[0][i], found.p[1][i], found.p[2][i]},
-                             {found.n[0][i], found.n[1][i], found.n[2][i]},
-                             floatAbove(found.error[i]), material, shapes[i]->object);
         }
+        findMaterials<kKind>(shapes, found);
+        found.put(met.to.subspan(first, count), out);
     }
 }
 

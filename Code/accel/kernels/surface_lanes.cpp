@@ -6,11 +6,12 @@
 #define DECLARE(isa)                                                                               \
     namespace kernels::isa {                                                                       \
     void stillSurfaces(const StillsMet&, SurfacePlaces);                                           \
+    void ballSurfaces(const BallsMet&, SurfacePlaces);                                             \
     void triangleSurfaces(const TrianglesMet&, TriangleSurfaces&);                                 \
     }
 DECLARE_BY_KERNEL(DECLARE)
 #define ROW(isa)                                                                                   \
-    { kernels::isa::stillSurfaces, kernels::isa::triangleSurfaces }
+    { kernels::isa::stillSurfaces, kernels::isa::ballSurfaces, kernels::isa::triangleSurfaces }
 
 SurfaceLanes surfaceLanes(const Kernel& kernel) {
     static constexpr ByKernel<SurfaceLanes> kTable = BY_KERNEL(ROW);

@@ -12,6 +12,8 @@ namespace kernels::avx512 {
 #include "accel/kernels/vectors3.inl"
 
 #include "accel/kernels/still_surfaces.inl"
+
+#include "accel/kernels/still_balls.inl"
 #include "accel/kernels/triangle_surfaces.inl"
 } // namespace kernels::avx512
 KERNEL_REGION_END

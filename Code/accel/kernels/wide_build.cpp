@@ -62,15 +62,15 @@ public:
     }
 
     WideTree run() {
-        WideTree tree;
-        tree.width = width_;
-        tree.triangleIds.resize(count_);
-        in_.ids = tree.triangleIds.data();
         lists_.prims.resize(count_), lists_.spare.resize(count_);
         top_.resize(2); // the root, and a place that keeps pairs of children together
         std::vector<Open> level{root()};
         top_[0] = leafNode(level[0].range.box);
         while (!level.empty()) level = divideLevel(level);
+        WideTree tree;
+        tree.width = width_;
+        tree.triangleIds.resize(count_);
+        in_.ids = tree.triangleIds.data();
         growSubtrees();
         // 32 bytes a triangle, before the tree takes its place.
         decltype(lists_.spare)().swap(lists_.spare);

@@ -1,7 +1,7 @@
 // WideTree: the triangles of a mesh as vector kernels want them. A node tests W boxes at once, a
 // leaf W triangles over at most W vertices that they share: a vertex is moved into the ray's frame
 // once, and both triangles of an edge see the same bits of it.
-// Knows nothing about rays and instruction sets; read by the kernels, written by wide_build.cpp.
+// Knows nothing about rays and instruction sets; read by the kernels, made by wide_build.cpp.
 #pragma once
 
 #include "accel/ray_setup.h"
@@ -23,11 +23,16 @@ constexpr WideKind kindOf(WideRef ref) { return static_cast<WideKind>(ref & 3); 
 constexpr std::size_t byteOffset(WideRef ref) { return static_cast<std::size_t>(ref & ~3u) * 16; }
 
 // Children in the order in which rays that any hit ends had better visit them, the first one last
-// (build/visit_order.h). A slot without a child has a box that no ray enters and that of an empty
+// (build/visit_order.h). A slot without a child has a box that no ray enters, and refers to an empty
 // leaf.
 template <int W> struct alignas(64) WideNode {
     float plane[3][2][W]; // axis, lower or upper
     WideRef child[W];
+
+    Bounds box(std::size_t i) const {
+        return {{plane[0][0][i], plane[1][0][i], plane[2][0][i]},
+                {plane[0][1][i], plane[1][1][i], plane[2][1][i]}};
+    }
 };
 static_assert(sizeof(WideNode<16>) == 448 && sizeof(WideNode<8>) == 256);
 
@@ -70,38 +75,3 @@ inline constexpr double kCountlessRays = 1e18; // any time is well spent
 WideTree buildWide(int width, std::span<const Vec3> points,
                    std::span<const std::array<std::uint32_t, 3>> triangles, int threads = 1,
                    double rays = 0);
-
-// traverse() of bvh.h for one ray in a wide tree, in plain C++: for the questions that the kernels
-// don't answer. leaf(triangle, zCut) may lower zCut; true stops. In any order.
-template <int W, class LeafFn>
-void traverseWidth(const WideTree& tree, const RaySetup& ray, float zCut, LeafFn&& leaf) {
-    std::vector<WideRef> stack{tree.root};
-    while (!stack.empty()) {
-        const WideRef ref = stack.back();
-        stack.pop_back();
-        if (kindOf(ref) == WideKind::Leaf) {
-            const auto& l = tree.at<WideLeaf<W>>(ref);
-            for (std::uint32_t i = 0; i < l.count; ++i)
-                if (leaf(tree.triangleIds[l.first + i], zCut)) return;
-            continue;
-        }
-        const auto& node = tree.at<WideNode<W>>(ref);
-        for (std::size_t i = 0; i < W; ++i) {
-            Bounds box;
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                box.lo[axis] = node.plane[axis][0][i];
-                box.hi[axis] = node.plane[axis][1][i];
-            }
-            float z = 0;
-            if (ray.enters(box, zCut, z)) stack.push_back(node.child[i]);
-        }
-    }
-}
-
-template <class LeafFn>
-void traverse(const WideTree& tree, const RaySetup& ray, float zCut, LeafFn&& leaf) {
-    if (tree.width == 16)
-        traverseWidth<16>(tree, ray, zCut, leaf);
-    else
-        traverseWidth<8>(tree, ray, zCut, leaf);
-}

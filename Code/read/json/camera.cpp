@@ -46,16 +46,10 @@ CameraDesc readJsonCamera(const JsonValue& value, JsonProblems& problems) {
     camera.name = "camera";
     camera.sensorFit = CameraDesc::SensorFit::Vertical;
     fields.read("name", camera.name);
-    View own;
-    readView(fields, own);
-    Keys keys;
-    const bool moves = forEachJsonKey(fields, [&](JsonFields& key) {
-        View view = own;
-        readView(key, view);
-        keys.push_back(lookingAt(view.position, view.lookAt, view.up, key));
-    });
-    if (!moves) keys = {lookingAt(own.position, own.lookAt, own.up, fields)};
-    camera.worldFromCamera = std::move(keys);
+    camera.worldFromCamera =
+        readJsonKeys<View>(fields, readView, [](const View& view, const JsonFields& where) {
+            return lookingAt(view.position, view.lookAt, view.up, where);
+        });
     readJsonProperties(fields, {}, camera);
     readAngle(fields, camera);
     fields.reportUnknown();

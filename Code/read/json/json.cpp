@@ -3,18 +3,14 @@
 #include "base/text.h"
 #include "desc/names.h"
 #include "read/json/text.h"
-#include "read/plain_number.h"
+#include "read/json/words.h"
+#include "read/text_size.h"
 
 #include <algorithm>
 #include <unordered_map>
 #include <vector>
 
 namespace {
-
-static_assert(sizeof(JsonValue) == 24);
-
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
-bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
 
 class Parser {
 public:
@@ -69,23 +65,10 @@ private:
         const auto begin = source_.text.begin();
         return static_cast<std::size_t>(1 + std::count(begin, begin + loc.offset, '\n'));
     }
+    std::string hereText() const { return jsonHere(source_, p_); }
     // The text ends in the zero of std::string, which is no blank and starts no value.
     void skipBlanks() {
         while (*p_ == ' ' || *p_ == '\n' || *p_ == '\r' || *p_ == '\t') ++p_;
-    }
-
-    // What stands at p_, for messages: a word or number whole, else one character.
-    std::string hereText() const {
-        if (p_ == end_) return "the end of the file";
-        const char* last = p_;
-        const auto inWord = [](char c) {
-            return isLetter(c) || isDigit(c) || c == '.' || c == '+' || c == '-';
-        };
-        while (last < end_ && last - p_ < 40 && inWord(*last)) ++last;
-        const std::string_view rest(p_, static_cast<std::size_t>(end_ - p_));
-        const std::string_view here =
-            last > p_ ? rest.substr(0, static_cast<std::size_t>(last - p_)) : firstCharacter(rest);
-        return cat("'", shown(here), "'");
     }
 
     // In the arena, where it stays as long as the document.
@@ -109,72 +92,19 @@ private:
         case 'f': return word("false", {locOf(start), false});
         case 'n': return word("null", JsonValue(locOf(start)));
         default:
-            if (*p_ == '-' || isDigit(*p_)) return number();
-            failNoValue();
+            if (*p_ == '-' || isJsonDigit(*p_)) return number();
+            failNoJsonValue(source_, p_);
         }
-    }
-    [[noreturn]] void failNoValue() const {
-        std::string hint;
-        const std::string here = hereText();
-        if (*p_ == '\'')
-            hint = "; texts stand in double quotes";
-        else if (*p_ == '/' || *p_ == '#')
-            hint = "; JSON has no comments";
-        else if (*p_ == '+' || *p_ == '.')
-            hint = "; a number starts with a digit or '-'";
-        else if (here == "'True'" || here == "'False'" || here == "'None'")
-            hint = "; JSON writes true, false and null";
-        else if (here == "'NaN'" || here == "'Infinity'" || here == "'inf'" || here == "'nan'")
-            hint = "; JSON has finite numbers only";
-        else if (isLetter(*p_))
-            hint = "; texts stand in double quotes, and the words are true, false and null";
-        fail(p_, cat("expected a value, got ", here, hint));
     }
     JsonValue word(std::string_view expected, JsonValue value) {
-        const std::string_view rest(p_, static_cast<std::size_t>(end_ - p_));
-        const std::size_t size = expected.size();
-        if (!rest.starts_with(expected) || isLetter(p_[size]) || isDigit(p_[size])) failNoValue();
-        p_ += size;
+        p_ = endOfJsonWord(source_, p_, expected);
         return value;
     }
-
-    // -? (0 | [1-9][0-9]*) (. [0-9]+)? ([eE] [+-]? [0-9]+)?
     JsonValue number() {
         const char* start = p_;
-        double plain = 0;
-        if (const char* const last = readPlainNumber(p_, end_, plain))
-            if (!isLetter(*last) && *last != '.') {
-                p_ = last;
-                return {locOf(start), plain};
-            }
-        if (*p_ == '-') ++p_;
-        const char* whole = p_;
-        digits(start, "after '-'");
-        if (*whole == '0' && p_ > whole + 1)
-            fail(start, "a number has no zeros before its first digit; JSON knows no octal");
-        if (*p_ == '.') {
-            ++p_;
-            digits(start, "after the decimal point");
-        }
-        if (*p_ == 'e' || *p_ == 'E') {
-            ++p_;
-            if (*p_ == '+' || *p_ == '-') ++p_;
-            digits(start, "in the exponent");
-        }
-        if (isLetter(*p_) || *p_ == '.') {
-            const bool isHex = *p_ == 'x' || *p_ == 'X';
-            p_ = start;
-            fail(start, cat("expected a number, got ", hereText(),
-                            isHex ? "; JSON has decimal numbers only" : ""));
-        }
-        const NumberRead<double> read = readDouble(start);
-        if (read.fault == NumberFault::TooLarge)
-            fail(start, "the number is too large; at most 1.7976931348623157e308 is possible");
+        const JsonNumber read = readJsonNumber(source_, start);
+        p_ = read.end;
         return {locOf(start), read.value};
-    }
-    void digits(const char* start, std::string_view where) {
-        if (!isDigit(*p_)) fail(start, cat("a number needs a digit ", where));
-        while (isDigit(*p_)) ++p_;
     }
 
     // Most texts stand in the file as they are; those with escapes are decoded into the arena.
@@ -306,50 +236,16 @@ private:
     JsonArrayScan list_;
 };
 
-void checkSize(const SourceFile& source) {
-    // Locations are 32 bits wide.
-    if (source.text.size() >= SourceLoc::kUnknown)
-        fail(ErrorKind::Input, cat(source.name, ": error: the file is larger than 4 GiB"));
-}
-
 } // namespace
 
-JsonValue::JsonValue(SourceLoc loc, std::span<const JsonMember> members)
-    : loc_(loc), kind_(Kind::Object), size_(members.size()), members_(members.data()) {}
-
-std::span<const JsonMember> JsonValue::members() const {
-    return isObject() ? std::span(members_, size_) : std::span<const JsonMember>();
-}
-
-const JsonValue* JsonValue::find(std::string_view key) const {
-    for (const JsonMember& member : members())
-        if (member.key == key) return &member.value;
-    return nullptr;
-}
-
-std::string_view nameOf(JsonValue::Kind kind) {
-    constexpr std::string_view kNames[] = {"null",   "true or false", "a number",
-                                           "a text", "an array",      "an object"};
-    return kNames[static_cast<std::size_t>(kind)];
-}
-
-std::string described(const JsonValue& value) {
-    switch (value.kind()) {
-    case JsonValue::Kind::Bool: return value.boolean() ? "true" : "false";
-    case JsonValue::Kind::Number: return cat("the number ", shortest(value.number()));
-    case JsonValue::Kind::String: return cat("the text '", shown(value.text()), "'");
-    default: return std::string(nameOf(value.kind()));
-    }
-}
-
 JsonDocument parseJson(const SourceFile& source) {
-    checkSize(source);
+    checkTextSize(source);
     return Parser(source).parse();
 }
 
 JsonOutline parseJsonOutline(const SourceFile& source, std::string_view listKey,
                              std::size_t partBytes) {
-    checkSize(source);
+    checkTextSize(source);
     return Parser(source).parseOutline(listKey, partBytes);
 }
 

@@ -37,15 +37,8 @@ Rows rowsOf(const JsonPlace& place) {
 }
 
 Keys readJsonPlace(JsonFields& fields, Rows (*rows)(const JsonPlace&)) {
-    JsonPlace own;
-    readPlace(fields, own);
-    Keys keys;
-    const bool moves = forEachJsonKey(fields, [&](JsonFields& key) {
-        JsonPlace place = own;
-        readPlace(key, place);
-        keys.push_back(rows(place));
-    });
-    return moves ? keys : Keys{rows(own)};
+    return readJsonKeys<JsonPlace>(
+        fields, readPlace, [&](const JsonPlace& place, const JsonFields&) { return rows(place); });
 }
 
 Rows lookingAt(Vec3d eye, Vec3d target, Vec3d up, const JsonFields& fields) {

@@ -15,25 +15,32 @@ Rows rowsOf(const JsonPlace& place);
 // rule above, or another one.
 Keys readJsonPlace(JsonFields& fields, Rows (*rows)(const JsonPlace&) = rowsOf);
 
-// Calls with the fields of each of the `keys` of a moving thing; what a key does not give is as in
-// the thing itself. Without keys, false.
+// Where a thing stands, or its keys if it moves: rows(part, fields) of the Part that read(fields,
+// part) takes from its own fields and from those of each of its `keys`. What a key does not give is
+// as in the thing itself.
 inline constexpr std::size_t kMostKeys = 256;
-template <class ReadKey> bool forEachJsonKey(JsonFields& fields, ReadKey&& readKey) {
+template <class Part, class Read, class RowsFn>
+Keys readJsonKeys(JsonFields& fields, const Read& read, const RowsFn& rows) {
+    Part own;
+    read(fields, own);
     const JsonValue* list = fields.take("keys");
-    if (!list) return false;
+    if (!list) return {rows(own, fields)};
     if (!list->isArray() || list->items().empty() || list->items().size() > kMostKeys) {
         fields.problems().error(list->loc(), [&] {
             return cat("expected an array of 1 to ", kMostKeys, " objects for 'keys', got ",
                        list->isArray() ? cat(list->items().size()) : described(*list));
         });
-        return false;
+        return {rows(own, fields)};
     }
+    Keys keys;
     for (const JsonValue& item : list->items()) {
         JsonFields key(item, "a key of " + fields.what(), fields.problems());
-        readKey(key);
+        Part part = own;
+        read(key, part);
+        keys.push_back(rows(part, key));
         key.reportUnknown();
     }
-    return true;
+    return keys;
 }
 
 // Turns a thing that looks along its -Z from `eye` towards `target`, its +Y towards `up`. Notes an

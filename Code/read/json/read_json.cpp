@@ -1,6 +1,6 @@
 #include "read/json/read_json.h"
 
-#include "read/attempt.h"
+#include "read/in_parts.h"
 #include "read/json/camera.h"
 #include "read/json/dialect.h"
 #include "read/json/fields.h"
@@ -69,10 +69,5 @@ SceneDesc readJson(const SourceFile& source, const ReadContext& context) {
 
 SceneDesc readJson(const SourceFile& source, const ReadContext& context, std::size_t partBytes) {
     // One thread reads in parts, too: a tree of all values takes longer to store than to make.
-    if (source.text.size() > partBytes)
-        if (auto scene = attempt(context, [&](const ReadContext& own) {
-                return readInParts(source, own, partBytes);
-            }))
-            return std::move(*scene);
-    return readInOrder(source, context);
+    return readInPartsOrInOrder(source, context, partBytes, readInParts, readInOrder);
 }

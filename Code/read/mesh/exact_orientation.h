@@ -45,15 +45,24 @@ inline int exactOrientation(Vec2d a, Vec2d b, Vec2d c) {
     return area.sign();
 }
 
+// (3 + 16u) u with u = 2^-53: Shewchuk's bound for the order of operations below.
+inline constexpr double kOrientationError = 3.3306690738754716e-16;
+
 // 1: a, b, c turn left (counter-clockwise), -1: right, 0: they lie on one line. Exact for
 // coordinates up to 1e60 whose products are not below 2^-968.
 inline int orientation(Vec2d a, Vec2d b, Vec2d c) {
     const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);
     if (left == 0 && right == 0) return 0; // what lies on lines along the axes is common
     const double area = left - right;
-    // (3 + 16u) u with u = 2^-53: Shewchuk's bound for this order of operations.
-    const double error = 3.3306690738754716e-16 * (std::fabs(left) + std::fabs(right));
+    const double error = kOrientationError * (std::fabs(left) + std::fabs(right));
     if (area > error) return 1;
     if (area < -error) return -1;
     return exactOrientation(a, b, c);
+}
+
+// Is their orientation not 0? False as well where only exactOrientation() knows. Asks for no sign,
+// which nobody can guess.
+inline bool surelyTurn(Vec2d a, Vec2d b, Vec2d c) {
+    const double left = (a.x - c.x) * (b.y - c.y), right = (a.y - c.y) * (b.x - c.x);
+    return std::fabs(left - right) > kOrientationError * (std::fabs(left) + std::fabs(right));
 }

@@ -32,6 +32,7 @@ public:
     }
 
     const char* text() const { return p_; } // of this line, not yet read
+    const char* end() const { return end_; }
     std::size_t offset() const { return offsetOf(p_); }
     std::size_t offsetOf(const char* p) const {
         return static_cast<std::size_t>(p - source_->text.data());
@@ -82,6 +83,8 @@ public:
     bool atNumber();
 
     void moveTo(const char* p) { p_ = p; }
+    // To the start of a line: the next one, for who has read all of this one.
+    void moveToLine(const char* start) { p_ = start, atStart_ = true; }
     bool isNumberEnd(const char* p) const { return isWordEnd(p) || *p == '#'; }
     // For messages about the next word: "'abc'", "the end of the line".
     std::string nextWord();

@@ -14,9 +14,14 @@ namespace {
 using Corners = MeshDesc::Corners;
 constexpr Corners kAllMissing{MeshBuilder::kMissing, MeshBuilder::kMissing, MeshBuilder::kMissing};
 
+// All three corners are, or none.
+bool isMissing(const Corners& c) { return c[0] == MeshBuilder::kMissing; }
+
 // Exactly: seen along all three axes, the corners are on one line.
 bool hasArea(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-    return orientation({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) != 0 ||
+    return surelyTurn({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) ||
+           surelyTurn({a.y, a.z}, {b.y, b.z}, {c.y, c.z}) ||
+           orientation({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) != 0 ||
            orientation({a.y, a.z}, {b.y, b.z}, {c.y, c.z}) != 0 ||
            orientation({a.z, a.x}, {b.z, b.x}, {c.z, c.x}) != 0;
 }
@@ -132,12 +137,11 @@ void MeshBuilder::addFaces(const MeshBuilder& part) {
 
 void MeshBuilder::fillUvs(int threads) {
     if (mesh.uvTriangles.empty()) return mesh.uvs.clear();
-    if (std::find(mesh.uvTriangles.begin(), mesh.uvTriangles.end(), kAllMissing) !=
-        mesh.uvTriangles.end()) {
+    if (std::any_of(mesh.uvTriangles.begin(), mesh.uvTriangles.end(), isMissing)) {
         const auto zero = static_cast<std::uint32_t>(mesh.uvs.size());
         mesh.uvs.push_back({0, 0});
         for (Corners& c : mesh.uvTriangles)
-            if (c == kAllMissing) c = {zero, zero, zero};
+            if (isMissing(c)) c = {zero, zero, zero};
     }
     dropUnused(mesh.uvs, mesh.uvTriangles, threads);
 }
@@ -149,7 +153,7 @@ void MeshBuilder::fillNormals(int threads) {
         if (!groups_.empty()) smoothByGroup(mesh, groups_, threads);
         return;
     }
-    if (std::find(corners.begin(), corners.end(), kAllMissing) != corners.end()) {
+    if (std::any_of(corners.begin(), corners.end(), isMissing)) {
         std::vector<Vec3> given = std::move(mesh.normals);
         std::vector<Corners> givenCorners = std::exchange(corners, {});
         groups_.resize(mesh.triangles.size());
@@ -160,7 +164,7 @@ void MeshBuilder::fillNormals(int threads) {
         for (std::size_t i = 0; i < corners.size(); ++i)
             for (std::size_t k = 0; k < 3; ++k)
                 corners[i][k] =
-                    givenCorners[i] == kAllMissing ? offset + corners[i][k] : givenCorners[i][k];
+                    isMissing(givenCorners[i]) ? offset + corners[i][k] : givenCorners[i][k];
     }
     dropUnused(mesh.normals, corners, threads);
 }

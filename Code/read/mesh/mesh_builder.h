@@ -25,6 +25,9 @@ public:
     // area are left out; false when none is left.
     bool addFace(std::span<const Corner> corners);
 
+    // Of a face to come, so that it need not wait for its points then.
+    void prefetch(const Corner& corner) const { __builtin_prefetch(&points()[corner.point]); }
+
     // A builder for some of the faces, at most so many triangles of this slot and group; it looks
     // at the points here. Its faces are added when it has all of them.
     MeshBuilder part(std::size_t triangles) const;

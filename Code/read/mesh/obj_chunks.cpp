@@ -3,7 +3,9 @@
 #include "base/for_each.h"
 #include "base/text.h"
 #include "desc/range.h"
+#include "read/mesh/plain_lines.h"
 
+#include <array>
 #include <cstring>
 
 namespace {
@@ -36,25 +38,43 @@ std::vector<ObjChunk> divided(const std::string& text) {
         const auto left = static_cast<std::size_t>(end - first);
         const char* const last =
             left <= kChunkBytes ? end : lineStartFrom(first + kChunkBytes - 1, end);
-        chunks.push_back({first, last, {}, 0, true});
+        ObjChunk& chunk = chunks.emplace_back();
+        chunk.first = first, chunk.last = last;
         first = last;
     }
     return chunks;
 }
 
-// Its own numbers, until it is known what comes in front.
+bool has(const ObjChunk& chunk, char byte) {
+    return std::memchr(chunk.first, byte, static_cast<std::size_t>(chunk.last - chunk.first));
+}
+
+// Of the rest of the line, which the reader stays in, or has read.
+std::size_t countWords(LineReader& in, bool isSimple) {
+    if (isSimple)
+        if (const CountedWords counted = wordsOfLine(in.text(), in.end()); counted.next) {
+            in.moveToLine(counted.next);
+            return counted.words;
+        }
+    // Ahead: words may reach beyond a comment that a reader of corners stops at.
+    LineReader ahead = in;
+    std::size_t words = 0;
+    while (!ahead.word().empty()) ++words;
+    return words;
+}
+
+// The vertices in it.
 ObjCounts count(const SourceFile& source, ObjChunk& chunk) {
     LineReader in(source, chunk.first, chunk.last);
     ObjCounts counts;
+    const bool isSimple = !has(chunk, '#') && !has(chunk, '\\');
     while (in.nextLine()) {
         const char first = *in.text();
         if (first == 'v' && takeVertex(in, counts)) continue;
         if (first == 'f' && takeFace(in)) {
-            // Ahead: words may reach beyond a comment that a reader of corners stops at.
-            LineReader ahead = in;
-            std::size_t corners = 0;
-            while (!ahead.word().empty()) ++corners;
+            const std::size_t corners = countWords(in, isSimple);
             chunk.triangles += corners < 3 ? 0 : corners - 2;
+            chunk.hasFaces = true;
         } else {
             chunk.isPlain = false;
         }
@@ -70,7 +90,9 @@ public:
     Counted read() {
         while (in_.nextLine()) {
             if (*in_.text() != 'v') continue;
-            if (in_.take("v")) {
+            if (const char* const next = readPlainly(in_.text())) {
+                in_.moveToLine(next);
+            } else if (in_.take("v")) {
                 readPoint();
             } else if (in_.take("vn")) {
                 const float x = in_.number<float>("vn", kLargestFloat),
@@ -92,6 +114,25 @@ public:
     }
 
 private:
+    // Returns the next line, or nullptr.
+    const char* readPlainly(const char* line) {
+        std::array<double, 3> point;
+        std::array<float, 3> normal;
+        std::array<float, 2> uv;
+        const char* next = nullptr;
+        if (line[1] == ' ') {
+            next = readPlainNumbers(line + 1, in_.end(), kLargestLength, point);
+            if (next) mesh_.points[at_.points++] = {point[0], point[1], point[2]};
+        } else if (line[1] == 'n') {
+            next = readPlainNumbers(line + 2, in_.end(), kLargestFloat, normal);
+            if (next) mesh_.normals[at_.normals++] = {normal[0], normal[1], normal[2]};
+        } else if (line[1] == 't') {
+            next = readPlainNumbers(line + 2, in_.end(), kLargestFloat, uv);
+            if (next) mesh_.uvs[at_.uvs++] = {uv[0], uv[1]};
+        }
+        return next;
+    }
+
     // x y z, then w (of curves) or r g b or both.
     void readPoint() {
         Vec3d& p = mesh_.points[at_.points++];
@@ -129,6 +170,7 @@ ObjChunks chunksOf(const SourceFile& source, int threads) {
         out.total.points += counts[i].points;
         out.total.uvs += counts[i].uvs;
         out.total.normals += counts[i].normals;
+        out.chunks[i].behind = out.total;
         out.triangles += out.chunks[i].triangles;
     }
     return out;
@@ -141,7 +183,8 @@ Counted readVertices(const SourceFile& source, const ObjChunks& chunks, MeshDesc
     mesh.normals.resize(chunks.total.normals);
     std::vector<Counted> colours(chunks.chunks.size());
     forEachOn(threads, colours.size(), [&](std::size_t i) {
-        colours[i] = VertexReader(source, chunks.chunks[i], mesh).read();
+        if (chunks.chunks[i].hasVertices())
+            colours[i] = VertexReader(source, chunks.chunks[i], mesh).read();
     });
     Counted all;
     for (const Counted& some : colours) all.add(some);

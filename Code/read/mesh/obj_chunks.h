@@ -23,13 +23,16 @@ struct Counted {
 
 struct ObjCounts {
     std::size_t points = 0, uvs = 0, normals = 0;
+    bool operator==(const ObjCounts&) const = default;
 };
 
 struct ObjChunk {
     const char *first = nullptr, *last = nullptr;
-    ObjCounts before;          // how many vertices come in front of it
+    ObjCounts before, behind;  // how many vertices come up to here: in front of it, and with it
     std::size_t triangles = 0; // at most
-    bool isPlain = true;       // vertices and faces only, which need to know nothing else
+    bool hasFaces = false;
+    bool isPlain = true; // vertices and faces only, which need to know nothing else
+    bool hasVertices() const { return before != behind; }
 };
 
 struct ObjChunks {

@@ -5,6 +5,10 @@
 #include "read/mesh/triangulate.h"
 
 std::span<const MeshBuilder::Corner> CornerReader::readFace() {
+    if (const char* const next = readPlainFace(in_.text(), in_.end(), total_, plain_)) {
+        in_.moveToLine(next);
+        return std::span(plain_.corners).first(plain_.count);
+    }
     corners_.clear();
     while (!in_.atLineEnd()) {
         if (corners_.size() == kMostCorners)
@@ -17,7 +21,7 @@ std::span<const MeshBuilder::Corner> CornerReader::readFace() {
 
 inline std::uint32_t CornerReader::readIndex(const char*& p, std::size_t total, std::size_t soFar,
                                              std::string_view one, std::string_view many) {
-    // Nearly all are: a number from 1 that there is.
+    // Most are: a number from 1 that there is.
     constexpr std::ptrdiff_t kDigits = 9;
     std::uint32_t value = 0;
     const char* end = p;

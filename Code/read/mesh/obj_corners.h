@@ -2,8 +2,7 @@
 // file or back from the line.
 #pragma once
 
-#include "read/mesh/mesh_builder.h"
-#include "read/mesh/obj_chunks.h"
+#include "read/mesh/plain_lines.h"
 
 #include <span>
 #include <vector>
@@ -28,5 +27,6 @@ private:
     LineReader& in_;
     const ObjCounts& total_;
     const ObjCounts& soFar_;
+    PlainFace plain_;
     std::vector<MeshBuilder::Corner> corners_;
 };

@@ -1,5 +1,6 @@
 #include "read/mesh/read_obj.h"
 
+#include "base/find_pages.h"
 #include "base/for_each.h"
 #include "base/text.h"
 #include "desc/names.h"
@@ -7,6 +8,7 @@
 #include "read/mesh/mesh_builder.h"
 #include "read/mesh/obj_chunks.h"
 #include "read/mesh/obj_corners.h"
+#include "read/mesh/obj_faces.h"
 
 #include <algorithm>
 #include <array>
@@ -39,6 +41,7 @@ public:
         if (source_.text.size() >= SourceLoc::kUnknown)
             in_.failAt(0, "the file is larger than 4 GiB");
         chunks_ = chunksOf(source_, context_.options.threads);
+        if (context_.options.threads != 1) findRoom();
         colours_ = readVertices(source_, chunks_, builder_.mesh, context_.options.threads);
         builder_.reserve(chunks_.triangles);
         readFaces();
@@ -47,17 +50,30 @@ public:
     }
 
 private:
+    // Points and corners here and in the scene, twice the boxes of triangles and their tree: most
+    // of it comes after the text, whose memory is used again.
+    void findRoom() const {
+        constexpr std::size_t kPerPoint = 36, kPerTriangle = 132, kWorthAThread = 1 << 20;
+        const std::size_t bytes =
+            kPerPoint * chunks_.total.points + kPerTriangle * chunks_.triangles;
+        const std::size_t there = source_.text.size();
+        if (bytes > there + kWorthAThread) findRoomAhead(bytes - there);
+    }
+
     void readFaces() {
         const std::vector<ObjChunk>& chunks = chunks_.chunks;
         for (std::size_t i = 0; i < chunks.size();) {
             std::size_t count = 0;
             // Behind the first face of a part and material, plain chunks belong to these.
             const bool isSettled = inPart_ && slot_ && !partIsNew_;
-            if (isSettled && context_.options.threads != 1)
-                while (count < kTogether && i + count < chunks.size() && chunks[i + count].isPlain)
-                    ++count;
-            if (count > 1)
+            while (isSettled && count < kTogether && i + count < chunks.size() &&
+                   chunks[i + count].isPlain)
+                ++count;
+            if (count > 1 && context_.options.threads != 1)
                 readTogether(std::span(chunks).subspan(i, count));
+            else if (count > 0)
+                for (const ObjChunk& chunk : std::span(chunks).subspan(i, count))
+                    leftOut_.add(readPlainFaces(source_, chunk, chunks_.total, builder_));
             else
                 readInOrder(chunks[i]);
             i += std::max<std::size_t>(count, 1);
@@ -70,35 +86,19 @@ private:
     // Some of the faces, as one thread reads them.
     struct Faces {
         MeshBuilder builder;
-        Counted tooFewCorners, noArea;
+        FacesLeftOut leftOut;
     };
     void readTogether(std::span<const ObjChunk> chunks) {
         std::vector<Faces> faces;
         faces.reserve(chunks.size());
         // Memory is asked for here: of one thread, malloc takes it from where all the rest lies.
-        for (const ObjChunk& chunk : chunks)
-            faces.push_back({builder_.part(chunk.triangles), {}, {}});
-        forEachOn(context_.options.threads, chunks.size(),
-                  [&](std::size_t i) { readFaces(chunks[i], faces[i]); });
+        for (const ObjChunk& chunk : chunks) faces.push_back({builder_.part(chunk.triangles), {}});
+        forEachOn(context_.options.threads, chunks.size(), [&](std::size_t i) {
+            faces[i].leftOut = readPlainFaces(source_, chunks[i], chunks_.total, faces[i].builder);
+        });
         for (const Faces& some : faces) {
             builder_.addFaces(some.builder);
-            tooFewCorners_.add(some.tooFewCorners);
-            noArea_.add(some.noArea);
-        }
-    }
-    void readFaces(const ObjChunk& chunk, Faces& faces) const {
-        LineReader in(source_, chunk.first, chunk.last);
-        ObjCounts soFar = chunk.before;
-        CornerReader reader(in, chunks_.total, soFar);
-        while (in.nextLine()) {
-            if (*in.text() == 'v' && takeVertex(in, soFar)) continue;
-            const std::size_t start = in.offset();
-            takeFace(in); // there is nothing else in a plain chunk
-            const auto corners = reader.readFace();
-            if (corners.size() < 3)
-                faces.tooFewCorners.add(start);
-            else if (!faces.builder.addFace(corners))
-                faces.noArea.add(start);
+            leftOut_.add(some.leftOut);
         }
     }
 
@@ -117,12 +117,12 @@ private:
     }
     void readFace(std::size_t start) {
         const auto corners = corners_.readFace();
-        if (corners.size() < 3) return tooFewCorners_.add(start);
+        if (corners.size() < 3) return leftOut_.tooFewCorners.add(start);
         if (!inPart_) startPart();
         if (!slot_) startMaterial();
         builder_.slot = *slot_;
         const std::size_t before = builder_.mesh.triangles.size();
-        if (!builder_.addFace(corners)) return noArea_.add(start);
+        if (!builder_.addFace(corners)) return leftOut_.noArea.add(start);
         if (partIsNew_) {
             file_.parts.push_back(
                 {partName(), static_cast<std::uint32_t>(before), locOf(partOffset_)});
@@ -222,7 +222,7 @@ private:
 
     void finish() {
         if (builder_.mesh.triangles.empty()) {
-            const std::size_t faces = tooFewCorners_.count + noArea_.count;
+            const std::size_t faces = leftOut_.tooFewCorners.count + leftOut_.noArea.count;
             in_.failAt(0, faces == 0 ? "the file has no faces"
                                      : cat("none of the ", counted(faces, "face", "faces"),
                                            " has three corners and an area"));
@@ -241,17 +241,19 @@ private:
     void warn(std::size_t unusedPoints) {
         std::vector<std::string> dropped;
         std::size_t first = 0;
-        if (tooFewCorners_.count > 0)
-            dropped.push_back(cat(counted(tooFewCorners_.count, "face", "faces"),
+        if (leftOut_.tooFewCorners.count > 0)
+            dropped.push_back(cat(counted(leftOut_.tooFewCorners.count, "face", "faces"),
                                   " with fewer than three corners"));
-        if (noArea_.count > 0)
-            dropped.push_back(cat(counted(noArea_.count, "face", "faces"), " without area"));
+        if (leftOut_.noArea.count > 0)
+            dropped.push_back(
+                cat(counted(leftOut_.noArea.count, "face", "faces"), " without area"));
         if (unusedPoints > 0)
             dropped.push_back(
                 cat(counted(unusedPoints, "vertex", "vertices"), " that no face uses"));
-        if (tooFewCorners_.count > 0) first = tooFewCorners_.first;
-        if (noArea_.count > 0 && (tooFewCorners_.count == 0 || noArea_.first < first))
-            first = noArea_.first;
+        if (leftOut_.tooFewCorners.count > 0) first = leftOut_.tooFewCorners.first;
+        if (leftOut_.noArea.count > 0 &&
+            (leftOut_.tooFewCorners.count == 0 || leftOut_.noArea.first < first))
+            first = leftOut_.noArea.first;
         if (!dropped.empty()) context_.warn(source_, first, cat("left out: ", join(dropped)));
         const auto tell = [&](const Counted& what, std::string_view one, std::string_view many,
                               std::string_view rest) {
@@ -280,7 +282,8 @@ private:
     std::optional<std::uint32_t> slot_; // of material_, once a face uses it
     std::unordered_map<std::string_view, std::uint32_t> slots_;
     std::unordered_set<std::string_view> libraries_;
-    Counted tooFewCorners_, noArea_, skipped_, unknown_, colours_;
+    FacesLeftOut leftOut_;
+    Counted skipped_, unknown_, colours_;
 };
 
 } // namespace

@@ -1,10 +1,10 @@
 #include "read/nff/read_nff.h"
 
-#include "base/text.h"
-#include "read/attempt.h"
+#include "read/in_parts.h"
 #include "read/in_turn.h"
 #include "read/nff/scene.h"
 #include "read/nff/split.h"
+#include "read/text_size.h"
 
 #include <optional>
 #include <utility>
@@ -47,10 +47,12 @@ std::vector<NffRange> rangesOf(const SourceFile& source, std::size_t partBytes, 
     return ranges;
 }
 
-// On several threads; nothing when the text has a mistake, or fills that do not begin their lines.
+// On several threads; nothing when there is one, when the text has a mistake, or fills that do not
+// begin their lines.
 std::optional<SceneDesc> readInParts(const SourceFile& source, const ReadContext& context,
                                      std::size_t partBytes) {
     const int threads = context.options.threads;
+    if (threads == 1) return {};
     ErrorList errors(source);
     const std::vector<NffRange> ranges = rangesOf(source, partBytes, threads, errors);
     if (ranges.size() == 1) return {};
@@ -83,13 +85,6 @@ SceneDesc readNff(const SourceFile& source, const ReadContext& context) {
 }
 
 SceneDesc readNff(const SourceFile& source, const ReadContext& context, std::size_t partBytes) {
-    // Locations are 32 bits wide.
-    if (source.text.size() >= SourceLoc::kUnknown)
-        fail(ErrorKind::Input, cat(source.name, ": error: the file is larger than 4 GiB"));
-    if (context.options.threads != 1 && source.text.size() > partBytes)
-        if (auto scene = attempt(context, [&](const ReadContext& own) {
-                return readInParts(source, own, partBytes);
-            }))
-            return std::move(*scene);
-    return readInOrder(source, context);
+    checkTextSize(source);
+    return readInPartsOrInOrder(source, context, partBytes, readInParts, readInOrder);
 }

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <array>
+#include <tuple>
 #include <utility>
 
 namespace {
@@ -129,6 +130,8 @@ private:
         std::array<std::size_t, rows.size()> given;
         given.fill(kNotGiven);
         PropertyLine<Block> line(in_, errors_, blocks_.references, word);
+        Habits<Block>& habits = std::get<Habits<Block>>(habits_);
+        std::size_t* next = &habits.first;
         while (true) {
             const Token t = in_.next();
             if (t.kind == TokenKind::LineEnd) continue;
@@ -139,21 +142,34 @@ private:
                 in_.failAt(t.offset, cat("expected a property or '}', got ", described(t)));
             if constexpr (kHasPlace<Block>)
                 if (readTransformLine(t, word, keysOf(block))) continue;
-            const auto row = std::find_if(rows.begin(), rows.end(), [&](const Property<Block>& p) {
+            const auto isMeant = [&](const Property<Block>& p) {
                 return isSameWord(p.keyword, t.text) && isHere(p, block);
-            });
-            if (row == rows.end()) failUnknown(block, t, word);
-            std::size_t& before = given[static_cast<std::size_t>(row - rows.begin())];
+            };
+            if (!isMeant(rows[*next])) {
+                const auto row = std::find_if(rows.begin(), rows.end(), isMeant);
+                if (row == rows.end()) failUnknown(block, t, word);
+                *next = static_cast<std::size_t>(row - rows.begin());
+            }
+            const std::size_t number = *next;
+            next = &habits.after[number];
+            std::size_t& before = given[number];
             if (before != kNotGiven)
                 in_.failAt(t.offset,
                            cat("'", t.text, "' was given already at line ", in_.lineOf(before)));
             before = t.offset;
-            line.read(block, *row);
+            line.read(block, rows[number]);
         }
         if constexpr (std::is_same_v<Block, LightDesc>)
             block.worldFromLight = std::exchange(lightKeys_.front(), kIdentityRows);
         expectLineEnd(in_, "}", word);
     }
+
+    // The rows of the properties that came first, and behind each other, the last time: blocks of a
+    // file have theirs in the same order.
+    template <class Block> struct Habits {
+        std::size_t first = 0;
+        std::array<std::size_t, propertiesOf<Block>().size()> after{};
+    };
 
     // Where the keys of a block are read to. Lights stand still and have no keys of their own.
     Keys& keysOf(CameraDesc& camera) { return camera.worldFromCamera; }
@@ -213,6 +229,9 @@ private:
     ErrorList& errors_;
     Blocks& blocks_;
     Keys lightKeys_{kIdentityRows};
+    std::tuple<Habits<SettingsDesc>, Habits<WorldDesc>, Habits<CameraDesc>, Habits<TextureDesc>,
+               Habits<MaterialDesc>, Habits<LightDesc>, Habits<ObjectDesc>>
+        habits_;
 };
 
 } // namespace

@@ -1,110 +1,106 @@
-// Points on mirrors and glass that wait until a block of them is full, whose rays lanes then make.
+// Rays that the mirrors and the glass of a block of points send on, made by lanes.
 #pragma once
 
+#include "render/waves/points.h"
 #include "render/waves/single_bounces.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
+#include <span>
 
 namespace waves {
 
-// They keep their order.
-class BouncesInLanes {
+// The points of a block that mirror or refract, by what they have in common. Nothing if there are
+// some that lanes don't do.
+class BouncingBlock {
 public:
-    explicit BouncesInLanes(const Wave& wave) : wave_(wave) { block_.cutoff = wave.context.cutoff; }
-
-    void add(std::size_t k) {
-        const PointBatch& points = wave_.memory.points;
-        const ShadedPoint& at = points.at[k];
-        const Material& material = *points.material[k];
-        const std::size_t i = count_++;
-        const auto put = [i](float(*to)[BounceBlock::kPoints], Vec3 v) {
-            to[0][i] = v.x, to[1][i] = v.y, to[2][i] = v.z;
-        };
-        const auto putLight = [&](float(*to)[BounceBlock::kPoints], Rgb c) {
-            put(to, {c.r, c.g, c.b});
-        };
-        put(block_.n, at.eye.n), put(block_.ng, at.eye.ng), put(block_.toEye, at.toEye);
-        putLight(block_.mirror, material.mirror);
-        putLight(block_.transmission, material.transmission);
-        putLight(block_.weight, points.weight[k]);
-        points_[i] = k;
-        Boundary boundary;
-        if (isPlainMirror(material)) {
-            boundary.before = boundary.after = wave_.rays.medium[points.ray[k]];
-        } else {
-            boundary = boundaryAt(wave_, k);
-            block_.glass |= 1u << i;
-        }
-        before_[i] = boundary.before, after_[i] = boundary.after, block_.eta[i] = boundary.eta;
-        if (count_ == BounceBlock::kPoints) send();
+    BouncingBlock(const Wave& wave, std::size_t b)
+        : wave_(wave), block_(wave.memory.points.at.block(b)), first_(b * PointColumns::kPoints),
+          rays_(&wave.memory.points.ray[first_]),
+          media_(wave.rays.medium, rays_, wave.memory.points.sizeOf(b)) {
+        std::array<std::uint16_t, PointColumns::kPoints> alike;
+        const std::size_t sets = wave.context.bounceLanes.divide(
+            block_, media_.data(), wave.memory.points.usedOf(b), alike.data());
+        for (std::size_t i = 0; i < sets && areForLanes_; ++i) areForLanes_ = add(alike[i]);
     }
+    bool areForLanes() const { return areForLanes_; }
 
-    // All that wait.
-    void send() {
+    void send() const {
         if (count_ == 0) return;
-        block_.used = (1u << count_) - 1;
-        wave_.context.bouncesInLanes(block_);
-        std::size_t begin = 0;
-        for (unsigned rest = block_.bent; rest != 0; rest &= rest - 1) {
-            const auto bent = static_cast<std::size_t>(std::countr_zero(rest));
-            write(begin, bent);
-            bounceAlone(wave_, points_[bent]);
-            begin = bent + 1;
-        }
-        write(begin, count_);
-        count_ = 0, block_.glass = 0;
+        PathBatch& next = wave_.memory.next;
+        // Lanes write whole registers.
+        const std::size_t first = next.extend(3 * PointColumns::kPoints);
+        const LeavingRays out = wave_.context.bounceLanes.bounce(
+            block_, &wave_.memory.points.weight[first_], std::span(alike_).first(count_),
+            wave_.context.cutoff,
+            {&next.org[first], &next.dir[first], nullptr, &next.weight[first]});
+        wave_.counts.reflect += out.reflected, wave_.counts.refract += out.refracted;
+        next.shrink(first + out.reflected + out.refracted);
+        describe(out, first);
     }
 
 private:
-    // What push() does, of the points begin .. end - 1.
-    void write(std::size_t begin, std::size_t end) const {
-        const unsigned range = (1u << end) - (1u << begin);
-        const unsigned reflects = block_.reflects & range, refracts = block_.refracts & range;
-        const auto reflected = static_cast<std::size_t>(std::popcount(reflects));
-        const auto refracted = static_cast<std::size_t>(std::popcount(refracts));
-        wave_.counts.reflect += reflected, wave_.counts.refract += refracted;
-        const PointBatch& points = wave_.memory.points;
-        const PathBatch& from = wave_.rays;
+    bool add(unsigned points) {
+        const std::size_t k = first_ + static_cast<std::size_t>(std::countr_zero(points));
+        const SceneMaterial& of = wave_.memory.points.at.of(k);
+        const Material& material = of.base;
+        if (of.isLamp || (isBlack(material.mirror) && isBlack(material.transmission))) return true;
+        AlikePoints& some = alike_[count_++];
+        some = {points, &material, false};
+        if (isPlainMirror(material)) return true;
+        if (!isSharpGlass(material)) return false;
+        const Boundary boundary = boundaryAt(wave_, k);
+        some.isGlass = true, some.eta = boundary.eta, some.beyond = boundary.after;
+        return true;
+    }
+
+    // The rest of the rays.
+    void describe(const LeavingRays& out, std::size_t first) const {
         PathBatch& next = wave_.memory.next;
-        std::size_t to = next.extend(reflected + refracted);
-        // Nothing is rough.
-        std::fill_n(next.seesLights.begin() + static_cast<std::ptrdiff_t>(to),
-                    reflected + refracted, std::uint8_t{true});
-        Vec3 *const org = next.org.data(), *const dirs = next.dir.data();
-        float *const tMin = next.tMin.data(), *const tMax = next.tMax.data(),
-                     *const time = next.time.data();
-        std::uint32_t *const sample = next.sample.data(), *const stream = next.stream.data();
-        Rgb* const weights = next.weight.data();
-        MediumTree::Inside* const inside = next.medium.data();
-        using Rows = float[3][BounceBlock::kPoints];
-        const auto put = [&](std::size_t i, std::size_t ray, const Rows& dir, const Rows& weight,
-                             Vec3 start, MediumTree::Inside medium, std::uint32_t branch) {
-            org[to] = start, dirs[to] = {dir[0][i], dir[1][i], dir[2][i]};
-            tMin[to] = 0, tMax[to] = kInfinityF, time[to] = from.time[ray];
-            weights[to] = {weight[0][i], weight[1][i], weight[2][i]};
-            sample[to] = from.sample[ray], inside[to] = medium;
-            stream[to] = low32(hash(from.stream[ray], branch));
-            ++to;
-        };
-        for (unsigned rest = reflects | refracts; rest != 0; rest &= rest - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-            const std::size_t ray = points.ray[points_[i]];
-            const ShadedPoint& at = points.at[points_[i]];
-            if ((reflects >> i & 1) != 0)
-                put(i, ray, block_.reflectedDir, block_.reflected, leave(at.surface, at.eye.ng),
-                    before_[i], kReflected);
-            if ((refracts >> i & 1) != 0)
-                put(i, ray, block_.refractedDir, block_.refracted, leave(at.surface, -at.eye.ng),
-                    after_[i], kRefracted);
+        next.beEndless();
+        const auto row = [&](auto& column) { return column.data() + first; };
+        std::fill_n(row(next.seesLights), out.reflected + out.refracted,
+                    std::uint8_t{true}); // nothing is rough
+        std::uint32_t *const sample = row(next.sample), *const stream = row(next.stream);
+        MediumTree::Inside* const inside = row(next.medium);
+        float* const time = row(next.time);
+        const std::uint32_t *const slots = &wave_.memory.points.slot[first_],
+                                   *const streams = wave_.rays.stream.data(),
+                                   *const before = media_.data();
+        const float* const times = wave_.rays.time.data();
+        Branch branch;
+        std::size_t to = 0;
+        // Two bits for each point.
+        for (std::uint32_t rest = out.rays; rest != 0; rest &= rest - 1, ++to) {
+            const auto bit = static_cast<std::size_t>(std::countr_zero(rest));
+            const std::size_t i = bit / 2, which = bit % 2;
+            sample[to] = slots[i], time[to] = times[rays_[i]];
+            inside[to] = which == 0 ? before[i] : out.beyond[i];
+            branch.follow(streams[rays_[i]]);
+            stream[to] = branch.streams[which];
         }
     }
 
+    // Random numbers of both rays; most points follow one of the same pixel.
+    struct Branch {
+        std::uint32_t from = 0, streams[2] = {streamOf(0, kReflected), streamOf(0, kRefracted)};
+        void follow(std::uint32_t stream) {
+            if (stream == from) return;
+            from = stream;
+            streams[0] = streamOf(stream, kReflected), streams[1] = streamOf(stream, kRefracted);
+        }
+    };
+
     const Wave& wave_;
-    BounceBlock block_;
-    std::size_t count_ = 0, points_[BounceBlock::kPoints];
-    MediumTree::Inside before_[BounceBlock::kPoints], after_[BounceBlock::kPoints];
+    const PointBlock& block_;
+    std::size_t first_;
+    const std::uint32_t* rays_; // of the points
+    RowOfRays<MediumTree::Inside> media_;
+    bool areForLanes_ = true;
+    std::size_t count_ = 0;
+    std::array<AlikePoints, PointColumns::kPoints> alike_;
 };
 
 } // namespace waves

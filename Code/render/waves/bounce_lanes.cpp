@@ -1,16 +1,20 @@
+// The table of the functions for what mirrors and glass send on.
 #include "render/waves/bounce_lanes.h"
 
 #include "accel/kernels/by_kernel.h"
 
 #define DECLARE(isa)                                                                               \
     namespace kernels::isa {                                                                       \
-    void bouncesInLanes(BounceBlock&);                                                             \
+    std::size_t dividePoints(const PointBlock&, const std::uint32_t*, unsigned, std::uint16_t*);   \
+    LeavingRays bouncePoints(const PointBlock&, const Rgb*, std::span<const AlikePoints>, float,   \
+                             const RayPlaces&);                                                    \
     }
 DECLARE_BY_KERNEL(DECLARE)
-#define ROW(isa) kernels::isa::bouncesInLanes
+#define ROW(isa)                                                                                   \
+    { kernels::isa::dividePoints, kernels::isa::bouncePoints }
 
-BouncesFn bouncesInLanes(const Kernel& kernel) {
-    static constexpr ByKernel<BouncesFn> kTable = BY_KERNEL(ROW);
-    const BouncesFn* const function = kTable.of(kernel);
-    return function ? *function : nullptr;
+BounceLanes bounceLanes(const Kernel& kernel) {
+    static constexpr ByKernel<BounceLanes> kTable = BY_KERNEL(ROW);
+    const BounceLanes* const lanes = kTable.of(kernel);
+    return lanes ? *lanes : BounceLanes{};
 }

@@ -1,12 +1,14 @@
-// What leaves mirrors and glass at many points of a wave, a register of points at a time: what
-// bounces() and mirrored() give, operation by operation and so bit by bit. Knows numbers only;
-// render/waves/bounce_blocks.h brings them here and takes them away.
+// What leaves mirrors and glass at the points of a block, a register of points at a time: what
+// bounces(), mirrored() and leave() give, operation by operation and so bit by bit. Knows numbers
+// only; render/waves/bounce_blocks.h brings them here and takes them away.
 #pragma once
 
 #include "material/material.h"
+#include "render/waves/shade_lanes.h"
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 struct Kernel;
 
@@ -15,19 +17,32 @@ inline bool isSharpGlass(const Material& material) {
     return material.roughness <= 0 && material.fresnel == FresnelModel::Dielectric;
 }
 
-struct alignas(64) BounceBlock {
-    static constexpr std::size_t kPoints = 16;
-    float n[3][kPoints] = {}, ng[3][kPoints] = {}, toEye[3][kPoints] = {};
-    float mirror[3][kPoints] = {}, transmission[3][kPoints] = {}, eta[kPoints] = {};
-    float weight[3][kPoints] = {}, cutoff = 0; // of the points; rays of less are not traced
-    alignas(64) float reflectedDir[3][kPoints], reflected[3][kPoints]; // and the rays' weights
-    float refractedDir[3][kPoints], refracted[3][kPoints];
-    unsigned used = 0, glass = 0; // a bit for each point; who is no glass is a plain mirror
-    // Bits of the points that reflect and refract something to trace, and of those whose bent
-    // normals ask for more than lanes do.
-    unsigned reflects, refracts, bent;
+// Points of a block that have this in common; they are glass or plain mirrors.
+struct AlikePoints {
+    unsigned points; // a bit for each
+    const Material* material;
+    bool isGlass;
+    float eta = 1;          // of glass: see bounces()
+    std::uint32_t beyond{}; // what refracted rays are inside of
 };
 
-using BouncesFn = void (*)(BounceBlock& block);
+// What leaves them. A ray's origin, direction and weight are where it goes.
+struct LeavingRays {
+    std::uint32_t rays = 0; // bit 2 i: point i reflects one, bit 2 i + 1: it refracts one
+    std::size_t reflected = 0, refracted = 0; // how many
+    std::uint32_t beyond[PointBlock::kPoints];
+};
+
+struct BounceLanes {
+    // Those of the `used` points whose material, side and medium (a number for each) are those of
+    // the first one, then the same of the others, and so on. Returns how many sets there are.
+    std::size_t (*divide)(const PointBlock& block, const std::uint32_t* media, unsigned used,
+                          std::uint16_t* alike) = nullptr;
+    // In the order of the points, the reflected ray of each first; rays of less than `cutoff` are
+    // not to be traced. Weights are those of the points.
+    LeavingRays (*bounce)(const PointBlock& block, const Rgb* weights,
+                          std::span<const AlikePoints> alike, float cutoff,
+                          const RayPlaces& out) = nullptr;
+};
 // Null for the scalar kernel.
-BouncesFn bouncesInLanes(const Kernel& kernel);
+BounceLanes bounceLanes(const Kernel& kernel);

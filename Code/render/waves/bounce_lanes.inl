@@ -4,6 +4,11 @@
 
 namespace {
 
+using Lane = SurfaceBlock::Lane;
+
+inline Floats3 operator+(const Floats3& a, const Floats3& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
 inline Floats3 operator-(const Floats3& a, const Floats3& b) {
     return {a.x - b.x, a.y - b.y, a.z - b.z};
 }
@@ -15,19 +20,20 @@ inline Floats3 normalize(const Floats3& a) {
     const Floats length = sqrt(dot(a, a));
     return {a.x / length, a.y / length, a.z / length};
 }
-inline Mask isBlack(const Floats3& a) {
+inline Floats3 all(Rgb c) { return {Floats(c.r), Floats(c.g), Floats(c.b)}; }
+inline unsigned black(const Floats3& a) {
     const Floats zero(0.0f);
-    return (a.x == zero) & (a.y == zero) & (a.z == zero);
+    return bits((a.x == zero) & (a.y == zero) & (a.z == zero));
 }
-
-using Rows = float (&)[3][BounceBlock::kPoints];
-inline Floats3 load(Rows rows, std::size_t first) {
+inline Floats3 load(const Lane (&rows)[3], std::size_t first) {
     return {Floats::load(rows[0] + first), Floats::load(rows[1] + first),
             Floats::load(rows[2] + first)};
 }
-inline void store(const Floats3& v, Rows rows, std::size_t first) {
-    v.x.store(rows[0] + first), v.y.store(rows[1] + first), v.z.store(rows[2] + first);
+template <class T> void storeChosen(unsigned lanes, const Floats3& v, T* to) {
+    static_assert(sizeof(T) == 3 * sizeof(float));
+    storeChosenVectors(lanes, v.x, v.y, v.z, reinterpret_cast<float*>(to));
 }
+constexpr unsigned kEvery = (1u << W) - 1;
 
 inline Floats cos2Refracted(Floats cosIn, Floats eta) {
     const Floats one(1.0f), through = eta * cosIn;
@@ -43,46 +49,168 @@ inline Floats fresnelDielectric(Floats cosIn, Floats eta) {
     return select(cos2Out > zero, part, one);
 }
 
-inline void bounce(BounceBlock& block, std::size_t first) {
-    const unsigned lanes = block.used >> first & ((1u << W) - 1);
-    if (lanes == 0) return;
-    const Floats zero(0.0f), one(1.0f), eta = Floats::load(block.eta + first);
-    const Floats3 n = load(block.n, first), ng = load(block.ng, first),
-                  toEye = load(block.toEye, first), mirror = load(block.mirror, first),
-                  transmission = load(block.transmission, first);
-    const Mask isGlass = maskOf(block.glass >> first & lanes);
-    const Floats cosIn = dot(n, toEye), f = fresnelDielectric(cosIn, eta);
-
-    const Floats cos2Out = cos2Refracted(cosIn, eta), cosOut = sqrt(cos2Out);
-    const Floats3 through = normalize(n * (eta * cosIn - cosOut) - toEye * eta);
-    const unsigned transmits = bits(isGlass) & ~bits(isBlack(transmission));
-    const unsigned passes = transmits & bits(cos2Out > zero),
-                   refracts = passes & bits(dot(through, ng) < zero);
-    store(through, block.refractedDir, first);
-    const Floats3 weight = load(block.weight, first);
-    const auto isWorthTracing = [&](const Floats3& all) {
-        const Floats most = max(max(all.x, all.y), all.z);
-        return bits((most > zero) & (most >= Floats(block.cutoff)));
-    };
-    const Floats3 on = weight * (transmission * (one - f));
-    store(on, block.refracted, first);
-
-    const Floats3 all = select(isBlack(mirror), transmission, mirror); // under total reflection
-    Floats3 reflected = select(isGlass, mirror * f, mirror);
-    reflected = select(maskOf(transmits & ~passes), all, reflected);
-    const Floats3 back = normalize(n * (Floats(2.0f) * cosIn) - toEye);
-    const unsigned reflects = lanes & ~bits(isBlack(reflected));
-    const Floats3 returned = weight * reflected;
-    store(back, block.reflectedDir, first), store(returned, block.reflected, first);
-
-    block.reflects |= (reflects & isWorthTracing(returned)) << first;
-    block.refracts |= (refracts & isWorthTracing(on)) << first;
-    block.bent |= ((passes & ~refracts) | (reflects & ~bits(dot(back, ng) > zero))) << first;
+inline Floats3 mirroredAbout(const Floats3& n, const Floats3& toEye) {
+    return normalize(n * (Floats(2.0f) * dot(n, toEye)) - toEye);
 }
+
+// refractThrough()
+struct RefractedLanes {
+    Floats3 dir;
+    unsigned passes;
+};
+inline RefractedLanes refracted(const Floats3& toEye, const Floats3& n, Floats eta) {
+    const Floats cosIn = dot(n, toEye), cos2Out = cos2Refracted(cosIn, eta);
+    return {normalize(n * (eta * cosIn - sqrt(cos2Out)) - toEye * eta),
+            bits(cos2Out > Floats(0.0f))};
+}
+
+// What W points send into one direction each; lanes: those that send something to be traced.
+struct RaysOfLanes {
+    Floats3 org, dir, weight;
+    unsigned lanes = 0;
+
+    void write(const RayPlaces& out, std::size_t to) const {
+        storeChosen(lanes, org, out.org + to), storeChosen(lanes, dir, out.dir + to);
+        storeChosen(lanes, weight, out.weight + to);
+    }
+};
+
+// The lanes of two registers in turn.
+template <class Fn> RaysOfLanes inTurn(const RaysOfLanes& a, const RaysOfLanes& b, const Fn& fn) {
+    const auto both = [&](const Floats3& x, const Floats3& y) {
+        return Floats3{fn(x.x, y.x), fn(x.y, y.y), fn(x.z, y.z)};
+    };
+    return {both(a.org, b.org), both(a.dir, b.dir), both(a.weight, b.weight)};
+}
+
+// W points of a block, from `first` on.
+class BouncingPoints {
+public:
+    BouncingPoints(const PointBlock& block, const Rgb* weights, float cutoff, std::size_t first)
+        : first_(first), toEye_(load(block.toEye, first)), n_(load(block.n, first)),
+          ng_(load(block.ng, first)), p_(load(block.p, first)),
+          error_(Floats::load(block.error + first)), cutoff_(cutoff) {
+        const unsigned front = block.front >> first & kEvery;
+        const Floats sign = select(maskOf(front), Floats(0.0f), Floats(-0.0f));
+        ng_ = {flipSign(ng_.x, sign), flipSign(ng_.y, sign), flipSign(ng_.z, sign)};
+        loadVectors(reinterpret_cast<const float*>(weights + first), weight_.x, weight_.y,
+                    weight_.z);
+    }
+
+    void bounce(std::span<const AlikePoints> alike, const RayPlaces& to, LeavingRays& out) const {
+        const Floats zero(0.0f);
+        unsigned lanes = 0, glass = 0;
+        Floats3 mirror{zero, zero, zero};
+        for (const AlikePoints& some : alike) {
+            const unsigned here = some.points >> first_ & kEvery;
+            lanes |= here, glass |= some.isGlass ? here : 0;
+            mirror = select(maskOf(here), all(some.material->mirror), mirror);
+        }
+        if (lanes == 0) return;
+        RaysOfLanes refracted;
+        if (glass != 0) refracted = refract(alike, glass, mirror, out);
+        write(reflect(mirror, lanes), refracted, to, out);
+    }
+
+private:
+    // The rays that glass refracts. `mirror` becomes what it reflects.
+    RaysOfLanes refract(std::span<const AlikePoints> alike, unsigned glass, Floats3& mirror,
+                        LeavingRays& out) const {
+        const Floats zero(0.0f), one(1.0f);
+        Floats eta(one);
+        Floats3 transmission{zero, zero, zero};
+        for (const AlikePoints& some : alike) {
+            const unsigned here = some.points >> first_ & kEvery & glass;
+            if (here == 0) continue;
+            eta = select(maskOf(here), Floats(some.eta), eta);
+            transmission = select(maskOf(here), all(some.material->transmission), transmission);
+            for (unsigned rest = here; rest != 0; rest &= rest - 1)
+                out.beyond[first_ + static_cast<std::size_t>(std::countr_zero(rest))] = some.beyond;
+        }
+        const Floats f = fresnelDielectric(dot(n_, toEye_), eta);
+        auto [dir, passes] = refracted(toEye_, n_, eta);
+        const unsigned transmits = glass & ~black(transmission);
+        unsigned total = transmits & ~passes, leaves = bits(dot(dir, ng_) < zero);
+        // A bent normal may refract to the side of the eye: fall back to the true surface.
+        if (const unsigned bent = transmits & passes & ~leaves; bent != 0) {
+            const RefractedLanes straight = refracted(toEye_, ng_, eta);
+            dir = select(maskOf(bent), straight.dir, dir);
+            total |= bent & ~straight.passes;
+            leaves |= bent & bits(dot(dir, ng_) < zero);
+        }
+        const Floats3 both = select(maskOf(black(mirror)), transmission, mirror);
+        mirror = select(maskOf(glass), mirror * f, mirror);
+        mirror = select(maskOf(total), both, mirror);
+        return rays(p_ - ng_ * error_, dir, transmission * (one - f), transmits & ~total & leaves);
+    }
+
+    RaysOfLanes reflect(const Floats3& mirror, unsigned lanes) const {
+        Floats3 dir = mirroredAbout(n_, toEye_);
+        const Mask leaves = dot(dir, ng_) > Floats(0.0f);
+        if ((lanes & ~bits(leaves)) != 0) dir = select(leaves, dir, mirroredAbout(ng_, toEye_));
+        return rays(p_ + ng_ * error_, dir, mirror, lanes);
+    }
+
+    // Those of `lanes` that are worth tracing.
+    RaysOfLanes rays(const Floats3& org, const Floats3& dir, const Floats3& part,
+                     unsigned lanes) const {
+        const Floats3 weight = weight_ * part;
+        const Floats most = max(max(weight.x, weight.y), weight.z);
+        const Mask isWorth = (most > Floats(0.0f)) & (most >= Floats(cutoff_));
+        return {org, dir, weight, lanes & bits(isWorth)};
+    }
+
+    void write(const RaysOfLanes& reflected, const RaysOfLanes& refracted, const RayPlaces& to,
+               LeavingRays& out) const {
+        std::size_t next = out.reflected + out.refracted;
+        const unsigned rays =
+            spread(reflected.lanes, 0x55555555u) | spread(refracted.lanes, 0xaaaaaaaau);
+        if (refracted.lanes == 0) {
+            reflected.write(to, next);
+        } else {
+            RaysOfLanes half = inTurn(reflected, refracted, lowInTurn);
+            half.lanes = rays & kEvery;
+            half.write(to, next);
+            next += static_cast<std::size_t>(std::popcount(half.lanes));
+            half = inTurn(reflected, refracted, highInTurn);
+            half.lanes = rays >> W;
+            half.write(to, next);
+        }
+        out.rays |= rays << 2 * first_;
+        out.reflected += static_cast<std::size_t>(std::popcount(reflected.lanes));
+        out.refracted += static_cast<std::size_t>(std::popcount(refracted.lanes));
+    }
+
+    std::size_t first_;
+    Floats3 toEye_, n_, ng_, p_, weight_; // normals on the side of the eye
+    Floats error_;
+    float cutoff_;
+};
 
 } // namespace
 
-void bouncesInLanes(BounceBlock& block) {
-    block.reflects = block.refracts = block.bent = 0;
-    for (std::size_t first = 0; first < BounceBlock::kPoints; first += W) bounce(block, first);
+std::size_t dividePoints(const PointBlock& block, const std::uint32_t* media, unsigned used,
+                         std::uint16_t* alike) {
+    std::size_t count = 0;
+    for (unsigned rest = used; rest != 0; rest &= ~unsigned{alike[count++]}) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+        const Ints material(block.material[i]), medium(media[i]);
+        unsigned same = block.isFront(i) ? block.front : ~block.front;
+        for (std::size_t first = 0; first < PointBlock::kPoints; first += W) {
+            const unsigned here =
+                bits((Ints::load(block.material + first) == material) &
+                     (Ints::unaligned(media + first) == medium));
+            same &= here << first | ~(kEvery << first);
+        }
+        alike[count] = static_cast<std::uint16_t>(same & rest);
+    }
+    return count;
+}
+
+LeavingRays bouncePoints(const PointBlock& block, const Rgb* weights,
+                         std::span<const AlikePoints> alike, float cutoff, const RayPlaces& to) {
+    LeavingRays out;
+    for (std::size_t first = 0; first < PointBlock::kPoints; first += W)
+        BouncingPoints(block, weights, cutoff, first).bounce(alike, to, out);
+    return out;
 }

@@ -8,7 +8,19 @@ AVX2_REGION_BEGIN
 namespace kernels::avx2 {
 #include "accel/kernels/simd_avx2.inl"
 
+#include "accel/kernels/store_chosen_avx2.inl"
+
 #include "accel/kernels/vectors3.inl"
+
+// The lanes of a and b in turn: those of the lower and of the upper halves.
+inline Floats lowInTurn(Floats a, Floats b) {
+    const __m256 low = _mm256_unpacklo_ps(a.v, b.v), high = _mm256_unpackhi_ps(a.v, b.v);
+    return _mm256_permute2f128_ps(low, high, 0x20);
+}
+inline Floats highInTurn(Floats a, Floats b) {
+    const __m256 low = _mm256_unpacklo_ps(a.v, b.v), high = _mm256_unpackhi_ps(a.v, b.v);
+    return _mm256_permute2f128_ps(low, high, 0x31);
+}
 
 #include "render/waves/bounce_lanes.inl"
 } // namespace kernels::avx2

@@ -8,7 +8,20 @@ AVX512_REGION_BEGIN
 namespace kernels::avx512 {
 #include "accel/kernels/simd_avx512.inl"
 
+#include "accel/kernels/store_chosen_avx512.inl"
+
 #include "accel/kernels/vectors3.inl"
+
+// The lanes of a and b in turn: those of the lower and of the upper halves.
+inline Floats lowInTurn(Floats a, Floats b) {
+    const __m512i from = _mm512_setr_epi32(0, 16, 1, 17, 2, 18, 3, 19, 4, 20, 5, 21, 6, 22, 7, 23);
+    return _mm512_permutex2var_ps(a.v, from, b.v);
+}
+inline Floats highInTurn(Floats a, Floats b) {
+    const __m512i from =
+        _mm512_setr_epi32(8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31);
+    return _mm512_permutex2var_ps(a.v, from, b.v);
+}
 
 #include "render/waves/bounce_lanes.inl"
 } // namespace kernels::avx512

@@ -8,7 +8,17 @@ SSE_REGION_BEGIN
 namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
 
+#include "accel/kernels/store_chosen_sse.inl"
+
 #include "accel/kernels/vectors3.inl"
+
+// The lanes of a and b in turn: those of the lower and of the upper halves.
+inline Floats lowInTurn(Floats a, Floats b) {
+    return {_mm_unpacklo_ps(a.lo, b.lo), _mm_unpackhi_ps(a.lo, b.lo)};
+}
+inline Floats highInTurn(Floats a, Floats b) {
+    return {_mm_unpacklo_ps(a.hi, b.hi), _mm_unpackhi_ps(a.hi, b.hi)};
+}
 
 #include "render/waves/bounce_lanes.inl"
 } // namespace kernels::sse

@@ -5,38 +5,43 @@
 #include "render/waves/bounce_blocks.h"
 #include "render/waves/steps.h"
 
+namespace waves {
+
+template <bool kBounces, bool kSeeThrough> void bounceOneByOne(const Wave& wave, std::size_t b) {
+    const PointBatch& points = wave.memory.points;
+    const std::size_t first = b * PointColumns::kPoints;
+    for (std::size_t k = first; k < first + points.sizeOf(b); ++k) {
+        const Material& material = *points.material[k];
+        if (points.at.of(k).isLamp) continue;
+        if constexpr (kSeeThrough) {
+            goStraight(wave, k);
+            if (isBlack(points.weight[k])) continue;
+        }
+        if constexpr (kBounces)
+            if (!isBlack(material.mirror) || !isBlack(material.transmission)) bounceAlone(wave, k);
+    }
+}
+
+inline bool isOpaque(const PointBatch& points, std::size_t b) {
+    const auto first =
+        points.material.begin() + static_cast<std::ptrdiff_t>(b * PointColumns::kPoints);
+    return std::all_of(first, first + static_cast<std::ptrdiff_t>(points.sizeOf(b)),
+                       [](const Material* material) { return material->opacity >= 1; });
+}
+
+} // namespace waves
+
 template <bool kBounces, bool kSeeThrough> void spawnBounces(const Wave& wave) {
     wave.memory.next.clear();
     if (wave.depth >= wave.context.settings.picture.maxDepth) return;
     const PointBatch& points = wave.memory.points;
-    const bool hasLanes = wave.context.bouncesInLanes != nullptr;
-    waves::BouncesInLanes lanes(wave);
-    for (std::size_t k = 0; k < points.count; ++k) {
-        if constexpr (kBounces && !kSeeThrough)
-            if (const std::size_t b = k / PointColumns::kPoints;
-                k % PointColumns::kPoints == 0 && wave.context.shadeLanes.mirror != nullptr)
-                if (const auto mirrors = waves::plainMirrors(wave, b)) {
-                    lanes.send();
-                    waves::mirrorInLanes(wave, b, *mirrors);
-                    k += points.sizeOf(b) - 1;
+    for (std::size_t b = 0; b < points.blocks(); ++b) {
+        if constexpr (kBounces)
+            if (wave.context.bounceLanes.bounce && (!kSeeThrough || waves::isOpaque(points, b)))
+                if (const waves::BouncingBlock block(wave, b); block.areForLanes()) {
+                    block.send();
                     continue;
                 }
-        const Material& material = *points.material[k];
-        if (points.at.of(k).isLamp) continue;
-        if constexpr (kSeeThrough) {
-            if (material.opacity < 1) lanes.send();
-            waves::goStraight(wave, k);
-            if (isBlack(points.weight[k])) continue;
-        }
-        if constexpr (kBounces)
-            if (!isBlack(material.mirror) || !isBlack(material.transmission)) {
-                if (hasLanes && (isPlainMirror(material) || isSharpGlass(material))) {
-                    lanes.add(k);
-                } else {
-                    lanes.send();
-                    waves::bounceAlone(wave, k);
-                }
-            }
+        waves::bounceOneByOne<kBounces, kSeeThrough>(wave, b);
     }
-    lanes.send();
 }

@@ -16,12 +16,15 @@ inline Bits bytes(std::uint64_t low, std::uint64_t high) {
     return reinterpret_cast<Bits>(all);
 }
 
+// In each byte: its lower four bits, which are all it has, in the opposite order.
+inline Bits reversedNibbles(Bits x) {
+    return pickBytes(bytes(0x0e060a020c040800u, 0x0f070b030d050901u), x);
+}
 // What sobol.inl has for numbers, by looking up four bits at a time.
 inline Bits reversed(Bits x) {
-    const Bits four = bytes(0x0e060a020c040800u, 0x0f070b030d050901u);
     const Bits order = bytes(0x0405060700010203u, 0x0c0d0e0f08090a0bu);
     const Bits low = x & 0x0f0f0f0fu, high = (x >> 4) & 0x0f0f0f0fu;
-    return pickBytes((pickBytes(four, low) << 4) | pickBytes(four, high), order);
+    return pickBytes((reversedNibbles(low) << 4) | reversedNibbles(high), order);
 }
 
 #include "sample/sobol.inl"
@@ -43,53 +46,81 @@ inline void storeUnit(const Bits& all, float* to) {
 // Seeds and first sample number of W streams of pairs.
 struct PairsInLanes {
     alignas(64) std::uint32_t index[W], x[W], y[W], sample[W];
+};
 
-    // Those of the samples that are `later` than the first ones.
-    void make(std::uint32_t later, float (&u)[W], float (&v)[W]) const {
-        for (std::size_t i = 0; i < W; i += kSobolLanes) {
-            const auto pair = sobolPair<Bits>(loadBits(sample + i) + later, loadBits(index + i),
-                                              loadBits(x + i), loadBits(y + i));
-            storeUnit(pair.x, u + i), storeUnit(pair.y, v + i);
-        }
+// kSobolLanes of them, from `first` on.
+class RunsOfPairs {
+public:
+    RunsOfPairs(const PairsInLanes& pairs, std::size_t first)
+        : index_(loadBits(pairs.index + first)), x_(loadBits(pairs.x + first)),
+          y_(loadBits(pairs.y + first)), sample_(loadBits(pairs.sample + first)),
+          upperReversed_(reversed(sample_ & ~kLower)),
+          upperShuffled_(reversed(scrambledReversed(upperReversed_, index_)) & ~kLower) {}
+
+    // Those of the samples that are `later` than the first ones: any, or such as differ from these
+    // in the lower four bits only. Reversed, these are the uppermost, on which no others depend.
+    Pair<Bits> any(std::uint32_t later) const {
+        return sobolPair<Bits>(sample_ + later, index_, x_, y_);
     }
+    Pair<Bits> near(std::uint32_t later) const {
+        const Bits lower = reversedNibbles((sample_ & kLower) + later) << 28;
+        const Bits shuffled = scrambledReversed(upperReversed_ | lower, index_) >> 28;
+        return scrambledPair<Bits>(upperShuffled_ | reversedNibbles(shuffled), x_, y_);
+    }
+    // Are the first so many samples near?
+    bool areNear(std::uint32_t count) const {
+        const Bits last = (sample_ & kLower) + (count - 1);
+        std::uint32_t upper = 0;
+        for (std::size_t i = 0; i < kSobolLanes; ++i) upper |= last[i] & ~kLower;
+        return upper == 0;
+    }
+
+private:
+    static constexpr std::uint32_t kLower = 15;
+    Bits index_, x_, y_, sample_, upperReversed_, upperShuffled_;
 };
 
 struct DiskLanes {
     Floats x, y;
 };
 
-// sinKernel() and cosKernel() of base/math.cpp for an angle of no lower part, each the upper part
-// of its result.
-inline Doubles sineOf(const Doubles& x) {
-    constexpr double c3 = -1.0 / 6, c5 = 1.0 / 120, c7 = -1.0 / 5040, c9 = 1.0 / 362880;
-    constexpr double c11 = -1.0 / 39916800, c13 = 1.0 / 6227020800, c15 = -1.0 / 1307674368000;
-    constexpr double c17 = 1.0 / 355687428096000;
-    const Doubles z = x * x, z2 = z * z, z4 = z2 * z2;
-    const Doubles low = (Doubles(c5) + z * Doubles(c7)) + z2 * (Doubles(c9) + z * Doubles(c11));
-    const Doubles high = (Doubles(c13) + z * Doubles(c15)) + z2 * Doubles(c17);
-    return x + (x * z) * (Doubles(c3) + z * (low + z4 * high));
+// cos(pi/4 q) and sin(pi/4 q) / q from q^2 in [0,1]: polynomials through their values at the
+// Chebyshev nodes, off by less than 2^-43 of these.
+inline Doubles polynomial(const Doubles& w, const double (&c)[6]) {
+    Doubles sum(c[5]);
+    for (std::size_t i = 5; i-- > 0;) sum = fma(sum, w, Doubles(c[i]));
+    return sum;
 }
-inline Doubles cosineOf(const Doubles& x) {
-    constexpr double c4 = 1.0 / 24, c6 = -1.0 / 720, c8 = 1.0 / 40320, c10 = -1.0 / 3628800;
-    constexpr double c12 = 1.0 / 479001600, c14 = -1.0 / 87178291200, c16 = 1.0 / 20922789888000;
-    const Doubles z = x * x, z2 = z * z, z4 = z2 * z2, one(1.0);
-    const Doubles low = (Doubles(c4) + z * Doubles(c6)) + z2 * (Doubles(c8) + z * Doubles(c10));
-    const Doubles high = (Doubles(c12) + z * Doubles(c14)) + z2 * Doubles(c16);
-    const Doubles half = Doubles(0.5) * z, main = one - half;
-    return main + (((one - main) - half) + z2 * (low + z4 * high));
+inline Doubles cosineOf(const Doubles& w) {
+    constexpr double c[] = {0.9999999999999444,     -0.3084251375300398,   0.01585434419710652,
+                            -0.0003259916875350726, 3.5904755349763954e-06, -2.426851890411488e-08};
+    return polynomial(w, c);
+}
+inline Doubles sineOf(const Doubles& w) {
+    constexpr double c[] = {0.785398163397445,       -0.08074551218803863, 0.0024903945673670634,
+                            -3.6576192120767256e-05, 3.1333840829093e-07,  -1.7365167288597578e-09};
+    return polynomial(w, c);
 }
 
-// Without the places that exact::sinCos() has other ways for, those of the angle 0 and from pi/4
-// on: their lanes are added to `seams`.
-[[gnu::always_inline]] inline DiskLanes betweenSeams(Floats u, Floats v, unsigned& seams) {
+// The float that all numbers within 2^-40 of v round to; lanes where there is no such one are added
+// to `unsure` (Ziv 1991).
+inline Floats surelyRounded(const Doubles& v, unsigned& unsure) {
+    const Floats up = (v * Doubles(1 + 0x1p-40)).toFloats(),
+                 down = (v * Doubles(1 - 0x1p-40)).toFloats();
+    unsure |= bits(up == down) ^ ((1u << W) - 1);
+    return up;
+}
+
+// Reckoned to 2^-41, which is enough for nearly all places; diskFromSquare() is right to 2^-50 and
+// so rounds to the same. Lanes of others are added to `unsure`, and of the middle.
+[[gnu::always_inline]] inline DiskLanes nearlyOnDisk(Floats u, Floats v, unsigned& unsure) {
     // Exact, as u and v are of 24 bits.
     const Floats two(2.0f), one(1.0f), x = two * u - one, y = two * v - one;
     const Mask isSide = abs(y) < abs(x);
     const Floats longer = select(isSide, x, y), shorter = select(isSide, y, x);
-    const Doubles radius(longer), angle = Doubles(kPi / 4) * (Doubles(shorter) / radius);
-    const Floats along = (radius * cosineOf(angle)).toFloats(),
-                 across = (radius * sineOf(angle)).toFloats();
-    seams |= bits((shorter == Floats(0.0f)) | (abs(x) == abs(y)));
+    const Doubles radius(longer), aside(shorter), q = nearQuotient(aside, radius), w = q * q;
+    const Floats along = surelyRounded(radius * cosineOf(w), unsure),
+                 across = surelyRounded(aside * sineOf(w), unsure);
     return {select(isSide, along, across), select(isSide, across, along)};
 }
 
@@ -98,16 +129,28 @@ struct DiskRow {
     alignas(64) float u[W], v[W], x[W], y[W];
 };
 
+// u and v of so many samples of each stream.
+inline void drawPairs(const PairsInLanes& pairs, DiskRow* rows, std::uint32_t count) {
+    for (std::size_t i = 0; i < W; i += kSobolLanes) {
+        const RunsOfPairs runs(pairs, i);
+        const bool areNear = runs.areNear(count);
+        for (std::uint32_t s = 0; s < count; ++s) {
+            const Pair<Bits> pair = areNear ? runs.near(s) : runs.any(s);
+            storeUnit(pair.x, rows[s].u + i), storeUnit(pair.y, rows[s].v + i);
+        }
+    }
+}
+
 // x and y from u and v. Row by row, and nothing is called: the processor works at several.
 inline void placeOnDisk(DiskRow* rows, std::size_t count) {
-    unsigned seams = 0;
+    unsigned unsure = 0;
     for (DiskRow* row = rows; row != rows + count; ++row) {
-        const DiskLanes disk = betweenSeams(Floats::load(row->u), Floats::load(row->v), seams);
+        const DiskLanes disk = nearlyOnDisk(Floats::load(row->u), Floats::load(row->v), unsure);
         disk.x.store(row->x), disk.y.store(row->y);
     }
-    for (; seams != 0; seams &= seams - 1)
+    for (; unsure != 0; unsure &= unsure - 1)
         for (DiskRow* row = rows; row != rows + count; ++row) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(seams));
+            const auto i = static_cast<std::size_t>(std::countr_zero(unsure));
             const Vec2 place = diskFromSquare({row->u[i], row->v[i]});
             row->x[i] = place.x, row->y[i] = place.y;
         }

@@ -26,10 +26,9 @@ inline void addGlowOfBlock(const Wave& wave, std::size_t b) {
                  points.weight[k] * glowOf(wave.context.scene, *points.material[k]));
 }
 
-inline void addBackground(const Wave& wave, std::size_t first, std::size_t last) {
+inline void addBackground(const Wave& wave, std::size_t ray) {
     const PathBatch& rays = wave.rays;
-    for (std::size_t i = first; i < last; ++i)
-        wave.add(rays.sample[i], rays.weight[i] * wave.context.scene.background(rays.dir[i]));
+    wave.add(rays.sample[ray], rays.weight[ray] * wave.context.scene.background(rays.dir[ray]));
 }
 
 } // namespace waves
@@ -37,13 +36,8 @@ inline void addBackground(const Wave& wave, std::size_t first, std::size_t last)
 // Where every sample has one ray: nobody asks for an order.
 inline void addPlainGlow(const Wave& wave) {
     const PointBatch& points = wave.memory.points;
-    std::size_t next = 0;
-    if (points.count < wave.rays.size())
-        for (std::size_t k = 0; k <= points.count; ++k) {
-            const std::size_t met = k < points.count ? points.ray[k] : wave.rays.size();
-            waves::addBackground(wave, next, met);
-            next = met + 1;
-        }
+    for (const std::uint32_t ray : std::span(points.missed).first(points.missedCount))
+        waves::addBackground(wave, ray);
     for (std::size_t b = 0; b < points.blocks(); ++b) waves::addGlowOfBlock(wave, b);
 }
 
@@ -57,7 +51,7 @@ template <bool kLampBodies, bool kSeeThrough> void addGlow(const Wave& wave) {
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const std::uint32_t slot = rays.sample[i];
         if (k == points.count || points.ray[k] != i) {
-            wave.add(slot, rays.weight[i] * scene.background(rays.dir[i]));
+            waves::addBackground(wave, i);
             continue;
         }
         const std::size_t here = k++;

@@ -3,14 +3,25 @@
 
 namespace {
 
-// The part of [0,1] where linear functions a + t b are not negative, after some of them.
+// How a linear function a + t b changes, for all a: where it is positive is asked of many shapes.
+struct SlopeInLanes {
+    SlopeInLanes() = default;
+    explicit SlopeInLanes(Floats b)
+        : crossing(Floats(-1.0f) / b), rises(b > Floats(0.0f)), falls(b < Floats(0.0f)) {}
+    Floats crossing; // t / a
+    Mask rises, falls;
+};
+
+// The part of [0,1] where linear functions are not negative, after some of them. What two roundings
+// do to an end of it is small against what meet() adds.
 struct TimesInLanes {
     Floats lo{0.0f}, hi{1.0f};
-    void keepPositive(Floats a, Floats b) {
-        const Floats zero(0.0f), crossing = (zero - a) / b;
-        lo = select(b > zero, max(crossing, lo), lo);
-        hi = select(b < zero, min(crossing, hi), hi);
-        lo = select((b == zero) & (a < zero), Floats(2.0f), lo);
+    void keepPositive(Floats a, const SlopeInLanes& b) {
+        const Floats crossing = a * b.crossing;
+        lo = select(b.rises, max(crossing, lo), lo);
+        hi = select(b.falls, min(crossing, hi), hi);
+        const unsigned level = ~(bits(b.rises) | bits(b.falls));
+        lo = select(maskOf(level & bits(a < Floats(0.0f))), Floats(2.0f), lo);
     }
 };
 
@@ -29,7 +40,11 @@ public:
             const Floats p = Floats::load(block.p[axis] + first);
             const Floats lifted = p + Floats::load(block.lift[axis] + first);
             lo_[axis] = min(p, lifted), hi_[axis] = max(p, lifted);
+            fromHi_[axis] = SlopeInLanes(Floats(lamp_.hi[axis]) - hi_[axis]);
+            fromLo_[axis] = SlopeInLanes(lo_[axis] - Floats(lamp_.lo[axis]));
         }
+        sine_ = Floats(lamp.radius) / distance_;
+        cosine_ = sqrt(Floats(1.0f) - sine_ * sine_); // NaN in the lamp: then nothing is known
     }
 
     float extent() const {
@@ -42,10 +57,8 @@ public:
     unsigned meet(const Bounds& box, float slack) const {
         TimesInLanes times;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            times.keepPositive(hi_[axis] - Floats(box.lo[axis] - slack),
-                               Floats(lamp_.hi[axis]) - hi_[axis]);
-            times.keepPositive(Floats(box.hi[axis] + slack) - lo_[axis],
-                               lo_[axis] - Floats(lamp_.lo[axis]));
+            times.keepPositive(hi_[axis] - Floats(box.lo[axis] - slack), fromHi_[axis]);
+            times.keepPositive(Floats(box.hi[axis] + slack) - lo_[axis], fromLo_[axis]);
         }
         return ~bits(times.lo > times.hi * Floats(1 + 0x1p-18f));
     }
@@ -54,21 +67,20 @@ public:
     // lampRadius / distance. A ball is `height` over its axis and `along` it. How far from the
     // cone's sides is the centre, outwards, and the same across the axis?
     struct BallSeen {
-        Floats along, height, distance2, cosine, sine, out;
+        Floats along, height, distance2, out;
     };
     BallSeen look(const Occluder& ball) const {
         const Three d = Three::all(ball.centre.x, ball.centre.y, ball.centre.z) - p_;
-        const Floats along = dot(d, unit_), one(1.0f);
+        const Floats along = dot(d, unit_);
         const Three across = d - unit_ * along;
-        const Floats height = sqrt(dot(across, across)), sine = Floats(lampRadius_) / distance_;
-        const Floats cosine = sqrt(one - sine * sine); // NaN in the lamp: then nothing is known
-        return {along, height, dot(d, d), cosine, sine, height * cosine - along * sine};
+        const Floats height = sqrt(dot(across, across));
+        return {along, height, dot(d, d), height * cosine_ - along * sine_};
     }
 
     // Is the ball off the cone?
     unsigned passBy(const Occluder& ball, const BallSeen& seen, float slack) const {
         const Floats room = Floats(ball.radius + slack) + lift_;
-        const Mask isBehind = seen.along * seen.cosine + seen.height * seen.sine < Floats(0.0f);
+        const Mask isBehind = seen.along * cosine_ + seen.height * sine_ < Floats(0.0f);
         return bits(seen.out > room) | bits(isBehind & (seen.distance2 > room * room));
     }
 
@@ -77,8 +89,8 @@ public:
     unsigned areBehind(const Occluder& ball, const BallSeen& seen, float slack) const {
         const Floats around = Floats(slack) + lift_, core(ball.core);
         const Floats outside = Floats(ball.radius) + around; // rays have to come in
-        const Floats farthest = seen.height * seen.cosine + seen.along * seen.sine;
-        const Mask isAhead = seen.along * seen.cosine > seen.height * seen.sine;
+        const Floats farthest = seen.height * cosine_ + seen.along * sine_;
+        const Mask isAhead = seen.along * cosine_ > seen.height * sine_;
         const Mask isNearer = seen.along + seen.height + around < distance_ - Floats(lampRadius_);
         return bits((farthest + around < core) & isAhead & isNearer &
                     (seen.distance2 > outside * outside));
@@ -106,8 +118,9 @@ private:
     Bounds lamp_;
     float lampRadius_;
     Three p_, unit_;
-    Floats distance_, lift_;
+    Floats distance_, sine_, cosine_, lift_; // of the cone
     Floats lo_[3], hi_[3];
+    SlopeInLanes fromLo_[3], fromHi_[3]; // of the sides, on the way to the lamp
 };
 
 // What is known of single lines from W points of a block to places on the lamp.
@@ -132,7 +145,7 @@ public:
             const Occluder& caster = occluders_.all()[i];
             const Answer by = caster.radius < kInfinityF
                                   ? askBall(caster, p, room, toLight, distance)
-                                  : Answer{0, meetBox(caster.box, p, room, toLight, distance)};
+                                  : askBox(caster, p, room, toLight, distance);
             answer.hidden |= asked & by.hidden, answer.unsure |= asked & by.unsure;
         }
         answer.unsure &= ~answer.hidden;
@@ -155,25 +168,43 @@ private:
         return {bits(goesIn), ~bits(isOff)};
     }
 
-    // By the axes that may separate a line from a box: three of the box, and three across both.
-    static unsigned meetBox(const Bounds& box, const Three& p, Floats room, const Three& toLight,
-                            Floats distance) {
-        if (!box.isFinite()) return ~0u;
+    static Answer askBox(const Occluder& caster, const Three& p, Floats room, const Three& toLight,
+                         Floats distance) {
+        const Bounds& box = caster.box;
+        if (!box.isFinite()) return {0, ~0u};
         const Vec3 centre = (box.lo + box.hi) * 0.5f, half = (box.hi - box.lo) * 0.5f;
         const Three h = toLight * (distance * Floats(0.5f));
-        const Three m = p + h - Three::all(centre.x, centre.y, centre.z);
-        const Three e{Floats(half.x) + room, Floats(half.y) + room, Floats(half.z) + room};
+        const Three d = p - Three::all(centre.x, centre.y, centre.z), m = d + h;
+        const auto sizeWith = [&](Floats more) {
+            return Three{Floats(half.x) + more, Floats(half.y) + more, Floats(half.z) + more};
+        };
+        const Three outer = sizeWith(room);
+        const unsigned met = ~bits(areApart(m, h, outer));
+        if (!caster.fillsBox || met == 0) return {0, met};
+        // From one side of its faces to the other: between an end outside of the box and a place in
+        // one that is smaller by more than what the ray may lack of the line.
+        const Floats zero(0.0f);
+        const Three inner = sizeWith(Floats(-2.0f) * room), end = m + h;
+        const auto isOutside = [&](const Three& at) {
+            return (abs(at.x) > outer.x) | (abs(at.y) > outer.y) | (abs(at.z) > outer.z);
+        };
+        const Mask leaves = isOutside(d) | isOutside(end);
+        const Mask isThick = (inner.x > zero) & (inner.y > zero) & (inner.z > zero);
+        return {met & bits(leaves & isThick) & ~bits(areApart(m, h, inner)), met};
+    }
+
+    // Is a line of the halves +-h about m off a box of the halves e about the origin? By the axes
+    // that may separate them: three of the box, and three across both.
+    static Mask areApart(const Three& m, const Three& h, const Three& e) {
         const Three size{abs(h.x), abs(h.y), abs(h.z)};
         const auto across = [&](Floats mA, Floats mB, Floats hA, Floats hB, Floats eA, Floats eB,
                                 Floats sizeA, Floats sizeB) {
             return abs(mA * hB - mB * hA) > eA * sizeB + eB * sizeA;
         };
-        const Mask apart = (abs(m.x) > e.x + size.x) | (abs(m.y) > e.y + size.y) |
-                           (abs(m.z) > e.z + size.z) |
-                           across(m.x, m.y, h.x, h.y, e.x, e.y, size.x, size.y) |
-                           across(m.y, m.z, h.y, h.z, e.y, e.z, size.y, size.z) |
-                           across(m.z, m.x, h.z, h.x, e.z, e.x, size.z, size.x);
-        return ~bits(apart);
+        return (abs(m.x) > e.x + size.x) | (abs(m.y) > e.y + size.y) | (abs(m.z) > e.z + size.z) |
+               across(m.x, m.y, h.x, h.y, e.x, e.y, size.x, size.y) |
+               across(m.y, m.z, h.y, h.z, e.y, e.z, size.y, size.z) |
+               across(m.z, m.x, h.z, h.x, e.z, e.x, size.z, size.x);
     }
 
     const LitBlock& block_;

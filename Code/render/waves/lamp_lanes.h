@@ -32,6 +32,7 @@ struct alignas(64) LitByLamp {
     float light[3][LitBlock::kPoints]; // what the sample gets if nothing is in between
     float dir[3][LitBlock::kPoints], tMax[LitBlock::kPoints]; // the ray from the lamp
     unsigned lit = 0;
+    unsigned unsure = 0; // of these: only a ray can tell whether something hides the lamp
 };
 
 // Some samples of a lamp that has a size, for every point of a block: the numbers of the pairs that

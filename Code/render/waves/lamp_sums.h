@@ -19,12 +19,11 @@ inline bool canSumInLanes(const Wave& wave) {
 
 using LampOrigins = std::array<Vec3, LitBlock::kPoints>;
 
-// fn(sample's radiance, block, place) for all points that answer lamps.
+// fn(point, its block's sums, its place there) for all points that answer lamps.
 template <class Fn> void forEachSum(const Wave& wave, Fn&& fn) {
     const std::vector<std::uint32_t>& answering = wave.memory.answering;
     for (std::size_t i = 0; i < answering.size(); ++i)
-        fn(wave.chunk.radiance[wave.slotOf(answering[i])],
-           wave.memory.lightSums[i / LitBlock::kPoints].sum, i % LitBlock::kPoints);
+        fn(answering[i], wave.memory.lightSums[i / LitBlock::kPoints].sum, i % LitBlock::kPoints);
 }
 
 // Shadow rays for the points of a block, from the lamp whose place, sixteen times, is `origins`.
@@ -53,7 +52,11 @@ inline void addLampsInLanes(const Wave& wave, bool isGrouped) {
         (memory.answering.size() + LitBlock::kPoints - 1) / LitBlock::kPoints;
     if (memory.byLamp.size() < blocks) memory.byLamp.resize(blocks);
     if (memory.lightSums.size() < blocks) memory.lightSums.resize(blocks);
-    forEachSum(wave, [](Rgb& radiance, SurfaceBlock::Lane(&sum)[3], std::size_t i) {
+    const auto radianceOf = [&](std::uint32_t k) -> Rgb& {
+        return wave.chunk.radiance[wave.slotOf(k)];
+    };
+    forEachSum(wave, [&](std::uint32_t k, SurfaceBlock::Lane(&sum)[3], std::size_t i) {
+        const Rgb radiance = radianceOf(k);
         SurfaceBlock::set(sum, i, {radiance.r, radiance.g, radiance.b});
     });
     RayBatch& rays = memory.lampRays.rays;
@@ -66,21 +69,26 @@ inline void addLampsInLanes(const Wave& wave, bool isGrouped) {
             const unsigned hidden = hiddenByGroup(memory, b, isGrouped);
             LitByLamp& by = memory.byLamp[b];
             lamp.inLanes(*lamp.emission, memory.litBlocks[b], hidden, by);
-            pushLampRays(wave, origins, memory.litBlocks[b], by, by.lit & hidden);
+            by.unsure = by.lit & hidden;
         }
+        if (lamp.map)
+            lamp.askMap(*lamp.map, std::span(memory.litBlocks).first(blocks),
+                        std::span(memory.byLamp).first(blocks));
+        for (std::size_t b = 0; b < blocks; ++b)
+            pushLampRays(wave, origins, memory.litBlocks[b], memory.byLamp[b],
+                         memory.byLamp[b].unsure);
         wave.counts.shadow += rays.size();
         if (!rays.empty()) wave.context.scene.shapes().occluded(rays.span(), memory.hidden);
         memory.hidden.resize(rays.size() + LitBlock::kPoints); // lanes look at whole registers
         std::size_t ray = 0;
         for (std::size_t b = 0; b < blocks; ++b) {
             const LitByLamp& by = memory.byLamp[b];
-            const unsigned shadowed = by.lit & hiddenByGroup(memory, b, isGrouped);
-            wave.context.shadeLanes.add(by, shadowed, &memory.hidden[ray], memory.lightSums[b]);
-            ray += static_cast<std::size_t>(std::popcount(shadowed));
+            wave.context.shadeLanes.add(by, by.unsure, &memory.hidden[ray], memory.lightSums[b]);
+            ray += static_cast<std::size_t>(std::popcount(by.unsure));
         }
     }
-    forEachSum(wave, [](Rgb& radiance, const SurfaceBlock::Lane(&sum)[3], std::size_t i) {
-        radiance = {sum[0][i], sum[1][i], sum[2][i]};
+    forEachSum(wave, [&](std::uint32_t k, const SurfaceBlock::Lane(&sum)[3], std::size_t i) {
+        radianceOf(k) = {sum[0][i], sum[1][i], sum[2][i]};
     });
 }
 

@@ -5,10 +5,31 @@
 
 #include "render/waves/groups.h"
 #include "render/waves/lamp_sums.h"
+#include "render/waves/soft_lamps.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 
 namespace waves {
+
+// The points that answer lamps. No branch: nobody could guess what comes behind glass.
+inline void listAnswering(const Wave& wave) {
+    WaveMemory& memory = wave.memory;
+    const PointBatch& points = memory.points;
+    if (memory.answering.size() < points.at.size()) memory.answering.resize(points.at.size());
+    std::uint32_t* const to = memory.answering.data();
+    std::size_t count = 0;
+    const Material* last = nullptr;
+    bool answers = false;
+    for (std::size_t k = 0; k < points.count; ++k) {
+        if (points.material[k] != last) last = points.material[k], answers = answersLamps(*last);
+        to[count] = static_cast<std::uint32_t>(k);
+        const auto weight = std::bit_cast<std::array<std::uint32_t, 3>>(points.weight[k]);
+        count += answers & ((weight[0] | weight[1] | weight[2]) << 1 != 0); // not +-0
+    }
+    memory.answering.resize(count);
+}
 
 // Which of the shadow rays are hidden, or, with kSeeThrough, what part of their light arrives.
 template <bool kSeeThrough> void askShadowRays(const Wave& wave) {
@@ -41,12 +62,17 @@ void traceShadowRays(const Wave& wave, ArriveFn&& arrive) {
     }
 }
 
-// The same for all that waits for them.
-template <bool kSeeThrough, class ArriveFn> void addWaiting(const Wave& wave, ArriveFn&& arrive) {
+// The same for all that waits for them, in memory.lightSums.
+template <bool kSeeThrough> void addWaiting(const Wave& wave) {
     askShadowRays<kSeeThrough>(wave);
-    for (const auto& [point, ray, light] : wave.memory.waiting)
-        arrive(point, ray == WaitingLight::kNoRay ? light
-                                                  : arriving<kSeeThrough>(wave.memory, ray, light));
+    WaveMemory& memory = wave.memory;
+    for (const auto& [place, ray, light] : memory.waiting) {
+        const Rgb here =
+            ray == WaitingLight::kNoRay ? light : arriving<kSeeThrough>(memory, ray, light);
+        auto& sum = memory.lightSums[place / LitBlock::kPoints].sum;
+        const std::size_t i = place % LitBlock::kPoints;
+        sum[0][i] += here.r, sum[1][i] += here.g, sum[2][i] += here.b;
+    }
 }
 
 // Sums run over the rays of a wave in their order, and for each over the lamps. After the first
@@ -90,10 +116,7 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
     const PointBatch& points = memory.points;
     const std::vector<Lamp>& lamps = wave.context.shadingLamps;
     if (lamps.empty()) return;
-    memory.answering.clear();
-    for (std::size_t k = 0; k < points.count; ++k)
-        if (answersLamps(*points.material[k]) && !isBlack(points.weight[k]))
-            memory.answering.push_back(static_cast<std::uint32_t>(k));
+    waves::listAnswering(wave);
     if (memory.answering.empty()) return;
 
     const bool isInOrder = wave.hasOneRayPerSample() || lamps.size() == 1;
@@ -117,16 +140,19 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
         memory.shadowRays.clear();
         if constexpr (kSoftLamps)
             if (lamp.isSoft) {
+                if (lamp.bySamples) {
+                    waves::shineBySamples(wave, lamp);
+                    waves::addWaiting<kSeeThrough>(wave);
+                    waves::forEachSum(wave, [&](std::uint32_t k, const auto& sum, std::size_t i) {
+                        arrive(k, {sum[0][i], sum[1][i], sum[2][i]});
+                    });
+                    continue;
+                }
                 // They come in any order of points.
                 memory.lampLight.assign(points.count, Rgb{});
                 const auto add = [&](std::uint32_t k, Rgb light) { memory.lampLight[k] += light; };
-                if (lamp.bySamples) {
-                    waves::shineBySamples(wave, lamp, add);
-                    waves::addWaiting<kSeeThrough>(wave, add);
-                } else {
-                    waves::shineOneByOne<true>(wave, lamp, isGrouped, add);
-                    waves::traceShadowRays<kSeeThrough>(wave, add);
-                }
+                waves::shineOneByOne<true>(wave, lamp, isGrouped, add);
+                waves::traceShadowRays<kSeeThrough>(wave, add);
                 for (const std::uint32_t k : memory.answering) arrive(k, memory.lampLight[k]);
                 continue;
             }

@@ -11,24 +11,27 @@
 
 namespace waves {
 
-// Thousands of shapes are more than the nearest caches hold.
-inline void prefetch(const StillShape& shape) {
-    const auto* const bytes = reinterpret_cast<const char*>(&shape);
-    for (std::size_t at = 0; at < sizeof(shape); at += 64) __builtin_prefetch(bytes + at);
+// Thousands of shapes or materials are more than the nearest caches hold.
+template <class T> void prefetch(const T& what) {
+    const auto* const bytes = reinterpret_cast<const char*>(&what);
+    for (std::size_t at = 0; at < sizeof(what); at += 64) __builtin_prefetch(bytes + at);
 }
 
 // Puts points that lanes do into lists by kind, the others into one of their own.
-inline void sortPoints(const Wave& wave) {
-    const IntegratorContext& context = wave.context;
+template <bool kHasBalls> void sortPoints(const Wave& wave) {
+    const StillsInLanes& stills = wave.context.stillsInLanes;
     const std::vector<Hit>& hits = wave.memory.hits;
     const PointBatch& points = wave.memory.points;
-    for (PointsToDescribe& list : wave.memory.onStills) list.clear(points.count);
-    wave.memory.onOthers.clear(points.count);
-    const bool hasLanes = !context.stillsInLanes.empty();
+    const bool hasStills = !stills.shapes.empty();
     for (std::uint32_t k = 0; k < points.count; ++k) {
-        const std::uint32_t ray = points.ray[k];
-        const StillInLanes still =
-            hasLanes ? context.stillsInLanes[hits[ray].shape] : StillInLanes{};
+        const std::uint32_t ray = points.ray[k], shape = hits[ray].shape;
+        if constexpr (kHasBalls)
+            if (stills.balls.has(shape)) {
+                prefetch(stills.balls[shape]);
+                wave.memory.onBalls.push(ray, k);
+                continue;
+            }
+        const StillsInLanes::One still = hasStills ? stills.shapes[shape] : StillsInLanes::One{};
         if (still.shape == nullptr || (still.parts >> hits[ray].prim & 1) == 0) {
             wave.memory.onOthers.push(ray, k);
             continue;
@@ -38,6 +41,17 @@ inline void sortPoints(const Wave& wave) {
     }
 }
 
+inline void sortPoints(const Wave& wave) {
+    WaveMemory& memory = wave.memory;
+    for (PointsToDescribe& list : memory.onStills) list.clear(memory.points.count);
+    memory.onBalls.clear(memory.points.count);
+    memory.onOthers.clear(memory.points.count);
+    if (wave.context.stillsInLanes.balls.isEmpty())
+        sortPoints<false>(wave);
+    else
+        sortPoints<true>(wave);
+}
+
 // All that are on still shapes with a formula together, the others by runs on one shape.
 inline void findSurfaces(const Wave& wave) {
     const IntegratorContext& context = wave.context;
@@ -45,12 +59,15 @@ inline void findSurfaces(const Wave& wave) {
     PointBatch& points = wave.memory.points;
     if (points.count == 0) return;
     sortPoints(wave);
-    for (std::size_t b = 0; b < points.blocks(); ++b) points.at.block(b).curved = 0;
+    for (std::size_t b = 0; b < points.blocks(); ++b) points.at.block(b).clear();
     const SurfacePlaces out = points.at.surfaces();
     for (const PointsToDescribe& list : wave.memory.onStills)
         if (!list.rays().empty())
             context.surfaceLanes.stills(
                 {wave.rays.span(), hits, list.rays(), list.points(), list.shapes()}, out);
+    if (const PointsToDescribe& list = wave.memory.onBalls; !list.rays().empty())
+        context.surfaceLanes.balls(
+            {wave.rays.span(), hits, list.rays(), list.points(), context.stillsInLanes.balls}, out);
     const std::span<const std::uint32_t> rays = wave.memory.onOthers.rays(),
                                          to = wave.memory.onOthers.points();
     std::size_t end = 0;
@@ -134,6 +151,7 @@ template <bool kTextures> void paintBlock(const Wave& wave, std::size_t b, unsig
         const std::size_t k = first + i;
         const SceneMaterial& of = materials[block.material[i]];
         litOutside |= static_cast<unsigned>(of.litOutside) << i;
+        prefetch(of.base); // for who looks at its numbers
         points.material[k] = &of.base;
         if constexpr (kTextures)
             if (of.isTextured()) {
@@ -152,7 +170,9 @@ template <bool kTextures, bool kSeeThrough> void findPoints(const Wave& wave) {
     points.clear(wave.rays.size());
     for (std::uint32_t i = 0; i < wave.rays.size(); ++i) {
         points.ray[points.count] = i;
+        points.missed[points.missedCount] = i;
         points.count += hits[i].isHit();
+        points.missedCount += !hits[i].isHit();
     }
     points.at.setMaterials(context.scene.materials());
     waves::findSurfaces(wave);

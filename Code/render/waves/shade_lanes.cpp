@@ -8,8 +8,6 @@
     unsigned seePoints(PointBlock&, const Vec3*, unsigned, unsigned);                              \
     void lightPoints(const PointBlock&, const Rgb*, unsigned, LitBlock&);                          \
     void paintPoints(const Material&, LitBlock&);                                                  \
-    unsigned mirrorPoints(const PointBlock&, const Rgb*, const Rgb*, unsigned, float,              \
-                          const RayPlaces&);                                                       \
     Bounds boundsOfPoints(const PointBlock&, unsigned);                                            \
     void aimAtPoints(const LitByLamp&, unsigned, const RayPlaces&);                                \
     void addLight(const LitByLamp&, unsigned, const std::uint8_t*, LightSums&);                    \
@@ -18,8 +16,7 @@ DECLARE_BY_KERNEL(DECLARE)
 #define ROW(isa)                                                                                   \
     {                                                                                              \
         kernels::isa::seePoints, kernels::isa::lightPoints, kernels::isa::paintPoints,             \
-            kernels::isa::mirrorPoints, kernels::isa::boundsOfPoints, kernels::isa::aimAtPoints,   \
-            kernels::isa::addLight                                                                 \
+            kernels::isa::boundsOfPoints, kernels::isa::aimAtPoints, kernels::isa::addLight        \
     }
 
 ShadeLanes shadeLanes(const Kernel& kernel) {

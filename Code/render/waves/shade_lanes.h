@@ -1,6 +1,6 @@
 // What shading makes of a block of points, a register of them at a time: the numbers of
-// shadeSurface(), of fillBlocks() and of plain mirrors, operation by operation and so bit by bit.
-// Knows numbers only; points.h, fill_blocks.h and mirrors.h bring them here.
+// shadeSurface() and of fillBlocks(), operation by operation and so bit by bit. Knows numbers only;
+// points.h and fill_blocks.h bring them here.
 #pragma once
 
 #include "base/bounds.h"
@@ -35,10 +35,6 @@ struct ShadeLanes {
                   LitBlock& lit) = nullptr;
     // The numbers of a material that all of them have.
     void (*paint)(const Material& material, LitBlock& lit) = nullptr;
-    // Origins, directions and weights of the rays that the used points mirror. Returns the points
-    // whose rays weigh enough.
-    unsigned (*mirror)(const PointBlock& block, const Rgb* weights, const Rgb* mirrors,
-                       unsigned used, float cutoff, const RayPlaces& out) = nullptr;
     // The box around the used points and where they are lifted to.
     Bounds (*bounds)(const PointBlock& block, unsigned used) = nullptr;
     // Directions and ends of the rays from a lamp to some points.

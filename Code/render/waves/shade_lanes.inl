@@ -42,16 +42,6 @@ inline Floats3 shadingNormal(const PointBlock& block, std::size_t first, const F
     return curved == 0 ? ng : select(maskOf(curved), load(block.ns, first), ng);
 }
 
-// On the side that the eye sees.
-inline Floats3 seen(const PointBlock& block, std::size_t first, const Floats3& n) {
-    const unsigned front = block.front >> first & kEvery;
-    return front == kEvery ? n : select(maskOf(front), n, negated(n));
-}
-
-inline Floats3 mirroredAbout(const Floats3& toEye, const Floats3& n) {
-    return normalized(n * (Floats(2.0f) * dot(n, toEye)) - toEye);
-}
-
 } // namespace
 
 unsigned seePoints(PointBlock& block, const Vec3* dirs, unsigned used, unsigned litOutside) {
@@ -120,32 +110,6 @@ void paintPoints(const Material& material, LitBlock& lit) {
         Floats(material.exponent).store(lit.exponent + first);
     }
     if (isShiny) lit.shiny[static_cast<std::size_t>(material.specularModel)] = lit.used;
-}
-
-unsigned mirrorPoints(const PointBlock& block, const Rgb* weights, const Rgb* mirrors,
-                      unsigned used, float cutoff, const RayPlaces& out) {
-    unsigned worth = 0;
-    for (std::size_t first = 0; first < SurfaceBlock::kPoints && used >> first != 0; first += W) {
-        const Floats zero(0.0f);
-        const Floats3 weight = loadRow(weights, first), mirror = loadRow(mirrors, first);
-        const Floats3 all{weight.x * mirror.x, weight.y * mirror.y, weight.z * mirror.z};
-        const Floats most = max(max(all.x, all.y), all.z);
-        const unsigned lanes =
-            bits((most > zero) & (most >= Floats(cutoff))) & used >> first & kEvery;
-        if (lanes == 0) continue;
-        const Floats3 toEye = load(block.toEye, first);
-        const Floats3 ng = seen(block, first, load(block.ng, first));
-        Floats3 dir = mirroredAbout(toEye, load(block.n, first));
-        const Mask leaves = dot(dir, ng) > zero;
-        if ((lanes & ~bits(leaves)) != 0) dir = select(leaves, dir, mirroredAbout(toEye, ng));
-        const auto to = static_cast<std::size_t>(std::popcount(worth));
-        storeChosen(lanes, load(block.p, first) + ng * Floats::load(block.error + first),
-                    out.org + to);
-        storeChosen(lanes, dir, out.dir + to);
-        storeChosen(lanes, all, out.weight + to);
-        worth |= lanes << first;
-    }
-    return worth;
 }
 
 Bounds boundsOfPoints(const PointBlock& block, unsigned used) {

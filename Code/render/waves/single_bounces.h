@@ -1,10 +1,21 @@
 // Rays that one point sends on: straight through what is not opaque, reflected, refracted.
 #pragma once
 
-#include "render/waves/mirrors.h"
 #include "render/waves/wave.h"
+#include "sample/hash.h"
 
 namespace waves {
+
+// Branches of the tree of rays: numbers for Sampler.
+inline constexpr std::uint32_t kReflected = 1, kRefracted = 2;
+constexpr std::uint32_t streamOf(std::uint32_t parent, std::uint32_t branch) {
+    return low32(hash(parent, branch));
+}
+
+// A rough surface's highlight has counted the lamps; a sharp mirror shows their bodies.
+inline bool showsLamps(const Material& material) {
+    return material.roughness <= 0 || isBlack(material.specular);
+}
 
 inline bool worthTracing(const Wave& wave, Rgb weight) {
     const float most = maxChannel(weight);
@@ -40,7 +51,7 @@ inline void push(const Wave& wave, std::size_t k, const Bounce& ray, Vec3 side,
     const PathBatch& rays = wave.rays;
     wave.memory.next.push(
         {leave(wave.memory.points.at[k].surface, side), ray.dir, 0, kInfinityF, rays.time[i]},
-        rays.sample[i], weight, medium, low32(hash(rays.stream[i], branch)), seesLights);
+        rays.sample[i], weight, medium, streamOf(rays.stream[i], branch), seesLights);
 }
 
 inline void mirror(const Wave& wave, std::size_t k) {

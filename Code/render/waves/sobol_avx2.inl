@@ -7,4 +7,9 @@ template <class Bits> inline Bits pickBytes(Bits from, Bits at) {
         _mm256_shuffle_epi8(reinterpret_cast<__m256i>(from), reinterpret_cast<__m256i>(at)));
 }
 
+inline Doubles fma(const Doubles& a, const Doubles& b, const Doubles& c) {
+    return {_mm256_fmadd_pd(a.lo, b.lo, c.lo), _mm256_fmadd_pd(a.hi, b.hi, c.hi)};
+}
+inline Doubles nearQuotient(const Doubles& a, const Doubles& b) { return a / b; }
+
 #include "render/waves/disk_lanes.inl"

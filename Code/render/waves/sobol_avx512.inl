@@ -7,4 +7,17 @@ template <class Bits> inline Bits pickBytes(Bits from, Bits at) {
         _mm512_shuffle_epi8(reinterpret_cast<__m512i>(from), reinterpret_cast<__m512i>(at)));
 }
 
+inline Doubles fma(const Doubles& a, const Doubles& b, const Doubles& c) {
+    return {_mm512_fmadd_pd(a.lo, b.lo, c.lo), _mm512_fmadd_pd(a.hi, b.hi, c.hi)};
+}
+// a / b within 2^-41 of it: an inverse within 2^-14, whose error becomes its third power.
+inline Doubles nearQuotient(const Doubles& a, const Doubles& b) {
+    const auto half = [&](__m512d x, __m512d y) {
+        const __m512d rough = _mm512_rcp14_pd(y);
+        const __m512d off = _mm512_fnmadd_pd(y, rough, _mm512_set1_pd(1));
+        return _mm512_mul_pd(x, _mm512_fmadd_pd(rough, _mm512_fmadd_pd(off, off, off), rough));
+    };
+    return {half(a.lo, b.lo), half(a.hi, b.hi)};
+}
+
 #include "render/waves/disk_lanes.inl"

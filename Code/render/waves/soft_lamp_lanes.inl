@@ -87,8 +87,7 @@ void sumSamples(const SoftLanes& lanes, const SamplesOnLamp& samples, const Line
     for (std::size_t i = 0; i < W; ++i)
         pairs.index[i] = samples.index[first + i], pairs.x[i] = samples.x[first + i],
         pairs.y[i] = samples.y[first + i], pairs.sample[i] = samples.first[first + i];
-    for (std::size_t s = 0; s < samples.count; ++s)
-        pairs.make(static_cast<std::uint32_t>(s), places[s].u, places[s].v);
+    drawPairs(pairs, places, static_cast<std::uint32_t>(samples.count));
     placeOnDisk(places, samples.count);
     const unsigned asked = lanes.lanesOf(samples.points);
     mayBeHidden = mayBeHidden >> first & ((1u << W) - 1);

@@ -1,0 +1,43 @@
+// CodedImage: a picture as a file of 8 bits has it, for who needs no more of it than that file: a
+// quarter of the memory of an Image, which would be touched for the first time only to be read
+// once.
+#pragma once
+
+#include "base/zeroed.h"
+#include "image/image.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+struct PixelSource;
+
+class CodedImage {
+public:
+    CodedImage() = default;
+    // Zeros. Fails as Image does.
+    CodedImage(int width, int height, Encoding::Transfer transfer);
+
+    bool isEmpty() const { return codes_.empty(); }
+    int width() const { return width_; }
+    int height() const { return height_; }
+    Encoding encoding() const { return {transfer_, 8}; }
+    PixelSource source() const;
+
+    // Pixels of a row, from (x, y) on; threads may do this for different pixels at a time.
+    void put(int x, int y, std::span<const Rgb> pixels);
+
+    // The file that Image::write() makes of the same pixels: .ppm or .png.
+    void write(const std::string& fileName, int threads = 1) const;
+
+private:
+    int width_ = 0, height_ = 0;
+    Encoding::Transfer transfer_ = Encoding::Transfer::Srgb;
+    ZeroedVector<std::uint8_t> codes_;
+};
+
+// As encodeImage().
+std::vector<std::uint8_t> encodeImage(const CodedImage& image, const std::string& extension,
+                                      int threads = 1);

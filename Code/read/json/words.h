@@ -1,0 +1,39 @@
+// The numbers and words of JSON, and what to say of a place where something else stands.
+#pragma once
+
+#include "base/source.h"
+#include "read/plain_number.h"
+
+#include <string>
+#include <string_view>
+
+// All places are in the text of the source, which ends in the zero of std::string: it begins
+// nothing.
+
+inline bool isJsonDigit(char c) { return c >= '0' && c <= '9'; }
+inline bool isJsonLetter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+// What stands there, for messages: "the end of the file", "'tru'", "'{'".
+std::string jsonHere(const SourceFile& source, const char* at);
+
+// No value begins there: fails, and says what may have been meant.
+[[noreturn]] void failNoJsonValue(const SourceFile& source, const char* at);
+
+// Behind the word; no value begins there if it is another one.
+const char* endOfJsonWord(const SourceFile& source, const char* at, std::string_view word);
+
+struct JsonNumber {
+    const char* end = nullptr;
+    double value = 0;
+};
+// -? (0 | [1-9][0-9]*) (. [0-9]+)? ([eE] [+-]? [0-9]+)?, that is in the range of double. Begins
+// with '-' or a digit.
+JsonNumber readAnyJsonNumber(const SourceFile& source, const char* at);
+inline JsonNumber readJsonNumber(const SourceFile& source, const char* at) {
+    JsonNumber number;
+    number.end = readPlainNumber(at, source.text.data() + source.text.size(), number.value);
+    if (number.end && !isJsonLetter(*number.end) && *number.end != '.') return number;
+    return readAnyJsonNumber(source, at);
+}

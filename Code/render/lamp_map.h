@@ -1,0 +1,47 @@
+// LampMap: the solids that a point lamp sees in each direction, nearest first, so that most shadow
+// rays need no walk through the tree (Haines and Greenberg, "The Light Buffer", IEEE CG&A 6, 1986).
+// Directions are the cells of a picture that the lamp takes of the solids. What the map says is
+// sure; where it can't tell, a ray has to be asked.
+#pragma once
+
+#include "accel/kernels/kernels.h"
+#include "render/mapped_shapes.h"
+#include "render/waves/lamp_lanes.h"
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+struct LampMap {
+    std::shared_ptr<const MappedShapes> shapes;
+    std::vector<Occluder> others; // what hides what from this lamp
+    Vec3 lamp;
+    float slack = 0; // that covers rounding, as in solids_hulls.inl
+    // Direction d is in column (right d / ahead d) scale[0] + offset[0], and in a row alike.
+    Vec3 right, up, ahead;
+    std::array<float, 2> scale{}, offset{};
+    int logCells = 0; // columns and rows
+    // The picture shows nothing of what is farther from `ahead` than that.
+    static constexpr float kLeastCosine = 0.25f;
+
+    // lists[starts[cell]] up to starts[cell + 1]: what the rays of a cell may meet, nearest first.
+    // Each is the number of a hull, and above kHullBits the step from the lamp that it starts in.
+    static constexpr int kHullBits = MappedShapes::kNumberBits;
+    RawVector<std::uint32_t> starts, lists;
+    float firstStep = 0, perStep = 0;
+
+    float stepOf(float distance) const { return (distance - firstStep) * perStep; }
+    std::size_t cells() const { return std::size_t{1} << logCells; }
+};
+
+// Null: the lamp is among the solids, or too near to have all of them in front of it.
+std::shared_ptr<const LampMap> makeLampMap(std::shared_ptr<const MappedShapes> shapes, Vec3 lamp);
+
+// Looks for the points of blocks that are `unsure`: those that something hides from the lamp are no
+// longer lit, and unsure are those of which only a ray can tell.
+using AskLampMapFn = void (*)(const LampMap& map, std::span<const LitBlock> blocks,
+                              std::span<LitByLamp> by);
+// Null for the scalar kernel.
+AskLampMapFn askLampMap(const Kernel& kernel);

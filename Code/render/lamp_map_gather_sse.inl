@@ -1,0 +1,27 @@
+// What look-ups on the map of a lamp need beside simd_sse.inl: see lamp_map_gather_avx512.inl.
+inline Ints operator+(Ints a, Ints b) {
+    return {_mm_add_epi32(a.lo, b.lo), _mm_add_epi32(a.hi, b.hi)};
+}
+inline Ints shiftedUp(Ints a, int by) {
+    const __m128i count = _mm_cvtsi32_si128(by);
+    return {_mm_sll_epi32(a.lo, count), _mm_sll_epi32(a.hi, count)};
+}
+inline Ints shiftedDown(Ints a, int by) {
+    const __m128i count = _mm_cvtsi32_si128(by);
+    return {_mm_srl_epi32(a.lo, count), _mm_srl_epi32(a.hi, count)};
+}
+inline Ints truncated(Floats a) { return {_mm_cvttps_epi32(a.lo), _mm_cvttps_epi32(a.hi)}; }
+inline void copyAt(const void* from, Ints offset, std::uint32_t (&to)[W]) {
+    offset.store(to);
+    for (std::uint32_t& x : to) std::memcpy(&x, static_cast<const std::byte*>(from) + x, sizeof x);
+}
+inline Ints intsAt(const std::uint32_t* from, Ints offset) {
+    alignas(16) std::uint32_t out[W];
+    copyAt(from, offset, out);
+    return Ints::load(out);
+}
+inline Floats floatsAt(const float* from, Ints offset) {
+    alignas(16) std::uint32_t out[W];
+    copyAt(from, offset, out);
+    return Floats::load(out);
+}

@@ -1,0 +1,20 @@
+// The maps of lamps in the registers of AVX2.
+#include "render/lamp_map.h"
+
+#if defined(__x86_64__)
+#include "accel/kernels/region_includes.h"
+
+#include <new>
+#include <span>
+#include <utility>
+
+AVX2_REGION_BEGIN
+namespace kernels::avx2 {
+#include "accel/kernels/simd_avx2.inl"
+
+#include "render/lamp_map_gather_avx2.inl"
+
+#include "render/lamp_map_lanes.inl"
+} // namespace kernels::avx2
+KERNEL_REGION_END
+#endif

@@ -1,0 +1,20 @@
+// The maps of lamps in the registers of AVX-512.
+#include "render/lamp_map.h"
+
+#if defined(__x86_64__)
+#include "accel/kernels/region_includes.h"
+
+#include <new>
+#include <span>
+#include <utility>
+
+AVX512_REGION_BEGIN
+namespace kernels::avx512 {
+#include "accel/kernels/simd_avx512.inl"
+
+#include "render/lamp_map_gather_avx512.inl"
+
+#include "render/lamp_map_lanes.inl"
+} // namespace kernels::avx512
+KERNEL_REGION_END
+#endif

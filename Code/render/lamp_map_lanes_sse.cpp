@@ -1,0 +1,20 @@
+// The maps of lamps in the registers of SSE.
+#include "render/lamp_map.h"
+
+#if defined(__x86_64__)
+#include "accel/kernels/region_includes.h"
+
+#include <new>
+#include <span>
+#include <utility>
+
+SSE_REGION_BEGIN
+namespace kernels::sse {
+#include "accel/kernels/simd_sse.inl"
+
+#include "render/lamp_map_gather_sse.inl"
+
+#include "render/lamp_map_lanes.inl"
+} // namespace kernels::sse
+KERNEL_REGION_END
+#endif

@@ -1,0 +1,101 @@
+// What a lamp with a size does to points in blocks, as lanes want them: the sum of its samples at
+// each of them.
+#pragma once
+
+#include "render/waves/fill_blocks.h"
+
+#include <algorithm>
+#include <bit>
+
+namespace waves {
+
+// The samples first .. first + count - 1 of the lamp, for those points of a block.
+inline SamplesOnLamp samplesOf(const Wave& wave, const Lamp& lamp, const LitBlock& block,
+                               unsigned points, int first, int count) {
+    SamplesOnLamp samples;
+    samples.count = static_cast<std::size_t>(count), samples.points = points;
+    samples.share = 1.0f / static_cast<float>(lamp.samples);
+    const PointBatch& all = wave.memory.points;
+    const auto perPoint = static_cast<std::uint32_t>(lamp.samples);
+    const auto size = static_cast<std::size_t>(std::popcount(block.used));
+    std::array<std::uint32_t, LitBlock::kPoints> streams;
+    for (std::size_t i = 0; i < size; ++i) {
+        const std::uint32_t k = block.point[i];
+        streams[i] = wave.rays.stream[all.ray[k]];
+        samples.first[i] =
+            wave.chunk.ids[all.slot[k]].index * perPoint + static_cast<std::uint32_t>(first);
+    }
+    Sampler::PairSeeds seeds{};
+    for (std::size_t i = 0; i < size; ++i) {
+        if (i == 0 || streams[i] != streams[i - 1]) // else as the last one of its pixel
+            seeds = lamp.sampler.pairSeeds(streams[i], dimension(wave.depth, BounceSlot::LightUv));
+        samples.index[i] = seeds.index, samples.x[i] = seeds.x, samples.y[i] = seeds.y;
+    }
+    return samples;
+}
+
+// The samples of point i of a block that wait, and their rays. `place`: of its sum.
+inline void listWaiting(const Wave& wave, const LitBlock& block, const LitBySamples& by,
+                        std::size_t i, std::uint32_t place, std::size_t count) {
+    WaveMemory& memory = wave.memory;
+    const std::uint32_t k = block.point[i];
+    const ShadedPoint& at = memory.points.at[k];
+    const Vec3 org = leave(at.surface, at.lit.ng) + at.surface.lift;
+    const float time = wave.rays.time[memory.points.ray[k]];
+    unsigned lit = 0, unsure = 0; // a bit for each sample
+    for (std::size_t s = 0; s < count; ++s) {
+        lit |= static_cast<unsigned>(by.isLit(s, i)) << s;
+        unsure |= static_cast<unsigned>(by.isUnsure(s, i)) << s;
+    }
+    for (; lit != 0; lit &= lit - 1) {
+        const auto s = static_cast<std::size_t>(std::countr_zero(lit));
+        const std::size_t from = s * LitBlock::kPoints + i;
+        const Rgb light{by.light[0][from], by.light[1][from], by.light[2][from]};
+        std::uint32_t ray = WaitingLight::kNoRay;
+        if ((unsure >> s & 1) != 0) {
+            ray = static_cast<std::uint32_t>(memory.shadowRays.size());
+            const Vec3 dir{by.dir[0][from], by.dir[1][from], by.dir[2][from]};
+            memory.shadowRays.push({org, dir, 0, by.tMax[from], time}, k, light);
+        }
+        memory.waiting.push_back({place, ray, light});
+    }
+}
+
+// forEachLampSample() for all points that answer lamps, into memory.lightSums. A point's many
+// shadow rays make it worth while to look at each point for itself, and at each line to the lamp.
+// What has to wait for rays is listed.
+inline void shineBySamples(const Wave& wave, const Lamp& lamp) {
+    WaveMemory& memory = wave.memory;
+    const Occluders& occluders = wave.context.occluders;
+    const bool canTell = wave.context.settings.specialise && occluders.canTell();
+    constexpr int kMost = LitBySamples::kMost;
+    constexpr std::size_t kPoints = LitBlock::kPoints;
+    const std::size_t blocks = (memory.answering.size() + kPoints - 1) / kPoints;
+    if (memory.lightSums.size() < blocks) memory.lightSums.resize(blocks);
+    memory.waiting.clear();
+    LitBySamples by;
+    HiddenPoints hidden;
+    for (std::size_t b = 0; b < blocks; ++b) {
+        const LitBlock& block = memory.litBlocks[b];
+        if (canTell)
+            hidden = lamp.hiddenPoints(occluders, block, *lamp.emission);
+        else
+            hidden.maybe = block.used;
+        for (auto& channel : by.sum) std::fill_n(channel, kPoints, 0.0f);
+        by.waiting = 0;
+        const unsigned asked = block.used & ~hidden.surely;
+        for (int first = 0; first < lamp.samples && asked != 0; first += kMost) {
+            const int some = std::min(kMost, lamp.samples - first);
+            lamp.bySamples(*lamp.emission, block, samplesOf(wave, lamp, block, asked, first, some),
+                           occluders, hidden, by);
+            for (unsigned rest = by.waiting; rest != 0; rest &= rest - 1) {
+                const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+                listWaiting(wave, block, by, i, static_cast<std::uint32_t>(b * kPoints + i),
+                            static_cast<std::size_t>(some));
+            }
+        }
+        std::copy_n(&by.sum[0][0], 3 * kPoints, &memory.lightSums[b].sum[0][0]);
+    }
+}
+
+} // namespace waves

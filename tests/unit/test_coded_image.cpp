@@ -1,0 +1,77 @@
+// Code/image/coded_image.h: the same files as an Image gives.
+#include "check.h"
+
+#include "base/text.h"
+#include "image/coded_image.h"
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+namespace {
+
+// Of all kinds: far outside of [0, 1], NaN, and runs of equal ones.
+Image randomImage(int width, int height, std::mt19937& random) {
+    const auto value = [&] {
+        const std::uint32_t kind = random() % 16;
+        const float inside = static_cast<float>(random()) * 0x1p-32f;
+        return kind == 0   ? std::numeric_limits<float>::quiet_NaN()
+               : kind == 1 ? -inside
+               : kind == 2 ? 1 + 1000 * inside
+               : kind == 3 ? inside * 0x1p-14f
+                           : inside;
+    };
+    Image image(width, height);
+    Rgb pixel;
+    for (Rgb& p : image.pixels()) {
+        if (random() % 3 != 0) pixel = {value(), value(), value()};
+        p = pixel;
+    }
+    return image;
+}
+
+// In pieces of rows, from the last on.
+CodedImage codedFrom(const Image& image, Encoding::Transfer transfer, std::mt19937& random) {
+    CodedImage coded(image.width(), image.height(), transfer);
+    for (int y = image.height() - 1; y >= 0; --y)
+        for (int end = image.width(); end > 0;) {
+            const int count = 1 + static_cast<int>(random() % 40), x = std::max(0, end - count);
+            const auto first =
+                static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width()) +
+                static_cast<std::size_t>(x);
+            coded.put(x, y, image.pixels().subspan(first, static_cast<std::size_t>(end - x)));
+            end = x;
+        }
+    return coded;
+}
+
+} // namespace
+
+TEST(coded_images_give_the_files_of_images) {
+    for (int i = 0; i < check::scaled(12); ++i) {
+        const auto seed = static_cast<std::uint32_t>(i);
+        std::mt19937 random(seed);
+        // From one pixel to several parts of a PNG file, which have 2^18 bytes.
+        const int width = 1 + static_cast<int>(random() % (i < 6 ? 9 : 900));
+        const int height = 1 + static_cast<int>(random() % (i < 6 ? 9 : 300));
+        const Image image = randomImage(width, height, random);
+        for (const auto transfer : {Encoding::Transfer::Srgb, Encoding::Transfer::Linear}) {
+            const CodedImage coded = codedFrom(image, transfer, random);
+            for (const char* extension : {"ppm", "png"})
+                for (const int threads : {1, 3})
+                    CHECK_INFO(encodeImage(coded, extension, threads) ==
+                                   encodeImage(image, extension, {transfer, 8}),
+                               cat("seed ", seed, ", ", width, "x", height, " ", extension, " on ",
+                                   threads, " threads"));
+        }
+    }
+}
+
+TEST(coded_images_have_the_sizes_of_images) {
+    CHECK(CodedImage().isEmpty());
+    CHECK(!CodedImage(1, 1, Encoding::Transfer::Srgb).isEmpty());
+    for (const Vec2d size : {Vec2d{0, 1}, {1, -1}, {Image::kMaxSide + 1, 1}})
+        CHECK_THROWS(CodedImage(static_cast<int>(size.x), static_cast<int>(size.y),
+                                Encoding::Transfer::Srgb),
+                     "is not possible");
+}
