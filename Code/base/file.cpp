@@ -1,7 +1,6 @@
 #include "base/file.h"
 
 #include "base/error.h"
-#include "base/find_pages.h"
 #include "base/for_each.h"
 #include "base/large_pages.h"
 #include "base/text.h"
@@ -127,10 +126,8 @@ template <class Bytes> Bytes readWhole(const std::string& fileName, int threads)
     const auto size =
         static_cast<std::size_t>(status ? kFirstPart : std::max(promised + 1, kFirstPart));
     reserveInLargePages(bytes, size);
-    const bool together = !status && promised > kFirstPart && threads != 1;
-    if (together) findPages(bytes.data(), size, threads);
     bytes.resize(size);
-    if (together) {
+    if (!status && promised > kFirstPart && threads != 1) {
         used = readParts(file.get(), {reinterpret_cast<char*>(bytes.data()), size - 1}, threads);
         if (fseeko(file.get(), static_cast<off_t>(used), SEEK_SET) != 0)
             failReading(std::strerror(errno));

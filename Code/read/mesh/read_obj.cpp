@@ -1,6 +1,5 @@
 #include "read/mesh/read_obj.h"
 
-#include "base/find_pages.h"
 #include "base/for_each.h"
 #include "base/text.h"
 #include "desc/names.h"
@@ -41,7 +40,6 @@ public:
         if (source_.text.size() >= SourceLoc::kUnknown)
             in_.failAt(0, "the file is larger than 4 GiB");
         chunks_ = chunksOf(source_, context_.options.threads);
-        if (context_.options.threads != 1) findRoom();
         colours_ = readVertices(source_, chunks_, builder_.mesh, context_.options.threads);
         builder_.reserve(chunks_.triangles);
         readFaces();
@@ -50,16 +48,6 @@ public:
     }
 
 private:
-    // Points and corners here and in the scene, twice the boxes of triangles and their tree: most
-    // of it comes after the text, whose memory is used again.
-    void findRoom() const {
-        constexpr std::size_t kPerPoint = 36, kPerTriangle = 132, kWorthAThread = 1 << 20;
-        const std::size_t bytes =
-            kPerPoint * chunks_.total.points + kPerTriangle * chunks_.triangles;
-        const std::size_t there = source_.text.size();
-        if (bytes > there + kWorthAThread) findRoomAhead(bytes - there);
-    }
-
     void readFaces() {
         const std::vector<ObjChunk>& chunks = chunks_.chunks;
         for (std::size_t i = 0; i < chunks.size();) {
