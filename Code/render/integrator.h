@@ -3,7 +3,7 @@
 #pragma once
 
 #include "render/batch.h"
-#include "render/lamp_map.h"
+#include "render/lamp_map/lamp_map.h"
 #include "render/occluders.h"
 #include "render/point_columns.h"
 #include "render/query.h"

@@ -4,7 +4,7 @@
 #include "shot.h"
 
 #include "render/empty_tiles.h"
-#include "render/lamp_map.h"
+#include "render/lamp_map/lamp_map.h"
 #include "render/waves/steps.h"
 #include "verify/scenes.h"
 

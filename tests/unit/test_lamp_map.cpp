@@ -1,5 +1,5 @@
 // What the maps of lamps say of shadow rays, against the rays themselves.
-#include "render/lamp_map.h"
+#include "render/lamp_map/lamp_map.h"
 
 #include "analytic_kit.h"
 #include "check.h"

@@ -1,5 +1,5 @@
 #include "accel/kernels/by_kernel.h"
-#include "render/lamp_map.h"
+#include "render/lamp_map/lamp_map.h"
 
 #define DECLARE(isa)                                                                               \
     namespace kernels::isa {                                                                       \

@@ -1,5 +1,5 @@
 // The maps of lamps in the registers of AVX2.
-#include "render/lamp_map.h"
+#include "render/lamp_map/lamp_map.h"
 
 #if defined(__x86_64__)
 #include "accel/kernels/region_includes.h"
@@ -12,9 +12,9 @@ AVX2_REGION_BEGIN
 namespace kernels::avx2 {
 #include "accel/kernels/simd_avx2.inl"
 
-#include "render/lamp_map_gather_avx2.inl"
+#include "render/lamp_map/lamp_map_gather_avx2.inl"
 
-#include "render/lamp_map_lanes.inl"
+#include "render/lamp_map/lamp_map_lanes.inl"
 } // namespace kernels::avx2
 KERNEL_REGION_END
 #endif

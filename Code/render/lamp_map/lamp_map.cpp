@@ -1,4 +1,4 @@
-#include "render/lamp_map.h"
+#include "render/lamp_map/lamp_map.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "accel/kernels/kernels.h"
-#include "render/mapped_shapes.h"
+#include "render/lamp_map/mapped_shapes.h"
 #include "render/waves/lamp_lanes.h"
 
 #include <array>

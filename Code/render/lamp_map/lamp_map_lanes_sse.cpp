@@ -1,5 +1,5 @@
 // The maps of lamps in the registers of SSE.
-#include "render/lamp_map.h"
+#include "render/lamp_map/lamp_map.h"
 
 #if defined(__x86_64__)
 #include "accel/kernels/region_includes.h"
@@ -12,9 +12,9 @@ SSE_REGION_BEGIN
 namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
 
-#include "render/lamp_map_gather_sse.inl"
+#include "render/lamp_map/lamp_map_gather_sse.inl"
 
-#include "render/lamp_map_lanes.inl"
+#include "render/lamp_map/lamp_map_lanes.inl"
 } // namespace kernels::sse
 KERNEL_REGION_END
 #endif

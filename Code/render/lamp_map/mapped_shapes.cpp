@@ -1,4 +1,4 @@
-#include "render/mapped_shapes.h"
+#include "render/lamp_map/mapped_shapes.h"
 
 #include <algorithm>
 
