@@ -15,13 +15,8 @@ bool walk(const SolidTree& tree, WideRef ref, const RaySetup& ray, float& zCut, 
     std::size_t count = 0;
     const WideNode<W>& node = tree.node<W>(ref);
     for (std::size_t i = 0; i < W && kindOf(node.child[i]) != WideKind::None; ++i) {
-        Bounds box;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            box.lo[axis] = node.plane[axis][0][i];
-            box.hi[axis] = node.plane[axis][1][i];
-        }
         float z = 0;
-        if (!ray.enters(box, zCut, z)) continue;
+        if (!ray.enters(node.box(i), zCut, z)) continue;
         std::size_t at = count++;
         for (; at > 0 && entered[at - 1].z > z; --at) entered[at] = entered[at - 1];
         entered[at] = {z, node.child[i]};

@@ -7,6 +7,7 @@
 #include "read/mesh/ply_header.h"
 #include "read/mesh/ply_rows.h"
 #include "read/mesh/ply_text.h"
+#include "read/text_size.h"
 
 #include <algorithm>
 #include <optional>
@@ -195,9 +196,7 @@ MeshFile readBody(const PlyHeader& header, const SourceFile& source, const ReadC
 } // namespace
 
 MeshFile readPly(const SourceFile& source, const ReadContext& context) {
-    // Locations are 32 bits wide.
-    if (source.text.size() >= SourceLoc::kUnknown)
-        fail(ErrorKind::Input, cat(source.name, ": error: the file is larger than 4 GiB"));
+    checkTextSize(source);
     const PlyHeader header = readPlyHeader(source);
     checkElements(header, source);
     switch (header.format) {

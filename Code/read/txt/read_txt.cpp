@@ -4,6 +4,7 @@
 #include "base/large_pages.h"
 #include "base/text.h"
 #include "desc/error_list.h"
+#include "read/text_size.h"
 #include "read/txt/property_line.h"
 #include "read/txt/read_blocks.h"
 #include "read/txt/scanner.h"
@@ -162,9 +163,7 @@ SceneDesc readInOrder(const SourceFile& source) {
 } // namespace
 
 SceneDesc readTxt(const SourceFile& source, int threads, std::size_t partBytes) {
-    // Locations are 32 bits wide.
-    if (source.text.size() >= SourceLoc::kUnknown)
-        fail(ErrorKind::Input, cat(source.name, ": error: the file is larger than 4 GiB"));
+    checkTextSize(source);
     // Whoever reads in parts says only that there is a mistake: the first one of the file, with all
     // that is said with it, is found by reading in order.
     if (threads <= 0) threads = hardwareThreads();
