@@ -11,6 +11,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <random>
 #include <string>
@@ -53,14 +54,14 @@ std::string messagesOf(const std::string& all, const std::string& text) {
     std::string out;
     for (std::size_t at = 0; (at = all.find("t.obj:", at)) != std::string::npos; ++at) {
         std::string first = all.substr(at, all.find('\n', at) - at);
-        std::size_t line = 0, column = 0;
-        int lineEnd = 0, columnEnd = 0;
-        std::sscanf(first.c_str(), "t.obj:%zu%n:%zu%n", &line, &lineEnd, &column, &columnEnd);
+        char *lineEnd = nullptr, *columnEnd = nullptr; // "t.obj:LINE:COLUMN: ..."
+        std::size_t line = std::strtoul(&first[6], &lineEnd, 10);
+        const std::size_t column = std::strtoul(lineEnd + 1, &columnEnd, 10);
         std::size_t start = 0;
         for (; line > 1; --line) start = text.find('\n', start) + 1;
         const std::size_t end = std::min(text.find('\n', start), text.size());
         if (text.substr(start, end - start).find_last_not_of(" \t\r") + 2 <= column)
-            first.erase(static_cast<std::size_t>(lineEnd),
+            first.erase(static_cast<std::size_t>(lineEnd - first.data()),
                         static_cast<std::size_t>(columnEnd - lineEnd));
         out += first + "\n";
     }
@@ -227,10 +228,9 @@ TEST(plain_lines_floats) {
         // has the middle as its double.
         const double k = static_cast<double>(random() % (1 << 23) + (1 << 23)) + 0.5;
         char number[40];
-        if (i % 2 == 0)
-            std::snprintf(number, sizeof number, "%.4f", k * 0x1p-3);
-        else
-            std::snprintf(number, sizeof number, "%.14f", k * 0x1p-21);
+        const int length = i % 2 == 0 ? std::snprintf(number, sizeof number, "%.4f", k * 0x1p-3)
+                                      : std::snprintf(number, sizeof number, "%.14f", k * 0x1p-21);
+        CHECK(length > 0);
         const std::string text = cat(" ", number, "\n", kAfter);
         std::array<float, 1> value{};
         if (!readPlainNumbers(text.data(), text.data() + text.size(), 1e15, value)) {
