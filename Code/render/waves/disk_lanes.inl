@@ -88,7 +88,7 @@ struct DiskLanes {
 // Chebyshev nodes, off by less than 2^-43 of these.
 inline Doubles polynomial(const Doubles& w, const double (&c)[6]) {
     Doubles sum(c[5]);
-    for (std::size_t i = 5; i-- > 0;) sum = fma(sum, w, Doubles(c[i]));
+    for (std::size_t i = 5; i > 0; --i) sum = fma(sum, w, Doubles(c[i - 1]));
     return sum;
 }
 inline Doubles cosineOf(const Doubles& w) {
