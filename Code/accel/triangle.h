@@ -11,6 +11,8 @@
 
 #include "accel/ray_setup.h"
 
+#include <initializer_list>
+
 // A triangle relative to the ray's origin with the axes permuted so that z is the dominant one.
 struct ShearedTriangle {
     Vec3 v[3];        // (lateral x, lateral y, depth z)
@@ -78,27 +80,30 @@ public:
         return !(kSteep * kSteep * (along_ * along_) >= dot(n_, n_) * dot(dir_, dir_));
     }
     // The key where the plane is met no nearer and no farther than the triangle's points are that
-    // are in one plane with the ray and the normal: what moves a ray by a rounding along the normal
-    // leaves them as they are, and changes only which of them is met. With room for the point that
-    // the ray meets by ShearedTriangle: that is 2^-24 (4 M + 2 b) beside the ray at most (M, b as
-    // in kernels/queue_exact.inl), and so 4.3 roundings of the largest coordinate nearer.
+    // lie in one plane with the ray and the normal: what moves a ray by a rounding along the normal
+    // leaves them as they are, and changes only which of them is met. All with room for where the
+    // ray meets the triangle by ShearedTriangle: that is 2^-24 (4 M + 2 b) beside it at most (M, b
+    // as in kernels/queue_exact.inl), within 6 roundings of the largest coordinate.
     float keyInChord(float key) const {
-        const Vec3d across = cross(dir_, n_);
+        const Vec3d across = normalize(cross(dir_, n_));
         const double zPerDot = dir_.z / dot(dir_, dir_);
         double z[3], beside[3], size = 0;
         for (int i = 0; i < 3; ++i) {
             z[i] = dot(v_[i], dir_) * zPerDot, beside[i] = dot(v_[i], across);
             size = max(size, maxAbs(v_[i]));
         }
-        double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
-        for (int i = 0; i < 3; ++i) {
-            const int j = (i + 1) % 3;
-            if ((beside[i] < 0) == (beside[j] < 0)) continue;
-            const double depth = z[i] + (z[j] - z[i]) * (beside[i] / (beside[i] - beside[j]));
-            nearest = min(nearest, depth), farthest = max(farthest, depth);
-        }
         const double room = 6 * 0x1p-24 * size;
-        nearest -= room, farthest += room;
+        double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
+        const auto extend = [&](double depth) {
+            nearest = min(nearest, depth - room), farthest = max(farthest, depth + room);
+        };
+        for (int i = 0; i < 3; ++i) {
+            if (std::fabs(beside[i]) <= room) extend(z[i]);
+            const int j = (i + 1) % 3;
+            for (const double border : {-room, room})
+                if ((beside[i] < border) != (beside[j] < border))
+                    extend(z[i] + (z[j] - z[i]) * ((border - beside[i]) / (beside[j] - beside[i])));
+        }
         if (farthest > 0) key = max(key, static_cast<float>(1 / farthest));
         return nearest > 0 && farthest > 0 ? min(key, static_cast<float>(1 / nearest)) : key;
     }

@@ -209,9 +209,10 @@ TEST(triangle_seen_edge_on_is_met_near_itself) {
         const Vec3d inPlane = normalize(cross(across, random.direction()));
         const Vec3d n = cross(inPlane, across); // the triangle's plane has inPlane and across
         std::array<Vec3, 3> t;
-        for (Vec3& v : t)
-            v = toFloat(at + inPlane * (size * random.uniform(-1, 1)) +
-                        across * (size * random.uniform(-1, 1)));
+        for (Vec3& v : t) {
+            const double x = random.uniform(-1, 1), y = random.uniform(-1, 1);
+            v = toFloat(at + (inPlane * x + across * y) * size);
+        }
         const double tilt = random.logUniform(1e-5, 0.5);
         const Vec3d back = normalize(inPlane + n * (random.chance(0.5) ? tilt : -tilt));
         const double along = random.chance(0.7) ? random.uniform(0, 1) : random.uniform(-0.1, 1.1);

@@ -151,7 +151,7 @@ struct SurfacesInLanes {
     // else.
     void put(std::span<const std::uint32_t> to, const SurfacePlaces& out) const {
         const std::size_t lane = to[0] % SurfaceBlock::kPoints;
-        if (to.size() == W && to[W - 1] - to[0] == W - 1 && lane + W <= SurfaceBlock::kPoints &&
+        if (to.size() == W && to[W - 1] == to[0] + (W - 1) && lane + W <= SurfaceBlock::kPoints &&
             areInARow(to))
             return putRow(out[to[0]].block, lane);
         for (std::size_t i = 0; i < to.size(); ++i) {
