@@ -115,7 +115,7 @@ void ShapeSet::buildBatchTrees(const Kernel& kernel, int threads) {
         numbers.size() < boxes.size() ? boxesOf(numbers, boxes, threads) : RawVector<Bounds>();
     const std::span<const Bounds> of = some.empty() ? std::span<const Bounds>(boxes) : some;
     solids_.extent = extent;
-    if (!numbers.empty()) solids_.build(kernel.width, buildBvh(of, threads), of, describe, threads);
+    if (!numbers.empty()) solids_.build(kernel.width, of, describe, threads);
     if (!placed_.isEmpty()) placed_.build(kernel, extent, threads);
 }
 

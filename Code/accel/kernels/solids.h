@@ -75,20 +75,18 @@ struct SolidTree {
     // Room for so many of each common kind: what isn't touched costs nothing, growing would.
     void reserve(std::size_t count);
     void add(const Bounds& box, std::uint32_t number, bool hides, const SolidForm& form);
-    // Once after the last add(); `bvh` is over the boxes in the order of adding.
-    void build(int nodeWidth, Bvh bvh);
+    // Once after the last add().
+    void build(int nodeWidth, int threads = 1);
 
-    // Or, instead of add() for each of many: what describe(i, next) says of the solid in box i of
-    // the `bvh`, asked by several threads, once each; `next` comes soon. The same for any number of
-    // them.
+    // Or, instead of add() for each of many: what describe(i, next) says of the solid in box i,
+    // asked by several threads, once each; `next` comes soon. The same for any number of them.
     struct Described {
         std::uint32_t number = 0;
         bool hides = true;
         SolidForm form;
     };
     using Describe = std::function<Described(std::uint32_t i, std::uint32_t next)>;
-    void build(int nodeWidth, Bvh bvh, std::span<const Bounds> of, const Describe& describe,
-               int threads);
+    void build(int nodeWidth, std::span<const Bounds> of, const Describe& describe, int threads);
 
     std::size_t nodes() const { return lines.size() * sizeof(WideTree::Line) / nodeBytes(); }
     std::size_t bytes() const;
@@ -98,7 +96,7 @@ private:
         return width == 16 ? sizeof(WideNode<16>) : sizeof(WideNode<8>);
     }
     // Returns which box each leaf has.
-    std::vector<std::uint32_t> writeNodes(Bvh bvh, std::span<const Bounds> of, int threads);
+    std::vector<std::uint32_t> writeNodes(std::span<const Bounds> of, int threads);
     void take(std::span<const std::uint32_t> order, std::span<const Bounds> of,
               const Describe& describe, int threads);
 };

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <utility>
 
-void SolidTree::build(int nodeWidth, Bvh bvh) {
+void SolidTree::build(int nodeWidth, int threads) {
     width = nodeWidth;
-    const std::vector<std::uint32_t> order = writeNodes(std::move(bvh), boxes, 1);
+    const std::vector<std::uint32_t> order = writeNodes(boxes, threads);
     const auto sort = [&](auto& things) {
         const auto before = things;
         for (std::size_t i = 0; i < order.size(); ++i) things[i] = before[order[i]];
@@ -16,10 +16,10 @@ void SolidTree::build(int nodeWidth, Bvh bvh) {
     sort(solids), sort(boxes);
 }
 
-void SolidTree::build(int nodeWidth, Bvh bvh, std::span<const Bounds> of, const Describe& describe,
+void SolidTree::build(int nodeWidth, std::span<const Bounds> of, const Describe& describe,
                       int threads) {
     width = nodeWidth;
-    take(writeNodes(std::move(bvh), of, threads), of, describe, threads);
+    take(writeNodes(of, threads), of, describe, threads);
 }
 
 // Each part of the solids has its own lists of what has a `part` there, which are joined then.
