@@ -1,5 +1,7 @@
 #include "read/txt/property_line.h"
 
+#include "read/plain_number.h"
+
 #include <algorithm>
 
 namespace {
@@ -66,7 +68,7 @@ Token NumberLine::nextNumber() {
 
 void NumberLine::read(double& value, const Range& range) {
     // What is right needs no token.
-    const auto quick = readDouble(in_.skipToWord());
+    const auto quick = readDouble(in_.skipToWord(), in_.textEnd());
     if (quick.fault == NumberFault::None && !isBareChar(*quick.end) &&
         range.contains(quick.value)) {
         in_.moveTo(quick.end);
