@@ -39,6 +39,7 @@ public:
     void finish(const Token& open);
 
 private:
+    void readAny(double& value, const Range& range);
     Token nextNumber();
     std::optional<long long> readWhole(const Range& range);
     std::string expected() const; // "expected 3 numbers after 'diffuse'"
