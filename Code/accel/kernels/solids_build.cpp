@@ -42,7 +42,9 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
         part.solids.reserve(last - first), part.boxes.reserve(last - first);
         for (std::size_t i = first; i < last; ++i) {
             const std::uint32_t at = order[i];
-            const Described solid = describe(at, order[std::min(i + kAhead, last - 1)]);
+            const std::uint32_t next = order[std::min(i + kAhead, last - 1)];
+            __builtin_prefetch(&of[next]);
+            const Described solid = describe(at, next);
             part.add(of[at], solid.number, solid.hides, solid.form);
         }
         std::copy(part.solids.begin(), part.solids.end(), ofPart(solids, first));
