@@ -108,7 +108,8 @@ void ShapeSet::buildBatchTrees(const Kernel& kernel, int threads) {
     }
     const auto describe = [&](std::uint32_t i, std::uint32_t next) -> SolidTree::Described {
         const auto* const soon = reinterpret_cast<const char*>(shapes[numbers[next]].get());
-        for (std::size_t at = 0; at < sizeof(AnalyticShape); at += 64) __builtin_prefetch(soon + at);
+        for (std::size_t at = 0; at < sizeof(AnalyticShape); at += 64)
+            __builtin_prefetch(soon + at);
         const std::uint32_t number = numbers[i];
         return {number, shadows[number] == Shadow::Opaque, shapes[number]->solidForm()};
     };

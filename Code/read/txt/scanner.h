@@ -33,7 +33,8 @@ inline bool isSameWord(std::string_view a, std::string_view b) {
     if (a.size() > 16) return a == b;
     if (a.size() >= 8) return !differ(std::uint64_t{});
     if (a.size() >= 4) return !differ(std::uint32_t{});
-    return a.empty() || (a[0] == b[0] && a[a.size() / 2] == b[a.size() / 2] && a.back() == b.back());
+    return a.empty() ||
+           (a[0] == b[0] && a[a.size() / 2] == b[a.size() / 2] && a.back() == b.back());
 }
 
 // For messages: "'abc'", "the end of the line", "the end of the file".
@@ -92,6 +93,7 @@ public:
     }
     void moveTo(const char* p) { p_ = p; }
     const char* textEnd() const { return end_; }
+    std::string_view textLeft() const { return {p_, static_cast<std::size_t>(end_ - p_)}; }
     // Is this a byte that may follow a number?
     static bool endsNumber(char c) { return !isBareChar(c) && c != '"'; }
 
