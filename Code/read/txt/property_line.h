@@ -87,9 +87,8 @@ public:
         forEachNumber(block, property.first, readOne);
         if (property.second) forEachNumber(block, *property.second, readOne);
         numbers.finish(open_);
-        const std::string_view text = left.substr(0, left.size() - in_.textLeft().size());
-        const bool isRight = errors_.count() == faultsBefore && text.ends_with('\n');
-        if (isNumeric && count <= got.size() && isRight) before = {text, got};
+        if (isNumeric && count <= got.size() && errors_.count() == faultsBefore)
+            before = {left.substr(0, left.size() - in_.textLeft().size()), got};
     }
 
 private:
