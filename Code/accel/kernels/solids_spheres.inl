@@ -28,15 +28,19 @@ protected:
         const Doubles ox = point(0, X), oy = point(4, Y), oz = point(8, Z);
         const Doubles dx = direction(0, U), dy = direction(4, V), dz = direction(8, T);
         const Doubles dd = (dx * dx + dy * dy) + dz * dz, od = (ox * dx + oy * dy) + oz * dz;
+        const Doubles oo = (ox * ox + oy * oy) + oz * oz, rr = radius * radius, zero(0.0);
+        // Rays that leave it, as mirrored ones do: outside by more than the 2^-48 that oo, ll and
+        // along are off by, they have both roots behind them.
+        lanes &= ~(less(zero, od) & less(rr * Doubles(1 + 0x1p-30), oo) &
+                   bits(rays.tMin >= Floats(0.0f)));
+        if (lanes == 0) return {zero, zero, {}, 0};
         const Doubles along = od / dd;
         const Doubles px = ox - dx * along, py = oy - dy * along, pz = oz - dz * along;
         const Doubles ll = (px * px + py * py) + pz * pz;
-        const Doubles rr = radius * radius, zero(0.0);
         lanes &= atMost(ll, rr) & less(zero, radius);
         if (lanes == 0) return {zero, zero, {}, 0};
 
         const Doubles most(std::numeric_limits<double>::max());
-        const Doubles oo = (ox * ox + oy * oy) + oz * oz;
         lanes &= atMost(dd, most) & atMost(oo, most);
         const Doubles middle = zero - along, half = sqrt((rr - ll) / dd);
         const Doubles enter = middle - half, exit = middle + half;
