@@ -13,8 +13,9 @@
 
 namespace waves {
 
-// The points that answer lamps. No branch: nobody could guess what comes behind glass.
-inline void listAnswering(const Wave& wave) {
+// The points that answer lamps. No branch: nobody could guess what comes behind glass. Rays of no
+// weight are not traced, only see-through points lose it.
+template <bool kSeeThrough> void listAnswering(const Wave& wave) {
     WaveMemory& memory = wave.memory;
     const PointBatch& points = memory.points;
     if (memory.answering.size() < points.at.size()) memory.answering.resize(points.at.size());
@@ -25,8 +26,12 @@ inline void listAnswering(const Wave& wave) {
     for (std::size_t k = 0; k < points.count; ++k) {
         if (points.material[k] != last) last = points.material[k], answers = answersLamps(*last);
         to[count] = static_cast<std::uint32_t>(k);
-        const auto weight = std::bit_cast<std::array<std::uint32_t, 3>>(points.weight[k]);
-        count += answers & ((weight[0] | weight[1] | weight[2]) << 1 != 0); // not +-0
+        bool counts = answers;
+        if constexpr (kSeeThrough) {
+            const auto weight = std::bit_cast<std::array<std::uint32_t, 3>>(points.weight[k]);
+            counts &= (weight[0] | weight[1] | weight[2]) << 1 != 0; // not +-0
+        }
+        count += counts;
     }
     memory.answering.resize(count);
 }
@@ -116,7 +121,7 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
     const PointBatch& points = memory.points;
     const std::vector<Lamp>& lamps = wave.context.shadingLamps;
     if (lamps.empty()) return;
-    waves::listAnswering(wave);
+    waves::listAnswering<kSeeThrough>(wave);
     if (memory.answering.empty()) return;
 
     const bool isInOrder = wave.hasOneRayPerSample() || lamps.size() == 1;

@@ -17,6 +17,48 @@ template <class T> void prefetch(const T& what) {
     for (std::size_t at = 0; at < sizeof(what); at += 64) __builtin_prefetch(bytes + at);
 }
 
+// Which rays have met something, and which nothing. Neighbours do alike more often than not.
+inline void listHits(std::span<const Hit> hits, std::size_t rays, PointBatch& points) {
+    constexpr std::size_t kTogether = 16;
+    std::uint32_t *met = points.ray.data(), *missed = points.missed.data();
+    for (std::size_t first = 0; first < rays; first += kTogether) {
+        const std::size_t count = std::min(kTogether, rays - first);
+        unsigned isHit = 0;
+        if (count == kTogether)
+            for (std::size_t i = 0; i < kTogether; ++i)
+                isHit |= static_cast<unsigned>(hits[first + i].isHit()) << i;
+        const auto number = static_cast<std::uint32_t>(first);
+        if (count == kTogether && (isHit == 0 || isHit == (1u << kTogether) - 1)) {
+            std::uint32_t*& to = isHit == 0 ? missed : met;
+            for (std::uint32_t i = 0; i < kTogether; ++i) to[i] = number + i;
+            to += kTogether;
+            continue;
+        }
+        for (std::uint32_t i = number; i < first + count; ++i) {
+            *met = *missed = i;
+            met += hits[i].isHit(), missed += !hits[i].isHit();
+        }
+    }
+    points.count = static_cast<std::size_t>(met - points.ray.data());
+    points.missedCount = static_cast<std::size_t>(missed - points.missed.data());
+}
+
+// Of a block's points: the weights of their rays, and the samples that these belong to.
+inline void takeSamples(const PathBatch& rays, std::size_t b, PointBatch& points) {
+    constexpr std::size_t kPoints = PointColumns::kPoints;
+    const std::size_t first = b * kPoints, size = points.sizeOf(b);
+    const std::uint32_t *const ray = &points.ray[first], from = ray[0];
+    Rgb* const weight = &points.weight[first];
+    std::uint32_t* const slot = &points.slot[first];
+    if (size == kPoints && ray[kPoints - 1] - from == kPoints - 1) {
+        std::copy_n(&rays.weight[from], kPoints, weight);
+        std::copy_n(&rays.sample[from], kPoints, slot);
+        return;
+    }
+    for (std::size_t i = 0; i < size; ++i)
+        weight[i] = rays.weight[ray[i]], slot[i] = rays.sample[ray[i]];
+}
+
 // Puts points that lanes do into lists by kind, the others into one of their own.
 template <bool kHasBalls> void sortPoints(const Wave& wave) {
     const StillsInLanes& stills = wave.context.stillsInLanes;
@@ -165,15 +207,9 @@ template <bool kTextures> void paintBlock(const Wave& wave, std::size_t b, unsig
 
 template <bool kTextures, bool kSeeThrough> void findPoints(const Wave& wave) {
     const IntegratorContext& context = wave.context;
-    const std::vector<Hit>& hits = wave.memory.hits;
     PointBatch& points = wave.memory.points;
     points.clear(wave.rays.size());
-    for (std::uint32_t i = 0; i < wave.rays.size(); ++i) {
-        points.ray[points.count] = i;
-        points.missed[points.missedCount] = i;
-        points.count += hits[i].isHit();
-        points.missedCount += !hits[i].isHit();
-    }
+    waves::listHits(wave.memory.hits, wave.rays.size(), points);
     points.at.setMaterials(context.scene.materials());
     waves::findSurfaces(wave);
     if constexpr (kTextures) wave.memory.texturedPoints.clear();
@@ -182,10 +218,7 @@ template <bool kTextures, bool kSeeThrough> void findPoints(const Wave& wave) {
         waves::paintBlock<kTextures>(wave, b, litOutside);
         waves::seeBlock<kTextures>(wave, b, litOutside);
     }
-    for (std::size_t k = 0; k < points.count; ++k) {
-        const std::uint32_t ray = points.ray[k];
-        points.weight[k] = wave.rays.weight[ray], points.slot[k] = wave.rays.sample[ray];
-    }
+    for (std::size_t b = 0; b < points.blocks(); ++b) waves::takeSamples(wave.rays, b, points);
     if (wave.depth == 0 && context.wantsFirstHits)
         for (std::size_t k = 0; k < points.count; ++k) {
             const std::uint32_t i = points.ray[k];
