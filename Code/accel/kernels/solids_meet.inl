@@ -66,6 +66,7 @@ protected:
         const auto* const bytes =
             reinterpret_cast<const std::byte*>(&solid.shape->objectFromWorld());
         for (std::size_t at = 0; at < sizeof(AffineRows); at += 64) __builtin_prefetch(bytes + at);
+        __builtin_prefetch(&solid.shape->radius);
         if (solid.kind == SolidTree::Kind::Tube) __builtin_prefetch(&tree_.tubes[solid.part]);
     }
 
