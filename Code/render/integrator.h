@@ -4,6 +4,7 @@
 
 #include "render/batch.h"
 #include "render/lamp_map/lamp_map.h"
+#include "render/material_table.h"
 #include "render/occluders.h"
 #include "render/point_columns.h"
 #include "render/query.h"
@@ -83,6 +84,7 @@ struct IntegratorContext {
     TextureColorsFn textureColors; // null: one by one
     BounceLanes bounceLanes;       // null: one by one
     StillsInLanes stillsInLanes;
+    MaterialTable materials;
     MediumTree media; // what camera rays start in, and room for what rays enter
     MediumTree::Inside cameraMedium;
 
@@ -102,6 +104,14 @@ struct SampleChunk {
     std::vector<FirstHit> first; // filled only if the context wants it
 };
 
+// What the points of a block are made of.
+struct PaintedBlock {
+    const Material* all = nullptr;  // the numbers of all of them; null: they differ
+    bool isTextured = false;        // some are; else a bit for each point that
+    std::uint16_t answersLamps = 0; // has such a material,
+    std::uint16_t mirrors = 0;      // or such a one
+};
+
 // The points that the rays of a wave have met; element k of every array is point k.
 struct PointBatch {
     std::size_t count = 0;             // the arrays may be longer
@@ -111,7 +121,7 @@ struct PointBatch {
     std::vector<std::uint32_t> slot; // of its sample
     PointColumns at;
     std::vector<const Material*> material; // numbers at this point
-    std::vector<const Material*> painted;  // by block: those of all its points; null: they differ
+    std::vector<PaintedBlock> painted;     // by block
     std::vector<Material> textured;        // those with textures applied
     std::vector<Rgb> weight;               // of what the surface sends to the eye
 

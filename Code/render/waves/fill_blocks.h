@@ -51,7 +51,7 @@ inline void fillInLanes(const Wave& wave, std::size_t b, LitBlock& block) {
     const PointBatch& points = wave.memory.points;
     const std::size_t first = b * PointColumns::kPoints, size = points.sizeOf(b);
     lanes.light(points.at.block(b), &points.weight[first], points.usedOf(b), block);
-    if (points.painted[b] != nullptr) return lanes.paint(*points.painted[b], block);
+    if (const Material* const all = points.painted[b].all) return lanes.paint(*all, block);
     for (unsigned& shiny : block.shiny) shiny = 0;
     for (std::size_t i = 0; i < size; ++i) paintPoint(*points.material[first + i], i, block);
 }

@@ -6,24 +6,25 @@
 
 namespace waves {
 
-// Light that comes from the surface itself to where its point is seen.
-inline Rgb glowOf(const Scene& scene, const Material& material) {
-    return material.emission + material.diffuse * scene.ambient();
-}
-
 // Of points that are neither lamps nor looked through.
 inline void addGlowOfBlock(const Wave& wave, std::size_t b) {
     const PointBatch& points = wave.memory.points;
+    const MaterialTable& materials = wave.context.materials;
     const std::size_t first = b * PointColumns::kPoints, size = points.sizeOf(b);
-    if (const Material* const all = points.painted[b]) {
-        const Rgb glow = glowOf(wave.context.scene, *all);
-        for (std::size_t k = first; k < first + size; ++k)
-            wave.add(points.slot[k], points.weight[k] * glow);
-        return;
+    const std::uint32_t *const slot = &points.slot[first], *const number =
+                                                               points.at.block(b).material;
+    const Rgb* const weight = &points.weight[first];
+    if (points.painted[b].isTextured) {
+        for (std::size_t i = 0; i < size; ++i)
+            wave.add(slot[i],
+                     weight[i] * glowOf(*points.material[first + i], wave.context.scene.ambient()));
+    } else if (points.painted[b].all != nullptr) {
+        const Rgb glow = materials.glow(number[0]);
+        for (std::size_t i = 0; i < size; ++i) wave.add(slot[i], weight[i] * glow);
+    } else {
+        for (std::size_t i = 0; i < size; ++i)
+            wave.add(slot[i], weight[i] * materials.glow(number[i]));
     }
-    for (std::size_t k = first; k < first + size; ++k)
-        wave.add(points.slot[k],
-                 points.weight[k] * glowOf(wave.context.scene, *points.material[k]));
 }
 
 inline void addBackground(const Wave& wave, std::size_t ray) {
@@ -65,7 +66,7 @@ template <bool kLampBodies, bool kSeeThrough> void addGlow(const Wave& wave) {
         const Rgb weight = points.weight[here];
         if constexpr (kSeeThrough)
             if (material.opacity < 1 && isBlack(weight)) continue;
-        wave.add(slot, weight * waves::glowOf(scene, material));
+        wave.add(slot, weight * glowOf(material, scene.ambient()));
         if (wave.context.openLamps.empty() || !answersLamps(material)) continue;
         const LitPoint lit = litPoint(wave, here);
         for (const Lamp& lamp : wave.context.openLamps)

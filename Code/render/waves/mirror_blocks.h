@@ -6,28 +6,27 @@
 
 namespace waves {
 
-// Whole runs of points of one material. Returns how many.
+// Runs of mirrors of one material. Returns how many.
 inline std::size_t listMirrors(const PointBatch& points, std::size_t b,
                                std::array<AlikePoints, PointColumns::kPoints>& runs) {
-    const std::size_t first = b * PointColumns::kPoints, size = points.sizeOf(b);
     const auto& material = points.at.block(b).material;
     std::size_t count = 0;
-    for (std::size_t i = 0; i < size;) {
-        const std::size_t begin = i;
-        while (++i < size && material[i] == material[begin]) {
-        }
-        const SceneMaterial& of = points.at.of(first + begin);
-        if (of.isLamp || isBlack(of.base.mirror)) continue;
-        runs[count++] = {(1u << i) - (1u << begin), &of.base, false};
+    for (unsigned rest = points.painted[b].mirrors; rest != 0;) {
+        const auto begin = static_cast<std::size_t>(std::countr_zero(rest));
+        std::size_t end = begin + 1;
+        while ((rest >> end & 1) != 0 && material[end] == material[begin]) ++end;
+        const unsigned run = (1u << end) - (1u << begin);
+        runs[count++] = {run, &points.at.of(b * PointColumns::kPoints + begin).base, false};
+        rest &= ~run;
     }
     return count;
 }
 
 inline void mirrorBlock(const Wave& wave, std::size_t b) {
     const PointBatch& points = wave.memory.points;
+    if (points.painted[b].mirrors == 0) return;
     std::array<AlikePoints, PointColumns::kPoints> runs;
     const std::size_t count = listMirrors(points, b, runs);
-    if (count == 0) return;
     const auto [out, first] = sendFrom(wave, b, std::span(runs).first(count));
     PathBatch& next = wave.memory.next;
     std::size_t to = first, from = b * PointColumns::kPoints;

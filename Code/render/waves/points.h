@@ -189,24 +189,37 @@ inline void prefetchMaterials(const Wave& wave, std::size_t b) {
 // What its points are made of.
 template <bool kTextures> void paintBlock(const Wave& wave, std::size_t b, unsigned& litOutside) {
     const SceneMaterial* const materials = wave.context.scene.materials().data();
+    const MaterialTable& table = wave.context.materials;
     PointBatch& points = wave.memory.points;
-    const PointBlock& block = points.at.block(b);
+    PaintedBlock& painted = points.painted[b];
+    const std::uint32_t* const number = points.at.block(b).material;
     const std::size_t first = b * PointColumns::kPoints, size = points.sizeOf(b);
-    const std::uint32_t one = block.material[0];
+    const unsigned used = points.usedOf(b);
+    const auto bits = [](unsigned of) { return static_cast<std::uint16_t>(of); };
     bool isOne = true;
-    for (std::size_t i = 1; i < size; ++i) isOne &= block.material[i] == one;
-    if (isOne && !(kTextures && materials[one].isTextured())) {
-        std::fill_n(&points.material[first], size, &materials[one].base);
-        points.painted[b] = &materials[one].base;
-        litOutside = materials[one].litOutside ? ~0u : 0;
+    for (std::size_t i = 1; i < size; ++i) isOne &= number[i] == number[0];
+    const auto has = [&](std::uint32_t material, MaterialTable::Trait trait) {
+        return (table.traits(material) & trait) != 0;
+    };
+    if (isOne && !(kTextures && has(number[0], MaterialTable::Textured))) {
+        const Material& all = materials[number[0]].base;
+        std::fill_n(&points.material[first], size, &all);
+        painted = {&all, false, bits(has(number[0], MaterialTable::AnswersLamps) ? used : 0),
+                   bits(has(number[0], MaterialTable::Mirrors) ? used : 0)};
+        litOutside = has(number[0], MaterialTable::LitOutside) ? ~0u : 0;
         return;
     }
-    points.painted[b] = nullptr;
+    unsigned answersLamps = 0, mirrors = 0, textured = 0;
     litOutside = 0;
     for (std::size_t i = 0; i < size; ++i) {
         const std::size_t k = first + i;
-        const SceneMaterial& of = materials[block.material[i]];
-        litOutside |= static_cast<unsigned>(of.litOutside) << i;
+        const SceneMaterial& of = materials[number[i]];
+        const unsigned traits = table.traits(number[i]);
+        const auto bit = [&](MaterialTable::Trait trait) {
+            return static_cast<unsigned>((traits & trait) != 0) << i;
+        };
+        answersLamps |= bit(MaterialTable::AnswersLamps), mirrors |= bit(MaterialTable::Mirrors);
+        litOutside |= bit(MaterialTable::LitOutside), textured |= bit(MaterialTable::Textured);
         points.material[k] = &of.base;
         if constexpr (kTextures)
             if (of.isTextured()) {
@@ -214,6 +227,7 @@ template <bool kTextures> void paintBlock(const Wave& wave, std::size_t b, unsig
                 points.material[k] = &points.textured[k];
             }
     }
+    painted = {nullptr, kTextures && textured != 0, bits(answersLamps), bits(mirrors)};
 }
 
 } // namespace waves
