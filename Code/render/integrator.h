@@ -118,7 +118,8 @@ struct PointBatch {
     std::vector<std::uint32_t> ray;    // ascending
     std::vector<std::uint32_t> missed; // rays that have met nothing, ascending
     std::size_t missedCount = 0;
-    std::vector<std::uint32_t> slot; // of its sample
+    std::vector<std::uint32_t> slot;  // of its sample
+    std::vector<std::uint32_t> shape; // that it is on
     PointColumns at;
     std::vector<const Material*> material; // numbers at this point
     std::vector<PaintedBlock> painted;     // by block
@@ -131,8 +132,8 @@ struct PointBatch {
         if (most == 0 || ray.size() >= most) return;
         at.resize(most);
         const std::size_t room = at.size();
-        ray.resize(room), missed.resize(room), slot.resize(room), material.resize(room),
-            textured.resize(room), weight.resize(room);
+        ray.resize(room), missed.resize(room), slot.resize(room), shape.resize(room),
+            material.resize(room), textured.resize(room), weight.resize(room);
         painted.resize(room / PointColumns::kPoints);
     }
     std::size_t blocks() const {

@@ -52,6 +52,7 @@ inline void fillInLanes(const Wave& wave, std::size_t b, LitBlock& block) {
     const std::size_t first = b * PointColumns::kPoints, size = points.sizeOf(b);
     lanes.light(points.at.block(b), &points.weight[first], points.usedOf(b), block);
     if (const Material* const all = points.painted[b].all) return lanes.paint(*all, block);
+    if (size == PointColumns::kPoints) return lanes.paintEach(&points.material[first], block);
     for (unsigned& shiny : block.shiny) shiny = 0;
     for (std::size_t i = 0; i < size; ++i) paintPoint(*points.material[first + i], i, block);
 }
@@ -79,10 +80,8 @@ inline void fillBlocks(const Wave& wave) {
             fillInLanes(wave, here[0] / LitBlock::kPoints, block);
         else
             fillOneByOne(memory, here, block);
-        for (std::size_t i = 0; i < here.size(); ++i) {
-            block.point[i] = here[i];
-            block.shape[i] = memory.hits[memory.points.ray[here[i]]].shape;
-        }
+        std::copy(here.begin(), here.end(), block.point);
+        for (std::size_t i = 0; i < here.size(); ++i) block.shape[i] = memory.points.shape[here[i]];
     }
 }
 

@@ -4,27 +4,36 @@
 
 #include "render/waves/lamp_light.h"
 
+#include <array>
+
 namespace waves {
 
-// Of points that are neither lamps nor looked through.
-inline void addGlowOfBlock(const Wave& wave, std::size_t b) {
+using BlockGlow = std::array<Rgb, PointColumns::kPoints>;
+
+// Of points that are neither lamps nor looked through, where every sample has one of them; `glow`
+// keeps what the last block had.
+inline void addGlowOfBlock(const Wave& wave, std::size_t b, BlockGlow& glow,
+                           const Material*& glowIsOf) {
     const PointBatch& points = wave.memory.points;
     const MaterialTable& materials = wave.context.materials;
+    const PaintedBlock& painted = points.painted[b];
     const std::size_t first = b * PointColumns::kPoints, size = points.sizeOf(b);
-    const std::uint32_t *const slot = &points.slot[first], *const number =
-                                                               points.at.block(b).material;
+    const std::uint32_t* const number = points.at.block(b).material;
+    if (painted.isTextured)
+        for (std::size_t i = 0; i < size; ++i)
+            glow[i] = glowOf(*points.material[first + i], wave.context.scene.ambient());
+    else if (painted.all == nullptr)
+        for (std::size_t i = 0; i < size; ++i) glow[i] = materials.glow(number[i]);
+    else if (painted.all != glowIsOf)
+        glow.fill(materials.glow(number[0]));
+    glowIsOf = painted.all;
+
+    const std::uint32_t* const slot = &points.slot[first];
     const Rgb* const weight = &points.weight[first];
-    if (points.painted[b].isTextured) {
-        for (std::size_t i = 0; i < size; ++i)
-            wave.add(slot[i],
-                     weight[i] * glowOf(*points.material[first + i], wave.context.scene.ambient()));
-    } else if (points.painted[b].all != nullptr) {
-        const Rgb glow = materials.glow(number[0]);
-        for (std::size_t i = 0; i < size; ++i) wave.add(slot[i], weight[i] * glow);
-    } else {
-        for (std::size_t i = 0; i < size; ++i)
-            wave.add(slot[i], weight[i] * materials.glow(number[i]));
-    }
+    if (size == glow.size() && slot[size - 1] - slot[0] == size - 1 && // they ascend
+        wave.context.shadeLanes.glow != nullptr)
+        return wave.context.shadeLanes.glow(weight, glow.data(), &wave.chunk.radiance[slot[0]]);
+    for (std::size_t i = 0; i < size; ++i) wave.add(slot[i], weight[i] * glow[i]);
 }
 
 inline void addBackground(const Wave& wave, std::size_t ray) {
@@ -39,7 +48,10 @@ inline void addPlainGlow(const Wave& wave) {
     const PointBatch& points = wave.memory.points;
     for (const std::uint32_t ray : std::span(points.missed).first(points.missedCount))
         waves::addBackground(wave, ray);
-    for (std::size_t b = 0; b < points.blocks(); ++b) waves::addGlowOfBlock(wave, b);
+    waves::BlockGlow glow;
+    const Material* glowIsOf = nullptr;
+    for (std::size_t b = 0; b < points.blocks(); ++b)
+        waves::addGlowOfBlock(wave, b, glow, glowIsOf);
 }
 
 template <bool kLampBodies, bool kSeeThrough> void addGlow(const Wave& wave) {

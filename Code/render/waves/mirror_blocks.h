@@ -29,11 +29,21 @@ inline void mirrorBlock(const Wave& wave, std::size_t b) {
     const std::size_t count = listMirrors(points, b, runs);
     const auto [out, first] = sendFrom(wave, b, std::span(runs).first(count));
     PathBatch& next = wave.memory.next;
-    std::size_t to = first, from = b * PointColumns::kPoints;
-    for (std::uint32_t rest = out.rays; rest != 0; rest &= rest - 1, ++to) { // two bits for each
-        const std::size_t k = from + static_cast<std::size_t>(std::countr_zero(rest)) / 2;
-        next.sample[to] = points.slot[k], next.time[to] = wave.rays.time[points.ray[k]];
+    const std::size_t from = b * PointColumns::kPoints;
+    if (out.reflected == PointColumns::kPoints) {
+        std::copy_n(&points.slot[from], PointColumns::kPoints, &next.sample[first]);
+    } else {
+        std::size_t to = first;
+        for (std::uint32_t rest = out.rays; rest != 0; rest &= rest - 1) // two bits for each
+            next.sample[to++] =
+                points.slot[from + static_cast<std::size_t>(std::countr_zero(rest)) / 2];
     }
+    std::fill_n(next.time.data() + first, out.reflected, wave.rays.time[0]);
+    if (!wave.context.scene.moves()) return;
+    std::size_t to = first;
+    for (std::uint32_t rest = out.rays; rest != 0; rest &= rest - 1)
+        next.time[to++] =
+            wave.rays.time[points.ray[from + static_cast<std::size_t>(std::countr_zero(rest)) / 2]];
 }
 
 } // namespace waves

@@ -63,10 +63,11 @@ inline void takeSamples(const PathBatch& rays, std::size_t b, PointBatch& points
 template <bool kHasBalls> void sortPoints(const Wave& wave) {
     const StillsInLanes& stills = wave.context.stillsInLanes;
     const std::vector<Hit>& hits = wave.memory.hits;
-    const PointBatch& points = wave.memory.points;
+    PointBatch& points = wave.memory.points;
     const bool hasStills = !stills.shapes.empty();
     for (std::uint32_t k = 0; k < points.count; ++k) {
         const std::uint32_t ray = points.ray[k], shape = hits[ray].shape;
+        points.shape[k] = shape;
         if constexpr (kHasBalls)
             if (stills.balls.has(shape)) {
                 prefetch(stills.balls[shape]);
