@@ -3,9 +3,13 @@
 
 namespace {
 
-// The numbers of a ball for each lane; lanes behind the last hit repeat it.
-class NumbersOfBalls {
+// The numbers of a ball for each lane; lanes behind the last hit repeat it. The zeros of their maps
+// may be left out where no coordinate is -0: they add +0 or -0 to a product, which changes nothing
+// but -0, and sums of others never are that.
+template <bool kWithoutZeros> class NumbersOfBalls {
 public:
+    static constexpr bool kScales = kWithoutZeros;
+
     // Writes whose surfaces they are.
     NumbersOfBalls(const BallsMet& met, std::span<const std::uint32_t> which, SurfacesInLanes& out)
         : scale_(met.balls.shared().scale), back_(met.balls.shared().back),
@@ -48,6 +52,12 @@ private:
     alignas(64) double centre_[3][W], radius_[W], leastError_[W];
 };
 
+inline bool mayHaveZeros(const RaysInLanes& rays, const StillBalls::Shared& maps) {
+    if (!(maps.scale > 0 && maps.back > 0)) return true;
+    const auto least = [](const Doubles3& v) { return min(min(abs(v.x), abs(v.y)), abs(v.z)); };
+    return atMost(min(least(rays.org), least(rays.dir)), Doubles(0.0)) != 0;
+}
+
 } // namespace
 
 void ballSurfaces(const BallsMet& met, SurfacePlaces out) {
@@ -56,8 +66,10 @@ void ballSurfaces(const BallsMet& met, SurfacePlaces out) {
         const std::size_t count = std::min<std::size_t>(W, met.which.size() - first);
         const auto which = met.which.subspan(first, count);
         const RaysInLanes rays = raysOf(met.rays, met.hits, which);
-        const NumbersOfBalls balls(met, which, found);
-        describe<Kind::Sphere>(balls, rays, rays.dir, found);
+        if (mayHaveZeros(rays, met.balls.shared()))
+            describe<Kind::Sphere>(NumbersOfBalls<false>(met, which, found), rays, rays.dir, found);
+        else
+            describe<Kind::Sphere>(NumbersOfBalls<true>(met, which, found), rays, rays.dir, found);
         found.put(met.to.subspan(first, count), out);
     }
 }
