@@ -52,10 +52,18 @@ private:
     alignas(64) double centre_[3][W], radius_[W], leastError_[W];
 };
 
-inline bool mayHaveZeros(const RaysInLanes& rays, const StillBalls::Shared& maps) {
-    if (!(maps.scale > 0 && maps.back > 0)) return true;
+inline bool mayLeaveOutZeros(const RaysInLanes& rays, const StillBalls::Shared& maps) {
+    const Doubles zero(0.0);
     const auto least = [](const Doubles3& v) { return min(min(abs(v.x), abs(v.y)), abs(v.z)); };
-    return atMost(min(least(rays.org), least(rays.dir)), Doubles(0.0)) != 0;
+    const auto isNegative = [&](const Doubles& x) {
+        return atMost(abs(x), zero) & less(withSign(Doubles(1.0), x), zero);
+    };
+    if (!(maps.scale > 0 && maps.back > 0)) return false;
+    if (atMost(min(least(rays.org), least(rays.dir)), zero) == 0) return true;
+    unsigned negative = 0;
+    for (const Doubles3& v : {rays.org, rays.dir})
+        negative |= isNegative(v.x) | isNegative(v.y) | isNegative(v.z);
+    return negative == 0;
 }
 
 } // namespace
@@ -66,10 +74,10 @@ void ballSurfaces(const BallsMet& met, SurfacePlaces out) {
         const std::size_t count = std::min<std::size_t>(W, met.which.size() - first);
         const auto which = met.which.subspan(first, count);
         const RaysInLanes rays = raysOf(met.rays, met.hits, which);
-        if (mayHaveZeros(rays, met.balls.shared()))
-            describe<Kind::Sphere>(NumbersOfBalls<false>(met, which, found), rays, rays.dir, found);
-        else
+        if (mayLeaveOutZeros(rays, met.balls.shared()))
             describe<Kind::Sphere>(NumbersOfBalls<true>(met, which, found), rays, rays.dir, found);
+        else
+            describe<Kind::Sphere>(NumbersOfBalls<false>(met, which, found), rays, rays.dir, found);
         found.put(met.to.subspan(first, count), out);
     }
 }

@@ -173,20 +173,6 @@ template <bool kMayBend> void seeBlock(const Wave& wave, std::size_t b, unsigned
     }
 }
 
-// The materials of a block that is painted soon, for all who look at their numbers then.
-inline void prefetchMaterials(const Wave& wave, std::size_t b) {
-    const PointBatch& points = wave.memory.points;
-    if (b >= points.blocks()) return;
-    const SceneMaterial* const materials = wave.context.scene.materials().data();
-    const auto& numbers = points.at.block(b).material;
-    std::uint32_t last = MediumTree::kOutside;
-    for (std::size_t i = 0; i < points.sizeOf(b); ++i) {
-        if (numbers[i] == last) continue;
-        last = numbers[i];
-        prefetch(materials[last].base);
-    }
-}
-
 // What its points are made of.
 template <bool kTextures> void paintBlock(const Wave& wave, std::size_t b, unsigned& litOutside) {
     const SceneMaterial* const materials = wave.context.scene.materials().data();
@@ -243,7 +229,6 @@ template <bool kTextures, bool kSeeThrough> void findPoints(const Wave& wave) {
     if constexpr (kTextures) wave.memory.texturedPoints.clear();
     for (std::size_t b = 0; b < points.blocks(); ++b) {
         unsigned litOutside = 0;
-        waves::prefetchMaterials(wave, b + 2);
         waves::paintBlock<kTextures>(wave, b, litOutside);
         waves::seeBlock<kTextures>(wave, b, litOutside);
     }
