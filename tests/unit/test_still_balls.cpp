@@ -50,13 +50,17 @@ TEST(ball_surfaces_are_those_of_single_hits) {
     Random random(3311);
     std::size_t compared = 0;
     for (int i = 0; i < check::scaled(200); ++i) {
+        // Zeros of places, origins and directions; lanes do without the maps' own where no ray has
+        // a -0.
+        const bool hasNegativeZeros = i % 3 == 0, isAlongAxes = i % 3 != 1;
         const Transform scale = Transform::scale(i % 2 == 0 ? 1 : random.logUniform(1e-3, 1e3));
         std::vector<std::unique_ptr<const Sphere>> spheres;
         StillBalls balls;
         balls.resize(5);
         for (std::uint32_t k = 0; k < 5; ++k) {
             Vec3d place = random.inBox(5);
-            if (random.chance(0.3)) place[random.below(3)] = random.coin() ? 0.0 : -0.0;
+            if (random.chance(0.3))
+                place[random.below(3)] = random.coin() || i % 3 == 2 ? 0.0 : -0.0;
             spheres.push_back(std::make_unique<const Sphere>(
                 Transform::translate(place) * scale, random.logUniform(1e-3, 1), 7 + k, 9 + k));
             balls.take(k, *spheres.back()->stillToShade());
@@ -71,9 +75,10 @@ TEST(ball_surfaces_are_those_of_single_hits) {
             Vec3d from = map.point(random.inBox(3));
             const Vec3d at = map.translation();
             // Along an axis: then numbers are 0, with either sign.
-            if (random.chance(0.3)) from[random.below(3)] = at[random.below(3)];
+            if (isAlongAxes && random.chance(0.3)) from[random.below(3)] = at[random.below(3)];
             org.push_back(toFloat(from)), dir.push_back(toFloat(at - from));
-            if (random.chance(0.2)) dir.back()[random.below(3)] = random.coin() ? 0.0f : -0.0f;
+            if (random.chance(0.2))
+                dir.back()[random.below(3)] = hasNegativeZeros && random.coin() ? -0.0f : 0.0f;
             tMin.push_back(0), tMax.push_back(kInfinityF), time.push_back(0);
             hits.emplace_back();
             if (balls.isEmpty() || !balls.has(number)) continue;
