@@ -3,12 +3,14 @@
 
 namespace {
 
-// The numbers of a ball for each lane; lanes behind the last hit repeat it. The zeros of their maps
-// may be left out where no coordinate is -0: they add +0 or -0 to a product, which changes nothing
-// but -0, and sums of others never are that.
-template <bool kWithoutZeros> class NumbersOfBalls {
+// The numbers of a ball for each lane; lanes behind the last hit repeat it.
+class NumbersOfBalls {
 public:
-    static constexpr bool kScales = kWithoutZeros;
+    // The zeros of the maps are left out: they would add +0 or -0 to a product, which changes
+    // nothing but the sign of a zero. Points lose that sign where the offset is added, which is not
+    // 0; what is mapped without an offset are differences and what is made of sums, whose zeros are
+    // +0 and stay so under a map that does not mirror.
+    static constexpr bool kScales = true;
 
     // Writes whose surfaces they are.
     NumbersOfBalls(const BallsMet& met, std::span<const std::uint32_t> which, SurfacesInLanes& out)
@@ -52,20 +54,6 @@ private:
     alignas(64) double centre_[3][W], radius_[W], leastError_[W];
 };
 
-inline bool mayLeaveOutZeros(const RaysInLanes& rays, const StillBalls::Shared& maps) {
-    const Doubles zero(0.0);
-    const auto least = [](const Doubles3& v) { return min(min(abs(v.x), abs(v.y)), abs(v.z)); };
-    const auto isNegative = [&](const Doubles& x) {
-        return atMost(abs(x), zero) & less(withSign(Doubles(1.0), x), zero);
-    };
-    if (!(maps.scale > 0 && maps.back > 0)) return false;
-    if (atMost(min(least(rays.org), least(rays.dir)), zero) == 0) return true;
-    unsigned negative = 0;
-    for (const Doubles3& v : {rays.org, rays.dir})
-        negative |= isNegative(v.x) | isNegative(v.y) | isNegative(v.z);
-    return negative == 0;
-}
-
 } // namespace
 
 void ballSurfaces(const BallsMet& met, SurfacePlaces out) {
@@ -74,10 +62,8 @@ void ballSurfaces(const BallsMet& met, SurfacePlaces out) {
         const std::size_t count = std::min<std::size_t>(W, met.which.size() - first);
         const auto which = met.which.subspan(first, count);
         const RaysInLanes rays = raysOf(met.rays, met.hits, which);
-        if (mayLeaveOutZeros(rays, met.balls.shared()))
-            describe<Kind::Sphere>(NumbersOfBalls<true>(met, which, found), rays, rays.dir, found);
-        else
-            describe<Kind::Sphere>(NumbersOfBalls<false>(met, which, found), rays, rays.dir, found);
+        const NumbersOfBalls balls(met, which, found);
+        describe<Kind::Sphere>(balls, rays, rays.dir, found);
         found.put(met.to.subspan(first, count), out);
     }
 }

@@ -67,7 +67,7 @@ template <Kind kKind> struct NumbersOfMany {
     alignas(64) double of[kNumbers][W];
 };
 
-// Do its maps scale all axes alike and turn nothing, and may their zeros be left out?
+// Do its maps scale all axes alike and turn nothing, and are their zeros left out?
 template <class Numbers> constexpr bool kOnlyScales = requires { requires Numbers::kScales; };
 
 // Rows i, i + step .. of a map's linear part.
