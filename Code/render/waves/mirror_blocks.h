@@ -30,20 +30,21 @@ inline void mirrorBlock(const Wave& wave, std::size_t b) {
     const auto [out, first] = sendFrom(wave, b, std::span(runs).first(count));
     PathBatch& next = wave.memory.next;
     const std::size_t from = b * PointColumns::kPoints;
-    if (out.reflected == PointColumns::kPoints) {
+    const auto forEachRay = [&, first = first, rays = out.rays](const auto& fn) {
+        std::size_t ray = first;
+        for (std::uint32_t rest = rays; rest != 0; rest &= rest - 1) // two bits for each point
+            fn(ray++, from + static_cast<std::size_t>(std::countr_zero(rest)) / 2);
+    };
+    if (out.reflected == PointColumns::kPoints)
         std::copy_n(&points.slot[from], PointColumns::kPoints, &next.sample[first]);
-    } else {
-        std::size_t to = first;
-        for (std::uint32_t rest = out.rays; rest != 0; rest &= rest - 1) // two bits for each
-            next.sample[to++] =
-                points.slot[from + static_cast<std::size_t>(std::countr_zero(rest)) / 2];
-    }
-    std::fill_n(next.time.data() + first, out.reflected, wave.rays.time[0]);
-    if (!wave.context.scene.moves()) return;
-    std::size_t to = first;
-    for (std::uint32_t rest = out.rays; rest != 0; rest &= rest - 1)
-        next.time[to++] =
-            wave.rays.time[points.ray[from + static_cast<std::size_t>(std::countr_zero(rest)) / 2]];
+    else
+        forEachRay([&](std::size_t ray, std::size_t k) { next.sample[ray] = points.slot[k]; });
+    if (wave.context.scene.moves())
+        forEachRay([&](std::size_t ray, std::size_t k) {
+            next.time[ray] = wave.rays.time[points.ray[k]];
+        });
+    else
+        std::fill_n(next.time.data() + first, out.reflected, wave.rays.time[0]);
 }
 
 } // namespace waves
