@@ -46,8 +46,14 @@ inline void addBackground(const Wave& wave, std::size_t ray) {
 // Where every sample has one ray: nobody asks for an order.
 inline void addPlainGlow(const Wave& wave) {
     const PointBatch& points = wave.memory.points;
-    for (const std::uint32_t ray : std::span(points.missed).first(points.missedCount))
-        waves::addBackground(wave, ray);
+    const auto missed = std::span(points.missed).first(points.missedCount);
+    if (wave.context.scene.hasEnvironment()) {
+        for (const std::uint32_t ray : missed) waves::addBackground(wave, ray);
+    } else {
+        const Rgb background = wave.context.scene.background({});
+        for (const std::uint32_t ray : missed)
+            wave.add(wave.rays.sample[ray], wave.rays.weight[ray] * background);
+    }
     waves::BlockGlow glow;
     const Material* glowIsOf = nullptr;
     for (std::size_t b = 0; b < points.blocks(); ++b)
