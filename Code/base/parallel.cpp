@@ -1,5 +1,7 @@
 #include "base/parallel.h"
 
+#include "base/processors.h"
+
 #include <cfenv>
 #include <iterator>
 #include <new>
@@ -22,25 +24,24 @@ std::uint32_t changed(const std::atomic<std::uint32_t>& value, std::uint32_t old
         _mm_pause();
 #endif
     }
+    const WokenApart apart;
     value.wait(old);
     return value.load();
 }
 
-bool haveOwnProcessors(int threads) {
-    static const int processors = hardwareThreads();
-    return threads <= processors;
-}
+bool haveOwnProcessors(int threads) { return threads <= hardwareThreads(); }
 
 } // namespace
 
 int hardwareThreads() {
-    const unsigned count = std::thread::hardware_concurrency(); // 0 when unknown
-    return count > 0 ? static_cast<int>(count) : 1;
+    // Asked once: a thread that is confined for a while would get another answer.
+    static const int count = static_cast<int>(std::thread::hardware_concurrency());
+    return count > 0 ? count : 1; // 0: unknown
 }
 
 // A thread that serves one pool after the other.
 struct ThreadPool::Helper {
-    Helper() : thread([this] { live(); }) {}
+    Helper() : thread([this] { live(); }) { startApart(thread, hasBegun); }
     ~Helper() {
         hire(nullptr, 0);
         thread.join();
@@ -58,10 +59,11 @@ struct ThreadPool::Helper {
         for (std::uint32_t now = turn; now % 2 == 1;) now = changed(turn, now, true);
     }
     void live() {
+        beginApart(hasBegun);
         for (;;) {
             std::uint32_t now = turn;
             while (now % 2 == 0) now = changed(turn, now, haveOwnProcessors(2));
-            if (!pool) return;
+            if (!pool) return leaveProcessor();
             pool->serve(worker);
             ++turn;
             turn.notify_one();
@@ -71,6 +73,7 @@ struct ThreadPool::Helper {
     std::atomic<std::uint32_t> turn{0}; // odd: it belongs to a pool
     ThreadPool* pool = nullptr;         // nullptr: the end
     int worker = 0;
+    std::atomic<bool> hasBegun{false};
     std::thread thread; // last: it finds the rest ready
 };
 
@@ -115,7 +118,7 @@ ThreadPool::Crew& ThreadPool::crew() {
 }
 
 ThreadPool::ThreadPool(int threads) {
-    const int count = threads > 0 ? threads : hardwareThreads();
+    const int processors = hardwareThreads(), count = threads > 0 ? threads : processors;
     if (count > 1) helpers_ = crew().take(static_cast<std::size_t>(count) - 1);
     int worker = 0;
     for (const auto& helper : helpers_) helper->hire(this, ++worker);
@@ -141,6 +144,7 @@ bool ThreadPool::run(std::size_t count, const std::function<void(std::size_t, in
     error_ = nullptr;
     const bool alone = helpers_.empty() || count <= 1;
     if (!alone) {
+        takeProcessor();
         ++generation_;
         generation_.notify_all();
     }
