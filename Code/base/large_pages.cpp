@@ -1,6 +1,7 @@
 #include "base/large_pages.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
@@ -17,7 +18,12 @@ namespace {
 
 [[maybe_unused]] constexpr std::size_t kPage = std::size_t{1} << 21;
 
-[[maybe_unused]] void* filler = nullptr; // of the heap; tools that look for leaks find it here
+// What a heap gets more than it needs when it grows, or begins.
+[[maybe_unused]] constexpr std::size_t kPad = std::size_t{1} << 23;
+[[maybe_unused]] std::atomic<bool> hasLargePages{false};
+
+// Of a heap, by thread; tools that look for leaks find it here.
+[[maybe_unused]] thread_local void* filler = nullptr;
 
 #if defined(__linux__)
 
@@ -76,7 +82,7 @@ void freeZeroedMemory(void* memory, [[maybe_unused]] std::size_t bytes) {
 void useLargePages([[maybe_unused]] std::size_t bytes) {
 #if defined(__GLIBC__)
     constexpr std::size_t kMost = std::size_t{1} << 30, kRecord = 256, kSome = 1 << 15;
-    constexpr int kPad = 1 << 20, kLargestArray = 1 << 22;
+    constexpr int kLargestArray = 1 << 22;
     const std::size_t room = std::min(bytes, kMost);
     const auto addressOf = [](const void* p) { return reinterpret_cast<std::uintptr_t>(p); };
     // Where the free end of the heap begins: what has been freed in front of it are smaller pieces.
@@ -98,6 +104,22 @@ void useLargePages([[maybe_unused]] std::size_t bytes) {
         if (filler && start < first && first < page && page < end)
             adviseLargePages(filler, end - first);
     }
-    mallopt(M_TOP_PAD, kPad);
+    hasLargePages = mallopt(M_TOP_PAD, static_cast<int>(kPad)) != 0;
+#endif
+}
+
+void useLargePagesInThread() {
+#if defined(__GLIBC__)
+    if (!hasLargePages) return;
+    // With its first piece malloc gives a thread a heap of its own, which begins at a multiple of
+    // the size that it may get. Its first page is touched then: another piece is to fill that.
+    constexpr std::uintptr_t kHeap = std::uintptr_t{1} << 26, kStart = 1 << 13;
+    constexpr std::size_t kSome = 1 << 12;
+    void* const first = std::malloc(kSome);
+    const auto address = reinterpret_cast<std::uintptr_t>(first), heap = address / kHeap * kHeap;
+    // Tools that watch the memory have a malloc of their own.
+    if (!first || address - heap > kStart) return std::free(first);
+    filler = std::realloc(first, heap + kPage - address - kSome);
+    adviseLargePages(reinterpret_cast<void*>(heap + kPage), kPad - kPage);
 #endif
 }

@@ -10,6 +10,9 @@ void adviseLargePages(void* memory, std::size_t bytes);
 // The same for what malloc will hand out next, to the main thread: about so many bytes in small and
 // large pieces. They stay with the program when they are freed.
 void useLargePages(std::size_t bytes);
+// After that, for the first megabytes of what malloc will hand out to this thread, which is another
+// one and has not asked for any. What it is to write belongs to it from the first touch on.
+void useLargePagesInThread();
 
 // Zeros that nobody has written, in such pages; nullptr when there is no memory.
 void* zeroedMemory(std::size_t bytes);

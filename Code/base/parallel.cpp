@@ -1,5 +1,6 @@
 #include "base/parallel.h"
 
+#include "base/large_pages.h"
 #include "base/processors.h"
 
 #include <cfenv>
@@ -60,6 +61,7 @@ struct ThreadPool::Helper {
     }
     void live() {
         beginApart(hasBegun);
+        useLargePagesInThread();
         for (;;) {
             std::uint32_t now = turn;
             while (now % 2 == 0) now = changed(turn, now, haveOwnProcessors(2));
