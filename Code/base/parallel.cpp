@@ -16,17 +16,30 @@
 
 namespace {
 
-// Waits until the value is not `old` any more. What comes next is often a few microseconds away,
-// and waking up takes 50: a thread that has a processor of its own stays awake for that long.
-std::uint32_t changed(const std::atomic<std::uint32_t>& value, std::uint32_t old, bool staysAwake) {
+// What comes next is often a few microseconds away, and waking up takes 50: a thread that has a
+// processor of its own stays awake for that long. Says whether the value is not `old` any more.
+bool changesSoon(const std::atomic<std::uint32_t>& value, std::uint32_t old, bool staysAwake) {
     for (int i = staysAwake ? 2000 : 0; i > 0; --i) {
-        if (const std::uint32_t now = value.load(); now != old) return now;
+        if (value.load() != old) return true;
 #if defined(__SSE2__)
         _mm_pause();
 #endif
     }
-    const WokenApart apart;
-    value.wait(old);
+    return false;
+}
+
+// Waits until the value is not `old` any more.
+std::uint32_t changed(const std::atomic<std::uint32_t>& value, std::uint32_t old, bool staysAwake) {
+    if (!changesSoon(value, old, staysAwake)) value.wait(old);
+    return value.load();
+}
+// The same for a helper, whom somebody wakes that goes on working.
+std::uint32_t changedApart(const std::atomic<std::uint32_t>& value, std::uint32_t old,
+                           bool staysAwake) {
+    if (!changesSoon(value, old, staysAwake)) {
+        const WokenApart apart;
+        value.wait(old);
+    }
     return value.load();
 }
 
@@ -64,8 +77,8 @@ struct ThreadPool::Helper {
         useLargePagesInThread();
         for (;;) {
             std::uint32_t now = turn;
-            while (now % 2 == 0) now = changed(turn, now, haveOwnProcessors(2));
-            if (!pool) return leaveProcessor();
+            while (now % 2 == 0) now = changedApart(turn, now, haveOwnProcessors(2));
+            if (!pool) return;
             pool->serve(worker);
             ++turn;
             turn.notify_one();
@@ -121,7 +134,9 @@ ThreadPool::Crew& ThreadPool::crew() {
 
 ThreadPool::ThreadPool(int threads) {
     const int processors = hardwareThreads(), count = threads > 0 ? threads : processors;
-    if (count > 1) helpers_ = crew().take(static_cast<std::size_t>(count) - 1);
+    if (count == 1) return;
+    takeProcessor();
+    helpers_ = crew().take(static_cast<std::size_t>(count) - 1);
     int worker = 0;
     for (const auto& helper : helpers_) helper->hire(this, ++worker);
 }
@@ -171,7 +186,7 @@ void ThreadPool::serve(int worker) {
             if (generation_ == seen) work(worker);
             if (--inside_ == 0) inside_.notify_one();
         }
-        seen = changed(generation_, seen, staysAwake);
+        seen = changedApart(generation_, seen, staysAwake);
     }
 }
 

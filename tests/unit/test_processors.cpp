@@ -1,5 +1,5 @@
-// Threads of a pool sleep so that they are not woken where another one of them is, and may run
-// anywhere while they work.
+// Threads of a pool sleep so that they are not woken where their caller is, and may run anywhere
+// while they work.
 #include "base/parallel.h"
 #include "check.h"
 
@@ -64,8 +64,8 @@ TEST(processors_sleepers_keep_away) {
     CHECK_EQUAL(sched_setaffinity(0, sizeof all, &all), 0);
 }
 
-// More threads than processors are left to the system, which then has no place to keep free.
-TEST(processors_too_few) {
+// Also where there are more threads than processors.
+TEST(processors_all_for_work) {
     const cpu_set_t all = processorsOf(0);
     const int threads = 2 * CPU_COUNT(&all) + 1;
     ThreadPool pool(threads);
