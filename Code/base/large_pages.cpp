@@ -18,9 +18,9 @@ namespace {
 
 [[maybe_unused]] constexpr std::size_t kPage = std::size_t{1} << 21;
 
-// What a heap gets more than it needs when it grows, or begins.
-[[maybe_unused]] constexpr std::size_t kPad = std::size_t{1} << 23;
-[[maybe_unused]] std::atomic<bool> hasLargePages{false};
+// What a thread's heap begins with.
+[[maybe_unused]] constexpr std::size_t kThreadHeap = std::size_t{1} << 23;
+[[maybe_unused]] std::atomic<bool> threadsHaveLargePages{false};
 
 // Of a heap, by thread; tools that look for leaks find it here.
 [[maybe_unused]] thread_local void* filler = nullptr;
@@ -79,7 +79,7 @@ void freeZeroedMemory(void* memory, [[maybe_unused]] std::size_t bytes) {
     std::free(memory);
 }
 
-void useLargePages([[maybe_unused]] std::size_t bytes) {
+void useLargePages([[maybe_unused]] std::size_t bytes, [[maybe_unused]] bool inThreads) {
 #if defined(__GLIBC__)
     constexpr std::size_t kMost = std::size_t{1} << 30, kRecord = 256, kSome = 1 << 15;
     constexpr int kLargestArray = 1 << 22;
@@ -104,13 +104,15 @@ void useLargePages([[maybe_unused]] std::size_t bytes) {
         if (filler && start < first && first < page && page < end)
             adviseLargePages(filler, end - first);
     }
-    hasLargePages = mallopt(M_TOP_PAD, static_cast<int>(kPad)) != 0;
+    // What heaps get more than they need when they grow, or begin.
+    const std::size_t pad = inThreads ? kThreadHeap : kPage / 2;
+    threadsHaveLargePages = mallopt(M_TOP_PAD, static_cast<int>(pad)) != 0 && inThreads;
 #endif
 }
 
 void useLargePagesInThread() {
 #if defined(__GLIBC__)
-    if (!hasLargePages) return;
+    if (!threadsHaveLargePages) return;
     // With its first piece malloc gives a thread a heap of its own, which begins at a multiple of
     // the size that it may get. Its first page is touched then: another piece is to fill that.
     constexpr std::uintptr_t kHeap = std::uintptr_t{1} << 26, kStart = 1 << 13;
@@ -120,6 +122,6 @@ void useLargePagesInThread() {
     // Tools that watch the memory have a malloc of their own.
     if (!first || address - heap > kStart) return std::free(first);
     filler = std::realloc(first, heap + kPage - address - kSome);
-    adviseLargePages(reinterpret_cast<void*>(heap + kPage), kPad - kPage);
+    adviseLargePages(reinterpret_cast<void*>(heap + kPage), kThreadHeap - kPage);
 #endif
 }

@@ -1,4 +1,5 @@
-// What a thread allocates lies in large pages, but for the start of its first piece, where malloc is glibc's.
+// What a thread allocates lies in large pages, but for the start of its first piece, where malloc
+// is glibc's.
 #include "base/large_pages.h"
 #include "check.h"
 
@@ -30,7 +31,7 @@ std::string flagsOf(std::uintptr_t address) {
 } // namespace
 
 TEST(large_pages_in_threads) {
-    useLargePages(1 << 20);
+    useLargePages(1 << 20, true);
     std::thread([] {
         useLargePagesInThread();
         constexpr std::size_t kSize = 50000, kHeap = std::size_t{1} << 26, kPage = 1 << 21;
