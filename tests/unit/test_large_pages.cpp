@@ -3,13 +3,24 @@
 #include "base/large_pages.h"
 #include "check.h"
 
-#if defined(__GLIBC__)
+// Sanitizers have a malloc of their own.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define HAS_OTHER_MALLOC
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define HAS_OTHER_MALLOC
+#endif
+#endif
 
+#if defined(__GLIBC__) && !defined(HAS_OTHER_MALLOC)
+
+#include <atomic>
 #include <cstdint>
 #include <fstream>
 #include <memory>
 #include <string>
 #include <thread>
+#include <vector>
 
 namespace {
 
@@ -30,19 +41,32 @@ std::string flagsOf(std::uintptr_t address) {
 
 } // namespace
 
+// Threads get heaps that others have left, first: one of many that live at a time has a new one.
 TEST(large_pages_in_threads) {
     useLargePages(1 << 20, true);
-    std::thread([] {
-        useLargePagesInThread();
-        constexpr std::size_t kSize = 50000, kHeap = std::size_t{1} << 26, kPage = 1 << 21;
-        const auto piece = std::make_unique<char[]>(kSize);
-        const auto address = reinterpret_cast<std::uintptr_t>(piece.get());
-        const std::string flags = flagsOf(address + kSize - 1);
-        if (flags.empty() || address % kHeap > 4 * kPage) return; // the malloc of a sanitizer
-        CHECK_INFO(flags.find(" hg ") != std::string::npos, flags);
-        // No more than the end of a page of small ones comes before.
-        CHECK_INFO(address % kHeap + kSize >= kPage, address % kHeap);
-    }).join();
+    constexpr int kMost = 128;
+    std::atomic<bool> done{false}, advised{false}, known{true};
+    std::atomic<int> looked{0};
+    std::vector<std::thread> threads;
+    for (int i = 0; i < kMost && !advised && known; ++i) {
+        threads.emplace_back([&] {
+            useLargePagesInThread();
+            constexpr std::size_t kSize = 50000; // more than what is left of the small pages
+            const auto piece = std::make_unique<char[]>(kSize);
+            const std::string flags =
+                flagsOf(reinterpret_cast<std::uintptr_t>(piece.get()) + kSize - 1);
+            if (flags.empty()) known = false;
+            if (flags.find(" hg ") != std::string::npos) advised = true;
+            ++looked;
+            looked.notify_one();
+            done.wait(false);
+        });
+        looked.wait(i);
+    }
+    done = true;
+    done.notify_all();
+    for (std::thread& thread : threads) thread.join();
+    CHECK_INFO(advised || !known, "none of " << threads.size() << " threads");
 }
 
 #endif
