@@ -307,3 +307,15 @@ inline std::uint32_t element(__m128i four, int i) {
     _mm_store_si128(reinterpret_cast<__m128i*>(all), four);
     return all[i & 3];
 }
+
+// Keys in descending order.
+inline Keys sortedKeys(Keys keys) {
+    std::sort(keys.v, keys.v + W, [](std::uint32_t a, std::uint32_t b) { return a > b; });
+    return keys;
+}
+inline Keys pickAll(const Keys& keys, const std::uint32_t* from) {
+    Keys picked;
+    for (int i = 0; i < W; ++i) picked.v[i] = from[(keys.v[i] & 15) ^ (W - 1)];
+    return picked;
+}
+inline std::uint32_t element(const Keys& all, int i) { return all.v[i]; }

@@ -9,24 +9,18 @@ inline std::size_t strideOfStacks(std::size_t mostEntries) {
 }
 
 // Pushes the children in `hit`, the farthest first, and returns the nearest. Up to four, 97 to 99
-// of 100 steps where boxes overlap little, by a sorting network; more, by counting for each how
-// many are farther. entries: the depths' bits, the lowest four replaced. Of boxes that the ray
-// starts in the last is the nearest, as for rays that any hit ends.
+// of 100 steps where boxes overlap little, by a sorting network of their own; more, by the one for
+// W. entries: the depths' bits, the lowest four replaced. Of boxes that the ray starts in the last
+// is the nearest, as for rays that any hit ends.
 inline WideRef pushSorted(unsigned hit, Floats entry, const WideRef* child, WideRef* refs,
                           std::uint32_t* entries) {
     const auto keys = keysOf(hit, entry);
     if (std::popcount(hit) > 4) [[unlikely]] {
-        alignas(64) std::uint32_t each[W];
-        storeKeys(keys, each);
-        const Ints all = Ints::load(each);
-        const int n = std::popcount(hit);
-        for (int a = 0; a < n; ++a) {
-            // As many are farther: no two keys are equal.
-            const unsigned farther = bits(Ints(each[a]) < all) & ((1u << n) - 1);
-            const int place = std::popcount(farther);
-            entries[place] = each[a], refs[place] = child[(each[a] & 15) ^ (W - 1)];
-        }
-        return refs[n - 1];
+        const auto all = sortedKeys(keys);
+        storeKeys(all, entries);
+        const auto sorted = pickAll(all, child);
+        storeKeys(sorted, refs);
+        return element(sorted, std::popcount(hit) - 1);
     }
     __m128i k = firstFour(keys);
     const auto exchange = [](__m128i x, __m128i y, auto lower) {
