@@ -57,8 +57,8 @@ private:
     static constexpr std::uint32_t kBlocks = kSlots / W;
     // Rays that are not waiting for others; with fewer, the others don't wait either.
     static constexpr std::uint32_t kFewBusy = kSlots / 3;
-    // Of a tree that the caches don't hold; for others prefetches are work in vain. 8 MB.
-    static constexpr std::size_t kManyLines = std::size_t{1} << 17;
+    // Of a tree that the caches don't hold; for others prefetches are work in vain. 4 MB.
+    static constexpr std::size_t kManyLines = std::size_t{1} << 16;
 
     // How many rays meet triangles of their leaves: branches are guessed right where nearly all do
     // the same, and cost more than what they spare elsewhere.
