@@ -134,19 +134,21 @@ private:
                            Floats(slots_.at(slot, &RayBlock::farOffset, axis))),
                        exit);
         }
-        const unsigned hit = bits(entry <= exit);
+        const Mask hit = entry <= exit;
+        const unsigned lanes = bits(hit);
+        const int hits = std::popcount(lanes);
         const auto* const child =
             reinterpret_cast<const WideRef*>(node + std::ptrdiff_t{6} * W * 4);
         std::uint32_t& top = slots_.at(slot, &RayBlock::stackTop);
         std::uint32_t* const refs = slots_.refs(top);
         // The next one is taken from registers: what was just stored takes long to come back.
-        const WideRef nearest = Q == Query::Any
-                                    ? pushAny(hit, child, refs)
-                                    : pushSorted(hit, entry, child, refs, slots_.entries(top));
+        const WideRef nearest =
+            Q == Query::Any ? pushAny(hit, lanes, child, refs)
+                            : pushSorted(hit, hits, entry, child, refs, slots_.entries(top));
         // Without a child, what was on top before.
         const WideRef before = refs[-1];
-        const WideRef next = hit != 0 ? nearest : before;
-        top += static_cast<std::uint32_t>(std::popcount(hit)) - 1;
+        const WideRef next = hits != 0 ? nearest : before;
+        top += static_cast<std::uint32_t>(hits - 1);
         slots_.at(slot, &RayBlock::at) = next;
         send(slot, next, to, count);
     }

@@ -220,7 +220,11 @@ inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
                         _mm256_permutevar8x32_epi32(all, chosenLanes(chosen)));
 }
-inline __m256i keysOf(unsigned chosen, Floats a) {
+inline void storeChosen(Mask chosen, const std::uint32_t* from, std::uint32_t* to) {
+    storeChosen(bits(chosen), from, to);
+}
+inline __m256i keysOf(Mask lanes, Floats a) {
+    const unsigned chosen = bits(lanes);
     const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
     const __m256i last = _mm256_xor_si256(lane, _mm256_set1_epi32(W - 1));
     const __m256i keys =

@@ -205,17 +205,19 @@ inline void storeRows(Floats a, Floats b, Floats c, Ints d, Ints e, float* to) {
 }
 
 // Writes the chosen lanes one after the other; what follows them is overwritten too.
+inline void storeChosen(Mask chosen, const std::uint32_t* from, std::uint32_t* to) {
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(chosen.v, _mm512_load_si512(from)));
+}
 inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_t* to) {
-    _mm512_storeu_si512(
-        to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(chosen), _mm512_load_si512(from)));
+    storeChosen(maskOf(chosen), from, to);
 }
 // Bits of the chosen numbers (not negative), in the lowest four how many lanes come behind; zeros
 // follow. They sort like the numbers, of equal ones the last first.
-inline __m512i keysOf(unsigned chosen, Floats a) {
+inline __m512i keysOf(Mask chosen, Floats a) {
     const __m512i lane = _mm512_setr_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
     const __m512i keys =
         _mm512_or_si512(_mm512_andnot_si512(_mm512_set1_epi32(15), _mm512_castps_si512(a.v)), lane);
-    return _mm512_maskz_compress_epi32(static_cast<__mmask16>(chosen), keys);
+    return _mm512_maskz_compress_epi32(chosen.v, keys);
 }
 inline __m128i firstFour(__m512i keys) { return _mm512_castsi512_si128(keys); }
 inline void storeKeys(__m512i keys, std::uint32_t* to) { _mm512_storeu_si512(to, keys); }

@@ -278,10 +278,14 @@ inline void storeRows(Floats a, Floats b, Floats c, Ints d, Ints e, float* to) {
 inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_t* to) {
     for (; chosen != 0; chosen &= chosen - 1) *to++ = from[__builtin_ctz(chosen)];
 }
+inline void storeChosen(Mask chosen, const std::uint32_t* from, std::uint32_t* to) {
+    storeChosen(bits(chosen), from, to);
+}
 struct alignas(16) Keys {
     std::uint32_t v[W];
 };
-inline Keys keysOf(unsigned chosen, Floats a) {
+inline Keys keysOf(Mask lanes, Floats a) {
+    unsigned chosen = bits(lanes);
     alignas(16) std::uint32_t near[W];
     Ints(_mm_castps_si128(a.lo), _mm_castps_si128(a.hi)).store(near);
     Keys keys{};
