@@ -7,10 +7,13 @@
 // Included by the file of each instruction set inside its namespace, behind handful.inl.
 
 template <Query Q> class Queue {
+    using Lists = QueueSlots::Lists;
+    using Counts = QueueSlots::Counts;
+
 public:
     Queue(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order)
         : mesh_(mesh), rays_(rays), order_(order), base_(mesh.tree.base()), root_(mesh.tree),
-          prefetches_(mesh.tree.lines.size() > kManyLines), slots_(mesh.tree, order.size()) {}
+          slots_(mesh.tree, order.size()) {}
 
     template <class Results> void run(const Results& results) {
         Lists *now = &lists_[0], *next = &lists_[1];
@@ -39,20 +42,11 @@ private:
     static constexpr std::uint32_t kSlots = QueueSlots::kSlots, kBlocks = QueueSlots::kBlocks;
     // Rays that are not waiting for others; with fewer, the others don't wait either.
     static constexpr std::uint32_t kFewBusy = kSlots / 3;
-    // Of a tree that the caches don't hold; for others prefetches are work in vain. 4 MB.
-    static constexpr std::size_t kManyLines = std::size_t{1} << 16;
 
     // How many rays meet triangles of their leaves: branches are guessed right where nearly all do
     // the same, and cost more than what they spare elsewhere.
     enum class Meetings { Many, Some, Few };
 
-    // What the rays are at. One place more than rays: send() writes to lists that are full.
-    struct Lists {
-        Slot nodes[kSlots + 1], leaves[kSlots + 1], done[kSlots + 1];
-    };
-    struct Counts {
-        std::uint32_t nodes = 0, leaves = 0, done = 0;
-    };
     struct Waiting {
         Slot slot;
         std::uint32_t candidates; // triangles of the leaf that the ray is at
@@ -102,22 +96,6 @@ private:
 
     // ---- steps
 
-    // Takes the ray to `ref`: three stores, of which one counts.
-    [[gnu::always_inline]] void send(Slot slot, WideRef ref, Lists& to, Counts& count) const {
-        const std::byte* const line = base_ + byteOffset(ref);
-        if (prefetches_)
-            for (int k = 0; k < 4; ++k) __builtin_prefetch(line + std::ptrdiff_t{64} * k);
-        to.nodes[count.nodes] = slot;
-        to.leaves[count.leaves] = slot;
-        to.done[count.done] = slot;
-        count.nodes += kindOf(ref) == WideKind::Node;
-        count.leaves += kindOf(ref) == WideKind::Leaf;
-        count.done += kindOf(ref) == WideKind::None;
-    }
-    [[gnu::always_inline]] void pop(Slot slot, Lists& to, Counts& count) const {
-        send(slot, slots_.pop(slot), to, count);
-    }
-
     // RaySetup::enters() for W boxes. With FMA or without: the pads of the slabs are twice those of
     // the canonical hit, and the difference covers either rounding several times.
     [[gnu::always_inline]] void nodeStep(Slot slot, Lists& to, Counts& count) {
@@ -149,8 +127,7 @@ private:
         const WideRef before = refs[-1];
         const WideRef next = hits != 0 ? nearest : before;
         top += static_cast<std::uint32_t>(hits - 1);
-        slots_.at(slot, &RayBlock::at) = next;
-        send(slot, next, to, count);
+        slots_.send(slot, next, to, count);
     }
 
     void takeLeaves(const Lists& now, std::uint32_t leaves, Lists& next, Counts& count) {
@@ -187,7 +164,7 @@ private:
             const bool isBeside = (bits(edges.around()) & all) == 0; // all triangles
             found.beside += isBeside;
             if (M == Meetings::Few && isBeside) [[likely]]
-                return pop(slot, to, count);
+                return slots_.pop(slot, to, count);
         }
         const Judged judged = judge(corners, edges, Floats(slots_.at(slot, &RayBlock::sign)));
         const Floats zCut(slots_.at(slot, &RayBlock::zCut));
@@ -202,7 +179,7 @@ private:
             candidates = met ? 0 : candidates;
         }
         if (M != Meetings::Many && candidates == 0) [[likely]]
-            return pop(slot, to, count);
+            return slots_.pop(slot, to, count);
         if constexpr (Q == Query::Any) {
             wait(slot, candidates);
         } else {
@@ -225,11 +202,11 @@ private:
     // Takes for each ray the candidate that is nearest, if that is certain without keys; the key of
     // what remains the best one is computed at the end.
     void acceptMet(const Found& found, Lists& to, Counts& count) {
-        for (std::uint32_t i = 0; i < found.passed; ++i) pop(passed_[i], to, count);
+        for (std::uint32_t i = 0; i < found.passed; ++i) slots_.pop(passed_[i], to, count);
         for (std::uint32_t m = 0; m < found.met; ++m) {
             const Met& met = met_[m];
             if (accept(met))
-                pop(met.slot, to, count);
+                slots_.pop(met.slot, to, count);
             else
                 wait(met.slot, met.candidates);
         }
@@ -291,7 +268,7 @@ private:
                                static_cast<std::uint32_t>(std::countr_zero(left))};
         }
         takePairs(n);
-        for (std::uint32_t w = 0; w < waitingCount_; ++w) pop(waiting_[w].slot, to, count);
+        for (std::uint32_t w = 0; w < waitingCount_; ++w) slots_.pop(waiting_[w].slot, to, count);
         waitingCount_ = waitingPairs_ = 0;
     }
 
@@ -324,7 +301,6 @@ private:
     std::span<const std::uint32_t> order_;
     const std::byte* base_;
     RootQuestion root_;
-    const bool prefetches_;
     std::size_t next_ = 0;
     QueueSlots slots_;
     std::uint32_t live_ = 0;
