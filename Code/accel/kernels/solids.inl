@@ -20,6 +20,8 @@ enum class Answer { Closest, Any };
 
 #include "accel/kernels/solids_objects.inl"
 
+#include "accel/kernels/solids_turning.inl"
+
 #include "accel/kernels/solids_tubes.inl"
 
 #include "accel/kernels/solids_cubes.inl"

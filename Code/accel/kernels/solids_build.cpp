@@ -29,8 +29,8 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
     struct Rest {
         std::vector<Tube> tubes;
         std::vector<FacetGroup> facets;
-        std::vector<Drift> drifts;
-        std::size_t firstTube = 0, firstFacets = 0, firstDrift = 0;
+        std::vector<Movement> movements;
+        std::size_t firstTube = 0, firstFacets = 0, firstMovement = 0;
     };
     const auto ofPart = [](auto& things, std::size_t first) {
         return things.begin() + static_cast<std::ptrdiff_t>(first);
@@ -48,7 +48,7 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
         std::copy(part.solids.begin(), part.solids.end(), ofPart(solids, first));
         std::copy(part.boxes.begin(), part.boxes.end(), ofPart(boxes, first));
         rests[first / kTogether] = {std::move(part.tubes), std::move(part.facets),
-                                    std::move(part.drifts)};
+                                    std::move(part.movements)};
     });
     const auto join = [](auto& things, const auto& more) {
         const std::size_t first = things.size();
@@ -58,14 +58,14 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
     for (Rest& rest : rests) {
         rest.firstTube = join(tubes, rest.tubes);
         rest.firstFacets = join(facets, rest.facets);
-        rest.firstDrift = join(drifts, rest.drifts);
+        rest.firstMovement = join(movements, rest.movements);
     }
-    if (tubes.empty() && facets.empty() && drifts.empty()) return;
+    if (tubes.empty() && facets.empty() && movements.empty()) return;
     forEachPart(threads, order.size(), kTogether, [&](std::size_t first, std::size_t last) {
         const Rest& rest = rests[first / kTogether];
         for (std::size_t i = first; i < last; ++i) {
             Solid& solid = solids[i];
-            const std::size_t before = solid.moves                  ? rest.firstDrift
+            const std::size_t before = solid.moves                  ? rest.firstMovement
                                        : solid.kind == Kind::Tube   ? rest.firstTube
                                        : solid.kind == Kind::Facets ? rest.firstFacets
                                                                     : 0;
@@ -77,5 +77,5 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
 std::size_t SolidTree::bytes() const {
     return lines.size() * sizeof(WideTree::Line) + solids.size() * sizeof(Solid) +
            boxes.size() * sizeof(Bounds) + tubes.size() * sizeof(Tube) +
-           facets.size() * sizeof(FacetGroup) + drifts.size() * sizeof(Drift);
+           facets.size() * sizeof(FacetGroup) + movements.size() * sizeof(Movement);
 }

@@ -81,11 +81,18 @@ struct RayRanges {
 // steeply enough to be sure. `facing`: the direction along a normal of object space, which is the
 // same number in the world. `most`: at least the length of that normal there; 2^-50 of it covers
 // the rounding of both.
-inline unsigned isSteep(const Doubles& facing, double most, const RayColumns& rays) {
+inline unsigned isSteep(const Doubles& facing, const Doubles& most, const RayColumns& rays) {
     const Doubles x(rays.dir[0]), y(rays.dir[1]), z(rays.dir[2]);
-    return less(Doubles(0x1p-19 * (most * most)) * ((x * x + y * y) + z * z), facing * facing);
+    return less(Doubles(0x1p-19) * (most * most) * ((x * x + y * y) + z * z), facing * facing);
 }
-inline double rowLength(const AffineRows& m, std::size_t i) {
-    return std::sqrt((m[4 * i] * m[4 * i] + m[4 * i + 1] * m[4 * i + 1]) +
-                     m[4 * i + 2] * m[4 * i + 2]);
+template <class Map> Doubles rowLength2(const Map& m, std::size_t i) {
+    const Doubles x = m(4 * i), y = m(4 * i + 1), z = m(4 * i + 2);
+    return (x * x + y * y) + z * z;
+}
+template <class Map> Doubles rowLength(const Map& m, std::size_t i) {
+    return sqrt(rowLength2(m, i));
+}
+// At least the square of how much longer any normal is in the world.
+template <class Map> Doubles normalStretch(const Map& m) {
+    return (rowLength2(m, 0) + rowLength2(m, 1)) + rowLength2(m, 2);
 }

@@ -56,4 +56,31 @@ protected:
                 .lost = select(first, lost0.toFloats(), lost1.toFloats()),
                 .met = roots.met & ranges.hits(t)};
     }
+
+    // Of one that is seen from one side, rays meet where they enter it, or where they leave it:
+    // AnalyticShape::seesFront() at both, with twice its threshold.
+    template <class Map>
+    static FoundLanes firstOf(const SphereRoots& roots, const RayRanges& ranges,
+                              ::Facets::Side side, const RayColumns& columns, const Map& map) {
+        const ObjectRays rays = objectRays(columns, map, true);
+        const Doubles x(columns.dir[0]), y(columns.dir[1]), z(columns.dir[2]), zero(0.0);
+        const Doubles least = Doubles(0x1p-19) * ((x * x + y * y) + z * z) * normalStretch(map);
+        Floats lost[2] = {Floats(0.0f), Floats(0.0f)};
+        unsigned sure = ~0u;
+        for (const int end : {0, 1}) {
+            const Doubles t(roots.t[end]);
+            lost[end] = ((end == 0 ? roots.enter : roots.exit) - t).toFloats();
+            const Doubles at = t + Doubles(lost[end]);
+            const Doubles px = rays.ox + rays.dx * at, py = rays.oy + rays.dy * at,
+                          pz = rays.oz + rays.dz * at;
+            const Doubles facing = (px * rays.dx + py * rays.dy) + pz * rays.dz;
+            sure &= less(least * ((px * px + py * py) + pz * pz), facing * facing) &
+                    (end == 0 ? less(facing, zero) : less(zero, facing));
+        }
+        const int seen = side == ::Facets::Side::Front ? 0 : 1;
+        return {.t = roots.t[seen],
+                .lost = lost[seen],
+                .met = roots.met & ranges.hits(roots.t[seen]),
+                .undecided = roots.met & ~sure};
+    }
 };
