@@ -129,3 +129,27 @@ TEST(solids_that_turn_have_the_bits_of_single_rays) {
 TEST(solid_spheres_of_one_side_have_the_bits_of_single_rays) {
     solid_checks::compareSets("sides", 4601, 40, addSidedSpheres, movingRays);
 }
+
+// A ray that touches a sphere sees its front, so that the rim belongs to that side: to where its
+// normal is at right angles to the ray, whatever the two roots say.
+TEST(solid_spheres_of_one_side_have_their_rims) {
+    for (const Kernel& kernel : allKernels()) {
+        if (!kernel.supported()) continue;
+        for (const OneSided::Side side : {OneSided::Side::Front, OneSided::Side::Back}) {
+            ShapeSet set;
+            set.add(
+                std::make_unique<OneSided>(std::make_unique<Sphere>(Transform(), 1, 0u, 0u), side),
+                Shadow::Opaque);
+            set.finish(true, kernel);
+            Rays rays;
+            for (int i = 0; i < 20; ++i) rays.push({{1, -2, 0}, {0, 1, 0}});
+            rays.push({{0.5f, -2, 0}, {0, 1, 0}});
+            std::vector<Hit> hits;
+            set.closest(rays.span(), hits);
+            for (std::size_t i = 0; i < 20; ++i)
+                CHECK_INFO(hits[i].isHit() == (side == OneSided::Side::Front), kernel.name);
+            const bool isNear = hits[20].t < 2;
+            CHECK_INFO(hits[20].isHit() && isNear == (side == OneSided::Side::Front), kernel.name);
+        }
+    }
+}
