@@ -28,6 +28,7 @@ public:
     Drift(const AffineRows& inverse, std::vector<Leg> legs)
         : inverse_(inverse), legs_(std::move(legs)) {}
     Vec3d offsetAt(double time) const;
+    std::span<const Leg> legs() const { return legs_; }
 
 private:
     AffineRows inverse_;

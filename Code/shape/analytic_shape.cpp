@@ -57,21 +57,26 @@ Bounds AnalyticShape::bounds() const {
     return outward(box.padded(0x1p-22 * max(maxAbs(box.lo), maxAbs(box.hi))));
 }
 
-// The turn changes no length, and between two keys the stretch is no longer than at one of them.
-std::optional<SolidMotion> AnalyticShape::motion(double farthest) const {
-    if (isStill()) return {};
-    if (auto drift = motion_->drift()) return SolidMotion{std::move(drift), nullptr, kInfinity};
+// The origin goes on lines. The turn changes no length, and between two keys the stretch is no
+// longer than at one of them.
+SolidForm AnalyticShape::movingForm(double farthest) const {
+    BoundsD way;
     double most = 0;
-    for (const Transform& key : motion_->keys()) most = max(most, largestStretch2(key));
-    return SolidMotion{{}, motion_.get(), farthest * std::sqrt(most)};
+    for (const Transform& key : motion_->keys()) {
+        way.extend(key.translation());
+        most = max(most, largestStretch2(key));
+    }
+    const double reach = farthest * std::sqrt(most);
+    SolidForm form{ballAround(way)};
+    form.hull.radius += reach;
+    auto drift = motion_->drift();
+    const bool turns = !drift;
+    form.motion = {std::move(drift), turns ? motion_.get() : nullptr, reach};
+    return form;
 }
 
 SolidForm AnalyticShape::tubeForm(double radius) const {
-    if (!isStill()) {
-        SolidForm form = Shape::solidForm();
-        form.motion = motion(std::sqrt(1 + radius * radius));
-        return form;
-    }
+    if (!isStill()) return movingForm(std::sqrt(1 + radius * radius));
     const Vec3d x = worldFromObject().column(0), y = worldFromObject().column(1);
     const Vec3d axis = worldFromObject().column(2);
     const double size = length(axis);
@@ -90,8 +95,7 @@ SolidForm AnalyticShape::tubeForm(double radius) const {
 }
 
 SolidForm AnalyticShape::facesForm(StillFaces::Of of, double farthest) const {
-    SolidForm form = Shape::solidForm();
-    form.motion = motion(farthest);
+    SolidForm form = isStill() ? Shape::solidForm() : movingForm(farthest);
     form.faces = {.shape = &still_, .of = of};
     return form;
 }

@@ -8,8 +8,7 @@ Sphere::Sphere(const MovingTransform& worldFromObject, double radius, std::uint3
 
 SolidForm Sphere::solidForm() const {
     if (!isStill()) {
-        SolidForm form = AnalyticShape::solidForm();
-        form.motion = motion(radius());
+        SolidForm form = movingForm(radius());
         form.sphere = &still();
         return form;
     }

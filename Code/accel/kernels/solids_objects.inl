@@ -27,10 +27,36 @@ struct DriftLanes {
     DriftLanes(const AffineRows& map, const Drift& drift, const RaySpan& rays,
                const std::uint32_t (&ray)[W], unsigned lanes)
         : rows(map) {
+        if (drift.legs().size() == 2) {
+            fromOneKeyToTheOther(drift, rays, ray);
+            return;
+        }
         for (; lanes != 0; lanes &= lanes - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
             const Vec3d at = drift.offsetAt(static_cast<double>(rays.time[ray[i]]));
             offset[0][i] = at.x, offset[1][i] = at.y, offset[2][i] = at.z;
+        }
+    }
+    // Drift::offsetAt(): the time is the place within the leg, but at its end.
+    void fromOneKeyToTheOther(const Drift& drift, const RaySpan& rays,
+                              const std::uint32_t (&ray)[W]) {
+        alignas(64) double times[W];
+        for (std::size_t i = 0; i < W; ++i)
+            times[i] = clamp(static_cast<double>(rays.time[ray[i]]), 0.0, 1.0);
+        const Doubles time = Doubles::load(times), one(1.0), minus(-0.0);
+        const Mask isEnd = maskOf(atMost(one, time));
+        const Doubles s = select(isEnd, time - one, time);
+        const Drift::Leg &first = drift.legs()[0], &last = drift.legs()[1];
+        const auto moved = [&](std::size_t axis) {
+            return minus - select(isEnd, Doubles(last.step[axis]), Doubles(first.step[axis])) * s;
+        };
+        const Doubles x = moved(0), y = moved(1), z = moved(2);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double* const m = &rows[4 * axis];
+            const Doubles from =
+                select(isEnd, Doubles(last.offset[axis]), Doubles(first.offset[axis]));
+            (((Doubles(m[0]) * x + Doubles(m[1]) * y) + Doubles(m[2]) * z) + from)
+                .store(offset[axis]);
         }
     }
     Doubles operator()(std::size_t i) const {

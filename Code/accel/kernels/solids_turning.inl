@@ -1,58 +1,7 @@
 // The maps of a solid that turns or grows, at the times of all rays of a packet: what
 // MovingTransform::at() and Transform::fromRows() compute, operation by operation. Lanes for which
 // these choose another way than between two keys ask them.
-// Included by solids.inl, behind solids_objects.inl.
-
-// exact::sin() of angles from 0 to pi/2, and a rounding more: then the quadrant is 0 or 1.
-inline Doubles sinOfArc(const Doubles& x) {
-    const auto sum = [](const Doubles& a, const Doubles& b) { return a + b; };
-    const Doubles zero(0.0), minus(-0.0), one(1.0), half(0.5);
-    const auto square = [](const Doubles& a) { return a * a; };
-    // sinKernel() and cosKernel() but for the lower parts of what they return.
-    const auto sinOf = [&](const Doubles& a, const Doubles& lo) {
-        const auto c = [](double number) { return Doubles(number); };
-        const Doubles z = square(a), z2 = square(z), z4 = square(z2);
-        const Doubles low =
-            (c(1.0 / 120) + z * c(-1.0 / 5040)) + z2 * (c(1.0 / 362880) + z * c(-1.0 / 39916800));
-        const Doubles high =
-            (c(1.0 / 6227020800) + z * c(-1.0 / 1307674368000)) + z2 * c(1.0 / 355687428096000);
-        return sum(a, (a * z) * (c(-1.0 / 6) + z * (low + z4 * high)) + lo * (one - half * z));
-    };
-    const auto cosOf = [&](const Doubles& a, const Doubles& lo) {
-        const auto c = [](double number) { return Doubles(number); };
-        const Doubles z = square(a), z2 = square(z), z4 = square(z2);
-        const Doubles low =
-            (c(1.0 / 24) + z * c(-1.0 / 720)) + z2 * (c(1.0 / 40320) + z * c(-1.0 / 3628800));
-        const Doubles high =
-            (c(1.0 / 479001600) + z * c(-1.0 / 87178291200)) + z2 * c(1.0 / 20922789888000);
-        const Doubles most = half * z, main = one - most;
-        return sum(main, ((one - main) - most) + (z2 * (low + z4 * high) - a * lo));
-    };
-    const unsigned all = (1u << W) - 1;
-    const unsigned tiny = less(x, Doubles(0x1p-27)), large = all & ~less(x, Doubles(kPi / 4));
-    const auto unlessTiny = [&](const Doubles& sine) {
-        return tiny == 0 ? sine : select(maskOf(tiny), x, sine);
-    };
-    if (large == 0) return unlessTiny(sinOf(x, zero));
-
-    // reduceSmall()
-    const auto twoSum = [](const Doubles& a, const Doubles& b, Doubles& lo) {
-        const Doubles hi = a + b, b2 = hi - a;
-        lo = (a - (hi - b2)) + (b - b2);
-        return hi;
-    };
-    const Doubles rounder(kRounder), n = (x * Doubles(2 / kPi) + rounder) - rounder;
-    Doubles aLo = zero, bLo = zero;
-    const Doubles a =
-        twoSum(x - n * Doubles(0x1.921fb544p0), minus - n * Doubles(0x1.0b4611a6p-34), aLo);
-    const Doubles b = twoSum(a, minus - n * Doubles(0x1.3198a2ep-69), bLo);
-    const Doubles rest = (aLo + bLo) - n * Doubles(0x1.b839a252049c1p-104);
-    const Doubles hi = b + rest, lo = rest - (hi - b);
-    const Mask isReduced = maskOf(large);
-    const Doubles angle = select(isReduced, hi, x), tail = select(isReduced, lo, zero);
-    const unsigned isCosine = large & less(half, n);
-    return unlessTiny(select(maskOf(isCosine), cosOf(angle, tail), sinOf(angle, tail)));
-}
+// Included by solids.inl, behind solids_objects.inl and arc_sines.inl.
 
 class TurningMaps {
 public:
@@ -149,8 +98,8 @@ private:
         Doubles from = rest, to = s; // weights
         const unsigned chord = less(arc, Doubles(1e-4)), all = (1u << W) - 1;
         if (chord != all) {
-            from = select(maskOf(chord), rest, sinOfArc(rest * arc));
-            to = select(maskOf(chord), s, sinOfArc(s * arc));
+            from = select(maskOf(chord), rest, sineOfArc(rest * arc));
+            to = select(maskOf(chord), s, sineOfArc(s * arc));
         }
         const auto combined = [&](std::size_t i) {
             return from * segment(kRotation + i) + to * segment(kParts + kRotation + i);
