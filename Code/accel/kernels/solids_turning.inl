@@ -132,8 +132,10 @@ private:
         unsigned asked = ~(less(Doubles(0x1p-1000), largest) & less(largest, Doubles(0x1p1000)));
         alignas(64) double numbers[W]; // PowerOfTwo
         largest.store(numbers);
-        for (double& x : numbers)
-            x = std::bit_cast<double>((2045 - (std::bit_cast<std::uint64_t>(x) >> 52)) << 52);
+        for (double& x : numbers) {
+            const std::uint64_t biased = std::bit_cast<std::uint64_t>(x) >> 52;
+            x = std::bit_cast<double>((2045 - std::min<std::uint64_t>(biased, 2045)) << 52);
+        }
         const Doubles power = Doubles::load(numbers);
 
         const Doubles a = m[0] * power, b = m[1] * power, c = m[2] * power;
