@@ -48,6 +48,11 @@ const Format& formatOf(const std::string& fileName) {
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
     for (const Format& format : kFormats)
         if (format.extension == extension) return format;
+    if (extension.empty())
+        fail(ErrorKind::Input, cat(fileName,
+                                   ": error: the name has no extension, which tells the "
+                                   "format of a scene; known: ",
+                                   join(extensions())));
     fail(ErrorKind::Input,
          cat(fileName, ": error: unknown scene format ", unknownName(extension, extensions())));
 }
