@@ -199,8 +199,12 @@ TEST(lens_lanes_are_for_round_lenses_at_rest) {
     CHECK(!Camera(params).roundLens()); // a pinhole
     params.apertureRadius = 0.1;
     CHECK(Camera(params).roundLens().has_value());
-    params.apertureBlades = 5;
-    CHECK(!Camera(params).roundLens());
+    for (const int blades : {3, 5}) {
+        params.apertureBlades = blades;
+        CHECK_INFO(!Camera(params).roundLens(), blades);
+    }
+    params.apertureBlades = 2; // fewer than 3 make no polygon
+    CHECK(Camera(params).roundLens().has_value());
     params.apertureBlades = 0, params.kind = CameraParams::Kind::Orthographic;
     CHECK(!Camera(params).roundLens());
     CHECK(cameraLanes(chooseKernel("scalar")).rays == nullptr);
