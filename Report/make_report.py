@@ -42,8 +42,13 @@ def features():
             raise Failure(f"FeatureList.txt: not four fields: {line}")
         stem = os.path.splitext(os.path.basename(fields[2]))[0]
         groups.setdefault(stem, []).append(fields[0])
-    notes = [line.lstrip("# ").strip() for line in partial.splitlines() if line.startswith("#")]
-    return [(stem, f"Output/{stem}.ppm", names) for stem, names in groups.items()], notes[1:]
+    notes = []  # each begins with "# - " and goes on in the lines below
+    for line in partial.splitlines():
+        if line.startswith("# - "):
+            notes.append(line[4:])
+        elif line.startswith("#   ") and notes:
+            notes[-1] += " " + line[4:]
+    return [(stem, f"Output/{stem}.ppm", names) for stem, names in groups.items()], notes
 
 
 def bench(saved, raytracer):
@@ -303,8 +308,8 @@ def exactness():
     story = [Paragraph("How exactness is reached", H1)]
     for title, file, text in EXACT:
         read("Code/" + file)
-        story += [Paragraph(f'{title} <font face="Courier" size="8" color="#68727a">&nbsp;Code/{file}</font>', H2),
-                  Paragraph(text, BODY)]
+        heading = f'{title} <font face="Courier" size="8" color="#68727a">&nbsp;Code/{file}</font>'
+        story.append(KeepTogether([Paragraph(heading, H2), Paragraph(text, BODY)]))
     return story + [Spacer(1, 8 * mm)]
 
 

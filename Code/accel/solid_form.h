@@ -31,7 +31,7 @@ struct Facets {
     Side side = Side::Both;
 };
 
-// A tube about the z axis of an object space that does not move, |z| <= 1. A kernel that meets it
+// A tube about the z axis of its object space, |z| <= 1. A kernel that meets it
 // repeats the formulas of shape/cylinder.cpp or shape/cone.cpp.
 struct StillTube {
     const StillShape* shape = nullptr;
@@ -45,7 +45,7 @@ struct StillTube {
     enum Part : std::uint32_t { Wall, Bottom, Top }; // Hit::prim
 };
 
-// Flat faces in an object space that does not move: the cube [-1,1]^3, a disk about the origin in
+// Flat faces in their object space: the cube [-1,1]^3, a disk about the origin in
 // z = 0, or a plane by corners. A kernel that meets them repeats the formulas of shape/cube.cpp,
 // shape/disk.cpp or shape/plane.cpp.
 struct StillFaces {
@@ -61,17 +61,25 @@ struct StillPlane {
     AffineRows objectFromWorld;
 };
 
+// How a sphere, a tube or faces move, of which the rest of the form is said at their first key.
+struct SolidMotion {
+    std::optional<Drift> drift;               // without turning or growing; or
+    const MovingTransform* turning = nullptr; // in any way, and then
+    double reach = kInfinity; // how far all is, at any time, from where the origin is
+};
+
 // What it points to is the shape's own.
 struct SolidForm {
     RoundHull hull;
     // The shape is a sphere about the origin of its object space. A kernel that meets it repeats
     // the formulas of shape/sphere.cpp.
-    const StillShape* sphere = nullptr; // of one that moves: its first key
-    std::optional<Facets> facets{};     // or these
-    std::optional<StillTube> tube{};    // or this one
-    std::optional<StillFaces> faces{};  // or these
-    std::optional<Drift> drift{};       // of a sphere or of faces: how they move
-    std::optional<StillPlane> plane{};  // or this one, the only form without end
+    const StillShape* sphere = nullptr;
+    Facets::Side sphereSide = Facets::Side::Both; // that rays of sight meet
+    std::optional<Facets> facets{};               // or these
+    std::optional<StillTube> tube{};              // or this one
+    std::optional<StillFaces> faces{};            // or these
+    std::optional<SolidMotion> motion{};          // of all but facets
+    std::optional<StillPlane> plane{};            // or this one, the only form without end
 };
 
 inline RoundHull ballAround(const BoundsD& box) {

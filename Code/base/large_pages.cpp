@@ -1,6 +1,7 @@
 #include "base/large_pages.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
@@ -17,7 +18,12 @@ namespace {
 
 [[maybe_unused]] constexpr std::size_t kPage = std::size_t{1} << 21;
 
-[[maybe_unused]] void* filler = nullptr; // of the heap; tools that look for leaks find it here
+// What a thread's heap begins with.
+[[maybe_unused]] constexpr std::size_t kThreadHeap = std::size_t{1} << 23;
+[[maybe_unused]] std::atomic<bool> threadsHaveLargePages{false};
+
+// Of a heap, by thread; tools that look for leaks find it here.
+[[maybe_unused]] thread_local void* filler = nullptr;
 
 #if defined(__linux__)
 
@@ -73,10 +79,10 @@ void freeZeroedMemory(void* memory, [[maybe_unused]] std::size_t bytes) {
     std::free(memory);
 }
 
-void useLargePages([[maybe_unused]] std::size_t bytes) {
+void useLargePages([[maybe_unused]] std::size_t bytes, [[maybe_unused]] bool inThreads) {
 #if defined(__GLIBC__)
     constexpr std::size_t kMost = std::size_t{1} << 30, kRecord = 256, kSome = 1 << 15;
-    constexpr int kPad = 1 << 20, kLargestArray = 1 << 22;
+    constexpr int kLargestArray = 1 << 22;
     const std::size_t room = std::min(bytes, kMost);
     const auto addressOf = [](const void* p) { return reinterpret_cast<std::uintptr_t>(p); };
     // Where the free end of the heap begins: what has been freed in front of it are smaller pieces.
@@ -98,6 +104,24 @@ void useLargePages([[maybe_unused]] std::size_t bytes) {
         if (filler && start < first && first < page && page < end)
             adviseLargePages(filler, end - first);
     }
-    mallopt(M_TOP_PAD, kPad);
+    // What heaps get more than they need when they grow, or begin.
+    const std::size_t pad = inThreads ? kThreadHeap : kPage / 2;
+    threadsHaveLargePages = mallopt(M_TOP_PAD, static_cast<int>(pad)) != 0 && inThreads;
+#endif
+}
+
+void useLargePagesInThread() {
+#if defined(__GLIBC__)
+    if (!threadsHaveLargePages) return;
+    // With its first piece malloc gives a thread a heap of its own, which begins at a multiple of
+    // the size that it may get. Its first page is touched then: another piece is to fill that.
+    constexpr std::uintptr_t kHeap = std::uintptr_t{1} << 26, kStart = 1 << 13;
+    constexpr std::size_t kSome = 1 << 12;
+    void* const first = std::malloc(kSome);
+    const auto address = reinterpret_cast<std::uintptr_t>(first), heap = address / kHeap * kHeap;
+    // Tools that watch the memory have a malloc of their own.
+    if (!first || address - heap > kStart) return std::free(first);
+    filler = std::realloc(first, heap + kPage - address - kSome);
+    adviseLargePages(reinterpret_cast<void*>(heap + kPage), kThreadHeap - kPage);
 #endif
 }

@@ -9,7 +9,11 @@ void adviseLargePages(void* memory, std::size_t bytes);
 
 // The same for what malloc will hand out next, to the main thread: about so many bytes in small and
 // large pieces. They stay with the program when they are freed.
-void useLargePages(std::size_t bytes);
+// inThreads: others may do so for themselves, which takes room from the last megabytes there are.
+void useLargePages(std::size_t bytes, bool inThreads);
+// Then, for the first megabytes of what malloc will hand out to this thread, which is another one
+// and has not asked for any. What it is to write belongs to it from the first touch on.
+void useLargePagesInThread();
 
 // Zeros that nobody has written, in such pages; nullptr when there is no memory.
 void* zeroedMemory(std::size_t bytes);

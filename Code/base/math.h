@@ -55,15 +55,15 @@ constexpr double nextUp(double x) {
 }
 constexpr double nextDown(double x) { return -nextUp(-x); }
 
-// The nearest float at or below, at or above the double.
-constexpr float floatBelow(double x) {
-    const float nearest = static_cast<float>(x);
-    return static_cast<double>(nearest) > x ? nextDown(nearest) : nearest;
-}
+// The nearest float at or below, at or above the double. Which of its neighbours that is can't be
+// guessed: a step away from zero or towards it, or none, without branches.
 constexpr float floatAbove(double x) {
     const float nearest = static_cast<float>(x);
-    return static_cast<double>(nearest) < x ? nextUp(nearest) : nearest;
+    const auto bits = std::bit_cast<std::int32_t>(nearest);
+    const std::int32_t isBelow = static_cast<double>(nearest) < x;
+    return std::bit_cast<float>(bits + ((bits >> 31 | 1) & -isBelow));
 }
+constexpr float floatBelow(double x) { return -floatAbove(-x); }
 
 // a*b - c*d without cancellation: the error is below 0.6 ulp of the result unless a product
 // underflows or exceeds 2^996. Products are split exactly (Dekker 1971), as FMA is banned.

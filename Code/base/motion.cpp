@@ -1,6 +1,7 @@
 #include "base/motion.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace {
 
@@ -207,8 +208,11 @@ std::optional<Drift> MovingTransform::drift() const {
 Transform MovingTransform::at(double time) const {
     const auto [i, s] = momentOf(time, segments_.size());
     if (s == 0) return keys_[i];
-    if (const auto shift = shiftAt(time)) return Transform::translate(shift->offset) * keys_[i];
     const Segment& segment = segments_[i];
+    if (segment.translates) {
+        const Vec3d step = segment.to.translation - segment.from.translation;
+        return Transform::translate(step * s) * keys_[i];
+    }
     const Parts parts{lerp(segment.from.translation, segment.to.translation, s),
                       rotationAt(segment, s), stretchAt(segment, s)};
     return affine(linearPart(parts), parts.translation);
@@ -226,25 +230,36 @@ BoundsD MovingTransform::sweptBounds(const Segment& segment, const BoundsD& box)
     const int pieces = 8 + static_cast<int>(turn / kLargestTurn);
     const double half = exact::sin(turn / (4 * pieces)); // 1 - cos(D/2) = 2 sin^2(D/4)
     const double sagitta = 2 * half * half;
+    struct End { // of a piece
+        Matrix rotation, stretch;
+        Vec3d translation;
+        double radius; // of the stretched box about the origin
+    };
+    const auto endAt = [&](int piece) {
+        const double s = static_cast<double>(piece) / pieces;
+        End end{matrixOf(rotationAt(segment, s)), stretchAt(segment, s),
+                lerp(segment.from.translation, segment.to.translation, s), 0};
+        for (int corner = 0; corner < 8; ++corner)
+            end.radius = max(end.radius, length(times(end.stretch, box.corner(corner))));
+        return end;
+    };
     BoundsD out;
-    for (int piece = 0; piece < pieces; ++piece) {
-        const double s[2] = {static_cast<double>(piece) / pieces,
-                             static_cast<double>(piece + 1) / pieces};
+    End last = endAt(0);
+    for (int piece = 1; piece <= pieces; ++piece) {
+        const End next = endAt(piece);
         BoundsD turned, moved;
-        double radius = 0; // of the stretched box about the origin
-        for (const double sj : s) {
-            const Matrix stretch = stretchAt(segment, sj);
-            for (int corner = 0; corner < 8; ++corner)
-                radius = max(radius, length(times(stretch, box.corner(corner))));
-            for (const double si : s)
-                turned.extend(boxOf(times(matrixOf(rotationAt(segment, si)), stretch), box));
-            moved.extend(lerp(segment.from.translation, segment.to.translation, sj));
+        for (const End* j : {&std::as_const(last), &next}) {
+            for (const End* i : {&std::as_const(last), &next})
+                turned.extend(boxOf(times(i->rotation, j->stretch), box));
+            moved.extend(j->translation);
         }
         // All roundings here and in at() are below 1e-13 of the coordinates.
+        const double radius = max(last.radius, next.radius);
         const double reach = radius + maxAbs(moved.lo) + maxAbs(moved.hi);
         const double pad = sagitta * radius + 1e-13 * reach;
         out.extend({turned.lo + moved.lo - Vec3d{pad, pad, pad},
                     turned.hi + moved.hi + Vec3d{pad, pad, pad}});
+        last = next;
     }
     return out;
 }

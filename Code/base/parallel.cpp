@@ -1,5 +1,8 @@
 #include "base/parallel.h"
 
+#include "base/large_pages.h"
+#include "base/processors.h"
+
 #include <cfenv>
 #include <iterator>
 #include <new>
@@ -13,34 +16,46 @@
 
 namespace {
 
-// Waits until the value is not `old` any more. What comes next is often a few microseconds away,
-// and waking up takes 50: a thread that has a processor of its own stays awake for that long.
-std::uint32_t changed(const std::atomic<std::uint32_t>& value, std::uint32_t old, bool staysAwake) {
+// What comes next is often a few microseconds away, and waking up takes 50: a thread that has a
+// processor of its own stays awake for that long. Says whether the value is not `old` any more.
+bool changesSoon(const std::atomic<std::uint32_t>& value, std::uint32_t old, bool staysAwake) {
     for (int i = staysAwake ? 2000 : 0; i > 0; --i) {
-        if (const std::uint32_t now = value.load(); now != old) return now;
+        if (value.load() != old) return true;
 #if defined(__SSE2__)
         _mm_pause();
 #endif
     }
-    value.wait(old);
+    return false;
+}
+
+// Waits until the value is not `old` any more.
+std::uint32_t changed(const std::atomic<std::uint32_t>& value, std::uint32_t old, bool staysAwake) {
+    if (!changesSoon(value, old, staysAwake)) value.wait(old);
+    return value.load();
+}
+// The same for a helper, whom somebody wakes that goes on working.
+std::uint32_t changedApart(const std::atomic<std::uint32_t>& value, std::uint32_t old,
+                           bool staysAwake) {
+    if (!changesSoon(value, old, staysAwake)) {
+        const WokenApart apart;
+        value.wait(old);
+    }
     return value.load();
 }
 
-bool haveOwnProcessors(int threads) {
-    static const int processors = hardwareThreads();
-    return threads <= processors;
-}
+bool haveOwnProcessors(int threads) { return threads <= hardwareThreads(); }
 
 } // namespace
 
 int hardwareThreads() {
-    const unsigned count = std::thread::hardware_concurrency(); // 0 when unknown
-    return count > 0 ? static_cast<int>(count) : 1;
+    // Asked once: a thread that is confined for a while would get another answer.
+    static const int count = static_cast<int>(std::thread::hardware_concurrency());
+    return count > 0 ? count : 1; // 0: unknown
 }
 
 // A thread that serves one pool after the other.
 struct ThreadPool::Helper {
-    Helper() : thread([this] { live(); }) {}
+    Helper() : thread([this] { live(); }) { startApart(thread, hasBegun); }
     ~Helper() {
         hire(nullptr, 0);
         thread.join();
@@ -58,9 +73,11 @@ struct ThreadPool::Helper {
         for (std::uint32_t now = turn; now % 2 == 1;) now = changed(turn, now, true);
     }
     void live() {
+        beginApart(hasBegun);
+        useLargePagesInThread();
         for (;;) {
             std::uint32_t now = turn;
-            while (now % 2 == 0) now = changed(turn, now, haveOwnProcessors(2));
+            while (now % 2 == 0) now = changedApart(turn, now, haveOwnProcessors(2));
             if (!pool) return;
             pool->serve(worker);
             ++turn;
@@ -71,6 +88,7 @@ struct ThreadPool::Helper {
     std::atomic<std::uint32_t> turn{0}; // odd: it belongs to a pool
     ThreadPool* pool = nullptr;         // nullptr: the end
     int worker = 0;
+    std::atomic<bool> hasBegun{false};
     std::thread thread; // last: it finds the rest ready
 };
 
@@ -115,8 +133,10 @@ ThreadPool::Crew& ThreadPool::crew() {
 }
 
 ThreadPool::ThreadPool(int threads) {
-    const int count = threads > 0 ? threads : hardwareThreads();
-    if (count > 1) helpers_ = crew().take(static_cast<std::size_t>(count) - 1);
+    const int processors = hardwareThreads(), count = threads > 0 ? threads : processors;
+    if (count == 1) return;
+    takeProcessor();
+    helpers_ = crew().take(static_cast<std::size_t>(count) - 1);
     int worker = 0;
     for (const auto& helper : helpers_) helper->hire(this, ++worker);
 }
@@ -141,6 +161,7 @@ bool ThreadPool::run(std::size_t count, const std::function<void(std::size_t, in
     error_ = nullptr;
     const bool alone = helpers_.empty() || count <= 1;
     if (!alone) {
+        takeProcessor();
         ++generation_;
         generation_.notify_all();
     }
@@ -165,7 +186,7 @@ void ThreadPool::serve(int worker) {
             if (generation_ == seen) work(worker);
             if (--inside_ == 0) inside_.notify_one();
         }
-        seen = changed(generation_, seen, staysAwake);
+        seen = changedApart(generation_, seen, staysAwake);
     }
 }
 

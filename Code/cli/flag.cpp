@@ -62,10 +62,7 @@ Match matchShort(std::span<const Flag> flags, const std::string& argument) {
 
 } // namespace
 
-void failUsage(const std::string& what) {
-    fail(ErrorKind::Usage,
-         cat("raytracer: error: ", what, "\nraytracer: 'raytracer --help' lists all options"));
-}
+void failUsage(const std::string& what) { fail(ErrorKind::Usage, cat("raytracer: error: ", what)); }
 
 void FlagValue::wrong(std::string_view expected) const {
     failUsage(

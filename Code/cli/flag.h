@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-// Fails with ErrorKind::Usage: "raytracer: error: what" and where to find help.
+// Fails with ErrorKind::Usage: "raytracer: error: what"; run() adds where to find help.
 [[noreturn]] void failUsage(const std::string& what);
 
 // What follows a flag on the command line. The readers fail with "--spp expects a whole number from

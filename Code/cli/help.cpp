@@ -10,7 +10,7 @@
 namespace {
 
 constexpr std::size_t kColumns = 100;
-constexpr std::size_t kHelpColumn = 34;
+constexpr std::size_t kHelpColumn = 34, kFeatureColumn = 16;
 
 std::string heading(const Flag& flag) {
     std::string text = flag.alias.empty() ? "    " : flag.alias + ", ";
@@ -127,6 +127,6 @@ std::string featureListText() {
     std::string out;
     for (const Flag& flag : renderFlags(unused))
         if (flag.group == kFeatureGroup)
-            out += twoColumns(flag.name.substr(2), flag.help).substr(2);
+            out += wrapped(flag.name.substr(2), flag.help, kFeatureColumn);
     return out;
 }

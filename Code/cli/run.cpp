@@ -173,7 +173,11 @@ ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings
     stats.writeSeconds = watch.lap();
     stats.totalSeconds = watch.total();
     stats.peakBytes = peakBytes();
-    if (!options.quiet && output != "-") writeStderr(cat("wrote ", output, "\n"));
+    if (!options.quiet && output != "-") {
+        std::string written = output;
+        for (const Aov aov : settings.aovs) written += ", " + aovFileName(output, aov);
+        writeStderr(cat("wrote ", written, "\n"));
+    }
     printStats(stats, options);
     return ExitCode::Ok;
 }
@@ -210,6 +214,7 @@ ExitCode convert(const LoadedScene& loaded, const Options& options) {
     }
     writeFileAtomically(options.convertTo,
                         {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    if (!options.quiet) writeStderr(cat("wrote ", options.convertTo, "\n"));
     return ExitCode::Ok;
 }
 
@@ -253,14 +258,21 @@ ExitCode runScene(const Options& options, Step& step) {
     return ExitCode::Ok;
 }
 
-} // namespace
+// A first word that is no file, but nearly the name of a sub-command.
+void checkForCommand(const std::string& first) {
+    std::vector<std::string> names;
+    for (const Command& command : commands()) names.emplace_back(command.name);
+    std::error_code ignored;
+    const std::filesystem::path path(first);
+    if (first.starts_with('-') || path.has_extension() || std::filesystem::exists(path, ignored))
+        return;
+    if (const auto near = nearestWord(first, names))
+        failUsage(cat("there is no file and no sub-command '", first, "'; did you mean 'raytracer ",
+                      *near, "'?"));
+}
 
-ExitCode run(std::span<const std::string> arguments, Step& step) {
-    handleInterrupts();
-    if (const Command* command = arguments.empty() ? nullptr : commandNamed(arguments[0])) {
-        step = command->step;
-        return command->run(*command, arguments.subspan(1));
-    }
+ExitCode runOptions(std::span<const std::string> arguments, Step& step) {
+    if (!arguments.empty()) checkForCommand(arguments[0]);
     const Options options = parseOptions(arguments);
     switch (options.action) {
     case Options::Action::Help: writeStdout(helpText()); return ExitCode::Ok;
@@ -277,4 +289,21 @@ ExitCode run(std::span<const std::string> arguments, Step& step) {
     case Options::Action::Convert: break;
     }
     return runScene(options, step);
+}
+
+} // namespace
+
+ExitCode run(std::span<const std::string> arguments, Step& step) {
+    handleInterrupts();
+    const Command* const command = arguments.empty() ? nullptr : commandNamed(arguments[0]);
+    try {
+        if (!command) return runOptions(arguments, step);
+        step = command->step;
+        return command->run(*command, arguments.subspan(1));
+    } catch (const Error& error) {
+        if (error.kind() != ErrorKind::Usage) throw;
+        fail(ErrorKind::Usage,
+             cat(error.what(), "\nraytracer: 'raytracer ", command ? command->name : "",
+                 command ? " " : "", "--help' lists all options"));
+    }
 }

@@ -48,6 +48,11 @@ const Format& formatOf(const std::string& fileName) {
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
     for (const Format& format : kFormats)
         if (format.extension == extension) return format;
+    if (extension.empty())
+        fail(ErrorKind::Input, cat(fileName,
+                                   ": error: the name has no extension, which tells the "
+                                   "format of a scene; known: ",
+                                   join(extensions())));
     fail(ErrorKind::Input,
          cat(fileName, ": error: unknown scene format ", unknownName(extension, extensions())));
 }
@@ -112,9 +117,9 @@ bool hasMeshBlock(std::string_view text, int threads) {
 // are a scene: half of the time of reading them would be spent on touching their pages for the
 // first time. Meshes are a few large arrays: in the heap they would leave holes where the tree gets
 // no room. Small texts do not say how much it will be, as they may ask for a large picture.
-void makeRoom(std::size_t textBytes, bool isMesh) {
+void makeRoom(std::size_t textBytes, bool isMesh, int threads) {
     constexpr std::size_t kLeast = std::size_t{24} << 20, kTimes = 24;
-    useLargePages(isMesh ? kLeast : std::max(kLeast, kTimes * textBytes));
+    useLargePages(isMesh ? kLeast : std::max(kLeast, kTimes * textBytes), threads != 1);
 }
 
 std::string readText(const std::string& fileName, const Format& format, int threads) {
@@ -123,12 +128,12 @@ std::string readText(const std::string& fileName, const Format& format, int thre
     std::error_code status;
     const std::uintmax_t size = fs::file_size(fileName, status);
     if (!status && size <= kSmall) {
-        makeRoom(static_cast<std::size_t>(size), format.isMesh);
+        makeRoom(static_cast<std::size_t>(size), format.isMesh, threads);
         return readWholeText(fileName, threads);
     }
     std::string text = readWholeText(fileName, threads);
     makeRoom(text.size(),
-             format.isMesh || (format.extension == ".txt" && hasMeshBlock(text, threads)));
+             format.isMesh || (format.extension == ".txt" && hasMeshBlock(text, threads)), threads);
     return text;
 }
 

@@ -46,25 +46,26 @@ inline const char* readPlainNumber(const char* text, const char* end, double& va
                                          1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14};
     const bool isNegative = *text == '-';
     const char* p = text + isNegative;
-    const EightDigits whole = digitsAt(p);
+    // Most have one digit in front of the point.
+    const auto isDigit = [](char c) { return static_cast<unsigned char>(c - '0') < 10; };
+    const bool isShort = isDigit(p[0]) && !isDigit(p[1]);
+    const EightDigits whole =
+        isShort ? EightDigits{static_cast<std::uint32_t>(p[0] - '0'), 1} : digitsAt(p);
     if (whole.count == 0 || whole.count == 8 || (*p == '0' && whole.count > 1)) return nullptr;
     p += whole.count;
     std::uint64_t digits = whole.value;
     int behindPoint = 0;
     if (*p == '.') {
-        const EightDigits first = digitsAt(++p);
+        // Both at the same time, whether the second ones are needed or not.
+        const EightDigits first = digitsAt(++p), next = digitsAt(p + 8);
         if (first.count == 0) return nullptr;
-        p += first.count;
-        digits = digits * kTens[first.count] + first.value;
-        behindPoint = first.count;
-        if (first.count == 8) {
-            const EightDigits second = digitsAt(p);
-            p += second.count;
-            digits = digits * kTens[second.count] + second.value;
-            behindPoint += second.count;
-        }
+        const EightDigits second = first.count == 8 ? next : EightDigits{};
+        behindPoint = first.count + second.count;
+        if (whole.count + behindPoint > kMostDigits) return nullptr;
+        digits = (digits * kTens[first.count] + first.value) * kTens[second.count] + second.value;
+        p += behindPoint;
     }
-    if (*p == 'e' || *p == 'E' || whole.count + behindPoint > kMostDigits) return nullptr;
+    if (*p == 'e' || *p == 'E') return nullptr;
     // Clinger 1990, as in readDouble().
     const double size =
         static_cast<double>(static_cast<std::int64_t>(digits)) / kPowers[behindPoint];

@@ -81,7 +81,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       textureColors(::textureColors(chooseKernel(theSettings.kernel))),
       bounceLanes(::bounceLanes(chooseKernel(theSettings.kernel))),
       stillsInLanes(stillsInLanesOf(theScene.shapes(), surfaceLanes, surfaceNeeds)),
-      cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
+      materials(theScene), cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
     const int samples = settings.picture.lightSamples;
     for (std::size_t i = 0; i < scene.lights().size(); ++i) {
         const Light& light = *scene.lights()[i];

@@ -4,6 +4,7 @@
 
 #include "render/batch.h"
 #include "render/lamp_map/lamp_map.h"
+#include "render/material_table.h"
 #include "render/occluders.h"
 #include "render/point_columns.h"
 #include "render/query.h"
@@ -83,6 +84,7 @@ struct IntegratorContext {
     TextureColorsFn textureColors; // null: one by one
     BounceLanes bounceLanes;       // null: one by one
     StillsInLanes stillsInLanes;
+    MaterialTable materials;
     MediumTree media; // what camera rays start in, and room for what rays enter
     MediumTree::Inside cameraMedium;
 
@@ -102,16 +104,25 @@ struct SampleChunk {
     std::vector<FirstHit> first; // filled only if the context wants it
 };
 
+// What the points of a block are made of.
+struct PaintedBlock {
+    const Material* all = nullptr;  // the numbers of all of them; null: they differ
+    bool isTextured = false;        // some are; else a bit for each point that
+    std::uint16_t answersLamps = 0; // has such a material,
+    std::uint16_t mirrors = 0;      // or such a one
+};
+
 // The points that the rays of a wave have met; element k of every array is point k.
 struct PointBatch {
     std::size_t count = 0;             // the arrays may be longer
     std::vector<std::uint32_t> ray;    // ascending
     std::vector<std::uint32_t> missed; // rays that have met nothing, ascending
     std::size_t missedCount = 0;
-    std::vector<std::uint32_t> slot; // of its sample
+    std::vector<std::uint32_t> slot;  // of its sample
+    std::vector<std::uint32_t> shape; // that it is on
     PointColumns at;
     std::vector<const Material*> material; // numbers at this point
-    std::vector<const Material*> painted;  // by block: those of all its points; null: they differ
+    std::vector<PaintedBlock> painted;     // by block
     std::vector<Material> textured;        // those with textures applied
     std::vector<Rgb> weight;               // of what the surface sends to the eye
 
@@ -121,8 +132,8 @@ struct PointBatch {
         if (most == 0 || ray.size() >= most) return;
         at.resize(most);
         const std::size_t room = at.size();
-        ray.resize(room), missed.resize(room), slot.resize(room), material.resize(room),
-            textured.resize(room), weight.resize(room);
+        ray.resize(room), missed.resize(room), slot.resize(room), shape.resize(room),
+            material.resize(room), textured.resize(room), weight.resize(room);
         painted.resize(room / PointColumns::kPoints);
     }
     std::size_t blocks() const {

@@ -19,6 +19,22 @@ inline Floats clipAlong(const Camera::RoundLens& lens, const Doubles3& dir) {
     return (Doubles(lens.clipStart) / dot(dir, forAll(lens.forward))).toFloats();
 }
 
+// placeOnDisk() takes numbers of 24 bits, as Sobol's are: 2 u - 1 is exact then. Numbers of other
+// samplers that it rounds go the plain way.
+inline void placeRounded(DiskRow& place) {
+    const Floats one(1.0f), two(2.0f);
+    const auto isExact = [&](const float(&number)[W]) {
+        const Floats twice = two * Floats::load(number);
+        return (twice - one) + one == twice;
+    };
+    for (unsigned rest = bits(isExact(place.u) & isExact(place.v)) ^ ((1u << W) - 1); rest != 0;
+         rest &= rest - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+        const Vec2 at = diskFromSquare({place.u[i], place.v[i]});
+        place.x[i] = at.x, place.y[i] = at.y;
+    }
+}
+
 inline void raysFrom(const Camera::RoundLens& lens, LensBlock& block, std::size_t first) {
     const Doubles3 right = forAll(lens.right), up = forAll(lens.up), forward = forAll(lens.forward),
                    eye = forAll(lens.eye);
@@ -28,6 +44,7 @@ inline void raysFrom(const Camera::RoundLens& lens, LensBlock& block, std::size_
     DiskRow place;
     Floats::load(block.u + first).store(place.u), Floats::load(block.v + first).store(place.v);
     placeOnDisk(&place, 1);
+    placeRounded(place);
     const Doubles3 onLens = right * (Doubles(Floats::load(place.x)) / Doubles(lens.apertureRatio)) +
                             up * Doubles(Floats::load(place.y));
     const Doubles3 from = eye + onLens * Doubles(lens.apertureRadius);

@@ -52,7 +52,7 @@ std::optional<Occluder::Sides> sidesOf(const Shape& shape, const Bounds& box) {
 
 // A cube whose faces are those of its box, and not too slim to be met (Cube::solidForm()).
 bool isUpright(const SolidForm& form) {
-    if (!form.faces || form.faces->of != StillFaces::Of::Cube || form.drift) return false;
+    if (!form.faces || form.faces->of != StillFaces::Of::Cube || form.motion) return false;
     const auto& m = form.faces->shape->objectFromWorld();
     for (std::size_t row = 0; row < 12; row += 4)
         if ((m[row] != 0) + (m[row + 1] != 0) + (m[row + 2] != 0) != 1) return false;

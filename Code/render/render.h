@@ -1,5 +1,5 @@
 // render(): Scene + RenderSettings -> pictures. Tiles, threads, progress and counters live here;
-// what one tile computes is in whitted.cpp and first_hit.cpp.
+// the samples of one tile come from TileSampler.
 #pragma once
 
 #include "image/coded_image.h"

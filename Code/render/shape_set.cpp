@@ -2,6 +2,7 @@
 
 #include "accel/kernels/solids_walk.h"
 #include "base/for_each.h"
+#include "shape/analytic_shape.h"
 #include "shape/mesh_instance.h"
 
 #include <algorithm>
@@ -107,7 +108,8 @@ void ShapeSet::buildBatchTrees(const Kernel& kernel, int threads) {
     }
     const auto describe = [&](std::uint32_t i, std::uint32_t next) -> SolidTree::Described {
         const auto* const soon = reinterpret_cast<const char*>(shapes[numbers[next]].get());
-        for (std::size_t line = 0; line < 4; ++line) __builtin_prefetch(soon + 64 * line);
+        for (std::size_t at = 0; at < sizeof(AnalyticShape); at += 64)
+            __builtin_prefetch(soon + at);
         const std::uint32_t number = numbers[i];
         return {number, shadows[number] == Shadow::Opaque, shapes[number]->solidForm()};
     };
@@ -115,7 +117,7 @@ void ShapeSet::buildBatchTrees(const Kernel& kernel, int threads) {
         numbers.size() < boxes.size() ? boxesOf(numbers, boxes, threads) : RawVector<Bounds>();
     const std::span<const Bounds> of = some.empty() ? std::span<const Bounds>(boxes) : some;
     solids_.extent = extent;
-    if (!numbers.empty()) solids_.build(kernel.width, buildBvh(of, threads), of, describe, threads);
+    if (!numbers.empty()) solids_.build(kernel.width, of, describe, threads);
     if (!placed_.isEmpty()) placed_.build(kernel, extent, threads);
 }
 

@@ -25,6 +25,14 @@ double amplification(const AffineRows& map, const AffineRows& inverse) {
     return largest;
 }
 
+// A bound of the square of how much the map stretches, by Gershgorin's circles about its Gram
+// matrix.
+double largestStretch2(const Transform& map) {
+    const Vec3d x = map.column(0), y = map.column(1), z = map.column(2);
+    const double xy = std::fabs(dot(x, y)), yz = std::fabs(dot(y, z)), zx = std::fabs(dot(z, x));
+    return max(dot(x, x) + xy + zx, max(dot(y, y) + xy + yz, dot(z, z) + yz + zx));
+}
+
 } // namespace
 
 AnalyticShape::AnalyticShape(const MovingTransform& worldFromObject, std::uint32_t material,
@@ -49,8 +57,26 @@ Bounds AnalyticShape::bounds() const {
     return outward(box.padded(0x1p-22 * max(maxAbs(box.lo), maxAbs(box.hi))));
 }
 
+// The origin goes on lines. The turn changes no length, and between two keys the stretch is no
+// longer than at one of them.
+SolidForm AnalyticShape::movingForm(double farthest) const {
+    BoundsD way;
+    double most = 0;
+    for (const Transform& key : motion_->keys()) {
+        way.extend(key.translation());
+        most = max(most, largestStretch2(key));
+    }
+    const double reach = farthest * std::sqrt(most);
+    SolidForm form{ballAround(way)};
+    form.hull.radius += reach;
+    auto drift = motion_->drift();
+    const bool turns = !drift;
+    form.motion = {std::move(drift), turns ? motion_.get() : nullptr, reach};
+    return form;
+}
+
 SolidForm AnalyticShape::tubeForm(double radius) const {
-    if (!isStill()) return Shape::solidForm();
+    if (!isStill()) return movingForm(std::sqrt(1 + radius * radius));
     const Vec3d x = worldFromObject().column(0), y = worldFromObject().column(1);
     const Vec3d axis = worldFromObject().column(2);
     const double size = length(axis);
@@ -68,10 +94,9 @@ SolidForm AnalyticShape::tubeForm(double radius) const {
             {}};
 }
 
-SolidForm AnalyticShape::facesForm(StillFaces::Of of) const {
-    SolidForm form = Shape::solidForm();
-    form.drift = drift();
-    if (isStill() || form.drift) form.faces = {.shape = &still_, .of = of};
+SolidForm AnalyticShape::facesForm(StillFaces::Of of, double farthest) const {
+    SolidForm form = isStill() ? Shape::solidForm() : movingForm(farthest);
+    form.faces = {.shape = &still_, .of = of};
     return form;
 }
 

@@ -78,12 +78,12 @@ protected:
     // Of a shape that moves: its first key.
     const StillShape& still() const { return still_; }
     const Transform& worldFromObject() const { return still_.worldFromObject; }
-    // How it moves, if lanes can follow.
-    std::optional<Drift> drift() const { return isStill() ? std::nullopt : motion_->drift(); }
+    // Of a shape that moves, and is at most `farthest` from the object's origin.
+    SolidForm movingForm(double farthest) const;
     // Around disks of at most this radius about the z axis, of z from -1 to 1.
     SolidForm tubeForm(double radius) const;
-    // Within a ball around the box.
-    SolidForm facesForm(StillFaces::Of of) const;
+    // Within a ball around the box, or one that moves.
+    SolidForm facesForm(StillFaces::Of of, double farthest) const;
 
     // The whole line, in double; org and dir are finite, dir is not zero nor of unit length.
     virtual Roots roots(const RayD& ray) const = 0;

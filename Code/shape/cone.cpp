@@ -19,7 +19,7 @@ Cone::Cone(const MovingTransform& worldFromObject, double radius, double topRadi
 
 SolidForm Cone::solidForm() const {
     SolidForm form = tubeForm(max(side_.radius, side_.topRadius));
-    if (form.hull.axis == Vec3d{}) return form;
+    if (form.hull.axis == Vec3d{} && !form.motion) return form;
     form.tube = {.shape = &still(),
                  .caps = caps_,
                  .radius = side_.narrowRadius,

@@ -20,7 +20,8 @@ Cube::Cube(const MovingTransform& worldFromObject, std::uint32_t material, std::
 }
 
 SolidForm Cube::solidForm() const {
-    if (!isStill()) return facesForm(StillFaces::Of::Cube);
+    const double farthestCorner = std::sqrt(3.0);
+    if (!isStill()) return facesForm(StillFaces::Of::Cube, farthestCorner);
     const Transform& map = worldFromObject();
     double farthest = 0; // corner
     for (int i = 0; i < 4; ++i) {
@@ -34,7 +35,7 @@ SolidForm Cube::solidForm() const {
     for (std::size_t i = 0; i < 12; i += 4)
         steepest = max(steepest, length(Vec3d{m[i], m[i + 1], m[i + 2]}));
     if (steepest > 0 && steepest * farthest < 0x1p20) hull.innerRadius = 1 / steepest;
-    SolidForm form = facesForm(StillFaces::Of::Cube);
+    SolidForm form = facesForm(StillFaces::Of::Cube, farthestCorner);
     form.hull = hull;
     return form;
 }

@@ -11,8 +11,9 @@ Cylinder::Cylinder(const MovingTransform& worldFromObject, double radius, bool c
 
 SolidForm Cylinder::solidForm() const {
     SolidForm form = tubeForm(radius());
-    if (form.hull.axis == Vec3d{}) return form;
+    if (form.hull.axis == Vec3d{} && !form.motion) return form;
     form.tube = {.shape = &still(), .caps = caps_, .radius = radius()};
+    if (form.motion) return form;
     const Vec3d x = worldFromObject().column(0), y = worldFromObject().column(1);
     const Vec3d axis = form.hull.axis;
     // Round and straight but for 2^-30, which `form.hull` covers as it does rounding.

@@ -6,7 +6,7 @@ Disk::Disk(const MovingTransform& worldFromObject, double radius, std::uint32_t 
     measure(StillShape::Kind::Disk);
 }
 
-SolidForm Disk::solidForm() const { return facesForm(StillFaces::Of::Disk); }
+SolidForm Disk::solidForm() const { return facesForm(StillFaces::Of::Disk, radius()); }
 
 AnalyticShape::Roots Disk::roots(const RayD& ray) const {
     if (ray.dir.z == 0 || !(radius() > 0)) return {};

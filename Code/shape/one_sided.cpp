@@ -5,15 +5,17 @@
 OneSided::OneSided(std::unique_ptr<const Shape> shape, Side visible)
     : shape_(std::move(shape)), visible_(visible) {}
 
-// Of spheres and planes the kernels know no sides.
+// Of planes the kernels know no sides, and of none what is restricted twice.
 SolidForm OneSided::solidForm() const {
     SolidForm form = shape_->solidForm();
-    if (form.sphere) form.sphere = nullptr, form.drift.reset();
     form.plane.reset();
+    const Facets::Side side = visible_ == Side::Front ? Facets::Side::Front : Facets::Side::Back;
+    if (form.sphere && form.sphereSide != Facets::Side::Both) return {form.hull};
+    form.sphereSide = side;
     const auto restrict = [&](auto& part) {
         if (!part) return;
         if (part->side != Facets::Side::Both) return part.reset();
-        part->side = visible_ == Side::Front ? Facets::Side::Front : Facets::Side::Back;
+        part->side = side;
     };
     restrict(form.facets);
     restrict(form.tube);

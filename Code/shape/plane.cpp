@@ -35,7 +35,11 @@ Plane::Plane(const MovingTransform& worldFromObject, const Corners& corners, std
     measure(StillShape::Kind::Corners);
 }
 
-SolidForm Plane::solidForm() const { return facesForm(StillFaces::Of::Corners); }
+SolidForm Plane::solidForm() const {
+    double farthest = 0;
+    for (const Vec3d& corner : corners_) farthest = max(farthest, length(corner));
+    return facesForm(StillFaces::Of::Corners, farthest);
+}
 
 AnalyticShape::Roots Plane::roots(const RayD& ray) const {
     const auto& [normal, centre, edges, axisX, axisY] = flat_;

@@ -8,9 +8,8 @@ Sphere::Sphere(const MovingTransform& worldFromObject, double radius, std::uint3
 
 SolidForm Sphere::solidForm() const {
     if (!isStill()) {
-        SolidForm form = AnalyticShape::solidForm();
-        form.drift = drift();
-        if (form.drift) form.sphere = &still();
+        SolidForm form = movingForm(radius());
+        form.sphere = &still();
         return form;
     }
     const Transform& map = worldFromObject();

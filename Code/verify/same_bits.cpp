@@ -3,6 +3,7 @@
 // compared.
 #include "accel/kernels/kernels.h"
 #include "base/text.h"
+#include "desc/enum_tables.h"
 #include "render/scene.h"
 #include "verify/groups.h"
 #include "verify/scene_trials.h"
@@ -25,11 +26,21 @@ std::uint64_t hashWith(const SceneDesc& desc, const scenes::Tweak& tweak = {}) {
     }));
 }
 
+// The numbers of each sampler are of another kind: Sobol's are multiples of 2^-24, others are not.
+void sampleAnyhow(Random& random, SettingsDesc& settings) {
+    settings.sampler = static_cast<SettingsDesc::Sampler>(
+        random.below(kNamesByValue<SettingsDesc::Sampler>.size()));
+    settings.jitter = random.chance(0.7);
+    settings.filter =
+        static_cast<SettingsDesc::Filter>(random.below(kNamesByValue<SettingsDesc::Filter>.size()));
+}
+
 using Check = std::function<void(const char* name, SceneDesc&, Random&, Tally&)>;
 Tally forScenes(const Effort& effort, std::uint64_t seed, const Check& check, double batches = 1) {
     return inBatches(effort, seed, batches, [&](Random& random, Tally& tally) {
         for (const scenes::Maker& maker : scenes::makers()) {
             SceneDesc desc = maker.make(random);
+            if (random.chance(0.5)) sampleAnyhow(random, desc.settings);
             check(maker.name, desc, random, tally);
         }
     });

@@ -215,14 +215,14 @@ SceneDesc motion(Random& random) {
     return s.desc;
 }
 
-// A lens with blades, before rough mirrors and rough glass.
+// A lens, round or with blades, before rough mirrors and rough glass.
 SceneDesc lensAndGlossy(Random& random) {
     Stage s(random, 8);
     CameraDesc& camera = s.desc.cameras[0];
     camera.apertureRadius = 0.1;
     camera.focusDistance = 6;
-    camera.apertureBlades = 6;
     camera.apertureRotationDeg = s.uniform(0, 60);
+    camera.apertureBlades = camera.apertureRotationDeg < 30 ? 0 : 6; // 0: round
     const Handle brushed = s.mirror(), frosted = s.glass(1.5), metal = s.shiny();
     s.at(brushed).roughness = 0.3;
     s.at(frosted).roughness = 0.25;

@@ -110,10 +110,12 @@ def plot(rows):
         print("no plot: it needs matplotlib (pip install matplotlib); the table is in tests/bench/growth.tsv")
         return
     colors = {"parse": "#b5651d", "build": "#14706f", "render": "#1d2328", "write": "#9aa5ad"}
+    labels = {"triangles": "triangles of one mesh", "pixels": "pixels", "lights": "point lights",
+              "depth": "bounces between mirrors"}
     words = {"parse": "read", "build": "build", "render": "render", "write": "write"}
     pyplot.rcParams.update({"font.size": 8, "axes.spines.top": False, "axes.spines.right": False})
-    figure, axes = pyplot.subplots(1, 4, figsize=(11, 3.1), sharey=True)
-    for axis, what in zip(axes, subjects(10 ** 9)):
+    figure, axes = pyplot.subplots(2, 2, figsize=(8, 5.2), sharey=True)
+    for axis, what in zip(axes.flat, subjects(10 ** 9)):
         mine = [row for row in rows if row[3] == what]
         if not mine:
             continue
@@ -126,11 +128,12 @@ def plot(rows):
         last = 1e3 * float(mine[-1][7])
         axis.plot([n[0], n[-1]], [last * n[0] / n[-1], last], color="#c9d0d5", linestyle="--", linewidth=1, zorder=0,
                   label="in proportion")
-        axis.set(xscale="log", yscale="log", xlabel=what)
+        axis.set(xscale="log", yscale="log", xlabel=labels[what])
         axis.grid(True, which="major", color="#eef1f2", linewidth=0.6)
         axis.legend(frameon=False, loc="upper left", fontsize=7)
-    axes[0].set_ylabel("milliseconds, one thread")
-    axes[0].set_ylim(0.1, 3e4)
+    for row in axes:
+        row[0].set_ylabel("milliseconds, one thread")
+    axes[0][0].set_ylim(0.1, 3e4)
     figure.tight_layout()
     figure.savefig(PLOT, dpi=110, metadata={"Software": None})
     print(f"tests/bench/growth.png: {os.path.getsize(PLOT) / 1000:.0f} kB")

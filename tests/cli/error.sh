@@ -36,6 +36,8 @@ check '--spp: no pixel has more' [ "$(number max)" = 16 ]
 check '--spp: how many it holds back' below 0 "$(number capped_pixels)"
 check '--spp: says that the goal is missed' has err 'note: the estimated error is 0.'
 check '--spp: says how many samples it allows' has err 'more than 16 samples; --spp allows more'
+expect '--spp: the fewest there may be' 0 '' soft.txt b.pfm --error 0.1 --spp 4 -q
+expect '--spp: one fewer' 1 '--error needs --spp 4' soft.txt b.pfm --error 0.1 --spp 3 -q
 run 0 soft.txt b.pfm --error 0.0001 --spp 16 -q
 check '--quiet: no note' cmp err /dev/null
 run 0 soft.txt b.pfm --error 0.01 --progress plain

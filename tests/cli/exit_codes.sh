@@ -7,6 +7,8 @@ expect 'no arguments: usage, 1' 1 'usage: raytracer SCENE'
 expect 'unknown option: nearest, 1' 1 \
     "raytracer: error: unknown option '--spq'; did you mean '--spp'?" scene.txt --spq 4
 expect 'where help is' 1 "'raytracer --help' lists all options" scene.txt --spq 4
+expect 'where help of a sub-command is' 1 "'raytracer diff --help' lists all options" diff a.ppm
+expect 'nearly a sub-command: 1' 1 "no sub-command 'dif'; did you mean 'raytracer diff'?" dif a.ppm a.ppm
 expect 'wrong value: 1' 1 "--spp expects a whole number from 1 to 16777216, got 'x'" scene.txt --spp x
 expect 'missing value: 1' 1 '--threads expects a whole number from 0 to 1024, got nothing' scene.txt -q --threads
 expect 'two outputs: 1' 1 "two outputs: 'a.ppm' and --output 'b.ppm'" scene.txt a.ppm -o b.ppm
@@ -17,6 +19,10 @@ expect 'too large a picture: 1' 1 'is too large' scene.txt a.ppm --resolution 65
 expect 'missing scene: 2' 2 'nothere.txt: error: cannot read' nothere.txt a.ppm
 expect 'nearest scene' 2 "did you mean 'scene.txt'?" scenee.txt a.ppm
 expect 'a folder is no scene: 2' 2 'it is a folder' / a.ppm
+
+cp scene.txt bare
+expect 'no extension: 2' 2 'bare: error: the name has no extension' bare a.ppm
+rm bare
 
 sed 's/material red$/material gold/' scene.txt > gold.txt
 expect 'error in a scene: 2' 2 'error: unknown material' gold.txt gold.ppm

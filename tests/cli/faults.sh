@@ -187,6 +187,16 @@ if [ $code -ne 0 ]; then
 else
     sh "$tests/bench/waves.sh" 40000 > waves.txt
     sweep 'a large mesh' 'reading the scene' 2 24 waves.txt tight.ppm -q -t 1 -r 16x16
+    # 300,000 vertices of 3 bytes in the file, of 24 in memory.
+    {
+        printf 'ply\nformat binary_little_endian 1.0\nelement vertex 300000\nproperty char x\n'
+        printf 'property char y\nproperty char z\nelement face 1\n'
+        printf 'property list uchar int vertex_indices\nend_header\n'
+        head -c 899991 /dev/zero
+        printf '\001\000\000\000\001\000\000\000\001'
+        printf '\003\337\223\004\000\336\223\004\000\335\223\004\000'
+    } > swarm.ply
+    sweep 'a large PLY file' 'reading the scene' 2 24 swarm.ply tight.ppm -q -t 1 -r 16x16
     sweep 'a tree' 'building the scene' 2 24 waves.txt tight.ppm -q -t 1 -r 16x16
     sweep 'a large film' 'rendering' 2 48 scene.txt tight.ppm -q -t 1 -r 1600x1600 --spp 1 -i normal
     sweep 'a large picture' 'writing the picture' 4 96 scene.txt tight.ppm -q -t 1 \

@@ -60,9 +60,9 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/-2000000000 2 3\n' > relative.obj
 promise 'OBJ: index from the end' "relative.obj:4:5: error: there is no 'vt'" relative.obj --check
 
 for format in ascii binary_little_endian binary_big_endian; do
-    printf 'ply\nformat %s 1.0\nelement vertex 1000000000\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n' \
+    printf 'ply\nformat %s 1.0\nelement vertex 4000000000\nproperty float x\nproperty float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n' \
         $format > $format.ply
-    promise "PLY: vertices, $format" "$format.ply:3:1: error: 'element vertex 1000000000' is more than" $format.ply --check
+    promise "PLY: vertices, $format" "$format.ply:3:1: error: 'element vertex 4000000000' is more than" $format.ply --check
     printf 'ply\nformat %s 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nelement face 4000000000\nproperty list uint int vertex_indices\nend_header\n9999' \
         $format > faces_$format.ply
     promise "PLY: faces, $format" "'element face 4000000000' is more than" faces_$format.ply --check

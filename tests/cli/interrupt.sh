@@ -28,6 +28,8 @@ interrupted() {
     runAndSignal "$1" scene.txt "$1/a.png" --aov depth -r 2000x2000 --spp 256 --progress plain
     check "$1: exit code 130" [ $code -eq 130 ]
     check "$1: a message" has err 'raytracer: interrupted; nothing is written'
+    # Not by the handler itself, which begins a new line.
+    check "$1: the render ends by itself" [ "$(grep -c '^$' err)" -eq 0 ]
     check "$1: nothing on stdout" [ ! -s out ]
     check "$1: no file is left" holds "$1" a.png
     check "$1: the old picture is kept" [ "$(cat "$1/a.png")" = old ]

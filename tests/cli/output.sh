@@ -74,6 +74,12 @@ run 0 --version
 check '--version' grep -qx 'raytracer [0-9.]*' out
 run 0 --list-features
 check '--list-features' has out 'motion-blur'
+check '--list-features: texts in one column' [ "$(cut -c 16-17 out | grep -c '^ [^ ]')" -eq "$(wc -l < out)" ]
+run 0 scene.txt --convert told.txt
+check '--convert says what it wrote' [ "$(cat err)" = 'wrote told.txt' ]
+run 0 scene.txt told.pfm --aov depth,id --progress none
+check 'all files are told that were written' [ "$(cat err)" = 'wrote told.pfm, told.depth.pfm, told.id.pfm' ]
+rm told.*
 check 'nothing else was written' [ "$(find . -name '*.tmp' | wc -l)" -eq 0 ]
 
 finish

@@ -124,6 +124,31 @@ TEST(sameBitsOfGlassBesideMirrors) {
                       shot::render(text, [&](RenderSettings& s) { s.kernel = kernel.name; }).color);
 }
 
+// Mirrors of many colours, and what mirrors nothing: nobody asks what rays are inside of, but each
+// goes on with its own weight, at its own time and for its own sample.
+TEST(sameBitsOfMirrorsInMotion) {
+    std::string text = "settings {\n resolution 96 72\n samples 2\n max_depth 5\n}\n"
+                       "world {\n background 0.2 0.3 0.5\n ambient 0.3 0.2 0.1\n}\n"
+                       "camera c {\n look_at 0 -6 2  0 0 0.5  0 0 1\n}\n"
+                       "light l {\n translate -2 -3 4\n color 40 40 35\n}\n"
+                       "material m0 {\n diffuse 0.3 0.2 0.1\n}\n"
+                       "plane floor {\n scale 9 9 1\n material m1\n}\n";
+    for (int i = 1; i < 6; ++i)
+        text += cat("material m", i, " {\n diffuse 0.", i, " 0.1 0.2\n specular 0 0.", i - 1,
+                    " 0\n mirror 0.", i + 3, " 0.5 0.4\n}\n");
+    for (int i = 0; i < 40; ++i)
+        text += cat("sphere s", i, " {\n translate ", 0.5 * (i % 8 - 3.5), ' ', 0.6 * (i / 8), ' ',
+                    0.1 * (i % 5),
+                    i % 3 == 0 ? cat("\n key\n translate ", 0.5 * (i % 8 - 3), " 0 1") : "",
+                    "\n radius 0.25\n material m", i % 6, "\n}\n");
+    const Image scalar = shot::render(text).color;
+    CHECK(shot::largest(scalar) > 0.2);
+    for (const Kernel& kernel : allKernels())
+        if (kernel.supported())
+            checkSame("mirrors", kernel.name, scalar,
+                      shot::render(text, [&](RenderSettings& s) { s.kernel = kernel.name; }).color);
+}
+
 TEST(sameBitsInCrops) {
     for (const auto& [name, text] : scenes::all()) {
         const Image full = shot::render(text).color;

@@ -40,6 +40,11 @@ std::optional<Scene> materials() {
     return std::optional<Scene>(std::in_place, desc, SourceFile{"scene", ""}, settings);
 }
 
+Rgb someColour(Random& random) {
+    const Vec3 v = toFloat(random.inBox(2));
+    return {v.x, v.y, v.z};
+}
+
 Vec3 someDirection(Random& random) { return toFloat(random.direction()); }
 
 Surface someSurface(Random& random, bool flat) {
@@ -183,6 +188,62 @@ TEST(shade_lanes_paint_all_points_alike) {
                            SurfaceBlock::get(block.specular, k) == (Vec3{0.4f, 0.5f, 0.6f}) &&
                            block.exponent[k] == 7,
                        name << ", point " << k);
+    });
+}
+
+TEST(shade_lanes_paint_points_of_many_materials) {
+    forAllLanes([](const char* name, const ShadeLanes& lanes) {
+        Random random(7003);
+        std::array<Material, 5> materials;
+        for (std::size_t m = 0; m < materials.size(); ++m) {
+            materials[m].diffuse = someColour(random),
+            materials[m].exponent = static_cast<float>(m);
+            if (m > 0)
+                materials[m].specular =
+                    m == 1 ? Rgb{0, 0, 1} : someColour(random); // one is not shiny
+            materials[m].specularModel = static_cast<SpecularModel>(m % LitBlock::kModels);
+        }
+        for (int i = 0; i < check::scaled(200); ++i) {
+            std::array<const Material*, kPoints> of;
+            for (const Material*& one : of)
+                one = &materials[random.below(static_cast<std::uint32_t>(materials.size()))];
+            LitBlock block;
+            block.used = 0xffff;
+            block.shiny[1] = 3; // of points that were here before
+            lanes.paintEach(of.data(), block);
+            for (std::size_t k = 0; k < kPoints; ++k) {
+                bool same = sameBits(of[k]->diffuse, SurfaceBlock::get(block.diffuse, k));
+                for (std::size_t model = 0; model < LitBlock::kModels; ++model) {
+                    const bool isShiny = !isBlack(of[k]->specular) &&
+                                         of[k]->specularModel == static_cast<SpecularModel>(model);
+                    same &= (block.shiny[model] >> k & 1) == unsigned{isShiny};
+                    if (isShiny)
+                        same &= sameBits(of[k]->specular, SurfaceBlock::get(block.specular, k)) &&
+                                block.exponent[k] == of[k]->exponent;
+                }
+                CHECK_INFO(same, name << ", block " << i << ", point " << k);
+            }
+        }
+    });
+}
+
+// What follows the sixteen samples stays as it was.
+TEST(shade_lanes_add_glow_to_samples_in_a_row) {
+    forAllLanes([](const char* name, const ShadeLanes& lanes) {
+        Random random(7004);
+        for (int i = 0; i < check::scaled(200); ++i) {
+            Colours weights, glow;
+            std::array<Rgb, kPoints + 1> radiance, expected;
+            for (Colours* const row : {&weights, &glow})
+                for (Rgb& colour : *row) colour = someColour(random);
+            for (Rgb& colour : radiance) colour = someColour(random);
+            expected = radiance;
+            for (std::size_t k = 0; k < kPoints; ++k) expected[k] += weights[k] * glow[k];
+            lanes.glow(weights.data(), glow.data(), radiance.data());
+            for (std::size_t k = 0; k <= kPoints; ++k)
+                CHECK_INFO(sameBits(radiance[k], Vec3{expected[k].r, expected[k].g, expected[k].b}),
+                           name << ", row " << i << ", sample " << k);
+        }
     });
 }
 

@@ -58,19 +58,23 @@ TEST(specialisedFormsGiveTheSameBits) {
         Steps need;
     } kCases[] = {
         {kPlain + kPoint, {}},
-        {kPlain + rectangle("false"), {.softLamps = true}},
-        {kPlain + kPoint + rectangle("true"), {.softLamps = true, .lampBodies = true}},
+        {kPlain + rectangle("false"), {.softLamps = true, .draws = true}},
+        {kPlain + kPoint + rectangle("true"),
+         {.softLamps = true, .lampBodies = true, .draws = true}},
         {mirror + kPoint, {.bounces = true}},
+        {mirror.substr(0, mirror.size() - 2) + " roughness 0.1\n}\n" + kPoint,
+         {.bounces = true, .branches = true, .draws = true}},
         {textured + "}\n" + kPoint, {.textures = true}},
         {pane + "}\n" + kPoint, {.seeThrough = true, .branches = true}},
         {textured + " mirror 0.5 0.5 0.5\n}\n" + rectangle("true"),
-         {.softLamps = true, .lampBodies = true, .bounces = true, .textures = true}},
+         {.softLamps = true, .lampBodies = true, .bounces = true, .textures = true, .draws = true}},
         {pane + " mirror 0.2 0.2 0.2\n}\n" + kPoint + rectangle("true"),
          {.softLamps = true,
           .lampBodies = true,
           .bounces = true,
           .seeThrough = true,
-          .branches = true}},
+          .branches = true,
+          .draws = true}},
     };
     for (const auto& [text, need] : kCases) {
         const std::string whole = kView.text() + kBall + text;
@@ -81,7 +85,8 @@ TEST(specialisedFormsGiveTheSameBits) {
         const Scene scene(desc, {"scene", ""}, settings);
         CHECK_INFO(stepsFor(scene, settings) == need, whole);
         settings.specialise = false;
-        CHECK_INFO(stepsFor(scene, settings) == (Steps{true, true, true, true, true, true}), whole);
+        CHECK_INFO(stepsFor(scene, settings) == (Steps{true, true, true, true, true, true, true}),
+                   whole);
         CHECK_INFO(shot::largest(checkedShot(whole).color) > 0.1, whole);
     }
 }

@@ -162,6 +162,15 @@ TEST(bumpsOnMirroredPlanes) {
     }
 }
 
+// A normal that points into the surface is none: the surface's own holds.
+TEST(normalMapsThatPointInwardChangeNothing) {
+    shot::writeTexture("inward.pfm", 1, 1, [](double, double) { return Rgb{0.9f, 0.5f, 0.1f}; });
+    const std::string texture = "texture t {\n file inward.pfm\n space linear\n}\n",
+                      light = "1 2 3";
+    CHECK_EQUAL(shot::differingPixels(lit(" normal_map t\n", light, texture), lit("", light, "")),
+                0);
+}
+
 TEST(normalMapTiltsTheNormal) {
     const Vec3d n = normalize(Vec3d{0.3, -0.4, 1});
     const auto code = [](double x) { return static_cast<float>(0.5 + 0.5 * x); };

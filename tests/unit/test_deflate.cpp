@@ -88,6 +88,40 @@ TEST(inflate_known_streams) {
               squares.size(), "dynamic") == squares);
 }
 
+// A code of the lengths 1 to 14, and two of 15 bits, is complete; a third of 15 bits is one too
+// many.
+TEST(inflate_counts_codes_to_the_last) {
+    const auto stream = [](unsigned lengthOf15) {
+        Buffer bytes{0x78, 0x01};
+        std::size_t bits = 0;
+        const auto put = [&](unsigned value, unsigned count) { // the lowest bit first
+            for (unsigned i = 0; i < count; ++i, ++bits) {
+                if (bits % 8 == 0) bytes.push_back(0);
+                bytes.back() =
+                    static_cast<std::uint8_t>(bytes.back() | (value >> i & 1) << bits % 8);
+            }
+        };
+        const auto putCode = [&](unsigned code, unsigned count) { // the highest bit first
+            while (count-- > 0) put(code >> count & 1, 1);
+        };
+        put(1, 1), put(2, 2);             // the last block, of codes of its own
+        put(0, 5), put(0, 5), put(15, 4); // 257 literals, 1 distance, lengths of all 19 lengths
+        for (unsigned i = 0; i < 19; ++i) put(i < 3 ? 0 : 4, 3); // 0 to 15 have codes of 4 bits
+        for (unsigned symbol = 0; symbol <= 256; ++symbol)
+            putCode(symbol < 15     ? symbol + 1
+                    : symbol == 15  ? lengthOf15
+                    : symbol == 256 ? 15
+                                    : 0,
+                    4);
+        putCode(1, 4);       // the only distance has one bit
+        putCode(0x7fff, 15); // 256 ends the block
+        bytes.insert(bytes.end(), {0, 0, 0, 1});
+        return bytes;
+    };
+    CHECK(inflateZlib(stream(0), 0, "complete").empty());
+    CHECK_THROWS(inflateZlib(stream(15), 0, "one more"), "code has too many codes");
+}
+
 TEST(inflate_ignores_what_follows_the_stream) {
     Buffer packed = deflateZlib(bytesOf("abc"));
     packed.insert(packed.end(), {1, 2, 3});

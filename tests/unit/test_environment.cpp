@@ -1,20 +1,11 @@
 #include "analytic_kit.h"
 #include "check.h"
 #include "texture/environment.h"
+#include "unit/stored_floats.h"
 
 using kit::Random;
 
 namespace {
-
-StoredImage floats(int width, int height, std::vector<float> values) {
-    StoredImage image;
-    image.width = width;
-    image.height = height;
-    image.channels = 1;
-    image.depth = StoredImage::Depth::Float;
-    image.floats = std::move(values);
-    return image;
-}
 
 // 8 x 4, the texel's number from the top left: 0..31.
 StoredImage numbered() {

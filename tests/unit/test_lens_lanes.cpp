@@ -53,9 +53,12 @@ TEST(lens_lanes_have_the_bits_of_single_rays) {
             for (std::size_t k = 0; k < LensBlock::kRays; ++k) {
                 block.x[k] = random.uniform(-1, params.width + 1.0);
                 block.y[k] = random.uniform(-1, params.height + 1.0);
-                // Sobol's grid, with the seams of the disk: its centre, sides, and diagonals.
+                // Sobol's grid, or that of other samplers, whose numbers have bits below 2^-24;
+                // with the seams of the disk: its centre, sides, and diagonals.
+                const bool isSobol = i % 2 == 0;
                 const auto onGrid = [&] {
-                    return static_cast<float>(random.below(1u << 24)) * 0x1p-24f;
+                    return isSobol ? static_cast<float>(random.below(1u << 24)) * 0x1p-24f
+                                   : static_cast<float>(random.unit() * 0x0.ffffffp0);
                 };
                 block.u[k] = random.chance(0.1) ? 0.5f : onGrid();
                 block.v[k] = random.chance(0.1)   ? 0.5f
@@ -199,8 +202,12 @@ TEST(lens_lanes_are_for_round_lenses_at_rest) {
     CHECK(!Camera(params).roundLens()); // a pinhole
     params.apertureRadius = 0.1;
     CHECK(Camera(params).roundLens().has_value());
-    params.apertureBlades = 5;
-    CHECK(!Camera(params).roundLens());
+    for (const int blades : {3, 5}) {
+        params.apertureBlades = blades;
+        CHECK_INFO(!Camera(params).roundLens(), blades);
+    }
+    params.apertureBlades = 2; // fewer than 3 make no polygon
+    CHECK(Camera(params).roundLens().has_value());
     params.apertureBlades = 0, params.kind = CameraParams::Kind::Orthographic;
     CHECK(!Camera(params).roundLens());
     CHECK(cameraLanes(chooseKernel("scalar")).rays == nullptr);

@@ -224,6 +224,55 @@ TEST(material_no_bounce_on_the_wrong_side) {
     CHECK_EQUAL(wrong, 0);
 }
 
+// What is bent is bent about the shading normal by Snell's law, and about the true one only where
+// the first leads to the side of the eye.
+TEST(material_bent_refraction_is_about_the_shading_normal) {
+    Random random(95);
+    const Vec3 ng{0, 0, 1};
+    Material m;
+    m.transmission = {1, 1, 1};
+    int bent = 0, fallen = 0;
+    const int count = check::scaled(20000);
+    for (int i = 0; i < count; ++i) {
+        const Vec3 n = above(random), v = above(random);
+        if (dot(v, n) <= 0) continue;
+        const float eta = static_cast<float>(random.logUniform(0.4, 2.5));
+        const auto first = refractThrough(v, n, eta), second = refractThrough(v, ng, eta);
+        if (!first) continue;
+        const bool isBelow = dot(*first, ng) < 0;
+        const Bounces out = bounces(m, n, ng, v, eta, {0.5f, 0.5f});
+        const auto& expected = isBelow ? first : second; // none: total internal reflection
+        CHECK_INFO(out.refracted.has_value() == expected.has_value() &&
+                       (!expected || out.refracted->dir == *expected),
+                   "case " << i << " of seed 95");
+        ++(isBelow ? bent : fallen);
+    }
+    CHECK_INFO(bent > count / 10 && fallen > count / 1000,
+               bent << " bent, " << fallen << " fell back");
+}
+
+// A half vector that the eye does not see reflects nothing: n does.
+TEST(material_rough_half_vectors_face_the_eye) {
+    Random random(96);
+    // Bent, as a ray that leads below the surface is mirrored about ng anyway.
+    const Vec3 ng{0, 0, 1}, n = normalize(Vec3{0.1f, 0.2f, 1}), v = normalize(Vec3{1, 0, 0.05f});
+    Material m;
+    m.mirror = {1, 1, 1};
+    m.roughness = 1; // of exponent 1
+    int turnedAway = 0;
+    const int count = check::scaled(2000);
+    for (int i = 0; i < count; ++i) {
+        const Vec2 u = random.square();
+        const Vec3 h = normalize(frameAround(n).toWorld(cosinePowerFromSquare(u, 1)));
+        const bool isAway = !(dot(h, v) > 0);
+        const Bounces out = bounces(m, n, ng, v, 1, u);
+        CHECK_INFO(out.reflected && out.reflected->dir == mirrored(v, isAway ? n : h, ng),
+                   "case " << i << " of seed 96");
+        turnedAway += isAway;
+    }
+    CHECK_INFO(turnedAway > count / 10, turnedAway << " turned away");
+}
+
 // Rough reflection draws half vectors from the Blinn lobe: the mean direction and the mean weight
 // are those of the Ashikhmin lobe with that exponent, integrated by a rule.
 TEST(material_rough_reflection_is_the_lobe) {

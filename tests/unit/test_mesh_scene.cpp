@@ -131,6 +131,21 @@ TEST(mesh_scene_materials) {
     CHECK_EQUAL(unknown.scene.materials[1].name, "a");
 }
 
+// Whoever has no name is called as the file, without its extension unless that is all there is.
+TEST(mesh_scene_things_without_name_have_that_of_the_file) {
+    const std::string obj = kSquare + "f 1 2 3\n";
+    for (const auto& [file, name] : {std::pair("some/thing.obj", "thing"),
+                                     {"b.c.obj", "b.c"},
+                                     {"x\\y.obj", "y"},
+                                     {"some/.obj", ".obj"}}) {
+        Diagnostics diagnostics;
+        const SourceFile source{file, obj};
+        const SceneDesc scene =
+            sceneAround(readObj(source, {{}, diagnostics}), {}, source, {{}, diagnostics});
+        CHECK_EQUAL(scene.meshes.at(0).name, name);
+    }
+}
+
 TEST(mesh_scene_names_are_right_and_unique) {
     const Result result =
         sceneOf(kSquare + "o w\nf 1 2 3\no x\nf 1 2 3\no w\nf 1 2 3\no w 2\nf 1 2 3\no w\nf 1 2 3\n"

@@ -115,7 +115,6 @@ TEST(options_unknown_flag_is_answered_with_the_nearest) {
     CHECK_THROWS(parsed({"-Z"}), "unknown option '-Z'");
     CHECK_THROWS(parsed({"-qv"}), "unknown option '-qv'");
     CHECK_THROWS(parsed({"--no-spp"}), "unknown option '--no-spp'");
-    CHECK_THROWS(parsed({"--spq"}), "raytracer --help");
 }
 
 TEST(options_names) {

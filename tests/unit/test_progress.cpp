@@ -118,4 +118,6 @@ TEST(preview_keeps_shape_and_colours) {
     CHECK_EQUAL(countOf(previewText(Image(1000, 500), 80, 24), "\n"), 20u); // 80 x 40 pixels
     CHECK_EQUAL(countOf(previewText(Image(100, 5000), 80, 24), "\n"), 24u);
     CHECK_EQUAL(countOf(previewText(Image(5000, 1), 1, 1), "\n"), 1u);
+    const std::string narrow = previewText(Image(1, 5000), 80, 24);
+    CHECK_EQUAL(countOf(narrow, "\xE2\x96\x80"), countOf(narrow, "\n")); // one cell in a row
 }

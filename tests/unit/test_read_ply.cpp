@@ -1,127 +1,15 @@
 // The PLY reader: ascii and both binary orders give the same mesh, bit for bit. What it refuses is
-// in tests/bad/ply (test_bad_scenes.cpp) and, for binary data, here.
-#include "read/mesh/read_ply.h"
-
-#include "base/text.h"
-#include "check.h"
-#include "read/mesh/ply_header.h"
+// in test_ply_damage.cpp.
 #include "unit/damage.h"
+#include "unit/ply_kit.h"
 
-#include <algorithm>
-#include <array>
-#include <bit>
-#include <chrono>
-#include <cstring>
 #include <fstream>
 #include <limits>
 #include <random>
 #include <sstream>
 
-namespace {
-
+using namespace ply_kit;
 using damage::contentOf;
-
-constexpr std::array kFormats{PlyFormat::Ascii, PlyFormat::LittleEndian, PlyFormat::BigEndian};
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-// Writes the data of a file in any format: the test's own idea of what the bytes are.
-class Body {
-public:
-    explicit Body(PlyFormat format) : format_(format) {}
-
-    // type: a name of the header
-    Body& put(std::string_view type, double value) {
-        if (format_ == PlyFormat::Ascii) {
-            data_ += value == static_cast<double>(static_cast<float>(value))
-                         ? cat(shortest(static_cast<float>(value)), " ")
-                         : cat(shortest(value), " ");
-            return *this;
-        }
-        std::array<char, 8> bytes{};
-        std::size_t size = 0;
-        const auto keep = [&](auto number) {
-            std::memcpy(bytes.data(), &number, size = sizeof number);
-        };
-        if (type == "char") keep(static_cast<std::int8_t>(value));
-        if (type == "uchar") keep(static_cast<std::uint8_t>(value));
-        if (type == "short") keep(static_cast<std::int16_t>(value));
-        if (type == "ushort") keep(static_cast<std::uint16_t>(value));
-        if (type == "int") keep(static_cast<std::int32_t>(value));
-        if (type == "uint") keep(static_cast<std::uint32_t>(value));
-        if (type == "float") keep(static_cast<float>(value));
-        if (type == "double") keep(value);
-        CHECK_INFO(size > 0, type);
-        const auto end = bytes.begin() + static_cast<std::ptrdiff_t>(size);
-        if ((std::endian::native == std::endian::big) != (format_ == PlyFormat::BigEndian))
-            std::reverse(bytes.begin(), end);
-        data_.append(bytes.begin(), end);
-        return *this;
-    }
-    Body& row(std::string_view type, std::initializer_list<double> values) {
-        for (const double value : values) put(type, value);
-        return end();
-    }
-    // A list and the end of its row.
-    Body& list(std::string_view countType, std::string_view type,
-               std::initializer_list<double> values) {
-        put(countType, static_cast<double>(values.size()));
-        return row(type, values);
-    }
-    Body& end() {
-        if (format_ == PlyFormat::Ascii) data_.back() = '\n';
-        return *this;
-    }
-    const std::string& text() const { return data_; }
-
-private:
-    PlyFormat format_;
-    std::string data_;
-};
-
-std::string header(PlyFormat format, const std::string& lines) {
-    return cat("ply\nformat ", nameOf(format), " 1.0\n", lines, "end_header\n");
-}
-const std::string kXyz = "property float x\nproperty float y\nproperty float z\n";
-const std::string kFaces = "property list uchar int vertex_indices\n";
-
-struct Read {
-    MeshDesc mesh;
-    std::vector<std::string> warnings;
-};
-Read readWhole(const std::string& text) {
-    Diagnostics diagnostics;
-    MeshFile file = readPly({"t.ply", text}, {{}, diagnostics});
-    CHECK(file.parts.empty() && file.materials.empty() && file.libraries.empty());
-    return {std::move(file.mesh), std::move(diagnostics.warnings)};
-}
-MeshDesc readQuietly(const std::string& text) {
-    Read read = readWhole(text);
-    CHECK_INFO(read.warnings.empty(), join(read.warnings));
-    return std::move(read.mesh);
-}
-std::string replacedAll(std::string text, const std::string& from, const std::string& to) {
-    for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-        text.replace(at, from.size(), to);
-    return text;
-}
-// The same file in each format; write(body) puts the data.
-template <class Write> MeshDesc readAll(const std::string& lines, const Write& write) {
-    std::vector<MeshDesc> meshes;
-    for (const PlyFormat format : kFormats) {
-        Body body(format);
-        write(body);
-        meshes.push_back(readQuietly(header(format, lines) + body.text()));
-        CHECK_INFO(meshes.back() == meshes.front(), nameOf(format));
-    }
-    return meshes.front();
-}
-std::string failureOf(const std::string& text) {
-    return check::thrown([&] { readWhole(text); });
-}
-const std::array kFiles{"tests/scenes/ply/house_ascii.ply", "tests/scenes/ply/house_little.ply",
-                        "tests/scenes/ply/house_big.ply"};
-
-} // namespace
 
 TEST(read_ply_triangle) {
     const MeshDesc mesh =
@@ -331,7 +219,7 @@ TEST(read_ply_leaves_out_what_shows_nothing) {
         body.list("uchar", "int", {1, 2, 3}).list("uchar", "int", {1, 2, 1});
         body.put("uchar", 0).end().list("uchar", "int", {2}).list("uchar", "int", {2, 3});
         body.list("uchar", "int", {4, 4, 4, 4}).list("uchar", "int", {3, 2, 4});
-        const Read read =
+        const Reading read =
             readWhole(header(format, "element vertex 5\n" + kXyz + "element face 7\n" + kFaces) +
                       body.text());
         CHECK((read.mesh.triangles == std::vector<MeshDesc::Corners>{{0, 1, 2}, {2, 1, 3}}));
@@ -369,132 +257,13 @@ TEST(read_ply_line_ends) {
 }
 
 TEST(read_ply_rest_of_the_file) {
-    const Read ascii = readWhole(contentOf(kFiles[0]) + "\n1 2 3\n");
+    const Reading ascii = readWhole(contentOf(kFiles[0]) + "\n1 2 3\n");
     CHECK_EQUAL(ascii.warnings.size(), std::size_t{1});
     CHECK_INFO(ascii.warnings.at(0).find(": warning: this follows the last element") !=
                    std::string::npos,
                ascii.warnings[0]);
-    const Read binary = readWhole(contentOf(kFiles[1]) + "12345");
+    const Reading binary = readWhole(contentOf(kFiles[1]) + "12345");
     CHECK_EQUAL(binary.warnings.size(), std::size_t{1});
     CHECK_INFO(binary.warnings.at(0).find("5 bytes follow the last element") != std::string::npos,
                binary.warnings[0]);
-}
-
-// A small file that promises a thousand million vertices fails before memory is asked for.
-TEST(read_ply_counts_are_checked_first) {
-    for (const PlyFormat format : kFormats)
-        for (const char* lines :
-             {"element vertex 1000000000\n", "element vertex 4294967295\n", "element vertex 9\n"}) {
-            const auto start = std::chrono::steady_clock::now();
-            const std::string message = failureOf(
-                header(format, lines + kXyz + "element face 1\n" + kFaces) + "0 0 0 0 0 0\n");
-            const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-            const std::size_t rowBytes = format == PlyFormat::Ascii ? 6 : 12;
-            CHECK_INFO(message.starts_with("t.ply:3:1: error: 'element vertex ") &&
-                           message.find(cat("' is more than the rest of the file can hold (",
-                                            12 / rowBytes, " at most)")) != std::string::npos,
-                       message);
-            CHECK(seconds.count() < 0.1); // a few microseconds; memory of 24 GB takes seconds
-        }
-    // Counts of lists, too.
-    for (const PlyFormat format : {PlyFormat::LittleEndian, PlyFormat::BigEndian}) {
-        Body body(format);
-        body.row("float", {0, 0, 0}).put("uint", 4000000000.0).put("uchar", 0);
-        const std::string lines = "element vertex 1\n" + kXyz + "element ";
-        CHECK_THROWS(readWhole(header(format, lines + "face 1\nproperty list uint int "
-                                                      "vertex_indices\n") +
-                               body.text()),
-                     "a list of 'vertex_indices' has 4000000000 items; at most 0 fit into");
-        CHECK_THROWS(readWhole(header(format, lines + "tristrips 1\nproperty list uint int "
-                                                      "vertex_indices\n") +
-                               body.text()),
-                     "a list of 'vertex_indices' has 4000000000 items; at most");
-        CHECK_THROWS(
-            readWhole(header(format, lines + "face 1\nproperty list uint int other\n" + kFaces) +
-                      body.text()),
-            "a list of 'other' has 4000000000 items; at most 0 fit into the rest of the file");
-    }
-}
-
-// The place in binary data is a byte and a row; the line is that of the element.
-TEST(read_ply_places_in_binary_data) {
-    const std::string lines = "element vertex 3\n" + kXyz + "element face 2\n" + kFaces;
-    for (const PlyFormat format : {PlyFormat::LittleEndian, PlyFormat::BigEndian}) {
-        const std::size_t data = header(format, lines).size();
-        const auto failure = [&](double z, std::initializer_list<double> face) {
-            Body body(format);
-            body.row("float", {0, 0, 0}).row("float", {1, 0, z}).row("float", {0, 1, 0});
-            body.list("uchar", "int", {0, 1, 2}).list("uchar", "int", face);
-            return failureOf(header(format, lines) + body.text());
-        };
-        CHECK_EQUAL(failure(0, {0, 1, 2}), "");
-        CHECK_INFO(failure(kNan, {0, 1, 2})
-                       .starts_with(cat("t.ply:3:1: error: byte ", data + 20,
-                                        ", row 1 of 'vertex': 'z' is not a finite number")),
-                   failure(kNan, {0, 1, 2}));
-        for (const auto& [index, text] :
-             {std::pair(3.0, "3"), {-1.0, "-1"}, {-2147483648.0, "-2147483648"}})
-            CHECK_INFO(failure(0, {2, index, 1})
-                           .starts_with(cat("t.ply:7:1: error: byte ", data + 36 + 13 + 5,
-                                            ", row 1 of 'face': there is no vertex ", text,
-                                            "; the file has 3, counted from 0")),
-                       failure(0, {2, index, 1}));
-    }
-}
-
-namespace {
-
-void readSound(const std::string& text) {
-    const MeshDesc mesh = readWhole(text).mesh;
-    CHECK(!mesh.triangles.empty());
-    for (const auto& t : mesh.triangles)
-        for (const std::uint32_t corner : t) CHECK(corner < mesh.points.size());
-    for (const Vec3d& p : mesh.points) CHECK(maxAbs(p) <= 1e60 && p == p);
-    CHECK(mesh.normals.empty() || mesh.normals.size() == mesh.points.size());
-    CHECK(mesh.uvs.empty() || mesh.uvs.size() == mesh.points.size());
-}
-
-} // namespace
-
-TEST(read_ply_cut_off_at_every_byte) {
-    for (const char* name : kFiles) {
-        const std::string whole = contentOf(name);
-        readSound(whole);
-        std::size_t read = 0;
-        for (std::size_t size = 0; size < whole.size(); ++size)
-            if (damage::isRead([&] { readSound(whole.substr(0, size)); })) ++read;
-        // Ascii may lose its last line end and three digits of its last number, 0.25.
-        CHECK_INFO(read <= (name == kFiles[0] ? 4u : 0u), name << " was read " << read << " times");
-    }
-}
-
-TEST(read_ply_random_damage) {
-    const std::vector<std::string> pieces = {"\n",
-                                             "\r\n",
-                                             " ",
-                                             "-1",
-                                             "nan",
-                                             "1e999",
-                                             "0",
-                                             "4294967295",
-                                             "element ",
-                                             "3 ",
-                                             "uchar ",
-                                             "double ",
-                                             "list ",
-                                             "int ",
-                                             "property uchar ",
-                                             "end_header\n",
-                                             std::string(1, '\0'),
-                                             "\xff\xff\xff\xff",
-                                             "\x7f\x80",
-                                             "99999999"};
-    for (const char* name : kFiles) {
-        const std::string whole = contentOf(name);
-        const auto [read, refused] = damage::inflict(
-            whole, pieces, 4000, [](const std::string& text, std::uint32_t) { readSound(text); });
-        // Both must happen, or the test tests nothing.
-        CHECK_INFO(read > 300 && refused > 1000,
-                   name << ": read " << read << ", refused " << refused);
-    }
 }

@@ -144,6 +144,13 @@ TEST(sampler_stratified_cells) {
     }
 }
 
+TEST(sampler_of_no_samples_is_that_of_one) {
+    for (const SamplerKind kind : kKinds)
+        for (const int count : {0, -3})
+            CHECK(Sampler(kind, count, 4, true).get2D(12, 0, kPixelDimension) ==
+                  Sampler(kind, 1, 4, true).get2D(12, 0, kPixelDimension));
+}
+
 TEST(sampler_jitter_off) {
     for (const SamplerKind kind : kKinds) {
         const Sampler one(kind, 1, 4, false);

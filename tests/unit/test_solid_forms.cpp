@@ -218,35 +218,3 @@ TEST(solid_facets_are_no_batches) {
         }
     }
 }
-
-// However many primitives a leaf has: every solid is in the tree once, and in its parents' boxes.
-TEST(solid_tree_of_large_leaves) {
-    for (const std::uint32_t largest : {1u, kUsualLeaf, 1000u}) {
-        SolidTree tree;
-        std::vector<Bounds> boxes;
-        for (std::uint32_t i = 0; i < 700; ++i) {
-            const float x = i % 3 == 0 ? static_cast<float>(i) : 0; // two thirds in one place
-            boxes.push_back({{x, 0, 0}, {x + 1, 1, 1}});
-            tree.add(boxes.back(), i, true, {});
-        }
-        tree.build(16, buildBvh(boxes, 1, largest));
-        std::vector<int> found(boxes.size());
-        std::vector<std::pair<WideRef, Bounds>> open{
-            {wideRef(0, WideKind::Node), {{-1e9f, -1e9f, -1e9f}, {1e9f, 1e9f, 1e9f}}}};
-        while (!open.empty()) {
-            const auto [ref, around] = open.back();
-            open.pop_back();
-            if (kindOf(ref) == WideKind::Leaf) {
-                ++found[tree.solids[ref >> 2].number];
-                CHECK(tree.boxes[ref >> 2].lo.x >= around.lo.x &&
-                      tree.boxes[ref >> 2].hi.x <= around.hi.x);
-            }
-            if (kindOf(ref) != WideKind::Node) continue;
-            const WideNode<16>& node = tree.node<16>(ref);
-            for (std::size_t i = 0; i < 16; ++i)
-                if (kindOf(node.child[i]) != WideKind::None)
-                    open.emplace_back(node.child[i], node.box(i));
-        }
-        CHECK(std::all_of(found.begin(), found.end(), [](int times) { return times == 1; }));
-    }
-}

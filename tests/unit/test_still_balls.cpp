@@ -32,6 +32,9 @@ TEST(balls_are_spheres_that_are_placed_and_scaled_alike) {
     CHECK(!takes(Sphere(Transform::scale({1, 1, 2}), 1, 0, 0)));
     CHECK(!takes(Sphere(Transform::rotate({0, 0, 1}, 1), 1, 0, 0)));
     CHECK(!takes(Sphere(Transform::scale({1, -1, 1}), 1, 0, 0)));
+    CHECK(!takes(Sphere(Transform::translate({1, -2, 3}) * Transform::scale(-1), 1, 0, 0)));
+    for (const double zero : {0.0, -0.0}) // a zero of the map may have a say there
+        CHECK(!takes(Sphere(Transform::translate({1, zero, 3}), 1, 0, 0)));
 
     StillBalls balls;
     balls.resize(3);

@@ -2,6 +2,7 @@
 #include "check.h"
 #include "image/colour.h"
 #include "texture/texture.h"
+#include "unit/stored_floats.h"
 
 using kit::Random;
 
@@ -13,16 +14,6 @@ StoredImage bytes(int width, int height, int channels, std::vector<std::uint8_t>
     image.height = height;
     image.channels = channels;
     image.bytes = std::move(values);
-    return image;
-}
-
-StoredImage floats(int width, int height, std::vector<float> values) {
-    StoredImage image;
-    image.width = width;
-    image.height = height;
-    image.channels = 1;
-    image.depth = StoredImage::Depth::Float;
-    image.floats = std::move(values);
     return image;
 }
 

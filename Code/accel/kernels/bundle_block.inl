@@ -10,7 +10,7 @@ template <Query Q> struct alignas(64) BundleBlock {
     float doubt[W];           // the sign of an edge is certain beyond this
     float keyLo[W], keyHi[W]; // bounds of the key of any hit
     unsigned uncertain;       // triangles that may be seen from their edge: the edges are no help
-    unsigned wide;            // whose key is better computed at once
+    unsigned wide;            // whose key is better computed at once, if it matters
     int pairs;
     alignas(64) std::uint32_t pair[kPackets * W + W]; // packet * 16 + triangle
 
@@ -113,14 +113,15 @@ template <Query Q> struct alignas(64) BundleBlock {
         const Floats lo = (one / zMax) * Floats(0.999999f);
         const Floats hi = select(zMin > Floats(kTooNear), one / zMin, Floats(kInfinityF));
         lo.store(keyLo), hi.store(keyHi);
-        wide = ~bits(hi < min(lo * Floats(kWide), Floats(rays.leastBelow)));
+        const Floats below(rays.leastBelow);
+        wide = ~bits(hi < (Q == Query::Any ? below : min(lo * Floats(kWide), below)));
         return true;
     }
 
 private:
     static constexpr float kUnit = 0x1p-24f;  // of rounding
     static constexpr float kTooNear = 1e-30f; // for a quotient that is sure to be finite
-    // Keys of triangles that are deeper than this are computed at once.
+    // Keys of nearest hits on triangles that are deeper than this are computed at once.
     static constexpr float kWide = 1.02f;
     // The numbers of pairs, for storeChosen().
     alignas(64) static constexpr auto kPair = [] {

@@ -7,15 +7,15 @@
 // is not changed by the canonical clamp to the box.
 struct BundlePlanes {
     Doubles nx, ny, nz, n0;                       // normal, and its product with a corner
-    Floats edgeOn;                                // see edgeOnLanes()
+    Doubles edgeOn;                               // see edgeOnLanes()
     Floats farthest, nearest, xLo, xHi, yLo, yHi; // keys of the corners' depths; the padded box
     Mask straddling;                              // in part behind the origin
 };
 
 // The same in memory, a column per triangle.
 struct alignas(64) BundlePlaneList {
-    double nx[W], ny[W], nz[W], n0[W];
-    float edgeOn[W], farthest[W], nearest[W], xLo[W], xHi[W], yLo[W], yHi[W];
+    double nx[W], ny[W], nz[W], n0[W], edgeOn[W];
+    float farthest[W], nearest[W], xLo[W], xHi[W], yLo[W], yHi[W];
     unsigned straddling;
 
     void store(const BundlePlanes& p) {

@@ -22,6 +22,8 @@
 
 #include "accel/kernels/handful.inl"
 
+#include "accel/kernels/queue_slots.inl"
+
 #include "accel/kernels/queue.inl"
 
 #include "accel/kernels/bundle_gaps.inl"

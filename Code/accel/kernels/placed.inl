@@ -249,8 +249,9 @@ private:
     static WideRef push(unsigned hit, Floats entry, const WideRef* child, const Stacks& stacks,
                         std::size_t at) {
         if constexpr (NearFirst)
-            return pushSorted(hit, entry, child, stacks.refs + at, stacks.entries + at);
-        return pushAny(hit, child, stacks.refs + at);
+            return pushSorted(maskOf(hit), std::popcount(hit), entry, child, stacks.refs + at,
+                              stacks.entries + at);
+        return pushAny(maskOf(hit), hit, child, stacks.refs + at);
     }
 
     // Takes out what starts behind the cut. Returns the new top.

@@ -7,97 +7,82 @@
 // Included by the file of each instruction set inside its namespace, behind handful.inl.
 
 template <Query Q> class Queue {
+    using Lists = QueueSlots::Lists;
+    using Counts = QueueSlots::Counts;
+
 public:
     Queue(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order)
         : mesh_(mesh), rays_(rays), order_(order), base_(mesh.tree.base()), root_(mesh.tree),
-          prefetches_(mesh.tree.lines.size() > kManyLines),
-          stride_(strideOfStacks(mesh.tree.stackSize)) {
-        const std::size_t stacks = kSlots * stride_ * sizeof(std::uint32_t);
-        std::byte* const memory = scratchMemory(kBlocks * sizeof(RayBlock) + 2 * stacks);
-        blocks_ = reinterpret_cast<RayBlock*>(memory);
-        refs_ = reinterpret_cast<std::uint32_t*>(memory + kBlocks * sizeof(RayBlock));
-        entries_ = refs_ + kSlots * stride_;
-        for (std::size_t slot = 0; slot < std::min<std::size_t>(kSlots, order.size()); ++slot) {
-            refs_[slot * stride_] = wideRef(0, WideKind::None); // the end of every stack
-            entries_[slot * stride_] = 0;
-        }
-    }
+          slots_(mesh.tree, order.size()) {}
 
     template <class Results> void run(const Results& results) {
-        Lists now{lists_[0], lists_[1], lists_[2]}, next{lists_[3], lists_[4], lists_[2]};
-        for (std::uint32_t b = 0; b < kBlocks; ++b) refill(b, next, results);
+        Lists *now = &lists_[0], *next = &lists_[1];
+        Counts count;
+        for (std::uint32_t b = 0; b < kBlocks; ++b) refill(b, *next, count, results);
         while (live_ > 0) {
             std::swap(now, next);
-            next.nodeCount = next.leafCount = next.doneCount = 0;
-            for (std::uint32_t i = 0; i < now.nodeCount; ++i) nodeStep(now.nodes[i], next);
-            besideCount_ = 0;
-            if (Q == Query::Closest && leafMeetings_ == Meetings::Many)
-                leafSteps<Meetings::Many>(now, next);
-            else if (leafMeetings_ == Meetings::Few)
-                leafSteps<Meetings::Few>(now, next);
-            else
-                leafSteps<Meetings::Some>(now, next);
-            learnMeetings(now.leafCount);
-            if constexpr (Q == Query::Closest) acceptMet(next);
-            if (waitingPairs_ >= W || next.nodeCount + next.leafCount < kFewBusy)
-                settleWaiting(next);
-            for (std::uint32_t i = 0; i < next.doneCount; ++i) {
-                const std::uint32_t b = next.done[i] / W;
+            const Counts all = std::exchange(count, {});
+            for (std::uint32_t i = 0; i < all.nodes; ++i) nodeStep(now->nodes[i], *next, count);
+            takeLeaves(*now, all.leaves, *next, count);
+            if (waitingPairs_ >= W || count.nodes + count.leaves < kFewBusy)
+                settleWaiting(*next, count);
+            for (std::uint32_t i = 0; i < count.done; ++i) {
+                const std::uint32_t number = QueueSlots::blockOf(next->done[i]);
+                RayBlock& b = slots_.block(number);
                 --live_;
-                if (--blocks_[b].live > 0) continue;
-                if (blocks_[b].open != 0) settleOpen(mesh_, rays_, blocks_[b]);
-                writeAnswers(blocks_[b], mesh_.tree, results);
-                refill(b, next, results);
+                if (--b.live > 0) continue;
+                if (b.open != 0) settleOpen(mesh_, rays_, b);
+                writeAnswers(b, mesh_.tree, results);
+                refill(number, *next, count, results);
             }
         }
     }
 
 private:
-    static constexpr std::uint32_t kSlots = 96; // rays on their way at most
-    static constexpr std::uint32_t kBlocks = kSlots / W;
+    static constexpr std::uint32_t kSlots = QueueSlots::kSlots, kBlocks = QueueSlots::kBlocks;
     // Rays that are not waiting for others; with fewer, the others don't wait either.
     static constexpr std::uint32_t kFewBusy = kSlots / 3;
-    // Of a tree that the caches don't hold; for others prefetches are work in vain. 8 MB.
-    static constexpr std::size_t kManyLines = std::size_t{1} << 17;
 
     // How many rays meet triangles of their leaves: branches are guessed right where nearly all do
     // the same, and cost more than what they spare elsewhere.
     enum class Meetings { Many, Some, Few };
 
-    // What the rays are at, by their slots.
-    struct Lists {
-        std::uint32_t *nodes, *leaves, *done;
-        std::uint32_t nodeCount = 0, leafCount = 0, doneCount = 0;
-    };
     struct Waiting {
-        std::uint32_t slot, candidates; // triangles of the leaf that the ray is at
+        Slot slot;
+        std::uint32_t candidates; // triangles of the leaf that the ray is at
     };
 
     // Triangles of the leaf that a ray is at, and what Judged says of their depths.
     struct alignas(64) Met {
         float depth[W], noise[W], det[W];
-        std::uint32_t slot, candidates, certain; // certain: to be hits
+        Slot slot;
+        std::uint32_t candidates, certain; // certain: to be hits
+    };
+
+    // What the leaves of a round had.
+    struct Found {
+        std::uint32_t met = 0, passed = 0, beside = 0;
     };
 
     // ---- rays in, hits out
 
     // The next rays that enter the tree, if there are any left, take this block. Those that don't
     // are answered at once.
-    template <class Results> void refill(std::uint32_t number, Lists& to, const Results& results) {
-        RayBlock& b = blocks_[number];
+    template <class Results>
+    void refill(std::uint32_t number, Lists& to, Counts& count, const Results& results) {
+        RayBlock& b = slots_.block(number);
         while (next_ < order_.size()) {
             const unsigned entered = root_.entering(b, takeRays(b));
             if (entered == 0) {
                 writeAnswers(b, mesh_.tree, results);
                 continue;
             }
-            Ints(mesh_.tree.root).store(b.at);
-            Ints(1u).store(b.stackTop);
+            slots_.start(number, mesh_.tree.root);
             b.live = static_cast<std::uint32_t>(std::popcount(entered));
             live_ += b.live;
             for (unsigned lanes = entered; lanes != 0; lanes &= lanes - 1)
-                to.nodes[to.nodeCount++] =
-                    number * W + static_cast<std::uint32_t>(std::countr_zero(lanes));
+                to.nodes[count.nodes++] =
+                    QueueSlots::slotOf(number, static_cast<std::uint32_t>(std::countr_zero(lanes)));
             return;
         }
     }
@@ -111,92 +96,97 @@ private:
 
     // ---- steps
 
-    // Takes the ray to `ref`: three stores, of which one counts.
-    [[gnu::always_inline]] void send(std::uint32_t slot, WideRef ref, Lists& to) const {
-        const std::byte* const line = base_ + byteOffset(ref);
-        if (prefetches_)
-            for (int k = 0; k < 4; ++k) __builtin_prefetch(line + std::ptrdiff_t{64} * k);
-        to.nodes[to.nodeCount] = slot;
-        to.leaves[to.leafCount] = slot;
-        to.done[to.doneCount] = slot;
-        to.nodeCount += kindOf(ref) == WideKind::Node;
-        to.leafCount += kindOf(ref) == WideKind::Leaf;
-        to.doneCount += kindOf(ref) == WideKind::None;
-    }
-
     // RaySetup::enters() for W boxes. With FMA or without: the pads of the slabs are twice those of
     // the canonical hit, and the difference covers either rounding several times.
-    [[gnu::always_inline]] void nodeStep(std::uint32_t slot, Lists& to) {
-        RayBlock& b = blocks_[slot / W];
-        const std::uint32_t i = slot % W;
-        const std::byte* const node = base_ + byteOffset(b.at[i]);
-        Floats entry(0.0f), exit(b.zCut[i]);
+    [[gnu::always_inline]] void nodeStep(Slot slot, Lists& to, Counts& count) {
+        const std::byte* const node = base_ + byteOffset(slots_.at(slot, &RayBlock::at));
+        Floats entry(0.0f), exit(slots_.at(slot, &RayBlock::zCut));
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const std::uint32_t nearPlane = b.nearPlane[axis][i], farPlane = nearPlane ^ (W * 4);
-            const Floats r(b.r[axis][i]);
-            entry =
-                max(fma(Floats::load(node + nearPlane), r, Floats(b.nearOffset[axis][i])), entry);
-            exit = min(fma(Floats::load(node + farPlane), r, Floats(b.farOffset[axis][i])), exit);
+            const std::uint32_t nearPlane = slots_.at(slot, &RayBlock::nearPlane, axis);
+            const std::uint32_t farPlane = nearPlane ^ (W * 4);
+            const Floats r(slots_.at(slot, &RayBlock::r, axis));
+            entry = max(fma(Floats::load(node + nearPlane), r,
+                            Floats(slots_.at(slot, &RayBlock::nearOffset, axis))),
+                        entry);
+            exit = min(fma(Floats::load(node + farPlane), r,
+                           Floats(slots_.at(slot, &RayBlock::farOffset, axis))),
+                       exit);
         }
-        const unsigned hit = bits(entry <= exit);
+        const Mask hit = entry <= exit;
+        const unsigned lanes = bits(hit);
+        const int hits = std::popcount(lanes);
         const auto* const child =
             reinterpret_cast<const WideRef*>(node + std::ptrdiff_t{6} * W * 4);
-        std::uint32_t* const refs = refs_ + slot * stride_;
-        const std::uint32_t top = b.stackTop[i];
+        std::uint32_t& top = slots_.at(slot, &RayBlock::stackTop);
+        std::uint32_t* const refs = slots_.refs(top);
         // The next one is taken from registers: what was just stored takes long to come back.
-        const WideRef nearest = Q == Query::Any ? pushAny(hit, child, refs + top)
-                                                : pushSorted(hit, entry, child, refs + top,
-                                                             entries_ + slot * stride_ + top);
+        const WideRef nearest =
+            Q == Query::Any ? pushAny(hit, lanes, child, refs)
+                            : pushSorted(hit, hits, entry, child, refs, slots_.entries(top));
         // Without a child, what was on top before.
-        const WideRef before = refs[top - 1];
-        const WideRef next = hit != 0 ? nearest : before;
-        b.stackTop[i] = top + static_cast<std::uint32_t>(std::popcount(hit)) - 1;
-        b.at[i] = next;
-        send(slot, next, to);
+        const WideRef before = refs[-1];
+        const WideRef next = hits != 0 ? nearest : before;
+        top += static_cast<std::uint32_t>(hits - 1);
+        slots_.send(slot, next, to, count);
     }
 
-    template <Meetings M> void leafSteps(const Lists& now, Lists& next) {
-        for (std::uint32_t i = 0; i < now.leafCount; ++i) leafStep<M>(now.leaves[i], next);
-    }
-
-    // From one round for the next.
-    void learnMeetings(std::uint32_t leaves) {
-        leafMeetings_ = metCount_ * 3 > leaves                 ? Meetings::Many
-                        : (leaves - besideCount_) * 8 < leaves ? Meetings::Few
+    void takeLeaves(const Lists& now, std::uint32_t leaves, Lists& next, Counts& count) {
+        Found found;
+        if (Q == Query::Closest && leafMeetings_ == Meetings::Many)
+            found = leafSteps<Meetings::Many>(now, leaves, next, count);
+        else if (leafMeetings_ == Meetings::Few)
+            found = leafSteps<Meetings::Few>(now, leaves, next, count);
+        else
+            found = leafSteps<Meetings::Some>(now, leaves, next, count);
+        leafMeetings_ = found.met * 3 > leaves                 ? Meetings::Many
+                        : (leaves - found.beside) * 8 < leaves ? Meetings::Few
                                                                : Meetings::Some;
+        if constexpr (Q == Query::Closest) acceptMet(found, next, count);
     }
 
-    template <Meetings M> [[gnu::always_inline]] void leafStep(std::uint32_t slot, Lists& to) {
-        RayBlock& b = blocks_[slot / W];
-        const std::uint32_t i = slot % W;
-        const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(base_ + byteOffset(b.at[i]));
-        const Sheared corners = sheared(b, i, leaf);
+    template <Meetings M>
+    Found leafSteps(const Lists& now, std::uint32_t leaves, Lists& next, Counts& count) {
+        Found found;
+        Counts here = count; // in registers
+        for (std::uint32_t i = 0; i < leaves; ++i) leafStep<M>(now.leaves[i], found, next, here);
+        count = here;
+        return found;
+    }
+
+    template <Meetings M>
+    [[gnu::always_inline]] void leafStep(Slot slot, Found& found, Lists& to, Counts& count) {
+        const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(
+            base_ + byteOffset(slots_.at(slot, &RayBlock::at)));
+        const Sheared corners = sheared(slot, leaf);
         const Edges edges(corners);
         const unsigned all = (1u << leaf.count) - 1;
         if constexpr (M != Meetings::Many) {
             const bool isBeside = (bits(edges.around()) & all) == 0; // all triangles
-            besideCount_ += isBeside;
+            found.beside += isBeside;
             if (M == Meetings::Few && isBeside) [[likely]]
-                return pop(slot, to);
+                return slots_.pop(slot, to, count);
         }
-        const Judged judged = judge(corners, edges, Floats(b.sign[i]));
-        const Floats zCut(b.zCut[i]);
+        const Judged judged = judge(corners, edges, Floats(slots_.at(slot, &RayBlock::sign)));
+        const Floats zCut(slots_.at(slot, &RayBlock::zCut));
         unsigned candidates = judged.candidates(zCut) & all;
         if constexpr (Q == Query::Any) {
-            const bool met = (judged.certain(zCut) & all) != 0 && b.below[i] == kInfinityF;
-            b.triangle[i] = met ? 0 : b.triangle[i];
-            b.stackTop[i] = met ? 1 : b.stackTop[i];
+            const bool met = (judged.certain(zCut) & all) != 0 &&
+                             slots_.at(slot, &RayBlock::below) == kInfinityF;
+            std::uint32_t& triangle = slots_.at(slot, &RayBlock::triangle);
+            std::uint32_t& top = slots_.at(slot, &RayBlock::stackTop);
+            triangle = met ? 0 : triangle;
+            top = met ? slots_.at(slot, &RayBlock::bottom) + 1 : top;
             candidates = met ? 0 : candidates;
         }
         if (M != Meetings::Many && candidates == 0) [[likely]]
-            return pop(slot, to);
+            return slots_.pop(slot, to, count);
         if constexpr (Q == Query::Any) {
             wait(slot, candidates);
         } else {
-            passed_[passedCount_] = slot;
-            passedCount_ += candidates == 0;
-            Met& met = met_[metCount_];
-            metCount_ += candidates != 0;
+            passed_[found.passed] = slot;
+            found.passed += candidates == 0;
+            Met& met = met_[found.met];
+            found.met += candidates != 0;
             met.slot = slot, met.candidates = candidates;
             met.certain = bits(judged.certain()) & candidates;
             judged.depth.store(met.depth), judged.noise.store(met.noise);
@@ -204,29 +194,26 @@ private:
         }
     }
 
-    void wait(std::uint32_t slot, std::uint32_t candidates) {
+    void wait(Slot slot, std::uint32_t candidates) {
         waiting_[waitingCount_++] = {slot, candidates};
         waitingPairs_ += static_cast<std::uint32_t>(std::popcount(candidates));
     }
 
     // Takes for each ray the candidate that is nearest, if that is certain without keys; the key of
     // what remains the best one is computed at the end.
-    void acceptMet(Lists& to) {
-        for (std::uint32_t i = 0; i < passedCount_; ++i) pop(passed_[i], to);
-        passedCount_ = 0;
-        for (std::uint32_t m = 0; m < metCount_; ++m) {
+    void acceptMet(const Found& found, Lists& to, Counts& count) {
+        for (std::uint32_t i = 0; i < found.passed; ++i) slots_.pop(passed_[i], to, count);
+        for (std::uint32_t m = 0; m < found.met; ++m) {
             const Met& met = met_[m];
             if (accept(met))
-                pop(met.slot, to);
+                slots_.pop(met.slot, to, count);
             else
                 wait(met.slot, met.candidates);
         }
-        metCount_ = 0;
     }
 
     [[gnu::always_inline]] bool accept(const Met& met) {
-        RayBlock& b = blocks_[met.slot / W];
-        const std::uint32_t i = met.slot % W;
+        const Slot slot = met.slot;
         Judged judged;
         judged.depth = Floats::load(met.depth), judged.noise = Floats::load(met.noise);
         const Floats never(kInfinityF), inverse = Floats(1.0f) / Floats::load(met.det);
@@ -235,35 +222,31 @@ private:
         nearest.store(each);
         const float depth = smallest(select(maskOf(met.certain), farthest, never));
         const unsigned rivals = bits(notGreater(nearest, Floats(depth))) & met.candidates;
-        if (!std::has_single_bit(rivals) || (rivals & met.certain) == 0 || !(depth < b.depth[i]) ||
-            b.below[i] != kInfinityF) [[unlikely]]
+        float& best = slots_.at(slot, &RayBlock::depth);
+        if (!std::has_single_bit(rivals) || (rivals & met.certain) == 0 || !(depth < best) ||
+            slots_.at(slot, &RayBlock::below) != kInfinityF) [[unlikely]]
             return false;
-        b.bestLane[i] = static_cast<std::uint32_t>(std::countr_zero(rivals));
-        b.bestLeaf[i] = b.at[i];
-        b.depth[i] = each[b.bestLane[i]];
-        b.zCut[i] = ::min(depth, b.zCut[i]);
-        b.open |= 1u << i;
-        dropBehind(met.slot);
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(rivals));
+        slots_.at(slot, &RayBlock::bestLane) = lane;
+        slots_.at(slot, &RayBlock::bestLeaf) = slots_.at(slot, &RayBlock::at);
+        best = each[lane];
+        float& zCut = slots_.at(slot, &RayBlock::zCut);
+        zCut = ::min(depth, zCut);
+        slots_.block(QueueSlots::blockOf(slot)).open |= 1u << QueueSlots::laneOf(slot);
+        slots_.dropBehind(slot);
         return true;
     }
 
-    [[gnu::always_inline]] void pop(std::uint32_t slot, Lists& to) {
-        RayBlock& b = blocks_[slot / W];
-        const std::uint32_t i = slot % W, top = b.stackTop[i] - 1;
-        const WideRef ref = refs_[slot * stride_ + top];
-        b.stackTop[i] = top;
-        b.at[i] = ref;
-        send(slot, ref, to);
-    }
-
     // ShearedTriangle of accel/triangle.h for the triangles of a leaf: they share their points.
-    [[gnu::always_inline]] static Sheared sheared(const RayBlock& b, std::uint32_t i,
-                                                  const WideLeaf<W>& leaf) {
+    [[gnu::always_inline]] Sheared sheared(Slot slot, const WideLeaf<W>& leaf) const {
         const std::byte* const p = reinterpret_cast<const std::byte*>(&leaf);
-        const Floats x = Floats::load(p + b.axis[0][i]) - Floats(b.origin[0][i]);
-        const Floats y = Floats::load(p + b.axis[1][i]) - Floats(b.origin[1][i]);
-        const Floats z = Floats::load(p + b.axis[2][i]) - Floats(b.origin[2][i]);
-        const Floats xs = x - Floats(b.shearX[i]) * z, ys = y - Floats(b.shearY[i]) * z;
+        const auto relative = [&](std::size_t axis) {
+            return Floats::load(p + slots_.at(slot, &RayBlock::axis, axis)) -
+                   Floats(slots_.at(slot, &RayBlock::origin, axis));
+        };
+        const Floats x = relative(0), y = relative(1), z = relative(2);
+        const Floats xs = x - Floats(slots_.at(slot, &RayBlock::shearX)) * z,
+                     ys = y - Floats(slots_.at(slot, &RayBlock::shearY)) * z;
         Sheared s;
         for (int c = 0; c < 3; ++c) {
             const Ints at = Ints::bytes(leaf.corner[c]);
@@ -272,45 +255,44 @@ private:
         return s;
     }
 
-    // What the best hit hides is taken off the ray's stack.
-    void dropBehind(std::uint32_t slot) {
-        RayBlock& b = blocks_[slot / W];
-        const std::size_t stack = slot * stride_;
-        std::uint32_t& top = b.stackTop[slot % W];
-        top = dropHidden(refs_ + stack, entries_ + stack, top, b.zCut[slot % W]);
-    }
-
     // ---- canonical keys
 
-    void settleWaiting(Lists& to) {
+    void settleWaiting(Lists& to, Counts& count) {
         std::uint32_t n = 0;
         for (std::uint32_t w = 0; w < waitingCount_; ++w) {
             const auto [slot, candidates] = waiting_[w];
-            const WideRef leaf = blocks_[slot / W].at[slot % W];
+            const WideRef leaf = slots_.at(slot, &RayBlock::at);
             if constexpr (Q == Query::Closest) reopen(slot, n);
             for (unsigned left = candidates; left != 0; left &= left - 1)
-                pairs_[n++] = {slot, leaf, static_cast<std::uint32_t>(std::countr_zero(left))};
+                pairs_[n++] = {numberOf(slot), leaf,
+                               static_cast<std::uint32_t>(std::countr_zero(left))};
         }
         takePairs(n);
-        for (std::uint32_t w = 0; w < waitingCount_; ++w) pop(waiting_[w].slot, to);
+        for (std::uint32_t w = 0; w < waitingCount_; ++w) slots_.pop(waiting_[w].slot, to, count);
         waitingCount_ = waitingPairs_ = 0;
     }
 
     // A hit without a key that others come near needs one, too.
-    void reopen(std::uint32_t slot, std::uint32_t& n) {
-        RayBlock& b = blocks_[slot / W];
-        const std::uint32_t i = slot % W;
+    void reopen(Slot slot, std::uint32_t& n) {
+        RayBlock& b = slots_.block(QueueSlots::blockOf(slot));
+        const std::uint32_t i = QueueSlots::laneOf(slot);
         if ((b.open >> i & 1) == 0) return;
         b.open &= ~(1u << i);
-        pairs_[n++] = {slot, b.bestLeaf[i], b.bestLane[i]};
+        pairs_[n++] = {numberOf(slot), b.bestLeaf[i], b.bestLane[i]};
+    }
+
+    // As pairs have it.
+    static std::uint32_t numberOf(Slot slot) {
+        return QueueSlots::blockOf(slot) * W + QueueSlots::laneOf(slot);
     }
 
     void takePairs(std::uint32_t n) {
-        settlePairs<Q>(mesh_, rays_, blocks_, {pairs_, n}, [this](std::uint32_t slot) {
+        settlePairs<Q>(mesh_, rays_, slots_.blocks(), {pairs_, n}, [this](std::uint32_t number) {
+            const Slot slot = QueueSlots::slotOf(number / W, number % W);
             if constexpr (Q == Query::Any)
-                blocks_[slot / W].stackTop[slot % W] = 1; // only the end
+                slots_.leaveOnlyEnd(slot);
             else
-                dropBehind(slot);
+                slots_.dropBehind(slot);
         });
     }
 
@@ -319,18 +301,13 @@ private:
     std::span<const std::uint32_t> order_;
     const std::byte* base_;
     RootQuestion root_;
-    const bool prefetches_;
-    std::size_t stride_, next_ = 0;
-    RayBlock* blocks_;
-    std::uint32_t *refs_, *entries_; // a stack per slot; entries only for nearest hits
+    std::size_t next_ = 0;
+    QueueSlots slots_;
     std::uint32_t live_ = 0;
-    // One place more than rays: send() writes to lists that are full.
-    std::uint32_t lists_[5][kSlots + 1];
+    Lists lists_[2];
     Waiting waiting_[kSlots];
     Met met_[kSlots + 1];
-    std::uint32_t passed_[kSlots + 1]; // rays that met nothing in their leaves
-    std::uint32_t metCount_ = 0, passedCount_ = 0;
-    std::uint32_t besideCount_ = 0;
+    Slot passed_[kSlots + 1];                // rays that met nothing in their leaves
     Meetings leafMeetings_ = Meetings::Some; // in the last round
     std::uint32_t waitingCount_ = 0, waitingPairs_ = 0;
     RayTriangle pairs_[kSlots * (W + 1)];

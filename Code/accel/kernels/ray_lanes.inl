@@ -78,7 +78,10 @@ struct RayAxes {
     Floats dominant(const Floats (&v)[3]) const { return byAxis(v[0], v[1], v[2]); }
 
     // The depth behind which nothing is at t or before.
-    Floats cutAt(Floats t) const { return depthCuts(Floats(1.0f) / (t * dz)); }
+    // Farther than depthCut() of the key 1 / (t dz), which is off by three roundings at most.
+    Floats cutAt(Floats t) const {
+        return min(t * dz * Floats(1.000001f), Floats(std::numeric_limits<float>::max()));
+    }
 };
 
 // With what boxes ask.

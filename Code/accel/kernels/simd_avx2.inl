@@ -220,7 +220,11 @@ inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
                         _mm256_permutevar8x32_epi32(all, chosenLanes(chosen)));
 }
-inline __m256i keysOf(unsigned chosen, Floats a) {
+inline void storeChosen(Mask chosen, const std::uint32_t* from, std::uint32_t* to) {
+    storeChosen(bits(chosen), from, to);
+}
+inline __m256i keysOf(Mask lanes, Floats a) {
+    const unsigned chosen = bits(lanes);
     const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
     const __m256i last = _mm256_xor_si256(lane, _mm256_set1_epi32(W - 1));
     const __m256i keys =
@@ -241,4 +245,31 @@ inline __m128i pick(__m128i keys, const std::uint32_t* from) {
 inline std::uint32_t element(__m128i four, int i) {
     return static_cast<std::uint32_t>(_mm_cvtsi128_si32(
         _mm_castps_si128(_mm_permutevar_ps(_mm_castsi128_ps(four), _mm_cvtsi32_si128(i)))));
+}
+
+// Keys in descending order; see simd_avx512.inl.
+inline __m256i sortedKeys(__m256i k) {
+    const auto exchange = [&](__m256i other, auto smaller) {
+        k = _mm256_blend_epi32(_mm256_max_epu32(k, other), _mm256_min_epu32(k, other),
+                               decltype(smaller)::value);
+    };
+    const auto apart1 = [&] { return _mm256_shuffle_epi32(k, _MM_SHUFFLE(2, 3, 0, 1)); };
+    const auto apart2 = [&] { return _mm256_shuffle_epi32(k, _MM_SHUFFLE(1, 0, 3, 2)); };
+    const auto apart4 = [&] { return _mm256_permute2x128_si256(k, k, 1); };
+    exchange(apart1(), std::integral_constant<int, 0x66>());
+    exchange(apart2(), std::integral_constant<int, 0x3c>());
+    exchange(apart1(), std::integral_constant<int, 0x5a>());
+    exchange(apart4(), std::integral_constant<int, 0xf0>());
+    exchange(apart2(), std::integral_constant<int, 0xcc>());
+    exchange(apart1(), std::integral_constant<int, 0xaa>());
+    return k;
+}
+inline __m256i pickAll(__m256i keys, const std::uint32_t* from) {
+    const __m256i lanes = _mm256_xor_si256(keys, _mm256_set1_epi32(W - 1));
+    return _mm256_permutevar8x32_epi32(_mm256_load_si256(reinterpret_cast<const __m256i*>(from)),
+                                       lanes);
+}
+inline std::uint32_t element(__m256i all, int i) {
+    return static_cast<std::uint32_t>(
+        _mm256_cvtsi256_si32(_mm256_permutevar8x32_epi32(all, _mm256_set1_epi32(i))));
 }

@@ -205,17 +205,19 @@ inline void storeRows(Floats a, Floats b, Floats c, Ints d, Ints e, float* to) {
 }
 
 // Writes the chosen lanes one after the other; what follows them is overwritten too.
+inline void storeChosen(Mask chosen, const std::uint32_t* from, std::uint32_t* to) {
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(chosen.v, _mm512_load_si512(from)));
+}
 inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_t* to) {
-    _mm512_storeu_si512(
-        to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(chosen), _mm512_load_si512(from)));
+    storeChosen(maskOf(chosen), from, to);
 }
 // Bits of the chosen numbers (not negative), in the lowest four how many lanes come behind; zeros
 // follow. They sort like the numbers, of equal ones the last first.
-inline __m512i keysOf(unsigned chosen, Floats a) {
+inline __m512i keysOf(Mask chosen, Floats a) {
     const __m512i lane = _mm512_setr_epi32(15, 14, 13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0);
     const __m512i keys =
         _mm512_or_si512(_mm512_andnot_si512(_mm512_set1_epi32(15), _mm512_castps_si512(a.v)), lane);
-    return _mm512_maskz_compress_epi32(static_cast<__mmask16>(chosen), keys);
+    return _mm512_maskz_compress_epi32(chosen.v, keys);
 }
 inline __m128i firstFour(__m512i keys) { return _mm512_castsi512_si128(keys); }
 inline void storeKeys(__m512i keys, std::uint32_t* to) { _mm512_storeu_si512(to, keys); }
@@ -228,4 +230,31 @@ inline __m128i pick(__m128i keys, const std::uint32_t* from) {
 inline std::uint32_t element(__m128i four, int i) {
     return static_cast<std::uint32_t>(_mm_cvtsi128_si32(
         _mm_castps_si128(_mm_permutevar_ps(_mm_castsi128_ps(four), _mm_cvtsi32_si128(i)))));
+}
+
+// Keys in descending order: Batcher's bitonic sort (1968), step by step exchanged with the lane
+// that is `apart`.
+inline __m512i sortedKeys(__m512i k) {
+    const auto exchange = [&](__m512i other, unsigned smaller) {
+        k = _mm512_mask_min_epu32(_mm512_max_epu32(k, other), static_cast<__mmask16>(smaller), k,
+                                  other);
+    };
+    const auto apart1 = [&] { return _mm512_shuffle_epi32(k, _MM_PERM_CDAB); };
+    const auto apart2 = [&] { return _mm512_shuffle_epi32(k, _MM_PERM_BADC); };
+    const auto apart4 = [&] { return _mm512_shuffle_i32x4(k, k, _MM_SHUFFLE(2, 3, 0, 1)); };
+    const auto apart8 = [&] { return _mm512_shuffle_i32x4(k, k, _MM_SHUFFLE(1, 0, 3, 2)); };
+    exchange(apart1(), 0x6666);
+    exchange(apart2(), 0x3c3c), exchange(apart1(), 0x5a5a);
+    exchange(apart4(), 0x0ff0), exchange(apart2(), 0x33cc), exchange(apart1(), 0x55aa);
+    exchange(apart8(), 0xff00), exchange(apart4(), 0xf0f0), exchange(apart2(), 0xcccc);
+    exchange(apart1(), 0xaaaa);
+    return k;
+}
+inline __m512i pickAll(__m512i keys, const std::uint32_t* from) {
+    const __m512i lanes = _mm512_xor_si512(keys, _mm512_set1_epi32(W - 1));
+    return _mm512_permutexvar_epi32(lanes, _mm512_load_si512(from));
+}
+inline std::uint32_t element(__m512i all, int i) {
+    return static_cast<std::uint32_t>(_mm_cvtsi128_si32(
+        _mm512_castsi512_si128(_mm512_permutexvar_epi32(_mm512_set1_epi32(i), all))));
 }

@@ -278,10 +278,14 @@ inline void storeRows(Floats a, Floats b, Floats c, Ints d, Ints e, float* to) {
 inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_t* to) {
     for (; chosen != 0; chosen &= chosen - 1) *to++ = from[__builtin_ctz(chosen)];
 }
+inline void storeChosen(Mask chosen, const std::uint32_t* from, std::uint32_t* to) {
+    storeChosen(bits(chosen), from, to);
+}
 struct alignas(16) Keys {
     std::uint32_t v[W];
 };
-inline Keys keysOf(unsigned chosen, Floats a) {
+inline Keys keysOf(Mask lanes, Floats a) {
+    unsigned chosen = bits(lanes);
     alignas(16) std::uint32_t near[W];
     Ints(_mm_castps_si128(a.lo), _mm_castps_si128(a.hi)).store(near);
     Keys keys{};
@@ -307,3 +311,15 @@ inline std::uint32_t element(__m128i four, int i) {
     _mm_store_si128(reinterpret_cast<__m128i*>(all), four);
     return all[i & 3];
 }
+
+// Keys in descending order.
+inline Keys sortedKeys(Keys keys) {
+    std::sort(keys.v, keys.v + W, [](std::uint32_t a, std::uint32_t b) { return a > b; });
+    return keys;
+}
+inline Keys pickAll(const Keys& keys, const std::uint32_t* from) {
+    Keys picked;
+    for (int i = 0; i < W; ++i) picked.v[i] = from[(keys.v[i] & 15) ^ (W - 1)];
+    return picked;
+}
+inline std::uint32_t element(const Keys& all, int i) { return all.v[i]; }

@@ -13,6 +13,17 @@ void SolidTree::reserve(std::size_t count) {
     solids.reserve(count), boxes.reserve(count), tubes.reserve(count);
 }
 
+static SolidTree::Tube measured(const StillTube& tube) {
+    const AffineRows& m = tube.shape->objectFromWorld();
+    const Vec3d x{m[0], m[1], m[2]}, y{m[4], m[5], m[6]}, z{m[8], m[9], m[10]};
+    // Gershgorin's circles about the Gram matrix.
+    const double xx = dot(x, x), yy = dot(y, y), zz = dot(z, z);
+    const double xy = std::fabs(dot(x, y)), yz = std::fabs(dot(y, z)), zx = std::fabs(dot(z, x));
+    const double across = max(xx, yy) + xy;
+    const double any = max(max(xx + zx, yy + yz) + xy, zz + yz + zx);
+    return {tube, tube.cone ? any : across, zz};
+}
+
 void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const SolidForm& form) {
     Solid solid{.number = number, .hides = hides};
     solid.isTube = form.hull.axis != Vec3d{};
@@ -26,6 +37,7 @@ void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const S
     if (form.sphere) {
         solid.kind = Kind::Sphere;
         solid.shape = form.sphere;
+        solid.side = form.sphereSide;
     }
     if (form.faces) {
         using enum StillFaces::Of;
@@ -38,28 +50,26 @@ void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const S
     if (form.tube) {
         solid.kind = Kind::Tube;
         solid.shape = form.tube->shape;
-        solid.part = static_cast<std::uint32_t>(tubes.size());
-        const AffineRows& m = form.tube->shape->objectFromWorld();
-        const Vec3d x{m[0], m[1], m[2]}, y{m[4], m[5], m[6]}, z{m[8], m[9], m[10]};
-        // Gershgorin's circles about the Gram matrix.
-        const double xx = dot(x, x), yy = dot(y, y), zz = dot(z, z);
-        const double xy = std::fabs(dot(x, y)), yz = std::fabs(dot(y, z)),
-                     zx = std::fabs(dot(z, x));
-        const double across = max(xx, yy) + xy;
-        const double any = max(max(xx + zx, yy + yz) + xy, zz + yz + zx);
-        tubes.push_back({*form.tube, form.tube->cone ? any : across, zz});
+        if (!form.motion) {
+            solid.part = static_cast<std::uint32_t>(tubes.size());
+            tubes.push_back(measured(*form.tube));
+        }
     }
-    if (form.drift) {
+    bool turns = false;
+    if (form.motion && solid.kind != Kind::Other) {
         solid.moves = true;
-        solid.part = static_cast<std::uint32_t>(drifts.size());
-        drifts.push_back(*form.drift);
+        solid.part = static_cast<std::uint32_t>(movements.size());
+        turns = form.motion->turning != nullptr;
+        movements.push_back({*form.motion, form.tube ? measured(*form.tube) : Tube{}});
     }
     if (solid.shape != nullptr) {
         const AffineRows& m = solid.shape->objectFromWorld();
-        solid.turned = m[1] != 0 || m[2] != 0 || m[4] != 0 || m[6] != 0 || m[8] != 0 || m[9] != 0;
+        solid.turned =
+            turns || m[1] != 0 || m[2] != 0 || m[4] != 0 || m[6] != 0 || m[8] != 0 || m[9] != 0;
     }
-    if (form.sphere && !solid.moves) solid.meets = Meets::Sphere;
-    if (form.tube && form.tube->side != ::Facets::Side::Back)
+    const bool isPlain = !solid.moves && form.sphereSide == ::Facets::Side::Both;
+    if (form.sphere && isPlain) solid.meets = Meets::Sphere;
+    if (form.tube && !solid.moves && form.tube->side != ::Facets::Side::Back)
         solid.meets = form.tube->cone ? (form.tube->caps ? Meets::CappedCone : Meets::Cone)
                                       : (form.tube->caps ? Meets::CappedTube : Meets::Tube);
     solid.isOpenFront =

@@ -1,8 +1,7 @@
 // Solids: everything with a box of its own that is no triangle, as vector kernels want it. Packets
-// of rays walk one wide tree together; shapes with a formula that stand still, most that move
-// without turning, and meshes of a few triangles are met in the kernel itself, with the bits of
-// shape/, and any other shape is asked where a ray enters its box. Knows nothing about what the
-// shapes are.
+// of rays walk one wide tree together; shapes with a formula, still or moving, and meshes of a few
+// triangles are met in the kernel itself, with the bits of shape/, and any other shape is asked
+// where a ray enters its box. Knows nothing about what the shapes are.
 #pragma once
 
 #include "accel/bvh.h"
@@ -28,13 +27,14 @@ struct SolidTree {
     // What is looked at first, in one line of the cache.
     struct alignas(64) Solid {
         std::uint32_t number = 0; // what hits and calls name it by
-        std::uint32_t part = 0;   // in `facets`, `tubes` or `drifts`
+        std::uint32_t part = 0;   // in `facets`, `tubes` or `movements`
         Kind kind = Kind::Other;
         bool hides = true;   // counts when any hit is asked for
         bool isTube = false; // a RoundHull with an axis
         bool turned = false; // the shape's map does more than move and scale along the axes
-        bool moves = false;  // as in `drifts`
-        ::Facets::Side side = ::Facets::Side::Both; // of a cube, a disk or a plane by corners
+        bool moves = false;  // as in `movements`
+        ::Facets::Side side =
+            ::Facets::Side::Both; // of a sphere, a cube, a disk or a plane by corners
         Meets meets = Meets::Alone;
         Vec3 centre{}, axis{};
         float radius = kInfinityF, innerRadius = 0, halfLength = kInfinityF;
@@ -46,6 +46,10 @@ struct SolidTree {
         // At least the square of how much longer a normal of the wall, or of an end, is in the
         // world.
         double wallStretch = 0, endStretch = 0;
+    };
+    struct Movement {
+        SolidMotion motion;
+        Tube tube; // if it is one
     };
     struct Facet {
         std::array<Vec3, 3> corner;
@@ -62,7 +66,7 @@ struct SolidTree {
     RawVector<Bounds> boxes; // of the solids
     std::vector<Tube> tubes;
     std::vector<FacetGroup> facets;
-    std::vector<Drift> drifts;
+    std::vector<Movement> movements;
     // WideNode<width>, root first. A child of kind Leaf is one solid, by its place in `solids`.
     PageVector<WideTree::Line> lines;
     float extent = 0; // see RaySetup
@@ -75,20 +79,18 @@ struct SolidTree {
     // Room for so many of each common kind: what isn't touched costs nothing, growing would.
     void reserve(std::size_t count);
     void add(const Bounds& box, std::uint32_t number, bool hides, const SolidForm& form);
-    // Once after the last add(); `bvh` is over the boxes in the order of adding.
-    void build(int nodeWidth, Bvh bvh);
+    // Once after the last add().
+    void build(int nodeWidth, int threads = 1);
 
-    // Or, instead of add() for each of many: what describe(i, next) says of the solid in box i of
-    // the `bvh`, asked by several threads, once each; `next` comes soon. The same for any number of
-    // them.
+    // Or, instead of add() for each of many: what describe(i, next) says of the solid in box i,
+    // asked by several threads, once each; `next` comes soon. The same for any number of them.
     struct Described {
         std::uint32_t number = 0;
         bool hides = true;
         SolidForm form;
     };
     using Describe = std::function<Described(std::uint32_t i, std::uint32_t next)>;
-    void build(int nodeWidth, Bvh bvh, std::span<const Bounds> of, const Describe& describe,
-               int threads);
+    void build(int nodeWidth, std::span<const Bounds> of, const Describe& describe, int threads);
 
     std::size_t nodes() const { return lines.size() * sizeof(WideTree::Line) / nodeBytes(); }
     std::size_t bytes() const;
@@ -98,7 +100,7 @@ private:
         return width == 16 ? sizeof(WideNode<16>) : sizeof(WideNode<8>);
     }
     // Returns which box each leaf has.
-    std::vector<std::uint32_t> writeNodes(Bvh bvh, std::span<const Bounds> of, int threads);
+    std::vector<std::uint32_t> writeNodes(std::span<const Bounds> of, int threads);
     void take(std::span<const std::uint32_t> order, std::span<const Bounds> of,
               const Describe& describe, int threads);
 };

@@ -20,6 +20,10 @@ enum class Answer { Closest, Any };
 
 #include "accel/kernels/solids_objects.inl"
 
+#include "accel/kernels/arc_sines.inl"
+
+#include "accel/kernels/solids_turning.inl"
+
 #include "accel/kernels/solids_tubes.inl"
 
 #include "accel/kernels/solids_cubes.inl"

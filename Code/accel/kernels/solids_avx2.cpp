@@ -3,6 +3,7 @@
 
 #if defined(__x86_64__)
 #include "accel/kernels/region_includes.h"
+#include "base/rounder.h"
 
 AVX2_REGION_BEGIN
 namespace kernels::avx2 {

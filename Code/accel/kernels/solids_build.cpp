@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <utility>
 
-void SolidTree::build(int nodeWidth, Bvh bvh) {
+void SolidTree::build(int nodeWidth, int threads) {
     width = nodeWidth;
-    const std::vector<std::uint32_t> order = writeNodes(std::move(bvh), boxes, 1);
+    const std::vector<std::uint32_t> order = writeNodes(boxes, threads);
     const auto sort = [&](auto& things) {
         const auto before = things;
         for (std::size_t i = 0; i < order.size(); ++i) things[i] = before[order[i]];
@@ -16,10 +16,10 @@ void SolidTree::build(int nodeWidth, Bvh bvh) {
     sort(solids), sort(boxes);
 }
 
-void SolidTree::build(int nodeWidth, Bvh bvh, std::span<const Bounds> of, const Describe& describe,
+void SolidTree::build(int nodeWidth, std::span<const Bounds> of, const Describe& describe,
                       int threads) {
     width = nodeWidth;
-    take(writeNodes(std::move(bvh), of, threads), of, describe, threads);
+    take(writeNodes(of, threads), of, describe, threads);
 }
 
 // Each part of the solids has its own lists of what has a `part` there, which are joined then.
@@ -29,8 +29,8 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
     struct Rest {
         std::vector<Tube> tubes;
         std::vector<FacetGroup> facets;
-        std::vector<Drift> drifts;
-        std::size_t firstTube = 0, firstFacets = 0, firstDrift = 0;
+        std::vector<Movement> movements;
+        std::size_t firstTube = 0, firstFacets = 0, firstMovement = 0;
     };
     const auto ofPart = [](auto& things, std::size_t first) {
         return things.begin() + static_cast<std::ptrdiff_t>(first);
@@ -42,13 +42,15 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
         part.solids.reserve(last - first), part.boxes.reserve(last - first);
         for (std::size_t i = first; i < last; ++i) {
             const std::uint32_t at = order[i];
-            const Described solid = describe(at, order[std::min(i + kAhead, last - 1)]);
+            const std::uint32_t next = order[std::min(i + kAhead, last - 1)];
+            __builtin_prefetch(&of[next]);
+            const Described solid = describe(at, next);
             part.add(of[at], solid.number, solid.hides, solid.form);
         }
         std::copy(part.solids.begin(), part.solids.end(), ofPart(solids, first));
         std::copy(part.boxes.begin(), part.boxes.end(), ofPart(boxes, first));
         rests[first / kTogether] = {std::move(part.tubes), std::move(part.facets),
-                                    std::move(part.drifts)};
+                                    std::move(part.movements)};
     });
     const auto join = [](auto& things, const auto& more) {
         const std::size_t first = things.size();
@@ -58,14 +60,14 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
     for (Rest& rest : rests) {
         rest.firstTube = join(tubes, rest.tubes);
         rest.firstFacets = join(facets, rest.facets);
-        rest.firstDrift = join(drifts, rest.drifts);
+        rest.firstMovement = join(movements, rest.movements);
     }
-    if (tubes.empty() && facets.empty() && drifts.empty()) return;
+    if (tubes.empty() && facets.empty() && movements.empty()) return;
     forEachPart(threads, order.size(), kTogether, [&](std::size_t first, std::size_t last) {
         const Rest& rest = rests[first / kTogether];
         for (std::size_t i = first; i < last; ++i) {
             Solid& solid = solids[i];
-            const std::size_t before = solid.moves                  ? rest.firstDrift
+            const std::size_t before = solid.moves                  ? rest.firstMovement
                                        : solid.kind == Kind::Tube   ? rest.firstTube
                                        : solid.kind == Kind::Facets ? rest.firstFacets
                                                                     : 0;
@@ -77,5 +79,5 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
 std::size_t SolidTree::bytes() const {
     return lines.size() * sizeof(WideTree::Line) + solids.size() * sizeof(Solid) +
            boxes.size() * sizeof(Bounds) + tubes.size() * sizeof(Tube) +
-           facets.size() * sizeof(FacetGroup) + drifts.size() * sizeof(Drift);
+           facets.size() * sizeof(FacetGroup) + movements.size() * sizeof(Movement);
 }

@@ -73,9 +73,9 @@ FoundLanes meetCube(const RayColumns& rays, const RayRanges& ranges, const Solid
     if (solid.side != ::Facets::Side::Both) {
         // The side that is seen is where rays enter, or where they leave.
         first = solid.side == ::Facets::Side::Front ? (1u << W) - 1 : 0;
-        const unsigned steep[3] = {isSteep(roots.rays.dx, rowLength(map.rows, 0), rays),
-                                   isSteep(roots.rays.dy, rowLength(map.rows, 1), rays),
-                                   isSteep(roots.rays.dz, rowLength(map.rows, 2), rays)};
+        const unsigned steep[3] = {isSteep(roots.rays.dx, rowLength(map, 0), rays),
+                                   isSteep(roots.rays.dy, rowLength(map, 1), rays),
+                                   isSteep(roots.rays.dz, rowLength(map, 2), rays)};
         found.undecided |= roots.met & ~(in.choose(steep[0], steep[1], steep[2]) &
                                          out.choose(steep[0], steep[1], steep[2]));
     }

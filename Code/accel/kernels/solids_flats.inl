@@ -6,7 +6,6 @@
 struct FlatRoots {
     Doubles t, facing; // facing: along the normal
     unsigned met;      // t is finite here
-    double steepest;   // at least the length of the normal in the world
 };
 
 // Disk::roots()
@@ -16,7 +15,7 @@ inline FlatRoots diskRoots(const ObjectRays& rays, const StillShape& shape) {
     const Doubles x = rays.ox + rays.dx * t, y = rays.oy + rays.dy * t;
     const unsigned met =
         less(zero, abs(rays.dz)) & less(zero, radius) & atMost(x * x + y * y, radius * radius);
-    return {t, rays.dz, met & rays.usable(), rowLength(shape.objectFromWorld(), 2)};
+    return {t, rays.dz, met & rays.usable()};
 }
 
 // Plane::roots()
@@ -41,10 +40,15 @@ inline FlatRoots cornerRoots(const ObjectRays& rays, const StillShape& shape) {
         met &= atMost(zero, Doubles(edge.way.x) * (y - Doubles(edge.from.y)) -
                                 Doubles(edge.way.y) * (x - Doubles(edge.from.x)));
     }
-    const AffineRows& m = shape.objectFromWorld();
-    return {t, slope, met,
-            (std::fabs(n.x) * rowLength(m, 0) + std::fabs(n.y) * rowLength(m, 1)) +
-                std::fabs(n.z) * rowLength(m, 2)};
+    return {t, slope, met};
+}
+
+// At least the length of the normal in the world.
+template <class Map> Doubles steepest(const SolidTree::Solid& solid, const Map& m) {
+    if (solid.kind == SolidTree::Kind::Disk) return rowLength(m, 2);
+    const Vec3d n = solid.shape->corners->normal;
+    return (Doubles(std::fabs(n.x)) * rowLength(m, 0) + Doubles(std::fabs(n.y)) * rowLength(m, 1)) +
+           Doubles(std::fabs(n.z)) * rowLength(m, 2);
 }
 
 template <Answer A, class Map>
@@ -61,7 +65,7 @@ FoundLanes meetFlat(const RayColumns& rays, const RayRanges& ranges, const Solid
     if (solid.side != ::Facets::Side::Both) {
         const Doubles zero(0.0);
         const unsigned front = less(roots.facing, zero);
-        found.undecided = found.met & ~isSteep(roots.facing, roots.steepest, rays);
+        found.undecided = found.met & ~isSteep(roots.facing, steepest(solid, map), rays);
         found.met &= solid.side == ::Facets::Side::Front ? front : ~front;
     }
     return found;

@@ -37,8 +37,12 @@ protected:
         Floats entry;
         lanes &= lanes_.entering(tree_.boxes[place], zCut_, entry);
         if (lanes == 0) return;
-        if (solid.kind == SolidTree::Kind::Sphere)
+        if (solid.meets == SolidTree::Meets::Sphere)
             sphere<A>(solid, entry, lanes, results);
+        else if (solid.moves)
+            moving<A>(solid, entry, lanes, results);
+        else if (solid.kind == SolidTree::Kind::Sphere)
+            sphereBy<A>(solid, SameMap{solid.shape->objectFromWorld()}, entry, lanes, results);
         else if (solid.kind == SolidTree::Kind::Facets)
             facets(solid, tree_.facets[solid.part], entry, lanes, results);
         else if (solid.kind == SolidTree::Kind::Tube)
@@ -66,7 +70,11 @@ protected:
         const auto* const bytes =
             reinterpret_cast<const std::byte*>(&solid.shape->objectFromWorld());
         for (std::size_t at = 0; at < sizeof(AffineRows); at += 64) __builtin_prefetch(bytes + at);
-        if (solid.kind == SolidTree::Kind::Tube) __builtin_prefetch(&tree_.tubes[solid.part]);
+        __builtin_prefetch(&solid.shape->radius);
+        if (solid.moves)
+            __builtin_prefetch(&tree_.movements[solid.part]);
+        else if (solid.kind == SolidTree::Kind::Tube)
+            __builtin_prefetch(&tree_.tubes[solid.part]);
     }
 
     // Of one lane, that of the shape itself.
@@ -87,10 +95,8 @@ private:
 
     template <Answer A, class Result>
     void sphere(const SolidTree::Solid& solid, Floats entry, unsigned lanes, Result* results) {
-        const SphereRoots roots = solid.moves
-                                      ? movingSphere(solid, lanes)
-                                      : meet(columns_, SameMap{solid.shape->objectFromWorld()},
-                                             solid.turned, solid.shape->radius, lanes);
+        const SphereRoots roots = meet(columns_, SameMap{solid.shape->objectFromWorld()},
+                                       solid.turned, solid.shape->radius, lanes);
         if (roots.met == 0) return;
         if constexpr (A == Answer::Any)
             hide(hides(roots, ranges()), results);
@@ -123,25 +129,31 @@ private:
         }
     }
 
-    DriftLanes driftOf(const SolidTree::Solid& solid, unsigned lanes) const {
-        return {solid.shape->objectFromWorld(), tree_.drifts[solid.part], rays_, ray_, lanes};
-    }
-    [[gnu::noinline]] SphereRoots movingSphere(const SolidTree::Solid& solid,
-                                               unsigned lanes) const {
-        return meet(columns_, driftOf(solid, lanes), solid.turned, solid.shape->radius, lanes);
+    // One that moves or is seen from one side only.
+    template <Answer A, class Map, class Result>
+    [[gnu::noinline]] void sphereBy(const SolidTree::Solid& solid, const Map& map, Floats entry,
+                                    unsigned lanes, Result* results) {
+        const SphereRoots roots = meet(columns_, map, solid.turned, solid.shape->radius, lanes);
+        if (roots.met == 0) return;
+        if constexpr (A == Answer::Any)
+            hide(hides(roots, ranges()), results);
+        else if (solid.side == ::Facets::Side::Both)
+            take(solid, firstOf(roots, ranges()), entry, lanes, results);
+        else
+            take(solid, firstOf(roots, ranges(), solid.side, columns_, map), entry, lanes, results);
     }
 
     template <Answer A, class Result>
     [[gnu::noinline]] void faces(const SolidTree::Solid& solid, Floats entry, unsigned lanes,
                                  Result* results) {
-        const auto found = [&](const auto& map) {
-            return solid.kind == SolidTree::Kind::Cube
-                       ? meetCube<A>(columns_, ranges(), solid, map)
-                       : meetFlat<A>(columns_, ranges(), solid, map);
-        };
+        facesBy<A>(solid, SameMap{solid.shape->objectFromWorld()}, entry, lanes, results);
+    }
+    template <Answer A, class Map, class Result>
+    void facesBy(const SolidTree::Solid& solid, const Map& map, Floats entry, unsigned lanes,
+                 Result* results) {
         take(solid,
-             solid.moves ? found(driftOf(solid, lanes))
-                         : found(SameMap{solid.shape->objectFromWorld()}),
+             solid.kind == SolidTree::Kind::Cube ? meetCube<A>(columns_, ranges(), solid, map)
+                                                 : meetFlat<A>(columns_, ranges(), solid, map),
              entry, lanes, results);
     }
 
@@ -175,17 +187,53 @@ private:
     // best one. Who can't be sure here asks the shape.
     [[gnu::noinline]] void tube(const SolidTree::Solid& solid, const SolidTree::Tube& tube,
                                 Floats entry, unsigned lanes, Hit* hits) {
-        const Tubes<SameMap> tubes = sameTube(tube);
-        const TubeRoots roots = meet(columns_, tubes);
-        take(solid, firstOf(columns_, tubes, roots, ranges(), lanes), entry, lanes, hits);
+        tubeBy(solid, sameTube(tube, SameMap{solid.shape->objectFromWorld()}), entry, lanes, hits);
     }
 
     [[gnu::noinline]] void tube(const SolidTree::Solid& solid, const SolidTree::Tube& tube,
                                 Floats entry, unsigned lanes, std::uint8_t* hidden) {
-        const TubeRoots roots = meet(columns_, sameTube(tube));
+        tubeBy(solid, sameTube(tube, SameMap{solid.shape->objectFromWorld()}), entry, lanes,
+               hidden);
+    }
+    template <class Map>
+    void tubeBy(const SolidTree::Solid& solid, const Tubes<Map>& tubes, Floats entry,
+                unsigned lanes, Hit* hits) {
+        const TubeRoots roots = meet(columns_, tubes);
+        take(solid, firstOf(columns_, tubes, roots, ranges(), lanes), entry, lanes, hits);
+    }
+    template <class Map>
+    void tubeBy(const SolidTree::Solid& solid, const Tubes<Map>& tubes, Floats entry,
+                unsigned lanes, std::uint8_t* hidden) {
+        const TubeRoots roots = meet(columns_, tubes);
         FoundLanes found{.t = Floats(0.0f), .lost = Floats(0.0f), .undecided = roots.undecided};
         found.met = hides(roots, ranges());
         take(solid, found, entry, lanes, hidden);
+    }
+
+    // By the maps at the times of the rays.
+    template <Answer A, class Result>
+    [[gnu::noinline]] void moving(const SolidTree::Solid& solid, Floats entry, unsigned lanes,
+                                  Result* results) {
+        const SolidTree::Movement& movement = tree_.movements[solid.part];
+        if (const auto& drift = movement.motion.drift) {
+            const DriftLanes map(solid.shape->objectFromWorld(), *drift, rays_, ray_, lanes);
+            return movingBy<A>(solid, movement.tube, map, entry, lanes, results);
+        }
+        TurningMaps maps(movement, rays_, ray_);
+        lanes = maps.make(lines(), lanes);
+        if (lanes == 0) return;
+        movingBy<A>(solid, movement.tube, maps.objectFromWorld(), entry, lanes, results);
+    }
+    template <Answer A, class Map, class Result>
+    void movingBy(const SolidTree::Solid& solid, const SolidTree::Tube& tube, const Map& map,
+                  Floats entry, unsigned lanes, Result* results) {
+        if (solid.kind == SolidTree::Kind::Sphere)
+            return sphereBy<A>(solid, map, entry, lanes, results);
+        if (solid.kind != SolidTree::Kind::Tube)
+            return facesBy<A>(solid, map, entry, lanes, results);
+        Tubes<Map> tubes = sameTube(tube, map);
+        if (tubes.front | tubes.back) tubes.wallStretch = tubes.endStretch = normalStretch(map);
+        tubeBy(solid, tubes, entry, lanes, results);
     }
 
     // Mesh::intersect(), OneSided::intersect() and the choice between their hit and the best one.

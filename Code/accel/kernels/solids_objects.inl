@@ -27,10 +27,36 @@ struct DriftLanes {
     DriftLanes(const AffineRows& map, const Drift& drift, const RaySpan& rays,
                const std::uint32_t (&ray)[W], unsigned lanes)
         : rows(map) {
+        if (drift.legs().size() == 2) {
+            fromOneKeyToTheOther(drift, rays, ray);
+            return;
+        }
         for (; lanes != 0; lanes &= lanes - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
             const Vec3d at = drift.offsetAt(static_cast<double>(rays.time[ray[i]]));
             offset[0][i] = at.x, offset[1][i] = at.y, offset[2][i] = at.z;
+        }
+    }
+    // Drift::offsetAt(): the time is the place within the leg, but at its end.
+    void fromOneKeyToTheOther(const Drift& drift, const RaySpan& rays,
+                              const std::uint32_t (&ray)[W]) {
+        alignas(64) double times[W];
+        for (std::size_t i = 0; i < W; ++i)
+            times[i] = clamp(static_cast<double>(rays.time[ray[i]]), 0.0, 1.0);
+        const Doubles time = Doubles::load(times), one(1.0), minus(-0.0);
+        const Mask isEnd = maskOf(atMost(one, time));
+        const Doubles s = select(isEnd, time - one, time);
+        const Drift::Leg &first = drift.legs()[0], &last = drift.legs()[1];
+        const auto moved = [&](std::size_t axis) {
+            return minus - select(isEnd, Doubles(last.step[axis]), Doubles(first.step[axis])) * s;
+        };
+        const Doubles x = moved(0), y = moved(1), z = moved(2);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            const double* const m = &rows[4 * axis];
+            const Doubles from =
+                select(isEnd, Doubles(last.offset[axis]), Doubles(first.offset[axis]));
+            (((Doubles(m[0]) * x + Doubles(m[1]) * y) + Doubles(m[2]) * z) + from)
+                .store(offset[axis]);
         }
     }
     Doubles operator()(std::size_t i) const {
@@ -81,11 +107,18 @@ struct RayRanges {
 // steeply enough to be sure. `facing`: the direction along a normal of object space, which is the
 // same number in the world. `most`: at least the length of that normal there; 2^-50 of it covers
 // the rounding of both.
-inline unsigned isSteep(const Doubles& facing, double most, const RayColumns& rays) {
+inline unsigned isSteep(const Doubles& facing, const Doubles& most, const RayColumns& rays) {
     const Doubles x(rays.dir[0]), y(rays.dir[1]), z(rays.dir[2]);
-    return less(Doubles(0x1p-19 * (most * most)) * ((x * x + y * y) + z * z), facing * facing);
+    return less(Doubles(0x1p-19) * (most * most) * ((x * x + y * y) + z * z), facing * facing);
 }
-inline double rowLength(const AffineRows& m, std::size_t i) {
-    return std::sqrt((m[4 * i] * m[4 * i] + m[4 * i + 1] * m[4 * i + 1]) +
-                     m[4 * i + 2] * m[4 * i + 2]);
+template <class Map> Doubles rowLength2(const Map& m, std::size_t i) {
+    const Doubles x = m(4 * i), y = m(4 * i + 1), z = m(4 * i + 2);
+    return (x * x + y * y) + z * z;
+}
+template <class Map> Doubles rowLength(const Map& m, std::size_t i) {
+    return sqrt(rowLength2(m, i));
+}
+// At least the square of how much longer any normal is in the world.
+template <class Map> Doubles normalStretch(const Map& m) {
+    return (rowLength2(m, 0) + rowLength2(m, 1)) + rowLength2(m, 2);
 }

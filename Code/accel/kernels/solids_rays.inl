@@ -55,7 +55,6 @@ protected:
 
     // The ranges of origins and r, for packets into one octant.
     void findInterval(unsigned lanes) {
-        const Mask on = maskOf(lanes);
         together_ = std::popcount(lanes) >= kFewestForInterval;
         for (int axis = 0; axis < 3; ++axis) {
             lanes_.r[axis].store(rays1_.r[axis]);
@@ -66,16 +65,37 @@ protected:
             const auto plane = static_cast<std::uint32_t>(2 * axis) * kPlane;
             select(lanes_.r[axis] < Floats(0.0f), Ints(plane + kPlane), Ints(plane))
                 .store(rays1_.nearPlane[axis]);
-            if (!together_) continue;
-            together_ = (backwards & lanes) == 0 || (backwards & lanes) == lanes;
-            oLo_[axis] = smallest(select(on, columns_.org[axis], Floats(kInfinityF)));
-            oHi_[axis] = largest(select(on, columns_.org[axis], Floats(-kInfinityF)));
-            rLo_[axis] = smallest(select(on, lanes_.r[axis], Floats(kInfinityF)));
-            rHi_[axis] = largest(select(on, lanes_.r[axis], Floats(-kInfinityF)));
-            mostPad_[axis] = largest(select(on, lanes_.room[axis], Floats(0.0f)));
+            together_ &= (backwards & lanes) == 0 || (backwards & lanes) == lanes;
         }
         zCut_.store(rays1_.zCut);
-        zTop_ = largest(select(on, zCut_, Floats(-1.0f)));
+        if (together_)
+            findRanges(lanes);
+        else
+            zTop_ = largest(select(maskOf(lanes), zCut_, Floats(-1.0f)));
+    }
+
+    // All at once, the largest ones as the smallest of their negatives.
+    void findRanges(unsigned lanes) {
+        constexpr int kRanges = 16;
+        alignas(64) float rows[kRanges][W], least[kRanges];
+        const auto put = [&](int row, Floats x) {
+            select(maskOf(lanes), x, Floats(kInfinityF)).store(rows[row]);
+        };
+        const auto negated = [](Floats x) { return flipSign(x, Floats(-0.0f)); };
+        for (int axis = 0; axis < 3; ++axis) {
+            put(axis, columns_.org[axis]), put(3 + axis, negated(columns_.org[axis]));
+            put(6 + axis, lanes_.r[axis]), put(9 + axis, negated(lanes_.r[axis]));
+            put(12 + axis, negated(lanes_.room[axis]));
+        }
+        put(15, negated(zCut_));
+        for (int first = 0; first < kRanges; first += W)
+            smallestOfRows(rows + first).store(least + first);
+        for (int axis = 0; axis < 3; ++axis) {
+            oLo_[axis] = least[axis], oHi_[axis] = -least[3 + axis];
+            rLo_[axis] = least[6 + axis], rHi_[axis] = -least[9 + axis];
+            mostPad_[axis] = -least[12 + axis];
+        }
+        zTop_ = -least[15];
     }
 
     // Nothing behind these t counts any more.

@@ -1,6 +1,7 @@
-// The wide tree over solids: the binary one down to single solids, collapsed with the least area.
-// (Moving parts of it before, as meshes do, takes more time than 10^6 rays win by it.) Subtrees are
-// one thread's work; where they are cut depends on the solids alone.
+// The wide tree over solids: a binary one down to single solids by the steps of the meshes'
+// builder, collapsed with the least area. (Moving parts of it before, as meshes do, takes more time
+// than 10^6 rays win by it.) Subtrees are one thread's work; where they are cut depends on the
+// solids alone.
 #include "accel/kernels/build/collapse.h"
 #include "accel/kernels/solids.h"
 #include "base/for_each.h"
@@ -15,105 +16,20 @@ namespace {
 
 using namespace kernels::build;
 
-BinaryNode nodeOf(const Bounds& box) {
-    return {{box.lo.x, box.lo.y, box.lo.z}, 0, {-box.hi.x, -box.hi.y, -box.hi.z}, 0};
-}
-
-// A tree with a leaf for every solid: where the other one has lists, these are halved. What is
-// below a node lies in a row, its children first, so that its place is known before it is written.
-struct Singles {
-    Singles(const Bvh& bvh, std::span<const Bounds> boxes, int threads)
-        : bvh_(bvh), boxes_(boxes), largestPart_(std::max(std::size_t{4096}, boxes.size() / 64)) {
-        nodes.resize(2 * boxes.size() - 1);
-        nodes[0] = nodeOf(bvh.nodes[0].box);
-        cut({0, 0, 1});
-        forEachOn(threads, parts_.size(), [&](std::size_t i) { fill(parts_[i]); });
-    }
-
-    PageVector<BinaryNode> nodes;
-    std::vector<std::uint32_t> tops;  // nodes above the parts, parents first
-    std::vector<std::uint32_t> roots; // of the parts
-
-private:
-    // A node of the other tree, its place here and that of its children.
-    struct Place {
-        std::uint32_t from, at, below;
-    };
-
-    std::uint32_t solidsIn(std::uint32_t from) const {
-        const BvhNode *first = &bvh_.nodes[from], *last = first;
-        while (!first->isLeaf()) first = &bvh_.nodes[first->first];
-        while (!last->isLeaf()) last = &bvh_.nodes[last->first + 1];
-        return last->first + last->count - first->first;
-    }
-    void setChildren(std::uint32_t at, std::uint32_t below, const Bounds& left,
-                     const Bounds& right) {
-        nodes[at].left = below;
-        nodes[below] = nodeOf(left);
-        nodes[below + 1] = nodeOf(right);
-    }
-    void cut(const Place& p) {
-        const BvhNode& node = bvh_.nodes[p.from];
-        if (node.isLeaf() || solidsIn(p.from) <= largestPart_) {
-            parts_.push_back(p);
-            return roots.push_back(p.at);
-        }
-        tops.push_back(p.at);
-        const auto left = node.first, right = left + 1;
-        setChildren(p.at, p.below, bvh_.nodes[left].box, bvh_.nodes[right].box);
-        cut({left, p.below, p.below + 2});
-        cut({right, p.below + 1, p.below + 2 * solidsIn(left)});
-    }
-    // Returns how many solids are in it.
-    std::uint32_t fill(const Place& p) {
-        const BvhNode& node = bvh_.nodes[p.from];
-        if (node.isLeaf()) {
-            halve(p.at, p.below, std::span(bvh_.primIds).subspan(node.first, node.count));
-            return node.count;
-        }
-        const auto left = node.first, right = left + 1;
-        setChildren(p.at, p.below, bvh_.nodes[left].box, bvh_.nodes[right].box);
-        const std::uint32_t onLeft = fill({left, p.below, p.below + 2});
-        return onLeft + fill({right, p.below + 1, p.below + 2 * onLeft});
-    }
-    Bounds boxOf(std::span<const std::uint32_t> solids) const {
-        Bounds box;
-        for (const std::uint32_t id : solids) box.extend(boxes_[id]);
-        return box;
-    }
-    void halve(std::uint32_t at, std::uint32_t below, std::span<const std::uint32_t> solids) {
-        if (solids.size() == 1) {
-            nodes[at].leaf = solids[0];
-            return;
-        }
-        const auto left = solids.first(solids.size() / 2), right = solids.subspan(left.size());
-        setChildren(at, below, boxOf(left), boxOf(right));
-        halve(below, below + 2, left);
-        halve(below + 1, below + 2 * static_cast<std::uint32_t>(left.size()), right);
-    }
-
-    const Bvh& bvh_;
-    std::span<const Bounds> boxes_;
-    const std::size_t largestPart_;
-    std::vector<Place> parts_;
-};
-
 // Puts W children below every node.
 template <int W> class TreeWriter {
 public:
-    TreeWriter(Singles singles, int threads)
-        : nodes_(std::move(singles.nodes)), roots_(std::move(singles.roots)),
+    TreeWriter(SinglesTree singles, int threads)
+        : nodes_(std::move(singles.nodes)), root_(singles.root), roots_(std::move(singles.roots)),
           tops_(std::move(singles.tops)), threads_(threads), plans_(nodes_.size()) {}
 
     std::vector<std::uint32_t> run(SolidTree& tree) {
         planAll();
         Piece top;
         if (tops_.empty())
-            pieces_.push_back({0, {}, {}, 0});
-        else {
-            std::sort(tops_.begin(), tops_.end());
-            write(top, 0, true);
-        }
+            pieces_.push_back({root_, {}, {}, 0});
+        else
+            write(top, root_, true);
         forEachOn(threads_, pieces_.size(),
                   [&](std::size_t i) { write(pieces_[i], pieces_[i].root, false); });
         return join(tree, top);
@@ -169,17 +85,9 @@ private:
         piece.lines.resize(line + kLines);
         piece.area += static_cast<double>(halfAreaOf(nodes_[at]));
         WideNode<W> node;
-        for (auto& planes : node.plane) {
-            std::fill_n(planes[0], W, kInfinityF);
-            std::fill_n(planes[1], W, -kInfinityF);
-        }
-        std::fill_n(node.child, W, wideRef(0, WideKind::None));
+        setChildren<W>(node, children, nodes_, wideRef(0, WideKind::None));
         for (std::size_t i = 0; i < children.count; ++i) {
             const BinaryNode& child = nodes_[children.node[i]];
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                node.plane[axis][0][i] = child.lo[axis];
-                node.plane[axis][1][i] = -child.negHi[axis];
-            }
             if (!child.isLeaf()) continue;
             piece.area += static_cast<double>(halfAreaOf(child));
             node.child[i] = wideRef(piece.order.size(), WideKind::Leaf);
@@ -202,7 +110,7 @@ private:
     // The top, and the pieces behind it.
     std::vector<std::uint32_t> join(SolidTree& tree, Piece& top) {
         std::vector<std::size_t> firstLine, firstSolid;
-        const auto root = static_cast<double>(halfAreaOf(nodes_[0]));
+        const auto root = static_cast<double>(halfAreaOf(nodes_[root_]));
         PageVector<BinaryNode>().swap(nodes_); // for the tree to take their place
         PageVector<CollapsePlan<W>>().swap(plans_);
         std::size_t lines = top.lines.size(), solids = top.order.size();
@@ -243,6 +151,7 @@ private:
     }
 
     PageVector<BinaryNode> nodes_;
+    std::uint32_t root_;
     std::vector<std::uint32_t> roots_, tops_;
     int threads_;
     PageVector<CollapsePlan<W>> plans_; // by node
@@ -252,11 +161,10 @@ private:
 
 } // namespace
 
-std::vector<std::uint32_t> SolidTree::writeNodes(Bvh bvh, std::span<const Bounds> of, int threads) {
+std::vector<std::uint32_t> SolidTree::writeNodes(std::span<const Bounds> of, int threads) {
     lines.clear();
-    if (bvh.nodes.empty()) return {};
-    Singles singles(bvh, of, threads);
-    bvh = {}; // makes room
+    if (of.empty()) return {};
+    SinglesTree singles = growSingles(of, threads);
     return width == 16 ? TreeWriter<16>(std::move(singles), threads).run(*this)
                        : TreeWriter<8>(std::move(singles), threads).run(*this);
 }

@@ -9,14 +9,14 @@ template <class Map> struct Tubes {
     Map map;
     Doubles radius, slope, narrowZ, wallStretch, endStretch; // see StillTube, SolidTree::Tube
 };
-inline Tubes<SameMap> sameTube(const SolidTree::Tube& tube) {
+template <class Map> Tubes<Map> sameTube(const SolidTree::Tube& tube, const Map& map) {
     const StillTube& t = tube.exact;
     const StillTube::Cone cone = t.cone.value_or(StillTube::Cone{});
     return {t.caps,
             t.cone.has_value(),
             t.side == ::Facets::Side::Front ? ~0u : 0,
             t.side == ::Facets::Side::Back ? ~0u : 0,
-            {t.shape->objectFromWorld()},
+            map,
             t.radius,
             cone.slope,
             cone.narrowZ,

@@ -8,25 +8,19 @@ inline std::size_t strideOfStacks(std::size_t mostEntries) {
     return ((mostEntries + std::size_t{2} * W + 15) / 16 | 1) * 16;
 }
 
-// Pushes the children in `hit`, the farthest first, and returns the nearest. Up to four, 97 to 99
-// of 100 steps where boxes overlap little, by a sorting network; more, by counting for each how
-// many are farther. entries: the depths' bits, the lowest four replaced. Of boxes that the ray
-// starts in the last is the nearest, as for rays that any hit ends.
-inline WideRef pushSorted(unsigned hit, Floats entry, const WideRef* child, WideRef* refs,
+// Pushes the children in `hit`, of which there are `count`, the farthest first, and returns the
+// nearest. Up to four, 97 to 99 of 100 steps where boxes overlap little, by a sorting network of
+// their own; more, by the one for W. entries: the depths' bits, the lowest four replaced. Of boxes
+// that the ray starts in the last is the nearest, as for rays that any hit ends.
+inline WideRef pushSorted(Mask hit, int count, Floats entry, const WideRef* child, WideRef* refs,
                           std::uint32_t* entries) {
     const auto keys = keysOf(hit, entry);
-    if (std::popcount(hit) > 4) [[unlikely]] {
-        alignas(64) std::uint32_t each[W];
-        storeKeys(keys, each);
-        const Ints all = Ints::load(each);
-        const int n = std::popcount(hit);
-        for (int a = 0; a < n; ++a) {
-            // As many are farther: no two keys are equal.
-            const unsigned farther = bits(Ints(each[a]) < all) & ((1u << n) - 1);
-            const int place = std::popcount(farther);
-            entries[place] = each[a], refs[place] = child[(each[a] & 15) ^ (W - 1)];
-        }
-        return refs[n - 1];
+    if (count > 4) [[unlikely]] {
+        const auto all = sortedKeys(keys);
+        storeKeys(all, entries);
+        const auto sorted = pickAll(all, child);
+        storeKeys(sorted, refs);
+        return element(sorted, count - 1);
     }
     __m128i k = firstFour(keys);
     const auto exchange = [](__m128i x, __m128i y, auto lower) {
@@ -44,13 +38,13 @@ inline WideRef pushSorted(unsigned hit, Floats entry, const WideRef* child, Wide
     _mm_storeu_si128(reinterpret_cast<__m128i*>(entries), k);
     const __m128i sorted = pick(k, child);
     _mm_storeu_si128(reinterpret_cast<__m128i*>(refs), sorted);
-    return element(sorted, std::popcount(hit) - 1);
+    return element(sorted, count - 1);
 }
 
 // The same in any order and without depths, for rays that any hit ends.
-inline WideRef pushAny(unsigned hit, const WideRef* child, WideRef* refs) {
+inline WideRef pushAny(Mask hit, unsigned lanes, const WideRef* child, WideRef* refs) {
     storeChosen(hit, child, refs);
-    return child[(static_cast<int>(std::bit_width(hit)) - 1) & (W - 1)]; // 0: any
+    return child[(static_cast<int>(std::bit_width(lanes)) - 1) & (W - 1)]; // 0: any
 }
 
 // Takes out what starts behind zCut >= 0, so that no pop has to look, but not the end of the stack,

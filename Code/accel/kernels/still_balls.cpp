@@ -25,8 +25,10 @@ bool StillBalls::take(std::size_t number, const StillShape& shape) {
     const AffineRows& back = shape.objectFromWorld();
     const Shared shared{there[0], back[0], shape.errorPerPlace};
     if (!scalesBy(shared.scale, there) || !scalesBy(shared.back, back)) return false;
+    if (!(shared.scale > 0 && shared.back > 0)) return false;
     for (const std::size_t offset : {3u, 7u, 11u})
-        if (!sameBits(back[offset], -(shared.back * there[offset]))) return false;
+        if (back[offset] == 0 || !sameBits(back[offset], -(shared.back * there[offset])))
+            return false;
     if (isEmpty()) {
         shared_ = shared;
         isBall_.resize(count_), balls_.resize(count_);

@@ -30,8 +30,8 @@ public:
     bool has(std::size_t number) const { return isBall_[number] != 0; } // when not empty
     const Ball& operator[](std::size_t number) const { return balls_[number]; }
 
-    // What all of them share: their maps scale by the same number in all directions, back by
-    // another one, and turn nothing.
+    // What all of them share: their maps scale by the same number above 0 in all directions, back
+    // by another one, and turn nothing. No coordinate of their places is 0.
     struct Shared {
         double scale = 0, back = 0, errorPerPlace = 0;
         bool operator==(const Shared&) const = default;

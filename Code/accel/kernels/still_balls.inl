@@ -6,6 +6,12 @@ namespace {
 // The numbers of a ball for each lane; lanes behind the last hit repeat it.
 class NumbersOfBalls {
 public:
+    // The zeros of the maps are left out: they would add +0 or -0 to a product, which changes
+    // nothing but the sign of a zero. Points lose that sign where the offset is added, which is not
+    // 0; what is mapped without an offset are differences and what is made of sums, whose zeros are
+    // +0 and stay so under a map that does not mirror.
+    static constexpr bool kScales = true;
+
     // Writes whose surfaces they are.
     NumbersOfBalls(const BallsMet& met, std::span<const std::uint32_t> which, SurfacesInLanes& out)
         : scale_(met.balls.shared().scale), back_(met.balls.shared().back),

@@ -52,21 +52,18 @@ std::uint32_t leftOf(const BinSplit& split, const Bins& bins) {
 
 class WideBuilder {
 public:
-    WideBuilder(const BuildCode& code, int width, std::span<const Vec3> points,
-                std::span<const Corners> triangles, int threads, double rays)
+    // kSingles as the width: of boxes.
+    static constexpr int kSingles = 1;
+    WideBuilder(const BuildCode& code, int width, const BuildInput& in, int threads, double rays)
         : code_(code), width_(width), rays_(rays),
-          count_(static_cast<std::uint32_t>(triangles.size())),
+          count_(static_cast<std::uint32_t>(in.triangles.size() + in.boxes.size())),
           // Few triangles are sorted before another thread has woken up.
-          pool_(count_ < 2 * subtreeSize(count_) ? 1 : threads), grown_(workers()) {
-        in_ = {points, triangles, &lists_, nullptr};
+          pool_(count_ < 2 * subtreeSize(count_) ? 1 : threads), in_(in), grown_(workers()) {
+        in_.lists = &lists_;
     }
 
     WideTree run() {
-        lists_.prims.resize(count_), lists_.spare.resize(count_);
-        top_.resize(2); // the root, and a place that keeps pairs of children together
-        std::vector<Open> level{root()};
-        top_[0] = leafNode(level[0].range.box);
-        while (!level.empty()) level = divideLevel(level);
+        divideTop();
         WideTree tree;
         tree.width = width_;
         tree.triangleIds.resize(count_);
@@ -79,7 +76,22 @@ public:
         return tree;
     }
 
+    SinglesTree runSingles() {
+        divideTop();
+        growSubtrees();
+        lists_ = {};
+        return joined();
+    }
+
 private:
+    void divideTop() {
+        lists_.prims.resize(count_), lists_.spare.resize(count_);
+        top_.resize(2); // the root, and a place that keeps pairs of children together
+        std::vector<Open> level{root()};
+        top_[0] = leafNode(level[0].range.box);
+        while (!level.empty()) level = divideLevel(level);
+    }
+
     std::size_t workers() const { return static_cast<std::size_t>(pool_.threads()); }
 
     // A range with its split, in the parts in which it has been looked at.
@@ -110,8 +122,9 @@ private:
             return std::min(jobSize(), count_ - static_cast<std::uint32_t>(job) * jobSize());
         };
         pool_.run(jobs, [&](std::size_t job, int) {
-            code_.makePrims(in_, static_cast<std::uint32_t>(job) * jobSize(), sizeOf(job),
-                            parts[job].box, parts[job].centres);
+            (width_ == kSingles ? code_.takeBoxes
+                                : code_.makePrims)(in_, static_cast<std::uint32_t>(job) * jobSize(),
+                                                   sizeOf(job), parts[job].box, parts[job].centres);
         });
         for (const Bounded& part : parts)
             merge(parts[0].box, part.box), merge(parts[0].centres, part.centres);
@@ -215,8 +228,8 @@ private:
         // triangle. Others grow.
         const std::size_t share = count_ / workers();
         for (Grown& grown : grown_) {
-            grown.nodes.reserve(share / 2 + 64);
-            grown.lines.reserve(share * 5 / 8 + 1024);
+            grown.nodes.reserve((width_ == kSingles ? 2 * share : share / 2) + 64);
+            if (width_ != kSingles) grown.lines.reserve(share * 5 / 8 + 1024);
         }
         pool_.run(subtrees_.size(), [&](std::size_t i, int worker) {
             SubtreeRange& s = subtrees_[i];
@@ -224,10 +237,46 @@ private:
             Grown& grown = grown_[s.grower];
             s.firstNode = static_cast<std::uint32_t>(grown.nodes.size());
             s.firstLeaf = grown.leaves;
-            (width_ == 16 ? code_.growSubtree16 : code_.growSubtree8)(in_, s.range, grown);
+            (width_ == kSingles ? code_.growSingles
+             : width_ == 16     ? code_.growSubtree16
+                                : code_.growSubtree8)(in_, s.range, grown);
             s.endNode = static_cast<std::uint32_t>(grown.nodes.size());
             s.endLeaf = grown.leaves;
         });
+    }
+
+    // The nodes of all growers, those of a single one where they are, and the top behind them.
+    SinglesTree joined() {
+        SinglesTree out;
+        std::vector<std::uint32_t> first; // by grower
+        std::uint32_t top = 0;
+        for (const Grown& grown : grown_) {
+            first.push_back(top);
+            top += static_cast<std::uint32_t>(grown.nodes.size());
+        }
+        const auto shifted = [](BinaryNode node, std::uint32_t by) {
+            if (!node.isLeaf()) node.left += by;
+            return node;
+        };
+        if (grown_.size() == 1) out.nodes = std::move(grown_[0].nodes);
+        out.nodes.resize(top + top_.size());
+        if (grown_.size() > 1)
+            pool_.run(grown_.size(), [&](std::size_t i, int) {
+                std::transform(grown_[i].nodes.begin(), grown_[i].nodes.end(),
+                               out.nodes.begin() + static_cast<std::ptrdiff_t>(first[i]),
+                               [&](const BinaryNode& node) { return shifted(node, first[i]); });
+                grown_[i] = {};
+            });
+        out.root = top;
+        for (std::uint32_t i = 0; i < top_.size(); ++i) {
+            if (!top_[i].isLeaf()) out.tops.push_back(top + i);
+            out.nodes[top + i] = shifted(top_[i], top);
+        }
+        for (const SubtreeRange& s : subtrees_) {
+            out.roots.push_back(top + s.range.node);
+            out.nodes[out.roots.back()] = out.nodes[first[s.grower] + s.firstNode];
+        }
+        return out;
     }
 
     const BuildCode& code_;
@@ -248,7 +297,21 @@ private:
 WideTree kernels::build::buildWideBy(const BuildCode& code, int width, std::span<const Vec3> points,
                                      std::span<const Corners> triangles, int threads, double rays) {
     if (triangles.empty()) return {};
-    return WideBuilder(code, width, points, triangles, threads, rays).run();
+    const BuildInput in{points, triangles, {}, nullptr, nullptr};
+    return WideBuilder(code, width, in, threads, rays).run();
+}
+
+SinglesTree kernels::build::growSinglesBy(const BuildCode& code, std::span<const Bounds> boxes,
+                                          int threads) {
+    if (boxes.empty()) return {};
+    const BuildInput in{{}, {}, boxes, nullptr, nullptr};
+    return WideBuilder(code, WideBuilder::kSingles, in, threads, 0).runSingles();
+}
+
+SinglesTree kernels::build::growSingles(std::span<const Bounds> boxes, int threads) {
+    for (const BuildCode& code : allBuildCodes())
+        if (code.supported()) return growSinglesBy(code, boxes, threads);
+    return {};
 }
 
 WideTree buildWide(int width, std::span<const Vec3> points,

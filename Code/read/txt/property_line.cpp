@@ -1,5 +1,7 @@
 #include "read/txt/property_line.h"
 
+#include "read/plain_number.h"
+
 #include <algorithm>
 
 namespace {
@@ -65,15 +67,16 @@ Token NumberLine::nextNumber() {
 }
 
 void NumberLine::read(double& value, const Range& range) {
-    // What is right needs no token.
-    const auto quick = readDouble(in_.skipToWord());
-    if (quick.fault == NumberFault::None && !isBareChar(*quick.end) &&
-        range.contains(quick.value)) {
-        in_.moveTo(quick.end);
-        ++got_;
-        value = quick.value;
-        return;
-    }
+    // What is plain and right needs no token.
+    double plain = 0;
+    const char* const end = readPlainNumber(in_.skipToWord(), in_.textEnd(), plain);
+    if (!end || isBareChar(*end) || !range.contains(plain)) return readAny(value, range);
+    in_.moveTo(end);
+    ++got_;
+    value = plain;
+}
+
+void NumberLine::readAny(double& value, const Range& range) {
     const Token t = nextNumber();
     const auto number = readDouble(t.text.data());
     const SourceLoc loc{static_cast<std::uint32_t>(t.offset)};

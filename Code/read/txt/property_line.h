@@ -9,6 +9,7 @@
 #include "read/txt/references.h"
 #include "read/txt/scanner.h"
 
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -39,6 +40,7 @@ public:
     void finish(const Token& open);
 
 private:
+    void readAny(double& value, const Range& range);
     Token nextNumber();
     std::optional<long long> readWhole(const Range& range);
     std::string expected() const; // "expected 3 numbers after 'diffuse'"
@@ -49,29 +51,58 @@ private:
     std::size_t count_, got_ = 0;
 };
 
+// The numbers of a property in the block before. Many blocks of a file say the same again, and a
+// line is compared faster than its numbers are read.
+struct LineBefore {
+    std::string_view text; // behind the keyword, with the end of the line; empty: none
+    std::array<double, 4> numbers{};
+};
+
 // Reads the values of a property.
 template <class Block> class PropertyLine {
 public:
     PropertyLine(Scanner& in, ErrorList& errors, References& references, const Token& open)
         : in_(in), errors_(errors), references_(references), open_(open) {}
 
-    void read(Block& block, const Property<Block>& property) {
+    void read(Block& block, const Property<Block>& property, LineBefore& before) {
         keyword_ = property.keyword;
+        if (takeAgain(block, property, before)) return;
+        const std::string_view left = in_.textLeft();
+        const std::size_t faultsBefore = errors_.count();
         readWord(block, property.first);
         if (auto* crop = std::get_if<Crop Block::*>(&property.first)) (block.**crop).emplace();
         std::size_t count = 0;
         const auto countOne = [&](auto&) { ++count; };
         forEachNumber(block, property.first, countOne);
+        const bool isNumeric = count > 0;
         if (property.second) forEachNumber(block, *property.second, countOne);
         if (count == 0) return expectLineEnd(in_, property.keyword, open_);
         NumberLine numbers(in_, errors_, property.keyword, count);
-        const auto readOne = [&](auto& number) { numbers.read(number, property.range); };
+        std::array<double, 4> got{};
+        std::size_t i = 0;
+        const auto readOne = [&](auto& number) {
+            numbers.read(number, property.range);
+            if (i < got.size()) got[i++] = static_cast<double>(number);
+        };
         forEachNumber(block, property.first, readOne);
         if (property.second) forEachNumber(block, *property.second, readOne);
         numbers.finish(open_);
+        if (isNumeric && count <= got.size() && errors_.count() == faultsBefore)
+            before = {left.substr(0, left.size() - in_.textLeft().size()), got};
     }
 
 private:
+    bool takeAgain(Block& block, const Property<Block>& property, const LineBefore& before) {
+        if (before.text.empty() || !in_.textLeft().starts_with(before.text)) return false;
+        std::size_t i = 0;
+        const auto take = [&](auto& number) {
+            number = static_cast<std::remove_reference_t<decltype(number)>>(before.numbers[i++]);
+        };
+        forEachNumber(block, property.first, take);
+        if (property.second) forEachNumber(block, *property.second, take);
+        in_.moveTo(in_.textLeft().data() + before.text.size());
+        return true;
+    }
     void readWord(Block& block, const Field<Block>& field) {
         if (const auto* flag = std::get_if<bool Block::*>(&field)) {
             const Token t = in_.next();

@@ -157,7 +157,7 @@ private:
                 in_.failAt(t.offset,
                            cat("'", t.text, "' was given already at line ", in_.lineOf(before)));
             before = t.offset;
-            line.read(block, rows[number]);
+            line.read(block, rows[number], habits.before[number]);
         }
         if constexpr (std::is_same_v<Block, LightDesc>)
             block.worldFromLight = std::exchange(lightKeys_.front(), kIdentityRows);
@@ -165,10 +165,11 @@ private:
     }
 
     // The rows of the properties that came first, and behind each other, the last time: blocks of a
-    // file have theirs in the same order.
+    // file have theirs in the same order. And what they said.
     template <class Block> struct Habits {
         std::size_t first = 0;
         std::array<std::size_t, propertiesOf<Block>().size()> after{};
+        std::array<LineBefore, propertiesOf<Block>().size()> before{};
     };
 
     // Where the keys of a block are read to. Lights stand still and have no keys of their own.

@@ -54,7 +54,8 @@ private:
                        cat("'", t.text, "' was given already at line ", in_.lineOf(before)));
         before = t.offset;
         References none(in_.source(), false); // a mesh names nothing
-        PropertyLine<MeshDesc>(in_, errors_, none, open_).read(mesh_, *row);
+        LineBefore nothing;
+        PropertyLine<MeshDesc>(in_, errors_, none, open_).read(mesh_, *row, nothing);
         if (row->keyword == "file") mesh_.fileLoc = {static_cast<std::uint32_t>(t.offset)};
         return true;
     }

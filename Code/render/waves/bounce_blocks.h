@@ -12,6 +12,28 @@
 
 namespace waves {
 
+// Rays that lanes have made, in wave.memory.next; what they are inside of and which samples they
+// belong to is still to be said.
+struct SentRays {
+    LeavingRays out;
+    std::size_t first;
+};
+inline SentRays sendFrom(const Wave& wave, std::size_t b, std::span<const AlikePoints> alike) {
+    PathBatch& next = wave.memory.next;
+    // Lanes write whole registers.
+    const std::size_t first = next.extend(3 * PointColumns::kPoints);
+    const LeavingRays out = wave.context.bounceLanes.bounce(
+        wave.memory.points.at.block(b), &wave.memory.points.weight[b * PointColumns::kPoints],
+        alike, wave.context.cutoff,
+        {&next.org[first], &next.dir[first], nullptr, &next.weight[first]});
+    const std::size_t rays = out.reflected + out.refracted;
+    wave.counts.reflect += out.reflected, wave.counts.refract += out.refracted;
+    next.shrink(first + rays);
+    next.beEndless();
+    std::fill_n(next.seesLights.data() + first, rays, std::uint8_t{true}); // nothing is rough
+    return {out, first};
+}
+
 // The points of a block that mirror or refract, by what they have in common. Nothing if there are
 // some that lanes don't do.
 class BouncingBlock {
@@ -29,16 +51,9 @@ public:
 
     void send() const {
         if (count_ == 0) return;
-        PathBatch& next = wave_.memory.next;
-        // Lanes write whole registers.
-        const std::size_t first = next.extend(3 * PointColumns::kPoints);
-        const LeavingRays out = wave_.context.bounceLanes.bounce(
-            block_, &wave_.memory.points.weight[first_], std::span(alike_).first(count_),
-            wave_.context.cutoff,
-            {&next.org[first], &next.dir[first], nullptr, &next.weight[first]});
-        wave_.counts.reflect += out.reflected, wave_.counts.refract += out.refracted;
-        next.shrink(first + out.reflected + out.refracted);
-        describe(out, first);
+        const SentRays sent =
+            sendFrom(wave_, first_ / PointColumns::kPoints, std::span(alike_).first(count_));
+        describe(sent.out, sent.first);
     }
 
 private:
@@ -59,10 +74,7 @@ private:
     // The rest of the rays.
     void describe(const LeavingRays& out, std::size_t first) const {
         PathBatch& next = wave_.memory.next;
-        next.beEndless();
         const auto row = [&](auto& column) { return column.data() + first; };
-        std::fill_n(row(next.seesLights), out.reflected + out.refracted,
-                    std::uint8_t{true}); // nothing is rough
         std::uint32_t *const sample = row(next.sample), *const stream = row(next.stream);
         MediumTree::Inside* const inside = row(next.medium);
         float* const time = row(next.time);
@@ -78,6 +90,7 @@ private:
             const std::size_t i = bit / 2, which = bit % 2;
             sample[to] = slots[i], time[to] = times[rays_[i]];
             inside[to] = which == 0 ? before[i] : out.beyond[i];
+            if (!wave_.context.steps.draws) continue;
             branch.follow(streams[rays_[i]]);
             stream[to] = branch.streams[which];
         }

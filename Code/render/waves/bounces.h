@@ -3,6 +3,7 @@
 #pragma once
 
 #include "render/waves/bounce_blocks.h"
+#include "render/waves/mirror_blocks.h"
 #include "render/waves/steps.h"
 
 namespace waves {
@@ -35,7 +36,14 @@ template <bool kBounces, bool kSeeThrough> void spawnBounces(const Wave& wave) {
     wave.memory.next.clear();
     if (wave.depth >= wave.context.settings.picture.maxDepth) return;
     const PointBatch& points = wave.memory.points;
+    const Steps& steps = wave.context.steps;
+    const bool areMirrors = wave.context.bounceLanes.bounce && !steps.branches && !steps.draws;
     for (std::size_t b = 0; b < points.blocks(); ++b) {
+        if constexpr (kBounces && !kSeeThrough)
+            if (areMirrors) {
+                waves::mirrorBlock(wave, b);
+                continue;
+            }
         if constexpr (kBounces)
             if (wave.context.bounceLanes.bounce && (!kSeeThrough || waves::isOpaque(points, b)))
                 if (const waves::BouncingBlock block(wave, b); block.areForLanes()) {

@@ -51,7 +51,8 @@ inline void fillInLanes(const Wave& wave, std::size_t b, LitBlock& block) {
     const PointBatch& points = wave.memory.points;
     const std::size_t first = b * PointColumns::kPoints, size = points.sizeOf(b);
     lanes.light(points.at.block(b), &points.weight[first], points.usedOf(b), block);
-    if (points.painted[b] != nullptr) return lanes.paint(*points.painted[b], block);
+    if (const Material* const all = points.painted[b].all) return lanes.paint(*all, block);
+    if (size == PointColumns::kPoints) return lanes.paintEach(&points.material[first], block);
     for (unsigned& shiny : block.shiny) shiny = 0;
     for (std::size_t i = 0; i < size; ++i) paintPoint(*points.material[first + i], i, block);
 }
@@ -61,6 +62,12 @@ inline bool isWholeBlock(const PointBatch& points, std::span<const std::uint32_t
     return numbers[0] % PointColumns::kPoints == 0 &&
            numbers.back() - numbers[0] == numbers.size() - 1 &&
            numbers.size() == points.sizeOf(numbers[0] / PointColumns::kPoints);
+}
+
+// What is asked of the materials of points that are filled in soon: thousands are more than the
+// nearest caches hold.
+inline void prefetchMaterials(const PointBatch& points, std::span<const std::uint32_t> numbers) {
+    for (const std::uint32_t k : numbers) __builtin_prefetch(points.material[k]);
 }
 
 inline void fillBlocks(const Wave& wave) {
@@ -74,15 +81,17 @@ inline void fillBlocks(const Wave& wave) {
         const std::size_t first = b * LitBlock::kPoints;
         const auto here =
             answering.subspan(first, std::min(answering.size() - first, LitBlock::kPoints));
+        if (const std::size_t soon = first + 2 * LitBlock::kPoints; soon < answering.size())
+            prefetchMaterials(
+                memory.points,
+                answering.subspan(soon, std::min(answering.size() - soon, LitBlock::kPoints)));
         block.used = (1u << here.size()) - 1;
         if (isWholeBlock(memory.points, here) && wave.context.shadeLanes.light != nullptr)
             fillInLanes(wave, here[0] / LitBlock::kPoints, block);
         else
             fillOneByOne(memory, here, block);
-        for (std::size_t i = 0; i < here.size(); ++i) {
-            block.point[i] = here[i];
-            block.shape[i] = memory.hits[memory.points.ray[here[i]]].shape;
-        }
+        std::copy(here.begin(), here.end(), block.point);
+        for (std::size_t i = 0; i < here.size(); ++i) block.shape[i] = memory.points.shape[here[i]];
     }
 }
 

@@ -4,26 +4,36 @@
 
 #include "render/waves/lamp_light.h"
 
+#include <array>
+
 namespace waves {
 
-// Light that comes from the surface itself to where its point is seen.
-inline Rgb glowOf(const Scene& scene, const Material& material) {
-    return material.emission + material.diffuse * scene.ambient();
-}
+using BlockGlow = std::array<Rgb, PointColumns::kPoints>;
 
-// Of points that are neither lamps nor looked through.
-inline void addGlowOfBlock(const Wave& wave, std::size_t b) {
+// Of points that are neither lamps nor looked through, where every sample has one of them; `glow`
+// keeps what the last block had.
+inline void addGlowOfBlock(const Wave& wave, std::size_t b, BlockGlow& glow,
+                           const Material*& glowIsOf) {
     const PointBatch& points = wave.memory.points;
+    const MaterialTable& materials = wave.context.materials;
+    const PaintedBlock& painted = points.painted[b];
     const std::size_t first = b * PointColumns::kPoints, size = points.sizeOf(b);
-    if (const Material* const all = points.painted[b]) {
-        const Rgb glow = glowOf(wave.context.scene, *all);
-        for (std::size_t k = first; k < first + size; ++k)
-            wave.add(points.slot[k], points.weight[k] * glow);
-        return;
-    }
-    for (std::size_t k = first; k < first + size; ++k)
-        wave.add(points.slot[k],
-                 points.weight[k] * glowOf(wave.context.scene, *points.material[k]));
+    const std::uint32_t* const number = points.at.block(b).material;
+    if (painted.isTextured)
+        for (std::size_t i = 0; i < size; ++i)
+            glow[i] = glowOf(*points.material[first + i], wave.context.scene.ambient());
+    else if (painted.all == nullptr)
+        for (std::size_t i = 0; i < size; ++i) glow[i] = materials.glow(number[i]);
+    else if (painted.all != glowIsOf)
+        glow.fill(materials.glow(number[0]));
+    glowIsOf = painted.all;
+
+    const std::uint32_t* const slot = &points.slot[first];
+    const Rgb* const weight = &points.weight[first];
+    if (size == glow.size() && slot[size - 1] - slot[0] == size - 1 && // they ascend
+        wave.context.shadeLanes.glow != nullptr)
+        return wave.context.shadeLanes.glow(weight, glow.data(), &wave.chunk.radiance[slot[0]]);
+    for (std::size_t i = 0; i < size; ++i) wave.add(slot[i], weight[i] * glow[i]);
 }
 
 inline void addBackground(const Wave& wave, std::size_t ray) {
@@ -36,9 +46,18 @@ inline void addBackground(const Wave& wave, std::size_t ray) {
 // Where every sample has one ray: nobody asks for an order.
 inline void addPlainGlow(const Wave& wave) {
     const PointBatch& points = wave.memory.points;
-    for (const std::uint32_t ray : std::span(points.missed).first(points.missedCount))
-        waves::addBackground(wave, ray);
-    for (std::size_t b = 0; b < points.blocks(); ++b) waves::addGlowOfBlock(wave, b);
+    const auto missed = std::span(points.missed).first(points.missedCount);
+    if (wave.context.scene.hasEnvironment()) {
+        for (const std::uint32_t ray : missed) waves::addBackground(wave, ray);
+    } else {
+        const Rgb background = wave.context.scene.background({});
+        for (const std::uint32_t ray : missed)
+            wave.add(wave.rays.sample[ray], wave.rays.weight[ray] * background);
+    }
+    waves::BlockGlow glow;
+    const Material* glowIsOf = nullptr;
+    for (std::size_t b = 0; b < points.blocks(); ++b)
+        waves::addGlowOfBlock(wave, b, glow, glowIsOf);
 }
 
 template <bool kLampBodies, bool kSeeThrough> void addGlow(const Wave& wave) {
@@ -65,7 +84,7 @@ template <bool kLampBodies, bool kSeeThrough> void addGlow(const Wave& wave) {
         const Rgb weight = points.weight[here];
         if constexpr (kSeeThrough)
             if (material.opacity < 1 && isBlack(weight)) continue;
-        wave.add(slot, weight * waves::glowOf(scene, material));
+        wave.add(slot, weight * glowOf(material, scene.ambient()));
         if (wave.context.openLamps.empty() || !answersLamps(material)) continue;
         const LitPoint lit = litPoint(wave, here);
         for (const Lamp& lamp : wave.context.openLamps)

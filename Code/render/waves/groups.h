@@ -25,8 +25,7 @@ inline bool groupOneByOne(WaveMemory& memory, std::span<const std::uint32_t> poi
         const PointBlock& block = memory.points.at.block(k / PointColumns::kPoints);
         const std::size_t at = k % PointColumns::kPoints;
         const bool inside = !block.isFront(at) && !block.isLitApart(at);
-        const std::size_t g =
-            groupFor(memory.groups, memory.hits[memory.points.ray[k]].shape, inside);
+        const std::size_t g = groupFor(memory.groups, memory.points.shape[k], inside);
         if (g == PointGroup::kMost) return false;
         Bounds& box = memory.groups[g].box;
         const Vec3 p = SurfaceBlock::get(block.p, at);
@@ -44,9 +43,8 @@ inline bool isOnOne(const WaveMemory& memory, std::size_t b) {
     const PointBlock& block = points.at.block(b);
     const unsigned used = points.usedOf(b), outside = (block.front | block.litApart) & used;
     if (outside != 0 && outside != used) return false;
-    const auto shapeOf = [&](std::size_t k) { return memory.hits[points.ray[k]].shape; };
     for (std::size_t k = first + 1; k < first + size; ++k)
-        if (shapeOf(k) != shapeOf(first)) return false;
+        if (points.shape[k] != points.shape[first]) return false;
     return true;
 }
 
@@ -71,8 +69,7 @@ inline bool groupPoints(const Wave& wave) {
         }
         const PointBlock& block = memory.points.at.block(b);
         const bool inside = !block.isFront(0) && !block.isLitApart(0);
-        const std::size_t g =
-            groupFor(memory.groups, memory.hits[memory.points.ray[here[0]]].shape, inside);
+        const std::size_t g = groupFor(memory.groups, memory.points.shape[here[0]], inside);
         if (g == PointGroup::kMost) return false;
         const unsigned used = memory.points.usedOf(b);
         memory.groups[g].box.extend(context.shadeLanes.bounds(block, used));

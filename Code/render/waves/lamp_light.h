@@ -4,10 +4,6 @@
 #include "render/waves/steps.h"
 #include "render/waves/wave.h"
 
-inline bool answersLamps(const Material& material) {
-    return !isBlack(material.diffuse) || !isBlack(material.specular);
-}
-
 inline LitPoint litPoint(const Wave& wave, std::size_t k) {
     const PointBatch& points = wave.memory.points;
     const PointBlock& block = points.at.block(k / PointColumns::kPoints);

@@ -13,20 +13,38 @@
 
 namespace waves {
 
+// Which points of a block answer lamps, a bit for each. Rays of no weight are not traced; only
+// points that are looked through lose it.
+template <bool kSeeThrough> unsigned answeringOf(const PointBatch& points, std::size_t b) {
+    const PaintedBlock& painted = points.painted[b];
+    if (!kSeeThrough && !painted.isTextured) return painted.answersLamps;
+    unsigned answering = 0;
+    for (std::size_t i = 0; i < points.sizeOf(b); ++i) {
+        const std::size_t k = b * PointColumns::kPoints + i;
+        const bool answers = painted.isTextured ? answersLamps(*points.material[k])
+                                                : (painted.answersLamps >> i & 1) != 0;
+        const auto weight = std::bit_cast<std::array<std::uint32_t, 3>>(points.weight[k]);
+        const bool counts =
+            !kSeeThrough || (weight[0] | weight[1] | weight[2]) << 1 != 0; // not +-0
+        answering |= static_cast<unsigned>(answers & counts) << i;
+    }
+    return answering;
+}
+
 // The points that answer lamps. No branch: nobody could guess what comes behind glass.
-inline void listAnswering(const Wave& wave) {
+template <bool kSeeThrough> void listAnswering(const Wave& wave) {
     WaveMemory& memory = wave.memory;
     const PointBatch& points = memory.points;
     if (memory.answering.size() < points.at.size()) memory.answering.resize(points.at.size());
     std::uint32_t* const to = memory.answering.data();
     std::size_t count = 0;
-    const Material* last = nullptr;
-    bool answers = false;
-    for (std::size_t k = 0; k < points.count; ++k) {
-        if (points.material[k] != last) last = points.material[k], answers = answersLamps(*last);
-        to[count] = static_cast<std::uint32_t>(k);
-        const auto weight = std::bit_cast<std::array<std::uint32_t, 3>>(points.weight[k]);
-        count += answers & ((weight[0] | weight[1] | weight[2]) << 1 != 0); // not +-0
+    for (std::size_t b = 0; b < points.blocks(); ++b) {
+        const unsigned answering = answeringOf<kSeeThrough>(points, b);
+        const auto first = static_cast<std::uint32_t>(b * PointColumns::kPoints);
+        for (std::uint32_t i = 0; i < points.sizeOf(b); ++i) {
+            to[count] = first + i;
+            count += answering >> i & 1;
+        }
     }
     memory.answering.resize(count);
 }
@@ -116,7 +134,7 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
     const PointBatch& points = memory.points;
     const std::vector<Lamp>& lamps = wave.context.shadingLamps;
     if (lamps.empty()) return;
-    waves::listAnswering(wave);
+    waves::listAnswering<kSeeThrough>(wave);
     if (memory.answering.empty()) return;
 
     const bool isInOrder = wave.hasOneRayPerSample() || lamps.size() == 1;

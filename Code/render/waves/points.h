@@ -17,14 +17,57 @@ template <class T> void prefetch(const T& what) {
     for (std::size_t at = 0; at < sizeof(what); at += 64) __builtin_prefetch(bytes + at);
 }
 
+// Which rays have met something, and which nothing. Neighbours do alike more often than not.
+inline void listHits(std::span<const Hit> hits, std::size_t rays, PointBatch& points) {
+    constexpr std::size_t kTogether = 16;
+    std::uint32_t *met = points.ray.data(), *missed = points.missed.data();
+    for (std::size_t first = 0; first < rays; first += kTogether) {
+        const std::size_t count = std::min(kTogether, rays - first);
+        unsigned isHit = 0;
+        if (count == kTogether)
+            for (std::size_t i = 0; i < kTogether; ++i)
+                isHit |= static_cast<unsigned>(hits[first + i].isHit()) << i;
+        const auto number = static_cast<std::uint32_t>(first);
+        if (count == kTogether && (isHit == 0 || isHit == (1u << kTogether) - 1)) {
+            std::uint32_t*& to = isHit == 0 ? missed : met;
+            for (std::uint32_t i = 0; i < kTogether; ++i) to[i] = number + i;
+            to += kTogether;
+            continue;
+        }
+        for (std::uint32_t i = number; i < first + count; ++i) {
+            *met = *missed = i;
+            met += hits[i].isHit(), missed += !hits[i].isHit();
+        }
+    }
+    points.count = static_cast<std::size_t>(met - points.ray.data());
+    points.missedCount = static_cast<std::size_t>(missed - points.missed.data());
+}
+
+// Of a block's points: the weights of their rays, and the samples that these belong to.
+inline void takeSamples(const PathBatch& rays, std::size_t b, PointBatch& points) {
+    constexpr std::size_t kPoints = PointColumns::kPoints;
+    const std::size_t first = b * kPoints, size = points.sizeOf(b);
+    const std::uint32_t *const ray = &points.ray[first], from = ray[0];
+    Rgb* const weight = &points.weight[first];
+    std::uint32_t* const slot = &points.slot[first];
+    if (size == kPoints && ray[kPoints - 1] - from == kPoints - 1) {
+        std::copy_n(&rays.weight[from], kPoints, weight);
+        std::copy_n(&rays.sample[from], kPoints, slot);
+        return;
+    }
+    for (std::size_t i = 0; i < size; ++i)
+        weight[i] = rays.weight[ray[i]], slot[i] = rays.sample[ray[i]];
+}
+
 // Puts points that lanes do into lists by kind, the others into one of their own.
 template <bool kHasBalls> void sortPoints(const Wave& wave) {
     const StillsInLanes& stills = wave.context.stillsInLanes;
     const std::vector<Hit>& hits = wave.memory.hits;
-    const PointBatch& points = wave.memory.points;
+    PointBatch& points = wave.memory.points;
     const bool hasStills = !stills.shapes.empty();
     for (std::uint32_t k = 0; k < points.count; ++k) {
         const std::uint32_t ray = points.ray[k], shape = hits[ray].shape;
+        points.shape[k] = shape;
         if constexpr (kHasBalls)
             if (stills.balls.has(shape)) {
                 prefetch(stills.balls[shape]);
@@ -133,25 +176,37 @@ template <bool kMayBend> void seeBlock(const Wave& wave, std::size_t b, unsigned
 // What its points are made of.
 template <bool kTextures> void paintBlock(const Wave& wave, std::size_t b, unsigned& litOutside) {
     const SceneMaterial* const materials = wave.context.scene.materials().data();
+    const MaterialTable& table = wave.context.materials;
     PointBatch& points = wave.memory.points;
-    const PointBlock& block = points.at.block(b);
+    PaintedBlock& painted = points.painted[b];
+    const std::uint32_t* const number = points.at.block(b).material;
     const std::size_t first = b * PointColumns::kPoints, size = points.sizeOf(b);
-    const std::uint32_t one = block.material[0];
+    const unsigned used = points.usedOf(b);
+    const auto bits = [](unsigned of) { return static_cast<std::uint16_t>(of); };
     bool isOne = true;
-    for (std::size_t i = 1; i < size; ++i) isOne &= block.material[i] == one;
-    if (isOne && !(kTextures && materials[one].isTextured())) {
-        std::fill_n(&points.material[first], size, &materials[one].base);
-        points.painted[b] = &materials[one].base;
-        litOutside = materials[one].litOutside ? ~0u : 0;
+    for (std::size_t i = 1; i < size; ++i) isOne &= number[i] == number[0];
+    const auto has = [&](std::uint32_t material, MaterialTable::Trait trait) {
+        return (table.traits(material) & trait) != 0;
+    };
+    if (isOne && !(kTextures && has(number[0], MaterialTable::Textured))) {
+        const Material& all = materials[number[0]].base;
+        std::fill_n(&points.material[first], size, &all);
+        painted = {&all, false, bits(has(number[0], MaterialTable::AnswersLamps) ? used : 0),
+                   bits(has(number[0], MaterialTable::Mirrors) ? used : 0)};
+        litOutside = has(number[0], MaterialTable::LitOutside) ? ~0u : 0;
         return;
     }
-    points.painted[b] = nullptr;
+    unsigned answersLamps = 0, mirrors = 0, textured = 0;
     litOutside = 0;
     for (std::size_t i = 0; i < size; ++i) {
         const std::size_t k = first + i;
-        const SceneMaterial& of = materials[block.material[i]];
-        litOutside |= static_cast<unsigned>(of.litOutside) << i;
-        prefetch(of.base); // for who looks at its numbers
+        const SceneMaterial& of = materials[number[i]];
+        const unsigned traits = table.traits(number[i]);
+        const auto bit = [&](MaterialTable::Trait trait) {
+            return static_cast<unsigned>((traits & trait) != 0) << i;
+        };
+        answersLamps |= bit(MaterialTable::AnswersLamps), mirrors |= bit(MaterialTable::Mirrors);
+        litOutside |= bit(MaterialTable::LitOutside), textured |= bit(MaterialTable::Textured);
         points.material[k] = &of.base;
         if constexpr (kTextures)
             if (of.isTextured()) {
@@ -159,21 +214,16 @@ template <bool kTextures> void paintBlock(const Wave& wave, std::size_t b, unsig
                 points.material[k] = &points.textured[k];
             }
     }
+    painted = {nullptr, kTextures && textured != 0, bits(answersLamps), bits(mirrors)};
 }
 
 } // namespace waves
 
 template <bool kTextures, bool kSeeThrough> void findPoints(const Wave& wave) {
     const IntegratorContext& context = wave.context;
-    const std::vector<Hit>& hits = wave.memory.hits;
     PointBatch& points = wave.memory.points;
     points.clear(wave.rays.size());
-    for (std::uint32_t i = 0; i < wave.rays.size(); ++i) {
-        points.ray[points.count] = i;
-        points.missed[points.missedCount] = i;
-        points.count += hits[i].isHit();
-        points.missedCount += !hits[i].isHit();
-    }
+    waves::listHits(wave.memory.hits, wave.rays.size(), points);
     points.at.setMaterials(context.scene.materials());
     waves::findSurfaces(wave);
     if constexpr (kTextures) wave.memory.texturedPoints.clear();
@@ -182,10 +232,7 @@ template <bool kTextures, bool kSeeThrough> void findPoints(const Wave& wave) {
         waves::paintBlock<kTextures>(wave, b, litOutside);
         waves::seeBlock<kTextures>(wave, b, litOutside);
     }
-    for (std::size_t k = 0; k < points.count; ++k) {
-        const std::uint32_t ray = points.ray[k];
-        points.weight[k] = wave.rays.weight[ray], points.slot[k] = wave.rays.sample[ray];
-    }
+    for (std::size_t b = 0; b < points.blocks(); ++b) waves::takeSamples(wave.rays, b, points);
     if (wave.depth == 0 && context.wantsFirstHits)
         for (std::size_t k = 0; k < points.count; ++k) {
             const std::uint32_t i = points.ray[k];

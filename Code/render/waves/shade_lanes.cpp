@@ -8,6 +8,8 @@
     unsigned seePoints(PointBlock&, const Vec3*, unsigned, unsigned);                              \
     void lightPoints(const PointBlock&, const Rgb*, unsigned, LitBlock&);                          \
     void paintPoints(const Material&, LitBlock&);                                                  \
+    void paintEachPoint(const Material* const*, LitBlock&);                                        \
+    void addGlowInARow(const Rgb*, const Rgb*, Rgb*);                                              \
     Bounds boundsOfPoints(const PointBlock&, unsigned);                                            \
     void aimAtPoints(const LitByLamp&, unsigned, const RayPlaces&);                                \
     void addLight(const LitByLamp&, unsigned, const std::uint8_t*, LightSums&);                    \
@@ -16,6 +18,7 @@ DECLARE_BY_KERNEL(DECLARE)
 #define ROW(isa)                                                                                   \
     {                                                                                              \
         kernels::isa::seePoints, kernels::isa::lightPoints, kernels::isa::paintPoints,             \
+            kernels::isa::paintEachPoint, kernels::isa::addGlowInARow,                             \
             kernels::isa::boundsOfPoints, kernels::isa::aimAtPoints, kernels::isa::addLight        \
     }
 

@@ -35,6 +35,10 @@ struct ShadeLanes {
                   LitBlock& lit) = nullptr;
     // The numbers of a material that all of them have.
     void (*paint)(const Material& material, LitBlock& lit) = nullptr;
+    // The same of sixteen points that have a material each.
+    void (*paintEach)(const Material* const* materials, LitBlock& lit) = nullptr;
+    // Of sixteen samples that follow each other: radiance[i] += weights[i] * glow[i].
+    void (*glow)(const Rgb* weights, const Rgb* glow, Rgb* radiance) = nullptr;
     // The box around the used points and where they are lifted to.
     Bounds (*bounds)(const PointBlock& block, unsigned used) = nullptr;
     // Directions and ends of the rays from a lamp to some points.

@@ -112,6 +112,45 @@ void paintPoints(const Material& material, LitBlock& lit) {
     if (isShiny) lit.shiny[static_cast<std::size_t>(material.specularModel)] = lit.used;
 }
 
+void paintEachPoint(const Material* const* materials, LitBlock& lit) {
+    static_assert(offsetof(Material, specular) == 3 * sizeof(float) &&
+                  offsetof(Material, specularModel) == 6 * sizeof(float) &&
+                  offsetof(Material, exponent) == 7 * sizeof(float));
+    for (unsigned& shiny : lit.shiny) shiny = 0;
+    for (std::size_t first = 0; first < SurfaceBlock::kPoints; first += W) {
+        const float* row[W];
+        for (std::size_t i = 0; i < W; ++i) row[i] = &materials[first + i]->diffuse.r;
+        Floats a[4], b[4]; // the columns of the first eight numbers
+        loadRows(row, a);
+        for (const float*& from : row) from += 4;
+        loadRows(row, b);
+        const Floats3 specular{a[3], b[0], b[1]};
+        store({a[0], a[1], a[2]}, lit.diffuse, first), store(specular, lit.specular, first);
+        b[3].store(lit.exponent + first);
+        const Floats zero(0.0f);
+        const unsigned shiny =
+            ~bits((specular.x == zero) & (specular.y == zero) & (specular.z == zero)) &
+            lit.used >> first & kEvery;
+        alignas(64) float model[W];
+        b[2].store(model);
+        for (unsigned rest = shiny; rest != 0; rest &= rest - 1) {
+            const int i = std::countr_zero(rest);
+            lit.shiny[std::bit_cast<std::uint32_t>(model[i])] |= 1u << i << first;
+        }
+    }
+}
+
+void addGlowInARow(const Rgb* weights, const Rgb* glow, Rgb* radiance) {
+    constexpr std::size_t kNumbers = 3 * SurfaceBlock::kPoints;
+    const auto numbers = [](const Rgb* of) { return reinterpret_cast<const float*>(of); };
+    alignas(64) float sum[kNumbers];
+    for (std::size_t i = 0; i < kNumbers; i += W)
+        (Floats::unaligned(numbers(radiance) + i) +
+         Floats::unaligned(numbers(weights) + i) * Floats::unaligned(numbers(glow) + i))
+            .store(sum + i);
+    std::memcpy(radiance, sum, sizeof sum);
+}
+
 Bounds boundsOfPoints(const PointBlock& block, unsigned used) {
     Bounds box;
     for (std::size_t axis = 0; axis < 3; ++axis) {

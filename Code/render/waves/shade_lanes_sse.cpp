@@ -3,6 +3,7 @@
 
 #if defined(__x86_64__)
 #include "accel/kernels/region_includes.h"
+#include "accel/kernels/wide_tree.h"
 #include "base/math.h"
 
 SSE_REGION_BEGIN
@@ -10,6 +11,8 @@ namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
 
 #include "accel/kernels/store_chosen_sse.inl"
+
+#include "accel/kernels/solids_columns_sse.inl"
 
 #include "accel/kernels/vectors3.inl"
 

@@ -13,6 +13,7 @@ struct Steps {
     bool textures = false;   // pictures on materials; texture coordinates are asked for
     bool seeThrough = false; // surfaces that let rays go straight on, and light through to others
     bool branches = false;   // a ray may give several: not just plain mirrors
+    bool draws = false;      // random numbers behind the first hit: soft lamps, rough surfaces
 
     constexpr bool operator==(const Steps&) const = default;
 };

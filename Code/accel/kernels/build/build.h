@@ -5,6 +5,7 @@
 
 #include "accel/kernels/wide_tree.h"
 #include "accel/prim_box.h"
+#include "base/bounds.h"
 #include "base/pages.h"
 
 #include <array>
@@ -71,9 +72,11 @@ struct PrimLists {
     }
 };
 
+// Triangles, or things of which no more than their boxes is known.
 struct BuildInput {
     std::span<const Vec3> points;
     std::span<const Corners> triangles;
+    std::span<const Bounds> boxes;
     PrimLists* lists;
     std::uint32_t* ids; // of the finished tree: those of a range lie where the range lies
 };
@@ -91,6 +94,8 @@ struct BuildCode {
     // Boxes of triangles first .. first + count - 1; their bounds and those of the doubled centres.
     void (*makePrims)(const BuildInput&, std::uint32_t first, std::uint32_t count, PrimBox& box,
                       PrimBox& centres);
+    void (*takeBoxes)(const BuildInput&, std::uint32_t first, std::uint32_t count, PrimBox& box,
+                      PrimBox& centres);
     BinGrid (*gridOver)(const PrimBox& centres, std::uint32_t count);
     void (*fillBins)(const BinGrid&, const PrimBox* from, std::uint32_t count, Bins&);
     void (*chooseSplit)(BuildRange&, const Bins&);
@@ -99,11 +104,22 @@ struct BuildCode {
                    std::uint32_t count, PrimBox* left, PrimBox* right, Bins (&bins)[2]);
     void (*growSubtree8)(const BuildInput&, const BuildRange&, Grown&);
     void (*growSubtree16)(const BuildInput&, const BuildRange&, Grown&);
+    void (*growSingles)(const BuildInput&, const BuildRange&, Grown&); // of boxes
 };
 std::span<const BuildCode> allBuildCodes(); // best first
 
 // buildWide() by one of them.
 WideTree buildWideBy(const BuildCode& code, int width, std::span<const Vec3> points,
                      std::span<const Corners> triangles, int threads, double rays = 0);
+
+// A binary tree with a leaf for every box, named by the number of the box.
+struct SinglesTree {
+    PageVector<BinaryNode> nodes; // in no order
+    std::uint32_t root = 0;
+    std::vector<std::uint32_t> tops;  // nodes above the parts, parents first
+    std::vector<std::uint32_t> roots; // of the parts, each one thread's work
+};
+SinglesTree growSinglesBy(const BuildCode& code, std::span<const Bounds> boxes, int threads);
+SinglesTree growSingles(std::span<const Bounds> boxes, int threads); // by the best one
 
 } // namespace kernels::build

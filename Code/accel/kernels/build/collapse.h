@@ -4,6 +4,8 @@
 
 #include "accel/kernels/build/build.h"
 
+#include <algorithm>
+
 namespace kernels::build {
 
 inline float halfAreaOf(const BinaryNode& node) {
@@ -38,5 +40,24 @@ template <int W> struct WideChildren {
 template <int W, class Plan> // CollapsePlan<W>, or what is one
 WideChildren<W> childrenOf(std::uint32_t at, std::span<const BinaryNode> nodes,
                            std::span<const Plan> plans);
+
+// The boxes of the children in a wide node. Slots without a child have one that no ray enters, and
+// refer to `none`; to what the others refer is the caller's.
+template <int W>
+void setChildren(WideNode<W>& node, const WideChildren<W>& children,
+                 std::span<const BinaryNode> nodes, WideRef none) {
+    for (auto& planes : node.plane) {
+        std::fill_n(planes[0], W, std::numeric_limits<float>::infinity());
+        std::fill_n(planes[1], W, -std::numeric_limits<float>::infinity());
+    }
+    std::fill_n(node.child, W, none);
+    for (std::size_t i = 0; i < children.count; ++i) {
+        const BinaryNode& child = nodes[children.node[i]];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            node.plane[axis][0][i] = child.lo[axis];
+            node.plane[axis][1][i] = -child.negHi[axis];
+        }
+    }
+}
 
 } // namespace kernels::build

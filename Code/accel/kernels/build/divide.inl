@@ -1,15 +1,12 @@
 // Passes over the triangles of a range. Included inside a kernel's namespace.
 
-void makePrims(const BuildInput& in, std::uint32_t first, std::uint32_t count, PrimBox& box,
-               PrimBox& centres) {
+template <class BoxOf>
+inline void listBoxes(const BuildInput& in, std::uint32_t first, std::uint32_t count, PrimBox& box,
+                      PrimBox& centres, BoxOf&& boxOf) {
     const __m128i last = _mm_setr_epi32(0, 0, 0, -1);
     Box all = emptyBox(), middle = all;
     for (std::uint32_t i = first; i < first + count; ++i) {
-        Box b = emptyBox();
-        for (const std::uint32_t corner : in.triangles[i]) {
-            const Vec3 v = in.points[corner];
-            b.extend(pointBox(_mm_setr_ps(v.x, v.y, v.z, 0)));
-        }
+        const Box b = boxOf(i);
         all.extend(b);
         middle.extend(pointBox(twiceCentre(b)));
         const __m128i id = _mm_set1_epi32(static_cast<int>(i | PrimBox::kNormal));
@@ -17,6 +14,26 @@ void makePrims(const BuildInput& in, std::uint32_t first, std::uint32_t count, P
             .store(in.lists->prims[i]);
     }
     all.store(box), middle.store(centres);
+}
+
+void makePrims(const BuildInput& in, std::uint32_t first, std::uint32_t count, PrimBox& box,
+               PrimBox& centres) {
+    listBoxes(in, first, count, box, centres, [&](std::uint32_t i) {
+        Box b = emptyBox();
+        for (const std::uint32_t corner : in.triangles[i]) {
+            const Vec3 v = in.points[corner];
+            b.extend(pointBox(_mm_setr_ps(v.x, v.y, v.z, 0)));
+        }
+        return b;
+    });
+}
+
+void takeBoxes(const BuildInput& in, std::uint32_t first, std::uint32_t count, PrimBox& box,
+               PrimBox& centres) {
+    listBoxes(in, first, count, box, centres, [&](std::uint32_t i) {
+        const Vec3 lo = in.boxes[i].lo, hi = in.boxes[i].hi;
+        return Box::of(_mm_setr_ps(lo.x, lo.y, lo.z, 0), _mm_setr_ps(-hi.x, -hi.y, -hi.z, 0));
+    });
 }
 
 void fillBins(const BinGrid& grid, const PrimBox* from, std::uint32_t count, Bins& bins) {
@@ -87,7 +104,7 @@ void divide(const BuildInput& in, const BuildRange& r, const BinGrid* grids, con
     for (std::size_t side = 0; side < 2; ++side) clear(bins[side], grids[side].bins());
     // Triples of numbers of this many triangles stay in the nearest cache until they are needed.
     constexpr std::uint32_t kPrefetched = 64;
-    if (r.count <= kPrefetched)
+    if (r.count <= kPrefetched && !in.triangles.empty())
         divideRange<true>(in, r, grids, from, count, left, right, bins);
     else
         divideRange<false>(in, r, grids, from, count, left, right, bins);

@@ -8,6 +8,7 @@ namespace kernels::build {
 #define BUILD_FUNCTIONS(isa)                                                                       \
     namespace isa {                                                                                \
     void makePrims(const BuildInput&, std::uint32_t, std::uint32_t, PrimBox&, PrimBox&);           \
+    void takeBoxes(const BuildInput&, std::uint32_t, std::uint32_t, PrimBox&, PrimBox&);           \
     BinGrid gridOver(const PrimBox&, std::uint32_t);                                               \
     void fillBins(const BinGrid&, const PrimBox*, std::uint32_t, Bins&);                           \
     void chooseSplit(BuildRange&, const Bins&);                                                    \
@@ -16,6 +17,7 @@ namespace kernels::build {
                 std::uint32_t, PrimBox*, PrimBox*, Bins (&)[2]);                                   \
     void growSubtree8(const BuildInput&, const BuildRange&, Grown&);                               \
     void growSubtree16(const BuildInput&, const BuildRange&, Grown&);                              \
+    void growSingles(const BuildInput&, const BuildRange&, Grown&);                                \
     }
 BUILD_FUNCTIONS(sse)
 BUILD_FUNCTIONS(avx2)

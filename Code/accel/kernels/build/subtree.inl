@@ -5,9 +5,12 @@ constexpr std::uint32_t kSmallLeaf = 4;
 // The leaves of a further split of what fits into one must have no more than this part of its area:
 // they take two places of nodes, and rays as much time for few triangles as for many.
 constexpr float kWorthwhile = 0.65f;
+// What leaves have of boxes.
+constexpr int kSingle = 1;
 // From this depth on every split halves the list, which ends after at most 32 more levels.
 constexpr std::uint32_t kHalvingDepth = 62;
 
+// With leaves of at most W triangles, or of one box.
 template <int W> class Subtree {
 public:
     Subtree(const BuildInput& in, Grown& grown) : in_(in), grown_(grown) {}
@@ -18,7 +21,7 @@ public:
         grown_.nodes.push_back(leafNode(current.box));
         std::vector<BuildRange> waiting;
         for (;;) {
-            if (isLeaf(current)) {
+            if (isLeaf(current) || isPair(current)) {
                 if (waiting.empty()) return;
                 current = waiting.back();
                 waiting.pop_back();
@@ -47,12 +50,31 @@ private:
 
     bool isLeaf(const BuildRange& r) {
         if (r.count > W) return false;
+        if constexpr (W == kSingle) {
+            grown_.nodes[r.node].leaf = listOf(r)->id();
+            return true;
+        } else
+            return isWideLeaf(r);
+    }
+
+    bool isWideLeaf(const BuildRange& r) {
         if (r.count > kSmallLeaf && r.split.axis >= 0) {
             const float rest =
                 halfArea(Box::load(r.split.left)) + halfArea(Box::load(r.split.right));
             if (rest < kWorthwhile * halfArea(Box::load(r.box))) return false;
         }
         return makeLeaf<W>(in_, listOf(r), r, grown_);
+    }
+
+    // There is one way to divide two boxes, and half of all ranges have no more.
+    bool isPair(const BuildRange& r) {
+        if (W != kSingle || r.count != 2) return false;
+        grown_.nodes[r.node].left = static_cast<std::uint32_t>(grown_.nodes.size());
+        for (const PrimBox* prim = listOf(r); prim < listOf(r) + 2; ++prim) {
+            grown_.nodes.push_back(leafNode(*prim));
+            grown_.nodes.back().leaf = prim->id();
+        }
+        return true;
     }
 
     // A split by estimated bounds may have failed where the true ones show one.
@@ -78,8 +100,8 @@ private:
         Bins bins[2];
         PrimBox* const to = listOf(r, true);
         divide(in_, r, grids, listOf(r), r.count, to, to + r.count - 1, bins);
-        chooseSplit(left, bins[0]);
-        chooseSplit(right, bins[1]);
+        for (BuildRange* half : {&left, &right})
+            if (W != kSingle || half->count > 2) chooseSplit(*half, bins[half == &right]);
     }
 
     // All centres in one place: any two halves are as good.
@@ -106,4 +128,7 @@ void growSubtree8(const BuildInput& in, const BuildRange& root, Grown& grown) {
 }
 void growSubtree16(const BuildInput& in, const BuildRange& root, Grown& grown) {
     Subtree<16>(in, grown).grow(root);
+}
+void growSingles(const BuildInput& in, const BuildRange& root, Grown& grown) {
+    Subtree<kSingle>(in, grown).grow(root);
 }

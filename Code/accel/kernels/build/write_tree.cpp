@@ -210,18 +210,10 @@ private:
     Areas write(WideNode<W>& to, const WideChildren<W>& children) const {
         WideNode<W> node;
         std::memset(&node, 0, sizeof node); // behind the members, too: trees compare by bytes
-        for (auto& planes : node.plane) {
-            std::fill_n(planes[0], W, std::numeric_limits<float>::infinity());
-            std::fill_n(planes[1], W, -std::numeric_limits<float>::infinity());
-        }
-        std::fill_n(node.child, W, leafRef(tree_.leaves));
+        setChildren<W>(node, children, nodes_, leafRef(tree_.leaves));
         Areas areas{};
         for (std::size_t i = 0; i < children.count; ++i) {
             const BinaryNode& child = nodes_[children.node[i]];
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                node.plane[axis][0][i] = child.lo[axis];
-                node.plane[axis][1][i] = -child.negHi[axis];
-            }
             if (!child.isLeaf()) continue;
             node.child[i] = leafRef(child.leaf);
             const auto area = static_cast<double>(halfAreaOf(child));

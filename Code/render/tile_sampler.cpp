@@ -1,0 +1,115 @@
+#include "render/tile_sampler.h"
+
+#include <algorithm>
+
+namespace {
+
+bool isFinite(Rgb c) {
+    const float sum = c.r + c.g + c.b;
+    return sum - sum == 0;
+}
+
+void addFirstHit(Film& film, Aov aov, int x, int y, const FirstHit& first) {
+    const auto grey = [](float v) { return Rgb{v, v, v}; };
+    switch (aov) {
+    case Aov::Depth: return film.add(x, y, grey(first.depth));
+    case Aov::Normal: return film.add(x, y, {first.normal.x, first.normal.y, first.normal.z});
+    case Aov::Position:
+        return film.add(x, y, {first.position.x, first.position.y, first.position.z});
+    case Aov::Albedo: return film.add(x, y, first.albedo);
+    case Aov::Id: return film.add(x, y, grey(static_cast<float>(first.object)));
+    case Aov::Samples: return film.add(x, y, {});
+    }
+}
+
+} // namespace
+
+TileSampler::TileSampler(const Scene& scene, const RenderSettings& settings, ThreadPool& pool)
+    : context_(scene, settings), settings_(settings), cameraRays_(context_, &pool),
+      emptyTiles_(context_, cameraRays_) {}
+
+void TileSampler::trace(const Tile& tile, int begin, int samples, TileWorker& worker) const {
+    worker.color.reset(tile.width(), tile.height());
+    for (Film& film : worker.aovs) film.reset(tile.width(), tile.height());
+    const int pixels = tile.width() * tile.height();
+    if (settings_.errorGoal && emptyTiles_.isEmpty(tile)) {
+        worker.rays.camera +=
+            static_cast<std::uint64_t>(samples) * static_cast<std::uint64_t>(pixels);
+        worker.color.addToAll(background(), samples);
+        for (Film& film : worker.aovs) film.addToAll({}, samples); // nothing was met
+        return;
+    }
+    const int perChunk = std::max(1, settings_.chunkSamples / pixels);
+    const int end = begin + samples;
+    for (int first = begin; first < end; first += perChunk) {
+        const int count = std::min(perChunk, end - first);
+        traceChunk(tile, first, count, worker);
+        collect(tile, first, count, worker);
+    }
+}
+
+void TileSampler::traceChunk(const Tile& tile, int first, int count, TileWorker& worker) const {
+    cameraRays_.make(tile, first, count, worker.chunk);
+    worker.chunk.radiance.assign(worker.chunk.ids.size(), Rgb{});
+    if (context_.wantsFirstHits) worker.chunk.first.assign(worker.chunk.ids.size(), FirstHit{});
+    integrate(worker);
+}
+
+void TileSampler::traceOnce(const Tile& tile, TileWorker& worker) const {
+    traceChunk(tile, 0, 1, worker);
+    std::size_t slot = 0;
+    forEachPlace({0, 0, tile.width(), tile.height()}, [&](int x, int y) {
+        Rgb sum; // a sum is never -0
+        if (const Rgb radiance = worker.chunk.radiance[slot++]; isFinite(radiance))
+            sum += radiance;
+        else
+            ++worker.nanSamples;
+        worker.tile.setPixel(x, y, sum);
+    });
+}
+
+void TileSampler::integrate(TileWorker& w) const {
+    switch (settings_.integrator) {
+    case IntegratorKind::Whitted:
+        return integrateWhitted(context_, w.chunk, w.memory, w.rays, w.cameraHits);
+    case IntegratorKind::Ao: return integrateAo(context_, w.chunk, w.memory, w.rays, w.cameraHits);
+    case IntegratorKind::Normal:
+    case IntegratorKind::Depth:
+    case IntegratorKind::Albedo:
+    case IntegratorKind::Id:
+    case IntegratorKind::Uv: break;
+    }
+    integrateFirstHit(context_, w.chunk, w.memory, w.rays, w.cameraHits);
+}
+
+Rgb TileSampler::background() const {
+    switch (settings_.integrator) {
+    case IntegratorKind::Whitted: return context_.scene.background({0, 0, 1});
+    case IntegratorKind::Ao: return {1, 1, 1};
+    case IntegratorKind::Normal:
+    case IntegratorKind::Depth:
+    case IntegratorKind::Albedo:
+    case IntegratorKind::Id:
+    case IntegratorKind::Uv: break;
+    }
+    return {};
+}
+
+// Samples go to the film in the order of their numbers, whatever the size of the chunks.
+void TileSampler::collect(const Tile& tile, int first, int count, TileWorker& worker) const {
+    std::size_t slot = 0;
+    forEachPlace({0, 0, tile.width(), tile.height()}, [&](int x, int y) {
+        for (int s = first; s < first + count; ++s, ++slot) {
+            const Rgb radiance = worker.chunk.radiance[slot];
+            if (isFinite(radiance))
+                worker.color.add(x, y, radiance);
+            else
+                ++worker.nanSamples;
+            for (std::size_t a = 0; a < settings_.aovs.size(); ++a) {
+                // Numbers of objects can't be averaged: the first sample stands for all.
+                if (settings_.aovs[a] == Aov::Id && s > 0) continue;
+                addFirstHit(worker.aovs[a], settings_.aovs[a], x, y, worker.chunk.first[slot]);
+            }
+        }
+    });
+}

@@ -1,0 +1,54 @@
+// TileSampler: the samples of one tile, from camera rays to a worker's films. What a ray sees is in
+// whitted.cpp and first_hit.cpp. Threads share it, each with a worker of its own.
+#pragma once
+
+#include "render/camera_rays.h"
+#include "render/empty_tiles.h"
+#include "render/film.h"
+#include "render/integrator.h"
+
+#include <cstdint>
+#include <vector>
+
+// What a thread writes to. Two cache lines: processors fetch them in pairs, and counters are
+// written all the time.
+struct alignas(128) TileWorker {
+    SampleChunk chunk;
+    WaveMemory memory;
+    Film color;
+    std::vector<Film> aovs; // as in the settings
+    Image tile;             // what it becomes
+    RayCounts rays;
+    std::uint64_t cameraHits = 0, nanSamples = 0;
+};
+
+class TileSampler {
+public:
+    TileSampler(const Scene& scene, const RenderSettings& settings, ThreadPool& pool);
+    TileSampler(const TileSampler&) = delete;
+    TileSampler& operator=(const TileSampler&) = delete;
+
+    bool throughCorners() const { return cameraRays_.throughCorners(); }
+    const IntegratorContext& context() const { return context_; }
+
+    // Samples begin .. begin + samples - 1 of all places of the tile, into the worker's films.
+    void trace(const Tile& tile, int begin, int samples, TileWorker& worker) const;
+    // The same for the only sample of each place, into the worker's tile: what a film would make of
+    // it.
+    void traceOnce(const Tile& tile, TileWorker& worker) const;
+
+    // Camera rays through such a tile meet nothing; false says nothing.
+    bool isEmpty(const Tile& tile) const { return emptyTiles_.isEmpty(tile); }
+    // What they see then, where that is the same for all.
+    Rgb background() const;
+
+private:
+    void traceChunk(const Tile& tile, int first, int count, TileWorker& worker) const;
+    void integrate(TileWorker& worker) const;
+    void collect(const Tile& tile, int first, int count, TileWorker& worker) const;
+
+    IntegratorContext context_;
+    const RenderSettings& settings_;
+    CameraRays cameraRays_;
+    EmptyTiles emptyTiles_;
+};

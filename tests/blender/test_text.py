@@ -1,0 +1,32 @@
+"""Names, numbers and the table of warnings."""
+
+import os
+import re
+
+from kit import Export, FOLDER, export, new_scene, primitive, test
+from places import SCRIPT, TOP
+from scene_text import equal
+
+
+@test
+def names_and_numbers():
+    new_scene()
+    thing = primitive("cube")
+    thing.name = 'A "quoted" \\ name, ü'
+    primitive("cube", location=(1 / 3, 1e-7, 0)).name = "plain_name-1.0+"
+    text = export()
+    equal([b.name for b in text.all("cube")], ['A "quoted" \\ name, ü', "plain_name-1.0+"])
+    assert 'cube "A \\"quoted\\" \\\\ name, ü" {' in text.text and "cube plain_name-1.0+ {" in text.text
+    for x, wanted in ((0.0, "0"), (-0.0, "0"), (Export.single(0.1), "0.1"), (1.0, "1"), (0.1, "0.1"), (1e20, "1e+20"),
+                      (1920.0, "1920"), (2 / 3, repr(2 / 3)), (Export.single(2 / 3), "0.6666667")):
+        equal(Export.number(x), wanted)
+    assert not any(part in text.text for part in (FOLDER, os.path.expanduser("~") + "/", TOP + "/"))
+
+
+@test
+def warnings_have_one_table():
+    with open(SCRIPT, encoding="utf-8") as file:
+        source = file.read()
+    import re
+    used = {int(n) for n in re.findall(r"\.warn\(\s*(\d+),", source)}
+    equal(used, set(Export.WARNINGS))

@@ -1,0 +1,44 @@
+"""The world around the scene."""
+
+import math
+
+import bpy
+
+from kit import Nodes, export, new_scene, picture, test
+from scene_text import equal, near
+
+
+def world_text(build, expected=()):
+    scene = new_scene()
+    scene.world = bpy.data.worlds.new("World")
+    nodes = Nodes(scene.world)
+    nodes.end(build(nodes), "ShaderNodeOutputWorld")
+    text = export(expected)
+    return text.one("world"), text
+
+
+@test
+def world_colour():
+    block, _ = world_text(lambda n: n.node("Background", Color=(0.1, 0.2, 0.3), Strength=2.0))
+    near(block["background"], [0.2, 0.4, 0.6])
+    near(block["ambient"], [0.2, 0.4, 0.6])
+    new_scene().world = None
+    equal(export().one("world")["background"], [0, 0, 0])
+
+
+@test
+def world_environment():
+    def build(n, kind="POINT", **settings):
+        mapping = n.node("Mapping", {"vector_type": kind}, Vector=n.node("TexCoord").outputs["Generated"],
+                         Rotation=(0, 0, math.radians(50)))
+        image = n.node("TexEnvironment", {"image": picture("env.png", width=4, height=2), **settings}, Vector=mapping)
+        return n.node("Background", Color=image, Strength=3.0)
+
+    block, text = world_text(build)
+    near(block["background"], [3, 3, 3])
+    near(block["environment_rotation"], -50)  # measured with Cycles in 3.4, 4.5 and 5.0
+    equal(text.one("texture", block["environment"])["file"], "env.png")
+    near(block["ambient"], [3 * ((x / 255 + 0.055) / 1.055) ** 2.4 for x in (40, 80, 120)], 1e-4)
+    near(world_text(lambda n: build(n, "TEXTURE"))[0]["environment_rotation"], 50)
+    world_text(lambda n: build(n, projection="MIRROR_BALL"), [31])
+    world_text(lambda n: n.node("Background", Color=n.node("TexSky")), [30])

@@ -1,0 +1,72 @@
+// What a thread allocates lies in large pages, but for the start of its first piece, where malloc
+// is glibc's.
+#include "base/large_pages.h"
+#include "check.h"
+
+// Sanitizers have a malloc of their own.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define HAS_OTHER_MALLOC
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define HAS_OTHER_MALLOC
+#endif
+#endif
+
+#if defined(__GLIBC__) && !defined(HAS_OTHER_MALLOC)
+
+#include <atomic>
+#include <cstdint>
+#include <fstream>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace {
+
+// "... hg ..." of the mapping that an address lies in; empty where the system does not tell.
+std::string flagsOf(std::uintptr_t address) {
+    std::ifstream maps("/proc/self/smaps");
+    std::string line;
+    for (bool isHere = false; std::getline(maps, line);) {
+        const std::size_t dash = line.find('-'), blank = line.find(' ');
+        if (dash < blank && blank != std::string::npos)
+            isHere = std::stoull(line, nullptr, 16) <= address &&
+                     address < std::stoull(line.substr(dash + 1), nullptr, 16);
+        else if (isHere && line.starts_with("VmFlags:"))
+            return line + " ";
+    }
+    return "";
+}
+
+} // namespace
+
+// Threads get heaps that others have left, first: one of many that live at a time has a new one.
+TEST(large_pages_in_threads) {
+    useLargePages(1 << 20, true);
+    constexpr int kMost = 128;
+    std::atomic<bool> done{false}, advised{false}, known{true};
+    std::atomic<int> looked{0};
+    std::vector<std::thread> threads;
+    for (int i = 0; i < kMost && !advised && known; ++i) {
+        threads.emplace_back([&] {
+            useLargePagesInThread();
+            constexpr std::size_t kSize = 50000; // more than what is left of the small pages
+            const auto piece = std::make_unique<char[]>(kSize);
+            const std::string flags =
+                flagsOf(reinterpret_cast<std::uintptr_t>(piece.get()) + kSize - 1);
+            if (flags.empty()) known = false;
+            if (flags.find(" hg ") != std::string::npos) advised = true;
+            ++looked;
+            looked.notify_one();
+            done.wait(false);
+        });
+        looked.wait(i);
+    }
+    done = true;
+    done.notify_all();
+    for (std::thread& thread : threads) thread.join();
+    CHECK_INFO(advised || !known, "none of " << threads.size() << " threads");
+}
+
+#endif
