@@ -122,6 +122,7 @@ void useLargePagesInThread() {
     // Tools that watch the memory have a malloc of their own.
     if (!first || address - heap > kStart) return std::free(first);
     filler = std::realloc(first, heap + kPage - address - kSome);
-    adviseLargePages(reinterpret_cast<void*>(heap + kPage), kThreadHeap - kPage);
+    if (reinterpret_cast<std::uintptr_t>(filler) != address) return; // it did not stay there
+    adviseLargePages(static_cast<char*>(filler) + (heap + kPage - address), kThreadHeap - kPage);
 #endif
 }
