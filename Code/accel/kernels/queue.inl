@@ -126,7 +126,7 @@ private:
         // Without a child, what was on top before.
         const WideRef before = refs[-1];
         const WideRef next = hits != 0 ? nearest : before;
-        top += static_cast<std::uint32_t>(hits - 1);
+        top = top + static_cast<std::uint32_t>(hits) - 1;
         slots_.send(slot, next, to, count);
     }
 
