@@ -69,6 +69,7 @@ struct SolidTree {
     std::vector<Movement> movements;
     // WideNode<width>, root first. A child of kind Leaf is one solid, by its place in `solids`.
     PageVector<WideTree::Line> lines;
+    Bounds around;    // all solids
     float extent = 0; // see RaySetup
     double sah = 0;   // as sahCost() of bvh.h counts
 

@@ -47,10 +47,12 @@ public:
     void run(std::span<const std::uint32_t> order, Result* results) {
         for (; !order.empty(); order = order.subspan(std::min<std::size_t>(W, order.size()))) {
             live_ = setUp<A>(order, results);
+            if (live_ == 0) continue;
             if (A == Answer::Any && lastHider_ < tree_.solids.size())
                 solid<A>(lastHider_, live_, results);
             if (live_ == 0) continue;
             traverse<A>(results);
+            if (!areInPairs_) continue;
             if (live_ != 0) meetAll<A>(results);
             dropAll();
         }

@@ -29,6 +29,8 @@ protected:
         const std::size_t count = std::min<std::size_t>(W, order.size());
         columns_ = loadRays(rays_, order.data(), count, ray_);
         lanes_ = RayLanes(columns_, tree_.extent);
+        const unsigned asking = entering() & ((1u << count) - 1);
+        if (asking == 0) return 0;
         if constexpr (A == Answer::Any) {
             best_ = columns_.tMax;
         } else {
@@ -47,10 +49,16 @@ protected:
         perLength_ = one / length_;
         perLength2_ = one / length2;
         slack_ = max(Floats(tree_.extent), lanes_.oMax) * Floats(0x1p-18f);
-        const unsigned asking =
-            lanes_.traceable & bits(columns_.tMin < best_) & ((1u << count) - 1);
-        if (asking != 0) findInterval(asking);
-        return asking;
+        const unsigned inRange = asking & bits(columns_.tMin < best_);
+        if (inRange != 0) findInterval(inRange);
+        return inRange;
+    }
+
+    // Lanes that enter the box of all solids. Rounding is monotonic: the others enter none of them.
+    unsigned entering() const {
+        Floats entry;
+        return lanes_.traceable &
+               lanes_.entering(tree_.around, lanes_.cutAt(columns_.tMax), entry);
     }
 
     // The ranges of origins and r, for packets into one octant.
