@@ -109,7 +109,7 @@ private:
         Floats entry(0.0f), exit(zTop_);
         for (int axis = 0; axis < 3; ++axis) {
             const Floats lo(rLo_[axis]), hi(rHi_[axis]), pad(mostPad_[axis]);
-            const int back = backwards_[axis] & live_ ? 1 : 0;
+            const std::size_t back = back_[axis];
             const Floats first(back ? oLo_[axis] : oHi_[axis]),
                 last(back ? oHi_[axis] : oLo_[axis]);
             const Floats front = Floats::load(node.plane[axis][back]) - first;
@@ -133,7 +133,7 @@ private:
             if (kindOf(ref) == WideKind::Node) {
                 Floats from(0.0f), to = zCut_;
                 for (int axis = 0; axis < 3; ++axis) {
-                    const int back = backwards_[axis] & live_ ? 1 : 0;
+                    const std::size_t back = back_[axis];
                     from = max(fma(Floats(node.plane[axis][back][i]), lanes_.r[axis],
                                    lanes_.nearOffset[axis]),
                                from);

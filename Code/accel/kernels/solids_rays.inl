@@ -69,7 +69,7 @@ protected:
             lanes_.nearOffset[axis].store(rays1_.nearOffset[axis]);
             lanes_.farOffset[axis].store(rays1_.farOffset[axis]);
             const unsigned backwards = bits(lanes_.r[axis] < Floats(0.0f));
-            backwards_[axis] = backwards;
+            back_[axis] = backwards & lanes ? 1 : 0;
             const auto plane = static_cast<std::uint32_t>(2 * axis) * kPlane;
             select(lanes_.r[axis] < Floats(0.0f), Ints(plane + kPlane), Ints(plane))
                 .store(rays1_.nearPlane[axis]);
@@ -129,12 +129,12 @@ protected:
     // behind which none counts.
     Floats best_, bound_, zCut_;
     std::uint32_t number_[W];
-    unsigned backwards_[3]; // lanes with r < 0
     // The same by ray.
     struct alignas(64) {
         float r[3][W], nearOffset[3][W], farOffset[3][W], zCut[W];
         std::uint32_t nearPlane[3][W]; // bytes from the start of a node; see kPlane
     } rays1_;
     bool together_ = false;
+    std::size_t back_[3]; // of rays together: 1 where they go backwards along the axis
     float oLo_[3], oHi_[3], rLo_[3], rHi_[3], mostPad_[3], zTop_ = 0;
 };
