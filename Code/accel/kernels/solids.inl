@@ -49,7 +49,8 @@ public:
             live_ = setUp<A>(order, results);
             if (A == Answer::Any && lastHider_ < tree_.solids.size())
                 solid<A>(lastHider_, live_, results);
-            if (live_ == 0) continue;
+            meetEndless<A>(results);
+            if (live_ == 0 || tree_.lines.empty()) continue;
             traverse<A>(results);
             if (live_ != 0) meetAll<A>(results);
             dropAll();
