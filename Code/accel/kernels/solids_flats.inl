@@ -1,4 +1,4 @@
-// Disks and planes, by corners or without end: where all rays of a packet meet one, with the bits of
+// Disks and planes, by corners or endless: where all rays of a packet meet one, with the bits of
 // shape/disk.cpp, shape/plane.cpp and shape/infinite_plane.cpp, and which side of it they see.
 // Included by solids.inl, behind solids_objects.inl.
 
