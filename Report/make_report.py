@@ -314,6 +314,8 @@ def exactness():
 
 
 def missing(notes):
+    if not notes:
+        return []
     return [KeepTogether([Paragraph("Partial", H1),
                           Paragraph("Not among the features because something is missing:", BODY),
                           Spacer(1, 1.5 * mm),

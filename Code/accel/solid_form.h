@@ -46,17 +46,17 @@ struct StillTube {
 };
 
 // Flat faces in their object space: the cube [-1,1]^3, a disk about the origin in
-// z = 0, or a plane by corners. A kernel that meets them repeats the formulas of shape/cube.cpp,
-// shape/disk.cpp or shape/plane.cpp.
+// z = 0, a plane by corners, or all of z = 0. A kernel that meets them repeats the formulas of
+// shape/cube.cpp, shape/disk.cpp, shape/plane.cpp or shape/infinite_plane.cpp.
 struct StillFaces {
-    enum class Of : std::uint8_t { Cube, Disk, Corners };
+    enum class Of : std::uint8_t { Cube, Disk, Corners, Endless };
     const StillShape* shape = nullptr;
     Of of = Of::Cube;
     Facets::Side side = Facets::Side::Both; // that rays of sight meet
 };
 
-// z = 0 of an object space that does not move, without end. A kernel that meets it repeats the
-// formulas of shape/infinite_plane.cpp.
+// Endless faces that do not move and that are seen from both sides: floors, most of the time, which
+// have a kernel of their own (accel/kernels/planes.h).
 struct StillPlane {
     AffineRows objectFromWorld;
 };
@@ -79,7 +79,7 @@ struct SolidForm {
     std::optional<StillTube> tube{};              // or this one
     std::optional<StillFaces> faces{};            // or these
     std::optional<SolidMotion> motion{};          // of all but facets
-    std::optional<StillPlane> plane{};            // or this one, the only form without end
+    std::optional<StillPlane> plane{};            // endless faces may be this, too
 };
 
 inline RoundHull ballAround(const BoundsD& box) {

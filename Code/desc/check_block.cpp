@@ -1,5 +1,6 @@
 #include "desc/check_block.h"
 
+#include "base/for_each.h"
 #include "base/text.h"
 #include "base/transform.h"
 
@@ -24,6 +25,19 @@ double largestOf(std::span<const double> numbers) {
     }
     if (zero == 0) return largest;
     return kInfinity;
+}
+
+// The largest that sizeOf() says of some things, 0 if there are none.
+template <class T, class Size>
+auto largestOfAll(int threads, const std::vector<T>& things, const Size& sizeOf) {
+    constexpr std::size_t kTogether = 1 << 13;
+    std::vector<decltype(sizeOf(things[0]))> parts((things.size() + kTogether - 1) / kTogether);
+    forEachPart(threads, things.size(), kTogether, [&](std::size_t first, std::size_t last) {
+        decltype(sizeOf(things[0])) largest = 0;
+        for (std::size_t i = first; i < last; ++i) largest = std::max(largest, sizeOf(things[i]));
+        parts[first / kTogether] = largest;
+    });
+    return parts.empty() ? 0 : *std::max_element(parts.begin(), parts.end());
 }
 
 // Are four corners in one plane, in order around a convex quadrilateral with an area?
@@ -169,15 +183,16 @@ void BlockChecker::checkInstance(const ObjectDesc& object) {
 void BlockChecker::checkWhole(const MeshDesc& mesh) {
     if (!mesh.file.empty()) return; // not read yet
     if (mesh.triangles.empty()) error(mesh, "has no triangles");
-    for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-        const Vec3d& p = mesh.points[i];
-        const double size = largestOf(std::array{p.x, p.y, p.z});
-        if (!(size <= kLargestLength)) {
-            error(mesh, "point ", i, " is not finite or beyond ", shortest(kLargestLength));
-            break;
-        }
-        reach = std::max(reach, size);
+    const auto sizeOf = [](const Vec3d& p) { return largestOf(std::array{p.x, p.y, p.z}); };
+    const double size = largestOfAll(threads_, mesh.points, sizeOf);
+    if (size > kLargestLength) {
+        const auto wrong =
+            std::find_if(mesh.points.begin(), mesh.points.end(),
+                         [&](const Vec3d& p) { return sizeOf(p) > kLargestLength; });
+        error(mesh, "point ", wrong - mesh.points.begin(), " is not finite or beyond ",
+              shortest(kLargestLength));
     }
+    reach = std::max(reach, size);
     checkCorners(mesh, mesh.triangles, mesh.points.size(), "points", "triangles");
     checkCorners(mesh, mesh.normalTriangles, mesh.normals.size(), "normals", "normal_triangles");
     checkCorners(mesh, mesh.uvTriangles, mesh.uvs.size(), "uvs", "uv_triangles");
@@ -209,8 +224,9 @@ void BlockChecker::checkCorners(const MeshDesc& mesh, const std::vector<MeshDesc
             return error(mesh, "has ", mesh.triangles.size(), " triangles, but ", corners.size(),
                          " ", keyword);
     }
-    std::uint32_t largest = 0;
-    for (const MeshDesc::Corners& c : corners) largest = std::max({largest, c[0], c[1], c[2]});
+    const std::uint32_t largest = largestOfAll(threads_, corners, [](const MeshDesc::Corners& c) {
+        return std::max({c[0], c[1], c[2]});
+    });
     if (!corners.empty() && largest >= count)
         error(mesh, "'", keyword, "' uses ", largest, " of '", values, "', which has ", count,
               ", counted from 0");

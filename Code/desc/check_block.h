@@ -57,10 +57,11 @@ std::vector<std::uint32_t> materialSlots(const SceneDesc& desc);
 
 class BlockChecker {
 public:
-    // `slots`: materialSlots().
+    // `slots`: materialSlots(). `threads`: what a large block may use.
     BlockChecker(const SceneDesc& desc, const SourceFile& source, UsedBlocks& used,
-                 std::span<const std::uint32_t> slots)
-        : properties(source), wholes(source), desc_(desc), used_(used), slots_(slots) {}
+                 std::span<const std::uint32_t> slots, int threads = 1)
+        : properties(source), wholes(source), desc_(desc), used_(used), slots_(slots),
+          threads_(threads) {}
 
     // All rules of a block at once: those of large files come from the memory once.
     template <class Block> void check(const Block& block) {
@@ -109,4 +110,5 @@ private:
     const SceneDesc& desc_;
     UsedBlocks& used_;
     std::span<const std::uint32_t> slots_;
+    int threads_;
 };

@@ -11,20 +11,23 @@ namespace {
 // Of the meshes that somebody asks for.
 class MeshBoxes {
 public:
-    explicit MeshBoxes(const SceneDesc& desc) : desc_(desc), boxes_(desc.meshes.size()) {}
+    MeshBoxes(const SceneDesc& desc, int threads)
+        : desc_(desc), threads_(threads), boxes_(desc.meshes.size()) {}
     const BoundsD& operator[](Handle mesh) {
         const auto i = static_cast<std::size_t>(mesh);
-        if (!boxes_[i]) boxes_[i] = boundsOf(desc_.meshes[i]);
+        if (!boxes_[i]) boxes_[i] = boundsOf(desc_.meshes[i], threads_);
         return *boxes_[i];
     }
-    // All of them; then several threads may ask.
-    void prepare(int threads) {
-        forEachOn(threads, boxes_.size(),
-                  [&](std::size_t i) { boxes_[i] = boundsOf(desc_.meshes[i]); });
+    // All of them; then several threads may ask. A single mesh is for all threads.
+    void prepare() {
+        const int perMesh = boxes_.size() == 1 ? threads_ : 1;
+        forEachOn(threads_, boxes_.size(),
+                  [&](std::size_t i) { boxes_[i] = boundsOf(desc_.meshes[i], perMesh); });
     }
 
 private:
     const SceneDesc& desc_;
+    int threads_;
     std::vector<std::optional<BoundsD>> boxes_;
 };
 
@@ -58,14 +61,21 @@ void extendBy(BoundsD& box, const ObjectDesc& object, MeshBoxes& meshBoxes) {
 
 } // namespace
 
-BoundsD boundsOf(const MeshDesc& mesh) {
+BoundsD boundsOf(const MeshDesc& mesh, int threads) {
+    constexpr std::size_t kTogether = 1 << 13;
+    std::vector<BoundsD> parts((mesh.points.size() + kTogether - 1) / kTogether);
+    forEachPart(threads, mesh.points.size(), kTogether, [&](std::size_t first, std::size_t last) {
+        BoundsD part;
+        for (std::size_t i = first; i < last; ++i) part.extend(mesh.points[i]);
+        parts[first / kTogether] = part;
+    });
     BoundsD box;
-    for (const Vec3d p : mesh.points) box.extend(p);
+    for (const BoundsD& part : parts) box.extend(part);
     return box;
 }
 
-BoundsD boundsUpTo(const SceneDesc& desc, double enough) {
-    MeshBoxes meshBoxes(desc);
+BoundsD boundsUpTo(const SceneDesc& desc, double enough, int threads) {
+    MeshBoxes meshBoxes(desc, threads);
     BoundsD box;
     for (const ObjectDesc& object : desc.objects) {
         extendBy(box, object, meshBoxes);
@@ -78,8 +88,8 @@ BoundsD boundsOf(const SceneDesc& desc, int threads) {
     constexpr std::size_t kTogether = 1 << 14;
     const std::size_t count = desc.objects.size();
     std::vector<BoundsD> parts((count + kTogether - 1) / kTogether);
-    MeshBoxes meshBoxes(desc);
-    meshBoxes.prepare(threads);
+    MeshBoxes meshBoxes(desc, threads);
+    meshBoxes.prepare();
     forEachPart(threads, count, kTogether, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i)
             extendBy(parts[first / kTogether], desc.objects[i], meshBoxes);

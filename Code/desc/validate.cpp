@@ -68,8 +68,9 @@ private:
             BlockChecker checker;
             std::vector<std::uint32_t> badNames;
         };
+        const int perBlock = blocks.size() == 1 ? threads_ : 1;
         std::vector<Part> parts((blocks.size() + kTogether - 1) / kTogether,
-                                {BlockChecker(desc_, source_, used_, slots_), {}});
+                                {BlockChecker(desc_, source_, used_, slots_, perBlock), {}});
         SameNames same(blocks.size(), kTogether);
         forEachPart(threads_, blocks.size(), kTogether, [&](std::size_t first, std::size_t last) {
             auto& [checker, badNames] = parts[first / kTogether];
@@ -175,7 +176,7 @@ private:
         constexpr double kMost = 0x1p28;
         // No point is farther: how long the box has to be, which most often its first object is.
         const double farthest = 1.01 * all_.largestOfMaps * (3 * all_.reach + 1);
-        const BoundsD box = boundsUpTo(desc_, farthest / kMost);
+        const BoundsD box = boundsUpTo(desc_, farthest / kMost, threads_);
         if (box.isEmpty()) return;
         const double extent = maxAbs(box.size());
         const double times = std::max(maxAbs(box.lo), maxAbs(box.hi)) / extent;

@@ -2,6 +2,7 @@
 // share the samples, the scratch memory and the record of the first hit.
 #pragma once
 
+#include "base/raw_vector.h"
 #include "render/batch.h"
 #include "render/lamp_map/lamp_map.h"
 #include "render/material_table.h"
@@ -218,9 +219,9 @@ struct WaveMemory {
     PointsToDescribe onBalls, onOthers;
     TexturedPoints texturedPoints;
     MediumTree media;
-    std::vector<std::uint32_t> answering; // points that answer lamps
-    std::vector<LitBlock> litBlocks;      // these, if lamps want blocks
-    std::vector<PointGroup> groups;       // of these
+    RawVector<std::uint32_t> answering; // points that answer lamps
+    std::vector<LitBlock> litBlocks;    // these, if lamps want blocks
+    std::vector<PointGroup> groups;     // of these
     // By block of sixteen of them: a bit for each that is in the group.
     std::vector<std::array<std::uint16_t, PointGroup::kMost>> inGroups;
     RayBatch shadowRays; // of one lamp; their samples are points

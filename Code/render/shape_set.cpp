@@ -47,11 +47,15 @@ void ShapeSet::add(std::unique_ptr<const Shape> shape, Shadow shadow) {
 void ShapeSet::finish(bool withBvh, const Kernel& kernel, int threads) {
     if (withBvh) kernel_ = solidKernel(kernel), planeKernel_ = planeKernel(kernel);
     sortByBounds(threads);
-    for (const std::uint32_t number : unbounded)
-        if (const auto form = shapes[number]->solidForm(); form.plane && planeKernel_)
+    for (const std::uint32_t number : unbounded) {
+        const SolidForm form = shapes[number]->solidForm();
+        if (form.plane && planeKernel_)
             floors_.push_back({*form.plane, number});
+        else if (form.faces && form.faces->of == StillFaces::Of::Endless && kernel_)
+            solids_.addEndless(number, shadows[number] == Shadow::Opaque, form);
         else
             askedAlone_.push_back(number);
+    }
     for (const std::uint32_t number : bounded) {
         if (ways_[number] == Way::Batched && kernel_ && shapes[number]->solidForm().facets)
             ways_[number] = Way::Alone;
@@ -198,7 +202,6 @@ void ShapeSet::closest(const RaySpan& rays, std::vector<Hit>& hits) const {
     }
     if (!batched.empty()) closestOfBatched(rays, hits);
     if (unbounded.size() > floorsAsked) closestOfUnbounded(rays, floorsAsked, hits);
-    if (bounded.size() == batched.size()) return;
     if (kernel_) {
         const SolidCalls calls{
             this,
@@ -206,10 +209,11 @@ void ShapeSet::closest(const RaySpan& rays, std::vector<Hit>& hits) const {
                 return static_cast<const ShapeSet*>(set)->nearer(ray, number, tEntry, best);
             },
             nullptr};
-        if (!solids_.solids.empty()) closestSolids(*kernel_, solids_, calls, rays, hits);
+        if (!solids_.isEmpty()) closestSolids(*kernel_, solids_, calls, rays, hits);
         if (!placed_.isEmpty()) placed_.closest(*this, rays, hits);
         return;
     }
+    if (bounded.size() == batched.size()) return;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Ray ray = rays[i];
         if (canHit(ray))
@@ -251,16 +255,16 @@ void ShapeSet::occluded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) 
     hidden.assign(rays.size(), 0);
     if (!batched.empty()) hideByBatched(rays, hidden);
     if (!unbounded.empty()) hideByUnbounded(rays, hidden);
-    if (bounded.size() == batched.size()) return;
     if (kernel_) {
         const SolidCalls calls{
             this, nullptr, [](const void* set, const Ray& ray, std::uint32_t number) {
                 return static_cast<const ShapeSet*>(set)->shapes[number]->occludes(ray);
             }};
-        if (!solids_.solids.empty()) anySolids(*kernel_, solids_, calls, rays, hidden);
+        if (!solids_.isEmpty()) anySolids(*kernel_, solids_, calls, rays, hidden);
         if (!placed_.isEmpty()) placed_.occluded(*this, rays, hidden);
         return;
     }
+    if (bounded.size() == batched.size()) return;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Ray ray = rays[i];
         if (hidden[i] == 0 && canHit(ray))

@@ -86,7 +86,8 @@ private:
     enum class Way : std::uint8_t { Alone, Batched, Instance };
     std::vector<Way> ways_;
     std::vector<std::uint32_t> inTree_; // shapes by their number in `bvh`
-    // The unbounded shapes: planes of the kernel, and those that are asked ray by ray.
+    // The unbounded shapes that are not in solids_: planes of the kernel, and those that are asked
+    // ray by ray.
     struct Floor {
         StillPlane plane;
         std::uint32_t number;

@@ -57,14 +57,16 @@ void TileSampler::traceChunk(const Tile& tile, int first, int count, TileWorker&
 
 void TileSampler::traceOnce(const Tile& tile, TileWorker& worker) const {
     traceChunk(tile, 0, 1, worker);
-    std::size_t slot = 0;
+    const Rgb* sample = worker.chunk.radiance.data();
+    Rgb* const pixels = worker.tile.pixels().data();
+    const std::ptrdiff_t width = worker.tile.width();
     forEachPlace({0, 0, tile.width(), tile.height()}, [&](int x, int y) {
         Rgb sum; // a sum is never -0
-        if (const Rgb radiance = worker.chunk.radiance[slot++]; isFinite(radiance))
+        if (const Rgb radiance = *sample++; isFinite(radiance))
             sum += radiance;
         else
             ++worker.nanSamples;
-        worker.tile.setPixel(x, y, sum);
+        pixels[y * width + x] = sum;
     });
 }
 

@@ -65,9 +65,13 @@ AnalyticShape::Local Cube::describe(Vec3d p, std::uint32_t part, const Clearance
             face.up * 2.0};
 }
 
+// That of the mapped corners, to the last bit: rounding keeps the order of sums.
 BoundsD Cube::boxUnder(const Transform& worldFromObject) const {
     BoundsD box;
-    const BoundsD unit{{-1, -1, -1}, {1, 1, 1}};
-    for (int i = 0; i < 8; ++i) box.extend(worldFromObject.point(unit.corner(i)));
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double* const m = &worldFromObject.rows()[4 * i];
+        const double reach = std::fabs(m[0]) + std::fabs(m[1]) + std::fabs(m[2]);
+        box.lo[i] = m[3] - reach, box.hi[i] = m[3] + reach;
+    }
     return box;
 }

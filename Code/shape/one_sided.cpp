@@ -5,7 +5,7 @@
 OneSided::OneSided(std::unique_ptr<const Shape> shape, Side visible)
     : shape_(std::move(shape)), visible_(visible) {}
 
-// Of planes the kernels know no sides, and of none what is restricted twice.
+// The kernels know nothing of what is restricted twice.
 SolidForm OneSided::solidForm() const {
     SolidForm form = shape_->solidForm();
     form.plane.reset();

@@ -5,6 +5,7 @@
 #include "desc/validate.h"
 #include "image/compare.h"
 #include "render/frame.h"
+#include "verify/anything.h"
 #include "verify/groups.h"
 #include "verify/scene_trials.h"
 #include "verify/scenes.h"
@@ -39,7 +40,8 @@ Tally powersOfTwo(const Effort& effort) {
     const auto withNumbers = [](RenderSettings& s) {
         s.aovs = {Aov::Id, Aov::Normal, Aov::Albedo};
     };
-    return forScenes(effort, 7, 1, [&](auto* name, auto& desc, Random& random, Tally& tally) {
+    const auto compare = [&](const char* name, const SceneDesc& desc, Random& random,
+                             Tally& tally) {
         const std::uint64_t hash = scenes::hashOf(scenes::render(desc, withNumbers));
         for (const int k : powers(random, 20)) {
             ++tally.cases;
@@ -47,6 +49,11 @@ Tally powersOfTwo(const Effort& effort) {
             if (scenes::hashOf(scenes::render(other, withNumbers)) != hash)
                 tally.fail([&] { return cat(name, " times 2^", k); });
         }
+    };
+    return inBatches(effort, 7, 1, [&](Random& random, Tally& tally) {
+        for (const scenes::Maker& maker : scenes::makers())
+            compare(maker.name, maker.make(random), random, tally);
+        for (int i = 0; i < 8; ++i) compare("anything", scenes::anything(random), random, tally);
     });
 }
 

@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "desc/enum_tables.h"
 #include "render/scene.h"
+#include "verify/anything.h"
 #include "verify/groups.h"
 #include "verify/scene_trials.h"
 #include "verify/scenes.h"
@@ -42,6 +43,11 @@ Tally forScenes(const Effort& effort, std::uint64_t seed, const Check& check, do
             SceneDesc desc = maker.make(random);
             if (random.chance(0.5)) sampleAnyhow(random, desc.settings);
             check(maker.name, desc, random, tally);
+        }
+        for (int i = 0; i < 8; ++i) {
+            SceneDesc desc = scenes::anything(random);
+            sampleAnyhow(random, desc.settings);
+            check("anything", desc, random, tally);
         }
     });
 }

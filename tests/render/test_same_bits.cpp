@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "desc/validate.h"
 #include "image/compare.h"
+#include "verify/anything.h"
 #include "verify/scene_trials.h"
 #include "verify/scenes.h"
 
@@ -211,6 +212,15 @@ TEST(scenesOfTheBattery) {
                        maker.name << " " << i << ": " << changes);
             CHECK(scenes::largest(image) > 0.05);
         }
+}
+
+// Many of their numbers have no effect, but validate() throws for none.
+TEST(anythingIsValid) {
+    meshes::Random random(2);
+    for (int i = 0; i < check::scaled(100); ++i) {
+        Diagnostics diagnostics;
+        validate(scenes::anything(random), {"scene", ""}, diagnostics);
+    }
 }
 
 // Another seed gives other noise; the same seed the same.

@@ -45,3 +45,17 @@ TEST(cube_edge_cases) {
         CHECK_EQUAL(hit.prim, 0u);
     }
 }
+
+// Without mapping the corners.
+TEST(cube_box_is_that_of_its_corners) {
+    kit::Random random(203);
+    for (int i = 0; i < check::scaled(20000); ++i) {
+        const Transform map = kit::randomMap(random);
+        BoundsD box;
+        for (int corner = 0; corner < 8; ++corner)
+            box.extend(map.point(BoundsD{{-1, -1, -1}, {1, 1, 1}}.corner(corner)));
+        const Bounds found = Cube(map, 0, 0).bounds();
+        const Bounds wanted = outward(box.padded(0x1p-22 * max(maxAbs(box.lo), maxAbs(box.hi))));
+        CHECK_INFO(found.lo == wanted.lo && found.hi == wanted.hi, "map " << i);
+    }
+}

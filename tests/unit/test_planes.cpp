@@ -119,10 +119,3 @@ TEST(planes_of_extreme_scales_have_the_hits_of_single_rays) {
     }
     CHECK(met > 30 && missed > 30);
 }
-
-TEST(planes_that_move_or_have_one_side_are_not_for_lanes) {
-    Random random(3402);
-    const Transform keys[] = {kit::randomMap(random), kit::randomMap(random)};
-    CHECK(!InfinitePlane(MovingTransform{std::span(keys)}, 0, 0).solidForm().plane);
-    CHECK(InfinitePlane(keys[0], 0, 0).solidForm().plane);
-}

@@ -75,8 +75,11 @@ TEST(solid_tree_is_the_same_for_any_threads) {
     Random random(71);
     for (const std::size_t count : {1u, 2u, 300u, 20000u}) {
         const std::vector<Bounds> boxes = someBoxes(random, count);
+        Bounds all;
+        for (const Bounds& box : boxes) all.extend(box);
         for (const int width : {8, 16}) {
             const SolidTree one = treeOf(boxes, width, 1);
+            CHECK_INFO(one.around == all, count << " solids, width " << width);
             std::vector<int> found(count);
             bool isRight = one.solids.size() == count && one.boxes.size() == count;
             for (std::size_t i = 0; isRight && i < count; ++i) {
@@ -96,7 +99,7 @@ TEST(solid_tree_is_the_same_for_any_threads) {
             for (const int threads : {2, 5}) {
                 const SolidTree some = treeOf(boxes, width, threads);
                 const bool same =
-                    some.sah == one.sah &&
+                    some.sah == one.sah && some.around == one.around &&
                     (width == 16 ? sameNodes<16>(some, one) : sameNodes<8>(some, one)) &&
                     std::equal(some.solids.begin(), some.solids.end(), one.solids.begin(),
                                [](const auto& a, const auto& b) {

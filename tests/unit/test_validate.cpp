@@ -1,6 +1,7 @@
 // The rules that hold for every format, on scenes that no reader of text would pass on. The order
 // of what is said, and warnings, are in test_validate_messages.cpp.
 #include "desc/properties.h"
+#include "desc/scene_bounds.h"
 #include "unit/validate_kit.h"
 
 #include <limits>
@@ -182,6 +183,31 @@ TEST(validate_meshes) {
                     d.objects[0].materials.clear(); // the default material for all slots
                 }),
                 "");
+}
+
+// Several threads look at the parts of a large mesh; what they say is of all of it.
+TEST(validate_a_large_mesh) {
+    SceneDesc sound = soundScene();
+    MeshDesc& mesh = sound.meshes[0];
+    for (std::uint32_t i = 3; i < 40000; ++i) {
+        mesh.points.push_back({0.25 * i, -0.5 * i, 1});
+        mesh.triangles.push_back({i - 2, i - 1, i});
+    }
+    for (const int threads : {1, 2, 5}) {
+        const auto errorsAfter = [&](const std::function<void(MeshDesc&)>& damage) {
+            SceneDesc desc = sound;
+            damage(desc.meshes[0]);
+            Diagnostics diagnostics;
+            return check::thrown([&] { validate(desc, {"s.json", ""}, diagnostics, threads); });
+        };
+        CHECK(errorsAfter([](MeshDesc&) {}).empty());
+        checkError(errorsAfter([](MeshDesc& m) { m.points[20000].z = m.points[39999].x = kNan; }),
+                   "point 20000 is not finite");
+        checkError(errorsAfter([](MeshDesc& m) { m.triangles.back()[1] = 40000; }),
+                   "'triangles' uses 40000 of 'points', which has 40000");
+        CHECK(boundsOf(mesh, threads) == (BoundsD{{0, -0.5 * 39999, 0}, {0.25 * 39999, 1, 1}}));
+        CHECK(boundsOf(sound, threads).contains(boundsOf(mesh)));
+    }
 }
 
 TEST(validate_corners) {

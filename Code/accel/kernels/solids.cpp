@@ -25,6 +25,15 @@ static SolidTree::Tube measured(const StillTube& tube) {
 }
 
 void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const SolidForm& form) {
+    solids.push_back(made(number, hides, form));
+    boxes.push_back(box);
+}
+
+void SolidTree::addEndless(std::uint32_t number, bool hides, const SolidForm& form) {
+    endless.push_back(made(number, hides, form));
+}
+
+SolidTree::Solid SolidTree::made(std::uint32_t number, bool hides, const SolidForm& form) {
     Solid solid{.number = number, .hides = hides};
     solid.isTube = form.hull.axis != Vec3d{};
     solid.centre = toFloat(form.hull.centre), solid.axis = toFloat(form.hull.axis);
@@ -41,9 +50,10 @@ void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const S
     }
     if (form.faces) {
         using enum StillFaces::Of;
-        solid.kind = form.faces->of == Cube   ? Kind::Cube
-                     : form.faces->of == Disk ? Kind::Disk
-                                              : Kind::Corners;
+        solid.kind = form.faces->of == Cube      ? Kind::Cube
+                     : form.faces->of == Disk    ? Kind::Disk
+                     : form.faces->of == Corners ? Kind::Corners
+                                                 : Kind::Endless;
         solid.shape = form.faces->shape;
         solid.side = form.faces->side;
     }
@@ -88,8 +98,7 @@ void SolidTree::add(const Bounds& box, std::uint32_t number, bool hides, const S
         }
         facets.push_back(group);
     }
-    solids.push_back(solid);
-    boxes.push_back(box);
+    return solid;
 }
 
 #define DECLARE(isa)                                                                               \

@@ -20,7 +20,7 @@
 
 struct SolidTree {
     // What the solid is to a kernel.
-    enum class Kind : std::uint8_t { Other, Sphere, Facets, Tube, Cube, Disk, Corners };
+    enum class Kind : std::uint8_t { Other, Sphere, Facets, Tube, Cube, Disk, Corners, Endless };
     // With which others it may share a test of W rays, each with a solid of its own: shapes of one
     // formula that stand still and whose outside rays of sight meet.
     enum class Meets : std::uint8_t { Sphere, Tube, CappedTube, Cone, CappedCone, Alone };
@@ -67,8 +67,10 @@ struct SolidTree {
     std::vector<Tube> tubes;
     std::vector<FacetGroup> facets;
     std::vector<Movement> movements;
+    std::vector<Solid> endless; // without a box, in no tree: every ray asks them
     // WideNode<width>, root first. A child of kind Leaf is one solid, by its place in `solids`.
     PageVector<WideTree::Line> lines;
+    Bounds around;    // all solids that are in it
     float extent = 0; // see RaySetup
     double sah = 0;   // as sahCost() of bvh.h counts
 
@@ -79,6 +81,7 @@ struct SolidTree {
     // Room for so many of each common kind: what isn't touched costs nothing, growing would.
     void reserve(std::size_t count);
     void add(const Bounds& box, std::uint32_t number, bool hides, const SolidForm& form);
+    void addEndless(std::uint32_t number, bool hides, const SolidForm& form);
     // Once after the last add().
     void build(int nodeWidth, int threads = 1);
 
@@ -94,8 +97,10 @@ struct SolidTree {
 
     std::size_t nodes() const { return lines.size() * sizeof(WideTree::Line) / nodeBytes(); }
     std::size_t bytes() const;
+    bool isEmpty() const { return solids.empty() && endless.empty(); }
 
 private:
+    Solid made(std::uint32_t number, bool hides, const SolidForm& form);
     std::size_t nodeBytes() const {
         return width == 16 ? sizeof(WideNode<16>) : sizeof(WideNode<8>);
     }

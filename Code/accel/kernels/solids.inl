@@ -47,10 +47,13 @@ public:
     void run(std::span<const std::uint32_t> order, Result* results) {
         for (; !order.empty(); order = order.subspan(std::min<std::size_t>(W, order.size()))) {
             live_ = setUp<A>(order, results);
+            if (live_ == 0) continue;
             if (A == Answer::Any && lastHider_ < tree_.solids.size())
                 solid<A>(lastHider_, live_, results);
-            if (live_ == 0) continue;
+            meetEndless<A>(results);
+            if (live_ == 0 || tree_.lines.empty()) continue;
             traverse<A>(results);
+            if (!areInPairs_) continue;
             if (live_ != 0) meetAll<A>(results);
             dropAll();
         }
@@ -107,7 +110,7 @@ private:
         Floats entry(0.0f), exit(zTop_);
         for (int axis = 0; axis < 3; ++axis) {
             const Floats lo(rLo_[axis]), hi(rHi_[axis]), pad(mostPad_[axis]);
-            const int back = backwards_[axis] & live_ ? 1 : 0;
+            const std::size_t back = back_[axis];
             const Floats first(back ? oLo_[axis] : oHi_[axis]),
                 last(back ? oHi_[axis] : oLo_[axis]);
             const Floats front = Floats::load(node.plane[axis][back]) - first;
@@ -131,7 +134,7 @@ private:
             if (kindOf(ref) == WideKind::Node) {
                 Floats from(0.0f), to = zCut_;
                 for (int axis = 0; axis < 3; ++axis) {
-                    const int back = backwards_[axis] & live_ ? 1 : 0;
+                    const std::size_t back = back_[axis];
                     from = max(fma(Floats(node.plane[axis][back][i]), lanes_.r[axis],
                                    lanes_.nearOffset[axis]),
                                from);

@@ -79,5 +79,6 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
 std::size_t SolidTree::bytes() const {
     return lines.size() * sizeof(WideTree::Line) + solids.size() * sizeof(Solid) +
            boxes.size() * sizeof(Bounds) + tubes.size() * sizeof(Tube) +
-           facets.size() * sizeof(FacetGroup) + movements.size() * sizeof(Movement);
+           facets.size() * sizeof(FacetGroup) + movements.size() * sizeof(Movement) +
+           endless.size() * sizeof(Solid);
 }

@@ -1,5 +1,5 @@
-// Disks and planes by corners: where all rays of a packet meet one, with the bits of shape/disk.cpp
-// and shape/plane.cpp, and which side of it they see.
+// Disks and planes, by corners or endless: where all rays of a packet meet one, with the bits of
+// shape/disk.cpp, shape/plane.cpp and shape/infinite_plane.cpp, and which side of it they see.
 // Included by solids.inl, behind solids_objects.inl.
 
 // Lines that meet a flat shape, at most once.
@@ -8,14 +8,19 @@ struct FlatRoots {
     unsigned met;      // t is finite here
 };
 
+// InfinitePlane::roots()
+inline FlatRoots endlessRoots(const ObjectRays& rays) {
+    const Doubles zero(0.0), minus(-0.0);
+    return {(minus - rays.oz) / rays.dz, rays.dz, less(zero, abs(rays.dz)) & rays.usable()};
+}
+
 // Disk::roots()
 inline FlatRoots diskRoots(const ObjectRays& rays, const StillShape& shape) {
-    const Doubles zero(0.0), minus(-0.0), radius(shape.radius);
-    const Doubles t = (minus - rays.oz) / rays.dz;
-    const Doubles x = rays.ox + rays.dx * t, y = rays.oy + rays.dy * t;
-    const unsigned met =
-        less(zero, abs(rays.dz)) & less(zero, radius) & atMost(x * x + y * y, radius * radius);
-    return {t, rays.dz, met & rays.usable()};
+    const Doubles zero(0.0), radius(shape.radius);
+    FlatRoots roots = endlessRoots(rays);
+    const Doubles x = rays.ox + rays.dx * roots.t, y = rays.oy + rays.dy * roots.t;
+    roots.met &= less(zero, radius) & atMost(x * x + y * y, radius * radius);
+    return roots;
 }
 
 // Plane::roots()
@@ -45,7 +50,7 @@ inline FlatRoots cornerRoots(const ObjectRays& rays, const StillShape& shape) {
 
 // At least the length of the normal in the world.
 template <class Map> Doubles steepest(const SolidTree::Solid& solid, const Map& m) {
-    if (solid.kind == SolidTree::Kind::Disk) return rowLength(m, 2);
+    if (solid.kind != SolidTree::Kind::Corners) return rowLength(m, 2);
     const Vec3d n = solid.shape->corners->normal;
     return (Doubles(std::fabs(n.x)) * rowLength(m, 0) + Doubles(std::fabs(n.y)) * rowLength(m, 1)) +
            Doubles(std::fabs(n.z)) * rowLength(m, 2);
@@ -55,8 +60,10 @@ template <Answer A, class Map>
 FoundLanes meetFlat(const RayColumns& rays, const RayRanges& ranges, const SolidTree::Solid& solid,
                     const Map& map) {
     const ObjectRays local = objectRays(rays, map, solid.turned);
-    const FlatRoots roots = solid.kind == SolidTree::Kind::Disk ? diskRoots(local, *solid.shape)
-                                                                : cornerRoots(local, *solid.shape);
+    const FlatRoots roots = solid.kind == SolidTree::Kind::Endless ? endlessRoots(local)
+                            : solid.kind == SolidTree::Kind::Disk
+                                ? diskRoots(local, *solid.shape)
+                                : cornerRoots(local, *solid.shape);
     const Floats t = roots.t.toFloats();
     FoundLanes found{.t = t, .lost = Floats(0.0f)};
     found.met = roots.met & (A == Answer::Any ? ranges.hides(t) : ranges.hits(t));

@@ -53,6 +53,20 @@ protected:
             ask(solid, entry, lanes, results);
     }
 
+    // What no box keeps rays from.
+    template <Answer A, class Result> void meetEndless(Result* results) {
+        const Floats entry(0.0f);
+        for (const SolidTree::Solid& solid : tree_.endless) {
+            if (live_ == 0) return;
+            if (A == Answer::Any && !solid.hides) continue;
+            asked_ = lastHider_; // asked anyway, it takes nobody's place
+            if (solid.moves)
+                moving<A>(solid, entry, live_, results);
+            else
+                faces<A>(solid, entry, live_, results);
+        }
+    }
+
     // Hides what comes next from the lamp, too, more often than not.
     std::uint32_t lastHider_ = std::numeric_limits<std::uint32_t>::max();
     std::uint32_t asked_ = 0; // place of the solid

@@ -29,6 +29,8 @@ protected:
         const std::size_t count = std::min<std::size_t>(W, order.size());
         columns_ = loadRays(rays_, order.data(), count, ray_);
         lanes_ = RayLanes(columns_, tree_.extent);
+        const unsigned asking = entering() & ((1u << count) - 1);
+        if (asking == 0) return 0;
         if constexpr (A == Answer::Any) {
             best_ = columns_.tMax;
         } else {
@@ -47,10 +49,18 @@ protected:
         perLength_ = one / length_;
         perLength2_ = one / length2;
         slack_ = max(Floats(tree_.extent), lanes_.oMax) * Floats(0x1p-18f);
-        const unsigned asking =
-            lanes_.traceable & bits(columns_.tMin < best_) & ((1u << count) - 1);
-        if (asking != 0) findInterval(asking);
-        return asking;
+        const unsigned inRange = asking & bits(columns_.tMin < best_);
+        if (inRange != 0) findInterval(inRange);
+        return inRange;
+    }
+
+    // Lanes that enter the box of all solids, if they have one. Rounding is monotonic: the others
+    // enter none of them.
+    unsigned entering() const {
+        if (!tree_.endless.empty()) return lanes_.traceable;
+        Floats entry;
+        return lanes_.traceable &
+               lanes_.entering(tree_.around, lanes_.cutAt(columns_.tMax), entry);
     }
 
     // The ranges of origins and r, for packets into one octant.
@@ -61,7 +71,7 @@ protected:
             lanes_.nearOffset[axis].store(rays1_.nearOffset[axis]);
             lanes_.farOffset[axis].store(rays1_.farOffset[axis]);
             const unsigned backwards = bits(lanes_.r[axis] < Floats(0.0f));
-            backwards_[axis] = backwards;
+            back_[axis] = backwards & lanes ? 1 : 0;
             const auto plane = static_cast<std::uint32_t>(2 * axis) * kPlane;
             select(lanes_.r[axis] < Floats(0.0f), Ints(plane + kPlane), Ints(plane))
                 .store(rays1_.nearPlane[axis]);
@@ -121,12 +131,12 @@ protected:
     // behind which none counts.
     Floats best_, bound_, zCut_;
     std::uint32_t number_[W];
-    unsigned backwards_[3]; // lanes with r < 0
     // The same by ray.
     struct alignas(64) {
         float r[3][W], nearOffset[3][W], farOffset[3][W], zCut[W];
         std::uint32_t nearPlane[3][W]; // bytes from the start of a node; see kPlane
     } rays1_;
     bool together_ = false;
+    std::size_t back_[3]; // of rays together: 1 where they go backwards along the axis
     float oLo_[3], oHi_[3], rLo_[3], rHi_[3], mostPad_[3], zTop_ = 0;
 };

@@ -111,6 +111,8 @@ private:
     std::vector<std::uint32_t> join(SolidTree& tree, Piece& top) {
         std::vector<std::size_t> firstLine, firstSolid;
         const auto root = static_cast<double>(halfAreaOf(nodes_[root_]));
+        const auto& [lo, negHi] = std::pair(nodes_[root_].lo, nodes_[root_].negHi);
+        tree.around = {{lo[0], lo[1], lo[2]}, {-negHi[0], -negHi[1], -negHi[2]}};
         PageVector<BinaryNode>().swap(nodes_); // for the tree to take their place
         PageVector<CollapsePlan<W>>().swap(plans_);
         std::size_t lines = top.lines.size(), solids = top.order.size();

@@ -90,6 +90,7 @@ private:
         std::vector<Open> level{root()};
         top_[0] = leafNode(level[0].range.box);
         while (!level.empty()) level = divideLevel(level);
+        std::vector<Job>().swap(jobs_);
     }
 
     std::size_t workers() const { return static_cast<std::size_t>(pool_.threads()); }
@@ -155,31 +156,35 @@ private:
         Part part;
         std::uint32_t first;       // within the range
         std::uint32_t left, right; // how many go there before
-        Bins bins[2];
+        Bins bins[2]; // not zeroed
+
+        Job(std::size_t ofDivision, Part of, std::uint32_t from, std::uint32_t goneLeft)
+            : division(ofDivision), part(of), first(from), left(goneLeft), right(from - goneLeft) {}
     };
 
     // Returns what is to be divided further. The rest becomes subtrees.
     std::vector<Open> divideLevel(const std::vector<Open>& level) {
         std::vector<Division> divisions;
-        std::vector<Job> jobs;
+        std::size_t most = 0;
+        for (const Open& range : level) most += range.parts.size();
+        jobs_.clear();
+        jobs_.reserve(most);
         for (const auto& [r, parts] : level) {
             if (r.count <= subtreeSize(count_) || r.split.axis < 0 || r.depth >= kTopDepth) {
                 ranges_.push_back(r);
                 continue;
             }
             const auto division = divisions.size();
-            divisions.push_back({&r, {}, {}, jobs.size(), parts.size()});
+            divisions.push_back({&r, {}, {}, jobs_.size(), parts.size()});
             code_.makeChildren(r, divisions.back().left, divisions.back().right);
             std::uint32_t first = 0, left = 0;
             for (const Part& part : parts) {
-                Job& job = jobs.emplace_back();
-                job.division = division, job.part = part;
-                job.first = first, job.left = left, job.right = first - left;
+                jobs_.emplace_back(division, part, first, left);
                 first += part.count, left += part.left;
             }
         }
-        pool_.run(jobs.size(), [&](std::size_t i, int) {
-            Job& job = jobs[i];
+        pool_.run(jobs_.size(), [&](std::size_t i, int) {
+            Job& job = jobs_[i];
             const Division& d = divisions[job.division];
             const BinGrid grids[2] = {d.left.grid, d.right.grid};
             PrimBox* const to = lists_.of(*d.range, true);
@@ -188,7 +193,7 @@ private:
         });
         std::vector<Open> next;
         for (Division& d : divisions) {
-            const std::span<const Job> mine(&jobs[d.firstJob], d.jobs);
+            const std::span<const Job> mine(&jobs_[d.firstJob], d.jobs);
             BuildRange* const kids[2] = {&d.left, &d.right};
             const auto child = static_cast<std::uint32_t>(top_.size());
             top_[d.range->node].left = child;
@@ -287,6 +292,7 @@ private:
     PrimLists lists_;
     BuildInput in_;
     std::vector<BinaryNode> top_;
+    std::vector<Job> jobs_;              // of a level; the next one takes their memory
     std::vector<BuildRange> ranges_;     // of the subtrees, as they were found
     std::vector<SubtreeRange> subtrees_; // from left to right
     std::vector<Grown> grown_;           // by worker

@@ -3,6 +3,7 @@
 #include "base/bounds.h"
 #include "base/for_each.h"
 #include "base/transform.h"
+#include "desc/scene_bounds.h"
 #include "read/mesh/split_mesh.h"
 #include "read/unique_names.h"
 
@@ -24,14 +25,8 @@ struct Ball {
 Ball ballAround(const MeshDesc& mesh, int threads) {
     constexpr std::size_t kTogether = 1 << 14;
     const std::span<const Vec3d> points(mesh.points);
-    std::vector<BoundsD> boxes((points.size() + kTogether - 1) / kTogether);
-    std::vector<double> farthest(boxes.size());
-    forEachPart(threads, points.size(), kTogether, [&](std::size_t first, std::size_t last) {
-        for (const Vec3d& p : points.subspan(first, last - first))
-            boxes[first / kTogether].extend(p);
-    });
-    BoundsD bounds;
-    for (const BoundsD& box : boxes) bounds.extend(box);
+    std::vector<double> farthest((points.size() + kTogether - 1) / kTogether);
+    const BoundsD bounds = boundsOf(mesh, threads);
     const Vec3d centre = bounds.centre();
     const double size = maxAbs(bounds.size()); // squares of very small lengths would vanish
     forEachPart(threads, points.size(), kTogether, [&](std::size_t first, std::size_t last) {

@@ -51,6 +51,10 @@ private:
     void readFaces() {
         const std::vector<ObjChunk>& chunks = chunks_.chunks;
         for (std::size_t i = 0; i < chunks.size();) {
+            if (chunks[i].isPlain && !chunks[i].hasFaces) {
+                ++i; // vertices have been read
+                continue;
+            }
             std::size_t count = 0;
             // Behind the first face of a part and material, plain chunks belong to these.
             const bool isSettled = inPart_ && slot_ && !partIsNew_;

@@ -103,6 +103,7 @@ public:
         Floats3 mirror{zero, zero, zero};
         for (const AlikePoints& some : alike) {
             const unsigned here = some.points >> first_ & kEvery;
+            if (here == 0) continue;
             lanes |= here, glass |= some.isGlass ? here : 0;
             mirror = select(maskOf(here), all(some.material->mirror), mirror);
         }

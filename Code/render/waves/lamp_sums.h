@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <span>
 
 namespace waves {
 
@@ -21,9 +22,12 @@ using LampOrigins = std::array<Vec3, LitBlock::kPoints>;
 
 // fn(point, its block's sums, its place there) for all points that answer lamps.
 template <class Fn> void forEachSum(const Wave& wave, Fn&& fn) {
-    const std::vector<std::uint32_t>& answering = wave.memory.answering;
-    for (std::size_t i = 0; i < answering.size(); ++i)
-        fn(answering[i], wave.memory.lightSums[i / LitBlock::kPoints].sum, i % LitBlock::kPoints);
+    LightSums* block = wave.memory.lightSums.data();
+    for (std::span<const std::uint32_t> rest(wave.memory.answering); !rest.empty(); ++block) {
+        const std::size_t count = std::min(rest.size(), LitBlock::kPoints);
+        for (std::size_t i = 0; i < count; ++i) fn(rest[i], block->sum, i);
+        rest = rest.subspan(count);
+    }
 }
 
 // Shadow rays for the points of a block, from the lamp whose place, sixteen times, is `origins`.
@@ -52,8 +56,9 @@ inline void addLampsInLanes(const Wave& wave, bool isGrouped) {
         (memory.answering.size() + LitBlock::kPoints - 1) / LitBlock::kPoints;
     if (memory.byLamp.size() < blocks) memory.byLamp.resize(blocks);
     if (memory.lightSums.size() < blocks) memory.lightSums.resize(blocks);
-    const auto radianceOf = [&](std::uint32_t k) -> Rgb& {
-        return wave.chunk.radiance[wave.slotOf(k)];
+    const auto radianceOf = [radiance = wave.chunk.radiance.data(),
+                             slot = memory.points.slot.data()](std::uint32_t k) -> Rgb& {
+        return radiance[slot[k]];
     };
     forEachSum(wave, [&](std::uint32_t k, SurfaceBlock::Lane(&sum)[3], std::size_t i) {
         const Rgb radiance = radianceOf(k);

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <numeric>
 
 namespace waves {
 
@@ -41,6 +42,11 @@ template <bool kSeeThrough> void listAnswering(const Wave& wave) {
     for (std::size_t b = 0; b < points.blocks(); ++b) {
         const unsigned answering = answeringOf<kSeeThrough>(points, b);
         const auto first = static_cast<std::uint32_t>(b * PointColumns::kPoints);
+        if (answering == (1u << PointColumns::kPoints) - 1) { // as most do
+            std::iota(to + count, to + count + PointColumns::kPoints, first);
+            count += PointColumns::kPoints;
+            continue;
+        }
         for (std::uint32_t i = 0; i < points.sizeOf(b); ++i) {
             to[count] = first + i;
             count += answering >> i & 1;

@@ -183,8 +183,8 @@ template <bool kTextures> void paintBlock(const Wave& wave, std::size_t b, unsig
     const std::size_t first = b * PointColumns::kPoints, size = points.sizeOf(b);
     const unsigned used = points.usedOf(b);
     const auto bits = [](unsigned of) { return static_cast<std::uint16_t>(of); };
-    bool isOne = true;
-    for (std::size_t i = 1; i < size; ++i) isOne &= number[i] == number[0];
+    const bool isOne = std::all_of(number, number + size,
+                                   [&](std::uint32_t other) { return other == number[0]; });
     const auto has = [&](std::uint32_t material, MaterialTable::Trait trait) {
         return (table.traits(material) & trait) != 0;
     };

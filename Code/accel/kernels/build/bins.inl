@@ -57,23 +57,42 @@ inline void clear(Bins& bins, std::uint32_t used) {
     for (std::uint32_t b = 0; b < used; ++b) bins.count[b].fill(0);
 }
 
-inline void add(Bins& bins, const BinGrid& grid, Box p) {
+// The bins that a box falls into. 16 bytes per bin of counts, twice that per bin of boxes: one
+// number addresses both.
+inline __m128i placeIn(const BinGrid& grid, Box p) {
     const __m128 inside = _mm_min_ps(_mm_max_ps(positionIn(grid, p), _mm_setzero_ps()),
                                      _mm_load_ps(grid.last.data()));
-    // 16 bytes per bin of counts, twice that per bin of boxes: one number addresses both.
-    const __m128i at = _mm_slli_epi32(_mm_cvttps_epi32(inside), 4);
+    return _mm_slli_epi32(_mm_cvttps_epi32(inside), 4);
+}
+
+inline void addAt(Bins& bins, std::size_t axis, std::size_t place, Box p) {
+    auto* const box = reinterpret_cast<std::byte*>(bins.box[axis].data()) + 2 * place;
+    Box grown = Box::load(*reinterpret_cast<PrimBox*>(box));
+    grown.extend(p);
+    grown.store(*reinterpret_cast<PrimBox*>(box));
+    auto* const count = reinterpret_cast<std::byte*>(bins.count.data()) + place + 4 * axis;
+    ++*reinterpret_cast<std::uint32_t*>(count);
+}
+
+inline void add(Bins& bins, const BinGrid& grid, Box p) {
+    const __m128i at = placeIn(grid, p);
     const auto xy = static_cast<std::uint64_t>(_mm_cvtsi128_si64(at));
-    const auto addTo = [&](std::size_t axis, std::size_t offset) {
-        auto* const box = reinterpret_cast<std::byte*>(bins.box[axis].data()) + 2 * offset;
-        Box grown = Box::load(*reinterpret_cast<PrimBox*>(box));
-        grown.extend(p);
-        grown.store(*reinterpret_cast<PrimBox*>(box));
-        auto* const count = reinterpret_cast<std::byte*>(bins.count.data()) + offset + 4 * axis;
-        ++*reinterpret_cast<std::uint32_t*>(count);
-    };
-    addTo(0, static_cast<std::uint32_t>(xy));
-    addTo(1, xy >> 32);
-    addTo(2, static_cast<std::uint32_t>(_mm_extract_epi32(at, 2)));
+    addAt(bins, 0, static_cast<std::uint32_t>(xy), p);
+    addAt(bins, 1, xy >> 32, p);
+    addAt(bins, 2, static_cast<std::uint32_t>(_mm_extract_epi32(at, 2)), p);
+}
+
+// First all places, then all bins: a bin that is read waits for every store before it whose address
+// isn't known yet, since it may be the same bin.
+constexpr std::uint32_t kBlock = 256;
+inline void addBlock(Bins& bins, const BinGrid& grid, const PrimBox* from, std::uint32_t count) {
+    alignas(16) std::uint32_t places[kBlock][4];
+    for (std::uint32_t i = 0; i < count; ++i)
+        _mm_store_si128(reinterpret_cast<__m128i*>(places[i]), placeIn(grid, Box::load(from[i])));
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Box p = Box::load(from[i]);
+        for (std::size_t axis = 0; axis < 3; ++axis) addAt(bins, axis, places[i][axis], p);
+    }
 }
 
 inline __m128i countsOf(const Bins& bins, std::uint32_t b) {

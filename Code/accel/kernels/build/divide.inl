@@ -38,7 +38,8 @@ void takeBoxes(const BuildInput& in, std::uint32_t first, std::uint32_t count, P
 
 void fillBins(const BinGrid& grid, const PrimBox* from, std::uint32_t count, Bins& bins) {
     clear(bins, grid.bins());
-    for (std::uint32_t i = 0; i < count; ++i) add(bins, grid, Box::load(from[i]));
+    for (std::uint32_t i = 0; i < count; i += kBlock)
+        addBlock(bins, grid, from + i, std::min(kBlock, count - i));
 }
 
 inline bool goesLeft(const BuildRange& r, __m128 cut, Box p) {
@@ -77,35 +78,64 @@ void makeChildren(const BuildRange& r, BuildRange& left, BuildRange& right) {
     }
 }
 
-// Sorts triangles of a range into its children: the left ones from `left` on upwards, the others
-// from `right` on downwards, each into the bins of its child.
+// The children of a range: the left one's list grows from `low` upwards, the other one's from
+// `high` downwards.
+struct Sides {
+    PrimBox* low;
+    PrimBox* high;
+    // No branches to guess: the sides come as they like.
+    void add(Box p, std::ptrdiff_t isLeft) {
+        const std::ptrdiff_t toHigh = high - low;
+        p.store(low[toHigh & (isLeft - 1)]);
+        low += isLeft, high -= 1 - isLeft;
+    }
+};
+
 template <bool kPrefetch>
-inline void divideRange(const BuildInput& in, const BuildRange& r, const BinGrid* grids,
-                        const PrimBox* from, std::uint32_t count, PrimBox* left, PrimBox* right,
-                        Bins (&bins)[2]) {
+inline void sortBlock(const BuildInput& in, const BuildRange& r, const PrimBox* from,
+                      std::uint32_t count, Sides& to) {
     const __m128 cut = _mm_set1_ps(r.split.cut);
-    std::ptrdiff_t low = 0, high = right - left;
     for (std::uint32_t i = 0; i < count; ++i) {
         const Box p = Box::load(from[i]);
-        const std::ptrdiff_t isLeft = goesLeft(r, cut, p);
-        // No branches to guess: the sides come as they like.
-        p.store(left[high ^ ((high ^ low) & -isLeft)]);
-        low += isLeft, high -= 1 - isLeft;
-        const auto side = static_cast<std::size_t>(1 - isLeft);
-        add(bins[side], grids[side], p);
+        to.add(p, goesLeft(r, cut, p));
         if constexpr (kPrefetch)
             _mm_prefetch(reinterpret_cast<const char*>(in.triangles.data() + from[i].id()),
                          _MM_HINT_T0);
     }
 }
 
+// Of a few, each goes into the bins of its child at once.
+inline void divideFew(const BuildRange& r, const BinGrid* grids, const PrimBox* from,
+                      std::uint32_t count, Sides to, Bins (&bins)[2]) {
+    const __m128 cut = _mm_set1_ps(r.split.cut);
+    for (std::uint32_t i = 0; i < count; ++i) {
+        const Box p = Box::load(from[i]);
+        const std::ptrdiff_t isLeft = goesLeft(r, cut, p);
+        to.add(p, isLeft);
+        const auto side = static_cast<std::size_t>(1 - isLeft);
+        add(bins[side], grids[side], p);
+    }
+}
+
+// Sorts triangles of a range into its children, the left ones from `left` on upwards, the others
+// from `right` on downwards, and into the bins of these.
 void divide(const BuildInput& in, const BuildRange& r, const BinGrid* grids, const PrimBox* from,
             std::uint32_t count, PrimBox* left, PrimBox* right, Bins (&bins)[2]) {
     for (std::size_t side = 0; side < 2; ++side) clear(bins[side], grids[side].bins());
+    Sides to{left, right};
+    constexpr std::uint32_t kFew = 12;
+    if (count < kFew) return divideFew(r, grids, from, count, to, bins);
     // Triples of numbers of this many triangles stay in the nearest cache until they are needed.
     constexpr std::uint32_t kPrefetched = 64;
-    if (r.count <= kPrefetched && !in.triangles.empty())
-        divideRange<true>(in, r, grids, from, count, left, right, bins);
-    else
-        divideRange<false>(in, r, grids, from, count, left, right, bins);
+    const bool prefetches = r.count <= kPrefetched && !in.triangles.empty();
+    for (std::uint32_t i = 0; i < count; i += kBlock) {
+        const std::uint32_t part = std::min(kBlock, count - i);
+        const Sides before = to;
+        if (prefetches)
+            sortBlock<true>(in, r, from + i, part, to);
+        else
+            sortBlock<false>(in, r, from + i, part, to);
+        addBlock(bins[0], grids[0], before.low, static_cast<std::uint32_t>(to.low - before.low));
+        addBlock(bins[1], grids[1], to.high + 1, static_cast<std::uint32_t>(before.high - to.high));
+    }
 }
