@@ -11,7 +11,7 @@ namespace {
 
 using Kind = ObjectDesc::Kind;
 
-// All at once, as nobody would put it together: what the scenes above leave apart meets here.
+// All at once, as nobody would put it together: what scenes.cpp leaves apart meets here.
 class Anything : public Stage {
 public:
     explicit Anything(meshes::Random& random)

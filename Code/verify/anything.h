@@ -9,5 +9,7 @@ namespace scenes {
 // some sides, that stand, walk, turn and grow; materials, lamps and cameras with any of their
 // properties. Many are dark or hide behind each other: for questions that any picture answers.
 SceneDesc anything(meshes::Random& random);
+// So many stand beside one scene of each kind of scenes.h.
+inline constexpr int kAnythings = 8;
 
 } // namespace scenes

@@ -19,12 +19,15 @@ namespace {
 
 using meshes::Random;
 
-// Calls `compare` for scenes of every kind.
+// Calls `compare` for scenes of every kind, and for so many of anything.
 using Compare = std::function<void(const char* name, const SceneDesc&, Random&, Tally&)>;
-Tally forScenes(const Effort& effort, std::uint64_t seed, double batches, const Compare& compare) {
+Tally forScenes(const Effort& effort, std::uint64_t seed, double batches, const Compare& compare,
+                int anythings = 0) {
     return inBatches(effort, seed, batches, [&](Random& random, Tally& tally) {
         for (const scenes::Maker& maker : scenes::makers())
             compare(maker.name, maker.make(random), random, tally);
+        for (int i = 0; i < anythings; ++i)
+            compare("anything", scenes::anything(random), random, tally);
     });
 }
 
@@ -50,11 +53,7 @@ Tally powersOfTwo(const Effort& effort) {
                 tally.fail([&] { return cat(name, " times 2^", k); });
         }
     };
-    return inBatches(effort, 7, 1, [&](Random& random, Tally& tally) {
-        for (const scenes::Maker& maker : scenes::makers())
-            compare(maker.name, maker.make(random), random, tally);
-        for (int i = 0; i < 8; ++i) compare("anything", scenes::anything(random), random, tally);
-    });
+    return forScenes(effort, 7, 1, compare, scenes::kAnythings);
 }
 
 // ---- T8 and T9: differences of pictures, in parts of the brightest value

@@ -44,7 +44,7 @@ Tally forScenes(const Effort& effort, std::uint64_t seed, const Check& check, do
             if (random.chance(0.5)) sampleAnyhow(random, desc.settings);
             check(maker.name, desc, random, tally);
         }
-        for (int i = 0; i < 8; ++i) {
+        for (int i = 0; i < scenes::kAnythings; ++i) {
             SceneDesc desc = scenes::anything(random);
             sampleAnyhow(random, desc.settings);
             check("anything", desc, random, tally);
