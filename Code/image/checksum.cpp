@@ -75,9 +75,10 @@ std::uint32_t crc32(std::span<const std::uint8_t> bytes, std::uint32_t before) {
     for (; i + kSlices <= bytes.size(); i += kSlices) {
         std::uint32_t sum = 0;
 #pragma GCC unroll 16
-        for (std::size_t k = kSlices; k-- > 0;) { // those that need c last
+        for (std::size_t behind = 0; behind < kSlices; ++behind) { // those that need c last
+            const std::size_t k = kSlices - 1 - behind;
             const std::uint32_t byte = bytes[i + k] ^ (k < 4 ? c >> (8 * k) & 255 : 0);
-            sum ^= kCrc[kSlices - 1 - k][byte];
+            sum ^= kCrc[behind][byte];
         }
         c = sum;
     }
