@@ -63,11 +63,13 @@ public:
     }
 
     WideTree run() {
-        divideTop();
         WideTree tree;
         tree.width = width_;
+        // In front of the lists: small things between it and them would keep their memory, when all
+        // of it is free, from being in one piece for the next tree.
         tree.triangleIds.resize(count_);
         in_.ids = tree.triangleIds.data();
+        divideTop();
         growSubtrees();
         // 32 bytes a triangle, before the tree takes its place.
         decltype(lists_.spare)().swap(lists_.spare);
