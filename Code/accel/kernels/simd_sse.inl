@@ -331,9 +331,16 @@ inline void storeKeys(const Keys& keys, std::uint32_t* to) {
     for (int i = 0; i < W; ++i) to[i] = keys.v[i];
 }
 inline __m128i pick(__m128i keys, const std::uint32_t* from) {
-    const auto at = [&](int key) { return static_cast<int>(from[(key & 15) ^ (W - 1)]); };
-    return _mm_setr_epi32(at(_mm_extract_epi32(keys, 0)), at(_mm_extract_epi32(keys, 1)),
-                          at(_mm_extract_epi32(keys, 2)), at(_mm_extract_epi32(keys, 3)));
+    const __m128i lane =
+        _mm_xor_si128(_mm_and_si128(keys, _mm_set1_epi32(15)), _mm_set1_epi32(W - 1));
+    // The bytes of that lane, 0 to 31: numbers with the highest bit pick zeros.
+    const __m128i first = _mm_shuffle_epi8(
+        _mm_slli_epi32(lane, 2), _mm_setr_epi8(0, 0, 0, 0, 4, 4, 4, 4, 8, 8, 8, 8, 12, 12, 12, 12));
+    const __m128i byte = _mm_add_epi8(first, _mm_set1_epi32(0x03020100));
+    const auto* const halves = reinterpret_cast<const __m128i*>(from);
+    return _mm_or_si128(
+        _mm_shuffle_epi8(_mm_loadu_si128(halves), _mm_add_epi8(byte, _mm_set1_epi8(0x70))),
+        _mm_shuffle_epi8(_mm_loadu_si128(halves + 1), _mm_sub_epi8(byte, _mm_set1_epi8(16))));
 }
 inline std::uint32_t element(__m128i four, int i) {
     alignas(16) std::uint32_t all[4];
