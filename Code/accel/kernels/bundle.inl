@@ -78,7 +78,8 @@ private:
         return true;
     }
 
-    // Takes the nearest of what no hit hides, anything when all rays are done; false: there is none.
+    // Takes the nearest of what no hit hides, or anything when all rays are done; false: there is
+    // none.
     bool pop(WideRef& at) {
         // The lowest four bits of an entry don't count.
         const std::uint32_t limit = std::bit_cast<std::uint32_t>(leaf_.zCut()) | 15;
@@ -140,7 +141,7 @@ private:
     const WideMesh& mesh_;
     BundleRays<Q> rays_;
     BundleLeaf<Q> leaf_;
-    WideRef* refs_;          // the stack, farthest at the bottom, and the depths: stack.inl
+    WideRef* refs_; // the stack of stack.inl
     std::uint32_t* entries_;
     std::uint32_t size_ = 0;
     std::size_t leaves_ = 0, mostLeaves_ = 0;

@@ -30,10 +30,9 @@ public:
     Vec3 origin;
 
 protected:
-    // Asks for what lies `distance` behind these W elements: the next bundle's, probably. Behind the
-    // end of a batch, the next batch often follows.
-    template <class T>
-    static void prefetchAhead(const T* first, std::size_t distance = kMostRays) {
+    // Asks for what lies `distance` behind these W elements: the next bundle's, probably. Behind
+    // the end of a batch, the next batch often follows.
+    template <class T> static void prefetchAhead(T* first, std::size_t distance = kMostRays) {
         constexpr int kToWrite = std::is_const_v<T> ? 0 : 1;
         const auto ahead = reinterpret_cast<std::uintptr_t>(first) + distance * sizeof(T);
         for (std::size_t byte = 0; byte < W * sizeof(T); byte += 64)

@@ -284,8 +284,9 @@ inline void storeChosen(Mask chosen, const std::uint32_t* from, std::uint32_t* t
 struct alignas(16) Keys {
     std::uint32_t v[W];
 };
-// Bytes for _mm_shuffle_epi8(): kPacked[m] brings the chosen ones of four numbers to the front, zeros
-// follow; 16 of kSlid from 16 - 4 n on move numbers n places up, from 32 - 4 n on 4 - n places down.
+// Bytes for _mm_shuffle_epi8(): kPacked[m] brings the chosen ones of four numbers to the front,
+// zeros follow; 16 of kSlid from 16 - 4 n on move numbers n places up, from 32 - 4 n on 4 - n
+// places down.
 alignas(16) inline constexpr auto kPacked = [] {
     std::array<std::array<std::uint8_t, 16>, 16> all{};
     for (unsigned chosen = 0; chosen < 16; ++chosen) {
