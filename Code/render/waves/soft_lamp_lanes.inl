@@ -31,9 +31,12 @@ inline LampSeen lookAtLamp(const PointEmission& lamp, const LitBlock& block, std
 // W points of a block from `first` on, lit by a lamp that has a size.
 class SoftLanes {
 public:
-    SoftLanes(const PointEmission& lamp, const LitBlock& block, std::size_t first)
-        : lamp_(lamp), block_(block), first_(first), lit_(block, {first}),
-          seen_(lookAtLamp(lamp, block, first)) {}
+    // `share`: of each sample in the light.
+    SoftLanes(const PointEmission& lamp, const LitBlock& block, float share, std::size_t first)
+        : block_(block), first_(first), lit_(block, {first}), seen_(lookAtLamp(lamp, block, first)),
+          radius_(lamp.radius), constant_(lamp.attenuation.constant),
+          linear_(lamp.attenuation.linear), quadratic_(lamp.attenuation.quadratic), share_(share),
+          intensity_(Three::all(lamp.intensity.r, lamp.intensity.g, lamp.intensity.b)) {}
 
     // Those of them that may be lit.
     unsigned lanesOf(unsigned points) const { return lit_.lanesOf(points) & seen_.seen; }
@@ -41,37 +44,34 @@ public:
     struct Sample {
         Three light, toLight;
         Floats distance;
-        unsigned lit; // by it
+        unsigned lit; // by it, if only by black
     };
     bool isShiny() const { return lit_.isShiny(); }
     template <bool kMayShine>
-    Sample sample(const DiskLanes& disk, unsigned asked, float share) const {
+    Sample sample(const DiskLanes& disk, unsigned asked) const {
         unsigned lit = asked;
-        const Floats radius(lamp_.radius);
-        const Three d = seen_.toCentre + seen_.x * (disk.x * radius) + seen_.y * (disk.y * radius);
+        const Three d =
+            seen_.toCentre + seen_.x * (disk.x * radius_) + seen_.y * (disk.y * radius_);
         const Floats distance2 = dot(d, d), distance = sqrt(distance2);
         const Three toLight = d / distance;
         const Floats cosAtDisk = dot(toLight, seen_.z);
-        const Attenuation& fade = lamp_.attenuation;
-        const Floats faded = Floats(fade.quadratic) * distance2 + Floats(fade.linear) * distance +
-                             Floats(fade.constant);
-        const Three irradiance =
-            Three::all(lamp_.intensity.r, lamp_.intensity.g, lamp_.intensity.b) *
-            (cosAtDisk / faded);
+        const Floats faded = quadratic_ * distance2 + linear_ * distance + constant_;
+        const Three irradiance = intensity_ * (cosAtDisk / faded);
         lit &= ~black(irradiance) & lit_.rises(toLight);
         const Three reflected =
             lit_.template reflected<kMayShine>(Three::load(block_.n, first_), toLight, lit);
         const Three light =
-            Three::load(block_.weight, first_) * reflected * irradiance * Floats(share);
-        return {light, toLight, distance, lit & ~black(light)};
+            Three::load(block_.weight, first_) * reflected * irradiance * share_;
+        return {light, toLight, distance, lit};
     }
 
 private:
-    const PointEmission& lamp_;
     const LitBlock& block_;
     std::size_t first_;
     LitLanes<PointsInRow> lit_;
     LampSeen seen_;
+    Floats radius_, constant_, linear_, quadratic_, share_;
+    Three intensity_;
 };
 
 inline void store(const Three& v, float* x, float* y, float* z) {
@@ -96,8 +96,9 @@ void sumSamples(const SoftLanes& lanes, const SamplesOnLamp& samples, const Line
     Three sum = before;
     for (std::size_t s = 0; s < samples.count; ++s) {
         const DiskLanes disk{Floats::load(places[s].x), Floats::load(places[s].y)};
-        SoftLanes::Sample by = lanes.sample<kMayShine>(disk, asked, samples.share);
+        SoftLanes::Sample by = lanes.sample<kMayShine>(disk, asked);
         if ((by.lit & mayBeHidden) != 0) {
+            by.lit &= ~black(by.light);
             const auto [hidden, unsure] = lines.ask(by.toLight, by.distance, by.lit & mayBeHidden);
             by.lit &= ~hidden, waiting |= unsure;
             const std::size_t to = s * kPoints + first;
@@ -120,7 +121,7 @@ void lightBySamples(const PointEmission& lamp, const LitBlock& block, const Samp
                     const Occluders& occluders, const HiddenPoints& hidden, LitBySamples& out) {
     out.lit.fill(0), out.unsure.fill(0);
     for (std::size_t first = 0; first < LitBlock::kPoints; first += W) {
-        const SoftLanes lanes(lamp, block, first);
+        const SoftLanes lanes(lamp, block, places.share, first);
         if (lanes.lanesOf(places.points) == 0) continue;
         const LinesToLamp lines(block, occluders, hidden, first);
         if (lanes.isShiny())
