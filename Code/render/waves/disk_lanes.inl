@@ -187,7 +187,8 @@ struct DiskRow {
 };
 
 // u and v of so many samples of each stream.
-inline void drawPairs(const PairsInLanes& pairs, DiskRow* rows, std::uint32_t count) {
+template <class Row>
+inline void drawPairs(const PairsInLanes& pairs, Row* rows, std::uint32_t count) {
     for (std::size_t i = 0; i < W; i += kSobolLanes) {
         RunsOfPairs(pairs, i).each(count, [&](std::uint32_t s, const Pair<Bits>& pair) {
             storeUnit(pair.x, rows[s].u + i), storeUnit(pair.y, rows[s].v + i);
@@ -195,19 +196,17 @@ inline void drawPairs(const PairsInLanes& pairs, DiskRow* rows, std::uint32_t co
     }
 }
 
-// x and y from u and v. Row by row, and nothing is called: the processor works at several.
-inline void placeOnDisk(DiskRow* rows, std::size_t count) {
-    unsigned unsure = 0;
-    for (DiskRow* row = rows; row != rows + count; ++row) {
-        const DiskLanes disk = nearlyOnDisk(Floats::load(row->u), Floats::load(row->v), unsure);
-        disk.x.store(row->x), disk.y.store(row->y);
+// x and y from u and v; lanes that take placeSurely() are added to `unsure`.
+inline void placeOnDisk(DiskRow& row, unsigned& unsure) {
+    const DiskLanes disk = nearlyOnDisk(Floats::load(row.u), Floats::load(row.v), unsure);
+    disk.x.store(row.x), disk.y.store(row.y);
+}
+inline void placeSurely(DiskRow& row, unsigned lanes) {
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
+        const Vec2 place = diskFromSquare({row.u[i], row.v[i]});
+        row.x[i] = place.x, row.y[i] = place.y;
     }
-    for (; unsure != 0; unsure &= unsure - 1)
-        for (DiskRow* row = rows; row != rows + count; ++row) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(unsure));
-            const Vec2 place = diskFromSquare({row->u[i], row->v[i]});
-            row->x[i] = place.x, row->y[i] = place.y;
-        }
 }
 
 } // namespace
