@@ -84,9 +84,9 @@ struct SixteenNumbers {
     }
 };
 
-// Seeds and first sample number of W streams of pairs.
+// Seeds and first sample numbers of W streams of pairs.
 struct PairsInLanes {
-    alignas(64) std::uint32_t index[W], x[W], y[W], sample[W];
+    const std::uint32_t *index, *x, *y, *sample;
 };
 
 // kSobolLanes of them, from `first` on.

@@ -88,10 +88,8 @@ inline void store(const Three& v, float* x, float* y, float* z) {
 // divides for others.
 inline void findRows(const SoftLanes& lanes, const SamplesOnLamp& samples, std::size_t first,
                      LampRow* rows) {
-    PairsInLanes pairs;
-    for (std::size_t i = 0; i < W; ++i)
-        pairs.index[i] = samples.index[first + i], pairs.x[i] = samples.x[first + i],
-        pairs.y[i] = samples.y[first + i], pairs.sample[i] = samples.first[first + i];
+    const PairsInLanes pairs{samples.index + first, samples.x + first, samples.y + first,
+                             samples.first + first};
     drawPairs(pairs, rows, static_cast<std::uint32_t>(samples.count));
     unsigned unsure = 0;
     placeOnDisk(rows[0], unsure);
