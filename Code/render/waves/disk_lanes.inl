@@ -159,13 +159,11 @@ inline Doubles sineOf(const Doubles& w) {
     return polynomial(w, c);
 }
 
-// The float that all numbers within 2^-40 of v round to; lanes where there is no such one are added
-// to `unsure` (Ziv 1991).
+// What all numbers within 2^-40 of v round to; lanes where there is no such float are added to
+// `unsure` (Ziv 1991).
 inline Floats surelyRounded(const Doubles& v, unsigned& unsure) {
-    const Floats up = (v * Doubles(1 + 0x1p-40)).toFloats(),
-                 down = (v * Doubles(1 - 0x1p-40)).toFloats();
-    unsure |= bits(up == down) ^ ((1u << W) - 1);
-    return up;
+    unsure |= nearMiddle(v);
+    return v.toFloats();
 }
 
 // Reckoned to 2^-41, which is enough for nearly all places; diskFromSquare() is right to 2^-50 and
@@ -175,6 +173,7 @@ inline Floats surelyRounded(const Doubles& v, unsigned& unsure) {
     const Floats two(2.0f), one(1.0f), x = two * u - one, y = two * v - one;
     const Mask isSide = abs(y) < abs(x);
     const Floats longer = select(isSide, x, y), shorter = select(isSide, y, x);
+    unsure |= bits(longer == Floats(0.0f));
     const Doubles radius(longer), aside(shorter), q = nearQuotient(aside, radius), w = q * q;
     const Floats along = surelyRounded(radius * cosineOf(w), unsure),
                  across = surelyRounded(aside * sineOf(w), unsure);
