@@ -166,7 +166,7 @@ private:
 template <class Columns, class ReadFn, class UseFn>
 void readAhead(std::size_t size, const ReadFn& read, const UseFn& use) {
     std::array<Columns, 2> columns;
-    const auto countFrom = [&](std::size_t first) { return std::min<std::size_t>(W, size - first); };
+    const auto countFrom = [&](std::size_t at) { return std::min<std::size_t>(W, size - at); };
     if (size > 0) read(std::size_t{0}, countFrom(0), columns[0]);
     for (std::size_t first = 0; first < size; first += W) {
         const std::size_t next = first + W;

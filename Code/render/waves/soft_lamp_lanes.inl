@@ -117,7 +117,8 @@ void sumSamples(const SoftLanes& lanes, const SamplesOnLamp& samples, const Line
         SoftLanes::Sample by = lanes.sample<kMayShine>(row, asked);
         if ((by.lit & mayBeHidden) != 0) {
             by.lit &= ~black(by.light);
-            const auto [hidden, unsure] = lines.ask(row.toLight, row.distance, by.lit & mayBeHidden);
+            const auto [hidden, unsure] =
+                lines.ask(row.toLight, row.distance, by.lit & mayBeHidden);
             by.lit &= ~hidden, waiting |= unsure;
             const std::size_t to = s * kPoints + first;
             store(by.light, out.light[0] + to, out.light[1] + to, out.light[2] + to);
