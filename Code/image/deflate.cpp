@@ -12,7 +12,7 @@
 
 namespace {
 
-constexpr std::size_t kBlockCodes = 1 << 15; // a new Huffman code about every 30 rows
+constexpr std::size_t kBlockCodes = 1 << 16; // a new Huffman code about every 60 rows
 
 // Some bytes as they are and a match behind them (length 0: none).
 struct Step {
@@ -155,9 +155,10 @@ std::uint64_t bodyBits(const Block& block, std::span<const std::uint8_t> literal
 }
 
 // At most three codes of literals, or those of a match with their extra bits, fit between flushes.
-void putBody(BitWriter& out, const Block& block, const std::vector<HuffmanCode>& literals,
+void putBody(BitWriter& writer, const Block& block, const std::vector<HuffmanCode>& literals,
              const std::vector<HuffmanCode>& distances) {
     static_assert(7 + 3 * kMaxCodeLength <= 56 && 7 + 2 * kMaxCodeLength + 5 + 13 <= 56);
+    BitWriter out = std::move(writer); // in registers: nothing that is written can be part of it
     const std::uint8_t* byte = block.bytes.data();
     for (const Step& step : block.steps) {
         const std::uint8_t* const end = byte + step.literals;
@@ -180,6 +181,7 @@ void putBody(BitWriter& out, const Block& block, const std::vector<HuffmanCode>&
     }
     out.put(literals[kEndOfBlock]);
     out.flush();
+    writer = std::move(out);
 }
 
 void putStored(BitWriter& out, std::span<const std::uint8_t> bytes, bool last) {

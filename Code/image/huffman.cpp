@@ -56,6 +56,14 @@ void limitLengths(std::vector<std::uint32_t>& ofLength, std::size_t longest) {
     }
 }
 
+// The 16 bits from the last to the first.
+std::uint32_t reversed16(std::uint32_t x) {
+    x = (x & 0x5555) << 1 | (x >> 1 & 0x5555);
+    x = (x & 0x3333) << 2 | (x >> 2 & 0x3333);
+    x = (x & 0x0F0F) << 4 | (x >> 4 & 0x0F0F);
+    return (x & 0x00FF) << 8 | x >> 8;
+}
+
 } // namespace
 
 std::vector<std::uint8_t> huffmanLengths(std::span<const std::uint32_t> counts,
@@ -88,9 +96,8 @@ std::vector<HuffmanCode> canonicalCodes(std::span<const std::uint8_t> lengths) {
         const unsigned n = lengths[s];
         if (n == 0) continue;
         const std::uint32_t code = next[n]++;
-        std::uint32_t reversed = 0;
-        for (unsigned i = 0; i < n; ++i) reversed |= (code >> i & 1) << (n - 1 - i);
-        codes[s] = {static_cast<std::uint16_t>(reversed), static_cast<std::uint8_t>(n)};
+        const std::uint32_t fromBack = reversed16(code) >> (16 - n);
+        codes[s] = {static_cast<std::uint16_t>(fromBack), static_cast<std::uint8_t>(n)};
     }
     return codes;
 }

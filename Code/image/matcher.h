@@ -44,6 +44,7 @@ public:
     // Where speed and size meet for pictures (measured with filtered 1920x1080 renders).
     static constexpr std::size_t kShortRun = 4;   // the shortest match with the byte before
     static constexpr std::size_t kShortMatch = 6; // the shortest match elsewhere
+    static constexpr std::size_t kNoiseMatch = 8; // and in noise, where it spares few bits
 
     explicit MatchFinder(std::span<const std::uint8_t> bytes)
         : bytes_(bytes), latest_(std::size_t{1} << kHashBits) {}
@@ -52,23 +53,33 @@ public:
     std::size_t end() const { return bytes_.size() - std::min<std::size_t>(bytes_.size(), 7); }
     bool canLook(std::size_t at) const { return at < end(); }
     // Places go in once, in order, before any place after them is looked for.
-    void insert(std::size_t at) { latest_[hashAt(at)] = static_cast<std::uint16_t>(at + 1); }
-    // Inserts the place; a match longer than `atLeast`, or none. Runs of one byte come first: a
-    // filtered picture is full of them.
-    Match look(std::size_t at, std::size_t atLeast) {
-        std::uint16_t& latest = latest_[hashAt(at)];
+    void insert(std::size_t at) {
+        latest_[hashOf(eightAt(at))] = static_cast<std::uint16_t>(at + 1);
+    }
+    // Inserts the place; a match longer than `atLeast`, or none; elsewhere than with the byte
+    // before it has `shortest` bytes. Runs of one byte come first: a filtered picture is full of
+    // them.
+    Match look(std::size_t at, std::size_t atLeast, std::size_t shortest) {
+        const std::uint64_t here = eightAt(at);
+        std::uint16_t& latest = latest_[hashOf(here)];
         // Wrong for places of long ago: what is there is compared anyway.
         const std::size_t distance = static_cast<std::uint16_t>(at + 1 - latest);
-        const bool isThere = latest != 0 && distance != 0 && distance <= std::min(at, kWindow);
+        const bool isThere = (latest != 0) & (distance != 0) & (distance <= std::min(at, kWindow));
         latest = static_cast<std::uint16_t>(at + 1);
+        const std::uint64_t fromRun = here ^ eightAt(at - (at > 0 ? 1 : 0));
+        const std::uint64_t fromLatest = here ^ eightAt(at - (isThere ? distance : 0));
+        const bool isRun = (at > 0) & isZero(fromRun, kShortRun);
+        const bool isMatch = isThere & isZero(fromLatest, shortest);
+        // One branch for all that is to be: most looks find nothing.
+        if (!(isRun | isMatch)) return {};
         Match best;
-        if (at > 0 && startsEqual(at, at - 1, kShortRun)) {
-            const std::size_t length = lengthAt(at, at - 1);
+        if (isRun) {
+            const std::size_t length = lengthAt(at, 1, fromRun);
             if (length > atLeast) best = {length, 1};
+            if (best.length == kLongestMatch) return best;
         }
-        if (best.length == kLongestMatch) return best;
-        if (isThere && startsEqual(at, at - distance, kShortMatch)) {
-            const std::size_t length = lengthAt(at, at - distance);
+        if (isMatch) {
+            const std::size_t length = lengthAt(at, distance, fromLatest);
             if (length > std::max(atLeast, best.length)) best = {length, distance};
         }
         return best;
@@ -80,16 +91,20 @@ private:
     std::uint64_t eightAt(std::size_t at) const {
         return loadLittle<std::uint64_t>(bytes_.data() + at);
     }
-    std::size_t hashAt(std::size_t at) const {
+    static std::size_t hashOf(std::uint64_t eight) {
         // 2^64 / golden ratio
-        return (eightAt(at) << (64 - 8 * kShortMatch)) * 0x9E3779B97F4A7C15u >> (64 - kHashBits);
+        return (eight << (64 - 8 * kShortMatch)) * 0x9E3779B97F4A7C15u >> (64 - kHashBits);
     }
-    bool startsEqual(std::size_t a, std::size_t b, std::size_t count) const {
-        return (eightAt(a) ^ eightAt(b)) << (64 - 8 * count) == 0;
+    // The first `count` bytes?
+    static bool isZero(std::uint64_t eight, std::size_t count) {
+        return eight << (64 - 8 * count) == 0;
     }
-    std::size_t lengthAt(std::size_t here, std::size_t there) const {
-        const std::size_t most = std::min(kLongestMatch, bytes_.size() - here);
-        return commonLength(bytes_.data() + here, bytes_.data() + there, most);
+    // `different` is zero where the first eight bytes are equal.
+    std::size_t lengthAt(std::size_t at, std::size_t distance, std::uint64_t different) const {
+        if (different != 0) return static_cast<std::size_t>(std::countr_zero(different)) / 8;
+        const std::uint8_t* const ninth = bytes_.data() + at + 8;
+        const std::size_t most = std::min(kLongestMatch, bytes_.size() - at) - 8;
+        return 8 + commonLength(ninth, ninth - distance, most);
     }
 
     std::span<const std::uint8_t> bytes_;
@@ -106,14 +121,15 @@ public:
     std::size_t next(std::size_t at, std::size_t limit, Match& match) {
         const std::size_t first = at;
         for (std::size_t misses = 0; at < limit && finder_.canLook(at); ++misses) {
-            match = finder_.look(at, 0);
+            const bool isNoise = misses > kNoiseMisses;
+            match = finder_.look(at, 0, isNoise ? Finder::kNoiseMatch : Finder::kShortMatch);
             if (match.length > 0) {
                 lookFurther(at, match);
                 extendBack(first, at, match);
                 return at;
             }
             // In noise a look is worth less and less.
-            const std::size_t end = at + std::min(kLongestStep, 1 + (misses >> kPatience));
+            const std::size_t end = at + std::min(kLongestStep, 1 + misses);
             while (++at < end && finder_.canLook(at)) finder_.insert(at);
         }
         match = {};
@@ -121,24 +137,32 @@ public:
     }
     // The places in a match; of long ones, which are runs most of the time, the last two.
     void skip(std::size_t at, std::size_t length) {
-        constexpr std::size_t kLong = 32;
+        constexpr std::size_t kLong = 32, kGroup = 4;
         const std::size_t end = std::min(at + length, finder_.end());
-        for (std::size_t i = std::max(length <= kLong ? at + 1 : at + length - 2, looked_ + 1);
-             i < end; ++i)
-            finder_.insert(i);
+        std::size_t i = std::max(length <= kLong ? at + 1 : at + length - 2, looked_ + 1);
+        if (end < i + kGroup) {
+            for (; i < end; ++i) finder_.insert(i);
+            return;
+        }
+        // In groups, whose number the processor guesses more often than that of the places; the
+        // last one repeats some of the one before.
+        for (; i + kGroup < end; i += kGroup)
+            for (std::size_t k = 0; k < kGroup; ++k) finder_.insert(i + k);
+        for (std::size_t k = end - kGroup; k < end; ++k) finder_.insert(k);
     }
 
 private:
-    static constexpr std::size_t kGoodMatch = 16; // long enough: no look at the next place
-    static constexpr unsigned kPatience = 1;      // every 2^1 looks without a match: longer steps
-    static constexpr std::size_t kLongestStep = 16;
+    using Finder = MatchFinder;
+    static constexpr std::size_t kGoodMatch = 8;    // long enough: no look at the next place
+    static constexpr std::size_t kNoiseMisses = 12; // looks without a match
+    static constexpr std::size_t kLongestStep = 32;
 
     // A longer match one place later is worth a literal (lazy matching, RFC 1951 section 4).
     void lookFurther(std::size_t& at, Match& match) {
         looked_ = at;
         while (match.length < kGoodMatch && finder_.canLook(at + 1)) {
             looked_ = at + 1;
-            const Match later = finder_.look(at + 1, match.length);
+            const Match later = finder_.look(at + 1, match.length, Finder::kShortMatch);
             if (later.length == 0) return;
             match = later;
             ++at;

@@ -85,10 +85,17 @@ public:
     }
 
     template <PngFilter filter> void write(std::span<std::uint8_t> out) const {
-        for (std::size_t i = 0; i < row_.size(); i += kVector) {
-            const Lanes lanes = load(row_.data() + i) - predict<filter>(neighbours(i));
-            std::memcpy(out.data() + i, &lanes, std::min(kVector, row_.size() - i));
+        const auto lanesAt = [&](std::size_t i) {
+            return load(row_.data() + i) - predict<filter>(neighbours(i));
+        };
+        std::size_t i = 0;
+        for (; i + kVector <= row_.size(); i += kVector) { // a size that is known: one store
+            const Lanes lanes = lanesAt(i);
+            std::memcpy(out.data() + i, &lanes, kVector);
         }
+        if (i == row_.size()) return;
+        const Lanes lanes = lanesAt(i);
+        std::memcpy(out.data() + i, &lanes, row_.size() - i);
     }
 
 private:

@@ -43,7 +43,9 @@ inline void raysFrom(const Camera::RoundLens& lens, LensBlock& block, std::size_
     const Doubles3 sharp = eye + line * (Doubles(lens.focusDistance) / dot(line, forward));
     DiskRow place;
     Floats::load(block.u + first).store(place.u), Floats::load(block.v + first).store(place.v);
-    placeOnDisk(&place, 1);
+    unsigned unsure = 0;
+    placeOnDisk(place, unsure);
+    placeSurely(place, unsure);
     placeRounded(place);
     const Doubles3 onLens = right * (Doubles(Floats::load(place.x)) / Doubles(lens.apertureRatio)) +
                             up * Doubles(Floats::load(place.y));

@@ -53,6 +53,7 @@ MeshGeometry placedGeometry(const MeshDesc& mesh, const Transform& sceneFromMesh
     append(out.normalTriangles, mesh.normalTriangles, 0, threads, flip);
     out.uvs = mesh.uvs;
     append(out.uvTriangles, mesh.uvTriangles, 0, threads, flip);
+    if (slotBase == 0 && mesh.triangleMaterials.empty()) return out;
     out.slots.assign(mesh.triangles.size(), slotBase);
     for (std::size_t i = 0; i < mesh.triangleMaterials.size(); ++i)
         out.slots[i] += mesh.triangleMaterials[i];
@@ -97,5 +98,8 @@ void MergedMesh::add(const MeshDesc& mesh, const Transform& sceneFromMesh,
     geometry.points.insert(geometry.points.end(), part.points.begin(), part.points.end());
     geometry.normals.insert(geometry.normals.end(), part.normals.begin(), part.normals.end());
     geometry.uvs.insert(geometry.uvs.end(), part.uvs.begin(), part.uvs.end());
+    if (geometry.slots.empty() && part.slots.empty()) return;
+    geometry.slots.resize(before);
     geometry.slots.insert(geometry.slots.end(), part.slots.begin(), part.slots.end());
+    geometry.slots.resize(before + count);
 }

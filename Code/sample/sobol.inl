@@ -11,7 +11,7 @@ template <class Bits> constexpr Bits reversed(Bits x) {
 
 // Owen scrambling of a number whose bits are reversed: every bit is flipped by a hash of the bits
 // below it. Constants of Vegdahl, "Building a Better LK Hash" (2021), after Laine and Karras.
-template <class Bits> constexpr Bits scrambledReversed(Bits x, Bits seed) {
+template <class X, class Bits> constexpr X scrambledReversed(X x, Bits seed) {
     x ^= x * 0x3d20adeau;
     x += seed;
     x *= (seed >> 16) | 1u;

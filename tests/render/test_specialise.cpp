@@ -91,11 +91,37 @@ TEST(specialisedFormsGiveTheSameBits) {
     }
 }
 
+struct TileCounts {
+    int empty = 0, blank = 0;
+};
+
+// No tile of `side` by `side` pixels may be called empty of which a ray meets anything.
+void checkEmptyTiles(const SceneDesc& desc, int side, const std::string& which,
+                     TileCounts& counts) {
+    RenderSettings settings;
+    settings.picture = desc.settings;
+    const Scene scene(desc, {"scene", ""}, settings);
+    const IntegratorContext context(scene, settings);
+    const CameraRays rays(context);
+    const EmptyTiles tiles(context, rays);
+    for (int y = 0; y + side <= kView.pixels; y += side)
+        for (int x = 0; x + side <= kView.pixels; x += side) {
+            SampleChunk chunk;
+            rays.make({x, y, x + side, y + side}, 0, settings.picture.samplesPerPixel, chunk);
+            bool isBlank = true;
+            for (std::size_t k = 0; k < chunk.cameraRays.size(); ++k)
+                isBlank &= !scene.shapes().closest(chunk.cameraRays.ray(k)).isHit();
+            const bool isEmpty = tiles.isEmpty({x, y, x + side, y + side});
+            CHECK_INFO(isBlank || !isEmpty, which << ", tile " << x << " " << y);
+            counts.empty += isEmpty, counts.blank += isBlank;
+        }
+}
+
 // A tile is called empty only if no ray of its places meets anything; and most of those are found
 // whose neighbourhood shows nothing.
 TEST(emptyTilesAreEmpty) {
     meshes::Random random(603);
-    int empty = 0, blank = 0;
+    TileCounts counts;
     for (int i = 0; i < check::scaled(40); ++i) {
         SceneDesc desc = shot::parse(kView.text() + kPlain + kBall);
         for (ObjectDesc& object : desc.objects) {
@@ -110,30 +136,41 @@ TEST(emptyTilesAreEmpty) {
         camera.clipStart = 0;
         const Vec3d eye = random.direction() * random.uniform(3, 9);
         camera.worldFromCamera = {Transform::lookAt(eye, random.inBox(2), {0, 0, 1}).rows()};
-        RenderSettings settings;
-        settings.picture = desc.settings;
-        settings.picture.filterWidth = random.uniform(0, 3);
-        settings.picture.samplesPerPixel = 4;
-        if (random.chance(0.3)) settings.picture.sampler = SettingsDesc::Sampler::Corners;
-        const Scene scene(desc, {"scene", ""}, settings);
-        const IntegratorContext context(scene, settings);
-        const CameraRays rays(context);
-        const EmptyTiles tiles(context, rays);
+        desc.settings.filterWidth = random.uniform(0, 3);
+        desc.settings.samplesPerPixel = 4;
+        if (random.chance(0.3)) desc.settings.sampler = SettingsDesc::Sampler::Corners;
         const int side = 1 + static_cast<int>(random.below(6));
-        for (int y = 0; y + side <= 24; y += side)
-            for (int x = 0; x + side <= 24; x += side) {
-                SampleChunk chunk;
-                rays.make({x, y, x + side, y + side}, 0, 4, chunk);
-                bool isBlank = true;
-                for (std::size_t k = 0; k < chunk.cameraRays.size(); ++k)
-                    isBlank &= !scene.shapes().closest(chunk.cameraRays.ray(k)).isHit();
-                const bool isEmpty = tiles.isEmpty({x, y, x + side, y + side});
-                CHECK_INFO(isBlank || !isEmpty,
-                           "scene " << i << " of seed 603, tile " << x << " " << y);
-                empty += isEmpty, blank += isBlank;
-            }
+        checkEmptyTiles(desc, side, "scene " + std::to_string(i) + " of seed 603", counts);
     }
-    CHECK_INFO(empty > blank / 2, empty << " of " << blank); // boxes are larger than spheres
+    CHECK_INFO(counts.empty > counts.blank / 2, // boxes are larger than spheres
+               counts.empty << " of " << counts.blank);
+}
+
+// From far away, where pixels are as small as what rays are rounded to, a ball may be seen by a
+// tile whose view it misses by as much.
+TEST(emptyTilesOfTelescopesAreEmpty) {
+    meshes::Random random(604);
+    TileCounts counts;
+    for (int i = 0; i < check::scaled(40); ++i) {
+        SceneDesc desc = shot::parse(kView.text() + kPlain + "sphere s {\n material m\n}\n");
+        const double away = random.logUniform(1e3, 1e5),
+                     wide = away * random.logUniform(1e-5, 1e-2);
+        desc.objects[0].worldFromObject = {(Transform::translate(random.inBox(wide / 2)) *
+                                            Transform::scale(wide * random.logUniform(0.005, 0.1)))
+                                               .rows()};
+        CameraDesc& camera = desc.cameras[0];
+        camera.kind =
+            random.chance(0.5) ? CameraDesc::Kind::Orthographic : CameraDesc::Kind::Perspective;
+        camera.orthoScale = wide;
+        camera.lensMm = camera.sensorWidthMm * away / wide;
+        camera.clipStart = 0;
+        const Vec3d eye = random.direction() * away;
+        camera.worldFromCamera = {Transform::lookAt(eye, {}, {0, 0, 1}).rows()};
+        desc.settings.samplesPerPixel = 4;
+        checkEmptyTiles(desc, 1 + static_cast<int>(random.below(6)),
+                        "scene " + std::to_string(i) + " of seed 604", counts);
+    }
+    CHECK_INFO(counts.empty > counts.blank / 10, counts.empty << " of " << counts.blank);
 }
 
 // Whatever is in the way of telling: surfaces without end, lenses, moving cameras, environments.

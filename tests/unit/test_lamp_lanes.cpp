@@ -193,9 +193,11 @@ TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
                                                  : 1 + random.below(16);
             samples.share = 1.0f / static_cast<float>(samples.count);
             std::uint32_t pixel[16], dimension = 8 * random.below(3);
+            // Samples in step differ from each other in the lower four bits only.
+            const std::uint32_t step = random.chance(0.5) ? 1 : random.chance(0.5) ? 8 : 16;
             for (std::size_t k = 0; k < used; ++k) {
                 pixel[k] = random.below(std::size_t{1} << 32);
-                samples.first[k] = random.below(1000);
+                samples.first[k] = step * random.below(1000);
                 const Sampler::PairSeeds seeds = sampler.pairSeeds(pixel[k], dimension);
                 samples.index[k] = seeds.index, samples.x[k] = seeds.x, samples.y[k] = seeds.y;
             }

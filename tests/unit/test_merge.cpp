@@ -87,6 +87,23 @@ TEST(merge_slots_and_parts) {
     CHECK(mesh.surface(ray, hit).material == 12 && mesh.surface(ray, hit).object == 6);
 }
 
+// The first material is told by no list, until a mesh has another one.
+TEST(merge_lists_slots_where_there_are_several) {
+    MergedMesh merged;
+    merged.add(triangle(), {}, {}, 0); // of no material, for which nothing is counted
+    merged.add(triangle(), {}, {7}, 1);
+    CHECK(merged.geometry.slots.empty());
+    merged.add(triangle(), {}, {8}, 2);
+    CHECK(merged.geometry.slots == (std::vector<std::uint32_t>{0, 0, 1}));
+    CHECK(merged.materials == (std::vector<std::uint32_t>{7, 8}));
+    MergedMesh several;
+    MeshDesc second = triangle();
+    second.triangleMaterials = {1};
+    several.add(second, {}, {}, 0);
+    several.add(triangle(), {}, {}, 1);
+    CHECK(several.geometry.slots == (std::vector<std::uint32_t>{1, 0}));
+}
+
 // Of meshes with and without normals or coordinates each looks as it does alone.
 TEST(merge_marks_what_is_missing) {
     const MeshDesc smooth = meshes::uvSphere(8, 4);

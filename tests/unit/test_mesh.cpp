@@ -162,37 +162,6 @@ TEST(mesh_normals_point_outward) {
     CHECK_INFO(worstSmooth < 0.1, worstSmooth); // a facet of 1/64, stretched 16 times at most
 }
 
-TEST(mesh_drops_triangles_whose_corners_coincide) {
-    MeshDesc desc = squareWithUvs();
-    desc.points.push_back({1, 0, 0}); // on the edge 0-1
-    desc.triangles = {{0, 1, 2}, {0, 1, 4}, {1, 1, 2}, {0, 2, 3}, {3, 3, 3}};
-    desc.uvTriangles = {{0, 1, 2}, {0, 0, 0}, {0, 0, 0}, {0, 2, 3}, {0, 0, 0}};
-    desc.triangleMaterials = {0, 1, 1, 2, 1};
-    MeshGeometry g = toGeometry(desc, {});
-    CHECK_EQUAL(g.dropDegenerate(), 3u);
-    // The one with its corners on a line closes the gap between its neighbours.
-    CHECK(g.triangles == (std::vector<MeshGeometry::Corners>{{0, 1, 2}, {0, 1, 4}, {0, 2, 3}}));
-    CHECK(g.uvTriangles == (std::vector<MeshGeometry::Corners>{{0, 1, 2}, {0, 0, 0}, {0, 2, 3}}));
-    CHECK(g.slots == (std::vector<std::uint32_t>{0, 1, 2}) && g.normalTriangles.empty());
-    CHECK_EQUAL(g.dropDegenerate(), 1u);
-
-    // Those with the smallest area stay: two floats apart in one coordinate.
-    MeshGeometry thin;
-    thin.points = {{0, 0, 0}, {1, 1, 1}, {1, 1, nextUp(1.0f)}};
-    thin.triangles = {{0, 1, 2}};
-    CHECK_EQUAL(thin.dropDegenerate(), 0u);
-
-    // Nothing is left: no box, no hit, no trouble.
-    MeshGeometry none;
-    none.points = {{1, 2, 3}};
-    none.triangles = {{0, 0, 0}};
-    CHECK_EQUAL(none.dropDegenerate(), 1u);
-    none.finish(true);
-    const Mesh empty(none, {0}, kOnePart);
-    Hit hit;
-    CHECK(empty.bounds().isEmpty() && !empty.intersect(rayTo({0, 0, 0}, {1, 2, 3}), hit));
-}
-
 // A ray that leaves a triangle of any shape by its error does not meet that triangle.
 TEST(mesh_needles_do_not_hit_themselves) {
     Random random(54);

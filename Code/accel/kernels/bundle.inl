@@ -10,13 +10,13 @@
 template <Query Q> class Bundle {
 public:
     using Range = typename BundleRays<Q>::Range;
-    struct Entry { // of the stack
-        float z;
-        WideRef ref;
-    };
 
-    Bundle(const WideMesh& mesh, const RaySpan& rays, Vec3 origin, Entry* stack)
-        : mesh_(mesh), rays_(mesh, rays, origin), leaf_(mesh, rays_), stack_(stack) {}
+    Bundle(const WideMesh& mesh, const RaySpan& rays, Vec3 origin)
+        : mesh_(mesh), rays_(mesh, rays, origin), leaf_(mesh, rays_) {
+        const std::size_t stride = strideOfStacks(mesh.tree.stackSize);
+        refs_ = reinterpret_cast<WideRef*>(scratchMemory(2 * stride * sizeof(WideRef)));
+        entries_ = refs_ + stride;
+    }
 
     // Answers the rays of the list. Those that are rays from one point to places all over the
     // scene, and no bundle, are given back: the queue is faster for them.
@@ -30,9 +30,8 @@ public:
         rays_.refuse(results);
         while (rays_.nextRound()) {
             const float noLimit = std::numeric_limits<float>::max();
-            alignas(64) float entry[W];
             const auto& root = mesh_.tree.at<WideNode<W>>(mesh_.tree.root);
-            if (enteredChildren(root, noLimit, entry) == 0) {
+            if (bits(enteredChildren(root, noLimit).any) == 0) {
                 rays_.writeMisses(results);
                 continue;
             }
@@ -54,32 +53,42 @@ private:
         WideRef at = mesh_.tree.root;
         while (leaf_.zCut() >= 0) {
             if (kindOf(at) == WideKind::Node) {
-                enter(mesh_.tree.at<WideNode<W>>(at));
+                if (enter(at)) continue;
             } else {
                 if (leaves_ > mostLeaves_ && work() > mostWork_) return false;
                 ++leaves_;
                 leaf_.test(at);
             }
-            do {
-                if (size_ == 0) return true;
-                --size_;
-            } while (stack_[size_].z > leaf_.zCut());
-            at = stack_[size_].ref;
+            if (!pop(at)) return true;
         }
         return true;
     }
 
-    void enter(const WideNode<W>& node) {
-        alignas(64) float z[W];
-        const std::uint32_t before = size_;
-        for (unsigned hit = enteredChildren(node, leaf_.zCut(), z); hit != 0; hit &= hit - 1) {
-            const int i = std::countr_zero(hit);
-            prefetch(node.child[i]);
-            std::uint32_t place = size_++; // the nearest on top
-            for (; place > before && stack_[place - 1].z < z[i]; --place)
-                stack_[place] = stack_[place - 1];
-            stack_[place] = {z[i], node.child[i]};
-        }
+    // Goes to the nearest child that the bundle enters, the others go onto the stack; false: there
+    // is none.
+    bool enter(WideRef& at) {
+        const auto& node = mesh_.tree.at<WideNode<W>>(at);
+        const Children hit = enteredChildren(node, leaf_.zCut());
+        const int count = std::popcount(bits(hit.any));
+        if (count == 0) return false;
+        WideRef* const refs = refs_ + size_;
+        at = pushSorted(hit.any, count, hit.entry, node.child, refs, entries_ + size_);
+        for (int i = 0; i < count; ++i) prefetch(refs[i]);
+        size_ += static_cast<std::uint32_t>(count) - 1;
+        return true;
+    }
+
+    // Takes the nearest of what no hit hides, or anything when all rays are done; false: there is
+    // none.
+    bool pop(WideRef& at) {
+        // The lowest four bits of an entry don't count.
+        const std::uint32_t limit = std::bit_cast<std::uint32_t>(leaf_.zCut()) | 15;
+        while (size_ != 0)
+            if (entries_[--size_] <= limit) {
+                at = refs_[size_];
+                return true;
+            }
+        return false;
     }
 
     void prefetch(WideRef ref) const {
@@ -89,12 +98,16 @@ private:
     }
 
     // Children that the rectangle's pyramid enters in front of zCut, and their depths.
-    unsigned enteredChildren(const WideNode<W>& node, float zCut, float* entry) const {
+    struct Children {
+        Mask any;
+        Floats entry;
+    };
+    Children enteredChildren(const WideNode<W>& node, float zCut) const {
         const Floats s(rays_.sign), zero(0.0f), oz(rays_.origin[rays_.k]);
         const bool backwards = rays_.sign < 0;
         const Floats zNear = (Floats::load(node.plane[rays_.k][backwards ? 1 : 0]) - oz) * s;
         const Floats zFar = (Floats::load(node.plane[rays_.k][backwards ? 0 : 1]) - oz) * s;
-        max(zNear, zero).store(entry);
+        const Floats entry = max(zNear, zero);
         const Mask ahead = (zFar > zero) & (zNear <= Floats(zCut));
         // Of S z with S in the range and z in the box, the extremes are at corners.
         if (bits(ahead & (zNear < zero)) != 0) [[unlikely]] {
@@ -104,14 +117,14 @@ private:
                 return ((Floats::load(node.plane[axis][0]) - o) <= max(max(a, b), max(c, d))) &
                        ((Floats::load(node.plane[axis][1]) - o) >= min(min(a, b), min(c, d)));
             };
-            return bits(ahead & meets(rays_.kx, rays_.x) & meets(rays_.ky, rays_.y));
+            return {ahead & meets(rays_.kx, rays_.x) & meets(rays_.ky, rays_.y), entry};
         }
         const auto meets = [&](std::size_t axis, Range S) {
             const Floats o(rays_.origin[axis]), lo(S.lo), hi(S.hi);
             return ((Floats::load(node.plane[axis][0]) - o) <= hi * (S.hi > 0 ? zFar : zNear)) &
                    ((Floats::load(node.plane[axis][1]) - o) >= lo * (S.lo > 0 ? zNear : zFar));
         };
-        return bits(ahead & meets(rays_.kx, rays_.x) & meets(rays_.ky, rays_.y));
+        return {ahead & meets(rays_.kx, rays_.x) & meets(rays_.ky, rays_.y), entry};
     }
 
     // A bundle may look at more leaves than it has rays where each of them alone would look at
@@ -128,7 +141,8 @@ private:
     const WideMesh& mesh_;
     BundleRays<Q> rays_;
     BundleLeaf<Q> leaf_;
-    Entry* stack_;
+    WideRef* refs_; // the stack of stack.inl
+    std::uint32_t* entries_;
     std::uint32_t size_ = 0;
     std::size_t leaves_ = 0, mostLeaves_ = 0;
     float mostWork_ = 0;
@@ -166,11 +180,8 @@ private:
 template <Query Q, class Results>
 void traceFromPoint(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order,
                     const Results& results) {
-    using Entry = typename Bundle<Q>::Entry;
     thread_local BundleSize<Q> size;
-    auto* const stack =
-        reinterpret_cast<Entry*>(scratchMemory((mesh.tree.stackSize + W) * sizeof(Entry)));
-    Bundle<Q> bundle(mesh, rays, rays.org[order[0]], stack);
+    Bundle<Q> bundle(mesh, rays, rays.org[order[0]]);
     std::vector<std::uint32_t> givenBack;
     if (mesh.tree.lines.size() > mesh.mostLinesForBundles) {
         givenBack.assign(order.begin(), order.end());

@@ -80,7 +80,8 @@ private:
         const Floats key = keys_.keysOf(planes_[j], Ints(place), q, inside);
         inside = inside & (key < Floats::load(rays_.below[q]));
         if constexpr (Q == Query::Any) {
-            if (bits((best_.keyLo(q) <= key) & notGreater(key, best_.keyHi(q)) & inside) != 0)
+            const Floats lo = best_.keyLo(q), hi = best_.keyHi(q);
+            if (bits((lo <= key) & notGreater(key, hi) & (lo < hi) & inside) != 0)
                 best_.settleEnds(q);
             const Mask better = inside & (key > best_.keyHi(q));
             best_.accept(q, place, better, key, key);

@@ -30,6 +30,16 @@ public:
     Vec3 origin;
 
 protected:
+    // Asks for what lies `distance` behind these W elements: the next bundle's, probably. Behind
+    // the end of a batch, the next batch often follows.
+    template <class T> static void prefetchAhead(T* first, std::size_t distance = kMostRays) {
+        constexpr int kToWrite = std::is_const_v<T> ? 0 : 1;
+        const auto ahead = reinterpret_cast<std::uintptr_t>(first) + distance * sizeof(T);
+        for (std::size_t byte = 0; byte < W * sizeof(T); byte += 64)
+            // NOLINTNEXTLINE(performance-no-int-to-ptr): may be behind the end
+            __builtin_prefetch(reinterpret_cast<const void*>(ahead + byte), kToWrite);
+    }
+
     // Its number in the batch.
     std::uint32_t number(int p, int lane) const { return list_[at(p, lane)]; }
     bool isRay(int p, int lane) const { return at(p, lane) < list_.size(); }
@@ -42,7 +52,9 @@ protected:
     // Answers of these lanes of a packet.
     void answer(int p, unsigned lanes, Floats t, Ints triangle, TriangleHit* hits) const {
         if (lanes == (1u << W) - 1 && isFull(p)) {
-            storePairs(t, triangle, &hits[number(p, 0)].t);
+            TriangleHit* const first = &hits[number(p, 0)];
+            prefetchAhead(first);
+            storePairs(t, triangle, &first->t);
             return;
         }
         alignas(64) float ts[W];
@@ -57,12 +69,9 @@ protected:
     void answer(int p, unsigned lanes, Floats t, Weights weights, Ints triangle, Ints shape,
                 Hit* hits) const {
         if (lanes == (1u << W) - 1 && isFull(p)) {
-            const std::uint32_t ray = number(p, 0);
-            if (ray + kMostRays + W <= rays_.size()) { // as for the directions
-                const float* const next = &hits[ray + kMostRays].t;
-                for (int i = 0; i < 5 * W; i += 16) __builtin_prefetch(next + i, 1);
-            }
-            storeRows(t, weights.u, weights.v, triangle, shape, &hits[ray].t);
+            Hit* const first = &hits[number(p, 0)];
+            prefetchAhead(first);
+            storeRows(t, weights.u, weights.v, triangle, shape, &first->t);
             return;
         }
         alignas(64) Hit rows[W];
@@ -102,22 +111,14 @@ private:
         return static_cast<std::size_t>(p) * W + static_cast<std::size_t>(lane);
     }
 
-    // For the next bundle, probably; behind the end of a batch, the next batch often follows.
-    template <class T> static void prefetchAhead(std::span<const T> all, std::uint32_t ray) {
-        const auto next = reinterpret_cast<std::uintptr_t>(&all[ray]) + kMostRays * sizeof(T);
-        for (std::size_t byte = 0; byte < W * sizeof(T); byte += 64)
-            // NOLINTNEXTLINE(performance-no-int-to-ptr): may be behind the end
-            __builtin_prefetch(reinterpret_cast<const void*>(next + byte));
-    }
-
     // Returns the traceable lanes.
     unsigned loadDirections(int p) {
         const std::size_t first = at(p, 0);
         Floats dx, dy, dz_;
         if (isFull(p)) {
             const std::uint32_t ray = list_[first];
-            prefetchAhead(rays_.org, ray), prefetchAhead(rays_.dir, ray);
-            prefetchAhead(rays_.tMin, ray), prefetchAhead(rays_.tMax, ray);
+            prefetchAhead(&rays_.dir[ray]);
+            prefetchAhead(&rays_.org[ray], rays_.size()); // compared before anything is traced
             loadVectors(&rays_.dir[ray].x, dx, dy, dz_);
             dx.store(dir_[0][p]), dy.store(dir_[1][p]), dz_.store(dir_[2][p]);
         } else {

@@ -187,8 +187,10 @@ private:
     bool setRange(int p, int q, Mask on, int spare, Floats z) {
         Floats lo, hi;
         if (isFull(p)) {
-            lo = Floats::unaligned(&rays_.tMin[number(p, 0)]);
-            hi = Floats::unaligned(&rays_.tMax[number(p, 0)]);
+            const float* const tMins = &rays_.tMin[number(p, 0)];
+            const float* const tMaxs = &rays_.tMax[number(p, 0)];
+            prefetchAhead(tMins), prefetchAhead(tMaxs);
+            lo = Floats::unaligned(tMins), hi = Floats::unaligned(tMaxs);
         } else {
             alignas(64) float tLo[W], tHi[W];
             for (int i = 0; i < W; ++i) {

@@ -13,6 +13,10 @@ namespace kernels::avx2 {
 
 #include "accel/kernels/solids_columns_avx2.inl"
 
+#include "accel/kernels/all_lanes.inl"
+
+using FewLanes = AllLanes; // see few_lanes_avx512.inl
+
 #include "accel/kernels/solids.inl"
 } // namespace kernels::avx2
 KERNEL_REGION_END

@@ -13,6 +13,10 @@ namespace kernels::avx512 {
 
 #include "accel/kernels/solids_columns_avx512.inl"
 
+#include "accel/kernels/all_lanes.inl"
+
+#include "accel/kernels/few_lanes_avx512.inl"
+
 #include "accel/kernels/solids.inl"
 } // namespace kernels::avx512
 KERNEL_REGION_END

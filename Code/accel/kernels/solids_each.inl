@@ -48,7 +48,7 @@ private:
         }
         storeMaps(solids, map);
         const SphereRoots roots =
-            PacketSpheres::meet(rays, MapLanes{map}, turned, Doubles::load(radius), on);
+            PacketSpheres::meet(AllLanes(on), rays, MapLanes{map}, turned, Doubles::load(radius));
         if constexpr (A == Answer::Closest) return PacketSpheres::firstOf(roots, ranges);
         return {.t = Floats(0.0f), .lost = Floats(0.0f), .met = hides(roots, ranges)};
     }

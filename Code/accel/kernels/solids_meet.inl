@@ -109,8 +109,12 @@ private:
 
     template <Answer A, class Result>
     void sphere(const SolidTree::Solid& solid, Floats entry, unsigned lanes, Result* results) {
-        const SphereRoots roots = meet(columns_, SameMap{solid.shape->objectFromWorld()},
-                                       solid.turned, solid.shape->radius, lanes);
+        const SameMap map{solid.shape->objectFromWorld()};
+        const double radius = solid.shape->radius;
+        const bool areFew = FewLanes::kMost != 0 && std::popcount(lanes) <= FewLanes::kMost;
+        const SphereRoots roots = areFew
+                                      ? meet(FewLanes(lanes), columns_, map, solid.turned, radius)
+                                      : meet(AllLanes(lanes), columns_, map, solid.turned, radius);
         if (roots.met == 0) return;
         if constexpr (A == Answer::Any)
             hide(hides(roots, ranges()), results);
@@ -147,7 +151,8 @@ private:
     template <Answer A, class Map, class Result>
     [[gnu::noinline]] void sphereBy(const SolidTree::Solid& solid, const Map& map, Floats entry,
                                     unsigned lanes, Result* results) {
-        const SphereRoots roots = meet(columns_, map, solid.turned, solid.shape->radius, lanes);
+        const SphereRoots roots =
+            meet(AllLanes(lanes), columns_, map, solid.turned, solid.shape->radius);
         if (roots.met == 0) return;
         if constexpr (A == Answer::Any)
             hide(hides(roots, ranges()), results);

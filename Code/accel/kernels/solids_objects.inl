@@ -16,7 +16,7 @@ struct ObjectRays {
 // One map in all lanes, or one in each.
 struct SameMap {
     const AffineRows& rows;
-    Doubles operator()(std::size_t i) const { return Doubles(rows[i]); }
+    double operator()(std::size_t i) const { return rows[i]; }
 };
 struct MapLanes {
     const double (*rows)[W];

@@ -6,45 +6,52 @@ protected:
     using PacketTubes::firstOf, PacketTubes::hides, PacketTubes::meet, PacketTubes::PacketTubes;
 
     struct SphereRoots {
-        Doubles enter, exit;
-        Floats t[2];  // the same in float
-        unsigned met; // lanes
+        Floats t[2], lost[2]; // where rays enter and leave; lost: by rounding
+        unsigned met;         // lanes
     };
 
     // Sphere::roots() and insideRound(). A zero of the map adds a zero, which changes no number.
-    template <class Map>
+    template <class Lanes, class Map, class Radius>
     [[gnu::always_inline]] static SphereRoots
-    meet(const RayColumns& rays, const Map& m, bool turned, const Doubles& radius, unsigned lanes) {
-        const Doubles X(rays.org[0]), Y(rays.org[1]), Z(rays.org[2]), U(rays.dir[0]),
-            V(rays.dir[1]), T(rays.dir[2]);
-        const auto point = [&](std::size_t i, const Doubles& x) {
+    meet(const Lanes& in, const RayColumns& rays, const Map& m, bool turned, const Radius& radius) {
+        using Numbers = typename Lanes::Numbers;
+        const Numbers X = in.pick(rays.org[0]), Y = in.pick(rays.org[1]), Z = in.pick(rays.org[2]),
+                      U = in.pick(rays.dir[0]), V = in.pick(rays.dir[1]), T = in.pick(rays.dir[2]);
+        const auto point = [&](std::size_t i, const Numbers& x) -> Numbers {
             if (!turned) return m(i / 4 * 5) * x + m(i + 3);
             return ((m(i) * X + m(i + 1) * Y) + m(i + 2) * Z) + m(i + 3);
         };
-        const auto direction = [&](std::size_t i, const Doubles& x) {
+        const auto direction = [&](std::size_t i, const Numbers& x) -> Numbers {
             if (!turned) return m(i / 4 * 5) * x;
             return (m(i) * U + m(i + 1) * V) + m(i + 2) * T;
         };
-        const Doubles ox = point(0, X), oy = point(4, Y), oz = point(8, Z);
-        const Doubles dx = direction(0, U), dy = direction(4, V), dz = direction(8, T);
-        const Doubles dd = (dx * dx + dy * dy) + dz * dz, od = (ox * dx + oy * dy) + oz * dz;
-        const Doubles oo = (ox * ox + oy * oy) + oz * oz, rr = radius * radius, zero(0.0);
+        const Numbers ox = point(0, X), oy = point(4, Y), oz = point(8, Z);
+        const Numbers dx = direction(0, U), dy = direction(4, V), dz = direction(8, T);
+        const Numbers dd = (dx * dx + dy * dy) + dz * dz, od = (ox * dx + oy * dy) + oz * dz;
+        const Numbers oo = (ox * ox + oy * oy) + oz * oz, r(radius), rr = r * r, zero(0.0);
         // Rays that leave it, as mirrored ones do: outside by more than the 2^-48 that oo, ll and
         // along are off by, they have both roots behind them.
-        lanes &= ~(less(zero, od) & less(rr * Doubles(1 + 0x1p-30), oo) &
-                   bits(rays.tMin >= Floats(0.0f)));
-        if (lanes == 0) return {zero, zero, {}, 0};
-        const Doubles along = od / dd;
-        const Doubles px = ox - dx * along, py = oy - dy * along, pz = oz - dz * along;
-        const Doubles ll = (px * px + py * py) + pz * pz;
-        lanes &= atMost(ll, rr) & less(zero, radius);
-        if (lanes == 0) return {zero, zero, {}, 0};
+        unsigned lanes = in.all() & ~(less(zero, od) & less(rr * Numbers(1 + 0x1p-30), oo) &
+                                      in.pick(bits(rays.tMin >= Floats(0.0f))));
+        SphereRoots out{};
+        if (lanes == 0) return out;
+        const Numbers along = od / dd;
+        const Numbers px = ox - dx * along, py = oy - dy * along, pz = oz - dz * along;
+        const Numbers ll = (px * px + py * py) + pz * pz;
+        lanes &= atMost(ll, rr) & less(zero, r);
+        if (lanes == 0) return out;
 
-        const Doubles most(std::numeric_limits<double>::max());
+        const Numbers most(std::numeric_limits<double>::max());
         lanes &= atMost(dd, most) & atMost(oo, most);
-        const Doubles middle = zero - along, half = sqrt((rr - ll) / dd);
-        const Doubles enter = middle - half, exit = middle + half;
-        return {enter, exit, {enter.toFloats(), exit.toFloats()}, lanes};
+        const Numbers middle = zero - along, half = sqrt((rr - ll) / dd);
+        const auto put = [&](int end, const Numbers& t) {
+            const auto rounded = in.rounded(t);
+            out.t[end] = in.putBack(rounded);
+            out.lost[end] = in.putBack(in.rounded(t - in.exact(rounded)));
+        };
+        put(0, middle - half), put(1, middle + half);
+        out.met = in.putBack(lanes);
+        return out;
     }
 
     static unsigned hides(const SphereRoots& roots, const RayRanges& ranges) {
@@ -54,10 +61,8 @@ protected:
     static FoundLanes firstOf(const SphereRoots& roots, const RayRanges& ranges) {
         const Mask first = roots.t[0] > ranges.tMin;
         const Floats t = select(first, roots.t[0], roots.t[1]);
-        const Doubles lost0 = roots.enter - Doubles(roots.t[0]),
-                      lost1 = roots.exit - Doubles(roots.t[1]);
         return {.t = t,
-                .lost = select(first, lost0.toFloats(), lost1.toFloats()),
+                .lost = select(first, roots.lost[0], roots.lost[1]),
                 .met = roots.met & ranges.hits(t)};
     }
 
@@ -69,12 +74,9 @@ protected:
         const ObjectRays rays = objectRays(columns, map, true);
         const Doubles x(columns.dir[0]), y(columns.dir[1]), z(columns.dir[2]), zero(0.0);
         const Doubles least = Doubles(0x1p-19) * ((x * x + y * y) + z * z) * normalStretch(map);
-        Floats lost[2] = {Floats(0.0f), Floats(0.0f)};
         unsigned sure = ~0u;
         for (const int end : {0, 1}) {
-            const Doubles t(roots.t[end]);
-            lost[end] = ((end == 0 ? roots.enter : roots.exit) - t).toFloats();
-            const Doubles at = t + Doubles(lost[end]);
+            const Doubles at = Doubles(roots.t[end]) + Doubles(roots.lost[end]);
             const Doubles px = rays.ox + rays.dx * at, py = rays.oy + rays.dy * at,
                           pz = rays.oz + rays.dz * at;
             const Doubles facing = (px * rays.dx + py * rays.dy) + pz * rays.dz;
@@ -83,7 +85,7 @@ protected:
         }
         const int seen = side == ::Facets::Side::Front ? 0 : 1;
         return {.t = roots.t[seen],
-                .lost = lost[seen],
+                .lost = roots.lost[seen],
                 .met = roots.met & ranges.hits(roots.t[seen]),
                 .undecided = roots.met & ~sure};
     }

@@ -13,6 +13,10 @@ namespace kernels::sse {
 
 #include "accel/kernels/solids_columns_sse.inl"
 
+#include "accel/kernels/all_lanes.inl"
+
+using FewLanes = AllLanes; // see few_lanes_avx512.inl
+
 #include "accel/kernels/solids.inl"
 } // namespace kernels::sse
 KERNEL_REGION_END

@@ -3,7 +3,26 @@
 
 namespace {
 
-// The numbers of a ball for each lane; lanes behind the last hit repeat it.
+// The balls of W hits and their rays.
+struct BallColumns {
+    // Lanes behind the last hit repeat it.
+    void read(const BallsMet& met, std::span<const std::uint32_t> which) {
+        rays.read(met.rays, met.hits, which);
+        for (std::size_t i = 0; i < W; ++i) {
+            const std::uint32_t ray = which[i < which.size() ? i : which.size() - 1];
+            const StillBalls::Ball& ball = met.balls[met.hits[ray].shape];
+            const auto& [x, y, z] = ball.centre;
+            centre[0][i] = x, centre[1][i] = y, centre[2][i] = z;
+            radius[i] = ball.radius, leastError[i] = ball.leastError;
+            material[i] = ball.material, object[i] = ball.object;
+        }
+    }
+    RayColumns rays;
+    alignas(64) double centre[3][W], radius[W], leastError[W];
+    alignas(64) std::uint32_t material[W], object[W];
+};
+
+// The numbers of a ball for each lane.
 class NumbersOfBalls {
 public:
     // The zeros of the maps are left out: they would add +0 or -0 to a product, which changes
@@ -12,35 +31,25 @@ public:
     // +0 and stay so under a map that does not mirror.
     static constexpr bool kScales = true;
 
-    // Writes whose surfaces they are.
-    NumbersOfBalls(const BallsMet& met, std::span<const std::uint32_t> which, SurfacesInLanes& out)
-        : scale_(met.balls.shared().scale), back_(met.balls.shared().back),
-          errorPerPlace_(met.balls.shared().errorPerPlace) {
-        for (std::size_t i = 0; i < W; ++i) {
-            const std::uint32_t ray = which[i < which.size() ? i : which.size() - 1];
-            const StillBalls::Ball& ball = met.balls[met.hits[ray].shape];
-            const auto& [x, y, z] = ball.centre;
-            centre_[0][i] = x, centre_[1][i] = y, centre_[2][i] = z;
-            radius_[i] = ball.radius, leastError_[i] = ball.leastError;
-            out.material[i] = ball.material, out.object[i] = ball.object;
-        }
-    }
+    NumbersOfBalls(const StillBalls::Shared& shared, const BallColumns& columns)
+        : scale_(shared.scale), back_(shared.back), errorPerPlace_(shared.errorPerPlace),
+          columns_(columns) {}
     [[gnu::always_inline]] Doubles operator()(std::size_t number) const {
         switch (number) {
         case WorldFromObject:
         case WorldFromObject + 5:
         case WorldFromObject + 10: return scale_;
-        case WorldFromObject + 3: return Doubles::load(centre_[0]);
-        case WorldFromObject + 7: return Doubles::load(centre_[1]);
-        case WorldFromObject + 11: return Doubles::load(centre_[2]);
+        case WorldFromObject + 3: return Doubles::load(columns_.centre[0]);
+        case WorldFromObject + 7: return Doubles::load(columns_.centre[1]);
+        case WorldFromObject + 11: return Doubles::load(columns_.centre[2]);
         case ObjectFromWorld:
         case ObjectFromWorld + 5:
         case ObjectFromWorld + 10: return back_;
         case ObjectFromWorld + 3: return backTo(0);
         case ObjectFromWorld + 7: return backTo(1);
         case ObjectFromWorld + 11: return backTo(2);
-        case Radius: return Doubles::load(radius_);
-        case LeastError: return Doubles::load(leastError_);
+        case Radius: return Doubles::load(columns_.radius);
+        case LeastError: return Doubles::load(columns_.leastError);
         case ErrorPerPlace: return errorPerPlace_;
         default: return Doubles(0.0);
         }
@@ -48,22 +57,26 @@ public:
 
 private:
     [[gnu::always_inline]] Doubles backTo(std::size_t axis) const {
-        return Doubles(-0.0) - back_ * Doubles::load(centre_[axis]);
+        return Doubles(-0.0) - back_ * Doubles::load(columns_.centre[axis]);
     }
     Doubles scale_, back_, errorPerPlace_;
-    alignas(64) double centre_[3][W], radius_[W], leastError_[W];
+    const BallColumns& columns_;
 };
 
 } // namespace
 
 void ballSurfaces(const BallsMet& met, SurfacePlaces out) {
     SurfacesInLanes found;
-    for (std::size_t first = 0; first < met.which.size(); first += W) {
-        const std::size_t count = std::min<std::size_t>(W, met.which.size() - first);
-        const auto which = met.which.subspan(first, count);
-        const RaysInLanes rays = raysOf(met.rays, met.hits, which);
-        const NumbersOfBalls balls(met, which, found);
-        describe<Kind::Sphere>(balls, rays, rays.dir, found);
-        found.put(met.to.subspan(first, count), out);
-    }
+    const auto read = [&](std::size_t first, std::size_t count, BallColumns& balls) {
+        balls.read(met, met.which.subspan(first, count));
+    };
+    readAhead<BallColumns>(met.which.size(), read,
+                           [&](std::size_t first, std::size_t count, const BallColumns& balls) {
+                               const RaysInLanes rays = balls.rays.lanes();
+                               describe<Kind::Sphere>(NumbersOfBalls(met.balls.shared(), balls),
+                                                      rays, rays.dir, found);
+                               std::copy_n(balls.material, W, found.material);
+                               std::copy_n(balls.object, W, found.object);
+                               found.put(met.to.subspan(first, count), out);
+                           });
 }

@@ -125,30 +125,54 @@ inline Doubles3 along(const Doubles3& from, const Doubles3& dir, const Doubles& 
     return {from.x + dir.x * t, from.y + dir.y * t, from.z + dir.z * t};
 }
 
-// Lanes behind the last of `which` repeat it.
-inline RaysInLanes raysOf(const RaySpan& rays, std::span<const Hit> hits,
-                          std::span<const std::uint32_t> which) {
-    std::uint32_t ray[W];
-    for (std::size_t i = 0; i < W; ++i) ray[i] = which[i < which.size() ? i : which.size() - 1];
-    alignas(64) float t[W], lost[W];
-    for (std::size_t i = 0; i < W; ++i) t[i] = hits[ray[i]].t, lost[i] = hits[ray[i]].u;
-    const Doubles exact = Doubles(Floats::load(t)) + Doubles(Floats::load(lost));
-    if (const std::size_t first = ray[0]; which.size() == W && ray[W - 1] == first + (W - 1)) {
-        Floats o[3], d[3];
-        loadVectors(&rays.org[first].x, o[0], o[1], o[2]);
-        loadVectors(&rays.dir[first].x, d[0], d[1], d[2]);
-        return {Doubles3::of(o[0], o[1], o[2]), Doubles3::of(d[0], d[1], d[2]), exact};
+// The rays of W hits. They are read one register ahead: what was stored number by number can't be
+// loaded all at once before it has reached the cache.
+class RayColumns {
+public:
+    // Lanes behind the last of `which` repeat it.
+    void read(const RaySpan& rays, std::span<const Hit> hits,
+              std::span<const std::uint32_t> which) {
+        std::uint32_t ray[W];
+        for (std::size_t i = 0; i < W; ++i) ray[i] = which[i < which.size() ? i : which.size() - 1];
+        for (std::size_t i = 0; i < W; ++i) t_[i] = hits[ray[i]].t, lost_[i] = hits[ray[i]].u;
+        const std::size_t first = ray[0];
+        if (which.size() == W && ray[W - 1] == first + (W - 1)) {
+            readRow(&rays.org[first].x, org_), readRow(&rays.dir[first].x, dir_);
+            return;
+        }
+        for (std::size_t i = 0; i < W; ++i) {
+            const Vec3 from = rays.org[ray[i]], to = rays.dir[ray[i]];
+            org_[0][i] = from.x, org_[1][i] = from.y, org_[2][i] = from.z;
+            dir_[0][i] = to.x, dir_[1][i] = to.y, dir_[2][i] = to.z;
+        }
     }
-    alignas(64) float org[3][W], dir[3][W];
-    for (std::size_t i = 0; i < W; ++i) {
-        const Vec3 from = rays.org[ray[i]], to = rays.dir[ray[i]];
-        org[0][i] = from.x, org[1][i] = from.y, org[2][i] = from.z;
-        dir[0][i] = to.x, dir[1][i] = to.y, dir[2][i] = to.z;
+    RaysInLanes lanes() const {
+        const auto load = [](const float(&v)[3][W]) {
+            return Doubles3::of(Floats::load(v[0]), Floats::load(v[1]), Floats::load(v[2]));
+        };
+        return {load(org_), load(dir_), Doubles(Floats::load(t_)) + Doubles(Floats::load(lost_))};
     }
-    const auto load = [](const float(&v)[3][W]) {
-        return Doubles3::of(Floats::load(v[0]), Floats::load(v[1]), Floats::load(v[2]));
-    };
-    return {load(org), load(dir), exact};
+
+private:
+    static void readRow(const float* from, float (&to)[3][W]) {
+        Floats x, y, z;
+        loadVectors(from, x, y, z);
+        x.store(to[0]), y.store(to[1]), z.store(to[2]);
+    }
+    alignas(64) float org_[3][W], dir_[3][W], t_[W], lost_[W];
+};
+
+// For each W of so many things, read(first, count, into) one ahead of use(first, count, of).
+template <class Columns, class ReadFn, class UseFn>
+void readAhead(std::size_t size, const ReadFn& read, const UseFn& use) {
+    std::array<Columns, 2> columns;
+    const auto countFrom = [&](std::size_t at) { return std::min<std::size_t>(W, size - at); };
+    if (size > 0) read(std::size_t{0}, countFrom(0), columns[0]);
+    for (std::size_t first = 0; first < size; first += W) {
+        const std::size_t next = first + W;
+        if (next < size) read(next, countFrom(next), columns[next / W % 2]);
+        use(first, countFrom(first), columns[first / W % 2]);
+    }
 }
 
 struct SurfacesInLanes {
@@ -280,22 +304,27 @@ template <Kind kKind> void surfacesOf(const StillsMet& met, const SurfacePlaces&
     SurfacesInLanes found;
     const StillShape* last = nullptr;
     std::optional<NumbersOf<kKind>> ofLast;
-    for (std::size_t first = 0; first < met.which.size(); first += W) {
-        const std::size_t count = std::min<std::size_t>(W, met.which.size() - first);
-        const auto which = met.which.subspan(first, count);
-        const RaysInLanes rays = raysOf(met.rays, met.hits, which);
-        const Doubles3 face = kKind == Kind::Cube ? facesMet(met.hits, which) : rays.dir;
-        const auto shapes = met.shapes.subspan(first, count);
-        const auto isFirst = [&](const StillShape* other) { return other == shapes[0]; };
-        if (std::all_of(shapes.begin() + 1, shapes.end(), isFirst)) {
-            if (shapes[0] != last) last = shapes[0], ofLast.emplace(*last);
-            describe<kKind>(*ofLast, rays, face, found);
-        } else {
-            describe<kKind>(NumbersOfMany<kKind>(shapes), rays, face, found);
-        }
-        findMaterials<kKind>(shapes, found);
-        found.put(met.to.subspan(first, count), out);
-    }
+    const auto read = [&](std::size_t first, std::size_t count, RayColumns& rays) {
+        rays.read(met.rays, met.hits, met.which.subspan(first, count));
+    };
+    readAhead<RayColumns>(
+        met.which.size(), read,
+        [&](std::size_t first, std::size_t count, const RayColumns& columns) {
+            const RaysInLanes rays = columns.lanes();
+            const Doubles3 face = kKind == Kind::Cube
+                                      ? facesMet(met.hits, met.which.subspan(first, count))
+                                      : rays.dir;
+            const auto shapes = met.shapes.subspan(first, count);
+            const auto isFirst = [&](const StillShape* other) { return other == shapes[0]; };
+            if (std::all_of(shapes.begin() + 1, shapes.end(), isFirst)) {
+                if (shapes[0] != last) last = shapes[0], ofLast.emplace(*last);
+                describe<kKind>(*ofLast, rays, face, found);
+            } else {
+                describe<kKind>(NumbersOfMany<kKind>(shapes), rays, face, found);
+            }
+            findMaterials<kKind>(shapes, found);
+            found.put(met.to.subspan(first, count), out);
+        });
 }
 
 } // namespace

@@ -63,11 +63,13 @@ public:
     }
 
     WideTree run() {
-        divideTop();
         WideTree tree;
         tree.width = width_;
+        // In front of the lists: small things between it and them would keep their memory, when all
+        // of it is free, from being in one piece for the next tree.
         tree.triangleIds.resize(count_);
         in_.ids = tree.triangleIds.data();
+        divideTop();
         growSubtrees();
         // 32 bytes a triangle, before the tree takes its place.
         decltype(lists_.spare)().swap(lists_.spare);
@@ -229,11 +231,12 @@ private:
         for (const BuildRange& r : ranges_) order.emplace_back(r.first, order.size());
         std::sort(order.begin(), order.end());
         for (const auto& [first, i] : order) subtrees_.push_back({ranges_[i]});
-        // What a scanned mesh needs, the nodes that follow the leaves included: 40 bytes for each
-        // triangle. Others grow.
+        // What a scanned mesh needs, in lines the nodes that follow the leaves included: at most 40
+        // bytes for each triangle. Others grow. Nodes get no more, as their pages go on with lines.
         const std::size_t share = count_ / workers();
+        const std::size_t nodes = share * (width_ == kSingles ? 32 : width_ == 16 ? 3 : 7) / 16;
         for (Grown& grown : grown_) {
-            grown.nodes.reserve((width_ == kSingles ? 2 * share : share / 2) + 64);
+            grown.nodes.reserve(nodes + 64);
             if (width_ != kSingles) grown.lines.reserve(share * 5 / 8 + 1024);
         }
         pool_.run(subtrees_.size(), [&](std::size_t i, int worker) {

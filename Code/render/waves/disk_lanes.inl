@@ -43,9 +43,50 @@ inline void storeUnit(const Bits& all, float* to) {
     std::memcpy(to, &unit, sizeof(unit));
 }
 
-// Seeds and first sample number of W streams of pairs.
+// Four bytes in each lane: each the lowest one of `x`.
+inline Bits inEachByte(Bits x) {
+    return pickBytes(x, bytes(0x0404040400000000u, 0x0c0c0c0c08080808u));
+}
+using ShortBits __attribute__((vector_size(4 * kSobolLanes))) = std::uint16_t;
+// Bytes by bytes whose products are bytes.
+inline Bits bytesTimes(Bits a, Bits b) {
+    return reinterpret_cast<Bits>(reinterpret_cast<ShortBits>(a) *
+                                  reinterpret_cast<ShortBits>(b & 0x00ff00ffu));
+}
+
+// Sixteen numbers in each lane that differ in their uppermost four bits only: these are bytes, four
+// to a register. On them no other bits of a sum or a product depend.
+struct SixteenNumbers {
+    static constexpr std::uint32_t kRest = 0x0fffffffu, kTops = 0x0f0f0f0fu;
+    Bits rest, tops[4];
+
+    // `all`: what became of the rest, whose carry the tops don't have yet.
+    SixteenNumbers& carry(Bits all) {
+        const Bits carried = inEachByte(all >> 28);
+        for (Bits& top : tops) top = (top + carried) & kTops;
+        rest = all & kRest;
+        return *this;
+    }
+    SixteenNumbers& operator+=(Bits b) { return carry(rest + b); }
+    SixteenNumbers& operator*=(Bits b) {
+        const Bits factor = inEachByte(b & 15u);
+        for (Bits& top : tops) top = bytesTimes(top, factor);
+        return carry(rest * b);
+    }
+    SixteenNumbers operator*(std::uint32_t b) const {
+        SixteenNumbers product = *this;
+        return product *= Bits{} + b;
+    }
+    SixteenNumbers& operator^=(const SixteenNumbers& b) {
+        for (std::size_t i = 0; i < 4; ++i) tops[i] ^= b.tops[i];
+        rest ^= b.rest;
+        return *this;
+    }
+};
+
+// Seeds and first sample numbers of W streams of pairs.
 struct PairsInLanes {
-    alignas(64) std::uint32_t index[W], x[W], y[W], sample[W];
+    const std::uint32_t *index, *x, *y, *sample;
 };
 
 // kSobolLanes of them, from `first` on.
@@ -53,31 +94,47 @@ class RunsOfPairs {
 public:
     RunsOfPairs(const PairsInLanes& pairs, std::size_t first)
         : index_(loadBits(pairs.index + first)), x_(loadBits(pairs.x + first)),
-          y_(loadBits(pairs.y + first)), sample_(loadBits(pairs.sample + first)),
-          upperReversed_(reversed(sample_ & ~kLower)),
-          upperShuffled_(reversed(scrambledReversed(upperReversed_, index_)) & ~kLower) {}
+          y_(loadBits(pairs.y + first)), sample_(loadBits(pairs.sample + first)) {}
 
-    // Those of the samples that are `later` than the first ones: any, or such as differ from these
-    // in the lower four bits only. Reversed, these are the uppermost, on which no others depend.
-    Pair<Bits> any(std::uint32_t later) const {
-        return sobolPair<Bits>(sample_ + later, index_, x_, y_);
+    // The first so many samples: give(s, pair) for each.
+    template <class Give> void each(std::uint32_t count, const Give& give) const {
+        if (!areNear(count)) {
+            for (std::uint32_t s = 0; s < count; ++s)
+                give(s, sobolPair<Bits>(sample_ + s, index_, x_, y_));
+            return;
+        }
+        // Reversed and shuffled, samples that differ in the lower four bits only do so again: no
+        // others depend on these.
+        SixteenNumbers shuffled{reversed(sample_ & ~kLower), {}};
+        for (std::uint32_t i = 0; i < 4; ++i)
+            shuffled.tops[i] =
+                reversedNibbles(inEachByte(sample_ & kLower) + 0x03020100u + i * 0x04040404u);
+        shuffled = scrambledReversed(shuffled, index_);
+        const Bits x = reversed(shuffled.rest), y = pascalReversed(x);
+        for (std::uint32_t s = 0; s < count;) {
+            Bits lowX = reversedNibbles(shuffled.tops[s / 4]), lowY = pascalOfNibbles(lowX);
+            for (const std::uint32_t end = std::min(s + 4, count); s < end;
+                 ++s, lowX >>= 8, lowY >>= 8)
+                give(s, Pair<Bits>{reversed(scrambledReversed(x | (lowX & kLower), x_)),
+                                   reversed(scrambledReversed(y ^ (lowY & kLower), y_))});
+        }
     }
-    Pair<Bits> near(std::uint32_t later) const {
-        const Bits lower = reversedNibbles((sample_ & kLower) + later) << 28;
-        const Bits shuffled = scrambledReversed(upperReversed_ | lower, index_) >> 28;
-        return scrambledPair<Bits>(upperShuffled_ | reversedNibbles(shuffled), x_, y_);
-    }
-    // Are the first so many samples near?
+
+private:
+    static constexpr std::uint32_t kLower = 15;
+    // Do the first so many samples differ from each other in the lower four bits only?
     bool areNear(std::uint32_t count) const {
         const Bits last = (sample_ & kLower) + (count - 1);
         std::uint32_t upper = 0;
         for (std::size_t i = 0; i < kSobolLanes; ++i) upper |= last[i] & ~kLower;
         return upper == 0;
     }
+    // pascalReversed() of each byte, which are below sixteen.
+    static Bits pascalOfNibbles(Bits x) {
+        return pickBytes(bytes(0x0706040502030100u, 0x08090b0a0d0c0e0fu), x);
+    }
 
-private:
-    static constexpr std::uint32_t kLower = 15;
-    Bits index_, x_, y_, sample_, upperReversed_, upperShuffled_;
+    Bits index_, x_, y_, sample_;
 };
 
 struct DiskLanes {
@@ -102,13 +159,11 @@ inline Doubles sineOf(const Doubles& w) {
     return polynomial(w, c);
 }
 
-// The float that all numbers within 2^-40 of v round to; lanes where there is no such one are added
-// to `unsure` (Ziv 1991).
+// What all numbers within 2^-40 of v round to; lanes where there is no such float are added to
+// `unsure` (Ziv 1991).
 inline Floats surelyRounded(const Doubles& v, unsigned& unsure) {
-    const Floats up = (v * Doubles(1 + 0x1p-40)).toFloats(),
-                 down = (v * Doubles(1 - 0x1p-40)).toFloats();
-    unsure |= bits(up == down) ^ ((1u << W) - 1);
-    return up;
+    unsure |= nearMiddle(v);
+    return v.toFloats();
 }
 
 // Reckoned to 2^-41, which is enough for nearly all places; diskFromSquare() is right to 2^-50 and
@@ -118,6 +173,7 @@ inline Floats surelyRounded(const Doubles& v, unsigned& unsure) {
     const Floats two(2.0f), one(1.0f), x = two * u - one, y = two * v - one;
     const Mask isSide = abs(y) < abs(x);
     const Floats longer = select(isSide, x, y), shorter = select(isSide, y, x);
+    unsure |= bits(longer == Floats(0.0f));
     const Doubles radius(longer), aside(shorter), q = nearQuotient(aside, radius), w = q * q;
     const Floats along = surelyRounded(radius * cosineOf(w), unsure),
                  across = surelyRounded(aside * sineOf(w), unsure);
@@ -130,30 +186,26 @@ struct DiskRow {
 };
 
 // u and v of so many samples of each stream.
-inline void drawPairs(const PairsInLanes& pairs, DiskRow* rows, std::uint32_t count) {
+template <class Row>
+inline void drawPairs(const PairsInLanes& pairs, Row* rows, std::uint32_t count) {
     for (std::size_t i = 0; i < W; i += kSobolLanes) {
-        const RunsOfPairs runs(pairs, i);
-        const bool areNear = runs.areNear(count);
-        for (std::uint32_t s = 0; s < count; ++s) {
-            const Pair<Bits> pair = areNear ? runs.near(s) : runs.any(s);
+        RunsOfPairs(pairs, i).each(count, [&](std::uint32_t s, const Pair<Bits>& pair) {
             storeUnit(pair.x, rows[s].u + i), storeUnit(pair.y, rows[s].v + i);
-        }
+        });
     }
 }
 
-// x and y from u and v. Row by row, and nothing is called: the processor works at several.
-inline void placeOnDisk(DiskRow* rows, std::size_t count) {
-    unsigned unsure = 0;
-    for (DiskRow* row = rows; row != rows + count; ++row) {
-        const DiskLanes disk = nearlyOnDisk(Floats::load(row->u), Floats::load(row->v), unsure);
-        disk.x.store(row->x), disk.y.store(row->y);
+// x and y from u and v; lanes that take placeSurely() are added to `unsure`.
+inline void placeOnDisk(DiskRow& row, unsigned& unsure) {
+    const DiskLanes disk = nearlyOnDisk(Floats::load(row.u), Floats::load(row.v), unsure);
+    disk.x.store(row.x), disk.y.store(row.y);
+}
+inline void placeSurely(DiskRow& row, unsigned lanes) {
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
+        const Vec2 place = diskFromSquare({row.u[i], row.v[i]});
+        row.x[i] = place.x, row.y[i] = place.y;
     }
-    for (; unsure != 0; unsure &= unsure - 1)
-        for (DiskRow* row = rows; row != rows + count; ++row) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(unsure));
-            const Vec2 place = diskFromSquare({row->u[i], row->v[i]});
-            row->x[i] = place.x, row->y[i] = place.y;
-        }
 }
 
 } // namespace

@@ -19,5 +19,16 @@ inline Doubles nearQuotient(const Doubles& a, const Doubles& b) {
     };
     return {half(a.lo, b.lo), half(a.hi, b.hi)};
 }
+// Lanes within 2^-40 of the middle between two floats: 2^13 steps about the place where the 29 bits
+// that a float has no room for are one and zeros.
+inline unsigned nearMiddle(const Doubles& a) {
+    const auto half = [](__m512d x) {
+        const __m512i shifted =
+            _mm512_add_epi64(_mm512_castpd_si512(x), _mm512_set1_epi64((1 << 28) + (1 << 13)));
+        return static_cast<unsigned>(
+            _mm512_testn_epi64_mask(shifted, _mm512_set1_epi64((1 << 29) - (1 << 14))));
+    };
+    return half(a.lo) | half(a.hi) << 8;
+}
 
 #include "render/waves/disk_lanes.inl"

@@ -10,5 +10,10 @@ template <class Bits> inline Bits pickBytes(Bits from, Bits at) {
 // Two roundings, which change nothing that disk_lanes.inl says.
 inline Doubles fma(const Doubles& a, const Doubles& b, const Doubles& c) { return a * b + c; }
 inline Doubles nearQuotient(const Doubles& a, const Doubles& b) { return a / b; }
+// Lanes within 2^-40 of the middle between two floats.
+inline unsigned nearMiddle(const Doubles& a) {
+    const Doubles up = a * Doubles(1 + 0x1p-40), down = a * Doubles(1 - 0x1p-40);
+    return bits(up.toFloats() == down.toFloats()) ^ ((1u << W) - 1);
+}
 
 #include "render/waves/disk_lanes.inl"

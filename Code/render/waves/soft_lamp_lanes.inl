@@ -28,82 +28,102 @@ inline LampSeen lookAtLamp(const PointEmission& lamp, const LitBlock& block, std
             rounded(b, sign + y * y * a, none - y), unit, ~bits(unseen) & bits(distance2 > zero)};
 }
 
+// Samples of the lamp, one of each point: places on it, and the ways there.
+struct LampRow : DiskRow {
+    Three toLight;
+    Floats distance2, distance;
+};
+
 // W points of a block from `first` on, lit by a lamp that has a size.
 class SoftLanes {
 public:
-    SoftLanes(const PointEmission& lamp, const LitBlock& block, std::size_t first)
-        : lamp_(lamp), block_(block), first_(first), lit_(block, {first}),
-          seen_(lookAtLamp(lamp, block, first)) {}
+    // `share`: of each sample in the light.
+    SoftLanes(const PointEmission& lamp, const LitBlock& block, float share, std::size_t first)
+        : block_(block), first_(first), lit_(block, {first}), seen_(lookAtLamp(lamp, block, first)),
+          radius_(lamp.radius), constant_(lamp.attenuation.constant),
+          linear_(lamp.attenuation.linear), quadratic_(lamp.attenuation.quadratic), share_(share),
+          intensity_(Three::all(lamp.intensity.r, lamp.intensity.g, lamp.intensity.b)) {}
 
     // Those of them that may be lit.
     unsigned lanesOf(unsigned points) const { return lit_.lanesOf(points) & seen_.seen; }
 
-    struct Sample {
-        Three light, toLight;
-        Floats distance;
-        unsigned lit; // by it
-    };
     bool isShiny() const { return lit_.isShiny(); }
-    template <bool kMayShine>
-    Sample sample(const DiskLanes& disk, unsigned asked, float share) const {
-        unsigned lit = asked;
-        const Floats radius(lamp_.radius);
-        const Three d = seen_.toCentre + seen_.x * (disk.x * radius) + seen_.y * (disk.y * radius);
-        const Floats distance2 = dot(d, d), distance = sqrt(distance2);
-        const Three toLight = d / distance;
+
+    void findWay(LampRow& row) const {
+        const Floats x = Floats::load(row.x) * radius_, y = Floats::load(row.y) * radius_;
+        const Three d = seen_.toCentre + seen_.x * x + seen_.y * y;
+        row.distance2 = dot(d, d), row.distance = sqrt(row.distance2);
+        row.toLight = d / row.distance;
+    }
+
+    struct Sample {
+        Three light;
+        unsigned lit; // by it, if only by black
+    };
+    template <bool kMayShine> Sample sample(const LampRow& row, unsigned asked) const {
+        const Three toLight = row.toLight;
         const Floats cosAtDisk = dot(toLight, seen_.z);
-        const Attenuation& fade = lamp_.attenuation;
-        const Floats faded = Floats(fade.quadratic) * distance2 + Floats(fade.linear) * distance +
-                             Floats(fade.constant);
-        const Three irradiance =
-            Three::all(lamp_.intensity.r, lamp_.intensity.g, lamp_.intensity.b) *
-            (cosAtDisk / faded);
-        lit &= ~black(irradiance) & lit_.rises(toLight);
+        const Floats faded = quadratic_ * row.distance2 + linear_ * row.distance + constant_;
+        const Three irradiance = intensity_ * (cosAtDisk / faded);
+        const unsigned lit = asked & ~black(irradiance) & lit_.rises(toLight);
         const Three reflected =
             lit_.template reflected<kMayShine>(Three::load(block_.n, first_), toLight, lit);
-        const Three light =
-            Three::load(block_.weight, first_) * reflected * irradiance * Floats(share);
-        return {light, toLight, distance, lit & ~black(light)};
+        return {Three::load(block_.weight, first_) * reflected * irradiance * share_, lit};
     }
 
 private:
-    const PointEmission& lamp_;
     const LitBlock& block_;
     std::size_t first_;
     LitLanes<PointsInRow> lit_;
     LampSeen seen_;
+    Floats radius_, constant_, linear_, quadratic_, share_;
+    Three intensity_;
 };
 
 inline void store(const Three& v, float* x, float* y, float* z) {
     v.x.store(x), v.y.store(y), v.z.store(z);
 }
 
+// Row by row, and nothing is called: the processor works at several, and places some while it
+// divides for others.
+inline void findRows(const SoftLanes& lanes, const SamplesOnLamp& samples, std::size_t first,
+                     LampRow* rows) {
+    const PairsInLanes pairs{samples.index + first, samples.x + first, samples.y + first,
+                             samples.first + first};
+    drawPairs(pairs, rows, static_cast<std::uint32_t>(samples.count));
+    unsigned unsure = 0;
+    placeOnDisk(rows[0], unsure);
+    for (std::size_t s = 1; s < samples.count; ++s)
+        placeOnDisk(rows[s], unsure), lanes.findWay(rows[s - 1]);
+    lanes.findWay(rows[samples.count - 1]);
+    if (unsure == 0) return;
+    for (LampRow* row = rows; row != rows + samples.count; ++row)
+        placeSurely(*row, unsure), lanes.findWay(*row);
+}
+
 template <bool kMayShine>
 void sumSamples(const SoftLanes& lanes, const SamplesOnLamp& samples, const LinesToLamp& lines,
                 unsigned mayBeHidden, std::size_t first, LitBySamples& out) {
     constexpr std::size_t kPoints = LitBlock::kPoints;
-    DiskRow places[LitBySamples::kMost];
-    PairsInLanes pairs;
-    for (std::size_t i = 0; i < W; ++i)
-        pairs.index[i] = samples.index[first + i], pairs.x[i] = samples.x[first + i],
-        pairs.y[i] = samples.y[first + i], pairs.sample[i] = samples.first[first + i];
-    drawPairs(pairs, places, static_cast<std::uint32_t>(samples.count));
-    placeOnDisk(places, samples.count);
+    LampRow rows[LitBySamples::kMost];
+    findRows(lanes, samples, first, rows);
     const unsigned asked = lanes.lanesOf(samples.points);
     mayBeHidden = mayBeHidden >> first & ((1u << W) - 1);
     unsigned waiting = out.waiting >> first & ((1u << W) - 1);
     const Three before = Three::load(out.sum, first);
     Three sum = before;
     for (std::size_t s = 0; s < samples.count; ++s) {
-        const DiskLanes disk{Floats::load(places[s].x), Floats::load(places[s].y)};
-        SoftLanes::Sample by = lanes.sample<kMayShine>(disk, asked, samples.share);
+        const LampRow& row = rows[s];
+        SoftLanes::Sample by = lanes.sample<kMayShine>(row, asked);
         if ((by.lit & mayBeHidden) != 0) {
-            const auto [hidden, unsure] = lines.ask(by.toLight, by.distance, by.lit & mayBeHidden);
+            by.lit &= ~black(by.light);
+            const auto [hidden, unsure] =
+                lines.ask(row.toLight, row.distance, by.lit & mayBeHidden);
             by.lit &= ~hidden, waiting |= unsure;
             const std::size_t to = s * kPoints + first;
             store(by.light, out.light[0] + to, out.light[1] + to, out.light[2] + to);
-            store(by.toLight, out.dir[0] + to, out.dir[1] + to, out.dir[2] + to);
-            (Doubles(by.distance) * Doubles(1 - 0x1p-20)).toFloats().store(out.tMax + to);
+            store(row.toLight, out.dir[0] + to, out.dir[1] + to, out.dir[2] + to);
+            (Doubles(row.distance) * Doubles(1 - 0x1p-20)).toFloats().store(out.tMax + to);
             out.lit[s] |= static_cast<std::uint16_t>((by.lit & mayBeHidden) << first);
             out.unsure[s] |= static_cast<std::uint16_t>(unsure << first);
         }
@@ -120,7 +140,7 @@ void lightBySamples(const PointEmission& lamp, const LitBlock& block, const Samp
                     const Occluders& occluders, const HiddenPoints& hidden, LitBySamples& out) {
     out.lit.fill(0), out.unsure.fill(0);
     for (std::size_t first = 0; first < LitBlock::kPoints; first += W) {
-        const SoftLanes lanes(lamp, block, first);
+        const SoftLanes lanes(lamp, block, places.share, first);
         if (lanes.lanesOf(places.points) == 0) continue;
         const LinesToLamp lines(block, occluders, hidden, first);
         if (lanes.isShiny())

@@ -42,10 +42,20 @@ void fillBins(const BinGrid& grid, const PrimBox* from, std::uint32_t count, Bin
         addBlock(bins, grid, from + i, std::min(kBlock, count - i));
 }
 
-inline bool goesLeft(const BuildRange& r, __m128 cut, Box p) {
-    const __m128 below = _mm_cmpnge_ps(positionIn(r.grid, p), cut);
-    return static_cast<unsigned>(_mm_movemask_ps(below)) >> r.split.axis & 1;
-}
+// On which side of its cut a range has a box: by the position in bins on one axis, as positionIn().
+class Cut {
+public:
+    explicit Cut(const BuildRange& r)
+        : axis_(static_cast<std::size_t>(r.split.axis)), lo_(r.grid.lo[axis_]),
+          scale_(r.grid.scale[axis_]), cut_(r.split.cut) {}
+    bool isLeft(const PrimBox& p) const {
+        return !((p.lo[axis_] - p.negHi[axis_] - lo_) * scale_ >= cut_);
+    }
+
+private:
+    std::size_t axis_;
+    float lo_, scale_, cut_;
+};
 
 // The children of a split range. Their centres are within their boxes, and on their sides of the
 // cut: close enough for bins, and known before anyone has looked at a triangle.
@@ -94,10 +104,9 @@ struct Sides {
 template <bool kPrefetch>
 inline void sortBlock(const BuildInput& in, const BuildRange& r, const PrimBox* from,
                       std::uint32_t count, Sides& to) {
-    const __m128 cut = _mm_set1_ps(r.split.cut);
+    const Cut cut(r);
     for (std::uint32_t i = 0; i < count; ++i) {
-        const Box p = Box::load(from[i]);
-        to.add(p, goesLeft(r, cut, p));
+        to.add(Box::load(from[i]), cut.isLeft(from[i]));
         if constexpr (kPrefetch)
             _mm_prefetch(reinterpret_cast<const char*>(in.triangles.data() + from[i].id()),
                          _MM_HINT_T0);
@@ -107,10 +116,10 @@ inline void sortBlock(const BuildInput& in, const BuildRange& r, const PrimBox* 
 // Of a few, each goes into the bins of its child at once.
 inline void divideFew(const BuildRange& r, const BinGrid* grids, const PrimBox* from,
                       std::uint32_t count, Sides to, Bins (&bins)[2]) {
-    const __m128 cut = _mm_set1_ps(r.split.cut);
+    const Cut cut(r);
     for (std::uint32_t i = 0; i < count; ++i) {
         const Box p = Box::load(from[i]);
-        const std::ptrdiff_t isLeft = goesLeft(r, cut, p);
+        const std::ptrdiff_t isLeft = cut.isLeft(from[i]);
         to.add(p, isLeft);
         const auto side = static_cast<std::size_t>(1 - isLeft);
         add(bins[side], grids[side], p);
