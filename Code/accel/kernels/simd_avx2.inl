@@ -94,6 +94,11 @@ inline Floats flipSign(Floats a, Floats by) {
     return _mm256_xor_ps(a.v, _mm256_and_ps(by.v, _mm256_set1_ps(-0.0f)));
 }
 inline Floats withSign(Floats a, Floats of) { return flipSign(abs(a), of); }
+inline Floats floor(Floats a) { return _mm256_floor_ps(a.v); }
+// The next float; of those that are not negative.
+inline Floats nextFloat(Floats a) {
+    return _mm256_castsi256_ps(_mm256_add_epi32(_mm256_castps_si256(a.v), _mm256_set1_epi32(1)));
+}
 inline Floats roughInverse(Floats a) { return _mm256_rcp_ps(a.v); } // 1.5 * 2^-12
 
 inline Mask operator<(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)}; }

@@ -94,6 +94,11 @@ inline Floats flipSign(Floats a, Floats by) {
     return _mm512_xor_ps(a.v, _mm512_and_ps(by.v, _mm512_set1_ps(-0.0f)));
 }
 inline Floats withSign(Floats a, Floats of) { return flipSign(abs(a), of); }
+inline Floats floor(Floats a) { return _mm512_floor_ps(a.v); }
+// The next float; of those that are not negative.
+inline Floats nextFloat(Floats a) {
+    return _mm512_castsi512_ps(_mm512_add_epi32(_mm512_castps_si512(a.v), _mm512_set1_epi32(1)));
+}
 inline Floats roughInverse(Floats a) { return _mm512_rcp14_ps(a.v); } // 2^-14
 
 inline Mask operator<(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ)}; }

@@ -129,6 +129,14 @@ inline Floats flipSign(Floats a, Floats by) {
     return {_mm_xor_ps(a.lo, _mm_and_ps(by.lo, sign)), _mm_xor_ps(a.hi, _mm_and_ps(by.hi, sign))};
 }
 inline Floats withSign(Floats a, Floats of) { return flipSign(abs(a), of); }
+inline Floats floor(Floats a) { return {_mm_floor_ps(a.lo), _mm_floor_ps(a.hi)}; }
+// The next float; of those that are not negative.
+inline Floats nextFloat(Floats a) {
+    const auto half = [](__m128 x) {
+        return _mm_castsi128_ps(_mm_add_epi32(_mm_castps_si128(x), _mm_set1_epi32(1)));
+    };
+    return {half(a.lo), half(a.hi)};
+}
 inline Floats roughInverse(Floats a) { return {_mm_rcp_ps(a.lo), _mm_rcp_ps(a.hi)}; }
 
 inline Mask operator<(Floats a, Floats b) {

@@ -5,12 +5,10 @@ namespace {
 
 // The balls of W hits and their rays.
 struct BallColumns {
-    // Lanes behind the last hit repeat it.
-    void read(const BallsMet& met, std::span<const std::uint32_t> which) {
-        rays.read(met.rays, met.hits, which);
+    void read(const BallsMet& met, const RaysOfLanes& ray, std::size_t count) {
+        rays.read(met.rays, met.hits, ray, count);
         for (std::size_t i = 0; i < W; ++i) {
-            const std::uint32_t ray = which[i < which.size() ? i : which.size() - 1];
-            const StillBalls::Ball& ball = met.balls[met.hits[ray].shape];
+            const StillBalls::Ball& ball = met.balls[met.hits[ray[i]].shape];
             const auto& [x, y, z] = ball.centre;
             centre[0][i] = x, centre[1][i] = y, centre[2][i] = z;
             radius[i] = ball.radius, leastError[i] = ball.leastError;
@@ -68,7 +66,7 @@ private:
 void ballSurfaces(const BallsMet& met, SurfacePlaces out) {
     SurfacesInLanes found;
     const auto read = [&](std::size_t first, std::size_t count, BallColumns& balls) {
-        balls.read(met, met.which.subspan(first, count));
+        balls.read(met, RaysOfLanes(met.which.subspan(first, count)), count);
     };
     readAhead<BallColumns>(met.which.size(), read,
                            [&](std::size_t first, std::size_t count, const BallColumns& balls) {

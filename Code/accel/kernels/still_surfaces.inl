@@ -125,23 +125,39 @@ inline Doubles3 along(const Doubles3& from, const Doubles3& dir, const Doubles& 
     return {from.x + dir.x * t, from.y + dir.y * t, from.z + dir.z * t};
 }
 
+// The rays of W lanes; those behind the last of `which` repeat it.
+class RaysOfLanes {
+public:
+    explicit RaysOfLanes(std::span<const std::uint32_t> which) {
+        const std::size_t count = which.size();
+        if (count == W) {
+            std::memcpy(ray_, which.data(), sizeof ray_);
+            return;
+        }
+        std::copy_n(which.data(), count, ray_);
+        std::fill(ray_ + count, ray_ + W, which.back());
+    }
+    std::uint32_t operator[](std::size_t lane) const { return ray_[lane]; }
+
+private:
+    std::uint32_t ray_[W];
+};
+
 // The rays of W hits. They are read one register ahead: what was stored number by number can't be
 // loaded all at once before it has reached the cache.
 class RayColumns {
 public:
-    // Lanes behind the last of `which` repeat it.
-    void read(const RaySpan& rays, std::span<const Hit> hits,
-              std::span<const std::uint32_t> which) {
-        std::uint32_t ray[W];
-        for (std::size_t i = 0; i < W; ++i) ray[i] = which[i < which.size() ? i : which.size() - 1];
+    // Rays that ascend, of which so many differ.
+    void read(const RaySpan& rays, std::span<const Hit> hits, const RaysOfLanes& ray,
+              std::size_t count) {
         for (std::size_t i = 0; i < W; ++i) t_[i] = hits[ray[i]].t, lost_[i] = hits[ray[i]].u;
         const std::size_t first = ray[0];
-        if (which.size() == W && ray[W - 1] == first + (W - 1)) {
+        if (count == W && ray[W - 1] == first + (W - 1)) {
             readRow(&rays.org[first].x, org_), readRow(&rays.dir[first].x, dir_);
             return;
         }
         for (std::size_t i = 0; i < W; ++i) {
-            const Vec3 from = rays.org[ray[i]], to = rays.dir[ray[i]];
+            const Vec3 &from = rays.org[ray[i]], &to = rays.dir[ray[i]]; // g++ 12 copies by memory
             org_[0][i] = from.x, org_[1][i] = from.y, org_[2][i] = from.z;
             dir_[0][i] = to.x, dir_[1][i] = to.y, dir_[2][i] = to.z;
         }
@@ -176,8 +192,9 @@ void readAhead(std::size_t size, const ReadFn& read, const UseFn& use) {
 }
 
 struct SurfacesInLanes {
-    alignas(64) float p[3][W], n[3][W], error[W], uv[2][W]; // uv: of planes
+    alignas(64) float p[3][W], n[3][W], error[W];
     std::uint32_t material[W], object[W];
+    unsigned odd = 0; // lanes on an odd square of a plane
 
     // Lane i into place to[i], flat and without texture coordinates. The blocks know of nothing
     // else.
@@ -213,18 +230,15 @@ private:
 };
 
 // floatAbove() of what is not negative.
-inline float roundedUp(double x) {
-    const auto nearest = static_cast<float>(x);
-    return std::bit_cast<float>(std::bit_cast<std::uint32_t>(nearest) +
-                                (static_cast<double>(nearest) < x ? 1 : 0));
+inline Floats roundedUp(const Doubles& x) {
+    const Floats nearest = x.toFloats();
+    return select(Doubles(nearest) < x, nextFloat(nearest), nearest);
 }
 
-// Of the squares that a plane is divided into, the odd ones.
-inline void findOdd(const float (&u)[W], const float (&v)[W], std::uint32_t (&odd)[W]) {
-    for (std::size_t i = 0; i < W; ++i) { // no branches: nobody foresees them
-        const float half = (std::floor(u[i]) + std::floor(v[i])) / 2;
-        odd[i] = std::floor(half) != half;
-    }
+// Lanes on the odd ones of the squares that a plane is divided into.
+inline unsigned oddSquares(Floats u, Floats v) {
+    const Floats half = (floor(u) + floor(v)) * Floats(0.5f);
+    return bits(floor(half) == half) ^ ((1u << W) - 1);
 }
 
 // Rounded, by axis.
@@ -234,11 +248,11 @@ inline void store(const Doubles3& v, float (&to)[3][W]) {
 
 #include "accel/kernels/still_points.inl"
 
-// The outward normals of the faces of cubes that are met; lanes behind the last hit repeat it.
-inline Doubles3 facesMet(std::span<const Hit> hits, std::span<const std::uint32_t> which) {
+// The outward normals of the faces of cubes that are met.
+inline Doubles3 facesMet(std::span<const Hit> hits, const RaysOfLanes& ray) {
     alignas(64) double n[3][W] = {};
     for (std::size_t i = 0; i < W; ++i) {
-        const std::uint32_t face = hits[which[i < which.size() ? i : which.size() - 1]].prim;
+        const std::uint32_t face = hits[ray[i]].prim;
         n[face / 2][i] = face % 2 == 0 ? -1 : 1;
     }
     return {Doubles::load(n[0]), Doubles::load(n[1]), Doubles::load(n[2])};
@@ -269,7 +283,7 @@ void describe(const Numbers& shape, const RaysInLanes& world, const Doubles3& fa
         if constexpr (kKind == Kind::Cube) return onCube(shape, met, face, clearance());
         if constexpr (kKind == Kind::Corners) return onCorners(shape, met);
         if constexpr (kKind == Kind::Plane)
-            met.x.toFloats().store(out.uv[0]), met.y.toFloats().store(out.uv[1]);
+            out.odd = oddSquares(met.x.toFloats(), met.y.toFloats());
         if constexpr (kKind == Kind::Plane || kKind == Kind::Disk) return onDisk(met);
     }();
     const Doubles3 rough = pointOf(shape, WorldFromObject, local.p);
@@ -284,18 +298,13 @@ void describe(const Numbers& shape, const RaysInLanes& world, const Doubles3& fa
     }();
     const Doubles rounding = (abs(normal.x * p.x) + abs(normal.y * p.y)) + abs(normal.z * p.z);
     store(p, out.p), store(normal, out.n);
-    alignas(64) double error[W];
-    (Doubles(kThreeUlps) * rounding + fixedError).store(error);
-    for (std::size_t i = 0; i < W; ++i) out.error[i] = roundedUp(error[i]);
+    roundedUp(Doubles(kThreeUlps) * rounding + fixedError).store(out.error);
 }
 
-template <Kind kKind>
-void findMaterials(std::span<const StillShape* const> shapes, SurfacesInLanes& found) {
-    std::uint32_t odd[W] = {};
-    if constexpr (kKind == Kind::Plane) findOdd(found.uv[0], found.uv[1], odd);
+inline void findMaterials(std::span<const StillShape* const> shapes, SurfacesInLanes& found) {
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const StillShape& shape = *shapes[i];
-        found.material[i] = odd[i] != 0 ? shape.oddMaterial : shape.material;
+        found.material[i] = (found.odd >> i & 1) != 0 ? shape.oddMaterial : shape.material;
         found.object[i] = shape.object;
     }
 }
@@ -305,15 +314,16 @@ template <Kind kKind> void surfacesOf(const StillsMet& met, const SurfacePlaces&
     const StillShape* last = nullptr;
     std::optional<NumbersOf<kKind>> ofLast;
     const auto read = [&](std::size_t first, std::size_t count, RayColumns& rays) {
-        rays.read(met.rays, met.hits, met.which.subspan(first, count));
+        rays.read(met.rays, met.hits, RaysOfLanes(met.which.subspan(first, count)), count);
     };
     readAhead<RayColumns>(
         met.which.size(), read,
         [&](std::size_t first, std::size_t count, const RayColumns& columns) {
             const RaysInLanes rays = columns.lanes();
-            const Doubles3 face = kKind == Kind::Cube
-                                      ? facesMet(met.hits, met.which.subspan(first, count))
-                                      : rays.dir;
+            const Doubles3 face =
+                kKind == Kind::Cube
+                    ? facesMet(met.hits, RaysOfLanes(met.which.subspan(first, count)))
+                    : rays.dir;
             const auto shapes = met.shapes.subspan(first, count);
             const auto isFirst = [&](const StillShape* other) { return other == shapes[0]; };
             if (std::all_of(shapes.begin() + 1, shapes.end(), isFirst)) {
@@ -322,7 +332,7 @@ template <Kind kKind> void surfacesOf(const StillsMet& met, const SurfacePlaces&
             } else {
                 describe<kKind>(NumbersOfMany<kKind>(shapes), rays, face, found);
             }
-            findMaterials<kKind>(shapes, found);
+            findMaterials(shapes, found);
             found.put(met.to.subspan(first, count), out);
         });
 }

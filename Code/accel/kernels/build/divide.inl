@@ -21,7 +21,7 @@ void makePrims(const BuildInput& in, std::uint32_t first, std::uint32_t count, P
     listBoxes(in, first, count, box, centres, [&](std::uint32_t i) {
         Box b = emptyBox();
         for (const std::uint32_t corner : in.triangles[i]) {
-            const Vec3 v = in.points[corner];
+            const Vec3& v = in.points[corner];
             b.extend(pointBox(_mm_setr_ps(v.x, v.y, v.z, 0)));
         }
         return b;
@@ -31,7 +31,7 @@ void makePrims(const BuildInput& in, std::uint32_t first, std::uint32_t count, P
 void takeBoxes(const BuildInput& in, std::uint32_t first, std::uint32_t count, PrimBox& box,
                PrimBox& centres) {
     listBoxes(in, first, count, box, centres, [&](std::uint32_t i) {
-        const Vec3 lo = in.boxes[i].lo, hi = in.boxes[i].hi;
+        const Vec3 &lo = in.boxes[i].lo, &hi = in.boxes[i].hi;
         return Box::of(_mm_setr_ps(lo.x, lo.y, lo.z, 0), _mm_setr_ps(-hi.x, -hi.y, -hi.z, 0));
     });
 }

@@ -28,7 +28,7 @@ inline bool makeLeaf(const BuildInput& in, const PrimBox* prims, const BuildRang
     alignas(64) std::array<std::uint32_t, W> points;
     known.store(points.data());
     for (std::uint32_t i = 0; i < W; ++i) {
-        const Vec3 p = in.points[points[i < count ? i : 0]];
+        const Vec3& p = in.points[points[i < count ? i : 0]];
         for (std::size_t axis = 0; axis < 3; ++axis) leaf.point[axis][i] = p[axis];
     }
     leaf.first = r.first;
