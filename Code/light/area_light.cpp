@@ -6,7 +6,7 @@
 FlatLight::FlatLight(Outline outline, Vec3 centre, Vec3 halfX, Vec3 halfY, Vec3 normal,
                      Rgb radiance, double spreadHalfRad, bool castsShadows)
     : Light(castsShadows, radiance), outline_(outline), centre_(centre), halfX_(halfX),
-      halfY_(halfY), normal_(normal), spreads_(spreadHalfRad < kHalfPi * 0.9999) {
+      halfY_(halfY), normal_(normal), radiance_(radiance), spreads_(spreadHalfRad < kHalfPi * 0.9999) {
     const float area = length(halfX) * length(halfY) *
                        (outline == Outline::Rectangle ? 4.0f : static_cast<float>(kPi));
     power_ = radiance * area;
@@ -33,11 +33,14 @@ LightSample FlatLight::from(Vec3 place, Vec3 point) const {
     return {toLight, distance, power_ * (spread * cosAtLight / distance2)};
 }
 
+float FlatLight::slackAt(Vec3 point) const {
+    return kHorizonSlack * (maxAbs(point) + maxAbs(centre_) + maxAbs(halfX_) + maxAbs(halfY_));
+}
+
 // Both planes are asked of the corner of the outline's rectangle that is nearest to their light.
 bool FlatLight::cannotReach(Vec3 point, Vec3 n) const {
     const Vec3 d = centre_ - point;
-    const float slack =
-        kHorizonSlack * (maxAbs(point) + maxAbs(centre_) + maxAbs(halfX_) + maxAbs(halfY_));
+    const float slack = slackAt(point);
     if (dot(n, d) + std::fabs(dot(n, halfX_)) + std::fabs(dot(n, halfY_)) < -slack) return true;
     return dot(normal_, d) > slack; // the point is behind the lamp
 }
@@ -57,6 +60,34 @@ LightSample FlatLight::sample(Vec3 point, Vec2 u) const {
     return from(centre_ + halfX_ * place.x + halfY_ * place.y, point);
 }
 
+// Half the sum over the edges, of the angle that each fills times the normal of its plane through
+// the point: the light's vector, whose product with any normal above whose horizon the lamp is is
+// the irradiance. Each term is off by some 2^-52; they cancel, so little that is left of them is
+// not to be trusted.
+std::optional<LightSample> FlatLight::whole(Vec3 point, Vec3 n, Vec3 horizon) const {
+    if (outline_ != Outline::Rectangle || spreads_) return {};
+    const Vec3 toCentre = centre_ - point;
+    const float slack = slackAt(point);
+    const auto isAbove = [&](Vec3 up) {
+        return dot(up, toCentre) >=
+               std::fabs(dot(up, halfX_)) + std::fabs(dot(up, halfY_)) + slack;
+    };
+    if (!(dot(normal_, toCentre) < -slack) || !isAbove(n) || !isAbove(horizon)) return {};
+    const Vec3d d = toDouble(toCentre), x = toDouble(halfX_), y = toDouble(halfY_);
+    const Vec3d corners[] = {d - x - y, d + x - y, d + x + y, d - x + y};
+    Vec3d sum;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Vec3d a = corners[i], b = corners[(i + 1) % 4], across = cross(a, b);
+        const double sine = length(across);
+        if (sine > 0) sum += across * (exact::atan2(sine, dot(a, b)) / sine);
+    }
+    const double twice = length(sum);
+    if (!(twice > 1e-6)) return {};
+    const double side = dot(sum, d) < 0 ? -1 : 1; // the way the corners go round
+    return LightSample{toFloat(sum * (side / twice)), length(toCentre),
+                       radiance_ * static_cast<float>(twice / 2)};
+}
+
 SphereLight::SphereLight(Vec3 centre, float radius, Rgb radiance, bool castsShadows)
     : Light(castsShadows, radiance), centre_(centre), radius_(radius), radiance_(radiance) {}
 
@@ -67,6 +98,13 @@ LightSample SphereLight::centre(Vec3 point) const {
     const float distance = std::sqrt(distance2);
     const float factor = static_cast<float>(kPi) * radius_ * radius_ / distance2;
     return {d / distance, distance - radius_, radiance_ * factor};
+}
+
+std::optional<LightSample> SphereLight::whole(Vec3 point, Vec3 n, Vec3 horizon) const {
+    const Vec3 d = centre_ - point;
+    const float height = radius_ + kHorizonSlack * (maxAbs(d) + radius_);
+    const bool isAbove = dot(n, d) >= height && dot(horizon, d) >= height;
+    return isAbove && dot(d, d) > radius_ * radius_ ? centre(point) : std::optional<LightSample>();
 }
 
 bool SphereLight::cannotReach(Vec3 point, Vec3 n) const {

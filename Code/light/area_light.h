@@ -13,15 +13,18 @@ public:
     bool isSoft() const override { return true; }
     LightSample sample(Vec3 point, Vec2 u) const override;
     LightSample centre(Vec3 point) const override;
+    // Of rectangles that light all sides (Lambert 1760).
+    std::optional<LightSample> whole(Vec3 point, Vec3 n, Vec3 horizon) const override;
     bool cannotReach(Vec3 point, Vec3 n) const override;
     Bounds sourcesFor(const Bounds& points) const override;
 
 private:
     LightSample from(Vec3 place, Vec3 point) const;
+    float slackAt(Vec3 point) const; // what rounding takes of heights above planes
 
     Outline outline_;
     Vec3 centre_, halfX_, halfY_, normal_;
-    Rgb power_; // radiance times area
+    Rgb radiance_, power_; // times the area
     bool spreads_;
     float tanSpread_ = 0, spreadNorm_ = 0;
 };
@@ -33,6 +36,7 @@ public:
     // Uniform in the cone of directions that the sphere fills (Shirley and Wang 1996).
     LightSample sample(Vec3 point, Vec2 u) const override;
     LightSample centre(Vec3 point) const override;
+    std::optional<LightSample> whole(Vec3 point, Vec3 n, Vec3 horizon) const override;
     bool cannotReach(Vec3 point, Vec3 n) const override;
     Bounds sourcesFor(const Bounds& points) const override;
 

@@ -10,6 +10,8 @@ struct Attenuation {
     float at(float distance, float distance2) const {
         return quadratic * distance2 + linear * distance + constant;
     }
+    bool isInverseSquare() const { return linear == 0 && constant == 0; }
+    bool isConstant() const { return quadratic == 0 && linear == 0; }
 };
 
 struct PointEmission {

@@ -3,6 +3,10 @@
 #include "base/math.h"
 #include "sample/warp.h"
 
+namespace {
+#include "light/log_ratio.inl"
+} // namespace
+
 float SpotCone::attenuation(Vec3 fromLight) const {
     const float c = dot(axis, fromLight);
     if (c <= cosHalfAngle) return 0;
@@ -50,6 +54,24 @@ LightSample PointLight::centre(Vec3 point) const {
     const Vec3 toLight = d / distance;
     const float cone = cone_ ? cone_->attenuation(-toLight) : 1.0f;
     return {toLight, distance, intensity_ * (cone / attenuation_.at(distance, distance2))};
+}
+
+// The mean over the disk: with D the distance of its centre, d that of a place on it and f(d) the
+// attenuation, the integrand is D^2 (cos + what is odd in the place) / (d^2 f(d)). Over the radius r
+// its mean is cos / (D^2 + r^2) for f = d^2, and cos ln(1 + x) / x with x = r^2 / D^2 for f = 1. The
+// disk is in the ball of radius r.
+std::optional<LightSample> PointLight::whole(Vec3 point, Vec3 n, Vec3 horizon) const {
+    if (cone_ || !(attenuation_.isInverseSquare() || attenuation_.isConstant())) return {};
+    const Vec3 d = position_ - point;
+    const float distance2 = dot(d, d);
+    if (!(distance2 > 0)) return {};
+    const float distance = std::sqrt(distance2), height = radius_ + kHorizonSlack * distance;
+    if (!(dot(n, d) >= height && dot(horizon, d) >= height)) return {};
+    const float radius2 = sqr(radius_);
+    const float faded = attenuation_.isConstant()
+                            ? attenuation_.constant / logRatio(radius2 / distance2)
+                            : attenuation_.quadratic * (distance2 + radius2);
+    return LightSample{d / distance, distance, intensity_ * (1 / faded)};
 }
 
 // As in the base class; here both are one function, and share what they begin with.

@@ -21,6 +21,7 @@ public:
     bool isSoft() const override { return radius_ > 0; }
     LightSample sample(Vec3 point, Vec2 u) const override;
     LightSample centre(Vec3 point) const override;
+    std::optional<LightSample> whole(Vec3 point, Vec3 n, Vec3 horizon) const override;
     bool cannotReach(Vec3 point, Vec3 n) const override;
     bool shine(Vec3 point, Vec3 n, LightSample& sample) const override;
     Bounds sourcesFor(const Bounds& points) const override;

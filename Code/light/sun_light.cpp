@@ -18,6 +18,14 @@ LightSample SunLight::sample(Vec3 point, Vec2 u) const {
     return {normalize(toLight), kInfinityF, irradiance_ * static_cast<float>(weight)};
 }
 
+// The mean of the disk's directions is its middle times (1 + cos h) / 2: what sample() divides by.
+std::optional<LightSample> SunLight::whole(Vec3 point, Vec3 n, Vec3 horizon) const {
+    const float height = sinHalfAngle_ + kHorizonSlack;
+    const bool isAbove =
+        oneMinusCos_ < 1 && dot(n, toSun_) >= height && dot(horizon, toSun_) >= height;
+    return isAbove ? centre(point) : std::optional<LightSample>();
+}
+
 // The highest place of the disk rises sin(angle between the sun and the horizon) by at most the
 // sine of its radius.
 bool SunLight::cannotReach(Vec3, Vec3 n) const {

@@ -97,7 +97,8 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
         const Kernel& kernel = chooseKernel(settings.kernel);
         if (!isSoft && lamp.emission) lamp.inLanes = lightByLamp(kernel);
         if (isSoft && lamp.emission && sampler.kind() == SamplerKind::Sobol)
-            lamp.bySamples = lightBySamples(kernel), lamp.hiddenPoints = ::hiddenPoints(kernel);
+            lamp.bySamples = lightBySamples(kernel), lamp.wholeLight = wholeLight(kernel),
+            lamp.hiddenPoints = ::hiddenPoints(kernel);
         (shades ? shadingLamps : openLamps).push_back(lamp);
     }
     if (settings.specialise && settings.integrator == IntegratorKind::Whitted)

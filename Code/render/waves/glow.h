@@ -87,8 +87,14 @@ template <bool kLampBodies, bool kSeeThrough> void addGlow(const Wave& wave) {
         wave.add(slot, weight * glowOf(material, scene.ambient()));
         if (wave.context.openLamps.empty() || !answersLamps(material)) continue;
         const LitPoint lit = litPoint(wave, here);
-        for (const Lamp& lamp : wave.context.openLamps)
-            forEachLampSample<true>(wave, lamp, lit,
-                                    [&](const LightSample&, Rgb light) { wave.add(slot, light); });
+        for (const Lamp& lamp : wave.context.openLamps) {
+            const Rgb whole = lamp.isSoft ? wholeLight(lamp, lit) : Rgb{};
+            if (!isBlack(whole))
+                wave.add(slot, whole);
+            else
+                forEachLampSample<true>(
+                    wave, lamp, lit, false,
+                    [&](const LightSample&, Rgb light) { wave.add(slot, light); });
+        }
     }
 }

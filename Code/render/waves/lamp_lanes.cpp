@@ -7,17 +7,22 @@
     void lightByLamp(const PointEmission&, const LitBlock&, unsigned, LitByLamp&);                 \
     void lightBySamples(const PointEmission&, const LitBlock&, const SamplesOnLamp&,               \
                         const Occluders&, const HiddenPoints&, LitBySamples&);                     \
+    void wholeLight(const PointEmission&, const LitBlock&, WholeLight&);                           \
     HiddenPoints hiddenPoints(const Occluders&, const LitBlock&, const PointEmission&);            \
     }
 DECLARE_BY_KERNEL(DECLARE)
 #define ROW(isa)                                                                                   \
-    { kernels::isa::lightByLamp, kernels::isa::lightBySamples, kernels::isa::hiddenPoints }
+    {                                                                                              \
+        kernels::isa::lightByLamp, kernels::isa::lightBySamples, kernels::isa::wholeLight,         \
+            kernels::isa::hiddenPoints                                                             \
+    }
 
 namespace {
 
 struct Functions {
     LightByLampFn byLamp = nullptr;
     LightBySamplesFn bySamples = nullptr;
+    WholeLightFn wholeLight = nullptr;
     HiddenPointsFn hiddenPoints = nullptr;
 };
 
@@ -32,3 +37,4 @@ Functions functionsOf(const Kernel& kernel) {
 HiddenPointsFn hiddenPoints(const Kernel& kernel) { return functionsOf(kernel).hiddenPoints; }
 LightByLampFn lightByLamp(const Kernel& kernel) { return functionsOf(kernel).byLamp; }
 LightBySamplesFn lightBySamples(const Kernel& kernel) { return functionsOf(kernel).bySamples; }
+WholeLightFn wholeLight(const Kernel& kernel) { return functionsOf(kernel).wholeLight; }

@@ -45,6 +45,13 @@ struct SamplesOnLamp {
                   x[LitBlock::kPoints] = {}, y[LitBlock::kPoints] = {};
 };
 
+// What the points of a block get of all of a lamp that has a size, if nothing is in between: where
+// it is known, it stands for the samples unless one of them is hidden.
+struct alignas(64) WholeLight {
+    float light[3][LitBlock::kPoints];
+    unsigned known = 0; // a bit for each point
+};
+
 // What they do: their light is added to the sum of a point. Where it takes a ray to know whether
 // one of them is hidden, the point waits: then its sum stays, and these samples and all later ones
 // are listed instead. Sample s of point k is element s * kPoints + k.
@@ -55,6 +62,8 @@ struct alignas(64) LitBySamples {
     float light[3][kRoom], dir[3][kRoom], tMax[kRoom]; // the ray from the point
     std::array<std::uint16_t, kMost> lit, unsure;      // a bit for each point
     unsigned waiting = 0;
+    unsigned whole = 0; // all of their samples are asked; left are those of which none is hidden,
+                        // but for what rays tell
     bool isLit(std::size_t s, std::size_t k) const { return lit[s] >> k & 1; }
     bool isUnsure(std::size_t s, std::size_t k) const { return unsure[s] >> k & 1; }
 };
@@ -79,7 +88,10 @@ using LightBySamplesFn = void (*)(const PointEmission& lamp, const LitBlock& blo
                                   const SamplesOnLamp& samples, const Occluders& occluders,
                                   const HiddenPoints& hidden, LitBySamples& out);
 
+using WholeLightFn = void (*)(const PointEmission& lamp, const LitBlock& block, WholeLight& out);
+
 // Null for the scalar kernel.
 HiddenPointsFn hiddenPoints(const Kernel& kernel);
 LightBySamplesFn lightBySamples(const Kernel& kernel);
+WholeLightFn wholeLight(const Kernel& kernel);
 LightByLampFn lightByLamp(const Kernel& kernel);

@@ -45,15 +45,30 @@ inline Vec2 placeOn(const Lamp& lamp, int k, const Wave& wave, std::size_t i) {
                               dimension(wave.depth, BounceSlot::LightUv));
 }
 
+// What the picture's sample gets of all of a lamp that has a size, if nothing is in between: where
+// this is known, and not black, it stands for the lamp's samples unless one of them is hidden.
+// Highlights have no such form.
+inline Rgb wholeLight(const Lamp& lamp, const LitPoint& lit) {
+    if (!isBlack(lit.material->specular)) return {};
+    auto whole = lamp.light.whole(lit.p, lit.n, lit.ng);
+    if (!whole && lit.lift != Vec3{}) whole = lamp.light.whole(lit.p, lit.n, lit.ns);
+    if (!whole) return {};
+    return lit.weight * reflectedLight(*lit.material, lit.n, lit.toEye, whole->toLight) *
+           whole->irradiance;
+}
+
 // fn(sample, light) for every sample of the lamp that sends light from the point to the eye:
-// `light` is what the sample of the picture gets if nothing is in between.
+// `light` is what the sample of the picture gets if nothing is in between. `all`: also for those
+// that send none.
 template <bool kSoftLamps, class Fn>
-void forEachLampSample(const Wave& wave, const Lamp& lamp, const LitPoint& lit, Fn&& fn) {
+void forEachLampSample(const Wave& wave, const Lamp& lamp, const LitPoint& lit, bool all, Fn&& fn) {
     const auto take = [&](const LightSample& sample, float share) {
-        if (isBlack(sample.irradiance) || !rises(lit, sample.toLight)) return;
-        const Rgb reflected = reflectedLight(*lit.material, lit.n, lit.toEye, sample.toLight);
-        const Rgb light = lit.weight * reflected * sample.irradiance * share;
-        if (!isBlack(light)) fn(sample, light);
+        Rgb light;
+        if (!isBlack(sample.irradiance) && rises(lit, sample.toLight)) {
+            const Rgb reflected = reflectedLight(*lit.material, lit.n, lit.toEye, sample.toLight);
+            light = lit.weight * reflected * sample.irradiance * share;
+        }
+        if (all || !isBlack(light)) fn(sample, light);
     };
     if constexpr (kSoftLamps)
         if (lamp.isSoft) {

@@ -115,11 +115,13 @@ void sumSamples(const SoftLanes& lanes, const SamplesOnLamp& samples, const Line
     for (std::size_t s = 0; s < samples.count; ++s) {
         const LampRow& row = rows[s];
         SoftLanes::Sample by = lanes.sample<kMayShine>(row, asked);
-        if ((by.lit & mayBeHidden) != 0) {
-            by.lit &= ~black(by.light);
+        const unsigned whole = out.whole >> first & asked;
+        if (((by.lit | whole) & mayBeHidden) != 0) {
+            by.lit = (by.lit & ~black(by.light)) | whole;
             const auto [hidden, unsure] =
                 lines.ask(row.toLight, row.distance, by.lit & mayBeHidden);
             by.lit &= ~hidden, waiting |= unsure;
+            out.whole &= ~(hidden << first);
             const std::size_t to = s * kPoints + first;
             store(by.light, out.light[0] + to, out.light[1] + to, out.light[2] + to);
             store(row.toLight, out.dir[0] + to, out.dir[1] + to, out.dir[2] + to);
@@ -147,5 +149,41 @@ void lightBySamples(const PointEmission& lamp, const LitBlock& block, const Samp
             sumSamples<true>(lanes, places, lines, hidden.maybe, first, out);
         else
             sumSamples<false>(lanes, places, lines, hidden.maybe, first, out);
+    }
+}
+
+// PointLight::whole() and wholeLight() of a point.
+void wholeLight(const PointEmission& lamp, const LitBlock& block, WholeLight& out) {
+    out.known = 0;
+    const Attenuation& fade = lamp.attenuation;
+    if (!fade.isInverseSquare() && !fade.isConstant()) return;
+    const unsigned dull = block.used & ~(block.shiny[0] | block.shiny[1] | block.shiny[2]);
+    const Floats one(1.0f);
+    for (std::size_t first = 0; first < LitBlock::kPoints; first += W) {
+        const LitLanes<PointsInRow> lit(block, {first});
+        const unsigned asked = lit.lanesOf(dull);
+        if (asked == 0) continue;
+        const Three n = Three::load(block.n, first);
+        const Three d = Three::all(lamp.position.x, lamp.position.y, lamp.position.z) -
+                        Three::load(block.p, first);
+        const Floats distance2 = dot(d, d), distance = sqrt(distance2);
+        const Floats height = Floats(lamp.radius) + Floats(kHorizonSlack) * distance;
+        const auto isAbove = [&](const Three& up) { return bits(dot(up, d) >= height); };
+        unsigned above = isAbove(Three::load(block.ng, first));
+        if (const unsigned lifted = lit.lanesOf(block.lifted); lifted != 0)
+            above |= lifted & isAbove(Three::load(block.ns, first));
+        const unsigned lanes =
+            asked & above & isAbove(n) & bits(distance2 > Floats(0.0f));
+        if (lanes == 0) continue;
+        const Floats radius2(sqr(lamp.radius));
+        const Floats faded = fade.isConstant()
+                                 ? Floats(fade.constant) / logRatio(radius2 / distance2)
+                                 : Floats(fade.quadratic) * (distance2 + radius2);
+        const Three irradiance =
+            Three::all(lamp.intensity.r, lamp.intensity.g, lamp.intensity.b) * (one / faded);
+        const Three reflected = lit.template reflected<false>(n, d / distance, lanes);
+        const Three light = Three::load(block.weight, first) * reflected * irradiance;
+        store(light, out.light[0] + first, out.light[1] + first, out.light[2] + first);
+        out.known |= (lanes & ~black(light)) << first;
     }
 }

@@ -73,7 +73,9 @@ inline void shineBySamples(const Wave& wave, const Lamp& lamp) {
     const std::size_t blocks = (memory.answering.size() + kPoints - 1) / kPoints;
     if (memory.lightSums.size() < blocks) memory.lightSums.resize(blocks);
     memory.waiting.clear();
+    memory.wholeLights.clear(blocks * kPoints);
     LitBySamples by;
+    WholeLight whole;
     HiddenPoints hidden;
     for (std::size_t b = 0; b < blocks; ++b) {
         const LitBlock& block = memory.litBlocks[b];
@@ -81,9 +83,10 @@ inline void shineBySamples(const Wave& wave, const Lamp& lamp) {
             hidden = lamp.hiddenPoints(occluders, block, *lamp.emission);
         else
             hidden.maybe = block.used;
+        lamp.wholeLight(*lamp.emission, block, whole);
         for (auto& channel : by.sum) std::fill_n(channel, kPoints, 0.0f);
-        by.waiting = 0;
-        const unsigned asked = block.used & ~hidden.surely;
+        by.waiting = 0, by.whole = whole.known & ~hidden.surely;
+        const unsigned asked = block.used & ~hidden.surely & ~(whole.known & ~hidden.maybe);
         for (int first = 0; first < lamp.samples && asked != 0; first += kMost) {
             const int some = std::min(kMost, lamp.samples - first);
             lamp.bySamples(*lamp.emission, block, samplesOf(wave, lamp, block, asked, first, some),
@@ -94,7 +97,17 @@ inline void shineBySamples(const Wave& wave, const Lamp& lamp) {
                             static_cast<std::size_t>(some));
             }
         }
-        std::copy_n(&by.sum[0][0], 3 * kPoints, &memory.lightSums[b].sum[0][0]);
+        auto& sum = memory.lightSums[b].sum;
+        std::copy_n(&by.sum[0][0], 3 * kPoints, &sum[0][0]);
+        for (unsigned rest = by.whole; rest != 0; rest &= rest - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+            const Vec3 light = SurfaceBlock::get(whole.light, i);
+            if ((by.waiting >> i & 1) != 0)
+                memory.wholeLights.push(static_cast<std::uint32_t>(b * kPoints + i),
+                                        {light.x, light.y, light.z});
+            else
+                SurfaceBlock::set(sum, i, light);
+        }
     }
 }
 
