@@ -48,8 +48,8 @@ struct SamplesOnLamp {
 // What the points of a block get of all of a lamp that has a size, if nothing is in between: where
 // it is known, it stands for the samples unless one of them is hidden.
 struct alignas(64) WholeLight {
-    float light[3][LitBlock::kPoints];
-    unsigned known = 0; // a bit for each point
+    float light[3][LitBlock::kPoints]; // black where it isn't
+    unsigned known = 0;                // a bit for each point
 };
 
 // What they do: their light is added to the sum of a point. Where it takes a ray to know whether
@@ -88,7 +88,8 @@ using LightBySamplesFn = void (*)(const PointEmission& lamp, const LitBlock& blo
                                   const SamplesOnLamp& samples, const Occluders& occluders,
                                   const HiddenPoints& hidden, LitBySamples& out);
 
-using WholeLightFn = void (*)(const PointEmission& lamp, const LitBlock& block, WholeLight& out);
+using WholeLightFn = void (*)(const PointEmission& lamp, const LitBlock& block, unsigned points,
+                              WholeLight& out);
 
 // Null for the scalar kernel.
 HiddenPointsFn hiddenPoints(const Kernel& kernel);

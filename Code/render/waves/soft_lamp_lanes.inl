@@ -153,15 +153,20 @@ void lightBySamples(const PointEmission& lamp, const LitBlock& block, const Samp
 }
 
 // PointLight::whole() and wholeLight() of a point.
-void wholeLight(const PointEmission& lamp, const LitBlock& block, WholeLight& out) {
-    out.known = 0;
+void wholeLight(const PointEmission& lamp, const LitBlock& block, unsigned points,
+                WholeLight& out) {
     const Attenuation& fade = lamp.attenuation;
-    if (!fade.isInverseSquare() && !fade.isConstant()) return;
-    const unsigned dull = block.used & ~(block.shiny[0] | block.shiny[1] | block.shiny[2]);
-    const Floats one(1.0f);
+    if (!fade.isInverseSquare() && !fade.isConstant()) points = 0;
+    points &= ~(block.shiny[0] | block.shiny[1] | block.shiny[2]);
+    const Three none = Three::all(0, 0, 0);
+    out.known = 0;
     for (std::size_t first = 0; first < LitBlock::kPoints; first += W) {
+        const auto put = [&](const Three& light) {
+            store(light, out.light[0] + first, out.light[1] + first, out.light[2] + first);
+        };
+        put(none);
         const LitLanes<PointsInRow> lit(block, {first});
-        const unsigned asked = lit.lanesOf(dull);
+        const unsigned asked = lit.lanesOf(points);
         if (asked == 0) continue;
         const Three n = Three::load(block.n, first);
         const Three d = Three::all(lamp.position.x, lamp.position.y, lamp.position.z) -
@@ -172,18 +177,19 @@ void wholeLight(const PointEmission& lamp, const LitBlock& block, WholeLight& ou
         unsigned above = isAbove(Three::load(block.ng, first));
         if (const unsigned lifted = lit.lanesOf(block.lifted); lifted != 0)
             above |= lifted & isAbove(Three::load(block.ns, first));
-        const unsigned lanes =
-            asked & above & isAbove(n) & bits(distance2 > Floats(0.0f));
+        unsigned lanes = asked & above & isAbove(n) & bits(distance2 > Floats(0.0f));
         if (lanes == 0) continue;
         const Floats radius2(sqr(lamp.radius));
         const Floats faded = fade.isConstant()
                                  ? Floats(fade.constant) / logRatio(radius2 / distance2)
                                  : Floats(fade.quadratic) * (distance2 + radius2);
         const Three irradiance =
-            Three::all(lamp.intensity.r, lamp.intensity.g, lamp.intensity.b) * (one / faded);
+            Three::all(lamp.intensity.r, lamp.intensity.g, lamp.intensity.b) *
+            (Floats(1.0f) / faded);
         const Three reflected = lit.template reflected<false>(n, d / distance, lanes);
         const Three light = Three::load(block.weight, first) * reflected * irradiance;
-        store(light, out.light[0] + first, out.light[1] + first, out.light[2] + first);
-        out.known |= (lanes & ~black(light)) << first;
+        lanes &= ~black(light);
+        put(select(maskOf(lanes), light, none));
+        out.known |= lanes << first;
     }
 }

@@ -83,11 +83,17 @@ inline void shineBySamples(const Wave& wave, const Lamp& lamp) {
             hidden = lamp.hiddenPoints(occluders, block, *lamp.emission);
         else
             hidden.maybe = block.used;
-        lamp.wholeLight(*lamp.emission, block, whole);
+        const unsigned reached = block.used & ~hidden.surely;
+        lamp.wholeLight(*lamp.emission, block, reached, whole);
+        auto& sum = memory.lightSums[b].sum;
+        const unsigned asked = reached & ~(whole.known & ~hidden.maybe);
+        if (asked == 0) {
+            std::copy_n(&whole.light[0][0], 3 * kPoints, &sum[0][0]);
+            continue;
+        }
         for (auto& channel : by.sum) std::fill_n(channel, kPoints, 0.0f);
-        by.waiting = 0, by.whole = whole.known & ~hidden.surely;
-        const unsigned asked = block.used & ~hidden.surely & ~(whole.known & ~hidden.maybe);
-        for (int first = 0; first < lamp.samples && asked != 0; first += kMost) {
+        by.waiting = 0, by.whole = whole.known;
+        for (int first = 0; first < lamp.samples; first += kMost) {
             const int some = std::min(kMost, lamp.samples - first);
             lamp.bySamples(*lamp.emission, block, samplesOf(wave, lamp, block, asked, first, some),
                            occluders, hidden, by);
@@ -97,7 +103,6 @@ inline void shineBySamples(const Wave& wave, const Lamp& lamp) {
                             static_cast<std::size_t>(some));
             }
         }
-        auto& sum = memory.lightSums[b].sum;
         std::copy_n(&by.sum[0][0], 3 * kPoints, &sum[0][0]);
         for (unsigned rest = by.whole; rest != 0; rest &= rest - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(rest));
