@@ -37,10 +37,12 @@ public:
     // The light of all of the lamp, if nothing is in between, as one sample: what answers by the
     // cosine to `n` gets from it what the mean over all of sample() gives. In closed form; not set
     // where there is none, or where part of the lamp may be behind the horizon of `n` or of
-    // `horizon`: all of sample() is above them.
+    // `horizon`.
     virtual std::optional<LightSample> whole(Vec3 /*point*/, Vec3 /*n*/, Vec3 /*horizon*/) const {
         return {};
     }
+    // A ball that all places of sample() are in.
+    virtual std::optional<LampBall> ball() const { return {}; }
     // Set when shadow rays are defined as starting at this point (KERNELS: shared origin).
     virtual std::optional<Vec3> origin() const { return {}; }
     // Set when centre() is that of this point: for who asks many points at once.

@@ -14,9 +14,15 @@ struct Attenuation {
     bool isConstant() const { return quadratic == 0 && linear == 0; }
 };
 
+struct LampBall {
+    Vec3 centre;
+    float radius;
+};
+
 struct PointEmission {
     Vec3 position;
     Rgb intensity;
     Attenuation attenuation;
     float radius = 0; // of the lamp's body, when it is asked for its centre alone
+    LampBall ball() const { return {position, radius}; }
 };

@@ -99,6 +99,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
         if (isSoft && lamp.emission && sampler.kind() == SamplerKind::Sobol)
             lamp.bySamples = lightBySamples(kernel), lamp.wholeLight = wholeLight(kernel),
             lamp.hiddenPoints = ::hiddenPoints(kernel);
+        if (isSoft && occluders.areSolids()) lamp.ball = light.ball();
         (shades ? shadingLamps : openLamps).push_back(lamp);
     }
     if (settings.specialise && settings.integrator == IntegratorKind::Whitted)

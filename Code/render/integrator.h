@@ -52,8 +52,10 @@ struct Lamp {
     // Ask many points at once, in its centre or at its samples; null: one by one.
     LightByLampFn inLanes = nullptr;
     LightBySamplesFn bySamples = nullptr;
-    WholeLightFn wholeLight = nullptr; // beside bySamples
     HiddenPointsFn hiddenPoints = nullptr; // of what bySamples asks
+    WholeLightFn wholeLight = nullptr;     // the same
+    // Set for soft lamps if points that nothing hides from it get its closed form.
+    std::optional<LampBall> ball{};
     std::shared_ptr<const LampMap> map{};  // of what inLanes asks, if there is one
     AskLampMapFn askMap = nullptr;
 };
@@ -185,34 +187,6 @@ struct WaitingLight {
     Rgb light;
 };
 
-// What points get of a lamp that has a size, if none of its samples is hidden; by any number.
-class WholeLights {
-public:
-    void clear(std::size_t places) {
-        lights_.clear();
-        isHidden_.resize(places);
-    }
-    void push(std::uint32_t place, Rgb light) {
-        lights_.push_back({place, light});
-        isHidden_[place] = 0;
-    }
-    // A sample of this place is; for places that are not there, too.
-    void hide(std::uint32_t place) { isHidden_[place] = 1; }
-    // fn(place, light) for those that stay.
-    template <class Fn> void forEachLeft(Fn&& fn) const {
-        for (const auto& [place, light] : lights_)
-            if (isHidden_[place] == 0) fn(place, light);
-    }
-
-private:
-    struct One {
-        std::uint32_t place;
-        Rgb light;
-    };
-    std::vector<One> lights_;
-    std::vector<std::uint8_t> isHidden_;
-};
-
 // Points of a wave that lie on one shape.
 struct PointGroup {
     static constexpr std::size_t kMost = 4; // of a wave
@@ -260,7 +234,6 @@ struct WaveMemory {
     std::vector<std::uint8_t> hidden;
     std::vector<Rgb> transmittance;
     std::vector<WaitingLight> waiting; // to be added to these
-    WholeLights wholeLights;           // instead, by the same places
     std::vector<Rgb> lampLight;        // of a lamp with a size that lanes don't do, by point
     std::vector<Arrival> arrivals, arrivalsInOrder;
     std::vector<std::uint32_t> arrivalStarts;

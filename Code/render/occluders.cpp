@@ -82,16 +82,20 @@ Occluders::Occluders(const ShapeSet& shapes) : shapes_(shapes) {
         return shapes.shadows[i] != ShapeSet::Shadow::None && !shapes.boxes[i].isEmpty();
     };
     for (std::size_t i = 0; i < shapes.shapes.size(); ++i) count += casts(i);
-    canTell_ = count <= kMost;
+    canTell_ = areSolids_ = count <= kMost;
     if (!canTell_) return;
-    for (std::uint32_t i = 0; i < shapes.shapes.size(); ++i)
-        if (casts(i)) casters_.push_back(occluderOf(shapes, i));
+    for (std::uint32_t i = 0; i < shapes.shapes.size(); ++i) {
+        if (!casts(i)) continue;
+        casters_.push_back(occluderOf(shapes, i));
+        areSolids_ &= !shapes.shapes[i]->isOfTriangles();
+    }
 }
 
 bool Occluders::mayHide(const Bounds& points, std::uint32_t shape, bool fromInside,
                         const Bounds& lamp) const {
-    const float margin = slack(
-        max(max(maxAbs(points.lo), maxAbs(points.hi)), max(maxAbs(lamp.lo), maxAbs(lamp.hi))));
+    const float margin = kSlack * max(max(max(maxAbs(points.lo), maxAbs(points.hi)),
+                                          max(maxAbs(lamp.lo), maxAbs(lamp.hi))),
+                                      extent());
     for (const Occluder& caster : casters_) {
         if (caster.shape == shape && !(fromInside ? caster.hidesInside : caster.hidesOutside))
             continue;

@@ -41,15 +41,20 @@ public:
     // False: there are too many shapes to look at; then the other questions have no answer.
     bool canTell() const { return canTell_; }
 
+    // Are they few, and none of them a mesh? Then what is said of them does not depend on how the
+    // scene is built: meshes may be merged.
+    bool areSolids() const { return areSolids_; }
+
     // For who looks at many points at once: all of them, and how far from them what is said to pass
-    // by has to stay, for points and lamps of coordinates up to `extent`. Rays are rounded to 2^-24
+    // by has to stay, of the coordinates of points, lamps, and boxes. Rays are rounded to 2^-24
     // of their coordinates, start some 2^-20 off the points, and a shape may be met 2^-20 off its
     // box.
     std::span<const Occluder> all() const { return casters_; }
-    float slack(float extent) const { return 0x1p-16f * max(shapes_.extent, extent); }
+    static constexpr float kSlack = 0x1p-16f;
+    float extent() const { return shapes_.extent; }
 
 private:
     const ShapeSet& shapes_;
-    bool canTell_;
+    bool canTell_, areSolids_;
     std::vector<Occluder> casters_;
 };

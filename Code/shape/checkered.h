@@ -16,6 +16,7 @@ public:
     void collect(const Ray& ray, std::vector<Hit>& hits) const override {
         shape_->collect(ray, hits);
     }
+    bool isOfTriangles() const override { return shape_->isOfTriangles(); }
     bool takesBatches() const override { return shape_->takesBatches(); }
     void intersectBatch(const RaySpan& rays, std::uint32_t number,
                         std::span<Hit> hits) const override {

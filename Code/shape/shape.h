@@ -63,6 +63,9 @@ public:
     // its outside (normals point there) or on its inside? False for what is convex, or flat.
     virtual bool hidesFromItself(bool /*inside*/) const { return true; }
 
+    // Is it a mesh, which others may be merged with?
+    virtual bool isOfTriangles() const { return false; }
+
     // Batches: the same answers for many rays. A shape that is faster this way says so; the others
     // are asked ray by ray.
     virtual bool takesBatches() const { return false; }

@@ -27,11 +27,10 @@ struct TimesInLanes {
 
 class PointsToLamp {
 public:
-    PointsToLamp(const LitBlock& block, std::size_t first, const PointEmission& lamp)
-        : lamp_(Bounds{lamp.position, lamp.position}.padded(lamp.radius)), lampRadius_(lamp.radius),
+    PointsToLamp(const LitBlock& block, std::size_t first, const LampBall& lamp)
+        : lamp_(Bounds{lamp.centre, lamp.centre}.padded(lamp.radius)), lampRadius_(lamp.radius),
           p_(Three::load(block.p, first)) {
-        const Vec3 centre = lamp.position;
-        const Three way = Three::all(centre.x, centre.y, centre.z) - p_;
+        const Three way = Three::all(lamp.centre.x, lamp.centre.y, lamp.centre.z) - p_;
         distance_ = sqrt(dot(way, way));
         unit_ = way / distance_;
         const Three lift = Three::load(block.lift, first);
@@ -47,18 +46,19 @@ public:
         cosine_ = sqrt(Floats(1.0f) - sine_ * sine_); // NaN in the lamp: then nothing is known
     }
 
-    float extent() const {
-        Floats most(::max(maxAbs(lamp_.lo), maxAbs(lamp_.hi)));
+    // Of each point and the lamp, but `least` at least.
+    Floats extent(float least) const {
+        Floats most(::max(::max(maxAbs(lamp_.lo), maxAbs(lamp_.hi)), least));
         for (std::size_t axis = 0; axis < 3; ++axis)
             most = max(max(abs(lo_[axis]), abs(hi_[axis])), most);
-        return largest(most);
+        return most;
     }
 
-    unsigned meet(const Bounds& box, float slack) const {
+    unsigned meet(const Bounds& box, Floats slack) const {
         TimesInLanes times;
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            times.keepPositive(hi_[axis] - Floats(box.lo[axis] - slack), fromHi_[axis]);
-            times.keepPositive(Floats(box.hi[axis] + slack) - lo_[axis], fromLo_[axis]);
+            times.keepPositive(hi_[axis] - (Floats(box.lo[axis]) - slack), fromHi_[axis]);
+            times.keepPositive((Floats(box.hi[axis]) + slack) - lo_[axis], fromLo_[axis]);
         }
         return ~bits(times.lo > times.hi * Floats(1 + 0x1p-18f));
     }
@@ -78,16 +78,16 @@ public:
     }
 
     // Is the ball off the cone?
-    unsigned passBy(const Occluder& ball, const BallSeen& seen, float slack) const {
-        const Floats room = Floats(ball.radius + slack) + lift_;
+    unsigned passBy(const Occluder& ball, const BallSeen& seen, Floats slack) const {
+        const Floats room = (Floats(ball.radius) + slack) + lift_;
         const Mask isBehind = seen.along * cosine_ + seen.height * sine_ < Floats(0.0f);
         return bits(seen.out > room) | bits(isBehind & (seen.distance2 > room * room));
     }
 
     // Does all of the cone go through the ball in front of the lamp? The line that is farthest from
     // the centre is on the other side of the axis.
-    unsigned areBehind(const Occluder& ball, const BallSeen& seen, float slack) const {
-        const Floats around = Floats(slack) + lift_, core(ball.core);
+    unsigned areBehind(const Occluder& ball, const BallSeen& seen, Floats slack) const {
+        const Floats around = slack + lift_, core(ball.core);
         const Floats outside = Floats(ball.radius) + around; // rays have to come in
         const Floats farthest = seen.height * cosine_ + seen.along * sine_;
         const Mask isAhead = seen.along * cosine_ > seen.height * sine_;
@@ -96,9 +96,9 @@ public:
                     (seen.distance2 > outside * outside));
     }
 
-    Floats room(float slack) const { return Floats(slack) + lift_; }
+    Floats room(Floats slack) const { return slack + lift_; }
 
-    unsigned areBeside(const Occluder::Sides& plane, float slack) const {
+    unsigned areBeside(const Occluder::Sides& plane, Floats slack) const {
         float lampLo = plane.offset, lampHi = plane.offset;
         Floats lo(plane.offset), hi(plane.offset);
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -109,9 +109,9 @@ public:
             lo = lo + Floats(n) * (up ? lo_ : hi_)[axis];
             hi = hi + Floats(n) * (up ? hi_ : lo_)[axis];
         }
-        if (lampLo > slack) return bits(lo > Floats(slack));
-        if (lampHi < -slack) return bits(hi < Floats(-slack));
-        return 0;
+        const Floats below = Floats(0.0f) - slack;
+        return bits((Floats(lampLo) > slack) & (lo > slack)) |
+               bits((Floats(lampHi) < below) & (hi < below));
     }
 
 private:
@@ -216,15 +216,16 @@ private:
 } // namespace
 
 HiddenPoints hiddenPoints(const Occluders& occluders, const LitBlock& block,
-                          const PointEmission& lamp) {
+                          const LampBall& lamp) {
     static_assert(HiddenPoints::kMostShapes >= Occluders::kMost);
     HiddenPoints hidden;
     hidden.areShapesKnown = true;
     hidden.byShape.fill(0);
     for (std::size_t first = 0; first < LitBlock::kPoints; first += W) {
         const unsigned all = block.used >> first & ((1u << W) - 1);
+        if (all == 0) continue;
         const PointsToLamp points(block, first, lamp);
-        const float slack = occluders.slack(points.extent());
+        const Floats slack = Floats(Occluders::kSlack) * points.extent(occluders.extent());
         points.room(slack).store(hidden.room + first);
         const Ints shapes = Ints::load(block.shape + first);
         for (std::size_t i = 0; i < occluders.all().size(); ++i) {

@@ -8,7 +8,7 @@
     void lightBySamples(const PointEmission&, const LitBlock&, const SamplesOnLamp&,               \
                         const Occluders&, const HiddenPoints&, LitBySamples&);                     \
     void wholeLight(const PointEmission&, const LitBlock&, unsigned, WholeLight&);                 \
-    HiddenPoints hiddenPoints(const Occluders&, const LitBlock&, const PointEmission&);            \
+    HiddenPoints hiddenPoints(const Occluders&, const LitBlock&, const LampBall&);                 \
     }
 DECLARE_BY_KERNEL(DECLARE)
 #define ROW(isa)                                                                                   \

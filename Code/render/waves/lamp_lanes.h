@@ -45,8 +45,7 @@ struct SamplesOnLamp {
                   x[LitBlock::kPoints] = {}, y[LitBlock::kPoints] = {};
 };
 
-// What the points of a block get of all of a lamp that has a size, if nothing is in between: where
-// it is known, it stands for the samples unless one of them is hidden.
+// What the points of a block get of all of a lamp that has a size, if nothing is in between.
 struct alignas(64) WholeLight {
     float light[3][LitBlock::kPoints]; // black where it isn't
     unsigned known = 0;                // a bit for each point
@@ -62,8 +61,6 @@ struct alignas(64) LitBySamples {
     float light[3][kRoom], dir[3][kRoom], tMax[kRoom]; // the ray from the point
     std::array<std::uint16_t, kMost> lit, unsure;      // a bit for each point
     unsigned waiting = 0;
-    unsigned whole = 0; // all of their samples are asked; left are those of which none is hidden,
-                        // but for what rays tell
     bool isLit(std::size_t s, std::size_t k) const { return lit[s] >> k & 1; }
     bool isUnsure(std::size_t s, std::size_t k) const { return unsure[s] >> k & 1; }
 };
@@ -83,7 +80,7 @@ struct alignas(64) HiddenPoints {
     bool areShapesKnown = false;
 };
 using HiddenPointsFn = HiddenPoints (*)(const Occluders& occluders, const LitBlock& block,
-                                        const PointEmission& lamp);
+                                        const LampBall& lamp);
 using LightBySamplesFn = void (*)(const PointEmission& lamp, const LitBlock& block,
                                   const SamplesOnLamp& samples, const Occluders& occluders,
                                   const HiddenPoints& hidden, LitBySamples& out);

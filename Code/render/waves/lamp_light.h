@@ -1,6 +1,7 @@
 // Light of a lamp at a point of the wave, before anything is in the way.
 #pragma once
 
+#include "render/waves/hidden_point.h"
 #include "render/waves/steps.h"
 #include "render/waves/wave.h"
 
@@ -45,9 +46,8 @@ inline Vec2 placeOn(const Lamp& lamp, int k, const Wave& wave, std::size_t i) {
                               dimension(wave.depth, BounceSlot::LightUv));
 }
 
-// What the picture's sample gets of all of a lamp that has a size, if nothing is in between: where
-// this is known, and not black, it stands for the lamp's samples unless one of them is hidden.
-// Highlights have no such form.
+// What the picture's sample gets of all of a lamp that has a size, if nothing is in between; black
+// where there is no closed form, as for highlights.
 inline Rgb wholeLight(const Lamp& lamp, const LitPoint& lit) {
     if (!isBlack(lit.material->specular)) return {};
     auto whole = lamp.light.whole(lit.p, lit.n, lit.ng);
@@ -57,18 +57,28 @@ inline Rgb wholeLight(const Lamp& lamp, const LitPoint& lit) {
            whole->irradiance;
 }
 
+// The same where it is known that nothing is in between; else black.
+inline Rgb unhiddenLight(const Wave& wave, const Lamp& lamp, const LitPoint& lit) {
+    if (!lamp.ball) return {};
+    const Rgb whole = wholeLight(lamp, lit);
+    if (isBlack(whole)) return {};
+    const PointBatch& points = wave.memory.points;
+    const PointBlock& block = points.at.block(lit.point / PointColumns::kPoints);
+    const std::size_t i = lit.point % PointColumns::kPoints;
+    const bool inside = !block.isFront(i) && !block.isLitApart(i);
+    const HidingPlace place{lit.p, lit.lift, points.shape[lit.point], inside};
+    return mayHide(wave.context.occluders, place, *lamp.ball) ? Rgb{} : whole;
+}
+
 // fn(sample, light) for every sample of the lamp that sends light from the point to the eye:
-// `light` is what the sample of the picture gets if nothing is in between. `all`: also for those
-// that send none.
+// `light` is what the sample of the picture gets if nothing is in between.
 template <bool kSoftLamps, class Fn>
-void forEachLampSample(const Wave& wave, const Lamp& lamp, const LitPoint& lit, bool all, Fn&& fn) {
+void forEachLampSample(const Wave& wave, const Lamp& lamp, const LitPoint& lit, Fn&& fn) {
     const auto take = [&](const LightSample& sample, float share) {
-        Rgb light;
-        if (!isBlack(sample.irradiance) && rises(lit, sample.toLight)) {
-            const Rgb reflected = reflectedLight(*lit.material, lit.n, lit.toEye, sample.toLight);
-            light = lit.weight * reflected * sample.irradiance * share;
-        }
-        if (all || !isBlack(light)) fn(sample, light);
+        if (isBlack(sample.irradiance) || !rises(lit, sample.toLight)) return;
+        const Rgb reflected = reflectedLight(*lit.material, lit.n, lit.toEye, sample.toLight);
+        const Rgb light = lit.weight * reflected * sample.irradiance * share;
+        if (!isBlack(light)) fn(sample, light);
     };
     if constexpr (kSoftLamps)
         if (lamp.isSoft) {

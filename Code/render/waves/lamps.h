@@ -75,12 +75,6 @@ template <bool kSeeThrough> Rgb arriving(const WaveMemory& memory, std::size_t r
     return memory.hidden[ray] == 0 ? light : Rgb{};
 }
 
-// Is nothing at all in the way of such a ray?
-template <bool kSeeThrough> bool isFree(const WaveMemory& memory, std::size_t ray) {
-    if constexpr (kSeeThrough) return memory.transmittance[ray] == Rgb{1, 1, 1};
-    return memory.hidden[ray] == 0;
-}
-
 // fn(point, light) for what arrives of the shadow rays' light.
 template <bool kSeeThrough, class ArriveFn>
 void traceShadowRays(const Wave& wave, ArriveFn&& arrive) {
@@ -92,27 +86,17 @@ void traceShadowRays(const Wave& wave, ArriveFn&& arrive) {
     }
 }
 
-// The same for all that waits for them, in memory.lightSums; whole lights stand where all are free.
+// The same for all that waits for them, in memory.lightSums.
 template <bool kSeeThrough> void addWaiting(const Wave& wave) {
     askShadowRays<kSeeThrough>(wave);
     WaveMemory& memory = wave.memory;
-    const auto add = [&](std::uint32_t place, Rgb light) {
+    for (const auto& [place, ray, light] : memory.waiting) {
+        const Rgb here =
+            ray == WaitingLight::kNoRay ? light : arriving<kSeeThrough>(memory, ray, light);
         auto& sum = memory.lightSums[place / LitBlock::kPoints].sum;
         const std::size_t i = place % LitBlock::kPoints;
-        sum[0][i] += light.r, sum[1][i] += light.g, sum[2][i] += light.b;
-    };
-    for (const auto& [place, ray, light] : memory.waiting) {
-        if (ray == WaitingLight::kNoRay) {
-            add(place, light);
-            continue;
-        }
-        add(place, arriving<kSeeThrough>(memory, ray, light));
-        if (!isFree<kSeeThrough>(memory, ray)) memory.wholeLights.hide(place);
+        sum[0][i] += here.r, sum[1][i] += here.g, sum[2][i] += here.b;
     }
-    memory.wholeLights.forEachLeft([&](std::uint32_t place, Rgb light) {
-        auto& sum = memory.lightSums[place / LitBlock::kPoints].sum;
-        SurfaceBlock::set(sum, place % LitBlock::kPoints, {light.r, light.g, light.b});
-    });
 }
 
 // Sums run over the rays of a wave in their order, and for each over the lamps. After the first
@@ -130,7 +114,7 @@ inline void addInOrderOfPoints(const Wave& wave) {
         wave.add(wave.slotOf(arrival.point), arrival.light);
 }
 
-// The light of the lamp at all points, one by one, for any lamp.
+// forEachLampSample() for all points, one by one, for any lamp.
 template <bool kSoftLamps, class ArriveFn>
 void shineOneByOne(const Wave& wave, const Lamp& lamp, bool isGrouped, ArriveFn&& arrive) {
     WaveMemory& memory = wave.memory;
@@ -141,19 +125,16 @@ void shineOneByOne(const Wave& wave, const Lamp& lamp, bool isGrouped, ArriveFn&
         if (place == 0) hidden = hiddenByGroup(memory, i / LitBlock::kPoints, isGrouped);
         const bool mayBeHidden = (hidden >> place & 1) != 0;
         const LitPoint lit = litPoint(wave, k);
-        const Rgb whole = kSoftLamps && lamp.isSoft ? wholeLight(lamp, lit) : Rgb{};
-        const bool isWhole = !isBlack(whole);
-        if (isWhole && !mayBeHidden) {
-            arrive(k, whole);
-            continue;
-        }
-        if (isWhole) memory.wholeLights.push(k, whole);
-        forEachLampSample<kSoftLamps>(
-            wave, lamp, lit, isWhole, [&](const LightSample& sample, Rgb light) {
-                if (!mayBeHidden) return arrive(k, light);
-                const float time = wave.rays.time[memory.points.ray[k]];
-                memory.shadowRays.push(shadowRay(lamp, lit, sample, time), k, light);
-            });
+        if constexpr (kSoftLamps)
+            if (const Rgb whole = unhiddenLight(wave, lamp, lit); !isBlack(whole)) {
+                arrive(k, whole);
+                continue;
+            }
+        forEachLampSample<kSoftLamps>(wave, lamp, lit, [&](const LightSample& sample, Rgb light) {
+            if (!mayBeHidden) return arrive(k, light);
+            const float time = wave.rays.time[memory.points.ray[k]];
+            memory.shadowRays.push(shadowRay(lamp, lit, sample, time), k, light);
+        });
     }
 }
 
@@ -199,15 +180,8 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
                 // They come in any order of points.
                 memory.lampLight.assign(points.count, Rgb{});
                 const auto add = [&](std::uint32_t k, Rgb light) { memory.lampLight[k] += light; };
-                memory.wholeLights.clear(points.count);
                 waves::shineOneByOne<true>(wave, lamp, isGrouped, add);
                 waves::traceShadowRays<kSeeThrough>(wave, add);
-                const RayBatch& rays = memory.shadowRays;
-                for (std::size_t i = 0; i < rays.size(); ++i)
-                    if (!waves::isFree<kSeeThrough>(memory, i))
-                        memory.wholeLights.hide(rays.sample[i]);
-                memory.wholeLights.forEachLeft(
-                    [&](std::uint32_t k, Rgb light) { memory.lampLight[k] = light; });
                 for (const std::uint32_t k : memory.answering) arrive(k, memory.lampLight[k]);
                 continue;
             }

@@ -2,26 +2,7 @@
 // lane and in their order. Where those return early, lanes go on with numbers that nobody takes.
 // Included by the file of each instruction set inside its namespace.
 
-struct Three {
-    Floats x, y, z;
-    static Three load(const float (*v)[LitBlock::kPoints], std::size_t first) {
-        return {Floats::load(v[0] + first), Floats::load(v[1] + first), Floats::load(v[2] + first)};
-    }
-    static Three all(float x, float y, float z) { return {Floats(x), Floats(y), Floats(z)}; }
-};
-inline Three operator+(Three a, Three b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-inline Three operator-(Three a, Three b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-inline Three operator*(Three a, Three b) { return {a.x * b.x, a.y * b.y, a.z * b.z}; }
-inline Three operator*(Three a, Floats s) { return {a.x * s, a.y * s, a.z * s}; }
-inline Three operator/(Three a, Floats s) { return {a.x / s, a.y / s, a.z / s}; }
-inline Three select(Mask m, Three a, Three b) {
-    return {select(m, a.x, b.x), select(m, a.y, b.y), select(m, a.z, b.z)};
-}
-inline Floats dot(Three a, Three b) { return a.x * b.x + a.y * b.y + a.z * b.z; }
-inline unsigned black(Three a) {
-    const Floats zero(0.0f);
-    return bits((a.x == zero) & (a.y == zero) & (a.z == zero));
-}
+#include "render/waves/three_lanes.inl"
 
 // Which point of a block each lane is: those from `first` on.
 struct PointsInRow {

@@ -115,13 +115,11 @@ void sumSamples(const SoftLanes& lanes, const SamplesOnLamp& samples, const Line
     for (std::size_t s = 0; s < samples.count; ++s) {
         const LampRow& row = rows[s];
         SoftLanes::Sample by = lanes.sample<kMayShine>(row, asked);
-        const unsigned whole = out.whole >> first & asked;
-        if (((by.lit | whole) & mayBeHidden) != 0) {
-            by.lit = (by.lit & ~black(by.light)) | whole;
+        if ((by.lit & mayBeHidden) != 0) {
+            by.lit &= ~black(by.light);
             const auto [hidden, unsure] =
                 lines.ask(row.toLight, row.distance, by.lit & mayBeHidden);
             by.lit &= ~hidden, waiting |= unsure;
-            out.whole &= ~(hidden << first);
             const std::size_t to = s * kPoints + first;
             store(by.light, out.light[0] + to, out.light[1] + to, out.light[2] + to);
             store(row.toLight, out.dir[0] + to, out.dir[1] + to, out.dir[2] + to);

@@ -73,27 +73,27 @@ inline void shineBySamples(const Wave& wave, const Lamp& lamp) {
     const std::size_t blocks = (memory.answering.size() + kPoints - 1) / kPoints;
     if (memory.lightSums.size() < blocks) memory.lightSums.resize(blocks);
     memory.waiting.clear();
-    memory.wholeLights.clear(blocks * kPoints);
     LitBySamples by;
     WholeLight whole;
     HiddenPoints hidden;
     for (std::size_t b = 0; b < blocks; ++b) {
         const LitBlock& block = memory.litBlocks[b];
-        if (canTell)
-            hidden = lamp.hiddenPoints(occluders, block, *lamp.emission);
-        else
-            hidden.maybe = block.used;
-        const unsigned reached = block.used & ~hidden.surely;
-        lamp.wholeLight(*lamp.emission, block, reached, whole);
         auto& sum = memory.lightSums[b].sum;
-        const unsigned asked = reached & ~(whole.known & ~hidden.maybe);
-        if (asked == 0) {
-            std::copy_n(&whole.light[0][0], 3 * kPoints, &sum[0][0]);
-            continue;
+        hidden.maybe = block.used;
+        whole.known = 0;
+        if (canTell || lamp.ball) hidden = lamp.hiddenPoints(occluders, block, lamp.emission->ball());
+        if (lamp.ball) {
+            lamp.wholeLight(*lamp.emission, block, block.used & ~hidden.maybe, whole);
+            if ((whole.known | hidden.surely) == block.used) {
+                std::copy_n(&whole.light[0][0], 3 * kPoints, &sum[0][0]);
+                continue;
+            }
         }
+        if (!canTell) hidden.areShapesKnown = false, hidden.maybe = block.used, hidden.surely = 0;
         for (auto& channel : by.sum) std::fill_n(channel, kPoints, 0.0f);
-        by.waiting = 0, by.whole = whole.known;
-        for (int first = 0; first < lamp.samples; first += kMost) {
+        by.waiting = 0;
+        const unsigned asked = block.used & ~hidden.surely & ~whole.known;
+        for (int first = 0; first < lamp.samples && asked != 0; first += kMost) {
             const int some = std::min(kMost, lamp.samples - first);
             lamp.bySamples(*lamp.emission, block, samplesOf(wave, lamp, block, asked, first, some),
                            occluders, hidden, by);
@@ -104,14 +104,9 @@ inline void shineBySamples(const Wave& wave, const Lamp& lamp) {
             }
         }
         std::copy_n(&by.sum[0][0], 3 * kPoints, &sum[0][0]);
-        for (unsigned rest = by.whole; rest != 0; rest &= rest - 1) {
+        for (unsigned rest = whole.known; rest != 0; rest &= rest - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-            const Vec3 light = SurfaceBlock::get(whole.light, i);
-            if ((by.waiting >> i & 1) != 0)
-                memory.wholeLights.push(static_cast<std::uint32_t>(b * kPoints + i),
-                                        {light.x, light.y, light.z});
-            else
-                SurfaceBlock::set(sum, i, light);
+            SurfaceBlock::set(sum, i, SurfaceBlock::get(whole.light, i));
         }
     }
 }
