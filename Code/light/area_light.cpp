@@ -6,7 +6,8 @@
 FlatLight::FlatLight(Outline outline, Vec3 centre, Vec3 halfX, Vec3 halfY, Vec3 normal,
                      Rgb radiance, double spreadHalfRad, bool castsShadows)
     : Light(castsShadows, radiance), outline_(outline), centre_(centre), halfX_(halfX),
-      halfY_(halfY), normal_(normal), radiance_(radiance), spreads_(spreadHalfRad < kHalfPi * 0.9999) {
+      halfY_(halfY), normal_(normal), radiance_(radiance),
+      spreads_(spreadHalfRad < kHalfPi * 0.9999) {
     const float area = length(halfX) * length(halfY) *
                        (outline == Outline::Rectangle ? 4.0f : static_cast<float>(kPi));
     power_ = radiance * area;
@@ -69,8 +70,7 @@ std::optional<LightSample> FlatLight::whole(Vec3 point, Vec3 n, Vec3 horizon) co
     const Vec3 toCentre = centre_ - point;
     const float slack = slackAt(point);
     const auto isAbove = [&](Vec3 up) {
-        return dot(up, toCentre) >=
-               std::fabs(dot(up, halfX_)) + std::fabs(dot(up, halfY_)) + slack;
+        return dot(up, toCentre) >= std::fabs(dot(up, halfX_)) + std::fabs(dot(up, halfY_)) + slack;
     };
     if (!(dot(normal_, toCentre) < -slack) || !isAbove(n) || !isAbove(horizon)) return {};
     const Vec3d d = toDouble(toCentre), x = toDouble(halfX_), y = toDouble(halfY_);

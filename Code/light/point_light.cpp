@@ -57,9 +57,9 @@ LightSample PointLight::centre(Vec3 point) const {
 }
 
 // The mean over the disk: with D the distance of its centre, d that of a place on it and f(d) the
-// attenuation, the integrand is D^2 (cos + what is odd in the place) / (d^2 f(d)). Over the radius r
-// its mean is cos / (D^2 + r^2) for f = d^2, and cos ln(1 + x) / x with x = r^2 / D^2 for f = 1. The
-// disk is in the ball of radius r.
+// attenuation, the integrand is D^2 (cos + what is odd in the place) / (d^2 f(d)). Over the radius
+// r its mean is cos / (D^2 + r^2) for f = d^2, and cos ln(1 + x) / x with x = r^2 / D^2 for f = 1.
+// The disk is in the ball of radius r.
 std::optional<LightSample> PointLight::whole(Vec3 point, Vec3 n, Vec3 horizon) const {
     if (cone_ || !(attenuation_.isInverseSquare() || attenuation_.isConstant())) return {};
     const Vec3 d = position_ - point;

@@ -56,7 +56,7 @@ struct Lamp {
     WholeLightFn wholeLight = nullptr;     // the same
     // Set for soft lamps if points that nothing hides from it get its closed form.
     std::optional<LampBall> ball{};
-    std::shared_ptr<const LampMap> map{};  // of what inLanes asks, if there is one
+    std::shared_ptr<const LampMap> map{}; // of what inLanes asks, if there is one
     AskLampMapFn askMap = nullptr;
 };
 

@@ -136,7 +136,8 @@ TEST(rayCountsAreExact) {
         view.text() +
         "material mirror {\n diffuse 0 0 0\n mirror 0.5 0.5 0.5\n}\nplane m {\n material "
         "mirror\n}\n"
-        "plane ceiling {\n translate 0 0 2\n rotate 180 1 0 0\n scale 9 9 1\n}\n"
+        "material shiny {\n specular 0.1 0.1 0.1\n}\n" // else soft lamps need no rays there
+        "plane ceiling {\n translate 0 0 2\n rotate 180 1 0 0\n scale 9 9 1\n material shiny\n}\n"
         "light a {\n translate 0 0 1.5\n}\nlight b {\n type sphere\n translate 3 0 1\n radius "
         "0.1\n}\n"
         "light dark {\n translate 0 0 1\n color 0 0 0\n}\nlight above {\n translate 0 0 5\n}\n");

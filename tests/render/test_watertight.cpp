@@ -88,7 +88,8 @@ TEST(closedShapesAreBlackInside) {
 }
 
 // A convex body has no shadow on itself: the picture with shadows is the one without, to the bit.
-// In meshes with flat normals, too: where N.L > 0 on a face, nothing is above that face.
+// In meshes with flat normals, too: where N.L > 0 on a face, nothing is above that face. The faint
+// highlight keeps soft lamps from their closed form, which is for what is known to be in the light.
 TEST(convexBodiesDoNotShadowThemselves) {
     const std::string lights =
         "light a {\n translate 3 -2 5\n color 100 100 100\n}\n"
@@ -103,9 +104,10 @@ TEST(convexBodiesDoNotShadowThemselves) {
         for (const Placing& p : kPlacings) {
             const SceneDesc desc =
                 at(shot::parse("settings {\n resolution 64 64\n samples 4\n}\ncamera c {\n look_at "
-                               "2 -4 3  0 0 0  0 0 1\n lens 60\n}\n" +
+                               "2 -4 3  0 0 0  0 0 1\n lens 60\n}\nmaterial m {\n specular "
+                               "1e-12 1e-12 1e-12\n}\n" +
                                lights + (body.find("mesh") != std::string::npos ? ball : "") +
-                               body + " rotate 33 1 2 3\n}\n"),
+                               body + " material m\n rotate 33 1 2 3\n}\n"),
                    p);
             const Image with = shot::render(desc).color;
             const Image without =

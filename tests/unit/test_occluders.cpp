@@ -3,6 +3,7 @@
 
 #include "analytic_kit.h"
 #include "check.h"
+#include "render/waves/hidden_point.h"
 #include "render/waves/lamp_lanes.h"
 
 using kit::Random;
@@ -132,13 +133,20 @@ TEST(occluders_in_lanes_never_miss_one) {
         for (const Kernel& kernel : allKernels()) {
             const HiddenPointsFn inLanes = kernel.supported() ? hiddenPoints(kernel) : nullptr;
             if (!inLanes) continue;
-            const HiddenPoints found = inLanes(occluders, block, lamp);
+            const HiddenPoints found = inLanes(occluders, block, lamp.ball());
             const unsigned hidden = found.maybe, surely = found.surely;
             CHECK_INFO((hidden & ~block.used) == 0, kernel.name << " case " << i);
             CHECK_INFO((surely & ~hidden) == 0, kernel.name << " case " << i);
             for (std::size_t k = 0; k < starts.size(); ++k) {
                 const bool mayHide = (hidden >> k & 1) != 0, hides = (surely >> k & 1) != 0;
                 known += !mayHide, dark += hides;
+                const auto at = [&](const float(&v)[3][LitBlock::kPoints]) {
+                    return Vec3{v[0][k], v[1][k], v[2][k]};
+                };
+                const HidingPlace alone{at(block.p), at(block.lift), block.shape[k],
+                                        (block.inside >> k & 1) != 0};
+                CHECK_INFO(::mayHide(occluders, alone, lamp.ball()) == mayHide,
+                           kernel.name << " case " << i << " point " << k << " alone");
                 for (int n = 0; n < 6; ++n) {
                     const Vec3 place =
                         lamp.position + toFloat(random.direction() *
@@ -186,7 +194,7 @@ void judge(Random& random, const ShapeSet& set, const MetPoints& met, const Poin
         HiddenPoints none;
         none.maybe = met.block.used;
         inLanes(lamp, met.block, samples, occluders, none, all);
-        const HiddenPoints found = hiddenPoints(kernel)(occluders, met.block, lamp);
+        const HiddenPoints found = hiddenPoints(kernel)(occluders, met.block, lamp.ball());
         inLanes(lamp, met.block, samples, occluders, found, told);
         for (std::size_t n = 0; n < LitBySamples::kRoom; ++n) {
             const std::size_t s = n / LitBlock::kPoints, k = n % LitBlock::kPoints;

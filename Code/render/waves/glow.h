@@ -93,8 +93,7 @@ template <bool kLampBodies, bool kSeeThrough> void addGlow(const Wave& wave) {
                 wave.add(slot, whole);
             else
                 forEachLampSample<true>(
-                    wave, lamp, lit,
-                    [&](const LightSample&, Rgb light) { wave.add(slot, light); });
+                    wave, lamp, lit, [&](const LightSample&, Rgb light) { wave.add(slot, light); });
         }
     }
 }

@@ -215,8 +215,7 @@ private:
 
 } // namespace
 
-HiddenPoints hiddenPoints(const Occluders& occluders, const LitBlock& block,
-                          const LampBall& lamp) {
+HiddenPoints hiddenPoints(const Occluders& occluders, const LitBlock& block, const LampBall& lamp) {
     static_assert(HiddenPoints::kMostShapes >= Occluders::kMost);
     HiddenPoints hidden;
     hidden.areShapesKnown = true;

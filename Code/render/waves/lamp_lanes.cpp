@@ -7,7 +7,7 @@
     void lightByLamp(const PointEmission&, const LitBlock&, unsigned, LitByLamp&);                 \
     void lightBySamples(const PointEmission&, const LitBlock&, const SamplesOnLamp&,               \
                         const Occluders&, const HiddenPoints&, LitBySamples&);                     \
-    void wholeLight(const PointEmission&, const LitBlock&, unsigned, WholeLight&);                 \
+    void wholeLight(const PointEmission&, const LitBlock&, unsigned, unsigned, WholeLight&);       \
     HiddenPoints hiddenPoints(const Occluders&, const LitBlock&, const LampBall&);                 \
     }
 DECLARE_BY_KERNEL(DECLARE)

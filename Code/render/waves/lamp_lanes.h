@@ -45,7 +45,8 @@ struct SamplesOnLamp {
                   x[LitBlock::kPoints] = {}, y[LitBlock::kPoints] = {};
 };
 
-// What the points of a block get of all of a lamp that has a size, if nothing is in between.
+// What is known without samples of the light that the points of a block get of a lamp that has a
+// size.
 struct alignas(64) WholeLight {
     float light[3][LitBlock::kPoints]; // black where it isn't
     unsigned known = 0;                // a bit for each point
@@ -85,8 +86,9 @@ using LightBySamplesFn = void (*)(const PointEmission& lamp, const LitBlock& blo
                                   const SamplesOnLamp& samples, const Occluders& occluders,
                                   const HiddenPoints& hidden, LitBySamples& out);
 
+// Of `points`: those that the lamp can't reach, and those of `unhidden` that have a closed form.
 using WholeLightFn = void (*)(const PointEmission& lamp, const LitBlock& block, unsigned points,
-                              WholeLight& out);
+                              unsigned unhidden, WholeLight& out);
 
 // Null for the scalar kernel.
 HiddenPointsFn hiddenPoints(const Kernel& kernel);

@@ -21,10 +21,10 @@ namespace kernels::avx512 {
 
 #include "render/waves/lit_lanes.inl"
 
+#include "light/log_ratio.inl"
 #include "render/waves/hidden_lanes.inl"
 #include "render/waves/lamp_lanes.inl"
 #include "render/waves/sobol_avx512.inl"
-#include "light/log_ratio.inl"
 #include "render/waves/soft_lamp_lanes.inl"
 } // namespace kernels::avx512
 KERNEL_REGION_END

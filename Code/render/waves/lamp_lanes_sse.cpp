@@ -21,10 +21,10 @@ namespace kernels::sse {
 
 #include "render/waves/lit_lanes.inl"
 
+#include "light/log_ratio.inl"
 #include "render/waves/hidden_lanes.inl"
 #include "render/waves/lamp_lanes.inl"
 #include "render/waves/sobol_sse.inl"
-#include "light/log_ratio.inl"
 #include "render/waves/soft_lamp_lanes.inl"
 } // namespace kernels::sse
 KERNEL_REGION_END

@@ -10,13 +10,18 @@ struct LampSeen {
     unsigned seen;
 };
 
+// PointLight::cannotReach()
+inline unsigned behindHorizon(const PointEmission& lamp, const Three& n, const Three& d,
+                              Floats distance2) {
+    const Floats zero(0.0f), behind = (zero - dot(n, d)) - Floats(lamp.radius);
+    return bits((behind > zero) & (behind * behind > Floats(sqr(kHorizonSlack)) * distance2));
+}
+
 inline LampSeen lookAtLamp(const PointEmission& lamp, const LitBlock& block, std::size_t first) {
     const Three d =
         Three::all(lamp.position.x, lamp.position.y, lamp.position.z) - Three::load(block.p, first);
-    const Floats zero(0.0f), distance2 = dot(d, d);
-    const Floats behind = (zero - dot(Three::load(block.n, first), d)) - Floats(lamp.radius);
-    const Mask unseen =
-        (behind > zero) & (behind * behind > Floats(sqr(kHorizonSlack)) * distance2);
+    const Floats distance2 = dot(d, d);
+    const unsigned unseen = behindHorizon(lamp, Three::load(block.n, first), d, distance2);
     const Three unit = d / sqrt(distance2);
     const Doubles x(unit.x), y(unit.y), z(unit.z), one(1.0), none(-0.0);
     const Doubles sign = withSign(one, z);
@@ -25,7 +30,7 @@ inline LampSeen lookAtLamp(const PointEmission& lamp, const LitBlock& block, std
         return Three{i.toFloats(), j.toFloats(), k.toFloats()};
     };
     return {d, rounded(one + sign * x * x * a, sign * b, (none - sign) * x),
-            rounded(b, sign + y * y * a, none - y), unit, ~bits(unseen) & bits(distance2 > zero)};
+            rounded(b, sign + y * y * a, none - y), unit, ~unseen & bits(distance2 > Floats(0.0f))};
 }
 
 // Samples of the lamp, one of each point: places on it, and the ways there.
@@ -150,12 +155,12 @@ void lightBySamples(const PointEmission& lamp, const LitBlock& block, const Samp
     }
 }
 
-// PointLight::whole() and wholeLight() of a point.
+// cannotReach() and whole() of PointLight, and wholeLight() of a point.
 void wholeLight(const PointEmission& lamp, const LitBlock& block, unsigned points,
-                WholeLight& out) {
+                unsigned unhidden, WholeLight& out) {
     const Attenuation& fade = lamp.attenuation;
-    if (!fade.isInverseSquare() && !fade.isConstant()) points = 0;
-    points &= ~(block.shiny[0] | block.shiny[1] | block.shiny[2]);
+    if (!fade.isInverseSquare() && !fade.isConstant()) unhidden = 0;
+    unhidden &= ~(block.shiny[0] | block.shiny[1] | block.shiny[2]);
     const Three none = Three::all(0, 0, 0);
     out.known = 0;
     for (std::size_t first = 0; first < LitBlock::kPoints; first += W) {
@@ -164,26 +169,27 @@ void wholeLight(const PointEmission& lamp, const LitBlock& block, unsigned point
         };
         put(none);
         const LitLanes<PointsInRow> lit(block, {first});
-        const unsigned asked = lit.lanesOf(points);
-        if (asked == 0) continue;
+        if (lit.lanesOf(points) == 0) continue;
         const Three n = Three::load(block.n, first);
         const Three d = Three::all(lamp.position.x, lamp.position.y, lamp.position.z) -
                         Three::load(block.p, first);
         const Floats distance2 = dot(d, d), distance = sqrt(distance2);
+        const unsigned unseen = behindHorizon(lamp, n, d, distance2);
+        out.known |= (lit.lanesOf(points) & unseen) << first;
         const Floats height = Floats(lamp.radius) + Floats(kHorizonSlack) * distance;
         const auto isAbove = [&](const Three& up) { return bits(dot(up, d) >= height); };
         unsigned above = isAbove(Three::load(block.ng, first));
         if (const unsigned lifted = lit.lanesOf(block.lifted); lifted != 0)
             above |= lifted & isAbove(Three::load(block.ns, first));
-        unsigned lanes = asked & above & isAbove(n) & bits(distance2 > Floats(0.0f));
+        unsigned lanes =
+            lit.lanesOf(points & unhidden) & above & isAbove(n) & bits(distance2 > Floats(0.0f));
         if (lanes == 0) continue;
         const Floats radius2(sqr(lamp.radius));
         const Floats faded = fade.isConstant()
                                  ? Floats(fade.constant) / logRatio(radius2 / distance2)
                                  : Floats(fade.quadratic) * (distance2 + radius2);
-        const Three irradiance =
-            Three::all(lamp.intensity.r, lamp.intensity.g, lamp.intensity.b) *
-            (Floats(1.0f) / faded);
+        const Three irradiance = Three::all(lamp.intensity.r, lamp.intensity.g, lamp.intensity.b) *
+                                 (Floats(1.0f) / faded);
         const Three reflected = lit.template reflected<false>(n, d / distance, lanes);
         const Three light = Three::load(block.weight, first) * reflected * irradiance;
         lanes &= ~black(light);

@@ -80,14 +80,13 @@ inline void shineBySamples(const Wave& wave, const Lamp& lamp) {
         const LitBlock& block = memory.litBlocks[b];
         auto& sum = memory.lightSums[b].sum;
         hidden.maybe = block.used;
-        whole.known = 0;
-        if (canTell || lamp.ball) hidden = lamp.hiddenPoints(occluders, block, lamp.emission->ball());
-        if (lamp.ball) {
-            lamp.wholeLight(*lamp.emission, block, block.used & ~hidden.maybe, whole);
-            if ((whole.known | hidden.surely) == block.used) {
-                std::copy_n(&whole.light[0][0], 3 * kPoints, &sum[0][0]);
-                continue;
-            }
+        if (canTell || lamp.ball)
+            hidden = lamp.hiddenPoints(occluders, block, lamp.emission->ball());
+        lamp.wholeLight(*lamp.emission, block, block.used & ~hidden.surely,
+                        lamp.ball ? ~hidden.maybe : 0, whole);
+        if ((whole.known | hidden.surely) == block.used) {
+            std::copy_n(&whole.light[0][0], 3 * kPoints, &sum[0][0]);
+            continue;
         }
         if (!canTell) hidden.areShapesKnown = false, hidden.maybe = block.used, hidden.surely = 0;
         for (auto& channel : by.sum) std::fill_n(channel, kPoints, 0.0f);
