@@ -17,9 +17,6 @@ public:
     std::optional<LightSample> whole(Vec3 point, Vec3 n, Vec3 horizon) const override;
     bool cannotReach(Vec3 point, Vec3 n) const override;
     Bounds sourcesFor(const Bounds& points) const override;
-    std::optional<LampBall> ball() const override {
-        return LampBall{centre_, length(halfX_) + length(halfY_)};
-    }
 
 private:
     LightSample from(Vec3 place, Vec3 point) const;
@@ -42,7 +39,6 @@ public:
     std::optional<LightSample> whole(Vec3 point, Vec3 n, Vec3 horizon) const override;
     bool cannotReach(Vec3 point, Vec3 n) const override;
     Bounds sourcesFor(const Bounds& points) const override;
-    std::optional<LampBall> ball() const override { return LampBall{centre_, radius_}; }
 
 private:
     Vec3 centre_;

@@ -41,8 +41,6 @@ public:
     virtual std::optional<LightSample> whole(Vec3 /*point*/, Vec3 /*n*/, Vec3 /*horizon*/) const {
         return {};
     }
-    // A ball that all places of sample() are in.
-    virtual std::optional<LampBall> ball() const { return {}; }
     // Set when shadow rays are defined as starting at this point (KERNELS: shared origin).
     virtual std::optional<Vec3> origin() const { return {}; }
     // Set when centre() is that of this point: for who asks many points at once.

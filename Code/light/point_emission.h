@@ -14,6 +14,7 @@ struct Attenuation {
     bool isConstant() const { return quadratic == 0 && linear == 0; }
 };
 
+// All places on a lamp are in it.
 struct LampBall {
     Vec3 centre;
     float radius;

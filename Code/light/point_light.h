@@ -25,7 +25,6 @@ public:
     bool cannotReach(Vec3 point, Vec3 n) const override;
     bool shine(Vec3 point, Vec3 n, LightSample& sample) const override;
     Bounds sourcesFor(const Bounds& points) const override;
-    std::optional<LampBall> ball() const override { return LampBall{position_, radius_}; }
     std::optional<Vec3> origin() const override { return position_; }
     std::optional<PointEmission> emission() const override {
         if (cone_) return {};

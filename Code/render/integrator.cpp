@@ -45,6 +45,9 @@ StillsInLanes stillsInLanesOf(const ShapeSet& set, SurfaceLanes lanes, SurfaceNe
     return stills;
 }
 
+// The closed forms of lamps that lanes don't do take longer than a few samples.
+constexpr int kFewestForWhole = 4;
+
 // Where so many samples are asked for that maps pay, and waves sum up lamps that have some
 // (waves/lamp_sums.h).
 void mapLamps(const Scene& scene, const RenderSettings& settings, std::vector<Lamp>& lamps) {
@@ -99,7 +102,8 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
         if (isSoft && lamp.emission && sampler.kind() == SamplerKind::Sobol)
             lamp.bySamples = lightBySamples(kernel), lamp.wholeLight = wholeLight(kernel),
             lamp.hiddenPoints = ::hiddenPoints(kernel);
-        if (isSoft && occluders.areSolids()) lamp.ball = light.ball();
+        lamp.asksWhole = isSoft && !shades && (lamp.emission || samples >= kFewestForWhole);
+        if (isSoft && lamp.emission && occluders.areSolids()) lamp.ball = lamp.emission->ball();
         (shades ? shadingLamps : openLamps).push_back(lamp);
     }
     if (settings.specialise && settings.integrator == IntegratorKind::Whitted)

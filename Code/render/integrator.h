@@ -54,8 +54,8 @@ struct Lamp {
     LightBySamplesFn bySamples = nullptr;
     HiddenPointsFn hiddenPoints = nullptr; // of what bySamples asks
     WholeLightFn wholeLight = nullptr;     // the same
-    // Set for soft lamps if points that nothing hides from it get its closed form.
-    std::optional<LampBall> ball{};
+    bool asksWhole = false; // casts no shadows, and its closed form is quicker than its samples
+    std::optional<LampBall> ball{}; // set if points that nothing hides from it get the closed form
     std::shared_ptr<const LampMap> map{}; // of what inLanes asks, if there is one
     AskLampMapFn askMap = nullptr;
 };

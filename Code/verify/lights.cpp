@@ -199,6 +199,21 @@ Tally convergence(const Effort& effort) {
     });
 }
 
+// What is said of a whole lamp without samples, of what would arrive on a surface that faces it: a
+// few roundings of floats.
+Tally closedForms(const Effort& effort) {
+    return inBatches(effort, 213, 5000, [](meshes::Random& random, Tally& tally) {
+        const Case c = randomCase(random, random.chance(0.5) ? 0 : 3);
+        const auto whole = c.light->whole({0, 0, 0}, {0, 0, 1}, {0, 0, 1});
+        if (!whole) return;
+        const double facing = static_cast<double>(whole->irradiance.g);
+        const double received = facing * static_cast<double>(whole->toLight.z);
+        ++tally.cases;
+        tally.measure(std::fabs(received - trueIrradiance(c)) / facing,
+                      [&] { return "irradiance of " + c.text(); });
+    });
+}
+
 constexpr double kHalvedEnough = 0.5358867312681466; // 2^-0.9
 
 constexpr Row kRows[] = {
@@ -206,6 +221,8 @@ constexpr Row kRows[] = {
      formFactors},
     {"T21b", "error left by twice the Sobol samples (slope -0.9: 0.536)", "of the error",
      kHalvedEnough, true, convergence},
+    {"T21c", "rectangles and spheres above the horizon, without samples", "of facing it", 1e-6,
+     true, closedForms},
 };
 
 } // namespace

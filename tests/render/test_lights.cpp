@@ -42,25 +42,27 @@ double polygonIrradiance(const std::vector<Vec3d>& corners, Vec3d p, Vec3d n) {
     return std::fabs(sum) / 2;
 }
 
-// The centre of the picture as the mean of 1024 pixels of 16 independent samples each. `light` over
-// a matte floor, and over one with a highlight so faint that it only keeps the lamp from being
-// asked for its closed form. More than 3 sigma is wrong; and sigma below 2 % makes sure that the
-// test can tell. Of closed forms all pixels are the same number: 4e-7 for roundings.
+// The centre of the picture as the mean of 1024 pixels of 16 independent samples of the lamp. More
+// than 3 sigma is wrong; and sigma below 2 % makes sure that the test can tell. A lamp without
+// shadows is asked for its closed form instead, if there is one: 4e-7 for roundings. A highlight,
+// so faint that nobody sees it, keeps the other one from that.
 void checkSoft(const std::string& light, Vec2d place, double expected, bool hasClosedForm) {
-    TopView view{
-        .pixels = 32, .side = 1e-4, .centre = place, .samples = 16, .more = "sampler random"};
-    for (const bool isMatte : {true, false}) {
-        const std::string scene = "material m {\n diffuse 0.8 0.5 0.25\n" +
-                                  std::string(isMatte ? "" : " specular 1e-12 1e-12 1e-12\n") +
-                                  "}\n" + kFloors[0] + light;
-        const shot::Shot shot = shot::render(view.text() + scene);
-        const shot::Estimate e = shot::estimate(shot.color);
-        const bool isExact = isMatte && hasClosedForm;
+    TopView view{.pixels = 32,
+                 .side = 1e-4,
+                 .centre = place,
+                 .samples = 4,
+                 .more = "sampler random\n light_samples 4"};
+    for (const bool casts : {true, false}) {
+        const std::string scene =
+            cat(view.text(), "material m {\n diffuse 0.8 0.5 0.25\n",
+                casts ? " specular 1e-12 1e-12 1e-12\n" : "", "}\n", kFloors[0],
+                "light l {\n shadows ", casts ? "true" : "false", light);
+        const shot::Estimate e = shot::estimate(shot::render(scene).color);
+        const bool isExact = !casts && hasClosedForm;
         CHECK_INFO(std::fabs(e.mean - expected) < (isExact ? 4e-7 * expected : 3 * e.sigma),
                    e.mean << " +- " << e.sigma << ", expected " << expected << " in\n"
                           << scene);
-        CHECK_INFO(isExact ? e.sigma < 1e-5 * expected : e.sigma < 0.02 * expected,
-                   e.sigma / expected);
+        CHECK_INFO(e.sigma < (isExact ? 1e-5 : 0.02) * expected, e.sigma / expected);
         CHECK(isExact || e.sigma > 0);
     }
 }
@@ -144,16 +146,14 @@ TEST(ambientAndEmissionAreExact) {
 }
 
 TEST(diskLightOnItsAxis) {
-    const std::string light =
-        "light l {\n type disk\n translate 0 0 1.5\n size 2 2\n color 3 3 3\n}\n";
+    const std::string light = "\n type disk\n translate 0 0 1.5\n size 2 2\n color 3 3 3\n}\n";
     const double r = 1, h = 1.5; // E = pi L r^2/(r^2+h^2)
     checkSoft(light, {0, 0}, kDiffuse.x * 3 * r * r / (r * r + h * h), false);
 }
 
 TEST(rectangleLightIsLambertsPolygon) {
-    const std::string light =
-        "light l {\n type rectangle\n translate 0.2 0.1 1.25\n rotate 25 1 1 0\n"
-        " size 1.5 0.75\n color 3 3 3\n}\n";
+    const std::string light = "\n type rectangle\n translate 0.2 0.1 1.25\n rotate 25 1 1 0\n"
+                              " size 1.5 0.75\n color 3 3 3\n}\n";
     const Transform place =
         Transform::translate({0.2, 0.1, 1.25}) * Transform::rotate({1, 1, 0}, radians(25));
     std::vector<Vec3d> corners;
@@ -167,7 +167,7 @@ TEST(rectangleLightIsLambertsPolygon) {
 
 // An ellipse as a polygon of 256 corners: 1e-4 of its area is missing, below the noise.
 TEST(ellipseLightIsLambertsPolygonToo) {
-    const std::string light = "light l {\n type disk\n translate 0.2 0.1 1.25\n rotate 25 1 1 0\n"
+    const std::string light = "\n type disk\n translate 0.2 0.1 1.25\n rotate 25 1 1 0\n"
                               " scale 1.5 1 1\n size 1 0.75\n color 3 3 3\n}\n";
     const Transform place = Transform::translate({0.2, 0.1, 1.25}) *
                             Transform::rotate({1, 1, 0}, radians(25)) *
@@ -185,27 +185,26 @@ TEST(ellipseLightIsLambertsPolygonToo) {
 // E = pi L r^2/d^2 cos, whatever the distance, while the sphere is all above the horizon.
 TEST(sphereLightIsItsSolidAngle) {
     for (const Vec3d place : {Vec3d{0, 0, 1.5}, Vec3d{1, 0.5, 1.25}, Vec3d{0, 0, 1.001}}) {
-        const std::string light = cat("light l {\n type sphere\n translate ", place.x, " ", place.y,
-                                      " ", place.z, "\n radius 1\n color 3 3 3\n}\n");
+        const std::string light = cat("\n type sphere\n translate ", place.x, " ", place.y, " ",
+                                      place.z, "\n radius 1\n color 3 3 3\n}\n");
         const double d2 = dot(place, place);
         checkSoft(light, {0, 0}, kDiffuse.x * 3 * place.z / (d2 * std::sqrt(d2)), true);
     }
     // Inside of it all light comes from the upper half: E = pi L.
-    checkSoft("light l {\n type sphere\n radius 5\n color 3 3 3\n}\n", {0, 0}, kDiffuse.x * 3,
-              false);
+    checkSoft("\n type sphere\n radius 5\n color 3 3 3\n}\n", {0, 0}, kDiffuse.x * 3, false);
 }
 
 // A sun of 40 degrees gives the same irradiance as one of 0 on a surface that it is all above.
 TEST(wideSunKeepsItsIrradiance) {
-    const std::string sun = "light l {\n type sun\n rotate 30 1 0 0\n color 3 3 3\n angle 40\n}\n";
-    checkSoft(sun, {0, 0}, kDiffuse.x / kPi * 3 * std::cos(radians(30)), false);
+    const std::string sun = "\n type sun\n rotate 30 1 0 0\n color 3 3 3\n angle 40\n}\n";
+    checkSoft(sun, {0, 0}, kDiffuse.x / kPi * 3 * std::cos(radians(30)), true);
 }
 
 // E = I * mean over the disk, that faces the receiver, of cosAtDisk * cosAtReceiver / distance^2;
 // on the axis, where all is round: 2 I h^2 / r^2 * integral of s ds / (h^2+s^2)^2 = I / (h^2 +
 // r^2).
 TEST(pointLightWithRadius) {
-    const std::string light = "light l {\n translate 0 0 1.5\n radius 0.75\n color 3 3 3\n}\n";
+    const std::string light = "\n translate 0 0 1.5\n radius 0.75\n color 3 3 3\n}\n";
     checkSoft(light, {0, 0}, kDiffuse.x / kPi * 3 / (1.5 * 1.5 + 0.75 * 0.75), true);
 }
 

@@ -62,7 +62,7 @@ TEST(light_whole_is_the_mean_of_samples) {
         CHECK_INFO(std::fabs(closed / mean - 1) < 2e-3,
                    "case " << i << " of seed 733: " << closed << ", mean of samples " << mean);
         CHECK_NEAR(length(whole->toLight), 1, 3e-7);
-        ++known, ++kinds[lamp->emission() ? 0 : lamp->ball() ? 1 : 2];
+        ++known, ++kinds[lamp->emission() ? 0 : whole->distance < kInfinityF ? 1 : 2];
     }
     CHECK_INFO(known > check::scaled(200), known);
     for (const int count : kinds) CHECK(count > check::scaled(20));

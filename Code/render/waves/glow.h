@@ -88,7 +88,7 @@ template <bool kLampBodies, bool kSeeThrough> void addGlow(const Wave& wave) {
         if (wave.context.openLamps.empty() || !answersLamps(material)) continue;
         const LitPoint lit = litPoint(wave, here);
         for (const Lamp& lamp : wave.context.openLamps) {
-            const Rgb whole = lamp.isSoft ? wholeLight(lamp, lit) : Rgb{};
+            const Rgb whole = lamp.asksWhole ? wholeLight(lamp, lit) : Rgb{};
             if (!isBlack(whole))
                 wave.add(slot, whole);
             else
