@@ -123,6 +123,7 @@ public:
     // Of all rays of a packet, active or not.
     Floats lateralX(unsigned q) const { return Floats::load(dir_[kx][packet_[q]]); }
     Floats lateralY(unsigned q) const { return Floats::load(dir_[ky][packet_[q]]); }
+    Floats forward(unsigned q) const { return Floats::load(dir_[k][packet_[q]]); }
     Floats depth(unsigned q) const { return Floats::load(rawZ_[packet_[q]]); }
     // The largest key at which a ray of the packet has ended: KeyRange of shape/triangle_queries.h.
     Floats keyAtEnd(unsigned q) const { return keyAbove(Floats::load(tMax[q]), depth(q)); }
