@@ -15,8 +15,6 @@ public:
         unmet_ = 0;
         for (int q = 0; q < rays_.packets; ++q) {
             if constexpr (Q == Query::Any) {
-                Floats::load(rays_.aboveLo[q]).store(keyLo_[q]);
-                Floats::load(rays_.aboveHi[q]).store(keyHi_[q]);
                 missing_[q] = rays_.active[q];
             } else {
                 const Floats none =
@@ -32,9 +30,13 @@ public:
     std::uint32_t open() const { return open_; }
     // Rays of a packet that do.
     unsigned asking(unsigned q) const { return Q == Query::Any ? missing_[q] : rays_.active[q]; }
-    // Bounds of the key of the best hit, which are equal when it is known.
-    Floats keyLo(unsigned q) const { return Floats::load(keyLo_[q]); }
-    Floats keyHi(unsigned q) const { return Floats::load(keyHi_[q]); }
+    // Bounds of the key of the best hit, which are equal when it is known, or of the ray's end.
+    Floats keyLo(unsigned q) const {
+        return Floats::load(Q == Query::Any ? rays_.aboveLo[q] : keyLo_[q]);
+    }
+    Floats keyHi(unsigned q) const {
+        return Floats::load(Q == Query::Any ? rays_.aboveHi[q] : keyHi_[q]);
+    }
 
     [[gnu::always_inline]] void accept(unsigned q, std::uint32_t place, Mask lanes, Floats keyLo,
                                        Floats keyHi) {
@@ -56,13 +58,6 @@ public:
             if (place_[q][i] != kNowhere && id < keys_.triangleAt(place_[q][i])) lower |= 1u << i;
         }
         return lower;
-    }
-
-    // Computes the keys at the ends of the rays: until then only bounds of them are known.
-    void settleEnds(unsigned q) {
-        const Mask on = maskOf(rays_.active[q]);
-        const Floats key = select(on, rays_.keyAtEnd(q), Floats(kInfinityF));
-        key.store(keyLo_[q]), key.store(keyHi_[q]);
     }
 
     // Computes the keys of these hits where they were left open.

@@ -4,31 +4,28 @@
 
 // TrianglePlane up to the ray, and the bounds of canonicalKey(), for W triangles. The padded box is
 // a quarter of the canonical pad wide of the triangle: a key that is inside it on both lateral axes
-// is not changed by the canonical clamp to the box.
+// is not changed by the canonical clamp to the box. Along the dominant axis a plane counts as the
+// world does: where rays go backwards, that turns signs in pairs and changes no bit of a key.
 struct BundlePlanes {
-    Doubles nx, ny, nz, n0;                       // normal, and its product with a corner
-    Doubles edgeOn;                               // see edgeOnLanes()
-    Floats farthest, nearest, xLo, xHi, yLo, yHi; // keys of the corners' depths; the padded box
-    Mask straddling;                              // in part behind the origin
+    Doubles nx, ny, nz, n0;                // normal, and its product with a corner
+    Doubles edgeOn;                        // see edgeOnLanes()
+    Floats zMin, zMax, xLo, xHi, yLo, yHi; // depths of the corners; the padded box
 };
 
 // The same in memory, a column per triangle.
 struct alignas(64) BundlePlaneList {
     double nx[W], ny[W], nz[W], n0[W], edgeOn[W];
-    float farthest[W], nearest[W], xLo[W], xHi[W], yLo[W], yHi[W];
-    unsigned straddling;
+    float zMin[W], zMax[W], xLo[W], xHi[W], yLo[W], yHi[W];
 
     void store(const BundlePlanes& p) {
         p.nx.store(nx), p.ny.store(ny), p.nz.store(nz), p.n0.store(n0);
-        p.edgeOn.store(edgeOn), p.farthest.store(farthest), p.nearest.store(nearest);
+        p.edgeOn.store(edgeOn), p.zMin.store(zMin), p.zMax.store(zMax);
         p.xLo.store(xLo), p.xHi.store(xHi), p.yLo.store(yLo), p.yHi.store(yHi);
-        straddling = bits(p.straddling);
     }
     // That of triangle j in every lane.
     BundlePlanes operator[](unsigned j) const {
-        return {nx[j],     ny[j],       nz[j],      n0[j],
-                edgeOn[j], farthest[j], nearest[j], xLo[j],
-                xHi[j],    yLo[j],      yHi[j],     maskOf((straddling >> j & 1) != 0 ? ~0u : 0u)};
+        return {nx[j],   ny[j],   nz[j],  n0[j],  edgeOn[j], zMin[j],
+                zMax[j], xLo[j], xHi[j], yLo[j], yHi[j]};
     }
 };
 
@@ -83,31 +80,28 @@ public:
         const auto rounded = [&](int i, std::size_t axis) {
             return point(i, axis) - Floats(rays_.origin[axis]);
         };
-        const Doubles sign(static_cast<double>(rays_.sign));
         const std::size_t k = rays_.k, kx = rays_.kx, ky = rays_.ky;
-        const Doubles x0 = exact(0, kx), y0 = exact(0, ky), z0 = exact(0, k) * sign;
-        const Doubles ax = exact(1, kx) - x0, ay = exact(1, ky) - y0, az = exact(1, k) * sign - z0;
-        const Doubles bx = exact(2, kx) - x0, by = exact(2, ky) - y0, bz = exact(2, k) * sign - z0;
+        const Doubles x0 = exact(0, kx), y0 = exact(0, ky), z0 = exact(0, k);
+        const Doubles ax = exact(1, kx) - x0, ay = exact(1, ky) - y0, az = exact(1, k) - z0;
+        const Doubles bx = exact(2, kx) - x0, by = exact(2, ky) - y0, bz = exact(2, k) - z0;
         const Doubles nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
         const auto least = [&](Floats a, Floats b, Floats c) { return min(min(a, b), c); };
         const auto most = [&](Floats a, Floats b, Floats c) { return max(max(a, b), c); };
-        const Floats one(1.0f), zero(0.0f), pad(pad_), s(rays_.sign);
+        const Floats pad(pad_), s(rays_.sign);
         const Floats vx[3] = {rounded(0, kx), rounded(1, kx), rounded(2, kx)};
         const Floats vy[3] = {rounded(0, ky), rounded(1, ky), rounded(2, ky)};
         const Floats vz[3] = {rounded(0, k) * s, rounded(1, k) * s, rounded(2, k) * s};
-        const Floats zMin = least(vz[0], vz[1], vz[2]), zMax = most(vz[0], vz[1], vz[2]);
         return {nx,
                 ny,
                 nz,
                 nx * x0 + ny * y0 + nz * z0,
                 edgeOnBound(nx, ny, nz),
-                one / zMax,
-                select(zMin > zero, one / zMin, Floats(kInfinityF)),
+                least(vz[0], vz[1], vz[2]),
+                most(vz[0], vz[1], vz[2]),
                 least(vx[0], vx[1], vx[2]) - pad,
                 most(vx[0], vx[1], vx[2]) + pad,
                 least(vy[0], vy[1], vy[2]) - pad,
-                most(vy[0], vy[1], vy[2]) + pad,
-                zMin <= zero};
+                most(vy[0], vy[1], vy[2]) + pad};
     }
 
     // Keys of hits of packet q, and which of them are any.
@@ -115,12 +109,13 @@ public:
                                          Mask& inside) const {
         const Floats Sx = Floats::load(rays_.Sx[q]), Sy = Floats::load(rays_.Sy[q]);
         const Doubles dz(rays_.depth(q));
-        const Doubles along =
-            p.nx * Doubles(rays_.lateralX(q)) + p.ny * Doubles(rays_.lateralY(q)) + p.nz * dz;
-        const Floats plane = (along / (p.n0 * dz)).toFloats();
-        const unsigned behind = bits(p.straddling) & ~bits(plane > Floats(0.0f));
-        inside = maskOf(bits(inside) & ~behind);
-        const Floats key = min(max(plane, p.farthest), p.nearest);
+        const Doubles along = p.nx * Doubles(rays_.lateralX(q)) +
+                              p.ny * Doubles(rays_.lateralY(q)) + p.nz * Doubles(rays_.forward(q));
+        Floats key = (along / (p.n0 * dz)).toFloats();
+        // Most are farther from the depths of all corners than two roundings of the products.
+        const Mask between =
+            (key * p.zMax > Floats(1.000001f)) & (key * p.zMin < Floats(0.999999f));
+        if ((bits(inside) & ~bits(between)) != 0) key = betweenDepths(p, key, inside);
         const Mask inBox =
             (p.xLo * key <= Sx) & (Sx <= p.xHi * key) & (p.yLo * key <= Sy) & (Sy <= p.yHi * key);
         const unsigned edgeOn = edgeOnLanes(along, p.edgeOn, rays_.depth(q));
@@ -131,6 +126,16 @@ public:
     }
 
 private:
+    // The canonical clamp to the depths of the corners. Keys of planes that are behind the origin
+    // are none, which is asked of triangles that are so in part.
+    static Floats betweenDepths(const BundlePlanes& p, Floats plane, Mask& inside) {
+        const Floats one(1.0f), zero(0.0f);
+        const unsigned behind = bits(p.zMin <= zero) & ~bits(plane > zero);
+        inside = maskOf(bits(inside) & ~behind);
+        const Floats nearest = select(p.zMin > zero, one / p.zMin, Floats(kInfinityF));
+        return min(max(plane, one / p.zMax), nearest);
+    }
+
     float exactKeyOf(std::uint32_t place, unsigned q, int lane) const {
         return exactKey(mesh_, rays_.origin, rays_.direction(static_cast<int>(q), lane),
                         leafOf(place), place & 15);

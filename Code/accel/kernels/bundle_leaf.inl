@@ -81,9 +81,9 @@ private:
         inside = inside & (key < Floats::load(rays_.below[q]));
         if constexpr (Q == Query::Any) {
             const Floats lo = best_.keyLo(q), hi = best_.keyHi(q);
-            if (bits((lo <= key) & notGreater(key, hi) & (lo < hi) & inside) != 0)
-                best_.settleEnds(q);
-            const Mask better = inside & (key > best_.keyHi(q));
+            Mask better = inside & (key > hi);
+            const Mask open = inside & (lo <= key) & notGreater(key, hi) & (lo < hi);
+            if (bits(open) != 0) better = better | (open & rays_.reach(q, key));
             best_.accept(q, place, better, key, key);
             return bits(better) != 0;
         } else {

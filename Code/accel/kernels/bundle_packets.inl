@@ -31,13 +31,14 @@ public:
 
 protected:
     // Asks for what lies `distance` behind these W elements: the next bundle's, probably. Behind
-    // the end of a batch, the next batch often follows.
+    // the end of a batch, the next batch often follows. What is read waits in the second cache:
+    // the first one is busy with this bundle.
     template <class T> static void prefetchAhead(T* first, std::size_t distance = kMostRays) {
-        constexpr int kToWrite = std::is_const_v<T> ? 0 : 1;
+        constexpr int kToWrite = std::is_const_v<T> ? 0 : 1, kCache = kToWrite != 0 ? 3 : 2;
         const auto ahead = reinterpret_cast<std::uintptr_t>(first) + distance * sizeof(T);
         for (std::size_t byte = 0; byte < W * sizeof(T); byte += 64)
             // NOLINTNEXTLINE(performance-no-int-to-ptr): may be behind the end
-            __builtin_prefetch(reinterpret_cast<const void*>(ahead + byte), kToWrite);
+            __builtin_prefetch(reinterpret_cast<const void*>(ahead + byte), kToWrite, kCache);
     }
 
     // Its number in the batch.

@@ -123,9 +123,12 @@ public:
     // Of all rays of a packet, active or not.
     Floats lateralX(unsigned q) const { return Floats::load(dir_[kx][packet_[q]]); }
     Floats lateralY(unsigned q) const { return Floats::load(dir_[ky][packet_[q]]); }
+    Floats forward(unsigned q) const { return Floats::load(dir_[k][packet_[q]]); }
     Floats depth(unsigned q) const { return Floats::load(rawZ_[packet_[q]]); }
-    // The largest key at which a ray of the packet has ended: KeyRange of shape/triangle_queries.h.
-    Floats keyAtEnd(unsigned q) const { return keyAbove(Floats::load(tMax[q]), depth(q)); }
+    // Rays of a packet that meet what has these keys before they end.
+    Mask reach(unsigned q, Floats key) const {
+        return Floats(1.0f) / (key * depth(q)) < Floats::load(tMax[q]);
+    }
 
     // ---- of the active rays; packets without any are left out
 
