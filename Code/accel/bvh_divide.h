@@ -44,6 +44,7 @@ inline void splitExactly(Range& r, Lists& lists) {
             hi[axis] = max(twiceCentre(prims[i], axis), hi[axis]);
         }
     r.grid = BinGrid::over(lo, hi, r.count);
+    if (r.grid.scale == std::array<float, 4>{}) return; // in one place, as duplicates are
     Bins bins;
     bins.clear(r.grid.bins);
     for (std::uint32_t i = 0; i < r.count; ++i) bins.add(r.grid, prims[i]);
