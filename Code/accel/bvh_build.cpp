@@ -179,8 +179,7 @@ private:
             top_[0].left = 1;
             const Halves halves = partAt(root, root.count - apart, lists_);
             level = {{1, halves.left}, {2, halves.right}};
-            for (const Open& o : level)
-                top_.push_back({o.range.box, o.range.first, o.range.count});
+            for (const Open& o : level) top_.push_back({o.range.box, o.range.first, o.range.count});
         }
         for (Open& o : level) splitExactly(o.range, lists_);
         const std::uint32_t most = subtreeSize(count_);
