@@ -24,8 +24,16 @@ constexpr int kHalvingDepth = kMaxBvhDepth - 34;
 // From which depth on the top is no longer divided: what is so lopsided is left to a subtree.
 constexpr int kTopDepth = 40;
 
+// Boxes of this part of the whole one, or longer, are long; they are few if one of so many is.
+constexpr float kLong = 1.0f / 8;
+constexpr std::uint32_t kFew = 64;
+
 std::uint32_t subtreeSize(std::size_t count) {
     return std::max(4096u, static_cast<std::uint32_t>(count / 64));
+}
+
+float longestSide(const PrimBox& b) {
+    return max(-b.negHi[0] - b.lo[0], max(-b.negHi[1] - b.lo[1], -b.negHi[2] - b.lo[2]));
 }
 
 Bounds boundsOf(const PrimBox& b) {
@@ -88,13 +96,12 @@ public:
         lists_.largestLeaf = largestLeaf;
         lists_.prims.resize(count_), lists_.spare.resize(count_);
         Range root{0, count_, 0, false, kEmpty, {}, {}};
-        list(boxes, root.box);
+        const float longest = list(boxes, root.box);
         float extent = 0;
         for (std::size_t i = 0; i < 3; ++i)
             extent = max(extent, max(std::fabs(root.box.lo[i]), std::fabs(root.box.negHi[i])));
         lists_.pad = static_cast<double>(extent) * 0x1p-17; // RaySetup: twice 2^-19 on each side
-        splitExactly(root, lists_);
-        divideTop(root);
+        divideTop(root, sortOut(kLong * longestSide(root.box), longest));
         subtrees_.resize(ranges_.size());
         pool_.run(ranges_.size(), [&](std::size_t i, int) {
             subtrees_[i] = std::make_unique<Subtree>(lists_, ranges_[i]);
@@ -114,29 +121,67 @@ private:
         std::uint32_t subtree = 0;
     };
 
-    // Boxes in parts, by all threads.
-    void list(std::span<const Bounds> boxes, PrimBox& around) {
+    // Boxes in parts, by all threads. Returns the longest side of one.
+    float list(std::span<const Bounds> boxes, PrimBox& around) {
         constexpr std::uint32_t kTogether = 1 << 14;
-        std::vector<PrimBox> parts((count_ + kTogether - 1) / kTogether, kEmpty);
-        pool_.run(parts.size(), [&](std::size_t part, int) {
-            const auto first = static_cast<std::uint32_t>(part) * kTogether;
+        struct Part {
+            PrimBox box = kEmpty;
+            float longest = 0;
+        };
+        std::vector<Part> parts((count_ + kTogether - 1) / kTogether);
+        pool_.run(parts.size(), [&](std::size_t number, int) {
+            const auto first = static_cast<std::uint32_t>(number) * kTogether;
+            Part part; // far from those of other threads
             for (std::uint32_t i = first; i < std::min(count_, first + kTogether); ++i) {
                 const Vec3 lo = boxes[i].lo, hi = boxes[i].hi;
                 lists_.prims[i] = {{lo.x, lo.y, lo.z, std::bit_cast<float>(i | PrimBox::kNormal)},
                                    {-hi.x, -hi.y, -hi.z, 0}};
-                extend(parts[part], lists_.prims[i]);
+                extend(part.box, lists_.prims[i]);
+                part.longest = max(longestSide(lists_.prims[i]), part.longest);
             }
+            parts[number] = part;
         });
-        for (const PrimBox& part : parts) extend(around, part);
+        float longest = 0;
+        for (const Part& part : parts) {
+            extend(around, part.box);
+            longest = max(part.longest, longest);
+        }
+        return longest;
     }
 
-    void divideTop(const Range& root) {
+    // Long boxes among many short ones are taken off them one by one, by passes over all, and reach
+    // through all nodes that they stay in: where they are few they get a tree of their own. Returns
+    // how many there are, now at the end of the list.
+    std::uint32_t sortOut(float atLeast, float longest) {
+        if (count_ < kMany || !(longest >= atLeast)) return 0;
+        PageVector<PrimBox>& prims = lists_.prims;
+        std::uint32_t kept = count_;
+        for (std::uint32_t i = 0; i < kept;) {
+            if (!(longestSide(prims[i]) >= atLeast))
+                ++i;
+            else if (count_ - kept < count_ / kFew)
+                std::swap(prims[i], prims[--kept]);
+            else
+                return 0;
+        }
+        return count_ - kept;
+    }
+
+    // The last ones of the list, so many, beside the others.
+    void divideTop(const Range& root, std::uint32_t apart) {
         struct Open {
             std::uint32_t top;
             Range range;
         };
         std::vector<Open> level{{0, root}}, next;
         top_.push_back({root.box, root.first, root.count});
+        if (apart > 0) {
+            top_[0].left = 1;
+            const Halves halves = partAt(root, root.count - apart, lists_);
+            level = {{1, halves.left}, {2, halves.right}};
+            for (const Open& o : level) top_.push_back({o.range.box, o.range.first, o.range.count});
+        }
+        for (Open& o : level) splitExactly(o.range, lists_);
         const std::uint32_t most = subtreeSize(count_);
         while (!level.empty()) {
             const auto isSubtree = [&](const Open& o) {

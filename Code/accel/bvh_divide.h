@@ -44,6 +44,7 @@ inline void splitExactly(Range& r, Lists& lists) {
             hi[axis] = max(twiceCentre(prims[i], axis), hi[axis]);
         }
     r.grid = BinGrid::over(lo, hi, r.count);
+    if (r.grid.scale == std::array<float, 4>{}) return; // in one place, as duplicates are
     Bins bins;
     bins.clear(r.grid.bins);
     for (std::uint32_t i = 0; i < r.count; ++i) bins.add(r.grid, prims[i]);
@@ -174,10 +175,10 @@ inline Halves divideTogether(const Range& r, Lists& lists, ThreadPool& pool) {
     return out;
 }
 
-// Where no split separates the centres, any two halves are as good.
-inline Halves halve(const Range& r, Lists& lists) {
+// The first ones of a range, so many, and the others.
+inline Halves partAt(const Range& r, std::uint32_t leftCount, Lists& lists) {
     Halves out{r, r};
-    out.left.count = r.count / 2;
+    out.left.count = leftCount;
     out.right.first += out.left.count, out.right.count -= out.left.count;
     for (Range* half : {&out.left, &out.right}) {
         ++half->depth;
@@ -188,5 +189,8 @@ inline Halves halve(const Range& r, Lists& lists) {
     }
     return out;
 }
+
+// Where no split separates the centres, any two halves are as good.
+inline Halves halve(const Range& r, Lists& lists) { return partAt(r, r.count / 2, lists); }
 
 } // namespace bvh_build

@@ -4,7 +4,6 @@
 #include "base/for_each.h"
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 
 namespace {
@@ -70,42 +69,51 @@ void describeExact(MeshGeometry& mesh) {
         describeExact<8>(mesh, mesh.wide.root);
 }
 
+// Takes the entries of these numbers, which ascend, out of a list that may be empty: what is
+// between two of them moves at once.
+template <class T> void removeAt(const std::vector<std::size_t>& dropped, std::vector<T>& list) {
+    if (list.empty()) return;
+    auto kept = list.begin() + static_cast<std::ptrdiff_t>(dropped[0]);
+    for (std::size_t i = 0; i < dropped.size(); ++i) {
+        const std::size_t end = i + 1 < dropped.size() ? dropped[i + 1] : list.size();
+        kept = std::move(list.begin() + static_cast<std::ptrdiff_t>(dropped[i]) + 1,
+                         list.begin() + static_cast<std::ptrdiff_t>(end), kept);
+    }
+    list.erase(kept, list.end());
+}
+
 } // namespace
 
 std::uint64_t MeshGeometry::dropDegenerate(int threads) {
     const auto coincide = [this](std::uint32_t a, std::uint32_t b) {
         return exactPoints.empty() ? points[a] == points[b] : exactPoints[a] == exactPoints[b];
     };
-    const auto isDropped = [&](const Corners& c) {
-        return coincide(c[0], c[1]) || coincide(c[1], c[2]) || coincide(c[2], c[0]);
+    struct Found {
+        std::uint64_t withoutArea = 0;
+        std::vector<std::size_t> dropped;
     };
-    std::atomic<std::uint64_t> withoutArea{0};
-    std::atomic<bool> someDropped{false};
+    std::vector<Found> parts((triangles.size() + kTogether - 1) / kTogether);
     forEachPart(threads, triangles.size(), kTogether, [&](std::size_t first, std::size_t last) {
-        std::uint64_t count = 0;
+        Found part; // far from those of other threads
         for (std::size_t i = first; i < last; ++i) {
             const Corners& c = triangles[i];
             const Vec3d v0 = toDouble(points[c[0]]);
-            if (cross(toDouble(points[c[1]]) - v0, toDouble(points[c[2]]) - v0) == Vec3d{}) ++count;
-            if (isDropped(c)) someDropped = true;
+            if (cross(toDouble(points[c[1]]) - v0, toDouble(points[c[2]]) - v0) == Vec3d{})
+                ++part.withoutArea;
+            if (coincide(c[0], c[1]) || coincide(c[1], c[2]) || coincide(c[2], c[0]))
+                part.dropped.push_back(i);
         }
-        withoutArea += count;
+        parts[first / kTogether] = std::move(part);
     });
-    if (!someDropped) return withoutArea;
-    std::size_t kept = 0;
-    for (std::size_t i = 0; i < triangles.size(); ++i) {
-        const Corners c = triangles[i];
-        if (isDropped(c)) continue;
-        triangles[kept] = c;
-        if (!normalTriangles.empty()) normalTriangles[kept] = normalTriangles[i];
-        if (!uvTriangles.empty()) uvTriangles[kept] = uvTriangles[i];
-        if (!slots.empty()) slots[kept] = slots[i];
-        ++kept;
+    std::uint64_t withoutArea = 0;
+    std::vector<std::size_t> dropped;
+    for (const Found& part : parts) {
+        withoutArea += part.withoutArea;
+        dropped.insert(dropped.end(), part.dropped.begin(), part.dropped.end());
     }
-    triangles.resize(kept);
-    if (!normalTriangles.empty()) normalTriangles.resize(kept);
-    if (!uvTriangles.empty()) uvTriangles.resize(kept);
-    if (!slots.empty()) slots.resize(kept);
+    if (dropped.empty()) return withoutArea;
+    removeAt(dropped, triangles), removeAt(dropped, slots);
+    removeAt(dropped, normalTriangles), removeAt(dropped, uvTriangles);
     return withoutArea;
 }
 

@@ -178,7 +178,7 @@ Tally times(const Effort& effort) {
         const MeshDesc::Corners c = mesh.triangles[random.below(count)];
         addTriangle(mesh, mesh.points[c[0]], mesh.points[c[1]], mesh.points[c[2]]);
     }
-    const int turns = static_cast<int>(clamp(12 * effort.factor, 12.0, 200.0));
+    const int turns = static_cast<int>(clamp(24 * effort.factor, 24.0, 200.0));
     Tally tally;
     tally.cases = mesh.triangles.size();
     Stats stats;

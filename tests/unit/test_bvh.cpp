@@ -190,6 +190,36 @@ TEST(bvh_in_vain_is_a_list) {
     checkTree(bvh, boxes, "in vain");
 }
 
+// Long boxes, if few, have a tree of their own beside that of the short ones.
+TEST(bvh_few_long_boxes_are_apart) {
+    Random random(6);
+    for (const std::uint32_t longOnes : {1u, 60u, 200u}) {
+        Boxes boxes;
+        for (int i = 0; i < 6000; ++i) boxes.push_back(boxAt(random.direction(), 0.005));
+        for (std::uint32_t i = 0; i < longOnes; ++i) {
+            Vec3 p = toFloat(random.inBox(0.5)), q = p;
+            q[random.below(3)] += 0.5f;
+            boxes.insert(boxes.begin() + random.below(6000), {p, q});
+        }
+        const Bvh bvh = buildBvh(boxes);
+        checkTree(bvh, boxes, "long among short");
+        std::vector<std::uint32_t> open{bvh.nodes[0].first + 1}, found;
+        while (!open.empty()) {
+            const BvhNode& node = bvh.nodes[open.back()];
+            open.pop_back();
+            if (!node.isLeaf()) open.insert(open.end(), {node.first, node.first + 1});
+            for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
+                found.push_back(bvh.primIds[i]);
+        }
+        const auto isLong = [&](std::uint32_t i) {
+            return maxAbs(boxes[i].hi - boxes[i].lo) > 0.4f;
+        };
+        const bool areApart =
+            found.size() == longOnes && std::all_of(found.begin(), found.end(), isLong);
+        CHECK_INFO(areApart == (longOnes < 100), longOnes << " long ones");
+    }
+}
+
 // Separate triangles of a sphere: a good tree needs about 2 log2(n) steps for a ray; one that sorts
 // nothing would need n.
 TEST(bvh_is_worth_it) {
