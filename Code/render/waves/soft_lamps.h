@@ -61,7 +61,7 @@ inline void listWaiting(const Wave& wave, const LitBlock& block, const LitBySamp
     }
 }
 
-// forEachLampSample() for all points that answer lamps, into memory.lightSums. A point's many
+// The light of the lamp at all points that answer lamps, into memory.lightSums. A point's many
 // shadow rays make it worth while to look at each point for itself, and at each line to the lamp.
 // What has to wait for rays is listed.
 inline void shineBySamples(const Wave& wave, const Lamp& lamp) {
@@ -82,13 +82,14 @@ inline void shineBySamples(const Wave& wave, const Lamp& lamp) {
         hidden.maybe = block.used;
         if (canTell || lamp.ball)
             hidden = lamp.hiddenPoints(occluders, block, lamp.emission->ball());
+        if (!canTell) hidden.surely = 0;
         lamp.wholeLight(*lamp.emission, block, block.used & ~hidden.surely,
                         lamp.ball ? ~hidden.maybe : 0, whole);
         if ((whole.known | hidden.surely) == block.used) {
             std::copy_n(&whole.light[0][0], 3 * kPoints, &sum[0][0]);
             continue;
         }
-        if (!canTell) hidden.areShapesKnown = false, hidden.maybe = block.used, hidden.surely = 0;
+        if (!canTell) hidden.areShapesKnown = false, hidden.maybe = block.used;
         for (auto& channel : by.sum) std::fill_n(channel, kPoints, 0.0f);
         by.waiting = 0;
         const unsigned asked = block.used & ~hidden.surely & ~whole.known;
