@@ -176,9 +176,10 @@ private:
              entry, lanes, results);
     }
 
-    // The choice between hits and the best ones.
-    void take(const SolidTree::Solid& solid, const FoundLanes& found, Floats entry, unsigned lanes,
-              Hit* hits) {
+    // The choice between hits and the best ones. Inlined, as lanes that are found would go through
+    // memory: 2 to 4 % of pictures.
+    [[gnu::always_inline]] void take(const SolidTree::Solid& solid, const FoundLanes& found,
+                                     Floats entry, unsigned lanes, Hit* hits) {
         const Floats nearest = max(entry / lanes_.dz, found.t);
         const unsigned better = nearerLanes(solid, lanes & found.met & ~found.undecided, nearest);
         if (better != 0) {
