@@ -72,8 +72,8 @@ double differenceOfProducts(double a, double b, double c, double d);
 // Elementary functions with the same bits on every machine, compiler and -O level: built from
 // + - * / sqrt and integer steps only. std::sin and the rest are banned in everything that reaches
 // a picture, because the C library picks other code by CPU and version (glibc has FMA variants).
-// Errors are against the true value, in units in the last place, measured by test_math.cpp; domain
-// errors give NaN, NaN gives NaN.
+// Errors are against the true value, in units in the last place, measured by test_math_angles.cpp
+// and test_math_powers.cpp; domain errors give NaN, NaN gives NaN.
 namespace exact {
 
 struct SinCos {
