@@ -1,4 +1,4 @@
-// Mirrors and glass against Fresnel's and Snell's formulas.
+// Glass, and what reflects as it does, against Fresnel's and Snell's formulas.
 #include "check.h"
 #include "shot.h"
 #include "solids.h"
@@ -17,10 +17,6 @@ double fresnel(double thetaIn, double iorIn, double iorOut) {
     return (s * s + p * p) / 2;
 }
 
-constexpr const char* kOnePixel =
-    "settings {\n resolution 1 1\n samples 1\n jitter false\n max_depth ";
-constexpr const char* kMirror = "material m {\n diffuse 0 0 0\n mirror 0.9 0.8 0.7\n}\n";
-
 // A plane whose colour is its place: red = x/4 + 1/2, green = y/4 + 1/2 while |x|, |y| < 2.
 std::string ruler() {
     const std::string file = shot::writeTexture("ruler.pfm", 2, 2, [](double u, double v) {
@@ -34,39 +30,6 @@ std::string ruler() {
 Vec2d ruled(Rgb c) { return {4 * (c.r - 0.5), 4 * (c.g - 0.5)}; }
 
 } // namespace
-
-// Between two mirrors that face each other and glow: e (1 + k + ... + k^depth).
-TEST(mirrorPairSumsToItsDepth) {
-    for (const int depth : {0, 1, 5, 12}) {
-        const shot::Shot shot = shot::render(
-            cat(kOnePixel, depth,
-                "\n}\ncamera c {\n look_at 0 0 0  1 0 0  0 0 1\n}\n"
-                "material m {\n diffuse 0 0 0\n emission 1 1 1\n mirror 0.9 0.8 0.7\n}\n"
-                "plane a {\n translate 1 0 0\n rotate -90 0 1 0\n material m\n}\n"
-                "plane b {\n translate -1 0 0\n rotate 90 0 1 0\n material m\n}\n"));
-        const auto sum = [&](double k) { return (1 - std::pow(k, depth + 1)) / (1 - k); };
-        CHECK_RGB(shot.at(0, 0), (Vec3d{sum(0.9), sum(0.8), sum(0.7)}), 1e-6); // 13 additions
-        CHECK_EQUAL(shot.stats.rays.reflect, static_cast<std::uint64_t>(depth));
-    }
-}
-
-// n reflections in a zigzag up between two mirrors, then the sky: ks^n, and nothing below n
-// bounces.
-TEST(mirrorPairPowers) {
-    for (const int n : {1, 2, 5, 8})
-        for (const int depth : {4, 8}) {
-            const shot::Shot shot =
-                shot::render(cat(kOnePixel, depth, "\n}\nworld {\n background 1 1 1\n}\n", kMirror,
-                                 "camera c {\n look_at 0 0 0  1 0 1  0 1 0\n}\n"
-                                 "cube a {\n translate 2 0 0\n scale 1 1 ",
-                                 2 * n,
-                                 "\n material m\n}\n"
-                                 "cube b {\n translate -2 0 0\n scale 1 1 ",
-                                 2 * n, "\n material m\n}\n"));
-            const auto k = [&](double ks) { return n <= depth ? std::pow(ks, n) : 0; };
-            CHECK_RGB(shot.at(0, 0), (Vec3d{k(0.9), k(0.8), k(0.7)}), 1e-6); // 8 multiplications
-        }
-}
 
 // A pane with the index of the air is not there: the rays start anew at its faces, which moves
 // them by no more than the offset that keeps them off the face, 1e-6 of the scene.
@@ -98,8 +61,8 @@ TEST(slabMovesTheRayBySnell) {
         for (const double angle : {0.0, 10.0, 40.0, 60.0, 72.0}) {
             const double a = radians(angle), b = std::asin(std::sin(a) / ior), thickness = 0.6;
             const shot::Shot shot = shot::render(
-                cat(kOnePixel, 8, "\n}\n", ruler(), "camera c {\n type orthographic\n look_at ",
-                    shortest(6 * std::tan(a)),
+                cat(shot::kOnePixel, 8, "\n}\n", ruler(),
+                    "camera c {\n type orthographic\n look_at ", shortest(6 * std::tan(a)),
                     " 0 6  0 0 0  0 1 0\n}\n"
                     "material glass {\n diffuse 0 0 0\n transmission 1 1 1\n ior ",
                     ior,
@@ -142,7 +105,7 @@ TEST(criticalAngleFromInside) {
 TEST(totalReflectionKeepsTheLight) {
     const auto radiance = [](double angle) {
         const double a = radians(angle);
-        return shot::render(cat(kOnePixel, 4,
+        return shot::render(cat(shot::kOnePixel, 4,
                                 "\n}\nworld {\n background 1 1 1\n}\n"
                                 "camera c {\n look_at 0 0 -1  ",
                                 shortest(std::tan(a)),
@@ -217,7 +180,7 @@ TEST(nestedMediaMultiplyFresnel) {
     for (const double angle : {0.0, 20.0, 50.0}) {
         const double a = radians(angle);
         const shot::Shot shot =
-            shot::render(cat(kOnePixel, 6, "\n}\n", scene, "camera c {\n look_at ",
+            shot::render(cat(shot::kOnePixel, 6, "\n}\n", scene, "camera c {\n look_at ",
                              shortest(10 * std::tan(a)), " 0 10  0 0 0  0 1 0\n}\n"));
         double wanted = 1, theta = a;
         const std::vector<double> iors = {1, 1.5, 1.33, 1.31, 1.33, 1.5, 1};
@@ -234,8 +197,9 @@ TEST(nestedMediaMultiplyFresnel) {
         double wanted = 1;
         for (std::size_t k = 0; k + 1 < iors.size(); ++k)
             wanted *= 1 - fresnel(0, iors[k], iors[k + 1]);
-        const shot::Shot shot = shot::render(cat(
-            kOnePixel, 6, "\n}\n", scene, "camera c {\n look_at 0 0 ", z, "  0 0 10  0 1 0\n}\n"));
+        const shot::Shot shot =
+            shot::render(cat(shot::kOnePixel, 6, "\n}\n", scene, "camera c {\n look_at 0 0 ", z,
+                             "  0 0 10  0 1 0\n}\n"));
         CHECK_NEAR(shot.at(0, 0).r, wanted, 2e-6);
     }
 }
@@ -266,7 +230,7 @@ TEST(glassMeshesMayBeMirrored) {
 
 // More media inside of each other than a ray remembers: the light still comes through.
 TEST(deepNestingStaysBounded) {
-    std::string scene = cat(kOnePixel, 60,
+    std::string scene = cat(shot::kOnePixel, 60,
                             "\n}\nworld {\n background 1 1 1\n}\n"
                             "camera c {\n look_at 0 0 50  0 0 0  0 1 0\n}\n");
     for (int i = 1; i <= 20; ++i)
@@ -276,36 +240,4 @@ TEST(deepNestingStaysBounded) {
                 "\n}\ncube c", i, " {\n scale ", i, " ", i, " ", i, "\n material m", i, "\n}\n");
     const float radiance = shot::render(scene).at(0, 0).r;
     CHECK_INFO(radiance > 0.8f && radiance <= 1.0f, radiance);
-}
-
-// The mean of a rough mirror under a white sky, seen straight on: its lobe is cos^n of the angle of
-// the half vector, and N.L of the light remains: E[cos 2a] = (n-1)/(n+3). A lamp overhead shows how
-// wide it is: the part of the lobe within its cone.
-TEST(glossyReflectionEnergyAndWidth) {
-    for (const double r : {0.1, 0.3, 0.5}) {
-        const double n = 2 / (r * r * r * r) - 2;
-        const shot::TopView view{
-            .pixels = 32, .side = 1e-3, .height = 0.5, .samples = 64, .more = "sampler random"};
-        const std::string rough =
-            cat("material rough {\n diffuse 0 0 0\n mirror 1 1 1\n roughness ", r,
-                "\n}\nplane f {\n scale 9 9 1\n material rough\n}\n");
-        const shot::Estimate sky = shot::estimate(
-            shot::render(view.text() + rough + "world {\n background 1 1 1\n}\n").color);
-        // Half vectors that send light below the plane (part 2^-(n+1)/2 of them) count as N.L > 0.
-        CHECK_NEAR(sky.mean, (n - 1) / (n + 3),
-                   3 * sky.sigma + 4 * std::pow(2, -(n + 1) / 2) + 1e-6);
-
-        const double cone = 2 * std::acos(std::pow(0.5, 1 / (n + 1))); // half of the half vectors
-        const shot::Estimate lamp =
-            shot::estimate(shot::render(view.text() + rough +
-                                        "material glow {\n diffuse 0 0 0\n emission 1 1 1\n}\n" +
-                                        cat("disk d {\n translate 0 0 1\n radius ",
-                                            shortest(std::tan(cone)), "\n material glow\n}\n"))
-                               .color);
-        const double c = std::cos(cone / 2);
-        const double wanted =
-            2 * (n + 1) / (n + 3) * (1 - std::pow(c, n + 3)) - (1 - std::pow(c, n + 1));
-        if (cone < 1.2) CHECK_NEAR(lamp.mean, wanted, 3 * lamp.sigma + 1e-5);
-        CHECK(lamp.sigma < 0.01);
-    }
 }
