@@ -8,9 +8,9 @@
 #include "cli/help.h"
 #include "cli/info.h"
 #include "cli/interrupt.h"
+#include "cli/messages.h"
 #include "cli/options.h"
 #include "cli/output.h"
-#include "cli/preview.h"
 #include "cli/progress.h"
 #include "cli/settings_from.h"
 #include "cli/stats_output.h"
@@ -23,18 +23,10 @@
 #include "render/scene.h"
 #include "render/texture_files.h"
 
-#include <bit>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 
 namespace {
-
-// Complete lines in one call, so that they are not torn apart by a bar or another program.
-// Nothing can be done about a message that does not arrive.
-void writeStderr(std::string_view text) {
-    static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
-}
 
 double secondsNow() {
     const std::chrono::duration<double> since = std::chrono::steady_clock::now().time_since_epoch();
@@ -54,38 +46,6 @@ public:
 private:
     double start_ = secondsNow(), last_ = start_;
 };
-
-void printWarnings(const Diagnostics& diagnostics) {
-    for (const std::string& warning : diagnostics.warnings) writeStderr(warning + "\n");
-}
-
-// True when --strict ends the program here.
-bool isTooStrict(const Options& options, const Diagnostics& diagnostics) {
-    const std::size_t count = diagnostics.warnings.size();
-    if (!options.strict || count == 0) return false;
-    writeStderr(cat("raytracer: error: ", count, count == 1 ? " warning" : " warnings",
-                    " under --strict\n"));
-    return true;
-}
-
-void printAdvice(const RenderSettings& settings, const Options& options) {
-    const auto samples = static_cast<unsigned>(settings.picture.samplesPerPixel);
-    if (options.quiet || settings.picture.sampler != SettingsDesc::Sampler::Sobol ||
-        std::has_single_bit(samples))
-        return;
-    writeStderr(cat("raytracer: note: ", samples, " samples per pixel with sobol; a power of two (",
-                    std::bit_ceil(samples), ") has less noise\n"));
-}
-
-// What was asked for was not reached, because --spp allows no more.
-void printShortfall(const Stats& stats, const Options& options) {
-    if (options.quiet || !stats.error || stats.error->estimate <= stats.error->goal) return;
-    const ErrorStats& error = *stats.error;
-    writeStderr(cat("raytracer: note: the estimated error is ", significant(error.estimate),
-                    ", not below ", shortest(error.goal), ": ", error.cappedPixels,
-                    " pixels would need more than ", error.mostSamples,
-                    " samples; --spp allows more\n"));
-}
 
 Progress::Style progressStyle(const Options& options, const Terminal& terminal) {
     if (options.quiet || options.progress == Options::Progress::None) return Progress::Style::None;
@@ -123,19 +83,6 @@ Picture renderPicture(const Scene& scene, const RenderSettings& settings, const 
     Picture picture = render(scene, settings, control, stats);
     stopped = interrupt.stopped() || !picture.finished;
     return picture;
-}
-
-void printPreview(const Picture& picture, const RenderSettings& settings) {
-    Image image = picture.color;
-    expose(image, settings.picture.exposureEv);
-    const Terminal terminal = terminalOfStderr();
-    constexpr int kPromptRows = 2; // what was typed, and the prompt that follows
-    writeStderr(previewText(image, terminal.columns, terminal.rows - kPromptRows));
-}
-
-void printStats(const Stats& stats, const Options& options) {
-    if (options.stats == Options::StatsFormat::Table) writeStderr(statsTable(stats));
-    if (options.stats == Options::StatsFormat::Json) writeStdout(statsJson(stats));
 }
 
 ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings settings,

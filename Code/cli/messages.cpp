@@ -1,0 +1,57 @@
+#include "cli/messages.h"
+
+#include "base/text.h"
+#include "cli/output.h"
+#include "cli/preview.h"
+#include "cli/stats_output.h"
+#include "cli/terminal.h"
+
+#include <bit>
+#include <cstdio>
+
+void writeStderr(std::string_view text) {
+    static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
+}
+
+void printWarnings(const Diagnostics& diagnostics) {
+    for (const std::string& warning : diagnostics.warnings) writeStderr(warning + "\n");
+}
+
+bool isTooStrict(const Options& options, const Diagnostics& diagnostics) {
+    const std::size_t count = diagnostics.warnings.size();
+    if (!options.strict || count == 0) return false;
+    writeStderr(cat("raytracer: error: ", count, count == 1 ? " warning" : " warnings",
+                    " under --strict\n"));
+    return true;
+}
+
+void printAdvice(const RenderSettings& settings, const Options& options) {
+    const auto samples = static_cast<unsigned>(settings.picture.samplesPerPixel);
+    if (options.quiet || settings.picture.sampler != SettingsDesc::Sampler::Sobol ||
+        std::has_single_bit(samples))
+        return;
+    writeStderr(cat("raytracer: note: ", samples, " samples per pixel with sobol; a power of two (",
+                    std::bit_ceil(samples), ") has less noise\n"));
+}
+
+void printShortfall(const Stats& stats, const Options& options) {
+    if (options.quiet || !stats.error || stats.error->estimate <= stats.error->goal) return;
+    const ErrorStats& error = *stats.error;
+    writeStderr(cat("raytracer: note: the estimated error is ", significant(error.estimate),
+                    ", not below ", shortest(error.goal), ": ", error.cappedPixels,
+                    " pixels would need more than ", error.mostSamples,
+                    " samples; --spp allows more\n"));
+}
+
+void printPreview(const Picture& picture, const RenderSettings& settings) {
+    Image image = picture.color;
+    expose(image, settings.picture.exposureEv);
+    const Terminal terminal = terminalOfStderr();
+    constexpr int kPromptRows = 2; // what was typed, and the prompt that follows
+    writeStderr(previewText(image, terminal.columns, terminal.rows - kPromptRows));
+}
+
+void printStats(const Stats& stats, const Options& options) {
+    if (options.stats == Options::StatsFormat::Table) writeStderr(statsTable(stats));
+    if (options.stats == Options::StatsFormat::Json) writeStdout(statsJson(stats));
+}

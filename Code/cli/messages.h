@@ -1,0 +1,23 @@
+// What a run says beside its errors: on stderr, but for statistics as JSON.
+#pragma once
+
+#include "base/error.h"
+#include "cli/options.h"
+#include "render/render.h"
+#include "render/settings.h"
+#include "render/stats.h"
+
+#include <string_view>
+
+// Complete lines in one call, so that they are not torn apart by a bar or another program.
+// Nothing can be done about a message that does not arrive.
+void writeStderr(std::string_view text);
+
+void printWarnings(const Diagnostics& diagnostics);
+// True when --strict ends the program here.
+bool isTooStrict(const Options& options, const Diagnostics& diagnostics);
+void printAdvice(const RenderSettings& settings, const Options& options);
+// What was asked for was not reached, because --spp allows no more.
+void printShortfall(const Stats& stats, const Options& options);
+void printPreview(const Picture& picture, const RenderSettings& settings);
+void printStats(const Stats& stats, const Options& options);
