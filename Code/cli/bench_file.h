@@ -1,5 +1,5 @@
 // A mesh and the ray sets of `raytracer bench` in a file, so that other programs can trace the same
-// rays through the same triangles (tests/bench/peer_embree.cpp reads it). In the space of the
+// rays through the same triangles (tests/bench/peer_input.h reads it). In the space of the
 // mesh's file, `frame` taken back: another program would have met the mesh there.
 #pragma once
 

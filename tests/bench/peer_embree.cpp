@@ -6,25 +6,16 @@
 // the light, and from the light as well (kinds ending in -light). Everything is set as Embree's
 // manual advises for speed: flags for coherent and incoherent rays, no robust mode, denormals
 // flushed.
-#if __has_include(<embree4/rtcore.h>)
-#include <embree4/rtcore.h>
-#define PEER_EMBREE4
-#else
-#include <embree3/rtcore.h>
-#endif
+#include "embree_calls.h"
+#include "peer_input.h"
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <ctime>
-#include <fstream>
-#include <iterator>
-#include <limits>
 #include <string>
 #include <thread>
 #include <vector>
@@ -33,157 +24,6 @@
 #endif
 
 namespace {
-
-constexpr std::uint32_t kNone = RTC_INVALID_GEOMETRY_ID;
-
-[[noreturn]] void stop(const std::string& why) {
-    std::fprintf(stderr, "peer_embree: %s\n", why.c_str());
-    std::exit(1);
-}
-
-// ---- the file: see Code/cli/bench_file.h
-
-struct FileRay {
-    float org[3], tMin, dir[3], tMax;
-};
-static_assert(sizeof(FileRay) == 32);
-
-struct RaySet {
-    std::string name;
-    bool anyHit = false;
-    std::vector<FileRay> rays;
-};
-
-struct Input {
-    std::vector<float> points; // and 4 more: Embree reads 16 bytes at every point
-    std::vector<std::uint32_t> corners;
-    std::vector<RaySet> sets;
-    std::size_t pointCount = 0;
-};
-
-Input readInput(const std::string& name) {
-    std::ifstream file(name, std::ios::binary);
-    const std::string bytes{std::istreambuf_iterator<char>(file), {}};
-    std::size_t at = 0;
-    const auto take = [&](void* to, std::size_t size) {
-        if (bytes.size() - at < size) stop(name + " is no file of raytracer bench --write-rays");
-        std::memcpy(to, bytes.data() + at, size);
-        at += size;
-    };
-    const auto number = [&] {
-        std::uint32_t value = 0;
-        take(&value, 4);
-        return value;
-    };
-    char mark[8] = {};
-    take(mark, 8);
-    if (std::memcmp(mark, "RTRAYS01", 8) != 0) stop(name + " does not begin with RTRAYS01");
-    Input input;
-    input.pointCount = number();
-    input.corners.resize(3 * std::size_t{number()});
-    input.sets.resize(number());
-    input.points.resize(3 * input.pointCount + 4);
-    take(input.points.data(), 12 * input.pointCount);
-    take(input.corners.data(), 4 * input.corners.size());
-    for (RaySet& set : input.sets) {
-        char setName[17] = {};
-        take(setName, 16);
-        set.name = setName;
-        set.rays.resize(number());
-        set.anyHit = number() != 0;
-        take(set.rays.data(), sizeof(FileRay) * set.rays.size());
-    }
-    return input;
-}
-
-// From the point to the light, a hair short of it, with a direction of length 1.
-FileRay turned(const FileRay& ray) {
-    FileRay back = ray;
-    float square = 0;
-    for (int i = 0; i < 3; ++i) {
-        back.org[i] = ray.org[i] + ray.dir[i] * ray.tMax;
-        square += ray.dir[i] * ray.dir[i];
-    }
-    const float size = std::sqrt(square);
-    for (int i = 0; i < 3; ++i) back.dir[i] = -ray.dir[i] / size;
-    back.tMax = 0.9999f * size * ray.tMax;
-    return back;
-}
-
-// ---- Embree 3 and 4 call alike through these
-
-struct Query {
-#ifdef PEER_EMBREE4
-    RTCIntersectArguments nearest;
-    RTCOccludedArguments any;
-    explicit Query(bool coherent) {
-        rtcInitIntersectArguments(&nearest);
-        rtcInitOccludedArguments(&any);
-        nearest.flags = any.flags =
-            coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
-    }
-    RTCIntersectArguments* forNearest() { return &nearest; }
-    RTCOccludedArguments* forAny() { return &any; }
-#define PEER_CALL(function, scene, query, rays) function(scene, rays, query)
-#define PEER_PACKET_CALL(function, valid, scene, query, rays) function(valid, scene, rays, query)
-#else
-    RTCIntersectContext context;
-    explicit Query(bool coherent) {
-        rtcInitIntersectContext(&context);
-        context.flags =
-            coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
-    }
-    RTCIntersectContext* forNearest() { return &context; }
-    RTCIntersectContext* forAny() { return &context; }
-#define PEER_CALL(function, scene, query, rays) function(scene, query, rays)
-#define PEER_PACKET_CALL(function, valid, scene, query, rays) function(valid, scene, query, rays)
-#endif
-};
-
-template <int N> struct Packet;
-template <> struct Packet<8> {
-    using Ray = RTCRay8;
-    using RayHit = RTCRayHit8;
-    static void nearest(const int* valid, RTCScene scene, Query& query, RayHit* rays) {
-        PEER_PACKET_CALL(rtcIntersect8, valid, scene, query.forNearest(), rays);
-    }
-    static void any(const int* valid, RTCScene scene, Query& query, Ray* rays) {
-        PEER_PACKET_CALL(rtcOccluded8, valid, scene, query.forAny(), rays);
-    }
-};
-template <> struct Packet<16> {
-    using Ray = RTCRay16;
-    using RayHit = RTCRayHit16;
-    static void nearest(const int* valid, RTCScene scene, Query& query, RayHit* rays) {
-        PEER_PACKET_CALL(rtcIntersect16, valid, scene, query.forNearest(), rays);
-    }
-    static void any(const int* valid, RTCScene scene, Query& query, Ray* rays) {
-        PEER_PACKET_CALL(rtcOccluded16, valid, scene, query.forAny(), rays);
-    }
-};
-
-RTCRay rayFrom(const FileRay& from) {
-    RTCRay ray;
-    ray.org_x = from.org[0], ray.org_y = from.org[1], ray.org_z = from.org[2];
-    ray.tnear = from.tMin;
-    ray.dir_x = from.dir[0], ray.dir_y = from.dir[1], ray.dir_z = from.dir[2];
-    ray.time = 0, ray.tfar = from.tMax, ray.mask = ~0u, ray.id = 0, ray.flags = 0;
-    return ray;
-}
-RTCRayHit rayHitFrom(const FileRay& from) {
-    RTCRayHit both;
-    both.ray = rayFrom(from);
-    both.hit.geomID = both.hit.primID = both.hit.instID[0] = kNone;
-    return both;
-}
-template <class Rays> void setLane(Rays& rays, int i, const FileRay& from) {
-    rays.org_x[i] = from.org[0], rays.org_y[i] = from.org[1], rays.org_z[i] = from.org[2];
-    rays.dir_x[i] = from.dir[0], rays.dir_y[i] = from.dir[1], rays.dir_z[i] = from.dir[2];
-    rays.tnear[i] = from.tMin, rays.tfar[i] = from.tMax;
-    rays.time[i] = 0, rays.mask[i] = ~0u, rays.id[i] = 0, rays.flags[i] = 0;
-}
-
-// ---- measuring
 
 struct Seconds {
     double wall = 0, cpu = 0;
