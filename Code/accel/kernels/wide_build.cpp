@@ -5,6 +5,7 @@
 // but the size of its jobs, and minima and counts don't depend on their order: neither does the
 // tree.
 #include "accel/kernels/build/build.h"
+#include "accel/kernels/build/join_singles.h"
 #include "accel/kernels/build/write_tree.h"
 #include "base/parallel.h"
 
@@ -82,7 +83,7 @@ public:
         divideTop();
         growSubtrees();
         lists_ = {};
-        return joined();
+        return joinSingles(top_, subtrees_, grown_, pool_);
     }
 
 private:
@@ -158,7 +159,7 @@ private:
         Part part;
         std::uint32_t first;       // within the range
         std::uint32_t left, right; // how many go there before
-        Bins bins[2]; // not zeroed
+        Bins bins[2];              // not zeroed
 
         Job(std::size_t ofDivision, Part of, std::uint32_t from, std::uint32_t goneLeft)
             : division(ofDivision), part(of), first(from), left(goneLeft), right(from - goneLeft) {}
@@ -251,40 +252,6 @@ private:
             s.endNode = static_cast<std::uint32_t>(grown.nodes.size());
             s.endLeaf = grown.leaves;
         });
-    }
-
-    // The nodes of all growers, those of a single one where they are, and the top behind them.
-    SinglesTree joined() {
-        SinglesTree out;
-        std::vector<std::uint32_t> first; // by grower
-        std::uint32_t top = 0;
-        for (const Grown& grown : grown_) {
-            first.push_back(top);
-            top += static_cast<std::uint32_t>(grown.nodes.size());
-        }
-        const auto shifted = [](BinaryNode node, std::uint32_t by) {
-            if (!node.isLeaf()) node.left += by;
-            return node;
-        };
-        if (grown_.size() == 1) out.nodes = std::move(grown_[0].nodes);
-        out.nodes.resize(top + top_.size());
-        if (grown_.size() > 1)
-            pool_.run(grown_.size(), [&](std::size_t i, int) {
-                std::transform(grown_[i].nodes.begin(), grown_[i].nodes.end(),
-                               out.nodes.begin() + static_cast<std::ptrdiff_t>(first[i]),
-                               [&](const BinaryNode& node) { return shifted(node, first[i]); });
-                grown_[i] = {};
-            });
-        out.root = top;
-        for (std::uint32_t i = 0; i < top_.size(); ++i) {
-            if (!top_[i].isLeaf()) out.tops.push_back(top + i);
-            out.nodes[top + i] = shifted(top_[i], top);
-        }
-        for (const SubtreeRange& s : subtrees_) {
-            out.roots.push_back(top + s.range.node);
-            out.nodes[out.roots.back()] = out.nodes[first[s.grower] + s.firstNode];
-        }
-        return out;
     }
 
     const BuildCode& code_;
