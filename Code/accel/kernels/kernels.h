@@ -7,9 +7,10 @@
 //   [isa].cpp         kernel, which includes key_range, barycentrics, stack, ray_lanes; for rays
 //                     one by one: queue_rays, root_boxes, queue_*, handful (tiny trees), queue;
 //                     for rays from one point: bundle_*, bundle
-//   solids_[isa].cpp  lane_matrix, ray_lanes; solids, which includes solids_*
+//   solids_[isa].cpp  ray_lanes, solids_columns_[isa], all_lanes; solids, which includes solids_*
 //   placed_[isa].cpp  stack, ray_lanes, placed_mesh, placed
-//   surface_lanes_[isa].cpp  vectors3, still_surfaces, triangle_surfaces
+//   surface_lanes_[isa].cpp  vectors3, still_surfaces (with still_numbers, still_points),
+//                     triangle_surfaces
 // choose.cpp has the table of kernels and route.cpp deals the rays of a batch out to queue and
 // bundles; solids.cpp does both for solids, placed.cpp has the table for placed meshes, which call
 // back to a PlacedQuery. exact_hit.cpp decides what lanes leave open, in plain code. wide_build.cpp
