@@ -19,6 +19,7 @@ public:
     explicit MaterialTable(const Scene& scene);
 
     std::uint8_t traits(std::uint32_t material) const { return traits_[material]; }
+    void prefetchGlow(std::uint32_t material) const { __builtin_prefetch(&glow_[material]); }
     // Light that comes from the surface itself to where its point is seen, if it is not textured.
     Rgb glow(std::uint32_t material) const { return glow_[material]; }
 

@@ -4,7 +4,7 @@
 
 namespace {
 
-bool isFinite(Rgb c) {
+bool isFinite(const Rgb& c) {
     const float sum = c.r + c.g + c.b;
     return sum - sum == 0;
 }
@@ -61,12 +61,12 @@ void TileSampler::traceOnce(const Tile& tile, TileWorker& worker) const {
     Rgb* const pixels = worker.tile.pixels().data();
     const std::ptrdiff_t width = worker.tile.width();
     forEachPlace({0, 0, tile.width(), tile.height()}, [&](int x, int y) {
-        Rgb sum; // a sum is never -0
-        if (const Rgb radiance = *sample++; isFinite(radiance))
-            sum += radiance;
+        Rgb& sum = pixels[y * width + x];
+        if (isFinite(*sample))
+            sum.r = sample->r + 0.0f, sum.g = sample->g + 0.0f, sum.b = sample->b + 0.0f; // not -0
         else
-            ++worker.nanSamples;
-        pixels[y * width + x] = sum;
+            sum = {}, ++worker.nanSamples;
+        ++sample;
     });
 }
 

@@ -247,6 +247,27 @@ TEST(shade_lanes_add_glow_to_samples_in_a_row) {
     });
 }
 
+TEST(shade_lanes_take_and_give_samples_in_a_row) {
+    forAllLanes([](const char* name, const ShadeLanes& lanes) {
+        Random random(7005);
+        for (int i = 0; i < check::scaled(200); ++i) {
+            std::array<Rgb, kPoints + 1> radiance, back;
+            for (Rgb& colour : radiance) colour = someColour(random);
+            back.fill({2, 3, 4});
+            LightSums sums;
+            lanes.take(radiance.data(), sums);
+            lanes.give(sums, back.data());
+            for (std::size_t k = 0; k <= kPoints; ++k) {
+                const Rgb wanted = k < kPoints ? radiance[k] : Rgb{2, 3, 4};
+                const bool isTaken =
+                    k == kPoints || sameBits(wanted, SurfaceBlock::get(sums.sum, k));
+                CHECK_INFO(isTaken && sameBits(back[k], Vec3{wanted.r, wanted.g, wanted.b}),
+                           name << ", row " << i << ", sample " << k);
+            }
+        }
+    });
+}
+
 // Rays go one after the other, and what is not hidden arrives where it belongs.
 TEST(shade_lanes_aim_at_points_and_add_what_they_see) {
     forAllLanes([](const char* name, const ShadeLanes& lanes) {

@@ -153,9 +153,9 @@ TEST(bounce_lanes_have_the_bits_and_the_order_of_single_points) {
             const Block block(random);
             std::array<Vec3, 3 * kPoints> org, dir;
             std::array<Rgb, 3 * kPoints> weight;
-            const LeavingRays out =
-                lanes.bounce(block.points, block.weights.data(), block.alike, kCutoff,
-                             {org.data(), dir.data(), nullptr, weight.data()});
+            LeavingRays out;
+            lanes.bounce(block.points, block.weights.data(), block.alike, kCutoff,
+                         {org.data(), dir.data(), nullptr, weight.data()}, out);
             LeavingRays told;
             const std::vector<Sent> alone = sentAlone(block, told, cases);
             bool same = out.rays == told.rays && out.reflected == told.reflected &&
@@ -179,6 +179,45 @@ TEST(bounce_lanes_have_the_bits_and_the_order_of_single_points) {
                         << " bent back, " << cases.bentDown << " bent down");
     });
     CHECK(bounceLanes(chooseKernel("scalar")).bounce == nullptr);
+}
+
+// Whatever their materials are: as those of each material together.
+TEST(bounce_lanes_mirror_points_of_many_materials) {
+    forAllLanes([](const char* name, const BounceLanes& lanes) {
+        Random random(93);
+        std::size_t reflected = 0;
+        for (int i = 0; i < check::scaled(2000); ++i) {
+            const Block block(random);
+            std::array<const Material*, kPoints> materials{}; // null where nobody may look
+            std::vector<AlikePoints> mirrors;
+            unsigned points = 0;
+            for (const AlikePoints& some : block.alike) {
+                if (some.isGlass) continue;
+                mirrors.push_back(some), points |= some.points;
+                for (std::size_t k = 0; k < kPoints; ++k)
+                    if ((some.points >> k & 1) != 0) materials[k] = some.material;
+            }
+            struct Rays {
+                std::array<Vec3, 3 * kPoints> org, dir;
+                std::array<Rgb, 3 * kPoints> weight;
+                LeavingRays out;
+                RayPlaces places() { return {org.data(), dir.data(), nullptr, weight.data()}; }
+            } one, other;
+            lanes.mirror(block.points, block.weights.data(), materials.data(), points, kCutoff,
+                         one.places(), one.out);
+            lanes.bounce(block.points, block.weights.data(), mirrors, kCutoff, other.places(),
+                         other.out);
+            bool same = one.out.rays == other.out.rays &&
+                        one.out.reflected == other.out.reflected && one.out.refracted == 0;
+            for (std::size_t ray = 0; ray < one.out.reflected && same; ++ray)
+                same = sameBits(one.org[ray], other.org[ray]) &&
+                       sameBits(one.dir[ray], other.dir[ray]) &&
+                       sameBits(one.weight[ray], other.weight[ray]);
+            CHECK_INFO(same, name << ": block " << i);
+            reflected += one.out.reflected;
+        }
+        CHECK_INFO(reflected > 2000, name << ": " << reflected);
+    });
 }
 
 TEST(bounce_lanes_divide_points_by_what_they_have_in_common) {

@@ -41,6 +41,13 @@ struct SolidTree {
         float isOpenFront = 0; // 1: a cylinder without ends whose inside rays of sight don't see
         const StillShape* shape = nullptr; // of all but facets and what is asked ray by ray
     };
+    // All that a hit on a sphere takes whose map only scales and moves, in one line of the cache.
+    struct alignas(64) Ball {
+        Bounds box;
+        Vec3d offset; // object = ballScale * world + offset
+        double radius = 0;
+        std::uint32_t number = 0;
+    };
     struct Tube {
         StillTube exact;
         // At least the square of how much longer a normal of the wall, or of an end, is in the
@@ -64,6 +71,8 @@ struct SolidTree {
     int width = 0;
     RawVector<Solid> solids; // in the order of the tree's leaves
     RawVector<Bounds> boxes; // of the solids
+    RawVector<Ball> balls;   // the same, if all of them are, and of one scale; else empty
+    double ballScale = 0;
     std::vector<Tube> tubes;
     std::vector<FacetGroup> facets;
     std::vector<Movement> movements;

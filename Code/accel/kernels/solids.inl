@@ -53,7 +53,7 @@ public:
             meetEndless<A>(results);
             if (live_ == 0 || tree_.lines.empty()) continue;
             traverse<A>(results);
-            if (!areInPairs_) continue;
+            if (!this->template inPairs<A>()) continue;
             if (live_ != 0) meetAll<A>(results);
             dropAll();
         }
@@ -150,31 +150,53 @@ private:
         return size;
     }
 
+    // The children of a node that a ray enters.
+    [[gnu::always_inline]] Mask enteredBy(const std::byte* planes, int ray, Floats& entry) const {
+        Floats exit(rays1_.zCut[ray]);
+        entry = Floats(0.0f);
+        for (int axis = 0; axis < 3; ++axis) {
+            const std::size_t nearPlane = rays1_.nearPlane[axis][ray],
+                              farPlane = nearPlane ^ kPlane;
+            const Floats r(rays1_.r[axis][ray]);
+            entry = max(
+                fma(Floats::load(planes + nearPlane), r, Floats(rays1_.nearOffset[axis][ray])),
+                entry);
+            exit = min(fma(Floats::load(planes + farPlane), r, Floats(rays1_.farOffset[axis][ray])),
+                       exit);
+        }
+        return entry <= exit;
+    }
+
+    // All children are solids, and wait for rays of others.
+    void waitAll(const WideNode<W>& node, unsigned lanes) {
+        const auto* const planes = reinterpret_cast<const std::byte*>(&node);
+        std::uint32_t waiting = waiting_.count;
+        Floats entry;
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const int ray = std::countr_zero(lanes);
+            waiting = wait(ray, bits(enteredBy(planes, ray, entry)), node.child, waiting);
+        }
+        waiting_.count = waiting;
+    }
+
     // Solids wait for rays of others, or are met at once.
     template <Answer A, class Result>
     std::size_t stepApart(const WideNode<W>& node, unsigned lanes, Entry* stack, std::size_t size,
                           Result* results) {
         const auto* const planes = reinterpret_cast<const std::byte*>(&node);
-        const unsigned leaves = leavesOf(node), inPairs = areInPairs_ ? leaves : 0;
+        const unsigned leaves = leavesOf(node), inPairs = this->template inPairs<A>() ? leaves : 0;
+        if (A == Answer::Closest && areBalls_ && leaves == usedOf(node)) {
+            waitAll(node, lanes);
+            return size;
+        }
         std::uint32_t waiting = waiting_.count;
         LaneColumns entered; // rows are rays, columns children
         unsigned any = 0;
         Floats nearest(kInfinityF);
         for (; lanes != 0; lanes &= lanes - 1) {
             const int ray = std::countr_zero(lanes);
-            Floats entry(0.0f), exit(rays1_.zCut[ray]);
-            for (int axis = 0; axis < 3; ++axis) {
-                const std::size_t nearPlane = rays1_.nearPlane[axis][ray],
-                                  farPlane = nearPlane ^ kPlane;
-                const Floats r(rays1_.r[axis][ray]);
-                entry = max(
-                    fma(Floats::load(planes + nearPlane), r, Floats(rays1_.nearOffset[axis][ray])),
-                    entry);
-                exit = min(
-                    fma(Floats::load(planes + farPlane), r, Floats(rays1_.farOffset[axis][ray])),
-                    exit);
-            }
-            const Mask isHit = entry <= exit;
+            Floats entry;
+            const Mask isHit = enteredBy(planes, ray, entry);
             if constexpr (A == Answer::Closest)
                 nearest = min(nearest, select(isHit, entry, nearest));
             const unsigned hit = bits(isHit);

@@ -6,6 +6,18 @@
 #include <algorithm>
 #include <utility>
 
+// 0: it is no ball.
+static double ballScaleOf(const SolidTree::Solid& solid) {
+    if (solid.meets != SolidTree::Meets::Sphere || solid.turned) return 0;
+    const AffineRows& m = solid.shape->objectFromWorld();
+    return m[0] == m[5] && m[0] == m[10] ? m[0] : 0;
+}
+
+static SolidTree::Ball ballOf(const SolidTree::Solid& solid, const Bounds& box) {
+    const AffineRows& m = solid.shape->objectFromWorld();
+    return {box, {m[3], m[7], m[11]}, solid.shape->radius, solid.number};
+}
+
 void SolidTree::build(int nodeWidth, int threads) {
     width = nodeWidth;
     const std::vector<std::uint32_t> order = writeNodes(boxes, threads);
@@ -31,32 +43,43 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
         std::vector<FacetGroup> facets;
         std::vector<Movement> movements;
         std::size_t firstTube = 0, firstFacets = 0, firstMovement = 0;
+        double ballScale = 0;
     };
     const auto ofPart = [](auto& things, std::size_t first) {
         return things.begin() + static_cast<std::ptrdiff_t>(first);
     };
     std::vector<Rest> rests((order.size() + kTogether - 1) / kTogether);
-    solids.resize(order.size()), boxes.resize(order.size());
+    solids.resize(order.size()), boxes.resize(order.size()), balls.resize(order.size());
     forEachPart(threads, order.size(), kTogether, [&](std::size_t first, std::size_t last) {
         SolidTree part;
         part.solids.reserve(last - first), part.boxes.reserve(last - first);
+        double scale = 0; // of all in the part
         for (std::size_t i = first; i < last; ++i) {
             const std::uint32_t at = order[i];
             const std::uint32_t next = order[std::min(i + kAhead, last - 1)];
             __builtin_prefetch(&of[next]);
             const Described solid = describe(at, next);
             part.add(of[at], solid.number, solid.hides, solid.form);
+            if (i > first && scale == 0) continue;
+            const double its = ballScaleOf(part.solids.back());
+            scale = i == first || its == scale ? its : 0;
+            if (scale != 0) balls[i] = ballOf(part.solids.back(), of[at]);
         }
         std::copy(part.solids.begin(), part.solids.end(), ofPart(solids, first));
         std::copy(part.boxes.begin(), part.boxes.end(), ofPart(boxes, first));
-        rests[first / kTogether] = {std::move(part.tubes), std::move(part.facets),
-                                    std::move(part.movements)};
+        Rest& rest = rests[first / kTogether];
+        rest.tubes = std::move(part.tubes), rest.facets = std::move(part.facets);
+        rest.movements = std::move(part.movements);
+        rest.ballScale = scale;
     });
     const auto join = [](auto& things, const auto& more) {
         const std::size_t first = things.size();
         things.insert(things.end(), more.begin(), more.end());
         return first;
     };
+    ballScale = rests.empty() ? 0 : rests.front().ballScale;
+    const auto isApart = [&](const Rest& rest) { return rest.ballScale != ballScale; };
+    if (ballScale == 0 || std::any_of(rests.begin(), rests.end(), isApart)) balls = {};
     for (Rest& rest : rests) {
         rest.firstTube = join(tubes, rest.tubes);
         rest.firstFacets = join(facets, rest.facets);
@@ -78,7 +101,7 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
 
 std::size_t SolidTree::bytes() const {
     return lines.size() * sizeof(WideTree::Line) + solids.size() * sizeof(Solid) +
-           boxes.size() * sizeof(Bounds) + tubes.size() * sizeof(Tube) +
-           facets.size() * sizeof(FacetGroup) + movements.size() * sizeof(Movement) +
-           endless.size() * sizeof(Solid);
+           boxes.size() * sizeof(Bounds) + balls.size() * sizeof(Ball) +
+           tubes.size() * sizeof(Tube) + facets.size() * sizeof(FacetGroup) +
+           movements.size() * sizeof(Movement) + endless.size() * sizeof(Solid);
 }

@@ -24,6 +24,11 @@ inline unsigned leavesOf(const WideNode<W>& node) {
     return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(lowest)));
 }
 
+inline unsigned usedOf(const WideNode<W>& node) {
+    const __m256i none = _mm256_slli_epi32(Ints::load(node.child).v, 30);
+    return ~static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(none))) & 0xff;
+}
+
 inline void storeRows(const double* const (&row)[W], double (*column)[W]) {
     for (int half = 0; half < 2; ++half) {
         const auto at = [&](int i) -> __m256d { return _mm256_loadu_pd(row[4 * half + i]); };

@@ -29,6 +29,11 @@ inline unsigned leavesOf(const WideNode<W>& node) {
     return bits({_mm512_test_epi32_mask(Ints::load(node.child).v, _mm512_set1_epi32(1))});
 }
 
+// And those that are there at all.
+inline unsigned usedOf(const WideNode<W>& node) {
+    return bits({_mm512_testn_epi32_mask(Ints::load(node.child).v, _mm512_set1_epi32(2))});
+}
+
 // The same of doubles, in memory.
 inline void storeRows(const double* const (&row)[W], double (*column)[W]) {
     for (int half = 0; half < 2; ++half) {

@@ -19,6 +19,14 @@ inline unsigned leavesOf(const WideNode<W>& node) {
     return lowest(child.lo) | lowest(child.hi) << 4;
 }
 
+inline unsigned usedOf(const WideNode<W>& node) {
+    const Ints child = Ints::load(node.child);
+    const auto none = [&](__m128i four) {
+        return static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(_mm_slli_epi32(four, 30))));
+    };
+    return ~(none(child.lo) | none(child.hi) << 4) & 0xff;
+}
+
 inline void storeRows(const double* const (&row)[W], double (*column)[W]) {
     for (int pair = 0; pair < 4; ++pair)
         for (int half = 0; half < 2; ++half) {

@@ -13,7 +13,9 @@ protected:
         const Ints lane = Ints::bytes(lanes);
         const auto at = [&](Floats x) { return permute(x, lane); };
         Floats entry;
-        on &= enteringEach(solids, lane, entry);
+        const float* box[W];
+        for (int i = 0; i < W; ++i) box[i] = &tree_.boxes[solids[i] >> 2].lo.x;
+        on &= enteringEach(box, lane, entry);
         if (on == 0) return;
         const RayColumns rays = permuted(columns_, lane);
         const RayRanges ranges{rays.tMin, at(best_)};
@@ -22,6 +24,34 @@ protected:
                                      : findTubes<A>(formula, solids, rays, ranges, on);
         const Floats tEntry = entry / at(lanes_.dz);
         takeEach(solids, lanes, on, found, tEntry, ranges, results);
+    }
+
+    // The same of a tree of balls.
+    [[gnu::noinline]] void meetBalls(const std::uint32_t* solids, const std::uint8_t* lanes,
+                                     unsigned on, Hit* hits) {
+        static_assert(offsetof(SolidTree::Ball, radius) ==
+                      offsetof(SolidTree::Ball, offset) + 3 * sizeof(double));
+        const auto ballOf = [&](int i) -> const SolidTree::Ball& {
+            return tree_.balls[solids[i] >> 2];
+        };
+        const Ints lane = Ints::bytes(lanes);
+        const float* box[W];
+        const double* map[W];
+        for (int i = 0; i < W; ++i) box[i] = &ballOf(i).box.lo.x, map[i] = &ballOf(i).offset.x;
+        Floats entry;
+        on &= enteringEach(box, lane, entry);
+        if (on == 0) return;
+        const RayColumns rays = permuted(columns_, lane);
+        const RayRanges ranges{rays.tMin, permute(best_, lane)};
+        alignas(64) double columns[4][W];
+        storeRows(map, columns);
+        const SphereRoots roots =
+            PacketSpheres::meet(AllLanes(on), rays, BallMaps{tree_.ballScale, columns}, false,
+                                Doubles::load(columns[3]));
+        const FoundLanes found = PacketSpheres::firstOf(roots, ranges);
+        const Floats nearest = max(entry / permute(lanes_.dz, lane), found.t);
+        improveEach([&](int i) { return ballOf(i).number; }, lanes,
+                    on & found.met & bits(nearest <= ranges.best), nearest, found, hits);
     }
 
     const SolidTree::Solid& solidOf(std::uint32_t ref) const { return tree_.solids[ref >> 2]; }
@@ -97,10 +127,8 @@ private:
         }
     }
 
-    // RayLanes::entering() for a box each.
-    unsigned enteringEach(const std::uint32_t* solids, Ints lane, Floats& entry) const {
-        const float* row[W];
-        for (int i = 0; i < W; ++i) row[i] = &tree_.boxes[solids[i] >> 2].lo.x;
+    // RayLanes::entering() for a box each, of which `row` is the start.
+    unsigned enteringEach(const float* (&row)[W], Ints lane, Floats& entry) const {
         Floats a[4], b[4];
         loadRows(row, a);
         for (const float*& from : row) from += 2;
@@ -123,24 +151,34 @@ private:
     void takeEach(const std::uint32_t* solids, const std::uint8_t* lanes, unsigned on,
                   const FoundLanes& found, Floats tEntry, const RayRanges& ranges, Hit* hits) {
         const Floats nearest = max(tEntry, found.t);
-        alignas(64) float t[W], lost[W], entry[W], best[W];
+        improveEach([&](int i) { return solidOf(solids[i]).number; }, lanes,
+                    on & found.met & ~found.undecided & bits(nearest <= ranges.best), nearest,
+                    found, hits);
+        if (const unsigned asking = on & found.undecided; asking != 0) {
+            alignas(64) float entry[W];
+            tEntry.store(entry);
+            askEach(solids, lanes, asking, entry, hits);
+        }
+    }
+    // One after the other: several may be of one ray.
+    template <class NumberFn>
+    [[gnu::always_inline]] void improveEach(const NumberFn& numberOf, const std::uint8_t* lanes,
+                                            unsigned met, Floats nearest, const FoundLanes& found,
+                                            Hit* hits) {
+        if (met == 0) return;
+        alignas(64) float t[W], lost[W], best[W];
         nearest.store(t), found.lost.store(lost), best_.store(best);
         bool improved = false;
-        const unsigned met = on & found.met & ~found.undecided & bits(nearest <= ranges.best);
-        for (unsigned rest = met; rest != 0; rest &= rest - 1) {
-            const int i = std::countr_zero(rest);
+        for (; met != 0; met &= met - 1) {
+            const int i = std::countr_zero(met);
             const std::uint8_t lane = lanes[i];
-            const std::uint32_t number = solidOf(solids[i]).number;
+            const std::uint32_t number = numberOf(i);
             if (!(t[i] < best[lane] || (t[i] == best[lane] && number < number_[lane]))) continue;
             hits[ray_[lane]] = {.t = t[i], .u = lost[i], .prim = found.partOf(i), .shape = number};
             best[lane] = t[i], number_[lane] = number;
             improved = true;
         }
         if (improved) limit(Floats::load(best));
-        if (const unsigned asking = on & found.undecided; asking != 0) {
-            tEntry.store(entry);
-            askEach(solids, lanes, asking, entry, hits);
-        }
     }
     void takeEach(const std::uint32_t* solids, const std::uint8_t* lanes, unsigned on,
                   const FoundLanes& found, Floats tEntry, const RayRanges&, std::uint8_t* hidden) {

@@ -18,20 +18,19 @@ struct SentRays {
     LeavingRays out;
     std::size_t first;
 };
-inline SentRays sendFrom(const Wave& wave, std::size_t b, std::span<const AlikePoints> alike) {
+template <class MakeFn> SentRays sendFrom(const Wave& wave, const MakeFn& make) {
     PathBatch& next = wave.memory.next;
     // Lanes write whole registers.
-    const std::size_t first = next.extend(3 * PointColumns::kPoints);
-    const LeavingRays out = wave.context.bounceLanes.bounce(
-        wave.memory.points.at.block(b), &wave.memory.points.weight[b * PointColumns::kPoints],
-        alike, wave.context.cutoff,
-        {&next.org[first], &next.dir[first], nullptr, &next.weight[first]});
-    const std::size_t rays = out.reflected + out.refracted;
-    wave.counts.reflect += out.reflected, wave.counts.refract += out.refracted;
+    SentRays sent{.out = {}, .first = next.extend(3 * PointColumns::kPoints)};
+    const std::size_t first = sent.first;
+    make(RayPlaces{&next.org[first], &next.dir[first], nullptr, &next.weight[first]}, sent.out);
+    const auto [reflected, refracted] = std::pair(sent.out.reflected, sent.out.refracted);
+    const std::size_t rays = reflected + refracted;
+    wave.counts.reflect += reflected, wave.counts.refract += refracted;
     next.shrink(first + rays);
     next.beEndless();
     std::fill_n(next.seesLights.data() + first, rays, std::uint8_t{true}); // nothing is rough
-    return {out, first};
+    return sent;
 }
 
 // The points of a block that mirror or refract, by what they have in common. Nothing if there are
@@ -51,8 +50,11 @@ public:
 
     void send() const {
         if (count_ == 0) return;
-        const SentRays sent =
-            sendFrom(wave_, first_ / PointColumns::kPoints, std::span(alike_).first(count_));
+        const SentRays sent = sendFrom(wave_, [&](const RayPlaces& to, LeavingRays& out) {
+            wave_.context.bounceLanes.bounce(block_, &wave_.memory.points.weight[first_],
+                                             std::span(alike_).first(count_), wave_.context.cutoff,
+                                             to, out);
+        });
         describe(sent.out, sent.first);
     }
 

@@ -39,10 +39,13 @@ struct BounceLanes {
     std::size_t (*divide)(const PointBlock& block, const std::uint32_t* media, unsigned used,
                           std::uint16_t* alike) = nullptr;
     // In the order of the points, the reflected ray of each first; rays of less than `cutoff` are
-    // not to be traced. Weights are those of the points.
-    LeavingRays (*bounce)(const PointBlock& block, const Rgb* weights,
-                          std::span<const AlikePoints> alike, float cutoff,
-                          const RayPlaces& out) = nullptr;
+    // not to be traced. Weights are those of the points. Adds to `leaving`.
+    void (*bounce)(const PointBlock& block, const Rgb* weights, std::span<const AlikePoints> alike,
+                   float cutoff, const RayPlaces& out, LeavingRays& leaving) = nullptr;
+    // The same of `points`, a bit for each, that are plain mirrors of their materials.
+    void (*mirror)(const PointBlock& block, const Rgb* weights, const Material* const* materials,
+                   unsigned points, float cutoff, const RayPlaces& out,
+                   LeavingRays& leaving) = nullptr;
 };
 // Null for the scalar kernel.
 BounceLanes bounceLanes(const Kernel& kernel);

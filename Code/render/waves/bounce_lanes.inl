@@ -113,6 +113,17 @@ public:
         write(reflect(mirror, lanes), refracted, to, out);
     }
 
+    void mirror(const Material* const* materials, unsigned lanes, const RayPlaces& to,
+                LeavingRays& out) const {
+        const float* row[W];
+        const Material* const some = materials[std::countr_zero(lanes)];
+        for (int i = 0; i < W; ++i)
+            row[i] = &((lanes >> i & 1) != 0 ? materials[i] : some)->mirror.r;
+        Floats mirror[4]; // and something else
+        loadRows(row, mirror);
+        write(reflect({mirror[0], mirror[1], mirror[2]}, lanes), {}, to, out);
+    }
+
 private:
     // The rays that glass refracts. `mirror` becomes what it reflects.
     RaysOfLanes refract(std::span<const AlikePoints> alike, unsigned glass, Floats3& mirror,
@@ -208,10 +219,15 @@ std::size_t dividePoints(const PointBlock& block, const std::uint32_t* media, un
     return count;
 }
 
-LeavingRays bouncePoints(const PointBlock& block, const Rgb* weights,
-                         std::span<const AlikePoints> alike, float cutoff, const RayPlaces& to) {
-    LeavingRays out;
+void bouncePoints(const PointBlock& block, const Rgb* weights, std::span<const AlikePoints> alike,
+                  float cutoff, const RayPlaces& to, LeavingRays& out) {
     for (std::size_t first = 0; first < PointBlock::kPoints; first += W)
         BouncingPoints(block, weights, cutoff, first).bounce(alike, to, out);
-    return out;
+}
+
+void mirrorPoints(const PointBlock& block, const Rgb* weights, const Material* const* materials,
+                  unsigned points, float cutoff, const RayPlaces& to, LeavingRays& out) {
+    for (std::size_t first = 0; first < PointBlock::kPoints; first += W)
+        if (const unsigned lanes = points >> first & kEvery; lanes != 0)
+            BouncingPoints(block, weights, cutoff, first).mirror(materials + first, lanes, to, out);
 }

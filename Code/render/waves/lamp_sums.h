@@ -20,14 +20,48 @@ inline bool canSumInLanes(const Wave& wave) {
 
 using LampOrigins = std::array<Vec3, LitBlock::kPoints>;
 
-// fn(point, its block's sums, its place there) for all points that answer lamps.
-template <class Fn> void forEachSum(const Wave& wave, Fn&& fn) {
+// fn(points, their sums) for all blocks of points that answer lamps.
+template <class Fn> void forEachSums(const Wave& wave, const Fn& fn) {
     LightSums* block = wave.memory.lightSums.data();
     for (std::span<const std::uint32_t> rest(wave.memory.answering); !rest.empty(); ++block) {
         const std::size_t count = std::min(rest.size(), LitBlock::kPoints);
-        for (std::size_t i = 0; i < count; ++i) fn(rest[i], block->sum, i);
+        fn(rest.first(count), *block);
         rest = rest.subspan(count);
     }
+}
+// fn(point, its block's sums, its place there) for all of them.
+template <class Fn> void forEachSum(const Wave& wave, const Fn& fn) {
+    forEachSums(wave, [&](std::span<const std::uint32_t> points, const LightSums& block) {
+        for (std::size_t i = 0; i < points.size(); ++i) fn(points[i], block.sum, i);
+    });
+}
+
+// Where the light of a block's points goes, if their samples follow each other: they ascend.
+inline Rgb* radianceInARow(const Wave& wave, std::span<const std::uint32_t> points) {
+    const std::vector<std::uint32_t>& slot = wave.memory.points.slot;
+    const std::uint32_t first = slot[points.front()];
+    const bool isRow =
+        points.size() == LitBlock::kPoints && slot[points.back()] - first == LitBlock::kPoints - 1;
+    return isRow ? &wave.chunk.radiance[first] : nullptr;
+}
+inline void takeRadiance(const Wave& wave) {
+    forEachSums(wave, [&](std::span<const std::uint32_t> points, LightSums& block) {
+        if (const Rgb* const row = radianceInARow(wave, points))
+            return wave.context.shadeLanes.take(row, block);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Rgb& radiance = wave.chunk.radiance[wave.slotOf(points[i])];
+            SurfaceBlock::set(block.sum, i, {radiance.r, radiance.g, radiance.b});
+        }
+    });
+}
+inline void giveRadiance(const Wave& wave) {
+    forEachSums(wave, [&](std::span<const std::uint32_t> points, const LightSums& block) {
+        if (Rgb* const row = radianceInARow(wave, points))
+            return wave.context.shadeLanes.give(block, row);
+        const auto& sum = block.sum;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            wave.chunk.radiance[wave.slotOf(points[i])] = {sum[0][i], sum[1][i], sum[2][i]};
+    });
 }
 
 // Shadow rays for the points of a block, from the lamp whose place, sixteen times, is `origins`.
@@ -56,14 +90,7 @@ inline void addLampsInLanes(const Wave& wave, bool isGrouped) {
         (memory.answering.size() + LitBlock::kPoints - 1) / LitBlock::kPoints;
     if (memory.byLamp.size() < blocks) memory.byLamp.resize(blocks);
     if (memory.lightSums.size() < blocks) memory.lightSums.resize(blocks);
-    const auto radianceOf = [radiance = wave.chunk.radiance.data(),
-                             slot = memory.points.slot.data()](std::uint32_t k) -> Rgb& {
-        return radiance[slot[k]];
-    };
-    forEachSum(wave, [&](std::uint32_t k, SurfaceBlock::Lane(&sum)[3], std::size_t i) {
-        const Rgb radiance = radianceOf(k);
-        SurfaceBlock::set(sum, i, {radiance.r, radiance.g, radiance.b});
-    });
+    takeRadiance(wave);
     RayBatch& rays = memory.lampRays.rays;
     for (const Lamp& lamp : wave.context.shadingLamps) {
         if (isGrouped) askGroups(wave, lamp);
@@ -92,9 +119,7 @@ inline void addLampsInLanes(const Wave& wave, bool isGrouped) {
             ray += static_cast<std::size_t>(std::popcount(by.unsure));
         }
     }
-    forEachSum(wave, [&](std::uint32_t k, const SurfaceBlock::Lane(&sum)[3], std::size_t i) {
-        radianceOf(k) = {sum[0][i], sum[1][i], sum[2][i]};
-    });
+    giveRadiance(wave);
 }
 
 } // namespace waves

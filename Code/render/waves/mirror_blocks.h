@@ -6,30 +6,22 @@
 
 namespace waves {
 
-// Runs of mirrors of one material. Returns how many.
-inline std::size_t listMirrors(const PointBatch& points, std::size_t b,
-                               std::array<AlikePoints, PointColumns::kPoints>& runs) {
-    const auto& material = points.at.block(b).material;
-    std::size_t count = 0;
-    for (unsigned rest = points.painted[b].mirrors; rest != 0;) {
-        const auto begin = static_cast<std::size_t>(std::countr_zero(rest));
-        std::size_t end = begin + 1;
-        while ((rest >> end & 1) != 0 && material[end] == material[begin]) ++end;
-        const unsigned run = (1u << end) - (1u << begin);
-        runs[count++] = {run, &points.at.of(b * PointColumns::kPoints + begin).base, false};
-        rest &= ~run;
-    }
-    return count;
-}
-
 inline void mirrorBlock(const Wave& wave, std::size_t b) {
     const PointBatch& points = wave.memory.points;
-    if (points.painted[b].mirrors == 0) return;
-    std::array<AlikePoints, PointColumns::kPoints> runs;
-    const std::size_t count = listMirrors(points, b, runs);
-    const auto [out, first] = sendFrom(wave, b, std::span(runs).first(count));
-    PathBatch& next = wave.memory.next;
+    const PaintedBlock& painted = points.painted[b];
+    if (painted.mirrors == 0) return;
     const std::size_t from = b * PointColumns::kPoints;
+    const Rgb* const weights = &points.weight[from];
+    const float cutoff = wave.context.cutoff;
+    const auto [out, first] = sendFrom(wave, [&](const RayPlaces& to, LeavingRays& leaving) {
+        const BounceLanes& lanes = wave.context.bounceLanes;
+        if (painted.all == nullptr)
+            return lanes.mirror(points.at.block(b), weights, &points.material[from],
+                                painted.mirrors, cutoff, to, leaving);
+        const AlikePoints all{painted.mirrors, painted.all, false};
+        lanes.bounce(points.at.block(b), weights, {&all, 1}, cutoff, to, leaving);
+    });
+    PathBatch& next = wave.memory.next;
     const auto forEachRay = [&, first = first, rays = out.rays](const auto& fn) {
         std::size_t ray = first;
         for (std::uint32_t rest = rays; rest != 0; rest &= rest - 1) // two bits for each point

@@ -23,13 +23,14 @@ inline void listHits(std::span<const Hit> hits, std::size_t rays, PointBatch& po
     std::uint32_t *met = points.ray.data(), *missed = points.missed.data();
     for (std::size_t first = 0; first < rays; first += kTogether) {
         const std::size_t count = std::min(kTogether, rays - first);
-        unsigned isHit = 0;
-        if (count == kTogether)
-            for (std::size_t i = 0; i < kTogether; ++i)
-                isHit |= static_cast<unsigned>(hits[first + i].isHit()) << i;
+        std::size_t found = 0;
+        if (count == kTogether) {
+#pragma GCC unroll 16
+            for (std::size_t i = 0; i < kTogether; ++i) found += hits[first + i].isHit();
+        }
         const auto number = static_cast<std::uint32_t>(first);
-        if (count == kTogether && (isHit == 0 || isHit == (1u << kTogether) - 1)) {
-            std::uint32_t*& to = isHit == 0 ? missed : met;
+        if (count == kTogether && (found == 0 || found == kTogether)) {
+            std::uint32_t*& to = found == 0 ? missed : met;
             for (std::uint32_t i = 0; i < kTogether; ++i) to[i] = number + i;
             to += kTogether;
             continue;
@@ -183,8 +184,8 @@ template <bool kTextures> void paintBlock(const Wave& wave, std::size_t b, unsig
     const std::size_t first = b * PointColumns::kPoints, size = points.sizeOf(b);
     const unsigned used = points.usedOf(b);
     const auto bits = [](unsigned of) { return static_cast<std::uint16_t>(of); };
-    const bool isOne = std::all_of(number, number + size,
-                                   [&](std::uint32_t other) { return other == number[0]; });
+    const bool isOne =
+        std::all_of(number, number + size, [&](std::uint32_t other) { return other == number[0]; });
     const auto has = [&](std::uint32_t material, MaterialTable::Trait trait) {
         return (table.traits(material) & trait) != 0;
     };
@@ -208,6 +209,7 @@ template <bool kTextures> void paintBlock(const Wave& wave, std::size_t b, unsig
         answersLamps |= bit(MaterialTable::AnswersLamps), mirrors |= bit(MaterialTable::Mirrors);
         litOutside |= bit(MaterialTable::LitOutside), textured |= bit(MaterialTable::Textured);
         points.material[k] = &of.base;
+        table.prefetchGlow(number[i]);
         if constexpr (kTextures)
             if (of.isTextured()) {
                 wave.memory.texturedPoints.add(of, static_cast<std::uint32_t>(k));

@@ -10,6 +10,8 @@
     void paintPoints(const Material&, LitBlock&);                                                  \
     void paintEachPoint(const Material* const*, LitBlock&);                                        \
     void addGlowInARow(const Rgb*, const Rgb*, Rgb*);                                              \
+    void takeRow(const Rgb*, LightSums&);                                                          \
+    void giveRow(const LightSums&, Rgb*);                                                          \
     Bounds boundsOfPoints(const PointBlock&, unsigned);                                            \
     void aimAtPoints(const LitByLamp&, unsigned, const RayPlaces&);                                \
     void addLight(const LitByLamp&, unsigned, const std::uint8_t*, LightSums&);                    \
@@ -18,8 +20,9 @@ DECLARE_BY_KERNEL(DECLARE)
 #define ROW(isa)                                                                                   \
     {                                                                                              \
         kernels::isa::seePoints, kernels::isa::lightPoints, kernels::isa::paintPoints,             \
-            kernels::isa::paintEachPoint, kernels::isa::addGlowInARow,                             \
-            kernels::isa::boundsOfPoints, kernels::isa::aimAtPoints, kernels::isa::addLight        \
+            kernels::isa::paintEachPoint, kernels::isa::addGlowInARow, kernels::isa::takeRow,      \
+            kernels::isa::giveRow, kernels::isa::boundsOfPoints, kernels::isa::aimAtPoints,        \
+            kernels::isa::addLight                                                                 \
     }
 
 ShadeLanes shadeLanes(const Kernel& kernel) {

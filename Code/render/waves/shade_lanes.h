@@ -39,6 +39,9 @@ struct ShadeLanes {
     void (*paintEach)(const Material* const* materials, LitBlock& lit) = nullptr;
     // Of sixteen samples that follow each other: radiance[i] += weights[i] * glow[i].
     void (*glow)(const Rgb* weights, const Rgb* glow, Rgb* radiance) = nullptr;
+    // Sums begin with the radiance of sixteen samples that follow each other, and become it.
+    void (*take)(const Rgb* radiance, LightSums& sums) = nullptr;
+    void (*give)(const LightSums& sums, Rgb* radiance) = nullptr;
     // The box around the used points and where they are lifted to.
     Bounds (*bounds)(const PointBlock& block, unsigned used) = nullptr;
     // Directions and ends of the rays from a lamp to some points.

@@ -133,10 +133,9 @@ void paintEachPoint(const Material* const* materials, LitBlock& lit) {
             lit.used >> first & kEvery;
         alignas(64) float model[W];
         b[2].store(model);
-        for (unsigned rest = shiny; rest != 0; rest &= rest - 1) {
-            const int i = std::countr_zero(rest);
-            lit.shiny[std::bit_cast<std::uint32_t>(model[i])] |= 1u << i << first;
-        }
+        const Ints models = Ints::load(reinterpret_cast<const std::uint32_t*>(model));
+        for (std::uint32_t m = 0; m < std::size(lit.shiny); ++m)
+            lit.shiny[m] |= (bits(models == Ints(m)) & shiny) << first;
     }
 }
 
@@ -176,6 +175,17 @@ void aimAtPoints(const LitByLamp& by, unsigned points, const RayPlaces& out) {
         storeChosen(lanes, load(by.dir, first), out.dir + to);
         storeChosenFloats(lanes, Floats::load(by.tMax + first), out.tMax + to);
         to += static_cast<std::size_t>(std::popcount(lanes));
+    }
+}
+
+void takeRow(const Rgb* radiance, LightSums& sums) {
+    for (std::size_t first = 0; first < SurfaceBlock::kPoints; first += W)
+        store(loadRow(radiance, first), sums.sum, first);
+}
+void giveRow(const LightSums& sums, Rgb* radiance) {
+    for (std::size_t first = 0; first < SurfaceBlock::kPoints; first += W) {
+        const Floats3 sum = load(sums.sum, first);
+        storeChosenVectors(kEvery, sum.x, sum.y, sum.z, &radiance[first].r);
     }
 }
 
