@@ -77,6 +77,33 @@ TEST(wholeLampsHaveTheSameBitsForAll) {
     CHECK(renders >= 3 * check::scaled(120));
 }
 
+// The same of lamps without a size that cast no shadows, alone and beside some that do.
+TEST(openLampsHaveTheSameBitsForAll) {
+    const std::uint64_t seed = 916;
+    Random random(seed);
+    int lit = 0;
+    for (int i = 0; i < check::scaled(60); ++i) {
+        const std::string text = fewShapes(random, i % 2 == 0);
+        const auto renderBy = [&](const std::string& kernel, bool specialise) {
+            return shot::render(text, [&](RenderSettings& s) {
+                s.kernel = kernel, s.specialise = specialise;
+                s.switches.softShadows = false, s.switches.shadows = i % 3 == 0;
+            });
+        };
+        const Image alone = renderBy("scalar", false).color;
+        lit += shot::largest(alone) > 0;
+        for (const Kernel& kernel : allKernels()) {
+            if (!kernel.supported()) continue;
+            for (const bool specialise : {true, false})
+                CHECK_INFO(shot::differingPixels(
+                               renderBy(std::string(kernel.name), specialise).color, alone) == 0,
+                           kernel.name << ", case " << i << " of seed " << seed << ":\n"
+                                       << text);
+        }
+    }
+    CHECK(lit > 0);
+}
+
 // One sample of a lamp says all where nothing is near: every pixel has the closed form, to the
 // rounding of floats. 1 / (d^2 + r^2) of a lamp that fades, ln(1 + x) / (x d^2), x = r^2 / d^2,
 // times d^2 of one that doesn't.

@@ -1,8 +1,8 @@
 // Stage of the wave: light that needs no shadow rays, added ray by ray: the background, what
-// surfaces emit, ambient light, and lamps that cast no shadows.
+// surfaces emit, ambient light, and lamps that cast no shadows unless lanes sum them up (lamps.h).
 #pragma once
 
-#include "render/waves/lamp_light.h"
+#include "render/waves/lamp_sums.h"
 
 #include <array>
 
@@ -65,7 +65,9 @@ template <bool kLampBodies, bool kSeeThrough> void addGlow(const Wave& wave) {
     const PathBatch& rays = wave.rays;
     const PointBatch& points = wave.memory.points;
     if constexpr (!kLampBodies && !kSeeThrough)
-        if (wave.hasOneRayPerSample() && wave.context.openLamps.empty()) return addPlainGlow(wave);
+        if (wave.hasOneRayPerSample() &&
+            (wave.context.openLamps.empty() || waves::sumsOpenLamps(wave)))
+            return addPlainGlow(wave);
     std::size_t k = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const std::uint32_t slot = rays.sample[i];

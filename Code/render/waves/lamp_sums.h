@@ -11,11 +11,17 @@
 
 namespace waves {
 
-inline bool canSumInLanes(const Wave& wave) {
-    const std::vector<Lamp>& lamps = wave.context.shadingLamps;
+inline bool canSumInLanes(const Wave& wave, const std::vector<Lamp>& lamps) {
     return wave.hasOneRayPerSample() && wave.context.shadeLanes.add != nullptr &&
            std::all_of(lamps.begin(), lamps.end(),
                        [](const Lamp& lamp) { return lamp.inLanes != nullptr; });
+}
+
+// Lamps that cast no shadows are summed up like the others, before them; else glow.h adds them.
+inline bool sumsOpenLamps(const Wave& wave) {
+    const IntegratorContext& context = wave.context;
+    return !context.openLamps.empty() && !context.steps.lampBodies && !context.steps.seeThrough &&
+           canSumInLanes(wave, context.openLamps);
 }
 
 using LampOrigins = std::array<Vec3, LitBlock::kPoints>;
@@ -84,7 +90,9 @@ inline void pushLampRays(const Wave& wave, const LampOrigins& origins, const Lit
             wave.rays.time[wave.memory.points.ray[block.point[std::countr_zero(points)]]];
 }
 
-inline void addLampsInLanes(const Wave& wave, bool isGrouped) {
+// kShadows: the lamps cast some.
+template <bool kShadows>
+void addLampsInLanes(const Wave& wave, const std::vector<Lamp>& lamps, bool isGrouped) {
     WaveMemory& memory = wave.memory;
     const std::size_t blocks =
         (memory.answering.size() + LitBlock::kPoints - 1) / LitBlock::kPoints;
@@ -92,13 +100,13 @@ inline void addLampsInLanes(const Wave& wave, bool isGrouped) {
     if (memory.lightSums.size() < blocks) memory.lightSums.resize(blocks);
     takeRadiance(wave);
     RayBatch& rays = memory.lampRays.rays;
-    for (const Lamp& lamp : wave.context.shadingLamps) {
+    for (const Lamp& lamp : lamps) {
         if (isGrouped) askGroups(wave, lamp);
         rays.clear();
         LampOrigins origins;
         origins.fill(*lamp.origin);
         for (std::size_t b = 0; b < blocks; ++b) {
-            const unsigned hidden = hiddenByGroup(memory, b, isGrouped);
+            const unsigned hidden = kShadows ? hiddenByGroup(memory, b, isGrouped) : 0;
             LitByLamp& by = memory.byLamp[b];
             lamp.inLanes(*lamp.emission, memory.litBlocks[b], hidden, by);
             by.unsure = by.lit & hidden;

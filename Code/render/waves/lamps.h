@@ -1,4 +1,5 @@
-// Stage of the wave: light of the lamps that cast shadows, lamp after lamp: the shadow rays of one
+// Stage of the wave: light of the lamps that cast shadows, and of others that lanes sum up, lamp
+// after lamp: the shadow rays of one
 // lamp to all points of the wave are traced together. Those of a point lamp start at the lamp and
 // so are one bundle, however many lamps there are.
 #pragma once
@@ -144,7 +145,8 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
     WaveMemory& memory = wave.memory;
     const PointBatch& points = memory.points;
     const std::vector<Lamp>& lamps = wave.context.shadingLamps;
-    if (lamps.empty()) return;
+    const bool sumsOpenLamps = waves::sumsOpenLamps(wave);
+    if (lamps.empty() && !sumsOpenLamps) return;
     waves::listAnswering<kSeeThrough>(wave);
     if (memory.answering.empty()) return;
 
@@ -158,11 +160,15 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
     const auto looksAtGroups = [](const Lamp& lamp) { return lamp.bySamples == nullptr; };
     const bool isGrouped =
         std::any_of(lamps.begin(), lamps.end(), looksAtGroups) && waves::groupPoints(wave);
-    if (std::any_of(lamps.begin(), lamps.end(),
-                    [&](const Lamp& lamp) { return lamp.inLanes || lamp.bySamples; }))
+    if (sumsOpenLamps || std::any_of(lamps.begin(), lamps.end(), [](const Lamp& lamp) {
+            return lamp.inLanes || lamp.bySamples;
+        }))
         waves::fillBlocks(wave);
+    if (sumsOpenLamps) waves::addLampsInLanes<false>(wave, wave.context.openLamps, false);
+    if (lamps.empty()) return;
     if constexpr (!kSeeThrough)
-        if (waves::canSumInLanes(wave)) return waves::addLampsInLanes(wave, isGrouped);
+        if (waves::canSumInLanes(wave, lamps))
+            return waves::addLampsInLanes<true>(wave, lamps, isGrouped);
     memory.arrivals.clear();
     for (const Lamp& lamp : lamps) {
         if (isGrouped) waves::askGroups(wave, lamp);
