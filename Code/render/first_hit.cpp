@@ -1,6 +1,6 @@
 // The integrators that show what the camera ray met, and ambient occlusion from there.
-#include "render/integrator.h"
 #include "render/shading.h"
+#include "render/waves/points.h"
 #include "sample/dimensions.h"
 #include "sample/hash.h"
 #include "sample/warp.h"
@@ -28,6 +28,18 @@ Rgb shown(IntegratorKind kind, const FirstHit& first) {
     return first.albedo;
 }
 
+// What the camera rays meet, as a wave: memory.points, and chunk.first if the context wants it.
+void findFirstHits(const IntegratorContext& context, SampleChunk& chunk, WaveMemory& memory,
+                   RayCounts& counts, std::uint64_t& cameraHits) {
+    const PathBatch& rays = chunk.cameraRays;
+    const Wave wave{context, rays, 0, chunk, memory, counts};
+    counts.camera += rays.size();
+    closest(context.scene, rays, memory.hits);
+    compiledFor([&]<bool kTextures> { findPoints<kTextures, false>(wave); },
+                context.steps.textures);
+    cameraHits += memory.points.count;
+}
+
 } // namespace
 
 Rgb objectColor(std::uint32_t object) {
@@ -46,7 +58,8 @@ FirstHit describeFirstHit(const Scene& scene, const Ray& ray, const ShadedPoint&
     first.depth = static_cast<float>(dot(position - eye, axis) / scene.frame().scale);
     first.normal = at.eye.n;
     first.position = toFloat(scene.frame().worldPoint(position));
-    first.albedo = materialAt(at).diffuse;
+    first.albedo = at.of->base.diffuse;
+    if (at.of->diffuse) first.albedo *= at.of->diffuse->color(at.surface.uv);
     first.object = at.surface.object + 1;
     first.uv = at.surface.uv;
     return first;
@@ -54,16 +67,10 @@ FirstHit describeFirstHit(const Scene& scene, const Ray& ray, const ShadedPoint&
 
 void integrateFirstHit(const IntegratorContext& context, SampleChunk& chunk, WaveMemory& memory,
                        RayCounts& counts, std::uint64_t& cameraHits) {
-    const PathBatch& rays = chunk.cameraRays;
-    counts.camera += rays.size();
-    closest(context.scene, rays, memory.hits);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (!memory.hits[i].isHit()) continue;
-        ++cameraHits;
-        const Ray ray = rays.ray(i);
-        chunk.first[i] =
-            describeFirstHit(context.scene, ray, shade(context.scene, ray, memory.hits[i]));
-        chunk.radiance[i] = shown(context.settings.integrator, chunk.first[i]);
+    findFirstHits(context, chunk, memory, counts, cameraHits);
+    for (std::size_t k = 0; k < memory.points.count; ++k) {
+        const std::uint32_t slot = memory.points.slot[k];
+        chunk.radiance[slot] = shown(context.settings.integrator, chunk.first[slot]);
     }
 }
 
@@ -73,18 +80,14 @@ void integrateAo(const IntegratorContext& context, SampleChunk& chunk, WaveMemor
     const int repeats = context.settings.picture.lightSamples;
     const float share = 1.0f / static_cast<float>(repeats);
     const Sampler sampler = context.sampler.stream(0, repeats);
-    counts.camera += rays.size();
-    closest(context.scene, rays, memory.hits);
+    findFirstHits(context, chunk, memory, counts, cameraHits);
+    const PointBatch& points = memory.points;
+    for (const std::uint32_t i : std::span(points.missed).first(points.missedCount))
+        chunk.radiance[i] = {1, 1, 1};
     memory.shadowRays.clear();
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        if (!memory.hits[i].isHit()) {
-            chunk.radiance[i] = {1, 1, 1};
-            continue;
-        }
-        ++cameraHits;
-        const Ray ray = rays.ray(i);
-        const ShadedPoint at = shade(context.scene, ray, memory.hits[i]);
-        if (context.wantsFirstHits) chunk.first[i] = describeFirstHit(context.scene, ray, at);
+    for (std::size_t point = 0; point < points.count; ++point) {
+        const std::uint32_t i = points.ray[point];
+        const ShadedPoint at = points.at[point];
         const Frame frame = frameAround(at.eye.n);
         for (int k = 0; k < repeats; ++k) {
             const std::uint32_t index = chunk.ids[i].index * static_cast<std::uint32_t>(repeats) +
@@ -92,8 +95,8 @@ void integrateAo(const IntegratorContext& context, SampleChunk& chunk, WaveMemor
             const Vec2 u = sampler.get2D(rays.stream[i], index, dimension(0, BounceSlot::LightUv));
             const Vec3 dir = frame.toWorld(cosineHemisphereFromSquare(u));
             if (!(dot(dir, at.eye.ng) > 0)) continue;
-            memory.shadowRays.push({leave(at.surface, at.eye.ng), dir, 0, kInfinityF, ray.time},
-                                   static_cast<std::uint32_t>(i), Rgb{share, share, share});
+            memory.shadowRays.push({leave(at.surface, at.eye.ng), dir, 0, kInfinityF, rays.time[i]},
+                                   i, Rgb{share, share, share});
         }
     }
     counts.indirect += memory.shadowRays.size();

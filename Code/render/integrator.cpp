@@ -29,7 +29,7 @@ bool needsFirstHits(const RenderSettings& settings) {
 // Texture coordinates are for pictures, and for who looks at them; lifts are for shadow rays.
 SurfaceNeeds surfaceNeedsOf(const Scene& scene, const RenderSettings& settings) {
     if (!settings.specialise) return {};
-    return {.uv = stepsFor(scene, settings).textures || needsFirstHits(settings),
+    return {.uv = stepsFor(scene, settings).textures || settings.integrator == IntegratorKind::Uv,
             .lift = !scene.lights().empty()};
 }
 
