@@ -50,19 +50,28 @@ Rgb objectColor(std::uint32_t object) {
     return {channel(0), channel(8), channel(16)};
 }
 
-FirstHit describeFirstHit(const Scene& scene, const Ray& ray, const ShadedPoint& at) {
-    const Vec3d position = toDouble(at.surface.p);
-    const auto [eye, axis] = scene.camera().view(ray.time);
-    FirstHit first;
-    first.hit = true;
-    first.depth = static_cast<float>(dot(position - eye, axis) / scene.frame().scale);
-    first.normal = at.eye.n;
-    first.position = toFloat(scene.frame().worldPoint(position));
-    first.albedo = at.of->base.diffuse;
-    if (at.of->diffuse) first.albedo *= at.of->diffuse->color(at.surface.uv);
-    first.object = at.surface.object + 1;
-    first.uv = at.surface.uv;
-    return first;
+void describeFirstHits(const Wave& wave) {
+    const Scene& scene = wave.context.scene;
+    const Camera& camera = scene.camera();
+    const PointBatch& points = wave.memory.points;
+    Camera::View view = camera.view(0);
+    for (std::size_t k = 0; k < points.count; ++k) {
+        const PointBlock& block = points.at.block(k / PointBlock::kPoints);
+        const std::size_t i = k % PointBlock::kPoints;
+        const Vec3d position = toDouble(SurfaceBlock::get(block.p, i));
+        const SceneMaterial& of = points.at.of(k);
+        const Vec2 uv = points.at.uv(k);
+        if (camera.isMoving()) view = camera.view(wave.rays.time[points.ray[k]]);
+        FirstHit& first = wave.chunk.first[points.slot[k]];
+        first.hit = true;
+        first.depth = static_cast<float>(dot(position - view.eye, view.axis) / scene.frame().scale);
+        first.normal = SurfaceBlock::get(block.n, i);
+        first.position = toFloat(scene.frame().worldPoint(position));
+        first.albedo = of.base.diffuse;
+        if (of.diffuse) first.albedo *= of.diffuse->color(uv);
+        first.object = block.object[i] + 1;
+        first.uv = uv;
+    }
 }
 
 void integrateFirstHit(const IntegratorContext& context, SampleChunk& chunk, WaveMemory& memory,

@@ -248,6 +248,8 @@ void integrateAo(const IntegratorContext& context, SampleChunk& chunk, WaveMemor
 void integrateFirstHit(const IntegratorContext& context, SampleChunk& chunk, WaveMemory& memory,
                        RayCounts& counts, std::uint64_t& cameraHits);
 
-FirstHit describeFirstHit(const Scene& scene, const Ray& ray, const ShadedPoint& at);
+struct Wave;
+// The points of a wave of camera rays, into chunk.first.
+void describeFirstHits(const Wave& wave);
 // A colour per object number that neighbours in number do not share.
 Rgb objectColor(std::uint32_t object);

@@ -235,12 +235,7 @@ template <bool kTextures, bool kSeeThrough> void findPoints(const Wave& wave) {
         waves::seeBlock<kTextures>(wave, b, litOutside);
     }
     for (std::size_t b = 0; b < points.blocks(); ++b) waves::takeSamples(wave.rays, b, points);
-    if (wave.depth == 0 && context.wantsFirstHits)
-        for (std::size_t k = 0; k < points.count; ++k) {
-            const std::uint32_t i = points.ray[k];
-            wave.chunk.first[wave.rays.sample[i]] =
-                describeFirstHit(context.scene, wave.rays.ray(i), points.at[k]);
-        }
+    if (wave.depth == 0 && context.wantsFirstHits) describeFirstHits(wave);
     if constexpr (kTextures)
         wave.memory.texturedPoints.apply(context.textureColors, points.at, points.textured);
     if constexpr (kSeeThrough)
