@@ -1,7 +1,6 @@
 // Stage of the wave: light of the lamps that cast shadows, and of others that lanes sum up, lamp
-// after lamp: the shadow rays of one
-// lamp to all points of the wave are traced together. Those of a point lamp start at the lamp and
-// so are one bundle, however many lamps there are.
+// after lamp: the shadow rays of one lamp to all points of the wave are traced together. Those of a
+// point lamp start at the lamp and so are one bundle, however many lamps there are.
 #pragma once
 
 #include "render/waves/groups.h"
