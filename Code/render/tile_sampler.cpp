@@ -1,6 +1,7 @@
 #include "render/tile_sampler.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace {
 
@@ -50,7 +51,8 @@ void TileSampler::trace(const Tile& tile, int begin, int samples, TileWorker& wo
 
 void TileSampler::traceChunk(const Tile& tile, int first, int count, TileWorker& worker) const {
     cameraRays_.make(tile, first, count, worker.chunk);
-    worker.chunk.radiance.assign(worker.chunk.ids.size(), Rgb{});
+    worker.chunk.radiance.resize(worker.chunk.ids.size());
+    std::memset(static_cast<void*>(worker.chunk.radiance.data()), 0, worker.chunk.radiance.size() * sizeof(Rgb));
     if (context_.wantsFirstHits) worker.chunk.first.assign(worker.chunk.ids.size(), FirstHit{});
     integrate(worker);
 }

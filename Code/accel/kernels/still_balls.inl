@@ -7,16 +7,17 @@ namespace {
 struct BallColumns {
     void read(const BallsMet& met, const RaysOfLanes& ray, std::size_t count) {
         rays.read(met.rays, met.hits, ray, count);
+        static_assert(offsetof(StillBalls::Ball, radius) == 3 * sizeof(double));
+        const double* row[W];
         for (std::size_t i = 0; i < W; ++i) {
             const StillBalls::Ball& ball = met.balls[met.hits[ray[i]].shape];
-            const auto& [x, y, z] = ball.centre;
-            centre[0][i] = x, centre[1][i] = y, centre[2][i] = z;
-            radius[i] = ball.radius, leastError[i] = ball.leastError;
+            row[i] = &ball.centre.x, leastError[i] = ball.leastError;
             material[i] = ball.material, object[i] = ball.object;
         }
+        storeRows(row, place);
     }
     RayColumns rays;
-    alignas(64) double centre[3][W], radius[W], leastError[W];
+    alignas(64) double place[4][W], leastError[W]; // place: centre and radius
     alignas(64) std::uint32_t material[W], object[W];
 };
 
@@ -37,16 +38,16 @@ public:
         case WorldFromObject:
         case WorldFromObject + 5:
         case WorldFromObject + 10: return scale_;
-        case WorldFromObject + 3: return Doubles::load(columns_.centre[0]);
-        case WorldFromObject + 7: return Doubles::load(columns_.centre[1]);
-        case WorldFromObject + 11: return Doubles::load(columns_.centre[2]);
+        case WorldFromObject + 3: return Doubles::load(columns_.place[0]);
+        case WorldFromObject + 7: return Doubles::load(columns_.place[1]);
+        case WorldFromObject + 11: return Doubles::load(columns_.place[2]);
         case ObjectFromWorld:
         case ObjectFromWorld + 5:
         case ObjectFromWorld + 10: return back_;
         case ObjectFromWorld + 3: return backTo(0);
         case ObjectFromWorld + 7: return backTo(1);
         case ObjectFromWorld + 11: return backTo(2);
-        case Radius: return Doubles::load(columns_.radius);
+        case Radius: return Doubles::load(columns_.place[3]);
         case LeastError: return Doubles::load(columns_.leastError);
         case ErrorPerPlace: return errorPerPlace_;
         default: return Doubles(0.0);
@@ -55,7 +56,7 @@ public:
 
 private:
     [[gnu::always_inline]] Doubles backTo(std::size_t axis) const {
-        return Doubles(-0.0) - back_ * Doubles::load(columns_.centre[axis]);
+        return Doubles(-0.0) - back_ * Doubles::load(columns_.place[axis]);
     }
     Doubles scale_, back_, errorPerPlace_;
     const BallColumns& columns_;

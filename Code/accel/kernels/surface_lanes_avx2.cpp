@@ -3,11 +3,14 @@
 
 #if defined(__x86_64__)
 #include "accel/kernels/region_includes.h"
+#include "accel/kernels/wide_tree.h"
 #include "base/math.h"
 
 AVX2_REGION_BEGIN
 namespace kernels::avx2 {
 #include "accel/kernels/simd_avx2.inl"
+
+#include "accel/kernels/solids_columns_avx2.inl"
 
 #include "accel/kernels/vectors3.inl"
 

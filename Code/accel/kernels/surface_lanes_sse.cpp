@@ -3,11 +3,14 @@
 
 #if defined(__x86_64__)
 #include "accel/kernels/region_includes.h"
+#include "accel/kernels/wide_tree.h"
 #include "base/math.h"
 
 SSE_REGION_BEGIN
 namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
+
+#include "accel/kernels/solids_columns_sse.inl"
 
 #include "accel/kernels/vectors3.inl"
 

@@ -174,6 +174,16 @@ template <bool kMayBend> void seeBlock(const Wave& wave, std::size_t b, unsigned
     }
 }
 
+// A bit for each of sixteen points that has the trait, of which each has four bits.
+inline unsigned pointsHaving(MaterialTable::Trait trait, std::uint64_t traits) {
+    static_assert(PointColumns::kPoints == 16);
+    std::uint64_t bits = traits >> std::countr_zero(unsigned{trait}) & 0x1111111111111111u;
+    bits = (bits | bits >> 3) & 0x0303030303030303u;
+    bits = (bits | bits >> 6) & 0x000f000f000f000fu;
+    bits = (bits | bits >> 12) & 0x000000ff000000ffu;
+    return static_cast<unsigned>((bits | bits >> 24) & 0xffffu);
+}
+
 // What its points are made of.
 template <bool kTextures> void paintBlock(const Wave& wave, std::size_t b, unsigned& litOutside) {
     const SceneMaterial* const materials = wave.context.scene.materials().data();
@@ -197,17 +207,11 @@ template <bool kTextures> void paintBlock(const Wave& wave, std::size_t b, unsig
         litOutside = has(number[0], MaterialTable::LitOutside) ? ~0u : 0;
         return;
     }
-    unsigned answersLamps = 0, mirrors = 0, textured = 0;
-    litOutside = 0;
+    std::uint64_t traits = 0; // four bits for each point
     for (std::size_t i = 0; i < size; ++i) {
         const std::size_t k = first + i;
         const SceneMaterial& of = materials[number[i]];
-        const unsigned traits = table.traits(number[i]);
-        const auto bit = [&](MaterialTable::Trait trait) {
-            return static_cast<unsigned>((traits & trait) != 0) << i;
-        };
-        answersLamps |= bit(MaterialTable::AnswersLamps), mirrors |= bit(MaterialTable::Mirrors);
-        litOutside |= bit(MaterialTable::LitOutside), textured |= bit(MaterialTable::Textured);
+        traits |= std::uint64_t{table.traits(number[i])} << 4 * i;
         points.material[k] = &of.base;
         table.prefetchGlow(number[i]);
         if constexpr (kTextures)
@@ -216,7 +220,10 @@ template <bool kTextures> void paintBlock(const Wave& wave, std::size_t b, unsig
                 points.material[k] = &points.textured[k];
             }
     }
-    painted = {nullptr, kTextures && textured != 0, bits(answersLamps), bits(mirrors)};
+    litOutside = pointsHaving(MaterialTable::LitOutside, traits);
+    painted = {nullptr, kTextures && pointsHaving(MaterialTable::Textured, traits) != 0,
+               bits(pointsHaving(MaterialTable::AnswersLamps, traits)),
+               bits(pointsHaving(MaterialTable::Mirrors, traits))};
 }
 
 } // namespace waves
