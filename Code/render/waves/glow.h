@@ -90,12 +90,11 @@ template <bool kLampBodies, bool kSeeThrough> void addGlow(const Wave& wave) {
         if (wave.context.openLamps.empty() || !answersLamps(material)) continue;
         const LitPoint lit = litPoint(wave, here);
         for (const Lamp& lamp : wave.context.openLamps) {
-            const Rgb whole = lamp.asksWhole ? wholeLight(lamp, lit) : Rgb{};
-            if (!isBlack(whole))
-                wave.add(slot, whole);
-            else
-                forEachLampSample<true>(
-                    wave, lamp, lit, [&](const LightSample&, Rgb light) { wave.add(slot, light); });
+            Rgb sum = lamp.asksWhole ? wholeLight(lamp, lit) : Rgb{};
+            if (isBlack(sum))
+                forEachLampSample<true>(wave, lamp, lit,
+                                        [&](const LightSample&, Rgb light) { sum += light; });
+            wave.add(slot, sum);
         }
     }
 }

@@ -11,17 +11,20 @@
 
 namespace waves {
 
-inline bool canSumInLanes(const Wave& wave, const std::vector<Lamp>& lamps) {
+inline bool canSumInLanes(const Wave& wave) {
+    const std::vector<Lamp>& lamps = wave.context.shadingLamps;
     return wave.hasOneRayPerSample() && wave.context.shadeLanes.add != nullptr &&
            std::all_of(lamps.begin(), lamps.end(),
                        [](const Lamp& lamp) { return lamp.inLanes != nullptr; });
 }
 
-// Lamps that cast no shadows are summed up like the others, before them; else glow.h adds them.
+// Lamps that cast no shadows are summed up by lanes, too, before the others; else glow.h adds them.
 inline bool sumsOpenLamps(const Wave& wave) {
     const IntegratorContext& context = wave.context;
+    const auto isInLanes = [](const Lamp& lamp) { return lamp.inLanes || lamp.bySamples; };
     return !context.openLamps.empty() && !context.steps.lampBodies && !context.steps.seeThrough &&
-           canSumInLanes(wave, context.openLamps);
+           wave.hasOneRayPerSample() && context.shadeLanes.add != nullptr &&
+           std::all_of(context.openLamps.begin(), context.openLamps.end(), isInLanes);
 }
 
 using LampOrigins = std::array<Vec3, LitBlock::kPoints>;
@@ -92,7 +95,7 @@ inline void pushLampRays(const Wave& wave, const LampOrigins& origins, const Lit
 
 // kShadows: the lamps cast some.
 template <bool kShadows>
-void addLampsInLanes(const Wave& wave, const std::vector<Lamp>& lamps, bool isGrouped) {
+void addLampsInLanes(const Wave& wave, std::span<const Lamp> lamps, bool isGrouped) {
     WaveMemory& memory = wave.memory;
     const std::size_t blocks =
         (memory.answering.size() + LitBlock::kPoints - 1) / LitBlock::kPoints;

@@ -114,6 +114,20 @@ inline void addInOrderOfPoints(const Wave& wave) {
         wave.add(wave.slotOf(arrival.point), arrival.light);
 }
 
+// Lamps that cast no shadows, where sumsOpenLamps().
+inline void addOpenLamps(const Wave& wave) {
+    for (const Lamp& lamp : wave.context.openLamps) {
+        if (!lamp.bySamples) {
+            addLampsInLanes<false>(wave, {&lamp, 1}, false);
+            continue;
+        }
+        shineOpenly(wave, lamp);
+        forEachSum(wave, [&](std::uint32_t k, const auto& sum, std::size_t i) {
+            wave.add(wave.slotOf(k), {sum[0][i], sum[1][i], sum[2][i]});
+        });
+    }
+}
+
 // forEachLampSample() for all points, one by one, for any lamp.
 template <bool kSoftLamps, class ArriveFn>
 void shineOneByOne(const Wave& wave, const Lamp& lamp, bool isGrouped, ArriveFn&& arrive) {
@@ -163,11 +177,10 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
             return lamp.inLanes || lamp.bySamples;
         }))
         waves::fillBlocks(wave);
-    if (sumsOpenLamps) waves::addLampsInLanes<false>(wave, wave.context.openLamps, false);
+    if (sumsOpenLamps) waves::addOpenLamps(wave);
     if (lamps.empty()) return;
     if constexpr (!kSeeThrough)
-        if (waves::canSumInLanes(wave, lamps))
-            return waves::addLampsInLanes<true>(wave, lamps, isGrouped);
+        if (waves::canSumInLanes(wave)) return waves::addLampsInLanes<true>(wave, lamps, isGrouped);
     memory.arrivals.clear();
     for (const Lamp& lamp : lamps) {
         if (isGrouped) waves::askGroups(wave, lamp);

@@ -61,6 +61,40 @@ inline void listWaiting(const Wave& wave, const LitBlock& block, const LitBySamp
     }
 }
 
+// The sums of a block: what the closed form says of the points that it knows, of others `by`.
+inline void sumUp(const WholeLight& whole, const LitBySamples& by, LightSums& sums) {
+    std::copy_n(&by.sum[0][0], 3 * LitBlock::kPoints, &sums.sum[0][0]);
+    for (unsigned rest = whole.known; rest != 0; rest &= rest - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+        SurfaceBlock::set(sums.sum, i, SurfaceBlock::get(whole.light, i));
+    }
+}
+
+// The light of a lamp that casts no shadows, into memory.lightSums.
+inline void shineOpenly(const Wave& wave, const Lamp& lamp) {
+    WaveMemory& memory = wave.memory;
+    const std::size_t blocks =
+        (memory.answering.size() + LitBlock::kPoints - 1) / LitBlock::kPoints;
+    if (memory.lightSums.size() < blocks) memory.lightSums.resize(blocks);
+    LitBySamples by;
+    WholeLight whole;
+    const HiddenPoints hidden{}; // none
+    for (std::size_t b = 0; b < blocks; ++b) {
+        const LitBlock& block = memory.litBlocks[b];
+        lamp.wholeLight(*lamp.emission, block, block.used, lamp.asksWhole ? block.used : 0, whole);
+        for (auto& channel : by.sum) std::fill_n(channel, LitBlock::kPoints, 0.0f);
+        by.waiting = 0;
+        const unsigned asked = block.used & ~whole.known;
+        constexpr int kMost = LitBySamples::kMost;
+        for (int first = 0; first < lamp.samples && asked != 0; first += kMost) {
+            const int some = std::min(kMost, lamp.samples - first);
+            lamp.bySamples(*lamp.emission, block, samplesOf(wave, lamp, block, asked, first, some),
+                           wave.context.occluders, hidden, by);
+        }
+        sumUp(whole, by, memory.lightSums[b]);
+    }
+}
+
 // The light of the lamp at all points that answer lamps, into memory.lightSums. A point's many
 // shadow rays make it worth while to look at each point for itself, and at each line to the lamp.
 // What has to wait for rays is listed.
@@ -103,11 +137,7 @@ inline void shineBySamples(const Wave& wave, const Lamp& lamp) {
                             static_cast<std::size_t>(some));
             }
         }
-        std::copy_n(&by.sum[0][0], 3 * kPoints, &sum[0][0]);
-        for (unsigned rest = whole.known; rest != 0; rest &= rest - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-            SurfaceBlock::set(sum, i, SurfaceBlock::get(whole.light, i));
-        }
+        sumUp(whole, by, memory.lightSums[b]);
     }
 }
 
