@@ -63,13 +63,7 @@ void CameraRays::choosePlaces(const Tile& tile, int first, int count, SampleChun
         }
     });
     if (corners_) return;
-    if (samples == 1) {
-        chunk.pixels.resize(all);
-        for (std::size_t i = 0; i < all; ++i) chunk.pixels[i] = chunk.ids[i].pixel;
-        context_.sampler.get2D(chunk.pixels, begin, kPixelDimension, chunk.offsets);
-    } else {
-        drawPairs(first, count, kPixelDimension, chunk.ids, chunk.offsets);
-    }
+    drawPairs(first, count, kPixelDimension, chunk.ids, chunk.offsets);
     filter_.sample(chunk.offsets);
     for (std::size_t i = 0; i < chunk.places.size(); ++i) {
         const Vec2d middle = chunk.places[i];
@@ -81,8 +75,9 @@ void CameraRays::drawPairs(int first, int count, std::uint32_t dimension,
                            std::span<const SampleId> ids, std::span<Vec2> out) const {
     const Sampler& sampler = context_.sampler;
     const auto samples = static_cast<std::size_t>(count);
-    if (lanes_.pairs == nullptr || sampler.kind() != SamplerKind::Sobol ||
-        sampler.sampleCount() == 1) {
+    const bool areCentres = dimension == kPixelDimension && sampler.sampleCount() == 1 &&
+                            !context_.settings.picture.jitter; // see Sampler
+    if (lanes_.pairs == nullptr || sampler.kind() != SamplerKind::Sobol || areCentres) {
         for (std::size_t slot = 0; slot < ids.size(); slot += samples)
             sampler.get2D(ids[slot].pixel, static_cast<std::uint32_t>(first), dimension,
                           out.subspan(slot, samples));
@@ -94,11 +89,13 @@ void CameraRays::drawPairs(int first, int count, std::uint32_t dimension,
         const std::size_t some = std::min(PairBlock::kPairs, ids.size() - slot);
         for (std::size_t i = 0; i < some; ++i) {
             const SampleId id = ids[slot + i];
+            block.pixel[i] = id.pixel, block.sample[i] = id.index;
+            if (count == 1) continue; // by the register, below
             if (id.index == static_cast<std::uint32_t>(first))
                 seeds = sampler.pairSeeds(id.pixel, dimension);
-            block.sample[i] = id.index, block.index[i] = seeds.index;
-            block.x[i] = seeds.x, block.y[i] = seeds.y;
+            block.index[i] = seeds.index, block.x[i] = seeds.x, block.y[i] = seeds.y;
         }
+        if (count == 1) lanes_.seeds(sampler.seed(), dimension, block);
         lanes_.pairs(block);
         for (std::size_t i = 0; i < some; ++i) out[slot + i] = {block.u[i], block.v[i]};
     }

@@ -98,10 +98,9 @@ struct IntegratorContext {
 // The samples of one chunk of a tile, and what comes out of them; slot i is sample i everywhere.
 struct SampleChunk {
     std::vector<SampleId> ids;
-    std::vector<std::uint32_t> pixels; // of the ids, where each has one sample
-    std::vector<Vec2d> places;         // in the picture, in pixels
-    std::vector<Vec2> offsets;         // of these from the middle of their pixel
-    std::vector<Vec2> onLens;          // numbers for places on the lens, if there is one
+    std::vector<Vec2d> places; // in the picture, in pixels
+    std::vector<Vec2> offsets; // of these from the middle of their pixel
+    std::vector<Vec2> onLens;  // numbers for places on the lens, if there is one
     PathBatch cameraRays;
     std::size_t raysWithConstants = 0; // see CameraRays::make()
     std::vector<Rgb> radiance;

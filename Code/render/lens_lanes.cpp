@@ -4,6 +4,7 @@
 
 #define DECLARE(isa)                                                                               \
     namespace kernels::isa {                                                                       \
+    void pairSeeds(std::uint32_t, std::uint32_t, PairBlock&);                                      \
     void sobolPairs(PairBlock&);                                                                   \
     void lensRays(const Camera::RoundLens&, LensBlock&);                                           \
     void pinholeRays(const Camera::RoundLens&, std::span<const Vec2d>, std::span<Vec3>,            \
@@ -11,7 +12,10 @@
     }
 DECLARE_BY_KERNEL(DECLARE)
 #define ROW(isa)                                                                                   \
-    { kernels::isa::sobolPairs, kernels::isa::lensRays, kernels::isa::pinholeRays }
+    {                                                                                              \
+        kernels::isa::pairSeeds, kernels::isa::sobolPairs, kernels::isa::lensRays,                 \
+            kernels::isa::pinholeRays                                                              \
+    }
 
 CameraLanes cameraLanes(const Kernel& kernel) {
     static constexpr ByKernel<CameraLanes> kTable = BY_KERNEL(ROW);

@@ -10,10 +10,11 @@
 
 struct Kernel;
 
-// Numbers of samples, what their pairs are shuffled and scrambled by (Sampler::PairSeeds), and the
-// pairs.
+// Pixels, numbers of samples, what their pairs are shuffled and scrambled by (Sampler::PairSeeds),
+// and the pairs.
 struct alignas(64) PairBlock {
     static constexpr std::size_t kPairs = 64;
+    std::uint32_t pixel[kPairs] = {}; // for seeds()
     std::uint32_t sample[kPairs] = {}, index[kPairs] = {}, x[kPairs] = {}, y[kPairs] = {};
     float u[kPairs], v[kPairs];
 };
@@ -27,6 +28,8 @@ struct alignas(64) LensBlock {
 };
 
 struct CameraLanes {
+    // Sampler::pairSeeds() of each pixel, of a sampler of that seed.
+    void (*seeds)(std::uint32_t seed, std::uint32_t dimension, PairBlock& block) = nullptr;
     void (*pairs)(PairBlock& block) = nullptr;
     void (*rays)(const Camera::RoundLens& lens, LensBlock& block) = nullptr;
     // Camera::pinholeRays()

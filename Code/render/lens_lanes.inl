@@ -60,7 +60,37 @@ inline void raysFrom(const Camera::RoundLens& lens, LensBlock& block, std::size_
     clipAlong(lens, dir).store(block.tMin + first);
 }
 
+using Longs __attribute__((vector_size(sizeof(Bits)))) = std::uint64_t;
+constexpr std::uint64_t kLow32 = 0xffffffffu;
+
+// mixBits() and hash() of sample/hash.h for lanes.
+inline Longs mixed(Longs x) {
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return x ^ (x >> 31);
+}
+inline Longs hashed(std::uint32_t seed, Longs pixel, std::uint32_t dimension) {
+    const Longs both = mixed((pixel | std::uint64_t{seed} << 32) + kHashStep);
+    return mixed(both + (std::uint64_t{dimension} + 1) * kHashStep);
+}
+
 } // namespace
+
+void pairSeeds(std::uint32_t seed, std::uint32_t dimension, PairBlock& block) {
+    for (std::size_t i = 0; i < PairBlock::kPairs; i += kSobolLanes) {
+        const auto store = [&](const Longs& all, std::uint32_t* to) {
+            std::memcpy(to + i, &all, sizeof(all));
+        };
+        Longs pixels;
+        std::memcpy(&pixels, block.pixel + i, sizeof(pixels));
+        // Every other pixel is the lower half of a lane.
+        const Longs even = hashed(seed, pixels & kLow32, dimension),
+                    odd = hashed(seed, pixels >> 32, dimension);
+        store((even & kLow32) | odd << 32, block.index);
+        store(even >> 32 | (odd & ~kLow32), block.x);
+        store((mixed(even + kHashStep) & kLow32) | mixed(odd + kHashStep) << 32, block.y);
+    }
+}
 
 void sobolPairs(PairBlock& block) {
     for (std::size_t i = 0; i < PairBlock::kPairs; i += kSobolLanes) {

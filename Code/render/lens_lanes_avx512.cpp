@@ -4,6 +4,7 @@
 #if defined(__x86_64__)
 #include "accel/kernels/region_includes.h"
 #include "base/math.h"
+#include "sample/hash.h"
 #include "sample/warp.h"
 
 AVX512_REGION_BEGIN

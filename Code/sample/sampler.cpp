@@ -131,22 +131,6 @@ void Sampler::get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dim
     }
 }
 
-void Sampler::get2D(std::span<const std::uint32_t> pixels, std::uint32_t sample,
-                    std::uint32_t dimension, std::span<Vec2> out) const {
-    const bool isCentre = dimension == kPixelDimension && !isStream_ && !jitter_ && count_ == 1;
-    std::size_t i = 0;
-    for (; kind_ == SamplerKind::Sobol && !isCentre && i + 4 <= pixels.size(); i += 4) {
-        const Four samples = {sample, sample, sample, sample};
-        Four a{}, b{}, c{};
-        for (std::size_t k = 0; k < 4; ++k) {
-            const PairSeeds seeds = pairSeeds(pixels[i + k], dimension);
-            a[k] = seeds.index, b[k] = seeds.x, c[k] = seeds.y;
-        }
-        storePairs(sobolPair(samples, a, b, c), &out[i]);
-    }
-    for (; i < pixels.size(); ++i) out[i] = get2D(pixels[i], sample, dimension);
-}
-
 // Of the kinds but Sobol.
 Vec2 Sampler::otherPair(std::uint64_t bits, std::uint64_t more, std::uint32_t sample,
                         bool isPixel) const {

@@ -36,12 +36,8 @@ public:
     void get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension,
                std::span<Vec2> out) const;
 
-    // get2D() of one sample for many pixels.
-    void get2D(std::span<const std::uint32_t> pixels, std::uint32_t sample, std::uint32_t dimension,
-               std::span<Vec2> out) const;
-
     // What the pairs of a pixel are shuffled and scrambled by, for who makes many himself with
-    // sample/sobol.inl: of a sampler of the kind Sobol, for other than pixel dimensions.
+    // sample/sobol.inl: of a sampler of the kind Sobol.
     struct PairSeeds {
         std::uint32_t index, x, y;
     };

@@ -169,23 +169,23 @@ TEST(places_on_the_lens_in_lanes_round_as_single_ones) {
 
 TEST(pairs_in_lanes_have_the_bits_of_the_sampler) {
     for (const Kernel& kernel : allKernels()) {
-        const auto pairs = kernel.supported() ? cameraLanes(kernel).pairs : nullptr;
-        if (!pairs) continue;
+        const CameraLanes lanes = kernel.supported() ? cameraLanes(kernel) : CameraLanes{};
+        if (!lanes.pairs) continue;
         Random random(42);
         long long wrong = 0;
         for (int i = 0; i < check::scaled(3000); ++i) {
             const Sampler sampler(SamplerKind::Sobol, 16,
                                   static_cast<std::uint32_t>(random.below(std::size_t{1} << 32)));
+            const auto dimension = static_cast<std::uint32_t>(2 * random.below(100));
             PairBlock block;
             Vec2 alone[PairBlock::kPairs];
             for (std::size_t k = 0; k < PairBlock::kPairs; ++k) {
                 const auto any = static_cast<std::uint32_t>(random.below(std::size_t{1} << 32));
-                const auto seeds = sampler.pairSeeds(any, 2);
-                block.sample[k] = any >> random.below(32);
-                block.index[k] = seeds.index, block.x[k] = seeds.x, block.y[k] = seeds.y;
-                alone[k] = sampler.get2D(any, block.sample[k], 2);
+                block.pixel[k] = any, block.sample[k] = any >> random.below(32);
+                alone[k] = sampler.get2D(any, block.sample[k], dimension);
             }
-            pairs(block);
+            lanes.seeds(sampler.seed(), dimension, block);
+            lanes.pairs(block);
             for (std::size_t k = 0; k < PairBlock::kPairs; ++k)
                 if ((!sameBits(alone[k].x, block.u[k]) || !sameBits(alone[k].y, block.v[k])) &&
                     ++wrong <= 3)

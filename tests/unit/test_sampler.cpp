@@ -106,21 +106,3 @@ TEST(sampler_runs_are_samples) {
                 }
             }
 }
-
-// One sample of many pixels, in number no multiple of what is done at a time.
-TEST(sampler_pixels_are_pixels) {
-    for (const SamplerKind kind : kKinds)
-        for (const int count : {1, 16})
-            for (const bool jitter : {true, false}) {
-                const Sampler sampler(kind, count, 5, jitter);
-                for (const std::uint32_t dimension : {kPixelDimension, kLensDimension})
-                    for (const std::uint32_t sample : {0u, 3u}) {
-                        std::vector<std::uint32_t> pixels;
-                        for (std::uint32_t i = 0; i < 11; ++i) pixels.push_back(i * 1000003u);
-                        std::vector<Vec2> together(pixels.size());
-                        sampler.get2D(pixels, sample, dimension, together);
-                        for (std::size_t i = 0; i < pixels.size(); ++i)
-                            CHECK(together[i] == sampler.get2D(pixels[i], sample, dimension));
-                    }
-            }
-}
