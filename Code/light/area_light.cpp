@@ -5,16 +5,17 @@
 
 FlatLight::FlatLight(Outline outline, Vec3 centre, Vec3 halfX, Vec3 halfY, Vec3 normal,
                      Rgb radiance, double spreadHalfRad, bool castsShadows)
-    : Light(castsShadows, radiance), outline_(outline), centre_(centre), halfX_(halfX),
-      halfY_(halfY), normal_(normal), radiance_(radiance),
-      spreads_(spreadHalfRad < kHalfPi * 0.9999) {
+    : Light(castsShadows, radiance), radiance_(radiance) {
+    flat_.isEllipse = outline == Outline::Ellipse;
+    flat_.centre = centre, flat_.halfX = halfX, flat_.halfY = halfY, flat_.normal = normal;
     const float area = length(halfX) * length(halfY) *
                        (outline == Outline::Rectangle ? 4.0f : static_cast<float>(kPi));
-    power_ = radiance * area;
-    if (spreads_) {
+    flat_.power = radiance * area;
+    flat_.spreads = spreadHalfRad < kHalfPi * 0.9999;
+    if (flat_.spreads) {
         const double tangent = exact::tan(spreadHalfRad);
-        tanSpread_ = static_cast<float>(tangent);
-        spreadNorm_ = static_cast<float>(1 / (tangent - spreadHalfRad));
+        flat_.tanSpread = static_cast<float>(tangent);
+        flat_.spreadNorm = static_cast<float>(1 / (tangent - spreadHalfRad));
     }
 }
 
@@ -24,41 +25,42 @@ LightSample FlatLight::from(Vec3 place, Vec3 point) const {
     if (!(distance2 > 0)) return {};
     const float distance = std::sqrt(distance2);
     const Vec3 toLight = d / distance;
-    const float cosAtLight = -dot(toLight, normal_);
+    const float cosAtLight = -dot(toLight, flat_.normal);
     if (!(cosAtLight > 0)) return {};
     float spread = 1;
-    if (spreads_) {
+    if (flat_.spreads) {
         const float tangent = std::sqrt(max(1 - cosAtLight * cosAtLight, 0.0f)) / cosAtLight;
-        spread = max((tanSpread_ - tangent) * spreadNorm_, 0.0f);
+        spread = max((flat_.tanSpread - tangent) * flat_.spreadNorm, 0.0f);
     }
-    return {toLight, distance, power_ * (spread * cosAtLight / distance2)};
+    return {toLight, distance, flat_.power * (spread * cosAtLight / distance2)};
 }
 
 float FlatLight::slackAt(Vec3 point) const {
-    return kHorizonSlack * (maxAbs(point) + maxAbs(centre_) + maxAbs(halfX_) + maxAbs(halfY_));
+    return kHorizonSlack *
+           (maxAbs(point) + maxAbs(flat_.centre) + maxAbs(flat_.halfX) + maxAbs(flat_.halfY));
 }
 
 // Both planes are asked of the corner of the outline's rectangle that is nearest to their light.
 bool FlatLight::cannotReach(Vec3 point, Vec3 n) const {
-    const Vec3 d = centre_ - point;
+    const Vec3 d = flat_.centre - point;
     const float slack = slackAt(point);
-    if (dot(n, d) + std::fabs(dot(n, halfX_)) + std::fabs(dot(n, halfY_)) < -slack) return true;
-    return dot(normal_, d) > slack; // the point is behind the lamp
+    if (dot(n, d) + std::fabs(dot(n, flat_.halfX)) + std::fabs(dot(n, flat_.halfY)) < -slack)
+        return true;
+    return dot(flat_.normal, d) > slack; // the point is behind the lamp
 }
 
 Bounds FlatLight::sourcesFor(const Bounds&) const {
     Vec3 half;
     for (std::size_t axis = 0; axis < 3; ++axis)
-        half[axis] = std::fabs(halfX_[axis]) + std::fabs(halfY_[axis]);
-    return {centre_ - half, centre_ + half};
+        half[axis] = std::fabs(flat_.halfX[axis]) + std::fabs(flat_.halfY[axis]);
+    return {flat_.centre - half, flat_.centre + half};
 }
 
-LightSample FlatLight::centre(Vec3 point) const { return from(centre_, point); }
+LightSample FlatLight::centre(Vec3 point) const { return from(flat_.centre, point); }
 
 LightSample FlatLight::sample(Vec3 point, Vec2 u) const {
-    const Vec2 place =
-        outline_ == Outline::Rectangle ? Vec2{2 * u.x - 1, 2 * u.y - 1} : diskFromSquare(u);
-    return from(centre_ + halfX_ * place.x + halfY_ * place.y, point);
+    const Vec2 place = flat_.isEllipse ? diskFromSquare(u) : Vec2{2 * u.x - 1, 2 * u.y - 1};
+    return from(flat_.centre + flat_.halfX * place.x + flat_.halfY * place.y, point);
 }
 
 // Half the sum over the edges, of the angle that each fills times the normal of its plane through
@@ -66,14 +68,15 @@ LightSample FlatLight::sample(Vec3 point, Vec2 u) const {
 // the irradiance. Each term is off by some 2^-52; they cancel, so little that is left of them is
 // not to be trusted.
 std::optional<LightSample> FlatLight::whole(Vec3 point, Vec3 n, Vec3 horizon) const {
-    if (outline_ != Outline::Rectangle || spreads_) return {};
-    const Vec3 toCentre = centre_ - point;
+    if (flat_.isEllipse || flat_.spreads) return {};
+    const Vec3 toCentre = flat_.centre - point;
     const float slack = slackAt(point);
     const auto isAbove = [&](Vec3 up) {
-        return dot(up, toCentre) >= std::fabs(dot(up, halfX_)) + std::fabs(dot(up, halfY_)) + slack;
+        return dot(up, toCentre) >=
+               std::fabs(dot(up, flat_.halfX)) + std::fabs(dot(up, flat_.halfY)) + slack;
     };
-    if (!(dot(normal_, toCentre) < -slack) || !isAbove(n) || !isAbove(horizon)) return {};
-    const Vec3d d = toDouble(toCentre), x = toDouble(halfX_), y = toDouble(halfY_);
+    if (!(dot(flat_.normal, toCentre) < -slack) || !isAbove(n) || !isAbove(horizon)) return {};
+    const Vec3d d = toDouble(toCentre), x = toDouble(flat_.halfX), y = toDouble(flat_.halfY);
     const Vec3d corners[] = {d - x - y, d + x - y, d + x + y, d - x + y};
     Vec3d sum;
     for (std::size_t i = 0; i < 4; ++i) {
@@ -89,41 +92,43 @@ std::optional<LightSample> FlatLight::whole(Vec3 point, Vec3 n, Vec3 horizon) co
 }
 
 SphereLight::SphereLight(Vec3 centre, float radius, Rgb radiance, bool castsShadows)
-    : Light(castsShadows, radiance), centre_(centre), radius_(radius), radiance_(radiance) {}
+    : Light(castsShadows, radiance), sphere_{centre, radius, radiance} {}
 
 LightSample SphereLight::centre(Vec3 point) const {
-    const Vec3 d = centre_ - point;
+    const Vec3 d = sphere_.centre - point;
     const float distance2 = dot(d, d);
-    if (!(distance2 > radius_ * radius_)) return sample(point, {0.5f, 0.5f});
+    if (!(distance2 > sphere_.radius * sphere_.radius)) return sample(point, {0.5f, 0.5f});
     const float distance = std::sqrt(distance2);
-    const float factor = static_cast<float>(kPi) * radius_ * radius_ / distance2;
-    return {d / distance, distance - radius_, radiance_ * factor};
+    const float factor = static_cast<float>(kPi) * sphere_.radius * sphere_.radius / distance2;
+    return {d / distance, distance - sphere_.radius, sphere_.radiance * factor};
 }
 
 std::optional<LightSample> SphereLight::whole(Vec3 point, Vec3 n, Vec3 horizon) const {
-    const Vec3 d = centre_ - point;
-    const float height = radius_ + kHorizonSlack * (maxAbs(d) + radius_);
+    const Vec3 d = sphere_.centre - point;
+    const float height = sphere_.radius + kHorizonSlack * (maxAbs(d) + sphere_.radius);
     const bool isAbove = dot(n, d) >= height && dot(horizon, d) >= height;
-    return isAbove && dot(d, d) > radius_ * radius_ ? centre(point) : std::optional<LightSample>();
+    return isAbove && dot(d, d) > sphere_.radius * sphere_.radius ? centre(point)
+                                                                  : std::optional<LightSample>();
 }
 
 bool SphereLight::cannotReach(Vec3 point, Vec3 n) const {
-    const Vec3 d = centre_ - point;
-    return dot(n, d) + radius_ < -kHorizonSlack * (maxAbs(d) + radius_);
+    const Vec3 d = sphere_.centre - point;
+    return dot(n, d) + sphere_.radius < -kHorizonSlack * (maxAbs(d) + sphere_.radius);
 }
 
 Bounds SphereLight::sourcesFor(const Bounds&) const {
-    return Bounds{centre_, centre_}.padded(radius_);
+    return Bounds{sphere_.centre, sphere_.centre}.padded(sphere_.radius);
 }
 
 LightSample SphereLight::sample(Vec3 point, Vec2 u) const {
-    const Vec3d d = toDouble(centre_) - toDouble(point);
-    const double r2 = sqr(static_cast<double>(radius_)), d2 = dot(d, d);
+    const Vec3d d = toDouble(sphere_.centre) - toDouble(point);
+    const double r2 = sqr(static_cast<double>(sphere_.radius)), d2 = dot(d, d);
     if (!(d2 > r2)) { // inside: light from everywhere
         const Vec3 toLight = sphereFromSquare(u);
         const double along = dot(toDouble(toLight), d);
         const double distance = along + std::sqrt(max(along * along - d2 + r2, 0.0));
-        return {toLight, static_cast<float>(distance), radiance_ * static_cast<float>(4 * kPi)};
+        return {toLight, static_cast<float>(distance),
+                sphere_.radiance * static_cast<float>(4 * kPi)};
     }
     const double sin2 = r2 / d2;
     const double oneMinusCos = sin2 / (1 + std::sqrt(1 - sin2));
@@ -132,5 +137,5 @@ LightSample SphereLight::sample(Vec3 point, Vec2 u) const {
     const double along = dot(toDouble(toLight), d);
     const double distance = along - std::sqrt(max(along * along - d2 + r2, 0.0));
     return {toLight, static_cast<float>(distance),
-            radiance_ * static_cast<float>(kTwoPi * oneMinusCos)};
+            sphere_.radiance * static_cast<float>(kTwoPi * oneMinusCos)};
 }

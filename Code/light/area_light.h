@@ -17,16 +17,14 @@ public:
     std::optional<LightSample> whole(Vec3 point, Vec3 n, Vec3 horizon) const override;
     bool cannotReach(Vec3 point, Vec3 n) const override;
     Bounds sourcesFor(const Bounds& points) const override;
+    std::optional<SoftEmission> softEmission() const override { return flat_; }
 
 private:
     LightSample from(Vec3 place, Vec3 point) const;
     float slackAt(Vec3 point) const; // what rounding takes of heights above planes
 
-    Outline outline_;
-    Vec3 centre_, halfX_, halfY_, normal_;
-    Rgb radiance_, power_; // times the area
-    bool spreads_;
-    float tanSpread_ = 0, spreadNorm_ = 0;
+    FlatEmission flat_;
+    Rgb radiance_;
 };
 
 class SphereLight final : public Light {
@@ -39,9 +37,8 @@ public:
     std::optional<LightSample> whole(Vec3 point, Vec3 n, Vec3 horizon) const override;
     bool cannotReach(Vec3 point, Vec3 n) const override;
     Bounds sourcesFor(const Bounds& points) const override;
+    std::optional<SoftEmission> softEmission() const override { return sphere_; }
 
 private:
-    Vec3 centre_;
-    float radius_;
-    Rgb radiance_;
+    SphereEmission sphere_;
 };

@@ -1,7 +1,10 @@
-// PointEmission: all there is to know of a lamp that shines from a point alike in all directions.
+// PointEmission: all there is to know of a lamp that shines from a point, in all directions or in a
+// cone.
 #pragma once
 
 #include "base/vec.h"
+
+#include <optional>
 
 // Light at distance d is the intensity over this polynomial of d: d^2 for all real lamps, others
 // for scenes whose lamps fade less or not at all.
@@ -12,6 +15,15 @@ struct Attenuation {
     }
     bool isInverseSquare() const { return linear == 0 && constant == 0; }
     bool isConstant() const { return quadratic == 0 && linear == 0; }
+};
+
+// Cone of a spot: full light inside, none outside, smoothstep between (Blender since 3.5).
+struct SpotCone {
+    Vec3 axis;                  // unit, the way the light shines
+    float cosHalfAngle = -1;    // outside of it is dark
+    float blend = 0;            // part of 1 - cosHalfAngle that is soft
+    bool cosineFalloff = false; // times the cosine to the axis (Blender up to 3.4)
+    float attenuation(Vec3 fromLight) const;
 };
 
 // All places on a lamp are in it.
@@ -25,5 +37,6 @@ struct PointEmission {
     Rgb intensity;
     Attenuation attenuation;
     float radius = 0; // of the lamp's body, when it is asked for its centre alone
+    std::optional<SpotCone> cone{};
     LampBall ball() const { return {position, radius}; }
 };

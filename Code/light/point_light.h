@@ -3,15 +3,6 @@
 
 #include "light/light.h"
 
-// Cone of a spot: full light inside, none outside, smoothstep between (Blender since 3.5).
-struct SpotCone {
-    Vec3 axis;                  // unit, the way the light shines
-    float cosHalfAngle = -1;    // outside of it is dark
-    float blend = 0;            // part of 1 - cosHalfAngle that is soft
-    bool cosineFalloff = false; // times the cosine to the axis (Blender up to 3.4)
-    float attenuation(Vec3 fromLight) const;
-};
-
 class PointLight final : public Light {
 public:
     // Intensity in W/sr. With a radius, light comes from a disk about the centre that always faces
@@ -27,8 +18,10 @@ public:
     Bounds sourcesFor(const Bounds& points) const override;
     std::optional<Vec3> origin() const override { return position_; }
     std::optional<PointEmission> emission() const override {
-        if (cone_) return {};
-        return PointEmission{position_, intensity_, attenuation_, radius_};
+        return PointEmission{position_, intensity_, attenuation_, radius_, cone_};
+    }
+    std::optional<SoftEmission> softEmission() const override {
+        return isSoft() ? std::optional<SoftEmission>(*emission()) : std::nullopt;
     }
 
 private:

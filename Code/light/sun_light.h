@@ -8,16 +8,14 @@ public:
     // `direction`: unit vector along which the light travels. Irradiance on a facing surface in
     // W/m^2; `halfAngleRad` of the disk in the sky, which has constant radiance.
     SunLight(Vec3 direction, Rgb irradiance, double halfAngleRad, bool castsShadows);
-    bool isSoft() const override { return oneMinusCos_ > 0; }
+    bool isSoft() const override { return sun_.oneMinusCos > 0; }
     LightSample sample(Vec3 point, Vec2 u) const override;
     LightSample centre(Vec3 point) const override;
     std::optional<LightSample> whole(Vec3 point, Vec3 n, Vec3 horizon) const override;
     bool cannotReach(Vec3 point, Vec3 n) const override;
     Bounds sourcesFor(const Bounds& points) const override;
+    std::optional<SoftEmission> softEmission() const override;
 
 private:
-    Vec3 toSun_;
-    Rgb irradiance_;
-    double oneMinusCos_;
-    float sinHalfAngle_; // 1 from a right angle on
+    SunEmission sun_;
 };

@@ -95,7 +95,8 @@ void CameraRays::drawPairs(int first, int count, std::uint32_t dimension,
                 seeds = sampler.pairSeeds(id.pixel, dimension);
             block.index[i] = seeds.index, block.x[i] = seeds.x, block.y[i] = seeds.y;
         }
-        if (count == 1) lanes_.seeds(sampler.seed(), dimension, block);
+        if (count == 1)
+            lanes_.seeds(sampler.seed(), dimension, std::span<const std::uint32_t>(block.pixel), {block.index, block.x, block.y});
         lanes_.pairs(block);
         for (std::size_t i = 0; i < some; ++i) out[slot + i] = {block.u[i], block.v[i]};
     }

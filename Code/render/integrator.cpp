@@ -96,14 +96,18 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
                   samples,
                   sampler.stream(static_cast<std::uint32_t>(i) + 1, samples),
                   isSoft ? std::optional<Vec3>() : light.origin(),
-                  light.emission()};
+                  light.emission(),
+                  light.softEmission()};
         const Kernel& kernel = chooseKernel(settings.kernel);
         if (!isSoft && lamp.emission) lamp.inLanes = lightByLamp(kernel);
-        if (isSoft && lamp.emission && sampler.kind() == SamplerKind::Sobol)
-            lamp.bySamples = lightBySamples(kernel), lamp.wholeLight = wholeLight(kernel),
-            lamp.hiddenPoints = ::hiddenPoints(kernel);
+        if (isSoft && lamp.soft && sampler.kind() == SamplerKind::Sobol) {
+            lamp.bySamples = lightBySamples(kernel), lamp.seeds = cameraLanes(kernel).seeds;
+            if (lamp.emission)
+                lamp.wholeLight = wholeLight(kernel), lamp.hiddenPoints = ::hiddenPoints(kernel);
+        }
         lamp.asksWhole = isSoft && !shades && (lamp.emission || samples >= kFewestForWhole);
-        if (isSoft && lamp.emission && occluders.areSolids()) lamp.ball = lamp.emission->ball();
+        if (isSoft && lamp.emission && !lamp.emission->cone && occluders.areSolids())
+            lamp.ball = lamp.emission->ball();
         (shades ? shadingLamps : openLamps).push_back(lamp);
     }
     if (settings.specialise && settings.integrator == IntegratorKind::Whitted)

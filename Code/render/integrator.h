@@ -5,6 +5,7 @@
 #include "base/raw_vector.h"
 #include "render/batch.h"
 #include "render/lamp_map/lamp_map.h"
+#include "render/lens_lanes.h"
 #include "render/material_table.h"
 #include "render/occluders.h"
 #include "render/point_columns.h"
@@ -48,11 +49,13 @@ struct Lamp {
     int samples;
     Sampler sampler;
     std::optional<Vec3> origin; // where its shadow rays start; none: at the point that is lit
-    std::optional<PointEmission> emission;
+    std::optional<PointEmission> emission; // as it is in its centre
+    std::optional<SoftEmission> soft;      // as its samples are
     // Ask many points at once, in its centre or at its samples; null: one by one.
     LightByLampFn inLanes = nullptr;
     LightBySamplesFn bySamples = nullptr;
-    HiddenPointsFn hiddenPoints = nullptr; // of what bySamples asks
+    PairSeedsFn seeds = nullptr;           // of what bySamples draws
+    HiddenPointsFn hiddenPoints = nullptr; // of what bySamples asks, if it is round
     WholeLightFn wholeLight = nullptr;     // the same
     bool asksWhole = false; // casts no shadows, and its closed form is quicker than its samples
     std::optional<LampBall> ball{}; // set if points that nothing hides from it get the closed form

@@ -4,7 +4,8 @@
 
 #define DECLARE(isa)                                                                               \
     namespace kernels::isa {                                                                       \
-    void pairSeeds(std::uint32_t, std::uint32_t, PairBlock&);                                      \
+    void pairSeeds(std::uint32_t, std::uint32_t, std::span<const std::uint32_t>,                   \
+                   const PairSeedColumns&);                                                        \
     void sobolPairs(PairBlock&);                                                                   \
     void lensRays(const Camera::RoundLens&, LensBlock&);                                           \
     void pinholeRays(const Camera::RoundLens&, std::span<const Vec2d>, std::span<Vec3>,            \

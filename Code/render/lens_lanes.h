@@ -10,12 +10,11 @@
 
 struct Kernel;
 
-// Pixels, numbers of samples, what their pairs are shuffled and scrambled by (Sampler::PairSeeds),
-// and the pairs.
+// Pixels, numbers of samples, what their pairs are shuffled and scrambled by, and the pairs.
 struct alignas(64) PairBlock {
     static constexpr std::size_t kPairs = 64;
-    std::uint32_t pixel[kPairs] = {}; // for seeds()
-    std::uint32_t sample[kPairs] = {}, index[kPairs] = {}, x[kPairs] = {}, y[kPairs] = {};
+    std::uint32_t pixel[kPairs] = {}, sample[kPairs] = {}, index[kPairs] = {}, x[kPairs] = {},
+                  y[kPairs] = {};
     float u[kPairs], v[kPairs];
 };
 
@@ -27,9 +26,15 @@ struct alignas(64) LensBlock {
     float org[3][kRays], dir[3][kRays], tMin[kRays];
 };
 
+// Sampler::pairSeeds() of each pixel, of a sampler of that seed; the pixels are a multiple of 16.
+struct PairSeedColumns {
+    std::uint32_t *index, *x, *y;
+};
+using PairSeedsFn = void (*)(std::uint32_t seed, std::uint32_t dimension,
+                             std::span<const std::uint32_t> pixels, const PairSeedColumns& to);
+
 struct CameraLanes {
-    // Sampler::pairSeeds() of each pixel, of a sampler of that seed.
-    void (*seeds)(std::uint32_t seed, std::uint32_t dimension, PairBlock& block) = nullptr;
+    PairSeedsFn seeds = nullptr;
     void (*pairs)(PairBlock& block) = nullptr;
     void (*rays)(const Camera::RoundLens& lens, LensBlock& block) = nullptr;
     // Camera::pinholeRays()

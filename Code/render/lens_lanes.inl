@@ -45,7 +45,7 @@ inline void raysFrom(const Camera::RoundLens& lens, LensBlock& block, std::size_
     Floats::load(block.u + first).store(place.u), Floats::load(block.v + first).store(place.v);
     unsigned unsure = 0;
     placeOnDisk(place, unsure);
-    placeSurely(place, unsure);
+    placeSurelyOnDisk(place, unsure);
     placeRounded(place);
     const Doubles3 onLens = right * (Doubles(Floats::load(place.x)) / Doubles(lens.apertureRatio)) +
                             up * Doubles(Floats::load(place.y));
@@ -76,19 +76,20 @@ inline Longs hashed(std::uint32_t seed, Longs pixel, std::uint32_t dimension) {
 
 } // namespace
 
-void pairSeeds(std::uint32_t seed, std::uint32_t dimension, PairBlock& block) {
-    for (std::size_t i = 0; i < PairBlock::kPairs; i += kSobolLanes) {
+void pairSeeds(std::uint32_t seed, std::uint32_t dimension, std::span<const std::uint32_t> pixels,
+               const PairSeedColumns& out) {
+    for (std::size_t i = 0; i < pixels.size(); i += kSobolLanes) {
         const auto store = [&](const Longs& all, std::uint32_t* to) {
             std::memcpy(to + i, &all, sizeof(all));
         };
-        Longs pixels;
-        std::memcpy(&pixels, block.pixel + i, sizeof(pixels));
+        Longs both;
+        std::memcpy(&both, &pixels[i], sizeof(both));
         // Every other pixel is the lower half of a lane.
-        const Longs even = hashed(seed, pixels & kLow32, dimension),
-                    odd = hashed(seed, pixels >> 32, dimension);
-        store((even & kLow32) | odd << 32, block.index);
-        store(even >> 32 | (odd & ~kLow32), block.x);
-        store((mixed(even + kHashStep) & kLow32) | mixed(odd + kHashStep) << 32, block.y);
+        const Longs even = hashed(seed, both & kLow32, dimension),
+                    odd = hashed(seed, both >> 32, dimension);
+        store((even & kLow32) | odd << 32, out.index);
+        store(even >> 32 | (odd & ~kLow32), out.x);
+        store((mixed(even + kHashStep) & kLow32) | mixed(odd + kHashStep) << 32, out.y);
     }
 }
 

@@ -1,22 +1,72 @@
 // Light by the register: every lane has the bits of asking the lamp, the material and the shadow
 // ray for its point alone.
 #include "check.h"
+#include "light/area_light.h"
 #include "light/point_light.h"
+#include "light/sun_light.h"
 #include "lit_kit.h"
 #include "render/lamp_ray.h"
 #include "render/occluders.h"
 #include "sample/hash.h"
 #include "sample/sampler.h"
+#include "sample/warp.h"
 #include "verify/meshes.h"
 
 #include <bit>
 #include <cstring>
+#include <memory>
 
 namespace sobol {
 #include "sample/sobol.inl"
 } // namespace sobol
 
 using namespace litkit;
+
+namespace {
+
+std::optional<SpotCone> someCone(Random& random, Vec3 at) {
+    if (random.chance(0.5)) return {};
+    SpotCone cone;
+    cone.axis = random.chance(0.5) ? toFloat(random.direction()) // or towards the points
+                                   : toFloat(normalize(-toDouble(at)));
+    cone.cosHalfAngle = static_cast<float>(random.uniform(-0.5, 1));
+    cone.blend = random.chance(0.3) ? 0 : static_cast<float>(random.unit());
+    cone.cosineFalloff = random.chance(0.5);
+    return cone;
+}
+
+Attenuation someFade(Random& random) {
+    if (random.chance(0.5)) return {};
+    return {0.2f, 0.3f, random.chance(0.5) ? 0.5f : 0};
+}
+
+std::unique_ptr<Light> someSoftLamp(Random& random, Vec3 at) {
+    const Rgb power = someLight(random, 0.02);
+    const auto size = static_cast<float>(random.logUniform(1e-3, 3));
+    const Vec3 away = toFloat(random.chance(0.8) ? normalize(-toDouble(at)) : random.direction());
+    switch (random.below(4)) {
+    case 0:
+        return std::make_unique<PointLight>(at, power, someFade(random), size, someCone(random, at),
+                                            true);
+    case 1: {
+        const double angle =
+            random.chance(0.1) ? random.uniform(1, kPi) : random.logUniform(1e-8, 1);
+        return std::make_unique<SunLight>(away, power, angle, true);
+    }
+    case 2: {
+        const Frame frame = frameAround(away);
+        const double spread = random.chance(0.5) ? kHalfPi : random.uniform(0.01, 1.5);
+        return std::make_unique<FlatLight>(
+            random.chance(0.5) ? FlatLight::Outline::Rectangle : FlatLight::Outline::Ellipse, at,
+            frame.x * size, frame.y * static_cast<float>(random.logUniform(1e-3, 3)), away, power,
+            spread, true);
+    }
+    default: break;
+    }
+    return std::make_unique<SphereLight>(at, size, power, true);
+}
+
+} // namespace
 
 TEST(lamp_lanes_have_the_bits_of_single_points) {
     for (const Kernel& kernel : allKernels()) {
@@ -31,7 +81,8 @@ TEST(lamp_lanes_have_the_bits_of_single_points) {
                                      : kind < 0.8 ? Attenuation{0.2f, 0.3f, 0.5f}
                                                   : Attenuation{0, 0, 1};
             const float radius = random.chance(0.2) ? 0.3f : 0;
-            const PointLight lamp(at, someLight(random, 0.02), fade, radius, {}, true);
+            const PointLight lamp(at, someLight(random, 0.02), fade, radius, someCone(random, at),
+                                  true);
             const auto emission = lamp.emission();
             CHECK(emission.has_value());
             std::vector<Point> points;
@@ -68,7 +119,7 @@ TEST(lamp_lanes_have_the_bits_of_single_points) {
         }
         std::printf("%s: %lld points, %lld lit, %lld of them shiny\n", kernel.name, asked, lit,
                     highlights);
-        CHECK_INFO(lit > asked / 5 && highlights > asked / 10, kernel.name);
+        CHECK_INFO(lit > asked / 8 && highlights > asked / 20, kernel.name);
         CHECK_EQUAL(wrong, 0);
     }
 }
@@ -76,7 +127,7 @@ TEST(lamp_lanes_have_the_bits_of_single_points) {
 namespace {
 
 // What a sample of the lamp sends from the point to the eye; black: nothing.
-Rgb lightOf(const PointLight& lamp, const Point& p, const LightSample& sample, float share) {
+Rgb lightOf(const Light& lamp, const Point& p, const LightSample& sample, float share) {
     if (lamp.cannotReach(p.surface.p, p.n) || isBlack(sample.irradiance)) return {};
     const bool rises = dot(p.surface.ng, sample.toLight) > 0 ||
                        (p.surface.lift != Vec3{} && dot(p.surface.ns, sample.toLight) > 0);
@@ -95,11 +146,8 @@ TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
         long long asked = 0, lit = 0, wrong = 0;
         for (int i = 0; i < check::scaled(1500); ++i) {
             const Vec3 at = toFloat(random.direction() * random.logUniform(0.1, 100));
-            const Attenuation fade = random.chance(0.5)
-                                         ? Attenuation{}
-                                         : Attenuation{0.2f, 0.3f, random.chance(0.5) ? 0.5f : 0};
-            const auto radius = static_cast<float>(random.logUniform(1e-3, 3));
-            const PointLight lamp(at, someLight(random, 0.02), fade, radius, {}, true);
+            const std::unique_ptr<Light> made = someSoftLamp(random, at);
+            const Light& lamp = *made;
             std::vector<Point> points;
             const std::size_t used = random.chance(0.5) ? 1 + random.below(16) : 16;
             for (std::size_t k = 0; k < used; ++k) points.push_back(somePoint(random, at));
@@ -131,11 +179,13 @@ TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
             }
             HiddenPoints hidden;
             hidden.maybe = withRays;
-            inLanes(*lamp.emission(), blockOf(points), samples, Occluders(ShapeSet()), hidden, out);
+            inLanes(*lamp.softEmission(), blockOf(points), samples, Occluders(ShapeSet()), hidden,
+                    out);
             const auto tell = [&](std::size_t k, std::size_t s) {
                 if (++wrong <= 3)
                     CHECK_INFO(false, kernel.name << " block " << i << " point " << k << " sample "
-                                                  << s << " of " << samples.count);
+                                                  << s << " of " << samples.count << ", lamp "
+                                                  << lamp.softEmission()->index());
             };
             for (std::size_t k = 0; k < used; ++k) {
                 const bool hasRays = (withRays >> k & 1) != 0;
@@ -171,7 +221,7 @@ TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
             }
         }
         std::printf("%s: %lld samples, %lld lit\n", kernel.name, asked, lit);
-        CHECK_INFO(lit > asked / 5, kernel.name);
+        CHECK_INFO(lit > asked / 8, kernel.name);
         CHECK_EQUAL(wrong, 0);
     }
 }
@@ -204,7 +254,7 @@ TEST(lamp_samples_in_lanes_take_the_seams_of_the_disk) {
             LitBySamples out;
             HiddenPoints hidden;
             hidden.maybe = 1;
-            inLanes(*lamp.emission(), blockOf({point}), samples, Occluders(ShapeSet()), hidden,
+            inLanes(*lamp.softEmission(), blockOf({point}), samples, Occluders(ShapeSet()), hidden,
                     out);
             const LightSample alone = lamp.sample(point.surface.p, u);
             CHECK_INFO(out.isLit(0, 0) &&
@@ -214,11 +264,14 @@ TEST(lamp_samples_in_lanes_take_the_seams_of_the_disk) {
     }
 }
 
-// Spots are not for lanes.
-TEST(lamp_lanes_are_for_bare_points) {
+TEST(lamps_for_lanes) {
     const SpotCone cone{{0, 0, -1}, 0.5f, 0, false};
-    CHECK(!PointLight({}, {1, 1, 1}, {}, 0, cone, true).emission());
-    CHECK(PointLight({}, {1, 1, 1}, {}, 0, {}, true).emission().has_value());
+    CHECK(PointLight({}, {1, 1, 1}, {}, 0, cone, true).emission()->cone.has_value());
+    CHECK(!PointLight({}, {1, 1, 1}, {}, 0, {}, true).softEmission());
+    CHECK(!SunLight({0, 0, -1}, {1, 1, 1}, 0, true).softEmission());
+    // Too small for what lanes know of rounding.
+    CHECK(!SunLight({0, 0, -1}, {1, 1, 1}, 1e-10, true).softEmission());
+    CHECK(SunLight({0, 0, -1}, {1, 1, 1}, 1e-8, true).softEmission().has_value());
     CHECK(lightByLamp(chooseKernel("scalar")) == nullptr);
     CHECK(lightBySamples(chooseKernel("scalar")) == nullptr);
 }

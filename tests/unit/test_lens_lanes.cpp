@@ -184,7 +184,7 @@ TEST(pairs_in_lanes_have_the_bits_of_the_sampler) {
                 block.pixel[k] = any, block.sample[k] = any >> random.below(32);
                 alone[k] = sampler.get2D(any, block.sample[k], dimension);
             }
-            lanes.seeds(sampler.seed(), dimension, block);
+            lanes.seeds(sampler.seed(), dimension, std::span<const std::uint32_t>(block.pixel), {block.index, block.x, block.y});
             lanes.pairs(block);
             for (std::size_t k = 0; k < PairBlock::kPairs; ++k)
                 if ((!sameBits(alone[k].x, block.u[k]) || !sameBits(alone[k].y, block.v[k])) &&

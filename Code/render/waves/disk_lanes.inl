@@ -195,12 +195,12 @@ inline void drawPairs(const PairsInLanes& pairs, Row* rows, std::uint32_t count)
     }
 }
 
-// x and y from u and v; lanes that take placeSurely() are added to `unsure`.
+// x and y from u and v; lanes that take placeSurelyOnDisk() are added to `unsure`.
 inline void placeOnDisk(DiskRow& row, unsigned& unsure) {
     const DiskLanes disk = nearlyOnDisk(Floats::load(row.u), Floats::load(row.v), unsure);
     disk.x.store(row.x), disk.y.store(row.y);
 }
-inline void placeSurely(DiskRow& row, unsigned lanes) {
+inline void placeSurelyOnDisk(DiskRow& row, unsigned lanes) {
     for (; lanes != 0; lanes &= lanes - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
         const Vec2 place = diskFromSquare({row.u[i], row.v[i]});

@@ -26,7 +26,8 @@ public:
         const Floats faded = Floats(fade.quadratic) * distance2 + Floats(fade.linear) * distance +
                              Floats(fade.constant);
         const Three irradiance =
-            Three::all(lamp_.intensity.r, lamp_.intensity.g, lamp_.intensity.b) * (one / faded);
+            Three::all(lamp_.intensity.r, lamp_.intensity.g, lamp_.intensity.b) *
+            ((lamp_.cone ? coneAt(*lamp_.cone, toLight) : one) / faded);
         lanes &= ~black(irradiance);
 
         lanes &= lit_.rises(toLight);

@@ -5,7 +5,7 @@
 #include "accel/kernels/region_includes.h"
 #include "base/math.h"
 #include "base/pow_tables.h"
-#include "light/light.h"
+#include "light/area_light.h"
 #include "render/occluders.h"
 #include "sample/warp.h"
 
@@ -23,6 +23,8 @@ namespace kernels::avx512 {
 
 #include "light/log_ratio.inl"
 #include "render/waves/hidden_lanes.inl"
+#include "render/waves/spot_cone.inl"
+
 #include "render/waves/lamp_lanes.inl"
 #include "render/waves/sobol_avx512.inl"
 #include "render/waves/soft_lamp_lanes.inl"

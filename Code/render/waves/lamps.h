@@ -170,7 +170,7 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
         else
             memory.arrivals.push_back({k, light});
     };
-    const auto looksAtGroups = [](const Lamp& lamp) { return lamp.bySamples == nullptr; };
+    const auto looksAtGroups = [](const Lamp& lamp) { return lamp.hiddenPoints == nullptr; };
     const bool isGrouped =
         std::any_of(lamps.begin(), lamps.end(), looksAtGroups) && waves::groupPoints(wave);
     if (sumsOpenLamps || std::any_of(lamps.begin(), lamps.end(), [](const Lamp& lamp) {
@@ -188,7 +188,7 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
         if constexpr (kSoftLamps)
             if (lamp.isSoft) {
                 if (lamp.bySamples) {
-                    waves::shineBySamples(wave, lamp);
+                    waves::shineBySamples(wave, lamp, isGrouped);
                     waves::addWaiting<kSeeThrough>(wave);
                     waves::forEachSum(wave, [&](std::uint32_t k, const auto& sum, std::size_t i) {
                         arrive(k, {sum[0][i], sum[1][i], sum[2][i]});

@@ -2,7 +2,7 @@
 // each of them.
 #pragma once
 
-#include "render/waves/fill_blocks.h"
+#include "render/waves/groups.h"
 
 #include <algorithm>
 #include <bit>
@@ -18,19 +18,15 @@ inline SamplesOnLamp samplesOf(const Wave& wave, const Lamp& lamp, const LitBloc
     const PointBatch& all = wave.memory.points;
     const auto perPoint = static_cast<std::uint32_t>(lamp.samples);
     const auto size = static_cast<std::size_t>(std::popcount(block.used));
-    std::array<std::uint32_t, LitBlock::kPoints> streams;
+    std::array<std::uint32_t, LitBlock::kPoints> streams{};
     for (std::size_t i = 0; i < size; ++i) {
         const std::uint32_t k = block.point[i];
         streams[i] = wave.rays.stream[all.ray[k]];
         samples.first[i] =
             wave.chunk.ids[all.slot[k]].index * perPoint + static_cast<std::uint32_t>(first);
     }
-    Sampler::PairSeeds seeds{};
-    for (std::size_t i = 0; i < size; ++i) {
-        if (i == 0 || streams[i] != streams[i - 1]) // else as the last one of its pixel
-            seeds = lamp.sampler.pairSeeds(streams[i], dimension(wave.depth, BounceSlot::LightUv));
-        samples.index[i] = seeds.index, samples.x[i] = seeds.x, samples.y[i] = seeds.y;
-    }
+    lamp.seeds(lamp.sampler.seed(), dimension(wave.depth, BounceSlot::LightUv), streams,
+               {samples.index, samples.x, samples.y});
     return samples;
 }
 
@@ -70,6 +66,22 @@ inline void sumUp(const WholeLight& whole, const LitBySamples& by, LightSums& su
     }
 }
 
+// What is known without samples of those points of a block that are `open` to all of the lamp, and
+// of `points` that it can't reach.
+inline void knowWhole(const Wave& wave, const Lamp& lamp, const LitBlock& block, unsigned points,
+                      unsigned open, WholeLight& whole) {
+    if (lamp.wholeLight) return lamp.wholeLight(*lamp.emission, block, points, open, whole);
+    whole.known = 0;
+    for (auto& channel : whole.light) std::fill_n(channel, LitBlock::kPoints, 0.0f);
+    for (unsigned rest = points & open; rest != 0; rest &= rest - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+        const Rgb light = wholeLight(lamp, litPoint(wave, block.point[i]));
+        if (isBlack(light)) continue;
+        SurfaceBlock::set(whole.light, i, {light.r, light.g, light.b});
+        whole.known |= 1u << i;
+    }
+}
+
 // The light of a lamp that casts no shadows, into memory.lightSums.
 inline void shineOpenly(const Wave& wave, const Lamp& lamp) {
     WaveMemory& memory = wave.memory;
@@ -81,27 +93,28 @@ inline void shineOpenly(const Wave& wave, const Lamp& lamp) {
     const HiddenPoints hidden{}; // none
     for (std::size_t b = 0; b < blocks; ++b) {
         const LitBlock& block = memory.litBlocks[b];
-        lamp.wholeLight(*lamp.emission, block, block.used, lamp.asksWhole ? block.used : 0, whole);
+        knowWhole(wave, lamp, block, block.used, lamp.asksWhole ? block.used : 0, whole);
         for (auto& channel : by.sum) std::fill_n(channel, LitBlock::kPoints, 0.0f);
         by.waiting = 0;
         const unsigned asked = block.used & ~whole.known;
         constexpr int kMost = LitBySamples::kMost;
         for (int first = 0; first < lamp.samples && asked != 0; first += kMost) {
             const int some = std::min(kMost, lamp.samples - first);
-            lamp.bySamples(*lamp.emission, block, samplesOf(wave, lamp, block, asked, first, some),
+            lamp.bySamples(*lamp.soft, block, samplesOf(wave, lamp, block, asked, first, some),
                            wave.context.occluders, hidden, by);
         }
         sumUp(whole, by, memory.lightSums[b]);
     }
 }
 
-// The light of the lamp at all points that answer lamps, into memory.lightSums. A point's many
-// shadow rays make it worth while to look at each point for itself, and at each line to the lamp.
-// What has to wait for rays is listed.
-inline void shineBySamples(const Wave& wave, const Lamp& lamp) {
+// The light of the lamp at all points that answer lamps, into memory.lightSums. What has to wait
+// for rays is listed. A round lamp's many shadow rays make it worth while to look at each point for
+// itself, and at each line to the lamp; of others groups of points are asked about.
+inline void shineBySamples(const Wave& wave, const Lamp& lamp, bool isGrouped) {
     WaveMemory& memory = wave.memory;
     const Occluders& occluders = wave.context.occluders;
-    const bool canTell = wave.context.settings.specialise && occluders.canTell();
+    const bool isRound = lamp.hiddenPoints != nullptr;
+    const bool canTell = isRound && wave.context.settings.specialise && occluders.canTell();
     constexpr int kMost = LitBySamples::kMost;
     constexpr std::size_t kPoints = LitBlock::kPoints;
     const std::size_t blocks = (memory.answering.size() + kPoints - 1) / kPoints;
@@ -117,19 +130,20 @@ inline void shineBySamples(const Wave& wave, const Lamp& lamp) {
         if (canTell || lamp.ball)
             hidden = lamp.hiddenPoints(occluders, block, lamp.emission->ball());
         if (!canTell) hidden.surely = 0;
-        lamp.wholeLight(*lamp.emission, block, block.used & ~hidden.surely,
-                        lamp.ball ? ~hidden.maybe : 0, whole);
+        knowWhole(wave, lamp, block, block.used & ~hidden.surely, lamp.ball ? ~hidden.maybe : 0,
+                  whole);
         if ((whole.known | hidden.surely) == block.used) {
             std::copy_n(&whole.light[0][0], 3 * kPoints, &sum[0][0]);
             continue;
         }
         if (!canTell) hidden.areShapesKnown = false, hidden.maybe = block.used;
+        if (!isRound) hidden.maybe &= hiddenByGroup(memory, b, isGrouped);
         for (auto& channel : by.sum) std::fill_n(channel, kPoints, 0.0f);
         by.waiting = 0;
         const unsigned asked = block.used & ~hidden.surely & ~whole.known;
         for (int first = 0; first < lamp.samples && asked != 0; first += kMost) {
             const int some = std::min(kMost, lamp.samples - first);
-            lamp.bySamples(*lamp.emission, block, samplesOf(wave, lamp, block, asked, first, some),
+            lamp.bySamples(*lamp.soft, block, samplesOf(wave, lamp, block, asked, first, some),
                            occluders, hidden, by);
             for (unsigned rest = by.waiting; rest != 0; rest &= rest - 1) {
                 const auto i = static_cast<std::size_t>(std::countr_zero(rest));

@@ -1,0 +1,36 @@
+// SoftEmission: all there is to know of a lamp that has a size, for who draws many of its samples
+// himself.
+#pragma once
+
+#include "light/point_emission.h"
+
+#include <variant>
+
+// A disk in the sky.
+struct SunEmission {
+    Vec3 toSun;             // unit vector to its middle
+    Rgb irradiance;         // of a surface that faces it
+    double oneMinusCos = 0; // of its half angle
+    float sinHalfAngle = 0; // 1 from a right angle on
+
+    // Radiance E / (pi sin^2 h) times the solid angle 2 pi (1 - cos h).
+    Rgb ofSample() const { return irradiance * static_cast<float>(2 / (2 - oneMinusCos)); }
+};
+
+// A rectangle or an ellipse that shines to one side.
+struct FlatEmission {
+    bool isEllipse = false;
+    Vec3 centre, halfX, halfY, normal; // half axes; unit normal of the bright side
+    Rgb power;                         // radiance times area
+    bool spreads = false;              // less than to all sides, as Cycles' grid does
+    float tanSpread = 0, spreadNorm = 0;
+};
+
+// A ball.
+struct SphereEmission {
+    Vec3 centre;
+    float radius = 0;
+    Rgb radiance;
+};
+
+using SoftEmission = std::variant<PointEmission, SunEmission, FlatEmission, SphereEmission>;
