@@ -63,8 +63,7 @@ void CameraRays::choosePlaces(const Tile& tile, int first, int count, SampleChun
         }
     });
     if (corners_) return;
-    drawPairs(first, count, kPixelDimension, chunk.ids, chunk.offsets);
-    filter_.sample(chunk.offsets);
+    drawPairs(first, count, kPixelDimension, chunk.ids, &filter_, chunk.offsets);
     for (std::size_t i = 0; i < chunk.places.size(); ++i) {
         const Vec2d middle = chunk.places[i];
         chunk.places[i] = {middle.x + chunk.offsets[i].x, middle.y + chunk.offsets[i].y};
@@ -72,7 +71,8 @@ void CameraRays::choosePlaces(const Tile& tile, int first, int count, SampleChun
 }
 
 void CameraRays::drawPairs(int first, int count, std::uint32_t dimension,
-                           std::span<const SampleId> ids, std::span<Vec2> out) const {
+                           std::span<const SampleId> ids, const Filter* filter,
+                           std::span<Vec2> out) const {
     const Sampler& sampler = context_.sampler;
     const auto samples = static_cast<std::size_t>(count);
     const bool areCentres = dimension == kPixelDimension && sampler.sampleCount() == 1 &&
@@ -81,8 +81,10 @@ void CameraRays::drawPairs(int first, int count, std::uint32_t dimension,
         for (std::size_t slot = 0; slot < ids.size(); slot += samples)
             sampler.get2D(ids[slot].pixel, static_cast<std::uint32_t>(first), dimension,
                           out.subspan(slot, samples));
+        if (filter) filter->sample(out);
         return;
     }
+    const auto inverse = filter ? filter->inverse() : std::nullopt;
     Sampler::PairSeeds seeds{};
     PairBlock block;
     for (std::size_t slot = 0; slot < ids.size(); slot += PairBlock::kPairs) {
@@ -96,10 +98,13 @@ void CameraRays::drawPairs(int first, int count, std::uint32_t dimension,
             block.index[i] = seeds.index, block.x[i] = seeds.x, block.y[i] = seeds.y;
         }
         if (count == 1)
-            lanes_.seeds(sampler.seed(), dimension, std::span<const std::uint32_t>(block.pixel), {block.index, block.x, block.y});
+            lanes_.seeds(sampler.seed(), dimension, std::span<const std::uint32_t>(block.pixel),
+                         {block.index, block.x, block.y});
         lanes_.pairs(block);
+        if (inverse) lanes_.spread(*inverse, block);
         for (std::size_t i = 0; i < some; ++i) out[slot + i] = {block.u[i], block.v[i]};
     }
+    if (filter && !inverse) filter->sample(out);
 }
 
 void CameraRays::sendThroughLens(const Camera::RoundLens& lens, SampleChunk& chunk) const {
@@ -153,7 +158,7 @@ void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk
     if (isPinhole) return;
     if (hasLens) {
         chunk.onLens.resize(rays.size());
-        drawPairs(first, count, kLensDimension, chunk.ids, chunk.onLens);
+        drawPairs(first, count, kLensDimension, chunk.ids, nullptr, chunk.onLens);
         if (const auto lens = camera.roundLens(); lens && lanes_.rays && !hasTime)
             return sendThroughLens(*lens, chunk);
     }

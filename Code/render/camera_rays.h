@@ -29,9 +29,10 @@ private:
     void choosePlaces(const Tile& tile, int first, int count, SampleChunk& chunk) const;
     // fn(slot, pixel, x, y) for all places of the tile.
     template <class Fn> void forEachSlot(const Tile& tile, const Fn& fn) const;
-    // Sampler::get2D() of all slots, the samples of a place following each other.
+    // Sampler::get2D() of all slots, the samples of a place following each other; then what the
+    // filter makes of them, if there is one.
     void drawPairs(int first, int count, std::uint32_t dimension, std::span<const SampleId> ids,
-                   std::span<Vec2> out) const;
+                   const Filter* filter, std::span<Vec2> out) const;
     void sendThroughLens(const Camera::RoundLens& lens, SampleChunk& chunk) const;
 
     const IntegratorContext& context_;

@@ -7,6 +7,7 @@
     void pairSeeds(std::uint32_t, std::uint32_t, std::span<const std::uint32_t>,                   \
                    const PairSeedColumns&);                                                        \
     void sobolPairs(PairBlock&);                                                                   \
+    void spreadPairs(const Filter::Inverse&, PairBlock&);                                          \
     void lensRays(const Camera::RoundLens&, LensBlock&);                                           \
     void pinholeRays(const Camera::RoundLens&, std::span<const Vec2d>, std::span<Vec3>,            \
                      std::span<float>);                                                            \
@@ -14,8 +15,8 @@
 DECLARE_BY_KERNEL(DECLARE)
 #define ROW(isa)                                                                                   \
     {                                                                                              \
-        kernels::isa::pairSeeds, kernels::isa::sobolPairs, kernels::isa::lensRays,                 \
-            kernels::isa::pinholeRays                                                              \
+        kernels::isa::pairSeeds, kernels::isa::sobolPairs, kernels::isa::spreadPairs,              \
+            kernels::isa::lensRays, kernels::isa::pinholeRays                                      \
     }
 
 CameraLanes cameraLanes(const Kernel& kernel) {

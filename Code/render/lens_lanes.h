@@ -4,6 +4,7 @@
 #pragma once
 
 #include "camera/camera.h"
+#include "sample/filter.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -36,6 +37,8 @@ using PairSeedsFn = void (*)(std::uint32_t seed, std::uint32_t dimension,
 struct CameraLanes {
     PairSeedsFn seeds = nullptr;
     void (*pairs)(PairBlock& block) = nullptr;
+    // Filter::sample() of what pairs() has drawn.
+    void (*spread)(const Filter::Inverse& filter, PairBlock& block) = nullptr;
     void (*rays)(const Camera::RoundLens& lens, LensBlock& block) = nullptr;
     // Camera::pinholeRays()
     void (*pinhole)(const Camera::RoundLens& lens, std::span<const Vec2d> places,

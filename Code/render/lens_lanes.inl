@@ -60,6 +60,17 @@ inline void raysFrom(const Camera::RoundLens& lens, LensBlock& block, std::size_
     clipAlong(lens, dir).store(block.tMin + first);
 }
 
+inline Floats spread(const Filter::Inverse& filter, Floats u) {
+    constexpr int kSteps = Filter::Inverse::kSteps;
+    const Doubles one(1.0), place = Doubles(2.0) * Doubles(u) - one, size = abs(place);
+    const Doubles at = sqrt(one - size) * Doubles(kSteps);
+    const Doubles step = min(floor(at), Doubles(kSteps - 1)), across = at - step;
+    const Ints i = wholeOf(step);
+    const Doubles x = elementsAt<1>(filter.entries, i) * (one - across) +
+                      elementsAt<1>(filter.entries + 1, i) * across;
+    return withSign(x * Doubles(filter.radius), place).toFloats();
+}
+
 using Longs __attribute__((vector_size(sizeof(Bits)))) = std::uint64_t;
 constexpr std::uint64_t kLow32 = 0xffffffffu;
 
@@ -98,6 +109,13 @@ void sobolPairs(PairBlock& block) {
         const auto pair = sobolPair<Bits>(loadBits(block.sample + i), loadBits(block.index + i),
                                           loadBits(block.x + i), loadBits(block.y + i));
         storeUnit(pair.x, block.u + i), storeUnit(pair.y, block.v + i);
+    }
+}
+
+void spreadPairs(const Filter::Inverse& filter, PairBlock& block) {
+    for (std::size_t i = 0; i < PairBlock::kPairs; i += W) {
+        spread(filter, Floats::load(block.u + i)).store(block.u + i);
+        spread(filter, Floats::load(block.v + i)).store(block.v + i);
     }
 }
 

@@ -17,6 +17,8 @@ namespace kernels::avx2 {
 
 #include "render/waves/sobol_avx2.inl"
 
+#include "render/waves/texture_gather_avx2.inl"
+
 #include "render/lens_lanes.inl"
 } // namespace kernels::avx2
 KERNEL_REGION_END

@@ -17,6 +17,8 @@ namespace kernels::avx512 {
 
 #include "render/waves/sobol_avx512.inl"
 
+#include "render/waves/texture_gather_avx512.inl"
+
 #include "render/lens_lanes.inl"
 } // namespace kernels::avx512
 KERNEL_REGION_END

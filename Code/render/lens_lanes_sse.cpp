@@ -17,6 +17,8 @@ namespace kernels::sse {
 
 #include "render/waves/sobol_sse.inl"
 
+#include "render/waves/texture_gather_sse.inl"
+
 #include "render/lens_lanes.inl"
 } // namespace kernels::sse
 KERNEL_REGION_END

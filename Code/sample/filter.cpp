@@ -6,8 +6,8 @@
 
 namespace {
 
-// Steps of the inverse table, linear between; even in sqrt(1 - share), which spreads out the tails.
-constexpr int kSteps = 1024;
+// Steps that are even in sqrt(1 - share) spread out the tails.
+constexpr int kSteps = Filter::Inverse::kSteps;
 
 double radiusOf(FilterKind kind, double width) {
     switch (kind) {
@@ -37,7 +37,7 @@ double shape(FilterKind kind, double x) {
 
 // Entry i is the x in [0,1] where the share of the upper half that lies between 0 and x is
 // 1 - (i / kSteps)^2.
-std::vector<float> inverseOfCdf(FilterKind kind, ThreadPool* pool) {
+std::vector<double> inverseOfCdf(FilterKind kind, ThreadPool* pool) {
     constexpr std::size_t kPieces = 16384, kPerJob = 2048;
     constexpr double h = 1.0 / kPieces;
     std::vector<double> ends(kPieces + 1, shape(kind, 0)), middles(kPieces);
@@ -56,13 +56,14 @@ std::vector<float> inverseOfCdf(FilterKind kind, ThreadPool* pool) {
     std::vector<double> cdf(kPieces + 1, 0.0);
     for (std::size_t i = 0; i < kPieces; ++i) // Simpson on each piece
         cdf[i + 1] = cdf[i] + (ends[i] + 4 * middles[i] + ends[i + 1]) * (h / 6);
-    std::vector<float> inverse{1};
+    std::vector<double> inverse{1}; // floats, as many as that is right to
     std::size_t piece = kPieces - 1;
     for (int i = 1; i < kSteps; ++i) {
         const double wanted = cdf.back() * (1 - sqr(static_cast<double>(i) / kSteps));
         while (cdf[piece] > wanted) --piece;
         const double s = (wanted - cdf[piece]) / (cdf[piece + 1] - cdf[piece]);
-        inverse.push_back(static_cast<float>((static_cast<double>(piece) + s) / kPieces));
+        const double x = (static_cast<double>(piece) + s) / kPieces;
+        inverse.push_back(static_cast<double>(static_cast<float>(x)));
     }
     inverse.push_back(0);
     return inverse;
@@ -89,8 +90,8 @@ template <FilterKind kKind> float Filter::offsetAt(float u) const {
     } else if constexpr (kKind != FilterKind::Box) {
         const double at = std::sqrt(1 - size) * kSteps;
         const int i = std::min(static_cast<int>(at), kSteps - 1);
-        const float* step = inverse_.data() + i;
-        x = lerp(static_cast<double>(step[0]), static_cast<double>(step[1]), at - i);
+        const double* step = inverse_.data() + i;
+        x = lerp(step[0], step[1], at - i);
     }
     return static_cast<float>(std::copysign(x * radius_, place));
 }

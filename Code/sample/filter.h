@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/vec.h"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -30,6 +31,18 @@ public:
     // The unnormalised density at an offset along one axis, in pixels; separable.
     double value(double offset) const;
     double radius() const { return radius_; } // no offset is larger, in pixels
+    // For who samples many at once: of the smooth kinds all that sample() does. Entry i of kSteps +
+    // 1 is where, in radii from the centre, 1 - (i / kSteps)^2 of its half of the samples are
+    // nearer.
+    struct Inverse {
+        static constexpr int kSteps = 1024; // linear between; even in sqrt(1 - share)
+        const double* entries;
+        double radius;
+    };
+    std::optional<Inverse> inverse() const {
+        if (inverse_.empty()) return {};
+        return Inverse{inverse_.data(), radius_};
+    }
     FilterKind kind() const { return kind_; }
 
 private:
@@ -38,5 +51,5 @@ private:
 
     FilterKind kind_;
     double width_, radius_;
-    std::vector<float> inverse_; // of the CDF, upper half; only for the two smooth kinds
+    std::vector<double> inverse_; // of the CDF, upper half; only for the two smooth kinds
 };

@@ -30,30 +30,41 @@ inline SamplesOnLamp samplesOf(const Wave& wave, const Lamp& lamp, const LitBloc
     return samples;
 }
 
-// The samples of point i of a block that wait, and their rays. `place`: of its sum.
+// The samples of a block's points that wait, point after point, and their rays. `place`: of the
+// first one's sum.
 inline void listWaiting(const Wave& wave, const LitBlock& block, const LitBySamples& by,
-                        std::size_t i, std::uint32_t place, std::size_t count) {
+                        std::size_t place, std::size_t count) {
     WaveMemory& memory = wave.memory;
-    const std::uint32_t k = block.point[i];
-    const ShadedPoint& at = memory.points.at[k];
-    const Vec3 org = leave(at.surface, at.lit.ng) + at.surface.lift;
-    const float time = wave.rays.time[memory.points.ray[k]];
-    unsigned lit = 0, unsure = 0; // a bit for each sample
-    for (std::size_t s = 0; s < count; ++s) {
-        lit |= static_cast<unsigned>(by.isLit(s, i)) << s;
-        unsure |= static_cast<unsigned>(by.isUnsure(s, i)) << s;
-    }
-    for (; lit != 0; lit &= lit - 1) {
-        const auto s = static_cast<std::size_t>(std::countr_zero(lit));
-        const std::size_t from = s * LitBlock::kPoints + i;
-        const Rgb light{by.light[0][from], by.light[1][from], by.light[2][from]};
-        std::uint32_t ray = WaitingLight::kNoRay;
-        if ((unsure >> s & 1) != 0) {
-            ray = static_cast<std::uint32_t>(memory.shadowRays.size());
-            const Vec3 dir{by.dir[0][from], by.dir[1][from], by.dir[2][from]};
-            memory.shadowRays.push({org, dir, 0, by.tMax[from], time}, k, light);
+    RayBatch& rays = memory.shadowRays;
+    std::size_t lit = 0, unsure = 0;
+    for (std::size_t s = 0; s < count; ++s)
+        lit += static_cast<std::size_t>(std::popcount(by.lit[s] & by.waiting)),
+            unsure += static_cast<std::size_t>(std::popcount(by.unsure[s] & by.waiting));
+    std::size_t ray = rays.extend(unsure);
+    memory.waiting.resize(memory.waiting.size() + lit);
+    WaitingLight* to = memory.waiting.data() + (memory.waiting.size() - lit);
+    for (unsigned rest = by.waiting; rest != 0; rest &= rest - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+        const std::uint32_t k = block.point[i];
+        // leave()
+        const Vec3 off =
+            SurfaceBlock::get(block.p, i) + SurfaceBlock::get(block.ng, i) * block.error[i];
+        const Vec3 org = off + SurfaceBlock::get(block.lift, i);
+        const float time = wave.rays.time[memory.points.ray[k]];
+        for (std::size_t s = 0; s < count; ++s) {
+            if (!by.isLit(s, i)) continue;
+            const std::size_t from = s * LitBlock::kPoints + i;
+            const Rgb light{by.light[0][from], by.light[1][from], by.light[2][from]};
+            const bool asks = by.isUnsure(s, i);
+            *to++ = {static_cast<std::uint32_t>(place + i),
+                     asks ? static_cast<std::uint32_t>(ray) : WaitingLight::kNoRay, light};
+            if (!asks) continue;
+            rays.org[ray] = org;
+            rays.dir[ray] = {by.dir[0][from], by.dir[1][from], by.dir[2][from]};
+            rays.tMin[ray] = 0, rays.tMax[ray] = by.tMax[from], rays.time[ray] = time;
+            rays.sample[ray] = k, rays.weight[ray] = light;
+            ++ray;
         }
-        memory.waiting.push_back({place, ray, light});
     }
 }
 
@@ -145,11 +156,8 @@ inline void shineBySamples(const Wave& wave, const Lamp& lamp, bool isGrouped) {
             const int some = std::min(kMost, lamp.samples - first);
             lamp.bySamples(*lamp.soft, block, samplesOf(wave, lamp, block, asked, first, some),
                            occluders, hidden, by);
-            for (unsigned rest = by.waiting; rest != 0; rest &= rest - 1) {
-                const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-                listWaiting(wave, block, by, i, static_cast<std::uint32_t>(b * kPoints + i),
-                            static_cast<std::size_t>(some));
-            }
+            if (by.waiting != 0)
+                listWaiting(wave, block, by, b * kPoints, static_cast<std::size_t>(some));
         }
         sumUp(whole, by, memory.lightSums[b]);
     }
