@@ -223,9 +223,17 @@ void ShapeSet::closest(const RaySpan& rays, std::vector<Hit>& hits) const {
 
 void ShapeSet::closestOfBatched(const RaySpan& rays, std::vector<Hit>& hits) const {
     thread_local std::vector<Hit> found;
-    found.resize(rays.size());
+    thread_local std::vector<std::uint32_t> asFar;
+    found.resize(rays.size()), asFar.resize(rays.size());
     for (const std::uint32_t number : batched) {
         shapes[number]->intersectBatch(rays, number, found);
+        if (kernel_) {
+            const std::size_t count = kernel_->nearerInBox({boxes[number], extent, number}, rays,
+                                                           found.data(), hits.data(), asFar.data());
+            for (const std::uint32_t i : std::span(asFar).first(count))
+                takeNearer(rays[i], found[i], number, 0, hits[i]);
+            continue;
+        }
         for (std::size_t i = 0; i < rays.size(); ++i) {
             if (!found[i].isHit()) continue;
             const RaySetup setup(rays.org[i], rays.dir[i], extent);

@@ -107,10 +107,11 @@ SolidTree::Solid SolidTree::made(std::uint32_t number, bool hides, const SolidFo
                        std::span<const std::uint32_t>, Hit*);                                      \
     void anySolids(const SolidTree&, const SolidCalls&, const RaySpan&,                            \
                    std::span<const std::uint32_t>, std::uint8_t*);                                 \
+    std::size_t nearerInBox(const BoxedShape&, const RaySpan&, Hit*, Hit*, std::uint32_t*);        \
     }
 DECLARE_BY_KERNEL(DECLARE)
 #define ROW(isa)                                                                                   \
-    { kernels::isa::closestSolids, kernels::isa::anySolids }
+    { kernels::isa::closestSolids, kernels::isa::anySolids, kernels::isa::nearerInBox }
 
 const SolidKernel* solidKernel(const Kernel& kernel) {
     static constexpr ByKernel<SolidKernel> kTable = BY_KERNEL(ROW);

@@ -128,6 +128,13 @@ struct SolidCalls {
     bool (*hides)(const void* set, const Ray& ray, std::uint32_t number);
 };
 
+// One that all rays were asked about.
+struct BoxedShape {
+    Bounds box;
+    float extent; // see RaySetup
+    std::uint32_t number;
+};
+
 struct SolidKernel {
     // Only rays in `order` are looked at; it pays to have those from one point in a row.
     // hits[i] is the best hit of ray i so far, or what .t allows, and becomes the best of all:
@@ -137,6 +144,11 @@ struct SolidKernel {
     // hidden[i] becomes 1 where a solid is in (tMin, tMax).
     void (*any)(const SolidTree&, const SolidCalls&, const RaySpan&,
                 std::span<const std::uint32_t> order, std::uint8_t* hidden);
+    // found[i] is where ray i meets the shape, not before the entry into its box, where it then is;
+    // or no hit. Those in front of the best ones so far become the best. Rays of those that are as
+    // far go into a list with room for all of them: somebody else decides. Returns how many.
+    std::size_t (*nearerInBox)(const BoxedShape& shape, const RaySpan&, Hit* found, Hit* best,
+                               std::uint32_t* asFar);
 };
 // Null for the scalar kernel. The trees are as wide as those of the Kernel.
 const SolidKernel* solidKernel(const Kernel& kernel);

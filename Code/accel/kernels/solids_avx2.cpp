@@ -18,6 +18,8 @@ namespace kernels::avx2 {
 using FewLanes = AllLanes; // see few_lanes_avx512.inl
 
 #include "accel/kernels/solids.inl"
+
+#include "accel/kernels/boxed.inl"
 } // namespace kernels::avx2
 KERNEL_REGION_END
 #endif

@@ -18,6 +18,8 @@ namespace kernels::avx512 {
 #include "accel/kernels/few_lanes_avx512.inl"
 
 #include "accel/kernels/solids.inl"
+
+#include "accel/kernels/boxed.inl"
 } // namespace kernels::avx512
 KERNEL_REGION_END
 #endif

@@ -18,6 +18,8 @@ namespace kernels::sse {
 using FewLanes = AllLanes; // see few_lanes_avx512.inl
 
 #include "accel/kernels/solids.inl"
+
+#include "accel/kernels/boxed.inl"
 } // namespace kernels::sse
 KERNEL_REGION_END
 #endif
