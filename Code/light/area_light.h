@@ -17,7 +17,9 @@ public:
     std::optional<LightSample> whole(Vec3 point, Vec3 n, Vec3 horizon) const override;
     bool cannotReach(Vec3 point, Vec3 n) const override;
     Bounds sourcesFor(const Bounds& points) const override;
-    std::optional<SoftEmission> softEmission() const override { return flat_; }
+    std::optional<LampEmission> lampEmission(bool inCentre) const override {
+        return inCentre ? std::nullopt : std::optional<LampEmission>(flat_);
+    }
 
 private:
     LightSample from(Vec3 place, Vec3 point) const;
@@ -37,7 +39,9 @@ public:
     std::optional<LightSample> whole(Vec3 point, Vec3 n, Vec3 horizon) const override;
     bool cannotReach(Vec3 point, Vec3 n) const override;
     Bounds sourcesFor(const Bounds& points) const override;
-    std::optional<SoftEmission> softEmission() const override { return sphere_; }
+    std::optional<LampEmission> lampEmission(bool inCentre) const override {
+        return inCentre ? std::nullopt : std::optional<LampEmission>(sphere_);
+    }
 
 private:
     SphereEmission sphere_;

@@ -5,7 +5,7 @@
 
 #include "base/bounds.h"
 #include "base/vec.h"
-#include "light/soft_emission.h"
+#include "light/lamp_emission.h"
 
 #include <optional>
 
@@ -45,8 +45,8 @@ public:
     virtual std::optional<Vec3> origin() const { return {}; }
     // Set when centre() is that of this point: for who asks many points at once.
     virtual std::optional<PointEmission> emission() const { return {}; }
-    // Set when sample() is that of this lamp: for who asks many points at once.
-    virtual std::optional<SoftEmission> softEmission() const { return {}; }
+    // Set when sample(), or centre(), is that of this lamp: for who asks many points at once.
+    virtual std::optional<LampEmission> lampEmission(bool /*inCentre*/) const { return {}; }
     // True only if nothing at `point` with the unit normal n can get light, whatever sample() or
     // centre() is asked: the lamp is behind the horizon, or the point out of the lamp's cone. Costs
     // little beside those; false says nothing.

@@ -20,8 +20,8 @@ public:
     std::optional<PointEmission> emission() const override {
         return PointEmission{position_, intensity_, attenuation_, radius_, cone_};
     }
-    std::optional<SoftEmission> softEmission() const override {
-        return isSoft() ? std::optional<SoftEmission>(*emission()) : std::nullopt;
+    std::optional<LampEmission> lampEmission(bool inCentre) const override {
+        return isSoft() && !inCentre ? std::optional<LampEmission>(*emission()) : std::nullopt;
     }
 
 private:

@@ -19,8 +19,9 @@ LightSample SunLight::sample(Vec3 point, Vec2 u) const {
 }
 
 // Directions of the tiniest suns are close to the smallest floats.
-std::optional<SoftEmission> SunLight::softEmission() const {
-    return sun_.oneMinusCos > 0x1p-60 ? std::optional<SoftEmission>(sun_) : std::nullopt;
+std::optional<LampEmission> SunLight::lampEmission(bool inCentre) const {
+    if (inCentre) return ParallelEmission{sun_.toSun, sun_.irradiance, sun_.sinHalfAngle};
+    return sun_.oneMinusCos > 0x1p-60 ? std::optional<LampEmission>(sun_) : std::nullopt;
 }
 
 // The mean of the disk's directions is its middle times (1 + cos h) / 2: what sample() divides by.

@@ -14,7 +14,7 @@ public:
     std::optional<LightSample> whole(Vec3 point, Vec3 n, Vec3 horizon) const override;
     bool cannotReach(Vec3 point, Vec3 n) const override;
     Bounds sourcesFor(const Bounds& points) const override;
-    std::optional<SoftEmission> softEmission() const override;
+    std::optional<LampEmission> lampEmission(bool inCentre) const override;
 
 private:
     SunEmission sun_;

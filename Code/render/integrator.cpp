@@ -93,16 +93,16 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
         const bool shades = light.castsShadows() && settings.switches.shadows;
         Lamp lamp{light,
                   isSoft,
-                  samples,
+                  isSoft ? samples : 1,
                   sampler.stream(static_cast<std::uint32_t>(i) + 1, samples),
                   isSoft ? std::optional<Vec3>() : light.origin(),
                   light.emission(),
-                  light.softEmission()};
+                  light.lampEmission(!isSoft)};
         const Kernel& kernel = chooseKernel(settings.kernel);
         if (!isSoft && lamp.emission) lamp.inLanes = lightByLamp(kernel);
-        if (isSoft && lamp.soft && sampler.kind() == SamplerKind::Sobol) {
+        if (lamp.all && (!isSoft || sampler.kind() == SamplerKind::Sobol)) {
             lamp.bySamples = lightBySamples(kernel), lamp.seeds = cameraLanes(kernel).seeds;
-            if (lamp.emission)
+            if (isSoft && lamp.emission)
                 lamp.wholeLight = wholeLight(kernel), lamp.hiddenPoints = ::hiddenPoints(kernel);
         }
         lamp.asksWhole = isSoft && !shades && (lamp.emission || samples >= kFewestForWhole);

@@ -50,7 +50,7 @@ struct Lamp {
     Sampler sampler;
     std::optional<Vec3> origin; // where its shadow rays start; none: at the point that is lit
     std::optional<PointEmission> emission; // as it is in its centre
-    std::optional<SoftEmission> soft;      // as its samples are
+    std::optional<LampEmission> all;       // as its samples are, or as the same
     // Ask many points at once, in its centre or at its samples; null: one by one.
     LightByLampFn inLanes = nullptr;
     LightBySamplesFn bySamples = nullptr;

@@ -179,13 +179,13 @@ TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
             }
             HiddenPoints hidden;
             hidden.maybe = withRays;
-            inLanes(*lamp.softEmission(), blockOf(points), samples, Occluders(ShapeSet()), hidden,
-                    out);
+            inLanes(*lamp.lampEmission(false), blockOf(points), samples, Occluders(ShapeSet()),
+                    hidden, out);
             const auto tell = [&](std::size_t k, std::size_t s) {
                 if (++wrong <= 3)
                     CHECK_INFO(false, kernel.name << " block " << i << " point " << k << " sample "
                                                   << s << " of " << samples.count << ", lamp "
-                                                  << lamp.softEmission()->index());
+                                                  << lamp.lampEmission(false)->index());
             };
             for (std::size_t k = 0; k < used; ++k) {
                 const bool hasRays = (withRays >> k & 1) != 0;
@@ -254,8 +254,8 @@ TEST(lamp_samples_in_lanes_take_the_seams_of_the_disk) {
             LitBySamples out;
             HiddenPoints hidden;
             hidden.maybe = 1;
-            inLanes(*lamp.softEmission(), blockOf({point}), samples, Occluders(ShapeSet()), hidden,
-                    out);
+            inLanes(*lamp.lampEmission(false), blockOf({point}), samples, Occluders(ShapeSet()),
+                    hidden, out);
             const LightSample alone = lamp.sample(point.surface.p, u);
             CHECK_INFO(out.isLit(0, 0) &&
                            sameBits({out.dir[0][0], out.dir[1][0], out.dir[2][0]}, alone.toLight),
@@ -267,11 +267,11 @@ TEST(lamp_samples_in_lanes_take_the_seams_of_the_disk) {
 TEST(lamps_for_lanes) {
     const SpotCone cone{{0, 0, -1}, 0.5f, 0, false};
     CHECK(PointLight({}, {1, 1, 1}, {}, 0, cone, true).emission()->cone.has_value());
-    CHECK(!PointLight({}, {1, 1, 1}, {}, 0, {}, true).softEmission());
-    CHECK(!SunLight({0, 0, -1}, {1, 1, 1}, 0, true).softEmission());
+    CHECK(!PointLight({}, {1, 1, 1}, {}, 0, {}, true).lampEmission(false));
+    CHECK(!SunLight({0, 0, -1}, {1, 1, 1}, 0, true).lampEmission(false));
     // Too small for what lanes know of rounding.
-    CHECK(!SunLight({0, 0, -1}, {1, 1, 1}, 1e-10, true).softEmission());
-    CHECK(SunLight({0, 0, -1}, {1, 1, 1}, 1e-8, true).softEmission().has_value());
+    CHECK(!SunLight({0, 0, -1}, {1, 1, 1}, 1e-10, true).lampEmission(false));
+    CHECK(SunLight({0, 0, -1}, {1, 1, 1}, 1e-8, true).lampEmission(false).has_value());
     CHECK(lightByLamp(chooseKernel("scalar")) == nullptr);
     CHECK(lightBySamples(chooseKernel("scalar")) == nullptr);
 }

@@ -3,6 +3,7 @@
 
 class FlatLamp {
 public:
+    static constexpr bool kHasPlaces = true;
     FlatLamp(const FlatEmission& lamp, const LitBlock& block, std::size_t first)
         : lamp_(lamp), p_(Three::load(block.p, first)), seen_(~cannotReach(block, first)) {}
 

@@ -5,7 +5,7 @@
 #define DECLARE(isa)                                                                               \
     namespace kernels::isa {                                                                       \
     void lightByLamp(const PointEmission&, const LitBlock&, unsigned, LitByLamp&);                 \
-    void lightBySamples(const SoftEmission&, const LitBlock&, const SamplesOnLamp&,                \
+    void lightBySamples(const LampEmission&, const LitBlock&, const SamplesOnLamp&,                \
                         const Occluders&, const HiddenPoints&, LitBySamples&);                     \
     void wholeLight(const PointEmission&, const LitBlock&, unsigned, unsigned, WholeLight&);       \
     HiddenPoints hiddenPoints(const Occluders&, const LitBlock&, const LampBall&);                 \

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "accel/kernels/kernels.h"
-#include "light/soft_emission.h"
+#include "light/lamp_emission.h"
 #include "material/material.h"
 
 #include <array>
@@ -82,7 +82,7 @@ struct alignas(64) HiddenPoints {
 };
 using HiddenPointsFn = HiddenPoints (*)(const Occluders& occluders, const LitBlock& block,
                                         const LampBall& lamp);
-using LightBySamplesFn = void (*)(const SoftEmission& lamp, const LitBlock& block,
+using LightBySamplesFn = void (*)(const LampEmission& lamp, const LitBlock& block,
                                   const SamplesOnLamp& samples, const Occluders& occluders,
                                   const HiddenPoints& hidden, LitBySamples& out);
 

@@ -185,16 +185,16 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
     for (const Lamp& lamp : lamps) {
         if (isGrouped) waves::askGroups(wave, lamp);
         memory.shadowRays.clear();
+        if (lamp.bySamples) {
+            waves::shineBySamples(wave, lamp, isGrouped);
+            waves::addWaiting<kSeeThrough>(wave);
+            waves::forEachSum(wave, [&](std::uint32_t k, const auto& sum, std::size_t i) {
+                arrive(k, {sum[0][i], sum[1][i], sum[2][i]});
+            });
+            continue;
+        }
         if constexpr (kSoftLamps)
             if (lamp.isSoft) {
-                if (lamp.bySamples) {
-                    waves::shineBySamples(wave, lamp, isGrouped);
-                    waves::addWaiting<kSeeThrough>(wave);
-                    waves::forEachSum(wave, [&](std::uint32_t k, const auto& sum, std::size_t i) {
-                        arrive(k, {sum[0][i], sum[1][i], sum[2][i]});
-                    });
-                    continue;
-                }
                 // They come in any order of points.
                 memory.lampLight.assign(points.count, Rgb{});
                 const auto add = [&](std::uint32_t k, Rgb light) { memory.lampLight[k] += light; };

@@ -10,6 +10,7 @@ inline unsigned behindHorizon(const PointEmission& lamp, const Three& n, const T
 
 class RoundLamp {
 public:
+    static constexpr bool kHasPlaces = true;
     RoundLamp(const PointEmission& lamp, const LitBlock& block, std::size_t first)
         : toCentre_(Three::all(lamp.position.x, lamp.position.y, lamp.position.z) -
                     Three::load(block.p, first)),

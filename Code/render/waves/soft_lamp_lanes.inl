@@ -1,4 +1,4 @@
-// Samples of lamps that have a size, a register of points at a time, as in lit_lanes.inl: a lane is a
+// Samples of lamps that have a size, and suns that have none, a register of points at a time, as in lit_lanes.inl: a lane is a
 // point of the block, and its samples follow each other.
 // Included by the file of each instruction set inside its namespace.
 
@@ -77,17 +77,21 @@ inline void store(const Three& v, float* x, float* y, float* z) {
 template <class LampSeen>
 inline void findRows(const LampSeen& lamp, const SamplesOnLamp& samples, std::size_t first,
                      LampRow* rows) {
-    const PairsInLanes pairs{samples.index + first, samples.x + first, samples.y + first,
-                             samples.first + first};
-    drawPairs(pairs, rows, static_cast<std::uint32_t>(samples.count));
-    unsigned unsure = 0;
-    lamp.place(rows[0], unsure);
-    for (std::size_t s = 1; s < samples.count; ++s)
-        lamp.place(rows[s], unsure), lamp.findWay(rows[s - 1]);
-    lamp.findWay(rows[samples.count - 1]);
-    if (unsure == 0) return;
-    for (LampRow* row = rows; row != rows + samples.count; ++row)
-        lamp.placeSurely(*row, unsure), lamp.findWay(*row);
+    if constexpr (!LampSeen::kHasPlaces) {
+        lamp.findWay(rows[0]);
+    } else {
+        const PairsInLanes pairs{samples.index + first, samples.x + first, samples.y + first,
+                                 samples.first + first};
+        drawPairs(pairs, rows, static_cast<std::uint32_t>(samples.count));
+        unsigned unsure = 0;
+        lamp.place(rows[0], unsure);
+        for (std::size_t s = 1; s < samples.count; ++s)
+            lamp.place(rows[s], unsure), lamp.findWay(rows[s - 1]);
+        lamp.findWay(rows[samples.count - 1]);
+        if (unsure == 0) return;
+        for (LampRow* row = rows; row != rows + samples.count; ++row)
+            lamp.placeSurely(*row, unsure), lamp.findWay(*row);
+    }
 }
 
 template <bool kMayShine, class LampSeen>
@@ -139,7 +143,7 @@ void sumBlock(const Emission& lamp, const LitBlock& block, const SamplesOnLamp& 
 
 } // namespace
 
-void lightBySamples(const SoftEmission& lamp, const LitBlock& block, const SamplesOnLamp& places,
+void lightBySamples(const LampEmission& lamp, const LitBlock& block, const SamplesOnLamp& places,
                     const Occluders& occluders, const HiddenPoints& hidden, LitBySamples& out) {
     out.lit.fill(0), out.unsure.fill(0);
     if (const auto* const round = std::get_if<PointEmission>(&lamp))
@@ -148,6 +152,8 @@ void lightBySamples(const SoftEmission& lamp, const LitBlock& block, const Sampl
         sumBlock(*flat, block, places, occluders, hidden, out);
     else if (const auto* const sun = std::get_if<SunEmission>(&lamp))
         sumBlock(*sun, block, places, occluders, hidden, out);
+    else if (const auto* const parallel = std::get_if<ParallelEmission>(&lamp))
+        sumBlock(*parallel, block, places, occluders, hidden, out);
     else if (const auto* const sphere = std::get_if<SphereEmission>(&lamp))
         sumBlock(*sphere, block, places, occluders, hidden, out);
 }

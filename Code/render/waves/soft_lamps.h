@@ -15,6 +15,7 @@ inline SamplesOnLamp samplesOf(const Wave& wave, const Lamp& lamp, const LitBloc
     SamplesOnLamp samples;
     samples.count = static_cast<std::size_t>(count), samples.points = points;
     samples.share = 1.0f / static_cast<float>(lamp.samples);
+    if (!lamp.isSoft) return samples;
     const PointBatch& all = wave.memory.points;
     const auto perPoint = static_cast<std::uint32_t>(lamp.samples);
     const auto size = static_cast<std::size_t>(std::popcount(block.used));
@@ -111,7 +112,7 @@ inline void shineOpenly(const Wave& wave, const Lamp& lamp) {
         constexpr int kMost = LitBySamples::kMost;
         for (int first = 0; first < lamp.samples && asked != 0; first += kMost) {
             const int some = std::min(kMost, lamp.samples - first);
-            lamp.bySamples(*lamp.soft, block, samplesOf(wave, lamp, block, asked, first, some),
+            lamp.bySamples(*lamp.all, block, samplesOf(wave, lamp, block, asked, first, some),
                            wave.context.occluders, hidden, by);
         }
         sumUp(whole, by, memory.lightSums[b]);
@@ -154,7 +155,7 @@ inline void shineBySamples(const Wave& wave, const Lamp& lamp, bool isGrouped) {
         const unsigned asked = block.used & ~hidden.surely & ~whole.known;
         for (int first = 0; first < lamp.samples && asked != 0; first += kMost) {
             const int some = std::min(kMost, lamp.samples - first);
-            lamp.bySamples(*lamp.soft, block, samplesOf(wave, lamp, block, asked, first, some),
+            lamp.bySamples(*lamp.all, block, samplesOf(wave, lamp, block, asked, first, some),
                            occluders, hidden, by);
             if (by.waiting != 0)
                 listWaiting(wave, block, by, b * kPoints, static_cast<std::size_t>(some));

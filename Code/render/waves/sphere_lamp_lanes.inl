@@ -3,6 +3,7 @@
 
 class SphereLamp {
 public:
+    static constexpr bool kHasPlaces = true;
     SphereLamp(const SphereEmission& lamp, const LitBlock& block, std::size_t first)
         : lamp_(lamp), p_(Three::load(block.p, first)),
           radiance_(Three::all(lamp.radiance.r, lamp.radiance.g, lamp.radiance.b)),

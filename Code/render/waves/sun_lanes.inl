@@ -1,8 +1,14 @@
-// The formulas of SunLight::sample().
+// The formulas of SunLight::sample() and centre().
 // Included by soft_lamp_lanes.inl.
+
+// By those whose horizon it is not behind.
+inline unsigned sunSeen(const LitBlock& block, std::size_t first, const Three& toSun, float sine) {
+    return ~bits(dot(Three::load(block.n, first), toSun) < Floats(-(sine + kHorizonSlack)));
+}
 
 class SunInLanes {
 public:
+    static constexpr bool kHasPlaces = true;
     SunInLanes(const SunEmission& sun, const LitBlock& block, std::size_t first)
         : oneMinusCos_(sun.oneMinusCos) {
         const auto all = [](Vec3 v) { return Three::all(v.x, v.y, v.z); };
@@ -10,8 +16,7 @@ public:
         frame_ = {all(frame.x), all(frame.y), all(frame.z)};
         const Rgb light = sun.ofSample();
         irradiance_ = Three::all(light.r, light.g, light.b);
-        seen_ = ~bits(dot(Three::load(block.n, first), frame_.z) <
-                      Floats(-(sun.sinHalfAngle + kHorizonSlack)));
+        seen_ = sunSeen(block, first, frame_.z, sun.sinHalfAngle);
     }
 
     unsigned seen() const { return seen_; }
@@ -42,5 +47,29 @@ private:
 };
 
 inline SunInLanes lookAt(const SunEmission& sun, const LitBlock& block, std::size_t first) {
+    return {sun, block, first};
+}
+
+// Without places: there is one.
+class ParallelLight {
+public:
+    static constexpr bool kHasPlaces = false;
+    ParallelLight(const ParallelEmission& sun, const LitBlock& block, std::size_t first)
+        : toSun_(Three::all(sun.toSun.x, sun.toSun.y, sun.toSun.z)),
+          irradiance_(Three::all(sun.irradiance.r, sun.irradiance.g, sun.irradiance.b)),
+          seen_(sunSeen(block, first, toSun_, sun.sinHalfAngle)) {}
+
+    unsigned seen() const { return seen_; }
+    void findWay(LampRow& row) const {
+        row.toLight = toSun_, row.distance = Floats(kInfinityF);
+    }
+    Three irradiance(const LampRow&) const { return irradiance_; }
+
+private:
+    Three toSun_, irradiance_;
+    unsigned seen_;
+};
+
+inline ParallelLight lookAt(const ParallelEmission& sun, const LitBlock& block, std::size_t first) {
     return {sun, block, first};
 }

@@ -1,5 +1,5 @@
-// SoftEmission: all there is to know of a lamp that has a size, for who draws many of its samples
-// himself.
+// LampEmission: all there is to know of what a lamp's samples, or its centre, give, for who asks
+// for many points at once.
 #pragma once
 
 #include "light/point_emission.h"
@@ -15,6 +15,13 @@ struct SunEmission {
 
     // Radiance E / (pi sin^2 h) times the solid angle 2 pi (1 - cos h).
     Rgb ofSample() const { return irradiance * static_cast<float>(2 / (2 - oneMinusCos)); }
+};
+
+// A sun asked in its middle.
+struct ParallelEmission {
+    Vec3 toSun;
+    Rgb irradiance;
+    float sinHalfAngle = 0;
 };
 
 // A rectangle or an ellipse that shines to one side.
@@ -33,4 +40,5 @@ struct SphereEmission {
     Rgb radiance;
 };
 
-using SoftEmission = std::variant<PointEmission, SunEmission, FlatEmission, SphereEmission>;
+using LampEmission =
+    std::variant<PointEmission, SunEmission, ParallelEmission, FlatEmission, SphereEmission>;
