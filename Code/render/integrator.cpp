@@ -33,13 +33,23 @@ SurfaceNeeds surfaceNeedsOf(const Scene& scene, const RenderSettings& settings) 
             .lift = !scene.lights().empty()};
 }
 
-StillsInLanes stillsInLanesOf(const ShapeSet& set, SurfaceLanes lanes, SurfaceNeeds needs) {
+// Lanes know no texture coordinates: shapes that nobody asks for them.
+StillsInLanes stillsInLanesOf(const Scene& scene, const RenderSettings& settings,
+                              SurfaceLanes lanes) {
     StillsInLanes stills;
-    if (lanes.stills == nullptr || needs.uv) return stills;
+    if (lanes.stills == nullptr || !settings.specialise ||
+        settings.integrator == IntegratorKind::Uv)
+        return stills;
+    const ShapeSet& set = scene.shapes();
+    const auto isTextured = [&](std::uint32_t number) {
+        const SceneMaterial& material = scene.materials()[number];
+        return material.isTextured() || material.bendsNormals();
+    };
     stills.shapes.resize(set.shapes.size());
     stills.balls.resize(set.shapes.size());
     for (std::size_t i = 0; i < set.shapes.size(); ++i)
-        if (const StillShape* const shape = set.shapes[i]->stillToShade())
+        if (const StillShape* const shape = set.shapes[i]->stillToShade();
+            shape && !isTextured(shape->material) && !isTextured(shape->oddMaterial))
             if (!stills.balls.take(i, *shape))
                 stills.shapes[i] = {shape, shape->parts, shape->kind};
     return stills;
@@ -83,8 +93,8 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       shadeLanes(::shadeLanes(chooseKernel(theSettings.kernel))),
       textureColors(::textureColors(chooseKernel(theSettings.kernel))),
       bounceLanes(::bounceLanes(chooseKernel(theSettings.kernel))),
-      stillsInLanes(stillsInLanesOf(theScene.shapes(), surfaceLanes, surfaceNeeds)),
-      materials(theScene), cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
+      stillsInLanes(stillsInLanesOf(theScene, theSettings, surfaceLanes)), materials(theScene),
+      cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
     const int samples = settings.picture.lightSamples;
     for (std::size_t i = 0; i < scene.lights().size(); ++i) {
         const Light& light = *scene.lights()[i];
