@@ -5,7 +5,8 @@
 #include <utility>
 
 Camera::Camera(CameraParams params)
-    : params_(std::move(params)), atRest_(axesOf(params_.worldFromCamera.at(0))) {
+    : params_(std::move(params)), aperture_(params_.apertureBlades, params_.apertureRotationRad),
+      atRest_(axesOf(params_.worldFromCamera.at(0))) {
     using Fit = CameraParams::SensorFit;
     const CameraParams& p = params_;
     const double sideX = p.width * p.pixelAspect.x, sideY = p.height * p.pixelAspect.y;
@@ -33,8 +34,7 @@ Ray Camera::rayFrom(const Axes& axes, Vec2d pixel, Vec2 lens, float time) const 
     if (hasLens()) {
         // The depth of dir is 1 unless the camera's axes are skewed.
         const Vec3d sharp = org + dir * (params_.focusDistance / dot(dir, axes.forward));
-        const Vec2 place =
-            polygonFromSquare(lens, params_.apertureBlades, params_.apertureRotationRad);
+        const Vec2 place = aperture_.fromSquare(lens);
         const double x = static_cast<double>(place.x) / params_.apertureRatio;
         const double y = static_cast<double>(place.y);
         org += (axes.right * x + axes.up * y) * params_.apertureRadius;
@@ -51,23 +51,21 @@ Ray Camera::rayFrom(const Axes& axes, Vec2d pixel, Vec2 lens, float time) const 
     return ray;
 }
 
-Camera::RoundLens Camera::lens() const {
+Camera::Lens Camera::lensAtRest() const {
     const CameraParams& p = params_;
-    return RoundLens{atRest_.right,   atRest_.up, atRest_.forward, atRest_.eye,
-                     topLeft_,        step_,      p.focusDistance, p.apertureRadius,
-                     p.apertureRatio, p.clipStart};
+    return {atRest_.right,   atRest_.up,  atRest_.forward,    atRest_.eye,
+            topLeft_,        step_,       p.focusDistance,    p.apertureRadius,
+            p.apertureRatio, p.clipStart, aperture_.blades(), aperture_.corners()};
 }
 
-std::optional<Camera::RoundLens> Camera::roundLens() const {
-    if (params_.kind != CameraParams::Kind::Perspective || isMoving() || !hasLens() ||
-        params_.apertureBlades >= 3)
-        return {};
-    return lens();
+std::optional<Camera::Lens> Camera::lens() const {
+    if (params_.kind != CameraParams::Kind::Perspective || isMoving() || !hasLens()) return {};
+    return lensAtRest();
 }
 
-std::optional<Camera::RoundLens> Camera::pinhole() const {
+std::optional<Camera::Lens> Camera::pinhole() const {
     if (!hasSharedOrigin()) return {};
-    return lens();
+    return lensAtRest();
 }
 
 // Two places at a time in registers of the compiler's, in the steps of lineFrom() and normalize().

@@ -5,6 +5,7 @@
 #include "base/motion.h"
 #include "base/ray.h"
 #include "base/vec.h"
+#include "sample/warp.h"
 
 #include <optional>
 #include <span>
@@ -45,16 +46,18 @@ public:
     void pinholeRays(std::span<const Vec2d> pixels, std::span<Vec3> dir,
                      std::span<float> tMin) const;
 
-    // All that ray() is made of, of a perspective camera at rest with a round lens: for who makes
-    // many rays at once.
-    struct RoundLens {
+    // All that ray() is made of, of a perspective camera at rest with a lens: for who makes many
+    // rays at once.
+    struct Lens {
         Vec3d right, up, forward, eye;
         Vec2d topLeft, step; // at depth 1, of the picture and of its pixels
         double focusDistance, apertureRadius, apertureRatio, clipStart;
+        int blades;            // 0: a round one
+        const double* corners; // Polygon::corners()
     };
-    std::optional<RoundLens> roundLens() const;
+    std::optional<Lens> lens() const;
     // The same for a camera whose rays start in one point: its lens has no size.
-    std::optional<RoundLens> pinhole() const;
+    std::optional<Lens> pinhole() const;
 
     // What ray() rounds: for cameras without a lens at rest, the line of a place in the picture.
     struct Line {
@@ -79,7 +82,7 @@ private:
     struct Axes {
         Vec3d right, up, forward, eye;
     };
-    RoundLens lens() const;
+    Lens lensAtRest() const;
     static Axes axesOf(const Transform& worldFromCamera);
     Axes axesAt(float time) const {
         return isMoving() ? axesOf(params_.worldFromCamera.at(static_cast<double>(time))) : atRest_;
@@ -98,6 +101,7 @@ private:
     }
 
     CameraParams params_;
+    Polygon aperture_;
     Axes atRest_;
     // A place of the picture is topLeft_ + (px step_.x, -py step_.y) along the camera's axes: at
     // depth 1 (perspective) or anywhere (orthographic).

@@ -107,7 +107,7 @@ void CameraRays::drawPairs(int first, int count, std::uint32_t dimension,
     if (filter && !inverse) filter->sample(out);
 }
 
-void CameraRays::sendThroughLens(const Camera::RoundLens& lens, SampleChunk& chunk) const {
+void CameraRays::sendThroughLens(const Camera::Lens& lens, SampleChunk& chunk) const {
     PathBatch& rays = chunk.cameraRays;
     LensBlock block;
     for (std::size_t first = 0; first < rays.size(); first += LensBlock::kRays) {
@@ -139,7 +139,7 @@ void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk
     const bool isGeneral = !context_.settings.specialise;
     const bool hasTime = isGeneral || context_.scene.moves();
     const bool hasLens = isGeneral || camera.hasLens();
-    const bool isPinhole = !hasTime && !hasLens && camera.hasSharedOrigin();
+    const bool isPinhole = !hasLens && camera.hasSharedOrigin();
     if (isPinhole && lanes_.pinhole)
         lanes_.pinhole(*camera.pinhole(), chunk.places, rays.dir, rays.tMin);
     else if (isPinhole)
@@ -155,16 +155,17 @@ void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk
         rays.time[i] = 0.5f; // what stands still looks the same at any time
     }
     for (std::size_t i = 0; i < rays.size(); ++i) rays.stream[i] = chunk.ids[i].pixel;
+    if (hasTime)
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            rays.time[i] = sampler.get1D(chunk.ids[i].pixel, chunk.ids[i].index, kTimeDimension);
     if (isPinhole) return;
     if (hasLens) {
         chunk.onLens.resize(rays.size());
         drawPairs(first, count, kLensDimension, chunk.ids, nullptr, chunk.onLens);
-        if (const auto lens = camera.roundLens(); lens && lanes_.rays && !hasTime)
+        if (const auto lens = camera.lens(); lens && lanes_.rays)
             return sendThroughLens(*lens, chunk);
     }
     for (std::size_t i = 0; i < rays.size(); ++i) {
-        const SampleId id = chunk.ids[i];
-        if (hasTime) rays.time[i] = sampler.get1D(id.pixel, id.index, kTimeDimension);
         Vec2 lens{0.5f, 0.5f};
         if (hasLens) lens = chunk.onLens[i];
         const Ray ray = camera.ray(chunk.places[i], lens, rays.time[i]);

@@ -33,7 +33,7 @@ private:
     // filter makes of them, if there is one.
     void drawPairs(int first, int count, std::uint32_t dimension, std::span<const SampleId> ids,
                    const Filter* filter, std::span<Vec2> out) const;
-    void sendThroughLens(const Camera::RoundLens& lens, SampleChunk& chunk) const;
+    void sendThroughLens(const Camera::Lens& lens, SampleChunk& chunk) const;
 
     const IntegratorContext& context_;
     Filter filter_;

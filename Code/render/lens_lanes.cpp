@@ -8,8 +8,8 @@
                    const PairSeedColumns&);                                                        \
     void sobolPairs(PairBlock&);                                                                   \
     void spreadPairs(const Filter::Inverse&, PairBlock&);                                          \
-    void lensRays(const Camera::RoundLens&, LensBlock&);                                           \
-    void pinholeRays(const Camera::RoundLens&, std::span<const Vec2d>, std::span<Vec3>,            \
+    void lensRays(const Camera::Lens&, LensBlock&);                                                \
+    void pinholeRays(const Camera::Lens&, std::span<const Vec2d>, std::span<Vec3>,                 \
                      std::span<float>);                                                            \
     }
 DECLARE_BY_KERNEL(DECLARE)

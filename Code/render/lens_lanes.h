@@ -39,10 +39,10 @@ struct CameraLanes {
     void (*pairs)(PairBlock& block) = nullptr;
     // Filter::sample() of what pairs() has drawn.
     void (*spread)(const Filter::Inverse& filter, PairBlock& block) = nullptr;
-    void (*rays)(const Camera::RoundLens& lens, LensBlock& block) = nullptr;
+    void (*rays)(const Camera::Lens& lens, LensBlock& block) = nullptr;
     // Camera::pinholeRays()
-    void (*pinhole)(const Camera::RoundLens& lens, std::span<const Vec2d> places,
-                    std::span<Vec3> dir, std::span<float> tMin) = nullptr;
+    void (*pinhole)(const Camera::Lens& lens, std::span<const Vec2d> places, std::span<Vec3> dir,
+                    std::span<float> tMin) = nullptr;
 };
 // Null for the scalar kernel.
 CameraLanes cameraLanes(const Kernel& kernel);

@@ -7,16 +7,29 @@ namespace {
 inline Doubles3 forAll(Vec3d v) { return {Doubles(v.x), Doubles(v.y), Doubles(v.z)}; }
 
 // Where lines from the eye through places of the picture lead, in units of the depth.
-inline Doubles3 linesThrough(const Camera::RoundLens& lens, const Doubles& x, const Doubles& y) {
+inline Doubles3 linesThrough(const Camera::Lens& lens, const Doubles& x, const Doubles& y) {
     return forAll(lens.right) * (Doubles(lens.topLeft.x) + x * Doubles(lens.step.x)) +
            forAll(lens.up) * (Doubles(lens.topLeft.y) - y * Doubles(lens.step.y)) +
            forAll(lens.forward);
 }
 
 // A division by what is positive would change no zero.
-inline Floats clipAlong(const Camera::RoundLens& lens, const Doubles3& dir) {
+inline Floats clipAlong(const Camera::Lens& lens, const Doubles3& dir) {
     if (lens.clipStart == 0) return Floats(0.0f);
     return (Doubles(lens.clipStart) / dot(dir, forAll(lens.forward))).toFloats();
+}
+
+// Polygon::fromSquare()
+inline void placeOnPolygon(DiskRow& place, const Camera::Lens& lens) {
+    const Doubles at = Doubles(Floats::load(place.u)) * Doubles(lens.blades), blade = floor(at);
+    const Doubles across = at - blade, rest = Doubles(1.0) - across;
+    const Ints i = wholeOf(blade);
+    const Doubles radius = sqrt(Doubles(Floats::load(place.v)));
+    const auto between = [&](const double* corner) {
+        return elementsAt<2>(corner, i) * rest + elementsAt<2>(corner + 2, i) * across;
+    };
+    (radius * between(lens.corners)).toFloats().store(place.x);
+    (radius * between(lens.corners + 1)).toFloats().store(place.y);
 }
 
 // placeOnDisk() takes numbers of 24 bits, as Sobol's are: 2 u - 1 is exact then. Numbers of other
@@ -35,7 +48,7 @@ inline void placeRounded(DiskRow& place) {
     }
 }
 
-inline void raysFrom(const Camera::RoundLens& lens, LensBlock& block, std::size_t first) {
+inline void raysFrom(const Camera::Lens& lens, LensBlock& block, std::size_t first) {
     const Doubles3 right = forAll(lens.right), up = forAll(lens.up), forward = forAll(lens.forward),
                    eye = forAll(lens.eye);
     const Doubles px = Doubles::load(block.x + first), py = Doubles::load(block.y + first);
@@ -43,10 +56,14 @@ inline void raysFrom(const Camera::RoundLens& lens, LensBlock& block, std::size_
     const Doubles3 sharp = eye + line * (Doubles(lens.focusDistance) / dot(line, forward));
     DiskRow place;
     Floats::load(block.u + first).store(place.u), Floats::load(block.v + first).store(place.v);
-    unsigned unsure = 0;
-    placeOnDisk(place, unsure);
-    placeSurelyOnDisk(place, unsure);
-    placeRounded(place);
+    if (lens.blades != 0) {
+        placeOnPolygon(place, lens);
+    } else {
+        unsigned unsure = 0;
+        placeOnDisk(place, unsure);
+        placeSurelyOnDisk(place, unsure);
+        placeRounded(place);
+    }
     const Doubles3 onLens = right * (Doubles(Floats::load(place.x)) / Doubles(lens.apertureRatio)) +
                             up * Doubles(Floats::load(place.y));
     const Doubles3 from = eye + onLens * Doubles(lens.apertureRadius);
@@ -119,11 +136,11 @@ void spreadPairs(const Filter::Inverse& filter, PairBlock& block) {
     }
 }
 
-void lensRays(const Camera::RoundLens& lens, LensBlock& block) {
+void lensRays(const Camera::Lens& lens, LensBlock& block) {
     for (std::size_t first = 0; first < LensBlock::kRays; first += W) raysFrom(lens, block, first);
 }
 
-void pinholeRays(const Camera::RoundLens& lens, std::span<const Vec2d> places, std::span<Vec3> dir,
+void pinholeRays(const Camera::Lens& lens, std::span<const Vec2d> places, std::span<Vec3> dir,
                  std::span<float> tMin) {
     alignas(64) double x[W] = {}, y[W] = {};
     alignas(64) float clip[W];

@@ -33,18 +33,25 @@ Vec2 diskFromSquare(Vec2 u) {
             static_cast<float>(radius * (isSide ? s : c))};
 }
 
+Polygon::Polygon(int blades, double rotationRad) : blades_(blades < 3 ? 0 : blades) {
+    if (blades_ == 0) return;
+    const double step = kTwoPi / blades_;
+    for (int i = 0; i <= blades_; ++i) {
+        const auto corner = exact::sinCos(rotationRad + i * step);
+        corners_.push_back(corner.cos), corners_.push_back(corner.sin);
+    }
+}
+
 // u.x picks the triangle of two neighbouring corners and the centre, and the place across it;
 // sqrt(u.y) is the distance from the centre.
-Vec2 polygonFromSquare(Vec2 u, int blades, double rotationRad) {
-    if (blades < 3) return diskFromSquare(u);
-    const double place = static_cast<double>(u.x) * blades;
+Vec2 Polygon::fromSquare(Vec2 u) const {
+    if (blades_ == 0) return diskFromSquare(u);
+    const double place = static_cast<double>(u.x) * blades_;
     const double blade = std::floor(place), across = place - blade;
-    const double step = kTwoPi / blades;
-    const auto from = exact::sinCos(rotationRad + blade * step);
-    const auto to = exact::sinCos(rotationRad + (blade + 1) * step);
+    const double* const from = corners_.data() + 2 * static_cast<std::size_t>(blade);
     const double radius = std::sqrt(static_cast<double>(u.y));
-    return {static_cast<float>(radius * lerp(from.cos, to.cos, across)),
-            static_cast<float>(radius * lerp(from.sin, to.sin, across))};
+    return {static_cast<float>(radius * lerp(from[0], from[2], across)),
+            static_cast<float>(radius * lerp(from[1], from[3], across))};
 }
 
 Vec3 coneFromSquare(Vec2 u, double oneMinusCos) {

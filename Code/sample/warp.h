@@ -4,12 +4,25 @@
 
 #include "base/vec.h"
 
+#include <vector>
+
 // Uniform on the unit disk, concentric (Shirley and Chiu 1997): square rings become circles.
 Vec2 diskFromSquare(Vec2 u);
 
 // Uniform on a regular polygon with its corners on the unit circle; blades >= 3, the first corner
 // at rotationRad from +x. For fewer blades the disk.
-Vec2 polygonFromSquare(Vec2 u, int blades, double rotationRad);
+class Polygon {
+public:
+    Polygon(int blades, double rotationRad);
+    Vec2 fromSquare(Vec2 u) const;
+    int blades() const { return blades_; } // 0: the disk
+    // Cosine and sine of each corner, the first one again at the end.
+    const double* corners() const { return corners_.data(); }
+
+private:
+    int blades_;
+    std::vector<double> corners_;
+};
 
 // Unit directions. The cone has its axis on +z and a half angle with the given cosine, in [-1,1];
 // density 1 / (2 pi (1 - cosHalfAngle)) per steradian. Narrow cones: give the half angle by

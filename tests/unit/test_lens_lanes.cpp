@@ -33,6 +33,8 @@ CameraParams someCamera(Random& random) {
     params.apertureRadius = random.logUniform(1e-4, 1);
     params.focusDistance = random.logUniform(1e-2, 1e3);
     params.apertureRatio = random.chance(0.5) ? 1 : random.uniform(0.5, 2);
+    if (random.chance(0.4)) params.apertureBlades = static_cast<int>(3 + random.below(6));
+    params.apertureRotationRad = random.uniform(-4, 4);
     return params;
 }
 
@@ -47,7 +49,7 @@ TEST(lens_lanes_have_the_bits_of_single_rays) {
         for (int i = 0; i < check::scaled(3000); ++i) {
             const CameraParams params = someCamera(random);
             const Camera camera(params);
-            const auto lens = camera.roundLens();
+            const auto lens = camera.lens();
             CHECK(lens.has_value());
             LensBlock block;
             for (std::size_t k = 0; k < LensBlock::kRays; ++k) {
@@ -140,7 +142,8 @@ TEST(places_on_the_lens_in_lanes_round_as_single_ones) {
                                                                      {12186846, 3901933}}};
     CameraParams params; // from the origin through a lens of radius 1
     params.apertureRadius = 1;
-    const auto lens = Camera(params).roundLens();
+    const Camera camera(params);
+    const auto lens = camera.lens();
     for (const Kernel& kernel : allKernels()) {
         const auto rays = kernel.supported() ? cameraLanes(kernel).rays : nullptr;
         if (!rays) continue;
@@ -184,7 +187,8 @@ TEST(pairs_in_lanes_have_the_bits_of_the_sampler) {
                 block.pixel[k] = any, block.sample[k] = any >> random.below(32);
                 alone[k] = sampler.get2D(any, block.sample[k], dimension);
             }
-            lanes.seeds(sampler.seed(), dimension, std::span<const std::uint32_t>(block.pixel), {block.index, block.x, block.y});
+            lanes.seeds(sampler.seed(), dimension, std::span<const std::uint32_t>(block.pixel),
+                        {block.index, block.x, block.y});
             lanes.pairs(block);
             for (std::size_t k = 0; k < PairBlock::kPairs; ++k)
                 if ((!sameBits(alone[k].x, block.u[k]) || !sameBits(alone[k].y, block.v[k])) &&
@@ -197,18 +201,17 @@ TEST(pairs_in_lanes_have_the_bits_of_the_sampler) {
 }
 
 // What lanes can't do they are not asked for.
-TEST(lens_lanes_are_for_round_lenses_at_rest) {
+TEST(lens_lanes_are_for_lenses_at_rest) {
     CameraParams params;
-    CHECK(!Camera(params).roundLens()); // a pinhole
+    CHECK(!Camera(params).lens()); // a pinhole
     params.apertureRadius = 0.1;
-    CHECK(Camera(params).roundLens().has_value());
-    for (const int blades : {3, 5}) {
-        params.apertureBlades = blades;
-        CHECK_INFO(!Camera(params).roundLens(), blades);
-    }
+    CHECK(Camera(params).lens().has_value());
     params.apertureBlades = 2; // fewer than 3 make no polygon
-    CHECK(Camera(params).roundLens().has_value());
-    params.apertureBlades = 0, params.kind = CameraParams::Kind::Orthographic;
-    CHECK(!Camera(params).roundLens());
+    const auto bladesOf = [](const CameraParams& of) { return Camera(of).lens().value().blades; };
+    CHECK_EQUAL(bladesOf(params), 0);
+    params.apertureBlades = 5;
+    CHECK_EQUAL(bladesOf(params), 5);
+    params.kind = CameraParams::Kind::Orthographic;
+    CHECK(!Camera(params).lens());
     CHECK(cameraLanes(chooseKernel("scalar")).rays == nullptr);
 }

@@ -68,7 +68,7 @@ TEST(warp_polygon) {
     for (const int blades : {3, 4, 5, 6, 8}) {
         const double rotation = 0.3, step = kTwoPi / blades;
         for (int i = 0; i < 5000; ++i) {
-            const Vec2 p = polygonFromSquare(draw.square(), blades, rotation);
+            const Vec2 p = Polygon(blades, rotation).fromSquare(draw.square());
             for (int k = 0; k < blades; ++k) { // inside of each side
                 const double side = rotation + (k + 0.5) * step;
                 CHECK(number(p.x) * std::cos(side) + number(p.y) * std::sin(side) <=
@@ -76,7 +76,7 @@ TEST(warp_polygon) {
             }
         }
         const Vec3d moments = meanOver([&](Vec2 u) {
-            const Vec2 p = polygonFromSquare(u, blades, rotation);
+            const Vec2 p = Polygon(blades, rotation).fromSquare(u);
             return Vec3d{number(p.x), number(p.y), length2(p)};
         });
         CHECK_NEAR(moments.x, 0, 3e-3);
@@ -84,10 +84,10 @@ TEST(warp_polygon) {
         CHECK_NEAR(moments.z, (2 + std::cos(step)) / 6, 1e-3);
     }
     // The first corner lies at the rotation.
-    const Vec2 corner = polygonFromSquare({0, kOneMinusUlp}, 5, 0.3);
+    const Vec2 corner = Polygon(5, 0.3).fromSquare({0, kOneMinusUlp});
     CHECK_NEAR(corner.x, std::cos(0.3), 1e-6);
     CHECK_NEAR(corner.y, std::sin(0.3), 1e-6);
-    CHECK(polygonFromSquare({0.3f, 0.6f}, 0, 1) == diskFromSquare({0.3f, 0.6f}));
+    CHECK(Polygon(0, 1).fromSquare({0.3f, 0.6f}) == diskFromSquare({0.3f, 0.6f}));
 }
 
 TEST(warp_directions_are_unit) {
