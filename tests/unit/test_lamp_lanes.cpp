@@ -148,6 +148,7 @@ TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
             const Vec3 at = toFloat(random.direction() * random.logUniform(0.1, 100));
             const std::unique_ptr<Light> made = someSoftLamp(random, at);
             const Light& lamp = *made;
+            const bool inCentre = random.chance(0.3) && lamp.lampEmission(true);
             std::vector<Point> points;
             const std::size_t used = random.chance(0.5) ? 1 + random.below(16) : 16;
             for (std::size_t k = 0; k < used; ++k) points.push_back(somePoint(random, at));
@@ -156,7 +157,8 @@ TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
                     .stream(random.below(4), 16);
             SamplesOnLamp samples;
             samples.points = random.chance(0.8) ? ~0u : random.below(1u << 16);
-            samples.count = random.chance(0.4)   ? LitBySamples::kMost
+            samples.count = inCentre             ? 1
+                            : random.chance(0.4) ? LitBySamples::kMost
                             : random.chance(0.2) ? 8
                                                  : 1 + random.below(16);
             samples.share = 1.0f / static_cast<float>(samples.count);
@@ -179,21 +181,22 @@ TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
             }
             HiddenPoints hidden;
             hidden.maybe = withRays;
-            inLanes(*lamp.lampEmission(false), blockOf(points), samples, Occluders(ShapeSet()),
+            inLanes(*lamp.lampEmission(inCentre), blockOf(points), samples, Occluders(ShapeSet()),
                     hidden, out);
             const auto tell = [&](std::size_t k, std::size_t s) {
                 if (++wrong <= 3)
                     CHECK_INFO(false, kernel.name << " block " << i << " point " << k << " sample "
                                                   << s << " of " << samples.count << ", lamp "
-                                                  << lamp.lampEmission(false)->index());
+                                                  << lamp.lampEmission(inCentre)->index());
             };
             for (std::size_t k = 0; k < used; ++k) {
                 const bool hasRays = (withRays >> k & 1) != 0;
                 for (std::size_t s = 0; s < samples.count; ++s) {
                     const Point& p = points[k];
                     const std::uint32_t number = samples.first[k] + static_cast<std::uint32_t>(s);
+                    const Vec2 place = sampler.get2D(pixel[k], number, dimension);
                     const LightSample sample =
-                        lamp.sample(p.surface.p, sampler.get2D(pixel[k], number, dimension));
+                        inCentre ? lamp.centre(p.surface.p) : lamp.sample(p.surface.p, place);
                     const bool isAsked = (samples.points >> k & 1) != 0;
                     const Rgb light = isAsked ? lightOf(lamp, p, sample, samples.share) : Rgb{};
                     ++asked, lit += !isBlack(light);
@@ -269,6 +272,8 @@ TEST(lamps_for_lanes) {
     CHECK(PointLight({}, {1, 1, 1}, {}, 0, cone, true).emission()->cone.has_value());
     CHECK(!PointLight({}, {1, 1, 1}, {}, 0, {}, true).lampEmission(false));
     CHECK(!SunLight({0, 0, -1}, {1, 1, 1}, 0, true).lampEmission(false));
+    CHECK(SunLight({0, 0, -1}, {1, 1, 1}, 0, true).lampEmission(true).has_value());
+    CHECK(!SphereLight({}, 1, {1, 1, 1}, true).lampEmission(true));
     // Too small for what lanes know of rounding.
     CHECK(!SunLight({0, 0, -1}, {1, 1, 1}, 1e-10, true).lampEmission(false));
     CHECK(SunLight({0, 0, -1}, {1, 1, 1}, 1e-8, true).lampEmission(false).has_value());

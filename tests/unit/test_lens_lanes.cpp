@@ -200,6 +200,39 @@ TEST(pairs_in_lanes_have_the_bits_of_the_sampler) {
     }
 }
 
+TEST(places_in_lanes_have_the_bits_of_the_filter) {
+    constexpr FilterKind kKinds[] = {FilterKind::Gaussian, FilterKind::BlackmanHarris};
+    CHECK(!Filter(FilterKind::Box, 1).inverse() && !Filter(FilterKind::Tent, 1).inverse());
+    for (const Kernel& kernel : allKernels()) {
+        const auto spread = kernel.supported() ? cameraLanes(kernel).spread : nullptr;
+        if (!spread) continue;
+        Random random(44);
+        long long wrong = 0;
+        for (int i = 0; i < check::scaled(300); ++i) {
+            const Filter filter(kKinds[i % 2], i % 5 == 0 ? 1.5 : random.logUniform(0.01, 50));
+            PairBlock block;
+            std::vector<Vec2> alone;
+            for (std::size_t k = 0; k < PairBlock::kPairs; ++k) {
+                const auto number = [&] {
+                    const double kind = random.unit(); // the ends and the middle, too
+                    const std::uint32_t bits = kind < 0.05   ? 0
+                                               : kind < 0.1  ? (1u << 24) - 1
+                                               : kind < 0.15 ? (1u << 23) + random.below(3) - 1
+                                                             : random.below(1u << 24);
+                    return static_cast<float>(bits) * 0x1p-24f;
+                };
+                alone.push_back({number(), number()});
+                block.u[k] = alone[k].x, block.v[k] = alone[k].y;
+            }
+            spread(filter.inverse().value(), block);
+            filter.sample(alone);
+            for (std::size_t k = 0; k < PairBlock::kPairs; ++k)
+                wrong += !sameBits(alone[k].x, block.u[k]) || !sameBits(alone[k].y, block.v[k]);
+        }
+        CHECK_INFO(wrong == 0, kernel.name << ": " << wrong);
+    }
+}
+
 // What lanes can't do they are not asked for.
 TEST(lens_lanes_are_for_lenses_at_rest) {
     CameraParams params;
