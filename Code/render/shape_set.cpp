@@ -191,60 +191,6 @@ Hit ShapeSet::closest(const Ray& ray) const {
     return best;
 }
 
-void ShapeSet::closest(const RaySpan& rays, std::vector<Hit>& hits) const {
-    hits.resize(rays.size());
-    std::size_t floorsAsked = 0;
-    if (batched.empty() && !floors_.empty()) {
-        planeKernel_->first(floors_[0].plane, floors_[0].number, rays, hits.data());
-        floorsAsked = 1;
-    } else {
-        for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = {.t = rays.tMax[i]};
-    }
-    if (!batched.empty()) closestOfBatched(rays, hits);
-    if (unbounded.size() > floorsAsked) closestOfUnbounded(rays, floorsAsked, hits);
-    if (kernel_) {
-        const SolidCalls calls{
-            this,
-            [](const void* set, const Ray& ray, std::uint32_t number, float tEntry, Hit& best) {
-                return static_cast<const ShapeSet*>(set)->nearer(ray, number, tEntry, best);
-            },
-            nullptr};
-        if (!solids_.isEmpty()) closestSolids(*kernel_, solids_, calls, rays, hits);
-        if (!placed_.isEmpty()) placed_.closest(*this, rays, hits);
-        return;
-    }
-    if (bounded.size() == batched.size()) return;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const Ray ray = rays[i];
-        if (canHit(ray))
-            visitNearer(ray, RaySetup(ray.org, ray.dir, extent), Ask::ButBatched, hits[i]);
-    }
-}
-
-void ShapeSet::closestOfBatched(const RaySpan& rays, std::vector<Hit>& hits) const {
-    thread_local std::vector<Hit> found;
-    thread_local std::vector<std::uint32_t> asFar;
-    found.resize(rays.size()), asFar.resize(rays.size());
-    for (const std::uint32_t number : batched) {
-        shapes[number]->intersectBatch(rays, number, found);
-        if (kernel_) {
-            const std::size_t count = kernel_->nearerInBox({boxes[number], extent, number}, rays,
-                                                           found.data(), hits.data(), asFar.data());
-            for (const std::uint32_t i : std::span(asFar).first(count))
-                takeNearer(rays[i], found[i], number, 0, hits[i]);
-            continue;
-        }
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            if (!found[i].isHit()) continue;
-            const RaySetup setup(rays.org[i], rays.dir[i], extent);
-            float zEntry = 0;
-            const float zCut = depthCut(1.0f / (hits[i].t * setup.dz));
-            if (setup.enters(boxes[number], zCut, zEntry))
-                takeNearer(rays[i], found[i], number, zEntry / setup.dz, hits[i]);
-        }
-    }
-}
-
 bool ShapeSet::isHidden(const Ray& ray, const RaySetup& setup, Ask ask) const {
     bool found = false;
     visit(setup, depthCut(1.0f / (ray.tMax * setup.dz)), ask,
@@ -257,69 +203,6 @@ bool ShapeSet::isHidden(const Ray& ray, const RaySetup& setup, Ask ask) const {
 
 bool ShapeSet::occluded(const Ray& ray) const {
     return canHit(ray) && isHidden(ray, RaySetup(ray.org, ray.dir, extent), Ask::All);
-}
-
-void ShapeSet::occluded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const {
-    hidden.assign(rays.size(), 0);
-    if (!batched.empty()) hideByBatched(rays, hidden);
-    if (!unbounded.empty()) hideByUnbounded(rays, hidden);
-    if (kernel_) {
-        const SolidCalls calls{
-            this, nullptr, [](const void* set, const Ray& ray, std::uint32_t number) {
-                return static_cast<const ShapeSet*>(set)->shapes[number]->occludes(ray);
-            }};
-        if (!solids_.isEmpty()) anySolids(*kernel_, solids_, calls, rays, hidden);
-        if (!placed_.isEmpty()) placed_.occluded(*this, rays, hidden);
-        return;
-    }
-    if (bounded.size() == batched.size()) return;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const Ray ray = rays[i];
-        if (hidden[i] == 0 && canHit(ray))
-            hidden[i] = isHidden(ray, RaySetup(ray.org, ray.dir, extent), Ask::ButBatched);
-    }
-}
-
-void ShapeSet::hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const {
-    thread_local std::vector<std::uint8_t> found;
-    found.resize(rays.size());
-    for (const std::uint32_t number : batched) {
-        if (shadows[number] != Shadow::Opaque) continue;
-        shapes[number]->occludesBatch(rays, found);
-        for (std::size_t i = 0; i < rays.size(); ++i) hidden[i] |= found[i];
-    }
-}
-
-void ShapeSet::closestOfUnbounded(const RaySpan& rays, std::size_t floorsAsked,
-                                  std::vector<Hit>& hits) const {
-    thread_local std::vector<PlaneHit> asFar;
-    asFar.resize(std::max(asFar.size(), rays.size()));
-    for (const Floor& floor : std::span(floors_).subspan(floorsAsked)) {
-        const std::size_t count =
-            planeKernel_->closest(floor.plane, floor.number, rays, hits.data(), asFar.data());
-        for (const PlaneHit& at : std::span(asFar).first(count))
-            takeNearer(rays[at.ray], {.t = at.t, .u = at.u}, floor.number, 0, hits[at.ray]);
-    }
-    if (askedAlone_.empty()) return;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const Ray ray = rays[i];
-        if (!canHit(ray)) continue;
-        for (const std::uint32_t number : askedAlone_) nearer(ray, number, 0, hits[i]);
-    }
-}
-
-void ShapeSet::hideByUnbounded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const {
-    const auto isOpaque = [&](std::uint32_t number) { return shadows[number] == Shadow::Opaque; };
-    for (const Floor& floor : floors_)
-        if (isOpaque(floor.number)) planeKernel_->any(floor.plane, rays, hidden.data());
-    if (askedAlone_.empty()) return;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        const Ray ray = rays[i];
-        if (hidden[i] != 0 || !canHit(ray)) continue;
-        hidden[i] = std::any_of(askedAlone_.begin(), askedAlone_.end(), [&](std::uint32_t number) {
-            return isOpaque(number) && shapes[number]->occludes(ray);
-        });
-    }
 }
 
 void ShapeSet::seeThroughHits(const Ray& ray, std::vector<Hit>& hits) const {

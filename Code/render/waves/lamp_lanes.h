@@ -1,4 +1,4 @@
-// Light of a point lamp at many points of a wave, a register of points, or of places on the lamp,
+// Light of a lamp at many points of a wave, a register of points, or of places on the lamp,
 // at a time: what forEachLampSample() gives and the shadow rays, operation by operation and so bit
 // by bit. Knows numbers only; render/waves/lamps.h brings them here and takes them away.
 #pragma once
@@ -35,8 +35,8 @@ struct alignas(64) LitByLamp {
     unsigned unsure = 0; // of these: only a ray can tell whether something hides the lamp
 };
 
-// Some samples of a lamp that has a size, for every point of a block: the numbers of the pairs that
-// say where, and what they are shuffled and scrambled by (Sampler::PairSeeds).
+// Some samples of a lamp, for every point of a block: the numbers of the pairs that say where, and
+// what they are shuffled and scrambled by (Sampler::PairSeeds). Of a sun in its middle there is one.
 struct SamplesOnLamp {
     std::size_t count = 0;
     float share = 1;     // of each sample in the light

@@ -1,5 +1,5 @@
-// What a lamp with a size does to points in blocks, as lanes want them: the sum of its samples at
-// each of them.
+// What lamps with a size, and suns without, do to points in blocks, as lanes want them: the sum of
+// their samples at each of them.
 #pragma once
 
 #include "render/waves/groups.h"
