@@ -36,7 +36,7 @@ struct alignas(64) LitByLamp {
 };
 
 // Some samples of a lamp, for every point of a block: the numbers of the pairs that say where, and
-// what they are shuffled and scrambled by (Sampler::PairSeeds). Of a sun in its middle there is one.
+// what they are shuffled and scrambled by (Sampler::PairSeeds). A sun in its middle has one.
 struct SamplesOnLamp {
     std::size_t count = 0;
     float share = 1;     // of each sample in the light
