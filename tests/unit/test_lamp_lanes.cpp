@@ -7,11 +7,13 @@
 #include "lit_kit.h"
 #include "render/lamp_ray.h"
 #include "render/occluders.h"
+#include "render/shading.h"
 #include "sample/hash.h"
 #include "sample/sampler.h"
 #include "sample/warp.h"
 #include "verify/meshes.h"
 
+#include <array>
 #include <bit>
 #include <cstring>
 #include <memory>
@@ -126,6 +128,17 @@ TEST(lamp_lanes_have_the_bits_of_single_points) {
 
 namespace {
 
+struct Rays {
+    static constexpr std::size_t kRoom = LitBySamples::kRoom + LitBlock::kPoints;
+    std::vector<Vec3> org = std::vector<Vec3>(kRoom), dir = org;
+    std::vector<float> tMax = std::vector<float>(kRoom);
+    std::vector<std::uint32_t> sum = std::vector<std::uint32_t>(kRoom);
+    std::vector<Rgb> weight = std::vector<Rgb>(kRoom);
+    ShadowRayPlaces places() {
+        return {org.data(), dir.data(), tMax.data(), sum.data(), weight.data()};
+    }
+};
+
 // What a sample of the lamp sends from the point to the eye; black: nothing.
 Rgb lightOf(const Light& lamp, const Point& p, const LightSample& sample, float share) {
     if (lamp.cannotReach(p.surface.p, p.n) || isBlack(sample.irradiance)) return {};
@@ -181,6 +194,8 @@ TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
             }
             HiddenPoints hidden;
             hidden.maybe = withRays;
+            Rays rays;
+            out.to = rays.places(), out.firstSum = 32;
             inLanes(*lamp.lampEmission(inCentre), blockOf(points), samples, Occluders(ShapeSet()),
                     hidden, out);
             const auto tell = [&](std::size_t k, std::size_t s) {
@@ -189,10 +204,13 @@ TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
                                                   << s << " of " << samples.count << ", lamp "
                                                   << lamp.lampEmission(inCentre)->index());
             };
+            std::array<std::vector<std::size_t>, 16> sent; // of each point, in order
+            for (std::size_t r = 0; r < out.rays; ++r) sent[rays.sum[r] - 32].push_back(r);
             for (std::size_t k = 0; k < used; ++k) {
+                const Point& p = points[k];
                 const bool hasRays = (withRays >> k & 1) != 0;
+                std::size_t next = 0;
                 for (std::size_t s = 0; s < samples.count; ++s) {
-                    const Point& p = points[k];
                     const std::uint32_t number = samples.first[k] + static_cast<std::uint32_t>(s);
                     const Vec2 place = sampler.get2D(pixel[k], number, dimension);
                     const LightSample sample =
@@ -200,26 +218,20 @@ TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
                     const bool isAsked = (samples.points >> k & 1) != 0;
                     const Rgb light = isAsked ? lightOf(lamp, p, sample, samples.share) : Rgb{};
                     ++asked, lit += !isBlack(light);
-                    if (!hasRays) {
-                        sums[k] += light;
-                        if (out.isLit(s, k)) tell(k, s);
-                        continue;
-                    }
-                    bool same = out.isLit(s, k) == !isBlack(light) &&
-                                out.isUnsure(s, k) == out.isLit(s, k) &&
-                                (!out.isLit(s, k) || (out.waiting >> k & 1) != 0);
-                    if (same && out.isLit(s, k)) {
-                        const std::size_t n = s * LitBlock::kPoints + k;
-                        const auto taken = [&](const float(*v)[LitBySamples::kRoom]) {
-                            return Vec3{v[0][n], v[1][n], v[2][n]};
-                        };
-                        same = sameBits(taken(out.light), {light.r, light.g, light.b}) &&
-                               sameBits(taken(out.dir), sample.toLight) &&
-                               sameBits(out.tMax[n], sample.distance * (1 - 0x1p-20f));
-                    }
-                    if (!same) tell(k, s);
+                    if (!hasRays) sums[k] += light;
+                    if (!hasRays || isBlack(light)) continue;
+                    const bool isThere = next < sent[k].size();
+                    const std::size_t r = isThere ? sent[k][next++] : 0;
+                    const Vec3 org = leave(p.surface, p.surface.ng) + p.surface.lift;
+                    const Rgb weight = rays.weight[r];
+                    if (!isThere ||
+                        !sameBits({weight.r, weight.g, weight.b}, {light.r, light.g, light.b}) ||
+                        !sameBits(rays.org[r], org) || !sameBits(rays.dir[r], sample.toLight) ||
+                        !sameBits(rays.tMax[r], sample.distance * (1 - 0x1p-20f)))
+                        tell(k, s);
                 }
-                if (!sameBits(taken(out.sum, k), {sums[k].r, sums[k].g, sums[k].b}))
+                if (next != sent[k].size() ||
+                    !sameBits(taken(out.sum, k), {sums[k].r, sums[k].g, sums[k].b}))
                     tell(k, samples.count);
             }
         }
@@ -257,11 +269,12 @@ TEST(lamp_samples_in_lanes_take_the_seams_of_the_disk) {
             LitBySamples out;
             HiddenPoints hidden;
             hidden.maybe = 1;
+            Rays rays;
+            out.to = rays.places();
             inLanes(*lamp.lampEmission(false), blockOf({point}), samples, Occluders(ShapeSet()),
                     hidden, out);
             const LightSample alone = lamp.sample(point.surface.p, u);
-            CHECK_INFO(out.isLit(0, 0) &&
-                           sameBits({out.dir[0][0], out.dir[1][0], out.dir[2][0]}, alone.toLight),
+            CHECK_INFO(out.rays == 1 && sameBits(rays.dir[0], alone.toLight),
                        kernel.name << " sample " << sample);
         }
     }

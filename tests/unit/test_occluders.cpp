@@ -190,9 +190,9 @@ void judge(Random& random, const ShapeSet& set, const MetPoints& met, const Poin
     for (const Kernel& kernel : allKernels()) {
         const LightBySamplesFn inLanes = kernel.supported() ? lightBySamples(kernel) : nullptr;
         if (!inLanes) continue;
-        LitBySamples all, told; // with a ray for each line, and with what is known
+        LitBySamples all, told; // of all lines, and with what is known
         HiddenPoints none;
-        none.maybe = met.block.used;
+        none.maybe = met.block.used, none.areShapesKnown = true, none.byShape.fill(0);
         inLanes(lamp, met.block, samples, occluders, none, all);
         const HiddenPoints found = hiddenPoints(kernel)(occluders, met.block, lamp.ball());
         inLanes(lamp, met.block, samples, occluders, found, told);

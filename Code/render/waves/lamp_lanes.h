@@ -52,9 +52,19 @@ struct alignas(64) WholeLight {
     unsigned known = 0;                // a bit for each point
 };
 
-// What they do: their light is added to the sum of a point. Where it takes a ray to know whether
-// one of them is hidden, the point waits: then its sum stays, and these samples and all later ones
-// are listed instead. Sample s of point k is element s * kPoints + k.
+// Rays from points to places on a lamp, as arrays with room for some registers more; `sum`: a
+// number of the point that the light is for.
+struct ShadowRayPlaces {
+    Vec3 *org, *dir;
+    float* tMax;
+    std::uint32_t* sum;
+    Rgb* weight;
+};
+
+// What they do: their light is added to the sum of a point. Of points that something may hide from
+// the lamp, nobody knows what, samples become rays instead. Where that is known, and it takes a ray
+// to know whether it hides one of them, the point waits: then its sum stays, and these samples and
+// all later ones are listed. Sample s of point k is element s * kPoints + k.
 struct alignas(64) LitBySamples {
     static constexpr std::size_t kMost = 16; // samples at a time
     static constexpr std::size_t kRoom = LitBlock::kPoints * kMost;
@@ -62,6 +72,9 @@ struct alignas(64) LitBySamples {
     float light[3][kRoom], dir[3][kRoom], tMax[kRoom]; // the ray from the point
     std::array<std::uint16_t, kMost> lit, unsure;      // a bit for each point
     unsigned waiting = 0;
+    ShadowRayPlaces to{}; // of the next ray
+    std::size_t rays = 0;
+    std::uint32_t firstSum = 0; // number of the first point
     bool isLit(std::size_t s, std::size_t k) const { return lit[s] >> k & 1; }
     bool isUnsure(std::size_t s, std::size_t k) const { return unsure[s] >> k & 1; }
 };

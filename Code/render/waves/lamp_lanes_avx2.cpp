@@ -13,6 +13,8 @@ AVX2_REGION_BEGIN
 namespace kernels::avx2 {
 #include "accel/kernels/simd_avx2.inl"
 
+#include "accel/kernels/store_chosen_avx2.inl"
+
 #include "render/waves/texture_gather_avx2.inl"
 
 #include "accel/kernels/pow_bits_avx2.inl"

@@ -13,6 +13,8 @@ AVX512_REGION_BEGIN
 namespace kernels::avx512 {
 #include "accel/kernels/simd_avx512.inl"
 
+#include "accel/kernels/store_chosen_avx512.inl"
+
 #include "render/waves/texture_gather_avx512.inl"
 
 #include "accel/kernels/pow_bits_avx512.inl"

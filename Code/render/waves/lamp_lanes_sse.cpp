@@ -13,6 +13,8 @@ SSE_REGION_BEGIN
 namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
 
+#include "accel/kernels/store_chosen_sse.inl"
+
 #include "render/waves/texture_gather_sse.inl"
 
 #include "accel/kernels/pow_bits_sse.inl"

@@ -86,6 +86,18 @@ void traceShadowRays(const Wave& wave, ArriveFn&& arrive) {
     }
 }
 
+inline void addTo(WaveMemory& memory, std::uint32_t place, Rgb light) {
+    auto& sum = memory.lightSums[place / LitBlock::kPoints].sum;
+    const std::size_t i = place % LitBlock::kPoints;
+    sum[0][i] += light.r, sum[1][i] += light.g, sum[2][i] += light.b;
+}
+
+// The same for rays that know their sums in memory.lightSums.
+template <bool kSeeThrough> void addRays(const Wave& wave) {
+    traceShadowRays<kSeeThrough>(
+        wave, [&](std::uint32_t place, Rgb light) { addTo(wave.memory, place, light); });
+}
+
 // The same for all that waits for them, in memory.lightSums.
 template <bool kSeeThrough> void addWaiting(const Wave& wave) {
     askShadowRays<kSeeThrough>(wave);
@@ -93,9 +105,7 @@ template <bool kSeeThrough> void addWaiting(const Wave& wave) {
     for (const auto& [place, ray, light] : memory.waiting) {
         const Rgb here =
             ray == WaitingLight::kNoRay ? light : arriving<kSeeThrough>(memory, ray, light);
-        auto& sum = memory.lightSums[place / LitBlock::kPoints].sum;
-        const std::size_t i = place % LitBlock::kPoints;
-        sum[0][i] += here.r, sum[1][i] += here.g, sum[2][i] += here.b;
+        addTo(memory, place, here);
     }
 }
 
@@ -186,8 +196,10 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
         if (isGrouped) waves::askGroups(wave, lamp);
         memory.shadowRays.clear();
         if (lamp.bySamples) {
-            waves::shineBySamples(wave, lamp, isGrouped);
-            waves::addWaiting<kSeeThrough>(wave);
+            if (waves::shineBySamples(wave, lamp, isGrouped))
+                waves::addWaiting<kSeeThrough>(wave);
+            else
+                waves::addRays<kSeeThrough>(wave);
             waves::forEachSum(wave, [&](std::uint32_t k, const auto& sum, std::size_t i) {
                 arrive(k, {sum[0][i], sum[1][i], sum[2][i]});
             });

@@ -127,12 +127,54 @@ void sumSamples(const SoftLanes<LampSeen>& lanes, const SamplesOnLamp& samples, 
           out.sum[2] + first);
 }
 
+// Points of which nobody knows what may hide them send rays.
+template <bool kMayShine, class LampSeen>
+void sumOrSend(const SoftLanes<LampSeen>& lanes, const SamplesOnLamp& samples,
+               const LitBlock& block, unsigned mayBeHidden, std::size_t first, LitBySamples& out) {
+    LampRow rows[LitBySamples::kMost];
+    findRows(lanes.lamp(), samples, first, rows);
+    const unsigned asked = lanes.lanesOf(samples.points);
+    mayBeHidden = mayBeHidden >> first & ((1u << W) - 1);
+    // leave()
+    const Three org = Three::load(block.p, first) +
+                      Three::load(block.ng, first) * Floats::load(block.error + first) +
+                      Three::load(block.lift, first);
+    alignas(64) std::uint32_t number[W];
+    for (std::uint32_t i = 0; i < W; ++i)
+        number[i] = out.firstSum + static_cast<std::uint32_t>(first) + i;
+    Three sum = Three::load(out.sum, first);
+    for (std::size_t s = 0; s < samples.count; ++s) {
+        const LampRow& row = rows[s];
+        const auto by = lanes.template sample<kMayShine>(row, asked);
+        const unsigned sent = by.lit & mayBeHidden & ~black(by.light);
+        if (sent != 0) {
+            const std::size_t n = out.rays;
+            storeChosenVectors(sent, org.x, org.y, org.z, &out.to.org[n].x);
+            storeChosenVectors(sent, row.toLight.x, row.toLight.y, row.toLight.z,
+                               &out.to.dir[n].x);
+            storeChosenVectors(sent, by.light.x, by.light.y, by.light.z, &out.to.weight[n].r);
+            storeChosenFloats(sent, row.distance * Floats(1 - 0x1p-20f), out.to.tMax + n);
+            storeChosen(sent, number, out.to.sum + n);
+            out.rays += static_cast<std::size_t>(std::popcount(sent));
+        }
+        sum = select(maskOf(by.lit & ~mayBeHidden), sum + by.light, sum);
+    }
+    store(sum, out.sum[0] + first, out.sum[1] + first, out.sum[2] + first);
+}
+
 template <class Emission>
 void sumBlock(const Emission& lamp, const LitBlock& block, const SamplesOnLamp& places,
               const Occluders& occluders, const HiddenPoints& hidden, LitBySamples& out) {
     for (std::size_t first = 0; first < LitBlock::kPoints; first += W) {
         const SoftLanes lanes(lookAt(lamp, block, first), block, places.share, first);
         if (lanes.lanesOf(places.points) == 0) continue;
+        if (!hidden.areShapesKnown) {
+            if (lanes.isShiny())
+                sumOrSend<true>(lanes, places, block, hidden.maybe, first, out);
+            else
+                sumOrSend<false>(lanes, places, block, hidden.maybe, first, out);
+            continue;
+        }
         const LinesToLamp lines(block, occluders, hidden, first);
         if (lanes.isShiny())
             sumSamples<true>(lanes, places, lines, hidden.maybe, first, out);

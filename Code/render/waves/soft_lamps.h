@@ -69,6 +69,29 @@ inline void listWaiting(const Wave& wave, const LitBlock& block, const LitBySamp
     }
 }
 
+// Room for the rays of a block's samples, which lanes write.
+inline void offerPlaces(RayBatch& rays, std::size_t block, std::size_t samples, LitBySamples& by) {
+    const std::size_t first = rays.extend((samples + 1) * LitBlock::kPoints);
+    by.to = {&rays.org[first], &rays.dir[first], &rays.tMax[first], &rays.sample[first],
+             &rays.weight[first]};
+    by.rays = 0, by.firstSum = static_cast<std::uint32_t>(block * LitBlock::kPoints);
+    rays.shrink(first);
+}
+// They have been written: the rest of them.
+inline void takeRays(const Wave& wave, const LitBlock& block, const LitBySamples& by) {
+    RayBatch& rays = wave.memory.shadowRays;
+    const std::size_t first = rays.extend(by.rays);
+    std::fill_n(rays.tMin.data() + first, by.rays, 0.0f);
+    if (!wave.context.scene.moves()) {
+        std::fill_n(rays.time.data() + first, by.rays, wave.rays.time[0]);
+        return;
+    }
+    for (std::size_t i = first; i < first + by.rays; ++i) {
+        const std::uint32_t k = block.point[rays.sample[i] % LitBlock::kPoints];
+        rays.time[i] = wave.rays.time[wave.memory.points.ray[k]];
+    }
+}
+
 // The sums of a block: what the closed form says of the points that it knows, of others `by`.
 inline void sumUp(const WholeLight& whole, const LitBySamples& by, LightSums& sums) {
     std::copy_n(&by.sum[0][0], 3 * LitBlock::kPoints, &sums.sum[0][0]);
@@ -122,7 +145,9 @@ inline void shineOpenly(const Wave& wave, const Lamp& lamp) {
 // The light of the lamp at all points that answer lamps, into memory.lightSums. What has to wait
 // for rays is listed. A round lamp's many shadow rays make it worth while to look at each point for
 // itself, and at each line to the lamp; of others groups of points are asked about.
-inline void shineBySamples(const Wave& wave, const Lamp& lamp, bool isGrouped) {
+// Returns whether it was known for each point what may hide it: then some samples wait; else the
+// rays know the sum that they belong to.
+inline bool shineBySamples(const Wave& wave, const Lamp& lamp, bool isGrouped) {
     WaveMemory& memory = wave.memory;
     const Occluders& occluders = wave.context.occluders;
     const bool isRound = lamp.hiddenPoints != nullptr;
@@ -155,13 +180,16 @@ inline void shineBySamples(const Wave& wave, const Lamp& lamp, bool isGrouped) {
         const unsigned asked = block.used & ~hidden.surely & ~whole.known;
         for (int first = 0; first < lamp.samples && asked != 0; first += kMost) {
             const int some = std::min(kMost, lamp.samples - first);
+            if (!canTell) offerPlaces(memory.shadowRays, b, static_cast<std::size_t>(some), by);
             lamp.bySamples(*lamp.all, block, samplesOf(wave, lamp, block, asked, first, some),
                            occluders, hidden, by);
+            if (!canTell) takeRays(wave, block, by);
             if (by.waiting != 0)
                 listWaiting(wave, block, by, b * kPoints, static_cast<std::size_t>(some));
         }
         sumUp(whole, by, memory.lightSums[b]);
     }
+    return canTell;
 }
 
 } // namespace waves
