@@ -7,6 +7,7 @@
 #include "image/image.h"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 class Film {
@@ -30,6 +31,24 @@ public:
         Place& place = sums_[index(x, y)];
         place.sum += Vec3d{value.r, value.g, value.b};
         ++place.count;
+    }
+
+    // In their order, without those that are no numbers. Returns how many are not.
+    std::uint32_t addNumbers(int x, int y, std::span<const Rgb> values) {
+        Place& place = sums_[index(x, y)];
+        Vec3d sum = place.sum;
+        std::uint32_t numbers = 0;
+        for (const Rgb& value : values) {
+            if (!isNumber(value)) continue;
+            sum += Vec3d{value.r, value.g, value.b};
+            ++numbers;
+        }
+        place.sum = sum, place.count += numbers;
+        return static_cast<std::uint32_t>(values.size()) - numbers;
+    }
+    static bool isNumber(Rgb c) {
+        const float sum = c.r + c.g + c.b;
+        return sum - sum == 0;
     }
 
     // As many samples more of every place, all the same. Sums of one value are exact, so this is

@@ -5,11 +5,6 @@
 
 namespace {
 
-bool isFinite(const Rgb& c) {
-    const float sum = c.r + c.g + c.b;
-    return sum - sum == 0;
-}
-
 void addFirstHit(Film& film, Aov aov, int x, int y, const FirstHit& first) {
     const auto grey = [](float v) { return Rgb{v, v, v}; };
     switch (aov) {
@@ -52,7 +47,8 @@ void TileSampler::trace(const Tile& tile, int begin, int samples, TileWorker& wo
 void TileSampler::traceChunk(const Tile& tile, int first, int count, TileWorker& worker) const {
     cameraRays_.make(tile, first, count, worker.chunk);
     worker.chunk.radiance.resize(worker.chunk.ids.size());
-    std::memset(static_cast<void*>(worker.chunk.radiance.data()), 0, worker.chunk.radiance.size() * sizeof(Rgb));
+    std::memset(static_cast<void*>(worker.chunk.radiance.data()), 0,
+                worker.chunk.radiance.size() * sizeof(Rgb));
     if (context_.wantsFirstHits) worker.chunk.first.assign(worker.chunk.ids.size(), FirstHit{});
     integrate(worker);
 }
@@ -64,7 +60,7 @@ void TileSampler::traceOnce(const Tile& tile, TileWorker& worker) const {
     const std::ptrdiff_t width = worker.tile.width();
     forEachPlace({0, 0, tile.width(), tile.height()}, [&](int x, int y) {
         Rgb& sum = pixels[y * width + x];
-        if (isFinite(*sample))
+        if (Film::isNumber(*sample))
             sum.r = sample->r + 0.0f, sum.g = sample->g + 0.0f, sum.b = sample->b + 0.0f; // not -0
         else
             sum = {}, ++worker.nanSamples;
@@ -103,12 +99,13 @@ Rgb TileSampler::background() const {
 void TileSampler::collect(const Tile& tile, int first, int count, TileWorker& worker) const {
     std::size_t slot = 0;
     forEachPlace({0, 0, tile.width(), tile.height()}, [&](int x, int y) {
+        worker.nanSamples += worker.color.addNumbers(
+            x, y, std::span(worker.chunk.radiance).subspan(slot, static_cast<std::size_t>(count)));
+        if (settings_.aovs.empty()) {
+            slot += static_cast<std::size_t>(count);
+            return;
+        }
         for (int s = first; s < first + count; ++s, ++slot) {
-            const Rgb radiance = worker.chunk.radiance[slot];
-            if (isFinite(radiance))
-                worker.color.add(x, y, radiance);
-            else
-                ++worker.nanSamples;
             for (std::size_t a = 0; a < settings_.aovs.size(); ++a) {
                 // Numbers of objects can't be averaged: the first sample stands for all.
                 if (settings_.aovs[a] == Aov::Id && s > 0) continue;

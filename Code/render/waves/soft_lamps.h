@@ -26,8 +26,16 @@ inline SamplesOnLamp samplesOf(const Wave& wave, const Lamp& lamp, const LitBloc
         samples.first[i] =
             wave.chunk.ids[all.slot[k]].index * perPoint + static_cast<std::uint32_t>(first);
     }
-    lamp.seeds(lamp.sampler.seed(), dimension(wave.depth, BounceSlot::LightUv), streams,
-               {samples.index, samples.x, samples.y});
+    const std::uint32_t place = dimension(wave.depth, BounceSlot::LightUv);
+    // The samples of a pixel follow each other.
+    if (std::all_of(streams.begin(), streams.begin() + size,
+                    [&](std::uint32_t stream) { return stream == streams[0]; })) {
+        const Sampler::PairSeeds seeds = lamp.sampler.pairSeeds(streams[0], place);
+        std::fill_n(samples.index, size, seeds.index);
+        std::fill_n(samples.x, size, seeds.x), std::fill_n(samples.y, size, seeds.y);
+    } else {
+        lamp.seeds(lamp.sampler.seed(), place, streams, {samples.index, samples.x, samples.y});
+    }
     return samples;
 }
 
