@@ -30,8 +30,19 @@ struct StillCone {
 };
 
 struct StillShape {
-    // What lanes can describe the surface of; of cylinders and cones that is the side.
-    enum class Kind : std::uint8_t { Sphere, Cylinder, Cone, Cube, Disk, Corners, Plane, None };
+    // What lanes can describe the surface of; of cylinders and cones that is the side, and Cap are
+    // their ends.
+    enum class Kind : std::uint8_t {
+        Sphere,
+        Cylinder,
+        Cone,
+        Cube,
+        Disk,
+        Corners,
+        Plane,
+        Cap,
+        None
+    };
     static constexpr auto kKinds = static_cast<std::size_t>(Kind::None);
 
     Transform worldFromObject; // and back
@@ -45,6 +56,7 @@ struct StillShape {
     std::uint32_t material = 0, oddMaterial = 0;
     std::uint32_t object = 0;
     std::uint8_t parts = 0; // a bit for each Hit::prim that lanes can describe
+    std::uint8_t caps = 0;  // of these
     Kind kind = Kind::None;
     bool hasEnd = true;
     union { // of a plane by corners, or of a cone: the shape's own
@@ -52,5 +64,6 @@ struct StillShape {
         const StillCone* cone;
     };
 
+    Kind kindOf(std::uint32_t part) const { return caps >> part & 1 ? Kind::Cap : kind; }
     const AffineRows& objectFromWorld() const { return worldFromObject.inverseRows(); }
 };

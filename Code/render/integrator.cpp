@@ -51,7 +51,7 @@ StillsInLanes stillsInLanesOf(const Scene& scene, const RenderSettings& settings
         if (const StillShape* const shape = set.shapes[i]->stillToShade();
             shape && !isTextured(shape->material) && !isTextured(shape->oddMaterial))
             if (!stills.balls.take(i, *shape))
-                stills.shapes[i] = {shape, shape->parts, shape->kind};
+                stills.shapes[i] = {shape, shape->parts, shape->caps, shape->kind};
     return stills;
 }
 

@@ -68,7 +68,11 @@ struct StillsInLanes {
     struct One {
         const StillShape* shape = nullptr; // null: it is none, or a ball
         std::uint8_t parts = 0;
+        std::uint8_t caps = 0;
         StillShape::Kind kind{};
+        StillShape::Kind kindOf(std::uint32_t part) const {
+            return caps >> part & 1 ? StillShape::Kind::Cap : kind;
+        }
     };
     std::vector<One> shapes; // by number; empty: lanes do none
     StillBalls balls;

@@ -100,12 +100,14 @@ SolidForm AnalyticShape::facesForm(StillFaces::Of of, double farthest) const {
     return form;
 }
 
-void AnalyticShape::measure(StillShape::Kind kind, int parts) {
+void AnalyticShape::measure(StillShape::Kind kind, unsigned parts, unsigned caps) {
     if (!isStill()) return;
     still_ = stillUnder(still_.worldFromObject);
     const bool wantsEnd = kind != StillShape::Kind::Plane;
     if (still_.hasEnd != wantsEnd || still_.worldFromObject.isSingular()) return;
-    still_.kind = kind, still_.parts = static_cast<std::uint8_t>((1 << parts) - 1);
+    still_.kind = kind;
+    still_.parts = static_cast<std::uint8_t>(parts | caps),
+    still_.caps = static_cast<std::uint8_t>(caps);
 }
 
 StillShape AnalyticShape::stillUnder(const Transform& worldFromObject) const {

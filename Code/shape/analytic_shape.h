@@ -67,8 +67,8 @@ protected:
                   std::uint32_t object, double radius = 0);
 
     // Called at the end of a constructor: what surface() would compute again for every hit. Lanes
-    // do the first `parts` where the shape stands still and the map has an inverse.
-    void measure(StillShape::Kind kind, int parts = 1);
+    // do those `parts`, a bit each, where the shape stands still and the map has an inverse.
+    void measure(StillShape::Kind kind, unsigned parts = 1, unsigned caps = 0);
     // Before that: what kernels look up in the shape itself, which is never moved.
     void lend(const StillCorners& corners) { still_.corners = &corners; }
     void lend(const StillCone& cone) { still_.cone = &cone; }

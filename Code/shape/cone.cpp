@@ -14,7 +14,9 @@ Cone::Cone(const MovingTransform& worldFromObject, double radius, double topRadi
       caps_(caps) {
     static_assert(kSide == 0);
     lend(side_);
-    measure(StillShape::Kind::Cone);
+    // A tip may round to its cap without size.
+    measure(StillShape::Kind::Cone, 1u << kSide,
+            unsigned{side_.radius > 0} << kBottom | unsigned{side_.topRadius > 0} << kTop);
 }
 
 SolidForm Cone::solidForm() const {

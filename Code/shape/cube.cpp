@@ -16,7 +16,7 @@ constexpr Face kFaces[] = {
 
 Cube::Cube(const MovingTransform& worldFromObject, std::uint32_t material, std::uint32_t object)
     : AnalyticShape(worldFromObject, material, object) {
-    measure(StillShape::Kind::Cube, static_cast<int>(std::size(kFaces)));
+    measure(StillShape::Kind::Cube, (1u << std::size(kFaces)) - 1);
 }
 
 SolidForm Cube::solidForm() const {

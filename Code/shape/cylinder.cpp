@@ -6,7 +6,7 @@ Cylinder::Cylinder(const MovingTransform& worldFromObject, double radius, bool c
                    std::uint32_t material, std::uint32_t object)
     : AnalyticShape(worldFromObject, material, object, radius), caps_(caps) {
     static_assert(kSide == 0);
-    measure(StillShape::Kind::Cylinder);
+    measure(StillShape::Kind::Cylinder, 1u << kSide, 1u << kBottom | 1u << kTop);
 }
 
 SolidForm Cylinder::solidForm() const {

@@ -32,8 +32,9 @@ using Shapes = std::vector<std::unique_ptr<const Shape>>;
 // Rays from one point or from many, outside of the shapes or in them, each at one of them; some
 // miss, by `missing` of them, so that those that hit have gaps. Shapes change from ray to ray, or
 // rarely, so that registers are full of one, or of many. Returns how many hits were compared.
-std::size_t checkShapes(const Shapes& shapes, const std::vector<Transform>& maps, Random& random,
-                        double missing, double changes) {
+std::size_t checkShapes(StillShape::Kind kind, const Shapes& shapes,
+                        const std::vector<Transform>& maps, Random& random, double missing,
+                        double changes) {
     battery::RayList batch;
     std::vector<Hit> hits;
     std::vector<std::uint32_t> which, to;
@@ -53,7 +54,8 @@ std::size_t checkShapes(const Shapes& shapes, const std::vector<Transform>& maps
         if (random.chance(missing) || !shapes[number]->intersect(ray, hits.back())) continue;
         if (random.chance(0.3)) hits.back().u = 0; // off the surface
         const StillShape* const shade = shapes[number]->stillToShade();
-        if ((shade->parts >> hits.back().prim & 1) == 0) continue; // the cap of a cylinder
+        if ((shade->parts >> hits.back().prim & 1) == 0) continue; // a cap without size
+        if (shade->kindOf(hits.back().prim) != kind) continue;
         which.push_back(i), to.push_back(i);
         met.push_back(shapes[number].get()), toShade.push_back(shade);
     }
@@ -65,7 +67,7 @@ std::size_t checkShapes(const Shapes& shapes, const std::vector<Transform>& maps
         if (!kernel.supported() || lanes == nullptr) continue;
         std::vector<SurfaceBlock> out(4);
         const SurfacePlaces places(out.data());
-        lanes({rays, hits, which, to, toShade}, places);
+        lanes({kind, rays, hits, which, to, toShade}, places);
         for (std::size_t k = 0; k < which.size(); ++k) {
             Surface alone = met[k]->surfaceFor(rays[which[k]], hits[which[k]], {false, true});
             alone.uv = {}; // lanes are not asked for them
@@ -79,7 +81,8 @@ std::size_t checkShapes(const Shapes& shapes, const std::vector<Transform>& maps
 
 // make(map, radius, number)
 template <class MakeFn> void checkKind(Random& random, MakeFn&& make) {
-    std::size_t compared = 0;
+    std::size_t compared = 0, caps = 0;
+    bool hasCaps = false;
     for (int i = 0; i < check::scaled(300); ++i) {
         Shapes shapes;
         std::vector<Transform> maps;
@@ -90,10 +93,14 @@ template <class MakeFn> void checkKind(Random& random, MakeFn&& make) {
             shapes.push_back(make(map, radius, k));
             maps.push_back(map * Transform::scale({radius, radius, i % 2 == 0 ? radius : 1}));
         }
-        compared +=
-            checkShapes(shapes, maps, random, i % 2 == 0 ? 0.1 : 0, i % 4 == 0 ? 0.05 : 0.9);
+        const double missing = i % 2 == 0 ? 0.1 : 0, changes = i % 4 == 0 ? 0.05 : 0.9;
+        const StillShape& some = *shapes[0]->stillToShade();
+        compared += checkShapes(some.kind, shapes, maps, random, missing, changes);
+        hasCaps |= some.caps != 0;
+        caps += checkShapes(StillShape::Kind::Cap, shapes, maps, random, missing, changes);
     }
     CHECK(compared > 1000);
+    CHECK_INFO(!hasCaps || caps > 1000, caps);
 }
 
 } // namespace

@@ -68,6 +68,19 @@ Local onCone(const Numbers& shape, const Doubles3& met, const Doubles& clearance
     return {{c * wide, s * wide, select(isNarrow, down, z)}, normal};
 }
 
+// cap(); of the end: its radius, the side's slope, and +-1.
+template <class Numbers>
+Local onCap(const Numbers& shape, const Doubles3& met, const Doubles3& end,
+            const Doubles& clearance) {
+    const Doubles insetX = inset(shape, 0, clearance), insetY = inset(shape, 1, clearance);
+    const Doubles aside = sqrt(insetX * insetX + insetY * insetY);
+    const Doubles in = aside + end.y * inset(shape, 2, clearance), zero(0.0);
+    const Doubles limit = end.x - lesser(in, end.x * Doubles(0.5));
+    const Doubles around = sqrt(met.x * met.x + met.y * met.y);
+    const Doubles factor = select(limit < around, limit / around, Doubles(1.0));
+    return {{met.x * factor, met.y * factor, end.z}, {zero, zero, end.z}};
+}
+
 // normal: of the face that is met.
 template <class Numbers>
 Local onCube(const Numbers& shape, const Doubles3& met, const Doubles3& normal,

@@ -150,6 +150,23 @@ inline Doubles3 facesMet(std::span<const Hit> hits, const RaysOfLanes& ray) {
     return {Doubles::load(n[0]), Doubles::load(n[1]), Doubles::load(n[2])};
 }
 
+// Of the caps of cylinders and cones that are met: radius, how much the side slopes, and +-1 for
+// the end.
+inline Doubles3 capsMet(const StillsMet& met, std::size_t first, std::size_t count) {
+    alignas(64) double radius[W], slope[W], side[W];
+    for (std::size_t i = 0; i < W; ++i) {
+        const std::size_t k = first + std::min(i, count - 1);
+        const StillShape& shape = *met.shapes[k];
+        const bool isTop = met.hits[met.which[k]].prim == StillTube::Top;
+        const bool isCone = shape.kind == Kind::Cone;
+        radius[i] = !isCone ? shape.radius : isTop ? shape.cone->topRadius : shape.cone->radius;
+        slope[i] = isCone ? std::fabs(shape.cone->slope) : 0;
+        side[i] = isTop ? 1 : -1;
+    }
+    return {Doubles::load(radius), Doubles::load(slope), Doubles::load(side)};
+}
+
+// face: of cubes; of caps what capsMet() says.
 template <Kind kKind, class Numbers>
 void describe(const Numbers& shape, const RaysInLanes& world, const Doubles3& face,
               SurfacesInLanes& out) {
@@ -174,6 +191,7 @@ void describe(const Numbers& shape, const RaysInLanes& world, const Doubles3& fa
         if constexpr (kKind == Kind::Cone) return onCone(shape, met, clearance());
         if constexpr (kKind == Kind::Cube) return onCube(shape, met, face, clearance());
         if constexpr (kKind == Kind::Corners) return onCorners(shape, met);
+        if constexpr (kKind == Kind::Cap) return onCap(shape, met, face, clearance());
         if constexpr (kKind == Kind::Plane)
             out.odd = oddSquares(met.x.toFloats(), met.y.toFloats());
         if constexpr (kKind == Kind::Plane || kKind == Kind::Disk) return onDisk(met);
@@ -212,10 +230,12 @@ template <Kind kKind> void surfacesOf(const StillsMet& met, const SurfacePlaces&
         met.which.size(), read,
         [&](std::size_t first, std::size_t count, const RayColumns& columns) {
             const RaysInLanes rays = columns.lanes();
-            const Doubles3 face =
-                kKind == Kind::Cube
-                    ? facesMet(met.hits, RaysOfLanes(met.which.subspan(first, count)))
-                    : rays.dir;
+            const Doubles3 face = [&] {
+                if constexpr (kKind == Kind::Cube)
+                    return facesMet(met.hits, RaysOfLanes(met.which.subspan(first, count)));
+                if constexpr (kKind == Kind::Cap) return capsMet(met, first, count);
+                return rays.dir;
+            }();
             const auto shapes = met.shapes.subspan(first, count);
             const auto isFirst = [&](const StillShape* other) { return other == shapes[0]; };
             if (std::all_of(shapes.begin() + 1, shapes.end(), isFirst)) {
@@ -233,7 +253,7 @@ template <Kind kKind> void surfacesOf(const StillsMet& met, const SurfacePlaces&
 
 void stillSurfaces(const StillsMet& met, SurfacePlaces out) {
     if (met.shapes.empty()) return;
-    switch (met.shapes[0]->kind) {
+    switch (met.kind) {
     case Kind::Sphere: return surfacesOf<Kind::Sphere>(met, out);
     case Kind::Cylinder: return surfacesOf<Kind::Cylinder>(met, out);
     case Kind::Cone: return surfacesOf<Kind::Cone>(met, out);
@@ -241,6 +261,7 @@ void stillSurfaces(const StillsMet& met, SurfacePlaces out) {
     case Kind::Disk: return surfacesOf<Kind::Disk>(met, out);
     case Kind::Corners: return surfacesOf<Kind::Corners>(met, out);
     case Kind::Plane: return surfacesOf<Kind::Plane>(met, out);
+    case Kind::Cap: return surfacesOf<Kind::Cap>(met, out);
     case Kind::None: break;
     }
 }

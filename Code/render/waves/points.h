@@ -76,12 +76,14 @@ template <bool kHasBalls> void sortPoints(const Wave& wave) {
                 continue;
             }
         const StillsInLanes::One still = hasStills ? stills.shapes[shape] : StillsInLanes::One{};
-        if (still.shape == nullptr || (still.parts >> hits[ray].prim & 1) == 0) {
+        const std::uint32_t part = hits[ray].prim;
+        if (still.shape == nullptr || (still.parts >> part & 1) == 0) {
             wave.memory.onOthers.push(ray, k);
             continue;
         }
         prefetch(*still.shape);
-        wave.memory.onStills[static_cast<std::size_t>(still.kind)].push(ray, k, still.shape);
+        const auto kind = static_cast<std::size_t>(still.kindOf(part));
+        wave.memory.onStills[kind].push(ray, k, still.shape);
     }
 }
 
@@ -105,10 +107,11 @@ inline void findSurfaces(const Wave& wave) {
     sortPoints(wave);
     for (std::size_t b = 0; b < points.blocks(); ++b) points.at.block(b).clear();
     const SurfacePlaces out = points.at.surfaces();
-    for (const PointsToDescribe& list : wave.memory.onStills)
-        if (!list.rays().empty())
-            context.surfaceLanes.stills(
-                {wave.rays.span(), hits, list.rays(), list.points(), list.shapes()}, out);
+    for (std::size_t kind = 0; kind < StillShape::kKinds; ++kind)
+        if (const PointsToDescribe& list = wave.memory.onStills[kind]; !list.rays().empty())
+            context.surfaceLanes.stills({static_cast<StillShape::Kind>(kind), wave.rays.span(),
+                                         hits, list.rays(), list.points(), list.shapes()},
+                                        out);
     if (const PointsToDescribe& list = wave.memory.onBalls; !list.rays().empty())
         context.surfaceLanes.balls(
             {wave.rays.span(), hits, list.rays(), list.points(), context.stillsInLanes.balls}, out);
