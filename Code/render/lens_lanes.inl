@@ -99,7 +99,7 @@ inline Longs mixed(Longs x) {
 }
 inline Longs hashed(std::uint32_t seed, Longs pixel, std::uint32_t dimension) {
     const Longs both = mixed((pixel | std::uint64_t{seed} << 32) + kHashStep);
-    return mixed(both + (std::uint64_t{dimension} + 1) * kHashStep);
+    return mixed(both + hashStepOf(dimension));
 }
 
 } // namespace

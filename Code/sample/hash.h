@@ -15,13 +15,16 @@ constexpr std::uint64_t mixBits(std::uint64_t x) {
 // 2^64 over the golden ratio: steps by it are spread evenly (Weyl).
 inline constexpr std::uint64_t kHashStep = 0x9e3779b97f4a7c15u;
 
+// The step to the number that `c` leads to.
+constexpr std::uint64_t hashStepOf(std::uint32_t c) { return (std::uint64_t{c} + 1) * kHashStep; }
+
 // Several 32-bit numbers to 64 bits; the order matters. The added step keeps
 // zeros from mapping to zero.
 constexpr std::uint64_t hash(std::uint32_t a, std::uint32_t b) {
     return mixBits(((std::uint64_t{a} << 32) | b) + kHashStep);
 }
 constexpr std::uint64_t hash(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-    return mixBits(hash(a, b) + (std::uint64_t{c} + 1) * kHashStep);
+    return mixBits(hash(a, b) + hashStepOf(c));
 }
 constexpr std::uint32_t low32(std::uint64_t x) { return static_cast<std::uint32_t>(x); }
 constexpr std::uint32_t high32(std::uint64_t x) { return static_cast<std::uint32_t>(x >> 32); }
