@@ -84,6 +84,28 @@ RayList raysFromPoints(Random& random, const MeshGeometry& mesh, std::size_t cou
     return rays;
 }
 
+RayList raysInBeams(Random& random, const MeshGeometry& mesh, std::size_t count) {
+    RayList rays;
+    while (rays.size() < count) {
+        const Vec3d from = toDouble(someOrigin(random, mesh)), to = targetOn(random, mesh);
+        const double far = length(to - from);
+        const double start = random.chance(0.2) ? 0 : far * random.logUniform(1e-7, 0.1);
+        const double end = random.chance(0.2) ? 0 : far * random.logUniform(1e-7, 0.3);
+        const Ray alike = someRay(random, mesh, {});
+        const bool hasStrangers = random.chance(0.2), isFlat = random.chance(0.3);
+        for (int i = 0; i < 16; ++i) {
+            Vec3d org = from + random.inBox(start);
+            if (isFlat) org = toDouble(toFloat(from)), org.x += random.uniform(-start, start);
+            const Vec3d dir = isFlat ? to - from : to + random.inBox(end) - org;
+            Ray ray{toFloat(org), toFloat(dir), alike.tMin, alike.tMax};
+            if (hasStrangers && random.chance(0.2))
+                ray = someRay(random, mesh, someOrigin(random, mesh));
+            rays.push(ray);
+        }
+    }
+    return rays;
+}
+
 RayList raysInPlanes(Random& random, const MeshGeometry& mesh, std::size_t count) {
     constexpr int kFromOnePoint = 40; // enough for a bundle
     RayList rays;

@@ -24,6 +24,9 @@ Vec3d targetOn(meshes::Random& random, const MeshGeometry& mesh);
 RayList looseRays(meshes::Random& random, const MeshGeometry& mesh, std::size_t count);
 // Narrow pencils as of a camera's tiles, and rays from one point to all over the place.
 RayList raysFromPoints(meshes::Random& random, const MeshGeometry& mesh, std::size_t count);
+// Side by side, as the samples of a pixel send them to a lamp or through a lens: packets that start
+// close together and go nearly the same way, with strangers among some of them.
+RayList raysInBeams(meshes::Random& random, const MeshGeometry& mesh, std::size_t count);
 // Within the planes of triangles, up to 1e-6: where along them a ray hits is rounding, and the
 // clamps of the canonical key decide.
 RayList raysInPlanes(meshes::Random& random, const MeshGeometry& mesh, std::size_t count);

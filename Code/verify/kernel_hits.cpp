@@ -108,6 +108,7 @@ void compareAll(const Meshes& meshes, Random& random, Tally& tally) {
     };
     withFollowers(looseRays(random, meshes.scalar, kRays), "loose rays");
     withFollowers(raysFromPoints(random, meshes.scalar, kRays), "rays from points");
+    withFollowers(raysInBeams(random, meshes.scalar, kRays), "rays side by side");
     withFollowers(raysInPlanes(random, meshes.scalar, kRays / 4), "rays in planes");
 }
 

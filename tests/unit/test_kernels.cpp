@@ -51,6 +51,23 @@ TEST(kernels_on_edge_on_triangles) {
                 counts.hidden);
 }
 
+// Packets of rays that go side by side: beams.
+TEST(kernels_on_rays_side_by_side) {
+    Random random(82);
+    Counts counts;
+    const auto ask = [&](const Meshes& meshes, const char* name) {
+        const auto n = static_cast<std::size_t>(check::scaled(6000));
+        compare(meshes, raysInBeams(random, meshes.scalar, n), name, counts);
+    };
+    for (const std::size_t size : {40u, 700u, 2000u})
+        ask(Meshes(meshes::geometryOf(meshes::soup(random, size), false)), "soup");
+    for (const MeshDesc& desc : {meshes::icosphere(5), meshes::torus(0.3, 96, 48)})
+        ask(Meshes(toGeometry(desc, {})), "mesh");
+    std::printf("%zu rays, %zu hits, %zu hidden, seed 82\n", counts.rays, counts.hits,
+                counts.hidden);
+    CHECK(counts.hits > counts.rays / 2 && counts.hits < counts.rays);
+}
+
 // A handful of triangles, that are tested in place, and a few more, that are not. Every third ray
 // starts at one point, so that bundles and the others are scattered over the batch.
 TEST(kernels_on_tiny_meshes) {

@@ -154,27 +154,20 @@ template <Query Q> class BundleSize {
 public:
     std::size_t get() const { return size_; }
     // Are the next get() rays better left to the queue?
-    bool passes() {
-        if (pause_ == 0) return false;
-        --pause_;
-        return true;
-    }
+    bool passes() { return pause_.passes(); }
     // `leavesPerRay`: of the tree. Where rays meet many leaves anyway, neighbours meet the same.
     void learn(std::size_t leaves, float leavesPerRay, bool gaveUp) {
         const float many = ::max(kManyLeaves, kManyTimes * leavesPerRay);
         if (static_cast<float>(leaves) > many) size_ = kFewRays;
         if (leaves > 0 && leaves < kFewLeaves) size_ = BundleRays<Q>::kMostRays;
-        // Twice as long a pause every time that the next try fails too.
-        lastPause_ = gaveUp ? std::min(2 * lastPause_ + 1, kLongestPause) : lastPause_ / 2;
-        pause_ = gaveUp ? lastPause_ : 0;
+        pause_.learn(!gaveUp);
     }
 
 private:
     static constexpr std::size_t kFewRays = 64, kFewLeaves = 6;
     static constexpr float kManyLeaves = 40, kManyTimes = 15;
-    static constexpr unsigned kLongestPause = 31;
     std::size_t size_ = BundleRays<Q>::kMostRays;
-    unsigned pause_ = 0, lastPause_ = 0; // in bundles
+    Pause pause_{31}; // in bundles
 };
 
 template <Query Q, class Results>
@@ -200,8 +193,8 @@ void traceFromPoint(const WideMesh& mesh, const RaySpan& rays, std::span<const s
                    givenBack.size() - before > list.size() / 2);
     }
     if (givenBack.empty()) return;
-    if constexpr (Q == Query::Any)
-        any(mesh, rays, givenBack, results);
+    if constexpr (Q == Query::Any) // beams of them wouldn't pay either
+        traceOneByOne<Q>(mesh, rays, givenBack, results);
     else
         closest(mesh, rays, givenBack, results);
 }

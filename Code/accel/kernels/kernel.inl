@@ -1,6 +1,6 @@
-// What the kernels of each set of instructions consist of: the queue, for rays of any kind, and the
-// bundles, for rays from one point. Included by its file inside its namespace, behind its
-// registers; each of these needs what stands in front of it.
+// What the kernels of each set of instructions consist of: the queue, for rays of any kind, beams,
+// for rays that go side by side, and bundles, for rays from one point. Included by its file inside
+// its namespace, behind its registers; each of these needs what stands in front of it.
 
 #include "accel/kernels/key_range.inl"
 
@@ -20,11 +20,17 @@
 
 #include "accel/kernels/queue_exact.inl"
 
+#include "accel/kernels/lane_hits.inl"
+
 #include "accel/kernels/handful.inl"
 
 #include "accel/kernels/queue_slots.inl"
 
 #include "accel/kernels/queue.inl"
+
+#include "accel/kernels/beam_shape.inl"
+
+#include "accel/kernels/beam.inl"
 
 #include "accel/kernels/bundle_gaps.inl"
 

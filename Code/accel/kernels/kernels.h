@@ -5,16 +5,18 @@
 // The folder. .inl files are written for any number of lanes: the file of each instruction set
 // (sse, avx2, avx512) includes region_includes.h, one simd_*.inl and then, in this order,
 //   [isa].cpp         kernel, which includes key_range, barycentrics, stack, ray_lanes; for rays
-//                     one by one: queue_rays, root_boxes, queue_*, handful (tiny trees), queue;
-//                     for rays from one point: bundle_*, bundle
+//                     one by one: queue_rays, root_boxes, queue_*, lane_hits, handful (tiny
+//                     trees), queue; for rays that go side by side: beam_shape, beam; for rays
+//                     from one point: bundle_*, bundle
 //   solids_[isa].cpp  ray_lanes, solids_columns_[isa], all_lanes; solids, which includes solids_*
 //   placed_[isa].cpp  stack, ray_lanes, placed_mesh, placed
 //   surface_lanes_[isa].cpp  vectors3, still_surfaces (with still_numbers, still_points),
 //                     triangle_surfaces
-// choose.cpp has the table of kernels and route.cpp deals the rays of a batch out to queue and
-// bundles; solids.cpp does both for solids, placed.cpp has the table for placed meshes, which call
-// back to a PlacedQuery. exact_hit.cpp decides what lanes leave open, in plain code. wide_build.cpp
-// and build/ make the trees.
+// choose.cpp has the table of kernels and route.cpp deals the rays of a batch out to bundles and
+// the others, of which beam.inl takes what it can and the queue the rest; solids.cpp does both for
+// solids, placed.cpp has the table for placed meshes, which call back to a PlacedQuery.
+// exact_hit.cpp decides what lanes leave open, in plain code. wide_build.cpp and build/ make the
+// trees.
 #pragma once
 
 #include "accel/kernels/wide_tree.h"

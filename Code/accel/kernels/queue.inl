@@ -4,7 +4,7 @@
 // the length of the lists is a branch. A nearest hit that is certain in float is taken at once, and
 // its canonical key is computed when W rays are done; where bounds overlap, rays wait until there
 // are enough of them for the keys of W pairs at once.
-// Included by the file of each instruction set inside its namespace, behind handful.inl.
+// Included by the file of each instruction set inside its namespace, behind queue_slots.inl.
 
 template <Query Q> class Queue {
     using Lists = QueueSlots::Lists;
@@ -320,13 +320,4 @@ void traceOneByOne(const WideMesh& mesh, const RaySpan& rays, std::span<const st
         Handful<Q>(mesh, rays).run(order, results);
     else
         Queue<Q>(mesh, rays, order).run(results);
-}
-
-void closest(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order,
-             const HitLists& hits) {
-    traceOneByOne<Query::Closest>(mesh, rays, order, hits);
-}
-void any(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order,
-         std::uint8_t* hidden) {
-    traceOneByOne<Query::Any>(mesh, rays, order, hidden);
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "accel/kernels/exact_hit.h"
+#include "accel/kernels/pause.h"
 #include "accel/kernels/target.h"
 #include "accel/triangle.h"
 

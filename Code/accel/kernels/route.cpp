@@ -1,5 +1,6 @@
 // Which kernel function gets which rays of a batch: those that share their origin with many others
-// (camera rays of a pinhole, shadow rays of a point light) go as bundles, the rest to the queue.
+// (camera rays of a pinhole, shadow rays of a point light) go as bundles, the rest as beams or one
+// by one.
 // Nothing here can change an answer.
 #include "accel/kernels/kernels.h"
 

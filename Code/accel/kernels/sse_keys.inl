@@ -1,5 +1,5 @@
-// The part of simd_sse.inl for keys: numbers to sort that say of which lane they are, see keysOf() of
-// simd_avx512.inl.
+// The part of simd_sse.inl for keys: numbers to sort that say of which lane they are, see keysOf()
+// of simd_avx512.inl.
 
 struct alignas(16) Keys {
     std::uint32_t v[W];

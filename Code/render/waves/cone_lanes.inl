@@ -1,7 +1,8 @@
 // The formulas of coneFromSquare(), as those of the disk are in disk_lanes.inl.
 // Included by soft_lamp_lanes.inl.
 
-// Where the angle 2 pi u is on the unit circle, reckoned to 2^-41 of either number for u of 24 bits.
+// Where the angle 2 pi u is on the unit circle, reckoned to 2^-41 of either number for u of 24
+// bits.
 // exact::sinCos() gets this angle rounded to a double, and so does who wants the same near zeros.
 // Lanes of right angles are added to `unsure`: of their zeros too little is left.
 struct OnCircle {

@@ -1,5 +1,5 @@
-// Samples of lamps that have a size, and suns that have none, a register of points at a time, as in lit_lanes.inl: a lane is a
-// point of the block, and its samples follow each other.
+// Samples of lamps that have a size, and suns that have none, a register of points at a time, as in
+// lit_lanes.inl: a lane is a point of the block, and its samples follow each other.
 // Included by the file of each instruction set inside its namespace.
 
 namespace {
@@ -95,8 +95,9 @@ inline void findRows(const LampSeen& lamp, const SamplesOnLamp& samples, std::si
 }
 
 template <bool kMayShine, class LampSeen>
-void sumSamples(const SoftLanes<LampSeen>& lanes, const SamplesOnLamp& samples, const LinesToLamp& lines,
-                unsigned mayBeHidden, std::size_t first, LitBySamples& out) {
+void sumSamples(const SoftLanes<LampSeen>& lanes, const SamplesOnLamp& samples,
+                const LinesToLamp& lines, unsigned mayBeHidden, std::size_t first,
+                LitBySamples& out) {
     constexpr std::size_t kPoints = LitBlock::kPoints;
     LampRow rows[LitBySamples::kMost];
     findRows(lanes.lamp(), samples, first, rows);

@@ -1,5 +1,5 @@
-// SpotCone::attenuation() of light that goes the other way. Included by the file of each instruction
-// set inside its namespace.
+// SpotCone::attenuation() of light that goes the other way. Included by the file of each
+// instruction set inside its namespace.
 
 inline Floats coneAt(const SpotCone& cone, const Three& toLight) {
     const Floats zero(0.0f), one(1.0f), edge(cone.cosHalfAngle);

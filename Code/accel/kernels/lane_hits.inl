@@ -1,0 +1,128 @@
+// What W rays meet of triangles that each of them is asked for: hits that are certain in float are
+// taken at once, and the rest waits for canonical keys.
+// Included by the file of each instruction set inside its namespace, in front of handful.inl.
+
+template <Query Q> class LaneHits {
+public:
+    // Triangles that may wait.
+    static constexpr std::uint32_t kMost = 2 * W;
+
+    LaneHits(const WideMesh& mesh, const RaySpan& rays) : mesh_(mesh), rays_(rays) {}
+
+    // Loads the rays order[0 .. count - 1].
+    RayColumns load(const std::uint32_t* order, std::size_t count) {
+        return loadRays(rays_, order, count, block_.ray);
+    }
+    std::uint32_t ray(int lane) const { return block_.ray[lane]; }
+    void start(const RayColumns& columns, const RayAxes& axes, std::size_t count) {
+        setUpAnswers<Q>(columns, axes, count, block_);
+        zCut_ = Floats::load(block_.zCut);
+        endless_ = bits(Floats::load(block_.below) == Floats(kInfinityF));
+        hidden_ = 0, metCount_ = 0;
+        areTrianglesSetUp_ = false;
+    }
+
+    Floats zCut() const { return zCut_; } // nothing behind it can be a better hit
+    unsigned hidden() const { return hidden_; }
+
+    // Asks these lanes for a triangle.
+    [[gnu::always_inline]] void ask(const RayColumns& columns, const RayAxes& axes,
+                                    const Sheared& corners, const Edges& edges, WideRef leaf,
+                                    std::uint32_t triangle, unsigned lanes) {
+        const Judged judged = judge(corners, edges, axes.sign);
+        if constexpr (Q == Query::Any) hidden_ |= judged.certain(zCut_) & endless_ & lanes;
+        const unsigned candidates = judged.candidates(zCut_) & lanes & ~hidden_;
+        if (candidates == 0) return;
+        if (metCount_ == kMost) settle(columns, axes);
+        Met& met = met_[metCount_++];
+        met.leaf = leaf, met.triangle = triangle;
+        met.candidates = candidates;
+        if constexpr (Q == Query::Closest) {
+            const Floats inverse = Floats(1.0f) / judged.det, farthest = judged.farthest(inverse);
+            met.certain = bits(judged.certain()) & candidates & endless_;
+            judged.nearest(inverse).store(met.nearest);
+            farthest.store(met.farthest);
+            zCut_ = select(maskOf(met.certain), min(farthest, zCut_), zCut_);
+        }
+    }
+
+    // Writes the best hits, or whether there is one.
+    template <class Results>
+    void finish(const RayColumns& columns, const RayAxes& axes, const Results& results) {
+        if (metCount_ != 0) {
+            if constexpr (Q == Query::Closest) acceptNearest();
+            settle(columns, axes);
+            if (block_.open != 0) settleOpen(mesh_, rays_, block_);
+        }
+        if constexpr (Q == Query::Any)
+            select(maskOf(hidden_), Ints(0u), Ints::load(block_.triangle)).store(block_.triangle);
+        write(results);
+    }
+    // Misses, if nothing was asked.
+    template <class Results> void write(const Results& results) const {
+        writeAnswers(block_, mesh_.tree, results);
+    }
+
+private:
+    // A triangle that some rays may meet.
+    struct Met {
+        WideRef leaf;
+        std::uint32_t triangle; // number in the leaf
+        unsigned candidates, certain; // certain: of endless rays
+        alignas(64) float nearest[W], farthest[W];
+    };
+
+    // The keys of all that waits, but for what was accepted without one.
+    [[gnu::noinline]] void settle(const RayColumns& columns, const RayAxes& axes) {
+        if (!areTrianglesSetUp_) setUpTriangles(columns, axes, mesh_.extent, block_);
+        areTrianglesSetUp_ = true;
+        std::uint32_t n = 0;
+        for (std::uint32_t m = 0; m < metCount_; ++m) {
+            unsigned left = met_[m].candidates & ~(Q == Query::Any ? hidden_ : block_.open);
+            for (; left != 0; left &= left - 1)
+                pairs_[n++] = {static_cast<std::uint32_t>(std::countr_zero(left)), met_[m].leaf,
+                               met_[m].triangle};
+        }
+        metCount_ = 0;
+        if (n == 0) return;
+        settlePairs<Q>(mesh_, rays_, &block_, {pairs_, n}, [this](std::uint32_t lane) {
+            if constexpr (Q == Query::Any) hidden_ |= 1u << lane;
+        });
+        if constexpr (Q == Query::Closest) zCut_ = min(zCut_, Floats::load(block_.zCut));
+    }
+
+    // Rays whose nearest hit is certain without keys need but one, that of the hit.
+    void acceptNearest() {
+        Floats depth(kInfinityF);
+        for (std::uint32_t m = 0; m < metCount_; ++m) {
+            const Floats farthest = Floats::load(met_[m].farthest);
+            depth = select(maskOf(met_[m].certain), min(farthest, depth), depth);
+        }
+        unsigned certain = 0, rivals = 0, several = 0;
+        Ints leaf(0u), lane(0u);
+        for (std::uint32_t m = 0; m < metCount_; ++m) {
+            const unsigned here =
+                bits(notGreater(Floats::load(met_[m].nearest), depth)) & met_[m].candidates;
+            several |= rivals & here;
+            rivals |= here;
+            certain |= here & met_[m].certain;
+            leaf = select(maskOf(here), Ints(met_[m].leaf), leaf);
+            lane = select(maskOf(here), Ints(met_[m].triangle), lane);
+        }
+        const unsigned hasNoKey = bits(Floats::load(block_.key) == Floats(0.0f));
+        block_.open = certain & ~several & hasNoKey;
+        const Mask open = maskOf(block_.open);
+        select(open, leaf, Ints::load(block_.bestLeaf)).store(block_.bestLeaf);
+        select(open, lane, Ints::load(block_.bestLane)).store(block_.bestLane);
+    }
+
+    const WideMesh& mesh_;
+    const RaySpan& rays_;
+    RayBlock block_;
+    Floats zCut_;
+    unsigned endless_ = 0, hidden_ = 0; // rays that start where they start, and hidden ones
+    bool areTrianglesSetUp_ = false;
+    std::uint32_t metCount_ = 0;
+    Met met_[kMost];
+    RayTriangle pairs_[kMost * W];
+};
