@@ -1,14 +1,33 @@
 // The functions of math.h that have to do with angles.
-#include "base/double_double.h"
+#include "base/atan_table.h"
 #include "base/math.h"
 #include "base/rounder.h"
 
-#include <array>
+namespace exact {
+
+// The steps atan(k/16) - atan((k-1)/16) = atan(16 / (256 + k (k-1))) by their series.
+constexpr std::array<DoubleDouble, 17> kAtanTable = [] {
+    std::array<DoubleDouble, 17> table{};
+    for (int k = 1; k <= 16; ++k) {
+        const DoubleDouble z = DoubleDouble{16, 0} / DoubleDouble{256.0 + k * (k - 1), 0};
+        const DoubleDouble minusZ2 = -(z * z);
+        DoubleDouble power = z, sum = z;
+        for (int n = 3; n < 29; n += 2) { // (1/16)^28 = 2^-112
+            power = power * minusZ2;
+            sum = sum + power / DoubleDouble{static_cast<double>(n), 0};
+        }
+        table[static_cast<std::size_t>(k)] = table[static_cast<std::size_t>(k - 1)] + sum;
+    }
+    return table;
+}();
+
+} // namespace exact
 
 namespace {
 
+using exact::kAtanTable, exact::kHalfPiDd;
+
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr DoubleDouble kHalfPiDd{0x1.921fb54442d18p0, 0x1.1a62633145c07p-54};
 
 // --- sin, cos ---
 
@@ -88,22 +107,6 @@ WideSinCos wideSinCos(double x) { // finite
 }
 
 // --- atan ---
-
-// atan(k/16): the steps atan(k/16) - atan((k-1)/16) = atan(16 / (256 + k (k-1))) by their series.
-constexpr std::array<DoubleDouble, 17> kAtanTable = [] {
-    std::array<DoubleDouble, 17> table{};
-    for (int k = 1; k <= 16; ++k) {
-        const DoubleDouble z = DoubleDouble{16, 0} / DoubleDouble{256.0 + k * (k - 1), 0};
-        const DoubleDouble minusZ2 = -(z * z);
-        DoubleDouble power = z, sum = z;
-        for (int n = 3; n < 29; n += 2) { // (1/16)^28 = 2^-112
-            power = power * minusZ2;
-            sum = sum + power / DoubleDouble{static_cast<double>(n), 0};
-        }
-        table[static_cast<std::size_t>(k)] = table[static_cast<std::size_t>(k - 1)] + sum;
-    }
-    return table;
-}();
 
 // atan(t) - t for |t| <= 1/16; what is left out is below 2^-59 of t.
 double atanTail(double t) {

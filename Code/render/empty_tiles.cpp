@@ -45,7 +45,7 @@ struct View {
 EmptyTiles::EmptyTiles(const IntegratorContext& context, const CameraRays& rays)
     : rays_(rays), camera_(context.scene.camera()) {
     const ShapeSet& shapes = context.scene.shapes();
-    canTell_ = context.settings.specialise && !context.scene.hasEnvironment() &&
+    canTell_ = context.settings.specialise && context.scene.environment() == nullptr &&
                shapes.unbounded.empty() && !camera_.hasLens() && !camera_.isMoving();
     if (!canTell_) return;
     const bool areFew = shapes.bounded.size() <= kMostBoxes;

@@ -92,6 +92,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       surfaceLanes(::surfaceLanes(chooseKernel(theSettings.kernel))),
       shadeLanes(::shadeLanes(chooseKernel(theSettings.kernel))),
       textureColors(::textureColors(chooseKernel(theSettings.kernel))),
+      environmentColors(::environmentColors(chooseKernel(theSettings.kernel))),
       bounceLanes(::bounceLanes(chooseKernel(theSettings.kernel))),
       stillsInLanes(stillsInLanesOf(theScene, theSettings, surfaceLanes)), materials(theScene),
       cameraMedium(mediumOfCamera(theScene, theSettings, media)) {

@@ -12,6 +12,7 @@
 #include "render/query.h"
 #include "render/shading.h"
 #include "render/waves/bounce_lanes.h"
+#include "render/waves/environment_lanes.h"
 #include "render/waves/lamp_lanes.h"
 #include "render/waves/shade_lanes.h"
 #include "render/waves/steps.h"
@@ -92,8 +93,9 @@ struct IntegratorContext {
     SurfaceNeeds surfaceNeeds;
     SurfaceLanes surfaceLanes;
     ShadeLanes shadeLanes;
-    TextureColorsFn textureColors; // null: one by one
-    BounceLanes bounceLanes;       // null: one by one
+    TextureColorsFn textureColors;         // null: one by one
+    EnvironmentColorsFn environmentColors; // the same
+    BounceLanes bounceLanes;               // the same
     StillsInLanes stillsInLanes;
     MaterialTable materials;
     MediumTree media; // what camera rays start in, and room for what rays enter
@@ -228,6 +230,7 @@ struct WaveMemory {
     PointsToDescribe onBalls, onOthers;
     TexturedPoints texturedPoints;
     MediumTree media;
+    RawVector<Rgb> backgrounds;         // that missed rays see
     RawVector<std::uint32_t> answering; // points that answer lamps
     std::vector<LitBlock> litBlocks;    // these, if lamps want blocks
     std::vector<PointGroup> groups;     // of these

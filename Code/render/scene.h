@@ -63,9 +63,11 @@ public:
     Rgb ambient() const { return ambient_; }
     // Radiance where a ray meets no surface.
     Rgb background(Vec3 dir) const {
-        return environment_ ? background_ * environment_->radiance(dir) : background_;
+        return environment_ ? background(environment_->radiance(dir)) : background_;
     }
-    bool hasEnvironment() const { return environment_ != nullptr; }
+    // Where the picture around the scene is so bright.
+    Rgb background(Rgb inPicture) const { return background_ * inPicture; }
+    const Environment* environment() const { return environment_.get(); } // null: none
     bool moves() const { return moves_; }
     bool hasSeeThrough() const { return hasSeeThrough_; }
     const Features& features() const { return features_; }

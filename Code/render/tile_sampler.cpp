@@ -84,7 +84,7 @@ void TileSampler::integrate(TileWorker& w) const {
 
 Rgb TileSampler::background() const {
     switch (settings_.integrator) {
-    case IntegratorKind::Whitted: return context_.scene.background({0, 0, 1});
+    case IntegratorKind::Whitted: return context_.scene.background(Vec3{0, 0, 1});
     case IntegratorKind::Ao: return {1, 1, 1};
     case IntegratorKind::Normal:
     case IntegratorKind::Depth:

@@ -4,7 +4,9 @@
 // +y and the left quarter towards -z.
 #pragma once
 
-#include "texture/texel_grid.h"
+#include "texture/byte_texture.h"
+
+#include <optional>
 
 class Environment {
 public:
@@ -16,7 +18,24 @@ public:
 
     // u = 1/2 - (atan2(y, x) - rotation) / 2 pi, going round; v = 1/2 + latitude / pi from the
     // bottom, held at the poles. dir has any length; zero counts as +x.
-    Rgb radiance(Vec3 dir) const;
+    Rgb radiance(Vec3 dir) const { return radiance(place(dir)); }
+
+    // Where a direction is in the picture, from its left and its lower edge.
+    struct Place {
+        double s, t;
+    };
+    Place place(Vec3 dir) const;
+    Rgb radiance(Place at) const {
+        return grid_.color(at.s, at.t, Extension::Repeat, Extension::Extend);
+    }
+
+    // What place() and radiance() know, as plain data, valid as long as this; texels only of bytes.
+    struct View {
+        Up up;
+        double turns;
+        std::optional<ByteTexels> texels;
+    };
+    View view() const { return {up_, turns_, grid_.bytes(Extension::Repeat, Extension::Extend)}; }
 
 private:
     TexelGrid grid_;

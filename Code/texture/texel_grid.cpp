@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "image/colour.h"
+#include "texture/byte_texture.h"
 
 #include <utility>
 
@@ -114,4 +115,14 @@ float TexelGrid::alpha(double s, double t, Extension extensionS, Extension exten
     const Tap x = tap(s, image_.width, extensionS), y = tap(t, image_.height, extensionT);
     const int number = image_.channels % 2 == 0 ? image_.channels - 1 : kOpaque;
     return mixedAt(x, y, [&](const auto& unit) { return static_cast<float>(unit(number)); });
+}
+
+std::optional<ByteTexels> TexelGrid::bytes(Extension extensionS, Extension extensionT) const {
+    if (image_.depth != StoredImage::Depth::Bits8) return {};
+    ByteTexels texels;
+    texels.bytes = image_.bytes;
+    texels.width = image_.width, texels.height = image_.height, texels.channels = image_.channels;
+    texels.isSrgb = isSrgb_, texels.isNearest = isNearest_;
+    texels.extensionS = extensionS, texels.extensionT = extensionT;
+    return texels;
 }

@@ -4,6 +4,10 @@
 
 #include "image/image.h"
 
+#include <optional>
+
+struct ByteTexels; // texture/byte_texture.h
+
 enum class Extension { Repeat, Extend, Clip };
 enum class Interpolation { Bilinear, Nearest };
 // How a file's whole numbers encode light. Float files are always linear.
@@ -28,6 +32,9 @@ public:
     Rgb color(double s, double t, Extension extensionS, Extension extensionT) const;
     // Never encoded, and transparency does not darken the colour; 1 without an alpha channel.
     float alpha(double s, double t, Extension extensionS, Extension extensionT) const;
+
+    // The same numbers as plain data, valid as long as this; empty unless they are bytes.
+    std::optional<ByteTexels> bytes(Extension extensionS, Extension extensionT) const;
 
 private:
     // Texels that a coordinate falls between; kOutside for none.

@@ -40,22 +40,10 @@ float Texture::valueOf(Rgb color) const {
 float Texture::value(Vec2 uv) const { return valueAt(mapped(uv)); }
 
 std::optional<ByteTexture> Texture::bytes() const {
-    const StoredImage& image = grid_.image();
-    if (image.depth != StoredImage::Depth::Bits8) return {};
-    return ByteTexture{image.bytes,
-                       image.width,
-                       image.height,
-                       image.channels,
-                       grid_.isSrgb(),
-                       grid_.isNearest(),
-                       channel_ == TextureParams::Channel::Alpha,
-                       extension_,
-                       sFromU_,
-                       sFromV_,
-                       tFromU_,
-                       tFromV_,
-                       offset_.x,
-                       offset_.y};
+    auto texels = grid_.bytes(extension_, extension_);
+    if (!texels) return {};
+    texels->asksAlpha = channel_ == TextureParams::Channel::Alpha;
+    return ByteTexture{*texels, sFromU_, sFromV_, tFromU_, tFromV_, offset_.x, offset_.y};
 }
 
 Vec2 Texture::gradient(Vec2 uv) const {

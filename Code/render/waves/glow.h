@@ -2,6 +2,7 @@
 // surfaces emit, ambient light, and lamps that cast no shadows unless lanes sum them up (lamps.h).
 #pragma once
 
+#include "render/waves/background.h"
 #include "render/waves/lamp_sums.h"
 
 #include <array>
@@ -36,23 +37,21 @@ inline void addGlowOfBlock(const Wave& wave, std::size_t b, BlockGlow& glow,
     for (std::size_t i = 0; i < size; ++i) wave.add(slot[i], weight[i] * glow[i]);
 }
 
-inline void addBackground(const Wave& wave, std::size_t ray) {
-    const PathBatch& rays = wave.rays;
-    wave.add(rays.sample[ray], rays.weight[ray] * wave.context.scene.background(rays.dir[ray]));
-}
-
 } // namespace waves
 
 // Where every sample has one ray: nobody asks for an order.
 inline void addPlainGlow(const Wave& wave) {
     const PointBatch& points = wave.memory.points;
     const auto missed = std::span(points.missed).first(points.missedCount);
-    if (wave.context.scene.hasEnvironment()) {
-        for (const std::uint32_t ray : missed) waves::addBackground(wave, ray);
+    const PathBatch& rays = wave.rays;
+    if (wave.context.scene.environment() != nullptr) {
+        const std::span<const Rgb> seen = waves::backgroundsOf(wave);
+        for (std::size_t m = 0; m < missed.size(); ++m)
+            wave.add(rays.sample[missed[m]], rays.weight[missed[m]] * seen[m]);
     } else {
-        const Rgb background = wave.context.scene.background({});
+        const Rgb background = wave.context.scene.background(Vec3{});
         for (const std::uint32_t ray : missed)
-            wave.add(wave.rays.sample[ray], wave.rays.weight[ray] * background);
+            wave.add(rays.sample[ray], rays.weight[ray] * background);
     }
     waves::BlockGlow glow;
     const Material* glowIsOf = nullptr;
@@ -68,11 +67,13 @@ template <bool kLampBodies, bool kSeeThrough> void addGlow(const Wave& wave) {
         if (wave.hasOneRayPerSample() &&
             (wave.context.openLamps.empty() || waves::sumsOpenLamps(wave)))
             return addPlainGlow(wave);
-    std::size_t k = 0;
+    const std::span<const Rgb> seen = waves::backgroundsOf(wave);
+    const Rgb background = seen.empty() ? scene.background(Vec3{}) : Rgb{};
+    std::size_t k = 0, missed = 0;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const std::uint32_t slot = rays.sample[i];
         if (k == points.count || points.ray[k] != i) {
-            waves::addBackground(wave, i);
+            wave.add(slot, rays.weight[i] * (seen.empty() ? background : seen[missed++]));
             continue;
         }
         const std::size_t here = k++;

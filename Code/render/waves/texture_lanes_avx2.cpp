@@ -11,6 +11,8 @@ namespace kernels::avx2 {
 
 #include "render/waves/texture_gather_avx2.inl"
 
+#include "render/waves/texel_lanes.inl"
+
 #include "render/waves/texture_lanes.inl"
 } // namespace kernels::avx2
 KERNEL_REGION_END

@@ -11,6 +11,8 @@ namespace kernels::avx512 {
 
 #include "render/waves/texture_gather_avx512.inl"
 
+#include "render/waves/texel_lanes.inl"
+
 #include "render/waves/texture_lanes.inl"
 } // namespace kernels::avx512
 KERNEL_REGION_END

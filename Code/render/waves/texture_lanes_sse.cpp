@@ -11,6 +11,8 @@ namespace kernels::sse {
 
 #include "render/waves/texture_gather_sse.inl"
 
+#include "render/waves/texel_lanes.inl"
+
 #include "render/waves/texture_lanes.inl"
 } // namespace kernels::sse
 KERNEL_REGION_END
