@@ -85,7 +85,7 @@ private:
         }
         metCount_ = 0;
         if (n == 0) return;
-        settlePairs<Q>(mesh_, rays_, &block_, {pairs_, n}, [this](std::uint32_t lane) {
+        settlePairs<Q>(mesh_, rays_, &block_, {pairs_, n}, [&](std::uint32_t lane) {
             if constexpr (Q == Query::Any) hidden_ |= 1u << lane;
         });
         if constexpr (Q == Query::Closest) zCut_ = min(zCut_, Floats::load(block_.zCut));
