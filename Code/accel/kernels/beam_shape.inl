@@ -5,7 +5,9 @@
 // What is said is conservative. A triangle that canonicalKey() accepts is met by the ray's line
 // within 4 units of rounding of the space's size (see RaySetup), its key is that of a depth no
 // nearer than where the ray enters its box padded by 32 of them, and a beam is 64 units wider and
-// longer than its rays need.
+// longer than its rays. Less than the other 32 are lost to rounding: where rays are at the start is
+// off by 7 of them at most, and at the far plane by 7 more; the line there, which its slope takes
+// part in, by 15.
 // Included by the file of each instruction set inside its namespace, behind ray_lanes.inl.
 
 class BeamShape {
@@ -88,6 +90,7 @@ public:
     }
 
 private:
+    // Bounced rays seldom pass these; beams of what goes farther apart than that would not pay.
     static constexpr int kFewestRays = W / 2;
     static constexpr float kWidest = 0.75f; // range of slopes
 

@@ -67,7 +67,7 @@ private:
     // A triangle that some rays may meet.
     struct Met {
         WideRef leaf;
-        std::uint32_t triangle; // number in the leaf
+        std::uint32_t triangle;       // number in the leaf
         unsigned candidates, certain; // certain: of endless rays
         alignas(64) float nearest[W], farthest[W];
     };

@@ -15,6 +15,7 @@ public:
         left_ -= count;
         return true;
     }
+    // The next one is tried.
     void end() { left_ = 0; }
     // Twice as long every time that the next try fails too.
     void learn(bool pays) {
