@@ -209,7 +209,8 @@ double cbrt(double x) {
 constexpr PowTables kPowTables = [] {
     PowTables tables{};
     for (std::size_t j = 0; j < kLogTable.size(); ++j)
-        tables.c[j] = kLogTable[j].c, tables.log[j] = kLogTable[j].log.hi;
+        tables.c[j] = kLogTable[j].c, tables.log[j] = kLogTable[j].log.hi,
+        tables.logLo[j] = kLogTable[j].log.lo;
     for (std::size_t j = 0; j < kExp2Table.size(); ++j)
         tables.powersHi[j] = kExp2Table[j].hi, tables.powersLo[j] = kExp2Table[j].lo;
     return tables;

@@ -1,4 +1,4 @@
-// The tables of exact::pow(float, float) and its steps, for who takes them in lanes.
+// The tables of exact::pow() and its steps, for who takes them in lanes.
 #pragma once
 
 #include <array>
@@ -6,12 +6,12 @@
 
 namespace exact {
 
-// By 1/128 of the mantissa m in [1,2], to the nearest: c is 1/m to 9 bits, log = log(1/c), less ln
-// 2 from kHalvedFrom on, where m is counted as half of it.
+// By 1/128 of the mantissa m in [1,2], to the nearest: c is 1/m to 9 bits, log + logLo = log(1/c),
+// less ln 2 from kHalvedFrom on, where m is counted as half of it.
 inline constexpr int kHalvedFrom = 53;
 // 2^(j/32) = powersHi[j] + powersLo[j].
 struct PowTables {
-    std::array<double, 129> c, log;
+    std::array<double, 129> c, log, logLo;
     std::array<double, 32> powersHi, powersLo;
 };
 extern const PowTables kPowTables;

@@ -7,16 +7,10 @@ namespace {
 
 constexpr float kInvPiF = static_cast<float>(kInvPi);
 
-// Exponent of the Blinn lobe that has Blender's roughness: n = 2/r^4 - 2, kept in 1..1e5.
-float exponentOf(float roughness) {
-    const float alpha = roughness * roughness;
-    return clamp(2 / (alpha * alpha) - 2, 1.0f, 1e5f);
-}
-
 // A rough surface reflects about a half vector h instead of n.
 Vec3 microNormal(const Material& material, Vec3 n, Vec3 toEye, Vec2 u) {
     if (material.roughness <= 0) return n;
-    const Vec3 local = cosinePowerFromSquare(u, exponentOf(material.roughness));
+    const Vec3 local = cosinePowerFromSquare(u, lobeExponent(material.roughness));
     const Vec3 h = normalize(frameAround(n).toWorld(local));
     return dot(h, toEye) > 0 ? h : n;
 }
@@ -29,6 +23,11 @@ Rgb totallyReflected(const Material& material) {
 }
 
 } // namespace
+
+float lobeExponent(float roughness) {
+    const float alpha = roughness * roughness;
+    return clamp(2 / (alpha * alpha) - 2, 1.0f, 1e5f);
+}
 
 Rgb highlight(const Material& material, Vec3 n, Vec3 toEye, Vec3 toLight) {
     const float cosLight = dot(n, toLight);

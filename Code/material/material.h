@@ -53,6 +53,10 @@ inline Vec3 mirrored(Vec3 toEye, Vec3 h, Vec3 ng) {
     return dot(dir, ng) > 0 ? dir : normalize(reflectAbout(toEye, ng));
 }
 
+// Exponent n of the Blinn lobe (n+1)/(2 pi) cos^n of half vectors that has Blender's roughness: n =
+// 2/r^4 - 2, kept in 1..1e5. Roughness above 0.
+float lobeExponent(float roughness);
+
 // The rays that leave a point of a mirroring or transmitting surface. `n` is the shading normal and
 // `ng` the geometric one, both on the side of the eye; `eta` is the ior on the eye's side over the
 // ior on the other side; `u` spreads the directions when the surface is rough. Total internal

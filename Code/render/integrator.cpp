@@ -94,6 +94,9 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       textureColors(::textureColors(chooseKernel(theSettings.kernel))),
       environmentColors(::environmentColors(chooseKernel(theSettings.kernel))),
       bounceLanes(::bounceLanes(chooseKernel(theSettings.kernel))),
+      pairSeeds(sampler.kind() == SamplerKind::Sobol
+                    ? cameraLanes(chooseKernel(theSettings.kernel)).seeds
+                    : nullptr),
       stillsInLanes(stillsInLanesOf(theScene, theSettings, surfaceLanes)), materials(theScene),
       cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
     const int samples = settings.picture.lightSamples;

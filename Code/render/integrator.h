@@ -96,6 +96,7 @@ struct IntegratorContext {
     TextureColorsFn textureColors;         // null: one by one
     EnvironmentColorsFn environmentColors; // the same
     BounceLanes bounceLanes;               // the same
+    PairSeedsFn pairSeeds;                 // the same; of Sobol numbers, there are no others
     StillsInLanes stillsInLanes;
     MaterialTable materials;
     MediumTree media; // what camera rays start in, and room for what rays enter

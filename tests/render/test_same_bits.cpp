@@ -125,6 +125,42 @@ TEST(sameBitsOfGlassBesideMirrors) {
                       shot::render(text, [&](RenderSettings& s) { s.kernel = kernel.name; }).color);
 }
 
+// Rough mirrors and glass of every law of Fresnel, narrow and wide, sharp ones beside them: those
+// whose highlights have counted the lamps don't show the lamps' bodies, others do.
+TEST(sameBitsOfRoughMirrorsBesideLamps) {
+    std::string text =
+        "settings {\n resolution 96 72\n samples 4\n max_depth 6\n}\n"
+        "world {\n background 0.2 0.3 0.5\n}\n"
+        "camera c {\n look_at 0 -6 2  0 0 0.7  0 0 1\n}\n"
+        "light r {\n type rectangle\n look_at 2 2 3  0 0 0  0 0 1\n size 2 2\n color "
+        "9 9 8\n visible true\n}\n"
+        "light s {\n type sphere\n translate 0 3.5 1.2\n radius 1\n color 9 5 3\n "
+        "visible true\n}\n"
+        "plane floor {\n scale 9 9 1\n material m1\n}\n";
+    const char* laws[] = {"none", "dielectric", "schlick"};
+    for (int i = 0; i < 18; ++i)
+        text += cat("material m", i, " {\n diffuse 0.1 0.1 0.2\n mirror 0.8 0.", i % 9, " 0.4\n",
+                    " roughness ", i % 6 == 0 ? 0 : 0.055 * i, "\n fresnel ", laws[i % 3], '\n',
+                    i % 4 == 1 ? " specular 0.5 0.4 0.3\n" : "",
+                    i % 2 == 0 ? " transmission 0.9 0.8 0.7\n ior 1.4\n" : "", "}\n");
+    for (int i = 0; i < 18; ++i)
+        text += cat("sphere s", i, " {\n translate ", 0.8 * (i % 6 - 2.5), ' ', 0.9 * (i / 6 - 1),
+                    " 0.4\n radius 0.35\n material m", i, "\n}\n");
+    using Kind = SettingsDesc::Sampler;
+    for (const auto& [name, sampler] :
+         {std::pair("sobol", Kind::Sobol), std::pair("stratified", Kind::Stratified)}) {
+        SceneDesc desc = shot::parse(text);
+        desc.settings.sampler = sampler;
+        const Image scalar = shot::render(desc).color;
+        CHECK(shot::largest(scalar) > 0.2);
+        for (const Kernel& kernel : allKernels())
+            if (kernel.supported())
+                checkSame(name, kernel.name, scalar, shot::render(desc, [&](RenderSettings& s) {
+                                                         s.kernel = kernel.name;
+                                                     }).color);
+    }
+}
+
 // Mirrors of many colours, and what mirrors nothing: nobody asks what rays are inside of, but each
 // goes on with its own weight, at its own time and for its own sample.
 TEST(sameBitsOfMirrorsInMotion) {

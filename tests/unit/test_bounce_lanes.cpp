@@ -1,13 +1,15 @@
-// Mirrors and glass by the register: every ray has the bits of asking its point's material alone,
-// and its place among the others.
+// Mirrors and glass, sharp and rough, by the register: every ray has the bits of asking its point's
+// material alone, and its place among the others.
 #include "accel/kernels/kernels.h"
 #include "check.h"
 #include "render/shading.h"
 #include "render/waves/bounce_lanes.h"
+#include "sample/hash.h"
 #include "verify/meshes.h"
 
 #include <array>
 #include <bit>
+#include <cmath>
 #include <vector>
 
 using meshes::Random;
@@ -16,6 +18,8 @@ namespace {
 
 constexpr std::size_t kPoints = PointBlock::kPoints;
 constexpr float kCutoff = 0.02f;
+
+#include "sample/sobol.inl"
 
 bool sameBits(float a, float b) {
     return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
@@ -41,8 +45,13 @@ Kind someKind(Random& random) {
     Kind kind;
     Material& m = kind.material;
     m.mirror = someLight(random, 0.1);
+    // From the narrowest lobe, which is that of 0.067, to the widest.
+    if (random.chance(0.5)) m.roughness = static_cast<float>(random.logUniform(0.05, 1));
     if (random.chance(0.3)) return kind;
-    m.fresnel = FresnelModel::Dielectric, m.transmission = someLight(random, 0.1);
+    m.fresnel = random.chance(0.5)
+                    ? FresnelModel::Dielectric
+                    : (random.chance(0.5) ? FresnelModel::Schlick : FresnelModel::None);
+    m.transmission = someLight(random, isBlack(m.mirror) ? 0 : 0.1);
     kind.eta = random.chance(0.1) ? 1 : static_cast<float>(random.logUniform(0.4, 2.5));
     kind.beyond = random.below(9);
     return kind;
@@ -54,6 +63,7 @@ struct Block {
     std::array<Rgb, kPoints> weights{};
     std::vector<Kind> kinds;
     std::vector<AlikePoints> alike; // the first ones of `kinds`
+    BouncePairs pairs;
 
     explicit Block(Random& random) {
         for (std::size_t k = 0; k < kPoints; ++k) addPoint(random, k);
@@ -63,8 +73,28 @@ struct Block {
         for (std::size_t k = 0; k < kPoints; ++k)
             of[random.chance(0.1) ? 4 : random.below(static_cast<std::uint32_t>(sets))] |= 1u << k;
         for (std::size_t i = 0; i < sets; ++i)
-            alike.push_back({of[i], &kinds[i].material, isSharpGlass(kinds[i].material),
-                             kinds[i].eta, kinds[i].beyond});
+            alike.push_back({of[i], &kinds[i].material, kinds[i].eta, kinds[i].beyond});
+        addPairs(random);
+    }
+
+    // Some are on the lobe's axis, some where the circle crosses the axes: there one number is 0.
+    void addPairs(Random& random) {
+        // Of v = 0, 1/4, 1/2, 3/4 in sample 0 with index 0.
+        constexpr std::uint32_t kQuarters[] = {0, 0x1486ece, 0x1fbbaed, 0xe90bd1};
+        const auto any = [&] { return random.below(0xffffffff); };
+        for (std::size_t k = 0; k < kPoints; ++k)
+            if (random.chance(0.1)) {
+                pairs.x[k] = random.chance(0.3) ? 0 : any();
+                pairs.y[k] = random.chance(0.3) ? any() : kQuarters[random.below(4)];
+            } else {
+                pairs.sample[k] = random.below(1 << 12), pairs.index[k] = any();
+                pairs.x[k] = any(), pairs.y[k] = any();
+            }
+    }
+    Vec2 pairOf(std::size_t k) const {
+        const auto bits =
+            sobolPair<std::uint32_t>(pairs.sample[k], pairs.index[k], pairs.x[k], pairs.y[k]);
+        return {unitFloat(bits.x), unitFloat(bits.y)};
     }
 
     void addPoint(Random& random, std::size_t k) {
@@ -95,7 +125,8 @@ struct Sent {
 };
 struct Cases {
     long long points = 0, reflected = 0, refracted = 0, total = 0, dropped = 0;
-    long long bentBack = 0, bentDown = 0; // where normals are too bent to be followed
+    long long bentBack = 0, bentDown = 0;            // where normals are too bent to be followed
+    long long rough = 0, onAxis = 0, atQuarters = 0; // of the lobe, of the circle
 };
 
 // What single points send on, in their order.
@@ -111,10 +142,14 @@ std::vector<Sent> sentAlone(const Block& block, LeavingRays& told, Cases& cases)
             const Vec3 toEye = SurfaceBlock::get(block.points.toEye, k);
             cases.bentDown += !(dot(reflectAbout(toEye, n), ng) > 0);
             Bounces out;
-            if (some.isGlass)
-                out = bounces(*some.material, n, ng, toEye, some.eta, {0.5f, 0.5f});
+            const Vec2 u = block.pairOf(k);
+            if (!isPlainMirror(*some.material))
+                out = bounces(*some.material, n, ng, toEye, some.eta, u);
             else if (!isBlack(some.material->mirror))
                 out.reflected = Bounce{mirrored(toEye, n, ng), some.material->mirror};
+            if (some.material->roughness > 0)
+                ++cases.rough, cases.onAxis += u.x == 0,
+                    cases.atQuarters += 4 * u.y == std::floor(4 * u.y);
             const auto send = [&](const std::optional<Bounce>& ray, Vec3 side, unsigned which) {
                 if (!ray) return;
                 const Rgb weight = block.weights[k] * ray->weight;
@@ -127,7 +162,7 @@ std::vector<Sent> sentAlone(const Block& block, LeavingRays& told, Cases& cases)
             };
             send(out.reflected, ng, 0);
             send(out.refracted, -ng, 1);
-            if (!some.isGlass || isBlack(some.material->transmission)) continue;
+            if (isBlack(some.material->transmission)) continue;
             cases.total += !out.refracted;
             const auto through = refractThrough(toEye, n, some.eta);
             cases.bentBack += through && !(dot(*through, ng) < 0);
@@ -154,7 +189,7 @@ TEST(bounce_lanes_have_the_bits_and_the_order_of_single_points) {
             std::array<Vec3, 3 * kPoints> org, dir;
             std::array<Rgb, 3 * kPoints> weight;
             LeavingRays out;
-            lanes.bounce(block.points, block.weights.data(), block.alike, kCutoff,
+            lanes.bounce(block.points, block.weights.data(), block.alike, &block.pairs, kCutoff,
                          {org.data(), dir.data(), nullptr, weight.data()}, out);
             LeavingRays told;
             const std::vector<Sent> alone = sentAlone(block, told, cases);
@@ -172,11 +207,15 @@ TEST(bounce_lanes_have_the_bits_and_the_order_of_single_points) {
         // All of it happens, or the test says nothing.
         CHECK_INFO(cases.reflected > cases.points / 2 && cases.refracted > cases.points / 5 &&
                        cases.total > cases.points / 20 && cases.dropped > cases.points / 50 &&
-                       cases.bentBack > cases.points / 1000 && cases.bentDown > cases.points / 100,
+                       cases.bentBack > cases.points / 1000 &&
+                       cases.bentDown > cases.points / 100 && cases.rough > cases.points / 3 &&
+                       cases.onAxis > cases.rough / 50 && cases.atQuarters > cases.rough / 50,
                    name << ": of " << cases.points << " points " << cases.reflected
                         << " reflected, " << cases.refracted << " refracted, " << cases.total
                         << " totally, " << cases.dropped << " dropped, " << cases.bentBack
-                        << " bent back, " << cases.bentDown << " bent down");
+                        << " bent back, " << cases.bentDown << " bent down, " << cases.rough
+                        << " rough, of them " << cases.onAxis << " on the axis of the lobe, "
+                        << cases.atQuarters << " at quarters of the circle");
     });
     CHECK(bounceLanes(chooseKernel("scalar")).bounce == nullptr);
 }
@@ -192,7 +231,7 @@ TEST(bounce_lanes_mirror_points_of_many_materials) {
             std::vector<AlikePoints> mirrors;
             unsigned points = 0;
             for (const AlikePoints& some : block.alike) {
-                if (some.isGlass) continue;
+                if (!isPlainMirror(*some.material)) continue;
                 mirrors.push_back(some), points |= some.points;
                 for (std::size_t k = 0; k < kPoints; ++k)
                     if ((some.points >> k & 1) != 0) materials[k] = some.material;
@@ -205,8 +244,8 @@ TEST(bounce_lanes_mirror_points_of_many_materials) {
             } one, other;
             lanes.mirror(block.points, block.weights.data(), materials.data(), points, kCutoff,
                          one.places(), one.out);
-            lanes.bounce(block.points, block.weights.data(), mirrors, kCutoff, other.places(),
-                         other.out);
+            lanes.bounce(block.points, block.weights.data(), mirrors, nullptr, kCutoff,
+                         other.places(), other.out);
             bool same = one.out.rays == other.out.rays &&
                         one.out.reflected == other.out.reflected && one.out.refracted == 0;
             for (std::size_t ray = 0; ray < one.out.reflected && same; ++ray)

@@ -10,32 +10,42 @@ inline Doubles logTail(const Doubles& r) {
     return low + (r2 * r2) * high;
 }
 
+// logParts(): log(x) = exponent * log(2) + the table's row + log(1 + r). For floats from the
+// smallest normal one on.
+struct LogParts {
+    Ints row;
+    Doubles exponent, r;
+};
+inline LogParts logParts(Floats x) {
+    constexpr std::uint32_t minusBias = 0xffffff81; // -127
+    const Ints fraction = masked(bitsOf(x), 0x7fffff);
+    const Ints row = shiftedRight<16>(plus(fraction, 0x8000));
+    const Doubles mantissa(fromBits(plus(fraction, 0x3f800000)));
+    const Doubles exponent = doublesOf(plus(shiftedRight<23>(bitsOf(x)), minusBias)) +
+                             select(row < Ints(exact::kHalvedFrom), Doubles(0.0), Doubles(1.0));
+    return {row, exponent, mantissa * elementsAt<1>(exact::kPowTables.c.data(), row) - 1.0};
+}
+
 // Of numbers from the smallest normal one to 1.
 inline Doubles logOf(Floats base) {
     constexpr double ln2 = 0x1.62e42fefa39efp-1;
-    constexpr std::uint32_t minusBias = 0xffffff81; // -127
-    const Ints fraction = masked(bitsOf(base), 0x7fffff);
-    const Ints row = shiftedRight<16>(plus(fraction, 0x8000));
-    const Doubles mantissa(fromBits(plus(fraction, 0x3f800000)));
-    const Doubles exponent = doublesOf(plus(shiftedRight<23>(bitsOf(base)), minusBias)) +
-                             select(row < Ints(exact::kHalvedFrom), Doubles(0.0), Doubles(1.0));
-    const Doubles r = mantissa * elementsAt<1>(exact::kPowTables.c.data(), row) - 1.0;
+    const auto [row, exponent, r] = logParts(base);
     const Doubles known = exponent * ln2 + elementsAt<1>(exact::kPowTables.log.data(), row);
     return known + (r + (r * r) * (-0.5 + r * logTail(r)));
 }
 
-// e^x from kLeastPower to kMostPower.
-inline Doubles expOf(const Doubles& x) {
+// e^(x + lo), x from kLeastPower to kMostPower.
+inline Doubles expOf(const Doubles& x, const Doubles& lo) {
     constexpr double rounder = 0x1.8p52, perUnit = 32 / 0x1.62e42fefa39efp-1;
     constexpr double step1 = 0x1.62e42feep-6, step2 = 0x1.a39ef35793c76p-38;
     const Doubles n = (x * perUnit + rounder) - rounder;
-    const Doubles r = ((x - n * step1) - n * step2) + 0.0, r2 = r * r;
+    const Doubles r = ((x - n * step1) - n * step2) + lo, r2 = r * r;
     const Doubles low = 0.5 + r * (1.0 / 6), high = 1.0 / 24 + r * (1.0 / 120);
     const Doubles tail = r2 * (low + r2 * (high + r2 * (1.0 / 720 + r * (1.0 / 5040))));
     const Ints whole = wholeOf(n), j = masked(whole, 31);
     const Doubles hi = elementsAt<1>(exact::kPowTables.powersHi.data(), j);
-    const Doubles lo = elementsAt<1>(exact::kPowTables.powersLo.data(), j);
-    return (hi + (lo + hi * (r + tail))) * powersOfTwo(shiftedRight<5>(whole));
+    const Doubles rest = elementsAt<1>(exact::kPowTables.powersLo.data(), j);
+    return (hi + (rest + hi * (r + tail))) * powersOfTwo(shiftedRight<5>(whole));
 }
 
 // Of the lanes whose bit is set; the others are anything.
@@ -49,7 +59,7 @@ inline Floats powOf(Floats base, Floats exponent, unsigned lanes) {
     const unsigned vanishes = less(power, Doubles(exact::kLeastPower));
     const Doubles in =
         select(maskOf(vanishes), Doubles(0.0), min(power, Doubles(exact::kMostPower)));
-    Floats result = select(maskOf(vanishes), zero, expOf(in).toFloats());
+    Floats result = select(maskOf(vanishes), zero, expOf(in, Doubles(0.0)).toFloats());
     if (plain == lanes) return result;
     alignas(64) float bases[W], exponents[W], powers[W];
     base.store(bases), exponent.store(exponents), result.store(powers);

@@ -1,4 +1,4 @@
-// Rays that the mirrors and the glass of a block of points send on, made by lanes.
+// Rays that the mirrors and the glass of a block of points, sharp or rough, send on, made by lanes.
 #pragma once
 
 #include "render/waves/points.h"
@@ -13,7 +13,7 @@
 namespace waves {
 
 // Rays that lanes have made, in wave.memory.next; what they are inside of and which samples they
-// belong to is still to be said.
+// belong to is still to be said, and which of them don't see lamps.
 struct SentRays {
     LeavingRays out;
     std::size_t first;
@@ -29,7 +29,7 @@ template <class MakeFn> SentRays sendFrom(const Wave& wave, const MakeFn& make) 
     wave.counts.reflect += reflected, wave.counts.refract += refracted;
     next.shrink(first + rays);
     next.beEndless();
-    std::fill_n(next.seesLights.data() + first, rays, std::uint8_t{true}); // nothing is rough
+    std::fill_n(next.seesLights.data() + first, rays, std::uint8_t{true});
     return sent;
 }
 
@@ -50,10 +50,12 @@ public:
 
     void send() const {
         if (count_ == 0) return;
+        BouncePairs pairs;
+        if (rough_ != 0) fill(pairs);
         const SentRays sent = sendFrom(wave_, [&](const RayPlaces& to, LeavingRays& out) {
-            wave_.context.bounceLanes.bounce(block_, &wave_.memory.points.weight[first_],
-                                             std::span(alike_).first(count_), wave_.context.cutoff,
-                                             to, out);
+            wave_.context.bounceLanes.bounce(
+                block_, &wave_.memory.points.weight[first_], std::span(alike_).first(count_),
+                rough_ != 0 ? &pairs : nullptr, wave_.context.cutoff, to, out);
         });
         describe(sent.out, sent.first);
     }
@@ -65,12 +67,37 @@ private:
         const Material& material = of.base;
         if (of.isLamp || (isBlack(material.mirror) && isBlack(material.transmission))) return true;
         AlikePoints& some = alike_[count_++];
-        some = {points, &material, false};
-        if (isPlainMirror(material)) return true;
-        if (!isSharpGlass(material)) return false;
+        some = {points, &material};
+        if (material.roughness > 0) {
+            if (wave_.context.pairSeeds == nullptr) return false;
+            addRough(points);
+        }
+        if (isBlack(material.transmission) && material.fresnel != FresnelModel::Dielectric)
+            return true;
         const Boundary boundary = boundaryAt(wave_, k);
-        some.isGlass = true, some.eta = boundary.eta, some.beyond = boundary.after;
+        some.eta = boundary.eta, some.beyond = boundary.after;
         return true;
+    }
+    void addRough(unsigned points) {
+        rough_ |= points;
+        for (; points != 0; points &= points - 1) { // textures differ from point to point
+            const auto i = static_cast<std::size_t>(std::countr_zero(points));
+            if (!showsLamps(*wave_.memory.points.material[first_ + i])) withoutLamps_ |= 1u << i;
+        }
+    }
+
+    // What the random numbers of rough points are made of.
+    void fill(BouncePairs& pairs) const {
+        constexpr std::size_t kPoints = PointColumns::kPoints;
+        std::array<std::uint32_t, kPoints> streams{};
+        const std::size_t size = wave_.memory.points.sizeOf(first_ / kPoints);
+        for (std::size_t i = 0; i < size; ++i) {
+            streams[i] = wave_.rays.stream[rays_[i]];
+            pairs.sample[i] = wave_.chunk.ids[wave_.memory.points.slot[first_ + i]].index;
+        }
+        wave_.context.pairSeeds(wave_.context.sampler.seed(),
+                                dimension(wave_.depth, BounceSlot::BsdfUv), streams,
+                                {pairs.index, pairs.x, pairs.y});
     }
 
     // The rest of the rays.
@@ -92,6 +119,7 @@ private:
             const std::size_t i = bit / 2, which = bit % 2;
             sample[to] = slots[i], time[to] = times[rays_[i]];
             inside[to] = which == 0 ? before[i] : out.beyond[i];
+            if ((withoutLamps_ >> i & 1) != 0) next.seesLights[first + to] = false;
             if (!wave_.context.steps.draws) continue;
             branch.follow(streams[rays_[i]]);
             stream[to] = branch.streams[which];
@@ -114,6 +142,8 @@ private:
     const std::uint32_t* rays_; // of the points
     RowOfRays<MediumTree::Inside> media_;
     bool areForLanes_ = true;
+    unsigned rough_ = 0;        // points; of these
+    unsigned withoutLamps_ = 0; // those whose rays don't see lamps' bodies: see showsLamps()
     std::size_t count_ = 0;
     std::array<AlikePoints, PointColumns::kPoints> alike_;
 };

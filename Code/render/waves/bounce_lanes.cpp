@@ -6,8 +6,8 @@
 #define DECLARE(isa)                                                                               \
     namespace kernels::isa {                                                                       \
     std::size_t dividePoints(const PointBlock&, const std::uint32_t*, unsigned, std::uint16_t*);   \
-    void bouncePoints(const PointBlock&, const Rgb*, std::span<const AlikePoints>, float,          \
-                      const RayPlaces&, LeavingRays&);                                             \
+    void bouncePoints(const PointBlock&, const Rgb*, std::span<const AlikePoints>,                 \
+                      const BouncePairs*, float, const RayPlaces&, LeavingRays&);                  \
     void mirrorPoints(const PointBlock&, const Rgb*, const Material* const*, unsigned, float,      \
                       const RayPlaces&, LeavingRays&);                                             \
     }

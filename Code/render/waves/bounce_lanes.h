@@ -1,5 +1,6 @@
-// What leaves mirrors and glass at the points of a block, a register of points at a time: what
-// bounces(), mirrored() and leave() give, operation by operation and so bit by bit. Knows numbers
+// What leaves mirrors and glass, sharp or rough, at the points of a block, a register of points at
+// a time: what bounces(), mirrored() and leave() give, operation by operation and so bit by bit
+// (the place in a rough lobe is rounded only where that is sure, else asked alone). Knows numbers
 // only; render/waves/bounce_blocks.h brings them here and takes them away.
 #pragma once
 
@@ -12,18 +13,19 @@
 
 struct Kernel;
 
-// Lanes do this and plain mirrors.
-inline bool isSharpGlass(const Material& material) {
-    return material.roughness <= 0 && material.fresnel == FresnelModel::Dielectric;
-}
-
-// Points of a block that have this in common; they are glass or plain mirrors.
+// Points of a block that have this in common. What has a Fresnel law mirrors or transmits something.
 struct AlikePoints {
     unsigned points; // a bit for each
     const Material* material;
-    bool isGlass;
-    float eta = 1;          // of glass: see bounces()
+    float eta = 1;          // what refracts or is dielectric has one: see bounces()
     std::uint32_t beyond{}; // what refracted rays are inside of
+};
+
+// What rough points draw their pair of Sobol numbers by: Sampler::pairSeeds() and the number of the
+// sample.
+struct alignas(64) BouncePairs {
+    std::uint32_t index[PointBlock::kPoints] = {}, x[PointBlock::kPoints] = {},
+                  y[PointBlock::kPoints] = {}, sample[PointBlock::kPoints] = {};
 };
 
 // What leaves them. A ray's origin, direction and weight are where it goes.
@@ -39,9 +41,11 @@ struct BounceLanes {
     std::size_t (*divide)(const PointBlock& block, const std::uint32_t* media, unsigned used,
                           std::uint16_t* alike) = nullptr;
     // In the order of the points, the reflected ray of each first; rays of less than `cutoff` are
-    // not to be traced. Weights are those of the points. Adds to `leaving`.
+    // not to be traced. Weights are those of the points. `pairs`: null if nothing is rough. Adds to
+    // `leaving`.
     void (*bounce)(const PointBlock& block, const Rgb* weights, std::span<const AlikePoints> alike,
-                   float cutoff, const RayPlaces& out, LeavingRays& leaving) = nullptr;
+                   const BouncePairs* pairs, float cutoff, const RayPlaces& out,
+                   LeavingRays& leaving) = nullptr;
     // The same of `points`, a bit for each, that are plain mirrors of their materials.
     void (*mirror)(const PointBlock& block, const Rgb* weights, const Material* const* materials,
                    unsigned points, float cutoff, const RayPlaces& out,

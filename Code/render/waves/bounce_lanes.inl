@@ -1,6 +1,6 @@
-// The formulas of material/fresnel.h, and those of bounces() for what is sharp, in their order.
-// Where those return early, lanes go on with numbers that nobody takes. Included by the file of
-// each instruction set inside its namespace, after vectors3.inl.
+// The formulas of material/fresnel.h and those of bounces(), in their order. Where those return
+// early, lanes go on with numbers that nobody takes. Included by the file of each instruction set
+// inside its namespace, after vectors3.inl and what lobe_lanes.inl takes.
 
 namespace {
 
@@ -48,6 +48,14 @@ inline Floats fresnelDielectric(Floats cosIn, Floats eta) {
     const Floats part = Floats(0.5f) * (parallel * parallel + perpendicular * perpendicular);
     return select(cos2Out > zero, part, one);
 }
+
+// schlickWeight()
+inline Floats schlickRise(Floats cosIn) {
+    const Floats m = min(max(Floats(1.0f) - cosIn, Floats(0.0f)), Floats(1.0f));
+    return (m * m) * (m * m) * m;
+}
+
+#include "render/waves/lobe_lanes.inl"
 
 inline Floats3 mirroredAbout(const Floats3& n, const Floats3& toEye) {
     return normalize(n * (Floats(2.0f) * dot(n, toEye)) - toEye);
@@ -97,20 +105,23 @@ public:
                     weight_.z);
     }
 
-    void bounce(std::span<const AlikePoints> alike, const RayPlaces& to, LeavingRays& out) const {
+    void bounce(std::span<const AlikePoints> alike, const BouncePairs* pairs, const RayPlaces& to,
+                LeavingRays& out) const {
         const Floats zero(0.0f);
-        unsigned lanes = 0, glass = 0;
+        unsigned lanes = 0, plain = 0, rough = 0;
         Floats3 mirror{zero, zero, zero};
         for (const AlikePoints& some : alike) {
             const unsigned here = some.points >> first_ & kEvery;
             if (here == 0) continue;
-            lanes |= here, glass |= some.isGlass ? here : 0;
+            lanes |= here, plain |= isPlainMirror(*some.material) ? here : 0;
+            rough |= some.material->roughness > 0 ? here : 0;
             mirror = select(maskOf(here), all(some.material->mirror), mirror);
         }
         if (lanes == 0) return;
+        const Floats3 h = rough != 0 ? microNormals(alike, *pairs, rough) : n_;
         RaysOfLanes refracted;
-        if (glass != 0) refracted = refract(alike, glass, mirror, out);
-        write(reflect(mirror, lanes), refracted, to, out);
+        if (lanes != plain) refracted = refract(alike, h, lanes, mirror, out);
+        write(reflect(h, mirror, lanes, rough), refracted, to, out);
     }
 
     void mirror(const Material* const* materials, unsigned lanes, const RayPlaces& to,
@@ -121,27 +132,65 @@ public:
             row[i] = &((lanes >> i & 1) != 0 ? materials[i] : some)->mirror.r;
         Floats mirror[4]; // and something else
         loadRows(row, mirror);
-        write(reflect({mirror[0], mirror[1], mirror[2]}, lanes), {}, to, out);
+        write(reflect(n_, {mirror[0], mirror[1], mirror[2]}, lanes, 0), {}, to, out);
     }
 
 private:
-    // The rays that glass refracts. `mirror` becomes what it reflects.
-    RaysOfLanes refract(std::span<const AlikePoints> alike, unsigned glass, Floats3& mirror,
-                        LeavingRays& out) const {
+    // microNormal() of the rough ones, the normals of the others.
+    Floats3 microNormals(std::span<const AlikePoints> alike, const BouncePairs& pairs,
+                         unsigned rough) const {
+        LobeRow row;
+        Floats exponent(1.0f);
+        for (const AlikePoints& some : alike)
+            if (const unsigned here = some.points >> first_ & rough; here != 0)
+                exponent = select(maskOf(here), Floats(lobeExponent(some.material->roughness)),
+                                  exponent);
+        exponent.store(row.exponent);
+        drawPairs(pairs, first_, row);
+        placeInLobe(row, rough);
+        return select(maskOf(rough), halfVectors(row, n_, toEye_), n_);
+    }
+
+    // What is not reflected but refracted by the surfaces that h stands on. `mirror` becomes what
+    // is reflected.
+    RaysOfLanes refract(std::span<const AlikePoints> alike, const Floats3& h, unsigned lanes,
+                        Floats3& mirror, LeavingRays& out) const {
         const Floats zero(0.0f), one(1.0f);
         Floats eta(one);
         Floats3 transmission{zero, zero, zero};
+        unsigned dielectric = 0, schlick = 0;
         for (const AlikePoints& some : alike) {
-            const unsigned here = some.points >> first_ & kEvery & glass;
+            const unsigned here = some.points >> first_ & kEvery;
             if (here == 0) continue;
+            dielectric |= some.material->fresnel == FresnelModel::Dielectric ? here : 0;
+            schlick |= some.material->fresnel == FresnelModel::Schlick ? here : 0;
             eta = select(maskOf(here), Floats(some.eta), eta);
             transmission = select(maskOf(here), all(some.material->transmission), transmission);
             for (unsigned rest = here; rest != 0; rest &= rest - 1)
                 out.beyond[first_ + static_cast<std::size_t>(std::countr_zero(rest))] = some.beyond;
         }
-        const Floats f = fresnelDielectric(dot(n_, toEye_), eta);
-        auto [dir, passes] = refracted(toEye_, n_, eta);
-        const unsigned transmits = glass & ~black(transmission);
+        const Floats cosIn = dot(h, toEye_);
+        // totallyReflected()
+        Floats3 whenTotal = mirror + transmission, part = mirror;
+        Floats through(one);
+        if (dielectric != 0) {
+            const Mask here = maskOf(dielectric);
+            const Floats f = fresnelDielectric(cosIn, eta);
+            part = select(here, mirror * f, part), through = select(here, one - f, through);
+            whenTotal = select(here, select(maskOf(black(mirror)), transmission, mirror), whenTotal);
+        }
+        if (schlick != 0) {
+            const Mask here = maskOf(schlick);
+            const Floats3 white{one, one, one};
+            const Floats rise = schlickRise(cosIn);
+            part = select(here, mirror + (white - mirror) * rise, part);
+            through = select(here, one - rise, through);
+            whenTotal = select(here, white, whenTotal);
+        }
+        mirror = part;
+        const unsigned transmits = lanes & ~black(transmission);
+        if (transmits == 0) return {};
+        auto [dir, passes] = refracted(toEye_, h, eta);
         unsigned total = transmits & ~passes, leaves = bits(dot(dir, ng_) < zero);
         // A bent normal may refract to the side of the eye: fall back to the true surface.
         if (const unsigned bent = transmits & passes & ~leaves; bent != 0) {
@@ -150,17 +199,23 @@ private:
             total |= bent & ~straight.passes;
             leaves |= bent & bits(dot(dir, ng_) < zero);
         }
-        const Floats3 both = select(maskOf(black(mirror)), transmission, mirror);
-        mirror = select(maskOf(glass), mirror * f, mirror);
-        mirror = select(maskOf(total), both, mirror);
-        return rays(p_ - ng_ * error_, dir, transmission * (one - f), transmits & ~total & leaves);
+        mirror = select(maskOf(total), whenTotal, mirror);
+        // What nothing takes away from keeps its bits: one is a factor that changes none.
+        return rays(p_ - ng_ * error_, dir, transmission * through, transmits & ~total & leaves);
     }
 
-    RaysOfLanes reflect(const Floats3& mirror, unsigned lanes) const {
-        Floats3 dir = mirroredAbout(n_, toEye_);
+    RaysOfLanes reflect(const Floats3& h, const Floats3& mirror, unsigned lanes,
+                        unsigned rough) const {
+        Floats3 dir = mirroredAbout(h, toEye_), part = mirror;
         const Mask leaves = dot(dir, ng_) > Floats(0.0f);
         if ((lanes & ~bits(leaves)) != 0) dir = select(leaves, dir, mirroredAbout(ng_, toEye_));
-        return rays(p_ + ng_ * error_, dir, mirror, lanes);
+        if (rough != 0) {
+            // See bounces().
+            const Floats cosOut = dot(n_, dir), cosEye = dot(n_, toEye_);
+            part = select(maskOf(rough) & (cosOut < cosEye),
+                          mirror * (max(cosOut, Floats(0.0f)) / cosEye), mirror);
+        }
+        return rays(p_ + ng_ * error_, dir, part, lanes);
     }
 
     // Those of `lanes` that are worth tracing.
@@ -220,9 +275,9 @@ std::size_t dividePoints(const PointBlock& block, const std::uint32_t* media, un
 }
 
 void bouncePoints(const PointBlock& block, const Rgb* weights, std::span<const AlikePoints> alike,
-                  float cutoff, const RayPlaces& to, LeavingRays& out) {
+                  const BouncePairs* pairs, float cutoff, const RayPlaces& to, LeavingRays& out) {
     for (std::size_t first = 0; first < PointBlock::kPoints; first += W)
-        BouncingPoints(block, weights, cutoff, first).bounce(alike, to, out);
+        BouncingPoints(block, weights, cutoff, first).bounce(alike, pairs, to, out);
 }
 
 void mirrorPoints(const PointBlock& block, const Rgb* weights, const Material* const* materials,

@@ -4,6 +4,9 @@
 #if defined(__x86_64__)
 #include "accel/kernels/region_includes.h"
 #include "accel/kernels/wide_tree.h"
+#include "base/math.h"
+#include "base/pow_tables.h"
+#include "sample/warp.h"
 
 AVX2_REGION_BEGIN
 namespace kernels::avx2 {
@@ -24,6 +27,20 @@ inline Floats highInTurn(Floats a, Floats b) {
     const __m256 low = _mm256_unpacklo_ps(a.v, b.v), high = _mm256_unpackhi_ps(a.v, b.v);
     return _mm256_permute2f128_ps(low, high, 0x31);
 }
+
+#include "render/waves/texture_gather_avx2.inl"
+
+#include "accel/kernels/pow_bits_avx2.inl"
+
+#include "accel/kernels/pow_lanes.inl"
+
+#include "accel/kernels/pow_of_doubles.inl"
+
+#include "render/waves/sobol_avx2.inl"
+
+#include "render/waves/circle_lanes.inl"
+
+#include "render/waves/frame_lanes.inl"
 
 #include "render/waves/bounce_lanes.inl"
 } // namespace kernels::avx2

@@ -4,6 +4,9 @@
 #if defined(__x86_64__)
 #include "accel/kernels/region_includes.h"
 #include "accel/kernels/wide_tree.h"
+#include "base/math.h"
+#include "base/pow_tables.h"
+#include "sample/warp.h"
 
 AVX512_REGION_BEGIN
 namespace kernels::avx512 {
@@ -25,6 +28,20 @@ inline Floats highInTurn(Floats a, Floats b) {
         _mm512_setr_epi32(8, 24, 9, 25, 10, 26, 11, 27, 12, 28, 13, 29, 14, 30, 15, 31);
     return _mm512_permutex2var_ps(a.v, from, b.v);
 }
+
+#include "render/waves/texture_gather_avx512.inl"
+
+#include "accel/kernels/pow_bits_avx512.inl"
+
+#include "accel/kernels/pow_lanes.inl"
+
+#include "accel/kernels/pow_of_doubles.inl"
+
+#include "render/waves/sobol_avx512.inl"
+
+#include "render/waves/circle_lanes.inl"
+
+#include "render/waves/frame_lanes.inl"
 
 #include "render/waves/bounce_lanes.inl"
 } // namespace kernels::avx512

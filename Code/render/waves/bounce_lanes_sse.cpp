@@ -4,6 +4,9 @@
 #if defined(__x86_64__)
 #include "accel/kernels/region_includes.h"
 #include "accel/kernels/wide_tree.h"
+#include "base/math.h"
+#include "base/pow_tables.h"
+#include "sample/warp.h"
 
 SSE_REGION_BEGIN
 namespace kernels::sse {
@@ -22,6 +25,20 @@ inline Floats lowInTurn(Floats a, Floats b) {
 inline Floats highInTurn(Floats a, Floats b) {
     return {_mm_unpacklo_ps(a.hi, b.hi), _mm_unpackhi_ps(a.hi, b.hi)};
 }
+
+#include "render/waves/texture_gather_sse.inl"
+
+#include "accel/kernels/pow_bits_sse.inl"
+
+#include "accel/kernels/pow_lanes.inl"
+
+#include "accel/kernels/pow_of_doubles.inl"
+
+#include "render/waves/sobol_sse.inl"
+
+#include "render/waves/circle_lanes.inl"
+
+#include "render/waves/frame_lanes.inl"
 
 #include "render/waves/bounce_lanes.inl"
 } // namespace kernels::sse

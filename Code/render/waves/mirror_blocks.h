@@ -18,8 +18,8 @@ inline void mirrorBlock(const Wave& wave, std::size_t b) {
         if (painted.all == nullptr)
             return lanes.mirror(points.at.block(b), weights, &points.material[from],
                                 painted.mirrors, cutoff, to, leaving);
-        const AlikePoints all{painted.mirrors, painted.all, false};
-        lanes.bounce(points.at.block(b), weights, {&all, 1}, cutoff, to, leaving);
+        const AlikePoints all{painted.mirrors, painted.all};
+        lanes.bounce(points.at.block(b), weights, {&all, 1}, nullptr, cutoff, to, leaving);
     });
     PathBatch& next = wave.memory.next;
     const auto forEachRay = [&, first = first, rays = out.rays](const auto& fn) {

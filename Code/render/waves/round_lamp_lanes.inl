@@ -44,7 +44,7 @@ public:
 
 private:
     Three toCentre_;
-    Frames disk_; // z is towards the lamp
+    Frames<Three> disk_; // z is towards the lamp
     Floats radius_, constant_, linear_, quadratic_;
     Three intensity_;
     const SpotCone* cone_;

@@ -2,6 +2,9 @@
 // lit_lanes.inl: a lane is a point of the block, and its samples follow each other.
 // Included by the file of each instruction set inside its namespace.
 
+#include "render/waves/circle_lanes.inl"
+#include "render/waves/frame_lanes.inl"
+
 namespace {
 
 // Samples of the lamp, one of each point: places on it, and the ways there.
@@ -9,22 +12,6 @@ struct LampRow : DiskRow {
     Three toLight;
     Floats distance2, distance;
 };
-
-// frameAround() of each lane.
-struct Frames {
-    Three x, y, z;
-    Three toWorld(Floats a, Floats b, Floats c) const { return x * a + y * b + z * c; }
-};
-inline Frames framesAround(const Three& unit) {
-    const Doubles x(unit.x), y(unit.y), z(unit.z), one(1.0), none(-0.0);
-    const Doubles sign = withSign(one, z);
-    const Doubles a = Doubles(-1.0) / (sign + z), b = x * y * a;
-    const auto rounded = [&](const Doubles& i, const Doubles& j, const Doubles& k) {
-        return Three{i.toFloats(), j.toFloats(), k.toFloats()};
-    };
-    return {rounded(one + sign * x * x * a, sign * b, (none - sign) * x),
-            rounded(b, sign + y * y * a, none - y), unit};
-}
 
 #include "render/waves/cone_lanes.inl"
 

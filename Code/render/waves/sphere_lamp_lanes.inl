@@ -15,8 +15,8 @@ public:
         const Doubles oneMinusCos = sin2 / (one + sqrt(one - sin2));
         unfit_ = inside_ | (~less(Doubles(kNarrowestCone), oneMinusCos) & kAll);
         oneMinusCos.store(oneMinusCos_);
-        frame_ = framesAround({(x_ / distance).toFloats(), (y_ / distance).toFloats(),
-                               (z_ / distance).toFloats()});
+        frame_ = framesAround(Three{(x_ / distance).toFloats(), (y_ / distance).toFloats(),
+                                    (z_ / distance).toFloats()});
         irradiance_ = radiance_ * (Doubles(kTwoPi) * oneMinusCos).toFloats();
         const Vec3 c = lamp.centre;
         const Three d = Three::all(c.x, c.y, c.z) - p_;
@@ -78,7 +78,7 @@ private:
     Three p_, radiance_, irradiance_;
     Doubles x_, y_, z_, r2_, d2_; // to the centre; squares of the radius and of this way
     alignas(64) double oneMinusCos_[W]; // of the cone that the lamp fills
-    Frames frame_;
+    Frames<Three> frame_;
     unsigned seen_, inside_, unfit_;
 };
 

@@ -41,7 +41,7 @@ public:
 
 private:
     double oneMinusCos_;
-    Frames frame_;
+    Frames<Three> frame_;
     Three irradiance_;
     unsigned seen_;
 };
