@@ -9,6 +9,7 @@ template <Query Q> struct alignas(64) BundleBlock {
     float edge[3][3][W];      // edge e at S: edge[e][0] + x edge[e][1] + y edge[e][2]
     float doubt[W];           // the sign of an edge is certain beyond this
     float keyLo[W], keyHi[W]; // bounds of the key of any hit
+    float normal[3][W], volume[W], slack[W]; // see keysNear()
     unsigned uncertain;       // triangles that may be seen from their edge: the edges are no help
     unsigned wide;            // whose key is better computed at once, if it matters
     int pairs;
@@ -65,6 +66,8 @@ template <Query Q> struct alignas(64) BundleBlock {
         const Floats longest =
             max(max(max(abs(e1x), abs(e1y)), max(abs(e1z), abs(e2x))), max(abs(e2y), abs(e2z)));
         uncertain = bits(notGreater(abs(side), longest * longest * reach * Floats(48 * kUnit)));
+        nx.store(normal[0]), ny.store(normal[1]), nz.store(normal[2]), side.store(volume);
+        (longest * longest * reach).store(slack);
         const Floats turn = zero - side;
         Floats at[3], alongX[3], alongY[3];
         for (int e = 0; e < 3; ++e) {
@@ -116,6 +119,28 @@ template <Query Q> struct alignas(64) BundleBlock {
         const Floats below(rays.leastBelow);
         wide = ~bits(hi < (Q == Query::Any ? below : min(lo * Floats(kWide), below)));
         return true;
+    }
+
+    // Bounds of the keys of those rays of packet q that the triangle j contains, closer than those of
+    // all its hits: normal times (S, 1) is volume times the key. Off by units of rounding times the
+    // slack, of the volume: 48 in reckoning it (`uncertain`), 40 in the product, 8 as slopes are
+    // rounded and 6 as corners are, and 30 where the canonical key of a ray that passes the
+    // triangle by 10 units is clamped to its chord or its box.
+    struct KeyBounds {
+        Floats lo, hi;
+    };
+    KeyBounds keysNear(const BundleRays<Q>& rays, unsigned q, unsigned j) const {
+        const Floats lo(keyLo[j]), hi(keyHi[j]);
+        const float off = 192 * kUnit * slack[j], size = std::fabs(volume[j]);
+        // In front of the origin as a whole, of some use, and small enough to be added up.
+        const bool isInFront = keyHi[j] < kInfinityF;
+        if (!isInFront || !(off * 4 < size * (1 - keyLo[j] / keyHi[j])) || !(off * 16 < size))
+            return {lo, hi};
+        const Floats across = fma(Floats::load(rays.Sx[q]), Floats(normal[0][j]),
+                                  fma(Floats::load(rays.Sy[q]), Floats(normal[1][j]),
+                                      Floats(normal[2][j])));
+        const Floats key = across * Floats(1 / volume[j]), most = key * Floats(off / size + 8 * kUnit);
+        return {max(key - most, lo), min(key + most, hi)};
     }
 
 private:

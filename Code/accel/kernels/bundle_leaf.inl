@@ -3,7 +3,8 @@
 // W rays at a time. The tests in front of the canonical hit are certain or exact:
 //   edges: as affine functions of S, with a bound of their and the canonical ones' rounding; where
 //     the sign is not certain, the canonical edge functions decide;
-//   depth: the key of a hit is between those of the triangle's nearest and farthest corner.
+//   depth: the key of a hit is between those of the triangle's nearest and farthest corner, and near
+//     that of the plane in float.
 // Included like queue.inl, behind bundle_block.inl and bundle_best.inl.
 
 template <Query Q> class BundleLeaf {
@@ -74,31 +75,45 @@ private:
                                    unsigned j, unsigned lanes) {
         lanes &= best_.asking(q);
         if (lanes == 0) return false;
-        if (!hasPlanes_) fillPlanes(leaf);
         const std::uint32_t place = firstPlace + j;
+        bool better = false;
+        if constexpr (Q == Query::Any) better = hide(place, q, j, lanes);
+        if (lanes == 0) return better;
+        if (!hasPlanes_) fillPlanes(leaf);
         Mask inside = maskOf(lanes);
         const Floats key = keys_.keysOf(planes_[j], Ints(place), q, inside);
         inside = inside & (key < Floats::load(rays_.below[q]));
         if constexpr (Q == Query::Any) {
             const Floats lo = best_.keyLo(q), hi = best_.keyHi(q);
-            Mask better = inside & (key > hi);
+            Mask hit = inside & (key > hi);
             const Mask open = inside & (lo <= key) & notGreater(key, hi) & (lo < hi);
-            if (bits(open) != 0) better = better | (open & rays_.reach(q, key));
-            best_.accept(q, place, better, key, key);
-            return bits(better) != 0;
+            if (bits(open) != 0) hit = hit | (open & rays_.reach(q, key));
+            best_.accept(q, place, hit, key, key);
+            return better || bits(hit) != 0;
         } else {
             // Keys of hits that were left open, where they matter.
             const Floats lo = best_.keyLo(q), hi = best_.keyHi(q);
             const unsigned open = bits(inside & (lo < hi) & (key >= lo) & (key <= hi));
             if (open != 0) best_.settle(q, open);
             const Floats known = best_.keyHi(q);
-            Mask better = inside & (key > known);
+            Mask hit = inside & (key > known);
             const unsigned equal = bits(inside & (key == known));
             if (equal != 0) [[unlikely]]
-                better = better | maskOf(best_.lowerIds(q, place, equal));
-            best_.accept(q, place, better, key, key);
-            return bits(better) != 0;
+                hit = hit | maskOf(best_.lowerIds(q, place, equal));
+            best_.accept(q, place, hit, key, key);
+            return bits(hit) != 0;
         }
+    }
+
+    // Shadow rays for which the bounds of their own keys tell; others stay in `lanes`. Nearest hits
+    // need the key of most in the end.
+    bool hide(std::uint32_t place, unsigned q, unsigned j, unsigned& lanes) {
+        const auto near = block_.keysNear(rays_, q, j);
+        const Floats below = Floats::load(rays_.below[q]);
+        const Mask hit = maskOf(lanes) & (near.lo > best_.keyHi(q)) & (near.hi < below);
+        best_.accept(q, place, hit, near.lo, near.hi);
+        lanes &= ~(bits(hit) | bits(near.hi < best_.keyLo(q)) | bits(near.lo >= below));
+        return bits(hit) != 0;
     }
 
     [[gnu::noinline]] void fillPlanes(const WideLeaf<W>& leaf) {
