@@ -33,25 +33,25 @@ SurfaceNeeds surfaceNeedsOf(const Scene& scene, const RenderSettings& settings) 
             .lift = !scene.lights().empty()};
 }
 
-// Lanes know no texture coordinates: shapes that nobody asks for them.
+// Shapes whose texture coordinates somebody asks for are no balls.
 StillsInLanes stillsInLanesOf(const Scene& scene, const RenderSettings& settings,
                               SurfaceLanes lanes) {
     StillsInLanes stills;
-    if (lanes.stills == nullptr || !settings.specialise ||
-        settings.integrator == IntegratorKind::Uv)
-        return stills;
+    if (lanes.stills == nullptr || !settings.specialise) return stills;
     const ShapeSet& set = scene.shapes();
-    const auto isTextured = [&](std::uint32_t number) {
+    const auto wantsUv = [&](std::uint32_t number) {
         const SceneMaterial& material = scene.materials()[number];
-        return material.isTextured() || material.bendsNormals();
+        return settings.integrator == IntegratorKind::Uv || material.isTextured() ||
+               material.bendsNormals();
     };
     stills.shapes.resize(set.shapes.size());
     stills.balls.resize(set.shapes.size());
     for (std::size_t i = 0; i < set.shapes.size(); ++i)
-        if (const StillShape* const shape = set.shapes[i]->stillToShade();
-            shape && !isTextured(shape->material) && !isTextured(shape->oddMaterial))
-            if (!stills.balls.take(i, *shape))
-                stills.shapes[i] = {shape, shape->parts, shape->caps, shape->kind};
+        if (const StillShape* const shape = set.shapes[i]->stillToShade()) {
+            const bool uv = wantsUv(shape->material) || wantsUv(shape->oddMaterial);
+            if (uv || !stills.balls.take(i, *shape))
+                stills.shapes[i] = {shape, shape->parts, shape->caps, shape->kind, uv};
+        }
     return stills;
 }
 

@@ -71,6 +71,7 @@ struct StillsInLanes {
         std::uint8_t parts = 0;
         std::uint8_t caps = 0;
         StillShape::Kind kind{};
+        bool wantsUv = false;
         StillShape::Kind kindOf(std::uint32_t part) const {
             return caps >> part & 1 ? StillShape::Kind::Cap : kind;
         }
@@ -227,7 +228,8 @@ struct WaveMemory {
     PathBatch rays, next;
     std::vector<Hit> hits;
     PointBatch points;
-    std::array<PointsToDescribe, StillShape::kKinds> onStills;
+    // Without texture coordinates, and with.
+    std::array<std::array<PointsToDescribe, StillShape::kKinds>, 2> onStills;
     PointsToDescribe onBalls, onOthers;
     TexturedPoints texturedPoints;
     MediumTree media;

@@ -17,7 +17,7 @@ namespace kernels::avx2 {
 
 #include "render/waves/sobol_avx2.inl"
 
-#include "render/waves/texture_gather_avx2.inl"
+#include "accel/kernels/table_gather_avx2.inl"
 
 #include "render/lens_lanes.inl"
 } // namespace kernels::avx2

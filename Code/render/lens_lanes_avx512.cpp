@@ -17,7 +17,7 @@ namespace kernels::avx512 {
 
 #include "render/waves/sobol_avx512.inl"
 
-#include "render/waves/texture_gather_avx512.inl"
+#include "accel/kernels/table_gather_avx512.inl"
 
 #include "render/lens_lanes.inl"
 } // namespace kernels::avx512

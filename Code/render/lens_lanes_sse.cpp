@@ -17,7 +17,7 @@ namespace kernels::sse {
 
 #include "render/waves/sobol_sse.inl"
 
-#include "render/waves/texture_gather_sse.inl"
+#include "accel/kernels/table_gather_sse.inl"
 
 #include "render/lens_lanes.inl"
 } // namespace kernels::sse

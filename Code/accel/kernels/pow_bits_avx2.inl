@@ -1,4 +1,4 @@
-// What powers need beside simd_avx2.inl and texture_gather_avx2.inl: see pow_bits_avx512.inl.
+// What powers need beside simd_avx2.inl and table_gather_avx2.inl: see pow_bits_avx512.inl.
 inline Ints bitsOf(Floats a) { return _mm256_castps_si256(a.v); }
 inline Floats fromBits(Ints a) { return _mm256_castsi256_ps(a.v); }
 inline Ints plus(Ints a, std::uint32_t b) { return _mm256_add_epi32(a.v, Ints(b).v); }

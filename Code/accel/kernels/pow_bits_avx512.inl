@@ -1,4 +1,4 @@
-// What powers need beside simd_avx512.inl and texture_gather_avx512.inl; its siblings define the
+// What powers need beside simd_avx512.inl and table_gather_avx512.inl; its siblings define the
 // same names.
 inline Ints bitsOf(Floats a) { return _mm512_castps_si512(a.v); }
 inline Floats fromBits(Ints a) { return _mm512_castsi512_ps(a.v); }

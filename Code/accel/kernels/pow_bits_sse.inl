@@ -1,4 +1,4 @@
-// What powers need beside simd_sse.inl and texture_gather_sse.inl: see pow_bits_avx512.inl.
+// What powers need beside simd_sse.inl and table_gather_sse.inl: see pow_bits_avx512.inl.
 inline Ints bitsOf(Floats a) { return {_mm_castps_si128(a.lo), _mm_castps_si128(a.hi)}; }
 inline Floats fromBits(Ints a) { return {_mm_castsi128_ps(a.lo), _mm_castsi128_ps(a.hi)}; }
 inline Ints plus(Ints a, std::uint32_t b) {

@@ -15,6 +15,16 @@ enum Number : std::size_t {
     CentreX,
     CentreY,
     CentreZ,
+    OriginX, // and what follows as the two axes of the plane see it: the first corner,
+    OriginY,
+    AlongUX, // the side from there to the second one,
+    AlongUY,
+    AlongVX, // to the fourth,
+    AlongVY,
+    BentX, // and how much longer than this the opposite side is
+    BentY,
+    AxisX, // 0 to 2
+    AxisY,
     kNumbers,
     Slope = Own,
     NarrowZ,
@@ -35,6 +45,12 @@ template <Kind kKind, class PutFn> void forEachNumber(const StillShape& shape, P
         const auto& [n, centre, edges, axisX, axisY] = *shape.corners;
         put(NormalX, n.x), put(NormalY, n.y), put(NormalZ, n.z);
         put(CentreX, centre.x), put(CentreY, centre.y), put(CentreZ, centre.z);
+        const Vec2d from = edges[0].from, u = edges[0].way, v = edges[3].from - from,
+                    bent = edges[1].way - v;
+        put(OriginX, from.x), put(OriginY, from.y);
+        put(AlongUX, u.x), put(AlongUY, u.y), put(AlongVX, v.x), put(AlongVY, v.y);
+        put(BentX, bent.x), put(BentY, bent.y);
+        put(AxisX, static_cast<double>(axisX)), put(AxisY, static_cast<double>(axisY));
     }
     if constexpr (kKind == Kind::Cone) {
         const StillCone& cone = *shape.cone;

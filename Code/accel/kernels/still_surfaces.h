@@ -23,8 +23,8 @@ struct StillsMet {
     std::span<const std::uint32_t> which;
     std::span<const std::uint32_t> to;
     std::span<const StillShape* const> shapes;
+    bool wantsUv = false; // else texture coordinates stay as they are
 };
 
-// out[to[k]] becomes the surface of hit k, without texture coordinates, in a block that was
-// cleared.
+// out[to[k]] becomes the surface of hit k, in a block that was cleared.
 using StillSurfacesFn = void (*)(const StillsMet&, SurfacePlaces out);

@@ -86,10 +86,11 @@ void readAhead(std::size_t size, const ReadFn& read, const UseFn& use) {
 struct SurfacesInLanes {
     alignas(64) float p[3][W], n[3][W], error[W];
     std::uint32_t material[W], object[W];
+    alignas(64) float uv[2][W];
     unsigned odd = 0; // lanes on an odd square of a plane
+    bool hasUv = false;
 
-    // Lane i into place to[i], flat and without texture coordinates. The blocks know of nothing
-    // else.
+    // Lane i into place to[i], flat. The blocks know of nothing else.
     void put(std::span<const std::uint32_t> to, const SurfacePlaces& out) const {
         const std::size_t lane = to[0] % SurfaceBlock::kPoints;
         if (to.size() == W && to[W - 1] == to[0] + (W - 1) && lane + W <= SurfaceBlock::kPoints &&
@@ -100,6 +101,7 @@ struct SurfacesInLanes {
             SurfaceBlock::set(block.p, at, {p[0][i], p[1][i], p[2][i]});
             SurfaceBlock::set(block.ng, at, {n[0][i], n[1][i], n[2][i]});
             block.error[at] = error[i];
+            if (hasUv) block.uv[0][at] = uv[0][i], block.uv[1][at] = uv[1][i];
             block.material[at] = material[i], block.object[at] = object[i];
         }
     }
@@ -116,6 +118,9 @@ private:
             std::copy_n(n[axis], W, block.ng[axis] + lane);
         }
         std::copy_n(error, W, block.error + lane);
+        if (hasUv)
+            for (std::size_t axis = 0; axis < 2; ++axis)
+                std::copy_n(uv[axis], W, block.uv[axis] + lane);
         std::copy_n(material, W, block.material + lane);
         std::copy_n(object, W, block.object + lane);
     }
@@ -139,6 +144,7 @@ inline void store(const Doubles3& v, float (&to)[3][W]) {
 }
 
 #include "accel/kernels/still_points.inl"
+#include "accel/kernels/still_uv.inl"
 
 // The outward normals of the faces of cubes that are met.
 inline Doubles3 facesMet(std::span<const Hit> hits, const RaysOfLanes& ray) {
@@ -196,6 +202,11 @@ void describe(const Numbers& shape, const RaysInLanes& world, const Doubles3& fa
             out.odd = oddSquares(met.x.toFloats(), met.y.toFloats());
         if constexpr (kKind == Kind::Plane || kKind == Kind::Disk) return onDisk(met);
     }();
+    if constexpr (!kOnlyScales<Numbers>)
+        if (out.hasUv) {
+            const auto [u, v] = uvOf<kKind>(shape, local, face);
+            u.toFloats().store(out.uv[0]), v.toFloats().store(out.uv[1]);
+        }
     const Doubles3 rough = pointOf(shape, WorldFromObject, local.p);
     const Doubles3 back = pointOf(shape, ObjectFromWorld, rough);
     const Doubles3 p = rough + vectorOf(shape, WorldFromObject, local.p - back);
@@ -221,6 +232,7 @@ inline void findMaterials(std::span<const StillShape* const> shapes, SurfacesInL
 
 template <Kind kKind> void surfacesOf(const StillsMet& met, const SurfacePlaces& out) {
     SurfacesInLanes found;
+    found.hasUv = met.wantsUv;
     const StillShape* last = nullptr;
     std::optional<NumbersOf<kKind>> ofLast;
     const auto read = [&](std::size_t first, std::size_t count, RayColumns& rays) {

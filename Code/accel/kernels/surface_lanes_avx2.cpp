@@ -4,6 +4,7 @@
 #if defined(__x86_64__)
 #include "accel/kernels/region_includes.h"
 #include "accel/kernels/wide_tree.h"
+#include "base/atan_table.h"
 #include "base/math.h"
 
 AVX2_REGION_BEGIN
@@ -13,6 +14,10 @@ namespace kernels::avx2 {
 #include "accel/kernels/solids_columns_avx2.inl"
 
 #include "accel/kernels/vectors3.inl"
+
+#include "accel/kernels/table_gather_avx2.inl"
+
+#include "accel/kernels/angle_lanes.inl"
 
 #include "accel/kernels/still_surfaces.inl"
 

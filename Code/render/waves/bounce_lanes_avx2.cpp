@@ -28,7 +28,7 @@ inline Floats highInTurn(Floats a, Floats b) {
     return _mm256_permute2f128_ps(low, high, 0x31);
 }
 
-#include "render/waves/texture_gather_avx2.inl"
+#include "accel/kernels/table_gather_avx2.inl"
 
 #include "accel/kernels/pow_bits_avx2.inl"
 

@@ -29,7 +29,7 @@ inline Floats highInTurn(Floats a, Floats b) {
     return _mm512_permutex2var_ps(a.v, from, b.v);
 }
 
-#include "render/waves/texture_gather_avx512.inl"
+#include "accel/kernels/table_gather_avx512.inl"
 
 #include "accel/kernels/pow_bits_avx512.inl"
 

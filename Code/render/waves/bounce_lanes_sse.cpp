@@ -26,7 +26,7 @@ inline Floats highInTurn(Floats a, Floats b) {
     return {_mm_unpacklo_ps(a.hi, b.hi), _mm_unpackhi_ps(a.hi, b.hi)};
 }
 
-#include "render/waves/texture_gather_sse.inl"
+#include "accel/kernels/table_gather_sse.inl"
 
 #include "accel/kernels/pow_bits_sse.inl"
 

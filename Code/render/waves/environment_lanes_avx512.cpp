@@ -10,11 +10,11 @@ AVX512_REGION_BEGIN
 namespace kernels::avx512 {
 #include "accel/kernels/simd_avx512.inl"
 
-#include "render/waves/texture_gather_avx512.inl"
+#include "accel/kernels/table_gather_avx512.inl"
 
 #include "render/waves/texel_lanes.inl"
 
-#include "render/waves/angle_lanes.inl"
+#include "accel/kernels/angle_lanes.inl"
 
 #include "render/waves/environment_lanes.inl"
 } // namespace kernels::avx512

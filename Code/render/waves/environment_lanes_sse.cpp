@@ -10,11 +10,11 @@ SSE_REGION_BEGIN
 namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
 
-#include "render/waves/texture_gather_sse.inl"
+#include "accel/kernels/table_gather_sse.inl"
 
 #include "render/waves/texel_lanes.inl"
 
-#include "render/waves/angle_lanes.inl"
+#include "accel/kernels/angle_lanes.inl"
 
 #include "render/waves/environment_lanes.inl"
 } // namespace kernels::sse

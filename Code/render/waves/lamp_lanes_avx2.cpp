@@ -15,7 +15,7 @@ namespace kernels::avx2 {
 
 #include "accel/kernels/store_chosen_avx2.inl"
 
-#include "render/waves/texture_gather_avx2.inl"
+#include "accel/kernels/table_gather_avx2.inl"
 
 #include "accel/kernels/pow_bits_avx2.inl"
 

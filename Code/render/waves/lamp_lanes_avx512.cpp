@@ -15,7 +15,7 @@ namespace kernels::avx512 {
 
 #include "accel/kernels/store_chosen_avx512.inl"
 
-#include "render/waves/texture_gather_avx512.inl"
+#include "accel/kernels/table_gather_avx512.inl"
 
 #include "accel/kernels/pow_bits_avx512.inl"
 

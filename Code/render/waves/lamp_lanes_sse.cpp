@@ -15,7 +15,7 @@ namespace kernels::sse {
 
 #include "accel/kernels/store_chosen_sse.inl"
 
-#include "render/waves/texture_gather_sse.inl"
+#include "accel/kernels/table_gather_sse.inl"
 
 #include "accel/kernels/pow_bits_sse.inl"
 

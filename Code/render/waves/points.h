@@ -83,13 +83,14 @@ template <bool kHasBalls> void sortPoints(const Wave& wave) {
         }
         prefetch(*still.shape);
         const auto kind = static_cast<std::size_t>(still.kindOf(part));
-        wave.memory.onStills[kind].push(ray, k, still.shape);
+        wave.memory.onStills[still.wantsUv ? 1 : 0][kind].push(ray, k, still.shape);
     }
 }
 
 inline void sortPoints(const Wave& wave) {
     WaveMemory& memory = wave.memory;
-    for (PointsToDescribe& list : memory.onStills) list.clear(memory.points.count);
+    for (auto& lists : memory.onStills)
+        for (PointsToDescribe& list : lists) list.clear(memory.points.count);
     memory.onBalls.clear(memory.points.count);
     memory.onOthers.clear(memory.points.count);
     if (wave.context.stillsInLanes.balls.isEmpty())
@@ -107,11 +108,14 @@ inline void findSurfaces(const Wave& wave) {
     sortPoints(wave);
     for (std::size_t b = 0; b < points.blocks(); ++b) points.at.block(b).clear();
     const SurfacePlaces out = points.at.surfaces();
-    for (std::size_t kind = 0; kind < StillShape::kKinds; ++kind)
-        if (const PointsToDescribe& list = wave.memory.onStills[kind]; !list.rays().empty())
-            context.surfaceLanes.stills({static_cast<StillShape::Kind>(kind), wave.rays.span(),
-                                         hits, list.rays(), list.points(), list.shapes()},
-                                        out);
+    for (const bool wantsUv : {false, true})
+        for (std::size_t kind = 0; kind < StillShape::kKinds; ++kind)
+            if (const auto& list = wave.memory.onStills[wantsUv ? 1 : 0][kind];
+                !list.rays().empty())
+                context.surfaceLanes.stills({static_cast<StillShape::Kind>(kind), wave.rays.span(),
+                                             hits, list.rays(), list.points(), list.shapes(),
+                                             wantsUv},
+                                            out);
     if (const PointsToDescribe& list = wave.memory.onBalls; !list.rays().empty())
         context.surfaceLanes.balls(
             {wave.rays.span(), hits, list.rays(), list.points(), context.stillsInLanes.balls}, out);

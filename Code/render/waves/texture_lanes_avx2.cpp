@@ -9,7 +9,7 @@ AVX2_REGION_BEGIN
 namespace kernels::avx2 {
 #include "accel/kernels/simd_avx2.inl"
 
-#include "render/waves/texture_gather_avx2.inl"
+#include "accel/kernels/table_gather_avx2.inl"
 
 #include "render/waves/texel_lanes.inl"
 

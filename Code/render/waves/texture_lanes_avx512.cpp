@@ -9,7 +9,7 @@ AVX512_REGION_BEGIN
 namespace kernels::avx512 {
 #include "accel/kernels/simd_avx512.inl"
 
-#include "render/waves/texture_gather_avx512.inl"
+#include "accel/kernels/table_gather_avx512.inl"
 
 #include "render/waves/texel_lanes.inl"
 

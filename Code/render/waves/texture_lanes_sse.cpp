@@ -9,7 +9,7 @@ SSE_REGION_BEGIN
 namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
 
-#include "render/waves/texture_gather_sse.inl"
+#include "accel/kernels/table_gather_sse.inl"
 
 #include "render/waves/texel_lanes.inl"
 

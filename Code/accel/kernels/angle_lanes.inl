@@ -1,7 +1,7 @@
 // exact::atan2() of W points, operation by operation as in base/math_angles.cpp, for numbers that
-// come from floats or from the square root of two squares of them: none is so large or small that
-// products would have to be scaled.
-// Included by the file of each instruction set inside its namespace, behind texture_gather_*.inl.
+// come from floats or from the square root of two squares of them, or are on a unit circle: none is
+// so large or small that products would have to be scaled.
+// Included by the file of each instruction set inside its namespace, behind table_gather_*.inl.
 
 // atanTail()
 inline Doubles atanTails(const Doubles& t) {

@@ -1,4 +1,4 @@
-// What look-ups in tables need beside simd_avx2.inl: see texture_gather_avx512.inl.
+// What look-ups in tables need beside simd_avx2.inl: see table_gather_avx512.inl.
 inline Doubles floor(const Doubles& a) { return {_mm256_floor_pd(a.lo), _mm256_floor_pd(a.hi)}; }
 inline Ints wholeOf(const Doubles& a) {
     return _mm256_inserti128_si256(_mm256_castsi128_si256(_mm256_cvttpd_epi32(a.lo)),

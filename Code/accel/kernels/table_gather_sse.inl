@@ -1,4 +1,4 @@
-// What look-ups in tables need beside simd_sse.inl: see texture_gather_avx512.inl.
+// What look-ups in tables need beside simd_sse.inl: see table_gather_avx512.inl.
 inline Doubles floor(const Doubles& a) {
     return quarters([&](int i) { return _mm_floor_pd(a.v[i]); });
 }
