@@ -70,21 +70,10 @@ void CameraRays::choosePlaces(const Tile& tile, int first, int count, SampleChun
     }
 }
 
-void CameraRays::drawPairs(int first, int count, std::uint32_t dimension,
-                           std::span<const SampleId> ids, const Filter* filter,
-                           std::span<Vec2> out) const {
+template <class TakeFn>
+void CameraRays::drawInLanes(int first, int count, std::uint32_t dimension,
+                             std::span<const SampleId> ids, const TakeFn& take) const {
     const Sampler& sampler = context_.sampler;
-    const auto samples = static_cast<std::size_t>(count);
-    const bool areCentres = dimension == kPixelDimension && sampler.sampleCount() == 1 &&
-                            !context_.settings.picture.jitter; // see Sampler
-    if (lanes_.pairs == nullptr || sampler.kind() != SamplerKind::Sobol || areCentres) {
-        for (std::size_t slot = 0; slot < ids.size(); slot += samples)
-            sampler.get2D(ids[slot].pixel, static_cast<std::uint32_t>(first), dimension,
-                          out.subspan(slot, samples));
-        if (filter) filter->sample(out);
-        return;
-    }
-    const auto inverse = filter ? filter->inverse() : std::nullopt;
     Sampler::PairSeeds seeds{};
     PairBlock block;
     for (std::size_t slot = 0; slot < ids.size(); slot += PairBlock::kPairs) {
@@ -101,10 +90,47 @@ void CameraRays::drawPairs(int first, int count, std::uint32_t dimension,
             lanes_.seeds(sampler.seed(), dimension, std::span<const std::uint32_t>(block.pixel),
                          {block.index, block.x, block.y});
         lanes_.pairs(block);
-        if (inverse) lanes_.spread(*inverse, block);
-        for (std::size_t i = 0; i < some; ++i) out[slot + i] = {block.u[i], block.v[i]};
+        take(block, slot, some);
     }
+}
+
+void CameraRays::drawPairs(int first, int count, std::uint32_t dimension,
+                           std::span<const SampleId> ids, const Filter* filter,
+                           std::span<Vec2> out) const {
+    const Sampler& sampler = context_.sampler;
+    const auto samples = static_cast<std::size_t>(count);
+    const bool areCentres = dimension == kPixelDimension && sampler.sampleCount() == 1 &&
+                            !context_.settings.picture.jitter; // see Sampler
+    if (!areLanesAsked() || areCentres) {
+        for (std::size_t slot = 0; slot < ids.size(); slot += samples)
+            sampler.get2D(ids[slot].pixel, static_cast<std::uint32_t>(first), dimension,
+                          out.subspan(slot, samples));
+        if (filter) filter->sample(out);
+        return;
+    }
+    const auto inverse = filter ? filter->inverse() : std::nullopt;
+    drawInLanes(first, count, dimension, ids,
+                [&](PairBlock& block, std::size_t slot, std::size_t some) {
+                    if (inverse) lanes_.spread(*inverse, block);
+                    for (std::size_t i = 0; i < some; ++i) out[slot + i] = {block.u[i], block.v[i]};
+                });
     if (filter && !inverse) filter->sample(out);
+}
+
+void CameraRays::drawTimes(int first, int count, SampleChunk& chunk) const {
+    const Sampler& sampler = context_.sampler;
+    std::vector<float>& times = chunk.cameraRays.time;
+    if (areLanesAsked())
+        return drawInLanes(first, count, Sampler::alone(kTimeDimension), chunk.ids,
+                           [&](const PairBlock& block, std::size_t slot, std::size_t some) {
+                               std::copy_n(block.u, some, &times[slot]);
+                           });
+    for (std::size_t i = 0; i < chunk.ids.size(); ++i)
+        times[i] = sampler.get1D(chunk.ids[i].pixel, chunk.ids[i].index, kTimeDimension);
+}
+
+bool CameraRays::areLanesAsked() const {
+    return lanes_.pairs != nullptr && context_.sampler.kind() == SamplerKind::Sobol;
 }
 
 void CameraRays::sendThroughLens(const Camera::Lens& lens, SampleChunk& chunk) const {
@@ -127,7 +153,6 @@ void CameraRays::sendThroughLens(const Camera::Lens& lens, SampleChunk& chunk) c
 
 void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk) const {
     const Camera& camera = context_.scene.camera();
-    const Sampler& sampler = context_.sampler;
     choosePlaces(tile, first, count, chunk);
 
     PathBatch& rays = chunk.cameraRays;
@@ -155,9 +180,7 @@ void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk
         rays.time[i] = 0.5f; // what stands still looks the same at any time
     }
     for (std::size_t i = 0; i < rays.size(); ++i) rays.stream[i] = chunk.ids[i].pixel;
-    if (hasTime)
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            rays.time[i] = sampler.get1D(chunk.ids[i].pixel, chunk.ids[i].index, kTimeDimension);
+    if (hasTime) drawTimes(first, count, chunk);
     if (isPinhole) return;
     if (hasLens) {
         chunk.onLens.resize(rays.size());

@@ -33,6 +33,14 @@ private:
     // filter makes of them, if there is one.
     void drawPairs(int first, int count, std::uint32_t dimension, std::span<const SampleId> ids,
                    const Filter* filter, std::span<Vec2> out) const;
+    // Sampler::get1D() of all slots.
+    void drawTimes(int first, int count, SampleChunk& chunk) const;
+    // Pairs of Sobol numbers of all slots: take(block, slot, count), `slot` that of the block's
+    // first pair.
+    template <class TakeFn>
+    void drawInLanes(int first, int count, std::uint32_t dimension, std::span<const SampleId> ids,
+                     const TakeFn& take) const;
+    bool areLanesAsked() const;
     void sendThroughLens(const Camera::Lens& lens, SampleChunk& chunk) const;
 
     const IntegratorContext& context_;

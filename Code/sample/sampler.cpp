@@ -61,9 +61,6 @@ void storePairs(const Pair<Four>& bits, Vec2* out) {
     for (std::size_t k = 0; k < 4; ++k) out[k] = {x[k], y[k]};
 }
 
-// Keeps the hashes of one dimension used alone and in a pair apart.
-constexpr std::uint32_t kAlone = 0x80000000u;
-
 } // namespace
 
 Sampler::Sampler(SamplerKind kind, int sampleCount, std::uint32_t seed, bool jitter)
@@ -88,7 +85,7 @@ Sampler::PairSeeds Sampler::pairSeeds(std::uint32_t pixel, std::uint32_t dimensi
 }
 
 float Sampler::get1D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension) const {
-    const std::uint64_t bits = hash(seed_, pixel, dimension | kAlone);
+    const std::uint64_t bits = hash(seed_, pixel, alone(dimension));
     switch (kind_) {
     case SamplerKind::Sobol: {
         const std::uint32_t a = low32(bits), b = high32(bits);

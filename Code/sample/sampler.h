@@ -42,6 +42,10 @@ public:
         std::uint32_t index, x, y;
     };
     PairSeeds pairSeeds(std::uint32_t pixel, std::uint32_t dimension) const;
+    // Of its pair, the x is what get1D() gives of `dimension`; of a sampler of that kind, too.
+    static constexpr std::uint32_t alone(std::uint32_t dimension) {
+        return dimension | 0x80000000u; // keeps the hashes of a number and of a pair apart
+    }
 
     // An independent sampler of the same kind, for the n-th thing of a loop inside a sample, such
     // as a light with `repeats` light samples each: ask it for sample = sample * repeats + k, so

@@ -106,3 +106,13 @@ TEST(sampler_runs_are_samples) {
                 }
             }
 }
+
+// Lanes that make pairs make single numbers so.
+TEST(sampler_number_is_half_of_a_pair) {
+    const Sampler sampler(SamplerKind::Sobol, 16, 5);
+    for (std::uint32_t pixel = 0; pixel < 300; pixel += 7)
+        for (std::uint32_t i = 0; i < 40; ++i)
+            for (std::uint32_t d = 0; d < 20; ++d)
+                CHECK_EQUAL(sampler.get2D(pixel, i, Sampler::alone(d)).x,
+                            sampler.get1D(pixel, i, d));
+}
