@@ -32,6 +32,8 @@ enum class Answer { Closest, Any };
 
 #include "accel/kernels/solids_spheres.inl"
 
+#include "accel/kernels/solids_answers.inl"
+
 #include "accel/kernels/solids_meet.inl"
 
 #include "accel/kernels/solids_each.inl"

@@ -1,11 +1,10 @@
-// Solids that rays of a packet may meet: hits and shadows, with the bits of asking each shape for
-// each ray.
+// Solids that rays of a packet may meet: which formula each is asked by, with the bits of asking each
+// shape for each ray.
 // Included by solids.inl.
 
-class PacketSolids : public PacketSpheres {
+class PacketSolids : public PacketAnswers {
 protected:
-    PacketSolids(const SolidTree& tree, const SolidCalls& calls, const RaySpan& rays)
-        : PacketSpheres(tree, rays), calls_(calls) {}
+    using PacketAnswers::PacketAnswers;
 
     template <Answer A, class Result>
     void solid(std::uint32_t place, unsigned lanes, Result* results) {
@@ -67,17 +66,6 @@ protected:
         }
     }
 
-    // Hides what comes next from the lamp, too, more often than not.
-    std::uint32_t lastHider_ = std::numeric_limits<std::uint32_t>::max();
-    std::uint32_t asked_ = 0; // place of the solid
-    const SolidCalls& calls_;
-
-    void hide(unsigned lanes, std::uint8_t* hidden) {
-        if (lanes != 0) lastHider_ = asked_;
-        live_ &= ~lanes;
-        for (; lanes != 0; lanes &= lanes - 1) hidden[ray_[std::countr_zero(lanes)]] = 1;
-    }
-
     // What it will be met by, while its box is entered: shapes lie anywhere in the memory.
     void prefetch(const SolidTree::Solid& solid) const {
         if (solid.shape == nullptr) return;
@@ -91,22 +79,7 @@ protected:
             __builtin_prefetch(&tree_.tubes[solid.part]);
     }
 
-    // Of one lane, that of the shape itself.
-    void askFor(const SolidTree::Solid& solid, int lane, float tEntry, Hit* hits) {
-        Hit& hit = hits[ray_[lane]];
-        if (!calls_.nearer(calls_.set, rays_[ray_[lane]], solid.number, tEntry, hit)) return;
-        alignas(64) float best[W];
-        best_.store(best);
-        best[lane] = hit.t, number_[lane] = hit.shape;
-        limit(Floats::load(best));
-    }
-    void askFor(const SolidTree::Solid& solid, int lane, float, std::uint8_t* hidden) {
-        if (calls_.hides(calls_.set, rays_[ray_[lane]], solid.number)) hide(1u << lane, hidden);
-    }
-
 private:
-    RayRanges ranges() const { return {columns_.tMin, best_}; }
-
     template <Answer A, class Result>
     void sphere(const SolidTree::Solid& solid, Floats entry, unsigned lanes, Result* results) {
         const SameMap map{solid.shape->objectFromWorld()};
@@ -120,31 +93,6 @@ private:
             hide(hides(roots, ranges()), results);
         else
             take(solid, firstOf(roots, ranges()), entry, lanes, results);
-    }
-
-    [[gnu::noinline]] void ask(const SolidTree::Solid& solid, Floats entry, unsigned lanes,
-                               Hit* hits) {
-        alignas(64) float z[W], dz[W], best[W];
-        entry.store(z), lanes_.dz.store(dz), best_.store(best);
-        bool improved = false;
-        for (; lanes != 0; lanes &= lanes - 1) {
-            const int i = std::countr_zero(lanes);
-            Hit& hit = hits[ray_[i]];
-            if (!calls_.nearer(calls_.set, rays_[ray_[i]], solid.number, z[i] / dz[i], hit))
-                continue;
-            best[i] = hit.t;
-            number_[i] = hit.shape;
-            improved = true;
-        }
-        if (improved) limit(Floats::load(best));
-    }
-    [[gnu::noinline]] void ask(const SolidTree::Solid& solid, Floats, unsigned lanes,
-                               std::uint8_t* hidden) {
-        for (; lanes != 0; lanes &= lanes - 1) {
-            const int i = std::countr_zero(lanes);
-            if (!calls_.hides(calls_.set, rays_[ray_[i]], solid.number)) continue;
-            hide(1u << i, hidden);
-        }
     }
 
     // One that moves or is seen from one side only.
@@ -174,33 +122,6 @@ private:
              solid.kind == SolidTree::Kind::Cube ? meetCube<A>(columns_, ranges(), solid, map)
                                                  : meetFlat<A>(columns_, ranges(), solid, map),
              entry, lanes, results);
-    }
-
-    // The choice between hits and the best ones. Inlined, as lanes that are found would go through
-    // memory: 2 to 4 % of pictures.
-    [[gnu::always_inline]] void take(const SolidTree::Solid& solid, const FoundLanes& found,
-                                     Floats entry, unsigned lanes, Hit* hits) {
-        const Floats nearest = max(entry / lanes_.dz, found.t);
-        const unsigned better = nearerLanes(solid, lanes & found.met & ~found.undecided, nearest);
-        if (better != 0) {
-            alignas(64) float ts[W], us[W];
-            nearest.store(ts), found.lost.store(us);
-            for (unsigned rest = better; rest != 0; rest &= rest - 1) {
-                const int i = std::countr_zero(rest);
-                hits[ray_[i]] = {
-                    .t = ts[i], .u = us[i], .prim = found.partOf(i), .shape = solid.number};
-                number_[i] = solid.number;
-            }
-            limit(select(maskOf(better), nearest, best_));
-        }
-        if (const unsigned asking = lanes & found.undecided; asking != 0)
-            ask(solid, entry, asking, hits);
-    }
-    void take(const SolidTree::Solid& solid, const FoundLanes& found, Floats entry, unsigned lanes,
-              std::uint8_t* hidden) {
-        hide(lanes & found.met & ~found.undecided, hidden);
-        if (const unsigned asking = lanes & found.undecided; asking != 0)
-            ask(solid, entry, asking, hidden);
     }
 
     // AnalyticShape::intersect(), OneSided::intersect() and the choice between their hit and the
@@ -322,20 +243,5 @@ private:
             }
             if (lanes == 0) return;
         }
-    }
-
-    // Lanes whose new hit is the best one.
-    unsigned nearerLanes(const SolidTree::Solid& solid, unsigned lanes, Floats nearest) const {
-        const unsigned equal = lanes & bits(nearest == best_);
-        return (lanes & bits(nearest < best_)) | lowerNumbers(equal, solid);
-    }
-
-    unsigned lowerNumbers(unsigned lanes, const SolidTree::Solid& solid) const {
-        unsigned lower = 0;
-        for (; lanes != 0; lanes &= lanes - 1) {
-            const int i = std::countr_zero(lanes);
-            if (solid.number < number_[i]) lower |= 1u << i;
-        }
-        return lower;
     }
 };
