@@ -1,4 +1,5 @@
 // Kernels and rays that end at a hit, miss everything, or are none.
+#include "base/text.h"
 #include "kernel_checks.h"
 #include "render/merge.h"
 
@@ -32,6 +33,43 @@ TEST(kernels_on_rays_that_end_at_their_hits) {
     std::printf("%zu rays, %zu hits, %zu hidden, seed 81\n", counts.rays, counts.hits,
                 counts.hidden);
     CHECK(counts.hits > counts.hidden && counts.hidden > counts.rays / 10);
+}
+
+// Far smaller than the scene that they are in, so that products of their sides have no room below
+// the smallest normal float: what is reckoned without errors elsewhere is nothing but error here.
+TEST(kernels_on_triangles_of_almost_no_size) {
+    Random random(82);
+    Counts counts;
+    for (int power = -20; power >= -76; power -= 8) { // t has no room below 2^-90
+        const float size = std::ldexp(1.0f, power);
+        std::vector<std::array<Vec3, 3>> triangles = meshes::soup(random, 40);
+        const MeshGeometry large = meshes::geometryOf(triangles, false);
+        for (auto& corners : triangles)
+            for (Vec3& corner : corners) corner = corner * size;
+        triangles.push_back({Vec3{1, 1, 1}, {2, 1, 1}, {1, 2, 1}});
+        const Meshes meshes(meshes::geometryOf(triangles, false));
+        const Mesh oracle(meshes.scalar, {0}, {{0, 0}});
+        const auto n = static_cast<std::size_t>(check::scaled(500));
+        for (const RayList& all : {looseRays(random, large, n), raysFromPoints(random, large, n),
+                                   raysInBeams(random, large, n)}) {
+            RayList rays, ending;
+            for (std::size_t i = 0; i < all.size(); ++i) {
+                Ray ray = all.span()[i];
+                ray.org = ray.org * size;
+                rays.push(ray);
+                ray.dir = ray.dir * size;
+                rays.push(ray);
+                Hit hit;
+                if (oracle.intersect(ray, hit)) ray.tMax = i % 2 == 0 ? hit.t : 0.9999f * hit.t;
+                ending.push(ray);
+            }
+            compare(meshes, rays, cat("of size 2^", power), counts);
+            compare(meshes, ending, cat("of size 2^", power, ", ending"), counts);
+        }
+    }
+    std::printf("%zu rays, %zu hits, %zu hidden, seed 82\n", counts.rays, counts.hits,
+                counts.hidden);
+    CHECK(counts.hits > counts.rays / 10);
 }
 
 // Rays that leave the tree at its root, among some that don't: before the mesh, beside it, and

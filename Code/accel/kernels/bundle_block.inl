@@ -47,7 +47,7 @@ template <Query Q> struct alignas(64) BundleBlock {
         // Edge functions as affine functions of S - centre, turned so that inside is positive.
         // noise: Woop's vertices differ from exact ones by u (|S| z + 3 R) each, R the size of the
         // triangle about the rectangle, which moves an edge by u R (2 z |S| + 12 R); evaluation of
-        // the affine form adds 27 u R^2 at most, without FMA.
+        // the affine form adds 27 u R^2 at most, without FMA. kLeast: see below.
         const Floats zSize = max(zMax, zero - zMin);
         Floats reach = zSize, size(0.0f);
         for (int i = 0; i < 3; ++i) {
@@ -56,7 +56,8 @@ template <Query Q> struct alignas(64) BundleBlock {
         }
         size = fma(zSize, Floats(::max(rays.halfX, rays.halfY)), size);
         const Floats noise =
-            size * fma(zSize, Floats(2.2f * kUnit * rays.slopeSum), size * Floats(44 * kUnit));
+            fma(size, fma(zSize, Floats(2.2f * kUnit * rays.slopeSum), size * Floats(44 * kUnit)),
+                Floats(kLeast));
 
         const Floats e1x = v.x[1] - v.x[0], e1y = v.y[1] - v.y[0], e1z = v.z[1] - v.z[0];
         const Floats e2x = v.x[2] - v.x[0], e2y = v.y[2] - v.y[0], e2z = v.z[2] - v.z[0];
@@ -65,9 +66,11 @@ template <Query Q> struct alignas(64) BundleBlock {
         const Floats side = (nx * v.x[0] + ny * v.y[0]) + nz * v.z[0];
         const Floats longest =
             max(max(max(abs(e1x), abs(e1y)), max(abs(e1z), abs(e2x))), max(abs(e2y), abs(e2z)));
-        uncertain = bits(notGreater(abs(side), longest * longest * reach * Floats(48 * kUnit)));
+        uncertain = bits(notGreater(
+            abs(side), fma(longest * longest, reach * Floats(48 * kUnit), Floats(kLeast))));
         nx.store(normal[0]), ny.store(normal[1]), nz.store(normal[2]), side.store(volume);
-        (longest * longest * reach).store(slack);
+        select(longest > Floats(0x1p-50f), longest * longest * reach, Floats(kInfinityF))
+            .store(slack);
         const Floats turn = zero - side;
         Floats at[3], alongX[3], alongY[3];
         for (int e = 0; e < 3; ++e) {
@@ -132,9 +135,11 @@ template <Query Q> struct alignas(64) BundleBlock {
     KeyBounds keysNear(const BundleRays<Q>& rays, unsigned q, unsigned j) const {
         const Floats lo(keyLo[j]), hi(keyHi[j]);
         const float off = 192 * kUnit * slack[j], size = std::fabs(volume[j]);
-        // In front of the origin as a whole, of some use, and small enough to be added up.
+        // In front of the origin as a whole, of some use, small enough to be added up, and not of
+        // products that have no room below the smallest normal float.
         const bool isInFront = keyHi[j] < kInfinityF;
-        if (!isInFront || !(off * 4 < size * (1 - keyLo[j] / keyHi[j])) || !(off * 16 < size))
+        const bool isNormal = size > 0x1p-100f && off * 16 < size;
+        if (!isInFront || !isNormal || !(off * 4 < size * (1 - keyLo[j] / keyHi[j])))
             return {lo, hi};
         const Floats across = fma(Floats::load(rays.Sx[q]), Floats(normal[0][j]),
                                   fma(Floats::load(rays.Sy[q]), Floats(normal[1][j]),
@@ -146,6 +151,8 @@ template <Query Q> struct alignas(64) BundleBlock {
 private:
     static constexpr float kUnit = 0x1p-24f;  // of rounding
     static constexpr float kTooNear = 1e-30f; // for a quotient that is sure to be finite
+    // More than a few products lose that have no room left below the smallest normal float.
+    static constexpr float kLeast = 0x1p-120f; // a normal one: others take long
     // Keys of nearest hits on triangles that are deeper than this are computed at once.
     static constexpr float kWide = 1.02f;
     // The numbers of pairs, for storeChosen().

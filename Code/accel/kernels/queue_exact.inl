@@ -56,14 +56,16 @@ struct Judged {
 // largest depth and u = 2^-24: a lateral distance is off by u (4M + 2b) at most (corner relative to
 // the ray, slope, product, difference), an edge function by 4b times that and 3u b^2, which is
 // u b (16M + 11b); T sums three of them times a depth, with products and sums of its own below
-// 24u b^2 M, and z det three more with 12u b^2 M: together below u b M (96M + 102b).
+// 24u b^2 M, and z det three more with 12u b^2 M: together below u b M (96M + 102b). Where products
+// have no room left below the smallest normal float, each loses 2^-150 more; the least noise is a
+// normal number, as others take processors long.
 [[gnu::always_inline]] inline Judged judge(const Sheared& s, const Edges& e, Floats sign) {
     const Floats det = (e.U + e.V) + e.R, T = fma(e.R, s.z[2], fma(e.V, s.z[1], e.U * s.z[0]));
     const Floats M = maxAbs(maxAbs(s.z[0], s.z[1]), s.z[2]);
     const Floats b =
         max(max(maxAbs(s.x[0], s.y[0]), maxAbs(s.x[1], s.y[1])), maxAbs(s.x[2], s.y[2]));
     return {e.around(), e.certainlyAround(), flipSign(flipSign(T, det), sign),
-            (Floats(128 * 0x1p-24f) * b) * (M * (M + b)), abs(det)};
+            fma(Floats(128 * 0x1p-24f) * b, M * (M + b), Floats(0x1p-120f)), abs(det)};
 }
 
 // Pairs of a ray and a triangle, one to a lane.
