@@ -26,6 +26,8 @@
 
 #include "accel/kernels/queue_slots.inl"
 
+#include "accel/kernels/queue_leaves.inl"
+
 #include "accel/kernels/queue.inl"
 
 #include "accel/kernels/beam_shape.inl"

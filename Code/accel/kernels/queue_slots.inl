@@ -1,21 +1,49 @@
 // The slots of rays that are on their way at once: their columns in blocks of W rays, stacks of the
 // nodes that they go to later, as stack.inl has them, and lists of what they are at.
-// Included by the file of each instruction set inside its namespace, in front of queue.inl.
+// Included by the file of each instruction set inside its namespace, in front of queue_leaves.inl.
 
-// Where a ray's columns are, in bytes from those of the first ray: a step adds it to addresses that
-// are the same for all rays, and computes nothing.
+// Where a ray's columns are, in bytes from those of the first ray.
 using Slot = std::uint32_t;
+
+// A ray's numbers: all columns of a block are at fixed distances from one address.
+class QueueRay {
+public:
+    [[gnu::always_inline]] QueueRay(RayBlock* blocks, Slot slot)
+        : first_(reinterpret_cast<std::byte*>(blocks) + slot) {
+        // Where the compiler sees that it is a sum, it keeps blocks + column in a register for each
+        // column; these are more than there are, and it fetches them from vector registers.
+        asm("" : "+r"(first_));
+    }
+
+    template <class T> [[gnu::always_inline]] T& at(T (RayBlock::*column)[W]) const {
+        return *reinterpret_cast<T*>(first_ + distance(column));
+    }
+    template <class T>
+    [[gnu::always_inline]] T& at(T (RayBlock::*columns)[3][W], std::size_t axis) const {
+        return *reinterpret_cast<T*>(first_ + distance(columns) + axis * sizeof(T[W]));
+    }
+
+private:
+    // A pointer to a member is this number in the ABI of all compilers that know the asm above.
+    template <class Column> static std::ptrdiff_t distance(Column RayBlock::*column) {
+        return std::bit_cast<std::ptrdiff_t>(column);
+    }
+
+    std::byte* first_;
+};
 
 class QueueSlots {
 public:
     static constexpr std::uint32_t kSlots = 96, kBlocks = kSlots / W;
 
+    // Where lists go on.
+    struct Ends {
+        Slot *nodes, *leaves, *done;
+    };
     // What the rays are at. One place more than rays: send() writes to lists that are full.
     struct Lists {
         Slot nodes[kSlots + 1], leaves[kSlots + 1], done[kSlots + 1];
-    };
-    struct Counts {
-        std::uint32_t nodes = 0, leaves = 0, done = 0;
+        Ends clear() { return {nodes, leaves, done}; }
     };
 
     // `used`: slots that will ever have a ray.
@@ -44,14 +72,7 @@ public:
     RayBlock& block(std::uint32_t number) { return blocks_[number]; }
     RayBlock* blocks() { return blocks_; }
 
-    // The ray's number in a column.
-    template <class T> [[gnu::always_inline]] T& at(Slot slot, T (RayBlock::*column)[W]) const {
-        return in(blocks_->*column, slot);
-    }
-    template <class T>
-    [[gnu::always_inline]] T& at(Slot slot, T (RayBlock::*columns)[3][W], std::size_t axis) const {
-        return in((blocks_->*columns)[axis], slot);
-    }
+    [[gnu::always_inline]] QueueRay ray(Slot slot) const { return {blocks_, slot}; }
 
     // The stack of a ray: its top is a place among those of all stacks.
     std::uint32_t* refs(std::uint32_t place) const { return refs_ + place; }
@@ -62,44 +83,46 @@ public:
         Ints(root).store(b.at);
         for (std::uint32_t i = 0; i < W; ++i) b.stackTop[i] = b.bottom[i] + 1;
     }
-    void leaveOnlyEnd(Slot slot) const {
-        at(slot, &RayBlock::stackTop) = at(slot, &RayBlock::bottom) + 1;
+    static void leaveOnlyEnd(const QueueRay& ray) {
+        ray.at(&RayBlock::stackTop) = ray.at(&RayBlock::bottom) + 1;
     }
     // What the best hit hides is taken off.
-    void dropBehind(Slot slot) const {
-        const std::uint32_t bottom = at(slot, &RayBlock::bottom);
-        std::uint32_t& top = at(slot, &RayBlock::stackTop);
-        top = bottom + dropHidden(refs_ + bottom, entries_ + bottom, top - bottom,
-                                  at(slot, &RayBlock::zCut));
+    void dropBehind(const QueueRay& ray) const {
+        const std::uint32_t bottom = ray.at(&RayBlock::bottom);
+        std::uint32_t& top = ray.at(&RayBlock::stackTop);
+        top = bottom +
+              dropHidden(refs_ + bottom, entries_ + bottom, top - bottom, ray.at(&RayBlock::zCut));
     }
 
     // ---- where rays go
 
     // Takes the ray to `ref`: three stores, of which one counts.
-    [[gnu::always_inline]] void send(Slot slot, WideRef ref, Lists& to, Counts& count) const {
-        at(slot, &RayBlock::at) = ref;
+    [[gnu::always_inline]] void send(Slot slot, const QueueRay& ray, WideRef ref, Ends& to) const {
+        ray.at(&RayBlock::at) = ref;
         const std::byte* const line = base_ + byteOffset(ref);
         if (prefetches_)
             for (int k = 0; k < 4; ++k) __builtin_prefetch(line + std::ptrdiff_t{64} * k);
-        to.nodes[count.nodes] = slot;
-        to.leaves[count.leaves] = slot;
-        to.done[count.done] = slot;
-        count.nodes += kindOf(ref) == WideKind::Node;
-        count.leaves += kindOf(ref) == WideKind::Leaf;
-        count.done += kindOf(ref) == WideKind::None;
+        *to.nodes = *to.leaves = *to.done = slot;
+        to.nodes += kindOf(ref) == WideKind::Node;
+        to.leaves += kindOf(ref) == WideKind::Leaf;
+        to.done += kindOf(ref) == WideKind::None;
     }
     // To what is on top of its stack.
-    [[gnu::always_inline]] void pop(Slot slot, Lists& to, Counts& count) const {
-        send(slot, refs_[--at(slot, &RayBlock::stackTop)], to, count);
+    [[gnu::always_inline]] void pop(Slot slot, const QueueRay& ray, Ends& to) const {
+        send(slot, ray, refs_[--ray.at(&RayBlock::stackTop)], to);
+    }
+
+    // What the ray is at.
+    [[gnu::always_inline]] const std::byte* nodeAt(const QueueRay& ray) const {
+        return base_ + byteOffset(ray.at(&RayBlock::at));
+    }
+    [[gnu::always_inline]] const WideLeaf<W>& leafAt(const QueueRay& ray) const {
+        return *reinterpret_cast<const WideLeaf<W>*>(nodeAt(ray));
     }
 
 private:
     // Of a tree that the caches don't hold; for others prefetches are work in vain. 4 MB.
     static constexpr std::size_t kManyLines = std::size_t{1} << 16;
-
-    template <class T> [[gnu::always_inline]] static T& in(T (&column)[W], Slot slot) {
-        return *reinterpret_cast<T*>(reinterpret_cast<std::byte*>(column) + slot);
-    }
 
     const std::byte* base_; // of the tree
     const bool prefetches_;

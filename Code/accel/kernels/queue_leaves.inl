@@ -1,0 +1,218 @@
+// What rays of the queue do at leaves. A nearest hit that is certain in float is taken at once, and
+// its canonical key is computed when W rays are done; where bounds overlap, rays wait until there
+// are enough of them for the keys of W pairs at once.
+// Included by the file of each instruction set inside its namespace, behind queue_slots.inl.
+
+template <Query Q> class QueueLeaves {
+    using Ends = QueueSlots::Ends;
+
+protected:
+    // `used`: slots that will ever have a ray.
+    QueueLeaves(const WideMesh& mesh, const RaySpan& rays, std::size_t used)
+        : mesh_(mesh), rays_(rays), slots_(mesh.tree, used) {}
+
+    // A step of the rays at leaves.
+    void takeLeaves(std::span<const Slot> at, Ends& to) {
+        Found found;
+        if (Q == Query::Closest && meetings_ == Meetings::Many)
+            found = leafSteps<Meetings::Many>(at, to);
+        else if (meetings_ == Meetings::Few)
+            found = leafSteps<Meetings::Few>(at, to);
+        else
+            found = leafSteps<Meetings::Some>(at, to);
+        meetings_ = found.met * 3 > at.size()                    ? Meetings::Many
+                    : (at.size() - found.beside) * 8 < at.size() ? Meetings::Few
+                                                                 : Meetings::Some;
+        if constexpr (Q == Query::Closest) acceptMet(found, to);
+    }
+
+    // Computes the keys that rays wait for, if there are enough of them or `now`.
+    void settleIfWorth(bool now, Ends& to) {
+        if (waitingPairs_ < W && !now) return;
+        std::uint32_t n = 0;
+        for (const auto& [slot, candidates] : std::span(waiting_, waitingCount_)) {
+            const WideRef leaf = slots_.ray(slot).at(&RayBlock::at);
+            if constexpr (Q == Query::Closest) reopen(slot, n);
+            for (unsigned left = candidates; left != 0; left &= left - 1)
+                pairs_[n++] = {numberOf(slot), leaf,
+                               static_cast<std::uint32_t>(std::countr_zero(left))};
+        }
+        takePairs(n);
+        for (const Waiting& w : std::span(waiting_, waitingCount_))
+            slots_.pop(w.slot, slots_.ray(w.slot), to);
+        waitingCount_ = waitingPairs_ = 0;
+    }
+
+    const WideMesh& mesh_;
+    const RaySpan& rays_;
+    QueueSlots slots_;
+
+private:
+    static constexpr std::uint32_t kSlots = QueueSlots::kSlots;
+
+    // How many rays meet triangles of their leaves: branches are guessed right where nearly all do
+    // the same, and cost more than what they spare elsewhere.
+    enum class Meetings { Many, Some, Few };
+
+    struct Waiting {
+        Slot slot;
+        std::uint32_t candidates; // triangles of the leaf that the ray is at
+    };
+
+    // Triangles of the leaf that a ray is at, and what Judged says of their depths.
+    struct alignas(64) Met {
+        float depth[W], noise[W], det[W];
+        Slot slot;
+        std::uint32_t candidates, certain; // certain: to be hits
+    };
+
+    // What the leaves of a round had.
+    struct Found {
+        std::uint32_t met = 0, passed = 0, beside = 0;
+    };
+
+    // ---- steps
+
+    template <Meetings M>
+    [[gnu::noinline]] Found leafSteps(std::span<const Slot> at, Ends& to) {
+        Found found;
+        Ends here = to; // in registers
+        for (const Slot slot : at) leafStep<M>(slot, slots_.ray(slot), found, here);
+        to = here;
+        return found;
+    }
+
+    template <Meetings M>
+    [[gnu::always_inline]] void leafStep(Slot slot, const QueueRay& ray, Found& found, Ends& to) {
+        const WideLeaf<W>& leaf = slots_.leafAt(ray);
+        const Sheared corners = sheared(ray, leaf);
+        const Edges edges(corners);
+        const unsigned all = (1u << leaf.count) - 1;
+        if constexpr (M != Meetings::Many) {
+            const bool isBeside = (bits(edges.around()) & all) == 0; // all triangles
+            found.beside += isBeside;
+            if (M == Meetings::Few && isBeside) [[likely]]
+                return slots_.pop(slot, ray, to);
+        }
+        const Judged judged = judge(corners, edges, Floats(ray.at(&RayBlock::sign)));
+        const Floats zCut(ray.at(&RayBlock::zCut));
+        unsigned candidates = judged.candidates(zCut) & all;
+        if constexpr (Q == Query::Any) {
+            const bool met = (judged.certain(zCut) & all) != 0 &&
+                             ray.at(&RayBlock::below) == kInfinityF;
+            std::uint32_t& triangle = ray.at(&RayBlock::triangle);
+            std::uint32_t& top = ray.at(&RayBlock::stackTop);
+            triangle = met ? 0 : triangle;
+            top = met ? ray.at(&RayBlock::bottom) + 1 : top;
+            candidates = met ? 0 : candidates;
+        }
+        if (M != Meetings::Many && candidates == 0) [[likely]]
+            return slots_.pop(slot, ray, to);
+        if constexpr (Q == Query::Any) {
+            wait(slot, candidates);
+        } else {
+            passed_[found.passed] = slot;
+            found.passed += candidates == 0;
+            Met& met = met_[found.met];
+            found.met += candidates != 0;
+            met.slot = slot, met.candidates = candidates;
+            met.certain = bits(judged.certain()) & candidates;
+            judged.depth.store(met.depth), judged.noise.store(met.noise);
+            judged.det.store(met.det);
+        }
+    }
+
+    void wait(Slot slot, std::uint32_t candidates) {
+        waiting_[waitingCount_++] = {slot, candidates};
+        waitingPairs_ += static_cast<std::uint32_t>(std::popcount(candidates));
+    }
+
+    // Takes for each ray the candidate that is nearest, if that is certain without keys; the key of
+    // what remains the best one is computed at the end.
+    void acceptMet(const Found& found, Ends& to) {
+        for (const Slot slot : std::span(passed_, found.passed))
+            slots_.pop(slot, slots_.ray(slot), to);
+        for (const Met& met : std::span(met_, found.met)) {
+            const QueueRay ray = slots_.ray(met.slot);
+            if (accept(met, ray))
+                slots_.pop(met.slot, ray, to);
+            else
+                wait(met.slot, met.candidates);
+        }
+    }
+
+    [[gnu::always_inline]] bool accept(const Met& met, const QueueRay& ray) {
+        Judged judged;
+        judged.depth = Floats::load(met.depth), judged.noise = Floats::load(met.noise);
+        const Floats never(kInfinityF), inverse = Floats(1.0f) / Floats::load(met.det);
+        const Floats nearest = judged.nearest(inverse), farthest = judged.farthest(inverse);
+        alignas(64) float each[W];
+        nearest.store(each);
+        const float depth = smallest(select(maskOf(met.certain), farthest, never));
+        const unsigned rivals = bits(notGreater(nearest, Floats(depth))) & met.candidates;
+        float& best = ray.at(&RayBlock::depth);
+        if (!std::has_single_bit(rivals) || (rivals & met.certain) == 0 || !(depth < best) ||
+            ray.at(&RayBlock::below) != kInfinityF) [[unlikely]]
+            return false;
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(rivals));
+        ray.at(&RayBlock::bestLane) = lane;
+        ray.at(&RayBlock::bestLeaf) = ray.at(&RayBlock::at);
+        best = each[lane];
+        float& zCut = ray.at(&RayBlock::zCut);
+        zCut = ::min(depth, zCut);
+        slots_.block(QueueSlots::blockOf(met.slot)).open |= 1u << QueueSlots::laneOf(met.slot);
+        slots_.dropBehind(ray);
+        return true;
+    }
+
+    // ShearedTriangle of accel/triangle.h for the triangles of a leaf: they share their points.
+    [[gnu::always_inline]] static Sheared sheared(const QueueRay& ray, const WideLeaf<W>& leaf) {
+        const std::byte* const p = reinterpret_cast<const std::byte*>(&leaf);
+        const auto relative = [&](std::size_t axis) {
+            return Floats::load(p + ray.at(&RayBlock::axis, axis)) -
+                   Floats(ray.at(&RayBlock::origin, axis));
+        };
+        const Floats x = relative(0), y = relative(1), z = relative(2);
+        const Floats xs = x - Floats(ray.at(&RayBlock::shearX)) * z,
+                     ys = y - Floats(ray.at(&RayBlock::shearY)) * z;
+        Sheared s;
+        for (int c = 0; c < 3; ++c) {
+            const Ints at = Ints::bytes(leaf.corner[c]);
+            s.x[c] = permute(xs, at), s.y[c] = permute(ys, at), s.z[c] = permute(z, at);
+        }
+        return s;
+    }
+
+    // ---- canonical keys
+
+    // A hit without a key that others come near needs one, too.
+    void reopen(Slot slot, std::uint32_t& n) {
+        RayBlock& b = slots_.block(QueueSlots::blockOf(slot));
+        const std::uint32_t i = QueueSlots::laneOf(slot);
+        if ((b.open >> i & 1) == 0) return;
+        b.open &= ~(1u << i);
+        pairs_[n++] = {numberOf(slot), b.bestLeaf[i], b.bestLane[i]};
+    }
+
+    // As pairs have it.
+    static std::uint32_t numberOf(Slot slot) {
+        return QueueSlots::blockOf(slot) * W + QueueSlots::laneOf(slot);
+    }
+
+    void takePairs(std::uint32_t n) {
+        settlePairs<Q>(mesh_, rays_, slots_.blocks(), {pairs_, n}, [this](std::uint32_t number) {
+            const QueueRay ray = slots_.ray(QueueSlots::slotOf(number / W, number % W));
+            if constexpr (Q == Query::Any)
+                slots_.leaveOnlyEnd(ray);
+            else
+                slots_.dropBehind(ray);
+        });
+    }
+
+    Waiting waiting_[kSlots];
+    Met met_[kSlots + 1];
+    Slot passed_[kSlots + 1];            // rays that met nothing in their leaves
+    Meetings meetings_ = Meetings::Some; // in the last round
+    std::uint32_t waitingCount_ = 0, waitingPairs_ = 0;
+    RayTriangle pairs_[kSlots * (W + 1)];
+};
