@@ -7,7 +7,3 @@ inline Ints intsAt(const std::uint32_t* from, Ints offset) {
     return _mm256_i32gather_epi32(static_cast<const int*>(static_cast<const void*>(from)), offset.v,
                                   1);
 }
-inline Floats floatsAt(const float* from, Ints offset) {
-    const __m256 all = _mm256_castsi256_ps(_mm256_set1_epi32(-1));
-    return _mm256_mask_i32gather_ps(all, from, offset.v, all, 1);
-}

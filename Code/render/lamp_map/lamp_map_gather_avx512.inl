@@ -7,6 +7,3 @@ inline Ints truncated(Floats a) { return _mm512_cvttps_epi32(a.v); }
 inline Ints intsAt(const std::uint32_t* from, Ints offset) {
     return _mm512_i32gather_epi32(offset.v, from, 1);
 }
-inline Floats floatsAt(const float* from, Ints offset) {
-    return _mm512_i32gather_ps(offset.v, from, 1);
-}

@@ -11,17 +11,10 @@ inline Ints shiftedDown(Ints a, int by) {
     return {_mm_srl_epi32(a.lo, count), _mm_srl_epi32(a.hi, count)};
 }
 inline Ints truncated(Floats a) { return {_mm_cvttps_epi32(a.lo), _mm_cvttps_epi32(a.hi)}; }
-inline void copyAt(const void* from, Ints offset, std::uint32_t (&to)[W]) {
-    offset.store(to);
-    for (std::uint32_t& x : to) std::memcpy(&x, static_cast<const std::byte*>(from) + x, sizeof x);
-}
 inline Ints intsAt(const std::uint32_t* from, Ints offset) {
     alignas(16) std::uint32_t out[W];
-    copyAt(from, offset, out);
+    offset.store(out);
+    for (std::uint32_t& x : out)
+        std::memcpy(&x, reinterpret_cast<const std::byte*>(from) + x, sizeof x);
     return Ints::load(out);
-}
-inline Floats floatsAt(const float* from, Ints offset) {
-    alignas(16) std::uint32_t out[W];
-    copyAt(from, offset, out);
-    return Floats::load(out);
 }

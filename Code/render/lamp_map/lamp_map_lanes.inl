@@ -84,7 +84,7 @@ private:
             const std::uint32_t number = hull[std::countr_zero(lanes)];
             const unsigned same = lanes & bits(hull_ == Ints(number));
             if (std::popcount(same) == 1 && std::popcount(lanes) > kMostAlone)
-                return meetInLanes(lanes);
+                return meetInLanes(hull, lanes);
             meet(hulls_[number], same);
             lanes &= ~same;
         }
@@ -178,21 +178,19 @@ private:
     }
 
     // Each lane its own.
-    void meetInLanes(unsigned lanes) {
-        const Ints at = shiftedUp(hull_, 5);
-        const MappedShapes::Hull& first = hulls_[0];
-        const BallLanes ball = ballOf({floatsAt(&first.centre.x, at), floatsAt(&first.centre.y, at),
-                                       floatsAt(&first.centre.z, at)},
-                                      floatsAt(&first.radius, at));
-        const Floats halfLength = floatsAt(&first.halfLength, at);
-        const unsigned balls = lanes & bits(halfLength == Floats(0.0f));
+    void meetInLanes(const std::uint32_t (&hull)[W], unsigned lanes) {
+        static_assert(offsetof(MappedShapes::Hull, axis) == 4 * sizeof(float) &&
+                      offsetof(MappedShapes::Hull, halfLength) == 7 * sizeof(float));
+        const float* row[W];
+        for (int i = 0; i < W; ++i) row[i] = &hulls_[hull[i]].centre.x;
+        Floats a[4], b[4];
+        loadRows(row, a);
+        for (const float*& from : row) from += 4;
+        loadRows(row, b);
+        const BallLanes ball = ballOf({a[0], a[1], a[2]}, a[3]);
+        const unsigned balls = lanes & bits(b[3] == Floats(0.0f));
         if (balls != 0) meetBalls(ball, balls);
-        if (balls == lanes) return;
-        meetTubes(ball,
-                  {{floatsAt(&first.axis.x, at), floatsAt(&first.axis.y, at),
-                    floatsAt(&first.axis.z, at)},
-                   halfLength},
-                  lanes & ~balls);
+        if (balls != lanes) meetTubes(ball, {{b[0], b[1], b[2]}, b[3]}, lanes & ~balls);
     }
 
     void meetBalls(const BallLanes& ball, unsigned lanes) {

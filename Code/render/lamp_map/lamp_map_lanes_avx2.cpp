@@ -3,7 +3,9 @@
 
 #if defined(__x86_64__)
 #include "accel/kernels/region_includes.h"
+#include "accel/kernels/wide_tree.h"
 
+#include <cstddef>
 #include <new>
 #include <span>
 #include <utility>
@@ -11,6 +13,8 @@
 AVX2_REGION_BEGIN
 namespace kernels::avx2 {
 #include "accel/kernels/simd_avx2.inl"
+
+#include "accel/kernels/solids_columns_avx2.inl"
 
 #include "render/lamp_map/lamp_map_gather_avx2.inl"
 

@@ -3,7 +3,9 @@
 
 #if defined(__x86_64__)
 #include "accel/kernels/region_includes.h"
+#include "accel/kernels/wide_tree.h"
 
+#include <cstddef>
 #include <new>
 #include <span>
 #include <utility>
@@ -11,6 +13,8 @@
 SSE_REGION_BEGIN
 namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
+
+#include "accel/kernels/solids_columns_sse.inl"
 
 #include "render/lamp_map/lamp_map_gather_sse.inl"
 
