@@ -1,7 +1,8 @@
 // exact::atan2() of W points, operation by operation as in base/math_angles.cpp, for numbers that
 // come from floats or from the square root of two squares of them, or are on a unit circle: none is
 // so large or small that products would have to be scaled.
-// Included by the file of each instruction set inside its namespace, behind table_gather_*.inl.
+// Included by the file of each instruction set inside its namespace, behind table_gather_*.inl and
+// double_double_lanes.inl.
 
 // atanTail()
 inline Doubles atanTails(const Doubles& t) {
@@ -23,9 +24,9 @@ inline Doubles anglesOf(const Doubles& y, const Doubles& x) {
     const Ints k = wholeOf(ratio * Doubles(16.0) + Doubles(0.5));
     const Doubles c = doublesOf(k) * Doubles(0.0625);
     // twoProduct(c, b): c has five bits.
-    const Doubles product = c * b, scaled = b * Doubles(134217729.0);
-    const Doubles upper = scaled - (scaled - b), lower = b - upper;
-    const Doubles rest = zero - ((product - c * upper) - c * lower);
+    const Doubles product = c * b;
+    const DoublePairs parts = split(b);
+    const Doubles rest = zero - ((product - c * parts.hi) - c * parts.lo);
     const double* const table = &exact::kAtanTable.front().hi;
     const Mask isSmall = ratio < Doubles(0.0625);
     const Doubles t = select(isSmall, ratio, ((a - product) - rest) / (b + c * a));
@@ -47,11 +48,8 @@ inline Doubles anglesOf(const Doubles& y, const Doubles& x) {
                       select(maskOf(isLeft), Doubles(2 * part), zero));
     };
     const Doubles sign = select(maskOf(isSteep ^ isLeft), minusOne, one);
-    // twoSum()
-    const Doubles first = base(half.hi), second = sign * hi;
-    const Doubles sum = first + second, other = sum - first;
-    const Doubles error = (first - (sum - other)) + (second - other);
-    const Doubles angle = sum + (error + (base(half.lo) + (sign * lo + zero)));
+    const DoublePairs sum = twoSum(base(half.hi), sign * hi);
+    const Doubles angle = sum.hi + (sum.lo + (base(half.lo) + (sign * lo + zero)));
     const unsigned numbers = atMost(zero, absX) & atMost(zero, absY);
     const Doubles signedAngle = withSign(angle, y);
     if (numbers == all) return signedAngle;

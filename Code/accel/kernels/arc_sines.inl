@@ -34,16 +34,10 @@ inline Doubles sineOfArc(const Doubles& x) {
     if (large == 0) return unlessTiny(sineNearZero(x, zero));
 
     // reduceSmall()
-    struct Sum {
-        Doubles hi, lo;
-    };
-    const auto twoSum = [](const Doubles& a, const Doubles& b) -> Sum {
-        const Doubles sum = a + b, b2 = sum - a;
-        return {sum, (a - (sum - b2)) + (b - b2)};
-    };
     const Doubles rounder(kRounder), n = (x * Doubles(2 / kPi) + rounder) - rounder;
-    const Sum a = twoSum(x - n * Doubles(0x1.921fb544p0), minus - n * Doubles(0x1.0b4611a6p-34));
-    const Sum b = twoSum(a.hi, minus - n * Doubles(0x1.3198a2ep-69));
+    const DoublePairs a =
+        twoSum(x - n * Doubles(0x1.921fb544p0), minus - n * Doubles(0x1.0b4611a6p-34));
+    const DoublePairs b = twoSum(a.hi, minus - n * Doubles(0x1.3198a2ep-69));
     const Doubles rest = (a.lo + b.lo) - n * Doubles(0x1.b839a252049c1p-104);
     const Doubles hi = b.hi + rest, lo = rest - (hi - b.hi);
     const Mask isReduced = maskOf(large);

@@ -124,10 +124,10 @@ template <Query Q> struct alignas(64) BundleBlock {
         return true;
     }
 
-    // Bounds of the keys of those rays of packet q that the triangle j contains, closer than those of
-    // all its hits: normal times (S, 1) is volume times the key. Off by units of rounding times the
-    // slack, of the volume: 48 in reckoning it (`uncertain`), 40 in the product, 8 as slopes are
-    // rounded and 6 as corners are, and 30 where the canonical key of a ray that passes the
+    // Bounds of the keys of those rays of packet q that the triangle j contains, closer than those
+    // of all its hits: normal times (S, 1) is volume times the key. Off by units of rounding times
+    // the slack, of the volume: 48 in reckoning it (`uncertain`), 40 in the product, 8 as slopes
+    // are rounded and 6 as corners are, and 30 where the canonical key of a ray that passes the
     // triangle by 10 units is clamped to its chord or its box.
     struct KeyBounds {
         Floats lo, hi;
@@ -144,7 +144,8 @@ template <Query Q> struct alignas(64) BundleBlock {
         const Floats across = fma(Floats::load(rays.Sx[q]), Floats(normal[0][j]),
                                   fma(Floats::load(rays.Sy[q]), Floats(normal[1][j]),
                                       Floats(normal[2][j])));
-        const Floats key = across * Floats(1 / volume[j]), most = key * Floats(off / size + 8 * kUnit);
+        const Floats key = across * Floats(1 / volume[j]);
+        const Floats most = key * Floats(off / size + 8 * kUnit);
         return {max(key - most, lo), min(key + most, hi)};
     }
 

@@ -1,32 +1,10 @@
-// exact::pow(double, double) of W numbers that are floats from 2^-24 to 1, with exponents from 2^-20
-// to 1: its steps in base/math_powers.cpp, lane by lane and in their order, without those that such
-// numbers don't need: they are neither denormal nor longer than a float, and nothing ends at zero or
-// infinity. Included by the file of each instruction set inside its namespace, after pow_lanes.inl.
+// exact::pow(double, double) of W numbers that are floats from 2^-24 to 1, with exponents from
+// 2^-20 to 1: its steps in base/math_powers.cpp, lane by lane and in their order, without those
+// that such numbers don't need: they are neither denormal nor longer than a float, and nothing ends
+// at zero or infinity. Included by the file of each instruction set inside its namespace, behind
+// pow_lanes.inl and double_double_lanes.inl.
 
 namespace {
-
-// DoubleDouble
-struct DoublePairs {
-    Doubles hi, lo;
-};
-inline DoublePairs twoSum(const Doubles& a, const Doubles& b) {
-    const Doubles sum = a + b, b2 = sum - a;
-    return {sum, (a - (sum - b2)) + (b - b2)};
-}
-inline DoublePairs fastTwoSum(const Doubles& a, const Doubles& b) {
-    const Doubles sum = a + b;
-    return {sum, b - (sum - a)};
-}
-inline DoublePairs split(const Doubles& a) {
-    const Doubles scaled = a * 134217729.0;
-    const Doubles hi = scaled - (scaled - a);
-    return {hi, a - hi};
-}
-inline DoublePairs twoProduct(const Doubles& a, const Doubles& b) {
-    const Doubles product = a * b;
-    const DoublePairs x = split(a), y = split(b);
-    return {product, x.lo * y.lo - (((product - x.hi * y.hi) - x.lo * y.hi) - x.hi * y.lo)};
-}
 
 inline DoublePairs longLogOf(Floats x) {
     constexpr double ln2Upper = 0x1.62e42fefa38p-1, ln2Lower = 0x1.ef35793c7673p-45;

@@ -20,6 +20,8 @@ enum class Answer { Closest, Any };
 
 #include "accel/kernels/solids_objects.inl"
 
+#include "accel/kernels/double_double_lanes.inl"
+
 #include "accel/kernels/arc_sines.inl"
 
 #include "accel/kernels/solids_turning.inl"

@@ -1,5 +1,5 @@
-// What rays of a packet have met: the best hits, what hides them, and what only the shape itself can
-// tell.
+// What rays of a packet have met: the best hits, what hides them, and what only the shape itself
+// can tell.
 // Included by solids.inl.
 
 class PacketAnswers : public PacketSpheres {

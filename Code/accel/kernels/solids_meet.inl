@@ -1,5 +1,5 @@
-// Solids that rays of a packet may meet: which formula each is asked by, with the bits of asking each
-// shape for each ray.
+// Solids that rays of a packet may meet: which formula each is asked by, with the bits of asking
+// each shape for each ray.
 // Included by solids.inl.
 
 class PacketSolids : public PacketAnswers {

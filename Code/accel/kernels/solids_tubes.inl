@@ -169,26 +169,10 @@ private:
     // As in base/math.h and base/double_double.h.
     static Doubles differenceOfProducts(const Doubles& a, const Doubles& b, const Doubles& c,
                                         const Doubles& d) {
-        struct Sum {
-            Doubles hi, lo;
-        };
-        const auto twoSum = [](const Doubles& x, const Doubles& y) -> Sum {
-            const Doubles sum = x + y, y2 = sum - x;
-            return {sum, (x - (sum - y2)) + (y - y2)};
-        };
-        const auto split = [](const Doubles& x) -> Sum {
-            const Doubles scaled = x * Doubles(134217729.0), hi = scaled - (scaled - x);
-            return {hi, x - hi};
-        };
-        const auto twoProduct = [&](const Doubles& x, const Doubles& y) -> Sum {
-            const Doubles product = x * y;
-            const Sum p = split(x), r = split(y);
-            return {product, p.lo * r.lo - (((product - p.hi * r.hi) - p.lo * r.hi) - p.hi * r.lo)};
-        };
-        const Sum ab = twoProduct(a, b), cd = twoProduct(c, d);
+        const DoublePairs ab = twoProduct(a, b), cd = twoProduct(c, d);
         const Doubles minus(-0.0);
-        const Sum hi = twoSum(ab.hi, minus - cd.hi), lo = twoSum(ab.lo, minus - cd.lo);
-        const Sum sum = twoSum(hi.hi, lo.hi);
+        const DoublePairs hi = twoSum(ab.hi, minus - cd.hi), lo = twoSum(ab.lo, minus - cd.lo);
+        const DoublePairs sum = twoSum(hi.hi, lo.hi);
         return sum.hi + (sum.lo + (hi.lo + lo.lo));
     }
 };

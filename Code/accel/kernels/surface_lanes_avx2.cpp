@@ -17,6 +17,8 @@ namespace kernels::avx2 {
 
 #include "accel/kernels/table_gather_avx2.inl"
 
+#include "accel/kernels/double_double_lanes.inl"
+
 #include "accel/kernels/angle_lanes.inl"
 
 #include "accel/kernels/still_surfaces.inl"

@@ -177,7 +177,8 @@ private:
             const Mask here = maskOf(dielectric);
             const Floats f = fresnelDielectric(cosIn, eta);
             part = select(here, mirror * f, part), through = select(here, one - f, through);
-            whenTotal = select(here, select(maskOf(black(mirror)), transmission, mirror), whenTotal);
+            const Floats3 total = select(maskOf(black(mirror)), transmission, mirror);
+            whenTotal = select(here, total, whenTotal);
         }
         if (schlick != 0) {
             const Mask here = maskOf(schlick);

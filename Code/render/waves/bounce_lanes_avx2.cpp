@@ -34,6 +34,8 @@ inline Floats highInTurn(Floats a, Floats b) {
 
 #include "accel/kernels/pow_lanes.inl"
 
+#include "accel/kernels/double_double_lanes.inl"
+
 #include "accel/kernels/pow_of_doubles.inl"
 
 #include "render/waves/sobol_avx2.inl"

@@ -35,6 +35,8 @@ inline Floats highInTurn(Floats a, Floats b) {
 
 #include "accel/kernels/pow_lanes.inl"
 
+#include "accel/kernels/double_double_lanes.inl"
+
 #include "accel/kernels/pow_of_doubles.inl"
 
 #include "render/waves/sobol_avx512.inl"

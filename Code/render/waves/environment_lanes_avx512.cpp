@@ -14,6 +14,8 @@ namespace kernels::avx512 {
 
 #include "render/waves/texel_lanes.inl"
 
+#include "accel/kernels/double_double_lanes.inl"
+
 #include "accel/kernels/angle_lanes.inl"
 
 #include "render/waves/environment_lanes.inl"

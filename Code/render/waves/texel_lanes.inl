@@ -9,7 +9,8 @@ public:
 
     // Lane by lane TexelGrid::color(), or alpha(), at s and t; to W floats of each channel.
     void colors(const Doubles& s, const Doubles& t, float* r, float* g, float* b) const {
-        const Taps x = taps(s, width_, texels_.extensionS), y = taps(t, height_, texels_.extensionT);
+        const Taps x = taps(s, width_, texels_.extensionS);
+        const Taps y = taps(t, height_, texels_.extensionT);
         std::array<Ints, 4> texels{texelsAt(x.lo, y.lo), Ints(0u), Ints(0u), Ints(0u)};
         if (!texels_.isNearest) {
             texels[1] = texelsAt(x.hi, y.lo);
