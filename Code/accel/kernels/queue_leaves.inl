@@ -203,7 +203,7 @@ private:
         settlePairs<Q>(mesh_, rays_, slots_.blocks(), {pairs_, n}, [this](std::uint32_t number) {
             const QueueRay ray = slots_.ray(QueueSlots::slotOf(number / W, number % W));
             if constexpr (Q == Query::Any)
-                slots_.leaveOnlyEnd(ray);
+                QueueSlots::leaveOnlyEnd(ray);
             else
                 slots_.dropBehind(ray);
         });
