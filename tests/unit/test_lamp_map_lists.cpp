@@ -108,7 +108,7 @@ public:
         const double reach =
             (distance + slack_ - static_cast<double>(map_.firstStep)) * map_.perStep;
         constexpr std::uint32_t kNumber = (1u << LampMap::kHullBits) - 1;
-        for (std::uint32_t k = map_.starts[at]; k < map_.starts[at + 1]; ++k)
+        for (std::uint32_t k = map_.starts[at]; map_.lists[k] != LampMap::kEnd; ++k)
             if ((map_.lists[k] & kNumber) == number)
                 return map_.lists[k] >> LampMap::kHullBits < std::max(reach, 0.0) + 1;
         return false;

@@ -131,22 +131,28 @@ private:
             if (static_cast<double>(entries) > most) return false; // so long if all are alike
         }
         RawVector<std::uint32_t>& starts = map_.starts;
-        starts.assign(map_.cells() * map_.cells() + 2, 0);
+        starts.assign(map_.cells() * map_.cells(), 0);
         for (const Run& run : runs_)
-            for (std::uint32_t k = 0; k < run.count; ++k) ++starts[run.first + k + 2];
+            for (std::uint32_t k = 0; k < run.count; ++k) ++starts[run.first + k];
         double squares = 0;
-        for (std::size_t k = 2; k < starts.size(); ++k) {
-            if (starts[k] > kLongestList) return false;
-            squares += sqr(static_cast<double>(starts[k]));
-            starts[k] += starts[k - 1];
+        std::uint32_t end = 0;
+        for (std::uint32_t& start : starts) { // until they are filled: where the next one goes
+            const std::uint32_t count = start;
+            if (count > kLongestList) return false;
+            squares += sqr(static_cast<double>(count));
+            start = end, end += count + 1;
         }
         if (squares > kMeanLength * static_cast<double>(entries)) return false;
-        map_.lists.resize(starts.back() + 1); // lanes that are done may look at the end
-        map_.lists.back() = 0;
+        map_.lists.resize(end);
         for (const Run& run : runs_)
             for (std::uint32_t k = 0; k < run.count; ++k)
-                map_.lists[starts[run.first + k + 1]++] =
+                map_.lists[starts[run.first + k]++] =
                     step_[run.hull] << LampMap::kHullBits | run.hull;
+        std::uint32_t begin = 0;
+        for (std::uint32_t& start : starts) {
+            map_.lists[start] = LampMap::kEnd;
+            begin = std::exchange(start, begin) + 1;
+        }
         return true;
     }
 

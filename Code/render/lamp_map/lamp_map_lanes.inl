@@ -36,15 +36,16 @@ public:
         answer_.unsure = lanes & ~sane();
         live_ = lanes & ~answer_.unsure;
         answer_.unsure |= besideOthers(live_);
-        const Ints cell = shiftedUp(findCells(), 2);
-        if (live_ == 0) return;
-        at_ = intsAt(map.starts.data(), cell), end_ = intsAt(map.starts.data() + 1, cell);
-        live_ &= bits(at_ < end_);
+        at_ = findCells();
+        reach_ = endOfReach();
+    }
+
+    void findList() {
+        if (live_ != 0) at_ = intsAt(map_.starts.data(), shiftedUp(at_, 2));
     }
 
     void findFirst() {
         if (live_ == 0) return;
-        reach_ = endOfReach();
         const Ints shapes = select(maskOf(live_), shape_, Ints(0u));
         own_ = select(maskOf(block_.inside >> first_), Ints(MappedShapes::kNoHull),
                       intsAt(map_.shapes->hullOf.data(), shiftedUp(shapes, 2)));
@@ -58,9 +59,9 @@ public:
             meetAll(asked_);
             live_ &= ~answer_.hidden;
         }
+        if (live_ == 0) return false;
         at_ = select(maskOf(live_), at_ + Ints(1u), at_);
-        live_ &= bits(at_ < end_);
-        if (live_ != 0) fetchHulls();
+        fetchHulls();
         return live_ != 0;
     }
 
@@ -79,7 +80,7 @@ private:
     // Points near each other look at the same hulls.
     void meetAll(unsigned lanes) {
         alignas(64) std::uint32_t hull[W];
-        hull_.store(hull);
+        select(maskOf(lanes), hull_, Ints(0u)).store(hull); // others may be past the last one
         while (lanes != 0) {
             const std::uint32_t number = hull[std::countr_zero(lanes)];
             const unsigned same = lanes & bits(hull_ == Ints(number));
@@ -222,7 +223,8 @@ private:
     Lines lines_;
     Floats length2_;
     unsigned live_ = 0, asked_ = 0; // lanes that go on, and those that look at a hull
-    Ints at_{0u}, end_{0u}, reach_{0u}, own_{0u}, hull_{0u};
+    Ints at_{0u}; // first the cell, then the place in the lists
+    Ints reach_{0u}, own_{0u}, hull_{0u};
     HiddenByMap answer_;
 };
 
@@ -239,6 +241,7 @@ void askLampMap(const LampMap& map, std::span<const LitBlock> blocks, std::span<
     std::size_t count = 0;
     const auto finish = [&] {
         const auto some = std::span(asked).first(count);
+        for (Asked& a : some) a.onMap().findList();
         for (Asked& a : some) a.onMap().findFirst();
         for (bool more = true; more;) {
             more = false;
