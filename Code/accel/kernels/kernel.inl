@@ -26,6 +26,8 @@
 
 #include "accel/kernels/queue_slots.inl"
 
+#include "accel/kernels/ray_lists.inl"
+
 #include "accel/kernels/queue_leaves.inl"
 
 #include "accel/kernels/queue.inl"

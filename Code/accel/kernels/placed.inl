@@ -25,25 +25,25 @@ public:
             std::swap(now, next);
             next.clear();
             for (std::uint32_t i = 0; i < now.count[Boxes]; ++i) boxStep(now.slots[Boxes][i], next);
-            for (std::uint32_t i = 0; i < now.count[Nodes]; ++i)
-                nodeStep(now.slots[Nodes][i], next);
-            for (std::uint32_t i = 0; i < now.count[Leaves]; ++i)
-                leafStep(now.slots[Leaves][i], next);
+            const auto& [nodes, leaves, done, went] = inMeshes_;
+            for (std::uint32_t i = 0; i < nodes.size(); ++i) nodeStep(nodes.slot(i), nodes.ref(i));
+            for (std::uint32_t i = 0; i < leaves.size(); ++i)
+                leafStep(leaves.slot(i), leaves.ref(i), next);
             for (std::uint32_t i = 0; i < now.count[Entries]; ++i)
                 enter(now.slots[Entries][i], next);
-            for (std::uint32_t i = 0; i < now.count[Tests]; ++i) test(now.slots[Tests][i], next);
-            for (std::uint32_t i = 0; i < now.count[Exits]; ++i) leave(now.slots[Exits][i], next);
+            for (std::uint32_t i = 0; i < now.count[Tests]; ++i) test(now.slots[Tests][i]);
+            inMeshes_.sort();
+            for (std::uint32_t i = 0; i < done.size(); ++i) leave(done.slot(i), next);
         }
     }
 
 private:
     static constexpr std::uint32_t kSlots = PlacedKernel::kSlots;
 
-    // What a ray does next: a step in the tree over the boxes or in that of a mesh, going into a
-    // mesh and out of it.
-    enum Place { Boxes, Nodes, Leaves, Tests, Entries, Exits, kPlaces };
-    // One more place than slots: send() writes to lists that are full.
-    using SlotList = std::uint32_t[kSlots + 1];
+    // What a ray does next that is not in the tree of a mesh: a step in the tree over the boxes,
+    // going into a mesh, or tests of its triangles.
+    enum Place { Boxes, Entries, Tests, kPlaces };
+    using SlotList = std::uint32_t[kSlots];
     struct Lists {
         SlotList* slots;
         std::uint32_t count[kPlaces] = {};
@@ -179,7 +179,7 @@ private:
         s.top = 1;
         inMesh_.refs[slot * stride_] = wideRef(0, WideKind::None); // the end of the stack
         inMesh_.entries[slot * stride_] = 0;
-        send(slot, visit.tree->root, to);
+        send(slot, visit.tree->root);
     }
 
     void leave(std::uint32_t slot, Lists& to) {
@@ -192,37 +192,34 @@ private:
 
     // ---- the tree of a mesh
 
-    [[gnu::always_inline]] void send(std::uint32_t slot, WideRef ref, Lists& to) {
-        Slot& s = slots_[slot];
-        s.mesh.at = ref;
-        const std::byte* const line = s.mesh.base + byteOffset(ref);
+    [[gnu::always_inline]] void send(std::uint32_t slot, WideRef ref) {
+        const MeshRay& mesh = slots_[slot].mesh;
+        const std::byte* const line = mesh.base + byteOffset(ref);
         for (int k = 0; k < 4; ++k) __builtin_prefetch(line + std::ptrdiff_t{64} * k);
-        __builtin_prefetch(s.mesh.longestSide + (ref >> 2));
-        to.slots[Nodes][to.count[Nodes]] = slot;
-        to.slots[Leaves][to.count[Leaves]] = slot;
-        to.slots[Exits][to.count[Exits]] = slot;
-        to.count[Nodes] += kindOf(ref) == WideKind::Node;
-        to.count[Leaves] += kindOf(ref) == WideKind::Leaf;
-        to.count[Exits] += kindOf(ref) == WideKind::None;
+        __builtin_prefetch(mesh.longestSide + (ref >> 2));
+        inMeshes_.went.add(slot, ref);
+    }
+    void popInMesh(std::uint32_t slot) {
+        send(slot, inMesh_.refs[slot * stride_ + --slots_[slot].top]);
     }
 
-    [[gnu::always_inline]] void nodeStep(std::uint32_t slot, Lists& to) {
+    [[gnu::always_inline]] void nodeStep(std::uint32_t slot, WideRef ref) {
         Slot& s = slots_[slot];
         Floats entry;
-        const unsigned hit = s.mesh.entered(entry);
+        const unsigned hit = s.mesh.entered(ref, entry);
         const std::size_t at = slot * stride_ + s.top;
-        const WideRef nearest = push(hit, entry, s.mesh.children(), inMesh_, at);
+        const WideRef nearest = push(hit, entry, s.mesh.children(ref), inMesh_, at);
         // Without a child, what was on top before.
         const WideRef before = inMesh_.refs[at - 1];
         s.top = s.top + static_cast<std::uint32_t>(std::popcount(hit)) - 1;
-        send(slot, hit != 0 ? nearest : before, to);
+        send(slot, hit != 0 ? nearest : before);
     }
 
     // Candidates are tested in the next round, when their corners are in the cache.
-    [[gnu::always_inline]] void leafStep(std::uint32_t slot, Lists& to) {
+    [[gnu::always_inline]] void leafStep(std::uint32_t slot, WideRef ref, Lists& to) {
         Slot& s = slots_[slot];
-        s.mesh.findCandidates();
-        if (s.mesh.candidates == 0) return send(slot, inMesh_.refs[slot * stride_ + --s.top], to);
+        s.mesh.findCandidates(ref);
+        if (s.mesh.candidates == 0) return popInMesh(slot);
         s.mesh.forEachCandidate([](std::uint32_t, const Vec3d& a, const Vec3d& b, const Vec3d& c) {
             for (const Vec3d* corner : {&a, &b, &c}) // may lie in two lines
                 __builtin_prefetch(&corner->x), __builtin_prefetch(&corner->z);
@@ -230,7 +227,7 @@ private:
         to.add(Tests, slot);
     }
 
-    void test(std::uint32_t slot, Lists& to) {
+    void test(std::uint32_t slot) {
         Slot& s = slots_[slot];
         float zCut = s.mesh.zCut;
         s.mesh.forEachCandidate(
@@ -240,7 +237,7 @@ private:
         if (zCut < 0) s.top = 1; // only the end
         if (zCut < s.mesh.zCut) s.top = drop(inMesh_, slot * stride_, s.top, zCut);
         s.mesh.zCut = zCut;
-        send(slot, inMesh_.refs[slot * stride_ + --s.top], to);
+        popInMesh(slot);
     }
 
     // ---- stacks
@@ -272,6 +269,7 @@ private:
     Stacks inScene_, inMesh_;
     std::uint32_t live_ = 0;
     SlotList lists_[2][kPlaces];
+    RayLists<kSlots> inMeshes_;
 };
 
 void closestPlaced(const PlacedTree& tree, PlacedQuery& query, const RaySpan& rays,

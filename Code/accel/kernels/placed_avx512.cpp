@@ -12,6 +12,8 @@ namespace kernels::avx512 {
 
 #include "accel/kernels/ray_lanes.inl"
 
+#include "accel/kernels/ray_lists.inl"
+
 #include "accel/kernels/placed_mesh.inl"
 
 #include "accel/kernels/placed.inl"

@@ -10,7 +10,7 @@ struct MeshRay {
     float zCut, depthPerSide;
     const std::byte* base;
     const float* longestSide;
-    std::uint32_t at; // node or leaf
+    WideRef at; // the leaf of the candidates
     // Triangles: the origin in the order lateral x, lateral y, depth.
     float origin[3];
     std::uint32_t axis[3]; // where in a leaf, in bytes
@@ -46,9 +46,9 @@ struct MeshRay {
 
     // TreeRay's enters() of shape/instance_filter.h for W boxes, with the room that the node needs.
     // Returns the children entered, and the depths where.
-    [[gnu::always_inline]] unsigned entered(Floats& entry) const {
-        const std::byte* const node = base + byteOffset(at);
-        const Floats room(longestSide[at >> 2] * depthPerSide);
+    [[gnu::always_inline]] unsigned entered(WideRef ref, Floats& entry) const {
+        const std::byte* const node = base + byteOffset(ref);
+        const Floats room(longestSide[ref >> 2] * depthPerSide);
         entry = Floats(0.0f) - room;
         Floats exit = Floats(zCut) + room;
         for (std::size_t i = 0; i < 3; ++i) {
@@ -62,13 +62,14 @@ struct MeshRay {
         entry = max(entry - room, Floats(0.0f));
         return hit;
     }
-    const WideRef* children() const {
-        return reinterpret_cast<const WideRef*>(base + byteOffset(at) + std::ptrdiff_t{6} * W * 4);
+    const WideRef* children(WideRef ref) const {
+        return reinterpret_cast<const WideRef*>(base + byteOffset(ref) + std::ptrdiff_t{6} * W * 4);
     }
 
     // TreeRay::mayMeet() for W triangles, and whether they are at depths where a hit counts.
-    void findCandidates() {
-        const std::byte* const p = base + byteOffset(at);
+    void findCandidates(WideRef ref) {
+        at = ref;
+        const std::byte* const p = base + byteOffset(ref);
         const auto& leaf = *reinterpret_cast<const WideLeaf<W>*>(p);
         const Floats x = Floats::load(p + axis[0]) - Floats(origin[0]);
         const Floats y = Floats::load(p + axis[1]) - Floats(origin[1]);

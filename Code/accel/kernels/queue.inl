@@ -1,48 +1,43 @@
 // The kernel for rays of any kind. Many rays are on their way at once, each at its next node or
-// leaf; two lists say which. A round takes one step with every ray of a list: the steps don't
-// depend on each other, so the CPU overlaps their memory accesses and latencies, and nothing but
-// the length of the lists is a branch.
+// leaf; two lists say which (ray_lists.inl). A round takes one step with every ray of a list: the
+// steps don't depend on each other, so the CPU overlaps their memory accesses and latencies, and
+// nothing but the length of the lists is a branch.
 // Included by the file of each instruction set inside its namespace, behind queue_leaves.inl.
 
 template <Query Q> class Queue : QueueLeaves<Q> {
-    using Lists = QueueSlots::Lists;
-    using Ends = QueueSlots::Ends;
-    using QueueLeaves<Q>::mesh_, QueueLeaves<Q>::rays_, QueueLeaves<Q>::slots_;
+    using QueueLeaves<Q>::mesh_, QueueLeaves<Q>::rays_, QueueLeaves<Q>::slots_,
+        QueueLeaves<Q>::lists_;
 
 public:
     Queue(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order)
         : QueueLeaves<Q>(mesh, rays, order.size()), order_(order), root_(mesh.tree) {}
 
     template <class Results> void run(const Results& results) {
-        Lists *now = &lists_[0], *next = &lists_[1];
-        Ends to = next->clear();
-        for (std::uint32_t b = 0; b < QueueSlots::kBlocks; ++b) refill(b, to, results);
+        for (std::uint32_t b = 0; b < QueueSlots::kBlocks; ++b) refill(b, results);
         while (live_ > 0) {
-            std::swap(now, next);
-            const Ends all = std::exchange(to, next->clear());
-            nodeSteps({now->nodes, all.nodes}, to);
-            this->takeLeaves({now->leaves, all.leaves}, to);
-            const auto busy = (to.nodes - next->nodes) + (to.leaves - next->leaves);
-            this->settleIfWorth(busy < kFewBusy, to);
-            for (const Slot slot : std::span<const Slot>(next->done, to.done)) {
-                const std::uint32_t number = QueueSlots::blockOf(slot);
+            nodeSteps();
+            this->takeLeaves();
+            lists_.sort();
+            this->settleIfWorth(lists_.nodes.size() + lists_.leaves.size() < kFewBusy);
+            for (std::uint32_t i = 0; i < lists_.done.size(); ++i) {
+                const std::uint32_t number = QueueSlots::blockOf(lists_.done.slot(i));
                 RayBlock& b = slots_.block(number);
                 --live_;
                 if (--b.live > 0) continue;
                 if (b.open != 0) settleOpen(mesh_, rays_, b);
                 writeAnswers(b, mesh_.tree, results);
-                refill(number, to, results);
+                refill(number, results);
             }
         }
     }
 
 private:
     // Rays that are not waiting for others; with fewer, the others don't wait either.
-    static constexpr std::ptrdiff_t kFewBusy = QueueSlots::kSlots / 3;
+    static constexpr std::uint32_t kFewBusy = QueueSlots::kSlots / 3;
 
     // The next rays that enter the tree, if there are any left, take this block. Those that don't
     // are answered at once.
-    template <class Results> void refill(std::uint32_t number, Ends& to, const Results& results) {
+    template <class Results> void refill(std::uint32_t number, const Results& results) {
         RayBlock& b = slots_.block(number);
         while (next_ < order_.size()) {
             const unsigned entered = root_.entering(b, takeRays(b));
@@ -50,12 +45,13 @@ private:
                 writeAnswers(b, mesh_.tree, results);
                 continue;
             }
-            slots_.start(number, mesh_.tree.root);
+            slots_.start(number);
             b.live = static_cast<std::uint32_t>(std::popcount(entered));
             live_ += b.live;
             for (unsigned lanes = entered; lanes != 0; lanes &= lanes - 1)
-                *to.nodes++ =
-                    QueueSlots::slotOf(number, static_cast<std::uint32_t>(std::countr_zero(lanes)));
+                lists_.send(
+                    QueueSlots::slotOf(number, static_cast<std::uint32_t>(std::countr_zero(lanes))),
+                    mesh_.tree.root);
             return;
         }
     }
@@ -68,16 +64,19 @@ private:
     }
 
     // Apart from run(): its loop has all registers.
-    [[gnu::noinline]] void nodeSteps(std::span<const Slot> at, Ends& to) const {
-        Ends here = to; // in registers
-        for (const Slot slot : at) nodeStep(slot, slots_.ray(slot), here);
-        to = here;
+    [[gnu::noinline]] void nodeSteps() {
+        const std::uint32_t count = lists_.nodes.size();
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const Slot slot = lists_.nodes.slot(i);
+            lists_.went.set(i, slot, nodeStep(lists_.nodes.ref(i), slots_.ray(slot)));
+        }
+        lists_.went.resize(count);
     }
 
     // RaySetup::enters() for W boxes. With FMA or without: the pads of the slabs are twice those of
     // the canonical hit, and the difference covers either rounding several times.
-    [[gnu::always_inline]] void nodeStep(Slot slot, const QueueRay& ray, Ends& to) const {
-        const std::byte* const node = slots_.nodeAt(ray);
+    [[gnu::always_inline]] WideRef nodeStep(WideRef at, const QueueRay& ray) const {
+        const std::byte* const node = slots_.nodeAt(at);
         Floats entry(0.0f), exit(ray.at(&RayBlock::zCut));
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const std::uint32_t nearPlane = ray.at(&RayBlock::nearPlane, axis);
@@ -105,14 +104,14 @@ private:
         const WideRef before = refs[-1];
         const WideRef next = hits != 0 ? nearest : before;
         top = top + static_cast<std::uint32_t>(hits) - 1;
-        slots_.send(slot, ray, next, to);
+        slots_.prefetch(next);
+        return next;
     }
 
     std::span<const std::uint32_t> order_;
     RootQuestion root_;
     std::size_t next_ = 0;
     std::uint32_t live_ = 0;
-    Lists lists_[2];
 };
 
 template <Query Q, class Results>

@@ -1,37 +1,35 @@
 // What rays of the queue do at leaves. A nearest hit that is certain in float is taken at once, and
 // its canonical key is computed when W rays are done; where bounds overlap, rays wait until there
 // are enough of them for the keys of W pairs at once.
-// Included by the file of each instruction set inside its namespace, behind queue_slots.inl.
+// Included by the file of each instruction set inside its namespace, behind ray_lists.inl.
 
 template <Query Q> class QueueLeaves {
-    using Ends = QueueSlots::Ends;
-
 protected:
     // `used`: slots that will ever have a ray.
     QueueLeaves(const WideMesh& mesh, const RaySpan& rays, std::size_t used)
         : mesh_(mesh), rays_(rays), slots_(mesh.tree, used) {}
 
     // A step of the rays at leaves.
-    void takeLeaves(std::span<const Slot> at, Ends& to) {
+    void takeLeaves() {
+        const std::uint32_t count = lists_.leaves.size();
         Found found;
         if (Q == Query::Closest && meetings_ == Meetings::Many)
-            found = leafSteps<Meetings::Many>(at, to);
+            found = leafSteps<Meetings::Many>();
         else if (meetings_ == Meetings::Few)
-            found = leafSteps<Meetings::Few>(at, to);
+            found = leafSteps<Meetings::Few>();
         else
-            found = leafSteps<Meetings::Some>(at, to);
-        meetings_ = found.met * 3 > at.size()                    ? Meetings::Many
-                    : (at.size() - found.beside) * 8 < at.size() ? Meetings::Few
-                                                                 : Meetings::Some;
-        if constexpr (Q == Query::Closest) acceptMet(found, to);
+            found = leafSteps<Meetings::Some>();
+        meetings_ = found.met * 3 > count                ? Meetings::Many
+                    : (count - found.beside) * 8 < count ? Meetings::Few
+                                                         : Meetings::Some;
+        if constexpr (Q == Query::Closest) acceptMet(found);
     }
 
     // Computes the keys that rays wait for, if there are enough of them or `now`.
-    void settleIfWorth(bool now, Ends& to) {
+    void settleIfWorth(bool now) {
         if (waitingPairs_ < W && !now) return;
         std::uint32_t n = 0;
-        for (const auto& [slot, candidates] : std::span(waiting_, waitingCount_)) {
-            const WideRef leaf = slots_.ray(slot).at(&RayBlock::at);
+        for (const auto& [slot, leaf, candidates] : std::span(waiting_, waitingCount_)) {
             if constexpr (Q == Query::Closest) reopen(slot, n);
             for (unsigned left = candidates; left != 0; left &= left - 1)
                 pairs_[n++] = {numberOf(slot), leaf,
@@ -39,13 +37,14 @@ protected:
         }
         takePairs(n);
         for (const Waiting& w : std::span(waiting_, waitingCount_))
-            slots_.pop(w.slot, slots_.ray(w.slot), to);
+            lists_.send(w.slot, slots_.pop(slots_.ray(w.slot)));
         waitingCount_ = waitingPairs_ = 0;
     }
 
     const WideMesh& mesh_;
     const RaySpan& rays_;
     QueueSlots slots_;
+    RayLists<QueueSlots::kSlots> lists_;
 
 private:
     static constexpr std::uint32_t kSlots = QueueSlots::kSlots;
@@ -56,6 +55,7 @@ private:
 
     struct Waiting {
         Slot slot;
+        WideRef leaf;
         std::uint32_t candidates; // triangles of the leaf that the ray is at
     };
 
@@ -63,6 +63,7 @@ private:
     struct alignas(64) Met {
         float depth[W], noise[W], det[W];
         Slot slot;
+        WideRef leaf;
         std::uint32_t candidates, certain; // certain: to be hits
     };
 
@@ -73,18 +74,23 @@ private:
 
     // ---- steps
 
-    template <Meetings M>
-    [[gnu::noinline]] Found leafSteps(std::span<const Slot> at, Ends& to) {
+    template <Meetings M> [[gnu::noinline]] Found leafSteps() {
         Found found;
-        Ends here = to; // in registers
-        for (const Slot slot : at) leafStep<M>(slot, slots_.ray(slot), found, here);
-        to = here;
+        std::uint32_t went = lists_.went.size(); // in a register
+        for (std::uint32_t i = 0; i < lists_.leaves.size(); ++i) {
+            const Slot slot = lists_.leaves.slot(i);
+            const QueueRay ray = slots_.ray(slot);
+            if (leafStep<M>(slot, lists_.leaves.ref(i), ray, found))
+                lists_.went.set(went++, slot, slots_.pop(ray));
+        }
+        lists_.went.resize(went);
         return found;
     }
 
+    // Returns whether the ray goes on at once.
     template <Meetings M>
-    [[gnu::always_inline]] void leafStep(Slot slot, const QueueRay& ray, Found& found, Ends& to) {
-        const WideLeaf<W>& leaf = slots_.leafAt(ray);
+    [[gnu::always_inline]] bool leafStep(Slot slot, WideRef at, const QueueRay& ray, Found& found) {
+        const WideLeaf<W>& leaf = slots_.leafAt(at);
         const Sheared corners = sheared(ray, leaf);
         const Edges edges(corners);
         const unsigned all = (1u << leaf.count) - 1;
@@ -92,7 +98,7 @@ private:
             const bool isBeside = (bits(edges.around()) & all) == 0; // all triangles
             found.beside += isBeside;
             if (M == Meetings::Few && isBeside) [[likely]]
-                return slots_.pop(slot, ray, to);
+                return true;
         }
         const Judged judged = judge(corners, edges, Floats(ray.at(&RayBlock::sign)));
         const Floats zCut(ray.at(&RayBlock::zCut));
@@ -107,37 +113,38 @@ private:
             candidates = met ? 0 : candidates;
         }
         if (M != Meetings::Many && candidates == 0) [[likely]]
-            return slots_.pop(slot, ray, to);
+            return true;
         if constexpr (Q == Query::Any) {
-            wait(slot, candidates);
+            wait(slot, at, candidates);
         } else {
             passed_[found.passed] = slot;
             found.passed += candidates == 0;
             Met& met = met_[found.met];
             found.met += candidates != 0;
-            met.slot = slot, met.candidates = candidates;
+            met.slot = slot, met.leaf = at, met.candidates = candidates;
             met.certain = bits(judged.certain()) & candidates;
             judged.depth.store(met.depth), judged.noise.store(met.noise);
             judged.det.store(met.det);
         }
+        return false;
     }
 
-    void wait(Slot slot, std::uint32_t candidates) {
-        waiting_[waitingCount_++] = {slot, candidates};
+    void wait(Slot slot, WideRef leaf, std::uint32_t candidates) {
+        waiting_[waitingCount_++] = {slot, leaf, candidates};
         waitingPairs_ += static_cast<std::uint32_t>(std::popcount(candidates));
     }
 
     // Takes for each ray the candidate that is nearest, if that is certain without keys; the key of
     // what remains the best one is computed at the end.
-    void acceptMet(const Found& found, Ends& to) {
+    void acceptMet(const Found& found) {
         for (const Slot slot : std::span(passed_, found.passed))
-            slots_.pop(slot, slots_.ray(slot), to);
+            lists_.went.add(slot, slots_.pop(slots_.ray(slot)));
         for (const Met& met : std::span(met_, found.met)) {
             const QueueRay ray = slots_.ray(met.slot);
             if (accept(met, ray))
-                slots_.pop(met.slot, ray, to);
+                lists_.went.add(met.slot, slots_.pop(ray));
             else
-                wait(met.slot, met.candidates);
+                wait(met.slot, met.leaf, met.candidates);
         }
     }
 
@@ -156,7 +163,7 @@ private:
             return false;
         const auto lane = static_cast<std::uint32_t>(std::countr_zero(rivals));
         ray.at(&RayBlock::bestLane) = lane;
-        ray.at(&RayBlock::bestLeaf) = ray.at(&RayBlock::at);
+        ray.at(&RayBlock::bestLeaf) = met.leaf;
         best = each[lane];
         float& zCut = ray.at(&RayBlock::zCut);
         zCut = ::min(depth, zCut);

@@ -35,16 +35,7 @@ private:
 class QueueSlots {
 public:
     static constexpr std::uint32_t kSlots = 96, kBlocks = kSlots / W;
-
-    // Where lists go on.
-    struct Ends {
-        Slot *nodes, *leaves, *done;
-    };
-    // What the rays are at. One place more than rays: send() writes to lists that are full.
-    struct Lists {
-        Slot nodes[kSlots + 1], leaves[kSlots + 1], done[kSlots + 1];
-        Ends clear() { return {nodes, leaves, done}; }
-    };
+    static_assert(kSlots % W == 0);
 
     // `used`: slots that will ever have a ray.
     QueueSlots(const WideTree& tree, std::size_t used)
@@ -78,9 +69,8 @@ public:
     std::uint32_t* refs(std::uint32_t place) const { return refs_ + place; }
     std::uint32_t* entries(std::uint32_t place) const { return entries_ + place; }
     // Of W rays that enter the tree.
-    void start(std::uint32_t block, WideRef root) {
+    void start(std::uint32_t block) {
         RayBlock& b = blocks_[block];
-        Ints(root).store(b.at);
         for (std::uint32_t i = 0; i < W; ++i) b.stackTop[i] = b.bottom[i] + 1;
     }
     static void leaveOnlyEnd(const QueueRay& ray) {
@@ -94,30 +84,20 @@ public:
               dropHidden(refs_ + bottom, entries_ + bottom, top - bottom, ray.at(&RayBlock::zCut));
     }
 
-    // ---- where rays go
-
-    // Takes the ray to `ref`: three stores, of which one counts.
-    [[gnu::always_inline]] void send(Slot slot, const QueueRay& ray, WideRef ref, Ends& to) const {
-        ray.at(&RayBlock::at) = ref;
-        const std::byte* const line = base_ + byteOffset(ref);
-        if (prefetches_)
-            for (int k = 0; k < 4; ++k) __builtin_prefetch(line + std::ptrdiff_t{64} * k);
-        *to.nodes = *to.leaves = *to.done = slot;
-        to.nodes += kindOf(ref) == WideKind::Node;
-        to.leaves += kindOf(ref) == WideKind::Leaf;
-        to.done += kindOf(ref) == WideKind::None;
-    }
-    // To what is on top of its stack.
-    [[gnu::always_inline]] void pop(Slot slot, const QueueRay& ray, Ends& to) const {
-        send(slot, ray, refs_[--ray.at(&RayBlock::stackTop)], to);
+    // What is on top of its stack.
+    [[gnu::always_inline]] WideRef pop(const QueueRay& ray) const {
+        return refs_[--ray.at(&RayBlock::stackTop)];
     }
 
-    // What the ray is at.
-    [[gnu::always_inline]] const std::byte* nodeAt(const QueueRay& ray) const {
-        return base_ + byteOffset(ray.at(&RayBlock::at));
+    [[gnu::always_inline]] const std::byte* nodeAt(WideRef ref) const {
+        return base_ + byteOffset(ref);
     }
-    [[gnu::always_inline]] const WideLeaf<W>& leafAt(const QueueRay& ray) const {
-        return *reinterpret_cast<const WideLeaf<W>*>(nodeAt(ray));
+    [[gnu::always_inline]] const WideLeaf<W>& leafAt(WideRef ref) const {
+        return *reinterpret_cast<const WideLeaf<W>*>(nodeAt(ref));
+    }
+    [[gnu::always_inline]] void prefetch(WideRef ref) const {
+        if (!prefetches_) return;
+        for (int k = 0; k < 4; ++k) __builtin_prefetch(nodeAt(ref) + std::ptrdiff_t{64} * k);
     }
 
 private:

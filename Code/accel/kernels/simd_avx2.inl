@@ -107,6 +107,7 @@ inline Mask operator>(Floats a, Floats b) { return b < a; }
 inline Mask operator>=(Floats a, Floats b) { return b <= a; }
 inline Mask operator==(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_EQ_OQ)}; }
 inline Mask notGreater(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_NGT_UQ)}; }
+inline Ints operator&(Ints a, Ints b) { return _mm256_and_si256(a.v, b.v); }
 inline Mask operator<(Ints a, Ints b) {
     const __m256i top = _mm256_set1_epi32(static_cast<int>(0x80000000u));
     return {_mm256_castsi256_ps(
@@ -220,10 +221,12 @@ inline __m256i chosenLanes(unsigned chosen) {
     return _mm256_cvtepu8_epi32(
         _mm_loadl_epi64(reinterpret_cast<const __m128i*>(kChosenLanes[chosen].data())));
 }
-inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_t* to) {
-    const __m256i all = _mm256_load_si256(reinterpret_cast<const __m256i*>(from));
+inline void storeChosen(unsigned chosen, Ints from, std::uint32_t* to) {
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(to),
-                        _mm256_permutevar8x32_epi32(all, chosenLanes(chosen)));
+                        _mm256_permutevar8x32_epi32(from.v, chosenLanes(chosen)));
+}
+inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_t* to) {
+    storeChosen(chosen, Ints::load(from), to);
 }
 inline void storeChosen(Mask chosen, const std::uint32_t* from, std::uint32_t* to) {
     storeChosen(bits(chosen), from, to);

@@ -108,6 +108,7 @@ inline Mask operator>=(Floats a, Floats b) { return b <= a; }
 inline Mask operator==(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_EQ_OQ)}; }
 // True for NaN.
 inline Mask notGreater(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_NGT_UQ)}; }
+inline Ints operator&(Ints a, Ints b) { return _mm512_and_si512(a.v, b.v); }
 inline Mask operator<(Ints a, Ints b) { return {_mm512_cmplt_epu32_mask(a.v, b.v)}; }
 inline Mask operator==(Ints a, Ints b) { return {_mm512_cmpeq_epi32_mask(a.v, b.v)}; }
 inline Mask operator&(Mask a, Mask b) { return {static_cast<__mmask16>(a.v & b.v)}; }
@@ -213,8 +214,11 @@ inline void storeRows(Floats a, Floats b, Floats c, Ints d, Ints e, float* to) {
 inline void storeChosen(Mask chosen, const std::uint32_t* from, std::uint32_t* to) {
     _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(chosen.v, _mm512_load_si512(from)));
 }
+inline void storeChosen(unsigned chosen, Ints from, std::uint32_t* to) {
+    _mm512_storeu_si512(to, _mm512_maskz_compress_epi32(static_cast<__mmask16>(chosen), from.v));
+}
 inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_t* to) {
-    storeChosen(maskOf(chosen), from, to);
+    storeChosen(chosen, Ints::load(from), to);
 }
 // Bits of the chosen numbers (not negative), in the lowest four how many lanes come behind; zeros
 // follow. They sort like the numbers, of equal ones the last first.

@@ -153,6 +153,9 @@ inline Mask operator==(Floats a, Floats b) {
 inline Mask notGreater(Floats a, Floats b) {
     return {_mm_cmpngt_ps(a.lo, b.lo), _mm_cmpngt_ps(a.hi, b.hi)};
 }
+inline Ints operator&(Ints a, Ints b) {
+    return {_mm_and_si128(a.lo, b.lo), _mm_and_si128(a.hi, b.hi)};
+}
 inline Mask operator<(Ints a, Ints b) {
     const __m128i top = _mm_set1_epi32(static_cast<int>(0x80000000u));
     const auto less = [&](__m128i x, __m128i y) {
@@ -283,11 +286,19 @@ inline void storeRows(Floats a, Floats b, Floats c, Ints d, Ints e, float* to) {
     four(a.hi, b.hi, c.hi, _mm_castsi128_ps(d.hi), _mm_castsi128_ps(e.hi), to + 20);
 }
 
+#include "accel/kernels/sse_keys.inl"
+
+inline void storeChosen(unsigned chosen, Ints from, std::uint32_t* to) {
+    const unsigned inLow = chosen & 15;
+    const auto store = [](__m128i four, unsigned m, std::uint32_t* at) {
+        _mm_storeu_si128(reinterpret_cast<__m128i*>(at), packed(four, m));
+    };
+    store(from.lo, inLow, to);
+    store(from.hi, chosen >> 4, to + __builtin_popcount(inLow));
+}
 inline void storeChosen(unsigned chosen, const std::uint32_t* from, std::uint32_t* to) {
-    for (; chosen != 0; chosen &= chosen - 1) *to++ = from[__builtin_ctz(chosen)];
+    storeChosen(chosen, Ints::load(from), to);
 }
 inline void storeChosen(Mask chosen, const std::uint32_t* from, std::uint32_t* to) {
     storeChosen(bits(chosen), from, to);
 }
-
-#include "accel/kernels/sse_keys.inl"

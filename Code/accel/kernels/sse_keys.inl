@@ -23,16 +23,18 @@ inline constexpr auto kSlid = [] {
     for (std::size_t byte = 0; byte < 16; ++byte) all[16 + byte] = static_cast<std::uint8_t>(byte);
     return all;
 }();
+inline __m128i packed(__m128i four, unsigned chosen) {
+    return _mm_shuffle_epi8(
+        four, _mm_load_si128(reinterpret_cast<const __m128i*>(kPacked[chosen].data())));
+}
 inline Keys keysOf(Mask lanes, Floats a) {
     const unsigned chosen = bits(lanes), inLow = chosen & 15;
-    const auto packed = [](__m128 near, __m128i lane, unsigned m) {
-        const __m128i keys =
-            _mm_or_si128(_mm_andnot_si128(_mm_set1_epi32(15), _mm_castps_si128(near)), lane);
-        return _mm_shuffle_epi8(
-            keys, _mm_load_si128(reinterpret_cast<const __m128i*>(kPacked[m].data())));
+    const auto keysOfFour = [](__m128 near, __m128i lane, unsigned m) {
+        return packed(
+            _mm_or_si128(_mm_andnot_si128(_mm_set1_epi32(15), _mm_castps_si128(near)), lane), m);
     };
-    const __m128i low = packed(a.lo, _mm_setr_epi32(7, 6, 5, 4), inLow),
-                  high = packed(a.hi, _mm_setr_epi32(3, 2, 1, 0), chosen >> 4);
+    const __m128i low = keysOfFour(a.lo, _mm_setr_epi32(7, 6, 5, 4), inLow),
+                  high = keysOfFour(a.hi, _mm_setr_epi32(3, 2, 1, 0), chosen >> 4);
     const auto slid = [&](int first) { // the high ones behind the low ones
         const std::uint8_t* const from =
             kSlid.data() + first - std::ptrdiff_t{4} * __builtin_popcount(inLow);
