@@ -102,18 +102,16 @@ private:
         }
         const Judged judged = judge(corners, edges, Floats(ray.at(&RayBlock::sign)));
         const Floats zCut(ray.at(&RayBlock::zCut));
-        unsigned candidates = judged.candidates(zCut) & all;
-        if constexpr (Q == Query::Any) {
-            const bool met = (judged.certain(zCut) & all) != 0 &&
-                             ray.at(&RayBlock::below) == kInfinityF;
-            std::uint32_t& triangle = ray.at(&RayBlock::triangle);
-            std::uint32_t& top = ray.at(&RayBlock::stackTop);
-            triangle = met ? 0 : triangle;
-            top = met ? ray.at(&RayBlock::bottom) + 1 : top;
-            candidates = met ? 0 : candidates;
-        }
+        const unsigned candidates = judged.candidates(zCut) & all;
         if (M != Meetings::Many && candidates == 0) [[likely]]
             return true;
+        if constexpr (Q == Query::Any) {
+            if ((judged.certain(zCut) & all) != 0 && ray.at(&RayBlock::below) == kInfinityF) {
+                ray.at(&RayBlock::triangle) = 0;
+                QueueSlots::leaveOnlyEnd(ray);
+                return true;
+            }
+        }
         if constexpr (Q == Query::Any) {
             wait(slot, at, candidates);
         } else {
