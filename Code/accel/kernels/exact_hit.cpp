@@ -3,6 +3,8 @@
 
 #include "accel/triangle.h"
 
+#include <bit>
+
 namespace {
 
 template <int W> float keyOf(const RaySetup& setup, const WideLeaf<W>& leaf, unsigned lane) {
@@ -16,9 +18,10 @@ template <int W> float keyOf(const RaySetup& setup, const WideLeaf<W>& leaf, uns
 constexpr auto makeChosenLanes() {
     std::array<std::array<std::uint8_t, 8>, 256> table{};
     for (unsigned mask = 0; mask < 256; ++mask) {
-        std::size_t n = 0;
+        std::size_t chosen = 0, other = static_cast<std::size_t>(std::popcount(mask));
         for (unsigned lane = 0; lane < 8; ++lane)
-            if (mask >> lane & 1) table[mask][n++] = static_cast<std::uint8_t>(lane);
+            table[mask][(mask >> lane & 1) != 0 ? chosen++ : other++] =
+                static_cast<std::uint8_t>(lane);
     }
     return table;
 }

@@ -232,14 +232,11 @@ inline void storeChosen(Mask chosen, const std::uint32_t* from, std::uint32_t* t
     storeChosen(bits(chosen), from, to);
 }
 inline __m256i keysOf(Mask lanes, Floats a) {
-    const unsigned chosen = bits(lanes);
-    const __m256i lane = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-    const __m256i last = _mm256_xor_si256(lane, _mm256_set1_epi32(W - 1));
+    const __m256i last = _mm256_setr_epi32(7, 6, 5, 4, 3, 2, 1, 0);
     const __m256i keys =
         _mm256_or_si256(_mm256_andnot_si256(_mm256_set1_epi32(15), _mm256_castps_si256(a.v)), last);
-    const __m256i count = _mm256_set1_epi32(__builtin_popcount(chosen));
-    return _mm256_and_si256(_mm256_permutevar8x32_epi32(keys, chosenLanes(chosen)),
-                            _mm256_cmpgt_epi32(count, lane));
+    return _mm256_permutevar8x32_epi32(_mm256_and_si256(keys, _mm256_castps_si256(lanes.v)),
+                                       chosenLanes(bits(lanes)));
 }
 inline __m128i firstFour(__m256i keys) { return _mm256_castsi256_si128(keys); }
 inline void storeKeys(__m256i keys, std::uint32_t* to) {
