@@ -1,5 +1,5 @@
-// The slots of rays that are on their way at once: their columns in blocks of W rays, stacks of the
-// nodes that they go to later, as stack.inl has them, and lists of what they are at.
+// The slots of rays that are on their way at once: their columns in blocks of W rays, and stacks of
+// the nodes that they go to later, as stack.inl has them.
 // Included by the file of each instruction set inside its namespace, in front of queue_leaves.inl.
 
 // Where a ray's columns are, in bytes from those of the first ray.
@@ -86,7 +86,9 @@ public:
 
     // What is on top of its stack.
     [[gnu::always_inline]] WideRef pop(const QueueRay& ray) const {
-        return refs_[--ray.at(&RayBlock::stackTop)];
+        const WideRef ref = refs_[--ray.at(&RayBlock::stackTop)];
+        prefetch(ref);
+        return ref;
     }
 
     [[gnu::always_inline]] const std::byte* nodeAt(WideRef ref) const {
