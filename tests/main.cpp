@@ -1,18 +1,34 @@
 #include "check.h"
 
+#include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <new>
 #include <stdexcept>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace check {
 
 namespace {
+
 int failuresOfTest = 0;
+
+// A whole number from 1 to 1000 that is all of the text, or 0.
+int countIn(const char* text) {
+    int value = 0;
+    const char* end = text + std::strlen(text);
+    const auto [stop, error] = std::from_chars(text, end, value);
+    return error == std::errc() && stop == end && value >= 1 && value <= 1000 ? value : 0;
 }
+
+} // namespace
 
 std::vector<Test>& tests() {
     static std::vector<Test> all;
@@ -28,10 +44,8 @@ int stress() {
     static const int factor = [] {
         const char* text = std::getenv("STRESS");
         if (!text) return 1;
-        int value = 0;
-        const char* end = text + std::strlen(text);
-        const auto [stop, error] = std::from_chars(text, end, value);
-        if (error != std::errc() || stop != end || value < 1 || value > 1000)
+        const int value = countIn(text);
+        if (value == 0)
             throw std::runtime_error(std::string("STRESS is '") + text +
                                      "'; a whole number from 1 to 1000 is needed");
         return value;
@@ -50,34 +64,17 @@ std::string thrown(const std::function<void()>& body) {
 
 } // namespace check
 
-// Arguments: words; a test runs when its name contains one of them (all without arguments).
-// --list prints the names, --times prints the seconds of each test. STRESS=n in the environment
-// makes the random tests n times as long.
-int main(int argc, char** argv) {
-    bool list = false, times = false, chosen = false;
-    for (int i = 1; i < argc; ++i) {
-        if (!std::strcmp(argv[i], "--list"))
-            list = true;
-        else if (!std::strcmp(argv[i], "--times"))
-            times = true;
-        else
-            chosen = true;
-    }
-    try {
-        check::stress();
-    } catch (const std::exception& error) {
-        static_cast<void>(std::fprintf(stderr, "%s\n", error.what()));
-        return 2;
-    }
-    int passedCount = 0, failedCount = 0;
-    for (const check::Test& test : check::tests()) {
-        bool wanted = !chosen;
-        for (int i = 1; i < argc; ++i) wanted = wanted || std::strstr(test.name, argv[i]);
-        if (!wanted) continue;
-        if (list) {
-            std::puts(test.name);
-            continue;
-        }
+namespace {
+
+// What the processes that run the tests share: each takes the next test, so that none waits long.
+struct Shared {
+    std::atomic<std::size_t> next = 0;
+    std::atomic<int> passed = 0, failed = 0;
+};
+
+void runTests(const std::vector<check::Test>& tests, bool times, Shared& shared) {
+    for (std::size_t i = shared.next++; i < tests.size(); i = shared.next++) {
+        const check::Test& test = tests[i];
         check::failuresOfTest = 0;
         const auto start = std::chrono::steady_clock::now();
         try {
@@ -88,12 +85,93 @@ int main(int argc, char** argv) {
         const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
         if (times) std::printf("%8.3f s  %s\n", seconds.count(), test.name);
         if (check::failuresOfTest == 0)
-            ++passedCount;
+            ++shared.passed;
         else {
-            ++failedCount;
+            ++shared.failed;
             std::printf("FAIL %s (%d checks)\n", test.name, check::failuresOfTest);
         }
+        static_cast<void>(std::fflush(stdout)); // what a test says stays together
     }
-    if (!list) std::printf("%d passed, %d failed\n", passedCount, failedCount);
-    return failedCount == 0 ? 0 : 1;
+}
+
+// Runs the tests in so many processes of their own; false when one of them did not come to its end.
+// Processes and not threads: a test may change what all threads have, such as the kernel or a limit
+// of the system.
+bool runTestsInProcesses(const std::vector<check::Test>& tests, bool times, int jobs,
+                         Shared& shared) {
+    int started = 0;
+    for (; started < jobs; ++started) {
+        const pid_t child = fork();
+        if (child < 0) break;
+        if (child > 0) continue;
+        runTests(tests, times, shared);
+        std::exit(0); // not _exit: a sanitizer looks for leaks there
+    }
+    bool sound = started == jobs;
+    for (int i = 0; i < started; ++i) {
+        int status = 0;
+        sound = wait(&status) > 0 && status == 0 && sound;
+    }
+    return sound;
+}
+
+} // namespace
+
+// Arguments: words; a test runs when its name contains one of them (all without arguments).
+// --list prints the names, --times prints the seconds of each test, --jobs=N runs them in N
+// processes. STRESS=n in the environment makes the random tests n times as long.
+int main(int argc, char** argv) {
+    bool list = false, times = false;
+    int jobs = 1;
+    std::vector<const char*> words;
+    for (int i = 1; i < argc; ++i) {
+        if (!std::strcmp(argv[i], "--list"))
+            list = true;
+        else if (!std::strcmp(argv[i], "--times"))
+            times = true;
+        else if (!std::strncmp(argv[i], "--jobs=", 7))
+            jobs = check::countIn(argv[i] + 7);
+        else
+            words.push_back(argv[i]);
+    }
+    if (jobs == 0) {
+        static_cast<void>(std::fprintf(stderr, "--jobs= needs a whole number from 1 to 1000\n"));
+        return 2;
+    }
+    try {
+        check::stress();
+    } catch (const std::exception& error) {
+        static_cast<void>(std::fprintf(stderr, "%s\n", error.what()));
+        return 2;
+    }
+    std::vector<check::Test> chosen;
+    for (const check::Test& test : check::tests())
+        if (words.empty() || std::any_of(words.begin(), words.end(), [&](const char* word) {
+                return std::strstr(test.name, word);
+            }))
+            chosen.push_back(test);
+    if (list) {
+        for (const check::Test& test : chosen) std::puts(test.name);
+        return 0;
+    }
+    if (jobs == 1) {
+        Shared alone;
+        runTests(chosen, times, alone);
+        std::printf("%d passed, %d failed\n", alone.passed.load(), alone.failed.load());
+        return alone.failed == 0 ? 0 : 1;
+    }
+    void* room =
+        mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    if (room == MAP_FAILED) {
+        static_cast<void>(
+            std::fprintf(stderr, "no memory to share between the tests' processes\n"));
+        return 2;
+    }
+    const Shared& shared = *new (room) Shared;
+    if (!runTestsInProcesses(chosen, times, jobs, *static_cast<Shared*>(room))) {
+        std::printf("a process that ran tests did not come to its end\n");
+        return 2;
+    }
+    std::printf("%d passed, %d failed\n", shared.passed.load(), shared.failed.load());
+    return shared.failed == 0 ? 0 : 1;
 }

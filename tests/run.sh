@@ -29,7 +29,7 @@ add() {
 log=$(mktemp) || exit 1
 trap 'rm -f "$log"' EXIT
 if [ $# -eq 0 ]; then
-    add "unit tests" "$unit"
+    add "unit tests" "$unit" --jobs="$(nproc)"
     add "FeatureList.txt" sh tests/features.sh "$unit"
 fi
 for script in tests/layers.sh tests/leak.sh tests/cli/*.sh; do

@@ -18,8 +18,8 @@ hasLibFuzzer() {
 work=build/fuzz/$engine
 checks='-fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all'
 build() {
-    $make --no-print-directory "$PWD/$work/fuzz" BUILD="$PWD/$work" ENGINE="$engine" \
-        OPT='-O1 -g -D_GLIBCXX_ASSERTIONS' "$@"
+    $make --no-print-directory "$PWD/$work/fuzz" BUILD="$PWD/$work" ENGINE="$engine" STD=once \
+        OPT='-O1 -g1 -D_GLIBCXX_ASSERTIONS' "$@"
 }
 case $engine in
 libfuzzer) build CXX=clang++ SANITIZE="$checks -fsanitize=fuzzer-no-link" LDLIBS=-fsanitize=fuzzer ;;
