@@ -71,9 +71,9 @@ private:
         const unsigned lanes = bits(in.any);
         const int count = std::popcount(lanes);
         if (count == 0) return false;
-        at = Q == Query::Any ? pushAny(in.any, lanes, node.child, refs_ + size_)
-                             : pushSorted(in.any, count, in.entry, node.child, refs_ + size_,
-                                          entries_ + size_);
+        at = Q == Query::Any
+                 ? pushAny(in.any, lanes, node.child, refs_ + size_)
+                 : pushSorted(in.any, count, in.entry, node.child, refs_ + size_, entries_ + size_);
         size_ += static_cast<std::uint32_t>(count) - 1;
         return true;
     }
@@ -155,8 +155,7 @@ std::span<const std::uint32_t> traceBeams(const WideMesh& mesh, const RaySpan& r
 template <Query Q, class Results>
 void traceAll(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order,
               const Results& results) {
-    if (mesh.tree.leaves > Handful<Q>::kMostLeaves)
-        order = traceBeams<Q>(mesh, rays, order, results);
+    if (!Handful<Q>::holds(mesh)) order = traceBeams<Q>(mesh, rays, order, results);
     if (!order.empty()) traceOneByOne<Q>(mesh, rays, order, results);
 }
 

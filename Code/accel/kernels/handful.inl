@@ -4,7 +4,11 @@
 
 template <Query Q> class Handful {
 public:
-    static constexpr std::uint64_t kMostLeaves = 2;
+    static constexpr std::size_t kMostTriangles =
+        LaneHits<Q>::kMost; // none has to be settled early
+    static bool holds(const WideMesh& mesh) {
+        return mesh.tree.nodes == 1 && mesh.triangles.size() <= kMostTriangles;
+    }
     // So few that their boxes are not worth a question.
     static constexpr std::size_t kFewTriangles = 4;
 
@@ -22,11 +26,11 @@ public:
             const unsigned lanes = axes.traceable & ((1u << count) - 1);
             if (asksBoxes_) {
                 const RayLanes slabs(columns, axes, mesh_.extent);
-                for (std::size_t i = 0; i < root_.count; ++i) {
-                    Floats entry;
+                Floats entry;
+                const unsigned near = slabs.entering(root_.whole, hits_.zCut(), entry) & lanes;
+                for (std::size_t i = 0; near != 0 && i < root_.count; ++i)
                     testLeaf(columns, axes, i,
-                             slabs.entering(root_[i], hits_.zCut(), entry) & lanes);
-                }
+                             slabs.entering(root_[i], hits_.zCut(), entry) & near);
             } else {
                 for (std::size_t i = 0; i < root_.count; ++i) testLeaf(columns, axes, i, lanes);
             }
@@ -35,8 +39,6 @@ public:
     }
 
 private:
-    static_assert(LaneHits<Q>::kMost >= kMostLeaves * W); // none has to be settled early
-
     void testLeaf(const RayColumns& columns, const RayAxes& axes, std::size_t child,
                   unsigned lanes) {
         if (lanes == 0) return;

@@ -18,7 +18,8 @@ public:
         setUpAnswers<Q>(columns, axes, count, block_);
         zCut_ = Floats::load(block_.zCut);
         endless_ = bits(Floats::load(block_.below) == Floats(kInfinityF));
-        hidden_ = 0, metCount_ = 0;
+        hidden_ = 0;
+        if (metCount_ != 0) forget(); // rays that were given up
         areTrianglesSetUp_ = false;
     }
 
@@ -31,19 +32,21 @@ public:
                                     std::uint32_t triangle, unsigned lanes) {
         const Judged judged = judge(corners, edges, axes.sign);
         if constexpr (Q == Query::Any) hidden_ |= judged.certain(zCut_) & endless_ & lanes;
-        const unsigned candidates = judged.candidates(zCut_) & lanes & ~hidden_;
-        if (candidates == 0) return;
-        if (metCount_ == kMost) settle(columns, axes);
-        Met& met = met_[metCount_++];
-        met.leaf = leaf, met.triangle = triangle;
-        met.candidates = candidates;
-        if constexpr (Q == Query::Closest) {
-            const Floats inverse = Floats(1.0f) / judged.det, farthest = judged.farthest(inverse);
-            met.certain = bits(judged.certain()) & candidates & endless_;
-            judged.nearest(inverse).store(met.nearest);
-            farthest.store(met.farthest);
-            zCut_ = select(maskOf(met.certain), min(farthest, zCut_), zCut_);
+        unsigned candidates = 0;
+        if constexpr (Q == Query::Any) {
+            candidates = judged.candidates(zCut_) & lanes & ~hidden_;
+            if (candidates == 0) return;
         }
+        if (metCount_ == kMost) settle(columns, axes);
+        if constexpr (Q == Query::Closest) {
+            // No branch: of rays that go apart one meets half the triangles.
+            const Mask isCandidate = judged.mayBeHit(zCut_) & maskOf(lanes);
+            candidates = bits(isCandidate);
+            best_.consider(judged, isCandidate, maskOf(endless_), leaf, triangle);
+            zCut_ = min(best_.farthest, zCut_);
+        }
+        met_[metCount_] = {leaf, triangle, candidates};
+        metCount_ += candidates != 0;
     }
 
     // Writes the best hits, or whether there is one.
@@ -67,10 +70,36 @@ private:
     // A triangle that some rays may meet.
     struct Met {
         WideRef leaf;
-        std::uint32_t triangle;       // number in the leaf
-        unsigned candidates, certain; // certain: of endless rays
-        alignas(64) float nearest[W], farthest[W];
+        std::uint32_t triangle; // number in the leaf
+        unsigned candidates;
     };
+
+    // Of the hits that are certain in float the one that ends first at the latest, between which
+    // depths it is, and from where on there is another candidate.
+    struct Best {
+        Floats nearest = Floats(kInfinityF), farthest = Floats(kInfinityF);
+        Floats rival = Floats(kInfinityF);
+        Ints leaf = Ints(0u), triangle = Ints(0u);
+
+        [[gnu::always_inline]] void consider(const Judged& judged, Mask isCandidate, Mask isEndless,
+                                             WideRef inLeaf, std::uint32_t number) {
+            const Floats inverse = Floats(1.0f) / judged.det, to = judged.farthest(inverse);
+            const Floats from =
+                max(judged.nearest(inverse), Floats(-kInfinityF)); // NaN may be near
+            const Mask isBest = isCandidate & judged.certain() & isEndless & (to < farthest);
+            rival = select(isCandidate, min(select(isBest, nearest, from), rival), rival);
+            nearest = select(isBest, from, nearest), farthest = select(isBest, to, farthest);
+            leaf = select(isBest, Ints(inLeaf), leaf);
+            triangle = select(isBest, Ints(number), triangle);
+        }
+        // There is one, and no other comes near.
+        Mask isAlone() const { return (farthest < Floats(kInfinityF)) & (farthest < rival); }
+    };
+
+    void forget() {
+        metCount_ = 0;
+        if constexpr (Q == Query::Closest) best_ = Best();
+    }
 
     // The keys of all that waits, but for what was accepted without one.
     [[gnu::noinline]] void settle(const RayColumns& columns, const RayAxes& axes) {
@@ -83,7 +112,7 @@ private:
                 pairs_[n++] = {static_cast<std::uint32_t>(std::countr_zero(left)), met_[m].leaf,
                                met_[m].triangle};
         }
-        metCount_ = 0;
+        forget();
         if (n == 0) return;
         settlePairs<Q>(mesh_, rays_, &block_, {pairs_, n}, [&](std::uint32_t lane) {
             if constexpr (Q == Query::Any) hidden_ |= 1u << lane;
@@ -93,27 +122,10 @@ private:
 
     // Rays whose nearest hit is certain without keys need but one, that of the hit.
     void acceptNearest() {
-        Floats depth(kInfinityF);
-        for (std::uint32_t m = 0; m < metCount_; ++m) {
-            const Floats farthest = Floats::load(met_[m].farthest);
-            depth = select(maskOf(met_[m].certain), min(farthest, depth), depth);
-        }
-        unsigned certain = 0, rivals = 0, several = 0;
-        Ints leaf(0u), lane(0u);
-        for (std::uint32_t m = 0; m < metCount_; ++m) {
-            const unsigned here =
-                bits(notGreater(Floats::load(met_[m].nearest), depth)) & met_[m].candidates;
-            several |= rivals & here;
-            rivals |= here;
-            certain |= here & met_[m].certain;
-            leaf = select(maskOf(here), Ints(met_[m].leaf), leaf);
-            lane = select(maskOf(here), Ints(met_[m].triangle), lane);
-        }
-        const unsigned hasNoKey = bits(Floats::load(block_.key) == Floats(0.0f));
-        block_.open = certain & ~several & hasNoKey;
-        const Mask open = maskOf(block_.open);
-        select(open, leaf, Ints::load(block_.bestLeaf)).store(block_.bestLeaf);
-        select(open, lane, Ints::load(block_.bestLane)).store(block_.bestLane);
+        const Mask open = best_.isAlone() & (Floats::load(block_.key) == Floats(0.0f));
+        block_.open = bits(open);
+        select(open, best_.leaf, Ints::load(block_.bestLeaf)).store(block_.bestLeaf);
+        select(open, best_.triangle, Ints::load(block_.bestLane)).store(block_.bestLane);
     }
 
     const WideMesh& mesh_;
@@ -123,6 +135,7 @@ private:
     unsigned endless_ = 0, hidden_ = 0; // rays that start where they start, and hidden ones
     bool areTrianglesSetUp_ = false;
     std::uint32_t metCount_ = 0;
-    Met met_[kMost];
+    Best best_;          // of what met_ has
+    Met met_[kMost + 1]; // the last one is written by those who have none
     RayTriangle pairs_[kMost * W];
 };

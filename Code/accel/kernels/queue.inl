@@ -117,7 +117,7 @@ private:
 template <Query Q, class Results>
 void traceOneByOne(const WideMesh& mesh, const RaySpan& rays, std::span<const std::uint32_t> order,
                    const Results& results) {
-    if (mesh.tree.leaves <= Handful<Q>::kMostLeaves)
+    if (Handful<Q>::holds(mesh))
         Handful<Q>(mesh, rays).run(order, results);
     else
         Queue<Q>(mesh, rays, order).run(results);

@@ -34,11 +34,11 @@ struct Judged {
     Floats depth, noise, det; // depth times det >= 0; not NaN where it is certain
 
     // May be hits up to zCut.
-    [[gnu::always_inline]] unsigned candidates(Floats zCut) const {
+    [[gnu::always_inline]] unsigned candidates(Floats zCut) const { return bits(mayBeHit(zCut)); }
+    [[gnu::always_inline]] Mask mayBeHit(Floats zCut) const {
         const Floats zero(0.0f);
-        const Mask wanted = notGreater(depth, fma(zCut * Floats(1.000001f), det, noise)) &
-                            notGreater(zero - noise, depth);
-        return bits(around & wanted);
+        return around & notGreater(depth, fma(zCut * Floats(1.000001f), det, noise)) &
+               notGreater(zero - noise, depth);
     }
     // Are hits, behind the start.
     [[gnu::always_inline]] Mask certain() const { return certainlyAround & (noise < depth); }

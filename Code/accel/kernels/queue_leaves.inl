@@ -13,7 +13,7 @@ protected:
     void takeLeaves() {
         const std::uint32_t count = lists_.leaves.size();
         Found found;
-        if (Q == Query::Closest && meetings_ == Meetings::Many)
+        if (meetings_ == Meetings::Many)
             found = leafSteps<Meetings::Many>();
         else if (meetings_ == Meetings::Few)
             found = leafSteps<Meetings::Few>();
@@ -106,13 +106,22 @@ private:
         if (M != Meetings::Many && candidates == 0) [[likely]]
             return true;
         if constexpr (Q == Query::Any) {
-            if ((judged.certain(zCut) & all) != 0 && ray.at(&RayBlock::below) == kInfinityF) {
+            const bool isHidden =
+                (judged.certain(zCut) & all) != 0 && ray.at(&RayBlock::below) == kInfinityF;
+            found.met += isHidden;
+            if (M == Meetings::Many) {
+                if (candidates == 0 || isHidden) [[likely]] {
+                    std::uint32_t &triangle = ray.at(&RayBlock::triangle),
+                                  &top = ray.at(&RayBlock::stackTop);
+                    triangle = isHidden ? 0 : triangle;
+                    top = isHidden ? ray.at(&RayBlock::bottom) + 1 : top;
+                    return true;
+                }
+            } else if (isHidden) {
                 ray.at(&RayBlock::triangle) = 0;
                 QueueSlots::leaveOnlyEnd(ray);
                 return true;
             }
-        }
-        if constexpr (Q == Query::Any) {
             wait(slot, at, candidates);
         } else {
             passed_[found.passed] = slot;
