@@ -154,12 +154,6 @@ int main(int argc, char** argv) {
         for (const check::Test& test : chosen) std::puts(test.name);
         return 0;
     }
-    if (jobs == 1) {
-        Shared alone;
-        runTests(chosen, times, alone);
-        std::printf("%d passed, %d failed\n", alone.passed.load(), alone.failed.load());
-        return alone.failed == 0 ? 0 : 1;
-    }
     void* room =
         mmap(nullptr, sizeof(Shared), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (room == MAP_FAILED) {
@@ -167,8 +161,10 @@ int main(int argc, char** argv) {
             std::fprintf(stderr, "no memory to share between the tests' processes\n"));
         return 2;
     }
-    const Shared& shared = *new (room) Shared;
-    if (!runTestsInProcesses(chosen, times, jobs, *static_cast<Shared*>(room))) {
+    Shared& shared = *new (room) Shared;
+    if (jobs == 1) {
+        runTests(chosen, times, shared);
+    } else if (!runTestsInProcesses(chosen, times, jobs, shared)) {
         std::printf("a process that ran tests did not come to its end\n");
         return 2;
     }

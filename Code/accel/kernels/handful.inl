@@ -28,7 +28,8 @@ public:
                 const RayLanes slabs(columns, axes, mesh_.extent);
                 Floats entry;
                 const unsigned near = slabs.entering(root_.whole, hits_.zCut(), entry) & lanes;
-                for (std::size_t i = 0; near != 0 && i < root_.count; ++i)
+                const std::size_t children = near != 0 ? root_.count : 0;
+                for (std::size_t i = 0; i < children; ++i)
                     testLeaf(columns, axes, i,
                              slabs.entering(root_[i], hits_.zCut(), entry) & near);
             } else {

@@ -31,17 +31,16 @@ public:
                                     const Sheared& corners, const Edges& edges, WideRef leaf,
                                     std::uint32_t triangle, unsigned lanes) {
         const Judged judged = judge(corners, edges, axes.sign);
-        if constexpr (Q == Query::Any) hidden_ |= judged.certain(zCut_) & endless_ & lanes;
-        unsigned candidates = 0;
         if constexpr (Q == Query::Any) {
-            candidates = judged.candidates(zCut_) & lanes & ~hidden_;
-            if (candidates == 0) return;
+            hidden_ |= judged.certain(zCut_) & endless_ & lanes;
+            lanes &= ~hidden_;
+            if ((judged.candidates(zCut_) & lanes) == 0) return;
         }
         if (metCount_ == kMost) settle(columns, axes);
+        // No branch: of rays that go apart one meets half the triangles.
+        const Mask isCandidate = judged.mayBeHit(zCut_) & maskOf(lanes);
+        const unsigned candidates = bits(isCandidate);
         if constexpr (Q == Query::Closest) {
-            // No branch: of rays that go apart one meets half the triangles.
-            const Mask isCandidate = judged.mayBeHit(zCut_) & maskOf(lanes);
-            candidates = bits(isCandidate);
             best_.consider(judged, isCandidate, maskOf(endless_), leaf, triangle);
             zCut_ = min(best_.farthest, zCut_);
         }
@@ -92,8 +91,8 @@ private:
             leaf = select(isBest, Ints(inLeaf), leaf);
             triangle = select(isBest, Ints(number), triangle);
         }
-        // There is one, and no other comes near.
-        Mask isAlone() const { return (farthest < Floats(kInfinityF)) & (farthest < rival); }
+        // There is one, and no other comes near: without one both are infinite.
+        Mask isAlone() const { return farthest < rival; }
     };
 
     void forget() {

@@ -109,17 +109,11 @@ private:
             const bool isHidden =
                 (judged.certain(zCut) & all) != 0 && ray.at(&RayBlock::below) == kInfinityF;
             found.met += isHidden;
-            if (M == Meetings::Many) {
-                if (candidates == 0 || isHidden) [[likely]] {
-                    std::uint32_t &triangle = ray.at(&RayBlock::triangle),
-                                  &top = ray.at(&RayBlock::stackTop);
-                    triangle = isHidden ? 0 : triangle;
-                    top = isHidden ? ray.at(&RayBlock::bottom) + 1 : top;
-                    return true;
-                }
-            } else if (isHidden) {
-                ray.at(&RayBlock::triangle) = 0;
-                QueueSlots::leaveOnlyEnd(ray);
+            if (candidates == 0 || isHidden) [[likely]] {
+                std::uint32_t &triangle = ray.at(&RayBlock::triangle),
+                              &top = ray.at(&RayBlock::stackTop);
+                triangle = isHidden ? 0 : triangle;
+                top = isHidden ? ray.at(&RayBlock::bottom) + 1 : top;
                 return true;
             }
             wait(slot, at, candidates);
