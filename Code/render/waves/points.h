@@ -66,7 +66,10 @@ template <bool kHasBalls> void sortPoints(const Wave& wave) {
     const std::vector<Hit>& hits = wave.memory.hits;
     PointBatch& points = wave.memory.points;
     const bool hasStills = !stills.shapes.empty();
+    constexpr std::size_t kAhead = 16; // of what is looked up
     for (std::uint32_t k = 0; k < points.count; ++k) {
+        if (hasStills && k + kAhead < points.count)
+            __builtin_prefetch(&stills.shapes[hits[points.ray[k + kAhead]].shape]);
         const std::uint32_t ray = points.ray[k], shape = hits[ray].shape;
         points.shape[k] = shape;
         if constexpr (kHasBalls)
