@@ -27,8 +27,8 @@ protected:
     template <Answer A, class Result>
     unsigned setUp(std::span<const std::uint32_t> order, const Result* results) {
         const std::size_t count = std::min<std::size_t>(W, order.size());
-        columns_ = loadRays(rays_, order.data(), count, ray_);
-        lanes_ = RayLanes(columns_, tree_.extent);
+        new (&columns_) RayColumns(loadRays(rays_, order.data(), count, ray_));
+        new (&lanes_) RayLanes(columns_, tree_.extent);
         const unsigned asking = entering() & ((1u << count) - 1);
         if (asking == 0) return 0;
         if constexpr (A == Answer::Any) {

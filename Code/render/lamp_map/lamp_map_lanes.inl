@@ -1,5 +1,6 @@
-// The points of a block, W at a time, on the map of a lamp. Filters decide as those of the tree do,
-// by the same functions: no hit passes by, and what is certain is one.
+// The points of some blocks on the map of a lamp: found W at a time, led through their lists one by
+// one, and met in pairs of a point and a hull, W of them together. Filters decide as those of the
+// tree do, by the same functions: no hit passes by, and what is certain is one.
 // Included by the file of each instruction set inside its namespace.
 
 enum class Answer { Closest, Any };
@@ -8,122 +9,75 @@ enum class Answer { Closest, Any };
 
 namespace {
 
-// Points that something hides, and those of which only a ray can tell.
+// Points that something hides, and those of which only a ray can tell: a bit for each of a block.
 struct HiddenByMap {
     unsigned hidden = 0, unsure = 0;
 };
 
-// W of the points. They go on step by step, so that many take turns and wait for memory together.
-class RaysOnMap {
+// W points of a block, seen from the lamp.
+class LanesOnMap {
 public:
-    RaysOnMap(const LampMap& map, const LitBlock& block, const LitByLamp& by, std::size_t first,
-              unsigned lanes)
-        : map_(map), hulls_(map.shapes->hulls.data()), block_(block), first_(first),
-          shape_(Ints::load(block.shape + first)) {
-        const Floats one(1.0f);
-        const Floats lamp[3] = {map.lamp.x, map.lamp.y, map.lamp.z};
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            lines_.org[axis] = lamp[axis];
-            lines_.dir[axis] = Floats::load(by.dir[axis] + first);
-        }
-        const auto& d = lines_.dir;
-        length2_ = fma(d[0], d[0], fma(d[1], d[1], d[2] * d[2]));
-        lines_.length = sqrt(length2_);
-        lines_.perLength = one / lines_.length, lines_.perLength2 = one / length2_;
-        lines_.slack = map.slack, lines_.tMin = 0.0f;
-        lines_.best = Floats::load(by.tMax + first);
-
-        answer_.unsure = lanes & ~sane();
-        live_ = lanes & ~answer_.unsure;
-        answer_.unsure |= besideOthers(live_);
-        at_ = findCells();
-        reach_ = endOfReach();
+    LanesOnMap(const LampMap& map, const LitBlock& block, const LitByLamp& by, std::size_t first,
+               unsigned lanes)
+        : map_(map), block_(block), first_(first), slack_(map.slack) {
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            dir_[axis] = Floats::load(by.dir[axis] + first);
+        tMax_ = Floats::load(by.tMax + first);
+        length2_ = fma(dir_[0], dir_[0], fma(dir_[1], dir_[1], dir_[2] * dir_[2]));
+        length_ = sqrt(length2_);
+        unsure_ = lanes & ~sane();
+        live_ = lanes & ~unsure_;
+        unsure_ |= besideOthers(live_);
+        findCells();
+        findReach();
     }
 
-    void findList() {
-        if (live_ != 0) at_ = intsAt(map_.starts.data(), shiftedUp(at_, 2));
+    unsigned unsure() const { return unsure_; }
+    unsigned onMap() const { return live_; } // that have a list there
+    std::uint32_t cell(int lane) const {
+        return static_cast<std::uint32_t>(column_[lane]) |
+               static_cast<std::uint32_t>(row_[lane]) << map_.logCells;
     }
-
-    void findFirst() {
-        if (live_ == 0) return;
-        const Ints shapes = select(maskOf(live_), shape_, Ints(0u));
-        own_ = select(maskOf(block_.inside >> first_), Ints(MappedShapes::kNoHull),
-                      intsAt(map_.shapes->hullOf.data(), shiftedUp(shapes, 2)));
-        fetchHulls();
+    // Beyond the last step all entries are, behind NaN none: the first entry that is too far.
+    std::uint32_t reach(int lane) const {
+        constexpr auto kMost = static_cast<float>((1u << (32 - LampMap::kHullBits)) - 2);
+        return steps_[lane] < kMost ? static_cast<std::uint32_t>(steps_[lane]) << LampMap::kHullBits
+                                    : ~0u;
     }
-
-    // Returns whether there is more to look at.
-    bool step() {
-        if (live_ == 0) return false;
-        if (asked_ != 0) {
-            meetAll(asked_);
-            live_ &= ~answer_.hidden;
-        }
-        if (live_ == 0) return false;
-        at_ = select(maskOf(live_), at_ + Ints(1u), at_);
-        fetchHulls();
-        return live_ != 0;
-    }
-
-    HiddenByMap answer() const { return {answer_.hidden, answer_.unsure & ~answer_.hidden}; }
 
 private:
-    static constexpr int kHullShift = 32 - LampMap::kHullBits;
-
-    void fetchHulls() {
-        const Ints entry = intsAt(map_.lists.data(), shiftedUp(at_, 2));
-        live_ &= bits(entry < reach_);
-        hull_ = shiftedDown(shiftedUp(entry, kHullShift), kHullShift);
-        asked_ = live_ & ~bits(hull_ == own_);
-    }
-
-    // Points near each other look at the same hulls.
-    void meetAll(unsigned lanes) {
-        alignas(64) std::uint32_t hull[W];
-        select(maskOf(lanes), hull_, Ints(0u)).store(hull); // others may be past the last one
-        while (lanes != 0) {
-            const std::uint32_t number = hull[std::countr_zero(lanes)];
-            const unsigned same = lanes & bits(hull_ == Ints(number));
-            if (std::popcount(same) == 1 && std::popcount(lanes) > kMostAlone)
-                return meetInLanes(hull, lanes);
-            meet(hulls_[number], same);
-            lanes &= ~same;
-        }
-    }
-
     // Neither empty, nor without end, nor of NaN.
     unsigned sane() const {
         const Floats zero(0.0f), one(1.0f);
-        return bits((length2_ > Floats(0x1p-80f)) & (length2_ < Floats(0x1p80f)) &
-                    (lines_.best > zero) & (lines_.best <= one));
+        return bits((length2_ > Floats(0x1p-80f)) & (length2_ < Floats(0x1p80f)) & (tMax_ > zero) &
+                    (tMax_ <= one));
     }
 
     unsigned othersThan(std::uint32_t shape, bool hidesOutside, bool hidesInside) const {
         const unsigned inside = block_.inside >> first_;
-        return ~bits(shape_ == Ints(shape)) | (inside & (hidesInside ? ~0u : 0)) |
-               (~inside & (hidesOutside ? ~0u : 0));
+        return ~bits(Ints::load(block_.shape + first_) == Ints(shape)) |
+               (inside & (hidesInside ? ~0u : 0)) | (~inside & (hidesOutside ? ~0u : 0));
     }
 
     // Lanes that other shapes may hide.
     unsigned besideOthers(unsigned lanes) const {
         unsigned met = 0;
-        const Floats slack(lines_.slack);
         for (const Occluder& other : map_.others) {
             const unsigned asked =
                 lanes & ~met & othersThan(other.shape, other.hidesOutside, other.hidesInside);
             if (asked == 0) continue;
             Mask apart = maskOf(0);
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                const Floats end = fma(lines_.dir[axis], lines_.best, lines_.org[axis]);
-                apart = apart | (min(end, lines_.org[axis]) > Floats(other.box.hi[axis]) + slack) |
-                        (max(end, lines_.org[axis]) < Floats(other.box.lo[axis]) - slack);
+                const Floats lamp(map_.lamp[axis]), end = fma(dir_[axis], tMax_, lamp);
+                apart = apart | (min(end, lamp) > Floats(other.box.hi[axis]) + slack_) |
+                        (max(end, lamp) < Floats(other.box.lo[axis]) - slack_);
             }
             if (other.plane) {
                 const Vec3 n = other.plane->n;
                 const float lamp = dot(n, map_.lamp) + other.plane->offset;
                 // The point may be far outside of the scene.
-                const Floats room = fma(lines_.length, Floats(0x1p-18f), slack + slack);
-                const Floats rise = fma(along(n), lines_.best, Floats(lamp)), zero(0.0f);
+                const Floats room = fma(length_, Floats(0x1p-18f), slack_ + slack_);
+                const Floats rise = fma(along(n), tMax_, Floats(lamp)), zero(0.0f);
                 if (lamp > 2 * map_.slack) apart = apart | (rise > room);
                 if (lamp < -2 * map_.slack) apart = apart | (rise < zero - room);
             }
@@ -133,14 +87,14 @@ private:
     }
 
     Floats along(Vec3 axis) const {
-        return fma(Floats(axis.x), lines_.dir[0],
-                   fma(Floats(axis.y), lines_.dir[1], Floats(axis.z) * lines_.dir[2]));
+        return fma(Floats(axis.x), dir_[0],
+                   fma(Floats(axis.y), dir_[1], Floats(axis.z) * dir_[2]));
     }
 
-    // The cells of the lanes that are in the picture; the others are taken away: nothing is there.
-    Ints findCells() {
+    // Who is not in the picture is taken away: nothing is there.
+    void findCells() {
         const Floats depth = along(map_.ahead), zero(0.0f);
-        live_ &= ~bits(depth <= Floats(LampMap::kLeastCosine) * lines_.length);
+        live_ &= ~bits(depth <= Floats(LampMap::kLeastCosine) * length_);
         const Floats perDepth = Floats(1.0f) / depth, end(static_cast<float>(map_.cells()));
         const Floats x = fma(along(map_.right) * perDepth, Floats(map_.scale[0]),
                              Floats(map_.offset[0])),
@@ -148,122 +102,213 @@ private:
                              Floats(map_.offset[1]));
         const unsigned isIn = bits((x >= zero) & (x < end) & (y >= zero) & (y < end));
         const unsigned isOut = bits(x < zero) | bits(x >= end) | bits(y < zero) | bits(y >= end);
-        answer_.unsure |= live_ & ~isIn & ~isOut; // NaN
+        unsure_ |= live_ & ~isIn & ~isOut; // NaN
         live_ &= isIn;
-        const Mask on = maskOf(live_);
-        return truncated(select(on, x, zero)) +
-               shiftedUp(truncated(select(on, y, zero)), map_.logCells);
+        x.store(column_), y.store(row_);
     }
 
-    // Beyond the last step all numbers are, behind NaN none.
-    Ints endOfReach() const {
-        const Floats reach = fma(lines_.best, lines_.length, lines_.slack);
+    void findReach() {
+        const Floats reach = fma(tMax_, length_, slack_);
         const Floats step = (reach - Floats(map_.firstStep)) * Floats(map_.perStep);
-        constexpr auto kMost = static_cast<float>((1u << (32 - LampMap::kHullBits)) - 2);
-        const Floats next = max(step + Floats(1.0f), Floats(0.0f));
-        return select(next < Floats(kMost),
-                      shiftedUp(truncated(min(next, Floats(kMost))), LampMap::kHullBits),
-                      Ints(~0u));
+        max(step + Floats(1.0f), Floats(0.0f)).store(steps_);
     }
 
-    void meet(const MappedShapes::Hull& hull, unsigned lanes) {
-        const BallLanes ball = ballOf({hull.centre.x, hull.centre.y, hull.centre.z}, hull.radius);
-        if (hull.halfLength == 0) return meetBalls(ball, lanes);
-        meetTubes(ball, {{hull.axis.x, hull.axis.y, hull.axis.z}, hull.halfLength}, lanes);
+    const LampMap& map_;
+    const LitBlock& block_;
+    std::size_t first_;
+    Floats slack_, dir_[3], tMax_, length2_, length_;
+    unsigned live_, unsure_;
+    alignas(64) float column_[W], row_[W], steps_[W];
+};
+
+// The points of up to kBlocks blocks, each at a place. They take turns step by step, so that many
+// wait for memory together.
+class PointsOnMap {
+public:
+    static constexpr std::size_t kBlocks = 8;
+
+    explicit PointsOnMap(const LampMap& map) : map_(map), hulls_(map.shapes->hulls.data()) {}
+
+    void add(std::size_t slot, const LitBlock& block, const LitByLamp& by, unsigned points) {
+        answers_[slot] = {};
+        for (std::size_t first = 0; first < LitBlock::kPoints; first += W) {
+            const unsigned some = points >> first & ((1u << W) - 1);
+            if (some == 0) continue;
+            const LanesOnMap lanes(map_, block, by, first, some);
+            answers_[slot].unsure |= lanes.unsure() << first;
+            for (unsigned rest = lanes.onMap(); rest != 0; rest &= rest - 1) {
+                const int lane = std::countr_zero(rest);
+                const std::size_t i = first + static_cast<std::size_t>(lane);
+                const auto place = static_cast<std::uint32_t>(slot * LitBlock::kPoints + i);
+                const bool inside = (block.inside >> i & 1) != 0;
+                lines_[place] = {by.dir[0][i], by.dir[1][i], by.dir[2][i], by.tMax[i]};
+                reach_[place] = lanes.reach(lane);
+                walkers_[walking_++] = {
+                    place, map_.starts[lanes.cell(lane)],
+                    inside ? MappedShapes::kNoHull : map_.shapes->hullOf[block.shape[i]]};
+            }
+        }
     }
 
-    static BallLanes ballOf(const Floats (&centre)[3], Floats radius) {
-        return {{centre[0], centre[1], centre[2]},
-                abs(radius),
-                max(radius * Floats(MappedShapes::kInner), Floats(0.0f))};
+    // All that was added is answered then.
+    void run() {
+        while (walking_ != 0) {
+            step();
+            balls_.count -= meetSome<true>(balls_, balls_.count / W * W);
+            tubes_.count -= meetSome<false>(tubes_, tubes_.count / W * W);
+        }
+        balls_.count -= meetSome<true>(balls_, balls_.count);
+        tubes_.count -= meetSome<false>(tubes_, tubes_.count);
     }
 
-    // Each lane its own.
-    void meetInLanes(const std::uint32_t (&hull)[W], unsigned lanes) {
+    HiddenByMap answer(std::size_t slot) const {
+        const HiddenByMap& of = answers_[slot];
+        return {of.hidden, of.unsure & ~of.hidden};
+    }
+
+private:
+    static constexpr std::size_t kPlaces = kBlocks * LitBlock::kPoints;
+    struct Line {
+        float x, y, z, tMax; // from the lamp
+    };
+    struct Walker {
+        std::uint32_t place, at, own; // at: of the lists; own: the hull that it is on
+    };
+    struct Pairs {
+        std::uint32_t place[kPlaces + W], hull[kPlaces + W];
+        std::size_t count = 0;
+    };
+
+    // An entry for each. Without a branch: how long lists are is hard to tell in advance.
+    void step() {
+        const std::uint32_t* const lists = map_.lists.data();
+        const std::uint32_t firstTube = map_.shapes->firstTube;
+        constexpr std::uint32_t kHull = (1u << LampMap::kHullBits) - 1;
+        std::size_t kept = 0, balls = balls_.count, tubes = tubes_.count;
+        for (std::size_t k = 0; k < walking_; ++k) {
+            const auto [place, at, own] = walkers_[k];
+            const std::uint32_t entry = lists[at], hull = entry & kHull;
+            const bool isOn = entry < reach_[place], isMet = isOn & (hull != own);
+            walkers_[kept] = {place, at + 1, own};
+            kept += isOn;
+            balls_.place[balls] = tubes_.place[tubes] = place;
+            balls_.hull[balls] = tubes_.hull[tubes] = hull;
+            balls += isMet & (hull < firstTube), tubes += isMet & (hull >= firstTube);
+        }
+        walking_ = kept, balls_.count = balls, tubes_.count = tubes;
+    }
+
+    // The first `count` pairs, in whose place come the last ones. Returns how many.
+    template <bool kAreBalls> std::size_t meetSome(Pairs& pairs, std::size_t count) {
+        for (std::size_t first = 0; first < count; first += W) {
+            const std::size_t some = std::min<std::size_t>(W, count - first);
+            std::uint32_t *const place = pairs.place + first, *const hull = pairs.hull + first;
+            for (std::size_t i = some; i < W; ++i) place[i] = place[0], hull[i] = hull[0];
+            take(kAreBalls ? meetBalls(place, hull) : meetTubes(place, hull), place,
+                 (1u << some) - 1);
+        }
+        for (std::size_t i = count; i < pairs.count; ++i)
+            pairs.place[i - count] = pairs.place[i], pairs.hull[i - count] = pairs.hull[i];
+        return count;
+    }
+
+    Lines linesTo(const std::uint32_t* place) const {
+        const float* row[W];
+        for (int i = 0; i < W; ++i) row[i] = &lines_[place[i]].x;
+        Floats a[4];
+        loadRows(row, a);
+        const Floats length2 = fma(a[0], a[0], fma(a[1], a[1], a[2] * a[2])), one(1.0f);
+        const Floats length = sqrt(length2);
+        return {{Floats(map_.lamp.x), Floats(map_.lamp.y), Floats(map_.lamp.z)},
+                {a[0], a[1], a[2]},
+                length,
+                one / length,
+                one / length2,
+                Floats(map_.slack),
+                Floats(0.0f),
+                a[3]};
+    }
+
+    BallLanes ballsOf(const float* const (&row)[W]) const {
+        Floats a[4];
+        loadRows(row, a);
+        return {{a[0], a[1], a[2]},
+                abs(a[3]),
+                max(a[3] * Floats(MappedShapes::kInner), Floats(0.0f))};
+    }
+
+    HiddenByMap meetBalls(const std::uint32_t* place, const std::uint32_t* hull) const {
+        const float* row[W];
+        for (int i = 0; i < W; ++i) row[i] = &hulls_[hull[i]].centre.x;
+        const BallLanes ball = ballsOf(row);
+        const Lines lines = linesTo(place);
+        const Nearness near = nearBall<Answer::Any>(lines, ball);
+        const auto& d = lines.dir;
+        const Floats foot = fma(ball.centre[0] - lines.org[0], d[0],
+                                fma(ball.centre[1] - lines.org[1], d[1],
+                                    (ball.centre[2] - lines.org[2]) * d[2])) *
+                            lines.perLength2;
+        const Floats entry = fnma(ball.radius + lines.slack, lines.perLength, foot);
+        return {near.may & near.certain, near.may & bits(notGreater(entry, lines.best))};
+    }
+
+    HiddenByMap meetTubes(const std::uint32_t* place, const std::uint32_t* hull) const {
         static_assert(offsetof(MappedShapes::Hull, axis) == 4 * sizeof(float) &&
                       offsetof(MappedShapes::Hull, halfLength) == 7 * sizeof(float));
         const float* row[W];
         for (int i = 0; i < W; ++i) row[i] = &hulls_[hull[i]].centre.x;
-        Floats a[4], b[4];
-        loadRows(row, a);
+        const BallLanes ball = ballsOf(row);
         for (const float*& from : row) from += 4;
-        loadRows(row, b);
-        const BallLanes ball = ballOf({a[0], a[1], a[2]}, a[3]);
-        const unsigned balls = lanes & bits(b[3] == Floats(0.0f));
-        if (balls != 0) meetBalls(ball, balls);
-        if (balls != lanes) meetTubes(ball, {{b[0], b[1], b[2]}, b[3]}, lanes & ~balls);
+        Floats a[4];
+        loadRows(row, a);
+        const Nearness near = nearTube<Answer::Any>(linesTo(place), ball,
+                                                    {{a[0], a[1], a[2]}, a[3]}, (1u << W) - 1);
+        return {near.may & near.certain, near.may};
     }
 
-    void meetBalls(const BallLanes& ball, unsigned lanes) {
-        const Nearness near = nearBall<Answer::Any>(lines_, ball);
-        const auto& d = lines_.dir;
-        const Floats foot = fma(ball.centre[0] - lines_.org[0], d[0],
-                                fma(ball.centre[1] - lines_.org[1], d[1],
-                                    (ball.centre[2] - lines_.org[2]) * d[2])) *
-                            lines_.perLength2;
-        const Floats entry = fnma(ball.radius + lines_.slack, lines_.perLength, foot);
-        lanes &= near.may;
-        answer_.hidden |= lanes & near.certain;
-        answer_.unsure |= lanes & bits(notGreater(entry, lines_.best));
+    void take(const HiddenByMap& met, const std::uint32_t* place, unsigned lanes) {
+        for (unsigned rest = met.hidden & lanes; rest != 0; rest &= rest - 1) {
+            const std::uint32_t at = place[std::countr_zero(rest)];
+            answers_[at / LitBlock::kPoints].hidden |= 1u << at % LitBlock::kPoints;
+            reach_[at] = 0; // its way ends here
+        }
+        for (unsigned rest = met.unsure & ~met.hidden & lanes; rest != 0; rest &= rest - 1) {
+            const std::uint32_t at = place[std::countr_zero(rest)];
+            answers_[at / LitBlock::kPoints].unsure |= 1u << at % LitBlock::kPoints;
+        }
     }
-
-    void meetTubes(const BallLanes& ball, const TubeLanes& tube, unsigned lanes) {
-        const Nearness near = nearTube<Answer::Any>(lines_, ball, tube, lanes);
-        answer_.hidden |= lanes & near.may & near.certain;
-        answer_.unsure |= lanes & near.may;
-    }
-
-    static constexpr int kMostAlone = 2; // hulls that are met faster one by one
 
     const LampMap& map_;
     const MappedShapes::Hull* hulls_;
-    const LitBlock& block_;
-    std::size_t first_;
-    Ints shape_;
-    Lines lines_;
-    Floats length2_;
-    unsigned live_ = 0, asked_ = 0; // lanes that go on, and those that look at a hull
-    Ints at_{0u}; // first the cell, then the place in the lists
-    Ints reach_{0u}, own_{0u}, hull_{0u};
-    HiddenByMap answer_;
+    std::size_t walking_ = 0;
+    HiddenByMap answers_[kBlocks];
+    std::uint32_t reach_[kPlaces];
+    alignas(64) Line lines_[kPlaces];
+    Walker walkers_[kPlaces];
+    Pairs balls_, tubes_; // W of them are met together, the rest waits for others
 };
 
 } // namespace
 
 void askLampMap(const LampMap& map, std::span<const LitBlock> blocks, std::span<LitByLamp> by) {
-    constexpr std::size_t kTogether = 8 * LitBlock::kPoints / W;
-    struct Asked {
-        std::size_t block, first;
-        alignas(64) std::byte rays[sizeof(RaysOnMap)];
-        RaysOnMap& onMap() { return *std::launder(reinterpret_cast<RaysOnMap*>(rays)); }
-    };
-    std::array<Asked, kTogether> asked;
-    std::size_t count = 0;
+    PointsOnMap points(map);
+    std::array<std::size_t, PointsOnMap::kBlocks> block;
+    std::size_t slots = 0;
     const auto finish = [&] {
-        const auto some = std::span(asked).first(count);
-        for (Asked& a : some) a.onMap().findList();
-        for (Asked& a : some) a.onMap().findFirst();
-        for (bool more = true; more;) {
-            more = false;
-            for (Asked& a : some) more |= a.onMap().step();
+        points.run();
+        for (std::size_t slot = 0; slot < slots; ++slot) {
+            const HiddenByMap answer = points.answer(slot);
+            by[block[slot]].lit &= ~answer.hidden;
+            by[block[slot]].unsure = answer.unsure;
         }
-        for (Asked& a : some) {
-            const HiddenByMap answer = a.onMap().answer();
-            by[a.block].lit &= ~(answer.hidden << a.first);
-            by[a.block].unsure |= answer.unsure << a.first;
-        }
-        count = 0;
+        slots = 0;
     };
     for (std::size_t b = 0; b < blocks.size(); ++b) {
-        const unsigned points = std::exchange(by[b].unsure, 0);
-        for (std::size_t first = 0; first < LitBlock::kPoints; first += W) {
-            const unsigned lanes = points >> first & ((1u << W) - 1);
-            if (lanes == 0) continue;
-            Asked& a = asked[count];
-            a.block = b, a.first = first;
-            new (a.rays) RaysOnMap(map, blocks[b], by[b], first, lanes);
-            if (++count == kTogether) finish();
-        }
+        const unsigned asked = std::exchange(by[b].unsure, 0);
+        if (asked == 0) continue;
+        points.add(slots, blocks[b], by[b], asked);
+        block[slots] = b;
+        if (++slots == PointsOnMap::kBlocks) finish();
     }
     finish();
 }

@@ -5,8 +5,11 @@
 #include "accel/kernels/region_includes.h"
 #include "accel/kernels/wide_tree.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
 #include <cstddef>
-#include <new>
+#include <cstdint>
 #include <span>
 #include <utility>
 
@@ -15,8 +18,6 @@ namespace kernels::sse {
 #include "accel/kernels/simd_sse.inl"
 
 #include "accel/kernels/solids_columns_sse.inl"
-
-#include "render/lamp_map/lamp_map_gather_sse.inl"
 
 #include "render/lamp_map/lamp_map_lanes.inl"
 } // namespace kernels::sse

@@ -47,9 +47,8 @@ std::optional<MappedShapes> MappedShapes::of(const ShapeSet& shapes) {
     if (!std::all_of(shapes.unbounded.begin(), shapes.unbounded.end(), addOther) ||
         !std::all_of(shapes.batched.begin(), shapes.batched.end(), addOther))
         return {};
-    out.hulls.reserve(solids.size());
-    out.hullOf.assign(shapes.shapes.size(), kNoHull);
-    std::size_t filled = 0;
+    std::vector<const SolidTree::Solid*> mapped;
+    mapped.reserve(solids.size());
     for (const SolidTree::Solid& solid : solids) {
         if (!solid.hides) continue;
         if (solid.moves) return {};
@@ -57,10 +56,20 @@ std::optional<MappedShapes> MappedShapes::of(const ShapeSet& shapes) {
             if (!addOther(solid.number)) return {};
             continue;
         }
-        if (isConvex(solid, shapes))
-            out.hullOf[solid.number] = static_cast<std::uint32_t>(out.hulls.size());
-        out.hulls.push_back(::hullOf(solid));
-        out.box.extend(shapes.boxes[solid.number]);
+        mapped.push_back(&solid);
+    }
+    const auto tubes = std::stable_partition(
+        mapped.begin(), mapped.end(),
+        [](const SolidTree::Solid* solid) { return ::hullOf(*solid).halfLength == 0; });
+    out.firstTube = static_cast<std::uint32_t>(tubes - mapped.begin());
+    out.hulls.reserve(mapped.size());
+    out.hullOf.assign(shapes.shapes.size(), kNoHull);
+    std::size_t filled = 0;
+    for (const SolidTree::Solid* const solid : mapped) {
+        if (isConvex(*solid, shapes))
+            out.hullOf[solid->number] = static_cast<std::uint32_t>(out.hulls.size());
+        out.hulls.push_back(::hullOf(*solid));
+        out.box.extend(shapes.boxes[solid->number]);
         filled += out.hulls.back().radius > 0;
     }
     // Of the rest too many rays would have to be asked.

@@ -22,7 +22,8 @@ struct MappedShapes {
     static constexpr int kNumberBits = 20; // of the number of a hull
     static constexpr std::size_t kMostOthers = 4;
 
-    RawVector<Hull> hulls;
+    RawVector<Hull> hulls; // balls, then tubes
+    std::uint32_t firstTube = 0;
     // By the number of the shape: what does not hide it from a lamp on its outside.
     std::vector<std::uint32_t> hullOf;
     Bounds box;                   // of the shapes with a hull
