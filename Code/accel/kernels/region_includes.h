@@ -14,3 +14,4 @@
 #include <cstring>
 #include <immintrin.h>
 #include <limits>
+#include <new>
