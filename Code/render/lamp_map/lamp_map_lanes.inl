@@ -143,8 +143,10 @@ public:
                 const bool inside = (block.inside >> i & 1) != 0;
                 lines_[place] = {by.dir[0][i], by.dir[1][i], by.dir[2][i], by.tMax[i]};
                 reach_[place] = lanes.reach(lane);
+                const std::uint32_t cell = lanes.cell(lane);
+                __builtin_prefetch(&map_.starts[cell]);
                 walkers_[walking_++] = {
-                    place, map_.starts[lanes.cell(lane)],
+                    place, cell,
                     inside ? MappedShapes::kNoHull : map_.shapes->hullOf[block.shape[i]]};
             }
         }
@@ -152,6 +154,10 @@ public:
 
     // All that was added is answered then.
     void run() {
+        for (std::size_t k = 0; k < walking_; ++k) {
+            walkers_[k].at = map_.starts[walkers_[k].at];
+            __builtin_prefetch(&map_.lists[walkers_[k].at]);
+        }
         while (walking_ != 0) {
             step();
             balls_.count -= meetSome<true>(balls_, balls_.count / W * W);
@@ -172,7 +178,7 @@ private:
         float x, y, z, tMax; // from the lamp
     };
     struct Walker {
-        std::uint32_t place, at, own; // at: of the lists; own: the hull that it is on
+        std::uint32_t place, at, own; // at: first the cell, then of the lists; own: the hull it is on
     };
     struct Pairs {
         std::uint32_t place[kPlaces + W], hull[kPlaces + W];
