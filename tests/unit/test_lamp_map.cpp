@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <vector>
 
 using kit::Random;
 
@@ -219,5 +220,39 @@ TEST(lamp_maps_are_right_at_borders) {
                        counts.unsure > counts.rays / 20,
                    kernel.name << ": " << counts.rays << " rays, " << counts.hidden << " hidden, "
                                << counts.lit << " lit");
+    });
+}
+
+// The points of several blocks walk together, and some blocks have none.
+TEST(lamp_maps_answer_many_blocks_as_each) {
+    forEachKernel([](const Kernel& kernel) {
+        Random random(523);
+        int asked = 0;
+        for (int i = 0; i < check::scaled(100); ++i) {
+            const Case of = someCase(random, kernel);
+            if (!of.map) continue;
+            const std::size_t count = 1 + random.below(40);
+            std::vector<LitBlock> blocks(count);
+            std::vector<LitByLamp> together(count);
+            for (std::size_t b = 0; b < count; ++b) {
+                std::fill_n(blocks[b].shape, LitBlock::kPoints, someOnMap(*of.map));
+                blocks[b].inside = static_cast<unsigned>(random.below(1 << 16));
+                for (std::size_t k = 0; k < LitBlock::kPoints; ++k) aim(random, of, k, together[b]);
+                together[b].lit = static_cast<unsigned>(random.below(1 << 16));
+                together[b].unsure =
+                    random.chance(0.3)
+                        ? 0
+                        : together[b].lit & static_cast<unsigned>(random.below(1 << 16));
+                asked += std::popcount(together[b].unsure);
+            }
+            std::vector<LitByLamp> apart = together;
+            askLampMap(kernel)(*of.map, blocks, together);
+            for (std::size_t b = 0; b < count; ++b) {
+                askLampMap(kernel)(*of.map, {&blocks[b], 1}, {&apart[b], 1});
+                CHECK_INFO(together[b].lit == apart[b].lit && together[b].unsure == apart[b].unsure,
+                           kernel.name << " case " << i << " block " << b << " of " << count);
+            }
+        }
+        CHECK_INFO(asked > 1000, kernel.name << ": " << asked << " points");
     });
 }

@@ -109,8 +109,7 @@ private:
 
     void prefetchNode(WideRef ref) const {
         const auto* const bytes = reinterpret_cast<const std::byte*>(&tree_.node<W>(ref));
-        for (std::size_t at = 0; at < sizeof(WideNode<W>); at += 64)
-            __builtin_prefetch(bytes + at);
+        for (std::size_t at = 0; at < sizeof(WideNode<W>); at += 64) __builtin_prefetch(bytes + at);
     }
 
     // Over all r of the interval, a child is entered not before `entry` and left not after `exit`.

@@ -35,8 +35,9 @@ public:
     unsigned unsure() const { return unsure_; }
     unsigned onMap() const { return live_; } // that have a list there
     std::uint32_t cell(int lane) const {
-        return static_cast<std::uint32_t>(column_[lane]) |
-               static_cast<std::uint32_t>(row_[lane]) << map_.logCells;
+        const auto column = static_cast<std::uint32_t>(column_[lane]);
+        const auto row = static_cast<std::uint32_t>(row_[lane]);
+        return column | row << map_.logCells;
     }
     // Beyond the last step all entries are, behind NaN none: the first entry that is too far.
     std::uint32_t reach(int lane) const {
@@ -87,8 +88,7 @@ private:
     }
 
     Floats along(Vec3 axis) const {
-        return fma(Floats(axis.x), dir_[0],
-                   fma(Floats(axis.y), dir_[1], Floats(axis.z) * dir_[2]));
+        return fma(Floats(axis.x), dir_[0], fma(Floats(axis.y), dir_[1], Floats(axis.z) * dir_[2]));
     }
 
     // Who is not in the picture is taken away: nothing is there.
@@ -145,9 +145,9 @@ public:
                 reach_[place] = lanes.reach(lane);
                 const std::uint32_t cell = lanes.cell(lane);
                 __builtin_prefetch(&map_.starts[cell]);
-                walkers_[walking_++] = {
-                    place, cell,
-                    inside ? MappedShapes::kNoHull : map_.shapes->hullOf[block.shape[i]]};
+                walkers_[walking_++] = {place, cell,
+                                        inside ? MappedShapes::kNoHull
+                                               : map_.shapes->hullOf[block.shape[i]]};
             }
         }
     }
@@ -178,7 +178,8 @@ private:
         float x, y, z, tMax; // from the lamp
     };
     struct Walker {
-        std::uint32_t place, at, own; // at: first the cell, then of the lists; own: the hull it is on
+        std::uint32_t place, at; // at: first the cell, then of the lists
+        std::uint32_t own;       // the hull that the point is on
     };
     struct Pairs {
         std::uint32_t place[kPlaces + W], hull[kPlaces + W];
@@ -238,9 +239,8 @@ private:
     BallLanes ballsOf(const float* const (&row)[W]) const {
         Floats a[4];
         loadRows(row, a);
-        return {{a[0], a[1], a[2]},
-                abs(a[3]),
-                max(a[3] * Floats(MappedShapes::kInner), Floats(0.0f))};
+        return {
+            {a[0], a[1], a[2]}, abs(a[3]), max(a[3] * Floats(MappedShapes::kInner), Floats(0.0f))};
     }
 
     HiddenByMap meetBalls(const std::uint32_t* place, const std::uint32_t* hull) const {
@@ -250,10 +250,10 @@ private:
         const Lines lines = linesTo(place);
         const Nearness near = nearBall<Answer::Any>(lines, ball);
         const auto& d = lines.dir;
-        const Floats foot = fma(ball.centre[0] - lines.org[0], d[0],
-                                fma(ball.centre[1] - lines.org[1], d[1],
-                                    (ball.centre[2] - lines.org[2]) * d[2])) *
-                            lines.perLength2;
+        const Floats foot =
+            fma(ball.centre[0] - lines.org[0], d[0],
+                fma(ball.centre[1] - lines.org[1], d[1], (ball.centre[2] - lines.org[2]) * d[2])) *
+            lines.perLength2;
         const Floats entry = fnma(ball.radius + lines.slack, lines.perLength, foot);
         return {near.may & near.certain, near.may & bits(notGreater(entry, lines.best))};
     }
@@ -267,8 +267,8 @@ private:
         for (const float*& from : row) from += 4;
         Floats a[4];
         loadRows(row, a);
-        const Nearness near = nearTube<Answer::Any>(linesTo(place), ball,
-                                                    {{a[0], a[1], a[2]}, a[3]}, (1u << W) - 1);
+        const Nearness near =
+            nearTube<Answer::Any>(linesTo(place), ball, {{a[0], a[1], a[2]}, a[3]}, (1u << W) - 1);
         return {near.may & near.certain, near.may};
     }
 

@@ -58,9 +58,10 @@ std::optional<MappedShapes> MappedShapes::of(const ShapeSet& shapes) {
         }
         mapped.push_back(&solid);
     }
-    const auto tubes = std::stable_partition(
-        mapped.begin(), mapped.end(),
-        [](const SolidTree::Solid* solid) { return ::hullOf(*solid).halfLength == 0; });
+    const auto tubes =
+        std::stable_partition(mapped.begin(), mapped.end(), [](const SolidTree::Solid* solid) {
+            return ::hullOf(*solid).halfLength == 0;
+        });
     out.firstTube = static_cast<std::uint32_t>(tubes - mapped.begin());
     out.hulls.reserve(mapped.size());
     out.hullOf.assign(shapes.shapes.size(), kNoHull);
