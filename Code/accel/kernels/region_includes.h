@@ -6,6 +6,7 @@
 #include "accel/kernels/pause.h"
 #include "accel/kernels/target.h"
 #include "accel/triangle.h"
+#include "base/prefetch.h"
 
 #include <algorithm>
 #include <array>

@@ -107,11 +107,6 @@ private:
         return size + 1;
     }
 
-    void prefetchNode(WideRef ref) const {
-        const auto* const bytes = reinterpret_cast<const std::byte*>(&tree_.node<W>(ref));
-        for (std::size_t at = 0; at < sizeof(WideNode<W>); at += 64) __builtin_prefetch(bytes + at);
-    }
-
     // Over all r of the interval, a child is entered not before `entry` and left not after `exit`.
     template <Answer A, class Result>
     std::size_t stepTogether(const WideNode<W>& node, unsigned lanes, Entry* stack,
@@ -228,7 +223,7 @@ private:
                 continue;
             }
             const float from = A == Answer::Closest ? z[i] : 0;
-            prefetchNode(node.child[i]);
+            ::prefetch(tree_.node<W>(node.child[i]));
             size = push<A>(stack, bottom, size, {from, node.child[i], entering[i]});
         }
         return size;

@@ -69,9 +69,7 @@ protected:
     // What it will be met by, while its box is entered: shapes lie anywhere in the memory.
     void prefetch(const SolidTree::Solid& solid) const {
         if (solid.shape == nullptr) return;
-        const auto* const bytes =
-            reinterpret_cast<const std::byte*>(&solid.shape->objectFromWorld());
-        for (std::size_t at = 0; at < sizeof(AffineRows); at += 64) __builtin_prefetch(bytes + at);
+        ::prefetch(solid.shape->objectFromWorld());
         __builtin_prefetch(&solid.shape->radius);
         if (solid.moves)
             __builtin_prefetch(&tree_.movements[solid.part]);

@@ -27,7 +27,7 @@ protected:
     template <Answer A, class Result>
     unsigned setUp(std::span<const std::uint32_t> order, const Result* results) {
         const std::size_t count = std::min<std::size_t>(W, order.size());
-        // Where they stay: together they are as long as all else here, and not worth copying.
+        // Made where they stay: a copy would be of some hundred bytes.
         new (&columns_) RayColumns(loadRays(rays_, order.data(), count, ray_));
         new (&lanes_) RayLanes(columns_, tree_.extent);
         const unsigned asking = entering() & ((1u << count) - 1);

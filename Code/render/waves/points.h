@@ -2,6 +2,7 @@
 // its material's numbers with the textures applied.
 #pragma once
 
+#include "base/prefetch.h"
 #include "render/waves/steps.h"
 #include "render/waves/wave.h"
 
@@ -10,12 +11,6 @@
 #include <bit>
 
 namespace waves {
-
-// Thousands of shapes or materials are more than the nearest caches hold.
-template <class T> void prefetch(const T& what) {
-    const auto* const bytes = reinterpret_cast<const char*>(&what);
-    for (std::size_t at = 0; at < sizeof(what); at += 64) __builtin_prefetch(bytes + at);
-}
 
 // Which rays have met something, and which nothing. Neighbours do alike more often than not.
 inline void listHits(std::span<const Hit> hits, std::size_t rays, PointBatch& points) {
@@ -60,7 +55,8 @@ inline void takeSamples(const PathBatch& rays, std::size_t b, PointBatch& points
         weight[i] = rays.weight[ray[i]], slot[i] = rays.sample[ray[i]];
 }
 
-// Puts points that lanes do into lists by kind, the others into one of their own.
+// Puts points that lanes do into lists by kind, the others into one of their own. Thousands of
+// shapes are more than the nearest caches hold, so each is asked for when it is listed.
 template <bool kHasBalls> void sortPoints(const Wave& wave) {
     const StillsInLanes& stills = wave.context.stillsInLanes;
     const std::vector<Hit>& hits = wave.memory.hits;
