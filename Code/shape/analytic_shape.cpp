@@ -94,6 +94,15 @@ SolidForm AnalyticShape::tubeForm(double radius) const {
             {}};
 }
 
+double AnalyticShape::roundStretch(Vec3d axis) const {
+    const Vec3d x = worldFromObject().column(0), y = worldFromObject().column(1);
+    // But for 2^-30, which the hull covers as it does rounding.
+    const double xx = dot(x, x), yy = dot(y, y), most = 0x1p-30 * xx;
+    const double lean = max(std::fabs(dot(x, axis)), std::fabs(dot(y, axis)));
+    const bool isRound = std::fabs(xx - yy) <= most && std::fabs(dot(x, y)) <= most;
+    return isRound && lean * lean <= most * 0x1p-30 ? std::sqrt(xx) : 0;
+}
+
 SolidForm AnalyticShape::facesForm(StillFaces::Of of, double farthest) const {
     SolidForm form = isStill() ? Shape::solidForm() : movingForm(farthest);
     form.faces = {.shape = &still_, .of = of};

@@ -82,6 +82,9 @@ protected:
     SolidForm movingForm(double farthest) const;
     // Around disks of at most this radius about the z axis, of z from -1 to 1.
     SolidForm tubeForm(double radius) const;
+    // By how much the map stretches disks across the axis of such a hull; 0: they are not round
+    // there, or lean.
+    double roundStretch(Vec3d axis) const;
     // Within a ball around the box, or one that moves.
     SolidForm facesForm(StillFaces::Of of, double farthest) const;
 

@@ -26,6 +26,7 @@ SolidForm Cone::solidForm() const {
                  .caps = caps_,
                  .radius = side_.narrowRadius,
                  .cone = StillTube::Cone{side_.slope, side_.narrowZ}};
+    if (!form.motion) form.hull.coreRadius = side_.narrowRadius * roundStretch(form.hull.axis);
     return form;
 }
 

@@ -13,14 +13,8 @@ SolidForm Cylinder::solidForm() const {
     SolidForm form = tubeForm(radius());
     if (form.hull.axis == Vec3d{} && !form.motion) return form;
     form.tube = {.shape = &still(), .caps = caps_, .radius = radius()};
-    if (form.motion) return form;
-    const Vec3d x = worldFromObject().column(0), y = worldFromObject().column(1);
-    const Vec3d axis = form.hull.axis;
-    // Round and straight but for 2^-30, which `form.hull` covers as it does rounding.
-    const double xx = dot(x, x), yy = dot(y, y), most = 0x1p-30 * xx;
-    const double lean = max(std::fabs(dot(x, axis)), std::fabs(dot(y, axis)));
-    if (std::fabs(xx - yy) <= most && std::fabs(dot(x, y)) <= most && lean * lean <= most * 0x1p-30)
-        form.hull.innerRadius = radius() * std::sqrt(xx);
+    if (!form.motion)
+        form.hull.innerRadius = form.hull.coreRadius = radius() * roundStretch(form.hull.axis);
     return form;
 }
 

@@ -25,7 +25,7 @@ std::shared_ptr<const LampMap> mapOf(const std::vector<Hull>& hulls, const Bound
 
 Hull hullAt(Random& random, Vec3d centre, double radius, double halfLength) {
     const bool isTube = random.coin();
-    return {toFloat(centre), static_cast<float>(random.coin() ? radius : -radius),
+    return {toFloat(centre), static_cast<float>(radius),
             isTube ? toFloat(random.direction()) : Vec3{},
             isTube ? static_cast<float>(halfLength) : 0};
 }
@@ -159,7 +159,7 @@ Vec3d intoHull(Random& random, const Hull& hull, Vec3 lamp) {
     const Vec3d centre = toDouble(hull.centre) +
                          toDouble(hull.axis) * (along * static_cast<double>(hull.halfLength)) -
                          toDouble(lamp);
-    const double radius = std::fabs(static_cast<double>(hull.radius)), far = length(centre);
+    const double radius = static_cast<double>(hull.radius), far = length(centre);
     const Vec3d aside = normalize(cross(centre, random.direction()));
     const double part = random.coin() ? 1 - 1e-12 : random.uniform(-1, 1), sine = radius / far;
     if (sine >= 1) return centre + random.direction() * (radius * part);
@@ -183,7 +183,7 @@ TEST(lamp_maps_list_what_grazes_a_cell) {
         std::vector<std::optional<std::array<double, 2>>> cells(c.hulls.size());
         for (std::size_t h = kAnchors; h < c.hulls.size(); ++h) {
             Hull& hull = c.hulls[h];
-            double lo = std::fabs(static_cast<double>(hull.radius)) / 2, hi = 4 * lo;
+            double lo = static_cast<double>(hull.radius) / 2, hi = 4 * lo;
             Hull wide = hull;
             wide.radius = static_cast<float>(hi);
             const auto cell = picture.cellOf(intoHull(random, wide, c.lamp));
@@ -195,7 +195,7 @@ TEST(lamp_maps_list_what_grazes_a_cell) {
             }
             // And what floats are off by there.
             hi += 2e-6 * hi + 3e-7 * length(toDouble(hull.centre) - toDouble(c.lamp));
-            hull.radius = static_cast<float>(std::copysign(hi, hull.radius));
+            hull.radius = static_cast<float>(hi);
             cells[h] = cell;
         }
         const auto map = mapOf(c.hulls, c.box, c.lamp);
@@ -236,7 +236,7 @@ TEST(lamp_maps_list_what_is_seen) {
             hulls.push_back(hullAt(random, toDouble(lamp) + at * size, radius * size,
                                    far * size * random.logUniform(1e-3, 1)));
             const Hull& hull = hulls.back();
-            const double reach = std::fabs(static_cast<double>(hull.radius)) + hull.halfLength;
+            const double reach = static_cast<double>(hull.radius) + hull.halfLength;
             box.extend(hull.centre + toFloat(Vec3d{reach, reach, reach}));
             box.extend(hull.centre - toFloat(Vec3d{reach, reach, reach}));
         }

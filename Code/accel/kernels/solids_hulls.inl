@@ -61,9 +61,12 @@ template <Answer A>
 // make 32. certain: rays that meet the side of a round tube at 30 degrees to its axis at least and
 // not flat, which keeps these errors below 20 times the slack, by 64 within their range and the
 // tube's length. behind: rays that enter a round tube before their range, so that only its inside
-// is left to them. Mixed: where the axis is zero, it is a ball, which is met as a tube across the
-// line is: with an n as long as d, and without ends. Its inner ball tells only that it is entered.
-template <Answer A, bool Mixed = false>
+// is left to them. WithBalls: where the axis is zero, it is a ball, which is met as a tube across
+// the line is: with an n as long as d, and without ends. Its inner ball tells only that it is
+// entered. WithCores: and so does the inner tube (RoundHull::coreRadius), certain are rays that
+// come into it from outside of the outer one, between its ends all the way.
+enum class HullMix { Tubes, WithBalls, WithCores };
+template <Answer A, HullMix Mix = HullMix::Tubes>
 [[gnu::always_inline]] inline Nearness nearTube(const Lines& l, const BallLanes& ball,
                                                 const TubeLanes& tube, unsigned lanes) {
     const Floats x = ball.centre[0] - l.org[0], y = ball.centre[1] - l.org[1],
@@ -74,7 +77,7 @@ template <Answer A, bool Mixed = false>
     const Floats across = fma(x, nx, fma(y, ny, z * nz));
     unsigned balls = 0;
     Floats across2 = across * across, n2 = fma(nx, nx, fma(ny, ny, nz * nz));
-    if constexpr (Mixed) {
+    if constexpr (Mix != HullMix::Tubes) {
         const Floats px = fms(y, l.dir[2], z * l.dir[1]), py = fms(z, l.dir[0], x * l.dir[2]),
                      pz = fms(x, l.dir[1], y * l.dir[0]);
         const Mask isBall = maxAbs(maxAbs(ax, ay), az) == Floats(0.0f);
@@ -109,6 +112,11 @@ template <Answer A, bool Mixed = false>
     };
     const Floats within = max(Floats(0.9f) * inner - slack, zero), in = middle - inside;
     const unsigned isSure = bits((across2 < within * within) & (n > Floats(0.5f) * l.length));
+    if constexpr (Mix == HullMix::WithCores) {
+        static_assert(A == Answer::Any);
+        out.certain = isSure & meets(in) & meets(middle - half);
+        return out;
+    }
     const unsigned enters = meets(in) & (~balls | bits(out.nearest > l.tMin));
     if constexpr (A == Answer::Any) {
         out.certain = isSure & (enters | (meets(middle + inside) & ~balls));

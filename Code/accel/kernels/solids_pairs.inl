@@ -136,9 +136,10 @@ private:
         if constexpr (A == Answer::Any) on &= stillAsking(lane);
         const Hulls hulls = hullsOf(solids);
         const Lines lines = linesOf(lane);
-        const Nearness near = (on & hulls.tubes) == 0
-                                  ? nearBall<A>(lines, hulls.ball)
-                                  : nearTube<A, true>(lines, hulls.ball, hulls.tube, on);
+        const Nearness near =
+            (on & hulls.tubes) == 0
+                ? nearBall<A>(lines, hulls.ball)
+                : nearTube<A, HullMix::WithBalls>(lines, hulls.ball, hulls.tube, on);
         on &= near.may;
         if constexpr (A == Answer::Any) {
             hideCertain(near.certain & on, solids, lanes, results);

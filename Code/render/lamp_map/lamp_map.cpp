@@ -53,7 +53,7 @@ private:
 
     // What a ray may be off by does not take it out of the footprint.
     float radiusOf(const MappedShapes::Hull& hull) const {
-        return std::fabs(hull.radius) * (1 + 0x1p-18f) + 2 * map_.slack;
+        return hull.radius * (1 + 0x1p-18f) + 2 * map_.slack;
     }
 
     bool project(const MappedShapes::Hull& hull, Footprint& out) const {

@@ -26,8 +26,8 @@ struct LampMap {
     // The picture shows nothing of what is farther from `ahead` than that.
     static constexpr float kLeastCosine = 0.25f;
 
-    // lists[starts[cell]] up to the next kEnd: what the rays of a cell may meet, nearest first. Each
-    // is the number of a hull, and above kHullBits the step from the lamp that it starts in.
+    // lists[starts[cell]] up to the next kEnd: what the rays of a cell may meet, nearest first.
+    // Each is the number of a hull, and above kHullBits the step from the lamp that it starts in.
     static constexpr int kHullBits = MappedShapes::kNumberBits;
     static constexpr std::uint32_t kEnd = 0xffffffffu; // behind all steps
     RawVector<std::uint32_t> starts, lists;

@@ -56,10 +56,10 @@ public:
         while (walking_ != 0) {
             step();
             meetSome<true>(balls_, balls_.count / W * W);
-            meetSome<false>(tubes_, tubes_.count / W * W);
+            meetSome<false>(others_, others_.count / W * W);
         }
         meetSome<true>(balls_, balls_.count);
-        meetSome<false>(tubes_, tubes_.count);
+        meetSome<false>(others_, others_.count);
     }
 
     HiddenByMap answer(std::size_t slot) const {
@@ -68,6 +68,7 @@ public:
     }
 
 private:
+    static constexpr unsigned kAll = (1u << W) - 1;
     static constexpr std::size_t kPlaces = kBlocks * LitBlock::kPoints;
     struct Line {
         float x, y, z, tMax; // from the lamp
@@ -84,20 +85,20 @@ private:
     // An entry for each. Without a branch: how long lists are is hard to tell in advance.
     void step() {
         const std::uint32_t* const lists = map_.lists.data();
-        const std::uint32_t firstTube = map_.shapes->firstTube;
+        const std::uint32_t firstOther = map_.shapes->firstOther;
         constexpr std::uint32_t kHull = (1u << LampMap::kHullBits) - 1;
-        std::size_t kept = 0, balls = balls_.count, tubes = tubes_.count;
+        std::size_t kept = 0, balls = balls_.count, others = others_.count;
         for (std::size_t k = 0; k < walking_; ++k) {
             const auto [place, at, own] = walkers_[k];
             const std::uint32_t entry = lists[at], hull = entry & kHull;
             const bool isOn = entry < reach_[place], isMet = isOn & (hull != own);
             walkers_[kept] = {place, at + 1, own};
             kept += isOn;
-            balls_.place[balls] = tubes_.place[tubes] = place;
-            balls_.hull[balls] = tubes_.hull[tubes] = hull;
-            balls += isMet & (hull < firstTube), tubes += isMet & (hull >= firstTube);
+            balls_.place[balls] = others_.place[others] = place;
+            balls_.hull[balls] = others_.hull[others] = hull;
+            balls += isMet & (hull < firstOther), others += isMet & (hull >= firstOther);
         }
-        walking_ = kept, balls_.count = balls, tubes_.count = tubes;
+        walking_ = kept, balls_.count = balls, others_.count = others;
     }
 
     // The first `count` pairs, in whose place come the others.
@@ -106,7 +107,7 @@ private:
             const std::size_t some = std::min<std::size_t>(W, count - first);
             std::uint32_t *const place = pairs.place + first, *const hull = pairs.hull + first;
             for (std::size_t i = some; i < W; ++i) place[i] = place[0], hull[i] = hull[0];
-            take(kAreBalls ? meetBalls(place, hull) : meetTubes(place, hull), place,
+            take(kAreBalls ? meetBalls(place, hull) : meetOthers(place, hull), place,
                  (1u << some) - 1);
         }
         for (std::size_t i = count; i < pairs.count; ++i)
@@ -131,11 +132,10 @@ private:
                 a[3]};
     }
 
-    BallLanes ballsOf(const float* const (&row)[W]) const {
+    static BallLanes ballsOf(const float* const (&row)[W]) {
         Floats a[4];
         loadRows(row, a);
-        return {
-            {a[0], a[1], a[2]}, abs(a[3]), max(a[3] * Floats(MappedShapes::kInner), Floats(0.0f))};
+        return {{a[0], a[1], a[2]}, a[3], a[3] * Floats(MappedShapes::kInner)};
     }
 
     HiddenByMap meetBalls(const std::uint32_t* place, const std::uint32_t* hull) const {
@@ -153,17 +153,27 @@ private:
         return {near.may & near.certain, near.may & bits(notGreater(entry, lines.best))};
     }
 
-    HiddenByMap meetTubes(const std::uint32_t* place, const std::uint32_t* hull) const {
+    HiddenByMap meetOthers(const std::uint32_t* place, const std::uint32_t* hull) const {
         static_assert(offsetof(MappedShapes::Hull, axis) == 4 * sizeof(float) &&
                       offsetof(MappedShapes::Hull, halfLength) == 7 * sizeof(float));
         const float* row[W];
         for (int i = 0; i < W; ++i) row[i] = &hulls_[hull[i]].centre.x;
-        const BallLanes ball = ballsOf(row);
+        BallLanes ball = ballsOf(row);
         for (const float*& from : row) from += 4;
         Floats a[4];
         loadRows(row, a);
-        const Nearness near =
-            nearTube<Answer::Any>(linesTo(place), ball, {{a[0], a[1], a[2]}, a[3]}, (1u << W) - 1);
+        TubeLanes tube{{a[0], a[1], a[2]}, a[3]};
+        const Lines lines = linesTo(place);
+        const auto& cores = map_.shapes->cores;
+        if (cores.empty()) return answerOf(nearTube<Answer::Any>(lines, ball, tube, kAll));
+        alignas(64) float core[W];
+        for (int i = 0; i < W; ++i) core[i] = cores[hull[i] - map_.shapes->firstOther];
+        ball.innerRadius = Floats::load(core);
+        tube.halfLength = select(a[3] > Floats(0.0f), a[3], Floats(kInfinityF)); // else a ball
+        return answerOf(nearTube<Answer::Any, HullMix::WithCores>(lines, ball, tube, kAll));
+    }
+
+    static HiddenByMap answerOf(const Nearness& near) {
         return {near.may & near.certain, near.may};
     }
 
@@ -186,7 +196,7 @@ private:
     std::uint32_t reach_[kPlaces];
     alignas(64) Line lines_[kPlaces];
     Walker walkers_[kPlaces];
-    Pairs balls_, tubes_; // W of them are met together, the rest waits for others
+    Pairs balls_, others_; // W of them are met together, the rest waits for others
 };
 
 } // namespace

@@ -23,11 +23,53 @@ bool isConvex(const SolidTree::Solid& solid, const ShapeSet& shapes) {
            !shapes.shapes[solid.number]->hidesFromItself(false);
 }
 
-MappedShapes::Hull hullOf(const SolidTree::Solid& solid) {
-    const bool isFilled = solid.innerRadius > solid.radius * MappedShapes::kInner &&
-                          (!solid.isTube || solid.halfLength > 0);
-    return {solid.centre, isFilled ? solid.radius : -solid.radius,
-            solid.isTube ? solid.axis : Vec3{}, solid.isTube ? solid.halfLength : 0};
+// What maps show of a solid.
+struct Mapped {
+    std::uint32_t number; // of the shape
+    MappedShapes::Hull hull;
+    float core;
+
+    bool isTube() const { return hull.halfLength > 0; }
+    bool isFilled() const { return core > hull.radius * MappedShapes::kInner; }
+    // As large as rays see it, from anywhere, but for a factor that all have.
+    double area() const {
+        return static_cast<double>(hull.radius) *
+               static_cast<double>(isTube() ? hull.halfLength : hull.radius);
+    }
+    // The share of that where they may pass by.
+    double air() const {
+        if (!(hull.radius > 0)) return 1;
+        const double share = static_cast<double>(core) / static_cast<double>(hull.radius);
+        return 1 - (isTube() ? share : share * share);
+    }
+};
+
+float coreOf(const SolidTree::Solid& solid, const ShapeSet& shapes) {
+    if (solid.innerRadius > 0 || solid.kind != SolidTree::Kind::Tube) return solid.innerRadius;
+    const double core = shapes.shapes[solid.number]->solidForm().hull.coreRadius;
+    // As for the inner radius of a solid.
+    return core > 0x1p-100 && core < 0x1p100 ? static_cast<float>(core * (1 - 0x1p-20)) : 0;
+}
+
+Mapped mapped(const SolidTree::Solid& solid, const ShapeSet& shapes) {
+    Mapped out{solid.number, {solid.centre, solid.radius, {}, 0}, solid.innerRadius};
+    if (!solid.isTube) return out;
+    if (!(solid.halfLength > 0)) {
+        out.core = 0; // as a ball
+    } else {
+        out.hull.axis = solid.axis, out.hull.halfLength = solid.halfLength;
+        out.core = coreOf(solid, shapes);
+    }
+    return out;
+}
+
+// Rays that come near to a solid and may pass by have to be asked in spite of the map: with more
+// air than this it takes as long as it saves.
+constexpr double kMostAir = 0.5;
+bool paysOff(const std::vector<Mapped>& all) {
+    double area = 0, air = 0;
+    for (const Mapped& m : all) area += m.area(), air += m.area() * m.air();
+    return air < kMostAir * area;
 }
 
 } // namespace
@@ -39,6 +81,7 @@ std::optional<MappedShapes> MappedShapes::of(const ShapeSet& shapes) {
         return {};
     MappedShapes out;
     out.extent = shapes.extent;
+    out.hullOf.assign(shapes.shapes.size(), kNoHull);
     const auto addOther = [&](std::uint32_t number) {
         if (shapes.shadows[number] != ShapeSet::Shadow::Opaque) return true;
         out.others.push_back(occluderOf(shapes, number));
@@ -47,8 +90,8 @@ std::optional<MappedShapes> MappedShapes::of(const ShapeSet& shapes) {
     if (!std::all_of(shapes.unbounded.begin(), shapes.unbounded.end(), addOther) ||
         !std::all_of(shapes.batched.begin(), shapes.batched.end(), addOther))
         return {};
-    std::vector<const SolidTree::Solid*> mapped;
-    mapped.reserve(solids.size());
+    std::vector<Mapped> all;
+    all.reserve(solids.size());
     for (const SolidTree::Solid& solid : solids) {
         if (!solid.hides) continue;
         if (solid.moves) return {};
@@ -56,24 +99,23 @@ std::optional<MappedShapes> MappedShapes::of(const ShapeSet& shapes) {
             if (!addOther(solid.number)) return {};
             continue;
         }
-        mapped.push_back(&solid);
+        all.push_back(mapped(solid, shapes));
+        if (isConvex(solid, shapes)) out.hullOf[solid.number] = 0; // for now
+        out.box.extend(shapes.boxes[solid.number]);
     }
-    const auto tubes =
-        std::stable_partition(mapped.begin(), mapped.end(), [](const SolidTree::Solid* solid) {
-            return ::hullOf(*solid).halfLength == 0;
-        });
-    out.firstTube = static_cast<std::uint32_t>(tubes - mapped.begin());
-    out.hulls.reserve(mapped.size());
-    out.hullOf.assign(shapes.shapes.size(), kNoHull);
-    std::size_t filled = 0;
-    for (const SolidTree::Solid* const solid : mapped) {
-        if (isConvex(*solid, shapes))
-            out.hullOf[solid->number] = static_cast<std::uint32_t>(out.hulls.size());
-        out.hulls.push_back(::hullOf(*solid));
-        out.box.extend(shapes.boxes[solid->number]);
-        filled += out.hulls.back().radius > 0;
+    if (all.size() < kFewestHulls || !paysOff(all)) return {};
+    const auto others = std::stable_partition(
+        all.begin(), all.end(), [](const Mapped& m) { return m.isFilled() && !m.isTube(); });
+    out.firstOther = static_cast<std::uint32_t>(others - all.begin());
+    out.hulls.reserve(all.size());
+    for (const Mapped& m : all) {
+        std::uint32_t& number = out.hullOf[m.number];
+        if (number != kNoHull) number = static_cast<std::uint32_t>(out.hulls.size());
+        out.hulls.push_back(m.hull);
     }
-    // Of the rest too many rays would have to be asked.
-    if (out.hulls.size() < kFewestHulls || filled < out.hulls.size() / 4 * 3) return {};
+    if (!std::all_of(others, all.end(), [](const Mapped& m) { return m.isFilled(); })) {
+        out.cores.reserve(all.size() - out.firstOther);
+        for (auto other = others; other != all.end(); ++other) out.cores.push_back(other->core);
+    }
     return out;
 }
