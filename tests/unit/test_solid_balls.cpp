@@ -1,10 +1,14 @@
 // Trees of balls, whose rays meet them in pairs where they go apart: every kernel gives the bits of
 // asking ray by ray without any tree.
+#include "shape/cube.h"
+#include "shape/cylinder.h"
+#include "shape/mesh.h"
 #include "shape/sphere.h"
 #include "solid_checks.h"
 
 using meshes::Random;
 using solid_checks::Rays;
+using solid_checks::sided;
 using Shadow = ShapeSet::Shadow;
 
 namespace {
@@ -37,6 +41,38 @@ std::vector<Ball> fillWithBalls(std::uint64_t seed, const Kernel&, ShapeSet& set
     return balls;
 }
 
+// And some solids that are none, or of another scale.
+struct MostlyBalls {
+    std::vector<Ball> balls;
+    MeshGeometry floor;
+    MostlyBalls(std::uint64_t seed, const Kernel& kernel, ShapeSet& set)
+        : balls(fillWithBalls(seed, kernel, set)),
+          floor(meshes::geometryOf({{{{-1, -1, -0.8f}, {1, -1, -0.8f}, {1, 1, -0.8f}}},
+                                    {{{-1, -1, -0.8f}, {1, 1, -0.8f}, {-1, 1, -0.8f}}}},
+                                   false)) {
+        Random random(seed);
+        floor.finish(true, kernel);
+        set.add(std::make_unique<Mesh>(floor, std::vector<std::uint32_t>{0},
+                                       std::vector<MeshPart>{{0, 0}}),
+                Shadow::Opaque);
+        const std::size_t others = random.below(balls.size() / 4);
+        for (std::size_t i = 0; i < others; ++i) {
+            const double size = random.logUniform(1e-3, 0.15);
+            const Transform map = Transform::translate(random.inBox(0.8)) * random.affine(1, 0) *
+                                  Transform::scale(size);
+            std::unique_ptr<const Shape> shape;
+            switch (random.below(3)) {
+            case 0: shape = std::make_unique<Cube>(map, 0u, 0u); break;
+            case 1: shape = std::make_unique<Cylinder>(map, 1.0, false, 0u, 0u); break;
+            default: shape = std::make_unique<Sphere>(map, 1.0, 0u, 0u); break;
+            }
+            // No tubes in every other: these make all solids wait in pairs.
+            if (seed % 2 == 0 && dynamic_cast<const Cylinder*>(shape.get()) != nullptr) continue;
+            set.add(sided(random, std::move(shape), 0.1), Shadow::Opaque);
+        }
+    }
+};
+
 // As mirrored ones: they leave neighbouring points of a few balls; and others from anywhere.
 Rays raysThatGoApart(Random& random, const std::vector<Ball>& balls) {
     Rays rays;
@@ -64,38 +100,79 @@ Rays raysThatGoApart(Random& random, const std::vector<Ball>& balls) {
     return rays;
 }
 
+template <int W> std::vector<WideKind> kindsOfLeaves(const SolidTree& tree) {
+    std::vector<WideKind> kinds(tree.solids.size(), WideKind::None);
+    for (std::size_t n = 0; n < tree.nodes(); ++n)
+        for (const WideRef child :
+             tree.node<W>(wideRef(n * sizeof(WideNode<W>) / sizeof(WideTree::Line), WideKind::Node))
+                 .child)
+            if (SolidTree::isLeaf(child)) kinds[child >> 2] = kindOf(child);
+    return kinds;
+}
+
+// The first `others` shapes are of another scale, by which they may be balls.
+void checkBalls(const SolidTree& tree, std::size_t count, std::size_t others, bool areBalls,
+                const Kernel& kernel) {
+    const std::size_t balls = others == count && areBalls ? count : count - others;
+    const bool isSure = balls == count || balls > count / 10 * 9, isNot = balls < count / 3 * 2;
+    CHECK_INFO((tree.balls.size() == count && !isNot) || (tree.balls.empty() && !isSure),
+               kernel.name << ' ' << count << ' ' << others << ": " << tree.balls.size());
+    const std::vector<WideKind> kinds =
+        tree.width == 16 ? kindsOfLeaves<16>(tree) : kindsOfLeaves<8>(tree);
+    std::size_t inOrder = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const bool isOther = tree.solids[i].number < others && !(areBalls && others == count);
+        inOrder += kinds[i] == SolidTree::kInOrder;
+        if (tree.balls.empty()) continue;
+        const SolidTree::Ball& ball = tree.balls[i];
+        CHECK_INFO(kinds[i] == SolidTree::kInOrder || !isOther,
+                   kernel.name << ' ' << count << ' ' << others << ' ' << i);
+        if (kinds[i] == WideKind::Leaf)
+            CHECK(ball.number == tree.solids[i].number && ball.radius == 0.01 &&
+                  ball.box == tree.boxes[i]);
+    }
+    // Some balls in the beginning of a part may not be known.
+    CHECK_INFO(tree.balls.empty()
+                   ? inOrder == 0
+                   : inOrder >= count - balls && inOrder <= count - balls + count / 20,
+               kernel.name << ' ' << count << ' ' << others << ": " << inOrder);
+}
+
 } // namespace
 
 TEST(solids_balls_have_the_bits_of_single_rays) {
     solid_checks::compareSets("balls", 2801, 24, fillWithBalls, raysThatGoApart);
 }
 
-// Everything has to be a ball, and of one scale, over all parts that are made apart.
-TEST(solid_tree_knows_if_all_are_balls) {
+TEST(solids_mostly_balls_have_the_bits_of_single_rays) {
+    solid_checks::compareSets(
+        "mostly balls", 2841, 24,
+        [](std::uint64_t seed, const Kernel& kernel, ShapeSet& set) {
+            return std::make_unique<MostlyBalls>(seed, kernel, set);
+        },
+        [](Random& random, const std::unique_ptr<MostlyBalls>& of) {
+            return raysThatGoApart(random, of->balls);
+        });
+}
+
+// Most have to be balls, and of one scale, over all parts that are made apart; what isn't is known.
+TEST(solid_tree_knows_if_most_are_balls) {
     for (const Kernel& kernel : allKernels()) {
         if (!kernel.supported() || kernel.width == 0) continue;
         for (const std::size_t count : {1u, 100u, 3000u})
-            for (const std::size_t other : {count, std::size_t{0}, count - 1})
+            for (const std::size_t others :
+                 {std::size_t{0}, count / 100, count / 5, count / 2, count})
                 for (const Vec3d& scale : {Vec3d{2, 2, 2}, Vec3d{1, 2, 1}}) {
-                    Random random(count + other);
+                    Random random(count + others);
                     ShapeSet set;
                     for (std::size_t i = 0; i < count; ++i) {
                         const Transform at = Transform::translate(random.inBox(0.9));
                         set.add(std::make_unique<Sphere>(
-                                    i == other ? at * Transform::scale(scale) : at, 0.01, 0u, 0u),
+                                    i < others ? at * Transform::scale(scale) : at, 0.01, 0u, 0u),
                                 Shadow::Opaque);
                     }
                     set.finish(true, kernel);
-                    const SolidTree& tree = set.solids();
-                    const bool isOne = count == 1 && scale.y == scale.x;
-                    const bool wanted = other == count || isOne;
-                    CHECK_INFO(tree.balls.size() == (wanted ? count : 0),
-                               kernel.name << ' ' << count << ' ' << other);
-                    for (std::size_t i = 0; i < tree.balls.size(); ++i) {
-                        const SolidTree::Ball& ball = tree.balls[i];
-                        CHECK(ball.number == tree.solids[i].number && ball.radius == 0.01 &&
-                              ball.box == tree.boxes[i]);
-                    }
+                    checkBalls(set.solids(), count, others, scale.x == scale.y, kernel);
                 }
     }
 }

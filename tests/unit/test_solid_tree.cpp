@@ -154,7 +154,7 @@ TEST(solid_tree_where_many_boxes_have_one_centre) {
         while (!open.empty()) {
             const auto [ref, around] = open.back();
             open.pop_back();
-            if (kindOf(ref) == WideKind::Leaf) {
+            if (SolidTree::isLeaf(ref)) {
                 ++found[tree.solids[ref >> 2].number];
                 CHECK(around.contains(tree.boxes[ref >> 2]));
             }

@@ -71,13 +71,18 @@ struct SolidTree {
     int width = 0;
     RawVector<Solid> solids; // in the order of the tree's leaves
     RawVector<Bounds> boxes; // of the solids
-    RawVector<Ball> balls;   // the same, if all of them are, and of one scale; else empty
+    RawVector<Ball> balls;   // the same, where most of them are, and of one scale; else empty
     double ballScale = 0;
     std::vector<Tube> tubes;
     std::vector<FacetGroup> facets;
     std::vector<Movement> movements;
     std::vector<Solid> endless; // without a box, in no tree: every ray asks them
-    // WideNode<width>, root first. A child of kind Leaf is one solid, by its place in `solids`.
+    // WideNode<width>, root first. A child that isLeaf() is one solid, by its place in `solids`.
+    // Rays that enter the box of one of kind Leaf ask it at once, or wait for others. Those of
+    // kInOrder wait for their depth: facets, of which no hull tells who passes by, and among
+    // `balls` all else.
+    static constexpr auto kInOrder = static_cast<WideKind>(3);
+    static constexpr bool isLeaf(WideRef ref) { return (ref & 1) != 0; }
     PageVector<WideTree::Line> lines;
     Bounds around;    // all solids that are in it
     float extent = 0; // see RaySetup
@@ -117,6 +122,7 @@ private:
     std::vector<std::uint32_t> writeNodes(std::span<const Bounds> of, int threads);
     void take(std::span<const std::uint32_t> order, std::span<const Bounds> of,
               const Describe& describe, int threads);
+    template <int W, class Fn> void putInOrder(const Fn& isInOrder);
 };
 
 // How the kernels ask solids that they do not meet themselves.

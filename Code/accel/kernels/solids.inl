@@ -77,7 +77,7 @@ private:
         WideRef at = wideRef(0, WideKind::Node);
         unsigned lanes = live_;
         for (;;) {
-            if (kindOf(at) == WideKind::Leaf) {
+            if (SolidTree::isLeaf(at)) {
                 solid<A>(at >> 2, lanes, results);
             } else if (together_ && std::popcount(lanes) >= kFewestForInterval) {
                 size = stepTogether<A>(tree_.node<W>(at), lanes, stack.data(), size, results);
@@ -129,7 +129,7 @@ private:
             const int i = std::countr_zero(hit);
             const WideRef ref = node.child[i];
             unsigned inside = lanes;
-            if (A == Answer::Any && kindOf(ref) == WideKind::Leaf) {
+            if (A == Answer::Any && SolidTree::isLeaf(ref)) {
                 solid<A>(ref >> 2, inside, results);
                 lanes &= live_;
                 if (lanes == 0) return size;
@@ -162,9 +162,9 @@ private:
             const std::size_t nearPlane = rays1_.nearPlane[axis][ray],
                               farPlane = nearPlane ^ kPlane;
             const Floats r(rays1_.r[axis][ray]);
-            entry = max(
-                fma(Floats::load(planes + nearPlane), r, Floats(rays1_.nearOffset[axis][ray])),
-                entry);
+            entry =
+                max(fma(Floats::load(planes + nearPlane), r, Floats(rays1_.nearOffset[axis][ray])),
+                    entry);
             exit = min(fma(Floats::load(planes + farPlane), r, Floats(rays1_.farOffset[axis][ray])),
                        exit);
         }
@@ -188,8 +188,12 @@ private:
     std::size_t stepApart(const WideNode<W>& node, unsigned lanes, Entry* stack, std::size_t size,
                           Result* results) {
         const auto* const planes = reinterpret_cast<const std::byte*>(&node);
-        const unsigned leaves = leavesOf(node), inPairs = this->template inPairs<A>() ? leaves : 0;
-        if (A == Answer::Closest && areBalls_ && leaves == usedOf(node)) {
+        static_assert(static_cast<int>(WideKind::Leaf) == 1 &&
+                      static_cast<int>(WideKind::None) == 2 &&
+                      static_cast<int>(SolidTree::kInOrder) == 3);
+        const unsigned bit0 = kindBits<0>(node), bit1 = kindBits<1>(node), leaves = bit0 & ~bit1;
+        const unsigned inPairs = this->template inPairs<A>() ? leaves : 0;
+        if (A == Answer::Closest && areBalls_ && (bit0 ^ bit1) == kAll) { // such leaves, or none
             waitAll(node, lanes);
             return size;
         }
@@ -223,7 +227,7 @@ private:
                 continue;
             }
             const float from = A == Answer::Closest ? z[i] : 0;
-            ::prefetch(tree_.node<W>(node.child[i]));
+            if (kindOf(node.child[i]) == WideKind::Node) ::prefetch(tree_.node<W>(node.child[i]));
             size = push<A>(stack, bottom, size, {from, node.child[i], entering[i]});
         }
         return size;

@@ -19,14 +19,9 @@ inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
     column[3] = _mm256_castpd_ps(_mm256_unpackhi_pd(high(a, b), high(c, d)));
 }
 
-inline unsigned leavesOf(const WideNode<W>& node) {
-    const __m256i lowest = _mm256_slli_epi32(Ints::load(node.child).v, 31);
-    return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(lowest)));
-}
-
-inline unsigned usedOf(const WideNode<W>& node) {
-    const __m256i none = _mm256_slli_epi32(Ints::load(node.child).v, 30);
-    return ~static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(none))) & 0xff;
+template <int Bit> inline unsigned kindBits(const WideNode<W>& node) {
+    const __m256i top = _mm256_slli_epi32(Ints::load(node.child).v, 31 - Bit);
+    return static_cast<unsigned>(_mm256_movemask_ps(_mm256_castsi256_ps(top)));
 }
 
 inline void storeRows(const double* const (&row)[W], double (*column)[W]) {

@@ -23,15 +23,9 @@ inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
     column[3] = _mm512_castpd_ps(_mm512_unpackhi_pd(high(a, b), high(c, d)));
 }
 
-// Children that are leaves.
-inline unsigned leavesOf(const WideNode<W>& node) {
-    static_assert(static_cast<int>(WideKind::Leaf) == 1 && static_cast<int>(WideKind::None) == 2);
-    return bits({_mm512_test_epi32_mask(Ints::load(node.child).v, _mm512_set1_epi32(1))});
-}
-
-// And those that are there at all.
-inline unsigned usedOf(const WideNode<W>& node) {
-    return bits({_mm512_testn_epi32_mask(Ints::load(node.child).v, _mm512_set1_epi32(2))});
+// Children whose kind has this bit.
+template <int Bit> inline unsigned kindBits(const WideNode<W>& node) {
+    return bits({_mm512_test_epi32_mask(Ints::load(node.child).v, _mm512_set1_epi32(1 << Bit))});
 }
 
 // The same of doubles, in memory.

@@ -11,20 +11,13 @@ inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
     }
 }
 
-inline unsigned leavesOf(const WideNode<W>& node) {
+template <int Bit> inline unsigned kindBits(const WideNode<W>& node) {
     const Ints child = Ints::load(node.child);
-    const auto lowest = [&](__m128i four) {
-        return static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(_mm_slli_epi32(four, 31))));
+    const auto top = [](__m128i four) {
+        return static_cast<unsigned>(
+            _mm_movemask_ps(_mm_castsi128_ps(_mm_slli_epi32(four, 31 - Bit))));
     };
-    return lowest(child.lo) | lowest(child.hi) << 4;
-}
-
-inline unsigned usedOf(const WideNode<W>& node) {
-    const Ints child = Ints::load(node.child);
-    const auto none = [&](__m128i four) {
-        return static_cast<unsigned>(_mm_movemask_ps(_mm_castsi128_ps(_mm_slli_epi32(four, 30))));
-    };
-    return ~(none(child.lo) | none(child.hi) << 4) & 0xff;
+    return top(child.lo) | top(child.hi) << 4;
 }
 
 inline void storeRows(const double* const (&row)[W], double (*column)[W]) {

@@ -60,8 +60,7 @@ protected:
     unsigned entering() const {
         if (!tree_.endless.empty()) return lanes_.traceable;
         Floats entry;
-        return lanes_.traceable &
-               lanes_.entering(tree_.around, lanes_.cutAt(columns_.tMax), entry);
+        return lanes_.traceable & lanes_.entering(tree_.around, lanes_.cutAt(columns_.tMax), entry);
     }
 
     // The ranges of origins and r, for packets into one octant.

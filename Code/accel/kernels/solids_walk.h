@@ -23,8 +23,8 @@ bool walk(const SolidTree& tree, WideRef ref, const RaySetup& ray, float& zCut, 
     }
     for (std::size_t i = 0; i < count && !(entered[i].z > zCut); ++i) {
         const WideRef child = entered[i].child;
-        if (kindOf(child) == WideKind::Leaf ? leaf(tree.solids[child >> 2].number, zCut)
-                                            : walk<W>(tree, child, ray, zCut, leaf))
+        if (SolidTree::isLeaf(child) ? leaf(tree.solids[child >> 2].number, zCut)
+                                     : walk<W>(tree, child, ray, zCut, leaf))
             return true;
     }
     return false;
