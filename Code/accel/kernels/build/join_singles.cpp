@@ -15,9 +15,10 @@ SinglesTree kernels::build::joinSingles(std::span<const BinaryNode> top,
         first.push_back(below);
         below += static_cast<std::uint32_t>(part.nodes.size());
     }
-    const auto shifted = [](BinaryNode node, std::uint32_t by) {
-        if (!node.isLeaf()) node.left += by;
-        return node;
+    const auto shifted = [](const BinaryNode& node, std::uint32_t by) {
+        BinaryNode moved = node;
+        if (!moved.isLeaf()) moved.left += by;
+        return moved;
     };
     if (grown.size() == 1) out.nodes = std::move(grown[0].nodes);
     out.nodes.resize(below + top.size());
