@@ -19,8 +19,8 @@ struct RoundHull {
     // A ball about the centre that is inside of a sphere or a cube; with an axis: that of a
     // straight round tube, of which the shape has all of the side.
     double innerRadius = 0;
-    // With an axis: of a straight round tube inside of the shape, from end to end. What comes into
-    // it from outside of the hull, and by no end, has met the shape's side.
+    // With an axis, where no inner one is known: of a straight round tube inside of the shape, from
+    // end to end. What comes into it from outside of the hull, and by no end, has met the side.
     double coreRadius = 0;
     double halfLength = kInfinity; // along the axis, to both sides of the centre
 };

@@ -13,8 +13,7 @@ SolidForm Cylinder::solidForm() const {
     SolidForm form = tubeForm(radius());
     if (form.hull.axis == Vec3d{} && !form.motion) return form;
     form.tube = {.shape = &still(), .caps = caps_, .radius = radius()};
-    if (!form.motion)
-        form.hull.innerRadius = form.hull.coreRadius = radius() * roundStretch(form.hull.axis);
+    if (!form.motion) form.hull.innerRadius = radius() * roundStretch(form.hull.axis);
     return form;
 }
 

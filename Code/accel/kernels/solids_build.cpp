@@ -70,7 +70,8 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
             ++seen;
             if (scale != rest.ballScale) {
                 if (2 * rest.balls >= seen) continue;
-                rest.ballScale = scale, rest.balls = 0; // more are of another than of the last one
+                // Most so far are of another scale than the one that was kept.
+                rest.ballScale = scale, rest.balls = 0;
                 std::fill(isBall.begin() + static_cast<std::ptrdiff_t>(first),
                           isBall.begin() + static_cast<std::ptrdiff_t>(i), std::uint8_t{0});
             }

@@ -26,6 +26,7 @@ bool isConvex(const SolidTree::Solid& solid, const ShapeSet& shapes) {
 // What maps show of a solid.
 struct Mapped {
     std::uint32_t number; // of the shape
+    bool isConvex;
     MappedShapes::Hull hull;
     float core;
 
@@ -52,7 +53,10 @@ float coreOf(const SolidTree::Solid& solid, const ShapeSet& shapes) {
 }
 
 Mapped mapped(const SolidTree::Solid& solid, const ShapeSet& shapes) {
-    Mapped out{solid.number, {solid.centre, solid.radius, {}, 0}, solid.innerRadius};
+    Mapped out{solid.number,
+               isConvex(solid, shapes),
+               {solid.centre, solid.radius, {}, 0},
+               solid.innerRadius};
     if (!solid.isTube) return out;
     if (!(solid.halfLength > 0)) {
         out.core = 0; // as a ball
@@ -81,7 +85,6 @@ std::optional<MappedShapes> MappedShapes::of(const ShapeSet& shapes) {
         return {};
     MappedShapes out;
     out.extent = shapes.extent;
-    out.hullOf.assign(shapes.shapes.size(), kNoHull);
     const auto addOther = [&](std::uint32_t number) {
         if (shapes.shadows[number] != ShapeSet::Shadow::Opaque) return true;
         out.others.push_back(occluderOf(shapes, number));
@@ -100,7 +103,6 @@ std::optional<MappedShapes> MappedShapes::of(const ShapeSet& shapes) {
             continue;
         }
         all.push_back(mapped(solid, shapes));
-        if (isConvex(solid, shapes)) out.hullOf[solid.number] = 0; // for now
         out.box.extend(shapes.boxes[solid.number]);
     }
     if (all.size() < kFewestHulls || !paysOff(all)) return {};
@@ -108,9 +110,9 @@ std::optional<MappedShapes> MappedShapes::of(const ShapeSet& shapes) {
         all.begin(), all.end(), [](const Mapped& m) { return m.isFilled() && !m.isTube(); });
     out.firstOther = static_cast<std::uint32_t>(others - all.begin());
     out.hulls.reserve(all.size());
+    out.hullOf.assign(shapes.shapes.size(), kNoHull);
     for (const Mapped& m : all) {
-        std::uint32_t& number = out.hullOf[m.number];
-        if (number != kNoHull) number = static_cast<std::uint32_t>(out.hulls.size());
+        if (m.isConvex) out.hullOf[m.number] = static_cast<std::uint32_t>(out.hulls.size());
         out.hulls.push_back(m.hull);
     }
     if (!std::all_of(others, all.end(), [](const Mapped& m) { return m.isFilled(); })) {
