@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
@@ -30,6 +31,14 @@ namespace {
 // The last page is a large one if so much of it is needed: it costs as much as some 60 small ones.
 constexpr std::size_t kWorthAPage = std::size_t{1} << 18;
 
+// Once some were dear: of how much memory on they are still asked for. In less, small ones make
+// rays lose less time than that.
+constexpr std::size_t kWorthDearPages = std::size_t{1} << 28;
+
+std::atomic<bool> largePagesAreDear{false};
+
+bool areWorthIt(std::size_t bytes) { return !largePagesAreDear || bytes >= kWorthDearPages; }
+
 std::size_t inPages(std::size_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }
 
 // From the start of a page on, so that none is lost at the ends.
@@ -43,8 +52,27 @@ void* mapPages(std::size_t bytes) {
     const std::size_t before = kPage - reinterpret_cast<std::uintptr_t>(memory) % kPage;
     munmap(all, before);
     if (before < kPage) munmap(all + before + size, kPage - before);
-    madvise(all + before, (bytes + kPage - kWorthAPage) / kPage * kPage, MADV_HUGEPAGE);
+    if (areWorthIt(bytes))
+        madvise(all + before, (bytes + kPage - kWorthAPage) / kPage * kPage, MADV_HUGEPAGE);
     return all + before;
+}
+
+// Touches the first large pages of some that hold zeros, as far as they will be written anyway. A
+// host of virtual machines takes pages back that are free for some seconds, large ones only, and
+// with the next touch each costs 3 to 5 ms, 20 times what it takes to write it. At the first such
+// page the others become small ones, for which there are pieces of pages in use.
+[[maybe_unused]] void tryLargePages(char* first, std::size_t bytes, std::size_t foreseen) {
+    using Clock = std::chrono::steady_clock;
+    constexpr std::size_t kTried = 6 * kPage; // 0.2 ms each where they are not written after all
+    constexpr std::chrono::milliseconds kDear{1};
+    for (std::size_t at = kPage; at <= std::min({bytes, foreseen, kTried}); at += kPage) {
+        const Clock::time_point start = Clock::now();
+        *static_cast<volatile char*>(first + at - kPage) = 0;
+        if (Clock::now() - start < kDear) continue;
+        largePagesAreDear = true;
+        if (bytes < kWorthDearPages) madvise(first + at, bytes - at, MADV_NOHUGEPAGE);
+        return;
+    }
 }
 
 #endif
@@ -55,7 +83,7 @@ void adviseLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_
 #if defined(__linux__)
     const auto start = reinterpret_cast<std::uintptr_t>(memory);
     const std::uintptr_t inside = (kPage - start % kPage) % kPage;
-    if (bytes < inside + kPage) return;
+    if (bytes < inside + kPage || !areWorthIt(bytes)) return;
     madvise(static_cast<char*>(memory) + inside, (bytes - inside) / kPage * kPage, MADV_HUGEPAGE);
 #endif
 }
@@ -79,7 +107,8 @@ void freeZeroedMemory(void* memory, [[maybe_unused]] std::size_t bytes) {
     std::free(memory);
 }
 
-void useLargePages([[maybe_unused]] std::size_t bytes, [[maybe_unused]] bool inThreads) {
+void useLargePages([[maybe_unused]] std::size_t bytes, [[maybe_unused]] std::size_t foreseen,
+                   [[maybe_unused]] bool inThreads) {
 #if defined(__GLIBC__)
     constexpr std::size_t kMost = std::size_t{1} << 30, kRecord = 256, kSome = 1 << 15;
     constexpr int kLargestArray = 1 << 22;
@@ -101,8 +130,13 @@ void useLargePages([[maybe_unused]] std::size_t bytes, [[maybe_unused]] bool inT
     if (start < before && page - start < 2 * kPage) {
         filler = std::malloc(page - start - kRecord);
         const std::uintptr_t first = addressOf(filler), end = addressOf(sbrk(0));
-        if (filler && start < first && first < page && page < end)
+        if (filler && start < first && first < page && page < end) {
             adviseLargePages(filler, end - first);
+#if defined(__linux__)
+            char* const inHeap = static_cast<char*>(filler) + (page - first);
+            tryLargePages(inHeap, (end - page) / kPage * kPage, foreseen);
+#endif
+        }
     }
     // What heaps get more than they need when they grow, or begin.
     const std::size_t pad = inThreads ? kThreadHeap : kPage / 2;

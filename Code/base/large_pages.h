@@ -9,8 +9,10 @@ void adviseLargePages(void* memory, std::size_t bytes);
 
 // The same for what malloc will hand out next, to the main thread: about so many bytes in small and
 // large pieces. They stay with the program when they are freed.
+// foreseen: so many of them will be written, as far as one can say. Their first large pages are
+// written here; if one takes too long, small amounts of memory are left as they are from then on.
 // inThreads: others may do so for themselves, which takes room from the last megabytes there are.
-void useLargePages(std::size_t bytes, bool inThreads);
+void useLargePages(std::size_t bytes, std::size_t foreseen, bool inThreads);
 // Then, for the first megabytes of what malloc will hand out to this thread, which is another one
 // and has not asked for any. What it is to write belongs to it from the first touch on.
 void useLargePagesInThread();

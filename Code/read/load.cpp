@@ -119,7 +119,8 @@ bool hasMeshBlock(std::string_view text, int threads) {
 // no room. Small texts do not say how much it will be, as they may ask for a large picture.
 void makeRoom(std::size_t textBytes, bool isMesh, int threads) {
     constexpr std::size_t kLeast = std::size_t{24} << 20, kTimes = 24;
-    useLargePages(isMesh ? kLeast : std::max(kLeast, kTimes * textBytes), threads != 1);
+    const std::size_t foreseen = isMesh ? 0 : kTimes * textBytes;
+    useLargePages(std::max(kLeast, foreseen), foreseen, threads != 1);
 }
 
 std::string readText(const std::string& fileName, const Format& format, int threads) {

@@ -43,7 +43,7 @@ std::string flagsOf(std::uintptr_t address) {
 
 // Threads get heaps that others have left, first: one of many that live at a time has a new one.
 TEST(large_pages_in_threads) {
-    useLargePages(1 << 20, true);
+    useLargePages(1 << 20, 0, true);
     constexpr int kMost = 128;
     std::atomic<bool> done{false}, advised{false}, known{true};
     std::atomic<int> looked{0};
