@@ -1,22 +1,11 @@
 // The solids in the order of their tree's leaves: those that were added, or what several threads
 // are told of each.
+#include "accel/kernels/balls_of_one_scale.h"
 #include "accel/kernels/solids.h"
 #include "base/for_each.h"
 
 #include <algorithm>
 #include <utility>
-
-// 0: it is no ball.
-static double ballScaleOf(const SolidTree::Solid& solid) {
-    if (solid.meets != SolidTree::Meets::Sphere || solid.turned) return 0;
-    const AffineRows& m = solid.shape->objectFromWorld();
-    return m[0] == m[5] && m[0] == m[10] ? m[0] : 0;
-}
-
-static SolidTree::Ball ballOf(const SolidTree::Solid& solid, const Bounds& box) {
-    const AffineRows& m = solid.shape->objectFromWorld();
-    return {box, {m[3], m[7], m[11]}, solid.shape->radius, solid.number};
-}
 
 void SolidTree::build(int nodeWidth, int threads) {
     width = nodeWidth;
@@ -37,46 +26,30 @@ void SolidTree::build(int nodeWidth, std::span<const Bounds> of, const Describe&
 // Each part of the solids has its own lists of what has a `part` there, which are joined then.
 void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bounds> of,
                      const Describe& describe, int threads) {
-    constexpr std::size_t kTogether = 1024, kAhead = 8, kSome = 32;
+    constexpr std::size_t kTogether = 1024, kAhead = 8;
     struct Rest {
         std::vector<Tube> tubes;
         std::vector<FacetGroup> facets;
         std::vector<Movement> movements;
         std::size_t firstTube = 0, firstFacets = 0, firstMovement = 0;
-        double ballScale = 0;
-        std::size_t balls = 0; // of that scale
     };
     const auto ofPart = [](auto& things, std::size_t first) {
         return things.begin() + static_cast<std::ptrdiff_t>(first);
     };
     std::vector<Rest> rests((order.size() + kTogether - 1) / kTogether);
-    solids.resize(order.size()), boxes.resize(order.size()), balls.resize(order.size());
-    std::vector<std::uint8_t> isBall(order.size(), 0); // of its part's scale
+    solids.resize(order.size()), boxes.resize(order.size());
+    BallsOfOneScale ballsFound(order.size(), kTogether);
     forEachPart(threads, order.size(), kTogether, [&](std::size_t first, std::size_t last) {
         SolidTree part;
         part.solids.reserve(last - first), part.boxes.reserve(last - first);
         Rest& rest = rests[first / kTogether];
-        std::size_t seen = 0; // balls of any scale
         for (std::size_t i = first; i < last; ++i) {
             const std::uint32_t at = order[i];
             const std::uint32_t next = order[std::min(i + kAhead, last - 1)];
             __builtin_prefetch(&of[next]);
             const Described solid = describe(at, next);
             part.add(of[at], solid.number, solid.hides, solid.form);
-            // After some of which few are balls, the others are not looked at.
-            if (rest.balls + kSome < (i - first) / 2) continue;
-            const double scale = ballScaleOf(part.solids.back());
-            if (scale == 0) continue;
-            ++seen;
-            if (scale != rest.ballScale) {
-                if (2 * rest.balls >= seen) continue;
-                // Most so far are of another scale than the one that was kept.
-                rest.ballScale = scale, rest.balls = 0;
-                std::fill(isBall.begin() + static_cast<std::ptrdiff_t>(first),
-                          isBall.begin() + static_cast<std::ptrdiff_t>(i), std::uint8_t{0});
-            }
-            balls[i] = ballOf(part.solids.back(), of[at]);
-            isBall[i] = 1, ++rest.balls;
+            ballsFound.look(i, part.solids.back(), of[at]);
         }
         std::copy(part.solids.begin(), part.solids.end(), ofPart(solids, first));
         std::copy(part.boxes.begin(), part.boxes.end(), ofPart(boxes, first));
@@ -88,22 +61,18 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
         things.insert(things.end(), more.begin(), more.end());
         return first;
     };
-    const auto most = std::max_element(
-        rests.begin(), rests.end(), [](const Rest& a, const Rest& b) { return a.balls < b.balls; });
-    ballScale = most == rests.end() ? 0 : most->ballScale;
-    std::size_t countOfBalls = 0;
-    for (const Rest& rest : rests) countOfBalls += rest.ballScale == ballScale ? rest.balls : 0;
-    if (ballScale == 0 || countOfBalls < order.size() / 4 * 3) balls = {};
+    ballsFound.decide();
+    ballScale = ballsFound.scale();
+    if (ballScale != 0 && ballsFound.count() >= order.size() / 4 * 3) balls = ballsFound.taken();
     for (Rest& rest : rests) {
         rest.firstTube = join(tubes, rest.tubes);
         rest.firstFacets = join(facets, rest.facets);
         rest.firstMovement = join(movements, rest.movements);
     }
     const auto isInOrder = [&](std::size_t place) {
-        const bool isOne = isBall[place] != 0 && rests[place / kTogether].ballScale == ballScale;
-        return solids[place].kind == Kind::Facets || (!balls.empty() && !isOne);
+        return solids[place].kind == Kind::Facets || (!balls.empty() && !ballsFound.isOne(place));
     };
-    if (!facets.empty() || (!balls.empty() && countOfBalls < order.size()))
+    if (!facets.empty() || (!balls.empty() && ballsFound.count() < order.size()))
         width == 16 ? putInOrder<16>(isInOrder) : putInOrder<8>(isInOrder);
     if (tubes.empty() && facets.empty() && movements.empty()) return;
     forEachPart(threads, order.size(), kTogether, [&](std::size_t first, std::size_t last) {
