@@ -61,7 +61,7 @@ inline const char* readPlainNumber(const char* text, const char* end, double& va
         if (first.count == 0) return nullptr;
         const EightDigits second = first.count == 8 ? next : EightDigits{};
         behindPoint = first.count + second.count;
-        if (whole.count + behindPoint > kMostDigits) return nullptr;
+        if (behindPoint >= kMostDigits || whole.count + behindPoint > kMostDigits) return nullptr;
         digits = (digits * kTens[first.count] + first.value) * kTens[second.count] + second.value;
         p += behindPoint;
     }

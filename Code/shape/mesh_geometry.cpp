@@ -2,6 +2,7 @@
 
 #include "accel/kernels/placed.h"
 #include "base/for_each.h"
+#include "shape/share_points.h"
 
 #include <algorithm>
 #include <limits>
@@ -161,6 +162,7 @@ void MeshGeometry::measure(int threads) {
 
 void MeshGeometry::finish(bool withTree, const Kernel& forKernel, int threads, double rays) {
     collapseEndless();
+    if (withTree) sharePoints(*this);
     measure(threads);
     if (!withTree || triangles.empty()) return;
     if (forKernel.width > 0) {

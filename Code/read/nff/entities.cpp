@@ -182,7 +182,7 @@ private:
             if (isPatch) normals_.push_back(toFloat(numbers.point()));
         }
         if (!hasArea(corners_)) return out_.flatPolygons.add(word);
-        addPolygon(meshOf(word, isPatch));
+        addPolygon(meshOf(word, isPatch), word);
     }
 
     std::size_t readCount(const NffWord& word, std::size_t numbersPerCorner) {
@@ -222,12 +222,14 @@ private:
         return out_.desc.meshes[static_cast<std::size_t>(mesh)];
     }
 
-    void addPolygon(MeshDesc& mesh) {
+    void addPolygon(MeshDesc& mesh, const NffWord& word) {
         const auto first = static_cast<std::uint32_t>(mesh.points.size());
+        makeRoomByText(mesh.points, corners_.size(), mesh.loc.offset, word.offset, last_);
         mesh.points.insert(mesh.points.end(), corners_.begin(), corners_.end());
         mesh.normals.insert(mesh.normals.end(), normals_.begin(), normals_.end());
         triangles_.clear();
         triangulate(corners_, triangles_);
+        makeRoomByText(mesh.triangles, triangles_.size(), mesh.loc.offset, word.offset, last_);
         for (const MeshDesc::Corners& t : triangles_) {
             const MeshDesc::Corners corners{first + t[0], first + t[1], first + t[2]};
             mesh.triangles.push_back(corners);
