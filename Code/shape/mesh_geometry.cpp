@@ -162,7 +162,7 @@ void MeshGeometry::measure(int threads) {
 
 void MeshGeometry::finish(bool withTree, const Kernel& forKernel, int threads, double rays) {
     collapseEndless();
-    if (withTree) sharePoints(*this);
+    if (withTree) sharePoints(*this, threads);
     measure(threads);
     if (!withTree || triangles.empty()) return;
     if (forKernel.width > 0) {

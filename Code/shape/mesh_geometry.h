@@ -70,8 +70,8 @@ struct MeshGeometry {
     // Triangles with a corner at NaN or infinity become points, which no ray meets.
     void collapseEndless();
     // Does that, computes extent, boxes, what is said of the exact points and, if wanted, the tree
-    // that the kernel needs, the same for any number of threads; `rays`: see buildWide(). The lists
-    // do not change afterwards.
+    // that the kernel needs, for which points that are the same become one (share_points.h). The
+    // same for any number of threads; `rays`: see buildWide(). The lists do not change afterwards.
     void finish(bool withTree, const Kernel& forKernel = chooseKernel("scalar"), int threads = 1,
                 double rays = 0);
     bool hasTree() const { return !bvh.nodes.empty() || !wide.isEmpty(); }

@@ -70,6 +70,21 @@ TEST(share_points_gives_the_tree_of_the_shared_mesh) {
     }
 }
 
+// 245760 points, divided among threads by their hashes.
+TEST(share_points_is_the_same_for_any_number_of_threads) {
+    const MeshDesc whole = meshes::icosphere(6);
+    MeshGeometry one = placed(apart(whole));
+    const MeshGeometry before = one;
+    sharePoints(one, 1);
+    CHECK_EQUAL(one.points.size(), whole.points.size());
+    for (const int threads : {2, 3, 7}) {
+        MeshGeometry several = before;
+        sharePoints(several, threads);
+        CHECK_INFO(several.points == one.points && several.triangles == one.triangles,
+                   threads << " threads");
+    }
+}
+
 // Those of instances by their exact places: what is one point only when it is rounded stays two.
 TEST(share_points_asks_for_exact_places) {
     MeshDesc desc = apart(meshes::icosphere(4));
