@@ -128,8 +128,8 @@ void checkBalls(const SolidTree& tree, std::size_t count, std::size_t others, bo
         CHECK_INFO(kinds[i] == SolidTree::kInOrder || !isOther,
                    kernel.name << ' ' << count << ' ' << others << ' ' << i);
         if (kinds[i] == WideKind::Leaf)
-            CHECK(ball.number == tree.solids[i].number && ball.radius == 0.01 &&
-                  ball.box == tree.boxes[i]);
+            CHECK(tree.ballNumbers[i] == tree.solids[i].number && ball.radius == 0.01 &&
+                  ball.offset.x == tree.solids[i].shape->objectFromWorld()[3]);
     }
     // Some balls in the beginning of a part may not be known.
     CHECK_INFO(tree.balls.empty()

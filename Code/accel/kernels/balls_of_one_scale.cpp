@@ -11,9 +11,9 @@ double scaleOf(const SolidTree::Solid& solid) {
     return m[0] == m[5] && m[0] == m[10] ? m[0] : 0;
 }
 
-SolidTree::Ball ballOf(const SolidTree::Solid& solid, const Bounds& box) {
+SolidTree::Ball ballOf(const SolidTree::Solid& solid) {
     const AffineRows& m = solid.shape->objectFromWorld();
-    return {box, {m[3], m[7], m[11]}, solid.shape->radius, solid.number};
+    return {{m[3], m[7], m[11]}, solid.shape->radius};
 }
 
 } // namespace
@@ -23,7 +23,7 @@ BallsOfOneScale::BallsOfOneScale(std::size_t solids, std::size_t together)
     balls_.resize(solids);
 }
 
-void BallsOfOneScale::look(std::size_t place, const SolidTree::Solid& solid, const Bounds& box) {
+void BallsOfOneScale::look(std::size_t place, const SolidTree::Solid& solid) {
     constexpr std::size_t kSome = 32;
     Part& part = parts_[place / together_];
     // After some of which few are balls, the others are not looked at.
@@ -38,7 +38,7 @@ void BallsOfOneScale::look(std::size_t place, const SolidTree::Solid& solid, con
         const auto here = isBall_.begin() + static_cast<std::ptrdiff_t>(place);
         std::fill(here - static_cast<std::ptrdiff_t>(place % together_), here, std::uint8_t{0});
     }
-    balls_[place] = ballOf(solid, box);
+    balls_[place] = ballOf(solid);
     isBall_[place] = 1, ++part.balls;
 }
 

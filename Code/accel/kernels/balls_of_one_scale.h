@@ -14,7 +14,7 @@ public:
     BallsOfOneScale(std::size_t solids, std::size_t together);
 
     // In order within a part; parts may be looked at by several threads.
-    void look(std::size_t place, const SolidTree::Solid& solid, const Bounds& box);
+    void look(std::size_t place, const SolidTree::Solid& solid);
     // Once, behind all of them.
     void decide();
 

@@ -125,6 +125,8 @@ inline Mask maskOf(unsigned laneBits) {
     return {_mm256_castsi256_ps(_mm256_cmpeq_epi32(chosen, lane))};
 }
 inline Floats select(Mask m, Floats a, Floats b) { return _mm256_blendv_ps(b.v, a.v, m.v); }
+// min(a, b) where the mask is set, a elsewhere.
+inline Floats minWhere(Mask m, Floats a, Floats b) { return min(a, select(m, b, a)); }
 inline Ints select(Mask m, Ints a, Ints b) {
     return _mm256_blendv_epi8(b.v, a.v, _mm256_castps_si256(m.v));
 }

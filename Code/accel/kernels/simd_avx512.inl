@@ -88,6 +88,10 @@ inline Floats fms(Floats a, Floats b, Floats c) {
 // The second operand wins when one is NaN, as in base/math.h.
 inline Floats min(Floats a, Floats b) { return _mm512_min_ps(a.v, b.v); }
 inline Floats max(Floats a, Floats b) { return _mm512_max_ps(a.v, b.v); }
+// min(a, b) where the mask is set, a elsewhere.
+inline Floats minWhere(Mask m, Floats a, Floats b) {
+    return _mm512_mask_min_ps(a.v, m.v, a.v, b.v);
+}
 inline Floats abs(Floats a) { return _mm512_abs_ps(a.v); }
 inline Floats maxAbs(Floats a, Floats b) { return _mm512_range_ps(a.v, b.v, 0b1011); }
 inline Floats flipSign(Floats a, Floats by) {

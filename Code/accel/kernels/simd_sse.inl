@@ -181,6 +181,8 @@ inline Mask maskOf(unsigned laneBits) {
 inline Floats select(Mask m, Floats a, Floats b) {
     return {_mm_blendv_ps(b.lo, a.lo, m.lo), _mm_blendv_ps(b.hi, a.hi, m.hi)};
 }
+// min(a, b) where the mask is set, a elsewhere.
+inline Floats minWhere(Mask m, Floats a, Floats b) { return min(a, select(m, b, a)); }
 inline Ints select(Mask m, Ints a, Ints b) {
     return {_mm_blendv_epi8(b.lo, a.lo, _mm_castps_si128(m.lo)),
             _mm_blendv_epi8(b.hi, a.hi, _mm_castps_si128(m.hi))};

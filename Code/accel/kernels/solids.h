@@ -41,13 +41,14 @@ struct SolidTree {
         float isOpenFront = 0; // 1: a cylinder without ends whose inside rays of sight don't see
         const StillShape* shape = nullptr; // of all but facets and what is asked ray by ray
     };
-    // All that a hit on a sphere takes whose map only scales and moves, in one line of the cache.
-    struct alignas(64) Ball {
-        Bounds box;
+    // All that a hit on a sphere takes whose map only scales and moves: see meetBalls() for why its
+    // box is not looked at.
+    struct alignas(32) Ball {
         Vec3d offset; // object = ballScale * world + offset
         double radius = 0;
-        std::uint32_t number = 0;
     };
+    // Scenes as large as this keep that proof clear of over- and underflow.
+    static constexpr float kLeastForBalls = 0x1p-60f, kMostForBalls = 0x1p60f; // `extent`
     struct Tube {
         StillTube exact;
         // At least the square of how much longer a normal of the wall, or of an end, is in the
@@ -72,6 +73,7 @@ struct SolidTree {
     RawVector<Solid> solids; // in the order of the tree's leaves
     RawVector<Bounds> boxes; // of the solids
     RawVector<Ball> balls;   // the same, where most of them are, and of one scale; else empty
+    RawVector<std::uint32_t> ballNumbers; // of the solids in `balls`
     double ballScale = 0;
     std::vector<Tube> tubes;
     std::vector<FacetGroup> facets;

@@ -56,6 +56,7 @@ public:
                 solid<A>(lastHider_, live_, results);
             meetEndless<A>(results);
             if (live_ == 0 || tree_.lines.empty()) continue;
+            if constexpr (A == Answer::Closest) this->findBalls();
             traverse<A>(results);
             if (!this->template inPairs<A>()) continue;
             if (live_ != 0) meetAll<A>(results);
@@ -178,7 +179,7 @@ private:
         Floats entry;
         for (; lanes != 0; lanes &= lanes - 1) {
             const int ray = std::countr_zero(lanes);
-            waiting = wait(ray, bits(enteredBy(planes, ray, entry)), node.child, waiting);
+            waiting = wait(ray, enteredBy(planes, ray, entry), node.child, waiting);
         }
         waiting_.count = waiting;
     }
@@ -197,6 +198,7 @@ private:
             waitAll(node, lanes);
             return size;
         }
+        const Mask pairMask = maskOf(inPairs);
         std::uint32_t waiting = waiting_.count;
         LaneColumns entered; // rows are rays, columns children
         unsigned any = 0;
@@ -206,9 +208,9 @@ private:
             Floats entry;
             const Mask isHit = enteredBy(planes, ray, entry);
             if constexpr (A == Answer::Closest)
-                nearest = min(nearest, select(isHit, entry, nearest));
+                nearest = minWhere(isHit, nearest, entry);
             const unsigned hit = bits(isHit);
-            if (inPairs != 0) waiting = wait(ray, hit & inPairs, node.child, waiting);
+            if (inPairs != 0) waiting = wait(ray, isHit & pairMask, node.child, waiting);
             entered.set(ray, isHit);
             any |= hit;
         }

@@ -49,7 +49,7 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
             __builtin_prefetch(&of[next]);
             const Described solid = describe(at, next);
             part.add(of[at], solid.number, solid.hides, solid.form);
-            ballsFound.look(i, part.solids.back(), of[at]);
+            ballsFound.look(i, part.solids.back());
         }
         std::copy(part.solids.begin(), part.solids.end(), ofPart(solids, first));
         std::copy(part.boxes.begin(), part.boxes.end(), ofPart(boxes, first));
@@ -63,7 +63,12 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
     };
     ballsFound.decide();
     ballScale = ballsFound.scale();
-    if (ballScale != 0 && ballsFound.count() >= order.size() / 4 * 3) balls = ballsFound.taken();
+    if (ballScale != 0 && ballsFound.count() >= order.size() / 4 * 3 && extent >= kLeastForBalls &&
+        extent <= kMostForBalls) {
+        balls = ballsFound.taken();
+        ballNumbers.resize(order.size());
+        for (std::size_t i = 0; i < order.size(); ++i) ballNumbers[i] = solids[i].number;
+    }
     for (Rest& rest : rests) {
         rest.firstTube = join(tubes, rest.tubes);
         rest.firstFacets = join(facets, rest.facets);
@@ -97,7 +102,7 @@ template <int W, class Fn> void SolidTree::putInOrder(const Fn& isInOrder) {
 
 std::size_t SolidTree::bytes() const {
     return lines.size() * sizeof(WideTree::Line) + solids.size() * sizeof(Solid) +
-           boxes.size() * sizeof(Bounds) + balls.size() * sizeof(Ball) +
+           boxes.size() * sizeof(Bounds) + balls.size() * (sizeof(Ball) + sizeof ballNumbers[0]) +
            tubes.size() * sizeof(Tube) + facets.size() * sizeof(FacetGroup) +
            movements.size() * sizeof(Movement) + endless.size() * sizeof(Solid);
 }

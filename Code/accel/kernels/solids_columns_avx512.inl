@@ -52,11 +52,16 @@ class LaneColumns {
 public:
     LaneColumns() : columns_(_mm512_setzero_si512()) {}
     void set(int row, Mask columns) {
-        const __m512i bit = _mm512_set1_epi32(static_cast<int>(1u << row));
-        columns_ = _mm512_mask_or_epi32(columns_, columns.v, columns_, bit);
+        columns_ = _mm512_mask_or_epi32(columns_, columns.v, columns_,
+                                        _mm512_set1_epi32(kBit[static_cast<std::size_t>(row)]));
     }
     void store(std::uint32_t* to) const { _mm512_store_si512(to, columns_); }
 
 private:
+    alignas(64) static constexpr auto kBit = [] { // in memory, from where it costs no more than the or
+        std::array<int, W> bit{};
+        for (std::size_t i = 0; i < W; ++i) bit[i] = 1 << i;
+        return bit;
+    }();
     __m512i columns_;
 };

@@ -36,17 +36,26 @@ protected:
     const bool areInPairs_ = kPairsPay && !tree_.tubes.empty();
     // Nearest hits in trees of balls alone do without a filter. Of few the rays meet most.
     static constexpr std::size_t kFewestBalls = 64;
-    const bool areBalls_ = kPairsPay && tree_.balls.size() >= kFewestBalls;
+    bool areBalls_ = false;
+    void findBalls() {
+        areBalls_ = kPairsPay && tree_.balls.size() >= kFewestBalls &&
+                    bits(columns_.tMin < Floats(0.0f)) == 0;
+    }
     template <Answer A> bool inPairs() const {
         return areInPairs_ || (A == Answer::Closest && areBalls_);
     }
 
+    alignas(64) static constexpr auto kLane = [] {
+        std::array<std::array<std::uint8_t, W>, W> lanes{};
+        for (std::size_t i = 0; i < W; ++i) lanes[i].fill(static_cast<std::uint8_t>(i));
+        return lanes;
+    }();
     // Returns how many wait then, who were `count`.
-    [[gnu::always_inline]] std::uint32_t wait(int ray, unsigned chosen, const WideRef* solids,
+    [[gnu::always_inline]] std::uint32_t wait(int ray, Mask chosen, const WideRef* solids,
                                               std::uint32_t count) {
         storeChosen(chosen, solids, waiting_.solid + count);
-        std::memset(waiting_.lane + count, ray, W);
-        return count + static_cast<std::uint32_t>(std::popcount(chosen));
+        std::memcpy(waiting_.lane + count, kLane[static_cast<std::size_t>(ray)].data(), W);
+        return count + static_cast<std::uint32_t>(std::popcount(bits(chosen)));
     }
 
     template <Answer A, class Result> void meetFull(Result* results) {
