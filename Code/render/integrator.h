@@ -174,6 +174,13 @@ public:
         rays_[count_] = ray, points_[count_] = point, shapes_[count_] = shape;
         ++count_;
     }
+    // The same of many without `shape`: pairs are written here from the first on, and counted then.
+    struct Room {
+        std::uint32_t *rays, *points;
+        void push(std::uint32_t ray, std::uint32_t point) { *rays++ = ray, *points++ = point; }
+    };
+    Room room() { return {rays_.data(), points_.data()}; }
+    void countTo(const Room& end) { count_ = static_cast<std::size_t>(end.rays - rays_.data()); }
     std::span<const std::uint32_t> rays() const { return std::span(rays_).first(count_); }
     std::span<const std::uint32_t> points() const { return std::span(points_).first(count_); }
     std::span<const StillShape* const> shapes() const { return std::span(shapes_).first(count_); }

@@ -59,31 +59,36 @@ inline void takeSamples(const PathBatch& rays, std::size_t b, PointBatch& points
 // shapes are more than the nearest caches hold, so each is asked for when it is listed.
 template <bool kHasBalls> void sortPoints(const Wave& wave) {
     const StillsInLanes& stills = wave.context.stillsInLanes;
-    const std::vector<Hit>& hits = wave.memory.hits;
+    const Hit* const hits = wave.memory.hits.data();
     PointBatch& points = wave.memory.points;
+    const std::uint32_t *const rays = points.ray.data(), count = static_cast<std::uint32_t>(points.count);
+    std::uint32_t* const shapes = points.shape.data();
+    const StillsInLanes::One* const all = stills.shapes.data();
     const bool hasStills = !stills.shapes.empty();
+    PointsToDescribe::Room balls = wave.memory.onBalls.room(), others = wave.memory.onOthers.room();
     constexpr std::size_t kAhead = 16; // of what is looked up
-    for (std::uint32_t k = 0; k < points.count; ++k) {
-        if (hasStills && k + kAhead < points.count)
-            __builtin_prefetch(&stills.shapes[hits[points.ray[k + kAhead]].shape]);
-        const std::uint32_t ray = points.ray[k], shape = hits[ray].shape;
-        points.shape[k] = shape;
+    for (std::uint32_t k = 0; k < count; ++k) {
+        if (!kHasBalls && hasStills && k + kAhead < count)
+            __builtin_prefetch(&all[hits[rays[k + kAhead]].shape]);
+        const std::uint32_t ray = rays[k], shape = hits[ray].shape;
+        shapes[k] = shape;
         if constexpr (kHasBalls)
             if (stills.balls.has(shape)) {
                 prefetch(stills.balls[shape]);
-                wave.memory.onBalls.push(ray, k);
+                balls.push(ray, k);
                 continue;
             }
-        const StillsInLanes::One still = hasStills ? stills.shapes[shape] : StillsInLanes::One{};
+        const StillsInLanes::One still = hasStills ? all[shape] : StillsInLanes::One{};
         const std::uint32_t part = hits[ray].prim;
         if (still.shape == nullptr || (still.parts >> part & 1) == 0) {
-            wave.memory.onOthers.push(ray, k);
+            others.push(ray, k);
             continue;
         }
         prefetch(*still.shape);
         const auto kind = static_cast<std::size_t>(still.kindOf(part));
         wave.memory.onStills[still.wantsUv ? 1 : 0][kind].push(ray, k, still.shape);
     }
+    wave.memory.onBalls.countTo(balls), wave.memory.onOthers.countTo(others);
 }
 
 inline void sortPoints(const Wave& wave) {
