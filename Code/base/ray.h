@@ -5,8 +5,8 @@
 #include "base/math.h"
 #include "base/vec.h"
 
-// A hit counts when tMin < t < tMax. `dir` need not be a unit vector: t is in units of dir.
-// time is in [0,1] of the shutter.
+// A hit counts when tMin < t < tMax; tMin is not below 0. `dir` need not be a unit vector: t is in
+// units of dir. time is in [0,1] of the shutter.
 struct Ray {
     Vec3 org, dir;
     float tMin = 0, tMax = kInfinityF, time = 0;

@@ -68,7 +68,7 @@ void describeFirstHits(const Wave& wave) {
         first.normal = SurfaceBlock::get(block.n, i);
         first.position = toFloat(scene.frame().worldPoint(position));
         first.albedo = of.base.diffuse;
-        if (of.diffuse) first.albedo *= of.diffuse->color(uv);
+        if (of.pictures->diffuse) first.albedo *= of.pictures->diffuse->color(uv);
         first.object = block.object[i] + 1;
         first.uv = uv;
     }

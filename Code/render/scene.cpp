@@ -118,8 +118,8 @@ private:
     void buildMaterials() {
         scene_.materials_.reserve(desc_.materials.size() + 1);
         for (const MaterialDesc& desc : desc_.materials)
-            scene_.materials_.push_back(makeMaterial(desc));
-        scene_.materials_.push_back(makeMaterial(MaterialDesc{}));
+            scene_.materials_.push_back(makeMaterial(desc, picturesOf(desc)));
+        scene_.materials_.push_back(makeMaterial(MaterialDesc{}, &kNoPictures));
         for (const SceneMaterial& m : scene_.materials_)
             scene_.hasSeeThrough_ = scene_.hasSeeThrough_ || m.seeThrough();
         if (spent_ != nullptr) std::vector<MaterialDesc>().swap(spent_->materials);
@@ -134,8 +134,26 @@ private:
         return SpecularModel::Blinn;
     }
 
-    SceneMaterial makeMaterial(const MaterialDesc& desc) const {
+    const MaterialPictures* picturesOf(const MaterialDesc& desc) {
+        const MaterialPictures of{
+            .diffuse = textureOf(desc.diffuseTexture),
+            .specular = textureOf(desc.specularTexture),
+            .emission = textureOf(desc.emissionTexture),
+            .opacity = textureOf(desc.opacityTexture),
+            .normalMap = textureOf(desc.normalMap),
+            .bumpMap = textureOf(desc.bumpMap),
+            .normalStrength = toFloat(desc.normalStrength),
+            .bumpHeight = toFloat(desc.bumpStrength * desc.bumpDistance * scene_.frame_.scale)};
+        if (!of.diffuse && !of.specular && !of.emission && !of.opacity && !of.normalMap &&
+            !of.bumpMap)
+            return &kNoPictures;
+        scene_.pictures_.push_back(std::make_unique<const MaterialPictures>(of));
+        return scene_.pictures_.back().get();
+    }
+
+    SceneMaterial makeMaterial(const MaterialDesc& desc, const MaterialPictures* pictures) const {
         SceneMaterial m;
+        m.pictures = pictures;
         m.base.diffuse = toRgb(desc.diffuse);
         m.base.specular = toRgb(desc.specular);
         m.base.specularModel = specularModelOf(desc.specularModel);
@@ -152,14 +170,6 @@ private:
         m.base.emission = toRgb(desc.emission);
         m.base.opacity = toFloat(desc.opacity);
         m.base.filter = toRgb(desc.filter);
-        m.diffuse = textureOf(desc.diffuseTexture);
-        m.specular = textureOf(desc.specularTexture);
-        m.emission = textureOf(desc.emissionTexture);
-        m.opacity = textureOf(desc.opacityTexture);
-        m.normalMap = textureOf(desc.normalMap);
-        m.bumpMap = textureOf(desc.bumpMap);
-        m.normalStrength = toFloat(desc.normalStrength);
-        m.bumpHeight = toFloat(desc.bumpStrength * desc.bumpDistance * scene_.frame_.scale);
         return m;
     }
 

@@ -22,12 +22,8 @@
 
 class PictureReader;
 
-// A material of the scene: its numbers, and the pictures that change them from place to place.
-struct alignas(64) SceneMaterial {
-    Material base;
-    // Beside the numbers that every point asks for.
-    bool litOutside = false; // answers lamps outside of it, whichever side is seen
-    bool isLamp = false; // the visible body of an area light; emits to the front of its shape only
+// Pictures that change a material's numbers from place to place, or bend normals.
+struct MaterialPictures {
     const Texture* diffuse = nullptr;
     const Texture* specular = nullptr;
     const Texture* emission = nullptr;
@@ -36,11 +32,25 @@ struct alignas(64) SceneMaterial {
     const Texture* bumpMap = nullptr;
     float normalStrength = 1;
     float bumpHeight = 0; // strength times distance, in normalised units
-    // Pictures that change its numbers.
-    bool isTextured() const { return diffuse || specular || emission || opacity; }
-    bool seeThrough() const { return base.opacity < 1 || opacity != nullptr; }
-    bool bendsNormals() const { return normalMap != nullptr || bumpMap != nullptr; }
 };
+inline constexpr MaterialPictures kNoPictures;
+
+// A material of the scene, in as few lines of the cache as there may be thousands of them.
+struct alignas(64) SceneMaterial {
+    Material base;
+    bool litOutside = false; // answers lamps outside of it, whichever side is seen
+    bool isLamp = false; // the visible body of an area light; emits to the front of its shape only
+    const MaterialPictures* pictures = &kNoPictures;
+    // Pictures that change its numbers.
+    bool isTextured() const {
+        return pictures->diffuse || pictures->specular || pictures->emission || pictures->opacity;
+    }
+    bool seeThrough() const { return base.opacity < 1 || pictures->opacity != nullptr; }
+    bool bendsNormals() const {
+        return pictures->normalMap != nullptr || pictures->bumpMap != nullptr;
+    }
+};
+static_assert(sizeof(SceneMaterial) == 128);
 
 class Scene {
 public:
@@ -79,6 +89,7 @@ private:
     SceneFrame frame_;
     std::unique_ptr<const Camera> camera_;
     std::vector<std::unique_ptr<const Texture>> textures_;
+    std::vector<std::unique_ptr<const MaterialPictures>> pictures_; // of those that have some
     std::vector<SceneMaterial> materials_;
     std::vector<std::unique_ptr<const MeshGeometry>> geometries_;
     ShapeSet shapes_;

@@ -42,23 +42,24 @@ Vec3 shading::turnedAway(Vec3 toEye, const ShadedPoint::Side& side) {
 Vec3 shading::bentNormal(const Scene& scene, const Ray& ray, const Hit& hit,
                          const Surface& surface) {
     const Shape& shape = *scene.shapes().shapes[hit.shape];
-    const SceneMaterial& material = scene.materials()[surface.material];
+    const MaterialPictures& pictures = *scene.materials()[surface.material].pictures;
     const SurfaceDerivatives d = shape.derivatives(ray, hit);
     Vec3 n = surface.ns;
-    if (material.normalMap)
-        n = mapped(n, d, material.normalMap->color(surface.uv), material.normalStrength);
-    if (material.bumpMap)
-        n = bumped(n, d, material.bumpMap->gradient(surface.uv), material.bumpHeight);
+    if (pictures.normalMap)
+        n = mapped(n, d, pictures.normalMap->color(surface.uv), pictures.normalStrength);
+    if (pictures.bumpMap)
+        n = bumped(n, d, pictures.bumpMap->gradient(surface.uv), pictures.bumpHeight);
     return dot(n, surface.ng) > 0 ? n : surface.ns;
 }
 
 Material materialAt(const ShadedPoint& at) {
     Material m = at.of->base;
     const Vec2 uv = at.surface.uv;
-    if (at.of->diffuse) m.diffuse *= at.of->diffuse->color(uv);
-    if (at.of->specular) m.specular *= at.of->specular->color(uv);
-    if (at.of->emission) m.emission *= at.of->emission->color(uv);
-    if (at.of->opacity) m.opacity *= at.of->opacity->value(uv);
+    const MaterialPictures& pictures = *at.of->pictures;
+    if (pictures.diffuse) m.diffuse *= pictures.diffuse->color(uv);
+    if (pictures.specular) m.specular *= pictures.specular->color(uv);
+    if (pictures.emission) m.emission *= pictures.emission->color(uv);
+    if (pictures.opacity) m.opacity *= pictures.opacity->value(uv);
     return m;
 }
 
@@ -66,6 +67,7 @@ Rgb straightTransmission(const Scene& scene, const Ray& ray, const Hit& hit) {
     const Surface surface = scene.shapes().shapes[hit.shape]->surface(ray, hit);
     const SceneMaterial& material = scene.materials()[surface.material];
     float opacity = material.base.opacity;
-    if (material.opacity) opacity *= material.opacity->value(surface.uv);
+    if (const Texture* const picture = material.pictures->opacity)
+        opacity *= picture->value(surface.uv);
     return material.base.filter * (1 - opacity);
 }

@@ -94,6 +94,8 @@ Rays raysThatGoApart(Random& random, const std::vector<Ball>& balls) {
         if (random.chance(0.05)) ray.dir[random.below(3)] = 0;
         if (random.chance(0.1)) ray.tMax = static_cast<float>(random.logUniform(0.01, 3));
         if (random.chance(0.1)) ray.tMin = static_cast<float>(random.logUniform(0.001, 1));
+        if (random.chance(0.02)) // from afar, so that t is rounded coarsely
+            ray.org = toFloat(from - toDouble(ray.dir) * random.logUniform(10, 1e6));
         if (random.chance(0.01)) ray.org[random.below(3)] = std::nanf("");
         rays.push(ray);
     }

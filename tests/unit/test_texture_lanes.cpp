@@ -157,10 +157,13 @@ TEST(texture_points_get_the_numbers_of_their_materials) {
             return random.chance(0.5) ? textures[random.below(textures.size())].get() : nullptr;
         };
         std::vector<SceneMaterial> materials(1 + random.below(40));
-        for (SceneMaterial& m : materials) {
+        std::vector<MaterialPictures> pictures(materials.size());
+        for (std::size_t number = 0; number < materials.size(); ++number) {
+            SceneMaterial& m = materials[number];
             m.base.diffuse = {0.9f, 0.7f, 0.3f}, m.base.specular = {0.5f, 0.6f, 0.1f};
             m.base.emission = {3, 4, 5}, m.base.opacity = 0.9f;
-            m.diffuse = maybe(), m.specular = maybe(), m.emission = maybe(), m.opacity = maybe();
+            pictures[number] = {maybe(), maybe(), maybe(), maybe()};
+            m.pictures = &pictures[number];
         }
         const std::size_t count = 1 + random.below(400);
         PointColumns columns;

@@ -56,7 +56,6 @@ public:
                 solid<A>(lastHider_, live_, results);
             meetEndless<A>(results);
             if (live_ == 0 || tree_.lines.empty()) continue;
-            if constexpr (A == Answer::Closest) this->findBalls();
             traverse<A>(results);
             if (!this->template inPairs<A>()) continue;
             if (live_ != 0) meetAll<A>(results);
@@ -207,8 +206,7 @@ private:
             const int ray = std::countr_zero(lanes);
             Floats entry;
             const Mask isHit = enteredBy(planes, ray, entry);
-            if constexpr (A == Answer::Closest)
-                nearest = minWhere(isHit, nearest, entry);
+            if constexpr (A == Answer::Closest) nearest = minWhere(isHit, nearest, entry);
             const unsigned hit = bits(isHit);
             if (inPairs != 0) waiting = wait(ray, isHit & pairMask, node.child, waiting);
             entered.set(ray, isHit);

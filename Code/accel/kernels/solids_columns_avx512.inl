@@ -58,7 +58,8 @@ public:
     void store(std::uint32_t* to) const { _mm512_store_si512(to, columns_); }
 
 private:
-    alignas(64) static constexpr auto kBit = [] { // in memory, from where it costs no more than the or
+    // In memory, from where one costs no more than the `or` itself.
+    alignas(64) static constexpr auto kBit = [] {
         std::array<int, W> bit{};
         for (std::size_t i = 0; i < W; ++i) bit[i] = 1 << i;
         return bit;

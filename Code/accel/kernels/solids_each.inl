@@ -26,11 +26,11 @@ protected:
         takeEach(solids, lanes, on, found, tEntry, ranges, results);
     }
 
-    // The same of a tree of balls, for ranges from 0 on. Their boxes need not be asked again: who
-    // meets a ball enters its box, and not behind the ball. Of the scale S of RaySetup, a point at
-    // the t of a hit is off the ball by less than 2^-21 S: 2^-24 t by rounding it, 2^-25 S where
-    // it is the root of a difference (at the rim). Slabs are entered early, and left late, by
-    // 2^-18 S, in the units of their axis, and rounded by 2^-21 S at most.
+    // The same of a tree of balls. Their boxes need not be asked again: who meets a ball enters its
+    // box, and not behind the ball. With S the scale in RaySetup, the point at the t of a hit is
+    // off the ball by less than 2^-21 S: by 2^-24 of its distance, from rounding t, and by 2^-25 S
+    // at the rim, where t is the root of a small difference. Slabs are entered too early, and left
+    // too late, by 2^-18 S along their axis, less what rounds off, which is 2^-21 S at most.
     [[gnu::noinline]] void meetBalls(const std::uint32_t* solids, const std::uint8_t* lanes,
                                      unsigned on, Hit* hits) {
         static_assert(sizeof(SolidTree::Ball) == 4 * sizeof(double) &&

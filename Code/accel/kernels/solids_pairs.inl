@@ -36,11 +36,7 @@ protected:
     const bool areInPairs_ = kPairsPay && !tree_.tubes.empty();
     // Nearest hits in trees of balls alone do without a filter. Of few the rays meet most.
     static constexpr std::size_t kFewestBalls = 64;
-    bool areBalls_ = false;
-    void findBalls() {
-        areBalls_ = kPairsPay && tree_.balls.size() >= kFewestBalls &&
-                    bits(columns_.tMin < Floats(0.0f)) == 0;
-    }
+    const bool areBalls_ = kPairsPay && tree_.balls.size() >= kFewestBalls;
     template <Answer A> bool inPairs() const {
         return areInPairs_ || (A == Answer::Closest && areBalls_);
     }

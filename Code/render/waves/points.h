@@ -61,7 +61,8 @@ template <bool kHasBalls> void sortPoints(const Wave& wave) {
     const StillsInLanes& stills = wave.context.stillsInLanes;
     const Hit* const hits = wave.memory.hits.data();
     PointBatch& points = wave.memory.points;
-    const std::uint32_t *const rays = points.ray.data(), count = static_cast<std::uint32_t>(points.count);
+    const std::uint32_t *const rays = points.ray.data(),
+                               count = static_cast<std::uint32_t>(points.count);
     std::uint32_t* const shapes = points.shape.data();
     const StillsInLanes::One* const all = stills.shapes.data();
     const bool hasStills = !stills.shapes.empty();

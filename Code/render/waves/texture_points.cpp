@@ -45,12 +45,13 @@ void applyTo(const SceneMaterial& material, TextureColorsFn colors,
         lookUp(*texture, colors, points, at,
                [&](std::uint32_t point, Rgb color) { numbers[point].*number *= color; });
     };
-    multiply(material.diffuse, &Material::diffuse);
-    multiply(material.specular, &Material::specular);
-    multiply(material.emission, &Material::emission);
-    if (material.opacity != nullptr)
-        lookUp(*material.opacity, colors, points, at, [&](std::uint32_t point, Rgb color) {
-            numbers[point].opacity *= material.opacity->valueOf(color);
+    const MaterialPictures& pictures = *material.pictures;
+    multiply(pictures.diffuse, &Material::diffuse);
+    multiply(pictures.specular, &Material::specular);
+    multiply(pictures.emission, &Material::emission);
+    if (pictures.opacity != nullptr)
+        lookUp(*pictures.opacity, colors, points, at, [&](std::uint32_t point, Rgb color) {
+            numbers[point].opacity *= pictures.opacity->valueOf(color);
         });
 }
 
