@@ -170,11 +170,11 @@ public:
         rays_.resize(most), points_.resize(most), shapes_.resize(most);
     }
     // `shape`: of those for lanes.
-    void push(std::uint32_t ray, std::uint32_t point, const StillShape* shape = nullptr) {
+    void push(std::uint32_t ray, std::uint32_t point, const StillShape* shape) {
         rays_[count_] = ray, points_[count_] = point, shapes_[count_] = shape;
         ++count_;
     }
-    // The same of many without `shape`: pairs are written here from the first on, and counted then.
+    // Those that need no `shape` are written here from the first on, and counted then.
     struct Room {
         std::uint32_t *rays, *points;
         void push(std::uint32_t ray, std::uint32_t point) { *rays++ = ray, *points++ = point; }

@@ -118,8 +118,8 @@ private:
     void buildMaterials() {
         scene_.materials_.reserve(desc_.materials.size() + 1);
         for (const MaterialDesc& desc : desc_.materials)
-            scene_.materials_.push_back(makeMaterial(desc, picturesOf(desc)));
-        scene_.materials_.push_back(makeMaterial(MaterialDesc{}, &kNoPictures));
+            scene_.materials_.push_back(makeMaterial(desc));
+        scene_.materials_.push_back(makeMaterial(MaterialDesc{}));
         for (const SceneMaterial& m : scene_.materials_)
             scene_.hasSeeThrough_ = scene_.hasSeeThrough_ || m.seeThrough();
         if (spent_ != nullptr) std::vector<MaterialDesc>().swap(spent_->materials);
@@ -151,9 +151,9 @@ private:
         return scene_.pictures_.back().get();
     }
 
-    SceneMaterial makeMaterial(const MaterialDesc& desc, const MaterialPictures* pictures) const {
+    SceneMaterial makeMaterial(const MaterialDesc& desc) {
         SceneMaterial m;
-        m.pictures = pictures;
+        m.pictures = picturesOf(desc);
         m.base.diffuse = toRgb(desc.diffuse);
         m.base.specular = toRgb(desc.specular);
         m.base.specularModel = specularModelOf(desc.specularModel);

@@ -47,8 +47,8 @@ struct SolidTree {
         Vec3d offset; // object = ballScale * world + offset
         double radius = 0;
     };
-    // Scenes as large as this keep that proof clear of over- and underflow.
-    static constexpr float kLeastForBalls = 0x1p-60f, kMostForBalls = 0x1p60f; // `extent`
+    // `extent` up to which that proof is clear of overflow. None is below kSceneExtent.
+    static constexpr float kMostForBalls = 0x1p60f;
     struct Tube {
         StillTube exact;
         // At least the square of how much longer a normal of the wall, or of an end, is in the
@@ -73,7 +73,7 @@ struct SolidTree {
     RawVector<Solid> solids; // in the order of the tree's leaves
     RawVector<Bounds> boxes; // of the solids
     RawVector<Ball> balls;   // the same, where most of them are, and of one scale; else empty
-    RawVector<std::uint32_t> ballNumbers; // of the solids in `balls`
+    RawVector<std::uint32_t> ballNumbers; // Solid::number of all again, many in a line
     double ballScale = 0;
     std::vector<Tube> tubes;
     std::vector<FacetGroup> facets;

@@ -41,11 +41,13 @@ protected:
         return areInPairs_ || (A == Answer::Closest && areBalls_);
     }
 
+    // W times the number of each lane: to load them takes less than to spread one.
     alignas(64) static constexpr auto kLane = [] {
         std::array<std::array<std::uint8_t, W>, W> lanes{};
         for (std::size_t i = 0; i < W; ++i) lanes[i].fill(static_cast<std::uint8_t>(i));
         return lanes;
     }();
+
     // Returns how many wait then, who were `count`.
     [[gnu::always_inline]] std::uint32_t wait(int ray, Mask chosen, const WideRef* solids,
                                               std::uint32_t count) {
