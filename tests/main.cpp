@@ -20,12 +20,14 @@ namespace {
 
 int failuresOfTest = 0;
 
-// A whole number from 1 to 1000 that is all of the text, or 0.
+constexpr int kMost = 1000; // of processes, and of STRESS
+
+// A whole number from 1 to kMost that is all of the text, or 0.
 int countIn(const char* text) {
     int value = 0;
     const char* end = text + std::strlen(text);
     const auto [stop, error] = std::from_chars(text, end, value);
-    return error == std::errc() && stop == end && value >= 1 && value <= 1000 ? value : 0;
+    return error == std::errc() && stop == end && value >= 1 && value <= kMost ? value : 0;
 }
 
 } // namespace
@@ -70,11 +72,13 @@ namespace {
 struct Shared {
     std::atomic<std::size_t> next = 0;
     std::atomic<int> passed = 0, failed = 0;
+    std::atomic<std::size_t> at[check::kMost] = {}; // which test each process is at
 };
 
-void runTests(const std::vector<check::Test>& tests, bool times, Shared& shared) {
+void runTests(const std::vector<check::Test>& tests, bool times, Shared& shared, int job = 0) {
     for (std::size_t i = shared.next++; i < tests.size(); i = shared.next++) {
         const check::Test& test = tests[i];
+        shared.at[job] = i;
         check::failuresOfTest = 0;
         const auto start = std::chrono::steady_clock::now();
         try {
@@ -92,6 +96,15 @@ void runTests(const std::vector<check::Test>& tests, bool times, Shared& shared)
         }
         static_cast<void>(std::fflush(stdout)); // what a test says stays together
     }
+    shared.at[job] = tests.size();
+}
+
+// Says which test a process was at when it ended with this status of wait(), and how.
+void printEnd(const std::vector<check::Test>& tests, std::size_t at, int status) {
+    std::printf("FAIL %s: %s %d ended the process that ran it\n",
+                at < tests.size() ? tests[at].name : "after the last test",
+                WIFSIGNALED(status) ? "signal" : "exit status",
+                WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status));
 }
 
 // Runs the tests in so many processes of their own; false when one of them did not come to its end.
@@ -99,18 +112,23 @@ void runTests(const std::vector<check::Test>& tests, bool times, Shared& shared)
 // of the system.
 bool runTestsInProcesses(const std::vector<check::Test>& tests, bool times, int jobs,
                          Shared& shared) {
-    int started = 0;
-    for (; started < jobs; ++started) {
+    std::vector<pid_t> children;
+    for (int job = 0; job < jobs; ++job) {
         const pid_t child = fork();
         if (child < 0) break;
-        if (child > 0) continue;
-        runTests(tests, times, shared);
+        if (child > 0) {
+            children.push_back(child);
+            continue;
+        }
+        runTests(tests, times, shared, job);
         std::exit(0); // not _exit: a sanitizer looks for leaks there
     }
-    bool sound = started == jobs;
-    for (int i = 0; i < started; ++i) {
+    bool sound = static_cast<int>(children.size()) == jobs;
+    for (std::size_t job = 0; job < children.size(); ++job) {
         int status = 0;
-        sound = wait(&status) > 0 && status == 0 && sound;
+        if (waitpid(children[job], &status, 0) > 0 && status == 0) continue;
+        sound = false;
+        printEnd(tests, shared.at[job], status);
     }
     return sound;
 }

@@ -12,7 +12,7 @@ public:
     explicit CameraRays(const IntegratorContext& context, ThreadPool* pool = nullptr);
 
     // Fills in ids and rays of the samples first .. first + count - 1 of every place, place after
-    // place, row after row.
+    // place, in the order of forEachPlace().
     void make(const Tile& tile, int first, int count, SampleChunk& chunk) const;
 
     bool throughCorners() const { return corners_; }

@@ -178,21 +178,3 @@ TEST(solid_tree_knows_if_most_are_balls) {
                 }
     }
 }
-
-// Where the proof that their boxes need not be asked might overflow, they are solids like any
-// other.
-TEST(solid_tree_has_no_balls_in_endless_scenes) {
-    for (const Kernel& kernel : allKernels()) {
-        if (!kernel.supported() || kernel.width == 0) continue;
-        for (const double size : {0x1p-70, 1.0, 0x1p50, 0x1p70}) {
-            Random random(100);
-            ShapeSet set;
-            for (std::size_t i = 0; i < 100; ++i)
-                set.add(std::make_unique<Sphere>(Transform::translate(random.inBox(0.9) * size),
-                                                 0.01 * size, 0u, 0u),
-                        Shadow::Opaque);
-            set.finish(true, kernel);
-            CHECK_INFO(set.solids().balls.empty() == (size > 0x1p60), kernel.name << ' ' << size);
-        }
-    }
-}

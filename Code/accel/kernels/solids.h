@@ -47,8 +47,6 @@ struct SolidTree {
         Vec3d offset; // object = ballScale * world + offset
         double radius = 0;
     };
-    // `extent` up to which that proof is clear of overflow. None is below kSceneExtent.
-    static constexpr float kMostForBalls = 0x1p60f;
     struct Tube {
         StillTube exact;
         // At least the square of how much longer a normal of the wall, or of an end, is in the

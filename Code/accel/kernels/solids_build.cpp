@@ -63,7 +63,7 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
     };
     ballsFound.decide();
     ballScale = ballsFound.scale();
-    if (ballScale != 0 && ballsFound.count() >= order.size() / 4 * 3 && extent <= kMostForBalls) {
+    if (ballScale != 0 && ballsFound.count() >= order.size() / 4 * 3) {
         balls = ballsFound.taken();
         ballNumbers.resize(order.size());
         for (std::size_t i = 0; i < order.size(); ++i) ballNumbers[i] = solids[i].number;

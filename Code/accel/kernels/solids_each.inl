@@ -31,6 +31,7 @@ protected:
     // off the ball by less than 2^-21 S: by 2^-24 of its distance, from rounding t, and by 2^-25 S
     // at the rim, where t is the root of a small difference. Slabs are entered too early, and left
     // too late, by 2^-18 S along their axis, less what rounds off, which is 2^-21 S at most.
+    // Nothing overflows, since scenes are normalised (SceneFrame).
     [[gnu::noinline]] void meetBalls(const std::uint32_t* solids, const std::uint8_t* lanes,
                                      unsigned on, Hit* hits) {
         static_assert(sizeof(SolidTree::Ball) == 4 * sizeof(double) &&

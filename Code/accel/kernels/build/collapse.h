@@ -8,6 +8,7 @@
 
 namespace kernels::build {
 
+// Finite: scenes are normalised (SceneFrame).
 inline float halfAreaOf(const BinaryNode& node) {
     const float x = node.lo[0] + node.negHi[0], y = node.lo[1] + node.negHi[1];
     const float z = node.lo[2] + node.negHi[2]; // both signs of a size do
