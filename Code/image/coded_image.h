@@ -28,11 +28,15 @@ public:
 
     // Pixels of a row, from (x, y) on; threads may do this for different pixels at a time.
     void put(int x, int y, std::span<const Rgb> pixels);
+    // As many pixels of so many rows, all alike.
+    void fill(int x, int y, int width, int height, Rgb pixel);
 
     // The file that Image::write() makes of the same pixels: .ppm or .png.
     void write(const std::string& fileName, int threads = 1) const;
 
 private:
+    std::span<std::uint8_t> codesAt(int x, int y, std::size_t pixels);
+
     int width_ = 0, height_ = 0;
     Encoding::Transfer transfer_ = Encoding::Transfer::Srgb;
     ZeroedVector<std::uint8_t> codes_;

@@ -274,6 +274,9 @@ std::vector<std::uint8_t> deflatePiece(std::span<const std::uint8_t> bytes, bool
             block.add(bytes.subspan(at, found - at), match);
             matcher.skip(found, match.length);
             at = found + match.length;
+            if (match.length == kLongestMatch && match.distance == 1)
+                for (; block.codes() < kBlockCodes && matcher.takeRun(at); at += kLongestMatch)
+                    block.add({}, match);
         }
         block.bytes = bytes.subspan(start, at - start);
         putBlock(out, block, last && at == bytes.size());

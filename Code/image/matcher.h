@@ -9,6 +9,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <vector>
 
@@ -149,6 +150,17 @@ public:
         for (; i + kGroup < end; i += kGroup)
             for (std::size_t k = 0; k < kGroup; ++k) finder_.insert(i + k);
         for (std::size_t k = end - kGroup; k < end; ++k) finder_.insert(k);
+    }
+
+    // Behind a longest match with the byte before, as in a plain background: does another one come,
+    // with bytes behind it that are still the same? Then nobody need look for it: all of its places
+    // have one hash, and the last one counts.
+    bool takeRun(std::size_t at) {
+        constexpr std::size_t kSize = kLongestMatch + 8; // the bytes of the last place's hash, too
+        if (at + kSize > bytes_.size() || std::memcmp(&bytes_[at], &bytes_[at - 1], kSize) != 0)
+            return false;
+        finder_.insert(at + kLongestMatch - 1);
+        return true;
     }
 
 private:

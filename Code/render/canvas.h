@@ -35,6 +35,12 @@ public:
         }
     }
 
+    // The same with one colour.
+    void fill(const Tile& to, Rgb color) {
+        if (isCoded_) return codes_.fill(to.x0, to.y0, to.width(), to.height(), color);
+        for (int y = to.y0; y < to.y1; ++y) std::fill_n(rowOf(y) + to.x0, to.width(), color);
+    }
+
     // One of the two is the picture, the other one is empty.
     Image& image() { return image_; }
     CodedImage& codes() { return codes_; }

@@ -137,10 +137,12 @@ private:
         for (std::size_t a = 0; a < aovs_.size(); ++a) writeAov(worker.aovs[a], a, x, y);
     }
 
+    // The tile, as the picture counts it, where the canvas has it.
+    Tile onCanvas(const Tile& tile) const {
+        return {tile.x0 - area_.x0, tile.y0 - area_.y0, tile.x1 - area_.x0, tile.y1 - area_.y0};
+    }
     void paint(const Tile& tile, const TileWorker& worker) {
-        color_->paint(
-            {tile.x0 - area_.x0, tile.y0 - area_.y0, tile.x1 - area_.x0, tile.y1 - area_.y0},
-            worker.tile);
+        color_->paint(onCanvas(tile), worker.tile);
     }
 
     // What renderTile() would, of samples that are all the same.
@@ -153,8 +155,7 @@ private:
             for (std::uint64_t s = 0; s < count; ++s) worker.color.add(0, 0, sample);
             return worker.color.mean(0, 0);
         };
-        std::ranges::fill(worker.tile.pixels(), meanOf(seen));
-        paint(tile, worker);
+        color_->fill(onCanvas(tile), meanOf(seen));
         const float samples = static_cast<float>(count);
         for (std::size_t a = 0; a < aovs_.size(); ++a)
             if (settings_.aovs[a] == Aov::Samples)

@@ -67,6 +67,27 @@ TEST(coded_images_give_the_files_of_images) {
     }
 }
 
+// Rectangles of one colour, at the edges and across them all.
+TEST(coded_images_are_filled_as_images) {
+    std::mt19937 random(31);
+    const auto below = [&](int end) {
+        return static_cast<int>(random() % static_cast<unsigned>(end));
+    };
+    for (int i = 0; i < check::scaled(40); ++i) {
+        Image image = randomImage(1 + below(70), 1 + below(40), random);
+        CodedImage coded = codedFrom(image, Encoding::Transfer::Srgb, random);
+        const Rgb color = randomImage(1, 1, random).pixels()[0];
+        const int x0 = below(image.width()), y0 = below(image.height());
+        const int width = 1 + below(image.width() - x0), height = 1 + below(image.height() - y0);
+        coded.fill(x0, y0, width, height, color);
+        for (int y = y0; y < y0 + height; ++y)
+            for (int x = x0; x < x0 + width; ++x) image.setPixel(x, y, color);
+        CHECK_INFO(encodeImage(coded, "ppm") ==
+                       encodeImage(image, "ppm", {Encoding::Transfer::Srgb, 8}),
+                   cat("case ", i, ", ", width, "x", height, " at ", x0, ", ", y0));
+    }
+}
+
 TEST(coded_images_have_the_sizes_of_images) {
     CHECK(CodedImage().isEmpty());
     CHECK(!CodedImage(1, 1, Encoding::Transfer::Srgb).isEmpty());

@@ -192,6 +192,28 @@ TEST(deflate_round_trips_structured_bytes) {
 }
 
 // Pieces that know nothing of each other make one stream, also empty ones.
+// Runs of one byte that end near the end of a match, of what a hash takes, of the bytes and of a
+// block, which has 2^16 codes.
+TEST(deflate_round_trips_long_runs) {
+    const auto check = [](std::size_t before, std::size_t run, std::size_t behind) {
+        Buffer bytes(before + run + behind, 9);
+        for (std::size_t i = 0; i < before; ++i) bytes[i] = static_cast<std::uint8_t>(i * i >> 3);
+        for (std::size_t i = before + run; i < bytes.size(); ++i)
+            bytes[i] = static_cast<std::uint8_t>(i * i >> 3);
+        const std::size_t size = roundTrip(bytes);
+        CHECK_INFO(size < before + behind + run / 500 + 200,
+                   size << " bytes of " << before << ", a run of " << run << ", " << behind);
+    };
+    for (std::size_t matches = 1; matches < 5; ++matches)
+        for (std::size_t more = 0; more < 20; ++more)
+            for (const std::size_t around : {0u, 1u, 7u, 8u, 300u}) {
+                check(around, 258 * matches + more, around);
+                check(0, 258 * matches + more, around), check(around, 258 * matches + more, 0);
+            }
+    for (const std::size_t codes : {0xfffeu, 0xffffu, 0x10000u, 0x10001u})
+        check(3, 258 * codes, 20);
+}
+
 TEST(deflate_pieces_join) {
     std::uint32_t state = 11;
     for (int trial = 0; trial < 50; ++trial) {
