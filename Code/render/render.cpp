@@ -133,8 +133,8 @@ private:
         sampler_.trace(tile, 0, settings_.picture.samplesPerPixel, worker);
         worker.color.writeMeans(worker.tile, 0, 0);
         paint(tile, worker);
-        const int x = tile.x0 - area_.x0, y = tile.y0 - area_.y0;
-        for (std::size_t a = 0; a < aovs_.size(); ++a) writeAov(worker.aovs[a], a, x, y);
+        const Tile to = onCanvas(tile);
+        for (std::size_t a = 0; a < aovs_.size(); ++a) writeAov(worker.aovs[a], a, to.x0, to.y0);
     }
 
     // The tile, as the picture counts it, where the canvas has it.

@@ -191,7 +191,6 @@ TEST(deflate_round_trips_structured_bytes) {
     }
 }
 
-// Pieces that know nothing of each other make one stream, also empty ones.
 // Runs of one byte that end near the end of a match, of what a hash takes, of the bytes and of a
 // block, which has 2^16 codes.
 TEST(deflate_round_trips_long_runs) {
@@ -214,6 +213,7 @@ TEST(deflate_round_trips_long_runs) {
         check(3, 258 * codes, 20);
 }
 
+// Pieces that know nothing of each other make one stream, also empty ones.
 TEST(deflate_pieces_join) {
     std::uint32_t state = 11;
     for (int trial = 0; trial < 50; ++trial) {
