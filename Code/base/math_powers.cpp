@@ -135,6 +135,16 @@ bool isOdd(double y) {
     return isWhole(y) && std::fabs(y) < 0x1p53 && (static_cast<long long>(y) & 1) != 0;
 }
 
+// x^n by the bits of n >= 1, the lowest first.
+float powBySquares(double x, unsigned n) {
+    double result = 1;
+    for (;; x *= x) {
+        if ((n & 1) != 0) result *= x;
+        n >>= 1;
+        if (n == 0) return static_cast<float>(result);
+    }
+}
+
 } // namespace
 
 namespace exact {
@@ -222,6 +232,10 @@ float pow(float base, float exponent) {
     if (!(base > 0 && base < kInfinityF) || !(std::fabs(exponent) < kInfinityF)) {
         if (base < 0) return static_cast<float>(kNaN);
         return static_cast<float>(pow(static_cast<double>(base), static_cast<double>(exponent)));
+    }
+    if (exponent >= 1 && exponent <= kMostSquared) {
+        const auto whole = static_cast<unsigned>(exponent);
+        if (static_cast<float>(whole) == exponent) return powBySquares(base, whole);
     }
     const LogParts parts = logParts(base);
     const double r = parts.mantissa * parts.row->c - 1, r2 = r * r;

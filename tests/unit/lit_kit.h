@@ -7,6 +7,7 @@
 #include "verify/meshes.h"
 
 #include <bit>
+#include <cmath>
 #include <vector>
 
 namespace litkit {
@@ -55,6 +56,8 @@ inline Point somePoint(Random& random, Vec3 lamp) {
     point.material.specularModel = static_cast<SpecularModel>(random.below(LitBlock::kModels));
     point.material.exponent =
         random.chance(0.1) ? 0 : static_cast<float>(random.logUniform(1, 1e5));
+    if (random.chance(0.5)) // of these, powers are taken by squares
+        point.material.exponent = std::floor(point.material.exponent);
     return point;
 }
 

@@ -48,18 +48,42 @@ inline Doubles expOf(const Doubles& x, const Doubles& lo) {
     return (hi + (rest + hi * (r + tail))) * powersOfTwo(shiftedRight<5>(whole));
 }
 
+// e^(exponent log(base)); exponent finite.
+[[gnu::always_inline]] inline Floats powByLog(Floats base, Floats exponent) {
+    const Doubles power = Doubles(exponent) * logOf(base);
+    const unsigned vanishes = less(power, Doubles(exact::kLeastPower));
+    const Doubles in =
+        select(maskOf(vanishes), Doubles(0.0), min(power, Doubles(exact::kMostPower)));
+    return select(maskOf(vanishes), Floats(0.0f), expOf(in, Doubles(0.0)).toFloats());
+}
+
+// The exponent of each lane is a whole number below 2^15.
+[[gnu::always_inline]] inline Floats powBySquares(Floats base, Ints exponent) {
+    Doubles square(base), result(1.0);
+    for (;; square = square * square) {
+        const unsigned odd = bits(masked(exponent, 1) == Ints(1));
+        if (odd != 0) result = select(maskOf(odd), result * square, result);
+        exponent = shiftedRight<1>(exponent);
+        if (bits(exponent == Ints(0)) == bits(Ints(0) == Ints(0))) return result.toFloats();
+    }
+}
+
 // Of the lanes whose bit is set; the others are anything.
-inline Floats powOf(Floats base, Floats exponent, unsigned lanes) {
+[[gnu::noinline]] inline Floats powOf(Floats base, Floats exponent, unsigned lanes) {
     const Floats smallest(std::numeric_limits<float>::min()), one(1.0f), zero(0.0f);
     const unsigned plain =
         lanes & bits((base >= smallest) & (base <= one) &
                      (abs(exponent) < Floats(std::numeric_limits<float>::infinity())));
     const Floats x = select(maskOf(plain), base, one), y = select(maskOf(plain), exponent, zero);
-    const Doubles power = Doubles(y) * logOf(x);
-    const unsigned vanishes = less(power, Doubles(exact::kLeastPower));
-    const Doubles in =
-        select(maskOf(vanishes), Doubles(0.0), min(power, Doubles(exact::kMostPower)));
-    Floats result = select(maskOf(vanishes), zero, expOf(in, Doubles(0.0)).toFloats());
+    // Whole numbers stand in the last bits of their sums with 2^23.
+    const Floats toWhole(0x1p23f), sum = y + toWhole;
+    const unsigned squared = plain & bits((sum - toWhole == y) & (y >= one) &
+                                          (y <= Floats(exact::kMostSquared)));
+    Floats result = squared != plain ? powByLog(x, y) : one;
+    if (squared != 0) {
+        const Ints whole = masked(bitsOf(select(maskOf(squared), sum, toWhole)), 0x7fffff);
+        result = select(maskOf(squared), powBySquares(x, whole), result);
+    }
     if (plain == lanes) return result;
     alignas(64) float bases[W], exponents[W], powers[W];
     base.store(bases), exponent.store(exponents), result.store(powers);
