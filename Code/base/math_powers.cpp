@@ -138,10 +138,10 @@ bool isOdd(double y) {
 // x^n by the bits of n >= 1, the lowest first.
 float powBySquares(double x, unsigned n) {
     double result = 1;
-    for (;; x *= x) {
-        if ((n & 1) != 0) result *= x;
+    for (;; x = max(x * x, exact::kLeastSquare)) {
+        if ((n & 1) != 0) result = max(result * x, exact::kLeastSquare);
         n >>= 1;
-        if (n == 0) return static_cast<float>(result);
+        if (n == 0) return result < exact::kNoFloat ? 0 : static_cast<float>(result);
     }
 }
 

@@ -22,5 +22,8 @@ inline constexpr double kLeastPower = -104, kMostPower = 709;
 // Whole exponents of floats up to this one are taken by squares: each of the at most 1023 products
 // is wrong by 2^-53 of itself, 1e-13 together, a tenth of what logarithms are.
 inline constexpr float kMostSquared = 1024;
+// Their products stop falling here, far from where doubles lose bits, which some processors take a
+// hundred cycles for; what is below half of the smallest float is no float, and not rounded to 0.
+inline constexpr double kLeastSquare = 0x1p-500, kNoFloat = 0x1p-150;
 
 } // namespace exact

@@ -115,6 +115,10 @@ TEST(math_pow_float) {
     CHECK_EQUAL(exact::pow(0.0f, 0.0f), 1.0f);
     CHECK_EQUAL(exact::pow(0.0f, 5.0f), 0.0f);
     CHECK_EQUAL(exact::pow(1.0f, 1e30f), 1.0f);
+    CHECK_EQUAL(exact::pow(0x1p-149f, 1024.0f), 0.0f);
+    CHECK_EQUAL(exact::pow(0x1p+127f, 1024.0f), kInfinityF);
+    CHECK_EQUAL(exact::pow(0.5f, 149.0f), 0x1p-149f);
+    CHECK_EQUAL(exact::pow(0.5f, 150.0f), 0.0f); // to even
     CHECK_EQUAL(exact::pow(0.999f, 3e38f), 0.0f);
     CHECK_EQUAL(exact::pow(1.001f, 3e38f), kInfinityF);
     CHECK_EQUAL(exact::pow(1e-45f, 1.0f), 1e-45f);

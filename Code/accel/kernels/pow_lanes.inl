@@ -59,16 +59,21 @@ inline Doubles expOf(const Doubles& x, const Doubles& lo) {
 
 // The exponent of each lane is a whole number below 2^15.
 [[gnu::always_inline]] inline Floats powBySquares(Floats base, Ints exponent) {
+    const Doubles least(exact::kLeastSquare);
+    constexpr unsigned kAllLanes = (1u << W) - 1;
     Doubles square(base), result(1.0);
-    for (;; square = square * square) {
+    for (;; square = max(square * square, least)) {
         const unsigned odd = bits(masked(exponent, 1) == Ints(1));
-        if (odd != 0) result = select(maskOf(odd), result * square, result);
+        if (odd != 0) result = select(maskOf(odd), max(result * square, least), result);
         exponent = shiftedRight<1>(exponent);
-        if (bits(exponent == Ints(0)) == bits(Ints(0) == Ints(0))) return result.toFloats();
+        if (bits(exponent == Ints(0)) == kAllLanes) break;
     }
+    const unsigned vanishes = less(result, Doubles(exact::kNoFloat));
+    return select(maskOf(vanishes), Doubles(0.0), result).toFloats();
 }
 
-// Of the lanes whose bit is set; the others are anything.
+// Of the lanes whose bit is set; the others are anything. Apart from its callers, which would be
+// too large to be inlined themselves.
 [[gnu::noinline]] inline Floats powOf(Floats base, Floats exponent, unsigned lanes) {
     const Floats smallest(std::numeric_limits<float>::min()), one(1.0f), zero(0.0f);
     const unsigned plain =
@@ -77,8 +82,8 @@ inline Doubles expOf(const Doubles& x, const Doubles& lo) {
     const Floats x = select(maskOf(plain), base, one), y = select(maskOf(plain), exponent, zero);
     // Whole numbers stand in the last bits of their sums with 2^23.
     const Floats toWhole(0x1p23f), sum = y + toWhole;
-    const unsigned squared = plain & bits((sum - toWhole == y) & (y >= one) &
-                                          (y <= Floats(exact::kMostSquared)));
+    const unsigned squared =
+        plain & bits((sum - toWhole == y) & (y >= one) & (y <= Floats(exact::kMostSquared)));
     Floats result = squared != plain ? powByLog(x, y) : one;
     if (squared != 0) {
         const Ints whole = masked(bitsOf(select(maskOf(squared), sum, toWhole)), 0x7fffff);
