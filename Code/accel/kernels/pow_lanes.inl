@@ -57,7 +57,7 @@ inline Doubles expOf(const Doubles& x, const Doubles& lo) {
     return select(maskOf(vanishes), Floats(0.0f), expOf(in, Doubles(0.0)).toFloats());
 }
 
-// The exponent of each lane is a whole number below 2^15.
+// Of numbers up to 1; the exponents are whole and not negative.
 [[gnu::always_inline]] inline Floats powBySquares(Floats base, Ints exponent) {
     const Doubles least(exact::kLeastSquare);
     constexpr unsigned kAllLanes = (1u << W) - 1;
