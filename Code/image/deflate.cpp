@@ -2,9 +2,9 @@
 
 #include "image/checksum.h"
 #include "image/deflate_codes.h"
-#include "image/huffman.h"
-#include "image/little_endian.h"
+#include "image/dynamic_codes.h"
 #include "image/matcher.h"
+#include "image/zero_runs.h"
 
 #include <algorithm>
 #include <array>
@@ -20,14 +20,6 @@ struct Step {
     std::uint16_t length, distanceMinusOne;
 };
 
-constexpr auto kLengthSymbol = [] { // by length - 3
-    std::array<std::uint8_t, 256> symbol{};
-    for (std::size_t s = 0; s < kLengthRanges.size(); ++s)
-        for (std::size_t i = kLengthRanges[s].base - kShortestMatch; i < symbol.size(); ++i)
-            symbol[i] = static_cast<std::uint8_t>(s);
-    return symbol;
-}();
-
 // Two symbols per power of two.
 std::size_t distanceSymbol(std::uint32_t distanceMinusOne) {
     if (distanceMinusOne < 2) return distanceMinusOne;
@@ -35,52 +27,11 @@ std::size_t distanceSymbol(std::uint32_t distanceMinusOne) {
     return 2 * top + (distanceMinusOne >> (top - 1) & 1);
 }
 
-// Bits into bytes, the first bit lowest.
-class BitWriter {
-public:
-    // Makes room; put() does not check.
-    void reserveBits(std::uint64_t bits) { bytes_.resize(used_ + bits / 8 + 16); }
-    // After flush(), up to 56 bits fit.
-    void put(std::uint64_t bits, unsigned n) {
-        waiting_ |= bits << count_;
-        count_ += n;
-    }
-    void put(HuffmanCode code) { put(code.bits, code.length); }
-    void flush() {
-        storeLittle(bytes_.data() + used_, waiting_);
-        used_ += count_ >> 3;
-        waiting_ >>= count_ & ~7u;
-        count_ &= 7;
-    }
-    void putBytes(std::span<const std::uint8_t> bytes) {
-        padToByte();
-        reserveBits(8 * bytes.size());
-        std::copy(bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(used_));
-        used_ += bytes.size();
-    }
-    void padToByte() {
-        reserveBits(8);
-        count_ = (count_ + 7) & ~7u;
-        flush();
-    }
-    std::vector<std::uint8_t> result() && {
-        bytes_.resize(used_);
-        return std::move(bytes_);
-    }
-
-private:
-    std::vector<std::uint8_t> bytes_;
-    std::size_t used_ = 0;
-    std::uint64_t waiting_ = 0;
-    unsigned count_ = 0; // below 8 after flush()
-};
-
 // What one block consists of, with its symbol counts.
 struct Block {
     std::span<const std::uint8_t> bytes;
     std::vector<Step> steps;
-    std::array<std::uint32_t, kLiteralCodes> literalCounts{};
-    std::array<std::uint32_t, kDistanceCodes> distanceCounts{};
+    SymbolCounts counts;
 
     void add(std::span<const std::uint8_t> literals, Match match) {
         countLiterals(literals);
@@ -89,14 +40,14 @@ struct Block {
         if (match.length == 0) return steps.push_back({count, 0, 0});
         const auto minusOne = static_cast<std::uint16_t>(match.distance - 1);
         steps.push_back({count, static_cast<std::uint16_t>(match.length), minusOne});
-        ++literalCounts[kEndOfBlock + 1 + kLengthSymbol[match.length - kShortestMatch]];
-        ++distanceCounts[distanceSymbol(minusOne)];
+        ++counts.literals[kEndOfBlock + 1 + kLengthSlot[match.length]];
+        ++counts.distances[distanceSymbol(minusOne)];
     }
     std::size_t codes() const { return codes_; }
-    // All counts of literals are in literalCounts.
+    // All counts of literals are in `counts`.
     void finish() {
-        for (const auto& counts : interleaved_)
-            for (std::size_t b = 0; b < counts.size(); ++b) literalCounts[b] += counts[b];
+        for (const auto& turn : interleaved_)
+            for (std::size_t b = 0; b < turn.size(); ++b) counts.literals[b] += turn[b];
     }
 
 private:
@@ -110,49 +61,6 @@ private:
     std::array<std::array<std::uint32_t, 256>, 4> interleaved_{};
     std::size_t codes_ = 0;
 };
-
-// How the code lengths of a dynamic block are stored: 16, 17 and 18 repeat.
-struct LengthToken {
-    std::uint8_t symbol, extra, extraBits;
-};
-std::vector<LengthToken> packLengths(std::span<const std::uint8_t> lengths) {
-    std::vector<LengthToken> tokens;
-    for (std::size_t i = 0; i < lengths.size();) {
-        std::size_t run = 1;
-        while (i + run < lengths.size() && lengths[i + run] == lengths[i]) ++run;
-        const std::uint8_t value = lengths[i];
-        i += run;
-        if (value != 0) {
-            tokens.push_back({value, 0, 0});
-            --run;
-        }
-        while (run >= 3) {
-            const std::size_t part = std::min<std::size_t>(run, value != 0 ? 6 : 138);
-            if (value != 0)
-                tokens.push_back({16, static_cast<std::uint8_t>(part - 3), 2});
-            else if (part <= 10)
-                tokens.push_back({17, static_cast<std::uint8_t>(part - 3), 3});
-            else
-                tokens.push_back({18, static_cast<std::uint8_t>(part - 11), 7});
-            run -= part;
-        }
-        for (; run > 0; --run) tokens.push_back({value, 0, 0});
-    }
-    return tokens;
-}
-
-std::uint64_t bodyBits(const Block& block, std::span<const std::uint8_t> literalLengths,
-                       std::span<const std::uint8_t> distanceLengths) {
-    std::uint64_t bits = 0;
-    for (std::size_t s = 0; s < kLiteralCodes; ++s) {
-        const unsigned extra = s > kEndOfBlock ? kLengthRanges[s - kEndOfBlock - 1].extra : 0;
-        bits += std::uint64_t{block.literalCounts[s]} * (literalLengths[s] + extra);
-    }
-    for (std::size_t s = 0; s < kDistanceCodes; ++s)
-        bits += std::uint64_t{block.distanceCounts[s]} *
-                (distanceLengths[s] + unsigned{kDistanceRanges[s].extra});
-    return bits;
-}
 
 // At most three codes of literals, or those of a match with their extra bits, fit between flushes.
 void putBody(BitWriter& writer, const Block& block, const std::vector<HuffmanCode>& literals,
@@ -169,7 +77,7 @@ void putBody(BitWriter& writer, const Block& block, const std::vector<HuffmanCod
         for (; byte < end; ++byte) out.put(literals[*byte]);
         out.flush();
         if (step.length == 0) continue;
-        const std::size_t slot = kLengthSymbol[step.length - kShortestMatch];
+        const std::size_t slot = kLengthSlot[step.length];
         out.put(literals[kEndOfBlock + 1 + slot]);
         out.put(step.length - unsigned{kLengthRanges[slot].base}, kLengthRanges[slot].extra);
         const std::uint32_t minusOne = step.distanceMinusOne;
@@ -201,67 +109,31 @@ void putStored(BitWriter& out, std::span<const std::uint8_t> bytes, bool last) {
 // The block in the shortest of the three forms.
 void putBlock(BitWriter& out, Block& block, bool last) {
     block.finish();
-    block.literalCounts[kEndOfBlock] = 1;
-    const auto literalLengths = huffmanLengths(block.literalCounts, kMaxCodeLength);
-    const auto distanceLengths = huffmanLengths(block.distanceCounts, kMaxCodeLength);
-    const auto usedOf = [](std::span<const std::uint8_t> lengths, std::size_t least) {
-        std::size_t used = lengths.size();
-        while (used > least && lengths[used - 1] == 0) --used;
-        return used;
-    };
-    const std::size_t literalCount = usedOf(literalLengths, 257);
-    const std::size_t distanceCount = usedOf(distanceLengths, 1);
-    std::vector<std::uint8_t> lengths(
-        literalLengths.begin(), literalLengths.begin() + static_cast<std::ptrdiff_t>(literalCount));
-    lengths.insert(lengths.end(), distanceLengths.begin(),
-                   distanceLengths.begin() + static_cast<std::ptrdiff_t>(distanceCount));
-    const std::vector<LengthToken> packed = packLengths(lengths);
-    std::array<std::uint32_t, 19> packedCounts{};
-    for (const LengthToken& token : packed) ++packedCounts[token.symbol];
-    const auto packedLengths = huffmanLengths(packedCounts, 7);
-    std::size_t orderCount = kCodeLengthOrder.size();
-    while (orderCount > 4 && packedLengths[kCodeLengthOrder[orderCount - 1]] == 0) --orderCount;
-
-    std::uint64_t headerBits = 14 + 3 * orderCount;
-    for (const LengthToken& token : packed)
-        headerBits += packedLengths[token.symbol] + unsigned{token.extraBits};
+    block.counts.literals[kEndOfBlock] = 1;
+    const DynamicCodes dynamic(block.counts);
     std::array<std::uint8_t, kDistanceCodes> fives{};
     fives.fill(5);
-    const std::uint64_t dynamicBits = headerBits + bodyBits(block, literalLengths, distanceLengths);
-    const std::uint64_t fixedBits = bodyBits(block, kFixedLiteralLengths, fives);
+    const std::uint64_t dynamicBits =
+        dynamic.headerBits() +
+        bitsOf(block.counts, dynamic.literalLengths(), dynamic.distanceLengths());
+    const std::uint64_t fixedBits = 3 + bitsOf(block.counts, kFixedLiteralLengths, fives);
     const std::uint64_t storedBits =
-        8 * (block.bytes.size() + 5 * (block.bytes.size() / 65535 + 1));
+        3 + 8 * (block.bytes.size() + 5 * (block.bytes.size() / 65535 + 1));
 
     if (storedBits < std::min(dynamicBits, fixedBits)) return putStored(out, block.bytes, last);
     out.reserveBits(std::min(dynamicBits, fixedBits) + 64);
-    out.put(last ? 1 : 0, 1);
     if (fixedBits <= dynamicBits) {
+        out.put(last ? 1 : 0, 1);
         out.put(1, 2);
         out.flush();
         return putBody(out, block, canonicalCodes(kFixedLiteralLengths), canonicalCodes(fives));
     }
-    out.put(2, 2);
-    out.put(literalCount - 257, 5);
-    out.put(distanceCount - 1, 5);
-    out.put(orderCount - 4, 4);
-    out.flush();
-    for (std::size_t i = 0; i < orderCount; ++i) {
-        out.put(packedLengths[kCodeLengthOrder[i]], 3);
-        out.flush();
-    }
-    const std::vector<HuffmanCode> packedCodes = canonicalCodes(packedLengths);
-    for (const LengthToken& token : packed) {
-        out.put(packedCodes[token.symbol]);
-        out.put(token.extra, token.extraBits);
-        out.flush();
-    }
-    putBody(out, block, canonicalCodes(literalLengths), canonicalCodes(distanceLengths));
+    dynamic.putHeader(out, last);
+    putBody(out, block, canonicalCodes(dynamic.literalLengths()),
+            canonicalCodes(dynamic.distanceLengths()));
 }
 
-} // namespace
-
-std::vector<std::uint8_t> deflatePiece(std::span<const std::uint8_t> bytes, bool last) {
-    BitWriter out;
+void putMatches(BitWriter& out, std::span<const std::uint8_t> bytes, bool last) {
     Matcher matcher(bytes);
     std::size_t at = 0;
     do {
@@ -281,6 +153,13 @@ std::vector<std::uint8_t> deflatePiece(std::span<const std::uint8_t> bytes, bool
         block.bytes = bytes.subspan(start, at - start);
         putBlock(out, block, last && at == bytes.size());
     } while (at < bytes.size());
+}
+
+} // namespace
+
+std::vector<std::uint8_t> deflatePiece(std::span<const std::uint8_t> bytes, bool last) {
+    BitWriter out;
+    if (!putZeroRuns(out, bytes, last)) putMatches(out, bytes, last);
     if (!last) putStored(out, {}, false); // ends at a byte
     out.padToByte();
     return std::move(out).result();

@@ -18,6 +18,13 @@ constexpr std::array<CodeRange, 29> kLengthRanges{
     {{3, 0},  {4, 0},  {5, 0},  {6, 0},   {7, 0},   {8, 0},   {9, 0},   {10, 0},  {11, 1}, {13, 1},
      {15, 1}, {17, 1}, {19, 2}, {23, 2},  {27, 2},  {31, 2},  {35, 3},  {43, 3},  {51, 3}, {59, 3},
      {67, 4}, {83, 4}, {99, 4}, {115, 4}, {131, 5}, {163, 5}, {195, 5}, {227, 5}, {258, 0}}};
+constexpr auto kLengthSlot = [] { // by length: which of them
+    std::array<std::uint8_t, kLongestMatch + 1> slot{};
+    for (std::size_t s = 0; s < kLengthRanges.size(); ++s)
+        for (std::size_t i = kLengthRanges[s].base; i < slot.size(); ++i)
+            slot[i] = static_cast<std::uint8_t>(s);
+    return slot;
+}();
 constexpr auto kDistanceRanges = [] {
     std::array<CodeRange, kDistanceCodes> ranges{};
     unsigned base = 1;

@@ -7,6 +7,7 @@
 #include "image/inflate.h"
 #include "image/matcher.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -189,6 +190,55 @@ TEST(deflate_round_trips_structured_bytes) {
         }
         roundTrip(bytes);
     }
+}
+
+// Code/image/zero_runs.h: bytes that are nearly all zero.
+TEST(deflate_round_trips_gaps_of_zeros) {
+    std::uint32_t state = 5;
+    const auto noise = [&] { return static_cast<std::uint8_t>(1 + nextRandom(state) % 255); };
+    // Gaps of every size about those of a match, of two and of three, in turn with small ones.
+    Buffer gaps;
+    for (std::size_t zeros = 0; zeros < 800; ++zeros) {
+        gaps.insert(gaps.end(), zeros, 0);
+        gaps.push_back(noise());
+        gaps.insert(gaps.end(), nextRandom(state) % 30, 0);
+        gaps.push_back(1);
+    }
+    CHECK_INFO(roundTrip(gaps) < 4200, roundTrip(gaps)); // 1600 bytes, 800 of them any, and gaps
+    // Any place of the last bytes, any size of the rest of 64.
+    for (std::size_t size = 4090; size < 4240; ++size) {
+        Buffer bytes(size, 0);
+        for (int i = 0; i < 300; ++i) bytes[nextRandom(state) % size] = noise();
+        roundTrip(bytes);
+        bytes[size - 1 - size % 3] = noise();
+        roundTrip(bytes);
+    }
+    // Zeros are so rare outside a long run that three of them, too few for a match, fill more bits
+    // than are written at once.
+    Buffer clumps(700'000, 0);
+    for (std::size_t i = 0; i < 70'000; ++i) clumps[i < 35'000 ? i : i + 3] = noise();
+    CHECK_INFO(roundTrip(clumps) < 73'000, roundTrip(clumps));
+    for (std::size_t zeros = 4; zeros < 300; zeros += 19) {
+        std::fill_n(clumps.begin() + 35'000, zeros, std::uint8_t{0});
+        roundTrip(clumps);
+    }
+}
+
+// zlib packs the same bytes into 12,825 with runs alone (Z_RLE), into 13,441 at its level 6, which
+// searches. What comes again is found all the same.
+TEST(deflate_packs_sparse_bytes_tightly) {
+    std::uint32_t state = 6;
+    Buffer bytes(250'000, 0);
+    for (std::uint8_t& byte : bytes)
+        if (nextRandom(state) / 7 % 30 == 0) byte = nextRandom(state) % 2 == 0 ? 1 : 255;
+    const std::size_t packed = roundTrip(bytes);
+    CHECK_INFO(packed < 12'825, packed);
+
+    for (std::uint8_t& byte : bytes)
+        if (byte != 0) byte = static_cast<std::uint8_t>(1 + nextRandom(state) % 255);
+    const std::size_t once = roundTrip(bytes);
+    for (std::size_t i = 5000; i < bytes.size(); ++i) bytes[i] = bytes[i - 5000];
+    CHECK_INFO(roundTrip(bytes) < once / 4, roundTrip(bytes) << " of " << once);
 }
 
 // Runs of one byte that end near the end of a match, of what a hash takes, of the bytes and of a
