@@ -50,19 +50,28 @@ public:
     explicit MatchFinder(std::span<const std::uint8_t> bytes)
         : bytes_(bytes), latest_(std::size_t{1} << kHashBits) {}
 
+    // Of the first kShortMatch bytes of eight, in so many bits.
+    static std::size_t hashOf(std::uint64_t eight, unsigned bits) {
+        // 2^64 / golden ratio
+        return (eight << (64 - 8 * kShortMatch)) * 0x9E3779B97F4A7C15u >> (64 - bits);
+    }
+    // The first `count` bytes?
+    static bool isZero(std::uint64_t eight, std::size_t count) {
+        return eight << (64 - 8 * count) == 0;
+    }
     // Of the places that can be looked at: eight bytes are there.
     std::size_t end() const { return bytes_.size() - std::min<std::size_t>(bytes_.size(), 7); }
     bool canLook(std::size_t at) const { return at < end(); }
     // Places go in once, in order, before any place after them is looked for.
     void insert(std::size_t at) {
-        latest_[hashOf(eightAt(at))] = static_cast<std::uint16_t>(at + 1);
+        latest_[hashOf(eightAt(at), kHashBits)] = static_cast<std::uint16_t>(at + 1);
     }
     // Inserts the place; a match longer than `atLeast`, or none; elsewhere than with the byte
     // before it has `shortest` bytes. Runs of one byte come first: a filtered picture is full of
     // them.
     Match look(std::size_t at, std::size_t atLeast, std::size_t shortest) {
         const std::uint64_t here = eightAt(at);
-        std::uint16_t& latest = latest_[hashOf(here)];
+        std::uint16_t& latest = latest_[hashOf(here, kHashBits)];
         // Wrong for places of long ago: what is there is compared anyway.
         const std::size_t distance = static_cast<std::uint16_t>(at + 1 - latest);
         const bool isThere = (latest != 0) & (distance != 0) & (distance <= std::min(at, kWindow));
@@ -91,14 +100,6 @@ private:
 
     std::uint64_t eightAt(std::size_t at) const {
         return loadLittle<std::uint64_t>(bytes_.data() + at);
-    }
-    static std::size_t hashOf(std::uint64_t eight) {
-        // 2^64 / golden ratio
-        return (eight << (64 - 8 * kShortMatch)) * 0x9E3779B97F4A7C15u >> (64 - kHashBits);
-    }
-    // The first `count` bytes?
-    static bool isZero(std::uint64_t eight, std::size_t count) {
-        return eight << (64 - 8 * count) == 0;
     }
     // `different` is zero where the first eight bytes are equal.
     std::size_t lengthAt(std::size_t at, std::size_t distance, std::uint64_t different) const {

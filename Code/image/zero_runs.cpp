@@ -13,8 +13,9 @@ using Bytes = std::span<const std::uint8_t>;
 // smaller in all, as the lengths of runs are chosen for their codes.
 constexpr std::size_t kLeastBytes = 4096, kMostBytes = std::size_t{1} << 24;
 constexpr std::size_t kZerosPerByte = 8; // at least so many bytes to one that isn't zero
-constexpr std::size_t kSampleOf = 16;
-constexpr std::size_t kPercentWorthMatches = 15; // of the bits
+// The bits that matches have to spare, of all bytes and, where more may be due to chance, of a
+// sample of one in so many.
+constexpr std::size_t kPercentWorthMatches = 16, kPercentOfSample = 20, kSampleOf = 16;
 
 // Which of 64 bytes aren't zero, the first one lowest, and how many.
 struct Nonzero {
@@ -63,25 +64,25 @@ bool findPlaces(Bytes bytes, std::vector<std::uint32_t>& places) {
     return count <= most;
 }
 
-// Would matches spare a good part of the block's bits? By the places in its middle: as the finder
-// of matcher.h would find them, at what they and the places usually take.
-bool areWorthMatches(Bytes bytes, std::span<const std::uint32_t> places) {
-    constexpr std::size_t kMostPlaces = 2048, kEqual = MatchFinder::kShortMatch;
+// Would matches spare more of the block's bits? By the places in its middle: as the finder of
+// matcher.h would find them, at what they and the places usually take.
+bool areWorthMatches(Bytes bytes, std::span<const std::uint32_t> places, std::size_t percent) {
+    constexpr std::size_t kMostPlaces = 2048;
     constexpr std::size_t kPlaceBits = 9, kMatchBits = 24;
     constexpr unsigned kHashBits = 12;
     const std::size_t count = std::min(kMostPlaces, places.size());
     places = places.subspan((places.size() - count) / 2, count);
     std::array<std::uint32_t, 1 << kHashBits> latest{}; // by hash: place + 1; 0 is none
-    const auto firstAt = [&](std::size_t at) {
-        return loadLittle<std::uint64_t>(&bytes[at]) << (64 - 8 * kEqual);
-    };
+    const auto eightAt = [&](std::size_t at) { return loadLittle<std::uint64_t>(&bytes[at]); };
     std::size_t spared = 0, i = 0;
     while (i < places.size() && places[i] + 8 <= bytes.size()) {
         const std::size_t at = places[i];
-        const std::uint64_t here = firstAt(at);
-        std::uint32_t& entry = latest[here * 0x9E3779B97F4A7C15u >> (64 - kHashBits)];
+        const std::uint64_t here = eightAt(at);
+        std::uint32_t& entry = latest[MatchFinder::hashOf(here, kHashBits)];
         const std::size_t distance = at + 1 - entry;
-        const bool isMatch = entry != 0 && distance <= kWindow && firstAt(at - distance) == here;
+        const bool isMatch =
+            entry != 0 && distance <= kWindow &&
+            MatchFinder::isZero(here ^ eightAt(at - distance), MatchFinder::kShortMatch);
         entry = static_cast<std::uint32_t>(at + 1);
         std::size_t covered = 0;
         if (isMatch) {
@@ -93,7 +94,7 @@ bool areWorthMatches(Bytes bytes, std::span<const std::uint32_t> places) {
         if (spares) spared += covered * kPlaceBits - kMatchBits;
         i += spares ? covered : 1;
     }
-    return 100 * spared > kPercentWorthMatches * kPlaceBits * i;
+    return 100 * spared > percent * kPlaceBits * i;
 }
 
 // A gap of zeros: a zero, and behind it zeros or matches with the byte before. Gaps up to the
@@ -102,13 +103,13 @@ constexpr std::size_t kGaps = kLongestMatch + 1;
 constexpr std::size_t lengthSymbol(std::size_t length) {
     return kEndOfBlock + 1 + kLengthSlot[length];
 }
-
+// What is left of a long one.
 constexpr std::size_t firstOf(std::size_t zeros) { return (zeros - 1) % kLongestMatch + 1; }
 
 struct Gaps {
     std::array<std::uint32_t, kGaps> counts{}; // by zeros
     std::uint32_t longestMatches = 0;
-    // Which of them have a match. At first a guess.
+    // Which of them have a match; at first a guess.
     std::array<bool, kGaps> haveMatch = [] {
         std::array<bool, kGaps> have{};
         std::fill(have.begin() + 10, have.end(), true);
@@ -219,12 +220,14 @@ private:
 bool putZeroRuns(BitWriter& out, Bytes bytes, bool last) {
     if (bytes.size() < kLeastBytes || bytes.size() > kMostBytes) return false;
     thread_local std::vector<std::uint32_t> places; // the system need not clear it every time
-    // A look at the middle tells of most of the others that they aren't worth more.
-    const std::size_t sample = std::max(bytes.size() / kSampleOf, kLeastBytes);
-    for (const std::size_t size : {sample, bytes.size()}) {
+    const auto areRuns = [&](std::size_t size, std::size_t percent) {
         const Bytes middle = bytes.subspan((bytes.size() - size) / 2, size);
-        if (!findPlaces(middle, places) || areWorthMatches(middle, places)) return false;
-    }
+        return findPlaces(middle, places) && !areWorthMatches(middle, places, percent);
+    };
+    // A look at the middle tells of most of the others that they aren't worth more.
+    if (!areRuns(std::max(bytes.size() / kSampleOf, kLeastBytes), kPercentOfSample) ||
+        !areRuns(bytes.size(), kPercentWorthMatches))
+        return false;
 
     Gaps gaps;
     SymbolCounts single;
