@@ -40,7 +40,7 @@ struct Block {
         if (match.length == 0) return steps.push_back({count, 0, 0});
         const auto minusOne = static_cast<std::uint16_t>(match.distance - 1);
         steps.push_back({count, static_cast<std::uint16_t>(match.length), minusOne});
-        ++counts.literals[kEndOfBlock + 1 + kLengthSlot[match.length]];
+        ++counts.literals[lengthSymbol(match.length)];
         ++counts.distances[distanceSymbol(minusOne)];
     }
     std::size_t codes() const { return codes_; }
@@ -113,9 +113,7 @@ void putBlock(BitWriter& out, Block& block, bool last) {
     const DynamicCodes dynamic(block.counts);
     std::array<std::uint8_t, kDistanceCodes> fives{};
     fives.fill(5);
-    const std::uint64_t dynamicBits =
-        dynamic.headerBits() +
-        bitsOf(block.counts, dynamic.literalLengths(), dynamic.distanceLengths());
+    const std::uint64_t dynamicBits = dynamic.bits(block.counts);
     const std::uint64_t fixedBits = 3 + bitsOf(block.counts, kFixedLiteralLengths, fives);
     const std::uint64_t storedBits =
         3 + 8 * (block.bytes.size() + 5 * (block.bytes.size() / 65535 + 1));

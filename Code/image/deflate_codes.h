@@ -25,6 +25,9 @@ constexpr auto kLengthSlot = [] { // by length: which of them
             slot[i] = static_cast<std::uint8_t>(s);
     return slot;
 }();
+constexpr std::size_t lengthSymbol(std::size_t length) {
+    return kEndOfBlock + 1 + kLengthSlot[length];
+}
 constexpr auto kDistanceRanges = [] {
     std::array<CodeRange, kDistanceCodes> ranges{};
     unsigned base = 1;

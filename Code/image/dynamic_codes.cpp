@@ -1,5 +1,7 @@
 #include "image/dynamic_codes.h"
 
+#include <algorithm>
+
 std::uint64_t bitsOf(const SymbolCounts& counts, std::span<const std::uint8_t> literalLengths,
                      std::span<const std::uint8_t> distanceLengths) {
     std::uint64_t bits = 0;
@@ -62,8 +64,9 @@ std::vector<DynamicCodes::LengthToken> DynamicCodes::packed(std::span<const std:
     return tokens;
 }
 
-std::uint64_t DynamicCodes::headerBits() const {
-    std::uint64_t bits = 3 + 14 + 3 * orderCount_;
+std::uint64_t DynamicCodes::bits(const SymbolCounts& counts) const {
+    std::uint64_t bits =
+        3 + 14 + 3 * orderCount_ + bitsOf(counts, literalLengths_, distanceLengths_);
     for (const LengthToken& token : tokens_)
         bits += tokenLengths_[token.symbol] + unsigned{token.extraBits};
     return bits;

@@ -1,4 +1,4 @@
-// The Huffman codes of a dynamic block (RFC 1951 section 3.2.7), made for its symbol counts, and
+// The Huffman codes of a dynamic block (RFC 1951 section 3.2.7), made for symbol counts, and
 // the header that stores their lengths.
 // Private to image/.
 #pragma once
@@ -26,7 +26,8 @@ public:
 
     const std::vector<std::uint8_t>& literalLengths() const { return literalLengths_; }
     const std::vector<std::uint8_t>& distanceLengths() const { return distanceLengths_; }
-    std::uint64_t headerBits() const;
+    // Of a block, with its header.
+    std::uint64_t bits(const SymbolCounts& counts) const;
     void putHeader(BitWriter& out, bool last) const;
 
 private:

@@ -1,9 +1,13 @@
 #include "image/zero_runs.h"
 
-#include "image/dynamic_codes.h"
+#include "image/huffman.h"
 #include "image/matcher.h"
+#include "image/run_codes.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <vector>
 
 namespace {
 
@@ -97,124 +101,6 @@ bool areWorthMatches(Bytes bytes, std::span<const std::uint32_t> places, std::si
     return 100 * spared > percent * kPlaceBits * i;
 }
 
-// A gap of zeros: a zero, and behind it zeros or matches with the byte before. Gaps up to the
-// longest match have codes of their own; longer ones are such a gap and longest matches.
-constexpr std::size_t kGaps = kLongestMatch + 1;
-constexpr std::size_t lengthSymbol(std::size_t length) {
-    return kEndOfBlock + 1 + kLengthSlot[length];
-}
-// What is left of a long one.
-constexpr std::size_t firstOf(std::size_t zeros) { return (zeros - 1) % kLongestMatch + 1; }
-
-struct Gaps {
-    std::array<std::uint32_t, kGaps> counts{}; // by zeros
-    std::uint32_t longestMatches = 0;
-    // Which of them have a match; at first a guess.
-    std::array<bool, kGaps> haveMatch = [] {
-        std::array<bool, kGaps> have{};
-        std::fill(have.begin() + 10, have.end(), true);
-        return have;
-    }();
-
-    void add(std::size_t zeros) {
-        const std::size_t first = zeros < kGaps ? zeros : firstOf(zeros);
-        longestMatches += static_cast<std::uint32_t>((zeros - first) / kLongestMatch);
-        ++counts[first];
-    }
-    void addTo(SymbolCounts& symbols) const {
-        symbols.literals[lengthSymbol(kLongestMatch)] += longestMatches;
-        symbols.distances[0] += longestMatches;
-        for (std::size_t zeros = 1; zeros < kGaps; ++zeros) {
-            const std::uint32_t count = counts[zeros];
-            symbols.literals[0] +=
-                haveMatch[zeros] ? count : count * static_cast<std::uint32_t>(zeros);
-            if (!haveMatch[zeros]) continue;
-            symbols.literals[lengthSymbol(zeros - 1)] += count;
-            symbols.distances[0] += count;
-        }
-    }
-    // What is shorter with these codes.
-    void choose(const DynamicCodes& codes) {
-        constexpr unsigned kUnknown = 12; // of symbols that nothing used
-        const unsigned zero = codes.literalLengths()[0];
-        for (std::size_t zeros = 1 + kShortestMatch; zeros < kGaps; ++zeros) {
-            const unsigned known = codes.literalLengths()[lengthSymbol(zeros - 1)];
-            const unsigned match = (known != 0 ? known : kUnknown) +
-                                   kLengthRanges[kLengthSlot[zeros - 1]].extra +
-                                   codes.distanceLengths()[0];
-            haveMatch[zeros] = match < (zeros - 1) * zero;
-        }
-    }
-};
-
-class RunCodes {
-public:
-    RunCodes(const Gaps& gaps, const DynamicCodes& codes)
-        : literals_(canonicalCodes(codes.literalLengths())),
-          before_(canonicalCodes(codes.distanceLengths())[0]) {
-        for (std::size_t zeros = 1; zeros < kGaps; ++zeros) {
-            Code& code = gaps_[zeros];
-            const auto add = [&](std::uint64_t bits, unsigned length) {
-                if (code.length + length > kMostBits) {
-                    fit_ &= gaps.counts[zeros] == 0;
-                    return;
-                }
-                code.bits |= bits << code.length;
-                code.length += length;
-            };
-            const auto addCode = [&](HuffmanCode part) { add(part.bits, part.length); };
-            const std::size_t literals = gaps.haveMatch[zeros] ? 1 : zeros;
-            for (std::size_t i = 0; i < literals; ++i) addCode(literals_[0]);
-            if (!gaps.haveMatch[zeros]) continue;
-            const CodeRange range = kLengthRanges[kLengthSlot[zeros - 1]];
-            addCode(literals_[lengthSymbol(zeros - 1)]);
-            add(zeros - 1 - range.base, range.extra);
-            addCode(before_);
-        }
-    }
-    // Fails where zeros alone are so rare that some gap takes more bits than are put at once.
-    bool fit() const { return fit_; }
-
-    void put(BitWriter& out, Bytes bytes, std::span<const std::uint32_t> places) const {
-        BitWriter writer = std::move(out); // in registers: nothing written can be part of it
-        std::size_t next = 0;
-        for (const std::uint32_t place : places) {
-            putGap(writer, place - next);
-            writer.put(literals_[bytes[place]]);
-            writer.flush();
-            next = place + 1;
-        }
-        putGap(writer, bytes.size() - next);
-        writer.put(literals_[kEndOfBlock]);
-        writer.flush();
-        out = std::move(writer);
-    }
-
-private:
-    // With a byte behind it, a gap fits between two flushes; one with a match always does.
-    static constexpr unsigned kMostBits = 56 - kMaxCodeLength;
-    static_assert(kMaxCodeLength + kMaxCodeLength + 5 + 1 <= kMostBits);
-    struct Code {
-        std::uint64_t bits = 0;
-        unsigned length = 0;
-    };
-
-    void putGap(BitWriter& out, std::size_t zeros) const {
-        const std::size_t first = zeros < kGaps ? zeros : firstOf(zeros);
-        out.put(gaps_[first].bits, gaps_[first].length);
-        for (std::size_t left = zeros - first; left > 0; left -= kLongestMatch) {
-            out.flush();
-            out.put(literals_[lengthSymbol(kLongestMatch)]);
-            out.put(before_);
-        }
-    }
-
-    std::vector<HuffmanCode> literals_;
-    HuffmanCode before_; // the distance of the byte before
-    std::array<Code, kGaps> gaps_;
-    bool fit_ = true;
-};
-
 } // namespace
 
 bool putZeroRuns(BitWriter& out, Bytes bytes, bool last) {
@@ -245,15 +131,10 @@ bool putZeroRuns(BitWriter& out, Bytes bytes, bool last) {
         return counts;
     };
     // Which runs are worth a match depends on the codes, and these on it.
-    for (int round = 0; round < 2; ++round) gaps.choose(DynamicCodes(counted()));
-    const SymbolCounts counts = counted();
-    const DynamicCodes codes(counts);
-    const std::uint64_t bits = bitsOf(counts, codes.literalLengths(), codes.distanceLengths());
-
-    const RunCodes runs(gaps, codes);
-    if (!runs.fit()) return false;
-    out.reserveBits(codes.headerBits() + bits + 64);
-    codes.putHeader(out, last);
-    runs.put(out, bytes, places);
+    for (int round = 0; round < 2; ++round)
+        gaps.choose(huffmanLengths(counted().literals, kMaxCodeLength));
+    const RunCodes codes(gaps, counted());
+    if (!codes.fit()) return false;
+    codes.put(out, bytes, places, last);
     return true;
 }

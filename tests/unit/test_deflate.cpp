@@ -8,6 +8,7 @@
 #include "image/matcher.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -196,6 +197,9 @@ TEST(deflate_round_trips_structured_bytes) {
 TEST(deflate_round_trips_gaps_of_zeros) {
     std::uint32_t state = 5;
     const auto noise = [&] { return static_cast<std::uint8_t>(1 + nextRandom(state) % 255); };
+    const auto levelOf = [](std::uint32_t random) {
+        return static_cast<std::uint8_t>(1 + std::countl_zero(random << 8 | 0x80));
+    };
     // Gaps of every size about those of a match, of two and of three, in turn with small ones.
     Buffer gaps;
     for (std::size_t zeros = 0; zeros < 800; ++zeros) {
@@ -222,6 +226,17 @@ TEST(deflate_round_trips_gaps_of_zeros) {
         std::fill_n(clumps.begin() + 35'000, zeros, std::uint8_t{0});
         roundTrip(clumps);
     }
+    // Half of the bytes are 1, a quarter 2 and so on, and zeros outside a long run so rare that
+    // three of them, too few for a match, take more bits than are written at once.
+    constexpr std::size_t kEnd = 100'000, kNoise = 1500;
+    Buffer rare(1'800'000, 0);
+    for (std::size_t i = 0; i < kEnd; ++i) {
+        const auto value = [&] { return i < kNoise ? noise() : levelOf(nextRandom(state)); };
+        rare[kEnd - 1 - i] = value();
+        rare[rare.size() - kEnd + i] = value();
+    }
+    std::fill_n(rare.begin() + 50'000, 3, std::uint8_t{0});
+    CHECK_INFO(roundTrip(rare) < 100'000, roundTrip(rare));
 }
 
 // zlib packs the same bytes into 12,825 with runs alone (Z_RLE), into 13,441 at its level 6, which

@@ -1,0 +1,73 @@
+// A block of single bytes and runs of zeros: their codes, and the block written with them.
+// Private to image/.
+#pragma once
+
+#include "image/bit_writer.h"
+#include "image/deflate_codes.h"
+#include "image/dynamic_codes.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+// A gap of zeros: a zero, and behind it zeros or a match with the byte before. Gaps up to the
+// longest match have codes of their own; longer ones are such a gap and longest matches.
+class Gaps {
+public:
+    static constexpr std::size_t kSizes = kLongestMatch + 1;
+    // What is left of a long one.
+    static constexpr std::size_t firstOf(std::size_t zeros) {
+        return zeros < kSizes ? zeros : (zeros - 1) % kLongestMatch + 1;
+    }
+
+    void add(std::size_t zeros) {
+        const std::size_t first = firstOf(zeros);
+        longestMatches_ += static_cast<std::uint32_t>((zeros - first) / kLongestMatch);
+        ++counts_[first];
+    }
+    void addTo(SymbolCounts& symbols) const;
+    // Matches where they are shorter with these codes.
+    void choose(std::span<const std::uint8_t> literalLengths);
+
+    bool haveMatch(std::size_t zeros) const { return haveMatch_[zeros]; }
+    bool occur(std::size_t zeros) const { return counts_[zeros] > 0; }
+
+private:
+    std::array<std::uint32_t, kSizes> counts_{}; // by zeros
+    std::uint32_t longestMatches_ = 0;
+    std::array<bool, kSizes> haveMatch_ = [] { // at first a guess
+        std::array<bool, kSizes> have{};
+        for (std::size_t zeros = 10; zeros < kSizes; ++zeros) have[zeros] = true;
+        return have;
+    }();
+};
+
+class RunCodes {
+public:
+    // counts: of all that the block consists of.
+    RunCodes(const Gaps& gaps, const SymbolCounts& counts);
+
+    // Fails where zeros alone are so rare that some gap takes more bits than are put at once.
+    bool fit() const { return fit_; }
+    // places: of all bytes that aren't zero, in order.
+    void put(BitWriter& out, std::span<const std::uint8_t> bytes,
+             std::span<const std::uint32_t> places, bool last) const;
+
+private:
+    // With a byte behind it, a gap fits between two flushes; one with a match always does.
+    static constexpr unsigned kMostBits = 56 - kMaxCodeLength;
+    static_assert(kMaxCodeLength + kMaxCodeLength + 5 + 1 <= kMostBits);
+    struct Code {
+        std::uint64_t bits = 0;
+        unsigned length = 0;
+    };
+    void putGap(BitWriter& out, std::size_t zeros) const;
+
+    DynamicCodes codes_;
+    std::uint64_t bits_; // of the block
+    std::vector<HuffmanCode> literals_;
+    HuffmanCode before_; // the distance of the byte before
+    std::array<Code, Gaps::kSizes> gaps_;
+    bool fit_ = true;
+};
