@@ -1,11 +1,11 @@
 // Writes PNG: 8- or 16-bit RGB, filtered row by row, packed by deflate.h.
 #include "base/for_each.h"
 #include "base/in_order.h"
+#include "image/byte_lanes.h"
 #include "image/checksum.h"
 #include "image/deflate.h"
 #include "image/formats.h"
 #include "image/png.h"
-#include "image/png_filter.h"
 
 #include <algorithm>
 #include <cstring>
@@ -72,13 +72,14 @@ private:
         PngRow row(rowBytes_ - 1), above(rowBytes_ - 1);
         if (first > 0) encodeRow(first - 1, above);
         out.resize(rowBytes_ * (end - first));
+        const ByteLanes& lanes = byteLanes();
         std::span<std::uint8_t> left = out;
         for (std::size_t y = first; y < end; ++y, left = left.subspan(rowBytes_)) {
             if (y == 0 || !picture_.codes.empty())
                 encodeRow(y, row);
             else
                 encodeBelow(y, above, row);
-            const PngFilter filter = filterRow(row, above, pixelBytes_, left.subspan(1));
+            const PngFilter filter = lanes.filterRow(row, above, pixelBytes_, left.subspan(1));
             left[0] = static_cast<std::uint8_t>(filter);
             std::swap(row, above);
         }

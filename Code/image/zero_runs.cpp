@@ -1,5 +1,6 @@
 #include "image/zero_runs.h"
 
+#include "image/byte_lanes.h"
 #include "image/huffman.h"
 #include "image/matcher.h"
 #include "image/run_codes.h"
@@ -21,51 +22,9 @@ constexpr std::size_t kZerosPerByte = 8; // at least so many bytes to one that i
 // sample of one in so many.
 constexpr std::size_t kPercentWorthMatches = 16, kPercentOfSample = 20, kSampleOf = 16;
 
-// Which of 64 bytes aren't zero, the first one lowest, and how many.
-struct Nonzero {
-    std::uint64_t mask = 0;
-    std::size_t count = 0;
-};
-Nonzero nonzeroOf64(const std::uint8_t* from) {
-    constexpr std::uint64_t kLow = 0x7F7F7F7F7F7F7F7F;
-    Nonzero found;
-    for (unsigned i = 0; i < 8; ++i) {
-        const auto eight = loadLittle<std::uint64_t>(from + 8 * i);
-        const std::uint64_t ones = ((((eight & kLow) + kLow) | eight) & ~kLow) >> 7;
-        // The products gather the eight bits, and their sum, in the highest byte.
-        found.mask |= ones * 0x0102040810204080 >> 56 << 8 * i;
-        found.count += ones * 0x0101010101010101 >> 56;
-    }
-    return found;
-}
-bool isZero64(const std::uint8_t* from) {
-    std::uint64_t any = 0;
-    for (unsigned i = 0; i < 8; ++i) any |= loadLittle<std::uint64_t>(from + 8 * i);
-    return any == 0;
-}
-
 // Where the bytes that aren't zero stand, in order; false where there are too many.
 bool findPlaces(Bytes bytes, std::vector<std::uint32_t>& places) {
-    constexpr std::size_t kGroup = 4;
-    const std::size_t most = bytes.size() / kZerosPerByte;
-    places.resize(most + 64 + kGroup);
-    std::size_t count = 0, at = 0;
-    for (; at + 64 <= bytes.size() && count <= most; at += 64) {
-        if (isZero64(&bytes[at])) continue;
-        auto [mask, inThese] = nonzeroOf64(&bytes[at]);
-        const std::size_t end = count + inThese;
-        // In groups, whose number the processor guesses more often than that of the places; what
-        // is too much is overwritten.
-        for (; count < end; count += kGroup)
-            for (std::size_t k = 0; k < kGroup; ++k, mask &= mask - 1)
-                places[count + k] = static_cast<std::uint32_t>(
-                    at + static_cast<std::size_t>(std::countr_zero(mask)));
-        count = end;
-    }
-    for (; at < bytes.size() && count <= most; ++at)
-        if (bytes[at] != 0) places[count++] = static_cast<std::uint32_t>(at);
-    places.resize(count);
-    return count <= most;
+    return byteLanes().nonzeroPlaces(bytes, bytes.size() / kZerosPerByte, places);
 }
 
 // Would matches spare more of the block's bits? By the places in its middle: as the finder of

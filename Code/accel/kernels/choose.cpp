@@ -1,7 +1,7 @@
 // The table of kernels, and what the CPU has of it.
-#include "accel/kernels/cpu.h"
 #include "accel/kernels/instances.h"
 
+#include "base/cpu.h"
 #include "base/error.h"
 #include "base/text.h"
 

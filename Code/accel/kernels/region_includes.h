@@ -4,7 +4,7 @@
 
 #include "accel/kernels/exact_hit.h"
 #include "accel/kernels/pause.h"
-#include "accel/kernels/target.h"
+#include "base/target.h"
 #include "accel/triangle.h"
 #include "base/prefetch.h"
 

@@ -3,7 +3,7 @@
 #include "accel/kernels/build/visit_order.h"
 
 #if defined(__x86_64__)
-#include "accel/kernels/target.h"
+#include "base/target.h"
 
 #include <algorithm>
 #include <bit>

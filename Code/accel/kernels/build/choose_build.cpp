@@ -1,5 +1,5 @@
 #include "accel/kernels/build/instances.h"
-#include "accel/kernels/cpu.h"
+#include "base/cpu.h"
 
 #if defined(__x86_64__)
 namespace {

@@ -1,7 +1,8 @@
-// Code/image/png_filter.h against the filters as the PNG specification states them, byte by byte.
+// Code/image/byte_lanes.h of each width: the filters against those of the PNG specification, byte
+// by byte; the places of bytes that are not zero.
 #include "check.h"
 
-#include "image/png_filter.h"
+#include "image/byte_lanes.h"
 
 #include <algorithm>
 #include <array>
@@ -57,15 +58,17 @@ void put(PngRow& to, const Row& from) { std::copy(from.begin(), from.end(), to.b
 
 } // namespace
 
-TEST(png_filter_writes_what_the_specification_says) {
+namespace {
+
+void checkFilters(const ByteLanes& lanes) {
     std::array<int, kPngFilterCount> chosen{};
     std::uint32_t state = 3;
     constexpr std::uint32_t kRepeated = 5, kZeros = 6;
-    // Every length up to three vectors, and one that fills more than one block of sums.
-    for (std::size_t size = 3; size <= 51; ++size)
-        for (const std::size_t length : {size, std::size_t{4112}})
+    // Every length up to three vectors, and two that fill more than one block of sums.
+    for (std::size_t size = 3; size <= 99; ++size)
+        for (const std::size_t length : {size, std::size_t{4112}, std::size_t{4096 + 4096 + 7}})
             for (std::uint32_t kind = 0; kind < 7; ++kind) {
-                if (length == 4112 && size > 4) continue;
+                if (length > 99 && size > 4) continue;
                 const std::size_t pixelBytes = state >> 20 & 1 ? 3 : 6;
                 Row row(length), above(length);
                 fill(above, above, 0, state);
@@ -77,15 +80,13 @@ TEST(png_filter_writes_what_the_specification_says) {
                 put(here, row);
                 put(up, above);
                 Row out(length, 77);
-                const PngFilter filter = filterRow(here, up, pixelBytes, out);
+                const PngFilter filter = lanes.filterRow(here, up, pixelBytes, out);
                 ++chosen[static_cast<std::size_t>(filter)];
                 if (kind >= kRepeated)
                     CHECK(filter == (kind == kZeros ? PngFilter::None : PngFilter::Up));
                 CHECK_INFO(out == filtered(row, above, pixelBytes, filter),
-                           "length " << length << " kind " << kind << " filter "
-                                     << static_cast<int>(filter));
-                // The filling of the last vector is counted too; without any the sum is the least.
-                if (length % PngRow::kVector != 0) continue;
+                           lanes.name << " length " << length << " kind " << kind << " filter "
+                                      << static_cast<int>(filter));
                 for (const PngFilter other : {PngFilter::None, PngFilter::Sub, PngFilter::Up,
                                               PngFilter::Average, PngFilter::Paeth})
                     CHECK_INFO(cost(out) <= cost(filtered(row, above, pixelBytes, other)),
@@ -93,4 +94,36 @@ TEST(png_filter_writes_what_the_specification_says) {
                                          << static_cast<int>(other));
             }
     for (const int count : chosen) CHECK(count > 0);
+}
+
+} // namespace
+
+TEST(png_filter_writes_what_the_specification_says) {
+    for (const ByteLanes& lanes : allByteLanes())
+        if (lanes.supported()) checkFilters(lanes);
+}
+
+// Every number of bytes from none to two looks at 64 and more, from rare to all.
+TEST(nonzero_places_are_found_by_every_width) {
+    std::uint32_t state = 11;
+    for (std::size_t size = 0; size <= 200; ++size)
+        for (const std::uint32_t oneIn : {1u, 2u, 9u, 90u}) {
+            Row bytes(size);
+            std::vector<std::uint32_t> expected;
+            for (std::uint32_t i = 0; i < size; ++i) {
+                state = state * 1664525u + 1013904223u;
+                if ((state >> 8) % oneIn != 0) continue;
+                bytes[i] = static_cast<std::uint8_t>(state >> 24 | (i % 2 == 0 ? 1 : 128));
+                expected.push_back(i);
+            }
+            for (const ByteLanes& lanes : allByteLanes()) {
+                if (!lanes.supported()) continue;
+                std::vector<std::uint32_t> places(7, 5); // of any content
+                CHECK(lanes.nonzeroPlaces(bytes, expected.size(), places));
+                CHECK_INFO(places == expected,
+                           lanes.name << " size " << size << " one in " << oneIn);
+                if (!expected.empty())
+                    CHECK(!lanes.nonzeroPlaces(bytes, expected.size() - 1, places));
+            }
+        }
 }

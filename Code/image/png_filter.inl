@@ -1,13 +1,9 @@
-#include "image/png_filter.h"
-
-#include <algorithm>
-#include <array>
-#include <cstring>
+// Filters a row of a PNG picture so that it packs well. Knows bytes only, no colours and no files.
+// byte_lanes.h says what; the file that includes this says how many bytes are a vector: kVector.
 
 namespace {
 
-// Vectors of the compiler: 16 bytes are one register on every machine.
-constexpr std::size_t kVector = PngRow::kVector;
+// Vectors of the compiler.
 using Lanes __attribute__((vector_size(kVector))) = std::uint8_t;
 using Sums __attribute__((vector_size(kVector))) = std::uint16_t;
 
@@ -20,7 +16,7 @@ Lanes smaller(Lanes a, Lanes b) { return a < b ? a : b; }
 Lanes larger(Lanes a, Lanes b) { return a > b ? a : b; }
 Lanes difference(Lanes a, Lanes b) { return larger(a, b) - smaller(a, b); }
 
-// The neighbours of 16 bytes: see PngFilter.
+// The neighbours of a vector's bytes: see PngFilter.
 struct Neighbours {
     Lanes a, b, c;
 };
@@ -49,12 +45,14 @@ template <PngFilter filter> Lanes predict(const Neighbours& n) {
     if constexpr (filter == PngFilter::Paeth) return paeth(n);
 }
 
-// One colour as far as the 16 bytes and their neighbours reach?
+// One colour as far as the bytes and their neighbours reach?
 bool isPlain(Lanes here, const Neighbours& n) {
     const Lanes different = (here ^ n.a) | (here ^ n.b) | (here ^ n.c);
-    std::array<std::uint64_t, 2> halves;
-    std::memcpy(halves.data(), &different, sizeof different);
-    return (halves[0] | halves[1]) == 0;
+    std::array<std::uint64_t, kVector / 8> parts;
+    std::memcpy(parts.data(), &different, sizeof different);
+    std::uint64_t any = 0;
+    for (const std::uint64_t part : parts) any |= part;
+    return any == 0;
 }
 
 class RowFilter {
@@ -65,19 +63,13 @@ public:
     std::array<std::uint64_t, kPngFilterCount> costs() const {
         std::array<std::uint64_t, kPngFilterCount> out{};
         constexpr std::size_t kPiece = 128 * kVector; // sums of at most 128 * 256
+        const std::size_t whole = row_.size() / kVector * kVector;
         for (std::size_t start = 0; start < row_.size(); start += kPiece) {
-            const std::size_t end = std::min(row_.size(), start + kPiece);
-            std::array<Sums, kPngFilterCount> sums{};
-            for (std::size_t i = start; i < end; i += kVector) {
-                const Lanes here = load(row_.data() + i);
-                const Neighbours n = neighbours(i);
-                addTo<PngFilter::None>(sums, here, n);
-                if (isPlain(here, n)) continue; // the others leave nothing
-                addTo<PngFilter::Sub>(sums, here, n);
-                addTo<PngFilter::Up>(sums, here, n);
-                addTo<PngFilter::Average>(sums, here, n);
-                addTo<PngFilter::Paeth>(sums, here, n);
-            }
+            AllSums sums{};
+            const std::size_t end = std::min(whole, start + kPiece);
+            for (std::size_t i = start; i < end; i += kVector) addVector(sums, i, ~Lanes{});
+            if (end == whole && end < start + kPiece && whole < row_.size())
+                addVector(sums, whole, firstLanes(row_.size() - whole));
             for (std::size_t f = 0; f < kPngFilterCount; ++f)
                 for (std::size_t lane = 0; lane < kVector / 2; ++lane) out[f] += sums[f][lane];
         }
@@ -105,9 +97,28 @@ private:
         const std::uint8_t* const up = above_.data() + i;
         return {load(left), load(up), load(up - pixelBytes_)};
     }
+    using AllSums = std::array<Sums, kPngFilterCount>;
+    // All bits of so many.
+    static Lanes firstLanes(std::size_t count) {
+        std::array<std::uint8_t, kVector> bytes{};
+        std::fill_n(bytes.begin(), count, std::uint8_t{0xFF});
+        return load(bytes.data());
+    }
+    // What the filters leave of the bytes from i on that are in the mask.
+    [[gnu::always_inline]] void addVector(AllSums& sums, std::size_t i, Lanes mask) const {
+        const Lanes here = load(row_.data() + i);
+        const Neighbours n = neighbours(i);
+        addTo<PngFilter::None>(sums, here, n, mask);
+        if (isPlain(here, n)) return; // the others leave nothing
+        addTo<PngFilter::Sub>(sums, here, n, mask);
+        addTo<PngFilter::Up>(sums, here, n, mask);
+        addTo<PngFilter::Average>(sums, here, n, mask);
+        addTo<PngFilter::Paeth>(sums, here, n, mask);
+    }
     template <PngFilter filter>
-    static void addTo(std::array<Sums, kPngFilterCount>& sums, Lanes here, const Neighbours& n) {
-        const Lanes filtered = here - predict<filter>(n);
+    [[gnu::always_inline]] static void addTo(AllSums& sums, Lanes here, const Neighbours& n,
+                                             Lanes mask) {
+        const Lanes filtered = (here - predict<filter>(n)) & mask;
         const Sums sizes = reinterpret_cast<Sums>(smaller(filtered, -filtered));
         sums[static_cast<std::size_t>(filter)] += (sizes & 0xFF) + (sizes >> 8);
     }

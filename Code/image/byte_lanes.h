@@ -1,0 +1,38 @@
+// ByteLanes: what PNG writing does with many bytes at a time, once for each width of registers. All
+// give the same bytes.
+// Private to image/.
+#pragma once
+
+#include "image/png.h"
+#include "image/png_row.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+struct ByteLanes {
+    const char* name;
+    bool (*supported)(); // by this CPU
+
+    // Writes the row to `out` with the filter whose bytes, as signed numbers without their signs,
+    // have the smallest sum (PNG specification, 12.7; of equal sums the first filter). `above` is
+    // as long.
+    PngFilter (*filterRow)(const PngRow& row, const PngRow& above, std::size_t pixelBytes,
+                           std::span<std::uint8_t> out);
+    // Where the bytes that aren't zero stand, in order; false where there are more than `most`, of
+    // which some are left out then.
+    bool (*nonzeroPlaces)(std::span<const std::uint8_t> bytes, std::size_t most,
+                          std::vector<std::uint32_t>& places);
+};
+
+// The widest first.
+std::span<const ByteLanes> allByteLanes();
+// The widest that this CPU has.
+const ByteLanes& byteLanes();
+
+// Which of 64 bytes aren't zero, the first one lowest, and how many.
+struct Nonzero {
+    std::uint64_t mask = 0;
+    std::size_t count = 0;
+};
