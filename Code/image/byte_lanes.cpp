@@ -14,6 +14,7 @@ namespace byte_lanes {
 namespace avx2 {
 PngFilter filterRow(const PngRow&, const PngRow&, std::size_t, std::span<std::uint8_t>);
 bool nonzeroPlaces(std::span<const std::uint8_t>, std::size_t, std::vector<std::uint32_t>&);
+std::size_t addToAdler(AdlerSums&, std::span<const std::uint8_t>);
 } // namespace avx2
 #endif
 
@@ -40,6 +41,39 @@ bool isZero64(const std::uint8_t* from) {
     return any == 0;
 }
 
+// Lane by lane, `bytes` are the sums of the bytes and `before` of what these were before each
+// vector.
+constexpr std::size_t kVectors = 23; // 255 * 23 * 22 / 2 < 2^16
+constexpr std::size_t kBlock = kVector * kVectors;
+void addBlock(AdlerSums& sums, const std::uint8_t* from) {
+    using Pairs __attribute__((vector_size(kVector))) = std::uint16_t;
+    constexpr int kFirst = std::endian::native == std::endian::little ? 0 : 8;
+    Pairs firstBytes{}, secondBytes{}, firstBefore{}, secondBefore{}; // of each two bytes
+    for (std::size_t i = 0; i < kVectors; ++i) {
+        Pairs pairs;
+        std::memcpy(&pairs, from + i * kVector, sizeof pairs);
+        firstBefore += firstBytes;
+        secondBefore += secondBytes;
+        firstBytes += pairs >> kFirst & 0xFF;
+        secondBytes += pairs >> (8 - kFirst) & 0xFF;
+    }
+    std::uint32_t sum = 0, before = 0, inVector = 0;
+    for (std::size_t k = 0; k < kVector / 2; ++k) {
+        const auto weight = static_cast<std::uint32_t>(kVector - 2 * k);
+        sum += std::uint32_t{firstBytes[k]} + secondBytes[k];
+        before += std::uint32_t{firstBefore[k]} + secondBefore[k];
+        inVector += weight * firstBytes[k] + (weight - 1) * secondBytes[k];
+    }
+    sums.b += static_cast<std::uint32_t>(kBlock) * sums.a +
+              static_cast<std::uint32_t>(kVector) * before + inVector;
+    sums.a += sum;
+}
+std::size_t addToAdler(AdlerSums& sums, std::span<const std::uint8_t> bytes) {
+    std::size_t at = 0;
+    for (; at + kBlock <= bytes.size(); at += kBlock) addBlock(sums, &bytes[at]);
+    return at;
+}
+
 bool always() { return true; }
 
 } // namespace
@@ -54,9 +88,9 @@ std::span<const ByteLanes> allByteLanes() {
     using namespace byte_lanes;
     static constexpr ByteLanes kTable[] = {
 #if defined(__x86_64__)
-        {"avx2", hasAvx2, avx2::filterRow, avx2::nonzeroPlaces},
+        {"avx2", hasAvx2, avx2::filterRow, avx2::nonzeroPlaces, avx2::addToAdler},
 #endif
-        {"plain", plain::always, plain::filterRow, plain::nonzeroPlaces},
+        {"plain", plain::always, plain::filterRow, plain::nonzeroPlaces, plain::addToAdler},
     };
     return kTable;
 }

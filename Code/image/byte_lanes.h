@@ -11,6 +11,11 @@
 #include <span>
 #include <vector>
 
+// Adler-32's sums without their modulus: a of the bytes, b of a after each byte.
+struct AdlerSums {
+    std::uint32_t a, b;
+};
+
 struct ByteLanes {
     const char* name;
     bool (*supported)(); // by this CPU
@@ -24,6 +29,9 @@ struct ByteLanes {
     // which some are left out then.
     bool (*nonzeroPlaces)(std::span<const std::uint8_t> bytes, std::size_t most,
                           std::vector<std::uint32_t>& places);
+    // Adds bytes, so few that the sums stay below 2^32: from the front as many as make whole
+    // blocks, which is what it returns; less than 512 are left.
+    std::size_t (*addToAdler)(AdlerSums& sums, std::span<const std::uint8_t> bytes);
 };
 
 // The widest first.

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cstring>
 #include <immintrin.h>
+#include <numeric>
 
 AVX2_REGION_BEGIN
 namespace byte_lanes::avx2 {
@@ -34,7 +35,34 @@ bool isZero64(const std::uint8_t* from) {
     return _mm256_testz_si256(any, any) != 0;
 }
 
+std::uint32_t sumOfLanes(__m256i lanes) {
+    std::array<std::uint32_t, 8> parts;
+    std::memcpy(parts.data(), &lanes, sizeof lanes);
+    return std::accumulate(parts.begin(), parts.end(), std::uint32_t{0});
+}
+
 } // namespace
+
+std::size_t addToAdler(AdlerSums& sums, std::span<const std::uint8_t> bytes) {
+    // What a byte adds to b until the end of its vector: it is in as many values of a.
+    const __m256i weights =
+        _mm256_setr_epi8(32, 31, 30, 29, 28, 27, 26, 25, 24, 23, 22, 21, 20, 19, 18, 17, 16, 15, 14,
+                         13, 12, 11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1);
+    const __m256i zero = _mm256_setzero_si256(), ones = _mm256_set1_epi16(1);
+    __m256i sum = zero, before = zero, inVectors = zero; // `before`: of `sum` before each vector
+    std::size_t at = 0;
+    for (; at + kVector <= bytes.size(); at += kVector) {
+        const __m256i here = load32(&bytes[at]);
+        before = _mm256_add_epi32(before, sum);
+        sum = _mm256_add_epi32(sum, _mm256_sad_epu8(here, zero));
+        const __m256i pairs = _mm256_maddubs_epi16(here, weights); // at most 255 * 63 < 2^15
+        inVectors = _mm256_add_epi32(inVectors, _mm256_madd_epi16(pairs, ones));
+    }
+    sums.b += static_cast<std::uint32_t>(at) * sums.a +
+              static_cast<std::uint32_t>(kVector) * sumOfLanes(before) + sumOfLanes(inVectors);
+    sums.a += sumOfLanes(sum);
+    return at;
+}
 
 #include "image/nonzero_places.inl"
 #include "image/png_filter.inl"

@@ -1,10 +1,9 @@
 #include "image/checksum.h"
 
+#include "image/byte_lanes.h"
+
 #include <algorithm>
 #include <array>
-#include <bit>
-#include <cstddef>
-#include <cstring>
 
 namespace {
 
@@ -25,47 +24,6 @@ constexpr auto kCrc = [] {
 }();
 
 constexpr std::uint32_t kModulus = 65521; // of Adler-32: the largest prime below 2^16
-
-// Adler-32's sums without their modulus: a of the bytes, b of a after each byte.
-struct Adler {
-    std::uint32_t a, b;
-
-    void add(std::span<const std::uint8_t> bytes) {
-        for (const std::uint8_t byte : bytes) {
-            a += byte;
-            b += a;
-        }
-    }
-
-    // Vectors of the compiler: 16 bytes are one register on every machine. Lane by lane, `bytes`
-    // are the sums of the bytes and `before` of what these were before each vector.
-    static constexpr std::size_t kLanes = 16;
-    static constexpr std::size_t kVectors = 23; // 255 * 23 * 22 / 2 < 2^16
-    static constexpr std::size_t kBlock = kLanes * kVectors;
-    void addBlock(const std::uint8_t* from) {
-        using Sums __attribute__((vector_size(kLanes))) = std::uint16_t;
-        constexpr int kFirst = std::endian::native == std::endian::little ? 0 : 8;
-        Sums firstBytes{}, secondBytes{}, firstBefore{}, secondBefore{}; // of each two bytes
-        for (std::size_t i = 0; i < kVectors; ++i) {
-            Sums pairs;
-            std::memcpy(&pairs, from + i * kLanes, sizeof pairs);
-            firstBefore += firstBytes;
-            secondBefore += secondBytes;
-            firstBytes += pairs >> kFirst & 0xFF;
-            secondBytes += pairs >> (8 - kFirst) & 0xFF;
-        }
-        std::uint32_t sum = 0, before = 0, inVector = 0;
-        for (std::size_t k = 0; k < kLanes / 2; ++k) {
-            const auto weight = static_cast<std::uint32_t>(kLanes - 2 * k);
-            sum += std::uint32_t{firstBytes[k]} + secondBytes[k];
-            before += std::uint32_t{firstBefore[k]} + secondBefore[k];
-            inVector += weight * firstBytes[k] + (weight - 1) * secondBytes[k];
-        }
-        b += static_cast<std::uint32_t>(kBlock) * a + static_cast<std::uint32_t>(kLanes) * before +
-             inVector;
-        a += sum;
-    }
-};
 
 } // namespace
 
@@ -88,13 +46,15 @@ std::uint32_t crc32(std::span<const std::uint8_t> bytes, std::uint32_t before) {
 
 std::uint32_t adler32(std::span<const std::uint8_t> bytes, std::uint32_t before) {
     constexpr std::size_t kNoOverflow = 5552; // the longest run that keeps b below 2^32 (zlib)
-    Adler sums{before & 0xFFFF, before >> 16};
+    const ByteLanes& lanes = byteLanes();
+    AdlerSums sums{before & 0xFFFF, before >> 16};
     while (!bytes.empty()) {
-        auto part = bytes.first(std::min(bytes.size(), kNoOverflow));
+        const auto part = bytes.first(std::min(bytes.size(), kNoOverflow));
         bytes = bytes.subspan(part.size());
-        for (; part.size() >= Adler::kBlock; part = part.subspan(Adler::kBlock))
-            sums.addBlock(part.data());
-        sums.add(part);
+        for (const std::uint8_t byte : part.subspan(lanes.addToAdler(sums, part))) {
+            sums.a += byte;
+            sums.b += sums.a;
+        }
         sums.a %= kModulus;
         sums.b %= kModulus;
     }

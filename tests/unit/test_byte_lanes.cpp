@@ -1,5 +1,5 @@
 // Code/image/byte_lanes.h of each width: the filters against those of the PNG specification, byte
-// by byte; the places of bytes that are not zero.
+// by byte; the places of bytes that are not zero; sums of Adler-32.
 #include "check.h"
 
 #include "image/byte_lanes.h"
@@ -124,6 +124,29 @@ TEST(nonzero_places_are_found_by_every_width) {
                            lanes.name << " size " << size << " one in " << oneIn);
                 if (!expected.empty())
                     CHECK(!lanes.nonzeroPlaces(bytes, expected.size() - 1, places));
+            }
+        }
+}
+
+// Up to the most that adler32() hands on, the largest bytes and sums as well: nothing may overflow.
+TEST(adler_sums_are_added_by_every_width) {
+    std::uint32_t state = 5;
+    for (const std::uint32_t least : {0u, 255u})
+        for (std::size_t size = 0; size <= 5552; size += size < 800 ? 1 : 297) {
+            Row bytes(size);
+            for (std::uint8_t& byte : bytes) {
+                state = state * 1664525u + 1013904223u;
+                byte = static_cast<std::uint8_t>(state >> 24 | least);
+            }
+            for (const ByteLanes& lanes : allByteLanes()) {
+                if (!lanes.supported()) continue;
+                AdlerSums sums{65520, 65520};
+                const std::size_t added = lanes.addToAdler(sums, bytes);
+                CHECK(added <= size && size - added < 512);
+                std::uint64_t a = 65520, b = 65520;
+                for (std::size_t i = 0; i < added; ++i) b += a += bytes[i];
+                CHECK_INFO(sums.a == a && sums.b == b,
+                           lanes.name << " " << size << " bytes of at least " << least);
             }
         }
 }
