@@ -56,10 +56,6 @@ void fill(Row& row, const Row& above, std::uint32_t kind, std::uint32_t& state) 
 
 void put(PngRow& to, const Row& from) { std::copy(from.begin(), from.end(), to.bytes().begin()); }
 
-} // namespace
-
-namespace {
-
 void checkFilters(const ByteLanes& lanes) {
     std::array<int, kPngFilterCount> chosen{};
     std::uint32_t state = 3;
@@ -90,8 +86,8 @@ void checkFilters(const ByteLanes& lanes) {
                 for (const PngFilter other : {PngFilter::None, PngFilter::Sub, PngFilter::Up,
                                               PngFilter::Average, PngFilter::Paeth})
                     CHECK_INFO(cost(out) <= cost(filtered(row, above, pixelBytes, other)),
-                               "length " << length << " kind " << kind << " other "
-                                         << static_cast<int>(other));
+                               lanes.name << " length " << length << " kind " << kind << " other "
+                                          << static_cast<int>(other));
             }
     for (const int count : chosen) CHECK(count > 0);
 }

@@ -4,9 +4,9 @@
 
 #include "accel/kernels/exact_hit.h"
 #include "accel/kernels/pause.h"
-#include "base/target.h"
 #include "accel/triangle.h"
 #include "base/prefetch.h"
+#include "base/target.h"
 
 #include <algorithm>
 #include <array>
