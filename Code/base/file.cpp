@@ -70,20 +70,26 @@ bool takeRoom([[maybe_unused]] std::FILE* file, [[maybe_unused]] std::size_t byt
 #endif
 }
 
-// Writes and closes; nothing is on the disk for sure before fclose() succeeds.
+// Writes and closes; nothing is on the disk for sure before fclose() succeeds. Small pieces are
+// gathered: the system takes many pages at once in a third of the time, and knows the size of a
+// small file before it has any of it.
 void writeBytes(const std::string& path, const std::string& fileName, std::size_t expected,
                 const ByteSource& produce) {
+    constexpr std::size_t kGathered = std::size_t{1} << 20;
+    const auto buffer = std::make_unique_for_overwrite<char[]>(kGathered);
     File file(std::fopen(path.c_str(), "wb"));
     if (!file) failWriting(fileName, errno);
-    // Pieces are large: gathering them in a buffer would only copy them.
-    static_cast<void>(std::setvbuf(file.get(), nullptr, _IONBF, 0));
-    const bool hasRoom = takeRoom(file.get(), expected);
+    static_cast<void>(std::setvbuf(file.get(), buffer.get(), _IOFBF, kGathered));
     std::size_t written = 0;
+    bool hasRoom = false;
     produce([&](std::span<const std::uint8_t> bytes) {
+        if (written <= kGathered && written + bytes.size() > kGathered)
+            hasRoom = takeRoom(file.get(), expected);
         if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
             failWriting(fileName, errno);
         written += bytes.size();
     });
+    if (written <= kGathered && expected > 0) takeRoom(file.get(), written);
     // Gives back what was too much.
     if (hasRoom && written < expected &&
         (std::fflush(file.get()) != 0 ||

@@ -12,7 +12,8 @@
 namespace byte_lanes {
 #if defined(__x86_64__)
 namespace avx2 {
-PngFilter filterRow(const PngRow&, const PngRow&, std::size_t, std::span<std::uint8_t>);
+PngFilter filterRow(std::span<const std::uint8_t>, std::span<const std::uint8_t>, std::size_t,
+                    std::span<std::uint8_t>);
 bool nonzeroPlaces(std::span<const std::uint8_t>, std::size_t, std::vector<std::uint32_t>&);
 std::size_t addToAdler(AdlerSums&, std::span<const std::uint8_t>);
 } // namespace avx2

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "image/png.h"
-#include "image/png_row.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -22,9 +21,9 @@ struct ByteLanes {
 
     // Writes the row to `out` with the filter whose bytes, as signed numbers without their signs,
     // have the smallest sum (PNG specification, 12.7; of equal sums the first filter). `above` is
-    // as long.
-    PngFilter (*filterRow)(const PngRow& row, const PngRow& above, std::size_t pixelBytes,
-                           std::span<std::uint8_t> out);
+    // as long; zeros for the first row.
+    PngFilter (*filterRow)(std::span<const std::uint8_t> row, std::span<const std::uint8_t> above,
+                           std::size_t pixelBytes, std::span<std::uint8_t> out);
     // Where the bytes that aren't zero stand, in order; false where there are more than `most`, of
     // which some are left out then.
     bool (*nonzeroPlaces)(std::span<const std::uint8_t> bytes, std::size_t most,

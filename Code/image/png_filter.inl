@@ -55,21 +55,24 @@ bool isPlain(Lanes here, const Neighbours& n) {
     return any == 0;
 }
 
+// Of rows that are two vectors or more.
 class RowFilter {
 public:
-    RowFilter(const PngRow& row, const PngRow& above, std::size_t pixelBytes)
+    RowFilter(std::span<const std::uint8_t> row, std::span<const std::uint8_t> above,
+              std::size_t pixelBytes)
         : row_(row), above_(above), pixelBytes_(pixelBytes) {}
 
     std::array<std::uint64_t, kPngFilterCount> costs() const {
         std::array<std::uint64_t, kPngFilterCount> out{};
-        constexpr std::size_t kPiece = 128 * kVector; // sums of at most 128 * 256
+        constexpr std::size_t kPiece = 128 * kVector; // sums of at most 129 * 256
         const std::size_t whole = row_.size() / kVector * kVector;
-        for (std::size_t start = 0; start < row_.size(); start += kPiece) {
+        for (std::size_t start = 0; start < whole; start += kPiece) {
             AllSums sums{};
             const std::size_t end = std::min(whole, start + kPiece);
-            for (std::size_t i = start; i < end; i += kVector) addVector(sums, i, ~Lanes{});
-            if (end == whole && end < start + kPiece && whole < row_.size())
-                addVector(sums, whole, firstLanes(row_.size() - whole));
+            std::size_t i = start;
+            if (i == 0) addTo(sums, first(), ~Lanes{}), i += kVector;
+            for (; i < end; i += kVector) addTo(sums, at(i), ~Lanes{});
+            if (end == whole) addTo(sums, at(lastAt()), lastLanes(row_.size() - whole));
             for (std::size_t f = 0; f < kPngFilterCount; ++f)
                 for (std::size_t lane = 0; lane < kVector / 2; ++lane) out[f] += sums[f][lane];
         }
@@ -77,67 +80,69 @@ public:
     }
 
     template <PngFilter filter> void write(std::span<std::uint8_t> out) const {
-        const auto lanesAt = [&](std::size_t i) {
-            return load(row_.data() + i) - predict<filter>(neighbours(i));
-        };
-        std::size_t i = 0;
-        for (; i + kVector <= row_.size(); i += kVector) { // a size that is known: one store
-            const Lanes lanes = lanesAt(i);
+        const auto put = [&](std::size_t i, const Place& place) { // a size that is known: one store
+            const Lanes lanes = place.here - predict<filter>(place.near);
             std::memcpy(out.data() + i, &lanes, kVector);
-        }
-        if (i == row_.size()) return;
-        const Lanes lanes = lanesAt(i);
-        std::memcpy(out.data() + i, &lanes, row_.size() - i);
+        };
+        put(0, first());
+        for (std::size_t i = kVector; i < lastAt(); i += kVector) put(i, at(i));
+        put(lastAt(), at(lastAt()));
     }
 
 private:
-    Neighbours neighbours(std::size_t i) const {
-        // In front of the row for its first pixel: see PngRow.
-        const std::uint8_t* const left = row_.data() + i - pixelBytes_;
-        const std::uint8_t* const up = above_.data() + i;
-        return {load(left), load(up), load(up - pixelBytes_)};
-    }
+    struct Place {
+        Lanes here;
+        Neighbours near;
+    };
     using AllSums = std::array<Sums, kPngFilterCount>;
-    // All bits of so many.
-    static Lanes firstLanes(std::size_t count) {
-        std::array<std::uint8_t, kVector> bytes{};
-        std::fill_n(bytes.begin(), count, std::uint8_t{0xFF});
+
+    // i > 0.
+    [[gnu::always_inline]] Place at(std::size_t i) const {
+        const std::uint8_t* const here = row_.data() + i;
+        const std::uint8_t* const up = above_.data() + i;
+        return {load(here), {load(here - pixelBytes_), load(up), load(up - pixelBytes_)}};
+    }
+    // Has zeros at its left.
+    Place first() const {
+        const Lanes here = load(row_.data()), up = load(above_.data());
+        return {here, {movedRight(here), up, movedRight(up)}};
+    }
+    Lanes movedRight(Lanes lanes) const {
+        std::array<std::uint8_t, kVector + 8> bytes{}; // a pixel has at most 8
+        std::memcpy(bytes.data() + pixelBytes_, &lanes, kVector);
         return load(bytes.data());
     }
-    // What the filters leave of the bytes from i on that are in the mask.
-    [[gnu::always_inline]] void addVector(AllSums& sums, std::size_t i, Lanes mask) const {
-        const Lanes here = load(row_.data() + i);
-        const Neighbours n = neighbours(i);
-        addTo<PngFilter::None>(sums, here, n, mask);
-        if (isPlain(here, n)) return; // the others leave nothing
-        addTo<PngFilter::Sub>(sums, here, n, mask);
-        addTo<PngFilter::Up>(sums, here, n, mask);
-        addTo<PngFilter::Average>(sums, here, n, mask);
-        addTo<PngFilter::Paeth>(sums, here, n, mask);
+    // Where the last vector starts, among the bytes of the one before if the row isn't whole
+    // vectors.
+    std::size_t lastAt() const { return row_.size() - kVector; }
+    static Lanes lastLanes(std::size_t count) { // all bits of so many
+        std::array<std::uint8_t, 2 * kVector> bytes{};
+        std::fill_n(bytes.begin() + kVector, kVector, std::uint8_t{0xFF});
+        return load(bytes.data() + count);
+    }
+
+    // What the filters leave of the bytes that are in the mask.
+    [[gnu::always_inline]] static void addTo(AllSums& sums, const Place& place, Lanes mask) {
+        add<PngFilter::None>(sums, place, mask);
+        if (isPlain(place.here, place.near)) return; // the others leave nothing
+        add<PngFilter::Sub>(sums, place, mask);
+        add<PngFilter::Up>(sums, place, mask);
+        add<PngFilter::Average>(sums, place, mask);
+        add<PngFilter::Paeth>(sums, place, mask);
     }
     template <PngFilter filter>
-    [[gnu::always_inline]] static void addTo(AllSums& sums, Lanes here, const Neighbours& n,
-                                             Lanes mask) {
-        const Lanes filtered = (here - predict<filter>(n)) & mask;
+    [[gnu::always_inline]] static void add(AllSums& sums, const Place& place, Lanes mask) {
+        const Lanes filtered = (place.here - predict<filter>(place.near)) & mask;
         const Sums sizes = reinterpret_cast<Sums>(smaller(filtered, -filtered));
         sums[static_cast<std::size_t>(filter)] += (sizes & 0xFF) + (sizes >> 8);
     }
 
-    const PngRow& row_;
-    const PngRow& above_;
+    std::span<const std::uint8_t> row_, above_;
     std::size_t pixelBytes_;
 };
 
-} // namespace
-
-PngFilter filterRow(const PngRow& row, const PngRow& above, std::size_t pixelBytes,
-                    std::span<std::uint8_t> out) {
-    // The same row again, as in a plain background: Up leaves nothing, None is as good for zeros.
-    if (std::memcmp(row.data(), above.data(), row.size()) == 0) {
-        std::fill_n(out.begin(), row.size(), std::uint8_t{0});
-        const bool isZero = std::memcmp(row.data(), out.data(), row.size()) == 0;
-        return isZero ? PngFilter::None : PngFilter::Up;
-    }
+PngFilter filterLongRow(std::span<const std::uint8_t> row, std::span<const std::uint8_t> above,
+                        std::size_t pixelBytes, std::span<std::uint8_t> out) {
     const RowFilter filter(row, above, pixelBytes);
     const auto costs = filter.costs();
     const auto best =
@@ -150,4 +155,31 @@ PngFilter filterRow(const PngRow& row, const PngRow& above, std::size_t pixelByt
     case PngFilter::Paeth: filter.write<PngFilter::Paeth>(out); break;
     }
     return best;
+}
+
+// With zeros in front, which the filters take for the pixels left of it and leave zeros.
+PngFilter filterShortRow(std::span<const std::uint8_t> row, std::span<const std::uint8_t> above,
+                         std::size_t pixelBytes, std::span<std::uint8_t> out) {
+    constexpr std::size_t kSize = 2 * kVector;
+    std::array<std::uint8_t, kSize> longRow{}, longAbove{}, longOut;
+    const auto start = static_cast<std::ptrdiff_t>(kSize - row.size());
+    std::copy(row.begin(), row.end(), longRow.begin() + start);
+    std::copy(above.begin(), above.end(), longAbove.begin() + start);
+    const PngFilter filter = filterLongRow(longRow, longAbove, pixelBytes, longOut);
+    std::copy(longOut.begin() + start, longOut.end(), out.begin());
+    return filter;
+}
+
+} // namespace
+
+PngFilter filterRow(std::span<const std::uint8_t> row, std::span<const std::uint8_t> above,
+                    std::size_t pixelBytes, std::span<std::uint8_t> out) {
+    // The same row again, as in a plain background: Up leaves nothing, None is as good for zeros.
+    if (std::memcmp(row.data(), above.data(), row.size()) == 0) {
+        std::fill_n(out.begin(), row.size(), std::uint8_t{0});
+        const bool isZero = std::memcmp(row.data(), out.data(), row.size()) == 0;
+        return isZero ? PngFilter::None : PngFilter::Up;
+    }
+    return row.size() < 2 * kVector ? filterShortRow(row, above, pixelBytes, out)
+                                    : filterLongRow(row, above, pixelBytes, out);
 }

@@ -69,32 +69,42 @@ private:
 
     // With their filter types in front.
     void filterRows(std::size_t first, std::size_t end, std::vector<std::uint8_t>& out) const {
-        PngRow row(rowBytes_ - 1), above(rowBytes_ - 1);
-        if (first > 0) encodeRow(first - 1, above);
+        const std::size_t size = rowBytes_ - 1;
+        const bool isCoded = !picture_.codes.empty();
+        std::vector<std::uint8_t> encoded[2]; // by turns
+        if (!isCoded)
+            for (auto& row : encoded) row.resize(size);
+        // above: the row before, if it is there.
+        const auto rowAt = [&](std::size_t y, Bytes above) -> Bytes {
+            if (isCoded) return picture_.codes.subspan(y * size, size);
+            std::vector<std::uint8_t>& row = encoded[y % 2];
+            if (above.empty())
+                picture_.encode(y * width_, width_, row);
+            else
+                encodeBelow(y, above, row);
+            return row;
+        };
+        const std::vector<std::uint8_t> zeros(first == 0 ? size : 0);
+        Bytes above = first == 0 ? Bytes{} : rowAt(first - 1, {});
         out.resize(rowBytes_ * (end - first));
         const ByteLanes& lanes = byteLanes();
         std::span<std::uint8_t> left = out;
         for (std::size_t y = first; y < end; ++y, left = left.subspan(rowBytes_)) {
-            if (y == 0 || !picture_.codes.empty())
-                encodeRow(y, row);
-            else
-                encodeBelow(y, above, row);
-            const PngFilter filter = lanes.filterRow(row, above, pixelBytes_, left.subspan(1));
+            const Bytes row = rowAt(y, above);
+            const PngFilter filter = lanes.filterRow(row, above.empty() ? Bytes(zeros) : above,
+                                                     pixelBytes_, left.subspan(1));
             left[0] = static_cast<std::uint8_t>(filter);
-            std::swap(row, above);
+            above = row;
         }
-    }
-    void encodeRow(std::size_t y, PngRow& row) const {
-        picture_.encode(y * width_, width_, row.bytes());
     }
     // Row y > 0, `above` with the codes of the one before. Where its pixels are the same, as in a
     // plain background, so are the codes, and comparing is faster than encoding.
-    void encodeBelow(std::size_t y, const PngRow& above, PngRow& row) const {
+    void encodeBelow(std::size_t y, Bytes above, std::span<std::uint8_t> row) const {
         constexpr std::size_t kRun = 32;
         const std::span<const Rgb> here = pixelsOf(y), up = pixelsOf(y - 1);
         for (std::size_t x = 0; x < width_; x += kRun) {
             const std::size_t count = std::min(kRun, width_ - x), at = pixelBytes_ * x;
-            const std::span<std::uint8_t> out = row.bytes().subspan(at, pixelBytes_ * count);
+            const std::span<std::uint8_t> out = row.subspan(at, pixelBytes_ * count);
             if (y + 1 < height_) fetch(pixelsOf(y + 1).subspan(x, count));
             if (std::memcmp(here.data() + x, up.data() + x, count * sizeof(Rgb)) == 0)
                 std::memcpy(out.data(), above.data() + at, out.size());

@@ -54,8 +54,6 @@ void fill(Row& row, const Row& above, std::uint32_t kind, std::uint32_t& state) 
     }
 }
 
-void put(PngRow& to, const Row& from) { std::copy(from.begin(), from.end(), to.bytes().begin()); }
-
 void checkFilters(const ByteLanes& lanes) {
     std::array<int, kPngFilterCount> chosen{};
     std::uint32_t state = 3;
@@ -72,11 +70,8 @@ void checkFilters(const ByteLanes& lanes) {
                 fill(row, above, kind, state);
                 if (kind == kZeros) above.assign(length, 0);
                 if (kind >= kRepeated) row = above;
-                PngRow here(length), up(length);
-                put(here, row);
-                put(up, above);
                 Row out(length, 77);
-                const PngFilter filter = lanes.filterRow(here, up, pixelBytes, out);
+                const PngFilter filter = lanes.filterRow(row, above, pixelBytes, out);
                 ++chosen[static_cast<std::size_t>(filter)];
                 if (kind >= kRepeated)
                     CHECK(filter == (kind == kZeros ? PngFilter::None : PngFilter::Up));
