@@ -72,7 +72,7 @@ bool takeRoom([[maybe_unused]] std::FILE* file, [[maybe_unused]] std::size_t byt
 
 // Writes and closes; nothing is on the disk for sure before fclose() succeeds. Small pieces are
 // gathered: the system takes many pages at once in a third of the time, and knows the size of a
-// small file before it has any of it.
+// small file before it has any of it. expected: 0 for what takes no room on a disk.
 void writeBytes(const std::string& path, const std::string& fileName, std::size_t expected,
                 const ByteSource& produce) {
     constexpr std::size_t kGathered = std::size_t{1} << 20;

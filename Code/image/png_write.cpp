@@ -40,63 +40,28 @@ struct Part {
     Sum sum;
 };
 
-// The picture in parts, which threads can work on: as many rows each as give kPartBytes, so that
-// the file does not depend on how many threads there are. The rows of a part fit into a cache.
-class PartEncoder {
+// The rows of a picture as codes: where they lie, or encoded here, each behind the one above it.
+class RowCodes {
 public:
-    explicit PartEncoder(const PixelSource& picture)
+    explicit RowCodes(const PixelSource& picture)
         : picture_(picture), pixelBytes_(picture.pixelBytes()),
           width_(static_cast<std::size_t>(picture.width)),
-          height_(static_cast<std::size_t>(picture.height)), rowBytes_(pixelBytes_ * width_ + 1),
-          rows_(std::max<std::size_t>(1, kPartBytes / rowBytes_)) {}
+          height_(static_cast<std::size_t>(picture.height)) {}
 
-    std::size_t count() const { return (height_ + rows_ - 1) / rows_; }
-
-    // The chunk is made in `memory`, of any content.
-    Part part(std::size_t i, std::vector<std::uint8_t> memory) const {
-        const std::size_t first = i * rows_, end = std::min(height_, first + rows_);
-        thread_local std::vector<std::uint8_t> filtered; // the system need not clear it every time
-        filterRows(first, end, filtered);
-        const bool isLast = end == height_;
-        const std::vector<std::uint8_t> packed = deflatePiece(filtered, isLast);
-        memory.clear();
-        putChunk(memory, "IDAT", i == 0 ? Bytes(kZlibHeader) : Bytes(), packed);
-        return {std::move(memory), {filtered.size(), adler32(filtered)}};
+    // There until the next but one is asked for. Rows follow each other, from any one on.
+    Bytes at(std::size_t y) {
+        const std::size_t size = pixelBytes_ * width_;
+        if (!picture_.codes.empty()) return picture_.codes.subspan(y * size, size);
+        std::vector<std::uint8_t>&row = encoded_[y % 2], &above = encoded_[(y + 1) % 2];
+        row.resize(size);
+        if (above.empty())
+            encodePixels(pixelsOf(y), picture_.encoding, row);
+        else
+            encodeBelow(y, above, row);
+        return row;
     }
 
 private:
-    static constexpr std::size_t kPartBytes = std::size_t{1} << 18;
-
-    // With their filter types in front.
-    void filterRows(std::size_t first, std::size_t end, std::vector<std::uint8_t>& out) const {
-        const std::size_t size = rowBytes_ - 1;
-        const bool isCoded = !picture_.codes.empty();
-        std::vector<std::uint8_t> encoded[2]; // by turns
-        if (!isCoded)
-            for (auto& row : encoded) row.resize(size);
-        // above: the row before, if it is there.
-        const auto rowAt = [&](std::size_t y, Bytes above) -> Bytes {
-            if (isCoded) return picture_.codes.subspan(y * size, size);
-            std::vector<std::uint8_t>& row = encoded[y % 2];
-            if (above.empty())
-                picture_.encode(y * width_, width_, row);
-            else
-                encodeBelow(y, above, row);
-            return row;
-        };
-        const std::vector<std::uint8_t> zeros(first == 0 ? size : 0);
-        Bytes above = first == 0 ? Bytes{} : rowAt(first - 1, {});
-        out.resize(rowBytes_ * (end - first));
-        const ByteLanes& lanes = byteLanes();
-        std::span<std::uint8_t> left = out;
-        for (std::size_t y = first; y < end; ++y, left = left.subspan(rowBytes_)) {
-            const Bytes row = rowAt(y, above);
-            const PngFilter filter = lanes.filterRow(row, above.empty() ? Bytes(zeros) : above,
-                                                     pixelBytes_, left.subspan(1));
-            left[0] = static_cast<std::uint8_t>(filter);
-            above = row;
-        }
-    }
     // Row y > 0, `above` with the codes of the one before. Where its pixels are the same, as in a
     // plain background, so are the codes, and comparing is faster than encoding.
     void encodeBelow(std::size_t y, Bytes above, std::span<std::uint8_t> row) const {
@@ -122,7 +87,55 @@ private:
     }
 
     const PixelSource& picture_;
-    std::size_t pixelBytes_, width_, height_, rowBytes_, rows_;
+    std::size_t pixelBytes_, width_, height_;
+    std::vector<std::uint8_t> encoded_[2]; // by turns
+};
+
+// The picture in parts, which threads can work on: as many rows each as give kPartBytes, so that
+// the file does not depend on how many threads there are. The rows of a part fit into a cache.
+class PartEncoder {
+public:
+    explicit PartEncoder(const PixelSource& picture)
+        : picture_(picture), pixelBytes_(picture.pixelBytes()),
+          height_(static_cast<std::size_t>(picture.height)),
+          rowBytes_(pixelBytes_ * static_cast<std::size_t>(picture.width) + 1),
+          rows_(std::max<std::size_t>(1, kPartBytes / rowBytes_)) {}
+
+    std::size_t count() const { return (height_ + rows_ - 1) / rows_; }
+
+    // The chunk is made in `memory`, of any content.
+    Part part(std::size_t i, std::vector<std::uint8_t> memory) const {
+        const std::size_t first = i * rows_, end = std::min(height_, first + rows_);
+        thread_local std::vector<std::uint8_t> filtered; // the system need not clear it every time
+        filterRows(first, end, filtered);
+        const bool isLast = end == height_;
+        const std::vector<std::uint8_t> packed = deflatePiece(filtered, isLast);
+        memory.clear();
+        putChunk(memory, "IDAT", i == 0 ? Bytes(kZlibHeader) : Bytes(), packed);
+        return {std::move(memory), {filtered.size(), adler32(filtered)}};
+    }
+
+private:
+    static constexpr std::size_t kPartBytes = std::size_t{1} << 18;
+
+    // With their filter types in front.
+    void filterRows(std::size_t first, std::size_t end, std::vector<std::uint8_t>& out) const {
+        RowCodes rows(picture_);
+        const std::vector<std::uint8_t> zeros(first == 0 ? rowBytes_ - 1 : 0);
+        Bytes above = first == 0 ? Bytes(zeros) : rows.at(first - 1);
+        out.resize(rowBytes_ * (end - first));
+        const ByteLanes& lanes = byteLanes();
+        std::span<std::uint8_t> left = out;
+        for (std::size_t y = first; y < end; ++y, left = left.subspan(rowBytes_)) {
+            const Bytes row = rows.at(y);
+            const PngFilter filter = lanes.filterRow(row, above, pixelBytes_, left.subspan(1));
+            left[0] = static_cast<std::uint8_t>(filter);
+            above = row;
+        }
+    }
+
+    const PixelSource& picture_;
+    std::size_t pixelBytes_, height_, rowBytes_, rows_;
 };
 
 } // namespace
