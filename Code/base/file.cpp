@@ -112,6 +112,12 @@ std::size_t readParts(std::FILE* file, std::span<char> to, int threads) {
     return used;
 }
 
+void makeRoom(FileText& text, std::size_t size) { text.resize(size); }
+void makeRoom(std::vector<std::uint8_t>& bytes, std::size_t size) {
+    reserveInLargePages(bytes, size);
+    bytes.resize(size);
+}
+
 template <class Bytes> Bytes readWhole(const std::string& fileName, int threads) {
     const auto failReading = [&](const std::string& reason) {
         fail(ErrorKind::Input, cat(fileName, ": error: cannot read: ", reason));
@@ -131,8 +137,7 @@ template <class Bytes> Bytes readWhole(const std::string& fileName, int threads)
     // One byte more than promised: the end is seen without another allocation.
     const auto size =
         static_cast<std::size_t>(status ? kFirstPart : std::max(promised + 1, kFirstPart));
-    reserveInLargePages(bytes, size);
-    bytes.resize(size);
+    makeRoom(bytes, size);
     if (!status && promised > kFirstPart && threads != 1) {
         used = readParts(file.get(), {reinterpret_cast<char*>(bytes.data()), size - 1}, threads);
         if (fseeko(file.get(), static_cast<off_t>(used), SEEK_SET) != 0)
@@ -156,8 +161,8 @@ std::vector<std::uint8_t> readWholeFile(const std::string& fileName) {
     return readWhole<std::vector<std::uint8_t>>(fileName, 1);
 }
 
-std::string readWholeText(const std::string& fileName, int threads) {
-    return readWhole<std::string>(fileName, threads);
+FileText readWholeText(const std::string& fileName, int threads) {
+    return readWhole<FileText>(fileName, threads);
 }
 
 void writeFileAtomically(const std::string& fileName, std::span<const std::uint8_t> bytes) {

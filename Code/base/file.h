@@ -2,6 +2,7 @@
 // Knows nothing about what the bytes mean; "-" for stdin and stdout is the caller's business.
 #pragma once
 
+#include "base/file_text.h"
 #include "base/in_order.h"
 
 #include <cstddef>
@@ -15,7 +16,7 @@
 // reason.
 std::vector<std::uint8_t> readWholeFile(const std::string& fileName);
 // The same as text, read by several threads where it is long (0: as many as the machine has).
-std::string readWholeText(const std::string& fileName, int threads = 1);
+FileText readWholeText(const std::string& fileName, int threads = 1);
 
 // Writes a temporary file in the same folder and renames it; an existing file keeps its content
 // until then. What is no regular file (/dev/null, a pipe) is written to directly. One write at a

@@ -4,6 +4,7 @@
 
 #include "base/pages.h"
 
+#include <algorithm>
 #include <memory>
 #include <type_traits>
 #include <utility>
@@ -21,3 +22,6 @@ template <class T> struct RawAllocator : PageAllocator<T> {
 };
 
 template <class T> using RawVector = std::vector<T, RawAllocator<T>>;
+template <class T> bool operator==(const RawVector<T>& a, const std::vector<T>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
+}

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/error.h"
+#include "base/file_text.h"
 
 #include <cstddef>
 #include <string>
@@ -10,7 +11,7 @@
 
 struct SourceFile {
     std::string name; // as the user wrote it
-    std::string text;
+    FileText text;
 };
 
 // "name:line:col: error: what", then the line and a caret below the column. Lines and columns count

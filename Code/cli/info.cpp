@@ -70,7 +70,7 @@ std::size_t storedTriangleCount(const SceneDesc& desc) {
     return count;
 }
 
-template <class T> std::size_t bytesOf(const std::vector<T>& values) {
+template <class T, class A> std::size_t bytesOf(const std::vector<T, A>& values) {
     return values.size() * sizeof(T);
 }
 std::size_t bytesOf(const MeshDesc& m) {

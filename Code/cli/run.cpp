@@ -96,7 +96,7 @@ ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings
 
     step = {"building the scene", ExitCode::Input};
     // What else is to be told of places in the text is of pictures that can't be read.
-    if (loaded.desc.textures.empty()) std::string().swap(loaded.source.text);
+    if (loaded.desc.textures.empty()) loaded.source.text = {};
     const Scene scene(std::move(loaded.desc), loaded.source, settings, &pictures);
     scene.describe(stats);
     stats.threads = settings.threads;

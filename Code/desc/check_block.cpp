@@ -29,7 +29,7 @@ double largestOf(std::span<const double> numbers) {
 
 // The largest that sizeOf() says of some things, 0 if there are none.
 template <class T, class Size>
-auto largestOfAll(int threads, const std::vector<T>& things, const Size& sizeOf) {
+auto largestOfAll(int threads, std::span<const T> things, const Size& sizeOf) {
     constexpr std::size_t kTogether = 1 << 13;
     std::vector<decltype(sizeOf(things[0]))> parts((things.size() + kTogether - 1) / kTogether);
     forEachPart(threads, things.size(), kTogether, [&](std::size_t first, std::size_t last) {
@@ -184,11 +184,10 @@ void BlockChecker::checkWhole(const MeshDesc& mesh) {
     if (!mesh.file.empty()) return; // not read yet
     if (mesh.triangles.empty()) error(mesh, "has no triangles");
     const auto sizeOf = [](const Vec3d& p) { return largestOf(std::array{p.x, p.y, p.z}); };
-    const double size = largestOfAll(threads_, mesh.points, sizeOf);
+    const double size = largestOfAll(threads_, std::span<const Vec3d>(mesh.points), sizeOf);
     if (size > kLargestLength) {
-        const auto wrong =
-            std::find_if(mesh.points.begin(), mesh.points.end(),
-                         [&](const Vec3d& p) { return sizeOf(p) > kLargestLength; });
+        const auto wrong = std::find_if(mesh.points.begin(), mesh.points.end(),
+                                        [&](const Vec3d& p) { return sizeOf(p) > kLargestLength; });
         error(mesh, "point ", wrong - mesh.points.begin(), " is not finite or beyond ",
               shortest(kLargestLength));
     }
@@ -215,7 +214,7 @@ void BlockChecker::checkWhole(const MeshDesc& mesh) {
               mesh.triangleMaterials.size(), " triangle_materials");
 }
 
-void BlockChecker::checkCorners(const MeshDesc& mesh, const std::vector<MeshDesc::Corners>& corners,
+void BlockChecker::checkCorners(const MeshDesc& mesh, std::span<const MeshDesc::Corners> corners,
                                 std::size_t count, std::string_view values,
                                 std::string_view keyword) {
     if (keyword != "triangles") {

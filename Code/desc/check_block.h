@@ -95,7 +95,7 @@ private:
     void checkWhole(const MeshDesc& mesh);
     void checkWhole(const ObjectDesc& object);
     void checkInstance(const ObjectDesc& object);
-    void checkCorners(const MeshDesc& mesh, const std::vector<MeshDesc::Corners>& corners,
+    void checkCorners(const MeshDesc& mesh, std::span<const MeshDesc::Corners> corners,
                       std::size_t count, std::string_view values, std::string_view keyword);
     template <class Block> void checkKeys(const Block& block, std::span<const Rows> keys);
 

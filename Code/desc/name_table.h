@@ -39,8 +39,9 @@ public:
         return {};
     }
     // Fetches the memory that the look-up of a name, some names later, will need.
-    void prepare(std::string_view name) const {
-        __builtin_prefetch(&places_[hashOf(name) & (places_.size() - 1)]);
+    void prepare(std::string_view name) const { prepare(hashOf(name)); }
+    void prepare(std::uint32_t hash) const {
+        __builtin_prefetch(&places_[hash & (places_.size() - 1)]);
     }
     std::optional<std::uint32_t> find(std::string_view name) const {
         const Place& place = places_[placeOf(name, hashOf(name))];

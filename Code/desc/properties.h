@@ -269,9 +269,9 @@ template <class Scene, class Call> void forEachBlock(Scene& desc, Call&& call) {
 // The number arrays of a mesh: keyword, the array, what a group of them is called.
 struct MeshArray {
     using Member =
-        std::variant<std::vector<Vec3d> MeshDesc::*, std::vector<Vec3> MeshDesc::*,
-                     std::vector<Vec2> MeshDesc::*, std::vector<MeshDesc::Corners> MeshDesc::*,
-                     std::vector<std::uint32_t> MeshDesc::*>;
+        std::variant<RawVector<Vec3d> MeshDesc::*, RawVector<Vec3> MeshDesc::*,
+                     RawVector<Vec2> MeshDesc::*, RawVector<MeshDesc::Corners> MeshDesc::*,
+                     RawVector<std::uint32_t> MeshDesc::*>;
     std::string_view keyword;
     Member member;
     // Index arrays: the keyword of what they index; empty for the others.

@@ -85,14 +85,15 @@ BoundsD boundsUpTo(const SceneDesc& desc, double enough, int threads) {
 }
 
 BoundsD boundsOf(const SceneDesc& desc, int threads) {
-    constexpr std::size_t kTogether = 1 << 14;
+    constexpr std::size_t kTogether = 1 << 12;
     const std::size_t count = desc.objects.size();
     std::vector<BoundsD> parts((count + kTogether - 1) / kTogether);
     MeshBoxes meshBoxes(desc, threads);
     meshBoxes.prepare();
     forEachPart(threads, count, kTogether, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            extendBy(parts[first / kTogether], desc.objects[i], meshBoxes);
+        BoundsD part; // far from those of other threads
+        for (std::size_t i = first; i < last; ++i) extendBy(part, desc.objects[i], meshBoxes);
+        parts[first / kTogether] = part;
     });
     BoundsD box;
     for (const BoundsD& part : parts) box.extend(part);

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "base/one_or_more.h"
+#include "base/raw_vector.h"
 #include "base/seldom.h"
 #include "base/vec.h"
 
@@ -149,13 +150,13 @@ struct MeshDesc {
     SourceLoc fileLoc;
     // Of the file's: edges that bend less are shaded smooth; 0 flat, -1 with the file's normals.
     double smoothAngleDeg = -1;
-    std::vector<Vec3d> points;
-    std::vector<Corners> triangles;
-    std::vector<Vec3> normals;
-    std::vector<Corners> normalTriangles;
-    std::vector<Vec2> uvs;
-    std::vector<Corners> uvTriangles;
-    std::vector<std::uint32_t> triangleMaterials; // slot per triangle; empty: all use slot 0
+    RawVector<Vec3d> points;
+    RawVector<Corners> triangles;
+    RawVector<Vec3> normals;
+    RawVector<Corners> normalTriangles;
+    RawVector<Vec2> uvs;
+    RawVector<Corners> uvTriangles;
+    RawVector<std::uint32_t> triangleMaterials; // slot per triangle; empty: all use slot 0
     bool operator==(const MeshDesc&) const = default;
 };
 

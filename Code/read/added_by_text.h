@@ -11,8 +11,8 @@
 // touches memory twice, which for many things costs as much as reading them; the text that those so
 // far took, and others between them, `here` bytes from its start, says how many there will be up to
 // `last`. Memory that is not touched costs nothing.
-template <class Thing>
-void makeRoomByText(std::vector<Thing>& list, std::size_t more, std::size_t first, std::size_t here,
+template <class List>
+void makeRoomByText(List& list, std::size_t more, std::size_t first, std::size_t here,
                     std::size_t last) {
     constexpr std::size_t kMany = 1000;
     constexpr double kMargin = 1.1, kLeast = 1.5, kMost = 256;

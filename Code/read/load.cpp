@@ -123,7 +123,7 @@ void makeRoom(std::size_t textBytes, bool isMesh, int threads) {
     useLargePages(std::max(kLeast, foreseen), foreseen, threads != 1);
 }
 
-std::string readText(const std::string& fileName, const Format& format, int threads) {
+FileText readText(const std::string& fileName, const Format& format, int threads) {
     // Then holes do no harm, and the text itself is to lie in that memory.
     constexpr std::uintmax_t kSmall = 3 << 20;
     std::error_code status;
@@ -132,7 +132,7 @@ std::string readText(const std::string& fileName, const Format& format, int thre
         makeRoom(static_cast<std::size_t>(size), format.isMesh, threads);
         return readWholeText(fileName, threads);
     }
-    std::string text = readWholeText(fileName, threads);
+    FileText text = readWholeText(fileName, threads);
     makeRoom(text.size(),
              format.isMesh || (format.extension == ".txt" && hasMeshBlock(text, threads)), threads);
     return text;
@@ -146,7 +146,7 @@ void foreseeStart(const SourceFile& source, const Foreseen& foreseen) {
     const std::size_t end = start.find(kMeshBlock);
     if (end == std::string_view::npos) return;
     try {
-        const SourceFile part{source.name, std::string(start.substr(0, end + 1))};
+        const SourceFile part{source.name, start.substr(0, end + 1)};
         foreseen(readTxt(part, 1), source.name);
     } catch (const Error&) {
         // Reading all of it tells.

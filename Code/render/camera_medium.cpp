@@ -9,8 +9,7 @@ MediumTree::Inside mediumOfCamera(const Scene& scene, const RenderSettings& sett
                                   MediumTree& media) {
     constexpr int kSurfaces = 4096; // more are not looked at
     const auto transmits = [](const SceneMaterial& m) { return !isBlack(m.base.transmission); };
-    if (std::none_of(scene.materials().begin(), scene.materials().end(), transmits))
-        return MediumTree::kNothing;
+    if (!scene.anyMaterial().transmits) return MediumTree::kNothing;
 
     const Vec2 lens{0.5f, 0.5f};
     Ray ray = scene.camera().ray({settings.picture.width / 2.0, settings.picture.height / 2.0},

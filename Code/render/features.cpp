@@ -9,16 +9,52 @@
 
 namespace {
 
+// What a material may have.
+enum Trait : unsigned {
+    Mirror = 1,
+    Transmission = 2,
+    Roughness = 4, // of one of these
+    Fresnel = 8,
+    Transparency = 16,
+    Bump = 32,
+    Pictures = 64
+};
+
 struct Situation {
     const SceneDesc& desc;
     const CameraDesc& camera;
     const RenderSettings& settings;
+    unsigned traits; // of all materials
+
+    bool anyMaterial(Trait trait) const { return (traits & trait) != 0; }
 };
 
 bool isBlack(Rgbd c) { return c == Rgbd{}; }
 
-template <class Test> bool anyMaterial(const Situation& s, Test test) {
-    return std::any_of(s.desc.materials.begin(), s.desc.materials.end(), test);
+unsigned traitsOf(const MaterialDesc& m) {
+    const auto trait = [](bool has, Trait which) { return has ? unsigned{which} : 0; };
+    const auto isThere = [](Handle handle) { return handle != kNone; };
+    const auto pictures = {m.diffuseTexture, m.specularTexture, m.emissionTexture,
+                           m.opacityTexture, m.normalMap,       m.bumpMap};
+    const bool mirrors = !isBlack(m.mirror), transmits = !isBlack(m.transmission);
+    return trait(mirrors, Mirror) | trait(transmits, Transmission) |
+           trait(m.roughness > 0 && (mirrors || transmits), Roughness) |
+           trait(m.fresnel != MaterialDesc::Fresnel::None, Fresnel) |
+           trait(m.opacity < 1 || isThere(m.opacityTexture), Transparency) |
+           trait(isThere(m.bumpMap) || isThere(m.normalMap), Bump) |
+           trait(std::any_of(pictures.begin(), pictures.end(), isThere), Pictures);
+}
+
+// One pass: where there are hundreds of thousands they lie in slow memory.
+unsigned traitsOf(const std::vector<MaterialDesc>& materials, int threads) {
+    constexpr std::size_t kTogether = 1 << 12;
+    std::atomic<unsigned> all{0};
+    forEachPart(threads, materials.size(), kTogether, [&](std::size_t first, std::size_t last) {
+        unsigned part = 0;
+        for (std::size_t i = first; i < last; ++i) part |= traitsOf(materials[i]);
+        all |= part;
+    });
+    return all;
 }
 
 bool hasSoftLight(const Situation& s) {
@@ -40,7 +76,7 @@ bool moves(const Keys& keys) {
 }
 
 bool hasMotion(const Situation& s) {
-    constexpr std::size_t kTogether = 1 << 14;
+    constexpr std::size_t kTogether = 1 << 12;
     std::atomic<bool> has{moves(s.camera.worldFromCamera)};
     forEachPart(s.settings.threads, s.desc.objects.size(), kTogether,
                 [&](std::size_t first, std::size_t last) {
@@ -52,12 +88,7 @@ bool hasMotion(const Situation& s) {
 
 // Pictures that nothing uses are not read either.
 bool usesTextures(const Situation& s) {
-    return s.desc.world.environment != kNone || anyMaterial(s, [](const MaterialDesc& m) {
-               const auto handles = {m.diffuseTexture, m.specularTexture, m.emissionTexture,
-                                     m.opacityTexture, m.normalMap,       m.bumpMap};
-               return std::any_of(handles.begin(), handles.end(),
-                                  [](Handle handle) { return handle != kNone; });
-           });
+    return s.desc.world.environment != kNone || s.anyMaterial(Pictures);
 }
 
 bool sharesMeshes(const Situation& s) {
@@ -84,42 +115,19 @@ constexpr std::array kRules = std::to_array<Rule>({
      },
      &Switches::shadows, "no light casts shadows"},
     {"soft-shadows", hasSoftLight, &Switches::softShadows, "no light has a size"},
-    {"reflection",
-     [](const Situation& s) {
-         return anyMaterial(s, [](const MaterialDesc& m) { return !isBlack(m.mirror); });
-     },
-     &Switches::reflection, "no material has mirror"},
-    {"refraction",
-     [](const Situation& s) {
-         return anyMaterial(s, [](const MaterialDesc& m) { return !isBlack(m.transmission); });
-     },
+    {"reflection", [](const Situation& s) { return s.anyMaterial(Mirror); }, &Switches::reflection,
+     "no material has mirror"},
+    {"refraction", [](const Situation& s) { return s.anyMaterial(Transmission); },
      &Switches::refraction, "no material has transmission"},
-    {"glossy",
-     [](const Situation& s) {
-         return anyMaterial(s, [](const MaterialDesc& m) {
-             return m.roughness > 0 && (!isBlack(m.mirror) || !isBlack(m.transmission));
-         });
-     },
-     &Switches::glossy, "no mirror or transmission has roughness"},
-    {"fresnel",
-     [](const Situation& s) {
-         return anyMaterial(
-             s, [](const MaterialDesc& m) { return m.fresnel != MaterialDesc::Fresnel::None; });
-     },
-     &Switches::fresnel, "no material asks for it"},
-    {"transparency",
-     [](const Situation& s) {
-         return anyMaterial(
-             s, [](const MaterialDesc& m) { return m.opacity < 1 || m.opacityTexture != kNone; });
-     },
-     nullptr, "all materials are opaque"},
+    {"glossy", [](const Situation& s) { return s.anyMaterial(Roughness); }, &Switches::glossy,
+     "no mirror or transmission has roughness"},
+    {"fresnel", [](const Situation& s) { return s.anyMaterial(Fresnel); }, &Switches::fresnel,
+     "no material asks for it"},
+    {"transparency", [](const Situation& s) { return s.anyMaterial(Transparency); }, nullptr,
+     "all materials are opaque"},
     {"textures", usesTextures, &Switches::textures, "nothing uses one"},
-    {"bump",
-     [](const Situation& s) {
-         return anyMaterial(
-             s, [](const MaterialDesc& m) { return m.bumpMap != kNone || m.normalMap != kNone; });
-     },
-     &Switches::textures, "no bump or normal map"},
+    {"bump", [](const Situation& s) { return s.anyMaterial(Bump); }, &Switches::textures,
+     "no bump or normal map"},
     {"environment", [](const Situation& s) { return s.desc.world.environment != kNone; },
      &Switches::textures, "no environment picture"},
     {"dof", [](const Situation& s) { return s.camera.apertureRadius > 0; }, &Switches::dof,
@@ -134,7 +142,7 @@ constexpr std::array kRules = std::to_array<Rule>({
 
 Features featuresOf(const SceneDesc& desc, const CameraDesc& camera,
                     const RenderSettings& settings) {
-    const Situation situation{desc, camera, settings};
+    const Situation situation{desc, camera, settings, traitsOf(desc.materials, settings.threads)};
     Features features;
     for (const Rule& rule : kRules) {
         const bool inScene = rule.isInScene(situation);

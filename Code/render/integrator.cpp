@@ -40,18 +40,28 @@ StillsInLanes stillsInLanesOf(const Scene& scene, const RenderSettings& settings
     if (lanes.stills == nullptr || !settings.specialise) return stills;
     const ShapeSet& set = scene.shapes();
     const auto wantsUv = [&](std::uint32_t number) {
+        if (settings.integrator == IntegratorKind::Uv) return true;
+        if (!scene.anyMaterial().pictures) return false;
         const SceneMaterial& material = scene.materials()[number];
-        return settings.integrator == IntegratorKind::Uv || material.isTextured() ||
-               material.bendsNormals();
+        return material.isTextured() || material.bendsNormals();
     };
     stills.shapes.resize(set.shapes.size());
     stills.balls.resize(set.shapes.size());
-    for (std::size_t i = 0; i < set.shapes.size(); ++i)
+    const auto take = [&](std::size_t i) {
         if (const StillShape* const shape = set.shapes[i]->stillToShade()) {
             const bool uv = wantsUv(shape->material) || wantsUv(shape->oddMaterial);
             if (uv || !stills.balls.take(i, *shape))
                 stills.shapes[i] = {shape, shape->parts, shape->caps, shape->kind, uv};
         }
+    };
+    // Behind the first ball, whose measure is that of all, they don't depend on each other.
+    std::size_t done = 0;
+    while (done < set.shapes.size() && stills.balls.isEmpty()) take(done++);
+    constexpr std::size_t kTogether = 1 << 12;
+    forEachPart(settings.threads, set.shapes.size() - done, kTogether,
+                [&](std::size_t first, std::size_t last) {
+                    for (std::size_t i = first; i < last; ++i) take(done + i);
+                });
     return stills;
 }
 
@@ -97,7 +107,8 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       pairSeeds(sampler.kind() == SamplerKind::Sobol
                     ? cameraLanes(chooseKernel(theSettings.kernel)).seeds
                     : nullptr),
-      stillsInLanes(stillsInLanesOf(theScene, theSettings, surfaceLanes)), materials(theScene),
+      stillsInLanes(stillsInLanesOf(theScene, theSettings, surfaceLanes)),
+      materials(theScene, theSettings.threads),
       cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
     const int samples = settings.picture.lightSamples;
     for (std::size_t i = 0; i < scene.lights().size(); ++i) {

@@ -14,8 +14,6 @@
 namespace {
 
 constexpr std::size_t kNotShared = static_cast<std::size_t>(-1);
-// Trees of more triangles are built by all threads together.
-constexpr std::size_t kLargeTree = std::size_t{1} << 16;
 
 } // namespace
 
@@ -28,14 +26,14 @@ MovingTransform placedKeys(const Keys& keys, const SceneFrame& frame, bool motio
 }
 
 ShapeMaker::ShapeMaker(const SceneDesc& desc, const RenderSettings& settings,
-                       const SceneFrame& frame, const std::vector<bool>& seeThrough)
+                       const SceneFrame& frame, const std::vector<std::uint8_t>& seeThrough)
     : desc_(desc), settings_(settings), frame_(frame), seeThrough_(seeThrough),
       sharedOf_(desc.meshes.size(), kNotShared) {
     for (const bool isSolid : {true, false})
         for (const auto& row : kEnumNames<ObjectDesc::Sides>)
             merged_.push_back({row.value, isSolid, {}, {}, {}});
     // Of millions most are neither meshes nor do they move.
-    constexpr std::size_t kTogether = 1 << 14;
+    constexpr std::size_t kTogether = 1 << 12;
     std::vector<std::uint8_t> isPlain(desc_.objects.size());
     forEachPart(settings_.threads, isPlain.size(), kTogether,
                 [&](std::size_t first, std::size_t last) {
@@ -94,7 +92,7 @@ std::vector<std::function<void()>> ShapeMaker::jobs(ShapeSet& shapes) {
 void ShapeMaker::finish(ShapeSet& shapes,
                         std::vector<std::unique_ptr<const MeshGeometry>>& geometries) {
     const auto finishLarge = [&](MeshGeometry& geometry) {
-        if (geometry.triangles.size() > kLargeTree) finishTree(geometry, settings_.threads);
+        if (!isBuiltInJob(geometry)) finishTree(geometry, settings_.threads);
     };
     for (Shared& shared : shared_) finishLarge(*shared.geometry);
     for (Merged& merged : merged_)
@@ -147,7 +145,7 @@ std::vector<std::uint32_t> ShapeMaker::materialsBySlot(const ObjectDesc& object)
 
 ShapeSet::Shadow ShapeMaker::shadowOf(std::span<const std::uint32_t> materials) const {
     const bool seeThrough = std::any_of(materials.begin(), materials.end(),
-                                        [&](std::uint32_t m) { return seeThrough_[m]; });
+                                        [&](std::uint32_t m) { return seeThrough_[m] != 0; });
     return seeThrough ? ShapeSet::Shadow::SeeThrough : ShapeSet::Shadow::Opaque;
 }
 
@@ -210,14 +208,14 @@ void ShapeMaker::merge(Merged& merged) {
     }
     if (merged.mesh.geometry.triangles.empty()) return;
     merged.geometry = std::make_unique<MeshGeometry>(std::move(merged.mesh.geometry));
-    if (merged.geometry->triangles.size() <= kLargeTree) finishTree(*merged.geometry, 1);
+    if (isBuiltInJob(*merged.geometry)) finishTree(*merged.geometry, 1);
 }
 
 void ShapeMaker::share(Shared& shared) {
     shared.geometry = std::make_unique<MeshGeometry>(
         toSharedGeometry(desc_.meshes[shared.mesh], settings_.threads));
     shared.degenerateCount = shared.geometry->dropDegenerate(settings_.threads);
-    if (shared.geometry->triangles.size() <= kLargeTree) finishTree(*shared.geometry, 1);
+    if (isBuiltInJob(*shared.geometry)) finishTree(*shared.geometry, 1);
 }
 
 void ShapeMaker::makeSimple(ShapeSet& shapes, std::size_t first, std::size_t last) {

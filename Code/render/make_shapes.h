@@ -24,11 +24,14 @@ class ShapeMaker {
 public:
     // `seeThrough`: by material, the default one last. What is handed in must outlive it.
     ShapeMaker(const SceneDesc& desc, const RenderSettings& settings, const SceneFrame& frame,
-               const std::vector<bool>& seeThrough);
+               const std::vector<std::uint8_t>& seeThrough);
 
     // What one thread each can do, all at the same time: merging, the trees of small meshes, and
     // the shapes that are no meshes, which become the first ones of the set.
     std::vector<std::function<void()>> jobs(ShapeSet& shapes);
+    // Before they are done, where threads are left over that have none: trees of small meshes are
+    // then built like large ones.
+    void leaveTrees() { largestInJob_ = 0; }
     // When those are done: large trees, by all threads one after the other, and the other shapes.
     void finish(ShapeSet& shapes, std::vector<std::unique_ptr<const MeshGeometry>>& geometries);
 
@@ -68,6 +71,9 @@ private:
     const MeshDesc& meshOf(const Placed& placed) const;
     void merge(Merged& merged);
     void share(Shared& shared);
+    bool isBuiltInJob(const MeshGeometry& geometry) const {
+        return geometry.triangles.size() <= largestInJob_;
+    }
     void finishTree(MeshGeometry& geometry, int threads) const;
     double raysPerTree() const;
     void makeSimple(ShapeSet& shapes, std::size_t first, std::size_t last);
@@ -76,7 +82,9 @@ private:
     const SceneDesc& desc_;
     const RenderSettings& settings_;
     const SceneFrame& frame_;
-    const std::vector<bool>& seeThrough_;
+    const std::vector<std::uint8_t>& seeThrough_;
+    // Triangles of a tree that is built by the thread of its mesh.
+    std::size_t largestInJob_ = std::size_t{1} << 16;
     bool moves_ = false;
     std::vector<std::uint32_t> simple_; // objects that are no meshes
     std::vector<Placed> placed_;        // the others, in the same order

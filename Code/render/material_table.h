@@ -2,10 +2,10 @@
 // materials the nearest caches hold few, but these few bytes of each.
 #pragma once
 
+#include "base/raw_vector.h"
 #include "render/scene.h"
 
 #include <cstdint>
-#include <vector>
 
 class MaterialTable {
 public:
@@ -16,7 +16,7 @@ public:
         Textured = 8
     };
 
-    explicit MaterialTable(const Scene& scene);
+    MaterialTable(const Scene& scene, int threads);
 
     std::uint8_t traits(std::uint32_t material) const { return traits_[material]; }
     void prefetchGlow(std::uint32_t material) const { __builtin_prefetch(&glow_[material]); }
@@ -24,8 +24,8 @@ public:
     Rgb glow(std::uint32_t material) const { return glow_[material]; }
 
 private:
-    std::vector<std::uint8_t> traits_; // by number of the material
-    std::vector<Rgb> glow_;
+    RawVector<std::uint8_t> traits_; // by number of the material
+    RawVector<Rgb> glow_;
 };
 
 inline bool answersLamps(const Material& material) {

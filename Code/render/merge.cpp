@@ -9,8 +9,8 @@ using Corners = MeshGeometry::Corners;
 constexpr std::size_t kTogether = 1 << 13; // for one thread
 
 // Appends corner indices, raised by `base`; `flip` swaps two corners to turn the triangle over.
-void append(std::vector<Corners>& to, const std::vector<Corners>& from, std::size_t base,
-            int threads, bool flip = false) {
+void append(RawVector<Corners>& to, const RawVector<Corners>& from, std::size_t base, int threads,
+            bool flip = false) {
     const auto b = static_cast<std::uint32_t>(base);
     const std::size_t before = to.size();
     to.resize(before + from.size());
@@ -26,7 +26,7 @@ void append(std::vector<Corners>& to, const std::vector<Corners>& from, std::siz
 
 // Appends the corners in normals or coordinates of a part. Where one of the two has none but the
 // other does, its triangles are marked: they look as they do alone.
-void appendOptional(std::vector<Corners>& to, std::size_t before, const std::vector<Corners>& from,
+void appendOptional(RawVector<Corners>& to, std::size_t before, const RawVector<Corners>& from,
                     std::size_t count, std::size_t base, int threads) {
     if (to.empty() && from.empty()) return;
     to.resize(before, MeshGeometry::kWithout);
@@ -99,7 +99,7 @@ void MergedMesh::add(const MeshDesc& mesh, const Transform& sceneFromMesh,
     geometry.normals.insert(geometry.normals.end(), part.normals.begin(), part.normals.end());
     geometry.uvs.insert(geometry.uvs.end(), part.uvs.begin(), part.uvs.end());
     if (geometry.slots.empty() && part.slots.empty()) return;
-    geometry.slots.resize(before);
+    geometry.slots.resize(before, 0);
     geometry.slots.insert(geometry.slots.end(), part.slots.begin(), part.slots.end());
-    geometry.slots.resize(before + count);
+    geometry.slots.resize(before + count, 0);
 }

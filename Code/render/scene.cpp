@@ -14,7 +14,27 @@
 
 #include <algorithm>
 #include <functional>
+#include <mutex>
 #include <utility>
+
+AnyMaterial& AnyMaterial::operator|=(const SceneMaterial& m) {
+    const bool transmission = !isBlack(m.base.transmission), through = m.seeThrough();
+    return *this |= AnyMaterial{.isLamp = m.isLamp,
+                                .bounces = transmission || !isBlack(m.base.mirror),
+                                .transmits = transmission,
+                                .isRough = m.base.roughness > 0,
+                                .branches = through || !isPlainMirror(m.base),
+                                .pictures = m.isTextured() || m.bendsNormals(),
+                                .seeThrough = through};
+}
+
+AnyMaterial& AnyMaterial::operator|=(const AnyMaterial& other) {
+    for (const auto member : {&AnyMaterial::isLamp, &AnyMaterial::bounces, &AnyMaterial::transmits,
+                              &AnyMaterial::isRough, &AnyMaterial::branches, &AnyMaterial::pictures,
+                              &AnyMaterial::seeThrough})
+        this->*member |= other.*member;
+    return *this;
+}
 
 class SceneBuilder {
 public:
@@ -45,11 +65,12 @@ private:
     // Shapes come first, as one that is late would be waited for; of pictures that cannot be read
     // the one that is used first is told.
     void buildPicturesAndShapes() {
-        const std::vector<bool> seeThrough = seeThroughMaterials();
+        const std::vector<std::uint8_t> seeThrough = seeThroughMaterials();
         ShapeMaker maker(desc_, settings_, scene_.frame_, seeThrough);
         std::vector<std::function<void()>> jobs = maker.jobs(scene_.shapes_);
         if (pictures_ != nullptr) pictures_->beginNoMore(); // they are jobs like others
         addPictures(jobs);
+        if (jobs.size() < static_cast<std::size_t>(settings_.threads)) maker.leaveTrees();
         forEachOn(settings_.threads, jobs.size(), [&](std::size_t i) { jobs[i](); });
         // Large trees come now, where the meshes were that have been copied.
         if (spent_ != nullptr)
@@ -73,11 +94,14 @@ private:
     }
 
     // SceneMaterial::seeThrough() before there are pictures; the default material is the last.
-    std::vector<bool> seeThroughMaterials() const {
-        std::vector<bool> out;
-        for (const MaterialDesc& m : desc_.materials)
-            out.push_back(toFloat(m.opacity) < 1 || (on_.textures && m.opacityTexture != kNone));
-        out.push_back(false);
+    std::vector<std::uint8_t> seeThroughMaterials() const {
+        std::vector<std::uint8_t> out(desc_.materials.size() + 1);
+        forSomeMaterials([&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) {
+                const MaterialDesc& m = desc_.materials[i];
+                out[i] = toFloat(m.opacity) < 1 || (on_.textures && m.opacityTexture != kNone);
+            }
+        });
         return out;
     }
 
@@ -116,13 +140,29 @@ private:
     }
 
     void buildMaterials() {
-        scene_.materials_.reserve(desc_.materials.size() + 1);
-        for (const MaterialDesc& desc : desc_.materials)
-            scene_.materials_.push_back(makeMaterial(desc));
-        scene_.materials_.push_back(makeMaterial(MaterialDesc{}));
-        for (const SceneMaterial& m : scene_.materials_)
-            scene_.hasSeeThrough_ = scene_.hasSeeThrough_ || m.seeThrough();
+        RawVector<SceneMaterial>& materials = scene_.materials_;
+        materials.resize(desc_.materials.size() + 1);
+        materials.back() = makeMaterial(MaterialDesc{});
+        scene_.any_ |= materials.back();
+        std::mutex mutex; // of any_
+        forSomeMaterials([&](std::size_t first, std::size_t last) {
+            AnyMaterial any;
+            for (std::size_t i = first; i < last; ++i)
+                any |= materials[i] = makeMaterial(desc_.materials[i]);
+            const std::lock_guard lock(mutex);
+            scene_.any_ |= any;
+        });
+        for (std::size_t i = 0; i < (desc_.textures.empty() ? 0 : desc_.materials.size()); ++i) {
+            materials[i].pictures = picturesOf(desc_.materials[i]);
+            scene_.any_ |= materials[i];
+        }
         if (spent_ != nullptr) std::vector<MaterialDesc>().swap(spent_->materials);
+    }
+
+    // By several threads: call(first, last).
+    template <class Call> void forSomeMaterials(const Call& call) const {
+        constexpr std::size_t kTogether = 1 << 12;
+        forEachPart(settings_.threads, desc_.materials.size(), kTogether, call);
     }
 
     static SpecularModel specularModelOf(MaterialDesc::SpecularModel model) {
@@ -153,7 +193,6 @@ private:
 
     SceneMaterial makeMaterial(const MaterialDesc& desc) {
         SceneMaterial m;
-        m.pictures = picturesOf(desc);
         m.base.diffuse = toRgb(desc.diffuse);
         m.base.specular = toRgb(desc.specular);
         m.base.specularModel = specularModelOf(desc.specularModel);
@@ -247,6 +286,7 @@ private:
         glow.base.emission = toRgb(light.color);
         glow.isLamp = true;
         scene_.materials_.push_back(glow);
+        scene_.any_ |= glow;
         scene_.shapes_.add(std::move(body), ShapeSet::Shadow::None);
     }
 

@@ -3,6 +3,7 @@
 // then becomes float: a scene far from the origin or of any size renders alike (promise P3).
 #pragma once
 
+#include "base/raw_vector.h"
 #include "base/source.h"
 #include "camera/camera.h"
 #include "desc/scene_desc.h"
@@ -18,6 +19,7 @@
 #include "texture/texture.h"
 
 #include <memory>
+#include <span>
 #include <vector>
 
 class PictureReader;
@@ -52,6 +54,20 @@ struct alignas(64) SceneMaterial {
 };
 static_assert(sizeof(SceneMaterial) == 128);
 
+// What any of some materials has; each is looked at once, as there may be more than a cache holds.
+struct AnyMaterial {
+    bool isLamp = false;
+    bool bounces = false;    // mirrors or transmits
+    bool transmits = false;  // refracts
+    bool isRough = false;    // in what it mirrors and transmits
+    bool branches = false;   // gives more than one ray
+    bool pictures = false;   // asks for texture coordinates
+    bool seeThrough = false; // lets light straight through
+
+    AnyMaterial& operator|=(const SceneMaterial& m);
+    AnyMaterial& operator|=(const AnyMaterial& other);
+};
+
 class Scene {
 public:
     // Fails with the place in `source` when a texture can't be read. `pictures`: some that are read
@@ -68,7 +84,7 @@ public:
     const SceneFrame& frame() const { return frame_; }
     const Camera& camera() const { return *camera_; }
     const ShapeSet& shapes() const { return shapes_; }
-    const std::vector<SceneMaterial>& materials() const { return materials_; }
+    std::span<const SceneMaterial> materials() const { return materials_; }
     const std::vector<std::unique_ptr<const Light>>& lights() const { return lights_; }
     Rgb ambient() const { return ambient_; }
     // Radiance where a ray meets no surface.
@@ -79,7 +95,8 @@ public:
     Rgb background(Rgb inPicture) const { return background_ * inPicture; }
     const Environment* environment() const { return environment_.get(); } // null: none
     bool moves() const { return moves_; }
-    bool hasSeeThrough() const { return hasSeeThrough_; }
+    bool hasSeeThrough() const { return any_.seeThrough; }
+    const AnyMaterial& anyMaterial() const { return any_; }
     const Features& features() const { return features_; }
     // Fills in what the scene knows: accelerator, features, degenerate primitives.
     void describe(Stats& stats) const;
@@ -90,13 +107,14 @@ private:
     std::unique_ptr<const Camera> camera_;
     std::vector<std::unique_ptr<const Texture>> textures_;
     std::vector<std::unique_ptr<const MaterialPictures>> pictures_; // of those that have some
-    std::vector<SceneMaterial> materials_;
+    RawVector<SceneMaterial> materials_;
     std::vector<std::unique_ptr<const MeshGeometry>> geometries_;
     ShapeSet shapes_;
     std::vector<std::unique_ptr<const Light>> lights_;
     std::unique_ptr<const Environment> environment_;
     Rgb background_, ambient_;
-    bool moves_ = false, hasSeeThrough_ = false;
+    bool moves_ = false;
+    AnyMaterial any_; // of the materials
     Features features_;
     AccelKind accelKind_ = AccelKind::Bvh;
     std::uint64_t degenerateCount_ = 0;

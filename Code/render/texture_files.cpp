@@ -42,6 +42,7 @@ std::optional<std::string> firstFile(const std::string& file, const std::string&
 
 std::vector<std::size_t> usedTextures(const SceneDesc& desc, bool showsEnvironment) {
     std::vector<std::size_t> used;
+    if (desc.textures.empty()) return used;
     const auto use = [&](Handle handle) {
         const auto i = static_cast<std::size_t>(handle);
         if (handle != kNone && i < desc.textures.size() &&

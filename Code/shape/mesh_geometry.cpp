@@ -72,7 +72,7 @@ void describeExact(MeshGeometry& mesh) {
 
 // Takes the entries of these numbers, which ascend, out of a list that may be empty: what is
 // between two of them moves at once.
-template <class T> void removeAt(const std::vector<std::size_t>& dropped, std::vector<T>& list) {
+template <class T> void removeAt(const std::vector<std::size_t>& dropped, RawVector<T>& list) {
     if (list.empty()) return;
     auto kept = list.begin() + static_cast<std::ptrdiff_t>(dropped[0]);
     for (std::size_t i = 0; i < dropped.size(); ++i) {

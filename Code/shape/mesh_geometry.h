@@ -4,6 +4,7 @@
 
 #include "accel/bvh.h"
 #include "accel/kernels/kernels.h"
+#include "base/raw_vector.h"
 #include "base/transform.h"
 
 #include <array>
@@ -36,17 +37,17 @@ struct MeshGeometry {
     // Corners of a triangle that has no normals or coordinates, where others have.
     static constexpr Corners kWithout{0xffffffffu, 0xffffffffu, 0xffffffffu};
 
-    std::vector<Vec3> points;       // in the space of the tree
-    std::vector<Corners> triangles; // counter-clockwise seen from outside
-    std::vector<Vec3> normals;      // with corner indices of their own; may be empty
-    std::vector<Corners> normalTriangles;
-    std::vector<Vec2> uvs;
-    std::vector<Corners> uvTriangles;
-    std::vector<std::uint32_t> slots; // material slot per triangle; empty: all 0
+    RawVector<Vec3> points;       // in the space of the tree
+    RawVector<Corners> triangles; // counter-clockwise seen from outside
+    RawVector<Vec3> normals;      // with corner indices of their own; may be empty
+    RawVector<Corners> normalTriangles;
+    RawVector<Vec2> uvs;
+    RawVector<Corners> uvTriangles;
+    RawVector<std::uint32_t> slots; // material slot per triangle; empty: all 0
 
     // Of a mesh for instances: its points as they are in the object, of which each instance makes
     // those of the scene; `points` are theirs, rounded in the space of the tree. Else empty.
-    std::vector<Vec3d> exactPoints;
+    RawVector<Vec3d> exactPoints;
     Transform treeFromObject; // moves and scales, alike along all axes
     BoundsD exactBox;         // of the exact points
     // By node of the bvh, or by line of the nodes and leaves of the wide tree: of the exact

@@ -97,8 +97,7 @@ template <class Point> bool pays(std::span<const Point> points) {
 
 // Moves those that differ to the front of both lists, and says of all where they are then.
 template <class Point>
-std::vector<std::uint32_t> share(std::vector<Point>& points, std::vector<Vec3>* rounded,
-                                 int threads) {
+std::vector<std::uint32_t> share(RawVector<Point>& points, RawVector<Vec3>* rounded, int threads) {
     constexpr std::size_t kWorthAThread = std::size_t{1} << 15;
     const std::size_t parts = std::clamp<std::size_t>(
         points.size() / kWorthAThread, 1,

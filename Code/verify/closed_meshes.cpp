@@ -81,7 +81,7 @@ MeshDesc icosphere(int level) {
             if (isNew) mesh.points.push_back(normalize(mesh.points[i] + mesh.points[j]));
             return at->second;
         };
-        std::vector<Corners> finer;
+        RawVector<Corners> finer;
         for (const Corners c : mesh.triangles) {
             const std::uint32_t a = middle(c[0], c[1]), b = middle(c[1], c[2]),
                                 d = middle(c[2], c[0]);

@@ -20,7 +20,9 @@ namespace {
 
 constexpr std::string_view kName = "input"; // what messages call the file
 
-SourceFile sourceOf(Bytes file) { return {std::string(kName), {file.begin(), file.end()}}; }
+SourceFile sourceOf(Bytes file) {
+    return {std::string(kName), std::string(file.begin(), file.end())};
+}
 
 void readNative(Bytes file) {
     const SourceFile source = sourceOf(file);

@@ -20,7 +20,7 @@ using assignment::Pixel;
 
 SourceFile sourceOf(const std::string& fileName) {
     const auto bytes = readWholeFile(fileName);
-    return {fileName, {bytes.begin(), bytes.end()}};
+    return {fileName, std::string(bytes.begin(), bytes.end())};
 }
 assignment::Picture oracle(const SourceFile& source) {
     const JsonDocument json = parseJson(source);

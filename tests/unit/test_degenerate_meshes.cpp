@@ -9,7 +9,7 @@ TEST(mesh_drops_triangles_whose_corners_coincide) {
     MeshDesc desc;
     // The last point is on the edge from 0 to 1.
     desc.points = {{0, 0, 0}, {2, 0, 0}, {2, 1, 0}, {0, 1, 0}, {1, 0, 0}};
-    desc.uvs.resize(4);
+    desc.uvs.resize(4, {});
     desc.triangles = {{0, 1, 2}, {0, 1, 4}, {1, 1, 2}, {0, 2, 3}, {3, 3, 3}};
     desc.uvTriangles = {{0, 1, 2}, {0, 0, 0}, {0, 0, 0}, {0, 2, 3}, {0, 0, 0}};
     desc.triangleMaterials = {0, 1, 1, 2, 1};

@@ -284,6 +284,6 @@ TEST(json_numbers_are_rounded_correctly) {
         for (const JsonValue& item : document.root.items())
             CHECK_INFO(std::bit_cast<std::uint64_t>(item.number()) ==
                            std::bit_cast<std::uint64_t>(value),
-                       source.text << " gives " << shortest(item.number()));
+                       std::string_view(source.text) << " gives " << shortest(item.number()));
     }
 }

@@ -49,7 +49,7 @@ struct Soup {
     std::vector<Vec3> normals;
     bool operator==(const Soup&) const = default;
     void add(const MeshDesc& mesh) {
-        const auto addAll = [](auto& to, const auto& values, const std::vector<Corners>& corners) {
+        const auto addAll = [](auto& to, const auto& values, std::span<const Corners> corners) {
             for (const Corners& c : corners)
                 for (const std::uint32_t i : c) to.push_back(values.at(i));
         };

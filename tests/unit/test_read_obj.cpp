@@ -169,7 +169,7 @@ TEST(read_obj_random_damage_and_cut_off) {
         }
         ++read;
         const MeshDesc& mesh = file.mesh;
-        const auto inRange = [](const Triangles& triangles, std::size_t count) {
+        const auto inRange = [](std::span<const Corners> triangles, std::size_t count) {
             for (const Corners& t : triangles)
                 for (const std::uint32_t i : t)
                     if (i >= count) return false;

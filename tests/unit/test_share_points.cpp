@@ -29,8 +29,8 @@ template <class Point> bool sameBits(const Point& a, const Point& b) {
 
 // Have all triangles the corners that they had, to the last bit?
 template <class Point>
-bool haveSameCorners(const MeshGeometry& now, const std::vector<Point>& pointsNow,
-                     const MeshGeometry& before, const std::vector<Point>& pointsBefore) {
+bool haveSameCorners(const MeshGeometry& now, const RawVector<Point>& pointsNow,
+                     const MeshGeometry& before, const RawVector<Point>& pointsBefore) {
     if (now.triangles.size() != before.triangles.size()) return false;
     for (std::size_t i = 0; i < now.triangles.size(); ++i)
         for (std::size_t corner = 0; corner < 3; ++corner)

@@ -18,8 +18,8 @@ namespace {
 
 struct Input {
     std::string name;
-    std::vector<Vec3> points;
-    std::vector<std::array<std::uint32_t, 3>> triangles;
+    RawVector<Vec3> points;
+    RawVector<std::array<std::uint32_t, 3>> triangles;
 };
 
 Input inputOf(const std::string& name, const MeshDesc& mesh) {

@@ -29,7 +29,7 @@ bool hasArea(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
 // Arrays that few files need begin with the first triangle that needs them; those before get what
 // is missing.
 template <class T>
-void append(std::vector<T>& array, bool isNeeded, std::size_t before, std::size_t expected,
+void append(RawVector<T>& array, bool isNeeded, std::size_t before, std::size_t expected,
             const T& missing, const T& value) {
     if (array.empty()) {
         if (!isNeeded) return;
@@ -39,19 +39,29 @@ void append(std::vector<T>& array, bool isNeeded, std::size_t before, std::size_
     array.push_back(value);
 }
 
-template <class T>
-void appendAll(std::vector<T>& array, const std::vector<T>& more, std::size_t before,
-               std::size_t count, std::size_t expected, const T& missing) {
-    if (array.empty() && more.empty()) return;
-    if (array.empty()) array.reserve(std::max(expected, before + count));
-    array.resize(before, missing);
-    array.insert(array.end(), more.begin(), more.end());
-    array.resize(before + count, missing);
+// Appends the arrays of parts, of which part i begins at triangle starts[i]; the last start is the
+// end of all. arrayOf(part) may have less than all of its triangles, or none.
+template <class T, class ArrayOf>
+void appendAll(RawVector<T>& array, std::span<const MeshBuilder> parts,
+               std::span<const std::size_t> starts, int threads, const T& missing,
+               const ArrayOf& arrayOf) {
+    if (array.empty() && std::all_of(parts.begin(), parts.end(), [&](const MeshBuilder& part) {
+            return arrayOf(part).empty();
+        }))
+        return;
+    array.resize(starts.front(), missing);
+    array.resize(starts.back());
+    forEachOn(threads, parts.size(), [&](std::size_t i) {
+        const RawVector<T>& more = arrayOf(parts[i]);
+        T* const first = array.data() + starts[i];
+        std::fill(std::copy(more.begin(), more.end(), first), array.data() + starts[i + 1],
+                  missing);
+    });
 }
 
 // Leaves out the values that no corner uses; returns how many.
 template <class T>
-std::size_t dropUnused(std::vector<T>& values, std::vector<Corners>& corners, int threads) {
+std::size_t dropUnused(RawVector<T>& values, RawVector<Corners>& corners, int threads) {
     constexpr std::size_t kTogether = 1 << 15;
     std::vector<std::uint8_t> used(values.size());
     forEachPart(threads, corners.size(), kTogether, [&](std::size_t first, std::size_t last) {
@@ -122,17 +132,24 @@ MeshBuilder MeshBuilder::part(std::size_t triangles) const {
     return some;
 }
 
-void MeshBuilder::addFaces(const MeshBuilder& part) {
-    const std::size_t before = mesh.triangles.size(), count = part.mesh.triangles.size();
-    const auto add = [&](auto& array, const auto& more, const auto& missing) {
-        appendAll(array, more, before, count, expected_, missing);
+void MeshBuilder::addFaces(std::span<const MeshBuilder> parts, int threads) {
+    std::vector<std::size_t> starts{mesh.triangles.size()};
+    for (const MeshBuilder& part : parts)
+        starts.push_back(starts.back() + part.mesh.triangles.size());
+    const auto add = [&](auto& array, const auto& missing, const auto& arrayOf) {
+        appendAll(array, parts, starts, threads, missing, arrayOf);
     };
-    mesh.triangles.insert(mesh.triangles.end(), part.mesh.triangles.begin(),
-                          part.mesh.triangles.end());
-    add(mesh.uvTriangles, part.mesh.uvTriangles, kAllMissing);
-    add(mesh.normalTriangles, part.mesh.normalTriangles, kAllMissing);
-    add(mesh.triangleMaterials, part.mesh.triangleMaterials, 0u);
-    add(groups_, part.groups_, 0u);
+    const auto addOfMesh = [&](auto array, const auto& missing) { // of a MeshDesc
+        add(
+            mesh.*array,
+            missing, [&](const MeshBuilder& part) -> const auto& { return part.mesh.*array; });
+    };
+    addOfMesh(&MeshDesc::triangles, kAllMissing);
+    addOfMesh(&MeshDesc::uvTriangles, kAllMissing);
+    addOfMesh(&MeshDesc::normalTriangles, kAllMissing);
+    addOfMesh(&MeshDesc::triangleMaterials, 0u);
+    add(
+        groups_, 0u, [](const MeshBuilder& part) -> const auto& { return part.groups_; });
 }
 
 void MeshBuilder::fillUvs(int threads) {
@@ -147,16 +164,16 @@ void MeshBuilder::fillUvs(int threads) {
 }
 
 void MeshBuilder::fillNormals(int threads) {
-    std::vector<Corners>& corners = mesh.normalTriangles;
+    RawVector<Corners>& corners = mesh.normalTriangles;
     if (corners.empty()) {
         mesh.normals.clear();
         if (!groups_.empty()) smoothByGroup(mesh, groups_, threads);
         return;
     }
     if (std::any_of(corners.begin(), corners.end(), isMissing)) {
-        std::vector<Vec3> given = std::move(mesh.normals);
-        std::vector<Corners> givenCorners = std::exchange(corners, {});
-        groups_.resize(mesh.triangles.size());
+        RawVector<Vec3> given = std::move(mesh.normals);
+        RawVector<Corners> givenCorners = std::exchange(corners, {});
+        groups_.resize(mesh.triangles.size(), 0);
         smoothByGroup(mesh, groups_, threads);
         const auto offset = static_cast<std::uint32_t>(given.size());
         given.insert(given.end(), mesh.normals.begin(), mesh.normals.end());

@@ -29,9 +29,10 @@ public:
     void prefetch(const Corner& corner) const { __builtin_prefetch(&points()[corner.point]); }
 
     // A builder for some of the faces, at most so many triangles of this slot and group; it looks
-    // at the points here. Its faces are added when it has all of them.
+    // at the points here. When parts have all of their faces these are added, one part behind the
+    // other.
     MeshBuilder part(std::size_t triangles) const;
-    void addFaces(const MeshBuilder& part);
+    void addFaces(std::span<const MeshBuilder> parts, int threads);
 
     struct Dropped {
         std::size_t points = 0; // that nothing used
@@ -45,11 +46,11 @@ private:
     void fillNormals(int threads);
     void fillUvs(int threads);
 
-    const std::vector<Vec3d>& points() const { return points_ ? *points_ : mesh.points; }
+    const RawVector<Vec3d>& points() const { return points_ ? *points_ : mesh.points; }
 
-    const std::vector<Vec3d>* points_ = nullptr; // of another builder; nullptr: its own
+    const RawVector<Vec3d>* points_ = nullptr; // of another builder; nullptr: its own
     std::size_t expected_ = 0;
-    std::vector<std::uint32_t> groups_; // per triangle; empty: none is smooth
+    RawVector<std::uint32_t> groups_; // per triangle; empty: none is smooth
     std::vector<Vec3d> polygon_;
     std::vector<MeshDesc::Corners> pieces_;
 };

@@ -29,7 +29,7 @@ const char* lineStartFrom(const char* p, const char* end) {
     }
 }
 
-std::vector<ObjChunk> divided(const std::string& text) {
+std::vector<ObjChunk> divided(const FileText& text) {
     const char* first = text.data();
     const char* const end = first + text.size();
     if (text.starts_with("\xef\xbb\xbf")) first += 3; // what some editors put first

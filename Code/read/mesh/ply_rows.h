@@ -63,7 +63,7 @@ public:
     }
 
     void readFaces(const PlyElement& element, const PlyFaces& faces, std::size_t first,
-                   std::size_t count, const std::vector<Vec3d>& points) {
+                   std::size_t count, std::span<const Vec3d> points) {
         triangles.reserve(triangles.size() + count);
         const std::size_t most = faces.kind == PlyFaces::Kind::Polygons
                                      ? kMostCorners
@@ -94,7 +94,7 @@ public:
     }
 
     Input in;
-    std::vector<MeshDesc::Corners> triangles;
+    RawVector<MeshDesc::Corners> triangles;
     std::size_t degenerateCount = 0, firstDegenerate = 0; // faces that show nothing
 
 private:
@@ -131,7 +131,7 @@ private:
     }
 
     // False when it shows nothing.
-    bool addFace(const PlyProperty& property, const std::vector<Vec3d>& points) {
+    bool addFace(const PlyProperty& property, std::span<const Vec3d> points) {
         for (std::size_t i = 0; i < items_.size(); ++i) checkIndex(property, i, points.size());
         if (items_.size() == 3) return addTriangle(items_[0], items_[1], items_[2]);
         if (items_.size() < 3) return false;
@@ -147,7 +147,7 @@ private:
 
     // Every corner makes a triangle with the two before it, every second one turned round; -1 ends
     // the strip and begins another. Equal corners stitch strips together and show nothing.
-    void addStrip(const PlyProperty& property, const std::vector<Vec3d>& points) {
+    void addStrip(const PlyProperty& property, std::span<const Vec3d> points) {
         constexpr std::uint32_t kEnd = 0xffffffffu;
         std::size_t first = 0;
         for (std::size_t i = 0; i < items_.size(); ++i) {

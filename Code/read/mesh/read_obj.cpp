@@ -75,23 +75,17 @@ private:
     // Chunks. Their faces are there twice until they are added.
     static constexpr std::size_t kTogether = 1024;
 
-    // Some of the faces, as one thread reads them.
-    struct Faces {
-        MeshBuilder builder;
-        FacesLeftOut leftOut;
-    };
     void readTogether(std::span<const ObjChunk> chunks) {
-        std::vector<Faces> faces;
+        std::vector<MeshBuilder> faces;
+        std::vector<FacesLeftOut> leftOut(chunks.size());
         faces.reserve(chunks.size());
         // Memory is asked for here: of one thread, malloc takes it from where all the rest lies.
-        for (const ObjChunk& chunk : chunks) faces.push_back({builder_.part(chunk.triangles), {}});
+        for (const ObjChunk& chunk : chunks) faces.push_back(builder_.part(chunk.triangles));
         forEachOn(context_.options.threads, chunks.size(), [&](std::size_t i) {
-            faces[i].leftOut = readPlainFaces(source_, chunks[i], chunks_.total, faces[i].builder);
+            leftOut[i] = readPlainFaces(source_, chunks[i], chunks_.total, faces[i]);
         });
-        for (const Faces& some : faces) {
-            builder_.addFaces(some.builder);
-            leftOut_.add(some.leftOut);
-        }
+        builder_.addFaces(faces, context_.options.threads);
+        for (const FacesLeftOut& some : leftOut) leftOut_.add(some);
     }
 
     void readInOrder(const ObjChunk& chunk) {

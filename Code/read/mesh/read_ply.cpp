@@ -140,7 +140,7 @@ void checkElements(const PlyHeader& header, const SourceFile& source) {
                "the file has vertices but no faces: a point cloud has no surface to show");
 }
 
-template <class Row> void keepOnly(std::vector<Row>& rows, const std::vector<bool>& kept) {
+template <class Row> void keepOnly(RawVector<Row>& rows, const std::vector<bool>& kept) {
     std::size_t out = 0;
     for (std::size_t i = 0; i < rows.size(); ++i)
         if (kept[i]) rows[out++] = rows[i];

@@ -35,8 +35,8 @@ private:
 };
 
 template <class T>
-void takeUsed(const std::vector<T>& values, std::span<const Corners> corners, Numbering& numbering,
-              std::vector<T>& partValues, std::vector<Corners>& partCorners) {
+void takeUsed(const RawVector<T>& values, std::span<const Corners> corners, Numbering& numbering,
+              RawVector<T>& partValues, RawVector<Corners>& partCorners) {
     numbering.startPart();
     partCorners.reserve(corners.size());
     for (const Corners& c : corners) {
@@ -75,7 +75,7 @@ std::vector<SeparatePart> splitMesh(MeshFile file) {
             part.slots = {0};
     };
     if (parts.size() == 1) {
-        const std::vector<Index> materials = std::move(whole.triangleMaterials);
+        const RawVector<Index> materials = std::move(whole.triangleMaterials);
         whole.triangleMaterials = {};
         if (!file.parts.empty()) {
             whole.name = std::move(file.parts[0].name);

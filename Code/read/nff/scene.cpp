@@ -9,10 +9,10 @@
 
 namespace {
 
-template <class T> void append(std::vector<T>& all, const std::vector<T>& some) {
+template <class T> void append(RawVector<T>& all, const RawVector<T>& some) {
     all.insert(all.end(), some.begin(), some.end());
 }
-void append(std::vector<MeshDesc::Corners>& all, const std::vector<MeshDesc::Corners>& some,
+void append(RawVector<MeshDesc::Corners>& all, const RawVector<MeshDesc::Corners>& some,
             std::size_t firstPoint) {
     const auto first = static_cast<std::uint32_t>(firstPoint);
     for (const auto& [a, b, c] : some) all.push_back({first + a, first + b, first + c});

@@ -11,8 +11,7 @@
 // Blocks begin in [first, last) of the text; none reaches over its `first`.
 struct TxtPart {
     std::size_t first = 0, last = 0;
-    bool isFirst = true; // no blocks are in front of it
-    int threads = 1;     // for the arrays of large meshes
+    int threads = 1; // for the arrays of large meshes
 };
 
 struct Blocks {

@@ -100,7 +100,7 @@ private:
         expectLineEnd(in_, keyword.text, open_);
     }
 
-    template <class Group> void readGroups(std::vector<Group>& groups, ArrayRead& read) {
+    template <class Group> void readGroups(RawVector<Group>& groups, ArrayRead& read) {
         read.groups = readCount(GroupOf<Group>::kSize);
         read.numbers = read.groups * GroupOf<Group>::kSize;
         groups.resize(read.groups);

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -54,7 +55,7 @@ std::size_t partBytesFor(std::size_t textBytes, int threads) {
 std::optional<Blocks> readPart(const SourceFile& source, const TxtPart& part) {
     try {
         ErrorList errors(source);
-        Blocks blocks{{}, References(source, part.isFirst)};
+        Blocks blocks{{}, References(source, true)};
         if (readBlocks(source, part, errors, blocks) == part.last && errors.count() == 0)
             return blocks;
     } catch (const Error&) {
@@ -81,41 +82,59 @@ template <class Block> bool takeSingle(Block& all, const Block& some) {
     return isFirst;
 }
 
+// Room for so many. The system clears memory where it is touched first: all threads do that.
+template <class Block>
+void makeRoomTogether(std::vector<Block>& list, std::size_t count, int threads) {
+    // More would be there twice before the parts are let go of.
+    constexpr std::size_t kMost = std::size_t{1} << 30, kTogether = std::size_t{1} << 21,
+                          kPage = std::size_t{1} << 12;
+    reserveInLargePages(list, count);
+    auto* const memory = reinterpret_cast<volatile char*>(list.data());
+    forEachPart(threads, std::min(kMost, count * sizeof(Block)), kTogether,
+                [&](std::size_t first, std::size_t last) {
+                    for (std::size_t at = first; at < last; at += kPage) memory[at] = 0;
+                });
+}
+
 // The parts, one behind the other.
 std::optional<SceneDesc> joined(const SourceFile& source, std::vector<std::optional<Blocks>> parts,
                                 int threads) {
-    NameTables names;
-    NameCounts counts;
-    for (const auto& part : parts) {
-        if (!part) return {};
-        addNames(names, counts, part->desc);
-    }
+    if (std::any_of(parts.begin(), parts.end(), [](const auto& part) { return !part; })) return {};
+    std::vector<const References*> references;
+    for (const auto& part : parts) references.push_back(&part->references);
+    const NameTables names = References::namesOf(references);
     std::vector<std::uint8_t> isGood(parts.size());
     forEachOn(threads, parts.size(),
               [&](std::size_t i) { isGood[i] = isResolved(source, *parts[i], names); });
     if (std::find(isGood.begin(), isGood.end(), 0) != isGood.end()) return {};
 
     SceneDesc all;
-    const auto join = [&](auto blocks) { // a list of SceneDesc
-        std::size_t count = 0;
-        for (const auto& part : parts) count += (part->desc.*blocks).size();
-        reserveInLargePages(all.*blocks, count);
-        for (auto& part : parts) {
-            auto& some = part->desc.*blocks;
-            std::move(some.begin(), some.end(), std::back_inserter(all.*blocks));
-            std::remove_reference_t<decltype(some)>().swap(some);
-        }
-    };
     for (const auto& part : parts)
         if (!takeSingle(all.settings, part->desc.settings) ||
             !takeSingle(all.world, part->desc.world))
             return {};
+    std::vector<std::function<void()>> joins;
+    const auto join = [&](auto blocks) { // a list of SceneDesc
+        std::size_t count = 0;
+        for (const auto& part : parts) count += (part->desc.*blocks).size();
+        makeRoomTogether(all.*blocks, count, threads);
+        joins.emplace_back([&all, &parts, blocks] {
+            for (auto& part : parts) {
+                auto some = std::move(part->desc.*blocks);
+                (all.*blocks)
+                    .insert((all.*blocks).end(), std::move_iterator(some.begin()),
+                            std::move_iterator(some.end()));
+            }
+        });
+    };
     join(&SceneDesc::cameras);
     join(&SceneDesc::textures);
     join(&SceneDesc::materials);
     join(&SceneDesc::lights);
     join(&SceneDesc::meshes);
     join(&SceneDesc::objects);
+    forEachOn(threads, joins.size(), [&](std::size_t i) { joins[i](); });
+    forEachOn(threads, parts.size(), [&](std::size_t i) { parts[i].reset(); });
     return all;
 }
 
@@ -143,16 +162,13 @@ std::optional<SceneDesc> readTogether(const SourceFile& source, int threads,
 
 SceneDesc readInOrder(const SourceFile& source) {
     ErrorList errors(source);
-    Blocks blocks{{}, References(source, true)};
+    Blocks blocks{{}, References(source, false)};
     try {
         TxtPart all;
         all.first = readFirstLine(source);
         all.last = source.text.size();
         readBlocks(source, all, errors, blocks);
-        NameTables names;
-        NameCounts counts;
-        if (!blocks.references.isComplete()) addNames(names, counts, blocks.desc);
-        blocks.references.resolve(blocks.desc, names, errors);
+        blocks.references.resolve(blocks.desc, blocks.references.known(), errors);
     } catch (const Error& error) {
         errors.addComplete(error.what());
     }

@@ -4,6 +4,7 @@
 #include "desc/names.h"
 
 #include <optional>
+#include <utility>
 
 namespace {
 
@@ -41,7 +42,7 @@ std::string_view References::keptText(const Token& name) {
 }
 
 Handle References::use(Target target, const Token& name) {
-    if (isFirst_)
+    if (!isPart_)
         if (const auto plain = plainText(name))
             if (const auto found = known_[static_cast<std::size_t>(target)].find(*plain))
                 return static_cast<Handle>(*found);
@@ -67,12 +68,22 @@ void References::resolve(SceneDesc& desc, const NameTables& names, ErrorList& er
     });
 }
 
-void addNames(NameTables& names, NameCounts& before, const SceneDesc& desc) {
-    const auto add = [&](const auto& blocks, Target target, std::uint32_t& number) {
-        for (const auto& block : blocks)
-            names[static_cast<std::size_t>(target)].insert(block.name, number++);
-    };
-    add(desc.textures, Target::Texture, before.textures);
-    add(desc.materials, Target::Material, before.materials);
-    add(desc.meshes, Target::Mesh, before.meshes);
+NameTables References::namesOf(std::span<const References* const> parts) {
+    constexpr std::size_t kAhead = 16; // a table of many names lies in memory
+    NameTables names;
+    for (std::size_t target = 0; target < names.size(); ++target) {
+        std::size_t count = 0;
+        for (const References* part : parts) count += part->listed_[target].size();
+        NameTable table(count);
+        std::uint32_t number = 0;
+        for (const References* part : parts) {
+            const std::vector<Listed>& listed = part->listed_[target];
+            for (std::size_t i = 0; i < listed.size(); ++i) {
+                if (i + kAhead < listed.size()) table.prepare(listed[i + kAhead].hash);
+                table.insert(listed[i].name, listed[i].hash, number++);
+            }
+        }
+        names[target] = std::move(table);
+    }
+    return names;
 }

@@ -10,29 +10,33 @@
 
 #include <array>
 #include <deque>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 // By target. Of equal names the first counts; validate() complains about the others.
 using NameTables = std::array<NameTable, kEnumNames<Target>.size()>;
-// Adds the names of some blocks, behind those that are there.
-struct NameCounts {
-    std::uint32_t textures = 0, materials = 0, meshes = 0;
-};
-void addNames(NameTables& names, NameCounts& before, const SceneDesc& desc);
 
 class References {
 public:
-    // Of a part of a file in front of which there may be other names, nothing is known at once.
-    References(const SourceFile& source, bool isFirst) : source_(&source), isFirst_(isFirst) {}
+    // Of a part of a file nothing is known at once, as other names may be in front of it: its own
+    // are listed for whoever knows all parts.
+    References(const SourceFile& source, bool isPart) : source_(&source), isPart_(isPart) {}
 
     // A block has this name.
     void define(Target target, const Token& name, std::size_t number) {
-        if (isFirst_)
-            known_[static_cast<std::size_t>(target)].insert(keptText(name),
-                                                            static_cast<std::uint32_t>(number));
+        const auto t = static_cast<std::size_t>(target);
+        const std::string_view text = keptText(name);
+        if (isPart_)
+            listed_[t].push_back({text, NameTable::hashOf(text)});
+        else
+            known_[t].insert(text, static_cast<std::uint32_t>(number));
     }
+    // All names so far, where this is no part.
+    const NameTables& known() const { return known_; }
+    // The names of all parts, which must stay.
+    static NameTables namesOf(std::span<const References* const> parts);
     // The position of the name, or a number below kNone that resolve() makes one of.
     Handle use(Target target, const Token& name);
 
@@ -45,8 +49,13 @@ private:
     std::string_view keptText(const Token& name);
 
     const SourceFile* source_;
-    bool isFirst_;
+    bool isPart_;
     NameTables known_;
+    struct Listed {
+        std::string_view name;
+        std::uint32_t hash;
+    };
+    std::array<std::vector<Listed>, kEnumNames<Target>.size()> listed_; // in their order
     std::deque<std::string> quoted_; // names that are written otherwise than they are
     std::vector<Token> waiting_;
 };

@@ -35,7 +35,6 @@ std::vector<TxtPart> partsOf(std::string_view text, std::size_t first, std::size
         TxtPart part;
         part.first = static_cast<std::size_t>(p - begin);
         part.last = static_cast<std::size_t>(last - begin);
-        part.isFirst = parts.empty();
         if ((part.last - part.first) * static_cast<std::size_t>(threads) > text.size())
             part.threads = threads;
         parts.push_back(part);

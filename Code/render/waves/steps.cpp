@@ -6,13 +6,12 @@ Steps stepsFor(const Scene& scene, const RenderSettings& settings) {
     for (const auto& light : scene.lights())
         steps.softLamps |= light->isSoft() && settings.switches.softShadows;
     steps.draws = steps.softLamps;
-    for (const SceneMaterial& m : scene.materials()) {
-        steps.lampBodies |= m.isLamp;
-        steps.bounces |= !isBlack(m.base.mirror) || !isBlack(m.base.transmission);
-        steps.textures |= m.isTextured() || m.bendsNormals();
-        steps.draws |= m.base.roughness > 0;
-        steps.seeThrough |= m.seeThrough();
-        steps.branches |= m.seeThrough() || !isPlainMirror(m.base);
-    }
+    const AnyMaterial& any = scene.anyMaterial();
+    steps.draws |= any.isRough;
+    steps.lampBodies = any.isLamp;
+    steps.bounces = any.bounces;
+    steps.textures = any.pictures;
+    steps.seeThrough = any.seeThrough;
+    steps.branches = any.branches;
     return steps;
 }
