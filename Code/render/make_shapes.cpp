@@ -192,10 +192,13 @@ void ShapeMaker::finishTree(MeshGeometry& geometry, int threads) const {
 double ShapeMaker::raysPerTree() const {
     if (settings_.tree != TreeKind::Auto)
         return settings_.tree == TreeKind::Best ? kCountlessRays : 0;
+    return predictedRays(desc_, settings_) / static_cast<double>(trees());
+}
+
+std::size_t ShapeMaker::trees() const {
     const auto merged = std::count_if(merged_.begin(), merged_.end(),
                                       [](const Merged& m) { return !m.members.empty(); });
-    return predictedRays(desc_, settings_) /
-           static_cast<double>(shared_.size() + static_cast<std::size_t>(merged));
+    return shared_.size() + static_cast<std::size_t>(merged);
 }
 
 void ShapeMaker::merge(Merged& merged) {

@@ -29,8 +29,9 @@ public:
     // What one thread each can do, all at the same time: merging, the trees of small meshes, and
     // the shapes that are no meshes, which become the first ones of the set.
     std::vector<std::function<void()>> jobs(ShapeSet& shapes);
-    // Before they are done, where threads are left over that have none: trees of small meshes are
-    // then built like large ones.
+    // How many of them build trees. Before they are done: where that leaves threads over, small
+    // trees are built like large ones.
+    std::size_t trees() const;
     void leaveTrees() { largestInJob_ = 0; }
     // When those are done: large trees, by all threads one after the other, and the other shapes.
     void finish(ShapeSet& shapes, std::vector<std::unique_ptr<const MeshGeometry>>& geometries);

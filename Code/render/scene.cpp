@@ -69,8 +69,10 @@ private:
         ShapeMaker maker(desc_, settings_, scene_.frame_, seeThrough);
         std::vector<std::function<void()>> jobs = maker.jobs(scene_.shapes_);
         if (pictures_ != nullptr) pictures_->beginNoMore(); // they are jobs like others
+        const std::size_t ofShapes = jobs.size();
         addPictures(jobs);
-        if (jobs.size() < static_cast<std::size_t>(settings_.threads)) maker.leaveTrees();
+        const std::size_t longJobs = maker.trees() + jobs.size() - ofShapes;
+        if (longJobs < static_cast<std::size_t>(settings_.threads)) maker.leaveTrees();
         forEachOn(settings_.threads, jobs.size(), [&](std::size_t i) { jobs[i](); });
         // Large trees come now, where the meshes were that have been copied.
         if (spent_ != nullptr)
