@@ -4,46 +4,55 @@
 
 #include "base/raw_vector.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <string_view>
+#include <utility>
 
 class FileText {
 public:
-    FileText() { bytes_.push_back('\0'); }
+    FileText() = default;
     FileText(std::string_view text) {
-        bytes_.reserve(text.size() + 1);
-        bytes_.insert(bytes_.end(), text.begin(), text.end());
-        bytes_.push_back('\0');
+        resize(text.size());
+        std::copy(text.begin(), text.end(), data());
     }
     FileText(const std::string& text) : FileText(std::string_view(text)) {}
     FileText(const char* text) : FileText(std::string_view(text)) {}
-    FileText(const FileText&) = default;
-    FileText(FileText&& other) : FileText() { bytes_.swap(other.bytes_); } // which is empty then
-    FileText& operator=(FileText other) {
-        bytes_.swap(other.bytes_);
+    FileText(const FileText& other) : FileText(std::string_view(other)) {}
+    FileText(FileText&& other) noexcept { swap(other); }
+    FileText& operator=(FileText other) noexcept {
+        swap(other);
         return *this;
     }
     ~FileText() = default;
 
     // Bytes that are new are to be written, all of them, through data().
     void resize(std::size_t size) {
-        bytes_.resize(size + 1);
-        bytes_.back() = '\0';
+        bytes_.reserve(size + 1);
+        bytes_.resize(size);
+        bytes_.push_back('\0');
+        first_ = bytes_.data(), size_ = size;
     }
 
     char* data() { return bytes_.data(); }
-    const char* data() const { return bytes_.data(); }
-    std::size_t size() const { return bytes_.size() - 1; }
-    operator std::string_view() const { return {data(), size()}; }
+    const char* data() const { return first_; }
+    std::size_t size() const { return size_; }
+    operator std::string_view() const { return {first_, size_}; }
 
-    bool empty() const { return size() == 0; }
-    const char* begin() const { return data(); }
-    const char* end() const { return data() + size(); }
+    bool empty() const { return size_ == 0; }
+    const char* begin() const { return first_; }
+    const char* end() const { return first_ + size_; }
     bool starts_with(std::string_view start) const {
         return std::string_view(*this).starts_with(start);
     }
 
 private:
-    RawVector<char> bytes_; // with the zero
+    void swap(FileText& other) noexcept {
+        bytes_.swap(other.bytes_);
+        std::swap(first_, other.first_), std::swap(size_, other.size_);
+    }
+    RawVector<char> bytes_; // with the zero; nothing where there is no text
+    const char* first_ = "";
+    std::size_t size_ = 0;
 };
