@@ -24,7 +24,9 @@ std::vector<float> longestSides(const MeshGeometry& mesh) {
     std::vector<std::uint32_t> fromTheRoot{0};
     for (std::size_t i = 0; i < fromTheRoot.size(); ++i) {
         const BvhNode& node = nodes[fromTheRoot[i]];
-        if (!node.isLeaf()) fromTheRoot.insert(fromTheRoot.end(), {node.first, node.first + 1});
+        if (node.isLeaf()) continue;
+        fromTheRoot.push_back(node.first);
+        fromTheRoot.push_back(node.first + 1);
     }
     std::vector<float> out(nodes.size(), 0);
     for (; !fromTheRoot.empty(); fromTheRoot.pop_back()) {
