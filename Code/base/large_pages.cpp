@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <limits>
 #include <memory>
+#include <span>
 #if defined(__linux__)
 #include <sys/mman.h>
 #endif
@@ -35,11 +36,40 @@ constexpr std::size_t kWorthAPage = std::size_t{1} << 18;
 // rays lose less time than that.
 constexpr std::size_t kWorthDearPages = std::size_t{1} << 28;
 
-std::atomic<bool> largePagesAreDear{false};
+std::atomic<bool> areDear{false};
 
-bool areWorthIt(std::size_t bytes) { return !largePagesAreDear || bytes >= kWorthDearPages; }
+bool areWorthIt(std::size_t bytes) { return !areDear || bytes >= kWorthDearPages; }
 
 std::size_t inPages(std::size_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }
+
+// Whole pages of it, if they are asked for.
+std::span<char> advise(void* memory, std::size_t bytes) {
+    const auto start = reinterpret_cast<std::uintptr_t>(memory);
+    const std::uintptr_t before = (kPage - start % kPage) % kPage;
+    if (bytes < before + kPage || !areWorthIt(bytes)) return {};
+    const std::span<char> pages(static_cast<char*>(memory) + before,
+                                (bytes - before) / kPage * kPage);
+    madvise(pages.data(), pages.size(), MADV_HUGEPAGE);
+    return pages;
+}
+
+// Touches the first ones, which hold nothing or zeros and will be written anyway. A host of virtual
+// machines takes pages back that are free for some seconds, large ones only, and with the next
+// touch each costs 3 to 5 ms, 20 times what it takes to write it. After the first such page the
+// others become small ones, for which there are pieces of pages in use. foreseen: of all bytes, so
+// many will be written.
+void tryPages(std::span<char> pages, std::size_t count, std::size_t foreseen) {
+    using Clock = std::chrono::steady_clock;
+    constexpr std::chrono::milliseconds kDear{1};
+    for (std::size_t at = kPage; at <= std::min(pages.size(), count * kPage); at += kPage) {
+        const Clock::time_point start = Clock::now();
+        *static_cast<volatile char*>(&pages[at - kPage]) = 0;
+        if (Clock::now() - start < kDear) continue;
+        areDear = true;
+        if (!areWorthIt(foreseen)) madvise(pages.data() + at, pages.size() - at, MADV_NOHUGEPAGE);
+        return;
+    }
+}
 
 // From the start of a page on, so that none is lost at the ends.
 void* mapPages(std::size_t bytes) {
@@ -52,27 +82,8 @@ void* mapPages(std::size_t bytes) {
     const std::size_t before = kPage - reinterpret_cast<std::uintptr_t>(memory) % kPage;
     munmap(all, before);
     if (before < kPage) munmap(all + before + size, kPage - before);
-    if (areWorthIt(bytes))
-        madvise(all + before, (bytes + kPage - kWorthAPage) / kPage * kPage, MADV_HUGEPAGE);
+    tryLargePages(all + before, inPages(bytes - kWorthAPage));
     return all + before;
-}
-
-// Touches the first large pages of some that hold zeros, as far as they will be written anyway. A
-// host of virtual machines takes pages back that are free for some seconds, large ones only, and
-// with the next touch each costs 3 to 5 ms, 20 times what it takes to write it. At the first such
-// page the others become small ones, for which there are pieces of pages in use.
-[[maybe_unused]] void tryLargePages(char* first, std::size_t bytes, std::size_t foreseen) {
-    using Clock = std::chrono::steady_clock;
-    constexpr std::size_t kTried = 6 * kPage; // 0.2 ms each where they are not written after all
-    constexpr std::chrono::milliseconds kDear{1};
-    for (std::size_t at = kPage; at <= std::min({bytes, foreseen, kTried}); at += kPage) {
-        const Clock::time_point start = Clock::now();
-        *static_cast<volatile char*>(first + at - kPage) = 0;
-        if (Clock::now() - start < kDear) continue;
-        largePagesAreDear = true;
-        if (bytes < kWorthDearPages) madvise(first + at, bytes - at, MADV_NOHUGEPAGE);
-        return;
-    }
 }
 
 #endif
@@ -81,10 +92,21 @@ void* mapPages(std::size_t bytes) {
 
 void adviseLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__)
-    const auto start = reinterpret_cast<std::uintptr_t>(memory);
-    const std::uintptr_t inside = (kPage - start % kPage) % kPage;
-    if (bytes < inside + kPage || !areWorthIt(bytes)) return;
-    madvise(static_cast<char*>(memory) + inside, (bytes - inside) / kPage * kPage, MADV_HUGEPAGE);
+    advise(memory, bytes);
+#endif
+}
+
+void tryLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
+#if defined(__linux__)
+    tryPages(advise(memory, bytes), 1, bytes);
+#endif
+}
+
+bool largePagesAreDear() {
+#if defined(__linux__)
+    return areDear;
+#else
+    return false;
 #endif
 }
 
@@ -131,10 +153,11 @@ void useLargePages([[maybe_unused]] std::size_t bytes, [[maybe_unused]] std::siz
         filler = std::malloc(page - start - kRecord);
         const std::uintptr_t first = addressOf(filler), end = addressOf(sbrk(0));
         if (filler && start < first && first < page && page < end) {
-            adviseLargePages(filler, end - first);
 #if defined(__linux__)
-            char* const inHeap = static_cast<char*>(filler) + (page - first);
-            tryLargePages(inHeap, (end - page) / kPage * kPage, foreseen);
+            // 0.2 ms for each that is not written after all.
+            constexpr std::size_t kTried = 6;
+            const std::size_t count = std::clamp<std::size_t>(foreseen / kPage, 1, kTried);
+            tryPages(advise(filler, end - first), count, foreseen);
 #endif
         }
     }

@@ -6,11 +6,16 @@
 // Before the first touch: asks the system for its largest pages. Memory that is too small for one
 // is left as it is.
 void adviseLargePages(void* memory, std::size_t bytes);
+// The same for what holds nothing yet and is to be written from its start on: writes to the first
+// page. If that takes too long, small amounts of memory are left as they are from then on.
+void tryLargePages(void* memory, std::size_t bytes);
+// Has one taken too long?
+bool largePagesAreDear();
 
 // The same for what malloc will hand out next, to the main thread: about so many bytes in small and
 // large pieces. They stay with the program when they are freed.
 // foreseen: so many of them will be written, as far as one can say. Their first large pages are
-// written here; if one takes too long, small amounts of memory are left as they are from then on.
+// tried like that.
 // inThreads: others may do so for themselves, which takes room from the last megabytes there are.
 void useLargePages(std::size_t bytes, std::size_t foreseen, bool inThreads);
 // Then, for the first megabytes of what malloc will hand out to this thread, which is another one

@@ -29,7 +29,7 @@ template <class T> struct PageAllocator {
         T* const p = beginsAPage(bytes)
                          ? static_cast<T*>(::operator new (bytes, std::align_val_t{kLargePage}))
                          : std::allocator<T>().allocate(count);
-        if (bytes >= kLargePage) adviseLargePages(p, bytes);
+        if (bytes >= kLargePage) tryLargePages(p, bytes);
         return p;
     }
     void deallocate(T* p, std::size_t count) {

@@ -115,12 +115,13 @@ bool hasMeshBlock(std::string_view text, int threads) {
 
 // Objects and materials are many small things, up to 20 times the bytes of their text before they
 // are a scene: half of the time of reading them would be spent on touching their pages for the
-// first time. Meshes are a few large arrays: in the heap they would leave holes where the tree gets
-// no room. Small texts do not say how much it will be, as they may ask for a large picture.
-void makeRoom(std::size_t textBytes, bool isMesh, int threads) {
-    constexpr std::size_t kLeast = std::size_t{24} << 20, kTimes = 24;
-    const std::size_t foreseen = isMesh ? 0 : kTimes * textBytes;
-    useLargePages(std::max(kLeast, foreseen), foreseen, threads != 1);
+// first time. Large meshes are a few large arrays: in the heap they would leave holes where the
+// tree gets no room. Small texts do not say how much it will be, as they may ask for a large
+// picture.
+void makeRoom(std::size_t textBytes, bool isMesh, bool isSmall, int threads) {
+    constexpr std::size_t kLeast = std::size_t{24} << 20, kMostTimes = 24, kUsualTimes = 6;
+    useLargePages(std::max(kLeast, isMesh ? 0 : kMostTimes * textBytes),
+                  isMesh && !isSmall ? 0 : kUsualTimes * textBytes, threads != 1);
 }
 
 FileText readText(const std::string& fileName, const Format& format, int threads) {
@@ -129,12 +130,13 @@ FileText readText(const std::string& fileName, const Format& format, int threads
     std::error_code status;
     const std::uintmax_t size = fs::file_size(fileName, status);
     if (!status && size <= kSmall) {
-        makeRoom(static_cast<std::size_t>(size), format.isMesh, threads);
+        makeRoom(static_cast<std::size_t>(size), format.isMesh, true, threads);
         return readWholeText(fileName, threads);
     }
     FileText text = readWholeText(fileName, threads);
-    makeRoom(text.size(),
-             format.isMesh || (format.extension == ".txt" && hasMeshBlock(text, threads)), threads);
+    const bool isMesh =
+        format.isMesh || (format.extension == ".txt" && hasMeshBlock(text, threads));
+    makeRoom(text.size(), isMesh, false, threads);
     return text;
 }
 

@@ -1,6 +1,8 @@
-// What a thread allocates lies in large pages, but for the start of its first piece, where malloc
-// is glibc's.
+// Large arrays, and what a thread allocates but for the start of its first piece, lie in large
+// pages as long as none of these was dear, where malloc is glibc's.
 #include "base/large_pages.h"
+#include "base/pages.h"
+#include "base/zeroed.h"
 #include "check.h"
 
 // Sanitizers have a malloc of their own.
@@ -14,6 +16,7 @@
 
 #if defined(__GLIBC__) && !defined(HAS_OTHER_MALLOC)
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <fstream>
@@ -41,6 +44,24 @@ std::string flagsOf(std::uintptr_t address) {
 
 } // namespace
 
+// By both ways to large arrays. The first page is tried, and those behind it stay as they were if
+// that was dear: nobody can tell here, so this is a test of either.
+TEST(large_pages_in_arrays) {
+    constexpr std::size_t kBytes = 9 * kLargePage;
+    const auto flagsInside = [](const void* array) {
+        return flagsOf(reinterpret_cast<std::uintptr_t>(array) + kBytes / 2);
+    };
+    const ZeroedVector<char> zeroed(kBytes);
+    const PageVector<char> pages(kBytes);
+    const std::string first = flagsInside(pages.data()), second = flagsInside(zeroed.data());
+    CHECK_EQUAL(std::count(zeroed.begin(), zeroed.end(), 0), std::ptrdiff_t{kBytes});
+    if (first.empty()) return; // the system does not tell
+    const bool areDear = largePagesAreDear();
+    // The memory of an array may be that of another, from before that was known.
+    CHECK_INFO(areDear || first.find(" hg ") != std::string::npos, first);
+    CHECK_INFO(areDear != (second.find(" hg ") != std::string::npos), areDear << second);
+}
+
 // Threads get heaps that others have left, first: one of many that live at a time has a new one.
 TEST(large_pages_in_threads) {
     useLargePages(1 << 20, 0, true);
@@ -66,7 +87,8 @@ TEST(large_pages_in_threads) {
     done = true;
     done.notify_all();
     for (std::thread& thread : threads) thread.join();
-    CHECK_INFO(advised || !known, "none of " << threads.size() << " threads");
+    CHECK_INFO(advised || !known || largePagesAreDear(),
+               "none of " << threads.size() << " threads");
 }
 
 #endif
