@@ -42,11 +42,11 @@ bool areWorthIt(std::size_t bytes) { return !areDear || bytes >= kWorthDearPages
 
 std::size_t inPages(std::size_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }
 
-// Whole pages of it, if they are asked for.
-std::span<char> advise(void* memory, std::size_t bytes) {
+// Whole pages of it, if they are asked for. foreseen: of all bytes, so many will be written.
+std::span<char> advise(void* memory, std::size_t bytes, std::size_t foreseen) {
     const auto start = reinterpret_cast<std::uintptr_t>(memory);
     const std::uintptr_t before = (kPage - start % kPage) % kPage;
-    if (bytes < before + kPage || !areWorthIt(bytes)) return {};
+    if (bytes < before + kPage || !areWorthIt(foreseen)) return {};
     const std::span<char> pages(static_cast<char*>(memory) + before,
                                 (bytes - before) / kPage * kPage);
     madvise(pages.data(), pages.size(), MADV_HUGEPAGE);
@@ -56,8 +56,7 @@ std::span<char> advise(void* memory, std::size_t bytes) {
 // Touches the first ones, which hold nothing or zeros and will be written anyway. A host of virtual
 // machines takes pages back that are free for some seconds, large ones only, and with the next
 // touch each costs 3 to 5 ms, 20 times what it takes to write it. After the first such page the
-// others become small ones, for which there are pieces of pages in use. foreseen: of all bytes, so
-// many will be written.
+// others become small ones, for which there are pieces of pages in use.
 void tryPages(std::span<char> pages, std::size_t count, std::size_t foreseen) {
     using Clock = std::chrono::steady_clock;
     constexpr std::chrono::milliseconds kDear{1};
@@ -92,13 +91,13 @@ void* mapPages(std::size_t bytes) {
 
 void adviseLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__)
-    advise(memory, bytes);
+    advise(memory, bytes, bytes);
 #endif
 }
 
 void tryLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__)
-    tryPages(advise(memory, bytes), 1, bytes);
+    tryPages(advise(memory, bytes, bytes), 1, bytes);
 #endif
 }
 
@@ -157,7 +156,7 @@ void useLargePages([[maybe_unused]] std::size_t bytes, [[maybe_unused]] std::siz
             // 0.2 ms for each that is not written after all.
             constexpr std::size_t kTried = 6;
             const std::size_t count = std::clamp<std::size_t>(foreseen / kPage, 1, kTried);
-            tryPages(advise(filler, end - first), count, foreseen);
+            tryPages(advise(filler, end - first, foreseen), count, foreseen);
 #endif
         }
     }

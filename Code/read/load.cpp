@@ -113,30 +113,31 @@ bool hasMeshBlock(std::string_view text, int threads) {
     return has;
 }
 
+// Texts up to this size lie in the memory that is made for what they say.
+constexpr std::size_t kSmallText = std::size_t{3} << 20;
+
 // Objects and materials are many small things, up to 20 times the bytes of their text before they
-// are a scene: half of the time of reading them would be spent on touching their pages for the
-// first time. Large meshes are a few large arrays: in the heap they would leave holes where the
-// tree gets no room. Small texts do not say how much it will be, as they may ask for a large
-// picture.
-void makeRoom(std::size_t textBytes, bool isMesh, bool isSmall, int threads) {
+// are a scene, and a quarter of that most of the time: half of the time of reading them would be
+// spent on touching their pages for the first time. Large meshes are a few large arrays: in the
+// heap they would leave holes where the tree gets no room. Small texts do not say how much it will
+// be, as they may ask for a large picture.
+void makeRoom(std::size_t textBytes, bool isMesh, int threads) {
     constexpr std::size_t kLeast = std::size_t{24} << 20, kMostTimes = 24, kUsualTimes = 6;
+    const bool isElsewhere = isMesh && textBytes > kSmallText;
     useLargePages(std::max(kLeast, isMesh ? 0 : kMostTimes * textBytes),
-                  isMesh && !isSmall ? 0 : kUsualTimes * textBytes, threads != 1);
+                  isElsewhere ? 0 : kUsualTimes * textBytes, threads != 1);
 }
 
 FileText readText(const std::string& fileName, const Format& format, int threads) {
-    // Then holes do no harm, and the text itself is to lie in that memory.
-    constexpr std::uintmax_t kSmall = 3 << 20;
     std::error_code status;
     const std::uintmax_t size = fs::file_size(fileName, status);
-    if (!status && size <= kSmall) {
-        makeRoom(static_cast<std::size_t>(size), format.isMesh, true, threads);
+    if (!status && size <= kSmallText) {
+        makeRoom(static_cast<std::size_t>(size), format.isMesh, threads);
         return readWholeText(fileName, threads);
     }
     FileText text = readWholeText(fileName, threads);
-    const bool isMesh =
-        format.isMesh || (format.extension == ".txt" && hasMeshBlock(text, threads));
-    makeRoom(text.size(), isMesh, false, threads);
+    makeRoom(text.size(),
+             format.isMesh || (format.extension == ".txt" && hasMeshBlock(text, threads)), threads);
     return text;
 }
 
