@@ -108,6 +108,7 @@ inline Mask operator>=(Floats a, Floats b) { return b <= a; }
 inline Mask operator==(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_EQ_OQ)}; }
 inline Mask notGreater(Floats a, Floats b) { return {_mm256_cmp_ps(a.v, b.v, _CMP_NGT_UQ)}; }
 inline Ints operator&(Ints a, Ints b) { return _mm256_and_si256(a.v, b.v); }
+inline Ints operator+(Ints a, Ints b) { return _mm256_add_epi32(a.v, b.v); }
 inline Mask operator<(Ints a, Ints b) {
     const __m256i top = _mm256_set1_epi32(static_cast<int>(0x80000000u));
     return {_mm256_castsi256_ps(

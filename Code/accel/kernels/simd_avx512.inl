@@ -113,6 +113,7 @@ inline Mask operator==(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v
 // True for NaN.
 inline Mask notGreater(Floats a, Floats b) { return {_mm512_cmp_ps_mask(a.v, b.v, _CMP_NGT_UQ)}; }
 inline Ints operator&(Ints a, Ints b) { return _mm512_and_si512(a.v, b.v); }
+inline Ints operator+(Ints a, Ints b) { return _mm512_add_epi32(a.v, b.v); }
 inline Mask operator<(Ints a, Ints b) { return {_mm512_cmplt_epu32_mask(a.v, b.v)}; }
 inline Mask operator==(Ints a, Ints b) { return {_mm512_cmpeq_epi32_mask(a.v, b.v)}; }
 inline Mask operator&(Mask a, Mask b) { return {static_cast<__mmask16>(a.v & b.v)}; }

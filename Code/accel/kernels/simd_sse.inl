@@ -156,6 +156,9 @@ inline Mask notGreater(Floats a, Floats b) {
 inline Ints operator&(Ints a, Ints b) {
     return {_mm_and_si128(a.lo, b.lo), _mm_and_si128(a.hi, b.hi)};
 }
+inline Ints operator+(Ints a, Ints b) {
+    return {_mm_add_epi32(a.lo, b.lo), _mm_add_epi32(a.hi, b.hi)};
+}
 inline Mask operator<(Ints a, Ints b) {
     const __m128i top = _mm_set1_epi32(static_cast<int>(0x80000000u));
     const auto less = [&](__m128i x, __m128i y) {

@@ -21,6 +21,12 @@ inline Ints fourBytesAt(const std::uint8_t* from, Ints offset) {
     for (std::uint32_t& x : at) std::memcpy(&x, from + x, sizeof x);
     return Ints::load(at);
 }
+inline Ints elementsAt(const std::uint32_t* table, Ints i) {
+    alignas(16) std::uint32_t at[W];
+    i.store(at);
+    for (std::uint32_t& x : at) x = table[x];
+    return Ints::load(at);
+}
 template <int kStride> Doubles elementsAt(const double* table, Ints i) {
     alignas(16) std::uint32_t at[W];
     i.store(at);

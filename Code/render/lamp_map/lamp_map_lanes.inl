@@ -40,9 +40,9 @@ public:
                 reach_[place] = lanes.reach(lane);
                 const std::uint32_t cell = lanes.cell(lane);
                 __builtin_prefetch(&map_.starts[cell]);
-                walkers_[walking_++] = {place, cell,
-                                        inside ? MappedShapes::kNoHull
-                                               : map_.shapes->hullOf[block.shape[i]]};
+                walkers_.place[walking_] = place, walkers_.at[walking_] = cell;
+                walkers_.own[walking_++] =
+                    inside ? MappedShapes::kNoHull : map_.shapes->hullOf[block.shape[i]];
             }
         }
     }
@@ -50,9 +50,11 @@ public:
     // All that was added is answered then.
     void run() {
         for (std::size_t k = 0; k < walking_; ++k) {
-            walkers_[k].at = map_.starts[walkers_[k].at];
-            __builtin_prefetch(&map_.lists[walkers_[k].at]);
+            walkers_.at[k] = map_.starts[walkers_.at[k]];
+            __builtin_prefetch(&map_.lists[walkers_.at[k]]);
         }
+        // The lanes behind the last one look there.
+        std::fill_n(walkers_.place + walking_, W, 0), std::fill_n(walkers_.at + walking_, W, 0);
         while (walking_ != 0) {
             step();
             meetSome<true>(balls_, balls_.count / W * W);
@@ -73,32 +75,40 @@ private:
     struct Line {
         float x, y, z, tMax; // from the lamp
     };
-    struct Walker {
-        std::uint32_t place, at; // at: first the cell, then of the lists
-        std::uint32_t own;       // the hull that the point is on
+    struct Walkers {
+        alignas(64) std::uint32_t place[kPlaces + W], at[kPlaces + W]; // at: cell, then of lists
+        alignas(64) std::uint32_t own[kPlaces + W];                    // hull that the point is on
     };
     struct Pairs {
-        std::uint32_t place[kPlaces + W], hull[kPlaces + W];
+        std::uint32_t place[kPlaces + 2 * W], hull[kPlaces + 2 * W]; // stores write W at once
         std::size_t count = 0;
+
+        void add(unsigned chosen, Ints places, Ints hulls) {
+            storeChosen(chosen, places, place + count), storeChosen(chosen, hulls, hull + count);
+            count += static_cast<std::size_t>(std::popcount(chosen));
+        }
     };
 
-    // An entry for each. Without a branch: how long lists are is hard to tell in advance.
+    // An entry for each, W at a time. Without a branch: how long lists are is hard to tell in
+    // advance.
     void step() {
-        const std::uint32_t* const lists = map_.lists.data();
-        const std::uint32_t firstOther = map_.shapes->firstOther;
-        constexpr std::uint32_t kHull = (1u << LampMap::kHullBits) - 1;
-        std::size_t kept = 0, balls = balls_.count, others = others_.count;
-        for (std::size_t k = 0; k < walking_; ++k) {
-            const auto [place, at, own] = walkers_[k];
-            const std::uint32_t entry = lists[at], hull = entry & kHull;
-            const bool isOn = entry < reach_[place], isMet = isOn & (hull != own);
-            walkers_[kept] = {place, at + 1, own};
-            kept += isOn;
-            balls_.place[balls] = others_.place[others] = place;
-            balls_.hull[balls] = others_.hull[others] = hull;
-            balls += isMet & (hull < firstOther), others += isMet & (hull >= firstOther);
+        const Ints hullBits((1u << LampMap::kHullBits) - 1), firstOther(map_.shapes->firstOther);
+        std::size_t kept = 0;
+        for (std::size_t first = 0; first < walking_; first += W) {
+            const unsigned lanes = walking_ - first < W ? (1u << (walking_ - first)) - 1 : kAll;
+            const Ints place = Ints::load(walkers_.place + first),
+                       at = Ints::load(walkers_.at + first), own = Ints::load(walkers_.own + first);
+            const Ints entry = elementsAt(map_.lists.data(), at), hull = entry & hullBits;
+            const unsigned on = lanes & bits(entry < elementsAt(reach_, place));
+            storeChosen(on, place, walkers_.place + kept);
+            storeChosen(on, at + Ints(1), walkers_.at + kept);
+            storeChosen(on, own, walkers_.own + kept);
+            kept += static_cast<std::size_t>(std::popcount(on));
+            const unsigned met = on & ~bits(hull == own), ball = met & bits(hull < firstOther);
+            balls_.add(ball, place, hull);
+            if (met != ball) others_.add(met & ~ball, place, hull);
         }
-        walking_ = kept, balls_.count = balls, others_.count = others;
+        walking_ = kept;
     }
 
     // The first `count` pairs, in whose place come the others.
@@ -193,9 +203,9 @@ private:
     const MappedShapes::Hull* hulls_;
     std::size_t walking_ = 0;
     HiddenByMap answers_[kBlocks];
-    std::uint32_t reach_[kPlaces];
+    std::uint32_t reach_[kPlaces]{};
     alignas(64) Line lines_[kPlaces];
-    Walker walkers_[kPlaces];
+    Walkers walkers_;
     Pairs balls_, others_; // W of them are met together, the rest waits for others
 };
 

@@ -19,6 +19,8 @@ namespace kernels::avx2 {
 
 #include "accel/kernels/solids_columns_avx2.inl"
 
+#include "accel/kernels/table_gather_avx2.inl"
+
 #include "render/lamp_map/lamp_map_lanes.inl"
 } // namespace kernels::avx2
 KERNEL_REGION_END

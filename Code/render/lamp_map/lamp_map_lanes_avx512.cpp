@@ -19,6 +19,8 @@ namespace kernels::avx512 {
 
 #include "accel/kernels/solids_columns_avx512.inl"
 
+#include "accel/kernels/table_gather_avx512.inl"
+
 #include "render/lamp_map/lamp_map_lanes.inl"
 } // namespace kernels::avx512
 KERNEL_REGION_END

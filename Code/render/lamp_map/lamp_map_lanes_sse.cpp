@@ -19,6 +19,8 @@ namespace kernels::sse {
 
 #include "accel/kernels/solids_columns_sse.inl"
 
+#include "accel/kernels/table_gather_sse.inl"
+
 #include "render/lamp_map/lamp_map_lanes.inl"
 } // namespace kernels::sse
 KERNEL_REGION_END
