@@ -16,15 +16,17 @@ inline Ints fourBytesAt(const std::uint8_t* from, Ints offset) {
     return _mm256_i32gather_epi32(static_cast<const int*>(static_cast<const void*>(from)), offset.v,
                                   1);
 }
-inline Ints elementsAt(const std::uint32_t* table, Ints i) {
-    return _mm256_i32gather_epi32(static_cast<const int*>(static_cast<const void*>(table)), i.v, 4);
+inline Ints elementsAt(const std::uint32_t* table, Ints i, unsigned chosen) {
+    return _mm256_mask_i32gather_epi32(_mm256_setzero_si256(),
+                                       static_cast<const int*>(static_cast<const void*>(table)),
+                                       i.v, _mm256_castps_si256(maskOf(chosen).v), 4);
 }
 template <int kStride> Doubles elementsAt(const double* table, Ints i) {
     const __m256d all = _mm256_castsi256_pd(_mm256_set1_epi64x(-1));
     const auto at = [&](__m128i row) {
         // With a mask: g++ 12 takes the undefined operand of the one without for a mistake.
-        return _mm256_mask_i32gather_pd(all, table, _mm_mullo_epi32(row, _mm_set1_epi32(kStride)),
-                                        all, 8);
+        return _mm256_mask_i32gather_pd(
+            all, table, _mm_mullo_epi32(row, _mm_set1_epi32(kStride)), all, 8);
     };
     return {at(_mm256_castsi256_si128(i.v)), at(upperHalf(i))};
 }

@@ -21,9 +21,11 @@ inline Ints byteOf(Ints a, int i) {
 inline Ints fourBytesAt(const std::uint8_t* from, Ints offset) {
     return _mm512_i32gather_epi32(offset.v, from, 1);
 }
-// Element i of a table for each i, which are below 2^31.
-inline Ints elementsAt(const std::uint32_t* table, Ints i) {
-    return _mm512_i32gather_epi32(i.v, table, 4);
+// Element i of a table for each i, which are below 2^31; 0 in lanes that are not chosen, whatever
+// their i.
+inline Ints elementsAt(const std::uint32_t* table, Ints i, unsigned chosen) {
+    return _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), static_cast<__mmask16>(chosen), i.v,
+                                       table, 4);
 }
 // Element kStride * i of a table for each i.
 template <int kStride> Doubles elementsAt(const double* table, Ints i) {

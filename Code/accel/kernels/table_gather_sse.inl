@@ -21,11 +21,14 @@ inline Ints fourBytesAt(const std::uint8_t* from, Ints offset) {
     for (std::uint32_t& x : at) std::memcpy(&x, from + x, sizeof x);
     return Ints::load(at);
 }
-inline Ints elementsAt(const std::uint32_t* table, Ints i) {
-    alignas(16) std::uint32_t at[W];
+inline Ints elementsAt(const std::uint32_t* table, Ints i, unsigned chosen) {
+    alignas(16) std::uint32_t at[W], out[W] = {};
     i.store(at);
-    for (std::uint32_t& x : at) x = table[x];
-    return Ints::load(at);
+    for (; chosen != 0; chosen &= chosen - 1) {
+        const int lane = std::countr_zero(chosen);
+        out[lane] = table[at[lane]];
+    }
+    return Ints::load(out);
 }
 template <int kStride> Doubles elementsAt(const double* table, Ints i) {
     alignas(16) std::uint32_t at[W];

@@ -53,8 +53,6 @@ public:
             walkers_.at[k] = map_.starts[walkers_.at[k]];
             __builtin_prefetch(&map_.lists[walkers_.at[k]]);
         }
-        // The lanes behind the last one look there.
-        std::fill_n(walkers_.place + walking_, W, 0), std::fill_n(walkers_.at + walking_, W, 0);
         while (walking_ != 0) {
             step();
             meetSome<true>(balls_, balls_.count / W * W);
@@ -89,7 +87,7 @@ private:
         }
     };
 
-    // An entry for each, W at a time. Without a branch: how long lists are is hard to tell in
+    // An entry for each, W at a time. No branch asks how long a list is: that is hard to tell in
     // advance.
     void step() {
         const Ints hullBits((1u << LampMap::kHullBits) - 1), firstOther(map_.shapes->firstOther);
@@ -98,8 +96,8 @@ private:
             const unsigned lanes = walking_ - first < W ? (1u << (walking_ - first)) - 1 : kAll;
             const Ints place = Ints::load(walkers_.place + first),
                        at = Ints::load(walkers_.at + first), own = Ints::load(walkers_.own + first);
-            const Ints entry = elementsAt(map_.lists.data(), at), hull = entry & hullBits;
-            const unsigned on = lanes & bits(entry < elementsAt(reach_, place));
+            const Ints entry = elementsAt(map_.lists.data(), at, lanes), hull = entry & hullBits;
+            const unsigned on = lanes & bits(entry < elementsAt(reach_, place, lanes));
             storeChosen(on, place, walkers_.place + kept);
             storeChosen(on, at + Ints(1), walkers_.at + kept);
             storeChosen(on, own, walkers_.own + kept);
@@ -203,7 +201,7 @@ private:
     const MappedShapes::Hull* hulls_;
     std::size_t walking_ = 0;
     HiddenByMap answers_[kBlocks];
-    std::uint32_t reach_[kPlaces]{};
+    std::uint32_t reach_[kPlaces];
     alignas(64) Line lines_[kPlaces];
     Walkers walkers_;
     Pairs balls_, others_; // W of them are met together, the rest waits for others
