@@ -36,9 +36,10 @@ constexpr std::size_t kWorthAPage = std::size_t{1} << 18;
 // rays lose less time than that.
 constexpr std::size_t kWorthDearPages = std::size_t{1} << 28;
 
-std::atomic<bool> areDear{false};
+// Of how much memory on they are asked for.
+std::atomic<std::size_t> fewestBytes{0};
 
-bool areWorthIt(std::size_t bytes) { return !areDear || bytes >= kWorthDearPages; }
+bool areWorthIt(std::size_t bytes) { return bytes >= fewestBytes; }
 
 std::size_t inPages(std::size_t bytes) { return (bytes + kPage - 1) / kPage * kPage; }
 
@@ -64,7 +65,7 @@ void tryPages(std::span<char> pages, std::size_t count, std::size_t foreseen) {
         const Clock::time_point start = Clock::now();
         *static_cast<volatile char*>(&pages[at - kPage]) = 0;
         if (Clock::now() - start < kDear) continue;
-        areDear = true;
+        fewestBytes = kWorthDearPages;
         if (!areWorthIt(foreseen)) madvise(pages.data() + at, pages.size() - at, MADV_NOHUGEPAGE);
         return;
     }
@@ -89,6 +90,12 @@ void* mapPages(std::size_t bytes) {
 
 } // namespace
 
+void foreseeMemory([[maybe_unused]] std::size_t bytes) {
+#if defined(__linux__)
+    if (!largePagesAreDear()) fewestBytes = bytes < kWorthATrial ? kWorthATrial : 0;
+#endif
+}
+
 void adviseLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__)
     advise(memory, bytes, bytes);
@@ -103,7 +110,7 @@ void tryLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t b
 
 bool largePagesAreDear() {
 #if defined(__linux__)
-    return areDear;
+    return fewestBytes == kWorthDearPages;
 #else
     return false;
 #endif

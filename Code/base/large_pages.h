@@ -3,6 +3,14 @@
 
 #include <cstddef>
 
+// Of so much memory on it is worth trying whether large pages are dear: where they are, the trial
+// takes as long as all small pages of less together, and where they are not, those take as long.
+inline constexpr std::size_t kWorthATrial = std::size_t{1} << 24;
+
+// How much will be written in all, as far as one can say. Where that is less than kWorthATrial,
+// nothing below asks for large pages but for what alone is not.
+void foreseeMemory(std::size_t bytes);
+
 // Before the first touch: asks the system for its largest pages. Memory that is too small for one
 // is left as it is.
 void adviseLargePages(void* memory, std::size_t bytes);

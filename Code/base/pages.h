@@ -22,7 +22,7 @@ template <class T> struct PageAllocator {
     template <class U> PageAllocator(const PageAllocator<U>&) {}
 
     // What the rest of a page costs is little to these.
-    static bool beginsAPage(std::size_t bytes) { return bytes >= 8 * kLargePage; }
+    static bool beginsAPage(std::size_t bytes) { return bytes >= kWorthATrial; }
 
     T* allocate(std::size_t count) {
         const std::size_t bytes = count * sizeof(T);

@@ -117,12 +117,13 @@ bool hasMeshBlock(std::string_view text, int threads) {
 constexpr std::size_t kSmallText = std::size_t{3} << 20;
 
 // Objects and materials are many small things, up to 20 times the bytes of their text before they
-// are a scene, and a quarter of that most of the time: half of the time of reading them would be
-// spent on touching their pages for the first time. Large meshes are a few large arrays: in the
-// heap they would leave holes where the tree gets no room. Small texts do not say how much it will
-// be, as they may ask for a large picture.
+// are a scene, and a quarter of that most of the time, as meshes are: half of the time of reading
+// many would be spent on touching their pages for the first time. Large meshes are a few large
+// arrays: in the heap they would leave holes where the tree gets no room. Small texts do not say
+// how much it will be, as they may ask for a large picture.
 void makeRoom(std::size_t textBytes, bool isMesh, int threads) {
-    constexpr std::size_t kLeast = std::size_t{24} << 20, kMostTimes = 24, kUsualTimes = 6;
+    constexpr std::size_t kLeast = std::size_t{24} << 20, kMostTimes = 24, kUsualTimes = 5;
+    foreseeMemory(kUsualTimes * textBytes);
     const bool isElsewhere = isMesh && textBytes > kSmallText;
     useLargePages(std::max(kLeast, isMesh ? 0 : kMostTimes * textBytes),
                   isElsewhere ? 0 : kUsualTimes * textBytes, threads != 1);

@@ -47,6 +47,7 @@ std::string flagsOf(std::uintptr_t address) {
 // By both ways to large arrays. The first page is tried, and those behind it stay as they were if
 // that was dear: nobody can tell here, so this is a test of either.
 TEST(large_pages_in_arrays) {
+    foreseeMemory(kWorthATrial);
     constexpr std::size_t kBytes = 9 * kLargePage;
     const auto flagsInside = [](const void* array) {
         return flagsOf(reinterpret_cast<std::uintptr_t>(array) + kBytes / 2);
@@ -64,8 +65,27 @@ TEST(large_pages_in_arrays) {
     CHECK_INFO(areDear || second.find(" hg ") != std::string::npos, second);
 }
 
+// Where little will be written, only arrays are worth it that alone are: a page that is dear takes
+// as long as all small ones together.
+TEST(large_pages_are_for_much_memory) {
+    const auto flagsIn = [](std::size_t bytes) { // of a mapping of its own
+        const ZeroedVector<char> array(bytes);
+        return flagsOf(reinterpret_cast<std::uintptr_t>(array.data()) + bytes / 2);
+    };
+    constexpr std::size_t kLittle = kWorthATrial - kLargePage, kMuch = kWorthATrial + kLargePage;
+    foreseeMemory(kWorthATrial - 1);
+    const std::string little = flagsIn(kLittle), much = flagsIn(kMuch);
+    if (little.empty()) return; // the system does not tell
+    CHECK_INFO(little.find(" hg ") == std::string::npos, little);
+    CHECK_INFO(largePagesAreDear() || much.find(" hg ") != std::string::npos, much);
+    foreseeMemory(kWorthATrial);
+    const std::string again = flagsIn(kLittle);
+    CHECK_INFO(largePagesAreDear() || again.find(" hg ") != std::string::npos, again);
+}
+
 // Threads get heaps that others have left, first: one of many that live at a time has a new one.
 TEST(large_pages_in_threads) {
+    foreseeMemory(kWorthATrial);
     useLargePages(1 << 20, 0, true);
     constexpr int kMost = 128;
     std::atomic<bool> done{false}, advised{false}, known{true};
