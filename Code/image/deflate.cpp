@@ -131,8 +131,15 @@ void putBlock(BitWriter& out, Block& block, bool last) {
             canonicalCodes(dynamic.distanceLengths()));
 }
 
-void putMatches(BitWriter& out, std::span<const std::uint8_t> bytes, bool last) {
-    Matcher matcher(bytes);
+// Trials are as long as what comes again after a row needs.
+std::size_t trialOf(std::size_t rowBytes) {
+    constexpr std::size_t kLeast = 1 << 11;
+    return rowBytes == 0 ? 0 : std::max(kLeast, std::bit_ceil(rowBytes));
+}
+
+void putMatches(BitWriter& out, std::span<const std::uint8_t> bytes, bool last,
+                std::size_t rowBytes) {
+    Matcher matcher(bytes, trialOf(rowBytes));
     std::size_t at = 0;
     do {
         Block block;
@@ -155,9 +162,10 @@ void putMatches(BitWriter& out, std::span<const std::uint8_t> bytes, bool last) 
 
 } // namespace
 
-std::vector<std::uint8_t> deflatePiece(std::span<const std::uint8_t> bytes, bool last) {
+std::vector<std::uint8_t> deflatePiece(std::span<const std::uint8_t> bytes, bool last,
+                                       std::size_t rowBytes) {
     BitWriter out;
-    if (!putZeroRuns(out, bytes, last)) putMatches(out, bytes, last);
+    if (!putZeroRuns(out, bytes, last)) putMatches(out, bytes, last, rowBytes);
     if (!last) putStored(out, {}, false); // ends at a byte
     out.padToByte();
     return std::move(out).result();

@@ -109,7 +109,7 @@ public:
         thread_local std::vector<std::uint8_t> filtered; // the system need not clear it every time
         filterRows(first, end, filtered);
         const bool isLast = end == height_;
-        const std::vector<std::uint8_t> packed = deflatePiece(filtered, isLast);
+        const std::vector<std::uint8_t> packed = deflatePiece(filtered, isLast, rowBytes_);
         memory.clear();
         putChunk(memory, "IDAT", i == 0 ? Bytes(kZlibHeader) : Bytes(), packed);
         return {std::move(memory), {filtered.size(), adler32(filtered)}};
