@@ -7,8 +7,8 @@
 // takes as long as all small pages of less together, and where they are not, those take as long.
 inline constexpr std::size_t kWorthATrial = std::size_t{1} << 24;
 
-// How much will be written in all, as far as one can say. Where that is less than kWorthATrial,
-// nothing below asks for large pages but for what alone is not.
+// How much will be written in all, as far as one can say. If that is less than kWorthATrial, none
+// of what follows asks for large pages but for an array that is as large as that by itself.
 void foreseeMemory(std::size_t bytes);
 
 // Before the first touch: asks the system for its largest pages. Memory that is too small for one

@@ -1,5 +1,6 @@
 #include "image/deflate.h"
 
+#include "image/byte_counts.h"
 #include "image/checksum.h"
 #include "image/deflate_codes.h"
 #include "image/dynamic_codes.h"
@@ -34,7 +35,7 @@ struct Block {
     SymbolCounts counts;
 
     void add(std::span<const std::uint8_t> literals, Match match) {
-        countLiterals(literals);
+        literals_.add(literals);
         codes_ += literals.size() + 1;
         const auto count = static_cast<std::uint32_t>(literals.size());
         if (match.length == 0) return steps.push_back({count, 0, 0});
@@ -46,19 +47,12 @@ struct Block {
     std::size_t codes() const { return codes_; }
     // All counts of literals are in `counts`.
     void finish() {
-        for (const auto& turn : interleaved_)
-            for (std::size_t b = 0; b < turn.size(); ++b) counts.literals[b] += turn[b];
+        const auto sums = literals_.sums();
+        for (std::size_t b = 0; b < sums.size(); ++b) counts.literals[b] += sums[b];
     }
 
 private:
-    // In turns, so that a byte needn't wait for the count of an equal one before it.
-    void countLiterals(std::span<const std::uint8_t> literals) {
-        std::size_t i = 0;
-        for (; i + 4 <= literals.size(); i += 4)
-            for (std::size_t k = 0; k < 4; ++k) ++interleaved_[k][literals[i + k]];
-        for (; i < literals.size(); ++i) ++interleaved_[0][literals[i]];
-    }
-    std::array<std::array<std::uint32_t, 256>, 4> interleaved_{};
+    ByteCounts literals_;
     std::size_t codes_ = 0;
 };
 

@@ -3,6 +3,8 @@
 // Private to image/.
 #pragma once
 
+#include "image/byte_counts.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -32,7 +34,9 @@ public:
     // bits as a code for those that are not in runs would give them, one at least.
     bool pays(std::span<const std::uint8_t> bytes) const {
         if (matches_ == 0) return false;
-        std::array<std::uint32_t, 256> count = countOf(bytes);
+        ByteCounts counts;
+        counts.add(bytes);
+        std::array<std::uint32_t, 256> count = counts.sums();
         std::uint64_t sum = 0;
         for (std::size_t b = 0; b < count.size(); ++b) {
             count[b] -= std::min(count[b], inRuns_[b]);
@@ -52,19 +56,6 @@ private:
     static constexpr std::uint64_t kBit = 64;         // unit of what is counted in bits
     static constexpr std::uint64_t kBitsOfMatch = 19; // of its codes and what follows them, about
     static constexpr std::uint64_t kLeastPart = 32;   // one in so many is worth the time
-
-    // In turns, so that a byte needn't wait for the count of an equal one before it.
-    static std::array<std::uint32_t, 256> countOf(std::span<const std::uint8_t> bytes) {
-        constexpr std::size_t kTurns = 4;
-        std::array<std::array<std::uint32_t, 256>, kTurns> turns{};
-        std::size_t i = 0;
-        for (; i + kTurns <= bytes.size(); i += kTurns)
-            for (std::size_t k = 0; k < kTurns; ++k) ++turns[k][bytes[i + k]];
-        for (; i < bytes.size(); ++i) ++turns[0][bytes[i]];
-        for (std::size_t b = 0; b < turns[0].size(); ++b)
-            turns[0][b] += turns[1][b] + turns[2][b] + turns[3][b];
-        return turns[0];
-    }
 
     // Of n > 0, straight between powers of two: 0.09 bits too small at most. The same everywhere,
     // as what files are depends on it.

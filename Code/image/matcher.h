@@ -86,8 +86,7 @@ public:
     }
     // The bytes from here on that are as the one before.
     std::size_t lengthOfRun(std::size_t at) const {
-        return commonLength(&bytes_[at], &bytes_[at - 1],
-                            std::min(kLongestMatch, bytes_.size() - at));
+        return lengthAt(at, 1, eightAt(at) ^ eightAt(at - 1));
     }
     // Inserts the place; a match longer than `atLeast`, or none; elsewhere than with the byte
     // before it has `shortest` bytes. Runs of one byte come first: a filtered picture is full of

@@ -123,10 +123,11 @@ constexpr std::size_t kSmallText = std::size_t{3} << 20;
 // how much it will be, as they may ask for a large picture.
 void makeRoom(std::size_t textBytes, bool isMesh, int threads) {
     constexpr std::size_t kLeast = std::size_t{24} << 20, kMostTimes = 24, kUsualTimes = 5;
-    foreseeMemory(kUsualTimes * textBytes);
+    const std::size_t foreseen = kUsualTimes * textBytes;
+    foreseeMemory(foreseen);
     const bool isElsewhere = isMesh && textBytes > kSmallText;
-    useLargePages(std::max(kLeast, isMesh ? 0 : kMostTimes * textBytes),
-                  isElsewhere ? 0 : kUsualTimes * textBytes, threads != 1);
+    useLargePages(std::max(kLeast, isMesh ? 0 : kMostTimes * textBytes), isElsewhere ? 0 : foreseen,
+                  threads != 1);
 }
 
 FileText readText(const std::string& fileName, const Format& format, int threads) {

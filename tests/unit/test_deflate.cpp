@@ -1,5 +1,6 @@
 // Code/image/deflate.h, inflate.h, huffman.h and checksum.h.
 #include "check.h"
+#include "deflate_kit.h"
 
 #include "image/checksum.h"
 #include "image/deflate.h"
@@ -17,8 +18,6 @@
 
 namespace {
 
-using Buffer = std::vector<std::uint8_t>;
-
 Buffer bytesOf(std::string_view text) { return {text.begin(), text.end()}; }
 Buffer fromHex(std::string_view hex) {
     const auto digit = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
@@ -26,10 +25,6 @@ Buffer fromHex(std::string_view hex) {
     for (std::size_t i = 0; i + 1 < hex.size(); i += 2)
         bytes.push_back(static_cast<std::uint8_t>(16 * digit(hex[i]) + digit(hex[i + 1])));
     return bytes;
-}
-std::uint32_t nextRandom(std::uint32_t& state) { // Numerical Recipes
-    state = state * 1664525u + 1013904223u;
-    return state >> 8;
 }
 // Packs, unpacks and compares; the size of the packed bytes.
 std::size_t roundTrip(const Buffer& bytes) {

@@ -1,5 +1,6 @@
 // Code/image/match_trial.h, and what matcher.h makes of it.
 #include "check.h"
+#include "deflate_kit.h"
 
 #include "image/checksum.h"
 #include "image/deflate.h"
@@ -17,14 +18,8 @@
 
 namespace {
 
-using Buffer = std::vector<std::uint8_t>;
-
 constexpr std::uint32_t kSeed = 17;
-std::uint32_t nextRandom(std::uint32_t& state) { // Numerical Recipes
-    state = state * 1664525u + 1013904223u;
-    return state >> 8;
-}
-// Each byte with so many random bits, below 8.
+// So many random bits in each byte, 7 at most.
 Buffer noise(std::size_t size, unsigned bits, std::uint32_t& state) {
     Buffer bytes(size);
     for (std::uint8_t& byte : bytes)
@@ -72,7 +67,7 @@ TEST(match_trial_weighs_bits) {
                 trial.addMatch(std::span(bytes).subspan(i * length, length));
             const double spared = kMatches * (static_cast<double>(length * bits) - 19),
                          all = static_cast<double>(kSize * bits);
-            // Half a bit in ten for the counts that chance gives and for the logarithm.
+            // A twentieth for the counts that chance gives and for the logarithm.
             const double error = 0.05 * static_cast<double>(kMatches * length * bits);
             if (std::abs(spared - all / 32) < error) continue;
             CHECK_INFO(trial.pays(bytes) == (spared > all / 32),
