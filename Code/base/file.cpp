@@ -32,7 +32,7 @@ std::atomic<const char*> pending = nullptr;
 static_assert(std::atomic<const char*>::is_always_lock_free);
 std::mutex oneWriteAtATime;
 
-// Announces a temporary file before it is made, and removes it if it is still there at the end.
+// Announces a temporary file before it is made, and removes it at the end unless it was renamed.
 class PendingFile {
 public:
     explicit PendingFile(const std::string& name) : name_(name) {
@@ -42,14 +42,20 @@ public:
         pending = pendingName.data();
     }
     ~PendingFile() {
-        static_cast<void>(std::remove(name_.c_str())); // after a success it is not there any more
+        if (isThere_) static_cast<void>(std::remove(name_.c_str()));
         pending = nullptr;
     }
     PendingFile(const PendingFile&) = delete;
     PendingFile& operator=(const PendingFile&) = delete;
 
+    bool renameTo(const std::string& target) {
+        isThere_ = std::rename(name_.c_str(), target.c_str()) != 0;
+        return !isThere_;
+    }
+
 private:
     std::string name_;
+    bool isThere_ = true;
 };
 
 [[noreturn]] void failWriting(const std::string& fileName, int reason) {
@@ -72,10 +78,11 @@ bool takeRoom([[maybe_unused]] std::FILE* file, [[maybe_unused]] std::size_t byt
 
 // Writes and closes; nothing is on the disk for sure before fclose() succeeds. Small pieces are
 // gathered: the system takes many pages at once in a third of the time, and knows the size of a
-// small file before it has any of it. expected: 0 for what takes no room on a disk.
+// small file before it has any of it. Large ones it takes from where they are: to copy them costs
+// more, in memory that nothing has touched before. expected: 0 for what takes no room on a disk.
 void writeBytes(const std::string& path, const std::string& fileName, std::size_t expected,
                 const ByteSource& produce) {
-    constexpr std::size_t kGathered = std::size_t{1} << 20;
+    constexpr std::size_t kGathered = std::size_t{1} << 18;
     const auto buffer = std::make_unique_for_overwrite<char[]>(kGathered);
     File file(std::fopen(path.c_str(), "wb"));
     if (!file) failWriting(fileName, errno);
@@ -187,9 +194,9 @@ void writeFileAtomically(const std::string& fileName, std::size_t expected,
     if (fs::exists(kind) && access(target.c_str(), W_OK) != 0) failWriting(fileName, errno);
 
     const std::string temporary = cat(target, ".", getpid(), ".tmp");
-    const PendingFile pendingFile(temporary);
+    PendingFile pendingFile(temporary);
     writeBytes(temporary, fileName, expected, produce);
-    if (std::rename(temporary.c_str(), target.c_str()) != 0) failWriting(fileName, errno);
+    if (!pendingFile.renameTo(target)) failWriting(fileName, errno);
 }
 
 const char* pendingTemporaryFile() { return pending; }

@@ -14,6 +14,10 @@
 
 class BitWriter {
 public:
+    // Behind what is there.
+    explicit BitWriter(std::vector<std::uint8_t> before)
+        : bytes_(std::move(before)), used_(bytes_.size()) {}
+
     // Makes room; put() does not check.
     void reserveBits(std::uint64_t bits) { bytes_.resize(used_ + bits / 8 + 16); }
     // After flush(), up to 56 bits fit.
@@ -46,7 +50,7 @@ public:
 
 private:
     std::vector<std::uint8_t> bytes_;
-    std::size_t used_ = 0;
+    std::size_t used_;
     std::uint64_t waiting_ = 0;
     unsigned count_ = 0; // below 8 after flush()
 };

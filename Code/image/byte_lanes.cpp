@@ -14,9 +14,14 @@ namespace byte_lanes {
 namespace avx2 {
 PngFilter filterRow(std::span<const std::uint8_t>, std::span<const std::uint8_t>, std::size_t,
                     std::span<std::uint8_t>);
-bool nonzeroPlaces(std::span<const std::uint8_t>, std::size_t, std::vector<std::uint32_t>&);
+bool nonzeroPlaces(std::span<const std::uint8_t>, std::size_t, RawVector<std::uint32_t>&);
 std::size_t addToAdler(AdlerSums&, std::span<const std::uint8_t>);
 } // namespace avx2
+namespace avx512 {
+PngFilter filterRow(std::span<const std::uint8_t>, std::span<const std::uint8_t>, std::size_t,
+                    std::span<std::uint8_t>);
+bool nonzeroPlaces(std::span<const std::uint8_t>, std::size_t, RawVector<std::uint32_t>&);
+} // namespace avx512
 #endif
 
 namespace plain {
@@ -89,6 +94,7 @@ std::span<const ByteLanes> allByteLanes() {
     using namespace byte_lanes;
     static constexpr ByteLanes kTable[] = {
 #if defined(__x86_64__)
+        {"avx512", hasAvx512, avx512::filterRow, avx512::nonzeroPlaces, avx2::addToAdler},
         {"avx2", hasAvx2, avx2::filterRow, avx2::nonzeroPlaces, avx2::addToAdler},
 #endif
         {"plain", plain::always, plain::filterRow, plain::nonzeroPlaces, plain::addToAdler},

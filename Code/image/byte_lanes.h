@@ -3,12 +3,12 @@
 // Private to image/.
 #pragma once
 
+#include "base/raw_vector.h"
 #include "image/png.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 // Adler-32's sums without their modulus: a of the bytes, b of a after each byte.
 struct AdlerSums {
@@ -27,7 +27,7 @@ struct ByteLanes {
     // Where the bytes that aren't zero stand, in order; false where there are more than `most`, of
     // which some are left out then.
     bool (*nonzeroPlaces)(std::span<const std::uint8_t> bytes, std::size_t most,
-                          std::vector<std::uint32_t>& places);
+                          RawVector<std::uint32_t>& places);
     // Adds bytes, so few that the sums stay below 2^32: from the front as many as make whole
     // blocks, which is what it returns; less than 512 are left.
     std::size_t (*addToAdler)(AdlerSums& sums, std::span<const std::uint8_t> bytes);

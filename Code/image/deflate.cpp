@@ -5,6 +5,7 @@
 #include "image/deflate_codes.h"
 #include "image/dynamic_codes.h"
 #include "image/matcher.h"
+#include "image/run_finder.h"
 #include "image/zero_runs.h"
 
 #include <algorithm>
@@ -125,15 +126,9 @@ void putBlock(BitWriter& out, Block& block, bool last) {
             canonicalCodes(dynamic.distanceLengths()));
 }
 
-// Trials are as long as what comes again after a row needs.
-std::size_t trialOf(std::size_t rowBytes) {
-    constexpr std::size_t kLeast = 1 << 11;
-    return rowBytes == 0 ? 0 : std::max(kLeast, std::bit_ceil(rowBytes));
-}
-
-void putMatches(BitWriter& out, std::span<const std::uint8_t> bytes, bool last,
-                std::size_t rowBytes) {
-    Matcher matcher(bytes, trialOf(rowBytes));
+// `finder` hands out matches from the front: Matcher or RunFinder.
+template <class Finder>
+void putMatches(BitWriter& out, std::span<const std::uint8_t> bytes, Finder finder, bool last) {
     std::size_t at = 0;
     do {
         Block block;
@@ -141,12 +136,12 @@ void putMatches(BitWriter& out, std::span<const std::uint8_t> bytes, bool last,
         while (at < bytes.size() && block.codes() < kBlockCodes) {
             Match match;
             const std::size_t room = kBlockCodes - block.codes();
-            const std::size_t found = matcher.next(at, at + room, match);
+            const std::size_t found = finder.next(at, at + room, match);
             block.add(bytes.subspan(at, found - at), match);
-            matcher.skip(found, match.length);
+            finder.skip(found, match.length);
             at = found + match.length;
             if (match.length == kLongestMatch && match.distance == 1)
-                for (; block.codes() < kBlockCodes && matcher.takeRun(at); at += kLongestMatch)
+                for (; block.codes() < kBlockCodes && finder.takeRun(at); at += kLongestMatch)
                     block.add({}, match);
         }
         block.bytes = bytes.subspan(start, at - start);
@@ -157,18 +152,25 @@ void putMatches(BitWriter& out, std::span<const std::uint8_t> bytes, bool last,
 } // namespace
 
 std::vector<std::uint8_t> deflatePiece(std::span<const std::uint8_t> bytes, bool last,
-                                       std::size_t rowBytes) {
-    BitWriter out;
-    if (!putZeroRuns(out, bytes, last)) putMatches(out, bytes, last, rowBytes);
+                                       std::vector<std::uint8_t> before) {
+    return deflatePiece(bytes, last, choosePacking(bytes), std::move(before));
+}
+
+std::vector<std::uint8_t> deflatePiece(std::span<const std::uint8_t> bytes, bool last,
+                                       Packing packing, std::vector<std::uint8_t> before) {
+    BitWriter out(std::move(before));
+    if (packing == Packing::Matches)
+        putMatches(out, bytes, Matcher(bytes), last);
+    else if (packing == Packing::Runs || !putZeroRuns(out, bytes, last))
+        putMatches(out, bytes, RunFinder(bytes), last);
     if (!last) putStored(out, {}, false); // ends at a byte
     out.padToByte();
     return std::move(out).result();
 }
 
 std::vector<std::uint8_t> deflateZlib(std::span<const std::uint8_t> bytes) {
-    std::vector<std::uint8_t> out(kZlibHeader.begin(), kZlibHeader.end());
-    const std::vector<std::uint8_t> piece = deflatePiece(bytes, true);
-    out.insert(out.end(), piece.begin(), piece.end());
+    std::vector<std::uint8_t> out =
+        deflatePiece(bytes, true, {kZlibHeader.begin(), kZlibHeader.end()});
     const auto end = zlibEnd(adler32(bytes));
     out.insert(out.end(), end.begin(), end.end());
     return out;

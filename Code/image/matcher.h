@@ -4,7 +4,6 @@
 
 #include "image/deflate_codes.h"
 #include "image/little_endian.h"
-#include "image/match_trial.h"
 
 #include <algorithm>
 #include <bit>
@@ -67,27 +66,6 @@ public:
     void insert(std::size_t at) {
         latest_[hashOf(eightAt(at), kHashBits)] = static_cast<std::uint16_t>(at + 1);
     }
-    // Where the first run from `at` on begins, or the place behind the last one at which one may:
-    // `limit` or end().
-    std::size_t nextRun(std::size_t at, std::size_t limit) const {
-        static_assert(kShortRun == 4);
-        constexpr std::uint64_t kLow = 0x7F7F7F7F7F7F7F7Fu;
-        constexpr std::size_t kTogether = 8 - kShortRun + 1; // places of which eight bytes tell
-        const std::size_t last = std::min(limit, end());
-        for (at = std::max<std::size_t>(at, 1); at < last; at += kTogether) {
-            const std::uint64_t different = eightAt(at) ^ eightAt(at - 1);
-            // The highest bit of each byte that is as the one before it.
-            const std::uint64_t equal = ~((((different & kLow) + kLow) | different) | kLow);
-            const std::uint64_t two = equal & equal >> 8, four = two & two >> 16;
-            if (four != 0)
-                return std::min(last, at + static_cast<std::size_t>(std::countr_zero(four)) / 8);
-        }
-        return last;
-    }
-    // The bytes from here on that are as the one before.
-    std::size_t lengthOfRun(std::size_t at) const {
-        return lengthAt(at, 1, eightAt(at) ^ eightAt(at - 1));
-    }
     // Inserts the place; a match longer than `atLeast`, or none; elsewhere than with the byte
     // before it has `shortest` bytes. Runs of one byte come first: a filtered picture is full of
     // them.
@@ -138,18 +116,11 @@ private:
 // Goes through the bytes from the front and hands out steps.
 class Matcher {
 public:
-    // `trial`: bytes in which it turns out which matches pay; 0: all do.
-    explicit Matcher(std::span<const std::uint8_t> bytes, std::size_t trial = 0)
-        : bytes_(bytes), finder_(bytes), trialBytes_(trial) {
-        const std::size_t end = trial != 0 ? trial : bytes.size() + 1;
-        trial_.start(trial != 0 ? 0 : end, end);
-    }
+    explicit Matcher(std::span<const std::uint8_t> bytes) : bytes_(bytes), finder_(bytes) {}
 
     // The next match from `at` on and where it starts; the end of the bytes when there is none.
     // Places from `limit` on are not looked at.
     std::size_t next(std::size_t at, std::size_t limit, Match& match) {
-        if (at >= trial_.end()) decide(at);
-        if (at < runsEnd_) return nextRun(at, limit, match);
         const std::size_t first = at;
         for (std::size_t misses = 0; at < limit && finder_.canLook(at); ++misses) {
             const bool isNoise = misses > kNoiseMisses;
@@ -157,7 +128,6 @@ public:
             if (match.length > 0) {
                 lookFurther(at, match);
                 extendBack(first, at, match);
-                tell(at, match);
                 return at;
             }
             // In noise a look is worth less and less.
@@ -169,7 +139,6 @@ public:
     }
     // The places in a match; of long ones, which are runs most of the time, the last two.
     void skip(std::size_t at, std::size_t length) {
-        if (at < runsEnd_) return;
         constexpr std::size_t kLong = 32, kGroup = 4;
         const std::size_t end = std::min(at + length, finder_.end());
         std::size_t i = std::max(length <= kLong ? at + 1 : at + length - 2, looked_ + 1);
@@ -192,44 +161,14 @@ public:
         if (at + kSize > bytes_.size() || std::memcmp(&bytes_[at], &bytes_[at - 1], kSize) != 0)
             return false;
         finder_.insert(at + kLongestMatch - 1);
-        tell(at, {kLongestMatch, 1});
         return true;
     }
 
 private:
     using Finder = MatchFinder;
-    // All matches are looked for in the bytes of a trial, and behind them in so many times more
-    // those that pay.
-    static constexpr std::size_t kTrialsBetween = 15;
     static constexpr std::size_t kGoodMatch = 8;    // long enough: no look at the next place
     static constexpr std::size_t kNoiseMisses = 12; // looks without a match
     static constexpr std::size_t kLongestStep = 32;
-
-    // At the end of a trial.
-    [[gnu::noinline]] void decide(std::size_t at) {
-        const std::size_t next = at + kTrialsBetween * trialBytes_;
-        if (!trial_.pays(bytes_.subspan(trial_.begin(), at - trial_.begin()))) runsEnd_ = next;
-        trial_.start(next, next + trialBytes_);
-    }
-    void tell(std::size_t at, const Match& match) {
-        if (at >= trial_.begin()) [[unlikely]]
-            tellTrial(at, match);
-    }
-    [[gnu::noinline]] void tellTrial(std::size_t at, const Match& match) {
-        if (match.distance == 1)
-            trial_.addRun(bytes_[at], match.length);
-        else
-            trial_.addMatch(bytes_.subspan(at, match.length));
-    }
-    // next() of runs alone.
-    std::size_t nextRun(std::size_t at, std::size_t limit, Match& match) const {
-        match = {};
-        const std::size_t end = std::min(limit, runsEnd_);
-        if (finder_.canLook(at)) at = finder_.nextRun(at, end);
-        if (!finder_.canLook(at)) return bytes_.size();
-        if (at < end) match = {finder_.lengthOfRun(at), 1};
-        return at;
-    }
 
     // A longer match one place later is worth a literal (lazy matching, RFC 1951 section 4).
     void lookFurther(std::size_t& at, Match& match) {
@@ -253,8 +192,5 @@ private:
 
     std::span<const std::uint8_t> bytes_;
     MatchFinder finder_;
-    std::size_t trialBytes_;
-    MatchTrial trial_;        // the one that runs or comes next
-    std::size_t runsEnd_ = 0; // up to here only runs are looked for
-    std::size_t looked_ = 0;  // the last place that went into the finder
+    std::size_t looked_ = 0; // the last place that went into the finder
 };

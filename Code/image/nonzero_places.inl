@@ -2,7 +2,7 @@
 // of them are looked at: isZero64() and nonzeroOf64().
 
 bool nonzeroPlaces(std::span<const std::uint8_t> bytes, std::size_t most,
-                   std::vector<std::uint32_t>& places) {
+                   RawVector<std::uint32_t>& places) {
     constexpr std::size_t kGroup = 4;
     places.resize(most + 64 + kGroup);
     std::size_t count = 0, at = 0;

@@ -1,6 +1,7 @@
 // Writes PNG: 8- or 16-bit RGB, filtered row by row, packed by deflate.h.
 #include "base/for_each.h"
 #include "base/in_order.h"
+#include "base/raw_vector.h"
 #include "image/byte_lanes.h"
 #include "image/checksum.h"
 #include "image/deflate.h"
@@ -14,19 +15,29 @@
 
 namespace {
 
-void putNumber(std::vector<std::uint8_t>& out, std::size_t value) {
+using Buffer = std::vector<std::uint8_t>;
+
+void putNumber(Buffer& out, std::size_t value) {
     for (const int shift : {24, 16, 8, 0}) out.push_back(static_cast<std::uint8_t>(value >> shift));
 }
 
-// The data are `first` and `second` behind it.
-void putChunk(std::vector<std::uint8_t>& out, std::string_view type, Bytes first,
-              Bytes second = {}) {
-    putNumber(out, first.size() + second.size());
+// The data follow, and endChunk(), which wants to know where it began.
+std::size_t beginChunk(Buffer& out, std::string_view type) {
     const std::size_t start = out.size();
+    putNumber(out, 0); // how many data
     out.insert(out.end(), type.begin(), type.end());
-    out.insert(out.end(), first.begin(), first.end());
-    out.insert(out.end(), second.begin(), second.end());
-    putNumber(out, crc32(std::span(out).subspan(start)));
+    return start;
+}
+void endChunk(Buffer& out, std::size_t start) {
+    Buffer size;
+    putNumber(size, out.size() - start - 8);
+    std::copy(size.begin(), size.end(), out.begin() + static_cast<std::ptrdiff_t>(start));
+    putNumber(out, crc32(std::span(out).subspan(start + 4)));
+}
+void putChunk(Buffer& out, std::string_view type, Bytes data) {
+    const std::size_t start = beginChunk(out, type);
+    out.insert(out.end(), data.begin(), data.end());
+    endChunk(out, start);
 }
 
 // Some rows, filtered and packed as an IDAT chunk of their own.
@@ -36,7 +47,7 @@ struct Part {
         std::size_t bytes = 0;
         std::uint32_t adler = 1;
     };
-    std::vector<std::uint8_t> chunk;
+    Buffer chunk;
     Sum sum;
 };
 
@@ -52,7 +63,7 @@ public:
     Bytes at(std::size_t y) {
         const std::size_t size = pixelBytes_ * width_;
         if (!picture_.codes.empty()) return picture_.codes.subspan(y * size, size);
-        std::vector<std::uint8_t>&row = encoded_[y % 2], &above = encoded_[(y + 1) % 2];
+        Buffer &row = encoded_[y % 2], &above = encoded_[(y + 1) % 2];
         row.resize(size);
         if (above.empty())
             encodePixels(pixelsOf(y), picture_.encoding, row);
@@ -88,7 +99,7 @@ private:
 
     const PixelSource& picture_;
     std::size_t pixelBytes_, width_, height_;
-    std::vector<std::uint8_t> encoded_[2]; // by turns
+    Buffer encoded_[2]; // by turns
 };
 
 // The picture in parts, which threads can work on: as many rows each as give kPartBytes, so that
@@ -104,24 +115,26 @@ public:
     std::size_t count() const { return (height_ + rows_ - 1) / rows_; }
 
     // The chunk is made in `memory`, of any content.
-    Part part(std::size_t i, std::vector<std::uint8_t> memory) const {
+    Part part(std::size_t i, Buffer memory) const {
         const std::size_t first = i * rows_, end = std::min(height_, first + rows_);
-        thread_local std::vector<std::uint8_t> filtered; // the system need not clear it every time
+        thread_local RawVector<std::uint8_t> filtered; // the system need not clear it every time
         filterRows(first, end, filtered);
         const bool isLast = end == height_;
-        const std::vector<std::uint8_t> packed = deflatePiece(filtered, isLast, rowBytes_);
         memory.clear();
-        putChunk(memory, "IDAT", i == 0 ? Bytes(kZlibHeader) : Bytes(), packed);
-        return {std::move(memory), {filtered.size(), adler32(filtered)}};
+        const std::size_t start = beginChunk(memory, "IDAT");
+        if (i == 0) memory.insert(memory.end(), kZlibHeader.begin(), kZlibHeader.end());
+        Buffer chunk = deflatePiece(filtered, isLast, std::move(memory));
+        endChunk(chunk, start);
+        return {std::move(chunk), {filtered.size(), adler32(filtered)}};
     }
 
 private:
-    static constexpr std::size_t kPartBytes = std::size_t{1} << 18;
+    static constexpr std::size_t kPartBytes = std::size_t{1} << 17;
 
     // With their filter types in front.
-    void filterRows(std::size_t first, std::size_t end, std::vector<std::uint8_t>& out) const {
+    void filterRows(std::size_t first, std::size_t end, RawVector<std::uint8_t>& out) const {
         RowCodes rows(picture_);
-        const std::vector<std::uint8_t> zeros(first == 0 ? rowBytes_ - 1 : 0);
+        const Buffer zeros(first == 0 ? rowBytes_ - 1 : 0);
         Bytes above = first == 0 ? Bytes(zeros) : rows.at(first - 1);
         out.resize(rowBytes_ * (end - first));
         const ByteLanes& lanes = byteLanes();
@@ -141,8 +154,8 @@ private:
 } // namespace
 
 void encodePng(const PixelSource& picture, int threads, const ByteSink& use) {
-    std::vector<std::uint8_t> start(kPngSignature.begin(), kPngSignature.end());
-    std::vector<std::uint8_t> header;
+    Buffer start(kPngSignature.begin(), kPngSignature.end());
+    Buffer header;
     putNumber(header, static_cast<std::size_t>(picture.width));
     putNumber(header, static_cast<std::size_t>(picture.height));
     constexpr std::uint8_t kRgb = 2;
@@ -151,7 +164,7 @@ void encodePng(const PixelSource& picture, int threads, const ByteSink& use) {
     if (picture.encoding.transfer == Encoding::Transfer::Srgb) {
         putChunk(start, "sRGB", std::array<std::uint8_t, 1>{0}); // intent: perceptual
     } else {
-        std::vector<std::uint8_t> gamma;
+        Buffer gamma;
         putNumber(gamma, 100000); // 1.0
         putChunk(start, "gAMA", gamma);
     }
@@ -168,7 +181,7 @@ void encodePng(const PixelSource& picture, int threads, const ByteSink& use) {
 
     std::uint32_t adler = 1;
     for (const Part::Sum& sum : sums) adler = adler32Joined(adler, sum.adler, sum.bytes);
-    std::vector<std::uint8_t> end;
+    Buffer end;
     putChunk(end, "IDAT", zlibEnd(adler));
     putChunk(end, "IEND", {});
     use(end);

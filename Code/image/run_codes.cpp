@@ -1,49 +1,95 @@
 #include "image/run_codes.h"
 
+#include "image/huffman.h"
+
+#include <algorithm>
 #include <utility>
 
-void Gaps::addTo(SymbolCounts& symbols) const {
+// Counts in turns, so that none needn't wait for the one before it.
+struct RunCounts::Turn {
+    std::array<std::uint32_t, 256> bytes{};
+    std::array<std::uint32_t, kSizes> gaps{};
+    std::uint32_t longestMatches = 0;
+
+    void addGap(std::size_t zeros) {
+        const std::size_t first = firstOf(zeros);
+        if (zeros != first)
+            longestMatches += static_cast<std::uint32_t>((zeros - first) / kLongestMatch);
+        ++gaps[first];
+    }
+};
+
+void RunCounts::add(std::span<const std::uint8_t> bytes, std::size_t begin,
+                    std::span<const std::uint32_t> places, std::size_t end) {
+    constexpr std::size_t kTurns = 2;
+    std::array<Turn, kTurns> turns;
+    std::size_t next = begin; // behind the byte before
+    const auto count = [&](Turn& turn, std::size_t place) {
+        turn.addGap(place - next);
+        ++turn.bytes[bytes[place]];
+        next = place + 1;
+    };
+    std::size_t i = 0;
+    for (; i + kTurns <= places.size(); i += kTurns)
+        for (std::size_t k = 0; k < kTurns; ++k) count(turns[k], places[i + k]);
+    for (; i < places.size(); ++i) count(turns[0], places[i]);
+    turns[0].addGap(end - next);
+    for (const Turn& turn : turns) add(turn);
+}
+
+void RunCounts::add(const Turn& turn) {
+    for (std::size_t b = 0; b < bytes_.size(); ++b) bytes_[b] += turn.bytes[b];
+    for (std::size_t zeros = 0; zeros < kSizes; ++zeros) gaps_[zeros] += turn.gaps[zeros];
+    longestMatches_ += turn.longestMatches;
+}
+
+SymbolCounts RunCounts::symbols() const {
+    SymbolCounts symbols;
+    std::copy(bytes_.begin(), bytes_.end(), symbols.literals.begin());
+    symbols.literals[kEndOfBlock] = 1;
     symbols.literals[lengthSymbol(kLongestMatch)] += longestMatches_;
     symbols.distances[0] += longestMatches_;
     for (std::size_t zeros = 1; zeros < kSizes; ++zeros) {
-        const std::uint32_t count = counts_[zeros];
+        const std::uint32_t count = gaps_[zeros];
         symbols.literals[0] +=
             haveMatch_[zeros] ? count : count * static_cast<std::uint32_t>(zeros);
         if (!haveMatch_[zeros]) continue;
         symbols.literals[lengthSymbol(zeros - 1)] += count;
         symbols.distances[0] += count;
     }
+    return symbols;
 }
 
-void Gaps::choose(std::span<const std::uint8_t> literalLengths) {
-    constexpr unsigned kUnknown = 12; // of symbols that nothing used
-    constexpr unsigned kBefore = 1;   // the only distance
+void RunCounts::choose() {
+    constexpr unsigned kUnknown = 12; // bits of symbols that nothing used
+    constexpr unsigned kBefore = 1;   // of the only distance
+    const std::vector<std::uint8_t> lengths = huffmanLengths(symbols().literals, kMaxCodeLength);
     for (std::size_t zeros = 1 + kShortestMatch; zeros < kSizes; ++zeros) {
-        const unsigned known = literalLengths[lengthSymbol(zeros - 1)];
+        const unsigned known = lengths[lengthSymbol(zeros - 1)];
         const unsigned match =
             (known != 0 ? known : kUnknown) + kLengthRanges[kLengthSlot[zeros - 1]].extra + kBefore;
-        haveMatch_[zeros] = match < (zeros - 1) * literalLengths[0];
+        haveMatch_[zeros] = match < (zeros - 1) * lengths[0];
     }
 }
 
-RunCodes::RunCodes(const Gaps& gaps, const SymbolCounts& counts)
-    : codes_(counts), bits_(codes_.bits(counts)),
+RunCodes::RunCodes(const RunCounts& counts)
+    : codes_(counts.symbols()), bits_(codes_.bits(counts.symbols())),
       literals_(canonicalCodes(codes_.literalLengths())),
       before_(canonicalCodes(codes_.distanceLengths())[0]) {
-    for (std::size_t zeros = 1; zeros < Gaps::kSizes; ++zeros) {
+    for (std::size_t zeros = 1; zeros < RunCounts::kSizes; ++zeros) {
         Code& code = gaps_[zeros];
         const auto add = [&](std::uint64_t bits, unsigned length) {
             if (code.length + length > kMostBits) {
-                fit_ &= !gaps.occur(zeros);
+                fit_ &= !counts.occur(zeros);
                 return;
             }
             code.bits |= bits << code.length;
             code.length += length;
         };
         const auto addCode = [&](HuffmanCode part) { add(part.bits, part.length); };
-        const std::size_t literals = gaps.haveMatch(zeros) ? 1 : zeros;
+        const std::size_t literals = counts.haveMatch(zeros) ? 1 : zeros;
         for (std::size_t i = 0; i < literals; ++i) addCode(literals_[0]);
-        if (!gaps.haveMatch(zeros)) continue;
+        if (!counts.haveMatch(zeros)) continue;
         const CodeRange range = kLengthRanges[kLengthSlot[zeros - 1]];
         addCode(literals_[lengthSymbol(zeros - 1)]);
         add(zeros - 1 - range.base, range.extra);
@@ -56,25 +102,32 @@ void RunCodes::put(BitWriter& out, std::span<const std::uint8_t> bytes,
     out.reserveBits(bits_ + 64);
     codes_.putHeader(out, last);
     BitWriter writer = std::move(out); // in registers: nothing written can be part of it
-    std::size_t next = 0;              // behind the byte before
+    const HuffmanCode* const literals = literals_.data(); // as what is written may be anything
+    std::size_t next = 0;                                 // behind the byte before
     for (const std::uint32_t place : places) {
-        putGap(writer, place - next);
-        writer.put(literals_[bytes[place]]);
+        const Code gap = gapBefore(writer, place - next);
+        const HuffmanCode byte = literals[bytes[place]];
+        writer.put(gap.bits | std::uint64_t{byte.bits} << gap.length, gap.length + byte.length);
         writer.flush();
         next = place + 1;
     }
-    putGap(writer, bytes.size() - next);
+    const Code gap = gapBefore(writer, bytes.size() - next);
+    writer.put(gap.bits, gap.length);
     writer.put(literals_[kEndOfBlock]);
     writer.flush();
     out = std::move(writer);
 }
 
-inline void RunCodes::putGap(BitWriter& out, std::size_t zeros) const {
-    const std::size_t first = Gaps::firstOf(zeros);
+inline RunCodes::Code RunCodes::gapBefore(BitWriter& out, std::size_t zeros) const {
+    if (zeros < RunCounts::kSizes) [[likely]]
+        return gaps_[zeros];
+    const std::size_t first = RunCounts::firstOf(zeros);
     out.put(gaps_[first].bits, gaps_[first].length);
+    out.flush();
     for (std::size_t left = zeros - first; left > 0; left -= kLongestMatch) {
-        out.flush();
         out.put(literals_[lengthSymbol(kLongestMatch)]);
         out.put(before_);
+        out.flush();
     }
+    return {};
 }

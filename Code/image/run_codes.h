@@ -11,30 +11,33 @@
 #include <span>
 #include <vector>
 
-// A gap of zeros: a zero, and behind it zeros or a match with the byte before. Gaps up to the
-// longest match have codes of their own; longer ones are such a gap and longest matches.
-class Gaps {
+// What a block consists of. A gap of zeros: a zero, and behind it zeros or a match with the byte
+// before. Gaps up to the longest match have codes of their own; longer ones are such a gap and
+// longest matches.
+class RunCounts {
 public:
     static constexpr std::size_t kSizes = kLongestMatch + 1;
-    // What is left of a long one.
+    // What is left of a long gap.
     static constexpr std::size_t firstOf(std::size_t zeros) {
         return zeros < kSizes ? zeros : (zeros - 1) % kLongestMatch + 1;
     }
 
-    void add(std::size_t zeros) {
-        const std::size_t first = firstOf(zeros);
-        longestMatches_ += static_cast<std::uint32_t>((zeros - first) / kLongestMatch);
-        ++counts_[first];
-    }
-    void addTo(SymbolCounts& symbols) const;
-    // Matches where they are shorter with these codes.
-    void choose(std::span<const std::uint8_t> literalLengths);
+    // Bytes from `begin` to `end`, of which those at `places` aren't zero, in order.
+    void add(std::span<const std::uint8_t> bytes, std::size_t begin,
+             std::span<const std::uint32_t> places, std::size_t end);
+    // Matches where they are shorter with the best codes, as these are before.
+    void choose();
 
+    SymbolCounts symbols() const; // with an end
     bool haveMatch(std::size_t zeros) const { return haveMatch_[zeros]; }
-    bool occur(std::size_t zeros) const { return counts_[zeros] > 0; }
+    bool occur(std::size_t zeros) const { return gaps_[zeros] > 0; }
 
 private:
-    std::array<std::uint32_t, kSizes> counts_{}; // by zeros
+    struct Turn;
+    void add(const Turn& turn);
+
+    std::array<std::uint32_t, 256> bytes_{};   // that aren't zero
+    std::array<std::uint32_t, kSizes> gaps_{}; // by zeros
     std::uint32_t longestMatches_ = 0;
     std::array<bool, kSizes> haveMatch_ = [] { // at first a guess
         std::array<bool, kSizes> have{};
@@ -45,8 +48,7 @@ private:
 
 class RunCodes {
 public:
-    // counts: of all that the block consists of.
-    RunCodes(const Gaps& gaps, const SymbolCounts& counts);
+    explicit RunCodes(const RunCounts& counts);
 
     // Fails where zeros alone are so rare that some gap takes more bits than are put at once.
     bool fit() const { return fit_; }
@@ -62,12 +64,13 @@ private:
         std::uint64_t bits = 0;
         unsigned length = 0;
     };
-    void putGap(BitWriter& out, std::size_t zeros) const;
+    // The code of the gap; of a long one all is put that no code says.
+    Code gapBefore(BitWriter& out, std::size_t zeros) const;
 
     DynamicCodes codes_;
     std::uint64_t bits_; // of the block
     std::vector<HuffmanCode> literals_;
     HuffmanCode before_; // the distance of the byte before
-    std::array<Code, Gaps::kSizes> gaps_;
+    std::array<Code, RunCounts::kSizes> gaps_;
     bool fit_ = true;
 };

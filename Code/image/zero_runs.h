@@ -1,5 +1,5 @@
-// Deflate for bytes that are nearly all zero, as those of a filtered picture with little in it:
-// runs of zeros and single bytes, found without a search.
+// Deflate for bytes of which many are zero, as those of a filtered picture: runs of zeros and single
+// bytes, found without a search.
 // Private to image/.
 #pragma once
 
@@ -8,6 +8,6 @@
 #include <cstdint>
 #include <span>
 
-// Writes all of the bytes as one block. False, and nothing is written, where too few of them are
-// zero or the others come again so often that matches are worth their search.
+// Writes all of the bytes as one block. False, and nothing is written, where half of them aren't
+// zero or there are too many for one block.
 bool putZeroRuns(BitWriter& out, std::span<const std::uint8_t> bytes, bool last);

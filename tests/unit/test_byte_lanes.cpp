@@ -109,7 +109,7 @@ TEST(nonzero_places_are_found_by_every_width) {
             }
             for (const ByteLanes& lanes : allByteLanes()) {
                 if (!lanes.supported()) continue;
-                std::vector<std::uint32_t> places(7, 5); // of any content
+                RawVector<std::uint32_t> places(7, 5); // of any content
                 CHECK(lanes.nonzeroPlaces(bytes, expected.size(), places));
                 CHECK_INFO(places == expected,
                            lanes.name << " size " << size << " one in " << oneIn);
