@@ -13,8 +13,7 @@ namespace {
 
 using Bytes = std::span<const std::uint8_t>;
 
-// Measured with filtered renders of one sample and more, charts and pages of text: where the time
-// and the size of all meet.
+// Measured with filtered renders of one sample and more: where time and size of all meet.
 constexpr std::size_t kLeastBytes = 4096; // of less, a sample tells little and spares no time
 constexpr std::size_t kSpots = 4, kSampleOf = 32, kLeastSpot = 1024, kMostSpot = 2048;
 static_assert(kLeastBytes >= kSpots * kLeastSpot);

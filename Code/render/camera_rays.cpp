@@ -16,9 +16,9 @@ FilterKind filterKind(SettingsDesc::Filter kind) {
 
 } // namespace
 
-CameraRays::CameraRays(const IntegratorContext& context, ThreadPool* pool)
+CameraRays::CameraRays(const IntegratorContext& context)
     : context_(context), filter_(filterKind(context.settings.picture.filter),
-                                 context.settings.picture.filterWidth, pool),
+                                 context.settings.picture.filterWidth),
       lanes_(cameraLanes(chooseKernel(context.settings.kernel))),
       corners_(context.settings.picture.sampler == SettingsDesc::Sampler::Corners),
       width_(context.settings.picture.width + corners_) {

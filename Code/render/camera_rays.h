@@ -8,8 +8,7 @@
 
 class CameraRays {
 public:
-    // The pool, if there is one, helps to set up.
-    explicit CameraRays(const IntegratorContext& context, ThreadPool* pool = nullptr);
+    explicit CameraRays(const IntegratorContext& context);
 
     // Fills in ids and rays of the samples first .. first + count - 1 of every place, place after
     // place, in the order of forEachPlace().

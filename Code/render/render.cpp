@@ -17,7 +17,7 @@ namespace {
 class Renderer {
 public:
     Renderer(const Scene& scene, const RenderSettings& settings)
-        : pool_(settings.threads), sampler_(scene, settings, pool_),
+        : pool_(settings.threads), sampler_(scene, settings),
           settings_(settings), area_{0, 0, settings.picture.width, settings.picture.height} {
         if (const auto& crop = settings.picture.crop)
             area_ = {(*crop)[0], (*crop)[1], (*crop)[2], (*crop)[3]};

@@ -20,8 +20,8 @@ void addFirstHit(Film& film, Aov aov, int x, int y, const FirstHit& first) {
 
 } // namespace
 
-TileSampler::TileSampler(const Scene& scene, const RenderSettings& settings, ThreadPool& pool)
-    : context_(scene, settings), settings_(settings), cameraRays_(context_, &pool),
+TileSampler::TileSampler(const Scene& scene, const RenderSettings& settings)
+    : context_(scene, settings), settings_(settings), cameraRays_(context_),
       emptyTiles_(context_, cameraRays_) {}
 
 void TileSampler::trace(const Tile& tile, int begin, int samples, TileWorker& worker) const {

@@ -24,7 +24,7 @@ struct alignas(128) TileWorker {
 
 class TileSampler {
 public:
-    TileSampler(const Scene& scene, const RenderSettings& settings, ThreadPool& pool);
+    TileSampler(const Scene& scene, const RenderSettings& settings);
     TileSampler(const TileSampler&) = delete;
     TileSampler& operator=(const TileSampler&) = delete;
 

@@ -3,7 +3,6 @@
 // Knows nothing about pictures.
 #pragma once
 
-#include "base/parallel.h"
 #include "base/vec.h"
 
 #include <optional>
@@ -17,8 +16,7 @@ public:
     // Width in pixels as Cycles counts it (film.cpp): Box and Tent reach width/2 to each side,
     // BlackmanHarris reaches width, Gaussian has sigma = width/4 and is cut at 1.5 width.
     // A width of 0 puts all samples into the centre.
-    // The pool, if there is one, makes its table.
-    Filter(FilterKind kind, double width, ThreadPool* pool = nullptr);
+    Filter(FilterKind kind, double width);
 
     // Offset from the centre of the pixel, in pixels, for u in [0,1)^2; (0.5, 0.5) gives (0, 0).
     // It is monotone in u, so stratified u give stratified offsets. The share of samples left of
