@@ -1,6 +1,5 @@
-// Deflate for bytes of which many are zero, as those of a filtered picture: runs of zeros and single
-// bytes, found without a search.
-// Private to image/.
+// Deflate for bytes of which many are zero, as those of a filtered picture: runs of zeros and
+// single bytes, found without a search. Private to image/.
 #pragma once
 
 #include "image/bit_writer.h"

@@ -17,8 +17,8 @@ FilterKind filterKind(SettingsDesc::Filter kind) {
 } // namespace
 
 CameraRays::CameraRays(const IntegratorContext& context)
-    : context_(context), filter_(filterKind(context.settings.picture.filter),
-                                 context.settings.picture.filterWidth),
+    : context_(context),
+      filter_(filterKind(context.settings.picture.filter), context.settings.picture.filterWidth),
       lanes_(cameraLanes(chooseKernel(context.settings.kernel))),
       corners_(context.settings.picture.sampler == SettingsDesc::Sampler::Corners),
       width_(context.settings.picture.width + corners_) {

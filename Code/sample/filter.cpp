@@ -20,8 +20,8 @@ double radiusOf(FilterKind kind, double width) {
     return 0;
 }
 
-// Of Blackman and Harris from the cosine of pi x, x in radii from the middle. Constants as in Cycles'
-// film.cpp, where x counts from the edge.
+// Of Blackman and Harris from the cosine of pi x, x in radii from the middle. Constants as in
+// Cycles' film.cpp, where x counts from the edge.
 double blackmanHarris(double cosine) {
     const double twice = 2 * sqr(cosine) - 1, thrice = cosine * (2 * twice - 1); // of so many pi x
     return 0.35875 + 0.48829 * cosine + 0.14128 * twice + 0.01168 * thrice;
