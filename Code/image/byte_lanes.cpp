@@ -16,6 +16,7 @@ PngFilter filterRow(std::span<const std::uint8_t>, std::span<const std::uint8_t>
                     std::span<std::uint8_t>);
 bool nonzeroPlaces(std::span<const std::uint8_t>, std::size_t, RawVector<std::uint32_t>&);
 std::size_t addToAdler(AdlerSums&, std::span<const std::uint8_t>);
+std::size_t foldForCrc(std::uint32_t, std::span<const std::uint8_t>, CrcBytes&);
 } // namespace avx2
 namespace avx512 {
 PngFilter filterRow(std::span<const std::uint8_t>, std::span<const std::uint8_t>, std::size_t,
@@ -80,6 +81,9 @@ std::size_t addToAdler(AdlerSums& sums, std::span<const std::uint8_t> bytes) {
     return at;
 }
 
+// Tables are as fast as what could be done here.
+std::size_t foldForCrc(std::uint32_t, std::span<const std::uint8_t>, CrcBytes&) { return 0; }
+
 bool always() { return true; }
 
 } // namespace
@@ -90,14 +94,24 @@ bool always() { return true; }
 } // namespace plain
 } // namespace byte_lanes
 
+#if defined(__x86_64__)
+namespace {
+bool hasAvx2Bytes() { return hasAvx2() && __builtin_cpu_supports("pclmul"); }
+bool hasAvx512Bytes() { return hasAvx512() && hasAvx2Bytes(); }
+} // namespace
+#endif
+
 std::span<const ByteLanes> allByteLanes() {
     using namespace byte_lanes;
     static constexpr ByteLanes kTable[] = {
 #if defined(__x86_64__)
-        {"avx512", hasAvx512, avx512::filterRow, avx512::nonzeroPlaces, avx2::addToAdler},
-        {"avx2", hasAvx2, avx2::filterRow, avx2::nonzeroPlaces, avx2::addToAdler},
+        {"avx512", hasAvx512Bytes, avx512::filterRow, avx512::nonzeroPlaces, avx2::addToAdler,
+         avx2::foldForCrc},
+        {"avx2", hasAvx2Bytes, avx2::filterRow, avx2::nonzeroPlaces, avx2::addToAdler,
+         avx2::foldForCrc},
 #endif
-        {"plain", plain::always, plain::filterRow, plain::nonzeroPlaces, plain::addToAdler},
+        {"plain", plain::always, plain::filterRow, plain::nonzeroPlaces, plain::addToAdler,
+         plain::foldForCrc},
     };
     return kTable;
 }

@@ -6,6 +6,7 @@
 #include "base/raw_vector.h"
 #include "image/png.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -14,6 +15,8 @@
 struct AdlerSums {
     std::uint32_t a, b;
 };
+
+using CrcBytes = std::array<std::uint8_t, 16>;
 
 struct ByteLanes {
     const char* name;
@@ -31,6 +34,10 @@ struct ByteLanes {
     // Adds bytes, so few that the sums stay below 2^32: from the front as many as make whole
     // blocks, which is what it returns; less than 512 are left.
     std::size_t (*addToAdler)(AdlerSums& sums, std::span<const std::uint8_t> bytes);
+    // Folds the first of the bytes, as many as it returns, maybe none, into 16: these make of 0 what
+    // the others make of `crc`, a CRC-32 without the inversions at its start and end.
+    std::size_t (*foldForCrc)(std::uint32_t crc, std::span<const std::uint8_t> bytes,
+                              CrcBytes& folded);
 };
 
 // The widest first.

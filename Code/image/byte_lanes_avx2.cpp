@@ -11,7 +11,7 @@
 #include <immintrin.h>
 #include <numeric>
 
-AVX2_REGION_BEGIN
+KERNEL_REGION_BEGIN("avx2,fma,bmi,bmi2,lzcnt,popcnt,pclmul")
 namespace byte_lanes::avx2 {
 namespace {
 
@@ -41,7 +41,44 @@ std::uint32_t sumOfLanes(__m256i lanes) {
     return std::accumulate(parts.begin(), parts.end(), std::uint32_t{0});
 }
 
+__m128i load16(const std::uint8_t* from) {
+    __m128i bytes;
+    std::memcpy(&bytes, from, sizeof bytes);
+    return bytes;
+}
+// x^n modulo CRC-32's polynomial, with the highest bit first and the rest behind it in 33.
+constexpr std::uint64_t powerOfX(unsigned n) {
+    std::uint32_t power = 1u << 31;
+    for (; n > 0; --n) power = (power & 1) != 0 ? power >> 1 ^ 0xEDB88320u : power >> 1;
+    return std::uint64_t{power} << 1;
+}
+// Multiplies by what so many bits behind the sixteen bytes do to them.
+template <unsigned kBits> __m128i moved(__m128i bytes) {
+    const __m128i powers = _mm_set_epi64x(static_cast<long long>(powerOfX(kBits - 32)),
+                                          static_cast<long long>(powerOfX(kBits + 32)));
+    return _mm_xor_si128(_mm_clmulepi64_si128(bytes, powers, 0x00),
+                         _mm_clmulepi64_si128(bytes, powers, 0x11));
+}
+
 } // namespace
+
+// Gopal and others, "Fast CRC Computation for Generic Polynomials Using PCLMULQDQ Instruction"
+// (Intel 2009), up to the last sixteen bytes.
+std::size_t foldForCrc(std::uint32_t crc, std::span<const std::uint8_t> bytes, CrcBytes& folded) {
+    constexpr std::size_t kTurns = 4, kBlock = 16 * kTurns;
+    if (bytes.size() < kBlock) return 0;
+    __m128i sums[kTurns];
+    for (std::size_t k = 0; k < kTurns; ++k) sums[k] = load16(&bytes[16 * k]);
+    sums[0] = _mm_xor_si128(sums[0], _mm_cvtsi32_si128(static_cast<int>(crc)));
+    std::size_t at = kBlock;
+    for (; at + kBlock <= bytes.size(); at += kBlock)
+        for (std::size_t k = 0; k < kTurns; ++k)
+            sums[k] = _mm_xor_si128(moved<8 * kBlock>(sums[k]), load16(&bytes[at + 16 * k]));
+    __m128i sum = sums[0];
+    for (std::size_t k = 1; k < kTurns; ++k) sum = _mm_xor_si128(moved<128>(sum), sums[k]);
+    std::memcpy(folded.data(), &sum, sizeof sum);
+    return at;
+}
 
 std::size_t addToAdler(AdlerSums& sums, std::span<const std::uint8_t> bytes) {
     // What a byte adds to b until the end of its vector: it is in as many values of a.

@@ -23,12 +23,8 @@ constexpr auto kCrc = [] {
     return table;
 }();
 
-constexpr std::uint32_t kModulus = 65521; // of Adler-32: the largest prime below 2^16
-
-} // namespace
-
-std::uint32_t crc32(std::span<const std::uint8_t> bytes, std::uint32_t before) {
-    std::uint32_t c = ~before;
+// Without the inversions at the start and the end.
+std::uint32_t crcByTables(std::span<const std::uint8_t> bytes, std::uint32_t c) {
     std::size_t i = 0;
     for (; i + kSlices <= bytes.size(); i += kSlices) {
         std::uint32_t sum = 0;
@@ -41,7 +37,17 @@ std::uint32_t crc32(std::span<const std::uint8_t> bytes, std::uint32_t before) {
         c = sum;
     }
     for (; i < bytes.size(); ++i) c = kCrc[0][(c ^ bytes[i]) & 255] ^ (c >> 8);
-    return ~c;
+    return c;
+}
+
+constexpr std::uint32_t kModulus = 65521; // of Adler-32: the largest prime below 2^16
+
+} // namespace
+
+std::uint32_t crc32(std::span<const std::uint8_t> bytes, std::uint32_t before) {
+    CrcBytes folded{};
+    const std::size_t used = byteLanes().foldForCrc(~before, bytes, folded);
+    return ~crcByTables(bytes.subspan(used), used > 0 ? crcByTables(folded, 0) : ~before);
 }
 
 std::uint32_t adler32(std::span<const std::uint8_t> bytes, std::uint32_t before) {
