@@ -34,8 +34,8 @@ struct ByteLanes {
     // Adds bytes, so few that the sums stay below 2^32: from the front as many as make whole
     // blocks, which is what it returns; less than 512 are left.
     std::size_t (*addToAdler)(AdlerSums& sums, std::span<const std::uint8_t> bytes);
-    // Folds the first of the bytes, as many as it returns, maybe none, into 16: these make of 0 what
-    // the others make of `crc`, a CRC-32 without the inversions at its start and end.
+    // Folds the first of the bytes, as many as it returns, maybe none, into 16: these make of 0
+    // what the others make of `crc`, a CRC-32 without the inversions at its start and end.
     std::size_t (*foldForCrc)(std::uint32_t crc, std::span<const std::uint8_t> bytes,
                               CrcBytes& folded);
 };
