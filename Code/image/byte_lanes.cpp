@@ -42,6 +42,9 @@ Nonzero nonzeroOf64(const std::uint8_t* from) {
     }
     return found;
 }
+std::size_t nonzeroPlaces64(const std::uint8_t* from, std::size_t at, std::uint32_t* out) {
+    return nonzeroPlacesOf(nonzeroOf64(from), at, out);
+}
 bool isZero64(const std::uint8_t* from) {
     std::uint64_t any = 0;
     for (unsigned i = 0; i < 8; ++i) any |= loadLittle<std::uint64_t>(from + 8 * i);

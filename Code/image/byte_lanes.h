@@ -7,6 +7,7 @@
 #include "image/png.h"
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,6 +18,8 @@ struct AdlerSums {
 };
 
 using CrcBytes = std::array<std::uint8_t, 16>;
+// CRC-32's (ISO 3309), as shifts to the right want it: x^31 lowest, and x^32 left out.
+inline constexpr std::uint32_t kCrcPolynomial = 0xEDB88320;
 
 struct ByteLanes {
     const char* name;
@@ -50,3 +53,14 @@ struct Nonzero {
     std::uint64_t mask = 0;
     std::size_t count = 0;
 };
+// Writes their places, counted from `at` on, and up to kTooManyPlaces more of any value.
+inline constexpr std::size_t kTooManyPlaces = 16;
+inline std::size_t nonzeroPlacesOf(Nonzero nonzero, std::size_t at, std::uint32_t* out) {
+    // In groups, whose number the processor guesses more often than that of the places.
+    constexpr std::size_t kGroup = 4;
+    for (std::size_t i = 0; i < nonzero.count; i += kGroup)
+        for (std::size_t k = 0; k < kGroup; ++k, nonzero.mask &= nonzero.mask - 1)
+            out[i + k] = static_cast<std::uint32_t>(
+                at + static_cast<std::size_t>(std::countr_zero(nonzero.mask)));
+    return nonzero.count;
+}

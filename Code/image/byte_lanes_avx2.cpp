@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstring>
 #include <immintrin.h>
 #include <numeric>
@@ -30,6 +29,9 @@ Nonzero nonzeroOf64(const std::uint8_t* from) {
     const std::uint64_t mask = ~(zerosOf32(from) | std::uint64_t{zerosOf32(from + 32)} << 32);
     return {mask, static_cast<std::size_t>(_mm_popcnt_u64(mask))};
 }
+std::size_t nonzeroPlaces64(const std::uint8_t* from, std::size_t at, std::uint32_t* out) {
+    return nonzeroPlacesOf(nonzeroOf64(from), at, out);
+}
 bool isZero64(const std::uint8_t* from) {
     const __m256i any = _mm256_or_si256(load32(from), load32(from + 32));
     return _mm256_testz_si256(any, any) != 0;
@@ -49,7 +51,7 @@ __m128i load16(const std::uint8_t* from) {
 // x^n modulo CRC-32's polynomial, with the highest bit first and the rest behind it in 33.
 constexpr std::uint64_t powerOfX(unsigned n) {
     std::uint32_t power = 1u << 31;
-    for (; n > 0; --n) power = (power & 1) != 0 ? power >> 1 ^ 0xEDB88320u : power >> 1;
+    for (; n > 0; --n) power = (power & 1) != 0 ? power >> 1 ^ kCrcPolynomial : power >> 1;
     return std::uint64_t{power} << 1;
 }
 // Multiplies by what so many bits behind the sixteen bytes do to them.

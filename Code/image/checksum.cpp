@@ -14,7 +14,7 @@ constexpr auto kCrc = [] {
     std::array<std::array<std::uint32_t, 256>, kSlices> table{};
     for (std::uint32_t b = 0; b < 256; ++b) {
         std::uint32_t c = b;
-        for (int bit = 0; bit < 8; ++bit) c = (c & 1) ? (c >> 1) ^ 0xEDB88320u : c >> 1;
+        for (int bit = 0; bit < 8; ++bit) c = (c & 1) ? (c >> 1) ^ kCrcPolynomial : c >> 1;
         table[0][b] = c;
     }
     for (std::size_t k = 1; k < kSlices; ++k)

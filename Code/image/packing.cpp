@@ -4,6 +4,7 @@
 #include "image/huffman.h"
 #include "image/matcher.h"
 #include "image/run_codes.h"
+#include "image/zero_runs.h"
 
 #include <algorithm>
 #include <array>
@@ -17,7 +18,6 @@ using Bytes = std::span<const std::uint8_t>;
 constexpr std::size_t kLeastBytes = 4096; // of less, a sample tells little and spares no time
 constexpr std::size_t kSpots = 4, kSampleOf = 32, kLeastSpot = 1024, kMostSpot = 2048;
 static_assert(kLeastBytes >= kSpots * kLeastSpot);
-constexpr std::size_t kBytesPerPlace = 2;  // at least, with runs of zeros alone
 constexpr std::size_t kPercentSpared = 18; // by matches that pay
 
 // Some bytes and where those stand that aren't zero, from the front of all.
@@ -118,5 +118,5 @@ Packing choosePacking(Bytes bytes) {
     for (const Spot& spot : spots) spared.add(spot.places);
     if (100 * spared.bits() >= kPercentSpared * bits) return Packing::Matches;
     const std::size_t size = kSpots * (spots[0].end - spots[0].begin);
-    return places * kBytesPerPlace <= size ? Packing::ZeroRuns : Packing::Runs;
+    return places * kBytesPerNonzero <= size ? Packing::ZeroRuns : Packing::Runs;
 }

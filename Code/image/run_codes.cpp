@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-// Counts in turns, so that none needn't wait for the one before it.
+// Counts in turns, so that a count needn't wait for the one before it.
 struct RunCounts::Turn {
     std::array<std::uint32_t, 256> bytes{};
     std::array<std::uint32_t, kSizes> gaps{};

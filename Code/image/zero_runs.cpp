@@ -7,7 +7,7 @@ bool putZeroRuns(BitWriter& out, std::span<const std::uint8_t> bytes, bool last)
     constexpr std::size_t kMostBytes = std::size_t{1} << 24;
     if (bytes.size() > kMostBytes) return false;
     thread_local RawVector<std::uint32_t> places; // the system need not clear it every time
-    if (!byteLanes().nonzeroPlaces(bytes, bytes.size() / 2, places)) return false;
+    if (!byteLanes().nonzeroPlaces(bytes, bytes.size() / kBytesPerNonzero, places)) return false;
 
     RunCounts counts;
     counts.add(bytes, 0, places, bytes.size());

@@ -4,9 +4,13 @@
 
 #include "image/bit_writer.h"
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
-// Writes all of the bytes as one block. False, and nothing is written, where half of them aren't
-// zero or there are too many for one block.
+// More bytes than one in so many that aren't zero are packed faster another way.
+inline constexpr std::size_t kBytesPerNonzero = 2;
+
+// Writes all of the bytes as one block. False, and nothing is written, where more of them aren't
+// zero, they are too many for one block, or some gap of zeros takes too many bits.
 bool putZeroRuns(BitWriter& out, std::span<const std::uint8_t> bytes, bool last);
