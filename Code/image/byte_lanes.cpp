@@ -2,6 +2,7 @@
 #include "image/byte_lanes.h"
 
 #include "base/cpu.h"
+#include "image/colour.h"
 #include "image/little_endian.h"
 
 #include <algorithm>
@@ -19,6 +20,7 @@ std::size_t addToAdler(AdlerSums&, std::span<const std::uint8_t>);
 std::size_t foldForCrc(std::uint32_t, std::span<const std::uint8_t>, CrcBytes&);
 } // namespace avx2
 namespace avx512 {
+void srgb8(std::span<const Rgb>, std::uint8_t*);
 PngFilter filterRow(std::span<const std::uint8_t>, std::span<const std::uint8_t>, std::size_t,
                     std::span<std::uint8_t>);
 bool nonzeroPlaces(std::span<const std::uint8_t>, std::size_t, RawVector<std::uint32_t>&);
@@ -108,13 +110,13 @@ std::span<const ByteLanes> allByteLanes() {
     using namespace byte_lanes;
     static constexpr ByteLanes kTable[] = {
 #if defined(__x86_64__)
-        {"avx512", hasAvx512Bytes, avx512::filterRow, avx512::nonzeroPlaces, avx2::addToAdler,
-         avx2::foldForCrc},
-        {"avx2", hasAvx2Bytes, avx2::filterRow, avx2::nonzeroPlaces, avx2::addToAdler,
-         avx2::foldForCrc},
+        {"avx512", hasAvx512Bytes, avx512::srgb8, avx512::filterRow, avx512::nonzeroPlaces,
+         avx2::addToAdler, avx2::foldForCrc},
+        {"avx2", hasAvx2Bytes, srgb8FromLinear, avx2::filterRow, avx2::nonzeroPlaces,
+         avx2::addToAdler, avx2::foldForCrc},
 #endif
-        {"plain", plain::always, plain::filterRow, plain::nonzeroPlaces, plain::addToAdler,
-         plain::foldForCrc},
+        {"plain", plain::always, srgb8FromLinear, plain::filterRow, plain::nonzeroPlaces,
+         plain::addToAdler, plain::foldForCrc},
     };
     return kTable;
 }

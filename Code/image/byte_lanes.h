@@ -1,9 +1,10 @@
-// ByteLanes: what PNG writing does with many bytes at a time, once for each width of registers. All
-// give the same bytes.
+// ByteLanes: what picture writing does with many bytes at a time, once for each width of registers.
+// All give the same bytes.
 // Private to image/.
 #pragma once
 
 #include "base/raw_vector.h"
+#include "base/vec.h"
 #include "image/png.h"
 
 #include <array>
@@ -25,6 +26,8 @@ struct ByteLanes {
     const char* name;
     bool (*supported)(); // by this CPU
 
+    // srgb8FromLinear() of all pixels: three codes each.
+    void (*srgb8)(std::span<const Rgb> pixels, std::uint8_t* out);
     // Writes the row to `out` with the filter whose bytes, as signed numbers without their signs,
     // have the smallest sum (PNG specification, 12.7; of equal sums the first filter). `above` is
     // as long; zeros for the first row.

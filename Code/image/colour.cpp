@@ -8,8 +8,7 @@
 
 namespace {
 
-using srgb::DecodeNode, srgb::kDecodeThreshold;
-constexpr double kEncodeThreshold = 0.0031308;
+using srgb::DecodeNode, srgb::kDecodeThreshold, srgb::kEncodeThreshold;
 
 constexpr double power(double x, int exponent) {
     double product = 1;

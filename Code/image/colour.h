@@ -22,13 +22,14 @@ std::uint16_t srgb16FromLinear(float linear);
 // Many at once: three codes per pixel.
 void srgb8FromLinear(std::span<const Rgb> pixels, std::uint8_t* out);
 
-// What linearFromSrgb() is made of, for who decodes by the register: the curve's value at k / 255,
-// and 1 / (k / 255 + 0.055). Up to the threshold it is encoded / 12.92.
+// What the above is made of, for who does it by the register. Up to the thresholds it is
+// encoded / 12.92 and 12.92 * linear. A node is the curve's value at k / 255 and
+// 1 / (k / 255 + 0.055).
 namespace srgb {
 struct DecodeNode {
     double value, inverse;
 };
-constexpr double kDecodeThreshold = 0.04045;
+constexpr double kDecodeThreshold = 0.04045, kEncodeThreshold = 0.0031308;
 std::span<const DecodeNode, 256> decodeNodes();
 } // namespace srgb
 

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
+#include "image/byte_lanes.h"
 #include "image/colour.h"
 #include "image/formats.h"
 
@@ -191,7 +192,7 @@ void encodePixels(std::span<const Rgb> pixels, Encoding encoding, std::span<std:
                 for (const float value : {pixel.r, pixel.g, pixel.b}) *to++ = code(value);
         };
         if (srgb)
-            srgb8FromLinear(pixels, to);
+            byteLanes().srgb8(pixels, to);
         else
             encode([](float value) { return unit8From(value); });
     } else {
