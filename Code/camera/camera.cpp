@@ -69,8 +69,8 @@ std::optional<Camera::Lens> Camera::pinhole() const {
 }
 
 // Two places at a time in registers of the compiler's, in the steps of lineFrom() and normalize().
-void Camera::pinholeRays(std::span<const Vec2d> pixels, std::span<Vec3> dir,
-                         std::span<float> tMin) const {
+void Camera::pinholeRays(std::span<const double> px, std::span<const double> py,
+                         std::span<Vec3> dir, std::span<float> tMin) const {
     using Two __attribute__((vector_size(16))) = double;
     using Twice = Vec3T<Two>;
     const auto both = [](double a, double b) {
@@ -83,8 +83,8 @@ void Camera::pinholeRays(std::span<const Vec2d> pixels, std::span<Vec3> dir,
     const Axes axes = atRest_;
     const Twice right = twice(axes.right), up = twice(axes.up), forward = twice(axes.forward);
     std::size_t i = 0;
-    for (; i + 2 <= pixels.size(); i += 2) {
-        const Two x = both(pixels[i].x, pixels[i + 1].x), y = both(pixels[i].y, pixels[i + 1].y);
+    for (; i + 2 <= px.size(); i += 2) {
+        const Two x = both(px[i], px[i + 1]), y = both(py[i], py[i + 1]);
         const Twice across = right * (topLeft_.x + x * step_.x) + up * (topLeft_.y - y * step_.y);
         const Twice line = across + forward;
         const Two length2 = dot(line, line);
@@ -96,8 +96,8 @@ void Camera::pinholeRays(std::span<const Vec2d> pixels, std::span<Vec3> dir,
             tMin[i + k] = static_cast<float>(clip[k]);
         }
     }
-    for (; i < pixels.size(); ++i) {
-        const Vec3d d = normalize(lineFrom(axes, pixels[i]).dir);
+    for (; i < px.size(); ++i) {
+        const Vec3d d = normalize(lineFrom(axes, {px[i], py[i]}).dir);
         dir[i] = toFloat(d);
         tMin[i] = clipDepth(d, axes);
     }

@@ -42,8 +42,8 @@ public:
     // [0,1] of the shutter. dir has unit length; tMin is where the ray passes clipStart.
     Ray ray(Vec2d pixel, Vec2 lens, float time) const;
 
-    // dir and tMin of ray() for many places; of cameras with a shared origin.
-    void pinholeRays(std::span<const Vec2d> pixels, std::span<Vec3> dir,
+    // dir and tMin of ray() for many places x, y; of cameras with a shared origin.
+    void pinholeRays(std::span<const double> x, std::span<const double> y, std::span<Vec3> dir,
                      std::span<float> tMin) const;
 
     // All that ray() is made of, of a perspective camera at rest with a lens: for who makes many

@@ -1,6 +1,7 @@
 #include "render/camera_rays.h"
 
 #include <algorithm>
+#include <optional>
 
 namespace {
 
@@ -12,6 +13,14 @@ FilterKind filterKind(SettingsDesc::Filter kind) {
     case SettingsDesc::Filter::BlackmanHarris: break;
     }
     return FilterKind::BlackmanHarris;
+}
+
+constexpr std::size_t kBlock = PlaceBlock::kPlaces;
+constexpr std::size_t blocksOf(std::size_t slots) { return (slots + kBlock - 1) / kBlock; }
+// fn(slot, count) for the first slot of each block.
+template <class Fn> void forEachBlock(std::size_t slots, const Fn& fn) {
+    for (std::size_t slot = 0; slot < slots; slot += kBlock)
+        fn(slot, std::min(kBlock, slots - slot));
 }
 
 } // namespace
@@ -29,99 +38,108 @@ CameraRays::CameraRays(const IntegratorContext& context)
         fixed_ = filter_.sample({0.5f, 0.5f}); // see Sampler
 }
 
-template <class Fn> void CameraRays::forEachSlot(const Tile& tile, const Fn& fn) const {
-    std::size_t slot = 0;
+// Which pixel and sample each slot is, and the middle of its place.
+void CameraRays::listSamples(const Tile& tile, int first, int count, SampleChunk& chunk) const {
+    const auto all =
+        static_cast<std::size_t>(tile.width() * tile.height()) * static_cast<std::size_t>(count);
+    chunk.ids.resize(all);
+    chunk.cameraRays.setSize(all);
+    chunk.places.resize(std::max(chunk.places.size(), blocksOf(all)));
+    // In registers: what is written could be part of *this.
+    const auto width = static_cast<std::uint32_t>(width_);
+    const Vec2d corner = middle(0, 0);
+    const auto begin = static_cast<std::uint32_t>(first),
+               samples = static_cast<std::uint32_t>(count);
+    SampleId* id = chunk.ids.data();
+    std::uint32_t* stream = chunk.cameraRays.stream.data();
+    PlaceBlock* block = chunk.places.data();
+    std::size_t inBlock = 0;
     forEachPlace(tile, [&](int x, int y) {
-        fn(slot++,
-           static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width_) +
-               static_cast<std::uint32_t>(x), // wraps in huge pictures
-           x, y);
+        const std::uint32_t pixel = static_cast<std::uint32_t>(y) * width +
+                                    static_cast<std::uint32_t>(x); // wraps in huge pictures
+        for (std::uint32_t s = 0; s < samples; ++s) {
+            *id++ = {pixel, begin + s};
+            *stream++ = pixel;
+            block->x[inBlock] = x + corner.x, block->y[inBlock] = y + corner.y;
+            if (++inBlock == kBlock) ++block, inBlock = 0;
+        }
     });
 }
 
-// Which pixel and sample each slot is, and where in the picture it lies.
-void CameraRays::choosePlaces(const Tile& tile, int first, int count, SampleChunk& chunk) const {
-    const auto samples = static_cast<std::size_t>(count);
-    const auto begin = static_cast<std::uint32_t>(first);
-    const auto all = static_cast<std::size_t>(tile.width() * tile.height()) * samples;
-    chunk.ids.resize(all);
-    chunk.places.resize(all);
-    if (samples == 1 && fixed_) {
-        const Vec2d corner = middle(0, 0), offset{fixed_->x, fixed_->y};
-        forEachSlot(tile, [&](std::size_t slot, std::uint32_t pixel, int x, int y) {
-            chunk.ids[slot] = {pixel, begin};
-            chunk.places[slot] = {(x + corner.x) + offset.x, (y + corner.y) + offset.y};
-        });
+void CameraRays::moveFromMiddles(int first, int count, SampleChunk& chunk) const {
+    if (corners_) return;
+    const std::size_t all = chunk.ids.size();
+    if (fixed_) {
+        const Vec2d offset{fixed_->x, fixed_->y};
+        for (std::size_t b = 0; b < blocksOf(all); ++b)
+            for (std::size_t i = 0; i < kBlock; ++i)
+                chunk.places[b].x[i] += offset.x, chunk.places[b].y[i] += offset.y;
         return;
     }
-    chunk.offsets.resize(all);
-    forEachSlot(tile, [&](std::size_t place, std::uint32_t pixel, int x, int y) {
-        for (std::size_t s = 0; s < samples; ++s) {
-            const std::size_t slot = place * samples + s;
-            chunk.ids[slot] = {pixel, begin + static_cast<std::uint32_t>(s)};
-            chunk.places[slot] = middle(x, y);
-        }
+    const Filter::Spread spread = filter_.spread();
+    drawPairs(first, count, kPixelDimension, chunk,
+              [&](const PairBlock& pairs, std::size_t slot, std::size_t some) {
+                  PlaceBlock& places = chunk.places[slot / kBlock];
+                  if (lanes_.spread) return lanes_.spread(spread, pairs, places);
+                  for (std::size_t i = 0; i < some; ++i) {
+                      const Vec2 offset = filter_.sample({pairs.u[i], pairs.v[i]});
+                      places.x[i] += offset.x, places.y[i] += offset.y;
+                  }
+              });
+}
+
+template <class TakeFn>
+void CameraRays::drawPairs(int first, int count, std::uint32_t dimension, SampleChunk& chunk,
+                           const TakeFn& take) const {
+    const Sampler& sampler = context_.sampler;
+    const bool areCentres = dimension == kPixelDimension && sampler.sampleCount() == 1 &&
+                            !context_.settings.picture.jitter; // see Sampler
+    if (areLanesAsked() && !areCentres) return drawInLanes(first, count, dimension, chunk, take);
+    const std::size_t all = chunk.ids.size();
+    const auto samples = static_cast<std::size_t>(count);
+    chunk.numbers.resize(all);
+    for (std::size_t slot = 0; slot < all; slot += samples)
+        sampler.get2D(chunk.ids[slot].pixel, static_cast<std::uint32_t>(first), dimension,
+                      std::span(chunk.numbers).subspan(slot, samples));
+    PairBlock block;
+    forEachBlock(all, [&](std::size_t slot, std::size_t some) {
+        for (std::size_t i = 0; i < some; ++i)
+            block.u[i] = chunk.numbers[slot + i].x, block.v[i] = chunk.numbers[slot + i].y;
+        take(block, slot, some);
     });
-    if (corners_) return;
-    drawPairs(first, count, kPixelDimension, chunk.ids, &filter_, chunk.offsets);
-    for (std::size_t i = 0; i < chunk.places.size(); ++i) {
-        const Vec2d middle = chunk.places[i];
-        chunk.places[i] = {middle.x + chunk.offsets[i].x, middle.y + chunk.offsets[i].y};
-    }
 }
 
 template <class TakeFn>
 void CameraRays::drawInLanes(int first, int count, std::uint32_t dimension,
-                             std::span<const SampleId> ids, const TakeFn& take) const {
+                             const SampleChunk& chunk, const TakeFn& take) const {
     const Sampler& sampler = context_.sampler;
     Sampler::PairSeeds seeds{};
     PairBlock block;
-    for (std::size_t slot = 0; slot < ids.size(); slot += PairBlock::kPairs) {
-        const std::size_t some = std::min(PairBlock::kPairs, ids.size() - slot);
-        for (std::size_t i = 0; i < some; ++i) {
-            const SampleId id = ids[slot + i];
-            block.pixel[i] = id.pixel, block.sample[i] = id.index;
-            if (count == 1) continue; // by the register, below
-            if (id.index == static_cast<std::uint32_t>(first))
-                seeds = sampler.pairSeeds(id.pixel, dimension);
-            block.index[i] = seeds.index, block.x[i] = seeds.x, block.y[i] = seeds.y;
-        }
-        if (count == 1)
+    if (count == 1) std::fill_n(block.sample, kBlock, static_cast<std::uint32_t>(first));
+    forEachBlock(chunk.ids.size(), [&](std::size_t slot, std::size_t some) {
+        if (count == 1) {
+            std::copy_n(&chunk.cameraRays.stream[slot], some, block.pixel);
             lanes_.seeds(sampler.seed(), dimension, std::span<const std::uint32_t>(block.pixel),
                          {block.index, block.x, block.y});
+        } else {
+            for (std::size_t i = 0; i < some; ++i) {
+                const SampleId id = chunk.ids[slot + i];
+                if (id.index == static_cast<std::uint32_t>(first))
+                    seeds = sampler.pairSeeds(id.pixel, dimension);
+                block.sample[i] = id.index;
+                block.index[i] = seeds.index, block.x[i] = seeds.x, block.y[i] = seeds.y;
+            }
+        }
         lanes_.pairs(block);
         take(block, slot, some);
-    }
-}
-
-void CameraRays::drawPairs(int first, int count, std::uint32_t dimension,
-                           std::span<const SampleId> ids, const Filter* filter,
-                           std::span<Vec2> out) const {
-    const Sampler& sampler = context_.sampler;
-    const auto samples = static_cast<std::size_t>(count);
-    const bool areCentres = dimension == kPixelDimension && sampler.sampleCount() == 1 &&
-                            !context_.settings.picture.jitter; // see Sampler
-    if (!areLanesAsked() || areCentres) {
-        for (std::size_t slot = 0; slot < ids.size(); slot += samples)
-            sampler.get2D(ids[slot].pixel, static_cast<std::uint32_t>(first), dimension,
-                          out.subspan(slot, samples));
-        if (filter) filter->sample(out);
-        return;
-    }
-    const auto inverse = filter ? filter->inverse() : std::nullopt;
-    drawInLanes(first, count, dimension, ids,
-                [&](PairBlock& block, std::size_t slot, std::size_t some) {
-                    if (inverse) lanes_.spread(*inverse, block);
-                    for (std::size_t i = 0; i < some; ++i) out[slot + i] = {block.u[i], block.v[i]};
-                });
-    if (filter && !inverse) filter->sample(out);
+    });
 }
 
 void CameraRays::drawTimes(int first, int count, SampleChunk& chunk) const {
     const Sampler& sampler = context_.sampler;
     std::vector<float>& times = chunk.cameraRays.time;
     if (areLanesAsked())
-        return drawInLanes(first, count, Sampler::alone(kTimeDimension), chunk.ids,
+        return drawInLanes(first, count, Sampler::alone(kTimeDimension), chunk,
                            [&](const PairBlock& block, std::size_t slot, std::size_t some) {
                                std::copy_n(block.u, some, &times[slot]);
                            });
@@ -133,44 +151,11 @@ bool CameraRays::areLanesAsked() const {
     return lanes_.pairs != nullptr && context_.sampler.kind() == SamplerKind::Sobol;
 }
 
-void CameraRays::sendThroughLens(const Camera::Lens& lens, SampleChunk& chunk) const {
+// What all rays of a picture share is written once.
+void CameraRays::setConstants(SampleChunk& chunk) const {
     PathBatch& rays = chunk.cameraRays;
-    LensBlock block;
-    for (std::size_t first = 0; first < rays.size(); first += LensBlock::kRays) {
-        const std::size_t some = std::min(LensBlock::kRays, rays.size() - first);
-        for (std::size_t i = 0; i < some; ++i) {
-            block.x[i] = chunk.places[first + i].x, block.y[i] = chunk.places[first + i].y;
-            block.u[i] = chunk.onLens[first + i].x, block.v[i] = chunk.onLens[first + i].y;
-        }
-        lanes_.rays(lens, block);
-        for (std::size_t i = 0; i < some; ++i) {
-            rays.org[first + i] = {block.org[0][i], block.org[1][i], block.org[2][i]};
-            rays.dir[first + i] = {block.dir[0][i], block.dir[1][i], block.dir[2][i]};
-            rays.tMin[first + i] = block.tMin[i];
-        }
-    }
-}
-
-void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk) const {
-    const Camera& camera = context_.scene.camera();
-    choosePlaces(tile, first, count, chunk);
-
-    PathBatch& rays = chunk.cameraRays;
-    // What all rays of a picture share is written once.
-    const std::size_t known = chunk.raysWithConstants;
-    rays.setSize(chunk.ids.size());
-    chunk.raysWithConstants = std::max(known, rays.size());
-    // The general form draws what it may not need; who does not use it does not notice.
-    const bool isGeneral = !context_.settings.specialise;
-    const bool hasTime = isGeneral || context_.scene.moves();
-    const bool hasLens = isGeneral || camera.hasLens();
-    const bool isPinhole = !hasLens && camera.hasSharedOrigin();
-    if (isPinhole && lanes_.pinhole)
-        lanes_.pinhole(*camera.pinhole(), chunk.places, rays.dir, rays.tMin);
-    else if (isPinhole)
-        camera.pinholeRays(chunk.places, rays.dir, rays.tMin);
-    const Vec3 origin = camera.ray({0, 0}, {0.5f, 0.5f}, 0.5f).org;
-    for (std::size_t i = known; i < rays.size(); ++i) {
+    const Vec3 origin = context_.scene.camera().ray({0, 0}, {0.5f, 0.5f}, 0.5f).org;
+    for (std::size_t i = chunk.raysWithConstants; i < rays.size(); ++i) {
         rays.org[i] = origin;
         rays.sample[i] = static_cast<std::uint32_t>(i);
         rays.weight[i] = {1, 1, 1};
@@ -179,21 +164,51 @@ void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk
         rays.tMax[i] = kInfinityF;
         rays.time[i] = 0.5f; // what stands still looks the same at any time
     }
-    for (std::size_t i = 0; i < rays.size(); ++i) rays.stream[i] = chunk.ids[i].pixel;
+    chunk.raysWithConstants = std::max(chunk.raysWithConstants, rays.size());
+}
+
+void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk) const {
+    const Camera& camera = context_.scene.camera();
+    listSamples(tile, first, count, chunk);
+    moveFromMiddles(first, count, chunk);
+    setConstants(chunk);
+    PathBatch& rays = chunk.cameraRays;
+    const auto raysOf = [&](std::size_t slot, std::size_t some) {
+        return RaySpans{std::span(rays.org).subspan(slot, some),
+                        std::span(rays.dir).subspan(slot, some),
+                        std::span(rays.tMin).subspan(slot, some)};
+    };
+    // The general form draws what it may not need; who does not use it does not notice.
+    const bool isGeneral = !context_.settings.specialise;
+    const bool hasTime = isGeneral || context_.scene.moves();
+    const bool hasLens = isGeneral || camera.hasLens();
     if (hasTime) drawTimes(first, count, chunk);
-    if (isPinhole) return;
-    if (hasLens) {
-        chunk.onLens.resize(rays.size());
-        drawPairs(first, count, kLensDimension, chunk.ids, nullptr, chunk.onLens);
-        if (const auto lens = camera.lens(); lens && lanes_.rays)
-            return sendThroughLens(*lens, chunk);
+    if (!hasLens && camera.hasSharedOrigin()) {
+        const Camera::Lens pinhole = *camera.pinhole();
+        return forEachBlock(rays.size(), [&](std::size_t slot, std::size_t some) {
+            const PlaceBlock& places = chunk.places[slot / kBlock];
+            RaySpans to = raysOf(slot, some);
+            to.org = {};
+            if (lanes_.pinhole) return lanes_.pinhole(pinhole, places, to);
+            camera.pinholeRays({places.x, some}, {places.y, some}, to.dir, to.tMin);
+        });
     }
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        Vec2 lens{0.5f, 0.5f};
-        if (hasLens) lens = chunk.onLens[i];
-        const Ray ray = camera.ray(chunk.places[i], lens, rays.time[i]);
-        rays.org[i] = ray.org;
-        rays.dir[i] = ray.dir;
-        rays.tMin[i] = ray.tMin;
-    }
+    if (hasLens)
+        drawPairs(first, count, kLensDimension, chunk,
+                  [&](const PairBlock& pairs, std::size_t slot, std::size_t) {
+                      std::copy_n(pairs.u, kBlock, chunk.places[slot / kBlock].u);
+                      std::copy_n(pairs.v, kBlock, chunk.places[slot / kBlock].v);
+                  });
+    const std::optional<Camera::Lens> lens = hasLens ? camera.lens() : std::nullopt;
+    forEachBlock(rays.size(), [&](std::size_t slot, std::size_t some) {
+        const PlaceBlock& places = chunk.places[slot / kBlock];
+        if (lens && lanes_.rays) return lanes_.rays(*lens, places, raysOf(slot, some));
+        for (std::size_t i = 0; i < some; ++i) {
+            const Vec2 onLens = hasLens ? Vec2{places.u[i], places.v[i]} : Vec2{0.5f, 0.5f};
+            const Ray ray = camera.ray({places.x[i], places.y[i]}, onLens, rays.time[slot + i]);
+            rays.org[slot + i] = ray.org;
+            rays.dir[slot + i] = ray.dir;
+            rays.tMin[slot + i] = ray.tMin;
+        }
+    });
 }

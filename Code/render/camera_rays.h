@@ -25,22 +25,21 @@ public:
     }
 
 private:
-    void choosePlaces(const Tile& tile, int first, int count, SampleChunk& chunk) const;
-    // fn(slot, pixel, x, y) for all places of the tile.
-    template <class Fn> void forEachSlot(const Tile& tile, const Fn& fn) const;
-    // Sampler::get2D() of all slots, the samples of a place following each other; then what the
-    // filter makes of them, if there is one.
-    void drawPairs(int first, int count, std::uint32_t dimension, std::span<const SampleId> ids,
-                   const Filter* filter, std::span<Vec2> out) const;
+    // Which pixel and sample each slot is, and the middle of its place.
+    void listSamples(const Tile& tile, int first, int count, SampleChunk& chunk) const;
+    void moveFromMiddles(int first, int count, SampleChunk& chunk) const;
+    // Sampler::get2D() of all slots, the samples of a place following each other:
+    // take(pairs, slot, count), `slot` that of the block's first pair.
+    template <class TakeFn>
+    void drawPairs(int first, int count, std::uint32_t dimension, SampleChunk& chunk,
+                   const TakeFn& take) const;
+    template <class TakeFn>
+    void drawInLanes(int first, int count, std::uint32_t dimension, const SampleChunk& chunk,
+                     const TakeFn& take) const;
     // Sampler::get1D() of all slots.
     void drawTimes(int first, int count, SampleChunk& chunk) const;
-    // Pairs of Sobol numbers of all slots: take(block, slot, count), `slot` that of the block's
-    // first pair.
-    template <class TakeFn>
-    void drawInLanes(int first, int count, std::uint32_t dimension, std::span<const SampleId> ids,
-                     const TakeFn& take) const;
     bool areLanesAsked() const;
-    void sendThroughLens(const Camera::Lens& lens, SampleChunk& chunk) const;
+    void setConstants(SampleChunk& chunk) const;
 
     const IntegratorContext& context_;
     Filter filter_;

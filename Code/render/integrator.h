@@ -109,9 +109,8 @@ struct IntegratorContext {
 // The samples of one chunk of a tile, and what comes out of them; slot i is sample i everywhere.
 struct SampleChunk {
     std::vector<SampleId> ids;
-    std::vector<Vec2d> places; // in the picture, in pixels
-    std::vector<Vec2> offsets; // of these from the middle of their pixel
-    std::vector<Vec2> onLens;  // numbers for places on the lens, if there is one
+    std::vector<PlaceBlock> places; // slot after slot; those on the lens, if there is one
+    std::vector<Vec2> numbers;      // for who draws them without lanes
     PathBatch cameraRays;
     std::size_t raysWithConstants = 0; // see CameraRays::make()
     std::vector<Rgb> radiance;

@@ -7,15 +7,14 @@
     void pairSeeds(std::uint32_t, std::uint32_t, std::span<const std::uint32_t>,                   \
                    const PairSeedColumns&);                                                        \
     void sobolPairs(PairBlock&);                                                                   \
-    void spreadPairs(const Filter::Inverse&, PairBlock&);                                          \
-    void lensRays(const Camera::Lens&, LensBlock&);                                                \
-    void pinholeRays(const Camera::Lens&, std::span<const Vec2d>, std::span<Vec3>,                 \
-                     std::span<float>);                                                            \
+    void spreadPlaces(const Filter::Spread&, const PairBlock&, PlaceBlock&);                       \
+    void lensRays(const Camera::Lens&, const PlaceBlock&, const RaySpans&);                        \
+    void pinholeRays(const Camera::Lens&, const PlaceBlock&, const RaySpans&);                     \
     }
 DECLARE_BY_KERNEL(DECLARE)
 #define ROW(isa)                                                                                   \
     {                                                                                              \
-        kernels::isa::pairSeeds, kernels::isa::sobolPairs, kernels::isa::spreadPairs,              \
+        kernels::isa::pairSeeds, kernels::isa::sobolPairs, kernels::isa::spreadPlaces,             \
             kernels::isa::lensRays, kernels::isa::pinholeRays                                      \
     }
 

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 struct Kernel;
 
@@ -16,15 +17,20 @@ struct alignas(64) PairBlock {
     static constexpr std::size_t kPairs = 64;
     std::uint32_t pixel[kPairs] = {}, sample[kPairs] = {}, index[kPairs] = {}, x[kPairs] = {},
                   y[kPairs] = {};
-    float u[kPairs], v[kPairs];
+    float u[kPairs] = {}, v[kPairs] = {};
 };
 
-// Places in the picture and on the lens, the latter in the unit square, and their rays.
-struct alignas(64) LensBlock {
-    static constexpr std::size_t kRays = 64;
-    double x[kRays] = {}, y[kRays] = {};
-    float u[kRays] = {}, v[kRays] = {};
-    float org[3][kRays], dir[3][kRays], tMin[kRays];
+// Places in the picture, in pixels, and on the lens, in the unit square: one per pair of a block.
+struct alignas(64) PlaceBlock {
+    static constexpr std::size_t kPlaces = PairBlock::kPairs;
+    double x[kPlaces], y[kPlaces];
+    float u[kPlaces], v[kPlaces];
+};
+
+// The rays through the first places of a block, all of one size.
+struct RaySpans {
+    std::span<Vec3> org, dir; // a pinhole's org is known
+    std::span<float> tMin;
 };
 
 // Sampler::pairSeeds() of each pixel, of a sampler of that seed; the pixels are a multiple of 16.
@@ -37,12 +43,13 @@ using PairSeedsFn = void (*)(std::uint32_t seed, std::uint32_t dimension,
 struct CameraLanes {
     PairSeedsFn seeds = nullptr;
     void (*pairs)(PairBlock& block) = nullptr;
-    // Filter::sample() of what pairs() has drawn.
-    void (*spread)(const Filter::Inverse& filter, PairBlock& block) = nullptr;
-    void (*rays)(const Camera::Lens& lens, LensBlock& block) = nullptr;
+    // Moves places by Filter::sample() of what pairs() has drawn.
+    void (*spread)(const Filter::Spread& filter, const PairBlock& pairs,
+                   PlaceBlock& places) = nullptr;
+    void (*rays)(const Camera::Lens& lens, const PlaceBlock& places, const RaySpans& to) = nullptr;
     // Camera::pinholeRays()
-    void (*pinhole)(const Camera::Lens& lens, std::span<const Vec2d> places, std::span<Vec3> dir,
-                    std::span<float> tMin) = nullptr;
+    void (*pinhole)(const Camera::Lens& lens, const PlaceBlock& places,
+                    const RaySpans& to) = nullptr;
 };
 // Null for the scalar kernel.
 CameraLanes cameraLanes(const Kernel& kernel);

@@ -48,14 +48,48 @@ inline void placeRounded(DiskRow& place) {
     }
 }
 
-inline void raysFrom(const Camera::Lens& lens, LensBlock& block, std::size_t first) {
+// Where the rays of the lanes go to; there is room for all.
+struct RayPointers {
+    Vec3 *org, *dir;
+    float* tMin;
+};
+inline void storeAll(Floats x, Floats y, Floats z, Vec3* to) {
+    storeChosenVectors((1u << W) - 1, x, y, z, &to->x);
+}
+inline void storeAll(const Doubles3& v, Vec3* to) {
+    storeAll(v.x.toFloats(), v.y.toFloats(), v.z.toFloats(), to);
+}
+inline void storeAll(Floats x, float* to) {
+    alignas(64) float all[W];
+    x.store(all);
+    std::memcpy(to, all, sizeof all); // which need not be aligned
+}
+
+// make(first, to) for the lanes from each W-th on.
+template <class MakeFn> inline void forEachLanes(const RaySpans& to, const MakeFn& make) {
+    const std::size_t count = to.dir.size();
+    std::size_t first = 0;
+    for (; first + W <= count; first += W)
+        make(first,
+             RayPointers{to.org.data() + first, to.dir.data() + first, to.tMin.data() + first});
+    if (first == count) return;
+    std::array<Vec3, W> org, dir;
+    std::array<float, W> tMin;
+    make(first, RayPointers{org.data(), dir.data(), tMin.data()});
+    std::copy_n(org.data(), to.org.empty() ? 0 : count - first, to.org.data() + first);
+    std::copy_n(dir.data(), count - first, to.dir.data() + first);
+    std::copy_n(tMin.data(), count - first, to.tMin.data() + first);
+}
+
+inline void raysFrom(const Camera::Lens& lens, const PlaceBlock& places, std::size_t first,
+                     const RayPointers& to) {
     const Doubles3 right = forAll(lens.right), up = forAll(lens.up), forward = forAll(lens.forward),
                    eye = forAll(lens.eye);
-    const Doubles px = Doubles::load(block.x + first), py = Doubles::load(block.y + first);
+    const Doubles px = Doubles::load(places.x + first), py = Doubles::load(places.y + first);
     const Doubles3 line = linesThrough(lens, px, py);
     const Doubles3 sharp = eye + line * (Doubles(lens.focusDistance) / dot(line, forward));
     DiskRow place;
-    Floats::load(block.u + first).store(place.u), Floats::load(block.v + first).store(place.v);
+    Floats::load(places.u + first).store(place.u), Floats::load(places.v + first).store(place.v);
     if (lens.blades != 0) {
         placeOnPolygon(place, lens);
     } else {
@@ -69,23 +103,36 @@ inline void raysFrom(const Camera::Lens& lens, LensBlock& block, std::size_t fir
     const Doubles3 from = eye + onLens * Doubles(lens.apertureRadius);
     const Floats x = from.x.toFloats(), y = from.y.toFloats(), z = from.z.toFloats();
     const Doubles3 way = sharp - Doubles3{Doubles(x), Doubles(y), Doubles(z)};
-    const Doubles3 dir = way / sqrt(dot(way, way));
-    x.store(block.org[0] + first), y.store(block.org[1] + first), z.store(block.org[2] + first);
-    dir.x.toFloats().store(block.dir[0] + first);
-    dir.y.toFloats().store(block.dir[1] + first);
-    dir.z.toFloats().store(block.dir[2] + first);
-    clipAlong(lens, dir).store(block.tMin + first);
+    const Doubles3 unit = way / sqrt(dot(way, way));
+    storeAll(x, y, z, to.org);
+    storeAll(unit, to.dir);
+    storeAll(clipAlong(lens, unit), to.tMin);
 }
 
-inline Floats spread(const Filter::Inverse& filter, Floats u) {
-    constexpr int kSteps = Filter::Inverse::kSteps;
+// Filter::sample()
+template <FilterKind kKind> inline Floats offsetAt(const Filter::Spread& filter, Floats u) {
     const Doubles one(1.0), place = Doubles(2.0) * Doubles(u) - one, size = abs(place);
-    const Doubles at = sqrt(one - size) * Doubles(kSteps);
-    const Doubles step = min(floor(at), Doubles(kSteps - 1)), across = at - step;
-    const Ints i = wholeOf(step);
-    const Doubles x = elementsAt<1>(filter.entries, i) * (one - across) +
-                      elementsAt<1>(filter.entries + 1, i) * across;
+    Doubles x = size;
+    if constexpr (kKind == FilterKind::Tent) {
+        x = size / (one + sqrt(one - size));
+    } else if constexpr (kKind != FilterKind::Box) {
+        constexpr int kSteps = Filter::kSteps;
+        const Doubles at = sqrt(one - size) * Doubles(kSteps);
+        const Doubles step = min(floor(at), Doubles(kSteps - 1)), across = at - step;
+        const Ints i = wholeOf(step);
+        x = elementsAt<1>(filter.inverse, i) * (one - across) +
+            elementsAt<1>(filter.inverse + 1, i) * across;
+    }
     return withSign(x * Doubles(filter.radius), place).toFloats();
+}
+template <FilterKind kKind>
+inline void spreadAs(const Filter::Spread& filter, const PairBlock& pairs, PlaceBlock& places) {
+    const auto move = [&](const float* numbers, double* to) {
+        const Floats offset = offsetAt<kKind>(filter, Floats::load(numbers));
+        (Doubles::load(to) + Doubles(offset)).store(to);
+    };
+    for (std::size_t i = 0; i < PairBlock::kPairs; i += W)
+        move(pairs.u + i, places.x + i), move(pairs.v + i, places.y + i);
 }
 
 using Longs __attribute__((vector_size(sizeof(Bits)))) = std::uint64_t;
@@ -129,33 +176,27 @@ void sobolPairs(PairBlock& block) {
     }
 }
 
-void spreadPairs(const Filter::Inverse& filter, PairBlock& block) {
-    for (std::size_t i = 0; i < PairBlock::kPairs; i += W) {
-        spread(filter, Floats::load(block.u + i)).store(block.u + i);
-        spread(filter, Floats::load(block.v + i)).store(block.v + i);
+void spreadPlaces(const Filter::Spread& filter, const PairBlock& pairs, PlaceBlock& places) {
+    switch (filter.kind) {
+    case FilterKind::Box: return spreadAs<FilterKind::Box>(filter, pairs, places);
+    case FilterKind::Tent: return spreadAs<FilterKind::Tent>(filter, pairs, places);
+    case FilterKind::Gaussian:
+    case FilterKind::BlackmanHarris:
+        return spreadAs<FilterKind::BlackmanHarris>(filter, pairs, places);
     }
 }
 
-void lensRays(const Camera::Lens& lens, LensBlock& block) {
-    for (std::size_t first = 0; first < LensBlock::kRays; first += W) raysFrom(lens, block, first);
+void lensRays(const Camera::Lens& lens, const PlaceBlock& places, const RaySpans& to) {
+    forEachLanes(
+        to, [&](std::size_t first, const RayPointers& at) { raysFrom(lens, places, first, at); });
 }
 
-void pinholeRays(const Camera::Lens& lens, std::span<const Vec2d> places, std::span<Vec3> dir,
-                 std::span<float> tMin) {
-    alignas(64) double x[W] = {}, y[W] = {};
-    alignas(64) float clip[W];
-    std::array<Vec3, W> last;
-    for (std::size_t first = 0; first < places.size(); first += W) {
-        const std::size_t some = std::min<std::size_t>(W, places.size() - first);
-        for (std::size_t i = 0; i < some; ++i)
-            x[i] = places[first + i].x, y[i] = places[first + i].y;
-        const Doubles3 line = linesThrough(lens, Doubles::load(x), Doubles::load(y));
+void pinholeRays(const Camera::Lens& lens, const PlaceBlock& places, const RaySpans& to) {
+    forEachLanes(to, [&](std::size_t first, const RayPointers& at) {
+        const Doubles3 line =
+            linesThrough(lens, Doubles::load(places.x + first), Doubles::load(places.y + first));
         const Doubles3 unit = line / sqrt(dot(line, line));
-        Vec3* const to = some == W ? &dir[first] : last.data();
-        storeChosenVectors((1u << W) - 1, unit.x.toFloats(), unit.y.toFloats(), unit.z.toFloats(),
-                           &to->x);
-        if (some < W) std::copy_n(to, some, &dir[first]);
-        clipAlong(lens, unit).store(clip);
-        std::copy_n(clip, some, &tMin[first]);
-    }
+        storeAll(unit, at.dir);
+        storeAll(clipAlong(lens, unit), at.tMin);
+    });
 }

@@ -7,8 +7,8 @@
 
 namespace {
 
-// Steps that are even in sqrt(1 - share) spread out the tails.
-constexpr int kSteps = Filter::Inverse::kSteps;
+// They are even in sqrt(1 - share), which spreads out the tails.
+constexpr int kSteps = Filter::kSteps;
 
 double radiusOf(FilterKind kind, double width) {
     switch (kind) {

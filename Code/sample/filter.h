@@ -5,7 +5,6 @@
 
 #include "base/vec.h"
 
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -29,18 +28,16 @@ public:
     // The unnormalised density at an offset along one axis, in pixels; separable.
     double value(double offset) const;
     double radius() const { return radius_; } // no offset is larger, in pixels
-    // For who samples many at once: of the smooth kinds all that sample() does. Entry i of kSteps +
-    // 1 is where, in radii from the centre, 1 - (i / kSteps)^2 of its half of the samples are
-    // nearer.
-    struct Inverse {
-        static constexpr int kSteps = 1024; // linear between; even in sqrt(1 - share)
-        const double* entries;
+    // All that sample() is made of, for who samples many at once.
+    static constexpr int kSteps = 1024;
+    struct Spread {
+        FilterKind kind;
         double radius;
+        // Of the smooth kinds: entry i of kSteps + 1 is where, in radii from the centre,
+        // 1 - (i / kSteps)^2 of its half of the samples are nearer; linear between.
+        const double* inverse;
     };
-    std::optional<Inverse> inverse() const {
-        if (inverse_.empty()) return {};
-        return Inverse{inverse_.data(), radius_};
-    }
+    Spread spread() const { return {kind_, radius_, inverse_.data()}; }
     FilterKind kind() const { return kind_; }
 
 private:

@@ -190,16 +190,16 @@ TEST(camera_pinhole_rays_are_rays) {
         p.shiftX = random.uniform(-1, 1);
         const Camera camera(p);
         CHECK(camera.hasSharedOrigin());
-        std::vector<Vec2d> places;
+        std::vector<double> x, y;
         for (int k = 0; k < 15; ++k)
-            places.push_back({random.uniform(-3, 67), random.uniform(-3, 51)});
-        std::vector<Vec3> dir(places.size());
-        std::vector<float> tMin(places.size());
-        camera.pinholeRays(places, dir, tMin);
-        for (std::size_t k = 0; k < places.size(); ++k) {
-            const Ray ray = camera.ray(places[k], {0.25f, 0.75f}, 0.5f);
+            x.push_back(random.uniform(-3, 67)), y.push_back(random.uniform(-3, 51));
+        std::vector<Vec3> dir(x.size());
+        std::vector<float> tMin(x.size());
+        camera.pinholeRays(x, y, dir, tMin);
+        for (std::size_t k = 0; k < x.size(); ++k) {
+            const Ray ray = camera.ray({x[k], y[k]}, {0.25f, 0.75f}, 0.5f);
             CHECK(dir[k] == ray.dir && tMin[k] == ray.tMin);
-            const Camera::Line line = camera.line(places[k]);
+            const Camera::Line line = camera.line({x[k], y[k]});
             CHECK(toFloat(line.org) == ray.org && toFloat(normalize(line.dir)) == ray.dir);
         }
     }

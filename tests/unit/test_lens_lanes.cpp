@@ -17,9 +17,24 @@ namespace {
 bool sameBits(float a, float b) {
     return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
-bool sameBits(Vec3 a, const float (&rows)[3][LensBlock::kRays], std::size_t i) {
-    return sameBits(a.x, rows[0][i]) && sameBits(a.y, rows[1][i]) && sameBits(a.z, rows[2][i]);
+bool sameBits(Vec3 a, Vec3 b) {
+    return sameBits(a.x, b.x) && sameBits(a.y, b.y) && sameBits(a.z, b.z);
 }
+
+// Rays of the first places of a block, and one behind them that nobody may touch.
+struct SomeRays {
+    std::size_t count;
+    std::vector<Vec3> org = std::vector<Vec3>(count + 1), dir = std::vector<Vec3>(count + 1);
+    std::vector<float> tMin = std::vector<float>(count + 1, -1.0f);
+
+    RaySpans spans() {
+        return {std::span(org).first(count), std::span(dir).first(count),
+                std::span(tMin).first(count)};
+    }
+    bool isRestUntouched() const {
+        return org.back() == Vec3{} && dir.back() == Vec3{} && tMin.back() == -1;
+    }
+};
 
 CameraParams someCamera(Random& random) {
     CameraParams params;
@@ -51,8 +66,8 @@ TEST(lens_lanes_have_the_bits_of_single_rays) {
             const Camera camera(params);
             const auto lens = camera.lens();
             CHECK(lens.has_value());
-            LensBlock block;
-            for (std::size_t k = 0; k < LensBlock::kRays; ++k) {
+            PlaceBlock block;
+            for (std::size_t k = 0; k < PlaceBlock::kPlaces; ++k) {
                 block.x[k] = random.uniform(-1, params.width + 1.0);
                 block.y[k] = random.uniform(-1, params.height + 1.0);
                 // Sobol's grid, or that of other samplers, whose numbers have bits below 2^-24;
@@ -68,13 +83,15 @@ TEST(lens_lanes_have_the_bits_of_single_rays) {
                              : random.chance(0.1) ? 0
                                                   : onGrid();
             }
-            rays(*lens, block);
-            for (std::size_t k = 0; k < LensBlock::kRays; ++k) {
+            SomeRays made{1 + random.below(PlaceBlock::kPlaces)};
+            rays(*lens, block, made.spans());
+            CHECK(made.isRestUntouched());
+            for (std::size_t k = 0; k < made.count; ++k) {
                 const Ray ray =
                     camera.ray({block.x[k], block.y[k]}, {block.u[k], block.v[k]}, 0.5f);
-                const bool same = sameBits(ray.org, block.org, k) &&
-                                  sameBits(ray.dir, block.dir, k) &&
-                                  sameBits(ray.tMin, block.tMin[k]);
+                const bool same = sameBits(ray.org, made.org[k]) &&
+                                  sameBits(ray.dir, made.dir[k]) &&
+                                  sameBits(ray.tMin, made.tMin[k]);
                 if (!same && ++wrong <= 3)
                     CHECK_INFO(false, kernel.name << " camera " << i << " ray " << k << ": lens "
                                                   << block.u[k] << ' ' << block.v[k]);
@@ -96,21 +113,23 @@ TEST(pinhole_lanes_have_the_bits_of_single_rays) {
             const Camera camera(params);
             const auto pinhole = camera.pinhole();
             CHECK(pinhole.has_value());
-            std::vector<Vec2d> places(random.below(40));
-            for (Vec2d& place : places)
-                place = {random.uniform(-1, params.width + 1.0),
-                         random.uniform(-1, params.height + 1.0)};
-            std::vector<Vec3> dir(places.size() + 1);
-            std::vector<float> tMin(places.size() + 1, -1.0f);
-            rays(*pinhole, places, dir, tMin);
-            CHECK(dir.back() == Vec3{} && tMin.back() == -1); // nobody's
-            for (std::size_t k = 0; k < places.size(); ++k) {
-                const Ray ray = camera.ray(places[k], {0.5f, 0.5f}, 0.5f);
-                const bool same = sameBits(ray.dir.x, dir[k].x) && sameBits(ray.dir.y, dir[k].y) &&
-                                  sameBits(ray.dir.z, dir[k].z) && sameBits(ray.tMin, tMin[k]);
+            PlaceBlock block{};
+            SomeRays made{1 + random.below(PlaceBlock::kPlaces)};
+            for (std::size_t k = 0; k < made.count; ++k) {
+                block.x[k] = random.uniform(-1, params.width + 1.0);
+                block.y[k] = random.uniform(-1, params.height + 1.0);
+            }
+            RaySpans to = made.spans();
+            to.org = {};
+            rays(*pinhole, block, to);
+            CHECK(made.isRestUntouched());
+            for (std::size_t k = 0; k < made.count; ++k) {
+                const Ray ray = camera.ray({block.x[k], block.y[k]}, {0.5f, 0.5f}, 0.5f);
+                const bool same =
+                    sameBits(ray.dir, made.dir[k]) && sameBits(ray.tMin, made.tMin[k]);
                 if (!same && ++wrong <= 3)
                     CHECK_INFO(false, kernel.name << " camera " << i << " ray " << k << " of "
-                                                  << places.size());
+                                                  << made.count);
             }
         }
         CHECK_EQUAL(wrong, 0);
@@ -149,8 +168,8 @@ TEST(places_on_the_lens_in_lanes_round_as_single_ones) {
         if (!rays) continue;
         Random random(43);
         for (int i = 0; i < check::scaled(300); ++i) {
-            LensBlock block;
-            for (std::size_t k = 0; k < LensBlock::kRays; ++k) {
+            PlaceBlock block{};
+            for (std::size_t k = 0; k < PlaceBlock::kPlaces; ++k) {
                 const auto& [u, v] = kHard[random.below(kHard.size())];
                 const bool isHard = random.chance(0.1);
                 const auto number = [&](std::uint32_t hard) {
@@ -159,10 +178,11 @@ TEST(places_on_the_lens_in_lanes_round_as_single_ones) {
                 };
                 block.u[k] = number(u), block.v[k] = number(v);
             }
-            rays(*lens, block);
-            for (std::size_t k = 0; k < LensBlock::kRays; ++k) {
+            SomeRays made{PlaceBlock::kPlaces};
+            rays(*lens, block, made.spans());
+            for (std::size_t k = 0; k < made.count; ++k) {
                 const Vec2 place = diskFromSquare({block.u[k], block.v[k]});
-                CHECK_INFO(sameBits({place.x, place.y, 0}, block.org, k),
+                CHECK_INFO(sameBits({place.x, place.y, 0}, made.org[k]),
                            kernel.name << ": place " << block.u[k] * 0x1p24f << ' '
                                        << block.v[k] * 0x1p24f);
             }
@@ -201,20 +221,23 @@ TEST(pairs_in_lanes_have_the_bits_of_the_sampler) {
 }
 
 TEST(places_in_lanes_have_the_bits_of_the_filter) {
-    constexpr FilterKind kKinds[] = {FilterKind::Gaussian, FilterKind::BlackmanHarris};
-    CHECK(!Filter(FilterKind::Box, 1).inverse() && !Filter(FilterKind::Tent, 1).inverse());
+    constexpr FilterKind kKinds[] = {FilterKind::Box, FilterKind::Tent, FilterKind::Gaussian,
+                                     FilterKind::BlackmanHarris};
     for (const Kernel& kernel : allKernels()) {
         const auto spread = kernel.supported() ? cameraLanes(kernel).spread : nullptr;
         if (!spread) continue;
         Random random(44);
         long long wrong = 0;
-        for (int i = 0; i < check::scaled(300); ++i) {
-            const Filter filter(kKinds[i % 2], i % 5 == 0 ? 1.5 : random.logUniform(0.01, 50));
-            PairBlock block;
+        for (int i = 0; i < check::scaled(600); ++i) {
+            const Filter filter(kKinds[i % 4], i % 5 == 0 ? 1.5 : random.logUniform(0.01, 50));
+            PairBlock pairs;
+            PlaceBlock places{};
             std::vector<Vec2> alone;
             for (std::size_t k = 0; k < PairBlock::kPairs; ++k) {
+                // The ends and the middle, too, and numbers of samplers other than Sobol's.
                 const auto number = [&] {
-                    const double kind = random.unit(); // the ends and the middle, too
+                    const double kind = random.unit();
+                    if (kind > 0.5) return static_cast<float>(random.unit() * 0x0.ffffffp0);
                     const std::uint32_t bits = kind < 0.05   ? 0
                                                : kind < 0.1  ? (1u << 24) - 1
                                                : kind < 0.15 ? (1u << 23) + random.below(3) - 1
@@ -222,12 +245,15 @@ TEST(places_in_lanes_have_the_bits_of_the_filter) {
                     return static_cast<float>(bits) * 0x1p-24f;
                 };
                 alone.push_back({number(), number()});
-                block.u[k] = alone[k].x, block.v[k] = alone[k].y;
+                pairs.u[k] = alone[k].x, pairs.v[k] = alone[k].y;
+                places.x[k] = random.uniform(-1, 2000), places.y[k] = random.uniform(-1, 2000);
             }
-            spread(filter.inverse().value(), block);
+            const PlaceBlock middles = places;
+            spread(filter.spread(), pairs, places);
             filter.sample(alone);
             for (std::size_t k = 0; k < PairBlock::kPairs; ++k)
-                wrong += !sameBits(alone[k].x, block.u[k]) || !sameBits(alone[k].y, block.v[k]);
+                wrong += places.x[k] != middles.x[k] + alone[k].x ||
+                         places.y[k] != middles.y[k] + alone[k].y;
         }
         CHECK_INFO(wrong == 0, kernel.name << ": " << wrong);
     }
