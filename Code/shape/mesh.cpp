@@ -75,8 +75,14 @@ bool Mesh::seesFront(const Ray& ray, const Hit& hit) const {
     return isSure ? facing < 0 : Shape::seesFront(ray, hit);
 }
 
+SurfaceTriangle Mesh::surfaceTriangle(std::uint32_t triangle, SurfaceNeeds needs) const {
+    SurfaceTriangle out{corners(triangle)};
+    out.takeRest(geometry_, triangle, needs);
+    return out;
+}
+
 Surface Mesh::surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const {
-    Surface s = surfaceOf({geometry_, hit.prim, corners(hit.prim), needs}, ray, hit, needs);
+    Surface s = surfaceOf(surfaceTriangle(hit.prim, needs), ray, hit, needs);
     s.material = materialOf(hit.prim);
     s.object = objectOf(hit.prim);
     return s;
@@ -85,10 +91,7 @@ Surface Mesh::surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) con
 void Mesh::surfaces(const SurfaceQuery& query, SurfacePlaces out) const {
     if (query.lanes.triangles == nullptr) return Shape::surfaces(query, out);
     surfacesOf(
-        query,
-        [&](std::uint32_t triangle) {
-            return SurfaceTriangle(geometry_, triangle, corners(triangle), query.needs);
-        },
+        query, [&](std::uint32_t triangle) { return surfaceTriangle(triangle, query.needs); },
         [&](std::uint32_t triangle) {
             return TriangleSource{materialOf(triangle), objectOf(triangle)};
         },
@@ -96,7 +99,7 @@ void Mesh::surfaces(const SurfaceQuery& query, SurfacePlaces out) const {
 }
 
 SurfaceDerivatives Mesh::derivatives(const Ray&, const Hit& hit) const {
-    return derivativesOf({geometry_, hit.prim, corners(hit.prim)});
+    return derivativesOf(surfaceTriangle(hit.prim, {}));
 }
 
 std::optional<TieOrder> Mesh::tieOrder(const Ray& ray, const Hit& hit) const {

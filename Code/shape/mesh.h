@@ -16,6 +16,8 @@ struct MeshPart {
     std::uint32_t object = 0;
 };
 
+struct SurfaceTriangle;
+
 class Mesh final : public Shape {
 public:
     // `materials` by slot, `parts` in ascending order, the first starting at triangle 0.
@@ -48,6 +50,7 @@ private:
         const auto& c = geometry_.triangles[triangle];
         return {geometry_.points[c[0]], geometry_.points[c[1]], geometry_.points[c[2]]};
     }
+    SurfaceTriangle surfaceTriangle(std::uint32_t triangle, SurfaceNeeds needs) const;
     template <class LeafFn> void candidates(const RaySetup& setup, float zCut, LeafFn&& leaf) const;
     std::uint32_t materialOf(std::uint32_t triangle) const {
         return materials_[geometry_.slots.empty() ? 0 : geometry_.slots[triangle]];

@@ -104,7 +104,8 @@ void MeshInstance::collect(const Ray& ray, std::vector<Hit>& hits) const {
 
 SurfaceTriangle MeshInstance::surfaceTriangle(const Transform& sceneFromObject,
                                               std::uint32_t triangle) const {
-    SurfaceTriangle out(geometry_, triangle, corners(sceneFromObject, triangle));
+    SurfaceTriangle out{corners(sceneFromObject, triangle)};
+    out.takeRest(geometry_, triangle);
     if (out.hasNormals)
         for (Vec3& n : out.normals) n = placedNormal(sceneFromObject, n);
     if (sceneFromObject.mirrors()) {

@@ -56,9 +56,8 @@ Vec2 coordinates(const SurfaceTriangle& triangle, const Hit& hit) {
 
 } // namespace
 
-SurfaceTriangle::SurfaceTriangle(const MeshGeometry& geometry, std::uint32_t triangle,
-                                 const TriangleCorners& placed, SurfaceNeeds needs)
-    : corners(placed) {
+void SurfaceTriangle::takeRest(const MeshGeometry& geometry, std::uint32_t triangle,
+                               SurfaceNeeds needs) {
     if (!geometry.normalTriangles.empty()) {
         const auto& k = geometry.normalTriangles[triangle];
         hasNormals = k != MeshGeometry::kWithout;

@@ -9,14 +9,13 @@
 #include <algorithm>
 
 struct SurfaceTriangle {
-    TriangleCorners corners;
+    TriangleCorners corners; // made in place: a copy would wait for what has just been written
     bool hasNormals = false, hasUvs = false;
     std::array<Vec3, 3> normals{};
     std::array<Vec2, 3> uvs{};
 
     // Normals and, if needed, coordinates as the lists have them.
-    SurfaceTriangle(const MeshGeometry& geometry, std::uint32_t triangle,
-                    const TriangleCorners& placed, SurfaceNeeds needs = {});
+    void takeRest(const MeshGeometry& geometry, std::uint32_t triangle, SurfaceNeeds needs = {});
 };
 
 // All but the material and the object.
