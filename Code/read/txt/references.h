@@ -51,6 +51,8 @@ private:
     const SourceFile* source_;
     bool isPart_;
     NameTables known_;
+    using LastUsed = std::array<std::uint32_t, kEnumNames<Target>.size()>; // see NameTable::find()
+    LastUsed lastUsed_{};
     struct Listed {
         std::string_view name;
         std::uint32_t hash;
