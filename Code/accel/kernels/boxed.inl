@@ -26,11 +26,10 @@ std::size_t nearerInBox(const BoxedShape& shape, const RaySpan& rays, Hit* found
         for (unsigned rest = met & bits(nearest <= farthest); rest != 0; rest &= rest - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(rest));
             Hit& hit = found[first + i];
-            hit.t = t[i], hit.shape = shape.number;
             if (t[i] < bestT[i])
-                best[first + i] = hit;
+                best[first + i] = {t[i], hit.u, hit.v, hit.prim, shape.number};
             else
-                asFar[count++] = order[i];
+                hit.t = t[i], hit.shape = shape.number, asFar[count++] = order[i];
         }
     }
     return count;
