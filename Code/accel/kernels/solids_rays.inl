@@ -29,19 +29,19 @@ protected:
         const std::size_t count = std::min<std::size_t>(W, order.size());
         // Made where they stay: a copy would be of some hundred bytes.
         new (&columns_) RayColumns(loadRays(rays_, order.data(), count, ray_));
-        new (&lanes_) RayLanes(columns_, tree_.extent);
-        const unsigned asking = entering() & ((1u << count) - 1);
-        if (asking == 0) return 0;
-        if constexpr (A == Answer::Any) {
-            best_ = columns_.tMax;
-        } else {
-            alignas(64) float t[W];
+        alignas(64) float t[W]; // long before they are loaded in one piece, which waits for all
+        if constexpr (A == Answer::Closest)
             for (std::size_t i = 0; i < W; ++i) {
                 const Hit& hit = results[ray_[i]];
                 t[i] = hit.t, number_[i] = hit.shape;
             }
+        new (&lanes_) RayLanes(columns_, tree_.extent);
+        const unsigned asking = entering() & ((1u << count) - 1);
+        if (asking == 0) return 0;
+        if constexpr (A == Answer::Any)
+            best_ = columns_.tMax;
+        else
             best_ = Floats::load(t);
-        }
         bound_ = best_;
         zCut_ = lanes_.cutAt(best_);
         const Floats(&d)[3] = columns_.dir;

@@ -9,6 +9,9 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstddef>
+#include <cstring>
+#include <type_traits>
 
 namespace waves {
 
@@ -145,14 +148,16 @@ public:
         constexpr std::size_t kPoints = PointColumns::kPoints;
         row_ = &all[rays[0]];
         if (count == kPoints && rays[kPoints - 1] - rays[0] == kPoints - 1) return;
-        for (std::size_t i = 0; i < kPoints; ++i) copy_[i] = all[rays[i < count ? i : 0]];
-        row_ = copy_.data();
+        for (std::size_t i = 0; i < kPoints; ++i)
+            std::memcpy(copy_ + i * sizeof(T), &all[rays[i < count ? i : 0]], sizeof(T));
+        row_ = reinterpret_cast<const T*>(copy_);
     }
     const T* data() const { return row_; }
 
 private:
+    static_assert(std::is_trivially_copyable_v<T>);
     const T* row_;
-    std::array<T, PointColumns::kPoints> copy_;
+    alignas(T) std::byte copy_[PointColumns::kPoints * sizeof(T)]; // nobody zeroes it first
 };
 
 // shadeSurface() of a block's points.

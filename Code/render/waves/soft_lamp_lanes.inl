@@ -127,9 +127,7 @@ void sumOrSend(const SoftLanes<LampSeen>& lanes, const SamplesOnLamp& samples,
     const Three org = Three::load(block.p, first) +
                       Three::load(block.ng, first) * Floats::load(block.error + first) +
                       Three::load(block.lift, first);
-    alignas(64) std::uint32_t number[W];
-    for (std::uint32_t i = 0; i < W; ++i)
-        number[i] = out.firstSum + static_cast<std::uint32_t>(first) + i;
+    const Ints number = Ints::from(out.firstSum + static_cast<std::uint32_t>(first));
     Three sum = Three::load(out.sum, first);
     for (std::size_t s = 0; s < samples.count; ++s) {
         const LampRow& row = rows[s];
