@@ -24,7 +24,7 @@ struct alignas(64) BundlePlaneList {
     }
     // That of triangle j in every lane.
     BundlePlanes operator[](unsigned j) const {
-        return {nx[j],   ny[j],   nz[j],  n0[j],  edgeOn[j], zMin[j],
+        return {nx[j],   ny[j],  nz[j],  n0[j],  edgeOn[j], zMin[j],
                 zMax[j], xLo[j], xHi[j], yLo[j], yHi[j]};
     }
 };
@@ -111,15 +111,19 @@ public:
         const Doubles dz(rays_.depth(q));
         const Doubles along = p.nx * Doubles(rays_.lateralX(q)) +
                               p.ny * Doubles(rays_.lateralY(q)) + p.nz * Doubles(rays_.forward(q));
-        Floats key = (along / (p.n0 * dz)).toFloats();
+        const Floats plane = (along / (p.n0 * dz)).toFloats();
+        Floats key = plane;
+        unsigned asked = 0;
+        const unsigned edgeOn = edgeOnLanes(along, p.edgeOn, rays_.depth(q)) & bits(inside);
+        if ((edgeOn & rays_.active[q]) != 0) [[unlikely]]
+            key = edgeOnKeys(places, q, edgeOn & rays_.active[q], plane, asked);
         // Most are farther from the depths of all corners than two roundings of the products.
         const Mask between =
             (key * p.zMax > Floats(1.000001f)) & (key * p.zMin < Floats(0.999999f));
-        if ((bits(inside) & ~bits(between)) != 0) key = betweenDepths(p, key, inside);
+        if ((bits(inside) & ~bits(between)) != 0) key = betweenDepths(p, plane, key, inside);
         const Mask inBox =
             (p.xLo * key <= Sx) & (Sx <= p.xHi * key) & (p.yLo * key <= Sy) & (Sy <= p.yHi * key);
-        const unsigned edgeOn = edgeOnLanes(along, p.edgeOn, rays_.depth(q));
-        const unsigned clamped = bits(inside) & (edgeOn | ~bits(inBox)) & rays_.active[q];
+        const unsigned clamped = bits(inside) & (asked | ~bits(inBox)) & rays_.active[q];
         if (clamped != 0) [[unlikely]]
             return clampedKeys(places, q, clamped, key);
         return key;
@@ -128,12 +132,37 @@ public:
 private:
     // The canonical clamp to the depths of the corners. Keys of planes that are behind the origin
     // are none, which is asked of triangles that are so in part.
-    static Floats betweenDepths(const BundlePlanes& p, Floats plane, Mask& inside) {
+    static Floats betweenDepths(const BundlePlanes& p, Floats plane, Floats key, Mask& inside) {
         const Floats one(1.0f), zero(0.0f);
         const unsigned behind = bits(p.zMin <= zero) & ~bits(plane > zero);
         inside = maskOf(bits(inside) & ~behind);
         const Floats nearest = select(p.zMin > zero, one / p.zMin, Floats(kInfinityF));
-        return min(max(plane, one / p.zMax), nearest);
+        return min(max(key, one / p.zMax), nearest);
+    }
+
+    // Keys of lanes that may see their triangles edge-on, in these chords. Of more triangles than
+    // one, and where the plane is behind the origin, their own code has to be `asked`.
+    [[gnu::noinline]] Floats edgeOnKeys(Ints places, unsigned q, unsigned lanes, Floats plane,
+                                        unsigned& asked) const {
+        alignas(64) std::uint32_t place[W];
+        places.store(place);
+        const std::uint32_t one = place[std::countr_zero(lanes)];
+        asked = lanes & ~bits((places == Ints(one)) & (plane > Floats(0.0f)));
+        const WideLeaf<W>& leaf = leafOf(one);
+        Vec3d v[3];
+        for (int i = 0; i < 3; ++i) {
+            const auto exact = [&](std::size_t axis) {
+                return static_cast<double>(leaf.point[axis][leaf.corner[i][laneOf(one)]]) -
+                       static_cast<double>(rays_.origin[axis]);
+            };
+            v[i] = {exact(rays_.kx), exact(rays_.ky),
+                    exact(rays_.k) * static_cast<double>(rays_.sign)};
+        }
+        return select(
+            maskOf(lanes & ~asked),
+            keysInChord(v, Doubles3::of(rays_.lateralX(q), rays_.lateralY(q), rays_.depth(q)),
+                        plane),
+            plane);
     }
 
     float exactKeyOf(std::uint32_t place, unsigned q, int lane) const {

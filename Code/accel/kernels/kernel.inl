@@ -42,6 +42,10 @@
 
 #include "accel/kernels/bundle_rays.inl"
 
+#include "accel/kernels/vectors3.inl"
+
+#include "accel/kernels/chord.inl"
+
 #include "accel/kernels/bundle_keys.inl"
 
 #include "accel/kernels/bundle_block.inl"

@@ -1,0 +1,42 @@
+// TrianglePlane::keyInChord(), operation by operation, for rays that see one triangle edge-on: a
+// floor, up to the horizon, fills many packets with them.
+// Included by the file of each instruction set inside its namespace, behind vectors3.inl.
+
+// `v`: the corners relative to the origin of all rays, `dir`: theirs, both as in RaySetup.
+inline Floats keysInChord(const Vec3d (&v)[3], const Doubles3& dir, Floats key) {
+    const auto forAll = [](Vec3d a) { return Doubles3{Doubles(a.x), Doubles(a.y), Doubles(a.z)}; };
+    const Vec3d normal = cross(v[1] - v[0], v[2] - v[0]);
+    const Doubles3 n = forAll(normal);
+    const Doubles along = dot(n, dir), length2 = dot(dir, dir);
+    constexpr double kSteep2 = TrianglePlane::kSteep * TrianglePlane::kSteep;
+    const Mask isEdgeOn =
+        maskOf(~atMost(Doubles(dot(normal, normal)) * length2, Doubles(kSteep2) * (along * along)));
+
+    const Doubles3 crossing = cross(dir, n), across = crossing / sqrt(dot(crossing, crossing));
+    const Doubles zPerDot = dir.z / length2;
+    const double size = ::max(::max(maxAbs(v[0]), maxAbs(v[1])), maxAbs(v[2]));
+    const Doubles room(6 * 0x1p-24 * size);
+    const Doubles z[3] = {dot(forAll(v[0]), dir) * zPerDot, dot(forAll(v[1]), dir) * zPerDot,
+                          dot(forAll(v[2]), dir) * zPerDot};
+    const Doubles beside[3] = {dot(forAll(v[0]), across), dot(forAll(v[1]), across),
+                               dot(forAll(v[2]), across)};
+    Doubles nearest(std::numeric_limits<double>::infinity()), farthest = Doubles(0.0) - nearest;
+    const auto extend = [&](unsigned lanes, const Doubles& depth) {
+        const Mask which = maskOf(lanes);
+        nearest = select(which, min(nearest, depth - room), nearest);
+        farthest = select(which, max(farthest, depth + room), farthest);
+    };
+    for (int i = 0; i < 3; ++i) {
+        extend(atMost(abs(beside[i]), room), z[i]);
+        const int j = (i + 1) % 3;
+        for (const Doubles& border : {Doubles(0.0) - room, room})
+            extend(less(beside[i], border) ^ less(beside[j], border),
+                   z[i] + (z[j] - z[i]) * ((border - beside[i]) / (beside[j] - beside[i])));
+    }
+    const Doubles zero(0.0), one(1.0);
+    const Mask isInFront = zero < farthest;
+    const Floats atLeast = select(isInFront, max(key, (one / farthest).toFloats()), key);
+    const Floats inChord =
+        select((zero < nearest) & isInFront, min(atLeast, (one / nearest).toFloats()), atLeast);
+    return select(isEdgeOn, inChord, key);
+}
