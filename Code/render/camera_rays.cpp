@@ -38,7 +38,6 @@ CameraRays::CameraRays(const IntegratorContext& context)
         fixed_ = filter_.sample({0.5f, 0.5f}); // see Sampler
 }
 
-// Which pixel and sample each slot is, and the middle of its place.
 void CameraRays::listSamples(const Tile& tile, int first, int count, SampleChunk& chunk) const {
     const auto all =
         static_cast<std::size_t>(tile.width() * tile.height()) * static_cast<std::size_t>(count);

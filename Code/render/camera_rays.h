@@ -27,6 +27,7 @@ public:
 private:
     // Which pixel and sample each slot is, and the middle of its place.
     void listSamples(const Tile& tile, int first, int count, SampleChunk& chunk) const;
+    // To where the filter has them.
     void moveFromMiddles(int first, int count, SampleChunk& chunk) const;
     // Sampler::get2D() of all slots, the samples of a place following each other:
     // take(pairs, slot, count), `slot` that of the block's first pair.

@@ -29,7 +29,7 @@ struct alignas(64) PlaceBlock {
 
 // The rays through the first places of a block, all of one size.
 struct RaySpans {
-    std::span<Vec3> org, dir; // a pinhole's org is known
+    std::span<Vec3> org, dir; // pinholes leave org alone, which may be empty
     std::span<float> tMin;
 };
 

@@ -67,18 +67,19 @@ inline void storeAll(Floats x, float* to) {
 
 // make(first, to) for the lanes from each W-th on.
 template <class MakeFn> inline void forEachLanes(const RaySpans& to, const MakeFn& make) {
+    const bool hasOrg = !to.org.empty();
     const std::size_t count = to.dir.size();
     std::size_t first = 0;
     for (; first + W <= count; first += W)
         make(first,
-             RayPointers{to.org.data() + first, to.dir.data() + first, to.tMin.data() + first});
+             RayPointers{hasOrg ? &to.org[first] : nullptr, &to.dir[first], &to.tMin[first]});
     if (first == count) return;
     std::array<Vec3, W> org, dir;
     std::array<float, W> tMin;
     make(first, RayPointers{org.data(), dir.data(), tMin.data()});
-    std::copy_n(org.data(), to.org.empty() ? 0 : count - first, to.org.data() + first);
-    std::copy_n(dir.data(), count - first, to.dir.data() + first);
-    std::copy_n(tMin.data(), count - first, to.tMin.data() + first);
+    if (hasOrg) std::copy_n(org.data(), count - first, &to.org[first]);
+    std::copy_n(dir.data(), count - first, &to.dir[first]);
+    std::copy_n(tMin.data(), count - first, &to.tMin[first]);
 }
 
 inline void raysFrom(const Camera::Lens& lens, const PlaceBlock& places, std::size_t first,

@@ -166,7 +166,7 @@ TEST(adler_sums_are_added_by_every_width) {
         }
 }
 
-// Where a code ends all floats that a curve within half a percent of a code could get wrong, and
+// Where a code ends all floats that a curve within a thousandth of a code could get wrong, and
 // every 997th of all, also those that aren't numbers.
 TEST(srgb_codes_are_the_same_in_every_width) {
     constexpr std::uint32_t kOne = 0x3F800000;

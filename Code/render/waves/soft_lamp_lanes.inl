@@ -136,8 +136,7 @@ void sumOrSend(const SoftLanes<LampSeen>& lanes, const SamplesOnLamp& samples,
         if (sent != 0) {
             const std::size_t n = out.rays;
             storeChosenVectors(sent, org.x, org.y, org.z, &out.to.org[n].x);
-            storeChosenVectors(sent, row.toLight.x, row.toLight.y, row.toLight.z,
-                               &out.to.dir[n].x);
+            storeChosenVectors(sent, row.toLight.x, row.toLight.y, row.toLight.z, &out.to.dir[n].x);
             storeChosenVectors(sent, by.light.x, by.light.y, by.light.z, &out.to.weight[n].r);
             storeChosenFloats(sent, row.distance * Floats(1 - 0x1p-20f), out.to.tMax + n);
             storeChosen(sent, number, out.to.sum + n);
