@@ -153,6 +153,7 @@ bool CameraRays::areLanesAsked() const {
 // What all rays of a picture share is written once.
 void CameraRays::setConstants(SampleChunk& chunk) const {
     PathBatch& rays = chunk.cameraRays;
+    if (chunk.raysWithConstants >= rays.size()) return;
     const Vec3 origin = context_.scene.camera().ray({0, 0}, {0.5f, 0.5f}, 0.5f).org;
     for (std::size_t i = chunk.raysWithConstants; i < rays.size(); ++i) {
         rays.org[i] = origin;
@@ -163,7 +164,7 @@ void CameraRays::setConstants(SampleChunk& chunk) const {
         rays.tMax[i] = kInfinityF;
         rays.time[i] = 0.5f; // what stands still looks the same at any time
     }
-    chunk.raysWithConstants = std::max(chunk.raysWithConstants, rays.size());
+    chunk.raysWithConstants = rays.size();
 }
 
 void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk) const {

@@ -4,8 +4,6 @@
 
 namespace {
 
-inline Doubles3 forAll(Vec3d v) { return {Doubles(v.x), Doubles(v.y), Doubles(v.z)}; }
-
 // Where lines from the eye through places of the picture lead, in units of the depth.
 inline Doubles3 linesThrough(const Camera::Lens& lens, const Doubles& x, const Doubles& y) {
     return forAll(lens.right) * (Doubles(lens.topLeft.x) + x * Doubles(lens.step.x)) +

@@ -114,9 +114,10 @@ public:
         const Floats plane = (along / (p.n0 * dz)).toFloats();
         Floats key = plane;
         unsigned asked = 0;
-        const unsigned edgeOn = edgeOnLanes(along, p.edgeOn, rays_.depth(q)) & bits(inside);
-        if ((edgeOn & rays_.active[q]) != 0) [[unlikely]]
-            key = edgeOnKeys(places, q, edgeOn & rays_.active[q], plane, asked);
+        const unsigned edgeOn =
+            edgeOnLanes(along, p.edgeOn, rays_.depth(q)) & bits(inside) & rays_.active[q];
+        if (edgeOn != 0) [[unlikely]]
+            key = edgeOnKeys(places, q, edgeOn, plane, asked);
         // Most are farther from the depths of all corners than two roundings of the products.
         const Mask between =
             (key * p.zMax > Floats(1.000001f)) & (key * p.zMin < Floats(0.999999f));

@@ -4,7 +4,6 @@
 
 // `v`: the corners relative to the origin of all rays, `dir`: theirs, both as in RaySetup.
 inline Floats keysInChord(const Vec3d (&v)[3], const Doubles3& dir, Floats key) {
-    const auto forAll = [](Vec3d a) { return Doubles3{Doubles(a.x), Doubles(a.y), Doubles(a.z)}; };
     const Vec3d normal = cross(v[1] - v[0], v[2] - v[0]);
     const Doubles3 n = forAll(normal);
     const Doubles along = dot(n, dir), length2 = dot(dir, dir);

@@ -1,4 +1,4 @@
-// Vectors, lane by lane, for the files of surfaces.
+// Vectors, lane by lane.
 
 namespace {
 
@@ -8,6 +8,8 @@ struct Doubles3 {
         return {Doubles(x), Doubles(y), Doubles(z)};
     }
 };
+
+inline Doubles3 forAll(Vec3d v) { return {Doubles(v.x), Doubles(v.y), Doubles(v.z)}; }
 
 inline Doubles3 operator+(const Doubles3& a, const Doubles3& b) {
     return {a.x + b.x, a.y + b.y, a.z + b.z};
