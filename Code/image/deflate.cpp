@@ -126,12 +126,18 @@ void putBlock(BitWriter& out, Block& block, bool last) {
             canonicalCodes(dynamic.distanceLengths()));
 }
 
+// All but the last have a match.
+constexpr std::size_t mostSteps(std::size_t bytes) {
+    return std::min(kBlockCodes, bytes / kShortestMatch) + 1;
+}
+
 // `finder` hands out matches from the front: Matcher or RunFinder.
 template <class Finder>
 void putMatches(BitWriter& out, std::span<const std::uint8_t> bytes, Finder finder, bool last) {
     std::size_t at = 0;
     do {
         Block block;
+        block.steps.reserve(mostSteps(bytes.size() - at));
         const std::size_t start = at;
         while (at < bytes.size() && block.codes() < kBlockCodes) {
             Match match;

@@ -9,6 +9,7 @@
 #include "render/material_table.h"
 #include "render/occluders.h"
 #include "render/point_columns.h"
+#include "render/point_lists.h"
 #include "render/query.h"
 #include "render/shading.h"
 #include "render/waves/bounce_lanes.h"
@@ -136,7 +137,7 @@ struct PointBatch {
     PointColumns at;
     std::vector<const Material*> material; // numbers at this point
     std::vector<PaintedBlock> painted;     // by block
-    std::vector<Material> textured;        // those with textures applied
+    RawVector<Material> textured;          // those with textures applied
     std::vector<Rgb> weight;               // of what the surface sends to the eye
 
     // Makes room for `most` points; lanes may look at whole blocks.
@@ -157,37 +158,6 @@ struct PointBatch {
         return std::min(count - block * PointColumns::kPoints, PointColumns::kPoints);
     }
     unsigned usedOf(std::size_t block) const { return (1u << sizeOf(block)) - 1; }
-};
-
-// Some of them, whose surfaces are found together, and their rays.
-class PointsToDescribe {
-public:
-    // Makes room for `most`.
-    void clear(std::size_t most) {
-        count_ = 0;
-        if (rays_.size() >= most) return;
-        rays_.resize(most), points_.resize(most), shapes_.resize(most);
-    }
-    // `shape`: of those for lanes.
-    void push(std::uint32_t ray, std::uint32_t point, const StillShape* shape) {
-        rays_[count_] = ray, points_[count_] = point, shapes_[count_] = shape;
-        ++count_;
-    }
-    // Those that need no `shape` are written here from the first on, and counted then.
-    struct Room {
-        std::uint32_t *rays, *points;
-        void push(std::uint32_t ray, std::uint32_t point) { *rays++ = ray, *points++ = point; }
-    };
-    Room room() { return {rays_.data(), points_.data()}; }
-    void countTo(const Room& end) { count_ = static_cast<std::size_t>(end.rays - rays_.data()); }
-    std::span<const std::uint32_t> rays() const { return std::span(rays_).first(count_); }
-    std::span<const std::uint32_t> points() const { return std::span(points_).first(count_); }
-    std::span<const StillShape* const> shapes() const { return std::span(shapes_).first(count_); }
-
-private:
-    std::size_t count_ = 0; // the arrays may be longer
-    std::vector<std::uint32_t> rays_, points_;
-    std::vector<const StillShape*> shapes_;
 };
 
 // Light that a lamp sends by way of a point.
@@ -234,9 +204,7 @@ struct WaveMemory {
     PathBatch rays, next;
     std::vector<Hit> hits;
     PointBatch points;
-    // Without texture coordinates, and with.
-    std::array<std::array<PointsToDescribe, StillShape::kKinds>, 2> onStills;
-    PointsToDescribe onBalls, onOthers;
+    PointLists pointLists;
     TexturedPoints texturedPoints;
     MediumTree media;
     RawVector<Rgb> backgrounds;         // that missed rays see

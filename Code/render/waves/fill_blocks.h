@@ -75,7 +75,10 @@ inline void fillBlocks(const Wave& wave) {
     WaveMemory& memory = wave.memory;
     const std::span<const std::uint32_t> answering(memory.answering);
     const std::size_t blocks = (answering.size() + LitBlock::kPoints - 1) / LitBlock::kPoints;
-    if (memory.litBlocks.size() < blocks) memory.litBlocks.resize(blocks);
+    if (memory.litBlocks.size() < blocks) {
+        memory.litBlocks.reserve(memory.points.at.size() / LitBlock::kPoints);
+        memory.litBlocks.resize(blocks);
+    }
     for (std::size_t b = 0; b < blocks; ++b) {
         LitBlock& block = memory.litBlocks[b];
         const std::size_t first = b * LitBlock::kPoints;

@@ -64,12 +64,12 @@ template <bool kHasBalls> void sortPoints(const Wave& wave) {
     const StillsInLanes& stills = wave.context.stillsInLanes;
     const Hit* const hits = wave.memory.hits.data();
     PointBatch& points = wave.memory.points;
+    PointLists& lists = wave.memory.pointLists;
     const std::uint32_t *const rays = points.ray.data(),
                                count = static_cast<std::uint32_t>(points.count);
     std::uint32_t* const shapes = points.shape.data();
     const StillsInLanes::One* const all = stills.shapes.data();
     const bool hasStills = !stills.shapes.empty();
-    PointsToDescribe::Room balls = wave.memory.onBalls.room(), others = wave.memory.onOthers.room();
     constexpr std::size_t kAhead = 16; // of what is looked up
     for (std::uint32_t k = 0; k < count; ++k) {
         if (!kHasBalls && hasStills && k + kAhead < count)
@@ -79,28 +79,22 @@ template <bool kHasBalls> void sortPoints(const Wave& wave) {
         if constexpr (kHasBalls)
             if (stills.balls.has(shape)) {
                 prefetch(stills.balls[shape]);
-                balls.push(ray, k);
+                lists.push(PointLists::kOnBalls, ray, k, nullptr);
                 continue;
             }
         const StillsInLanes::One still = hasStills ? all[shape] : StillsInLanes::One{};
         const std::uint32_t part = hits[ray].prim;
         if (still.shape == nullptr || (still.parts >> part & 1) == 0) {
-            others.push(ray, k);
+            lists.push(PointLists::kOnOthers, ray, k, nullptr);
             continue;
         }
         prefetch(*still.shape);
-        const auto kind = static_cast<std::size_t>(still.kindOf(part));
-        wave.memory.onStills[still.wantsUv ? 1 : 0][kind].push(ray, k, still.shape);
+        lists.push(PointLists::onStills(still.kindOf(part), still.wantsUv), ray, k, still.shape);
     }
-    wave.memory.onBalls.countTo(balls), wave.memory.onOthers.countTo(others);
 }
 
 inline void sortPoints(const Wave& wave) {
-    WaveMemory& memory = wave.memory;
-    for (auto& lists : memory.onStills)
-        for (PointsToDescribe& list : lists) list.clear(memory.points.count);
-    memory.onBalls.clear(memory.points.count);
-    memory.onOthers.clear(memory.points.count);
+    wave.memory.pointLists.clear(wave.memory.points.at.size());
     if (wave.context.stillsInLanes.balls.isEmpty())
         sortPoints<false>(wave);
     else
@@ -111,24 +105,28 @@ inline void sortPoints(const Wave& wave) {
 inline void findSurfaces(const Wave& wave) {
     const IntegratorContext& context = wave.context;
     const std::vector<Hit>& hits = wave.memory.hits;
+    const PointLists& lists = wave.memory.pointLists;
     PointBatch& points = wave.memory.points;
     if (points.count == 0) return;
     sortPoints(wave);
     for (std::size_t b = 0; b < points.blocks(); ++b) points.at.block(b).clear();
     const SurfacePlaces out = points.at.surfaces();
-    for (const bool wantsUv : {false, true})
-        for (std::size_t kind = 0; kind < StillShape::kKinds; ++kind)
-            if (const auto& list = wave.memory.onStills[wantsUv ? 1 : 0][kind];
-                !list.rays().empty())
-                context.surfaceLanes.stills({static_cast<StillShape::Kind>(kind), wave.rays.span(),
-                                             hits, list.rays(), list.points(), list.shapes(),
-                                             wantsUv},
+    for (std::size_t k = 0; k < StillShape::kKinds; ++k)
+        for (const bool wantsUv : {false, true}) {
+            const auto kind = static_cast<StillShape::Kind>(k);
+            const std::size_t list = PointLists::onStills(kind, wantsUv);
+            if (!lists.rays(list).empty())
+                context.surfaceLanes.stills({kind, wave.rays.span(), hits, lists.rays(list),
+                                             lists.points(list), lists.shapes(list), wantsUv},
                                             out);
-    if (const PointsToDescribe& list = wave.memory.onBalls; !list.rays().empty())
-        context.surfaceLanes.balls(
-            {wave.rays.span(), hits, list.rays(), list.points(), context.stillsInLanes.balls}, out);
-    const std::span<const std::uint32_t> rays = wave.memory.onOthers.rays(),
-                                         to = wave.memory.onOthers.points();
+        }
+    if (const auto rays = lists.rays(PointLists::kOnBalls); !rays.empty())
+        context.surfaceLanes.balls({wave.rays.span(), hits, rays,
+                                    lists.points(PointLists::kOnBalls),
+                                    context.stillsInLanes.balls},
+                                   out);
+    const std::span<const std::uint32_t> rays = lists.rays(PointLists::kOnOthers),
+                                         to = lists.points(PointLists::kOnOthers);
     std::size_t end = 0;
     for (std::size_t begin = 0; begin < rays.size(); begin = end) {
         const std::uint32_t shape = hits[rays[begin]].shape;
