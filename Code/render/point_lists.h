@@ -4,6 +4,7 @@
 #include "accel/still_shape.h"
 #include "base/raw_vector.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -33,6 +34,16 @@ public:
         const std::size_t at = ends_[list]++;
         rays_[at] = ray, points_[at] = point;
         if (list < kOnBalls) shapes_[at] = shape;
+    }
+    // So many that follow each other, on one shape. Inlined: of a number that is known.
+    [[gnu::always_inline]] void pushAlike(std::size_t list, const std::uint32_t* rays,
+                                          std::uint32_t firstPoint, std::uint32_t count,
+                                          const StillShape* shape) {
+        const std::size_t at = ends_[list];
+        ends_[list] += count;
+        std::copy_n(rays, count, &rays_[at]);
+        for (std::uint32_t i = 0; i < count; ++i) points_[at + i] = firstPoint + i;
+        if (list < kOnBalls) std::fill_n(&shapes_[at], count, shape);
     }
 
     std::span<const std::uint32_t> rays(std::size_t list) const { return of(rays_, list); }

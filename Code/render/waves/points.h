@@ -58,6 +58,18 @@ inline void takeSamples(const PathBatch& rays, std::size_t b, PointBatch& points
         weight[i] = rays.weight[ray[i]], slot[i] = rays.sample[ray[i]];
 }
 
+// Have all of these rays met the same part of one shape?
+template <std::size_t kRays> bool haveMetOne(const Hit* hits, const std::uint32_t* rays) {
+    const auto different = [&](std::size_t i) {
+        const Hit &first = hits[rays[0]], &other = hits[rays[i]];
+        return (other.shape ^ first.shape) | (other.prim ^ first.prim);
+    };
+    if (different(kRays - 1) != 0) return false; // most that haven't
+    std::uint32_t any = 0;
+    for (std::size_t i = 1; i < kRays - 1; ++i) any |= different(i);
+    return any == 0;
+}
+
 // Puts points that lanes do into lists by kind, the others into one of their own. Thousands of
 // shapes are more than the nearest caches hold, so each is asked for when it is listed.
 template <bool kHasBalls> void sortPoints(const Wave& wave) {
@@ -70,26 +82,40 @@ template <bool kHasBalls> void sortPoints(const Wave& wave) {
     std::uint32_t* const shapes = points.shape.data();
     const StillsInLanes::One* const all = stills.shapes.data();
     const bool hasStills = !stills.shapes.empty();
-    constexpr std::size_t kAhead = 16; // of what is looked up
-    for (std::uint32_t k = 0; k < count; ++k) {
-        if (!kHasBalls && hasStills && k + kAhead < count)
-            __builtin_prefetch(&all[hits[rays[k + kAhead]].shape]);
-        const std::uint32_t ray = rays[k], shape = hits[ray].shape;
-        shapes[k] = shape;
+    struct Place {
+        std::size_t list;
+        const StillShape* shape;
+    };
+    const auto placeOf = [&](const Hit& hit) -> Place {
         if constexpr (kHasBalls)
-            if (stills.balls.has(shape)) {
-                prefetch(stills.balls[shape]);
-                lists.push(PointLists::kOnBalls, ray, k, nullptr);
-                continue;
+            if (stills.balls.has(hit.shape)) {
+                prefetch(stills.balls[hit.shape]);
+                return {PointLists::kOnBalls, nullptr};
             }
-        const StillsInLanes::One still = hasStills ? all[shape] : StillsInLanes::One{};
-        const std::uint32_t part = hits[ray].prim;
-        if (still.shape == nullptr || (still.parts >> part & 1) == 0) {
-            lists.push(PointLists::kOnOthers, ray, k, nullptr);
+        const StillsInLanes::One still = hasStills ? all[hit.shape] : StillsInLanes::One{};
+        if (still.shape == nullptr || (still.parts >> hit.prim & 1) == 0)
+            return {PointLists::kOnOthers, nullptr};
+        prefetch(*still.shape);
+        return {PointLists::onStills(still.kindOf(hit.prim), still.wantsUv), still.shape};
+    };
+    constexpr std::uint32_t kTogether = 16;
+    for (std::uint32_t first = 0; first < count; first += kTogether) {
+        const std::uint32_t end = std::min(first + kTogether, count);
+        if (end - first == kTogether && haveMetOne<kTogether>(hits, rays + first)) {
+            const Hit& hit = hits[rays[first]];
+            const Place place = placeOf(hit);
+            lists.pushAlike(place.list, rays + first, first, kTogether, place.shape);
+            std::fill_n(shapes + first, kTogether, hit.shape);
             continue;
         }
-        prefetch(*still.shape);
-        lists.push(PointLists::onStills(still.kindOf(part), still.wantsUv), ray, k, still.shape);
+        for (std::uint32_t k = first; k < end; ++k) {
+            if (!kHasBalls && hasStills && k + kTogether < count)
+                __builtin_prefetch(&all[hits[rays[k + kTogether]].shape]);
+            const Hit& hit = hits[rays[k]];
+            const Place place = placeOf(hit);
+            lists.push(place.list, rays[k], k, place.shape);
+            shapes[k] = hit.shape;
+        }
     }
 }
 
