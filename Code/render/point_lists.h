@@ -51,14 +51,13 @@ public:
     std::span<const StillShape* const> shapes(std::size_t list) const { return of(shapes_, list); }
 
 private:
-    template <class T>
-    std::span<const T> of(const RawVector<T>& all, std::size_t list) const {
+    template <class T> std::span<const T> of(const RawVector<T>& all, std::size_t list) const {
         const std::size_t begin = list * room_;
         return std::span(all).subspan(begin, ends_[list] - begin);
     }
 
     std::size_t room_ = 0; // of each list
     std::array<std::size_t, kLists> ends_{};
-    RawVector<std::uint32_t> rays_, points_;  // list after list
-    RawVector<const StillShape*> shapes_; // the same
+    RawVector<std::uint32_t> rays_, points_; // list after list
+    RawVector<const StillShape*> shapes_;    // the same
 };

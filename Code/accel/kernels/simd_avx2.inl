@@ -193,6 +193,12 @@ inline void loadVectors(const float* p, Floats& x, Floats& y, Floats& z) {
     y = _mm256_shuffle_ps(yz, xy, _MM_SHUFFLE(3, 1, 2, 0));
     z = _mm256_shuffle_ps(yz, c, _MM_SHUFFLE(3, 0, 3, 1));
 }
+#include "accel/kernels/four_pairs.inl"
+template <class Fn> inline void loadPairs(const Fn& at, Floats& first, Floats& second) {
+    const FourPairs low(at, 0), high(at, 4);
+    first = _mm256_set_m128(high.first, low.first);
+    second = _mm256_set_m128(high.second, low.second);
+}
 inline void storePairs(Floats a, Ints b, float* to) {
     const __m256 other = _mm256_castsi256_ps(b.v);
     const __m256 low = _mm256_unpacklo_ps(a.v, other), high = _mm256_unpackhi_ps(a.v, other);

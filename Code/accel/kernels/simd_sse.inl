@@ -268,6 +268,11 @@ inline void loadVectors(const float* p, Floats& x, Floats& y, Floats& z) {
     four(p, x.lo, y.lo, z.lo);
     four(p + 12, x.hi, y.hi, z.hi);
 }
+#include "accel/kernels/four_pairs.inl"
+template <class Fn> inline void loadPairs(const Fn& at, Floats& first, Floats& second) {
+    const FourPairs low(at, 0), high(at, 4);
+    first = {low.first, high.first}, second = {low.second, high.second};
+}
 inline void storePairs(Floats a, Ints b, float* to) {
     const __m128 lo = _mm_castsi128_ps(b.lo), hi = _mm_castsi128_ps(b.hi);
     _mm_storeu_ps(to, _mm_unpacklo_ps(a.lo, lo));

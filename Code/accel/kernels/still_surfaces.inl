@@ -42,7 +42,10 @@ public:
     // Rays that ascend, of which so many differ.
     void read(const RaySpan& rays, std::span<const Hit> hits, const RaysOfLanes& ray,
               std::size_t count) {
-        for (std::size_t i = 0; i < W; ++i) t_[i] = hits[ray[i]].t, lost_[i] = hits[ray[i]].u;
+        static_assert(offsetof(Hit, u) == offsetof(Hit, t) + sizeof(float));
+        Floats t, lost;
+        loadPairs([&](std::size_t i) { return &hits[ray[i]].t; }, t, lost);
+        t.store(t_), lost.store(lost_);
         const std::size_t first = ray[0];
         if (count == W && ray[W - 1] == first + (W - 1)) {
             readRow(&rays.org[first].x, org_), readRow(&rays.dir[first].x, dir_);
@@ -85,7 +88,7 @@ void readAhead(std::size_t size, const ReadFn& read, const UseFn& use) {
 
 struct SurfacesInLanes {
     alignas(64) float p[3][W], n[3][W], error[W];
-    std::uint32_t material[W], object[W];
+    alignas(64) std::uint32_t material[W], object[W];
     alignas(64) float uv[2][W];
     unsigned odd = 0; // lanes on an odd square of a plane
     bool hasUv = false;
@@ -222,6 +225,11 @@ void describe(const Numbers& shape, const RaysInLanes& world, const Doubles3& fa
     roundedUp(Doubles(kThreeUlps) * rounding + fixedError).store(out.error);
 }
 
+// Of one shape.
+inline void setMaterials(const StillShape& shape, SurfacesInLanes& found) {
+    select(maskOf(found.odd), Ints(shape.oddMaterial), Ints(shape.material)).store(found.material);
+    Ints(shape.object).store(found.object);
+}
 inline void findMaterials(std::span<const StillShape* const> shapes, SurfacesInLanes& found) {
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         const StillShape& shape = *shapes[i];
@@ -253,10 +261,11 @@ template <Kind kKind> void surfacesOf(const StillsMet& met, const SurfacePlaces&
             if (std::all_of(shapes.begin() + 1, shapes.end(), isFirst)) {
                 if (shapes[0] != last) last = shapes[0], ofLast.emplace(*last);
                 describe<kKind>(*ofLast, rays, face, found);
+                setMaterials(*last, found);
             } else {
                 describe<kKind>(NumbersOfMany<kKind>(shapes), rays, face, found);
+                findMaterials(shapes, found);
             }
-            findMaterials(shapes, found);
             found.put(met.to.subspan(first, count), out);
         });
 }
