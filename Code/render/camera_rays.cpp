@@ -16,6 +16,10 @@ FilterKind filterKind(SettingsDesc::Filter kind) {
 }
 
 constexpr std::size_t kBlock = PlaceBlock::kPlaces;
+// Its number in the picture, which wraps in huge ones.
+constexpr std::uint32_t pixelAt(int x, int y, std::uint32_t width) {
+    return static_cast<std::uint32_t>(y) * width + static_cast<std::uint32_t>(x);
+}
 constexpr std::size_t blocksOf(std::size_t slots) { return (slots + kBlock - 1) / kBlock; }
 // fn(slot, count) for the first slot of each block.
 template <class Fn> void forEachBlock(std::size_t slots, const Fn& fn) {
@@ -36,28 +40,29 @@ CameraRays::CameraRays(const IntegratorContext& context)
         fixed_ = Vec2{};
     else if (picture.samplesPerPixel == 1 && !picture.jitter && context.settings.specialise)
         fixed_ = filter_.sample({0.5f, 0.5f}); // see Sampler
+    for (std::size_t i = 0; i < pixelsOfSquare_.size(); ++i) {
+        const TileSquare::Step step = TileSquare::kCurve[i];
+        pixelsOfSquare_[i] = pixelAt(step.x, step.y, static_cast<std::uint32_t>(width_));
+    }
 }
 
 void CameraRays::listSamples(const Tile& tile, int first, int count, SampleChunk& chunk) const {
     const auto all =
         static_cast<std::size_t>(tile.width() * tile.height()) * static_cast<std::size_t>(count);
-    chunk.ids.resize(all);
+    const auto samples = static_cast<std::uint32_t>(count);
+    chunk.number.set(static_cast<std::uint32_t>(first), samples, all);
     chunk.cameraRays.setSize(all);
     chunk.places.resize(std::max(chunk.places.size(), blocksOf(all)));
+    if (count == 1) return listOneByPlace(tile, chunk);
     // In registers: what is written could be part of *this.
     const auto width = static_cast<std::uint32_t>(width_);
     const Vec2d corner = middle(0, 0);
-    const auto begin = static_cast<std::uint32_t>(first),
-               samples = static_cast<std::uint32_t>(count);
-    SampleId* id = chunk.ids.data();
     std::uint32_t* stream = chunk.cameraRays.stream.data();
     PlaceBlock* block = chunk.places.data();
     std::size_t inBlock = 0;
     forEachPlace(tile, [&](int x, int y) {
-        const std::uint32_t pixel = static_cast<std::uint32_t>(y) * width +
-                                    static_cast<std::uint32_t>(x); // wraps in huge pictures
+        const std::uint32_t pixel = pixelAt(x, y, width);
         for (std::uint32_t s = 0; s < samples; ++s) {
-            *id++ = {pixel, begin + s};
             *stream++ = pixel;
             block->x[inBlock] = x + corner.x, block->y[inBlock] = y + corner.y;
             if (++inBlock == kBlock) ++block, inBlock = 0;
@@ -65,9 +70,50 @@ void CameraRays::listSamples(const Tile& tile, int first, int count, SampleChunk
     });
 }
 
+// By the square: sums of whole numbers and halves are exact in any order.
+void CameraRays::listOneByPlace(const Tile& tile, SampleChunk& chunk) const {
+    constexpr std::size_t kPlaces = TileSquare::kPlaces;
+    static constexpr auto kSteps = [] {
+        std::array<std::array<double, kPlaces>, 2> steps{};
+        for (std::size_t i = 0; i < kPlaces; ++i)
+            steps[0][i] = TileSquare::kCurve[i].x, steps[1][i] = TileSquare::kCurve[i].y;
+        return steps;
+    }();
+    static_assert(kPlaces % kBlock == 0);
+    const auto width = static_cast<std::uint32_t>(width_);
+    std::uint32_t* const stream = chunk.cameraRays.stream.data();
+    PlaceBlock* const blocks = chunk.places.data();
+    std::size_t slot = 0;
+    const auto one = [&](int x, int y) {
+        const Vec2d at = middle(x, y);
+        stream[slot] = pixelAt(x, y, width);
+        blocks[slot / kBlock].x[slot % kBlock] = at.x;
+        blocks[slot / kBlock].y[slot % kBlock] = at.y;
+        ++slot;
+    };
+    const auto whole = [&](int left, int top) {
+        if (slot % kBlock != 0) {
+            for (const TileSquare::Step step : TileSquare::kCurve) one(left + step.x, top + step.y);
+            return;
+        }
+        const Vec2d corner = middle(left, top);
+        const std::uint32_t first = pixelAt(left, top, width);
+        for (std::size_t i = 0; i < kPlaces; ++i) stream[slot + i] = first + pixelsOfSquare_[i];
+        for (std::size_t from = 0; from < kPlaces; from += kBlock) {
+            PlaceBlock& block = blocks[(slot + from) / kBlock];
+            for (std::size_t i = 0; i < kBlock; ++i) {
+                block.x[i] = corner.x + kSteps[0][from + i];
+                block.y[i] = corner.y + kSteps[1][from + i];
+            }
+        }
+        slot += kPlaces;
+    };
+    forEachSquare(tile, whole, one);
+}
+
 void CameraRays::moveFromMiddles(int first, int count, SampleChunk& chunk) const {
     if (corners_) return;
-    const std::size_t all = chunk.ids.size();
+    const std::size_t all = chunk.cameraRays.size();
     if (fixed_) {
         const Vec2d offset{fixed_->x, fixed_->y};
         for (std::size_t b = 0; b < blocksOf(all); ++b)
@@ -94,11 +140,11 @@ void CameraRays::drawPairs(int first, int count, std::uint32_t dimension, Sample
     const bool areCentres = dimension == kPixelDimension && sampler.sampleCount() == 1 &&
                             !context_.settings.picture.jitter; // see Sampler
     if (areLanesAsked() && !areCentres) return drawInLanes(first, count, dimension, chunk, take);
-    const std::size_t all = chunk.ids.size();
+    const std::size_t all = chunk.cameraRays.size();
     const auto samples = static_cast<std::size_t>(count);
     chunk.numbers.resize(all);
     for (std::size_t slot = 0; slot < all; slot += samples)
-        sampler.get2D(chunk.ids[slot].pixel, static_cast<std::uint32_t>(first), dimension,
+        sampler.get2D(chunk.cameraRays.stream[slot], static_cast<std::uint32_t>(first), dimension,
                       std::span(chunk.numbers).subspan(slot, samples));
     PairBlock block;
     forEachBlock(all, [&](std::size_t slot, std::size_t some) {
@@ -115,17 +161,17 @@ void CameraRays::drawInLanes(int first, int count, std::uint32_t dimension,
     Sampler::PairSeeds seeds{};
     PairBlock block;
     if (count == 1) std::fill_n(block.sample, kBlock, static_cast<std::uint32_t>(first));
-    forEachBlock(chunk.ids.size(), [&](std::size_t slot, std::size_t some) {
+    forEachBlock(chunk.cameraRays.size(), [&](std::size_t slot, std::size_t some) {
         if (count == 1) {
             std::copy_n(&chunk.cameraRays.stream[slot], some, block.pixel);
             lanes_.seeds(sampler.seed(), dimension, std::span<const std::uint32_t>(block.pixel),
                          {block.index, block.x, block.y});
         } else {
             for (std::size_t i = 0; i < some; ++i) {
-                const SampleId id = chunk.ids[slot + i];
-                if (id.index == static_cast<std::uint32_t>(first))
-                    seeds = sampler.pairSeeds(id.pixel, dimension);
-                block.sample[i] = id.index;
+                const std::uint32_t number = chunk.number[slot + i];
+                if (number == static_cast<std::uint32_t>(first))
+                    seeds = sampler.pairSeeds(chunk.cameraRays.stream[slot + i], dimension);
+                block.sample[i] = number;
                 block.index[i] = seeds.index, block.x[i] = seeds.x, block.y[i] = seeds.y;
             }
         }
@@ -142,8 +188,8 @@ void CameraRays::drawTimes(int first, int count, SampleChunk& chunk) const {
                            [&](const PairBlock& block, std::size_t slot, std::size_t some) {
                                std::copy_n(block.u, some, &times[slot]);
                            });
-    for (std::size_t i = 0; i < chunk.ids.size(); ++i)
-        times[i] = sampler.get1D(chunk.ids[i].pixel, chunk.ids[i].index, kTimeDimension);
+    for (std::size_t i = 0; i < chunk.cameraRays.size(); ++i)
+        times[i] = sampler.get1D(chunk.cameraRays.stream[i], chunk.number[i], kTimeDimension);
 }
 
 bool CameraRays::areLanesAsked() const {

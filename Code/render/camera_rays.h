@@ -6,12 +6,15 @@
 #include "render/tile.h"
 #include "sample/filter.h"
 
+#include <array>
+#include <optional>
+
 class CameraRays {
 public:
     explicit CameraRays(const IntegratorContext& context);
 
-    // Fills in ids and rays of the samples first .. first + count - 1 of every place, place after
-    // place, in the order of forEachPlace().
+    // Fills in numbers and rays of the samples first .. first + count - 1 of every place, place
+    // after place, in the order of forEachPlace().
     void make(const Tile& tile, int first, int count, SampleChunk& chunk) const;
 
     bool throughCorners() const { return corners_; }
@@ -27,6 +30,7 @@ public:
 private:
     // Which pixel and sample each slot is, and the middle of its place.
     void listSamples(const Tile& tile, int first, int count, SampleChunk& chunk) const;
+    void listOneByPlace(const Tile& tile, SampleChunk& chunk) const;
     // To where the filter has them.
     void moveFromMiddles(int first, int count, SampleChunk& chunk) const;
     // Sampler::get2D() of all slots, the samples of a place following each other:
@@ -47,6 +51,8 @@ private:
     CameraLanes lanes_;
     bool corners_; // samples lie on the corners of pixels; places are those, one more each way
     int width_;
+    // The pixels of a TileSquare, less its first one.
+    std::array<std::uint32_t, TileSquare::kPlaces> pixelsOfSquare_;
     // Where every sample is in its place, if all are in the same one: nobody draws numbers then.
     std::optional<Vec2> fixed_;
 };

@@ -11,6 +11,7 @@
 #include "render/point_columns.h"
 #include "render/point_lists.h"
 #include "render/query.h"
+#include "render/sample_numbers.h"
 #include "render/shading.h"
 #include "render/waves/bounce_lanes.h"
 #include "render/waves/environment_lanes.h"
@@ -27,12 +28,6 @@
 #include <optional>
 #include <span>
 #include <vector>
-
-// One camera sample: which random numbers are its own.
-struct SampleId {
-    std::uint32_t pixel = 0; // number of the pixel in the whole picture
-    std::uint32_t index = 0; // of the sample in its pixel
-};
 
 // What the camera ray met, for --aov and the integrators that show it. World units.
 struct FirstHit {
@@ -109,10 +104,10 @@ struct IntegratorContext {
 
 // The samples of one chunk of a tile, and what comes out of them; slot i is sample i everywhere.
 struct SampleChunk {
-    std::vector<SampleId> ids;
-    std::vector<PlaceBlock> places; // slot after slot; those on the lens, if there is one
-    std::vector<Vec2> numbers;      // for who draws them without lanes
-    PathBatch cameraRays;
+    SampleNumbers number;              // of the sample in its pixel
+    std::vector<PlaceBlock> places;    // slot after slot; those on the lens, if there is one
+    std::vector<Vec2> numbers;         // for who draws them without lanes
+    PathBatch cameraRays;              // `stream` is the number of the pixel in the whole picture
     std::size_t raysWithConstants = 0; // see CameraRays::make()
     std::vector<Rgb> radiance;
     std::vector<FirstHit> first; // filled only if the context wants it

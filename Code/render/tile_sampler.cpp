@@ -46,10 +46,11 @@ void TileSampler::trace(const Tile& tile, int begin, int samples, TileWorker& wo
 
 void TileSampler::traceChunk(const Tile& tile, int first, int count, TileWorker& worker) const {
     cameraRays_.make(tile, first, count, worker.chunk);
-    worker.chunk.radiance.resize(worker.chunk.ids.size());
+    worker.chunk.radiance.resize(worker.chunk.cameraRays.size());
     std::memset(static_cast<void*>(worker.chunk.radiance.data()), 0,
                 worker.chunk.radiance.size() * sizeof(Rgb));
-    if (context_.wantsFirstHits) worker.chunk.first.assign(worker.chunk.ids.size(), FirstHit{});
+    if (context_.wantsFirstHits)
+        worker.chunk.first.assign(worker.chunk.cameraRays.size(), FirstHit{});
     integrate(worker);
 }
 

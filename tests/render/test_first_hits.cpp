@@ -79,8 +79,8 @@ TEST(firstHitsAreThoseOfSingleRays) {
                 const IntegratorContext context(scene, settings);
                 SampleChunk chunk;
                 CameraRays(context).make({0, 0, 40, 30}, 0, 2, chunk);
-                chunk.first.assign(chunk.ids.size(), FirstHit{});
-                chunk.radiance.assign(chunk.ids.size(), Rgb{});
+                chunk.first.assign(chunk.cameraRays.size(), FirstHit{});
+                chunk.radiance.assign(chunk.cameraRays.size(), Rgb{});
                 WaveMemory memory;
                 RayCounts counts;
                 std::uint64_t cameraHits = 0, hits = 0;

@@ -24,7 +24,7 @@ inline SamplesOnLamp samplesOf(const Wave& wave, const Lamp& lamp, const LitBloc
         const std::uint32_t k = block.point[i];
         streams[i] = wave.rays.stream[all.ray[k]];
         samples.first[i] =
-            wave.chunk.ids[all.slot[k]].index * perPoint + static_cast<std::uint32_t>(first);
+            wave.chunk.number[all.slot[k]] * perPoint + static_cast<std::uint32_t>(first);
     }
     const std::uint32_t place = dimension(wave.depth, BounceSlot::LightUv);
     // The samples of a pixel follow each other.
