@@ -108,30 +108,59 @@ inline void raysFrom(const Camera::Lens& lens, const PlaceBlock& places, std::si
     storeAll(clipAlong(lens, unit), to.tMin);
 }
 
-// Filter::sample()
-template <FilterKind kKind> inline Floats offsetAt(const Filter::Spread& filter, Floats u) {
-    const Doubles one(1.0), place = Doubles(2.0) * Doubles(u) - one, size = abs(place);
-    Doubles x = size;
-    if constexpr (kKind == FilterKind::Tent) {
-        x = size / (one + sqrt(one - size));
-    } else if constexpr (kKind != FilterKind::Box) {
+// Filter::sample(): how far from the middle, -1 .. 1, a number of 0 .. 1 is, and with its sign, the
+// offset that so many radii are.
+inline Doubles signedPlace(Floats u) { return Doubles(2.0) * Doubles(u) - Doubles(1.0); }
+inline Doubles movedBy(const Filter::Spread& filter, const Doubles& radii, Floats u) {
+    return Doubles(withSign(radii * Doubles(filter.radius), signedPlace(u)).toFloats());
+}
+
+// The numbers of a block as places in the filter's table: entry, and how far to the next.
+class TablePlaces {
+public:
+    explicit TablePlaces(const float (&u)[PairBlock::kPairs]) {
         constexpr int kSteps = Filter::kSteps;
-        const Doubles at = sqrt(one - size) * Doubles(kSteps);
-        const Doubles step = min(floor(at), Doubles(kSteps - 1)), across = at - step;
-        const Ints i = wholeOf(step);
-        x = elementsAt<1>(filter.inverse, i) * (one - across) +
-            elementsAt<1>(filter.inverse + 1, i) * across;
+        for (std::size_t i = 0; i < PairBlock::kPairs; i += W) {
+            const Doubles size = abs(signedPlace(Floats::load(u + i)));
+            const Doubles at = sqrt(Doubles(1.0) - size) * Doubles(kSteps);
+            const Doubles step = min(floor(at), Doubles(kSteps - 1));
+            wholeOf(step).store(entry_ + i);
+            (at - step).store(across_ + i);
+        }
     }
-    return withSign(x * Doubles(filter.radius), place).toFloats();
+    // Of W of them.
+    Doubles lookUp(const float* table, std::size_t first) const {
+        Floats here, next;
+        loadPairs([&](std::size_t i) { return table + entry_[first + i]; }, here, next);
+        const Doubles across = Doubles::load(across_ + first);
+        return Doubles(here) * (Doubles(1.0) - across) + Doubles(next) * across;
+    }
+
+private:
+    alignas(64) std::uint32_t entry_[PairBlock::kPairs];
+    alignas(64) double across_[PairBlock::kPairs];
+};
+
+template <FilterKind kKind>
+inline void moveBy(const Filter::Spread& filter, const float (&u)[PairBlock::kPairs], double* to) {
+    const auto move = [&](std::size_t i, const Doubles& radii) {
+        (Doubles::load(to + i) + movedBy(filter, radii, Floats::load(u + i))).store(to + i);
+    };
+    if constexpr (kKind == FilterKind::Box || kKind == FilterKind::Tent) {
+        const Doubles one(1.0);
+        for (std::size_t i = 0; i < PairBlock::kPairs; i += W) {
+            const Doubles size = abs(signedPlace(Floats::load(u + i)));
+            move(i, kKind == FilterKind::Box ? size : size / (one + sqrt(one - size)));
+        }
+    } else {
+        const TablePlaces places(u); // first all, then what is there: the look-ups needn't wait
+        for (std::size_t i = 0; i < PairBlock::kPairs; i += W)
+            move(i, places.lookUp(filter.inverse, i));
+    }
 }
 template <FilterKind kKind>
 inline void spreadAs(const Filter::Spread& filter, const PairBlock& pairs, PlaceBlock& places) {
-    const auto move = [&](const float* numbers, double* to) {
-        const Floats offset = offsetAt<kKind>(filter, Floats::load(numbers));
-        (Doubles::load(to) + Doubles(offset)).store(to);
-    };
-    for (std::size_t i = 0; i < PairBlock::kPairs; i += W)
-        move(pairs.u + i, places.x + i), move(pairs.v + i, places.y + i);
+    moveBy<kKind>(filter, pairs.u, places.x), moveBy<kKind>(filter, pairs.v, places.y);
 }
 
 using Longs __attribute__((vector_size(sizeof(Bits)))) = std::uint64_t;

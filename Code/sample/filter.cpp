@@ -74,7 +74,7 @@ private:
 
 // Entry i is the x in [0,1] where the share of the upper half that lies between 0 and x is
 // 1 - (i / kSteps)^2.
-std::vector<double> inverseOfCdf(FilterKind kind) {
+std::vector<float> inverseOfCdf(FilterKind kind) {
     constexpr std::size_t kPieces = ShapeAt::kCount / 2;
     constexpr double h = 1.0 / kPieces;
     const ShapeAt shapeAt(kind);
@@ -85,14 +85,14 @@ std::vector<double> inverseOfCdf(FilterKind kind) {
         cdf[i + 1] = cdf[i] + (before + 4 * middle + end) * (h / 6);
         before = end;
     }
-    std::vector<double> inverse{1}; // floats, as many as that is right to
+    std::vector<float> inverse{1}; // it is right to as many digits
     std::size_t piece = kPieces - 1;
     for (int i = 1; i < kSteps; ++i) {
         const double wanted = cdf.back() * (1 - sqr(static_cast<double>(i) / kSteps));
         while (cdf[piece] > wanted) --piece;
         const double s = (wanted - cdf[piece]) / (cdf[piece + 1] - cdf[piece]);
         const double x = (static_cast<double>(piece) + s) / kPieces;
-        inverse.push_back(static_cast<double>(static_cast<float>(x)));
+        inverse.push_back(static_cast<float>(x));
     }
     inverse.push_back(0);
     return inverse;
@@ -119,8 +119,8 @@ template <FilterKind kKind> float Filter::offsetAt(float u) const {
     } else if constexpr (kKind != FilterKind::Box) {
         const double at = std::sqrt(1 - size) * kSteps;
         const int i = std::min(static_cast<int>(at), kSteps - 1);
-        const double* step = inverse_.data() + i;
-        x = lerp(step[0], step[1], at - i);
+        const float* step = inverse_.data() + i;
+        x = lerp(static_cast<double>(step[0]), static_cast<double>(step[1]), at - i);
     }
     return static_cast<float>(std::copysign(x * radius_, place));
 }

@@ -35,7 +35,7 @@ public:
         double radius;
         // Of the smooth kinds: entry i of kSteps + 1 is where, in radii from the centre,
         // 1 - (i / kSteps)^2 of its half of the samples are nearer; linear between.
-        const double* inverse;
+        const float* inverse;
     };
     Spread spread() const { return {kind_, radius_, inverse_.data()}; }
     FilterKind kind() const { return kind_; }
@@ -46,5 +46,5 @@ private:
 
     FilterKind kind_;
     double width_, radius_;
-    std::vector<double> inverse_; // of the CDF, upper half; only for the two smooth kinds
+    std::vector<float> inverse_; // of the CDF, upper half; only for the two smooth kinds
 };
