@@ -23,11 +23,10 @@ inline void placeOnPolygon(DiskRow& place, const Camera::Lens& lens) {
     const Doubles across = at - blade, rest = Doubles(1.0) - across;
     const Ints i = wholeOf(blade);
     const Doubles radius = sqrt(Doubles(Floats::load(place.v)));
-    const auto between = [&](const double* corner) {
-        return elementsAt<2>(corner, i) * rest + elementsAt<2>(corner + 2, i) * across;
-    };
-    (radius * between(lens.corners)).toFloats().store(place.x);
-    (radius * between(lens.corners + 1)).toFloats().store(place.y);
+    Doubles x(0.0), y(0.0), nextX(0.0), nextY(0.0); // of the corners of that blade
+    pairsAt<2>(lens.corners, i, x, y), pairsAt<2>(lens.corners + 2, i, nextX, nextY);
+    (radius * (x * rest + nextX * across)).toFloats().store(place.x);
+    (radius * (y * rest + nextY * across)).toFloats().store(place.y);
 }
 
 // placeOnDisk() takes numbers of 24 bits, as Sobol's are: 2 u - 1 is exact then. Numbers of other

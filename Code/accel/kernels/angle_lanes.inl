@@ -31,8 +31,10 @@ inline Doubles anglesOf(const Doubles& y, const Doubles& x) {
     const Mask isSmall = ratio < Doubles(0.0625);
     const Doubles t = select(isSmall, ratio, ((a - product) - rest) / (b + c * a));
     const Doubles tail = atanTails(t);
-    Doubles hi = select(isSmall, ratio, elementsAt<2>(table, k));
-    Doubles lo = select(isSmall, tail, t + (elementsAt<2>(table + 1, k) + tail));
+    Doubles ofK(0.0), restOfK(0.0);
+    pairsAt<2>(table, k, ofK, restOfK);
+    Doubles hi = select(isSmall, ratio, ofK);
+    Doubles lo = select(isSmall, tail, t + (restOfK + tail));
     const unsigned equal = all & ~bits(isLess) & less(zero, b);
     if (equal != 0) {
         const DoubleDouble quarter = exact::kAtanTable[16];
@@ -53,6 +55,5 @@ inline Doubles anglesOf(const Doubles& y, const Doubles& x) {
     const unsigned numbers = atMost(zero, absX) & atMost(zero, absY);
     const Doubles signedAngle = withSign(angle, y);
     if (numbers == all) return signedAngle;
-    return select(maskOf(numbers), signedAngle,
-                  Doubles(std::numeric_limits<double>::quiet_NaN()));
+    return select(maskOf(numbers), signedAngle, Doubles(std::numeric_limits<double>::quiet_NaN()));
 }

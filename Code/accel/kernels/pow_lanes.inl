@@ -23,14 +23,14 @@ inline LogParts logParts(Floats x) {
     const Doubles mantissa(fromBits(plus(fraction, 0x3f800000)));
     const Doubles exponent = doublesOf(plus(shiftedRight<23>(bitsOf(x)), minusBias)) +
                              select(row < Ints(exact::kHalvedFrom), Doubles(0.0), Doubles(1.0));
-    return {row, exponent, mantissa * elementsAt<1>(exact::kPowTables.c.data(), row) - 1.0};
+    return {row, exponent, mantissa * elementsAt(exact::kPowTables.c.data(), row) - 1.0};
 }
 
 // Of numbers from the smallest normal one to 1.
 inline Doubles logOf(Floats base) {
     constexpr double ln2 = 0x1.62e42fefa39efp-1;
     const auto [row, exponent, r] = logParts(base);
-    const Doubles known = exponent * ln2 + elementsAt<1>(exact::kPowTables.log.data(), row);
+    const Doubles known = exponent * ln2 + elementsAt(exact::kPowTables.log.data(), row);
     return known + (r + (r * r) * (-0.5 + r * logTail(r)));
 }
 
@@ -43,8 +43,8 @@ inline Doubles expOf(const Doubles& x, const Doubles& lo) {
     const Doubles low = 0.5 + r * (1.0 / 6), high = 1.0 / 24 + r * (1.0 / 120);
     const Doubles tail = r2 * (low + r2 * (high + r2 * (1.0 / 720 + r * (1.0 / 5040))));
     const Ints whole = wholeOf(n), j = masked(whole, 31);
-    const Doubles hi = elementsAt<1>(exact::kPowTables.powersHi.data(), j);
-    const Doubles rest = elementsAt<1>(exact::kPowTables.powersLo.data(), j);
+    const Doubles hi = elementsAt(exact::kPowTables.powersHi.data(), j);
+    const Doubles rest = elementsAt(exact::kPowTables.powersLo.data(), j);
     return (hi + (rest + hi * (r + tail))) * powersOfTwo(shiftedRight<5>(whole));
 }
 

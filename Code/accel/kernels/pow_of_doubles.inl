@@ -13,9 +13,9 @@ inline DoublePairs longLogOf(Floats x) {
     DoublePairs sum = fastTwoSum(r, square.hi * -0.5);
     sum.lo = sum.lo + (Doubles(0.0) - square.lo * 0.5 + (r * square.hi) * logTail(r));
     const DoublePairs table =
-        twoSum(exponent * ln2Upper, elementsAt<1>(exact::kPowTables.log.data(), row));
+        twoSum(exponent * ln2Upper, elementsAt(exact::kPowTables.log.data(), row));
     const DoublePairs total = twoSum(table.hi, sum.hi);
-    const Doubles rest = elementsAt<1>(exact::kPowTables.logLo.data(), row) + exponent * ln2Lower;
+    const Doubles rest = elementsAt(exact::kPowTables.logLo.data(), row) + exponent * ln2Lower;
     return fastTwoSum(total.hi, total.lo + (table.lo + (sum.lo + rest)));
 }
 

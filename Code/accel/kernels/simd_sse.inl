@@ -268,7 +268,7 @@ inline void loadVectors(const float* p, Floats& x, Floats& y, Floats& z) {
     four(p, x.lo, y.lo, z.lo);
     four(p + 12, x.hi, y.hi, z.hi);
 }
-#include "accel/kernels/four_pairs.inl"
+#include "accel/kernels/gather_by_hand.inl"
 template <class Fn> inline void loadPairs(const Fn& at, Floats& first, Floats& second) {
     const FourPairs low(at, 0), high(at, 4);
     first = {low.first, high.first}, second = {low.second, high.second};

@@ -13,20 +13,26 @@ inline Ints byteOf(Ints a, int i) {
                             _mm256_set1_epi32(255));
 }
 inline Ints fourBytesAt(const std::uint8_t* from, Ints offset) {
-    return _mm256_i32gather_epi32(static_cast<const int*>(static_cast<const void*>(from)), offset.v,
-                                  1);
+    const NumbersInMemory at(offset);
+    return _mm256_set_m128i(fourTimesFourBytes(from, at, 4), fourTimesFourBytes(from, at, 0));
 }
 inline Ints elementsAt(const std::uint32_t* table, Ints i, unsigned chosen) {
     return _mm256_mask_i32gather_epi32(_mm256_setzero_si256(),
                                        static_cast<const int*>(static_cast<const void*>(table)),
                                        i.v, _mm256_castps_si256(maskOf(chosen).v), 4);
 }
-template <int kStride> Doubles elementsAt(const double* table, Ints i) {
+inline Doubles elementsAt(const double* table, Ints i) {
     const __m256d all = _mm256_castsi256_pd(_mm256_set1_epi64x(-1));
-    const auto at = [&](__m128i row) {
-        // With a mask: g++ 12 takes the undefined operand of the one without for a mistake.
-        return _mm256_mask_i32gather_pd(
-            all, table, _mm_mullo_epi32(row, _mm_set1_epi32(kStride)), all, 8);
-    };
-    return {at(_mm256_castsi256_si128(i.v)), at(upperHalf(i))};
+    // With a mask: g++ 12 takes the undefined operand of the one without for a mistake.
+    return {_mm256_mask_i32gather_pd(all, table, _mm256_castsi256_si128(i.v), all, 8),
+            _mm256_mask_i32gather_pd(all, table, upperHalf(i), all, 8)};
+}
+template <int kStride>
+[[gnu::always_inline]] inline void pairsAt(const double* rows, Ints i, Doubles& first,
+                                           Doubles& second) {
+    const NumbersInMemory at(i);
+    const TwoRows a(rows, at, 0, kStride), b(rows, at, 2, kStride), c(rows, at, 4, kStride),
+        d(rows, at, 6, kStride);
+    first = {_mm256_set_m128d(b.first, a.first), _mm256_set_m128d(d.first, c.first)};
+    second = {_mm256_set_m128d(b.second, a.second), _mm256_set_m128d(d.second, c.second)};
 }

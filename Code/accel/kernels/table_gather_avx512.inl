@@ -19,7 +19,12 @@ inline Ints byteOf(Ints a, int i) {
 }
 // The four bytes at each offset.
 inline Ints fourBytesAt(const std::uint8_t* from, Ints offset) {
-    return _mm512_i32gather_epi32(offset.v, from, 1);
+    const NumbersInMemory at(offset);
+    const __m256i low =
+        _mm256_set_m128i(fourTimesFourBytes(from, at, 4), fourTimesFourBytes(from, at, 0));
+    const __m256i high =
+        _mm256_set_m128i(fourTimesFourBytes(from, at, 12), fourTimesFourBytes(from, at, 8));
+    return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
 }
 // Element i of a table for each i, which are below 2^31; 0 in lanes that are not chosen, whatever
 // their i.
@@ -27,10 +32,25 @@ inline Ints elementsAt(const std::uint32_t* table, Ints i, unsigned chosen) {
     return _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), static_cast<__mmask16>(chosen), i.v,
                                        table, 4);
 }
-// Element kStride * i of a table for each i.
-template <int kStride> Doubles elementsAt(const double* table, Ints i) {
-    const auto at = [&](__m256i row) {
-        return _mm512_i32gather_pd(_mm256_mullo_epi32(row, _mm256_set1_epi32(kStride)), table, 8);
-    };
-    return {at(_mm512_castsi512_si256(i.v)), at(upperHalf(i))};
+// Element i of a table for each i.
+inline Doubles elementsAt(const double* table, Ints i) {
+    return {_mm512_i32gather_pd(_mm512_castsi512_si256(i.v), table, 8),
+            _mm512_i32gather_pd(upperHalf(i), table, 8)};
+}
+inline __m512d joined(__m128d a, __m128d b, __m128d c, __m128d d) {
+    const __m256d low = _mm256_set_m128d(b, a), high = _mm256_set_m128d(d, c);
+    return _mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1);
+}
+// The first two elements of row i, for each i, of a table whose rows are kStride long.
+template <int kStride>
+[[gnu::always_inline]] inline void pairsAt(const double* rows, Ints i, Doubles& first,
+                                           Doubles& second) {
+    const NumbersInMemory at(i);
+    const TwoRows a(rows, at, 0, kStride), b(rows, at, 2, kStride), c(rows, at, 4, kStride),
+        d(rows, at, 6, kStride), e(rows, at, 8, kStride), f(rows, at, 10, kStride),
+        g(rows, at, 12, kStride), h(rows, at, 14, kStride);
+    first = {joined(a.first, b.first, c.first, d.first),
+             joined(e.first, f.first, g.first, h.first)};
+    second = {joined(a.second, b.second, c.second, d.second),
+              joined(e.second, f.second, g.second, h.second)};
 }

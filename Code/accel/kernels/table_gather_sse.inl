@@ -16,10 +16,8 @@ inline Ints byteOf(Ints a, int i) {
             _mm_and_si128(_mm_srl_epi32(a.hi, shift), byte)};
 }
 inline Ints fourBytesAt(const std::uint8_t* from, Ints offset) {
-    alignas(16) std::uint32_t at[W];
-    offset.store(at);
-    for (std::uint32_t& x : at) std::memcpy(&x, from + x, sizeof x);
-    return Ints::load(at);
+    const NumbersInMemory at(offset);
+    return {fourTimesFourBytes(from, at, 0), fourTimesFourBytes(from, at, 4)};
 }
 inline Ints elementsAt(const std::uint32_t* table, Ints i, unsigned chosen) {
     alignas(16) std::uint32_t at[W], out[W] = {};
@@ -30,10 +28,19 @@ inline Ints elementsAt(const std::uint32_t* table, Ints i, unsigned chosen) {
     }
     return Ints::load(out);
 }
-template <int kStride> Doubles elementsAt(const double* table, Ints i) {
-    alignas(16) std::uint32_t at[W];
-    i.store(at);
-    alignas(16) double out[W];
-    for (std::size_t k = 0; k < W; ++k) out[k] = table[kStride * at[k]];
-    return Doubles::load(out);
+inline Doubles elementsAt(const double* table, Ints i) {
+    const NumbersInMemory at(i);
+    return quarters([&](int k) {
+        const auto from = static_cast<std::size_t>(2 * k);
+        return _mm_loadh_pd(_mm_load_sd(table + at[from]), table + at[from + 1]);
+    });
+}
+template <int kStride>
+[[gnu::always_inline]] inline void pairsAt(const double* rows, Ints i, Doubles& first,
+                                           Doubles& second) {
+    const NumbersInMemory at(i);
+    const TwoRows a(rows, at, 0, kStride), b(rows, at, 2, kStride), c(rows, at, 4, kStride),
+        d(rows, at, 6, kStride);
+    first = {a.first, b.first, c.first, d.first};
+    second = {a.second, b.second, c.second, d.second};
 }

@@ -107,12 +107,11 @@ private:
         const Ints k = wholeOf(s * Doubles(255.0) + Doubles(0.5));
         const double* const table = &srgb::decodeNodes().front().value;
         constexpr int kStride = sizeof(srgb::DecodeNode) / sizeof(double);
-        const Doubles value = elementsAt<kStride>(table, k),
-                      inverse = elementsAt<kStride>(table + 1, k);
+        Doubles value(0.0), inverse(0.0);
+        pairsAt<kStride>(table, k, value, inverse);
         const Doubles u = (s - doublesOf(k) / Doubles(255.0)) * inverse;
         const Doubles curve =
-            value * (Doubles(1.0) +
-                     u * (Doubles(2.4) + u * (Doubles(1.68) + u * Doubles(0.224))));
+            value * (Doubles(1.0) + u * (Doubles(2.4) + u * (Doubles(1.68) + u * Doubles(0.224))));
         const unsigned dark = atMost(s, Doubles(srgb::kDecodeThreshold));
         if (dark == 0) return curve.toFloats();
         return select(maskOf(dark), s / Doubles(12.92), curve).toFloats();
