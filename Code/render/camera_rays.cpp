@@ -139,7 +139,7 @@ void CameraRays::drawPairs(int first, int count, std::uint32_t dimension, Sample
     const Sampler& sampler = context_.sampler;
     const bool areCentres = dimension == kPixelDimension && sampler.sampleCount() == 1 &&
                             !context_.settings.picture.jitter; // see Sampler
-    if (areLanesAsked() && !areCentres) return drawInLanes(first, count, dimension, chunk, take);
+    if (areLanesAsked() && !areCentres) return drawInLanes(dimension, chunk, take);
     const std::size_t all = chunk.cameraRays.size();
     const auto samples = static_cast<std::size_t>(count);
     chunk.numbers.resize(all);
@@ -155,36 +155,24 @@ void CameraRays::drawPairs(int first, int count, std::uint32_t dimension, Sample
 }
 
 template <class TakeFn>
-void CameraRays::drawInLanes(int first, int count, std::uint32_t dimension,
-                             const SampleChunk& chunk, const TakeFn& take) const {
-    const Sampler& sampler = context_.sampler;
-    Sampler::PairSeeds seeds{};
+void CameraRays::drawInLanes(std::uint32_t dimension, const SampleChunk& chunk,
+                             const TakeFn& take) const {
     PairBlock block;
-    if (count == 1) std::fill_n(block.sample, kBlock, static_cast<std::uint32_t>(first));
     forEachBlock(chunk.cameraRays.size(), [&](std::size_t slot, std::size_t some) {
-        if (count == 1) {
-            std::copy_n(&chunk.cameraRays.stream[slot], some, block.pixel);
-            lanes_.seeds(sampler.seed(), dimension, std::span<const std::uint32_t>(block.pixel),
-                         {block.index, block.x, block.y});
-        } else {
-            for (std::size_t i = 0; i < some; ++i) {
-                const std::uint32_t number = chunk.number[slot + i];
-                if (number == static_cast<std::uint32_t>(first))
-                    seeds = sampler.pairSeeds(chunk.cameraRays.stream[slot + i], dimension);
-                block.sample[i] = number;
-                block.index[i] = seeds.index, block.x[i] = seeds.x, block.y[i] = seeds.y;
-            }
-        }
+        std::copy_n(&chunk.cameraRays.stream[slot], some, block.pixel);
+        std::copy_n(&chunk.number[slot], some, block.sample);
+        lanes_.seeds(context_.sampler.seed(), dimension,
+                     std::span<const std::uint32_t>(block.pixel), {block.index, block.x, block.y});
         lanes_.pairs(block);
         take(block, slot, some);
     });
 }
 
-void CameraRays::drawTimes(int first, int count, SampleChunk& chunk) const {
+void CameraRays::drawTimes(SampleChunk& chunk) const {
     const Sampler& sampler = context_.sampler;
     std::vector<float>& times = chunk.cameraRays.time;
     if (areLanesAsked())
-        return drawInLanes(first, count, Sampler::alone(kTimeDimension), chunk,
+        return drawInLanes(Sampler::alone(kTimeDimension), chunk,
                            [&](const PairBlock& block, std::size_t slot, std::size_t some) {
                                std::copy_n(block.u, some, &times[slot]);
                            });
@@ -228,7 +216,7 @@ void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk
     const bool isGeneral = !context_.settings.specialise;
     const bool hasTime = isGeneral || context_.scene.moves();
     const bool hasLens = isGeneral || camera.hasLens();
-    if (hasTime) drawTimes(first, count, chunk);
+    if (hasTime) drawTimes(chunk);
     if (!hasLens && camera.hasSharedOrigin()) {
         const Camera::Lens pinhole = *camera.pinhole();
         return forEachBlock(rays.size(), [&](std::size_t slot, std::size_t some) {

@@ -39,10 +39,9 @@ private:
     void drawPairs(int first, int count, std::uint32_t dimension, SampleChunk& chunk,
                    const TakeFn& take) const;
     template <class TakeFn>
-    void drawInLanes(int first, int count, std::uint32_t dimension, const SampleChunk& chunk,
-                     const TakeFn& take) const;
+    void drawInLanes(std::uint32_t dimension, const SampleChunk& chunk, const TakeFn& take) const;
     // Sampler::get1D() of all slots.
-    void drawTimes(int first, int count, SampleChunk& chunk) const;
+    void drawTimes(SampleChunk& chunk) const;
     bool areLanesAsked() const;
     void setConstants(SampleChunk& chunk) const;
 

@@ -16,7 +16,7 @@ public:
         while (numbers_.size() < slots)
             numbers_.push_back(first + static_cast<std::uint32_t>(numbers_.size()) % count);
     }
-    std::uint32_t operator[](std::size_t slot) const { return numbers_[slot]; }
+    const std::uint32_t& operator[](std::size_t slot) const { return numbers_[slot]; }
 
 private:
     std::uint32_t first_ = 0, count_ = 0;
