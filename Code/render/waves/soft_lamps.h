@@ -19,13 +19,23 @@ inline SamplesOnLamp samplesOf(const Wave& wave, const Lamp& lamp, const LitBloc
     const PointBatch& all = wave.memory.points;
     const auto perPoint = static_cast<std::uint32_t>(lamp.samples);
     const auto size = static_cast<std::size_t>(std::popcount(block.used));
-    std::array<std::uint32_t, LitBlock::kPoints> streams{};
-    for (std::size_t i = 0; i < size; ++i) {
-        const std::uint32_t k = block.point[i];
-        streams[i] = wave.rays.stream[all.ray[k]];
-        samples.first[i] =
-            wave.chunk.number[all.slot[k]] * perPoint + static_cast<std::uint32_t>(first);
+    constexpr std::size_t kPoints = LitBlock::kPoints;
+    std::array<std::uint32_t, kPoints> streams{}, numbers{};
+    const std::uint32_t firstRay = all.ray[block.point[0]];
+    // Points ascend, and so do rays, which at depth 0 are numbered as their samples.
+    if (wave.depth == 0 && size == kPoints &&
+        all.ray[block.point[kPoints - 1]] - firstRay == kPoints - 1) {
+        std::copy_n(&wave.rays.stream[firstRay], kPoints, streams.data());
+        std::copy_n(&wave.chunk.number[firstRay], kPoints, numbers.data());
+    } else {
+        for (std::size_t i = 0; i < size; ++i) {
+            const std::uint32_t k = block.point[i];
+            streams[i] = wave.rays.stream[all.ray[k]];
+            numbers[i] = wave.chunk.number[all.slot[k]];
+        }
     }
+    for (std::size_t i = 0; i < kPoints; ++i)
+        samples.first[i] = numbers[i] * perPoint + static_cast<std::uint32_t>(first);
     const std::uint32_t place = dimension(wave.depth, BounceSlot::LightUv);
     // The samples of a pixel follow each other.
     if (std::all_of(streams.begin(), streams.begin() + size,
