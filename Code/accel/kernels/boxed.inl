@@ -6,23 +6,23 @@ std::size_t nearerInBox(const BoxedShape& shape, const RaySpan& rays, Hit* found
                         std::uint32_t* asFar) {
     std::size_t count = 0;
     alignas(64) float t[W], bestT[W];
-    std::uint32_t order[W], ray[W];
+    alignas(64) std::uint32_t order[W], ray[W];
     for (std::size_t first = 0; first < rays.size(); first += W) {
         const std::size_t some = std::min<std::size_t>(W, rays.size() - first);
-        unsigned met = 0;
-        for (std::size_t i = 0; i < W; ++i) {
-            const std::size_t at = first + std::min(i, some - 1);
-            order[i] = static_cast<std::uint32_t>(at);
-            t[i] = found[at].t, bestT[i] = best[at].t;
-            met |= unsigned{found[at].isHit() && i < some} << i;
-        }
+        // Behind the last of them it comes again.
+        const auto lane = [&](std::size_t i) { return first + std::min(i, some - 1); };
+        const Ints shapes = loadWords([&](std::size_t i) { return &found[lane(i)].shape; });
+        unsigned met = ~bits(shapes == Ints(Hit::kNoShape)) & ((1u << some) - 1);
         if (met == 0) continue;
+        Ints::from(static_cast<std::uint32_t>(first)).store(order);
         const RayLanes lanes(loadRays(rays, order, some, ray), shape.extent);
-        const Floats farthest = Floats::load(bestT);
+        Floats here, farthest, ignored;
+        loadPairs([&](std::size_t i) { return &found[lane(i)].t; }, here, ignored);
+        loadPairs([&](std::size_t i) { return &best[lane(i)].t; }, farthest, ignored);
         Floats entry;
         met &= lanes.entering(shape.box, depthCuts(Floats(1.0f) / (farthest * lanes.dz)), entry);
-        const Floats nearest = max(entry / lanes.dz, Floats::load(t));
-        nearest.store(t);
+        const Floats nearest = max(entry / lanes.dz, here);
+        nearest.store(t), farthest.store(bestT);
         for (unsigned rest = met & bits(nearest <= farthest); rest != 0; rest &= rest - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(rest));
             Hit& hit = found[first + i];

@@ -15,23 +15,23 @@ private:
     alignas(64) std::uint32_t numbers_[W];
 };
 
-// The four bytes at from + at[i] and at three more.
-inline __m128i fourTimesFourBytes(const std::uint8_t* from, const NumbersInMemory& at,
-                                  std::size_t i) {
-    const auto bytes = [&](std::size_t k) {
-        std::int32_t four;
-        std::memcpy(&four, from + at[i + k], sizeof four);
-        return _mm_cvtsi32_si128(four);
+// Four times four bytes. at(i): where number i lies, for i from `from` on.
+template <class Fn>
+[[gnu::always_inline]] inline __m128i fourWords(const Fn& at, std::size_t from) {
+    const auto word = [&](std::size_t i) {
+        std::int32_t bytes;
+        std::memcpy(&bytes, at(from + i), sizeof bytes);
+        return _mm_cvtsi32_si128(bytes);
     };
-    return _mm_unpacklo_epi64(_mm_unpacklo_epi32(bytes(0), bytes(1)),
-                              _mm_unpacklo_epi32(bytes(2), bytes(3)));
+    return _mm_unpacklo_epi64(_mm_unpacklo_epi32(word(0), word(1)),
+                              _mm_unpacklo_epi32(word(2), word(3)));
 }
 
 // Four pairs of floats. at(i): where pair i lies, for i from `from` on.
 struct FourPairs {
     __m128 first, second;
 
-    template <class Fn> FourPairs(const Fn& at, std::size_t from) {
+    template <class Fn> [[gnu::always_inline]] FourPairs(const Fn& at, std::size_t from) {
         const auto two = [&](std::size_t i) {
             const __m128 low = _mm_loadl_pi(_mm_setzero_ps(), pair(at(i)));
             return _mm_loadh_pi(low, pair(at(i + 1)));
@@ -49,7 +49,8 @@ private:
 struct TwoRows {
     __m128d first, second;
 
-    TwoRows(const double* rows, const NumbersInMemory& at, std::size_t i, std::size_t stride) {
+    [[gnu::always_inline]] TwoRows(const double* rows, const NumbersInMemory& at, std::size_t i,
+                                   std::size_t stride) {
         const __m128d a = _mm_loadu_pd(rows + stride * at[i]);
         const __m128d b = _mm_loadu_pd(rows + stride * at[i + 1]);
         first = _mm_unpacklo_pd(a, b), second = _mm_unpackhi_pd(a, b);

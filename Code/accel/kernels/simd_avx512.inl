@@ -191,8 +191,14 @@ inline Floats joined(__m128 a, __m128 b, __m128 c, __m128 d) {
     const __m256 low = _mm256_set_m128(b, a), high = _mm256_set_m128(d, c);
     return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
 }
+// W times four bytes, of which number i lies at at(i).
+template <class Fn> [[gnu::always_inline]] inline Ints loadWords(const Fn& at) {
+    const __m256i low = _mm256_set_m128i(fourWords(at, 4), fourWords(at, 0));
+    const __m256i high = _mm256_set_m128i(fourWords(at, 12), fourWords(at, 8));
+    return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
+}
 // W pairs, of which number i lies at at(i).
-template <class Fn> inline void loadPairs(const Fn& at, Floats& first, Floats& second) {
+template <class Fn> [[gnu::always_inline]] inline void loadPairs(const Fn& at, Floats& first, Floats& second) {
     const FourPairs a(at, 0), b(at, 4), c(at, 8), d(at, 12);
     first = joined(a.first, b.first, c.first, d.first);
     second = joined(a.second, b.second, c.second, d.second);

@@ -14,7 +14,7 @@ inline Ints byteOf(Ints a, int i) {
 }
 inline Ints fourBytesAt(const std::uint8_t* from, Ints offset) {
     const NumbersInMemory at(offset);
-    return _mm256_set_m128i(fourTimesFourBytes(from, at, 4), fourTimesFourBytes(from, at, 0));
+    return loadWords([&](std::size_t i) { return from + at[i]; });
 }
 inline Ints elementsAt(const std::uint32_t* table, Ints i, unsigned chosen) {
     return _mm256_mask_i32gather_epi32(_mm256_setzero_si256(),

@@ -20,11 +20,7 @@ inline Ints byteOf(Ints a, int i) {
 // The four bytes at each offset.
 inline Ints fourBytesAt(const std::uint8_t* from, Ints offset) {
     const NumbersInMemory at(offset);
-    const __m256i low =
-        _mm256_set_m128i(fourTimesFourBytes(from, at, 4), fourTimesFourBytes(from, at, 0));
-    const __m256i high =
-        _mm256_set_m128i(fourTimesFourBytes(from, at, 12), fourTimesFourBytes(from, at, 8));
-    return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
+    return loadWords([&](std::size_t i) { return from + at[i]; });
 }
 // Element i of a table for each i, which are below 2^31; 0 in lanes that are not chosen, whatever
 // their i.

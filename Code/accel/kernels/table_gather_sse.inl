@@ -17,7 +17,7 @@ inline Ints byteOf(Ints a, int i) {
 }
 inline Ints fourBytesAt(const std::uint8_t* from, Ints offset) {
     const NumbersInMemory at(offset);
-    return {fourTimesFourBytes(from, at, 0), fourTimesFourBytes(from, at, 4)};
+    return loadWords([&](std::size_t i) { return from + at[i]; });
 }
 inline Ints elementsAt(const std::uint32_t* table, Ints i, unsigned chosen) {
     alignas(16) std::uint32_t at[W], out[W] = {};
