@@ -50,6 +50,10 @@ Vec3d liftToCurve(Vec3d p, const Corners& corners, const std::array<Vec3, 3>& no
     return lift;
 }
 
+void setLane(TrianglesMet::Lane (&to)[3], std::size_t lane, Vec3 v) {
+    to[0][lane] = v.x, to[1][lane] = v.y, to[2][lane] = v.z;
+}
+
 Vec2 coordinates(const SurfaceTriangle& triangle, const Hit& hit) {
     return triangle.hasUvs ? interpolate(triangle.uvs, hit.u, hit.v) : Vec2{hit.u, hit.v};
 }
@@ -102,24 +106,37 @@ Surface surfaceOf(const SurfaceTriangle& triangle, const Ray& ray, const Hit& hi
     return s;
 }
 
+void TriangleSurfaceBatch::putTriangle(std::size_t lane, const SurfaceTriangle& triangle) {
+    for (std::size_t i = 0; i < 3; ++i) setLane(met_.corner[i], lane, triangle.corners[i]);
+    if (triangle.hasNormals)
+        for (std::size_t i = 0; i < 3; ++i) setLane(met_.normal[i], lane, triangle.normals[i]);
+}
+
 void TriangleSurfaceBatch::put(std::size_t lane, const SurfaceTriangle& triangle, const Hit& hit,
                                Vec3 dir) {
-    const auto set = [lane](TrianglesMet::Lane(&to)[3], Vec3 v) {
-        to[0][lane] = v.x, to[1][lane] = v.y, to[2][lane] = v.z;
-    };
-    const bool isNew = lane == 0 || !met_.onOne;
-    if (isNew)
-        for (std::size_t i = 0; i < 3; ++i) set(met_.corner[i], triangle.corners[i]);
-    if (triangle.hasNormals) {
-        if (isNew)
-            for (std::size_t i = 0; i < 3; ++i) set(met_.normal[i], triangle.normals[i]);
-        set(met_.dir, dir);
-        met_.smooth |= 1u << lane;
-    }
+    const unsigned bit = 1u << lane;
+    putTriangle(lane, triangle);
+    if (triangle.hasNormals) setLane(met_.dir, lane, dir), met_.smooth |= bit;
     met_.u[lane] = hit.u, met_.v[lane] = hit.v;
-    met_.used |= 1u << lane;
+    met_.used |= bit;
     const Vec2 uv = coordinates(triangle, hit);
     uv_[0][lane] = uv.x, uv_[1][lane] = uv.y;
+}
+
+void TriangleSurfaceBatch::putAll(const SurfaceTriangle& triangle, std::span<const Hit> hits,
+                                  const RaySpan& rays, std::span<const std::uint32_t> which) {
+    met_.onOne = true;
+    met_.used = (1u << which.size()) - 1;
+    putTriangle(0, triangle);
+    for (std::size_t i = 0; i < which.size(); ++i) {
+        const Hit& hit = hits[which[i]];
+        met_.u[i] = hit.u, met_.v[i] = hit.v;
+        const Vec2 uv = coordinates(triangle, hit);
+        uv_[0][i] = uv.x, uv_[1][i] = uv.y;
+    }
+    if (!triangle.hasNormals) return;
+    met_.smooth = met_.used;
+    for (std::size_t i = 0; i < which.size(); ++i) setLane(met_.dir, i, rays.dir[which[i]]);
 }
 
 void TriangleSurfaceBatch::take(std::size_t lane, SurfaceBlock& to, std::size_t place) const {

@@ -22,19 +22,21 @@ struct SurfaceTriangle {
 Surface surfaceOf(const SurfaceTriangle& triangle, const Ray& ray, const Hit& hit,
                   SurfaceNeeds needs);
 
-// surfaceOf() of a block of hits by the lanes of a kernel: put(), find(), take().
+// surfaceOf() of a block of hits by the lanes of a kernel: put() or putAll(), find(), take().
 class TriangleSurfaceBatch {
 public:
     static constexpr std::size_t kHits = TrianglesMet::kHits;
     TriangleSurfaceBatch(TriangleSurfacesFn fn, SurfaceNeeds needs) : fn_(fn) {
         met_.wantsLift = needs.lift;
     }
-    // `onOne`: all hits to come are on the triangle of the first one.
-    void clear(bool onOne) {
+    void clear() {
         met_.used = met_.smooth = 0;
-        met_.onOne = onOne;
+        met_.onOne = false;
     }
     void put(std::size_t lane, const SurfaceTriangle& triangle, const Hit& hit, Vec3 dir);
+    // All hits, on one triangle.
+    void putAll(const SurfaceTriangle& triangle, std::span<const Hit> hits, const RaySpan& rays,
+                std::span<const std::uint32_t> which);
     void find() { fn_(met_, found_); }
     // Those have to be asked by themselves.
     unsigned unknown() const { return found_.unknown; }
@@ -43,6 +45,8 @@ public:
     void takeAll(SurfaceBlock& to) const;
 
 private:
+    void putTriangle(std::size_t lane, const SurfaceTriangle& triangle);
+
     TriangleSurfacesFn fn_;
     TrianglesMet met_;
     TriangleSurfaces found_;
@@ -68,11 +72,9 @@ void surfacesOf(const SurfaceQuery& query, TriangleFn&& triangleOf, SourceFn&& s
         const bool onOne = std::all_of(rays.begin() + 1, rays.end(), [&](std::uint32_t ray) {
             return query.hits[ray].prim == number;
         });
-        batch.clear(onOne);
+        batch.clear();
         if (onOne) {
-            const SurfaceTriangle triangle = triangleOf(number);
-            for (std::size_t i = 0; i < count; ++i)
-                batch.put(i, triangle, query.hits[rays[i]], query.rays.dir[rays[i]]);
+            batch.putAll(triangleOf(number), query.hits, query.rays, rays);
         } else {
             for (std::size_t i = 0; i < count; ++i)
                 batch.put(i, triangleOf(query.hits[rays[i]].prim), query.hits[rays[i]],
@@ -82,6 +84,12 @@ void surfacesOf(const SurfaceQuery& query, TriangleFn&& triangleOf, SourceFn&& s
         SurfaceBlock* const whole = out.whole(to);
         if (whole != nullptr) batch.takeAll(*whole);
         TriangleSource source{};
+        if (onOne && whole != nullptr && batch.unknown() == 0) {
+            source = sourceOf(number);
+            std::fill_n(whole->material, kHits, source.material);
+            std::fill_n(whole->object, kHits, source.object);
+            continue;
+        }
         for (std::size_t i = 0; i < count; ++i) {
             const Hit& hit = query.hits[rays[i]];
             const SurfacePlaces::Place place = out[to[i]];
