@@ -8,6 +8,46 @@
 
 namespace {
 
+constexpr DoubleDouble logBySeries(DoubleDouble x) { // x in [0.5, 2]: 2 atanh((x-1)/(x+1))
+    const DoubleDouble z = (x - DoubleDouble{1, 0}) / (x + DoubleDouble{1, 0}), z2 = z * z;
+    DoubleDouble power = z, sum = z;
+    for (int n = 3; n < 71; n += 2) { // (1/3)^70 = 2^-111
+        power = power * z2;
+        sum = sum + power / DoubleDouble{static_cast<double>(n), 0};
+    }
+    return {2 * sum.hi, 2 * sum.lo};
+}
+
+} // namespace
+
+namespace exact {
+
+constexpr std::array<LogRow, 129> kLogTable = [] {
+    std::array<LogRow, 129> table{};
+    for (int j = 0; j <= 128; ++j) {
+        const int c512 = (2 * 65536 / (128 + j) + 1) / 2; // 512 / (1 + j/128), rounded
+        LogRow& row = table[static_cast<std::size_t>(j)];
+        row.c = c512 / 512.0;
+        const double counted = j >= kHalvedFrom ? 2 * row.c : row.c;
+        row.log = -logBySeries({counted, 0});
+    }
+    return table;
+}();
+
+constexpr std::array<DoubleDouble, 32> kExp2Table = [] {
+    std::array<DoubleDouble, 32> table{};
+    constexpr DoubleDouble step{0x1.059b0d3158574p0, 0x1.d73e2a475b465p-55}; // 2^(1/32)
+    table[0] = {1, 0};
+    for (std::size_t j = 1; j < 32; ++j) table[j] = table[j - 1] * step;
+    return table;
+}();
+
+} // namespace exact
+
+namespace {
+
+using exact::kExp2Table, exact::kHalvedFrom, exact::kLogTable, exact::LogRow;
+
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr DoubleDouble kLn2{0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56};
 
@@ -16,15 +56,6 @@ double scaleByPowerOf2(double x, int exponent) { // exponent in [-1022, 1023]
 }
 
 // --- exp ---
-
-// 2^(j/32)
-constexpr std::array<DoubleDouble, 32> kExp2Table = [] {
-    std::array<DoubleDouble, 32> table{};
-    constexpr DoubleDouble step{0x1.059b0d3158574p0, 0x1.d73e2a475b465p-55}; // 2^(1/32)
-    table[0] = {1, 0};
-    for (std::size_t j = 1; j < 32; ++j) table[j] = table[j - 1] * step;
-    return table;
-}();
 
 // 2^(n/32) e^r for |r| < 0.011; what is left out of the series is below 2^-67.
 double expScaled(long long n, double r) {
@@ -52,37 +83,6 @@ double expOf(double hi, double lo) {
 }
 
 // --- log ---
-
-// One row per 1/128 of the mantissa m in [1,2]: c is 1/m to 9 bits, so that products with it can be
-// exact; log = log(1/c), less ln 2 where m is counted as half of it, to keep x near 1 free of
-// cancellation: there c = 1 or 1/2 and log = 0 exactly.
-struct LogRow {
-    double c = 1;
-    DoubleDouble log;
-};
-using exact::kHalvedFrom; // m > 1.414
-
-constexpr DoubleDouble logBySeries(DoubleDouble x) { // x in [0.5, 2]: 2 atanh((x-1)/(x+1))
-    const DoubleDouble z = (x - DoubleDouble{1, 0}) / (x + DoubleDouble{1, 0}), z2 = z * z;
-    DoubleDouble power = z, sum = z;
-    for (int n = 3; n < 71; n += 2) { // (1/3)^70 = 2^-111
-        power = power * z2;
-        sum = sum + power / DoubleDouble{static_cast<double>(n), 0};
-    }
-    return {2 * sum.hi, 2 * sum.lo};
-}
-
-constexpr std::array<LogRow, 129> kLogTable = [] {
-    std::array<LogRow, 129> table{};
-    for (int j = 0; j <= 128; ++j) {
-        const int c512 = (2 * 65536 / (128 + j) + 1) / 2; // 512 / (1 + j/128), rounded
-        LogRow& row = table[static_cast<std::size_t>(j)];
-        row.c = c512 / 512.0;
-        const double counted = j >= kHalvedFrom ? 2 * row.c : row.c;
-        row.log = -logBySeries({counted, 0});
-    }
-    return table;
-}();
 
 struct LogParts {
     double exponent; // of 2, whole
@@ -215,16 +215,6 @@ double cbrt(double x) {
     t += t * (rest / (3 * t + rest));
     return std::copysign(t * unit, x);
 }
-
-constexpr PowTables kPowTables = [] {
-    PowTables tables{};
-    for (std::size_t j = 0; j < kLogTable.size(); ++j)
-        tables.c[j] = kLogTable[j].c, tables.log[j] = kLogTable[j].log.hi,
-        tables.logLo[j] = kLogTable[j].log.lo;
-    for (std::size_t j = 0; j < kExp2Table.size(); ++j)
-        tables.powersHi[j] = kExp2Table[j].hi, tables.powersLo[j] = kExp2Table[j].lo;
-    return tables;
-}();
 
 // The same steps as above in plain double: its error of 1e-12 decides the float's last bit rarely.
 float pow(float base, float exponent) {

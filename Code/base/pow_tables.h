@@ -1,20 +1,22 @@
 // The tables and limits of exact::pow() and its steps, for who takes them in lanes.
 #pragma once
 
+#include "base/double_double.h"
+
 #include <array>
-#include <cstddef>
 
 namespace exact {
 
-// By 1/128 of the mantissa m in [1,2], to the nearest: c is 1/m to 9 bits, log + logLo = log(1/c),
-// less ln 2 from kHalvedFrom on, where m is counted as half of it.
-inline constexpr int kHalvedFrom = 53;
-// 2^(j/32) = powersHi[j] + powersLo[j].
-struct PowTables {
-    std::array<double, 129> c, log, logLo;
-    std::array<double, 32> powersHi, powersLo;
+// One row per 1/128 of the mantissa m in [1,2], to the nearest: c is 1/m to 9 bits, so that
+// products with it can be exact; log = log(1/c), less ln 2 from kHalvedFrom on, where m is counted
+// as half of it, to keep x near 1 free of cancellation: there c = 1 or 1/2 and log = 0 exactly.
+struct LogRow {
+    double c = 1;
+    DoubleDouble log;
 };
-extern const PowTables kPowTables;
+inline constexpr int kHalvedFrom = 53; // m > 1.414
+extern const std::array<LogRow, 129> kLogTable;
+extern const std::array<DoubleDouble, 32> kExp2Table; // 2^(j/32)
 
 // Powers of e below it are less than half of the smallest float, those above no float.
 inline constexpr double kLeastPower = -104, kMostPower = 709;

@@ -10,27 +10,31 @@ inline Doubles logTail(const Doubles& r) {
     return low + (r2 * r2) * high;
 }
 
+constexpr int kLogRow = sizeof(exact::LogRow) / sizeof(double);
+
 // logParts(): log(x) = exponent * log(2) + the table's row + log(1 + r). For floats from the
 // smallest normal one on.
 struct LogParts {
     Ints row;
-    Doubles exponent, r;
+    Doubles exponent, r, log; // of the row
 };
-inline LogParts logParts(Floats x) {
+[[gnu::always_inline]] inline LogParts logParts(Floats x) {
     constexpr std::uint32_t minusBias = 0xffffff81; // -127
     const Ints fraction = masked(bitsOf(x), 0x7fffff);
     const Ints row = shiftedRight<16>(plus(fraction, 0x8000));
     const Doubles mantissa(fromBits(plus(fraction, 0x3f800000)));
     const Doubles exponent = doublesOf(plus(shiftedRight<23>(bitsOf(x)), minusBias)) +
                              select(row < Ints(exact::kHalvedFrom), Doubles(0.0), Doubles(1.0));
-    return {row, exponent, mantissa * elementsAt(exact::kPowTables.c.data(), row) - 1.0};
+    Doubles c(0.0), log(0.0);
+    pairsAt<kLogRow>(&exact::kLogTable.front().c, row, c, log);
+    return {row, exponent, mantissa * c - 1.0, log};
 }
 
 // Of numbers from the smallest normal one to 1.
 inline Doubles logOf(Floats base) {
     constexpr double ln2 = 0x1.62e42fefa39efp-1;
-    const auto [row, exponent, r] = logParts(base);
-    const Doubles known = exponent * ln2 + elementsAt(exact::kPowTables.log.data(), row);
+    const auto [row, exponent, r, log] = logParts(base);
+    const Doubles known = exponent * ln2 + log;
     return known + (r + (r * r) * (-0.5 + r * logTail(r)));
 }
 
@@ -43,8 +47,8 @@ inline Doubles expOf(const Doubles& x, const Doubles& lo) {
     const Doubles low = 0.5 + r * (1.0 / 6), high = 1.0 / 24 + r * (1.0 / 120);
     const Doubles tail = r2 * (low + r2 * (high + r2 * (1.0 / 720 + r * (1.0 / 5040))));
     const Ints whole = wholeOf(n), j = masked(whole, 31);
-    const Doubles hi = elementsAt(exact::kPowTables.powersHi.data(), j);
-    const Doubles rest = elementsAt(exact::kPowTables.powersLo.data(), j);
+    Doubles hi(0.0), rest(0.0);
+    pairsAt<2>(&exact::kExp2Table.front().hi, j, hi, rest);
     return (hi + (rest + hi * (r + tail))) * powersOfTwo(shiftedRight<5>(whole));
 }
 

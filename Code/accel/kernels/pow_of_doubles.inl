@@ -8,14 +8,15 @@ namespace {
 
 inline DoublePairs longLogOf(Floats x) {
     constexpr double ln2Upper = 0x1.62e42fefa38p-1, ln2Lower = 0x1.ef35793c7673p-45;
-    const auto [row, exponent, r] = logParts(x); // r is exact
+    const auto [row, exponent, r, log] = logParts(x); // r is exact
     const DoublePairs square = twoProduct(r, r);
     DoublePairs sum = fastTwoSum(r, square.hi * -0.5);
     sum.lo = sum.lo + (Doubles(0.0) - square.lo * 0.5 + (r * square.hi) * logTail(r));
-    const DoublePairs table =
-        twoSum(exponent * ln2Upper, elementsAt(exact::kPowTables.log.data(), row));
+    Doubles logHi(0.0), logLo(0.0);
+    pairsAt<kLogRow>(&exact::kLogTable.front().log.hi, row, logHi, logLo);
+    const DoublePairs table = twoSum(exponent * ln2Upper, logHi);
     const DoublePairs total = twoSum(table.hi, sum.hi);
-    const Doubles rest = elementsAt(exact::kPowTables.logLo.data(), row) + exponent * ln2Lower;
+    const Doubles rest = logLo + exponent * ln2Lower;
     return fastTwoSum(total.hi, total.lo + (table.lo + (sum.lo + rest)));
 }
 

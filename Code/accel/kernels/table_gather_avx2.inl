@@ -21,12 +21,6 @@ inline Ints elementsAt(const std::uint32_t* table, Ints i, unsigned chosen) {
                                        static_cast<const int*>(static_cast<const void*>(table)),
                                        i.v, _mm256_castps_si256(maskOf(chosen).v), 4);
 }
-inline Doubles elementsAt(const double* table, Ints i) {
-    const __m256d all = _mm256_castsi256_pd(_mm256_set1_epi64x(-1));
-    // With a mask: g++ 12 takes the undefined operand of the one without for a mistake.
-    return {_mm256_mask_i32gather_pd(all, table, _mm256_castsi256_si128(i.v), all, 8),
-            _mm256_mask_i32gather_pd(all, table, upperHalf(i), all, 8)};
-}
 template <int kStride>
 [[gnu::always_inline]] inline void pairsAt(const double* rows, Ints i, Doubles& first,
                                            Doubles& second) {

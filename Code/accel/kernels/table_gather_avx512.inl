@@ -28,11 +28,6 @@ inline Ints elementsAt(const std::uint32_t* table, Ints i, unsigned chosen) {
     return _mm512_mask_i32gather_epi32(_mm512_setzero_si512(), static_cast<__mmask16>(chosen), i.v,
                                        table, 4);
 }
-// Element i of a table for each i.
-inline Doubles elementsAt(const double* table, Ints i) {
-    return {_mm512_i32gather_pd(_mm512_castsi512_si256(i.v), table, 8),
-            _mm512_i32gather_pd(upperHalf(i), table, 8)};
-}
 inline __m512d joined(__m128d a, __m128d b, __m128d c, __m128d d) {
     const __m256d low = _mm256_set_m128d(b, a), high = _mm256_set_m128d(d, c);
     return _mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1);

@@ -28,13 +28,6 @@ inline Ints elementsAt(const std::uint32_t* table, Ints i, unsigned chosen) {
     }
     return Ints::load(out);
 }
-inline Doubles elementsAt(const double* table, Ints i) {
-    const NumbersInMemory at(i);
-    return quarters([&](int k) {
-        const auto from = static_cast<std::size_t>(2 * k);
-        return _mm_loadh_pd(_mm_load_sd(table + at[from]), table + at[from + 1]);
-    });
-}
 template <int kStride>
 [[gnu::always_inline]] inline void pairsAt(const double* rows, Ints i, Doubles& first,
                                            Doubles& second) {
