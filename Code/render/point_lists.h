@@ -48,6 +48,7 @@ public:
 
     std::span<const std::uint32_t> rays(std::size_t list) const { return of(rays_, list); }
     std::span<const std::uint32_t> points(std::size_t list) const { return of(points_, list); }
+    // Of lists of still shapes.
     std::span<const StillShape* const> shapes(std::size_t list) const { return of(shapes_, list); }
 
 private:

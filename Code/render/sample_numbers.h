@@ -13,8 +13,11 @@ public:
         if (first != first_ || count != count_) numbers_.clear();
         first_ = first, count_ = count;
         numbers_.reserve(slots);
-        while (numbers_.size() < slots)
-            numbers_.push_back(first + static_cast<std::uint32_t>(numbers_.size()) % count);
+        std::uint32_t inPixel = static_cast<std::uint32_t>(numbers_.size()) % count;
+        while (numbers_.size() < slots) {
+            numbers_.push_back(first + inPixel);
+            inPixel = inPixel + 1 < count ? inPixel + 1 : 0;
+        }
     }
     const std::uint32_t& operator[](std::size_t slot) const { return numbers_[slot]; }
 
