@@ -38,10 +38,12 @@ template <class Fn> void forEachSums(const Wave& wave, const Fn& fn) {
         rest = rest.subspan(count);
     }
 }
-// fn(point, its block's sums, its place there) for all of them.
+// fn(point, its sum) for all of them.
 template <class Fn> void forEachSum(const Wave& wave, const Fn& fn) {
     forEachSums(wave, [&](std::span<const std::uint32_t> points, const LightSums& block) {
-        for (std::size_t i = 0; i < points.size(); ++i) fn(points[i], block.sum, i);
+        const auto& sum = block.sum;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            fn(points[i], Rgb{sum[0][i], sum[1][i], sum[2][i]});
     });
 }
 
@@ -70,6 +72,17 @@ inline void giveRadiance(const Wave& wave) {
         const auto& sum = block.sum;
         for (std::size_t i = 0; i < points.size(); ++i)
             wave.chunk.radiance[wave.slotOf(points[i])] = {sum[0][i], sum[1][i], sum[2][i]};
+    });
+}
+
+// To the radiance of samples that have one point each.
+inline void addSums(const Wave& wave) {
+    forEachSums(wave, [&](std::span<const std::uint32_t> points, const LightSums& block) {
+        if (Rgb* const row = radianceInARow(wave, points); row && wave.context.shadeLanes.addRow)
+            return wave.context.shadeLanes.addRow(block, row);
+        const auto& sum = block.sum;
+        for (std::size_t i = 0; i < points.size(); ++i)
+            wave.add(wave.slotOf(points[i]), {sum[0][i], sum[1][i], sum[2][i]});
     });
 }
 

@@ -132,9 +132,7 @@ inline void addOpenLamps(const Wave& wave) {
             continue;
         }
         shineOpenly(wave, lamp);
-        forEachSum(wave, [&](std::uint32_t k, const auto& sum, std::size_t i) {
-            wave.add(wave.slotOf(k), {sum[0][i], sum[1][i], sum[2][i]});
-        });
+        addSums(wave);
     }
 }
 
@@ -200,9 +198,10 @@ template <bool kSoftLamps, bool kSeeThrough> void addLamps(const Wave& wave) {
                 waves::addWaiting<kSeeThrough>(wave);
             else
                 waves::addRays<kSeeThrough>(wave);
-            waves::forEachSum(wave, [&](std::uint32_t k, const auto& sum, std::size_t i) {
-                arrive(k, {sum[0][i], sum[1][i], sum[2][i]});
-            });
+            if (wave.hasOneRayPerSample())
+                waves::addSums(wave);
+            else
+                waves::forEachSum(wave, arrive);
             continue;
         }
         if constexpr (kSoftLamps)

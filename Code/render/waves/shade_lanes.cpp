@@ -12,6 +12,7 @@
     void addGlowInARow(const Rgb*, const Rgb*, Rgb*);                                              \
     void takeRow(const Rgb*, LightSums&);                                                          \
     void giveRow(const LightSums&, Rgb*);                                                          \
+    void addRow(const LightSums&, Rgb*);                                                           \
     Bounds boundsOfPoints(const PointBlock&, unsigned);                                            \
     void aimAtPoints(const LitByLamp&, unsigned, const RayPlaces&);                                \
     void addLight(const LitByLamp&, unsigned, const std::uint8_t*, LightSums&);                    \
@@ -21,8 +22,8 @@ DECLARE_BY_KERNEL(DECLARE)
     {                                                                                              \
         kernels::isa::seePoints, kernels::isa::lightPoints, kernels::isa::paintPoints,             \
             kernels::isa::paintEachPoint, kernels::isa::addGlowInARow, kernels::isa::takeRow,      \
-            kernels::isa::giveRow, kernels::isa::boundsOfPoints, kernels::isa::aimAtPoints,        \
-            kernels::isa::addLight                                                                 \
+            kernels::isa::giveRow, kernels::isa::addRow, kernels::isa::boundsOfPoints,             \
+            kernels::isa::aimAtPoints, kernels::isa::addLight                                      \
     }
 
 ShadeLanes shadeLanes(const Kernel& kernel) {

@@ -42,6 +42,8 @@ struct ShadeLanes {
     // Sums begin with the radiance of sixteen samples that follow each other, and become it.
     void (*take)(const Rgb* radiance, LightSums& sums) = nullptr;
     void (*give)(const LightSums& sums, Rgb* radiance) = nullptr;
+    // Or are added to it.
+    void (*addRow)(const LightSums& sums, Rgb* radiance) = nullptr;
     // The box around the used points and where they are lifted to.
     Bounds (*bounds)(const PointBlock& block, unsigned used) = nullptr;
     // Directions and ends of the rays from a lamp to some points.

@@ -189,6 +189,14 @@ void giveRow(const LightSums& sums, Rgb* radiance) {
     }
 }
 
+void addRow(const LightSums& sums, Rgb* radiance) {
+    for (std::size_t first = 0; first < SurfaceBlock::kPoints; first += W) {
+        const Floats3 before = loadRow(radiance, first), sum = load(sums.sum, first);
+        storeChosenVectors(kEvery, before.x + sum.x, before.y + sum.y, before.z + sum.z,
+                           &radiance[first].r);
+    }
+}
+
 void addLight(const LitByLamp& by, unsigned shadowed, const std::uint8_t* hidden, LightSums& sums) {
     unsigned points = by.lit & ~shadowed;
     if (shadowed != 0) {
