@@ -240,12 +240,20 @@ template <bool kTextures> void paintBlock(const Wave& wave, std::size_t b, unsig
     const auto has = [&](std::uint32_t material, MaterialTable::Trait trait) {
         return (table.traits(material) & trait) != 0;
     };
-    if (isOne && !(kTextures && has(number[0], MaterialTable::Textured))) {
-        const Material& all = materials[number[0]].base;
-        std::fill_n(&points.material[first], size, &all);
-        painted = {&all, false, bits(has(number[0], MaterialTable::AnswersLamps) ? used : 0),
+    if (isOne) {
+        const SceneMaterial& of = materials[number[0]];
+        const bool isTextured = kTextures && has(number[0], MaterialTable::Textured);
+        painted = {isTextured ? nullptr : &of.base, isTextured,
+                   bits(has(number[0], MaterialTable::AnswersLamps) ? used : 0),
                    bits(has(number[0], MaterialTable::Mirrors) ? used : 0)};
         litOutside = has(number[0], MaterialTable::LitOutside) ? ~0u : 0;
+        if (!isTextured) {
+            std::fill_n(&points.material[first], size, &of.base);
+            return;
+        }
+        wave.memory.texturedPoints.add(of, static_cast<std::uint32_t>(first),
+                                       static_cast<std::uint32_t>(size));
+        for (std::size_t k = first; k < first + size; ++k) points.material[k] = &points.textured[k];
         return;
     }
     std::uint64_t traits = 0; // four bits for each point
@@ -256,8 +264,8 @@ template <bool kTextures> void paintBlock(const Wave& wave, std::size_t b, unsig
         points.material[k] = &of.base;
         table.prefetchGlow(number[i]);
         if constexpr (kTextures)
-            if (of.isTextured()) {
-                wave.memory.texturedPoints.add(of, static_cast<std::uint32_t>(k));
+            if (has(number[i], MaterialTable::Textured)) {
+                wave.memory.texturedPoints.add(of, static_cast<std::uint32_t>(k), 1);
                 points.material[k] = &points.textured[k];
             }
     }

@@ -1,6 +1,7 @@
 #include "render/waves/texture_points.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace {
 
@@ -8,6 +9,26 @@ namespace {
 constexpr std::size_t kMostGroups = 16;
 // Of a group; below, look-ups one by one are faster than a register that is almost empty.
 constexpr std::size_t kFewestPoints = 3;
+
+// Most points come in whole blocks.
+void takeCoordinates(std::span<const std::uint32_t> points, const PointColumns& at,
+                     TextureBlock& block) {
+    constexpr std::size_t kTogether = PointColumns::kPoints;
+    for (std::size_t first = 0; first < points.size();) {
+        const std::uint32_t point = points[first];
+        if (point % kTogether == 0 && first + kTogether <= points.size() &&
+            points[first + kTogether - 1] - point == kTogether - 1) { // they ascend
+            const PointBlock& from = at.block(point / kTogether);
+            std::copy_n(from.uv[0], kTogether, block.u + first);
+            std::copy_n(from.uv[1], kTogether, block.v + first);
+            first += kTogether;
+            continue;
+        }
+        const Vec2 uv = at.uv(point);
+        block.u[first] = uv.x, block.v[first] = uv.y;
+        ++first;
+    }
+}
 
 // take(point, the picture's colour there) for all points.
 template <class TakeFn>
@@ -17,10 +38,7 @@ void lookUp(const ByteTexture& texture, TextureColorsFn colors,
     while (!points.empty()) {
         const auto here = points.first(std::min(points.size(), TextureBlock::kPoints));
         points = points.subspan(here.size());
-        for (std::size_t i = 0; i < here.size(); ++i) {
-            const Vec2 uv = at.uv(here[i]);
-            block.u[i] = uv.x, block.v[i] = uv.y;
-        }
+        takeCoordinates(here, at, block);
         colors(texture, block, here.size());
         for (std::size_t i = 0; i < here.size(); ++i)
             take(here[i], Rgb{block.color[0][i], block.color[1][i], block.color[2][i]});
@@ -62,12 +80,17 @@ void TexturedPoints::clear() {
     others_.clear();
 }
 
-void TexturedPoints::add(const SceneMaterial& material, std::uint32_t point) {
+void TexturedPoints::add(const SceneMaterial& material, std::uint32_t first, std::uint32_t count) {
+    const auto addTo = [&](std::vector<std::uint32_t>& points) {
+        const std::size_t before = points.size();
+        points.resize(before + count);
+        std::iota(points.begin() + static_cast<std::ptrdiff_t>(before), points.end(), first);
+    };
     const auto isOf = [&](std::size_t group) { return groups_[group].material == &material; };
     if (used_ == 0 || !isOf(last_)) {
         std::size_t group = 0;
         while (group < used_ && !isOf(group)) ++group;
-        if (group == kMostGroups) return others_.push_back(point);
+        if (group == kMostGroups) return addTo(others_);
         if (group == used_) {
             if (used_ == groups_.size()) groups_.emplace_back();
             groups_[used_].material = &material;
@@ -75,7 +98,7 @@ void TexturedPoints::add(const SceneMaterial& material, std::uint32_t point) {
         }
         last_ = group;
     }
-    groups_[last_].points.push_back(point);
+    addTo(groups_[last_].points);
 }
 
 void TexturedPoints::apply(TextureColorsFn colors, const PointColumns& at,

@@ -12,7 +12,8 @@
 class TexturedPoints {
 public:
     void clear();
-    void add(const SceneMaterial& material, std::uint32_t point);
+    // So many that follow each other, of one material.
+    void add(const SceneMaterial& material, std::uint32_t first, std::uint32_t count);
     // materialAt() for all points that were added: numbers[point] from at[point]. Null `colors`:
     // one by one.
     void apply(TextureColorsFn colors, const PointColumns& at, std::span<Material> numbers) const;
