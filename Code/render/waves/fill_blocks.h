@@ -89,12 +89,15 @@ inline void fillBlocks(const Wave& wave) {
                 memory.points,
                 answering.subspan(soon, std::min(answering.size() - soon, LitBlock::kPoints)));
         block.used = (1u << here.size()) - 1;
-        if (isWholeBlock(memory.points, here) && wave.context.shadeLanes.light != nullptr)
-            fillInLanes(wave, here[0] / LitBlock::kPoints, block);
-        else
-            fillOneByOne(memory, here, block);
         std::copy(here.begin(), here.end(), block.point);
-        for (std::size_t i = 0; i < here.size(); ++i) block.shape[i] = memory.points.shape[here[i]];
+        if (isWholeBlock(memory.points, here) && wave.context.shadeLanes.light != nullptr) {
+            fillInLanes(wave, here[0] / LitBlock::kPoints, block);
+            std::copy_n(&memory.points.shape[here[0]], here.size(), block.shape);
+        } else {
+            fillOneByOne(memory, here, block);
+            for (std::size_t i = 0; i < here.size(); ++i)
+                block.shape[i] = memory.points.shape[here[i]];
+        }
     }
 }
 

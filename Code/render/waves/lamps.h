@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <numeric>
 
 namespace waves {
 
@@ -43,7 +42,7 @@ template <bool kSeeThrough> void listAnswering(const Wave& wave) {
         const unsigned answering = answeringOf<kSeeThrough>(points, b);
         const auto first = static_cast<std::uint32_t>(b * PointColumns::kPoints);
         if (answering == (1u << PointColumns::kPoints) - 1) { // as most do
-            std::iota(to + count, to + count + PointColumns::kPoints, first);
+            for (std::uint32_t i = 0; i < PointColumns::kPoints; ++i) to[count + i] = first + i;
             count += PointColumns::kPoints;
             continue;
         }
