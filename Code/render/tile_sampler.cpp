@@ -18,6 +18,9 @@ void addFirstHit(Film& film, Aov aov, int x, int y, const FirstHit& first) {
     }
 }
 
+// -0 becomes 0, as in a sum.
+Rgb withoutMinus(Rgb c) { return {c.r + 0.0f, c.g + 0.0f, c.b + 0.0f}; }
+
 } // namespace
 
 TileSampler::TileSampler(const Scene& scene, const RenderSettings& settings)
@@ -59,14 +62,28 @@ void TileSampler::traceOnce(const Tile& tile, TileWorker& worker) const {
     const Rgb* sample = worker.chunk.radiance.data();
     Rgb* const pixels = worker.tile.pixels().data();
     const std::ptrdiff_t width = worker.tile.width();
-    forEachPlace({0, 0, tile.width(), tile.height()}, [&](int x, int y) {
+    const auto take = [&](int x, int y) {
         Rgb& sum = pixels[y * width + x];
         if (Film::isNumber(*sample))
-            sum.r = sample->r + 0.0f, sum.g = sample->g + 0.0f, sum.b = sample->b + 0.0f; // not -0
+            sum = withoutMinus(*sample);
         else
             sum = {}, ++worker.nanSamples;
         ++sample;
-    });
+    };
+    // Two at once, which are neighbours in a row.
+    const auto takeSquare = [&](int left, int top) {
+        for (std::size_t i = 0; i < TileSquare::kPlaces; i += 2) {
+            const int x = left + TileSquare::kCurve[i].x, y = top + TileSquare::kCurve[i].y;
+            if (!(Film::isNumber(sample[0]) & Film::isNumber(sample[1]))) {
+                take(x, y), take(x + 1, y);
+                continue;
+            }
+            Rgb* const sum = &pixels[y * width + x];
+            sum[0] = withoutMinus(sample[0]), sum[1] = withoutMinus(sample[1]);
+            sample += 2;
+        }
+    };
+    forEachSquare({0, 0, tile.width(), tile.height()}, takeSquare, take);
 }
 
 void TileSampler::integrate(TileWorker& w) const {
