@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 
 class PointLists {
@@ -25,7 +26,7 @@ public:
             room_ = most;
             rays_ = RawVector<std::uint32_t>(kLists * most);
             points_ = RawVector<std::uint32_t>(kLists * most);
-            shapes_ = RawVector<const StillShape*>(kOnBalls * most);
+            shapes_ = std::make_unique_for_overwrite<const StillShape*[]>(kOnBalls * most);
         }
         for (std::size_t list = 0; list < kLists; ++list) ends_[list] = list * room_;
     }
@@ -46,19 +47,23 @@ public:
         if (list < kOnBalls) std::fill_n(&shapes_[at], count, shape);
     }
 
-    std::span<const std::uint32_t> rays(std::size_t list) const { return of(rays_, list); }
-    std::span<const std::uint32_t> points(std::size_t list) const { return of(points_, list); }
+    std::span<const std::uint32_t> rays(std::size_t list) const { return of(rays_.data(), list); }
+    std::span<const std::uint32_t> points(std::size_t list) const {
+        return of(points_.data(), list);
+    }
     // Of lists of still shapes.
-    std::span<const StillShape* const> shapes(std::size_t list) const { return of(shapes_, list); }
+    std::span<const StillShape* const> shapes(std::size_t list) const {
+        return of(shapes_.get(), list);
+    }
 
 private:
-    template <class T> std::span<const T> of(const RawVector<T>& all, std::size_t list) const {
+    template <class T> std::span<const T> of(const T* all, std::size_t list) const {
         const std::size_t begin = list * room_;
-        return std::span(all).subspan(begin, ends_[list] - begin);
+        return {all + begin, ends_[list] - begin};
     }
 
     std::size_t room_ = 0; // of each list
     std::array<std::size_t, kLists> ends_{};
-    RawVector<std::uint32_t> rays_, points_; // list after list
-    RawVector<const StillShape*> shapes_;    // the same
+    RawVector<std::uint32_t> rays_, points_;      // list after list
+    std::unique_ptr<const StillShape*[]> shapes_; // the same
 };

@@ -16,7 +16,7 @@ struct Expected {
 
 TEST(point_lists_keep_what_comes) {
     constexpr std::uint32_t kTogether = 16;
-    const StillShape some, other;
+    const StillShape some{}, other{};
     PointLists lists;
     std::uint32_t seed = 1;
     const auto below = [&](std::uint32_t end) {
