@@ -172,15 +172,23 @@ TEST(texture_points_get_the_numbers_of_their_materials) {
         std::vector<ShadedPoint> at(count);
         std::vector<Material> numbers(count);
         points.clear();
+        const double goesOn = random.chance(0.5) ? 0.7 : 0.98;
+        std::uint32_t added = 0; // so many points
         for (std::size_t k = 0; k < count; ++k) {
             // In runs, as on surfaces.
-            at[k].of = k > 0 && random.chance(0.7) ? at[k - 1].of
-                                                   : &materials[random.below(materials.size())];
+            at[k].of = k > 0 && random.chance(goesOn) ? at[k - 1].of
+                                                      : &materials[random.below(materials.size())];
             at[k].surface.uv = {someCoordinate(random, 8), someCoordinate(random, 8)};
             at[k].surface.material = static_cast<std::uint32_t>(at[k].of - materials.data());
             columns.put(k, at[k]);
-            points.add(*at[k].of, static_cast<std::uint32_t>(k));
+            // One by one, or some that are alike.
+            const auto end = static_cast<std::uint32_t>(k);
+            if (added < end && (at[k].of != at[added].of || random.chance(0.2))) {
+                points.add(*at[added].of, added, end - added);
+                added = end;
+            }
         }
+        points.add(*at[added].of, added, static_cast<std::uint32_t>(count) - added);
         const Kernel& kernel = allKernels()[random.below(allKernels().size())];
         points.apply(kernel.supported() ? textureColors(kernel) : nullptr, columns, numbers);
         for (std::size_t k = 0; k < count; ++k) {
