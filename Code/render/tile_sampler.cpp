@@ -74,7 +74,7 @@ void TileSampler::traceOnce(const Tile& tile, TileWorker& worker) const {
     const auto takeSquare = [&](int left, int top) {
         for (std::size_t i = 0; i < TileSquare::kPlaces; i += 2) {
             const int x = left + TileSquare::kCurve[i].x, y = top + TileSquare::kCurve[i].y;
-            if (!(Film::isNumber(sample[0]) & Film::isNumber(sample[1]))) {
+            if (!Film::isNumber(sample[0]) || !Film::isNumber(sample[1])) {
                 take(x, y), take(x + 1, y);
                 continue;
             }
