@@ -16,7 +16,7 @@ FilterKind filterKind(SettingsDesc::Filter kind) {
 }
 
 constexpr std::size_t kBlock = PlaceBlock::kPlaces;
-// Its number in the picture, which wraps in huge ones.
+// The number of a pixel in the picture, which wraps in huge ones.
 constexpr std::uint32_t pixelAt(int x, int y, std::uint32_t width) {
     return static_cast<std::uint32_t>(y) * width + static_cast<std::uint32_t>(x);
 }
@@ -50,65 +50,54 @@ void CameraRays::listSamples(const Tile& tile, int first, int count, SampleChunk
     const auto all =
         static_cast<std::size_t>(tile.width() * tile.height()) * static_cast<std::size_t>(count);
     const auto samples = static_cast<std::uint32_t>(count);
-    chunk.number.set(static_cast<std::uint32_t>(first), samples, all);
+    chunk.sampleNumber.set(static_cast<std::uint32_t>(first), samples, all);
     chunk.cameraRays.setSize(all);
     chunk.places.resize(std::max(chunk.places.size(), blocksOf(all)));
-    if (count == 1) return listOneByPlace(tile, chunk);
     // In registers: what is written could be part of *this.
     const auto width = static_cast<std::uint32_t>(width_);
     const Vec2d corner = middle(0, 0);
     std::uint32_t* stream = chunk.cameraRays.stream.data();
     PlaceBlock* block = chunk.places.data();
     std::size_t inBlock = 0;
-    forEachPlace(tile, [&](int x, int y) {
+    const auto place = [&](int x, int y) {
         const std::uint32_t pixel = pixelAt(x, y, width);
         for (std::uint32_t s = 0; s < samples; ++s) {
             *stream++ = pixel;
             block->x[inBlock] = x + corner.x, block->y[inBlock] = y + corner.y;
             if (++inBlock == kBlock) ++block, inBlock = 0;
         }
-    });
+    };
+    const auto square = [&](int left, int top) {
+        if (samples != 1 || inBlock != 0) {
+            for (const TileSquare::Step s : TileSquare::kCurve) place(left + s.x, top + s.y);
+            return;
+        }
+        listSquare(left, top, stream, block);
+        stream += TileSquare::kPlaces, block += TileSquare::kPlaces / kBlock;
+    };
+    forEachSquare(tile, square, place);
 }
 
-// By the square: sums of whole numbers and halves are exact in any order.
-void CameraRays::listOneByPlace(const Tile& tile, SampleChunk& chunk) const {
+// By the register: sums of whole numbers and halves are exact in any order.
+void CameraRays::listSquare(int left, int top, std::uint32_t* stream, PlaceBlock* blocks) const {
     constexpr std::size_t kPlaces = TileSquare::kPlaces;
+    static_assert(kPlaces % kBlock == 0);
     static constexpr auto kSteps = [] {
         std::array<std::array<double, kPlaces>, 2> steps{};
         for (std::size_t i = 0; i < kPlaces; ++i)
             steps[0][i] = TileSquare::kCurve[i].x, steps[1][i] = TileSquare::kCurve[i].y;
         return steps;
     }();
-    static_assert(kPlaces % kBlock == 0);
-    const auto width = static_cast<std::uint32_t>(width_);
-    std::uint32_t* const stream = chunk.cameraRays.stream.data();
-    PlaceBlock* const blocks = chunk.places.data();
-    std::size_t slot = 0;
-    const auto one = [&](int x, int y) {
-        const Vec2d at = middle(x, y);
-        stream[slot] = pixelAt(x, y, width);
-        blocks[slot / kBlock].x[slot % kBlock] = at.x;
-        blocks[slot / kBlock].y[slot % kBlock] = at.y;
-        ++slot;
-    };
-    const auto whole = [&](int left, int top) {
-        if (slot % kBlock != 0) {
-            for (const TileSquare::Step step : TileSquare::kCurve) one(left + step.x, top + step.y);
-            return;
+    const Vec2d corner = middle(left, top);
+    const std::uint32_t first = pixelAt(left, top, static_cast<std::uint32_t>(width_));
+    for (std::size_t i = 0; i < kPlaces; ++i) stream[i] = first + pixelsOfSquare_[i];
+    for (std::size_t from = 0; from < kPlaces; from += kBlock) {
+        PlaceBlock& block = blocks[from / kBlock];
+        for (std::size_t i = 0; i < kBlock; ++i) {
+            block.x[i] = corner.x + kSteps[0][from + i];
+            block.y[i] = corner.y + kSteps[1][from + i];
         }
-        const Vec2d corner = middle(left, top);
-        const std::uint32_t first = pixelAt(left, top, width);
-        for (std::size_t i = 0; i < kPlaces; ++i) stream[slot + i] = first + pixelsOfSquare_[i];
-        for (std::size_t from = 0; from < kPlaces; from += kBlock) {
-            PlaceBlock& block = blocks[(slot + from) / kBlock];
-            for (std::size_t i = 0; i < kBlock; ++i) {
-                block.x[i] = corner.x + kSteps[0][from + i];
-                block.y[i] = corner.y + kSteps[1][from + i];
-            }
-        }
-        slot += kPlaces;
-    };
-    forEachSquare(tile, whole, one);
+    }
 }
 
 void CameraRays::moveFromMiddles(int first, int count, SampleChunk& chunk) const {
@@ -160,7 +149,7 @@ void CameraRays::drawInLanes(std::uint32_t dimension, const SampleChunk& chunk,
     PairBlock block;
     forEachBlock(chunk.cameraRays.size(), [&](std::size_t slot, std::size_t some) {
         std::copy_n(&chunk.cameraRays.stream[slot], some, block.pixel);
-        std::copy_n(&chunk.number[slot], some, block.sample);
+        std::copy_n(&chunk.sampleNumber[slot], some, block.sample);
         lanes_.seeds(context_.sampler.seed(), dimension,
                      std::span<const std::uint32_t>(block.pixel), {block.index, block.x, block.y});
         lanes_.pairs(block);
@@ -177,7 +166,7 @@ void CameraRays::drawTimes(SampleChunk& chunk) const {
                                std::copy_n(block.u, some, &times[slot]);
                            });
     for (std::size_t i = 0; i < chunk.cameraRays.size(); ++i)
-        times[i] = sampler.get1D(chunk.cameraRays.stream[i], chunk.number[i], kTimeDimension);
+        times[i] = sampler.get1D(chunk.cameraRays.stream[i], chunk.sampleNumber[i], kTimeDimension);
 }
 
 bool CameraRays::areLanesAsked() const {

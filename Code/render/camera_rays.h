@@ -30,7 +30,8 @@ public:
 private:
     // Which pixel and sample each slot is, and the middle of its place.
     void listSamples(const Tile& tile, int first, int count, SampleChunk& chunk) const;
-    void listOneByPlace(const Tile& tile, SampleChunk& chunk) const;
+    // The same of a TileSquare with one sample per place.
+    void listSquare(int left, int top, std::uint32_t* stream, PlaceBlock* blocks) const;
     // To where the filter has them.
     void moveFromMiddles(int first, int count, SampleChunk& chunk) const;
     // Sampler::get2D() of all slots, the samples of a place following each other:

@@ -99,8 +99,9 @@ void integrateAo(const IntegratorContext& context, SampleChunk& chunk, WaveMemor
         const ShadedPoint at = points.at[point];
         const Frame frame = frameAround(at.eye.n);
         for (int k = 0; k < repeats; ++k) {
-            const std::uint32_t index = chunk.number[i] * static_cast<std::uint32_t>(repeats) +
-                                        static_cast<std::uint32_t>(k);
+            const std::uint32_t index =
+                chunk.sampleNumber[i] * static_cast<std::uint32_t>(repeats) +
+                static_cast<std::uint32_t>(k);
             const Vec2 u = sampler.get2D(rays.stream[i], index, dimension(0, BounceSlot::LightUv));
             const Vec3 dir = frame.toWorld(cosineHemisphereFromSquare(u));
             if (!(dot(dir, at.eye.ng) > 0)) continue;

@@ -104,7 +104,7 @@ struct IntegratorContext {
 
 // The samples of one chunk of a tile, and what comes out of them; slot i is sample i everywhere.
 struct SampleChunk {
-    SampleNumbers number;              // of the sample in its pixel
+    SampleNumbers sampleNumber;        // in its pixel
     std::vector<PlaceBlock> places;    // slot after slot; those on the lens, if there is one
     std::vector<Vec2> numbers;         // for who draws them without lanes
     PathBatch cameraRays;              // `stream` is the number of the pixel in the whole picture

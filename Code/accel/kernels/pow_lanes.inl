@@ -16,7 +16,7 @@ constexpr int kLogRow = sizeof(exact::LogRow) / sizeof(double);
 // smallest normal one on.
 struct LogParts {
     Ints row;
-    Doubles exponent, r, log; // of the row
+    Doubles exponent, r, log; // log: the upper part of the row's
 };
 [[gnu::always_inline]] inline LogParts logParts(Floats x) {
     constexpr std::uint32_t minusBias = 0xffffff81; // -127

@@ -193,11 +193,14 @@ inline void loadVectors(const float* p, Floats& x, Floats& y, Floats& z) {
     y = _mm256_shuffle_ps(yz, xy, _MM_SHUFFLE(3, 1, 2, 0));
     z = _mm256_shuffle_ps(yz, c, _MM_SHUFFLE(3, 0, 3, 1));
 }
+
 #include "accel/kernels/gather_by_hand.inl"
+
 template <class Fn> [[gnu::always_inline]] inline Ints loadWords(const Fn& at) {
     return _mm256_set_m128i(fourWords(at, 4), fourWords(at, 0));
 }
-template <class Fn> [[gnu::always_inline]] inline void loadPairs(const Fn& at, Floats& first, Floats& second) {
+template <class Fn>
+[[gnu::always_inline]] inline void loadPairs(const Fn& at, Floats& first, Floats& second) {
     const FourPairs low(at, 0), high(at, 4);
     first = _mm256_set_m128(high.first, low.first);
     second = _mm256_set_m128(high.second, low.second);

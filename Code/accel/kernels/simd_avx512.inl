@@ -186,7 +186,9 @@ inline void loadVectors(const float* p, Floats& x, Floats& y, Floats& z) {
     z = pick(_mm512_setr_epi32(2, 5, 8, 11, 14, 17, 20, 23, 26, 29, 0, 0, 0, 0, 0, 0),
              _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 16, 19, 22, 25, 28, 31));
 }
+
 #include "accel/kernels/gather_by_hand.inl"
+
 inline Floats joined(__m128 a, __m128 b, __m128 c, __m128 d) {
     const __m256 low = _mm256_set_m128(b, a), high = _mm256_set_m128(d, c);
     return _mm512_insertf32x8(_mm512_castps256_ps512(low), high, 1);
@@ -198,7 +200,8 @@ template <class Fn> [[gnu::always_inline]] inline Ints loadWords(const Fn& at) {
     return _mm512_inserti64x4(_mm512_castsi256_si512(low), high, 1);
 }
 // W pairs, of which number i lies at at(i).
-template <class Fn> [[gnu::always_inline]] inline void loadPairs(const Fn& at, Floats& first, Floats& second) {
+template <class Fn>
+[[gnu::always_inline]] inline void loadPairs(const Fn& at, Floats& first, Floats& second) {
     const FourPairs a(at, 0), b(at, 4), c(at, 8), d(at, 12);
     first = joined(a.first, b.first, c.first, d.first);
     second = joined(a.second, b.second, c.second, d.second);

@@ -268,11 +268,14 @@ inline void loadVectors(const float* p, Floats& x, Floats& y, Floats& z) {
     four(p, x.lo, y.lo, z.lo);
     four(p + 12, x.hi, y.hi, z.hi);
 }
+
 #include "accel/kernels/gather_by_hand.inl"
+
 template <class Fn> [[gnu::always_inline]] inline Ints loadWords(const Fn& at) {
     return {fourWords(at, 0), fourWords(at, 4)};
 }
-template <class Fn> [[gnu::always_inline]] inline void loadPairs(const Fn& at, Floats& first, Floats& second) {
+template <class Fn>
+[[gnu::always_inline]] inline void loadPairs(const Fn& at, Floats& first, Floats& second) {
     const FourPairs low(at, 0), high(at, 4);
     first = {low.first, high.first}, second = {low.second, high.second};
 }

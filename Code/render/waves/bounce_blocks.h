@@ -93,7 +93,7 @@ private:
         const std::size_t size = wave_.memory.points.sizeOf(first_ / kPoints);
         for (std::size_t i = 0; i < size; ++i) {
             streams[i] = wave_.rays.stream[rays_[i]];
-            pairs.sample[i] = wave_.chunk.number[wave_.memory.points.slot[first_ + i]];
+            pairs.sample[i] = wave_.chunk.sampleNumber[wave_.memory.points.slot[first_ + i]];
         }
         wave_.context.pairSeeds(wave_.context.sampler.seed(),
                                 dimension(wave_.depth, BounceSlot::BsdfUv), streams,

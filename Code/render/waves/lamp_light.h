@@ -36,7 +36,7 @@ inline bool rises(const LitPoint& lit, Vec3 toLight) {
 
 // Number of the lamp's first random place at the hit of ray i.
 inline std::uint32_t firstSample(const Lamp& lamp, const Wave& wave, std::size_t i) {
-    return wave.chunk.number[wave.rays.sample[i]] * static_cast<std::uint32_t>(lamp.samples);
+    return wave.chunk.sampleNumber[wave.rays.sample[i]] * static_cast<std::uint32_t>(lamp.samples);
 }
 
 // Random place on the lamp for its k-th sample at the hit of ray i.

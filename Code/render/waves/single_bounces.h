@@ -88,7 +88,7 @@ inline void bounce(const Wave& wave, std::size_t k) {
     const std::size_t i = wave.memory.points.ray[k];
     Vec2 u{0.5f, 0.5f};
     if (material.roughness > 0)
-        u = wave.context.sampler.get2D(rays.stream[i], wave.chunk.number[rays.sample[i]],
+        u = wave.context.sampler.get2D(rays.stream[i], wave.chunk.sampleNumber[rays.sample[i]],
                                        dimension(wave.depth, BounceSlot::BsdfUv));
 
     const auto [before, after, eta] = boundaryAt(wave, k);

@@ -26,12 +26,12 @@ inline SamplesOnLamp samplesOf(const Wave& wave, const Lamp& lamp, const LitBloc
     if (wave.depth == 0 && size == kPoints &&
         all.ray[block.point[kPoints - 1]] - firstRay == kPoints - 1) {
         std::copy_n(&wave.rays.stream[firstRay], kPoints, streams.data());
-        std::copy_n(&wave.chunk.number[firstRay], kPoints, numbers.data());
+        std::copy_n(&wave.chunk.sampleNumber[firstRay], kPoints, numbers.data());
     } else {
         for (std::size_t i = 0; i < size; ++i) {
             const std::uint32_t k = block.point[i];
             streams[i] = wave.rays.stream[all.ray[k]];
-            numbers[i] = wave.chunk.number[all.slot[k]];
+            numbers[i] = wave.chunk.sampleNumber[all.slot[k]];
         }
     }
     for (std::size_t i = 0; i < kPoints; ++i)
