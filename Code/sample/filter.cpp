@@ -43,7 +43,7 @@ double shape(FilterKind kind, double x) {
 // by the addition theorem, which is ten times as fast.
 class ShapeAt {
 public:
-    static constexpr std::size_t kCount = 32768;
+    static constexpr std::size_t kCount = 2048;
 
     explicit ShapeAt(FilterKind kind) : kind_(kind) {
         if (kind != FilterKind::BlackmanHarris) return;
@@ -58,7 +58,7 @@ public:
     }
 
 private:
-    static constexpr std::size_t kFine = 256;
+    static constexpr std::size_t kFine = 64;
     struct CosSin {
         double cosine, sine;
     };
@@ -72,26 +72,50 @@ private:
     std::array<CosSin, kFine> fine_;
 };
 
+// A part of the upper half on which a parabola is the density, as in Simpson's rule. It is 1 long.
+class Piece {
+public:
+    Piece(double before, double start, double middle, double end)
+        : before_(before), start_(start), slope_(4 * middle - 3 * start - end),
+          bend_(2 * (start - 2 * middle + end)) {}
+
+    // What lies between the centre and the place s in [0,1] of this piece.
+    double cdf(double s) const {
+        return before_ + s * (start_ + s * (slope_ / 2 + s * (bend_ / 3)));
+    }
+    // Where cdf() is that, which is so in this piece. The densities at its ends differ by a
+    // twentieth at most, so that a step of Newton's leaves 1e-6 where the chord is 6e-3 off.
+    double placeOf(double wanted) const {
+        const double s = (wanted - before_) / (cdf(1) - before_);
+        return s - (cdf(s) - wanted) / density(s);
+    }
+
+private:
+    double density(double s) const { return start_ + s * (slope_ + s * bend_); }
+
+    double before_, start_, slope_, bend_;
+};
+
 // Entry i is the x in [0,1] where the share of the upper half that lies between 0 and x is
 // 1 - (i / kSteps)^2.
 std::vector<float> inverseOfCdf(FilterKind kind) {
     constexpr std::size_t kPieces = ShapeAt::kCount / 2;
-    constexpr double h = 1.0 / kPieces;
     const ShapeAt shapeAt(kind);
-    std::vector<double> cdf(kPieces + 1, 0.0);
-    double before = shapeAt(0);
-    for (std::size_t i = 0; i < kPieces; ++i) { // Simpson on each piece
+    std::vector<Piece> pieces;
+    pieces.reserve(kPieces);
+    double all = 0, start = shapeAt(0);
+    for (std::size_t i = 0; i < kPieces; ++i) {
         const double middle = shapeAt(2 * i + 1), end = shapeAt(2 * i + 2);
-        cdf[i + 1] = cdf[i] + (before + 4 * middle + end) * (h / 6);
-        before = end;
+        all = pieces.emplace_back(all, start, middle, end).cdf(1);
+        start = end;
     }
     std::vector<float> inverse{1}; // it is right to as many digits
+    inverse.reserve(kSteps + 1);
     std::size_t piece = kPieces - 1;
     for (int i = 1; i < kSteps; ++i) {
-        const double wanted = cdf.back() * (1 - sqr(static_cast<double>(i) / kSteps));
-        while (cdf[piece] > wanted) --piece;
-        const double s = (wanted - cdf[piece]) / (cdf[piece + 1] - cdf[piece]);
-        const double x = (static_cast<double>(piece) + s) / kPieces;
+        const double wanted = all * (1 - sqr(static_cast<double>(i) / kSteps));
+        while (pieces[piece].cdf(0) > wanted) --piece;
+        const double x = (static_cast<double>(piece) + pieces[piece].placeOf(wanted)) / kPieces;
         inverse.push_back(static_cast<float>(x));
     }
     inverse.push_back(0);
