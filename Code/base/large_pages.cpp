@@ -29,6 +29,10 @@ namespace {
 
 #if defined(__linux__)
 
+// What is smaller comes from malloc. Where the heap has grown ahead of it calloc writes the zeros,
+// all of them in the thread that calls it.
+constexpr std::size_t kOfItsOwn = std::size_t{1} << 16;
+
 // The last page is a large one if so much of it is needed: it costs as much as some 60 small ones.
 constexpr std::size_t kWorthAPage = std::size_t{1} << 18;
 
@@ -71,13 +75,18 @@ void tryPages(std::span<char> pages, std::size_t count, std::size_t foreseen) {
     }
 }
 
+void* mapBytes(std::size_t bytes) {
+    void* const memory =
+        mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+    return memory == MAP_FAILED ? nullptr : memory;
+}
+
 // From the start of a page on, so that none is lost at the ends.
 void* mapPages(std::size_t bytes) {
     const std::size_t size = inPages(bytes);
     if (size < bytes || size + kPage < size) return nullptr;
-    void* const memory =
-        mmap(nullptr, size + kPage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (memory == MAP_FAILED) return nullptr;
+    void* const memory = mapBytes(size + kPage);
+    if (!memory) return nullptr;
     char* const all = static_cast<char*>(memory);
     const std::size_t before = kPage - reinterpret_cast<std::uintptr_t>(memory) % kPage;
     munmap(all, before);
@@ -118,17 +127,16 @@ bool largePagesAreDear() {
 
 void* zeroedMemory(std::size_t bytes) {
 #if defined(__linux__)
-    // What is smaller comes from malloc. calloc would write the zeros of larger things, too, where
-    // the heap has grown ahead of them.
     if (bytes >= kPage) return mapPages(bytes);
+    if (bytes >= kOfItsOwn) return mapBytes(bytes);
 #endif
     return std::calloc(1, std::max<std::size_t>(1, bytes));
 }
 
 void freeZeroedMemory(void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(__linux__)
-    if (bytes >= kPage) {
-        munmap(memory, inPages(bytes));
+    if (bytes >= kOfItsOwn) {
+        munmap(memory, bytes >= kPage ? inPages(bytes) : bytes);
         return;
     }
 #endif

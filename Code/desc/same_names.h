@@ -44,6 +44,7 @@ public:
         forEachOn(seen_.size() < kMany ? 1 : threads, kTables, [&](std::size_t t) {
             std::size_t names = 0;
             for (const Part& part : parts_) names += part.begin[t + 1] - part.begin[t];
+            if (names < 2) return;
             NameTable table(names);
             for (const Part& part : parts_)
                 for (std::uint32_t at = part.begin[t]; at < part.begin[t + 1]; ++at) {

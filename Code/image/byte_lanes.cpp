@@ -101,7 +101,7 @@ bool always() { return true; }
 
 #if defined(__x86_64__)
 namespace {
-bool hasAvx2Bytes() { return hasAvx2() && __builtin_cpu_supports("pclmul"); }
+bool hasAvx2Bytes() { return hasAvx2() && hasCarrylessProducts(); }
 bool hasAvx512Bytes() { return hasAvx512() && hasAvx2Bytes(); }
 } // namespace
 #endif

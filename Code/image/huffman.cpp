@@ -12,6 +12,22 @@ struct Leaf {
     std::uint16_t symbol;
 };
 
+// Ascending; what is equal stays in its order. Digit by digit, from the last one on.
+void sortByCount(std::vector<Leaf>& leaves) {
+    constexpr unsigned kBits = 8;
+    std::uint32_t all = 0;
+    for (const Leaf& leaf : leaves) all |= leaf.count;
+    std::vector<Leaf> other(leaves.size());
+    for (unsigned shift = 0; shift < 32 && all >> shift != 0; shift += kBits) {
+        const auto digit = [shift](const Leaf& leaf) { return leaf.count >> shift & 0xFF; };
+        std::array<std::uint32_t, 257> start{};
+        for (const Leaf& leaf : leaves) ++start[digit(leaf) + 1];
+        for (std::size_t d = 0; d < 256; ++d) start[d + 1] += start[d];
+        for (const Leaf& leaf : leaves) other[start[digit(leaf)]++] = leaf;
+        leaves.swap(other);
+    }
+}
+
 // How many codes have each length in the optimal code for counts in ascending order.
 // Two queues: the leaves and the inner nodes, which are made in ascending order too.
 std::vector<std::uint32_t> optimalLengthCounts(const std::vector<Leaf>& leaves) {
@@ -69,13 +85,12 @@ std::uint32_t reversed16(std::uint32_t x) {
 std::vector<std::uint8_t> huffmanLengths(std::span<const std::uint32_t> counts,
                                          std::size_t longest) {
     std::vector<Leaf> leaves;
-    for (std::size_t s = 0; s < counts.size(); ++s)
+    leaves.reserve(counts.size());
+    for (std::size_t s = counts.size(); s-- > 0;)
         if (counts[s] > 0) leaves.push_back({counts[s], static_cast<std::uint16_t>(s)});
     for (std::size_t s = 0; s < counts.size() && leaves.size() < 2; ++s)
         if (counts[s] == 0) leaves.push_back({1, static_cast<std::uint16_t>(s)});
-    std::sort(leaves.begin(), leaves.end(), [](const Leaf& a, const Leaf& b) {
-        return a.count != b.count ? a.count < b.count : a.symbol > b.symbol;
-    });
+    sortByCount(leaves);
     std::vector<std::uint32_t> ofLength = optimalLengthCounts(leaves);
     limitLengths(ofLength, longest);
     std::vector<std::uint8_t> lengths(counts.size());
