@@ -4,7 +4,8 @@
 #if defined(__x86_64__)
 // glibc has asked the CPU before the program starts. The compiler's own function asks again, and
 // where the machine is virtual its host answers each of the questions: 0.1 ms of every start.
-#if __has_include(<sys/platform/x86.h>)
+// (clang++ does not read that header: _Bool is no word of C++.)
+#if __has_include(<sys/platform/x86.h>) && !defined(__clang__)
 #include <sys/platform/x86.h>
 #endif
 #if defined(CPU_FEATURE_ACTIVE)
