@@ -5,6 +5,7 @@
 
 #include "base/vec.h"
 #include "image/image.h"
+#include "render/two_sums.h"
 
 #include <cstdint>
 #include <span>
@@ -45,6 +46,17 @@ public:
         }
         place.sum = sum, place.count += numbers;
         return static_cast<std::uint32_t>(values.size()) - numbers;
+    }
+    // The same of (x, y) and (x + 1, y), the first half of the values for the first one.
+    std::uint32_t addNumbersOfTwo(int x, int y, std::span<const Rgb> values) {
+        const std::size_t each = values.size() / 2;
+        if (!two_sums::areSmall(values.data(), values.size()))
+            return addNumbers(x, y, values.first(each)) + addNumbers(x + 1, y, values.last(each));
+        Place* const places = &sums_[index(x, y)];
+        two_sums::add(places[0].sum, places[1].sum, values.data(), each);
+        for (Place* place : {&places[0], &places[1]})
+            place->count += static_cast<std::uint32_t>(each);
+        return 0;
     }
     static bool isNumber(Rgb c) {
         const float sum = c.r + c.g + c.b;

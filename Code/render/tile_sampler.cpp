@@ -115,20 +115,36 @@ Rgb TileSampler::background() const {
 
 // Samples go to the film in the order of their numbers, whatever the size of the chunks.
 void TileSampler::collect(const Tile& tile, int first, int count, TileWorker& worker) const {
+    const auto each = static_cast<std::size_t>(count);
     std::size_t slot = 0;
-    forEachPlace({0, 0, tile.width(), tile.height()}, [&](int x, int y) {
-        worker.nanSamples += worker.color.addNumbers(
-            x, y, std::span(worker.chunk.radiance).subspan(slot, static_cast<std::size_t>(count)));
-        if (settings_.aovs.empty()) {
-            slot += static_cast<std::size_t>(count);
-            return;
-        }
-        for (int s = first; s < first + count; ++s, ++slot) {
+    const auto samplesOf = [&](std::size_t places) {
+        const std::size_t from = slot;
+        slot += places * each;
+        return std::span(worker.chunk.radiance).subspan(from, places * each);
+    };
+    const auto take = [&](int x, int y) {
+        worker.nanSamples += worker.color.addNumbers(x, y, samplesOf(1));
+    };
+    // Two at once, which are neighbours in a row.
+    const auto takeSquare = [&](int left, int top) {
+        for (std::size_t i = 0; i < TileSquare::kPlaces; i += 2)
+            worker.nanSamples += worker.color.addNumbersOfTwo(
+                left + TileSquare::kCurve[i].x, top + TileSquare::kCurve[i].y, samplesOf(2));
+    };
+    const Tile places{0, 0, tile.width(), tile.height()};
+    forEachSquare(places, takeSquare, take);
+    if (!settings_.aovs.empty()) collectFirstHits(places, first, count, worker);
+}
+
+void TileSampler::collectFirstHits(const Tile& places, int first, int count,
+                                   TileWorker& worker) const {
+    std::size_t slot = 0;
+    forEachPlace(places, [&](int x, int y) {
+        for (int s = first; s < first + count; ++s, ++slot)
             for (std::size_t a = 0; a < settings_.aovs.size(); ++a) {
                 // Numbers of objects can't be averaged: the first sample stands for all.
                 if (settings_.aovs[a] == Aov::Id && s > 0) continue;
                 addFirstHit(worker.aovs[a], settings_.aovs[a], x, y, worker.chunk.first[slot]);
             }
-        }
     });
 }

@@ -46,6 +46,7 @@ private:
     void traceChunk(const Tile& tile, int first, int count, TileWorker& worker) const;
     void integrate(TileWorker& worker) const;
     void collect(const Tile& tile, int first, int count, TileWorker& worker) const;
+    void collectFirstHits(const Tile& places, int first, int count, TileWorker& worker) const;
 
     IntegratorContext context_;
     const RenderSettings& settings_;
