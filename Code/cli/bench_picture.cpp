@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "cli/bench_clock.h"
 #include "read/load.h"
+#include "render/encoding.h"
 #include "render/render.h"
 #include "render/scene.h"
 
@@ -51,6 +52,7 @@ BenchPicture timePicture(const std::string& file, const std::string& kernel, int
     Stats stats;
     Picture picture;
     seconds.render = secondsOf([&] { picture = render(*scene, settings, {}, stats); }).wall;
-    seconds.write = secondsOf([&] { picture.color.write(output.name()); }).wall;
+    seconds.write =
+        secondsOf([&] { picture.color.write(output.name(), encodingOf(settings, 8)); }).wall;
     return seconds;
 }

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "base/math.h"
 #include "cli/method_names.h"
+#include "render/encoding.h"
 
 #include <cctype>
 #include <cerrno>
@@ -19,11 +20,6 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void failWriting(const std::string& fileName, const std::string& reason) {
     fail(ErrorKind::Output, cat(fileName, ": error: cannot write: ", reason));
-}
-
-Encoding encodingOf(const RenderSettings& settings, const Options& options) {
-    const bool srgb = settings.picture.transfer == SettingsDesc::Transfer::Srgb;
-    return {srgb ? Encoding::Transfer::Srgb : Encoding::Transfer::Linear, options.bits.value_or(8)};
 }
 
 } // namespace
@@ -100,7 +96,7 @@ void writePicture(Picture picture, const RenderSettings& settings, const Options
         picture.color = padded(picture.color, settings.picture);
         for (AovImage& aov : picture.aovs) aov.image = padded(aov.image, settings.picture);
     }
-    const Encoding encoding = encodingOf(settings, options);
+    const Encoding encoding = encodingOf(settings, options.bits.value_or(8));
     const bool isCoded = !picture.codes.isEmpty();
     if (output == "-") {
         const auto bytes = isCoded ? encodeImage(picture.codes, "ppm", settings.threads)

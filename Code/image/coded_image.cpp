@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-CodedImage::CodedImage(int width, int height, Encoding::Transfer transfer)
-    : width_(width), height_(height), transfer_(transfer) {
+CodedImage::CodedImage(int width, int height, Encoding encoding)
+    : width_(width), height_(height), encoding_(encoding) {
     checkSize(width, height, "picture");
     codes_.resize(source().count() * source().pixelBytes());
 }

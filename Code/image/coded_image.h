@@ -17,13 +17,13 @@ struct PixelSource;
 class CodedImage {
 public:
     CodedImage() = default;
-    // Zeros. Fails as Image does.
-    CodedImage(int width, int height, Encoding::Transfer transfer);
+    // Zeros; the encoding has 8 bits. Fails as Image does.
+    CodedImage(int width, int height, Encoding encoding);
 
     bool isEmpty() const { return codes_.empty(); }
     int width() const { return width_; }
     int height() const { return height_; }
-    Encoding encoding() const { return {transfer_, 8}; }
+    Encoding encoding() const { return encoding_; }
     PixelSource source() const;
 
     // Pixels of a row, from (x, y) on; threads may do this for different pixels at a time.
@@ -38,7 +38,7 @@ private:
     std::span<std::uint8_t> codesAt(int x, int y, std::size_t pixels);
 
     int width_ = 0, height_ = 0;
-    Encoding::Transfer transfer_ = Encoding::Transfer::Srgb;
+    Encoding encoding_;
     ZeroedVector<std::uint8_t> codes_;
 };
 

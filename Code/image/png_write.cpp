@@ -123,7 +123,9 @@ public:
         memory.clear();
         const std::size_t start = beginChunk(memory, "IDAT");
         if (i == 0) memory.insert(memory.end(), kZlibHeader.begin(), kZlibHeader.end());
-        Buffer chunk = deflatePiece(filtered, isLast, std::move(memory));
+        const Packing packing =
+            picture_.encoding.isDraft ? Packing::ZeroRuns : choosePacking(filtered);
+        Buffer chunk = deflatePiece(filtered, isLast, packing, std::move(memory));
         endChunk(chunk, start);
         return {std::move(chunk), {filtered.size(), adler32(filtered)}};
     }

@@ -13,8 +13,8 @@
 
 class Canvas {
 public:
-    // For codes of this transfer, else for an image.
-    Canvas(int width, int height, std::optional<Encoding::Transfer> codes) : isCoded_(codes) {
+    // For such codes, else for an image.
+    Canvas(int width, int height, std::optional<Encoding> codes) : isCoded_(codes) {
         if (codes)
             codes_ = CodedImage(width, height, *codes);
         else

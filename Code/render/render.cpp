@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "render/canvas.h"
+#include "render/encoding.h"
 #include "render/goal_film.h"
 #include "render/shading_form.h"
 #include "render/tile_sampler.h"
@@ -169,11 +170,9 @@ private:
     }
 
     // Where pixels are made of corners or of sums that grow, all of them are needed to the end.
-    std::optional<Encoding::Transfer> wantedCodes() const {
+    std::optional<Encoding> wantedCodes() const {
         if (!settings_.onlyCodes || settings_.errorGoal || sampler_.throughCorners()) return {};
-        return settings_.picture.transfer == SettingsDesc::Transfer::Srgb
-                   ? Encoding::Transfer::Srgb
-                   : Encoding::Transfer::Linear;
+        return encodingOf(settings_, 8);
     }
 
     Image pixelsOf(Image places, bool areNumbers) const {

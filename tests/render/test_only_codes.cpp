@@ -28,6 +28,8 @@ void checkCodes(const std::string& settings, int threads, const shot::Tweak& mor
     const Encoding encoding{isLinear ? Encoding::Transfer::Linear : Encoding::Transfer::Srgb, 8};
     CHECK_INFO(encodeImage(codes.codes, "ppm") == encodeImage(image.color, "ppm", encoding),
                settings << threads << " threads");
+    const bool isDraft = settings.find("samples 1\n") != std::string::npos;
+    CHECK_INFO(codes.codes.encoding() == Encoding({encoding.transfer, 8, isDraft}), settings);
     CHECK_EQUAL(codes.aovs.size(), image.aovs.size());
     for (std::size_t i = 0; i < codes.aovs.size(); ++i)
         CHECK_EQUAL(shot::differingPixels(codes.aovs[i].image, image.aovs[i].image), 0);

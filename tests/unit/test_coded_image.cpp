@@ -31,8 +31,8 @@ Image randomImage(int width, int height, std::mt19937& random) {
 }
 
 // In pieces of rows, from the last on.
-CodedImage codedFrom(const Image& image, Encoding::Transfer transfer, std::mt19937& random) {
-    CodedImage coded(image.width(), image.height(), transfer);
+CodedImage codedFrom(const Image& image, Encoding encoding, std::mt19937& random) {
+    CodedImage coded(image.width(), image.height(), encoding);
     for (int y = image.height() - 1; y >= 0; --y)
         for (int end = image.width(); end > 0;) {
             const int count = 1 + static_cast<int>(random() % 40), x = std::max(0, end - count);
@@ -55,12 +55,14 @@ TEST(coded_images_give_the_files_of_images) {
         const int width = 1 + static_cast<int>(random() % (i < 6 ? 9 : 900));
         const int height = 1 + static_cast<int>(random() % (i < 6 ? 9 : 300));
         const Image image = randomImage(width, height, random);
-        for (const auto transfer : {Encoding::Transfer::Srgb, Encoding::Transfer::Linear}) {
-            const CodedImage coded = codedFrom(image, transfer, random);
+        for (const Encoding encoding :
+             {Encoding{Encoding::Transfer::Srgb, 8}, Encoding{Encoding::Transfer::Linear, 8},
+              Encoding{Encoding::Transfer::Srgb, 8, true}}) {
+            const CodedImage coded = codedFrom(image, encoding, random);
             for (const char* extension : {"ppm", "png"})
                 for (const int threads : {1, 3})
                     CHECK_INFO(encodeImage(coded, extension, threads) ==
-                                   encodeImage(image, extension, {transfer, 8}),
+                                   encodeImage(image, extension, encoding),
                                cat("seed ", seed, ", ", width, "x", height, " ", extension, " on ",
                                    threads, " threads"));
         }
@@ -75,7 +77,7 @@ TEST(coded_images_are_filled_as_images) {
     };
     for (int i = 0; i < check::scaled(40); ++i) {
         Image image = randomImage(1 + below(70), 1 + below(40), random);
-        CodedImage coded = codedFrom(image, Encoding::Transfer::Srgb, random);
+        CodedImage coded = codedFrom(image, {}, random);
         const Rgb color = randomImage(1, 1, random).pixels()[0];
         const int x0 = below(image.width()), y0 = below(image.height());
         const int width = 1 + below(image.width() - x0), height = 1 + below(image.height() - y0);
@@ -90,9 +92,8 @@ TEST(coded_images_are_filled_as_images) {
 
 TEST(coded_images_have_the_sizes_of_images) {
     CHECK(CodedImage().isEmpty());
-    CHECK(!CodedImage(1, 1, Encoding::Transfer::Srgb).isEmpty());
+    CHECK(!CodedImage(1, 1, {}).isEmpty());
     for (const Vec2d size : {Vec2d{0, 1}, {1, -1}, {Image::kMaxSide + 1, 1}})
-        CHECK_THROWS(CodedImage(static_cast<int>(size.x), static_cast<int>(size.y),
-                                Encoding::Transfer::Srgb),
+        CHECK_THROWS(CodedImage(static_cast<int>(size.x), static_cast<int>(size.y), {}),
                      "is not possible");
 }

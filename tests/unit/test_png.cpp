@@ -6,9 +6,12 @@
 #include "base/text.h"
 #include "image/image.h"
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <random>
 #include <string>
 
 namespace {
@@ -113,6 +116,28 @@ TEST(png_is_much_smaller_than_stored) {
     const auto file = encodeImage(image, "png", {});
     CHECK_INFO(file.size() < 640 * 360 * 3 / 20, file.size());
     CHECK(encodeImage(Image(decodeImage(file, "back")), "png", {}) == file);
+}
+
+// What comes again is not looked for in a draft: here pieces of four colours in any order.
+TEST(png_drafts_are_larger_and_the_same_picture) {
+    constexpr int kSide = 300, kPiece = 5;
+    std::mt19937 random(8);
+    std::array<std::array<Rgb, kPiece>, 4> pieces{};
+    for (auto& piece : pieces)
+        for (Rgb& pixel : piece)
+            for (float* c : {&pixel.r, &pixel.g, &pixel.b})
+                *c = static_cast<float>(random() % 256) / 255;
+    Image image(kSide, kSide);
+    for (std::size_t at = 0; at < image.pixels().size(); at += kPiece)
+        std::copy_n(pieces[random() % 4].data(), kPiece, &image.pixels()[at]);
+    for (const int bits : {8, 16}) {
+        const auto file = encodeImage(image, "png", {Encoding::Transfer::Srgb, bits});
+        const auto draft = encodeImage(image, "png", {Encoding::Transfer::Srgb, bits, true});
+        CHECK_INFO(2 * draft.size() > 3 * file.size(), draft.size() << ' ' << file.size());
+        const StoredImage a = decodeImage(file, "file"), b = decodeImage(draft, "draft");
+        CHECK(a.bytes == b.bytes && a.words == b.words);
+        CHECK(encodeImage(image, "png", {Encoding::Transfer::Srgb, bits, true}, 3) == draft);
+    }
 }
 
 // Codes are copied where the row above has the same pixels: one other pixel, wherever it is, is
