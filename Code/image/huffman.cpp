@@ -86,8 +86,9 @@ std::vector<std::uint8_t> huffmanLengths(std::span<const std::uint32_t> counts,
                                          std::size_t longest) {
     std::vector<Leaf> leaves;
     leaves.reserve(counts.size());
-    for (std::size_t s = counts.size(); s-- > 0;)
-        if (counts[s] > 0) leaves.push_back({counts[s], static_cast<std::uint16_t>(s)});
+    for (std::size_t left = counts.size(); left > 0; --left)
+        if (const std::size_t s = left - 1; counts[s] > 0)
+            leaves.push_back({counts[s], static_cast<std::uint16_t>(s)});
     for (std::size_t s = 0; s < counts.size() && leaves.size() < 2; ++s)
         if (counts[s] == 0) leaves.push_back({1, static_cast<std::uint16_t>(s)});
     sortByCount(leaves);
