@@ -48,6 +48,12 @@ void forEachSquare(const Tile& tile, const SquareFn& whole, const Fn& fn) {
             }
         }
 }
+// The places of a whole square in that order, two at once, which are neighbours in a row: fn(x, y)
+// for the left ones.
+template <class Fn> void forEachTwo(int left, int top, const Fn& fn) {
+    for (std::size_t i = 0; i < TileSquare::kPlaces; i += 2)
+        fn(left + TileSquare::kCurve[i].x, top + TileSquare::kCurve[i].y);
+}
 // fn(x, y) for all places of the tile, in that order.
 template <class Fn> void forEachPlace(const Tile& tile, const Fn& fn) {
     forEachSquare(

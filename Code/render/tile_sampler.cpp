@@ -70,19 +70,16 @@ void TileSampler::traceOnce(const Tile& tile, TileWorker& worker) const {
             sum = {}, ++worker.nanSamples;
         ++sample;
     };
-    // Two at once, which are neighbours in a row.
-    const auto takeSquare = [&](int left, int top) {
-        for (std::size_t i = 0; i < TileSquare::kPlaces; i += 2) {
-            const int x = left + TileSquare::kCurve[i].x, y = top + TileSquare::kCurve[i].y;
-            if (!Film::isNumber(sample[0]) || !Film::isNumber(sample[1])) {
-                take(x, y), take(x + 1, y);
-                continue;
-            }
-            Rgb* const sum = &pixels[y * width + x];
-            sum[0] = withoutMinus(sample[0]), sum[1] = withoutMinus(sample[1]);
-            sample += 2;
+    const auto takeTwo = [&](int x, int y) {
+        if (!Film::isNumber(sample[0]) || !Film::isNumber(sample[1])) {
+            take(x, y), take(x + 1, y);
+            return;
         }
+        Rgb* const sum = &pixels[y * width + x];
+        sum[0] = withoutMinus(sample[0]), sum[1] = withoutMinus(sample[1]);
+        sample += 2;
     };
+    const auto takeSquare = [&](int left, int top) { forEachTwo(left, top, takeTwo); };
     forEachSquare({0, 0, tile.width(), tile.height()}, takeSquare, take);
 }
 
@@ -125,12 +122,10 @@ void TileSampler::collect(const Tile& tile, int first, int count, TileWorker& wo
     const auto take = [&](int x, int y) {
         worker.nanSamples += worker.color.addNumbers(x, y, samplesOf(1));
     };
-    // Two at once, which are neighbours in a row.
-    const auto takeSquare = [&](int left, int top) {
-        for (std::size_t i = 0; i < TileSquare::kPlaces; i += 2)
-            worker.nanSamples += worker.color.addNumbersOfTwo(
-                left + TileSquare::kCurve[i].x, top + TileSquare::kCurve[i].y, samplesOf(2));
+    const auto takeTwo = [&](int x, int y) {
+        worker.nanSamples += worker.color.addNumbersOfTwo(x, y, samplesOf(2));
     };
+    const auto takeSquare = [&](int left, int top) { forEachTwo(left, top, takeTwo); };
     const Tile places{0, 0, tile.width(), tile.height()};
     forEachSquare(places, takeSquare, take);
     if (!settings_.aovs.empty()) collectFirstHits(places, first, count, worker);
