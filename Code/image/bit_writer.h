@@ -20,6 +20,10 @@ public:
 
     // Makes room; put() does not check.
     void reserveBits(std::uint64_t bits) { bytes_.resize(used_ + bits / 8 + 16); }
+    // The same for bytes whose number isn't known before: there is room behind it too, at times.
+    void makeRoom(std::uint64_t bits) {
+        if (used_ + bits / 8 + 16 > bytes_.size()) reserveBits(bits);
+    }
     // After flush(), up to 56 bits fit.
     void put(std::uint64_t bits, unsigned n) {
         waiting_ |= bits << count_;
@@ -43,6 +47,23 @@ public:
         count_ = (count_ + 7) & ~7u;
         flush();
     }
+
+    // To take back what has been written since.
+    struct Place {
+        std::size_t used;
+        std::uint64_t waiting;
+        unsigned count;
+    };
+    Place place() const { return {used_, waiting_, count_}; }
+    std::uint64_t bitsSince(const Place& start) const {
+        return 8 * (used_ - start.used) + count_ - start.count;
+    }
+    void goBackTo(const Place& start) {
+        used_ = start.used;
+        waiting_ = start.waiting;
+        count_ = start.count;
+    }
+
     std::vector<std::uint8_t> result() && {
         bytes_.resize(used_);
         return std::move(bytes_);

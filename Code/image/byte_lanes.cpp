@@ -9,6 +9,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 namespace byte_lanes {
 #if defined(__x86_64__)
@@ -16,6 +17,7 @@ namespace avx2 {
 PngFilter filterRow(std::span<const std::uint8_t>, std::span<const std::uint8_t>, std::size_t,
                     std::span<std::uint8_t>);
 bool nonzeroPlaces(std::span<const std::uint8_t>, std::size_t, RawVector<std::uint32_t>&);
+std::size_t putWords(BitWriter&, const WordList&, std::size_t, const WordCodes&);
 std::size_t addToAdler(AdlerSums&, std::span<const std::uint8_t>);
 std::size_t foldForCrc(std::uint32_t, std::span<const std::uint8_t>, CrcBytes&);
 } // namespace avx2
@@ -95,6 +97,7 @@ bool always() { return true; }
 
 #include "image/nonzero_places.inl"
 #include "image/png_filter.inl"
+#include "image/put_words.inl"
 
 } // namespace plain
 } // namespace byte_lanes
@@ -111,12 +114,12 @@ std::span<const ByteLanes> allByteLanes() {
     static constexpr ByteLanes kTable[] = {
 #if defined(__x86_64__)
         {"avx512", hasAvx512Bytes, avx512::srgb8, avx512::filterRow, avx512::nonzeroPlaces,
-         avx2::addToAdler, avx2::foldForCrc},
+         avx2::putWords, avx2::addToAdler, avx2::foldForCrc},
         {"avx2", hasAvx2Bytes, srgb8FromLinear, avx2::filterRow, avx2::nonzeroPlaces,
-         avx2::addToAdler, avx2::foldForCrc},
+         avx2::putWords, avx2::addToAdler, avx2::foldForCrc},
 #endif
         {"plain", plain::always, srgb8FromLinear, plain::filterRow, plain::nonzeroPlaces,
-         plain::addToAdler, plain::foldForCrc},
+         plain::putWords, plain::addToAdler, plain::foldForCrc},
     };
     return kTable;
 }

@@ -6,6 +6,7 @@
 #include "base/raw_vector.h"
 #include "base/vec.h"
 #include "image/png.h"
+#include "image/word_codes.h"
 
 #include <array>
 #include <bit>
@@ -37,6 +38,11 @@ struct ByteLanes {
     // which some are left out then.
     bool (*nonzeroPlaces)(std::span<const std::uint8_t> bytes, std::size_t most,
                           RawVector<std::uint32_t>& places);
+    // Writes the words with their codes, the first one behind so many zero words that came before
+    // the piece; there is room. Returns how many zero words end the piece. (Nothing in it is done
+    // in lanes, but shifts that leave the flags alone come with AVX2's CPUs and spare a fifth.)
+    std::size_t (*putWords)(BitWriter& out, const WordList& words, std::size_t gap,
+                            const WordCodes& codes);
     // Adds bytes, so few that the sums stay below 2^32: from the front as many as make whole
     // blocks, which is what it returns; less than 512 are left.
     std::size_t (*addToAdler)(AdlerSums& sums, std::span<const std::uint8_t> bytes);

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <immintrin.h>
 #include <numeric>
+#include <utility>
 
 KERNEL_REGION_BEGIN("avx2,fma,bmi,bmi2,lzcnt,popcnt,pclmul")
 namespace byte_lanes::avx2 {
@@ -105,6 +106,7 @@ std::size_t addToAdler(AdlerSums& sums, std::span<const std::uint8_t> bytes) {
 
 #include "image/nonzero_places.inl"
 #include "image/png_filter.inl"
+#include "image/put_words.inl"
 
 } // namespace byte_lanes::avx2
 KERNEL_REGION_END

@@ -7,6 +7,7 @@
 #include "image/matcher.h"
 #include "image/run_finder.h"
 #include "image/zero_runs.h"
+#include "image/zero_words.h"
 
 #include <algorithm>
 #include <array>
@@ -165,10 +166,16 @@ std::vector<std::uint8_t> deflatePiece(std::span<const std::uint8_t> bytes, bool
 std::vector<std::uint8_t> deflatePiece(std::span<const std::uint8_t> bytes, bool last,
                                        Packing packing, std::vector<std::uint8_t> before) {
     BitWriter out(std::move(before));
-    if (packing == Packing::Matches)
-        putMatches(out, bytes, Matcher(bytes), last);
-    else if (packing == Packing::Runs || !putZeroRuns(out, bytes, last))
-        putMatches(out, bytes, RunFinder(bytes), last);
+    switch (packing) {
+    case Packing::ZeroWords:
+        if (putZeroWords(out, bytes, last)) break;
+        [[fallthrough]];
+    case Packing::ZeroRuns:
+        if (putZeroRuns(out, bytes, last)) break;
+        [[fallthrough]];
+    case Packing::Runs: putMatches(out, bytes, RunFinder(bytes), last); break;
+    case Packing::Matches: putMatches(out, bytes, Matcher(bytes), last); break;
+    }
     if (!last) putStored(out, {}, false); // ends at a byte
     out.padToByte();
     return std::move(out).result();

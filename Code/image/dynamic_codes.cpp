@@ -15,8 +15,8 @@ std::uint64_t bitsOf(const SymbolCounts& counts, std::span<const std::uint8_t> l
     return bits;
 }
 
-DynamicCodes::DynamicCodes(const SymbolCounts& counts)
-    : literalLengths_(huffmanLengths(counts.literals, kMaxCodeLength)),
+DynamicCodes::DynamicCodes(const SymbolCounts& counts, std::size_t longest)
+    : literalLengths_(huffmanLengths(counts.literals, longest)),
       distanceLengths_(huffmanLengths(counts.distances, kMaxCodeLength)) {
     const auto usedOf = [](std::span<const std::uint8_t> lengths, std::size_t least) {
         std::size_t used = lengths.size();

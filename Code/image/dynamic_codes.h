@@ -22,7 +22,8 @@ std::uint64_t bitsOf(const SymbolCounts& counts, std::span<const std::uint8_t> l
 
 class DynamicCodes {
 public:
-    explicit DynamicCodes(const SymbolCounts& counts);
+    // Of literals and lengths, no code takes more bits than `longest`.
+    explicit DynamicCodes(const SymbolCounts& counts, std::size_t longest = kMaxCodeLength);
 
     const std::vector<std::uint8_t>& literalLengths() const { return literalLengths_; }
     const std::vector<std::uint8_t>& distanceLengths() const { return distanceLengths_; }

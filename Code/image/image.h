@@ -16,7 +16,7 @@ struct Encoding {
     enum class Transfer { Srgb, Linear };
     Transfer transfer = Transfer::Srgb;
     int bits = 8; // 8 or 16
-    // A PNG takes half the time to pack, and up to 1.7 times the room: nobody looks for what comes
+    // A PNG takes half the time to pack, and up to 1.8 times the room: nobody looks for what comes
     // again.
     bool isDraft = false;
     bool operator==(const Encoding&) const = default;

@@ -7,10 +7,12 @@
 #include <span>
 
 enum class Packing {
-    ZeroRuns, // single bytes and runs of zeros: zero_runs.h
-    Runs,     // and runs of any byte: run_finder.h
-    Matches,  // and whatever comes again: matcher.h
+    ZeroWords, // words of zeros and single bytes, by codes for a sample: zero_words.h
+    ZeroRuns,  // single bytes and runs of zeros: zero_runs.h
+    Runs,      // and runs of any byte: run_finder.h
+    Matches,   // and whatever comes again: matcher.h
 };
 
-// By a sample of the bytes. The same everywhere, as what files are depends on it.
+// Not ZeroWords, which is for drafts. By a sample of the bytes. The same everywhere, as what files
+// are depends on it.
 Packing choosePacking(std::span<const std::uint8_t> bytes);

@@ -124,7 +124,7 @@ public:
         const std::size_t start = beginChunk(memory, "IDAT");
         if (i == 0) memory.insert(memory.end(), kZlibHeader.begin(), kZlibHeader.end());
         const Packing packing =
-            picture_.encoding.isDraft ? Packing::ZeroRuns : choosePacking(filtered);
+            picture_.encoding.isDraft ? Packing::ZeroWords : choosePacking(filtered);
         Buffer chunk = deflatePiece(filtered, isLast, packing, std::move(memory));
         endChunk(chunk, start);
         return {std::move(chunk), {filtered.size(), adler32(filtered)}};

@@ -1,5 +1,6 @@
 // Code/image/byte_lanes.h of each width: the filters against those of the PNG specification, byte
-// by byte; the places of bytes that are not zero; sums of Adler-32; sRGB codes of floats.
+// by byte; the places of bytes that are not zero; the codes of words; sums of Adler-32; sRGB codes
+// of floats.
 #include "check.h"
 
 #include "image/byte_lanes.h"
@@ -141,6 +142,38 @@ TEST(nonzero_places_are_found_by_every_width) {
                     CHECK(!lanes.nonzeroPlaces(bytes, expected.size() - 1, places));
             }
         }
+}
+
+// Behind gaps of any size, before the piece too.
+TEST(words_are_written_alike_by_every_width) {
+    std::uint32_t state = 13;
+    for (std::size_t trial = 0; trial < 100; ++trial) {
+        Row piece(kWordBytes * (trial * 37 % WordList::kMost));
+        for (std::size_t i = 0; i < piece.size(); ++i) {
+            state = state * 1664525u + 1013904223u;
+            if (state >> 24 > trial) i += state >> 20 & 255;
+            if (i < piece.size()) piece[i] = static_cast<std::uint8_t>(state >> 8);
+        }
+        if (trial % 10 == 9) std::fill(piece.begin(), piece.end() - 1, std::uint8_t{0});
+        WordList words;
+        words.find(piece);
+        WordCounts counts;
+        counts.add(words);
+        const DynamicCodes dynamic(counts.symbols(), WordCodes::kLongest);
+        const WordCodes codes(dynamic);
+        const std::size_t gap = trial * trial;
+        std::vector<Row> written;
+        for (const ByteLanes& lanes : allByteLanes()) {
+            if (!lanes.supported()) continue;
+            BitWriter out({1, 2, 3});
+            out.makeRoom(WordCodes::mostBits(words, gap));
+            const std::size_t behind = lanes.putWords(out, words, gap, codes);
+            codes.putEnd(out, behind, {});
+            out.padToByte();
+            written.push_back(std::move(out).result());
+            CHECK_INFO(written.back() == written.front(), lanes.name << " trial " << trial);
+        }
+    }
 }
 
 // Up to the most that adler32() hands on, the largest bytes and sums as well: nothing may overflow.

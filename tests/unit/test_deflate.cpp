@@ -12,6 +12,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -240,6 +241,54 @@ TEST(deflate_round_trips_gaps_of_zeros) {
     }
     std::fill_n(rare.begin() + 50'000, 3, std::uint8_t{0});
     CHECK_INFO(zeroRuns(rare) < 100'000, zeroRuns(rare));
+}
+
+// Code/image/zero_words.h: codes for a sample of bytes.
+TEST(deflate_round_trips_words_of_zeros) {
+    const auto zeroWords = [](const Buffer& bytes) {
+        return roundTripAs(Packing::ZeroWords, bytes);
+    };
+    std::uint32_t state = 9;
+    const auto noise = [&] { return static_cast<std::uint8_t>(1 + nextRandom(state) % 255); };
+    // Gaps of every size about those of a match, of two and of three, at any place of a word.
+    Buffer gaps;
+    for (std::size_t zeros = 0; zeros < 800; ++zeros) {
+        gaps.insert(gaps.end(), zeros, 0);
+        for (std::uint32_t more = 1 + nextRandom(state) % 20; more > 0; --more)
+            gaps.push_back(noise());
+    }
+    zeroWords(gaps);
+    // Any size of the rest of a word and of a piece of 4096 bytes.
+    for (std::size_t size = 32'760; size < 32'860; ++size) {
+        Buffer bytes(size, 0);
+        for (int i = 0; i < 900; ++i) bytes[nextRandom(state) % size] = noise();
+        zeroWords(bytes);
+        bytes[size - 1 - size % 9] = noise();
+        zeroWords(bytes);
+    }
+    for (const std::size_t size : {0u, 1u, 7u, 8u, 9u, 4096u, 32'768u, 1'000'000u, 33'554'432u}) {
+        const std::size_t packed = zeroWords(Buffer(size));
+        CHECK_INFO(packed < 110 + size / 900, packed << " bytes of " << size); // 2 bits per 258
+    }
+    // What a sample doesn't show has codes all the same, but long ones: of noise as many bytes more
+    // would be written, which is why it is stored.
+    const auto onlyIn = [&](const std::vector<std::size_t>& pieces, std::size_t levels) {
+        Buffer bytes(131'072);
+        for (const std::size_t piece : pieces)
+            for (std::size_t i = 0; i < 4096; ++i)
+                bytes[4096 * piece + i] = static_cast<std::uint8_t>(nextRandom(state) % levels);
+        return bytes;
+    };
+    const std::size_t unseen = zeroWords(onlyIn({0, 1, 3, 4, 31}, 256));
+    CHECK_INFO(unseen > 5 * 4096 && unseen < 5 * 4096 * 14 / 8 + 500, unseen);
+    std::vector<std::size_t> pieces(32);
+    std::iota(pieces.begin(), pieces.end(), std::size_t{0});
+    CHECK(zeroWords(onlyIn(pieces, 256)) < 131'072 + 30);
+    const std::size_t sixteen = zeroWords(onlyIn(pieces, 16)); // 4 bits of 8, and the code lengths
+    CHECK_INFO(sixteen < 65'536 * 102 / 100, sixteen);
+    std::erase_if(pieces, [](std::size_t piece) { return piece % 4 == 2; });
+    const std::size_t noSample = zeroWords(onlyIn(pieces, 256));
+    CHECK_INFO(noSample < 24 * 4096 * 11 / 10, noSample); // packed another way
 }
 
 // zlib packs the same bytes into 12,825 with runs alone (Z_RLE), into 13,441 at its level 6, which

@@ -15,7 +15,8 @@
 namespace {
 
 constexpr std::uint32_t kSeed = 17;
-constexpr std::array kPackings{Packing::ZeroRuns, Packing::Runs, Packing::Matches};
+constexpr std::array kPackings{Packing::ZeroWords, Packing::ZeroRuns, Packing::Runs,
+                               Packing::Matches};
 
 // The highest of its bits, as the lowest come again soon.
 std::uint32_t nextHigh(std::uint32_t& state) { return nextRandom(state) >> 12; }

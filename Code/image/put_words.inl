@@ -1,0 +1,38 @@
+// Writes words with their codes: byte_lanes.h says what.
+
+std::size_t putWords(BitWriter& out, const WordList& words, std::size_t gap,
+                     const WordCodes& codes) {
+    static_assert(7 + 4 * WordCodes::kLongest < 64);
+    using Code = WordCodes::Code;
+    BitWriter writer = std::move(out); // in registers: nothing written can be part of it
+    const auto put = [&writer](const Code& code) {
+        writer.put(code.bits, code.length);
+        writer.flush();
+    };
+    const HuffmanCode* const ofByte = &codes.ofByte(0); // as what is written may be anything
+    const auto ofTwo = [ofByte](const std::uint8_t* bytes) {
+        const HuffmanCode a = ofByte[bytes[0]], b = ofByte[bytes[1]];
+        return Code{a.bits | std::uint64_t{b.bits} << a.length, unsigned{a.length} + b.length};
+    };
+    const auto ofFour = [ofTwo](const std::uint8_t* bytes) {
+        const Code a = ofTwo(bytes), b = ofTwo(bytes + 2);
+        return Code{a.bits | b.bits << a.length, a.length + b.length};
+    };
+    std::size_t next = 0 - gap; // behind the word before
+    for (std::size_t i = 0; i < words.count(); ++i) {
+        const std::size_t zeroWords = words.place(i) - next;
+        if (!WordCodes::isLong(zeroWords)) [[likely]] {
+            put(codes.ofGap(zeroWords));
+        } else {
+            out = std::move(writer);
+            codes.putGap(out, zeroWords);
+            writer = std::move(out);
+        }
+        const std::uint8_t* const word = words.bytes().data() + kWordBytes * i;
+        put(ofFour(word));
+        put(ofFour(word + 4));
+        next = words.place(i) + 1;
+    }
+    out = std::move(writer);
+    return words.wordsInPiece() - next;
+}

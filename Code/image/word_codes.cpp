@@ -1,0 +1,111 @@
+#include "image/word_codes.h"
+
+#include <algorithm>
+#include <cstring>
+
+void WordList::find(std::span<const std::uint8_t> piece) {
+    wordsInPiece_ = piece.size() / kWordBytes;
+    std::size_t count = 0; // without branches, which would be guessed wrong
+    for (std::size_t i = 0; i < wordsInPiece_; ++i) {
+        std::uint64_t word;
+        std::memcpy(&word, &piece[kWordBytes * i], kWordBytes);
+        std::memcpy(&bytes_[kWordBytes * count], &word, kWordBytes);
+        places_[count] = static_cast<std::uint16_t>(i);
+        count += word != 0;
+    }
+    count_ = count;
+}
+
+// Of a long run all that no single code says: what is left has one.
+static constexpr std::size_t longestMatchesIn(std::size_t zeros) {
+    return zeros > 0 ? (zeros - 1) / kLongestMatch : 0;
+}
+
+void WordCounts::add(const WordList& words) {
+    bytes_.add(words.bytes());
+    std::size_t next = 0; // behind the word before
+    for (std::size_t i = 0; i < words.count(); ++i) {
+        addGap(kWordBytes * (words.place(i) - next));
+        next = words.place(i) + 1;
+    }
+    addGap(kWordBytes * (words.wordsInPiece() - next));
+}
+void WordCounts::addGap(std::size_t zeros) {
+    const std::size_t longest = longestMatchesIn(zeros);
+    longestMatches_ += static_cast<std::uint32_t>(longest);
+    ++gaps_[zeros - longest * kLongestMatch];
+}
+
+SymbolCounts WordCounts::symbols() const {
+    SymbolCounts symbols;
+    symbols.literals.fill(1);
+    symbols.distances[0] = 1;
+    const auto sums = bytes_.sums();
+    for (std::size_t b = 0; b < sums.size(); ++b) symbols.literals[b] += sums[b];
+    const auto addMatches = [&symbols](std::size_t length, std::uint32_t count) {
+        symbols.literals[lengthSymbol(length)] += count;
+        symbols.distances[0] += count;
+    };
+    addMatches(kLongestMatch, longestMatches_);
+    for (std::size_t zeros = kShortestMatch + 1; zeros < gaps_.size(); ++zeros) {
+        symbols.literals[0] += gaps_[zeros];
+        addMatches(zeros - 1, gaps_[zeros]);
+    }
+    return symbols;
+}
+
+WordCodes::WordCodes(const DynamicCodes& codes)
+    : literals_(canonicalCodes(codes.literalLengths())),
+      before_(canonicalCodes(codes.distanceLengths())[0]) {
+    for (std::size_t words = 0; words < kGaps; ++words)
+        gaps_[words] = zerosCode(kWordBytes * words);
+}
+
+// A zero, and a match with it or, where they are too few, more zeros.
+WordCodes::Code WordCodes::zerosCode(std::size_t zeros) const {
+    static_assert(2 * kLongest + 5 + 1 <= 56 && kShortestMatch * kLongest <= 56);
+    Code code;
+    const auto add = [&](std::uint64_t bits, unsigned length) {
+        code.bits |= bits << code.length;
+        code.length += length;
+    };
+    const bool isMatch = zeros > kShortestMatch;
+    for (std::size_t i = 0; i < (isMatch ? 1 : zeros); ++i)
+        add(literals_[0].bits, literals_[0].length);
+    if (!isMatch) return code;
+    const HuffmanCode length = literals_[lengthSymbol(zeros - 1)];
+    const CodeRange range = kLengthRanges[kLengthSlot[zeros - 1]];
+    add(length.bits, length.length);
+    add(zeros - 1 - range.base, range.extra);
+    add(before_.bits, before_.length);
+    return code;
+}
+
+void WordCodes::putZeros(BitWriter& out, std::size_t zeros) const {
+    std::size_t matches = longestMatchesIn(zeros);
+    const Code first = zerosCode(zeros - matches * kLongestMatch);
+    out.put(first.bits, first.length);
+    out.flush();
+    for (; matches > 0; --matches) {
+        out.put(literals_[lengthSymbol(kLongestMatch)]);
+        out.put(before_);
+        out.flush();
+    }
+}
+
+void WordCodes::putEnd(BitWriter& out, std::size_t gap, std::span<const std::uint8_t> rest) const {
+    out.makeRoom(mostBits(2, gap)); // one is the rest with the end
+    putZeros(out, kWordBytes * gap);
+    for (const std::uint8_t byte : rest) {
+        out.put(literals_[byte]);
+        out.flush();
+    }
+    out.put(literals_[kEndOfBlock]);
+    out.flush();
+}
+
+std::size_t WordCodes::mostBits(std::size_t gaps, std::size_t zeroWords) {
+    constexpr std::size_t kOfGap = 2 * kLongest + 5 + 1, kOfMatch = kLongest + 1;
+    return gaps * (kOfGap + kWordBytes * kLongest) +
+           kWordBytes * zeroWords / kLongestMatch * kOfMatch;
+}

@@ -1,0 +1,88 @@
+// Words of eight bytes, and what is written of them: the codes of a run of words that are zero, and
+// those of each byte of the word behind it.
+// Private to image/.
+#pragma once
+
+#include "image/bit_writer.h"
+#include "image/byte_counts.h"
+#include "image/deflate_codes.h"
+#include "image/dynamic_codes.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+inline constexpr std::size_t kWordBytes = 8;
+
+// The words of a piece that aren't zero, one behind the other.
+class WordList {
+public:
+    static constexpr std::size_t kMost = 512;
+
+    // All of them: whole words, kMost or fewer.
+    void find(std::span<const std::uint8_t> piece);
+
+    std::size_t count() const { return count_; }
+    std::size_t wordsInPiece() const { return wordsInPiece_; }
+    std::size_t place(std::size_t i) const { return places_[i]; } // in words
+    std::span<const std::uint8_t> bytes() const {
+        return std::span(bytes_).first(kWordBytes * count_);
+    }
+
+private:
+    std::size_t count_ = 0, wordsInPiece_ = 0;
+    std::array<std::uint16_t, kMost> places_;
+    std::array<std::uint8_t, kMost * kWordBytes> bytes_;
+};
+
+// What a sample of words consists of.
+class WordCounts {
+public:
+    void add(const WordList& words);
+    // With an end, and once whatever other words may need.
+    SymbolCounts symbols() const;
+
+private:
+    void addGap(std::size_t zeros);
+
+    ByteCounts bytes_;
+    std::array<std::uint32_t, kLongestMatch + 1> gaps_{}; // by zeros, less longest matches
+    std::uint32_t longestMatches_ = 0;
+};
+
+class WordCodes {
+public:
+    static constexpr std::size_t kLongest = 14; // bits: four codes fit between flushes
+
+    explicit WordCodes(const DynamicCodes& codes);
+
+    const HuffmanCode& ofByte(std::uint8_t byte) const { return literals_[byte]; }
+    struct Code {
+        std::uint64_t bits = 0;
+        unsigned length = 0;
+    };
+    // Of words that are zero, maybe none. Of many there isn't one.
+    static constexpr bool isLong(std::size_t gap) { return gap >= kGaps; }
+    const Code& ofGap(std::size_t words) const { return gaps_[words]; }
+    void putGap(BitWriter& out, std::size_t words) const { putZeros(out, kWordBytes * words); }
+
+    // A gap, the bytes behind the last word, and the end of the block. Makes room.
+    void putEnd(BitWriter& out, std::size_t gap, std::span<const std::uint8_t> rest) const;
+    // Of a piece behind such a gap, up to its last word that isn't zero.
+    static std::size_t mostBits(const WordList& words, std::size_t gap) {
+        return mostBits(words.count(), gap + words.wordsInPiece());
+    }
+
+private:
+    static constexpr std::size_t kGaps = kLongestMatch / kWordBytes + 1;
+
+    // Of gaps so many, in which there are so many words, and the words behind them.
+    static std::size_t mostBits(std::size_t gaps, std::size_t zeroWords);
+    Code zerosCode(std::size_t zeros) const; // up to the longest match
+    void putZeros(BitWriter& out, std::size_t zeros) const;
+
+    std::vector<HuffmanCode> literals_;
+    HuffmanCode before_;           // the distance of the byte before
+    std::array<Code, kGaps> gaps_; // by words; the first is no gap and has no code
+};
