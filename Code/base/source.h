@@ -14,6 +14,9 @@ struct SourceFile {
     FileText text;
 };
 
+// Of the byte at that offset: 1 and the line ends before it.
+std::size_t lineOf(const SourceFile& source, std::size_t offset);
+
 // "name:line:col: error: what", then the line and a caret below the column. Lines and columns count
 // from 1, columns in bytes; an offset past the end means the end of the file.
 std::string located(const SourceFile& source, std::size_t offset, std::string_view what,

@@ -113,9 +113,7 @@ private:
     }
     std::string atLine(SourceLoc loc) const {
         if (loc.offset >= source_.text.size()) return "";
-        const auto begin = source_.text.begin();
-        return cat(" already, at line ",
-                   1 + std::count(begin, begin + static_cast<std::ptrdiff_t>(loc.offset), '\n'));
+        return cat(" already, at line ", lineOf(source_, loc.offset));
     }
 
     void checkSettings() {

@@ -52,3 +52,16 @@ TEST(source_fail_at_throws_input_error) {
         CHECK_EQUAL(firstLine(error.what()), "a.txt:2:1: error: words");
     }
 }
+
+// Line ends everywhere and nowhere, before places of any number: they are counted many at a time.
+TEST(source_counts_the_lines_before_a_byte) {
+    constexpr std::size_t kSize = 6500;
+    for (const std::size_t every : {1u, 2u, 3u, 16u, 255u, 2049u}) {
+        std::string text;
+        for (std::size_t i = 1; i <= kSize; ++i) text += i % every == 0 ? '\n' : 'x';
+        const SourceFile source{"a.txt", text};
+        for (std::size_t offset = 0; offset <= kSize; ++offset)
+            CHECK_EQUAL(lineOf(source, offset), 1 + offset / every);
+        CHECK_EQUAL(lineOf(source, kSize + 1), 1 + kSize / every);
+    }
+}

@@ -6,7 +6,6 @@
 #include "read/json/words.h"
 #include "read/text_size.h"
 
-#include <algorithm>
 #include <unordered_map>
 #include <vector>
 
@@ -60,10 +59,6 @@ private:
     }
     SourceLoc locOf(const char* at) const {
         return {static_cast<std::uint32_t>(at - source_.text.data())};
-    }
-    std::size_t lineOf(SourceLoc loc) const {
-        const auto begin = source_.text.begin();
-        return static_cast<std::size_t>(1 + std::count(begin, begin + loc.offset, '\n'));
     }
     std::string hereText() const { return jsonHere(source_, p_); }
     // The text ends in the zero of std::string, which is no blank and starts no value.
@@ -133,7 +128,7 @@ private:
         }
         if (*p_ != ',' && p_ == end_)
             fail(p_, cat("expected ',' or '", close, "' before the end of the file; '", *opened,
-                         "' was opened at line ", lineOf(locOf(opened))));
+                         "' was opened at line ", lineOf(source_, locOf(opened).offset)));
         if (*p_ != ',')
             fail(p_, cat("expected ',' or '", close, "' after ", after, ", got ", hereText()));
         const char* comma = p_++;
@@ -219,8 +214,8 @@ private:
     }
     [[noreturn]] void failTwice(const JsonMember& first, const JsonMember& again) const {
         failAt(source_, again.loc.offset,
-               cat("the key '", shown(again.key), "' was given already at line ", lineOf(first.loc),
-                   "; an object has each key once"));
+               cat("the key '", shown(again.key), "' was given already at line ",
+                   lineOf(source_, first.loc.offset), "; an object has each key once"));
     }
 
     const SourceFile& source_;

@@ -4,7 +4,6 @@
 #include "desc/names.h"
 #include "read/number.h"
 
-#include <algorithm>
 #include <cmath>
 
 std::string described(const NffWord& word) {
@@ -40,9 +39,7 @@ NffWord NffWords::peek() {
 }
 
 std::size_t NffWords::lineOf(std::size_t offset) const {
-    const auto begin = source_.text.begin();
-    return 1 + static_cast<std::size_t>(
-                   std::count(begin, begin + static_cast<std::ptrdiff_t>(offset), '\n'));
+    return ::lineOf(source_, offset);
 }
 
 void NffWords::refuseSecond(const NffWord& word, std::size_t& given) const {

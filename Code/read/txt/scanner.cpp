@@ -3,7 +3,6 @@
 #include "base/text.h"
 #include "desc/names.h"
 
-#include <algorithm>
 #include <cstring>
 
 std::string described(const Token& token) {
@@ -20,9 +19,7 @@ void Scanner::failAt(std::size_t offset, std::string_view what) const {
 }
 
 std::size_t Scanner::lineOf(std::size_t offset) const {
-    const auto begin = source_.text.begin();
-    return 1 + static_cast<std::size_t>(
-                   std::count(begin, begin + static_cast<std::ptrdiff_t>(offset), '\n'));
+    return ::lineOf(source_, offset);
 }
 
 void Scanner::skipComment() {
