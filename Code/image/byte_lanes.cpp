@@ -15,7 +15,7 @@ namespace byte_lanes {
 #if defined(__x86_64__)
 namespace avx2 {
 PngFilter filterRow(std::span<const std::uint8_t>, std::span<const std::uint8_t>, std::size_t,
-                    std::span<std::uint8_t>);
+                    std::optional<PngFilter>, std::span<std::uint8_t>);
 bool nonzeroPlaces(std::span<const std::uint8_t>, std::size_t, RawVector<std::uint32_t>&);
 std::size_t putWords(BitWriter&, const WordList&, std::size_t, const WordCodes&);
 std::size_t addToAdler(AdlerSums&, std::span<const std::uint8_t>);
@@ -24,7 +24,7 @@ std::size_t foldForCrc(std::uint32_t, std::span<const std::uint8_t>, CrcBytes&);
 namespace avx512 {
 void srgb8(std::span<const Rgb>, std::uint8_t*);
 PngFilter filterRow(std::span<const std::uint8_t>, std::span<const std::uint8_t>, std::size_t,
-                    std::span<std::uint8_t>);
+                    std::optional<PngFilter>, std::span<std::uint8_t>);
 bool nonzeroPlaces(std::span<const std::uint8_t>, std::size_t, RawVector<std::uint32_t>&);
 } // namespace avx512
 #endif

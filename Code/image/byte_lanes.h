@@ -12,6 +12,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 // Adler-32's sums without their modulus: a of the bytes, b of a after each byte.
@@ -29,11 +30,13 @@ struct ByteLanes {
 
     // srgb8FromLinear() of all pixels: three codes each.
     void (*srgb8)(std::span<const Rgb> pixels, std::uint8_t* out);
-    // Writes the row to `out` with the filter whose bytes, as signed numbers without their signs,
-    // have the smallest sum (PNG specification, 12.7; of equal sums the first filter). `above` is
-    // as long; zeros for the first row.
+    // Writes the row to `out` with that filter or, without one, with the filter whose bytes, as
+    // signed numbers without their signs, have the smallest sum (PNG specification, 12.7; of equal
+    // sums the first filter). A row that is as the one above gets None or Up in any case. Returns
+    // which. `above` is as long; zeros for the first row.
     PngFilter (*filterRow)(std::span<const std::uint8_t> row, std::span<const std::uint8_t> above,
-                           std::size_t pixelBytes, std::span<std::uint8_t> out);
+                           std::size_t pixelBytes, std::optional<PngFilter> filter,
+                           std::span<std::uint8_t> out);
     // Where the bytes that aren't zero stand, in order; false where there are more than `most`, of
     // which some are left out then.
     bool (*nonzeroPlaces)(std::span<const std::uint8_t> bytes, std::size_t most,

@@ -141,31 +141,36 @@ private:
     std::size_t pixelBytes_;
 };
 
+PngFilter bestOf(const RowFilter& row) {
+    const auto costs = row.costs();
+    return static_cast<PngFilter>(std::min_element(costs.begin(), costs.end()) - costs.begin());
+}
+
 PngFilter filterLongRow(std::span<const std::uint8_t> row, std::span<const std::uint8_t> above,
-                        std::size_t pixelBytes, std::span<std::uint8_t> out) {
-    const RowFilter filter(row, above, pixelBytes);
-    const auto costs = filter.costs();
-    const auto best =
-        static_cast<PngFilter>(std::min_element(costs.begin(), costs.end()) - costs.begin());
-    switch (best) {
-    case PngFilter::None: filter.write<PngFilter::None>(out); break;
-    case PngFilter::Sub: filter.write<PngFilter::Sub>(out); break;
-    case PngFilter::Up: filter.write<PngFilter::Up>(out); break;
-    case PngFilter::Average: filter.write<PngFilter::Average>(out); break;
-    case PngFilter::Paeth: filter.write<PngFilter::Paeth>(out); break;
+                        std::size_t pixelBytes, std::optional<PngFilter> given,
+                        std::span<std::uint8_t> out) {
+    const RowFilter by(row, above, pixelBytes);
+    const PngFilter filter = given ? *given : bestOf(by);
+    switch (filter) {
+    case PngFilter::None: by.write<PngFilter::None>(out); break;
+    case PngFilter::Sub: by.write<PngFilter::Sub>(out); break;
+    case PngFilter::Up: by.write<PngFilter::Up>(out); break;
+    case PngFilter::Average: by.write<PngFilter::Average>(out); break;
+    case PngFilter::Paeth: by.write<PngFilter::Paeth>(out); break;
     }
-    return best;
+    return filter;
 }
 
 // With zeros in front, which the filters take for the pixels left of it and leave zeros.
 PngFilter filterShortRow(std::span<const std::uint8_t> row, std::span<const std::uint8_t> above,
-                         std::size_t pixelBytes, std::span<std::uint8_t> out) {
+                         std::size_t pixelBytes, std::optional<PngFilter> given,
+                         std::span<std::uint8_t> out) {
     constexpr std::size_t kSize = 2 * kVector;
     std::array<std::uint8_t, kSize> longRow{}, longAbove{}, longOut;
     const auto start = static_cast<std::ptrdiff_t>(kSize - row.size());
     std::copy(row.begin(), row.end(), longRow.begin() + start);
     std::copy(above.begin(), above.end(), longAbove.begin() + start);
-    const PngFilter filter = filterLongRow(longRow, longAbove, pixelBytes, longOut);
+    const PngFilter filter = filterLongRow(longRow, longAbove, pixelBytes, given, longOut);
     std::copy(longOut.begin() + start, longOut.end(), out.begin());
     return filter;
 }
@@ -173,13 +178,14 @@ PngFilter filterShortRow(std::span<const std::uint8_t> row, std::span<const std:
 } // namespace
 
 PngFilter filterRow(std::span<const std::uint8_t> row, std::span<const std::uint8_t> above,
-                    std::size_t pixelBytes, std::span<std::uint8_t> out) {
+                    std::size_t pixelBytes, std::optional<PngFilter> given,
+                    std::span<std::uint8_t> out) {
     // The same row again, as in a plain background: Up leaves nothing, None is as good for zeros.
     if (std::memcmp(row.data(), above.data(), row.size()) == 0) {
         std::fill_n(out.begin(), row.size(), std::uint8_t{0});
         const bool isZero = std::memcmp(row.data(), out.data(), row.size()) == 0;
         return isZero ? PngFilter::None : PngFilter::Up;
     }
-    return row.size() < 2 * kVector ? filterShortRow(row, above, pixelBytes, out)
-                                    : filterLongRow(row, above, pixelBytes, out);
+    return row.size() < 2 * kVector ? filterShortRow(row, above, pixelBytes, given, out)
+                                    : filterLongRow(row, above, pixelBytes, given, out);
 }

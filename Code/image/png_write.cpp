@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -133,6 +134,10 @@ public:
 private:
     static constexpr std::size_t kPartBytes = std::size_t{1} << 17;
 
+    // Rows of a draft that are filtered alike: to find the best filter takes more time than to use
+    // it.
+    static constexpr std::size_t kRowsPerFilter = 4;
+
     // With their filter types in front.
     void filterRows(std::size_t first, std::size_t end, RawVector<std::uint8_t>& out) const {
         RowCodes rows(picture_);
@@ -141,10 +146,12 @@ private:
         out.resize(rowBytes_ * (end - first));
         const ByteLanes& lanes = byteLanes();
         std::span<std::uint8_t> left = out;
+        std::optional<PngFilter> filter; // none: to be found
         for (std::size_t y = first; y < end; ++y, left = left.subspan(rowBytes_)) {
             const Bytes row = rows.at(y);
-            const PngFilter filter = lanes.filterRow(row, above, pixelBytes_, left.subspan(1));
-            left[0] = static_cast<std::uint8_t>(filter);
+            if (!picture_.encoding.isDraft || (y - first) % kRowsPerFilter == 0) filter.reset();
+            filter = lanes.filterRow(row, above, pixelBytes_, filter, left.subspan(1));
+            left[0] = static_cast<std::uint8_t>(*filter);
             above = row;
         }
     }

@@ -74,7 +74,7 @@ void checkFilters(const ByteLanes& lanes) {
                 if (kind == kZeros) above.assign(length, 0);
                 if (kind >= kRepeated) row = above;
                 Row out(length, 77);
-                const PngFilter filter = lanes.filterRow(row, above, pixelBytes, out);
+                const PngFilter filter = lanes.filterRow(row, above, pixelBytes, {}, out);
                 ++chosen[static_cast<std::size_t>(filter)];
                 if (kind >= kRepeated)
                     CHECK(filter == (kind == kZeros ? PngFilter::None : PngFilter::Up));
@@ -82,10 +82,18 @@ void checkFilters(const ByteLanes& lanes) {
                            lanes.name << " length " << length << " kind " << kind << " filter "
                                       << static_cast<int>(filter));
                 for (const PngFilter other : {PngFilter::None, PngFilter::Sub, PngFilter::Up,
-                                              PngFilter::Average, PngFilter::Paeth})
-                    CHECK_INFO(cost(out) <= cost(filtered(row, above, pixelBytes, other)),
+                                              PngFilter::Average, PngFilter::Paeth}) {
+                    const Row expected = filtered(row, above, pixelBytes, other);
+                    CHECK_INFO(cost(out) <= cost(expected),
                                lanes.name << " length " << length << " kind " << kind << " other "
                                           << static_cast<int>(other));
+                    if (kind >= kRepeated) continue;
+                    Row given(length, 77);
+                    CHECK(lanes.filterRow(row, above, pixelBytes, other, given) == other);
+                    CHECK_INFO(given == expected, lanes.name << " length " << length << " kind "
+                                                             << kind << " given "
+                                                             << static_cast<int>(other));
+                }
             }
     for (const int count : chosen) CHECK(count > 0);
 }
