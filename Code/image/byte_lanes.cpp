@@ -17,7 +17,7 @@ namespace avx2 {
 PngFilter filterRow(std::span<const std::uint8_t>, std::span<const std::uint8_t>, std::size_t,
                     std::optional<PngFilter>, std::span<std::uint8_t>);
 bool nonzeroPlaces(std::span<const std::uint8_t>, std::size_t, RawVector<std::uint32_t>&);
-std::size_t putWords(BitWriter&, const WordList&, std::size_t, const WordCodes&);
+void putWords(BitWriter&, const WordList&, const WordCodes&);
 std::size_t addToAdler(AdlerSums&, std::span<const std::uint8_t>);
 std::size_t foldForCrc(std::uint32_t, std::span<const std::uint8_t>, CrcBytes&);
 } // namespace avx2

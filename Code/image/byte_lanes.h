@@ -41,11 +41,9 @@ struct ByteLanes {
     // which some are left out then.
     bool (*nonzeroPlaces)(std::span<const std::uint8_t> bytes, std::size_t most,
                           RawVector<std::uint32_t>& places);
-    // Writes the words with their codes, the first one behind so many zero words that came before
-    // the piece; there is room. Returns how many zero words end the piece. (Nothing in it is done
-    // in lanes, but shifts that leave the flags alone come with AVX2's CPUs and spare a fifth.)
-    std::size_t (*putWords)(BitWriter& out, const WordList& words, std::size_t gap,
-                            const WordCodes& codes);
+    // Writes the words with their codes; there is room. (Nothing in it is done in lanes, but shifts
+    // that leave the flags alone come with AVX2's CPUs and spare a fifth.)
+    void (*putWords)(BitWriter& out, const WordList& words, const WordCodes& codes);
     // Adds bytes, so few that the sums stay below 2^32: from the front as many as make whole
     // blocks, which is what it returns; less than 512 are left.
     std::size_t (*addToAdler)(AdlerSums& sums, std::span<const std::uint8_t> bytes);

@@ -1,7 +1,6 @@
 // Writes words with their codes: byte_lanes.h says what.
 
-std::size_t putWords(BitWriter& out, const WordList& words, std::size_t gap,
-                     const WordCodes& codes) {
+void putWords(BitWriter& out, const WordList& words, const WordCodes& codes) {
     static_assert(7 + 4 * WordCodes::kLongest < 64);
     using Code = WordCodes::Code;
     BitWriter writer = std::move(out); // in registers: nothing written can be part of it
@@ -18,21 +17,18 @@ std::size_t putWords(BitWriter& out, const WordList& words, std::size_t gap,
         const Code a = ofTwo(bytes), b = ofTwo(bytes + 2);
         return Code{a.bits | b.bits << a.length, a.length + b.length};
     };
-    std::size_t next = 0 - gap; // behind the word before
     for (std::size_t i = 0; i < words.count(); ++i) {
-        const std::size_t zeroWords = words.place(i) - next;
-        if (!WordCodes::isLong(zeroWords)) [[likely]] {
-            put(codes.ofGap(zeroWords));
+        const std::size_t zeroWords = words.zeroWordsBefore(i);
+        if (!WordCodes::areMany(zeroWords)) [[likely]] {
+            put(codes.ofZeroWords(zeroWords));
         } else {
             out = std::move(writer);
-            codes.putGap(out, zeroWords);
+            codes.putZeroWords(out, zeroWords);
             writer = std::move(out);
         }
         const std::uint8_t* const word = words.bytes().data() + kWordBytes * i;
         put(ofFour(word));
         put(ofFour(word + 4));
-        next = words.place(i) + 1;
     }
     out = std::move(writer);
-    return words.wordsInPiece() - next;
 }

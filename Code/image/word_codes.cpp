@@ -3,17 +3,19 @@
 #include <algorithm>
 #include <cstring>
 
-void WordList::find(std::span<const std::uint8_t> piece) {
-    wordsInPiece_ = piece.size() / kWordBytes;
+void WordList::find(std::span<const std::uint8_t> piece, std::size_t zeroWordsBefore) {
     std::size_t count = 0; // without branches, which would be guessed wrong
-    for (std::size_t i = 0; i < wordsInPiece_; ++i) {
+    auto place = static_cast<std::uint32_t>(zeroWordsBefore);
+    behind_[0] = 0;
+    for (std::size_t at = 0; at < piece.size(); at += kWordBytes) {
         std::uint64_t word;
-        std::memcpy(&word, &piece[kWordBytes * i], kWordBytes);
+        std::memcpy(&word, &piece[at], kWordBytes);
         std::memcpy(&bytes_[kWordBytes * count], &word, kWordBytes);
-        places_[count] = static_cast<std::uint16_t>(i);
+        behind_[count + 1] = ++place;
         count += word != 0;
     }
     count_ = count;
+    end_ = place;
 }
 
 // Of a long run all that no single code says: what is left has one.
@@ -23,12 +25,8 @@ static constexpr std::size_t longestMatchesIn(std::size_t zeros) {
 
 void WordCounts::add(const WordList& words) {
     bytes_.add(words.bytes());
-    std::size_t next = 0; // behind the word before
-    for (std::size_t i = 0; i < words.count(); ++i) {
-        addGap(kWordBytes * (words.place(i) - next));
-        next = words.place(i) + 1;
-    }
-    addGap(kWordBytes * (words.wordsInPiece() - next));
+    for (std::size_t i = 0; i < words.count(); ++i) addGap(kWordBytes * words.zeroWordsBefore(i));
+    addGap(kWordBytes * words.zeroWordsBehind());
 }
 void WordCounts::addGap(std::size_t zeros) {
     const std::size_t longest = longestMatchesIn(zeros);
@@ -93,9 +91,10 @@ void WordCodes::putZeros(BitWriter& out, std::size_t zeros) const {
     }
 }
 
-void WordCodes::putEnd(BitWriter& out, std::size_t gap, std::span<const std::uint8_t> rest) const {
-    out.makeRoom(mostBits(2, gap)); // one is the rest with the end
-    putZeros(out, kWordBytes * gap);
+void WordCodes::putEnd(BitWriter& out, std::size_t zeroWords,
+                       std::span<const std::uint8_t> rest) const {
+    out.makeRoom(mostBits(2, zeroWords)); // one is the rest with the end
+    putZeros(out, kWordBytes * zeroWords);
     for (const std::uint8_t byte : rest) {
         out.put(literals_[byte]);
         out.flush();

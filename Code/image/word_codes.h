@@ -15,24 +15,26 @@
 
 inline constexpr std::size_t kWordBytes = 8;
 
-// The words of a piece that aren't zero, one behind the other.
+// The words of a piece that aren't zero, one behind the other, and how many that are zero come
+// before each.
 class WordList {
 public:
     static constexpr std::size_t kMost = 512;
 
-    // All of them: whole words, kMost or fewer.
-    void find(std::span<const std::uint8_t> piece);
+    // All of them: whole words, kMost or fewer, behind so many that are zero.
+    void find(std::span<const std::uint8_t> piece, std::size_t zeroWordsBefore);
 
     std::size_t count() const { return count_; }
-    std::size_t wordsInPiece() const { return wordsInPiece_; }
-    std::size_t place(std::size_t i) const { return places_[i]; } // in words
+    std::size_t zeroWordsBefore(std::size_t i) const { return behind_[i + 1] - behind_[i] - 1; }
+    std::size_t zeroWordsBehind() const { return end_ - behind_[count_]; }
     std::span<const std::uint8_t> bytes() const {
         return std::span(bytes_).first(kWordBytes * count_);
     }
 
 private:
-    std::size_t count_ = 0, wordsInPiece_ = 0;
-    std::array<std::uint16_t, kMost> places_;
+    // Places from the first zero before the piece on; behind the word before.
+    std::size_t count_ = 0, end_ = 0;
+    std::array<std::uint32_t, kMost + 1> behind_;
     std::array<std::uint8_t, kMost * kWordBytes> bytes_;
 };
 
@@ -63,15 +65,17 @@ public:
         unsigned length = 0;
     };
     // Of words that are zero, maybe none. Of many there isn't one.
-    static constexpr bool isLong(std::size_t gap) { return gap >= kGaps; }
-    const Code& ofGap(std::size_t words) const { return gaps_[words]; }
-    void putGap(BitWriter& out, std::size_t words) const { putZeros(out, kWordBytes * words); }
+    static constexpr bool areMany(std::size_t zeroWords) { return zeroWords >= kGaps; }
+    const Code& ofZeroWords(std::size_t count) const { return gaps_[count]; }
+    void putZeroWords(BitWriter& out, std::size_t count) const {
+        putZeros(out, kWordBytes * count);
+    }
 
-    // A gap, the bytes behind the last word, and the end of the block. Makes room.
-    void putEnd(BitWriter& out, std::size_t gap, std::span<const std::uint8_t> rest) const;
-    // Of a piece behind such a gap, up to its last word that isn't zero.
-    static std::size_t mostBits(const WordList& words, std::size_t gap) {
-        return mostBits(words.count(), gap + words.wordsInPiece());
+    // So many words that are zero, the bytes behind them, and the end of the block. Makes room.
+    void putEnd(BitWriter& out, std::size_t zeroWords, std::span<const std::uint8_t> rest) const;
+    // Of a piece behind so many words that are zero, up to its last word that isn't.
+    static std::size_t mostBits(const WordList& words, std::size_t zeroWordsBefore) {
+        return mostBits(words.count(), zeroWordsBefore + WordList::kMost);
     }
 
 private:

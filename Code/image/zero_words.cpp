@@ -24,7 +24,7 @@ bool putZeroWords(BitWriter& out, std::span<const std::uint8_t> bytes, bool last
     WordList words;
     std::size_t counted = 0;
     for (std::size_t at = kSampleOf / 2 * kPiece; at < inWords.size(); at += kSampleOf * kPiece) {
-        words.find(pieceAt(inWords, at));
+        words.find(pieceAt(inWords, at), 0);
         counts.add(words);
         counted += pieceAt(inWords, at).size();
     }
@@ -36,13 +36,14 @@ bool putZeroWords(BitWriter& out, std::span<const std::uint8_t> bytes, bool last
     // The header, and what the sample promises with a twentieth more.
     out.makeRoom(dynamic.bits(symbols) * (20 + 21 * bytes.size() / counted) / 20);
     dynamic.putHeader(out, last);
-    std::size_t gap = 0; // in words
+    std::size_t zeroWords = 0;
     for (std::size_t at = 0; at < inWords.size(); at += kPiece) {
-        words.find(pieceAt(inWords, at));
-        out.makeRoom(WordCodes::mostBits(words, gap));
-        gap = byteLanes().putWords(out, words, gap, codes);
+        words.find(pieceAt(inWords, at), zeroWords);
+        out.makeRoom(WordCodes::mostBits(words, zeroWords));
+        byteLanes().putWords(out, words, codes);
+        zeroWords = words.zeroWordsBehind();
     }
-    codes.putEnd(out, gap, bytes.subspan(inWords.size()));
+    codes.putEnd(out, zeroWords, bytes.subspan(inWords.size()));
     if (out.bitsSince(start) <= 8 * bytes.size()) return true;
     out.goBackTo(start);
     return false;

@@ -164,19 +164,19 @@ TEST(words_are_written_alike_by_every_width) {
         }
         if (trial % 10 == 9) std::fill(piece.begin(), piece.end() - 1, std::uint8_t{0});
         WordList words;
-        words.find(piece);
+        const std::size_t before = trial * trial;
+        words.find(piece, before);
         WordCounts counts;
         counts.add(words);
         const DynamicCodes dynamic(counts.symbols(), WordCodes::kLongest);
         const WordCodes codes(dynamic);
-        const std::size_t gap = trial * trial;
         std::vector<Row> written;
         for (const ByteLanes& lanes : allByteLanes()) {
             if (!lanes.supported()) continue;
             BitWriter out({1, 2, 3});
-            out.makeRoom(WordCodes::mostBits(words, gap));
-            const std::size_t behind = lanes.putWords(out, words, gap, codes);
-            codes.putEnd(out, behind, {});
+            out.makeRoom(WordCodes::mostBits(words, before));
+            lanes.putWords(out, words, codes);
+            codes.putEnd(out, words.zeroWordsBehind(), {});
             out.padToByte();
             written.push_back(std::move(out).result());
             CHECK_INFO(written.back() == written.front(), lanes.name << " trial " << trial);
