@@ -28,6 +28,11 @@ constexpr auto kLengthSlot = [] { // by length: which of them
 constexpr std::size_t lengthSymbol(std::size_t length) {
     return kEndOfBlock + 1 + kLengthSlot[length];
 }
+// What is left of a run of one byte when longest matches are taken from its end: something, if it
+// is not empty.
+constexpr std::size_t withoutLongestMatches(std::size_t run) {
+    return run <= kLongestMatch ? run : (run - 1) % kLongestMatch + 1;
+}
 constexpr auto kDistanceRanges = [] {
     std::array<CodeRange, kDistanceCodes> ranges{};
     unsigned base = 1;

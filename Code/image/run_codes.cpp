@@ -12,7 +12,7 @@ struct RunCounts::Turn {
     std::uint32_t longestMatches = 0;
 
     void addGap(std::size_t zeros) {
-        const std::size_t first = firstOf(zeros);
+        const std::size_t first = withoutLongestMatches(zeros);
         if (zeros != first)
             longestMatches += static_cast<std::uint32_t>((zeros - first) / kLongestMatch);
         ++gaps[first];
@@ -121,7 +121,7 @@ void RunCodes::put(BitWriter& out, std::span<const std::uint8_t> bytes,
 inline RunCodes::Code RunCodes::gapBefore(BitWriter& out, std::size_t zeros) const {
     if (zeros < RunCounts::kSizes) [[likely]]
         return gaps_[zeros];
-    const std::size_t first = RunCounts::firstOf(zeros);
+    const std::size_t first = withoutLongestMatches(zeros);
     out.put(gaps_[first].bits, gaps_[first].length);
     out.flush();
     for (std::size_t left = zeros - first; left > 0; left -= kLongestMatch) {

@@ -17,10 +17,6 @@
 class RunCounts {
 public:
     static constexpr std::size_t kSizes = kLongestMatch + 1;
-    // What is left of a long gap.
-    static constexpr std::size_t firstOf(std::size_t zeros) {
-        return zeros < kSizes ? zeros : (zeros - 1) % kLongestMatch + 1;
-    }
 
     // Bytes from `begin` to `end`, of which those at `places` aren't zero, in order.
     void add(std::span<const std::uint8_t> bytes, std::size_t begin,

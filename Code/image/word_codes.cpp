@@ -18,20 +18,15 @@ void WordList::find(std::span<const std::uint8_t> piece, std::size_t zeroWordsBe
     end_ = place;
 }
 
-// Of a long run all that no single code says: what is left has one.
-static constexpr std::size_t longestMatchesIn(std::size_t zeros) {
-    return zeros > 0 ? (zeros - 1) / kLongestMatch : 0;
-}
-
 void WordCounts::add(const WordList& words) {
     bytes_.add(words.bytes());
     for (std::size_t i = 0; i < words.count(); ++i) addGap(kWordBytes * words.zeroWordsBefore(i));
     addGap(kWordBytes * words.zeroWordsBehind());
 }
 void WordCounts::addGap(std::size_t zeros) {
-    const std::size_t longest = longestMatchesIn(zeros);
-    longestMatches_ += static_cast<std::uint32_t>(longest);
-    ++gaps_[zeros - longest * kLongestMatch];
+    const std::size_t first = withoutLongestMatches(zeros);
+    longestMatches_ += static_cast<std::uint32_t>((zeros - first) / kLongestMatch);
+    ++gaps_[first];
 }
 
 SymbolCounts WordCounts::symbols() const {
@@ -80,11 +75,11 @@ WordCodes::Code WordCodes::zerosCode(std::size_t zeros) const {
 }
 
 void WordCodes::putZeros(BitWriter& out, std::size_t zeros) const {
-    std::size_t matches = longestMatchesIn(zeros);
-    const Code first = zerosCode(zeros - matches * kLongestMatch);
-    out.put(first.bits, first.length);
+    const std::size_t first = withoutLongestMatches(zeros);
+    const Code code = zerosCode(first);
+    out.put(code.bits, code.length);
     out.flush();
-    for (; matches > 0; --matches) {
+    for (std::size_t left = zeros - first; left > 0; left -= kLongestMatch) {
         out.put(literals_[lengthSymbol(kLongestMatch)]);
         out.put(before_);
         out.flush();

@@ -270,8 +270,8 @@ TEST(deflate_round_trips_words_of_zeros) {
         const std::size_t packed = zeroWords(Buffer(size));
         CHECK_INFO(packed < 110 + size / 900, packed << " bytes of " << size); // 2 bits per 258
     }
-    // What a sample doesn't show has codes all the same, but long ones: of noise as many bytes more
-    // would be written, which is why it is stored.
+    // What a sample doesn't show has codes all the same, but long ones: where they would take more
+    // than the bytes themselves, these are packed another way.
     const auto onlyIn = [&](const std::vector<std::size_t>& pieces, std::size_t levels) {
         Buffer bytes(131'072);
         for (const std::size_t piece : pieces)
@@ -288,7 +288,7 @@ TEST(deflate_round_trips_words_of_zeros) {
     CHECK_INFO(sixteen < 65'536 * 102 / 100, sixteen);
     std::erase_if(pieces, [](std::size_t piece) { return piece % 4 == 2; });
     const std::size_t noSample = zeroWords(onlyIn(pieces, 256));
-    CHECK_INFO(noSample < 24 * 4096 * 11 / 10, noSample); // packed another way
+    CHECK_INFO(noSample < 24 * 4096 * 11 / 10, noSample);
 }
 
 // zlib packs the same bytes into 12,825 with runs alone (Z_RLE), into 13,441 at its level 6, which
