@@ -31,14 +31,6 @@ void merge(PrimBox& to, const PrimBox& from) {
     }
 }
 
-void merge(Bins& to, const Bins& from, std::uint32_t used) {
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        for (std::uint32_t b = 0; b < used; ++b) {
-            merge(to.box[axis][b], from.box[axis][b]);
-            to.count[b][axis] += from.count[b][axis];
-        }
-}
-
 // Neighbours in a range that one job divides; `left` of them go to the left.
 struct Part {
     std::uint32_t count, left;
@@ -141,7 +133,7 @@ private:
             code_.fillBins(r.grid, lists_.of(r) + job * jobSize(), sizeOf(job), bins[job]);
         });
         Bins all = bins[0];
-        for (std::size_t job = 1; job < jobs; ++job) merge(all, bins[job], r.grid.bins());
+        for (std::size_t job = 1; job < jobs; ++job) code_.mergeBins(all, bins[job], r.grid.bins());
         code_.chooseSplit(r, all);
         Open open{r, {}};
         for (std::size_t job = 0; job < jobs; ++job)
@@ -203,7 +195,8 @@ private:
             for (std::size_t side = 0; side < 2; ++side) {
                 BuildRange& kid = *kids[side];
                 Bins all = mine[0].bins[side];
-                for (const Job& job : mine.subspan(1)) merge(all, job.bins[side], kid.grid.bins());
+                for (const Job& job : mine.subspan(1))
+                    code_.mergeBins(all, job.bins[side], kid.grid.bins());
                 code_.chooseSplit(kid, all);
                 kid.node = child + static_cast<std::uint32_t>(side);
                 top_.push_back(leafNode(kid.box));

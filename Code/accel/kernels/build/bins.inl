@@ -99,6 +99,19 @@ inline __m128i countsOf(const Bins& bins, std::uint32_t b) {
     return _mm_load_si128(reinterpret_cast<const __m128i*>(bins.count[b].data()));
 }
 
+// Adds what others have binned in the same grid.
+void mergeBins(Bins& to, const Bins& from, std::uint32_t used) {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        for (std::uint32_t b = 0; b < used; ++b) {
+            Box grown = Box::load(to.box[axis][b]);
+            grown.extend(Box::load(from.box[axis][b]));
+            grown.store(to.box[axis][b]);
+        }
+    for (std::uint32_t b = 0; b < used; ++b)
+        _mm_store_si128(reinterpret_cast<__m128i*>(to.count[b].data()),
+                        _mm_add_epi32(countsOf(to, b), countsOf(from, b)));
+}
+
 // The cheapest split between two bins: areas weighted with numbers of triangles.
 void chooseSplit(BuildRange& r, const Bins& bins) {
     const std::uint32_t used = r.grid.bins();

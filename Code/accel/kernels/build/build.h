@@ -98,6 +98,7 @@ struct BuildCode {
                       PrimBox& centres);
     BinGrid (*gridOver)(const PrimBox& centres, std::uint32_t count);
     void (*fillBins)(const BinGrid&, const PrimBox* from, std::uint32_t count, Bins&);
+    void (*mergeBins)(Bins& to, const Bins& from, std::uint32_t used);
     void (*chooseSplit)(BuildRange&, const Bins&);
     void (*makeChildren)(const BuildRange&, BuildRange& left, BuildRange& right);
     void (*divide)(const BuildInput&, const BuildRange&, const BinGrid* grids, const PrimBox* from,

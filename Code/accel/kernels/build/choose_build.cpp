@@ -9,7 +9,7 @@ using namespace kernels::build;
 #define BUILD_CODE(isa, supported)                                                                 \
     {                                                                                              \
 #isa, supported, isa::makePrims, isa::takeBoxes, isa::gridOver, isa::fillBins,             \
-            isa::chooseSplit, isa::makeChildren, isa::divide, isa::growSubtree8,                   \
+            isa::mergeBins, isa::chooseSplit, isa::makeChildren, isa::divide, isa::growSubtree8,   \
             isa::growSubtree16, isa::growSingles                                                   \
     }
 constexpr BuildCode kTable[] = {BUILD_CODE(avx2, hasAvx2), BUILD_CODE(sse, hasSse)};

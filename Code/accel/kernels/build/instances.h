@@ -11,6 +11,7 @@ namespace kernels::build {
     void takeBoxes(const BuildInput&, std::uint32_t, std::uint32_t, PrimBox&, PrimBox&);           \
     BinGrid gridOver(const PrimBox&, std::uint32_t);                                               \
     void fillBins(const BinGrid&, const PrimBox*, std::uint32_t, Bins&);                           \
+    void mergeBins(Bins&, const Bins&, std::uint32_t);                                             \
     void chooseSplit(BuildRange&, const Bins&);                                                    \
     void makeChildren(const BuildRange&, BuildRange&, BuildRange&);                                \
     void divide(const BuildInput&, const BuildRange&, const BinGrid*, const PrimBox*,              \
