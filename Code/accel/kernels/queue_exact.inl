@@ -28,6 +28,14 @@ struct Edges {
     }
 };
 
+// A depth that is off by no more than noise, both times det, is between these; inverse: of det.
+template <class Number> Number nearestDepth(Number depth, Number noise, Number inverse) {
+    return (depth - noise) * inverse * Number(0.999999f);
+}
+template <class Number> Number farthestDepth(Number depth, Number noise, Number inverse) {
+    return (depth + noise) * inverse * Number(1.000001f);
+}
+
 // Where W lines meet W planes of triangles, in float, and how far that may be off.
 struct Judged {
     Mask around, certainlyAround;
@@ -47,8 +55,8 @@ struct Judged {
         return bits(certain() & (depth + noise < zCut * det * Floats(0.999998f)));
     }
     // The depth is between these.
-    Floats nearest(Floats inverse) const { return (depth - noise) * inverse * Floats(0.999999f); }
-    Floats farthest(Floats inverse) const { return (depth + noise) * inverse * Floats(1.000001f); }
+    Floats nearest(Floats inverse) const { return nearestDepth(depth, noise, inverse); }
+    Floats farthest(Floats inverse) const { return farthestDepth(depth, noise, inverse); }
 };
 
 // Depth T/det. How far T may be off z det, z

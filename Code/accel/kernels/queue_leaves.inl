@@ -137,7 +137,7 @@ private:
 
     // Takes for each ray the candidate that is nearest, if that is certain without keys; the key of
     // what remains the best one is computed at the end.
-    void acceptMet(const Found& found) {
+    [[gnu::noinline]] void acceptMet(const Found& found) {
         for (const Slot slot : std::span(passed_, found.passed))
             lists_.went.add(slot, slots_.pop(slots_.ray(slot)));
         for (const Met& met : std::span(met_, found.met)) {
@@ -149,28 +149,46 @@ private:
         }
     }
 
+    // The candidate that is nearest for certain: its depth is between these.
+    struct Best {
+        std::uint32_t lane = 0;
+        float nearest = kInfinityF, farthest = kInfinityF; // none
+    };
+
     [[gnu::always_inline]] bool accept(const Met& met, const QueueRay& ray) {
-        Judged judged;
-        judged.depth = Floats::load(met.depth), judged.noise = Floats::load(met.noise);
-        const Floats never(kInfinityF), inverse = Floats(1.0f) / Floats::load(met.det);
-        const Floats nearest = judged.nearest(inverse), farthest = judged.farthest(inverse);
-        alignas(64) float each[W];
-        nearest.store(each);
-        const float depth = smallest(select(maskOf(met.certain), farthest, never));
-        const unsigned rivals = bits(notGreater(nearest, Floats(depth))) & met.candidates;
+        const Best found = std::has_single_bit(met.candidates) ? onlyOne(met) : nearestOf(met);
         float& best = ray.at(&RayBlock::depth);
-        if (!std::has_single_bit(rivals) || (rivals & met.certain) == 0 || !(depth < best) ||
-            ray.at(&RayBlock::below) != kInfinityF) [[unlikely]]
+        if (!(found.farthest < best) || ray.at(&RayBlock::below) != kInfinityF) [[unlikely]]
             return false;
-        const auto lane = static_cast<std::uint32_t>(std::countr_zero(rivals));
-        ray.at(&RayBlock::bestLane) = lane;
+        ray.at(&RayBlock::bestLane) = found.lane;
         ray.at(&RayBlock::bestLeaf) = met.leaf;
-        best = each[lane];
+        best = found.nearest;
         float& zCut = ray.at(&RayBlock::zCut);
-        zCut = ::min(depth, zCut);
+        zCut = ::min(found.farthest, zCut);
         slots_.block(QueueSlots::blockOf(met.slot)).open |= 1u << QueueSlots::laneOf(met.slot);
         slots_.dropBehind(ray);
         return true;
+    }
+    [[gnu::always_inline]] static Best onlyOne(const Met& met) {
+        if (met.certain == 0) [[unlikely]]
+            return {};
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(met.candidates));
+        const float depth = met.depth[lane], noise = met.noise[lane], inverse = 1 / met.det[lane];
+        return {lane, nearestDepth(depth, noise, inverse), farthestDepth(depth, noise, inverse)};
+    }
+    [[gnu::always_inline]] static Best nearestOf(const Met& met) {
+        const Floats depth = Floats::load(met.depth), noise = Floats::load(met.noise),
+                     inverse = Floats(1.0f) / Floats::load(met.det);
+        const Floats nearest = nearestDepth(depth, noise, inverse),
+                     farthest = farthestDepth(depth, noise, inverse);
+        alignas(64) float each[W];
+        nearest.store(each);
+        const float least = smallest(select(maskOf(met.certain), farthest, Floats(kInfinityF)));
+        const unsigned rivals = bits(notGreater(nearest, Floats(least))) & met.candidates;
+        if (!std::has_single_bit(rivals) || (rivals & met.certain) == 0) [[unlikely]]
+            return {};
+        const auto lane = static_cast<std::uint32_t>(std::countr_zero(rivals));
+        return {lane, each[lane], least};
     }
 
     // ShearedTriangle of accel/triangle.h for the triangles of a leaf: they share their points.
