@@ -30,6 +30,7 @@ public:
         count_ += n;
     }
     void put(HuffmanCode code) { put(code.bits, code.length); }
+    void put(const JoinedCodes& codes) { put(codes.bits, codes.length); }
     void flush() {
         storeLittle(bytes_.data() + used_, waiting_);
         used_ += count_ >> 3;

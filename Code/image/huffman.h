@@ -16,4 +16,17 @@ struct HuffmanCode {
     std::uint16_t bits = 0;
     std::uint8_t length = 0;
 };
+
+// Some of them, one behind the other, up to 64 bits.
+struct JoinedCodes {
+    std::uint64_t bits = 0;
+    unsigned length = 0;
+
+    void add(std::uint64_t more, unsigned count) {
+        bits |= more << length;
+        length += count;
+    }
+    void add(HuffmanCode code) { add(code.bits, code.length); }
+};
+
 std::vector<HuffmanCode> canonicalCodes(std::span<const std::uint8_t> lengths);

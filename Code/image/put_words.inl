@@ -2,20 +2,20 @@
 
 void putWords(BitWriter& out, const WordList& words, const WordCodes& codes) {
     static_assert(7 + 4 * WordCodes::kLongest < 64);
-    using Code = WordCodes::Code;
     BitWriter writer = std::move(out); // in registers: nothing written can be part of it
-    const auto put = [&writer](const Code& code) {
-        writer.put(code.bits, code.length);
+    const auto put = [&writer](const JoinedCodes& some) {
+        writer.put(some);
         writer.flush();
     };
-    const HuffmanCode* const ofByte = &codes.ofByte(0); // as what is written may be anything
+    const HuffmanCode* const ofByte = &codes.ofBytes()[0]; // as what is written may be anything
     const auto ofTwo = [ofByte](const std::uint8_t* bytes) {
         const HuffmanCode a = ofByte[bytes[0]], b = ofByte[bytes[1]];
-        return Code{a.bits | std::uint64_t{b.bits} << a.length, unsigned{a.length} + b.length};
+        return JoinedCodes{a.bits | std::uint64_t{b.bits} << a.length,
+                           unsigned{a.length} + b.length};
     };
     const auto ofFour = [ofTwo](const std::uint8_t* bytes) {
-        const Code a = ofTwo(bytes), b = ofTwo(bytes + 2);
-        return Code{a.bits | b.bits << a.length, a.length + b.length};
+        const JoinedCodes a = ofTwo(bytes), b = ofTwo(bytes + 2);
+        return JoinedCodes{a.bits | b.bits << a.length, a.length + b.length};
     };
     for (std::size_t i = 0; i < words.count(); ++i) {
         const std::size_t zeroWords = words.zeroWordsBefore(i);

@@ -73,61 +73,42 @@ void RunCounts::choose() {
 }
 
 RunCodes::RunCodes(const RunCounts& counts)
-    : codes_(counts.symbols()), bits_(codes_.bits(counts.symbols())),
-      literals_(canonicalCodes(codes_.literalLengths())),
-      before_(canonicalCodes(codes_.distanceLengths())[0]) {
-    for (std::size_t zeros = 1; zeros < RunCounts::kSizes; ++zeros) {
-        Code& code = gaps_[zeros];
-        const auto add = [&](std::uint64_t bits, unsigned length) {
-            if (code.length + length > kMostBits) {
-                fit_ &= !counts.occur(zeros);
-                return;
-            }
-            code.bits |= bits << code.length;
-            code.length += length;
-        };
-        const auto addCode = [&](HuffmanCode part) { add(part.bits, part.length); };
-        const std::size_t literals = counts.haveMatch(zeros) ? 1 : zeros;
-        for (std::size_t i = 0; i < literals; ++i) addCode(literals_[0]);
-        if (!counts.haveMatch(zeros)) continue;
-        const CodeRange range = kLengthRanges[kLengthSlot[zeros - 1]];
-        addCode(literals_[lengthSymbol(zeros - 1)]);
-        add(zeros - 1 - range.base, range.extra);
-        addCode(before_);
-    }
+    : codes_(counts.symbols()), bits_(codes_.bits(counts.symbols())), bytes_(codes_) {
+    for (std::size_t zeros = 1; zeros < RunCounts::kSizes; ++zeros)
+        if (counts.haveMatch(zeros))
+            gaps_[zeros] = bytes_.zeroAndMatch(zeros);
+        else if (zeros * bytes_[0].length <= kMostBits)
+            gaps_[zeros] = bytes_.zeros(zeros);
+        else
+            fit_ &= !counts.occur(zeros);
 }
 
 void RunCodes::put(BitWriter& out, std::span<const std::uint8_t> bytes,
                    std::span<const std::uint32_t> places, bool last) const {
     out.reserveBits(bits_ + 64);
     codes_.putHeader(out, last);
-    BitWriter writer = std::move(out); // in registers: nothing written can be part of it
-    const HuffmanCode* const literals = literals_.data(); // as what is written may be anything
-    std::size_t next = 0;                                 // behind the byte before
+    BitWriter writer = std::move(out);            // in registers: nothing written can be part of it
+    const HuffmanCode* const ofByte = &bytes_[0]; // as what is written may be anything
+    std::size_t next = 0;                         // behind the byte before
     for (const std::uint32_t place : places) {
-        const Code gap = gapBefore(writer, place - next);
-        const HuffmanCode byte = literals[bytes[place]];
-        writer.put(gap.bits | std::uint64_t{byte.bits} << gap.length, gap.length + byte.length);
+        JoinedCodes codes = gapBefore(writer, place - next);
+        codes.add(ofByte[bytes[place]]);
+        writer.put(codes);
         writer.flush();
         next = place + 1;
     }
-    const Code gap = gapBefore(writer, bytes.size() - next);
-    writer.put(gap.bits, gap.length);
-    writer.put(literals_[kEndOfBlock]);
+    writer.put(gapBefore(writer, bytes.size() - next));
+    writer.put(bytes_.endOfBlock());
     writer.flush();
     out = std::move(writer);
 }
 
-inline RunCodes::Code RunCodes::gapBefore(BitWriter& out, std::size_t zeros) const {
+inline JoinedCodes RunCodes::gapBefore(BitWriter& out, std::size_t zeros) const {
     if (zeros < RunCounts::kSizes) [[likely]]
         return gaps_[zeros];
     const std::size_t first = withoutLongestMatches(zeros);
-    out.put(gaps_[first].bits, gaps_[first].length);
+    out.put(gaps_[first]);
     out.flush();
-    for (std::size_t left = zeros - first; left > 0; left -= kLongestMatch) {
-        out.put(literals_[lengthSymbol(kLongestMatch)]);
-        out.put(before_);
-        out.flush();
-    }
+    bytes_.putLongestMatches(out, zeros - first);
     return {};
 }

@@ -3,13 +3,13 @@
 #pragma once
 
 #include "image/bit_writer.h"
+#include "image/byte_codes.h"
 #include "image/deflate_codes.h"
 #include "image/dynamic_codes.h"
 
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 // What a block consists of. A gap of zeros: a zero, and behind it zeros or a match with the byte
 // before. Gaps up to the longest match have codes of their own; longer ones are such a gap and
@@ -56,17 +56,12 @@ private:
     // With a byte behind it, a gap fits between two flushes; one with a match always does.
     static constexpr unsigned kMostBits = 56 - kMaxCodeLength;
     static_assert(kMaxCodeLength + kMaxCodeLength + 5 + 1 <= kMostBits);
-    struct Code {
-        std::uint64_t bits = 0;
-        unsigned length = 0;
-    };
     // The code of the gap; of a long one all is put that no code says.
-    Code gapBefore(BitWriter& out, std::size_t zeros) const;
+    JoinedCodes gapBefore(BitWriter& out, std::size_t zeros) const;
 
     DynamicCodes codes_;
     std::uint64_t bits_; // of the block
-    std::vector<HuffmanCode> literals_;
-    HuffmanCode before_; // the distance of the byte before
-    std::array<Code, RunCounts::kSizes> gaps_;
+    ByteCodes bytes_;
+    std::array<JoinedCodes, RunCounts::kSizes> gaps_;
     bool fit_ = true;
 };

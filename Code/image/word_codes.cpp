@@ -47,43 +47,21 @@ SymbolCounts WordCounts::symbols() const {
     return symbols;
 }
 
-WordCodes::WordCodes(const DynamicCodes& codes)
-    : literals_(canonicalCodes(codes.literalLengths())),
-      before_(canonicalCodes(codes.distanceLengths())[0]) {
+WordCodes::WordCodes(const DynamicCodes& codes) : bytes_(codes) {
     for (std::size_t words = 0; words < kGaps; ++words)
         gaps_[words] = zerosCode(kWordBytes * words);
 }
 
-// A zero, and a match with it or, where they are too few, more zeros.
-WordCodes::Code WordCodes::zerosCode(std::size_t zeros) const {
+JoinedCodes WordCodes::zerosCode(std::size_t zeros) const {
     static_assert(2 * kLongest + 5 + 1 <= 56 && kShortestMatch * kLongest <= 56);
-    Code code;
-    const auto add = [&](std::uint64_t bits, unsigned length) {
-        code.bits |= bits << code.length;
-        code.length += length;
-    };
-    const bool isMatch = zeros > kShortestMatch;
-    for (std::size_t i = 0; i < (isMatch ? 1 : zeros); ++i)
-        add(literals_[0].bits, literals_[0].length);
-    if (!isMatch) return code;
-    const HuffmanCode length = literals_[lengthSymbol(zeros - 1)];
-    const CodeRange range = kLengthRanges[kLengthSlot[zeros - 1]];
-    add(length.bits, length.length);
-    add(zeros - 1 - range.base, range.extra);
-    add(before_.bits, before_.length);
-    return code;
+    return zeros > kShortestMatch ? bytes_.zeroAndMatch(zeros) : bytes_.zeros(zeros);
 }
 
 void WordCodes::putZeros(BitWriter& out, std::size_t zeros) const {
     const std::size_t first = withoutLongestMatches(zeros);
-    const Code code = zerosCode(first);
-    out.put(code.bits, code.length);
+    out.put(zerosCode(first));
     out.flush();
-    for (std::size_t left = zeros - first; left > 0; left -= kLongestMatch) {
-        out.put(literals_[lengthSymbol(kLongestMatch)]);
-        out.put(before_);
-        out.flush();
-    }
+    bytes_.putLongestMatches(out, zeros - first);
 }
 
 void WordCodes::putEnd(BitWriter& out, std::size_t zeroWords,
@@ -91,10 +69,10 @@ void WordCodes::putEnd(BitWriter& out, std::size_t zeroWords,
     out.makeRoom(mostBits(2, zeroWords)); // one is the rest with the end
     putZeros(out, kWordBytes * zeroWords);
     for (const std::uint8_t byte : rest) {
-        out.put(literals_[byte]);
+        out.put(bytes_[byte]);
         out.flush();
     }
-    out.put(literals_[kEndOfBlock]);
+    out.put(bytes_.endOfBlock());
     out.flush();
 }
 

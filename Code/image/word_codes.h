@@ -4,6 +4,7 @@
 #pragma once
 
 #include "image/bit_writer.h"
+#include "image/byte_codes.h"
 #include "image/byte_counts.h"
 #include "image/deflate_codes.h"
 #include "image/dynamic_codes.h"
@@ -11,7 +12,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 inline constexpr std::size_t kWordBytes = 8;
 
@@ -59,14 +59,10 @@ public:
 
     explicit WordCodes(const DynamicCodes& codes);
 
-    const HuffmanCode& ofByte(std::uint8_t byte) const { return literals_[byte]; }
-    struct Code {
-        std::uint64_t bits = 0;
-        unsigned length = 0;
-    };
+    const ByteCodes& ofBytes() const { return bytes_; }
     // Of words that are zero, maybe none. Of many there isn't one.
     static constexpr bool areMany(std::size_t zeroWords) { return zeroWords >= kGaps; }
-    const Code& ofZeroWords(std::size_t count) const { return gaps_[count]; }
+    const JoinedCodes& ofZeroWords(std::size_t count) const { return gaps_[count]; }
     void putZeroWords(BitWriter& out, std::size_t count) const {
         putZeros(out, kWordBytes * count);
     }
@@ -83,10 +79,9 @@ private:
 
     // Of gaps so many, in which there are so many words, and the words behind them.
     static std::size_t mostBits(std::size_t gaps, std::size_t zeroWords);
-    Code zerosCode(std::size_t zeros) const; // up to the longest match
+    JoinedCodes zerosCode(std::size_t zeros) const; // up to the longest match
     void putZeros(BitWriter& out, std::size_t zeros) const;
 
-    std::vector<HuffmanCode> literals_;
-    HuffmanCode before_;           // the distance of the byte before
-    std::array<Code, kGaps> gaps_; // by words; the first is no gap and has no code
+    ByteCodes bytes_;
+    std::array<JoinedCodes, kGaps> gaps_; // by words; the first is no gap and has no code
 };
