@@ -142,8 +142,8 @@ def rays():
     kinds = ["primary", "shadow", "bounce", "bounceany"]
     if ratios:
         story += [Paragraph("The ratios alone, of one round each, on meshes of other kinds and from two views "
-                            "(tests/bench/meshes.py makes them). One round is a rough figure: on a machine that does other "
-                            "things, too, some are off by half.", BODY), Spacer(1, 3 * mm),
+                            "(tests/bench/meshes.py makes them). One round is a rough figure: where all rays take 2 ms, some "
+                            "are off by a third.", BODY), Spacer(1, 3 * mm),
                   figures(["mesh, view", *kinds], [[mesh, *(found[kind] for kind in kinds)] for mesh, found in ratios.items()],
                           [44 * mm] + [24 * mm] * 4), Spacer(1, 8 * mm)]
     return story
