@@ -136,7 +136,7 @@ private:
     }
 
     // Takes for each ray the candidate that is nearest, if that is certain without keys; the key of
-    // what remains the best one is computed at the end.
+    // what remains the best one is computed at the end. Apart from run(), as nodeSteps() is.
     [[gnu::noinline]] void acceptMet(const Found& found) {
         for (const Slot slot : std::span(passed_, found.passed))
             lists_.went.add(slot, slots_.pop(slots_.ray(slot)));
@@ -169,6 +169,7 @@ private:
         slots_.dropBehind(ray);
         return true;
     }
+    // As most have it in scenes of few and large triangles: without a division of W.
     [[gnu::always_inline]] static Best onlyOne(const Met& met) {
         if (met.certain == 0) [[unlikely]]
             return {};

@@ -80,7 +80,7 @@ public:
     void dropBehind(const QueueRay& ray) const {
         const std::uint32_t bottom = ray.at(&RayBlock::bottom);
         std::uint32_t& top = ray.at(&RayBlock::stackTop);
-        if (top == bottom + 1) return; // as most are whose rays meet something
+        if (top == bottom + 1) return; // nothing but the end
         top = bottom +
               dropHidden(refs_ + bottom, entries_ + bottom, top - bottom, ray.at(&RayBlock::zCut));
     }
