@@ -81,9 +81,12 @@ public:
             return point(i, axis) - Floats(rays_.origin[axis]);
         };
         const std::size_t k = rays_.k, kx = rays_.kx, ky = rays_.ky;
-        const Doubles x0 = exact(0, kx), y0 = exact(0, ky), z0 = exact(0, k);
-        const Doubles ax = exact(1, kx) - x0, ay = exact(1, ky) - y0, az = exact(1, k) - z0;
-        const Doubles bx = exact(2, kx) - x0, by = exact(2, ky) - y0, bz = exact(2, k) - z0;
+        // With the direction's sign: a plane through the origin is at plus or minus infinity.
+        const Doubles sign(static_cast<double>(rays_.sign));
+        const auto depth = [&](int i) { return exact(i, k) * sign; };
+        const Doubles x0 = exact(0, kx), y0 = exact(0, ky), z0 = depth(0);
+        const Doubles ax = exact(1, kx) - x0, ay = exact(1, ky) - y0, az = depth(1) - z0;
+        const Doubles bx = exact(2, kx) - x0, by = exact(2, ky) - y0, bz = depth(2) - z0;
         const Doubles nx = ay * bz - az * by, ny = az * bx - ax * bz, nz = ax * by - ay * bx;
         const auto least = [&](Floats a, Floats b, Floats c) { return min(min(a, b), c); };
         const auto most = [&](Floats a, Floats b, Floats c) { return max(max(a, b), c); };
@@ -110,7 +113,7 @@ public:
         const Floats Sx = Floats::load(rays_.Sx[q]), Sy = Floats::load(rays_.Sy[q]);
         const Doubles dz(rays_.depth(q));
         const Doubles along = p.nx * Doubles(rays_.lateralX(q)) +
-                              p.ny * Doubles(rays_.lateralY(q)) + p.nz * Doubles(rays_.forward(q));
+                              p.ny * Doubles(rays_.lateralY(q)) + p.nz * dz;
         const Floats plane = (along / (p.n0 * dz)).toFloats();
         Floats key = plane;
         unsigned asked = 0;

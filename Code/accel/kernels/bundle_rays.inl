@@ -123,7 +123,6 @@ public:
     // Of all rays of a packet, active or not.
     Floats lateralX(unsigned q) const { return Floats::load(dir_[kx][packet_[q]]); }
     Floats lateralY(unsigned q) const { return Floats::load(dir_[ky][packet_[q]]); }
-    Floats forward(unsigned q) const { return Floats::load(dir_[k][packet_[q]]); }
     Floats depth(unsigned q) const { return Floats::load(rawZ_[packet_[q]]); }
     // Rays of a packet that meet what has these keys before they end.
     Mask reach(unsigned q, Floats key) const {
