@@ -112,8 +112,8 @@ public:
                                          Mask& inside) const {
         const Floats Sx = Floats::load(rays_.Sx[q]), Sy = Floats::load(rays_.Sy[q]);
         const Doubles dz(rays_.depth(q));
-        const Doubles along = p.nx * Doubles(rays_.lateralX(q)) +
-                              p.ny * Doubles(rays_.lateralY(q)) + p.nz * dz;
+        const Doubles along =
+            p.nx * Doubles(rays_.lateralX(q)) + p.ny * Doubles(rays_.lateralY(q)) + p.nz * dz;
         const Floats plane = (along / (p.n0 * dz)).toFloats();
         Floats key = plane;
         unsigned asked = 0;
