@@ -76,6 +76,7 @@ public:
     // A ray that passes the triangle by a rounding, which ShearedTriangle can't know, meets the
     // plane of one that it sees within 1/kSteep of edge-on far from it.
     static constexpr double kSteep = 32;
+    static constexpr double kChordRoom = 9 * 0x1p-24; // of the largest coordinate
     bool isEdgeOn() const {
         return !(kSteep * kSteep * (along_ * along_) >= dot(n_, n_) * dot(dir_, dir_));
     }
@@ -83,7 +84,8 @@ public:
     // lie in one plane with the ray and the normal: what moves a ray by a rounding along the normal
     // leaves them as they are, and changes only which of them is met. All with room for where the
     // ray meets the triangle by ShearedTriangle: that is 2^-24 (4 M + 2 b) beside it at most (M, b
-    // as in kernels/queue_exact.inl), within 6 roundings of the largest coordinate.
+    // as in kernels/queue_exact.inl) on either lateral axis, within 9 roundings of the largest
+    // coordinate. 0 if these points are behind the origin.
     float keyInChord(float key) const {
         const Vec3d across = normalize(cross(dir_, n_));
         const double zPerDot = dir_.z / dot(dir_, dir_);
@@ -92,7 +94,7 @@ public:
             z[i] = dot(v_[i], dir_) * zPerDot, beside[i] = dot(v_[i], across);
             size = max(size, maxAbs(v_[i]));
         }
-        const double room = 6 * 0x1p-24 * size;
+        const double room = kChordRoom * size;
         double nearest = std::numeric_limits<double>::infinity(), farthest = -nearest;
         const auto extend = [&](double depth) {
             nearest = min(nearest, depth - room), farthest = max(farthest, depth + room);
@@ -104,8 +106,9 @@ public:
                 if ((beside[i] < border) != (beside[j] < border))
                     extend(z[i] + (z[j] - z[i]) * ((border - beside[i]) / (beside[j] - beside[i])));
         }
-        if (farthest > 0) key = max(key, static_cast<float>(1 / farthest));
-        return nearest > 0 && farthest > 0 ? min(key, static_cast<float>(1 / nearest)) : key;
+        if (!(farthest > 0)) return 0;
+        key = max(key, static_cast<float>(1 / farthest));
+        return nearest > 0 ? min(key, static_cast<float>(1 / nearest)) : key;
     }
 
 private:
@@ -130,8 +133,10 @@ inline float canonicalKey(const RaySetup& ray, Vec3 v0, Vec3 v1, Vec3 v2) {
 
     const TrianglePlane plane(ray, v0, v1, v2);
     float key = plane.key();
-    if (!(zMin > 0) && !(key > 0)) return 0; // straddles the origin and is met behind it
+    const auto isMetBehind = [&] { return !(zMin > 0) && !(key > 0); }; // straddles the origin
+    if (isMetBehind()) return 0;
     if (plane.isEdgeOn()) key = plane.keyInChord(key);
+    if (isMetBehind()) return 0;
     const float nearest = zMin > 0 ? 1.0f / zMin : std::numeric_limits<float>::infinity();
     key = min(max(key, 1.0f / zMax), nearest);
 

@@ -123,4 +123,48 @@ RayList raysInPlanes(Random& random, const MeshGeometry& mesh, std::size_t count
     return rays;
 }
 
+RayList beamsInPlanes(Random& random, const MeshGeometry& mesh, std::size_t count) {
+    RayList rays;
+    while (rays.size() < count) {
+        const auto [a, b, c] = someTriangle(random, mesh);
+        const Vec3d e = b - a, f = c - a;
+        const double size = ::max(length(e), length(f));
+        const Vec3d from = a + e * random.uniform(-0.5, 1) + f * random.uniform(-0.5, 1);
+        const Vec3d way = e * random.uniform(-1, 1) + f * random.uniform(-1, 1);
+        const double far = random.logUniform(1e-2, 2);
+        const double start = far * random.logUniform(1e-4, 0.3);
+        const double end = far * random.logUniform(1e-4, 0.3);
+        const double off = size * random.logUniform(1e-9, 1e-5);
+        for (int i = 0; i < 16; ++i) {
+            const auto beside = [&](double by) {
+                return (e * random.uniform(-1, 1) + f * random.uniform(-1, 1)) * by +
+                       random.direction() * off;
+            };
+            const Vec3 org = toFloat(from + beside(start));
+            rays.push({org, toFloat(from + way * far + beside(end)) - org, 0, 1});
+        }
+    }
+    return rays;
+}
+
+RayList raysOnLattice(Random& random, std::uint32_t half, std::size_t count) {
+    RayList rays;
+    while (rays.size() < count) {
+        const Vec3 shared = meshes::latticePoint(random, half);
+        const bool fromOnePoint = random.chance(0.6), isNarrow = random.chance(0.5);
+        const Vec3 axis = meshes::latticePoint(random, half);
+        const std::size_t size = 33 + random.below(200);
+        for (std::size_t i = 0; i < size; ++i) {
+            const Vec3 org = fromOnePoint ? shared : meshes::latticePoint(random, half);
+            Ray ray{org, isNarrow ? axis * 8.0f + meshes::latticePoint(random, 3)
+                                  : meshes::latticePoint(random, 1 + random.below(half))};
+            if (random.chance(0.2)) ray.dir = ray.dir * 0.125f;
+            if (random.chance(0.2)) ray.tMax = static_cast<float>(1 + random.below(8)) * 0.25f;
+            if (random.chance(0.2)) ray.tMin = static_cast<float>(random.below(8)) * 0.125f;
+            rays.push(ray);
+        }
+    }
+    return rays;
+}
+
 } // namespace battery

@@ -30,5 +30,11 @@ RayList raysInBeams(meshes::Random& random, const MeshGeometry& mesh, std::size_
 // Within the planes of triangles, up to 1e-6: where along them a ray hits is rounding, and the
 // clamps of the canonical key decide.
 RayList raysInPlanes(meshes::Random& random, const MeshGeometry& mesh, std::size_t count);
+// The same side by side, from points of the triangles or near them, with ends on them: what such
+// rays hit need not be where their lines come closest to it.
+RayList beamsInPlanes(meshes::Random& random, const MeshGeometry& mesh, std::size_t count);
+// Between points of the lattice of meshes::latticePoint(), some from one point, with ends and
+// starts on it.
+RayList raysOnLattice(meshes::Random& random, std::uint32_t half, std::size_t count);
 
 } // namespace battery

@@ -98,18 +98,24 @@ RayList toHits(const RayList& rays, const std::vector<Hit>& hits) {
     return out;
 }
 
+void compareWithFollowers(const Meshes& meshes, const RayList& rays, const char* name,
+                          Tally& tally) {
+    const std::vector<Hit> hits = compare(meshes, rays, name, tally);
+    if (const RayList on = restarts(rays, hits); on.size() > 0)
+        compare(meshes, on, cat(name, ", going on").c_str(), tally);
+    if (const RayList lit = toHits(rays, hits); lit.size() > 0)
+        compare(meshes, lit, cat(name, ", to what they hit").c_str(), tally);
+}
+
 void compareAll(const Meshes& meshes, Random& random, Tally& tally) {
     const auto withFollowers = [&](const RayList& rays, const char* name) {
-        const std::vector<Hit> hits = compare(meshes, rays, name, tally);
-        if (const RayList on = restarts(rays, hits); on.size() > 0)
-            compare(meshes, on, cat(name, ", going on").c_str(), tally);
-        if (const RayList lit = toHits(rays, hits); lit.size() > 0)
-            compare(meshes, lit, cat(name, ", to what they hit").c_str(), tally);
+        compareWithFollowers(meshes, rays, name, tally);
     };
     withFollowers(looseRays(random, meshes.scalar, kRays), "loose rays");
     withFollowers(raysFromPoints(random, meshes.scalar, kRays), "rays from points");
     withFollowers(raysInBeams(random, meshes.scalar, kRays), "rays side by side");
     withFollowers(raysInPlanes(random, meshes.scalar, kRays / 4), "rays in planes");
+    withFollowers(beamsInPlanes(random, meshes.scalar, kRays / 2), "rays side by side in planes");
 }
 
 Tally hostileTriangles(const Effort& effort) {
@@ -140,10 +146,28 @@ Tally closedMeshes(const Effort& effort) {
     });
 }
 
+// Walls, floors and boxes are modelled on whole numbers.
+Tally latticeTriangles(const Effort& effort) {
+    return inBatches(effort, 212, 4, [](Random& random, Tally& tally) {
+        const std::size_t sizes[] = {2, 17, 300, 2000};
+        const std::uint32_t halves[] = {1, 2, 4, 16};
+        const std::size_t size = 1 + random.below(sizes[random.below(4)]);
+        const std::uint32_t half = halves[random.below(4)];
+        const Meshes meshes(meshes::geometryOf(meshes::latticeSoup(random, size, half), false),
+                            !random.chance(size < 300 ? 0.25 : 0));
+        compareWithFollowers(meshes, raysOnLattice(random, 2 * half, 3 * kRays),
+                             "rays on a lattice", tally);
+        compareWithFollowers(meshes, raysFromPoints(random, meshes.scalar, kRays),
+                             "rays from points", tally);
+    });
+}
+
 constexpr Row kRows[] = {
     {"T10b", "hits of every kernel and of the scalar code: hostile triangles", "", 0, true,
      hostileTriangles},
     {"T10c", "the same: closed meshes", "", 0, true, closedMeshes},
+    {"T10d", "the same: triangles of whole numbers, rays between whole numbers", "", 0, true,
+     latticeTriangles},
 };
 
 } // namespace

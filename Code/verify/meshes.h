@@ -45,6 +45,10 @@ MeshDesc tetra(int depth);
 // Adversarial triangles (CANONICAL.md): needles of 1e3 to 1e7, coplanar stacks, duplicates, axis
 // planes, tiny, huge, collinear and points, fans. Coordinates about 1, huge ones 100.
 std::vector<std::array<Vec3, 3>> soup(Random& random, std::size_t count);
+// Whole numbers up to +-half, zeros of both signs: products are exact, so that rays between such
+// points meet edges and corners, and planes go through their origins, not almost but truly.
+Vec3 latticePoint(Random& random, std::uint32_t half);
+std::vector<std::array<Vec3, 3>> latticeSoup(Random& random, std::size_t count, std::uint32_t half);
 MeshGeometry geometryOf(const std::vector<std::array<Vec3, 3>>& triangles, bool withBvh);
 
 // A mesh as scene.cpp makes it ready: one that owns its geometry and its Shape. The frame is that

@@ -24,8 +24,10 @@ expect 'all of a subject' 0 '' verify T21 --effort 0.1
 check 'all of a subject: three' [ "$(tail -n 1 out)" = '3 passed, 0 failed' ]
 expect 'a batch alone: 0' 0 '' verify T25 --batch 3
 check 'a batch alone: one case' grep -q '^T25 .* 1  0 failed' out
-# A ray along a triangle whose plane goes through its origin: 2 of 50 million rays.
+# Rays along triangles, a few of 100 million: one whose plane goes through the origin, and one whose
+# points on the ray are all behind it.
 expect 'a plane through the origin: 0' 0 '' verify T10c --batch 831
+expect 'in a plane, behind the origin: 0' 0 '' verify T10c --batch 2418
 
 expect 'a page: 0' 0 '' verify T25 -e 0.1 --markdown page.md
 check 'a page: its table' grep -q '^| T25 | .* | ok | ' page.md

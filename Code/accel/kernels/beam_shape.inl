@@ -3,11 +3,14 @@
 // that a depth is a plane for all: interval arithmetic along that axis (Reshetov, Soupikov and
 // Hurley 2005; Boulos, Wald and Shirley 2006).
 // What is said is conservative. A triangle that canonicalKey() accepts is met by the ray's line
-// within 4 units of rounding of the space's size (see RaySetup), its key is that of a depth no
-// nearer than where the ray enters its box padded by 32 of them, and a beam is 64 units wider and
-// longer than its rays. Less than the other 32 are lost to rounding: where rays are at the start is
+// within 4 units of rounding of the space's size on either axis (see RaySetup), its key is that of
+// a depth no nearer than where the ray enters its box padded by 32 of them, and a beam is 256 units
+// wider and longer than its rays. Of these 32 are lost to rounding: where rays are at the start is
 // off by 7 of them at most, and at the far plane by 7 more; the line there, which its slope takes
-// part in, by 15.
+// part in, by 15. Others are for where the line meets the triangle: a ray whose hit is between its
+// start and its end may do so beside them, by 181 units where its plane is not edge-on to it
+// (TrianglePlane::kSteep), in which a ray and the borders of the beam go 204 apart. Of planes that
+// are, the triangle is within 11 units of the ray at the hit's own depth.
 // Included by the file of each instruction set inside its namespace, behind ray_lanes.inl.
 
 class BeamShape {
@@ -24,7 +27,7 @@ public:
         const auto most = [&](Floats v) { return largest(select(on, v, Floats(-kInfinityF))); };
         if (most(axes.Sx) - least(axes.Sx) > kWidest || most(axes.Sy) - least(axes.Sy) > kWidest)
             return false;
-        room_ = 2 * most(axes.errorIn(extent));
+        room_ = 8 * most(axes.errorIn(extent));
         const Floats depth = c.org[k] * Floats(sign_);
         start_ = least(depth);
         late_ = depth - Floats(start_);

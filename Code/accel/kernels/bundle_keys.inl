@@ -124,7 +124,7 @@ public:
         // Most are farther from the depths of all corners than two roundings of the products.
         const Mask between =
             (key * p.zMax > Floats(1.000001f)) & (key * p.zMin < Floats(0.999999f));
-        if ((bits(inside) & ~bits(between)) != 0) key = betweenDepths(p, plane, key, inside);
+        if ((bits(inside) & ~bits(between)) != 0) key = betweenDepths(p, key, inside);
         const Mask inBox =
             (p.xLo * key <= Sx) & (Sx <= p.xHi * key) & (p.yLo * key <= Sy) & (Sy <= p.yHi * key);
         const unsigned clamped = bits(inside) & (asked | ~bits(inBox)) & rays_.active[q];
@@ -135,10 +135,10 @@ public:
 
 private:
     // The canonical clamp to the depths of the corners. Keys of planes that are behind the origin
-    // are none, which is asked of triangles that are so in part.
-    static Floats betweenDepths(const BundlePlanes& p, Floats plane, Floats key, Mask& inside) {
+    // are none, nor those of chords there, which is asked of triangles that are so in part.
+    static Floats betweenDepths(const BundlePlanes& p, Floats key, Mask& inside) {
         const Floats one(1.0f), zero(0.0f);
-        const unsigned behind = bits(p.zMin <= zero) & ~bits(plane > zero);
+        const unsigned behind = bits(p.zMin <= zero) & ~bits(key > zero);
         inside = maskOf(bits(inside) & ~behind);
         const Floats nearest = select(p.zMin > zero, one / p.zMin, Floats(kInfinityF));
         return min(max(key, one / p.zMax), nearest);

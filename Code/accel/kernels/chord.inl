@@ -14,7 +14,7 @@ inline Floats keysInChord(const Vec3d (&v)[3], const Doubles3& dir, Floats key) 
     const Doubles3 crossing = cross(dir, n), across = crossing / sqrt(dot(crossing, crossing));
     const Doubles zPerDot = dir.z / length2;
     const double size = ::max(::max(maxAbs(v[0]), maxAbs(v[1])), maxAbs(v[2]));
-    const Doubles room(6 * 0x1p-24 * size);
+    const Doubles room(TrianglePlane::kChordRoom * size);
     const Doubles z[3] = {dot(forAll(v[0]), dir) * zPerDot, dot(forAll(v[1]), dir) * zPerDot,
                           dot(forAll(v[2]), dir) * zPerDot};
     const Doubles beside[3] = {dot(forAll(v[0]), across), dot(forAll(v[1]), across),
@@ -34,8 +34,8 @@ inline Floats keysInChord(const Vec3d (&v)[3], const Doubles3& dir, Floats key) 
     }
     const Doubles zero(0.0), one(1.0);
     const Mask isInFront = zero < farthest;
-    const Floats atLeast = select(isInFront, max(key, (one / farthest).toFloats()), key);
+    const Floats atLeast = max(key, (one / farthest).toFloats());
     const Floats inChord =
-        select((zero < nearest) & isInFront, min(atLeast, (one / nearest).toFloats()), atLeast);
-    return select(isEdgeOn, inChord, key);
+        select(zero < nearest, min(atLeast, (one / nearest).toFloats()), atLeast);
+    return select(isEdgeOn, select(isInFront, inChord, Floats(0.0f)), key);
 }

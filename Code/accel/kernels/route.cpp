@@ -5,6 +5,8 @@
 #include "accel/kernels/kernels.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cstring>
 #include <numeric>
 
@@ -15,8 +17,13 @@ constexpr std::size_t kFewestForBundle = 32;
 // Origins that are looked for: the point lights of a wave.
 constexpr std::size_t kMostOrigins = 8;
 
+// Origins are one point where they have the same bits: of 0 and -0 differences have other signs.
 bool allEqual(std::span<const Vec3> v) {
     return v.empty() || std::memcmp(v.data(), v.data() + 1, v.size_bytes() - sizeof(Vec3)) == 0;
+}
+bool areEqual(Vec3 a, Vec3 b) {
+    using Words = std::array<std::uint32_t, 3>;
+    return std::bit_cast<Words>(a) == std::bit_cast<Words>(b);
 }
 
 class Groups {
@@ -38,7 +45,7 @@ public:
         for (std::uint32_t i = 0; i < n;) {
             const Vec3 origin = origins[i];
             const std::uint32_t first = i++;
-            while (i < n && origins[i] == origin) ++i;
+            while (i < n && areEqual(origins[i], origin)) ++i;
             if (std::vector<std::uint32_t>* group = groupOf(origin)) {
                 append(*group, first, i);
                 continue;
@@ -82,7 +89,7 @@ private:
     // The list of an origin; null when there are too many of them.
     std::vector<std::uint32_t>* groupOf(Vec3 origin) {
         for (std::size_t g = 0; g < used; ++g)
-            if (fromPoint[g].origin == origin) return &fromPoint[g].rays;
+            if (areEqual(fromPoint[g].origin, origin)) return &fromPoint[g].rays;
         if (used == kMostOrigins) return nullptr;
         if (fromPoint.size() == used) fromPoint.emplace_back();
         fromPoint[used].origin = origin;
