@@ -2,8 +2,12 @@
 // points as the rays of cameras and lamps are.
 #pragma once
 
+#include "base/hit.h"
 #include "base/ray_span.h"
 #include "verify/meshes.h"
+
+#include <array>
+#include <bit>
 
 namespace battery {
 
@@ -15,6 +19,12 @@ struct RayList {
     std::size_t size() const { return org.size(); }
     RaySpan span() const { return {org, dir, tMin, tMax, time}; }
 };
+
+// Also of u and v, and of zeros.
+inline bool haveSameBits(const Hit& a, const Hit& b) {
+    using Words = std::array<std::uint32_t, sizeof(Hit) / 4>;
+    return std::bit_cast<Words>(a) == std::bit_cast<Words>(b);
+}
 
 // At a corner, on an edge, inside, or close beside one of them.
 Vec3d targetOn(meshes::Random& random, const MeshGeometry& mesh);

@@ -6,8 +6,6 @@
 #include "verify/specimens.h"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 
 namespace battery {
 
@@ -40,12 +38,6 @@ std::string shown(const Hit& hit) {
                digits(hit.v));
 }
 
-// To the last bit, u and v too.
-bool areSame(const Hit& a, const Hit& b) {
-    using Words = std::array<std::uint32_t, sizeof(Hit) / 4>;
-    return std::bit_cast<Words>(a) == std::bit_cast<Words>(b);
-}
-
 // Returns the nearest hits.
 std::vector<Hit> compare(const Meshes& meshes, const RayList& rays, const char* name,
                          Tally& tally) {
@@ -70,7 +62,7 @@ std::vector<Hit> compare(const Meshes& meshes, const RayList& rays, const char* 
                            shortest(static_cast<double>(rays.tMin[i])), " to ",
                            shortest(static_cast<double>(rays.tMax[i])), ": ");
             };
-            if (!areSame(hits[i], right[i]))
+            if (!haveSameBits(hits[i], right[i]))
                 tally.fail(
                     [&] { return cat(where(), shown(hits[i]), " instead of ", shown(right[i])); });
             if ((hidden[i] != 0) != (isHidden[i] != 0))

@@ -48,6 +48,7 @@ std::vector<std::array<Vec3, 3>> soup(Random& random, std::size_t count);
 // Whole numbers up to +-half, zeros of both signs: products are exact, so that rays between such
 // points meet edges and corners, and planes go through their origins, not almost but truly.
 Vec3 latticePoint(Random& random, std::uint32_t half);
+Transform quarterTurn(Random& random); // axes change places and directions
 std::vector<std::array<Vec3, 3>> latticeSoup(Random& random, std::size_t count, std::uint32_t half);
 MeshGeometry geometryOf(const std::vector<std::array<Vec3, 3>>& triangles, bool withBvh);
 

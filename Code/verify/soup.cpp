@@ -90,6 +90,14 @@ Vec3 latticePoint(Random& random, std::uint32_t half) {
     return p;
 }
 
+Transform quarterTurn(Random& random) {
+    const std::size_t x = random.below(3), y = (x + 1 + random.below(2)) % 3, z = 3 - x - y;
+    const auto sign = [&] { return random.chance(0.5) ? 1.0 : -1.0; };
+    Transform::Rows rows{};
+    rows[x] = sign(), rows[4 + y] = sign(), rows[8 + z] = sign();
+    return Transform::fromRows(rows);
+}
+
 std::vector<std::array<Vec3, 3>> latticeSoup(Random& random, std::size_t count,
                                              std::uint32_t half) {
     std::vector<std::array<Vec3, 3>> out;

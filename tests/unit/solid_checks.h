@@ -53,7 +53,7 @@ inline void compare(const char* kernel, std::uint64_t seed, const ShapeSet& batc
         ++score.rays;
         score.hits += wanted.isHit();
         if (wanted.isHit()) score.seen.insert(wanted.shape);
-        if (!(hits[i] == wanted) && ++score.wrongHits <= 3)
+        if (!battery::haveSameBits(hits[i], wanted) && ++score.wrongHits <= 3)
             CHECK_INFO(false, kernel << " seed " << seed << " ray " << i << ": shape "
                                      << hits[i].shape << " at " << hits[i].t << " and "
                                      << wanted.shape << " at " << wanted.t);

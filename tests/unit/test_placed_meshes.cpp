@@ -14,17 +14,20 @@ using meshes::Random;
 
 namespace {
 
-MeshDesc meshOf(Random& random, std::uint32_t kind) {
-    if (kind == 0) return meshes::icosphere(3);
-    if (kind == 1) return meshes::torus(0.02, 48, 8);
+MeshDesc descOf(const std::vector<std::array<Vec3, 3>>& triangles, double scale) {
     MeshDesc mesh;
-    for (const auto& triangle : meshes::soup(random, 400)) {
+    for (const auto& triangle : triangles) {
         const auto n = static_cast<std::uint32_t>(mesh.points.size());
-        for (const Vec3 p : triangle)
-            mesh.points.push_back(toDouble(p) * 0.01); // huge ones are 100
+        for (const Vec3 p : triangle) mesh.points.push_back(toDouble(p) * scale);
         mesh.triangles.push_back({n, n + 1, n + 2});
     }
     return mesh;
+}
+
+MeshDesc meshOf(Random& random, std::uint32_t kind) {
+    if (kind == 0) return meshes::icosphere(3);
+    if (kind == 1) return meshes::torus(0.02, 48, 8);
+    return descOf(meshes::soup(random, 400), 0.01); // huge ones are 100
 }
 
 struct Place {
@@ -125,48 +128,98 @@ RayList someRays(Random& random, const World& world, std::size_t count) {
     return batch;
 }
 
+struct Tally {
+    long long rays = 0, found = 0, shadows = 0;
+
+    void print(std::uint64_t seed) const {
+        std::printf("%lld rays, %lld hits, %lld shadows, seed %d\n", rays, found, shadows,
+                    static_cast<int>(seed));
+    }
+};
+
+// `where`: what the failing case says of itself.
+void compareKernels(const std::vector<MeshDesc>& descs, const std::vector<Place>& places,
+                    const World& plain, const RayList& batch, const std::string& where,
+                    Tally& tally) {
+    for (const Kernel& kernel : allKernels()) {
+        if (!kernel.supported()) continue;
+        const World fast(descs, places, kernel, true);
+        std::vector<Hit> hits;
+        std::vector<std::uint8_t> hidden;
+        fast.set.closest(batch.span(), hits);
+        fast.set.occluded(batch.span(), hidden);
+        for (std::size_t i = 0; i < hits.size(); ++i) {
+            const Ray ray = batch.span()[i];
+            const Hit hit = plain.set.closest(ray);
+            const bool isHidden = plain.set.occluded(ray);
+            CHECK_INFO(battery::haveSameBits(hits[i], hit) && (hidden[i] != 0) == isHidden,
+                       kernel.name << ", " << where << ", ray " << i << ": t " << hits[i].t
+                                   << " of " << hits[i].shape << " instead of " << hit.t << " of "
+                                   << hit.shape << ", hidden " << int(hidden[i]));
+            CHECK(fast.set.closest(ray) == hit && fast.set.occluded(ray) == isHidden);
+            std::vector<Hit> through, throughPlain;
+            fast.set.seeThroughHits(ray, through);
+            plain.set.seeThroughHits(ray, throughPlain);
+            CHECK(through == throughPlain);
+            ++tally.rays;
+            tally.found += hit.isHit();
+            tally.shadows += isHidden;
+        }
+    }
+}
+
 } // namespace
 
 TEST(placed_meshes_have_the_bits_of_single_rays) {
     constexpr std::uint64_t kSeed = 71;
     Random random(kSeed);
-    long long rays = 0, found = 0, shadows = 0;
+    Tally tally;
     for (int n = 0; n < check::scaled(6); ++n) {
         std::vector<MeshDesc> descs;
         for (std::uint32_t kind = 0; kind < 3; ++kind) descs.push_back(meshOf(random, kind));
         const std::vector<Place> places = somePlaces(random, descs.size());
         const World plain(descs, places, chooseKernel("scalar"), false);
-        const RayList batch = someRays(random, plain, 300);
-        for (const Kernel& kernel : allKernels()) {
-            if (!kernel.supported()) continue;
-            const World fast(descs, places, kernel, true);
-            std::vector<Hit> hits;
-            std::vector<std::uint8_t> hidden;
-            fast.set.closest(batch.span(), hits);
-            fast.set.occluded(batch.span(), hidden);
-            for (std::size_t i = 0; i < hits.size(); ++i) {
-                const Ray ray = batch.span()[i];
-                const Hit hit = plain.set.closest(ray);
-                const bool isHidden = plain.set.occluded(ray);
-                CHECK_INFO(hits[i] == hit && (hidden[i] != 0) == isHidden,
-                           kernel.name << ", seed " << kSeed << ", scene " << n << ", ray " << i
-                                       << ": t " << hits[i].t << " of " << hits[i].shape
-                                       << " instead of " << hit.t << " of " << hit.shape
-                                       << ", hidden " << int(hidden[i]));
-                CHECK(fast.set.closest(ray) == hit && fast.set.occluded(ray) == isHidden);
-                std::vector<Hit> through, throughPlain;
-                fast.set.seeThroughHits(ray, through);
-                plain.set.seeThroughHits(ray, throughPlain);
-                CHECK(through == throughPlain);
-                ++rays;
-                found += hit.isHit();
-                shadows += isHidden;
-            }
-        }
+        compareKernels(descs, places, plain, someRays(random, plain, 300),
+                       "seed 71, scene " + std::to_string(n), tally);
     }
-    std::printf("%lld rays, %lld hits, %lld shadows, seed %d\n", rays, found, shadows,
-                static_cast<int>(kSeed));
-    CHECK(found * 4 > rays && shadows * 4 > rays);
+    tally.print(kSeed);
+    CHECK(tally.found * 4 > tally.rays && tally.shadows * 4 > tally.rays);
+}
+
+// Triangles and places of whole numbers, and rays between these: within planes, along edges, from
+// and to corners of several meshes.
+TEST(placed_meshes_of_whole_numbers_have_the_bits_of_single_rays) {
+    constexpr std::uint64_t kSeed = 73;
+    Random random(kSeed);
+    Tally tally;
+    for (int n = 0; n < check::scaled(12); ++n) {
+        const std::uint32_t half = 1 + random.below(4);
+        std::vector<MeshDesc> descs;
+        for (int m = 0; m < 2; ++m) {
+            const std::size_t sizes[] = {4, 40, 200};
+            descs.push_back(
+                descOf(meshes::latticeSoup(random, 1 + random.below(sizes[n % 3]), half), 1));
+        }
+        std::vector<Place> places;
+        for (std::size_t i = 1 + random.below(12); i > 0; --i) {
+            const auto moved = [&](const Transform& map) {
+                return Transform::translate(toDouble(meshes::latticePoint(random, half))) * map;
+            };
+            const Transform map =
+                moved(meshes::quarterTurn(random) * Transform::scale(1 + random.below(2)));
+            Place place{random.below(descs.size()), {map}, 0, ShapeSet::Shadow::Opaque};
+            if (random.chance(0.2)) place.keys.push_back(moved(map));
+            if (random.chance(0.3)) place.sides = 1 + static_cast<int>(random.below(2));
+            if (random.chance(0.2)) place.shadow = ShapeSet::Shadow::SeeThrough;
+            places.push_back(std::move(place));
+        }
+        const World plain(descs, places, chooseKernel("scalar"), false);
+        RayList batch = battery::raysOnLattice(random, 2 * half, 600);
+        for (float& time : batch.time) time = static_cast<float>(random.below(5)) * 0.25f;
+        compareKernels(descs, places, plain, batch, "seed 73, scene " + std::to_string(n), tally);
+    }
+    tally.print(kSeed);
+    CHECK(tally.found * 4 > tally.rays && tally.shadows * 4 > tally.rays);
 }
 
 // A kernel asks about few triangles that are not met, also where some triangle of the mesh is as
