@@ -28,6 +28,8 @@ check 'a batch alone: one case' grep -q '^T25 .* 1  0 failed' out
 # points on the ray are all behind it.
 expect 'a plane through the origin: 0' 0 '' verify T10c --batch 831
 expect 'in a plane, behind the origin: 0' 0 '' verify T10c --batch 2418
+# From 0 and from -0: differences have other signs, and so have u and v of 0.
+expect 'origins of zeros of both signs: 0' 0 '' verify T10d --batch 478
 
 expect 'a page: 0' 0 '' verify T25 -e 0.1 --markdown page.md
 check 'a page: its table' grep -q '^| T25 | .* | ok | ' page.md
