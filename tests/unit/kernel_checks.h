@@ -6,8 +6,6 @@
 #include "shape/mesh.h"
 #include "verify/hostile_rays.h"
 
-#include <array>
-#include <bit>
 #include <memory>
 #include <sstream>
 #include <string>
@@ -56,12 +54,7 @@ inline std::string shown(const Hit& h) {
     return out.str();
 }
 
-// -0 is not 0.
-inline bool sameBits(const Hit& a, const Hit& b) {
-    using Words = std::array<std::uint32_t, 5>;
-    return std::bit_cast<Words>(a) == std::bit_cast<Words>(b);
-}
-inline bool sameBits(const TriangleHit& a, const Hit& b) {
+inline bool isSame(const TriangleHit& a, const Hit& b) {
     if (!b.isHit()) return a.t == kInfinityF && a.triangle == TriangleHit::kNone;
     return a.t == b.t && a.triangle == b.prim;
 }
@@ -94,7 +87,7 @@ inline void compare(const Meshes& meshes, const RayList& rays, const std::string
         closestHits(*geometry->kernel, geometry->wideMesh(), rays.span(), brief);
         mesh.occludesBatch(rays.span(), hidden);
         for (std::size_t i = 0; i < n; ++i) {
-            CHECK_INFO(sameBits(got[i], expected[i]) && sameBits(brief[i], expected[i]),
+            CHECK_INFO(battery::haveSameBits(got[i], expected[i]) && isSame(brief[i], expected[i]),
                        name << ", " << geometry->kernel->name << ", ray " << i << " of " << n
                             << ": " << shown(rays.span()[i]) << ": " << shown(got[i])
                             << ", without u and v: " << brief[i].triangle << " at " << brief[i].t

@@ -39,7 +39,7 @@ TEST(kernels_on_copies_of_a_moving_mesh) {
                 for (const auto& geometry : copies.wide) {
                     Mesh(*geometry, {0}, {{0, 0}}).intersectBatch(list.span(), 3, got);
                     for (std::size_t i = 0; i < list.size(); ++i)
-                        CHECK_INFO(sameBits(got[i], expected[i]),
+                        CHECK_INFO(battery::haveSameBits(got[i], expected[i]),
                                    geometry->kernel->name
                                        << ", time " << time << ": " << shown(list.span()[i]) << ": "
                                        << shown(got[i]) << ", expected " << shown(expected[i]));

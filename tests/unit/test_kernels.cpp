@@ -1,5 +1,6 @@
 // Kernels on meshes of every kind: hostile triangles, closed meshes, tiny ones, such as bundles
 // have a hard time with.
+#include "accel/triangle.h"
 #include "kernel_checks.h"
 #include "render/merge.h"
 
@@ -49,6 +50,52 @@ TEST(kernels_on_edge_on_triangles) {
     }
     std::printf("%zu rays, %zu hits, %zu hidden, seed 77\n", counts.rays, counts.hits,
                 counts.hidden);
+}
+
+// Rays that pass a triangle by a rounding while the points that they have in common are all behind
+// their origin, and that meet its plane in front: that is no hit of any kernel.
+TEST(kernels_on_edge_on_triangles_behind_rays) {
+    Random random(83);
+    Counts counts;
+    int found = 0;
+    for (int i = 0; i < check::scaled(150000); ++i) {
+        const Vec3d a = random.inBox(1), e = random.direction(), f = random.direction();
+        const Vec3d n = normalize(cross(e, f));
+        const std::array<Vec3, 3> t = {toFloat(a), toFloat(a + e), toFloat(a + f)};
+        const auto inPlane = [&] {
+            return a + e * random.uniform(-1, 1.5) + f * random.uniform(-1, 1.5);
+        };
+        const Vec3 org = toFloat(inPlane());
+        const Vec3 dir = toFloat(inPlane() + n * random.logUniform(1e-9, 1e-7)) - org;
+        const RaySetup setup(org, dir, 3);
+        if (!ShearedTriangle(setup, t[0], t[1], t[2]).containsRay()) continue;
+        const TrianglePlane plane(setup, t[0], t[1], t[2]);
+        const float key = plane.key();
+        if (!(key > 0) || !plane.isEdgeOn() || plane.keyInChord(key) != 0) continue;
+        ++found;
+        CHECK(canonicalKey(setup, t[0], t[1], t[2]) == 0);
+        RayList rays; // from one point, which bundles take, and beside it
+        for (int k = 0; k < 96; ++k) {
+            Ray ray{org, dir};
+            for (std::size_t axis = 0; axis < 3 && k > 0; ++axis) {
+                const auto step = [&] { return static_cast<int>(random.below(5)) - 2; };
+                ray.dir[axis] = meshes::stepped(dir[axis], step());
+                if (k >= 64) ray.org[axis] = meshes::stepped(org[axis], step());
+            }
+            rays.push(ray);
+        }
+        std::vector<std::array<Vec3, 3>> triangles{t};
+        compare(Meshes(meshes::geometryOf(triangles, false)), rays, "alone", counts);
+        for (int k = 0; k < 40; ++k) { // so many that the tree has leaves
+            const Vec3d p = random.inBox(2);
+            triangles.push_back(
+                {toFloat(p), toFloat(p + e * 1e-3), toFloat(p + random.direction() * 1e-3)});
+        }
+        compare(Meshes(meshes::geometryOf(triangles, false)), rays, "among others", counts);
+    }
+    std::printf("%d such rays; %zu rays, %zu hits, %zu hidden, seed 83\n", found, counts.rays,
+                counts.hits, counts.hidden);
+    CHECK(found >= check::scaled(2));
 }
 
 // Packets of rays that go side by side: beams.
@@ -113,7 +160,7 @@ TEST(kernels_on_trees_too_large_for_bundles) {
                 const Ray ray = rays.span()[i];
                 Hit expected{.t = ray.tMax};
                 if (oracle.intersect(ray, expected)) expected.shape = 3;
-                CHECK_INFO(sameBits(got[i], expected) && hidden[i] == oracle.occludes(ray),
+                CHECK_INFO(haveSameBits(got[i], expected) && hidden[i] == oracle.occludes(ray),
                            geometry->kernel->name
                                << ", " << most << " of " << lines << " lines: " << shown(ray)
                                << ": " << shown(got[i]) << ", hidden " << int(hidden[i]));
