@@ -127,8 +127,8 @@ template <Query Q> struct alignas(64) BundleBlock {
     // Bounds of the keys of those rays of packet q that the triangle j contains, closer than those
     // of all its hits: normal times (S, 1) is volume times the key. Off by units of rounding times
     // the slack, of the volume: 48 in reckoning it (`uncertain`), 40 in the product, 8 as slopes
-    // are rounded and 6 as corners are, and 30 where the canonical key of a ray that passes the
-    // triangle by 10 units is clamped to its chord or its box.
+    // are rounded and 6 as corners are, and 39 where the canonical key of a ray that passes the
+    // triangle by 13 units is clamped to its chord or its box.
     struct KeyBounds {
         Floats lo, hi;
     };
