@@ -1,7 +1,9 @@
 #!/bin/sh
 # Includes point down only (DESIGN.md section 4):
-#   base <- image, desc <- read          base <- image <- the folders of one thing each
+#   base <- image, desc <- read          base, simd <- image <- the folders of one thing each
 #   all of them <- render <- verify <- cli <- main
+# The units of isa/ hold the kernels of accel/ and render/; isa/isa.h, which includes nothing of the
+# project, says what they do, and everything above base/ may include it.
 # A folder includes itself and what is below it, never its neighbours in a row but for two: a mesh is
 # a shape with a tree of its own, and lights, lenses and materials spread their samples.
 cd "$(dirname "$0")/../Code" || exit 1
@@ -12,15 +14,17 @@ siblings='shape material light camera texture accel sample'
 allowedFor() {
     case $1 in
     base) echo base ;;
+    simd) echo base simd ;;
+    isa) echo base simd isa image $siblings render ;;
     image) echo base image ;;
     desc) echo base desc ;;
     read) echo base desc image read ;;
-    accel | sample | texture) echo base image "$1" ;;
-    shape) echo base image shape accel ;;
-    material | light | camera) echo base image "$1" sample ;;
-    render) echo base image desc $siblings render ;;
-    verify) echo base image desc $siblings render verify ;;
-    cli) echo base image desc read $siblings render verify cli ;;
+    accel | sample | texture) echo base simd isa image "$1" ;;
+    shape) echo base isa image shape accel ;;
+    material | light | camera) echo base simd image "$1" sample ;;
+    render) echo base simd isa image desc $siblings render ;;
+    verify) echo base isa image desc $siblings render verify ;;
+    cli) echo base isa image desc read $siblings render verify cli ;;
     main) echo base cli ;;
     esac
 }
@@ -57,6 +61,13 @@ for folder in */; do
     [ -n "$files" ] && check "$folder" $files
 done
 check main main.cpp
+if grep -q '^#include "' isa/isa.h; then
+    printf 'FAIL isa/isa.h includes nothing of the project\n'
+    failed=$((failed + 1))
+else
+    printf 'ok isa/isa.h includes nothing of the project\n'
+    passed=$((passed + 1))
+fi
 
 # Only what turns a description into a scene names the concrete shapes and lights.
 wrong=$(grep -ln '#include "\(shape\|light\)/\(sphere\|cube\|plane\|disk\|cylinder\|cone\|infinite_plane\|point_light\|sun_light\|area_light\)\.h"' \
@@ -71,7 +82,7 @@ fi
 
 # Two types of one name are one for the linker, which keeps the functions of either (headers with
 # namespaces are on their own).
-wrong=$(grep -ho '^\(struct\|class\|enum class\) [A-Za-z0-9]* .*[{:]' $(find . -name '*.h' -exec grep -L '^namespace' {} +) |
+wrong=$(grep -ho '^\(struct\|class\|enum class\) [A-Za-z0-9]* .*[{:]' $(find . -name '*.h' -exec grep -LE '^(namespace|LANES_BEGIN)' {} +) |
     sed 's/^enum //' | cut -d' ' -f2 | sort | uniq -d | tr '\n' ' ')
 if [ -z "$wrong" ]; then
     printf 'ok every type of a header has its own name\n'

@@ -14,6 +14,7 @@ inline constexpr double kInvPi = 0.31830988618379067154;
 inline constexpr double kInvTwoPi = 0.15915494309189533577;
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 inline constexpr float kInfinityF = std::numeric_limits<float>::infinity();
+inline constexpr double kQuietNaN = std::numeric_limits<double>::quiet_NaN();
 // The largest float below 1: what a random number in [0,1) may reach.
 inline constexpr float kOneMinusUlp = 0x1.fffffep-1f;
 

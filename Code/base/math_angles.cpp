@@ -27,8 +27,6 @@ namespace {
 
 using exact::kAtanTable, exact::kHalfPiDd;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-
 // --- sin, cos ---
 
 struct Reduced {
@@ -168,14 +166,14 @@ DoubleDouble cosineOfSine(double x) {
 namespace exact {
 
 SinCos sinCos(double x) {
-    if (!(std::fabs(x) < kInfinity)) return {kNaN, kNaN};
+    if (!(std::fabs(x) < kInfinity)) return {kQuietNaN, kQuietNaN};
     if (std::fabs(x) < 0x1p-27) return {x, 1};
     const WideSinCos both = wideSinCos(x);
     return {both.sin.hi, both.cos.hi};
 }
 
 double sin(double x) {
-    if (!(std::fabs(x) < kInfinity)) return kNaN;
+    if (!(std::fabs(x) < kInfinity)) return kQuietNaN;
     if (std::fabs(x) < 0x1p-27) return x; // keeps -0, and no denormals arise
     const Reduced r = std::fabs(x) < kPi / 4 ? Reduced{x, 0, 0} : reduceAngle(x);
     const double value = (r.quadrant & 1 ? cosKernel(r.hi, r.lo) : sinKernel(r.hi, r.lo)).hi;
@@ -183,30 +181,30 @@ double sin(double x) {
 }
 
 double cos(double x) {
-    if (!(std::fabs(x) < kInfinity)) return kNaN;
+    if (!(std::fabs(x) < kInfinity)) return kQuietNaN;
     const Reduced r = std::fabs(x) < kPi / 4 ? Reduced{x, 0, 0} : reduceAngle(x);
     const double value = (r.quadrant & 1 ? sinKernel(r.hi, r.lo) : cosKernel(r.hi, r.lo)).hi;
     return (r.quadrant + 1) & 2 ? -value : value;
 }
 
 double tan(double x) {
-    if (!(std::fabs(x) < kInfinity)) return kNaN;
+    if (!(std::fabs(x) < kInfinity)) return kQuietNaN;
     if (std::fabs(x) < 0x1p-27) return x;
     const WideSinCos both = wideSinCos(x);
     return (both.sin / both.cos).hi;
 }
 
 double atan2(double y, double x) {
-    if (x != x || y != y) return kNaN;
+    if (x != x || y != y) return kQuietNaN;
     return angleOf(y, x, 0);
 }
 
-double atan(double x) { return x != x ? kNaN : angleOf(x, 1, 0); }
+double atan(double x) { return x != x ? kQuietNaN : angleOf(x, 1, 0); }
 
 // The angle of the point (sqrt(1-x^2), x) on the unit circle; where the root is off by lo, the
 // angle is off by -x lo.
 double asin(double x) {
-    if (!(std::fabs(x) <= 1)) return kNaN;
+    if (!(std::fabs(x) <= 1)) return kQuietNaN;
     if (std::fabs(x) < 0x1p-27) return x;
     if (std::fabs(x) == 1) return std::copysign(kHalfPi, x);
     const DoubleDouble cosine = cosineOfSine(x);
@@ -214,7 +212,7 @@ double asin(double x) {
 }
 
 double acos(double x) {
-    if (!(std::fabs(x) <= 1)) return kNaN;
+    if (!(std::fabs(x) <= 1)) return kQuietNaN;
     if (std::fabs(x) == 1) return x > 0 ? 0 : kPi;
     const DoubleDouble sine = cosineOfSine(x);
     return angleOf(sine.hi, x, x * sine.lo);

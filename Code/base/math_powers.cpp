@@ -48,7 +48,6 @@ namespace {
 
 using exact::kExp2Table, exact::kHalvedFrom, exact::kLogTable, exact::LogRow;
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr DoubleDouble kLn2{0x1.62e42fefa39efp-1, 0x1.abc9e3b39803fp-56};
 
 double scaleByPowerOf2(double x, int exponent) { // exponent in [-1022, 1023]
@@ -161,14 +160,14 @@ double exp2(double x) {
 }
 
 double log(double x) {
-    if (!(x > 0)) return x == 0 ? -kInfinity : kNaN;
+    if (!(x > 0)) return x == 0 ? -kInfinity : kQuietNaN;
     if (x == kInfinity) return x;
     const DoubleDouble value = logOf(x);
     return value.hi + value.lo;
 }
 
 double log2(double x) {
-    if (!(x > 0)) return x == 0 ? -kInfinity : kNaN;
+    if (!(x > 0)) return x == 0 ? -kInfinity : kQuietNaN;
     if (x == kInfinity) return x;
     constexpr DoubleDouble inverseLn2{0x1.71547652b82fep0, 0x1.777d0ffda0d24p-56};
     const DoubleDouble value = logOf(x) * inverseLn2;
@@ -177,13 +176,13 @@ double log2(double x) {
 
 double pow(double x, double y) {
     if (y == 0 || x == 1) return 1;
-    if (x != x || y != y) return kNaN;
+    if (x != x || y != y) return kQuietNaN;
     double sign = 1;
     if (std::signbit(x)) {
         if (isOdd(y))
             sign = -1;
         else if (x < 0 && x > -kInfinity && !isWhole(y))
-            return kNaN;
+            return kQuietNaN;
         x = -x;
         if (x == 1) return sign;
     }
@@ -220,7 +219,7 @@ double cbrt(double x) {
 float pow(float base, float exponent) {
     if (exponent == 0 || base == 1) return 1;
     if (!(base > 0 && base < kInfinityF) || !(std::fabs(exponent) < kInfinityF)) {
-        if (base < 0) return static_cast<float>(kNaN);
+        if (base < 0) return static_cast<float>(kQuietNaN);
         return static_cast<float>(pow(static_cast<double>(base), static_cast<double>(exponent)));
     }
     if (exponent >= 1 && exponent <= kMostSquared) {

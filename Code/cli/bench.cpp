@@ -1,4 +1,5 @@
 #include "cli/bench.h"
+#include "cli/choose_kernel.h"
 
 #include "base/file.h"
 #include "base/parallel.h"
@@ -50,7 +51,7 @@ template <class... Values> std::string numbers(Values... values) {
 // The measurements of one mesh, a line each, and what all lines begin with.
 class Report {
 public:
-    Report(const BenchOptions& options, const Kernel& kernel)
+    Report(const BenchOptions& options, const Isa& kernel)
         : options_(options), kernel_(kernel), pool_(options.threads),
           who_(cat(afterLast(options.mesh, "/"), ",raytracer-", kVersion,
                    options.bestTree ? ",best" : ",sah", ",exact,", options.threads, ",",
@@ -94,7 +95,7 @@ public:
     void picture() const {
         std::vector<double> read, build, render, write, total;
         for (int run = 0; run < options_.runs; ++run) {
-            const BenchPicture s = timePicture(options_.mesh, kernel_.name, options_.threads);
+            const BenchPicture s = timePicture(options_.mesh, kernel_, options_.threads);
             read.push_back(s.read * 1e3), build.push_back(s.build * 1e3);
             render.push_back(s.render * 1e3), write.push_back(s.write * 1e3);
             total.push_back((s.read + s.build + s.render + s.write) * 1e3);
@@ -106,7 +107,7 @@ public:
 
 private:
     const BenchOptions& options_;
-    const Kernel& kernel_;
+    const Isa& kernel_;
     ThreadPool pool_;
     std::string who_;
 };
@@ -168,7 +169,7 @@ BenchOptions parseBenchOptions(std::span<const std::string> arguments) {
 }
 
 ExitCode bench(const BenchOptions& options) {
-    const Kernel& kernel = chooseKernel(options.kernel);
+    const Isa& kernel = chooseKernel(options.kernel);
     auto [geometry, frame] = subjectOf(options.mesh);
     if (!options.raysFile.empty()) {
         checkWritable(options.raysFile);

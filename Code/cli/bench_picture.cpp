@@ -32,7 +32,7 @@ private:
 
 } // namespace
 
-BenchPicture timePicture(const std::string& file, const std::string& kernel, int threads) {
+BenchPicture timePicture(const std::string& file, const Isa& isa, int threads) {
     const TemporaryPicture output;
     BenchPicture seconds;
     Diagnostics diagnostics;
@@ -44,7 +44,7 @@ BenchPicture timePicture(const std::string& file, const std::string& kernel, int
     settings.picture.width = settings.picture.height = kBenchPictureSide;
     settings.picture.crop.reset();
     settings.picture.samplesPerPixel = 1;
-    settings.kernel = kernel;
+    settings.isa = &isa;
     settings.threads = threads;
     std::optional<Scene> scene;
     seconds.build = secondsOf([&] { scene.emplace(loaded->desc, loaded->source, settings); }).wall;

@@ -1,6 +1,8 @@
 // A whole picture of a mesh, from its file to a PNG, each step timed.
 #pragma once
 
+#include "isa/isa.h"
+
 #include <string>
 
 struct BenchPicture {
@@ -11,4 +13,4 @@ inline constexpr int kBenchPictureSide = 1024;
 
 // The view and the lights that a mesh file gets (read/mesh/mesh_scene.h), or those of the scene;
 // one sample per pixel. The PNG is written to the folder for temporary files and removed.
-BenchPicture timePicture(const std::string& file, const std::string& kernel, int threads);
+BenchPicture timePicture(const std::string& file, const Isa& isa, int threads);

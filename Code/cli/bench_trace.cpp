@@ -36,8 +36,8 @@ void BenchTracer::traceBatch(std::size_t number, bool withUv) {
         mesh_.occludesBatch(batch, mine(hidden_));
     else if (withUv)
         mesh_.intersectBatch(batch, 0, mine(withUv_));
-    else if (geometry_.kernel != nullptr)
-        closestHits(*geometry_.kernel, geometry_.wideMesh(), batch, mine(nearest_));
+    else if (geometry_.isa != nullptr)
+        closestHits(*geometry_.isa, geometry_.wideMesh(), batch, mine(nearest_));
     else
         for (std::size_t i = 0; i < batch.size(); ++i) {
             Hit hit;

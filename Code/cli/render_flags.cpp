@@ -1,5 +1,5 @@
 // The table of options of `raytracer SCENE [OUTPUT]`: a new option is a new row here.
-#include "accel/kernels/kernels.h"
+#include "cli/choose_kernel.h"
 #include "cli/option_setters.h"
 #include "cli/options.h"
 

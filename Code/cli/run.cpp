@@ -100,7 +100,7 @@ ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings
     const Scene scene(std::move(loaded.desc), loaded.source, settings, &pictures);
     scene.describe(stats);
     stats.threads = settings.threads;
-    stats.kernel = settings.kernel;
+    stats.kernel = settings.isa->name;
     stats.buildSeconds = watch.lap();
 
     step = {"rendering", ExitCode::Input};

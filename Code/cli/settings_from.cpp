@@ -1,6 +1,6 @@
 #include "cli/settings_from.h"
+#include "cli/choose_kernel.h"
 
-#include "accel/kernels/kernels.h"
 #include "base/parallel.h"
 #include "base/text.h"
 #include "cli/output.h"
@@ -131,7 +131,7 @@ RenderSettings settingsFrom(const SceneDesc& desc, const Options& options) {
     settings.accel = options.accel;
     settings.tree = options.tree;
     settings.specialise = options.specialise;
-    settings.kernel = chooseKernel(options.kernel).name;
+    settings.isa = &chooseKernel(options.kernel);
     settings.threads = options.threads > 0 ? options.threads : hardwareThreads();
     settings.background = options.background;
     settings.aovs = options.aovs;

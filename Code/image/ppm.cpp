@@ -9,7 +9,7 @@
 
 namespace {
 
-constexpr std::uint32_t kMost8 = 255, kMost16 = 65535;
+constexpr std::uint32_t kMaxval8 = 255, kMaxval16 = 65535;
 
 // Samples 0 .. maxval rounded to codes 0 .. mostCode.
 template <class Code, class NextSample>
@@ -30,8 +30,8 @@ StoredImage decodePpm(Bytes file, const std::string& name) {
     const long long width = header.number("width"), height = header.number("height");
     checkSize(width, height, name);
     const long long promised = header.number("maxval");
-    if (promised < 1 || promised > kMost16)
-        header.failHere(cat("the maxval is ", promised, "; it must be 1 to ", kMost16));
+    if (promised < 1 || promised > kMaxval16)
+        header.failHere(cat("the maxval is ", promised, "; it must be 1 to ", kMaxval16));
     const auto maxval = static_cast<std::uint32_t>(promised);
     StoredImage image;
     image.width = static_cast<int>(width);
@@ -41,11 +41,11 @@ StoredImage decodePpm(Bytes file, const std::string& name) {
 
     // Where 255 is a multiple of maxval 8 bits are exact; else 16 are exact or much closer.
     const auto store = [&](auto nextSample) {
-        if (kMost8 % maxval == 0) {
-            image.bytes = scaledCodes<std::uint8_t>(count, maxval, kMost8, nextSample);
+        if (kMaxval8 % maxval == 0) {
+            image.bytes = scaledCodes<std::uint8_t>(count, maxval, kMaxval8, nextSample);
         } else {
             image.depth = StoredImage::Depth::Bits16;
-            image.words = scaledCodes<std::uint16_t>(count, maxval, kMost16, nextSample);
+            image.words = scaledCodes<std::uint16_t>(count, maxval, kMaxval16, nextSample);
         }
     };
     if (isText) {
@@ -59,7 +59,7 @@ StoredImage decodePpm(Bytes file, const std::string& name) {
             header.failHere(cat("more samples than ", width, "x", height, "x", image.channels));
         return image;
     }
-    const std::size_t sampleBytes = maxval > kMost8 ? 2 : 1;
+    const std::size_t sampleBytes = maxval > kMaxval8 ? 2 : 1;
     const std::uint8_t* next = header.data(count * sampleBytes).data();
     const auto checked = [&](std::uint32_t sample) {
         if (sample > maxval)
@@ -80,7 +80,7 @@ StoredImage decodePpm(Bytes file, const std::string& name) {
 
 void encodePpm(const PixelSource& picture, int threads, const ByteSink& use) {
     const std::string header = cat("P6\n", picture.width, " ", picture.height, "\n",
-                                   picture.encoding.bits == 8 ? kMost8 : kMost16, "\n");
+                                   picture.encoding.bits == 8 ? kMaxval8 : kMaxval16, "\n");
     makeRawFile(header, picture.count(), picture.pixelBytes(), threads, use,
                 [&](std::size_t first, std::size_t count, std::span<std::uint8_t> out) {
                     picture.encode(first, count, out);

@@ -8,8 +8,8 @@
 namespace {
 
 constexpr std::size_t kPiece = WordList::kMost * kWordBytes;
-constexpr std::size_t kSampleOf = 4; // pieces, of which one is counted
-static_assert(kLeastOfZeroWords >= 2 * kSampleOf * kPiece);
+constexpr std::size_t kPiecesPerSample = 4; // pieces, of which one is counted
+static_assert(kLeastOfZeroWords >= 2 * kPiecesPerSample * kPiece);
 
 std::span<const std::uint8_t> pieceAt(std::span<const std::uint8_t> bytes, std::size_t at) {
     return bytes.subspan(at, std::min(kPiece, bytes.size() - at));
@@ -23,7 +23,8 @@ bool putZeroWords(BitWriter& out, std::span<const std::uint8_t> bytes, bool last
     WordCounts counts;
     WordList words;
     std::size_t counted = 0;
-    for (std::size_t at = kSampleOf / 2 * kPiece; at < inWords.size(); at += kSampleOf * kPiece) {
+    for (std::size_t at = kPiecesPerSample / 2 * kPiece; at < inWords.size();
+         at += kPiecesPerSample * kPiece) {
         words.find(pieceAt(inWords, at), 0);
         counts.add(words);
         counted += pieceAt(inWords, at).size();

@@ -1,11 +1,8 @@
+
 #include "light/point_light.h"
-
 #include "base/math.h"
+#include "light/log_ratio.h"
 #include "sample/warp.h"
-
-namespace {
-#include "light/log_ratio.inl"
-} // namespace
 
 float SpotCone::attenuation(Vec3 fromLight) const {
     const float c = dot(axis, fromLight);
@@ -69,7 +66,7 @@ std::optional<LightSample> PointLight::whole(Vec3 point, Vec3 n, Vec3 horizon) c
     if (!(dot(n, d) >= height && dot(horizon, d) >= height)) return {};
     const float radius2 = sqr(radius_);
     const float faded = attenuation_.isConstant()
-                            ? attenuation_.constant / logRatio(radius2 / distance2)
+                            ? attenuation_.constant / kernels::one::logRatio(radius2 / distance2)
                             : attenuation_.quadratic * (distance2 + radius2);
     return LightSample{d / distance, distance, intensity_ * (1 / faded)};
 }

@@ -21,23 +21,23 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Format {
+struct MeshFormat {
     std::string_view extension; // lower case
     MeshFile (*read)(const SourceFile&, const ReadContext&);
 };
-constexpr auto kFormats = std::to_array<Format>({
+constexpr auto kMeshFormats = std::to_array<MeshFormat>({
     {".obj", readObj},
     {".ply", readPly},
 });
 
-const Format* formatOf(const std::string& fileName) {
+const MeshFormat* meshFormatOf(const std::string& fileName) {
     std::string extension = fs::path(fileName).extension().string();
     for (char& c : extension)
         if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
-    const auto found = std::find_if(kFormats.begin(), kFormats.end(), [&](const Format& format) {
-        return format.extension == extension;
-    });
-    return found == kFormats.end() ? nullptr : &*found;
+    const auto found =
+        std::find_if(kMeshFormats.begin(), kMeshFormats.end(),
+                     [&](const MeshFormat& format) { return format.extension == extension; });
+    return found == kMeshFormats.end() ? nullptr : &*found;
 }
 
 // The places where a file may be that a scene names.
@@ -80,7 +80,7 @@ SourceFile open(const std::string& path, const SourceFile& scene, SourceLoc loc,
 }
 
 void loadMesh(MeshDesc& mesh, const SourceFile& scene, const ReadContext& context) {
-    const Format* format = formatOf(mesh.file);
+    const MeshFormat* format = meshFormatOf(mesh.file);
     if (!format)
         failAt(scene, mesh.fileLoc.offset,
                cat("unknown mesh format ",
@@ -121,7 +121,7 @@ MtlFile readLibrary(const MeshFile::Library& library, const SourceFile& source,
 
 std::vector<std::string> meshFileExtensions() {
     std::vector<std::string> extensions;
-    for (const Format& format : kFormats) extensions.emplace_back(format.extension);
+    for (const MeshFormat& format : kMeshFormats) extensions.emplace_back(format.extension);
     return extensions;
 }
 
@@ -143,7 +143,7 @@ void loadMeshFiles(SceneDesc& desc, const SourceFile& scene, const ReadContext& 
 }
 
 SceneDesc readMeshScene(const SourceFile& source, const ReadContext& context) {
-    MeshFile file = formatOf(source.name)->read(source, context);
+    MeshFile file = meshFormatOf(source.name)->read(source, context);
     std::vector<MtlFile> libraries;
     for (const MeshFile::Library& library : file.libraries)
         libraries.push_back(readLibrary(library, source, context));

@@ -32,7 +32,7 @@ template <class Fn> void forEachBlock(std::size_t slots, const Fn& fn) {
 CameraRays::CameraRays(const IntegratorContext& context)
     : context_(context),
       filter_(filterKind(context.settings.picture.filter), context.settings.picture.filterWidth),
-      lanes_(cameraLanes(chooseKernel(context.settings.kernel))),
+      lanes_(lanesOf(context.settings.isa->camera)),
       corners_(context.settings.picture.sampler == SettingsDesc::Sampler::Corners),
       width_(context.settings.picture.width + corners_) {
     const SettingsDesc& picture = context.settings.picture;

@@ -75,7 +75,7 @@ void mapLamps(const Scene& scene, const RenderSettings& settings, std::vector<La
     const SettingsDesc& picture = settings.picture;
     const double samples =
         static_cast<double>(picture.width) * picture.height * picture.samplesPerPixel;
-    const AskLampMapFn ask = askLampMap(chooseKernel(settings.kernel));
+    const AskLampMapFn ask = lanesOf(settings.isa->lamps).askMap;
     const auto isInLanes = [](const Lamp& lamp) { return lamp.inLanes != nullptr; };
     if (samples < kFewestSamples * static_cast<double>(scene.shapes().solids().solids.size()) ||
         ask == nullptr || scene.hasSeeThrough() ||
@@ -99,14 +99,12 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       occluders(theScene.shapes()), cutoff(toFloat(theSettings.picture.cutoff)),
       steps(stepsFor(theScene, theSettings)), wantsFirstHits(needsFirstHits(theSettings)),
       surfaceNeeds(surfaceNeedsOf(theScene, theSettings)),
-      surfaceLanes(::surfaceLanes(chooseKernel(theSettings.kernel))),
-      shadeLanes(::shadeLanes(chooseKernel(theSettings.kernel))),
-      textureColors(::textureColors(chooseKernel(theSettings.kernel))),
-      environmentColors(::environmentColors(chooseKernel(theSettings.kernel))),
-      bounceLanes(::bounceLanes(chooseKernel(theSettings.kernel))),
-      pairSeeds(sampler.kind() == SamplerKind::Sobol
-                    ? cameraLanes(chooseKernel(theSettings.kernel)).seeds
-                    : nullptr),
+      surfaceLanes(lanesOf(theSettings.isa->surfaces)), shadeLanes(lanesOf(theSettings.isa->shade)),
+      textureColors(lanesOf(theSettings.isa->pictures).texture),
+      environmentColors(lanesOf(theSettings.isa->pictures).environment),
+      bounceLanes(lanesOf(theSettings.isa->bounce)),
+      pairSeeds(sampler.kind() == SamplerKind::Sobol ? lanesOf(theSettings.isa->camera).seeds
+                                                     : nullptr),
       stillsInLanes(stillsInLanesOf(theScene, theSettings, surfaceLanes)),
       materials(theScene, theSettings.threads),
       cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
@@ -123,12 +121,12 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
                   isSoft ? std::optional<Vec3>() : light.origin(),
                   light.emission(),
                   light.lampEmission(!isSoft)};
-        const Kernel& kernel = chooseKernel(settings.kernel);
-        if (!isSoft && lamp.emission) lamp.inLanes = lightByLamp(kernel);
+        const LampLanes lanes = lanesOf(settings.isa->lamps);
+        if (!isSoft && lamp.emission) lamp.inLanes = lanes.byLamp;
         if (lamp.all && (!isSoft || sampler.kind() == SamplerKind::Sobol)) {
-            lamp.bySamples = lightBySamples(kernel), lamp.seeds = cameraLanes(kernel).seeds;
+            lamp.bySamples = lanes.bySamples, lamp.seeds = lanesOf(settings.isa->camera).seeds;
             if (isSoft && lamp.emission)
-                lamp.wholeLight = wholeLight(kernel), lamp.hiddenPoints = ::hiddenPoints(kernel);
+                lamp.wholeLight = lanes.wholeLight, lamp.hiddenPoints = lanes.hiddenPoints;
         }
         lamp.asksWhole = isSoft && !shades && (lamp.emission || samples >= kFewestForWhole);
         if (isSoft && lamp.emission && !lamp.emission->cone && occluders.areSolids())

@@ -10,8 +10,6 @@
 #include <cstdint>
 #include <span>
 
-struct Kernel;
-
 // Pixels, numbers of samples, what their pairs are shuffled and scrambled by, and the pairs.
 struct alignas(64) PairBlock {
     static constexpr std::size_t kPairs = 64;
@@ -51,5 +49,3 @@ struct CameraLanes {
     void (*pinhole)(const Camera::Lens& lens, const PlaceBlock& places,
                     const RaySpans& to) = nullptr;
 };
-// Null for the scalar kernel.
-CameraLanes cameraLanes(const Kernel& kernel);

@@ -184,8 +184,7 @@ const MeshDesc& ShapeMaker::meshOf(const Placed& placed) const {
 }
 
 void ShapeMaker::finishTree(MeshGeometry& geometry, int threads) const {
-    geometry.finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel), threads,
-                    raysPerTree());
+    geometry.finish(settings_.accel == AccelKind::Bvh, *settings_.isa, threads, raysPerTree());
 }
 
 // As if every tree got the same share of them.

@@ -133,8 +133,8 @@ void PlacedMeshes::add(const Bounds& box, std::uint32_t number, bool hides, cons
     tree_.meshStack = std::max(tree.stackSize, tree_.meshStack);
 }
 
-void PlacedMeshes::build(const Kernel& kernel, float extent, int threads) {
-    kernel_ = placedKernel(kernel);
+void PlacedMeshes::build(const Isa& kernel, float extent, int threads) {
+    kernel_ = kernel.placed;
     tree_.boxes.extent = extent;
     for (const Bounds& box : boxes_) tree_.whole.extend(box);
     tree_.boxes.build(kernel.width, threads);

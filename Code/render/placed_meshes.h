@@ -16,7 +16,7 @@ public:
     // By the number of a shape that is a MeshInstance with a wide tree; whether it is opaque.
     void add(const Bounds& box, std::uint32_t number, bool hides, const WideTree& tree);
     // Once after the last add().
-    void build(const Kernel& kernel, float extent, int threads);
+    void build(const Isa& kernel, float extent, int threads);
     bool isEmpty() const { return boxes_.empty(); }
     const SolidTree& boxes() const { return tree_.boxes; } // the tree, by the shapes' numbers
 

@@ -54,8 +54,7 @@ public:
         buildMaterials();
         buildWorld();
         buildLights();
-        scene_.shapes_.finish(settings_.accel == AccelKind::Bvh, chooseKernel(settings_.kernel),
-                              settings_.threads);
+        scene_.shapes_.finish(settings_.accel == AccelKind::Bvh, *settings_.isa, settings_.threads);
     }
 
 private:

@@ -4,6 +4,7 @@
 
 #include "base/math.h"
 #include "desc/scene_desc.h"
+#include "isa/isa.h"
 
 #include <array>
 #include <cstdint>
@@ -44,8 +45,8 @@ struct RenderSettings {
     IntegratorKind integrator = IntegratorKind::Whitted;
     AccelKind accel = AccelKind::Bvh;
     TreeKind tree = TreeKind::Auto;
-    std::string kernel = "scalar"; // resolved name, never "auto"
-    int threads = 1;               // resolved, at least 1
+    const Isa* isa = &oneLane(); // whose kernels trace and shade
+    int threads = 1;             // resolved, at least 1
     std::optional<Rgbd> background;
     std::vector<Aov> aovs;
     // Picture::codes is to take the place of Picture::color where it can: all that is wanted of it

@@ -44,8 +44,8 @@ void ShapeSet::add(std::unique_ptr<const Shape> shape, Shadow shadow) {
     set(shapes.size() - 1, std::move(shape), shadow);
 }
 
-void ShapeSet::finish(bool withBvh, const Kernel& kernel, int threads) {
-    if (withBvh) kernel_ = solidKernel(kernel), planeKernel_ = planeKernel(kernel);
+void ShapeSet::finish(bool withBvh, const Isa& kernel, int threads) {
+    if (withBvh) kernel_ = kernel.solids, planeKernel_ = kernel.planes;
     sortByBounds(threads);
     for (const std::uint32_t number : unbounded) {
         const SolidForm form = shapes[number]->solidForm();
@@ -98,12 +98,12 @@ void ShapeSet::sortByBounds(int threads) {
     }
 }
 
-void ShapeSet::buildBatchTrees(const Kernel& kernel, int threads) {
+void ShapeSet::buildBatchTrees(const Isa& kernel, int threads) {
     std::vector<std::uint32_t> numbers; // of the solids
     numbers.reserve(bounded.size());
     for (const std::uint32_t number : bounded) {
         if (ways_[number] == Way::Batched) continue;
-        const auto isOf = [&](const MeshGeometry& mesh) { return mesh.kernel == &kernel; };
+        const auto isOf = [&](const MeshGeometry& mesh) { return mesh.isa == &kernel; };
         if (ways_[number] == Way::Instance && isOf(shapes[number]->meshInstance()->geometry()))
             placed_.add(boxes[number], number, shadows[number] == Shadow::Opaque,
                         shapes[number]->meshInstance()->geometry().wide);

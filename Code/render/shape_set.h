@@ -32,7 +32,7 @@ struct ShapeSet {
     void add(std::unique_ptr<const Shape> shape, Shadow shadow);
     // Call once when all are there. Batches are answered by the kernel, if it has a part for
     // solids and a tree is wanted; else as single rays are.
-    void finish(bool withBvh, const Kernel& kernel = chooseKernel("scalar"), int threads = 1);
+    void finish(bool withBvh, const Isa& kernel = oneLane(), int threads = 1);
 
     std::vector<std::uint32_t> bounded, unbounded; // shape numbers; `bounded` in ascending order
     float extent = kSceneExtent;                   // no |coordinate| of a finite box is larger
@@ -74,7 +74,7 @@ private:
     // Asks the shape for a nearer hit than the best one, which then becomes it.
     bool nearer(const Ray& ray, std::uint32_t number, float tEntry, Hit& best) const;
     void sortByBounds(int threads);
-    void buildBatchTrees(const Kernel& kernel, int threads);
+    void buildBatchTrees(const Isa& kernel, int threads);
     void closestOfBatched(const RaySpan& rays, std::vector<Hit>& hits) const;
     void hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;
     // Of all unbounded shapes but the first floors, which were asked already.

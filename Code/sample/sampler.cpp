@@ -1,8 +1,9 @@
-#include "sample/sampler.h"
 
+#include "sample/sampler.h"
 #include "base/math.h"
 #include "sample/dimensions.h"
 #include "sample/hash.h"
+#include "sample/sobol.h"
 
 #include <algorithm>
 #include <bit>
@@ -10,10 +11,10 @@
 
 namespace {
 
+using namespace kernels::one;
+
 // Four numbers in a register of the compiler's.
 using Four __attribute__((vector_size(16))) = std::uint32_t;
-
-#include "sample/sobol.inl"
 
 // The index-th of `count` in a random order; a bijection on [0, count) for every key. Steps that
 // are invertible modulo the next power of two, repeated until the result is in range (Kensler,

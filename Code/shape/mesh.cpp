@@ -41,12 +41,12 @@ void Mesh::collect(const Ray& ray, std::vector<Hit>& hits) const {
 
 void Mesh::intersectBatch(const RaySpan& rays, std::uint32_t number, std::span<Hit> hits) const {
     if (!takesBatches()) return Shape::intersectBatch(rays, number, hits);
-    closestHits(*geometry_.kernel, geometry_.wideMesh(), rays, number, hits);
+    closestHits(*geometry_.isa, geometry_.wideMesh(), rays, number, hits);
 }
 
 void Mesh::occludesBatch(const RaySpan& rays, std::span<std::uint8_t> hidden) const {
     if (!takesBatches()) return Shape::occludesBatch(rays, hidden);
-    anyHits(*geometry_.kernel, geometry_.wideMesh(), rays, hidden);
+    anyHits(*geometry_.isa, geometry_.wideMesh(), rays, hidden);
 }
 
 SolidForm Mesh::solidForm() const {

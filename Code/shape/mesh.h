@@ -30,7 +30,7 @@ public:
     bool occludes(const Ray& ray) const override;
     void collect(const Ray& ray, std::vector<Hit>& hits) const override;
     bool isOfTriangles() const override { return true; }
-    bool takesBatches() const override { return geometry_.kernel != nullptr; }
+    bool takesBatches() const override { return geometry_.isa != nullptr; }
     void intersectBatch(const RaySpan& rays, std::uint32_t number,
                         std::span<Hit> hits) const override;
     void occludesBatch(const RaySpan& rays, std::span<std::uint8_t> hidden) const override;

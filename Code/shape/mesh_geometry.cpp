@@ -1,5 +1,6 @@
 #include "shape/mesh_geometry.h"
 
+#include "accel/kernels/build/build.h"
 #include "accel/kernels/placed.h"
 #include "base/for_each.h"
 #include "shape/share_points.h"
@@ -162,14 +163,15 @@ void MeshGeometry::measure(int threads) {
     extent = all.extent, exactBox = all.exactBox, box = all.box;
 }
 
-void MeshGeometry::finish(bool withTree, const Kernel& forKernel, int threads, double rays) {
+void MeshGeometry::finish(bool withTree, const Isa& forIsa, int threads, double rays) {
     collapseEndless();
     if (withTree) sharePoints(*this, threads);
     measure(threads);
     if (!withTree || triangles.empty()) return;
-    if (forKernel.width > 0) {
-        kernel = &forKernel;
-        wide = buildWide(forKernel.width, points, triangles, threads, rays);
+    if (forIsa.triangles != nullptr) {
+        isa = &forIsa;
+        wide = kernels::build::buildWideBy(*forIsa.build, forIsa.width, points, triangles, threads,
+                                           rays);
         if (!exactPoints.empty()) describeExact(*this);
         return;
     }

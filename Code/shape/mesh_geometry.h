@@ -59,10 +59,10 @@ struct MeshGeometry {
 
     // At most one of the trees; both empty: every triangle is tested (--accel none).
     Bvh bvh;
-    WideTree wide;                  // for the kernel
-    const Kernel* kernel = nullptr; // answers batches; null: the scalar code does
-    float extent = kSceneExtent;    // no |coordinate| of a point is larger
-    Bounds box;                     // of the triangles
+    WideTree wide;               // for the kernel
+    const Isa* isa = nullptr;    // answers batches; null: the scalar code does
+    float extent = kSceneExtent; // no |coordinate| of a point is larger
+    Bounds box;                  // of the triangles
 
     // Takes triangles with two corners in one place out of the lists: no ray meets them. Returns
     // how many have no area. Those with three corners on a line stay: to a ray, whose arithmetic
@@ -73,8 +73,7 @@ struct MeshGeometry {
     // Does that, computes extent, boxes, what is said of the exact points and, if wanted, the tree
     // that the kernel needs, for which points that are the same become one (share_points.h). The
     // same for any number of threads; `rays`: see buildWide(). The lists do not change afterwards.
-    void finish(bool withTree, const Kernel& forKernel = chooseKernel("scalar"), int threads = 1,
-                double rays = 0);
+    void finish(bool withTree, const Isa& forIsa = oneLane(), int threads = 1, double rays = 0);
     bool hasTree() const { return !bvh.nodes.empty() || !wide.isEmpty(); }
     WideMesh wideMesh() const { return {wide, points, triangles, extent}; }
     std::size_t bytes() const;

@@ -130,7 +130,7 @@ Tally times(const Effort& effort) {
     return tally;
 }
 
-constexpr Row kRows[] = {
+constexpr Row kBadRaysRows[] = {
     {"T16a", "queries of NaN, infinite and zero rays that find something", "", 0, true, misses},
     timed({"T16b", "time of such rays", "of others", 1.5, false, times,
            "Embree's own test allows 2.5"}),
@@ -138,6 +138,6 @@ constexpr Row kRows[] = {
 
 } // namespace
 
-std::span<const Row> badRayRows() { return kRows; }
+std::span<const Row> badRayRows() { return kBadRaysRows; }
 
 } // namespace battery

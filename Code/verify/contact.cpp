@@ -142,7 +142,7 @@ template <std::uint64_t Seed, bool isBall, bool isSun> Tally edge(const Effort& 
     return shadowEdge(effort, Seed, isBall, isSun);
 }
 
-constexpr Row kRows[] = {
+constexpr Row kContactRows[] = {
     {"T6a", "edge of the shadow of a ball on a plane, under a sun", "ulp of the extent", 4, true,
      edge<61, true, true>},
     {"T6b", "the same of a box on a box", "ulp of the extent", 4, true, edge<62, false, true>},
@@ -154,6 +154,6 @@ constexpr Row kRows[] = {
 
 } // namespace
 
-std::span<const Row> contactRows() { return kRows; }
+std::span<const Row> contactRows() { return kContactRows; }
 
 } // namespace battery

@@ -191,13 +191,13 @@ Tally stacksOfInstances(const Effort& effort) {
     return stacks(effort, 181, kKinds);
 }
 
-constexpr Row kRows[] = {
+constexpr Row kCoplanarRows[] = {
     {"T18a", "pixels of 16 quads in one plane that show the wrong one", "", 0, true, stacksOfOwn},
     {"T18b", "the same of instances of one quad", "", 0, true, stacksOfInstances},
 };
 
 } // namespace
 
-std::span<const Row> coplanarRows() { return kRows; }
+std::span<const Row> coplanarRows() { return kCoplanarRows; }
 
 } // namespace battery

@@ -13,8 +13,8 @@ namespace {
 
 using meshes::Random;
 
-constexpr double kBatches = 60; // at effort 1, each a ball in a place of its own
-constexpr int kRays = 4096;     // of a batch
+constexpr double kBatchesOfCracks = 60; // at effort 1, each a ball in a place of its own
+constexpr int kRaysAtCracks = 4096;     // of a batch
 
 // The upper half of a uv sphere; the mirrored one is below, with its faces to the outside as well.
 // Both have the same points at z = 0.
@@ -97,13 +97,13 @@ Ball ball(Random& random, Form form, bool otherRings) {
 
 // Rays from inside to the border: at its points, along its edges, and a few floats beside.
 Tally atBorder(const Effort& effort, std::uint64_t seed, Form form, bool otherRings) {
-    return inBatches(effort, seed, kBatches, [&](Random& random, Tally& tally) {
+    return inBatches(effort, seed, kBatchesOfCracks, [&](Random& random, Tally& tally) {
         const Ball at = ball(random, form, otherRings);
         const auto borderPoint = [&](std::size_t s) {
             const double phi = kTwoPi * static_cast<double>(s) / at.segments;
             return Vec3d{exact::cos(phi), exact::sin(phi), 0};
         };
-        for (int i = 0; i < kRays; ++i) {
+        for (int i = 0; i < kRaysAtCracks; ++i) {
             const std::size_t s = random.below(static_cast<std::size_t>(at.segments));
             const double along = random.chance(0.3) ? 0 : random.unit();
             const Vec3d to = lerp(borderPoint(s), borderPoint(s + 1), along);
@@ -127,7 +127,7 @@ template <std::uint64_t Seed, Form form, bool otherRings> Tally crack(const Effo
     return atBorder(effort, Seed, form, otherRings);
 }
 
-constexpr Row kRows[] = {
+constexpr Row kCracksRows[] = {
     {"T4a", "rays at the border of two halves of a ball, two objects", "", 0, true,
      crack<41, Form::Separate, false>},
     {"T4b", "the same, merged", "", 0, true, crack<42, Form::Merged, false>},
@@ -139,6 +139,6 @@ constexpr Row kRows[] = {
 
 } // namespace
 
-std::span<const Row> crackRows() { return kRows; }
+std::span<const Row> crackRows() { return kCracksRows; }
 
 } // namespace battery

@@ -173,7 +173,7 @@ Tally powers(const Effort& effort) {
     });
 }
 
-constexpr Row kRows[] = {
+constexpr Row kElementaryRows[] = {
     {"T12a", "our sin, cos, tan against binary128", "ulp", 2, true, angles},
     {"T12b", "our asin, acos, atan, atan2 against binary128", "ulp", 2, true, inverses},
     {"T12c", "our exp, exp2, log, log2, pow, cbrt against binary128", "ulp", 2, true, powers},
@@ -181,6 +181,6 @@ constexpr Row kRows[] = {
 
 } // namespace
 
-std::span<const Row> elementaryRows() { return kRows; }
+std::span<const Row> elementaryRows() { return kElementaryRows; }
 
 } // namespace battery

@@ -185,7 +185,7 @@ Tally tracedRays(const Effort& effort) {
     });
 }
 
-constexpr Row kRows[] = {
+constexpr Row kFurnaceRows[] = {
     {"T20a", "white sky on diffuse and ashikhmin: what comes back", "albedo", 1.001, true,
      whiteSky},
     {"T20b", "all four lobes seen straight on: albedo by formula", "relative", 0.001, true,
@@ -198,6 +198,6 @@ constexpr Row kRows[] = {
 
 } // namespace
 
-std::span<const Row> furnaceRows() { return kRows; }
+std::span<const Row> furnaceRows() { return kFurnaceRows; }
 
 } // namespace battery

@@ -144,12 +144,12 @@ Tally grazing(const Effort& effort) {
     });
 }
 
-constexpr Row kRows[] = {
+constexpr Row kGrazingRows[] = {
     {"T15a", "rays at 1e-1 to 1e-7 radians: distance of the hit", "of its bound", 1, true, grazing},
 };
 
 } // namespace
 
-std::span<const Row> grazingRows() { return kRows; }
+std::span<const Row> grazingRows() { return kGrazingRows; }
 
 } // namespace battery

@@ -17,11 +17,11 @@ namespace {
 
 using meshes::Random;
 
-constexpr int kSide = 40; // of the pictures, in pixels
+constexpr int kHostileSide = 40; // of the pictures, in pixels
 
 SceneDesc ballUnderSun(int segments, int rings) {
     SceneDesc desc;
-    desc.settings.width = desc.settings.height = kSide;
+    desc.settings.width = desc.settings.height = kHostileSide;
     desc.settings.samplesPerPixel = 1;
     CameraDesc& camera = desc.cameras.emplace_back();
     camera.worldFromCamera = {Transform::lookAt({0.3, -4, 1}, {0, 0, 0}, {0, 0, 1}).rows()};
@@ -124,12 +124,11 @@ bool isFinite(const Image& image) {
     return true;
 }
 
-Picture rendered(const SceneDesc& desc, AccelKind accel, Stats& stats,
-                 const char* kernel = "scalar") {
+Picture rendered(const SceneDesc& desc, AccelKind accel, Stats& stats, const Isa& isa = oneLane()) {
     RenderSettings settings;
     settings.picture = desc.settings;
     settings.accel = accel;
-    settings.kernel = kernel;
+    settings.isa = &isa;
     settings.copiedTriangles = 0; // what is used twice is an instance
     const Scene scene(desc, {}, settings);
     scene.describe(stats);
@@ -171,7 +170,7 @@ Tally pictures(const Effort& effort) {
 
 // A tenth of the triangles more, all of them bad: with the kernel that pictures are made with here,
 // and as many rays as a small picture has.
-Tally times(const Effort& effort) {
+Tally hostileTime(const Effort& effort) {
     SceneDesc clean = ballUnderSun(100, 51);
     clean.settings.width = clean.settings.height = 300;
     SceneDesc dirty = clean;
@@ -186,9 +185,9 @@ Tally times(const Effort& effort) {
     const int turns = static_cast<int>(clamp(24 * effort.factor, 24.0, 200.0));
     Tally tally;
     tally.cases = mesh.triangles.size();
-    const auto render = [kernel = chooseKernel("auto").name](const SceneDesc& desc) {
+    const auto render = [&isa = bestIsa()](const SceneDesc& desc) {
         Stats stats;
-        rendered(desc, AccelKind::Bvh, stats, kernel);
+        rendered(desc, AccelKind::Bvh, stats, isa);
     };
     tally.measure(timeRatio(
                       turns, [&] { render(dirty); }, [&] { render(clean); }),
@@ -196,13 +195,13 @@ Tally times(const Effort& effort) {
     return tally;
 }
 
-constexpr Row kRows[] = {
+constexpr Row kHostileRows[] = {
     {"T15b", "hostile meshes: values, counts, the same without tree", "", 0, true, pictures},
-    timed({"T15c", "time with a tenth more of bad triangles", "of clean", 1.2, false, times}),
+    timed({"T15c", "time with a tenth more of bad triangles", "of clean", 1.2, false, hostileTime}),
 };
 
 } // namespace
 
-std::span<const Row> hostileRows() { return kRows; }
+std::span<const Row> hostileRows() { return kHostileRows; }
 
 } // namespace battery

@@ -32,14 +32,14 @@ void spoil(Random& random, Triangle& triangle) {
     }
 }
 
-struct Triangles {
+struct IndexedTriangles {
     std::vector<Triangle> all, good;
     std::vector<std::uint32_t> goodAmongAll; // numbers
 };
 
 // From none but good ones to none but bad ones.
-Triangles someTriangles(Random& random) {
-    Triangles out;
+IndexedTriangles someTriangles(Random& random) {
+    IndexedTriangles out;
     const std::size_t count = 1 + random.below(400);
     const double share = random.chance(0.2) ? random.below(2) : random.unit();
     for (std::size_t i = 0; i < count; ++i) {
@@ -55,8 +55,7 @@ Triangles someTriangles(Random& random) {
     return out;
 }
 
-MeshGeometry geometryOf(const std::vector<Triangle>& triangles, bool withTree,
-                        const Kernel& kernel) {
+MeshGeometry geometryOf(const std::vector<Triangle>& triangles, bool withTree, const Isa& kernel) {
     MeshGeometry g;
     for (const Triangle& t : triangles) {
         const auto n = static_cast<std::uint32_t>(g.points.size());
@@ -82,7 +81,7 @@ Answers ask(const MeshGeometry& geometry, const RaySpan& rays) {
 Tally corners(const Effort& effort) {
     constexpr std::size_t kRays = 64;
     return inBatches(effort, 153, 40, [](Random& random, Tally& tally) {
-        const Triangles triangles = someTriangles(random);
+        const IndexedTriangles triangles = someTriangles(random);
         std::vector<Vec3> org(kRays), dir(kRays);
         for (std::size_t i = 0; i < kRays; ++i) {
             org[i] = toFloat(random.inBox(2));
@@ -90,9 +89,9 @@ Tally corners(const Effort& effort) {
         }
         const std::vector<float> tMin(kRays, 0), tMax(kRays, kInfinityF), time(kRays, 0);
         const RaySpan rays{org, dir, tMin, tMax, time};
-        const Kernel& plain = chooseKernel("scalar");
+        const Isa& plain = oneLane();
         const Answers truth = ask(geometryOf(triangles.good, false, plain), rays);
-        for (const Kernel& kernel : allKernels()) {
+        for (const Isa& kernel : allIsas()) {
             if (!kernel.supported()) continue;
             const Answers found = ask(geometryOf(triangles.all, true, kernel), rays);
             for (std::size_t i = 0; i < kRays; ++i) {
@@ -111,12 +110,12 @@ Tally corners(const Effort& effort) {
     });
 }
 
-constexpr Row kRows[] = {
+constexpr Row kHostileCornersRows[] = {
     {"T15d", "meshes with corners at NaN and infinity: the others are found", "", 0, true, corners},
 };
 
 } // namespace
 
-std::span<const Row> hostileCornerRows() { return kRows; }
+std::span<const Row> hostileCornerRows() { return kHostileCornersRows; }
 
 } // namespace battery

@@ -13,7 +13,7 @@ namespace {
 
 using meshes::Random;
 
-constexpr std::size_t kRays = 2048; // of each kind and set of triangles
+constexpr std::size_t kRaysOfSet = 2048; // of each kind and set of triangles
 
 // The same triangles with the tree of each kernel, and for the scalar code. Those that have no tree
 // there have the best one here.
@@ -23,15 +23,15 @@ struct Meshes {
 
     Meshes(const MeshGeometry& bare, bool withTree) : scalar(bare) {
         scalar.finish(withTree);
-        for (const Kernel& kernel : allKernels()) {
-            if (!kernel.supported() || kernel.width == 0) continue;
+        for (const Isa& kernel : allIsas()) {
+            if (!kernel.supported() || kernel.triangles == nullptr) continue;
             wide.push_back(bare);
             wide.back().finish(true, kernel, 1, withTree ? 0 : kCountlessRays);
         }
     }
 };
 
-std::string shown(const Hit& hit) {
+std::string shownHit(const Hit& hit) {
     if (!hit.isHit()) return "nothing";
     const auto digits = [](float x) { return shortest(static_cast<double>(x)); };
     return cat("triangle ", hit.prim, " at ", digits(hit.t), ", u ", digits(hit.u), ", v ",
@@ -53,18 +53,19 @@ std::vector<Hit> compare(const Meshes& meshes, const RayList& rays, const char* 
     }
     tally.cases += n;
     for (const MeshGeometry& mesh : meshes.wide) {
-        closestHits(*mesh.kernel, mesh.wideMesh(), rays.span(), 0, hits);
-        anyHits(*mesh.kernel, mesh.wideMesh(), rays.span(), hidden);
+        closestHits(*mesh.isa, mesh.wideMesh(), rays.span(), 0, hits);
+        anyHits(*mesh.isa, mesh.wideMesh(), rays.span(), hidden);
         for (std::size_t i = 0; i < n; ++i) {
             const auto where = [&] {
-                return cat(name, ", kernel ", mesh.kernel->name, ", ", mesh.triangles.size(),
+                return cat(name, ", kernel ", mesh.isa->name, ", ", mesh.triangles.size(),
                            " triangles, ", textOf(rays.span()[i]), ", t in ",
                            shortest(static_cast<double>(rays.tMin[i])), " to ",
                            shortest(static_cast<double>(rays.tMax[i])), ": ");
             };
             if (!haveSameBits(hits[i], right[i]))
-                tally.fail(
-                    [&] { return cat(where(), shown(hits[i]), " instead of ", shown(right[i])); });
+                tally.fail([&] {
+                    return cat(where(), shownHit(hits[i]), " instead of ", shownHit(right[i]));
+                });
             if ((hidden[i] != 0) != (isHidden[i] != 0))
                 tally.fail([&] { return cat(where(), isHidden[i] ? "not hidden" : "hidden"); });
         }
@@ -103,11 +104,12 @@ void compareAll(const Meshes& meshes, Random& random, Tally& tally) {
     const auto withFollowers = [&](const RayList& rays, const char* name) {
         compareWithFollowers(meshes, rays, name, tally);
     };
-    withFollowers(looseRays(random, meshes.scalar, kRays), "loose rays");
-    withFollowers(raysFromPoints(random, meshes.scalar, kRays), "rays from points");
-    withFollowers(raysInBeams(random, meshes.scalar, kRays), "rays side by side");
-    withFollowers(raysInPlanes(random, meshes.scalar, kRays / 4), "rays in planes");
-    withFollowers(beamsInPlanes(random, meshes.scalar, kRays / 2), "rays side by side in planes");
+    withFollowers(looseRays(random, meshes.scalar, kRaysOfSet), "loose rays");
+    withFollowers(raysFromPoints(random, meshes.scalar, kRaysOfSet), "rays from points");
+    withFollowers(raysInBeams(random, meshes.scalar, kRaysOfSet), "rays side by side");
+    withFollowers(raysInPlanes(random, meshes.scalar, kRaysOfSet / 4), "rays in planes");
+    withFollowers(beamsInPlanes(random, meshes.scalar, kRaysOfSet / 2),
+                  "rays side by side in planes");
 }
 
 Tally hostileTriangles(const Effort& effort) {
@@ -147,14 +149,14 @@ Tally latticeTriangles(const Effort& effort) {
         const std::uint32_t half = halves[random.below(4)];
         const Meshes meshes(meshes::geometryOf(meshes::latticeSoup(random, size, half), false),
                             !random.chance(size < 300 ? 0.25 : 0));
-        compareWithFollowers(meshes, raysOnLattice(random, 2 * half, 3 * kRays),
+        compareWithFollowers(meshes, raysOnLattice(random, 2 * half, 3 * kRaysOfSet),
                              "rays on a lattice", tally);
-        compareWithFollowers(meshes, raysFromPoints(random, meshes.scalar, kRays),
+        compareWithFollowers(meshes, raysFromPoints(random, meshes.scalar, kRaysOfSet),
                              "rays from points", tally);
     });
 }
 
-constexpr Row kRows[] = {
+constexpr Row kKernelHitsRows[] = {
     {"T10b", "hits of every kernel and of the scalar code: hostile triangles", "", 0, true,
      hostileTriangles},
     {"T10c", "the same: closed meshes", "", 0, true, closedMeshes},
@@ -164,6 +166,6 @@ constexpr Row kRows[] = {
 
 } // namespace
 
-std::span<const Row> kernelRows() { return kRows; }
+std::span<const Row> kernelRows() { return kKernelHitsRows; }
 
 } // namespace battery

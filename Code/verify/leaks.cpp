@@ -13,8 +13,8 @@ namespace {
 
 using meshes::Random;
 
-constexpr double kBatches = 24; // at effort 1, each a solid in a place of its own
-constexpr int kRays = 4096;     // of a batch
+constexpr double kBatchesOfLeaks = 24; // at effort 1, each a solid in a place of its own
+constexpr int kRaysAtSolids = 4096;    // of a batch
 
 using Place = PlacedSolid (*)(Random&, const Solid&);
 
@@ -59,9 +59,9 @@ Ray rayFromInside(Random& random, const PlacedSolid& at, Aim aim) {
 }
 
 Tally fromInside(const Effort& effort, std::uint64_t seed, Place place, Aim aim) {
-    return inBatches(effort, seed, kBatches, [&](Random& random, Tally& tally) {
+    return inBatches(effort, seed, kBatchesOfLeaks, [&](Random& random, Tally& tally) {
         const PlacedSolid at = place(random, someSolid(random));
-        for (int i = 0; i < kRays; ++i) {
+        for (int i = 0; i < kRaysAtSolids; ++i) {
             const Ray ray = rayFromInside(random, at, aim);
             if (!isTraceable(ray)) continue;
             ++tally.cases;
@@ -82,7 +82,7 @@ template <std::uint64_t Seed, Aim aim> Tally far(const Effort& effort) {
 
 // Shadow rays to points inside, from lamps 4 to 1e4 extents away.
 Tally fromLamps(const Effort& effort) {
-    return inBatches(effort, 14, kBatches, [](Random& random, Tally& tally) {
+    return inBatches(effort, 14, kBatchesOfLeaks, [](Random& random, Tally& tally) {
         const Solid& solid = someSolid(random);
         const PlacedSolid at =
             random.chance(0.5) ? placedNear(random, solid) : placedFar(random, solid);
@@ -91,7 +91,7 @@ Tally fromLamps(const Effort& effort) {
         const bool isSmall = maxAbs(at.set.boxes[0].size()) < 0.1f;
         const double furthest = isThin ? 30 : isSmall ? 100 : 1e4;
         // Few from very far: their pads open many boxes.
-        for (int i = 0; i < kRays / 2; ++i) {
+        for (int i = 0; i < kRaysAtSolids / 2; ++i) {
             const Vec3d target = at.sceneFromSolid.point(inside(random, solid));
             const double most = random.chance(0.95) ? min(furthest, 30.0) : furthest;
             const Vec3 lamp = toFloat(random.direction() * random.logUniform(4, most));
@@ -136,11 +136,11 @@ Crossings walked(const PlacedSolid& at, Ray ray) {
 // Odd from inside, even from outside.
 template <Crossings (*count)(const PlacedSolid&, Ray)>
 Tally parity(const Effort& effort, std::uint64_t seed) {
-    return inBatches(effort, seed, kBatches, [&](Random& random, Tally& tally) {
+    return inBatches(effort, seed, kBatchesOfLeaks, [&](Random& random, Tally& tally) {
         const Solid& solid = someSolid(random);
         const PlacedSolid at =
             random.chance(0.5) ? placedNear(random, solid) : placedFar(random, solid);
-        for (int i = 0; i < kRays; ++i) {
+        for (int i = 0; i < kRaysAtSolids; ++i) {
             constexpr Aim kAims[] = {Aim::Anywhere, Aim::Vertex, Aim::Edge};
             Ray ray = rayFromInside(random, at, kAims[random.below(std::size(kAims))]);
             if (!isTraceable(ray)) continue;
@@ -162,7 +162,7 @@ Tally parity(const Effort& effort, std::uint64_t seed) {
 Tally parityOfAll(const Effort& effort) { return parity<collected>(effort, 31); }
 Tally parityOfRestarts(const Effort& effort) { return parity<walked>(effort, 32); }
 
-constexpr Row kRows[] = {
+constexpr Row kLeaksRows[] = {
     {"T1a", "rays from inside closed meshes, anywhere", "", 0, true, near<11, Aim::Anywhere>,
      "2e5 rays in a sphere of 39600 triangles: Embree 3.13 0, tinybvh 1.6.7 0"},
     {"T1b", "the same, at vertices", "", 0, true, near<12, Aim::Vertex>,
@@ -182,6 +182,6 @@ constexpr Row kRows[] = {
 
 } // namespace
 
-std::span<const Row> leakRows() { return kRows; }
+std::span<const Row> leakRows() { return kLeaksRows; }
 
 } // namespace battery

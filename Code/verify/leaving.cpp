@@ -216,7 +216,7 @@ Tally acneOfMeshes(const Effort& effort) {
     });
 }
 
-constexpr Row kRows[] = {
+constexpr Row kLeavingRows[] = {
     {"T5a", "rays that leave a shape with a formula do not meet it again", "", 0, true,
      fromFormulas},
     {"T5b", "the same of convex meshes", "", 0, true, fromMeshes},
@@ -226,6 +226,6 @@ constexpr Row kRows[] = {
 
 } // namespace
 
-std::span<const Row> leavingRows() { return kRows; }
+std::span<const Row> leavingRows() { return kLeavingRows; }
 
 } // namespace battery

@@ -216,7 +216,7 @@ Tally closedForms(const Effort& effort) {
 
 constexpr double kHalvedEnough = 0.5358867312681466; // 2^-0.9
 
-constexpr Row kRows[] = {
+constexpr Row kLightsRows[] = {
     {"T21a", "lamps over a plane: irradiance and solid angle by formula", "sigma", 4, true,
      formFactors},
     {"T21b", "error left by twice the Sobol samples (slope -0.9: 0.536)", "of the error",
@@ -227,6 +227,6 @@ constexpr Row kRows[] = {
 
 } // namespace
 
-std::span<const Row> lightRows() { return kRows; }
+std::span<const Row> lightRows() { return kLightsRows; }
 
 } // namespace battery

@@ -181,7 +181,7 @@ Tally furnace(const Effort& effort) {
     });
 }
 
-constexpr Row kRows[] = {
+constexpr Row kMediaRows[] = {
     {"T19a", "light through nested balls, eye in any, against Fresnel", "of the light", 0.005, true,
      fewBalls},
     {"T19b", "the same through 64 balls inside of each other", "of the light", 0.005, true,
@@ -192,6 +192,6 @@ constexpr Row kRows[] = {
 
 } // namespace
 
-std::span<const Row> mediaRows() { return kRows; }
+std::span<const Row> mediaRows() { return kMediaRows; }
 
 } // namespace battery

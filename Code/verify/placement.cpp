@@ -161,7 +161,7 @@ Tally movedScenes(const Effort& effort, int leastPower, int mostPower, bool must
 Tally movedInReach(const Effort& effort) { return movedScenes(effort, 3, 6, false); }
 Tally movedTooFar(const Effort& effort) { return movedScenes(effort, 9, 9, true); }
 
-constexpr Row kRows[] = {
+constexpr Row kPlacementRows[] = {
     {"T7", "scenes times 2^-20 to 2^20: the same bits", "", 0, true, powersOfTwo},
     {"T8a", "scenes times 10^-6 to 10^6: RMSE", "of the peak", 1e-4, true, powersOfTen},
     {"T8b", "scenes times 10^-6 to 10^6: other objects", "of the pixels", 1e-6, true,
@@ -173,6 +173,6 @@ constexpr Row kRows[] = {
 
 } // namespace
 
-std::span<const Row> placementRows() { return kRows; }
+std::span<const Row> placementRows() { return kPlacementRows; }
 
 } // namespace battery

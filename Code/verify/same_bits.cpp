@@ -52,11 +52,11 @@ Tally forScenes(const Effort& effort, std::uint64_t seed, const Check& check, do
     });
 }
 
-std::vector<const char*> kernelsHere() {
-    std::vector<const char*> names;
-    for (const Kernel& kernel : allKernels())
-        if (kernel.supported()) names.push_back(kernel.name);
-    return names;
+std::vector<const Isa*> isasHere() {
+    std::vector<const Isa*> here;
+    for (const Isa& isa : allIsas())
+        if (isa.supported()) here.push_back(&isa);
+    return here;
 }
 
 // ---- T10
@@ -65,12 +65,12 @@ Tally accelerators(const Effort& effort) {
     return forScenes(effort, 10, [](auto* name, auto& desc, Random&, Tally& tally) {
         const auto linear = [](RenderSettings& s) { s.accel = AccelKind::None; };
         const std::uint64_t hash = hashWith(desc, linear);
-        for (const char* kernel : kernelsHere())
+        for (const Isa* isa : isasHere())
             for (const TreeKind tree : {TreeKind::Fast, TreeKind::Best}) {
                 ++tally.cases;
-                const auto set = [&](RenderSettings& s) { s.kernel = kernel, s.tree = tree; };
+                const auto set = [&](RenderSettings& s) { s.isa = isa, s.tree = tree; };
                 if (hashWith(desc, set) != hash)
-                    tally.fail([&] { return cat(name, ": trees with kernel ", kernel); });
+                    tally.fail([&] { return cat(name, ": trees with kernel ", isa->name); });
             }
     });
 }
@@ -85,22 +85,22 @@ Tally cuts(const Effort& effort) {
         constexpr std::array kChunks = {64, 100, 1024, 4096, 65536};
         const std::uint64_t hash = hashWith(desc);
         const std::size_t tileShift = random.below(5), chunkShift = random.below(5);
-        const std::vector<const char*> kernels = kernelsHere();
+        const std::vector<const Isa*> isas = isasHere();
         for (std::size_t i = 0; i < kThreads.size(); ++i) {
             const int threads = kThreads[i], tile = kTiles[(i + tileShift) % kTiles.size()];
             const int chunk = kChunks[(i + chunkShift) % kChunks.size()];
-            const char* kernel = kernels[random.below(kernels.size())];
+            const Isa* isa = isas[random.below(isas.size())];
             ++tally.cases;
             const std::uint64_t other = hashWith(desc, [&](RenderSettings& s) {
                 s.threads = threads;
                 s.tileSide = tile;
                 s.chunkSamples = chunk;
-                s.kernel = kernel;
+                s.isa = isa;
             });
             if (other != hash)
                 tally.fail([&] {
                     return cat(name, ": ", threads, " threads, tiles of ", tile, ", chunks of ",
-                               chunk, ", kernel ", kernel);
+                               chunk, ", kernel ", isa->name);
                 });
         }
     });
@@ -180,20 +180,20 @@ Tally unusedFeatures(const Effort& effort) {
 // What is left out for a scene may be done all the same.
 Tally generalForm(const Effort& effort) {
     return forScenes(effort, 171, [](auto* name, auto& desc, Random& random, Tally& tally) {
-        const char* kernel = kernelsHere()[random.below(kernelsHere().size())];
+        const Isa* isa = isasHere()[random.below(isasHere().size())];
         const auto hash = [&](bool specialise) {
             return hashWith(desc, [&](RenderSettings& s) {
-                s.kernel = kernel;
+                s.isa = isa;
                 s.specialise = specialise;
             });
         };
         ++tally.cases;
         if (hash(true) != hash(false))
-            tally.fail([&] { return cat(name, " with kernel ", kernel); });
+            tally.fail([&] { return cat(name, " with kernel ", isa->name); });
     });
 }
 
-constexpr Row kRows[] = {
+constexpr Row kSameBitsRows[] = {
     {"T10a", "pictures without trees, with, any kernel: the same bits", "", 0, true, accelerators},
     {"T11a", "1, 2, 3, 8, 64 threads, tiles, queues: the same bits", "", 0, true, cuts},
     {"T11b", "a picture 20 times on three threads: the same bits", "", 0, true, runs},
@@ -204,6 +204,6 @@ constexpr Row kRows[] = {
 
 } // namespace
 
-std::span<const Row> sameBitsRows() { return kRows; }
+std::span<const Row> sameBitsRows() { return kSameBitsRows; }
 
 } // namespace battery

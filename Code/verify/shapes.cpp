@@ -130,7 +130,7 @@ Tally outlines(const Effort& effort) {
     return tally;
 }
 
-constexpr Row kRows[] = {
+constexpr Row kShapesRows[] = {
     {"T13a", "depth of shapes from 1e-6 to 1e6 of their size away", "float ulp", 4, true, depths},
     {"T13b", "their normals, also next to the tips of cones", "of 1", 1e-6, true, normals},
     {"T13c", "rays at their outlines that hit or miss wrongly", "of all", 1e-6, true, outlines},
@@ -138,6 +138,6 @@ constexpr Row kRows[] = {
 
 } // namespace
 
-std::span<const Row> shapeRows() { return kRows; }
+std::span<const Row> shapeRows() { return kShapesRows; }
 
 } // namespace battery

@@ -102,13 +102,13 @@ Tally quadratics(const Effort& effort) {
     });
 }
 
-constexpr Row kRows[] = {
+constexpr Row kSolversRows[] = {
     {"T14", "roots of quadratics, clustered and of 1e-12 to 1e12", "relative", 1e-12, true,
      quadratics},
 };
 
 } // namespace
 
-std::span<const Row> solverRows() { return kRows; }
+std::span<const Row> solverRows() { return kSolversRows; }
 
 } // namespace battery

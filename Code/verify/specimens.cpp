@@ -24,7 +24,9 @@ Vec3d inCircle(Random& random, double radius, double z) {
     return onCircle(random, radius * std::sqrt(random.unit()), z);
 }
 
-std::string textOf(Vec3d v) { return cat(shortest(v.x), " ", shortest(v.y), " ", shortest(v.z)); }
+std::string numbersOf(Vec3d v) {
+    return cat(shortest(v.x), " ", shortest(v.y), " ", shortest(v.z));
+}
 
 } // namespace
 
@@ -108,7 +110,7 @@ Transform somePlace(Random& random, double size, Vec3d centre) {
 }
 
 std::string textOf(const Ray& ray) {
-    return cat("from ", textOf(toDouble(ray.org)), " along ", textOf(toDouble(ray.dir)));
+    return cat("from ", numbersOf(toDouble(ray.org)), " along ", numbersOf(toDouble(ray.dir)));
 }
 
 } // namespace battery

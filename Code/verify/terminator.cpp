@@ -12,13 +12,13 @@ namespace battery {
 
 namespace {
 
-constexpr int kSide = 96; // of the pictures, in pixels
+constexpr int kTerminatorSide = 96; // of the pictures, in pixels
 
 // A ball of radius 1, as a mesh of 16 x 8 patches or as a sphere, under a sun at an angle to the
 // view.
 SceneDesc ball(bool asMesh, double sunDeg) {
     SceneDesc desc;
-    desc.settings.width = desc.settings.height = kSide;
+    desc.settings.width = desc.settings.height = kTerminatorSide;
     desc.settings.samplesPerPixel = 1;
     desc.settings.jitter = false;
     CameraDesc& camera = desc.cameras.emplace_back();
@@ -60,8 +60,8 @@ Step steepest(const SceneDesc& desc) {
         return -normals.pixel(x, y).g > std::sqrt(1 - 0.81f);
     };
     Step worst;
-    for (int y = 0; y + 1 < kSide; ++y)
-        for (int x = 0; x + 1 < kSide; ++x)
+    for (int y = 0; y + 1 < kTerminatorSide; ++y)
+        for (int x = 0; x + 1 < kTerminatorSide; ++x)
             for (const auto& [nx, ny] : {std::pair{x + 1, y}, std::pair{x, y + 1}}) {
                 if (!isInside(x, y) || !isInside(nx, ny)) continue;
                 const double d = std::fabs(static_cast<double>(image.pixel(x, y).g) -
@@ -84,13 +84,13 @@ Tally terminator(const Effort& effort) {
     });
 }
 
-constexpr Row kRows[] = {
+constexpr Row kTerminatorRows[] = {
     {"T25", "steepest step of the light on a 16x8 ball with smooth normals", "of the sphere's", 3,
      true, terminator},
 };
 
 } // namespace
 
-std::span<const Row> terminatorRows() { return kRows; }
+std::span<const Row> terminatorRows() { return kTerminatorRows; }
 
 } // namespace battery

@@ -89,7 +89,7 @@ double wideDepth(const MeshGeometry& g) {
     return tree.isEmpty() ? 0 : (tree.stackSize - 1) / (kWidth - 1);
 }
 
-Tally depths(const Effort& effort) {
+Tally treeDepths(const Effort& effort) {
     return inSets(effort, 24, [&](const HostileTree& set, Random& random, Tally& tally) {
         const Triangles triangles = set.make(random, triangleCount(effort));
         const std::vector<Bounds> boxes = boxesOf(triangles);
@@ -196,9 +196,9 @@ Tally traceTimes(const Effort& effort) {
     return tally;
 }
 
-constexpr Row kRows[] = {
+constexpr Row kTreesRows[] = {
     {"T24a", "depth of hostile trees; each triangle once, in its boxes", "levels", kMaxBvhDepth,
-     true, depths},
+     true, treeDepths},
     {"T24b", "rays through them that find other than the plain list", "", 0, true, hits},
     timed({"T24c", "time to build them", "of even ones", 4, false, buildTimes}),
     timed({"T24d", "time of a ray through them", "of the list", 4, false, traceTimes}),
@@ -206,6 +206,6 @@ constexpr Row kRows[] = {
 
 } // namespace
 
-std::span<const Row> treeRows() { return kRows; }
+std::span<const Row> treeRows() { return kTreesRows; }
 
 } // namespace battery

@@ -18,7 +18,7 @@ hasLibFuzzer() {
 work=build/fuzz/$engine
 checks='-fsanitize=address,undefined,float-cast-overflow -fno-sanitize-recover=all'
 build() {
-    $make --no-print-directory "$PWD/$work/fuzz" BUILD="$PWD/$work" ENGINE="$engine" STD=once \
+    $make --no-print-directory "$PWD/$work/fuzz" BUILD="$PWD/$work" ENGINE="$engine" \
         OPT='-O1 -g1 -D_GLIBCXX_ASSERTIONS' "$@"
 }
 case $engine in

@@ -14,6 +14,8 @@
 #include <fstream>
 #include <sstream>
 
+namespace test_assignment {
+
 namespace {
 
 using assignment::Pixel;
@@ -158,3 +160,5 @@ TEST(assignment_random_scenes) {
         compare(name, cat("randomCourseScene(", seed, ")"));
     }
 }
+
+} // namespace test_assignment

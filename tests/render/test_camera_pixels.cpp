@@ -3,6 +3,8 @@
 #include "check.h"
 #include "shot.h"
 
+namespace test_camera_pixels {
+
 namespace {
 
 struct Case {
@@ -112,3 +114,5 @@ TEST(firstHitPictures) {
         shot::render(scene, [](RenderSettings& s) { s.integrator = IntegratorKind::Normal; }).color;
     CHECK((normal.pixel(2, 1) == Rgb{0.5f, 0.5f, 1}));
 }
+
+} // namespace test_camera_pixels

@@ -2,6 +2,8 @@
 #include "check.h"
 #include "shot.h"
 
+namespace test_corners {
+
 namespace {
 
 // A picture of 8 x 6 pixels of side 1 from straight above, over a plane that shows where it is.
@@ -79,3 +81,5 @@ TEST(cutoffEndsChainsOfMirrors) {
     CHECK_EQUAL(bounces(0.25), 2u);
     CHECK_EQUAL(bounces(0), 40u);
 }
+
+} // namespace test_corners

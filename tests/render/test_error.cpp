@@ -9,6 +9,8 @@
 
 #include <algorithm>
 
+namespace test_error {
+
 namespace {
 
 shot::Tweak goal(double rmse, const shot::Tweak& more = {}) {
@@ -22,7 +24,7 @@ shot::Tweak goal(double rmse, const shot::Tweak& more = {}) {
 // Small pictures, for many samples.
 void shrink(RenderSettings& s) {
     s.picture.width = 48, s.picture.height = 36;
-    s.kernel = chooseKernel("auto").name;
+    s.isa = &bestIsa();
 }
 
 Picture render(const std::string& text, const shot::Tweak& tweak, Stats& stats) {
@@ -162,7 +164,7 @@ TEST(errorGoalHasTheSameBits) {
         same("short chunks", [](RenderSettings& s) { s.chunkSamples = 50; });
         same("every step", [](RenderSettings& s) { s.specialise = false; });
         same("no tree", [](RenderSettings& s) { s.accel = AccelKind::None; });
-        same("the best kernel", [](RenderSettings& s) { s.kernel = chooseKernel("auto").name; });
+        same("the best kernel", [](RenderSettings& s) { s.isa = &bestIsa(); });
     }
 }
 
@@ -243,3 +245,5 @@ TEST(errorGoalCountsItsSamples) {
     CHECK_EQUAL(sky.error->estimate, 0.0);
     for (const Rgb p : image.pixels()) CHECK(p == (Rgb{0.1f, 0.3f, 0.7f}));
 }
+
+} // namespace test_error

@@ -7,6 +7,8 @@
 #include <atomic>
 #include <set>
 
+namespace test_features {
+
 namespace {
 
 std::set<std::string> needed(const shot::Shot& shot) {
@@ -195,3 +197,5 @@ TEST(stoppedRendersAreNotFinished) {
     settings.camera = "none";
     CHECK_THROWS(Scene(desc, {"test", ""}, settings), "no camera 'none'");
 }
+
+} // namespace test_features

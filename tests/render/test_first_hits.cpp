@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <bit>
 
+namespace test_first_hits {
+
 namespace {
 
 // Shapes of all kinds of surfaces, some bent and with pictures on them; the camera moves and turns.
@@ -65,14 +67,14 @@ bool same(const FirstHit& a, const FirstHit& b) {
 
 TEST(firstHitsAreThoseOfSingleRays) {
     const SceneDesc desc = shot::parse(someScene());
-    for (const Kernel& kernel : allKernels()) {
+    for (const Isa& kernel : allIsas()) {
         if (!kernel.supported()) continue;
         for (const IntegratorKind kind : {IntegratorKind::Normal, IntegratorKind::Uv})
             for (const bool textures : {true, false}) { // without them lanes find surfaces
                 RenderSettings settings;
                 settings.picture = desc.settings;
                 settings.textureFolder = shot::textureFolder();
-                settings.kernel = kernel.name, settings.integrator = kind;
+                settings.isa = &kernel, settings.integrator = kind;
                 settings.switches.textures = textures;
                 settings.specialise = !textures || kind == IntegratorKind::Uv;
                 const Scene scene(desc, {"scene", ""}, settings);
@@ -105,3 +107,5 @@ TEST(firstHitsAreThoseOfSingleRays) {
             }
     }
 }
+
+} // namespace test_first_hits

@@ -3,6 +3,8 @@
 #include "shot.h"
 #include "solids.h"
 
+namespace test_furnace {
+
 namespace {
 
 Image furnace(const std::string& material, const std::string& body) {
@@ -56,3 +58,5 @@ TEST(whiteFurnace) {
                        shot::estimate(image).mean << c.material << body);
         }
 }
+
+} // namespace test_furnace

@@ -5,6 +5,8 @@
 
 #include "image/compare.h"
 
+namespace test_glass {
+
 namespace {
 
 // Reflectance of unpolarised light, from the amplitudes.
@@ -241,3 +243,5 @@ TEST(deepNestingStaysBounded) {
     const float radiance = shot::render(scene).at(0, 0).r;
     CHECK_INFO(radiance > 0.8f && radiance <= 1.0f, radiance);
 }
+
+} // namespace test_glass

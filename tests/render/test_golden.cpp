@@ -14,6 +14,8 @@
 #include <fstream>
 #include <sstream>
 
+namespace test_golden {
+
 TEST(goldenPictures) {
     const std::string folder = "tests/golden/";
     if (std::getenv("REGOLD")) {
@@ -54,3 +56,5 @@ TEST(goldenPictures) {
     }
     CHECK_EQUAL(compared, scenes::all().size());
 }
+
+} // namespace test_golden

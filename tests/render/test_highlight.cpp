@@ -4,6 +4,8 @@
 
 #include <string_view>
 
+namespace test_highlight {
+
 namespace {
 
 const Vec3d kEye{0.5, -1.5, 2}, kTarget{0.1, 0.2, 0}, kLamp{-0.4, 1.2, 1.75};
@@ -67,3 +69,5 @@ TEST(highlightEndsAtTheHorizon) {
     }
     CHECK_EQUAL(shot::render(scene(-1)).at(0, 0).r, 0.0f);
 }
+
+} // namespace test_highlight

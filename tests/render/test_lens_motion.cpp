@@ -4,6 +4,8 @@
 
 #include "image/compare.h"
 
+namespace test_lens_motion {
+
 namespace {
 
 const std::string kGlow = "material glow {\n diffuse 0 0 0\n emission 1 1 1\n}\n";
@@ -205,3 +207,5 @@ TEST(switchedOffBlurs) {
             .color;
     CHECK_EQUAL(shot::differingPixels(off, still), 0);
 }
+
+} // namespace test_lens_motion

@@ -2,6 +2,8 @@
 #include "check.h"
 #include "shot.h"
 
+namespace test_lights {
+
 namespace {
 
 using shot::TopView;
@@ -260,3 +262,5 @@ TEST(lightsAddUp) {
     }
     CHECK(shot::maxDifference(all, sum) <= 4e-7 * shot::largest(all)); // three float additions
 }
+
+} // namespace test_lights

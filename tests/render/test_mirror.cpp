@@ -2,6 +2,8 @@
 #include "check.h"
 #include "shot.h"
 
+namespace test_mirror {
+
 namespace {
 
 constexpr const char* kMirror = "material m {\n diffuse 0 0 0\n mirror 0.9 0.8 0.7\n}\n";
@@ -72,3 +74,5 @@ TEST(glossyReflectionEnergyAndWidth) {
         CHECK(lamp.sigma < 0.01);
     }
 }
+
+} // namespace test_mirror

@@ -3,6 +3,8 @@
 #include "check.h"
 #include "shot.h"
 
+namespace test_only_codes {
+
 namespace {
 
 // A bright ball in front of nothing and of a floor: tiles that are empty, and values above 1.
@@ -58,3 +60,5 @@ TEST(onlyCodesWhereThePictureCanBeMadeOfThem) {
         CHECK_EQUAL(shot.color.width(), 70);
     }
 }
+
+} // namespace test_only_codes

@@ -15,6 +15,8 @@
 #include <algorithm>
 #include <array>
 
+namespace test_same_bits {
+
 namespace {
 
 void checkSame(const std::string& name, const std::string& what, const Image& a, const Image& b) {
@@ -40,9 +42,8 @@ TEST(sameBitsWithTextures) {
                                                          }).color);
         checkSame(name, "no accelerator", one,
                   shot::render(desc, [](RenderSettings& s) { s.accel = AccelKind::None; }).color);
-        checkSame(name, "the best kernel", one, shot::render(desc, [](RenderSettings& s) {
-                                                    s.kernel = chooseKernel("auto").name;
-                                                }).color);
+        checkSame(name, "the best kernel", one,
+                  shot::render(desc, [](RenderSettings& s) { s.isa = &bestIsa(); }).color);
         for (const int k : {-20, 5})
             checkSame(name, cat("scale 2^", k), one,
                       shot::render(scenes::scaled(desc, std::ldexp(1.0, k))).color);
@@ -94,9 +95,9 @@ TEST(sameBitsForKernels) {
         desc.cameras[0].focusDistance = 6;
         const Image scalar = shot::render(desc).color;
         CHECK(shot::largest(scalar) > 0.2);
-        for (const Kernel& kernel : allKernels()) {
+        for (const Isa& kernel : allIsas()) {
             if (!kernel.supported()) continue;
-            const auto with = [&](RenderSettings& s) { s.kernel = kernel.name; };
+            const auto with = [&](RenderSettings& s) { s.isa = &kernel; };
             checkSame(lens ? "lens" : "pinhole", kernel.name, scalar,
                       shot::render(desc, with).color);
         }
@@ -119,10 +120,10 @@ TEST(sameBitsOfGlassBesideMirrors) {
                     0.5 + i % 3, "\n radius 0.3\n material glass\n}\n");
     const Image scalar = shot::render(text).color;
     CHECK(shot::largest(scalar) > 0.2);
-    for (const Kernel& kernel : allKernels())
+    for (const Isa& kernel : allIsas())
         if (kernel.supported())
             checkSame("balls", kernel.name, scalar,
-                      shot::render(text, [&](RenderSettings& s) { s.kernel = kernel.name; }).color);
+                      shot::render(text, [&](RenderSettings& s) { s.isa = &kernel; }).color);
 }
 
 // Rough mirrors and glass of every law of Fresnel, narrow and wide, sharp ones beside them: those
@@ -153,11 +154,10 @@ TEST(sameBitsOfRoughMirrorsBesideLamps) {
         desc.settings.sampler = sampler;
         const Image scalar = shot::render(desc).color;
         CHECK(shot::largest(scalar) > 0.2);
-        for (const Kernel& kernel : allKernels())
+        for (const Isa& kernel : allIsas())
             if (kernel.supported())
-                checkSame(name, kernel.name, scalar, shot::render(desc, [&](RenderSettings& s) {
-                                                         s.kernel = kernel.name;
-                                                     }).color);
+                checkSame(name, kernel.name, scalar,
+                          shot::render(desc, [&](RenderSettings& s) { s.isa = &kernel; }).color);
     }
 }
 
@@ -180,10 +180,10 @@ TEST(sameBitsOfMirrorsInMotion) {
                     "\n radius 0.25\n material m", i % 6, "\n}\n");
     const Image scalar = shot::render(text).color;
     CHECK(shot::largest(scalar) > 0.2);
-    for (const Kernel& kernel : allKernels())
+    for (const Isa& kernel : allIsas())
         if (kernel.supported())
             checkSame("mirrors", kernel.name, scalar,
-                      shot::render(text, [&](RenderSettings& s) { s.kernel = kernel.name; }).color);
+                      shot::render(text, [&](RenderSettings& s) { s.isa = &kernel; }).color);
 }
 
 TEST(sameBitsInCrops) {
@@ -267,3 +267,5 @@ TEST(seedsMatter) {
     CHECK(shot::differingPixels(a, b) > 1000);
     CHECK_EQUAL(shot::differingPixels(a, shot::render(text).color), 0);
 }
+
+} // namespace test_same_bits

@@ -4,6 +4,8 @@
 
 #include "image/compare.h"
 
+namespace test_sampling {
+
 namespace {
 
 // A lit ball with a soft shadow in the middle of black: what a filter spreads stays in the picture.
@@ -97,3 +99,5 @@ TEST(ambientOcclusionOfAWall) {
             .color);
     CHECK_NEAR(e.mean, 0.5, 3 * e.sigma + 1e-3); // the wall ends at 99 m, seen from 1 mm off
 }
+
+} // namespace test_sampling

@@ -10,6 +10,8 @@
 #include <bit>
 #include <optional>
 
+namespace test_shade_lanes {
+
 using meshes::Random;
 
 namespace {
@@ -147,8 +149,8 @@ private:
 
 // For the lanes of every kernel that there are.
 template <class Fn> void forAllLanes(const Fn& fn) {
-    for (const Kernel& kernel : allKernels())
-        if (const ShadeLanes lanes = shadeLanes(kernel); kernel.supported() && lanes.see)
+    for (const Isa& kernel : allIsas())
+        if (const ShadeLanes lanes = lanesOf(kernel.shade); kernel.supported() && lanes.see)
             fn(kernel.name, lanes);
 }
 
@@ -308,3 +310,5 @@ TEST(shade_lanes_aim_at_points_and_add_what_they_see) {
         }
     });
 }
+
+} // namespace test_shade_lanes

@@ -2,6 +2,8 @@
 #include "check.h"
 #include "shot.h"
 
+namespace test_sides {
+
 namespace {
 
 std::string sided(const std::string& object, const std::string& sides) {
@@ -82,3 +84,5 @@ TEST(checkerboardSquares) {
         CHECK(first > 600 && first < 1000);
     }
 }
+
+} // namespace test_sides

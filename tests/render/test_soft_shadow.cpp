@@ -2,6 +2,8 @@
 #include "check.h"
 #include "shot.h"
 
+namespace test_soft_shadow {
+
 // A strip light of width w at height H over an edge at height h: the penumbra on the floor is
 // w h / (H - h) wide, lit before it, dark behind it, and in it the visible part of the light is
 // linear in the place (the light is far enough off for its cosines to be even to 1 %).
@@ -86,3 +88,5 @@ TEST(lightSamplesAreCountedAndAveraged) {
                    3 * e.sigma + 0.004 * full); // the cosines; the hard light is 0.03 %
     }
 }
+
+} // namespace test_soft_shadow

@@ -10,6 +10,8 @@
 
 #include <algorithm>
 
+namespace test_spd {
+
 namespace {
 
 Stats traced(const char* name, const std::string& text) {
@@ -63,3 +65,5 @@ TEST(spdRingsHaveTheirPublishedRays) {
     checkCount(stats.rays.reflect, 315236, 0.03);
     checkCount(stats.rays.shadow, 1085002, 0.03);
 }
+
+} // namespace test_spd

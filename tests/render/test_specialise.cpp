@@ -10,6 +10,8 @@
 
 #include <cstring>
 
+namespace test_specialise {
+
 namespace {
 
 const shot::TopView kView{.pixels = 24, .side = 4, .samples = 2};
@@ -241,13 +243,14 @@ TEST(mapsOfLampsGiveTheSameBits) {
                     : cat("sphere s", i, " {\n material m\n radius 0.3\n", at, "}\n");
     }
     const shot::Shot plain = general(text);
-    for (const Kernel& kernel : allKernels()) {
-        if (!kernel.supported() || askLampMap(kernel) == nullptr) continue;
-        const shot::Shot special =
-            shot::render(text, [&](RenderSettings& s) { s.kernel = kernel.name; });
+    for (const Isa& kernel : allIsas()) {
+        if (!kernel.supported() || lanesOf(kernel.lamps).askMap == nullptr) continue;
+        const shot::Shot special = shot::render(text, [&](RenderSettings& s) { s.isa = &kernel; });
         CHECK_INFO(sameBits(special.color, plain.color), kernel.name);
         const auto asked = special.stats.rays.shadow, all = plain.stats.rays.shadow;
         CHECK_INFO(all > 1000 && asked < all / 2, asked << " of " << all << " shadow rays");
         CHECK(special.stats.shading.find("maps of 2") != std::string::npos);
     }
 }
+
+} // namespace test_specialise

@@ -2,6 +2,8 @@
 #include "check.h"
 #include "shot.h"
 
+namespace test_textures {
+
 namespace {
 
 Rgb pattern(int x, int y) { // 4x4, y from the bottom
@@ -273,3 +275,5 @@ TEST(environmentIsWhereItShouldBe) {
             .at(0, 0);
     CHECK_NEAR(up.b, 1, 2e-4);
 }
+
+} // namespace test_textures

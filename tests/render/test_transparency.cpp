@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+namespace test_transparency {
+
 namespace {
 
 struct Pane {
@@ -120,3 +122,5 @@ TEST(transparencyStopsAtTheDepth) {
         CHECK_EQUAL(shot::render(view.text() + panes).at(0, 0).r, depth == 5 ? 1.0f : 0.0f);
     }
 }
+
+} // namespace test_transparency

@@ -6,6 +6,8 @@
 
 #include "verify/scene_trials.h"
 
+namespace test_watertight {
+
 namespace {
 
 const std::string kLightsOutside =
@@ -171,3 +173,5 @@ TEST(ballTouchesItsShadow) {
         }
     CHECK(dark > 20);
 }
+
+} // namespace test_watertight

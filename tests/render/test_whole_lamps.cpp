@@ -5,6 +5,8 @@
 #include "shot.h"
 #include "verify/meshes.h"
 
+namespace test_whole_lamps {
+
 using meshes::Random;
 
 namespace {
@@ -62,15 +64,15 @@ TEST(wholeLampsHaveTheSameBitsForAll) {
                        how << ", case " << i << " of seed " << seed << ":\n"
                            << text);
         };
-        for (const Kernel& kernel : allKernels()) {
+        for (const Isa& kernel : allIsas()) {
             if (!kernel.supported()) continue;
             const std::string name(kernel.name);
-            judge(name, [&](RenderSettings& s) { s.kernel = name; });
+            judge(name, [&](RenderSettings& s) { s.isa = &kernel; });
             judge(name + ", general", [&](RenderSettings& s) {
-                s.kernel = name, s.specialise = false, s.chunkSamples = 100;
+                s.isa = &kernel, s.specialise = false, s.chunkSamples = 100;
             });
             judge(name + ", instances", [&](RenderSettings& s) {
-                s.kernel = name, s.copiedTriangles = 0, s.accel = AccelKind::None;
+                s.isa = &kernel, s.copiedTriangles = 0, s.accel = AccelKind::None;
             });
         }
     }
@@ -84,19 +86,18 @@ TEST(openLampsHaveTheSameBitsForAll) {
     int lit = 0;
     for (int i = 0; i < check::scaled(60); ++i) {
         const std::string text = fewShapes(random, i % 2 == 0);
-        const auto renderBy = [&](const std::string& kernel, bool specialise) {
+        const auto renderBy = [&](const Isa& kernel, bool specialise) {
             return shot::render(text, [&](RenderSettings& s) {
-                s.kernel = kernel, s.specialise = specialise;
+                s.isa = &kernel, s.specialise = specialise;
                 s.switches.softShadows = i % 4 < 2, s.switches.shadows = i % 3 == 0;
             });
         };
-        const Image alone = renderBy("scalar", false).color;
+        const Image alone = renderBy(oneLane(), false).color;
         lit += shot::largest(alone) > 0;
-        for (const Kernel& kernel : allKernels()) {
+        for (const Isa& kernel : allIsas()) {
             if (!kernel.supported()) continue;
             for (const bool specialise : {true, false})
-                CHECK_INFO(shot::differingPixels(
-                               renderBy(std::string(kernel.name), specialise).color, alone) == 0,
+                CHECK_INFO(shot::differingPixels(renderBy(kernel, specialise).color, alone) == 0,
                            kernel.name << ", case " << i << " of seed " << seed << ":\n"
                                        << text);
         }
@@ -118,10 +119,10 @@ TEST(wholeLampsAreFreeOfNoise) {
         const std::string light =
             cat("light l {\n translate -0.3 0.2 1.5\n radius 0.75\n color 3 3 3\n attenuation ",
                 fades ? "1 0 0" : "0 0 1", "\n}\n");
-        for (const Kernel& kernel : allKernels()) {
+        for (const Isa& kernel : allIsas()) {
             if (!kernel.supported()) continue;
             const shot::Shot shot =
-                shot::render(scene + light, [&](RenderSettings& s) { s.kernel = kernel.name; });
+                shot::render(scene + light, [&](RenderSettings& s) { s.isa = &kernel; });
             CHECK_EQUAL(shot.stats.rays.shadow, 0u);
             for (int y = 0; y < 8; ++y)
                 for (int x = 0; x < 8; ++x) {
@@ -155,10 +156,10 @@ TEST(wholeLampsDoNotBiasPenumbrae) {
             "material m {\n diffuse 0.8 0.8 0.8\n}\nplane floor {\n scale 4 4 1\n "
             "material m\n}\nplane lid {\n transform -0.8 0 0.6 -0.5  0 3 0 0  0.6 0 "
             "0.8 1\n}\nlight l {\n translate 0.6 0 0.8\n radius 0.6\n color 3 3 3\n}\n";
-        for (const Kernel& kernel : allKernels()) {
+        for (const Isa& kernel : allIsas()) {
             if (!kernel.supported()) continue;
             const shot::Shot shot =
-                shot::render(scene, [&](RenderSettings& s) { s.kernel = kernel.name; });
+                shot::render(scene, [&](RenderSettings& s) { s.isa = &kernel; });
             const shot::Estimate e = shot::estimate(shot.color);
             CHECK_INFO(std::fabs(e.mean - expected) < 3 * e.sigma,
                        kernel.name << ", " << samples << " samples: " << e.mean << " +- " << e.sigma
@@ -167,3 +168,5 @@ TEST(wholeLampsDoNotBiasPenumbrae) {
         }
     }
 }
+
+} // namespace test_whole_lamps

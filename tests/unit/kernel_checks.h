@@ -15,10 +15,10 @@ namespace kernel_checks {
 
 using battery::RayList;
 
-inline std::vector<const Kernel*> vectorKernels() {
-    std::vector<const Kernel*> out;
-    for (const Kernel& kernel : allKernels())
-        if (kernel.supported() && kernel.width > 0) out.push_back(&kernel);
+inline std::vector<const Isa*> vectorKernels() {
+    std::vector<const Isa*> out;
+    for (const Isa& kernel : allIsas())
+        if (kernel.supported() && kernel.triangles != nullptr) out.push_back(&kernel);
     return out;
 }
 
@@ -27,7 +27,7 @@ inline std::vector<const Kernel*> vectorKernels() {
 struct Meshes {
     explicit Meshes(const MeshGeometry& bare) : scalar(bare) {
         scalar.finish(true);
-        for (const Kernel* kernel : vectorKernels())
+        for (const Isa* kernel : vectorKernels())
             for (const double rays : {0.0, kCountlessRays}) {
                 wide.push_back(std::make_unique<MeshGeometry>(bare));
                 wide.back()->finish(true, *kernel, 1, rays);
@@ -84,17 +84,17 @@ inline void compare(const Meshes& meshes, const RayList& rays, const std::string
         CHECK(mesh.takesBatches());
         got.assign(n, {.t = -7}), brief.assign(n, {.t = -7}); // for rays that nobody answers
         mesh.intersectBatch(rays.span(), 3, got);
-        closestHits(*geometry->kernel, geometry->wideMesh(), rays.span(), brief);
+        closestHits(*geometry->isa, geometry->wideMesh(), rays.span(), brief);
         mesh.occludesBatch(rays.span(), hidden);
         for (std::size_t i = 0; i < n; ++i) {
             CHECK_INFO(battery::haveSameBits(got[i], expected[i]) && isSame(brief[i], expected[i]),
-                       name << ", " << geometry->kernel->name << ", ray " << i << " of " << n
-                            << ": " << shown(rays.span()[i]) << ": " << shown(got[i])
+                       name << ", " << geometry->isa->name << ", ray " << i << " of " << n << ": "
+                            << shown(rays.span()[i]) << ": " << shown(got[i])
                             << ", without u and v: " << brief[i].triangle << " at " << brief[i].t
                             << ", expected " << shown(expected[i]));
             CHECK_INFO(hidden[i] == expectedHidden[i],
-                       name << ", " << geometry->kernel->name << ", ray " << i << " of " << n
-                            << ": " << shown(rays.span()[i]) << ": hidden " << int(hidden[i]));
+                       name << ", " << geometry->isa->name << ", ray " << i << " of " << n << ": "
+                            << shown(rays.span()[i]) << ": hidden " << int(hidden[i]));
         }
     }
 }

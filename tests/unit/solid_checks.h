@@ -65,7 +65,7 @@ inline void compare(const char* kernel, std::uint64_t seed, const ShapeSet& batc
     }
 }
 
-inline void checkScore(const char* name, const Kernel& kernel, const Score& score) {
+inline void checkScore(const char* name, const Isa& kernel, const Score& score) {
     std::printf("%s, %s: %lld rays, %lld hits, %lld hidden, %zu shapes seen\n", name, kernel.name,
                 score.rays, score.hits, score.hidden, score.seen.size());
     CHECK_INFO(score.hits > score.rays / 4 && score.hidden > score.rays / 8, kernel.name);
@@ -78,13 +78,13 @@ inline void checkScore(const char* name, const Kernel& kernel, const Score& scor
 template <class Fill, class MakeRays>
 void compareSets(const char* name, std::uint64_t first, unsigned seeds, const Fill& fill,
                  const MakeRays& makeRays) {
-    for (const Kernel& kernel : allKernels()) {
-        if (!kernel.supported() || kernel.width == 0) continue;
+    for (const Isa& kernel : allIsas()) {
+        if (!kernel.supported() || kernel.triangles == nullptr) continue;
         Score score;
         for (std::uint64_t seed = first; seed < first + check::scaled(seeds); ++seed) {
             ShapeSet batches, single;
             const auto shapes = fill(seed, kernel, batches);
-            const auto same = fill(seed, chooseKernel("scalar"), single);
+            const auto same = fill(seed, oneLane(), single);
             batches.finish(true, kernel);
             single.finish(false); // every shape is asked
             meshes::Random random(seed);

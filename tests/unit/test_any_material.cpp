@@ -9,6 +9,8 @@
 #include <span>
 #include <string>
 
+namespace test_any_material {
+
 namespace {
 
 struct Special {
@@ -94,3 +96,5 @@ TEST(any_material_of_a_lamp) {
     desc.lights[0].visible = true;
     CHECK(sceneOf(desc, 1).anyMaterial().isLamp);
 }
+
+} // namespace test_any_material

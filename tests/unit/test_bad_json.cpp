@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+namespace test_bad_json {
+
 namespace {
 
 using damage::contentOf;
@@ -58,3 +60,5 @@ TEST(bad_json_random_damage) {
     // Both must happen, or the test tests nothing.
     CHECK_INFO(read > 300 && refused > 1000, "read " << read << ", refused " << refused);
 }
+
+} // namespace test_bad_json

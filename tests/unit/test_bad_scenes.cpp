@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <fstream>
 
+namespace test_bad_scenes {
+
 namespace {
 
 using damage::contentOf;
@@ -104,3 +106,5 @@ TEST(bad_txt_random_damage) {
     // Both must happen, or the test tests nothing.
     CHECK_INFO(read > 100 && refused > 1000, "read " << read << ", refused " << refused);
 }
+
+} // namespace test_bad_scenes

@@ -3,6 +3,8 @@
 
 #include "check.h"
 
+namespace test_batch {
+
 TEST(batch_keeps_rays_together) {
     PathBatch batch;
     CHECK(batch.empty());
@@ -25,3 +27,5 @@ TEST(batch_keeps_rays_together) {
     CHECK(batch.sample.size() >= 20 && batch.weight.size() >= 20 && batch.medium.size() >= 20);
     CHECK(batch.stream.size() >= 20 && batch.seesLights.size() >= 20);
 }
+
+} // namespace test_batch

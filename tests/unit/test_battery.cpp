@@ -6,6 +6,8 @@
 
 #include <set>
 
+namespace test_battery {
+
 using battery::Effort;
 using battery::Finding;
 using battery::Row;
@@ -146,3 +148,5 @@ TEST(battery_command_line) {
     CHECK_THROWS(verify(parsed({"T"})), "unknown test 'T'");
     CHECK_EQUAL(verifyTests().size(), battery::rows().size());
 }
+
+} // namespace test_battery

@@ -10,6 +10,8 @@
 #include <bit>
 #include <cstring>
 
+namespace test_bench {
+
 namespace {
 
 struct Bench {
@@ -20,7 +22,7 @@ struct Bench {
 
     explicit Bench(const MeshDesc& mesh)
         : frame(meshes::frameFor(mesh, {})), desc(mesh), geometry(toGeometry(mesh, frame)) {
-        geometry.finish(true, chooseKernel("auto"));
+        geometry.finish(true, bestIsa());
         sets = benchRays(geometry);
     }
 };
@@ -90,7 +92,7 @@ TEST(bench_hits_for_any_number_of_threads) {
 // A ray that meets nothing visits every node whose box it enters; others visit some of those.
 TEST(bench_walk_against_all_boxes) {
     Bench plain(meshes::torus(0.4, 40, 20));
-    plain.geometry.finish(true, chooseKernel("scalar"));
+    plain.geometry.finish(true, oneLane());
     plain.geometry.wide = {};
     const Bvh& bvh = plain.geometry.bvh;
     std::size_t misses = 0;
@@ -131,7 +133,7 @@ TEST(bench_walk_against_all_boxes) {
 TEST(bench_walk_of_wide_trees) {
     Bench bench(meshes::torus(0.4, 40, 20));
     bench.geometry.wide = {};
-    bench.geometry.finish(true, chooseKernel("scalar"));
+    bench.geometry.finish(true, oneLane());
     const BenchWalk binary = meanWalk(bench.geometry, bench.sets[2]);
     bench.geometry.bvh = {};
     double before = binary.nodes;
@@ -189,3 +191,5 @@ TEST(bench_file_in_the_space_of_the_mesh) {
     }
     CHECK_EQUAL(at, bytes.size());
 }
+
+} // namespace test_bench

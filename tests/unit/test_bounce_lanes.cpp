@@ -5,6 +5,7 @@
 #include "render/shading.h"
 #include "render/waves/bounce_lanes.h"
 #include "sample/hash.h"
+#include "sample/sobol.h"
 #include "verify/meshes.h"
 
 #include <array>
@@ -12,14 +13,14 @@
 #include <cmath>
 #include <vector>
 
+namespace test_bounce_lanes {
+
 using meshes::Random;
 
 namespace {
 
 constexpr std::size_t kPoints = PointBlock::kPoints;
 constexpr float kCutoff = 0.02f;
-
-#include "sample/sobol.inl"
 
 bool sameBits(float a, float b) {
     return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
@@ -92,8 +93,8 @@ struct Block {
             }
     }
     Vec2 pairOf(std::size_t k) const {
-        const auto bits =
-            sobolPair<std::uint32_t>(pairs.sample[k], pairs.index[k], pairs.x[k], pairs.y[k]);
+        const auto bits = kernels::one::sobolPair<std::uint32_t>(pairs.sample[k], pairs.index[k],
+                                                                 pairs.x[k], pairs.y[k]);
         return {unitFloat(bits.x), unitFloat(bits.y)};
     }
 
@@ -173,8 +174,8 @@ std::vector<Sent> sentAlone(const Block& block, LeavingRays& told, Cases& cases)
 }
 
 template <class Fn> void forAllLanes(const Fn& fn) {
-    for (const Kernel& kernel : allKernels())
-        if (const BounceLanes lanes = bounceLanes(kernel); kernel.supported() && lanes.bounce)
+    for (const Isa& kernel : allIsas())
+        if (const BounceLanes lanes = lanesOf(kernel.bounce); kernel.supported() && lanes.bounce)
             fn(kernel.name, lanes);
 }
 
@@ -217,7 +218,7 @@ TEST(bounce_lanes_have_the_bits_and_the_order_of_single_points) {
                         << " rough, of them " << cases.onAxis << " on the axis of the lobe, "
                         << cases.atQuarters << " at quarters of the circle");
     });
-    CHECK(bounceLanes(chooseKernel("scalar")).bounce == nullptr);
+    CHECK(oneLane().bounce == nullptr);
 }
 
 // Whatever their materials are: as those of each material together.
@@ -289,3 +290,5 @@ TEST(bounce_lanes_divide_points_by_what_they_have_in_common) {
         }
     });
 }
+
+} // namespace test_bounce_lanes

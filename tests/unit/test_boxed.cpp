@@ -6,6 +6,8 @@
 #include "check.h"
 #include "verify/hostile_rays.h"
 
+namespace test_boxed {
+
 using kit::Random;
 
 TEST(boxed_hits_in_lanes_are_those_of_single_rays) {
@@ -51,8 +53,8 @@ TEST(boxed_hits_in_lanes_are_those_of_single_rays) {
                 expected[k] = moved[k], ++taken;
             }
         }
-        for (const Kernel& kernel : allKernels()) {
-            const SolidKernel* const lanes = solidKernel(kernel);
+        for (const Isa& kernel : allIsas()) {
+            const SolidKernel* const lanes = kernel.solids;
             if (!kernel.supported() || lanes == nullptr) continue;
             std::vector<Hit> nearest = best, mine = found;
             std::vector<std::uint32_t> list(best.size());
@@ -66,3 +68,5 @@ TEST(boxed_hits_in_lanes_are_those_of_single_rays) {
     }
     CHECK_INFO(taken > 1000 && left > 1000 && ties > 100, taken << ' ' << left << ' ' << ties);
 }
+
+} // namespace test_boxed

@@ -8,6 +8,8 @@
 #include <functional>
 #include <limits>
 
+namespace test_bvh {
+
 using bvh_kit::boxAt;
 using bvh_kit::Boxes;
 using bvh_kit::hostile;
@@ -157,3 +159,5 @@ TEST(bvh_is_worth_it) {
     CHECK_NEAR(sahCost({}), 0, 0);
     CHECK_EQUAL(leafCount({}), 0u);
 }
+
+} // namespace test_bvh

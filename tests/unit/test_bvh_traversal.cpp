@@ -5,6 +5,8 @@
 
 #include <utility>
 
+namespace test_bvh_traversal {
+
 using bvh_kit::boxAt;
 using bvh_kit::Boxes;
 using bvh_kit::hostile;
@@ -140,3 +142,5 @@ TEST(bvh_traversal_is_front_to_back) {
     CHECK_EQUAL(afterStop, 0u);
     CHECK_EQUAL(behindCut, 0u);
 }
+
+} // namespace test_bvh_traversal

@@ -13,6 +13,8 @@
 #include <cstdlib>
 #include <vector>
 
+namespace test_byte_lanes {
+
 namespace {
 
 using Row = std::vector<std::uint8_t>;
@@ -234,3 +236,5 @@ TEST(srgb_codes_are_the_same_in_every_width) {
             checkSrgb(lanes, greysFrom(bits, 997, kPiece));
     }
 }
+
+} // namespace test_byte_lanes

@@ -4,6 +4,8 @@
 #include "camera_kit.h"
 #include "check.h"
 
+namespace test_camera {
+
 using camera_kit::somewhere;
 using kit::Random;
 using Fit = CameraParams::SensorFit;
@@ -204,3 +206,5 @@ TEST(camera_pinhole_rays_are_rays) {
         }
     }
 }
+
+} // namespace test_camera

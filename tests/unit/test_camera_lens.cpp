@@ -3,6 +3,8 @@
 #include "camera_kit.h"
 #include "check.h"
 
+namespace test_camera_lens {
+
 using camera_kit::somewhere;
 using kit::Random;
 using Kind = CameraParams::Kind;
@@ -112,3 +114,5 @@ TEST(camera_polygonal_aperture) {
         CHECK_NEAR(meanY, 0, 0.05);
     }
 }
+
+} // namespace test_camera_lens

@@ -8,6 +8,8 @@
 #include <limits>
 #include <random>
 
+namespace test_coded_image {
+
 namespace {
 
 // Of all kinds: far outside of [0, 1], NaN, and runs of equal ones.
@@ -97,3 +99,5 @@ TEST(coded_images_have_the_sizes_of_images) {
         CHECK_THROWS(CodedImage(static_cast<int>(size.x), static_cast<int>(size.y), {}),
                      "is not possible");
 }
+
+} // namespace test_coded_image

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <string>
 
+namespace test_compare {
+
 namespace {
 
 Image constant(int width, int height, Rgb value) {
@@ -103,3 +105,5 @@ TEST(compare_all_metrics_in_one_table) {
     CHECK_EQUAL(names, "rmse mae psnr ssim flip ");
     CHECK_THROWS(differenceImage(pair.a, Image(1, 1)), "differ in size: 40x30 and 1x1");
 }
+
+} // namespace test_compare

@@ -1,5 +1,7 @@
 #include "analytic_checks.h"
 
+namespace test_cone {
+
 using kit::Random;
 
 TEST(cone_keeps_the_rules_of_shapes) {
@@ -91,3 +93,5 @@ TEST(cone_edge_cases) {
     open.collect({{0.25f, 0, 5}, {0, 0, -1}}, hits); // steep, from above the tip: once
     CHECK_EQUAL(hits.size(), std::size_t(1));
 }
+
+} // namespace test_cone

@@ -1,5 +1,7 @@
 #include "analytic_checks.h"
 
+namespace test_cube {
+
 TEST(cube_keeps_the_rules_of_shapes) { kit::checkShape("cube", 201); }
 
 TEST(cube_does_not_leak_at_edges_and_corners) { CHECK_EQUAL(kit::leaks("cube", 202, 1000000), 0); }
@@ -59,3 +61,5 @@ TEST(cube_box_is_that_of_its_corners) {
         CHECK_INFO(found.lo == wanted.lo && found.hi == wanted.hi, "map " << i);
     }
 }
+
+} // namespace test_cube

@@ -1,5 +1,7 @@
 #include "analytic_checks.h"
 
+namespace test_cylinder {
+
 using kit::Random;
 
 TEST(cylinder_keeps_the_rules_of_shapes) {
@@ -64,3 +66,5 @@ TEST(cylinder_edge_cases) {
         CHECK_EQUAL(hit.t, 1.0f);
     }
 }
+
+} // namespace test_cylinder

@@ -17,6 +17,8 @@
 #include <string_view>
 #include <vector>
 
+namespace test_deflate {
+
 namespace {
 
 Buffer bytesOf(std::string_view text) { return {text.begin(), text.end()}; }
@@ -439,3 +441,5 @@ TEST(huffman_codes_are_canonical) { // the example of RFC 1951, 3.2.2
     CHECK_EQUAL(codes[5].bits, 0b00);
     CHECK_EQUAL(codes[6].bits, 0b0111); // 1110
 }
+
+} // namespace test_deflate

@@ -3,6 +3,8 @@
 #include "shape/mesh.h"
 #include "verify/meshes.h"
 
+namespace test_degenerate_meshes {
+
 using meshes::Random;
 
 TEST(mesh_drops_triangles_whose_corners_coincide) {
@@ -67,3 +69,5 @@ TEST(mesh_drops_the_same_rows_of_every_list) {
     }
     std::printf("seed 173\n");
 }
+
+} // namespace test_degenerate_meshes

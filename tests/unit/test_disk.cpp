@@ -1,5 +1,7 @@
 #include "analytic_checks.h"
 
+namespace test_disk {
+
 TEST(disk_keeps_the_rules_of_shapes) { kit::checkShape("disk", 501); }
 
 TEST(disk_uv_and_edge_cases) {
@@ -31,3 +33,5 @@ TEST(disk_uv_and_edge_cases) {
         CHECK(!Disk(Transform(), radius, 0, 0).intersect({{0, 0, 1}, {0, 0, -1}}, hit));
     }
 }
+
+} // namespace test_disk

@@ -3,6 +3,8 @@
 #include "texture/environment.h"
 #include "unit/stored_floats.h"
 
+namespace test_environment {
+
 using kit::Random;
 
 namespace {
@@ -109,3 +111,5 @@ TEST(environment_upright_along_y) {
         CHECK(z.radiance(d) == y.radiance({d.x, d.z, -d.y}));
     }
 }
+
+} // namespace test_environment

@@ -1,12 +1,14 @@
 // The picture around the scene by the register: every lane has the bits of looking alone.
 #include "accel/kernels/kernels.h"
 #include "check.h"
-#include "render/waves/environment_lanes.h"
+#include "render/waves/picture_lanes.h"
 #include "verify/meshes.h"
 
 #include <bit>
 #include <cmath>
 #include <limits>
+
+namespace test_environment_lanes {
 
 using meshes::Random;
 
@@ -80,8 +82,9 @@ bool sameBits(float a, float b) {
 
 TEST(environment_lanes_have_the_bits_of_single_rays) {
     using Depth = StoredImage::Depth;
-    for (const Kernel& kernel : allKernels()) {
-        const EnvironmentColorsFn colors = kernel.supported() ? environmentColors(kernel) : nullptr;
+    for (const Isa& kernel : allIsas()) {
+        const EnvironmentColorsFn colors =
+            kernel.supported() ? lanesOf(kernel.pictures).environment : nullptr;
         if (!colors) continue;
         Random random(43);
         long long asked = 0, wrong = 0;
@@ -128,5 +131,7 @@ TEST(environment_lanes_have_the_bits_of_single_rays) {
         CHECK_INFO(asked > 2000, asked);
         CHECK_EQUAL(wrong, 0);
     }
-    CHECK(environmentColors(chooseKernel("scalar")) == nullptr);
+    CHECK(oneLane().pictures == nullptr);
 }
+
+} // namespace test_environment_lanes

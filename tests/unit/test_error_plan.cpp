@@ -7,6 +7,8 @@
 
 #include <functional>
 
+namespace test_error_plan {
+
 namespace {
 
 // Three independent channels of one noise, and the choices of the plan for it.
@@ -162,3 +164,5 @@ TEST(error_plan_does_not_depend_on_parts) {
         for (int x = 0; x < 70; ++x)
             CHECK_EQUAL(a.samplesOf({x, y, x + 1, y + 1}), b.samplesOf({x, y, x + 1, y + 1}));
 }
+
+} // namespace test_error_plan

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <random>
 
+namespace test_exact_orientation {
+
 TEST(triangulate_orientation_is_exact) {
     // Shewchuk's example: on a grid of ulps around (0.5, 0.5), against the line through 12 and 24.
     const double ulp = 0x1p-53;
@@ -37,3 +39,5 @@ TEST(triangulate_orientation_is_exact) {
                    "seed " << seed);
     }
 }
+
+} // namespace test_exact_orientation

@@ -3,6 +3,8 @@
 #include "check.h"
 #include "verify/groups.h"
 
+namespace test_exact_shapes {
+
 TEST(shapes_against_113_bits) {
     for (const auto rows : {battery::shapeRows(), battery::grazingRows()})
         for (const battery::Row& row : rows) {
@@ -12,3 +14,5 @@ TEST(shapes_against_113_bits) {
                               << ' ' << tally.worstCase);
         }
 }
+
+} // namespace test_exact_shapes

@@ -5,6 +5,8 @@
 #include <cstring>
 #include <utility>
 
+namespace test_file_text {
+
 namespace {
 
 bool says(const FileText& text, std::string_view what) {
@@ -41,3 +43,5 @@ TEST(file_text_is_there_once_it_has_moved) {
     c = {};
     CHECK(says(c, ""));
 }
+
+} // namespace test_file_text

@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+namespace test_film {
+
 namespace {
 
 bool areSame(const Film::Place& a, const Film::Place& b) {
@@ -76,3 +78,5 @@ TEST(film_leaves_out_what_is_no_number) {
                                      << odd.value.b);
         }
 }
+
+} // namespace test_film

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+namespace test_filter {
+
 namespace {
 
 constexpr FilterKind kKinds[] = {FilterKind::Box, FilterKind::Tent, FilterKind::Gaussian,
@@ -124,3 +126,5 @@ TEST(filter_reach) {
         CHECK_NEAR(Filter(kind, 1).value(0), 1, 1e-12);
     }
 }
+
+} // namespace test_filter

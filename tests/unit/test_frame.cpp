@@ -4,6 +4,8 @@
 #include "check.h"
 #include "verify/meshes.h"
 
+namespace test_frame {
+
 using meshes::Random;
 
 namespace {
@@ -156,3 +158,5 @@ TEST(frame_of_little) {
     cone.objects[0].topRadius = 4;
     CHECK_EQUAL(frameOf(cone).scale, 0.125);
 }
+
+} // namespace test_frame

@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <filesystem>
 
+namespace test_fuzz_seeds {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,3 +91,5 @@ TEST(fuzz_png_parts) {
         CHECK_EQUAL(fuzz::withRightChecksums(part).size(), size);
     }
 }
+
+} // namespace test_fuzz_seeds

@@ -16,6 +16,8 @@
 #include <sys/stat.h>
 #include <thread>
 
+namespace test_image {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -197,3 +199,5 @@ TEST(file_pending_name_is_known_while_writing) {
     CHECK_INFO(seen.ends_with(".tmp"), seen);
     CHECK(pendingTemporaryFile() == nullptr);
 }
+
+} // namespace test_image

@@ -9,6 +9,8 @@
 #include <span>
 #include <vector>
 
+namespace test_image_colour {
+
 namespace {
 
 long double exactDecode(long double s) {
@@ -154,3 +156,5 @@ TEST(colour_clamps_and_takes_nan_as_zero) {
     }
     CHECK_EQUAL(int{unit8From(0.5f)}, 128); // 127.5 is rounded up
 }
+
+} // namespace test_image_colour

@@ -10,6 +10,8 @@
 #include <filesystem>
 #include <random>
 
+namespace test_image_damage {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -165,3 +167,5 @@ TEST(image_random_damage) {
     // Both must happen, or the test tests nothing.
     CHECK_INFO(read > 100 && refused > 500, "read " << read << ", refused " << refused);
 }
+
+} // namespace test_image_damage

@@ -7,6 +7,8 @@
 
 #include <stdexcept>
 
+namespace test_in_order {
+
 namespace {
 
 InOrder::Bytes pieceOf(std::size_t number, InOrder::Bytes bytes) {
@@ -88,3 +90,5 @@ TEST(zeroed_vectors_are_zero) {
     const ZeroedVector<int> copy(ZeroedVector<int>(3, 7));
     CHECK(copy.size() == 3 && copy[0] == 7 && copy[2] == 7);
 }
+
+} // namespace test_in_order

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+namespace test_in_turn {
+
 TEST(in_turn_uses_pieces_in_order) {
     for (const int threads : {1, 2, 4, 9}) {
         constexpr std::size_t kPieces = 500;
@@ -54,3 +56,5 @@ TEST(in_turn_ends_with_an_exception) {
         CHECK_INFO(used.size() == 20 && used.back() == 19, used.size());
     }
 }
+
+} // namespace test_in_turn

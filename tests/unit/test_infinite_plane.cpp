@@ -1,5 +1,7 @@
 #include "analytic_checks.h"
 
+namespace test_infinite_plane {
+
 TEST(infinite_plane_keeps_the_rules_of_shapes) { kit::checkShape("infinite plane", 601); }
 
 TEST(infinite_plane_far_and_grazing) {
@@ -20,3 +22,5 @@ TEST(infinite_plane_far_and_grazing) {
     CHECK(!plane.intersect({{0, 0, 1}, {1, 0, -1e-45f}}, hit)); // t is beyond all floats
     CHECK(!plane.intersect({{3, 4, 0}, {1, 0, -1}}, hit));      // starts on it
 }
+
+} // namespace test_infinite_plane

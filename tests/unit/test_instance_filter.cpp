@@ -4,6 +4,8 @@
 #include "check.h"
 #include "verify/meshes.h"
 
+namespace test_instance_filter {
+
 using meshes::Random;
 
 // The tree is there to leave out triangles: of all but tiny and flat instances nearly all.
@@ -38,3 +40,5 @@ TEST(instance_tree_leaves_out_triangles) {
     for (const Transform& map : {Transform::scale({1, 1, 0}), Transform::scale(1e-9)})
         CHECK(!InstanceFilter(shared, map).treeRay(ray, kSceneExtent));
 }
+
+} // namespace test_instance_filter

@@ -11,6 +11,8 @@
 #include <string>
 #include <vector>
 
+namespace test_json {
+
 namespace {
 
 std::string faultOf(const std::string& text) {
@@ -287,3 +289,5 @@ TEST(json_numbers_are_rounded_correctly) {
                        std::string_view(source.text) << " gives " << shortest(item.number()));
     }
 }
+
+} // namespace test_json

@@ -1,6 +1,8 @@
 // Lights in JSON: units, fall-off and aims of the dialects, by numbers worked out by hand.
 #include "unit/json_kit.h"
 
+namespace test_json_lights {
+
 using json_kit::checkColor;
 using json_kit::checkPoint;
 using json_kit::scene;
@@ -78,3 +80,5 @@ TEST(read_json_aimed_lights) {
     checkPoint(Transform::fromRows(panel.worldFromLight).vector({0, 1, 0}), {1, 0, 0});
     CHECK((panel.size == Vec2d{2, 3}));
 }
+
+} // namespace test_json_lights

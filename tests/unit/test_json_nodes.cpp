@@ -2,6 +2,8 @@
 // of it.
 #include "unit/json_kit.h"
 
+namespace test_json_nodes {
+
 using json_kit::checkPoint;
 using json_kit::hasWarning;
 using json_kit::objects;
@@ -170,3 +172,5 @@ TEST(read_json_keys_of_copies_are_bounded) {
     CHECK_EQUAL(scene(scenery(9)).objects.at(9).worldFromObject.size(), std::size_t{200});
     CHECK_THROWS(scene(scenery(11000)), "the keys and materials of all objects are more than");
 }
+
+} // namespace test_json_nodes

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_json_parts {
+
 namespace {
 
 constexpr std::size_t kNever = static_cast<std::size_t>(-1);
@@ -201,3 +203,5 @@ TEST(json_parts_leave_out_the_list) {
         });
     CHECK_EQUAL(items, kObjects.size());
 }
+
+} // namespace test_json_parts

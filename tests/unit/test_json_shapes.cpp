@@ -1,6 +1,8 @@
 // Shapes in JSON: where the dialects place them and their materials.
 #include "unit/json_kit.h"
 
+namespace test_json_shapes {
+
 using json_kit::checkPoint;
 using json_kit::hasWarning;
 using json_kit::objects;
@@ -143,3 +145,5 @@ TEST(read_json_everything_is_placed_in_2025) {
     checkPoint(worldPoint(desc.objects.at(1), {1, 0, 0}), {5, 0, -2});
     checkPoint(worldPoint(desc.objects.at(1), {0, 1, 0}), {7, 0, 0});
 }
+
+} // namespace test_json_shapes

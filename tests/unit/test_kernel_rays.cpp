@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+namespace test_kernel_rays {
+
 using namespace battery;
 using namespace kernel_checks;
 using meshes::Random;
@@ -126,3 +128,5 @@ TEST(kernels_skip_broken_rays) {
         compare(meshes, all, "a broken origin", counts);
     }
 }
+
+} // namespace test_kernel_rays

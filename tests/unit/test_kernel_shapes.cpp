@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 
+namespace test_kernel_shapes {
+
 using namespace battery;
 using namespace kernel_checks;
 using meshes::Random;
@@ -40,7 +42,7 @@ TEST(kernels_on_copies_of_a_moving_mesh) {
                     Mesh(*geometry, {0}, {{0, 0}}).intersectBatch(list.span(), 3, got);
                     for (std::size_t i = 0; i < list.size(); ++i)
                         CHECK_INFO(battery::haveSameBits(got[i], expected[i]),
-                                   geometry->kernel->name
+                                   geometry->isa->name
                                        << ", time " << time << ": " << shown(list.span()[i]) << ": "
                                        << shown(got[i]) << ", expected " << shown(expected[i]));
                 }
@@ -55,7 +57,7 @@ TEST(kernels_on_copies_of_a_moving_mesh) {
 // A scene's batches: meshes with kernels, opaque and see-through, beside shapes that are asked ray
 // by ray. The scalar code without any tree says what is right.
 TEST(kernels_in_a_shape_set) {
-    for (const Kernel* kernel : vectorKernels()) {
+    for (const Isa* kernel : vectorKernels()) {
         Random random(75);
         std::array<MeshGeometry, 2> plain = {toGeometry(meshes::torus(0.3, 32, 16), {}),
                                              meshes::geometryOf(meshes::soup(random, 200), false)};
@@ -108,3 +110,5 @@ TEST(kernels_in_a_shape_set) {
         for (const std::size_t shape : {2u, 3u, 8u, 9u}) CHECK_INFO(perShape[shape] > 0, shape);
     }
 }
+
+} // namespace test_kernel_shapes

@@ -6,6 +6,8 @@
 
 #include <cmath>
 
+namespace test_kernels {
+
 using namespace battery;
 using namespace kernel_checks;
 using meshes::Random;
@@ -154,16 +156,16 @@ TEST(kernels_on_trees_too_large_for_bundles) {
             mesh.mostLinesForBundles = most;
             std::vector<Hit> got(n, {.t = -7});
             std::vector<std::uint8_t> hidden(n, 7);
-            closestHits(*geometry->kernel, mesh, rays.span(), 3, got);
-            anyHits(*geometry->kernel, mesh, rays.span(), hidden);
+            closestHits(*geometry->isa, mesh, rays.span(), 3, got);
+            anyHits(*geometry->isa, mesh, rays.span(), hidden);
             for (std::size_t i = 0; i < n; ++i) {
                 const Ray ray = rays.span()[i];
                 Hit expected{.t = ray.tMax};
                 if (oracle.intersect(ray, expected)) expected.shape = 3;
                 CHECK_INFO(haveSameBits(got[i], expected) && hidden[i] == oracle.occludes(ray),
-                           geometry->kernel->name
-                               << ", " << most << " of " << lines << " lines: " << shown(ray)
-                               << ": " << shown(got[i]) << ", hidden " << int(hidden[i]));
+                           geometry->isa->name << ", " << most << " of " << lines
+                                               << " lines: " << shown(ray) << ": " << shown(got[i])
+                                               << ", hidden " << int(hidden[i]));
             }
         }
     }
@@ -229,3 +231,5 @@ TEST(kernels_among_wires) {
                 counts.hidden);
     CHECK(counts.hits > counts.rays / 20 && counts.hits < counts.rays);
 }
+
+} // namespace test_kernels

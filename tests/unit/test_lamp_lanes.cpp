@@ -10,6 +10,7 @@
 #include "render/shading.h"
 #include "sample/hash.h"
 #include "sample/sampler.h"
+#include "sample/sobol.h"
 #include "sample/warp.h"
 #include "verify/meshes.h"
 
@@ -18,9 +19,7 @@
 #include <cstring>
 #include <memory>
 
-namespace sobol {
-#include "sample/sobol.inl"
-} // namespace sobol
+namespace test_lamp_lanes {
 
 using namespace litkit;
 
@@ -71,8 +70,8 @@ std::unique_ptr<Light> someSoftLamp(Random& random, Vec3 at) {
 } // namespace
 
 TEST(lamp_lanes_have_the_bits_of_single_points) {
-    for (const Kernel& kernel : allKernels()) {
-        const LightByLampFn inLanes = kernel.supported() ? lightByLamp(kernel) : nullptr;
+    for (const Isa& kernel : allIsas()) {
+        const LightByLampFn inLanes = kernel.supported() ? lanesOf(kernel.lamps).byLamp : nullptr;
         if (!inLanes) continue;
         Random random(77);
         long long asked = 0, lit = 0, highlights = 0, wrong = 0;
@@ -152,8 +151,9 @@ Rgb lightOf(const Light& lamp, const Point& p, const LightSample& sample, float 
 } // namespace
 
 TEST(lamp_samples_in_lanes_have_the_bits_of_single_samples) {
-    for (const Kernel& kernel : allKernels()) {
-        const LightBySamplesFn inLanes = kernel.supported() ? lightBySamples(kernel) : nullptr;
+    for (const Isa& kernel : allIsas()) {
+        const LightBySamplesFn inLanes =
+            kernel.supported() ? lanesOf(kernel.lamps).bySamples : nullptr;
         if (!inLanes) continue;
         Random random(78);
         long long asked = 0, lit = 0, wrong = 0;
@@ -252,8 +252,9 @@ TEST(lamp_samples_in_lanes_take_the_seams_of_the_disk) {
     };
     for (const auto& [sample, x, y] : {Seam{0, 48784392, 12573123}, Seam{3323653, 2, 3},
                                        Seam{17871133, 2, 3}, Seam{26008033, 2, 3}}) {
-        for (const Kernel& kernel : allKernels()) {
-            const LightBySamplesFn inLanes = kernel.supported() ? lightBySamples(kernel) : nullptr;
+        for (const Isa& kernel : allIsas()) {
+            const LightBySamplesFn inLanes =
+                kernel.supported() ? lanesOf(kernel.lamps).bySamples : nullptr;
             if (!inLanes) continue;
             Point point = somePoint(random, at);
             point.surface.p = {0.25f, 0.5f, 0}, point.surface.ng = point.n = {0, 0, 1};
@@ -262,8 +263,8 @@ TEST(lamp_samples_in_lanes_take_the_seams_of_the_disk) {
             SamplesOnLamp samples;
             samples.count = samples.points = 1;
             samples.index[0] = 1, samples.x[0] = x, samples.y[0] = y, samples.first[0] = sample;
-            const sobol::Pair<std::uint32_t> bits =
-                sobol::sobolPair<std::uint32_t>(sample, 1, x, y);
+            const kernels::one::Pair<std::uint32_t> bits =
+                kernels::one::sobolPair<std::uint32_t>(sample, 1, x, y);
             const Vec2 u{unitFloat(bits.x), unitFloat(bits.y)};
             CHECK_INFO(u.x == 0.5f || u.y == 0.5f || u.x == u.y || u.x + u.y == 1, sample);
             LitBySamples out;
@@ -290,6 +291,8 @@ TEST(lamps_for_lanes) {
     // Too small for what lanes know of rounding.
     CHECK(!SunLight({0, 0, -1}, {1, 1, 1}, 1e-10, true).lampEmission(false));
     CHECK(SunLight({0, 0, -1}, {1, 1, 1}, 1e-8, true).lampEmission(false).has_value());
-    CHECK(lightByLamp(chooseKernel("scalar")) == nullptr);
-    CHECK(lightBySamples(chooseKernel("scalar")) == nullptr);
+    CHECK(oneLane().lamps == nullptr);
+    CHECK(oneLane().lamps == nullptr);
 }
+
+} // namespace test_lamp_lanes

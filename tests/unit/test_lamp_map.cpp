@@ -9,6 +9,8 @@
 #include <limits>
 #include <vector>
 
+namespace test_lamp_map {
+
 using kit::Random;
 
 namespace {
@@ -23,7 +25,7 @@ std::unique_ptr<const Shape> airyOne(Random& random, const Transform& map) {
 
 // Many solids in a cube of half that size and a floor below them: mostly such as fill their hulls,
 // or such as fill most of them.
-ShapeSet crowd(Random& random, const Kernel& kernel, double half) {
+ShapeSet crowd(Random& random, const Isa& kernel, double half) {
     ShapeSet set;
     const int count = 20 + static_cast<int>(random.below(200));
     const double size = random.logUniform(0.02, 0.3) * half;
@@ -56,7 +58,7 @@ struct Case {
     std::shared_ptr<const LampMap> map;
     PointEmission lamp;
 };
-Case someCase(Random& random, const Kernel& kernel) {
+Case someCase(Random& random, const Isa& kernel) {
     const double half = random.chance(0.6) ? 0.7 : random.logUniform(1e-5, 100);
     Case out{crowd(random, kernel, half), nullptr, {}};
     const Vec3d at = random.chance(0.2)
@@ -75,11 +77,11 @@ struct Counts {
 };
 
 // Asks the map about the points `asked`, and rays about what it says.
-void compare(const Case& of, const Kernel& kernel, const LitBlock& block, LitByLamp& by,
+void compare(const Case& of, const Isa& kernel, const LitBlock& block, LitByLamp& by,
              unsigned asked, int number, Counts& counts) {
     by.lit = by.unsure = asked;
     const LitByLamp before = by;
-    askLampMap(kernel)(*of.map, {&block, 1}, {&by, 1});
+    lanesOf(kernel.lamps).askMap(*of.map, {&block, 1}, {&by, 1});
     CHECK_INFO((by.lit & ~asked) == 0 && (by.unsure & ~by.lit) == 0,
                kernel.name << " case " << number);
     for (unsigned rest = asked; rest != 0; rest &= rest - 1) {
@@ -182,14 +184,14 @@ std::uint32_t someOnMap(const LampMap& map) {
 }
 
 template <class Fn> void forEachKernel(Fn&& fn) {
-    for (const Kernel& kernel : allKernels())
-        if (kernel.supported() && askLampMap(kernel) != nullptr) fn(kernel);
+    for (const Isa& kernel : allIsas())
+        if (kernel.supported() && lanesOf(kernel.lamps).askMap != nullptr) fn(kernel);
 }
 
 } // namespace
 
 TEST(lamp_maps_say_what_rays_do) {
-    forEachKernel([](const Kernel& kernel) {
+    forEachKernel([](const Isa& kernel) {
         Random random(521);
         Counts counts;
         for (int i = 0; i < check::scaled(600); ++i) {
@@ -200,7 +202,7 @@ TEST(lamp_maps_say_what_rays_do) {
                 const LitBlock block =
                     somePoints(random, of.set, static_cast<double>(maxAbs(of.map->shapes->box.hi)));
                 LitByLamp by{};
-                lightByLamp(kernel)(of.lamp, block, block.used, by);
+                lanesOf(kernel.lamps).byLamp(of.lamp, block, block.used, by);
                 compare(of, kernel, block, by, by.lit, i, counts);
             }
         }
@@ -216,7 +218,7 @@ TEST(lamp_maps_say_what_rays_do) {
 }
 
 TEST(lamp_maps_are_right_at_borders) {
-    forEachKernel([](const Kernel& kernel) {
+    forEachKernel([](const Isa& kernel) {
         Random random(522);
         Counts counts;
         for (int i = 0; i < check::scaled(600); ++i) {
@@ -242,7 +244,7 @@ TEST(lamp_maps_are_right_at_borders) {
 
 // The points of several blocks walk together, and some blocks have none.
 TEST(lamp_maps_answer_many_blocks_as_each) {
-    forEachKernel([](const Kernel& kernel) {
+    forEachKernel([](const Isa& kernel) {
         Random random(523);
         int asked = 0;
         for (int i = 0; i < check::scaled(100); ++i) {
@@ -263,9 +265,9 @@ TEST(lamp_maps_answer_many_blocks_as_each) {
                 asked += std::popcount(together[b].unsure);
             }
             std::vector<LitByLamp> apart = together;
-            askLampMap(kernel)(*of.map, blocks, together);
+            lanesOf(kernel.lamps).askMap(*of.map, blocks, together);
             for (std::size_t b = 0; b < count; ++b) {
-                askLampMap(kernel)(*of.map, {&blocks[b], 1}, {&apart[b], 1});
+                lanesOf(kernel.lamps).askMap(*of.map, {&blocks[b], 1}, {&apart[b], 1});
                 CHECK_INFO(together[b].lit == apart[b].lit && together[b].unsure == apart[b].unsure,
                            kernel.name << " case " << i << " block " << b << " of " << count);
             }
@@ -273,3 +275,5 @@ TEST(lamp_maps_answer_many_blocks_as_each) {
         CHECK_INFO(asked > 1000, kernel.name << ": " << asked << " points");
     });
 }
+
+} // namespace test_lamp_map

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <optional>
 
+namespace test_lamp_map_lists {
+
 using kit::Random;
 
 namespace {
@@ -258,3 +260,5 @@ TEST(lamp_maps_list_what_is_seen) {
     std::printf("%d maps, none in %d cases, %d directions\n", maps, none, seen);
     CHECK(maps > 300 && none > 300);
 }
+
+} // namespace test_lamp_map_lists

@@ -2,6 +2,8 @@
 #include "render/lamp_ray.h"
 #include "verify/meshes.h"
 
+namespace test_lamp_ray {
+
 namespace {
 
 Surface pointAt(Vec3 p, float error, float rayError) {
@@ -60,3 +62,5 @@ TEST(lamp_ray_to_a_lamp_at_the_surface) {
         CHECK_INFO(!(ray.tMax > ray.tMin), height);
     }
 }
+
+} // namespace test_lamp_ray

@@ -25,6 +25,8 @@
 #include <thread>
 #include <vector>
 
+namespace test_large_pages {
+
 namespace {
 
 // "... hg ..." of the mapping that an address lies in; empty where the system does not tell.
@@ -112,5 +114,7 @@ TEST(large_pages_in_threads) {
     CHECK_INFO(advised || !known || largePagesAreDear(),
                "none of " << threads.size() << " threads");
 }
+
+} // namespace test_large_pages
 
 #endif

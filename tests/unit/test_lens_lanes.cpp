@@ -10,6 +10,8 @@
 #include <bit>
 #include <vector>
 
+namespace test_lens_lanes {
+
 using meshes::Random;
 
 namespace {
@@ -56,8 +58,8 @@ CameraParams someCamera(Random& random) {
 } // namespace
 
 TEST(lens_lanes_have_the_bits_of_single_rays) {
-    for (const Kernel& kernel : allKernels()) {
-        const auto rays = kernel.supported() ? cameraLanes(kernel).rays : nullptr;
+    for (const Isa& kernel : allIsas()) {
+        const auto rays = kernel.supported() ? lanesOf(kernel.camera).rays : nullptr;
         if (!rays) continue;
         Random random(41);
         long long wrong = 0;
@@ -102,8 +104,8 @@ TEST(lens_lanes_have_the_bits_of_single_rays) {
 }
 
 TEST(pinhole_lanes_have_the_bits_of_single_rays) {
-    for (const Kernel& kernel : allKernels()) {
-        const auto rays = kernel.supported() ? cameraLanes(kernel).pinhole : nullptr;
+    for (const Isa& kernel : allIsas()) {
+        const auto rays = kernel.supported() ? lanesOf(kernel.camera).pinhole : nullptr;
         if (!rays) continue;
         Random random(43);
         long long wrong = 0;
@@ -163,8 +165,8 @@ TEST(places_on_the_lens_in_lanes_round_as_single_ones) {
     params.apertureRadius = 1;
     const Camera camera(params);
     const auto lens = camera.lens();
-    for (const Kernel& kernel : allKernels()) {
-        const auto rays = kernel.supported() ? cameraLanes(kernel).rays : nullptr;
+    for (const Isa& kernel : allIsas()) {
+        const auto rays = kernel.supported() ? lanesOf(kernel.camera).rays : nullptr;
         if (!rays) continue;
         Random random(43);
         for (int i = 0; i < check::scaled(300); ++i) {
@@ -191,8 +193,8 @@ TEST(places_on_the_lens_in_lanes_round_as_single_ones) {
 }
 
 TEST(pairs_in_lanes_have_the_bits_of_the_sampler) {
-    for (const Kernel& kernel : allKernels()) {
-        const CameraLanes lanes = kernel.supported() ? cameraLanes(kernel) : CameraLanes{};
+    for (const Isa& kernel : allIsas()) {
+        const CameraLanes lanes = kernel.supported() ? lanesOf(kernel.camera) : CameraLanes{};
         if (!lanes.pairs) continue;
         Random random(42);
         long long wrong = 0;
@@ -223,8 +225,8 @@ TEST(pairs_in_lanes_have_the_bits_of_the_sampler) {
 TEST(places_in_lanes_have_the_bits_of_the_filter) {
     constexpr FilterKind kKinds[] = {FilterKind::Box, FilterKind::Tent, FilterKind::Gaussian,
                                      FilterKind::BlackmanHarris};
-    for (const Kernel& kernel : allKernels()) {
-        const auto spread = kernel.supported() ? cameraLanes(kernel).spread : nullptr;
+    for (const Isa& kernel : allIsas()) {
+        const auto spread = kernel.supported() ? lanesOf(kernel.camera).spread : nullptr;
         if (!spread) continue;
         Random random(44);
         long long wrong = 0;
@@ -272,5 +274,7 @@ TEST(lens_lanes_are_for_lenses_at_rest) {
     CHECK_EQUAL(bladesOf(params), 5);
     params.kind = CameraParams::Kind::Orthographic;
     CHECK(!Camera(params).lens());
-    CHECK(cameraLanes(chooseKernel("scalar")).rays == nullptr);
+    CHECK(oneLane().camera == nullptr);
 }
+
+} // namespace test_lens_lanes

@@ -8,6 +8,8 @@
 
 #include <memory>
 
+namespace test_light {
+
 using meshes::Random;
 
 namespace {
@@ -289,3 +291,5 @@ TEST(light_sources_are_in_their_box) {
             CHECK_INFO(leave > 2 + maxAbs(p), "case " << i << " of seed 73");
     }
 }
+
+} // namespace test_light

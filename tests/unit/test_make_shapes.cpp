@@ -9,6 +9,8 @@
 #include <random>
 #include <string>
 
+namespace test_make_shapes {
+
 namespace {
 
 // A wavy sheet of 2 (side - 1)^2 triangles, one of which has no area.
@@ -123,14 +125,15 @@ TEST(make_shapes_let_go_of_the_description) {
 TEST(make_shapes_do_not_depend_on_threads) {
     const SceneDesc desc = mixed(9000); // spheres in three jobs
     for (const std::uint64_t copied : {0u, 1u << 18})
-        for (const std::string kernel : {"scalar", "sse"}) {
+        for (const Isa* kernel : {&oneLane(), &bestIsa()}) {
             RenderSettings settings = settingsOf(desc, 1, copied);
-            settings.kernel = kernel;
+            settings.isa = kernel;
             const Scene one(desc, {"t", ""}, settings);
             for (const int threads : {2, 5}) {
                 settings.threads = threads;
                 const Scene some(desc, {"t", ""}, settings);
-                const std::string what = cat(threads, " threads, ", kernel, ", copied ", copied);
+                const std::string what =
+                    cat(threads, " threads, ", kernel->name, ", copied ", copied);
                 const Stats a = statsOf(one), b = statsOf(some);
                 CHECK_INFO(a.accel.nodes == b.accel.nodes && a.accel.leaves == b.accel.leaves &&
                                a.accel.sah == b.accel.sah && a.accel.bytes == b.accel.bytes &&
@@ -157,3 +160,5 @@ TEST(make_shapes_do_not_depend_on_threads) {
             }
         }
 }
+
+} // namespace test_make_shapes

@@ -8,6 +8,8 @@
 
 #include <cmath>
 
+namespace test_material {
+
 using material_kit::above;
 using material_kit::atAngle;
 using material_kit::kUp;
@@ -101,3 +103,5 @@ TEST(material_snell_and_fresnel) {
           schlickWeight(1.1f) == 0);
     CHECK_NEAR(schlickWeight(0.5f), 1 / 32.0, 1e-8);
 }
+
+} // namespace test_material

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <utility>
 
+namespace test_material_bounces {
+
 using material_kit::above;
 using material_kit::atAngle;
 using material_kit::kUp;
@@ -227,3 +229,5 @@ TEST(material_rough_reflection_is_the_lobe) {
         }
     }
 }
+
+} // namespace test_material_bounces

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <limits>
 
+namespace test_math {
+
 using math_kit::Draw;
 using math_kit::kNaN;
 
@@ -92,3 +94,5 @@ TEST(math_difference_of_products) {
     // (1+e)(1-e) - 1*1 = -e^2, which plain double gives as 0.
     CHECK_EQUAL(differenceOfProducts(1 + 0x1p-40, 1 - 0x1p-40, 1, 1), -0x1p-80);
 }
+
+} // namespace test_math

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+namespace test_math_angles {
+
 using math_kit::checkUlp;
 using math_kit::Draw;
 using math_kit::kCount;
@@ -115,3 +117,5 @@ TEST(math_atan2) {
     CHECK(std::isnan(exact::atan2(kNaN, 1.0)));
     CHECK(std::isnan(exact::atan2(1.0, kNaN)));
 }
+
+} // namespace test_math_angles

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+namespace test_math_powers {
+
 using math_kit::checkUlp;
 using math_kit::Draw;
 using math_kit::kCount;
@@ -128,3 +130,5 @@ TEST(math_pow_float) {
     CHECK(std::isnan(exact::pow(nan, 2.0f)));
     CHECK(std::isnan(exact::pow(2.0f, nan)));
 }
+
+} // namespace test_math_powers

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+namespace test_medium_tree {
+
 namespace {
 
 constexpr std::uint32_t kAir = MediumTree::kOutside, kGlass = 1, kWater = 2, kIce = 3;
@@ -92,3 +94,5 @@ TEST(medium_tree_at_random) {
         }
     }
 }
+
+} // namespace test_medium_tree

@@ -5,6 +5,8 @@
 #include "check.h"
 #include "verify/meshes.h"
 
+namespace test_merge {
+
 using meshes::Random;
 using Corners = MeshGeometry::Corners;
 
@@ -162,3 +164,5 @@ TEST(merge_places_in_double) {
     merged.add(mesh, frame.placed(Transform().rows()), {0}, 0);
     CHECK(merged.geometry.points == g.points && merged.degenerateCount == 0);
 }
+
+} // namespace test_merge

@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+namespace test_mesh {
+
 using mesh_kit::rayTo;
 using mesh_kit::squareWithUvs;
 using meshes::Random;
@@ -198,3 +200,5 @@ TEST(mesh_spd_tetra) {
     CHECK_NEAR(background, 213381, 20);
     CHECK_NEAR(shadow, 46111, 20);
 }
+
+} // namespace test_mesh

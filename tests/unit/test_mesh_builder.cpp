@@ -6,6 +6,8 @@
 #include <random>
 #include <vector>
 
+namespace test_mesh_builder {
+
 namespace {
 
 using Corner = MeshBuilder::Corner;
@@ -65,3 +67,5 @@ TEST(mesh_builder_adds_parts_like_faces) {
         CHECK_INFO(parted.mesh == whole.mesh, what);
     }
 }
+
+} // namespace test_mesh_builder

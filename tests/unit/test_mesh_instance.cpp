@@ -8,6 +8,8 @@
 
 #include <algorithm>
 
+namespace test_mesh_instance {
+
 using meshes::Random;
 
 namespace {
@@ -195,7 +197,7 @@ TEST(instance_in_batches_is_its_copy) {
         ShapeSet copy;
         copy.add(std::move(pair.copy.shape), ShapeSet::Shadow::Opaque);
         copy.finish(false);
-        for (const Kernel& kernel : allKernels()) {
+        for (const Isa& kernel : allIsas()) {
             if (!kernel.supported()) continue;
             pair.instance.geometry->finish(true, kernel);
             ShapeSet set;
@@ -272,3 +274,5 @@ TEST(instance_moves_like_its_copy) {
                 static_cast<int>(kSeed));
     CHECK(hits * 4 > rays && mirrored > 100);
 }
+
+} // namespace test_mesh_instance

@@ -14,6 +14,8 @@
 #include <chrono>
 #include <random>
 
+namespace test_mesh_scene {
+
 namespace {
 
 using damage::contentOf;
@@ -275,3 +277,5 @@ TEST(mesh_scene_many_parts) {
     CHECK(!more.warnings.empty() &&
           more.warnings[0].find("70000 objects and groups, more than 65536") != std::string::npos);
 }
+
+} // namespace test_mesh_scene

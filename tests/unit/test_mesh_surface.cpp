@@ -6,6 +6,8 @@
 
 #include <algorithm>
 
+namespace test_mesh_surface {
+
 using mesh_kit::rayTo;
 using mesh_kit::squareWithUvs;
 using meshes::Random;
@@ -143,3 +145,5 @@ TEST(mesh_normals_point_outward) {
     CHECK_INFO(worst < 1e-6, worst);
     CHECK_INFO(worstSmooth < 0.1, worstSmooth); // a facet of 1/64, stretched 16 times at most
 }
+
+} // namespace test_mesh_surface

@@ -3,6 +3,8 @@
 
 #include <random>
 
+namespace test_motion {
+
 namespace {
 
 struct Draw {
@@ -195,3 +197,5 @@ TEST(motion_singular_keys) {
     CHECK(largestDifference(moving.at(0.75), Transform::scale(0.5)) < 1e-15);
     CHECK(moving.bounds({{-1, -1, -1}, {1, 1, 1}}).contains(Vec3d{2, 2, 2}));
 }
+
+} // namespace test_motion

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+namespace test_name_table {
+
 TEST(names_are_found_from_wherever_the_last_one_was) {
     meshes::Random random(71);
     for (const std::size_t count : {0u, 1u, 2u, 1000u}) {
@@ -31,3 +33,5 @@ TEST(names_are_found_from_wherever_the_last_one_was) {
         }
     }
 }
+
+} // namespace test_name_table

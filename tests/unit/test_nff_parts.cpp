@@ -11,6 +11,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_nff_parts {
+
 namespace {
 
 using Outcome = check::ReadOutcome;
@@ -141,3 +143,5 @@ TEST(nff_parts_give_the_same_after_random_damage) {
     }
     CHECK_INFO(said > cases / 4 && said < 9 * cases / 10, said << " of " << cases);
 }
+
+} // namespace test_nff_parts

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <random>
 
+namespace test_nff_shapes {
+
 using nff_kit::checkPoint;
 using nff_kit::kFill;
 using nff_kit::kView;
@@ -151,3 +153,5 @@ TEST(read_nff_what_shows_nothing) {
     CHECK_EQUAL(readBody(kFill + "p 3 1000 0 0 1001 0 0 1000 1e-6 0").objects.size(),
                 std::size_t{1});
 }
+
+} // namespace test_nff_shapes

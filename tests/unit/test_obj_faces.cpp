@@ -5,6 +5,8 @@
 
 #include <cmath>
 
+namespace test_obj_faces {
+
 using obj_kit::Corners;
 using obj_kit::kSquare;
 using obj_kit::messageOf;
@@ -101,3 +103,5 @@ TEST(read_obj_smoothing_groups) {
     checkAt(mixed, 4, 0, {0, 1, 0});
     CHECK(readText(roof + "s off\nf 1 2 4 3\ns 0\nf 3 4 6 5\n").mesh.normals.empty());
 }
+
+} // namespace test_obj_faces

@@ -6,6 +6,8 @@
 #include "render/waves/hidden_point.h"
 #include "render/waves/lamp_lanes.h"
 
+namespace test_occluders {
+
 using kit::Random;
 
 namespace {
@@ -130,8 +132,9 @@ TEST(occluders_in_lanes_never_miss_one) {
         const auto [block, starts, sides] = meet(random, set);
         PointEmission lamp{toFloat(random.inBox(2)), {1, 1, 1}, {}, 0};
         lamp.radius = static_cast<float>(random.logUniform(1e-3, random.coin() ? 1 : 0.1));
-        for (const Kernel& kernel : allKernels()) {
-            const HiddenPointsFn inLanes = kernel.supported() ? hiddenPoints(kernel) : nullptr;
+        for (const Isa& kernel : allIsas()) {
+            const HiddenPointsFn inLanes =
+                kernel.supported() ? lanesOf(kernel.lamps).hiddenPoints : nullptr;
             if (!inLanes) continue;
             const HiddenPoints found = inLanes(occluders, block, lamp.ball());
             const unsigned hidden = found.maybe, surely = found.surely;
@@ -187,14 +190,16 @@ void judge(Random& random, const ShapeSet& set, const MetPoints& met, const Poin
     for (std::size_t k = 0; k < LitBlock::kPoints; ++k)
         samples.index[k] = random.below(1u << 31), samples.x[k] = random.below(1u << 31),
         samples.y[k] = random.below(1u << 31);
-    for (const Kernel& kernel : allKernels()) {
-        const LightBySamplesFn inLanes = kernel.supported() ? lightBySamples(kernel) : nullptr;
+    for (const Isa& kernel : allIsas()) {
+        const LightBySamplesFn inLanes =
+            kernel.supported() ? lanesOf(kernel.lamps).bySamples : nullptr;
         if (!inLanes) continue;
         LitBySamples all, told; // of all lines, and with what is known
         HiddenPoints none;
         none.maybe = met.block.used, none.areShapesKnown = true, none.byShape.fill(0);
         inLanes(lamp, met.block, samples, occluders, none, all);
-        const HiddenPoints found = hiddenPoints(kernel)(occluders, met.block, lamp.ball());
+        const HiddenPoints found =
+            lanesOf(kernel.lamps).hiddenPoints(occluders, met.block, lamp.ball());
         inLanes(lamp, met.block, samples, occluders, found, told);
         for (std::size_t n = 0; n < LitBySamples::kRoom; ++n) {
             const std::size_t s = n / LitBlock::kPoints, k = n % LitBlock::kPoints;
@@ -296,3 +301,5 @@ TEST(occluders_see_what_is_clear) {
     crowd.finish(true);
     CHECK(!Occluders(crowd).canTell());
 }
+
+} // namespace test_occluders

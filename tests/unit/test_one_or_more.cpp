@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_one_or_more {
+
 namespace {
 
 using List = OneOrMore<int>;
@@ -61,3 +63,5 @@ TEST(one_or_more_takes_its_own_elements) {
     CHECK(List{4}.at(0) == 4);
     CHECK(!check::thrown([] { List{4}.at(1); }).empty());
 }
+
+} // namespace test_one_or_more

@@ -8,6 +8,8 @@
 
 #include <algorithm>
 
+namespace test_one_sided {
+
 using kit::Random;
 
 namespace {
@@ -86,3 +88,5 @@ TEST(one_sided_keeps_nearer_hits) {
     CHECK(back.intersect(ray, hit));
     CHECK(hit.t == 4 && hit.shape == 7);
 }
+
+} // namespace test_one_sided

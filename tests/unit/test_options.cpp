@@ -14,6 +14,8 @@
 #include <limits>
 #include <set>
 
+namespace test_options {
+
 namespace {
 
 Options parsed(std::vector<std::string> arguments) {
@@ -188,7 +190,7 @@ TEST(settings_command_line_wins_over_scene) {
     CHECK_EQUAL(settings(desc, {"--no-aa"}).picture.filterWidth, 0);
     CHECK_EQUAL(settings(desc, {"--threads=3"}).threads, 3);
     CHECK(settings(desc, {"--threads=0"}).threads >= 1);
-    CHECK_EQUAL(settings(desc, {}).kernel, std::string(chooseKernel("auto").name));
+    CHECK(settings(desc, {}).isa == &bestIsa());
     desc.cameras.resize(2);
     desc.cameras[0].name = "front", desc.cameras[1].name = "top";
     CHECK_EQUAL(settings(desc, {"--camera=top"}).camera, "top");
@@ -291,3 +293,5 @@ TEST(diff_options) {
     CHECK_THROWS(parse({"a", "b", "-m", "psnr,ssim", "--tol=1"}), "--tol is for one metric");
     CHECK_THROWS(parse({"a", "b", "-o", "d.jpg"}), ".ppm, .png or .pfm");
 }
+
+} // namespace test_options

@@ -12,6 +12,8 @@
 #include <cstddef>
 #include <cstdint>
 
+namespace test_packing {
+
 namespace {
 
 constexpr std::uint32_t kSeed = 17;
@@ -174,3 +176,5 @@ TEST(run_finder_finds_all_runs) {
         }
     }
 }
+
+} // namespace test_packing

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <numeric>
 
+namespace test_pages {
+
 TEST(pages_vectors_keep_what_they_hold) {
     PageVector<std::uint32_t> v;
     // From the usual memory to large pages and on, by growth.
@@ -51,3 +53,5 @@ TEST(pages_zeroed_arrays_are_zero_and_start_on_one) {
             std::fill(v.begin(), v.end(), std::uint8_t{7});
         }
 }
+
+} // namespace test_pages

@@ -9,6 +9,8 @@
 #include <string>
 #include <thread>
 
+namespace test_parallel {
+
 TEST(parallel_each_index_once) {
     for (const int threads : {1, 2, 3, 8}) {
         ThreadPool pool(threads);
@@ -173,3 +175,5 @@ TEST(parallel_short_runs) {
     }
     CHECK_EQUAL(wrong, 0u);
 }
+
+} // namespace test_parallel

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+namespace test_pfm {
+
 using namespace std::string_view_literals;
 
 namespace {
@@ -54,3 +56,5 @@ TEST(pfm_round_trip_is_exact) {
         0, 0, {-0.0f, std::numeric_limits<float>::denorm_min(), std::numeric_limits<float>::max()});
     CHECK(Image(decodeImage(encodeImage(image, "pfm", {}), "round trip")) == image);
 }
+
+} // namespace test_pfm

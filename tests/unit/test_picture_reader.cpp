@@ -7,6 +7,8 @@
 #include <chrono>
 #include <thread>
 
+namespace test_picture_reader {
+
 namespace {
 
 // A scene with a texture for each file; materials use them in the opposite order.
@@ -85,3 +87,5 @@ TEST(picture_reader_has_no_thread_to_spare_of_two) {
     reader.begin(desc, usedTextures(desc, true), folder / "scene.txt");
     CHECK(!reader.take(desc.textures[0]));
 }
+
+} // namespace test_picture_reader

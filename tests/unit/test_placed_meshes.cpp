@@ -9,6 +9,8 @@
 
 #include <functional>
 
+namespace test_placed_meshes {
+
 using battery::RayList;
 using meshes::Random;
 
@@ -63,8 +65,8 @@ struct World {
     std::vector<std::unique_ptr<MeshGeometry>> geometries;
     ShapeSet set;
 
-    World(const std::vector<MeshDesc>& descs, const std::vector<Place>& places,
-          const Kernel& kernel, bool withTrees) {
+    World(const std::vector<MeshDesc>& descs, const std::vector<Place>& places, const Isa& kernel,
+          bool withTrees) {
         for (const MeshDesc& desc : descs) {
             auto& geometry =
                 geometries.emplace_back(std::make_unique<MeshGeometry>(toSharedGeometry(desc)));
@@ -141,7 +143,7 @@ struct Tally {
 void compareKernels(const std::vector<MeshDesc>& descs, const std::vector<Place>& places,
                     const World& plain, const RayList& batch, const std::string& where,
                     Tally& tally) {
-    for (const Kernel& kernel : allKernels()) {
+    for (const Isa& kernel : allIsas()) {
         if (!kernel.supported()) continue;
         const World fast(descs, places, kernel, true);
         std::vector<Hit> hits;
@@ -178,7 +180,7 @@ TEST(placed_meshes_have_the_bits_of_single_rays) {
         std::vector<MeshDesc> descs;
         for (std::uint32_t kind = 0; kind < 3; ++kind) descs.push_back(meshOf(random, kind));
         const std::vector<Place> places = somePlaces(random, descs.size());
-        const World plain(descs, places, chooseKernel("scalar"), false);
+        const World plain(descs, places, oneLane(), false);
         compareKernels(descs, places, plain, someRays(random, plain, 300),
                        "seed 71, scene " + std::to_string(n), tally);
     }
@@ -213,7 +215,7 @@ TEST(placed_meshes_of_whole_numbers_have_the_bits_of_single_rays) {
             if (random.chance(0.2)) place.shadow = ShapeSet::Shadow::SeeThrough;
             places.push_back(std::move(place));
         }
-        const World plain(descs, places, chooseKernel("scalar"), false);
+        const World plain(descs, places, oneLane(), false);
         RayList batch = battery::raysOnLattice(random, 2 * half, 600);
         for (float& time : batch.time) time = static_cast<float>(random.below(5)) * 0.25f;
         compareKernels(descs, places, plain, batch, "seed 73, scene " + std::to_string(n), tally);
@@ -225,8 +227,8 @@ TEST(placed_meshes_of_whole_numbers_have_the_bits_of_single_rays) {
 // A kernel asks about few triangles that are not met, also where some triangle of the mesh is as
 // long as all of it.
 TEST(placed_meshes_leave_out_triangles) {
-    const Kernel& kernel = chooseKernel("auto");
-    const PlacedKernel* const placed = placedKernel(kernel);
+    const Isa& kernel = bestIsa();
+    const PlacedKernel* const placed = kernel.placed;
     if (placed == nullptr) return;
     MeshDesc mesh = meshes::icosphere(4);
     const auto n = static_cast<std::uint32_t>(mesh.points.size());
@@ -287,3 +289,5 @@ TEST(placed_meshes_leave_out_triangles) {
                    "seed 72, map " << trial << ": " << counter.tests);
     }
 }
+
+} // namespace test_placed_meshes

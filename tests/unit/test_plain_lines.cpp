@@ -17,6 +17,8 @@
 #include <string>
 #include <string_view>
 
+namespace test_plain_lines {
+
 namespace {
 
 const std::string kAfter = "f 1 2 3\n" + std::string(128, '#'); // what may be read ahead
@@ -282,3 +284,5 @@ TEST(plain_lines_are_wrong_where_others_are) {
     }
     CHECK_INFO(refused > check::scaled(200u), refused);
 }
+
+} // namespace test_plain_lines

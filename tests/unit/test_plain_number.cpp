@@ -8,6 +8,8 @@
 #include <random>
 #include <string>
 
+namespace test_plain_number {
+
 namespace {
 
 const std::string kAfter = " 3456789012345678901234567890123456789"; // what may be read ahead
@@ -96,3 +98,5 @@ TEST(plain_number_reads_random_digits) {
     }
     CHECK_INFO(plain > cases / 3, plain << " of " << cases << ", seed " << kSeed);
 }
+
+} // namespace test_plain_number

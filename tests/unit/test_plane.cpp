@@ -1,5 +1,7 @@
 #include "analytic_checks.h"
 
+namespace test_plane {
+
 using kit::Random;
 
 TEST(plane_keeps_the_rules_of_shapes) { kit::checkShape("plane", 701); }
@@ -102,3 +104,5 @@ TEST(plane_degenerate_corners) {
     CHECK_NEAR(wall.uv.x, 0.25, 1e-7);
     CHECK_NEAR(wall.uv.y, 0.75, 1e-7);
 }
+
+} // namespace test_plane

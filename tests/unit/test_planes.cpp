@@ -9,6 +9,8 @@
 
 #include <limits>
 
+namespace test_planes {
+
 using kit::Random;
 
 namespace {
@@ -48,8 +50,8 @@ TEST(planes_in_lanes_have_the_hits_of_single_rays) {
             best.push_back({.t = ray.tMax});
             if (random.chance(0.2)) shape.intersect(ray, best.back()); // as near as it is itself
         }
-        for (const Kernel& kernel : allKernels()) {
-            const PlaneKernel* const lanes = planeKernel(kernel);
+        for (const Isa& kernel : allIsas()) {
+            const PlaneKernel* const lanes = kernel.planes;
             if (!kernel.supported() || lanes == nullptr) continue;
             std::vector<Hit> first(best.size() + 1), nearest = best;
             first.back().v = 1; // behind the last ray: stays as it is
@@ -103,8 +105,8 @@ TEST(planes_of_extreme_scales_have_the_hits_of_single_rays) {
         battery::RayList rays;
         for (int k = 0; k < 64; ++k)
             rays.push({toFloat(random.inBox(3)), toFloat(random.inBox(1)), 0, kInfinityF, 0});
-        for (const Kernel& kernel : allKernels()) {
-            const PlaneKernel* const lanes = planeKernel(kernel);
+        for (const Isa& kernel : allIsas()) {
+            const PlaneKernel* const lanes = kernel.planes;
             if (!kernel.supported() || lanes == nullptr) continue;
             std::vector<Hit> hits(rays.size());
             lanes->first(*plane, 0, rays.span(), hits.data());
@@ -119,3 +121,5 @@ TEST(planes_of_extreme_scales_have_the_hits_of_single_rays) {
     }
     CHECK(met > 30 && missed > 30);
 }
+
+} // namespace test_planes

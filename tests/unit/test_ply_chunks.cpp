@@ -7,6 +7,8 @@
 #include <bit>
 #include <string>
 
+namespace test_ply_chunks {
+
 namespace {
 
 constexpr int kThreads[] = {2, 5};
@@ -146,3 +148,5 @@ TEST(ply_chunks_find_the_same_mistake) {
         checkSame(text + "0 0", "more behind it");
     }
 }
+
+} // namespace test_ply_chunks

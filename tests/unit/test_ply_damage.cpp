@@ -7,6 +7,8 @@
 #include <chrono>
 #include <limits>
 
+namespace test_ply_damage {
+
 using namespace ply_kit;
 using damage::contentOf;
 
@@ -128,3 +130,5 @@ TEST(read_ply_random_damage) {
                    name << ": read " << read << ", refused " << refused);
     }
 }
+
+} // namespace test_ply_damage

@@ -14,6 +14,8 @@
 #include <random>
 #include <string>
 
+namespace test_png {
+
 namespace {
 
 // As in make.py.
@@ -156,3 +158,5 @@ TEST(png_keeps_single_pixels_in_a_flat_picture) {
         }
     }
 }
+
+} // namespace test_png

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+namespace test_point_lists {
+
 namespace {
 
 struct Expected {
@@ -52,3 +54,5 @@ TEST(point_lists_keep_what_comes) {
     lists.clear(1024);
     for (std::size_t list = 0; list < PointLists::kLists; ++list) CHECK(lists.rays(list).empty());
 }
+
+} // namespace test_point_lists

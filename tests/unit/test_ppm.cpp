@@ -10,6 +10,8 @@
 #include <string_view>
 #include <vector>
 
+namespace test_ppm {
+
 using namespace std::string_view_literals;
 
 namespace {
@@ -121,3 +123,5 @@ TEST(ppm_and_png_round_trips_are_exact) {
                 CHECK_INFO(back == image, extension << " " << bits << " bits");
             }
 }
+
+} // namespace test_ppm

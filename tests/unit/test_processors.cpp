@@ -11,6 +11,8 @@
 #include <thread>
 #include <unistd.h>
 
+namespace test_processors {
+
 namespace {
 
 cpu_set_t processorsOf(pid_t thread) {
@@ -79,5 +81,7 @@ TEST(processors_all_for_work) {
     });
     CHECK_EQUAL(free.load(), threads);
 }
+
+} // namespace test_processors
 
 #endif

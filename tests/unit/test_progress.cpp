@@ -3,6 +3,8 @@
 #include "cli/preview.h"
 #include "cli/progress.h"
 
+namespace test_progress {
+
 namespace {
 
 // A clock and a screen that tests can see.
@@ -121,3 +123,5 @@ TEST(preview_keeps_shape_and_colours) {
     const std::string narrow = previewText(Image(1, 5000), 80, 24);
     CHECK_EQUAL(countOf(narrow, "\xE2\x96\x80"), countOf(narrow, "\n")); // one cell in a row
 }
+
+} // namespace test_progress

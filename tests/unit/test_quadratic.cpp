@@ -6,6 +6,8 @@
 #include <limits>
 #include <random>
 
+namespace test_quadratic {
+
 namespace {
 
 struct Draw {
@@ -78,3 +80,5 @@ TEST(quadratic_extremes) {
         CHECK_EQUAL(std::ldexp(scaled.t1, -m), plain.t1);
     }
 }
+
+} // namespace test_quadratic

@@ -3,6 +3,8 @@
 #include "check.h"
 #include "verify/meshes.h"
 
+namespace test_ray_setup {
+
 using meshes::Random;
 
 namespace {
@@ -182,3 +184,5 @@ TEST(ray_setup_depth_cut) {
     }
     CHECK(depthCut(0) > 1e38f && depthCut(kInfinityF) == 0);
 }
+
+} // namespace test_ray_setup

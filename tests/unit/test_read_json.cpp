@@ -7,6 +7,8 @@
 
 #include <filesystem>
 
+namespace test_read_json {
+
 using damage::contentOf;
 using json_kit::checkColor;
 using json_kit::hasWarning;
@@ -185,3 +187,5 @@ TEST(read_json_examples) {
     }
     CHECK_INFO(count >= 11, "scenes: " << count);
 }
+
+} // namespace test_read_json

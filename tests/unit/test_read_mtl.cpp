@@ -8,6 +8,8 @@
 
 #include <limits>
 
+namespace test_read_mtl {
+
 namespace {
 
 using damage::contentOf;
@@ -217,3 +219,5 @@ TEST(read_mtl_random_damage_and_cut_off) {
         checkText(damage::damaged(whole, pieces, seed), cat("seed ", seed));
     CHECK_INFO(read > 300 && refused > 300, "read " << read << ", refused " << refused);
 }
+
+} // namespace test_read_mtl

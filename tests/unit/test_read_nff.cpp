@@ -13,6 +13,8 @@
 
 #include <cmath>
 
+namespace test_read_nff {
+
 using nff_kit::checkPoint;
 using nff_kit::kView;
 using nff_kit::Read;
@@ -210,3 +212,5 @@ TEST(read_nff_random_damage) {
     // Both must happen, or the test tests nothing.
     CHECK_INFO(read > 500 && refused > 1000, "read " << read << ", refused " << refused);
 }
+
+} // namespace test_read_nff

@@ -9,6 +9,8 @@
 
 #include <chrono>
 
+namespace test_read_obj {
+
 using damage::contentOf;
 using obj_kit::Corners;
 using obj_kit::kSquare;
@@ -200,3 +202,5 @@ TEST(read_obj_random_damage_and_cut_off) {
         checkText(damage::damaged(whole, pieces, seed), cat("seed ", seed));
     CHECK_INFO(read > 300 && refused > 1000, "read " << read << ", refused " << refused);
 }
+
+} // namespace test_read_obj

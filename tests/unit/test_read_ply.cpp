@@ -8,6 +8,8 @@
 #include <random>
 #include <sstream>
 
+namespace test_read_ply {
+
 using namespace ply_kit;
 using damage::contentOf;
 
@@ -267,3 +269,5 @@ TEST(read_ply_rest_of_the_file) {
     CHECK_INFO(binary.warnings.at(0).find("5 bytes follow the last element") != std::string::npos,
                binary.warnings[0]);
 }
+
+} // namespace test_read_ply

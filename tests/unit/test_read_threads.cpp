@@ -12,6 +12,8 @@
 #include <string>
 #include <vector>
 
+namespace test_read_threads {
+
 namespace {
 
 constexpr int kThreads[] = {2, 3, 8};
@@ -203,3 +205,5 @@ TEST(read_threads_tell_the_first_missing_picture) {
                    threads << " threads: " << said);
     }
 }
+
+} // namespace test_read_threads

@@ -12,6 +12,8 @@
 #include <filesystem>
 #include <set>
 
+namespace test_read_txt {
+
 namespace {
 
 using damage::contentOf;
@@ -236,3 +238,5 @@ TEST(load_files) {
     CHECK_THROWS(load("ASCII/README.md", d), "ASCII/README.md: error: unknown scene format '.md'");
     CHECK_THROWS(load("/dev/null", d), "/dev/null: error:");
 }
+
+} // namespace test_read_txt

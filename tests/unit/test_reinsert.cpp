@@ -10,6 +10,8 @@
 #include <algorithm>
 #include <cstring>
 
+namespace test_reinsert {
+
 using kernels::build::BinaryNode;
 using meshes::Random;
 
@@ -173,3 +175,5 @@ TEST(reinsert_leaves_odd_trees_whole) {
         CHECK_INFO(faultOf(tree, trees[i]).empty(), i << ": " << faultOf(tree, trees[i]));
     }
 }
+
+} // namespace test_reinsert

@@ -3,6 +3,8 @@
 #include "check.h"
 #include "verify/groups.h"
 
+namespace test_reintersection {
+
 TEST(reintersection_of_analytic_shapes) {
     for (const battery::Row& row : battery::leavingRows()) {
         const battery::Tally tally = row.run({check::scaled(0.2), 1});
@@ -10,3 +12,5 @@ TEST(reintersection_of_analytic_shapes) {
                    row.id << ' ' << row.what << ": " << tally.failedCase);
     }
 }
+
+} // namespace test_reintersection

@@ -9,6 +9,8 @@
 #include <random>
 #include <string>
 
+namespace test_same_names {
+
 namespace {
 
 std::vector<SameNames::Pair> find(const std::vector<ObjectDesc>& blocks, std::size_t together,
@@ -97,3 +99,5 @@ TEST(validate_says_the_same_with_any_threads) {
                                                       << ", seed 32: " << said(threads));
     }
 }
+
+} // namespace test_same_names

@@ -11,6 +11,8 @@
 #include <cmath>
 #include <filesystem>
 
+namespace test_same_scene {
+
 namespace {
 
 constexpr const char* kNff = R"(b 0.1 0.2 0.4
@@ -100,3 +102,5 @@ TEST(converted_scenes_read_back_equal) {
         }
     CHECK_INFO(count >= 25, count);
 }
+
+} // namespace test_same_scene

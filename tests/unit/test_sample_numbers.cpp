@@ -2,6 +2,8 @@
 #include "check.h"
 #include "render/sample_numbers.h"
 
+namespace test_sample_numbers {
+
 TEST(sample_numbers_follow_each_other_in_each_pixel) {
     struct Chunk {
         std::uint32_t first, count, pixels;
@@ -16,3 +18,5 @@ TEST(sample_numbers_follow_each_other_in_each_pixel) {
                        "samples " << c.first << " + " << c.count << ", slot " << slot);
     }
 }
+
+} // namespace test_sample_numbers

@@ -9,6 +9,8 @@
 #include <set>
 #include <utility>
 
+namespace test_sampler {
+
 using sampler_kit::kKinds;
 using sampler_kit::pairsOf;
 
@@ -116,3 +118,5 @@ TEST(sampler_number_is_half_of_a_pair) {
                 CHECK_EQUAL(sampler.get2D(pixel, i, Sampler::alone(d)).x,
                             sampler.get1D(pixel, i, d));
 }
+
+} // namespace test_sampler

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <set>
 
+namespace test_sampler_spread {
+
 using sampler_kit::kKinds;
 using sampler_kit::pairsOf;
 
@@ -213,3 +215,5 @@ TEST(sampler_variance) {
     // less.
     CHECK(diskVariance(SamplerKind::Sobol, 16, 2) > 40 * diskVariance(SamplerKind::Sobol, 256, 2));
 }
+
+} // namespace test_sampler_spread

@@ -12,6 +12,8 @@
 #include <random>
 #include <vector>
 
+namespace test_scanner {
+
 namespace {
 
 std::string tokensOf(const std::string& text) {
@@ -194,3 +196,5 @@ TEST(scanner_no_numbers) {
     const char* const text = "0x10";
     CHECK_EQUAL(readDouble(text).end - text, std::ptrdiff_t{1}); // the caller sees the x
 }
+
+} // namespace test_scanner

@@ -4,6 +4,8 @@
 #include <array>
 #include <utility>
 
+namespace test_seldom {
+
 namespace {
 
 constexpr std::array<int, 3> kUsual = {1, 2, 3};
@@ -44,3 +46,5 @@ TEST(seldom_compares_values) {
     other = {1, 9, 3};
     CHECK(value == other);
 }
+
+} // namespace test_seldom

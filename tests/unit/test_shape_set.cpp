@@ -9,6 +9,8 @@
 #include <algorithm>
 #include <tuple>
 
+namespace test_shape_set {
+
 using meshes::Random;
 using Shadow = ShapeSet::Shadow;
 
@@ -28,9 +30,9 @@ MovingTransform place(Random& random, bool moves) {
 }
 
 // The widest kernel that this machine has.
-const Kernel& someKernel() {
-    const Kernel* best = &chooseKernel("scalar");
-    for (const Kernel& kernel : allKernels())
+const Isa& someKernel() {
+    const Isa* best = &oneLane();
+    for (const Isa& kernel : allIsas())
         if (kernel.supported() && kernel.width > best->width) best = &kernel;
     return *best;
 }
@@ -239,3 +241,5 @@ TEST(shape_set_ties_and_limits) {
     const ShapeSet none;
     CHECK(!none.closest(ray).isHit() && !none.occluded(ray));
 }
+
+} // namespace test_shape_set

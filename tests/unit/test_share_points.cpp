@@ -7,6 +7,8 @@
 #include <array>
 #include <bit>
 
+namespace test_share_points {
+
 namespace {
 
 // Every triangle with corners of its own.
@@ -58,8 +60,8 @@ TEST(share_points_finds_those_of_a_closed_mesh) {
 
 // The tree over them is that of the mesh with shared corners.
 TEST(share_points_gives_the_tree_of_the_shared_mesh) {
-    for (const Kernel& kernel : allKernels()) {
-        if (kernel.width == 0) continue; // the scalar one has another tree
+    for (const Isa& kernel : allIsas()) {
+        if (kernel.triangles == nullptr) continue; // the scalar one has another tree
         MeshGeometry shared = placed(meshes::icosphere(4)),
                      loose = placed(apart(meshes::icosphere(4)));
         shared.finish(true, kernel), loose.finish(true, kernel);
@@ -129,3 +131,5 @@ TEST(share_points_keeps_the_signs_of_zeros) {
     CHECK_EQUAL(mesh.points.size(), std::size_t{5});
     CHECK(haveSameCorners(mesh, mesh.points, before, before.points));
 }
+
+} // namespace test_share_points

@@ -6,6 +6,8 @@
 #include <chrono>
 #include <random>
 
+namespace test_smooth_normals {
+
 namespace {
 
 // Outward; each side as two triangles whose diagonals go any way.
@@ -208,3 +210,5 @@ TEST(smooth_normals_do_not_depend_on_threads) {
             CHECK_INFO(smoothed(angle, threads) == one, angle << " degrees, " << threads);
     }
 }
+
+} // namespace test_smooth_normals

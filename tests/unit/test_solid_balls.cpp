@@ -6,6 +6,8 @@
 #include "shape/sphere.h"
 #include "solid_checks.h"
 
+namespace test_solid_balls {
+
 using meshes::Random;
 using solid_checks::Rays;
 using solid_checks::sided;
@@ -20,7 +22,7 @@ struct Ball {
 
 // Of one scale, which may mirror; some in one place, nested, or without size. Below kFewestBalls of
 // the kernels and above.
-std::vector<Ball> fillWithBalls(std::uint64_t seed, const Kernel&, ShapeSet& set) {
+std::vector<Ball> fillWithBalls(std::uint64_t seed, const Isa&, ShapeSet& set) {
     Random random(seed);
     const std::size_t counts[] = {40, 63, 64, 100, 700, 3000};
     const double scale = seed % 4 == 3 ? -0.7 : random.logUniform(0.1, 10);
@@ -45,7 +47,7 @@ std::vector<Ball> fillWithBalls(std::uint64_t seed, const Kernel&, ShapeSet& set
 struct MostlyBalls {
     std::vector<Ball> balls;
     MeshGeometry floor;
-    MostlyBalls(std::uint64_t seed, const Kernel& kernel, ShapeSet& set)
+    MostlyBalls(std::uint64_t seed, const Isa& kernel, ShapeSet& set)
         : balls(fillWithBalls(seed, kernel, set)),
           floor(meshes::geometryOf({{{{-1, -1, -0.8f}, {1, -1, -0.8f}, {1, 1, -0.8f}}},
                                     {{{-1, -1, -0.8f}, {1, 1, -0.8f}, {-1, 1, -0.8f}}}},
@@ -114,7 +116,7 @@ template <int W> std::vector<WideKind> kindsOfLeaves(const SolidTree& tree) {
 
 // The first `others` shapes are of another scale, by which they may be balls.
 void checkBalls(const SolidTree& tree, std::size_t count, std::size_t others, bool areBalls,
-                const Kernel& kernel) {
+                const Isa& kernel) {
     const std::size_t balls = others == count && areBalls ? count : count - others;
     const bool isSure = balls == count || balls > count / 10 * 9, isNot = balls < count / 3 * 2;
     CHECK_INFO((tree.balls.size() == count && !isNot) || (tree.balls.empty() && !isSure),
@@ -149,7 +151,7 @@ TEST(solids_balls_have_the_bits_of_single_rays) {
 TEST(solids_mostly_balls_have_the_bits_of_single_rays) {
     solid_checks::compareSets(
         "mostly balls", 2841, 24,
-        [](std::uint64_t seed, const Kernel& kernel, ShapeSet& set) {
+        [](std::uint64_t seed, const Isa& kernel, ShapeSet& set) {
             return std::make_unique<MostlyBalls>(seed, kernel, set);
         },
         [](Random& random, const std::unique_ptr<MostlyBalls>& of) {
@@ -159,8 +161,8 @@ TEST(solids_mostly_balls_have_the_bits_of_single_rays) {
 
 // Most have to be balls, and of one scale, over all parts that are made apart; what isn't is known.
 TEST(solid_tree_knows_if_most_are_balls) {
-    for (const Kernel& kernel : allKernels()) {
-        if (!kernel.supported() || kernel.width == 0) continue;
+    for (const Isa& kernel : allIsas()) {
+        if (!kernel.supported() || kernel.triangles == nullptr) continue;
         for (const std::size_t count : {1u, 100u, 3000u})
             for (const std::size_t others :
                  {std::size_t{0}, count / 100, count / 5, count / 2, count})
@@ -178,3 +180,5 @@ TEST(solid_tree_knows_if_most_are_balls) {
                 }
     }
 }
+
+} // namespace test_solid_balls

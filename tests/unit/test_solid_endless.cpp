@@ -3,6 +3,8 @@
 #include "shape/checkered.h"
 #include "solid_checks.h"
 
+namespace test_solid_endless {
+
 using meshes::Random;
 using solid_checks::Rays;
 using Shadow = ShapeSet::Shadow;
@@ -18,15 +20,15 @@ MovingTransform placeOf(Random& random) {
     const std::uint32_t kind = random.below(4);
     for (std::size_t more = 1 + random.below(3); kind != 0 && more > 0; --more) {
         const Transform away = Transform::translate(random.inBox(0.4));
-        keys.push_back(kind == 1 ? away * map
-                                 : away * map * Transform::rotate(random.direction(),
-                                                                  random.uniform(-1, 1)));
+        keys.push_back(
+            kind == 1 ? away * map
+                      : away * map * Transform::rotate(random.direction(), random.uniform(-1, 1)));
         if (kind == 3) keys.back() = keys.back() * Transform::scale(random.uniform(0.5, 2));
     }
     return MovingTransform(std::span<const Transform>(keys));
 }
 
-std::vector<MovingTransform> addPlanes(std::uint64_t seed, const Kernel&, ShapeSet& set) {
+std::vector<MovingTransform> addPlanes(std::uint64_t seed, const Isa&, ShapeSet& set) {
     Random random(seed);
     std::vector<MovingTransform> places;
     const std::size_t count = 1 + seed % 5, balls = seed % 3 == 0 ? 0 : 1 + seed % 30;
@@ -63,8 +65,7 @@ Rays planeRays(Random& random, const std::vector<MovingTransform>& places) {
         const float time = random.chance(0.15) ? times[random.below(std::size(times))]
                                                : static_cast<float>(random.unit());
         const auto place = [&] {
-            const Transform map =
-                places[random.below(places.size())].at(static_cast<double>(time));
+            const Transform map = places[random.below(places.size())].at(static_cast<double>(time));
             return map.point({random.uniform(-1, 1), random.uniform(-1, 1),
                               random.chance(0.3) ? 0 : random.logUniform(1e-9, 1)});
         };
@@ -86,8 +87,8 @@ TEST(solid_endless_planes_have_the_bits_of_single_rays) {
 
 TEST(solid_endless_planes_are_met_in_lanes) {
     constexpr int kRays = 400;
-    for (const Kernel& kernel : allKernels()) {
-        if (!kernel.supported() || kernel.width == 0) continue;
+    for (const Isa& kernel : allIsas()) {
+        if (!kernel.supported() || kernel.triangles == nullptr) continue;
         Random random(4702);
         int asked = 0, met = 0;
         for (int i = 0; i < 30; ++i) {
@@ -102,18 +103,19 @@ TEST(solid_endless_planes_are_met_in_lanes) {
             Rays rays;
             for (int k = 0; k < kRays; ++k)
                 rays.push(kit::rayFrom(random.inBox(1), random.direction()));
-            const SolidCalls calls{
-                &asked,
-                [](const void* count, const Ray&, std::uint32_t, float, Hit&) {
-                    ++*static_cast<int*>(const_cast<void*>(count));
-                    return false;
-                },
-                nullptr};
+            const SolidCalls calls{&asked,
+                                   [](const void* count, const Ray&, std::uint32_t, float, Hit&) {
+                                       ++*static_cast<int*>(const_cast<void*>(count));
+                                       return false;
+                                   },
+                                   nullptr};
             std::vector<Hit> hits(kRays);
-            closestSolids(*solidKernel(kernel), tree, calls, rays.span(), hits);
+            closestSolids(*kernel.solids, tree, calls, rays.span(), hits);
             for (const Hit& hit : hits) met += hit.isHit();
         }
         CHECK_INFO(met > 1000 && asked < met / 20,
                    kernel.name << ": " << met << " met, asked " << asked);
     }
 }
+
+} // namespace test_solid_endless

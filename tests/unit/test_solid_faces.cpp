@@ -2,6 +2,8 @@
 // every shape, along faces and edges, from the inside, and where shapes are flat, huge or far away.
 #include "solid_checks.h"
 
+namespace test_solid_faces {
+
 using meshes::Random;
 using solid_checks::Rays;
 using Shadow = ShapeSet::Shadow;
@@ -66,7 +68,7 @@ MovingTransform moving(Random& random, const Transform& map) {
 
 // Moved and scaled only, turned, sheared, mirrored, flattened; some twice in one place, some seen
 // from one side.
-std::vector<Face> addFaces(std::uint64_t seed, const Kernel&, ShapeSet& set) {
+std::vector<Face> addFaces(std::uint64_t seed, const Isa&, ShapeSet& set) {
     Random random(seed);
     const std::size_t count = 1 + seed * 7 % 40;
     std::vector<Face> faces;
@@ -140,7 +142,7 @@ TEST(solid_faces_have_the_bits_of_single_rays) {
 TEST(solid_faces_have_their_rims) {
     const Plane::Corners square = {Vec3d{-1, -1, 0}, Vec3d{1, -1, 0}, Vec3d{1, 1, 0},
                                    Vec3d{-1, 1, 0}};
-    for (const Kernel& kernel : allKernels()) {
+    for (const Isa& kernel : allIsas()) {
         if (!kernel.supported()) continue;
         ShapeSet set;
         set.add(std::make_unique<Disk>(Transform(), 1, 0u, 0u), Shadow::Opaque);
@@ -165,7 +167,7 @@ TEST(solid_faces_have_their_rims) {
 // On a unit cube all can be told beforehand: rays on a face's plane, along an edge, and what they
 // hit where two cubes share a face.
 TEST(solid_cubes_on_their_faces) {
-    for (const Kernel& kernel : allKernels()) {
+    for (const Isa& kernel : allIsas()) {
         if (!kernel.supported()) continue;
         ShapeSet set;
         set.add(std::make_unique<Cube>(Transform::translate({2, 0, 0}), 0u, 0u), Shadow::Opaque);
@@ -200,3 +202,5 @@ TEST(solid_cubes_on_their_faces) {
         }
     }
 }
+
+} // namespace test_solid_faces

@@ -9,6 +9,8 @@
 
 #include <algorithm>
 
+namespace test_solid_forms {
+
 using meshes::Random;
 using solid_checks::Rays;
 using solid_checks::sided;
@@ -26,7 +28,7 @@ struct Tube {
 
 // Straight ones, stretched ones, needles of 1e-4 to disks of 1e4 times their length, and some
 // without size; open and closed, as cylinders and as cones.
-std::vector<Tube> addTubes(std::uint64_t seed, const Kernel&, ShapeSet& set) {
+std::vector<Tube> addTubes(std::uint64_t seed, const Isa&, ShapeSet& set) {
     Random random(seed);
     const std::size_t count = 1 + seed * 7 % 40;
     std::vector<Tube> tubes;
@@ -84,7 +86,7 @@ Rays tubeRays(Random& random, const std::vector<Tube>& tubes) {
 
 // Chains as of wire models, which fill the tree with thin diagonal boxes: straight tubes, most seen
 // from outside only and open, with balls and now and then a cube where they end; many twice.
-std::vector<Tube> addChains(std::uint64_t seed, const Kernel&, ShapeSet& set) {
+std::vector<Tube> addChains(std::uint64_t seed, const Isa&, ShapeSet& set) {
     Random random(seed);
     const std::size_t count = 100 + seed * 7 % 200;
     std::vector<Tube> tubes;
@@ -116,7 +118,7 @@ struct Pieces {
     std::vector<std::unique_ptr<MeshGeometry>> geometries;
     std::vector<std::array<Vec3, 3>> triangles;
 
-    Pieces(std::uint64_t seed, const Kernel& kernel, ShapeSet& set) {
+    Pieces(std::uint64_t seed, const Isa& kernel, ShapeSet& set) {
         Random random(seed);
         const std::size_t count = 1 + seed * 5 % 24;
         for (std::size_t n = 0; n < count; ++n) {
@@ -189,7 +191,7 @@ TEST(solid_chains_have_the_bits_of_single_rays) {
 }
 
 TEST(solid_facets_have_the_bits_of_single_rays) {
-    const auto fill = [](std::uint64_t seed, const Kernel& kernel, ShapeSet& set) {
+    const auto fill = [](std::uint64_t seed, const Isa& kernel, ShapeSet& set) {
         return Pieces(seed, kernel, set);
     };
     solid_checks::compareSets("facets", 2301, 60, fill, pieceRays);
@@ -197,7 +199,7 @@ TEST(solid_facets_have_the_bits_of_single_rays) {
 
 // A floor is no batch of its own where a kernel takes it as facets.
 TEST(solid_facets_are_no_batches) {
-    for (const Kernel& kernel : allKernels()) {
+    for (const Isa& kernel : allIsas()) {
         if (!kernel.supported()) continue;
         for (const std::size_t count : {std::size_t{1}, Facets::kMost, Facets::kMost + 1}) {
             Random random(5);
@@ -213,8 +215,10 @@ TEST(solid_facets_are_no_batches) {
                                            std::vector<MeshPart>{{0, 0}}),
                     Shadow::Opaque);
             set.finish(true, kernel);
-            CHECK_INFO(set.batched.size() == (kernel.width > 0 && count > Facets::kMost),
+            CHECK_INFO(set.batched.size() == (kernel.triangles != nullptr && count > Facets::kMost),
                        kernel.name << ' ' << count);
         }
     }
 }
+
+} // namespace test_solid_forms

@@ -3,6 +3,8 @@
 // several shapes at once, and zeros have both signs. Batches have the bits of asking every shape.
 #include "solid_checks.h"
 
+namespace test_solid_lattice {
+
 using meshes::Random;
 using solid_checks::Rays;
 using Shadow = ShapeSet::Shadow;
@@ -13,7 +15,7 @@ struct Lattice {
     std::uint32_t half; // coordinates are up to this far from 0
     std::vector<std::unique_ptr<MeshGeometry>> geometries;
 
-    Lattice(std::uint64_t seed, const Kernel& kernel, ShapeSet& set)
+    Lattice(std::uint64_t seed, const Isa& kernel, ShapeSet& set)
         : half(1 + static_cast<std::uint32_t>(seed % 4)) {
         Random random(seed);
         const std::size_t count = 1 + seed * 5 % 32;
@@ -42,7 +44,7 @@ private:
         const std::vector<Transform> keys{map, Transform::translate(away) * map};
         return kind.make(MovingTransform(std::span<const Transform>(keys)));
     }
-    std::unique_ptr<const Shape> piece(Random& random, const Kernel& kernel, std::uint32_t object) {
+    std::unique_ptr<const Shape> piece(Random& random, const Isa& kernel, std::uint32_t object) {
         const auto triangles = meshes::latticeSoup(random, 1 + random.below(5), half);
         auto geometry = std::make_unique<MeshGeometry>(meshes::geometryOf(triangles, false));
         geometry->finish(true, kernel);
@@ -61,8 +63,10 @@ Rays latticeRays(Random& random, const Lattice& lattice) {
 } // namespace
 
 TEST(solid_shapes_of_whole_numbers_have_the_bits_of_single_rays) {
-    const auto fill = [](std::uint64_t seed, const Kernel& kernel, ShapeSet& set) {
+    const auto fill = [](std::uint64_t seed, const Isa& kernel, ShapeSet& set) {
         return Lattice(seed, kernel, set);
     };
     solid_checks::compareSets("lattice", 5101, 60, fill, latticeRays);
 }
+
+} // namespace test_solid_lattice

@@ -4,6 +4,8 @@
 #include "shape/sphere.h"
 #include "solid_checks.h"
 
+namespace test_solid_moving {
+
 using meshes::Random;
 using solid_checks::Rays;
 using Shadow = ShapeSet::Shadow;
@@ -64,7 +66,7 @@ std::unique_ptr<const Shape> someShape(Random& random, const MovingTransform& pl
     return kind->make(place);
 }
 
-std::vector<Body> addMoving(std::uint64_t seed, const Kernel&, ShapeSet& set) {
+std::vector<Body> addMoving(std::uint64_t seed, const Isa&, ShapeSet& set) {
     Random random(seed);
     std::vector<Body> bodies;
     const std::size_t count = 1 + seed * 7 % 30;
@@ -78,7 +80,7 @@ std::vector<Body> addMoving(std::uint64_t seed, const Kernel&, ShapeSet& set) {
     return bodies;
 }
 
-std::vector<Body> addSidedSpheres(std::uint64_t seed, const Kernel&, ShapeSet& set) {
+std::vector<Body> addSidedSpheres(std::uint64_t seed, const Isa&, ShapeSet& set) {
     Random random(seed);
     std::vector<Body> bodies;
     const std::size_t count = 1 + seed * 7 % 40;
@@ -133,7 +135,7 @@ TEST(solid_spheres_of_one_side_have_the_bits_of_single_rays) {
 // A ray that touches a sphere sees its front, so that the rim belongs to that side: to where its
 // normal is at right angles to the ray, whatever the two roots say.
 TEST(solid_spheres_of_one_side_have_their_rims) {
-    for (const Kernel& kernel : allKernels()) {
+    for (const Isa& kernel : allIsas()) {
         if (!kernel.supported()) continue;
         for (const OneSided::Side side : {OneSided::Side::Front, OneSided::Side::Back}) {
             ShapeSet set;
@@ -153,3 +155,5 @@ TEST(solid_spheres_of_one_side_have_their_rims) {
         }
     }
 }
+
+} // namespace test_solid_moving

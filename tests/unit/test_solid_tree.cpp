@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+namespace test_solid_tree {
+
 using meshes::Random;
 
 namespace {
@@ -113,21 +115,21 @@ TEST(solid_tree_is_the_same_for_any_threads) {
 
 TEST(solid_tree_is_the_same_for_any_instructions) {
     using namespace kernels::build;
-    std::vector<const BuildCode*> codes;
-    for (const BuildCode& code : allBuildCodes())
-        if (code.supported()) codes.push_back(&code);
+    std::vector<const Isa*> isas;
+    for (const Isa& isa : allIsas())
+        if (isa.supported() && isa.build != nullptr) isas.push_back(&isa);
     Random random(73);
     for (const std::size_t count : {1u, 2u, 3u, 300u, 20000u}) {
         const std::vector<Bounds> boxes = someBoxes(random, count);
-        for (std::size_t i = 1; i < codes.size(); ++i) {
-            const SinglesTree a = growSinglesBy(*codes[0], boxes, 1),
-                              b = growSinglesBy(*codes[i], boxes, 1);
+        for (std::size_t i = 1; i < isas.size(); ++i) {
+            const SinglesTree a = growSinglesBy(*isas[0]->build, boxes, 1),
+                              b = growSinglesBy(*isas[i]->build, boxes, 1);
             const bool same =
                 std::equal(a.nodes.begin() + a.root, a.nodes.begin() + a.root + 1,
                            b.nodes.begin() + b.root, sameNode) &&
                 a.nodes.size() == b.nodes.size() && a.roots == b.roots &&
                 std::equal(a.nodes.begin(), a.nodes.begin() + a.root, b.nodes.begin(), sameNode);
-            CHECK_INFO(same, count << ' ' << codes[i]->name);
+            CHECK_INFO(same, count << ' ' << isas[i]->name);
         }
     }
 }
@@ -214,3 +216,5 @@ TEST(solid_tree_walk_enters_what_the_ray_enters) {
     CHECK(entered > 1000);
     CHECK_EQUAL(wrong, 0);
 }
+
+} // namespace test_solid_tree

@@ -4,6 +4,8 @@
 #include "shape/mesh.h"
 #include "solid_checks.h"
 
+namespace test_solids {
+
 using meshes::Random;
 using solid_checks::Rays;
 using solid_checks::Score;
@@ -19,7 +21,7 @@ struct Ball {
 // The same shapes for any number of sets.
 class Solids {
 public:
-    Solids(std::uint64_t seed, const Kernel& kernel) : random_(seed) {
+    Solids(std::uint64_t seed, const Isa& kernel) : random_(seed) {
         tube_ = meshes::geometryOf(meshes::soup(random_, 60), false);
         tube_.finish(true, kernel);
         room_ = toGeometry(meshes::cube(), {});
@@ -138,7 +140,7 @@ Rays someRays(Random& random, const std::vector<Ball>& balls) {
 } // namespace
 
 TEST(solids_batches_have_the_bits_of_single_rays) {
-    for (const Kernel& kernel : allKernels()) {
+    for (const Isa& kernel : allIsas()) {
         if (!kernel.supported()) continue;
         Score score;
         for (std::uint64_t seed = 1501; seed < 1501 + check::scaled(20u); ++seed) {
@@ -166,7 +168,7 @@ TEST(solids_batches_have_the_bits_of_single_rays) {
 // Of shapes that meet a ray at the same t the lowest number is seen, in whatever order the tree has
 // them; and a ray that starts where another one hit does not see that hit again.
 TEST(solids_ties_and_ranges) {
-    for (const Kernel& kernel : allKernels()) {
+    for (const Isa& kernel : allIsas()) {
         if (!kernel.supported()) continue;
         ShapeSet set;
         for (int i = 0; i < 40; ++i)
@@ -194,3 +196,5 @@ TEST(solids_ties_and_ranges) {
         for (const Hit& hit : hits) CHECK(hit.shape == 0 && hit.t == 2.5f);
     }
 }
+
+} // namespace test_solids

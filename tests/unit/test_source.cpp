@@ -2,6 +2,8 @@
 #include "base/source.h"
 #include "check.h"
 
+namespace test_source {
+
 namespace {
 
 const SourceFile kFile{"a.txt", "one\ntwo three\r\n\n  four"};
@@ -65,3 +67,5 @@ TEST(source_counts_the_lines_before_a_byte) {
         CHECK_EQUAL(lineOf(source, kSize + 1), 1 + kSize / every);
     }
 }
+
+} // namespace test_source

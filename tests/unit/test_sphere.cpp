@@ -1,5 +1,7 @@
 #include "analytic_checks.h"
 
+namespace test_sphere {
+
 using kit::Random;
 
 TEST(sphere_keeps_the_rules_of_shapes) { kit::checkShape("sphere", 101); }
@@ -59,3 +61,5 @@ TEST(sphere_edge_cases) {
         CHECK(!none.intersect({{-2, 0, 0}, {1, 0, 0}}, hit));
     }
 }
+
+} // namespace test_sphere

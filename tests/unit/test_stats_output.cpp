@@ -4,6 +4,8 @@
 
 #include <limits>
 
+namespace test_stats_output {
+
 namespace {
 
 // A value at the start of `text`, which is cut off; false when it is no JSON (RFC 8259). Numbers
@@ -133,3 +135,5 @@ TEST(stats_of_an_error_goal) {
 }
 
 TEST(stats_peak_memory_is_known) { CHECK(peakBytes() > 100'000); }
+
+} // namespace test_stats_output

@@ -8,6 +8,8 @@
 #include <bit>
 #include <memory>
 
+namespace test_still_balls {
+
 using kit::Random;
 
 namespace {
@@ -87,8 +89,8 @@ TEST(ball_surfaces_are_those_of_single_hits) {
         }
         if (which.empty()) continue;
         const RaySpan rays{org, dir, tMin, tMax, time};
-        for (const Kernel& kernel : allKernels()) {
-            const BallSurfacesFn lanes = surfaceLanes(kernel).balls;
+        for (const Isa& kernel : allIsas()) {
+            const BallSurfacesFn lanes = lanesOf(kernel.surfaces).balls;
             if (!kernel.supported() || lanes == nullptr) continue;
             std::vector<SurfaceBlock> out(4);
             const SurfacePlaces places(out.data());
@@ -109,3 +111,5 @@ TEST(ball_surfaces_are_those_of_single_hits) {
     }
     CHECK(compared > 1000);
 }
+
+} // namespace test_still_balls

@@ -11,6 +11,8 @@
 #include <bit>
 #include <memory>
 
+namespace test_still_surfaces {
+
 using kit::Random;
 
 namespace {
@@ -68,8 +70,8 @@ std::size_t checkShapes(StillShape::Kind kind, const Shapes& shapes,
     if (which.empty()) return 0;
     std::reverse(to.begin(), to.end()); // places are not those of the rays
     const RaySpan rays = batch.span();
-    for (const Kernel& kernel : allKernels()) {
-        const StillSurfacesFn lanes = surfaceLanes(kernel).stills;
+    for (const Isa& kernel : allIsas()) {
+        const StillSurfacesFn lanes = lanesOf(kernel.surfaces).stills;
         if (!kernel.supported() || lanes == nullptr) continue;
         std::vector<SurfaceBlock> out(4);
         const SurfacePlaces places(out.data());
@@ -193,3 +195,5 @@ TEST(still_surfaces_of_moving_and_flat_shapes_are_not_for_lanes) {
         CHECK(Cube(keys[0], 2, 3).stillToShade() != nullptr);
     }
 }
+
+} // namespace test_still_surfaces

@@ -4,6 +4,8 @@
 #include "shape/checkered.h"
 #include "shape/one_sided.h"
 
+namespace test_surface_needs {
+
 using kit::Random;
 
 namespace {
@@ -57,3 +59,5 @@ TEST(surface_needs_change_nothing_else) {
     checkShape(*meshes::instance(ball, Transform::scale({1, 1.5, 0.7}), frame).shape, random,
                "instance");
 }
+
+} // namespace test_surface_needs

@@ -7,6 +7,8 @@
 #include <random>
 #include <vector>
 
+namespace test_text {
+
 TEST(text_shortest_round_trips) {
     CHECK_EQUAL(shortest(0.1), "0.1");
     CHECK_EQUAL(shortest(0.1f), "0.1");
@@ -99,3 +101,5 @@ TEST(text_after_the_last) {
     CHECK_EQUAL(afterLast("c.obj", "/\\"), "c.obj");
     CHECK_EQUAL(afterLast("a/", "/"), "");
 }
+
+} // namespace test_text

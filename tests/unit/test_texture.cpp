@@ -4,6 +4,8 @@
 #include "texture/texture.h"
 #include "unit/stored_floats.h"
 
+namespace test_texture {
+
 using kit::Random;
 
 namespace {
@@ -188,3 +190,5 @@ TEST(texture_any_uv_is_safe) {
     CHECK_THROWS(Texture(floats(2, 2, {1, 2, 3}), linear()), "does not match");
     CHECK_THROWS(Texture(StoredImage{}, linear()), "does not match");
 }
+
+} // namespace test_texture

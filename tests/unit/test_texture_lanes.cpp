@@ -2,6 +2,7 @@
 // points get the numbers that each would get for itself.
 #include "accel/kernels/kernels.h"
 #include "check.h"
+#include "render/waves/picture_lanes.h"
 #include "render/waves/texture_points.h"
 #include "texture/texture.h"
 #include "verify/meshes.h"
@@ -9,6 +10,8 @@
 #include <bit>
 #include <limits>
 #include <memory>
+
+namespace test_texture_lanes {
 
 using meshes::Random;
 
@@ -96,8 +99,9 @@ bool sameBits(Rgb a, Rgb b) {
 } // namespace
 
 TEST(texture_lanes_have_the_bits_of_single_look_ups) {
-    for (const Kernel& kernel : allKernels()) {
-        const TextureColorsFn colors = kernel.supported() ? textureColors(kernel) : nullptr;
+    for (const Isa& kernel : allIsas()) {
+        const TextureColorsFn colors =
+            kernel.supported() ? lanesOf(kernel.pictures).texture : nullptr;
         if (!colors) continue;
         Random random(41);
         long long asked = 0, black = 0, dark = 0, wrong = 0;
@@ -138,7 +142,7 @@ TEST(texture_lanes_have_the_bits_of_single_look_ups) {
 TEST(texture_lanes_are_for_bytes) {
     Random random(1);
     CHECK(!Texture(someImage(random, StoredImage::Depth::Bits16), {}).bytes());
-    CHECK(textureColors(chooseKernel("scalar")) == nullptr);
+    CHECK(oneLane().pictures == nullptr);
 }
 
 // Materials with any of their four pictures, more of them than there are groups, at any number of
@@ -189,8 +193,9 @@ TEST(texture_points_get_the_numbers_of_their_materials) {
             }
         }
         points.add(*at[added].of, added, static_cast<std::uint32_t>(count) - added);
-        const Kernel& kernel = allKernels()[random.below(allKernels().size())];
-        points.apply(kernel.supported() ? textureColors(kernel) : nullptr, columns, numbers);
+        const Isa& kernel = allIsas()[random.below(allIsas().size())];
+        points.apply(kernel.supported() ? lanesOf(kernel.pictures).texture : nullptr, columns,
+                     numbers);
         for (std::size_t k = 0; k < count; ++k) {
             const Material alone = materialAt(at[k]);
             ++asked;
@@ -206,3 +211,5 @@ TEST(texture_points_get_the_numbers_of_their_materials) {
     CHECK_INFO(asked > 5000, asked);
     CHECK_EQUAL(wrong, 0);
 }
+
+} // namespace test_texture_lanes

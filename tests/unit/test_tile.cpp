@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_tile {
+
 namespace {
 
 using Place = std::pair<int, int>;
@@ -47,3 +49,5 @@ TEST(tile_places_of_a_register_are_a_square) {
             CHECK(width == height || width == 2 * height);
         }
 }
+
+} // namespace test_tile

@@ -8,6 +8,8 @@
 #include <random>
 #include <string>
 
+namespace test_transform {
+
 namespace {
 
 struct Draw {
@@ -283,3 +285,5 @@ TEST(bounds_basics) {
     }
     CHECK(outward(BoundsD{}).isEmpty());
 }
+
+} // namespace test_transform

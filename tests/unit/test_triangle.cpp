@@ -5,6 +5,8 @@
 #include "shown_triangle.h"
 #include "verify/meshes.h"
 
+namespace test_triangle {
+
 using meshes::Random;
 
 namespace {
@@ -194,3 +196,5 @@ TEST(triangle_against_long_double) {
     CHECK_EQUAL(wrong, 0);
     CHECK_EQUAL(farOff, 0);
 }
+
+} // namespace test_triangle

@@ -4,6 +4,8 @@
 #include "shown_triangle.h"
 #include "verify/meshes.h"
 
+namespace test_triangle_borders {
+
 using meshes::Random;
 
 // Two triangles with a common edge, aimed at it within a few ulp: one of them is hit at least, the
@@ -121,3 +123,5 @@ TEST(triangle_one_hit_per_crossing) {
     CHECK(crossings > 10000);
     CHECK_EQUAL(unbalanced, 0);
 }
+
+} // namespace test_triangle_borders

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <cstdio>
 
+namespace test_triangle_edge_on {
+
 using meshes::Random;
 
 namespace {
@@ -111,3 +113,5 @@ TEST(triangle_seen_edge_on_is_met_near_itself) {
         CHECK_INFO(key > 0 && 1 / (key * setup.dz) > 1, shown(c.triangle, c.org, c.dir) << key);
     }
 }
+
+} // namespace test_triangle_edge_on

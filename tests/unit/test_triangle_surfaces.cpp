@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <bit>
 
+namespace test_triangle_surfaces {
+
 using kit::Random;
 
 namespace {
@@ -83,13 +85,13 @@ TEST(triangle_surfaces_are_those_of_single_hits) {
         }
         std::reverse(to.begin(), to.end()); // places are not those of the rays
         const RaySpan rays{org, dir, zero, one, zero};
-        for (const Kernel& kernel : allKernels()) {
+        for (const Isa& kernel : allIsas()) {
             if (!kernel.supported()) continue;
             for (const SurfaceNeeds needs :
                  {SurfaceNeeds{true, true}, {false, true}, {false, false}}) {
                 std::vector<SurfaceBlock> out(4);
                 const SurfacePlaces places(out.data());
-                mesh.surfaces({rays, hits, which, to, needs, surfaceLanes(kernel)}, places);
+                mesh.surfaces({rays, hits, which, to, needs, lanesOf(kernel.surfaces)}, places);
                 for (std::size_t k = 0; k < which.size(); ++k) {
                     const std::uint32_t i = which[k];
                     const Surface alone = mesh.surfaceFor(rays[i], hits[i], needs);
@@ -104,3 +106,5 @@ TEST(triangle_surfaces_are_those_of_single_hits) {
     }
     CHECK(smooth > 1000 && lifted > 1000); // what was compared is there
 }
+
+} // namespace test_triangle_surfaces

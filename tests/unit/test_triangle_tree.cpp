@@ -5,6 +5,8 @@
 
 #include <algorithm>
 
+namespace test_triangle_tree {
+
 using meshes::Random;
 
 namespace {
@@ -119,3 +121,5 @@ TEST(triangle_tree_equals_brute_force) {
     CHECK_EQUAL(collectWrong, 0);
     CHECK_EQUAL(self, 0);
 }
+
+} // namespace test_triangle_tree

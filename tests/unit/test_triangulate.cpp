@@ -3,6 +3,8 @@
 
 #include <chrono>
 
+namespace test_triangulate {
+
 using triangulate_kit::checkPolygon;
 using triangulate_kit::hasFlatTriangle;
 using triangulate_kit::placed;
@@ -163,3 +165,5 @@ TEST(triangulate_time_is_bounded) {
     // 0.1 s measured; ten times as long on a busy machine, and a hundred times under sanitizers.
     CHECK_INFO(seconds.count() < 20, seconds.count());
 }
+
+} // namespace test_triangulate

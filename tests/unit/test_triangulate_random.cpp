@@ -4,6 +4,8 @@
 #include <set>
 #include <utility>
 
+namespace test_triangulate_random {
+
 using triangulate_kit::checkPolygon;
 using triangulate_kit::hasFlatTriangle;
 using triangulate_kit::placed;
@@ -108,3 +110,5 @@ TEST(triangulate_slivers) {
             CHECK_INFO(orientation(p[t[0]], p[t[1]], p[t[2]]) >= 0, "seed " << seed);
     }
 }
+
+} // namespace test_triangulate_random

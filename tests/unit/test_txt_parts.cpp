@@ -10,6 +10,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_txt_parts {
+
 namespace {
 
 struct Outcome {
@@ -151,3 +153,5 @@ TEST(txt_arrays_are_the_same_for_any_threads) {
     checkSame(text.replace(text.find("\t11999  1"), 9, "\t12000  1"), "an index too large");
     CHECK(inOrder(text).said.find("there is no 12000 in 'points'") != std::string::npos);
 }
+
+} // namespace test_txt_parts

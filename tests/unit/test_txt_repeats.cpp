@@ -7,6 +7,8 @@
 
 #include <array>
 
+namespace test_txt_repeats {
+
 using meshes::Random;
 
 namespace {
@@ -78,3 +80,5 @@ TEST(txt_repeated_mistakes_are_told_again) {
     CHECK_INFO(messageOf(cut).find("block 'sphere' is not closed") != std::string::npos,
                messageOf(cut));
 }
+
+} // namespace test_txt_repeats

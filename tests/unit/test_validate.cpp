@@ -6,6 +6,8 @@
 
 #include <limits>
 
+namespace test_validate {
+
 using namespace validate_kit;
 
 namespace {
@@ -266,3 +268,5 @@ TEST(validate_settings_and_rest) {
                }),
                "'radius' and 'top_radius' are both 0");
 }
+
+} // namespace test_validate

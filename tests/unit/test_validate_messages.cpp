@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <random>
 
+namespace test_validate_messages {
+
 using namespace validate_kit;
 
 // First of single properties, then of names, then of blocks as wholes, each in the order of the
@@ -141,3 +143,5 @@ TEST(validate_tells_what_is_far_by_the_box_of_all) {
     }
     CHECK(farCount > count / 10 && farCount < count - count / 10);
 }
+
+} // namespace test_validate_messages

@@ -1,6 +1,8 @@
 #include "base/vec.h"
 #include "check.h"
 
+namespace test_vec {
+
 // Vectors are usable in constant expressions.
 static_assert(dot(Vec3{1, 2, 3}, Vec3{4, 5, 6}) == 32);
 static_assert(cross(Vec3d{1, 0, 0}, Vec3d{0, 1, 0}) == Vec3d{0, 0, 1});
@@ -52,3 +54,5 @@ TEST(vec_colours) {
     CHECK_NEAR(luminance({1, 1, 1}), 1, 1e-6);
     CHECK(luminance({0, 1, 0}) > luminance({1, 0, 0}));
 }
+
+} // namespace test_vec

@@ -5,6 +5,8 @@
 #include <random>
 #include <vector>
 
+namespace test_warp {
+
 namespace {
 
 struct Draw {
@@ -164,3 +166,5 @@ TEST(warp_frame) {
         CHECK(maxAbs(local - Vec3{0.25f, -0.5f, 0.75f}) < 1e-6f);
     }
 }
+
+} // namespace test_warp

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <map>
 
+namespace test_watertight {
+
 using meshes::Random;
 
 namespace {
@@ -64,3 +66,5 @@ TEST(watertight_from_inside) {
                    row.id << ' ' << row.what << ": " << tally.failedCase << tally.worstCase);
     }
 }
+
+} // namespace test_watertight

@@ -7,6 +7,8 @@
 
 #include <memory>
 
+namespace test_whole_light {
+
 using namespace litkit;
 
 namespace {
@@ -94,8 +96,9 @@ TEST(light_whole_is_not_said_of_others) {
 // As PointLight::whole() and reflectedLight() have it point by point; points that the lamp can't
 // reach are known to be dark.
 TEST(whole_lamps_in_lanes_have_the_bits_of_single_points) {
-    for (const Kernel& kernel : allKernels()) {
-        const WholeLightFn inLanes = kernel.supported() ? wholeLight(kernel) : nullptr;
+    for (const Isa& kernel : allIsas()) {
+        const WholeLightFn inLanes =
+            kernel.supported() ? lanesOf(kernel.lamps).wholeLight : nullptr;
         if (!inLanes) continue;
         Random random(80);
         long long lit = 0, dark = 0, unknown = 0, wrong = 0;
@@ -141,3 +144,5 @@ TEST(whole_lamps_in_lanes_have_the_bits_of_single_points) {
         CHECK_EQUAL(wrong, 0);
     }
 }
+
+} // namespace test_whole_light

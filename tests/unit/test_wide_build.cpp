@@ -11,7 +11,9 @@
 #include <cstring>
 #include <functional>
 
-using kernels::build::BuildCode;
+namespace test_wide_build {
+
+using kernels::build::TreeBuilder;
 using meshes::Random;
 
 namespace {
@@ -209,15 +211,16 @@ TEST(wide_build_same_for_any_threads) {
 }
 
 TEST(wide_build_same_for_any_instructions) {
-    std::vector<const BuildCode*> codes;
-    for (const BuildCode& code : kernels::build::allBuildCodes())
-        if (code.supported()) codes.push_back(&code);
+    std::vector<const Isa*> isas;
+    for (const Isa& isa : allIsas())
+        if (isa.supported() && isa.build != nullptr) isas.push_back(&isa);
     for (const Input& in : inputs())
         for (const int width : {8, 16})
-            for (std::size_t i = 1; i < codes.size(); ++i)
-                CHECK_INFO(sameBytes(buildWideBy(*codes[i], width, in.points, in.triangles, 1),
-                                     buildWideBy(*codes[0], width, in.points, in.triangles, 1)),
-                           in.name << ", width " << width << ", " << codes[i]->name);
+            for (std::size_t i = 1; i < isas.size(); ++i)
+                CHECK_INFO(
+                    sameBytes(buildWideBy(*isas[i]->build, width, in.points, in.triangles, 1),
+                              buildWideBy(*isas[0]->build, width, in.points, in.triangles, 1)),
+                    in.name << ", width " << width << ", " << isas[i]->name);
 }
 
 TEST(wide_build_trees_hold_everything) {
@@ -265,3 +268,5 @@ TEST(wide_build_many_rays_make_better_trees) {
         CHECK_INFO(sah < 0.995 * fast, rays << " rays: " << sah << ", fast " << fast);
     }
 }
+
+} // namespace test_wide_build

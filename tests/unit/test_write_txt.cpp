@@ -11,6 +11,8 @@
 #include <cmath>
 #include <random>
 
+namespace test_write_txt {
+
 namespace {
 
 // Fills blocks by walking the tables, so that a new row is tested without a new line here.
@@ -215,3 +217,5 @@ TEST(write_txt_leaves_defaults_out) {
     desc.settings.samplesPerPixel = 3;
     CHECK(writeTxt(desc).find("settings {\n    samples 3\n}\n") != std::string::npos);
 }
+
+} // namespace test_write_txt

@@ -3,8 +3,6 @@
 
 #include "accel/triangle.h"
 
-#include <bit>
-
 namespace {
 
 template <int W> float keyOf(const RaySetup& setup, const WideLeaf<W>& leaf, unsigned lane) {
@@ -15,20 +13,7 @@ template <int W> float keyOf(const RaySetup& setup, const WideLeaf<W>& leaf, uns
     return canonicalKey(setup, point(0), point(1), point(2));
 }
 
-constexpr auto makeChosenLanes() {
-    std::array<std::array<std::uint8_t, 8>, 256> table{};
-    for (unsigned mask = 0; mask < 256; ++mask) {
-        std::size_t chosen = 0, other = static_cast<std::size_t>(std::popcount(mask));
-        for (unsigned lane = 0; lane < 8; ++lane)
-            table[mask][(mask >> lane & 1) != 0 ? chosen++ : other++] =
-                static_cast<std::uint8_t>(lane);
-    }
-    return table;
-}
-
 } // namespace
-
-constexpr std::array<std::array<std::uint8_t, 8>, 256> kChosenLanes = makeChosenLanes();
 
 template <int W>
 float exactKey(const WideMesh& mesh, Vec3 org, Vec3 dir, const WideLeaf<W>& leaf, unsigned lane) {

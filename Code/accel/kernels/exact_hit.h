@@ -10,8 +10,5 @@
 template <int W>
 float exactKey(const WideMesh& mesh, Vec3 org, Vec3 dir, const WideLeaf<W>& leaf, unsigned lane);
 
-// For AVX2: which lanes a mask chooses, in order, and behind them the others.
-extern const std::array<std::array<std::uint8_t, 8>, 256> kChosenLanes;
-
 // Memory of a thread for one call, kept for the next. 64-byte aligned, not cleared.
 std::byte* scratchMemory(std::size_t bytes);

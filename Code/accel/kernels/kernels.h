@@ -2,32 +2,22 @@
 // Every answer is that of the scalar traversal with canonicalKey() of accel/triangle.h, bit for
 // bit: kernels find the candidates in their own ways, and the canonical hit decides.
 //
-// The folder. .inl files are written for any number of lanes: the file of each instruction set
-// (sse, avx2, avx512) includes region_includes.h, one simd_*.inl and then, in this order,
-//   [isa].cpp         kernel, which includes key_range, barycentrics, stack, ray_lanes; for rays
-//                     one by one: queue_rays, root_boxes, queue_*, lane_hits, handful (tiny
-//                     trees), queue; for rays that go side by side: beam_shape, beam; for rays
-//                     from one point: bundle_*, bundle
-//   solids_[isa].cpp  ray_lanes, solids_columns_[isa], all_lanes; solids, which includes solids_*
-//   placed_[isa].cpp  stack, ray_lanes, placed_mesh, placed
-//   surface_lanes_[isa].cpp  vectors3, still_surfaces (with still_numbers, still_points),
-//                     triangle_surfaces
-// choose.cpp has the table of kernels and route.cpp deals the rays of a batch out to bundles and
-// the others, of which beam.inl takes what it can and the queue the rest; solids.cpp does both for
-// solids, placed.cpp has the table for placed meshes, which call back to a PlacedQuery.
-// exact_hit.cpp decides what lanes leave open, in plain code. wide_build.cpp and build/ make the
-// trees.
+// Headers with LANES_BEGIN are written for any number of lanes (simd/region.h); the units of isa/
+// include them all. For rays one by one: queue*, and handful for tiny trees; for rays that go side
+// by side: beam*; for rays from one point: bundle*; for other shapes than triangles: solids*; for
+// meshes that are placed and may move: placed*, which call back to a PlacedQuery. route.cpp deals
+// the rays of a batch out to bundles and the others, of which beam.h takes what it can and the
+// queue the rest; solids.cpp does both for solids. exact_hit.cpp decides what lanes leave open, in
+// plain code. wide_build.cpp and build/ make the trees.
 #pragma once
 
 #include "accel/kernels/wide_tree.h"
 #include "base/hit.h"
 #include "base/ray_span.h"
+#include "isa/isa.h"
 
 #include <cstdint>
 #include <span>
-#include <string>
-#include <string_view>
-#include <vector>
 
 // A mesh in the space that it is traced in.
 struct WideMesh {
@@ -68,27 +58,17 @@ using ClosestFn = void (*)(const WideMesh& mesh, const RaySpan& rays,
 using AnyFn = void (*)(const WideMesh& mesh, const RaySpan& rays,
                        std::span<const std::uint32_t> order, std::uint8_t* hidden);
 
-struct Kernel {
-    const char* name;
-    int width; // of its trees; 0: it has none, the scalar code of Mesh answers
-    bool (*supported)();
+struct TriangleKernel {
     ClosestFn closest, closestFromPoint; // FromPoint: all rays of `order` start at the same point
     AnyFn any, anyFromPoint;
 };
 
-// Best first, the scalar one last. Which of them the CPU has is asked by supported().
-std::span<const Kernel> allKernels();
-std::vector<std::string> kernelNames();
-// By name; "auto" is the best that the CPU supports. Fails for a name that is not in the table or
-// not supported, and says which are.
-const Kernel& chooseKernel(std::string_view name);
-
 // Nearest hit with tMin < t <= tMax of every ray of the batch, kNone where there is none.
-void closestHits(const Kernel& kernel, const WideMesh& mesh, const RaySpan& rays,
+void closestHits(const Isa& isa, const WideMesh& mesh, const RaySpan& rays,
                  std::span<TriangleHit> hits);
 // The same with u and v, as hits of shape `number`; a ray that meets nothing keeps t = tMax.
-void closestHits(const Kernel& kernel, const WideMesh& mesh, const RaySpan& rays,
-                 std::uint32_t number, std::span<Hit> hits);
+void closestHits(const Isa& isa, const WideMesh& mesh, const RaySpan& rays, std::uint32_t number,
+                 std::span<Hit> hits);
 // hidden[i]: is there a hit with tMin < t < tMax?
-void anyHits(const Kernel& kernel, const WideMesh& mesh, const RaySpan& rays,
+void anyHits(const Isa& isa, const WideMesh& mesh, const RaySpan& rays,
              std::span<std::uint8_t> hidden);

@@ -1,7 +1,5 @@
-// The table of placed kernels, and how deep their stacks become.
+// How deep the stacks of placed kernels become.
 #include "accel/kernels/placed.h"
-
-#include "accel/kernels/by_kernel.h"
 
 #include <algorithm>
 
@@ -24,20 +22,4 @@ std::uint32_t stackSize(const SolidTree& tree) {
     if (tree.lines.empty()) return 1;
     constexpr WideRef kRoot = wideRef(0, WideKind::Node);
     return 1 + (tree.width == 16 ? stackBelow<16>(tree, kRoot) : stackBelow<8>(tree, kRoot));
-}
-
-#define DECLARE(isa)                                                                               \
-    namespace kernels::isa {                                                                       \
-    void closestPlaced(const PlacedTree&, PlacedQuery&, const RaySpan&,                            \
-                       std::span<const std::uint32_t>);                                            \
-    void anyPlaced(const PlacedTree&, PlacedQuery&, const RaySpan&,                                \
-                   std::span<const std::uint32_t>);                                                \
-    }
-DECLARE_BY_KERNEL(DECLARE)
-#define ROW(isa)                                                                                   \
-    { kernels::isa::closestPlaced, kernels::isa::anyPlaced }
-
-const PlacedKernel* placedKernel(const Kernel& kernel) {
-    static constexpr ByKernel<PlacedKernel> kTable = BY_KERNEL(ROW);
-    return kTable.of(kernel);
 }

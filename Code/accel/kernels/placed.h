@@ -64,5 +64,3 @@ struct PlacedKernel {
     void (*any)(const PlacedTree&, PlacedQuery&, const RaySpan&,
                 std::span<const std::uint32_t> order);
 };
-// Null for the scalar kernel.
-const PlacedKernel* placedKernel(const Kernel& kernel);

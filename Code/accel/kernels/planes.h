@@ -25,5 +25,3 @@ struct PlaneKernel {
     // hidden[i] becomes 1 where the plane is in (tMin, tMax).
     void (*any)(const StillPlane& plane, const RaySpan& rays, std::uint8_t* hidden);
 };
-// Null for the scalar kernel.
-const PlaneKernel* planeKernel(const Kernel& kernel);

@@ -119,18 +119,19 @@ void route(KernelFn queue, KernelFn bundle, const WideMesh& mesh, const RaySpan&
 
 } // namespace
 
-void closestHits(const Kernel& kernel, const WideMesh& mesh, const RaySpan& rays,
+void closestHits(const Isa& isa, const WideMesh& mesh, const RaySpan& rays,
                  std::span<TriangleHit> hits) {
-    route(kernel.closest, kernel.closestFromPoint, mesh, rays, HitLists{.brief = hits.data()});
+    route(isa.triangles->closest, isa.triangles->closestFromPoint, mesh, rays,
+          HitLists{.brief = hits.data()});
 }
 
-void closestHits(const Kernel& kernel, const WideMesh& mesh, const RaySpan& rays,
-                 std::uint32_t number, std::span<Hit> hits) {
-    route(kernel.closest, kernel.closestFromPoint, mesh, rays,
+void closestHits(const Isa& isa, const WideMesh& mesh, const RaySpan& rays, std::uint32_t number,
+                 std::span<Hit> hits) {
+    route(isa.triangles->closest, isa.triangles->closestFromPoint, mesh, rays,
           HitLists{.whole = hits.data(), .shape = number});
 }
 
-void anyHits(const Kernel& kernel, const WideMesh& mesh, const RaySpan& rays,
+void anyHits(const Isa& isa, const WideMesh& mesh, const RaySpan& rays,
              std::span<std::uint8_t> hidden) {
-    route(kernel.any, kernel.anyFromPoint, mesh, rays, hidden.data());
+    route(isa.triangles->any, isa.triangles->anyFromPoint, mesh, rays, hidden.data());
 }

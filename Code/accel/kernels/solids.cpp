@@ -2,8 +2,6 @@
 // origin.
 #include "accel/kernels/solids.h"
 
-#include "accel/kernels/by_kernel.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -99,23 +97,6 @@ SolidTree::Solid SolidTree::made(std::uint32_t number, bool hides, const SolidFo
         facets.push_back(group);
     }
     return solid;
-}
-
-#define DECLARE(isa)                                                                               \
-    namespace kernels::isa {                                                                       \
-    void closestSolids(const SolidTree&, const SolidCalls&, const RaySpan&,                        \
-                       std::span<const std::uint32_t>, Hit*);                                      \
-    void anySolids(const SolidTree&, const SolidCalls&, const RaySpan&,                            \
-                   std::span<const std::uint32_t>, std::uint8_t*);                                 \
-    std::size_t nearerInBox(const BoxedShape&, const RaySpan&, Hit*, Hit*, std::uint32_t*);        \
-    }
-DECLARE_BY_KERNEL(DECLARE)
-#define ROW(isa)                                                                                   \
-    { kernels::isa::closestSolids, kernels::isa::anySolids, kernels::isa::nearerInBox }
-
-const SolidKernel* solidKernel(const Kernel& kernel) {
-    static constexpr ByKernel<SolidKernel> kTable = BY_KERNEL(ROW);
-    return kTable.of(kernel);
 }
 
 namespace {

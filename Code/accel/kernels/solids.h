@@ -156,8 +156,6 @@ struct SolidKernel {
     std::size_t (*nearerInBox)(const BoxedShape& shape, const RaySpan&, Hit* found, Hit* best,
                                std::uint32_t* asFar);
 };
-// Null for the scalar kernel. The trees are as wide as those of the Kernel.
-const SolidKernel* solidKernel(const Kernel& kernel);
 
 // Calls the kernel with the rays of a batch in groups that share their origin.
 void closestSolids(const SolidKernel& kernel, const SolidTree& tree, const SolidCalls& calls,

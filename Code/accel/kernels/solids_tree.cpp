@@ -17,9 +17,9 @@ namespace {
 using namespace kernels::build;
 
 // Puts W children below every node.
-template <int W> class TreeWriter {
+template <int W> class SolidTreeWriter {
 public:
-    TreeWriter(SinglesTree singles, int threads)
+    SolidTreeWriter(SinglesTree singles, int threads)
         : nodes_(std::move(singles.nodes)), root_(singles.root), roots_(std::move(singles.roots)),
           tops_(std::move(singles.tops)), threads_(threads), plans_(nodes_.size()) {}
 
@@ -166,7 +166,7 @@ private:
 std::vector<std::uint32_t> SolidTree::writeNodes(std::span<const Bounds> of, int threads) {
     lines.clear();
     if (of.empty()) return {};
-    SinglesTree singles = growSingles(of, threads);
-    return width == 16 ? TreeWriter<16>(std::move(singles), threads).run(*this)
-                       : TreeWriter<8>(std::move(singles), threads).run(*this);
+    SinglesTree singles = growSinglesBy(*bestIsa().build, of, threads);
+    return width == 16 ? SolidTreeWriter<16>(std::move(singles), threads).run(*this)
+                       : SolidTreeWriter<8>(std::move(singles), threads).run(*this);
 }

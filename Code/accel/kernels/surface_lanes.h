@@ -5,11 +5,8 @@
 #include "accel/kernels/still_surfaces.h"
 #include "accel/kernels/triangle_surfaces.h"
 
-struct Kernel;
-
 struct SurfaceLanes {
     StillSurfacesFn stills = nullptr;
     BallSurfacesFn balls = nullptr;
     TriangleSurfacesFn triangles = nullptr;
 };
-SurfaceLanes surfaceLanes(const Kernel& kernel);

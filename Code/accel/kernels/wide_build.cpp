@@ -8,6 +8,7 @@
 #include "accel/kernels/build/join_singles.h"
 #include "accel/kernels/build/write_tree.h"
 #include "base/parallel.h"
+#include "isa/isa.h"
 
 #include <algorithm>
 #include <utility>
@@ -22,7 +23,7 @@ std::uint32_t subtreeSize(std::uint32_t count) { return std::max(4096u, count / 
 std::uint32_t jobSizeFor(std::uint32_t count) { return std::clamp(count / 256, 2048u, 1u << 14); }
 
 // From which depth on the top is no longer divided: what is so lopsided is left to a subtree.
-constexpr std::uint16_t kTopDepth = 40;
+constexpr std::uint16_t kTopDepthOfWide = 40;
 
 void merge(PrimBox& to, const PrimBox& from) {
     for (std::size_t i = 0; i < 4; ++i) {
@@ -36,7 +37,7 @@ struct Part {
     std::uint32_t count, left;
 };
 
-std::uint32_t leftOf(const BinSplit& split, const Bins& bins) {
+std::uint32_t leftOf(const WideBinSplit& split, const WideBins& bins) {
     std::uint32_t sum = 0;
     for (std::uint32_t b = 0; split.axis >= 0 && b < static_cast<std::uint32_t>(split.cut); ++b)
         sum += bins.count[b][static_cast<std::size_t>(split.axis)];
@@ -47,7 +48,7 @@ class WideBuilder {
 public:
     // kSingles as the width: of boxes.
     static constexpr int kSingles = 1;
-    WideBuilder(const BuildCode& code, int width, const BuildInput& in, int threads, double rays)
+    WideBuilder(const TreeBuilder& code, int width, const BuildInput& in, int threads, double rays)
         : code_(code), width_(width), rays_(rays),
           count_(static_cast<std::uint32_t>(in.triangles.size() + in.boxes.size())),
           // Few triangles are sorted before another thread has woken up.
@@ -128,11 +129,11 @@ private:
         r.count = count_;
         r.box = parts[0].box;
         r.grid = code_.gridOver(parts[0].centres, count_);
-        std::vector<Bins> bins(jobs);
+        std::vector<WideBins> bins(jobs);
         pool_.run(jobs, [&](std::size_t job, int) {
             code_.fillBins(r.grid, lists_.of(r) + job * jobSize(), sizeOf(job), bins[job]);
         });
-        Bins all = bins[0];
+        WideBins all = bins[0];
         for (std::size_t job = 1; job < jobs; ++job) code_.mergeBins(all, bins[job], r.grid.bins());
         code_.chooseSplit(r, all);
         Open open{r, {}};
@@ -151,7 +152,7 @@ private:
         Part part;
         std::uint32_t first;       // within the range
         std::uint32_t left, right; // how many go there before
-        Bins bins[2];              // not zeroed
+        WideBins bins[2];          // not zeroed
 
         Job(std::size_t ofDivision, Part of, std::uint32_t from, std::uint32_t goneLeft)
             : division(ofDivision), part(of), first(from), left(goneLeft), right(from - goneLeft) {}
@@ -165,7 +166,7 @@ private:
         jobs_.clear();
         jobs_.reserve(most);
         for (const auto& [r, parts] : level) {
-            if (r.count <= subtreeSize(count_) || r.split.axis < 0 || r.depth >= kTopDepth) {
+            if (r.count <= subtreeSize(count_) || r.split.axis < 0 || r.depth >= kTopDepthOfWide) {
                 ranges_.push_back(r);
                 continue;
             }
@@ -181,7 +182,7 @@ private:
         pool_.run(jobs_.size(), [&](std::size_t i, int) {
             Job& job = jobs_[i];
             const Division& d = divisions[job.division];
-            const BinGrid grids[2] = {d.left.grid, d.right.grid};
+            const WideBinGrid grids[2] = {d.left.grid, d.right.grid};
             PrimBox* const to = lists_.of(*d.range, true);
             code_.divide(in_, *d.range, grids, lists_.of(*d.range) + job.first, job.part.count,
                          to + job.left, to + d.range->count - 1 - job.right, job.bins);
@@ -194,7 +195,7 @@ private:
             top_[d.range->node].left = child;
             for (std::size_t side = 0; side < 2; ++side) {
                 BuildRange& kid = *kids[side];
-                Bins all = mine[0].bins[side];
+                WideBins all = mine[0].bins[side];
                 for (const Job& job : mine.subspan(1))
                     code_.mergeBins(all, job.bins[side], kid.grid.bins());
                 code_.chooseSplit(kid, all);
@@ -247,7 +248,7 @@ private:
         });
     }
 
-    const BuildCode& code_;
+    const TreeBuilder& code_;
     int width_;
     double rays_;
     std::uint32_t count_;
@@ -263,30 +264,23 @@ private:
 
 } // namespace
 
-WideTree kernels::build::buildWideBy(const BuildCode& code, int width, std::span<const Vec3> points,
+WideTree kernels::build::buildWideBy(const TreeBuilder& code, int width,
+                                     std::span<const Vec3> points,
                                      std::span<const Corners> triangles, int threads, double rays) {
     if (triangles.empty()) return {};
     const BuildInput in{points, triangles, {}, nullptr, nullptr};
     return WideBuilder(code, width, in, threads, rays).run();
 }
 
-SinglesTree kernels::build::growSinglesBy(const BuildCode& code, std::span<const Bounds> boxes,
+SinglesTree kernels::build::growSinglesBy(const TreeBuilder& code, std::span<const Bounds> boxes,
                                           int threads) {
     if (boxes.empty()) return {};
     const BuildInput in{{}, {}, boxes, nullptr, nullptr};
     return WideBuilder(code, WideBuilder::kSingles, in, threads, 0).runSingles();
 }
 
-SinglesTree kernels::build::growSingles(std::span<const Bounds> boxes, int threads) {
-    for (const BuildCode& code : allBuildCodes())
-        if (code.supported()) return growSinglesBy(code, boxes, threads);
-    return {};
-}
-
 WideTree buildWide(int width, std::span<const Vec3> points,
                    std::span<const std::array<std::uint32_t, 3>> triangles, int threads,
                    double rays) {
-    for (const BuildCode& code : allBuildCodes())
-        if (code.supported()) return buildWideBy(code, width, points, triangles, threads, rays);
-    return {}; // no kernel here wants one
+    return buildWideBy(*bestIsa().build, width, points, triangles, threads, rays);
 }

@@ -14,33 +14,33 @@
 
 namespace {
 
-using Kind = LightDesc::Kind;
+using LightKind = LightDesc::Kind;
 
-struct Type {
+struct LightType {
     std::string_view word;
-    Kind kind;
+    LightKind kind;
     bool isDirectional = false; // the course's: `direction` points to the light
 };
-constexpr auto kTypes = std::to_array<Type>({
-    {"point", Kind::Point},
-    {"directional", Kind::Sun, true},
-    {"spot", Kind::Spot},
-    {"sun", Kind::Sun},
-    {"rectangle", Kind::Rectangle},
-    {"disk", Kind::Disk},
-    {"sphere", Kind::Sphere},
+constexpr auto kLightTypes = std::to_array<LightType>({
+    {"point", LightKind::Point},
+    {"directional", LightKind::Sun, true},
+    {"spot", LightKind::Spot},
+    {"sun", LightKind::Sun},
+    {"rectangle", LightKind::Rectangle},
+    {"disk", LightKind::Disk},
+    {"sphere", LightKind::Sphere},
 });
 
 // nullptr after an error, or when the light is to be skipped.
-const Type* readType(JsonFields& fields) {
+const LightType* readType(JsonFields& fields) {
     std::string word;
     const JsonValue* value = fields.read("type", word);
-    const auto row =
-        std::find_if(kTypes.begin(), kTypes.end(), [&](const Type& t) { return t.word == word; });
-    if (row != kTypes.end()) return &*row;
+    const auto row = std::find_if(kLightTypes.begin(), kLightTypes.end(),
+                                  [&](const LightType& t) { return t.word == word; });
+    if (row != kLightTypes.end()) return &*row;
     std::vector<std::string> known;
-    known.reserve(kTypes.size());
-    for (const Type& type : kTypes) known.emplace_back(type.word);
+    known.reserve(kLightTypes.size());
+    for (const LightType& type : kLightTypes) known.emplace_back(type.word);
     if (!value)
         fields.problems().error(fields.loc(),
                                 [&] { return cat("a light needs a 'type': ", join(known)); });
@@ -54,11 +54,12 @@ const Type* readType(JsonFields& fields) {
 // The course adds diffuse * max(N.L, 0) * colour * power. A surface of that reflectance under the
 // irradiance E shows diffuse / pi * E, so E is pi times as much. The lamps with a surface are the
 // renderer's own: there colour * power is the radiance of the surface, what it looks like.
-double unitOf(Kind kind) {
-    return kind == Kind::Point || kind == Kind::Spot || kind == Kind::Sun ? kPi : 1;
+double unitOf(LightKind kind) {
+    return kind == LightKind::Point || kind == LightKind::Spot || kind == LightKind::Sun ? kPi : 1;
 }
 
-void readColor(JsonFields& fields, const Type& type, const JsonRules& rules, LightDesc& light) {
+void readColor(JsonFields& fields, const LightType& type, const JsonRules& rules,
+               LightDesc& light) {
     const auto colour = fields.takeOneOf({"colour", "color"});
     Rgbd color{1, 1, 1};
     if (colour.value) readJsonValue(*colour.value, colour.key, fields.problems(), color, kColor);
@@ -70,10 +71,10 @@ void readColor(JsonFields& fields, const Type& type, const JsonRules& rules, Lig
 }
 
 // Where it is and where it shines, by one of 'direction', 'lookAt' and 'rotation'.
-Rows readPlace(JsonFields& fields, const Type& type) {
+Rows readLightPlace(JsonFields& fields, const LightType& type) {
     JsonPlace place;
     fields.read("position", place.position, kAnyNumber);
-    if (type.kind == Kind::Point || type.kind == Kind::Sphere)
+    if (type.kind == LightKind::Point || type.kind == LightKind::Sphere)
         return Transform::translate(place.position).rows();
 
     const auto aim = type.isDirectional ? fields.takeOneOf({"direction"})
@@ -111,7 +112,7 @@ void readJsonLights(JsonFields& scene, const JsonRules& rules, std::vector<Light
     for (const JsonValue& value : scene.list("lights")) {
         JsonFields fields(value, "a light", scene.problems());
         if (!value.isObject()) continue;
-        const Type* type = readType(fields);
+        const LightType* type = readType(fields);
         if (!type) continue;
         LightDesc& light = lights.emplace_back();
         light.loc = value.loc();
@@ -120,8 +121,8 @@ void readJsonLights(JsonFields& scene, const JsonRules& rules, std::vector<Light
         fields.read("name", name);
         light.name = unique.of(name.empty() ? cat("light", lights.size()) : name);
         readColor(fields, *type, rules, light);
-        light.worldFromLight = readPlace(fields, *type);
-        if (light.kind == Kind::Point || light.kind == Kind::Spot)
+        light.worldFromLight = readLightPlace(fields, *type);
+        if (light.kind == LightKind::Point || light.kind == LightKind::Spot)
             light.attenuation = rules.attenuation;
         readJsonProperties(fields, {}, light, {"type", "color"});
         fields.reportUnknown();

@@ -12,7 +12,7 @@
 
 namespace {
 
-using Kind = ObjectDesc::Kind;
+using ShapeKind = ObjectDesc::Kind;
 
 struct Input {
     JsonFields& fields;
@@ -96,21 +96,21 @@ void mesh(Input& in, JsonShape& shape) {
     shape.place = readJsonPlace(in.fields, movesFirst ? movedFirst : rowsOf);
 }
 
-struct Type {
+struct ShapeType {
     std::string_view word;
-    Kind kind;
+    ShapeKind kind;
     void (*place)(Input&, JsonShape&);
 };
-constexpr auto kTypes = std::to_array<Type>({
-    {"sphere", Kind::Sphere, placed},
-    {"box", Kind::Cube, box},
-    {"plane", Kind::InfinitePlane, plane},
-    {"mesh", Kind::Mesh, mesh},
-    {"cube", Kind::Cube, placed},
-    {"quad", Kind::Plane, placed},
-    {"disk", Kind::Disk, upright},
-    {"cylinder", Kind::Cylinder, upright},
-    {"cone", Kind::Cone, upright},
+constexpr auto kShapeTypes = std::to_array<ShapeType>({
+    {"sphere", ShapeKind::Sphere, placed},
+    {"box", ShapeKind::Cube, box},
+    {"plane", ShapeKind::InfinitePlane, plane},
+    {"mesh", ShapeKind::Mesh, mesh},
+    {"cube", ShapeKind::Cube, placed},
+    {"quad", ShapeKind::Plane, placed},
+    {"disk", ShapeKind::Disk, upright},
+    {"cylinder", ShapeKind::Cylinder, upright},
+    {"cone", ShapeKind::Cone, upright},
 });
 
 } // namespace
@@ -140,17 +140,17 @@ Handle JsonMeshes::read(JsonFields& fields) {
 
 std::vector<std::string> jsonShapeWords() {
     std::vector<std::string> words;
-    words.reserve(kTypes.size());
-    for (const Type& type : kTypes) words.emplace_back(type.word);
+    words.reserve(kShapeTypes.size());
+    for (const ShapeType& type : kShapeTypes) words.emplace_back(type.word);
     return words;
 }
 
 std::optional<JsonShape> readJsonShape(std::string_view type, JsonFields& fields,
                                        const JsonRules& rules, const JsonNames& textures,
                                        JsonMeshes& meshes) {
-    const auto row =
-        std::find_if(kTypes.begin(), kTypes.end(), [&](const Type& t) { return t.word == type; });
-    if (row == kTypes.end()) return {};
+    const auto row = std::find_if(kShapeTypes.begin(), kShapeTypes.end(),
+                                  [&](const ShapeType& t) { return t.word == type; });
+    if (row == kShapeTypes.end()) return {};
     JsonShape shape;
     shape.object.loc = fields.loc();
     shape.object.kind = row->kind;

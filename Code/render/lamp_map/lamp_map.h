@@ -39,10 +39,3 @@ struct LampMap {
 
 // Null: the lamp is among the solids, or too near to have all of them in front of it.
 std::shared_ptr<const LampMap> makeLampMap(std::shared_ptr<const MappedShapes> shapes, Vec3 lamp);
-
-// Looks for the points of blocks that are `unsure`: those that something hides from the lamp are no
-// longer lit, and unsure are those of which only a ray can tell.
-using AskLampMapFn = void (*)(const LampMap& map, std::span<const LitBlock> blocks,
-                              std::span<LitByLamp> by);
-// Null for the scalar kernel.
-AskLampMapFn askLampMap(const Kernel& kernel);

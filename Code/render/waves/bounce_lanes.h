@@ -11,9 +11,8 @@
 #include <cstdint>
 #include <span>
 
-struct Kernel;
-
-// Points of a block that have this in common. What has a Fresnel law mirrors or transmits something.
+// Points of a block that have this in common. What has a Fresnel law mirrors or transmits
+// something.
 struct AlikePoints {
     unsigned points; // a bit for each
     const Material* material;
@@ -51,5 +50,3 @@ struct BounceLanes {
                    unsigned points, float cutoff, const RayPlaces& out,
                    LeavingRays& leaving) = nullptr;
 };
-// Null for the scalar kernel.
-BounceLanes bounceLanes(const Kernel& kernel);

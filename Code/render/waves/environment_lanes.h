@@ -6,8 +6,6 @@
 
 #include <cstddef>
 
-struct Kernel;
-
 struct alignas(64) EnvironmentBlock {
     static constexpr std::size_t kRays = 64;
     float dir[3][kRays] = {};
@@ -18,4 +16,3 @@ struct alignas(64) EnvironmentBlock {
 // The first `count` rays of the block; others may be answered too. Null for the scalar kernel.
 using EnvironmentColorsFn = void (*)(const Environment::View& view, EnvironmentBlock& block,
                                      std::size_t count);
-EnvironmentColorsFn environmentColors(const Kernel& kernel);

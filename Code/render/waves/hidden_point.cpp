@@ -2,15 +2,8 @@
 
 #include "base/math.h"
 #include "render/occluders.h"
+#include "render/waves/hidden_lanes.h"
 #include "render/waves/lamp_lanes.h"
-
-namespace one {
-#include "accel/kernels/simd_one.inl"
-
-#include "render/waves/three_lanes.inl"
-
-#include "render/waves/hidden_lanes.inl"
-} // namespace one
 
 bool mayHide(const Occluders& occluders, const HidingPlace& place, const LampBall& lamp) {
     LitBlock block;
@@ -18,5 +11,5 @@ bool mayHide(const Occluders& occluders, const HidingPlace& place, const LampBal
         block.p[axis][0] = place.p[axis], block.lift[axis][0] = place.lift[axis];
     block.shape[0] = place.shape;
     block.used = 1, block.inside = place.inside;
-    return one::hiddenPoints(occluders, block, lamp).maybe != 0;
+    return kernels::one::hiddenPoints(occluders, block, lamp).maybe != 0;
 }

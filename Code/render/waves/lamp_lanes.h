@@ -10,6 +10,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 // Points of a wave that answer lamps, component by component.
 struct alignas(64) LitBlock {
@@ -103,8 +104,16 @@ using LightBySamplesFn = void (*)(const LampEmission& lamp, const LitBlock& bloc
 using WholeLightFn = void (*)(const PointEmission& lamp, const LitBlock& block, unsigned points,
                               unsigned unhidden, WholeLight& out);
 
-// Null for the scalar kernel.
-HiddenPointsFn hiddenPoints(const Kernel& kernel);
-LightBySamplesFn lightBySamples(const Kernel& kernel);
-WholeLightFn wholeLight(const Kernel& kernel);
-LightByLampFn lightByLamp(const Kernel& kernel);
+// Looks for the points of blocks that are `unsure`: those that something hides from the lamp are no
+// longer lit, and unsure are those of which only a ray can tell.
+struct LampMap; // render/lamp_map/lamp_map.h
+using AskLampMapFn = void (*)(const LampMap& map, std::span<const LitBlock> blocks,
+                              std::span<LitByLamp> out);
+
+struct LampLanes {
+    LightByLampFn byLamp = nullptr;
+    LightBySamplesFn bySamples = nullptr;
+    WholeLightFn wholeLight = nullptr;
+    HiddenPointsFn hiddenPoints = nullptr;
+    AskLampMapFn askMap = nullptr;
+};

@@ -9,8 +9,6 @@
 #include "render/point_block.h"
 #include "render/waves/lamp_lanes.h"
 
-struct Kernel;
-
 // Where rays go, one after the other; up to sixteen places behind the last one are overwritten.
 struct RayPlaces {
     Vec3 *org, *dir;
@@ -54,5 +52,3 @@ struct ShadeLanes {
     void (*add)(const LitByLamp& by, unsigned shadowed, const std::uint8_t* hidden,
                 LightSums& sums) = nullptr;
 };
-// Null for the scalar kernel.
-ShadeLanes shadeLanes(const Kernel& kernel);

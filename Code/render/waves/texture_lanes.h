@@ -6,8 +6,6 @@
 
 #include <cstddef>
 
-struct Kernel;
-
 struct alignas(64) TextureBlock {
     static constexpr std::size_t kPoints = 64;
     float u[kPoints] = {}, v[kPoints] = {};
@@ -17,5 +15,3 @@ struct alignas(64) TextureBlock {
 // The first `count` points of the block; others may get colours too.
 using TextureColorsFn = void (*)(const ByteTexture& texture, TextureBlock& block,
                                  std::size_t count);
-// Null for the scalar kernel.
-TextureColorsFn textureColors(const Kernel& kernel);

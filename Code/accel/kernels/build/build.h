@@ -1,6 +1,6 @@
 // What the steps of the tree builder hand to each other: plain data, the same for every instruction
-// set. wide_build.cpp says in which order the steps come and on which threads; a BuildCode has them
-// in the instructions of one CPU. All of them compute the same bits.
+// set. wide_build.cpp says in which order the steps come and on which threads; a TreeBuilder has
+// them in the instructions of one CPU. All of them compute the same bits.
 #pragma once
 
 #include "accel/kernels/wide_tree.h"
@@ -21,21 +21,21 @@ using Corners = std::array<std::uint32_t, 3>;
 
 inline constexpr std::size_t kBins = 16;
 // Binned by their centres, for all three axes at once.
-struct Bins {
+struct WideBins {
     std::array<std::array<PrimBox, kBins>, 3> box;
     alignas(16) std::array<std::array<std::uint32_t, 4>, kBins> count; // by bin, then axis
 };
 
 // Where the bins of some triangles lie, in doubled centres. What is outside falls into the outmost
 // ones, so an estimate of the bounds will do.
-struct alignas(16) BinGrid {
+struct alignas(16) WideBinGrid {
     std::array<float, 4> lo, hi, scale; // scale: bins per length; 0: an axis without extent
     std::array<float, 4> last;          // number of the last bin
     std::uint32_t bins() const { return static_cast<std::uint32_t>(last[0]) + 1; }
 };
 
 // Triangles of bins < cut on the axis go left.
-struct BinSplit {
+struct WideBinSplit {
     int axis = -1; // none
     float cut = 0;
     std::uint32_t leftCount = 0;
@@ -48,8 +48,8 @@ struct BuildRange {
     std::uint16_t depth;
     bool inSpare; // which list
     PrimBox box;
-    BinGrid grid;
-    BinSplit split;
+    WideBinGrid grid;
+    WideBinSplit split;
 };
 
 struct alignas(32) BinaryNode {
@@ -88,29 +88,27 @@ struct Grown {
     std::uint32_t leaves = 0;
 };
 
-struct BuildCode {
-    std::string_view name;
-    bool (*supported)();
+// The steps of a builder; every instruction set has its own and all make the same tree.
+struct TreeBuilder {
     // Boxes of triangles first .. first + count - 1; their bounds and those of the doubled centres.
     void (*makePrims)(const BuildInput&, std::uint32_t first, std::uint32_t count, PrimBox& box,
                       PrimBox& centres);
     void (*takeBoxes)(const BuildInput&, std::uint32_t first, std::uint32_t count, PrimBox& box,
                       PrimBox& centres);
-    BinGrid (*gridOver)(const PrimBox& centres, std::uint32_t count);
-    void (*fillBins)(const BinGrid&, const PrimBox* from, std::uint32_t count, Bins&);
-    void (*mergeBins)(Bins& to, const Bins& from, std::uint32_t used);
-    void (*chooseSplit)(BuildRange&, const Bins&);
+    WideBinGrid (*gridOver)(const PrimBox& centres, std::uint32_t count);
+    void (*fillBins)(const WideBinGrid&, const PrimBox* from, std::uint32_t count, WideBins&);
+    void (*mergeBins)(WideBins& to, const WideBins& from, std::uint32_t used);
+    void (*chooseSplit)(BuildRange&, const WideBins&);
     void (*makeChildren)(const BuildRange&, BuildRange& left, BuildRange& right);
-    void (*divide)(const BuildInput&, const BuildRange&, const BinGrid* grids, const PrimBox* from,
-                   std::uint32_t count, PrimBox* left, PrimBox* right, Bins (&bins)[2]);
+    void (*divide)(const BuildInput&, const BuildRange&, const WideBinGrid* grids,
+                   const PrimBox* from, std::uint32_t count, PrimBox* left, PrimBox* right,
+                   WideBins (&bins)[2]);
     void (*growSubtree8)(const BuildInput&, const BuildRange&, Grown&);
     void (*growSubtree16)(const BuildInput&, const BuildRange&, Grown&);
     void (*growSingles)(const BuildInput&, const BuildRange&, Grown&); // of boxes
 };
-std::span<const BuildCode> allBuildCodes(); // best first
-
 // buildWide() by one of them.
-WideTree buildWideBy(const BuildCode& code, int width, std::span<const Vec3> points,
+WideTree buildWideBy(const TreeBuilder& code, int width, std::span<const Vec3> points,
                      std::span<const Corners> triangles, int threads, double rays = 0);
 
 // A binary tree with a leaf for every box, named by the number of the box.
@@ -120,7 +118,6 @@ struct SinglesTree {
     std::vector<std::uint32_t> tops;  // nodes above the parts, parents first
     std::vector<std::uint32_t> roots; // of the parts, each one thread's work
 };
-SinglesTree growSinglesBy(const BuildCode& code, std::span<const Bounds> boxes, int threads);
-SinglesTree growSingles(std::span<const Bounds> boxes, int threads); // by the best one
+SinglesTree growSinglesBy(const TreeBuilder& code, std::span<const Bounds> boxes, int threads);
 
 } // namespace kernels::build

@@ -1,0 +1,9 @@
+// The instances that the units of this folder define, for choose.cpp.
+#pragma once
+
+#include "isa/isa.h"
+
+extern const Isa kSseIsa, kAvx2Isa, kAvx512Isa;
+namespace kernels::build {
+extern const TreeBuilder kAvx2TreeBuilder;
+}

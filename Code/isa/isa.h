@@ -1,0 +1,49 @@
+// What an instruction set does for the program: a table of functions for each family of kernels.
+// One is chosen when the program starts and passed by reference; every one of them gives the same
+// bits. Each unit of this folder fills one Isa (see families.h).
+#pragma once
+
+#include <span>
+
+struct BounceLanes;
+struct CameraLanes;
+struct LampLanes;
+struct PictureLanes;
+struct PlacedKernel;
+struct PlaneKernel;
+struct ShadeLanes;
+struct SolidKernel;
+struct SurfaceLanes;
+struct TriangleKernel;
+namespace kernels::build {
+struct TreeBuilder;
+}
+
+// A null table: plain code of one lane, which every machine has, does the work.
+struct Isa {
+    const char* name; // as --kernel has it
+    int width;        // lanes of single precision, and children of a node of its trees; or 1
+    bool (*supported)() = nullptr; // whether this CPU has it
+
+    const TriangleKernel* triangles = nullptr;          // accel/kernels/kernels.h
+    const SolidKernel* solids = nullptr;                // accel/kernels/solids.h
+    const PlacedKernel* placed = nullptr;               // accel/kernels/placed.h
+    const PlaneKernel* planes = nullptr;                // accel/kernels/planes.h
+    const SurfaceLanes* surfaces = nullptr;             // accel/kernels/surface_lanes.h
+    const ShadeLanes* shade = nullptr;                  // render/waves/shade_lanes.h
+    const BounceLanes* bounce = nullptr;                // render/waves/bounce_lanes.h
+    const LampLanes* lamps = nullptr;                   // render/waves/lamp_lanes.h
+    const PictureLanes* pictures = nullptr;             // render/waves/picture_lanes.h
+    const CameraLanes* camera = nullptr;                // render/lens_lanes.h
+    const kernels::build::TreeBuilder* build = nullptr; // accel/kernels/build/build.h
+};
+
+// All that this program was built with, the widest first, the one-lane code last.
+std::span<const Isa> allIsas();
+// The widest that this CPU has.
+const Isa& bestIsa();
+// The plain code.
+const Isa& oneLane();
+
+// The functions of a table; null ones where there is no table.
+template <class Table> Table lanesOf(const Table* table) { return table ? *table : Table{}; }
