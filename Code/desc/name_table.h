@@ -38,8 +38,7 @@ public:
         names_.push_back({name.data(), static_cast<std::uint32_t>(name.size()), number});
         return {};
     }
-    // Fetches the memory that the look-up of a name, some names later, will need.
-    void prepare(std::string_view name) const { prepare(hashOf(name)); }
+    // Fetches the memory that the look-up of a name with this hash, some names later, will need.
     void prepare(std::uint32_t hash) const {
         __builtin_prefetch(&places_[hash & (places_.size() - 1)]);
     }

@@ -34,9 +34,6 @@ public:
         }
     }
 
-    // Fetches the memory that this name, some names later, will need.
-    void prepare(std::string_view name) const { table_.prepare(name); }
-
 private:
     // The number of a name that was there; nothing for a new one, which then has one.
     std::optional<std::uint32_t> numberOf(const std::string& name) {

@@ -159,6 +159,37 @@ TEST(read_nff_without_fill) {
     CHECK(read.desc.objects.size() == 3 && read.desc.materials.empty());
 }
 
+// Fills that come again, written otherwise too, before and behind what they colour.
+TEST(read_nff_equal_fills_are_one_material) {
+    const std::string text = "# s 1 1 1 1\nb 0.1 0.2 0.3\nl 1 2 3\n" + kView +
+                             "f 1 0.5 0.25 0.7 0.2 50 0 0\n"
+                             "s 0 0 0 1\ns 1 0 0 -1\n"
+                             "p 3\n0 0 0\n1 0 0\n0 1 0\n"
+                             "pp 3\n0 0 0 0 0 1\n1 0 0 0 0 1\n0 1 0 0 0 1\n"
+                             "  f 0.25 1 1 1 0 9 0.5 1.5 # glass\r\n"
+                             "p 4\n0 0 1\n1 0 1\n#s\n1 1 1 # f 1 1 1\n0 1 1\n"
+                             "c 0 0 0 1\n0 0 1 0.5\nc 0 0 0 -1 0 0 2 -1\n"
+                             "s 3 0 0 -2\n"
+                             "f 1 .5 0.250 0.7 2e-1 50 -0 0\n"
+                             "p 3\n0 0 2\n1 0 2\n0 1 2\ns 2 2 2 0\n"
+                             "pp 3\n0 0 3 0 0 1\n1 0 3 0 0 1\n0 1 3 0 0 1\n"
+                             "p 3\n0 0 2\n1 0 2\n2 0 2\n"
+                             "f 0.5 0.5 0.5 1 0 0 0 0\n"
+                             "pp 3\n0 0 5 0 0 1\n1 0 5 0 0 1\n0 1 5 0 0 1\n"
+                             "c 0 0 0 0 0 0 0 0\ns 9 9 9 1\nf 1 1 1 1 0 0 0 0\n";
+    const Read read = readWhole(text);
+    CHECK_EQUAL(read.warnings.size(), std::size_t{3});
+    const SceneDesc& desc = read.desc;
+    CHECK_EQUAL(desc.materials.size(), std::size_t{3});
+    CHECK_EQUAL(desc.objects.back().materials.at(0), 2);
+    std::vector<std::string> meshes, objects;
+    for (const auto& mesh : desc.meshes) meshes.push_back(cat(mesh.name, " ", mesh.points.size()));
+    for (const auto& object : desc.objects) objects.push_back(object.name);
+    CHECK_EQUAL(join(meshes), "polygons1 6, patches1 6, polygons2 4, patches2 3");
+    CHECK_EQUAL(join(objects), "sphere1, sphere2, polygons1, patches1, polygons2, cone1, cone2, "
+                               "sphere3, patches2, sphere4");
+}
+
 // Several errors are told together.
 TEST(read_nff_collects_errors) {
     const std::string message = check::thrown([] {

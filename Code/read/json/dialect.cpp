@@ -40,7 +40,6 @@ constexpr JsonRules kNamed2025{{0, 0, 1}, true, false, false, true, 1280, 720};
 struct Mark {
     Test test;
     const JsonRules& rules;
-    bool isOfObjects = false;
 };
 // The strongest first: the first mark that a scene has decides.
 constexpr auto kMarks = std::to_array<Mark>({
@@ -57,40 +56,26 @@ constexpr auto kMarks = std::to_array<Mark>({
      },
      kNumbered},
     {[](const JsonValue& scene) { return materialsHave(scene, "shininess"); }, kNamed},
-    {[](const JsonValue& scene) { return anyObject(scene, hasNumberedMaterials); }, kNumbered,
-     true},
+    {[](const JsonValue& scene) { return anyObject(scene, hasNumberedMaterials); }, kNumbered},
     {[](const JsonValue& scene) {
          return anyObject(scene, [](const JsonValue& o) { return isOfType(o, "instance"); });
      },
-     kNamed, true},
+     kNamed},
     {[](const JsonValue& scene) {
          return anyObject(scene, [](const JsonValue& o) { return o.find("ref") != nullptr; });
      },
-     kNumbered, true},
+     kNumbered},
 });
 
-// By the mark that decides.
-JsonRules rulesOf(const Mark* mark, const JsonValue& scene) {
+} // namespace
+
+JsonRules jsonRulesOf(const JsonValue& scene) {
+    const auto* const mark =
+        std::find_if(kMarks.begin(), kMarks.end(), [&](const Mark& m) { return m.test(scene); });
     JsonRules rules = mark == kMarks.end() ? kNamed : mark->rules;
     // The program of 2022 asks for both keys of AA. A later scene may have both too; but a scene
     // without 'resolution' and with both is taken for one of 2022.
     const JsonValue* aa = scene.find("AA");
     if (rules.refReplaces && aa && aa->find("jitter") && aa->find("samples")) rules.width = 1080;
     return rules;
-}
-
-} // namespace
-
-JsonRules jsonRulesOf(const JsonValue& scene) {
-    return rulesOf(std::find_if(kMarks.begin(), kMarks.end(),
-                                [&](const Mark& mark) { return mark.test(scene); }),
-                   scene);
-}
-
-std::optional<JsonRules> jsonRulesWithoutObjects(const JsonValue& scene) {
-    const auto* const mark = std::find_if(kMarks.begin(), kMarks.end(), [&](const Mark& m) {
-        return m.isOfObjects || m.test(scene);
-    });
-    if (mark->isOfObjects) return {};
-    return rulesOf(mark, scene);
 }

@@ -5,8 +5,6 @@
 #include "base/vec.h"
 #include "read/json/json.h"
 
-#include <optional>
-
 struct JsonRules {
     Vec3d attenuation;        // of a light that gives none
     bool directionalHasPower; // or its power is 1, whatever the file says
@@ -17,5 +15,3 @@ struct JsonRules {
 };
 
 JsonRules jsonRulesOf(const JsonValue& scene);
-// Without its objects; nothing when these decide.
-std::optional<JsonRules> jsonRulesWithoutObjects(const JsonValue& scene);

@@ -9,8 +9,8 @@
 
 JsonGeometryReader::JsonGeometryReader(JsonProblems& problems, const JsonRules& rules,
                                        const JsonNames& textures, const JsonMaterials& materials,
-                                       std::vector<MeshDesc>& meshes, bool named)
-    : problems_(problems), rules_(rules), textures_(textures), materials_(materials), named_(named),
+                                       std::vector<MeshDesc>& meshes)
+    : problems_(problems), rules_(rules), textures_(textures), materials_(materials),
       meshes_(meshes) {
     types_.insert(types_.end(), {"node", "instance"});
 }
@@ -62,31 +62,12 @@ JsonGeometryReader::Index JsonGeometryReader::readOne(const JsonValue& value, bo
     checkDepth(geometry);
     const std::size_t index = all_.size();
     // Only from here on it can be referred to: nothing can contain itself.
-    if (named_ && !name.empty()) {
+    if (!name.empty()) {
         anywhere_.add(name, static_cast<Handle>(index));
         if (isTopLevel && type == "node") topNodes_.add(name, static_cast<Handle>(index));
     }
     all_.push_back(std::move(geometry));
     return index;
-}
-
-std::optional<JsonGeometryReader::Lone> JsonGeometryReader::readLone(const JsonValue& value) {
-    const JsonValue* typeValue = value.find("type");
-    const std::string_view type = typeValue ? typeValue->text() : "";
-    const auto known = std::find(types_.begin(), types_.end(), type);
-    if (known == types_.end() || type == "mesh" || type == "node" || type == "instance") return {};
-    std::optional<Lone> lone(std::in_place);
-    lone->type = static_cast<std::size_t>(known - types_.begin());
-    JsonFields fields(value, "a shape", problems_);
-    readHead(lone->geometry, fields);
-    readShape(lone->geometry, type, fields);
-    fields.reportUnknown();
-    return lone;
-}
-
-void JsonGeometryReader::addLone(ObjectDesc& shape, std::size_t type) {
-    if (shape.name.empty()) shape.name = cat(types_[type], ++unnamed_[types_[type]]);
-    count(1, shape.loc);
 }
 
 void JsonGeometryReader::readHead(JsonGeometry& geometry, JsonFields& fields) {

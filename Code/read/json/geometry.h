@@ -38,24 +38,12 @@ inline constexpr int kDeepestJsonGeometry = 1000;
 
 class JsonGeometryReader {
 public:
-    // What is not `named` can't be referred to: then that is an error.
     JsonGeometryReader(JsonProblems& problems, const JsonRules& rules, const JsonNames& textures,
-                       const JsonMaterials& materials, std::vector<MeshDesc>& meshes,
-                       bool named = true);
+                       const JsonMaterials& materials, std::vector<MeshDesc>& meshes);
 
     const std::vector<JsonGeometry>& all() const { return all_; }
     // An item of the list "objects", by its place in all(). Nothing when it is skipped or wrong.
     std::optional<std::size_t> addRoot(const JsonValue& value);
-
-    // A shape that has to do with no other object, for readers of a part of the list: it is in no
-    // list, and its name is empty if it has none. Nothing for all others.
-    struct Lone {
-        JsonGeometry geometry;
-        std::size_t type = 0;
-    };
-    std::optional<Lone> readLone(const JsonValue& value);
-    // Of a lone one that another reader has read: counts it, and gives it the name of its number.
-    void addLone(ObjectDesc& shape, std::size_t type);
 
 private:
     using Index = std::optional<std::size_t>;
@@ -77,7 +65,6 @@ private:
     const JsonRules& rules_;
     const JsonNames& textures_;
     const JsonMaterials& materials_;
-    bool named_;
     JsonMeshes meshes_;
     std::vector<std::string> types_ = jsonShapeWords(); // and those that are no shapes
     std::size_t total_ = 0;

@@ -27,33 +27,8 @@ public:
         if (p_ != end_) fail(p_, cat("expected the end of the file, got ", hereText()));
         return {std::move(memory_), root};
     }
-    JsonOutline parseOutline(std::string_view listKey, std::size_t partBytes) {
-        listKey_ = listKey;
-        partBytes_ = partBytes;
-        JsonDocument document = parse();
-        return {std::move(document), std::move(list_)};
-    }
-    void parseItems(const JsonPart& part, const std::function<void(const JsonValue&)>& use) {
-        p_ = part.first;
-        for (char before = part.before; p_ < part.last; before = ',') {
-            skipBlanks();
-            if (*p_ != before) fail(p_, cat("expected '", before, "', got ", hereText()));
-            ++p_;
-            skipBlanks();
-            use(value(kDepthOfItems));
-            memory_->release();
-        }
-        if (p_ != part.last) fail(p_, "the item ends elsewhere");
-    }
-    JsonDocument parseItem(SourceLoc loc) {
-        p_ = source_.text.data() + loc.offset;
-        const JsonValue item = value(kDepthOfItems);
-        return {std::move(memory_), item};
-    }
 
 private:
-    static constexpr int kDepthOfItems = 2;
-
     [[noreturn]] void fail(const char* at, std::string_view what) const {
         failAt(source_, static_cast<std::size_t>(at - source_.text.data()), what);
     }
@@ -180,22 +155,7 @@ private:
             fail(p_, cat("expected ':' after the key '", shown(key), "', got ", hereText()));
         ++p_;
         skipBlanks();
-        if (depth == 1 && *p_ == '[' && key == listKey_) return {key, locOf(start), list()};
         return {key, locOf(start), value(depth)};
-    }
-
-    // The array whose items are left out.
-    JsonValue list() {
-        const char* const start = p_;
-        list_ = scanJsonArray(start, end_, partBytes_);
-        if (!list_.end || list_.parts.empty()) {
-            list_ = {};
-            return value(1);
-        }
-        p_ = list_.parts.back().last;
-        skipBlanks();
-        if (++p_ != list_.end) fail(start, "the array ends elsewhere");
-        return {locOf(start), std::span<const JsonValue>()};
     }
 
     void checkUnique(std::span<const JsonMember> members) const {
@@ -226,9 +186,6 @@ private:
     std::vector<JsonValue> items_;
     std::vector<JsonMember> members_;
     std::string decoded_;
-    std::string_view listKey_; // none
-    std::size_t partBytes_ = 0;
-    JsonArrayScan list_;
 };
 
 } // namespace
@@ -236,19 +193,4 @@ private:
 JsonDocument parseJson(const SourceFile& source) {
     checkTextSize(source);
     return Parser(source).parse();
-}
-
-JsonOutline parseJsonOutline(const SourceFile& source, std::string_view listKey,
-                             std::size_t partBytes) {
-    checkTextSize(source);
-    return Parser(source).parseOutline(listKey, partBytes);
-}
-
-void parseJsonItems(const SourceFile& source, const JsonPart& part,
-                    const std::function<void(const JsonValue&)>& use) {
-    Parser(source).parseItems(part, use);
-}
-
-JsonDocument parseJsonItem(const SourceFile& source, SourceLoc loc) {
-    return Parser(source).parseItem(loc);
 }

@@ -28,38 +28,12 @@ const Keys& placeOf(const JsonGeometry& geometry, Handles materials) {
 
 } // namespace
 
-std::optional<ObjectDesc> loneObject(JsonGeometry geometry) {
-    const Handles materials = usable(geometry, geometry.materials);
-    const Keys& place = placeOf(geometry, materials);
-    if (place.empty()) return {};
-    std::optional<ObjectDesc> object(std::move(*geometry.shape));
-    object->name = std::move(geometry.name);
-    object->worldFromObject = place;
-    object->materials.assign(materials.begin(), materials.end());
-    return object;
-}
-
 JsonObjects::JsonObjects(JsonProblems& problems, std::size_t expected) : problems_(problems) {
     reserveInLargePages(objects_, expected);
 }
 
 void JsonObjects::addRoot(const std::vector<JsonGeometry>& all, std::size_t root) {
     flatten(all, all[root], {kIdentityRows}, {}, "");
-}
-
-void JsonObjects::add(std::vector<ObjectDesc>::iterator first,
-                      std::vector<ObjectDesc>::iterator last) {
-    constexpr std::ptrdiff_t kAhead = 16;
-    for (; first != last; ++first) {
-        if (last - first > kAhead) names_.prepare(first[kAhead].name);
-        add(*first);
-    }
-}
-
-void JsonObjects::add(ObjectDesc& object) {
-    if (failed_ || !hasRoomFor(object.worldFromObject, object.materials.size(), object.loc)) return;
-    object.name = names_.of(object.name);
-    objects_.push_back(std::move(object));
 }
 
 std::vector<ObjectDesc> JsonObjects::take() {

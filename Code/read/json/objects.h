@@ -6,7 +6,6 @@
 #include "read/unique_names.h"
 
 #include <cstddef>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,8 +16,6 @@ public:
 
     // A geometry that stands in the list "objects", with all that is below it.
     void addRoot(const std::vector<JsonGeometry>& all, std::size_t root);
-    // Objects that loneObject() made; their names are made unique.
-    void add(std::vector<ObjectDesc>::iterator first, std::vector<ObjectDesc>::iterator last);
 
     // An empty list after an error.
     std::vector<ObjectDesc> take();
@@ -28,7 +25,6 @@ private:
 
     void flatten(const std::vector<JsonGeometry>& all, const JsonGeometry& geometry,
                  const Keys& worldFromParent, Handles inherited, const std::string& path);
-    void add(ObjectDesc& object);
     bool hasRoomFor(const Keys& keys, std::size_t materials, SourceLoc loc);
     void failKeys(const JsonGeometry& geometry, const Keys& worldFromParent);
 
@@ -38,7 +34,3 @@ private:
     std::size_t size_ = 0; // of all keys and material lists
     bool failed_ = false;
 };
-
-// The object of a shape that stands in the list by itself, but for its name being that of the file.
-// Nothing when it has no place.
-std::optional<ObjectDesc> loneObject(JsonGeometry geometry);

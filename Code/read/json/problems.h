@@ -29,7 +29,6 @@ public:
     }
 
     bool hasErrors() const { return errors_.count() > 0; }
-    bool hasAny() const { return hasErrors() || warningCount_ > 0; }
     void finish() const {
         if (warningCount_ > kShownWarnings)
             context_.diagnostics.warnings.push_back(cat(

@@ -1,27 +1,37 @@
 #include "read/json/read_json.h"
 
-#include "read/in_parts.h"
 #include "read/json/camera.h"
 #include "read/json/dialect.h"
-#include "read/json/fields.h"
 #include "read/json/json.h"
 #include "read/json/lights.h"
 #include "read/json/materials.h"
-#include "read/json/object_list.h"
-#include "read/json/problems.h"
+#include "read/json/objects.h"
 #include "read/json/settings.h"
 
-#include <optional>
-#include <utility>
 #include <vector>
 
 namespace {
 
-// readObjects(what they are read with) gives the objects.
-template <class ReadObjects>
-SceneDesc readScene(const JsonValue& root, const JsonRules& rules, JsonProblems& problems,
-                    const ReadObjects& readObjects) {
-    JsonFields scene(root, "the scene", problems);
+// The list "objects"; of the scene's keys it is the last one.
+std::vector<ObjectDesc> readObjects(JsonFields& scene, JsonGeometryReader& reader) {
+    std::vector<std::size_t> roots;
+    for (const JsonValue& object : scene.list("objects"))
+        if (const auto root = reader.addRoot(object)) roots.push_back(*root);
+    scene.reportUnknown();
+    // A tree with errors could be larger than any memory.
+    if (scene.problems().hasErrors()) return {};
+    JsonObjects list(scene.problems(), roots.size());
+    for (const std::size_t root : roots) list.addRoot(reader.all(), root);
+    return list.take();
+}
+
+} // namespace
+
+SceneDesc readJson(const SourceFile& source, const ReadContext& context) {
+    const JsonDocument document = parseJson(source);
+    const JsonRules rules = jsonRulesOf(document.root);
+    JsonProblems problems(source, context);
+    JsonFields scene(document.root, "the scene", problems);
     SceneDesc desc;
     readJsonSettings(scene, rules, desc.settings);
     const JsonNames textures = readJsonTextures(scene, desc.textures);
@@ -30,44 +40,8 @@ SceneDesc readScene(const JsonValue& root, const JsonRules& rules, JsonProblems&
         desc.cameras.push_back(readJsonCamera(*camera, problems));
     const JsonMaterials materials(scene, textures, desc.materials);
     readJsonLights(scene, rules, desc.lights);
-    desc.objects = readObjects(JsonSurroundings{scene, rules, textures, materials, desc.meshes});
+    JsonGeometryReader reader(problems, rules, textures, materials, desc.meshes);
+    desc.objects = readObjects(scene, reader);
     problems.finish();
     return desc;
-}
-
-SceneDesc readInOrder(const SourceFile& source, const ReadContext& context) {
-    const JsonDocument document = parseJson(source);
-    JsonProblems problems(source, context);
-    return readScene(document.root, jsonRulesOf(document.root), problems, readJsonObjects);
-}
-
-// Nothing when the text has a mistake, when there is anything to say of its objects, when these
-// refer to each other, or when they decide what dialect it is.
-std::optional<SceneDesc> readInParts(const SourceFile& source, const ReadContext& context,
-                                     std::size_t partBytes) {
-    const JsonOutline outline = parseJsonOutline(source, "objects", partBytes);
-    const JsonValue& root = outline.document.root;
-    const auto rules = jsonRulesWithoutObjects(root);
-    if (outline.list.parts.empty() || !rules) return {};
-    JsonProblems problems(source, context);
-    bool isGood = false;
-    SceneDesc desc = readScene(root, *rules, problems, [&](const JsonSurroundings& with) {
-        auto objects = readJsonObjectsInParts(source, outline.list, context.options.threads, with);
-        isGood = objects.has_value();
-        return isGood ? std::move(*objects) : std::vector<ObjectDesc>();
-    });
-    if (!isGood) return {};
-    return desc;
-}
-
-} // namespace
-
-SceneDesc readJson(const SourceFile& source, const ReadContext& context) {
-    constexpr std::size_t kPartBytes = std::size_t{1} << 17;
-    return readJson(source, context, kPartBytes);
-}
-
-SceneDesc readJson(const SourceFile& source, const ReadContext& context, std::size_t partBytes) {
-    // One thread reads in parts, too: a tree of all values takes longer to store than to make.
-    return readInPartsOrInOrder(source, context, partBytes, readInParts, readInOrder);
 }

@@ -5,9 +5,4 @@
 #include "desc/scene_desc.h"
 #include "read/read_context.h"
 
-#include <cstddef>
-
 SceneDesc readJson(const SourceFile& source, const ReadContext& context);
-// Texts of more than partBytes are read in parts of about so much. Nothing that is read and no
-// message depends on it.
-SceneDesc readJson(const SourceFile& source, const ReadContext& context, std::size_t partBytes);

@@ -23,8 +23,6 @@ public:
         return first;
     }
 
-    bool isEmpty() const { return fills_.empty(); }
-
 private:
     using Numbers = std::array<double, 8>;
     std::deque<Numbers> fills_; // which stay where they are

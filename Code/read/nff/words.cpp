@@ -16,11 +16,10 @@ bool startsNumber(const NffWord& word) {
     return (c >= '0' && c <= '9') || c == '-' || c == '+' || c == '.';
 }
 
-NffWords::NffWords(const SourceFile& source, std::size_t first)
-    : source_(source), p_(source.text.data() + first),
-      end_(source.text.data() + source.text.size()) {
+NffWords::NffWords(const SourceFile& source)
+    : source_(source), p_(source.text.data()), end_(p_ + source.text.size()) {
     constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf"; // some editors on Windows
-    if (first == 0 && source.text.starts_with(kByteOrderMark)) p_ += kByteOrderMark.size();
+    if (source.text.starts_with(kByteOrderMark)) p_ += kByteOrderMark.size();
 }
 
 NffWord NffWords::next() {

@@ -26,8 +26,7 @@ bool startsNumber(const NffWord& word);
 
 class NffWords {
 public:
-    // From a place between words on. The file must outlive the words.
-    NffWords(const SourceFile& source, std::size_t first);
+    explicit NffWords(const SourceFile& source); // the file must outlive the words
 
     const SourceFile& source() const { return source_; }
     NffWord next();
