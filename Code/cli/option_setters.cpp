@@ -11,10 +11,7 @@ namespace {
 
 // What the same number may be in a scene file.
 Range rangeOf(std::string_view keyword) {
-    const auto row =
-        std::find_if(kSettingsProperties.begin(), kSettingsProperties.end(),
-                     [&](const auto& property) { return property.keyword == keyword; });
-    return row->range;
+    return propertyNamed(BlockType::Settings, keyword).range;
 }
 
 } // namespace

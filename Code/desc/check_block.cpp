@@ -41,7 +41,7 @@ auto largestOfAll(int threads, std::span<const T> things, const Size& sizeOf) {
 }
 
 // Are four corners in one plane, in order around a convex quadrilateral with an area?
-std::string_view faultOfCorners(const Corners4& c) {
+std::string_view faultOfCorners(const std::array<Vec3d, 4>& c) {
     const Vec3d normal = cross(c[2] - c[0], c[3] - c[1]); // twice the area vector
     const double size = std::max(maxAbs(c[2] - c[0]), maxAbs(c[3] - c[1]));
     double farthest = 0;
@@ -59,13 +59,11 @@ std::string_view faultOfCorners(const Corners4& c) {
     return {};
 }
 
-template <class Block> bool isDefault(const Block& block, const Property<Block>& property) {
-    static const Block defaults{};
-    return sameField(block, defaults, property.first) &&
-           (!property.second || sameField(block, defaults, *property.second));
-}
-
 } // namespace
+
+std::string called(const AnyBlock& block) {
+    return block.name ? cat(block.word, " '", shown(*block.name), "'") : std::string(block.word);
+}
 
 std::vector<std::uint32_t> materialSlots(const SceneDesc& desc) {
     std::vector<std::uint32_t> out;
@@ -82,37 +80,42 @@ std::vector<std::uint32_t> materialSlots(const SceneDesc& desc) {
     return out;
 }
 
-template <class Block> void BlockChecker::checkProperties(const Block& block) {
-    forEachRow<Block>([&](auto row) {
-        constexpr const Property<Block>& property = propertiesOf<Block>()[decltype(row)::value];
-        const auto checkNumber = [&](const auto& number) {
-            const auto value = static_cast<double>(number);
-            if (!property.range.contains(value) && (property.kinds & kindOf(block)))
-                add(properties, block, mustHave(property.keyword, property.range, value));
-        };
-        forEachNumberOf(block, std::get<property.first.index()>(property.first), checkNumber);
-        if constexpr (property.second)
-            forEachNumberOf(block, std::get<property.second->index()>(*property.second),
-                            checkNumber);
-        if constexpr (std::is_same_v<Block, LightDesc>)
-            if (!(property.kinds & kindOf(block)) && !isDefault(block, property))
-                warnings.push_back(
-                    properties.locatedAt(block.loc,
-                                         cat(called(block), ": '", property.keyword,
-                                             "' has no effect on type ", nameOf(block.kind)),
-                                         "warning"));
-    });
-    forEachReference(block, [&](Handle handle, Target target, std::string_view keyword) {
+void BlockChecker::checkProperties(const AnyBlock& block) {
+    const auto error = [&](const auto& makeText) {
+        properties.add(block.loc, [&] { return cat(called(block), ": ", makeText()); });
+    };
+    for (const Property& property : propertiesOf(block.type)) {
+        if (!(property.kinds & block.kind)) continue;
+        std::array<double, kMostNumbers> numbers;
+        for (std::size_t i = 0, n = getNumbers(property, block.data, numbers.data()); i < n; ++i)
+            if (!property.range.contains(numbers[i]))
+                error([&] { return mustHave(property.keyword, property.range, numbers[i]); });
+    }
+    const auto checkHandle = [&](Handle handle, BlockType target, std::string_view keyword) {
         if (handle == kNone) return;
-        if (handle < 0 || static_cast<std::size_t>(handle) >= countOf(desc_, target))
-            return add(properties, block, "'", keyword, "' refers to ", nameOf(target), " ", handle,
-                       " of ", countOf(desc_, target));
-        used_.mark(target, static_cast<std::size_t>(handle));
-    });
+        const std::size_t count = countOf(desc_, target);
+        if (handle >= 0 && static_cast<std::size_t>(handle) < count)
+            return used_.mark(target, static_cast<std::size_t>(handle));
+        error([&] {
+            return cat("'", keyword, "' refers to ", nameOf(target), " ", handle, " of ", count);
+        });
+    };
+    forEachReference(block.type, block.data, checkHandle);
 }
 
-template <class Block>
-void BlockChecker::checkKeys(const Block& block, std::span<const Rows> keys) {
+void BlockChecker::warnOfUnused(const LightDesc& light) {
+    static const LightDesc kDefaults;
+    const AnyBlock block = light;
+    for (const Property& property : propertiesOf(block.type))
+        if (!(property.kinds & block.kind) && !isSame(property, &light, &kDefaults))
+            warnings.push_back(
+                properties.locatedAt(light.loc,
+                                     cat(called(block), ": '", property.keyword,
+                                         "' has no effect on type ", nameOf(light.kind)),
+                                     "warning"));
+}
+
+void BlockChecker::checkKeys(const AnyBlock& block, std::span<const Rows> keys) {
     if (keys.empty()) error(block, "has no transform at all; one key is needed");
     bool mirrors = false, turnsOver = false;
     for (const Rows& rows : keys) {
@@ -143,6 +146,7 @@ void BlockChecker::checkWhole(const TextureDesc& texture) {
 }
 
 void BlockChecker::checkWhole(const LightDesc& light) {
+    warnOfUnused(light);
     checkKeys(light, {&light.worldFromLight, 1});
     if (light.kind == LightDesc::Kind::Sphere && !(light.radius > 0))
         error(light, "a light of type sphere needs a 'radius' > 0");
@@ -230,12 +234,3 @@ void BlockChecker::checkCorners(const MeshDesc& mesh, std::span<const MeshDesc::
         error(mesh, "'", keyword, "' uses ", largest, " of '", values, "', which has ", count,
               ", counted from 0");
 }
-
-template void BlockChecker::checkProperties(const SettingsDesc&);
-template void BlockChecker::checkProperties(const WorldDesc&);
-template void BlockChecker::checkProperties(const CameraDesc&);
-template void BlockChecker::checkProperties(const TextureDesc&);
-template void BlockChecker::checkProperties(const MaterialDesc&);
-template void BlockChecker::checkProperties(const LightDesc&);
-template void BlockChecker::checkProperties(const MeshDesc&);
-template void BlockChecker::checkProperties(const ObjectDesc&);

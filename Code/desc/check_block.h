@@ -19,16 +19,11 @@
 #include <vector>
 
 // "sphere 'ball'", "settings"
-template <class Block> std::string called(const Block& block) {
-    if constexpr (requires { block.name; })
-        return cat(wordOf(block), " '", shown(block.name), "'");
-    else
-        return std::string(wordOf(block));
-}
+std::string called(const AnyBlock& block);
 
-inline std::size_t countOf(const SceneDesc& desc, Target target) {
-    return target == Target::Texture    ? desc.textures.size()
-           : target == Target::Material ? desc.materials.size()
+inline std::size_t countOf(const SceneDesc& desc, BlockType target) {
+    return target == BlockType::Texture    ? desc.textures.size()
+           : target == BlockType::Material ? desc.materials.size()
                                         : desc.meshes.size();
 }
 
@@ -36,19 +31,19 @@ inline std::size_t countOf(const SceneDesc& desc, Target target) {
 class UsedBlocks {
 public:
     explicit UsedBlocks(const SceneDesc& desc) {
-        for (const auto& row : kEnumNames<Target>)
+        for (const auto& row : kEnumNames<BlockType>)
             used_[static_cast<std::size_t>(row.value)].resize(countOf(desc, row.value));
     }
-    void mark(Target target, std::size_t i) {
+    void mark(BlockType target, std::size_t i) {
         const std::atomic_ref used(used_[static_cast<std::size_t>(target)][i]);
         if (used.load(std::memory_order_relaxed) == 0) used.store(1, std::memory_order_relaxed);
     }
-    bool has(Target target, std::size_t i) const {
+    bool has(BlockType target, std::size_t i) const {
         return used_[static_cast<std::size_t>(target)][i] != 0;
     }
 
 private:
-    std::array<std::vector<std::uint8_t>, kEnumNames<Target>.size()> used_;
+    std::array<std::vector<std::uint8_t>, kEnumNames<BlockType>.size()> used_;
 };
 
 // Per mesh: how many material slots its triangles use, as far as these may be; of those that are
@@ -85,7 +80,7 @@ public:
     double largestOfMaps = 0, reach = 1;
 
 private:
-    template <class Block> void checkProperties(const Block& block);
+    void checkProperties(const AnyBlock& block);
     void checkWhole(const SettingsDesc&) {}
     void checkWhole(const WorldDesc&) {}
     void checkWhole(const MaterialDesc&) {}
@@ -95,16 +90,13 @@ private:
     void checkWhole(const MeshDesc& mesh);
     void checkWhole(const ObjectDesc& object);
     void checkInstance(const ObjectDesc& object);
+    void warnOfUnused(const LightDesc& light);
     void checkCorners(const MeshDesc& mesh, std::span<const MeshDesc::Corners> corners,
                       std::size_t count, std::string_view values, std::string_view keyword);
-    template <class Block> void checkKeys(const Block& block, std::span<const Rows> keys);
+    void checkKeys(const AnyBlock& block, std::span<const Rows> keys);
 
-    template <class Block, class... Parts>
-    static void add(ErrorList& to, const Block& block, const Parts&... parts) {
-        to.add(block.loc, [&] { return cat(called(block), ": ", parts...); });
-    }
-    template <class Block, class... Parts> void error(const Block& block, const Parts&... parts) {
-        add(wholes, block, parts...);
+    template <class... Parts> void error(const AnyBlock& block, const Parts&... parts) {
+        wholes.add(block.loc, [&] { return cat(called(block), ": ", parts...); });
     }
 
     const SceneDesc& desc_;

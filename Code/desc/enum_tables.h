@@ -4,6 +4,19 @@
 #include "base/enum_names.h"
 #include "desc/scene_desc.h"
 
+// The words of blocks, but for those of objects: these are their kinds.
+template <>
+inline constexpr auto kEnumNames<BlockType> = std::to_array<EnumName<BlockType>>({
+    {BlockType::Settings, "settings"},
+    {BlockType::World, "world"},
+    {BlockType::Camera, "camera"},
+    {BlockType::Texture, "texture"},
+    {BlockType::Material, "material"},
+    {BlockType::Light, "light"},
+    {BlockType::Mesh, "mesh"},
+    {BlockType::Object, "object"},
+});
+
 template <>
 inline constexpr auto kEnumNames<TextureDesc::Space> = std::to_array<EnumName<TextureDesc::Space>>({
     {TextureDesc::Space::Srgb, "srgb"},
@@ -123,11 +136,12 @@ inline constexpr auto
         {SettingsDesc::Transfer::Linear, "linear"},
     });
 
-static_assert(isInOrder<TextureDesc::Space>() && isInOrder<TextureDesc::Interpolation>() &&
-              isInOrder<TextureDesc::Extension>() && isInOrder<TextureDesc::Channel>() &&
-              isInOrder<MaterialDesc::SpecularModel>() && isInOrder<MaterialDesc::Fresnel>() &&
-              isInOrder<MaterialDesc::LitSide>() && isInOrder<LightDesc::Kind>() &&
-              isInOrder<CameraDesc::Kind>() && isInOrder<CameraDesc::SensorFit>() &&
-              isInOrder<ObjectDesc::Kind>() && isInOrder<ObjectDesc::Sides>() &&
-              isInOrder<WorldDesc::Up>() && isInOrder<SettingsDesc::Sampler>() &&
-              isInOrder<SettingsDesc::Filter>() && isInOrder<SettingsDesc::Transfer>());
+static_assert(isInOrder<BlockType>() && isInOrder<TextureDesc::Space>() &&
+              isInOrder<TextureDesc::Interpolation>() && isInOrder<TextureDesc::Extension>() &&
+              isInOrder<TextureDesc::Channel>() && isInOrder<MaterialDesc::SpecularModel>() &&
+              isInOrder<MaterialDesc::Fresnel>() && isInOrder<MaterialDesc::LitSide>() &&
+              isInOrder<LightDesc::Kind>() && isInOrder<CameraDesc::Kind>() &&
+              isInOrder<CameraDesc::SensorFit>() && isInOrder<ObjectDesc::Kind>() &&
+              isInOrder<ObjectDesc::Sides>() && isInOrder<WorldDesc::Up>() &&
+              isInOrder<SettingsDesc::Sampler>() && isInOrder<SettingsDesc::Filter>() &&
+              isInOrder<SettingsDesc::Transfer>());

@@ -2,10 +2,17 @@
 
 #include "base/text.h"
 
+#include <utility>
+
 std::string ErrorList::locatedAt(SourceLoc loc, std::string_view what,
                                  std::string_view severity) const {
     if (loc.offset == SourceLoc::kUnknown) return cat(source_.name, ": ", severity, ": ", what);
     return located(source_, loc.offset, what, severity);
+}
+
+void ErrorList::addComplete(std::string message) {
+    messages_.push_back(std::move(message));
+    ++count_;
 }
 
 void ErrorList::throwIfAny() const {

@@ -6,7 +6,6 @@
 
 #include <cstddef>
 #include <string>
-#include <utility>
 #include <vector>
 
 class ErrorList {
@@ -15,13 +14,12 @@ public:
 
     // The text is made only when it will be shown: a file can hold a million errors.
     template <class MakeText> void add(SourceLoc loc, MakeText&& makeText) {
-        if (hasRoom()) messages_.push_back(locatedAt(loc, makeText(), "error"));
-        ++count_;
+        if (hasRoom())
+            addComplete(locatedAt(loc, makeText(), "error"));
+        else
+            ++count_;
     }
-    void addComplete(std::string message) {
-        messages_.push_back(std::move(message));
-        ++count_;
-    }
+    void addComplete(std::string message);
     // Those of another list behind these.
     void append(const ErrorList& other) {
         for (const std::string& message : other.messages_)

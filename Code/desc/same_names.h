@@ -37,9 +37,8 @@ public:
     struct Pair {
         std::uint32_t first, second; // with the same name, and nobody before or in between
     };
-    // By their second ones.
-    template <class Block>
-    std::vector<Pair> find(const std::vector<Block>& blocks, int threads) const {
+    // By their second ones; nameOf(i) is the name of block i.
+    template <class NameOf> std::vector<Pair> find(const NameOf& nameOf, int threads) const {
         std::array<std::vector<Pair>, kTables> found;
         forEachOn(seen_.size() < kMany ? 1 : threads, kTables, [&](std::size_t t) {
             std::size_t names = 0;
@@ -49,7 +48,7 @@ public:
             for (const Part& part : parts_)
                 for (std::uint32_t at = part.begin[t]; at < part.begin[t + 1]; ++at) {
                     const auto [hash, i] = part.sorted[at];
-                    if (const auto first = table.insert(blocks[i].name, hash, i))
+                    if (const auto first = table.insert(nameOf(i), hash, i))
                         found[t].push_back({*first, i});
                 }
         });

@@ -39,11 +39,17 @@ struct Rgbd {
 using Handle = std::int32_t;
 inline constexpr Handle kNone = -1;
 
+// What a block of a scene is; its word in enum_tables.h, its properties in properties.h. Enums of
+// blocks have one byte, so that code can store them that has forgotten their types.
+enum class BlockType { Settings, World, Camera, Texture, Material, Light, Mesh, Object };
+
 struct TextureDesc {
-    enum class Space { Srgb, Linear };
-    enum class Interpolation { Bilinear, Nearest };
-    enum class Extension { Repeat, Extend, Clip };
-    enum class Channel { Color, Alpha }; // Alpha: the file's alpha channel as a grey picture
+    static constexpr auto kType = BlockType::Texture;
+    enum class Space : std::uint8_t { Srgb, Linear };
+    enum class Interpolation : std::uint8_t { Bilinear, Nearest };
+    enum class Extension : std::uint8_t { Repeat, Extend, Clip };
+    // Alpha: the file's alpha channel as a grey picture.
+    enum class Channel : std::uint8_t { Color, Alpha };
     std::string name;
     SourceLoc loc, fileLoc;
     std::string file; // relative to the scene file, then to --textures and ./Textures
@@ -59,6 +65,7 @@ struct TextureDesc {
 };
 
 struct MaterialDesc {
+    static constexpr auto kType = BlockType::Material;
     // Blinn: specular * (N.H)^exponent, unnormalised. Ashikhmin: normalised, energy conserving.
     // Phong: specular * (R.V)^exponent with R the mirrored direction to the light, unnormalised.
     enum class SpecularModel : std::uint8_t { Blinn, Ashikhmin, Phong };
@@ -95,8 +102,9 @@ struct MaterialDesc {
 };
 
 struct LightDesc {
+    static constexpr auto kType = BlockType::Light;
     // All sit at the origin of their transform; spot, sun and the flat ones shine along its -Z.
-    enum class Kind { Point, Spot, Sun, Rectangle, Disk, Sphere };
+    enum class Kind : std::uint8_t { Point, Spot, Sun, Rectangle, Disk, Sphere };
     std::string name;
     SourceLoc loc;
     Kind kind = Kind::Point;
@@ -119,8 +127,9 @@ struct LightDesc {
 };
 
 struct CameraDesc {
-    enum class Kind { Perspective, Orthographic };
-    enum class SensorFit { Auto, Horizontal, Vertical };
+    static constexpr auto kType = BlockType::Camera;
+    enum class Kind : std::uint8_t { Perspective, Orthographic };
+    enum class SensorFit : std::uint8_t { Auto, Horizontal, Vertical };
     std::string name;
     SourceLoc loc;
     Kind kind = Kind::Perspective;
@@ -142,6 +151,7 @@ struct CameraDesc {
 // Triangles with shared vertices; normals and uvs have their own indices, three per triangle, or
 // are empty (flat shading, no texture coordinates).
 struct MeshDesc {
+    static constexpr auto kType = BlockType::Mesh;
     using Corners = std::array<std::uint32_t, 3>;
     std::string name;
     SourceLoc loc;
@@ -166,6 +176,7 @@ inline constexpr std::array<Vec3d, 4> kSquareCorners = {Vec3d{-1, -1, 0}, Vec3d{
 
 // Scenes have millions of them: what is short stands together, what is rare elsewhere.
 struct ObjectDesc {
+    static constexpr auto kType = BlockType::Object;
     // In object space: Sphere radius `radius` about the origin. Cube [-1,1]^3. Plane: the four
     // `corners` in order. InfinitePlane z = 0. Disk `radius` in z = 0. Cylinder |z| <= 1, `radius`.
     // Cone: `radius` at z = -1 to `topRadius` at z = 1. Mesh: `mesh`.
@@ -199,21 +210,23 @@ struct ObjectDesc {
 };
 
 struct WorldDesc {
+    static constexpr auto kType = BlockType::World;
     SourceLoc loc;
     Rgbd background{0, 0, 0};   // radiance where no surface is
     Rgbd ambient{0, 0, 0};      // reaches every surface: adds diffuse * ambient
     Handle environment = kNone; // equirectangular picture, multiplied by background
-    enum class Up { Z, Y };
+    enum class Up : std::uint8_t { Z, Y };
     Up environmentUp = Up::Z; // axis through the upper edge of the environment
     double rotationDeg = 0;   // of the environment about that axis
     bool operator==(const WorldDesc&) const = default;
 };
 
 struct SettingsDesc {
+    static constexpr auto kType = BlockType::Settings;
     // Corners: rays through the corners of the pixels, each shared by the four pixels around it.
-    enum class Sampler { Sobol, Stratified, Random, Grid, Corners };
-    enum class Filter { Box, Tent, Gaussian, BlackmanHarris };
-    enum class Transfer { Srgb, Linear };
+    enum class Sampler : std::uint8_t { Sobol, Stratified, Random, Grid, Corners };
+    enum class Filter : std::uint8_t { Box, Tent, Gaussian, BlackmanHarris };
+    enum class Transfer : std::uint8_t { Srgb, Linear };
     SourceLoc loc;
     int width = 960, height = 540;
     Vec2d pixelAspect{1, 1};

@@ -35,12 +35,12 @@ public:
         all_.check(desc_.world);
         checkSettings();
         if (desc_.cameras.empty()) all_.wholes.add({}, [] { return "the scene has no camera"; });
-        checkBlocks(desc_.cameras, "camera");
-        checkBlocks(desc_.textures, "texture");
-        checkBlocks(desc_.materials, "material");
-        checkBlocks(desc_.lights, "light");
-        checkBlocks(desc_.meshes, "mesh");
-        checkBlocks(desc_.objects, "object");
+        checkAll<&SceneDesc::cameras>();
+        checkAll<&SceneDesc::textures>();
+        checkAll<&SceneDesc::materials>();
+        checkAll<&SceneDesc::lights>();
+        checkAll<&SceneDesc::meshes>();
+        checkAll<&SceneDesc::objects>();
         diagnostics_.warnings.insert(diagnostics_.warnings.end(), all_.warnings.begin(),
                                      all_.warnings.end());
         // Messages come in this order: of single properties, of names, of blocks as wholes.
@@ -53,33 +53,44 @@ public:
     }
 
 private:
-    template <class Block, class... Parts>
-    void nameError(const Block& block, const Parts&... parts) {
+    template <class... Parts> void nameError(const AnyBlock& block, const Parts&... parts) {
         names_.add(block.loc, [&] { return cat(called(block), ": ", parts...); });
     }
     void warn(SourceLoc loc, std::string_view what) {
         diagnostics_.warnings.push_back(names_.locatedAt(loc, what, "warning"));
     }
 
-    template <class Block>
-    void checkBlocks(const std::vector<Block>& blocks, std::string_view kind) {
+    // A list of the scene whose type is forgotten.
+    struct Blocks {
+        std::size_t count;
+        AnyBlock (*at)(const SceneDesc&, std::size_t);
+        void (*check)(BlockChecker&, const SceneDesc&, std::size_t);
+    };
+    template <auto list> void checkAll() {
+        checkBlocks({(desc_.*list).size(),
+                     [](const SceneDesc& desc, std::size_t i) -> AnyBlock { return (desc.*list)[i]; },
+                     [](BlockChecker& checker, const SceneDesc& desc, std::size_t i) {
+                         checker.check((desc.*list)[i]);
+                     }});
+    }
+    void checkBlocks(const Blocks& blocks) {
         constexpr std::size_t kTogether = 4096;
         struct Part {
             BlockChecker checker;
             std::vector<std::uint32_t> badNames;
         };
-        const int perBlock = blocks.size() == 1 ? threads_ : 1;
-        std::vector<Part> parts((blocks.size() + kTogether - 1) / kTogether,
+        const int perBlock = blocks.count == 1 ? threads_ : 1;
+        std::vector<Part> parts((blocks.count + kTogether - 1) / kTogether,
                                 {BlockChecker(desc_, source_, used_, slots_, perBlock), {}});
-        SameNames same(blocks.size(), kTogether);
-        forEachPart(threads_, blocks.size(), kTogether, [&](std::size_t first, std::size_t last) {
+        SameNames same(blocks.count, kTogether);
+        forEachPart(threads_, blocks.count, kTogether, [&](std::size_t first, std::size_t last) {
             auto& [checker, badNames] = parts[first / kTogether];
             for (std::size_t i = first; i < last; ++i) {
-                const std::string& name = blocks[i].name;
+                const std::string& name = *blocks.at(desc_, i).name;
                 if (name.empty() || findBadText(name) != std::string_view::npos)
                     badNames.push_back(static_cast<std::uint32_t>(i));
                 same.see(i, name);
-                checker.check(blocks[i]);
+                blocks.check(checker, desc_, i);
             }
             same.sort(first);
         });
@@ -88,28 +99,29 @@ private:
             all_.append(checker);
             bad.insert(bad.end(), badNames.begin(), badNames.end());
         }
-        tellNames(blocks, kind, bad, same.find(blocks, threads_));
+        const auto nameAt = [&](std::size_t i) -> std::string_view {
+            return *blocks.at(desc_, i).name;
+        };
+        tellNames(blocks, bad, same.find(nameAt, threads_));
     }
 
     // In the order of the blocks.
-    template <class Block>
-    void tellNames(const std::vector<Block>& blocks, std::string_view kind,
-                   std::span<const std::uint32_t> bad, std::span<const SameNames::Pair> same) {
+    void tellNames(const Blocks& blocks, std::span<const std::uint32_t> bad,
+                   std::span<const SameNames::Pair> same) {
         auto again = same.begin();
         const auto tellSame = [&](std::uint32_t end) {
             for (; again != same.end() && again->second < end; ++again) {
-                const Block& block = blocks[again->second];
-                const SourceLoc first = blocks[again->first].loc;
-                names_.add(block.loc, [&] {
-                    return cat(called(block), ": another ", kind, " has this name", atLine(first));
-                });
+                const AnyBlock block = blocks.at(desc_, again->second);
+                const SourceLoc first = blocks.at(desc_, again->first).loc;
+                nameError(block, "another ", nameOf(block.type), " has this name", atLine(first));
             }
         };
         for (const std::uint32_t i : bad) {
             tellSame(i);
-            nameError(blocks[i], "a name is UTF-8 without control characters, and not empty");
+            nameError(blocks.at(desc_, i),
+                      "a name is UTF-8 without control characters, and not empty");
         }
-        tellSame(static_cast<std::uint32_t>(blocks.size()));
+        tellSame(static_cast<std::uint32_t>(blocks.count));
     }
     std::string atLine(SourceLoc loc) const {
         if (loc.offset >= source_.text.size()) return "";
@@ -120,17 +132,19 @@ private:
         const SettingsDesc& s = desc_.settings;
         constexpr long long kLargestArea = 1 << 28; // 3 GiB as float RGB
         if (static_cast<long long>(s.width) * s.height > kLargestArea)
-            nameError(s, "'resolution' ", s.width, " ", s.height, " has more than 2^28 pixels");
+            nameError(s, "'resolution' ", s.width, " ", s.height,
+                      " has more than 2^28 pixels");
         if (!s.crop) return;
         const auto [x0, y0, x1, y1] = *s.crop;
-        if (x0 >= x1 || y0 >= y1) nameError(s, "'crop' is empty; x0 < x1 and y0 < y1 are needed");
+        if (x0 >= x1 || y0 >= y1)
+            nameError(s, "'crop' is empty; x0 < x1 and y0 < y1 are needed");
         if (x1 > s.width || y1 > s.height)
-            nameError(s, "'crop' ends at ", x1, " ", y1, ", outside the resolution ", s.width, " ",
-                      s.height);
+            nameError(s, "'crop' ends at ", x1, " ", y1, ", outside the resolution ",
+                      s.width, " ", s.height);
     }
 
     void warnUnused() {
-        const auto tell = [&](const auto& blocks, Target target, std::string_view plural) {
+        const auto tell = [&](const auto& blocks, BlockType target, std::string_view plural) {
             std::vector<std::string> names;
             std::size_t count = 0;
             SourceLoc first;
@@ -143,9 +157,9 @@ private:
                 warn(first, cat("nothing uses the ", count == 1 ? nameOf(target) : plural, " ",
                                 listed(names, count)));
         };
-        tell(desc_.textures, Target::Texture, "textures");
-        tell(desc_.materials, Target::Material, "materials");
-        tell(desc_.meshes, Target::Mesh, "meshes");
+        tell(desc_.textures, BlockType::Texture, "textures");
+        tell(desc_.materials, BlockType::Material, "materials");
+        tell(desc_.meshes, BlockType::Mesh, "meshes");
     }
 
     void warnDark() {

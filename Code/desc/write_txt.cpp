@@ -5,7 +5,6 @@
 
 #include <charconv>
 #include <span>
-#include <type_traits>
 
 namespace {
 
@@ -32,10 +31,10 @@ public:
     }
 
 private:
-    template <class Block> void open(const Block& block) {
+    void open(const AnyBlock& block) {
         out_ += '\n';
-        out_ += wordOf(block);
-        if constexpr (requires { block.name; }) name(block.name);
+        out_ += block.word;
+        if (block.name) name(*block.name);
         out_ += " {\n";
     }
 
@@ -50,43 +49,47 @@ private:
 
     template <class Block> void properties(const Block& block) {
         static const Block kDefaults{};
-        for (const Property<Block>& property : propertiesOf<Block>()) {
-            if constexpr (std::is_same_v<Block, ObjectDesc>)
-                if (!(property.kinds & kindOf(block))) continue;
-            if (sameField(block, kDefaults, property.first) &&
-                (!property.second || sameField(block, kDefaults, *property.second)))
-                continue;
-            if (const auto* list = std::get_if<MaterialList<Block>>(&property.first))
-                if (list->many != ((block.*(list->handles)).size() > 1)) continue;
-            out_ += "    ";
-            out_ += property.keyword;
-            values(block, property.first);
-            if (property.second) values(block, *property.second);
-            out_ += '\n';
-        }
+        properties(block, kDefaults);
+    }
+    void properties(const AnyBlock& block, const AnyBlock& defaults) {
+        const KindMask kinds = block.type == BlockType::Object ? block.kind : kAllKinds;
+        for (const Property& property : propertiesOf(block.type))
+            if ((property.kinds & kinds) && !isSame(property, block.data, defaults.data))
+                this->property(property, block.data);
+    }
+    void property(const Property& property, const void* block) {
+        const Field& field = property.first;
+        const bool many = field.kind == FieldKind::Materials;
+        if (many || field.kind == FieldKind::Material)
+            if (many != (at<OneOrMore<Handle>>(field, block).size() > 1)) return;
+        out_ += "    ";
+        out_ += property.keyword;
+        if (property.hasWord()) words(field, block);
+        std::array<double, kMostNumbers> numbers;
+        for (std::size_t i = 0, count = getNumbers(property, block, numbers.data()); i < count; ++i)
+            property.isWhole() ? number(static_cast<long long>(numbers[i])) : number(numbers[i]);
+        out_ += '\n';
     }
 
-    template <class Block> void values(const Block& block, const Field<Block>& field) {
-        forEachNumber(block, field, [&](const auto& value) { number(value); });
-        if (const auto* flag = std::get_if<bool Block::*>(&field))
-            out_ += block.**flag ? " true" : " false";
-        else if (const auto* text = std::get_if<std::string Block::*>(&field))
-            name(block.**text);
-        else if (const auto* reference = std::get_if<Reference<Block>>(&field))
-            name(nameOfTarget(reference->target, block.*(reference->handle)));
-        else if (const auto* list = std::get_if<MaterialList<Block>>(&field))
-            for (const Handle handle : block.*(list->handles))
-                name(nameOfTarget(Target::Material, handle));
-        else if (const auto* choice = std::get_if<Choice<Block>>(&field)) {
+    void words(const Field& field, const void* block) {
+        switch (field.kind) {
+        case FieldKind::Flag: out_ += at<bool>(field, block) ? " true" : " false"; break;
+        case FieldKind::Text: name(at<std::string>(field, block)); break;
+        case FieldKind::Name: name(nameOfTarget(field.target, at<Handle>(field, block))); break;
+        case FieldKind::Choice:
             out_ += ' ';
-            out_ += choice->names[choice->get(block)];
+            out_ += field.names[at<std::uint8_t>(field, block)];
+            break;
+        default:
+            for (const Handle handle : at<OneOrMore<Handle>>(field, block))
+                name(nameOfTarget(BlockType::Material, handle));
         }
     }
 
-    const std::string& nameOfTarget(Target target, Handle handle) const {
+    const std::string& nameOfTarget(BlockType target, Handle handle) const {
         const auto i = static_cast<std::size_t>(handle);
-        return target == Target::Texture    ? desc_.textures[i].name
-               : target == Target::Material ? desc_.materials[i].name
+        return target == BlockType::Texture    ? desc_.textures[i].name
+               : target == BlockType::Material ? desc_.materials[i].name
                                             : desc_.meshes[i].name;
     }
 
@@ -106,22 +109,18 @@ private:
     void arrays(const MeshDesc& mesh) {
         open(mesh);
         properties(mesh);
-        for (const MeshArray& array : kMeshArrays)
-            std::visit(
-                [&](auto member) {
-                    const auto& groups = mesh.*member;
-                    if (groups.empty()) return;
-                    out_ += "    ";
-                    out_ += array.keyword;
-                    number(groups.size());
-                    out_ += '\n';
-                    for (const auto& g : groups) {
-                        out_ += "     ";
-                        group(g);
-                        out_ += '\n';
-                    }
-                },
-                array.member);
+        forEachArray(mesh, [&](std::string_view keyword, const auto& groups, std::string_view) {
+            if (groups.empty()) return;
+            out_ += "    ";
+            out_ += keyword;
+            number(groups.size());
+            out_ += '\n';
+            for (const auto& g : groups) {
+                out_ += "     ";
+                group(g);
+                out_ += '\n';
+            }
+        });
         out_ += "}\n";
     }
     template <class T> void group(const Vec3T<T>& v) { number(v.x), number(v.y), number(v.z); }

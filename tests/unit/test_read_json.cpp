@@ -150,20 +150,23 @@ TEST(read_json_every_native_property_is_a_key) {
                        message.find("unknown key") == std::string::npos,
                    keyword << ": " << message);
     };
-    for (const auto& row : kSettingsProperties) check(row.keyword, "\"settings\": {", "}");
-    for (const auto& row : kWorldProperties) check(row.keyword, "\"world\": {", "}");
-    for (const auto& row : kCameraProperties)
+    for (const auto& row : propertiesOf(BlockType::Settings))
+        check(row.keyword, "\"settings\": {", "}");
+    for (const auto& row : propertiesOf(BlockType::World))
+        check(row.keyword, "\"world\": {", "}");
+    for (const auto& row : propertiesOf(BlockType::Camera))
         check(row.keyword, "\"camera\": {\"position\": [1, 1, 1],", "}");
-    for (const auto& row : kTextureProperties)
+    for (const auto& row : propertiesOf(BlockType::Texture))
         check(row.keyword, "\"textures\": [{\"name\": \"t\",", "}]");
-    for (const auto& row : kMaterialProperties) check(row.keyword, "\"materials\": [{", "}]");
-    for (const auto& row : kLightProperties)
+    for (const auto& row : propertiesOf(BlockType::Material))
+        check(row.keyword, "\"materials\": [{", "}]");
+    for (const auto& row : propertiesOf(BlockType::Light))
         if (row.keyword != "type")
             check(row.keyword, "\"lights\": [{\"type\": \"spot\", \"name\": \"s\",", "}]");
     for (const std::string type : {"sphere", "plane", "quad", "disk", "cylinder", "cone", "cube"}) {
         const ObjectDesc::Kind kind =
             scene(cat(R"({"objects": [{"type": ")", type, "\"}]}")).objects.at(0).kind;
-        for (const auto& row : kObjectProperties)
+        for (const auto& row : propertiesOf(BlockType::Object))
             if (row.kinds & only(kind))
                 check(row.keyword, cat(R"("objects": [{"type": ")", type, "\", "), "}]");
     }

@@ -97,50 +97,30 @@ TEST(read_txt_everything_is_everything) {
                        text.find(cat("\n", keyword, " ")) != std::string::npos,
                    "no '" << keyword << "' in " << kEverything);
     };
-    const SceneDesc desc;
-    const auto checkTable = [&](const auto& rows) {
-        for (const auto& row : rows) checkUsed(row.keyword);
-    };
-    checkTable(kSettingsProperties);
-    checkTable(kWorldProperties);
-    checkTable(kCameraProperties);
-    checkTable(kTextureProperties);
-    checkTable(kMaterialProperties);
-    checkTable(kLightProperties);
-    checkTable(kObjectProperties);
-    checkTable(kMeshProperties);
-    checkTable(kMeshArrays);
-    checkTable(transformLines());
+    for (const auto& type : kEnumNames<BlockType>)
+        for (const Property& row : propertiesOf(type.value)) checkUsed(row.keyword);
+    const MeshDesc mesh;
+    forEachArray(mesh, [&](std::string_view keyword, auto&, std::string_view) {
+        checkUsed(keyword);
+    });
+    for (const TransformLine& line : transformLines()) checkUsed(line.keyword);
     for (const auto& row : kEnumNames<ObjectDesc::Kind>) checkUsed(row.name);
 }
 
 // The spec names every keyword and every choice.
 TEST(read_txt_readme_is_complete) {
     const std::string readme = contentOf("ASCII/README.md");
-    const auto checkTable = [&](const auto& rows) {
-        for (const auto& row : rows) {
-            CHECK_INFO(readme.find(cat("    ", row.keyword, " ")) != std::string::npos,
-                       row.keyword);
-            if constexpr (requires { row.second; })
-                std::visit(
-                    [&](const auto& field) {
-                        if constexpr (requires { field.names; })
-                            for (const std::string_view name : field.names)
-                                CHECK_INFO(readme.find(name) != std::string::npos,
-                                           row.keyword << " " << name);
-                    },
-                    row.first);
-        }
+    const auto check = [&](std::string_view keyword) {
+        CHECK_INFO(readme.find(cat("    ", keyword, " ")) != std::string::npos, keyword);
     };
-    checkTable(kSettingsProperties);
-    checkTable(kWorldProperties);
-    checkTable(kCameraProperties);
-    checkTable(kTextureProperties);
-    checkTable(kMaterialProperties);
-    checkTable(kLightProperties);
-    checkTable(kObjectProperties);
-    checkTable(kMeshProperties);
-    checkTable(kMeshArrays);
+    for (const auto& type : kEnumNames<BlockType>)
+        for (const Property& row : propertiesOf(type.value)) {
+            check(row.keyword);
+            for (const std::string_view name : row.first.names)
+                CHECK_INFO(readme.find(name) != std::string::npos, row.keyword << " " << name);
+        }
+    const MeshDesc mesh;
+    forEachArray(mesh, [&](std::string_view keyword, auto&, std::string_view) { check(keyword); });
     for (const TransformLine& line : transformLines())
         CHECK_INFO(readme.find(cat("| `", line.keyword, " ")) != std::string::npos, line.keyword);
 }

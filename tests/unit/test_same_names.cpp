@@ -20,7 +20,7 @@ std::vector<SameNames::Pair> find(const std::vector<ObjectDesc>& blocks, std::si
         for (std::size_t i = first; i < last; ++i) same.see(i, blocks[i].name);
         same.sort(first);
     });
-    return same.find(blocks, threads);
+    return same.find([&](std::size_t i) -> std::string_view { return blocks[i].name; }, threads);
 }
 
 } // namespace

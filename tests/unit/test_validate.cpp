@@ -5,6 +5,7 @@
 #include "unit/validate_kit.h"
 
 #include <limits>
+#include <utility>
 
 namespace test_validate {
 
@@ -12,34 +13,34 @@ using namespace validate_kit;
 
 namespace {
 
+using Corners4 = std::array<Vec3d, 4>;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // Every number of every property of the block, one at a time: NaN and what is out of range.
 template <class Block> void checkNumbersOf(Block& block, const SceneDesc& desc) {
-    for (const Property<Block>& property : propertiesOf<Block>()) {
-        if (!(property.kinds & kindOf(block))) continue;
-        for (const Field<Block>* field :
-             {&property.first, property.second ? &*property.second : nullptr}) {
-            if (!field) continue;
-            forEachNumber(block, *field, [&](auto& number) {
-                const auto before = number;
-                const auto check = [&](double bad, std::string_view words) {
-                    number = static_cast<std::remove_reference_t<decltype(number)>>(bad);
-                    checkError(errorsOf(desc), cat("'", property.keyword, "' ", words));
-                    number = before;
-                };
-                const Range& range = property.range;
-                if constexpr (std::is_same_v<std::remove_reference_t<decltype(number)>, double>) {
-                    check(kNan, "is not a finite number");
-                    check(-1.0 / 0.0, "is not a finite number");
-                    check(range.hi * 1.1, "must be ");
-                    check(range.aboveLo ? range.lo : range.lo - std::fabs(range.lo) - 1,
-                          "must be ");
-                } else if (range.hi < kLargestUnsigned) {
-                    check(range.hi + 1, "must be from ");
-                    check(range.lo - 1, "must be from ");
-                }
-            });
+    for (const Property& property : propertiesOf(Block::kType)) {
+        if (!(property.kinds & AnyBlock(block).kind)) continue;
+        std::array<double, kMostNumbers> numbers;
+        const std::size_t count = getNumbers(property, &block, numbers.data());
+        CHECK_EQUAL(count, property.numberCount());
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto check = [&](double bad, std::string_view words) {
+                const double before = std::exchange(numbers[i], bad);
+                setNumbers(property, &block, numbers.data());
+                checkError(errorsOf(desc), cat("'", property.keyword, "' ", words));
+                numbers[i] = before;
+                setNumbers(property, &block, numbers.data());
+            };
+            const Range& range = property.range;
+            if (!property.isWhole()) {
+                check(kNan, "is not a finite number");
+                check(-1.0 / 0.0, "is not a finite number");
+                check(range.hi * 1.1, "must be ");
+                check(range.aboveLo ? range.lo : range.lo - std::fabs(range.lo) - 1, "must be ");
+            } else if (range.hi < kLargestUnsigned) {
+                check(range.hi + 1, "must be from ");
+                check(range.lo - 1, "must be from ");
+            }
         }
     }
 }

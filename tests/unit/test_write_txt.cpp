@@ -74,31 +74,36 @@ private:
 
     template <class Block> void fill(Block& block) {
         static const Block kDefaults{};
-        for (const Property<Block>& property : propertiesOf<Block>()) {
-            if (std::is_same_v<Block, ObjectDesc> && !(property.kinds & kindOf(block))) continue;
+        for (const Property& property : propertiesOf(Block::kType)) {
+            if (std::is_same_v<Block, ObjectDesc> && !(property.kinds & AnyBlock(block).kind)) continue;
             if (!chance(chance_)) continue;
             int tries = 0; // again when the default was met
-            do fillField(block, property, property.first);
-            while (++tries < 50 && sameField(block, kDefaults, property.first));
-            if (property.second) fillField(block, property, *property.second);
+            do fill(property, &block);
+            while (++tries < 50 && isSame(property, &block, &kDefaults));
         }
     }
-    template <class Block>
-    void fillField(Block& block, const Property<Block>& property, const Field<Block>& field) {
-        if (auto* crop = std::get_if<Crop Block::*>(&field)) (block.**crop).emplace();
-        forEachNumber(block, field, [&](auto& value) {
-            value = static_cast<std::remove_reference_t<decltype(value)>>(number(property.range));
-        });
-        if (auto* flag = std::get_if<bool Block::*>(&field))
-            block.** flag = chance(0.5);
-        else if (auto* text = std::get_if<std::string Block::*>(&field))
-            block.** text = name("file", 0);
-        else if (auto* choice = std::get_if<Choice<Block>>(&field))
-            choice->set(block, below(choice->names.size()));
-        else if (auto* reference = std::get_if<Reference<Block>>(&field))
-            block.*(reference->handle) = handle();
-        else if (auto* list = std::get_if<MaterialList<Block>>(&field))
-            (block.*(list->handles)).assign(list->many ? 1 + below(3) : 1, handle());
+    void fill(const Property& property, void* block) {
+        std::array<double, kMostNumbers> numbers{};
+        for (std::size_t i = 0; i < property.numberCount(); ++i) {
+            numbers[i] = number(property.range);
+            if (property.isWhole()) numbers[i] = std::trunc(numbers[i]);
+        }
+        setNumbers(property, block, numbers.data());
+        const Field& field = property.first;
+        switch (field.kind) {
+        case FieldKind::Flag: at<bool>(field, block) = chance(0.5); break;
+        case FieldKind::Text: at<std::string>(field, block) = name("file", 0); break;
+        case FieldKind::Choice:
+            at<std::uint8_t>(field, block) = static_cast<std::uint8_t>(below(field.names.size()));
+            break;
+        case FieldKind::Name: at<Handle>(field, block) = handle(); break;
+        case FieldKind::Material:
+        case FieldKind::Materials:
+            at<OneOrMore<Handle>>(field, block)
+                .assign(field.kind == FieldKind::Materials ? 1 + below(3) : 1, handle());
+            break;
+        default: break;
+        }
     }
     Handle handle() { return static_cast<Handle>(below(desc_.materials.size())); }
 
@@ -142,11 +147,11 @@ SceneDesc readBack(const std::string& text) { return readTxt({"written.txt", tex
 template <class Block>
 void checkAllUsed(const std::vector<Block>& blocks, const std::string& text) {
     static const Block kDefaults{};
-    for (const Property<Block>& property : propertiesOf<Block>()) {
+    for (const Property& property : propertiesOf(Block::kType)) {
         bool used = false;
         for (const Block& block : blocks)
-            used = used || ((property.kinds & kindOf(block)) &&
-                            !sameField(block, kDefaults, property.first));
+            used = used ||
+                   ((property.kinds & AnyBlock(block).kind) && !isSame(property, &block, &kDefaults));
         CHECK_INFO(used, "no block uses " << property.keyword);
         CHECK_INFO(text.find(cat("\n    ", property.keyword, " ")) != std::string::npos,
                    property.keyword << " was not written");
@@ -167,9 +172,9 @@ TEST(write_txt_every_property_comes_back) {
     checkAllUsed(desc.lights, text);
     checkAllUsed(desc.meshes, text);
     checkAllUsed(desc.objects, text);
-    for (const MeshArray& array : kMeshArrays)
-        CHECK_INFO(text.find(cat("\n    ", array.keyword, " ")) != std::string::npos,
-                   array.keyword);
+    forEachArray(desc.meshes[0], [&](std::string_view keyword, auto&, std::string_view) {
+        CHECK_INFO(text.find(cat("\n    ", keyword, " ")) != std::string::npos, keyword);
+    });
     for (const auto& row : kEnumNames<ObjectDesc::Kind>)
         CHECK_INFO(text.find(cat("\n", row.name, " ")) != std::string::npos, row.name);
 }

@@ -34,19 +34,6 @@ bool readTriple(const JsonValue& value, std::string_view key, JsonProblems& prob
     return true;
 }
 
-template <class Whole>
-bool readWhole(const JsonValue& value, std::string_view key, JsonProblems& problems, Whole& out,
-               const Range& range) {
-    const double number = value.number();
-    if (!value.isNumber() || number != std::floor(number) || !range.contains(number))
-        return failType(value, key,
-                        cat("a whole number from ", shortest(range.lo), " to ",
-                            static_cast<long long>(range.hi)),
-                        problems);
-    out = static_cast<Whole>(number);
-    return true;
-}
-
 } // namespace
 
 bool readJsonValue(const JsonValue& value, std::string_view key, JsonProblems& problems,
@@ -80,12 +67,22 @@ bool readJsonValue(const JsonValue& value, std::string_view key, JsonProblems& p
 
 bool readJsonValue(const JsonValue& value, std::string_view key, JsonProblems& problems, int& out,
                    const Range& range) {
-    return readWhole(value, key, problems, out, range);
+    double whole = 0;
+    if (!readJsonWhole(value, key, problems, whole, range)) return false;
+    out = static_cast<int>(whole);
+    return true;
 }
 
-bool readJsonValue(const JsonValue& value, std::string_view key, JsonProblems& problems,
-                   std::uint32_t& out, const Range& range) {
-    return readWhole(value, key, problems, out, range);
+bool readJsonWhole(const JsonValue& value, std::string_view key, JsonProblems& problems,
+                   double& out, const Range& range) {
+    const double number = value.number();
+    if (!value.isNumber() || number != std::floor(number) || !range.contains(number))
+        return failType(value, key,
+                        cat("a whole number from ", shortest(range.lo), " to ",
+                            static_cast<long long>(range.hi)),
+                        problems);
+    out = number;
+    return true;
 }
 
 bool readJsonValue(const JsonValue& value, std::string_view key, JsonProblems& problems, Vec3d& out,

@@ -22,8 +22,8 @@ bool readJsonValue(const JsonValue& value, std::string_view key, JsonProblems& p
                    double& out, const Range& range);
 bool readJsonValue(const JsonValue& value, std::string_view key, JsonProblems& problems, int& out,
                    const Range& range);
-bool readJsonValue(const JsonValue& value, std::string_view key, JsonProblems& problems,
-                   std::uint32_t& out, const Range& range);
+bool readJsonWhole(const JsonValue& value, std::string_view key, JsonProblems& problems,
+                   double& out, const Range& range);
 bool readJsonValue(const JsonValue& value, std::string_view key, JsonProblems& problems, Vec3d& out,
                    const Range& range);
 bool readJsonValue(const JsonValue& value, std::string_view key, JsonProblems& problems, Rgbd& out,

@@ -1,38 +1,101 @@
 #include "read/json/properties.h"
 
-#include "base/enum_names.h"
 #include "base/text.h"
+#include "desc/names.h"
 
 #include <algorithm>
-#include <optional>
+#include <vector>
 
-JsonPropertyValues::JsonPropertyValues(const JsonValue& value, std::string_view key,
-                                       std::size_t count, bool inTriples, JsonProblems& problems)
-    : key_(key), count_(count), problems_(problems) {
+namespace {
+
+// The values for a key in the order of the row; corners stand in arrays of three. None after an
+// error: so many are wanted.
+std::vector<const JsonValue*> valuesOf(const JsonValue& value, const Property& row,
+                                       std::size_t count, JsonProblems& problems) {
+    const bool inTriples = row.first.kind == FieldKind::Corners;
+    std::vector<const JsonValue*> values;
     if (count == 1)
-        values_.push_back(&value);
+        values.push_back(&value);
     else if (!inTriples)
-        for (const JsonValue& item : value.items()) values_.push_back(&item);
+        for (const JsonValue& item : value.items()) values.push_back(&item);
     else
         for (const JsonValue& triple : value.items())
             if (triple.items().size() == 3)
-                for (const JsonValue& item : triple.items()) values_.push_back(&item);
-    if (!hasAll())
-        problems_.error(value.loc(), [&] {
-            const std::string expected = inTriples ? cat(count / 3, " arrays of 3 numbers")
-                                                   : cat("an array of ", count, " values");
-            return cat("expected ", expected, " for '", key, "', got ",
-                       value.isArray() ? cat("an array of ", value.items().size())
-                                       : described(value));
+                for (const JsonValue& item : triple.items()) values.push_back(&item);
+    if (values.size() == count) return values;
+    problems.error(value.loc(), [&] {
+        const std::string expected = inTriples ? cat(count / 3, " arrays of 3 numbers")
+                                               : cat("an array of ", count, " values");
+        return cat("expected ", expected, " for '", row.keyword, "', got ",
+                   value.isArray() ? cat("an array of ", value.items().size()) : described(value));
+    });
+    return {};
+}
+
+void readChoice(const JsonValue& value, const Property& row, JsonProblems& problems, void* block) {
+    std::string word;
+    if (!readJsonValue(value, row.keyword, problems, word)) return;
+    const auto names = row.first.names;
+    const auto found = std::find(names.begin(), names.end(), word);
+    if (found == names.end())
+        return problems.error(value.loc(),
+                              [&] { return unknownValue(row.keyword, shown(word), names); });
+    at<std::uint8_t>(row.first, block) = static_cast<std::uint8_t>(found - names.begin());
+}
+
+void readName(const JsonValue& value, const Property& row, const JsonNames& textures,
+              JsonProblems& problems, Handle& handle) {
+    std::string name;
+    if (!readJsonValue(value, row.keyword, problems, name)) return;
+    handle = textures.find(name);
+    if (handle == kNone)
+        problems.error(value.loc(), [&] {
+            return cat("unknown texture ", unknownName(shown(name), textures.known()));
         });
 }
 
-std::optional<std::size_t> JsonPropertyValues::readWord(std::span<const std::string_view> names) {
-    const JsonValue& value = *values_[next_++];
-    std::string word;
-    if (!readJsonValue(value, key_, problems_, word)) return {};
-    const auto found = std::find(names.begin(), names.end(), word);
-    if (found != names.end()) return static_cast<std::size_t>(found - names.begin());
-    problems_.error(value.loc(), [&] { return unknownValue(key_, shown(word), names); });
-    return {};
+// Of a row with numbers, perhaps behind a choice.
+void readValues(const JsonValue& value, const Property& row, JsonProblems& problems, void* block) {
+    const bool isChoice = row.first.kind == FieldKind::Choice;
+    const auto values = valuesOf(value, row, row.numberCount() + (isChoice ? 1 : 0), problems);
+    if (values.empty()) return;
+    if (isChoice) readChoice(*values[0], row, problems, block);
+    std::array<double, kMostNumbers> numbers{};
+    getNumbers(row, block, numbers.data());
+    double* next = numbers.data();
+    for (const JsonValue* number : std::span(values).subspan(isChoice ? 1 : 0))
+        if (row.isWhole())
+            readJsonWhole(*number, row.keyword, problems, *next++, row.range);
+        else
+            readJsonValue(*number, row.keyword, problems, *next++, row.range);
+    setNumbers(row, block, numbers.data());
+}
+
+} // namespace
+
+void readJsonProperty(const JsonValue& value, const Property& row, const JsonNames& textures,
+                      JsonProblems& problems, void* block) {
+    const Field& field = row.first;
+    switch (field.kind) {
+    case FieldKind::Flag:
+        readJsonValue(value, row.keyword, problems, at<bool>(field, block));
+        return;
+    case FieldKind::Text:
+        readJsonValue(value, row.keyword, problems, at<std::string>(field, block));
+        return;
+    case FieldKind::Name:
+        return readName(value, row, textures, problems, at<Handle>(field, block));
+    default: return readValues(value, row, problems, block);
+    }
+}
+
+void readJsonProperties(JsonFields& fields, const JsonNames& textures, BlockType type,
+                        KindMask kinds, void* block,
+                        std::initializer_list<std::string_view> except) {
+    for (const Property& row : propertiesOf(type)) {
+        if (std::find(except.begin(), except.end(), row.keyword) != except.end()) continue;
+        if (!(row.kinds & kinds)) continue;
+        if (const JsonValue* value = fields.take(row.keyword))
+            readJsonProperty(*value, row, textures, fields.problems(), block);
+    }
 }

@@ -2,15 +2,9 @@
 
 #include "read/json/properties.h"
 
-#include <algorithm>
+#include <optional>
 
 namespace {
-
-template <class Block> const Property<Block>& rowOf(std::string_view keyword) {
-    const auto rows = propertiesOf<Block>();
-    return *std::find_if(rows.begin(), rows.end(),
-                         [&](const Property<Block>& row) { return row.keyword == keyword; });
-}
 
 // A key of the scene itself that is a property of one of its blocks too: one place for it only.
 template <class Block>
@@ -22,7 +16,7 @@ void readTopKey(JsonFields& scene, const JsonFields* inner, std::string_view key
         scene.problems().error(value->loc(), [&] {
             return cat("'", keyword, "' is given here and in '", innerName, "'; keep one of them");
         });
-    readJsonProperty(*value, rowOf<Block>(keyword), {}, scene.problems(), block);
+    readJsonProperty(*value, propertyNamed(Block::kType, keyword), {}, scene.problems(), &block);
 }
 
 // n x n samples in the cells of a grid in the pixel, in the middle of each cell or anywhere in it.

@@ -1,5 +1,7 @@
 #include "read/txt/property_line.h"
 
+#include "base/text.h"
+#include "desc/names.h"
 #include "read/plain_number.h"
 
 #include <algorithm>
@@ -19,6 +21,9 @@ bool isNotFinite(std::string_view word) {
         if (c != '+' && c != '-') lower += static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
     return lower == "nan" || lower == "inf" || lower == "infinity";
 }
+
+bool isName(const Token& t) { return t.kind == TokenKind::Word || t.kind == TokenKind::Quoted; }
+SourceLoc locOf(const Token& t) { return {static_cast<std::uint32_t>(t.offset)}; }
 
 } // namespace
 
@@ -79,7 +84,7 @@ void NumberLine::read(double& value, const Range& range) {
 void NumberLine::readAny(double& value, const Range& range) {
     const Token t = nextNumber();
     const auto number = readDouble(t.text.data());
-    const SourceLoc loc{static_cast<std::uint32_t>(t.offset)};
+    const SourceLoc loc = locOf(t);
     if (number.fault == NumberFault::TooLarge)
         return errors_.add(loc, [&] { return cat(described(t), " is too large"); });
     if (isNotFinite(t.text))
@@ -93,17 +98,19 @@ void NumberLine::readAny(double& value, const Range& range) {
     value = number.value;
 }
 
-std::optional<long long> NumberLine::readWhole(const Range& range) {
+void NumberLine::readWhole(double& value, const Range& range) {
     const Token t = nextNumber();
-    const auto value = parseInteger(t.text);
-    if (value && range.contains(static_cast<double>(*value))) return value;
+    const auto whole = parseInteger(t.text);
+    if (whole && range.contains(static_cast<double>(*whole))) {
+        value = static_cast<double>(*whole);
+        return;
+    }
     const auto what = [&] {
         return cat("expected a whole number from ", range.lo, " to ",
                    static_cast<long long>(range.hi), " after '", keyword_, "', got ", described(t));
     };
     if (!isNumber(t)) in_.failAt(t.offset, what());
-    errors_.add({static_cast<std::uint32_t>(t.offset)}, what);
-    return {};
+    errors_.add(locOf(t), what);
 }
 
 void NumberLine::finish(const Token& open) {
@@ -115,4 +122,86 @@ void NumberLine::finish(const Token& open) {
         ++got_;
     }
     in_.failAt(extra.offset, cat(expected(), ", got ", got_));
+}
+
+void PropertyLine::read(void* block, const Property& property, LineBefore& before) {
+    keyword_ = property.keyword;
+    if (!before.text.empty() && in_.textLeft().starts_with(before.text)) {
+        setNumbers(property, block, before.numbers.data());
+        return in_.moveTo(before.text.size() + in_.offset());
+    }
+    if (property.hasWord()) readWord(block, property.first);
+    if (property.numberCount() > 0) return readNumbers(block, property, before);
+    expectLineEnd(in_, keyword_, open_);
+}
+
+void PropertyLine::readNumbers(void* block, const Property& property, LineBefore& before) {
+    const std::string_view left = in_.textLeft();
+    const std::size_t count = property.numberCount(), faultsBefore = errors_.count();
+    NumberLine line(in_, errors_, keyword_, count);
+    std::array<double, kMostNumbers> numbers;
+    for (std::size_t i = 0; i < count; ++i)
+        property.isWhole() ? line.readWhole(numbers[i], property.range)
+                           : line.read(numbers[i], property.range);
+    line.finish(open_);
+    if (errors_.count() > faultsBefore) return;
+    setNumbers(property, block, numbers.data());
+    if (property.hasWord() || count > before.numbers.size()) return;
+    before.text = left.substr(0, left.size() - in_.textLeft().size());
+    std::copy_n(numbers.begin(), count, before.numbers.begin());
+}
+
+void PropertyLine::readWord(void* block, const Field& field) {
+    switch (field.kind) {
+    case FieldKind::Flag: {
+        const Token t = in_.next();
+        if (t.text != "true" && t.text != "false") failExpected(t, "true or false");
+        at<bool>(field, block) = t.text == "true";
+        return;
+    }
+    case FieldKind::Text:
+        at<std::string>(field, block) = in_.nameIn(nextName("a text"));
+        return;
+    case FieldKind::Name: {
+        const Token t = in_.next();
+        if (!isName(t)) failExpected(t, cat("the name of a ", nameOf(field.target)));
+        at<Handle>(field, block) = references_.use(field.target, t);
+        return;
+    }
+    case FieldKind::Choice: return readChoice(block, field);
+    default:
+        readMaterials(at<OneOrMore<Handle>>(field, block), field.kind == FieldKind::Materials);
+    }
+}
+
+void PropertyLine::readChoice(void* block, const Field& field) {
+    const Token t = in_.next();
+    const auto names = field.names;
+    if (t.kind != TokenKind::Word)
+        failExpected(t, "one of " + join(std::vector<std::string>(names.begin(), names.end())));
+    for (std::size_t i = 0; i < names.size(); ++i)
+        if (names[i] == t.text) {
+            at<std::uint8_t>(field, block) = static_cast<std::uint8_t>(i);
+            return;
+        }
+    errors_.add(locOf(t), [&] { return unknownValue(keyword_, shown(t.text), names); });
+}
+
+void PropertyLine::readMaterials(OneOrMore<Handle>& handles, bool many) {
+    const Token first = nextName("the name of a material");
+    if (!handles.empty())
+        errors_.add(locOf(first), [] { return "give 'material' or 'materials', not both"; });
+    handles.assign(1, references_.use(BlockType::Material, first));
+    while (many && isName(in_.peek()))
+        handles.push_back(references_.use(BlockType::Material, in_.next()));
+}
+
+Token PropertyLine::nextName(std::string_view what) {
+    const Token t = in_.next();
+    if (!isName(t)) failExpected(t, what);
+    return t;
+}
+
+void PropertyLine::failExpected(const Token& t, std::string_view what) const {
+    in_.failAt(t.offset, cat("expected ", what, " after '", keyword_, "', got ", described(t)));
 }

@@ -11,14 +11,9 @@
 
 #include <algorithm>
 #include <array>
-#include <tuple>
-#include <utility>
+#include <vector>
 
 namespace {
-
-template <class Block>
-constexpr bool kHasPlace = std::is_same_v<Block, CameraDesc> || std::is_same_v<Block, LightDesc> ||
-                           std::is_same_v<Block, ObjectDesc>;
 
 // The words that open blocks, in the order of the README.
 std::vector<std::string> blockWords() {
@@ -58,23 +53,28 @@ private:
 
     void readBlock(const Token& word) {
         const auto is = [&](std::string_view kind) { return isSameWord(kind, word.text); };
+        SceneDesc& desc = blocks_.desc;
         for (const auto& row : kEnumNames<ObjectDesc::Kind>) {
             if (!is(row.name)) continue;
-            ObjectDesc& object = added(blocks_.desc.objects);
+            // Objects have the properties of their kind. Lights and cameras say their kind in a
+            // property, perhaps after others: they have all of them, and validate() warns of those
+            // without effect.
+            ObjectDesc& object = added(desc.objects);
             object.kind = row.value;
-            return readProperties(object, word);
+            readHeading(object, word);
+            return readProperties(object, word, &object.worldFromObject, only(row.value));
         }
-        if (is("material")) return readProperties(added(blocks_.desc.materials), word);
-        if (is("light")) return readProperties(added(blocks_.desc.lights), word);
-        if (is("mesh")) {
-            MeshDesc& mesh = added(blocks_.desc.meshes);
-            readHeading(mesh, word);
-            return readMesh(in_, errors_, word, mesh, part_.threads);
+        if (is("material")) return readReferred(desc.materials, word);
+        if (is("light")) return readLight(added(desc.lights), word);
+        if (is("mesh")) return readReferred(desc.meshes, word);
+        if (is("camera")) {
+            CameraDesc& camera = added(desc.cameras);
+            readHeading(camera, word);
+            return readProperties(camera, word, &camera.worldFromCamera);
         }
-        if (is("camera")) return readProperties(added(blocks_.desc.cameras), word);
-        if (is("texture")) return readProperties(added(blocks_.desc.textures), word);
-        if (is("settings")) return readSingle(blocks_.desc.settings, word);
-        if (is("world")) return readSingle(blocks_.desc.world, word);
+        if (is("texture")) return readReferred(desc.textures, word);
+        if (is("settings")) return readSingle(desc.settings, word);
+        if (is("world")) return readSingle(desc.world, word);
         in_.failAt(word.offset, cat("unknown block ", unknownName(shown(word.text), blockWords())));
     }
 
@@ -86,51 +86,71 @@ private:
         if (block.loc.offset != SourceLoc::kUnknown)
             in_.failAt(word.offset, cat("'", word.text, "' was given already at line ",
                                         in_.lineOf(block.loc.offset)));
+        block.loc = {static_cast<std::uint32_t>(word.offset)};
+        const Token t = in_.next();
+        if (t.kind != TokenKind::Open)
+            in_.failAt(t.offset, cat("expected '{' after '", word.text,
+                                     "', which has no name, got ", described(t)));
+        expectNewLine();
         readProperties(block, word);
     }
 
-    // kind name {
-    template <class Block> void readHeading(Block& block, const Token& word) {
+    // A block whose name others use.
+    template <class Block> void readReferred(std::vector<Block>& blocks, const Token& word) {
+        Block& block = added(blocks);
+        blocks_.references.define(Block::kType, readHeading(block, word), blocks.size() - 1);
+        if constexpr (Block::kType == BlockType::Mesh)
+            readMesh(in_, errors_, word, block, part_.threads);
+        else
+            readProperties(block, word);
+    }
+
+    // Lights stand still and have one key.
+    void readLight(LightDesc& light, const Token& word) {
+        readHeading(light, word);
+        Keys keys{kIdentityRows};
+        readProperties(light, word, &keys);
+        light.worldFromLight = keys.front();
+    }
+
+    // kind name {; returns the name as it is written.
+    template <class Block> Token readHeading(Block& block, const Token& word) {
         block.loc = {static_cast<std::uint32_t>(word.offset)};
-        Token t = in_.next();
-        if constexpr (requires { block.name; }) {
-            if (t.kind != TokenKind::Word && t.kind != TokenKind::Quoted)
-                in_.failAt(t.offset,
-                           cat("expected a name after '", word.text, "', got ", described(t)));
-            block.name = in_.nameIn(t);
-            if (block.name.empty()) in_.failAt(t.offset, "a name has at least one letter");
-            define(block, t);
-            t = in_.next();
-            if (t.kind != TokenKind::Open)
-                in_.failAt(t.offset, cat("expected '{' after the name of the ", word.text, ", got ",
-                                         described(t)));
-        } else if (t.kind != TokenKind::Open) {
-            in_.failAt(t.offset, cat("expected '{' after '", word.text,
-                                     "', which has no name, got ", described(t)));
-        }
-        t = in_.peek();
+        return readName(word, block.name);
+    }
+    Token readName(const Token& word, std::string& name) {
+        const Token written = in_.next();
+        if (written.kind != TokenKind::Word && written.kind != TokenKind::Quoted)
+            in_.failAt(written.offset,
+                       cat("expected a name after '", word.text, "', got ", described(written)));
+        name = in_.nameIn(written);
+        if (name.empty()) in_.failAt(written.offset, "a name has at least one letter");
+        const Token t = in_.next();
+        if (t.kind != TokenKind::Open)
+            in_.failAt(t.offset, cat("expected '{' after the name of the ", word.text, ", got ",
+                                     described(t)));
+        expectNewLine();
+        return written;
+    }
+    void expectNewLine() {
+        const Token t = in_.peek();
         if (t.kind != TokenKind::LineEnd && t.kind != TokenKind::FileEnd)
             in_.failAt(t.offset, cat("expected a new line after '{', got ", described(t)));
     }
 
-    void define(const MaterialDesc&, const Token& name) {
-        blocks_.references.define(Target::Material, name, blocks_.desc.materials.size() - 1);
+    // `keys`: where those of its place are read to, if it has one. `kinds`: of properties.
+    template <class Block>
+    void readProperties(Block& block, const Token& word, Keys* keys = nullptr,
+                        KindMask kinds = kAllKinds) {
+        readProperties(&block, Block::kType, word, keys, kinds);
     }
-    void define(const TextureDesc&, const Token& name) {
-        blocks_.references.define(Target::Texture, name, blocks_.desc.textures.size() - 1);
-    }
-    void define(const MeshDesc&, const Token& name) {
-        blocks_.references.define(Target::Mesh, name, blocks_.desc.meshes.size() - 1);
-    }
-    template <class Block> void define(const Block&, const Token&) {}
-
-    template <class Block> void readProperties(Block& block, const Token& word) {
-        readHeading(block, word);
-        constexpr std::span<const Property<Block>> rows = propertiesOf<Block>();
-        std::array<std::size_t, rows.size()> given;
-        given.fill(kNotGiven);
-        PropertyLine<Block> line(in_, errors_, blocks_.references, word);
-        Habits<Block>& habits = std::get<Habits<Block>>(habits_);
+    void readProperties(void* block, BlockType type, const Token& word, Keys* keys,
+                        KindMask kinds) {
+        const std::span<const Property> rows = propertiesOf(type);
+        std::array<std::size_t, kMostProperties> given;
+        std::fill_n(given.begin(), rows.size(), kNotGiven);
+        PropertyLine line(in_, errors_, blocks_.references, word);
+        Habits& habits = habits_[static_cast<std::size_t>(type)];
         std::size_t* next = &habits.first;
         while (true) {
             const Token t = in_.next();
@@ -140,14 +160,13 @@ private:
                 failUnclosed(in_, word, t);
             if (t.kind != TokenKind::Word)
                 in_.failAt(t.offset, cat("expected a property or '}', got ", described(t)));
-            if constexpr (kHasPlace<Block>)
-                if (readTransformLine(t, word, keysOf(block))) continue;
-            const auto isMeant = [&](const Property<Block>& p) {
-                return isSameWord(p.keyword, t.text) && isHere(p, block);
+            if (keys && readTransformLine(t, word, *keys)) continue;
+            const auto isMeant = [&](const Property& p) {
+                return isSameWord(p.keyword, t.text) && (p.kinds & kinds);
             };
             if (!isMeant(rows[*next])) {
                 const auto row = std::find_if(rows.begin(), rows.end(), isMeant);
-                if (row == rows.end()) failUnknown(block, t, word);
+                if (row == rows.end()) failUnknown(rows, kinds, keys != nullptr, t, word);
                 *next = static_cast<std::size_t>(row - rows.begin());
             }
             const std::size_t number = *next;
@@ -159,39 +178,23 @@ private:
             before = t.offset;
             line.read(block, rows[number], habits.before[number]);
         }
-        if constexpr (std::is_same_v<Block, LightDesc>)
-            block.worldFromLight = std::exchange(lightKeys_.front(), kIdentityRows);
         expectLineEnd(in_, "}", word);
     }
 
     // The rows of the properties that came first, and behind each other, the last time: blocks of a
     // file have theirs in the same order. And what they said.
-    template <class Block> struct Habits {
+    struct Habits {
         std::size_t first = 0;
-        std::array<std::size_t, propertiesOf<Block>().size()> after{};
-        std::array<LineBefore, propertiesOf<Block>().size()> before{};
+        std::array<std::size_t, kMostProperties> after{};
+        std::array<LineBefore, kMostProperties> before{};
     };
 
-    // Where the keys of a block are read to. Lights stand still and have no keys of their own.
-    Keys& keysOf(CameraDesc& camera) { return camera.worldFromCamera; }
-    Keys& keysOf(ObjectDesc& object) { return object.worldFromObject; }
-    Keys& keysOf(LightDesc&) { return lightKeys_; }
-
-    // Objects have the properties of their kind. Lights and cameras say their kind in a property,
-    // perhaps after others: they have all of them, and validate() warns of those without effect.
-    template <class Block> static bool isHere(const Property<Block>& property, const Block& block) {
-        if constexpr (std::is_same_v<Block, ObjectDesc>)
-            return (property.kinds & kindOf(block)) != 0;
-        else
-            return true;
-    }
-
-    template <class Block>
-    [[noreturn]] void failUnknown(const Block& block, const Token& t, const Token& word) {
+    [[noreturn]] void failUnknown(std::span<const Property> rows, KindMask kinds, bool hasPlace,
+                                  const Token& t, const Token& word) {
         std::vector<std::string> known;
-        for (const Property<Block>& property : propertiesOf<Block>())
-            if (isHere(property, block)) known.emplace_back(property.keyword);
-        if constexpr (kHasPlace<Block>)
+        for (const Property& property : rows)
+            if (property.kinds & kinds) known.emplace_back(property.keyword);
+        if (hasPlace)
             for (const TransformLine& line : transformLines()) known.emplace_back(line.keyword);
         failUnknownProperty(in_, t, word, known);
     }
@@ -229,10 +232,7 @@ private:
     const TxtPart& part_;
     ErrorList& errors_;
     Blocks& blocks_;
-    Keys lightKeys_{kIdentityRows};
-    std::tuple<Habits<SettingsDesc>, Habits<WorldDesc>, Habits<CameraDesc>, Habits<TextureDesc>,
-               Habits<MaterialDesc>, Habits<LightDesc>, Habits<ObjectDesc>>
-        habits_;
+    std::array<Habits, kEnumNames<BlockType>.size()> habits_;
 };
 
 } // namespace

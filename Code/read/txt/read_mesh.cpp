@@ -9,12 +9,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <type_traits>
+#include <span>
+#include <vector>
 
 namespace {
 
 // What was read of an array, for the check of the indices when the whole block is known.
 struct ArrayRead {
+    std::string_view keyword, indexes; // see forEachArray()
     bool given = false;
     std::size_t offset = 0; // of its keyword, then of its first number
     std::size_t numbers = 0;
@@ -25,7 +27,11 @@ struct ArrayRead {
 class MeshReader {
 public:
     MeshReader(Scanner& in, ErrorList& errors, const Token& open, MeshDesc& mesh, int threads)
-        : in_(in), errors_(errors), open_(open), mesh_(mesh), threads_(threads) {}
+        : in_(in), errors_(errors), open_(open), mesh_(mesh), threads_(threads) {
+        forEachArray(mesh, [&](std::string_view keyword, auto&, std::string_view indexes) {
+            reads_.push_back({keyword, indexes});
+        });
+    }
 
     void read() {
         while (true) {
@@ -40,22 +46,22 @@ public:
         }
         expectLineEnd(in_, "}", open_);
         checkFile();
-        for (std::size_t i = 0; i < kMeshArrays.size(); ++i) checkIndices(i);
+        for (const ArrayRead& array : reads_) checkIndices(array);
     }
 
 private:
     bool readProperty(const Token& t) {
-        const auto row = std::find_if(kMeshProperties.begin(), kMeshProperties.end(),
-                                      [&](const auto& p) { return p.keyword == t.text; });
-        if (row == kMeshProperties.end()) return false;
-        std::size_t& before = given_[static_cast<std::size_t>(row - kMeshProperties.begin())];
+        const auto row = std::find_if(properties_.begin(), properties_.end(),
+                                      [&](const Property& p) { return p.keyword == t.text; });
+        if (row == properties_.end()) return false;
+        std::size_t& before = given_[static_cast<std::size_t>(row - properties_.begin())];
         if (before > 0)
             in_.failAt(t.offset,
                        cat("'", t.text, "' was given already at line ", in_.lineOf(before)));
         before = t.offset;
         References none(in_.source(), false); // a mesh names nothing
         LineBefore nothing;
-        PropertyLine<MeshDesc>(in_, errors_, none, open_).read(mesh_, *row, nothing);
+        PropertyLine(in_, errors_, none, open_).read(&mesh_, *row, nothing);
         if (row->keyword == "file") mesh_.fileLoc = {static_cast<std::uint32_t>(t.offset)};
         return true;
     }
@@ -63,10 +69,10 @@ private:
     // A mesh has arrays or a file.
     void checkFile() {
         if (mesh_.file.empty()) {
-            for (std::size_t i = 0; i < kMeshProperties.size(); ++i)
+            for (std::size_t i = 0; i < properties_.size(); ++i)
                 if (given_[i] > 0)
                     errors_.add({static_cast<std::uint32_t>(given_[i])}, [&] {
-                        return cat("'", kMeshProperties[i].keyword, "' needs the name of a file");
+                        return cat("'", properties_[i].keyword, "' needs the name of a file");
                     });
             return;
         }
@@ -76,27 +82,27 @@ private:
                             [] { return "a mesh has a 'file' or arrays, not both"; });
     }
 
-    std::size_t arrayNamed(const Token& t) {
-        for (std::size_t i = 0; i < kMeshArrays.size(); ++i)
-            if (kMeshArrays[i].keyword == t.text) return i;
+    ArrayRead& arrayNamed(const Token& t) {
+        for (ArrayRead& array : reads_)
+            if (array.keyword == t.text) return array;
         if (!last_.empty() && readDouble(t.text.data()).fault != NumberFault::NotANumber)
             in_.failAt(t.offset, cat("'", last_, "' has more numbers than its count says"));
         std::vector<std::string> known;
-        for (const auto& property : kMeshProperties) known.emplace_back(property.keyword);
-        for (const MeshArray& array : kMeshArrays) known.emplace_back(array.keyword);
+        for (const Property& property : properties_) known.emplace_back(property.keyword);
+        for (const ArrayRead& array : reads_) known.emplace_back(array.keyword);
         failUnknownProperty(in_, t, open_, known);
     }
 
-    void readArray(const Token& keyword, std::size_t which) {
-        ArrayRead& read = reads_[which];
+    void readArray(const Token& keyword, ArrayRead& read) {
         if (read.given)
             in_.failAt(keyword.offset, cat("'", keyword.text, "' was given already at line ",
                                            in_.lineOf(read.offset)));
         read.given = true;
         read.offset = keyword.offset;
         last_ = keyword.text;
-        std::visit([&](auto member) { readGroups(mesh_.*member, read); },
-                   kMeshArrays[which].member);
+        forEachArray(mesh_, [&](std::string_view name, auto& groups, std::string_view) {
+            if (name == read.keyword) readGroups(groups, read);
+        });
         expectLineEnd(in_, keyword.text, open_);
     }
 
@@ -166,15 +172,12 @@ private:
     }
 
     // The largest index was noted while reading; the place of a wrong one is looked for only now.
-    void checkIndices(std::size_t which) {
-        const ArrayRead& read = reads_[which];
-        const std::string_view target = kMeshArrays[which].indexes;
-        if (target.empty() || read.groups == 0) return;
-        const auto row =
-            std::find_if(kMeshArrays.begin(), kMeshArrays.end(),
-                         [&](const MeshArray& array) { return array.keyword == target; });
+    void checkIndices(const ArrayRead& read) {
+        if (read.indexes.empty() || read.groups == 0) return;
         const std::size_t count =
-            reads_[static_cast<std::size_t>(row - kMeshArrays.begin())].groups;
+            std::find_if(reads_.begin(), reads_.end(), [&](const ArrayRead& array) {
+                return array.keyword == read.indexes;
+            })->groups;
         if (read.largestIndex < count) return;
         const std::size_t after = in_.offset();
         in_.moveTo(read.offset);
@@ -182,8 +185,8 @@ private:
             const auto index = readUnsigned(in_.skipToValue());
             if (index.value >= count)
                 errors_.add({static_cast<std::uint32_t>(in_.offset())}, [&] {
-                    return cat("there is no ", index.value, " in '", target, "': it has ", count,
-                               ", counted from 0");
+                    return cat("there is no ", index.value, " in '", read.indexes, "': it has ",
+                               count, ", counted from 0");
                 });
             in_.moveTo(index.end);
         }
@@ -195,8 +198,9 @@ private:
     const Token& open_;
     MeshDesc& mesh_;
     int threads_;
-    std::array<ArrayRead, kMeshArrays.size()> reads_{};
-    std::array<std::size_t, kMeshProperties.size()> given_{}; // where; no property stands at 0
+    const std::span<const Property> properties_ = propertiesOf(BlockType::Mesh);
+    std::vector<ArrayRead> reads_;
+    std::array<std::size_t, kMostProperties> given_{}; // where; no property stands at 0
     std::string_view last_; // the keyword of the array that was begun last
 };
 

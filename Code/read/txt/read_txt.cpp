@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <functional>
 #include <iterator>
 #include <optional>
 #include <utility>
@@ -82,23 +81,40 @@ template <class Block> bool takeSingle(Block& all, const Block& some) {
     return isFirst;
 }
 
-// Room for so many. The system clears memory where it is touched first: all threads do that.
-template <class Block>
-void makeRoomTogether(std::vector<Block>& list, std::size_t count, int threads) {
+// The system clears memory where it is touched first: all threads do that.
+void touchTogether(volatile char* memory, std::size_t bytes, int threads) {
     // More would be there twice before the parts are let go of.
     constexpr std::size_t kMost = std::size_t{1} << 30, kTogether = std::size_t{1} << 21,
                           kPage = std::size_t{1} << 12;
-    reserveInLargePages(list, count);
-    auto* const memory = reinterpret_cast<volatile char*>(list.data());
-    forEachPart(threads, std::min(kMost, count * sizeof(Block)), kTogether,
+    forEachPart(threads, std::min(kMost, bytes), kTogether,
                 [&](std::size_t first, std::size_t last) {
                     for (std::size_t at = first; at < last; at += kPage) memory[at] = 0;
                 });
 }
 
+using Parts = std::vector<std::optional<Blocks>>;
+template <auto list> void makeRoom(SceneDesc& all, const Parts& parts, int threads) {
+    auto& blocks = all.*list;
+    std::size_t count = 0;
+    for (const auto& part : parts) count += (part->desc.*list).size();
+    reserveInLargePages(blocks, count);
+    touchTogether(reinterpret_cast<volatile char*>(blocks.data()), count * sizeof blocks[0],
+                  threads);
+}
+template <auto list> void join(SceneDesc& all, Parts& parts) {
+    for (auto& part : parts) {
+        auto some = std::move(part->desc.*list);
+        for (auto& block : some) (all.*list).push_back(std::move(block));
+    }
+}
+template <auto... lists> void joinLists(SceneDesc& all, Parts& parts, int threads) {
+    (makeRoom<lists>(all, parts, threads), ...);
+    constexpr void (*kJoins[])(SceneDesc&, Parts&) = {join<lists>...};
+    forEachOn(threads, std::size(kJoins), [&](std::size_t i) { kJoins[i](all, parts); });
+}
+
 // The parts, one behind the other.
-std::optional<SceneDesc> joined(const SourceFile& source, std::vector<std::optional<Blocks>> parts,
-                                int threads) {
+std::optional<SceneDesc> joined(const SourceFile& source, Parts parts, int threads) {
     if (std::any_of(parts.begin(), parts.end(), [](const auto& part) { return !part; })) return {};
     std::vector<const References*> references;
     for (const auto& part : parts) references.push_back(&part->references);
@@ -113,27 +129,8 @@ std::optional<SceneDesc> joined(const SourceFile& source, std::vector<std::optio
         if (!takeSingle(all.settings, part->desc.settings) ||
             !takeSingle(all.world, part->desc.world))
             return {};
-    std::vector<std::function<void()>> joins;
-    const auto join = [&](auto blocks) { // a list of SceneDesc
-        std::size_t count = 0;
-        for (const auto& part : parts) count += (part->desc.*blocks).size();
-        makeRoomTogether(all.*blocks, count, threads);
-        joins.emplace_back([&all, &parts, blocks] {
-            for (auto& part : parts) {
-                auto some = std::move(part->desc.*blocks);
-                (all.*blocks)
-                    .insert((all.*blocks).end(), std::move_iterator(some.begin()),
-                            std::move_iterator(some.end()));
-            }
-        });
-    };
-    join(&SceneDesc::cameras);
-    join(&SceneDesc::textures);
-    join(&SceneDesc::materials);
-    join(&SceneDesc::lights);
-    join(&SceneDesc::meshes);
-    join(&SceneDesc::objects);
-    forEachOn(threads, joins.size(), [&](std::size_t i) { joins[i](); });
+    joinLists<&SceneDesc::cameras, &SceneDesc::textures, &SceneDesc::materials, &SceneDesc::lights,
+              &SceneDesc::meshes, &SceneDesc::objects>(all, parts, threads);
     forEachOn(threads, parts.size(), [&](std::size_t i) { parts[i].reset(); });
     return all;
 }
@@ -148,7 +145,7 @@ std::optional<SceneDesc> readTogether(const SourceFile& source, int threads,
         return {};
     }
     const std::vector<TxtPart> parts = partsOf(source.text, first, partBytes, threads);
-    std::vector<std::optional<Blocks>> read(parts.size());
+    Parts read(parts.size());
     // A mesh that is a large part of the file has all threads for itself.
     std::vector<std::size_t> small;
     for (std::size_t i = 0; i < parts.size(); ++i)

@@ -8,7 +8,7 @@
 
 namespace {
 
-std::string unknownReference(const SceneDesc& desc, Target target, std::string_view name) {
+std::string unknownReference(const SceneDesc& desc, BlockType target, std::string_view name) {
     // The nearest name is looked for among so many and so short ones that it cannot take long.
     constexpr std::size_t kCandidates = 1000, kLength = 100;
     std::vector<std::string> known;
@@ -17,9 +17,9 @@ std::string unknownReference(const SceneDesc& desc, Target target, std::string_v
             if (known.size() < kCandidates && block.name.size() <= kLength)
                 known.push_back(block.name);
     };
-    if (target == Target::Texture)
+    if (target == BlockType::Texture)
         collect(desc.textures);
-    else if (target == Target::Material)
+    else if (target == BlockType::Material)
         collect(desc.materials);
     else
         collect(desc.meshes);
@@ -41,7 +41,7 @@ std::string_view References::keptText(const Token& name) {
     return quoted_.emplace_back(Scanner(*source_).nameIn(name));
 }
 
-Handle References::use(Target target, const Token& name) {
+Handle References::use(BlockType target, const Token& name) {
     const auto t = static_cast<std::size_t>(target);
     if (!isPart_)
         if (const auto plain = plainText(name))
@@ -55,19 +55,20 @@ void References::resolve(SceneDesc& desc, const NameTables& names, ErrorList& er
     if (isComplete()) return;
     const Scanner in(*source_);
     LastUsed last{};
+    const auto resolveOne = [&](Handle& handle, BlockType target, std::string_view) {
+        if (handle >= kNone) return;
+        const Token& t = waiting_[static_cast<std::size_t>(waitingAs(0) - handle)];
+        const std::string quoted = t.kind == TokenKind::Word ? "" : in.nameIn(t);
+        const std::string_view name = t.kind == TokenKind::Word ? t.text : quoted;
+        const auto found = names[static_cast<std::size_t>(target)].find(
+            name, last[static_cast<std::size_t>(target)]);
+        handle = found ? static_cast<Handle>(*found) : kNone;
+        if (!found)
+            errors.add({static_cast<std::uint32_t>(t.offset)},
+                       [&] { return unknownReference(desc, target, name); });
+    };
     forEachBlock(desc, [&](auto& block) {
-        forEachReference(block, [&](Handle& handle, Target target, std::string_view) {
-            if (handle >= kNone) return;
-            const Token& t = waiting_[static_cast<std::size_t>(waitingAs(0) - handle)];
-            const std::string quoted = t.kind == TokenKind::Word ? "" : in.nameIn(t);
-            const std::string_view name = t.kind == TokenKind::Word ? t.text : quoted;
-            const auto found = names[static_cast<std::size_t>(target)].find(
-                name, last[static_cast<std::size_t>(target)]);
-            handle = found ? static_cast<Handle>(*found) : kNone;
-            if (!found)
-                errors.add({static_cast<std::uint32_t>(t.offset)},
-                           [&] { return unknownReference(desc, target, name); });
-        });
+        forEachReference(block.kType, static_cast<void*>(&block), resolveOne);
     });
 }
 

@@ -16,7 +16,7 @@
 #include <vector>
 
 // By target. Of equal names the first counts; validate() complains about the others.
-using NameTables = std::array<NameTable, kEnumNames<Target>.size()>;
+using NameTables = std::array<NameTable, kEnumNames<BlockType>.size()>;
 
 class References {
 public:
@@ -25,7 +25,7 @@ public:
     References(const SourceFile& source, bool isPart) : source_(&source), isPart_(isPart) {}
 
     // A block has this name.
-    void define(Target target, const Token& name, std::size_t number) {
+    void define(BlockType target, const Token& name, std::size_t number) {
         const auto t = static_cast<std::size_t>(target);
         const std::string_view text = keptText(name);
         if (isPart_)
@@ -38,7 +38,7 @@ public:
     // The names of all parts, which must stay.
     static NameTables namesOf(std::span<const References* const> parts);
     // The position of the name, or a number below kNone that resolve() makes one of.
-    Handle use(Target target, const Token& name);
+    Handle use(BlockType target, const Token& name);
 
     // What is left in these blocks, by the names of all. What nothing has becomes an error.
     void resolve(SceneDesc& desc, const NameTables& names, ErrorList& errors) const;
@@ -51,13 +51,13 @@ private:
     const SourceFile* source_;
     bool isPart_;
     NameTables known_;
-    using LastUsed = std::array<std::uint32_t, kEnumNames<Target>.size()>; // see NameTable::find()
-    LastUsed lastUsed_{};
+    using LastUsed = std::array<std::uint32_t, kEnumNames<BlockType>.size()>;
+    LastUsed lastUsed_{}; // see NameTable::find()
     struct Listed {
         std::string_view name;
         std::uint32_t hash;
     };
-    std::array<std::vector<Listed>, kEnumNames<Target>.size()> listed_; // in their order
+    std::array<std::vector<Listed>, kEnumNames<BlockType>.size()> listed_; // in their order
     std::deque<std::string> quoted_; // names that are written otherwise than they are
     std::vector<Token> waiting_;
 };
