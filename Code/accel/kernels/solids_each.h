@@ -2,7 +2,6 @@
 // packet, with the bits of solids_meet.inl.
 #pragma once
 
-#include "accel/kernels/all_lanes.h"
 #include "accel/kernels/ray_lanes.h"
 #include "accel/kernels/solids.h"
 #include "accel/kernels/solids_hulls.h"
@@ -61,9 +60,8 @@ protected:
         storeRows(row, columns);
         const RayColumns rays = permuted(columns_, lane);
         const RayRanges ranges{rays.tMin, permute(best_, lane)};
-        const SphereRoots roots =
-            PacketSpheres::meet(AllLanes(on), rays, BallMaps{tree_.ballScale, columns}, false,
-                                Doubles::load(columns[3]));
+        const SphereRoots roots = PacketSpheres::meet(on, rays, BallMaps{tree_.ballScale, columns},
+                                                      false, Doubles::load(columns[3]));
         const FoundLanes found = PacketSpheres::firstOf(roots, ranges);
         improveEach([&](int i) { return tree_.ballNumbers[solids[i] >> 2]; }, lanes, on & found.met,
                     found.t, found, hits);
@@ -93,7 +91,7 @@ private:
         }
         storeMaps(solids, map);
         const SphereRoots roots =
-            PacketSpheres::meet(AllLanes(on), rays, MapLanes{map}, turned, Doubles::load(radius));
+            PacketSpheres::meet(on, rays, MapLanes{map}, turned, Doubles::load(radius));
         if constexpr (A == Answer::Closest) return PacketSpheres::firstOf(roots, ranges);
         return {.t = Floats(0.0f), .lost = Floats(0.0f), .met = hides(roots, ranges)};
     }

@@ -2,7 +2,6 @@
 // each shape for each ray.
 #pragma once
 
-#include "accel/kernels/all_lanes.h"
 #include "accel/kernels/solids.h"
 #include "accel/kernels/solids_answers.h"
 #include "accel/kernels/solids_cubes.h"
@@ -54,12 +53,10 @@ protected:
         Floats entry;
         lanes &= lanes_.entering(tree_.boxes[place], zCut_, entry);
         if (lanes == 0) return;
-        if (solid.meets == SolidTree::Meets::Sphere)
-            sphere<A>(solid, entry, lanes, results);
-        else if (solid.moves)
+        if (solid.moves)
             moving<A>(solid, entry, lanes, results);
         else if (solid.kind == SolidTree::Kind::Sphere)
-            sphereBy<A>(solid, SameMap{solid.shape->objectFromWorld()}, entry, lanes, results);
+            sphere<A>(solid, SameMap{solid.shape->objectFromWorld()}, entry, lanes, results);
         else if (solid.kind == SolidTree::Kind::Facets)
             facets(solid, tree_.facets[solid.part], entry, lanes, results);
         else if (solid.kind == SolidTree::Kind::Tube)
@@ -96,27 +93,10 @@ protected:
     }
 
 private:
-    template <Answer A, class Result>
-    void sphere(const SolidTree::Solid& solid, Floats entry, unsigned lanes, Result* results) {
-        const SameMap map{solid.shape->objectFromWorld()};
-        const double radius = solid.shape->radius;
-        const bool areFew = FewLanes::kMost != 0 && std::popcount(lanes) <= FewLanes::kMost;
-        const SphereRoots roots = areFew
-                                      ? meet(FewLanes(lanes), columns_, map, solid.turned, radius)
-                                      : meet(AllLanes(lanes), columns_, map, solid.turned, radius);
-        if (roots.met == 0) return;
-        if constexpr (A == Answer::Any)
-            hide(hides(roots, ranges()), results);
-        else
-            take(solid, firstOf(roots, ranges()), entry, lanes, results);
-    }
-
-    // One that moves or is seen from one side only.
     template <Answer A, class Map, class Result>
-    [[gnu::noinline]] void sphereBy(const SolidTree::Solid& solid, const Map& map, Floats entry,
-                                    unsigned lanes, Result* results) {
-        const SphereRoots roots =
-            meet(AllLanes(lanes), columns_, map, solid.turned, solid.shape->radius);
+    void sphere(const SolidTree::Solid& solid, const Map& map, Floats entry, unsigned lanes,
+                Result* results) {
+        const SphereRoots roots = meet(lanes, columns_, map, solid.turned, solid.shape->radius);
         if (roots.met == 0) return;
         if constexpr (A == Answer::Any)
             hide(hides(roots, ranges()), results);
@@ -185,7 +165,7 @@ private:
     void movingBy(const SolidTree::Solid& solid, const SolidTree::Tube& tube, const Map& map,
                   Floats entry, unsigned lanes, Result* results) {
         if (solid.kind == SolidTree::Kind::Sphere)
-            return sphereBy<A>(solid, map, entry, lanes, results);
+            return sphere<A>(solid, map, entry, lanes, results);
         if (solid.kind != SolidTree::Kind::Tube)
             return facesBy<A>(solid, map, entry, lanes, results);
         Tubes<Map> tubes = sameTube(tube, map);

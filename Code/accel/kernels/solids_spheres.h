@@ -20,47 +20,35 @@ protected:
         unsigned met;         // lanes
     };
 
-    // Sphere::roots() and insideRound(). A zero of the map adds a zero, which changes no number.
-    template <class Lanes, class Map, class Radius>
-    [[gnu::always_inline]] static SphereRoots
-    meet(const Lanes& in, const RayColumns& rays, const Map& m, bool turned, const Radius& radius) {
-        using Numbers = typename Lanes::Numbers;
-        const Numbers X = in.pick(rays.org[0]), Y = in.pick(rays.org[1]), Z = in.pick(rays.org[2]),
-                      U = in.pick(rays.dir[0]), V = in.pick(rays.dir[1]), T = in.pick(rays.dir[2]);
-        const auto point = [&](std::size_t i, const Numbers& x) -> Numbers {
-            if (!turned) return m(i / 4 * 5) * x + m(i + 3);
-            return ((m(i) * X + m(i + 1) * Y) + m(i + 2) * Z) + m(i + 3);
-        };
-        const auto direction = [&](std::size_t i, const Numbers& x) -> Numbers {
-            if (!turned) return m(i / 4 * 5) * x;
-            return (m(i) * U + m(i + 1) * V) + m(i + 2) * T;
-        };
-        const Numbers ox = point(0, X), oy = point(4, Y), oz = point(8, Z);
-        const Numbers dx = direction(0, U), dy = direction(4, V), dz = direction(8, T);
-        const Numbers dd = (dx * dx + dy * dy) + dz * dz, od = (ox * dx + oy * dy) + oz * dz;
-        const Numbers oo = (ox * ox + oy * oy) + oz * oz, r(radius), rr = r * r, zero(0.0);
+    // Sphere::roots() and insideRound(), of those lanes.
+    template <class Map, class Radius>
+    [[gnu::always_inline]] static SphereRoots meet(unsigned lanes, const RayColumns& columns,
+                                                   const Map& map, bool turned,
+                                                   const Radius& radius) {
+        const auto [ox, oy, oz, dx, dy, dz] = objectRays(columns, map, turned);
+        const Doubles dd = (dx * dx + dy * dy) + dz * dz, od = (ox * dx + oy * dy) + oz * dz;
+        const Doubles oo = (ox * ox + oy * oy) + oz * oz, r(radius), rr = r * r, zero(0.0);
         // Rays that leave it, as mirrored ones do: outside by more than the 2^-48 that oo, ll and
         // along are off by, they have both roots behind them.
-        unsigned lanes = in.all() & ~(less(zero, od) & less(rr * Numbers(1 + 0x1p-30), oo) &
-                                      in.pick(bits(rays.tMin >= Floats(0.0f))));
+        lanes &= ~(less(zero, od) & less(rr * Doubles(1 + 0x1p-30), oo) &
+                   bits(columns.tMin >= Floats(0.0f)));
         SphereRoots out{};
         if (lanes == 0) return out;
-        const Numbers along = od / dd;
-        const Numbers px = ox - dx * along, py = oy - dy * along, pz = oz - dz * along;
-        const Numbers ll = (px * px + py * py) + pz * pz;
+        const Doubles along = od / dd;
+        const Doubles px = ox - dx * along, py = oy - dy * along, pz = oz - dz * along;
+        const Doubles ll = (px * px + py * py) + pz * pz;
         lanes &= atMost(ll, rr) & less(zero, r);
         if (lanes == 0) return out;
 
-        const Numbers most(std::numeric_limits<double>::max());
+        const Doubles most(std::numeric_limits<double>::max());
         lanes &= atMost(dd, most) & atMost(oo, most);
-        const Numbers middle = zero - along, half = sqrt((rr - ll) / dd);
-        const auto put = [&](int end, const Numbers& t) {
-            const auto rounded = in.rounded(t);
-            out.t[end] = in.putBack(rounded);
-            out.lost[end] = in.putBack(in.rounded(t - in.exact(rounded)));
+        const Doubles middle = zero - along, half = sqrt((rr - ll) / dd);
+        const auto put = [&](int end, const Doubles& t) {
+            out.t[end] = t.toFloats();
+            out.lost[end] = (t - Doubles(out.t[end])).toFloats();
         };
         put(0, middle - half), put(1, middle + half);
-        out.met = in.putBack(lanes);
+        out.met = lanes;
         return out;
     }
 
