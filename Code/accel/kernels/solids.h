@@ -41,12 +41,6 @@ struct SolidTree {
         float isOpenFront = 0; // 1: a cylinder without ends whose inside rays of sight don't see
         const StillShape* shape = nullptr; // of all but facets and what is asked ray by ray
     };
-    // All that a hit on a sphere takes whose map only scales and moves: see meetBalls() for why its
-    // box is not looked at.
-    struct alignas(32) Ball {
-        Vec3d offset; // object = ballScale * world + offset
-        double radius = 0;
-    };
     struct Tube {
         StillTube exact;
         // At least the square of how much longer a normal of the wall, or of an end, is in the
@@ -70,17 +64,13 @@ struct SolidTree {
     int width = 0;
     RawVector<Solid> solids; // in the order of the tree's leaves
     RawVector<Bounds> boxes; // of the solids
-    RawVector<Ball> balls;   // the same, where most of them are, and of one scale; else empty
-    RawVector<std::uint32_t> ballNumbers; // Solid::number of all again, many in a line
-    double ballScale = 0;
     std::vector<Tube> tubes;
     std::vector<FacetGroup> facets;
     std::vector<Movement> movements;
     std::vector<Solid> endless; // without a box, in no tree: every ray asks them
     // WideNode<width>, root first. A child that isLeaf() is one solid, by its place in `solids`.
-    // Rays that enter the box of one of kind Leaf ask it at once, or wait for others. Those of
-    // kInOrder wait for their depth: facets, of which no hull tells who passes by, and among
-    // `balls` all else.
+    // Rays that enter the box of one of kind Leaf ask it at once, or wait for others. Facets, of
+    // which no hull tells which rays pass by, are kInOrder: rays meet them in the order of depth.
     static constexpr auto kInOrder = static_cast<WideKind>(3);
     static constexpr bool isLeaf(WideRef ref) { return (ref & 1) != 0; }
     PageVector<WideTree::Line> lines;
@@ -122,7 +112,7 @@ private:
     std::vector<std::uint32_t> writeNodes(std::span<const Bounds> of, int threads);
     void take(std::span<const std::uint32_t> order, std::span<const Bounds> of,
               const Describe& describe, int threads);
-    template <int W, class Fn> void putInOrder(const Fn& isInOrder);
+    template <int W> void putFacetsInOrder();
 };
 
 // How the kernels ask solids that they do not meet themselves.

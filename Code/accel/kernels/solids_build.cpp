@@ -1,6 +1,5 @@
 // The solids in the order of their tree's leaves: those that were added, or what several threads
 // are told of each.
-#include "accel/kernels/balls_of_one_scale.h"
 #include "accel/kernels/solids.h"
 #include "base/for_each.h"
 
@@ -38,7 +37,6 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
     };
     std::vector<Rest> rests((order.size() + kTogether - 1) / kTogether);
     solids.resize(order.size()), boxes.resize(order.size());
-    BallsOfOneScale ballsFound(order.size(), kTogether);
     forEachPart(threads, order.size(), kTogether, [&](std::size_t first, std::size_t last) {
         SolidTree part;
         part.solids.reserve(last - first), part.boxes.reserve(last - first);
@@ -49,7 +47,6 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
             __builtin_prefetch(&of[next]);
             const Described solid = describe(at, next);
             part.add(of[at], solid.number, solid.hides, solid.form);
-            ballsFound.look(i, part.solids.back());
         }
         std::copy(part.solids.begin(), part.solids.end(), ofPart(solids, first));
         std::copy(part.boxes.begin(), part.boxes.end(), ofPart(boxes, first));
@@ -61,23 +58,12 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
         things.insert(things.end(), more.begin(), more.end());
         return first;
     };
-    ballsFound.decide();
-    ballScale = ballsFound.scale();
-    if (ballScale != 0 && ballsFound.count() >= order.size() / 4 * 3) {
-        balls = ballsFound.taken();
-        ballNumbers.resize(order.size());
-        for (std::size_t i = 0; i < order.size(); ++i) ballNumbers[i] = solids[i].number;
-    }
     for (Rest& rest : rests) {
         rest.firstTube = join(tubes, rest.tubes);
         rest.firstFacets = join(facets, rest.facets);
         rest.firstMovement = join(movements, rest.movements);
     }
-    const auto isInOrder = [&](std::size_t place) {
-        return solids[place].kind == Kind::Facets || (!balls.empty() && !ballsFound.isOne(place));
-    };
-    if (!facets.empty() || (!balls.empty() && ballsFound.count() < order.size()))
-        width == 16 ? putInOrder<16>(isInOrder) : putInOrder<8>(isInOrder);
+    if (!facets.empty()) width == 16 ? putFacetsInOrder<16>() : putFacetsInOrder<8>();
     if (tubes.empty() && facets.empty() && movements.empty()) return;
     forEachPart(threads, order.size(), kTogether, [&](std::size_t first, std::size_t last) {
         const Rest& rest = rests[first / kTogether];
@@ -92,16 +78,17 @@ void SolidTree::take(std::span<const std::uint32_t> order, std::span<const Bound
     });
 }
 
-template <int W, class Fn> void SolidTree::putInOrder(const Fn& isInOrder) {
+template <int W> void SolidTree::putFacetsInOrder() {
     constexpr std::size_t kLines = sizeof(WideNode<W>) / sizeof(WideTree::Line);
     for (std::size_t line = 0; line < lines.size(); line += kLines)
         for (WideRef& child : reinterpret_cast<WideNode<W>*>(&lines[line])->child)
-            if (isLeaf(child) && isInOrder(child >> 2)) child |= static_cast<WideRef>(kInOrder);
+            if (isLeaf(child) && solids[child >> 2].kind == Kind::Facets)
+                child |= static_cast<WideRef>(kInOrder);
 }
 
 std::size_t SolidTree::bytes() const {
     return lines.size() * sizeof(WideTree::Line) + solids.size() * sizeof(Solid) +
-           boxes.size() * sizeof(Bounds) + balls.size() * (sizeof(Ball) + sizeof ballNumbers[0]) +
-           tubes.size() * sizeof(Tube) + facets.size() * sizeof(FacetGroup) +
-           movements.size() * sizeof(Movement) + endless.size() * sizeof(Solid);
+           boxes.size() * sizeof(Bounds) + tubes.size() * sizeof(Tube) +
+           facets.size() * sizeof(FacetGroup) + movements.size() * sizeof(Movement) +
+           endless.size() * sizeof(Solid);
 }

@@ -43,30 +43,6 @@ protected:
         takeEach(solids, lanes, on, found, tEntry, ranges, results);
     }
 
-    // The same of a tree of balls. Their boxes need not be asked again: who meets a ball enters its
-    // box, and not behind the ball. With S the scale in RaySetup, the point at the t of a hit is
-    // off the ball by less than 2^-21 S: by 2^-24 of its distance, from rounding t, and by 2^-25 S
-    // at the rim, where t is the root of a small difference. Slabs are entered too early, and left
-    // too late, by 2^-18 S along their axis, less what rounds off, which is 2^-21 S at most.
-    // Nothing overflows, since scenes are normalised (SceneFrame).
-    [[gnu::noinline]] void meetBalls(const std::uint32_t* solids, const std::uint8_t* lanes,
-                                     unsigned on, Hit* hits) {
-        static_assert(sizeof(SolidTree::Ball) == 4 * sizeof(double) &&
-                      offsetof(SolidTree::Ball, offset) == 0);
-        const Ints lane = Ints::bytes(lanes);
-        const double* row[W];
-        for (int i = 0; i < W; ++i) row[i] = &tree_.balls[solids[i] >> 2].offset.x;
-        alignas(64) double columns[4][W];
-        storeRows(row, columns);
-        const RayColumns rays = permuted(columns_, lane);
-        const RayRanges ranges{rays.tMin, permute(best_, lane)};
-        const SphereRoots roots = PacketSpheres::meet(on, rays, BallMaps{tree_.ballScale, columns},
-                                                      false, Doubles::load(columns[3]));
-        const FoundLanes found = PacketSpheres::firstOf(roots, ranges);
-        improveEach([&](int i) { return tree_.ballNumbers[solids[i] >> 2]; }, lanes, on & found.met,
-                    found.t, found, hits);
-    }
-
     const SolidTree::Solid& solidOf(std::uint32_t ref) const { return tree_.solids[ref >> 2]; }
 
     static RayColumns permuted(const RayColumns& c, Ints lane) {
@@ -164,9 +140,8 @@ private:
     void takeEach(const std::uint32_t* solids, const std::uint8_t* lanes, unsigned on,
                   const FoundLanes& found, Floats tEntry, const RayRanges& ranges, Hit* hits) {
         const Floats nearest = max(tEntry, found.t);
-        improveEach([&](int i) { return solidOf(solids[i]).number; }, lanes,
-                    on & found.met & ~found.undecided & bits(nearest <= ranges.best), nearest,
-                    found, hits);
+        improveEach(solids, lanes, on & found.met & ~found.undecided & bits(nearest <= ranges.best),
+                    nearest, found, hits);
         if (const unsigned asking = on & found.undecided; asking != 0) {
             alignas(64) float entry[W];
             tEntry.store(entry);
@@ -174,8 +149,7 @@ private:
         }
     }
     // One after the other: several may be of one ray.
-    template <class NumberFn>
-    [[gnu::always_inline]] void improveEach(const NumberFn& numberOf, const std::uint8_t* lanes,
+    [[gnu::always_inline]] void improveEach(const std::uint32_t* solids, const std::uint8_t* lanes,
                                             unsigned met, Floats nearest, const FoundLanes& found,
                                             Hit* hits) {
         if (met == 0) return;
@@ -185,7 +159,7 @@ private:
         for (; met != 0; met &= met - 1) {
             const int i = std::countr_zero(met);
             const std::uint8_t lane = lanes[i];
-            const std::uint32_t number = numberOf(i);
+            const std::uint32_t number = solidOf(solids[i]).number;
             if (!(t[i] < best[lane] || (t[i] == best[lane] && number < number_[lane]))) continue;
             hits[ray_[lane]] = {.t = t[i], .u = lost[i], .prim = found.partOf(i), .shape = number};
             best[lane] = t[i], number_[lane] = number;

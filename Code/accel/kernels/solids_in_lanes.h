@@ -2,9 +2,8 @@
 // it. Rays into one octant (most camera rays, shadow rays of a lamp) see a node as one interval of
 // rays that looks at W children at once; of rays that go apart each looks at them for itself, as in
 // queue.inl, but the node is fetched once and the steps overlap, and their solids wait in pairs.
-// What decides is exact: entries into a solid's own box as RaySetup::enters() rounds them (or that
-// there is one, see meetBalls()), spheres as AnalyticShape and Sphere compute them, operation by
-// operation in double. Everything before that only leaves out: the boxes' pads are 64 roundings of
+// What decides is exact: entries into a solid's own box as RaySetup::enters() rounds them,
+// spheres as AnalyticShape and Sphere compute them, operation by operation in double. Everything before that only leaves out: the boxes' pads are 64 roundings of
 // the coordinates wide, and what a ray meets lies inside of the box without the pad.
 #pragma once
 
@@ -55,7 +54,7 @@ public:
             meetEndless<A>(results);
             if (live_ == 0 || tree_.lines.empty()) continue;
             traverse<A>(results);
-            if (!this->template inPairs<A>()) continue;
+            if (!areInPairs_) continue;
             if (live_ != 0) meetAll<A>(results);
             dropAll();
         }
@@ -169,18 +168,6 @@ private:
         return entry <= exit;
     }
 
-    // All children are solids, and wait for rays of others.
-    void waitAll(const WideNode<W>& node, unsigned lanes) {
-        const auto* const planes = reinterpret_cast<const std::byte*>(&node);
-        std::uint32_t waiting = waiting_.count;
-        Floats entry;
-        for (; lanes != 0; lanes &= lanes - 1) {
-            const int ray = std::countr_zero(lanes);
-            waiting = wait(ray, enteredBy(planes, ray, entry), node.child, waiting);
-        }
-        waiting_.count = waiting;
-    }
-
     // Solids wait for rays of others, or are met at once.
     template <Answer A, class Result>
     std::size_t stepApart(const WideNode<W>& node, unsigned lanes, Entry* stack, std::size_t size,
@@ -190,11 +177,7 @@ private:
                       static_cast<int>(WideKind::None) == 2 &&
                       static_cast<int>(SolidTree::kInOrder) == 3);
         const unsigned bit0 = kindBits<0>(node), bit1 = kindBits<1>(node), leaves = bit0 & ~bit1;
-        const unsigned inPairs = this->template inPairs<A>() ? leaves : 0;
-        if (A == Answer::Closest && areBalls_ && (bit0 ^ bit1) == kAll) { // such leaves, or none
-            waitAll(node, lanes);
-            return size;
-        }
+        const unsigned inPairs = areInPairs_ ? leaves : 0;
         const Mask pairMask = maskOf(inPairs);
         std::uint32_t waiting = waiting_.count;
         LaneColumns entered; // rows are rays, columns children

@@ -35,14 +35,6 @@ struct MapLanes {
     const double (*rows)[W];
     Doubles operator()(std::size_t i) const { return Doubles::load(rows[i]); }
 };
-// Of a ball in each lane: columns of the offset.
-struct BallMaps {
-    double scale;
-    const double (*offset)[W];
-    Doubles operator()(std::size_t i) const {
-        return i % 4 == 3 ? Doubles::load(offset[i / 4]) : Doubles(scale);
-    }
-};
 // Of what moves without turning, at the times of some of W rays: one offset in each.
 struct DriftLanes {
     DriftLanes(const AffineRows& map, const Drift& drift, const RaySpan& rays,

@@ -52,12 +52,6 @@ protected:
 
     // The filter of tubes is long enough for it, that of balls is not.
     const bool areInPairs_ = kPairsPay && !tree_.tubes.empty();
-    // Nearest hits in trees of balls alone do without a filter. Of few the rays meet most.
-    static constexpr std::size_t kFewestBalls = 64;
-    const bool areBalls_ = kPairsPay && tree_.balls.size() >= kFewestBalls;
-    template <Answer A> bool inPairs() const {
-        return areInPairs_ || (A == Answer::Closest && areBalls_);
-    }
 
     // W times the number of each lane: to load them takes less than to spread one.
     alignas(64) static constexpr auto kLane = [] {
@@ -75,8 +69,6 @@ protected:
     }
 
     template <Answer A, class Result> void meetFull(Result* results) {
-        if constexpr (A == Answer::Closest)
-            if (areBalls_) return meetFullBalls(results);
         std::uint32_t done = 0;
         for (; waiting_.count - done >= W; done += W) {
             filter<A>(done, W, results);
@@ -86,27 +78,11 @@ protected:
     }
 
     template <Answer A, class Result> void meetAll(Result* results) {
-        if constexpr (A == Answer::Closest)
-            if (areBalls_) return meetAllBalls(results);
         if (waiting_.count != 0) filter<A>(0, waiting_.count, results);
         waiting_.count = 0;
         for (std::size_t i = 0; i < kFormulas; ++i)
             if (passed_[i].count != 0 && (A == Answer::Closest || live_ != 0))
                 meetPassed<A>(static_cast<SolidTree::Meets>(i), results);
-    }
-
-    void meetFullBalls(Hit* hits) {
-        std::uint32_t done = 0;
-        for (; waiting_.count - done >= W; done += W)
-            meetBalls(waiting_.solid + done, waiting_.lane + done, kAll, hits);
-        waiting_.drop(done);
-    }
-    void meetAllBalls(Hit* hits) {
-        const std::uint32_t count = std::exchange(waiting_.count, 0);
-        if (count == 0) return;
-        for (std::uint32_t i = count; i < W; ++i)
-            waiting_.solid[i] = waiting_.solid[0], waiting_.lane[i] = waiting_.lane[0];
-        meetBalls(waiting_.solid, waiting_.lane, (1u << count) - 1, hits);
     }
 
     void dropAll() {
