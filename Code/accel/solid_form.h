@@ -58,12 +58,6 @@ struct StillFaces {
     Facets::Side side = Facets::Side::Both; // that rays of sight meet
 };
 
-// Endless faces that do not move and that are seen from both sides: floors, most of the time, which
-// have a kernel of their own (accel/kernels/planes.h).
-struct StillPlane {
-    AffineRows objectFromWorld;
-};
-
 // How a sphere, a tube or faces move, of which the rest of the form is said at their first key.
 struct SolidMotion {
     std::optional<Drift> drift;               // without turning or growing; or
@@ -82,7 +76,6 @@ struct SolidForm {
     std::optional<StillTube> tube{};              // or this one
     std::optional<StillFaces> faces{};            // or these
     std::optional<SolidMotion> motion{};          // of all but facets
-    std::optional<StillPlane> plane{};            // endless faces may be this, too
 };
 
 inline RoundHull ballAround(const BoundsD& box) {

@@ -5,7 +5,6 @@
 #include "accel/kernels/boxed.h"
 #include "accel/kernels/bundle.h"
 #include "accel/kernels/placed_in_lanes.h"
-#include "accel/kernels/planes_in_lanes.h"
 #include "accel/kernels/queue.h"
 #include "accel/kernels/solids_in_lanes.h"
 #include "accel/kernels/still_balls_in_lanes.h"
@@ -28,7 +27,6 @@ LANES_BEGIN
 constexpr TriangleKernel kTriangles{closest, closestFromPoint, any, anyFromPoint};
 constexpr SolidKernel kSolids{closestSolids, anySolids, nearerInBox};
 constexpr PlacedKernel kPlaced{closestPlaced, anyPlaced};
-constexpr PlaneKernel kPlanes{firstOfPlane, closestOfPlane, anyOfPlane};
 constexpr SurfaceLanes kSurfaces{stillSurfaces, ballSurfaces, triangleSurfaces};
 constexpr ShadeLanes kShade{seePoints,      lightPoints, paintPoints, paintEachPoint,
                             addGlowInARow,  takeRow,     giveRow,     addRow,
@@ -41,8 +39,8 @@ constexpr CameraLanes kCamera{pairSeeds, sobolPairs, spreadPlaces, lensRays, pin
 // An Isa of these functions.
 constexpr Isa isaOf(const char* name, bool (*supported)(),
                     const kernels::build::TreeBuilder* build) {
-    return {name,       W,       supported, &kTriangles, &kSolids,   &kPlaced, &kPlanes,
-            &kSurfaces, &kShade, &kBounce,  &kLamps,     &kPictures, &kCamera, build};
+    return {name,    W,        supported, &kTriangles, &kSolids, &kPlaced, &kSurfaces,
+            &kShade, &kBounce, &kLamps,   &kPictures,  &kCamera, build};
 }
 
 LANES_END

@@ -10,7 +10,6 @@ struct CameraLanes;
 struct LampLanes;
 struct PictureLanes;
 struct PlacedKernel;
-struct PlaneKernel;
 struct ShadeLanes;
 struct SolidKernel;
 struct SurfaceLanes;
@@ -28,7 +27,6 @@ struct Isa {
     const TriangleKernel* triangles = nullptr;          // accel/kernels/kernels.h
     const SolidKernel* solids = nullptr;                // accel/kernels/solids.h
     const PlacedKernel* placed = nullptr;               // accel/kernels/placed.h
-    const PlaneKernel* planes = nullptr;                // accel/kernels/planes.h
     const SurfaceLanes* surfaces = nullptr;             // accel/kernels/surface_lanes.h
     const ShadeLanes* shade = nullptr;                  // render/waves/shade_lanes.h
     const BounceLanes* bounce = nullptr;                // render/waves/bounce_lanes.h

@@ -41,9 +41,9 @@ bool areBeside(const Occluder::Sides& plane, const Bounds& a, const Bounds& b, f
 
 std::optional<Occluder::Sides> sidesOf(const Shape& shape, const Bounds& box) {
     if (box.isFinite()) return {};
-    const auto plane = shape.solidForm().plane;
-    if (!plane) return {};
-    const auto& m = plane->objectFromWorld;
+    const SolidForm form = shape.solidForm();
+    if (!form.faces || form.motion || form.faces->side != Facets::Side::Both) return {};
+    const auto& m = form.faces->shape->objectFromWorld();
     const Vec3d n{m[8], m[9], m[10]};
     const double size = length(n);
     if (!(size > 0x1p-100 && size < 0x1p100)) return {};

@@ -45,13 +45,11 @@ void ShapeSet::add(std::unique_ptr<const Shape> shape, Shadow shadow) {
 }
 
 void ShapeSet::finish(bool withBvh, const Isa& kernel, int threads) {
-    if (withBvh) kernel_ = kernel.solids, planeKernel_ = kernel.planes;
+    if (withBvh) kernel_ = kernel.solids;
     sortByBounds(threads);
     for (const std::uint32_t number : unbounded) {
         const SolidForm form = shapes[number]->solidForm();
-        if (form.plane && planeKernel_)
-            floors_.push_back({*form.plane, number});
-        else if (form.faces && form.faces->of == StillFaces::Of::Endless && kernel_)
+        if (form.faces && form.faces->of == StillFaces::Of::Endless && kernel_)
             solids_.addEndless(number, shadows[number] == Shadow::Opaque, form);
         else
             askedAlone_.push_back(number);

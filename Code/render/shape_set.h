@@ -3,7 +3,6 @@
 #pragma once
 
 #include "accel/bvh.h"
-#include "accel/kernels/planes.h"
 #include "accel/kernels/solids.h"
 #include "render/placed_meshes.h"
 #include "shape/mesh_geometry.h"
@@ -77,25 +76,15 @@ private:
     void buildBatchTrees(const Isa& kernel, int threads);
     void closestOfBatched(const RaySpan& rays, std::vector<Hit>& hits) const;
     void hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;
-    // Of all unbounded shapes but the first floors, which were asked already.
-    void closestOfUnbounded(const RaySpan& rays, std::size_t floorsAsked,
-                            std::vector<Hit>& hits) const;
+    void closestOfUnbounded(const RaySpan& rays, std::vector<Hit>& hits) const;
     void hideByUnbounded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;
 
     // By shape: what it is asked for when it comes, as memory of millions is slow to come back to.
     enum class Way : std::uint8_t { Alone, Batched, Instance };
     std::vector<Way> ways_;
-    std::vector<std::uint32_t> inTree_; // shapes by their number in `bvh`
-    // The unbounded shapes that are not in solids_: planes of the kernel, and those that are asked
-    // ray by ray.
-    struct Floor {
-        StillPlane plane;
-        std::uint32_t number;
-    };
-    std::vector<Floor> floors_;
-    std::vector<std::uint32_t> askedAlone_;
-    const PlaneKernel* planeKernel_ = nullptr; // null: the scalar code answers
-    const SolidKernel* kernel_ = nullptr;      // the same
-    SolidTree solids_;                         // the shapes of the tree that are no instances
-    PlacedMeshes placed_;                      // those that are
+    std::vector<std::uint32_t> inTree_;     // shapes by their number in `bvh`
+    std::vector<std::uint32_t> askedAlone_; // unbounded shapes that are not in solids_
+    const SolidKernel* kernel_ = nullptr;   // null: the scalar code answers
+    SolidTree solids_;                      // the shapes of the tree that are no instances
+    PlacedMeshes placed_;                   // those that are
 };

@@ -6,15 +6,9 @@
 
 void ShapeSet::closest(const RaySpan& rays, std::vector<Hit>& hits) const {
     hits.resize(rays.size());
-    std::size_t floorsAsked = 0;
-    if (batched.empty() && !floors_.empty()) {
-        planeKernel_->first(floors_[0].plane, floors_[0].number, rays, hits.data());
-        floorsAsked = 1;
-    } else {
-        for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = {.t = rays.tMax[i]};
-    }
+    for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = {.t = rays.tMax[i]};
     if (!batched.empty()) closestOfBatched(rays, hits);
-    if (unbounded.size() > floorsAsked) closestOfUnbounded(rays, floorsAsked, hits);
+    if (!askedAlone_.empty()) closestOfUnbounded(rays, hits);
     if (kernel_) {
         const SolidCalls calls{
             this,
@@ -61,7 +55,7 @@ void ShapeSet::closestOfBatched(const RaySpan& rays, std::vector<Hit>& hits) con
 void ShapeSet::occluded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const {
     hidden.assign(rays.size(), 0);
     if (!batched.empty()) hideByBatched(rays, hidden);
-    if (!unbounded.empty()) hideByUnbounded(rays, hidden);
+    if (!askedAlone_.empty()) hideByUnbounded(rays, hidden);
     if (kernel_) {
         const SolidCalls calls{
             this, nullptr, [](const void* set, const Ray& ray, std::uint32_t number) {
@@ -89,17 +83,7 @@ void ShapeSet::hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hid
     }
 }
 
-void ShapeSet::closestOfUnbounded(const RaySpan& rays, std::size_t floorsAsked,
-                                  std::vector<Hit>& hits) const {
-    thread_local std::vector<PlaneHit> asFar;
-    asFar.resize(std::max(asFar.size(), rays.size()));
-    for (const Floor& floor : std::span(floors_).subspan(floorsAsked)) {
-        const std::size_t count =
-            planeKernel_->closest(floor.plane, floor.number, rays, hits.data(), asFar.data());
-        for (const PlaneHit& at : std::span(asFar).first(count))
-            takeNearer(rays[at.ray], {.t = at.t, .u = at.u}, floor.number, 0, hits[at.ray]);
-    }
-    if (askedAlone_.empty()) return;
+void ShapeSet::closestOfUnbounded(const RaySpan& rays, std::vector<Hit>& hits) const {
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Ray ray = rays[i];
         if (!canHit(ray)) continue;
@@ -108,15 +92,11 @@ void ShapeSet::closestOfUnbounded(const RaySpan& rays, std::size_t floorsAsked,
 }
 
 void ShapeSet::hideByUnbounded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const {
-    const auto isOpaque = [&](std::uint32_t number) { return shadows[number] == Shadow::Opaque; };
-    for (const Floor& floor : floors_)
-        if (isOpaque(floor.number)) planeKernel_->any(floor.plane, rays, hidden.data());
-    if (askedAlone_.empty()) return;
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Ray ray = rays[i];
         if (hidden[i] != 0 || !canHit(ray)) continue;
         hidden[i] = std::any_of(askedAlone_.begin(), askedAlone_.end(), [&](std::uint32_t number) {
-            return isOpaque(number) && shapes[number]->occludes(ray);
+            return shadows[number] == Shadow::Opaque && shapes[number]->occludes(ray);
         });
     }
 }

@@ -9,7 +9,6 @@ InfinitePlane::InfinitePlane(const MovingTransform& worldFromObject, std::uint32
 SolidForm InfinitePlane::solidForm() const {
     SolidForm form = isStill() ? SolidForm{} : movingForm(kInfinity);
     form.faces = {.shape = &still(), .of = StillFaces::Of::Endless};
-    if (isStill()) form.plane = StillPlane{still().objectFromWorld()};
     return form;
 }
 

@@ -8,7 +8,6 @@ OneSided::OneSided(std::unique_ptr<const Shape> shape, Side visible)
 // The kernels know nothing of what is restricted twice.
 SolidForm OneSided::solidForm() const {
     SolidForm form = shape_->solidForm();
-    form.plane.reset();
     const Facets::Side side = visible_ == Side::Front ? Facets::Side::Front : Facets::Side::Back;
     if (form.sphere && form.sphereSide != Facets::Side::Both) return {form.hull};
     form.sphereSide = side;
