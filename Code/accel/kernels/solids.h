@@ -48,7 +48,7 @@ struct SolidTree {
         double wallStretch = 0, endStretch = 0;
     };
     struct Movement {
-        SolidMotion motion;
+        Drift drift;
         Tube tube; // if it is one
     };
     struct Facet {
