@@ -7,7 +7,6 @@
 #include "accel/kernels/placed_in_lanes.h"
 #include "accel/kernels/queue.h"
 #include "accel/kernels/solids_in_lanes.h"
-#include "accel/kernels/still_balls_in_lanes.h"
 #include "accel/kernels/still_surfaces_in_lanes.h"
 #include "accel/kernels/surface_lanes.h"
 #include "accel/kernels/triangle_surfaces_in_lanes.h"
@@ -27,7 +26,7 @@ LANES_BEGIN
 constexpr TriangleKernel kTriangles{closest, closestFromPoint, any, anyFromPoint};
 constexpr SolidKernel kSolids{closestSolids, anySolids, nearerInBox};
 constexpr PlacedKernel kPlaced{closestPlaced, anyPlaced};
-constexpr SurfaceLanes kSurfaces{stillSurfaces, ballSurfaces, triangleSurfaces};
+constexpr SurfaceLanes kSurfaces{stillSurfaces, triangleSurfaces};
 constexpr ShadeLanes kShade{seePoints,      lightPoints, paintPoints, paintEachPoint,
                             addGlowInARow,  takeRow,     giveRow,     addRow,
                             boundsOfPoints, aimAtPoints, addLight};

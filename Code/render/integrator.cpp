@@ -33,7 +33,6 @@ SurfaceNeeds surfaceNeedsOf(const Scene& scene, const RenderSettings& settings) 
             .lift = !scene.lights().empty()};
 }
 
-// Shapes whose texture coordinates somebody asks for are no balls.
 StillsInLanes stillsInLanesOf(const Scene& scene, const RenderSettings& settings,
                               SurfaceLanes lanes) {
     StillsInLanes stills;
@@ -46,21 +45,16 @@ StillsInLanes stillsInLanesOf(const Scene& scene, const RenderSettings& settings
         return material.isTextured() || material.bendsNormals();
     };
     stills.shapes.resize(set.shapes.size());
-    stills.balls.resize(set.shapes.size());
     const auto take = [&](std::size_t i) {
         if (const StillShape* const shape = set.shapes[i]->stillToShade()) {
             const bool uv = wantsUv(shape->material) || wantsUv(shape->oddMaterial);
-            if (uv || !stills.balls.take(i, *shape))
-                stills.shapes[i] = {shape, shape->parts, shape->caps, shape->kind, uv};
+            stills.shapes[i] = {shape, shape->parts, shape->caps, shape->kind, uv};
         }
     };
-    // Behind the first ball, whose measure is that of all, they don't depend on each other.
-    std::size_t done = 0;
-    while (done < set.shapes.size() && stills.balls.isEmpty()) take(done++);
     constexpr std::size_t kTogether = 1 << 12;
-    forEachPart(settings.threads, set.shapes.size() - done, kTogether,
+    forEachPart(settings.threads, set.shapes.size(), kTogether,
                 [&](std::size_t first, std::size_t last) {
-                    for (std::size_t i = first; i < last; ++i) take(done + i);
+                    for (std::size_t i = first; i < last; ++i) take(i);
                 });
     return stills;
 }

@@ -63,7 +63,7 @@ struct Lamp {
 // Shapes whose surfaces lanes find, to be looked up without touching them.
 struct StillsInLanes {
     struct One {
-        const StillShape* shape = nullptr; // null: it is none, or a ball
+        const StillShape* shape = nullptr; // null: it is none
         std::uint8_t parts = 0;
         std::uint8_t caps = 0;
         StillShape::Kind kind{};
@@ -73,7 +73,6 @@ struct StillsInLanes {
         }
     };
     std::vector<One> shapes; // by number; empty: lanes do none
-    StillBalls balls;
 };
 
 // Choices that hold for a whole picture, made once.

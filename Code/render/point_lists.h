@@ -13,12 +13,12 @@
 
 class PointLists {
 public:
-    // Numbers of lists: of still shapes by kind, without texture coordinates and with, then these.
+    // Numbers of lists: of still shapes by kind, without texture coordinates and with, then the
+    // others.
     static constexpr std::size_t onStills(StillShape::Kind kind, bool wantsUv) {
         return 2 * static_cast<std::size_t>(kind) + (wantsUv ? 1 : 0);
     }
-    static constexpr std::size_t kOnBalls = 2 * StillShape::kKinds, kOnOthers = kOnBalls + 1,
-                                 kLists = kOnOthers + 1;
+    static constexpr std::size_t kOnOthers = 2 * StillShape::kKinds, kLists = kOnOthers + 1;
 
     // Empties all. Each can take `most`; what it doesn't take isn't touched.
     void clear(std::size_t most) {
@@ -26,7 +26,7 @@ public:
             room_ = most;
             rays_ = RawVector<std::uint32_t>(kLists * most);
             points_ = RawVector<std::uint32_t>(kLists * most);
-            shapes_ = std::make_unique_for_overwrite<const StillShape*[]>(kOnBalls * most);
+            shapes_ = std::make_unique_for_overwrite<const StillShape*[]>(kOnOthers * most);
         }
         for (std::size_t list = 0; list < kLists; ++list) ends_[list] = list * room_;
     }
@@ -34,7 +34,7 @@ public:
     void push(std::size_t list, std::uint32_t ray, std::uint32_t point, const StillShape* shape) {
         const std::size_t at = ends_[list]++;
         rays_[at] = ray, points_[at] = point;
-        if (list < kOnBalls) shapes_[at] = shape;
+        if (list < kOnOthers) shapes_[at] = shape;
     }
     // So many that follow each other, on one shape. Inlined: of a number that is known.
     [[gnu::always_inline]] void pushAlike(std::size_t list, const std::uint32_t* rays,
@@ -44,7 +44,7 @@ public:
         ends_[list] += count;
         std::copy_n(rays, count, &rays_[at]);
         for (std::uint32_t i = 0; i < count; ++i) points_[at + i] = firstPoint + i;
-        if (list < kOnBalls) std::fill_n(&shapes_[at], count, shape);
+        if (list < kOnOthers) std::fill_n(&shapes_[at], count, shape);
     }
 
     std::span<const std::uint32_t> rays(std::size_t list) const { return of(rays_.data(), list); }

@@ -47,7 +47,7 @@ TEST(point_lists_keep_what_comes) {
             const Expected& all = expected[list];
             CHECK(std::ranges::equal(lists.rays(list), all.rays));
             CHECK(std::ranges::equal(lists.points(list), all.points));
-            if (list < PointLists::kOnBalls)
+            if (list < PointLists::kOnOthers)
                 CHECK(std::ranges::equal(lists.shapes(list), all.shapes));
         }
     }

@@ -90,9 +90,6 @@ template <Kind kKind> struct NumbersOfMany {
     alignas(64) double of[kNumbers][W];
 };
 
-// Do its maps scale all axes alike and turn nothing, and are their zeros left out?
-template <class Numbers> constexpr bool kOnlyScales = requires { requires Numbers::kScales; };
-
 // Rows i, i + step .. of a map's linear part.
 template <class Numbers>
 [[gnu::always_inline]] inline Doubles row(const Numbers& m, std::size_t i, std::size_t step,
@@ -101,7 +98,6 @@ template <class Numbers>
 }
 template <class Numbers>
 [[gnu::always_inline]] inline Doubles3 vectorOf(const Numbers& m, Number map, const Doubles3& v) {
-    if constexpr (kOnlyScales<Numbers>) return v * m(map);
     return {row(m, map, 1, v), row(m, map + 4, 1, v), row(m, map + 8, 1, v)};
 }
 template <class Numbers>
@@ -111,12 +107,8 @@ template <class Numbers>
 }
 
 template <class Numbers> Doubles3 normalOf(const Numbers& m, const Doubles3& n) {
-    const auto transposed = [&]() -> Doubles3 {
-        if constexpr (kOnlyScales<Numbers>) return n * m(ObjectFromWorld);
-        return {row(m, ObjectFromWorld, 4, n), row(m, ObjectFromWorld + 1, 4, n),
-                row(m, ObjectFromWorld + 2, 4, n)};
-    };
-    const Doubles3 steep = transposed();
+    const Doubles3 steep{row(m, ObjectFromWorld, 4, n), row(m, ObjectFromWorld + 1, 4, n),
+                         row(m, ObjectFromWorld + 2, 4, n)};
     return steep / sqrt(dot(steep, steep));
 }
 

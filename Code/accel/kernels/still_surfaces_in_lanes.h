@@ -75,11 +75,10 @@ void describe(const Numbers& shape, const RaysInLanes& world, const Doubles3& fa
             out.odd = oddSquares(met.x.toFloats(), met.y.toFloats());
         if constexpr (kKind == Kind::Plane || kKind == Kind::Disk) return onDisk(met);
     }();
-    if constexpr (!kOnlyScales<Numbers>)
-        if (out.hasUv) {
-            const auto [u, v] = uvOf<kKind>(shape, local, face);
-            u.toFloats().store(out.uv[0]), v.toFloats().store(out.uv[1]);
-        }
+    if (out.hasUv) {
+        const auto [u, v] = uvOf<kKind>(shape, local, face);
+        u.toFloats().store(out.uv[0]), v.toFloats().store(out.uv[1]);
+    }
     const Doubles3 rough = pointOf(shape, WorldFromObject, local.p);
     const Doubles3 back = pointOf(shape, ObjectFromWorld, rough);
     const Doubles3 p = rough + vectorOf(shape, WorldFromObject, local.p - back);

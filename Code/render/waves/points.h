@@ -72,11 +72,12 @@ template <std::size_t kRays> bool haveMetOne(const Hit* hits, const std::uint32_
 
 // Puts points that lanes do into lists by kind, the others into one of their own. Thousands of
 // shapes are more than the nearest caches hold, so each is asked for when it is listed.
-template <bool kHasBalls> void sortPoints(const Wave& wave) {
+inline void sortPoints(const Wave& wave) {
     const StillsInLanes& stills = wave.context.stillsInLanes;
     const Hit* const hits = wave.memory.hits.data();
     PointBatch& points = wave.memory.points;
     PointLists& lists = wave.memory.pointLists;
+    lists.clear(points.at.size());
     const std::uint32_t *const rays = points.ray.data(),
                                count = static_cast<std::uint32_t>(points.count);
     std::uint32_t* const shapes = points.shape.data();
@@ -87,11 +88,6 @@ template <bool kHasBalls> void sortPoints(const Wave& wave) {
         const StillShape* shape;
     };
     const auto placeOf = [&](const Hit& hit) -> Place {
-        if constexpr (kHasBalls)
-            if (stills.balls.has(hit.shape)) {
-                prefetch(stills.balls[hit.shape]);
-                return {PointLists::kOnBalls, nullptr};
-            }
         const StillsInLanes::One still = hasStills ? all[hit.shape] : StillsInLanes::One{};
         if (still.shape == nullptr || (still.parts >> hit.prim & 1) == 0)
             return {PointLists::kOnOthers, nullptr};
@@ -109,7 +105,7 @@ template <bool kHasBalls> void sortPoints(const Wave& wave) {
             continue;
         }
         for (std::uint32_t k = first; k < end; ++k) {
-            if (!kHasBalls && hasStills && k + kTogether < count)
+            if (hasStills && k + kTogether < count)
                 __builtin_prefetch(&all[hits[rays[k + kTogether]].shape]);
             const Hit& hit = hits[rays[k]];
             const Place place = placeOf(hit);
@@ -117,14 +113,6 @@ template <bool kHasBalls> void sortPoints(const Wave& wave) {
             shapes[k] = hit.shape;
         }
     }
-}
-
-inline void sortPoints(const Wave& wave) {
-    wave.memory.pointLists.clear(wave.memory.points.at.size());
-    if (wave.context.stillsInLanes.balls.isEmpty())
-        sortPoints<false>(wave);
-    else
-        sortPoints<true>(wave);
 }
 
 // All that are on still shapes with a formula together, the others by runs on one shape.
@@ -146,11 +134,6 @@ inline void findSurfaces(const Wave& wave) {
                                              lists.points(list), lists.shapes(list), wantsUv},
                                             out);
         }
-    if (const auto rays = lists.rays(PointLists::kOnBalls); !rays.empty())
-        context.surfaceLanes.balls({wave.rays.span(), hits, rays,
-                                    lists.points(PointLists::kOnBalls),
-                                    context.stillsInLanes.balls},
-                                   out);
     const std::span<const std::uint32_t> rays = lists.rays(PointLists::kOnOthers),
                                          to = lists.points(PointLists::kOnOthers);
     std::size_t end = 0;
