@@ -2,7 +2,6 @@
 #include "image/byte_lanes.h"
 
 #include "base/cpu.h"
-#include "image/colour.h"
 #include "image/little_endian.h"
 
 #include <algorithm>
@@ -21,12 +20,6 @@ void putWords(BitWriter&, const WordList&, const WordCodes&);
 std::size_t addToAdler(AdlerSums&, std::span<const std::uint8_t>);
 std::size_t foldForCrc(std::uint32_t, std::span<const std::uint8_t>, CrcBytes&);
 } // namespace avx2
-namespace avx512 {
-void srgb8(std::span<const Rgb>, std::uint8_t*);
-PngFilter filterRow(std::span<const std::uint8_t>, std::span<const std::uint8_t>, std::size_t,
-                    std::optional<PngFilter>, std::span<std::uint8_t>);
-bool nonzeroPlaces(std::span<const std::uint8_t>, std::size_t, RawVector<std::uint32_t>&);
-} // namespace avx512
 #endif
 
 namespace plain {
@@ -105,7 +98,6 @@ bool always() { return true; }
 #if defined(__x86_64__)
 namespace {
 bool hasAvx2Bytes() { return hasAvx2() && hasCarrylessProducts(); }
-bool hasAvx512Bytes() { return hasAvx512() && hasAvx2Bytes(); }
 } // namespace
 #endif
 
@@ -113,12 +105,10 @@ std::span<const ByteLanes> allByteLanes() {
     using namespace byte_lanes;
     static constexpr ByteLanes kTable[] = {
 #if defined(__x86_64__)
-        {"avx512", hasAvx512Bytes, avx512::srgb8, avx512::filterRow, avx512::nonzeroPlaces,
-         avx2::putWords, avx2::addToAdler, avx2::foldForCrc},
-        {"avx2", hasAvx2Bytes, srgb8FromLinear, avx2::filterRow, avx2::nonzeroPlaces,
+        {"avx2", hasAvx2Bytes, avx2::filterRow, avx2::nonzeroPlaces,
          avx2::putWords, avx2::addToAdler, avx2::foldForCrc},
 #endif
-        {"plain", plain::always, srgb8FromLinear, plain::filterRow, plain::nonzeroPlaces,
+        {"plain", plain::always, plain::filterRow, plain::nonzeroPlaces,
          plain::putWords, plain::addToAdler, plain::foldForCrc},
     };
     return kTable;

@@ -4,7 +4,6 @@
 #pragma once
 
 #include "base/raw_vector.h"
-#include "base/vec.h"
 #include "image/png.h"
 #include "image/word_codes.h"
 
@@ -28,8 +27,6 @@ struct ByteLanes {
     const char* name;
     bool (*supported)(); // by this CPU
 
-    // srgb8FromLinear() of all pixels: three codes each.
-    void (*srgb8)(std::span<const Rgb> pixels, std::uint8_t* out);
     // Writes the row to `out` with that filter or, without one, with the filter whose bytes, as
     // signed numbers without their signs, have the smallest sum (PNG specification, 12.7; of equal
     // sums the first filter). A row that is as the one above gets None or Up in any case. Returns

@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/text.h"
-#include "image/byte_lanes.h"
 #include "image/colour.h"
 #include "image/formats.h"
 
@@ -192,7 +191,7 @@ void encodePixels(std::span<const Rgb> pixels, Encoding encoding, std::span<std:
                 for (const float value : {pixel.r, pixel.g, pixel.b}) *to++ = code(value);
         };
         if (srgb)
-            byteLanes().srgb8(pixels, to);
+            srgb8FromLinear(pixels, to);
         else
             encode([](float value) { return unit8From(value); });
     } else {

@@ -1,14 +1,11 @@
 // Code/image/byte_lanes.h of each width: the filters against those of the PNG specification, byte
-// by byte; the places of bytes that are not zero; the codes of words; sums of Adler-32; sRGB codes
-// of floats.
+// by byte; the places of bytes that are not zero; the codes of words; sums of Adler-32.
 #include "check.h"
 
 #include "image/byte_lanes.h"
-#include "image/colour.h"
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstdint>
 #include <cstdlib>
 #include <vector>
@@ -100,28 +97,6 @@ void checkFilters(const ByteLanes& lanes) {
     for (const int count : chosen) CHECK(count > 0);
 }
 
-// Grey pixels of the floats with so many bits on.
-std::vector<Rgb> greysFrom(std::uint64_t firstBits, std::uint64_t step, std::size_t count) {
-    std::vector<Rgb> pixels(count);
-    for (std::size_t k = 0; k < count; ++k) {
-        const float x = std::bit_cast<float>(static_cast<std::uint32_t>(firstBits + step * k));
-        pixels[k] = {x, x, x};
-    }
-    return pixels;
-}
-void checkSrgb(const ByteLanes& lanes, const std::vector<Rgb>& pixels) {
-    Row out(3 * pixels.size() + 1, 77);
-    lanes.srgb8(pixels, out.data());
-    std::size_t wrong = 0;
-    for (std::size_t k = 0; k < pixels.size(); ++k) {
-        const std::uint8_t code = srgb8FromLinear(pixels[k].r);
-        for (std::size_t c = 0; c < 3; ++c) wrong += out[3 * k + c] != code;
-    }
-    CHECK_INFO(wrong == 0, lanes.name << " codes of " << pixels.size() << " pixels from "
-                                      << pixels.front().r << " on: " << wrong << " wrong");
-    CHECK(out.back() == 77);
-}
-
 } // namespace
 
 TEST(png_filter_writes_what_the_specification_says) {
@@ -207,34 +182,6 @@ TEST(adler_sums_are_added_by_every_width) {
                            lanes.name << " " << size << " bytes of at least " << least);
             }
         }
-}
-
-// Where a code ends all floats that a curve within a thousandth of a code could get wrong, and
-// every 997th of all, also those that aren't numbers.
-TEST(srgb_codes_are_the_same_in_every_width) {
-    constexpr std::uint32_t kOne = 0x3F800000;
-    constexpr std::size_t kNear = 1 << 16, kPiece = 10000;
-    for (const ByteLanes& lanes : allByteLanes()) {
-        if (!lanes.supported()) continue;
-        for (std::size_t count = 1; count <= 50; ++count)
-            checkSrgb(lanes, greysFrom(kOne - 0x1000000, 0x12345, count));
-        std::uint32_t step = 0; // the bits of the smallest float of a code
-        for (int code = 1; code <= 255; ++code) {
-            std::uint32_t end = kOne;
-            while (step < end) {
-                const std::uint32_t middle = step + (end - step) / 2;
-                if (srgb8FromLinear(std::bit_cast<float>(middle)) >= code)
-                    end = middle;
-                else
-                    step = middle + 1;
-            }
-            // Floats lie far closer where the line is.
-            const std::size_t near = code <= 10 ? kNear : kNear / 16;
-            checkSrgb(lanes, greysFrom(step - near / 2, 1, near));
-        }
-        for (std::uint64_t bits = 0; bits < std::uint64_t{1} << 32; bits += 997 * kPiece)
-            checkSrgb(lanes, greysFrom(bits, 997, kPiece));
-    }
 }
 
 } // namespace test_byte_lanes

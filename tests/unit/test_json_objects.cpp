@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+namespace test_json_objects {
+
 using namespace json_kit;
 
 namespace {
@@ -97,3 +99,5 @@ TEST(json_objects_are_refused_wherever_they_stand) {
             CHECK_INFO(!saidOf(sceneOf(kObjects, behind), lenient).empty(), behind);
     }
 }
+
+} // namespace test_json_objects
