@@ -1,6 +1,7 @@
 // Rays of W hits by columns, and columns of surfaces on their way into blocks of points.
 #pragma once
 
+#include "accel/kernels/still_surfaces.h"
 #include "accel/kernels/still_numbers.h"
 #include "accel/kernels/vectors3.h"
 #include "base/ray_span.h"
