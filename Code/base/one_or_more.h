@@ -3,15 +3,17 @@
 // than what is done with it.
 #pragma once
 
-#include <algorithm>
+#include "base/seldom.h"
+
 #include <cstddef>
 #include <initializer_list>
-#include <memory>
 #include <span>
 #include <stdexcept>
 #include <type_traits>
 #include <utility>
 #include <vector>
+
+template <class T> inline constexpr std::vector<T> kNoMore{};
 
 template <class T> class OneOrMore {
     static_assert(std::is_trivially_copyable_v<T>);
@@ -20,26 +22,16 @@ public:
     using value_type = T;
 
     OneOrMore() = default;
-    OneOrMore(const OneOrMore& other) { *this = other; }
-    OneOrMore(OneOrMore&&) noexcept = default;
-    OneOrMore& operator=(const OneOrMore& other) {
-        one_ = other.one_;
-        hasOne_ = other.hasOne_;
-        more_ = other.more_ ? std::make_unique<std::vector<T>>(*other.more_) : nullptr;
-        return *this;
-    }
-    OneOrMore& operator=(OneOrMore&&) noexcept = default;
-    ~OneOrMore() = default;
     explicit OneOrMore(std::size_t count, const T& value = T{}) { assign(count, value); }
     OneOrMore(std::initializer_list<T> list)
         : one_(list.size() == 1 ? *list.begin() : T{}), hasOne_(list.size() == 1) {
         if (list.size() > 1) assign(list.begin(), list.end());
     }
 
-    std::size_t size() const { return more_ ? more_->size() : hasOne_ ? 1 : 0; }
+    std::size_t size() const { return areMore() ? more_->size() : hasOne_ ? 1 : 0; }
     bool empty() const { return size() == 0; }
-    const T* data() const { return more_ ? more_->data() : &one_; }
-    T* data() { return more_ ? more_->data() : &one_; }
+    const T* data() const { return areMore() ? more_->data() : &one_; }
+    T* data() { return areMore() ? more_.own().data() : &one_; }
     const T* begin() const { return data(); }
     const T* end() const { return data() + size(); }
     T* begin() { return data(); }
@@ -62,17 +54,17 @@ public:
             hasOne_ = true;
             return;
         }
-        if (!more_) more_ = std::make_unique<std::vector<T>>(1, one_);
-        more_->push_back(value);
+        if (!areMore()) more_.own().push_back(one_);
+        more_.own().push_back(value);
     }
     void clear() {
-        more_.reset();
+        more_ = decltype(more_)();
         hasOne_ = false;
     }
     void assign(std::size_t count, T value) {
         clear();
         if (count > 1)
-            more_ = std::make_unique<std::vector<T>>(count, value);
+            more_.own().assign(count, value);
         else if (count == 1)
             push_back(value);
     }
@@ -87,11 +79,15 @@ public:
     bool operator==(const std::vector<T>& other) const { return equals(other); }
 
 private:
+    bool areMore() const { return !more_->empty(); }
     bool equals(std::span<const T> other) const {
-        return std::equal(begin(), end(), other.begin(), other.end());
+        if (size() != other.size()) return false;
+        for (std::size_t i = 0; i < other.size(); ++i)
+            if (!((*this)[i] == other[i])) return false;
+        return true;
     }
 
-    T one_{}; // the only element, if hasOne_ and there is no more_
+    T one_{}; // the only element, if hasOne_ and there are no more
     bool hasOne_ = false;
-    std::unique_ptr<std::vector<T>> more_; // all elements when there are several
+    Seldom<std::vector<T>, kNoMore<T>> more_; // all elements when there are several
 };

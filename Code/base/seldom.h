@@ -2,33 +2,32 @@
 // pointer there. For large members of things of which there are many.
 #pragma once
 
-#include <memory>
+#include <utility>
 
 template <class T, const T& kUsual> class Seldom {
 public:
     Seldom() = default;
-    Seldom(const Seldom& other) { *this = other; }
-    Seldom(Seldom&&) noexcept = default;
-    Seldom& operator=(const Seldom& other) {
-        own_ = other.own_ ? std::make_unique<T>(*other.own_) : nullptr;
+    Seldom(const Seldom& other) : own_(other.own_ ? new T(*other.own_) : nullptr) {}
+    Seldom(Seldom&& other) noexcept : own_(std::exchange(other.own_, nullptr)) {}
+    Seldom& operator=(Seldom other) noexcept {
+        std::swap(own_, other.own_);
         return *this;
     }
-    Seldom& operator=(Seldom&&) noexcept = default;
     Seldom& operator=(const T& value) {
-        own_ = std::make_unique<T>(value);
+        own() = value;
         return *this;
     }
-    ~Seldom() = default;
+    ~Seldom() { delete own_; }
 
     const T& operator*() const { return own_ ? *own_ : kUsual; }
     const T* operator->() const { return &**this; }
     // To be changed: from now on it has a value of its own.
     T& own() {
-        if (!own_) own_ = std::make_unique<T>(kUsual);
+        if (!own_) own_ = new T(kUsual);
         return *own_;
     }
     bool operator==(const Seldom& other) const { return **this == *other; }
 
 private:
-    std::unique_ptr<T> own_;
+    T* own_ = nullptr;
 };

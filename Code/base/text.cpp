@@ -43,6 +43,12 @@ std::string_view withoutPlus(std::string_view text) {
 
 void appendWhole(std::string& out, long long value) { out += shortestOf(value); }
 void appendWhole(std::string& out, unsigned long long value) { out += shortestOf(value); }
+void appendNumber(std::string& out, double value) {
+    char buffer[32];
+    out.append(
+        buffer,
+        std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 6).ptr);
+}
 
 std::string shortest(double value) { return shortestOf(value); }
 std::string shortest(float value) { return shortestOf(value); }

@@ -4,30 +4,27 @@
 #include <cstddef>
 #include <optional>
 #include <span>
-#include <sstream>
 #include <string>
 #include <string_view>
 #include <type_traits>
 
 void appendWhole(std::string& out, long long value);
 void appendWhole(std::string& out, unsigned long long value);
-// As a stream would write it, without a stream for text and whole numbers: files of a million
-// things make a million names.
+void appendNumber(std::string& out, double value); // by six digits, as a stream would: "0.333333"
 template <class Part> void appendTo(std::string& out, const Part& part) {
-    if constexpr (std::is_convertible_v<const Part&, std::string_view>) {
+    if constexpr (std::is_convertible_v<const Part&, std::string_view>)
         out += std::string_view(part);
-    } else if constexpr (std::is_integral_v<Part> && sizeof(Part) > 1) {
-        if constexpr (std::is_signed_v<Part>)
-            appendWhole(out, static_cast<long long>(part));
-        else
-            appendWhole(out, static_cast<unsigned long long>(part));
-    } else {
-        std::ostringstream stream;
-        stream << part;
-        out += stream.view();
+    else if constexpr (std::is_same_v<Part, char>)
+        out += part;
+    else if constexpr (std::is_floating_point_v<Part>)
+        appendNumber(out, static_cast<double>(part));
+    else {
+        static_assert(std::is_integral_v<Part> && sizeof(Part) > 1);
+        using Whole = std::conditional_t<std::is_signed_v<Part>, long long, unsigned long long>;
+        appendWhole(out, static_cast<Whole>(part));
     }
 }
-// Joins anything that can be streamed into one string.
+// Joins texts, characters and numbers.
 template <class... Parts> std::string cat(const Parts&... parts) {
     std::string out;
     (appendTo(out, parts), ...);

@@ -79,8 +79,8 @@ Picture renderPicture(const Scene& scene, const RenderSettings& settings, const 
     const Terminal terminal = terminalOfStderr();
     const StopOnInterrupt interrupt;
     Progress progress(progressStyle(options, terminal), terminal.columns, writeStderr, secondsNow);
-    const RenderControl control{[&](double part) { progress.update(part); }, interrupt.flag()};
-    Picture picture = render(scene, settings, control, stats);
+    const auto update = [&](double part) { progress.update(part); };
+    Picture picture = render(scene, settings, {update, interrupt.flag()}, stats);
     stopped = interrupt.stopped() || !picture.finished;
     return picture;
 }

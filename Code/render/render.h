@@ -2,13 +2,13 @@
 // the samples of one tile come from TileSampler.
 #pragma once
 
+#include "base/function_ref.h"
 #include "image/coded_image.h"
 #include "image/image.h"
 #include "render/settings.h"
 #include "render/stats.h"
 
 #include <atomic>
-#include <functional>
 #include <vector>
 
 class Scene;
@@ -25,8 +25,9 @@ struct Picture {
     bool finished = false; // false: stopped before every tile was done
 };
 struct RenderControl {
-    // Called from one worker at a time with the part that is done, 0 to 1.
-    std::function<void(double)> progress;
+    // Called from one worker at a time with the part that is done, 0 to 1. Of a function that
+    // outlives the call.
+    FunctionRef<void(double)> progress = {};
     // Set by a signal handler or a caller; workers look at it between tiles.
     const std::atomic<bool>* stop = nullptr;
 };

@@ -49,7 +49,7 @@ Tally& Tally::operator+=(const Tally& other) {
 }
 
 Tally inBatches(const Effort& effort, std::uint64_t seed, double batches,
-                const std::function<void(meshes::Random&, Tally&)>& batch) {
+                FunctionRef<void(meshes::Random&, Tally&)> batch) {
     const auto wanted = static_cast<std::size_t>(std::max(1.0, std::ceil(batches * effort.factor)));
     const std::size_t first = effort.batch.value_or(0), count = effort.batch ? 1 : wanted;
     std::vector<Tally> tallies(count);

@@ -4,10 +4,10 @@
 // wider arithmetic, brute force, closed forms.
 #pragma once
 
+#include "base/function_ref.h"
 #include "verify/meshes.h"
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -67,6 +67,6 @@ inline bool passed(const Row& row, const Tally& tally) {
 // not depend on the threads, and batch i is the same at every effort. With effort.batch that one
 // alone, whatever the number of batches.
 Tally inBatches(const Effort& effort, std::uint64_t seed, double batches,
-                const std::function<void(meshes::Random&, Tally&)>& batch);
+                FunctionRef<void(meshes::Random&, Tally&)> batch);
 
 } // namespace battery

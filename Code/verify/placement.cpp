@@ -20,8 +20,8 @@ namespace {
 using meshes::Random;
 
 // Calls `compare` for scenes of every kind, and for so many of anything.
-using Compare = std::function<void(const char* name, const SceneDesc&, Random&, Tally&)>;
-Tally forScenes(const Effort& effort, std::uint64_t seed, double batches, const Compare& compare,
+using Compare = FunctionRef<void(const char* name, const SceneDesc&, Random&, Tally&)>;
+Tally forScenes(const Effort& effort, std::uint64_t seed, double batches, Compare compare,
                 int anythings = 0) {
     return inBatches(effort, seed, batches, [&](Random& random, Tally& tally) {
         for (const scenes::Maker& maker : scenes::makers())

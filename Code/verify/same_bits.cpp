@@ -36,8 +36,8 @@ void sampleAnyhow(Random& random, SettingsDesc& settings) {
         static_cast<SettingsDesc::Filter>(random.below(kNamesByValue<SettingsDesc::Filter>.size()));
 }
 
-using Check = std::function<void(const char* name, SceneDesc&, Random&, Tally&)>;
-Tally forScenes(const Effort& effort, std::uint64_t seed, const Check& check, double batches = 1) {
+using Check = FunctionRef<void(const char* name, SceneDesc&, Random&, Tally&)>;
+Tally forScenes(const Effort& effort, std::uint64_t seed, Check check, double batches = 1) {
     return inBatches(effort, seed, batches, [&](Random& random, Tally& tally) {
         for (const scenes::Maker& maker : scenes::makers()) {
             SceneDesc desc = maker.make(random);

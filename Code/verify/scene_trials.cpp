@@ -49,7 +49,7 @@ SceneDesc moved(SceneDesc desc, Vec3d by) {
     return desc;
 }
 
-Picture render(const SceneDesc& desc, const Tweak& tweak) {
+Picture render(const SceneDesc& desc, Tweak tweak) {
     RenderSettings settings;
     settings.picture = desc.settings;
     if (tweak) tweak(settings);

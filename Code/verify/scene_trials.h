@@ -5,7 +5,6 @@
 #include "render/render.h"
 
 #include <cstdint>
-#include <functional>
 
 namespace scenes {
 
@@ -15,8 +14,8 @@ SceneDesc scaled(SceneDesc desc, double factor);
 SceneDesc moved(SceneDesc desc, Vec3d by);
 
 // Rendered on one thread with the scalar kernel, but for what `tweak` changes.
-using Tweak = std::function<void(RenderSettings&)>;
-Picture render(const SceneDesc& desc, const Tweak& tweak = {});
+using Tweak = FunctionRef<void(RenderSettings&)>;
+Picture render(const SceneDesc& desc, Tweak tweak = {});
 
 // Of every bit of the colours and of all AOVs: -0 and 0 are told apart.
 std::uint64_t hashOf(const Picture& picture);

@@ -24,7 +24,7 @@ std::size_t triangleCount(const Effort& effort) {
 
 // The sets side by side, each with its own random numbers.
 Tally inSets(const Effort& effort, std::uint64_t seed,
-             const std::function<void(const HostileTree&, Random&, Tally&)>& trial) {
+             FunctionRef<void(const HostileTree&, Random&, Tally&)> trial) {
     const auto sets = hostileTrees();
     std::vector<Tally> tallies(sets.size());
     ThreadPool pool(effort.threads);
