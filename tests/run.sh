@@ -1,5 +1,6 @@
 #!/bin/sh
 # Runs everything that `make test` needs: sh tests/run.sh UNIT-TESTS RAYTRACER [WORD...]
+# The program bench lies beside UNIT-TESTS.
 # Every part prints "ok NAME" or "FAIL NAME: why" and ends with "N passed, N failed"; so does this.
 # With words, only the scripts whose name contains one of them run.
 cd "$(dirname "$0")/.." || exit 1
@@ -38,7 +39,7 @@ for script in tests/layers.sh tests/leak.sh tests/cli/*.sh; do
         case $script in *"$word"*) wanted=0 ;; esac
     done
     case $script in */kit.sh) continue ;; esac
-    [ "$wanted" -eq 0 ] && add "$script" sh "$script" "$raytracer"
+    [ "$wanted" -eq 0 ] && add "$script" sh "$script" "$raytracer" "$(dirname "$unit")/bench"
 done
 printf '%s passed, %s failed\n' "$passed" "$failed"
 [ "$failed" -eq 0 ]

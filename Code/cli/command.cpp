@@ -1,6 +1,5 @@
 #include "cli/command.h"
 
-#include "cli/bench.h"
 #include "cli/diff.h"
 #include "cli/help.h"
 #include "cli/output.h"
@@ -48,25 +47,6 @@ constexpr std::array kCommands{
             .flags = flagsOf<VerifyOptions, verifyFlags>,
             .words = verifyTests,
             .run = parseAndRun<VerifyOptions, parseVerifyOptions, verify>},
-    Command{.name = "bench",
-            .arguments = "MESH",
-            .help = "measures tree, rays and picture of a mesh",
-            .about =
-                "Builds the tree of a mesh (.obj, .ply, or a scene with meshes), traces rays "
-                "through it and makes a picture of it. Comma-separated lines:\n"
-                "  BUILD,mesh,engine,quality,exactness,threads,kernel,ms (median, least, of the "
-                "processor),bytes per triangle\n"
-                "  mesh,engine,quality,exactness,threads,kernel,set,rays,hits,million rays per "
-                "second (median, least, most, of the processor),nodes and leaves of the tree that "
-                "a ray visits\n"
-                "  PICTURE,mesh,engine,quality,exactness,threads,kernel,size,ms (read, build, "
-                "render, write, all)\n"
-                "Sets: primary (nearest), shadow (any, from a point light), bounce (diffuse "
-                "directions, nearest), bounceany (the same, any).",
-            .step = {"tracing rays", ExitCode::Internal},
-            .flags = flagsOf<BenchOptions, benchFlags>,
-            .words = fileNames,
-            .run = parseAndRun<BenchOptions, parseBenchOptions, bench>},
 };
 
 } // namespace

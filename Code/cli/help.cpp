@@ -118,8 +118,12 @@ std::string helpText() {
 }
 
 std::string commandHelpText(const Command& command) {
-    return cat("usage: ", usage(command), "\n\n", paragraphs(command.about),
-               flagsText(command.flags()), exitCodesText());
+    return commandHelpText(usage(command), command.about, command.flags());
+}
+
+std::string commandHelpText(std::string_view usage, std::string_view about,
+                            std::span<const Flag> flags) {
+    return cat("usage: ", usage, "\n\n", paragraphs(about), flagsText(flags), exitCodesText());
 }
 
 std::string featureListText() {

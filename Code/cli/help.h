@@ -7,4 +7,7 @@
 
 std::string helpText();                              // raytracer --help
 std::string commandHelpText(const Command& command); // raytracer NAME --help
-std::string featureListText();                       // raytracer --list-features
+// The same for what has no row in the table of sub-commands.
+std::string commandHelpText(std::string_view usage, std::string_view about,
+                            std::span<const Flag> flags);
+std::string featureListText(); // raytracer --list-features

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures tree, rays and picture of some meshes, and appends a row each to tests/bench/results.tsv.
 
-    python3 tests/bench/bench.py RAYTRACER [--mesh FILE]... [--kernels NAMES] [--threads N] [--runs N]
+    python3 tests/bench/bench.py BENCH [--mesh FILE]... [--kernels NAMES] [--threads N] [--runs N]
 
 Without --mesh: the two scans of meshes.py. Names of kernels with spaces between them.
 """
@@ -19,8 +19,8 @@ COLUMNS = (["date", "commit", "cpu", "load", "threads", "kernel", "mesh"] +
            [f"picture_{step}_ms" for step in ("read", "build", "render", "write", "all")])
 
 
-def rowOf(raytracer, mesh, kernel, arguments):
-    text = measured.output(raytracer, "bench", mesh, "--kernel", kernel, "--uv", "--threads", str(arguments.threads),
+def rowOf(bench, mesh, kernel, arguments):
+    text = measured.output(bench, mesh, "--kernel", kernel, "--uv", "--threads", str(arguments.threads),
                            "--runs", str(arguments.runs))
     found = measured.figures(text)
     name = next(kind for kind, what in found if what == "build")
@@ -34,16 +34,16 @@ def rowOf(raytracer, mesh, kernel, arguments):
 
 def main():
     parser = argparse.ArgumentParser(description="Measures meshes and appends to tests/bench/results.tsv.")
-    parser.add_argument("raytracer")
+    parser.add_argument("bench")
     parser.add_argument("--mesh", action="append", default=[])
     parser.add_argument("--kernels", default="auto")
     parser.add_argument("--threads", type=int, default=1)
     parser.add_argument("--runs", type=int, default=3)
     arguments = parser.parse_args()
-    raytracer = os.path.abspath(arguments.raytracer)
+    bench = os.path.abspath(arguments.bench)
     with tempfile.TemporaryDirectory() as folder:
         files = [os.path.abspath(mesh) for mesh in arguments.mesh] or meshes.writeAll(folder, meshes.SCANS)
-        rows = [rowOf(raytracer, mesh, kernel, arguments) for mesh in files for kernel in arguments.kernels.split()]
+        rows = [rowOf(bench, mesh, kernel, arguments) for mesh in files for kernel in arguments.kernels.split()]
     # The table lies down in the file and stands here: a line per figure.
     measured.printTable([f"{rows[0][1]}, {rows[0][2]}"] + [f"{row[6]} {row[5]}" for row in rows],
                         [[name] + [row[i] for row in rows] for i, name in enumerate(COLUMNS) if i > 6])

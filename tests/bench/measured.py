@@ -21,7 +21,7 @@ def output(*command):
 
 def figures(text):
     """{(kind, what): [numbers]}: what is a set of rays, "build" or "picture"; numbers as they stand in
-    the line of `raytracer bench` or peer_embree."""
+    the line of `bench` or peer_embree."""
     found = {}
     for line in text.splitlines():
         words = line.split(",")

@@ -1,5 +1,5 @@
-// What Embree does with the mesh and the rays of `raytracer bench --write-rays FILE`, in the
-// columns of `raytracer bench`; make bench-peers builds and runs it.
+// What Embree does with the mesh and the rays of `bench --write-rays FILE`, in the
+// columns of `bench`; make bench-peers builds and runs it.
 //   peer_embree FILE [--threads N] [--runs N] [--quality medium|high]
 // Each set of rays is traced in every way that Embree offers: one ray per call (single), 8 or 16
 // (p8, p16), and with Embree 3 streams of 64 (stream). Shadow rays are traced from the surface to

@@ -1,4 +1,4 @@
-// The mesh and the rays of `raytracer bench --write-rays FILE`: see Code/cli/bench_file.h.
+// The mesh and the rays of `bench --write-rays FILE`: see tests/bench/file.h.
 #pragma once
 
 #include <cmath>
@@ -39,7 +39,7 @@ inline Input readInput(const std::string& name) {
     const std::string bytes{std::istreambuf_iterator<char>(file), {}};
     std::size_t at = 0;
     const auto take = [&](void* to, std::size_t size) {
-        if (bytes.size() - at < size) stop(name + " is no file of raytracer bench --write-rays");
+        if (bytes.size() - at < size) stop(name + " is no file of bench --write-rays");
         std::memcpy(to, bytes.data() + at, size);
         at += size;
     };

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """The rates of raytracer and Embree on the same rays, and how many times as fast raytracer is.
 
-    python3 tests/bench/peers.py RAYTRACER BUILD_FOLDER [--mesh FILE]... [--kernel NAME] [--threads N]
+    python3 tests/bench/peers.py BENCH BUILD_FOLDER [--mesh FILE]... [--kernel NAME] [--threads N]
                                  [--rounds N] [--runs N] [--quality medium|high] [--cxx COMMAND]
 
 Rounds alternate: raytracer, Embree, raytracer, ... so that both meet the same state of the machine.
@@ -46,14 +46,14 @@ def buildPeer(compiler, folder):
 class Rates:
     """What both make of the same rays: for each of the sets, or "build", figures of every round."""
 
-    def __init__(self, raytracer, peer, mesh, folder, view, rounds, arguments):
+    def __init__(self, bench, peer, mesh, folder, view, rounds, arguments):
         rays = os.path.join(folder, "peers.rays")
-        measured.output(raytracer, "bench", mesh, "--view", view, "--write-rays", rays)
+        measured.output(bench, mesh, "--view", view, "--write-rays", rays)
         self.ours, self.theirs = collections.defaultdict(list), collections.defaultdict(list)
         hits = {}
         for _ in range(rounds):
             for who, found, command in (
-                    ("raytracer", self.ours, (raytracer, "bench", mesh, "--view", view, "--no-picture", "--uv",
+                    ("raytracer", self.ours, (bench, mesh, "--view", view, "--no-picture", "--uv",
                                               "--kernel", arguments.kernel)),
                     ("Embree", self.theirs, (peer, rays, "--quality", arguments.quality))):
                 text = measured.output(*command, "--threads", str(arguments.threads), "--runs", str(arguments.runs))
@@ -78,8 +78,8 @@ class Rates:
         return mine, other, mode, [a / b for a, b in zip(mine, other)]
 
 
-def compare(raytracer, peer, mesh, folder, arguments):
-    rates = Rates(raytracer, peer, mesh, folder, "outside", arguments.rounds, arguments)
+def compare(bench, peer, mesh, folder, arguments):
+    rates = Rates(bench, peer, mesh, folder, "outside", arguments.rounds, arguments)
 
     def row(label, what, suffix):
         mine, other, mode, ratios = rates.of(what, suffix)
@@ -96,12 +96,12 @@ def compare(raytracer, peer, mesh, folder, arguments):
     measured.appendRows("peers.tsv", COLUMNS, [where + r for r in rows])
 
 
-def survey(raytracer, peer, folder, arguments):
+def survey(bench, peer, folder, arguments):
     arguments.runs = 3  # where rays take 2 ms in all, one run may be off by half
     rows = []
     for mesh in meshes.writeAll(folder, meshes.MESHES):
         for view in ("outside", "inside"):
-            rates = Rates(raytracer, peer, mesh, folder, view, 1, arguments)
+            rates = Rates(bench, peer, mesh, folder, view, 1, arguments)
             name = f"{os.path.basename(mesh)}, {view}"
             found = {what: rates.of(what) for what in measured.SETS}
             rows.append([name] + [f"{ratios[0]:.2f}" for _, _, _, ratios in found.values()])
@@ -116,7 +116,7 @@ def survey(raytracer, peer, folder, arguments):
 
 def main():
     parser = argparse.ArgumentParser(description="raytracer and Embree on the same rays.")
-    parser.add_argument("raytracer")
+    parser.add_argument("bench")
     parser.add_argument("folder")
     parser.add_argument("--mesh", action="append", default=[])
     parser.add_argument("--kernel", default="auto")
@@ -127,13 +127,13 @@ def main():
     parser.add_argument("--cxx", default="g++")
     arguments = parser.parse_args()
     peer = buildPeer(arguments.cxx.split(), os.path.abspath(arguments.folder))
-    raytracer = os.path.abspath(arguments.raytracer)
+    bench = os.path.abspath(arguments.bench)
     print(f"{measured.cpuName()}, load {measured.load()}, {arguments.rounds} rounds, commit {measured.commit()}")
     with tempfile.TemporaryDirectory() as folder:
         for mesh in [os.path.abspath(mesh) for mesh in arguments.mesh] or meshes.writeAll(folder, meshes.SCANS):
-            compare(raytracer, peer, mesh, folder, arguments)
+            compare(bench, peer, mesh, folder, arguments)
         if not arguments.mesh:
-            survey(raytracer, peer, folder, arguments)
+            survey(bench, peer, folder, arguments)
 
 
 if __name__ == "__main__":

@@ -13,8 +13,6 @@ cp out help.of.diff
 check 'diff: help' has help.of.diff '--metric'
 run 0 verify --help
 cp out help.of.verify
-run 0 bench --help
-cp out help.of.bench
 check 'verify: help' has help.of.verify '--effort'
 run 0 -h
 check '-h' cmp out help
@@ -24,7 +22,7 @@ options() {
     sed -n 's/^  \(-., \|    \)\(--\(\[no-\]\)\{0,1\}[^ =[]*\).*/\2/p' "$1" |
         sed 's/^--\[no-\]\(.*\)/--\1 --no-\1/' | tr ' ' '\n'
 }
-for file in help help.of.diff help.of.verify help.of.bench; do options $file; done | sort -u > names
+for file in help help.of.diff help.of.verify; do options $file; done | sort -u > names
 check 'help: many options' [ "$(wc -l < names)" -gt 50 ]
 for shell in bash zsh fish; do
     run 0 --completion $shell

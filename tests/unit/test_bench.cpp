@@ -1,10 +1,10 @@
 // What `raytracer bench` measures: its sets of rays, who traces them, how visits are counted, and
 // the file for other programs. No times.
 #include "base/parallel.h"
+#include "bench/file.h"
+#include "bench/trace.h"
+#include "bench/walk.h"
 #include "check.h"
-#include "cli/bench_file.h"
-#include "cli/bench_trace.h"
-#include "cli/bench_walk.h"
 #include "verify/meshes.h"
 
 #include <bit>

@@ -1,4 +1,4 @@
-#include "cli/bench_walk.h"
+#include "bench/walk.h"
 
 #include "accel/triangle.h"
 

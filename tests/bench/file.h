@@ -1,9 +1,9 @@
-// A mesh and the ray sets of `raytracer bench` in a file, so that other programs can trace the same
+// A mesh and the ray sets of `bench` in a file, so that other programs can trace the same
 // rays through the same triangles (tests/bench/peer_input.h reads it). In the space of the
 // mesh's file, `frame` taken back: another program would have met the mesh there.
 #pragma once
 
-#include "cli/bench_rays.h"
+#include "bench/rays.h"
 #include "render/frame.h"
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "cli/bench_rays.h"
+#include "bench/rays.h"
 
 #include "sample/warp.h"
 

@@ -1,7 +1,7 @@
 // How much of a tree a ray visits: what a tree is worth, whatever the machine.
 #pragma once
 
-#include "cli/bench_rays.h"
+#include "bench/rays.h"
 
 struct BenchWalk {
     double nodes = 0, leaves = 0; // the mean of the rays

@@ -1,4 +1,4 @@
-#include "cli/bench_file.h"
+#include "bench/file.h"
 
 #include <bit>
 #include <string_view>

@@ -1,13 +1,14 @@
-#include "cli/bench.h"
-#include "cli/choose_kernel.h"
+#include "bench/bench.h"
 
 #include "base/file.h"
 #include "base/parallel.h"
-#include "cli/bench_clock.h"
-#include "cli/bench_file.h"
-#include "cli/bench_picture.h"
-#include "cli/bench_trace.h"
-#include "cli/bench_walk.h"
+#include "bench/clock.h"
+#include "bench/file.h"
+#include "bench/picture.h"
+#include "bench/trace.h"
+#include "bench/walk.h"
+#include "cli/choose_kernel.h"
+#include "cli/flag.h"
 #include "cli/output.h"
 #include "cli/version.h"
 #include "read/load.h"
@@ -114,61 +115,7 @@ private:
 
 } // namespace
 
-// clang-format off
-std::vector<Flag> benchFlags(BenchOptions& o) {
-    std::vector<Flag> flags;
-    FlagGroup group(flags, "options");
-    std::vector<std::string> kernels = kernelNames();
-    kernels.insert(kernels.begin(), "auto");
-    group.add({.name = "--kernel", .argument = join(kernels, "|"),
-               .help = "machine code for the search (auto)",
-               .set = [&o, kernels](const FlagValue& v) { o.kernel = kernels[v.choice(kernels)]; },
-               .choices = kernels, .example = "scalar"});
-    group.add({.name = "--threads", .alias = "-t", .argument = "N",
-               .help = "how many share the work (1)",
-               .set = [&o](const FlagValue& v) { o.threads = v.whole(1, 1024); },
-               .example = "2"});
-    const std::vector<std::string> trees = {"fast", "best"};
-    group.add({.name = "--tree", .argument = join(trees, "|"),
-               .help = "the tree that is built soonest or the one that is traced soonest (fast)",
-               .set = [&o, trees](const FlagValue& v) { o.bestTree = v.choice(trees) == 1; },
-               .choices = trees, .example = "best"});
-    group.add({.name = "--runs", .argument = "N",
-               .help = "timed runs of each set, behind one that is not timed (5)",
-               .set = [&o](const FlagValue& v) { o.runs = v.whole(1, 1000); },
-               .example = "3"});
-    const std::vector<std::string> views = {"outside", "inside"}; // as BenchView
-    group.add({.name = "--view", .argument = join(views, "|"),
-               .help = "where the camera is: before the box around the mesh, or in it (outside)",
-               .set = [&o, views](const FlagValue& v) {
-                   o.view = static_cast<BenchView>(v.choice(views));
-               },
-               .choices = views, .example = "inside"});
-    group.add({.name = "--uv",
-               .help = "nearest hits a second time, with u and v as well as t and triangle",
-               .set = [&o](const FlagValue&) { o.uv = true; }});
-    group.add({.name = "--picture", .help = "a whole picture too, or not",
-               .set = [&o](const FlagValue& v) { o.picture = v.on; }, .negatable = true});
-    group.add({.name = "--write-rays", .argument = "FILE",
-               .help = "writes mesh and rays for another program, and measures nothing",
-               .set = [&o](const FlagValue& v) { o.raysFile = v.nonEmpty("the name of a file"); },
-               .files = Flag::Files::Any, .example = "bunny.rays"});
-    group.add({.name = "--help", .alias = "-h", .help = "this text",
-               .set = [&o](const FlagValue&) { o.help = true; }});
-    return flags;
-}
-// clang-format on
-
-BenchOptions parseBenchOptions(std::span<const std::string> arguments) {
-    BenchOptions options;
-    const std::vector<std::string> names = parseFlags(benchFlags(options), arguments);
-    if (options.help) return options;
-    if (names.size() != 1) failUsage("bench needs one mesh; usage: raytracer bench MESH [options]");
-    options.mesh = names[0];
-    return options;
-}
-
-ExitCode bench(const BenchOptions& options) {
+void bench(const BenchOptions& options) {
     const Isa& kernel = chooseKernel(options.kernel);
     auto [geometry, frame] = subjectOf(options.mesh);
     if (!options.raysFile.empty()) {
@@ -176,7 +123,7 @@ ExitCode bench(const BenchOptions& options) {
         geometry.finish(true, kernel, options.threads);
         writeFileAtomically(options.raysFile,
                             encodeBenchFile(geometry, frame, benchRays(geometry, options.view)));
-        return ExitCode::Ok;
+        return;
     }
     Report report(options, kernel);
     report.build(geometry);
@@ -185,5 +132,4 @@ ExitCode bench(const BenchOptions& options) {
         if (options.uv && !rays.anyHit) report.trace(geometry, rays, true);
     }
     if (options.picture) report.picture();
-    return ExitCode::Ok;
 }

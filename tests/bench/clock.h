@@ -1,4 +1,4 @@
-// Measuring for `raytracer bench`: seconds by the wall clock and of the processor, over some runs.
+// Measuring for `bench`: seconds by the wall clock and of the processor, over some runs.
 #pragma once
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "cli/bench_trace.h"
+#include "bench/trace.h"
 
 #include "base/parallel.h"
 

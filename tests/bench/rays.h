@@ -1,4 +1,4 @@
-// The ray sets of `raytracer bench`: what a renderer asks of one mesh, in the order in which it
+// The ray sets of `bench`: what a renderer asks of one mesh, in the order in which it
 // would ask. Camera, light and rays are those of published measurements of other ray tracers, so
 // that the rates can be put side by side.
 #pragma once

@@ -1,7 +1,7 @@
-#include "cli/bench_picture.h"
+#include "bench/picture.h"
 
 #include "base/text.h"
-#include "cli/bench_clock.h"
+#include "bench/clock.h"
 #include "read/load.h"
 #include "render/encoding.h"
 #include "render/render.h"

@@ -1,9 +1,9 @@
-// Tracing the rays of `raytracer bench` with the functions that the renderer calls, with any number
+// Tracing the rays of `bench` with the functions that the renderer calls, with any number
 // of threads. Every ray leaves its answer in memory, as other programs' measurements have it.
 #pragma once
 
 #include "base/hit.h"
-#include "cli/bench_rays.h"
+#include "bench/rays.h"
 
 #include <cstddef>
 #include <cstdint>
