@@ -69,6 +69,19 @@ else
     passed=$((passed + 1))
 fi
 
+# The system is called in base/platform alone: headers of the C++ standard library have no dot or slash in their
+# names, and those of instruction sets call nothing. Some functions of the system are in standard headers.
+wrong=$(find . -path ./base/platform -prune -o \( -name '*.h' -o -name '*.cpp' -o -name '*.inl' \) -exec grep -nE \
+    -e '^ *# *include *<(csignal|[^>]*[./][^>]*)>' -e '\b(fileno|fseeko|ftello|popen|setenv|localtime_r|strerror_r)\(' {} + |
+    grep -vE '<(immintrin|emmintrin|arm_neon)\.h>')
+if [ -z "$wrong" ]; then
+    printf 'ok only base/platform calls the system\n'
+    passed=$((passed + 1))
+else
+    printf 'FAIL only base/platform calls the system:\n%s\n' "$wrong"
+    failed=$((failed + 1))
+fi
+
 # Only what turns a description into a scene names the concrete shapes and lights.
 wrong=$(grep -ln '#include "\(shape\|light\)/\(sphere\|cube\|plane\|disk\|cylinder\|cone\|infinite_plane\|point_light\|sun_light\|area_light\)\.h"' \
     render/*.cpp render/*.h cli/* | grep -v -e '^render/scene\.cpp$' -e '^render/make_[a-z]*\.cpp$')

@@ -1,17 +1,18 @@
 // An empty folder for one test, removed at its end.
 #pragma once
 
+#include "base/platform/files.h"
 #include "base/text.h"
 
 #include <filesystem>
 #include <fstream>
 #include <string>
-#include <unistd.h>
 
 class TemporaryFolder {
 public:
     explicit TemporaryFolder(const char* name)
-        : path_(std::filesystem::temp_directory_path() / cat("raytracer-", name, "-", getpid())) {
+        : path_(std::filesystem::temp_directory_path() /
+                cat("raytracer-", name, "-", processNumber())) {
         std::filesystem::create_directories(path_);
     }
     ~TemporaryFolder() {

@@ -107,7 +107,7 @@ public:
             subtrees_[i] = std::make_unique<Subtree>(lists_, ranges_[i]);
         });
         for (auto* list : {&lists_.prims, &lists_.spare}) // before the nodes are there twice
-            PageVector<PrimBox>().swap(*list);
+            RawVector<PrimBox>().swap(*list);
         join();
     }
     Bvh take() { return std::move(bvh_); }
@@ -154,7 +154,7 @@ private:
     // how many there are, now at the end of the list.
     std::uint32_t sortOut(float atLeast, float longest) {
         if (count_ < kMany || !(longest >= atLeast)) return 0;
-        PageVector<PrimBox>& prims = lists_.prims;
+        RawVector<PrimBox>& prims = lists_.prims;
         std::uint32_t kept = count_;
         for (std::uint32_t i = 0; i < kept;) {
             if (!(longestSide(prims[i]) >= atLeast))

@@ -4,8 +4,8 @@
 
 #include "accel/bvh.h"
 #include "accel/bvh_bins.h"
-#include "base/pages.h"
 #include "base/parallel.h"
+#include "base/raw_vector.h"
 
 #include <algorithm>
 #include <array>
@@ -25,7 +25,7 @@ struct Range {
 
 // Both lists, and what leaves hold, by position.
 struct Lists {
-    PageVector<PrimBox> prims, spare;
+    RawVector<PrimBox> prims, spare;
     std::uint32_t* ids = nullptr;
     double pad = 0; // by which rays see boxes larger
     std::uint32_t largestLeaf = kUsualLeaf;

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 #include "base/for_each.h"
-#include "base/large_pages.h"
+#include "base/platform/files.h"
 #include "base/text.h"
 
 #include <algorithm>
@@ -11,11 +11,9 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
-#include <fcntl.h>
 #include <filesystem>
 #include <memory>
 #include <mutex>
-#include <unistd.h>
 
 namespace {
 
@@ -48,9 +46,12 @@ public:
     PendingFile(const PendingFile&) = delete;
     PendingFile& operator=(const PendingFile&) = delete;
 
-    bool renameTo(const std::string& target) {
-        isThere_ = std::rename(name_.c_str(), target.c_str()) != 0;
-        return !isThere_;
+    // Also where there is a file of that name. Says what was in the way.
+    std::error_code renameTo(const std::string& target) {
+        std::error_code failed;
+        fs::rename(name_, target, failed);
+        isThere_ = static_cast<bool>(failed);
+        return failed;
     }
 
 private:
@@ -58,50 +59,30 @@ private:
     bool isThere_ = true;
 };
 
+[[noreturn]] void failWriting(const std::string& fileName, const std::string& reason) {
+    fail(ErrorKind::Output, cat(fileName, ": error: cannot write: ", reason));
+}
 [[noreturn]] void failWriting(const std::string& fileName, int reason) {
     std::string hint;
     if (reason == ENOENT)
         hint = cat("; the folder '", fs::path(fileName).parent_path().string(), "' must exist");
-    fail(ErrorKind::Output, cat(fileName, ": error: cannot write: ", std::strerror(reason), hint));
-}
-
-// What takes its room as it comes gets it from ext4 when it replaces another file, and that takes
-// longer than all the writing. Where there is no such call, or no room, writing goes on without.
-bool takeRoom([[maybe_unused]] std::FILE* file, [[maybe_unused]] std::size_t bytes) {
-#if defined(__linux__)
-    return bytes > 0 &&
-           fallocate(fileno(file), FALLOC_FL_KEEP_SIZE, 0, static_cast<off_t>(bytes)) == 0;
-#else
-    return false;
-#endif
+    failWriting(fileName, std::strerror(reason) + hint);
 }
 
 // Writes and closes; nothing is on the disk for sure before fclose() succeeds. Small pieces are
-// gathered: the system takes many pages at once in a third of the time, and knows the size of a
-// small file before it has any of it. Large ones it takes from where they are: to copy them costs
-// more, in memory that nothing has touched before. expected: 0 for what takes no room on a disk.
-void writeBytes(const std::string& path, const std::string& fileName, std::size_t expected,
-                const ByteSource& produce) {
+// gathered: the system takes many pages at once in a third of the time. Large ones it takes from
+// where they are: to copy them costs more, in memory that nothing has touched before.
+void writeBytes(const std::string& path, const std::string& fileName, ByteSource produce) {
     constexpr std::size_t kGathered = std::size_t{1} << 18;
     const auto buffer = std::make_unique_for_overwrite<char[]>(kGathered);
     File file(std::fopen(path.c_str(), "wb"));
     if (!file) failWriting(fileName, errno);
     static_cast<void>(std::setvbuf(file.get(), buffer.get(), _IOFBF, kGathered));
-    std::size_t written = 0;
-    bool hasRoom = false;
-    produce([&](std::span<const std::uint8_t> bytes) {
-        if (written <= kGathered && written + bytes.size() > kGathered)
-            hasRoom = takeRoom(file.get(), expected);
+    const auto write = [&](std::span<const std::uint8_t> bytes) {
         if (std::fwrite(bytes.data(), 1, bytes.size(), file.get()) != bytes.size())
             failWriting(fileName, errno);
-        written += bytes.size();
-    });
-    if (written <= kGathered && expected > 0) takeRoom(file.get(), written);
-    // Gives back what was too much.
-    if (hasRoom && written < expected &&
-        (std::fflush(file.get()) != 0 ||
-         ftruncate(fileno(file.get()), static_cast<off_t>(written)) != 0))
-        failWriting(fileName, errno);
+    };
+    produce(write);
     if (std::fclose(file.release()) != 0) failWriting(fileName, errno);
 }
 
@@ -110,19 +91,11 @@ std::size_t readParts(std::FILE* file, std::span<char> to, int threads) {
     constexpr std::size_t kPart = std::size_t{1} << 19;
     std::vector<std::size_t> got((to.size() + kPart - 1) / kPart);
     forEachPart(threads, to.size(), kPart, [&](std::size_t first, std::size_t last) {
-        const ssize_t count =
-            pread(fileno(file), to.data() + first, last - first, static_cast<off_t>(first));
-        got[first / kPart] = count > 0 ? static_cast<std::size_t>(count) : 0;
+        got[first / kPart] = readAt(file, first, to.subspan(first, last - first));
     });
     std::size_t used = 0;
     for (std::size_t part = 0; part < got.size() && used == part * kPart; ++part) used += got[part];
     return used;
-}
-
-void makeRoom(FileText& text, std::size_t size) { text.resize(size); }
-void makeRoom(std::vector<std::uint8_t>& bytes, std::size_t size) {
-    reserveInLargePages(bytes, size);
-    bytes.resize(size);
 }
 
 template <class Bytes> Bytes readWhole(const std::string& fileName, int threads) {
@@ -144,10 +117,10 @@ template <class Bytes> Bytes readWhole(const std::string& fileName, int threads)
     // One byte more than promised: the end is seen without another allocation.
     const auto size =
         static_cast<std::size_t>(status ? kFirstPart : std::max(promised + 1, kFirstPart));
-    makeRoom(bytes, size);
+    bytes.resize(size);
     if (!status && promised > kFirstPart && threads != 1) {
         used = readParts(file.get(), {reinterpret_cast<char*>(bytes.data()), size - 1}, threads);
-        if (fseeko(file.get(), static_cast<off_t>(used), SEEK_SET) != 0)
+        if (std::fseek(file.get(), static_cast<long>(used), SEEK_SET) != 0)
             failReading(std::strerror(errno));
     }
     while (true) {
@@ -173,15 +146,14 @@ FileText readWholeText(const std::string& fileName, int threads) {
 }
 
 void writeFileAtomically(const std::string& fileName, std::span<const std::uint8_t> bytes) {
-    writeFileAtomically(fileName, bytes.size(), [&](const ByteSink& write) { write(bytes); });
+    writeFileAtomically(fileName, [&](ByteSink write) { write(bytes); });
 }
 
-void writeFileAtomically(const std::string& fileName, std::size_t expected,
-                         const ByteSource& produce) {
+void writeFileAtomically(const std::string& fileName, ByteSource produce) {
     const std::scoped_lock lock(oneWriteAtATime);
     std::error_code status;
     std::string target = fileName;
-    // rename() would replace a symbolic link instead of what it points to.
+    // To rename would replace a symbolic link instead of what it points to.
     if (fs::is_symlink(fs::symlink_status(fileName, status))) {
         const fs::path real = fs::weakly_canonical(fileName, status);
         if (!status) target = real.string();
@@ -189,14 +161,17 @@ void writeFileAtomically(const std::string& fileName, std::size_t expected,
     const fs::file_status kind = fs::status(target, status);
     if (fs::is_directory(kind)) failWriting(fileName, EISDIR);
     if (fs::exists(kind) && !fs::is_regular_file(kind))
-        return writeBytes(target, fileName, 0, produce);
-    // rename() asks for rights in the folder only; a write-protected file stays protected.
-    if (fs::exists(kind) && access(target.c_str(), W_OK) != 0) failWriting(fileName, errno);
+        return writeBytes(target, fileName, produce);
+    // To rename takes rights in the folder only; a write-protected file stays protected.
+    if (fs::exists(kind))
+        if (const std::string why = whyNotWritable(target); !why.empty())
+            failWriting(fileName, why);
 
-    const std::string temporary = cat(target, ".", getpid(), ".tmp");
+    const std::string temporary = cat(target, ".", processNumber(), ".tmp");
     PendingFile pendingFile(temporary);
-    writeBytes(temporary, fileName, expected, produce);
-    if (!pendingFile.renameTo(target)) failWriting(fileName, errno);
+    writeBytes(temporary, fileName, produce);
+    if (const std::error_code failed = pendingFile.renameTo(target))
+        failWriting(fileName, failed.value());
 }
 
 const char* pendingTemporaryFile() { return pending; }

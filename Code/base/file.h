@@ -3,11 +3,10 @@
 #pragma once
 
 #include "base/file_text.h"
+#include "base/function_ref.h"
 #include "base/in_order.h"
 
-#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -23,11 +22,10 @@ FileText readWholeText(const std::string& fileName, int threads = 1);
 // time: threads wait for each other. Fails with ErrorKind::Output and leaves no temporary file.
 void writeFileAtomically(const std::string& fileName, std::span<const std::uint8_t> bytes);
 // The same for bytes that are made meanwhile: produce(write) gives them to `write` one piece after
-// the other, from any thread. There is room on the disk for `expected` of them before they come.
-using ByteSource = std::function<void(const ByteSink& write)>;
-void writeFileAtomically(const std::string& fileName, std::size_t expected,
-                         const ByteSource& produce);
+// the other, from any thread.
+using ByteSource = FunctionRef<void(ByteSink write)>;
+void writeFileAtomically(const std::string& fileName, ByteSource produce);
 
 // The temporary file that exists right now, nullptr when there is none. Safe in a signal handler,
-// which may unlink() it before the program ends.
+// which may remove it before the program ends.
 const char* pendingTemporaryFile();

@@ -1,14 +1,18 @@
 #include "base/parallel.h"
 
-#include "base/large_pages.h"
-#include "base/processors.h"
+#include "base/platform/threads.h"
 
 #include <cfenv>
+#include <cstdint>
+#include <exception>
 #include <iterator>
+#include <memory>
+#include <mutex>
 #include <new>
 #include <system_error>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #if defined(__SSE2__)
 #include <emmintrin.h>
@@ -16,30 +20,16 @@
 
 namespace {
 
-// What comes next is often a few microseconds away, and waking up takes 50: a thread that has a
-// processor of its own stays awake for that long. Says whether the value is not `old` any more.
-bool changesSoon(const std::atomic<std::uint32_t>& value, std::uint32_t old, bool staysAwake) {
-    for (int i = staysAwake ? 2000 : 0; i > 0; --i) {
-        if (value.load() != old) return true;
+// Waits until the value is not `old` any more, and returns what it is then. What comes next is
+// often a few microseconds away, and waking up takes 50: a thread that has a processor of its own
+// stays awake for that long.
+std::uint32_t changed(const std::atomic<std::uint32_t>& value, std::uint32_t old, bool staysAwake) {
+    for (int i = staysAwake ? 2000 : 0; i > 0 && value.load() == old; --i) {
 #if defined(__SSE2__)
         _mm_pause();
 #endif
     }
-    return false;
-}
-
-// Waits until the value is not `old` any more.
-std::uint32_t changed(const std::atomic<std::uint32_t>& value, std::uint32_t old, bool staysAwake) {
-    if (!changesSoon(value, old, staysAwake)) value.wait(old);
-    return value.load();
-}
-// The same for a helper, whom somebody wakes that goes on working.
-std::uint32_t changedApart(const std::atomic<std::uint32_t>& value, std::uint32_t old,
-                           bool staysAwake) {
-    if (!changesSoon(value, old, staysAwake)) {
-        const WokenApart apart;
-        value.wait(old);
-    }
+    value.wait(old);
     return value.load();
 }
 
@@ -48,14 +38,36 @@ bool haveOwnProcessors(int threads) { return threads <= hardwareThreads(); }
 } // namespace
 
 int hardwareThreads() {
-    // Asked once: a thread that is confined for a while would get another answer.
-    static const int count = static_cast<int>(std::thread::hardware_concurrency());
-    return count > 0 ? count : 1; // 0: unknown
+    static const int count = processorCount();
+    return count;
 }
+
+struct ThreadPool::State {
+    int threads() const { return static_cast<int>(helpers.size()) + 1; }
+    void work(int worker);
+    void serve(int worker);
+
+    std::vector<std::unique_ptr<Helper>> helpers{};
+
+    // Odd while a run is open: helpers go in, and are counted in inside before they look whether
+    // they still may. Whoever wakes up after the last job was handed out is not waited for.
+    std::atomic<std::uint32_t> generation{0}, inside{0};
+    std::atomic<bool> quit{false};
+
+    // The open run.
+    Job job{};
+    const std::atomic<bool>* stop = nullptr;
+    std::size_t count = 0;
+    std::atomic<std::size_t> next{0}, finished{0};
+    std::mutex mutex{};
+    std::exception_ptr error{}; // guarded by mutex
+    std::size_t errorIndex = 0; // guarded by mutex
+    std::atomic<bool> failed{false};
+};
 
 // A thread that serves one pool after the other.
 struct ThreadPool::Helper {
-    Helper() : thread([this] { live(); }) { startApart(thread, hasBegun); }
+    Helper() : thread([this] { live(); }) {}
     ~Helper() {
         hire(nullptr, 0);
         thread.join();
@@ -63,7 +75,7 @@ struct ThreadPool::Helper {
     Helper(const Helper&) = delete;
     Helper& operator=(const Helper&) = delete;
 
-    void hire(ThreadPool* by, int as) {
+    void hire(State* by, int as) {
         pool = by;
         worker = as;
         ++turn;
@@ -73,11 +85,9 @@ struct ThreadPool::Helper {
         for (std::uint32_t now = turn; now % 2 == 1;) now = changed(turn, now, true);
     }
     void live() {
-        beginApart(hasBegun);
-        useLargePagesInThread();
         for (;;) {
             std::uint32_t now = turn;
-            while (now % 2 == 0) now = changedApart(turn, now, haveOwnProcessors(2));
+            while (now % 2 == 0) now = changed(turn, now, haveOwnProcessors(2));
             if (!pool) return;
             pool->serve(worker);
             ++turn;
@@ -86,9 +96,8 @@ struct ThreadPool::Helper {
     }
 
     std::atomic<std::uint32_t> turn{0}; // odd: it belongs to a pool
-    ThreadPool* pool = nullptr;         // nullptr: the end
+    State* pool = nullptr;              // nullptr: the end
     int worker = 0;
-    std::atomic<bool> hasBegun{false};
     std::thread thread; // last: it finds the rest ready
 };
 
@@ -122,91 +131,94 @@ public:
         }
     }
 
+    static Crew& all() {
+        static Crew crew;
+        return crew;
+    }
+
 private:
     std::mutex mutex_;
     std::vector<std::unique_ptr<Helper>> free_; // the next one to be taken is the last
 };
 
-ThreadPool::Crew& ThreadPool::crew() {
-    static Crew all;
-    return all;
-}
-
 ThreadPool::ThreadPool(int threads) {
-    const int processors = hardwareThreads(), count = threads > 0 ? threads : processors;
-    if (count == 1) return;
-    takeProcessor();
-    helpers_ = crew().take(static_cast<std::size_t>(count) - 1);
+    const int count = threads > 0 ? threads : hardwareThreads();
+    auto state = std::make_unique<State>();
+    if (count > 1) state->helpers = Crew::all().take(static_cast<std::size_t>(count) - 1);
+    state_ = state.release();
     int worker = 0;
-    for (const auto& helper : helpers_) helper->hire(this, ++worker);
+    for (const auto& helper : state_->helpers) helper->hire(state_, ++worker);
 }
 
 ThreadPool::~ThreadPool() {
-    if (helpers_.empty()) return;
-    quit_ = true;
-    generation_ += 2;
-    generation_.notify_all();
-    for (const auto& helper : helpers_) helper->awaitFree();
-    crew().giveBack(std::move(helpers_));
+    State& s = *state_;
+    if (!s.helpers.empty()) {
+        s.quit = true;
+        s.generation += 2;
+        s.generation.notify_all();
+        for (const auto& helper : s.helpers) helper->awaitFree();
+        Crew::all().giveBack(std::move(s.helpers));
+    }
+    delete state_;
 }
 
-bool ThreadPool::run(std::size_t count, const std::function<void(std::size_t, int)>& job,
-                     const std::atomic<bool>* stop) {
-    job_ = &job;
-    stop_ = stop;
-    count_ = count;
-    next_ = 0;
-    finished_ = 0;
-    failed_ = false;
-    error_ = nullptr;
-    const bool alone = helpers_.empty() || count <= 1;
+int ThreadPool::threads() const { return state_->threads(); }
+
+bool ThreadPool::run(std::size_t count, Job job, const std::atomic<bool>* stop) {
+    State& s = *state_;
+    s.job = job;
+    s.stop = stop;
+    s.count = count;
+    s.next = 0;
+    s.finished = 0;
+    s.failed = false;
+    s.error = nullptr;
+    const bool alone = s.helpers.empty() || count <= 1;
     if (!alone) {
-        takeProcessor();
-        ++generation_;
-        generation_.notify_all();
+        ++s.generation;
+        s.generation.notify_all();
     }
-    work(0);
+    s.work(0);
     if (!alone) {
-        ++generation_;
-        for (std::uint32_t in = inside_; in > 0;)
-            in = changed(inside_, in, haveOwnProcessors(threads()));
+        ++s.generation;
+        for (std::uint32_t in = s.inside; in > 0;)
+            in = changed(s.inside, in, haveOwnProcessors(s.threads()));
     }
-    job_ = nullptr;
-    if (error_) std::rethrow_exception(std::exchange(error_, nullptr));
-    return finished_ == count;
+    if (s.error) std::rethrow_exception(std::exchange(s.error, nullptr));
+    return s.finished == count;
 }
 
-void ThreadPool::serve(int worker) {
+void ThreadPool::State::serve(int worker) {
     std::fesetenv(FE_DFL_ENV); // threads inherit the modes of whoever started them
     const bool staysAwake = haveOwnProcessors(threads());
     std::uint32_t seen = 0;
-    while (!quit_) {
+    while (!quit) {
         if (seen % 2 == 1) {
-            ++inside_;
-            if (generation_ == seen) work(worker);
-            if (--inside_ == 0) inside_.notify_one();
+            ++inside;
+            if (generation == seen) work(worker);
+            if (--inside == 0) inside.notify_one();
         }
-        seen = changedApart(generation_, seen, staysAwake);
+        seen = changed(generation, seen, staysAwake);
     }
 }
 
-void ThreadPool::work(int worker) {
-    std::size_t finished = 0;
-    while (!failed_.load(std::memory_order_relaxed) &&
-           !(stop_ && stop_->load(std::memory_order_relaxed))) {
-        const std::size_t index = next_.fetch_add(1, std::memory_order_relaxed);
-        if (index >= count_) break;
+void ThreadPool::State::work(int worker) {
+    std::size_t done = 0;
+    while (!failed.load(std::memory_order_relaxed) &&
+           !(stop && stop->load(std::memory_order_relaxed))) {
+        const std::size_t index = next.fetch_add(1, std::memory_order_relaxed);
+        if (index >= count) break;
         try {
-            (*job_)(index, worker);
-            ++finished;
+            job(index, worker);
+            ++done;
         } catch (...) {
-            const std::lock_guard lock(mutex_);
-            if (!error_ || index < errorIndex_) {
-                error_ = std::current_exception();
-                errorIndex_ = index;
+            const std::lock_guard lock(mutex);
+            if (!error || index < errorIndex) {
+                error = std::current_exception();
+                errorIndex = index;
             }
-            failed_ = true;
+            failed = true;
         }
     }
-    finished_ += finished;
+    finished += done;
 }

@@ -2,16 +2,12 @@
 // Which thread does which job is left open: jobs must not depend on it.
 #pragma once
 
+#include "base/function_ref.h"
+
 #include <atomic>
 #include <cstddef>
-#include <cstdint>
-#include <exception>
-#include <functional>
-#include <memory>
-#include <mutex>
-#include <vector>
 
-// How many threads the machine runs at once, at least 1.
+// How many threads of this program the machine runs at once, at least 1.
 int hardwareThreads();
 
 // Floating point stays as the standard has it in all threads: round to nearest, denormals kept
@@ -22,6 +18,8 @@ int hardwareThreads();
 // there are 64 nobody but the caller could start them.
 class ThreadPool {
 public:
+    using Job = FunctionRef<void(std::size_t, int)>;
+
     // 0 means hardwareThreads(). The caller of run() is worker 0, so it has threads - 1 others, or
     // as many as the system gives.
     explicit ThreadPool(int threads = 0);
@@ -29,7 +27,7 @@ public:
     ThreadPool(const ThreadPool&) = delete;
     ThreadPool& operator=(const ThreadPool&) = delete;
 
-    int threads() const { return static_cast<int>(helpers_.size()) + 1; }
+    int threads() const;
 
     // Calls job(index, worker) for index = 0 .. count-1, each once, handed out in ascending order;
     // worker in [0, threads) tells whose scratch memory to use. Returns when all are done. With
@@ -37,31 +35,11 @@ public:
     // here; of several the one of the lowest index, which is the same in every run. When *stop
     // becomes true no further index is handed out; returns false when some were left out that way.
     // One run at a time, no nesting.
-    bool run(std::size_t count, const std::function<void(std::size_t, int)>& job,
-             const std::atomic<bool>* stop = nullptr);
+    bool run(std::size_t count, Job job, const std::atomic<bool>* stop = nullptr);
 
 private:
     struct Helper;
     class Crew;
-    static Crew& crew();
-
-    void work(int worker);
-    void serve(int worker);
-
-    std::vector<std::unique_ptr<Helper>> helpers_;
-
-    // Odd while a run is open: helpers go in, and are counted in inside_ before they look whether
-    // they still may. Whoever wakes up after the last job was handed out is not waited for.
-    std::atomic<std::uint32_t> generation_{0}, inside_{0};
-    std::atomic<bool> quit_{false};
-
-    // The open run.
-    const std::function<void(std::size_t, int)>* job_ = nullptr;
-    const std::atomic<bool>* stop_ = nullptr;
-    std::size_t count_ = 0;
-    std::atomic<std::size_t> next_{0}, finished_{0};
-    std::mutex mutex_;
-    std::exception_ptr error_;   // guarded by mutex_
-    std::size_t errorIndex_ = 0; // guarded by mutex_
-    std::atomic<bool> failed_{false};
+    struct State;
+    State* state_;
 };

@@ -1,7 +1,7 @@
 #include "cli/info.h"
 
+#include "base/platform/memory.h"
 #include "base/text.h"
-#include "cli/stats_output.h"
 #include "desc/enum_tables.h"
 #include "render/texture_files.h"
 
@@ -196,9 +196,10 @@ std::string infoText(const SourceFile& source, const SceneDesc& desc,
     for (const Feature& feature : scene.features())
         lines.add("feature", feature.needed ? feature.name
                                             : cat(feature.name, " not needed: ", feature.reason));
+    const std::uint64_t peak = peakBytes();
     lines.add("memory", cat(mebibytes(source.text.size()), " file, ", mebibytes(meshBytes),
                             " meshes, ", mebibytes(textureBytes), " textures, ",
-                            mebibytes(peakBytes()), " peak of this run"));
+                            peak > 0 ? mebibytes(peak) : "unknown", " peak of this run"));
     return lines.text();
 }
 

@@ -1,12 +1,13 @@
-// SIGINT, SIGTERM and SIGHUP. While something can stop by itself (a render), the first signal asks
-// it to stop; at any other time, and the second time, the program ends at once with exit code 130.
-// A temporary file is removed in both cases, so no half-written picture is left.
+// Requests that the program ends (SIGINT, SIGTERM, SIGHUP). While something can stop by itself (a
+// render), the first signal asks it to stop; at any other time, and the second time, the program
+// ends at once with exit code 130. A temporary file is removed in both cases, so no half-written
+// picture is left.
 #pragma once
 
 #include <atomic>
 
-// Call once, at the start of the program. Also makes errors of what would end the program without a
-// word: writing into a closed pipe (SIGPIPE) and beyond the limit of a file's size (SIGXFSZ).
+// Call once, at the start of the program: see handleEndRequests(), which also makes errors of what
+// would end the program without a word.
 void handleInterrupts();
 
 // While one exists, the first signal sets the flag instead of ending the program. One at a time.

@@ -1,10 +1,10 @@
 #include "cli/messages.h"
 
+#include "base/platform/terminal.h"
 #include "base/text.h"
 #include "cli/output.h"
 #include "cli/preview.h"
 #include "cli/stats_output.h"
-#include "cli/terminal.h"
 
 #include <bit>
 #include <cstdio>

@@ -3,6 +3,7 @@
 #include "base/enum_names.h"
 #include "base/error.h"
 #include "base/math.h"
+#include "base/platform/files.h"
 #include "cli/method_names.h"
 #include "render/encoding.h"
 
@@ -12,7 +13,6 @@
 #include <cstring>
 #include <filesystem>
 #include <limits>
-#include <unistd.h>
 
 namespace {
 
@@ -50,15 +50,16 @@ void checkWritable(const std::string& fileName) {
     const fs::file_status status = fs::status(fileName, error);
     if (fs::is_directory(status)) failWriting(fileName, "it is a folder; name a file in it");
     if (fs::exists(status)) {
-        if (access(fileName.c_str(), W_OK) != 0) failWriting(fileName, std::strerror(errno));
+        const std::string why = whyNotWritable(fileName);
+        if (!why.empty()) failWriting(fileName, why);
         if (!fs::is_regular_file(status)) return; // /dev/null, a pipe: written to directly
     }
     const fs::path folder = fs::path(fileName).parent_path();
     const std::string folderName = folder.empty() ? "." : folder.string();
     if (!fs::is_directory(folderName, error))
         failWriting(fileName, cat("there is no folder '", folderName, "'"));
-    if (access(folderName.c_str(), W_OK) != 0)
-        failWriting(fileName, cat("the folder '", folderName, "': ", std::strerror(errno)));
+    const std::string why = whyNotWritable(folderName);
+    if (!why.empty()) failWriting(fileName, cat("the folder '", folderName, "': ", why));
 }
 
 std::string aovFileName(const std::string& output, Aov aov) {

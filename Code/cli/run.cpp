@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/platform/memory.h"
+#include "base/platform/terminal.h"
 #include "base/text.h"
 #include "cli/command.h"
 #include "cli/completion.h"
@@ -14,7 +16,6 @@
 #include "cli/progress.h"
 #include "cli/settings_from.h"
 #include "cli/stats_output.h"
-#include "cli/terminal.h"
 #include "cli/version.h"
 #include "desc/write_txt.h"
 #include "read/load.h"

@@ -7,7 +7,6 @@
 #include <iomanip>
 #include <span>
 #include <sstream>
-#include <sys/resource.h>
 
 namespace {
 
@@ -139,7 +138,7 @@ std::string statsTable(const Stats& s) {
         table.row("meshes", fixed(bytesPerTriangle(s.accel), 1), "bytes per triangle");
     table.row("sah cost", fixed(s.accel.sah, 2));
     table.heading("run");
-    table.row("peak memory", megabytes(s.peakBytes));
+    table.row("peak memory", s.peakBytes > 0 ? megabytes(s.peakBytes) : "unknown");
     table.row("threads", std::to_string(s.threads));
     table.row("kernel", s.kernel);
     table.row("samples per pixel",
@@ -188,15 +187,4 @@ std::string statsJson(const Stats& s) {
     }
     all.add("samples", samples.text()).add("numeric", numeric.text());
     return all.text() + "\n";
-}
-
-std::uint64_t peakBytes() {
-    rusage usage{};
-    getrusage(RUSAGE_SELF, &usage);
-#ifdef __APPLE__
-    constexpr std::uint64_t kUnit = 1; // macOS counts bytes, Linux and BSD kibibytes
-#else
-    constexpr std::uint64_t kUnit = 1024;
-#endif
-    return static_cast<std::uint64_t>(usage.ru_maxrss) * kUnit;
 }

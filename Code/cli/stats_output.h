@@ -13,6 +13,3 @@ std::string statsJson(const Stats& stats);
 
 // Three digits that count: "0.00594".
 std::string significant(double value);
-
-// The most memory that the process has used so far.
-std::uint64_t peakBytes();

@@ -33,9 +33,8 @@ void CodedImage::fill(int x, int y, int width, int height, Rgb pixel) {
 
 void CodedImage::write(const std::string& fileName, int threads) const {
     const std::string extension = extensionOf(fileName);
-    writeFileAtomically(fileName, codes_.size() + 64, [&](const ByteSink& write) {
-        encodeSource(source(), extension, threads, write);
-    });
+    writeFileAtomically(fileName,
+                        [&](ByteSink write) { encodeSource(source(), extension, threads, write); });
 }
 
 std::vector<std::uint8_t> encodeImage(const CodedImage& image, const std::string& extension,

@@ -3,7 +3,7 @@
 // once.
 #pragma once
 
-#include "base/zeroed.h"
+#include "base/raw_vector.h"
 #include "image/image.h"
 
 #include <cstddef>

@@ -43,10 +43,10 @@ struct PixelSource {
 std::string extensionOf(const std::string& fileName);
 // The extension says which of the two.
 void encodeSource(const PixelSource& picture, const std::string& extension, int threads,
-                  const ByteSink& use);
-void encodePpm(const PixelSource& picture, int threads, const ByteSink& use);
-void encodePng(const PixelSource& picture, int threads, const ByteSink& use);
-void encodePfm(const Image& image, int threads, const ByteSink& use);
+                  ByteSink use);
+void encodePpm(const PixelSource& picture, int threads, ByteSink use);
+void encodePng(const PixelSource& picture, int threads, ByteSink use);
+void encodePfm(const Image& image, int threads, ByteSink use);
 
 // Fails unless both sides are in 1..kMaxSide and the area is at most kMaxPixels.
 void checkSize(long long width, long long height, const std::string& name);

@@ -91,7 +91,7 @@ std::string extensionOf(const std::string& fileName) {
 }
 
 void encodeSource(const PixelSource& picture, const std::string& extension, int threads,
-                  const ByteSink& use) {
+                  ByteSink use) {
     if (extension == "ppm") return encodePpm(picture, threads, use);
     if (extension == "png") return encodePng(picture, threads, use);
     fail(ErrorKind::Output,
@@ -134,12 +134,8 @@ void Image::write(const std::string& fileName, Encoding encoding, int threads) c
     if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end())
         fail(ErrorKind::Output, cat(fileName, ": error: unknown picture extension ",
                                     unknownName(extension, kExtensions)));
-    // Of a raw file without its header; a PNG file is smaller.
-    const std::size_t pixelBytes =
-        extension == "pfm" ? sizeof(Rgb) : 3 * static_cast<std::size_t>(encoding.bits / 8);
-    writeFileAtomically(fileName, pixels_.size() * pixelBytes + 64, [&](const ByteSink& write) {
-        encodeImage(*this, extension, encoding, threads, write);
-    });
+    writeFileAtomically(
+        fileName, [&](ByteSink write) { encodeImage(*this, extension, encoding, threads, write); });
 }
 
 StoredImage readStoredImage(const std::string& fileName) {
@@ -168,7 +164,7 @@ std::vector<std::uint8_t> encodeImage(const Image& image, const std::string& ext
 }
 
 void encodeImage(const Image& image, const std::string& extension, Encoding encoding, int threads,
-                 const ByteSink& use) {
+                 ByteSink use) {
     if (encoding.bits != 8 && encoding.bits != 16)
         fail(ErrorKind::Usage, cat("error: ", encoding.bits, " bits per channel; 8 or 16"));
     if (extension == "pfm") return encodePfm(image, threads, use);

@@ -3,8 +3,8 @@
 #pragma once
 
 #include "base/in_order.h"
+#include "base/raw_vector.h"
 #include "base/vec.h"
-#include "base/zeroed.h"
 
 #include <cstdint>
 #include <span>
@@ -85,4 +85,4 @@ std::vector<std::uint8_t> encodeImage(const Image& image, const std::string& ext
                                       Encoding encoding, int threads = 1);
 // The same in pieces, which are used one after the other while others are made.
 void encodeImage(const Image& image, const std::string& extension, Encoding encoding, int threads,
-                 const ByteSink& use);
+                 ByteSink use);

@@ -45,7 +45,7 @@ StoredImage decodePfm(Bytes file, const std::string& name) {
     return image;
 }
 
-void encodePfm(const Image& image, int threads, const ByteSink& use) {
+void encodePfm(const Image& image, int threads, ByteSink use) {
     const std::string header = cat("PF\n", image.width(), " ", image.height(), "\n-1.0\n");
     const auto width = static_cast<std::size_t>(image.width());
     const auto height = static_cast<std::size_t>(image.height());

@@ -162,7 +162,7 @@ private:
 
 } // namespace
 
-void encodePng(const PixelSource& picture, int threads, const ByteSink& use) {
+void encodePng(const PixelSource& picture, int threads, ByteSink use) {
     Buffer start(kPngSignature.begin(), kPngSignature.end());
     Buffer header;
     putNumber(header, static_cast<std::size_t>(picture.width));

@@ -78,7 +78,7 @@ StoredImage decodePpm(Bytes file, const std::string& name) {
     return image;
 }
 
-void encodePpm(const PixelSource& picture, int threads, const ByteSink& use) {
+void encodePpm(const PixelSource& picture, int threads, ByteSink use) {
     const std::string header = cat("P6\n", picture.width, " ", picture.height, "\n",
                                    picture.encoding.bits == 8 ? kMaxval8 : kMaxval16, "\n");
     makeRawFile(header, picture.count(), picture.pixelBytes(), threads, use,

@@ -1,8 +1,6 @@
 // Lists that a text fills, block by block.
 #pragma once
 
-#include "base/large_pages.h"
-
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -20,7 +18,7 @@ void makeRoomByText(List& list, std::size_t more, std::size_t first, std::size_t
     const double left = here < last ? static_cast<double>(last - here) : 0;
     const double growth = 1 + kMargin * left / static_cast<double>(here - first);
     const double wanted = static_cast<double>(list.size()) * std::clamp(growth, kLeast, kMost);
-    reserveInLargePages(list, static_cast<std::size_t>(wanted));
+    list.reserve(static_cast<std::size_t>(wanted));
 }
 
 // One block more, `here` bytes from the start of the text.

@@ -1,8 +1,6 @@
 #include "read/load.h"
 
 #include "base/file.h"
-#include "base/for_each.h"
-#include "base/large_pages.h"
 #include "base/text.h"
 #include "desc/validate.h"
 #include "read/json/read_json.h"
@@ -12,7 +10,6 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cstdio>
 #include <filesystem>
 #include <string_view>
@@ -102,49 +99,8 @@ void checkFile(const std::string& fileName) {
         fail(ErrorKind::Input, cat(fileName, ": error: the file is larger than 4 GiB"));
 }
 
-bool hasMeshBlock(std::string_view text, int threads) {
-    constexpr std::size_t kTogether = std::size_t{1} << 20;
-    std::atomic<bool> has{false};
-    forEachPart(threads, text.size(), kTogether, [&](std::size_t first, std::size_t last) {
-        if (has) return;
-        const std::size_t reach = last - first + kMeshBlock.size() - 1;
-        if (text.substr(first, reach).find(kMeshBlock) != std::string_view::npos) has = true;
-    });
-    return has;
-}
-
-// Texts up to this size lie in the memory that is made for what they say.
-constexpr std::size_t kSmallText = std::size_t{3} << 20;
-
-// Objects and materials are many small things, up to 20 times the bytes of their text before they
-// are a scene, and a quarter of that most of the time, as meshes are: half of the time of reading
-// many would be spent on touching their pages for the first time. Large meshes are a few large
-// arrays: in the heap they would leave holes where the tree gets no room. Small texts do not say
-// how much it will be, as they may ask for a large picture.
-void makeRoom(std::size_t textBytes, bool isMesh, int threads) {
-    constexpr std::size_t kLeast = std::size_t{24} << 20, kMostTimes = 24, kUsualTimes = 5;
-    const std::size_t foreseen = kUsualTimes * textBytes;
-    foreseeMemory(foreseen);
-    const bool isElsewhere = isMesh && textBytes > kSmallText;
-    useLargePages(std::max(kLeast, isMesh ? 0 : kMostTimes * textBytes), isElsewhere ? 0 : foreseen,
-                  threads != 1);
-}
-
-FileText readText(const std::string& fileName, const Format& format, int threads) {
-    std::error_code status;
-    const std::uintmax_t size = fs::file_size(fileName, status);
-    if (!status && size <= kSmallText) {
-        makeRoom(static_cast<std::size_t>(size), format.isMesh, threads);
-        return readWholeText(fileName, threads);
-    }
-    FileText text = readWholeText(fileName, threads);
-    makeRoom(text.size(),
-             format.isMesh || (format.extension == ".txt" && hasMeshBlock(text, threads)), threads);
-    return text;
-}
-
 // What stands above the first mesh of a long text: exporters write textures and materials there.
-void foreseeStart(const SourceFile& source, const Foreseen& foreseen) {
+void foreseeStart(const SourceFile& source, Foreseen foreseen) {
     constexpr std::size_t kLong = 1 << 20;
     if (source.text.size() < kLong) return;
     const std::string_view start = std::string_view(source.text).substr(0, kLong);
@@ -161,7 +117,7 @@ void foreseeStart(const SourceFile& source, const Foreseen& foreseen) {
 } // namespace
 
 LoadedScene load(const std::string& fileName, Diagnostics& diagnostics, const ReadOptions& options,
-                 const Foreseen& foreseen) {
+                 Foreseen foreseen) {
     const ReadContext context{options, diagnostics};
     LoadedScene scene;
     if (fileName == "-") {
@@ -170,7 +126,7 @@ LoadedScene load(const std::string& fileName, Diagnostics& diagnostics, const Re
     } else {
         checkFile(fileName);
         const Format& format = formatOf(fileName);
-        scene.source = {fileName, readText(fileName, format, options.threads)};
+        scene.source = {fileName, readWholeText(fileName, options.threads)};
         if (foreseen && format.extension == ".txt") foreseeStart(scene.source, foreseen);
         scene.desc = format.read(scene.source, context);
     }

@@ -2,11 +2,11 @@
 #pragma once
 
 #include "base/error.h"
+#include "base/function_ref.h"
 #include "base/source.h"
 #include "desc/scene_desc.h"
 #include "read/read_context.h"
 
-#include <functional>
 #include <string>
 
 struct LoadedScene {
@@ -18,6 +18,6 @@ struct LoadedScene {
 // keeps in files are read as well. Throws Error (Input).
 // foreseen(desc, name of the scene's file): what is known of it so far and may still be wrong, for
 // who can begin something with that. Called once or more often, and does not throw.
-using Foreseen = std::function<void(const SceneDesc& desc, const std::string& sceneFile)>;
+using Foreseen = FunctionRef<void(const SceneDesc& desc, const std::string& sceneFile)>;
 LoadedScene load(const std::string& fileName, Diagnostics& diagnostics,
-                 const ReadOptions& options = {}, const Foreseen& foreseen = {});
+                 const ReadOptions& options = {}, Foreseen foreseen = {});

@@ -55,7 +55,7 @@ struct MeshGeometry {
     std::vector<float> longestSide;
 
     // Copies of the exact points for the leaves of the wide tree; see TreeVisit::exactPoints.
-    PageVector<Vec3d> leafPoints;
+    ZeroedVector<Vec3d> leafPoints;
 
     // At most one of the trees; both empty: every triangle is tested (--accel none).
     Bvh bvh;

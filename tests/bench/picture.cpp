@@ -1,5 +1,6 @@
 #include "bench/picture.h"
 
+#include "base/platform/files.h"
 #include "base/text.h"
 #include "bench/clock.h"
 #include "read/load.h"
@@ -9,7 +10,6 @@
 
 #include <filesystem>
 #include <optional>
-#include <unistd.h>
 
 namespace {
 
@@ -17,7 +17,7 @@ class TemporaryPicture {
 public:
     TemporaryPicture()
         : path_(std::filesystem::temp_directory_path() /
-                cat("raytracer-bench-", getpid(), ".png")) {}
+                cat("raytracer-bench-", processNumber(), ".png")) {}
     ~TemporaryPicture() {
         std::error_code ignored;
         std::filesystem::remove(path_, ignored);

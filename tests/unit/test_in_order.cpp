@@ -1,8 +1,6 @@
-// Pieces that are made in any order on any thread are used in their own, each once; and memory of
-// zeros is that.
+// Pieces that are made in any order on any thread are used in their own, each once.
 #include "base/in_order.h"
 #include "base/parallel.h"
-#include "base/zeroed.h"
 #include "check.h"
 
 #include <stdexcept>
@@ -20,7 +18,7 @@ InOrder::Bytes pieceOf(std::size_t number, InOrder::Bytes bytes) {
 
 TEST(in_order_whatever_comes_first) {
     std::vector<std::uint8_t> used;
-    const ByteSink use = [&](std::span<const std::uint8_t> bytes) {
+    const auto use = [&](std::span<const std::uint8_t> bytes) {
         used.insert(used.end(), bytes.begin(), bytes.end());
     };
     InOrder inOrder(4, use);
@@ -39,7 +37,7 @@ TEST(in_order_on_threads) {
     for (const int threads : {1, 2, 7}) {
         std::vector<std::uint8_t> used, expected;
         int inside = 0;
-        const ByteSink use = [&](std::span<const std::uint8_t> bytes) {
+        const auto use = [&](std::span<const std::uint8_t> bytes) {
             CHECK_EQUAL(++inside, 1); // one at a time
             used.insert(used.end(), bytes.begin(), bytes.end());
             --inside;
@@ -59,7 +57,7 @@ TEST(in_order_on_threads) {
 // What use() throws arrives where the piece was put, and nothing is used after it.
 TEST(in_order_stops_at_an_error) {
     int calls = 0;
-    const ByteSink use = [&](std::span<const std::uint8_t>) {
+    const auto use = [&](std::span<const std::uint8_t>) {
         if (++calls == 2) throw std::runtime_error("full");
     };
     InOrder inOrder(4, use);
@@ -74,21 +72,6 @@ TEST(in_order_stops_at_an_error) {
     inOrder.put(2, {});
     inOrder.put(3, {});
     CHECK_EQUAL(calls, 2);
-}
-
-TEST(zeroed_vectors_are_zero) {
-    for (const std::size_t size : {std::size_t{1}, std::size_t{1000}, std::size_t{5} << 20}) {
-        { // memory that is given back and used again
-            ZeroedVector<std::uint8_t> dirty(size);
-            for (std::uint8_t& byte : dirty) byte = 255;
-        }
-        const ZeroedVector<std::uint8_t> zeros(size);
-        std::size_t others = 0;
-        for (const std::uint8_t byte : zeros) others += byte != 0;
-        CHECK_EQUAL(others, 0u);
-    }
-    const ZeroedVector<int> copy(ZeroedVector<int>(3, 7));
-    CHECK(copy.size() == 3 && copy[0] == 7 && copy[2] == 7);
 }
 
 } // namespace test_in_order

@@ -8,12 +8,12 @@
 #include "accel/kernels/kernels.h"
 #include "accel/kernels/wide_tree.h"
 #include "accel/solid_form.h"
+#include "base/function_ref.h"
 #include "base/hit.h"
 #include "base/raw_vector.h"
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -73,7 +73,7 @@ struct SolidTree {
     // which no hull tells which rays pass by, are kInOrder: rays meet them in the order of depth.
     static constexpr auto kInOrder = static_cast<WideKind>(3);
     static constexpr bool isLeaf(WideRef ref) { return (ref & 1) != 0; }
-    PageVector<WideTree::Line> lines;
+    RawVector<WideTree::Line> lines;
     Bounds around;    // all solids that are in it
     float extent = 0; // see RaySetup
     double sah = 0;   // as sahCost() of bvh.h counts
@@ -96,7 +96,7 @@ struct SolidTree {
         bool hides = true;
         SolidForm form;
     };
-    using Describe = std::function<Described(std::uint32_t i, std::uint32_t next)>;
+    using Describe = FunctionRef<Described(std::uint32_t i, std::uint32_t next)>;
     void build(int nodeWidth, std::span<const Bounds> of, const Describe& describe, int threads);
 
     std::size_t nodes() const { return lines.size() * sizeof(WideTree::Line) / nodeBytes(); }

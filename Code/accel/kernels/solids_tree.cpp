@@ -5,7 +5,7 @@
 #include "accel/kernels/build/collapse.h"
 #include "accel/kernels/solids.h"
 #include "base/for_each.h"
-#include "base/pages.h"
+#include "base/raw_vector.h"
 
 #include <algorithm>
 #include <cstring>
@@ -41,7 +41,7 @@ private:
     // Wide nodes that lie in a row, and the solids in their leaves; references count from there.
     struct Piece {
         std::uint32_t root = 0;
-        PageVector<WideTree::Line> lines{};
+        RawVector<WideTree::Line> lines{};
         std::vector<std::uint32_t> order{};
         double area = 0; // of nodes and leaves
     };
@@ -113,8 +113,8 @@ private:
         const auto root = static_cast<double>(halfAreaOf(nodes_[root_]));
         const auto& [lo, negHi] = std::pair(nodes_[root_].lo, nodes_[root_].negHi);
         tree.around = {{lo[0], lo[1], lo[2]}, {-negHi[0], -negHi[1], -negHi[2]}};
-        PageVector<BinaryNode>().swap(nodes_); // for the tree to take their place
-        PageVector<CollapsePlan<W>>().swap(plans_);
+        RawVector<BinaryNode>().swap(nodes_); // for the tree to take their place
+        RawVector<CollapsePlan<W>>().swap(plans_);
         std::size_t lines = top.lines.size(), solids = top.order.size();
         double area = top.area;
         for (const Piece& piece : pieces_) {
@@ -152,11 +152,11 @@ private:
         return order;
     }
 
-    PageVector<BinaryNode> nodes_;
+    RawVector<BinaryNode> nodes_;
     std::uint32_t root_;
     std::vector<std::uint32_t> roots_, tops_;
     int threads_;
-    PageVector<CollapsePlan<W>> plans_; // by node
+    RawVector<CollapsePlan<W>> plans_;  // by node
     std::vector<Piece> pieces_;         // in the order of the links to them
     std::vector<Link> links_;
 };

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "accel/ray_setup.h"
-#include "base/pages.h"
+#include "base/raw_vector.h"
 
 #include <array>
 #include <cstddef>
@@ -58,7 +58,7 @@ struct WideTree {
     struct alignas(64) Line {
         std::byte bytes[64];
     };
-    PageVector<Line> lines; // the nodes and leaves
+    RawVector<Line> lines; // the nodes and leaves
 
     const std::byte* base() const { return reinterpret_cast<const std::byte*>(lines.data()); }
     std::size_t bytes() const { return lines.size() * sizeof(Line) + triangleIds.size() * 4; }

@@ -1,6 +1,5 @@
 #include "read/json/objects.h"
 
-#include "base/large_pages.h"
 #include "base/text.h"
 #include "desc/names.h"
 #include "read/json/placement.h"
@@ -29,7 +28,7 @@ const Keys& placeOf(const JsonGeometry& geometry, Handles materials) {
 } // namespace
 
 JsonObjects::JsonObjects(JsonProblems& problems, std::size_t expected) : problems_(problems) {
-    reserveInLargePages(objects_, expected);
+    objects_.reserve(expected);
 }
 
 void JsonObjects::addRoot(const std::vector<JsonGeometry>& all, std::size_t root) {

@@ -1,7 +1,6 @@
 #include "read/txt/read_txt.h"
 
 #include "base/for_each.h"
-#include "base/large_pages.h"
 #include "base/text.h"
 #include "desc/error_list.h"
 #include "read/text_size.h"
@@ -97,7 +96,7 @@ template <auto list> void makeRoom(SceneDesc& all, const Parts& parts, int threa
     auto& blocks = all.*list;
     std::size_t count = 0;
     for (const auto& part : parts) count += (part->desc.*list).size();
-    reserveInLargePages(blocks, count);
+    blocks.reserve(count);
     touchTogether(reinterpret_cast<volatile char*>(blocks.data()), count * sizeof blocks[0],
                   threads);
 }

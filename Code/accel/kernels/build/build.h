@@ -6,7 +6,7 @@
 #include "accel/kernels/wide_tree.h"
 #include "accel/prim_box.h"
 #include "base/bounds.h"
-#include "base/pages.h"
+#include "base/raw_vector.h"
 
 #include <array>
 #include <cstdint>
@@ -66,7 +66,7 @@ inline BinaryNode leafNode(const PrimBox& box) {
 
 // All triangles twice: divided from one list into the other.
 struct PrimLists {
-    PageVector<PrimBox> prims, spare;
+    RawVector<PrimBox> prims, spare;
     PrimBox* of(const BuildRange& r, bool other = false) {
         return ((r.inSpare != other) ? spare : prims).data() + r.first;
     }
@@ -83,8 +83,8 @@ struct BuildInput {
 
 // What one thread has made, of one subtree after the other.
 struct Grown {
-    PageVector<BinaryNode> nodes;     // children behind their parents
-    PageVector<WideTree::Line> lines; // of the leaves
+    RawVector<BinaryNode> nodes;     // children behind their parents
+    RawVector<WideTree::Line> lines; // of the leaves
     std::uint32_t leaves = 0;
 };
 
@@ -113,7 +113,7 @@ WideTree buildWideBy(const TreeBuilder& code, int width, std::span<const Vec3> p
 
 // A binary tree with a leaf for every box, named by the number of the box.
 struct SinglesTree {
-    PageVector<BinaryNode> nodes; // in no order
+    RawVector<BinaryNode> nodes; // in no order
     std::uint32_t root = 0;
     std::vector<std::uint32_t> tops;  // nodes above the parts, parents first
     std::vector<std::uint32_t> roots; // of the parts, each one thread's work

@@ -2,7 +2,7 @@
 // enough. Its pages are there already; the first touch of new ones costs as much as filling them.
 #pragma once
 
-#include "base/pages.h"
+#include "base/raw_vector.h"
 
 #include <cstddef>
 #include <memory>
@@ -13,10 +13,10 @@ namespace kernels::build {
 
 template <class Old> class SecondHand {
 public:
-    explicit SecondHand(PageVector<Old> from) : from_(std::move(from)) {}
+    explicit SecondHand(RawVector<Old> from) : from_(std::move(from)) {}
 
     // `fresh` holds the elements if there is no room for them, and must live as long as they.
-    template <class T> std::span<T> take(std::size_t count, PageVector<T>& fresh) {
+    template <class T> std::span<T> take(std::size_t count, RawVector<T>& fresh) {
         static_assert(std::is_trivially_copyable_v<T> && alignof(T) <= alignof(Old));
         const std::size_t size = (count * sizeof(T) + sizeof(Old) - 1) / sizeof(Old);
         if (size > from_.size() - used_) {
@@ -30,7 +30,7 @@ public:
     }
 
 private:
-    PageVector<Old> from_;
+    RawVector<Old> from_;
     std::size_t used_ = 0;
 };
 

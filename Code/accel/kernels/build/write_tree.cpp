@@ -20,7 +20,7 @@ template <int W> class TreeWriter {
 public:
     TreeWriter(WideTree& tree, std::span<const BinaryNode> top,
                std::span<const SubtreeRange> subtrees, std::vector<Grown>& grown,
-               PageVector<PrimBox> scrap, double rays, ThreadPool& pool)
+               RawVector<PrimBox> scrap, double rays, ThreadPool& pool)
         : tree_(tree), binaryTop_(top), subtrees_(subtrees), grown_(grown),
           scrap_(std::move(scrap)), rays_(rays), pool_(pool) {}
 
@@ -245,8 +245,8 @@ private:
     std::vector<std::uint32_t> firstNode_, firstLeaf_; // of each subtree
     std::span<BinaryNode> nodes_;                      // children behind their parents
     std::span<Choice> choices_;
-    PageVector<BinaryNode> freshNodes_;
-    PageVector<Choice> freshChoices_;
+    RawVector<BinaryNode> freshNodes_;
+    RawVector<Choice> freshChoices_;
     std::vector<Prospect> prospects_; // of the binary nodes that become wide ones
     Part top_;
     std::vector<Part> parts_;
@@ -258,12 +258,12 @@ private:
 template <int W>
 void writeTree(WideTree& tree, std::span<const BinaryNode> top,
                std::span<const SubtreeRange> subtrees, std::vector<Grown>& grown,
-               PageVector<PrimBox> scrap, double rays, ThreadPool& pool) {
+               RawVector<PrimBox> scrap, double rays, ThreadPool& pool) {
     TreeWriter<W>(tree, top, subtrees, grown, std::move(scrap), rays, pool).run();
 }
 template void writeTree<8>(WideTree&, std::span<const BinaryNode>, std::span<const SubtreeRange>,
-                           std::vector<Grown>&, PageVector<PrimBox>, double, ThreadPool&);
+                           std::vector<Grown>&, RawVector<PrimBox>, double, ThreadPool&);
 template void writeTree<16>(WideTree&, std::span<const BinaryNode>, std::span<const SubtreeRange>,
-                            std::vector<Grown>&, PageVector<PrimBox>, double, ThreadPool&);
+                            std::vector<Grown>&, RawVector<PrimBox>, double, ThreadPool&);
 
 } // namespace kernels::build

@@ -19,6 +19,6 @@ struct SubtreeRange {
 template <int W>
 void writeTree(WideTree& tree, std::span<const BinaryNode> top,
                std::span<const SubtreeRange> subtrees, std::vector<Grown>& grown,
-               PageVector<PrimBox> scrap, double rays, ThreadPool& pool);
+               RawVector<PrimBox> scrap, double rays, ThreadPool& pool);
 
 } // namespace kernels::build
