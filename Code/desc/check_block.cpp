@@ -81,26 +81,33 @@ std::vector<std::uint32_t> materialSlots(const SceneDesc& desc) {
 }
 
 void BlockChecker::checkProperties(const AnyBlock& block) {
-    const auto error = [&](const auto& makeText) {
-        properties.add(block.loc, [&] { return cat(called(block), ": ", makeText()); });
-    };
-    for (const Property& property : propertiesOf(block.type)) {
-        if (!(property.kinds & block.kind)) continue;
-        std::array<double, kMostNumbers> numbers;
-        for (std::size_t i = 0, n = getNumbers(property, block.data, numbers.data()); i < n; ++i)
-            if (!property.range.contains(numbers[i]))
-                error([&] { return mustHave(property.keyword, property.range, numbers[i]); });
-    }
-    const auto checkHandle = [&](Handle handle, BlockType target, std::string_view keyword) {
-        if (handle == kNone) return;
-        const std::size_t count = countOf(desc_, target);
-        if (handle >= 0 && static_cast<std::size_t>(handle) < count)
-            return used_.mark(target, static_cast<std::size_t>(handle));
-        error([&] {
-            return cat("'", keyword, "' refers to ", nameOf(target), " ", handle, " of ", count);
-        });
-    };
-    forEachReference(block.type, block.data, checkHandle);
+    for (const Property& property : propertiesOf(block.type))
+        if (property.kinds & block.kind && property.hasNumbers()) checkNumbers(block, property);
+    forEachReference(block.type, block.data,
+                     [&](Handle handle, BlockType target, std::string_view keyword) {
+                         if (handle != kNone) checkHandle(block, handle, target, keyword);
+                     });
+}
+
+void BlockChecker::checkNumbers(const AnyBlock& block, const Property& property) {
+    std::array<double, kMostNumbers> numbers;
+    for (std::size_t i = 0, n = getNumbers(property, block.data, numbers.data()); i < n; ++i)
+        if (!property.range.contains(numbers[i]))
+            properties.add(block.loc, [&] {
+                return cat(called(block), ": ",
+                           mustHave(property.keyword, property.range, numbers[i]));
+            });
+}
+
+void BlockChecker::checkHandle(const AnyBlock& block, Handle handle, BlockType target,
+                               std::string_view keyword) {
+    const std::size_t count = countOf(desc_, target);
+    if (handle >= 0 && static_cast<std::size_t>(handle) < count)
+        return used_.mark(target, static_cast<std::size_t>(handle));
+    properties.add(block.loc, [&] {
+        return cat(called(block), ": '", keyword, "' refers to ", nameOf(target), " ", handle,
+                   " of ", count);
+    });
 }
 
 void BlockChecker::warnOfUnused(const LightDesc& light) {

@@ -81,6 +81,9 @@ public:
 
 private:
     void checkProperties(const AnyBlock& block);
+    void checkNumbers(const AnyBlock& block, const Property& property);
+    void checkHandle(const AnyBlock& block, Handle handle, BlockType target,
+                     std::string_view keyword);
     void checkWhole(const SettingsDesc&) {}
     void checkWhole(const WorldDesc&) {}
     void checkWhole(const MaterialDesc&) {}

@@ -63,6 +63,7 @@ struct Property {
 
     std::size_t numberCount() const { return numbersOf(first.kind) + numbersOf(second.kind); }
     bool hasWord() const { return first.kind >= FieldKind::Flag; }
+    bool hasNumbers() const { return !hasWord() || second.kind != FieldKind::None; }
     bool isWhole() const { return first.kind >= FieldKind::Int && first.kind <= FieldKind::Crop; }
 
     static std::size_t numbersOf(FieldKind kind) {
