@@ -42,6 +42,7 @@ public:
                        const JsonMaterials& materials, std::vector<MeshDesc>& meshes);
 
     const std::vector<JsonGeometry>& all() const { return all_; }
+    void reserve(std::size_t geometries) { all_.reserve(geometries); }
     // An item of the list "objects", by its place in all(). Nothing when it is skipped or wrong.
     std::optional<std::size_t> addRoot(const JsonValue& value);
 

@@ -14,8 +14,10 @@ namespace {
 
 // The list "objects"; of the scene's keys it is the last one.
 std::vector<ObjectDesc> readObjects(JsonFields& scene, JsonGeometryReader& reader) {
+    const auto objects = scene.list("objects");
+    reader.reserve(objects.size());
     std::vector<std::size_t> roots;
-    for (const JsonValue& object : scene.list("objects"))
+    for (const JsonValue& object : objects)
         if (const auto root = reader.addRoot(object)) roots.push_back(*root);
     scene.reportUnknown();
     // A tree with errors could be larger than any memory.
