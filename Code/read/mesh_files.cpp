@@ -4,10 +4,9 @@
 #include "base/for_each.h"
 #include "base/text.h"
 #include "desc/names.h"
+#include "read/mesh/mesh_file.h"
 #include "read/mesh/mesh_scene.h"
 #include "read/mesh/read_mtl.h"
-#include "read/mesh/read_obj.h"
-#include "read/mesh/read_ply.h"
 #include "read/mesh/smooth_normals.h"
 
 #include <algorithm>

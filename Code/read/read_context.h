@@ -4,6 +4,8 @@
 
 #include "base/error.h"
 #include "base/source.h"
+#include "base/text.h"
+#include "desc/scene_desc.h"
 
 #include <cstddef>
 #include <string_view>
@@ -27,3 +29,9 @@ struct ReadContext {
         diagnostics.warnings.push_back(located(source, offset, what, "warning"));
     }
 };
+
+// Locations are 32 bits wide.
+inline void checkTextSize(const SourceFile& source) {
+    if (source.text.size() >= SourceLoc::kUnknown)
+        fail(ErrorKind::Input, cat(source.name, ": error: the file is larger than 4 GiB"));
+}

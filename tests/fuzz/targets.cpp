@@ -3,10 +3,9 @@
 #include "fuzz/png_parts.h"
 #include "fuzz/sound.h"
 #include "read/json/read_json.h"
+#include "read/mesh/mesh_file.h"
 #include "read/mesh/mesh_scene.h"
 #include "read/mesh/read_mtl.h"
-#include "read/mesh/read_obj.h"
-#include "read/mesh/read_ply.h"
 #include "read/nff/read_nff.h"
 #include "read/txt/read_txt.h"
 

@@ -3,8 +3,8 @@
 
 #include "base/text.h"
 #include "check.h"
+#include "read/mesh/mesh_file.h"
 #include "read/mesh/ply_header.h"
-#include "read/mesh/read_ply.h"
 
 #include <algorithm>
 #include <array>

@@ -8,7 +8,7 @@
 #include "check.h"
 #include "desc/validate.h"
 #include "desc/write_txt.h"
-#include "read/mesh/read_obj.h"
+#include "read/mesh/mesh_file.h"
 #include "unit/damage.h"
 
 #include <chrono>

@@ -4,7 +4,7 @@
 
 #include "base/text.h"
 #include "check.h"
-#include "read/mesh/read_obj.h"
+#include "read/mesh/mesh_file.h"
 #include "unit/damage.h"
 
 #include <algorithm>

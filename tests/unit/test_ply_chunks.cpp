@@ -2,7 +2,7 @@
 // message: also where rows are not where they were taken to be.
 #include "base/text.h"
 #include "check.h"
-#include "read/mesh/read_ply.h"
+#include "read/mesh/mesh_file.h"
 
 #include <bit>
 #include <string>

@@ -1,6 +1,6 @@
 // The OBJ reader: each statement and quirk with numbers made by hand, and damage. Faces are in
 // test_obj_faces.cpp.
-#include "read/mesh/read_obj.h"
+#include "read/mesh/mesh_file.h"
 
 #include "base/text.h"
 #include "check.h"

@@ -3,7 +3,7 @@
 #include "base/text.h"
 #include "check.h"
 #include "read/load.h"
-#include "read/mesh/read_obj.h"
+#include "read/mesh/mesh_file.h"
 #include "read/txt/read_txt.h"
 #include "render/scene.h"
 #include "temporary_folder.h"

@@ -3,8 +3,8 @@
 #include "base/text.h"
 #include "check.h"
 #include "desc/properties.h"
+#include "read/txt/read_blocks.h"
 #include "read/txt/read_txt.h"
-#include "read/txt/txt_parts.h"
 
 #include <string>
 #include <utility>

@@ -3,10 +3,77 @@
 #pragma once
 
 #include "base/source.h"
-#include "read/json/value.h"
+#include "desc/scene_desc.h"
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <memory_resource>
+#include <span>
+#include <string>
+#include <string_view>
+
+struct JsonMember;
+
+// Three words, never changed once made. What it holds more lies in the document or in its text.
+class JsonValue {
+public:
+    enum class Kind : std::uint8_t { Null, Bool, Number, String, Array, Object };
+
+    JsonValue() : JsonValue(SourceLoc{}) {}
+    explicit JsonValue(SourceLoc loc) : loc_(loc), number_(0) {}
+    JsonValue(SourceLoc loc, bool value) : loc_(loc), kind_(Kind::Bool), boolean_(value) {}
+    JsonValue(SourceLoc loc, double value) : loc_(loc), kind_(Kind::Number), number_(value) {}
+    JsonValue(SourceLoc loc, std::string_view text)
+        : loc_(loc), kind_(Kind::String), size_(text.size()), text_(text.data()) {}
+    JsonValue(SourceLoc loc, std::span<const JsonValue> items)
+        : loc_(loc), kind_(Kind::Array), size_(items.size()), items_(items.data()) {}
+    JsonValue(SourceLoc loc, std::span<const JsonMember> members);
+
+    Kind kind() const { return kind_; }
+    SourceLoc loc() const { return loc_; } // of its first byte
+    bool isNull() const { return kind_ == Kind::Null; }
+    bool isNumber() const { return kind_ == Kind::Number; }
+    bool isString() const { return kind_ == Kind::String; }
+    bool isArray() const { return kind_ == Kind::Array; }
+    bool isObject() const { return kind_ == Kind::Object; }
+
+    // Of another kind: false, 0, empty.
+    bool boolean() const { return kind_ == Kind::Bool && boolean_; }
+    double number() const { return isNumber() ? number_ : 0; }
+    std::string_view text() const { // decoded, UTF-8
+        return isString() ? std::string_view(text_, size_) : std::string_view();
+    }
+    std::span<const JsonValue> items() const {
+        return isArray() ? std::span(items_, size_) : std::span<const JsonValue>();
+    }
+    std::span<const JsonMember> members() const; // in the order of the file; keys are unique
+
+    // The value of a key of an object; nullptr when it has none.
+    const JsonValue* find(std::string_view key) const;
+
+private:
+    SourceLoc loc_;
+    Kind kind_ = Kind::Null;
+    std::size_t size_ = 0; // of the text, the items or the members
+    union {
+        bool boolean_;
+        double number_;
+        const char* text_;
+        const JsonValue* items_;
+        const JsonMember* members_;
+    };
+};
+struct JsonMember {
+    std::string_view key;
+    SourceLoc loc; // of the key
+    JsonValue value;
+};
+
+// "a number", "an object"
+std::string_view nameOf(JsonValue::Kind kind);
+// For messages: "the number 12", "the text 'abc'", "true", "an array".
+std::string described(const JsonValue& value);
 
 // Its values refer to the text of the source, which must outlive it, and to `memory`.
 struct JsonDocument {

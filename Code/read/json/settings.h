@@ -1,4 +1,5 @@
-// Picture, sampling and surroundings of a JSON scene: resolution, AA, ambient, settings, world.
+// Picture, sampling, surroundings and camera of a JSON scene: resolution, AA, ambient, settings,
+// world, camera.
 #pragma once
 
 #include "desc/scene_desc.h"
@@ -8,3 +9,4 @@
 
 void readJsonSettings(JsonFields& scene, const JsonRules& rules, SettingsDesc& settings);
 void readJsonWorld(JsonFields& scene, const JsonNames& textures, WorldDesc& world);
+CameraDesc readJsonCamera(const JsonValue& value, JsonProblems& problems);

@@ -4,11 +4,11 @@
 #include "base/transform.h"
 #include "desc/names.h"
 #include "read/json/placement.h"
-#include "read/json/plane.h"
 #include "read/json/properties.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace {
 
@@ -63,6 +63,37 @@ void box(Input& in, JsonShape& shape) {
     const Vec3d centre = (lo + hi) * 0.5, half = (hi - lo) * 0.5;
     shape.place = {(Transform::translate(centre) * Transform::scale(half)).rows()};
     if (isPlaced) shape.place = product(readJsonPlace(fields), shape.place);
+}
+
+// How the infinite plane z = 0 is placed for a plane that is given by a point and a normal.
+
+Rows fromColumns(Vec3d x, Vec3d y, Vec3d z, Vec3d origin) {
+    return {x.x, y.x, z.x, origin.x, x.y, y.y, z.y, origin.y, x.z, y.z, z.z, origin.z};
+}
+
+// An orthonormal frame with +Z along the unit normal, the origin at the point, and +X to the right
+// of somebody who stands on the plane, or before it, and looks along -Z or down.
+Rows planeRows(Vec3d point, Vec3d normal) {
+    // For a floor +X is x; for a wall it is horizontal, so that +Y is up.
+    const bool isFloor = std::fabs(normal.y) > 0.5;
+    const Vec3d x =
+        normalize(isFloor ? Vec3d{1, 0, 0} - normal * normal.x : cross(Vec3d{0, 1, 0}, normal));
+    return fromColumns(x, cross(normal, x), normal, point);
+}
+
+// A vertical plane lies over no squares. Below, the shear would stretch by more than 1e6, and float
+// could not tell the squares apart.
+bool isVerticalPlane(Vec3d normal) { return std::fabs(normal.y) < 1e-6; }
+
+// The checkerboard has squares of 1 x 1 of the x and z of its surroundings, counted from their
+// origin and not from the point: so x and y of the plane are x and z of the surroundings, sheared
+// up to the plane.
+Rows checkerboardRows(Vec3d point, Vec3d normal) {
+    const double alongX = -normal.x / normal.y, alongZ = -normal.z / normal.y;
+    const double height = dot(normal, point) / normal.y;
+    // The cross product of X and Y is -normal / normal.y: for a floor the map mirrors, and still
+    // takes the normal +Z to `normal`, as normals go by the inverse transpose.
+    return fromColumns({1, alongX, 0}, {0, alongZ, 1}, normal, {0, height, 0});
 }
 
 void plane(Input& in, JsonShape& shape) {

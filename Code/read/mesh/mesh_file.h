@@ -2,6 +2,7 @@
 #pragma once
 
 #include "desc/scene_desc.h"
+#include "read/read_context.h"
 
 #include <cstdint>
 #include <string>
@@ -26,3 +27,15 @@ struct MeshFile {
     std::vector<Library> libraries;
     std::vector<Part> parts; // ascending from triangle 0, none empty; none when none are named
 };
+
+// Wavefront OBJ: v, vt, vn, f (any corner count, concave too, negative indices), o, g, s, usemtl,
+// mtllib; line continuation, CRLF, comments. Other statements are skipped and counted.
+// Fails with the place of a wrong line, and when nothing is left to show. Faces without area, with
+// fewer than three corners and vertices that nothing uses are dropped; one warning says how many of
+// each. Faces in a smoothing group (s 1) and without normals of their own get smooth ones.
+MeshFile readObj(const SourceFile& source, const ReadContext& context);
+
+// PLY (Stanford): ascii, binary little and big endian; vertex positions, normals and texture
+// coordinates, faces of any corner count; other elements and properties are skipped.
+// Fails with the place: line and column of the header or of ascii data, the byte of binary data.
+MeshFile readPly(const SourceFile& source, const ReadContext& context);

@@ -4,7 +4,6 @@
 
 #include "base/text.h"
 #include "read/mesh/ply_header.h"
-#include "read/mesh/row_chunk.h"
 
 #include <algorithm>
 #include <bit>

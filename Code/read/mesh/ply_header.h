@@ -4,6 +4,7 @@
 #include "base/enum_names.h"
 #include "base/source.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -52,3 +53,21 @@ struct PlyHeader {
 };
 
 PlyHeader readPlyHeader(const SourceFile& source);
+
+// What the properties of a vertex of a PLY file are to us.
+enum class PlyRole { X, Y, Z, NormalX, NormalY, NormalZ, U, V, None };
+inline constexpr std::size_t kPlyRoleCount = static_cast<std::size_t>(PlyRole::None);
+
+struct VertexRoles {
+    std::vector<PlyRole> roles; // per property
+    std::array<bool, kPlyRoleCount> has{};
+    bool hasRole(PlyRole role) const { return has[static_cast<std::size_t>(role)]; }
+};
+// Of several names for the same the first ones known.
+VertexRoles rolesOf(const PlyElement& vertex);
+
+// Some rows of an element of a PLY file, where they are taken to be.
+struct RowChunk {
+    const char* first = nullptr;
+    std::size_t firstRow = 0, count = 0;
+};

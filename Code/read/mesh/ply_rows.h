@@ -7,7 +7,7 @@
 #include "desc/names.h"
 #include "desc/range.h"
 #include "desc/scene_desc.h"
-#include "read/mesh/ply_roles.h"
+#include "read/mesh/ply_header.h"
 #include "read/mesh/triangulate.h"
 
 #include <array>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "read/mesh/ply_header.h"
-#include "read/mesh/row_chunk.h"
 
 #include <cstddef>
 #include <cstdint>

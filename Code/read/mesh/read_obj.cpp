@@ -1,4 +1,4 @@
-#include "read/mesh/read_obj.h"
+#include "read/mesh/mesh_file.h"
 
 #include "base/for_each.h"
 #include "base/text.h"
@@ -6,7 +6,6 @@
 #include "read/mesh/line_reader.h"
 #include "read/mesh/mesh_builder.h"
 #include "read/mesh/obj_chunks.h"
-#include "read/mesh/obj_corners.h"
 #include "read/mesh/obj_faces.h"
 
 #include <algorithm>

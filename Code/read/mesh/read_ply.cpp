@@ -1,4 +1,4 @@
-#include "read/mesh/read_ply.h"
+#include "read/mesh/mesh_file.h"
 
 #include "base/for_each.h"
 #include "base/text.h"
@@ -7,7 +7,7 @@
 #include "read/mesh/ply_header.h"
 #include "read/mesh/ply_rows.h"
 #include "read/mesh/ply_text.h"
-#include "read/text_size.h"
+#include "read/read_context.h"
 
 #include <algorithm>
 #include <optional>

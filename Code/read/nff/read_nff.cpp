@@ -4,11 +4,10 @@
 #include "desc/error_list.h"
 #include "read/added_by_text.h"
 #include "read/mesh/triangulate.h"
-#include "read/nff/surfaces.h"
 #include "read/nff/terms.h"
 #include "read/nff/view.h"
 #include "read/nff/words.h"
-#include "read/text_size.h"
+#include "read/read_context.h"
 
 #include <array>
 #include <cmath>

@@ -7,12 +7,19 @@
 #include "read/txt/references.h"
 
 #include <cstddef>
+#include <string_view>
+#include <vector>
 
 // Blocks begin in [first, last) of the text; none reaches over its `first`.
 struct TxtPart {
     std::size_t first = 0, last = 0;
     int threads = 1; // for the arrays of large meshes
 };
+// Parts of about `partBytes` that begin behind lines with a '}', which end blocks in every file
+// without a mistake. The first one begins at `first`; they do not depend on how many threads there
+// are, only whose meshes get `threads` does: one that is a large part of the file.
+std::vector<TxtPart> partsOf(std::string_view text, std::size_t first, std::size_t partBytes,
+                             int threads);
 
 struct Blocks {
     SceneDesc desc;

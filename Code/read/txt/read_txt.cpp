@@ -3,11 +3,10 @@
 #include "base/for_each.h"
 #include "base/text.h"
 #include "desc/error_list.h"
-#include "read/text_size.h"
+#include "read/read_context.h"
 #include "read/txt/property_line.h"
 #include "read/txt/read_blocks.h"
 #include "read/txt/scanner.h"
-#include "read/txt/txt_parts.h"
 
 #include <algorithm>
 #include <cstdint>

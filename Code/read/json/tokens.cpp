@@ -1,4 +1,4 @@
-#include "read/json/text.h"
+#include "read/json/tokens.h"
 
 #include "base/text.h"
 #include "desc/names.h"
@@ -9,16 +9,20 @@
 
 namespace {
 
+std::string_view restOf(const SourceFile& source, const char* at) {
+    return std::string_view(source.text).substr(static_cast<std::size_t>(at - source.text.data()));
+}
+
+[[noreturn]] void fail(const SourceFile& source, const char* at, std::string_view what) {
+    failAt(source, static_cast<std::size_t>(at - source.text.data()), what);
+}
+
 // Bytes that stand for themselves: ASCII but control characters, quote and backslash.
 constexpr auto kPlain = [] {
     std::array<bool, 256> plain{};
     for (std::size_t c = 0x20; c < 0x80; ++c) plain[c] = c != '"' && c != '\\';
     return plain;
 }();
-
-[[noreturn]] void failHere(const SourceFile& source, const char* at, std::string_view what) {
-    failAt(source, static_cast<std::size_t>(at - source.text.data()), what);
-}
 
 std::optional<std::uint32_t> hex4(const char* p, const char* end) {
     if (end - p < 4) return {};
@@ -59,7 +63,7 @@ const char* appendUnicode(const SourceFile& source, const char* p, const char* e
                           std::string& out) {
     const char* start = p - 2;
     const auto code = hex4(p, end);
-    if (!code) failHere(source, start, "expected four hexadecimal digits after '\\u'");
+    if (!code) fail(source, start, "expected four hexadecimal digits after '\\u'");
     p += 4;
     if (!isHighSurrogate(*code) && !isLowSurrogate(*code)) {
         appendUtf8(out, *code);
@@ -68,7 +72,7 @@ const char* appendUnicode(const SourceFile& source, const char* p, const char* e
     const bool hasSecond = end - p >= 6 && p[0] == '\\' && p[1] == 'u';
     const auto low = hasSecond ? hex4(p + 2, end) : std::nullopt;
     if (!isHighSurrogate(*code) || !low || !isLowSurrogate(*low))
-        failHere(source, start,
+        fail(source, start,
                  cat("'", std::string_view(start, 6),
                      "' is half of a surrogate pair; the other half is missing"));
     appendUtf8(out, 0x10000 + ((*code - 0xd800) << 10) + (*low - 0xdc00));
@@ -76,6 +80,76 @@ const char* appendUnicode(const SourceFile& source, const char* p, const char* e
 }
 
 } // namespace
+
+std::string jsonHere(const SourceFile& source, const char* at) {
+    const std::string_view rest = restOf(source, at);
+    if (rest.empty()) return "the end of the file";
+    const auto inWord = [](char c) {
+        return isJsonLetter(c) || isJsonDigit(c) || c == '.' || c == '+' || c == '-';
+    };
+    // A word or number whole, else one character.
+    std::size_t size = 0;
+    while (size < rest.size() && size < 40 && inWord(rest[size])) ++size;
+    return cat("'", shown(size > 0 ? rest.substr(0, size) : firstCharacter(rest)), "'");
+}
+
+void failNoJsonValue(const SourceFile& source, const char* at) {
+    std::string hint;
+    const std::string here = jsonHere(source, at);
+    if (*at == '\'')
+        hint = "; texts stand in double quotes";
+    else if (*at == '/' || *at == '#')
+        hint = "; JSON has no comments";
+    else if (*at == '+' || *at == '.')
+        hint = "; a number starts with a digit or '-'";
+    else if (here == "'True'" || here == "'False'" || here == "'None'")
+        hint = "; JSON writes true, false and null";
+    else if (here == "'NaN'" || here == "'Infinity'" || here == "'inf'" || here == "'nan'")
+        hint = "; JSON has finite numbers only";
+    else if (isJsonLetter(*at))
+        hint = "; texts stand in double quotes, and the words are true, false and null";
+    fail(source, at, cat("expected a value, got ", here, hint));
+}
+
+const char* endOfJsonWord(const SourceFile& source, const char* at, std::string_view word) {
+    const std::string_view rest = restOf(source, at);
+    const std::size_t size = word.size();
+    if (!rest.starts_with(word) || isJsonLetter(at[size]) || isJsonDigit(at[size]))
+        failNoJsonValue(source, at);
+    return at + size;
+}
+
+JsonNumber readAnyJsonNumber(const SourceFile& source, const char* at) {
+    const char* p = at;
+    const auto digits = [&](std::string_view where) {
+        if (!isJsonDigit(*p)) fail(source, at, cat("a number needs a digit ", where));
+        while (isJsonDigit(*p)) ++p;
+    };
+    if (*p == '-') ++p;
+    const char* whole = p;
+    digits("after '-'");
+    if (*whole == '0' && p > whole + 1)
+        fail(source, at, "a number has no zeros before its first digit; JSON knows no octal");
+    if (*p == '.') {
+        ++p;
+        digits("after the decimal point");
+    }
+    if (*p == 'e' || *p == 'E') {
+        ++p;
+        if (*p == '+' || *p == '-') ++p;
+        digits("in the exponent");
+    }
+    if (isJsonLetter(*p) || *p == '.') {
+        const bool isHex = *p == 'x' || *p == 'X';
+        fail(source, at,
+             cat("expected a number, got ", jsonHere(source, at),
+                 isHex ? "; JSON has decimal numbers only" : ""));
+    }
+    const NumberRead<double> read = readDouble(at);
+    if (read.fault == NumberFault::TooLarge)
+        fail(source, at, "the number is too large; at most 1.7976931348623157e308 is possible");
+    return {p, read.value};
+}
 
 JsonText readJsonText(const SourceFile& source, const char* quote) {
     const char* const last = source.text.data() + source.text.size();
@@ -89,20 +163,20 @@ JsonText readJsonText(const SourceFile& source, const char* quote) {
         }
         const auto byte = static_cast<unsigned char>(*p);
         if (p == last || byte == '\n')
-            failHere(source, quote,
+            fail(source, quote,
                      "the text is not closed; expected '\"' before the end of the "
                      "line (a line end inside is written \\n)");
         if (byte == '\\') {
             text.hasEscapes = true;
             p += p[1] == '"' || p[1] == '\\' ? 2 : 1; // other escapes are looked at later
         } else if (byte < 0x20) {
-            failHere(source, p,
+            fail(source, p,
                      cat("control character ", shown({p, 1}),
                          " in a text; write it as \\t or \\u00", shown({p, 1}).substr(2)));
         } else {
             const std::size_t length =
                 firstCharacter({p, static_cast<std::size_t>(last - p)}).size();
-            if (length == 1) failHere(source, p, cat("byte ", shown({p, 1}), " is not UTF-8"));
+            if (length == 1) fail(source, p, cat("byte ", shown({p, 1}), " is not UTF-8"));
             p += length;
         }
     }
@@ -119,7 +193,7 @@ void decodeJsonText(const SourceFile& source, const JsonText& text, std::string&
         } else {
             const std::size_t escape = kEscapes.find(p[1]);
             if (escape == std::string_view::npos)
-                failHere(source, p,
+                fail(source, p,
                          cat("unknown escape '\\",
                              shown(firstCharacter({p + 1, static_cast<std::size_t>(end - p - 1)})),
                              "'; known: \\\" \\\\ \\/ \\b \\f \\n \\r \\t \\uXXXX"));

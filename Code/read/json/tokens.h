@@ -1,4 +1,4 @@
-// The numbers and words of JSON, and what to say of a place where something else stands.
+// The numbers, words and texts of JSON, and what to say of a place where something else stands.
 #pragma once
 
 #include "base/source.h"
@@ -37,3 +37,17 @@ inline JsonNumber readJsonNumber(const SourceFile& source, const char* at) {
     if (number.end && !isJsonLetter(*number.end) && *number.end != '.') return number;
     return readAnyJsonNumber(source, at);
 }
+
+// A text between its double quotes.
+struct JsonText {
+    const char* begin = nullptr; // behind the opening quote
+    const char* end = nullptr;   // behind the closing quote
+    bool hasEscapes = false;
+};
+
+// `quote` points into the text of the source, at the opening quote. Fails on control characters, on
+// what is not UTF-8, and when the text is not closed. Escapes are only skipped.
+JsonText readJsonText(const SourceFile& source, const char* quote);
+
+// Appends what the text stands for, in UTF-8. Fails on unknown escapes and on half surrogate pairs.
+void decodeJsonText(const SourceFile& source, const JsonText& text, std::string& out);
