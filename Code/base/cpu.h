@@ -14,5 +14,4 @@ inline bool hasAvx512() {
            __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl") &&
            __builtin_cpu_supports("avx512cd");
 }
-inline bool hasCarrylessProducts() { return __builtin_cpu_supports("pclmul"); }
 #endif

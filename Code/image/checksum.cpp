@@ -1,20 +1,21 @@
-#include "image/checksum.h"
-
-#include "image/byte_lanes.h"
+// CRC-32 and Adler-32.
+#include "image/zlib.h"
 
 #include <algorithm>
-#include <array>
+#include <bit>
+#include <cstring>
 
 namespace {
 
 // kCrc[k][b]: what byte b does to the remainder when k zero bytes follow (slicing by 8, Intel
-// 2006; here by 16: more of the bytes need not wait for the remainder before them).
+// 2006; here by 16: more of the bytes need not wait for the remainder before them). 1.3 GB/s;
+// carry-less products would save 2 ms of a PNG file of 3 MB.
 constexpr std::size_t kSlices = 16;
 constexpr auto kCrc = [] {
     std::array<std::array<std::uint32_t, 256>, kSlices> table{};
     for (std::uint32_t b = 0; b < 256; ++b) {
         std::uint32_t c = b;
-        for (int bit = 0; bit < 8; ++bit) c = (c & 1) ? (c >> 1) ^ kCrcPolynomial : c >> 1;
+        for (int bit = 0; bit < 8; ++bit) c = (c & 1) ? (c >> 1) ^ 0xEDB88320 : c >> 1;
         table[0][b] = c;
     }
     for (std::size_t k = 1; k < kSlices; ++k)
@@ -23,8 +24,37 @@ constexpr auto kCrc = [] {
     return table;
 }();
 
-// Without the inversions at the start and the end.
-std::uint32_t crcByTables(std::span<const std::uint8_t> bytes, std::uint32_t c) {
+constexpr std::uint32_t kModulus = 65521; // of Adler-32: the largest prime below 2^16
+
+// Adds the bytes that make whole vectors, and takes them from the front of the part: a is the sum
+// of the bytes, b that of a after each of them.
+void addVectors(std::uint32_t& a, std::uint32_t& b, std::span<const std::uint8_t>& part) {
+    constexpr std::uint32_t kVector = 16;
+    using Words __attribute__((vector_size(kVector))) = std::uint32_t;
+    const std::size_t count = part.size() / kVector;
+    Words sums[4]{}, before[4]{}; // of each word's bytes; of these sums before each vector
+    for (std::size_t i = 0; i < count; ++i) {
+        Words words;
+        std::memcpy(&words, &part[kVector * i], kVector);
+        for (unsigned k = 0; k < 4; ++k) {
+            before[k] += sums[k];
+            sums[k] += words >> 8 * k & 0xFF;
+        }
+    }
+    b += kVector * static_cast<std::uint32_t>(count) * a;
+    for (std::uint32_t place = 0; place < kVector; ++place) {
+        const std::uint32_t word = place / 4, byte = place % 4;
+        const std::uint32_t k = std::endian::native == std::endian::little ? byte : 3 - byte;
+        a += sums[k][word];
+        b += kVector * before[k][word] + (kVector - place) * sums[k][word];
+    }
+    part = part.subspan(kVector * count);
+}
+
+} // namespace
+
+std::uint32_t crc32(std::span<const std::uint8_t> bytes, std::uint32_t before) {
+    std::uint32_t c = ~before;
     std::size_t i = 0;
     for (; i + kSlices <= bytes.size(); i += kSlices) {
         std::uint32_t sum = 0;
@@ -37,34 +67,21 @@ std::uint32_t crcByTables(std::span<const std::uint8_t> bytes, std::uint32_t c) 
         c = sum;
     }
     for (; i < bytes.size(); ++i) c = kCrc[0][(c ^ bytes[i]) & 255] ^ (c >> 8);
-    return c;
-}
-
-constexpr std::uint32_t kModulus = 65521; // of Adler-32: the largest prime below 2^16
-
-} // namespace
-
-std::uint32_t crc32(std::span<const std::uint8_t> bytes, std::uint32_t before) {
-    CrcBytes folded{};
-    const std::size_t used = byteLanes().foldForCrc(~before, bytes, folded);
-    return ~crcByTables(bytes.subspan(used), used > 0 ? crcByTables(folded, 0) : ~before);
+    return ~c;
 }
 
 std::uint32_t adler32(std::span<const std::uint8_t> bytes, std::uint32_t before) {
     constexpr std::size_t kNoOverflow = 5552; // the longest run that keeps b below 2^32 (zlib)
-    const ByteLanes& lanes = byteLanes();
-    AdlerSums sums{before & 0xFFFF, before >> 16};
+    std::uint32_t a = before & 0xFFFF, b = before >> 16;
     while (!bytes.empty()) {
-        const auto part = bytes.first(std::min(bytes.size(), kNoOverflow));
+        auto part = bytes.first(std::min(bytes.size(), kNoOverflow));
         bytes = bytes.subspan(part.size());
-        for (const std::uint8_t byte : part.subspan(lanes.addToAdler(sums, part))) {
-            sums.a += byte;
-            sums.b += sums.a;
-        }
-        sums.a %= kModulus;
-        sums.b %= kModulus;
+        addVectors(a, b, part);
+        for (const std::uint8_t byte : part) b += a += byte;
+        a %= kModulus;
+        b %= kModulus;
     }
-    return sums.b << 16 | sums.a;
+    return b << 16 | a;
 }
 
 // a = 1 + the bytes; b = the sum of a after each byte. The second part began with a = 1 instead of

@@ -3,7 +3,6 @@
 #include <array>
 #include <bit>
 #include <cstddef>
-#include <cstring>
 #include <vector>
 
 namespace {
@@ -179,41 +178,8 @@ std::uint8_t srgb8FromLinear(float linear) {
 }
 
 void srgb8FromLinear(std::span<const Rgb> pixels, std::uint8_t* out) {
-    // Vectors of the compiler put the numbers into the table's range, a group of them at a time;
-    // the look-ups are one by one, from memory: the halves of a float there are its bucket and the
-    // bits behind it.
-    using Floats __attribute__((vector_size(16))) = float;
-    using Words __attribute__((vector_size(16))) = std::uint32_t;
-    static_assert(sizeof(Rgb) == 3 * sizeof(float));
-    constexpr Floats kLeast = {kLeast8, kLeast8, kLeast8, kLeast8};
-    constexpr Floats kMost = {kMost8, kMost8, kMost8, kMost8};
-    constexpr std::size_t kGroup = 32;
-    constexpr std::uint32_t kFirst = std::uint32_t{127 - kOctaves8} << 23;
-    const auto* bytes = reinterpret_cast<const unsigned char*>(pixels.data());
-    const std::size_t count = 3 * pixels.size();
-    std::size_t i = 0;
-    for (; i + kGroup <= count; i += kGroup) {
-        std::array<std::uint32_t, kGroup> inTable;
-        for (std::size_t k = 0; k < kGroup; k += 4) {
-            Floats x;
-            std::memcpy(&x, bytes + 4 * (i + k), sizeof x);
-            x = x > kLeast ? x : kLeast;
-            x = x < kMost ? x : kMost;
-            const Words bits = reinterpret_cast<Words>(x) - kFirst;
-            std::memcpy(&inTable[k], &bits, sizeof bits);
-        }
-#pragma GCC unroll 8
-        for (std::size_t k = 0; k < kGroup; ++k) {
-            const std::uint32_t bits = inTable[k];
-            const std::uint32_t entry = kEncode8[bits >> (23 - kBits8)];
-            out[i + k] = static_cast<std::uint8_t>((entry + (bits & kInside8)) >> 16);
-        }
-    }
-    for (; i < count; ++i) {
-        float x = 0;
-        std::memcpy(&x, bytes + 4 * i, sizeof x);
-        out[i] = srgb8FromLinear(x);
-    }
+    for (const Rgb& pixel : pixels)
+        for (const float value : {pixel.r, pixel.g, pixel.b}) *out++ = srgb8FromLinear(value);
 }
 
 std::uint16_t srgb16FromLinear(float linear) {

@@ -1,17 +1,13 @@
-#include "image/deflate.h"
-
-#include "image/byte_counts.h"
-#include "image/checksum.h"
+// Packs bytes by RFC 1951. Knows nothing about PNG.
+#include "image/bits.h"
 #include "image/deflate_codes.h"
-#include "image/dynamic_codes.h"
 #include "image/matcher.h"
-#include "image/run_finder.h"
-#include "image/zero_runs.h"
-#include "image/zero_words.h"
+#include "image/zlib.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <utility>
 
 namespace {
 
@@ -35,10 +31,11 @@ struct Block {
     std::span<const std::uint8_t> bytes;
     std::vector<Step> steps;
     SymbolCounts counts;
+    std::size_t codes = 0;
 
     void add(std::span<const std::uint8_t> literals, Match match) {
-        literals_.add(literals);
-        codes_ += literals.size() + 1;
+        for (const std::uint8_t byte : literals) ++counts.literals[byte];
+        codes += literals.size() + 1;
         const auto count = static_cast<std::uint32_t>(literals.size());
         if (match.length == 0) return steps.push_back({count, 0, 0});
         const auto minusOne = static_cast<std::uint16_t>(match.distance - 1);
@@ -46,31 +43,23 @@ struct Block {
         ++counts.literals[lengthSymbol(match.length)];
         ++counts.distances[distanceSymbol(minusOne)];
     }
-    std::size_t codes() const { return codes_; }
-    // All counts of literals are in `counts`.
-    void finish() {
-        const auto sums = literals_.sums();
-        for (std::size_t b = 0; b < sums.size(); ++b) counts.literals[b] += sums[b];
-    }
-
-private:
-    ByteCounts literals_;
-    std::size_t codes_ = 0;
 };
 
-// At most three codes of literals, or those of a match with their extra bits, fit between flushes.
+// Four codes of literals, or those of a match with their extra bits, fit between two flushes.
 void putBody(BitWriter& writer, const Block& block, const std::vector<HuffmanCode>& literals,
              const std::vector<HuffmanCode>& distances) {
-    static_assert(7 + 3 * kMaxCodeLength <= 56 && 7 + 2 * kMaxCodeLength + 5 + 13 <= 56);
+    static_assert(7 + 4 * DynamicCodes::kMostLiteralBits <= 64);
+    static_assert(DynamicCodes::kMostLiteralBits + 5 + kMaxCodeLength + 13 <= 56);
     BitWriter out = std::move(writer); // in registers: nothing that is written can be part of it
+    const HuffmanCode* const ofByte = literals.data();
     const std::uint8_t* byte = block.bytes.data();
     for (const Step& step : block.steps) {
         const std::uint8_t* const end = byte + step.literals;
-        for (; end - byte >= 3; byte += 3) {
-            for (std::size_t k = 0; k < 3; ++k) out.put(literals[byte[k]]);
+        for (; end - byte >= 4; byte += 4) {
+            for (std::size_t k = 0; k < 4; ++k) out.put(ofByte[byte[k]]);
             out.flush();
         }
-        for (; byte < end; ++byte) out.put(literals[*byte]);
+        for (; byte < end; ++byte) out.put(ofByte[*byte]);
         out.flush();
         if (step.length == 0) continue;
         const std::size_t slot = kLengthSlot[step.length];
@@ -104,7 +93,6 @@ void putStored(BitWriter& out, std::span<const std::uint8_t> bytes, bool last) {
 
 // The block in the shortest of the three forms.
 void putBlock(BitWriter& out, Block& block, bool last) {
-    block.finish();
     block.counts.literals[kEndOfBlock] = 1;
     const DynamicCodes dynamic(block.counts);
     std::array<std::uint8_t, kDistanceCodes> fives{};
@@ -127,29 +115,21 @@ void putBlock(BitWriter& out, Block& block, bool last) {
             canonicalCodes(dynamic.distanceLengths()));
 }
 
-// All but the last have a match.
-constexpr std::size_t mostSteps(std::size_t bytes) {
-    return std::min(kBlockCodes, bytes / kShortestMatch) + 1;
-}
-
 // `finder` hands out matches from the front: Matcher or RunFinder.
 template <class Finder>
 void putMatches(BitWriter& out, std::span<const std::uint8_t> bytes, Finder finder, bool last) {
     std::size_t at = 0;
     do {
         Block block;
-        block.steps.reserve(mostSteps(bytes.size() - at));
+        // All steps but the last have a match.
+        block.steps.reserve(std::min(kBlockCodes, (bytes.size() - at) / kShortestMatch) + 1);
         const std::size_t start = at;
-        while (at < bytes.size() && block.codes() < kBlockCodes) {
+        while (at < bytes.size() && block.codes < kBlockCodes) {
             Match match;
-            const std::size_t room = kBlockCodes - block.codes();
-            const std::size_t found = finder.next(at, at + room, match);
+            const std::size_t found = finder.next(at, at + kBlockCodes - block.codes, match);
             block.add(bytes.subspan(at, found - at), match);
             finder.skip(found, match.length);
             at = found + match.length;
-            if (match.length == kLongestMatch && match.distance == 1)
-                for (; block.codes() < kBlockCodes && finder.takeRun(at); at += kLongestMatch)
-                    block.add({}, match);
         }
         block.bytes = bytes.subspan(start, at - start);
         putBlock(out, block, last && at == bytes.size());
@@ -159,32 +139,23 @@ void putMatches(BitWriter& out, std::span<const std::uint8_t> bytes, Finder find
 } // namespace
 
 std::vector<std::uint8_t> deflatePiece(std::span<const std::uint8_t> bytes, bool last,
-                                       std::vector<std::uint8_t> before) {
-    return deflatePiece(bytes, last, choosePacking(bytes), std::move(before));
-}
-
-std::vector<std::uint8_t> deflatePiece(std::span<const std::uint8_t> bytes, bool last,
                                        Packing packing, std::vector<std::uint8_t> before) {
     BitWriter out(std::move(before));
-    switch (packing) {
-    case Packing::ZeroWords:
-        if (putZeroWords(out, bytes, last)) break;
-        [[fallthrough]];
-    case Packing::ZeroRuns:
-        if (putZeroRuns(out, bytes, last)) break;
-        [[fallthrough]];
-    case Packing::Runs: putMatches(out, bytes, RunFinder(bytes), last); break;
-    case Packing::Matches: putMatches(out, bytes, Matcher(bytes), last); break;
-    }
+    if (packing == Packing::Runs)
+        putMatches(out, bytes, RunFinder(bytes), last);
+    else
+        putMatches(out, bytes, Matcher(bytes), last);
     if (!last) putStored(out, {}, false); // ends at a byte
     out.padToByte();
     return std::move(out).result();
 }
 
-std::vector<std::uint8_t> deflateZlib(std::span<const std::uint8_t> bytes) {
-    std::vector<std::uint8_t> out =
-        deflatePiece(bytes, true, {kZlibHeader.begin(), kZlibHeader.end()});
-    const auto end = zlibEnd(adler32(bytes));
-    out.insert(out.end(), end.begin(), end.end());
-    return out;
+Packing choosePacking(std::span<const std::uint8_t> bytes) {
+    constexpr std::size_t kSample = std::size_t{1} << 14;
+    const std::size_t size = std::min(bytes.size(), kSample);
+    const auto sizeAs = [sample = bytes.subspan((bytes.size() - size) / 2, size)](Packing packing) {
+        return deflatePiece(sample, true, packing).size();
+    };
+    return 100 * sizeAs(Packing::Matches) <= 95 * sizeAs(Packing::Runs) ? Packing::Matches
+                                                                        : Packing::Runs;
 }

@@ -1,9 +1,15 @@
-// The numbers of RFC 1951 that reading and writing share: extra bits of lengths and distances.
+// The codes of RFC 1951: the numbers that reading and writing share, Huffman codes for counts of
+// symbols, and the header of a block that has codes of its own.
+// Private to image/.
 #pragma once
+
+#include "image/bits.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 constexpr std::size_t kLiteralCodes = 286, kDistanceCodes = 30, kEndOfBlock = 256;
 constexpr int kMaxCodeLength = 15;
@@ -28,11 +34,6 @@ constexpr auto kLengthSlot = [] { // by length: which of them
 constexpr std::size_t lengthSymbol(std::size_t length) {
     return kEndOfBlock + 1 + kLengthSlot[length];
 }
-// What is left of a run of one byte when longest matches are taken from its end: something, if it
-// is not empty.
-constexpr std::size_t withoutLongestMatches(std::size_t run) {
-    return run <= kLongestMatch ? run : (run - 1) % kLongestMatch + 1;
-}
 constexpr auto kDistanceRanges = [] {
     std::array<CodeRange, kDistanceCodes> ranges{};
     unsigned base = 1;
@@ -54,3 +55,46 @@ constexpr auto kFixedLiteralLengths = [] {
     for (std::size_t i = 0; i < 288; ++i) lengths[i] = i < 144 ? 8 : i < 256 ? 9 : i < 280 ? 7 : 8;
     return lengths;
 }();
+
+// The length of each symbol's code, 0 for a symbol that never occurs, at most `longest`. At least
+// two symbols get a code, because readers want complete codes: unused ones are added if necessary.
+std::vector<std::uint8_t> huffmanLengths(std::span<const std::uint32_t> counts,
+                                         std::size_t longest);
+
+// The canonical codes of such lengths (section 3.2.2).
+std::vector<HuffmanCode> canonicalCodes(std::span<const std::uint8_t> lengths);
+
+// How often each symbol occurs in a block.
+struct SymbolCounts {
+    std::array<std::uint32_t, kLiteralCodes> literals{};
+    std::array<std::uint32_t, kDistanceCodes> distances{};
+};
+
+// The bits that so many symbols take, with their extra bits.
+std::uint64_t bitsOf(const SymbolCounts& counts, std::span<const std::uint8_t> literalLengths,
+                     std::span<const std::uint8_t> distanceLengths);
+
+class DynamicCodes {
+public:
+    // No code of a literal or a length is longer: four fit between two flushes of a BitWriter.
+    static constexpr std::size_t kMostLiteralBits = 14;
+
+    explicit DynamicCodes(const SymbolCounts& counts);
+
+    const std::vector<std::uint8_t>& literalLengths() const { return literalLengths_; }
+    const std::vector<std::uint8_t>& distanceLengths() const { return distanceLengths_; }
+    // Of a block, with its header.
+    std::uint64_t bits(const SymbolCounts& counts) const;
+    void putHeader(BitWriter& out, bool last) const;
+
+private:
+    // How the lengths are stored: 16, 17 and 18 repeat.
+    struct LengthToken {
+        std::uint8_t symbol, extra, extraBits;
+    };
+    static std::vector<LengthToken> packed(std::span<const std::uint8_t> lengths);
+
+    std::vector<std::uint8_t> literalLengths_, distanceLengths_, tokenLengths_;
+    std::size_t literalCount_, distanceCount_, orderCount_; // that are stored
+    std::vector<LengthToken> tokens_;
+};

@@ -2,6 +2,7 @@
 // Private to image/.
 #pragma once
 
+#include "base/in_order.h"
 #include "image/image.h"
 
 #include <algorithm>
@@ -41,7 +42,10 @@ struct PixelSource {
 };
 // "png" for "a.PNG".
 std::string extensionOf(const std::string& fileName);
-// The extension says which of the two.
+// encodeImage() in pieces, which are used one after the other while others are made. The extension
+// says which format; a source may be PPM or PNG.
+void encodeImage(const Image& image, const std::string& extension, Encoding encoding, int threads,
+                 const ByteSink& use);
 void encodeSource(const PixelSource& picture, const std::string& extension, int threads,
                   ByteSink use);
 void encodePpm(const PixelSource& picture, int threads, ByteSink use);

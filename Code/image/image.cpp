@@ -9,7 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <cstring>
 #include <filesystem>
 #include <string_view>
 
@@ -20,21 +19,6 @@ namespace {
 std::size_t areaOf(int width, int height) {
     checkSize(width, height, "picture");
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-}
-
-// Several, all of the same bits.
-bool areAlike(std::span<const Rgb> pixels) {
-    return pixels.size() > 1 &&
-           std::memcmp(pixels.data(), pixels.data() + 1, (pixels.size() - 1) * sizeof(Rgb)) == 0;
-}
-
-// The first `count` bytes, above 0, again and again up to the end.
-void repeatStart(std::span<std::uint8_t> bytes, std::size_t count) {
-    while (count < bytes.size()) { // twice as many every time
-        const std::size_t more = std::min(count, bytes.size() - count);
-        std::memcpy(bytes.data() + count, bytes.data(), more);
-        count += more;
-    }
 }
 
 struct Format {
@@ -173,12 +157,6 @@ void encodeImage(const Image& image, const std::string& extension, Encoding enco
 }
 
 void encodePixels(std::span<const Rgb> pixels, Encoding encoding, std::span<std::uint8_t> out) {
-    // As in a plain background: looking costs far less than encoding, even if it isn't so.
-    if (areAlike(pixels)) {
-        const std::size_t one = out.size() / pixels.size();
-        encodePixels(pixels.first(1), encoding, out.first(one));
-        return repeatStart(out, one);
-    }
     const bool srgb = encoding.transfer == Encoding::Transfer::Srgb;
     std::uint8_t* to = out.data();
     if (encoding.bits == 8) {

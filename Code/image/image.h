@@ -2,7 +2,6 @@
 // Knows nothing about scenes or rendering.
 #pragma once
 
-#include "base/in_order.h"
 #include "base/raw_vector.h"
 #include "base/vec.h"
 
@@ -16,8 +15,8 @@ struct Encoding {
     enum class Transfer { Srgb, Linear };
     Transfer transfer = Transfer::Srgb;
     int bits = 8; // 8 or 16
-    // A PNG takes half the time to pack, and up to 1.8 times the room: nobody looks for what comes
-    // again.
+    // A PNG is written in four fifths of the time, and takes up to 1.8 times the room: its writer
+    // does not look for what comes again.
     bool isDraft = false;
     bool operator==(const Encoding&) const = default;
 };
@@ -83,6 +82,3 @@ StoredImage decodeImage(std::span<const std::uint8_t> file, const std::string& n
 // Bytes of a file, the same for any number of threads; `extension` is "ppm", "png" or "pfm".
 std::vector<std::uint8_t> encodeImage(const Image& image, const std::string& extension,
                                       Encoding encoding, int threads = 1);
-// The same in pieces, which are used one after the other while others are made.
-void encodeImage(const Image& image, const std::string& extension, Encoding encoding, int threads,
-                 ByteSink use);

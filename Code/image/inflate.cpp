@@ -1,10 +1,9 @@
-#include "image/inflate.h"
-
+// Unpacks zlib streams. Knows nothing about PNG.
 #include "base/error.h"
 #include "base/text.h"
-#include "image/checksum.h"
+#include "image/bits.h"
 #include "image/deflate_codes.h"
-#include "image/little_endian.h"
+#include "image/zlib.h"
 
 #include <algorithm>
 #include <array>

@@ -1,13 +1,19 @@
-// The text header that PPM and PFM share: words between white space, # comments up to the line end.
+// What PPM and PFM share: a text header, of words between white space and # comments up to the line
+// end, and behind it values of one size.
 // Private to image/.
 #pragma once
 
+#include "base/for_each.h"
+#include "base/in_order.h"
 #include "image/formats.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 class NetpbmHeader {
 public:
@@ -42,3 +48,22 @@ private:
     std::size_t at_ = 2; // after the letter and digit of the kind
     std::size_t wordStart_ = 0;
 };
+
+// Writes such a file: `count` items of `itemBytes` each; encode(first, count, out) writes some of
+// them. The pieces are made on many threads and used in their order.
+template <class Encode>
+void makeRawFile(std::string_view header, std::size_t count, std::size_t itemBytes, int threads,
+                 const ByteSink& use, const Encode& encode) {
+    constexpr std::size_t kPieceBytes = std::size_t{1} << 17;
+    const std::size_t perPiece = std::max<std::size_t>(1, kPieceBytes / itemBytes);
+    const std::size_t pieces = (count + perPiece - 1) / perPiece;
+    use({reinterpret_cast<const std::uint8_t*>(header.data()), header.size()});
+    InOrder inOrder(pieces, use);
+    forEachOn(threads, pieces, [&](std::size_t piece) {
+        const std::size_t first = piece * perPiece, items = std::min(perPiece, count - first);
+        InOrder::Bytes bytes = inOrder.buffer();
+        bytes.resize(items * itemBytes);
+        encode(first, items, bytes);
+        inOrder.put(piece, std::move(bytes));
+    });
+}

@@ -2,10 +2,8 @@
 // first. Always linear.
 #include "base/error.h"
 #include "base/text.h"
-#include "image/formats.h"
-#include "image/little_endian.h"
+#include "image/bits.h"
 #include "image/netpbm.h"
-#include "image/raw_file.h"
 
 #include <algorithm>
 #include <bit>

@@ -1,26 +1,76 @@
-// What the PNG reader and writer share (PNG specification, third edition).
+// What the PNG reader and writer share (PNG specification, third edition): the filters of rows, and
+// a file's chunks.
 // Private to image/.
 #pragma once
+
+#include "image/formats.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 constexpr std::array<std::uint8_t, 8> kPngSignature{0x89, 'P', 'N', 'G', '\r', '\n', 0x1A, '\n'};
 
-// The filter of a row: what is subtracted from each byte. a is the byte one pixel to the left, b
-// the one above, c the one above a; 0 outside of the picture.
+// What is subtracted from each byte of a row. a is the byte one pixel to the left, b the one above,
+// c the one above a; 0 outside of the picture. Pixels have 1, 2, 3, 4, 6 or 8 bytes, 1 where they
+// are smaller; `above` is as long as the row, and all zero for the first one.
 enum class PngFilter : std::uint8_t { None, Sub, Up, Average, Paeth };
 constexpr std::size_t kPngFilterCount = 5;
 
-// The neighbour that is nearest to a + b - c; ties in the order a, b, c. In 16 bits: twice as many
-// at once in vector code.
-inline std::uint8_t paethPredictor(std::uint8_t a, std::uint8_t b, std::uint8_t c) {
-    const auto distance = [](int difference) {
-        const auto d = static_cast<std::int16_t>(difference);
-        return static_cast<std::int16_t>(d < 0 ? -d : d);
-    };
-    const std::int16_t toA = distance(b - c), toB = distance(a - c), toC = distance(a + b - 2 * c);
-    const std::uint8_t bOrC = toB <= toC ? b : c;
-    return toA <= toB && toA <= toC ? a : bOrC;
+// Writes the row to `out` with the filter whose bytes, as signed numbers without their signs, have
+// the smallest sum (12.7; of equal sums the first filter). Returns which.
+PngFilter filterRow(Bytes row, Bytes above, std::size_t pixelBytes, std::span<std::uint8_t> out);
+// The row as it was before the filter, in its place.
+void unfilterRow(PngFilter filter, std::span<std::uint8_t> row, Bytes above,
+                 std::size_t pixelBytes);
+
+enum PngColourType : unsigned {
+    kPngGrey = 0,
+    kPngRgb = 2,
+    kPngPalette = 3,
+    kPngGreyAlpha = 4,
+    kPngRgba = 6
+};
+
+struct PngHeader {
+    std::size_t width = 0, height = 0;
+    unsigned depth = 0, colourType = 0; // bits per sample
+    bool isInterlaced = false;
+
+    std::size_t samples() const { // per pixel in the file
+        switch (colourType) {
+        case kPngRgb: return 3;
+        case kPngGreyAlpha: return 2;
+        case kPngRgba: return 4;
+        default: return 1;
+        }
+    }
+    std::size_t rowBytes(std::size_t columns) const {
+        return (columns * samples() * depth + 7) / 8;
+    }
+};
+
+struct PngColour {
+    std::uint8_t r = 0, g = 0, b = 0, alpha = 255;
+};
+
+// Everything but the pixels, and the packed pixels in pieces.
+struct PngChunks {
+    PngHeader header;
+    std::vector<PngColour> palette;
+    std::optional<std::array<std::uint16_t, 3>> transparent; // the colour whose alpha is 0
+    bool hasPaletteAlpha = false;
+    std::vector<std::uint8_t> packed;
+};
+
+// Samples of 16 bits have the high byte first.
+inline std::uint16_t wordAt(Bytes bytes, std::size_t at) {
+    return static_cast<std::uint16_t>(bytes[at] << 8 | bytes[at + 1]);
 }
+
+// Ancillary chunks other than tRNS are skipped. Fails with "name: error: what".
+PngChunks readPngChunks(Bytes file, const std::string& name);

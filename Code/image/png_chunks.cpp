@@ -1,9 +1,8 @@
-#include "image/png_chunks.h"
-
+// A PNG file as its chunks say it is: everything but the pixels, which are still packed.
 #include "base/error.h"
 #include "base/text.h"
-#include "image/checksum.h"
 #include "image/png.h"
+#include "image/zlib.h"
 
 #include <algorithm>
 #include <bit>

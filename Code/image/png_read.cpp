@@ -2,10 +2,8 @@
 // is the caller's business.
 #include "base/error.h"
 #include "base/text.h"
-#include "image/formats.h"
-#include "image/inflate.h"
-#include "image/png_chunks.h"
-#include "image/png_unfilter.h"
+#include "image/png.h"
+#include "image/zlib.h"
 
 #include <algorithm>
 
@@ -124,7 +122,7 @@ StoredImage decodePng(Bytes file, const std::string& name) {
     std::vector<std::uint8_t> rows = inflateZlib(chunks.packed, size, name);
 
     PixelWriter picture(chunks, name);
-    const UnfilterRow unfilter = unfilterFor(header.samples() * header.depth / 8);
+    const std::size_t pixelBytes = header.samples() * header.depth / 8;
     const std::vector<std::uint8_t> zeros(header.rowBytes(header.width));
     std::span<std::uint8_t> rest(rows);
     for (const Pass& pass : passesOf(header)) {
@@ -137,7 +135,7 @@ StoredImage decodePng(Bytes file, const std::string& name) {
                 fail(ErrorKind::Input, cat(name, ": error: row ", y, " has the filter ",
                                            rest[0] + 0, "; it must be 0 to 4"));
             const auto row = rest.subspan(1, rowBytes);
-            unfilter(static_cast<PngFilter>(rest[0]), row, above);
+            unfilterRow(static_cast<PngFilter>(rest[0]), row, above, pixelBytes);
             picture.putRow(row, columns, y, pass.x0, pass.dx);
             above = row;
             rest = rest.subspan(1 + rowBytes);

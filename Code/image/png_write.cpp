@@ -1,16 +1,10 @@
-// Writes PNG: 8- or 16-bit RGB, filtered row by row, packed by deflate.h.
+// Writes PNG: 8- or 16-bit RGB, filtered row by row, packed by zlib.h.
 #include "base/for_each.h"
 #include "base/in_order.h"
-#include "base/raw_vector.h"
-#include "image/byte_lanes.h"
-#include "image/checksum.h"
-#include "image/deflate.h"
-#include "image/formats.h"
 #include "image/png.h"
+#include "image/zlib.h"
 
 #include <algorithm>
-#include <cstring>
-#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -52,65 +46,13 @@ struct Part {
     Sum sum;
 };
 
-// The rows of a picture as codes: where they lie, or encoded here, each behind the one above it.
-class RowCodes {
-public:
-    explicit RowCodes(const PixelSource& picture)
-        : picture_(picture), pixelBytes_(picture.pixelBytes()),
-          width_(static_cast<std::size_t>(picture.width)),
-          height_(static_cast<std::size_t>(picture.height)) {}
-
-    // There until the next but one is asked for. Rows follow each other, from any one on.
-    Bytes at(std::size_t y) {
-        const std::size_t size = pixelBytes_ * width_;
-        if (!picture_.codes.empty()) return picture_.codes.subspan(y * size, size);
-        Buffer &row = encoded_[y % 2], &above = encoded_[(y + 1) % 2];
-        row.resize(size);
-        if (above.empty())
-            encodePixels(pixelsOf(y), picture_.encoding, row);
-        else
-            encodeBelow(y, above, row);
-        return row;
-    }
-
-private:
-    // Row y > 0, `above` with the codes of the one before. Where its pixels are the same, as in a
-    // plain background, so are the codes, and comparing is faster than encoding.
-    void encodeBelow(std::size_t y, Bytes above, std::span<std::uint8_t> row) const {
-        constexpr std::size_t kRun = 32;
-        const std::span<const Rgb> here = pixelsOf(y), up = pixelsOf(y - 1);
-        for (std::size_t x = 0; x < width_; x += kRun) {
-            const std::size_t count = std::min(kRun, width_ - x), at = pixelBytes_ * x;
-            const std::span<std::uint8_t> out = row.subspan(at, pixelBytes_ * count);
-            if (y + 1 < height_) fetch(pixelsOf(y + 1).subspan(x, count));
-            if (std::memcmp(here.data() + x, up.data() + x, count * sizeof(Rgb)) == 0)
-                std::memcpy(out.data(), above.data() + at, out.size());
-            else
-                encodePixels(here.subspan(x, count), picture_.encoding, out);
-        }
-    }
-    // Pixels of the row that comes next: the processor does not guess across pages.
-    static void fetch(std::span<const Rgb> pixels) {
-        const auto bytes = std::as_bytes(pixels);
-        for (std::size_t at = 0; at < bytes.size(); at += 64) __builtin_prefetch(&bytes[at]);
-    }
-    std::span<const Rgb> pixelsOf(std::size_t y) const {
-        return picture_.pixels.subspan(y * width_, width_);
-    }
-
-    const PixelSource& picture_;
-    std::size_t pixelBytes_, width_, height_;
-    Buffer encoded_[2]; // by turns
-};
-
 // The picture in parts, which threads can work on: as many rows each as give kPartBytes, so that
 // the file does not depend on how many threads there are. The rows of a part fit into a cache.
 class PartEncoder {
 public:
     explicit PartEncoder(const PixelSource& picture)
-        : picture_(picture), pixelBytes_(picture.pixelBytes()),
-          height_(static_cast<std::size_t>(picture.height)),
-          rowBytes_(pixelBytes_ * static_cast<std::size_t>(picture.width) + 1),
+        : picture_(picture), height_(static_cast<std::size_t>(picture.height)),
+          rowBytes_(picture.pixelBytes() * static_cast<std::size_t>(picture.width) + 1),
           rows_(std::max<std::size_t>(1, kPartBytes / rowBytes_)) {}
 
     std::size_t count() const { return (height_ + rows_ - 1) / rows_; }
@@ -118,15 +60,13 @@ public:
     // The chunk is made in `memory`, of any content.
     Part part(std::size_t i, Buffer memory) const {
         const std::size_t first = i * rows_, end = std::min(height_, first + rows_);
-        thread_local RawVector<std::uint8_t> filtered; // the system need not clear it every time
-        filterRows(first, end, filtered);
-        const bool isLast = end == height_;
+        thread_local Buffer codes, filtered; // the system need not clear them every time
+        filterRows(first, end, codes, filtered);
         memory.clear();
         const std::size_t start = beginChunk(memory, "IDAT");
         if (i == 0) memory.insert(memory.end(), kZlibHeader.begin(), kZlibHeader.end());
-        const Packing packing =
-            picture_.encoding.isDraft ? Packing::ZeroWords : choosePacking(filtered);
-        Buffer chunk = deflatePiece(filtered, isLast, packing, std::move(memory));
+        const Packing packing = picture_.encoding.isDraft ? Packing::Runs : choosePacking(filtered);
+        Buffer chunk = deflatePiece(filtered, end == height_, packing, std::move(memory));
         endChunk(chunk, start);
         return {std::move(chunk), {filtered.size(), adler32(filtered)}};
     }
@@ -134,30 +74,26 @@ public:
 private:
     static constexpr std::size_t kPartBytes = std::size_t{1} << 17;
 
-    // Rows of a draft that are filtered alike: to find the best filter takes more time than to use
-    // it.
-    static constexpr std::size_t kRowsPerFilter = 4;
-
     // With their filter types in front.
-    void filterRows(std::size_t first, std::size_t end, RawVector<std::uint8_t>& out) const {
-        RowCodes rows(picture_);
-        const Buffer zeros(first == 0 ? rowBytes_ - 1 : 0);
-        Bytes above = first == 0 ? Bytes(zeros) : rows.at(first - 1);
+    void filterRows(std::size_t first, std::size_t end, Buffer& codes, Buffer& out) const {
+        const std::size_t codeBytes = rowBytes_ - 1;
+        const auto width = static_cast<std::size_t>(picture_.width);
+        // Of the row above, zeros for the first of all, and of these rows.
+        codes.assign(codeBytes * (end - first + 1), 0);
+        const std::size_t above = first == 0 ? 0 : 1;
+        picture_.encode(width * (first - above), width * (end - first + above),
+                        std::span(codes).subspan(first == 0 ? codeBytes : 0));
         out.resize(rowBytes_ * (end - first));
-        const ByteLanes& lanes = byteLanes();
-        std::span<std::uint8_t> left = out;
-        std::optional<PngFilter> filter; // none: to be found
-        for (std::size_t y = first; y < end; ++y, left = left.subspan(rowBytes_)) {
-            const Bytes row = rows.at(y);
-            if (!picture_.encoding.isDraft || (y - first) % kRowsPerFilter == 0) filter.reset();
-            filter = lanes.filterRow(row, above, pixelBytes_, filter, left.subspan(1));
-            left[0] = static_cast<std::uint8_t>(*filter);
-            above = row;
+        for (std::size_t y = 0; y < end - first; ++y) {
+            const Bytes two = Bytes(codes).subspan(codeBytes * y, 2 * codeBytes);
+            const auto row = std::span(out).subspan(rowBytes_ * y, rowBytes_);
+            row[0] = static_cast<std::uint8_t>(filterRow(two.last(codeBytes), two.first(codeBytes),
+                                                         picture_.pixelBytes(), row.subspan(1)));
         }
     }
 
     const PixelSource& picture_;
-    std::size_t pixelBytes_, height_, rowBytes_, rows_;
+    std::size_t height_, rowBytes_, rows_; // a row with its filter
 };
 
 } // namespace

@@ -1,9 +1,7 @@
 // PPM and PGM (netpbm): P6 and P5 binary, P3 and P2 as text; 8 or 16 bits, any maxval.
 #include "base/error.h"
 #include "base/text.h"
-#include "image/formats.h"
 #include "image/netpbm.h"
-#include "image/raw_file.h"
 
 #include <algorithm>
 

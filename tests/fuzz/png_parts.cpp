@@ -1,11 +1,11 @@
 #include "fuzz/png_parts.h"
 
-#include "image/checksum.h"
-#include "image/deflate.h"
+#include "image/zlib.h"
 
 #include <algorithm>
 #include <array>
 #include <string_view>
+#include <utility>
 
 namespace fuzz {
 
@@ -61,7 +61,10 @@ std::vector<std::uint8_t> withPackedRows(Bytes png) {
         if (!std::equal(kRows.begin(), kRows.end(), typeAndData.begin()))
             return appendChunk(out, typeAndData.size() - 4, typeAndData);
         Buffer packed(kRows.begin(), kRows.end());
-        append(packed, deflateZlib(typeAndData.subspan(4)));
+        append(packed, kZlibHeader);
+        const Bytes rows = typeAndData.subspan(4);
+        packed = deflatePiece(rows, true, choosePacking(rows), std::move(packed));
+        append(packed, zlibEnd(adler32(rows)));
         appendChunk(out, packed.size() - 4, packed);
     });
 }

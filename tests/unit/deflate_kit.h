@@ -1,8 +1,7 @@
 // Bytes to pack.
 #pragma once
 
-#include "image/checksum.h"
-#include "image/deflate.h"
+#include "image/zlib.h"
 
 #include <cstdint>
 #include <vector>
@@ -16,7 +15,7 @@ inline std::uint32_t nextRandom(std::uint32_t& state) { // Numerical Recipes
 
 inline void add(Buffer& to, const Buffer& more) { to.insert(to.end(), more.begin(), more.end()); }
 
-// As deflateZlib() gives it, packed this way whether it pays or not.
+// A whole stream.
 inline Buffer packedAs(Packing packing, const Buffer& bytes) {
     Buffer packed = deflatePiece(bytes, true, packing, {kZlibHeader.begin(), kZlibHeader.end()});
     const auto end = zlibEnd(adler32(bytes));

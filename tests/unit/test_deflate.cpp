@@ -1,18 +1,13 @@
-// Code/image/deflate.h, inflate.h, huffman.h and checksum.h.
+// Code/image/zlib.h, deflate_codes.h and matcher.h.
 #include "check.h"
 #include "deflate_kit.h"
 
-#include "image/checksum.h"
-#include "image/deflate.h"
-#include "image/huffman.h"
-#include "image/inflate.h"
+#include "image/deflate_codes.h"
 #include "image/matcher.h"
+#include "image/zlib.h"
 
-#include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -30,17 +25,18 @@ Buffer fromHex(std::string_view hex) {
     return bytes;
 }
 // Packs, unpacks and compares; the size of the packed bytes.
-std::size_t roundTrip(const Buffer& bytes) {
-    const Buffer packed = deflateZlib(bytes);
-    CHECK(inflateZlib(packed, bytes.size(), "round trip") == bytes);
-    CHECK(packed == deflateZlib(bytes));
-    return packed.size();
-}
 std::size_t roundTripAs(Packing packing, const Buffer& bytes) {
     const Buffer packed = packedAs(packing, bytes);
     CHECK_INFO(inflateZlib(packed, bytes.size(), "round trip") == bytes,
                static_cast<int>(packing) << " of " << bytes.size() << " bytes");
+    CHECK(packed == packedAs(packing, bytes));
     return packed.size();
+}
+// In both ways; the size in the one that is chosen.
+std::size_t roundTrip(const Buffer& bytes) {
+    const std::size_t runs = roundTripAs(Packing::Runs, bytes);
+    const std::size_t matches = roundTripAs(Packing::Matches, bytes);
+    return choosePacking(bytes) == Packing::Runs ? runs : matches;
 }
 
 } // namespace
@@ -60,7 +56,7 @@ TEST(checksum_known_values) {
     CHECK_EQUAL(crc32(large), 0x68C6CEC4u);
 }
 
-// Code/image/checksum.h takes many bytes at a time; the PNG specification, annex D, bit by bit.
+// Code/image/checksum.cpp takes many bytes at a time; the PNG specification, annex D, bit by bit.
 TEST(crc32_is_that_of_the_standard) {
     std::uint32_t state = 12;
     for (std::size_t size = 0; size < 300; ++size) {
@@ -76,7 +72,7 @@ TEST(crc32_is_that_of_the_standard) {
     }
 }
 
-// Code/image/checksum.h goes in blocks of vectors; RFC 1950 section 8.2 goes byte by byte.
+// Code/image/checksum.cpp goes in blocks of vectors; RFC 1950 section 8.2 goes byte by byte.
 TEST(adler32_is_that_of_the_standard) {
     std::uint32_t state = 11;
     // The largest bytes as well: nothing may overflow in a block.
@@ -148,7 +144,7 @@ TEST(inflate_counts_codes_to_the_last) {
 }
 
 TEST(inflate_ignores_what_follows_the_stream) {
-    Buffer packed = deflateZlib(bytesOf("abc"));
+    Buffer packed = packedAs(Packing::Runs, bytesOf("abc"));
     packed.insert(packed.end(), {1, 2, 3});
     CHECK(inflateZlib(packed, 3, "more") == bytesOf("abc"));
 }
@@ -198,99 +194,17 @@ TEST(deflate_round_trips_structured_bytes) {
     }
 }
 
-// Code/image/zero_runs.h: bytes of which many are zero.
+// Gaps of zeros of every size about those of a match, of two and of three, in turn with small ones.
 TEST(deflate_round_trips_gaps_of_zeros) {
-    const auto zeroRuns = [](const Buffer& bytes) { return roundTripAs(Packing::ZeroRuns, bytes); };
     std::uint32_t state = 5;
-    const auto noise = [&] { return static_cast<std::uint8_t>(1 + nextRandom(state) % 255); };
-    const auto levelOf = [](std::uint32_t random) {
-        return static_cast<std::uint8_t>(1 + std::countl_zero(random << 8 | 0x80));
-    };
-    // Gaps of every size about those of a match, of two and of three, in turn with small ones.
     Buffer gaps;
     for (std::size_t zeros = 0; zeros < 800; ++zeros) {
         gaps.insert(gaps.end(), zeros, 0);
-        gaps.push_back(noise());
+        gaps.push_back(static_cast<std::uint8_t>(1 + nextRandom(state) % 255));
         gaps.insert(gaps.end(), nextRandom(state) % 30, 0);
         gaps.push_back(1);
     }
-    CHECK_INFO(zeroRuns(gaps) < 4200, zeroRuns(gaps)); // 1600 bytes, 800 of them any, and gaps
-    // Any place of the last bytes, any size of the rest of 64.
-    for (std::size_t size = 4090; size < 4240; ++size) {
-        Buffer bytes(size, 0);
-        for (int i = 0; i < 300; ++i) bytes[nextRandom(state) % size] = noise();
-        zeroRuns(bytes);
-        bytes[size - 1 - size % 3] = noise();
-        zeroRuns(bytes);
-    }
-    // Zeros are so rare outside a long run that three of them, too few for a match, fill more bits
-    // than are written at once.
-    Buffer clumps(700'000, 0);
-    for (std::size_t i = 0; i < 70'000; ++i) clumps[i < 35'000 ? i : i + 3] = noise();
-    CHECK_INFO(zeroRuns(clumps) < 73'000, zeroRuns(clumps));
-    for (std::size_t zeros = 4; zeros < 300; zeros += 19) {
-        std::fill_n(clumps.begin() + 35'000, zeros, std::uint8_t{0});
-        zeroRuns(clumps);
-    }
-    // Half of the bytes are 1, a quarter 2 and so on, and zeros outside a long run so rare that
-    // three of them, too few for a match, take more bits than are written at once.
-    constexpr std::size_t kEnd = 100'000, kNoise = 1500;
-    Buffer rare(1'800'000, 0);
-    for (std::size_t i = 0; i < kEnd; ++i) {
-        const auto value = [&] { return i < kNoise ? noise() : levelOf(nextRandom(state)); };
-        rare[kEnd - 1 - i] = value();
-        rare[rare.size() - kEnd + i] = value();
-    }
-    std::fill_n(rare.begin() + 50'000, 3, std::uint8_t{0});
-    CHECK_INFO(zeroRuns(rare) < 100'000, zeroRuns(rare));
-}
-
-// Code/image/zero_words.h: codes for a sample of bytes.
-TEST(deflate_round_trips_words_of_zeros) {
-    const auto zeroWords = [](const Buffer& bytes) {
-        return roundTripAs(Packing::ZeroWords, bytes);
-    };
-    std::uint32_t state = 9;
-    const auto noise = [&] { return static_cast<std::uint8_t>(1 + nextRandom(state) % 255); };
-    // Gaps of every size about those of a match, of two and of three, at any place of a word.
-    Buffer gaps;
-    for (std::size_t zeros = 0; zeros < 800; ++zeros) {
-        gaps.insert(gaps.end(), zeros, 0);
-        for (std::uint32_t more = 1 + nextRandom(state) % 20; more > 0; --more)
-            gaps.push_back(noise());
-    }
-    zeroWords(gaps);
-    // Any size of the rest of a word and of a piece of 4096 bytes.
-    for (std::size_t size = 32'760; size < 32'860; ++size) {
-        Buffer bytes(size, 0);
-        for (int i = 0; i < 900; ++i) bytes[nextRandom(state) % size] = noise();
-        zeroWords(bytes);
-        bytes[size - 1 - size % 9] = noise();
-        zeroWords(bytes);
-    }
-    for (const std::size_t size : {0u, 1u, 7u, 8u, 9u, 4096u, 32'768u, 1'000'000u, 33'554'432u}) {
-        const std::size_t packed = zeroWords(Buffer(size));
-        CHECK_INFO(packed < 110 + size / 900, packed << " bytes of " << size); // 2 bits per 258
-    }
-    // What a sample doesn't show has codes all the same, but long ones: where they would take more
-    // than the bytes themselves, these are packed another way.
-    const auto onlyIn = [&](const std::vector<std::size_t>& pieces, std::size_t levels) {
-        Buffer bytes(131'072);
-        for (const std::size_t piece : pieces)
-            for (std::size_t i = 0; i < 4096; ++i)
-                bytes[4096 * piece + i] = static_cast<std::uint8_t>(nextRandom(state) % levels);
-        return bytes;
-    };
-    const std::size_t unseen = zeroWords(onlyIn({0, 1, 3, 4, 31}, 256));
-    CHECK_INFO(unseen > 5 * 4096 && unseen < 5 * 4096 * 14 / 8 + 500, unseen);
-    std::vector<std::size_t> pieces(32);
-    std::iota(pieces.begin(), pieces.end(), std::size_t{0});
-    CHECK(zeroWords(onlyIn(pieces, 256)) < 131'072 + 30);
-    const std::size_t sixteen = zeroWords(onlyIn(pieces, 16)); // 4 bits of 8, and the code lengths
-    CHECK_INFO(sixteen < 65'536 * 102 / 100, sixteen);
-    std::erase_if(pieces, [](std::size_t piece) { return piece % 4 == 2; });
-    const std::size_t noSample = zeroWords(onlyIn(pieces, 256));
-    CHECK_INFO(noSample < 24 * 4096 * 11 / 10, noSample);
+    CHECK_INFO(roundTrip(gaps) < 4200, roundTrip(gaps)); // 1600 bytes, 800 of them any, and gaps
 }
 
 // zlib packs the same bytes into 12,825 with runs alone (Z_RLE), into 13,441 at its level 6, which
@@ -345,7 +259,7 @@ TEST(deflate_pieces_join) {
             for (std::uint8_t& byte : piece)
                 byte = static_cast<std::uint8_t>(nextRandom(state) % letters);
             all.insert(all.end(), piece.begin(), piece.end());
-            const Buffer part = deflatePiece(piece, i + 1 == count);
+            const Buffer part = deflatePiece(piece, i + 1 == count, choosePacking(piece));
             packed.insert(packed.end(), part.begin(), part.end());
             adler = adler32Joined(adler, adler32(piece), piece.size());
         }

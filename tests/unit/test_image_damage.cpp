@@ -3,8 +3,8 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "check.h"
-#include "image/checksum.h"
 #include "image/image.h"
+#include "image/zlib.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,10 +1,9 @@
-// Code/image/packing.h: which way to pack pays, and run_finder.h, one of these ways.
+// Code/image/zlib.h: the ways to pack, and which one is chosen; the finder of runs in matcher.h.
 #include "check.h"
 #include "deflate_kit.h"
 
-#include "image/inflate.h"
-#include "image/packing.h"
-#include "image/run_finder.h"
+#include "image/matcher.h"
+#include "image/zlib.h"
 
 #include <algorithm>
 #include <array>
@@ -17,8 +16,7 @@ namespace test_packing {
 namespace {
 
 constexpr std::uint32_t kSeed = 17;
-constexpr std::array kPackings{Packing::ZeroWords, Packing::ZeroRuns, Packing::Runs,
-                               Packing::Matches};
+constexpr std::array kPackings{Packing::Runs, Packing::Matches};
 
 // The highest of its bits, as the lowest come again soon.
 std::uint32_t nextHigh(std::uint32_t& state) { return nextRandom(state) >> 12; }
@@ -63,13 +61,13 @@ TEST(packing_is_chosen_by_what_the_bytes_are) {
                        size << " bytes, " << what << ": " << static_cast<int>(choosePacking(bytes))
                             << ", seed " << kSeed);
         };
-        check(Buffer(size), Packing::ZeroRuns, "zeros");
-        check(sparse(size, state), Packing::ZeroRuns, "most of them zero");
+        check(Buffer(size), Packing::Runs, "zeros");
+        check(sparse(size, state), Packing::Runs, "most of them zero");
         check(geometric(size, 1, state), Packing::Runs, "none of them zero");
         check(noise(size, 7, state), Packing::Runs, "noise");
         check(repeated(noise(100, 7, state), size), Packing::Matches, "a hundred again and again");
         check(repeated(geometric(100, 0, state), size), Packing::Matches, "with zeros, again");
-        // One in five comes again: of noise that is much, of bytes that take two bits nothing.
+        // One byte in four comes again: of noise that is much, of bytes that take two bits nothing.
         Buffer some = noise(size, 7, state);
         for (std::size_t at = 100; at + 20 <= size; at += 100)
             std::copy_n(&some[at - 100], 25, &some[at]);
@@ -77,11 +75,9 @@ TEST(packing_is_chosen_by_what_the_bytes_are) {
         Buffer few = sparse(size, state);
         for (std::size_t at = 100; at + 20 <= size; at += 100)
             std::copy_n(&few[at - 50], 8, &few[at]);
-        check(few, Packing::ZeroRuns, "short matches of what takes few bits");
+        check(few, Packing::Runs, "short matches of what takes few bits");
     }
-    // Of few bytes a sample tells little.
-    CHECK(choosePacking(Buffer(4095)) == Packing::Matches);
-    CHECK(choosePacking({}) == Packing::Matches);
+    CHECK(choosePacking({}) == Packing::Runs);
 }
 
 // What is chosen is not much larger than the smallest.
@@ -168,11 +164,6 @@ TEST(run_finder_finds_all_runs) {
                              << ", seed " << kSeed);
             if (found != expected) return;
             at = std::max(found + match.length, at + 1);
-            if (match.length == kLongestMatch)
-                CHECK(finder.takeRun(at) ==
-                      (at + kLongestMatch <= bytes.size() &&
-                       std::all_of(&bytes[at], &bytes[at] + kLongestMatch,
-                                   [&](std::uint8_t byte) { return byte == bytes[at - 1]; })));
         }
     }
 }

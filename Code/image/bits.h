@@ -1,36 +1,54 @@
-// Bits into bytes, the first bit lowest (RFC 1951).
+// Numbers and bits in bytes, the lowest first (RFC 1951 section 3.1.1).
 // Private to image/.
 #pragma once
 
-#include "image/huffman.h"
-#include "image/little_endian.h"
-
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <utility>
 #include <vector>
 
+// At any address.
+template <class Number> Number loadLittle(const std::uint8_t* from) {
+    Number number{};
+    if constexpr (std::endian::native == std::endian::little)
+        std::memcpy(&number, from, sizeof number);
+    else
+        for (unsigned i = 0; i < sizeof number; ++i)
+            number |= static_cast<Number>(static_cast<Number>(from[i]) << (8 * i));
+    return number;
+}
+template <class Number> void storeLittle(std::uint8_t* to, Number number) {
+    if constexpr (std::endian::native == std::endian::little)
+        std::memcpy(to, &number, sizeof number);
+    else
+        for (unsigned i = 0; i < sizeof number; ++i)
+            to[i] = static_cast<std::uint8_t>(number >> (8 * i));
+}
+
+// A code as it goes into the stream: its first bit is the lowest.
+struct HuffmanCode {
+    std::uint16_t bits = 0;
+    std::uint8_t length = 0;
+};
+
 class BitWriter {
 public:
-    // Behind what is there.
+    // Writes behind what `before` has, in its memory.
     explicit BitWriter(std::vector<std::uint8_t> before)
         : bytes_(std::move(before)), used_(bytes_.size()) {}
 
     // Makes room; put() does not check.
     void reserveBits(std::uint64_t bits) { bytes_.resize(used_ + bits / 8 + 16); }
-    // The same for bytes whose number isn't known before: there is room behind it too, at times.
-    void makeRoom(std::uint64_t bits) {
-        if (used_ + bits / 8 + 16 > bytes_.size()) reserveBits(bits);
-    }
     // After flush(), up to 56 bits fit.
     void put(std::uint64_t bits, unsigned n) {
         waiting_ |= bits << count_;
         count_ += n;
     }
     void put(HuffmanCode code) { put(code.bits, code.length); }
-    void put(const JoinedCodes& codes) { put(codes.bits, codes.length); }
     void flush() {
         storeLittle(bytes_.data() + used_, waiting_);
         used_ += count_ >> 3;
@@ -48,23 +66,6 @@ public:
         count_ = (count_ + 7) & ~7u;
         flush();
     }
-
-    // To take back what has been written since.
-    struct Place {
-        std::size_t used;
-        std::uint64_t waiting;
-        unsigned count;
-    };
-    Place place() const { return {used_, waiting_, count_}; }
-    std::uint64_t bitsSince(const Place& start) const {
-        return 8 * (used_ - start.used) + count_ - start.count;
-    }
-    void goBackTo(const Place& start) {
-        used_ = start.used;
-        waiting_ = start.waiting;
-        count_ = start.count;
-    }
-
     std::vector<std::uint8_t> result() && {
         bytes_.resize(used_);
         return std::move(bytes_);

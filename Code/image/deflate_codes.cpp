@@ -1,9 +1,6 @@
-#include "image/huffman.h"
-
 #include "image/deflate_codes.h"
 
 #include <algorithm>
-#include <array>
 
 namespace {
 
@@ -11,22 +8,6 @@ struct Leaf {
     std::uint32_t count;
     std::uint16_t symbol;
 };
-
-// Ascending; what is equal stays in its order. Digit by digit, from the last one on.
-void sortByCount(std::vector<Leaf>& leaves) {
-    constexpr unsigned kBits = 8;
-    std::uint32_t all = 0;
-    for (const Leaf& leaf : leaves) all |= leaf.count;
-    std::vector<Leaf> other(leaves.size());
-    for (unsigned shift = 0; shift < 32 && all >> shift != 0; shift += kBits) {
-        const auto digit = [shift](const Leaf& leaf) { return leaf.count >> shift & 0xFF; };
-        std::array<std::uint32_t, 257> start{};
-        for (const Leaf& leaf : leaves) ++start[digit(leaf) + 1];
-        for (std::size_t d = 0; d < 256; ++d) start[d + 1] += start[d];
-        for (const Leaf& leaf : leaves) other[start[digit(leaf)]++] = leaf;
-        leaves.swap(other);
-    }
-}
 
 // How many codes have each length in the optimal code for counts in ascending order.
 // Two queues: the leaves and the inner nodes, which are made in ascending order too.
@@ -91,7 +72,8 @@ std::vector<std::uint8_t> huffmanLengths(std::span<const std::uint32_t> counts,
             leaves.push_back({counts[s], static_cast<std::uint16_t>(s)});
     for (std::size_t s = 0; s < counts.size() && leaves.size() < 2; ++s)
         if (counts[s] == 0) leaves.push_back({1, static_cast<std::uint16_t>(s)});
-    sortByCount(leaves);
+    std::stable_sort(leaves.begin(), leaves.end(),
+                     [](const Leaf& a, const Leaf& b) { return a.count < b.count; });
     std::vector<std::uint32_t> ofLength = optimalLengthCounts(leaves);
     limitLengths(ofLength, longest);
     std::vector<std::uint8_t> lengths(counts.size());
@@ -116,4 +98,93 @@ std::vector<HuffmanCode> canonicalCodes(std::span<const std::uint8_t> lengths) {
         codes[s] = {static_cast<std::uint16_t>(fromBack), static_cast<std::uint8_t>(n)};
     }
     return codes;
+}
+
+std::uint64_t bitsOf(const SymbolCounts& counts, std::span<const std::uint8_t> literalLengths,
+                     std::span<const std::uint8_t> distanceLengths) {
+    std::uint64_t bits = 0;
+    for (std::size_t s = 0; s < kLiteralCodes; ++s) {
+        const unsigned extra = s > kEndOfBlock ? kLengthRanges[s - kEndOfBlock - 1].extra : 0;
+        bits += std::uint64_t{counts.literals[s]} * (literalLengths[s] + extra);
+    }
+    for (std::size_t s = 0; s < kDistanceCodes; ++s)
+        bits += std::uint64_t{counts.distances[s]} *
+                (distanceLengths[s] + unsigned{kDistanceRanges[s].extra});
+    return bits;
+}
+
+DynamicCodes::DynamicCodes(const SymbolCounts& counts)
+    : literalLengths_(huffmanLengths(counts.literals, kMostLiteralBits)),
+      distanceLengths_(huffmanLengths(counts.distances, kMaxCodeLength)) {
+    const auto usedOf = [](std::span<const std::uint8_t> lengths, std::size_t least) {
+        std::size_t used = lengths.size();
+        while (used > least && lengths[used - 1] == 0) --used;
+        return used;
+    };
+    literalCount_ = usedOf(literalLengths_, 257);
+    distanceCount_ = usedOf(distanceLengths_, 1);
+    std::vector<std::uint8_t> lengths(literalLengths_.begin(),
+                                      literalLengths_.begin() +
+                                          static_cast<std::ptrdiff_t>(literalCount_));
+    lengths.insert(lengths.end(), distanceLengths_.begin(),
+                   distanceLengths_.begin() + static_cast<std::ptrdiff_t>(distanceCount_));
+    tokens_ = packed(lengths);
+    std::array<std::uint32_t, kCodeLengthOrder.size()> tokenCounts{};
+    for (const LengthToken& token : tokens_) ++tokenCounts[token.symbol];
+    tokenLengths_ = huffmanLengths(tokenCounts, 7);
+    orderCount_ = kCodeLengthOrder.size();
+    while (orderCount_ > 4 && tokenLengths_[kCodeLengthOrder[orderCount_ - 1]] == 0) --orderCount_;
+}
+
+std::vector<DynamicCodes::LengthToken> DynamicCodes::packed(std::span<const std::uint8_t> lengths) {
+    std::vector<LengthToken> tokens;
+    for (std::size_t i = 0; i < lengths.size();) {
+        std::size_t run = 1;
+        while (i + run < lengths.size() && lengths[i + run] == lengths[i]) ++run;
+        const std::uint8_t value = lengths[i];
+        i += run;
+        if (value != 0) {
+            tokens.push_back({value, 0, 0});
+            --run;
+        }
+        while (run >= 3) {
+            const std::size_t part = std::min<std::size_t>(run, value != 0 ? 6 : 138);
+            if (value != 0)
+                tokens.push_back({16, static_cast<std::uint8_t>(part - 3), 2});
+            else if (part <= 10)
+                tokens.push_back({17, static_cast<std::uint8_t>(part - 3), 3});
+            else
+                tokens.push_back({18, static_cast<std::uint8_t>(part - 11), 7});
+            run -= part;
+        }
+        for (; run > 0; --run) tokens.push_back({value, 0, 0});
+    }
+    return tokens;
+}
+
+std::uint64_t DynamicCodes::bits(const SymbolCounts& counts) const {
+    std::uint64_t bits =
+        3 + 14 + 3 * orderCount_ + bitsOf(counts, literalLengths_, distanceLengths_);
+    for (const LengthToken& token : tokens_)
+        bits += tokenLengths_[token.symbol] + unsigned{token.extraBits};
+    return bits;
+}
+
+void DynamicCodes::putHeader(BitWriter& out, bool last) const {
+    out.put(last ? 1 : 0, 1);
+    out.put(2, 2);
+    out.put(literalCount_ - 257, 5);
+    out.put(distanceCount_ - 1, 5);
+    out.put(orderCount_ - 4, 4);
+    out.flush();
+    for (std::size_t i = 0; i < orderCount_; ++i) {
+        out.put(tokenLengths_[kCodeLengthOrder[i]], 3);
+        out.flush();
+    }
+    const std::vector<HuffmanCode> codes = canonicalCodes(tokenLengths_);
+    for (const LengthToken& token : tokens_) {
+        out.put(codes[token.symbol]);
+        out.put(token.extra, token.extraBits);
+        out.flush();
+    }
 }
