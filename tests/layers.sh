@@ -1,5 +1,5 @@
 #!/bin/sh
-# Includes point down only (DESIGN.md section 4):
+# Includes point down only (Code/README.md, "The folders"):
 #   base <- image, desc <- read          base, simd <- image <- the folders of one thing each
 #   all of them <- render <- verify <- cli <- main
 # The units of isa/ hold the kernels of accel/ and render/; isa/isa.h, which includes nothing of the

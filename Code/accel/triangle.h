@@ -84,7 +84,7 @@ public:
     // lie in one plane with the ray and the normal: what moves a ray by a rounding along the normal
     // leaves them as they are, and changes only which of them is met. All with room for where the
     // ray meets the triangle by ShearedTriangle: that is 2^-24 (4 M + 2 b) beside it at most (M, b
-    // as in kernels/queue_exact.inl) on either lateral axis, within 9 roundings of the largest
+    // as in kernels/queue_exact.h) on either lateral axis, within 9 roundings of the largest
     // coordinate. 0 if these points are behind the origin.
     float keyInChord(float key) const {
         const Vec3d across = normalize(cross(dir_, n_));

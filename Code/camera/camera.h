@@ -1,5 +1,5 @@
 // Camera: where the ray of a place in the picture starts and goes, as Blender's cameras define it
-// (the formulas are Cycles', checked against it: BLENDER_AND_CLI 4.1). Knows nothing about scenes.
+// (the formulas are Cycles', and checked against it). Knows nothing about scenes.
 #pragma once
 
 #include "base/motion.h"

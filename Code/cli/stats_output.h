@@ -7,8 +7,9 @@
 
 std::string statsTable(const Stats& stats);
 
-// One object on one line, with the keys of DESIGN.md section 3 (error_estimate, error_goal and
-// capped_pixels only with --error). Numbers that are not finite become null.
+// One object on one line; scripts rely on its keys, which tests/unit/test_stats_output.cpp lists
+// (error_estimate, error_goal and capped_pixels only with --error). Numbers that are not finite
+// become null.
 std::string statsJson(const Stats& stats);
 
 // Three digits that count: "0.00594".

@@ -41,7 +41,8 @@ public:
     virtual std::optional<LightSample> whole(Vec3 /*point*/, Vec3 /*n*/, Vec3 /*horizon*/) const {
         return {};
     }
-    // Set when shadow rays are defined as starting at this point (KERNELS: shared origin).
+    // Set when shadow rays are defined as starting at this point: then all of a lamp can go as one
+    // bundle (accel/kernels/bundle.h).
     virtual std::optional<Vec3> origin() const { return {}; }
     // Set when centre() is that of this point: for who asks many points at once.
     virtual std::optional<PointEmission> emission() const { return {}; }

@@ -37,7 +37,7 @@ public:
                std::span<Vec2> out) const;
 
     // What the pairs of a pixel are shuffled and scrambled by, for who makes many himself with
-    // sample/sobol.inl: of a sampler of the kind Sobol.
+    // sample/sobol.h: of a sampler of the kind Sobol.
     struct PairSeeds {
         std::uint32_t index, x, y;
     };

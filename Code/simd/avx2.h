@@ -1,4 +1,4 @@
-// 8 lanes in one register of AVX2. See simd_avx512.inl.
+// 8 lanes in one register of AVX2.
 #pragma once
 
 #include "simd/region.h"

@@ -97,7 +97,7 @@ inline std::uint32_t element(__m128i four, int i) {
         _mm_castps_si128(_mm_permutevar_ps(_mm_castsi128_ps(four), _mm_cvtsi32_si128(i)))));
 }
 
-// Keys in descending order; see simd_avx512.inl.
+// Keys in descending order; see avx512_moves.h.
 inline __m256i sortedKeys(__m256i k) {
     const auto exchange = [&](__m256i other, auto smaller) {
         k = _mm256_blend_epi32(_mm256_max_epu32(k, other), _mm256_min_epu32(k, other),
@@ -258,7 +258,7 @@ inline Doubles fma(const Doubles& a, const Doubles& b, const Doubles& c) {
     return {_mm256_fmadd_pd(a.lo, b.lo, c.lo), _mm256_fmadd_pd(a.hi, b.hi, c.hi)};
 }
 inline Doubles nearQuotient(const Doubles& a, const Doubles& b) { return a / b; }
-// Lanes within 2^-40 of the middle between two floats: see sobol_avx512.inl.
+// Lanes within 2^-40 of the middle between two floats: see avx512_moves.h.
 inline unsigned nearMiddle(const Doubles& a) {
     const auto half = [](__m256d x) {
         const __m256i shifted =

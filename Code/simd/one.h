@@ -1,4 +1,4 @@
-// One lane, of plain numbers: what code for registers says of one thing alone. See simd_avx512.inl.
+// One lane, of plain numbers: what code for registers says of one thing alone.
 #pragma once
 
 #include "simd/region.h"

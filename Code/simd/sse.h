@@ -1,4 +1,4 @@
-// 8 lanes in two registers of SSE4.2, so that the trees are those of AVX2. See simd_avx512.inl.
+// 8 lanes in two registers of SSE4.2, so that the trees are those of AVX2.
 #pragma once
 
 #include "simd/region.h"

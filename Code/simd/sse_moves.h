@@ -283,7 +283,7 @@ template <class Bits> inline Bits pickBytes(Bits from, Bits at) {
         _mm_shuffle_epi8(reinterpret_cast<__m128i>(from), reinterpret_cast<__m128i>(at)));
 }
 
-// Two roundings, which change nothing that disk_lanes.inl says.
+// Two roundings, which change nothing that render/waves/disk_lanes.h says.
 inline Doubles fma(const Doubles& a, const Doubles& b, const Doubles& c) { return a * b + c; }
 inline Doubles nearQuotient(const Doubles& a, const Doubles& b) { return a / b; }
 // Lanes within 2^-40 of the middle between two floats.

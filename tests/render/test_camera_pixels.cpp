@@ -1,5 +1,5 @@
 // Which place of the scene a pixel sees, for every kind of camera: the position that --aov gives,
-// projected by the formulas of the format (BLENDER_AND_CLI 4.1), must be the pixel's centre.
+// projected as Blender projects it (Code/camera/camera.h), must be the pixel's centre.
 #include "check.h"
 #include "shot.h"
 

@@ -26,7 +26,8 @@ struct Expected {
     Vec3l org, dir;
 };
 
-// BLENDER_AND_CLI 4.1, word for word; py there is from the bottom.
+// The definition of Blender's cameras in long double, written apart from Code/camera/; rows count
+// from the bottom here.
 Expected formula(const CameraParams& p, Vec2d pixel) {
     const L w = p.width, h = p.height, xr = w * p.pixelAspect.x, yr = h * p.pixelAspect.y;
     bool horizontal = true;

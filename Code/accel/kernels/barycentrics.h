@@ -1,4 +1,4 @@
-// Barycentrics of W hits. Included like queue.inl, in front of it.
+// Barycentrics of W hits.
 #pragma once
 
 #include "simd/lanes.h"

@@ -1,7 +1,6 @@
 // The kernel for rays that start close together and go nearly the same way: those that a pixel's
 // samples send to a lamp, say. W of them are a beam, which asks once for all which nodes and
-// triangles they may meet; those triangles are asked of W rays at once. Included like queue.inl,
-// behind it and beam_shape.inl.
+// triangles they may meet; those triangles are asked of W rays at once.
 #pragma once
 
 #include "accel/kernels/beam_shape.h"
@@ -138,7 +137,7 @@ private:
     }
 
     const WideMesh& mesh_;
-    WideRef* refs_; // the stack of stack.inl
+    WideRef* refs_; // the stack of stack.h
     std::uint32_t* entries_;
     std::uint32_t size_ = 0;
     float work_ = 0, mostWork_;

@@ -3,8 +3,7 @@
 // time, and a ray is touched only by triangles that overlap its packet. Both culls are exact:
 // boxes: if one is beside the rectangle, the monotone rounding of x - S z gives all vertices in it
 // the same strict sign, and ShearedTriangle::containsRay() is false; depth: a key is at most 1/zMin
-// of its triangle, so a box behind zCut holds no better one. Included like queue.inl, behind
-// bundle_rays.inl and bundle_leaf.inl.
+// of its triangle, so a box behind zCut holds no better one.
 #pragma once
 
 #include "accel/kernels/beam.h"
@@ -166,7 +165,7 @@ private:
     const WideMesh& mesh_;
     BundleRays<Q> rays_;
     BundleLeaf<Q> leaf_;
-    WideRef* refs_; // the stack of stack.inl
+    WideRef* refs_; // the stack of stack.h
     std::uint32_t* entries_;
     std::uint32_t size_ = 0;
     std::size_t leaves_ = 0, mostLeaves_ = 0;

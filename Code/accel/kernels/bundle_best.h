@@ -1,6 +1,6 @@
 // The best hits of a bundle's rays so far. As long as bounds of the keys tell which of two hits is
 // nearer, neither key is computed: for fine meshes that is nearly always, and one key per ray is
-// enough, at its end. Included like queue.inl, behind bundle_keys.inl.
+// enough, at its end.
 #pragma once
 
 #include "accel/kernels/barycentrics.h"

@@ -1,6 +1,5 @@
 // The triangles of a leaf set up for the rays of a bundle, and the pairs (packet, triangle) that
-// have to be tested: culled against the rectangles of the packets, in front of zCut. Included like
-// queue.inl, behind bundle_keys.inl.
+// have to be tested: culled against the rectangles of the packets, in front of zCut.
 #pragma once
 
 #include "accel/kernels/bundle_rays.h"

@@ -1,5 +1,4 @@
-// Slopes of the rays of a bundle, W to a packet: their ranges, and the gaps in them. Included like
-// queue.inl, in front of bundle_rays.inl.
+// Slopes of the rays of a bundle, W to a packet: their ranges, and the gaps in them.
 #pragma once
 
 #include "base/math.h"

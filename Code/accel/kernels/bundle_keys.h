@@ -1,6 +1,5 @@
 // Canonical keys for the rays of a bundle, W at a time: accel/triangle.h in vectors, operation by
-// operation, with what is seldom asked left to its own code. Included like queue.inl, behind
-// bundle_rays.inl.
+// operation, with what is seldom asked left to its own code.
 #pragma once
 
 #include "accel/kernels/bundle_rays.h"

@@ -3,8 +3,7 @@
 // W rays at a time. The tests in front of the canonical hit are certain or exact: edges: as affine
 // functions of S, with a bound of their and the canonical ones' rounding; where the sign is not
 // certain, the canonical edge functions decide; depth: the key of a hit is between those of the
-// triangle's nearest and farthest corner, and near that of the plane in float. Included like
-// queue.inl, behind bundle_block.inl and bundle_best.inl.
+// triangle's nearest and farthest corner, and near that of the plane in float.
 #pragma once
 
 #include "accel/kernels/bundle_best.h"

@@ -1,6 +1,5 @@
 // The rays of a bundle as they lie in their batch, W to a packet: read from there and answered
-// there. Which of them are traced together is bundle_rays.inl's. Included like queue.inl, behind
-// it.
+// there. Which of them are traced together is decided in bundle_rays.h.
 #pragma once
 
 #include "accel/kernels/barycentrics.h"

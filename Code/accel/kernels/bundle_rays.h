@@ -1,7 +1,7 @@
 // The rays of a bundle that are traced together. Around the dominant axis of their directions, rays
 // from one point are points S = (x/z, y/z) of a plane, a packet is a rectangle in it and so is a
 // bundle. Only rays with the same dominant axis and sign share a plane: a bundle is traced in
-// rounds, and a ray is active in one of them. Included like queue.inl, behind bundle_packets.inl.
+// rounds, and a ray is active in one of them.
 #pragma once
 
 #include "accel/kernels/bundle_gaps.h"

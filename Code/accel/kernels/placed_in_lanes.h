@@ -1,4 +1,4 @@
-// The queue of queue.inl in two levels: rays walk the tree over the boxes of the meshes, and in
+// The queue of queue.h in two levels: rays walk the tree over the boxes of the meshes, and in
 // between the tree of one mesh after the other, all of them at once. Lists say what each does next.
 #pragma once
 

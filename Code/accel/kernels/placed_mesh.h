@@ -1,4 +1,4 @@
-// A ray in the tree of one placed mesh: the steps of queue.inl with room for what is not known
+// A ray in the tree of one placed mesh: the steps of queue.h with room for what is not known
 // exactly. A box is entered when the ray passes it within the room that the triangles in it ask
 // for, and a triangle may be met when moved corners could be.
 #pragma once

@@ -1,5 +1,5 @@
 // The kernel for rays of any kind. Many rays are on their way at once, each at its next node or
-// leaf; two lists say which (ray_lists.inl). A round takes one step with every ray of a list: the
+// leaf; two lists say which (ray_lists.h). A round takes one step with every ray of a list: the
 // steps don't depend on each other, so the CPU overlaps their memory accesses and latencies, and
 // nothing but the length of the lists is a branch.
 #pragma once

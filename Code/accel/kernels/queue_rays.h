@@ -28,7 +28,7 @@ struct alignas(64) RayBlock {
     float lateralError[W];      // of a vertex in the ray's frame, 4 units of the space's size
     float dirX[W], dirY[W], dz[W];
     float key[W], below[W], tMax[W]; // of the best hit; see KeyRange of shape/triangle_queries.h
-    std::uint32_t stackTop[W], bottom[W]; // its stack: see queue_slots.inl
+    std::uint32_t stackTop[W], bottom[W]; // its stack: see queue_slots.h
     std::uint32_t triangle[W], ray[W];
     std::uint32_t bestLeaf[W], bestLane[W]; // where the triangle is
     float depth[W];                         // nearest hits: the best one is not nearer

@@ -1,5 +1,5 @@
 // The slots of rays that are on their way at once: their columns in blocks of W rays, and stacks of
-// the nodes that they go to later, as stack.inl has them.
+// the nodes that they go to later, as stack.h has them.
 #pragma once
 
 #include "accel/kernels/exact_hit.h"

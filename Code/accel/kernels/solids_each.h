@@ -1,5 +1,5 @@
 // A solid of its own for each lane of a register: all of one formula, met by any rays of the
-// packet, with the bits of solids_meet.inl.
+// packet, with the bits of solids_meet.h.
 #pragma once
 
 #include "accel/kernels/ray_lanes.h"

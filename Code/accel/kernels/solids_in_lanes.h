@@ -1,7 +1,7 @@
 // Packets of W rays that walk the tree of the solids together, each child with the rays that enter
 // it. Rays into one octant (most camera rays, shadow rays of a lamp) see a node as one interval of
 // rays that looks at W children at once; of rays that go apart each looks at them for itself, as in
-// queue.inl, but the node is fetched once and the steps overlap, and their solids wait in pairs.
+// queue.h, but the node is fetched once and the steps overlap, and their solids wait in pairs.
 // What decides is exact: entries into a solid's own box as RaySetup::enters() rounds them,
 // spheres as AnalyticShape and Sphere compute them, operation by operation in double. Everything before that only leaves out: the boxes' pads are 64 roundings of
 // the coordinates wide, and what a ray meets lies inside of the box without the pad.

@@ -92,7 +92,7 @@ template <class Numbers> TextureCoordinates uvOnCorners(const Numbers& shape, co
     return {min(max(dot2(rest, along) / dot2(along, along), zero), one), v};
 }
 
-// `face` is what describe() of still_surfaces.inl takes.
+// `face` is what describe() of still_surfaces.h takes.
 template <Kind kKind, class Numbers>
 TextureCoordinates uvOf(const Numbers& shape, const Local& at, const Doubles3& face) {
     if constexpr (kKind == Kind::Sphere) return uvOnSphere(at.normal);

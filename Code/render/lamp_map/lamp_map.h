@@ -18,7 +18,7 @@ struct LampMap {
     std::shared_ptr<const MappedShapes> shapes;
     std::vector<Occluder> others; // what hides what from this lamp
     Vec3 lamp;
-    float slack = 0; // that covers rounding, as in solids_hulls.inl
+    float slack = 0; // that covers rounding, as in solids_hulls.h
     // Direction d is in column (right d / ahead d) scale[0] + offset[0], and in a row alike.
     Vec3 right, up, ahead;
     std::array<float, 2> scale{}, offset{};

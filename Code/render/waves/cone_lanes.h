@@ -1,4 +1,4 @@
-// The formulas of coneFromSquare(), as those of the disk are in disk_lanes.inl.
+// The formulas of coneFromSquare(), as those of the disk are in disk_lanes.h.
 #pragma once
 
 #include "base/vec.h"

@@ -16,7 +16,7 @@
 
 LANES_BEGIN
 
-// As many whole numbers as the compiler's registers have room for, which sobol.inl takes.
+// As many whole numbers as the compiler's registers have room for, which sample/sobol.h takes.
 using Bits __attribute__((vector_size(4 * kSobolLanes))) = std::uint32_t;
 using SignedBits __attribute__((vector_size(4 * kSobolLanes))) = std::int32_t;
 using UnitFloats __attribute__((vector_size(4 * kSobolLanes))) = float;
@@ -33,7 +33,7 @@ inline Bits bytes(std::uint64_t low, std::uint64_t high) {
 inline Bits reversedNibbles(Bits x) {
     return pickBytes(bytes(0x0e060a020c040800u, 0x0f070b030d050901u), x);
 }
-// What sobol.inl has for numbers, by looking up four bits at a time.
+// What sample/sobol.h has for numbers, by looking up four bits at a time.
 inline Bits reversed(Bits x) {
     const Bits order = bytes(0x0405060700010203u, 0x0c0d0e0f08090a0bu);
     const Bits low = x & 0x0f0f0f0fu, high = (x >> 4) & 0x0f0f0f0fu;

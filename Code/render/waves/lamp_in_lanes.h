@@ -1,4 +1,4 @@
-// The formulas of PointLight::shine() and rayFromLamp(), as in lit_lanes.inl.
+// The formulas of PointLight::shine() and rayFromLamp(), as in lit_lanes.h.
 #pragma once
 
 #include "light/light.h"

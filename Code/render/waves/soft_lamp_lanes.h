@@ -1,5 +1,5 @@
 // Samples of lamps that have a size, and suns that have none, a register of points at a time, as in
-// lit_lanes.inl: a lane is a point of the block, and its samples follow each other.
+// lit_lanes.h: a lane is a point of the block, and its samples follow each other.
 #pragma once
 
 #include "light/light.h"
