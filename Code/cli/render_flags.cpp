@@ -5,7 +5,6 @@
 
 namespace {
 
-using Action = Options::Action;
 constexpr int kMostThreads = 1024;
 constexpr int kLastFrame = 99999999;
 
@@ -207,22 +206,22 @@ void addActionFlags(std::vector<Flag>& flags, Options& o) {
         group.add({.name = name, .alias = alias, .help = help,
                    .set = [&o, action](const FlagValue& v) { setAction(o, action, v); }});
     };
-    add("--check", "-c", Action::Check, "reads and checks the scene and its textures");
-    add("--info", "", Action::Info, "tells what the scene contains");
+    add("--check", "-c", Options::Action::Check, "reads and checks the scene and its textures");
+    add("--info", "", Options::Action::Info, "tells what the scene contains");
     group.add({.name = "--convert", .argument = "FILE.txt",
                .help = "writes the scene in the native format, with the options given here; - is "
                        "stdout",
                .set = [&o](const FlagValue& v) { setConvert(o, v); },
                .files = Flag::Files::Any, .example = "-"});
-    add("--list-features", "", Action::ListFeatures, "lists what can be switched on and off");
-    add("--help", "-h", Action::Help, "this text");
-    add("--version", "-v", Action::Version, "the version");
+    add("--list-features", "", Options::Action::ListFeatures, "lists what can be switched on and off");
+    add("--help", "-h", Options::Action::Help, "this text");
+    add("--version", "-v", Options::Action::Version, "the version");
     const std::vector<std::string> shells = {"bash", "zsh", "fish"};
     group.add({.name = "--completion", .argument = join(shells, "|"),
                .help = "prints a script that completes options in that shell",
                .set = [&o, shells](const FlagValue& v) {
                    o.shell = shells[v.choice(shells)];
-                   setAction(o, Action::Completion, v);
+                   setAction(o, Options::Action::Completion, v);
                },
                .choices = shells, .example = "bash"});
 }

@@ -45,7 +45,7 @@ std::string extensionOf(const std::string& fileName);
 // encodeImage() in pieces, which are used one after the other while others are made. The extension
 // says which format; a source may be PPM or PNG.
 void encodeImage(const Image& image, const std::string& extension, Encoding encoding, int threads,
-                 const ByteSink& use);
+                 ByteSink use);
 void encodeSource(const PixelSource& picture, const std::string& extension, int threads,
                   ByteSink use);
 void encodePpm(const PixelSource& picture, int threads, ByteSink use);

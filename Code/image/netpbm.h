@@ -53,7 +53,7 @@ private:
 // them. The pieces are made on many threads and used in their order.
 template <class Encode>
 void makeRawFile(std::string_view header, std::size_t count, std::size_t itemBytes, int threads,
-                 const ByteSink& use, const Encode& encode) {
+                 ByteSink use, const Encode& encode) {
     constexpr std::size_t kPieceBytes = std::size_t{1} << 17;
     const std::size_t perPiece = std::max<std::size_t>(1, kPieceBytes / itemBytes);
     const std::size_t pieces = (count + perPiece - 1) / perPiece;
