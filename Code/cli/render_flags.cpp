@@ -202,7 +202,7 @@ void addOutputFlags(std::vector<Flag>& flags, Options& o) {
 
 void addActionFlags(std::vector<Flag>& flags, Options& o) {
     FlagGroup group(flags, kActionGroup);
-    const auto add = [&](const char* name, const char* alias, Action action, const char* help) {
+    const auto add = [&](const char* name, const char* alias, Options::Action action, const char* help) {
         group.add({.name = name, .alias = alias, .help = help,
                    .set = [&o, action](const FlagValue& v) { setAction(o, action, v); }});
     };
