@@ -1,4 +1,4 @@
-//
+// The logarithm in the closed forms of lamps with a radius, for one number or for lanes.
 #pragma once
 
 #include "simd/region.h"

@@ -42,8 +42,9 @@ MeshDesc doubleFan(int valence);                           // two tips of that v
 // Haines' SPD tetra: 4^depth tetrahedra.
 MeshDesc tetra(int depth);
 
-// Adversarial triangles, on which kernels must agree: needles of 1e3 to 1e7, coplanar stacks, duplicates, axis
-// planes, tiny, huge, collinear and points, fans. Coordinates about 1, huge ones 100.
+// Adversarial triangles, on which all kernels must agree: needles of 1e3 to 1e7, coplanar stacks,
+// duplicates, axis planes, tiny, huge, collinear and points, fans. Coordinates about 1, huge ones
+// 100.
 std::vector<std::array<Vec3, 3>> soup(Random& random, std::size_t count);
 // Whole numbers up to +-half, zeros of both signs: products are exact, so that rays between such
 // points meet edges and corners, and planes go through their origins, not almost but truly.

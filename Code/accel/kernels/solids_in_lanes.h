@@ -3,8 +3,9 @@
 // rays that looks at W children at once; of rays that go apart each looks at them for itself, as in
 // queue.h, but the node is fetched once and the steps overlap, and their solids wait in pairs.
 // What decides is exact: entries into a solid's own box as RaySetup::enters() rounds them,
-// spheres as AnalyticShape and Sphere compute them, operation by operation in double. Everything before that only leaves out: the boxes' pads are 64 roundings of
-// the coordinates wide, and what a ray meets lies inside of the box without the pad.
+// spheres as AnalyticShape and Sphere compute them, operation by operation in double. Everything
+// before that only leaves out: the boxes' pads are 64 roundings of the coordinates wide, and what a
+// ray meets lies inside of the box without the pad.
 #pragma once
 
 #include "accel/kernels/double_double_lanes.h"
