@@ -1,4 +1,4 @@
-// What `raytracer bench` measures: its sets of rays, who traces them, how visits are counted, and
+// What build/release/bench measures: its sets of rays, who traces them, how visits are counted, and
 // the file for other programs. No times.
 #include "base/parallel.h"
 #include "bench/file.h"
