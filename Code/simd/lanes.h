@@ -9,5 +9,5 @@
 #elif defined(LANES_SSE)
 #include "simd/sse_moves.h"
 #else
-#include "simd/one.h"
+#include "simd/one_moves.h"
 #endif

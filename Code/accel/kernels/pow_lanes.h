@@ -3,6 +3,7 @@
 #pragma once
 
 #include "accel/kernels/vectors3.h"
+#include "base/math.h"
 #include "base/pow_tables.h"
 #include "simd/lanes.h"
 

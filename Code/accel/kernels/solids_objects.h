@@ -2,7 +2,9 @@
 #pragma once
 
 #include "accel/kernels/ray_lanes.h"
+#include "base/affine.h"
 #include "base/math.h"
+#include "base/motion.h"
 #include "base/ray_span.h"
 #include "base/vec.h"
 #include "simd/lanes.h"

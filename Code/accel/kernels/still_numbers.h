@@ -2,6 +2,9 @@
 #pragma once
 
 #include "accel/kernels/vectors3.h"
+#include "accel/still_shape.h"
+#include "base/affine.h"
+#include "base/math.h"
 #include "base/vec.h"
 #include "simd/lanes.h"
 

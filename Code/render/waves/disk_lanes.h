@@ -6,6 +6,7 @@
 #include "base/vec.h"
 #include "render/waves/three_lanes.h"
 #include "sample/sobol.h"
+#include "sample/warp.h"
 #include "simd/lanes.h"
 
 #include <algorithm>
@@ -20,6 +21,8 @@ LANES_BEGIN
 using Bits __attribute__((vector_size(4 * kSobolLanes))) = std::uint32_t;
 using SignedBits __attribute__((vector_size(4 * kSobolLanes))) = std::int32_t;
 using UnitFloats __attribute__((vector_size(4 * kSobolLanes))) = float;
+// How many of them are of a row of W lanes: where W is 1 the others are idle.
+constexpr std::size_t kSobolInRow = std::min<std::size_t>(kSobolLanes, W);
 
 // These 16 bytes, again and again.
 inline Bits bytes(std::uint64_t low, std::uint64_t high) {
@@ -40,18 +43,18 @@ inline Bits reversed(Bits x) {
     return pickBytes((reversedNibbles(low) << 4) | reversedNibbles(high), order);
 }
 
-inline Bits loadBits(const std::uint32_t* from) {
-    Bits all;
-    std::memcpy(&all, from, sizeof(all));
+template <std::size_t kCount = kSobolLanes> Bits loadBits(const std::uint32_t* from) {
+    Bits all{};
+    std::memcpy(&all, from, 4 * kCount);
     return all;
 }
 // unitFloat(): 24 bits fit into a signed number, which lanes can convert.
-inline void storeUnit(const Bits& all, float* to) {
+template <std::size_t kCount = kSobolLanes> void storeUnit(const Bits& all, float* to) {
     const Bits upper = all >> 8;
     SignedBits number;
     std::memcpy(&number, &upper, sizeof(number));
     const UnitFloats unit = __builtin_convertvector(number, UnitFloats) * 0x1p-24f;
-    std::memcpy(to, &unit, sizeof(unit));
+    std::memcpy(to, &unit, 4 * kCount);
 }
 
 // Four bytes in each lane: each the lowest one of `x`.
@@ -104,8 +107,9 @@ struct PairsInLanes {
 class RunsOfPairs {
 public:
     RunsOfPairs(const PairsInLanes& pairs, std::size_t first)
-        : index_(loadBits(pairs.index + first)), x_(loadBits(pairs.x + first)),
-          y_(loadBits(pairs.y + first)), sample_(loadBits(pairs.sample + first)) {}
+        : index_(loadBits<kSobolInRow>(pairs.index + first)),
+          x_(loadBits<kSobolInRow>(pairs.x + first)), y_(loadBits<kSobolInRow>(pairs.y + first)),
+          sample_(loadBits<kSobolInRow>(pairs.sample + first)) {}
 
     // The first so many samples: give(s, pair) for each.
     template <class Give> void each(std::uint32_t count, const Give& give) const {
@@ -201,7 +205,8 @@ template <class Row>
 inline void drawPairs(const PairsInLanes& pairs, Row* rows, std::uint32_t count) {
     for (std::size_t i = 0; i < W; i += kSobolLanes) {
         RunsOfPairs(pairs, i).each(count, [&](std::uint32_t s, const Pair<Bits>& pair) {
-            storeUnit(pair.x, rows[s].u + i), storeUnit(pair.y, rows[s].v + i);
+            storeUnit<kSobolInRow>(pair.x, rows[s].u + i);
+            storeUnit<kSobolInRow>(pair.y, rows[s].v + i);
         });
     }
 }

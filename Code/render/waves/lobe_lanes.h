@@ -11,6 +11,7 @@
 #include "render/waves/frame_lanes.h"
 #include "render/waves/fresnel_lanes.h"
 #include "sample/sobol.h"
+#include "sample/warp.h"
 #include "simd/lanes.h"
 
 #include <bit>
@@ -26,10 +27,12 @@ struct LobeRow : DiskRow {
 
 inline void drawPairs(const BouncePairs& pairs, std::size_t first, LobeRow& row) {
     for (std::size_t i = 0; i < W; i += kSobolLanes) {
-        const auto of = [&](const std::uint32_t* column) { return loadBits(column + first + i); };
+        const auto of = [&](const std::uint32_t* column) {
+            return loadBits<kSobolInRow>(column + first + i);
+        };
         const auto pair =
             sobolPair<Bits>(of(pairs.sample), of(pairs.index), of(pairs.x), of(pairs.y));
-        storeUnit(pair.x, row.u + i), storeUnit(pair.y, row.v + i);
+        storeUnit<kSobolInRow>(pair.x, row.u + i), storeUnit<kSobolInRow>(pair.y, row.v + i);
     }
 }
 

@@ -4,6 +4,8 @@
 
 #include "image/colour.h"
 #include "simd/lanes.h"
+#include "texture/byte_texture.h"
+#include "texture/texel_grid.h"
 
 #include <algorithm>
 #include <array>
