@@ -2,7 +2,11 @@
 #pragma once
 
 #include "render/integrator.h"
+#include "render/waves/wave.h"
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 
 namespace waves {
