@@ -118,8 +118,10 @@ TEST(solid_endless_planes_are_met_in_lanes) {
             const MovingTransform place = placeOf(random);
             std::unique_ptr<const Shape> plane = std::make_unique<InfinitePlane>(place, 0u, 0u);
             plane = solid_checks::sided(random, std::move(plane), 0.5);
+            const SolidForm form = plane->solidForm();
+            if (form.turns()) continue; // kernels ask the shape itself
             SolidTree tree;
-            tree.addEndless(0, true, plane->solidForm());
+            tree.addEndless(0, true, form);
             tree.extent = kSceneExtent;
             Rays rays;
             for (int k = 0; k < kRays; ++k)
