@@ -6,5 +6,6 @@
 #include "isa/families.h"
 #include "isa/instances.h"
 
-const Isa kSseIsa = kernels::sse::isaOf("sse", hasSse, &kernels::sse::build::kTreeBuilder);
+static constexpr kernels::build::TreeBuilder kSseTreeBuilder = kernels::sse::build::treeBuilder();
+const Isa kSseIsa = kernels::sse::isaOf("sse", hasSse, &kSseTreeBuilder);
 #endif

@@ -6,9 +6,10 @@
 LANES_BEGIN
 namespace build {
 
-constexpr TreeBuilder kTreeBuilder{makePrims,    takeBoxes,     gridOver,     fillBins,
-                                   mergeBins,    chooseSplit,   makeChildren, divide,
-                                   growSubtree8, growSubtree16, growSingles};
+constexpr TreeBuilder treeBuilder() {
+    return {makePrims,    takeBoxes, gridOver,     fillBins,      mergeBins,  chooseSplit,
+            makeChildren, divide,    growSubtree8, growSubtree16, growSingles};
+}
 
 } // namespace build
 LANES_END
