@@ -7,7 +7,7 @@
 #include "isa/instances.h"
 
 namespace kernels::build {
-const TreeBuilder kAvx2TreeBuilder = avx2::build::treeBuilder();
+constexpr TreeBuilder kAvx2TreeBuilder = avx2::build::treeBuilder();
 }
-const Isa kAvx2Isa = kernels::avx2::isaOf("avx2", hasAvx2, &kernels::build::kAvx2TreeBuilder);
+constexpr Isa kAvx2Isa = kernels::avx2::isaOf("avx2", hasAvx2, &kernels::build::kAvx2TreeBuilder);
 #endif

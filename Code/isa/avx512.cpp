@@ -6,6 +6,6 @@
 #include "isa/families.h"
 #include "isa/instances.h"
 
-const Isa kAvx512Isa =
+constexpr Isa kAvx512Isa =
     kernels::avx512::isaOf("avx512", hasAvx512, &kernels::build::kAvx2TreeBuilder);
 #endif
