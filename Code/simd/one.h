@@ -10,7 +10,7 @@
 
 LANES_BEGIN
 
-constexpr int W = 1;
+inline constexpr int W = 1;
 
 struct Mask {
     bool v;

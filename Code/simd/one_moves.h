@@ -63,7 +63,7 @@ inline unsigned spread(unsigned lowest, unsigned places) {
 
 // --- columns of rows ---
 
-constexpr bool kPairsPay = false; // there are no lanes to put one behind the other
+inline constexpr bool kPairsPay = false; // there are no lanes to put one behind the other
 
 // Four numbers that follow each other at row[i], in lane i of four registers.
 inline void loadRows(const float* const (&row)[W], Floats (&column)[4]) {
@@ -129,7 +129,7 @@ inline Doubles powersOfTwo(Ints k) {
 
 // --- bits of Sobol numbers ---
 
-constexpr std::size_t kSobolLanes = 4; // whole 16 bytes, which every machine's registers have
+inline constexpr std::size_t kSobolLanes = 4; // whole 16 bytes, which every machine's registers have
 
 // In each 16 bytes: those of `from` that the lower half of the bytes of `at` name.
 template <class Bits> inline Bits pickBytes(Bits from, Bits at) {

@@ -110,14 +110,14 @@ template <class Fn> constexpr Op exactOp(const char* name, Fn fn) {
 inline std::uint64_t bitsOfFloat(float a) { return std::bit_cast<std::uint32_t>(a); }
 
 // Tables to look up in, of which every word is another.
-constexpr std::size_t kTable = 320;
+inline constexpr std::size_t kTable = 320;
 struct Tables {
     alignas(64) float floats[kTable];
     alignas(64) double doubles[kTable];
     alignas(64) std::uint32_t words[kTable];
     std::uint8_t bytes[kTable];
 };
-constexpr Tables kTables = [] {
+inline constexpr Tables kTables = [] {
     Tables t{};
     for (std::uint32_t k = 0; k < kTable; ++k) {
         t.floats[k] = static_cast<float>(k) + 0.25f, t.doubles[k] = k + 0.5;

@@ -16,7 +16,7 @@
 
 LANES_BEGIN
 
-constexpr Op kSimdOps[] = {
+inline constexpr Op kSimdOps[] = {
     op("a + b", [](const Given& g) { return g.a + g.b; }),
     op("a - b", [](const Given& g) { return g.a - g.b; }),
     op("a * b", [](const Given& g) { return g.a * g.b; }),

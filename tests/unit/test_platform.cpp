@@ -194,9 +194,9 @@ TEST(platform_requests_to_end_the_program) {
         const std::string file = folder.write("temporary", "half");
         fileToRemove = file.c_str();
         const int code = codeOf(folder / "errors", [&] {
-            std::signal(signal, SIG_DFL);
+            static_cast<void>(std::signal(signal, SIG_DFL));
             handleEndRequests(endNow);
-            raise(signal);
+            static_cast<void>(std::raise(signal));
         });
         CHECK_EQUAL(code, 42);
         CHECK(!fs::exists(file));
@@ -217,7 +217,7 @@ TEST(platform_writing_into_a_closed_pipe_fails) {
     if (isPortable()) return;
     const TemporaryFolder folder("pipe");
     const int code = codeOf(folder / "errors", [] {
-        std::signal(SIGPIPE, SIG_DFL);
+        static_cast<void>(std::signal(SIGPIPE, SIG_DFL));
         handleEndRequests(countRequest);
         int ends[2];
         if (pipe(ends) != 0) _exit(6);

@@ -37,7 +37,7 @@ unsigned long processNumber() { return static_cast<unsigned long>(getpid()); }
 void preferLargePages([[maybe_unused]] void* memory, [[maybe_unused]] std::size_t bytes) {
 #if defined(MADV_HUGEPAGE)
     constexpr std::size_t kPage = std::size_t{1} << 21;
-    const std::size_t before = -reinterpret_cast<std::uintptr_t>(memory) % kPage;
+    const std::size_t before = (kPage - reinterpret_cast<std::uintptr_t>(memory) % kPage) % kPage;
     if (bytes < before + kPage) return;
     // Where it fails, pages are small.
     static_cast<void>(madvise(static_cast<char*>(memory) + before, (bytes - before) / kPage * kPage,

@@ -224,7 +224,8 @@ private:
     std::size_t first_;
 };
 
-HiddenPoints hiddenPoints(const Occluders& occluders, const LitBlock& block, const LampBall& lamp) {
+inline HiddenPoints hiddenPoints(const Occluders& occluders, const LitBlock& block,
+                                 const LampBall& lamp) {
     static_assert(HiddenPoints::kMostShapes >= Occluders::kMost);
     HiddenPoints hidden;
     hidden.areShapesKnown = true;
