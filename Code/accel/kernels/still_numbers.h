@@ -1,4 +1,4 @@
-// The numbers of shapes, of one for all lanes or of one for each, and their maps.
+// The numbers of the shapes that W lanes are on, and their maps.
 #pragma once
 
 #include "accel/kernels/vectors3.h"
@@ -10,7 +10,6 @@
 
 #include <cstddef>
 #include <span>
-#include <type_traits>
 
 LANES_BEGIN
 
@@ -47,8 +46,8 @@ enum Number : std::size_t {
     Widest
 };
 
-// put(place, number) for all of a shape.
-template <Kind kKind, class PutFn> void forEachNumber(const StillShape& shape, PutFn&& put) {
+// Calls put(place, number) for all numbers of a shape.
+template <class PutFn> void forEachNumber(const StillShape& shape, PutFn&& put) {
     const AffineRows& there = shape.worldFromObject.rows();
     const AffineRows& back = shape.objectFromWorld();
     for (std::size_t k = 0; k < 12; ++k) put(WorldFromObject + k, there[k]);
@@ -56,7 +55,7 @@ template <Kind kKind, class PutFn> void forEachNumber(const StillShape& shape, P
     put(Radius, shape.radius);
     put(LeastError, shape.leastError);
     put(ErrorPerPlace, shape.errorPerPlace);
-    if constexpr (kKind == Kind::Corners) {
+    if (shape.kind == Kind::Corners) {
         const auto& [n, centre, edges, axisX, axisY] = *shape.corners;
         put(NormalX, n.x), put(NormalY, n.y), put(NormalZ, n.z);
         put(CentreX, centre.x), put(CentreY, centre.y), put(CentreZ, centre.z);
@@ -67,71 +66,51 @@ template <Kind kKind, class PutFn> void forEachNumber(const StillShape& shape, P
         put(BentX, bent.x), put(BentY, bent.y);
         put(AxisX, static_cast<double>(axisX)), put(AxisY, static_cast<double>(axisY));
     }
-    if constexpr (kKind == Kind::Cone) {
+    if (shape.kind == Kind::Cone) {
         const StillCone& cone = *shape.cone;
         put(Slope, cone.slope), put(NarrowZ, cone.narrowZ), put(NarrowRadius, cone.narrowRadius);
         put(Widest, ::max(cone.radius, cone.topRadius));
     }
 }
 
-// The numbers of a shape that all lanes are on, or of one for each lane.
-template <Kind kKind> struct NumbersOfOne {
-    explicit NumbersOfOne(const StillShape& shape) {
-        forEachNumber<kKind>(shape, [&](std::size_t place, double number) { of[place] = number; });
+class StillNumbers {
+public:
+    // All lanes are on one shape.
+    explicit StillNumbers(const StillShape& shape) {
+        forEachNumber(shape,
+                      [&](std::size_t place, double number) { Doubles(number).store(of_[place]); });
     }
-    Doubles operator()(std::size_t number) const { return Doubles(of[number]); }
-    double of[kNumbers];
-};
-template <Kind kKind> struct NumbersOfMany {
-    // Lanes behind the last shape repeat it.
-    explicit NumbersOfMany(std::span<const StillShape* const> shapes) {
+    // Each lane is on a shape of its own; those behind the last shape repeat it.
+    explicit StillNumbers(std::span<const StillShape* const> shapes) {
         for (std::size_t i = 0; i < W; ++i)
-            forEachNumber<kKind>(*shapes[i < shapes.size() ? i : shapes.size() - 1],
-                                 [&](std::size_t place, double number) { of[place][i] = number; });
+            forEachNumber(*shapes[i < shapes.size() ? i : shapes.size() - 1],
+                          [&](std::size_t place, double number) { of_[place][i] = number; });
     }
-    Doubles operator()(std::size_t number) const { return Doubles::load(of[number]); }
-    alignas(64) double of[kNumbers][W];
+    Doubles operator()(std::size_t number) const { return Doubles::load(of_[number]); }
+
+private:
+    alignas(64) double of_[kNumbers][W];
 };
 
 // Rows i, i + step .. of a map's linear part.
-template <class Numbers>
-[[gnu::always_inline]] inline Doubles row(const Numbers& m, std::size_t i, std::size_t step,
+[[gnu::always_inline]] inline Doubles row(const StillNumbers& m, std::size_t i, std::size_t step,
                                           const Doubles3& v) {
     return (m(i) * v.x + m(i + step) * v.y) + m(i + 2 * step) * v.z;
 }
-template <class Numbers>
-[[gnu::always_inline]] inline Doubles3 vectorOf(const Numbers& m, Number map, const Doubles3& v) {
+[[gnu::always_inline]] inline Doubles3 vectorOf(const StillNumbers& m, Number map,
+                                                const Doubles3& v) {
     return {row(m, map, 1, v), row(m, map + 4, 1, v), row(m, map + 8, 1, v)};
 }
-template <class Numbers>
-[[gnu::always_inline]] inline Doubles3 pointOf(const Numbers& m, Number map, const Doubles3& p) {
+[[gnu::always_inline]] inline Doubles3 pointOf(const StillNumbers& m, Number map,
+                                               const Doubles3& p) {
     const Doubles3 v = vectorOf(m, map, p);
     return {v.x + m(map + 3), v.y + m(map + 7), v.z + m(map + 11)};
 }
 
-template <class Numbers> Doubles3 normalOf(const Numbers& m, const Doubles3& n) {
+inline Doubles3 normalOf(const StillNumbers& m, const Doubles3& n) {
     const Doubles3 steep{row(m, ObjectFromWorld, 4, n), row(m, ObjectFromWorld + 1, 4, n),
                          row(m, ObjectFromWorld + 2, 4, n)};
     return steep / sqrt(dot(steep, steep));
 }
-
-// In the space of a flat shape.
-template <Kind kKind, class Numbers> Doubles3 flatNormal(const Numbers& shape) {
-    if constexpr (kKind == Kind::Corners)
-        return {shape(NormalX), shape(NormalY), shape(NormalZ)};
-    else
-        return {Doubles(0.0), Doubles(0.0), Doubles(1.0)};
-}
-
-// The numbers of a flat shape, with its one normal.
-template <Kind kKind> struct NumbersOfFlat : NumbersOfOne<kKind> {
-    explicit NumbersOfFlat(const StillShape& shape)
-        : NumbersOfOne<kKind>(shape), normal(normalOf(*this, flatNormal<kKind>(*this))) {}
-    Doubles3 normal;
-};
-template <Kind kKind>
-using NumbersOf =
-    std::conditional_t<kKind == Kind::Disk || kKind == Kind::Plane || kKind == Kind::Corners,
-                       NumbersOfFlat<kKind>, NumbersOfOne<kKind>>;
 
 LANES_END

@@ -23,8 +23,7 @@ inline Doubles within(const Doubles& limit, const Doubles& x) {
 
 // AnalyticShape::Clearance::inset() along an axis. `clearance`: how far, in the world, the origin
 // of a ray may be from the point.
-template <class Numbers>
-Doubles inset(const Numbers& shape, std::size_t axis, const Doubles& clearance) {
+inline Doubles inset(const StillNumbers& shape, std::size_t axis, const Doubles& clearance) {
     const std::size_t row = ObjectFromWorld + 4 * axis;
     const Doubles3 steep{shape(row), shape(row + 1), shape(row + 2)};
     return clearance * sqrt(dot(steep, steep));
@@ -41,21 +40,19 @@ inline Around aroundAxis(const Doubles3& met) {
     return {select(isOff, met.x / distance, Doubles(1.0)), select(isOff, met.y / distance, zero)};
 }
 
-template <class Numbers> Local onSphere(const Numbers& shape, const Doubles3& met) {
+inline Local onSphere(const StillNumbers& shape, const Doubles3& met) {
     const Doubles distance = sqrt(dot(met, met)), zero(0.0);
     const Doubles3 n = select(zero < distance, met / distance, Doubles3{zero, zero, Doubles(1.0)});
     return {n * shape(Radius), n};
 }
 
-template <class Numbers>
-Local onCylinder(const Numbers& shape, const Doubles3& met, const Doubles& clearance) {
+inline Local onCylinder(const StillNumbers& shape, const Doubles3& met, const Doubles& clearance) {
     const auto [c, s] = aroundAxis(met);
     const Doubles limit = limitOf(inset(shape, 2, clearance)), radius = shape(Radius);
     return {{c * radius, s * radius, within(limit, met.z)}, {c, s, Doubles(0.0)}};
 }
 
-template <class Numbers>
-Local onCone(const Numbers& shape, const Doubles3& met, const Doubles& clearance) {
+inline Local onCone(const StillNumbers& shape, const Doubles3& met, const Doubles& clearance) {
     const auto [c, s] = aroundAxis(met);
     const Doubles zero(0.0), half(0.5), slope = shape(Slope);
     const Doubles insetX = inset(shape, 0, clearance), insetY = inset(shape, 1, clearance);
@@ -79,9 +76,8 @@ Local onCone(const Numbers& shape, const Doubles3& met, const Doubles& clearance
 }
 
 // cap(); of the end: its radius, the side's slope, and +-1.
-template <class Numbers>
-Local onCap(const Numbers& shape, const Doubles3& met, const Doubles3& end,
-            const Doubles& clearance) {
+inline Local onCap(const StillNumbers& shape, const Doubles3& met, const Doubles3& end,
+                   const Doubles& clearance) {
     const Doubles insetX = inset(shape, 0, clearance), insetY = inset(shape, 1, clearance);
     const Doubles aside = sqrt(insetX * insetX + insetY * insetY);
     const Doubles in = aside + end.y * inset(shape, 2, clearance), zero(0.0);
@@ -92,9 +88,8 @@ Local onCap(const Numbers& shape, const Doubles3& met, const Doubles3& end,
 }
 
 // normal: of the face that is met.
-template <class Numbers>
-Local onCube(const Numbers& shape, const Doubles3& met, const Doubles3& normal,
-             const Doubles& clearance) {
+inline Local onCube(const StillNumbers& shape, const Doubles3& met, const Doubles3& normal,
+                    const Doubles& clearance) {
     const auto along = [&](std::size_t axis, const Doubles& x, const Doubles& n) {
         const Doubles inFace = within(limitOf(inset(shape, axis, clearance)), x);
         return select(Doubles(0.0) < abs(n), n, inFace);
@@ -109,10 +104,24 @@ inline Local onDisk(const Doubles3& met) {
     return {{met.x, met.y, zero}, {zero, zero, Doubles(1.0)}};
 }
 
-template <class Numbers> Local onCorners(const Numbers& shape, const Doubles3& met) {
-    const Doubles3 n = flatNormal<Kind::Corners>(shape);
+inline Local onCorners(const StillNumbers& shape, const Doubles3& met) {
+    const Doubles3 n{shape(NormalX), shape(NormalY), shape(NormalZ)};
     const Doubles3 centre{shape(CentreX), shape(CentreY), shape(CentreZ)};
     return {met + n * (dot(n, centre - met) / dot(n, n)), n};
+}
+
+// `face` is the normal of a cube's face; of caps it is what capsMet() says.
+inline Local pulledOnto(Kind kind, const StillNumbers& shape, const Doubles3& met,
+                        const Doubles3& face, const Doubles& clearance) {
+    switch (kind) {
+    case Kind::Sphere: return onSphere(shape, met);
+    case Kind::Cylinder: return onCylinder(shape, met, clearance);
+    case Kind::Cone: return onCone(shape, met, clearance);
+    case Kind::Cube: return onCube(shape, met, face, clearance);
+    case Kind::Corners: return onCorners(shape, met);
+    case Kind::Cap: return onCap(shape, met, face, clearance);
+    default: return onDisk(met);
+    }
 }
 
 LANES_END

@@ -45,56 +45,40 @@ inline Doubles3 capsMet(const StillsMet& met, std::size_t first, std::size_t cou
     return {Doubles::load(radius), Doubles::load(slope), Doubles::load(side)};
 }
 
-// face: of cubes; of caps what capsMet() says.
-template <Kind kKind, class Numbers>
-void describe(const Numbers& shape, const RaysInLanes& world, const Doubles3& face,
-              SurfacesInLanes& out) {
+// Describes the points of W hits of one kind. `face` is what pulledOnto() takes.
+inline void describe(Kind kind, const StillNumbers& shape, const RaysInLanes& world,
+                     const Doubles3& face, SurfacesInLanes& out) {
     constexpr double kThreeUlps = 3 * 0x1p-24;
     const Doubles3 seen = along(world.org, world.dir, world.t);
     const auto largest = [](const Doubles3& v) { return max(max(abs(v.x), abs(v.y)), abs(v.z)); };
     const Doubles3 centre{shape(WorldFromObject + 3), shape(WorldFromObject + 7),
                           shape(WorldFromObject + 11)};
     Doubles leastError = shape(LeastError);
-    if constexpr (kKind == Kind::Plane) leastError = leastError * max(largest(seen), Doubles(1.0));
+    if (kind == Kind::Plane) leastError = leastError * max(largest(seen), Doubles(1.0));
     const Doubles fixedError =
         leastError + shape(ErrorPerPlace) * (largest(seen) + largest(centre));
 
     const Doubles3 met = along(pointOf(shape, ObjectFromWorld, world.org),
                                vectorOf(shape, ObjectFromWorld, world.dir), world.t);
-    const auto local = [&] {
-        const auto clearance = [&] {
-            return Doubles(2.0) * (Doubles(kThreeUlps) * sqrt(dot(seen, seen)) + fixedError);
-        };
-        if constexpr (kKind == Kind::Sphere) return onSphere(shape, met);
-        if constexpr (kKind == Kind::Cylinder) return onCylinder(shape, met, clearance());
-        if constexpr (kKind == Kind::Cone) return onCone(shape, met, clearance());
-        if constexpr (kKind == Kind::Cube) return onCube(shape, met, face, clearance());
-        if constexpr (kKind == Kind::Corners) return onCorners(shape, met);
-        if constexpr (kKind == Kind::Cap) return onCap(shape, met, face, clearance());
-        if constexpr (kKind == Kind::Plane)
-            out.odd = oddSquares(met.x.toFloats(), met.y.toFloats());
-        if constexpr (kKind == Kind::Plane || kKind == Kind::Disk) return onDisk(met);
-    }();
+    const Doubles clearance =
+        Doubles(2.0) * (Doubles(kThreeUlps) * sqrt(dot(seen, seen)) + fixedError);
+    const Local local = pulledOnto(kind, shape, met, face, clearance);
+    if (kind == Kind::Plane) out.odd = oddSquares(met.x.toFloats(), met.y.toFloats());
     if (out.hasUv) {
-        const auto [u, v] = uvOf<kKind>(shape, local, face);
+        const auto [u, v] = uvOf(kind, shape, local, face);
         u.toFloats().store(out.uv[0]), v.toFloats().store(out.uv[1]);
     }
     const Doubles3 rough = pointOf(shape, WorldFromObject, local.p);
     const Doubles3 back = pointOf(shape, ObjectFromWorld, rough);
     const Doubles3 p = rough + vectorOf(shape, WorldFromObject, local.p - back);
 
-    const Doubles3 normal = [&] {
-        if constexpr (requires { shape.normal; })
-            return shape.normal;
-        else
-            return normalOf(shape, local.normal);
-    }();
+    const Doubles3 normal = normalOf(shape, local.normal);
     const Doubles rounding = (abs(normal.x * p.x) + abs(normal.y * p.y)) + abs(normal.z * p.z);
     store(p, out.p), store(normal, out.n);
     roundedUp(Doubles(kThreeUlps) * rounding + fixedError).store(out.error);
 }
 
-// Of one shape.
+// All lanes are on one shape.
 inline void setMaterials(const StillShape& shape, SurfacesInLanes& found) {
     select(maskOf(found.odd), Ints(shape.oddMaterial), Ints(shape.material)).store(found.material);
     Ints(shape.object).store(found.object);
@@ -107,51 +91,33 @@ inline void findMaterials(std::span<const StillShape* const> shapes, SurfacesInL
     }
 }
 
-template <Kind kKind> void surfacesOf(const StillsMet& met, const SurfacePlaces& out) {
+void stillSurfaces(const StillsMet& met, SurfacePlaces out) {
     SurfacesInLanes found;
     found.hasUv = met.wantsUv;
     const StillShape* last = nullptr;
-    std::optional<NumbersOf<kKind>> ofLast;
+    std::optional<StillNumbers> ofLast;
     const auto read = [&](std::size_t first, std::size_t count, HitRayColumns& rays) {
         rays.read(met.rays, met.hits, RaysOfLanes(met.which.subspan(first, count)), count);
     };
-    readAhead<HitRayColumns>(
-        met.which.size(), read,
-        [&](std::size_t first, std::size_t count, const HitRayColumns& columns) {
-            const RaysInLanes rays = columns.lanes();
-            const Doubles3 face = [&] {
-                if constexpr (kKind == Kind::Cube)
-                    return facesMet(met.hits, RaysOfLanes(met.which.subspan(first, count)));
-                if constexpr (kKind == Kind::Cap) return capsMet(met, first, count);
-                return rays.dir;
-            }();
-            const auto shapes = met.shapes.subspan(first, count);
-            const auto isFirst = [&](const StillShape* other) { return other == shapes[0]; };
-            if (std::all_of(shapes.begin() + 1, shapes.end(), isFirst)) {
-                if (shapes[0] != last) last = shapes[0], ofLast.emplace(*last);
-                describe<kKind>(*ofLast, rays, face, found);
-                setMaterials(*last, found);
-            } else {
-                describe<kKind>(NumbersOfMany<kKind>(shapes), rays, face, found);
-                findMaterials(shapes, found);
-            }
-            found.put(met.to.subspan(first, count), out);
-        });
-}
-
-void stillSurfaces(const StillsMet& met, SurfacePlaces out) {
-    if (met.shapes.empty()) return;
-    switch (met.kind) {
-    case Kind::Sphere: return surfacesOf<Kind::Sphere>(met, out);
-    case Kind::Cylinder: return surfacesOf<Kind::Cylinder>(met, out);
-    case Kind::Cone: return surfacesOf<Kind::Cone>(met, out);
-    case Kind::Cube: return surfacesOf<Kind::Cube>(met, out);
-    case Kind::Disk: return surfacesOf<Kind::Disk>(met, out);
-    case Kind::Corners: return surfacesOf<Kind::Corners>(met, out);
-    case Kind::Plane: return surfacesOf<Kind::Plane>(met, out);
-    case Kind::Cap: return surfacesOf<Kind::Cap>(met, out);
-    case Kind::None: break;
-    }
+    const auto use = [&](std::size_t first, std::size_t count, const HitRayColumns& columns) {
+        const RaysInLanes rays = columns.lanes();
+        Doubles3 face = rays.dir;
+        if (met.kind == Kind::Cube)
+            face = facesMet(met.hits, RaysOfLanes(met.which.subspan(first, count)));
+        if (met.kind == Kind::Cap) face = capsMet(met, first, count);
+        const auto shapes = met.shapes.subspan(first, count);
+        const auto isFirst = [&](const StillShape* other) { return other == shapes[0]; };
+        if (std::all_of(shapes.begin() + 1, shapes.end(), isFirst)) {
+            if (shapes[0] != last) last = shapes[0], ofLast.emplace(*last);
+            describe(met.kind, *ofLast, rays, face, found);
+            setMaterials(*last, found);
+        } else {
+            describe(met.kind, StillNumbers(shapes), rays, face, found);
+            findMaterials(shapes, found);
+        }
+        found.put(met.to.subspan(first, count), out);
+    };
+    readAhead<HitRayColumns>(met.which.size(), read, use);
 }
 
 LANES_END

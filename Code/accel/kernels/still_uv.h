@@ -62,13 +62,13 @@ inline TextureCoordinates uvOnCube(const Local& at) {
     return {middled(half * right), middled(half * select(isZ, p.y, p.z))};
 }
 
-template <class Numbers> TextureCoordinates uvOnDisk(const Numbers& shape, const Doubles3& p) {
+inline TextureCoordinates uvOnDisk(const StillNumbers& shape, const Doubles3& p) {
     const Doubles side = Doubles(2.0) * shape(Radius);
     return {middled(p.x / side), middled(p.y / side)};
 }
 
 // Plane::describe()
-template <class Numbers> TextureCoordinates uvOnCorners(const Numbers& shape, const Doubles3& p) {
+inline TextureCoordinates uvOnCorners(const StillNumbers& shape, const Doubles3& p) {
     struct Flat {
         Doubles x, y;
     };
@@ -92,16 +92,19 @@ template <class Numbers> TextureCoordinates uvOnCorners(const Numbers& shape, co
     return {min(max(dot2(rest, along) / dot2(along, along), zero), one), v};
 }
 
-// `face` is what describe() of still_surfaces.h takes.
-template <Kind kKind, class Numbers>
-TextureCoordinates uvOf(const Numbers& shape, const Local& at, const Doubles3& face) {
-    if constexpr (kKind == Kind::Sphere) return uvOnSphere(at.normal);
-    if constexpr (kKind == Kind::Cylinder || kKind == Kind::Cone) return uvOnSide(at);
-    if constexpr (kKind == Kind::Cap) return uvOnCap(at.p, face);
-    if constexpr (kKind == Kind::Cube) return uvOnCube(at);
-    if constexpr (kKind == Kind::Disk) return uvOnDisk(shape, at.p);
-    if constexpr (kKind == Kind::Corners) return uvOnCorners(shape, at.p);
-    return {at.p.x, at.p.y};
+// `face` is what pulledOnto() takes.
+inline TextureCoordinates uvOf(Kind kind, const StillNumbers& shape, const Local& at,
+                               const Doubles3& face) {
+    switch (kind) {
+    case Kind::Sphere: return uvOnSphere(at.normal);
+    case Kind::Cylinder:
+    case Kind::Cone: return uvOnSide(at);
+    case Kind::Cap: return uvOnCap(at.p, face);
+    case Kind::Cube: return uvOnCube(at);
+    case Kind::Disk: return uvOnDisk(shape, at.p);
+    case Kind::Corners: return uvOnCorners(shape, at.p);
+    default: return {at.p.x, at.p.y};
+    }
 }
 
 LANES_END
