@@ -60,7 +60,9 @@ struct StillFaces {
 
 // How a sphere, a tube or faces move, of which the rest of the form is said at their first key.
 struct SolidMotion {
-    std::optional<Drift> drift; // none: it turns or grows, and kernels ask the shape itself
+    std::optional<Drift> drift;               // without turning or growing; or
+    const MovingTransform* turning = nullptr; // in any way, and then
+    double reach = kInfinity; // how far all is, at any time, from where the origin is
 };
 
 // What it points to is the shape's own.
@@ -74,9 +76,6 @@ struct SolidForm {
     std::optional<StillTube> tube{};              // or this one
     std::optional<StillFaces> faces{};            // or these
     std::optional<SolidMotion> motion{};          // of all but facets
-
-    // Kernels meet nothing of a shape that turns or grows but its hull.
-    bool turns() const { return motion && !motion->drift; }
 };
 
 inline RoundHull ballAround(const BoundsD& box) {

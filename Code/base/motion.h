@@ -58,12 +58,7 @@ public:
     std::optional<Shift> shiftAt(double time) const;
     // Where nothing else happens between any two keys.
     std::optional<Drift> drift() const;
-    std::span<const Transform> keys() const { return {keys_.data(), keys_.size()}; }
-    // A world box around the mapped box over the whole shutter: not the smallest, but no point at
-    // any time is outside.
-    BoundsD bounds(const BoundsD& objectBox) const;
-
-private:
+    // What at() computes with between two keys, for who maps by many times at once.
     using Matrix = std::array<double, 9>; // row-major
     struct Parts {
         Vec3d translation;
@@ -75,6 +70,13 @@ private:
         double arcRad = 0;       // angle between the quaternions: half the turn of the body
         bool translates = false; // the linear parts are equal to the last bit
     };
+    std::span<const Segment> segments() const { return segments_; }
+    std::span<const Transform> keys() const { return {keys_.data(), keys_.size()}; }
+    // A world box around the mapped box over the whole shutter: not the smallest, but no point at
+    // any time is outside.
+    BoundsD bounds(const BoundsD& objectBox) const;
+
+private:
     static Parts decompose(const Transform& map, bool linearOnly);
     static Matrix linearPart(const Parts& parts);
     static Quaternion rotationAt(const Segment& segment, double s);

@@ -110,29 +110,32 @@ struct Tables16 {
     std::vector<float> lowest = std::vector<float>(65537);
     std::vector<std::uint16_t> first = std::vector<std::uint16_t>((kOctaves16 << kBits16) + 1);
 };
-// Made at the first use, in about 10 ms.
+// A function instead of a lambda, which g++ would run for four seconds to see whether it is
+// constant.
+Tables16 makeTables16() {
+    Tables16 made;
+    double start = 1; // the root of the code before: one or two steps to the next
+    for (int code = 0; code < 65536; ++code) {
+        const double encoded = code / 65535.0, x = (encoded + 0.055) / 1.055;
+        const auto at = static_cast<std::size_t>(code);
+        const double value = decode(encoded, start);
+        made.decoded[at] = static_cast<float>(value);
+        if (code > 0) made.lowest[at] = lowestOfCode(code, 65535, start);
+        if (encoded > kDecodeThreshold) start = value / (x * x);
+    }
+    made.lowest[65536] = 2;
+    std::uint32_t bits = static_cast<std::uint32_t>(127 - kOctaves16) << 23;
+    std::uint32_t code = 0;
+    for (std::uint16_t& first : made.first) {
+        while (code < 65535 && std::bit_cast<float>(bits) >= made.lowest[code + 1]) ++code;
+        first = static_cast<std::uint16_t>(code);
+        bits += 1u << (23 - kBits16);
+    }
+    return made;
+}
+// They are made at the first use, in about 10 ms.
 const Tables16& tables16() {
-    static const Tables16 tables = [] {
-        Tables16 made;
-        double start = 1; // the root of the code before: one or two steps to the next
-        for (int code = 0; code < 65536; ++code) {
-            const double encoded = code / 65535.0, x = (encoded + 0.055) / 1.055;
-            const auto at = static_cast<std::size_t>(code);
-            const double value = decode(encoded, start);
-            made.decoded[at] = static_cast<float>(value);
-            if (code > 0) made.lowest[at] = lowestOfCode(code, 65535, start);
-            if (encoded > kDecodeThreshold) start = value / (x * x);
-        }
-        made.lowest[65536] = 2;
-        std::uint32_t bits = static_cast<std::uint32_t>(127 - kOctaves16) << 23;
-        std::uint32_t code = 0;
-        for (std::uint16_t& first : made.first) {
-            while (code < 65535 && std::bit_cast<float>(bits) >= made.lowest[code + 1]) ++code;
-            first = static_cast<std::uint16_t>(code);
-            bits += 1u << (23 - kBits16);
-        }
-        return made;
-    }();
+    static const Tables16 tables = makeTables16();
     return tables;
 }
 

@@ -49,7 +49,7 @@ void ShapeSet::finish(bool withBvh, const Isa& kernel, int threads) {
     sortByBounds(threads);
     for (const std::uint32_t number : unbounded) {
         const SolidForm form = shapes[number]->solidForm();
-        if (kernel_ && form.faces && form.faces->of == StillFaces::Of::Endless && !form.turns())
+        if (form.faces && form.faces->of == StillFaces::Of::Endless && kernel_)
             solids_.addEndless(number, shadows[number] == Shadow::Opaque, form);
         else
             askedAlone_.push_back(number);

@@ -66,9 +66,12 @@ SolidForm AnalyticShape::movingForm(double farthest) const {
         way.extend(key.translation());
         most = max(most, largestStretch2(key));
     }
+    const double reach = farthest * std::sqrt(most);
     SolidForm form{ballAround(way)};
-    form.hull.radius += farthest * std::sqrt(most);
-    form.motion = {motion_->drift()};
+    form.hull.radius += reach;
+    auto drift = motion_->drift();
+    const bool turns = !drift;
+    form.motion = {std::move(drift), turns ? motion_.get() : nullptr, reach};
     return form;
 }
 

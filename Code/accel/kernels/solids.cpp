@@ -41,7 +41,6 @@ SolidTree::Solid SolidTree::made(std::uint32_t number, bool hides, const SolidFo
     const double size = form.sphere ? form.sphere->radius : form.hull.innerRadius;
     if (size > 0x1p-100 && size < 0x1p100)
         solid.innerRadius = static_cast<float>(form.hull.innerRadius * (1 - 0x1p-20));
-    if (form.turns()) return solid;
     if (form.sphere) {
         solid.kind = Kind::Sphere;
         solid.shape = form.sphere;
@@ -64,14 +63,17 @@ SolidTree::Solid SolidTree::made(std::uint32_t number, bool hides, const SolidFo
             tubes.push_back(measured(*form.tube));
         }
     }
+    bool turns = false;
     if (form.motion && solid.kind != Kind::Other) {
         solid.moves = true;
         solid.part = static_cast<std::uint32_t>(movements.size());
-        movements.push_back({*form.motion->drift, form.tube ? measured(*form.tube) : Tube{}});
+        turns = form.motion->turning != nullptr;
+        movements.push_back({*form.motion, form.tube ? measured(*form.tube) : Tube{}});
     }
     if (solid.shape != nullptr) {
         const AffineRows& m = solid.shape->objectFromWorld();
-        solid.turned = m[1] != 0 || m[2] != 0 || m[4] != 0 || m[6] != 0 || m[8] != 0 || m[9] != 0;
+        solid.turned =
+            turns || m[1] != 0 || m[2] != 0 || m[4] != 0 || m[6] != 0 || m[8] != 0 || m[9] != 0;
     }
     const bool isPlain = !solid.moves && form.sphereSide == ::Facets::Side::Both;
     if (form.sphere && isPlain) solid.meets = Meets::Sphere;

@@ -48,7 +48,7 @@ struct SolidTree {
         double wallStretch = 0, endStretch = 0;
     };
     struct Movement {
-        Drift drift;
+        SolidMotion motion;
         Tube tube; // if it is one
     };
     struct Facet {

@@ -8,6 +8,7 @@
 // ray meets lies inside of the box without the pad.
 #pragma once
 
+#include "accel/kernels/arc_sines.h"
 #include "accel/kernels/double_double_lanes.h"
 #include "accel/kernels/edge_on.h"
 #include "accel/kernels/solids.h"
@@ -23,6 +24,7 @@
 #include "accel/kernels/solids_rays.h"
 #include "accel/kernels/solids_spheres.h"
 #include "accel/kernels/solids_tubes.h"
+#include "accel/kernels/solids_turning.h"
 #include "accel/kernels/wide_tree.h"
 #include "base/math.h"
 #include "base/prefetch.h"

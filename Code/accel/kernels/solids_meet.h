@@ -9,6 +9,7 @@
 #include "accel/kernels/solids_hulls.h"
 #include "accel/kernels/solids_objects.h"
 #include "accel/kernels/solids_tubes.h"
+#include "accel/kernels/solids_turning.h"
 #include "base/math.h"
 #include "base/prefetch.h"
 #include "simd/lanes.h"
@@ -151,12 +152,23 @@ private:
     [[gnu::noinline]] void moving(const SolidTree::Solid& solid, Floats entry, unsigned lanes,
                                   Result* results) {
         const SolidTree::Movement& movement = tree_.movements[solid.part];
-        const DriftLanes map(solid.shape->objectFromWorld(), movement.drift, rays_, ray_, lanes);
+        if (const auto& drift = movement.motion.drift) {
+            const DriftLanes map(solid.shape->objectFromWorld(), *drift, rays_, ray_, lanes);
+            return movingBy<A>(solid, movement.tube, map, entry, lanes, results);
+        }
+        TurningMaps maps(movement, rays_, ray_);
+        lanes = maps.make(lines(), lanes);
+        if (lanes == 0) return;
+        movingBy<A>(solid, movement.tube, maps.objectFromWorld(), entry, lanes, results);
+    }
+    template <Answer A, class Map, class Result>
+    void movingBy(const SolidTree::Solid& solid, const SolidTree::Tube& tube, const Map& map,
+                  Floats entry, unsigned lanes, Result* results) {
         if (solid.kind == SolidTree::Kind::Sphere)
             return sphere<A>(solid, map, entry, lanes, results);
         if (solid.kind != SolidTree::Kind::Tube)
             return facesBy<A>(solid, map, entry, lanes, results);
-        Tubes<DriftLanes> tubes = sameTube(movement.tube, map);
+        Tubes<Map> tubes = sameTube(tube, map);
         if (tubes.front | tubes.back) tubes.wallStretch = tubes.endStretch = normalStretch(map);
         tubeBy(solid, tubes, entry, lanes, results);
     }

@@ -3,20 +3,20 @@
 #pragma once
 
 #include "base/text.h"
+#include "desc/names.h"
 #include "read/mesh/ply_header.h"
 
 #include <algorithm>
 #include <bit>
-#include <cstring>
-#include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
-template <PlyFormat kFormat> class PlyBytes {
+class PlyBytes {
 public:
-    PlyBytes(const SourceFile& source, std::size_t offset)
-        : source_(&source), p_(source.text.data() + offset),
-          end_(source.text.data() + source.text.size()) {}
+    PlyBytes(const SourceFile& source, std::size_t offset, PlyFormat format)
+        : source_(&source), isBigEndian_(format == PlyFormat::BigEndian),
+          p_(source.text.data() + offset), end_(source.text.data() + source.text.size()) {}
 
     // Fails when the file cannot hold the rows that the header promises.
     void begin(const PlyElement& element) {
@@ -115,22 +115,21 @@ private:
     }
 
     // Written as shifts, whatever the machine's own order is: compilers make one load of it.
-    template <class T> static T load(const char* p) {
-        return [&]<std::size_t... i>(std::index_sequence<i...>) {
-            constexpr std::size_t kLast = sizeof(T) - 1;
-            const auto byte = [&](std::size_t k) {
-                const std::size_t at = kFormat == PlyFormat::BigEndian ? kLast - k : k;
-                return std::uint64_t{static_cast<unsigned char>(p[at])} << (8 * k);
+    template <class T> T load(const char* p) const {
+        const auto bitsBy = [&]<std::size_t... k>(std::index_sequence<k...>) {
+            const auto byte = [&](std::size_t at) {
+                return std::uint64_t{static_cast<unsigned char>(p[at])};
             };
-            const std::uint64_t bits = (byte(i) | ...);
-            if constexpr (std::is_same_v<T, float>)
-                return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
-            else if constexpr (std::is_same_v<T, double>)
-                return std::bit_cast<double>(bits);
-            else
-                return static_cast<T>(bits);
-        }
-        (std::make_index_sequence<sizeof(T)>());
+            return isBigEndian_ ? ((byte(sizeof(T) - 1 - k) << (8 * k)) | ...)
+                                : ((byte(k) << (8 * k)) | ...);
+        };
+        const std::uint64_t bits = bitsBy(std::make_index_sequence<sizeof(T)>());
+        if constexpr (std::is_same_v<T, float>)
+            return std::bit_cast<float>(static_cast<std::uint32_t>(bits));
+        else if constexpr (std::is_same_v<T, double>)
+            return std::bit_cast<double>(bits);
+        else
+            return static_cast<T>(bits);
     }
 
     template <class Call> static void withType(PlyType type, Call&& call) {
@@ -153,6 +152,7 @@ private:
     }
 
     const SourceFile* source_;
+    bool isBigEndian_;
     const PlyElement* element_ = nullptr;
     std::size_t row_ = 0;
     const char* p_;

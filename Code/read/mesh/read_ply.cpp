@@ -17,9 +17,9 @@ namespace {
 // The body of the file: the rows of one element after the other. Input: PlyText or PlyBytes.
 template <class Input> class BodyReader {
 public:
-    BodyReader(const PlyHeader& header, const SourceFile& source, int threads, MeshDesc& mesh)
-        : rows_(Input(source, header.dataOffset)), source_(source),
-          threads_(threads > 0 ? threads : hardwareThreads()), mesh_(mesh) {}
+    BodyReader(Input input, const SourceFile& source, int threads, MeshDesc& mesh)
+        : rows_(input), source_(source), threads_(threads > 0 ? threads : hardwareThreads()),
+          mesh_(mesh) {}
 
     void read(const PlyElement& element) {
         rows_.in.begin(element);
@@ -169,10 +169,11 @@ std::size_t dropUnusedVertices(MeshDesc& mesh) {
 }
 
 template <class Input>
-MeshFile readBody(const PlyHeader& header, const SourceFile& source, const ReadContext& context) {
+MeshFile readBody(const PlyHeader& header, Input input, const SourceFile& source,
+                  const ReadContext& context) {
     MeshFile file;
     MeshDesc& mesh = file.mesh;
-    BodyReader<Input> body(header, source, context.options.threads, mesh);
+    BodyReader<Input> body(input, source, context.options.threads, mesh);
     for (const PlyElement& element : header.elements) body.read(element);
     const std::size_t vertexOffset = header.element("vertex")->offset;
     const auto rest = body.finish();
@@ -199,12 +200,8 @@ MeshFile readPly(const SourceFile& source, const ReadContext& context) {
     checkTextSize(source);
     const PlyHeader header = readPlyHeader(source);
     checkElements(header, source);
-    switch (header.format) {
-    case PlyFormat::Ascii: return readBody<PlyText>(header, source, context);
-    case PlyFormat::LittleEndian:
-        return readBody<PlyBytes<PlyFormat::LittleEndian>>(header, source, context);
-    case PlyFormat::BigEndian:
-        return readBody<PlyBytes<PlyFormat::BigEndian>>(header, source, context);
-    }
-    return {};
+    if (header.format == PlyFormat::Ascii)
+        return readBody(header, PlyText(source, header.dataOffset), source, context);
+    const PlyBytes bytes(source, header.dataOffset, header.format);
+    return readBody(header, bytes, source, context);
 }
