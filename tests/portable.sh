@@ -23,11 +23,13 @@ same() {
     else check "$name" cmp out expected.out; fi
 }
 
-for scene in everything.txt everything.json nff/everything.nff obj/room.obj ply/house_little.ply \
-    json/w2024_mesh.json json/f2024_instances.json; do
+# The scenes of tests/scenes name textures that are not there.
+for scene in "tests/scenes/everything.txt --no-textures" "tests/scenes/obj/room.obj --no-textures" \
+    tests/scenes/everything.json tests/scenes/nff/everything.nff tests/scenes/ply/house_little.ply \
+    tests/scenes/json/w2024_mesh.json tests/scenes/json/f2024_instances.json ASCII/textures.txt; do
     for threads in 1 3; do
-        (cd "$tests/.." && "$system" "tests/scenes/$scene" "$work/a.pfm" -r 60x40 -q)
-        (cd "$tests/.." && "$portable" "tests/scenes/$scene" "$work/b.pfm" -r 60x40 -q -t $threads)
+        (cd "$tests/.." && "$system" $scene -o "$work/a.pfm" -r 60x40 -q)
+        (cd "$tests/.." && "$portable" $scene -o "$work/b.pfm" -r 60x40 -q -t $threads)
         check "$scene, $threads threads: the same bits" cmp a.pfm b.pfm
         rm -f a.pfm b.pfm
     done
