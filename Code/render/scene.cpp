@@ -50,6 +50,7 @@ public:
         scene_.accelKind_ = settings_.accel;
         buildCamera();
         scene_.features_ = featuresOf(desc_, *cameraDesc_, settings_);
+        keepUnevenPlaces();
         buildPicturesAndShapes();
         buildMaterials();
         buildWorld();
@@ -82,6 +83,37 @@ private:
         if (spent_ == nullptr) return;
         std::vector<ObjectDesc>().swap(spent_->objects);
         std::vector<MeshDesc>().swap(spent_->meshes);
+    }
+
+    // Tells whether a map keeps all angles, to a millionth: turns, shifts, mirrors and one scale
+    // do.
+    static bool keepsAngles(const Transform& map) {
+        const Vec3d x = map.column(0), y = map.column(1), z = map.column(2);
+        const double most = dot(x, x) * 1e-6;
+        return std::fabs(dot(x, y)) <= most && std::fabs(dot(y, z)) <= most &&
+               std::fabs(dot(z, x)) <= most && std::fabs(dot(y, y) - dot(x, x)) <= most &&
+               std::fabs(dot(z, z) - dot(x, x)) <= most;
+    }
+
+    // A normal map is carved into an object before it is placed.
+    void keepUnevenPlaces() {
+        if (!on_.textures) return;
+        const auto isMapped = [&](Handle h) {
+            return h != kNone && desc_.materials[static_cast<std::size_t>(h)].normalMap != kNone;
+        };
+        if (std::none_of(desc_.materials.begin(), desc_.materials.end(),
+                         [](const MaterialDesc& m) { return m.normalMap != kNone; }))
+            return;
+        for (std::size_t i = 0; i < objectCount_; ++i) {
+            const ObjectDesc& object = desc_.objects[i];
+            if (std::none_of(object.materials.begin(), object.materials.end(), isMapped)) continue;
+            const MovingTransform place =
+                placedKeys(object.worldFromObject, scene_.frame_, on_.motionBlur);
+            const auto keys = place.keys();
+            if (std::all_of(keys.begin(), keys.end(), keepsAngles)) continue;
+            scene_.unevenPlaces_.resize(objectCount_);
+            scene_.unevenPlaces_[i] = std::make_unique<const MovingTransform>(place);
+        }
     }
 
     // Pictures that nothing uses are not read.

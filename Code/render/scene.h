@@ -3,6 +3,7 @@
 // then becomes float: a scene far from the origin or of any size renders alike (promise P3).
 #pragma once
 
+#include "base/motion.h"
 #include "base/raw_vector.h"
 #include "base/source.h"
 #include "camera/camera.h"
@@ -94,6 +95,11 @@ public:
     // Where the picture around the scene is so bright.
     Rgb background(Rgb inPicture) const { return background_ * inPicture; }
     const Environment* environment() const { return environment_.get(); } // null: none
+    // Returns where an object stands that has a normal map and is stretched unevenly; null for
+    // others.
+    const MovingTransform* unevenPlace(std::uint32_t object) const {
+        return object < unevenPlaces_.size() ? unevenPlaces_[object].get() : nullptr;
+    }
     bool moves() const { return moves_; }
     bool hasSeeThrough() const { return any_.seeThrough; }
     const AnyMaterial& anyMaterial() const { return any_; }
@@ -109,6 +115,7 @@ private:
     std::vector<std::unique_ptr<const MaterialPictures>> pictures_; // of those that have some
     RawVector<SceneMaterial> materials_;
     std::vector<std::unique_ptr<const MeshGeometry>> geometries_;
+    std::vector<std::unique_ptr<const MovingTransform>> unevenPlaces_; // empty without any
     ShapeSet shapes_;
     std::vector<std::unique_ptr<const Light>> lights_;
     std::unique_ptr<const Environment> environment_;

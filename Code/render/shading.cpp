@@ -15,8 +15,9 @@ Vec3 bumped(Vec3 n, const SurfaceDerivatives& d, Vec2 slope, float height) {
     return normalize(bent);
 }
 
-// Tangent-space normal map: red along +u, green along +v, blue along the normal.
-Vec3 mapped(Vec3 n, const SurfaceDerivatives& d, Rgb texel, float strength) {
+// Returns the unit normal that a texel of a tangent-space normal map means: red along +u, green
+// along +v, blue along the normal n; n itself where that has no direction.
+Vec3 carved(Vec3 n, const SurfaceDerivatives& d, Rgb texel) {
     const Vec3 along = d.dpdu - n * dot(n, d.dpdu);
     if (!(dot(along, along) > 0)) return n;
     const Vec3 t = normalize(along);
@@ -24,8 +25,22 @@ Vec3 mapped(Vec3 n, const SurfaceDerivatives& d, Rgb texel, float strength) {
     const Vec3 b = dot(side, d.dpdv) < 0 ? -side : side;
     const Vec3 bent = t * (2 * texel.r - 1) + b * (2 * texel.g - 1) + n * (2 * texel.b - 1);
     const float length2 = dot(bent, bent);
-    if (!(length2 > 0)) return n;
-    const Vec3 full = bent / std::sqrt(length2);
+    return length2 > 0 ? bent / std::sqrt(length2) : n;
+}
+
+// The same where the surface was carved before `worldFromObject` stretched it, as Cycles does it:
+// the frame of the texel is square in the object's space, and its normal becomes one of the world.
+Vec3 carvedUnder(const Transform& worldFromObject, Vec3 n, const SurfaceDerivatives& d, Rgb texel) {
+    const Transform back = worldFromObject.inverse();
+    const Vec3d flat = back.normal(toDouble(n));
+    if (!(dot(flat, flat) > 0)) return n;
+    const SurfaceDerivatives inObject{toFloat(back.vector(toDouble(d.dpdu))),
+                                      toFloat(back.vector(toDouble(d.dpdv)))};
+    const Vec3 bent = carved(toFloat(normalize(flat)), inObject, texel);
+    return toFloat(normalize(worldFromObject.normal(toDouble(bent))));
+}
+
+Vec3 mapped(Vec3 n, Vec3 full, float strength) {
     const Vec3 mixed = n + (full - n) * strength;
     return dot(mixed, mixed) > 0 ? normalize(mixed) : n;
 }
@@ -45,8 +60,13 @@ Vec3 shading::bentNormal(const Scene& scene, const Ray& ray, const Hit& hit,
     const MaterialPictures& pictures = *scene.materials()[surface.material].pictures;
     const SurfaceDerivatives d = shape.derivatives(ray, hit);
     Vec3 n = surface.ns;
-    if (pictures.normalMap)
-        n = mapped(n, d, pictures.normalMap->color(surface.uv), pictures.normalStrength);
+    if (pictures.normalMap) {
+        const Rgb texel = pictures.normalMap->color(surface.uv);
+        const MovingTransform* const place = scene.unevenPlace(surface.object);
+        const Vec3 full = place ? carvedUnder(place->at(static_cast<double>(ray.time)), n, d, texel)
+                                : carved(n, d, texel);
+        n = mapped(n, full, pictures.normalStrength);
+    }
     if (pictures.bumpMap)
         n = bumped(n, d, pictures.bumpMap->gradient(surface.uv), pictures.bumpHeight);
     return dot(n, surface.ng) > 0 ? n : surface.ns;

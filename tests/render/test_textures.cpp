@@ -197,7 +197,15 @@ TEST(normalMapTiltsTheNormal) {
     };
     CHECK_NEAR(placed(" rotate 90 0 0 1\n"), lambert({-n.y, n.x, n.z}, {1, 2, 3}), 1e-6);
     CHECK_NEAR(placed(" scale -1 1 1\n"), lambert({-n.x, n.y, n.z}, {1, 2, 3}), 1e-6);
-    CHECK_NEAR(placed(" scale 1 -3 1\n"), lambert({n.x, -n.y, n.z}, {1, 2, 3}), 1e-6);
+    // Stretched unevenly, the normal is that of the carved plane under the inverse transpose.
+    CHECK_NEAR(placed(" scale 1 -3 1\n"), lambert({n.x, -n.y / 3, n.z}, {1, 2, 3}), 1e-6);
+    CHECK_NEAR(placed(" scale 2 0.5 1\n"), lambert({n.x / 2, n.y * 2, n.z}, {1, 2, 3}), 1e-6);
+    CHECK_NEAR(placed(" scale 1 1 3\n"), lambert({n.x, n.y, n.z / 3}, {1, 2, 3}), 1e-6);
+    CHECK_NEAR(placed(" scale 3 3 3\n"), lambert(n, {1, 2, 3}), 1e-6);
+    CHECK_NEAR(placed(" rotate 90 0 0 1\n scale 2 0.5 1\n"),
+               lambert({-n.y * 2, n.x / 2, n.z}, {1, 2, 3}), 1e-6);
+    CHECK_NEAR(placed(" scale 2 0.5 1\n key\n translate 0 0 0.1\n scale 2 0.5 1\n"),
+               lambert({n.x / 2, n.y * 2, n.z}, {1, 2, 3}), 1e-6);
 }
 
 // The same map on a mesh with texture coordinates of its own.
