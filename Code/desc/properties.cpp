@@ -71,9 +71,7 @@ constexpr auto kWorld = std::to_array<Property>({
 constexpr auto kCamera = std::to_array<Property>({
     {"type", field<&CameraDesc::kind>(), {}, {}},
     {"lens", field<&CameraDesc::lensMm>(), {}, kPositive},
-    {"sensor",
-     field<&CameraDesc::sensorWidthMm>(),
-     field<&CameraDesc::sensorHeightMm>(),
+    {"sensor", field<&CameraDesc::sensorWidthMm>(), field<&CameraDesc::sensorHeightMm>(),
      kPositive},
     {"sensor_fit", field<&CameraDesc::sensorFit>(), {}, {}},
     {"shift", field<&CameraDesc::shiftX>(), field<&CameraDesc::shiftY>(), kAnyNumber},

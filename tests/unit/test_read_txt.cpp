@@ -8,6 +8,7 @@
 #include "read/txt/transform_lines.h"
 #include "unit/damage.h"
 
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <set>
@@ -100,9 +101,8 @@ TEST(read_txt_everything_is_everything) {
     for (const auto& type : kEnumNames<BlockType>)
         for (const Property& row : propertiesOf(type.value)) checkUsed(row.keyword);
     const MeshDesc mesh;
-    forEachArray(mesh, [&](std::string_view keyword, auto&, std::string_view) {
-        checkUsed(keyword);
-    });
+    forEachArray(mesh,
+                 [&](std::string_view keyword, auto&, std::string_view) { checkUsed(keyword); });
     for (const TransformLine& line : transformLines()) checkUsed(line.keyword);
     for (const auto& row : kEnumNames<ObjectDesc::Kind>) checkUsed(row.name);
 }
@@ -170,6 +170,28 @@ TEST(read_txt_transform_lines) {
               {0, -2, 0, 1, 2, 0, 0, 2, 0, 0, 2, 3});
     // At e, -Z towards t, +Y towards u.
     checkRows(rowsOf("look_at 0 -5 1  0 0 1  0 0 1"), {1, 0, 0, 0, 0, 0, -1, -5, 0, 1, 0, 1});
+}
+
+TEST(read_txt_one_number_scales_all) {
+    checkRows(rowsOf("scale 3"), rowsOf("scale 3 3 3"));
+    checkRows(rowsOf("translate 1 2 3\nscale 2 # all"), rowsOf("translate 1 2 3\nscale 2 2 2"));
+    CHECK_THROWS(rowsOf("scale 2 3"), "expected 3 numbers after 'scale', got 2");
+    CHECK_THROWS(rowsOf("scale"), "expected 3 numbers after 'scale', got none");
+    CHECK_THROWS(rowsOf("translate 2"), "expected 3 numbers after 'translate', got 1");
+}
+
+// The lens is half the fitted side of the sensor over the tangent of half the angle.
+TEST(read_txt_field_of_view) {
+    const auto lens = [](const std::string& lines) {
+        const CameraDesc camera = readBody("camera c {\n" + lines + "\n}\n").cameras.at(0);
+        return camera.lensMm;
+    };
+    CHECK_NEAR(lens("fov 90"), 18, 1e-13);
+    CHECK_NEAR(lens("fov 60\nsensor 20 30"), 10 * std::sqrt(3.0), 1e-13);
+    CHECK_NEAR(lens("fov 90\nsensor_fit vertical"), 12, 1e-13);
+    CHECK_NEAR(lens("sensor 40 30\nsensor_fit horizontal\nfov 90"), 20, 1e-13);
+    CHECK_EQUAL(lens("sensor 36 20"), 50.0);
+    CHECK_EQUAL(lens("lens 35"), 35.0);
 }
 
 TEST(read_txt_keys) {

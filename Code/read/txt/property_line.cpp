@@ -64,8 +64,9 @@ Token NumberLine::nextNumber() {
     const Token t = in_.peek();
     if (t.kind != TokenKind::Word) {
         const bool ends = t.kind == TokenKind::LineEnd || t.kind == TokenKind::FileEnd;
-        in_.failAt(t.offset, ends ? cat(expected(), ", got ", got_)
-                                  : cat(expected(), ", got ", described(t)));
+        in_.failAt(t.offset,
+                   ends ? cat(expected(), ", got ", got_ == 0 ? "none" : std::to_string(got_))
+                        : cat(expected(), ", got ", described(t)));
     }
     ++got_;
     return in_.next();
@@ -159,9 +160,12 @@ void PropertyLine::readWord(void* block, const Field& field) {
         at<bool>(field, block) = t.text == "true";
         return;
     }
-    case FieldKind::Text:
-        at<std::string>(field, block) = in_.nameIn(nextName("a text"));
+    case FieldKind::Text: {
+        const Token t = nextName("a text");
+        textOffset_ = static_cast<std::uint32_t>(t.offset);
+        at<std::string>(field, block) = in_.nameIn(t);
         return;
+    }
     case FieldKind::Name: {
         const Token t = in_.next();
         if (!isName(t)) failExpected(t, cat("the name of a ", nameOf(field.target)));
@@ -169,8 +173,7 @@ void PropertyLine::readWord(void* block, const Field& field) {
         return;
     }
     case FieldKind::Choice: return readChoice(block, field);
-    default:
-        readMaterials(at<OneOrMore<Handle>>(field, block), field.kind == FieldKind::Materials);
+    default: readMaterials(at<OneOrMore<Handle>>(field, block), field.kind == FieldKind::Materials);
     }
 }
 

@@ -56,6 +56,8 @@ public:
         : in_(in), errors_(errors), references_(references), open_(open) {}
 
     void read(void* block, const Property& property, LineBefore& before);
+    // Where the last value stands that is a text; SourceLoc::kUnknown before one was read.
+    std::uint32_t textOffset() const { return textOffset_; }
 
 private:
     void readNumbers(void* block, const Property& property, LineBefore& before);
@@ -70,4 +72,5 @@ private:
     References& references_;
     const Token& open_;
     std::string_view keyword_;
+    std::uint32_t textOffset_ = SourceLoc::kUnknown;
 };

@@ -1,5 +1,6 @@
 #include "read/txt/read_blocks.h"
 
+#include "base/math.h"
 #include "base/text.h"
 #include "desc/names.h"
 #include "desc/properties.h"
@@ -86,11 +87,7 @@ private:
         if (is("material")) return readReferred(desc.materials, word);
         if (is("light")) return readLight(added(desc.lights), word);
         if (is("mesh")) return readReferred(desc.meshes, word);
-        if (is("camera")) {
-            CameraDesc& camera = added(desc.cameras);
-            readHeading(camera, word);
-            return readProperties(camera, word, &camera.worldFromCamera);
-        }
+        if (is("camera")) return readCamera(added(desc.cameras), word);
         if (is("texture")) return readReferred(desc.textures, word);
         if (is("settings")) return readSingle(desc.settings, word);
         if (is("world")) return readSingle(desc.world, word);
@@ -122,6 +119,27 @@ private:
             readMesh(in_, errors_, word, block, part_.threads);
         else
             readProperties(block, word);
+    }
+
+    void readCamera(CameraDesc& camera, const Token& word) {
+        readHeading(camera, word);
+        camera.lensMm = 0; // not given
+        fovDeg_ = 0;
+        readProperties(camera, word, &camera.worldFromCamera);
+        if (fovDeg_ > 0 && camera.lensMm > 0)
+            in_.failAt(word.offset, "a camera has 'fov' or 'lens', not both");
+        if (fovDeg_ > 0) {
+            const bool isUpright = camera.sensorFit == CameraDesc::SensorFit::Vertical;
+            const double side = isUpright ? camera.sensorHeightMm : camera.sensorWidthMm;
+            camera.lensMm = side / (2 * exact::tan(radians(fovDeg_) / 2));
+        } else if (camera.lensMm == 0) {
+            camera.lensMm = CameraDesc{}.lensMm;
+        }
+    }
+    // The angle of the fitted side of the sensor, another way to say how long the lens is.
+    void readFieldOfView() {
+        NumberLine line(in_, errors_, kFov, 1);
+        line.read(fovDeg_, {0, 179, true});
     }
 
     // Lights stand still and have one key.
@@ -161,10 +179,12 @@ private:
     template <class Block>
     void readProperties(Block& block, const Token& word, Keys* keys = nullptr,
                         KindMask kinds = kAllKinds) {
-        readProperties(&block, Block::kType, word, keys, kinds);
+        const std::uint32_t text = readProperties(&block, Block::kType, word, keys, kinds);
+        if constexpr (requires { block.fileLoc; }) block.fileLoc = {text};
     }
-    void readProperties(void* block, BlockType type, const Token& word, Keys* keys,
-                        KindMask kinds) {
+    // Returns where the value of the last property stands that is a text, such as a file's name.
+    std::uint32_t readProperties(void* block, BlockType type, const Token& word, Keys* keys,
+                                 KindMask kinds) {
         const std::span<const Property> rows = propertiesOf(type);
         std::array<std::size_t, kMostProperties> given;
         std::fill_n(given.begin(), rows.size(), kNotGiven);
@@ -180,6 +200,12 @@ private:
             if (t.kind != TokenKind::Word)
                 in_.failAt(t.offset, cat("expected a property or '}', got ", described(t)));
             if (keys && readTransformLine(t, word, *keys)) continue;
+            if (type == BlockType::Camera && isSameWord(kFov, t.text)) {
+                if (fovDeg_ > 0) in_.failAt(t.offset, "'fov' was given already");
+                readFieldOfView();
+                expectLineEnd(in_, kFov, word);
+                continue;
+            }
             const auto isMeant = [&](const Property& p) {
                 return isSameWord(p.keyword, t.text) && (p.kinds & kinds);
             };
@@ -198,6 +224,7 @@ private:
             line.read(block, rows[number], habits.before[number]);
         }
         expectLineEnd(in_, "}", word);
+        return line.textOffset();
     }
 
     // The rows of the properties that came first, and behind each other, the last time: blocks of a
@@ -213,6 +240,7 @@ private:
         std::vector<std::string> known;
         for (const Property& property : rows)
             if (property.kinds & kinds) known.emplace_back(property.keyword);
+        if (word.text == "camera") known.emplace_back(kFov);
         if (hasPlace)
             for (const TransformLine& line : transformLines()) known.emplace_back(line.keyword);
         failUnknownProperty(in_, t, word, known);
@@ -232,12 +260,21 @@ private:
             std::array<double, 12> numbers;
             const std::size_t faultsBefore = errors_.count();
             NumberLine reader(in_, errors_, line.keyword, line.count);
-            for (std::size_t i = 0; i < line.count; ++i)
+            for (std::size_t i = 0; i < line.count; ++i) {
+                if (i == 1 && line.mayBeOne && in_.peek().kind != TokenKind::Word) {
+                    std::fill_n(numbers.begin() + 1, line.count - 1, numbers[0]);
+                    break;
+                }
                 reader.read(numbers[i], i == 0 && line.startsWithTurn ? kTurn : kAnyNumber);
+            }
             reader.finish(word);
             if (errors_.count() > faultsBefore) return true;
             std::string_view fault;
             keys.back() = line.apply(keys.back(), std::span(numbers).first(line.count), fault);
+            if (word.text == "camera" && line.keyword == "look_at" && fault.empty() &&
+                isViewAlong(std::span(numbers)))
+                fault = "the up direction of 'look_at' is parallel to the view; choose another, "
+                        "such as 0 1 0";
             if (!fault.empty())
                 errors_.add({static_cast<std::uint32_t>(t.offset)},
                             [&] { return std::string(fault); });
@@ -246,11 +283,13 @@ private:
         return false;
     }
 
+    static constexpr std::string_view kFov = "fov";
     static constexpr std::size_t kNotGiven = static_cast<std::size_t>(-1);
     Scanner in_;
     const TxtPart& part_;
     ErrorList& errors_;
     Blocks& blocks_;
+    double fovDeg_ = 0; // of the camera that is read; 0: not given
     std::array<Habits, kEnumNames<BlockType>.size()> habits_;
 };
 

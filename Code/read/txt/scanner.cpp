@@ -18,9 +18,7 @@ void Scanner::failAt(std::size_t offset, std::string_view what) const {
     ::failAt(source_, offset, what);
 }
 
-std::size_t Scanner::lineOf(std::size_t offset) const {
-    return ::lineOf(source_, offset);
-}
+std::size_t Scanner::lineOf(std::size_t offset) const { return ::lineOf(source_, offset); }
 
 void Scanner::skipComment() {
     const void* newline = std::memchr(p_, '\n', static_cast<std::size_t>(end_ - p_));

@@ -49,16 +49,22 @@ Rows lookAt(const Rows& before, Numbers n, std::string_view& fault) {
 }
 
 constexpr auto kLines = std::to_array<TransformLine>({
-    {"translate", 3, false, translate},
-    {"rotate", 4, true, rotate},
-    {"scale", 3, false, scale},
-    {"transform", 12, false, transform},
-    {"look_at", 9, false, lookAt},
+    {"translate", 3, false, false, translate},
+    {"rotate", 4, true, false, rotate},
+    {"scale", 3, false, true, scale},
+    {"transform", 12, false, false, transform},
+    {"look_at", 9, false, false, lookAt},
 });
 
 } // namespace
 
 std::span<const TransformLine> transformLines() { return kLines; }
+
+bool isViewAlong(std::span<const double> n) {
+    const Vec3d view = at(n, 3) - at(n, 0), up = at(n, 6);
+    const double far = maxAbs(view), high = maxAbs(up);
+    return far > 0 && high > 0 && !(maxAbs(cross(view / far, up / high)) > 1e-10);
+}
 
 bool mayPlace(char first) {
     static constexpr auto kFirst = [] {
