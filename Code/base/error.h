@@ -28,4 +28,5 @@ private:
 // Warnings that a caller collects and main() prints; complete lines without a newline.
 struct Diagnostics {
     std::vector<std::string> warnings;
+    std::vector<std::string> filesRead; // the scene, its meshes and libraries, but no pictures
 };

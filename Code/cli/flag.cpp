@@ -1,6 +1,7 @@
 #include "cli/flag.h"
 
 #include "base/error.h"
+#include "cli/synonyms.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -55,9 +56,28 @@ Match matchShort(std::span<const Flag> flags, const std::string& argument) {
     const std::vector<std::string> known = flagNames(flags);
     std::string what = cat("unknown option '", written, "'");
     const bool twoDashes = written.starts_with("--");
-    if (const auto near = nearestWord(twoDashes ? written : "-" + written, known))
+    // "-j4" is -j with a value.
+    const auto ours =
+        ourWordsFor(twoDashes ? written : written.substr(0, written.find_first_of("0123456789")));
+    const bool isHere =
+        ours && std::any_of(known.begin(), known.end(), [&](const auto& name) {
+            return !ours->starts_with("-") || (name.starts_with("--") && ours->starts_with(name));
+        });
+    if (isHere)
+        what += cat("; here it is ", *ours);
+    else if (const auto near = nearestWord(twoDashes ? written : "-" + written, known))
         what += cat("; did you mean '", *near, "'?");
     failUsage(what);
+}
+
+// What stands behind a flag with an optional folder is SCENE, OUTPUT or an option, unless it can be
+// none of them.
+void checkNoFolderMeant(const std::string& flag, const std::string& next) {
+    const std::filesystem::path path(next);
+    std::error_code ignored;
+    if (next.starts_with('-') || path.has_extension() || std::filesystem::exists(path, ignored))
+        return;
+    failUsage(cat("there is no folder '", next, "' for ", flag));
 }
 
 } // namespace
@@ -173,6 +193,9 @@ std::vector<std::string> parseFlags(std::span<const Flag> flags,
                                    flag.files == Flag::Files::Folders && i + 1 < arguments.size() &&
                                    std::filesystem::is_directory(arguments[i + 1]);
         if (!match.attached && folderFollows) match.attached = arguments[++i];
+        if (!match.attached && flag.files == Flag::Files::Folders && match.on &&
+            i + 1 < arguments.size())
+            checkNoFolderMeant(match.written, arguments[i + 1]);
         flag.set(
             {match.written, match.attached ? std::string_view(*match.attached) : "", match.on});
     }

@@ -99,14 +99,15 @@ std::string helpText() {
         "  raytracer SCENE [OUTPUT] [options]\n", commandLines(), "\n",
         "SCENE is a .txt file in the native format (- for such text on stdin), a COMP 557 scene\n"
         "(.json), a Neutral File Format scene (.nff), or a mesh by itself (.obj, .ply). OUTPUT is\n"
-        "a .ppm, .png or .pfm file, or - for a PPM on stdout; left out, it is Output/SCENE.ppm.\n"
+        "a .ppm, .png or .pfm file, or - for a PPM on stdout; left out, it is SCENE.png in the\n"
+        "working folder.\n"
         "What an option leaves open comes from the scene. --flag value and --flag=value are the\n"
         "same; -- ends the options.\n");
     out += flagsText(renderFlags(unused));
     out += exitCodesText();
     out +=
         "\nexamples:\n"
-        "  raytracer ASCII/showcase.txt                          renders to Output/showcase.ppm\n"
+        "  raytracer ASCII/showcase.txt                          renders to showcase.png\n"
         "  raytracer room.txt room.png --scale 50 --spp 4        a quick look\n"
         "  raytracer room.txt room.pfm --aov depth,normal        with a file per extra picture\n"
         "  raytracer walk_####.txt walk_####.png --frame 12      one frame of an animation\n"

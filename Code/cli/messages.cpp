@@ -51,7 +51,7 @@ void printPreview(const Picture& picture, const RenderSettings& settings) {
     writeStderr(previewText(image, terminal.columns, terminal.rows - kPromptRows));
 }
 
-void printStats(const Stats& stats, const Options& options) {
+void printStats(const Stats& stats, const RunFacts& run, const Options& options) {
     if (options.stats == Options::StatsFormat::Table) writeStderr(statsTable(stats));
-    if (options.stats == Options::StatsFormat::Json) writeStdout(statsJson(stats));
+    if (options.stats == Options::StatsFormat::Json) writeStdout(statsJson(stats, run));
 }

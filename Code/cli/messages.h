@@ -3,6 +3,7 @@
 
 #include "base/error.h"
 #include "cli/options.h"
+#include "cli/stats_output.h"
 #include "render/render.h"
 #include "render/settings.h"
 #include "render/stats.h"
@@ -20,4 +21,4 @@ void printAdvice(const RenderSettings& settings, const Options& options);
 // What was asked for was not reached, because --spp allows no more.
 void printShortfall(const Stats& stats, const Options& options);
 void printPreview(const Picture& picture, const RenderSettings& settings);
-void printStats(const Stats& stats, const Options& options);
+void printStats(const Stats& stats, const RunFacts& run, const Options& options);

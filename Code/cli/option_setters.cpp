@@ -35,6 +35,13 @@ void setAction(Options& o, Options::Action action, const FlagValue& value) {
     o.action = action;
 }
 
+void setScale(Options& o, const FlagValue& value) {
+    const double percent = value.number(0.01, 10000);
+    if (percent < 1)
+        value.wrong(cat("a percentage, at least 1 (is ", shortest(100 * percent), " meant?)"));
+    o.scalePercent = percent;
+}
+
 void setResolution(Options& o, const FlagValue& value) {
     const std::string expected =
         cat("WIDTHxHEIGHT, each from 1 to ", Image::kMaxSide, " (such as 1920x1080)");

@@ -30,6 +30,7 @@ double numberLike(std::string_view keyword, const FlagValue& value);
 
 // Two different things to do do not fit together; --help wins over everything.
 void setAction(Options& o, Options::Action action, const FlagValue& value);
+void setScale(Options& o, const FlagValue& value);
 void setResolution(Options& o, const FlagValue& value);
 void setCrop(Options& o, const FlagValue& value);
 void setBackground(Options& o, const FlagValue& value);

@@ -18,8 +18,19 @@ bool replaceFrame(std::string& name, int frame) {
     return true;
 }
 
+// A run of # that nothing replaces would become the name of a file.
+void checkForFrame(std::string_view what, const std::string& name) {
+    if (name.find("##") == std::string::npos) return;
+    failUsage(
+        cat(what, " '", name, "' has a run of # for the number of a frame; --frame N names it"));
+}
+
 void setFrame(Options& options) {
-    if (!options.frame) return;
+    if (!options.frame) {
+        checkForFrame("SCENE", options.scene);
+        checkForFrame("OUTPUT", options.output);
+        return checkForFrame("--convert", options.convertTo);
+    }
     const bool inScene = replaceFrame(options.scene, *options.frame);
     const bool inOutput = replaceFrame(options.output, *options.frame);
     const bool inConvert = replaceFrame(options.convertTo, *options.frame);
@@ -31,6 +42,7 @@ void setFrame(Options& options) {
 void setNames(Options& options, std::span<const std::string> names) {
     if (names.empty()) failUsage("no scene; usage: raytracer SCENE [OUTPUT] [options]");
     options.scene = names[0];
+    if (options.scene.empty()) failUsage("SCENE is empty; name a file, or - for stdin");
     if (names.size() > 2)
         failUsage(cat("too many names: '", names[2], "' after SCENE '", names[0], "' and OUTPUT '",
                       names[1], "'"));
@@ -38,6 +50,9 @@ void setNames(Options& options, std::span<const std::string> names) {
     if (!options.output.empty())
         failUsage(cat("two outputs: '", names[1], "' and --output '", options.output, "'"));
     options.output = names[1];
+    if (options.output.empty())
+        failUsage(cat("OUTPUT is empty; name a file, or leave it out for ",
+                      defaultOutput(options.scene)));
 }
 
 void checkCombinations(const Options& options) {
@@ -46,13 +61,14 @@ void checkCombinations(const Options& options) {
             failUsage(cat("no picture is rendered, so OUTPUT '", options.output, "' has no use"));
         return;
     }
-    const bool toStdout = options.output == "-";
+    const bool toStdout = options.output == "-", toDevice = isDevice(options.output);
     if (toStdout && options.stats == Options::StatsFormat::Json)
         failUsage("the picture and --stats=json cannot both go to stdout; name an OUTPUT file");
-    if (toStdout && !options.aovs.empty())
-        failUsage("--aov writes files beside OUTPUT; name an OUTPUT file instead of -");
-    // The default output is a .ppm.
-    if (!options.output.empty() && !toStdout && !hasPictureExtension(options.output))
+    if ((toStdout || toDevice) && !options.aovs.empty())
+        failUsage(cat("--aov writes files beside OUTPUT; name an OUTPUT file instead of ",
+                      options.output));
+    const bool isFile = !options.output.empty() && !toStdout && !toDevice;
+    if (isFile && !hasPictureExtension(options.output))
         failUsage(cat("OUTPUT '", options.output, "' must end in .ppm, .png or .pfm"));
     if (options.bits && lowerExtension(options.output) == ".pfm")
         failUsage("--bits is for .ppm and .png; a .pfm file stores floats");
@@ -62,6 +78,7 @@ void checkCombinations(const Options& options) {
 
 Options parseOptions(std::span<const std::string> arguments) {
     Options options;
+    options.arguments.assign(arguments.begin(), arguments.end());
     const std::vector<Flag> flags = renderFlags(options);
     const std::vector<std::string> names = parseFlags(flags, arguments);
     using Action = Options::Action;

@@ -19,8 +19,9 @@ struct Options {
     enum class StatsFormat { None, Table, Json };
     enum class Progress { Auto, Plain, None };
 
-    std::string scene;  // "-": native text on stdin
-    std::string output; // "-": PPM on stdout; empty: Output/<scene>.ppm
+    std::string scene;                  // "-": native text on stdin
+    std::string output;                 // "-": PPM on stdout; empty: defaultOutput()
+    std::vector<std::string> arguments; // all of them as they were given
     Action action = Action::Render;
     std::string convertTo; // Convert: the file, "-" is stdout
     std::string shell;     // Completion
@@ -63,6 +64,7 @@ struct Options {
     bool quiet = false;
     Progress progress = Progress::Auto;
     bool preview = false;
+    bool partial = false; // an interrupted render writes what is done
 
     bool strict = false;
     std::string textureFolder;

@@ -2,6 +2,7 @@
 
 #include "base/enum_names.h"
 #include "base/error.h"
+#include "base/file.h"
 #include "base/math.h"
 #include "base/platform/files.h"
 #include "cli/method_names.h"
@@ -31,7 +32,13 @@ void writeStdout(std::string_view data) {
 
 std::string defaultOutput(const std::string& scene) {
     const std::string stem = scene == "-" ? "stdin" : fs::path(scene).stem().string();
-    return (fs::path("Output") / (stem + ".ppm")).string();
+    return stem + ".png";
+}
+
+bool isDevice(const std::string& fileName) {
+    std::error_code error;
+    const fs::file_status status = fs::status(fileName, error);
+    return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
 }
 
 std::string lowerExtension(const std::string& fileName) {
@@ -87,7 +94,7 @@ void expose(Image& image, double ev) {
 bool needsOnlyCodes(const RenderSettings& settings, const Options& options,
                     const std::string& output) {
     return options.bits.value_or(8) == 8 && settings.picture.exposureEv == 0 && !options.cropPad &&
-           !options.preview && lowerExtension(output) != ".pfm";
+           !options.preview && !options.partial && lowerExtension(output) != ".pfm";
 }
 
 void writePicture(Picture picture, const RenderSettings& settings, const Options& options,
@@ -99,9 +106,10 @@ void writePicture(Picture picture, const RenderSettings& settings, const Options
     }
     const Encoding encoding = encodingOf(settings, options.bits.value_or(8));
     const bool isCoded = !picture.codes.isEmpty();
-    if (output == "-") {
+    if (output == "-" || isDevice(output)) {
         const auto bytes = isCoded ? encodeImage(picture.codes, "ppm", settings.threads)
                                    : encodeImage(picture.color, "ppm", encoding, settings.threads);
+        if (output != "-") return writeFileAtomically(output, bytes);
         return writeStdout({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     }
     if (isCoded)

@@ -12,8 +12,12 @@
 // To stdout, all of it at once. Fails with ErrorKind::Output when it does not take everything.
 void writeStdout(std::string_view data);
 
-// "Output/room.ppm" for "scenes/room.txt"; "Output/stdin.ppm" for "-".
+// Returns "room.png" for "scenes/room.txt", in the working folder; "stdin.png" for "-".
 std::string defaultOutput(const std::string& scene);
+
+// Tells whether a file of this name is there that keeps nothing: /dev/null, a pipe. A PPM is
+// written to it.
+bool isDevice(const std::string& fileName);
 
 // .ppm, .png or .pfm, in any case.
 bool hasPictureExtension(const std::string& fileName);

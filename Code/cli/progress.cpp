@@ -36,9 +36,16 @@ std::string clockText(double seconds) {
     return cat(minutes, rest);
 }
 
-Progress::Progress(Style style, int columns, Write write, Seconds now)
+std::string durationText(double seconds) {
+    if (seconds >= 59.95) return clockText(seconds);
+    const int hundredths = static_cast<int>(std::lround(std::max(seconds, 0.0) * 100));
+    if (hundredths >= 1000) return cat(hundredths / 100, ".", hundredths / 10 % 10, " s");
+    return cat(hundredths / 100, ".", padded(hundredths % 100, 2, '0'), " s");
+}
+
+Progress::Progress(Style style, int columns, Write write, Seconds now, double quietSeconds)
     : style_(style), columns_(columns), write_(std::move(write)), now_(std::move(now)),
-      start_(now_()) {}
+      start_(now_()), quietSeconds_(quietSeconds) {}
 
 Progress::~Progress() {
     if (onScreen_) write_(kClearLine);
@@ -48,6 +55,7 @@ void Progress::update(double part) {
     if (style_ == Style::None) return;
     part = std::clamp(part, 0.0, 1.0);
     const double elapsed = now_() - start_;
+    if (elapsed < quietSeconds_) return;
     if (style_ == Style::Bar)
         drawBar(part, elapsed);
     else

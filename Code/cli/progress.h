@@ -12,8 +12,9 @@ public:
     using Write = std::function<void(std::string_view)>;
     using Seconds = std::function<double()>; // since any fixed moment
 
-    // `columns`: width of the terminal, used by Bar.
-    Progress(Style style, int columns, Write write, Seconds now);
+    // `columns`: width of the terminal, used by Bar. Nothing is written before `quietSeconds` have
+    // passed, so that a render that is over by then says nothing.
+    Progress(Style style, int columns, Write write, Seconds now, double quietSeconds = 0);
     // Takes an unfinished bar off the screen, so that a message can follow.
     ~Progress();
     Progress(const Progress&) = delete;
@@ -30,7 +31,7 @@ private:
     int columns_;
     Write write_;
     Seconds now_;
-    double start_;
+    double start_, quietSeconds_;
     double lastDrawn_ = -1; // seconds since start_; negative: nothing is drawn yet
     int nextStep_ = 1;      // the next 10 % that Plain has to print
     bool onScreen_ = false;
@@ -38,3 +39,5 @@ private:
 
 // "0:07", "12:34", "1:02:03"
 std::string clockText(double seconds);
+// "0.03 s", "12.5 s", and from a minute on as clockText()
+std::string durationText(double seconds);

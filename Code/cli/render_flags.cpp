@@ -17,7 +17,7 @@ void addPictureFlags(std::vector<Flag>& flags, Options& o) {
                .set = [&o](const FlagValue& v) { setResolution(o, v); }, .example = "12x8"});
     group.add({.name = "--scale", .argument = "PCT",
                .help = "percentage of the resolution, rounded down",
-               .set = [&o](const FlagValue& v) { o.scalePercent = v.number(0.01, 10000); },
+               .set = [&o](const FlagValue& v) { setScale(o, v); },
                .example = "50"});
     group.add({.name = "--crop", .argument = "x0,y0,x1,y1",
                .help = "only these pixels of the scaled picture, from the top left; x1 and y1 are "
@@ -168,7 +168,7 @@ void addOutputFlags(std::vector<Flag>& flags, Options& o) {
     FlagGroup group(flags, "output");
     group.add({.name = "--output", .alias = "-o", .argument = "FILE",
                .help = "the same as OUTPUT: .ppm, .png or .pfm; - is a PPM on stdout "
-                       "(Output/SCENE.ppm)",
+                       "(SCENE.png in the working folder)",
                .set = [&o](const FlagValue& v) { o.output = v.nonEmpty("the name of a file"); },
                .files = Flag::Files::Any, .example = "-"});
     group.add({.name = "--aov", .argument = "NAME,...",
@@ -195,6 +195,10 @@ void addOutputFlags(std::vector<Flag>& flags, Options& o) {
     group.add({.name = "--preview", .alias = "-p",
                .help = "also shows the picture in the terminal (stderr)",
                .set = [&o](const FlagValue&) { o.preview = true; }});
+    group.add({.name = "--partial",
+               .help = "a render that is interrupted (Ctrl-C) writes what is done, the rest black; "
+                       "exit code 130 all the same",
+               .set = [&o](const FlagValue&) { o.partial = true; }});
     group.add({.name = "--strict",
                .help = "a warning about the scene ends the program, exit code 3",
                .set = [&o](const FlagValue&) { o.strict = true; }});

@@ -54,42 +54,54 @@ Progress::Style progressStyle(const Options& options, const Terminal& terminal) 
     return bar ? Progress::Style::Bar : Progress::Style::Plain;
 }
 
-// The size of the film, before memory is taken for it.
-void checkPixelCount(const SettingsDesc& picture, bool cropPad) {
-    long long width = picture.width, height = picture.height;
-    if (picture.crop && !cropPad) {
-        width = (*picture.crop)[2] - (*picture.crop)[0];
-        height = (*picture.crop)[3] - (*picture.crop)[1];
-    }
-    if (width * height > Image::kMaxPixels)
-        failUsage(cat("a picture of ", width, "x", height, " pixels is too large; at most ",
-                      Image::kMaxPixels, " pixels are possible, --crop renders a part"));
-}
-
-// Nothing but the default output, which may need its folder, has a name that the user did not give.
-std::string preparedOutput(const Options& options) {
-    if (!options.output.empty()) return options.output;
-    std::string output = defaultOutput(options.scene);
-    std::error_code ignored; // checkWritable() finds out and says why
-    std::filesystem::create_directories(std::filesystem::path(output).parent_path(), ignored);
-    return output;
+// The size of the picture that is written, checked before memory is taken for it.
+PictureSize checkedSize(const SettingsDesc& picture, bool cropPad) {
+    PictureSize size{picture.width, picture.height};
+    if (picture.crop && !cropPad)
+        size = {(*picture.crop)[2] - (*picture.crop)[0], (*picture.crop)[3] - (*picture.crop)[1]};
+    if (static_cast<long long>(size.width) * size.height > Image::kMaxPixels)
+        failUsage(cat("a picture of ", size.width, "x", size.height,
+                      " pixels is too large; at most ", Image::kMaxPixels,
+                      " pixels are possible, --crop renders a part"));
+    return size;
 }
 
 Picture renderPicture(const Scene& scene, const RenderSettings& settings, const Options& options,
                       Stats& stats, bool& stopped) {
     const Terminal terminal = terminalOfStderr();
     const StopOnInterrupt interrupt;
-    Progress progress(progressStyle(options, terminal), terminal.columns, writeStderr, secondsNow);
+    Progress progress(progressStyle(options, terminal), terminal.columns, writeStderr, secondsNow,
+                      options.progress == Options::Progress::Auto ? 1 : 0);
     const auto update = [&](double part) { progress.update(part); };
     Picture picture = render(scene, settings, {update, interrupt.flag()}, stats);
     stopped = interrupt.stopped() || !picture.finished;
     return picture;
 }
 
+// An OUTPUT that the scene is made of would be lost, also by way of a link.
+void checkNoInput(const std::string& output, const std::vector<std::string>& inputs) {
+    for (const std::string& input : inputs) {
+        std::error_code ignored;
+        if (std::filesystem::equivalent(output, input, ignored))
+            failUsage(cat("OUTPUT '", output, "' is a file that the scene is made of ('", input,
+                          "'); name another"));
+    }
+}
+
+std::vector<std::string> namesOfOutputs(const Options& options, const RenderSettings& settings) {
+    if (options.action == Options::Action::Convert) return {options.convertTo};
+    if (options.action != Options::Action::Render || options.output == "-") return {};
+    std::vector<std::string> names{options.output.empty() ? defaultOutput(options.scene)
+                                                          : options.output};
+    for (const Aov aov : settings.aovs) names.push_back(aovFileName(names[0], aov));
+    return names;
+}
+
 ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings settings,
                      const Options& options, Stopwatch& watch, Stats& stats, Step& step) {
-    checkPixelCount(settings.picture, options.cropPad);
-    const std::string output = preparedOutput(options);
+    const PictureSize size = checkedSize(settings.picture, options.cropPad);
+    const std::string output =
+        options.output.empty() ? defaultOutput(options.scene) : options.output;
     if (output != "-") checkWritable(output);
     for (const Aov aov : settings.aovs) checkWritable(aovFileName(output, aov));
     settings.onlyCodes = needsOnlyCodes(settings, options, output);
@@ -107,12 +119,13 @@ ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings
     step = {"rendering", ExitCode::Input};
     bool stopped = false;
     Picture picture = renderPicture(scene, settings, options, stats, stopped);
-    if (stopped) {
+    if (stopped && !options.partial) {
         writeStderr("raytracer: interrupted; nothing is written\n");
         return ExitCode::Interrupted;
     }
+    if (stopped) writeStderr("raytracer: interrupted; what is done is written\n");
     stats.renderSeconds = watch.lap();
-    printShortfall(stats, options);
+    if (!stopped) printShortfall(stats, options);
 
     step = {"writing the picture", ExitCode::Output};
     if (options.preview) printPreview(picture, settings);
@@ -124,10 +137,15 @@ ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings
     if (!options.quiet && output != "-") {
         std::string written = output;
         for (const Aov aov : settings.aovs) written += ", " + aovFileName(output, aov);
-        writeStderr(cat("wrote ", written, "\n"));
+        const std::string samples = stats.samplesMin == stats.samplesMax
+                                        ? shortest(stats.samplesMean)
+                                        : cat("about ", significant(stats.samplesMean));
+        writeStderr(cat("wrote ", written, " (", size.width, "x", size.height, ", ", samples,
+                        samples == "1" ? " sample" : " samples", " per pixel, ",
+                        durationText(stats.totalSeconds), ")\n"));
     }
-    printStats(stats, options);
-    return ExitCode::Ok;
+    printStats(stats, {options.scene, output, size, options.arguments}, options);
+    return stopped ? ExitCode::Interrupted : ExitCode::Ok;
 }
 
 std::filesystem::path folderOf(const std::string& name) {
@@ -191,6 +209,12 @@ ExitCode runScene(const Options& options, Step& step) {
     printWarnings(diagnostics);
     RenderSettings settings = settingsFrom(loaded.desc, options);
     if (isTooStrict(options, diagnostics)) return ExitCode::StrictWarnings;
+    std::vector<std::string> inputs = std::move(diagnostics.filesRead);
+    for (const TextureDesc& texture : loaded.desc.textures)
+        if (auto file = findPicture(texture.file, loaded.source.name, options.textureFolder))
+            inputs.push_back(std::move(*file));
+    for (const std::string& output : namesOfOutputs(options, settings))
+        checkNoInput(output, inputs);
     if (options.action == Action::Convert) return convert(loaded, options);
     if (options.action == Action::Render)
         return renderScene(std::move(loaded), pictures, std::move(settings), options, watch, stats,
@@ -219,7 +243,18 @@ void checkForCommand(const std::string& first) {
                       *near, "'?"));
 }
 
+// "help", unless there is a scene of that name.
+bool isHelpWord(const std::string& first) {
+    std::error_code ignored;
+    return first == "help" && !std::filesystem::exists(first, ignored);
+}
+
 ExitCode runOptions(std::span<const std::string> arguments, Step& step) {
+    if (!arguments.empty() && isHelpWord(arguments[0])) {
+        const Command* const command = arguments.size() > 1 ? commandNamed(arguments[1]) : nullptr;
+        writeStdout(command ? commandHelpText(*command) : helpText());
+        return ExitCode::Ok;
+    }
     if (!arguments.empty()) checkForCommand(arguments[0]);
     const Options options = parseOptions(arguments);
     switch (options.action) {

@@ -1,6 +1,7 @@
 #include "cli/stats_output.h"
 
 #include "base/text.h"
+#include "cli/version.h"
 
 #include <algorithm>
 #include <cmath>
@@ -159,7 +160,7 @@ std::string statsTable(const Stats& s) {
     return table.text();
 }
 
-std::string statsJson(const Stats& s) {
+std::string statsJson(const Stats& s, const RunFacts& run) {
     JsonObject seconds, rays, hits, accel, features, samples, numeric, all;
     seconds.add("parse", s.parseSeconds).add("build", s.buildSeconds);
     seconds.add("render", s.renderSeconds).add("write", s.writeSeconds);
@@ -176,6 +177,10 @@ std::string statsJson(const Stats& s) {
     samples.add("min", s.samplesMin).add("mean", s.samplesMean).add("max", s.samplesMax);
     numeric.add("nan_samples", s.nanSamples);
     numeric.add("degenerate_primitives", s.degeneratePrimitives);
+    all.add("scene", quoted(run.scene)).add("output", quoted(run.output));
+    all.add("width", static_cast<double>(run.size.width));
+    all.add("height", static_cast<double>(run.size.height));
+    all.add("arguments", jsonList(run.arguments)).add("version", quoted(kVersion));
     all.add("seconds", seconds.text()).add("rays", rays.text()).add("hits", hits.text());
     all.add("rays_per_second", raysPerSecond(s)).add("accel", accel.text());
     all.add("peak_bytes", s.peakBytes).add("threads", static_cast<std::uint64_t>(s.threads));

@@ -4,13 +4,25 @@
 #include "render/stats.h"
 
 #include <string>
+#include <vector>
+
+struct PictureSize {
+    int width = 0, height = 0;
+};
+
+// What was rendered and how it was called, for programs that gather the counters of many renders.
+struct RunFacts {
+    std::string scene, output;
+    PictureSize size; // of the picture that was written
+    std::vector<std::string> arguments;
+};
 
 std::string statsTable(const Stats& stats);
 
 // One object on one line; scripts rely on its keys, which tests/unit/test_stats_output.cpp lists
 // (error_estimate, error_goal and capped_pixels only with --error). Numbers that are not finite
 // become null.
-std::string statsJson(const Stats& stats);
+std::string statsJson(const Stats& stats, const RunFacts& run);
 
 // Three digits that count: "0.00594".
 std::string significant(double value);

@@ -39,6 +39,28 @@ std::vector<std::string> extensions() {
     return out;
 }
 
+// Files that hold scenes or pictures of other kinds, and the way from there.
+struct Foreign {
+    std::string_view extensions, kind; // each extension with a space behind it
+    std::string_view way;
+};
+constexpr std::string_view kByBlender =
+    "convert it to .obj or .ply, or import it into Blender and export it with Blend/Export.py";
+constexpr Foreign kForeign[] = {
+    {".blend .blend1 ", "a Blender file",
+     "export it: blender -b FILE.blend --python-exit-code 3 -P Blend/Export.py -- -o FILE.txt"},
+    {".stl .off .3mf .3ds .lwo .ctm ", "a mesh of a kind that is not read", kByBlender},
+    {".gltf .glb ", "a glTF scene", kByBlender},
+    {".fbx .dae .abc .x3d .wrl .usd .usda .usdc .usdz .c4d .max .ma .mb ",
+     "a scene of another program", kByBlender},
+    {".pov .inc .pbrt .xml .rib .ass .vrscene .mi ", "a scene of another renderer",
+     "write it as native text (ASCII/README.md), or export it from Blender"},
+    {".mtl ", "a material library", "name the .obj file that uses it"},
+    {".png .ppm .pgm .pfm .jpg .jpeg .exr .hdr .tga .bmp .tif .tiff .gif .webp ", "a picture",
+     "name the scene first and the picture that it is rendered to behind it"},
+    {".zip .gz .tgz .7z .rar ", "an archive", "unpack it first"},
+};
+
 const Format& formatOf(const std::string& fileName) {
     std::string extension = fs::path(fileName).extension().string();
     for (char& c : extension)
@@ -50,6 +72,10 @@ const Format& formatOf(const std::string& fileName) {
                                    ": error: the name has no extension, which tells the "
                                    "format of a scene; known: ",
                                    join(extensions())));
+    for (const Foreign& foreign : kForeign)
+        if (foreign.extensions.find(extension + " ") != std::string_view::npos)
+            fail(ErrorKind::Input,
+                 cat(fileName, ": error: this is ", foreign.kind, "; ", foreign.way));
     fail(ErrorKind::Input,
          cat(fileName, ": error: unknown scene format ", unknownName(extension, extensions())));
 }
@@ -126,6 +152,7 @@ LoadedScene load(const std::string& fileName, Diagnostics& diagnostics, const Re
     } else {
         checkFile(fileName);
         const Format& format = formatOf(fileName);
+        diagnostics.filesRead.push_back(fileName);
         scene.source = {fileName, readWholeText(fileName, options.threads)};
         if (foreseen && format.extension == ".txt") foreseeStart(scene.source, foreseen);
         scene.desc = format.read(scene.source, context);

@@ -71,10 +71,12 @@ std::string notFound(const std::string& file, const SourceFile& scene) {
                join(candidates(withSlashes(file), scene)));
 }
 
-SourceFile open(const std::string& path, const SourceFile& scene, SourceLoc loc, int threads) {
+SourceFile open(const std::string& path, const SourceFile& scene, SourceLoc loc,
+                const ReadContext& context, int threads) {
     std::error_code ignored;
     if (fs::file_size(path, ignored) >= SourceLoc::kUnknown)
         failAt(scene, loc.offset, cat("the file '", path, "' is larger than 4 GiB"));
+    context.diagnostics.filesRead.push_back(path);
     return {path, readWholeText(path, threads)};
 }
 
@@ -87,7 +89,8 @@ void loadMesh(MeshDesc& mesh, const SourceFile& scene, const ReadContext& contex
     const auto path = placeOf(mesh.file, scene);
     if (!path) failAt(scene, mesh.fileLoc.offset, notFound(mesh.file, scene));
     MeshDesc loaded =
-        format->read(open(*path, scene, mesh.fileLoc, context.options.threads), context).mesh;
+        format->read(open(*path, scene, mesh.fileLoc, context, context.options.threads), context)
+            .mesh;
     if (mesh.smoothAngleDeg == 0) {
         loaded.normals.clear();
         loaded.normalTriangles.clear();
@@ -108,7 +111,7 @@ MtlFile readLibrary(const MeshFile::Library& library, const SourceFile& source,
         context.warn(source, library.loc.offset, notFound(library.file, source));
         return {};
     }
-    MtlFile file = readMtl(open(*path, source, library.loc, 1), context);
+    MtlFile file = readMtl(open(*path, source, library.loc, context, 1), context);
     const fs::path folder = fs::absolute(*path).parent_path();
     const fs::path sceneFolder = fs::absolute(source.name).parent_path();
     for (TextureDesc& texture : file.textures)
@@ -136,9 +139,13 @@ void loadMeshFiles(SceneDesc& desc, const SourceFile& scene, const ReadContext& 
     forEachOn(context.options.threads, named.size(), [&](std::size_t i) {
         loadMesh(*named[i], scene, {options, diagnostics[i]});
     });
-    for (Diagnostics& one : diagnostics)
-        std::move(one.warnings.begin(), one.warnings.end(),
-                  std::back_inserter(context.diagnostics.warnings));
+    const auto move = [](std::vector<std::string>& from, std::vector<std::string>& to) {
+        std::move(from.begin(), from.end(), std::back_inserter(to));
+    };
+    for (Diagnostics& one : diagnostics) {
+        move(one.warnings, context.diagnostics.warnings);
+        move(one.filesRead, context.diagnostics.filesRead);
+    }
 }
 
 SceneDesc readMeshScene(const SourceFile& source, const ReadContext& context) {

@@ -85,9 +85,11 @@ private:
     bool renderTiles(ThreadPool& pool, std::vector<TileWorker>& workers,
                      const RenderControl& control, Stats& stats) {
         stats.samplesMin = stats.samplesMean = stats.samplesMax = settings_.picture.samplesPerPixel;
-        return runJobs(pool, tiles_.size(), control, 0, 1, [&](std::size_t i, std::size_t worker) {
-            renderTile(tiles_[i], workers[worker]);
-        });
+        std::atomic<bool> allWhole = true;
+        const auto renderOne = [&](std::size_t i, std::size_t worker) {
+            if (!renderTile(tiles_[i], workers[worker], control.stop)) allWhole = false;
+        };
+        return runJobs(pool, tiles_.size(), control, 0, 1, renderOne) && allWhole;
     }
 
     // In rounds, each of which adds samples where the picture needs them.
@@ -95,7 +97,8 @@ private:
                       const RenderControl& control, Picture& picture, Stats& stats) {
         GoalFilm film(area_.width(), area_.height(), settings_);
         double told = 0; // progress never falls, though the work ahead may turn out to be more
-        for (;;) {
+        std::atomic<bool> allWhole = true;
+        while (allWhole) {
             const std::vector<Tile> parts = film.nextRound();
             if (parts.empty()) break;
             const double begun = std::max(told, film.share().begun);
@@ -103,19 +106,22 @@ private:
             const auto addBatch = [&](std::size_t index, std::size_t number) {
                 const Tile& part = parts[index];
                 TileWorker& worker = workers[number];
-                sampler_.trace({part.x0 + area_.x0, part.y0 + area_.y0, part.x1 + area_.x0,
-                                part.y1 + area_.y0},
-                               film.samplesOf(part), film.batchOf(part), worker);
-                film.add(part, worker.color, worker.aovs);
+                const Tile tile{part.x0 + area_.x0, part.y0 + area_.y0, part.x1 + area_.x0,
+                                part.y1 + area_.y0};
+                if (sampler_.trace(tile, film.samplesOf(part), film.batchOf(part), worker,
+                                   control.stop))
+                    film.add(part, worker.color, worker.aovs);
+                else
+                    allWhole = false;
             };
-            if (!runJobs(pool, parts.size(), control, begun, told, addBatch)) return false;
+            if (!runJobs(pool, parts.size(), control, begun, told, addBatch)) allWhole = false;
         }
-        if (control.progress) control.progress(1);
+        if (control.progress && allWhole) control.progress(1);
         film.color().writeMeans(color_->image(), 0, 0);
         for (std::size_t a = 0; a < aovs_.size(); ++a) writeAov(film.aov(a), a, 0, 0);
         picture.error = film.error();
         film.describe(stats);
-        return true;
+        return allWhole;
     }
 
     void writeAov(const Film& film, std::size_t number, int x, int y) {
@@ -125,17 +131,23 @@ private:
             film.writeMeans(aovs_[number], x, y);
     }
 
-    void renderTile(const Tile& tile, TileWorker& worker) {
-        if (sampler_.isEmpty(tile)) return showBackground(tile, worker);
+    // Returns false when it was stopped, and has painted nothing then.
+    bool renderTile(const Tile& tile, TileWorker& worker, const std::atomic<bool>* stop) {
+        if (sampler_.isEmpty(tile)) {
+            showBackground(tile, worker);
+            return true;
+        }
         if (settings_.picture.samplesPerPixel == 1 && aovs_.empty()) {
             sampler_.traceOnce(tile, worker);
-            return paint(tile, worker);
+            paint(tile, worker);
+            return true;
         }
-        sampler_.trace(tile, 0, settings_.picture.samplesPerPixel, worker);
+        if (!sampler_.trace(tile, 0, settings_.picture.samplesPerPixel, worker, stop)) return false;
         worker.color.writeMeans(worker.tile, 0, 0);
         paint(tile, worker);
         const Tile to = onCanvas(tile);
         for (std::size_t a = 0; a < aovs_.size(); ++a) writeAov(worker.aovs[a], a, to.x0, to.y0);
+        return true;
     }
 
     // The tile, as the picture counts it, where the canvas has it.

@@ -22,13 +22,13 @@ struct Picture {
     CodedImage codes; // or this, where no more is wanted: see RenderSettings
     std::vector<AovImage> aovs;
     Image error;           // with an error goal: the RMSE that is estimated around each pixel
-    bool finished = false; // false: stopped before every tile was done
+    bool finished = false; // false: stopped before every tile was done; the others are black
 };
 struct RenderControl {
     // Called from one worker at a time with the part that is done, 0 to 1. Of a function that
     // outlives the call.
     FunctionRef<void(double)> progress = {};
-    // Set by a signal handler or a caller; workers look at it between tiles.
+    // Set by a signal handler or a caller; workers look at it between chunks of samples.
     const std::atomic<bool>* stop = nullptr;
 };
 

@@ -27,7 +27,8 @@ TileSampler::TileSampler(const Scene& scene, const RenderSettings& settings)
     : context_(scene, settings), settings_(settings), cameraRays_(context_),
       emptyTiles_(context_, cameraRays_) {}
 
-void TileSampler::trace(const Tile& tile, int begin, int samples, TileWorker& worker) const {
+bool TileSampler::trace(const Tile& tile, int begin, int samples, TileWorker& worker,
+                        const std::atomic<bool>* stop) const {
     worker.color.reset(tile.width(), tile.height());
     for (Film& film : worker.aovs) film.reset(tile.width(), tile.height());
     const int pixels = tile.width() * tile.height();
@@ -36,15 +37,17 @@ void TileSampler::trace(const Tile& tile, int begin, int samples, TileWorker& wo
             static_cast<std::uint64_t>(samples) * static_cast<std::uint64_t>(pixels);
         worker.color.addToAll(background(), samples);
         for (Film& film : worker.aovs) film.addToAll({}, samples); // nothing was met
-        return;
+        return true;
     }
     const int perChunk = std::max(1, settings_.chunkSamples / pixels);
     const int end = begin + samples;
     for (int first = begin; first < end; first += perChunk) {
+        if (stop && stop->load(std::memory_order_relaxed)) return false;
         const int count = std::min(perChunk, end - first);
         traceChunk(tile, first, count, worker);
         collect(tile, first, count, worker);
     }
+    return true;
 }
 
 void TileSampler::traceChunk(const Tile& tile, int first, int count, TileWorker& worker) const {

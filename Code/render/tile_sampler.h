@@ -7,6 +7,7 @@
 #include "render/film.h"
 #include "render/integrator.h"
 
+#include <atomic>
 #include <cstdint>
 #include <vector>
 
@@ -31,8 +32,11 @@ public:
     bool throughCorners() const { return cameraRays_.throughCorners(); }
     const IntegratorContext& context() const { return context_; }
 
-    // Samples begin .. begin + samples - 1 of all places of the tile, into the worker's films.
-    void trace(const Tile& tile, int begin, int samples, TileWorker& worker) const;
+    // Traces samples begin .. begin + samples - 1 of all places of the tile, into the worker's
+    // films. Returns false when *stop became true before the last of them: a tile of many samples
+    // takes longer than a user waits.
+    bool trace(const Tile& tile, int begin, int samples, TileWorker& worker,
+               const std::atomic<bool>* stop) const;
     // The same for the only sample of each place, into the worker's tile: what a film would make of
     // it.
     void traceOnce(const Tile& tile, TileWorker& worker) const;

@@ -17,6 +17,30 @@ expect 'unknown camera: 1' 1 "did you mean 'top'?" scene.txt a.ppm --camera tpo
 expect 'crop outside: 1' 1 'but the picture has 24x16 pixels' scene.txt a.ppm --crop 0,0,25,16
 expect 'too large a picture: 1' 1 'is too large' scene.txt a.ppm --resolution 65535x65535
 expect 'missing scene: 2' 2 'nothere.txt: error: cannot read' nothere.txt a.ppm
+for kind in blend=Export.py stl=.obj glb=Blender fbx=Blender usd=Blender abc=Blender off=.obj gltf=Blender \
+    pov=native png='name the scene first' mtl=.obj zip=unpack; do
+    echo x > "foreign.${kind%%=*}"
+    expect "a .${kind%%=*} as SCENE: 2" 2 "${kind#*=}" "foreign.${kind%%=*}" a.ppm
+    rm "foreign.${kind%%=*}"
+done
+printf 'texture wood {\n    channel rgb\n    file "not there.png"\n}\n' | sed '/channel/d' > wood
+sed 's/material red {/&\n    diffuse_texture wood/' scene.txt | cat - wood > wood.txt
+expect 'a missing texture: where its file is named' 2 \
+    "wood.txt:$(grep -n 'not there' wood.txt | cut -d: -f1):10: error: texture 'wood': no file 'not there.png'" wood.txt a.ppm
+check 'with the line and a caret' grep -q '\^' err
+sed -i 's/not there.png/wood.ppm/' wood.txt
+"$raytracer" scene.txt wood.ppm -q
+cp wood.ppm kept.ppm
+expect 'OUTPUT is a texture of the scene: 1' 1 "OUTPUT 'wood.ppm' is a file that the scene is made of" wood.txt wood.ppm
+ln -s wood.ppm link.ppm
+expect 'OUTPUT is a link to a texture: 1' 1 "OUTPUT 'link.ppm' is a file that the scene is made of ('wood.ppm')" wood.txt link.ppm
+check 'the texture is as it was' cmp wood.ppm kept.ppm
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' > tri.obj
+ln tri.obj tri.ppm
+printf 'mesh tri {\n    file "tri.obj"\n}\ninstance tri {\n    mesh tri\n}\n' | cat scene.txt - > tri.txt
+expect 'OUTPUT is a mesh of the scene, by another name: 1' 1 "('tri.obj')" tri.txt tri.ppm
+expect '--convert onto the scene itself: 1' 1 "OUTPUT 'tri.txt' is a file" tri.txt --convert tri.txt
+rm wood wood.txt wood.ppm kept.ppm link.ppm tri.*
 expect 'nearest scene' 2 "did you mean 'scene.txt'?" scenee.txt a.ppm
 expect 'a folder is no scene: 2' 2 'it is a folder' / a.ppm
 

@@ -35,6 +35,20 @@ interrupted() {
     check "$1: the old picture is kept" [ "$(cat "$1/a.png")" = old ]
 }
 interrupted TERM
+
+# A tile of so many samples takes minutes; it is left in the middle of them.
+runAndSignal TERM scene.txt whole_tile.png -r 16x16 --spp 60000 --light-samples 16 -t 1
+check 'within a tile: exit code 130' [ $code -eq 130 ]
+check 'within a tile: the render ends by itself' [ "$(grep -c '^$' err)" -eq 0 ]
+
+# What is done is kept where that was asked for.
+runAndSignal TERM scene.txt partial.ppm --aov depth -r 2000x2000 --spp 256 --partial --progress none
+check '--partial: exit code 130' [ $code -eq 130 ]
+check '--partial: a message' has err 'raytracer: interrupted; what is done is written'
+check '--partial: the picture' hasSize partial.ppm '2000 2000'
+check '--partial: the AOV' hasSize partial.depth.pfm '2000 2000'
+"$raytracer" scene.txt black.ppm -r 2000x2000 --spp 1 -d 0 -q
+check '--partial: not all of it is black' differ partial.ppm black.ppm
 if [ "$(sh -c 'kill -INT $$; echo ignored' 2> /dev/null)" = ignored ]; then
     ok 'INT is ignored where this test runs: not tested'
 else

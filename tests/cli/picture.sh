@@ -46,7 +46,7 @@ run 0 walk_####.txt frames/f##.ppm --frame 12 -q
 check '--frame' holds frames f12.ppm
 check '--frame: the picture' cmp frames/f12.ppm full.ppm
 run 0 walk_####.txt --frame 12 -q
-check '--frame: default output' cmp Output/walk_0012.ppm full.ppm
+check '--frame: default output' "$raytracer" diff walk_0012.png full.ppm --tol 0
 expect '--frame without #' 1 'needs a run of #' scene.txt a.ppm --frame 3
 expect '--frame of a missing scene' 2 "did you mean 'walk_0012.txt'?" walk_####.txt a.ppm --frame 13
 

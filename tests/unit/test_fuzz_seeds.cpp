@@ -61,7 +61,7 @@ TEST(fuzz_checks_see_what_is_unsound) {
     CHECK_THROWS(fuzz::checkError(error("other: error: x"), "input"), "without the file's name");
     CHECK_THROWS(fuzz::checkError(error("input: x"), "input"), "without 'error'");
     CHECK_THROWS(fuzz::checkError(error("input: error: \033[2J"), "input"), "the byte 27");
-    CHECK_THROWS(fuzz::checkWarnings({{"input: error: x"}}, "input"), "without 'warning'");
+    CHECK_THROWS(fuzz::checkWarnings({{"input: error: x"}, {}}, "input"), "without 'warning'");
 
     StoredImage picture{2, 1, 1, StoredImage::Depth::Float, {}, {}, {0, 1}};
     fuzz::checkPicture(picture);

@@ -114,6 +114,25 @@ TEST(options_unknown_flag_is_answered_with_the_nearest) {
     CHECK_THROWS(parsed({"--spq=4"}), "unknown option '--spq'; did you mean '--spp'?");
     CHECK_THROWS(parsed({"-spp", "4"}), "unknown option '-spp'; did you mean '--spp'?");
     CHECK_THROWS(parsed({"--no-shadow"}), "did you mean '--no-shadows'?");
+    // What other renderers call it.
+    const std::pair<const char*, const char*> others[] = {
+        {"--samples", "unknown option '--samples'; here it is --spp N"},
+        {"--samples=16", "unknown option '--samples'; here it is --spp N"},
+        {"--width", "here it is --resolution WIDTHxHEIGHT"},
+        {"--height", "here it is --resolution WIDTHxHEIGHT"},
+        {"-W", "unknown option '-W'; here it is --resolution WIDTHxHEIGHT"},
+        {"-H", "here it is --resolution WIDTHxHEIGHT"},
+        {"-j4", "here it is --threads N"},
+        {"--depth", "here it is --max-depth N"},
+        {"--bounces", "here it is --max-depth N"},
+        {"--gamma", "here it is --transfer srgb or linear"},
+        {"--region", "here it is --crop x0,y0,x1,y1"},
+        {"--quality", "here it is --spp N, or --error E"},
+        {"--antialiasing", "here it is --spp N"},
+        {"--no-antialiasing", "here it is --no-aa"},
+        {"--input", "here it is SCENE as the first word"},
+    };
+    for (const auto& [written, message] : others) CHECK_THROWS(parsed({written}), message);
     CHECK_THROWS(parsed({"-Z"}), "unknown option '-Z'");
     CHECK_THROWS(parsed({"-qv"}), "unknown option '-qv'");
     CHECK_THROWS(parsed({"--no-spp"}), "unknown option '--no-spp'");
@@ -151,7 +170,8 @@ TEST(options_frame_replaces_the_last_run) {
     CHECK_EQUAL(named("###.txt", "b.png", "5").scene, "005.txt");
     CHECK_EQUAL(named("a.txt", "b##.png", "5").output, "b05.png");
     CHECK_THROWS(named("a.txt", "b.png", "5"), "--frame needs a run of #");
-    CHECK_EQUAL(parsed({"b##.png"}).output, "b##.png");
+    CHECK_EQUAL(parsed({"b#.png"}).output, "b#.png");
+    CHECK_THROWS(parsed({"b##.png"}), "OUTPUT 'b##.png' has a run of #");
 }
 
 TEST(options_switches) {
@@ -205,7 +225,7 @@ TEST(settings_picture_size) {
     const SettingsDesc half = settings(desc, {"--scale=50"}).picture;
     CHECK_EQUAL(half.width, 50);
     CHECK_EQUAL(half.height, 25);
-    CHECK_EQUAL(settings(desc, {"--scale=0.1"}).picture.height, 1);
+    CHECK_EQUAL(settings(desc, {"--scale=1"}).picture.height, 1);
     CHECK_EQUAL(settings(desc, {"--resolution=64x32", "--scale=200"}).picture.width, 128);
     CHECK_THROWS(settings(desc, {"--resolution=65535x1", "--scale=200"}), "at most 65535");
     CHECK_THROWS(settings(desc, {"--crop=0,0,102,50"}), "but the picture has 101x50 pixels");
@@ -266,8 +286,8 @@ TEST(help_and_completion_have_every_flag) {
 }
 
 TEST(output_names_and_exposure) {
-    CHECK_EQUAL(defaultOutput("a/room.v2.txt"), "Output/room.v2.ppm");
-    CHECK_EQUAL(defaultOutput("-"), "Output/stdin.ppm");
+    CHECK_EQUAL(defaultOutput("a/room.v2.txt"), "room.v2.png");
+    CHECK_EQUAL(defaultOutput("-"), "stdin.png");
     CHECK_EQUAL(aovFileName("a.b/out.png", Aov::Depth), "a.b/out.depth.pfm");
     Image image(2, 1);
     image.setPixel(0, 0, {0.5f, 3e38f, -3e38f});

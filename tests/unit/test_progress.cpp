@@ -12,10 +12,10 @@ struct Watched {
     std::string text;
     int writes = 0;
     double now = 100;
-    Progress make(Progress::Style style, int columns = 80) {
+    Progress make(Progress::Style style, int columns = 80, double quietSeconds = 0) {
         return Progress(
             style, columns, [this](std::string_view part) { text += part, ++writes; },
-            [this] { return now; });
+            [this] { return now; }, quietSeconds);
     }
 };
 
@@ -58,6 +58,34 @@ TEST(progress_plain_skips_steps_of_a_single_jump) {
     Progress progress = watched.make(Progress::Style::Plain);
     progress.update(1);
     CHECK_EQUAL(watched.text, "progress 100 %  0:00 elapsed\n");
+}
+
+TEST(progress_says_nothing_while_it_is_to_be_quiet) {
+    for (const auto style : {Progress::Style::Plain, Progress::Style::Bar}) {
+        Watched watched;
+        {
+            Progress progress = watched.make(style, 80, 1);
+            for (int i = 1; i <= 10; ++i) {
+                watched.now += 0.09;
+                progress.update(i / 11.0);
+            }
+            CHECK_EQUAL(watched.text, "");
+            watched.now += 0.2;
+            progress.update(1);
+        }
+        CHECK(watched.text.ends_with("100 %  0:01 elapsed\n"));
+    }
+}
+
+TEST(progress_duration_text) {
+    CHECK_EQUAL(durationText(0), "0.00 s");
+    CHECK_EQUAL(durationText(-1), "0.00 s");
+    CHECK_EQUAL(durationText(0.034), "0.03 s");
+    CHECK_EQUAL(durationText(9.996), "10.0 s");
+    CHECK_EQUAL(durationText(12.56), "12.5 s");
+    CHECK_EQUAL(durationText(59.94), "59.9 s");
+    CHECK_EQUAL(durationText(60), "1:00");
+    CHECK_EQUAL(durationText(3723), "1:02:03");
 }
 
 TEST(progress_bar_is_drawn_ten_times_a_second) {

@@ -78,10 +78,13 @@ Stats example() {
 } // namespace
 
 TEST(stats_json_has_the_keys_of_the_contract) {
-    const std::string json = statsJson(example());
+    const std::string json =
+        statsJson(example(), {"a \"b\".txt", "out.png", {640, 360}, {"a.txt", "-q"}});
     CHECK(isJson(json));
     for (const char* part :
-         {"\"seconds\":{\"parse\":0,\"build\":0,\"render\":2,\"write\":0,\"total\":2.5}",
+         {"{\"scene\":\"a \\\"b\\\".txt\",\"output\":\"out.png\",\"width\":640,\"height\":360,"
+          "\"arguments\":[\"a.txt\",\"-q\"],\"version\":\"",
+          "\"seconds\":{\"parse\":0,\"build\":0,\"render\":2,\"write\":0,\"total\":2.5}",
           "\"rays\":{\"camera\":1000,\"shadow\":3000,\"reflect\":0,\"refract\":0,\"indirect\":0}",
           "\"hits\":{\"camera\":900}", "\"rays_per_second\":2000",
           "\"accel\":{\"kind\":\"bvh\",\"nodes\":11,\"leaves\":6,\"bytes\":352,\"sah\":12.5,"
@@ -95,13 +98,13 @@ TEST(stats_json_has_the_keys_of_the_contract) {
 
 TEST(stats_json_is_valid_for_odd_numbers) {
     Stats stats;
-    CHECK(isJson(statsJson(stats)));
+    CHECK(isJson(statsJson(stats, {})));
     stats.accel.sah = std::numeric_limits<double>::quiet_NaN();
     stats.parseSeconds = std::numeric_limits<double>::infinity();
     stats.renderSeconds = 1e-300;
     stats.rays.camera = std::numeric_limits<std::uint64_t>::max();
-    CHECK(isJson(statsJson(stats)));
-    CHECK(statsJson(stats).find("\"sah\":null") != std::string::npos);
+    CHECK(isJson(statsJson(stats, {})));
+    CHECK(statsJson(stats, {}).find("\"sah\":null") != std::string::npos);
     CHECK(!isJson("{\"a\":nan}\n"));
     CHECK(!isJson("{\"a\":1,}\n"));
 }
@@ -117,12 +120,12 @@ TEST(stats_table_is_aligned_and_complete) {
 // What only a picture with an error goal has, and what shaded it.
 TEST(stats_of_an_error_goal) {
     Stats stats = example();
-    CHECK(statsJson(stats).find("error") == std::string::npos);
+    CHECK(statsJson(stats, {}).find("error") == std::string::npos);
     CHECK(statsTable(stats).find("error") == std::string::npos);
     stats.samplesMin = 4, stats.samplesMean = 17.26, stats.samplesMax = 512;
     stats.error = {0.01, 0.0123456, 512, 1234};
     stats.shading = "waves: soft lamps, lamp bodies";
-    const std::string json = statsJson(stats), table = statsTable(stats);
+    const std::string json = statsJson(stats, {}), table = statsTable(stats);
     CHECK(isJson(json));
     for (const char* part :
          {"\"error_estimate\":0.0123456,\"error_goal\":0.01,\"capped_pixels\":1234",

@@ -4,12 +4,15 @@
 #include "base/platform/signals.h"
 #include "base/platform/terminal.h"
 #include "base/platform/threads.h"
+#include "base/processor_quota.h"
 
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <csignal>
+#include <cstdio>
 #include <cstring>
+#include <string>
 #include <sys/ioctl.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
@@ -58,14 +61,50 @@ std::uint64_t peakBytes() {
 
 // ---- threads
 
+#if defined(__linux__)
+namespace {
+
+std::string firstLine(const std::string& name) {
+    char line[256] = "";
+    if (std::FILE* const file = std::fopen(name.c_str(), "r")) {
+        if (std::fgets(line, sizeof line, file) == nullptr) line[0] = 0;
+        static_cast<void>(std::fclose(file));
+    }
+    std::string text = line;
+    if (text.ends_with('\n')) text.pop_back();
+    return text;
+}
+
+// The smallest quota of this program's control group and of those around it; 0 without any.
+int quotaOfGroups() {
+    const std::string root = "/sys/fs/cgroup";
+    int least = 0;
+    const auto take = [&](int count) {
+        if (count > 0 && (least == 0 || count < least)) least = count;
+    };
+    std::string group = firstLine("/proc/self/cgroup"); // "0::/a/b" of version 2
+    group = group.starts_with("0::/") ? group.substr(3) : "/";
+    for (; group.size() > 1; group.resize(std::max<std::size_t>(group.rfind('/'), 1)))
+        take(processorsOfQuota(firstLine(root + group + "/cpu.max")));
+    take(processorsOfQuota(firstLine(root + "/cpu.max")));
+    take(processorsOfQuota(firstLine(root + "/cpu/cpu.cfs_quota_us") + " " +
+                           firstLine(root + "/cpu/cpu.cfs_period_us"))); // version 1
+    return least;
+}
+
+} // namespace
+#endif
+
 int processorCount() {
+    int count = static_cast<int>(std::thread::hardware_concurrency());
 #if defined(__linux__)
     // Containers and taskset leave a program some of the machine's processors.
     cpu_set_t mine;
     CPU_ZERO(&mine);
-    if (sched_getaffinity(0, sizeof mine, &mine) == 0) return std::max(1, CPU_COUNT(&mine));
+    if (sched_getaffinity(0, sizeof mine, &mine) == 0) count = CPU_COUNT(&mine);
+    if (const int quota = quotaOfGroups(); quota > 0) count = std::min(count, quota);
 #endif
-    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+    return std::max(1, count);
 }
 
 // ---- terminal
