@@ -73,10 +73,10 @@ TEST(tga_reads_every_type_size_and_origin) {
     CHECK_EQUAL(names.size(), 52u);
     for (const std::string& name : names) {
         Kind kind;
+        const std::string kindName = std::filesystem::path(name).filename().string();
         // NOLINTNEXTLINE(cert-err34-c): these names are ours
-        const int found =
-            std::sscanf(std::filesystem::path(name).filename().string().c_str(), "t%d_%d_a%d_m%d_",
-                        &kind.type, &kind.bits, &kind.attributes, &kind.mapBits);
+        const int found = std::sscanf(kindName.c_str(), "t%d_%d_a%d_m%d_", &kind.type, &kind.bits,
+                                      &kind.attributes, &kind.mapBits);
         CHECK_EQUAL(found, 4);
         const std::vector<std::uint8_t> file = readWholeFile(name);
         CHECK_INFO(looksLikeTga(file), name);
