@@ -99,7 +99,7 @@ std::string helpText() {
         "  raytracer SCENE [OUTPUT] [options]\n", commandLines(), "\n",
         "SCENE is a .txt file in the native format (- for such text on stdin), a COMP 557 scene\n"
         "(.json), a Neutral File Format scene (.nff), or a mesh by itself (.obj, .ply). OUTPUT is\n"
-        "a .ppm, .png or .pfm file, or - for a PPM on stdout; left out, it is SCENE.png in the\n"
+        "a .ppm, .png, .pfm or .exr file, or - for a PPM on stdout; left out, it is SCENE.png in the\n"
         "working folder.\n"
         "What an option leaves open comes from the scene. --flag value and --flag=value are the\n"
         "same; -- ends the options.\n");

@@ -69,9 +69,14 @@ void checkCombinations(const Options& options) {
                       options.output));
     const bool isFile = !options.output.empty() && !toStdout && !toDevice;
     if (isFile && !hasPictureExtension(options.output))
-        failUsage(cat("OUTPUT '", options.output, "' must end in .ppm, .png or .pfm"));
-    if (options.bits && lowerExtension(options.output) == ".pfm")
-        failUsage("--bits is for .ppm and .png; a .pfm file stores floats");
+        failUsage(cat("OUTPUT '", options.output, "' must end in .ppm, .png, .pfm or .exr"));
+    const std::string extension = lowerExtension(options.output);
+    if (options.bits && extension == ".pfm")
+        failUsage("--bits is for .ppm, .png and .exr; a .pfm file stores floats");
+    if (options.bits == 8 && extension == ".exr")
+        failUsage("an .exr file stores numbers of 16 or 32 bits, not 8");
+    if (options.bits == 32 && extension != ".exr")
+        failUsage("--bits 32 is for .exr; .ppm and .png store 8 or 16 bits");
 }
 
 } // namespace

@@ -6,6 +6,7 @@
 #include "base/math.h"
 #include "base/platform/files.h"
 #include "cli/method_names.h"
+#include "image/exr.h"
 #include "render/encoding.h"
 
 #include <cctype>
@@ -21,6 +22,42 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void failWriting(const std::string& fileName, const std::string& reason) {
     fail(ErrorKind::Output, cat(fileName, ": error: cannot write: ", reason));
+}
+
+// The channels of an AOV's layer; where it is one, the three of the image are equal.
+std::vector<std::string> channelsOf(Aov aov) {
+    switch (aov) {
+    case Aov::Depth: return {"Z"};
+    case Aov::Normal:
+    case Aov::Position: return {"X", "Y", "Z"};
+    case Aov::Albedo: return {"R", "G", "B"};
+    case Aov::Id:
+    case Aov::Samples: break;
+    }
+    return {"V"};
+}
+
+void writeExr(const Picture& picture, const Options& options, const RenderSettings& settings,
+              const std::string& output) {
+    std::vector<std::vector<float>> numbers;
+    const auto add = [&](const Image& image, std::size_t channels) {
+        std::vector<float>& to = numbers.emplace_back();
+        for (const Rgb& p : image.pixels()) {
+            to.push_back(p.r);
+            if (channels == 3) to.push_back(p.g), to.push_back(p.b);
+        }
+    };
+    std::vector<ExrLayer> layers{{"", {"R", "G", "B"}, {}}};
+    add(picture.color, 3);
+    for (const AovImage& aov : picture.aovs) {
+        layers.push_back({std::string(nameOf(aov.aov)), channelsOf(aov.aov), {}});
+        add(aov.image, layers.back().channels.size());
+    }
+    for (std::size_t i = 0; i < layers.size(); ++i) layers[i].values = numbers[i];
+    writeFileAtomically(output, [&](ByteSink use) {
+        encodeExr(layers, picture.color.width(), picture.color.height(),
+                  options.bits.value_or(32) == 16, settings.threads, use);
+    });
 }
 
 } // namespace
@@ -49,7 +86,7 @@ std::string lowerExtension(const std::string& fileName) {
 
 bool hasPictureExtension(const std::string& fileName) {
     const std::string extension = lowerExtension(fileName);
-    return extension == ".ppm" || extension == ".png" || extension == ".pfm";
+    return extension == ".ppm" || extension == ".png" || extension == ".pfm" || extension == ".exr";
 }
 
 void checkWritable(const std::string& fileName) {
@@ -73,6 +110,13 @@ std::string aovFileName(const std::string& output, Aov aov) {
     return fs::path(output).replace_extension(cat(nameOf(aov), ".pfm")).string();
 }
 
+std::vector<std::string> filesOf(const std::string& output, std::span<const Aov> aovs) {
+    std::vector<std::string> names{output};
+    if (lowerExtension(output) == ".exr") return names;
+    for (const Aov aov : aovs) names.push_back(aovFileName(output, aov));
+    return names;
+}
+
 Image padded(const Image& crop, const SettingsDesc& picture) {
     if (!picture.crop) return crop;
     Image full(picture.width, picture.height);
@@ -94,7 +138,8 @@ void expose(Image& image, double ev) {
 bool needsOnlyCodes(const RenderSettings& settings, const Options& options,
                     const std::string& output) {
     return options.bits.value_or(8) == 8 && settings.picture.exposureEv == 0 && !options.cropPad &&
-           !options.preview && !options.partial && lowerExtension(output) != ".pfm";
+           !options.preview && !options.partial && lowerExtension(output) != ".pfm" &&
+           lowerExtension(output) != ".exr";
 }
 
 void writePicture(Picture picture, const RenderSettings& settings, const Options& options,
@@ -112,6 +157,7 @@ void writePicture(Picture picture, const RenderSettings& settings, const Options
         if (output != "-") return writeFileAtomically(output, bytes);
         return writeStdout({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
     }
+    if (lowerExtension(output) == ".exr") return writeExr(picture, options, settings, output);
     if (isCoded)
         picture.codes.write(output, settings.threads);
     else

@@ -6,8 +6,10 @@
 #include "render/render.h"
 #include "render/settings.h"
 
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 // To stdout, all of it at once. Fails with ErrorKind::Output when it does not take everything.
 void writeStdout(std::string_view data);
@@ -19,7 +21,7 @@ std::string defaultOutput(const std::string& scene);
 // written to it.
 bool isDevice(const std::string& fileName);
 
-// .ppm, .png or .pfm, in any case.
+// .ppm, .png, .pfm or .exr, in any case.
 bool hasPictureExtension(const std::string& fileName);
 // ".png" for "a.PNG"; empty when there is none.
 std::string lowerExtension(const std::string& fileName);
@@ -30,6 +32,9 @@ void checkWritable(const std::string& fileName);
 
 // "out.depth.pfm" for "out.png"
 std::string aovFileName(const std::string& output, Aov aov);
+// Returns the names of all files of a picture: `output`, and one for each AOV unless they are
+// layers of an OpenEXR file.
+std::vector<std::string> filesOf(const std::string& output, std::span<const Aov> aovs);
 
 // The whole picture: black around the crop.
 Image padded(const Image& crop, const SettingsDesc& picture);
@@ -41,7 +46,7 @@ void expose(Image& image, double ev);
 bool needsOnlyCodes(const RenderSettings& settings, const Options& options,
                     const std::string& output);
 
-// Exposure and padding are applied, then the picture and its AOVs are written, each atomically; "-"
+// Exposure and padding are applied, then the files of filesOf() are written, each atomically; "-"
 // writes a PPM to stdout.
 void writePicture(Picture picture, const RenderSettings& settings, const Options& options,
                   const std::string& output);

@@ -39,15 +39,15 @@ void addPictureFlags(std::vector<Flag>& flags, Options& o) {
                .set = [&o](const FlagValue& v) { o.exposureEv = numberLike("exposure", v); },
                .example = "-1"});
     group.add({.name = "--transfer", .argument = alternatives<SettingsDesc::Transfer>(),
-               .help = "encoding of .ppm and .png (.pfm is always linear)",
+               .help = "encoding of .ppm and .png (.pfm and .exr are always linear)",
                .set = [&o](const FlagValue& v) {
                    o.transfer = enumValue<SettingsDesc::Transfer>(v);
                },
                .choices = namesOf<SettingsDesc::Transfer>(), .example = "linear"});
-    const std::vector<std::string> bits = {"8", "16"};
+    const std::vector<std::string> bits = {"8", "16", "32"};
     group.add({.name = "--bits", .argument = join(bits, "|"),
-               .help = "bits per channel of .ppm and .png (8)",
-               .set = [&o, bits](const FlagValue& v) { o.bits = v.choice(bits) == 0 ? 8 : 16; },
+               .help = "bits per channel: of .ppm and .png 8 or 16 (8), of .exr 16 or 32 (32)",
+               .set = [&o, bits](const FlagValue& v) { o.bits = 8 << v.choice(bits); },
                .choices = bits, .example = "16"});
     group.add({.name = "--background", .argument = "r,g,b",
                .help = "radiance where no surface is, instead of the scene's",
@@ -167,12 +167,13 @@ void addMethodFlags(std::vector<Flag>& flags, Options& o) {
 void addOutputFlags(std::vector<Flag>& flags, Options& o) {
     FlagGroup group(flags, "output");
     group.add({.name = "--output", .alias = "-o", .argument = "FILE",
-               .help = "the same as OUTPUT: .ppm, .png or .pfm; - is a PPM on stdout "
+               .help = "the same as OUTPUT: .ppm, .png, .pfm or .exr; - is a PPM on stdout "
                        "(SCENE.png in the working folder)",
                .set = [&o](const FlagValue& v) { o.output = v.nonEmpty("the name of a file"); },
                .files = Flag::Files::Any, .example = "-"});
     group.add({.name = "--aov", .argument = "NAME,...",
-               .help = alternatives<Aov>() + ": more pictures, beside OUTPUT as OUTPUT.NAME.pfm",
+               .help = alternatives<Aov>() + ": more pictures, beside OUTPUT as OUTPUT.NAME.pfm, or as "
+                                         "layers of an .exr",
                .set = [&o](const FlagValue& v) { setAovs(o, v); },
                .choices = namesOf<Aov>(), .example = "depth,id"});
     const std::vector<std::string> formats = {"json"};

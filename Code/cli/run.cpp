@@ -24,6 +24,7 @@
 #include "render/scene.h"
 #include "render/texture_files.h"
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 
@@ -91,10 +92,8 @@ void checkNoInput(const std::string& output, const std::vector<std::string>& inp
 std::vector<std::string> namesOfOutputs(const Options& options, const RenderSettings& settings) {
     if (options.action == Options::Action::Convert) return {options.convertTo};
     if (options.action != Options::Action::Render || options.output == "-") return {};
-    std::vector<std::string> names{options.output.empty() ? defaultOutput(options.scene)
-                                                          : options.output};
-    for (const Aov aov : settings.aovs) names.push_back(aovFileName(names[0], aov));
-    return names;
+    return filesOf(options.output.empty() ? defaultOutput(options.scene) : options.output,
+                   settings.aovs);
 }
 
 ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings settings,
@@ -102,8 +101,8 @@ ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings
     const PictureSize size = checkedSize(settings.picture, options.cropPad);
     const std::string output =
         options.output.empty() ? defaultOutput(options.scene) : options.output;
-    if (output != "-") checkWritable(output);
-    for (const Aov aov : settings.aovs) checkWritable(aovFileName(output, aov));
+    const std::vector<std::string> files = filesOf(output, settings.aovs);
+    if (output != "-") std::for_each(files.begin(), files.end(), checkWritable);
     settings.onlyCodes = needsOnlyCodes(settings, options, output);
     printAdvice(settings, options);
 
@@ -135,12 +134,10 @@ ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings
     stats.totalSeconds = watch.total();
     stats.peakBytes = peakBytes();
     if (!options.quiet && output != "-") {
-        std::string written = output;
-        for (const Aov aov : settings.aovs) written += ", " + aovFileName(output, aov);
         const std::string samples = stats.samplesMin == stats.samplesMax
                                         ? shortest(stats.samplesMean)
                                         : cat("about ", significant(stats.samplesMean));
-        writeStderr(cat("wrote ", written, " (", size.width, "x", size.height, ", ", samples,
+        writeStderr(cat("wrote ", join(files), " (", size.width, "x", size.height, ", ", samples,
                         samples == "1" ? " sample" : " samples", " per pixel, ",
                         durationText(stats.totalSeconds), ")\n"));
     }

@@ -74,7 +74,7 @@ constexpr Synonyms kSynonyms[] = {
 
 std::optional<std::string_view> ourWordsFor(std::string_view theirs) {
     for (const auto& [ours, all] : kSynonyms)
-        for (std::size_t at = 0, end; (end = all.find(' ', at)) != all.npos; at = end + 1)
+        for (std::size_t at = 0, end; (end = all.find(' ', at)) != std::string_view::npos; at = end + 1)
             if (all.substr(at, end - at) == theirs) return ours;
     return {};
 }

@@ -4,7 +4,11 @@
 #include "base/file.h"
 #include "base/text.h"
 #include "image/colour.h"
+#include "image/exr.h"
 #include "image/formats.h"
+#include "image/hdr.h"
+#include "image/jpeg.h"
+#include "image/tga.h"
 
 #include <algorithm>
 #include <array>
@@ -37,18 +41,19 @@ constexpr Format kFormats[] = {
     {"P1"sv, "a bitmap (PBM)", nullptr},
     {"P4"sv, "a bitmap (PBM)", nullptr},
     {"P7"sv, "a PAM picture", nullptr},
-    {"\xFF\xD8\xFF"sv, "a JPEG picture", nullptr},
+    {"\xFF\xD8\xFF"sv, "JPEG", decodeJpeg},
     {"GIF8"sv, "a GIF picture", nullptr},
     {"BM"sv, "a BMP picture", nullptr},
-    {"\x76\x2F\x31\x01"sv, "an OpenEXR picture", nullptr},
-    {"#?RADIANCE"sv, "a Radiance HDR picture", nullptr},
+    {"\x76\x2F\x31\x01"sv, "OpenEXR", decodeExr},
+    {"#?RADIANCE"sv, "Radiance HDR", decodeHdr},
+    {"#?RGBE"sv, "Radiance HDR", decodeHdr},
     {"II*\0"sv, "a TIFF picture", nullptr},
     {"MM\0*"sv, "a TIFF picture", nullptr},
     {"RIFF"sv, "a WebP picture", nullptr},
 };
 
 // NOLINTNEXTLINE(cert-err58-cpp): short strings need no memory
-const std::array<std::string, 3> kExtensions{"ppm", "png", "pfm"};
+const std::array<std::string, 4> kExtensions{"ppm", "png", "pfm", "exr"};
 
 // One Rgb for each pixel of `values`, which has `channels` per pixel; grey fills all three.
 template <class T, class Decode>
@@ -63,6 +68,15 @@ void decodePixels(const std::vector<T>& values, int channels, std::span<Rgb> out
         }
         value += channels;
     }
+}
+
+// An OpenEXR file of nothing but R, G and B: HALF where 16 bits are wanted, FLOAT otherwise.
+void encodeBeauty(const Image& image, Encoding encoding, int threads, ByteSink use) {
+    static_assert(sizeof(Rgb) == 3 * sizeof(float));
+    const std::span<const Rgb> pixels = image.pixels();
+    const ExrLayer beauty{
+        "", {"R", "G", "B"}, {reinterpret_cast<const float*>(pixels.data()), 3 * pixels.size()}};
+    encodeExr({&beauty, 1}, image.width(), image.height(), encoding.bits == 16, threads, use);
 }
 
 } // namespace
@@ -127,7 +141,8 @@ StoredImage readStoredImage(const std::string& fileName) {
 }
 
 StoredImage decodeImage(std::span<const std::uint8_t> file, const std::string& name) {
-    constexpr std::string_view kRight = "; what can be read: PPM, PNG, PFM";
+    constexpr std::string_view kRight =
+        "; what can be read: PPM, PNG, PFM, JPEG, OpenEXR, Radiance HDR, TGA";
     if (file.empty()) fail(ErrorKind::Input, cat(name, ": error: the file is empty", kRight));
     const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
     for (const Format& format : kFormats) {
@@ -135,6 +150,7 @@ StoredImage decodeImage(std::span<const std::uint8_t> file, const std::string& n
         if (format.decode) return format.decode(file, name);
         fail(ErrorKind::Input, cat(name, ": error: this is ", format.name, kRight));
     }
+    if (looksLikeTga(file)) return decodeTga(file, name); // it has no signature
     fail(ErrorKind::Input, cat(name, ": error: the file is no picture of a known kind", kRight));
 }
 
@@ -149,9 +165,11 @@ std::vector<std::uint8_t> encodeImage(const Image& image, const std::string& ext
 
 void encodeImage(const Image& image, const std::string& extension, Encoding encoding, int threads,
                  ByteSink use) {
-    if (encoding.bits != 8 && encoding.bits != 16)
+    const bool isHalf = encoding.bits == 16, isFloat = encoding.bits == 32 && extension == "exr";
+    if (encoding.bits != 8 && !isHalf && !isFloat)
         fail(ErrorKind::Usage, cat("error: ", encoding.bits, " bits per channel; 8 or 16"));
     if (extension == "pfm") return encodePfm(image, threads, use);
+    if (extension == "exr") return encodeBeauty(image, encoding, threads, use);
     encodeSource({image.width(), image.height(), encoding, image.pixels()}, extension, threads,
                  use);
 }

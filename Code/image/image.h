@@ -10,11 +10,12 @@
 #include <string>
 #include <vector>
 
-// How linear light becomes 8- or 16-bit values in a PPM or PNG file. PFM is always linear.
+// How linear light becomes 8- or 16-bit values in a PPM or PNG file. PFM and OpenEXR are always
+// linear.
 struct Encoding {
     enum class Transfer { Srgb, Linear };
     Transfer transfer = Transfer::Srgb;
-    int bits = 8; // 8 or 16
+    int bits = 8; // 8 or 16; of OpenEXR 16 (HALF), and FLOAT otherwise
     // A PNG is written in four fifths of the time, and takes up to 1.8 times the room: its writer
     // does not look for what comes again.
     bool isDraft = false;
@@ -54,9 +55,9 @@ public:
     std::span<const Rgb> pixels() const { return pixels_; }
     std::span<Rgb> pixels() { return pixels_; }
 
-    // Writes .ppm (P6), .png or .pfm by the extension, through a temporary file that is renamed, so
-    // that a broken picture never has the final name. The bytes do not depend on how many threads
-    // make them. Fails with ErrorKind::Output.
+    // Writes .ppm (P6), .png, .pfm or .exr by the extension, through a temporary file that is
+    // renamed, so that a broken picture never has the final name. The bytes do not depend on how
+    // many threads make them. Fails with ErrorKind::Output.
     void write(const std::string& fileName, Encoding encoding = {}, int threads = 1) const;
 
     bool operator==(const Image&) const = default;
@@ -79,6 +80,7 @@ private:
 StoredImage readStoredImage(const std::string& fileName);
 // The same from memory; `name` is used in messages.
 StoredImage decodeImage(std::span<const std::uint8_t> file, const std::string& name);
-// Bytes of a file, the same for any number of threads; `extension` is "ppm", "png" or "pfm".
+// Bytes of a file, the same for any number of threads; `extension` is "ppm", "png", "pfm" or
+// "exr".
 std::vector<std::uint8_t> encodeImage(const Image& image, const std::string& extension,
                                       Encoding encoding, int threads = 1);

@@ -12,7 +12,7 @@ expect 'nearly a sub-command: 1' 1 "no sub-command 'dif'; did you mean 'raytrace
 expect 'wrong value: 1' 1 "--spp expects a whole number from 1 to 16777216, got 'x'" scene.txt --spp x
 expect 'missing value: 1' 1 '--threads expects a whole number from 0 to 1024, got nothing' scene.txt -q --threads
 expect 'two outputs: 1' 1 "two outputs: 'a.ppm' and --output 'b.ppm'" scene.txt a.ppm -o b.ppm
-expect 'unknown extension: 1' 1 'must end in .ppm, .png or .pfm' scene.txt a.jpg
+expect 'unknown extension: 1' 1 'must end in .ppm, .png, .pfm or .exr' scene.txt a.jpg
 expect 'unknown camera: 1' 1 "did you mean 'top'?" scene.txt a.ppm --camera tpo
 expect 'crop outside: 1' 1 'but the picture has 24x16 pixels' scene.txt a.ppm --crop 0,0,25,16
 expect 'too large a picture: 1' 1 'is too large' scene.txt a.ppm --resolution 65535x65535

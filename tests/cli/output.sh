@@ -1,5 +1,6 @@
 #!/bin/sh
 # What goes where: files, stdout, stderr; names, formats and sizes of what is written.
+scenes=$(cd "$(dirname "$0")/../scenes" && pwd)
 . "$(dirname "$0")/kit.sh"
 
 mkdir one
@@ -82,6 +83,32 @@ run 0 scene.txt aov/c.pfm --aov depth --crop 2,3,7,5
 check 'AOV of a crop' hasSize aov/c.depth.pfm '5 2'
 run 0 scene.txt aov/c.pfm --aov depth --crop 2,3,7,5 --crop-pad
 check 'AOV of a padded crop' hasSize aov/c.depth.pfm '24 16'
+
+mkdir exr
+run 0 scene.txt exr/a.exr -q --aov depth,normal,albedo,position,id,samples
+check 'OpenEXR: AOVs are layers of the one file' holds exr a.exr
+check 'OpenEXR: the picture is the PFM' "$raytracer" diff exr/a.exr one/a.pfm --tol 0
+for channel in depth.Z normal.X normal.Y normal.Z albedo.R position.Z id.V samples.V; do
+    check "OpenEXR: channel $channel" grep -aq "$channel" exr/a.exr
+done
+run 0 scene.txt exr/b.exr -q --bits 16
+check 'OpenEXR of 16 bits: near' "$raytracer" diff exr/b.exr one/a.pfm --tol 0.001
+check 'OpenEXR of 16 bits: smaller' [ "$(wc -c < exr/b.exr)" -lt "$(wc -c < exr/a.exr)" ]
+run 0 scene.txt exr/c.exr -q --aov depth --crop 2,3,7,5 --crop-pad -t 3
+run 0 scene.txt exr/d.pfm -q --crop 2,3,7,5 --crop-pad
+check 'OpenEXR: padded' "$raytracer" diff exr/c.exr exr/d.pfm --tol 0
+run 0 scene.txt exr/ev.exr -q --exposure 1
+run 0 scene.txt exr/ev.pfm -q --exposure 1
+check 'OpenEXR: exposed' "$raytracer" diff exr/ev.exr exr/ev.pfm --tol 0
+expect 'OpenEXR has no 8 bits' 1 '16 or 32 bits, not 8' scene.txt a.exr --bits 8
+expect 'only OpenEXR has 32 bits' 1 'is for .exr' scene.txt a.png --bits 32
+check 'JPEG is read' "$raytracer" diff "$scenes/jpeg/420_baseline.jpg" "$scenes/jpeg/420_baseline.ppm" --tol 0.02
+cp "$scenes/jpeg/420_baseline.jpg" skin.jpg
+printf 'texture skin {\n    file "skin.jpg"\n}\n' > skin
+sed 's/material red {/&\n    diffuse_texture skin/' scene.txt | cat - skin > skin.txt
+expect 'a JPEG as a texture' 0 '' skin.txt skin.ppm -q
+check 'a JPEG as a texture: it is seen' differ skin.ppm one/a.ppm
+rm skin*
 
 run 0 scene.txt p.ppm --preview -q
 check 'preview: half blocks on stderr' has err '▀'

@@ -108,6 +108,10 @@ constexpr auto kTargets = std::to_array<Target>({
     {"ply", checkTriangles<readPly>},
     {"ppm", readPicture},
     {"pfm", readPicture},
+    {"jpeg", readPicture},
+    {"exr", readPicture},
+    {"hdr", readPicture},
+    {"tga", readPicture},
     {"png", readPng},
     {"png_rows", readPngRows},
 });

@@ -148,7 +148,7 @@ TEST(options_names) {
     CHECK_THROWS(parseOptions({}), "no scene; usage: raytracer SCENE");
     CHECK_THROWS(parsed({"b.png", "c.png"}), "too many names: 'c.png'");
     CHECK_THROWS(parsed({"b.png", "-o", "c.png"}), "two outputs: 'b.png' and --output 'c.png'");
-    CHECK_THROWS(parsed({"b.jpg"}), "must end in .ppm, .png or .pfm");
+    CHECK_THROWS(parsed({"b.jpg"}), "must end in .ppm, .png, .pfm or .exr");
     CHECK_THROWS(parsed({"b.pfm", "--bits", "8"}), "--bits is for");
     CHECK_THROWS(parsed({"-", "--stats=json"}), "cannot both go to stdout");
     CHECK_THROWS(parsed({"-", "--aov", "id"}), "--aov writes files");
