@@ -123,7 +123,8 @@ public:
         splitExrBytes(raw, split);
         ExrBuffer out(8);
         out.insert(out.end(), kZlibHeader.begin(), kZlibHeader.end());
-        out = deflatePiece(split, true, choosePacking(split), std::move(out));
+        // Looking for matches costs no more time than trying whether it is worth it.
+        out = deflatePiece(split, true, Packing::Matches, std::move(out));
         const auto end = zlibEnd(adler32(split));
         out.insert(out.end(), end.begin(), end.end());
         if (out.size() - 8 >= size) {

@@ -43,6 +43,7 @@ TEST(exr_compressions_and_types) {
             checkPicture(compression + "_half_" + kind, 33, 35, 3);
             checkPicture(compression + "_float_" + kind, 21, 19, 3);
         }
+    checkPicture("rle_small", 13, 9, 3);
     checkPicture("channels_mixed_zip", 6, 5, 3);
     checkPicture("channels_mixed_piz", 6, 5, 3);
 }
