@@ -10,7 +10,7 @@
 
 namespace {
 
-// Undoes RLE: a signed byte n from 0 says that the next byte comes n + 1 times, a negative one that
+// Undoes RLE. A signed byte n from 0 says that the next byte comes n + 1 times, a negative one that
 // -n bytes follow as they are.
 std::vector<std::uint8_t> expandExrRuns(Bytes packed, std::size_t size, const std::string& name) {
     const auto broken = [&](std::string_view what) {
@@ -19,13 +19,14 @@ std::vector<std::uint8_t> expandExrRuns(Bytes packed, std::size_t size, const st
     std::vector<std::uint8_t> out;
     out.reserve(size);
     while (!packed.empty()) {
-        const int code = static_cast<std::int8_t>(packed[0]);
-        const auto count = static_cast<std::size_t>(code < 0 ? -code : code + 1);
-        const std::size_t taken = code < 0 ? count : 1;
+        const std::size_t code = packed[0];
+        const bool isPlain = code >= 128;
+        const std::size_t count = isPlain ? 256 - code : code + 1;
+        const std::size_t taken = isPlain ? count : 1;
         packed = packed.subspan(1);
         if (taken > packed.size()) broken("it ends in the middle of a run");
         if (count > size - out.size()) broken(cat("it unpacks to more than ", size, " bytes"));
-        if (code < 0)
+        if (isPlain)
             out.insert(out.end(), packed.begin(),
                        packed.begin() + static_cast<std::ptrdiff_t>(count));
         else
@@ -63,7 +64,7 @@ void joinExrBytes(std::span<std::uint8_t> split, std::span<std::uint8_t> out) {
 std::vector<std::uint8_t> unpackExrBlock(ExrCompression compression, const ExrBlock& block,
                                          Bytes packed, const std::string& name) {
     const std::size_t size = block.bytes();
-    if (packed.size() > size || (compression == kExrNone && packed.size() != size))
+    if (packed.size() > size)
         fail(ErrorKind::Input,
              cat(name, ": error: a block has ", packed.size(), " bytes; its pixels need ", size));
     if (packed.size() == size) return {packed.begin(), packed.end()};

@@ -1,9 +1,10 @@
-// How blocks of OpenEXR pixels are packed: the bytes of some rows (of a whole part or of a tile),
-// row after row from the top, in each row one channel after the other.
-// Private to image/.
+// Blocks of OpenEXR pixels, and how they are packed. A block has the bytes of some rows (of a whole
+// part or of a tile), row after row from the top, in each row one channel after the other. Private
+// to image/.
 #pragma once
 
 #include "image/exr_header.h"
+#include "image/zlib.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -27,24 +28,31 @@ struct ExrBlock {
 // Returns how many rows of a part of scan lines make a block.
 std::size_t exrRowsOf(ExrCompression compression);
 
-// One packed byte stands for at most this many, in every compression: ZIP has the limit of deflate
-// (zlib.h), RLE makes 128 of two bytes, PIZ 510 of nine bits.
-constexpr std::size_t kMaxExrInflation = 1032;
+// Returns how many bytes one packed byte can stand for: RLE makes 128 of two bytes, PIZ 510 of nine
+// bits.
+constexpr std::size_t maxExrInflation(ExrCompression compression) {
+    switch (compression) {
+    case kExrNone: return 1;
+    case kExrRle: return 64;
+    case kExrPiz: return 512;
+    default: return kMaxInflation;
+    }
+}
 
 // Returns the block.bytes() bytes that `packed` stands for. As many packed bytes are the block
-// itself. The caller checks the size against kMaxExrInflation before: memory is taken at once.
+// itself. The caller checks the size against maxExrInflation() before: memory is taken at once.
 // Fails (ErrorKind::Input) with `name` when the packed bytes are damaged.
 std::vector<std::uint8_t> unpackExrBlock(ExrCompression compression, const ExrBlock& block,
                                          Bytes packed, const std::string& name);
-// The same for PIZ, whose packed bytes are fewer than those of the block.
+// Does the same for PIZ, whose packed bytes are fewer than those of the block.
 std::vector<std::uint8_t> unpackExrPiz(const ExrBlock& block, Bytes packed,
                                        const std::string& name);
 // Fills `out` with the 16-bit numbers of a Huffman code as PIZ has it. Fails as above.
 void unpackExrHuffman(Bytes packed, std::span<std::uint16_t> out, const std::string& name);
 
-// What ZIP and RLE do to the bytes before they pack them, so that more of them are equal. The bytes
-// at even places come first, then those at odd places; then 128 and the difference to the byte
-// before stand for each byte but the first. `out` is as long as `bytes`.
+// Does to the bytes of a block what ZIP and RLE do before they pack them, so that more of them are
+// equal. The bytes at even places come first, then those at odd places; then 128 and the difference
+// to the byte before stand for each byte but the first. `out` is as long as `bytes`.
 void splitExrBytes(Bytes bytes, std::span<std::uint8_t> out);
-// The inverse; the split bytes are overwritten.
+// Undoes splitExrBytes(); the split bytes are overwritten.
 void joinExrBytes(std::span<std::uint8_t> split, std::span<std::uint8_t> out);

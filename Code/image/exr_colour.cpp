@@ -11,7 +11,7 @@
 
 namespace {
 
-// The channels of a part that can be read, by their names.
+// Finds the channels of a part that can be read by their names.
 class ExrNames {
 public:
     explicit ExrNames(const ExrPart& part) {

@@ -124,8 +124,18 @@ private:
                        "; it must be scanlineimage, tiledimage, deepscanline or deeptile"));
     }
 
-    // A name, the pixel type, a byte for pLinear, three reserved ones, and both samplings.
+    // Reads a list of channels. Each has a name, the pixel type, a byte for pLinear, three reserved
+    // bytes, and both samplings. Their values are sorted by name, even if the list is not.
     std::vector<ExrChannel> channelsIn(Bytes list) const {
+        std::vector<ExrChannel> channels = unsortedChannels(list);
+        std::sort(channels.begin(), channels.end(),
+                  [](const ExrChannel& a, const ExrChannel& b) { return a.name < b.name; });
+        for (std::size_t i = 1; i < channels.size(); ++i)
+            if (channels[i].name == channels[i - 1].name)
+                broken(cat("two channels are called ", printableExrName(channels[i].name)));
+        return channels;
+    }
+    std::vector<ExrChannel> unsortedChannels(Bytes list) const {
         std::vector<ExrChannel> channels;
         for (std::size_t at = 0;;) {
             const std::string_view channel = textIn(list, at, "name of a channel");

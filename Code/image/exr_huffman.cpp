@@ -1,5 +1,5 @@
-// The Huffman code of PIZ, for 16-bit numbers (the OpenEXR library, ImfHuf). Bits are read from the
-// highest of each byte downwards.
+// Unpacks the Huffman code of PIZ, which stands for 16-bit numbers (the OpenEXR library, ImfHuf).
+// Bits are read from the highest of each byte downwards.
 #include "image/exr_blocks.h"
 
 #include "base/error.h"
@@ -49,8 +49,8 @@ private:
     const std::string& name_;
 };
 
-// A canonical code of the symbols 0 to 65536. Of two codes the longer one is the smaller number
-// when both are written as fractions; codes of one length grow with their symbols.
+// Decodes a canonical code of the symbols 0 to 65536. Of two codes the longer one is the smaller
+// number when both are written as fractions; codes of one length grow with their symbols.
 class ExrHuffmanDecoder {
 public:
     // Fails when the lengths, which are at most 58, are not those of a prefix code.
@@ -107,7 +107,7 @@ public:
 private:
     static constexpr std::size_t kFastBits = 12;
     std::array<std::uint32_t, std::size_t{1} << kFastBits> fast_{}; // symbol << 6 | length, or 0
-    // For each length: how many codes, the first of them, and where its symbol is.
+    // How many codes have a length, which is the first of them, and where its symbol is.
     std::array<std::uint32_t, kLongest + 1> count_{};
     std::array<std::uint64_t, kLongest + 1> first_{};
     std::array<std::uint32_t, kLongest + 1> index_{};

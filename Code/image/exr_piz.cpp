@@ -13,7 +13,7 @@
 
 namespace {
 
-// Some 16-bit numbers in columns and rows: a channel, or one half of each of its FLOATs.
+// A plane is 16-bit numbers in columns and rows: a HALF channel, or one half of each FLOAT.
 struct ExrPlane {
     std::span<std::uint16_t> values;
     std::size_t columns = 0, rows = 0;
@@ -24,7 +24,7 @@ struct ExrPlane {
     }
 };
 
-// The inverse of the wavelet of two numbers: `low` is their mean, `high` their difference.
+// Both structures undo the wavelet of two numbers: `low` is their mean, `high` their difference.
 struct ExrSignedPair { // for numbers below 2^14, where nothing overflows
     static void undo(std::uint16_t& low, std::uint16_t& high) {
         const int mean = static_cast<std::int16_t>(low);
@@ -70,8 +70,8 @@ template <class Pair> void undoExrWavelet(const ExrPlane& plane) {
     }
 }
 
-// Which of the 65536 numbers occur, as a bit each, and their numbering without gaps. Zero counts
-// as one that occurs.
+// PIZ numbers those of the 65536 possible numbers that occur without gaps. A set of bits says which
+// they are; zero counts as one of them.
 class ExrNumbering {
 public:
     // Reads the first and the last byte of the bits that is not zero, and the bytes from the first

@@ -1,7 +1,9 @@
-// Reads OpenEXR: from the table of offsets the blocks of one part, and out of them a picture.
+// Reads OpenEXR pictures (OpenEXR File Layout, "Offset Tables", "Pixel data"): follows the table of
+// offsets to the blocks of one part, and takes the colour out of them.
 #include "base/error.h"
 #include "base/text.h"
 #include "image/bits.h"
+#include "image/exr.h"
 #include "image/exr_blocks.h"
 #include "image/exr_half.h"
 
@@ -44,6 +46,7 @@ private:
         fail(ErrorKind::Input, cat(name_, ": error: ", what));
     }
 
+    // Sets the compression and the sizes of the picture and its blocks, or fails.
     void checkPart() {
         checkCompression();
         for (const ExrChannel& channel : part_.channels)
@@ -84,7 +87,8 @@ private:
         compression_ = static_cast<ExrCompression>(code);
     }
 
-    // Follows the table of offsets. Of a part with several levels the full resolution comes first.
+    // Returns the blocks that the table of offsets leads to, row by row. The table of a part with
+    // several levels begins with the full resolution.
     std::vector<Chunk> findChunks() const {
         const std::size_t columns = (width_ - 1) / blockWidth_ + 1;
         const std::size_t rows = (height_ - 1) / blockHeight_ + 1;
@@ -92,7 +96,7 @@ private:
         if (count > (file_.size() - start) / 8)
             broken(cat("the file is too short for the offsets of ", count, " blocks"));
         const std::size_t size = ExrBlock{width_, height_, part_.channels}.bytes();
-        if (size / kMaxExrInflation > file_.size())
+        if (size / maxExrInflation(compression_) > file_.size())
             broken(cat("the file is too short for ", width_, "x", height_,
                        " pixels: ", file_.size(), " bytes cannot hold ", size));
         std::vector<Chunk> chunks;
@@ -116,8 +120,8 @@ private:
         return start;
     }
 
-    // Returns the block in a column and a row of blocks. Before it are the number of its part,
-    // where there are several, its place, and its size.
+    // Returns the block in a column and a row of blocks. Its bytes come after the number of its
+    // part, where there are several, its place, and its size.
     Chunk chunkAt(std::uint64_t offset, std::size_t column, std::size_t row) const {
         constexpr std::size_t kMostNumbers = 6;
         std::array<std::int64_t, kMostNumbers> right{};
@@ -147,11 +151,12 @@ private:
         Chunk chunk{column * blockWidth_, row * blockHeight_, {}, rest.first(size)};
         chunk.block = {std::min(blockWidth_, width_ - chunk.x0),
                        std::min(blockHeight_, height_ - chunk.y0), part_.channels};
-        if (chunk.block.bytes() / kMaxExrInflation > size)
+        if (chunk.block.bytes() / maxExrInflation(compression_) > size)
             missing(cat(size, " bytes cannot hold ", chunk.block.bytes()));
         return chunk;
     }
 
+    // Copies the colour of an unpacked block to its place in the picture.
     void put(Bytes bytes, const Chunk& chunk, std::span<float> out) const {
         const std::size_t channels = colour_.channels.size(), rowBytes = chunk.block.rowBytes();
         std::size_t start = 0; // of a channel in a row of the block

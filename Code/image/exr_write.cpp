@@ -1,4 +1,5 @@
-// Writes OpenEXR: one part of scan lines, its blocks packed by ZIP.
+// Writes OpenEXR pictures as one part of scan lines, whose blocks are packed by ZIP (OpenEXR File
+// Layout, "Scan lines").
 #include "base/error.h"
 #include "base/for_each.h"
 #include "base/text.h"
@@ -28,7 +29,7 @@ public:
         out_.insert(out_.end(), text.begin(), text.end());
         out_.push_back(0);
     }
-    // The value follows, which has `size` bytes.
+    // Begins an attribute; its value follows, which has `size` bytes.
     void attribute(std::string_view name, std::string_view type, std::size_t size) {
         text(name);
         text(type);
@@ -48,7 +49,7 @@ private:
     ExrBuffer out_;
 };
 
-// The parts of a file, as they come from the layers.
+// Makes the pieces of a file out of the layers.
 class ExrEncoder {
 public:
     ExrEncoder(std::span<const ExrLayer> layers, int width, int height, bool half)
@@ -123,7 +124,8 @@ public:
         splitExrBytes(raw, split);
         ExrBuffer out(8);
         out.insert(out.end(), kZlibHeader.begin(), kZlibHeader.end());
-        out = deflatePiece(split, true, choosePacking(split), std::move(out));
+        // Looking for matches costs no more time than trying whether it is worth it.
+        out = deflatePiece(split, true, Packing::Matches, std::move(out));
         const auto end = zlibEnd(adler32(split));
         out.insert(out.end(), end.begin(), end.end());
         if (out.size() - 8 >= size) {

@@ -94,6 +94,8 @@ for compression in COMPRESSIONS:
         for tiles in (None, (31, 33) if compression == 'piz' else (8, 16)):
             write(f'{compression}_{kind}_{"tiles" if tiles else "lines"}',
                   part(planes('RGB', dtype, *size), compression=compression, tiles=tiles))
+write('rle_small', part({**planes('RGB', np.float16, 13, 9), 'Z': np.zeros((9, 13), np.float32)},
+                        compression='rle'))
 for w, h in ((1, 1), (1, 5), (3, 1), (2, 17)):
     write(f'size_{w}x{h}', part(planes('RGBA', np.float32, w, h), corner=(-7, 4)))
 for order, name in enumerate(('increasing', 'decreasing', 'random')):
