@@ -1,4 +1,5 @@
-// Entropy-coded data of a JPEG scan: sequential (ITU-T T.81, annex F) and progressive (annex G).
+// Decodes the entropy-coded data of a JPEG scan, which is sequential (ITU-T T.81, annex F) or
+// progressive (annex G).
 #include "base/error.h"
 #include "base/text.h"
 #include "image/jpeg_parts.h"
@@ -28,7 +29,7 @@ public:
     }
 
 private:
-    struct Place { // of a block
+    struct Place { // where a block is
         std::size_t part, column, row;
     };
 
@@ -79,7 +80,7 @@ private:
         return scaled(predictions_[part], scale);
     }
     std::int16_t scaled(int value, int scale) const {
-        const int product = value * scale; // below 2^30: 16 bits, and a scale of up to 2^13
+        const int product = value * scale; // it fits: 17 bits times 2^13
         constexpr int kMost = std::numeric_limits<std::int16_t>::max();
         if (product < -kMost || product > kMost)
             brokenJpeg(name_, cat("a coefficient is ", product, "; at most ", kMost));
@@ -93,7 +94,7 @@ private:
         for (unsigned k = 1; k < block.size(); ++k) {
             const unsigned symbol = bits_.symbol(*part.ac);
             const unsigned zeros = symbol >> 4, size = symbol & 15;
-            if (size == 0 && zeros < kZeroRun) break; // the end of the block
+            if (size == 0 && zeros < kZeroRun) break; // the block ends
             k += zeros;
             if (size == 0) continue;
             checkIndex(k, block.size() - 1);
@@ -119,7 +120,7 @@ private:
         if (bits_.take(1) != 0) value = static_cast<std::int16_t>(value | unit());
     }
 
-    // The first scan of a band of AC coefficients (G.1.2.2).
+    // Decodes the first scan of a band of AC coefficients (G.1.2.2).
     void firstAc(Place place) {
         if (endOfBandRun_ > 0) {
             --endOfBandRun_;
@@ -139,7 +140,7 @@ private:
             block[kJpegZigzag[k]] = scaled(bits_.takeSigned(size), unit());
         }
     }
-    // How many blocks, with this one, have no more coefficients in this band.
+    // Returns how many blocks, with this one, have no more coefficients in this band.
     unsigned endOfBandRun(unsigned exponent) { return (1u << exponent) + bits_.take(exponent); }
 
     // Adds one bit to a band of AC coefficients (G.1.2.3): to those that are there, and new ones.
@@ -182,13 +183,13 @@ private:
     }
     int unit() const { return 1 << scan_.lowBit; }
 
-    static constexpr unsigned kZeroRun = 15; // with no coefficient: 16 zeros
+    static constexpr unsigned kZeroRun = 15; // without a coefficient it means 16 zeros
 
     const JpegScan& scan_;
     const JpegFrame& frame_;
     const std::string& name_;
     JpegBits bits_;
-    std::array<int, 3> predictions_{}; // a DC coefficient of each part: the last one
+    std::array<int, 3> predictions_{}; // the last DC coefficient of each part
     unsigned endOfBandRun_ = 0;        // so many blocks more have no new coefficients
 };
 
