@@ -40,6 +40,7 @@ struct JpegComponent {
     bool hasScan = false;
     JpegSteps steps;                      // as they were before its first scan
     ZeroedVector<JpegBlock> coefficients; // of a progressive picture: storedColumns * storedRows
+    ZeroedVector<std::uint8_t> ends;      // for each of those: from this number on all are 0
     // In a progressive picture this is the lowest bit that each coefficient, in zigzag order, has
     // so far.
     static constexpr int kNoBit = -1;

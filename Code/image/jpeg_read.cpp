@@ -199,10 +199,12 @@ private:
                            cat("the component ", component.id, " has the quantisation table ",
                                component.table, ", which is not in the file before it"));
             component.steps = steps;
-            if (frame_->isProgressive)
+            if (frame_->isProgressive) {
                 component.coefficients.resize(component.storedColumns * component.storedRows);
-            else
+                component.ends.resize(component.coefficients.size());
+            } else {
                 component.samples.resize(kJpegSide * component.storedRows * component.stride());
+            }
         } else if (!frame_->isProgressive) {
             brokenJpeg(name_, cat("the component ", component.id, " has two scans; one"));
         }

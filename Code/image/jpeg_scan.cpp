@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "image/jpeg_parts.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace {
@@ -16,15 +17,15 @@ public:
 
     std::size_t decode() {
         if (!frame_.isProgressive)
-            walk([this](Place place) { sequential(place); });
+            walk([this](const Place& place) { sequential(place); });
         else if (scan_.spectralStart == 0 && scan_.highBit == 0)
-            walk([this](Place place) { firstDc(place); });
+            walk([this](const Place& place) { firstDc(place); });
         else if (scan_.spectralStart == 0)
-            walk([this](Place place) { refineDc(place); });
+            walk([this](const Place& place) { refineDc(place); });
         else if (scan_.highBit == 0)
-            walk([this](Place place) { firstAc(place); });
+            walk([this](const Place& place) { firstAc(place); });
         else
-            walk([this](Place place) { refineAc(place); });
+            walk([this](const Place& place) { refineAc(place); });
         return bits_.position();
     }
 
@@ -49,7 +50,7 @@ private:
                     untilRestart = scan_.restartInterval - 1;
                 }
                 if (isSingle)
-                    decodeBlock({0, column, row});
+                    decodeBlock(Place{0, column, row});
                 else
                     walkMcu(column, row, decodeBlock);
             }
@@ -87,7 +88,7 @@ private:
         return static_cast<std::int16_t>(product);
     }
 
-    void sequential(Place place) {
+    void sequential(const Place& place) {
         const JpegScan::Part& part = scan_.parts[place.part];
         JpegBlock block{};
         block[0] = nextDc(place.part, 1);
@@ -110,23 +111,34 @@ private:
                                   last, " in this scan"));
     }
 
-    JpegBlock& blockAt(Place place) {
-        JpegComponent& component = *scan_.parts[place.part].component;
-        return component.coefficients[place.row * component.storedColumns + place.column];
+    JpegBlock& blockAt(const Place& place) {
+        return scan_.parts[place.part].component->coefficients[indexOf(place)];
     }
-    void firstDc(Place place) { blockAt(place)[0] = nextDc(place.part, unit()); }
-    void refineDc(Place place) {
+    std::uint8_t& endAt(const Place& place) {
+        return scan_.parts[place.part].component->ends[indexOf(place)];
+    }
+    std::size_t indexOf(const Place& place) const {
+        return place.row * scan_.parts[place.part].component->storedColumns + place.column;
+    }
+    // Sets an AC coefficient that was 0.
+    void put(const Place& place, unsigned k, std::int16_t value) {
+        checkIndex(k, scan_.spectralEnd);
+        blockAt(place)[kJpegZigzag[k]] = value;
+        std::uint8_t& end = endAt(place);
+        end = std::max(end, static_cast<std::uint8_t>(k + 1));
+    }
+    void firstDc(const Place& place) { blockAt(place)[0] = nextDc(place.part, unit()); }
+    void refineDc(const Place& place) {
         std::int16_t& value = blockAt(place)[0];
         if (bits_.take(1) != 0) value = static_cast<std::int16_t>(value | unit());
     }
 
     // Decodes the first scan of a band of AC coefficients (G.1.2.2).
-    void firstAc(Place place) {
+    void firstAc(const Place& place) {
         if (endOfBandRun_ > 0) {
             --endOfBandRun_;
             return;
         }
-        JpegBlock& block = blockAt(place);
         for (unsigned k = scan_.spectralStart; k <= scan_.spectralEnd; ++k) {
             const unsigned symbol = bits_.symbol(*scan_.parts[0].ac);
             const unsigned zeros = symbol >> 4, size = symbol & 15;
@@ -136,15 +148,14 @@ private:
             }
             k += zeros;
             if (size == 0) continue;
-            checkIndex(k, scan_.spectralEnd);
-            block[kJpegZigzag[k]] = scaled(bits_.takeSigned(size), unit());
+            put(place, k, scaled(bits_.takeSigned(size), unit()));
         }
     }
     // Returns how many blocks, with this one, have no more coefficients in this band.
     unsigned endOfBandRun(unsigned exponent) { return (1u << exponent) + bits_.take(exponent); }
 
     // Adds one bit to a band of AC coefficients (G.1.2.3): to those that are there, and new ones.
-    void refineAc(Place place) {
+    void refineAc(const Place& place) {
         JpegBlock& block = blockAt(place);
         unsigned k = scan_.spectralStart;
         while (endOfBandRun_ == 0 && k <= scan_.spectralEnd) {
@@ -158,14 +169,12 @@ private:
             }
             const int fresh = size == 0 ? 0 : bits_.take(1) != 0 ? unit() : -unit();
             k = refineUpToZero(block, k, zeros);
-            if (fresh != 0) {
-                checkIndex(k, scan_.spectralEnd);
-                block[kJpegZigzag[k]] = static_cast<std::int16_t>(fresh);
-            }
+            if (fresh != 0) put(place, k, static_cast<std::int16_t>(fresh));
             ++k;
         }
         if (endOfBandRun_ == 0) return;
-        refineUpToZero(block, k, kJpegZigzag.size());
+        // Many scans of nothing but zeros would take long otherwise.
+        if (k < endAt(place)) refineUpToZero(block, k, kJpegZigzag.size());
         --endOfBandRun_;
     }
     // Takes the next bit of each coefficient that is not zero, from the number k on, until `zeros`

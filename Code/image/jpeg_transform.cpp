@@ -81,4 +81,5 @@ void transformJpegComponent(JpegComponent& component) {
             inverseJpegTransform(*block++, component.steps, component.blockSamples(column, row),
                                  component.stride());
     ZeroedVector<JpegBlock>().swap(component.coefficients);
+    ZeroedVector<std::uint8_t>().swap(component.ends);
 }
