@@ -1,4 +1,4 @@
-// Huffman tables and bits of JPEG: what is not done for each symbol.
+// Does what Huffman tables and bits of JPEG need, but not for each symbol.
 #include "image/jpeg_bits.h"
 
 #include "base/error.h"

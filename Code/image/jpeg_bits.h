@@ -1,4 +1,5 @@
-// Huffman codes and bits of a JPEG file's entropy-coded data (ITU-T T.81, annexes C and F).
+// Takes Huffman codes and bits out of a JPEG file's entropy-coded data (ITU-T T.81, annexes C and
+// F).
 // Private to image/.
 #pragma once
 
@@ -25,7 +26,7 @@ public:
     bool define(Bytes counts, Bytes symbols);
     bool isDefined() const { return isDefined_; }
 
-    // The code that the next 16 bits begin with.
+    // Finds the code that the next 16 bits begin with.
     Found find(unsigned bits) const {
         const Found quick = quick_[bits >> (kLongest - kQuick)];
         if (quick.length != 0) return quick;
@@ -44,7 +45,7 @@ private:
     std::array<Found, 1 << kQuick> quick_{};
     // Codes of n bits, filled up to 16 bits, are in end_[n - 1]..end_[n] (without the latter).
     std::array<unsigned, kLongest + 1> end_{};
-    std::array<unsigned, kLongest + 1> first_{}; // index of the first symbol with n bits
+    std::array<unsigned, kLongest + 1> first_{}; // the first symbol with n bits has this index
     std::array<std::uint8_t, 256> symbols_{};
 };
 
@@ -64,7 +65,7 @@ public:
         drop(found.length);
         return found.symbol;
     }
-    // The next n bits as a number; n is at most 16.
+    // Returns the next n bits as a number; n is at most 16.
     unsigned take(unsigned n) {
         if (n == 0) return 0;
         if (count_ < n) fill();
@@ -72,8 +73,8 @@ public:
         drop(n);
         return bits;
     }
-    // A number of n bits that is negative when its first bit is 0 (EXTEND in F.2.2.1); n is at most
-    // 15.
+    // Returns a number of n bits that is negative when its first bit is 0 (EXTEND in F.2.2.1); n is
+    // at most 15.
     int takeSigned(unsigned n) {
         if (n == 0) return 0;
         const int bits = static_cast<int>(take(n));
@@ -81,7 +82,8 @@ public:
     }
     // Goes on behind the next marker, which must be the restart marker with this number, 0 to 7.
     void restart(unsigned number);
-    // A byte after the last bit that was taken, and not after the next marker.
+    // Returns the position of a byte after the last bit that was taken, and not after the next
+    // marker.
     std::size_t position() const { return at_; }
 
 private:
@@ -98,10 +100,11 @@ private:
     std::size_t at_;
     const std::string& name_;
     std::uint64_t waiting_ = 0; // the next bit is the highest; zeros after the last one
-    unsigned count_ = 0;        // of bits in it
-    bool isAtEnd_ = false;      // of the file or at a marker
+    unsigned count_ = 0;        // of its bits that are from the file
+    bool isAtEnd_ = false;      // no more bits come: a marker or the file's end follows
 };
 
-// The position of the next marker's last byte, which is neither 0 nor 0xFF, at `at` or later; the
-// size of the file when there is none. Bytes before markers that mean nothing are skipped.
+// Returns the position of the next marker's last byte, which is neither 0 nor 0xFF, at `at` or
+// later; the size of the file when there is none. Bytes before markers that mean nothing are
+// skipped.
 std::size_t nextJpegMarker(Bytes file, std::size_t at);

@@ -1,4 +1,4 @@
-// From the planes of a JPEG picture to its pixels: planes of another size are resampled, YCbCr
+// Makes pixels of the planes of a JPEG picture: planes of another size are resampled, and YCbCr
 // becomes RGB.
 #include "image/jpeg_parts.h"
 
@@ -6,7 +6,7 @@
 
 namespace {
 
-// The rows of one component with as many samples as the picture has.
+// Gives the rows of one component with as many samples as the picture has.
 class JpegPlane {
 public:
     JpegPlane(const JpegComponent& component, const JpegFrame& frame)
@@ -16,7 +16,7 @@ public:
         const bool hasWidth = frame.mostHorizontal == component.horizontal;
         const bool hasHeight = frame.mostVertical == component.vertical;
         if (hasWidth && hasHeight) return;
-        // Two samples or one beside each other are repeated, as other decoders do.
+        // Rows of one or two samples are repeated, as other decoders do it.
         if ((isDoubled && component.width > 2 && (hasHeight || isTwiceAsHigh)) ||
             (hasWidth && isTwiceAsHigh)) {
             kind_ = Kind::Linear;
@@ -31,7 +31,7 @@ public:
             columns_[x] = x * component.horizontal / frame.mostHorizontal;
     }
 
-    // Row y of the picture; valid until the next call.
+    // Returns row y of the picture, which is valid until the next call.
     const std::uint8_t* row(std::size_t y) {
         if (kind_ == Kind::Linear) {
             interpolate(y);
@@ -88,12 +88,12 @@ private:
     const JpegComponent& component_;
     const JpegFrame& frame_;
     Kind kind_ = Kind::Same;
-    std::vector<int> sums_;            // Linear: of one or two rows
-    std::vector<std::size_t> columns_; // Repeated: the sample for each pixel of a row
+    std::vector<int> sums_;            // Linear: a weighted sum of one or two rows
+    std::vector<std::size_t> columns_; // Repeated: which sample a pixel has
     std::vector<std::uint8_t> row_;
 };
 
-// RGB from YCbCr (T.871, clause 7), the factors with 16 bits behind the point.
+// Computes RGB from YCbCr (T.871, clause 7); the factors have 16 bits behind the point.
 void putJpegYcc(int y, int blue, int red, std::uint8_t* out) {
     constexpr int kBits = 16, kHalf = 1 << (kBits - 1), kMiddle = 128;
     constexpr int kRedFromRed = 91881, kBlueFromBlue = 116130;   // 1.402, 1.772

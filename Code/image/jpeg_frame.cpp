@@ -1,4 +1,5 @@
-// The frame header of a JPEG file (ITU-T T.81, B.2.2): the size of the picture and of its planes.
+// Reads the frame header of a JPEG file (ITU-T T.81, B.2.2), which says how large the picture and
+// its planes are.
 #include "base/error.h"
 #include "base/text.h"
 #include "image/jpeg_parts.h"
@@ -44,7 +45,7 @@ JpegComponent jpegComponentOf(Bytes bytes, const std::string& name) {
     return component;
 }
 
-// The size of a plane (A.1.1, A.2.4).
+// Computes the size of a plane (A.1.1, A.2.4).
 void sizeJpegComponent(JpegComponent& component, const JpegFrame& frame) {
     component.width = jpegQuotientUp(frame.width * component.horizontal, frame.mostHorizontal);
     component.height = jpegQuotientUp(frame.height * component.vertical, frame.mostVertical);

@@ -1,5 +1,5 @@
-// What the parts of the JPEG reader share: the picture as its frame header describes it, and the
-// steps from a file's bytes to pixels. Names of clauses are those of ITU-T T.81.
+// The parts of the JPEG reader share this: the picture as its frame header describes it, and the
+// steps from a file's bytes to pixels. Clauses are those of ITU-T T.81.
 // Private to image/.
 #pragma once
 
@@ -16,19 +16,19 @@
 constexpr std::size_t kJpegSide = 8; // a block has 8 x 8 samples, or as many coefficients
 using JpegBlock = std::array<std::int16_t, kJpegSide * kJpegSide>; // row by row
 
-// Where the coefficients of a block are, in the order of the file (figure A.6).
+// This says where the coefficients of a block are, in the order of the file (figure A.6).
 constexpr std::array<std::uint8_t, kJpegSide * kJpegSide> kJpegZigzag{
     0,  1,  8,  16, 9,  2,  3,  10, 17, 24, 32, 25, 18, 11, 4,  5,  12, 19, 26, 33, 40, 48,
     41, 34, 27, 20, 13, 6,  7,  14, 21, 28, 35, 42, 49, 56, 57, 50, 43, 36, 29, 22, 15, 23,
     30, 37, 44, 51, 58, 59, 52, 45, 38, 31, 39, 46, 53, 60, 61, 54, 47, 55, 62, 63};
 
-// A quantisation table: what each coefficient is multiplied by, row by row like a block.
+// A quantisation table says what each coefficient is multiplied by, row by row like a block.
 struct JpegSteps {
     std::array<std::uint16_t, kJpegSide * kJpegSide> values{};
     bool isDefined = false;
 };
 
-// One of the planes of which a picture is made: Y, Cb, Cr or another colour.
+// A component is one of the planes of which a picture is made: Y, Cb, Cr or another colour.
 struct JpegComponent {
     unsigned id = 0;
     std::size_t horizontal = 1, vertical = 1;      // sampling factors H and V
@@ -40,7 +40,9 @@ struct JpegComponent {
     bool hasScan = false;
     JpegSteps steps;                      // as they were before its first scan
     ZeroedVector<JpegBlock> coefficients; // of a progressive picture: storedColumns * storedRows
-    // Of a progressive picture: the lowest bit that each coefficient, in zigzag order, has so far.
+    ZeroedVector<std::uint8_t> ends;      // for each of those: from this number on all are 0
+    // In a progressive picture this is the lowest bit that each coefficient, in zigzag order, has
+    // so far.
     static constexpr int kNoBit = -1;
     std::array<int, kJpegSide * kJpegSide> lowestBit{};
     ZeroedVector<std::uint8_t> samples; // rows of stride()
@@ -59,7 +61,7 @@ struct JpegFrame {
     std::vector<JpegComponent> components; // 1 or 3
 };
 
-// What a scan header says (B.2.3), and the tables that are in force.
+// This is what a scan header says (B.2.3), and the tables that are in force.
 struct JpegScan {
     struct Part {
         JpegComponent* component = nullptr;
@@ -71,12 +73,13 @@ struct JpegScan {
     std::size_t restartInterval = 0;             // in MCUs; 0: there are no restart markers
 };
 
-// The frame that a SOF0, SOF1 or SOF2 segment describes, without any samples. `left` is how many
-// bytes the file has after the segment; a picture that cannot fit into them is refused.
+// Returns the frame that a SOF0, SOF1 or SOF2 segment describes, without any samples. `left` is how
+// many bytes the file has after the segment; a picture that cannot fit into them is refused.
 JpegFrame readJpegFrame(Bytes segment, bool isProgressive, std::size_t left,
                         const std::string& name);
 
-// The tables of a DQT and of a DHT segment (B.2.4); each replaces the one of the same number.
+// These read the tables of a DQT and of a DHT segment (B.2.4); each replaces the one of the same
+// number. They fail when the segment is too short or its tables cannot be.
 constexpr std::size_t kJpegTables = 4;
 struct JpegTables {
     std::array<JpegSteps, kJpegTables> steps;
@@ -90,11 +93,12 @@ void readJpegHuffman(Bytes segment, JpegTables& tables, const std::string& name)
 std::size_t decodeJpegScan(const JpegScan& scan, const JpegFrame& frame, Bytes file, std::size_t at,
                            const std::string& name);
 
-// The samples of a block from its quantised coefficients (A.3.3, A.3.4), in rows of `stride` bytes.
+// Computes the samples of a block from its quantised coefficients (A.3.3, A.3.4), eight in each of
+// eight rows that are `stride` bytes apart.
 void inverseJpegTransform(const JpegBlock& block, const JpegSteps& steps, std::uint8_t* samples,
                           std::size_t stride);
 // Fills the samples of a progressive picture's component and frees its coefficients.
 void transformJpegComponent(JpegComponent& component);
 
-// The picture of all samples. Without `isYcc` three components are RGB.
+// Makes the picture of all samples. Without `isYcc` three components are RGB.
 StoredImage jpegPicture(const JpegFrame& frame, bool isYcc);

@@ -12,7 +12,7 @@ using namespace std::string_view_literals;
 
 namespace {
 
-// The last bytes of markers (table B.1).
+// These are the last bytes of markers (table B.1).
 enum JpegMarker : unsigned {
     kJpegTemporary = 0x01,
     kJpegBaseline = 0xC0,
@@ -26,11 +26,11 @@ enum JpegMarker : unsigned {
     kJpegScanStart = 0xDA,
     kJpegQuantisation = 0xDB,
     kJpegRestartInterval = 0xDD,
-    kJpegApplication = 0xE0,      // JFIF
-    kJpegApplicationAdobe = 0xEE, // 14
+    kJpegApplication = 0xE0,      // APP0: JFIF uses it
+    kJpegApplicationAdobe = 0xEE, // APP14
 };
 
-// What this reader does not know how to read, or an empty text.
+// Says which kind of picture a marker belongs to that this reader does not read; "" for others.
 std::string_view jpegUnknownKind(unsigned marker) {
     switch (marker) {
     case 0xC3: return "lossless";
@@ -68,7 +68,7 @@ public:
             at = marker + 1;
             if (kind == kJpegEnd) break;
             if (kind == kJpegTemporary || (kind >= kJpegFirstRestart && kind <= kJpegLastRestart))
-                continue; // without a segment
+                continue; // these markers have no segment
             const Bytes segment = segmentAt(at);
             at += 2 + segment.size();
             if (kind == kJpegScanStart)
@@ -80,7 +80,7 @@ public:
     }
 
 private:
-    // The bytes of a segment behind its length, which starts at `at`.
+    // Returns the bytes of a segment without its length, which starts at `at`.
     Bytes segmentAt(std::size_t at) const {
         const std::size_t left = file_.size() - at;
         const std::size_t length =
@@ -114,10 +114,10 @@ private:
             restartInterval_ = static_cast<std::size_t>(segment[0] << 8 | segment[1]);
             break;
         case kJpegApplication: isJfif_ = isJfif_ || text.starts_with("JFIF\0"sv); break;
-        case kJpegApplicationAdobe: // five letters, three numbers of two bytes, the transform
+        case kJpegApplicationAdobe: // byte 11 is the transform
             if (text.starts_with("Adobe") && segment.size() >= 12) adobeTransform_ = segment[11];
             break;
-        default: break; // comments and what belongs to applications
+        default: break; // comments and the data of applications are skipped
         }
     }
 
@@ -149,7 +149,7 @@ private:
         return decodeJpegScan(scan, *frame_, file_, at, name_);
     }
 
-    // Which coefficients and bits a progressive scan may have (G.1.1.1).
+    // Fails unless a progressive scan may have these coefficients and bits (G.1.1.1).
     void checkBand(const JpegScan& scan, std::size_t count) const {
         const bool isDc = scan.spectralStart == 0;
         if (isDc ? scan.spectralEnd != 0
@@ -199,10 +199,12 @@ private:
                            cat("the component ", component.id, " has the quantisation table ",
                                component.table, ", which is not in the file before it"));
             component.steps = steps;
-            if (frame_->isProgressive)
+            if (frame_->isProgressive) {
                 component.coefficients.resize(component.storedColumns * component.storedRows);
-            else
+                component.ends.resize(component.coefficients.size());
+            } else {
                 component.samples.resize(kJpegSide * component.storedRows * component.stride());
+            }
         } else if (!frame_->isProgressive) {
             brokenJpeg(name_, cat("the component ", component.id, " has two scans; one"));
         }

@@ -1,8 +1,10 @@
-// Entropy-coded data of a JPEG scan: sequential (ITU-T T.81, annex F) and progressive (annex G).
+// Decodes the entropy-coded data of a JPEG scan, which is sequential (ITU-T T.81, annex F) or
+// progressive (annex G).
 #include "base/error.h"
 #include "base/text.h"
 #include "image/jpeg_parts.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace {
@@ -15,20 +17,20 @@ public:
 
     std::size_t decode() {
         if (!frame_.isProgressive)
-            walk([this](Place place) { sequential(place); });
+            walk([this](const Place& place) { sequential(place); });
         else if (scan_.spectralStart == 0 && scan_.highBit == 0)
-            walk([this](Place place) { firstDc(place); });
+            walk([this](const Place& place) { firstDc(place); });
         else if (scan_.spectralStart == 0)
-            walk([this](Place place) { refineDc(place); });
+            walk([this](const Place& place) { refineDc(place); });
         else if (scan_.highBit == 0)
-            walk([this](Place place) { firstAc(place); });
+            walk([this](const Place& place) { firstAc(place); });
         else
-            walk([this](Place place) { refineAc(place); });
+            walk([this](const Place& place) { refineAc(place); });
         return bits_.position();
     }
 
 private:
-    struct Place { // of a block
+    struct Place { // where a block is
         std::size_t part, column, row;
     };
 
@@ -48,7 +50,7 @@ private:
                     untilRestart = scan_.restartInterval - 1;
                 }
                 if (isSingle)
-                    decodeBlock({0, column, row});
+                    decodeBlock(Place{0, column, row});
                 else
                     walkMcu(column, row, decodeBlock);
             }
@@ -79,21 +81,21 @@ private:
         return scaled(predictions_[part], scale);
     }
     std::int16_t scaled(int value, int scale) const {
-        const int product = value * scale; // below 2^30: 16 bits, and a scale of up to 2^13
+        const int product = value * scale; // it fits: 17 bits times 2^13
         constexpr int kMost = std::numeric_limits<std::int16_t>::max();
         if (product < -kMost || product > kMost)
             brokenJpeg(name_, cat("a coefficient is ", product, "; at most ", kMost));
         return static_cast<std::int16_t>(product);
     }
 
-    void sequential(Place place) {
+    void sequential(const Place& place) {
         const JpegScan::Part& part = scan_.parts[place.part];
         JpegBlock block{};
         block[0] = nextDc(place.part, 1);
         for (unsigned k = 1; k < block.size(); ++k) {
             const unsigned symbol = bits_.symbol(*part.ac);
             const unsigned zeros = symbol >> 4, size = symbol & 15;
-            if (size == 0 && zeros < kZeroRun) break; // the end of the block
+            if (size == 0 && zeros < kZeroRun) break; // the block ends
             k += zeros;
             if (size == 0) continue;
             checkIndex(k, block.size() - 1);
@@ -109,23 +111,34 @@ private:
                                   last, " in this scan"));
     }
 
-    JpegBlock& blockAt(Place place) {
-        JpegComponent& component = *scan_.parts[place.part].component;
-        return component.coefficients[place.row * component.storedColumns + place.column];
+    JpegBlock& blockAt(const Place& place) {
+        return scan_.parts[place.part].component->coefficients[indexOf(place)];
     }
-    void firstDc(Place place) { blockAt(place)[0] = nextDc(place.part, unit()); }
-    void refineDc(Place place) {
+    std::uint8_t& endAt(const Place& place) {
+        return scan_.parts[place.part].component->ends[indexOf(place)];
+    }
+    std::size_t indexOf(const Place& place) const {
+        return place.row * scan_.parts[place.part].component->storedColumns + place.column;
+    }
+    // Sets an AC coefficient that was 0.
+    void put(const Place& place, unsigned k, std::int16_t value) {
+        checkIndex(k, scan_.spectralEnd);
+        blockAt(place)[kJpegZigzag[k]] = value;
+        std::uint8_t& end = endAt(place);
+        end = std::max(end, static_cast<std::uint8_t>(k + 1));
+    }
+    void firstDc(const Place& place) { blockAt(place)[0] = nextDc(place.part, unit()); }
+    void refineDc(const Place& place) {
         std::int16_t& value = blockAt(place)[0];
         if (bits_.take(1) != 0) value = static_cast<std::int16_t>(value | unit());
     }
 
-    // The first scan of a band of AC coefficients (G.1.2.2).
-    void firstAc(Place place) {
+    // Decodes the first scan of a band of AC coefficients (G.1.2.2).
+    void firstAc(const Place& place) {
         if (endOfBandRun_ > 0) {
             --endOfBandRun_;
             return;
         }
-        JpegBlock& block = blockAt(place);
         for (unsigned k = scan_.spectralStart; k <= scan_.spectralEnd; ++k) {
             const unsigned symbol = bits_.symbol(*scan_.parts[0].ac);
             const unsigned zeros = symbol >> 4, size = symbol & 15;
@@ -135,15 +148,14 @@ private:
             }
             k += zeros;
             if (size == 0) continue;
-            checkIndex(k, scan_.spectralEnd);
-            block[kJpegZigzag[k]] = scaled(bits_.takeSigned(size), unit());
+            put(place, k, scaled(bits_.takeSigned(size), unit()));
         }
     }
-    // How many blocks, with this one, have no more coefficients in this band.
+    // Returns how many blocks, with this one, have no more coefficients in this band.
     unsigned endOfBandRun(unsigned exponent) { return (1u << exponent) + bits_.take(exponent); }
 
     // Adds one bit to a band of AC coefficients (G.1.2.3): to those that are there, and new ones.
-    void refineAc(Place place) {
+    void refineAc(const Place& place) {
         JpegBlock& block = blockAt(place);
         unsigned k = scan_.spectralStart;
         while (endOfBandRun_ == 0 && k <= scan_.spectralEnd) {
@@ -157,14 +169,12 @@ private:
             }
             const int fresh = size == 0 ? 0 : bits_.take(1) != 0 ? unit() : -unit();
             k = refineUpToZero(block, k, zeros);
-            if (fresh != 0) {
-                checkIndex(k, scan_.spectralEnd);
-                block[kJpegZigzag[k]] = static_cast<std::int16_t>(fresh);
-            }
+            if (fresh != 0) put(place, k, static_cast<std::int16_t>(fresh));
             ++k;
         }
         if (endOfBandRun_ == 0) return;
-        refineUpToZero(block, k, kJpegZigzag.size());
+        // Many scans of nothing but zeros would take long otherwise.
+        if (k < endAt(place)) refineUpToZero(block, k, kJpegZigzag.size());
         --endOfBandRun_;
     }
     // Takes the next bit of each coefficient that is not zero, from the number k on, until `zeros`
@@ -182,13 +192,13 @@ private:
     }
     int unit() const { return 1 << scan_.lowBit; }
 
-    static constexpr unsigned kZeroRun = 15; // with no coefficient: 16 zeros
+    static constexpr unsigned kZeroRun = 15; // without a coefficient it means 16 zeros
 
     const JpegScan& scan_;
     const JpegFrame& frame_;
     const std::string& name_;
     JpegBits bits_;
-    std::array<int, 3> predictions_{}; // a DC coefficient of each part: the last one
+    std::array<int, 3> predictions_{}; // the last DC coefficient of each part
     unsigned endOfBandRun_ = 0;        // so many blocks more have no new coefficients
 };
 

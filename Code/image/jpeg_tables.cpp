@@ -1,4 +1,4 @@
-// The tables of a JPEG file: quantisation (ITU-T T.81, B.2.4.1) and Huffman codes (B.2.4.2).
+// Reads the tables of a JPEG file: quantisation (ITU-T T.81, B.2.4.1) and Huffman codes (B.2.4.2).
 #include "base/error.h"
 #include "base/text.h"
 #include "image/jpeg_parts.h"

@@ -1,14 +1,14 @@
-// The inverse discrete cosine transform of JPEG's 8 x 8 blocks, in integers.
+// Computes the inverse discrete cosine transform of JPEG's 8 x 8 blocks in integers.
 #include "image/jpeg_parts.h"
 
 #include <algorithm>
 
 namespace {
 
-// sqrt(2) cos(k pi / 16) with 13 bits behind the point. Each number is the sum of the rounded
-// factors by which the transform of Loeffler, Ligtenberg and Moschytz (ICASSP 1989) multiplies a
-// coefficient on its way to a sample. Common decoders work that way, and this one gives the same
-// samples; some numbers are 1 / 8192 off for that.
+// The matrices hold sqrt(2) cos(k pi / 16) with 13 bits behind the point. Each number is the sum of
+// the rounded factors by which the transform of Loeffler, Ligtenberg and Moschytz (ICASSP 1989)
+// multiplies a coefficient on its way to a sample. Common decoders work that way, and this one
+// gives the same samples; some numbers are 1 / 8192 off for that.
 constexpr int kJpegCosineBits = 13;
 constexpr std::int64_t kJpegOne = 1 << kJpegCosineBits;
 constexpr std::int64_t kJpegEven[2][2] = {{10703, 4433}, {4433, -10704}}; // of coefficients 2, 6
@@ -17,8 +17,8 @@ constexpr std::int64_t kJpegOdd[4][4] = {{11363, 9633, 6437, 2260}, // of coeffi
                                          {6437, -11362, 2261, 9633},
                                          {2260, -6436, 9633, -11363}};
 
-// The transform of eight numbers, sqrt(8) times as large as A.3.3 says for each direction. Each sum
-// of even and each of odd coefficients serves two samples.
+// Transforms eight numbers; the result is sqrt(8) times as large as A.3.3 says for a direction.
+// Each sum of even and each of odd coefficients serves two samples.
 std::array<std::int64_t, kJpegSide> jpegCosineSums(const std::array<std::int64_t, kJpegSide>& x) {
     const auto even = [&](int i) { return kJpegEven[i][0] * x[2] + kJpegEven[i][1] * x[6]; };
     const auto odd = [&](int i) {
@@ -48,7 +48,7 @@ void inverseJpegTransform(const JpegBlock& block, const JpegSteps& steps, std::u
     std::array<std::array<std::int64_t, kJpegSide>, kJpegSide> rows;
     for (std::size_t x = 0; x < kJpegSide; ++x) {
         std::array<std::int64_t, kJpegSide> column;
-        std::int64_t other = 0; // not zero if any coefficient but the first is
+        std::int64_t other = 0; // is not zero if any coefficient but the first is not
         for (std::size_t y = 0; y < kJpegSide; ++y) {
             const std::size_t i = y * kJpegSide + x;
             column[y] = std::int64_t{block[i]} * steps.values[i];
@@ -81,4 +81,5 @@ void transformJpegComponent(JpegComponent& component) {
             inverseJpegTransform(*block++, component.steps, component.blockSamples(column, row),
                                  component.stride());
     ZeroedVector<JpegBlock>().swap(component.coefficients);
+    ZeroedVector<std::uint8_t>().swap(component.ends);
 }

@@ -15,7 +15,7 @@ namespace {
 
 using namespace jpeg_kit;
 
-const std::string kName = "test.jpg";
+constexpr const char* kName = "test.jpg";
 
 StoredImage decoded(const File& file) { return decodeJpeg(file, kName); }
 bool isProgressive(const File& file) { return find(file, kProgressiveFrame) != file.size(); }
@@ -34,7 +34,7 @@ bool isRead(const File& file, const std::string& info) {
         return true;
     } catch (const Error& error) {
         CHECK_INFO(error.kind() == ErrorKind::Input &&
-                       std::string(error.what()).starts_with(kName + ": error: "),
+                       std::string(error.what()).starts_with("test.jpg: error: "),
                    info << ": " << error.what());
     } catch (const std::exception& error) {
         CHECK_INFO(false, info << " threw " << error.what());

@@ -44,10 +44,10 @@ TEST(jpeg_transform_is_as_exact_as_it_has_to_be) {
     for (int i = 0; i < kBlocks; ++i) {
         JpegBlock block{};
         JpegSteps steps;
-        const unsigned range = 4u << random() % 5, count = 8 + random() % 56;
+        const std::size_t range = std::size_t{4} << random() % 5, count = 8 + random() % 56;
         for (auto& step : steps.values) step = static_cast<std::uint16_t>(1 + random() % 6);
         block[0] = static_cast<std::int16_t>(random() % 200);
-        for (unsigned k = 0; k < count; ++k)
+        for (std::size_t k = 0; k < count; ++k)
             block[random() % 64] = static_cast<std::int16_t>(static_cast<int>(random() % range) -
                                                              static_cast<int>(range / 2));
         Data samples(64);
