@@ -209,8 +209,8 @@ CASES = {
     # Other files
     'empty.png': (b'', "the file is empty; what can be read: PPM, PNG, PFM"),
     'garbage.png': (bytes(range(7, 200)), "the file is no picture of a known kind"),
-    'jpeg.png': (b'\xff\xd8\xff\xe0\0\x10JFIF', "this is a JPEG picture; what can be read"),
-    'exr.exr': (b'\x76\x2f\x31\x01\2\0\0\0', "this is an OpenEXR picture"),
+    'jpeg.png': (b'\xff\xd8\xff\xe0\0\x10JFIF', "the file ends in the middle of a segment"),
+    'exr.exr': (b'\x76\x2f\x31\x01\2\0\0\0', "the file ends in the middle of the header"),
 }
 
 for name, (data, words) in CASES.items():
