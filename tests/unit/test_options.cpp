@@ -132,7 +132,7 @@ TEST(options_unknown_flag_is_answered_with_the_nearest) {
         {"--no-antialiasing", "here it is --no-aa"},
         {"--input", "here it is SCENE as the first word"},
     };
-    for (const auto& [written, message] : others) CHECK_THROWS(parsed({written}), message);
+    for (const auto& other : others) CHECK_THROWS(parsed({other.first}), other.second);
     CHECK_THROWS(parsed({"-Z"}), "unknown option '-Z'");
     CHECK_THROWS(parsed({"-qv"}), "unknown option '-qv'");
     CHECK_THROWS(parsed({"--no-spp"}), "unknown option '--no-spp'");
