@@ -94,10 +94,10 @@ public:
             return entry >> 6;
         }
         for (std::size_t n = kFastBits + 1; n <= kLongest; ++n) {
-            const std::uint64_t place = (waiting >> (64 - n)) - first_[n]; // large if before it
-            if (place >= count_[n]) continue;
+            const std::uint64_t code = waiting >> (64 - n);
+            if (code < first_[n] || code - first_[n] >= count_[n]) continue;
             bits.consume(n);
-            return symbols_[index_[n] + static_cast<std::size_t>(place)];
+            return symbols_[index_[n] + static_cast<std::size_t>(code - first_[n])];
         }
         brokenExrHuffman(name_, "a code that stands for nothing");
     }
