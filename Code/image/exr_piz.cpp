@@ -36,8 +36,8 @@ struct ExrSignedPair { // for numbers below 2^14, where nothing overflows
 };
 struct ExrModuloPair { // for all others: modulo 2^16
     static void undo(std::uint16_t& low, std::uint16_t& high) {
-        const unsigned mean = low, difference = high;
-        const unsigned b = (mean - (difference >> 1)) & 0xFFFF;
+        const int mean = low, difference = high;
+        const int b = (mean - (difference >> 1)) & 0xFFFF;
         low = static_cast<std::uint16_t>(difference + b - 0x8000);
         high = static_cast<std::uint16_t>(b);
     }

@@ -183,7 +183,8 @@ private:
         for (; k <= scan_.spectralEnd; ++k) {
             std::int16_t& value = block[kJpegZigzag[k]];
             if (value == 0) {
-                if (zeros-- == 0) break;
+                if (zeros == 0) break;
+                --zeros;
             } else if (bits_.take(1) != 0) {
                 value = static_cast<std::int16_t>(value + (value > 0 ? unit() : -unit()));
             }
