@@ -50,8 +50,8 @@ std::size_t exrRowsOf(ExrCompression compression) {
 void splitExrBytes(Bytes bytes, std::span<std::uint8_t> out) {
     const std::size_t half = (bytes.size() + 1) / 2;
     for (std::size_t i = 0; i < bytes.size(); ++i) out[i % 2 * half + i / 2] = bytes[i];
-    for (std::size_t i = out.size(); i-- > 1;)
-        out[i] = static_cast<std::uint8_t>(out[i] - out[i - 1] + 128);
+    for (std::size_t i = out.size(); i > 1; --i)
+        out[i - 1] = static_cast<std::uint8_t>(out[i - 1] - out[i - 2] + 128);
 }
 
 void joinExrBytes(std::span<std::uint8_t> split, std::span<std::uint8_t> out) {

@@ -45,10 +45,11 @@ private:
         unsigned restarts = 0;
         for (std::size_t row = 0; row < rows; ++row)
             for (std::size_t column = 0; column < columns; ++column) {
-                if (scan_.restartInterval != 0 && untilRestart-- == 0) {
+                if (scan_.restartInterval != 0 && untilRestart == 0) {
                     restart(restarts++ % 8);
-                    untilRestart = scan_.restartInterval - 1;
+                    untilRestart = scan_.restartInterval;
                 }
+                if (scan_.restartInterval != 0) --untilRestart;
                 if (isSingle)
                     decodeBlock(Place{0, column, row});
                 else
