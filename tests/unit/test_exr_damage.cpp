@@ -43,6 +43,11 @@ void decode(const Buffer& file, const std::string& name, std::size_t injury, Out
     }
 }
 
+// Every length within the header and at the end of a file, every seventh between: pixels are alike.
+std::size_t nextLength(std::size_t size, std::size_t whole) {
+    return size + (size < 400 || size + 20 > whole ? 1 : 7);
+}
+
 } // namespace
 
 // A file that is cut off lacks a block, unless what is missing are small levels or other parts.
@@ -53,7 +58,7 @@ TEST(exr_cut_off_anywhere) {
         const Buffer file = exr_kit::fileOf(name);
         const bool hasMore = name.starts_with("levels_") || name.starts_with("parts_");
         Outcomes outcomes;
-        for (std::size_t size = 0; size < file.size(); ++size)
+        for (std::size_t size = 0; size < file.size(); size = nextLength(size, file.size()))
             decode(Buffer(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(size)), name,
                    size, outcomes);
         CHECK_INFO(hasMore || outcomes.read == 0, name << ": " << outcomes.read << " read");
