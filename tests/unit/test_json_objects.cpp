@@ -57,7 +57,8 @@ TEST(json_objects_come_in_their_order) {
     std::vector<std::string> named = kObjects;
     named.insert(named.begin(), R"({"name": "in", "type": "sphere", "radius": 3})");
     named.emplace_back(R"({"type": "instance", "ref": "in"})");
-    CHECK_EQUAL(scene(sceneOf(named)).objects.back().radius, 3.0);
+    const SceneDesc desc = scene(sceneOf(named)); // CHECK_EQUAL keeps a reference
+    CHECK_EQUAL(desc.objects.back().radius, 3.0);
 }
 
 // Of one object, wherever it stands, and of what stands around them.
