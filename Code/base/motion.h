@@ -58,7 +58,7 @@ public:
     std::optional<Shift> shiftAt(double time) const;
     // Where nothing else happens between any two keys.
     std::optional<Drift> drift() const;
-    // What at() computes with between two keys, for who maps by many times at once.
+    // These are what at() computes with between two keys; kernels map by many times at once.
     using Matrix = std::array<double, 9>; // row-major
     struct Parts {
         Vec3d translation;

@@ -28,8 +28,9 @@ Vec3 carved(Vec3 n, const SurfaceDerivatives& d, Rgb texel) {
     return length2 > 0 ? bent / std::sqrt(length2) : n;
 }
 
-// The same where the surface was carved before `worldFromObject` stretched it, as Cycles does it:
-// the frame of the texel is square in the object's space, and its normal becomes one of the world.
+// Returns the normal of a surface that was carved before `worldFromObject` stretched it, as Cycles
+// does it: the frame of the texel is square in the object's space, and its normal becomes one of
+// the world.
 Vec3 carvedUnder(const Transform& worldFromObject, Vec3 n, const SurfaceDerivatives& d, Rgb texel) {
     const Transform back = worldFromObject.inverse();
     const Vec3d flat = back.normal(toDouble(n));

@@ -30,7 +30,7 @@ inline std::vector<std::string> names() {
     return all;
 }
 
-// The same as value() of tests/scenes/exr/make.py.
+// Returns what value() of tests/scenes/exr/make.py wrote there.
 inline float valueAt(int x, int y, int c) {
     return static_cast<float>(x * 3 + y * 5 + c * 40 + (x * y % 7 == 0 ? 9 : 0)) / 16;
 }

@@ -2,6 +2,7 @@
 #include "base/error.h"
 #include "check.h"
 #include "unit/exr_kit.h"
+#include "unit/flipped_bytes.h"
 
 #include <cstdio>
 #include <random>
@@ -11,19 +12,10 @@ namespace test_exr_damage {
 namespace {
 
 using exr_kit::Buffer;
-
-struct Outcomes {
-    int read = 0, refused = 0;
-};
+using flipped_bytes::Outcomes;
 
 bool isWhole(const StoredImage& image) {
-    const std::size_t count = static_cast<std::size_t>(image.width) *
-                              static_cast<std::size_t>(image.height) *
-                              static_cast<std::size_t>(image.channels);
-    return image.width >= 1 && image.height >= 1 && image.channels >= 1 && image.channels <= 4 &&
-           image.depth == StoredImage::Depth::Float && image.floats.size() == count &&
-           std::all_of(image.floats.begin(), image.floats.end(),
-                       [](float value) { return std::isfinite(value); });
+    return image.depth == StoredImage::Depth::Float && flipped_bytes::isSound(image);
 }
 
 void decode(const Buffer& file, const std::string& name, std::size_t injury, Outcomes& outcomes) {
@@ -43,11 +35,6 @@ void decode(const Buffer& file, const std::string& name, std::size_t injury, Out
     }
 }
 
-// Every length within the header and at the end of a file, every seventh between: pixels are alike.
-std::size_t nextLength(std::size_t size, std::size_t whole) {
-    return size + (size < 400 || size + 20 > whole ? 1 : 7);
-}
-
 } // namespace
 
 // A file that is cut off lacks a block, unless what is missing are small levels or other parts.
@@ -58,7 +45,8 @@ TEST(exr_cut_off_anywhere) {
         const Buffer file = exr_kit::fileOf(name);
         const bool hasMore = name.starts_with("levels_") || name.starts_with("parts_");
         Outcomes outcomes;
-        for (std::size_t size = 0; size < file.size(); size = nextLength(size, file.size()))
+        for (std::size_t size = 0; size < file.size();
+             size = flipped_bytes::nextLength(size, file.size()))
             decode(Buffer(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(size)), name,
                    size, outcomes);
         CHECK_INFO(hasMore || outcomes.read == 0, name << ": " << outcomes.read << " read");

@@ -5,6 +5,7 @@
 #include "check.h"
 #include "image/image.h"
 #include "image/zlib.h"
+#include "unit/flipped_bytes.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -118,28 +119,13 @@ void damage(File& file, std::mt19937& random) {
     }
 }
 
-bool isWhole(const StoredImage& image) {
-    if (image.width < 1 || image.width > Image::kMaxSide || image.height < 1 ||
-        image.height > Image::kMaxSide || image.channels < 1 || image.channels > 4)
-        return false;
-    const std::size_t count = static_cast<std::size_t>(image.width) *
-                              static_cast<std::size_t>(image.height) *
-                              static_cast<std::size_t>(image.channels);
-    using Depth = StoredImage::Depth;
-    return image.bytes.size() == (image.depth == Depth::Bits8 ? count : 0) &&
-           image.words.size() == (image.depth == Depth::Bits16 ? count : 0) &&
-           image.floats.size() == (image.depth == Depth::Float ? count : 0) &&
-           std::all_of(image.floats.begin(), image.floats.end(),
-                       [](float value) { return std::isfinite(value); });
-}
-
 } // namespace
 
 TEST(image_random_damage) {
     const std::vector<File> files = wholeFiles();
     CHECK(files.size() >= 60);
     for (const File& file : files)
-        CHECK_INFO(isWhole(decodeImage(file.bytes, file.name)), file.name);
+        CHECK_INFO(flipped_bytes::isSound(decodeImage(file.bytes, file.name)), file.name);
     int read = 0, refused = 0;
     for (std::uint32_t seed = 0; seed < check::scaled(2000u); ++seed) {
         std::mt19937 random(seed);
@@ -150,8 +136,9 @@ TEST(image_random_damage) {
         if (file.isPng && random() % 4 != 0) repairChecksums(file.bytes);
         try {
             const StoredImage image = decodeImage(file.bytes, file.name);
-            CHECK_INFO(isWhole(image), "seed " << seed << ", " << file.name << ": " << image.width
-                                               << " x " << image.height << " x " << image.channels);
+            CHECK_INFO(flipped_bytes::isSound(image),
+                       "seed " << seed << ", " << file.name << ": " << image.width << " x "
+                               << image.height << " x " << image.channels);
             ++read;
         } catch (const Error& error) {
             CHECK_INFO(error.kind() == ErrorKind::Input &&

@@ -4,6 +4,7 @@
 #include "image/image.h"
 #include "image/jpeg.h"
 #include "jpeg_kit.h"
+#include "unit/flipped_bytes.h"
 
 #include <cstdio>
 #include <random>
@@ -42,17 +43,13 @@ bool isRead(const File& file, const std::string& info) {
     return false;
 }
 
-// Every length within the header and at the end of a file, every seventh between: pixels are alike.
-std::size_t nextLength(std::size_t size, std::size_t whole) {
-    return size + (size < 400 || size + 20 > whole ? 1 : 7);
-}
-
 } // namespace
 
 TEST(jpeg_cut_off_anywhere) {
     for (const std::string& name : fixtures()) {
         const File file = fixture(name);
-        for (std::size_t size = 0; size < file.size(); size = nextLength(size, file.size())) {
+        for (std::size_t size = 0; size < file.size();
+             size = flipped_bytes::nextLength(size, file.size())) {
             // Without the marker EOI there may be more scans of a progressive picture.
             const bool isWhole = size + 2 >= file.size() && !isProgressive(file);
             const std::string info = name + " with " + std::to_string(size) + " bytes";

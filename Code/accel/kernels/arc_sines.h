@@ -9,7 +9,7 @@
 
 LANES_BEGIN
 
-// Of sinKernel() and cosKernel() what they return as the upper part.
+// Return the upper parts of what sinKernel() and cosKernel() return.
 inline Doubles sineNearZero(const Doubles& x, const Doubles& lo) {
     const auto c = [](double number) { return Doubles(number); };
     const Doubles z = x * x, z2 = z * z, z4 = z2 * z2;
