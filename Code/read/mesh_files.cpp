@@ -41,13 +41,18 @@ const MeshFormat* meshFormatOf(const std::string& fileName) {
 
 // The places where a file may be that a scene names.
 std::vector<std::string> candidates(const std::string& file, const SourceFile& scene) {
-    if (fs::path(file).is_absolute()) return {file};
-    const fs::path folder = fs::path(scene.name).parent_path();
+    const fs::path written(file), folder = fs::path(scene.name).parent_path();
     std::vector<std::string> out;
-    for (const fs::path& start : {folder, fs::path(), folder / ".."}) {
-        std::string path = (start / file).lexically_normal().string();
+    const auto add = [&](const fs::path& place) {
+        std::string path = place.lexically_normal().string();
         if (std::find(out.begin(), out.end(), path) == out.end()) out.push_back(std::move(path));
-    }
+    };
+    if (written.is_absolute())
+        add(written);
+    else
+        for (const fs::path& start : {folder, fs::path(), folder / ".."}) add(start / written);
+    // Files that came together often lie together, whatever path they were written with.
+    add(folder / written.filename());
     return out;
 }
 

@@ -124,7 +124,8 @@ TEST(json_rejects) {
         // Files.
         {"", "1:1: error: the file is empty"},
         {" \n ", "2:2: error: the file is empty"},
-        {"\xef\xbb\xbf{}", "1:1: error: the file starts with a byte order mark"},
+        {"\xef\xbb\xbf", "1:4: error: the file is empty"}, // a byte order mark is skipped
+        {"\xef\xbb\xbf[]]", "1:6: error: expected the end of the file, got ']'"},
         {"\xff\xfe{", "1:1: error: expected a value, got '\\xff'"},
         {"1 2", "1:3: error: expected the end of the file, got '2'"},
         {"[]]", "1:3: error: expected the end of the file, got ']'"},

@@ -43,6 +43,47 @@ const std::vector<std::string> kObjects = {
 
 } // namespace
 
+// With --lenient what is missing or odd is a warning, and there is a picture.
+TEST(json_objects_lenient) {
+    struct Row {
+        std::string object, warning;
+    };
+    const Row rows[] = {
+        {R"({"type": "instance", "ref": "nothing"})", "no earlier object is named 'nothing'"},
+        {R"({"type": "box", "min": [-1, -1, 1], "max": [1, 1, -9]})", "a box has a 'max' above"},
+        {R"({"type": "box", "min": [-1, 0, -1], "max": [1, 0, 1]})", "a box has a 'max' above"},
+    };
+    for (const auto& [object, warning] : rows) {
+        CHECK_THROWS(read(sceneOf({object}), false), warning);
+        const Reading reading = read(sceneOf({object}), true);
+        CHECK_INFO(join(reading.warnings).find(warning) != std::string::npos,
+                   join(reading.warnings));
+    }
+    const auto placeOf = [&](const std::string& object) {
+        return read(sceneOf({object}), true).desc.objects.at(0).worldFromObject.at(0);
+    };
+    CHECK(placeOf(rows[1].object) ==
+          placeOf(R"({"type": "box", "min": [-1, -1, -9], "max": [1, 1, 1]})"));
+    const Rows flat = placeOf(rows[2].object);
+    CHECK_NEAR(flat[5], 1e-6, 1e-18); // half of 1e-6 of its width of 2
+    CHECK_NEAR(flat[0], 1, 0);
+}
+
+// One number is a grey; true is 1.
+TEST(json_colours_of_one_number) {
+    const auto mirrorOf = [](const std::string& written) {
+        return read(R"({"materials": [{"name": "m", "mirror": )" + written + "}]}")
+            .desc.materials.at(0)
+            .mirror;
+    };
+    CHECK((mirrorOf("true") == Rgbd{1, 1, 1}));
+    CHECK((mirrorOf("false") == Rgbd{}));
+    CHECK((mirrorOf("0.3") == Rgbd{0.3, 0.3, 0.3}));
+    CHECK((mirrorOf("[0.1, 0.2, 0.3]") == Rgbd{0.1, 0.2, 0.3}));
+    CHECK_THROWS(mirrorOf("-1"), "'mirror' must be");
+    CHECK_THROWS(mirrorOf("\"yes\""), "expected an array of 3 values for 'mirror'");
+}
+
 TEST(json_objects_come_in_their_order) {
     const Reading all = read(sceneOf(kObjects));
     CHECK_INFO(all.warnings.empty(), join(all.warnings));

@@ -115,6 +115,28 @@ TEST(read_mtl_illumination_models) {
     CHECK_EQUAL(materialOf("illum 3\nKs 1 1 1\nPr 0.25").roughness, 0.25);
 }
 
+// MeshLab writes Tr 1 for what is opaque. A picture of nothing helps no user.
+TEST(read_mtl_all_clear_is_opaque) {
+    const Result clear = readText("newmtl a\nTr 1\nnewmtl b\nTr 1.0\n");
+    CHECK_EQUAL(clear.materials.at(0).opacity, 1.0);
+    CHECK_EQUAL(clear.materials.at(1).opacity, 1.0);
+    CHECK_EQUAL(clear.warnings.size(), std::size_t{1});
+    CHECK(clear.warnings[0].find("all materials have Tr 1 and no d") != std::string::npos);
+    const Result some = readText("newmtl a\nTr 1\nnewmtl b\nKd 1 1 1\n");
+    CHECK_EQUAL(some.materials.at(0).opacity, 0.0);
+    CHECK(some.warnings.empty());
+    const Result glass = readText("newmtl a\nTr 1\nillum 7\n");
+    CHECK(glass.materials.at(0).transmission.r > 0 && glass.warnings.empty());
+    CHECK_EQUAL(readText("newmtl a\nd 0\nTr 1\n").materials.at(0).opacity, 0.0);
+}
+
+TEST(read_mtl_nameless) {
+    const Result file = readText("newmtl\nKd 1 0 0\n");
+    CHECK_EQUAL(file.materials.at(0).name, "");
+    CHECK_EQUAL(file.warnings.size(), std::size_t{1});
+    CHECK(file.warnings[0].find("t.mtl:1:1: warning: this material has no name") == 0);
+}
+
 TEST(read_mtl_opacity) {
     CHECK_EQUAL(materialOf("d 0.25").opacity, 0.25);
     CHECK_EQUAL(materialOf("d -halo 0.25").opacity, 0.25);

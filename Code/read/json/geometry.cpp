@@ -174,7 +174,7 @@ JsonGeometryReader::Index JsonGeometryReader::find(const JsonNames& names, const
                                                    const JsonValue& ref, std::string_view what) {
     const Handle handle = names.find(name);
     if (handle == kNone) {
-        problems_.error(ref.loc(), [&] {
+        problems_.unknown(ref.loc(), [&] {
             return cat("no earlier ", what, " is named ", unknownName(shown(name), names.known()));
         });
         return {};

@@ -17,8 +17,8 @@ public:
           memory_(std::make_unique<std::pmr::monotonic_buffer_resource>()) {}
 
     JsonDocument parse() {
-        if (source_.text.starts_with("\xef\xbb\xbf"))
-            fail(p_, "the file starts with a byte order mark; JSON is UTF-8 without one");
+        // Editors on Windows write a byte order mark, which readers may ignore (RFC 8259, 8.1).
+        if (source_.text.starts_with("\xef\xbb\xbf")) p_ += 3;
         skipBlanks();
         if (p_ == end_) fail(p_, "the file is empty; expected a JSON value");
         const JsonValue root = value(0);

@@ -49,9 +49,22 @@ void readName(const JsonValue& value, const Property& row, const JsonNames& text
     if (!readJsonValue(value, row.keyword, problems, name)) return;
     handle = textures.find(name);
     if (handle == kNone)
-        problems.error(value.loc(), [&] {
+        problems.unknown(value.loc(), [&] {
             return cat("unknown texture ", unknownName(shown(name), textures.known()));
         });
+}
+
+// Reads a colour that is written as one number, a grey, or as true, which is 1, and false. Returns
+// false where it is written in another way.
+bool readGrey(const JsonValue& value, const Property& row, JsonProblems& problems, void* block) {
+    const bool isFlag = value.kind() == JsonValue::Kind::Bool;
+    if (row.first.kind != FieldKind::Color || !(isFlag || value.isNumber())) return false;
+    double grey = value.boolean() ? 1 : 0;
+    if (isFlag || readJsonValue(value, row.keyword, problems, grey, row.range)) {
+        const std::array<double, 3> numbers{grey, grey, grey};
+        setNumbers(row, block, numbers.data());
+    }
+    return true;
 }
 
 // Of a row with numbers, perhaps behind a choice.
@@ -83,9 +96,9 @@ void readJsonProperty(const JsonValue& value, const Property& row, const JsonNam
     case FieldKind::Text:
         readJsonValue(value, row.keyword, problems, at<std::string>(field, block));
         return;
-    case FieldKind::Name:
-        return readName(value, row, textures, problems, at<Handle>(field, block));
-    default: return readValues(value, row, problems, block);
+    case FieldKind::Name: return readName(value, row, textures, problems, at<Handle>(field, block));
+    default:
+        if (!readGrey(value, row, problems, block)) readValues(value, row, problems, block);
     }
 }
 

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace {
 
@@ -26,6 +27,15 @@ void placed(Input& in, JsonShape& shape) { shape.place = readJsonPlace(in.fields
 void upright(Input& in, JsonShape& shape) {
     constexpr Rows kYFromZ = {1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0};
     shape.place = product(readJsonPlace(in.fields), {kYFromZ});
+}
+
+// Orders two corners; where they are level the box becomes a millionth of its size thick.
+void makeSolid(Vec3d& lo, Vec3d& hi) {
+    const double most = std::max(maxAbs(hi - lo), 1e-300);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (hi[axis] < lo[axis]) std::swap(lo[axis], hi[axis]);
+        if (hi[axis] == lo[axis]) lo[axis] -= 0.5e-6 * most, hi[axis] += 0.5e-6 * most;
+    }
 }
 
 // By its corners, or by size and centre; what 'rotation' says is ignored as in the course.
@@ -56,10 +66,12 @@ void box(Input& in, JsonShape& shape) {
         });
     }
     // (What could not be read was told already, and would only look wrong here.)
-    if (!(lo.x < hi.x && lo.y < hi.y && lo.z < hi.z) && !problems.hasErrors())
-        problems.error(hiValue ? hiValue->loc() : fields.loc(), [] {
+    if (!(lo.x < hi.x && lo.y < hi.y && lo.z < hi.z) && !problems.hasErrors()) {
+        problems.unknown(hiValue ? hiValue->loc() : fields.loc(), [] {
             return "a box has a 'max' above its 'min' on each axis (left out: 1 and -1)";
         });
+        makeSolid(lo, hi);
+    }
     const Vec3d centre = (lo + hi) * 0.5, half = (hi - lo) * 0.5;
     shape.place = {(Transform::translate(centre) * Transform::scale(half)).rows()};
     if (isPlaced) shape.place = product(readJsonPlace(fields), shape.place);

@@ -73,8 +73,8 @@ const char* appendUnicode(const SourceFile& source, const char* p, const char* e
     const auto low = hasSecond ? hex4(p + 2, end) : std::nullopt;
     if (!isHighSurrogate(*code) || !low || !isLowSurrogate(*low))
         fail(source, start,
-                 cat("'", std::string_view(start, 6),
-                     "' is half of a surrogate pair; the other half is missing"));
+             cat("'", std::string_view(start, 6),
+                 "' is half of a surrogate pair; the other half is missing"));
     appendUtf8(out, 0x10000 + ((*code - 0xd800) << 10) + (*low - 0xdc00));
     return p + 6;
 }
@@ -164,15 +164,15 @@ JsonText readJsonText(const SourceFile& source, const char* quote) {
         const auto byte = static_cast<unsigned char>(*p);
         if (p == last || byte == '\n')
             fail(source, quote,
-                     "the text is not closed; expected '\"' before the end of the "
-                     "line (a line end inside is written \\n)");
+                 "the text is not closed; expected '\"' before the end of the "
+                 "line (a line end inside is written \\n)");
         if (byte == '\\') {
             text.hasEscapes = true;
             p += p[1] == '"' || p[1] == '\\' ? 2 : 1; // other escapes are looked at later
         } else if (byte < 0x20) {
             fail(source, p,
-                     cat("control character ", shown({p, 1}),
-                         " in a text; write it as \\t or \\u00", shown({p, 1}).substr(2)));
+                 cat("control character ", shown({p, 1}), " in a text; write it as \\t or \\u00",
+                     shown({p, 1}).substr(2)));
         } else {
             const std::size_t length =
                 firstCharacter({p, static_cast<std::size_t>(last - p)}).size();
@@ -194,9 +194,9 @@ void decodeJsonText(const SourceFile& source, const JsonText& text, std::string&
             const std::size_t escape = kEscapes.find(p[1]);
             if (escape == std::string_view::npos)
                 fail(source, p,
-                         cat("unknown escape '\\",
-                             shown(firstCharacter({p + 1, static_cast<std::size_t>(end - p - 1)})),
-                             "'; known: \\\" \\\\ \\/ \\b \\f \\n \\r \\t \\uXXXX"));
+                     cat("unknown escape '\\",
+                         shown(firstCharacter({p + 1, static_cast<std::size_t>(end - p - 1)})),
+                         "'; known: \\\" \\\\ \\/ \\b \\f \\n \\r \\t \\uXXXX"));
             out += kMeanings[escape];
             p += 2;
         }

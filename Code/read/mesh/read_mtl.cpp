@@ -82,6 +82,7 @@ public:
     MtlFile read() {
         while (in_.nextLine()) readStatement();
         endMaterial();
+        makeSeen();
         warn();
         file_.textures = std::move(textures_.textures);
         return std::move(file_);
@@ -150,7 +151,7 @@ private:
     void beginMaterial() {
         endMaterial();
         const std::string_view name = in_.rest();
-        if (name.empty()) in_.failAt(in_.offset(), "expected a name after 'newmtl'");
+        if (name.empty()) nameless_.add(start_);
         if (!names_.insert(name).second) again_.add(start_);
         written_.emplace();
         written_->name = name;
@@ -159,7 +160,18 @@ private:
     void endMaterial() {
         if (!written_) return;
         if (contradict(*written_)) contradicting_.add(written_->loc.offset);
-        file_.materials.push_back(meaningOf(*written_));
+        const MaterialDesc& m = file_.materials.emplace_back(meaningOf(*written_));
+        if (m.opacity == 0 && !written_->d) clear_.add(written_->loc.offset);
+    }
+
+    // Some programs write Tr 1 for what is opaque. Where all materials say so, nothing would be
+    // seen.
+    void makeSeen() {
+        if (clear_.count == 0 || clear_.count < file_.materials.size()) {
+            clear_.count = 0;
+            return;
+        }
+        for (MaterialDesc& m : file_.materials) m.opacity = 1;
     }
 
     // r, or r g b. Colours by spectra and in XYZ are of no use without their tables.
@@ -222,6 +234,10 @@ private:
         tell(skipped_, "statement without effect", "statements without effect");
         tell(again_, "this material's name was given already; the first one holds",
              "materials whose names were given already; the first ones hold");
+        constexpr std::string_view kClear =
+            "all materials have Tr 1 and no d, which would be invisible; they are opaque";
+        tell(clear_, kClear, kClear);
+        tell(nameless_, "this material has no name", "materials without a name");
         tell(contradicting_, "'d' and 'Tr' contradict each other, Tr is 1 - d; d holds",
              "'d' and 'Tr' contradict each other, Tr is 1 - d; d holds");
     }
@@ -235,7 +251,7 @@ private:
     std::unordered_set<std::string_view> names_;
     std::size_t start_ = 0; // of the statement
     std::string_view keyword_;
-    Counted skipped_, again_, contradicting_;
+    Counted skipped_, again_, contradicting_, nameless_, clear_;
 };
 
 } // namespace
