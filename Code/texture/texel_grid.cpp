@@ -80,14 +80,28 @@ template <class Fn> auto TexelGrid::mixedAt(const Tap& x, const Tap& y, Fn&& fn)
             return i == kOpaque ? kOne : static_cast<double>(at[i]);
         };
         const Number* const first = texel(x.lo, y.lo);
-        if (isNearest_) return fn([&](int i) { return number(first, i) / kOne; });
+        if (isNearest_) {
+            const auto unit = [&](int i) { return number(first, i) / kOne; };
+            return fn(unit, unit);
+        }
         const Number* const second = texel(x.hi, y.lo);
         const Number* const third = texel(x.lo, y.hi);
         const Number* const fourth = texel(x.hi, y.hi);
-        return fn([&](int i) {
-            return lerp(lerp(number(first, i), number(second, i), x.weight),
-                        lerp(number(third, i), number(fourth, i), x.weight), y.weight) /
-                   kOne;
+        const auto mixed = [&](const auto& of) {
+            return lerp(lerp(of(first), of(second), x.weight),
+                        lerp(of(third), of(fourth), x.weight), y.weight);
+        };
+        const auto unit = [&](int i) {
+            return mixed([&](const Number* at) { return number(at, i); }) / kOne;
+        };
+        const auto alpha = [&](const Number* at) { return number(at, alphaNumber()); };
+        const double some = alpha(first);
+        const bool isEven = some == alpha(second) && some == alpha(third) && some == alpha(fourth);
+        const double covered = isEven ? 0 : mixed(alpha);
+        return fn(unit, [&](int i) {
+            if (!(covered > 0)) return unit(i);
+            const auto share = [&](const Number* at) { return alpha(at) * number(at, i); };
+            return mixed(share) / covered / kOne;
         });
     };
     switch (image_.depth) {
@@ -100,9 +114,9 @@ template <class Fn> auto TexelGrid::mixedAt(const Tap& x, const Tap& y, Fn&& fn)
 
 Rgb TexelGrid::color(double s, double t, Extension extensionS, Extension extensionT) const {
     const Tap x = tap(s, image_.width, extensionS), y = tap(t, image_.height, extensionT);
-    return mixedAt(x, y, [&](const auto& unit) {
+    return mixedAt(x, y, [&](const auto&, const auto& covering) {
         const auto decoded = [&](int i) {
-            const float value = static_cast<float>(unit(i));
+            const float value = static_cast<float>(covering(i));
             return isSrgb_ ? linearFromSrgb(value) : value;
         };
         const float first = decoded(0);
@@ -113,8 +127,9 @@ Rgb TexelGrid::color(double s, double t, Extension extensionS, Extension extensi
 
 float TexelGrid::alpha(double s, double t, Extension extensionS, Extension extensionT) const {
     const Tap x = tap(s, image_.width, extensionS), y = tap(t, image_.height, extensionT);
-    const int number = image_.channels % 2 == 0 ? image_.channels - 1 : kOpaque;
-    return mixedAt(x, y, [&](const auto& unit) { return static_cast<float>(unit(number)); });
+    return mixedAt(x, y, [&](const auto& unit, const auto&) {
+        return static_cast<float>(unit(alphaNumber()));
+    });
 }
 
 std::optional<ByteTexels> TexelGrid::bytes(Extension extensionS, Extension extensionT) const {

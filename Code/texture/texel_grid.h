@@ -28,7 +28,11 @@ public:
     // Bilinear: x = s width - 1/2 between the centres of texels. Numbers are filtered as they are
     // stored and decoded to linear afterwards: this is what Cycles does with 8-bit sRGB (decoding
     // first is off by 0.23 on black/white edges), and 16-bit files look the same as 8-bit ones.
-    // Clip: everything outside is transparent black, and bilinear fades into it.
+    // Clip: everything outside is transparent black.
+    // Between texels of different alpha each counts as much as it covers, as in a picture whose
+    // colours are multiplied by alpha, filtered, and divided by it: what is transparent has no
+    // colour that could be seen at the edge of a cut-out. Where nothing covers, colours are mixed
+    // as they are.
     Rgb color(double s, double t, Extension extensionS, Extension extensionT) const;
     // Never encoded, and transparency does not darken the colour; 1 without an alpha channel.
     float alpha(double s, double t, Extension extensionS, Extension extensionT) const;
@@ -44,9 +48,11 @@ private:
     };
     static constexpr int kOutside = -1;
     Tap tap(double s, int size, Extension extension) const;
-    // fn(unit): unit(i) is number i of the texels, mixed, as a part of the largest; kOpaque stands
-    // for the alpha of pictures without one.
+    // fn(unit, covering): unit(i) is number i of the texels, mixed, as a part of the largest;
+    // kOpaque stands for the alpha of pictures without one. covering(i) is the same of a colour, by
+    // alpha.
     static constexpr int kOpaque = -1;
+    int alphaNumber() const { return image_.channels % 2 == 0 ? image_.channels - 1 : kOpaque; }
     template <class Fn> auto mixedAt(const Tap& x, const Tap& y, Fn&& fn) const;
 
     StoredImage image_;

@@ -71,9 +71,46 @@ TEST(texture_extensions) {
     CHECK_EQUAL(at(Extension::Clip, nearest, -0.01f, 0.75f), 0.0f);
     CHECK_EQUAL(at(Extension::Clip, nearest, 0.01f, 1.01f), 0.0f);
     CHECK_EQUAL(at(Extension::Clip, nearest, 0.01f, 0.99f), 1.0f);
-    CHECK_NEAR(at(Extension::Clip, bilinear, 0, 0.75f), 0.5, 1e-7); // fades into the black
+    // The colour stays as long as anything covers; what fades is the alpha.
+    CHECK_EQUAL(at(Extension::Clip, bilinear, 0, 0.75f), 1.0f);
+    CHECK_EQUAL(at(Extension::Clip, bilinear, -0.24f, 0.75f), 1.0f);
+    TextureParams alpha = linear(bilinear, Extension::Clip);
+    alpha.channel = TextureParams::Channel::Alpha;
+    CHECK_NEAR(Texture(four(), alpha).value({0, 0.75f}), 0.5, 1e-7);
     CHECK_EQUAL(at(Extension::Clip, bilinear, -0.25f, 0.75f), 0.0f);
     CHECK_EQUAL(at(Extension::Clip, bilinear, 50, 50), 0.0f);
+}
+
+// At the edge of a cut-out the colour is that of what is seen: no fringe of what is transparent.
+TEST(texture_colours_count_as_they_cover) {
+    const std::vector<std::uint8_t> cut = {0, 255, 0, 255, 255, 0, 255, 0}; // green, clear magenta
+    const Texture t(bytes(2, 1, 4, cut), linear());
+    for (const float u : {0.25f, 0.3f, 0.5f, 0.7f, 0.74f}) {
+        CHECK_EQUAL(t.color({u, 0.5f}).g, 1.0f);
+        CHECK_EQUAL(t.color({u, 0.5f}).r, 0.0f);
+    }
+    // By premultiplied numbers: a quarter of the way from alpha 1 to alpha 1/3.
+    const Texture soft(bytes(2, 1, 2, {30, 255, 240, 85}), linear());
+    const double covered = 0.75 * 255 + 0.25 * 85;
+    CHECK_NEAR(soft.color({0.375f, 0.5f}).r, (0.75 * 255 * 30 + 0.25 * 85 * 240) / covered / 255,
+               1e-7);
+    // Where nothing covers, and where all is equally clear, numbers are mixed as they are.
+    const Texture clear(bytes(2, 1, 2, {0, 0, 255, 0}), linear());
+    CHECK_NEAR(clear.color({0.5f, 0.5f}).r, 0.5, 1e-7);
+    const Texture glassy(bytes(2, 1, 2, {0, 85, 255, 85}), linear());
+    CHECK_NEAR(glassy.color({0.5f, 0.5f}).r, 0.5, 1e-7);
+    // An opaque picture keeps its colour to its border.
+    const Texture bordered(bytes(1, 1, 3, {0, 255, 0}),
+                           linear(Interpolation::Bilinear, Extension::Clip));
+    for (const float u : {-0.49f, 0.0f, 0.5f, 1.49f})
+        CHECK_EQUAL(bordered.color({u, 0.5f}).g, 1.0f);
+    CHECK_EQUAL(bordered.color({-0.51f, 0.5f}).g, 0.0f);
+    // 16 bits and floats alike.
+    StoredImage words;
+    words.width = 2, words.height = 1, words.channels = 2;
+    words.depth = StoredImage::Depth::Bits16;
+    words.words = {65535, 65535, 0, 0};
+    CHECK_EQUAL(Texture(words, linear()).color({0.6f, 0.5f}).r, 1.0f);
 }
 
 TEST(texture_filters_8_bit_srgb_before_it_decodes) {

@@ -30,10 +30,11 @@ public:
             texels[2] = texelsAt(x.lo, y.hi);
             texels[3] = texelsAt(x.hi, y.hi);
         }
+        const Covering covering = coveringOf(texels, x.weight, y.weight);
         float* const channels[] = {r, g, b};
         const bool isGrey = texels_.asksAlpha || texels_.channels < 3;
         for (int c = 0; c < (isGrey ? 1 : 3); ++c) {
-            const Doubles code = mixed(texels, c, x.weight, y.weight);
+            const Doubles code = colourOf(texels, c, x.weight, y.weight, covering);
             const Floats encoded = (code / Doubles(255.0)).toFloats();
             const Floats value = texels_.isSrgb && !texels_.asksAlpha ? decoded(encoded) : encoded;
             for (int to = c; to < (isGrey ? 3 : c + 1); ++to) value.store(channels[to]);
@@ -77,7 +78,46 @@ private:
         return {select(notBelow < end, notBelow, notBelow - end), all};
     }
 
-    // Byte c: component c, or alpha where that is asked; zeros outside.
+    // Where texels of different alpha meet, and what all of them cover.
+    struct Covering {
+        unsigned uneven = 0; // lanes
+        Doubles covered{0.0};
+    };
+    bool mayBeUneven() const {
+        const bool isClipped =
+            texels_.extensionS == Extension::Clip || texels_.extensionT == Extension::Clip;
+        return !texels_.asksAlpha && !texels_.isNearest && (texels_.channels % 2 == 0 || isClipped);
+    }
+    int alphaByte() const { return texels_.channels == 2 ? 1 : 3; }
+    Covering coveringOf(const std::array<Ints, 4>& texels, const Doubles& weightX,
+                        const Doubles& weightY) const {
+        if (!mayBeUneven()) return {};
+        const Doubles first = alphaOf(texels[0]);
+        unsigned even = (1u << W) - 1;
+        for (std::size_t i = 1; i < 4; ++i) {
+            const Doubles other = alphaOf(texels[i]);
+            even &= atMost(first, other) & atMost(other, first);
+        }
+        const unsigned uneven = ~even & ((1u << W) - 1);
+        if (uneven == 0) return {};
+        const Doubles covered =
+            mixedOf([&](std::size_t i) { return alphaOf(texels[i]); }, weightX, weightY);
+        return {uneven & less(Doubles(0.0), covered), covered};
+    }
+    Doubles alphaOf(const Ints& texel) const { return doublesOf(byteOf(texel, alphaByte())); }
+    Doubles colourOf(const std::array<Ints, 4>& texels, int component, const Doubles& weightX,
+                     const Doubles& weightY, const Covering& covering) const {
+        const Doubles plain = mixed(texels, component, weightX, weightY);
+        if (covering.uneven == 0) return plain;
+        const auto share = [&](std::size_t i) {
+            return alphaOf(texels[i]) * doublesOf(byteOf(texels[i], component));
+        };
+        const Doubles shares = mixedOf(share, weightX, weightY);
+        return select(maskOf(covering.uneven), shares / covering.covered, plain);
+    }
+
+    // Byte c: component c, or alpha where that is asked; zeros outside. Byte 3 of colours without
+    // alpha is 255, inside.
     Ints texelsAt(const Tap& x, const Tap& y) const {
         const Mask isInside = x.isInside & y.isInside;
         const bool hasAlpha = texels_.channels % 2 == 0;
@@ -86,7 +126,10 @@ private:
         const Doubles row = Doubles(height_ - 1) - y.number;
         const Doubles texel = row * Doubles(width_) + x.number;
         const Ints offset = wholeOf(texel * Doubles(texels_.channels) + Doubles(skipped));
-        return select(isInside, bytesAt(offset), Ints(0u));
+        const Ints bytes = bytesAt(offset);
+        const bool isOpaque = !texels_.asksAlpha && !hasAlpha;
+        return select(isInside, isOpaque ? (bytes & Ints(0xffffffu)) + Ints(0xff000000u) : bytes,
+                      Ints(0u));
     }
     // Four bytes, or as many as there are.
     Ints bytesAt(Ints offset) const {
@@ -107,12 +150,16 @@ private:
     Doubles mixed(const std::array<Ints, 4>& texels, int component, const Doubles& weightX,
                   const Doubles& weightY) const {
         const auto code = [&](std::size_t i) { return doublesOf(byteOf(texels[i], component)); };
-        if (texels_.isNearest) return code(0);
+        return texels_.isNearest ? code(0) : mixedOf(code, weightX, weightY);
+    }
+    // of(i) is a number of texel i: lower left, lower right, upper left, upper right.
+    template <class Fn>
+    static Doubles mixedOf(const Fn& of, const Doubles& weightX, const Doubles& weightY) {
         const Doubles one(1.0);
         const auto lerp = [&](const Doubles& a, const Doubles& b, const Doubles& weight) {
             return a * (one - weight) + b * weight;
         };
-        return lerp(lerp(code(0), code(1), weightX), lerp(code(2), code(3), weightX), weightY);
+        return lerp(lerp(of(0), of(1), weightX), lerp(of(2), of(3), weightX), weightY);
     }
 
     static Floats decoded(Floats encoded) {
