@@ -6,6 +6,7 @@
 #include "light/sun_light.h"
 #include "render/to_float.h"
 #include "shape/disk.h"
+#include "shape/one_sided.h"
 #include "shape/plane.h"
 #include "shape/sphere.h"
 
@@ -71,10 +72,14 @@ std::unique_ptr<const Shape> makeLampBody(const LightDesc& desc, const SceneFram
     const Transform size = Transform::scale(Vec3d{desc.size.x / 2, desc.size.y / 2, 1});
     // Lamps shine along -Z, flat shapes face +Z.
     const MovingTransform flat(place * size * Transform::rotate({1, 0, 0}, kPi));
+    // Their backs are not there, as in Cycles: another lamp may stand in the same place.
+    const auto shining = [](std::unique_ptr<const Shape> shape) {
+        return std::make_unique<OneSided>(std::move(shape), OneSided::Side::Front);
+    };
     switch (desc.kind) {
     case LightDesc::Kind::Rectangle:
-        return std::make_unique<Plane>(flat, kSquareCorners, material, id);
-    case LightDesc::Kind::Disk: return std::make_unique<Disk>(flat, 1.0, material, id);
+        return shining(std::make_unique<Plane>(flat, kSquareCorners, material, id));
+    case LightDesc::Kind::Disk: return shining(std::make_unique<Disk>(flat, 1.0, material, id));
     case LightDesc::Kind::Sphere:
         return std::make_unique<Sphere>(MovingTransform(Transform::translate(place.point({}))),
                                         static_cast<double>(sphereRadius(desc, place)), material,

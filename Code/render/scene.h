@@ -42,7 +42,7 @@ inline constexpr MaterialPictures kNoPictures;
 struct alignas(64) SceneMaterial {
     Material base;
     bool litOutside = false; // answers lamps outside of it, whichever side is seen
-    bool isLamp = false; // the visible body of an area light; emits to the front of its shape only
+    bool isLamp = false; // the visible body of an area light; flat ones have no back
     const MaterialPictures* pictures = &kNoPictures;
     // Pictures that change its numbers.
     bool isTextured() const {
