@@ -41,6 +41,20 @@ TEST(read_json_units_of_light) {
     CHECK_EQUAL(desc.materials[1].exponent, 0.0); // the default of 'shininess'
 }
 
+// Students' programs have lights of type "area": points whose radius softens the shadows.
+TEST(read_json_area_lights) {
+    const std::string body = R"("colour": [1, 0.5, 0], "power": 2, "position": [1, 2, 3])";
+    const LightDesc area = light("", R"("type": "area", "radius": 0.5, "samples": 16,)" + body);
+    const LightDesc point = light("", R"("type": "point", "radius": 0.5,)" + body);
+    CHECK(area == point);
+    CHECK_EQUAL(area.radius, 0.5);
+    const json_kit::Reading none =
+        json_kit::read(R"({"lights": [{"type": "ring", "position": [0, 0, 1]}]})", true);
+    CHECK_EQUAL(none.warnings.size(), std::size_t{2});
+    CHECK(none.warnings.back().find("no light is left") != std::string::npos);
+    CHECK(json_kit::read(R"({"lights": []})", true).warnings.empty());
+}
+
 TEST(read_json_fall_off_of_the_dialects) {
     const std::string point = R"("type": "point", "position": [1, 2, 3])";
     const LightDesc numbered = light(R"("AA": {"samples": 1},)", point);

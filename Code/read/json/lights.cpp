@@ -29,6 +29,7 @@ constexpr auto kLightTypes = std::to_array<LightType>({
     {"rectangle", LightKind::Rectangle},
     {"disk", LightKind::Disk},
     {"sphere", LightKind::Sphere},
+    {"area", LightKind::Point}, // in students' programs a point light whose radius softens shadows
 });
 
 // nullptr after an error, or when the light is to be skipped.
@@ -109,7 +110,8 @@ Rows readLightPlace(JsonFields& fields, const LightType& type) {
 
 void readJsonLights(JsonFields& scene, const JsonRules& rules, std::vector<LightDesc>& lights) {
     UniqueNames unique;
-    for (const JsonValue& value : scene.list("lights")) {
+    const auto values = scene.list("lights");
+    for (const JsonValue& value : values) {
         JsonFields fields(value, "a light", scene.problems());
         if (!value.isObject()) continue;
         const LightType* type = readType(fields);
@@ -125,6 +127,15 @@ void readJsonLights(JsonFields& scene, const JsonRules& rules, std::vector<Light
         if (light.kind == LightKind::Point || light.kind == LightKind::Spot)
             light.attenuation = rules.attenuation;
         readJsonProperties(fields, {}, light, {"type", "color"});
+        if (const JsonValue* samples = fields.take("samples"))
+            scene.problems().warn(samples->loc(), [] {
+                return "'samples' of one light is ignored; 'light_samples' of the settings is for "
+                       "all";
+            });
         fields.reportUnknown();
     }
+    if (lights.empty() && !values.empty())
+        scene.problems().warn(values.front().loc(), [] {
+            return "no light is left: what does not glow is seen by ambient light alone";
+        });
 }
