@@ -13,11 +13,21 @@ std::span<const MeshBuilder::Corner> CornerReader::readFace() {
         return std::span(plain_.corners).first(plain_.count);
     }
     corners_.clear();
+    hasUnknown_ = false;
+    const std::size_t start = in_.offset();
     while (!in_.atLineEnd()) {
         if (corners_.size() == kMostCorners)
             in_.failAt(in_.offset(),
                        cat("a face with more than ", kMostCorners, " corners; divide it"));
         readCorner();
+    }
+    if (!hasUnknown_) return corners_;
+    unknown_.add(start);
+    using Corner = MeshBuilder::Corner;
+    for (const auto member : {&Corner::uv, &Corner::normal}) {
+        const auto isMissing = [&](const Corner& c) { return c.*member == MeshBuilder::kMissing; };
+        if (std::any_of(corners_.begin(), corners_.end(), isMissing))
+            for (Corner& corner : corners_) corner.*member = MeshBuilder::kMissing;
     }
     return corners_;
 }
@@ -51,8 +61,9 @@ void CornerReader::readCorner() {
     }
     if (!in_.isNumberEnd(p)) failCorner(start);
     constexpr std::uint32_t kMissing = MeshBuilder::kMissing;
-    if (!corners_.empty() && ((corner.uv == kMissing) != (corners_[0].uv == kMissing) ||
-                              (corner.normal == kMissing) != (corners_[0].normal == kMissing)))
+    if (!corners_.empty() && !hasUnknown_ &&
+        ((corner.uv == kMissing) != (corners_[0].uv == kMissing) ||
+         (corner.normal == kMissing) != (corners_[0].normal == kMissing)))
         in_.failAt(start, cat("corner ", in_.nextWord(),
                               " is not written as the first one of its face; all are v, v/vt, "
                               "v//vn or v/vt/vn"));
@@ -79,6 +90,11 @@ std::uint32_t CornerReader::readOtherIndex(const char*& p, std::size_t total, st
         const std::string written = shown({start, static_cast<std::size_t>(last - start)});
         if (value == 0 && index.fault == NumberFault::None)
             in_.failAt(in_.offsetOf(start), "there is no index 0; the first is 1, the last -1");
+        if (one.front() == '\'') { // a picture needs no more of a corner than its point
+            hasUnknown_ = true;
+            p = last;
+            return MeshBuilder::kMissing;
+        }
         in_.failAt(
             in_.offsetOf(start),
             fromEnd ? cat("there is no ", one, " ", written, "; only ", soFar, " ",
@@ -112,6 +128,7 @@ public:
                 addPolygon(corners, start);
         }
         addWaiting();
+        leftOut_.unknown = reader.unknown();
         return leftOut_;
     }
 

@@ -19,6 +19,8 @@ public:
 
     // Those of one face, until the next call; the reader is behind the keyword.
     std::span<const MeshBuilder::Corner> readFace();
+    // Faces so far with a 'vt' or 'vn' that the file does not have: they have none of that kind.
+    const Counted& unknown() const { return unknown_; }
 
 private:
     void readCorner();
@@ -33,15 +35,19 @@ private:
     const ObjCounts& soFar_;
     PlainFace plain_;
     std::vector<MeshBuilder::Corner> corners_;
+    bool hasUnknown_ = false; // of the face that is read
+    Counted unknown_;
 };
 
 // What was left out of the faces.
 struct FacesLeftOut {
     Counted tooFewCorners, noArea;
+    Counted unknown; // CornerReader::unknown(): only some numbers of theirs
     // What happened behind it.
     void add(const FacesLeftOut& later) {
         tooFewCorners.add(later.tooFewCorners);
         noArea.add(later.noArea);
+        unknown.add(later.unknown);
     }
 };
 

@@ -245,6 +245,14 @@ private:
             if (what.count > 0)
                 context_.warn(source_, what.first, cat(counted(what.count, one, many), rest));
         };
+        Counted unknown = leftOut_.unknown;
+        if (const Counted& others = corners_.unknown(); others.count > 0) {
+            const bool isFirst = unknown.count == 0 || others.first < unknown.first;
+            unknown = {unknown.count + others.count, isFirst ? others.first : unknown.first};
+        }
+        tell(unknown, "face has", "faces have",
+             " texture coordinates or normals that are not in the file; they do without; the first "
+             "is here");
         tell(skipped_, "statement", "statements",
              " of points, lines, curves, surfaces or display left out; the first is here");
         tell(unknown_, "unknown statement", "unknown statements", " left out; the first is here");
