@@ -53,11 +53,11 @@ TEST(json_objects_lenient) {
         {R"({"type": "box", "min": [-1, -1, 1], "max": [1, 1, -9]})", "a box has a 'max' above"},
         {R"({"type": "box", "min": [-1, 0, -1], "max": [1, 0, 1]})", "a box has a 'max' above"},
     };
-    for (const auto& [object, warning] : rows) {
-        CHECK_THROWS(read(sceneOf({object}), false), warning);
-        const Reading reading = read(sceneOf({object}), true);
-        CHECK_INFO(join(reading.warnings).find(warning) != std::string::npos,
-                   join(reading.warnings));
+    for (const Row& row : rows) {
+        CHECK_THROWS(read(sceneOf({row.object}), false), row.warning);
+        const Reading reading = read(sceneOf({row.object}), true);
+        const std::string said = join(reading.warnings);
+        CHECK_INFO(said.find(row.warning) != std::string::npos, said);
     }
     const auto placeOf = [&](const std::string& object) {
         return read(sceneOf({object}), true).desc.objects.at(0).worldFromObject.at(0);
