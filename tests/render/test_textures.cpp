@@ -10,22 +10,32 @@ Rgb pattern(int x, int y) { // 4x4, y from the bottom
     return {static_cast<float>(x * 4 + y) / 16, static_cast<float>((x * 7 + y * 3) % 5) / 4,
             static_cast<float>(y) / 3};
 }
-// What the format's README says a texture is at (s, t), written anew.
+// What the format's README says a texture is at (s, t), written anew: colours count as they cover,
+// and what `clip` cuts off covers nothing.
 Vec3d lookup(double s, double t, const std::string& extension, bool nearest) {
+    const auto covers = [&](int x, int y) {
+        return extension != "clip" || (x >= 0 && x <= 3 && y >= 0 && y <= 3);
+    };
     const auto texel = [&](int x, int y) -> Vec3d {
-        if (extension == "clip" && (x < 0 || x > 3 || y < 0 || y > 3)) return {};
         const auto wrap = [&](int i) {
             return extension == "repeat" ? ((i % 4) + 4) % 4 : std::min(std::max(i, 0), 3);
         };
         const Rgb c = pattern(wrap(x), wrap(y));
-        return {double{c.r}, double{c.g}, double{c.b}};
+        return covers(x, y) ? Vec3d{double{c.r}, double{c.g}, double{c.b}} : Vec3d{};
     };
     if (nearest)
         return texel(static_cast<int>(std::floor(s * 4)), static_cast<int>(std::floor(t * 4)));
     const double x = s * 4 - 0.5, y = t * 4 - 0.5;
     const int i = static_cast<int>(std::floor(x)), j = static_cast<int>(std::floor(y));
-    return lerp(lerp(texel(i, j), texel(i + 1, j), x - i),
-                lerp(texel(i, j + 1), texel(i + 1, j + 1), x - i), y - j);
+    Vec3d sum;
+    double weights = 0;
+    for (const int di : {0, 1})
+        for (const int dj : {0, 1}) {
+            const double weight = (di == 1 ? x - i : i + 1 - x) * (dj == 1 ? y - j : j + 1 - y);
+            sum += texel(i + di, j + dj) * weight;
+            weights += covers(i + di, j + dj) ? weight : 0;
+        }
+    return weights > 0 ? sum / weights : Vec3d{};
 }
 
 // A plane [-1,1]^2 under a sun along `light`, whose material has the lines `material`.

@@ -123,12 +123,12 @@ TEST(read_obj_numbers_that_are_not_there) {
     CHECK_EQUAL(none.mesh.triangles.size(), std::size_t{2});
     CHECK(none.mesh.normals.empty() && none.mesh.uvs.empty());
     CHECK_EQUAL(none.warnings.size(), std::size_t{1});
-    CHECK(none.warnings[0].find("t.obj:5:3: warning: 2 faces have texture coordinates or normals "
+    CHECK(none.warnings[0].find("t.obj:5:2: warning: 2 faces have texture coordinates or normals "
                                 "that are not in the file") == 0);
     // One of a face is enough to leave out those of its kind; other faces keep theirs.
     const Result some = readText(points + "vt 0 0\nvt 1 0\nvt 1 1\nf 1/1 2/2 3/4\nf 1/1 3/3 4/2\n");
     CHECK_EQUAL(some.mesh.triangles.size(), std::size_t{2});
-    CHECK_EQUAL(some.mesh.uvs.size(), std::size_t{3});
+    CHECK_EQUAL(some.mesh.uvs.size(), std::size_t{4}); // 0 0 for corners without
     CHECK_EQUAL(some.warnings.size(), std::size_t{1});
     CHECK_THROWS(readText(points + "f 1 2 5\n"), "there is no vertex 5; the file has 4 vertices");
     CHECK_THROWS(readText(points + "f 1/0 2/1 3/1\n"), "there is no index 0");
