@@ -22,13 +22,14 @@ public:
         nodes_.push_back({material, inside, kNothing});
         return entered;
     }
-    // Removes the innermost entry of the material; none there: the ray started inside, no change.
+    // Removes the innermost entry of the material. Where there is none, as of an inner shell that is
+    // inside out and has a material of its own, what was entered last is left.
     Inside leave(Inside inside, std::uint32_t material) {
         Inside at = inside;
         kept_.clear(); // what overlaps with it and goes on
         for (; at != kNothing && top(at) != material; at = nodes_[at].outer)
             kept_.push_back(top(at));
-        if (at == kNothing) return inside;
+        if (at == kNothing) return nodes_[inside].outer;
         at = nodes_[at].outer;
         for (; !kept_.empty(); kept_.pop_back()) at = enter(at, kept_.back());
         return at;

@@ -18,7 +18,10 @@ struct Reference {
     void enter(std::uint32_t m) { inside.push_back(m); }
     void leave(std::uint32_t m) {
         const auto at = std::find(inside.rbegin(), inside.rend(), m);
-        if (at != inside.rend()) inside.erase(std::next(at).base());
+        if (at != inside.rend())
+            inside.erase(std::next(at).base());
+        else if (!inside.empty())
+            inside.pop_back(); // never entered: the top goes
     }
 };
 
@@ -37,6 +40,7 @@ TEST(medium_tree) {
     auto s = MediumTree::kNothing;
     CHECK_EQUAL(tree.top(s), kAir);
     CHECK_EQUAL(tree.leave(s, kGlass), s); // the ray started inside: no change
+    CHECK_EQUAL(tree.top(tree.leave(tree.enter(tree.enter(s, kGlass), kWater), kIce)), kGlass);
     s = tree.enter(tree.enter(tree.enter(s, kGlass), kWater), kIce); // nested
     CHECK_EQUAL(tree.top(s), kIce);
     s = tree.leave(s, kWater); // the outer ends first: overlapping solids
