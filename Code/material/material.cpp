@@ -8,11 +8,10 @@ namespace {
 constexpr float kInvPiF = static_cast<float>(kInvPi);
 
 // A rough surface reflects about a half vector h instead of n.
-Vec3 microNormal(const Material& material, Vec3 n, Vec3 toEye, Vec2 u) {
+Vec3 microNormal(const Material& material, Vec3 n, Vec2 u) {
     if (material.roughness <= 0) return n;
     const Vec3 local = cosinePowerFromSquare(u, lobeExponent(material.roughness));
-    const Vec3 h = normalize(frameAround(n).toWorld(local));
-    return dot(h, toEye) > 0 ? h : n;
+    return normalize(frameAround(n).toWorld(local));
 }
 
 // Under total internal reflection nothing gets through: all the light of both goes back.
@@ -56,8 +55,10 @@ Bounces bounces(const Material& material, Vec3 n, Vec3 ng, Vec3 toEye, float eta
     Bounces out;
     const bool reflects = !isBlack(material.mirror), transmits = !isBlack(material.transmission);
     if (!reflects && !transmits) return out;
-    const Vec3 h = microNormal(material, n, toEye, u);
+    const Vec3 h = microNormal(material, n, u);
     const float cosIn = dot(h, toEye);
+    const bool isRough = material.roughness > 0;
+    if (isRough && !(cosIn > 0)) return out;
 
     Rgb reflected = material.mirror, transmitted = material.transmission;
     if (material.fresnel == FresnelModel::Dielectric) {
@@ -74,19 +75,21 @@ Bounces bounces(const Material& material, Vec3 n, Vec3 ng, Vec3 toEye, float eta
     if (transmits) {
         auto dir = refractThrough(toEye, h, eta);
         // A bent normal may refract to the side of the eye: fall back to the true surface.
-        if (dir && !(dot(*dir, ng) < 0)) dir = refractThrough(toEye, ng, eta);
+        if (dir && !(dot(*dir, ng) < 0) && !isRough) dir = refractThrough(toEye, ng, eta);
         if (dir && dot(*dir, ng) < 0)
             out.refracted = Bounce{*dir, transmitted};
         else if (!dir)
             reflected = totallyReflected(material);
     }
-    if (!isBlack(reflected)) {
-        const Vec3 dir = mirrored(toEye, h, ng);
-        // Importance sampling of the Ashikhmin-Shirley lobe leaves N.L / max(N.L, N.V).
-        const float cosOut = dot(n, dir), cosEye = dot(n, toEye);
-        const float weight =
-            material.roughness > 0 && cosOut < cosEye ? max(cosOut, 0.0f) / cosEye : 1.0f;
-        out.reflected = Bounce{dir, reflected * weight};
+    if (isBlack(reflected)) return out;
+    if (!isRough) {
+        out.reflected = Bounce{mirrored(toEye, h, ng), reflected};
+        return out;
     }
+    const Vec3 dir = normalize(reflectAbout(toEye, h));
+    const float cosOut = dot(n, dir), cosEye = dot(n, toEye);
+    if (!(cosOut > 0 && dot(dir, ng) > 0)) return out;
+    // Importance sampling of the Ashikhmin-Shirley lobe leaves N.L / max(N.L, N.V).
+    out.reflected = Bounce{dir, cosOut < cosEye ? reflected * (cosOut / cosEye) : reflected};
     return out;
 }

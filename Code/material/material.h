@@ -60,7 +60,8 @@ float lobeExponent(float roughness);
 // The rays that leave a point of a mirroring or transmitting surface. `n` is the shading normal and
 // `ng` the geometric one, both on the side of the eye; `eta` is the ior on the eye's side over the
 // ior on the other side; `u` spreads the directions when the surface is rough. Total internal
-// reflection sends all the light into the reflection.
+// reflection sends all the light into the reflection. What a rough surface draws below its horizon,
+// or about half vectors that are turned away from the eye, is lost: the lobe has no light there.
 struct Bounces {
     std::optional<Bounce> reflected, refracted;
 };

@@ -40,10 +40,10 @@ TEST(whiteFurnace) {
          0.999999, 0.999999},
         {" diffuse 0 0 0\n opacity 0\n", 1, 1},
         {" diffuse 1 1 1\n opacity 0.5\n", 0.999999, 0.999999},
-        {" diffuse 0 0 0\n mirror 1 1 1\n roughness 0.2\n", 0.3, 0.9},
+        {" diffuse 0 0 0\n mirror 1 1 1\n roughness 0.2\n", 0, 0.9},
         {" diffuse 0 0 0\n mirror 1 1 1\n transmission 1 1 1\n fresnel dielectric\n roughness "
          "0.3\n",
-         0.3, 0.85},
+         0, 0.85},
         {" diffuse 0 0 0\n mirror 0.04 0.04 0.04\n transmission 0.96 0.96 0.96\n fresnel schlick\n",
          0.8, 0.97}};
     for (const Case& c : cases)

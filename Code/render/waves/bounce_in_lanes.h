@@ -82,8 +82,9 @@ public:
         }
         if (lanes == 0) return;
         const Floats3 h = rough != 0 ? microNormals(alike, *pairs, rough) : n_;
+        lanes &= ~(rough & ~bits(dot(h, toEye_) > zero));
         LeavingLanes refracted;
-        if (lanes != plain) refracted = refract(alike, h, lanes, mirror, out);
+        if ((lanes & ~plain) != 0) refracted = refract(alike, h, lanes, rough, mirror, out);
         write(reflect(h, mirror, lanes, rough), refracted, to, out);
     }
 
@@ -111,13 +112,13 @@ private:
         exponent.store(row.exponent);
         drawPairs(pairs, first_, row);
         placeInLobe(row, rough);
-        return select(maskOf(rough), halfVectors(row, n_, toEye_), n_);
+        return select(maskOf(rough), halfVectors(row, n_), n_);
     }
 
     // What is not reflected but refracted by the surfaces that h stands on. `mirror` becomes what
     // is reflected.
     LeavingLanes refract(std::span<const AlikePoints> alike, const Floats3& h, unsigned lanes,
-                         Floats3& mirror, LeavingRays& out) const {
+                         unsigned rough, Floats3& mirror, LeavingRays& out) const {
         const Floats zero(0.0f), one(1.0f);
         Floats eta(one);
         Floats3 transmission{zero, zero, zero};
@@ -157,7 +158,7 @@ private:
         auto [dir, passes] = refracted(toEye_, h, eta);
         unsigned total = transmits & ~passes, leaves = bits(dot(dir, ng_) < zero);
         // A bent normal may refract to the side of the eye: fall back to the true surface.
-        if (const unsigned bent = transmits & passes & ~leaves; bent != 0) {
+        if (const unsigned bent = transmits & passes & ~leaves & ~rough; bent != 0) {
             const RefractedLanes straight = refracted(toEye_, ng_, eta);
             dir = select(maskOf(bent), straight.dir, dir);
             total |= bent & ~straight.passes;
@@ -171,13 +172,14 @@ private:
     LeavingLanes reflect(const Floats3& h, const Floats3& mirror, unsigned lanes,
                          unsigned rough) const {
         Floats3 dir = mirroredAbout(h, toEye_), part = mirror;
-        const Mask leaves = dot(dir, ng_) > Floats(0.0f);
-        if ((lanes & ~bits(leaves)) != 0) dir = select(leaves, dir, mirroredAbout(ng_, toEye_));
+        const unsigned leaves = bits(dot(dir, ng_) > Floats(0.0f));
+        if ((lanes & ~leaves & ~rough) != 0)
+            dir = select(maskOf(leaves | rough), dir, mirroredAbout(ng_, toEye_));
         if (rough != 0) {
             // See bounces().
             const Floats cosOut = dot(n_, dir), cosEye = dot(n_, toEye_);
-            part = select(maskOf(rough) & (cosOut < cosEye),
-                          mirror * (max(cosOut, Floats(0.0f)) / cosEye), mirror);
+            lanes &= ~(rough & ~(leaves & bits(cosOut > Floats(0.0f))));
+            part = select(maskOf(rough) & (cosOut < cosEye), mirror * (cosOut / cosEye), mirror);
         }
         return rays(p_ + ng_ * error_, dir, part, lanes);
     }

@@ -53,11 +53,10 @@ inline void placeInLobe(LobeRow& row, unsigned lanes) {
     }
 }
 
-// About n, in what the rows have placed; n itself where that is turned away from the eye.
-inline Floats3 halfVectors(const LobeRow& row, const Floats3& n, const Floats3& toEye) {
-    const Floats3 h = normalize(
+// About n, in what the rows have placed.
+inline Floats3 halfVectors(const LobeRow& row, const Floats3& n) {
+    return normalize(
         framesAround(n).toWorld(Floats::load(row.x), Floats::load(row.y), Floats::load(row.z)));
-    return select(dot(h, toEye) > Floats(0.0f), h, n);
 }
 
 LANES_END
