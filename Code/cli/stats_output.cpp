@@ -124,10 +124,11 @@ std::string statsTable(const Stats& s) {
     table.row("camera", grouped(s.rays.camera));
     table.row("camera hits", grouped(s.cameraHits));
     table.row("shadow", grouped(s.rays.shadow));
+    table.row("shadow traced", grouped(s.rays.tracedShadow));
     table.row("reflect", grouped(s.rays.reflect));
     table.row("refract", grouped(s.rays.refract));
     table.row("indirect", grouped(s.rays.indirect));
-    table.row("all", grouped(s.rays.total()));
+    table.row("all traced", grouped(s.rays.total()));
     table.row("speed", fixed(raysPerSecond(s) / 1e6, 3), "Mray/s");
     table.heading("accel");
     table.row("kind", s.accel.kind);
@@ -166,6 +167,7 @@ std::string statsJson(const Stats& s, const RunFacts& run) {
     seconds.add("render", s.renderSeconds).add("write", s.writeSeconds);
     seconds.add("total", s.totalSeconds);
     rays.add("camera", s.rays.camera).add("shadow", s.rays.shadow);
+    rays.add("shadow_traced", s.rays.tracedShadow);
     rays.add("reflect", s.rays.reflect).add("refract", s.rays.refract);
     rays.add("indirect", s.rays.indirect);
     hits.add("camera", s.cameraHits);

@@ -7,11 +7,17 @@
 #include <vector>
 
 struct RayCounts {
-    std::uint64_t camera = 0, shadow = 0, reflect = 0, refract = 0, indirect = 0;
-    std::uint64_t total() const { return camera + shadow + reflect + refract + indirect; }
+    std::uint64_t camera = 0, reflect = 0, refract = 0, indirect = 0;
+    // Asked: one for every sample of a lamp that casts shadows and would light a point, however it
+    // is known what is in between. Where no sample is drawn, all that a lamp has count at points
+    // that are known to be in its shadow, none where the light is known in closed form.
+    std::uint64_t shadow = 0;
+    std::uint64_t tracedShadow = 0; // those of them for which a ray was traced
+    // All that were traced.
+    std::uint64_t total() const { return camera + tracedShadow + reflect + refract + indirect; }
     RayCounts& operator+=(const RayCounts& o) {
         camera += o.camera, shadow += o.shadow, reflect += o.reflect, refract += o.refract;
-        indirect += o.indirect;
+        indirect += o.indirect, tracedShadow += o.tracedShadow;
         return *this;
     }
 };

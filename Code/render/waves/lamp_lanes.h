@@ -76,6 +76,7 @@ struct alignas(64) LitBySamples {
     ShadowRayPlaces to{}; // of the next ray
     std::size_t rays = 0;
     std::uint32_t firstSum = 0; // number of the first point
+    std::uint64_t shining = 0;  // how many samples would light their points
     bool isLit(std::size_t s, std::size_t k) const { return lit[s] >> k & 1; }
     bool isUnsure(std::size_t s, std::size_t k) const { return unsure[s] >> k & 1; }
 };

@@ -126,6 +126,7 @@ void addLampsInLanes(const Wave& wave, std::span<const Lamp> lamps, bool isGroup
             LitByLamp& by = memory.byLamp[b];
             lamp.inLanes(*lamp.emission, memory.litBlocks[b], hidden, by);
             by.unsure = by.lit & hidden;
+            if (kShadows) wave.counts.shadow += static_cast<std::uint64_t>(std::popcount(by.lit));
         }
         if (lamp.map)
             lamp.askMap(*lamp.map, std::span(memory.litBlocks).first(blocks),
@@ -133,7 +134,7 @@ void addLampsInLanes(const Wave& wave, std::span<const Lamp> lamps, bool isGroup
         for (std::size_t b = 0; b < blocks; ++b)
             pushLampRays(wave, origins, memory.litBlocks[b], memory.byLamp[b],
                          memory.byLamp[b].unsure);
-        wave.counts.shadow += rays.size();
+        wave.counts.tracedShadow += rays.size();
         if (!rays.empty()) wave.context.scene.shapes().occluded(rays.span(), memory.hidden);
         memory.hidden.resize(rays.size() + LitBlock::kPoints); // lanes look at whole registers
         std::size_t ray = 0;

@@ -58,7 +58,7 @@ template <bool kSeeThrough> void listAnswering(const Wave& wave) {
 template <bool kSeeThrough> void askShadowRays(const Wave& wave) {
     const RayBatch& rays = wave.memory.shadowRays;
     if (rays.empty()) return;
-    wave.counts.shadow += rays.size();
+    wave.counts.tracedShadow += rays.size();
     if constexpr (kSeeThrough)
         transmitted(wave.context.scene, rays, wave.memory.transmittance);
     else
@@ -79,6 +79,7 @@ template <bool kSeeThrough, class ArriveFn>
 void traceShadowRays(const Wave& wave, ArriveFn&& arrive) {
     askShadowRays<kSeeThrough>(wave);
     const RayBatch& rays = wave.memory.shadowRays;
+    wave.counts.shadow += rays.size();
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Rgb light = arriving<kSeeThrough>(wave.memory, i, rays.weight[i]);
         if (!isBlack(light)) arrive(rays.sample[i], light);
@@ -91,10 +92,13 @@ inline void addTo(WaveMemory& memory, std::uint32_t place, Rgb light) {
     sum[0][i] += light.r, sum[1][i] += light.g, sum[2][i] += light.b;
 }
 
-// The same for rays that know their sums in memory.lightSums.
+// The same for rays that know their sums in memory.lightSums, and are counted.
 template <bool kSeeThrough> void addRays(const Wave& wave) {
-    traceShadowRays<kSeeThrough>(
-        wave, [&](std::uint32_t place, Rgb light) { addTo(wave.memory, place, light); });
+    askShadowRays<kSeeThrough>(wave);
+    WaveMemory& memory = wave.memory;
+    const RayBatch& rays = memory.shadowRays;
+    for (std::size_t i = 0; i < rays.size(); ++i)
+        addTo(memory, rays.sample[i], arriving<kSeeThrough>(memory, i, rays.weight[i]));
 }
 
 // The same for all that waits for them, in memory.lightSums.
@@ -152,7 +156,10 @@ void shineOneByOne(const Wave& wave, const Lamp& lamp, bool isGrouped, ArriveFn&
                 continue;
             }
         forEachLampSample<kSoftLamps>(wave, lamp, lit, [&](const LightSample& sample, Rgb light) {
-            if (!mayBeHidden) return arrive(k, light);
+            if (!mayBeHidden) {
+                ++wave.counts.shadow;
+                return arrive(k, light);
+            }
             const float time = wave.rays.time[memory.points.ray[k]];
             memory.shadowRays.push(shadowRay(lamp, lit, sample, time), k, light);
         });

@@ -37,6 +37,7 @@ void shineInLanes(const Wave& wave, const Lamp& lamp, bool isGrouped, ArriveFn&&
         const auto lightAt = [&](std::size_t i) {
             return Rgb{by.light[0][i], by.light[1][i], by.light[2][i]};
         };
+        wave.counts.shadow += static_cast<std::uint64_t>(std::popcount(by.lit & ~hidden));
         for (unsigned rest = by.lit & ~hidden; rest != 0; rest &= rest - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(rest));
             arrive(block.point[i], lightAt(i));

@@ -43,6 +43,9 @@ public:
     struct Sample {
         Three light;
         unsigned lit; // by it, if only by black
+        unsigned shining() const {
+            return static_cast<unsigned>(std::popcount(lit & ~black(light)));
+        }
     };
     template <bool kMayShine> Sample sample(const LampRow& row, unsigned asked) const {
         const Three irradiance = lamp_.irradiance(row);
@@ -101,6 +104,7 @@ void sumSamples(const SoftLanes<LampSeen>& lanes, const SamplesOnLamp& samples,
     for (std::size_t s = 0; s < samples.count; ++s) {
         const LampRow& row = rows[s];
         auto by = lanes.template sample<kMayShine>(row, asked);
+        out.shining += by.shining();
         if ((by.lit & mayBeHidden) != 0) {
             by.lit &= ~black(by.light);
             const auto [hidden, unsure] =
@@ -137,6 +141,7 @@ void sumOrSend(const SoftLanes<LampSeen>& lanes, const SamplesOnLamp& samples,
     for (std::size_t s = 0; s < samples.count; ++s) {
         const LampRow& row = rows[s];
         const auto by = lanes.template sample<kMayShine>(row, asked);
+        out.shining += by.shining();
         const unsigned sent = by.lit & mayBeHidden & ~black(by.light);
         if (sent != 0) {
             const std::size_t n = out.rays;
@@ -175,7 +180,7 @@ void sumBlock(const Emission& lamp, const LitBlock& block, const SamplesOnLamp& 
 
 void lightBySamples(const LampEmission& lamp, const LitBlock& block, const SamplesOnLamp& places,
                     const Occluders& occluders, const HiddenPoints& hidden, LitBySamples& out) {
-    out.lit.fill(0), out.unsure.fill(0);
+    out.lit.fill(0), out.unsure.fill(0), out.shining = 0;
     if (const auto* const round = std::get_if<PointEmission>(&lamp))
         sumBlock(*round, block, places, occluders, hidden, out);
     else if (const auto* const flat = std::get_if<FlatEmission>(&lamp))

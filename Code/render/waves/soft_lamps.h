@@ -187,6 +187,8 @@ inline bool shineBySamples(const Wave& wave, const Lamp& lamp, bool isGrouped) {
         if (!canTell) hidden.surely = 0;
         knowWhole(wave, lamp, block, block.used & ~hidden.surely, lamp.ball ? ~hidden.maybe : 0,
                   whole);
+        wave.counts.shadow += static_cast<std::uint64_t>(lamp.samples) *
+                              static_cast<std::uint64_t>(std::popcount(hidden.surely & block.used));
         if ((whole.known | hidden.surely) == block.used) {
             std::copy_n(&whole.light[0][0], 3 * kPoints, &sum[0][0]);
             continue;
@@ -201,6 +203,7 @@ inline bool shineBySamples(const Wave& wave, const Lamp& lamp, bool isGrouped) {
             if (!canTell) offerPlaces(memory.shadowRays, b, static_cast<std::size_t>(some), by);
             lamp.bySamples(*lamp.all, block, samplesOf(wave, lamp, block, asked, first, some),
                            occluders, hidden, by);
+            wave.counts.shadow += by.shining;
             if (!canTell) takeRays(wave, block, by);
             if (by.waiting != 0)
                 listWaiting(wave, block, by, b * kPoints, static_cast<std::size_t>(some));
