@@ -84,18 +84,68 @@ BoundsD boundsUpTo(const SceneDesc& desc, double enough, int threads) {
     return box;
 }
 
-BoundsD boundsOf(const SceneDesc& desc, int threads) {
+// Gives take(part, box of an object) all objects; several threads have a part each at a time.
+template <class Part, class Take>
+static std::vector<Part> partsOf(const SceneDesc& desc, MeshBoxes& meshBoxes, int threads,
+                                 const Take& take) {
     constexpr std::size_t kTogether = 1 << 12;
     const std::size_t count = desc.objects.size();
-    std::vector<BoundsD> parts((count + kTogether - 1) / kTogether);
-    MeshBoxes meshBoxes(desc, threads);
-    meshBoxes.prepare();
+    std::vector<Part> parts((count + kTogether - 1) / kTogether);
     forEachPart(threads, count, kTogether, [&](std::size_t first, std::size_t last) {
-        BoundsD part; // far from those of other threads
-        for (std::size_t i = first; i < last; ++i) extendBy(part, desc.objects[i], meshBoxes);
+        Part part; // far from those of other threads
+        for (std::size_t i = first; i < last; ++i) {
+            BoundsD box;
+            extendBy(box, desc.objects[i], meshBoxes);
+            if (!box.isEmpty()) take(part, box);
+        }
         parts[first / kTogether] = part;
     });
+    return parts;
+}
+
+static double distanceTo(const BoundsD& box, Vec3d p) {
+    Vec3d beside;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        beside[axis] = max(0.0, max(box.lo[axis] - p[axis], p[axis] - box.hi[axis]));
+    const double distance = length(beside);
+    return distance > 0 ? distance : maxAbs(box.size()) / 64;
+}
+
+BoundsD boundsOf(const SceneDesc& desc, int threads) {
+    MeshBoxes meshBoxes(desc, threads);
+    meshBoxes.prepare();
     BoundsD box;
-    for (const BoundsD& part : parts) box.extend(part);
+    for (const BoundsD& part : partsOf<BoundsD>(
+             desc, meshBoxes, threads, [](BoundsD&all, const BoundsD&of) { all.extend(of); }))
+        box.extend(part);
     return box;
+}
+
+NearBounds boundsNear(const SceneDesc& desc, Vec3d eye, double farTimes, double least,
+                      int threads) {
+    MeshBoxes meshBoxes(desc, threads);
+    meshBoxes.prepare();
+    struct Part {
+        BoundsD box;
+        double nearest = kInfinity, farthest = 0;
+    };
+    Part all;
+    for (const Part& part : partsOf<Part>(desc, meshBoxes, threads, [&](Part&p, const BoundsD&of) {
+             const double distance = max(distanceTo(of, eye), least);
+             p.box.extend(of);
+             p.nearest = min(distance, p.nearest), p.farthest = max(distance, p.farthest);
+         })) {
+        all.box.extend(part.box);
+        all.nearest = min(part.nearest, all.nearest),
+        all.farthest = max(part.farthest, all.farthest);
+    }
+    const double most = farTimes * all.nearest;
+    if (!(all.farthest > most)) return {all.box, all.box, all.nearest};
+    NearBounds out{{}, all.box, all.nearest};
+    for (const BoundsD& part :
+         partsOf<BoundsD>(desc, meshBoxes, threads, [&](BoundsD&some, const BoundsD&of) {
+             if (distanceTo(of, eye) <= most) some.extend(of);
+         }))
+        out.near.extend(part);
+    return out;
 }

@@ -49,7 +49,7 @@ bool FlatLight::cannotReach(Vec3 point, Vec3 n) const {
     return dot(flat_.normal, d) > slack; // the point is behind the lamp
 }
 
-Bounds FlatLight::sourcesFor(const Bounds&) const {
+Bounds FlatLight::sourcesFor(const Bounds&, float) const {
     Vec3 half;
     for (std::size_t axis = 0; axis < 3; ++axis)
         half[axis] = std::fabs(flat_.halfX[axis]) + std::fabs(flat_.halfY[axis]);
@@ -116,7 +116,7 @@ bool SphereLight::cannotReach(Vec3 point, Vec3 n) const {
     return dot(n, d) + sphere_.radius < -kHorizonSlack * (maxAbs(d) + sphere_.radius);
 }
 
-Bounds SphereLight::sourcesFor(const Bounds&) const {
+Bounds SphereLight::sourcesFor(const Bounds&, float) const {
     return Bounds{sphere_.centre, sphere_.centre}.padded(sphere_.radius);
 }
 

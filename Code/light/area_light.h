@@ -16,7 +16,7 @@ public:
     // Of rectangles that light all sides (Lambert 1760).
     std::optional<LightSample> whole(Vec3 point, Vec3 n, Vec3 horizon) const override;
     bool cannotReach(Vec3 point, Vec3 n) const override;
-    Bounds sourcesFor(const Bounds& points) const override;
+    Bounds sourcesFor(const Bounds& points, float reach) const override;
     std::optional<LampEmission> lampEmission(bool inCentre) const override {
         return inCentre ? std::nullopt : std::optional<LampEmission>(flat_);
     }
@@ -38,7 +38,7 @@ public:
     LightSample centre(Vec3 point) const override;
     std::optional<LightSample> whole(Vec3 point, Vec3 n, Vec3 horizon) const override;
     bool cannotReach(Vec3 point, Vec3 n) const override;
-    Bounds sourcesFor(const Bounds& points) const override;
+    Bounds sourcesFor(const Bounds& points, float reach) const override;
     std::optional<LampEmission> lampEmission(bool inCentre) const override {
         return inCentre ? std::nullopt : std::optional<LampEmission>(sphere_);
     }

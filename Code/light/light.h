@@ -59,8 +59,9 @@ public:
         return true;
     }
     // A box in which the lines end along which light comes to places in `points`; for lamps at
-    // infinity they go on, outside of the scene, whose coordinates are at most 1.
-    virtual Bounds sourcesFor(const Bounds& points) const = 0;
+    // infinity they go on, outside of all that has coordinates up to `reach`.
+    virtual Bounds sourcesFor(const Bounds& points, float reach) const = 0;
+    virtual bool isAtInfinity() const { return false; }
     bool castsShadows() const { return castsShadows_; }
     bool isDark() const { return isDark_; }
 

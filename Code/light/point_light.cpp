@@ -79,6 +79,6 @@ bool PointLight::shine(Vec3 point, Vec3 n, LightSample& sample) const {
 }
 
 // The disk faces the point: all of it is in the ball.
-Bounds PointLight::sourcesFor(const Bounds&) const {
+Bounds PointLight::sourcesFor(const Bounds&, float) const {
     return Bounds{position_, position_}.padded(radius_);
 }

@@ -15,7 +15,7 @@ public:
     std::optional<LightSample> whole(Vec3 point, Vec3 n, Vec3 horizon) const override;
     bool cannotReach(Vec3 point, Vec3 n) const override;
     bool shine(Vec3 point, Vec3 n, LightSample& sample) const override;
-    Bounds sourcesFor(const Bounds& points) const override;
+    Bounds sourcesFor(const Bounds& points, float reach) const override;
     std::optional<Vec3> origin() const override { return position_; }
     std::optional<PointEmission> emission() const override {
         return PointEmission{position_, intensity_, attenuation_, radius_, cone_};

@@ -38,8 +38,8 @@ bool SunLight::cannotReach(Vec3, Vec3 n) const {
     return dot(n, sun_.toSun) < -(sun_.sinHalfAngle + kHorizonSlack);
 }
 
-Bounds SunLight::sourcesFor(const Bounds& points) const {
-    const float away = 4 * (2 + max(maxAbs(points.lo), maxAbs(points.hi)));
+Bounds SunLight::sourcesFor(const Bounds& points, float reach) const {
+    const float away = 4 * (1 + reach + max(maxAbs(points.lo), maxAbs(points.hi)));
     const Vec3 way = sun_.toSun * away;
     // The chord between the middle of the disk and its edge is at most twice the sine.
     return Bounds{points.lo + way, points.hi + way}.padded(2 * sun_.sinHalfAngle * away);

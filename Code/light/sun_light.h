@@ -13,7 +13,8 @@ public:
     LightSample centre(Vec3 point) const override;
     std::optional<LightSample> whole(Vec3 point, Vec3 n, Vec3 horizon) const override;
     bool cannotReach(Vec3 point, Vec3 n) const override;
-    Bounds sourcesFor(const Bounds& points) const override;
+    bool isAtInfinity() const override { return true; }
+    Bounds sourcesFor(const Bounds& points, float reach) const override;
     std::optional<LampEmission> lampEmission(bool inCentre) const override;
 
 private:

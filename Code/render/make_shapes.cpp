@@ -60,7 +60,7 @@ ShapeMaker::ShapeMaker(const SceneDesc& desc, const RenderSettings& settings,
         Placed placed{i, materialsBySlot(object)};
         // Meshes that move or have too many copies are instances.
         const auto mesh = static_cast<std::size_t>(object.mesh);
-        placed.isCopied = isCopied[mesh] && isStill && isInScene(i);
+        placed.isCopied = isCopied[mesh] && isStill && isNear(i);
         if (placed.isCopied) {
             const bool isSolid = shadowOf(placed.materials) == ShapeSet::Shadow::Opaque;
             for (Merged& merged : merged_)
@@ -169,14 +169,13 @@ MovingTransform ShapeMaker::placeOf(std::uint32_t object) const {
     return placedKeys(desc_.objects[object].worldFromObject, frame_, settings_.switches.motionBlur);
 }
 
-// Within kSceneExtent, on which the pads of all that is merged depend. Only an object that has
-// several keys, and whose movement is switched off, may be elsewhere in between.
-bool ShapeMaker::isInScene(std::uint32_t number) const {
+// What is distant stays alone, so that the pads of what is merged do not grow.
+bool ShapeMaker::isNear(std::uint32_t number) const {
+    if (frame_.distantFrom == kInfinityF) return true;
     const ObjectDesc& object = desc_.objects[number];
-    if (object.worldFromObject.size() == 1) return true;
     const BoundsD box =
         placeOf(number).at(0).bounds(boundsOf(desc_.meshes[static_cast<std::size_t>(object.mesh)]));
-    return max(maxAbs(box.lo), maxAbs(box.hi)) <= static_cast<double>(kSceneExtent);
+    return !isDistant({toFloat(box.lo), toFloat(box.hi)}, frame_.distantFrom);
 }
 
 const MeshDesc& ShapeMaker::meshOf(const Placed& placed) const {

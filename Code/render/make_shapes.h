@@ -68,7 +68,7 @@ private:
     ShapeSet::Shadow shadowOf(std::span<const std::uint32_t> materials) const;
     std::vector<bool> meshesToCopy() const;
     MovingTransform placeOf(std::uint32_t object) const;
-    bool isInScene(std::uint32_t number) const;
+    bool isNear(std::uint32_t number) const;
     const MeshDesc& meshOf(const Placed& placed) const;
     void merge(Merged& merged);
     void share(Shared& shared);

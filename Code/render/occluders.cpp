@@ -26,17 +26,25 @@ bool sweepMeets(const Bounds& from, const Bounds& to, const Bounds& box, float s
     return !(times.lo > times.hi * (1 + 0x1p-18f));
 }
 
-// Are all of both boxes on one side of the plane?
-bool areBeside(const Occluder::Sides& plane, const Bounds& a, const Bounds& b, float slack) {
-    const auto height = [&](const Bounds& box) {
-        const Vec3 middle = (box.lo + box.hi) * 0.5f, half = (box.hi - box.lo) * 0.5f;
-        const float at = dot(plane.n, middle) + plane.offset;
-        const float reach = std::fabs(plane.n.x) * half.x + std::fabs(plane.n.y) * half.y +
-                            std::fabs(plane.n.z) * half.z + slack;
-        return at > reach ? 1 : at < -reach ? -1 : 0;
+// Are all of both boxes on one side of the plane? With `goesOn`, also all of the lines from one to
+// the other behind it: they do not come nearer to the plane.
+bool areBeside(const Occluder::Sides& plane, const Bounds& from, const Bounds& to, float slack,
+               bool goesOn) {
+    struct Heights {
+        float middle, reach;
+        int side() const { return middle > reach ? 1 : middle < -reach ? -1 : 0; }
     };
-    const int side = height(a);
-    return side != 0 && side == height(b);
+    const auto heights = [&](const Bounds& box) {
+        const Vec3 middle = (box.lo + box.hi) * 0.5f, half = (box.hi - box.lo) * 0.5f;
+        return Heights{dot(plane.n, middle) + plane.offset,
+                       std::fabs(plane.n.x) * half.x + std::fabs(plane.n.y) * half.y +
+                           std::fabs(plane.n.z) * half.z + slack};
+    };
+    const Heights a = heights(from), b = heights(to);
+    const int side = a.side();
+    if (side == 0 || side != b.side()) return false;
+    const float most = max(std::fabs(b.middle), std::fabs(a.middle)) * 0x1p-20f + slack;
+    return !goesOn || static_cast<float>(side) * (b.middle - a.middle) >= b.reach - a.reach + most;
 }
 
 std::optional<Occluder::Sides> sidesOf(const Shape& shape, const Bounds& box) {
@@ -88,18 +96,20 @@ Occluders::Occluders(const ShapeSet& shapes) : shapes_(shapes) {
         if (!casts(i)) continue;
         casters_.push_back(occluderOf(shapes, i));
         areSolids_ &= !shapes.shapes[i]->isOfTriangles();
+        const Bounds& box = shapes.boxes[i];
+        if (box.isFinite()) reach_ = max(max(maxAbs(box.lo), maxAbs(box.hi)), reach_);
     }
 }
 
 bool Occluders::mayHide(const Bounds& points, std::uint32_t shape, bool fromInside,
-                        const Bounds& lamp) const {
+                        const Bounds& lamp, bool isAtInfinity) const {
     const float margin = kSlack * max(max(max(maxAbs(points.lo), maxAbs(points.hi)),
                                           max(maxAbs(lamp.lo), maxAbs(lamp.hi))),
                                       extent());
     for (const Occluder& caster : casters_) {
         if (caster.shape == shape && !(fromInside ? caster.hidesInside : caster.hidesOutside))
             continue;
-        if (caster.plane && areBeside(*caster.plane, points, lamp, margin)) continue;
+        if (caster.plane && areBeside(*caster.plane, points, lamp, margin, isAtInfinity)) continue;
         if (sweepMeets(points, lamp, caster.box, margin)) return true;
     }
     return false;

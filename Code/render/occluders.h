@@ -35,9 +35,10 @@ public:
     explicit Occluders(const ShapeSet& shapes);
 
     // Can a shape be in between a place in `points`, all on `shape`, and a place in `lamp`, seen
-    // from the outside of that shape or from its inside? True says nothing.
-    bool mayHide(const Bounds& points, std::uint32_t shape, bool fromInside,
-                 const Bounds& lamp) const;
+    // from the outside of that shape or from its inside? True says nothing. `isAtInfinity`: lines
+    // go on behind their places in `lamp`, where nothing is but what is endless.
+    bool mayHide(const Bounds& points, std::uint32_t shape, bool fromInside, const Bounds& lamp,
+                 bool isAtInfinity = false) const;
     // False: there are too many shapes to look at; then the other questions have no answer.
     bool canTell() const { return canTell_; }
 
@@ -52,9 +53,12 @@ public:
     std::span<const Occluder> all() const { return casters_; }
     static constexpr float kSlack = 0x1p-16f;
     float extent() const { return shapes_.extent; }
+    // No |coordinate| of the box of a shape that casts shadows is larger, but for what is endless.
+    float reach() const { return reach_; }
 
 private:
     const ShapeSet& shapes_;
     bool canTell_, areSolids_;
+    float reach_ = 0;
     std::vector<Occluder> casters_;
 };

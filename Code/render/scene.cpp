@@ -46,7 +46,9 @@ public:
           pictures_(pictures), on_(settings.switches), objectCount_(desc.objects.size()) {}
 
     void build() {
-        scene_.frame_ = frameOf(desc_, settings_.threads);
+        chooseCamera();
+        scene_.frame_ = frameOf(desc_, *cameraDesc_, settings_.threads);
+        scene_.shapes_.distantFrom = scene_.frame_.distantFrom;
         scene_.accelKind_ = settings_.accel;
         buildCamera();
         scene_.features_ = featuresOf(desc_, *cameraDesc_, settings_);
@@ -247,7 +249,7 @@ private:
 
     // ---- camera and world
 
-    void buildCamera() {
+    void chooseCamera() {
         const auto wanted =
             std::find_if(desc_.cameras.begin(), desc_.cameras.end(), [&](const CameraDesc& camera) {
                 return settings_.camera.empty() || camera.name == settings_.camera;
@@ -258,8 +260,11 @@ private:
             fail(ErrorKind::Input,
                  cat(source_.name, ": error: no camera ", unknownName(settings_.camera, known)));
         }
-        const CameraDesc& desc = *wanted;
-        cameraDesc_ = &desc;
+        cameraDesc_ = &*wanted;
+    }
+
+    void buildCamera() {
+        const CameraDesc& desc = *cameraDesc_;
         const double scale = scene_.frame_.scale;
         CameraParams params;
         params.kind = desc.kind == CameraDesc::Kind::Orthographic ? CameraParams::Kind::Orthographic

@@ -1,6 +1,6 @@
 // Scene: a SceneDesc made ready to be traced, immutable. Everything is placed in double, moved by
-// the centre of the scene and scaled by a power of two so that its extent is in [1,2), and only
-// then becomes float: a scene far from the origin or of any size renders alike (promise P3).
+// the centre of the scene and scaled by a power of two (SceneFrame), and only then becomes float: a
+// scene far from the origin or of any size renders alike, whatever is far from it (promise P3).
 #pragma once
 
 #include "base/motion.h"

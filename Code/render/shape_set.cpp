@@ -2,6 +2,7 @@
 
 #include "accel/kernels/solids_walk.h"
 #include "base/for_each.h"
+#include "render/frame.h"
 #include "shape/analytic_shape.h"
 #include "shape/mesh_instance.h"
 
@@ -60,6 +61,8 @@ void ShapeSet::finish(bool withBvh, const Isa& kernel, int threads) {
         if (ways_[number] == Way::Batched) batched.push_back(number);
     }
     if (!withBvh) return;
+    if (distant.size() >= kFewestForTree)
+        distantBvh_ = buildBvh(boxesOf(distant, boxes, threads), threads);
     if (kernel_) return buildBatchTrees(kernel, threads);
     for (const std::uint32_t number : bounded)
         if (ways_[number] != Way::Batched) inTree_.push_back(number);
@@ -71,8 +74,8 @@ void ShapeSet::finish(bool withBvh, const Isa& kernel, int threads) {
 void ShapeSet::sortByBounds(int threads) {
     constexpr std::size_t kTogether = 1 << 14;
     struct Part {
-        std::vector<std::uint32_t> bounded, unbounded;
-        float extent = 0;
+        std::vector<std::uint32_t> bounded, unbounded, distant;
+        float extent = 0, distantExtent = 0;
     };
     std::vector<Part> parts((shapes.size() + kTogether - 1) / kTogether);
     forEachPart(threads, shapes.size(), kTogether, [&](std::size_t first, std::size_t last) {
@@ -80,9 +83,13 @@ void ShapeSet::sortByBounds(int threads) {
         part.bounded.reserve(last - first);
         for (std::size_t number = first; number < last; ++number) {
             const Bounds& box = boxes[number];
-            if (box.isFinite()) {
+            const float farthest = max(maxAbs(box.lo), maxAbs(box.hi));
+            if (box.isFinite() && isDistant(box, distantFrom)) {
+                part.distant.push_back(static_cast<std::uint32_t>(number));
+                part.distantExtent = max(farthest, part.distantExtent);
+            } else if (box.isFinite()) {
                 part.bounded.push_back(static_cast<std::uint32_t>(number));
-                part.extent = max(max(maxAbs(box.lo), maxAbs(box.hi)), part.extent);
+                part.extent = max(farthest, part.extent);
             } else if (!box.isEmpty()) {
                 part.unbounded.push_back(static_cast<std::uint32_t>(number));
             }
@@ -92,7 +99,9 @@ void ShapeSet::sortByBounds(int threads) {
     for (const Part& part : parts) {
         bounded.insert(bounded.end(), part.bounded.begin(), part.bounded.end());
         unbounded.insert(unbounded.end(), part.unbounded.begin(), part.unbounded.end());
+        distant.insert(distant.end(), part.distant.begin(), part.distant.end());
         extent = max(part.extent, extent);
+        distantExtent_ = max(part.distantExtent, distantExtent_);
     }
 }
 
@@ -149,6 +158,31 @@ void ShapeSet::visit(const RaySetup& setup, float zCut, Ask ask, VisitFn&& fn) c
              [&](std::uint32_t position, float& cut) { return leaf(inTree_[position], cut); });
 }
 
+// fn(shape, zEntry, zCut) for every distant shape whose box the ray enters in front of tMax; true
+// stops and is returned.
+template <class VisitFn>
+bool ShapeSet::visitDistant(const Ray& ray, float tMax, VisitFn&& fn) const {
+    if (distant.empty()) return false;
+    const RaySetup setup(ray.org, ray.dir, distantExtent_);
+    float zCut = depthCut(1.0f / (tMax * setup.dz));
+    const auto leaf = [&](std::uint32_t position, float& cut) {
+        const std::uint32_t number = distant[position];
+        float zEntry = 0;
+        return setup.enters(boxes[number], cut, zEntry) && fn(setup, number, zEntry, cut);
+    };
+    bool stopped = false;
+    const auto visitLeaf = [&](std::uint32_t position, float& cut) {
+        return stopped = leaf(position, cut);
+    };
+    if (!distantBvh_.nodes.empty()) {
+        traverse(distantBvh_, setup, zCut, visitLeaf);
+        return stopped;
+    }
+    for (std::uint32_t position = 0; position < distant.size() && !stopped; ++position)
+        visitLeaf(position, zCut);
+    return stopped;
+}
+
 // A total order, because shapes with triangles have numbers in a row (render/scene.cpp).
 bool ShapeSet::isBefore(const Ray& ray, const Hit& a, const Hit& b) const {
     const auto orderA = shapes[a.shape]->tieOrder(ray, a);
@@ -172,7 +206,23 @@ bool ShapeSet::nearer(const Ray& ray, std::uint32_t number, float tEntry, Hit& b
     return shapes[number]->intersect(ray, hit) && takeNearer(ray, hit, number, tEntry, best);
 }
 
+void ShapeSet::nearerOfDistant(const Ray& ray, Hit& best) const {
+    visitDistant(ray, best.t,
+                 [&](const RaySetup& setup, std::uint32_t number, float zEntry, float& zCut) {
+                     if (nearer(ray, number, zEntry / setup.dz, best))
+                         zCut = min(depthCut(1.0f / (best.t * setup.dz)), zCut);
+                     return false;
+                 });
+}
+
+bool ShapeSet::isHiddenByDistant(const Ray& ray) const {
+    return visitDistant(ray, ray.tMax, [&](const RaySetup&, std::uint32_t number, float, float&) {
+        return shadows[number] == Shadow::Opaque && shapes[number]->occludes(ray);
+    });
+}
+
 void ShapeSet::visitNearer(const Ray& ray, const RaySetup& setup, Ask ask, Hit& best) const {
+    if (ask == Ask::All) nearerOfDistant(ray, best);
     visit(setup, depthCut(1.0f / (best.t * setup.dz)), ask,
           [&](std::uint32_t number, float zEntry, float& zCut) {
               if (nearer(ray, number, zEntry / setup.dz, best))
@@ -190,7 +240,8 @@ Hit ShapeSet::closest(const Ray& ray) const {
 }
 
 bool ShapeSet::isHidden(const Ray& ray, const RaySetup& setup, Ask ask) const {
-    bool found = false;
+    bool found = ask == Ask::All && isHiddenByDistant(ray);
+    if (found) return true;
     visit(setup, depthCut(1.0f / (ray.tMax * setup.dz)), ask,
           [&](std::uint32_t number, float, float&) {
               found = shadows[number] == Shadow::Opaque && shapes[number]->occludes(ray);
@@ -207,14 +258,18 @@ void ShapeSet::seeThroughHits(const Ray& ray, std::vector<Hit>& hits) const {
     if (!canHit(ray)) return;
     const RaySetup setup(ray.org, ray.dir, extent);
     const std::size_t before = hits.size();
+    const auto collect = [&](std::uint32_t number) {
+        if (shadows[number] != Shadow::SeeThrough) return false;
+        const std::size_t first = hits.size();
+        shapes[number]->collect(ray, hits);
+        for (std::size_t i = first; i < hits.size(); ++i) hits[i].shape = number;
+        return false;
+    };
+    visitDistant(ray, ray.tMax, [&](const RaySetup&, std::uint32_t number, float, float&) {
+        return collect(number);
+    });
     visit(setup, depthCut(1.0f / (ray.tMax * setup.dz)), Ask::All,
-          [&](std::uint32_t number, float, float&) {
-              if (shadows[number] != Shadow::SeeThrough) return false;
-              const std::size_t first = hits.size();
-              shapes[number]->collect(ray, hits);
-              for (std::size_t i = first; i < hits.size(); ++i) hits[i].shape = number;
-              return false;
-          });
+          [&](std::uint32_t number, float, float&) { return collect(number); });
     std::sort(
         hits.begin() + static_cast<std::ptrdiff_t>(before), hits.end(),
         [&](const Hit& a, const Hit& b) { return a.t != b.t ? a.t < b.t : isBefore(ray, a, b); });

@@ -33,8 +33,10 @@ struct ShapeSet {
     // solids and a tree is wanted; else as single rays are.
     void finish(bool withBvh, const Isa& kernel = oneLane(), int threads = 1);
 
-    std::vector<std::uint32_t> bounded, unbounded; // shape numbers; `bounded` in ascending order
-    float extent = kSceneExtent;                   // no |coordinate| of a finite box is larger
+    // Shape numbers in ascending order; `bounded` without those that isDistant().
+    std::vector<std::uint32_t> bounded, unbounded, distant;
+    float distantFrom = kInfinityF; // SceneFrame::distantFrom
+    float extent = kSceneExtent;    // no |coordinate| of a box of `bounded` is larger
     // Over the bounded ones that take no batches, where no kernel has trees of its own over them;
     // empty: linear search.
     Bvh bvh;
@@ -66,6 +68,9 @@ private:
     enum class Ask : std::uint8_t { All, ButBatched };
     template <class VisitFn>
     void visit(const RaySetup& setup, float zCut, Ask ask, VisitFn&& fn) const;
+    template <class VisitFn> bool visitDistant(const Ray& ray, float tMax, VisitFn&& fn) const;
+    void nearerOfDistant(const Ray& ray, Hit& best) const;
+    bool isHiddenByDistant(const Ray& ray) const;
     void visitNearer(const Ray& ray, const RaySetup& setup, Ask ask, Hit& best) const;
     bool isHidden(const Ray& ray, const RaySetup& setup, Ask ask) const;
     // Which of two hits at the same t is first.
@@ -76,14 +81,16 @@ private:
     void buildBatchTrees(const Isa& kernel, int threads);
     void closestOfBatched(const RaySpan& rays, std::vector<Hit>& hits) const;
     void hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;
-    void closestOfUnbounded(const RaySpan& rays, std::vector<Hit>& hits) const;
-    void hideByUnbounded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;
+    void closestOfOthers(const RaySpan& rays, std::vector<Hit>& hits) const;
+    void hideByOthers(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;
 
     // By shape: what it is asked for when it comes, as memory of millions is slow to come back to.
     enum class Way : std::uint8_t { Alone, Batched, Instance };
     std::vector<Way> ways_;
     std::vector<std::uint32_t> inTree_;     // shapes by their number in `bvh`
     std::vector<std::uint32_t> askedAlone_; // unbounded shapes that are not in solids_
+    Bvh distantBvh_;                        // over `distant`
+    float distantExtent_ = 0;               // as `extent`, of `distant`
     const SolidKernel* kernel_ = nullptr;   // null: the scalar code answers
     SolidTree solids_;                      // the shapes of the tree that are no instances
     PlacedMeshes placed_;                   // those that are

@@ -8,7 +8,7 @@ void ShapeSet::closest(const RaySpan& rays, std::vector<Hit>& hits) const {
     hits.resize(rays.size());
     for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = {.t = rays.tMax[i]};
     if (!batched.empty()) closestOfBatched(rays, hits);
-    if (!askedAlone_.empty()) closestOfUnbounded(rays, hits);
+    if (!askedAlone_.empty() || !distant.empty()) closestOfOthers(rays, hits);
     if (kernel_) {
         const SolidCalls calls{
             this,
@@ -55,7 +55,7 @@ void ShapeSet::closestOfBatched(const RaySpan& rays, std::vector<Hit>& hits) con
 void ShapeSet::occluded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const {
     hidden.assign(rays.size(), 0);
     if (!batched.empty()) hideByBatched(rays, hidden);
-    if (!askedAlone_.empty()) hideByUnbounded(rays, hidden);
+    if (!askedAlone_.empty() || !distant.empty()) hideByOthers(rays, hidden);
     if (kernel_) {
         const SolidCalls calls{
             this, nullptr, [](const void* set, const Ray& ray, std::uint32_t number) {
@@ -83,20 +83,24 @@ void ShapeSet::hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hid
     }
 }
 
-void ShapeSet::closestOfUnbounded(const RaySpan& rays, std::vector<Hit>& hits) const {
+void ShapeSet::closestOfOthers(const RaySpan& rays, std::vector<Hit>& hits) const {
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Ray ray = rays[i];
         if (!canHit(ray)) continue;
         for (const std::uint32_t number : askedAlone_) nearer(ray, number, 0, hits[i]);
+        nearerOfDistant(ray, hits[i]);
     }
 }
 
-void ShapeSet::hideByUnbounded(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const {
+void ShapeSet::hideByOthers(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const {
     for (std::size_t i = 0; i < rays.size(); ++i) {
         const Ray ray = rays[i];
         if (hidden[i] != 0 || !canHit(ray)) continue;
-        hidden[i] = std::any_of(askedAlone_.begin(), askedAlone_.end(), [&](std::uint32_t number) {
-            return shadows[number] == Shadow::Opaque && shapes[number]->occludes(ray);
-        });
+        hidden[i] = std::any_of(askedAlone_.begin(), askedAlone_.end(),
+                                [&](std::uint32_t number) {
+                                    return shadows[number] == Shadow::Opaque &&
+                                           shapes[number]->occludes(ray);
+                                }) ||
+                    isHiddenByDistant(ray);
     }
 }

@@ -85,10 +85,9 @@ Hostile someHostile(Random& random) {
         for (std::size_t i = 0; i < added; ++i) addFlat(mesh, random);
         out.flat = added;
         break;
-    case 1: // next to which all others are a point
+    case 1: // next to which all others are a point, but not for a camera that is near them
         out.what = "one of 1e38";
         addTriangle(mesh, {1e38, 3e38, 1e38}, {3e38, 2e38, 3e38}, {2e38, 1e38, 2e38});
-        out.flat = clean;
         break;
     case 2:
         out.what = "all of 1e38";
@@ -113,6 +112,7 @@ Hostile someHostile(Random& random) {
     // A second use makes it an instance, in a frame of its own.
     if (random.chance(0.3)) {
         out.desc.objects.push_back(out.desc.objects[0]);
+        if (out.what == "one of 1e38") out.flat = clean;
         out.what += ", twice";
     }
     return out;

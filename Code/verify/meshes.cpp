@@ -1,6 +1,7 @@
 #include "verify/meshes.h"
 
 #include "base/math.h"
+#include "desc/scene_bounds.h"
 #include "shape/mesh_instance.h"
 
 #include <utility>
@@ -54,7 +55,7 @@ SceneFrame frameFor(const MeshDesc& mesh, const Transform& worldFromMesh) {
     object.mesh = 0;
     object.worldFromObject = {worldFromMesh.rows()};
     desc.objects.push_back(object);
-    return frameOf(desc);
+    return frameAround(boundsOf(desc));
 }
 
 Vec3 Ready::corner(std::uint32_t n, std::size_t c) const {

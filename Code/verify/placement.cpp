@@ -2,6 +2,7 @@
 // beside its copy of another size or at another place; the truth is that nothing changes.
 #include "base/math.h"
 #include "base/text.h"
+#include "desc/scene_bounds.h"
 #include "desc/validate.h"
 #include "image/compare.h"
 #include "render/frame.h"
@@ -131,7 +132,7 @@ Tally objectsAtPowersOfTen(const Effort& effort) {
 }
 
 SceneDesc movedBy(const SceneDesc& desc, int power, Random& random) {
-    const double extent = 2 / frameOf(desc).scale; // 1 to 2 of the scene's
+    const double extent = 2 / frameAround(boundsOf(desc)).scale; // 1 to 2 of the scene's
     return scenes::moved(desc, random.direction() * (extent * exact::pow(10.0, power)));
 }
 

@@ -11,6 +11,7 @@
 #include "cli/flag.h"
 #include "cli/output.h"
 #include "cli/version.h"
+#include "desc/scene_bounds.h"
 #include "read/load.h"
 #include "render/merge.h"
 
@@ -28,7 +29,7 @@ struct Subject {
 Subject subjectOf(const std::string& file) {
     Diagnostics diagnostics;
     const LoadedScene loaded = load(file, diagnostics);
-    const SceneFrame frame = frameOf(loaded.desc);
+    const SceneFrame frame = frameAround(boundsOf(loaded.desc));
     MergedMesh merged;
     for (const ObjectDesc& object : loaded.desc.objects) {
         if (object.kind != ObjectDesc::Kind::Mesh) continue;

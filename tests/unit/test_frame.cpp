@@ -47,17 +47,26 @@ ObjectDesc objectOf(ObjectDesc::Kind kind, const Rows& rows = kIdentityRows) {
     return object;
 }
 
+CameraDesc cameraAt(Vec3d place) {
+    CameraDesc camera;
+    camera.worldFromCamera = {Transform::translate(place).rows()};
+    return camera;
+}
+// Seen from so far away that no object is nearer than others.
+SceneFrame fromAfar(const SceneDesc& desc) { return frameOf(desc, cameraAt({1e30, 0, 0})); }
+
 } // namespace
 
 TEST(frame_powers_of_two_change_no_bit) {
     Random random(101);
     for (int n = 0; n < 20; ++n) {
         const SceneDesc desc = someScene(random);
-        const SceneFrame frame = frameOf(desc);
+        const Vec3d eye = random.inBox(20);
+        const SceneFrame frame = frameOf(desc, cameraAt(eye));
         for (const int k : {-60, -20, -7, 1, 3, 20, 60}) {
             const double factor = std::ldexp(1.0, k);
             const SceneDesc scaled = moved(desc, factor, {});
-            const SceneFrame other = frameOf(scaled);
+            const SceneFrame other = frameOf(scaled, cameraAt(eye * factor));
             CHECK(other.centre == frame.centre * factor && other.scale * factor == frame.scale);
             for (std::size_t i = 0; i < desc.objects.size(); ++i)
                 for (std::size_t key = 0; key < desc.objects[i].worldFromObject.size(); ++key)
@@ -83,7 +92,7 @@ TEST(frame_extent_is_one_to_two) {
         const double size = random.logUniform(1e-9, 1e9);
         const SceneDesc desc =
             moved(someScene(random), size, random.inBox(1) * (size * random.logUniform(1, 1e6)));
-        const SceneFrame frame = frameOf(desc);
+        const SceneFrame frame = fromAfar(desc);
         BoundsD box; // of the points of the mesh and of the keys' origins, which are inside
         for (const ObjectDesc& object : desc.objects) {
             if (object.kind == ObjectDesc::Kind::InfinitePlane) continue;
@@ -103,8 +112,8 @@ TEST(frame_extent_is_one_to_two) {
     two.objects.push_back(objectOf(ObjectDesc::Kind::Sphere));
     two.objects.push_back(
         objectOf(ObjectDesc::Kind::Sphere, Transform::translate({6, 0, 0}).rows()));
-    CHECK_NEAR(frameOf(two).centre.x, 3, 1e-14);
-    CHECK_EQUAL(frameOf(two).scale, 0.125);
+    CHECK_NEAR(fromAfar(two).centre.x, 3, 1e-14);
+    CHECK_EQUAL(fromAfar(two).scale, 0.125);
 }
 
 // A scene 10^6 extents away: its doubles carry 1e6 * 2^-53 of it, 1e-10, a thousandth of a float's
@@ -130,12 +139,45 @@ TEST(frame_far_places) {
     CHECK_INFO(worst <= 0x1p-24 + 2e-9, worst);
 }
 
+// Unit spheres at x = 0, 6 and `far`, seen from y = -5: the third one counts as long as it is no
+// farther than 8 times 4, the distance of the nearest.
+TEST(frame_leaves_out_what_is_far) {
+    const auto spheres = [](double far, double eye) {
+        SceneDesc desc;
+        for (const double x : {0.0, 6.0, far})
+            desc.objects.push_back(
+                objectOf(ObjectDesc::Kind::Sphere, Transform::translate({x, 0, 0}).rows()));
+        return frameOf(desc, cameraAt({0, eye, 0}));
+    };
+    CHECK_NEAR(spheres(31, -5).centre.x, 15.5, 1e-13);
+    CHECK_EQUAL(spheres(31, -5).scale, 1.0 / 32);
+    for (const double far : {34.0, 1e3, 1e6, 1e9, 1e20, -1e12}) {
+        CHECK_NEAR(spheres(far, -5).centre.x, 3, 1e-14);
+        CHECK_EQUAL(spheres(far, -5).scale, 0.125);
+    }
+    // 2^16 times as far as the nearest object, or as large as all that are near.
+    CHECK_EQUAL(spheres(5e5, -5).distantFrom, kInfinityF);
+    CHECK_EQUAL(spheres(6e5, -5).distantFrom, 0x1p16f);
+    // A large thing that is near: the origin is the camera, 0.6 above a floor of 400.
+    SceneDesc floor;
+    floor.objects.push_back(
+        objectOf(ObjectDesc::Kind::Cube, Rows{200, 0, 0, 0, 0, 200, 0, 0, 0, 0, 1, -1}));
+    const SceneFrame near = frameOf(floor, cameraAt({7, 8, 0.6}));
+    CHECK(near.centre == (Vec3d{7, 8, 0.6}) && near.scale == 0.125);
+    // Nearness is nothing to parallel rays.
+    CameraDesc parallel = cameraAt({7, 8, 0.5});
+    parallel.kind = CameraDesc::Kind::Orthographic, parallel.orthoScale = 50;
+    CHECK(frameOf(floor, parallel).centre == (Vec3d{0, 0, -1}));
+    // Around the eye: 1/64 of its size away.
+    CHECK_EQUAL(spheres(1e9, 0.5).scale, 2.0);
+}
+
 TEST(frame_of_little) {
     // Nothing, or only what has no end: the world as it is.
-    CHECK(frameOf(SceneDesc{}).scale == 1 && frameOf(SceneDesc{}).centre == Vec3d{});
+    CHECK(fromAfar(SceneDesc{}).scale == 1 && fromAfar(SceneDesc{}).centre == Vec3d{});
     SceneDesc plane;
     plane.objects.push_back(objectOf(ObjectDesc::Kind::InfinitePlane));
-    CHECK(frameOf(plane).scale == 1);
+    CHECK(fromAfar(plane).scale == 1);
     // Cameras and lights count where nothing else does.
     CameraDesc camera;
     camera.worldFromCamera = {Transform::translate({10, 0, 0}).rows()};
@@ -143,9 +185,9 @@ TEST(frame_of_little) {
     LightDesc light;
     light.worldFromLight = Transform::translate({10, 40, 0}).rows();
     plane.lights.push_back(light);
-    CHECK(frameOf(plane).centre == (Vec3d{10, 20, 0}) && frameOf(plane).scale == 1.0 / 32);
+    CHECK(fromAfar(plane).centre == (Vec3d{10, 20, 0}) && fromAfar(plane).scale == 1.0 / 32);
     plane.objects.push_back(objectOf(ObjectDesc::Kind::Sphere));
-    CHECK(maxAbs(frameOf(plane).centre) < 1e-14 && frameOf(plane).scale == 0.5);
+    CHECK(maxAbs(fromAfar(plane).centre) < 1e-14 && fromAfar(plane).scale == 0.5);
     // A single point has no size, and an infinite one no frame.
     MeshDesc mesh;
     mesh.points = {{3, 4, 5}};
@@ -156,7 +198,7 @@ TEST(frame_of_little) {
     SceneDesc cone;
     cone.objects.push_back(objectOf(ObjectDesc::Kind::Cone));
     cone.objects[0].topRadius = 4;
-    CHECK_EQUAL(frameOf(cone).scale, 0.125);
+    CHECK_EQUAL(fromAfar(cone).scale, 0.125);
 }
 
 } // namespace test_frame

@@ -276,7 +276,7 @@ TEST(light_sources_are_in_their_box) {
         if (isBlack(s.irradiance)) continue;
         Bounds points{p, p};
         points.extend(p + toFloat(random.inBox(0.5)));
-        const Bounds box = lamp->sourcesFor(points).padded(1e-5f);
+        const Bounds box = lamp->sourcesFor(points, 1).padded(1e-5f);
         float enter = 0, leave = kInfinityF;
         for (std::size_t axis = 0; axis < 3; ++axis) {
             const float a = (box.lo[axis] - p[axis]) / s.toLight[axis],

@@ -91,6 +91,7 @@ std::optional<MappedShapes> MappedShapes::of(const ShapeSet& shapes) {
         return out.others.size() <= kMostOthers;
     };
     if (!std::all_of(shapes.unbounded.begin(), shapes.unbounded.end(), addOther) ||
+        !std::all_of(shapes.distant.begin(), shapes.distant.end(), addOther) ||
         !std::all_of(shapes.batched.begin(), shapes.batched.end(), addOther))
         return {};
     std::vector<Mapped> all;

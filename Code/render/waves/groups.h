@@ -80,9 +80,11 @@ inline bool groupPoints(const Wave& wave) {
 
 // Which groups something may hide from a lamp.
 inline void askGroups(const Wave& wave, const Lamp& lamp) {
+    const Occluders& occluders = wave.context.occluders;
     for (PointGroup& group : wave.memory.groups)
-        group.mayBeHidden = wave.context.occluders.mayHide(group.box, group.shape, group.inside,
-                                                           lamp.light.sourcesFor(group.box));
+        group.mayBeHidden = occluders.mayHide(group.box, group.shape, group.inside,
+                                              lamp.light.sourcesFor(group.box, occluders.reach()),
+                                              lamp.light.isAtInfinity());
 }
 
 // The points of a block that something may hide from the lamp that was asked about.
