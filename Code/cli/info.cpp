@@ -156,7 +156,16 @@ std::string pictureText(const SettingsDesc& p) {
 void addTextures(Lines& lines, const SourceFile& source, const SceneDesc& desc,
                  const RenderSettings& settings, std::size_t& bytes) {
     for (const TextureDesc& texture : desc.textures) {
-        const StoredImage picture = loadPicture(texture, source, settings.textureFolder);
+        std::string fault;
+        const std::optional<StoredImage> read =
+            settings.picturesMayMiss
+                ? findAndRead(texture, source.name, settings.textureFolder, fault)
+                : loadPicture(texture, source, settings.textureFolder);
+        if (!read) {
+            lines.add("texture", cat("'", texture.name, "' ", texture.file, ", missing"));
+            continue;
+        }
+        const StoredImage& picture = *read;
         bytes += bytesOf(picture);
         const int bits = picture.depth == StoredImage::Depth::Bits8    ? 8
                          : picture.depth == StoredImage::Depth::Bits16 ? 16

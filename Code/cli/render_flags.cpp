@@ -57,7 +57,7 @@ void addPictureFlags(std::vector<Flag>& flags, Options& o) {
 void addSceneFlags(std::vector<Flag>& flags, Options& o) {
     FlagGroup group(flags, "scene");
     group.add({.name = "--lenient",
-               .help = "JSON: what is not known is skipped with a warning instead of an error",
+               .help = "JSON: what is wrong or not known is left out with a warning instead of an error",
                .set = [&o](const FlagValue&) { o.read.lenient = true; }});
     const std::vector<std::string> ends = {"centers", "edges"};
     group.add({.name = "--nff-angle", .argument = join(ends, "|"),

@@ -96,6 +96,14 @@ std::vector<std::string> namesOfOutputs(const Options& options, const RenderSett
                    settings.aovs);
 }
 
+// Prints what a scene without some of its pictures has to say.
+Diagnostics told(const Scene& scene) {
+    Diagnostics diagnostics;
+    diagnostics.warnings.assign(scene.warnings().begin(), scene.warnings().end());
+    printWarnings(diagnostics);
+    return diagnostics;
+}
+
 ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings settings,
                      const Options& options, Stopwatch& watch, Stats& stats, Step& step) {
     const PictureSize size = checkedSize(settings.picture, options.cropPad);
@@ -110,6 +118,7 @@ ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings
     // What else is to be told of places in the text is of pictures that can't be read.
     if (loaded.desc.textures.empty()) loaded.source.text = {};
     const Scene scene(std::move(loaded.desc), loaded.source, settings, &pictures);
+    if (isTooStrict(options, told(scene))) return ExitCode::StrictWarnings;
     scene.describe(stats);
     stats.threads = settings.threads;
     stats.kernel = settings.isa->name;
@@ -205,6 +214,7 @@ ExitCode runScene(const Options& options, Step& step) {
     stats.parseSeconds = watch.lap();
     printWarnings(diagnostics);
     RenderSettings settings = settingsFrom(loaded.desc, options);
+    settings.picturesMayMiss = loaded.picturesMayMiss;
     if (isTooStrict(options, diagnostics)) return ExitCode::StrictWarnings;
     std::vector<std::string> inputs = std::move(diagnostics.filesRead);
     for (const TextureDesc& texture : loaded.desc.textures)
@@ -220,6 +230,7 @@ ExitCode runScene(const Options& options, Step& step) {
     step = {"building the scene", ExitCode::Input};
     settings.accel = AccelKind::None; // nothing is traced
     const Scene scene(loaded.desc, loaded.source, settings, &pictures);
+    if (isTooStrict(options, told(scene))) return ExitCode::StrictWarnings;
     if (options.action == Action::Info)
         writeStdout(infoText(loaded.source, loaded.desc, settings, scene));
     else

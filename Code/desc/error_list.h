@@ -27,6 +27,7 @@ public:
         count_ += other.count_;
     }
     std::size_t count() const { return count_; }
+    const std::vector<std::string>& messages() const { return messages_; } // the first ones
     void throwIfAny() const;
     // located(), or only the file where the place is not known.
     std::string locatedAt(SourceLoc loc, std::string_view what, std::string_view severity) const;

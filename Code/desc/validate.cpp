@@ -134,13 +134,7 @@ private:
         if (static_cast<long long>(s.width) * s.height > kLargestArea)
             nameError(s, "'resolution' ", s.width, " ", s.height,
                       " has more than 2^28 pixels");
-        if (!s.crop) return;
-        const auto [x0, y0, x1, y1] = *s.crop;
-        if (x0 >= x1 || y0 >= y1)
-            nameError(s, "'crop' is empty; x0 < x1 and y0 < y1 are needed");
-        if (x1 > s.width || y1 > s.height)
-            nameError(s, "'crop' ends at ", x1, " ", y1, ", outside the resolution ",
-                      s.width, " ", s.height);
+        if (const std::string fault = faultOfCrop(s); !fault.empty()) nameError(s, fault);
     }
 
     void warnUnused() {
@@ -209,6 +203,15 @@ private:
 };
 
 } // namespace
+
+std::string faultOfCrop(const SettingsDesc& settings) {
+    if (!settings.crop) return {};
+    const auto [x0, y0, x1, y1] = *settings.crop;
+    if (x0 >= x1 || y0 >= y1) return "'crop' is empty; x0 < x1 and y0 < y1 are needed";
+    if (x1 <= settings.width && y1 <= settings.height) return {};
+    return cat("'crop' ends at ", x1, " ", y1, ", outside the resolution ", settings.width, " ",
+               settings.height);
+}
 
 void validate(const SceneDesc& desc, const SourceFile& source, Diagnostics& diagnostics,
               int threads) {

@@ -5,6 +5,8 @@
 #include "base/source.h"
 #include "desc/scene_desc.h"
 
+#include <string>
+
 // Throws one Error with all mistakes (the first 20, with their places). What only looks wrong, as a
 // scene without light, becomes a warning. After it, every handle and index is in range, every
 // number that has an effect is finite and in its range (desc/properties.h), every transform can be
@@ -13,3 +15,6 @@
 // The same for any number of threads.
 void validate(const SceneDesc& desc, const SourceFile& source, Diagnostics& diagnostics,
               int threads = 1);
+
+// What is wrong with the part of the picture that is wanted; empty when nothing is.
+std::string faultOfCrop(const SettingsDesc& settings);

@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "desc/validate.h"
 #include "read/json/read_json.h"
+#include "read/leave_out.h"
 #include "read/mesh_files.h"
 #include "read/nff/read_nff.h"
 #include "read/txt/read_txt.h"
@@ -146,6 +147,7 @@ LoadedScene load(const std::string& fileName, Diagnostics& diagnostics, const Re
                  Foreseen foreseen) {
     const ReadContext context{options, diagnostics};
     LoadedScene scene;
+    bool isLenient = false;
     if (fileName == "-") {
         scene.source = {"<stdin>", readStdin()};
         scene.desc = readTxt(scene.source, options.threads);
@@ -156,9 +158,12 @@ LoadedScene load(const std::string& fileName, Diagnostics& diagnostics, const Re
         scene.source = {fileName, readWholeText(fileName, options.threads)};
         if (foreseen && format.extension == ".txt") foreseeStart(scene.source, foreseen);
         scene.desc = format.read(scene.source, context);
+        isLenient = options.lenient && format.read == readJson;
+        scene.picturesMayMiss = isLenient || format.isMesh;
     }
     if (foreseen) foreseen(scene.desc, scene.source.name);
     loadMeshFiles(scene.desc, scene.source, context);
+    if (isLenient) leaveOutWrong(scene.desc, scene.source, context);
     validate(scene.desc, scene.source, diagnostics, options.threads);
     return scene;
 }

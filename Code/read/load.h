@@ -12,6 +12,9 @@
 struct LoadedScene {
     SourceFile source; // for messages about places in desc
     SceneDesc desc;
+    // Pictures that cannot be read are left out with a warning, and are no error: those of meshes,
+    // which often come without them, and of JSON under --lenient.
+    bool picturesMayMiss = false;
 };
 
 // The reader is chosen by the extension; "-" is native text on stdin. The meshes that the scene

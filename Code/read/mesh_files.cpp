@@ -4,6 +4,7 @@
 #include "base/for_each.h"
 #include "base/text.h"
 #include "desc/names.h"
+#include "read/leave_out.h"
 #include "read/mesh/mesh_file.h"
 #include "read/mesh/mesh_scene.h"
 #include "read/mesh/read_mtl.h"
@@ -142,7 +143,14 @@ void loadMeshFiles(SceneDesc& desc, const SourceFile& scene, const ReadContext& 
     // Each file has its own warnings; they come out in the order of the scene.
     std::vector<Diagnostics> diagnostics(named.size());
     forEachOn(context.options.threads, named.size(), [&](std::size_t i) {
-        loadMesh(*named[i], scene, {options, diagnostics[i]});
+        const ReadContext own{options, diagnostics[i]};
+        if (!options.lenient) return loadMesh(*named[i], scene, own);
+        try {
+            loadMesh(*named[i], scene, own);
+        } catch (const Error& error) {
+            own.diagnostics.warnings.push_back(asWarning(error.what(), "it is left out"));
+            named[i]->file.clear();
+        }
     });
     const auto move = [](std::vector<std::string>& from, std::vector<std::string>& to) {
         std::move(from.begin(), from.end(), std::back_inserter(to));

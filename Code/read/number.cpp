@@ -1,6 +1,7 @@
 #include "read/number.h"
 
 #include <charconv>
+#include <string>
 #include <system_error>
 
 namespace {
@@ -101,4 +102,12 @@ NumberRead<float> readFloat(const char* text) {
     const double value = exactly(d);
     if (!roundsOnce(value)) return readSlowly<float>(d);
     return {static_cast<float>(value), d.end, NumberFault::None};
+}
+
+bool isNotFinite(std::string_view word) {
+    std::string letters;
+    for (const char c : word.substr(0, 10))
+        if (c != '+' && c != '-') letters += static_cast<char>(c | 0x20);
+    return letters == "nan" || letters == "inf" || letters == "infinity" ||
+           letters.starts_with("nan(");
 }

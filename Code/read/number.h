@@ -6,6 +6,7 @@
 #include <cfloat>
 #include <cmath>
 #include <cstdint>
+#include <string_view>
 
 enum class NumberFault { None, NotANumber, TooLarge };
 
@@ -32,6 +33,10 @@ inline bool roundsOnce(double value) {
            (size >= static_cast<double>(FLT_MIN) && size <= static_cast<double>(FLT_MAX) &&
             (std::bit_cast<std::uint64_t>(value) & kExtra) != kHalfWay);
 }
+
+// Do these letters stand for what is no finite number? nan, -inf, Infinity, -nan(ind) and the like,
+// as programs write them in place of numbers.
+bool isNotFinite(std::string_view word);
 
 // Decimal digits only, up to 2^32 - 1.
 inline NumberRead<std::uint32_t> readUnsigned(const char* text) {

@@ -11,7 +11,7 @@
 #include <string_view>
 
 struct ReadOptions {
-    // JSON: what is not known is skipped with a warning instead of being an error.
+    // JSON: what is wrong or not known is left out with a warning instead of being an error.
     bool lenient = false;
     // NFF: `angle` reaches from edge to edge of the picture, as POV-Ray reads it, and not from the
     // centre of the first to the centre of the last pixel row, as the standard says.

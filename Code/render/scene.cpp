@@ -54,6 +54,7 @@ public:
         scene_.features_ = featuresOf(desc_, *cameraDesc_, settings_);
         keepUnevenPlaces();
         buildPicturesAndShapes();
+        warnOfMissing();
         buildMaterials();
         buildWorld();
         buildLights();
@@ -121,6 +122,7 @@ private:
     // Pictures that nothing uses are not read.
     void addPictures(std::vector<std::function<void()>>& jobs) {
         scene_.textures_.resize(desc_.textures.size());
+        missing_.resize(desc_.textures.size());
         if (!on_.textures) return;
         for (const std::size_t i : usedTextures(desc_, false))
             jobs.emplace_back([this, i] { scene_.textures_[i] = makeTexture(desc_.textures[i]); });
@@ -140,7 +142,8 @@ private:
         return out;
     }
 
-    std::unique_ptr<const Texture> makeTexture(const TextureDesc& desc) const {
+    // Null when its picture misses and may.
+    std::unique_ptr<const Texture> makeTexture(const TextureDesc& desc) {
         TextureParams params;
         params.space = spaceOf(desc);
         params.interpolation = interpolationOf(desc);
@@ -153,13 +156,25 @@ private:
         params.scale = desc.scale;
         params.rotationRad = radians(desc.rotationDeg);
         params.offset = desc.offset;
-        return std::make_unique<const Texture>(pictureOf(desc), params);
+        auto picture = pictureOf(desc);
+        if (!picture) return nullptr;
+        return std::make_unique<const Texture>(std::move(*picture), params);
     }
 
-    StoredImage pictureOf(const TextureDesc& desc) const {
+    std::optional<StoredImage> pictureOf(const TextureDesc& desc) {
         if (pictures_ != nullptr)
-            if (auto image = pictures_->take(desc)) return std::move(*image);
-        return loadPicture(desc, source_, settings_.textureFolder);
+            if (auto image = pictures_->take(desc)) return image;
+        if (!settings_.picturesMayMiss) return loadPicture(desc, source_, settings_.textureFolder);
+        std::string fault;
+        auto image = findAndRead(desc, source_.name, settings_.textureFolder, fault);
+        if (!image)
+            missing_[static_cast<std::size_t>(&desc - desc_.textures.data())] =
+                located(source_, desc.fileLoc.offset, cat(fault, "; it is left out"), "warning");
+        return image;
+    }
+    void warnOfMissing() {
+        for (std::string& warning : missing_)
+            if (!warning.empty()) scene_.warnings_.push_back(std::move(warning));
     }
 
     static ColorSpace spaceOf(const TextureDesc& desc) {
@@ -298,8 +313,10 @@ private:
     void buildEnvironment() {
         const TextureDesc& picture =
             desc_.textures[static_cast<std::size_t>(desc_.world.environment)];
+        auto image = pictureOf(picture);
+        if (!image) return;
         scene_.environment_ = std::make_unique<const Environment>(
-            pictureOf(picture), spaceOf(picture), interpolationOf(picture),
+            std::move(*image), spaceOf(picture), interpolationOf(picture),
             desc_.world.environmentUp == WorldDesc::Up::Z ? Environment::Up::Z : Environment::Up::Y,
             radians(desc_.world.rotationDeg));
     }
@@ -331,6 +348,7 @@ private:
     Scene& scene_;
     const SceneDesc& desc_;
     SceneDesc* spent_; // may be null
+    std::vector<std::string> missing_; // by texture: the warning, of a picture that misses
     const SourceFile& source_;
     const RenderSettings& settings_;
     PictureReader* pictures_; // may be null

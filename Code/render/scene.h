@@ -71,8 +71,8 @@ struct AnyMaterial {
 
 class Scene {
 public:
-    // Fails with the place in `source` when a texture can't be read. `pictures`: some that are read
-    // already.
+    // Fails with the place in `source` when a texture can't be read, unless the settings say that
+    // it may miss. `pictures`: some that are read already.
     Scene(const SceneDesc& desc, const SourceFile& source, const RenderSettings& settings,
           PictureReader* pictures = nullptr);
     // Lets go of what the description has of objects and meshes as soon as shapes are made of it:
@@ -104,6 +104,8 @@ public:
     bool hasSeeThrough() const { return any_.seeThrough; }
     const AnyMaterial& anyMaterial() const { return any_; }
     const Features& features() const { return features_; }
+    // Complete lines, of the pictures that miss.
+    std::span<const std::string> warnings() const { return warnings_; }
     // Fills in what the scene knows: accelerator, features, degenerate primitives.
     void describe(Stats& stats) const;
 
@@ -125,4 +127,5 @@ private:
     Features features_;
     AccelKind accelKind_ = AccelKind::Bvh;
     std::uint64_t degenerateCount_ = 0;
+    std::vector<std::string> warnings_;
 };

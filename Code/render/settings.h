@@ -55,6 +55,8 @@ struct RenderSettings {
     // Off: every step is done for every scene, needed or not (the yardstick of T17 and of timings).
     bool specialise = true;
     std::string textureFolder; // --textures DIR; searched after the scene's own folder
+    // A picture that cannot be read is a warning of the scene, and its texture is left out.
+    bool picturesMayMiss = false;
     // How the work is cut, which no picture may depend on; at least 1. A tile is what one worker
     // does at a time. A chunk of its samples is traced together: enough rays for a wave, few enough
     // for the cache.

@@ -63,18 +63,27 @@ std::optional<std::string> findPicture(const std::string& file, const std::strin
     return firstFile(file, sceneFile, textureFolder, tried);
 }
 
-StoredImage loadPicture(const TextureDesc& texture, const SourceFile& source,
-                        const std::string& textureFolder) {
+std::optional<StoredImage> findAndRead(const TextureDesc& texture, const std::string& sceneFile,
+                                       const std::string& textureFolder, std::string& fault) {
     std::vector<std::string> tried;
-    const auto path = firstFile(texture.file, source.name, textureFolder, tried);
-    if (!path)
-        failAt(source, texture.fileLoc.offset,
-               cat("texture '", texture.name, "': no file '", texture.file, "'; looked for ",
-                   join(tried), "; put it there or name its folder with --textures"));
+    const auto path = firstFile(texture.file, sceneFile, textureFolder, tried);
+    if (!path) {
+        fault = cat("texture '", texture.name, "': no file '", texture.file, "'; looked for ",
+                    join(tried), "; put it there or name its folder with --textures");
+        return {};
+    }
     try {
         return readStoredImage(*path);
     } catch (const Error& error) {
-        failAt(source, texture.fileLoc.offset,
-               cat("texture '", texture.name, "' can't be read: ", error.what()));
+        fault = cat("texture '", texture.name, "' can't be read: ", error.what());
+        return {};
     }
+}
+
+StoredImage loadPicture(const TextureDesc& texture, const SourceFile& source,
+                        const std::string& textureFolder) {
+    std::string fault;
+    auto image = findAndRead(texture, source.name, textureFolder, fault);
+    if (!image) failAt(source, texture.fileLoc.offset, fault);
+    return std::move(*image);
 }

@@ -22,3 +22,6 @@ std::optional<std::string> findPicture(const std::string& file, const std::strin
 // with the places that were tried, or with what is wrong with the picture.
 StoredImage loadPicture(const TextureDesc& texture, const SourceFile& source,
                         const std::string& textureFolder);
+// The same; nothing when it fails, with what is wrong in `fault`.
+std::optional<StoredImage> findAndRead(const TextureDesc& texture, const std::string& sceneFile,
+                                       const std::string& textureFolder, std::string& fault);

@@ -54,7 +54,7 @@ end_header
 END
 cat > roof.json <<'END'
 {
-    "resolution": [40, 30], "AA_samples": 2, "ambient": [0.1, 0.1, 0.1],
+    "resolution": [40, 30], "AA_jitter": true, "AA_samples": 4, "ambient": [0.1, 0.1, 0.1],
     "camera": {"position": [3, 3, 4], "lookAt": [0, 0.5, 0], "up": [0, 1, 0], "fov": 45},
     "materials": [{"name": "red", "diffuse": [1, 0.2, 0.1], "specular": [0.5, 0.5, 0.5], "shininess": 20},
                   {"name": "white", "diffuse": [1, 1, 1], "specular": [0, 0, 0], "shininess": 0}],

@@ -127,8 +127,8 @@ private:
             resolution.empty() ? (isOld() ? 1080 : 1280) : static_cast<int>(resolution[0].number());
         data.height = resolution.empty() ? 720 : static_cast<int>(resolution[1].number());
         const JsonValue* group = scene.find("AA");
-        data.samples =
-            static_cast<int>(group ? number(*group, "samples", 1) : number(scene, "AA_samples", 1));
+        // Without jitter all AA_samples go through the centre of the pixel.
+        data.samples = group ? static_cast<int>(number(*group, "samples", 1)) : 1;
         const double grey = isOld() ? 0.0 : 0.1;
         data.ambient = vec3(scene, "ambient", {grey, grey, grey});
         const JsonValue& camera = need(scene, "camera");

@@ -59,6 +59,22 @@ TEST(spdBallsHaveTheirPublishedRays) {
     checkCount(stats.rays.shadow, 954368, 0.03);
 }
 
+// A pane of glass without Ks before the camera, and behind it the open side of a box of which only
+// backs are seen. Each eye ray is reflected once; what passes meets the box, from within.
+TEST(spdGlassReflectsAndBacksAreSeen) {
+    const std::string text = "v from 0 0 9 at 0 0 0 up 0 1 0 angle 30 hither 1 resolution 512 512\n"
+                             "b 0 0 1 l 0 0 20 f 1 1 1 0.2 0 1 0.8 1\n"
+                             "p 4 -9 -9 5 9 -9 5 9 9 5 -9 9 5\n"
+                             "f 1 0 0 1 0 1 0 0\n"
+                             "p 4 -9 9 0 9 9 0 9 -9 0 -9 -9 0\n";
+    const Stats stats = traced("glass", text);
+    CHECK_EQUAL(stats.cameraHits, 513u * 513u);
+    CHECK_EQUAL(stats.rays.reflect, 513u * 513u);
+    CHECK_EQUAL(stats.rays.refract, 513u * 513u);
+    // Towards the light from the pane, and from the box, whose normal is turned to the eye.
+    CHECK_EQUAL(stats.rays.shadow, 2 * 513u * 513u);
+}
+
 TEST(spdRingsHaveTheirPublishedRays) {
     const Stats stats = traced("rings", spd::rings(7));
     checkCount(stats.cameraHits, 263169, 0.001);

@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <random>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 namespace test_json {
@@ -288,6 +290,108 @@ TEST(json_numbers_are_rounded_correctly) {
             CHECK_INFO(std::bit_cast<std::uint64_t>(item.number()) ==
                            std::bit_cast<std::uint64_t>(value),
                        std::string_view(source.text) << " gives " << shortest(item.number()));
+    }
+}
+
+// What is wider in JSON5 (json5.org) than in JSON.
+TEST(json5_accepts) {
+    struct Row {
+        std::string text, expected, liberty;
+    };
+    const std::vector<Row> rows = {
+        {"[1, 2]", "[1,2,]", ""},
+        {R"({"a": "b\n\u0041"})", "{\"a\":\"b\nA\",}", ""},
+        {"// one\n[1] // two", "[1,]", "1:1 a comment"},
+        {"[1, /* // ] */ 2]", "[1,2,]", "1:5 a comment"},
+        {"/**/{}/***/", "{}", "1:1 a comment"},
+        {"\xc2\xa0[\v1\f]\xe2\x80\xa8", "[1,]", "1:1 a blank"},
+        {"[1, 2,]", "[1,2,]", "1:6 a ',' before ']'"},
+        {"{\"a\": 1 , }", "{\"a\":1,}", "1:9 a ',' before '}'"},
+        {"{a: 1, $b_2: 2, _: 3}", "{\"a\":1,\"$b_2\":2,\"_\":3,}", "1:2 a key without quotes"},
+        {"{'a b': 'c\"d'}", "{\"a b\":\"c\"d\",}", "1:2 a key in single quotes"},
+        {R"(['it\'s', "it's"])", R"(["it's","it's",])", "1:2 a text in single quotes"},
+        {R"(["\x41\v\0\'\a\"", 1])", cat("[\"A\v", std::string(1, '\0'), "'a\"\",1,]"),
+         "1:3 an escape of this kind"},
+        {"[\"two \\\nlines, \\\r\nthree\"]", "[\"two lines, three\",]", "1:7 an escape"},
+        {"[.5, 5., +5, -.5, 5.e1, +.5e-1]", "[0.5,5,5,-0.5,50,0.05,]", "1:2 the number .5"},
+        {"[0x1F, -0Xff, +0x0]", "[31,-255,0,]", "1:2 the number 0x1F"},
+        {"[1.5, -0, 2e3, 0.25]", "[1.5,-0,2000,0.25,]", ""},
+    };
+    for (const Row& row : rows) {
+        const SourceFile source{"t.json", row.text};
+        std::string got, liberty;
+        const std::string fault = check::thrown([&] {
+            const JsonDocument document = parseJson(source, JsonGrammar::Json5);
+            write(document.root, got);
+            CHECK(document.liberties.size() <= 1); // the first of JSON5 stands for all
+            for (const JsonLiberty& l : document.liberties)
+                liberty = located(source, l.loc.offset, l.what, "warning");
+        });
+        CHECK_INFO(fault.empty() && got == row.expected, row.text << " gives " << got << fault);
+        const std::size_t blank = row.liberty.find(' ');
+        const std::string wanted = row.liberty.empty()
+                                       ? ""
+                                       : cat("t.json:", row.liberty.substr(0, blank),
+                                             ": warning: ", row.liberty.substr(blank + 1));
+        CHECK_INFO(liberty.substr(0, wanted.size()) == wanted && liberty.empty() == wanted.empty(),
+                   row.text << " says " << liberty);
+    }
+}
+
+TEST(json5_rejects) {
+    const std::vector<std::pair<std::string, std::string>> rows = {
+        {"", "1:1: error: the file is empty"},
+        {"[NaN]", "1:2: error: expected a value, got 'NaN'; JSON has finite numbers only"},
+        {"[.5, NaN]", "1:6: error: expected a value, got 'NaN'; a scene has finite numbers only"},
+        {"[.5, +Infinity]", "1:6: error: expected a value, got '+Infinity'; a scene has finite"},
+        {"[.5, 012]", "1:6: error: a number has no zeros before its first digit"},
+        {"[.5, .]", "1:6: error: a number needs a digit"},
+        {"[.5, +]", "1:6: error: expected a value, got '+'"},
+        {"[.5, 1e]", "1:6: error: a number needs a digit in the exponent"},
+        {"[.5, 0xg]", "1:6: error: expected a number, got '0xg'"},
+        {"[.5, 1e999]", "1:6: error: the number is too large"},
+        {"[.5, 1.2.3]", "1:6: error: expected a number, got '1.2.3'"},
+        {"[1,,]", "1:4: error: expected a value, got ','"},
+        {"[,]", "1:2: error: expected a value, got ','"},
+        {"{,}", "1:2: error: expected a key in double quotes, got ','"},
+        {"{1: 2,}", "1:2: error: expected a key in double quotes, got '1'"},
+        {"['a\nb']",
+         "1:2: error: the text is not closed; expected \"'\" before the end of the line"},
+        {"['a", "1:2: error: the text is not closed"},
+        {"['a\\", "1:2: error: the text is not closed"},
+        {"['\xff']", "1:3: error: byte \\xff is not UTF-8"},
+        {"['\\\xff']", "is not UTF-8"},
+        {"['\\x4']", "1:3: error: expected two hexadecimal digits after '\\x'"},
+        {"['\\u12']", "1:3: error: expected four hexadecimal digits"},
+        {"['\\01']", "1:3: error: a '\\' before a digit means nothing"},
+        {"[1] /* two", "1:5: error: the comment is not closed"},
+        {"[1] / 2", "1:5: error: expected the end of the file, got '/'"},
+        {"[True,]", "1:2: error: expected a value, got 'True'"},
+        {"{a: 1, 'a': 2}", "1:8: error: the key 'a' was given already at line 1"},
+    };
+    for (const auto& [text, expected] : rows) {
+        const std::string fault = check::thrown([&] {
+            parseJson({"t.json", text}, JsonGrammar::Json5);
+        });
+        CHECK_INFO(fault.find(expected) != std::string::npos, text << " says " << fault);
+    }
+}
+
+// Under --lenient the last of two equal keys holds, as in other programs.
+TEST(json_lenient_keys_given_twice) {
+    std::string many;
+    for (int i = 0; i < 40; ++i) many += cat("\"k", i % 20, "\":", i, ",");
+    for (const auto& [text, expected, count] :
+         {std::tuple(std::string(R"({"a":1,"b":2,"a":3})"), std::string(R"({"b":2,"a":3,})"), 1u),
+          std::tuple(std::string(R"([{"a":{"c":1,"c":2},"a":4},5])"),
+                     std::string(R"([{"a":4,},5,])"), 2u),
+          std::tuple("{" + many + "}", cat("{", many.substr(many.find("\"k0\":20")), "}"), 21u)}) {
+        const SourceFile source{"t.json", text};
+        const JsonDocument document = parseJson(source, JsonGrammar::Lenient);
+        std::string got;
+        write(document.root, got);
+        CHECK_INFO(got == expected, text << " gives " << got);
+        CHECK_EQUAL(document.liberties.size(), std::size_t{count});
     }
 }
 

@@ -45,13 +45,13 @@ TEST(read_nff_cone) {
                                             "c 0 0 0 -1  0 0 1 0  c 0 0 0 0  0 0 1 2\n"
                                             "f 1 1 1 0 0 1 0.5 1.5 c 0 0 0 1  0 0 1 1\n");
     const ObjectDesc& cone = desc.objects.at(0);
-    CHECK(cone.kind == Kind::Cone && !cone.caps && cone.sides == Sides::Front);
+    CHECK(cone.kind == Kind::Cone && !cone.caps && cone.sides == Sides::Both);
     CHECK(cone.radius == 0.5 && cone.topRadius == 0.25);
     const Transform worldFromCone = Transform::fromRows(cone.worldFromObject.at(0));
     checkPoint(worldFromCone.point({0, 0, -1}), {1, 2, 3}, 0);
     checkPoint(worldFromCone.point({0, 0, 1}), {1, 2, 7}, 0);
     const ObjectDesc& cylinder = desc.objects.at(1);
-    CHECK(cylinder.kind == Kind::Cylinder && !cylinder.caps && cylinder.sides == Sides::Front);
+    CHECK(cylinder.kind == Kind::Cylinder && !cylinder.caps && cylinder.sides == Sides::Both);
     CHECK_EQUAL(cylinder.radius, 0.5);
     checkPoint(Transform::fromRows(cylinder.worldFromObject.at(0)).point({0, 0, 1}), {4, 6, 3},
                1e-15);
@@ -98,7 +98,7 @@ TEST(read_nff_polygon) {
                                             "p 3  0 0 0  1 0 0  0 1 0\n");
     CHECK_EQUAL(desc.objects.size(), std::size_t{2}); // one mesh of one fill
     const ObjectDesc& object = desc.objects.at(0);
-    CHECK(object.kind == Kind::Mesh && object.mesh == 0 && object.sides == Sides::Front);
+    CHECK(object.kind == Kind::Mesh && object.mesh == 0 && object.sides == Sides::Both);
     const MeshDesc& mesh = desc.meshes.at(0);
     CHECK_EQUAL(mesh.points.size(), std::size_t{8});
     CHECK_EQUAL(mesh.triangles.size(), std::size_t{4});

@@ -93,7 +93,47 @@ File file(Format format, Faces faces, std::uint32_t flat = 0, const std::string&
     return f;
 }
 
+// Faces with texture coordinates of their corners; every so many have none.
+std::string fileWithCoordinates(Format format, std::uint32_t without) {
+    File f = file(format, Faces::Triangles);
+    const std::size_t data = f.text.find("end_header\n") + 11;
+    const std::string flags = "property uchar red\n";
+    f.text.replace(f.text.find(flags), flags.size(), "property list uchar float texcoord\n");
+    const std::size_t shift =
+        std::string("property list uchar float texcoord\n").size() - flags.size();
+    File rows{format, "\n", {}};
+    for (std::uint32_t i = 0; i < kFaces; ++i) {
+        rows.whole(3, 1);
+        for (std::uint32_t k = 0; k < 3; ++k) rows.whole((i + k) % kVertices, 4);
+        const std::uint32_t count = i % without == without - 1 ? 0 : 6;
+        rows.whole(count, 1);
+        for (std::uint32_t k = 0; k < count; ++k)
+            rows.number(static_cast<float>((i + k) % 100) * 0.01f);
+        rows.endRow();
+    }
+    // The vertices stay, in front of the old faces.
+    const std::size_t old = file(format, Faces::Triangles).text.size() - data;
+    File faces{format, "\n", {}};
+    for (std::uint32_t i = 0; i < kFaces; ++i) {
+        faces.whole(3, 1);
+        for (std::uint32_t k = 0; k < 3; ++k) faces.whole((i * 3 + k * k) % kVertices, 4);
+        faces.whole(200, 1);
+        faces.endRow();
+    }
+    return f.text.substr(0, data + shift + old - faces.text.size()) + rows.text;
+}
+
 } // namespace
+
+TEST(ply_chunks_have_the_same_texture_coordinates) {
+    for (const Format format : {Format::Ascii, Format::Little, Format::Big})
+        for (const std::uint32_t without : {7u, kFaces + 1}) {
+            const Outcome one = checkSame(fileWithCoordinates(format, without), "coordinates");
+            CHECK_INFO(one.mesh.uvTriangles.size() == kFaces, one.said);
+            CHECK_EQUAL(one.mesh.uvs.size(), std::size_t{3} * kFaces);
+            CHECK((one.mesh.uvs.at(one.mesh.uvTriangles.at(3)[0]) == Vec2{0.03f, 0.04f}));
+        }
+}
 
 TEST(ply_chunks_give_the_same_mesh) {
     for (const Format format : {Format::Ascii, Format::Little, Format::Big})

@@ -43,12 +43,39 @@ TEST(read_json_resolution_of_the_dialects) {
 }
 
 TEST(read_json_anti_aliasing) {
-    for (const std::string aa :
-         {R"("AA": {"jitter": true, "samples": 3})", R"("AA_jitter": true, "AA_samples": 3)"}) {
-        const SettingsDesc s = scene(cat("{", aa, "}")).settings;
-        CHECK_EQUAL(s.samplesPerPixel, 9);
-        CHECK(s.sampler == SettingsDesc::Sampler::Grid && s.jitter);
-    }
+    const SettingsDesc grid = scene(R"({"AA": {"jitter": true, "samples": 3}})").settings;
+    CHECK_EQUAL(grid.samplesPerPixel, 9);
+    CHECK(grid.sampler == SettingsDesc::Sampler::Grid && grid.jitter);
+    // Since autumn 2024 they are all samples of a pixel; without jitter all are one.
+    struct Row {
+        std::string aa, warning;
+        int samples;
+        bool jitter;
+    };
+    const Row rows[] = {
+        {R"("AA_jitter": true, "AA_samples": 32)", "", 32, true},
+        {R"("AA_samples": 32, "AA_jitter": true)", "", 32, true},
+        {R"("AA_jitter": true)", "", 1, true},
+        {R"("AA_samples": 1)", "", 1, false},
+        {R"("AA_samples": 9)", "without 'AA_jitter' all 9 samples", 1, false},
+        {R"("AA_jitter": false, "AA_samples": 9)", "one is taken", 1, false},
+        {R"("AA_samples": -1)", "renders without end", 1, false},
+        {R"("AA_jitter": true, "AA_samples": -1)", "64 per pixel are taken", 64, true},
+        {R"("AA_jitter": true, "AA_samples": 0)", "64 per pixel are taken", 64, true},
+    };
+    for (const std::string fov : {"fov", "fovy"}) // autumn 2024, and 2025
+        for (const Row& row : rows) {
+            const Reading reading = read(
+                cat("{", row.aa, R"(, "camera": {")", fov, R"(": 40, "position": [0, 0, 5]}})"));
+            const SettingsDesc& s = reading.desc.settings;
+            CHECK_EQUAL(s.samplesPerPixel, row.samples);
+            CHECK_EQUAL(s.jitter, row.jitter);
+            CHECK((s.sampler == SettingsDesc::Sampler::Grid) == !row.jitter);
+            const std::string said = join(reading.warnings);
+            CHECK_INFO(row.warning.empty() ? said.empty()
+                                           : said.find(row.warning) != std::string::npos,
+                       row.aa << ": " << said);
+        }
     // Samples counted in the native way get the native pattern.
     const SettingsDesc s = scene(R"({"settings": {"samples": 8, "seed": 7}})").settings;
     CHECK_EQUAL(s.samplesPerPixel, 8);

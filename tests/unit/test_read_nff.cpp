@@ -149,6 +149,10 @@ TEST(read_nff_fill) {
     CHECK_EQUAL(chalk.exponent, 100000.0);
     CHECK_EQUAL(chalk.ior, 1.0);
     CHECK((desc.objects.at(2).materials == std::vector<Handle>{0}));
+    // What transmits reflects rays too, which count and are not seen.
+    const MaterialDesc clear = readBody("f 1 1 1 0.2 0 1 0.8 1.1 s 0 0 0 1").materials.at(0);
+    CHECK(clear.mirror.r > 0 && clear.mirror.r < 1e-9 && clear.mirror.r == clear.mirror.b);
+    CHECK((clear.specular == Rgbd{}));
 }
 
 TEST(read_nff_without_fill) {

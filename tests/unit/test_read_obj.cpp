@@ -68,6 +68,30 @@ TEST(read_obj_room) {
     CHECK(warns(file, "1 vertex has a colour"));
 }
 
+// What nothing needs may be anything; a face does without what is not finite.
+TEST(read_obj_numbers_that_are_not_finite) {
+    const Result colours = readText("v 0 0 0 nan nan nan\nv 1 0 0 1 -inf 1\nv 0 1 0 1 1 1e999\n"
+                                    "f 1 2 3\n");
+    CHECK_EQUAL(colours.mesh.triangles.size(), std::size_t{1});
+    CHECK_EQUAL(colours.warnings.size(), std::size_t{1});
+    CHECK(warns(colours, "t.obj:1:") && warns(colours, "3 vertices have colours"));
+    for (const std::string bad :
+         {"nan", "-nan", "NaN", "INF", "-Infinity", "nan(ind)", "1e999", "-1e61"}) {
+        const Result file = readBody(cat("v 0 ", bad, " 0\nvn 0 0 ", bad, "\nvn 0 0 1\nvt 0 ", bad,
+                                         "\nvt 0.5 1\nf 1/2/2 2/1/1 3/2/2\nf 1//2 3//2 4//2\n",
+                                         "f 1 2 5\nf 1 2 3 5\n"));
+        CHECK_INFO(warns(file, "t.obj:5:2: warning: 3 vertices, normals or texture coordinates are "
+                               "not finite or too large; faces do without them; the first is here"),
+                   bad << join(file.warnings));
+        CHECK(warns(file, "left out: 2 faces without area"));
+        CHECK((file.mesh.triangles == Triangles{{0, 1, 2}, {0, 2, 3}}));
+        CHECK_EQUAL(file.mesh.points.size(), std::size_t{4});
+        CHECK((normalAt(file.mesh, 0, 1) == Vec3{} && normalAt(file.mesh, 0, 0) == Vec3{0, 0, 1}));
+        CHECK((uvAt(file.mesh, 0, 1) == Vec2{} && uvAt(file.mesh, 0, 0) == Vec2{0.5f, 1}));
+    }
+    CHECK_THROWS(readBody("vn 0 0 nano\nf 1 2 3"), "expected a number after 'vn', got 'nano'");
+}
+
 TEST(read_obj_line_ends) {
     const std::string text = contentOf("tests/scenes/obj/room.obj");
     const MeshFile file = readText(text);

@@ -145,7 +145,8 @@ TEST(read_threads_find_the_same_error_in_obj) {
     check(with({{first, "f 1 2 x"}, {second, "v 1 2"}, {third, "v 1 2 y"}}), "'v', got the end");
     check(with({{first, "f 1 2 99999999"}, {second, "f 1 2 x"}}), "no vertex 99999999");
     check(with({{second, "f 1 2 y"}, {third, "f 1 2 0"}}), "got 'y'");
-    check(with({{third, "vt nan 1"}}), "not a finite number");
+    check(with({{third, "vt x 1"}}), "expected a number after 'vt'");
+    check(with({{first, "vn 0 0 inf"}, {third, "vt nan 1"}}), "2 vertices, normals or texture");
 }
 
 // Meshes of a scene: each file has a warning (colours) or an error, in the order of the scene.

@@ -150,7 +150,7 @@ std::span<const JsonValue> JsonFields::list(std::string_view key) {
 void JsonFields::reportUnknown() const {
     for (std::size_t i = 0; i < members_.size(); ++i) {
         if (known_[i]) continue;
-        problems_.unknown(members_[i].loc, [&] {
+        problems_.error(members_[i].loc, [&] {
             std::vector<std::string> known(asked_.begin(), asked_.end());
             // As they stand in the file, one after the other; "comment" was asked for first.
             std::rotate(known.begin(), known.begin() + 1, known.end());

@@ -23,21 +23,23 @@ public:
     JsonProblems(const SourceFile& source, const ReadContext& context)
         : source_(source), context_(context), errors_(source) {}
 
-    // The text is made only when it will be shown.
+    // The text is made only when it will be shown. Under --lenient this is a warning: readers go on
+    // with what they have then, a default or nothing.
     template <class MakeText> void error(SourceLoc loc, MakeText&& makeText) {
+        if (context_.options.lenient)
+            warn(loc, makeText);
+        else
+            errors_.add(loc, makeText);
+    }
+    // Of what nothing can be made: memory would not suffice.
+    template <class MakeText> void fatal(SourceLoc loc, MakeText&& makeText) {
         errors_.add(loc, makeText);
     }
     template <class MakeText> void warn(SourceLoc loc, MakeText&& makeText) {
         if (++warningCount_ <= kShownWarnings) context_.warn(source_, loc.offset, makeText());
     }
-    // Of something that the program does not know: an error, or as the user wishes a warning.
-    template <class MakeText> void unknown(SourceLoc loc, MakeText&& makeText) {
-        if (context_.options.lenient)
-            warn(loc, makeText);
-        else
-            error(loc, makeText);
-    }
 
+    bool isLenient() const { return context_.options.lenient; }
     bool hasErrors() const { return errors_.count() > 0; }
     void finish() const {
         if (warningCount_ > kShownWarnings)

@@ -25,7 +25,7 @@ void JsonGeometryReader::count(std::size_t geometries, SourceLoc loc) {
     const bool wasSmall = total_ <= kMostJsonGeometries;
     total_ += geometries;
     if (wasSmall && total_ > kMostJsonGeometries)
-        problems_.error(loc, [] {
+        problems_.fatal(loc, [] {
             return cat("with this the scene has more than ", kMostJsonGeometries,
                        " objects, counting each copy that nodes and instances make");
         });
@@ -88,7 +88,7 @@ bool JsonGeometryReader::isKnown(const JsonValue* typeValue, const std::string& 
             return cat("expected a text for 'type', got ", described(*typeValue));
         });
     else
-        problems_.unknown(typeValue->loc(), [&] {
+        problems_.error(typeValue->loc(), [&] {
             return cat("unknown type of object ", unknownName(shown(type), types_));
         });
     return false;
@@ -164,7 +164,7 @@ void JsonGeometryReader::addChild(JsonGeometry& parent, std::size_t index) const
 }
 void JsonGeometryReader::checkDepth(const JsonGeometry& geometry) {
     if (geometry.depth == kDeepestJsonGeometry + 1)
-        problems_.error(geometry.loc, [] {
+        problems_.fatal(geometry.loc, [] {
             return cat("nodes and instances are nested more than ", kDeepestJsonGeometry,
                        " deep here");
         });
@@ -174,7 +174,7 @@ JsonGeometryReader::Index JsonGeometryReader::find(const JsonNames& names, const
                                                    const JsonValue& ref, std::string_view what) {
     const Handle handle = names.find(name);
     if (handle == kNone) {
-        problems_.unknown(ref.loc(), [&] {
+        problems_.error(ref.loc(), [&] {
             return cat("no earlier ", what, " is named ", unknownName(shown(name), names.known()));
         });
         return {};

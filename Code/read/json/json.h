@@ -1,5 +1,4 @@
-// JSON text as a tree of values (RFC 8259, strictly: no comments, no trailing commas, no NaN).
-// Knows nothing about scenes.
+// JSON text as a tree of values (RFC 8259; JSON5 where it is wanted). Knows nothing about scenes.
 #pragma once
 
 #include "base/source.h"
@@ -12,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 struct JsonMember;
 
@@ -75,14 +75,23 @@ std::string_view nameOf(JsonValue::Kind kind);
 // For messages: "the number 12", "the text 'abc'", "true", "an array".
 std::string described(const JsonValue& value);
 
+// Something that a text is read in spite of, for a warning: at `loc`, in words.
+struct JsonLiberty {
+    SourceLoc loc;
+    std::string what;
+};
 // Its values refer to the text of the source, which must outlive it, and to `memory`.
 struct JsonDocument {
     std::unique_ptr<std::pmr::monotonic_buffer_resource> memory;
     JsonValue root;
+    std::vector<JsonLiberty> liberties;
 };
+// Standard: none, as the standard says. Json5: the first place where the text is JSON5 and no JSON.
+// Lenient: that, and keys that an object has twice, of which the last one holds.
+enum class JsonGrammar { Standard, Json5, Lenient };
 
 inline constexpr int kDeepestJson = 256;
 
 // Fails (failAt) on what the standard rejects, on nesting deeper than kDeepestJson, on text that is
 // not UTF-8, on numbers too large for double, and on keys that an object has twice.
-JsonDocument parseJson(const SourceFile& source);
+JsonDocument parseJson(const SourceFile& source, JsonGrammar grammar = JsonGrammar::Standard);

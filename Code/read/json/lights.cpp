@@ -46,7 +46,7 @@ const LightType* readType(JsonFields& fields) {
         fields.problems().error(fields.loc(),
                                 [&] { return cat("a light needs a 'type': ", join(known)); });
     else if (value->isString())
-        fields.problems().unknown(value->loc(), [&] {
+        fields.problems().error(value->loc(), [&] {
             return cat("unknown type of light ", unknownName(shown(word), known));
         });
     return nullptr;
@@ -95,11 +95,13 @@ Rows readLightPlace(JsonFields& fields, const LightType& type) {
     const Vec3d shines = aim.key == "lookAt"  ? aimed - place.position
                          : type.isDirectional ? -aimed
                                               : aimed;
-    if (maxAbs(shines) == 0)
+    if (maxAbs(shines) == 0) {
         fields.problems().error(aim.value->loc(), [&] {
             return cat("'", aim.key, "' of ", fields.what(),
                        aim.key == "lookAt" ? " is its own position" : " is 0 0 0");
         });
+        return rowsOf(place);
+    }
     // Without 'up' a light that shines straight down or up takes another axis instead.
     const Transform turned = Transform::fromRows(
         upValue ? lookingAt({}, shines, up, fields) : Transform::lookAt({}, shines, up).rows());

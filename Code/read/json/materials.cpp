@@ -34,23 +34,35 @@ bool isOfTheCourse(const MaterialDesc& m) {
            m.opacityTexture == kNone;
 }
 
+// Empty when there is none.
+std::string faultOf(const TextureDesc& texture, const JsonNames& names) {
+    const auto isGood = [](std::string_view text) {
+        return !text.empty() && findBadText(text) == std::string_view::npos;
+    };
+    if (!isGood(texture.name)) return "a texture needs a 'name', without control characters";
+    if (!isGood(texture.file)) return "a texture needs a 'file', without control characters";
+    if (names.find(texture.name) == kNone) return "";
+    return cat("another texture is named '", texture.name, "' already; that one is meant");
+}
+
 } // namespace
 
 JsonNames readJsonTextures(JsonFields& scene, std::vector<TextureDesc>& textures) {
     JsonNames names;
     for (const JsonValue& value : scene.list("textures")) {
         JsonFields fields(value, "a texture", scene.problems());
-        TextureDesc& texture = textures.emplace_back();
+        TextureDesc texture;
         texture.loc = value.loc();
-        if (!fields.read("name", texture.name) && value.isObject())
-            scene.problems().error(value.loc(), [] { return "a texture needs a 'name'"; });
-        if (const JsonValue* file = fields.find("file"))
-            texture.fileLoc = file->loc();
-        else if (value.isObject())
-            scene.problems().error(value.loc(), [] { return "a texture needs a 'file'"; });
+        fields.read("name", texture.name);
+        if (const JsonValue* file = fields.find("file")) texture.fileLoc = file->loc();
         readJsonProperties(fields, {}, texture);
         fields.reportUnknown();
-        names.add(texture.name, static_cast<Handle>(textures.size() - 1));
+        const std::string fault = value.isObject() ? faultOf(texture, names) : "";
+        if (!fault.empty()) scene.problems().error(value.loc(), [&] { return fault; });
+        // One that validate() would refuse; of errors more need not be said.
+        if (scene.problems().isLenient() && (!fault.empty() || !value.isObject())) continue;
+        names.add(texture.name, static_cast<Handle>(textures.size()));
+        textures.push_back(std::move(texture));
     }
     return names;
 }
@@ -136,10 +148,12 @@ std::vector<Handle> JsonMaterials::of(JsonFields& object) const {
         add(*given.value);
         return handles;
     }
-    if (!given.value->isArray())
+    if (!given.value->isArray()) {
         object.problems().error(given.value->loc(), [&] {
             return cat("expected an array for 'materials', got ", described(*given.value));
         });
+        if (given.value->isString() || given.value->isNumber()) add(*given.value);
+    }
     for (const JsonValue& value : given.value->items()) add(value);
     return handles;
 }

@@ -68,7 +68,7 @@ bool JsonObjects::hasRoomFor(const Keys& keys, std::size_t materials, SourceLoc 
     size_ += keys.size() + materials;
     if (size_ <= kLargest) return true;
     failed_ = true;
-    problems_.error(loc, [] {
+    problems_.fatal(loc, [] {
         return cat("with this the keys and materials of all objects are more than ", kLargest,
                    ", counting each copy that nodes and instances make");
     });
@@ -76,7 +76,7 @@ bool JsonObjects::hasRoomFor(const Keys& keys, std::size_t materials, SourceLoc 
 }
 
 void JsonObjects::failKeys(const JsonGeometry& geometry, const Keys& worldFromParent) {
-    failed_ = true;
+    failed_ = !problems_.isLenient();
     problems_.error(geometry.loc, [&] {
         return cat("'", shown(geometry.name), "' has ", geometry.place.size(),
                    " keys, and what is above it ", worldFromParent.size(),

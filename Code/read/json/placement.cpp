@@ -48,10 +48,11 @@ Rows lookingAt(Vec3d eye, Vec3d target, Vec3d up, const JsonFields& fields) {
                                 [&] { return cat("'", key, "' of ", fields.what(), " ", what); });
     };
     const Vec3d view = target - eye;
-    if (maxAbs(view) == 0)
+    if (maxAbs(view) == 0) {
         error("lookAt", "is its own position");
-    else if (maxAbs(up) == 0)
-        error("up", "has no direction");
+        return Transform::lookAt(eye, eye - Vec3d{0, 0, 1}, {0, 1, 0}).rows();
+    }
+    if (maxAbs(up) == 0) error("up", "has no direction");
     // Within 1e-10 radians of each other, rounding would decide the roll.
     else if (length(cross(normalize(up / maxAbs(up)), normalize(view / maxAbs(view)))) <= 1e-10)
         error("up", "is parallel to the view; choose another, such as [0, 0, 1]");

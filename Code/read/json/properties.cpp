@@ -49,7 +49,7 @@ void readName(const JsonValue& value, const Property& row, const JsonNames& text
     if (!readJsonValue(value, row.keyword, problems, name)) return;
     handle = textures.find(name);
     if (handle == kNone)
-        problems.unknown(value.loc(), [&] {
+        problems.error(value.loc(), [&] {
             return cat("unknown texture ", unknownName(shown(name), textures.known()));
         });
 }

@@ -26,12 +26,24 @@ std::vector<ObjectDesc> readObjects(JsonFields& scene, JsonGeometryReader& reade
     return list.take();
 }
 
+// As JSON, and where it is none as JSON5, which the course's programs read since autumn 2024.
+JsonDocument parsed(const SourceFile& source, bool isLenient) {
+    if (isLenient) return parseJson(source, JsonGrammar::Lenient);
+    try {
+        return parseJson(source);
+    } catch (const Error&) {
+        return parseJson(source, JsonGrammar::Json5);
+    }
+}
+
 } // namespace
 
 SceneDesc readJson(const SourceFile& source, const ReadContext& context) {
-    const JsonDocument document = parseJson(source);
+    const JsonDocument document = parsed(source, context.options.lenient);
     const JsonRules rules = jsonRulesOf(document.root);
     JsonProblems problems(source, context);
+    for (const JsonLiberty& liberty : document.liberties)
+        problems.warn(liberty.loc, [&] { return liberty.what; });
     JsonFields scene(document.root, "the scene", problems);
     SceneDesc desc;
     readJsonSettings(scene, rules, desc.settings);

@@ -21,27 +21,52 @@ void readTopKey(JsonFields& scene, const JsonFields* inner, std::string_view key
     readJsonProperty(*value, propertyNamed(Block::kType, keyword), {}, scene.problems(), &block);
 }
 
-// n x n samples in the cells of a grid in the pixel, in the middle of each cell or anywhere in it.
+// The rays of a pixel. The programs of 2022 and of winter 2024 read 'AA' with 'samples' n: n x n of
+// them, in the middle of the cells of a grid in the pixel, or with 'jitter' anywhere in these.
+// Since autumn 2024 'AA_samples' is their number: one in each of so many passes, which without
+// 'AA_jitter' all go through the centre of the pixel; below 0 the passes do not end.
 struct AntiAliasing {
-    int n = 1;
+    int count = 1;
     bool jitter = false;
+    bool isGrid = true;
     const JsonValue* given = nullptr;
 };
-AntiAliasing readAntiAliasing(JsonFields& scene) {
-    constexpr Range kGrid{1, 4096}; // 2^24 samples
-    AntiAliasing aa;
-    aa.given = scene.read("AA_samples", aa.n, kGrid);
+void readPasses(JsonFields& scene, AntiAliasing& aa) {
+    constexpr int kMost = 1 << 24, kEndless = 64;
+    const JsonValue* samples = scene.read("AA_samples", aa.count, Range{-kMost, kMost});
     const JsonValue* jitter = scene.read("AA_jitter", aa.jitter);
-    if (!aa.given) aa.given = jitter;
+    aa.given = samples ? samples : jitter;
+    if (aa.count < 1) {
+        aa.count = aa.jitter ? kEndless : 1;
+        scene.problems().warn(samples->loc(), [&] {
+            return cat("'AA_samples' below 1 renders without end in the course's program; ",
+                       aa.count, " per pixel are taken");
+        });
+    } else if (aa.count > 1 && !aa.jitter) {
+        scene.problems().warn(samples->loc(), [&] {
+            return cat("without 'AA_jitter' all ", aa.count,
+                       " samples go through the centre of the pixel, as in the course's program; "
+                       "one is taken");
+        });
+        aa.count = 1;
+    }
+    aa.isGrid = !aa.jitter;
+}
+AntiAliasing readAntiAliasing(JsonFields& scene) {
+    AntiAliasing aa;
+    readPasses(scene, aa);
     const JsonValue* both = scene.take("AA");
     if (!both) return aa;
     if (aa.given)
         scene.problems().error(
             both->loc(), [] { return "give 'AA', or 'AA_samples' and 'AA_jitter', not both"; });
     JsonFields fields(*both, "'AA'", scene.problems());
+    int n = 1;
     fields.read("jitter", aa.jitter);
-    fields.read("samples", aa.n, kGrid);
+    fields.read("samples", n, Range{1, 4096}); // 2^24 samples
     fields.reportUnknown();
+    aa.count = n * n;
+    aa.isGrid = true;
     aa.given = both;
     return aa;
 }
@@ -94,12 +119,12 @@ void readJsonSettings(JsonFields& scene, const JsonRules& rules, SettingsDesc& s
     const JsonValue* samples = fields ? fields->find("samples") : nullptr;
     if (samples && aa.given)
         scene.problems().error(samples->loc(), [] {
-            return "'samples' counts all samples of a pixel, and AA those of a row; give one";
+            return "'samples' of the settings and AA count the samples of a pixel; give one";
         });
-    // A scene that counts samples in the native way gets the native pattern for them.
+    // A scene that counts all samples of a pixel gets the native pattern for them.
     if (!samples) {
-        settings.sampler = SettingsDesc::Sampler::Grid;
-        settings.samplesPerPixel = aa.n * aa.n;
+        if (aa.isGrid) settings.sampler = SettingsDesc::Sampler::Grid;
+        settings.samplesPerPixel = aa.count;
         settings.jitter = aa.jitter;
     }
     if (!fields) return;

@@ -42,7 +42,7 @@ void makeSolid(Vec3d& lo, Vec3d& hi) {
 void box(Input& in, JsonShape& shape) {
     JsonFields& fields = in.fields;
     JsonProblems& problems = fields.problems();
-    Vec3d size, position, lo{-1, -1, -1}, hi{1, 1, 1}, rotation;
+    Vec3d size{2, 2, 2}, position, lo{-1, -1, -1}, hi{1, 1, 1}, rotation;
     const JsonValue* sizeValue = fields.read("size", size, kPositive);
     const bool isPlaced = in.rules.allArePlaced;
     const JsonValue* positionValue =
@@ -67,7 +67,7 @@ void box(Input& in, JsonShape& shape) {
     }
     // (What could not be read was told already, and would only look wrong here.)
     if (!(lo.x < hi.x && lo.y < hi.y && lo.z < hi.z) && !problems.hasErrors()) {
-        problems.unknown(hiValue ? hiValue->loc() : fields.loc(), [] {
+        problems.error(hiValue ? hiValue->loc() : fields.loc(), [] {
             return "a box has a 'max' above its 'min' on each axis (left out: 1 and -1)";
         });
         makeSolid(lo, hi);
@@ -114,9 +114,10 @@ void plane(Input& in, JsonShape& shape) {
     const bool isPlaced = in.rules.allArePlaced;
     if (!isPlaced) fields.read("position", position, kAnyNumber);
     const JsonValue* normalValue = fields.read("normal", normal, kAnyNumber);
-    if (normal == Vec3d{})
-        return fields.problems().error(normalValue->loc(),
-                                       [] { return "'normal' of a plane is 0 0 0"; });
+    if (normal == Vec3d{}) {
+        fields.problems().error(normalValue->loc(), [] { return "'normal' of a plane is 0 0 0"; });
+        normal = {0, 1, 0};
+    }
     const Vec3d unit = normalize(normal / maxAbs(normal));
     shape.place = {planeRows(position, unit)};
     shape.checkerboard =
@@ -163,10 +164,12 @@ Handle JsonMeshes::read(JsonFields& fields) {
     double smoothAngleDeg = 0;
     const JsonValue* value = fields.read("filepath", file);
     fields.read("smooth_angle", smoothAngleDeg, Range{0, 180});
-    if (file.empty() || findBadText(file) != std::string::npos)
+    if (file.empty() || findBadText(file) != std::string::npos) {
         fields.problems().error(value ? value->loc() : fields.loc(), [] {
             return "a mesh needs a 'filepath': the name of a file, without control characters";
         });
+        return kNone;
+    }
     const auto handle = static_cast<Handle>(meshes_.size());
     const auto [known, isNew] = known_.try_emplace({file, smoothAngleDeg}, handle);
     if (!isNew) return known->second;

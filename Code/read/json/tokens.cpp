@@ -9,14 +9,6 @@
 
 namespace {
 
-std::string_view restOf(const SourceFile& source, const char* at) {
-    return std::string_view(source.text).substr(static_cast<std::size_t>(at - source.text.data()));
-}
-
-[[noreturn]] void fail(const SourceFile& source, const char* at, std::string_view what) {
-    failAt(source, static_cast<std::size_t>(at - source.text.data()), what);
-}
-
 // Bytes that stand for themselves: ASCII but control characters, quote and backslash.
 constexpr auto kPlain = [] {
     std::array<bool, 256> plain{};
@@ -28,16 +20,17 @@ std::optional<std::uint32_t> hex4(const char* p, const char* end) {
     if (end - p < 4) return {};
     std::uint32_t value = 0;
     for (int i = 0; i < 4; ++i) {
-        const char c = p[i];
-        const int digit = c >= '0' && c <= '9'   ? c - '0'
-                          : c >= 'a' && c <= 'f' ? c - 'a' + 10
-                          : c >= 'A' && c <= 'F' ? c - 'A' + 10
-                                                 : -1;
+        const int digit = jsonHexDigit(p[i]);
         if (digit < 0) return {};
         value = value * 16 + static_cast<std::uint32_t>(digit);
     }
     return value;
 }
+
+bool isHighSurrogate(std::uint32_t code) { return code >= 0xd800 && code < 0xdc00; }
+bool isLowSurrogate(std::uint32_t code) { return code >= 0xdc00 && code < 0xe000; }
+
+} // namespace
 
 void appendUtf8(std::string& out, std::uint32_t code) {
     const auto tail = [&](int shift) { out += static_cast<char>(0x80 | ((code >> shift) & 0x3f)); };
@@ -55,15 +48,11 @@ void appendUtf8(std::string& out, std::uint32_t code) {
     }
 }
 
-bool isHighSurrogate(std::uint32_t code) { return code >= 0xd800 && code < 0xdc00; }
-bool isLowSurrogate(std::uint32_t code) { return code >= 0xdc00 && code < 0xe000; }
-
-// p is behind "\u"; comes back behind the digits, of the second escape too where there are two.
-const char* appendUnicode(const SourceFile& source, const char* p, const char* end,
-                          std::string& out) {
+const char* appendJsonUnicode(const SourceFile& source, const char* p, const char* end,
+                              std::string& out) {
     const char* start = p - 2;
     const auto code = hex4(p, end);
-    if (!code) fail(source, start, "expected four hexadecimal digits after '\\u'");
+    if (!code) failJson(source, start, "expected four hexadecimal digits after '\\u'");
     p += 4;
     if (!isHighSurrogate(*code) && !isLowSurrogate(*code)) {
         appendUtf8(out, *code);
@@ -72,17 +61,15 @@ const char* appendUnicode(const SourceFile& source, const char* p, const char* e
     const bool hasSecond = end - p >= 6 && p[0] == '\\' && p[1] == 'u';
     const auto low = hasSecond ? hex4(p + 2, end) : std::nullopt;
     if (!isHighSurrogate(*code) || !low || !isLowSurrogate(*low))
-        fail(source, start,
-             cat("'", std::string_view(start, 6),
-                 "' is half of a surrogate pair; the other half is missing"));
+        failJson(source, start,
+                 cat("'", std::string_view(start, 6),
+                     "' is half of a surrogate pair; the other half is missing"));
     appendUtf8(out, 0x10000 + ((*code - 0xd800) << 10) + (*low - 0xdc00));
     return p + 6;
 }
 
-} // namespace
-
 std::string jsonHere(const SourceFile& source, const char* at) {
-    const std::string_view rest = restOf(source, at);
+    const std::string_view rest = jsonRest(source, at);
     if (rest.empty()) return "the end of the file";
     const auto inWord = [](char c) {
         return isJsonLetter(c) || isJsonDigit(c) || c == '.' || c == '+' || c == '-';
@@ -108,11 +95,11 @@ void failNoJsonValue(const SourceFile& source, const char* at) {
         hint = "; JSON has finite numbers only";
     else if (isJsonLetter(*at))
         hint = "; texts stand in double quotes, and the words are true, false and null";
-    fail(source, at, cat("expected a value, got ", here, hint));
+    failJson(source, at, cat("expected a value, got ", here, hint));
 }
 
 const char* endOfJsonWord(const SourceFile& source, const char* at, std::string_view word) {
-    const std::string_view rest = restOf(source, at);
+    const std::string_view rest = jsonRest(source, at);
     const std::size_t size = word.size();
     if (!rest.starts_with(word) || isJsonLetter(at[size]) || isJsonDigit(at[size]))
         failNoJsonValue(source, at);
@@ -122,14 +109,14 @@ const char* endOfJsonWord(const SourceFile& source, const char* at, std::string_
 JsonNumber readAnyJsonNumber(const SourceFile& source, const char* at) {
     const char* p = at;
     const auto digits = [&](std::string_view where) {
-        if (!isJsonDigit(*p)) fail(source, at, cat("a number needs a digit ", where));
+        if (!isJsonDigit(*p)) failJson(source, at, cat("a number needs a digit ", where));
         while (isJsonDigit(*p)) ++p;
     };
     if (*p == '-') ++p;
     const char* whole = p;
     digits("after '-'");
     if (*whole == '0' && p > whole + 1)
-        fail(source, at, "a number has no zeros before its first digit; JSON knows no octal");
+        failJson(source, at, "a number has no zeros before its first digit; JSON knows no octal");
     if (*p == '.') {
         ++p;
         digits("after the decimal point");
@@ -141,13 +128,13 @@ JsonNumber readAnyJsonNumber(const SourceFile& source, const char* at) {
     }
     if (isJsonLetter(*p) || *p == '.') {
         const bool isHex = *p == 'x' || *p == 'X';
-        fail(source, at,
-             cat("expected a number, got ", jsonHere(source, at),
-                 isHex ? "; JSON has decimal numbers only" : ""));
+        failJson(source, at,
+                 cat("expected a number, got ", jsonHere(source, at),
+                     isHex ? "; JSON has decimal numbers only" : ""));
     }
     const NumberRead<double> read = readDouble(at);
     if (read.fault == NumberFault::TooLarge)
-        fail(source, at, "the number is too large; at most 1.7976931348623157e308 is possible");
+        failJson(source, at, "the number is too large; at most 1.7976931348623157e308 is possible");
     return {p, read.value};
 }
 
@@ -163,20 +150,20 @@ JsonText readJsonText(const SourceFile& source, const char* quote) {
         }
         const auto byte = static_cast<unsigned char>(*p);
         if (p == last || byte == '\n')
-            fail(source, quote,
-                 "the text is not closed; expected '\"' before the end of the "
-                 "line (a line end inside is written \\n)");
+            failJson(source, quote,
+                     "the text is not closed; expected '\"' before the end of the "
+                     "line (a line end inside is written \\n)");
         if (byte == '\\') {
             text.hasEscapes = true;
             p += p[1] == '"' || p[1] == '\\' ? 2 : 1; // other escapes are looked at later
         } else if (byte < 0x20) {
-            fail(source, p,
-                 cat("control character ", shown({p, 1}), " in a text; write it as \\t or \\u00",
-                     shown({p, 1}).substr(2)));
+            failJson(source, p,
+                     cat("control character ", shown({p, 1}),
+                         " in a text; write it as \\t or \\u00", shown({p, 1}).substr(2)));
         } else {
             const std::size_t length =
                 firstCharacter({p, static_cast<std::size_t>(last - p)}).size();
-            if (length == 1) fail(source, p, cat("byte ", shown({p, 1}), " is not UTF-8"));
+            if (length == 1) failJson(source, p, cat("byte ", shown({p, 1}), " is not UTF-8"));
             p += length;
         }
     }
@@ -189,14 +176,14 @@ void decodeJsonText(const SourceFile& source, const JsonText& text, std::string&
         if (*p != '\\') {
             out += *p++;
         } else if (p[1] == 'u') {
-            p = appendUnicode(source, p + 2, end, out);
+            p = appendJsonUnicode(source, p + 2, end, out);
         } else {
             const std::size_t escape = kEscapes.find(p[1]);
             if (escape == std::string_view::npos)
-                fail(source, p,
-                     cat("unknown escape '\\",
-                         shown(firstCharacter({p + 1, static_cast<std::size_t>(end - p - 1)})),
-                         "'; known: \\\" \\\\ \\/ \\b \\f \\n \\r \\t \\uXXXX"));
+                failJson(source, p,
+                         cat("unknown escape '\\",
+                             shown(firstCharacter({p + 1, static_cast<std::size_t>(end - p - 1)})),
+                             "'; known: \\\" \\\\ \\/ \\b \\f \\n \\r \\t \\uXXXX"));
             out += kMeanings[escape];
             p += 2;
         }

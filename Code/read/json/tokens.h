@@ -4,6 +4,7 @@
 #include "base/source.h"
 #include "read/plain_number.h"
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -13,6 +14,20 @@
 inline bool isJsonDigit(char c) { return c >= '0' && c <= '9'; }
 inline bool isJsonLetter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+constexpr int jsonHexDigit(char c) { // -1: none
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+}
+
+inline std::string_view jsonRest(const SourceFile& source, const char* at) {
+    return std::string_view(source.text).substr(static_cast<std::size_t>(at - source.text.data()));
+}
+[[noreturn]] inline void failJson(const SourceFile& source, const char* at, std::string_view what) {
+    failAt(source, static_cast<std::size_t>(at - source.text.data()), what);
 }
 
 // What stands there, for messages: "the end of the file", "'tru'", "'{'".
@@ -51,3 +66,10 @@ JsonText readJsonText(const SourceFile& source, const char* quote);
 
 // Appends what the text stands for, in UTF-8. Fails on unknown escapes and on half surrogate pairs.
 void decodeJsonText(const SourceFile& source, const JsonText& text, std::string& out);
+
+// Appends a code point in UTF-8.
+void appendUtf8(std::string& out, std::uint32_t code);
+// Appends the code point of an escape; p is behind "\u" and the text ends at `end`. Returns the
+// place behind its digits, of the second escape too where there are two.
+const char* appendJsonUnicode(const SourceFile& source, const char* p, const char* end,
+                              std::string& out);

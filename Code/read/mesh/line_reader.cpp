@@ -66,6 +66,17 @@ std::string LineReader::nextWord() {
     return shownWord;
 }
 
+bool LineReader::isBeyond(double largest) {
+    if (atLineEnd()) return false;
+    const char* const here = p_;
+    const bool isNone = isNotFinite(word());
+    p_ = here;
+    const auto read = readDouble(p_);
+    return isNone || read.fault == NumberFault::TooLarge ||
+           (read.fault == NumberFault::None && isNumberEnd(read.end) &&
+            std::fabs(read.value) > largest);
+}
+
 void LineReader::failNumber(std::string_view keyword, double largest) {
     const std::string found = nextWord();
     const std::size_t place = offset();
@@ -73,10 +84,6 @@ void LineReader::failNumber(std::string_view keyword, double largest) {
     if (read.fault == NumberFault::TooLarge ||
         (read.fault == NumberFault::None && isNumberEnd(read.end)))
         failAt(place, cat(found, " is too large; at most ", shortest(largest)));
-    std::string letters; // what other programs write for numbers, but no mesh can mean
-    for (const char c : word().substr(0, 10))
-        if (c != '+' && c != '-') letters += static_cast<char>(c | 0x20);
-    if (letters == "nan" || letters == "inf" || letters == "infinity" || letters == "nan(ind)")
-        failAt(place, cat(found, " is not a finite number"));
+    if (isNotFinite(word())) failAt(place, cat(found, " is not a finite number"));
     failAt(place, cat("expected a number after '", keyword, "', got ", found));
 }

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -67,17 +68,19 @@ public:
 
     // A number of the statement `keyword`, not beyond `largest`; fails with its place.
     template <class T> T number(std::string_view keyword, double largest) {
-        skipBlanks();
-        NumberRead<T> read;
-        if constexpr (std::is_same_v<T, float>)
-            read = readFloat(p_);
-        else
-            read = readDouble(p_);
-        if (read.fault != NumberFault::None || !isNumberEnd(read.end) ||
-            !(std::fabs(static_cast<double>(read.value)) <= largest))
-            failNumber(keyword, largest);
-        p_ = read.end;
-        return read.value;
+        T value{};
+        if (!takeNumber(value, largest)) failNumber(keyword, largest);
+        return value;
+    }
+    // The same, or NaN where a number stands that is not finite or beyond `largest`.
+    template <class T> T numberOrNan(std::string_view keyword, double largest) {
+        T value{};
+        if (!takeNumber(value, largest)) {
+            if (!isBeyond(largest)) failNumber(keyword, largest);
+            word();
+            value = std::numeric_limits<T>::quiet_NaN();
+        }
+        return value;
     }
     // Is the next word of the line a number?
     bool atNumber();
@@ -114,6 +117,23 @@ private:
         }
     }
     void skipLine();
+    // Moves behind the next word if it is a number that is not beyond `largest`.
+    template <class T> bool takeNumber(T& value, double largest) {
+        skipBlanks();
+        NumberRead<T> read;
+        if constexpr (std::is_same_v<T, float>)
+            read = readFloat(p_);
+        else
+            read = readDouble(p_);
+        if (read.fault != NumberFault::None || !isNumberEnd(read.end) ||
+            !(std::fabs(static_cast<double>(read.value)) <= largest))
+            return false;
+        p_ = read.end;
+        value = read.value;
+        return true;
+    }
+    // Is the next word a number that is not finite or beyond `largest`?
+    bool isBeyond(double largest);
     [[noreturn]] void failNumber(std::string_view keyword, double largest);
 
     const SourceFile* source_;

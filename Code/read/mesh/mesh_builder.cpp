@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <utility>
 
 namespace {
@@ -17,11 +18,13 @@ constexpr Corners kAllMissing{MeshBuilder::kMissing, MeshBuilder::kMissing, Mesh
 // All three corners are, or none.
 bool isMissing(const Corners& c) { return c[0] == MeshBuilder::kMissing; }
 
-// Exactly: seen along all three axes, the corners are on one line.
+// Exactly: seen along all three axes, the corners are on one line. Corners that are NaN have none.
 bool hasArea(const Vec3d& a, const Vec3d& b, const Vec3d& c) {
-    return surelyTurn({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) ||
-           surelyTurn({a.y, a.z}, {b.y, b.z}, {c.y, c.z}) ||
-           orientation({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) != 0 ||
+    if (surelyTurn({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) ||
+        surelyTurn({a.y, a.z}, {b.y, b.z}, {c.y, c.z}))
+        return true;
+    if (std::isnan(a.x + b.x + c.x)) return false;
+    return orientation({a.x, a.y}, {b.x, b.y}, {c.x, c.y}) != 0 ||
            orientation({a.y, a.z}, {b.y, b.z}, {c.y, c.z}) != 0 ||
            orientation({a.z, a.x}, {b.z, b.x}, {c.z, c.x}) != 0;
 }
@@ -111,6 +114,8 @@ bool MeshBuilder::addFace(std::span<const Corner> corners) {
     if (corners.size() == 3) return addTriangle(corners[0], corners[1], corners[2]);
     polygon_.clear();
     for (const Corner& c : corners) polygon_.push_back(points()[c.point]);
+    if (std::any_of(polygon_.begin(), polygon_.end(), [](Vec3d p) { return std::isnan(p.x); }))
+        return false;
     pieces_.clear();
     triangulate(polygon_, pieces_);
     bool any = false;

@@ -6,7 +6,9 @@
 #include "read/mesh/plain_lines.h"
 
 #include <array>
+#include <cmath>
 #include <cstring>
+#include <limits>
 
 namespace {
 
@@ -87,7 +89,7 @@ public:
     VertexReader(const SourceFile& source, const ObjChunk& chunk, MeshDesc& mesh)
         : in_(source, chunk.first, chunk.last), at_(chunk.before), mesh_(mesh) {}
 
-    Counted read() {
+    VerticesLeftOut read() {
         while (in_.nextLine()) {
             if (*in_.text() != 'v') continue;
             if (const char* const next = readPlainly(in_.text())) {
@@ -95,22 +97,19 @@ public:
             } else if (in_.take("v")) {
                 readPoint();
             } else if (in_.take("vn")) {
-                const float x = in_.number<float>("vn", kLargestFloat),
-                            y = in_.number<float>("vn", kLargestFloat),
-                            z = in_.number<float>("vn", kLargestFloat);
-                mesh_.normals[at_.normals++] = {x, y, z};
+                const float x = other("vn"), y = other("vn"), z = other("vn");
+                mesh_.normals[at_.normals++] = isFinite(x + y + z) ? Vec3{x, y, z} : Vec3{};
                 expectLineEnd("vn");
             } else if (in_.take("vt")) {
                 Vec2 uv;
-                uv.x = in_.number<float>("vt", kLargestFloat);
-                if (!in_.atLineEnd()) uv.y = in_.number<float>("vt", kLargestFloat);
-                if (!in_.atLineEnd())
-                    in_.number<float>("vt", kLargestFloat); // of pictures with depth
-                mesh_.uvs[at_.uvs++] = uv;
+                uv.x = other("vt");
+                if (!in_.atLineEnd()) uv.y = other("vt");
+                if (!in_.atLineEnd()) other("vt"); // of pictures with depth
+                mesh_.uvs[at_.uvs++] = isFinite(uv.x + uv.y) ? uv : Vec2{};
                 expectLineEnd("vt");
             }
         }
-        return colours_;
+        return leftOut_;
     }
 
 private:
@@ -135,16 +134,29 @@ private:
 
     // x y z, then w (of curves) or r g b or both.
     void readPoint() {
-        Vec3d& p = mesh_.points[at_.points++];
-        p.x = in_.number<double>("v", kLargestLength);
-        p.y = in_.number<double>("v", kLargestLength);
-        p.z = in_.number<double>("v", kLargestLength);
+        const std::size_t start = in_.offset();
+        Vec3d p;
+        for (std::size_t i = 0; i < 3; ++i) p[i] = in_.numberOrNan<double>("v", kLargestLength);
+        if (!std::isfinite(p.x + p.y + p.z)) {
+            constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+            p = {kNone, kNone, kNone};
+            leftOut_.notFinite.add(start);
+        }
+        mesh_.points[at_.points++] = p;
         int more = 0;
-        for (; more < 4 && !in_.atLineEnd(); ++more) in_.number<double>("v", kLargestLength);
+        for (; more < 4 && !in_.atLineEnd(); ++more) in_.numberOrNan<double>("v", kLargestLength);
         if (more == 2)
             in_.failAt(in_.offset(), "'v' has 5 numbers; x y z, then w or r g b or both are known");
-        if (more >= 3) colours_.add(in_.offset());
+        if (more >= 3) leftOut_.colours.add(in_.offset());
         expectLineEnd("v");
+    }
+    // A number of a normal or of texture coordinates.
+    float other(std::string_view keyword) { return in_.numberOrNan<float>(keyword, kLargestFloat); }
+    // Counts what is not.
+    bool isFinite(float sum) {
+        if (std::isfinite(sum)) return true;
+        leftOut_.notFinite.add(in_.offset());
+        return false;
     }
     void expectLineEnd(std::string_view keyword) {
         if (!in_.atLineEnd())
@@ -155,7 +167,7 @@ private:
     LineReader in_;
     ObjCounts at_;
     MeshDesc& mesh_;
-    Counted colours_;
+    VerticesLeftOut leftOut_;
 };
 
 } // namespace
@@ -176,17 +188,17 @@ ObjChunks chunksOf(const SourceFile& source, int threads) {
     return out;
 }
 
-Counted readVertices(const SourceFile& source, const ObjChunks& chunks, MeshDesc& mesh,
-                     int threads) {
+VerticesLeftOut readVertices(const SourceFile& source, const ObjChunks& chunks, MeshDesc& mesh,
+                             int threads) {
     mesh.points.resize(chunks.total.points);
     mesh.uvs.resize(chunks.total.uvs);
     mesh.normals.resize(chunks.total.normals);
-    std::vector<Counted> colours(chunks.chunks.size());
-    forEachOn(threads, colours.size(), [&](std::size_t i) {
+    std::vector<VerticesLeftOut> leftOut(chunks.chunks.size());
+    forEachOn(threads, leftOut.size(), [&](std::size_t i) {
         if (chunks.chunks[i].hasVertices())
-            colours[i] = VertexReader(source, chunks.chunks[i], mesh).read();
+            leftOut[i] = VertexReader(source, chunks.chunks[i], mesh).read();
     });
-    Counted all;
-    for (const Counted& some : colours) all.add(some);
+    VerticesLeftOut all;
+    for (const VerticesLeftOut& some : leftOut) all.add(some);
     return all;
 }

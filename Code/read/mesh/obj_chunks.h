@@ -42,9 +42,19 @@ struct ObjChunks {
 };
 
 ObjChunks chunksOf(const SourceFile& source, int threads);
-// Fails at the first vertex that is wrong. Returns how many have a colour.
-Counted readVertices(const SourceFile& source, const ObjChunks& chunks, MeshDesc& mesh,
-                     int threads);
+// What vertices have that is not read: colours, and numbers that are not finite or too large.
+// Points with such a number are NaN, normals and texture coordinates zero.
+struct VerticesLeftOut {
+    Counted colours, notFinite;
+    // What happened behind it.
+    void add(const VerticesLeftOut& later) {
+        colours.add(later.colours);
+        notFinite.add(later.notFinite);
+    }
+};
+// Fails at the first vertex that is wrong.
+VerticesLeftOut readVertices(const SourceFile& source, const ObjChunks& chunks, MeshDesc& mesh,
+                             int threads);
 
 // Is this the line of a vertex? Then the reader is behind its keyword, and it is counted.
 inline bool takeVertex(LineReader& in, ObjCounts& counts) {

@@ -78,6 +78,11 @@ public:
                 items[i] = static_cast<std::uint32_t>(load<T>(listStart_ + i * sizeof(T)));
         });
     }
+    // The same of numbers of any type.
+    void numbers(const PlyProperty& property, std::size_t most, std::vector<double>& items) {
+        items.resize(listCount(property, most));
+        for (double& item : items) item = number(property.type);
+    }
     void skipList(const PlyProperty& property) {
         take(listCount(property, bytesLeft()) * sizeOf(property.type));
     }

@@ -106,7 +106,7 @@ private:
     void readLine() {
         static constexpr auto kKeywords = std::to_array<Keyword>({
             {"format", &HeaderReader::readFormat},
-            {"comment", &HeaderReader::skipLine},
+            {"comment", &HeaderReader::readComment},
             {"obj_info", &HeaderReader::skipLine},
             {"element", &HeaderReader::readElement},
             {"property", &HeaderReader::readProperty},
@@ -119,6 +119,10 @@ private:
     }
 
     void skipLine() {}
+    void readComment() {
+        if (words_.size() > 2 && words_[1].text == "TextureFile")
+            header_.pictures.push_back(words_.back().text);
+    }
 
     void expectWords(std::size_t count, std::string_view form) const {
         if (words_.size() == count) return;

@@ -47,7 +47,8 @@ struct PlyElement {
 struct PlyHeader {
     PlyFormat format = PlyFormat::Ascii;
     std::vector<PlyElement> elements;
-    std::size_t dataOffset = 0; // the byte behind the line end_header
+    std::vector<std::string_view> pictures; // the last words of comments 'TextureFile NAME'
+    std::size_t dataOffset = 0;             // the byte behind the line end_header
 
     const PlyElement* element(std::string_view wanted) const;
 };

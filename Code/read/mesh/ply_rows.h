@@ -10,6 +10,7 @@
 #include "read/mesh/ply_header.h"
 #include "read/mesh/triangulate.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -26,11 +27,14 @@ inline std::string indexText(const PlyProperty& property, std::uint32_t index) {
     return isSigned ? cat(static_cast<std::int32_t>(index)) : cat(index);
 }
 
-// Whose list of indices makes triangles how.
+// Which of their lists make triangles, and how.
 struct PlyFaces {
     enum class Kind { Polygons, Strips };
     Kind kind = Kind::Polygons;
     const PlyProperty* indices = nullptr;
+    const PlyProperty* uvs = nullptr;     // u v of each corner; null: none
+    const PlyProperty* picture = nullptr; // the number of the picture that these are of; null: none
+    bool someAreNone = false;             // are some points NaN? Faces with them show nothing
 };
 
 template <class Input> class PlyRows {
@@ -55,32 +59,48 @@ public:
             }
             in.endRow();
             mesh.points[row] = {value(PlyRole::X), value(PlyRole::Y), value(PlyRole::Z)};
-            if (!mesh.normals.empty())
-                mesh.normals[row] = {narrow(PlyRole::NormalX), narrow(PlyRole::NormalY),
-                                     narrow(PlyRole::NormalZ)};
-            if (!mesh.uvs.empty()) mesh.uvs[row] = {narrow(PlyRole::U), narrow(PlyRole::V)};
+            if (std::isnan(value(PlyRole::X) + value(PlyRole::Y) + value(PlyRole::Z)))
+                mesh.points[row].x = notFinite(std::numeric_limits<double>::quiet_NaN());
+            if (!mesh.normals.empty()) {
+                const Vec3 n{narrow(PlyRole::NormalX), narrow(PlyRole::NormalY),
+                             narrow(PlyRole::NormalZ)};
+                mesh.normals[row] = std::isnan(n.x + n.y + n.z) ? notFinite(Vec3{}) : n;
+            }
+            if (mesh.uvs.empty()) continue;
+            const Vec2 uv{narrow(PlyRole::U), narrow(PlyRole::V)};
+            mesh.uvs[row] = std::isnan(uv.x + uv.y) ? notFinite(Vec2{}) : uv;
         }
     }
 
     void readFaces(const PlyElement& element, const PlyFaces& faces, std::size_t first,
                    std::size_t count, std::span<const Vec3d> points) {
         triangles.reserve(triangles.size() + count);
+        if (faces.uvs) uvTriangles.reserve(triangles.size() + count);
         const std::size_t most = faces.kind == PlyFaces::Kind::Polygons
                                      ? kMostCorners
                                      : std::numeric_limits<std::uint32_t>::max();
         for (std::size_t row = first; row < first + count; ++row) {
             in.beginRow();
+            coordinates_.clear();
             for (const PlyProperty& p : element.properties) {
-                if (&p != faces.indices) {
+                if (&p == faces.indices) {
+                    in.list(p, most, items_);
+                    if (faces.kind == PlyFaces::Kind::Strips)
+                        addStrip(p, faces, points);
+                    else
+                        for (std::size_t i = 0; i < items_.size(); ++i)
+                            checkIndex(p, i, points.size());
+                } else if (&p == faces.uvs) {
+                    in.numbers(p, 2 * most, coordinates_);
+                } else if (&p == faces.picture) {
+                    mostPictures = std::max(mostPictures, in.number(p.type) + 1);
+                } else {
                     skip(p);
-                    continue;
                 }
-                in.list(p, most, items_);
-                if (faces.kind == PlyFaces::Kind::Strips)
-                    addStrip(p, points);
-                else if (!addFace(p, points) && degenerateCount++ == 0)
-                    firstDegenerate = row;
             }
+            if (faces.kind == PlyFaces::Kind::Polygons && !addFace(faces, points) &&
+                degenerateCount++ == 0)
+                firstDegenerate = row;
             in.endRow();
         }
     }
@@ -94,8 +114,13 @@ public:
     }
 
     Input in;
-    RawVector<MeshDesc::Corners> triangles;
+    // What faces have, in the order of the triangles; uvTriangles is empty where faces have no u v.
+    RawVector<MeshDesc::Corners> triangles, uvTriangles;
+    RawVector<Vec2> uvs;
     std::size_t degenerateCount = 0, firstDegenerate = 0; // faces that show nothing
+    std::size_t notFiniteCount = 0;                       // points, normals and u v of vertices
+    std::size_t withUvsCount = 0, withoutUvsCount = 0;    // faces: u v for each corner, or not
+    double mostPictures = 0;                              // the largest number of a picture, plus 1
 
 private:
     void skip(const PlyProperty& p) {
@@ -105,16 +130,16 @@ private:
             in.skip(p.type);
     }
 
+    // NaN when it is not finite or too large.
     double vertexNumber(const PlyProperty& property, PlyRole role) {
         constexpr double kLargestFloat = 1e15; // its square is far from the end of float
         const double value = in.number(property.type);
         const double largest = role <= PlyRole::Z ? kLargestLength : kLargestFloat;
-        if (!(std::fabs(value) <= largest))
-            in.fail(
-                std::isfinite(value)
-                    ? cat("'", shown(property.name), "' is too large; at most ", shortest(largest))
-                    : cat("'", shown(property.name), "' is not a finite number"));
-        return value;
+        return std::fabs(value) <= largest ? value : std::numeric_limits<double>::quiet_NaN();
+    }
+    template <class T> T notFinite(T instead) {
+        ++notFiniteCount;
+        return instead;
     }
 
     void checkIndex(const PlyProperty& property, std::size_t i, std::size_t points) {
@@ -130,25 +155,52 @@ private:
         return true;
     }
 
-    // False when it shows nothing.
-    bool addFace(const PlyProperty& property, std::span<const Vec3d> points) {
-        for (std::size_t i = 0; i < items_.size(); ++i) checkIndex(property, i, points.size());
-        if (items_.size() == 3) return addTriangle(items_[0], items_[1], items_[2]);
+    // Of the row whose indices are read. False when it shows nothing.
+    bool addFace(const PlyFaces& faces, std::span<const Vec3d> points) {
+        const std::size_t before = triangles.size();
         if (items_.size() < 3) return false;
-        corners_.clear();
-        for (const std::uint32_t index : items_) corners_.push_back(points[index]);
-        pieces_.clear();
-        triangulate(corners_, pieces_);
-        bool shows = false;
+        if (faces.someAreNone && std::any_of(items_.begin(), items_.end(), [&](std::uint32_t i) {
+                return std::isnan(points[i].x);
+            }))
+            return false;
+        if (items_.size() == 3 && !faces.uvs) return addTriangle(items_[0], items_[1], items_[2]);
+        pieces_.assign(1, {0, 1, 2});
+        if (items_.size() > 3) {
+            corners_.clear();
+            for (const std::uint32_t index : items_) corners_.push_back(points[index]);
+            pieces_.clear();
+            triangulate(corners_, pieces_);
+        }
+        const auto firstUv = static_cast<std::uint32_t>(uvs.size());
         for (const auto& [a, b, c] : pieces_)
-            shows = addTriangle(items_[a], items_[b], items_[c]) || shows;
-        return shows;
+            if (addTriangle(items_[a], items_[b], items_[c]) && faces.uvs)
+                uvTriangles.push_back({firstUv + a, firstUv + b, firstUv + c});
+        if (faces.uvs && triangles.size() > before) addUvs();
+        return triangles.size() > before;
+    }
+
+    // u v of each corner; zero where the file has none.
+    void addUvs() {
+        const bool fits = coordinates_.size() == 2 * items_.size();
+        ++(fits ? withUvsCount : withoutUvsCount);
+        for (std::size_t i = 0; i < items_.size(); ++i) {
+            Vec2 uv;
+            if (fits) uv = {toUv(coordinates_[2 * i]), toUv(coordinates_[2 * i + 1])};
+            uvs.push_back(uv);
+        }
+    }
+    float toUv(double value) {
+        return std::fabs(value) <= 1e15 ? static_cast<float>(value) : notFinite(0.0f);
     }
 
     // Every corner makes a triangle with the two before it, every second one turned round; -1 ends
     // the strip and begins another. Equal corners stitch strips together and show nothing.
-    void addStrip(const PlyProperty& property, std::span<const Vec3d> points) {
+    void addStrip(const PlyProperty& property, const PlyFaces& faces,
+                  std::span<const Vec3d> points) {
         constexpr std::uint32_t kEnd = 0xffffffffu;
+        const auto isNone = [&](std::uint32_t index) {
+            return faces.someAreNone && std::isnan(points[index].x);
+        };
         std::size_t first = 0;
         for (std::size_t i = 0; i < items_.size(); ++i) {
             if (items_[i] == kEnd) {
@@ -156,7 +208,9 @@ private:
                 continue;
             }
             checkIndex(property, i, points.size());
-            if (i < first + 2) continue;
+            if (i < first + 2 || isNone(items_[i]) || isNone(items_[i - 1]) ||
+                isNone(items_[i - 2]))
+                continue;
             if ((i - first) % 2 == 0)
                 addTriangle(items_[i - 2], items_[i - 1], items_[i]);
             else
@@ -166,6 +220,7 @@ private:
 
     // Of the row that is read; kept for their memory.
     std::vector<std::uint32_t> items_;
+    std::vector<double> coordinates_;
     std::vector<Vec3d> corners_;
     std::vector<MeshDesc::Corners> pieces_;
 };

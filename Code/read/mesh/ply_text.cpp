@@ -6,6 +6,7 @@
 #include "read/number.h"
 
 #include <algorithm>
+#include <limits>
 
 void PlyText::begin(const PlyElement& element) {
     element_ = &element;
@@ -58,9 +59,14 @@ double PlyText::number(PlyType type) {
         keep(readFloat(p_));
     else
         keep(readDouble(p_));
-    if (fault == NumberFault::TooLarge) fail(cat(word(p_), " is too large"));
-    if (fault != NumberFault::None || !endsValue(end))
-        fail(cat("expected a number, got ", word(p_)));
+    if (fault != NumberFault::None || !endsValue(end)) {
+        const char* start = p_;
+        skipWord();
+        if (fault != NumberFault::TooLarge &&
+            !isNotFinite({start, static_cast<std::size_t>(p_ - start)}))
+            fail(cat("expected a number, got ", word(start)));
+        return std::numeric_limits<double>::quiet_NaN();
+    }
     p_ = end;
     return value;
 }
@@ -94,6 +100,11 @@ void PlyText::list(const PlyProperty& property, std::size_t most,
     const std::size_t count = listCount(property, most);
     items.clear();
     for (std::size_t i = 0; i < count; ++i) items.push_back(whole());
+}
+
+void PlyText::numbers(const PlyProperty& property, std::size_t most, std::vector<double>& items) {
+    items.resize(listCount(property, most));
+    for (double& item : items) item = number(property.type);
 }
 
 void PlyText::skipList(const PlyProperty& property) {

@@ -37,6 +37,7 @@ public:
     double number(PlyType type); // float32 is rounded to float, as the binary formats are
     void skip(PlyType) { skipWord(); }
     void list(const PlyProperty& property, std::size_t most, std::vector<std::uint32_t>& items);
+    void numbers(const PlyProperty& property, std::size_t most, std::vector<double>& items);
     void skipList(const PlyProperty& property);
 
     [[noreturn]] void fail(std::string_view what) const { failAtText(last_, what); }

@@ -39,7 +39,7 @@ public:
         if (source_.text.size() >= SourceLoc::kUnknown)
             in_.failAt(0, "the file is larger than 4 GiB");
         chunks_ = chunksOf(source_, context_.options.threads);
-        colours_ = readVertices(source_, chunks_, builder_.mesh, context_.options.threads);
+        vertices_ = readVertices(source_, chunks_, builder_.mesh, context_.options.threads);
         builder_.reserve(chunks_.triangles);
         readFaces();
         finish();
@@ -256,7 +256,10 @@ private:
         tell(skipped_, "statement", "statements",
              " of points, lines, curves, surfaces or display left out; the first is here");
         tell(unknown_, "unknown statement", "unknown statements", " left out; the first is here");
-        tell(colours_, "vertex has a colour", "vertices have colours",
+        tell(vertices_.notFinite, "vertex, normal or texture coordinate is",
+             "vertices, normals or texture coordinates are",
+             " not finite or too large; faces do without them; the first is here");
+        tell(vertices_.colours, "vertex has a colour", "vertices have colours",
              "; materials alone give colour here");
     }
 
@@ -276,7 +279,8 @@ private:
     std::unordered_map<std::string_view, std::uint32_t> slots_;
     std::unordered_set<std::string_view> libraries_;
     FacesLeftOut leftOut_;
-    Counted skipped_, unknown_, colours_;
+    VerticesLeftOut vertices_;
+    Counted skipped_, unknown_;
 };
 
 } // namespace

@@ -160,8 +160,7 @@ private:
         ObjectDesc sphere;
         sphere.worldFromObject = {{1, 0, 0, centre.x, 0, 1, 0, centre.y, 0, 0, 1, centre.z}};
         sphere.radius = std::fabs(radius);
-        // Nothing sees the inside of a closed sphere, so that the outside needs no exception.
-        sphere.sides = radius < 0 ? nffSides(fill_, true) : ObjectDesc::Sides::Both;
+        sphere.sides = nffSides(fill_, radius < 0);
         addObject(std::move(sphere), word, "sphere", spheres_);
     }
 
@@ -226,7 +225,6 @@ private:
             ObjectDesc object;
             object.kind = ObjectDesc::Kind::Mesh;
             object.mesh = mesh;
-            object.sides = nffSides(fill_, false);
             addObject(std::move(object), word, isPatch ? "patches" : "polygons",
                       isPatch ? patches_ : polygons_);
             MeshDesc& made = desc_.meshes.emplace_back();

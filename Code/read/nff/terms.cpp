@@ -3,6 +3,7 @@
 #include "base/math.h"
 #include "base/transform.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace {
@@ -10,6 +11,8 @@ namespace {
 Vec3d unit(Vec3d v) { return normalize(v / maxAbs(v)); } // squares neither over- nor underflow
 Rgbd scaled(Rgbd c, double s) { return {c.r * s, c.g * s, c.b * s}; }
 Rgbd grey(double value) { return {value, value, value}; }
+
+constexpr double kCountedOnly = 1e-12; // of the light
 
 // -1 to 1 along z becomes `from` to `to`; x and y keep their length.
 Rows axisRows(Vec3d from, Vec3d to) {
@@ -39,6 +42,9 @@ MaterialDesc nffMaterial(const NffFill& fill) {
     material.specularModel = MaterialDesc::SpecularModel::Phong;
     material.exponent = fill.shine;
     material.mirror = grey(fill.specular);
+    // "All rays hitting only reflective and transmitting objects spawn reflection rays": what
+    // transmits does so without Ks too. They add less than a float has digits for, and are counted.
+    if (fill.transmittance > 0) material.mirror = grey(std::max(fill.specular, kCountedOnly));
     material.transmission = grey(fill.transmittance);
     material.ior = fill.ior > 0 ? fill.ior : 1;
     return material;
@@ -79,8 +85,8 @@ std::optional<ObjectDesc> nffCone(Vec3d base, double baseRadius, Vec3d apex, dou
 }
 
 ObjectDesc::Sides nffSides(const NffFill& fill, bool insideOnly) {
-    if (fill.transmittance > 0) return ObjectDesc::Sides::Both;
-    return insideOnly ? ObjectDesc::Sides::Back : ObjectDesc::Sides::Front;
+    return insideOnly && !(fill.transmittance > 0) ? ObjectDesc::Sides::Back
+                                                   : ObjectDesc::Sides::Both;
 }
 
 // Newell's normal, which has twice the area as its length, against the size of the polygon. The

@@ -61,7 +61,9 @@ bool isAlong(Vec3d a, Vec3d b); // one of them is zero or they are parallel, but
 
 // Nothing when it has no height or no radius. Radii are >= 0.
 std::optional<ObjectDesc> nffCone(Vec3d base, double baseRadius, Vec3d apex, double apexRadius);
-// Opaque surfaces have one side, transmitting ones both.
+// Both sides, or the inside of what is opaque and has a negative radius. The standard allows to
+// leave out the backs of what is opaque, as nothing of its scenes shows them; but for the teapot,
+// whose lid has a gap, and what others wrote, so that programs that draw NFF draw them.
 ObjectDesc::Sides nffSides(const NffFill& fill, bool insideOnly);
 // Do the corners span more than a line?
 bool hasArea(std::span<const Vec3d> corners);

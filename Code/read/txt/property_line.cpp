@@ -14,14 +14,6 @@ bool isNumber(const Token& t) {
     return number.fault != NumberFault::NotANumber;
 }
 
-// What from_chars of other programs writes and reads as numbers, but no scene can mean.
-bool isNotFinite(std::string_view word) {
-    std::string lower;
-    for (const char c : word)
-        if (c != '+' && c != '-') lower += static_cast<char>(c >= 'A' && c <= 'Z' ? c + 32 : c);
-    return lower == "nan" || lower == "inf" || lower == "infinity";
-}
-
 bool isName(const Token& t) { return t.kind == TokenKind::Word || t.kind == TokenKind::Quoted; }
 SourceLoc locOf(const Token& t) { return {static_cast<std::uint32_t>(t.offset)}; }
 
