@@ -9,9 +9,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <vector>
 
 namespace {
+
+constexpr float kDark = 0.02f;
 
 CodedImage codesOf(const Image& image, const RenderSettings& settings) {
     CodedImage codes(image.width(), image.height(), encodingOf(settings, 8));
@@ -27,26 +30,40 @@ CodedImage codesOf(const Image& image, const RenderSettings& settings) {
 }
 
 PictureLevels levelsOf(const CodedImage& picture, std::optional<Rgb> white) {
+    constexpr std::uint8_t kLargest = 255;
     std::array<std::uint8_t, 3> except{};
     if (white) {
         CodedImage one(1, 1, picture.encoding());
         one.put(0, 0, {&*white, 1});
         std::copy(one.codes().begin(), one.codes().end(), except.begin());
     }
+    const bool isSrgb = picture.encoding().transfer == Encoding::Transfer::Srgb;
+    const auto decoded = [&](std::uint8_t code) {
+        return isSrgb ? linearFromSrgb8(code) : unitFrom8(code);
+    };
     PictureLevels levels;
     std::uint8_t most = 0;
-    const auto codes = picture.codes();
-    for (std::size_t i = 0; i < codes.size(); i += 3) {
-        const std::uint8_t brightest = std::max({codes[i], codes[i + 1], codes[i + 2]});
-        most = std::max(most, brightest);
-        if (brightest == 255 && !std::equal(except.begin(), except.end(),
-                                            codes.begin() + static_cast<std::ptrdiff_t>(i)))
-            ++levels.clipped;
+    // memchr() goes over many codes as fast as memory gives them; most pictures have few that are
+    // clipped.
+    constexpr std::size_t kTogether = 3 * 256;
+    for (auto codes = picture.codes(); !codes.empty();) {
+        const auto some = codes.first(std::min(kTogether, codes.size()));
+        codes = codes.subspan(some.size());
+        if (std::memchr(some.data(), kLargest, some.size()) == nullptr) {
+            if (decoded(most) < kDark)
+                most = std::max(most, *std::max_element(some.begin(), some.end()));
+            continue;
+        }
+        most = kLargest;
+        for (std::size_t i = 0; i < some.size(); i += 3) {
+            const auto pixel = some.subspan(i, 3);
+            if (std::max({pixel[0], pixel[1], pixel[2]}) == kLargest &&
+                !std::equal(except.begin(), except.end(), pixel.begin()))
+                ++levels.clipped;
+        }
     }
-    levels.pixels = codes.size() / 3;
-    levels.brightest = picture.encoding().transfer == Encoding::Transfer::Srgb
-                           ? linearFromSrgb8(most)
-                           : unitFrom8(most);
+    levels.pixels = picture.codes().size() / 3;
+    levels.brightest = decoded(most);
     return levels;
 }
 
@@ -60,7 +77,6 @@ PictureLevels levelsOf(const Picture& picture, const RenderSettings& settings,
 
 std::optional<std::string> adviceOn(const PictureLevels& levels, double exposureEv,
                                     bool keepsBright) {
-    constexpr float kDark = 0.02f;
     if (levels.brightest == 0)
         return "raytracer: warning: the picture is black; no light reaches what the camera sees "
                "(--integrator normal shows what it is)";

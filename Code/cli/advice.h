@@ -11,7 +11,8 @@
 
 // A picture as its 8-bit file has it.
 struct PictureLevels {
-    float brightest = 0; // the largest linear value of a channel, at most 1
+    // The largest linear value of a channel, at most 1; or any one of at least 0.02.
+    float brightest = 0;
     // Pixels with a channel that is as bright as the file can tell.
     std::size_t pixels = 0, clipped = 0;
 };

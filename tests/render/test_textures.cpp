@@ -121,7 +121,7 @@ TEST(texturesOfEveryFormat) {
     for (const std::string file :
          {"jpeg/420_progressive.jpg", "jpeg/grey_baseline.jpg", "tga/t02_24_a0_m00_f000_o1_s.tga",
           "tga/t01_08_a0_m24_f000_o0_pillow.tga", "hdr/oiio_rle.hdr", "hdr/old_code.hdr",
-          "exr/piz_half_tiles.exr", "exr/zip_float_lines.exr", "exr/layers_prefix.exr"}) {
+          "exr/piz_half_tiles.exr", "exr/zip_float_lines.exr", "exr/layers_order.exr"}) {
         const std::string path = cat("tests/scenes/", file);
         Image(path, Encoding::Transfer::Linear).write(shot::textureFolder() + "/same.pfm");
         const auto rendered = [](const std::string& name, const std::string& use) {
