@@ -141,6 +141,55 @@ def sky(u, v):
     return mix((0.16, 0.14, 0.12), light, step(-1.5, 1.0, elevation))
 
 
+def dusk(u, v):
+    """After sunset: a bright band where the sun went down, a moon, dark ground."""
+    azimuth, elevation = (0.5 - u) * 360, (v - 0.5) * 180
+    up = max(math.sin(math.radians(elevation)), 0.0)
+    light = mix((0.3, 0.26, 0.38), (0.035, 0.06, 0.17), up ** 0.6)
+    across = (azimuth - 100 + 180) % 360 - 180
+    band = math.exp(-((across / 55) ** 2)) * math.exp(-abs(elevation - 2) / 9)
+    light = tuple(x + y * 1.5 * band for x, y in zip(light, (1.0, 0.45, 0.16)))
+    streak = clouds(u * 8, v * 64, 8, 4)
+    light = mix(light, (0.5, 0.28, 0.3), 0.6 * step(0.5, 0.75, streak) * step(0.02, 0.2, up) * (1 - step(0.3, 0.6, up)))
+    moon = math.hypot(((azimuth + 60 + 180) % 360 - 180) * math.cos(math.radians(elevation)), elevation - 38)
+    light = mix(light, (14, 15, 17), 1 - step(2.2, 3.4, moon))
+    return mix((0.05, 0.045, 0.05), light, step(-1.5, 1.0, elevation))
+
+
+def hills(u, v):
+    """A view: the sun over rows of hills, each bluer than the one before it, and a lake."""
+    shore = 0.2
+    y = v if v > shore else shore + (shore - v) * 1.6 + 0.01 * math.sin(90 * v + 4 * noise(u * 12, v * 60))
+    light = mix((1.0, 0.72, 0.42), (0.32, 0.5, 0.74), step(0.35, 1.0, y))
+    away = math.hypot((u - 0.66) * 1.5, y - 0.72)
+    light = mix(light, (1.0, 0.96, 0.8), (1 - step(0.05, 0.06, away)) + 0.6 * math.exp(-away / 0.08))
+    for i in range(5):
+        ridge = 0.62 - 0.09 * i + (0.34 - 0.03 * i) * (clouds(u * (3 + i) + 7.7 * i, 3.1 * i, LATTICE, 6) - 0.5)
+        if y < ridge:
+            light = mix((0.72, 0.6, 0.6), (0.08, 0.15, 0.16), i / 4)
+            light = mix(light, (0.85, 0.68, 0.55), 0.35 * step(0.0, 0.2, ridge - y) * (1 - i / 5))
+    return light if v > shore else mix(light, (0.1, 0.16, 0.24), 0.45)
+
+
+def stained_glass(u, v):
+    """Light behind panes of coloured glass between strips of lead; up to 3.5."""
+    x, y, nearest = u * 6, v * 9, []
+    for i in range(math.floor(x) - 1, math.floor(x) + 2):
+        for j in range(math.floor(y) - 1, math.floor(y) + 2):
+            roll = ROLLS[(j + 3) % LATTICE * LATTICE + (i + 3) % LATTICE]
+            turn = ROLLS[(j + 3) % LATTICE * LATTICE + (i + 35) % LATTICE]
+            nearest.append((math.hypot(x - i - 0.15 - 0.7 * roll, y - j - 0.15 - 0.7 * turn), roll, turn))
+    nearest.sort()
+    (first, roll, turn), second = nearest[0], nearest[1][0]
+    panes = ((1.0, 0.14, 0.06), (1.0, 0.55, 0.08), (0.1, 0.35, 1.0), (0.08, 0.75, 0.4), (0.75, 0.15, 0.7), (1.0, 0.9, 0.6))
+    lamp = 0.5 + 3 * math.exp(-((u - 0.5) ** 2 + 0.45 * (v - 0.55) ** 2) / 0.05)
+    lead = 1 - step(0.06, 0.1, second - first)
+    if min(u, 1 - u) < 0.03 or min(v, 1 - v) < 0.02:
+        lead = 1
+    pane = panes[int(6 * (roll * 7.31 % 1))]
+    return mix(tuple(lamp * c for c in pane), (0.004, 0.004, 0.004), lead)
+
+
 @dataclass
 class Picture:
     draw: object
@@ -160,4 +209,8 @@ TEXTURES = {
     "leaf.png": Picture(leaf, 128, 128),
     "studio.png": Picture(studio, 256, 128),
     "sky.pfm": Picture(sky, 256, 128),
+    "hills.jpg": Picture(hills, 384, 256),
+    "leaf.tga": Picture(leaf, 128, 128),
+    "stained_glass.hdr": Picture(stained_glass, 128, 192),
+    "dusk.exr": Picture(dusk, 256, 128),
 }

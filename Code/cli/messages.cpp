@@ -2,6 +2,7 @@
 
 #include "base/platform/terminal.h"
 #include "base/text.h"
+#include "cli/advice.h"
 #include "cli/output.h"
 #include "cli/preview.h"
 #include "cli/stats_output.h"
@@ -41,6 +42,18 @@ void printShortfall(const Stats& stats, const Options& options) {
                     ", not below ", shortest(error.goal), ": ", error.cappedPixels,
                     " pixels would need more than ", error.mostSamples,
                     " samples; --spp allows more\n"));
+}
+
+void printExposure(const Picture& picture, const Scene& scene, const RenderSettings& settings,
+                   const std::string& output) {
+    if (settings.integrator != IntegratorKind::Whitted) return;
+    std::optional<Rgb> white = scene.background(Vec3{0, 0, 1});
+    if (scene.environment() || maxChannel(*white) > 1) white.reset();
+    const std::string extension = lowerExtension(output);
+    if (const auto advice =
+            adviceOn(levelsOf(picture, settings, white), settings.picture.exposureEv,
+                     extension == ".exr" || extension == ".pfm"))
+        writeStderr(*advice + "\n");
 }
 
 void printPreview(const Picture& picture, const RenderSettings& settings) {

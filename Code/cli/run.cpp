@@ -133,7 +133,10 @@ ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings
     }
     if (stopped) writeStderr("raytracer: interrupted; what is done is written\n");
     stats.renderSeconds = watch.lap();
-    if (!stopped) printShortfall(stats, options);
+    if (!stopped) {
+        printShortfall(stats, options);
+        printExposure(picture, scene, settings, output);
+    }
 
     step = {"writing the picture", ExitCode::Output};
     if (options.preview) printPreview(picture, settings);

@@ -49,6 +49,7 @@ public:
         all.throwIfAny();
         warnUnused();
         warnDark();
+        warnBright();
         warnFar();
     }
 
@@ -67,11 +68,12 @@ private:
         void (*check)(BlockChecker&, const SceneDesc&, std::size_t);
     };
     template <auto list> void checkAll() {
-        checkBlocks({(desc_.*list).size(),
-                     [](const SceneDesc& desc, std::size_t i) -> AnyBlock { return (desc.*list)[i]; },
-                     [](BlockChecker& checker, const SceneDesc& desc, std::size_t i) {
-                         checker.check((desc.*list)[i]);
-                     }});
+        checkBlocks(
+            {(desc_.*list).size(),
+             [](const SceneDesc& desc, std::size_t i) -> AnyBlock { return (desc.*list)[i]; },
+             [](BlockChecker& checker, const SceneDesc& desc, std::size_t i) {
+                 checker.check((desc.*list)[i]);
+             }});
     }
     void checkBlocks(const Blocks& blocks) {
         constexpr std::size_t kTogether = 4096;
@@ -132,8 +134,7 @@ private:
         const SettingsDesc& s = desc_.settings;
         constexpr long long kLargestArea = 1 << 28; // 3 GiB as float RGB
         if (static_cast<long long>(s.width) * s.height > kLargestArea)
-            nameError(s, "'resolution' ", s.width, " ", s.height,
-                      " has more than 2^28 pixels");
+            nameError(s, "'resolution' ", s.width, " ", s.height, " has more than 2^28 pixels");
         if (const std::string fault = faultOfCrop(s); !fault.empty()) nameError(s, fault);
     }
 
@@ -162,17 +163,54 @@ private:
         if (world.environment != kNone && world.background == black)
             warn(world.loc, "the environment is multiplied by 'background', which is 0 0 0");
         if (desc_.objects.empty()) return warn({}, "the scene has no objects");
-        const auto shines = [&](const auto& blocks, auto member) {
-            return std::any_of(blocks.begin(), blocks.end(),
-                               [&](const auto& block) { return block.*member != black; });
+        const auto shines = [&](const LightDesc& light) { return light.color != black; };
+        const auto glows = [&](const MaterialDesc& material) {
+            return material.emission != black && isUsed(material);
         };
-        if (shines(desc_.lights, &LightDesc::color) ||
-            shines(desc_.materials, &MaterialDesc::emission) || world.ambient != black)
+        if (std::any_of(desc_.lights.begin(), desc_.lights.end(), shines) ||
+            std::any_of(desc_.materials.begin(), desc_.materials.end(), glows) ||
+            world.ambient != black)
             return;
-        warn({},
-             world.background == black
-                 ? "there is no light, no emission and no ambient: the picture will be black"
-                 : "there is no light, no emission and no ambient: diffuse surfaces will be black");
+        warn({}, cat("there is no light, no emission and no ambient: ",
+                     world.background == black ? "the picture" : "diffuse surfaces",
+                     " will be black; add a light, or 'ambient' to the world"));
+    }
+
+    // The most of the light of one colour that comes back from a surface that is seen straight on.
+    // Glass and varnish (dielectric) mirror 4 % of it there, so that what is mirrored counts only
+    // by itself; what is multiplied by a picture is not known.
+    static double mostReturned(const MaterialDesc& m) {
+        const auto of = [&](double diffuse, double mirror, double transmission) {
+            if (m.diffuseTexture != kNone) diffuse = 0;
+            return m.fresnel == MaterialDesc::Fresnel::Dielectric
+                       ? std::max(diffuse + transmission, mirror)
+                       : diffuse + mirror + transmission;
+        };
+        return std::max({of(m.diffuse.r, m.mirror.r, m.transmission.r),
+                         of(m.diffuse.g, m.mirror.g, m.transmission.g),
+                         of(m.diffuse.b, m.mirror.b, m.transmission.b)});
+    }
+
+    void warnBright() {
+        constexpr double kMost = 1 + 1e-6; // as 0.9 and 0.1 that were floats
+        const auto& materials = desc_.materials;
+        const auto isBright = [&](const MaterialDesc& m) {
+            return mostReturned(m) > kMost && isUsed(m);
+        };
+        const auto first = std::find_if(materials.begin(), materials.end(), isBright);
+        if (first == materials.end()) return;
+        const auto others = std::count_if(first + 1, materials.end(), isBright);
+        warn(first->loc, cat(called(*first),
+                             others == 0   ? ""
+                             : others == 1 ? " and one other"
+                                           : cat(" and ", others, " others"),
+                             ": diffuse + mirror + transmission is ",
+                             std::round(mostReturned(*first) * 1000) / 1000,
+                             "; above 1 a surface gives back more light than it gets"));
+    }
+    bool isUsed(const MaterialDesc& material) const {
+        return used_.has(BlockType::Material,
+                         static_cast<std::size_t>(&material - desc_.materials.data()));
     }
 
     // Places are doubles, and the renderer makes them floats about the centre of the scene. Far

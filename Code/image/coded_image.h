@@ -25,6 +25,8 @@ public:
     int height() const { return height_; }
     Encoding encoding() const { return encoding_; }
     PixelSource source() const;
+    // Three per pixel, row after row from the top.
+    std::span<const std::uint8_t> codes() const { return codes_; }
 
     // Pixels of a row, from (x, y) on; threads may do this for different pixels at a time.
     void put(int x, int y, std::span<const Rgb> pixels);

@@ -14,7 +14,8 @@ namespace {
 // -n bytes follow as they are.
 std::vector<std::uint8_t> expandExrRuns(Bytes packed, std::size_t size, const std::string& name) {
     const auto broken = [&](std::string_view what) {
-        fail(ErrorKind::Input, cat(name, ": error: broken RLE data: ", what));
+        fail(ErrorKind::Input,
+             cat(name, ": error: broken RLE data: ", what, "; the file is damaged"));
     };
     std::vector<std::uint8_t> out;
     out.reserve(size);

@@ -15,7 +15,8 @@ public:
     ExrHeaderReader(Bytes file, const std::string& name) : file_(file), name_(name) {}
 
     ExrHeaders read() {
-        if (number("magic number") != kExrMagic) broken("this is no OpenEXR file");
+        if (number("magic number") != kExrMagic)
+            broken("this is no OpenEXR file; it must begin with the bytes 76 2F 31 01");
         takeVersion();
         do {
             headers_.parts.push_back(takePart());
@@ -31,7 +32,8 @@ private:
     }
     Bytes take(std::size_t count, std::string_view what) {
         if (count > file_.size() - at_)
-            broken(cat("the file ends in the middle of the header (", what, ")"));
+            broken(cat("the file ends in the middle of the header (", what,
+                       "); it is cut off or damaged"));
         const Bytes bytes = file_.subspan(at_, count);
         at_ += count;
         return bytes;
@@ -40,7 +42,8 @@ private:
         return loadLittle<std::uint32_t>(take(4, what).data());
     }
     bool isAtZero() const {
-        if (at_ == file_.size()) broken("the file ends in the middle of the header");
+        if (at_ == file_.size())
+            broken("the file ends in the middle of the header; it is cut off or damaged");
         return file_[at_] == 0;
     }
     // Returns the text before the next zero byte of `bytes` from `at`, which moves behind that.
@@ -62,7 +65,8 @@ private:
         const std::uint32_t flags = field & ~std::uint32_t{0xFF};
         const std::uint32_t known = kExrTiled | kExrLongNames | kExrDeep | kExrMultiPart;
         if ((flags & ~known) != 0)
-            broken(cat("the version field has the unknown flags ", flags & ~known));
+            broken(cat("the version field has the unknown flags ", flags & ~known,
+                       "; known are 512, 1024, 2048, 4096"));
         headers_.isMultiPart = (flags & kExrMultiPart) != 0;
         if (headers_.isMultiPart) return; // there each part says what it is
         isTiled_ = (flags & kExrTiled) != 0;
@@ -132,7 +136,8 @@ private:
                   [](const ExrChannel& a, const ExrChannel& b) { return a.name < b.name; });
         for (std::size_t i = 1; i < channels.size(); ++i)
             if (channels[i].name == channels[i - 1].name)
-                broken(cat("two channels are called ", printableExrName(channels[i].name)));
+                broken(cat("two channels are called ", printableExrName(channels[i].name),
+                           "; each needs its own name"));
         return channels;
     }
     std::vector<ExrChannel> unsortedChannels(Bytes list) const {
@@ -141,7 +146,8 @@ private:
             const std::string_view channel = textIn(list, at, "name of a channel");
             if (channel.empty()) return channels; // the end of the list
             constexpr std::size_t kBytes = 16;
-            if (list.size() - at < kBytes) broken("the list of channels ends too early");
+            if (list.size() - at < kBytes)
+                broken("the list of channels ends too early; the file is damaged");
             const std::uint8_t* entry = list.data() + at;
             const auto type = loadLittle<std::uint32_t>(entry);
             if (type > kExrFloat)

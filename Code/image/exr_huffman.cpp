@@ -12,7 +12,7 @@
 namespace {
 
 [[noreturn]] void brokenExrHuffman(const std::string& name, std::string_view what) {
-    fail(ErrorKind::Input, cat(name, ": error: broken PIZ data: ", what));
+    fail(ErrorKind::Input, cat(name, ": error: broken PIZ data: ", what, "; the file is damaged"));
 }
 
 class ExrBitReader {

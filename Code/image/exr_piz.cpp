@@ -78,7 +78,8 @@ public:
     // to the last, which are missing when the first is behind the last. `packed` loses them.
     ExrNumbering(Bytes& packed, const std::string& name) {
         const auto broken = [&](std::string_view what) {
-            fail(ErrorKind::Input, cat(name, ": error: broken PIZ data: ", what));
+            fail(ErrorKind::Input,
+                 cat(name, ": error: broken PIZ data: ", what, "; the file is damaged"));
         };
         if (packed.size() < 4) broken("it ends in the middle of its header");
         const std::size_t first = loadLittle<std::uint16_t>(packed.data());
@@ -115,12 +116,13 @@ std::vector<std::uint8_t> unpackExrPiz(const ExrBlock& block, Bytes packed,
                                        const std::string& name) {
     const ExrNumbering numbering(packed, name);
     if (packed.size() < 4)
-        fail(ErrorKind::Input, cat(name, ": error: broken PIZ data: it has no codes"));
+        fail(ErrorKind::Input,
+             cat(name, ": error: broken PIZ data: it has no codes; the file is damaged"));
     const std::size_t length = loadLittle<std::uint32_t>(packed.data());
     packed = packed.subspan(4);
     if (length > packed.size())
         fail(ErrorKind::Input, cat(name, ": error: broken PIZ data: ", packed.size(),
-                                   " bytes of codes instead of ", length));
+                                   " bytes of codes instead of ", length, "; the file is damaged"));
     std::vector<std::uint16_t> words(block.bytes() / 2); // one channel after the other
     unpackExrHuffman(packed.first(length), words, name);
 

@@ -53,7 +53,7 @@ private:
             if (channel.isSubsampled)
                 broken(cat("the channel ", printableExrName(channel.name),
                            " is subsampled, which is not read; both samplings must be 1"));
-        if (!part_.dataWindow) broken("the attribute dataWindow is missing");
+        if (!part_.dataWindow) broken("the attribute dataWindow is missing; each part needs one");
         const ExrWindow& window = *part_.dataWindow;
         const auto sides = [](std::int32_t from, std::int32_t to) {
             return static_cast<long long>(to) - from + 1;
@@ -65,7 +65,7 @@ private:
         blockWidth_ = width_;
         blockHeight_ = exrRowsOf(compression_);
         if (part_.isTiled) {
-            if (!part_.tiles) broken("the attribute tiles is missing");
+            if (!part_.tiles) broken("the attribute tiles is missing; a part of tiles needs it");
             blockWidth_ = part_.tiles->width;
             blockHeight_ = part_.tiles->height;
             if (blockWidth_ == 0 || blockHeight_ == 0)
@@ -78,7 +78,7 @@ private:
         constexpr std::array<std::string_view, 14> kNames{
             "NONE", "RLE",  "ZIPS", "ZIP",      "PIZ",     "PXR24", "B44",
             "B44A", "DWAA", "DWAB", "HTJ2K256", "HTJ2K32", "LJ2K",  "ZSTD"};
-        if (!part_.compression) broken("the attribute compression is missing");
+        if (!part_.compression) broken("the attribute compression is missing; each part needs one");
         const unsigned code = *part_.compression;
         if (code > kExrPiz)
             broken(cat("the compression ",
@@ -94,11 +94,12 @@ private:
         const std::size_t rows = (height_ - 1) / blockHeight_ + 1;
         const std::size_t count = columns * rows, start = tableStart();
         if (count > (file_.size() - start) / 8)
-            broken(cat("the file is too short for the offsets of ", count, " blocks"));
+            broken(cat("the file is too short for the offsets of ", count,
+                       " blocks; it is cut off or damaged"));
         const std::size_t size = ExrBlock{width_, height_, part_.channels}.bytes();
         if (size / maxExrInflation(compression_) > file_.size())
-            broken(cat("the file is too short for ", width_, "x", height_,
-                       " pixels: ", file_.size(), " bytes cannot hold ", size));
+            broken(cat("the file is too short for ", width_, "x", height_, " pixels: ",
+                       file_.size(), " bytes cannot hold ", size, "; it is cut off or damaged"));
         std::vector<Chunk> chunks;
         chunks.reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
@@ -113,9 +114,11 @@ private:
         std::size_t start = headers_.end;
         for (std::size_t i = 0; i < colour_.part; ++i) {
             if (!headers_.parts[i].chunkCount)
-                broken(cat("the attribute chunkCount of part ", i, " is missing"));
+                broken(cat("the attribute chunkCount of part ", i,
+                           " is missing; each part of several needs it"));
             start += std::size_t{8} * *headers_.parts[i].chunkCount;
-            if (start > file_.size()) broken("the file ends in the middle of the offsets");
+            if (start > file_.size())
+                broken("the file ends in the middle of the offsets; it is cut off or damaged");
         }
         return start;
     }
@@ -135,11 +138,12 @@ private:
             right[numbers++] = part_.dataWindow->y0 + static_cast<std::int64_t>(row * blockHeight_);
         }
         const auto missing = [&](std::string_view why) {
-            broken(cat("the block ", column, ",", row, " is missing: ", why));
+            broken(cat("the block ", column, ",", row, " is missing: ", why,
+                       "; the file is cut off or damaged"));
         };
         if (offset < headers_.end || offset > file_.size() ||
             4 * (numbers + 1) > file_.size() - offset)
-            missing(cat("its offset ", offset, " is not in the file (was it cut off?)"));
+            missing(cat("its offset ", offset, " is not in the file"));
         const Bytes header = file_.subspan(static_cast<std::size_t>(offset), 4 * (numbers + 1));
         for (std::size_t i = 0; i < numbers; ++i)
             if (static_cast<std::int32_t>(loadLittle<std::uint32_t>(header.data() + 4 * i)) !=

@@ -18,7 +18,8 @@ public:
     HdrHeader read() {
         takeLine("the first line");
         if (!line_.starts_with("#?RADIANCE") && !line_.starts_with("#?RGBE"))
-            broken("the file does not begin with #?RADIANCE or #?RGBE");
+            broken("the file does not begin with #?RADIANCE or #?RGBE; one of them must be its "
+                   "first line");
         while (takeLine("an empty line"), !line_.empty()) takeVariable();
         takeLine("the resolution");
         takeResolution();

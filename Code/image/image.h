@@ -39,8 +39,8 @@ public:
     // Black pixels. Fails (ErrorKind::Input) when a side is not in 1..kMaxSide or there are more
     // than kMaxPixels.
     Image(int width, int height);
-    // Reads a PPM (P3, P6, grey P2, P5), PNG or PFM file, told apart by its first bytes. PPM and
-    // PNG values are decoded with `transfer`. Fails with the file's name and the reason.
+    // Reads any supported file, told apart by its first bytes. Whole codes are decoded with
+    // `transfer`. Fails with the file's name and the reason.
     explicit Image(const std::string& fileName,
                    Encoding::Transfer transfer = Encoding::Transfer::Srgb);
     // Decodes whole codes with `transfer`; grey becomes three equal channels, alpha is left out.

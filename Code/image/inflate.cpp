@@ -12,7 +12,8 @@
 namespace {
 
 [[noreturn]] void broken(const std::string& name, const std::string& what) {
-    fail(ErrorKind::Input, cat(name, ": error: broken compressed data: ", what));
+    fail(ErrorKind::Input,
+         cat(name, ": error: broken compressed data: ", what, "; the file is damaged"));
 }
 
 // Bits from the lowest of each byte upwards.

@@ -58,12 +58,14 @@ public:
 
     StoredImage read() {
         if (file_.size() < 2 || file_[0] != 0xFF || file_[1] != kJpegStart)
-            brokenJpeg(name_, "the file does not begin with the bytes FF D8 of a JPEG picture");
+            brokenJpeg(name_,
+                       "the file does not begin with the bytes FF D8; each JPEG picture does");
         std::size_t at = 2;
         while (!isComplete()) {
             const std::size_t marker = nextJpegMarker(file_, at);
             if (marker == file_.size())
-                brokenJpeg(name_, "the file ends before the picture does (the marker EOI)");
+                brokenJpeg(name_, "the file ends before the picture does (the marker EOI); it is "
+                                  "cut off or damaged");
             const unsigned kind = file_[marker];
             at = marker + 1;
             if (kind == kJpegEnd) break;
@@ -85,7 +87,8 @@ private:
         const std::size_t left = file_.size() - at;
         const std::size_t length =
             left < 2 ? left + 1 : static_cast<std::size_t>(file_[at] << 8 | file_[at + 1]);
-        if (length > left) brokenJpeg(name_, "the file ends in the middle of a segment");
+        if (length > left)
+            brokenJpeg(name_, "the file ends in the middle of a segment; it is cut off or damaged");
         if (length < 2)
             brokenJpeg(name_,
                        cat("the segment at byte ", at, " has the length ", length, "; at least 2"));
@@ -99,7 +102,8 @@ private:
                                   "; it must be baseline, extended or progressive, with Huffman "
                                   "codes"));
         switch (kind) {
-        case kJpegStart: brokenJpeg(name_, "a second picture starts within the first one");
+        case kJpegStart:
+            brokenJpeg(name_, "a second picture starts within the first one; there must be one");
         case kJpegBaseline:
         case kJpegExtended:
         case kJpegProgressive:
@@ -123,7 +127,8 @@ private:
 
     // Reads a scan header (B.2.3) and the scan; returns where it ends.
     std::size_t takeScan(Bytes segment, std::size_t at) {
-        if (!frame_) brokenJpeg(name_, "a scan comes before the frame header");
+        if (!frame_)
+            brokenJpeg(name_, "a scan comes before the frame header; it must come after it");
         const std::size_t count = segment.empty() ? 0 : segment[0];
         if (count < 1 || count > frame_->components.size() || segment.size() != 4 + 2 * count)
             brokenJpeg(name_,
@@ -171,7 +176,7 @@ private:
         if (component == frame_->components.end())
             brokenJpeg(name_, cat("a scan has the component ", id,
                                   ", which is not in the frame "
-                                  "header"));
+                                  "header; it must be one of these"));
         for (const JpegScan::Part& other : scan.parts)
             if (other.component == &*component)
                 brokenJpeg(name_, cat("a scan has the component ", id, " twice; once"));
@@ -184,7 +189,7 @@ private:
         };
         if ((needsDc && isMissing(tables_.dc, dc)) || (needsAc && isMissing(tables_.ac, ac)))
             brokenJpeg(name_, cat("a scan has the Huffman tables ", dc, " (DC) and ", ac,
-                                  " (AC), which are not in the file before it"));
+                                  " (AC), which are not in the file before it; they must be"));
         return {&*component, needsDc ? &tables_.dc[dc] : nullptr,
                 needsAc ? &tables_.ac[ac] : nullptr};
     }
@@ -195,9 +200,9 @@ private:
         if (!component.hasScan) {
             const JpegSteps& steps = tables_.steps[component.table];
             if (!steps.isDefined)
-                brokenJpeg(name_,
-                           cat("the component ", component.id, " has the quantisation table ",
-                               component.table, ", which is not in the file before it"));
+                brokenJpeg(name_, cat("the component ", component.id,
+                                      " has the quantisation table ", component.table,
+                                      ", which is not in the file before it; it must be"));
             component.steps = steps;
             if (frame_->isProgressive) {
                 component.coefficients.resize(component.storedColumns * component.storedRows);
@@ -231,9 +236,12 @@ private:
     }
 
     StoredImage finished() {
-        if (!frame_) brokenJpeg(name_, "the file ends before the frame header");
+        if (!frame_)
+            brokenJpeg(name_, "the file ends before the frame header; it is cut off or damaged");
         if (!allHaveScans())
-            brokenJpeg(name_, "the file ends before all components have had a scan");
+            brokenJpeg(
+                name_,
+                "the file ends before all components have had a scan; it is cut off or damaged");
         if (frame_->isProgressive)
             for (JpegComponent& component : frame_->components) transformJpegComponent(component);
         return jpegPicture(*frame_, isYcc());

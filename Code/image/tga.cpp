@@ -132,7 +132,9 @@ private:
 
     void check() const {
         const TgaHeader& header = header_;
-        if (header.type == 0) broken("this is a TGA file without a picture (type 0)");
+        if (header.type == 0)
+            broken("this is a TGA file without a picture (type 0); the type must be 1, 2, 3, 9, 10 "
+                   "or 11");
         if (header.type == 32 || header.type == 33)
             broken(cat("this is a TGA picture with Huffman, delta and run-length codes (type ",
                        header.type, "); what can be read: types 1, 2, 3, 9, 10, 11"));
@@ -172,7 +174,8 @@ private:
             const unsigned index = pixelBytes_ == 1 ? *from : loadLittle<std::uint16_t>(from);
             if (index < header_.mapFirst || index - header_.mapFirst >= header_.mapLength)
                 broken(cat("a pixel has colour ", index, ", but the colour map has only ",
-                           header_.mapFirst, " to ", header_.mapFirst + header_.mapLength - 1));
+                           header_.mapFirst, " to ", header_.mapFirst + header_.mapLength - 1,
+                           "; it must be one of these"));
             const std::size_t entry = index - header_.mapFirst;
             std::copy_n(&map_[entry * colour_.channels()], colour_.channels(), to_);
         } else {

@@ -4,7 +4,7 @@
 
 # Many small shapes, so that there is a tree, and everything that uses random numbers.
 {
-    sed -e 's/samples 4/samples 8/' -e 's/diffuse 0.8 0.1 0.1/&\n    mirror 0.3 0.3 0.3\n    roughness 0.3/' \
+    sed -e 's/samples 4/samples 8/' -e 's/diffuse 0.8 0.1 0.1/&\n    mirror 0.2 0.2 0.2\n    roughness 0.3/' \
         -e 's/color 60 60 60/&\n    radius 0.5/' -e 's/camera front {/&\n    aperture_radius 0.1\n    focus_distance 6/' scene.txt
     i=0
     while [ $i -lt 60 ]; do

@@ -2,9 +2,13 @@
 #include "check.h"
 #include "shot.h"
 
+#include <filesystem>
+
 namespace test_textures {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 Rgb pattern(int x, int y) { // 4x4, y from the bottom
     return {static_cast<float>(x * 4 + y) / 16, static_cast<float>((x * 7 + y * 3) % 5) / 4,
@@ -108,6 +112,40 @@ TEST(textureFilesOfEightBits) {
             const double code = 128.0 / 255;
             CHECK_NEAR(out.pixel(1, 1).r, srgb ? std::pow((code + 0.055) / 1.055, 2.4) : code,
                        1e-6);
+        }
+    }
+}
+
+// A file of any other format is what a PFM of the same values is: as texture and as environment.
+TEST(texturesOfEveryFormat) {
+    for (const std::string file :
+         {"jpeg/420_progressive.jpg", "jpeg/grey_baseline.jpg", "tga/t02_24_a0_m00_f000_o1_s.tga",
+          "tga/t01_08_a0_m24_f000_o0_pillow.tga", "hdr/oiio_rle.hdr", "hdr/old_code.hdr",
+          "exr/piz_half_tiles.exr", "exr/zip_float_lines.exr", "exr/layers_order.exr"}) {
+        const std::string path = cat("tests/scenes/", file);
+        Image(path, Encoding::Transfer::Linear).write(shot::textureFolder() + "/same.pfm");
+        const auto rendered = [](const std::string& name, const std::string& use) {
+            return shot::render(cat("settings {\n resolution 40 40\n samples 1\n}\ncamera c {\n "
+                                    "look_at 0 0 3  0 0 0  0 1 0\n}\ntexture t {\n file \"",
+                                    name, "\"\n space linear\n}\n", use))
+                .color;
+        };
+        for (const std::string use :
+             {"material m {\n emission 1 1 1\n emission_texture t\n}\nplane p {\n material m\n}\n",
+              "world {\n background 1 1 1\n environment t\n}\n"
+              "material m {\n mirror 1 1 1\n}\nsphere s {\n material m\n}\n"}) {
+            const Image is = rendered(fs::absolute(path).string(), use);
+            const Image wanted = rendered("same.pfm", use);
+            // Codes of 8 bits are filtered before they are decoded: 1e-6.
+            float most = 0, brightest = 0;
+            for (std::size_t i = 0; i < is.pixels().size(); ++i) {
+                const Rgb a = is.pixels()[i], b = wanted.pixels()[i];
+                most = max(most, maxChannel({std::fabs(a.r - b.r), std::fabs(a.g - b.g),
+                                             std::fabs(a.b - b.b)}));
+                brightest = max(brightest, maxChannel(b));
+            }
+            CHECK_INFO(most <= 1e-6f * brightest, file << ": " << most << " of " << brightest);
+            CHECK_INFO(!(is.pixel(20, 20) == is.pixel(13, 25)), file << ": one colour");
         }
     }
 }

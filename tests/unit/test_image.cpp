@@ -1,4 +1,4 @@
-// Code/image/image.h: pictures and their files, and every broken file in tests/bad/image.
+// Code/image/image.h: pictures and their files.
 #include "check.h"
 
 #include "base/error.h"
@@ -39,28 +39,6 @@ ErrorKind kindOf(const std::function<void()>& body) {
 }
 
 } // namespace
-
-TEST(image_bad_files_give_their_messages) {
-    int files = 0;
-    for (const auto& entry : fs::directory_iterator("tests/bad/image")) {
-        const fs::path file = entry.path();
-        if (file.extension() == ".expect" || file.extension() == ".py" || entry.is_directory())
-            continue;
-        std::ifstream side(fs::path(file).replace_extension(".expect"));
-        std::string words;
-        std::getline(side, words);
-        CHECK_INFO(!words.empty(), file.string() << " has no .expect file");
-        const auto read = [&] { readStoredImage(file.string()); };
-        const std::string message = check::thrown(read);
-        CHECK_INFO(message.find(words) != std::string::npos,
-                   file.string() << ": '" << message << "' instead of '" << words << "'");
-        CHECK_INFO(message.starts_with(file.string() + ":"), message);
-        CHECK_INFO(message.find(": error: ") != std::string::npos, message);
-        CHECK_INFO(kindOf(read) == ErrorKind::Input, file.string());
-        ++files;
-    }
-    CHECK_INFO(files >= 99, files);
-}
 
 TEST(image_sizes_are_checked) {
     CHECK_THROWS(Image(0, 1), "the size 0x1 is not possible; both sides must be 1 to 65535");

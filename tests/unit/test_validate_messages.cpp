@@ -60,7 +60,14 @@ TEST(validate_collects_errors) {
 TEST(validate_warnings) {
     const std::string dark = "there is no light, no emission and no ambient: ";
     const auto darken = [](SceneDesc& d) { d.lights[0].color = {}; };
-    checkError(warningsAfter(darken), "s.json: warning: " + dark + "the picture will be black");
+    checkError(warningsAfter(darken),
+               "s.json: warning: " + dark + "the picture will be black; add a light");
+    checkError(warningsAfter([&](SceneDesc& d) {
+                   darken(d);
+                   d.materials.emplace_back().name = "lava"; // which nothing is made of
+                   d.materials[1].emission = {1, 1, 1};
+               }),
+               dark + "the picture");
     checkError(warningsAfter([&](SceneDesc& d) {
                    darken(d);
                    d.world.background = {1, 1, 1};
@@ -104,6 +111,81 @@ TEST(validate_warnings) {
     checkError(warningsAfter(moveBy(1e11)), "the scene lies more than 10^10 times its size away");
     checkError(warningsAfter([](SceneDesc& d) { d.lights[0].coneAngleDeg = 10; }),
                "light 'lamp': 'cone_angle' has no effect on type point");
+}
+
+TEST(validate_warns_of_materials_that_return_more_than_they_get) {
+    const auto warnings = [](const std::function<void(MaterialDesc&)>& change) {
+        return warningsAfter([&](SceneDesc& d) { change(d.materials[0]); });
+    };
+    // diffuse is 0.8
+    CHECK_EQUAL(warnings([](MaterialDesc& m) { m.mirror = {0.2, 0.2, 0.2}; }), "");
+    CHECK_EQUAL(warnings([](MaterialDesc& m) {
+                    m.mirror = {0.3, 0.2, 0.2};
+                }),
+                "s.json: warning: material 'red': diffuse + mirror + transmission is 1.1; above 1 "
+                "a surface gives back more light than it gets");
+    checkError(warnings([](MaterialDesc& m) { m.transmission = {0.1, 0.45, 0.1}; }), "is 1.25;");
+    checkError(warnings([](MaterialDesc& m) {
+                   m.mirror = {0, 0.15, 0};
+                   m.transmission = {0, 0, 0.25};
+               }),
+               "is 1.05;");
+    CHECK_EQUAL(warnings([](MaterialDesc& m) {
+                    m.mirror = {0.15, 0.05, 0}, m.transmission.b = 0.2;
+                }),
+                "");
+    // Glass shares what comes between mirror and transmission, and varnish is no mirror.
+    using Fresnel = MaterialDesc::Fresnel;
+    CHECK_EQUAL(warnings([](MaterialDesc& m) {
+                    m.diffuse = {};
+                    m.mirror = m.transmission = {1, 1, 1};
+                    m.fresnel = Fresnel::Dielectric;
+                }),
+                "");
+    CHECK_EQUAL(warnings([](MaterialDesc& m) {
+                    m.mirror = {1, 1, 1};
+                    m.fresnel = Fresnel::Dielectric;
+                }),
+                "");
+    checkError(warnings([](MaterialDesc& m) {
+                   m.transmission = {1, 1, 1};
+                   m.fresnel = Fresnel::Dielectric;
+               }),
+               "is 1.8;");
+    checkError(warnings([](MaterialDesc& m) {
+                   m.mirror = {0.5, 0.5, 0.5};
+                   m.fresnel = Fresnel::Schlick;
+               }),
+               "is 1.3;");
+    // One warning for all of them; those that nothing is made of, or with a picture, don't count.
+    const auto many = [](int count) {
+        return warningsAfter([&](SceneDesc& d) {
+            d.textures.emplace_back().name = "paper";
+            d.textures[0].file = "paper.png";
+            d.materials.resize(static_cast<std::size_t>(count) + 2);
+            for (std::size_t i = 0; i < d.materials.size(); ++i) {
+                d.materials[i].name = cat("m", i);
+                d.materials[i].mirror = {0.4, 0.4, 0.4};
+            }
+            d.materials[0].diffuseTexture = 0;
+            d.objects[0].materials = {0};
+            for (int i = 1; i <= count; ++i) {
+                d.objects.emplace_back().name = cat("o", i);
+                d.objects.back().materials = {i};
+            }
+        });
+    };
+    const std::string unused = "s.json: warning: nothing uses the material ";
+    CHECK_EQUAL(many(0), unused + "m1");
+    const auto told = [&](int count, const std::string& others) {
+        return cat(
+            unused, "m", count + 1, "\ns.json: warning: material 'm1'", others,
+            ": diffuse + mirror + transmission is 1.2; above 1 a surface gives back more light "
+            "than it gets");
+    };
+    CHECK_EQUAL(many(1), told(1, ""));
+    CHECK_EQUAL(many(2), told(2, " and one other"));
+    CHECK_EQUAL(many(5), told(5, " and 4 others"));
 }
 
 // Scenes of a few objects of any kind, size and place, about the distance at which it is told: the
