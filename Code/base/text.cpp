@@ -52,6 +52,12 @@ void appendNumber(std::string& out, double value) {
 
 std::string shortest(double value) { return shortestOf(value); }
 std::string shortest(float value) { return shortestOf(value); }
+std::string significant(double value) {
+    char buffer[32];
+    const auto end =
+        std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 3).ptr;
+    return {buffer, end};
+}
 
 std::optional<double> parseDouble(std::string_view text) {
     text = withoutPlus(text);

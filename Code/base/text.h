@@ -34,6 +34,8 @@ template <class... Parts> std::string cat(const Parts&... parts) {
 // The shortest decimal text that reads back to the same double ("0.1", "1e-20", "3").
 std::string shortest(double value);
 std::string shortest(float value);
+// Three digits that count: "0.00594".
+std::string significant(double value);
 
 // The whole text as one finite number / whole number; nothing when it is not exactly that.
 std::optional<double> parseDouble(std::string_view text);

@@ -193,6 +193,9 @@ std::string infoText(const SourceFile& source, const SceneDesc& desc,
         lines.add("bounds", "none");
     else
         lines.add("bounds", cat(triple(box.lo), "  to  ", triple(box.hi)));
+    if (const auto spacing = scene.spacing())
+        lines.add("precision", cat(significant(*spacing),
+                                   " of a pixel between numbers in the middle of the picture"));
     lines.add("materials", std::to_string(desc.materials.size()));
     lines.add("lights", countsPerKind<LightDesc::Kind>(desc.lights));
     for (const LightDesc& light : desc.lights) lines.add("light", lightText(light));

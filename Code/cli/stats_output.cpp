@@ -106,12 +106,6 @@ void addFeatures(Table& table, const Stats& stats) {
 
 } // namespace
 
-std::string significant(double value) {
-    std::ostringstream out;
-    out << std::setprecision(3) << value;
-    return out.str();
-}
-
 std::string statsTable(const Stats& s) {
     Table table;
     table.heading("seconds");

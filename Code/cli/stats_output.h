@@ -23,6 +23,3 @@ std::string statsTable(const Stats& stats);
 // (error_estimate, error_goal and capped_pixels only with --error). Numbers that are not finite
 // become null.
 std::string statsJson(const Stats& stats, const RunFacts& run);
-
-// Three digits that count: "0.00594".
-std::string significant(double value);

@@ -6,6 +6,7 @@
 #include "base/math.h"
 #include "base/text.h"
 #include "image/image.h"
+#include "render/eye.h"
 #include "render/make_light.h"
 #include "render/make_shapes.h"
 #include "render/picture_reader.h"
@@ -59,6 +60,7 @@ public:
         buildWorld();
         buildLights();
         scene_.shapes_.finish(settings_.accel == AccelKind::Bvh, *settings_.isa, settings_.threads);
+        lookAround();
     }
 
 private:
@@ -281,7 +283,7 @@ private:
     void buildCamera() {
         const CameraDesc& desc = *cameraDesc_;
         const double scale = scene_.frame_.scale;
-        CameraParams params;
+        CameraParams& params = cameraParams_;
         params.kind = desc.kind == CameraDesc::Kind::Orthographic ? CameraParams::Kind::Orthographic
                                                                   : CameraParams::Kind::Perspective;
         params.worldFromCamera = placedKeys(desc.worldFromCamera, scene_.frame_, on_.motionBlur);
@@ -304,6 +306,24 @@ private:
         params.apertureRatio = desc.apertureRatio;
         scene_.camera_ = std::make_unique<const Camera>(params);
     }
+
+    // A camera on a surface, and one whose pixels are finer than floats.
+    void lookAround() {
+        if (const double depth = clearDepth(scene_.shapes_, *scene_.camera_);
+            depth > cameraParams_.clipStart) {
+            cameraParams_.clipStart = depth;
+            scene_.camera_ = std::make_unique<const Camera>(cameraParams_);
+        }
+        scene_.spacing_ = spacingInPixels(scene_.shapes_, *scene_.camera_, cameraParams_.width,
+                                          cameraParams_.height);
+        if (scene_.spacing_ > kCoarseSpacing)
+            scene_.warnings_.push_back(
+                cat(source_.name, ": warning: numbers in the middle of the picture are ",
+                    significant(*scene_.spacing_),
+                    " of a pixel apart, which shows in edges; a camera that is nearer to it and a "
+                    "shorter lens, or leaving out what is near the camera, would be right"));
+    }
+    static constexpr double kCoarseSpacing = 1e-3;
 
     void buildWorld() {
         scene_.background_ = toRgb(settings_.background.value_or(desc_.world.background));
@@ -347,13 +367,14 @@ private:
 
     Scene& scene_;
     const SceneDesc& desc_;
-    SceneDesc* spent_; // may be null
+    SceneDesc* spent_;                 // may be null
     std::vector<std::string> missing_; // by texture: the warning, of a picture that misses
     const SourceFile& source_;
     const RenderSettings& settings_;
     PictureReader* pictures_; // may be null
     Switches on_;
     std::size_t objectCount_;
+    CameraParams cameraParams_;
     const CameraDesc* cameraDesc_ = nullptr; // the one that is used
 };
 

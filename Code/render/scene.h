@@ -106,6 +106,8 @@ public:
     const Features& features() const { return features_; }
     // Complete lines, of the pictures that miss.
     std::span<const std::string> warnings() const { return warnings_; }
+    // See spacingInPixels().
+    std::optional<double> spacing() const { return spacing_; }
     // Fills in what the scene knows: accelerator, features, degenerate primitives.
     void describe(Stats& stats) const;
 
@@ -128,4 +130,5 @@ private:
     AccelKind accelKind_ = AccelKind::Bvh;
     std::uint64_t degenerateCount_ = 0;
     std::vector<std::string> warnings_;
+    std::optional<double> spacing_;
 };
