@@ -36,6 +36,9 @@ shot::Shot checkedShot(const std::string& text) {
     CHECK_INFO(sameBits(special.color, all.color), "differs from the general form:\n" << text);
     CHECK_EQUAL(special.stats.rays.camera, all.stats.rays.camera);
     CHECK_EQUAL(special.stats.cameraHits, all.stats.cameraHits);
+    CHECK_EQUAL(special.stats.rays.shadow, all.stats.rays.shadow);
+    CHECK(special.stats.rays.tracedShadow <= all.stats.rays.tracedShadow);
+    CHECK_EQUAL(all.stats.rays.tracedShadow, all.stats.rays.shadow);
     return special;
 }
 
