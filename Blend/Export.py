@@ -33,6 +33,7 @@ The parts of this file stand in the order in which the data flows:
 
 import argparse
 import contextlib
+import functools
 import hashlib
 import math
 import os
@@ -163,9 +164,10 @@ def number(x):
     return repr(int(x)) if x == int(x) and abs(x) < 1e15 else repr(x)
 
 
+@functools.lru_cache(maxsize=4096)
 def word(name):
     """A name as the format has it: bare or in quotes."""
-    name = "".join(c if ord(c) >= 32 and ord(c) != 127 else "_" for c in name)
+    name = re.sub(r"[\x00-\x1f\x7f]", "_", name)
     if re.fullmatch(r"[A-Za-z0-9_.+-]+", name):
         return name
     return '"%s"' % name.replace("\\", "\\\\").replace('"', '\\"')
@@ -238,12 +240,17 @@ class Names:
 
     def __init__(self):
         self.taken = set()
+        self.last = {}  # wanted name -> number that was handed out last
 
     def unique(self, wanted):
-        name, i = wanted or "unnamed", 0
+        """`wanted`, or that and the first number that is free. The search goes on where the last one
+        for the same name ended: a hundred thousand instances of one object share a name."""
+        wanted = name = wanted or "unnamed"
+        i = self.last.get(wanted, 0)
         while name in self.taken:
             i += 1
             name = "%s.%03d" % (wanted, i)
+        self.last[wanted] = i
         self.taken.add(name)
         return name
 
@@ -2468,11 +2475,15 @@ class Meshes:
         self.text = Text()
         self.names = Names()
         self.written = {}  # digest of a block -> its name: equal copies are written once
+        self.used_slots = {}  # (mesh pointer, number of slots) -> those in use
 
     def slots(self, mesh, count):
         """Material slots in use. As Blender does, numbers beyond the last slot mean the last."""
-        indices = set(read(mesh.polygons, "material_index", "i", 1))
-        return sorted({min(max(i, 0), max(count - 1, 0)) for i in indices})
+        key = (mesh.as_pointer(), count)
+        if key not in self.used_slots:
+            indices = set(read(mesh.polygons, "material_index", "i", 1))
+            self.used_slots[key] = sorted({min(max(i, 0), max(count - 1, 0)) for i in indices})
+        return self.used_slots[key]
 
     def put(self, mesh, coordinates, slots, slot_count, flatten=None):
         """Writes a mesh block; its name, or None when nothing of it can be seen.
@@ -2694,6 +2705,7 @@ class SceneExport:
         self.geometries = {}  # (mesh pointer, coordinates per slot, ...) -> Geometry or None
         self.materials = {}  # pointer of Blender's material, None for no material -> Material
         self.textures = {}  # Texture -> name
+        self.used_materials = set()  # names of those that objects have
         self.material_names, self.texture_names = Names(), Names()
         self.object_names, self.light_names, self.camera_names = Names(), Names(), Names()
         self.objects, self.lights = [], []  # (name, text lines)
@@ -2841,6 +2853,7 @@ class SceneExport:
                 text.put_unless(0, "top_radius", shape.top_radius)
             if not shape:
                 text.put("mesh", word(geometry.mesh))
+            self.used_materials.update(m.name for m in materials)
             if len(materials) == 1:
                 text.put("material", word(materials[0].name))
             else:
@@ -2968,9 +2981,8 @@ class SceneExport:
             text.lines.append("# The scene asks for %d samples; more than %d are left to --spp." % (wanted, exported))
         put_settings(text, scene, self.report)
         materials, textures = Text(), Text()
-        used = {line.strip() for _, t in self.objects for line in t.lines}
         for material in sorted(self.materials.values(), key=lambda m: natural(m.name)):
-            if self.is_used(material, used):
+            if material.name in self.used_materials:
                 material.put(materials, self.texture_name)
         for texture, name in sorted(self.textures.items(), key=lambda item: natural(item[1])):
             put_texture(textures, texture, name)
@@ -2979,11 +2991,6 @@ class SceneExport:
         parts.append(self.meshes.text)
         parts += [t for _, t in sorted(self.objects, key=lambda item: natural(item[0]))]
         return str(text) + "".join(str(p) for p in parts if p.lines)
-
-    @staticmethod
-    def is_used(material, lines):
-        name = word(material.name)
-        return any(line == "material " + name or (line.startswith("materials ") and name in line) for line in lines)
 
 
 def put_texture(text, texture, name):
