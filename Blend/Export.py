@@ -40,6 +40,7 @@ import os
 import re
 import struct
 import sys
+import tempfile
 import zlib
 from array import array
 from dataclasses import dataclass, field, replace
@@ -734,8 +735,6 @@ LIGHT_TYPES = {
 
 # ------------------------------------------------------------------------------------------ 8 images
 
-NATIVE_FILES = (".ppm", ".png", ".pfm")
-OTHER_FILES = (".jpg", ".jpeg", ".tga", ".bmp", ".tif", ".tiff", ".exr", ".hdr", ".webp")
 LINEAR_SPACES = {"Non-Color", "Raw", "Linear", "Linear Rec.709", "Generic Data"}
 
 
@@ -746,6 +745,108 @@ def base_name(path):
 
 def srgb_to_linear(x):
     return x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055) ** 2.4
+
+
+def linear_to_srgb(x):
+    return x * 12.92 if x <= 0.0031308 else 1.055 * x ** (1 / 2.4) - 0.055
+
+
+def as_byte(x):
+    return min(max(int(x * 255 + 0.5), 0), 255)
+
+
+# What 1 - x makes of an 8-bit code: of plain numbers, and of colours that are inverted in linear light.
+INVERSIONS = {
+    "alpha": bytes(255 - i for i in range(256)),
+    "linear": bytes(255 - i for i in range(256)),
+    "srgb": bytes(as_byte(linear_to_srgb(1 - srgb_to_linear(i / 255))) for i in range(256)),
+}
+
+
+# What the renderer reads (Code/image). Everything else is written anew by Blender.
+
+def readable_form(data, name):
+    """Extension that fits a picture file which the renderer reads; None for others, among them files
+    that are not whole."""
+    for start, form, is_sound in FORMS:
+        if data.startswith(start):
+            return form if is_sound(data) else None
+    return ".tga" if name.lower().endswith(".tga") and is_sound_tga(data) else None
+
+
+def is_sound_png(data):
+    i = 8
+    while i + 12 <= len(data):
+        size, kind = struct.unpack(">I4s", data[i : i + 8])
+        end = i + 8 + size
+        if end + 4 > len(data) or zlib.crc32(data[i + 4 : end]) != struct.unpack(">I", data[end : end + 4])[0]:
+            return False
+        if kind == b"IEND":
+            return True
+        i = end + 4
+    return False
+
+
+def is_sound_jpeg(data):
+    """Baseline and progressive, 8 bits, grey or three colours, up to its end."""
+    i = 2
+    while i + 10 <= len(data) and data[i] == 0xFF:
+        marker = data[i + 1]
+        if marker == 0xFF or marker == 1 or 0xD0 <= marker <= 0xD8:
+            i += 1 if marker == 0xFF else 2
+            continue
+        if 0xC0 <= marker <= 0xCF and marker not in {0xC4, 0xC8, 0xCC}:
+            return marker <= 0xC2 and data[i + 4] == 8 and data[i + 9] in {1, 3} and data.rfind(b"\xff\xd9") > i
+        i += 2 + struct.unpack(">H", data[i + 2 : i + 4])[0]
+    return False
+
+
+def is_sound_exr(data):
+    """No deep data, no colour differences, compression up to PIZ."""
+    kind = re.search(rb"compression\x00compression\x00\x01\x00\x00\x00(.)", data[:65536], re.DOTALL)
+    return len(data) > 8 and not data[5] & 0x08 and kind is not None and kind[1][0] <= 4 \
+        and b"\x00RY\x00" not in data[:65536]
+
+
+def is_sound_hdr(data):
+    head = data[:65536].partition(b"\n\n")
+    return b"32-bit_rle_rgbe" in head[0] and head[2].startswith(b"-Y ")
+
+
+def is_sound_ppm(data):
+    head = re.match(rb"P6\s+(?:#.*\s+)*(\d+)\s+(\d+)\s+(\d+)\s", data[:4096])
+    if not head:
+        return data[:2] != b"P6"
+    width, height, most = map(int, head.groups())
+    return len(data) - head.end() >= 3 * width * height * (1 if most < 256 else 2)
+
+
+def is_sound_pfm(data):
+    head = re.match(rb"P([Ff])\s+(\d+)\s+(\d+)\s+(\S+)\s", data[:4096])
+    return head is not None and len(data) - head.end() >= 4 * (3 if head[1] == b"F" else 1) * int(head[2]) * int(head[3])
+
+
+def is_sound_tga(data):
+    if len(data) < 18 or data[2] not in {1, 2, 3, 9, 10, 11}:
+        return False
+    width, height = struct.unpack("<HH", data[12:16])
+    return data[2] > 3 or len(data) >= 18 + data[0] + width * height * ((data[16] + 7) // 8)
+
+
+# (first bytes, extension, whether it is one that the renderer reads)
+FORMS = (
+    (b"\x89PNG\r\n\x1a\n", ".png", is_sound_png),
+    (b"\xff\xd8\xff", ".jpg", is_sound_jpeg),
+    (b"\x76\x2f\x31\x01", ".exr", is_sound_exr),
+    (b"#?RADIANCE", ".hdr", is_sound_hdr),
+    (b"#?RGBE", ".hdr", is_sound_hdr),
+    (b"P6", ".ppm", is_sound_ppm),
+    (b"P5", ".ppm", is_sound_ppm),
+    (b"PF", ".pfm", is_sound_pfm),
+    (b"Pf", ".pfm", is_sound_pfm),
+)
+UNKNOWN_TO_BLENDER = {".ppm", ".pfm"}
+FLOAT_FORMS = (".pfm", ".exr", ".hdr")  # the renderer takes their numbers as linear
 
 
 def encode_png(width, height, channels, rows_bottom_up):
@@ -801,88 +902,103 @@ def thinned(values):
 
 
 class Pixels(NamedTuple):
-    """Pixels of an image as Blender stores them, rows from the bottom."""
+    """Planes of an image, red green blue and alpha if it has one, rows from the bottom: bytes, or
+    arrays of floats."""
     width: int
     height: int
-    channels: int
-    values: array
+    planes: list
+    is_float: bool
+
+    def interleaved(self):
+        joined = array("f", bytes(4 * len(self.planes[0]) * len(self.planes))) if self.is_float \
+            else bytearray(len(self.planes[0]) * len(self.planes))
+        for i, plane in enumerate(self.planes):
+            joined[i :: len(self.planes)] = plane
+        return joined
+
+
+class Facts(NamedTuple):
+    """What is known of an image once Blender has loaded it."""
+    is_readable: bool
+    has_alpha: bool
     is_float: bool
 
 
 class Images:
-    """Finds the file of each image, and writes one where there is none that the renderer reads."""
+    """Finds the file of each image, and writes one where there is none that the renderer reads.
+
+    An image has up to three looks, as Cycles makes them of its alpha mode: 'straight' colours beside
+    their alpha, colours 'associated' with (multiplied by) alpha, and 'opaque' ones that know no alpha.
+    """
 
     def __init__(self, out_folder, textures, as_ppm, report):
         self.out_folder = out_folder
         self.as_ppm = as_ppm
         self.report = report
-        self.files = {}
-        self.means = {}
+        self.files, self.known, self.means = {}, {}, {}
         beside = os.path.dirname(out_folder) if os.path.basename(out_folder) == "ASCII" else out_folder
         self.store = os.path.abspath(textures) if textures else os.path.join(beside, "Textures")
-        script = os.path.dirname(os.path.abspath(globals().get("__file__", "")))
-        self.known = [self.store, os.path.join(beside, "Textures")]
-        blend = [os.path.dirname(bpy.data.filepath)] if bpy.data.filepath else []
-        self.searched = blend + self.known + [os.path.join(os.path.dirname(script), "Textures")]
+        self.searched = [self.store] if textures else []
+        self.beside = [out_folder, self.store, os.path.join(beside, "Textures")]
 
     # ---- finding
 
-    def file(self, image, inverted=False):
-        """Path of the image's file relative to the output; None after a warning."""
-        key = (image.name_full, inverted)
+    def file(self, image, look="straight", inversion=None):
+        """Path, relative to the output, of a file with this look of the image; None after a warning.
+        inversion: None, or what is inverted (a key of INVERSIONS)."""
+        key = (image.name_full, look, inversion)
         if key not in self.files:
-            self.files[key] = self.invert(image) if inverted else self.locate(image)
+            plain = look == "straight" and inversion is None
+            self.files[key] = self.locate(image) if plain else self.baked(image, look, inversion)
         return self.files[key]
 
     def locate(self, image):
         if image.source in {"SEQUENCE", "MOVIE", "TILED"}:
             self.report.warn(24, "image '%s' is a %s" % (image.name, image.source.lower()), "one picture")
-        edited = image.is_dirty and image.source != "GENERATED"
-        packed = getattr(image, "packed_file", None)
-        if packed is not None and not edited:
+        if image.source == "GENERATED" or image.is_dirty:
+            return self.rewritten(image)
+        path, packed = None, getattr(image, "packed_file", None)
+        if packed is not None:
             data = bytes(packed.data)
-            if data[:8] == b"\x89PNG\r\n\x1a\n" and not self.as_ppm:
-                return self.save(self.stem(image), ".png", data)
-            return self.convert(image)
-        if image.source == "GENERATED" or edited:
-            return self.convert(image)
-        path = self.find(image)
-        if path is None:
-            self.report.warn(22, "image '%s': no file '%s'" % (image.name, base_name(image.filepath)),
-                             "no texture")
-            return None
-        extension = os.path.splitext(path)[1].lower()
-        if extension in NATIVE_FILES and not (self.as_ppm and extension == ".png"):
-            return self.use(path)
-        return self.convert(image, path)
+        else:
+            path = self.find(image)
+            if path is None:
+                self.report.warn(22, "image '%s': no file '%s'" % (image.name, base_name(image.filepath)),
+                                 "magenta, as Blender shows it")
+                return None
+            with open(path, "rb") as file:
+                data = file.read()
+        form = readable_form(data, path or image.filepath)
+        if form not in UNKNOWN_TO_BLENDER:
+            facts = self.facts(image)
+            if not facts.is_readable:
+                return self.unreadable(image)
+            premultiplied = image.alpha_mode == "PREMUL" and facts.has_alpha and not facts.is_float
+            if form is None or premultiplied or (self.as_ppm and form in {".png", ".jpg", ".tga"}):
+                return self.rewritten(image)
+        return self.use(path, data, form) if path else self.save(self.stem(image), form, data)
+
+    def unreadable(self, image):
+        self.report.warn(23, "image '%s' cannot be read" % image.name, "magenta, as Blender shows it")
 
     def find(self, image):
+        """The image's own file, or one of that name in the folder that --textures names. What only
+        has a similar name is another picture."""
         path = image.filepath_raw or image.filepath
         path = path.replace("<UDIM>", "1001").replace("<UVTILE>", "u1_v1")
         own = bpy.path.abspath(path, library=image.library)
-        if os.path.isfile(own):
-            return os.path.abspath(own)
-        name = base_name(path)
-        stem = os.path.splitext(name)[0]
-        if not stem:
-            return None
-        for wanted in [name] + [stem + ext for ext in NATIVE_FILES + OTHER_FILES]:
-            for folder in self.searched:
-                candidate = os.path.join(folder, wanted)
-                if os.path.isfile(candidate):
-                    self.report.note("image '%s' found as %s" % (image.name, wanted))
-                    return os.path.abspath(candidate)
+        for candidate in [own] + [os.path.join(folder, base_name(path)) for folder in self.searched]:
+            if base_name(path) and os.path.isfile(candidate):
+                self.report.note("image '%s' is %s" % (image.name, candidate))
+                return os.path.abspath(candidate)
         return None
 
-    def use(self, path):
+    def use(self, path, data, form):
         """A file that the renderer reads: named where it is if that is beside us, else copied."""
-        folders = [self.out_folder] + self.known
-        if any(os.path.realpath(path).startswith(os.path.realpath(f) + os.sep) for f in folders):
+        if any(os.path.realpath(path).startswith(os.path.realpath(f) + os.sep) for f in self.beside):
             return self.relative(path)
-        with open(path, "rb") as file:
-            data = file.read()
         stem, extension = os.path.splitext(os.path.basename(path))
-        return self.save(stem, extension.lower(), data)
+        return self.save(stem, extension.lower() if extension.lower() == ".jpeg" else form, data)
 
     def relative(self, path):
         return os.path.relpath(path, self.out_folder).replace(os.sep, "/")
@@ -890,7 +1006,9 @@ class Images:
     # ---- writing
 
     def stem(self, image):
-        """Stable file name of an image that has no file of its own."""
+        """Stable file name of an image: that of its file, or made of its name and the scene's."""
+        if image.source == "FILE" and not image.is_dirty and not getattr(image, "packed_file", None):
+            return os.path.splitext(base_name(image.filepath))[0]
         stem = os.path.splitext(base_name(image.name))[0] or "image"
         blend = os.path.splitext(os.path.basename(bpy.data.filepath))[0]
         return re.sub(r"[^A-Za-z0-9_.-]+", "_", "%s_%s" % (blend, stem) if blend else stem)
@@ -904,68 +1022,104 @@ class Images:
             write_atomically(path, data)
         return self.relative(path)
 
-    def convert(self, image, path=None):
-        pixels = self.pixels(image, path)
-        if pixels is None:
-            self.report.warn(23, "image '%s' cannot be read" % image.name, "no texture")
-            return None
-        stem = os.path.splitext(os.path.basename(path))[0] if path else self.stem(image)
-        return self.save(stem, *self.encode(pixels))
-
-    def invert(self, image):
-        pixels = self.pixels(image, self.find(image) if image.source == "FILE" else None)
-        if pixels is None or pixels.is_float:
-            self.report.warn(23, "image '%s' cannot be inverted" % image.name, "no texture")
-            return None
-        values = array("f", (1 - x for x in pixels.values))
-        return self.save(self.stem(image) + "_inverted", *self.encode(pixels._replace(values=values)))
-
-    def encode(self, pixels):
-        """(extension, bytes of the file)"""
-        width, height, channels, values, is_float = pixels
-        planes = [values[i::channels] for i in range(channels)]
-        if channels < 3:  # grey, grey and alpha
-            planes = [planes[0]] * 3 + planes[1:]
-        if is_float:
-            rgb = array("f", bytes(12 * width * height))
-            for i in range(3):
-                rgb[i::3] = planes[i]
-            return ".pfm", encode_pfm(width, height, rgb)
-        stored = [bytes([min(max(int(x * 255 + 0.5), 0), 255) for x in plane]) for plane in planes]
-        if len(stored) == 4 and min(stored[3]) == 255:
-            stored.pop()
-        data = bytearray(len(stored) * width * height)
-        for i, plane in enumerate(stored):
-            data[i :: len(stored)] = plane
-        if self.as_ppm and len(stored) == 3:
-            return ".ppm", encode_ppm(width, height, data)
-        return ".png", encode_png(width, height, len(stored), data)
-
-    def pixels(self, image, path=None):
-        """Pixels of the image, or of the file that stands in for its own; None if unreadable."""
-        substitute = None
-        own = bpy.path.abspath(image.filepath, library=image.library)
-        if path and not (os.path.exists(own) and os.path.samefile(own, path)):
-            try:
-                substitute = image = bpy.data.images.load(path, check_existing=False)
-            except RuntimeError:
-                return None
+    @contextlib.contextmanager
+    def loaded(self, image):
+        """The image, or what is loaded from the file that stands in for its own; None if unreadable."""
+        substitute, path = None, None
+        if image.source == "FILE" and not image.is_dirty and not getattr(image, "packed_file", None):
+            own, path = bpy.path.abspath(image.filepath, library=image.library), self.find(image)
+            if path and not (os.path.exists(own) and os.path.samefile(own, path)):
+                with contextlib.suppress(RuntimeError):
+                    substitute = bpy.data.images.load(path, check_existing=False)
+                    substitute.colorspace_settings.name = image.colorspace_settings.name
+                    substitute.alpha_mode = image.alpha_mode
+                image = substitute
         try:
-            width, height = image.size
-            if width == 0 or height == 0:
-                return None
-            values = array("f", bytes(4 * len(image.pixels)))
-            image.pixels.foreach_get(values)
-            return Pixels(width, height, len(values) // (width * height), values, image.is_float)
+            yield image if image is not None and min(image.size) > 0 else None
         finally:
             if substitute:
                 bpy.data.images.remove(substitute)
+
+    def facts(self, image):
+        if image.name_full not in self.known:
+            was_loaded = image.has_data
+            with self.loaded(image) as it:
+                self.known[image.name_full] = Facts(False, False, False) if it is None else Facts(
+                    True, it.channels == 4 and it.depth in {16, 32, 64, 128}, it.is_float)
+            if not was_loaded and image.source == "FILE":
+                image.buffers_free()  # all pictures at once may be more than the memory
+        return self.known[image.name_full]
+
+    def rewritten(self, image):
+        """The image as Blender writes it: PNG, or OpenEXR when it is of floats."""
+        with self.loaded(image) as known:
+            if known is None:
+                return self.unreadable(image)
+            if self.as_ppm and not known.is_float:
+                pixels = self.pixels(known)
+                if len(pixels.planes) == 3 or min(pixels.planes[3]) == 255:
+                    pixels = pixels._replace(planes=pixels.planes[:3])
+                    return self.save(self.stem(image), ".ppm",
+                                     encode_ppm(pixels.width, pixels.height, pixels.interleaved()))
+            form, extension = ("OPEN_EXR", ".exr") if known.is_float else ("PNG", ".png")
+            data = written_by_blender(known, form)
+            return self.save(self.stem(image), extension, data) if data else self.unreadable(image)
+
+    def baked(self, image, look, inversion):
+        """A look that the file itself does not have."""
+        with self.loaded(image) as known:
+            if known is None:
+                return self.locate(image)  # it warns, or Blender does not know what the renderer reads
+            pixels = self.pixels(known)
+        if pixels is None:
+            return self.unreadable(image)
+        color, alpha = pixels.planes[:3], pixels.planes[3:]
+        if alpha and inversion != "alpha" and min(alpha[0]) == (1 if pixels.is_float else 255):
+            alpha = []
+            if inversion is None:
+                return self.file(image)
+        if look == "associated" and alpha and image.alpha_mode != "PREMUL" and not pixels.is_float:
+            color = [times_alpha(plane, alpha[0]) for plane in color]
+        if look != "straight":
+            alpha = []
+        name = "%s_%s" % (self.stem(image), look) if look != "straight" else self.stem(image)
+        if pixels.is_float:
+            if inversion is not None or alpha:
+                self.report.warn(23, "image '%s' of floats cannot be inverted" % image.name, "as it is")
+                return self.file(image)
+            rgb = Pixels(pixels.width, pixels.height, color, True).interleaved()
+            return self.save(name, ".pfm", encode_pfm(pixels.width, pixels.height, rgb))
+        if inversion is not None:
+            name += "_inverted"
+            color = [plane.translate(INVERSIONS[inversion]) for plane in color]
+            if inversion == "alpha":
+                alpha = [plane.translate(INVERSIONS[inversion]) for plane in alpha]
+        rows = Pixels(pixels.width, pixels.height, color + alpha, False).interleaved()
+        return self.save(name, ".png", encode_png(pixels.width, pixels.height, len(color + alpha), rows))
+
+    @staticmethod
+    def pixels(image):
+        """Pixels as the file has them, by way of a file without compression: Python's own loops would
+        take half a minute for a large picture."""
+        width, height = image.size
+        if image.is_float:
+            values = array("f", bytes(4 * len(image.pixels)))
+            image.pixels.foreach_get(values)
+            planes = [values[i :: image.channels] for i in range(image.channels)]
+            return Pixels(width, height, planes if len(planes) > 2 else [planes[0]] * 3 + planes[1:], True)
+        data = written_by_blender(image, "TARGA_RAW", "CHANNEL_PACKED")
+        if not data:
+            return None
+        channels, start = data[16] // 8, 18 + data[0]
+        body = data[start : start + width * height * channels]
+        order = (0, 0, 0) if channels == 1 else (2, 1, 0, 3)[:channels]
+        return Pixels(width, height, [body[i::channels] for i in order], False)
 
     # ---- numbers
 
     def mean(self, texture):
         """Mean colour of a texture in linear light, from some thousand of its pixels."""
-        key = (texture.image.name_full, texture.channel, texture.space)
+        key = (texture.image.name_full, texture.channel, texture.space, texture.look)
         if key not in self.means:
             self.means[key] = self.measure(texture)
         mean = self.means[key]
@@ -973,23 +1127,69 @@ class Images:
 
     def measure(self, texture):
         path = self.find(texture.image) if texture.image.source == "FILE" else None
-        pixels = self.pixels(texture.image, path)
-        if pixels is not None:
-            first = 3 if texture.channel == "alpha" and pixels.channels == 4 else 0
-            same = texture.channel == "alpha" or pixels.channels < 3
-            planes = [pixels.values[first if same else i :: pixels.channels] for i in range(3)]
-            is_float = pixels.is_float
-        else:
-            found = planes_of_file(path) if path else None
-            if found is None or not found[0][0]:
-                return (0.5, 0.5, 0.5)
-            planes, is_float = found
+        with self.loaded(texture.image) as known:
+            if known is not None:
+                channels, is_float = known.channels, known.is_float
+                values = array("f", bytes(4 * len(known.pixels)))
+                known.pixels.foreach_get(values)
+                planes = [thinned(values[i::channels]) for i in range(channels)]
+                if texture.channel == "alpha":
+                    planes = [planes[3] if channels == 4 else [1.0]] * 3
+                elif texture.look == "associated" and channels == 4 and not is_float:
+                    planes = [[x * a for x, a in zip(plane, planes[3])] for plane in planes]
+                planes = planes[:3] if channels > 2 else [planes[0]] * 3
+            else:
+                found = planes_of_file(path) if path else None
+                if found is None or not found[0][0]:
+                    return (0.5, 0.5, 0.5)
+                planes, is_float = found
         decode = texture.space == "srgb" and texture.channel == "color" and not is_float
         means = []
         for plane in planes:
-            some = thinned(plane)
-            means.append(sum(map(srgb_to_linear, some) if decode else some) / len(some))
+            means.append(sum(map(srgb_to_linear, plane) if decode else plane) / len(plane))
         return tuple(means)
+
+
+def times_alpha(plane, alpha):
+    """Products of 8-bit codes, by a table of all pairs."""
+    pairs = bytearray(2 * len(plane))
+    pairs[0::2], pairs[1::2] = plane, alpha
+    table = bytes((i % 256 * (i // 256) + 127) // 255 for i in range(65536))
+    if sys.byteorder != "little":
+        pairs[0::2], pairs[1::2] = alpha, plane
+    return bytes(map(table.__getitem__, memoryview(pairs).cast("H")))
+
+
+def written_by_blender(image, form, alpha_mode=None):
+    """Bytes of the file that Blender writes of an image; None if it cannot. Neither the image nor its
+    file is touched."""
+    if image.is_dirty or image.is_float:  # a copy would read the file again, floats are to stay linear
+        values = array("f", bytes(4 * len(image.pixels)))
+        image.pixels.foreach_get(values)
+        is_opaque = image.channels < 4 or min(values[3::4]) >= 1
+        copy = bpy.data.images.new(image.name, *image.size, alpha=not is_opaque, float_buffer=image.is_float)
+        copy.colorspace_settings.name = "Non-Color" if image.is_float else image.colorspace_settings.name
+        copy.pixels.foreach_set(values)
+    else:
+        copy = image.copy()
+    try:
+        if alpha_mode:
+            copy.alpha_mode = alpha_mode
+        if min(copy.size) == 0 or not len(copy.pixels):  # this loads it, too
+            return None
+        copy.pixels[0]
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "picture")
+            copy.filepath_raw, copy.file_format = path, form
+            with contextlib.suppress(RuntimeError):
+                copy.save()
+            made = [os.path.join(folder, name) for name in os.listdir(folder)]
+            if not made:
+                return None
+            with open(made[0], "rb") as file:
+                return file.read()
+    finally:
+        bpy.data.images.remove(copy)
 
 
 def same_bytes(path, data):
@@ -1015,6 +1215,7 @@ def write_atomically(path, data):
 # ------------------------------------------------------------------------------------------ 9 values
 
 BLACK, WHITE, GRAY = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (0.8, 0.8, 0.8)
+MISSING = (1.0, 0.0, 1.0)  # what Blender shows instead of a picture that it cannot read
 
 
 def scaled(rgb, factor):
@@ -1071,6 +1272,7 @@ class Texture:
     offset: tuple = (0.0, 0.0)
     coordinates: tuple = ("uv", "")
     inverted: bool = False
+    look: str = "straight"  # see Images
 
 
 @dataclass(frozen=True)
@@ -1301,8 +1503,13 @@ class Values:
         return number_value(found.output.default_value)
 
     def image_texture(self, found):
+        is_alpha = found.output.name == "Alpha"
         texture = self.texture(found)
-        return Value(WHITE, texture) if texture else Value(GRAY)
+        if texture is None:
+            return Value(WHITE if is_alpha else MISSING)
+        if is_alpha and texture.image.alpha_mode == "NONE":
+            return Value(WHITE)
+        return Value(WHITE, texture)
 
     def mix(self, found):
         node = found.node
@@ -1470,10 +1677,12 @@ class Values:
         node = found.node
         image = node.image
         if image is None:
-            self.report.warn(22, "node '%s' has no image" % node.name, "no texture")
+            self.report.warn(22, "node '%s' has no image" % node.name, "magenta, as Blender shows it")
             return None
         image = image.original if image.original else image
-        file = self.images.file(image)
+        is_alpha = found.output.name == "Alpha"
+        look = "straight" if is_alpha else self.look(node, image)
+        file = self.images.file(image, look)
         if file is None:
             return None
         if getattr(node, "projection", "FLAT") != "FLAT" and node.bl_idname == "ShaderNodeTexImage":
@@ -1482,13 +1691,24 @@ class Values:
         return Texture(
             image=image, file=file, space=self.space(image, file),
             interpolation=self.interpolation(node), extension=self.extension(node),
-            channel="alpha" if found.output.name == "Alpha" else "color",
+            channel="alpha" if is_alpha else "color", look=look,
             scale=scale, rotation=rotation, offset=offset, coordinates=coordinates)
 
+    def look(self, node, image):
+        """How Cycles gives colours to a node: multiplied by alpha, unless the node's alpha is used or
+        the image says that colours and alpha have nothing to do with each other."""
+        if image.alpha_mode in {"CHANNEL_PACKED", "NONE"} or is_data(image):
+            return "opaque" if self.images.facts(image).has_alpha else "straight"
+        is_used = any(o.name == "Alpha" and o.is_linked for o in node.outputs)
+        return "straight" if is_used or not self.images.facts(image).has_alpha else "associated"
+
     def space(self, image, file):
-        settings = image.colorspace_settings
-        name = settings.name
-        if file.endswith(".pfm") or getattr(settings, "is_data", False) or name in LINEAR_SPACES:
+        name = image.colorspace_settings.name
+        if is_data(image) or name in LINEAR_SPACES:
+            return "linear"
+        if file.endswith(FLOAT_FORMS):
+            if name not in {"sRGB", ""} and file.endswith((".exr", ".hdr")) and image.source == "FILE":
+                self.report.warn(25, "image '%s' has the colour space '%s'" % (image.name, name), "linear Rec.709")
             return "linear"
         if name not in {"sRGB", ""}:
             self.report.warn(25, "image '%s' has the colour space '%s'" % (image.name, name), "sRGB")
@@ -1545,6 +1765,12 @@ class Values:
         self.report.warn(19, "coordinates of node '%s' from node '%s' (%s)"
                          % (texture.node.name, node.name, found.output.name), "the UV map")
         return ("uv", "")
+
+
+def is_data(image):
+    """Numbers without a colour space."""
+    settings = image.colorspace_settings
+    return getattr(settings, "is_data", False) or settings.name in {"Non-Color", "Raw", "Generic Data"}
 
 
 def group_output(tree):
@@ -2914,7 +3140,8 @@ class SceneExport:
     def texture_name(self, texture):
         texture = replace(texture, coordinates=("uv", ""))
         if texture.inverted:
-            file = self.images.file(texture.image, inverted=True) or texture.file
+            inversion = "alpha" if texture.channel == "alpha" else texture.space
+            file = self.images.file(texture.image, texture.look, inversion) or texture.file
             texture = replace(texture, file=file, inverted=False)
         if texture not in self.textures:
             stem = os.path.splitext(texture.file.split("/")[-1])[0]
