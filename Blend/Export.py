@@ -924,6 +924,11 @@ class Facts(NamedTuple):
     is_float: bool
 
 
+def is_premultiplied(image):
+    """Cycles believes this of what lies in Blender's memory; of a file it asks the file's format."""
+    return image.alpha_mode == "PREMUL" and getattr(image, "packed_file", None) is not None
+
+
 class Images:
     """Finds the file of each image, and writes one where there is none that the renderer reads.
 
@@ -973,8 +978,7 @@ class Images:
             facts = self.facts(image)
             if not facts.is_readable:
                 return self.unreadable(image)
-            premultiplied = image.alpha_mode == "PREMUL" and facts.has_alpha and not facts.is_float
-            if form is None or premultiplied or (self.as_ppm and form in {".png", ".jpg", ".tga"}):
+            if form is None or (is_premultiplied(image) and facts.has_alpha and not facts.is_float) or (self.as_ppm and form in {".png", ".jpg", ".tga"}):
                 return self.rewritten(image)
         return self.use(path, data, form) if path else self.save(self.stem(image), form, data)
 
@@ -1070,7 +1074,7 @@ class Images:
         with self.loaded(image) as known:
             if known is None:
                 return self.locate(image)  # it warns, or Blender does not know what the renderer reads
-            pixels = self.pixels(known)
+            pixels = self.pixels(known, "CHANNEL_PACKED" if look == "opaque" else None)
         if pixels is None:
             return self.unreadable(image)
         color, alpha = pixels.planes[:3], pixels.planes[3:]
@@ -1078,7 +1082,7 @@ class Images:
             alpha = []
             if inversion is None:
                 return self.file(image)
-        if look == "associated" and alpha and image.alpha_mode != "PREMUL" and not pixels.is_float:
+        if look == "associated" and alpha and not pixels.is_float:
             color = [times_alpha(plane, alpha[0]) for plane in color]
         if look != "straight":
             alpha = []
@@ -1098,8 +1102,8 @@ class Images:
         return self.save(name, ".png", encode_png(pixels.width, pixels.height, len(color + alpha), rows))
 
     @staticmethod
-    def pixels(image):
-        """Pixels as the file has them, by way of a file without compression: Python's own loops would
+    def pixels(image, alpha_mode=None):
+        """Pixels as Blender understands the file (in another alpha mode, if one is given), by way of a file without compression: Python's own loops would
         take half a minute for a large picture."""
         width, height = image.size
         if image.is_float:
@@ -1107,7 +1111,7 @@ class Images:
             image.pixels.foreach_get(values)
             planes = [values[i :: image.channels] for i in range(image.channels)]
             return Pixels(width, height, planes if len(planes) > 2 else [planes[0]] * 3 + planes[1:], True)
-        data = written_by_blender(image, "TARGA_RAW", "CHANNEL_PACKED")
+        data = written_by_blender(image, "TARGA_RAW", alpha_mode)
         if not data:
             return None
         channels, start = data[16] // 8, 18 + data[0]

@@ -285,3 +285,46 @@ def broken_pictures_are_magenta():
     image.reload()
     _, texture = shown(image)
     equal(texture["file"], "Textures/cut.png")
+
+
+@test
+def alpha_modes_give_colours_as_cycles_does():
+    """One row: opaque, half covered, not covered. Colours that are used without their alpha are multiplied by
+    it as codes; packed and data colours are not, and no alpha is left beside them."""
+    codes = [200, 100, 40, 255, 200, 100, 40, 128, 200, 100, 40, 0]
+    times, plain = [(200, 100, 40), (100, 50, 20), (0, 0, 0)], [(200, 100, 40)] * 3
+
+    def look(mode, link_alpha=False, space=None, pack=False):
+        new_scene()
+        image = picture("three.png", 4, 3, 1, codes)
+        image.alpha_mode = mode
+        if pack:
+            image.pack()
+        material, texture = shown(image, link_alpha=link_alpha, space=space)
+        return texture["file"], read_png_rows(texture["file"])[0], material
+
+    for mode, space, wanted in (("STRAIGHT", None, times), ("PREMUL", None, times), ("CHANNEL_PACKED", None, plain),
+                                ("NONE", None, plain), ("STRAIGHT", "Non-Color", plain)):
+        file, pixels, _ = look(mode, space=space)
+        equal((mode, pixels), (mode, wanted))
+        equal(read_png(os.path.join(FOLDER, file))[2], 3)
+    file, _, material = look("STRAIGHT", link_alpha=True)
+    equal(file, "three.png")
+    assert material["opacity_texture"]
+    equal(look("NONE", link_alpha=True)[2].get("opacity_texture"), None)
+    file, pixels, _ = look("PREMUL", pack=True)  # of what is packed Cycles believes it: 200 / 128 is white
+    equal(pixels, [(200, 100, 40), (128, 100, 40), (0, 0, 0)])
+    new_scene()  # alpha that covers everything needs no other file
+    equal(shown(picture("covered.png", 4))[1]["file"], "covered.png")
+
+
+@test
+def inverted_colours_are_inverted_in_linear_light():
+    def build(n, node):
+        image = n.node("TexImage", {"image": picture("invert.png", 3, 1, 1, [0, 128, 255])})
+        return n.node("BsdfDiffuse", Color=node(n, image))
+
+    block, text = material_text(lambda n: build(n, lambda n, i: n.node("Invert", Color=i)))
+    file = text.one("texture", block["diffuse_texture"])["file"]
+    half = ((128 / 255 + 0.055) / 1.055) ** 2.4
+    equal(read_png_rows(file)[0][0], (255, round(255 * (1.055 * (1 - half) ** (1 / 2.4) - 0.055)), 0))
