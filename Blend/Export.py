@@ -1074,7 +1074,8 @@ class Images:
         with self.loaded(image) as known:
             if known is None:
                 return self.locate(image)  # it warns, or Blender does not know what the renderer reads
-            pixels = self.pixels(known, "CHANNEL_PACKED" if look == "opaque" else None)
+            as_blender = look != "opaque" and is_premultiplied(image)
+            pixels = self.pixels(known, None if as_blender else "CHANNEL_PACKED")
         if pixels is None:
             return self.unreadable(image)
         color, alpha = pixels.planes[:3], pixels.planes[3:]
