@@ -36,6 +36,7 @@ import contextlib
 import functools
 import hashlib
 import math
+import operator
 import os
 import re
 import struct
@@ -940,7 +941,7 @@ class Images:
         self.out_folder = out_folder
         self.as_ppm = as_ppm
         self.report = report
-        self.files, self.known, self.means = {}, {}, {}
+        self.files, self.known, self.greys, self.means = {}, {}, {}, {}
         beside = os.path.dirname(out_folder) if os.path.basename(out_folder) == "ASCII" else out_folder
         self.store = os.path.abspath(textures) if textures else os.path.join(beside, "Textures")
         self.searched = [self.store] if textures else []
@@ -948,13 +949,14 @@ class Images:
 
     # ---- finding
 
-    def file(self, image, look="straight", inversion=None):
+    def file(self, image, look="straight", inversion=None, grey=None):
         """Path, relative to the output, of a file with this look of the image; None after a warning.
-        inversion: None, or what is inverted (a key of INVERSIONS)."""
-        key = (image.name_full, look, inversion)
+        inversion: None, or what is inverted (a key of INVERSIONS). grey: None, or the colour space in
+        which colours become their luminance."""
+        key = (image.name_full, look, inversion, grey)
         if key not in self.files:
-            plain = look == "straight" and inversion is None
-            self.files[key] = self.locate(image) if plain else self.baked(image, look, inversion)
+            plain = look == "straight" and inversion is None and grey is None
+            self.files[key] = self.locate(image) if plain else self.baked(image, look, inversion, grey)
         return self.files[key]
 
     def locate(self, image):
@@ -1054,6 +1056,13 @@ class Images:
                 image.buffers_free()  # all pictures at once may be more than the memory
         return self.known[image.name_full]
 
+    def is_grey(self, image):
+        if image.name_full not in self.greys:
+            with self.loaded(image) as known:
+                pixels = self.pixels(known) if known else None
+                self.greys[image.name_full] = pixels is not None and pixels.planes[0] == pixels.planes[1] == pixels.planes[2]
+        return self.greys[image.name_full]
+
     def rewritten(self, image):
         """The image as Blender writes it: PNG, or OpenEXR when it is of floats."""
         with self.loaded(image) as known:
@@ -1069,7 +1078,7 @@ class Images:
             data = written_by_blender(known, form)
             return self.save(self.stem(image), extension, data) if data else self.unreadable(image)
 
-    def baked(self, image, look, inversion):
+    def baked(self, image, look, inversion, grey):
         """A look that the file itself does not have."""
         with self.loaded(image) as known:
             if known is None:
@@ -1081,7 +1090,7 @@ class Images:
         color, alpha = pixels.planes[:3], pixels.planes[3:]
         if alpha and inversion != "alpha" and min(alpha[0]) == (1 if pixels.is_float else 255):
             alpha = []
-            if inversion is None:
+            if inversion is None and grey is None:
                 return self.file(image)
         if look == "associated" and alpha and not pixels.is_float:
             color = [times_alpha(plane, alpha[0]) for plane in color]
@@ -1089,11 +1098,14 @@ class Images:
             alpha = []
         name = "%s_%s" % (self.stem(image), look) if look != "straight" else self.stem(image)
         if pixels.is_float:
-            if inversion is not None or alpha:
-                self.report.warn(23, "image '%s' of floats cannot be inverted" % image.name, "as it is")
+            if inversion is not None or grey is not None or alpha:
+                self.report.warn(23, "image '%s' of floats cannot be inverted or made grey" % image.name, "as it is")
                 return self.file(image)
             rgb = Pixels(pixels.width, pixels.height, color, True).interleaved()
             return self.save(name, ".pfm", encode_pfm(pixels.width, pixels.height, rgb))
+        if grey is not None:
+            name += "_grey"
+            color = [luminances(color, grey)] * 3
         if inversion is not None:
             name += "_inverted"
             color = [plane.translate(INVERSIONS[inversion]) for plane in color]
@@ -1128,6 +1140,7 @@ class Images:
         if key not in self.means:
             self.means[key] = self.measure(texture)
         mean = self.means[key]
+        mean = (gray(mean),) * 3 if texture.grey else mean
         return tuple(1 - x for x in mean) if texture.inverted else mean
 
     def measure(self, texture):
@@ -1163,6 +1176,16 @@ def times_alpha(plane, alpha):
     if sys.byteorder != "little":
         pairs[0::2], pairs[1::2] = alpha, plane
     return bytes(map(table.__getitem__, memoryview(pairs).cast("H")))
+
+
+def luminances(planes, space):
+    """Codes of the luminance of colours, by tables: sums of 16-bit numbers become codes again."""
+    decode = srgb_to_linear if space == "srgb" else float
+    encode = linear_to_srgb if space == "srgb" else float
+    parts = [[round(weight * decode(i / 255) * 65535) for i in range(256)] for weight in LUMINANCE]
+    codes = bytes(as_byte(encode(min(i / 65535, 1.0))) for i in range(65535 + 3))
+    red, green, blue = (map(part.__getitem__, plane) for part, plane in zip(parts, planes))
+    return bytes(map(codes.__getitem__, map(operator.add, map(operator.add, red, green), blue)))
 
 
 def written_by_blender(image, form, alpha_mode=None):
@@ -1220,6 +1243,7 @@ def write_atomically(path, data):
 # ------------------------------------------------------------------------------------------ 9 values
 
 BLACK, WHITE, GRAY = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (0.8, 0.8, 0.8)
+LUMINANCE = (0.2126, 0.7152, 0.0722)
 MISSING = (1.0, 0.0, 1.0)  # what Blender shows instead of a picture that it cannot read
 
 
@@ -1242,7 +1266,7 @@ def mixed(a, b, t):
 def gray(rgb):
     """A colour that goes into a number socket."""
     r, g, b = rgb
-    return r if r == g == b else 0.2126 * r + 0.7152 * g + 0.0722 * b
+    return r if r == g == b else sum(map(operator.mul, LUMINANCE, rgb))
 
 
 def clamped(rgb):
@@ -1278,6 +1302,7 @@ class Texture:
     coordinates: tuple = ("uv", "")
     inverted: bool = False
     look: str = "straight"  # see Images
+    grey: bool = False  # its luminance
 
 
 @dataclass(frozen=True)
@@ -1533,7 +1558,8 @@ class Values:
             factor = min(max(factor, 0.0), 1.0) if clamp_factor else factor
             if blend == "MIX" and factor in (0.0, 1.0):
                 return b if factor else a
-            if blend == "MULTIPLY" and factor == 1 and (a.texture is None or b.texture is None):
+            clamps = clamp_result and max(a.rgb + b.rgb) > 1
+            if blend == "MULTIPLY" and factor == 1 and (a.texture is None or b.texture is None) and not clamps:
                 return Value(product(a.rgb, b.rgb), a.texture or b.texture)
             if factor == 0:
                 return a
@@ -1550,12 +1576,13 @@ class Values:
 
     def math(self, found):
         node = found.node
-        values = [self.value(Socket(s, found.path)) for s in node.inputs]
+        values = [self.as_number(found, self.value(Socket(s, found.path))) for s in node.inputs]
         operation = MATH.get(node.operation)
-        if node.operation == "SUBTRACT" and values[1].texture and not values[1].texture.inverted \
+        if node.operation == "SUBTRACT" and values[1].texture \
                 and values[0] == number_value(1.0) and values[1].rgb == WHITE:
-            return Value(WHITE, replace(values[1].texture, inverted=True))
-        if node.operation == "MULTIPLY" and sum(v.texture is not None for v in values[:2]) == 1:
+            return Value(WHITE, replace(values[1].texture, inverted=not values[1].texture.inverted))
+        clamps = node.use_clamp and max(abs(x) for v in values[:2] for x in v.rgb) > 1
+        if node.operation == "MULTIPLY" and sum(v.texture is not None for v in values[:2]) == 1 and not clamps:
             return Value(product(values[0].rgb, values[1].rgb), values[0].texture or values[1].texture)
         if operation is None:
             self.report.warn(12, "operation %s of node '%s'" % (node.operation, node.name), "its first input")
@@ -1654,8 +1681,18 @@ class Values:
         return self.fold(found, (self.at_index(found, 0),), lambda c: (to_mode("HSV", c)[i],) * 3)
 
     def to_gray(self, found):
-        value = self.at_index(found, 0)
-        return value if value.texture else number_value(gray(value.rgb))
+        return self.as_number(found, self.at_index(found, 0))
+
+    def as_number(self, found, value):
+        """The luminance of a colour, as where a colour goes into a number."""
+        if value.texture is None:
+            return number_value(gray(value.rgb))
+        r, g, b = value.rgb
+        if r != g or r != b:
+            self.report.warn(12, "node '%s' (%s) on a coloured texture" % (found.node.name, kind_of(found.node)),
+                             "the luminance of the texture times that of its colour")
+        is_colour = value.texture.channel == "color" and not self.images.is_grey(value.texture.image)
+        return Value(number_value(gray(value.rgb)).rgb, replace(value.texture, grey=is_colour))
 
     def black_body(self, found):
         return self.fold(found, (self.at_index(found, 0),), lambda t: blackbody(gray(t)))
@@ -3144,10 +3181,11 @@ class SceneExport:
 
     def texture_name(self, texture):
         texture = replace(texture, coordinates=("uv", ""))
-        if texture.inverted:
+        if texture.inverted or texture.grey:
             inversion = "alpha" if texture.channel == "alpha" else texture.space
-            file = self.images.file(texture.image, texture.look, inversion) or texture.file
-            texture = replace(texture, file=file, inverted=False)
+            file = self.images.file(texture.image, texture.look, inversion if texture.inverted else None,
+                                    texture.space if texture.grey else None)
+            texture = replace(texture, file=file or texture.file, inverted=False, grey=False)
         if texture not in self.textures:
             stem = os.path.splitext(texture.file.split("/")[-1])[0]
             self.textures[texture] = self.texture_names.unique(stem)

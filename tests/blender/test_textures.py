@@ -328,3 +328,26 @@ def inverted_colours_are_inverted_in_linear_light():
     file = text.one("texture", block["diffuse_texture"])["file"]
     half = ((128 / 255 + 0.055) / 1.055) ** 2.4
     equal(read_png_rows(file)[0][0], (255, round(255 * (1.055 * (1 - half) ** (1 / 2.4) - 0.055)), 0))
+
+
+@test
+def colours_become_numbers_by_their_luminance():
+    """RGB to BW and Math on a picture with colours; grey ones stay as they are."""
+    srgb = lambda x: 12.92 * x if x <= 0.0031308 else 1.055 * x ** (1 / 2.4) - 0.055
+    y = sum(w * ((x / 255 + 0.055) / 1.055) ** 2.4 for w, x in zip((0.2126, 0.7152, 0.0722), (200, 100, 40)))
+
+    def pixel(codes, node):
+        image = lambda n: n.node("TexImage", {"image": picture("grey.png", 3, 1, 1, codes)})
+        block, text = material_text(lambda n: n.node("BsdfDiffuse", Color=node(n, image(n))))
+        return read_png_rows(text.one("texture", block["diffuse_texture"])["file"])[0][0], block["diffuse"]
+
+    to_grey = lambda n, i: n.node("RGBToBW", Color=i)
+    half = lambda n, i: n.node("Math", {"operation": "MULTIPLY"}, Value=i, Value_001=0.5)
+    rest = lambda n, i: n.node("Math", {"operation": "SUBTRACT"}, Value=1.0, Value_001=i)
+    equal(pixel([200, 100, 40], to_grey), ((round(255 * srgb(y)),) * 3, [1, 1, 1]))
+    equal(pixel([200, 100, 40], half), ((round(255 * srgb(y)),) * 3, [0.5, 0.5, 0.5]))
+    equal(pixel([200, 100, 40], rest), ((round(255 * srgb(1 - y)),) * 3, [1, 1, 1]))
+    equal(pixel([90, 90, 90], half), ((90, 90, 90), [0.5, 0.5, 0.5]))
+    sum_of = lambda n: n.node("BsdfDiffuse", Color=n.node("Math", {"operation": "ADD"}, Value=n.node(
+        "TexImage", {"image": picture()}), Value_001=0.5))
+    material_text(sum_of, [12])
