@@ -39,7 +39,9 @@ import math
 import operator
 import os
 import re
+import shutil
 import struct
+import subprocess
 import sys
 import tempfile
 import zlib
@@ -101,6 +103,9 @@ WARNINGS = {
     32: "emission that would light other objects",
     33: "shape asked for by rt_shape that does not fit",
     34: "motion that cannot be followed",
+    35: "number beyond what the scene text takes",
+    36: "thing without size or direction",
+    37: "file that Blender opened with errors",
 }
 
 
@@ -349,12 +354,30 @@ def length(v):
     return math.sqrt(sum(x * x for x in v))
 
 
+def difference(a, b):
+    return [x - y for x, y in zip(a, b)]
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
 def without_scale(rows):
     """Columns of unit length: cameras and lights have no size of their own."""
     lengths = [length(column(rows, i)) or 1.0 for i in range(3)]
     if all(abs(x - 1) < 1e-6 for x in lengths):
         return rows
     return tuple(tuple(row[i] / lengths[i] for i in range(3)) + (row[3],) for row in rows)
+
+
+def is_flat(rows):
+    """Whether the map has no inverse worth the name: something is scaled to nothing."""
+    size = max(max(abs(x) for x in row[:3]) for row in rows)
+    return abs(determinant(rows)) <= 1e-12 * size**3
 
 
 def nearly_equal(a, b):
@@ -463,7 +486,7 @@ class Motion:
             report.warn(34, "is not there during the whole shutter", "it stands still")
             return [rows]
         signs = {determinant(s) > 0 for s in samples}
-        if len(signs) > 1 or any(determinant(s) == 0 for s in samples):
+        if len(signs) > 1 or any(map(is_flat, samples)):
             if not all(nearly_equal(samples[0], s) for s in samples):
                 report.warn(34, "turns flat or inside out in the shutter", "it stands still")
             return [rows]
@@ -476,7 +499,7 @@ class Motion:
 
 def picture_size(render):
     percent = render.resolution_percentage
-    return render.resolution_x * percent // 100, render.resolution_y * percent // 100
+    return max(render.resolution_x * percent // 100, 1), max(render.resolution_y * percent // 100, 1)
 
 
 def crop_of(render, width, height):
@@ -484,6 +507,14 @@ def crop_of(render, width, height):
     x0, x1 = (int(single(f * width)) for f in (render.border_min_x, render.border_max_x))
     y0, y1 = (int(single(f * height)) for f in (render.border_min_y, render.border_max_y))
     return x0, height - y1, x1, height - y0
+
+
+def within(x, least, most, what, report):
+    """x as the scene text takes it."""
+    taken = min(max(x, least), most) if math.isfinite(x) else least
+    if taken != x:
+        report.warn(35, "%s is %s" % (what, "%.6g" % x), "%.6g" % taken)
+    return taken
 
 
 def pixel_filter(scene):
@@ -571,6 +602,18 @@ def focus_distance(camera, rows, depsgraph):
     return abs(sum(a * (e - p) for a, e, p in zip(axis, eye, place)))
 
 
+def unscaled(camera):
+    """Place of a camera whose world matrix has lost its directions."""
+    turn = camera.matrix_basis.to_3x3()
+    if camera.rotation_mode == "QUATERNION":
+        turn = camera.rotation_quaternion.to_matrix()
+    elif camera.rotation_mode != "AXIS_ANGLE":
+        turn = camera.rotation_euler.to_matrix()
+    rows = rows_of(Matrix.LocRotScale(camera.matrix_world.translation, turn, None))
+    place = camera.matrix_world.translation
+    return rows if not is_flat(rows) else tuple(IDENTITY[i][:3] + (place[i],) for i in range(3))
+
+
 def put_camera(text, camera, keys, rows, depsgraph, name, report):
     """`camera` is evaluated; `rows` is its place at the frame, `keys` its places in the shutter."""
     data = camera.data
@@ -579,9 +622,13 @@ def put_camera(text, camera, keys, rows, depsgraph, name, report):
         if data.type not in {"PERSP", "ORTHO"}:
             report.warn(7, "camera type %s" % data.type, "perspective")
         text.put("type", "orthographic" if is_ortho else "perspective")
-        text.put_keys([without_scale(k) for k in keys])
+        keys = [without_scale(k) for k in keys]
+        if any(map(is_flat, keys)):
+            report.warn(36, "its scale is 0", "its own rotation")
+            keys = [unscaled(camera)]
+        text.put_keys(keys)
         if is_ortho:
-            text.put("ortho_scale", data.ortho_scale)
+            text.put("ortho_scale", within(data.ortho_scale, 1e-6, 1e30, "its orthographic scale", report))
         else:
             text.put("lens", data.lens)
         text.put("sensor", data.sensor_width, data.sensor_height)
@@ -647,6 +694,8 @@ def put_light(text, name, lamp, rows, is_visible, values, report):
     place = without_scale(rows)
     scale = [length(column(rows, i)) for i in range(3)]
     power = scaled(product(light_color(lamp), light_strength(lamp, values, report)), lamp.energy)
+    if min(power) < 0:
+        report.warn(35, "it takes light away", "none")
     power = tuple(max(x, 0.0) for x in power)
     normalize = getattr(lamp, "normalize", True)  # 4.5
     with text.block("light", name):
@@ -654,19 +703,40 @@ def put_light(text, name, lamp, rows, is_visible, values, report):
         text.put_unless(True, "shadows", casts_shadows(lamp))
 
 
-def put_point_light(text, lamp, power, place, _scale, is_visible, normalize, _report):
+def gives_light(lamp, rows, report):
+    """False, after a warning, for what the renderer would refuse and Cycles shows nothing of."""
+    scale = [length(column(rows, i)) for i in range(3)]
+    if not all(map(math.isfinite, (*lamp.color, lamp.energy))):
+        report.warn(11, "its colour or power is not finite", "left out")
+        return False
+    if lamp.type != "POINT" and is_flat(without_scale(rows)):
+        report.warn(36, "its scale is 0", "left out")
+        return False
+    size_y = lamp.size_y if lamp.type == "AREA" and lamp.shape in {"RECTANGLE", "ELLIPSE"} else 1
+    if lamp.type == "AREA" and min(lamp.size * scale[0], size_y * scale[1]) < 1e-9:
+        report.warn(36, "its area is 0", "left out")
+        return False
+    return True
+
+
+def put_color(text, color, report):
+    """Radiance or intensity of a light."""
+    text.put("color", tuple(within(x, 0.0, 1e15, "its brightness", report) for x in color))
+
+
+def put_point_light(text, lamp, power, place, _scale, is_visible, normalize, report):
     radius = lamp.shadow_soft_size
     if radius > 0 and is_sphere_lamp(lamp):
         area = 4 * math.pi * math.pi * radius * radius if normalize else math.pi
         text.put("type", "sphere")
         text.put("translate", column(place, 3))
-        text.put("color", scaled(power, 1 / area))
+        put_color(text, scaled(power, 1 / area), report)
         text.put("radius", radius)
         text.put_unless(False, "visible", is_visible)
         return
     text.put("type", "point")
     text.put("translate", column(place, 3))
-    text.put("color", scaled(power, intensity_factor(radius, normalize)))
+    put_color(text, scaled(power, intensity_factor(radius, normalize)), report)
     text.put_unless(0, "radius", radius)
 
 
@@ -687,14 +757,14 @@ def put_spot(text, lamp, power, place, scale, _is_visible, normalize, report):
             angle = 2 * math.atan(math.tan(angle / 2) * across / scale[2])
     text.put("type", "spot")
     text.put_rows(place)
-    text.put("color", scaled(power, intensity_factor(lamp.shadow_soft_size, normalize)))
+    put_color(text, scaled(power, intensity_factor(lamp.shadow_soft_size, normalize)), report)
     text.put_unless(0, "radius", lamp.shadow_soft_size)
     text.put("cone_angle", min(math.degrees(angle), 180.0))
     text.put("blend", lamp.spot_blend)
     text.put_unless(False, "cosine_falloff", VERSION < (3, 5))
 
 
-def put_sun(text, lamp, power, place, _scale, _is_visible, normalize, _report):
+def put_sun(text, lamp, power, place, _scale, _is_visible, normalize, report):
     angle = lamp.angle
     factor = 1.0
     if VERSION < (4, 0):  # measured in 3.4: a large sun loses a little
@@ -703,14 +773,14 @@ def put_sun(text, lamp, power, place, _scale, _is_visible, normalize, _report):
         factor *= math.pi * math.sin(angle / 2) ** 2
     text.put("type", "sun")
     text.put_rows(place)
-    text.put("color", scaled(power, factor))
-    text.put_unless(0, "angle", math.degrees(angle))
+    put_color(text, scaled(power, factor), report)
+    text.put_unless(0, "angle", min(math.degrees(angle), 180.0))  # half a turn as a float is more
 
 
-def put_area_light(text, lamp, power, place, scale, is_visible, normalize, _report):
+def put_area_light(text, lamp, power, place, scale, is_visible, normalize, report):
     is_round = lamp.shape in {"DISK", "ELLIPSE"}
     size_y = lamp.size_y if lamp.shape in {"RECTANGLE", "ELLIPSE"} else lamp.size
-    size = (max(lamp.size * scale[0], 1e-9), max(size_y * scale[1], 1e-9))
+    size = (lamp.size * scale[0], size_y * scale[1])
     area = size[0] * size[1] * (math.pi / 4 if is_round else 1)
     if not normalize:
         area = 1.0
@@ -718,7 +788,7 @@ def put_area_light(text, lamp, power, place, scale, is_visible, normalize, _repo
         area *= 4 / math.pi
     text.put("type", "disk" if is_round else "rectangle")
     text.put_rows(place)
-    text.put("color", scaled(power, 1 / (math.pi * area)))
+    put_color(text, scaled(power, 1 / (math.pi * area)), report)
     text.put("size", *size)
     spread = math.degrees(getattr(lamp, "spread", math.pi))
     if spread < 179.99:
@@ -1164,6 +1234,7 @@ class Images:
         decode = texture.space == "srgb" and texture.channel == "color" and not is_float
         means = []
         for plane in planes:
+            plane = finite(plane)
             means.append(sum(map(srgb_to_linear, plane) if decode else plane) / len(plane))
         return tuple(means)
 
@@ -2039,7 +2110,7 @@ class Shaders:
         chooser = self.values.source(at)
         ior = fresnel_ior(self.values, chooser)
         if ior is not None:
-            return self.mix_by_fresnel(found, first, second, max(ior, 1.0))
+            return self.mix_by_fresnel(found, first, second, min(max(ior, 1.0), 1000.0))
         facing = facing_mean(self.values, chooser)
         if facing is not None:
             return self.mix_by_facing(found, first, second, facing)
@@ -2117,14 +2188,14 @@ class Shaders:
 
     def glass(self, found):
         color = self.values.color(found, "Color")
-        shared = dict(roughness=self.roughness(found), ior=self.values.number(found, "IOR", default=1.45),
+        shared = dict(roughness=self.roughness(found), ior=self.ior(found, 1.45),
                       fresnel="dielectric", normal=self.normal(found))
         self.ignored(found, (("Thin Film Thickness",),))
         return [Lobe("transmission", color, **shared), Lobe("glossy", color, **shared)]
 
     def refraction(self, found):
         color = self.values.color(found, "Color")
-        ior = self.values.number(found, "IOR", default=1.45)
+        ior = self.ior(found, 1.45)
         return [Lobe("transmission", color, None, self.roughness(found), ior, normal=self.normal(found))]
 
     def transparent(self, found):
@@ -2160,7 +2231,7 @@ class Shaders:
         metallic = min(max(values.number(found, "Metallic"), 0.0), 1.0)
         clear = min(max(values.number(found, "Transmission Weight", "Transmission"), 0.0), 1.0)
         level = values.number(found, "Specular IOR Level", "Specular", default=0.5)
-        ior = max(values.number(found, "IOR", default=1.45), 1.0)
+        ior = max(self.ior(found, 1.45), 1.0)
         normal = self.normal(found)
         roughness = self.roughness(found)
         self.ignored(found, PRINCIPLED_IGNORED + (() if is_new else (("Specular Tint",),)))
@@ -2202,6 +2273,11 @@ class Shaders:
         return lobes if a == 1 else all_times(lobes, a) + [Lobe("transparent", scaled(WHITE, 1 - a))]
 
     # ---- inputs
+
+    def ior(self, found, default):
+        """As Cycles and the renderer take it."""
+        ior = self.values.number(found, "IOR", default=default)
+        return within(ior, 1e-3, 1000.0, "the IOR of node '%s'" % found.node.name, self.report)
 
     def roughness(self, found):
         if getattr(found.node, "distribution", "") == "SHARP":  # up to 3.6
@@ -2399,7 +2475,7 @@ class Folder:
         solid = [l for l in lobes if l.kind != "transparent"]
         for lobe in lobes:
             if lobe.cover:
-                material.opacity = min(gray(lobe.cover.rgb), 1.0)
+                material.opacity = min(max(gray(lobe.cover.rgb), 0.0), 1.0)
                 material.opacity_texture = lobe.cover.texture
                 material.filter = lobe.rgb
         through = BLACK
@@ -2481,7 +2557,16 @@ class Folder:
             if not all(math.isfinite(x) for x in color):
                 self.report.warn(11, "its %s is not finite" % name, "0")
                 color = BLACK
-            setattr(material, name, tuple(max(x, 0.0) for x in color))
+            setattr(material, name, tuple(
+                within(max(x, 0.0), 0.0, 1e15, "its %s" % name, self.report) for x in color))
+        normal = material.normal
+        distance = normal.bump_distance
+        if not math.isfinite(distance):
+            self.report.warn(11, "its bump distance is not finite", "0")
+            distance = 0.0
+        material.normal = replace(
+            normal, bump_distance=distance,
+            normal_strength=within(normal.normal_strength, 0.0, 1000.0, "its normal strength", self.report))
         return material
 
 
@@ -2505,7 +2590,7 @@ def world_light(scene, shaders, folder, report):
         return BLACK, None, 0.0
     with report.at("world", world.name):
         if not getattr(world, "use_nodes", True) or world.node_tree is None:
-            return tuple(world.color), None, 0.0
+            return folder.safe(Material("world", emission=tuple(world.color))).emission, None, 0.0
         output = world.node_tree.get_output_node("CYCLES") or world.node_tree.get_output_node("ALL")
         if output is None:
             return BLACK, None, 0.0
@@ -2593,20 +2678,22 @@ def recognise(mesh):
 
 
 def recognise_plane(mesh):
+    """A flat convex quadrilateral by the renderer's own rule (faultOfCorners in Code/desc), in double as
+    there, with narrower limits."""
     face = mesh.polygons[0]
     if len(face.vertices) != 4:
         return None
-    c = [Vector(mesh.vertices[i].co) for i in face.vertices]
-    normal = (c[2] - c[0]).cross(c[3] - c[1])
-    size = max((c[2] - c[0]).length, (c[3] - c[1]).length)
-    if normal.length <= 1e-9 * size * size:
+    c = [tuple(mesh.vertices[i].co) for i in face.vertices]
+    normal = cross(difference(c[2], c[0]), difference(c[3], c[1]))
+    size = max(length(difference(c[2], c[0])), length(difference(c[3], c[1])))
+    if not length(normal) > 1e-9 * size * size:
         return None
-    normal.normalize()
-    if abs(normal.dot(c[1] - c[0])) > 1e-6 * size:
+    normal = [x / length(normal) for x in normal]
+    if not abs(dot(normal, difference(c[1], c[0]))) <= 1e-6 * size:
         return None
     for i in range(4):
-        turn = (c[(i + 1) % 4] - c[i]).cross(c[(i + 2) % 4] - c[(i + 1) % 4])
-        if turn.dot(normal) <= 1e-6 * size * size:
+        turn = cross(difference(c[(i + 1) % 4], c[i]), difference(c[(i + 2) % 4], c[(i + 1) % 4]))
+        if not dot(turn, normal) > 1e-6 * size * size:
             return None
     return Shape("plane", corners=[x for corner in c for x in corner])
 
@@ -2811,10 +2898,10 @@ class Meshes:
         if domain == "FACE":
             return
         if domain == "POINT":
-            text.put_array("normals", vertex_normals(mesh), 3, "%.9g")
+            text.put_array("normals", finite(vertex_normals(mesh)), 3, "%.9g")
             text.put_array("normal_triangles", triangles, 3, "%d")
             return
-        normals = corner_normals(mesh)
+        normals = finite(corner_normals(mesh))
         indices = {}
         corner = index_corners(normals, 12, indices)
         text.put_array("normals", unique_floats(indices), 3, "%.9g")
@@ -3051,6 +3138,8 @@ class SceneExport:
         samples = motion.samples(instance_key(instance), rows)
         if samples and not all(nearly_equal(samples[0], s) for s in samples[1:]):
             self.report.warn(10, "the light moves", "it stands still")
+        if not gives_light(lamp, rows, self.report):
+            return
         text, name = Text(), self.name_of(instance, self.light_names)
         is_visible = getattr(thing, "visible_camera", False)
         put_light(text, name, lamp, rows, is_visible, self.values, self.report)
@@ -3067,19 +3156,18 @@ class SceneExport:
             return
         slots = self.material_slots(thing, mesh)
         keys = motion.keys(instance_key(instance), rows, thing, self.report)
-        size = max(max(abs(x) for x in row[:3]) for row in rows)
-        is_flat = abs(determinant(rows)) <= 1e-12 * size**3
-        if size == 0:
+        if not any(x for row in rows for x in row[:3]):
             self.report.note("object '%s' has the scale 0" % thing.name)
             return
-        geometry = self.geometry(thing, mesh, slots, rows if is_flat else None)
+        flat = is_flat(rows)
+        geometry = self.geometry(thing, mesh, slots, rows if flat else None)
         if geometry is None:
             return
         materials = [slots[s] for s in geometry.slots]
         if self.collect_lamp(instance, thing, geometry, materials, keys):
             return
         name = self.name_of(instance, self.object_names)
-        keys = [IDENTITY] if is_flat else keys
+        keys = [IDENTITY] if flat else keys
         self.objects.append((name, self.object_text(name, geometry, keys, materials)))
 
     def geometry(self, thing, mesh, slots, flatten):
@@ -3330,6 +3418,10 @@ def parse(arguments, is_module):
     parser.add_argument("--textures", metavar="DIR",
                         help="where pictures are looked for and copied to; default: Textures beside the output")
     parser.add_argument("--ppm", action="store_true", help="turn 8-bit pictures without alpha into PPM files")
+    parser.add_argument("--no-check", action="store_true",
+                        help="do not run `raytracer --check` on what was written; it runs when the program named by "
+                             "the environment variable RAYTRACER, beside the folder of this script, or on the PATH is "
+                             "there, and what it refuses is an error")
     parser.add_argument("--strict", action="store_true", help="exit with 3 when there were warnings")
     parser.add_argument("--verbose", action="store_true", help="say what is being done")
     parser.add_argument("--list-warnings", action="store_true", help="print the table of warnings and stop")
@@ -3398,20 +3490,49 @@ def export(options, report):
             text = SceneExport(scene, layer, frame, camera, images, report).run()
             write_atomically(path, text.encode("utf-8"))
             report.note("wrote %s" % path)
+            if not options.no_check:
+                check(path, report)
     finally:
         if scene.frame_current != current:
             scene.frame_set(current)
         scene.camera = old_camera
 
 
-def open_file(options, is_module):
+def renderer():
+    """Path of the ray tracer; None if it is not there."""
+    script = os.path.dirname(os.path.abspath(globals().get("__file__", "")))
+    beside = os.path.join(os.path.dirname(script), "raytracer")
+    return os.environ.get("RAYTRACER") or (beside if os.path.isfile(beside) else shutil.which("raytracer"))
+
+
+def check(path, report):
+    """Lets the renderer read the scene: what it refuses shall not look like a success."""
+    program = renderer()
+    if program is None:
+        report.note("no raytracer is there to check %s" % path)
+        return
+    try:
+        done = subprocess.run([program, "--check", path], capture_output=True, text=True, errors="replace")
+    except OSError as problem:
+        report.note("%s cannot be started: %s" % (program, problem))
+        return
+    if done.returncode != 0:
+        raise ExportError("raytracer --check refuses what was written (exit code %d):\n%s"
+                          % (done.returncode, done.stderr.strip()[-2000:]))
+
+
+def open_file(options, is_module, report):
     if is_module and options.blend:
         if not os.path.isfile(options.blend):
             raise ExportError("no file '%s'" % options.blend)
         try:
             bpy.ops.wm.open_mainfile(filepath=os.path.abspath(options.blend))
         except RuntimeError as problem:
-            raise ExportError("'%s' cannot be opened: %s" % (options.blend, str(problem).strip())) from None
+            # Blender raises what it reports as an error, a missing library too, though the file is open.
+            opened = bpy.data.filepath
+            if not opened or not os.path.samefile(opened, options.blend):
+                raise ExportError("'%s' cannot be opened: %s" % (options.blend, str(problem).strip())) from None
+            report.warn(37, "Blender says: %s" % " ".join(str(problem).split()), "what is there of the file")
     elif is_module:
         raise ExportError("which .blend file? See --help")
     elif bpy.app.background and not bpy.data.filepath:
@@ -3435,7 +3556,7 @@ def main():
         return 0
     report = Report(options.verbose)
     try:
-        open_file(options, is_module)
+        open_file(options, is_module, report)
         export(options, report)
     except (ExportError, OSError) as problem:
         print("Export.py: error: %s" % problem, file=sys.stderr)

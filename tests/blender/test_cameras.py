@@ -152,3 +152,17 @@ def settings_are_restored():
     before = (scene.render.engine, scene.render.use_compositing, scene.frame_current, scene.render.filepath, scene.camera)
     export(arguments=["--frame", "7"])
     equal((scene.render.engine, scene.render.use_compositing, scene.frame_current, scene.render.filepath, scene.camera), before)
+
+
+@test
+def cameras_that_the_renderer_would_refuse():
+    scene = new_scene()
+    wanted = export().one("camera").keys()[0]
+    scene.camera.scale = (0, 0, 0)
+    near(export([36]).one("camera").keys()[0], wanted)
+    scene.camera.scale = (1, 1, 1)
+    scene.camera.data.type, scene.camera.data.ortho_scale = "ORTHO", 0
+    assert export([35]).one("camera")["ortho_scale"] > 0
+    scene.camera.data.type = "PERSP"
+    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 16, 4, 1
+    equal(export([3]).one("settings")["resolution"], [1, 1])  # Blender itself renders none that small

@@ -119,3 +119,24 @@ def moving_light_warns():
     animate(lamp, "location", {0: (0, 0, 0), 2: (2, 0, 0)})
     scene.frame_set(1)
     near(export([10]).one("light")["translate"], [1, 0, 0])
+
+
+@test
+def lamps_that_the_renderer_would_refuse():
+    """Each is clamped or left out with one warning; export() lets the renderer check the text."""
+    for kind in ("SUN", "SPOT", "AREA"):
+        new_scene()
+        add_light(kind, (0, 0, 0))
+        equal(export([36]).all("light"), [])
+        new_scene()
+        add_light(kind, (1, 1, 0))
+        equal(export([36]).all("light"), [])
+    equal(light_text("POINT", scale=(0, 0, 0))["type"], "point")
+    equal(light_text("SUN", angle=math.pi)["angle"], 180)
+    for settings in ({"size": 0}, {"shape": "RECTANGLE", "size": 1, "size_y": 0}, {"shape": "DISK", "size": 0}):
+        new_scene()
+        add_light("AREA", **settings)
+        equal(export([36]).all("light"), [])
+    equal(light_text("POINT", [35], energy=1e30)["color"], [1e15] * 3)
+    near(light_text("SPOT", spot_size=math.pi)["cone_angle"], 180)
+    equal(light_text("POINT", [35], energy=-5)["color"], [0, 0, 0])

@@ -226,3 +226,16 @@ def nodes_without_a_counterpart_warn():
     nodes.set(output.inputs["Volume"], nodes.node("VolumeScatter"))
     primitive("cube", nodes.owner)
     export([21])
+
+
+@test
+def numbers_that_the_renderer_would_refuse():
+    for kind in ("BsdfGlass", "BsdfRefraction"):
+        block, _ = material_text(lambda n: n.node(kind, IOR=0.0), [35])
+        near(block["ior"], 1e-3)
+        block, _ = material_text(lambda n: n.node(kind, IOR=5000.0), [35])
+        near(block["ior"], 1000)
+    material_text(lambda n: n.mix(n.node("Fresnel", IOR=0.0), n.node("BsdfDiffuse"), n.node("BsdfGlossy")))
+    material_text(lambda n: n.node("Emission", Strength=1e30), [32, 35])
+    dark = lambda n: n.node("BsdfDiffuse", Color=n.node("Math", {"operation": "LOGARITHM"}, Value=-1.0))
+    material_text(dark)

@@ -114,3 +114,15 @@ def negative_zero_and_uneven_scale():
     near(flat.keys()[0], [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]])
     near(text.one("mesh", flat["mesh"]).arrays["points"], [[0, 0, 5], [2, 0, 5], [0, 1, 5], [0, 0, 5]])
     equal(len(text.all("instance")), 2)
+
+
+@test
+def convex_by_a_hair_is_one_rule():
+    """Corners that float arithmetic takes for convex and double for concave: whatever they are written as, the
+    renderer takes it (export() lets it check)."""
+    for step in range(40):
+        new_scene()
+        depth = 0.5 + (step - 20) * 3e-8
+        far = 1e4 * (step % 3)
+        add("Q", mesh_of([(far, 0, 0), (far + 1, 0, 0), (far + depth, depth, 0), (far, 1, 0)], [(0, 1, 2, 3)]))
+        equal(len(export().all("plane", "instance")), 1)

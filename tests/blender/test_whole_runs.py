@@ -53,9 +53,10 @@ class Launch:
         start = ["-b", blend] if blend else ["-b", "--factory-startup"]
         return [self.program, *start, "--python-exit-code", "3", "-P", path, "--", *arguments]
 
-    def run(self, path, arguments=(), blend=None, timeout=600):
+    def run(self, path, arguments=(), blend=None, timeout=600, environment=None):
         return subprocess.run(self.script(path, arguments, blend), capture_output=True, text=True, timeout=timeout,
-                              env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
+                              env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1",
+                                   "RAYTRACER": RAYTRACER, **(environment or {})})
 
 
 def expect(done, code, *parts):
@@ -83,6 +84,19 @@ def exit_codes(launch, folder):
     expect(launch.run(SCRIPT, ["-o", os.path.join(folder, "good.blend", "x.txt")], good), 2)
     missing = launch.run(SCRIPT, ["-o", out], os.path.join(folder, "missing.blend"))
     assert missing.returncode != 0
+
+
+@whole
+def what_the_renderer_refuses_is_an_error(launch, folder):
+    good, out = os.path.join(folder, "good.blend"), os.path.join(folder, "checked.txt")
+    program = os.path.join(folder, "refuses")
+    with open(program, "w") as file:
+        file.write("#!/bin/sh\necho \"$1 $2: error: it is not to my taste\" >&2\nexit 2\n")
+    os.chmod(program, 0o755)
+    environment = {"RAYTRACER": program}
+    expect(launch.run(SCRIPT, ["-o", out], good, environment=environment), 2, "--check %s: error: it is not to my taste" % out)
+    expect(launch.run(SCRIPT, ["-o", out, "--no-check"], good, environment=environment), 0)
+    expect(launch.run(SCRIPT, ["-o", out], good, environment={"RAYTRACER": os.path.join(folder, "none")}), 0)
 
 
 @whole
