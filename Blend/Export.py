@@ -35,6 +35,7 @@ import argparse
 import contextlib
 import functools
 import hashlib
+import itertools
 import math
 import operator
 import os
@@ -231,15 +232,42 @@ class Text:
         """A counted array of a mesh. Formatting in large pieces is what makes this fast."""
         count = len(values) // width
         self.lines.append("    %s %d" % (keyword, count))
-        line = "      " + " ".join([form] * width)
+        line = " ".join([form] * width)
         step = 16384
         for first in range(0, count, step):
             rows = min(step, count - first)
             pattern = "\n".join([line] * rows)
             self.lines.append(pattern % tuple(values[first * width : (first + rows) * width]))
 
+    def put_texts(self, keyword, texts, width):
+        """The same of numbers that are texts already."""
+        self.lines.append("    %s %d" % (keyword, len(texts) // width))
+        self.lines.append("\n".join(map(" ".join, zip(*[iter(texts)] * width))))
+
     def __str__(self):
         return "\n".join(self.lines) + "\n"
+
+
+NORMAL = "%.6g"  # 1e-6 of a direction is a fifth of a second of arc
+
+
+def shortest_floats(values):
+    """Texts of an array of floats, each with as few digits as read back to the same float. Large pieces
+    make this fast."""
+    texts, at, rest = [""] * len(values), range(len(values)), values
+    for form in ("%.6g ", "%.7g ", "%.8g ", "%.9g "):
+        made = (form * len(rest) % tuple(rest)).split()
+        wrong = list(map(operator.ne, array("f", map(float, made)), rest))
+        if at is not None and len(at) == len(texts):
+            texts = made
+        else:
+            for i, text in zip(at, made):
+                texts[i] = text
+        at = list(itertools.compress(at, wrong))
+        if not at:
+            break
+        rest = array("f", itertools.compress(rest, wrong))
+    return texts
 
 
 class Names:
@@ -690,7 +718,7 @@ def is_sphere_lamp(lamp):
     return not getattr(lamp, "use_soft_falloff", False)
 
 
-def put_light(text, name, lamp, rows, is_visible, values, report):
+def put_light(text, name, lamp, rows, seen_by, values, report):
     place = without_scale(rows)
     scale = [length(column(rows, i)) for i in range(3)]
     power = scaled(product(light_color(lamp), light_strength(lamp, values, report)), lamp.energy)
@@ -699,8 +727,11 @@ def put_light(text, name, lamp, rows, is_visible, values, report):
     power = tuple(max(x, 0.0) for x in power)
     normalize = getattr(lamp, "normalize", True)  # 4.5
     with text.block("light", name):
-        LIGHT_TYPES[lamp.type](text, lamp, power, place, scale, is_visible, normalize, report)
+        LIGHT_TYPES[lamp.type](text, lamp, power, place, scale, normalize, report)
         text.put_unless(True, "shadows", casts_shadows(lamp))
+        has_size = {"AREA": 1, "SUN": lamp.angle if lamp.type == "SUN" else 0}.get(
+            lamp.type, getattr(lamp, "shadow_soft_size", 0)) > 0
+        text.put_unless("none", "seen_by", seen_by if has_size else "none")
 
 
 def gives_light(lamp, rows, report):
@@ -724,7 +755,7 @@ def put_color(text, color, report):
     text.put("color", tuple(within(x, 0.0, 1e15, "its brightness", report) for x in color))
 
 
-def put_point_light(text, lamp, power, place, _scale, is_visible, normalize, report):
+def put_point_light(text, lamp, power, place, _scale, normalize, report):
     radius = lamp.shadow_soft_size
     if radius > 0 and is_sphere_lamp(lamp):
         area = 4 * math.pi * math.pi * radius * radius if normalize else math.pi
@@ -732,7 +763,6 @@ def put_point_light(text, lamp, power, place, _scale, is_visible, normalize, rep
         text.put("translate", column(place, 3))
         put_color(text, scaled(power, 1 / area), report)
         text.put("radius", radius)
-        text.put_unless(False, "visible", is_visible)
         return
     text.put("type", "point")
     text.put("translate", column(place, 3))
@@ -747,7 +777,7 @@ def intensity_factor(radius, normalize):
     return 1 / math.pi if radius <= 0 else radius * radius
 
 
-def put_spot(text, lamp, power, place, scale, _is_visible, normalize, report):
+def put_spot(text, lamp, power, place, scale, normalize, report):
     angle = lamp.spot_size
     if VERSION >= (3, 5):  # before, scale did not matter
         if abs(scale[0] - scale[1]) > 1e-4 * scale[0]:
@@ -764,7 +794,7 @@ def put_spot(text, lamp, power, place, scale, _is_visible, normalize, report):
     text.put_unless(False, "cosine_falloff", VERSION < (3, 5))
 
 
-def put_sun(text, lamp, power, place, _scale, _is_visible, normalize, report):
+def put_sun(text, lamp, power, place, _scale, normalize, report):
     angle = lamp.angle
     factor = 1.0
     if VERSION < (4, 0):  # measured in 3.4: a large sun loses a little
@@ -777,7 +807,7 @@ def put_sun(text, lamp, power, place, _scale, _is_visible, normalize, report):
     text.put_unless(0, "angle", min(math.degrees(angle), 180.0))  # half a turn as a float is more
 
 
-def put_area_light(text, lamp, power, place, scale, is_visible, normalize, report):
+def put_area_light(text, lamp, power, place, scale, normalize, report):
     is_round = lamp.shape in {"DISK", "ELLIPSE"}
     size_y = lamp.size_y if lamp.shape in {"RECTANGLE", "ELLIPSE"} else lamp.size
     size = (lamp.size * scale[0], size_y * scale[1])
@@ -793,7 +823,6 @@ def put_area_light(text, lamp, power, place, scale, is_visible, normalize, repor
     spread = math.degrees(getattr(lamp, "spread", math.pi))
     if spread < 179.99:
         text.put("spread", max(spread, 1e-3))
-    text.put_unless(False, "visible", is_visible)
 
 
 LIGHT_TYPES = {
@@ -2398,6 +2427,7 @@ class Material:
     opacity_texture: Optional[Texture] = None
     filter: tuple = WHITE
     normal: Normal = Normal()
+    is_volume: bool = False  # has no surface
 
     def textures(self):
         found = (self.diffuse_texture, self.specular_texture, self.emission_texture,
@@ -2626,11 +2656,12 @@ VALUE_NODES["ShaderNodeTexEnvironment"] = environment_texture
 # ----------------------------------------------------------------------------------------- 13 shapes
 
 # A mesh counts as a sphere when its vertices lie on an ellipsoid along its axes to SPHERE_ERROR of
-# the radius, it is closed, faces outwards, and its faces come close enough to the ellipsoid: smooth
-# shading hides more than flat shading. A UV sphere of 32x16 is off by 0.0096, of 80x40 by 0.0015.
+# the radius, it is closed and smooth, faces outwards, and its faces come within SAGITTA of the
+# ellipsoid, so that it renders as the mesh does and no tight shell lies between. A UV sphere of 64x32
+# is off by 0.0024, of 32x16 by 0.0096.
 SPHERE_ERROR = 1e-5
 SPHERE_MAX_VERTICES = 40000
-SAGITTA_SMOOTH, SAGITTA_FLAT = 0.1, 0.002
+SAGITTA = 0.0025
 
 
 @dataclass
@@ -2662,18 +2693,24 @@ def bounds(points):
     return [min(p) for p in planes], [max(p) for p in planes]
 
 
+def is_closed(mesh):
+    return len(mesh.loops) == 2 * len(mesh.edges) and len(mesh.vertices) - len(mesh.edges) + len(mesh.polygons) == 2
+
+
 def recognise(mesh):
-    """The record that says the same as the mesh; None when it is just a mesh."""
+    """The record that renders as the mesh does; None when it is just a mesh."""
+    if mesh.has_custom_normals:
+        return None
     vertices, faces = len(mesh.vertices), len(mesh.polygons)
     if vertices == 4 and faces == 1:
         return recognise_plane(mesh)
-    is_closed = len(mesh.loops) == 2 * len(mesh.edges) and vertices - len(mesh.edges) + faces == 2
-    if not is_closed:
+    if not is_closed(mesh):
         return None
     if vertices == 8 and faces == 6:
         return recognise_cube(mesh)
-    if 42 <= vertices <= SPHERE_MAX_VERTICES:
-        return recognise_sphere(mesh)
+    if 42 <= vertices <= SPHERE_MAX_VERTICES and normals_domain(mesh) == "POINT":
+        shape = recognise_sphere(mesh, SAGITTA)
+        return shape if shape and faces_outwards(mesh, column(shape.rows, 3)) else None
     return None
 
 
@@ -2740,8 +2777,8 @@ def solve3(m, v):
     return [det([[v[i] if k == j else m[i][k] for k in range(3)] for i in range(3)]) / whole for j in range(3)]
 
 
-def recognise_sphere(mesh):
-    """Least squares for a x^2 + b y^2 + c z^2 = 1 about the centroid."""
+def recognise_sphere(mesh, sagitta):
+    """A ball whose faces lie no deeper than that part of its radius, whichever way they face. Least squares for a x^2 + b y^2 + c z^2 = 1 about the centroid."""
     points = read(mesh.vertices, "co", "f", 3)
     count = len(points) // 3
     low, high = bounds(points)
@@ -2760,15 +2797,9 @@ def recognise_sphere(mesh):
     if any(abs(sum(f * s for f, s in zip(fit, at)) - 1) > 2 * SPHERE_ERROR for at in zip(*squares)):
         return None
     axes = [h / math.sqrt(f) for h, f in zip(half, fit)]
-    centers, normals = read(mesh.polygons, "center", "f", 3), read(mesh.polygons, "normal", "f", 3)
-    nearest = 1.0
-    for i in range(0, len(centers), 3):
-        unit = [(centers[i + k] - center[k]) / axes[k] for k in range(3)]
-        nearest = min(nearest, length(unit))
-        if sum(unit[k] / axes[k] * normals[i + k] for k in range(3)) <= 0:
-            return None
-    is_smooth = all(read(mesh.polygons, "use_smooth", "b", 1))
-    if 1 - nearest > (SAGITTA_SMOOTH if is_smooth else SAGITTA_FLAT):
+    centers = read(mesh.polygons, "center", "f", 3)
+    if min(length([(centers[i + k] - center[k]) / axes[k] for k in range(3)])
+           for i in range(0, len(centers), 3)) < 1 - sagitta:
         return None
     if max(axes) - min(axes) < 4 * SPHERE_ERROR * max(axes):
         axes = [sum(axes) / 3] * 3
@@ -2868,13 +2899,13 @@ class Meshes:
         if flatten:
             points = [sum(row[k] * points[i + k] for k in range(3)) + row[3]
                       for i in range(0, len(points), 3) for row in flatten]
-        body.put_array("points", points, 3, "%.9g")
+        body.put_texts("points", shortest_floats(points) if not flatten else list(map(number, points)), 3)
         body.put_array("triangles", triangles, 3, "%d")
         if not flatten:
             self.put_normals(body, mesh, triangles, loops)
         used = {coordinates[s] for s in slots if coordinates[s] is not None}
         if used:
-            self.put_uvs(body, mesh, loops, materials, coordinates, used, slot_count)
+            self.put_uvs(body, mesh, triangles, loops, materials, coordinates, used, slot_count)
         if len(slots) > 1:
             last = max(slot_count - 1, 0)
             rank = {s: i for i, s in enumerate(slots)}
@@ -2898,18 +2929,17 @@ class Meshes:
         if domain == "FACE":
             return
         if domain == "POINT":
-            text.put_array("normals", finite(vertex_normals(mesh)), 3, "%.9g")
-            text.put_array("normal_triangles", triangles, 3, "%d")
+            text.put_array("normals", finite(vertex_normals(mesh)), 3, NORMAL)  # one for each point
             return
         normals = finite(corner_normals(mesh))
         indices = {}
         corner = index_corners(normals, 12, indices)
-        text.put_array("normals", unique_floats(indices), 3, "%.9g")
+        text.put_array("normals", unique_floats(indices), 3, NORMAL)
         text.put_array("normal_triangles", [corner[i] for i in loops], 3, "%d")
 
     # ---- texture coordinates
 
-    def put_uvs(self, text, mesh, loops, materials, coordinates, used, slot_count):
+    def put_uvs(self, text, mesh, triangles, loops, materials, coordinates, used, slot_count):
         indices = {}
         tables = {c: index_corners(self.corner_uvs(mesh, c), 8, indices) for c in sorted(used)}
         if len(used) == 1:
@@ -2923,7 +2953,13 @@ class Meshes:
             for i, m in enumerate(materials):
                 table = by_slot[min(max(m, 0), last)]
                 corners += (table[loops[3 * i]], table[loops[3 * i + 1]], table[loops[3 * i + 2]])
-        text.put_array("uvs", unique_floats(indices), 2, "%.9g")
+        uvs = unique_floats(indices)
+        by_point = dict(zip(triangles, corners))
+        if list(map(by_point.get, triangles)) == corners:  # no seams: one for each point
+            text.put_texts("uvs", shortest_floats(array("f", (
+                x for i in range(len(mesh.vertices)) for x in uvs[2 * by_point.get(i, 0) : 2 * by_point.get(i, 0) + 2]))), 2)
+            return
+        text.put_texts("uvs", shortest_floats(uvs), 2)
         text.put_array("uv_triangles", corners, 3, "%d")
 
     def corner_uvs(self, mesh, coordinates):
@@ -3050,7 +3086,8 @@ NO_MATERIAL = "No material"
 class SceneExport:
     """One frame of a scene. Everything that Blender evaluates is read inside `collect`."""
 
-    def __init__(self, scene, layer, frame, camera, images, report):
+    def __init__(self, scene, layer, frame, camera, images, report, recognises=True):
+        self.recognises = recognises  # spheres, cubes and planes among the meshes
         self.scene, self.layer, self.frame, self.camera = scene, layer, frame, camera
         self.images, self.report = images, report
         self.values = Values(images, report)
@@ -3141,13 +3178,23 @@ class SceneExport:
         if not gives_light(lamp, rows, self.report):
             return
         text, name = Text(), self.name_of(instance, self.light_names)
-        is_visible = getattr(thing, "visible_camera", False)
-        put_light(text, name, lamp, rows, is_visible, self.values, self.report)
+        put_light(text, name, lamp, rows, self.seen_by(thing), self.values, self.report)
         self.lights.append((name, text))
 
+    def seen_by(self, thing):
+        """Which rays see a lamp: by default Blender shows lamps in mirrors and glass, not to the camera."""
+        if not getattr(thing, "visible_diffuse", True):
+            self.report.warn(6, "it is hidden from diffuse rays", "it lights diffuse surfaces")
+        camera = getattr(thing, "visible_camera", False)
+        glossy, through = (getattr(thing, "visible_" + kind, True) for kind in ("glossy", "transmission"))
+        mixed = getattr(getattr(thing.data, "cycles", None), "use_multiple_importance_sampling", True)
+        if glossy != through and mixed:
+            self.report.warn(6, "mirrors and glass see it differently", "both see it" if glossy else "none sees it")
+        reflections = glossy and mixed
+        return {(True, True): "all", (True, False): "camera", (False, True): "reflections"}.get(
+            (camera, reflections), "none")
+
     def collect_mesh(self, instance, thing, rows, motion):
-        if not self.is_seen(thing):
-            return
         self.warn_of_linking(thing)
         # A file that was saved in edit mode: the faces are in the editor's own mesh, data has none.
         mesh = thing.to_mesh() if thing.mode == "EDIT" else thing.data
@@ -3159,13 +3206,16 @@ class SceneExport:
         if not any(x for row in rows for x in row[:3]):
             self.report.note("object '%s' has the scale 0" % thing.name)
             return
-        flat = is_flat(rows)
+        flat, used = is_flat(rows), self.meshes.slots(mesh, len(slots))
+        is_seen = self.is_seen(thing)
+        if self.collect_lamp(instance, thing, mesh, [slots[s] for s in used], keys, is_seen) or not is_seen:
+            return
+        if all(slots[s].is_volume for s in used):
+            return
         geometry = self.geometry(thing, mesh, slots, rows if flat else None)
         if geometry is None:
             return
         materials = [slots[s] for s in geometry.slots]
-        if self.collect_lamp(instance, thing, geometry, materials, keys):
-            return
         name = self.name_of(instance, self.object_names)
         keys = [IDENTITY] if flat else keys
         self.objects.append((name, self.object_text(name, geometry, keys, materials)))
@@ -3190,7 +3240,7 @@ class SceneExport:
                 shape = None
         elif wanted and wanted != "mesh":
             self.report.warn(33, "rt_shape '%s'" % wanted, "a mesh")
-        elif not wanted and not flatten and len(used) == 1 and coordinates[used[0]] is None:
+        elif self.recognises and not wanted and not flatten and len(used) == 1 and coordinates[used[0]] is None:
             shape = recognise(mesh)
         if shape is not None:
             return Geometry(shape, "", used[:1])
@@ -3216,26 +3266,39 @@ class SceneExport:
                 text.put("materials", *[word(m.name) for m in materials])
         return text
 
-    def collect_lamp(self, instance, thing, geometry, materials, keys):
-        """A sphere or a rectangle that only glows lights the scene: it becomes a visible lamp."""
-        glowing = next((m for m in materials if any(m.emission)), None)
+    def collect_lamp(self, instance, thing, mesh, materials, keys, is_seen):
+        """Lamps for a mesh that glows: a rectangle, a disk or a ball lights the scene, others are only
+        seen. True when nothing else is to be written of it.
+
+        What does nothing but glow is seen by its lamps, on both sides, a hair in front of the mesh, which
+        blocks light. What reflects, too, or is hidden from the camera, has lamps that only give light.
+        """
+        glowing = next((m for m in materials if max(m.emission) > FAINT), None)
         if glowing is None or not thing.get("rt_light", True):
             return False
-        shape, material = geometry.shape, materials[0]
-        lamps = lamp_rows(shape, keys[0]) if shape and len(keys) == 1 and material.only_glows() else []
+        material = materials[0]
+        is_whole = len(materials) == 1 and len(keys) == 1 and material.opacity == 1 and not material.opacity_texture
+        eyes = [column(rows_of(c.matrix_world), 3) for c in self.scene.objects if c.type == "CAMERA"]
+        lamps, is_around = lamps_of(mesh, keys[0], eyes) if is_whole else ([], False)
         if not lamps:
-            self.report.warn(32, "material '%s' glows" % glowing.name, "it is seen, but lights nothing")
+            self.report.warn(32, "material '%s' glows" % glowing.name,
+                             "it is seen, but lights nothing" if is_seen else "it lights nothing")
             return False
+        color = self.values.constant(Value(material.emission, material.emission_texture))
+        if material.emission_texture:
+            self.report.warn(32, "material '%s' glows with a texture" % glowing.name, "it lights with its mean")
+        shows = is_seen and material.only_glows()
         for kind, rows, size in lamps:
             text, name = Text(), self.name_of(instance, self.light_names)
             with text.block("light", name):
                 text.put("type", kind)
                 text.put_rows(rows)
-                text.put("color", material.emission)
+                put_color(text, color, self.report)
                 text.put(*(("radius", size[0]) if kind == "sphere" else ("size", *size)))
-                text.put("visible", True)
+                text.put_unless(False, "visible", shows)
+                text.put_unless("none", "seen_by", self.seen_by(thing) if not is_seen else "none")
             self.lights.append((name, text))
-        return True
+        return not is_seen or (shows and (is_around or not getattr(thing, "visible_shadow", True)))
 
     # ---- materials
 
@@ -3264,6 +3327,8 @@ class SceneExport:
             for socket in ("Volume", "Displacement"):
                 if output.inputs[socket].is_linked:
                     self.report.warn(21, "%s of node '%s'" % (socket.lower(), output.name), "none")
+            if output.inputs["Volume"].is_linked and not output.inputs["Surface"].is_linked:
+                return Material(name, opacity=0.0, is_volume=True)  # what has nothing else is left out
             lobes = self.shaders.lobes(Socket(output.inputs["Surface"], ()))
             return self.folder.fold(name, lobes)
 
@@ -3282,16 +3347,19 @@ class SceneExport:
     # ---- what is lost
 
     def is_seen(self, thing):
-        if not getattr(thing, "visible_camera", True):
-            self.report.warn(6, "it is hidden from the camera", "left out")
+        is_indirect = bool(thing.original.indirect_only_get(view_layer=self.layer))
+        if is_indirect or not getattr(thing, "visible_camera", True):
+            self.report.warn(6, "it is %s" % ("indirect only" if is_indirect else "hidden from the camera"),
+                             "no ray sees it")
             return False
         hidden = [a[8:] for a in ("visible_diffuse", "visible_glossy", "visible_transmission", "visible_shadow")
                   if not getattr(thing, a, True)]
         if hidden:
             self.report.warn(6, "it is hidden from %s rays" % ", ".join(hidden), "all rays see it")
-        for attribute in ("is_holdout", "is_shadow_catcher"):
-            if getattr(thing, attribute, False):
-                self.report.warn(6, attribute[3:].replace("_", " "), "a plain object")
+        is_holdout = getattr(thing, "is_holdout", False) or thing.original.holdout_get(view_layer=self.layer)
+        for flag, name in ((is_holdout, "holdout"), (getattr(thing, "is_shadow_catcher", False), "shadow catcher")):
+            if flag:
+                self.report.warn(6, name, "a plain object")
         return True
 
     def warn_of_linking(self, thing):
@@ -3363,32 +3431,98 @@ def put_texture(text, texture, name):
         text.put_unless((0.0, 0.0), "offset", texture.offset)
 
 
-def lamp_rows(shape, rows):
-    """[(light type, place, sizes)] of a glowing sphere or rectangle; [] for other shapes.
+FAINT = 1e-3  # what glows less lights nothing that could be seen
+LIFT = 5e-4  # of its size, a lamp lies in front of the mesh that it stands for, which blocks light
+BALL_SAGITTA = 0.1  # a ball of light is taken from rougher meshes than a sphere that is looked at
 
-    Blender's faces glow on both sides, our lamps on one: a rectangle becomes two.
-    """
-    if shape.kind == "sphere":
-        whole = times(rows, shape.rows)
-        radii = [length(column(whole, i)) for i in range(3)]
-        if max(radii) - min(radii) > 1e-4 * max(radii):
-            return []
-        center = tuple(IDENTITY[i][:3] + (whole[i][3],) for i in range(3))
-        return [("sphere", center, (radii[0],))]
-    if shape.kind != "plane":
-        return []
-    c = [[sum(row[k] * shape.corners[i + k] for k in range(3)) + row[3] for row in rows] for i in (0, 3, 6, 9)]
-    side = [[b - a for a, b in zip(c[0], c[i])] for i in (1, 3)]
+
+def lamps_of(mesh, rows, eyes):
+    """([(light type, place, sizes)], whether it is a ball around one of the eyes) of a rectangle, a disk
+    or a ball; ([], False) for other meshes. Blender's faces glow on both sides, our lamps on one: flat
+    ones become two."""
+    shape = recognise_plane(mesh) if len(mesh.polygons) == 1 and len(mesh.vertices) == 4 else None
+    disk = recognise_disk(mesh) if shape is None else None
+    if shape:
+        return flat_lamps("rectangle", rectangle_of(shape.corners, rows)), False
+    if disk:
+        return flat_lamps("disk", ellipse_of(disk, rows)), False
+    ball = recognise_sphere(mesh, BALL_SAGITTA) if is_closed(mesh) and len(mesh.vertices) >= 42 else None
+    if ball is None:
+        return [], False
+    whole = times(rows, ball.rows)
+    radii = [length(column(whole, i)) for i in range(3)]
+    if max(radii) - min(radii) > 1e-4 * max(radii):
+        return [], False
+    center = column(whole, 3)
+    is_around = any(length(difference(eye, center)) < radii[0] for eye in eyes)
+    place = tuple(IDENTITY[i][:3] + (center[i],) for i in range(3))
+    return [("sphere", place, (radii[0] * (1 if is_around else 1 + 2 * LIFT),))], is_around
+
+
+def placed(rows, point):
+    return [sum(row[k] * point[k] for k in range(3)) + row[3] for row in rows]
+
+
+def rectangle_of(corners, rows):
+    """(centre, axis, axis, sizes) of a placed parallelogram with right angles; None for others."""
+    c = [placed(rows, corners[i : i + 3]) for i in (0, 3, 6, 9)]
+    side = [difference(c[i], c[0]) for i in (1, 3)]
     x, y = length(side[0]), length(side[1])
     is_parallelogram = all(abs(c[0][k] + c[2][k] - c[1][k] - c[3][k]) < 1e-4 * (x + y) for k in range(3))
-    if not is_parallelogram or abs(sum(a * b for a, b in zip(*side))) > 1e-4 * x * y:
+    if not is_parallelogram or abs(dot(*side)) > 1e-4 * x * y:
+        return None
+    return [(c[0][k] + c[2][k]) / 2 for k in range(3)], [a / x for a in side[0]], [a / y for a in side[1]], (x, y)
+
+
+def recognise_disk(mesh):
+    """(centre, radius along one vertex, radius across) of a regular polygon of at least twelve corners, as
+    one face or as a fan, so long that the disk has its area; None for others."""
+    count = len(mesh.polygons[0].vertices) if len(mesh.polygons) == 1 else len(mesh.polygons)
+    if count < 12 or len(mesh.vertices) not in {count, count + 1} or len(mesh.vertices) > 4096:
+        return None
+    points = [tuple(v.co) for v in mesh.vertices]
+    center = [sum(p[k] for p in points) / len(points) for k in range(3)]
+    arms = [a for a in (difference(p, center) for p in points) if length(a) > 0]
+    radius = max(map(length, arms))
+    arms = [a for a in arms if length(a) > 1e-4 * radius]
+    if len(arms) != count or (len(mesh.vertices) > count) != (len(mesh.polygons) > 1):
+        return None
+    normal = max((cross(arms[0], a) for a in arms), key=length)
+    normal = [x / length(normal) for x in normal]
+    if any(abs(length(a) - radius) > 1e-4 * radius or abs(dot(a, normal)) > 1e-4 * radius for a in arms):
+        return None
+    x, y = arms[0], cross(normal, arms[0])
+    angles = sorted(math.atan2(dot(a, y), dot(a, x)) % (2 * math.pi) for a in arms)
+    if any(abs(b - a - 2 * math.pi / count) > 1e-3 for a, b in zip(angles, angles[1:])):
+        return None
+    same_area = math.sqrt(count * math.sin(2 * math.pi / count) / (2 * math.pi))
+    return center, [same_area * a for a in x], [same_area * a for a in y]
+
+
+def ellipse_of(disk, rows):
+    """(centre, axis, axis, diameters) of a placed disk: the axes of the ellipse that it becomes."""
+    center, x, y = disk
+    turned = [[sum(row[k] * v[k] for k in range(3)) for row in rows] for v in (x, y)]
+    angle = math.atan2(2 * dot(*turned), dot(turned[0], turned[0]) - dot(turned[1], turned[1])) / 2
+    c, s = math.cos(angle), math.sin(angle)
+    u = [c * a + s * b for a, b in zip(*turned)]
+    v = [c * b - s * a for a, b in zip(*turned)]
+    a, b = length(u), length(v)
+    if min(a, b) <= 1e-6 * max(a, b):
+        return None
+    return placed(rows, center), [x / a for x in u], [x / b for x in v], (2 * a, 2 * b)
+
+
+def flat_lamps(kind, outline):
+    """A lamp for each side, which shine along their -Z."""
+    if outline is None:
         return []
-    center = [(c[0][k] + c[2][k]) / 2 for k in range(3)]
-    u, v = [a / x for a in side[0]], [a / y for a in side[1]]
-    w = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+    center, u, v, size = outline
+    w = cross(u, v)
     lamps = []
-    for sign in (1, -1):  # a lamp shines along its -Z
-        lamps.append(("rectangle", tuple((sign * u[k], v[k], sign * w[k], center[k]) for k in range(3)), (x, y)))
+    for sign in (1, -1):
+        at = [c - sign * LIFT * min(size) * x for c, x in zip(center, w)]
+        lamps.append((kind, tuple((sign * u[k], v[k], sign * w[k], at[k]) for k in range(3)), size))
     return lamps
 
 
@@ -3418,6 +3552,8 @@ def parse(arguments, is_module):
     parser.add_argument("--textures", metavar="DIR",
                         help="where pictures are looked for and copied to; default: Textures beside the output")
     parser.add_argument("--ppm", action="store_true", help="turn 8-bit pictures without alpha into PPM files")
+    parser.add_argument("--no-shapes", action="store_true",
+                        help="take no mesh for a sphere, cube or plane (rt_shape still does)")
     parser.add_argument("--no-check", action="store_true",
                         help="do not run `raytracer --check` on what was written; it runs when the program named by "
                              "the environment variable RAYTRACER, beside the folder of this script, or on the PATH is "
@@ -3487,7 +3623,7 @@ def export(options, report):
             scene.camera = camera = camera_of(options, scene)  # markers may have changed it
             os.makedirs(os.path.dirname(path), exist_ok=True)
             images = Images(os.path.dirname(path), options.textures, options.ppm, report)
-            text = SceneExport(scene, layer, frame, camera, images, report).run()
+            text = SceneExport(scene, layer, frame, camera, images, report, not options.no_shapes).run()
             write_atomically(path, text.encode("utf-8"))
             report.note("wrote %s" % path)
             if not options.no_check:
