@@ -2955,7 +2955,8 @@ class Meshes:
                 corners += (table[loops[3 * i]], table[loops[3 * i + 1]], table[loops[3 * i + 2]])
         uvs = unique_floats(indices)
         by_point = dict(zip(triangles, corners))
-        if list(map(by_point.get, triangles)) == corners:  # no seams: one for each point
+        # Without seams: one for each point.
+        if len(indices) > 1 and list(map(by_point.get, triangles)) == corners:
             text.put_texts("uvs", shortest_floats(array("f", (
                 x for i in range(len(mesh.vertices)) for x in uvs[2 * by_point.get(i, 0) : 2 * by_point.get(i, 0) + 2]))), 2)
             return

@@ -63,3 +63,15 @@ def files_that_open_with_errors_are_exported():
     finally:
         Export.bpy = bpy
     equal(list(report.seen.values()), [37])
+
+
+@test
+def floats_are_as_short_as_they_can_be():
+    import array
+    import random
+    source = random.Random(7)
+    values = array.array("f", [0.1, 1 / 3, 16777216.0, 1e-30, -2.5, 0.0] + [source.uniform(-9, 9) for _ in range(4000)])
+    texts = Export.shortest_floats(values)
+    for x, text in zip(values, texts):
+        assert Export.single(float(text)) == x and (len(text) <= len("%.6g" % x) or Export.single(float("%.6g" % x)) != x), (x, text)
+    equal(texts[:5], ["0.1", "0.33333334", "16777216", "1e-30", "-2.5"])

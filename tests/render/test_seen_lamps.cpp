@@ -73,7 +73,7 @@ TEST(seen_lamps_are_as_bright_as_their_light_says) {
 TEST(seen_lamps_have_no_back_and_are_hidden_by_what_is_in_front) {
     const std::string flat = " translate 0 0 -2\n size 4 4\n";
     CHECK(seen(lamp("rectangle", "camera", flat)) == kSky);
-    const std::string behind = " translate 0 0 -4\n rotate 180 1 0 0\n";
+    const std::string behind = " translate 0 0 -6\n rotate 180 1 0 0\n";
     for (const auto& [type, lines] : kinds())
         CHECK((seen(floorOf("emission 7 7 7") + lamp(type, "all", behind + lines)) == Rgb{7, 7, 7}));
     // In front of a surface both are seen.
@@ -87,7 +87,7 @@ TEST(seen_lamps_have_no_back_and_are_hidden_by_what_is_in_front) {
 // A sharp mirror shows them, a rough one has them in its highlight, a diffuse floor is lit by them:
 // none of them counts them twice.
 TEST(seen_lamps_are_counted_once) {
-    for (const std::string floor : {"diffuse 0.5 0.5 0.5", "mirror 0.5 0.5 0.5\n roughness 0.3"})
+    for (const std::string floor : {"diffuse 0.5 0.5 0.5", "mirror 0.5 0.5 0.5\n roughness 0.3\n specular 0.5 0.5 0.5"})
         for (const auto& [type, lines] : kinds())
             CHECK(seen(floorOf(floor) + lamp(type, "reflections", kDown + lines)) ==
                   seen(floorOf(floor) + lamp(type, "none", kDown + lines)));
