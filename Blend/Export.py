@@ -107,6 +107,14 @@ WARNINGS = {
     35: "number beyond what the scene text takes",
     36: "thing without size or direction",
     37: "file that Blender opened with errors",
+    38: "view layer without sky or solid objects",
+    39: "ray visibility of the world",
+    40: "transparent film",
+    41: "white balance",
+    42: "lens that changes while the shutter is open",
+    43: "rolling shutter",
+    44: "border without crop",
+    45: "compositor or sequencer",
 }
 
 
@@ -472,11 +480,13 @@ def may_deform(thing):
 class Motion:
     """Matrices of all instances and cameras at KEY_TIMES; empty without motion blur."""
 
-    def __init__(self, depsgraph, set_frame, scene, frame, cameras):
+    def __init__(self, depsgraph, set_frame, scene, frame, cameras, report):
         self.moments = []
         interval = shutter_interval(scene, frame)
         if interval is None:
             return
+        if getattr(getattr(scene, "cycles", None), "rolling_shutter_type", "NONE") != "NONE":
+            report.warn(43, "the shutter rolls", "all of the picture at once")
         begin, end = interval
         for t in KEY_TIMES:
             moment = begin + (end - begin) * t
@@ -496,7 +506,11 @@ class Motion:
                 points = read(thing.data.vertices, "co", "f", 3)
                 found[("shape", thing.name_full)] = hashlib.sha1(points.tobytes()).digest()
         for camera in cameras:
+            data = camera.evaluated_get(depsgraph).data
             found[("camera", camera.name_full)] = rows_of(camera.evaluated_get(depsgraph).matrix_world)
+            found[("lens", camera.name_full)] = (
+                data.lens, data.sensor_width, data.sensor_height, data.shift_x, data.shift_y, data.ortho_scale,
+                *((data.dof.focus_distance, data.dof.aperture_fstop) if data.dof.use_dof else ()))
         return found
 
     def samples(self, key, rows):
@@ -582,10 +596,24 @@ def transfer_of(scene, report):
         report.warn(1, "look '%s'" % view.look, "no look")
     if view.use_curve_mapping:
         report.warn(1, "view curves", "no curves")
+    if getattr(view, "use_white_balance", False):  # 4.3
+        report.warn(41, "white balance of %.0f K" % view.white_balance_temperature, "none")
     if abs(view.gamma - 1) > 1e-6:
         report.warn(2, "view gamma %s" % number(view.gamma), "1")
     is_linear = name == "Raw" or scene.display_settings.display_device == "None"
     return "linear" if is_linear else "srgb"
+
+
+def warn_of_what_comes_after(scene, report):
+    """What Blender does with a picture that is rendered."""
+    tree = getattr(scene, "node_tree", None) if getattr(scene, "use_nodes", False) else None
+    tree = getattr(scene, "compositing_node_group", tree)  # 5.0
+    plain = {"CompositorNodeRLayers", "CompositorNodeComposite", "CompositorNodeViewer", "NodeGroupOutput", "NodeReroute"}
+    if scene.render.use_compositing and tree and any(n.bl_idname not in plain and not n.mute for n in tree.nodes):
+        report.warn(45, "nodes of the compositor", "the picture without them")
+    strips = getattr(scene.sequence_editor, "strips", None) or getattr(scene.sequence_editor, "sequences", None)
+    if scene.render.use_sequencer and strips:
+        report.warn(45, "strips of the sequencer", "the scene itself")
 
 
 def put_settings(text, scene, report):
@@ -597,6 +625,12 @@ def put_settings(text, scene, report):
         text.put("resolution", width, height)
         if render.pixel_aspect_x != render.pixel_aspect_y:
             text.put("pixel_aspect", render.pixel_aspect_x, render.pixel_aspect_y)
+        if render.use_border and not render.use_crop_to_border:
+            report.warn(44, "the border is not cropped to",
+                        "the picture is the border alone; --crop-pad of the renderer gives it the full size")
+        if render.film_transparent:
+            report.warn(40, "the film is transparent", "the background is opaque")
+        warn_of_what_comes_after(scene, report)
         if render.use_border:
             crop = crop_of(render, width, height)
             if crop[0] < crop[2] and crop[1] < crop[3]:
@@ -1877,6 +1911,10 @@ class Values:
             if before.node is None or before.node.bl_idname != "ShaderNodeMapping":
                 break
             vectors = [self.color(before, n) for n in ("Location", "Rotation", "Scale")]
+            place, _, scale = vectors
+            if found.node.bl_idname == "ShaderNodeTexEnvironment" and (place[2] or len(set(scale)) > 1):
+                self.report.warn(31, "node '%s' moves or stretches the environment" % before.node.name,
+                                 "its rotation about Z")
             step, is_plane = plane_map(before.node.vector_type, *vectors)
             if not is_plane or before.node.vector_type == "NORMAL":
                 self.report.warn(19, "node '%s' turns out of the plane" % before.node.name,
@@ -2619,6 +2657,10 @@ def world_light(scene, shaders, folder, report):
     if world is None:
         return BLACK, None, 0.0
     with report.at("world", world.name):
+        rays = getattr(world, "cycles_visibility", None)
+        hidden = [kind for kind in ("camera", "diffuse", "glossy", "transmission") if not getattr(rays, kind, True)]
+        if hidden:
+            report.warn(39, "it is hidden from %s rays" % ", ".join(hidden), "all rays see it")
         if not getattr(world, "use_nodes", True) or world.node_tree is None:
             return folder.safe(Material("world", emission=tuple(world.color))).emission, None, 0.0
         output = world.node_tree.get_output_node("CYCLES") or world.node_tree.get_output_node("ALL")
@@ -3112,8 +3154,11 @@ class SceneExport:
     def collect(self, depsgraph, set_frame):
         cameras = [self.camera] + sorted(
             (o for o in self.scene.objects if o.type == "CAMERA" and o != self.camera), key=lambda o: o.name)
-        motion = Motion(depsgraph, set_frame, self.scene, self.frame, cameras)
+        motion = Motion(depsgraph, set_frame, self.scene, self.frame, cameras, self.report)
         self.collect_world()
+        for flag, what, instead in (("use_sky", "sky", "the world is seen"), ("use_solid", "solid objects", "they are drawn")):
+            if not getattr(self.layer, flag, True):
+                self.report.warn(38, "view layer '%s' has no %s" % (self.layer.name, what), instead)
         for camera in cameras:
             self.collect_camera(camera.evaluated_get(depsgraph), motion, depsgraph)
         camera = self.camera.evaluated_get(depsgraph)
@@ -3280,12 +3325,12 @@ class SceneExport:
         material = materials[0]
         is_whole = len(materials) == 1 and len(keys) == 1 and material.opacity == 1 and not material.opacity_texture
         eyes = [column(rows_of(c.matrix_world), 3) for c in self.scene.objects if c.type == "CAMERA"]
-        lamps, is_around = lamps_of(mesh, keys[0], eyes) if is_whole else ([], False)
+        lamps, part, is_around = lamps_of(mesh, keys[0], eyes) if is_whole else ([], 1.0, False)
         if not lamps:
             self.report.warn(32, "material '%s' glows" % glowing.name,
                              "it is seen, but lights nothing" if is_seen else "it lights nothing")
             return False
-        color = self.values.constant(Value(material.emission, material.emission_texture))
+        color = scaled(self.values.constant(Value(material.emission, material.emission_texture)), part)
         if material.emission_texture:
             self.report.warn(32, "material '%s' glows with a texture" % glowing.name, "it lights with its mean")
         shows = is_seen and material.only_glows()
@@ -3307,6 +3352,8 @@ class SceneExport:
         """Material of each slot. Generated geometry may have more slots than the object."""
         slots = [slot.material for slot in thing.material_slots]
         slots += list(mesh.materials)[len(slots):]
+        if self.layer.material_override:
+            slots = [self.layer.material_override] * max(len(slots), 1)
         return [self.material(m) for m in slots] or [self.material(None)]
 
     def material(self, source):
@@ -3386,6 +3433,9 @@ class SceneExport:
             return
         first, last = motion.moments[0], motion.moments[-1]
         for key, value in first.items():
+            if key[0] == "lens" and any(m.get(key) != value for m in motion.moments):
+                with self.report.at("camera", key[1]):
+                    self.report.warn(42, "its lens changes while the shutter is open", "as at the frame")
             if len(key) == 2 and key[0] == "shape" and last.get(key) != value:
                 with self.report.at("object", key[1]):
                     self.report.warn(9, "its shape changes while the shutter is open", "its shape at the frame")
@@ -3438,26 +3488,30 @@ BALL_SAGITTA = 0.1  # a ball of light is taken from rougher meshes than a sphere
 
 
 def lamps_of(mesh, rows, eyes):
-    """([(light type, place, sizes)], whether it is a ball around one of the eyes) of a rectangle, a disk
-    or a ball; ([], False) for other meshes. Blender's faces glow on both sides, our lamps on one: flat
-    ones become two."""
+    """([(light type, place, sizes)], part of the radiance, whether it is a ball around one of the eyes) of
+    a rectangle, a disk or a ball; no lamps for other meshes. Blender's faces glow on both sides, our lamps
+    on one: flat ones become two."""
     shape = recognise_plane(mesh) if len(mesh.polygons) == 1 and len(mesh.vertices) == 4 else None
     disk = recognise_disk(mesh) if shape is None else None
     if shape:
-        return flat_lamps("rectangle", rectangle_of(shape.corners, rows)), False
+        return flat_lamps("rectangle", rectangle_of(shape.corners, rows)), 1.0, False
     if disk:
-        return flat_lamps("disk", ellipse_of(disk, rows)), False
+        return flat_lamps("disk", ellipse_of(disk, rows)), 1.0, False
     ball = recognise_sphere(mesh, BALL_SAGITTA) if is_closed(mesh) and len(mesh.vertices) >= 42 else None
     if ball is None:
-        return [], False
+        return [], 1.0, False
     whole = times(rows, ball.rows)
     radii = [length(column(whole, i)) for i in range(3)]
-    if max(radii) - min(radii) > 1e-4 * max(radii):
-        return [], False
+    if max(radii) - min(radii) > 1e-4 * max(radii) or ball.rows[0][0] != ball.rows[2][2]:
+        return [], 1.0, False
     center = column(whole, 3)
     is_around = any(length(difference(eye, center)) < radii[0] for eye in eyes)
     place = tuple(IDENTITY[i][:3] + (center[i],) for i in range(3))
-    return [("sphere", place, (radii[0] * (1 if is_around else 1 + 2 * LIFT),))], is_around
+    if is_around:
+        return [("sphere", place, (radii[0],))], 1.0, True
+    # From afar a mesh without dents gives light by its area, of which rough ones have less than the ball.
+    part = sum(read(mesh.polygons, "area", "f", 1)) / (4 * math.pi * ball.rows[0][0] ** 2)
+    return [("sphere", place, (radii[0] * (1 + 2 * LIFT),))], min(part, 1.0), False
 
 
 def placed(rows, point):

@@ -4,7 +4,7 @@ import math
 
 import bpy
 
-from kit import Nodes, VERSION, export, material_text, new_scene, primitive, test
+from kit import Nodes, VERSION, export, material_text, mesh_of, new_scene, primitive, test
 from scene_text import equal, near
 
 
@@ -111,7 +111,9 @@ def emission_and_lamps():
     text = export()
     lamp = text.one("light")
     equal([lamp["type"], lamp["visible"]], ["sphere", True])
-    near([lamp["radius"], *lamp["color"], *lamp["translate"]], [0.5005, 4, 2, 0.8, 0, 0, 3])
+    near([lamp["radius"], *lamp["translate"]], [0.5005, 0, 0, 3])
+    part = sum(f.area for f in bpy.context.object.data.polygons) / math.pi  # of the surface of the ball
+    near(lamp["color"], [4 * part, 2 * part, 0.8 * part])
     text.one("instance")  # within it, and blocks light
     new_scene()
     nodes = Nodes()
@@ -306,3 +308,21 @@ def what_has_only_a_volume_is_left_out():
     nodes.set(output.inputs["Volume"], nodes.node("VolumeScatter"))
     primitive("cube", nodes.owner)
     equal(export([21]).all("cube", "instance"), [])
+
+
+@test
+def material_override_and_indirect_only():
+    new_scene()
+    nodes, override = Nodes(), bpy.data.materials.new("Clay")
+    nodes.end(nodes.node("BsdfDiffuse", Color=(1, 0, 0)))
+    primitive("cube", nodes.owner)
+    clay = Nodes(override)
+    clay.end(clay.node("BsdfDiffuse", Color=(0.2, 0.3, 0.4)))
+    bpy.context.view_layer.material_override = override
+    near(export().one("material")["diffuse"], [0.2, 0.3, 0.4])
+    new_scene()
+    collection = bpy.data.collections.new("Indirect")
+    bpy.context.scene.collection.children.link(collection)
+    collection.objects.link(bpy.data.objects.new("C", mesh_of([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])))
+    bpy.context.view_layer.layer_collection.children["Indirect"].indirect_only = True
+    equal(export([6]).all("instance"), [])

@@ -25,10 +25,10 @@ const std::string kUp = " translate 0 0 -2\n rotate 180 1 0 0\n";
 // Shines down onto a floor, from a place above the camera.
 const std::string kDown = " translate 0 0 20\n";
 std::string floorOf(const std::string& material) {
-    return cat("material m {\n diffuse 0 0 0\n ", material,
+    return cat("material m {\n ", material,
                "\n}\nplane p {\n translate 0 0 -3\n scale 9 9 1\n material m\n}\n");
 }
-const std::string kMirror = floorOf("mirror 1 1 1");
+const std::string kMirror = floorOf("diffuse 0 0 0\n mirror 1 1 1");
 bool isNear(Rgb a, Rgb b) {
     return std::fabs(a.r - b.r) < 1e-5f * b.r && std::fabs(a.g - b.g) < 1e-5f * b.g &&
            std::fabs(a.b - b.b) < 1e-5f * b.b;
@@ -75,10 +75,10 @@ TEST(seen_lamps_have_no_back_and_are_hidden_by_what_is_in_front) {
     CHECK(seen(lamp("rectangle", "camera", flat)) == kSky);
     const std::string behind = " translate 0 0 -6\n rotate 180 1 0 0\n";
     for (const auto& [type, lines] : kinds())
-        CHECK((seen(floorOf("emission 7 7 7") + lamp(type, "all", behind + lines)) == Rgb{7, 7, 7}));
+        CHECK((seen(floorOf("diffuse 0 0 0\n emission 7 7 7") + lamp(type, "all", behind + lines)) == Rgb{7, 7, 7}));
     // In front of a surface both are seen.
     const auto [type, lines] = kinds()[0];
-    CHECK(isNear(seen(floorOf("emission 7 7 7") + lamp(type, "all", kUp + lines)), {10, 9, 8}));
+    CHECK(isNear(seen(floorOf("diffuse 0 0 0\n emission 7 7 7") + lamp(type, "all", kUp + lines)), {10, 9, 8}));
     // A ball is seen once, though a ray goes in and out; from inside, too.
     CHECK(isNear(seen(lamp("sphere", "camera", " color 3 2 1\n radius 30\n")),
                  kSky + Rgb{3, 2, 1}));
