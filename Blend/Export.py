@@ -256,25 +256,26 @@ class Text:
         return "\n".join(self.lines) + "\n"
 
 
-NORMAL = "%.6g"  # 1e-6 of a direction is a fifth of a second of arc
+UV, SAME_UV = "%.7g", 1e-6  # a hundredth of a pixel of a picture of 8192
+NORMAL = "%.5g"  # 1e-5 of a direction is two seconds of arc
 
 
 def shortest_floats(values):
     """Texts of an array of floats, each with as few digits as read back to the same float. Large pieces
     make this fast."""
     texts, at, rest = [""] * len(values), range(len(values)), values
-    for form in ("%.6g ", "%.7g ", "%.8g ", "%.9g "):
+    for form in ("%.7g ", "%.8g ", "%.9g "):  # %g drops the zeros of what has fewer
         made = (form * len(rest) % tuple(rest)).split()
-        wrong = list(map(operator.ne, array("f", map(float, made)), rest))
-        if at is not None and len(at) == len(texts):
+        if len(made) == len(texts):
             texts = made
         else:
             for i, text in zip(at, made):
                 texts[i] = text
-        at = list(itertools.compress(at, wrong))
-        if not at:
+        read_back = array("f", map(float, made))
+        if read_back == rest:
             break
-        rest = array("f", itertools.compress(rest, wrong))
+        wrong = list(map(operator.ne, read_back, rest))
+        at, rest = list(itertools.compress(at, wrong)), array("f", itertools.compress(rest, wrong))
     return texts
 
 
@@ -2947,7 +2948,7 @@ class Meshes:
             self.put_normals(body, mesh, triangles, loops)
         used = {coordinates[s] for s in slots if coordinates[s] is not None}
         if used:
-            self.put_uvs(body, mesh, triangles, loops, materials, coordinates, used, slot_count)
+            self.put_uvs(body, mesh, loops, materials, coordinates, used, slot_count)
         if len(slots) > 1:
             last = max(slot_count - 1, 0)
             rank = {s: i for i, s in enumerate(slots)}
@@ -2981,7 +2982,12 @@ class Meshes:
 
     # ---- texture coordinates
 
-    def put_uvs(self, text, mesh, triangles, loops, materials, coordinates, used, slot_count):
+    def put_uvs(self, text, mesh, loops, materials, coordinates, used, slot_count):
+        if len(used) == 1:
+            shared = uvs_of_points(mesh, self.corner_uvs(mesh, next(iter(used))))
+            if shared:
+                text.put_array("uvs", shared, 2, UV)
+                return
         indices = {}
         tables = {c: index_corners(self.corner_uvs(mesh, c), 8, indices) for c in sorted(used)}
         if len(used) == 1:
@@ -2995,14 +3001,7 @@ class Meshes:
             for i, m in enumerate(materials):
                 table = by_slot[min(max(m, 0), last)]
                 corners += (table[loops[3 * i]], table[loops[3 * i + 1]], table[loops[3 * i + 2]])
-        uvs = unique_floats(indices)
-        by_point = dict(zip(triangles, corners))
-        # Without seams: one for each point.
-        if len(indices) > 1 and list(map(by_point.get, triangles)) == corners:
-            text.put_texts("uvs", shortest_floats(array("f", (
-                x for i in range(len(mesh.vertices)) for x in uvs[2 * by_point.get(i, 0) : 2 * by_point.get(i, 0) + 2]))), 2)
-            return
-        text.put_texts("uvs", shortest_floats(uvs), 2)
+        text.put_array("uvs", unique_floats(indices), 2, UV)
         text.put_array("uv_triangles", corners, 3, "%d")
 
     def corner_uvs(self, mesh, coordinates):
@@ -3112,6 +3111,21 @@ def index_corners(values, size, indices):
     data = values.tobytes()
     number_of = indices.setdefault
     return [number_of(data[i : i + size], len(indices)) for i in range(0, len(data), size)]
+
+
+def uvs_of_points(mesh, uvs):
+    """Texture coordinates by vertex, where all corners of each agree; None at seams."""
+    if min(uvs) == max(uvs):
+        return None  # one for all is shorter
+    corners = read(mesh.loops, "vertex_index", "i", 1)
+    out = array("f", bytes(8 * len(mesh.vertices)))
+    for k in range(2):
+        plane = uvs[k::2]
+        of_vertex = dict(zip(corners, plane))
+        if max(map(abs, map(operator.sub, plane, map(of_vertex.__getitem__, corners)))) > SAME_UV:
+            return None
+        out[k::2] = array("f", map(of_vertex.get, range(len(mesh.vertices)), itertools.repeat(0.0)))
+    return out
 
 
 def unique_floats(indices):

@@ -253,3 +253,29 @@ def names_that_are_taken_are_passed_over():
     names = Export.Names()
     equal([names.unique(n) for n in ("A", "A.002", "A", "A", "A", "", "")],
           ["A", "A.002", "A.001", "A.003", "A.004", "unnamed", "unnamed.001"])
+
+
+@test
+def corners_that_points_share_are_not_written():
+    """Normals and texture coordinates, one for each point, go without corners of their own; seams need them."""
+    def grid(change=lambda mesh: None):
+        new_scene()
+        nodes = Nodes()
+        nodes.end(nodes.node("BsdfDiffuse", Color=nodes.node("TexImage", {"image": picture()})))
+        thing = primitive("grid", nodes.owner, smooth=True, x_subdivisions=4, y_subdivisions=3)
+        change(thing.data)
+        return export().one("mesh"), thing.data
+
+    block, mesh = grid()
+    equal([block.get(k) for k in ("normals", "uvs", "normal_triangles", "uv_triangles")],
+          [len(mesh.vertices), len(mesh.vertices), None, None])
+    for loop, place in zip(mesh.loops, mesh.uv_layers[0].data):
+        near(block.arrays["uvs"][loop.vertex_index], list(place.uv), 1e-5)
+
+    def cut(mesh):
+        vertices = [loop.vertex_index for loop in mesh.loops]
+        inner = next(i for i, v in enumerate(vertices) if vertices.count(v) == 4)
+        mesh.uv_layers[0].data[inner].uv = (0.5, 0.7)
+
+    block, mesh = grid(cut)
+    equal([block.get("uv_triangles"), [0.5, 0.7] in block.arrays["uvs"]], [block.get("triangles"), True])

@@ -134,7 +134,7 @@ def frames_and_default_output(launch, folder):
 
 @whole
 def speed_of_large_meshes(launch, folder):
-    """Half a million triangles in a few seconds, most of it Blender's own start."""
+    """Half a million triangles in a few seconds and in less than 30 MB."""
     code = os.path.join(folder, "large.py")
     with open(code, "w") as file:
         file.write(small_scene(folder).split("bpy.ops.mesh")[0] + """
@@ -149,8 +149,10 @@ import os, sys; sys.stdout.flush(); os._exit(0)
 """ % folder)
     expect(launch.run(code), 0)
     start = time.time()
-    expect(launch.run(SCRIPT, ["-o", os.path.join(folder, "large.txt")], os.path.join(folder, "large.blend")), 0)
+    large = os.path.join(folder, "large.txt")
+    expect(launch.run(SCRIPT, ["-o", large], os.path.join(folder, "large.blend")), 0)
     seconds = time.time() - start
+    assert os.path.getsize(large) < 30e6, os.path.getsize(large)
     print("      500k triangles: %.1f s" % seconds)
     assert seconds < 60, "%.1f s" % seconds
 
