@@ -149,8 +149,7 @@ static_assert(isInOrder<BlockType>() && isInOrder<TextureDesc::Space>() &&
               isInOrder<TextureDesc::Channel>() && isInOrder<MaterialDesc::SpecularModel>() &&
               isInOrder<MaterialDesc::Fresnel>() && isInOrder<MaterialDesc::LitSide>() &&
               isInOrder<LightDesc::Kind>() && isInOrder<LightDesc::SeenBy>() &&
-              isInOrder<CameraDesc::Kind>() &&
-              isInOrder<CameraDesc::SensorFit>() && isInOrder<ObjectDesc::Kind>() &&
-              isInOrder<ObjectDesc::Sides>() && isInOrder<WorldDesc::Up>() &&
-              isInOrder<SettingsDesc::Sampler>() && isInOrder<SettingsDesc::Filter>() &&
-              isInOrder<SettingsDesc::Transfer>());
+              isInOrder<CameraDesc::Kind>() && isInOrder<CameraDesc::SensorFit>() &&
+              isInOrder<ObjectDesc::Kind>() && isInOrder<ObjectDesc::Sides>() &&
+              isInOrder<WorldDesc::Up>() && isInOrder<SettingsDesc::Sampler>() &&
+              isInOrder<SettingsDesc::Filter>() && isInOrder<SettingsDesc::Transfer>());

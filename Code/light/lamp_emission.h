@@ -36,8 +36,8 @@ struct FlatEmission {
 
     // Radiance straight ahead of a lamp that shines to all sides.
     Rgb radiance() const {
-        return power * (1 / (length(halfX) * length(halfY) *
-                             (isEllipse ? static_cast<float>(kPi) : 4.0f)));
+        return power *
+               (1 / (length(halfX) * length(halfY) * (isEllipse ? static_cast<float>(kPi) : 4.0f)));
     }
     // The part of it that leaves at an angle of this cosine, above 0, to the normal.
     float spreadAt(float cosAtLight) const {

@@ -62,7 +62,7 @@ protected:
 // Rays that look for surfaces; shadow rays need no more than a RayBatch.
 struct PathBatch : RayBatch {
     std::vector<MediumTree::Inside> medium;
-    std::vector<std::uint32_t> stream;    // which random numbers: one number per branch of the tree
+    std::vector<std::uint32_t> stream; // which random numbers: one number per branch of the tree
     // 0: the highlight has counted the lamps already. Else it sees them, as a camera ray (and one
     // that went straight on) or as one that a mirror or glass sent.
     static constexpr std::uint8_t kSeesAsReflection = 1, kSeesAsCamera = 2;

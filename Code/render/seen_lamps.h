@@ -11,8 +11,8 @@
 
 class SeenLamps {
 public:
-    // `body`: null for a sun, and for a lamp without a size, which nothing can see. The light has to
-    // stay.
+    // `body`: null for a sun, and for a lamp without a size, which nothing can see. The light has
+    // to stay.
     void add(LightDesc::SeenBy by, const Light& light, std::unique_ptr<const Shape> body);
     // Call once when all are there.
     void finish();

@@ -75,19 +75,22 @@ TEST(seen_lamps_have_no_back_and_are_hidden_by_what_is_in_front) {
     CHECK(seen(lamp("rectangle", "camera", flat)) == kSky);
     const std::string behind = " translate 0 0 -6\n rotate 180 1 0 0\n";
     for (const auto& [type, lines] : kinds())
-        CHECK((seen(floorOf("diffuse 0 0 0\n emission 7 7 7") + lamp(type, "all", behind + lines)) == Rgb{7, 7, 7}));
+        CHECK((seen(floorOf("diffuse 0 0 0\n emission 7 7 7") +
+                    lamp(type, "all", behind + lines)) == Rgb{7, 7, 7}));
     // In front of a surface both are seen.
     const auto [type, lines] = kinds()[0];
-    CHECK(isNear(seen(floorOf("diffuse 0 0 0\n emission 7 7 7") + lamp(type, "all", kUp + lines)), {10, 9, 8}));
+    CHECK(isNear(seen(floorOf("diffuse 0 0 0\n emission 7 7 7") + lamp(type, "all", kUp + lines)),
+                 {10, 9, 8}));
     // A ball is seen once, though a ray goes in and out; from inside, too.
-    CHECK(isNear(seen(lamp("sphere", "camera", " color 3 2 1\n radius 30\n")),
-                 kSky + Rgb{3, 2, 1}));
+    CHECK(
+        isNear(seen(lamp("sphere", "camera", " color 3 2 1\n radius 30\n")), kSky + Rgb{3, 2, 1}));
 }
 
 // A sharp mirror shows them, a rough one has them in its highlight, a diffuse floor is lit by them:
 // none of them counts them twice.
 TEST(seen_lamps_are_counted_once) {
-    for (const std::string floor : {"diffuse 0.5 0.5 0.5", "mirror 0.5 0.5 0.5\n roughness 0.3\n specular 0.5 0.5 0.5"})
+    for (const std::string floor :
+         {"diffuse 0.5 0.5 0.5", "mirror 0.5 0.5 0.5\n roughness 0.3\n specular 0.5 0.5 0.5"})
         for (const auto& [type, lines] : kinds())
             CHECK(seen(floorOf(floor) + lamp(type, "reflections", kDown + lines)) ==
                   seen(floorOf(floor) + lamp(type, "none", kDown + lines)));
@@ -95,8 +98,9 @@ TEST(seen_lamps_are_counted_once) {
 
 // A ray that goes straight on behind a clear surface is still the camera's.
 TEST(seen_lamps_are_seen_through_what_is_clear) {
-    const std::string pane = "material c {\n diffuse 0 0 0\n opacity 0\n}\nplane c {\n scale 9 9 1\n"
-                             " material c\n}\n";
+    const std::string pane =
+        "material c {\n diffuse 0 0 0\n opacity 0\n}\nplane c {\n scale 9 9 1\n"
+        " material c\n}\n";
     const auto [type, lines] = kinds()[0];
     CHECK(isNear(seen(pane + lamp(type, "camera", kUp + lines)), kSky + Rgb{3, 2, 1}));
     CHECK(seen(pane + lamp(type, "reflections", kUp + lines)) == kSky);

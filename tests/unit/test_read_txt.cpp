@@ -128,8 +128,7 @@ TEST(read_txt_readme_is_complete) {
 TEST(read_txt_values_of_points_need_no_corners) {
     const std::string points = "points 4\n0 0 0 1 0 0 1 1 0 0 1 0\n";
     const std::string triangles = "triangles 2\n0 1 2 0 2 3\n";
-    const std::string values =
-        "normals 4\n0 0 1 0 0 1 0 0 1 0 1 0\nuvs 4\n0 0 1 0 1 1 0 1\n";
+    const std::string values = "normals 4\n0 0 1 0 0 1 0 0 1 0 1 0\nuvs 4\n0 0 1 0 1 1 0 1\n";
     for (const std::string& body : {points + triangles + values, values + triangles + points}) {
         const MeshDesc mesh = readBody("mesh m {\n" + body + "}\n").meshes.at(0);
         CHECK(mesh.normalTriangles == mesh.triangles && mesh.uvTriangles == mesh.triangles);
