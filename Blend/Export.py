@@ -33,12 +33,18 @@ The parts of this file stand in the order in which the data flows:
 
 import argparse
 import contextlib
+import functools
 import hashlib
+import itertools
 import math
+import operator
 import os
 import re
+import shutil
 import struct
+import subprocess
 import sys
+import tempfile
 import zlib
 from array import array
 from dataclasses import dataclass, field, replace
@@ -98,6 +104,17 @@ WARNINGS = {
     32: "emission that would light other objects",
     33: "shape asked for by rt_shape that does not fit",
     34: "motion that cannot be followed",
+    35: "number beyond what the scene text takes",
+    36: "thing without size or direction",
+    37: "file that Blender opened with errors",
+    38: "view layer without sky or solid objects",
+    39: "ray visibility of the world",
+    40: "transparent film",
+    41: "white balance",
+    42: "lens that changes while the shutter is open",
+    43: "rolling shutter",
+    44: "border without crop",
+    45: "compositor or sequencer",
 }
 
 
@@ -163,9 +180,10 @@ def number(x):
     return repr(int(x)) if x == int(x) and abs(x) < 1e15 else repr(x)
 
 
+@functools.lru_cache(maxsize=4096)
 def word(name):
     """A name as the format has it: bare or in quotes."""
-    name = "".join(c if ord(c) >= 32 and ord(c) != 127 else "_" for c in name)
+    name = re.sub(r"[\x00-\x1f\x7f]", "_", name)
     if re.fullmatch(r"[A-Za-z0-9_.+-]+", name):
         return name
     return '"%s"' % name.replace("\\", "\\\\").replace('"', '\\"')
@@ -222,15 +240,43 @@ class Text:
         """A counted array of a mesh. Formatting in large pieces is what makes this fast."""
         count = len(values) // width
         self.lines.append("    %s %d" % (keyword, count))
-        line = "      " + " ".join([form] * width)
+        line = " ".join([form] * width)
         step = 16384
         for first in range(0, count, step):
             rows = min(step, count - first)
             pattern = "\n".join([line] * rows)
             self.lines.append(pattern % tuple(values[first * width : (first + rows) * width]))
 
+    def put_texts(self, keyword, texts, width):
+        """The same of numbers that are texts already."""
+        self.lines.append("    %s %d" % (keyword, len(texts) // width))
+        self.lines.append("\n".join(map(" ".join, zip(*[iter(texts)] * width))))
+
     def __str__(self):
         return "\n".join(self.lines) + "\n"
+
+
+UV, SAME_UV = "%.7g", 1e-6  # a hundredth of a pixel of a picture of 8192
+NORMAL = "%.5g"  # 1e-5 of a direction is two seconds of arc
+
+
+def shortest_floats(values):
+    """Texts of an array of floats, each with as few digits as read back to the same float. Large pieces
+    make this fast."""
+    texts, at, rest = [""] * len(values), range(len(values)), values
+    for form in ("%.7g ", "%.8g ", "%.9g "):  # %g drops the zeros of what has fewer
+        made = (form * len(rest) % tuple(rest)).split()
+        if len(made) == len(texts):
+            texts = made
+        else:
+            for i, text in zip(at, made):
+                texts[i] = text
+        read_back = array("f", map(float, made))
+        if read_back == rest:
+            break
+        wrong = list(map(operator.ne, read_back, rest))
+        at, rest = list(itertools.compress(at, wrong)), array("f", itertools.compress(rest, wrong))
+    return texts
 
 
 class Names:
@@ -238,12 +284,17 @@ class Names:
 
     def __init__(self):
         self.taken = set()
+        self.last = {}  # wanted name -> number that was handed out last
 
     def unique(self, wanted):
-        name, i = wanted or "unnamed", 0
+        """`wanted`, or that and the first number that is free. The search goes on where the last one
+        for the same name ended: a hundred thousand instances of one object share a name."""
+        wanted = name = wanted or "unnamed"
+        i = self.last.get(wanted, 0)
         while name in self.taken:
             i += 1
             name = "%s.%03d" % (wanted, i)
+        self.last[wanted] = i
         self.taken.add(name)
         return name
 
@@ -340,12 +391,30 @@ def length(v):
     return math.sqrt(sum(x * x for x in v))
 
 
+def difference(a, b):
+    return [x - y for x, y in zip(a, b)]
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def cross(a, b):
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
 def without_scale(rows):
     """Columns of unit length: cameras and lights have no size of their own."""
     lengths = [length(column(rows, i)) or 1.0 for i in range(3)]
     if all(abs(x - 1) < 1e-6 for x in lengths):
         return rows
     return tuple(tuple(row[i] / lengths[i] for i in range(3)) + (row[3],) for row in rows)
+
+
+def is_flat(rows):
+    """Whether the map has no inverse worth the name: something is scaled to nothing."""
+    size = max(max(abs(x) for x in row[:3]) for row in rows)
+    return abs(determinant(rows)) <= 1e-12 * size**3
 
 
 def nearly_equal(a, b):
@@ -412,11 +481,13 @@ def may_deform(thing):
 class Motion:
     """Matrices of all instances and cameras at KEY_TIMES; empty without motion blur."""
 
-    def __init__(self, depsgraph, set_frame, scene, frame, cameras):
+    def __init__(self, depsgraph, set_frame, scene, frame, cameras, report):
         self.moments = []
         interval = shutter_interval(scene, frame)
         if interval is None:
             return
+        if getattr(getattr(scene, "cycles", None), "rolling_shutter_type", "NONE") != "NONE":
+            report.warn(43, "the shutter rolls", "all of the picture at once")
         begin, end = interval
         for t in KEY_TIMES:
             moment = begin + (end - begin) * t
@@ -436,7 +507,11 @@ class Motion:
                 points = read(thing.data.vertices, "co", "f", 3)
                 found[("shape", thing.name_full)] = hashlib.sha1(points.tobytes()).digest()
         for camera in cameras:
+            data = camera.evaluated_get(depsgraph).data
             found[("camera", camera.name_full)] = rows_of(camera.evaluated_get(depsgraph).matrix_world)
+            found[("lens", camera.name_full)] = (
+                data.lens, data.sensor_width, data.sensor_height, data.shift_x, data.shift_y, data.ortho_scale,
+                *((data.dof.focus_distance, data.dof.aperture_fstop) if data.dof.use_dof else ()))
         return found
 
     def samples(self, key, rows):
@@ -454,7 +529,7 @@ class Motion:
             report.warn(34, "is not there during the whole shutter", "it stands still")
             return [rows]
         signs = {determinant(s) > 0 for s in samples}
-        if len(signs) > 1 or any(determinant(s) == 0 for s in samples):
+        if len(signs) > 1 or any(map(is_flat, samples)):
             if not all(nearly_equal(samples[0], s) for s in samples):
                 report.warn(34, "turns flat or inside out in the shutter", "it stands still")
             return [rows]
@@ -467,7 +542,7 @@ class Motion:
 
 def picture_size(render):
     percent = render.resolution_percentage
-    return render.resolution_x * percent // 100, render.resolution_y * percent // 100
+    return max(render.resolution_x * percent // 100, 1), max(render.resolution_y * percent // 100, 1)
 
 
 def crop_of(render, width, height):
@@ -475,6 +550,14 @@ def crop_of(render, width, height):
     x0, x1 = (int(single(f * width)) for f in (render.border_min_x, render.border_max_x))
     y0, y1 = (int(single(f * height)) for f in (render.border_min_y, render.border_max_y))
     return x0, height - y1, x1, height - y0
+
+
+def within(x, least, most, what, report):
+    """x as the scene text takes it."""
+    taken = min(max(x, least), most) if math.isfinite(x) else least
+    if taken != x:
+        report.warn(35, "%s is %s" % (what, "%.6g" % x), "%.6g" % taken)
+    return taken
 
 
 def pixel_filter(scene):
@@ -514,10 +597,24 @@ def transfer_of(scene, report):
         report.warn(1, "look '%s'" % view.look, "no look")
     if view.use_curve_mapping:
         report.warn(1, "view curves", "no curves")
+    if getattr(view, "use_white_balance", False):  # 4.3
+        report.warn(41, "white balance of %.0f K" % view.white_balance_temperature, "none")
     if abs(view.gamma - 1) > 1e-6:
         report.warn(2, "view gamma %s" % number(view.gamma), "1")
     is_linear = name == "Raw" or scene.display_settings.display_device == "None"
     return "linear" if is_linear else "srgb"
+
+
+def warn_of_what_comes_after(scene, report):
+    """What Blender does with a picture that is rendered."""
+    tree = getattr(scene, "node_tree", None) if getattr(scene, "use_nodes", False) else None
+    tree = getattr(scene, "compositing_node_group", tree)  # 5.0
+    plain = {"CompositorNodeRLayers", "CompositorNodeComposite", "CompositorNodeViewer", "NodeGroupOutput", "NodeReroute"}
+    if scene.render.use_compositing and tree and any(n.bl_idname not in plain and not n.mute for n in tree.nodes):
+        report.warn(45, "nodes of the compositor", "the picture without them")
+    strips = getattr(scene.sequence_editor, "strips", None) or getattr(scene.sequence_editor, "sequences", None)
+    if scene.render.use_sequencer and strips:
+        report.warn(45, "strips of the sequencer", "the scene itself")
 
 
 def put_settings(text, scene, report):
@@ -529,6 +626,12 @@ def put_settings(text, scene, report):
         text.put("resolution", width, height)
         if render.pixel_aspect_x != render.pixel_aspect_y:
             text.put("pixel_aspect", render.pixel_aspect_x, render.pixel_aspect_y)
+        if render.use_border and not render.use_crop_to_border:
+            report.warn(44, "the border is not cropped to",
+                        "the picture is the border alone; --crop-pad of the renderer gives it the full size")
+        if render.film_transparent:
+            report.warn(40, "the film is transparent", "the background is opaque")
+        warn_of_what_comes_after(scene, report)
         if render.use_border:
             crop = crop_of(render, width, height)
             if crop[0] < crop[2] and crop[1] < crop[3]:
@@ -562,6 +665,18 @@ def focus_distance(camera, rows, depsgraph):
     return abs(sum(a * (e - p) for a, e, p in zip(axis, eye, place)))
 
 
+def unscaled(camera):
+    """Place of a camera whose world matrix has lost its directions."""
+    turn = camera.matrix_basis.to_3x3()
+    if camera.rotation_mode == "QUATERNION":
+        turn = camera.rotation_quaternion.to_matrix()
+    elif camera.rotation_mode != "AXIS_ANGLE":
+        turn = camera.rotation_euler.to_matrix()
+    rows = rows_of(Matrix.LocRotScale(camera.matrix_world.translation, turn, None))
+    place = camera.matrix_world.translation
+    return rows if not is_flat(rows) else tuple(IDENTITY[i][:3] + (place[i],) for i in range(3))
+
+
 def put_camera(text, camera, keys, rows, depsgraph, name, report):
     """`camera` is evaluated; `rows` is its place at the frame, `keys` its places in the shutter."""
     data = camera.data
@@ -570,9 +685,13 @@ def put_camera(text, camera, keys, rows, depsgraph, name, report):
         if data.type not in {"PERSP", "ORTHO"}:
             report.warn(7, "camera type %s" % data.type, "perspective")
         text.put("type", "orthographic" if is_ortho else "perspective")
-        text.put_keys([without_scale(k) for k in keys])
+        keys = [without_scale(k) for k in keys]
+        if any(map(is_flat, keys)):
+            report.warn(36, "its scale is 0", "its own rotation")
+            keys = [unscaled(camera)]
+        text.put_keys(keys)
         if is_ortho:
-            text.put("ortho_scale", data.ortho_scale)
+            text.put("ortho_scale", within(data.ortho_scale, 1e-6, 1e30, "its orthographic scale", report))
         else:
             text.put("lens", data.lens)
         text.put("sensor", data.sensor_width, data.sensor_height)
@@ -634,30 +753,55 @@ def is_sphere_lamp(lamp):
     return not getattr(lamp, "use_soft_falloff", False)
 
 
-def put_light(text, name, lamp, rows, is_visible, values, report):
+def put_light(text, name, lamp, rows, seen_by, values, report):
     place = without_scale(rows)
     scale = [length(column(rows, i)) for i in range(3)]
     power = scaled(product(light_color(lamp), light_strength(lamp, values, report)), lamp.energy)
+    if min(power) < 0:
+        report.warn(35, "it takes light away", "none")
     power = tuple(max(x, 0.0) for x in power)
     normalize = getattr(lamp, "normalize", True)  # 4.5
     with text.block("light", name):
-        LIGHT_TYPES[lamp.type](text, lamp, power, place, scale, is_visible, normalize, report)
+        LIGHT_TYPES[lamp.type](text, lamp, power, place, scale, normalize, report)
         text.put_unless(True, "shadows", casts_shadows(lamp))
+        has_size = {"AREA": 1, "SUN": lamp.angle if lamp.type == "SUN" else 0}.get(
+            lamp.type, getattr(lamp, "shadow_soft_size", 0)) > 0
+        text.put_unless("none", "seen_by", seen_by if has_size else "none")
 
 
-def put_point_light(text, lamp, power, place, _scale, is_visible, normalize, _report):
+def gives_light(lamp, rows, report):
+    """False, after a warning, for what the renderer would refuse and Cycles shows nothing of."""
+    scale = [length(column(rows, i)) for i in range(3)]
+    if not all(map(math.isfinite, (*lamp.color, lamp.energy))):
+        report.warn(11, "its colour or power is not finite", "left out")
+        return False
+    if lamp.type != "POINT" and is_flat(without_scale(rows)):
+        report.warn(36, "its scale is 0", "left out")
+        return False
+    size_y = lamp.size_y if lamp.type == "AREA" and lamp.shape in {"RECTANGLE", "ELLIPSE"} else 1
+    if lamp.type == "AREA" and min(lamp.size * scale[0], size_y * scale[1]) < 1e-9:
+        report.warn(36, "its area is 0", "left out")
+        return False
+    return True
+
+
+def put_color(text, color, report):
+    """Radiance or intensity of a light."""
+    text.put("color", tuple(within(x, 0.0, 1e15, "its brightness", report) for x in color))
+
+
+def put_point_light(text, lamp, power, place, _scale, normalize, report):
     radius = lamp.shadow_soft_size
     if radius > 0 and is_sphere_lamp(lamp):
         area = 4 * math.pi * math.pi * radius * radius if normalize else math.pi
         text.put("type", "sphere")
         text.put("translate", column(place, 3))
-        text.put("color", scaled(power, 1 / area))
+        put_color(text, scaled(power, 1 / area), report)
         text.put("radius", radius)
-        text.put_unless(False, "visible", is_visible)
         return
     text.put("type", "point")
     text.put("translate", column(place, 3))
-    text.put("color", scaled(power, intensity_factor(radius, normalize)))
+    put_color(text, scaled(power, intensity_factor(radius, normalize)), report)
     text.put_unless(0, "radius", radius)
 
 
@@ -668,7 +812,7 @@ def intensity_factor(radius, normalize):
     return 1 / math.pi if radius <= 0 else radius * radius
 
 
-def put_spot(text, lamp, power, place, scale, _is_visible, normalize, report):
+def put_spot(text, lamp, power, place, scale, normalize, report):
     angle = lamp.spot_size
     if VERSION >= (3, 5):  # before, scale did not matter
         if abs(scale[0] - scale[1]) > 1e-4 * scale[0]:
@@ -678,14 +822,14 @@ def put_spot(text, lamp, power, place, scale, _is_visible, normalize, report):
             angle = 2 * math.atan(math.tan(angle / 2) * across / scale[2])
     text.put("type", "spot")
     text.put_rows(place)
-    text.put("color", scaled(power, intensity_factor(lamp.shadow_soft_size, normalize)))
+    put_color(text, scaled(power, intensity_factor(lamp.shadow_soft_size, normalize)), report)
     text.put_unless(0, "radius", lamp.shadow_soft_size)
     text.put("cone_angle", min(math.degrees(angle), 180.0))
     text.put("blend", lamp.spot_blend)
     text.put_unless(False, "cosine_falloff", VERSION < (3, 5))
 
 
-def put_sun(text, lamp, power, place, _scale, _is_visible, normalize, _report):
+def put_sun(text, lamp, power, place, _scale, normalize, report):
     angle = lamp.angle
     factor = 1.0
     if VERSION < (4, 0):  # measured in 3.4: a large sun loses a little
@@ -694,14 +838,14 @@ def put_sun(text, lamp, power, place, _scale, _is_visible, normalize, _report):
         factor *= math.pi * math.sin(angle / 2) ** 2
     text.put("type", "sun")
     text.put_rows(place)
-    text.put("color", scaled(power, factor))
-    text.put_unless(0, "angle", math.degrees(angle))
+    put_color(text, scaled(power, factor), report)
+    text.put_unless(0, "angle", min(math.degrees(angle), 180.0))  # half a turn as a float is more
 
 
-def put_area_light(text, lamp, power, place, scale, is_visible, normalize, _report):
+def put_area_light(text, lamp, power, place, scale, normalize, report):
     is_round = lamp.shape in {"DISK", "ELLIPSE"}
     size_y = lamp.size_y if lamp.shape in {"RECTANGLE", "ELLIPSE"} else lamp.size
-    size = (max(lamp.size * scale[0], 1e-9), max(size_y * scale[1], 1e-9))
+    size = (lamp.size * scale[0], size_y * scale[1])
     area = size[0] * size[1] * (math.pi / 4 if is_round else 1)
     if not normalize:
         area = 1.0
@@ -709,12 +853,11 @@ def put_area_light(text, lamp, power, place, scale, is_visible, normalize, _repo
         area *= 4 / math.pi
     text.put("type", "disk" if is_round else "rectangle")
     text.put_rows(place)
-    text.put("color", scaled(power, 1 / (math.pi * area)))
+    put_color(text, scaled(power, 1 / (math.pi * area)), report)
     text.put("size", *size)
     spread = math.degrees(getattr(lamp, "spread", math.pi))
     if spread < 179.99:
         text.put("spread", max(spread, 1e-3))
-    text.put_unless(False, "visible", is_visible)
 
 
 LIGHT_TYPES = {
@@ -727,8 +870,6 @@ LIGHT_TYPES = {
 
 # ------------------------------------------------------------------------------------------ 8 images
 
-NATIVE_FILES = (".ppm", ".png", ".pfm")
-OTHER_FILES = (".jpg", ".jpeg", ".tga", ".bmp", ".tif", ".tiff", ".exr", ".hdr", ".webp")
 LINEAR_SPACES = {"Non-Color", "Raw", "Linear", "Linear Rec.709", "Generic Data"}
 
 
@@ -739,6 +880,108 @@ def base_name(path):
 
 def srgb_to_linear(x):
     return x / 12.92 if x <= 0.04045 else ((x + 0.055) / 1.055) ** 2.4
+
+
+def linear_to_srgb(x):
+    return x * 12.92 if x <= 0.0031308 else 1.055 * x ** (1 / 2.4) - 0.055
+
+
+def as_byte(x):
+    return min(max(int(x * 255 + 0.5), 0), 255)
+
+
+# What 1 - x makes of an 8-bit code: of plain numbers, and of colours that are inverted in linear light.
+INVERSIONS = {
+    "alpha": bytes(255 - i for i in range(256)),
+    "linear": bytes(255 - i for i in range(256)),
+    "srgb": bytes(as_byte(linear_to_srgb(1 - srgb_to_linear(i / 255))) for i in range(256)),
+}
+
+
+# What the renderer reads (Code/image). Everything else is written anew by Blender.
+
+def readable_form(data, name):
+    """Extension that fits a picture file which the renderer reads; None for others, among them files
+    that are not whole."""
+    for start, form, is_sound in FORMS:
+        if data.startswith(start):
+            return form if is_sound(data) else None
+    return ".tga" if name.lower().endswith(".tga") and is_sound_tga(data) else None
+
+
+def is_sound_png(data):
+    i = 8
+    while i + 12 <= len(data):
+        size, kind = struct.unpack(">I4s", data[i : i + 8])
+        end = i + 8 + size
+        if end + 4 > len(data) or zlib.crc32(data[i + 4 : end]) != struct.unpack(">I", data[end : end + 4])[0]:
+            return False
+        if kind == b"IEND":
+            return True
+        i = end + 4
+    return False
+
+
+def is_sound_jpeg(data):
+    """Baseline and progressive, 8 bits, grey or three colours, up to its end."""
+    i = 2
+    while i + 10 <= len(data) and data[i] == 0xFF:
+        marker = data[i + 1]
+        if marker == 0xFF or marker == 1 or 0xD0 <= marker <= 0xD8:
+            i += 1 if marker == 0xFF else 2
+            continue
+        if 0xC0 <= marker <= 0xCF and marker not in {0xC4, 0xC8, 0xCC}:
+            return marker <= 0xC2 and data[i + 4] == 8 and data[i + 9] in {1, 3} and data.rfind(b"\xff\xd9") > i
+        i += 2 + struct.unpack(">H", data[i + 2 : i + 4])[0]
+    return False
+
+
+def is_sound_exr(data):
+    """No deep data, no colour differences, compression up to PIZ."""
+    kind = re.search(rb"compression\x00compression\x00\x01\x00\x00\x00(.)", data[:65536], re.DOTALL)
+    return len(data) > 8 and not data[5] & 0x08 and kind is not None and kind[1][0] <= 4 \
+        and b"\x00RY\x00" not in data[:65536]
+
+
+def is_sound_hdr(data):
+    head = data[:65536].partition(b"\n\n")
+    return b"32-bit_rle_rgbe" in head[0] and head[2].startswith(b"-Y ")
+
+
+def is_sound_ppm(data):
+    head = re.match(rb"P6\s+(?:#.*\s+)*(\d+)\s+(\d+)\s+(\d+)\s", data[:4096])
+    if not head:
+        return data[:2] != b"P6"
+    width, height, most = map(int, head.groups())
+    return len(data) - head.end() >= 3 * width * height * (1 if most < 256 else 2)
+
+
+def is_sound_pfm(data):
+    head = re.match(rb"P([Ff])\s+(\d+)\s+(\d+)\s+(\S+)\s", data[:4096])
+    return head is not None and len(data) - head.end() >= 4 * (3 if head[1] == b"F" else 1) * int(head[2]) * int(head[3])
+
+
+def is_sound_tga(data):
+    if len(data) < 18 or data[2] not in {1, 2, 3, 9, 10, 11}:
+        return False
+    width, height = struct.unpack("<HH", data[12:16])
+    return data[2] > 3 or len(data) >= 18 + data[0] + width * height * ((data[16] + 7) // 8)
+
+
+# (first bytes, extension, whether it is one that the renderer reads)
+FORMS = (
+    (b"\x89PNG\r\n\x1a\n", ".png", is_sound_png),
+    (b"\xff\xd8\xff", ".jpg", is_sound_jpeg),
+    (b"\x76\x2f\x31\x01", ".exr", is_sound_exr),
+    (b"#?RADIANCE", ".hdr", is_sound_hdr),
+    (b"#?RGBE", ".hdr", is_sound_hdr),
+    (b"P6", ".ppm", is_sound_ppm),
+    (b"P5", ".ppm", is_sound_ppm),
+    (b"PF", ".pfm", is_sound_pfm),
+    (b"Pf", ".pfm", is_sound_pfm),
+)
+UNKNOWN_TO_BLENDER = {".ppm", ".pfm"}
+FLOAT_FORMS = (".pfm", ".exr", ".hdr")  # the renderer takes their numbers as linear
 
 
 def encode_png(width, height, channels, rows_bottom_up):
@@ -794,88 +1037,108 @@ def thinned(values):
 
 
 class Pixels(NamedTuple):
-    """Pixels of an image as Blender stores them, rows from the bottom."""
+    """Planes of an image, red green blue and alpha if it has one, rows from the bottom: bytes, or
+    arrays of floats."""
     width: int
     height: int
-    channels: int
-    values: array
+    planes: list
+    is_float: bool
+
+    def interleaved(self):
+        joined = array("f", bytes(4 * len(self.planes[0]) * len(self.planes))) if self.is_float \
+            else bytearray(len(self.planes[0]) * len(self.planes))
+        for i, plane in enumerate(self.planes):
+            joined[i :: len(self.planes)] = plane
+        return joined
+
+
+class Facts(NamedTuple):
+    """What is known of an image once Blender has loaded it."""
+    is_readable: bool
+    has_alpha: bool
     is_float: bool
 
 
+def is_premultiplied(image):
+    """Cycles believes this of what lies in Blender's memory; of a file it asks the file's format."""
+    return image.alpha_mode == "PREMUL" and getattr(image, "packed_file", None) is not None
+
+
 class Images:
-    """Finds the file of each image, and writes one where there is none that the renderer reads."""
+    """Finds the file of each image, and writes one where there is none that the renderer reads.
+
+    An image has up to three looks, as Cycles makes them of its alpha mode: 'straight' colours beside
+    their alpha, colours 'associated' with (multiplied by) alpha, and 'opaque' ones that know no alpha.
+    """
 
     def __init__(self, out_folder, textures, as_ppm, report):
         self.out_folder = out_folder
         self.as_ppm = as_ppm
         self.report = report
-        self.files = {}
-        self.means = {}
+        self.files, self.known, self.greys, self.means = {}, {}, {}, {}
         beside = os.path.dirname(out_folder) if os.path.basename(out_folder) == "ASCII" else out_folder
         self.store = os.path.abspath(textures) if textures else os.path.join(beside, "Textures")
-        script = os.path.dirname(os.path.abspath(globals().get("__file__", "")))
-        self.known = [self.store, os.path.join(beside, "Textures")]
-        blend = [os.path.dirname(bpy.data.filepath)] if bpy.data.filepath else []
-        self.searched = blend + self.known + [os.path.join(os.path.dirname(script), "Textures")]
+        self.searched = [self.store] if textures else []
+        self.beside = [out_folder, self.store, os.path.join(beside, "Textures")]
 
     # ---- finding
 
-    def file(self, image, inverted=False):
-        """Path of the image's file relative to the output; None after a warning."""
-        key = (image.name_full, inverted)
+    def file(self, image, look="straight", inversion=None, grey=None):
+        """Path, relative to the output, of a file with this look of the image; None after a warning.
+        inversion: None, or what is inverted (a key of INVERSIONS). grey: None, or the colour space in
+        which colours become their luminance."""
+        key = (image.name_full, look, inversion, grey)
         if key not in self.files:
-            self.files[key] = self.invert(image) if inverted else self.locate(image)
+            plain = look == "straight" and inversion is None and grey is None
+            self.files[key] = self.locate(image) if plain else self.baked(image, look, inversion, grey)
         return self.files[key]
 
     def locate(self, image):
         if image.source in {"SEQUENCE", "MOVIE", "TILED"}:
             self.report.warn(24, "image '%s' is a %s" % (image.name, image.source.lower()), "one picture")
-        edited = image.is_dirty and image.source != "GENERATED"
-        packed = getattr(image, "packed_file", None)
-        if packed is not None and not edited:
+        if image.source == "GENERATED" or image.is_dirty:
+            return self.rewritten(image)
+        path, packed = None, getattr(image, "packed_file", None)
+        if packed is not None:
             data = bytes(packed.data)
-            if data[:8] == b"\x89PNG\r\n\x1a\n" and not self.as_ppm:
-                return self.save(self.stem(image), ".png", data)
-            return self.convert(image)
-        if image.source == "GENERATED" or edited:
-            return self.convert(image)
-        path = self.find(image)
-        if path is None:
-            self.report.warn(22, "image '%s': no file '%s'" % (image.name, base_name(image.filepath)),
-                             "no texture")
-            return None
-        extension = os.path.splitext(path)[1].lower()
-        if extension in NATIVE_FILES and not (self.as_ppm and extension == ".png"):
-            return self.use(path)
-        return self.convert(image, path)
+        else:
+            path = self.find(image)
+            if path is None:
+                self.report.warn(22, "image '%s': no file '%s'" % (image.name, base_name(image.filepath)),
+                                 "magenta, as Blender shows it")
+                return None
+            with open(path, "rb") as file:
+                data = file.read()
+        form = readable_form(data, path or image.filepath)
+        if form not in UNKNOWN_TO_BLENDER:
+            facts = self.facts(image)
+            if not facts.is_readable:
+                return self.unreadable(image)
+            if form is None or (is_premultiplied(image) and facts.has_alpha and not facts.is_float) or (self.as_ppm and form in {".png", ".jpg", ".tga"}):
+                return self.rewritten(image)
+        return self.use(path, data, form) if path else self.save(self.stem(image), form, data)
+
+    def unreadable(self, image):
+        self.report.warn(23, "image '%s' cannot be read" % image.name, "magenta, as Blender shows it")
 
     def find(self, image):
+        """The image's own file, or one of that name in the folder that --textures names. What only
+        has a similar name is another picture."""
         path = image.filepath_raw or image.filepath
         path = path.replace("<UDIM>", "1001").replace("<UVTILE>", "u1_v1")
         own = bpy.path.abspath(path, library=image.library)
-        if os.path.isfile(own):
-            return os.path.abspath(own)
-        name = base_name(path)
-        stem = os.path.splitext(name)[0]
-        if not stem:
-            return None
-        for wanted in [name] + [stem + ext for ext in NATIVE_FILES + OTHER_FILES]:
-            for folder in self.searched:
-                candidate = os.path.join(folder, wanted)
-                if os.path.isfile(candidate):
-                    self.report.note("image '%s' found as %s" % (image.name, wanted))
-                    return os.path.abspath(candidate)
+        for candidate in [own] + [os.path.join(folder, base_name(path)) for folder in self.searched]:
+            if base_name(path) and os.path.isfile(candidate):
+                self.report.note("image '%s' is %s" % (image.name, candidate))
+                return os.path.abspath(candidate)
         return None
 
-    def use(self, path):
+    def use(self, path, data, form):
         """A file that the renderer reads: named where it is if that is beside us, else copied."""
-        folders = [self.out_folder] + self.known
-        if any(os.path.realpath(path).startswith(os.path.realpath(f) + os.sep) for f in folders):
+        if any(os.path.realpath(path).startswith(os.path.realpath(f) + os.sep) for f in self.beside):
             return self.relative(path)
-        with open(path, "rb") as file:
-            data = file.read()
         stem, extension = os.path.splitext(os.path.basename(path))
-        return self.save(stem, extension.lower(), data)
+        return self.save(stem, extension.lower() if extension.lower() == ".jpeg" else form, data)
 
     def relative(self, path):
         return os.path.relpath(path, self.out_folder).replace(os.sep, "/")
@@ -883,7 +1146,9 @@ class Images:
     # ---- writing
 
     def stem(self, image):
-        """Stable file name of an image that has no file of its own."""
+        """Stable file name of an image: that of its file, or made of its name and the scene's."""
+        if image.source == "FILE" and not image.is_dirty and not getattr(image, "packed_file", None):
+            return os.path.splitext(base_name(image.filepath))[0]
         stem = os.path.splitext(base_name(image.name))[0] or "image"
         blend = os.path.splitext(os.path.basename(bpy.data.filepath))[0]
         return re.sub(r"[^A-Za-z0-9_.-]+", "_", "%s_%s" % (blend, stem) if blend else stem)
@@ -897,92 +1162,197 @@ class Images:
             write_atomically(path, data)
         return self.relative(path)
 
-    def convert(self, image, path=None):
-        pixels = self.pixels(image, path)
-        if pixels is None:
-            self.report.warn(23, "image '%s' cannot be read" % image.name, "no texture")
-            return None
-        stem = os.path.splitext(os.path.basename(path))[0] if path else self.stem(image)
-        return self.save(stem, *self.encode(pixels))
-
-    def invert(self, image):
-        pixels = self.pixels(image, self.find(image) if image.source == "FILE" else None)
-        if pixels is None or pixels.is_float:
-            self.report.warn(23, "image '%s' cannot be inverted" % image.name, "no texture")
-            return None
-        values = array("f", (1 - x for x in pixels.values))
-        return self.save(self.stem(image) + "_inverted", *self.encode(pixels._replace(values=values)))
-
-    def encode(self, pixels):
-        """(extension, bytes of the file)"""
-        width, height, channels, values, is_float = pixels
-        planes = [values[i::channels] for i in range(channels)]
-        if channels < 3:  # grey, grey and alpha
-            planes = [planes[0]] * 3 + planes[1:]
-        if is_float:
-            rgb = array("f", bytes(12 * width * height))
-            for i in range(3):
-                rgb[i::3] = planes[i]
-            return ".pfm", encode_pfm(width, height, rgb)
-        stored = [bytes([min(max(int(x * 255 + 0.5), 0), 255) for x in plane]) for plane in planes]
-        if len(stored) == 4 and min(stored[3]) == 255:
-            stored.pop()
-        data = bytearray(len(stored) * width * height)
-        for i, plane in enumerate(stored):
-            data[i :: len(stored)] = plane
-        if self.as_ppm and len(stored) == 3:
-            return ".ppm", encode_ppm(width, height, data)
-        return ".png", encode_png(width, height, len(stored), data)
-
-    def pixels(self, image, path=None):
-        """Pixels of the image, or of the file that stands in for its own; None if unreadable."""
-        substitute = None
-        own = bpy.path.abspath(image.filepath, library=image.library)
-        if path and not (os.path.exists(own) and os.path.samefile(own, path)):
-            try:
-                substitute = image = bpy.data.images.load(path, check_existing=False)
-            except RuntimeError:
-                return None
+    @contextlib.contextmanager
+    def loaded(self, image):
+        """The image, or what is loaded from the file that stands in for its own; None if unreadable."""
+        substitute, path = None, None
+        if image.source == "FILE" and not image.is_dirty and not getattr(image, "packed_file", None):
+            own, path = bpy.path.abspath(image.filepath, library=image.library), self.find(image)
+            if path and not (os.path.exists(own) and os.path.samefile(own, path)):
+                with contextlib.suppress(RuntimeError):
+                    substitute = bpy.data.images.load(path, check_existing=False)
+                    substitute.colorspace_settings.name = image.colorspace_settings.name
+                    substitute.alpha_mode = image.alpha_mode
+                image = substitute
         try:
-            width, height = image.size
-            if width == 0 or height == 0:
-                return None
-            values = array("f", bytes(4 * len(image.pixels)))
-            image.pixels.foreach_get(values)
-            return Pixels(width, height, len(values) // (width * height), values, image.is_float)
+            yield image if image is not None and min(image.size) > 0 else None
         finally:
             if substitute:
                 bpy.data.images.remove(substitute)
+
+    def facts(self, image):
+        if image.name_full not in self.known:
+            was_loaded = image.has_data
+            with self.loaded(image) as it:
+                self.known[image.name_full] = Facts(False, False, False) if it is None else Facts(
+                    True, it.channels == 4 and it.depth in {16, 32, 64, 128}, it.is_float)
+            if not was_loaded and image.source == "FILE":
+                image.buffers_free()  # all pictures at once may be more than the memory
+        return self.known[image.name_full]
+
+    def is_grey(self, image):
+        if image.name_full not in self.greys:
+            with self.loaded(image) as known:
+                pixels = self.pixels(known) if known else None
+                self.greys[image.name_full] = pixels is not None and pixels.planes[0] == pixels.planes[1] == pixels.planes[2]
+        return self.greys[image.name_full]
+
+    def rewritten(self, image):
+        """The image as Blender writes it: PNG, or OpenEXR when it is of floats."""
+        with self.loaded(image) as known:
+            if known is None:
+                return self.unreadable(image)
+            if self.as_ppm and not known.is_float:
+                pixels = self.pixels(known)
+                if len(pixels.planes) == 3 or min(pixels.planes[3]) == 255:
+                    pixels = pixels._replace(planes=pixels.planes[:3])
+                    return self.save(self.stem(image), ".ppm",
+                                     encode_ppm(pixels.width, pixels.height, pixels.interleaved()))
+            form, extension = ("OPEN_EXR", ".exr") if known.is_float else ("PNG", ".png")
+            data = written_by_blender(known, form)
+            return self.save(self.stem(image), extension, data) if data else self.unreadable(image)
+
+    def baked(self, image, look, inversion, grey):
+        """A look that the file itself does not have."""
+        with self.loaded(image) as known:
+            if known is None:
+                return self.locate(image)  # it warns, or Blender does not know what the renderer reads
+            as_blender = look != "opaque" and is_premultiplied(image)
+            pixels = self.pixels(known, None if as_blender else "CHANNEL_PACKED")
+        if pixels is None:
+            return self.unreadable(image)
+        color, alpha = pixels.planes[:3], pixels.planes[3:]
+        if alpha and inversion != "alpha" and min(alpha[0]) == (1 if pixels.is_float else 255):
+            alpha = []
+            if inversion is None and grey is None:
+                return self.file(image)
+        if look == "associated" and alpha and not pixels.is_float:
+            color = [times_alpha(plane, alpha[0]) for plane in color]
+        if look != "straight":
+            alpha = []
+        name = "%s_%s" % (self.stem(image), look) if look != "straight" else self.stem(image)
+        if pixels.is_float:
+            if inversion is not None or grey is not None or alpha:
+                self.report.warn(23, "image '%s' of floats cannot be inverted or made grey" % image.name, "as it is")
+                return self.file(image)
+            rgb = Pixels(pixels.width, pixels.height, color, True).interleaved()
+            return self.save(name, ".pfm", encode_pfm(pixels.width, pixels.height, rgb))
+        if grey is not None:
+            name += "_grey"
+            color = [luminances(color, grey)] * 3
+        if inversion is not None:
+            name += "_inverted"
+            color = [plane.translate(INVERSIONS[inversion]) for plane in color]
+            if inversion == "alpha":
+                alpha = [plane.translate(INVERSIONS[inversion]) for plane in alpha]
+        rows = Pixels(pixels.width, pixels.height, color + alpha, False).interleaved()
+        return self.save(name, ".png", encode_png(pixels.width, pixels.height, len(color + alpha), rows))
+
+    @staticmethod
+    def pixels(image, alpha_mode=None):
+        """Pixels as Blender understands the file (in another alpha mode, if one is given), by way of a file without compression: Python's own loops would
+        take half a minute for a large picture."""
+        width, height = image.size
+        if image.is_float:
+            values = array("f", bytes(4 * len(image.pixels)))
+            image.pixels.foreach_get(values)
+            planes = [values[i :: image.channels] for i in range(image.channels)]
+            return Pixels(width, height, planes if len(planes) > 2 else [planes[0]] * 3 + planes[1:], True)
+        data = written_by_blender(image, "TARGA_RAW", alpha_mode)
+        if not data:
+            return None
+        channels, start = data[16] // 8, 18 + data[0]
+        body = data[start : start + width * height * channels]
+        order = (0, 0, 0) if channels == 1 else (2, 1, 0, 3)[:channels]
+        return Pixels(width, height, [body[i::channels] for i in order], False)
 
     # ---- numbers
 
     def mean(self, texture):
         """Mean colour of a texture in linear light, from some thousand of its pixels."""
-        key = (texture.image.name_full, texture.channel, texture.space)
+        key = (texture.image.name_full, texture.channel, texture.space, texture.look)
         if key not in self.means:
             self.means[key] = self.measure(texture)
         mean = self.means[key]
+        mean = (gray(mean),) * 3 if texture.grey else mean
         return tuple(1 - x for x in mean) if texture.inverted else mean
 
     def measure(self, texture):
         path = self.find(texture.image) if texture.image.source == "FILE" else None
-        pixels = self.pixels(texture.image, path)
-        if pixels is not None:
-            first = 3 if texture.channel == "alpha" and pixels.channels == 4 else 0
-            same = texture.channel == "alpha" or pixels.channels < 3
-            planes = [pixels.values[first if same else i :: pixels.channels] for i in range(3)]
-            is_float = pixels.is_float
-        else:
-            found = planes_of_file(path) if path else None
-            if found is None or not found[0][0]:
-                return (0.5, 0.5, 0.5)
-            planes, is_float = found
+        with self.loaded(texture.image) as known:
+            if known is not None:
+                channels, is_float = known.channels, known.is_float
+                values = array("f", bytes(4 * len(known.pixels)))
+                known.pixels.foreach_get(values)
+                planes = [thinned(values[i::channels]) for i in range(channels)]
+                if texture.channel == "alpha":
+                    planes = [planes[3] if channels == 4 else [1.0]] * 3
+                elif texture.look == "associated" and channels == 4 and not is_float:
+                    planes = [[x * a for x, a in zip(plane, planes[3])] for plane in planes]
+                planes = planes[:3] if channels > 2 else [planes[0]] * 3
+            else:
+                found = planes_of_file(path) if path else None
+                if found is None or not found[0][0]:
+                    return (0.5, 0.5, 0.5)
+                planes, is_float = found
         decode = texture.space == "srgb" and texture.channel == "color" and not is_float
         means = []
         for plane in planes:
-            some = thinned(plane)
-            means.append(sum(map(srgb_to_linear, some) if decode else some) / len(some))
+            plane = finite(plane)
+            means.append(sum(map(srgb_to_linear, plane) if decode else plane) / len(plane))
         return tuple(means)
+
+
+def times_alpha(plane, alpha):
+    """Products of 8-bit codes, by a table of all pairs."""
+    pairs = bytearray(2 * len(plane))
+    pairs[0::2], pairs[1::2] = plane, alpha
+    table = bytes((i % 256 * (i // 256) + 127) // 255 for i in range(65536))
+    if sys.byteorder != "little":
+        pairs[0::2], pairs[1::2] = alpha, plane
+    return bytes(map(table.__getitem__, memoryview(pairs).cast("H")))
+
+
+def luminances(planes, space):
+    """Codes of the luminance of colours, by tables: sums of 16-bit numbers become codes again."""
+    decode = srgb_to_linear if space == "srgb" else float
+    encode = linear_to_srgb if space == "srgb" else float
+    parts = [[round(weight * decode(i / 255) * 65535) for i in range(256)] for weight in LUMINANCE]
+    codes = bytes(as_byte(encode(min(i / 65535, 1.0))) for i in range(65535 + 3))
+    red, green, blue = (map(part.__getitem__, plane) for part, plane in zip(parts, planes))
+    return bytes(map(codes.__getitem__, map(operator.add, map(operator.add, red, green), blue)))
+
+
+def written_by_blender(image, form, alpha_mode=None):
+    """Bytes of the file that Blender writes of an image; None if it cannot. Neither the image nor its
+    file is touched."""
+    if image.is_dirty or image.is_float:  # a copy would read the file again, floats are to stay linear
+        values = array("f", bytes(4 * len(image.pixels)))
+        image.pixels.foreach_get(values)
+        is_opaque = image.channels < 4 or min(values[3::4]) >= 1
+        copy = bpy.data.images.new(image.name, *image.size, alpha=not is_opaque, float_buffer=image.is_float)
+        copy.colorspace_settings.name = "Non-Color" if image.is_float else image.colorspace_settings.name
+        copy.pixels.foreach_set(values)
+    else:
+        copy = image.copy()
+    try:
+        if alpha_mode:
+            copy.alpha_mode = alpha_mode
+        if min(copy.size) == 0 or not len(copy.pixels):  # this loads it, too
+            return None
+        copy.pixels[0]
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "picture")
+            copy.filepath_raw, copy.file_format = path, form
+            with contextlib.suppress(RuntimeError):
+                copy.save()
+            made = [os.path.join(folder, name) for name in os.listdir(folder)]
+            if not made:
+                return None
+            with open(made[0], "rb") as file:
+                return file.read()
+    finally:
+        bpy.data.images.remove(copy)
 
 
 def same_bytes(path, data):
@@ -1008,6 +1378,8 @@ def write_atomically(path, data):
 # ------------------------------------------------------------------------------------------ 9 values
 
 BLACK, WHITE, GRAY = (0.0, 0.0, 0.0), (1.0, 1.0, 1.0), (0.8, 0.8, 0.8)
+LUMINANCE = (0.2126, 0.7152, 0.0722)
+MISSING = (1.0, 0.0, 1.0)  # what Blender shows instead of a picture that it cannot read
 
 
 def scaled(rgb, factor):
@@ -1029,7 +1401,7 @@ def mixed(a, b, t):
 def gray(rgb):
     """A colour that goes into a number socket."""
     r, g, b = rgb
-    return r if r == g == b else 0.2126 * r + 0.7152 * g + 0.0722 * b
+    return r if r == g == b else sum(map(operator.mul, LUMINANCE, rgb))
 
 
 def clamped(rgb):
@@ -1064,6 +1436,8 @@ class Texture:
     offset: tuple = (0.0, 0.0)
     coordinates: tuple = ("uv", "")
     inverted: bool = False
+    look: str = "straight"  # see Images
+    grey: bool = False  # its luminance
 
 
 @dataclass(frozen=True)
@@ -1294,8 +1668,13 @@ class Values:
         return number_value(found.output.default_value)
 
     def image_texture(self, found):
+        is_alpha = found.output.name == "Alpha"
         texture = self.texture(found)
-        return Value(WHITE, texture) if texture else Value(GRAY)
+        if texture is None:
+            return Value(WHITE if is_alpha else MISSING)
+        if is_alpha and texture.image.alpha_mode == "NONE":
+            return Value(WHITE)
+        return Value(WHITE, texture)
 
     def mix(self, found):
         node = found.node
@@ -1314,7 +1693,8 @@ class Values:
             factor = min(max(factor, 0.0), 1.0) if clamp_factor else factor
             if blend == "MIX" and factor in (0.0, 1.0):
                 return b if factor else a
-            if blend == "MULTIPLY" and factor == 1 and (a.texture is None or b.texture is None):
+            clamps = clamp_result and max(a.rgb + b.rgb) > 1
+            if blend == "MULTIPLY" and factor == 1 and (a.texture is None or b.texture is None) and not clamps:
                 return Value(product(a.rgb, b.rgb), a.texture or b.texture)
             if factor == 0:
                 return a
@@ -1331,12 +1711,13 @@ class Values:
 
     def math(self, found):
         node = found.node
-        values = [self.value(Socket(s, found.path)) for s in node.inputs]
+        values = [self.as_number(found, self.value(Socket(s, found.path))) for s in node.inputs]
         operation = MATH.get(node.operation)
-        if node.operation == "SUBTRACT" and values[1].texture and not values[1].texture.inverted \
+        if node.operation == "SUBTRACT" and values[1].texture \
                 and values[0] == number_value(1.0) and values[1].rgb == WHITE:
-            return Value(WHITE, replace(values[1].texture, inverted=True))
-        if node.operation == "MULTIPLY" and sum(v.texture is not None for v in values[:2]) == 1:
+            return Value(WHITE, replace(values[1].texture, inverted=not values[1].texture.inverted))
+        clamps = node.use_clamp and max(abs(x) for v in values[:2] for x in v.rgb) > 1
+        if node.operation == "MULTIPLY" and sum(v.texture is not None for v in values[:2]) == 1 and not clamps:
             return Value(product(values[0].rgb, values[1].rgb), values[0].texture or values[1].texture)
         if operation is None:
             self.report.warn(12, "operation %s of node '%s'" % (node.operation, node.name), "its first input")
@@ -1435,8 +1816,18 @@ class Values:
         return self.fold(found, (self.at_index(found, 0),), lambda c: (to_mode("HSV", c)[i],) * 3)
 
     def to_gray(self, found):
-        value = self.at_index(found, 0)
-        return value if value.texture else number_value(gray(value.rgb))
+        return self.as_number(found, self.at_index(found, 0))
+
+    def as_number(self, found, value):
+        """The luminance of a colour, as where a colour goes into a number."""
+        if value.texture is None:
+            return number_value(gray(value.rgb))
+        r, g, b = value.rgb
+        if r != g or r != b:
+            self.report.warn(12, "node '%s' (%s) on a coloured texture" % (found.node.name, kind_of(found.node)),
+                             "the luminance of the texture times that of its colour")
+        is_colour = value.texture.channel == "color" and not self.images.is_grey(value.texture.image)
+        return Value(number_value(gray(value.rgb)).rgb, replace(value.texture, grey=is_colour))
 
     def black_body(self, found):
         return self.fold(found, (self.at_index(found, 0),), lambda t: blackbody(gray(t)))
@@ -1463,10 +1854,12 @@ class Values:
         node = found.node
         image = node.image
         if image is None:
-            self.report.warn(22, "node '%s' has no image" % node.name, "no texture")
+            self.report.warn(22, "node '%s' has no image" % node.name, "magenta, as Blender shows it")
             return None
         image = image.original if image.original else image
-        file = self.images.file(image)
+        is_alpha = found.output.name == "Alpha"
+        look = "straight" if is_alpha else self.look(node, image)
+        file = self.images.file(image, look)
         if file is None:
             return None
         if getattr(node, "projection", "FLAT") != "FLAT" and node.bl_idname == "ShaderNodeTexImage":
@@ -1475,13 +1868,24 @@ class Values:
         return Texture(
             image=image, file=file, space=self.space(image, file),
             interpolation=self.interpolation(node), extension=self.extension(node),
-            channel="alpha" if found.output.name == "Alpha" else "color",
+            channel="alpha" if is_alpha else "color", look=look,
             scale=scale, rotation=rotation, offset=offset, coordinates=coordinates)
 
+    def look(self, node, image):
+        """How Cycles gives colours to a node: multiplied by alpha, unless the node's alpha is used or
+        the image says that colours and alpha have nothing to do with each other."""
+        if image.alpha_mode in {"CHANNEL_PACKED", "NONE"} or is_data(image):
+            return "opaque" if self.images.facts(image).has_alpha else "straight"
+        is_used = any(o.name == "Alpha" and o.is_linked for o in node.outputs)
+        return "straight" if is_used or not self.images.facts(image).has_alpha else "associated"
+
     def space(self, image, file):
-        settings = image.colorspace_settings
-        name = settings.name
-        if file.endswith(".pfm") or getattr(settings, "is_data", False) or name in LINEAR_SPACES:
+        name = image.colorspace_settings.name
+        if is_data(image) or name in LINEAR_SPACES:
+            return "linear"
+        if file.endswith(FLOAT_FORMS):
+            if name not in {"sRGB", ""} and file.endswith((".exr", ".hdr")) and image.source == "FILE":
+                self.report.warn(25, "image '%s' has the colour space '%s'" % (image.name, name), "linear Rec.709")
             return "linear"
         if name not in {"sRGB", ""}:
             self.report.warn(25, "image '%s' has the colour space '%s'" % (image.name, name), "sRGB")
@@ -1508,6 +1912,10 @@ class Values:
             if before.node is None or before.node.bl_idname != "ShaderNodeMapping":
                 break
             vectors = [self.color(before, n) for n in ("Location", "Rotation", "Scale")]
+            place, _, scale = vectors
+            if found.node.bl_idname == "ShaderNodeTexEnvironment" and (place[2] or len(set(scale)) > 1):
+                self.report.warn(31, "node '%s' moves or stretches the environment" % before.node.name,
+                                 "its rotation about Z")
             step, is_plane = plane_map(before.node.vector_type, *vectors)
             if not is_plane or before.node.vector_type == "NORMAL":
                 self.report.warn(19, "node '%s' turns out of the plane" % before.node.name,
@@ -1538,6 +1946,12 @@ class Values:
         self.report.warn(19, "coordinates of node '%s' from node '%s' (%s)"
                          % (texture.node.name, node.name, found.output.name), "the UV map")
         return ("uv", "")
+
+
+def is_data(image):
+    """Numbers without a colour space."""
+    settings = image.colorspace_settings
+    return getattr(settings, "is_data", False) or settings.name in {"Non-Color", "Raw", "Generic Data"}
 
 
 def group_output(tree):
@@ -1764,7 +2178,7 @@ class Shaders:
         chooser = self.values.source(at)
         ior = fresnel_ior(self.values, chooser)
         if ior is not None:
-            return self.mix_by_fresnel(found, first, second, max(ior, 1.0))
+            return self.mix_by_fresnel(found, first, second, min(max(ior, 1.0), 1000.0))
         facing = facing_mean(self.values, chooser)
         if facing is not None:
             return self.mix_by_facing(found, first, second, facing)
@@ -1842,14 +2256,14 @@ class Shaders:
 
     def glass(self, found):
         color = self.values.color(found, "Color")
-        shared = dict(roughness=self.roughness(found), ior=self.values.number(found, "IOR", default=1.45),
+        shared = dict(roughness=self.roughness(found), ior=self.ior(found, 1.45),
                       fresnel="dielectric", normal=self.normal(found))
         self.ignored(found, (("Thin Film Thickness",),))
         return [Lobe("transmission", color, **shared), Lobe("glossy", color, **shared)]
 
     def refraction(self, found):
         color = self.values.color(found, "Color")
-        ior = self.values.number(found, "IOR", default=1.45)
+        ior = self.ior(found, 1.45)
         return [Lobe("transmission", color, None, self.roughness(found), ior, normal=self.normal(found))]
 
     def transparent(self, found):
@@ -1885,7 +2299,7 @@ class Shaders:
         metallic = min(max(values.number(found, "Metallic"), 0.0), 1.0)
         clear = min(max(values.number(found, "Transmission Weight", "Transmission"), 0.0), 1.0)
         level = values.number(found, "Specular IOR Level", "Specular", default=0.5)
-        ior = max(values.number(found, "IOR", default=1.45), 1.0)
+        ior = max(self.ior(found, 1.45), 1.0)
         normal = self.normal(found)
         roughness = self.roughness(found)
         self.ignored(found, PRINCIPLED_IGNORED + (() if is_new else (("Specular Tint",),)))
@@ -1927,6 +2341,11 @@ class Shaders:
         return lobes if a == 1 else all_times(lobes, a) + [Lobe("transparent", scaled(WHITE, 1 - a))]
 
     # ---- inputs
+
+    def ior(self, found, default):
+        """As Cycles and the renderer take it."""
+        ior = self.values.number(found, "IOR", default=default)
+        return within(ior, 1e-3, 1000.0, "the IOR of node '%s'" % found.node.name, self.report)
 
     def roughness(self, found):
         if getattr(found.node, "distribution", "") == "SHARP":  # up to 3.6
@@ -2047,6 +2466,7 @@ class Material:
     opacity_texture: Optional[Texture] = None
     filter: tuple = WHITE
     normal: Normal = Normal()
+    is_volume: bool = False  # has no surface
 
     def textures(self):
         found = (self.diffuse_texture, self.specular_texture, self.emission_texture,
@@ -2124,7 +2544,7 @@ class Folder:
         solid = [l for l in lobes if l.kind != "transparent"]
         for lobe in lobes:
             if lobe.cover:
-                material.opacity = min(gray(lobe.cover.rgb), 1.0)
+                material.opacity = min(max(gray(lobe.cover.rgb), 0.0), 1.0)
                 material.opacity_texture = lobe.cover.texture
                 material.filter = lobe.rgb
         through = BLACK
@@ -2206,7 +2626,16 @@ class Folder:
             if not all(math.isfinite(x) for x in color):
                 self.report.warn(11, "its %s is not finite" % name, "0")
                 color = BLACK
-            setattr(material, name, tuple(max(x, 0.0) for x in color))
+            setattr(material, name, tuple(
+                within(max(x, 0.0), 0.0, 1e15, "its %s" % name, self.report) for x in color))
+        normal = material.normal
+        distance = normal.bump_distance
+        if not math.isfinite(distance):
+            self.report.warn(11, "its bump distance is not finite", "0")
+            distance = 0.0
+        material.normal = replace(
+            normal, bump_distance=distance,
+            normal_strength=within(normal.normal_strength, 0.0, 1000.0, "its normal strength", self.report))
         return material
 
 
@@ -2229,8 +2658,12 @@ def world_light(scene, shaders, folder, report):
     if world is None:
         return BLACK, None, 0.0
     with report.at("world", world.name):
+        rays = getattr(world, "cycles_visibility", None)
+        hidden = [kind for kind in ("camera", "diffuse", "glossy", "transmission") if not getattr(rays, kind, True)]
+        if hidden:
+            report.warn(39, "it is hidden from %s rays" % ", ".join(hidden), "all rays see it")
         if not getattr(world, "use_nodes", True) or world.node_tree is None:
-            return tuple(world.color), None, 0.0
+            return folder.safe(Material("world", emission=tuple(world.color))).emission, None, 0.0
         output = world.node_tree.get_output_node("CYCLES") or world.node_tree.get_output_node("ALL")
         if output is None:
             return BLACK, None, 0.0
@@ -2266,11 +2699,12 @@ VALUE_NODES["ShaderNodeTexEnvironment"] = environment_texture
 # ----------------------------------------------------------------------------------------- 13 shapes
 
 # A mesh counts as a sphere when its vertices lie on an ellipsoid along its axes to SPHERE_ERROR of
-# the radius, it is closed, faces outwards, and its faces come close enough to the ellipsoid: smooth
-# shading hides more than flat shading. A UV sphere of 32x16 is off by 0.0096, of 80x40 by 0.0015.
+# the radius, it is closed and smooth, faces outwards, and its faces come within SAGITTA of the
+# ellipsoid, so that it renders as the mesh does and no tight shell lies between. A UV sphere of 64x32
+# is off by 0.0024, of 32x16 by 0.0096.
 SPHERE_ERROR = 1e-5
 SPHERE_MAX_VERTICES = 40000
-SAGITTA_SMOOTH, SAGITTA_FLAT = 0.1, 0.002
+SAGITTA = 0.0025
 
 
 @dataclass
@@ -2302,36 +2736,44 @@ def bounds(points):
     return [min(p) for p in planes], [max(p) for p in planes]
 
 
+def is_closed(mesh):
+    return len(mesh.loops) == 2 * len(mesh.edges) and len(mesh.vertices) - len(mesh.edges) + len(mesh.polygons) == 2
+
+
 def recognise(mesh):
-    """The record that says the same as the mesh; None when it is just a mesh."""
+    """The record that renders as the mesh does; None when it is just a mesh."""
+    if mesh.has_custom_normals:
+        return None
     vertices, faces = len(mesh.vertices), len(mesh.polygons)
     if vertices == 4 and faces == 1:
         return recognise_plane(mesh)
-    is_closed = len(mesh.loops) == 2 * len(mesh.edges) and vertices - len(mesh.edges) + faces == 2
-    if not is_closed:
+    if not is_closed(mesh):
         return None
     if vertices == 8 and faces == 6:
         return recognise_cube(mesh)
-    if 42 <= vertices <= SPHERE_MAX_VERTICES:
-        return recognise_sphere(mesh)
+    if 42 <= vertices <= SPHERE_MAX_VERTICES and normals_domain(mesh) == "POINT":
+        shape = recognise_sphere(mesh, SAGITTA)
+        return shape if shape and faces_outwards(mesh, column(shape.rows, 3)) else None
     return None
 
 
 def recognise_plane(mesh):
+    """A flat convex quadrilateral by the renderer's own rule (faultOfCorners in Code/desc), in double as
+    there, with narrower limits."""
     face = mesh.polygons[0]
     if len(face.vertices) != 4:
         return None
-    c = [Vector(mesh.vertices[i].co) for i in face.vertices]
-    normal = (c[2] - c[0]).cross(c[3] - c[1])
-    size = max((c[2] - c[0]).length, (c[3] - c[1]).length)
-    if normal.length <= 1e-9 * size * size:
+    c = [tuple(mesh.vertices[i].co) for i in face.vertices]
+    normal = cross(difference(c[2], c[0]), difference(c[3], c[1]))
+    size = max(length(difference(c[2], c[0])), length(difference(c[3], c[1])))
+    if not length(normal) > 1e-9 * size * size:
         return None
-    normal.normalize()
-    if abs(normal.dot(c[1] - c[0])) > 1e-6 * size:
+    normal = [x / length(normal) for x in normal]
+    if not abs(dot(normal, difference(c[1], c[0]))) <= 1e-6 * size:
         return None
     for i in range(4):
-        turn = (c[(i + 1) % 4] - c[i]).cross(c[(i + 2) % 4] - c[(i + 1) % 4])
-        if turn.dot(normal) <= 1e-6 * size * size:
+        turn = cross(difference(c[(i + 1) % 4], c[i]), difference(c[(i + 2) % 4], c[(i + 1) % 4]))
+        if not dot(turn, normal) > 1e-6 * size * size:
             return None
     return Shape("plane", corners=[x for corner in c for x in corner])
 
@@ -2378,8 +2820,8 @@ def solve3(m, v):
     return [det([[v[i] if k == j else m[i][k] for k in range(3)] for i in range(3)]) / whole for j in range(3)]
 
 
-def recognise_sphere(mesh):
-    """Least squares for a x^2 + b y^2 + c z^2 = 1 about the centroid."""
+def recognise_sphere(mesh, sagitta):
+    """A ball whose faces lie no deeper than that part of its radius, whichever way they face. Least squares for a x^2 + b y^2 + c z^2 = 1 about the centroid."""
     points = read(mesh.vertices, "co", "f", 3)
     count = len(points) // 3
     low, high = bounds(points)
@@ -2398,15 +2840,9 @@ def recognise_sphere(mesh):
     if any(abs(sum(f * s for f, s in zip(fit, at)) - 1) > 2 * SPHERE_ERROR for at in zip(*squares)):
         return None
     axes = [h / math.sqrt(f) for h, f in zip(half, fit)]
-    centers, normals = read(mesh.polygons, "center", "f", 3), read(mesh.polygons, "normal", "f", 3)
-    nearest = 1.0
-    for i in range(0, len(centers), 3):
-        unit = [(centers[i + k] - center[k]) / axes[k] for k in range(3)]
-        nearest = min(nearest, length(unit))
-        if sum(unit[k] / axes[k] * normals[i + k] for k in range(3)) <= 0:
-            return None
-    is_smooth = all(read(mesh.polygons, "use_smooth", "b", 1))
-    if 1 - nearest > (SAGITTA_SMOOTH if is_smooth else SAGITTA_FLAT):
+    centers = read(mesh.polygons, "center", "f", 3)
+    if min(length([(centers[i + k] - center[k]) / axes[k] for k in range(3)])
+           for i in range(0, len(centers), 3)) < 1 - sagitta:
         return None
     if max(axes) - min(axes) < 4 * SPHERE_ERROR * max(axes):
         axes = [sum(axes) / 3] * 3
@@ -2468,11 +2904,15 @@ class Meshes:
         self.text = Text()
         self.names = Names()
         self.written = {}  # digest of a block -> its name: equal copies are written once
+        self.used_slots = {}  # (mesh pointer, number of slots) -> those in use
 
     def slots(self, mesh, count):
         """Material slots in use. As Blender does, numbers beyond the last slot mean the last."""
-        indices = set(read(mesh.polygons, "material_index", "i", 1))
-        return sorted({min(max(i, 0), max(count - 1, 0)) for i in indices})
+        key = (mesh.as_pointer(), count)
+        if key not in self.used_slots:
+            indices = set(read(mesh.polygons, "material_index", "i", 1))
+            self.used_slots[key] = sorted({min(max(i, 0), max(count - 1, 0)) for i in indices})
+        return self.used_slots[key]
 
     def put(self, mesh, coordinates, slots, slot_count, flatten=None):
         """Writes a mesh block; its name, or None when nothing of it can be seen.
@@ -2502,7 +2942,7 @@ class Meshes:
         if flatten:
             points = [sum(row[k] * points[i + k] for k in range(3)) + row[3]
                       for i in range(0, len(points), 3) for row in flatten]
-        body.put_array("points", points, 3, "%.9g")
+        body.put_texts("points", shortest_floats(points) if not flatten else list(map(number, points)), 3)
         body.put_array("triangles", triangles, 3, "%d")
         if not flatten:
             self.put_normals(body, mesh, triangles, loops)
@@ -2532,18 +2972,22 @@ class Meshes:
         if domain == "FACE":
             return
         if domain == "POINT":
-            text.put_array("normals", vertex_normals(mesh), 3, "%.9g")
-            text.put_array("normal_triangles", triangles, 3, "%d")
+            text.put_array("normals", finite(vertex_normals(mesh)), 3, NORMAL)  # one for each point
             return
-        normals = corner_normals(mesh)
+        normals = finite(corner_normals(mesh))
         indices = {}
         corner = index_corners(normals, 12, indices)
-        text.put_array("normals", unique_floats(indices), 3, "%.9g")
+        text.put_array("normals", unique_floats(indices), 3, NORMAL)
         text.put_array("normal_triangles", [corner[i] for i in loops], 3, "%d")
 
     # ---- texture coordinates
 
     def put_uvs(self, text, mesh, loops, materials, coordinates, used, slot_count):
+        if len(used) == 1:
+            shared = uvs_of_points(mesh, self.corner_uvs(mesh, next(iter(used))))
+            if shared:
+                text.put_array("uvs", shared, 2, UV)
+                return
         indices = {}
         tables = {c: index_corners(self.corner_uvs(mesh, c), 8, indices) for c in sorted(used)}
         if len(used) == 1:
@@ -2557,7 +3001,7 @@ class Meshes:
             for i, m in enumerate(materials):
                 table = by_slot[min(max(m, 0), last)]
                 corners += (table[loops[3 * i]], table[loops[3 * i + 1]], table[loops[3 * i + 2]])
-        text.put_array("uvs", unique_floats(indices), 2, "%.9g")
+        text.put_array("uvs", unique_floats(indices), 2, UV)
         text.put_array("uv_triangles", corners, 3, "%d")
 
     def corner_uvs(self, mesh, coordinates):
@@ -2669,6 +3113,21 @@ def index_corners(values, size, indices):
     return [number_of(data[i : i + size], len(indices)) for i in range(0, len(data), size)]
 
 
+def uvs_of_points(mesh, uvs):
+    """Texture coordinates by vertex, where all corners of each agree; None at seams."""
+    if min(uvs) == max(uvs):
+        return None  # one for all is shorter
+    corners = read(mesh.loops, "vertex_index", "i", 1)
+    out = array("f", bytes(8 * len(mesh.vertices)))
+    for k in range(2):
+        plane = uvs[k::2]
+        of_vertex = dict(zip(corners, plane))
+        if max(map(abs, map(operator.sub, plane, map(of_vertex.__getitem__, corners)))) > SAME_UV:
+            return None
+        out[k::2] = array("f", map(of_vertex.get, range(len(mesh.vertices)), itertools.repeat(0.0)))
+    return out
+
+
 def unique_floats(indices):
     return array("f", b"".join(indices))
 
@@ -2684,7 +3143,8 @@ NO_MATERIAL = "No material"
 class SceneExport:
     """One frame of a scene. Everything that Blender evaluates is read inside `collect`."""
 
-    def __init__(self, scene, layer, frame, camera, images, report):
+    def __init__(self, scene, layer, frame, camera, images, report, recognises=True):
+        self.recognises = recognises  # spheres, cubes and planes among the meshes
         self.scene, self.layer, self.frame, self.camera = scene, layer, frame, camera
         self.images, self.report = images, report
         self.values = Values(images, report)
@@ -2694,6 +3154,7 @@ class SceneExport:
         self.geometries = {}  # (mesh pointer, coordinates per slot, ...) -> Geometry or None
         self.materials = {}  # pointer of Blender's material, None for no material -> Material
         self.textures = {}  # Texture -> name
+        self.used_materials = set()  # names of those that objects have
         self.material_names, self.texture_names = Names(), Names()
         self.object_names, self.light_names, self.camera_names = Names(), Names(), Names()
         self.objects, self.lights = [], []  # (name, text lines)
@@ -2707,8 +3168,11 @@ class SceneExport:
     def collect(self, depsgraph, set_frame):
         cameras = [self.camera] + sorted(
             (o for o in self.scene.objects if o.type == "CAMERA" and o != self.camera), key=lambda o: o.name)
-        motion = Motion(depsgraph, set_frame, self.scene, self.frame, cameras)
+        motion = Motion(depsgraph, set_frame, self.scene, self.frame, cameras, self.report)
         self.collect_world()
+        for flag, what, instead in (("use_sky", "sky", "the world is seen"), ("use_solid", "solid objects", "they are drawn")):
+            if not getattr(self.layer, flag, True):
+                self.report.warn(38, "view layer '%s' has no %s" % (self.layer.name, what), instead)
         for camera in cameras:
             self.collect_camera(camera.evaluated_get(depsgraph), motion, depsgraph)
         camera = self.camera.evaluated_get(depsgraph)
@@ -2771,14 +3235,26 @@ class SceneExport:
         samples = motion.samples(instance_key(instance), rows)
         if samples and not all(nearly_equal(samples[0], s) for s in samples[1:]):
             self.report.warn(10, "the light moves", "it stands still")
+        if not gives_light(lamp, rows, self.report):
+            return
         text, name = Text(), self.name_of(instance, self.light_names)
-        is_visible = getattr(thing, "visible_camera", False)
-        put_light(text, name, lamp, rows, is_visible, self.values, self.report)
+        put_light(text, name, lamp, rows, self.seen_by(thing), self.values, self.report)
         self.lights.append((name, text))
 
+    def seen_by(self, thing):
+        """Which rays see a lamp: by default Blender shows lamps in mirrors and glass, not to the camera."""
+        if not getattr(thing, "visible_diffuse", True):
+            self.report.warn(6, "it is hidden from diffuse rays", "it lights diffuse surfaces")
+        camera = getattr(thing, "visible_camera", False)
+        glossy, through = (getattr(thing, "visible_" + kind, True) for kind in ("glossy", "transmission"))
+        mixed = getattr(getattr(thing.data, "cycles", None), "use_multiple_importance_sampling", True)
+        if glossy != through and mixed:
+            self.report.warn(6, "mirrors and glass see it differently", "both see it" if glossy else "none sees it")
+        reflections = glossy and mixed
+        return {(True, True): "all", (True, False): "camera", (False, True): "reflections"}.get(
+            (camera, reflections), "none")
+
     def collect_mesh(self, instance, thing, rows, motion):
-        if not self.is_seen(thing):
-            return
         self.warn_of_linking(thing)
         # A file that was saved in edit mode: the faces are in the editor's own mesh, data has none.
         mesh = thing.to_mesh() if thing.mode == "EDIT" else thing.data
@@ -2787,19 +3263,21 @@ class SceneExport:
             return
         slots = self.material_slots(thing, mesh)
         keys = motion.keys(instance_key(instance), rows, thing, self.report)
-        size = max(max(abs(x) for x in row[:3]) for row in rows)
-        is_flat = abs(determinant(rows)) <= 1e-12 * size**3
-        if size == 0:
+        if not any(x for row in rows for x in row[:3]):
             self.report.note("object '%s' has the scale 0" % thing.name)
             return
-        geometry = self.geometry(thing, mesh, slots, rows if is_flat else None)
+        flat, used = is_flat(rows), self.meshes.slots(mesh, len(slots))
+        is_seen = self.is_seen(thing)
+        if self.collect_lamp(instance, thing, mesh, [slots[s] for s in used], keys, is_seen) or not is_seen:
+            return
+        if all(slots[s].is_volume for s in used):
+            return
+        geometry = self.geometry(thing, mesh, slots, rows if flat else None)
         if geometry is None:
             return
         materials = [slots[s] for s in geometry.slots]
-        if self.collect_lamp(instance, thing, geometry, materials, keys):
-            return
         name = self.name_of(instance, self.object_names)
-        keys = [IDENTITY] if is_flat else keys
+        keys = [IDENTITY] if flat else keys
         self.objects.append((name, self.object_text(name, geometry, keys, materials)))
 
     def geometry(self, thing, mesh, slots, flatten):
@@ -2822,7 +3300,7 @@ class SceneExport:
                 shape = None
         elif wanted and wanted != "mesh":
             self.report.warn(33, "rt_shape '%s'" % wanted, "a mesh")
-        elif not wanted and not flatten and len(used) == 1 and coordinates[used[0]] is None:
+        elif self.recognises and not wanted and not flatten and len(used) == 1 and coordinates[used[0]] is None:
             shape = recognise(mesh)
         if shape is not None:
             return Geometry(shape, "", used[:1])
@@ -2841,32 +3319,46 @@ class SceneExport:
                 text.put_unless(0, "top_radius", shape.top_radius)
             if not shape:
                 text.put("mesh", word(geometry.mesh))
+            self.used_materials.update(m.name for m in materials)
             if len(materials) == 1:
                 text.put("material", word(materials[0].name))
             else:
                 text.put("materials", *[word(m.name) for m in materials])
         return text
 
-    def collect_lamp(self, instance, thing, geometry, materials, keys):
-        """A sphere or a rectangle that only glows lights the scene: it becomes a visible lamp."""
-        glowing = next((m for m in materials if any(m.emission)), None)
+    def collect_lamp(self, instance, thing, mesh, materials, keys, is_seen):
+        """Lamps for a mesh that glows: a rectangle, a disk or a ball lights the scene, others are only
+        seen. True when nothing else is to be written of it.
+
+        What does nothing but glow is seen by its lamps, on both sides, a hair in front of the mesh, which
+        blocks light. What reflects, too, or is hidden from the camera, has lamps that only give light.
+        """
+        glowing = next((m for m in materials if max(m.emission) > FAINT), None)
         if glowing is None or not thing.get("rt_light", True):
             return False
-        shape, material = geometry.shape, materials[0]
-        lamps = lamp_rows(shape, keys[0]) if shape and len(keys) == 1 and material.only_glows() else []
+        material = materials[0]
+        is_whole = len(materials) == 1 and len(keys) == 1 and material.opacity == 1 and not material.opacity_texture
+        eyes = [column(rows_of(c.matrix_world), 3) for c in self.scene.objects if c.type == "CAMERA"]
+        lamps, part, is_around = lamps_of(mesh, keys[0], eyes) if is_whole else ([], 1.0, False)
         if not lamps:
-            self.report.warn(32, "material '%s' glows" % glowing.name, "it is seen, but lights nothing")
+            self.report.warn(32, "material '%s' glows" % glowing.name,
+                             "it is seen, but lights nothing" if is_seen else "it lights nothing")
             return False
+        color = scaled(self.values.constant(Value(material.emission, material.emission_texture)), part)
+        if material.emission_texture:
+            self.report.warn(32, "material '%s' glows with a texture" % glowing.name, "it lights with its mean")
+        shows = is_seen and material.only_glows()
         for kind, rows, size in lamps:
             text, name = Text(), self.name_of(instance, self.light_names)
             with text.block("light", name):
                 text.put("type", kind)
                 text.put_rows(rows)
-                text.put("color", material.emission)
+                put_color(text, color, self.report)
                 text.put(*(("radius", size[0]) if kind == "sphere" else ("size", *size)))
-                text.put("visible", True)
+                text.put_unless(False, "visible", shows)
+                text.put_unless("none", "seen_by", self.seen_by(thing) if not is_seen else "none")
             self.lights.append((name, text))
-        return True
+        return not is_seen or (shows and (is_around or not getattr(thing, "visible_shadow", True)))
 
     # ---- materials
 
@@ -2874,6 +3366,8 @@ class SceneExport:
         """Material of each slot. Generated geometry may have more slots than the object."""
         slots = [slot.material for slot in thing.material_slots]
         slots += list(mesh.materials)[len(slots):]
+        if self.layer.material_override:
+            slots = [self.layer.material_override] * max(len(slots), 1)
         return [self.material(m) for m in slots] or [self.material(None)]
 
     def material(self, source):
@@ -2895,14 +3389,18 @@ class SceneExport:
             for socket in ("Volume", "Displacement"):
                 if output.inputs[socket].is_linked:
                     self.report.warn(21, "%s of node '%s'" % (socket.lower(), output.name), "none")
+            if output.inputs["Volume"].is_linked and not output.inputs["Surface"].is_linked:
+                return Material(name, opacity=0.0, is_volume=True)  # what has nothing else is left out
             lobes = self.shaders.lobes(Socket(output.inputs["Surface"], ()))
             return self.folder.fold(name, lobes)
 
     def texture_name(self, texture):
         texture = replace(texture, coordinates=("uv", ""))
-        if texture.inverted:
-            file = self.images.file(texture.image, inverted=True) or texture.file
-            texture = replace(texture, file=file, inverted=False)
+        if texture.inverted or texture.grey:
+            inversion = "alpha" if texture.channel == "alpha" else texture.space
+            file = self.images.file(texture.image, texture.look, inversion if texture.inverted else None,
+                                    texture.space if texture.grey else None)
+            texture = replace(texture, file=file or texture.file, inverted=False, grey=False)
         if texture not in self.textures:
             stem = os.path.splitext(texture.file.split("/")[-1])[0]
             self.textures[texture] = self.texture_names.unique(stem)
@@ -2911,16 +3409,19 @@ class SceneExport:
     # ---- what is lost
 
     def is_seen(self, thing):
-        if not getattr(thing, "visible_camera", True):
-            self.report.warn(6, "it is hidden from the camera", "left out")
+        is_indirect = bool(thing.original.indirect_only_get(view_layer=self.layer))
+        if is_indirect or not getattr(thing, "visible_camera", True):
+            self.report.warn(6, "it is %s" % ("indirect only" if is_indirect else "hidden from the camera"),
+                             "no ray sees it")
             return False
         hidden = [a[8:] for a in ("visible_diffuse", "visible_glossy", "visible_transmission", "visible_shadow")
                   if not getattr(thing, a, True)]
         if hidden:
             self.report.warn(6, "it is hidden from %s rays" % ", ".join(hidden), "all rays see it")
-        for attribute in ("is_holdout", "is_shadow_catcher"):
-            if getattr(thing, attribute, False):
-                self.report.warn(6, attribute[3:].replace("_", " "), "a plain object")
+        is_holdout = getattr(thing, "is_holdout", False) or thing.original.holdout_get(view_layer=self.layer)
+        for flag, name in ((is_holdout, "holdout"), (getattr(thing, "is_shadow_catcher", False), "shadow catcher")):
+            if flag:
+                self.report.warn(6, name, "a plain object")
         return True
 
     def warn_of_linking(self, thing):
@@ -2946,6 +3447,9 @@ class SceneExport:
             return
         first, last = motion.moments[0], motion.moments[-1]
         for key, value in first.items():
+            if key[0] == "lens" and any(m.get(key) != value for m in motion.moments):
+                with self.report.at("camera", key[1]):
+                    self.report.warn(42, "its lens changes while the shutter is open", "as at the frame")
             if len(key) == 2 and key[0] == "shape" and last.get(key) != value:
                 with self.report.at("object", key[1]):
                     self.report.warn(9, "its shape changes while the shutter is open", "its shape at the frame")
@@ -2968,9 +3472,8 @@ class SceneExport:
             text.lines.append("# The scene asks for %d samples; more than %d are left to --spp." % (wanted, exported))
         put_settings(text, scene, self.report)
         materials, textures = Text(), Text()
-        used = {line.strip() for _, t in self.objects for line in t.lines}
         for material in sorted(self.materials.values(), key=lambda m: natural(m.name)):
-            if self.is_used(material, used):
+            if material.name in self.used_materials:
                 material.put(materials, self.texture_name)
         for texture, name in sorted(self.textures.items(), key=lambda item: natural(item[1])):
             put_texture(textures, texture, name)
@@ -2979,11 +3482,6 @@ class SceneExport:
         parts.append(self.meshes.text)
         parts += [t for _, t in sorted(self.objects, key=lambda item: natural(item[0]))]
         return str(text) + "".join(str(p) for p in parts if p.lines)
-
-    @staticmethod
-    def is_used(material, lines):
-        name = word(material.name)
-        return any(line == "material " + name or (line.startswith("materials ") and name in line) for line in lines)
 
 
 def put_texture(text, texture, name):
@@ -2998,32 +3496,102 @@ def put_texture(text, texture, name):
         text.put_unless((0.0, 0.0), "offset", texture.offset)
 
 
-def lamp_rows(shape, rows):
-    """[(light type, place, sizes)] of a glowing sphere or rectangle; [] for other shapes.
+FAINT = 1e-3  # what glows less lights nothing that could be seen
+LIFT = 5e-4  # of its size, a lamp lies in front of the mesh that it stands for, which blocks light
+BALL_SAGITTA = 0.1  # a ball of light is taken from rougher meshes than a sphere that is looked at
 
-    Blender's faces glow on both sides, our lamps on one: a rectangle becomes two.
-    """
-    if shape.kind == "sphere":
-        whole = times(rows, shape.rows)
-        radii = [length(column(whole, i)) for i in range(3)]
-        if max(radii) - min(radii) > 1e-4 * max(radii):
-            return []
-        center = tuple(IDENTITY[i][:3] + (whole[i][3],) for i in range(3))
-        return [("sphere", center, (radii[0],))]
-    if shape.kind != "plane":
-        return []
-    c = [[sum(row[k] * shape.corners[i + k] for k in range(3)) + row[3] for row in rows] for i in (0, 3, 6, 9)]
-    side = [[b - a for a, b in zip(c[0], c[i])] for i in (1, 3)]
+
+def lamps_of(mesh, rows, eyes):
+    """([(light type, place, sizes)], part of the radiance, whether it is a ball around one of the eyes) of
+    a rectangle, a disk or a ball; no lamps for other meshes. Blender's faces glow on both sides, our lamps
+    on one: flat ones become two."""
+    shape = recognise_plane(mesh) if len(mesh.polygons) == 1 and len(mesh.vertices) == 4 else None
+    disk = recognise_disk(mesh) if shape is None else None
+    if shape:
+        return flat_lamps("rectangle", rectangle_of(shape.corners, rows)), 1.0, False
+    if disk:
+        return flat_lamps("disk", ellipse_of(disk, rows)), 1.0, False
+    ball = recognise_sphere(mesh, BALL_SAGITTA) if is_closed(mesh) and len(mesh.vertices) >= 42 else None
+    if ball is None:
+        return [], 1.0, False
+    whole = times(rows, ball.rows)
+    radii = [length(column(whole, i)) for i in range(3)]
+    if max(radii) - min(radii) > 1e-4 * max(radii) or ball.rows[0][0] != ball.rows[2][2]:
+        return [], 1.0, False
+    center = column(whole, 3)
+    is_around = any(length(difference(eye, center)) < radii[0] for eye in eyes)
+    place = tuple(IDENTITY[i][:3] + (center[i],) for i in range(3))
+    if is_around:
+        return [("sphere", place, (radii[0],))], 1.0, True
+    # From afar a mesh without dents gives light by its area, of which rough ones have less than the ball.
+    part = sum(read(mesh.polygons, "area", "f", 1)) / (4 * math.pi * ball.rows[0][0] ** 2)
+    return [("sphere", place, (radii[0] * (1 + 2 * LIFT),))], min(part, 1.0), False
+
+
+def placed(rows, point):
+    return [sum(row[k] * point[k] for k in range(3)) + row[3] for row in rows]
+
+
+def rectangle_of(corners, rows):
+    """(centre, axis, axis, sizes) of a placed parallelogram with right angles; None for others."""
+    c = [placed(rows, corners[i : i + 3]) for i in (0, 3, 6, 9)]
+    side = [difference(c[i], c[0]) for i in (1, 3)]
     x, y = length(side[0]), length(side[1])
     is_parallelogram = all(abs(c[0][k] + c[2][k] - c[1][k] - c[3][k]) < 1e-4 * (x + y) for k in range(3))
-    if not is_parallelogram or abs(sum(a * b for a, b in zip(*side))) > 1e-4 * x * y:
+    if not is_parallelogram or abs(dot(*side)) > 1e-4 * x * y:
+        return None
+    return [(c[0][k] + c[2][k]) / 2 for k in range(3)], [a / x for a in side[0]], [a / y for a in side[1]], (x, y)
+
+
+def recognise_disk(mesh):
+    """(centre, radius along one vertex, radius across) of a regular polygon of at least twelve corners, as
+    one face or as a fan, so long that the disk has its area; None for others."""
+    count = len(mesh.polygons[0].vertices) if len(mesh.polygons) == 1 else len(mesh.polygons)
+    if count < 12 or len(mesh.vertices) not in {count, count + 1} or len(mesh.vertices) > 4096:
+        return None
+    points = [tuple(v.co) for v in mesh.vertices]
+    center = [sum(p[k] for p in points) / len(points) for k in range(3)]
+    arms = [a for a in (difference(p, center) for p in points) if length(a) > 0]
+    radius = max(map(length, arms))
+    arms = [a for a in arms if length(a) > 1e-4 * radius]
+    if len(arms) != count or (len(mesh.vertices) > count) != (len(mesh.polygons) > 1):
+        return None
+    normal = max((cross(arms[0], a) for a in arms), key=length)
+    normal = [x / length(normal) for x in normal]
+    if any(abs(length(a) - radius) > 1e-4 * radius or abs(dot(a, normal)) > 1e-4 * radius for a in arms):
+        return None
+    x, y = arms[0], cross(normal, arms[0])
+    angles = sorted(math.atan2(dot(a, y), dot(a, x)) % (2 * math.pi) for a in arms)
+    if any(abs(b - a - 2 * math.pi / count) > 1e-3 for a, b in zip(angles, angles[1:])):
+        return None
+    same_area = math.sqrt(count * math.sin(2 * math.pi / count) / (2 * math.pi))
+    return center, [same_area * a for a in x], [same_area * a for a in y]
+
+
+def ellipse_of(disk, rows):
+    """(centre, axis, axis, diameters) of a placed disk: the axes of the ellipse that it becomes."""
+    center, x, y = disk
+    turned = [[sum(row[k] * v[k] for k in range(3)) for row in rows] for v in (x, y)]
+    angle = math.atan2(2 * dot(*turned), dot(turned[0], turned[0]) - dot(turned[1], turned[1])) / 2
+    c, s = math.cos(angle), math.sin(angle)
+    u = [c * a + s * b for a, b in zip(*turned)]
+    v = [c * b - s * a for a, b in zip(*turned)]
+    a, b = length(u), length(v)
+    if min(a, b) <= 1e-6 * max(a, b):
+        return None
+    return placed(rows, center), [x / a for x in u], [x / b for x in v], (2 * a, 2 * b)
+
+
+def flat_lamps(kind, outline):
+    """A lamp for each side, which shine along their -Z."""
+    if outline is None:
         return []
-    center = [(c[0][k] + c[2][k]) / 2 for k in range(3)]
-    u, v = [a / x for a in side[0]], [a / y for a in side[1]]
-    w = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]]
+    center, u, v, size = outline
+    w = cross(u, v)
     lamps = []
-    for sign in (1, -1):  # a lamp shines along its -Z
-        lamps.append(("rectangle", tuple((sign * u[k], v[k], sign * w[k], center[k]) for k in range(3)), (x, y)))
+    for sign in (1, -1):
+        at = [c - sign * LIFT * min(size) * x for c, x in zip(center, w)]
+        lamps.append((kind, tuple((sign * u[k], v[k], sign * w[k], at[k]) for k in range(3)), size))
     return lamps
 
 
@@ -3053,6 +3621,12 @@ def parse(arguments, is_module):
     parser.add_argument("--textures", metavar="DIR",
                         help="where pictures are looked for and copied to; default: Textures beside the output")
     parser.add_argument("--ppm", action="store_true", help="turn 8-bit pictures without alpha into PPM files")
+    parser.add_argument("--no-shapes", action="store_true",
+                        help="take no mesh for a sphere, cube or plane (rt_shape still does)")
+    parser.add_argument("--no-check", action="store_true",
+                        help="do not run `raytracer --check` on what was written; it runs when the program named by "
+                             "the environment variable RAYTRACER, beside the folder of this script, or on the PATH is "
+                             "there, and what it refuses is an error")
     parser.add_argument("--strict", action="store_true", help="exit with 3 when there were warnings")
     parser.add_argument("--verbose", action="store_true", help="say what is being done")
     parser.add_argument("--list-warnings", action="store_true", help="print the table of warnings and stop")
@@ -3118,23 +3692,52 @@ def export(options, report):
             scene.camera = camera = camera_of(options, scene)  # markers may have changed it
             os.makedirs(os.path.dirname(path), exist_ok=True)
             images = Images(os.path.dirname(path), options.textures, options.ppm, report)
-            text = SceneExport(scene, layer, frame, camera, images, report).run()
+            text = SceneExport(scene, layer, frame, camera, images, report, not options.no_shapes).run()
             write_atomically(path, text.encode("utf-8"))
             report.note("wrote %s" % path)
+            if not options.no_check:
+                check(path, report)
     finally:
         if scene.frame_current != current:
             scene.frame_set(current)
         scene.camera = old_camera
 
 
-def open_file(options, is_module):
+def renderer():
+    """Path of the ray tracer; None if it is not there."""
+    script = os.path.dirname(os.path.abspath(globals().get("__file__", "")))
+    beside = os.path.join(os.path.dirname(script), "raytracer")
+    return os.environ.get("RAYTRACER") or (beside if os.path.isfile(beside) else shutil.which("raytracer"))
+
+
+def check(path, report):
+    """Lets the renderer read the scene: what it refuses shall not look like a success."""
+    program = renderer()
+    if program is None:
+        report.note("no raytracer is there to check %s" % path)
+        return
+    try:
+        done = subprocess.run([program, "--check", path], capture_output=True, text=True, errors="replace")
+    except OSError as problem:
+        report.note("%s cannot be started: %s" % (program, problem))
+        return
+    if done.returncode != 0:
+        raise ExportError("raytracer --check refuses what was written (exit code %d):\n%s"
+                          % (done.returncode, done.stderr.strip()[-2000:]))
+
+
+def open_file(options, is_module, report):
     if is_module and options.blend:
         if not os.path.isfile(options.blend):
             raise ExportError("no file '%s'" % options.blend)
         try:
             bpy.ops.wm.open_mainfile(filepath=os.path.abspath(options.blend))
         except RuntimeError as problem:
-            raise ExportError("'%s' cannot be opened: %s" % (options.blend, str(problem).strip())) from None
+            # Blender raises what it reports as an error, a missing library too, though the file is open.
+            opened = bpy.data.filepath
+            if not opened or not os.path.samefile(opened, options.blend):
+                raise ExportError("'%s' cannot be opened: %s" % (options.blend, str(problem).strip())) from None
+            report.warn(37, "Blender says: %s" % " ".join(str(problem).split()), "what is there of the file")
     elif is_module:
         raise ExportError("which .blend file? See --help")
     elif bpy.app.background and not bpy.data.filepath:
@@ -3158,7 +3761,7 @@ def main():
         return 0
     report = Report(options.verbose)
     try:
-        open_file(options, is_module)
+        open_file(options, is_module, report)
         export(options, report)
     except (ExportError, OSError) as problem:
         print("Export.py: error: %s" % problem, file=sys.stderr)

@@ -75,6 +75,14 @@ inline constexpr auto kEnumNames<LightDesc::Kind> = std::to_array<EnumName<Light
 });
 
 template <>
+inline constexpr auto kEnumNames<LightDesc::SeenBy> = std::to_array<EnumName<LightDesc::SeenBy>>({
+    {LightDesc::SeenBy::None, "none"},
+    {LightDesc::SeenBy::Camera, "camera"},
+    {LightDesc::SeenBy::Reflections, "reflections"},
+    {LightDesc::SeenBy::All, "all"},
+});
+
+template <>
 inline constexpr auto kEnumNames<CameraDesc::Kind> = std::to_array<EnumName<CameraDesc::Kind>>({
     {CameraDesc::Kind::Perspective, "perspective"},
     {CameraDesc::Kind::Orthographic, "orthographic"},
@@ -140,8 +148,8 @@ static_assert(isInOrder<BlockType>() && isInOrder<TextureDesc::Space>() &&
               isInOrder<TextureDesc::Interpolation>() && isInOrder<TextureDesc::Extension>() &&
               isInOrder<TextureDesc::Channel>() && isInOrder<MaterialDesc::SpecularModel>() &&
               isInOrder<MaterialDesc::Fresnel>() && isInOrder<MaterialDesc::LitSide>() &&
-              isInOrder<LightDesc::Kind>() && isInOrder<CameraDesc::Kind>() &&
-              isInOrder<CameraDesc::SensorFit>() && isInOrder<ObjectDesc::Kind>() &&
-              isInOrder<ObjectDesc::Sides>() && isInOrder<WorldDesc::Up>() &&
-              isInOrder<SettingsDesc::Sampler>() && isInOrder<SettingsDesc::Filter>() &&
-              isInOrder<SettingsDesc::Transfer>());
+              isInOrder<LightDesc::Kind>() && isInOrder<LightDesc::SeenBy>() &&
+              isInOrder<CameraDesc::Kind>() && isInOrder<CameraDesc::SensorFit>() &&
+              isInOrder<ObjectDesc::Kind>() && isInOrder<ObjectDesc::Sides>() &&
+              isInOrder<WorldDesc::Up>() && isInOrder<SettingsDesc::Sampler>() &&
+              isInOrder<SettingsDesc::Filter>() && isInOrder<SettingsDesc::Transfer>());

@@ -136,6 +136,7 @@ constexpr auto kLight = [] {
         {"spread", field<&LightDesc::spreadDeg>(), {}, {0, 180, true}, only(Rectangle, Disk)},
         {"shadows", field<&LightDesc::shadows>(), {}, {}},
         {"visible", field<&LightDesc::visible>(), {}, {}, only(Rectangle, Disk, Sphere)},
+        {"seen_by", field<&LightDesc::seenBy>(), {}, {}},
     });
 }();
 

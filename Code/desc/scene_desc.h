@@ -122,7 +122,11 @@ struct LightDesc {
     double angleDeg = 0;        // Sun: full angular diameter
     double spreadDeg = 180;     // Rectangle, Disk: emission cone
     bool shadows = true;
-    bool visible = false; // Rectangle, Disk, Sphere: seen by camera, mirror and glass
+    bool visible = false; // Rectangle, Disk, Sphere: a body that camera, mirror and glass see
+    // Lamps of any size that are not visible: these rays take their light along, and go on.
+    // Reflections are those of sharp mirrors and glass.
+    enum class SeenBy : std::uint8_t { None, Camera, Reflections, All };
+    SeenBy seenBy = SeenBy::None;
     bool operator==(const LightDesc&) const = default;
 };
 

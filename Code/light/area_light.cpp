@@ -27,11 +27,7 @@ LightSample FlatLight::from(Vec3 place, Vec3 point) const {
     const Vec3 toLight = d / distance;
     const float cosAtLight = -dot(toLight, flat_.normal);
     if (!(cosAtLight > 0)) return {};
-    float spread = 1;
-    if (flat_.spreads) {
-        const float tangent = std::sqrt(max(1 - cosAtLight * cosAtLight, 0.0f)) / cosAtLight;
-        spread = max((flat_.tanSpread - tangent) * flat_.spreadNorm, 0.0f);
-    }
+    const float spread = flat_.spreadAt(cosAtLight);
     return {toLight, distance, flat_.power * (spread * cosAtLight / distance2)};
 }
 

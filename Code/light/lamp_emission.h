@@ -2,8 +2,10 @@
 // for many points at once.
 #pragma once
 
+#include "base/math.h"
 #include "light/point_emission.h"
 
+#include <cmath>
 #include <variant>
 
 // A disk in the sky.
@@ -31,6 +33,18 @@ struct FlatEmission {
     Rgb power;                         // radiance times area
     bool spreads = false;              // less than to all sides, as Cycles' grid does
     float tanSpread = 0, spreadNorm = 0;
+
+    // Radiance straight ahead of a lamp that shines to all sides.
+    Rgb radiance() const {
+        return power *
+               (1 / (length(halfX) * length(halfY) * (isEllipse ? static_cast<float>(kPi) : 4.0f)));
+    }
+    // The part of it that leaves at an angle of this cosine, above 0, to the normal.
+    float spreadAt(float cosAtLight) const {
+        if (!spreads) return 1;
+        const float tangent = std::sqrt(max(1 - cosAtLight * cosAtLight, 0.0f)) / cosAtLight;
+        return max((tanSpread - tangent) * spreadNorm, 0.0f);
+    }
 };
 
 // A ball.

@@ -62,11 +62,14 @@ protected:
 // Rays that look for surfaces; shadow rays need no more than a RayBatch.
 struct PathBatch : RayBatch {
     std::vector<MediumTree::Inside> medium;
-    std::vector<std::uint32_t> stream;    // which random numbers: one number per branch of the tree
-    std::vector<std::uint8_t> seesLights; // false: the highlight has counted the lamps already
+    std::vector<std::uint32_t> stream; // which random numbers: one number per branch of the tree
+    // 0: the highlight has counted the lamps already. Else it sees them, as a camera ray (and one
+    // that went straight on) or as one that a mirror or glass sent.
+    static constexpr std::uint8_t kSeesAsReflection = 1, kSeesAsCamera = 2;
+    std::vector<std::uint8_t> seesLights;
 
     void push(const Ray& ray, std::uint32_t slot, Rgb rayWeight, MediumTree::Inside inside,
-              std::uint32_t branch, bool seesLamps) {
+              std::uint32_t branch, std::uint8_t seesLamps) {
         RayBatch::push(ray, slot, rayWeight);
         makeRoomForMore();
         const std::size_t i = count_ - 1;

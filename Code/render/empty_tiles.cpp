@@ -46,7 +46,9 @@ EmptyTiles::EmptyTiles(const IntegratorContext& context, const CameraRays& rays)
     : rays_(rays), camera_(context.scene.camera()) {
     const ShapeSet& shapes = context.scene.shapes();
     canTell_ = context.settings.specialise && context.scene.environment() == nullptr &&
-               shapes.unbounded.empty() && shapes.distant.empty() && !camera_.hasLens() && !camera_.isMoving();
+               shapes.unbounded.empty() && shapes.distant.empty() &&
+               !context.scene.seenLamps().areSeenByCamera() && !camera_.hasLens() &&
+               !camera_.isMoving();
     if (!canTell_) return;
     const bool areFew = shapes.bounded.size() <= kMostBoxes;
     BoundsD all;

@@ -86,6 +86,9 @@ std::unique_ptr<const Shape> makeLampBody(const LightDesc& desc, const SceneFram
                                         id);
     case LightDesc::Kind::Point:
     case LightDesc::Kind::Spot:
+        if (!(desc.radius > 0)) break;
+        return std::make_unique<Sphere>(MovingTransform(Transform::translate(place.point({}))),
+                                        desc.radius * frame.scale, material, id);
     case LightDesc::Kind::Sun: break;
     }
     return nullptr;

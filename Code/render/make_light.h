@@ -10,6 +10,7 @@
 
 std::unique_ptr<const Light> makeLight(const LightDesc& desc, const SceneFrame& frame);
 
-// The shape of a lamp that has a body, its front where the light goes; nullptr for the others.
+// The shape of a lamp that has a size, its front where the light goes; nullptr for the others and
+// for suns.
 std::unique_ptr<const Shape> makeLampBody(const LightDesc& desc, const SceneFrame& frame,
                                           std::uint32_t material, std::uint32_t id);

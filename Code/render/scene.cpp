@@ -347,8 +347,16 @@ private:
         for (std::size_t i = 0; i < desc_.lights.size(); ++i) {
             const LightDesc& light = desc_.lights[i];
             scene_.lights_.push_back(makeLight(light, scene_.frame_));
-            if (light.visible) addLampBody(light, static_cast<std::uint32_t>(objectCount_ + i));
+            using enum LightDesc::Kind;
+            const bool hasBody =
+                light.kind == Rectangle || light.kind == Disk || light.kind == Sphere;
+            if (light.visible && hasBody)
+                addLampBody(light, static_cast<std::uint32_t>(objectCount_ + i));
+            else if (light.seenBy != LightDesc::SeenBy::None)
+                scene_.seenLamps_.add(light.seenBy, *scene_.lights_.back(),
+                                      makeLampBody(light, scene_.frame_, 0, 0));
         }
+        scene_.seenLamps_.finish();
     }
 
     // A lamp that can be seen casts no shadows: its light passes through its body.

@@ -13,6 +13,7 @@
 #include "render/features.h"
 #include "render/frame.h"
 #include "render/settings.h"
+#include "render/seen_lamps.h"
 #include "render/shape_set.h"
 #include "render/stats.h"
 #include "shape/mesh.h"
@@ -87,6 +88,7 @@ public:
     const ShapeSet& shapes() const { return shapes_; }
     std::span<const SceneMaterial> materials() const { return materials_; }
     const std::vector<std::unique_ptr<const Light>>& lights() const { return lights_; }
+    const SeenLamps& seenLamps() const { return seenLamps_; }
     Rgb ambient() const { return ambient_; }
     // Radiance where a ray meets no surface.
     Rgb background(Vec3 dir) const {
@@ -122,6 +124,7 @@ private:
     std::vector<std::unique_ptr<const MovingTransform>> unevenPlaces_; // empty without any
     ShapeSet shapes_;
     std::vector<std::unique_ptr<const Light>> lights_;
+    SeenLamps seenLamps_; // of lights_
     std::unique_ptr<const Environment> environment_;
     Rgb background_, ambient_;
     bool moves_ = false;

@@ -6,6 +6,7 @@
 #include "render/waves/glow.h"
 #include "render/waves/lamps.h"
 #include "render/waves/points.h"
+#include "render/waves/seen_lamps.h"
 
 #include <utility>
 
@@ -22,6 +23,7 @@ void integrateWhitted(const IntegratorContext& context, SampleChunk& chunk, Wave
             [&]<bool kTextures, bool kSeeThrough> { findPoints<kTextures, kSeeThrough>(wave); },
             steps.textures, steps.seeThrough);
         if (depth == 0) cameraHits += memory.points.count;
+        if (!context.scene.seenLamps().isEmpty()) addSeenLamps(wave);
         compiledFor(
             [&]<bool kLampBodies, bool kSeeThrough> { addGlow<kLampBodies, kSeeThrough>(wave); },
             steps.lampBodies, steps.seeThrough);

@@ -5,7 +5,7 @@ import math
 import bpy
 from mathutils import Vector
 
-from kit import add, add_camera, export, new_scene, test
+from kit import VERSION, add, add_camera, export, new_scene, test
 from scene_text import equal, near
 
 
@@ -113,7 +113,7 @@ def resolution_border_and_samples():
     scene = new_scene()
     render = scene.render
     render.resolution_x, render.resolution_y, render.resolution_percentage = 1921, 1001, 50
-    render.use_border = True
+    render.use_border = render.use_crop_to_border = True
     render.border_min_x, render.border_max_x, render.border_min_y, render.border_max_y = 0.1, 0.7, 0.25, 0.6
     block = export().one("settings")
     equal(block["resolution"], [960, 500])
@@ -152,3 +152,60 @@ def settings_are_restored():
     before = (scene.render.engine, scene.render.use_compositing, scene.frame_current, scene.render.filepath, scene.camera)
     export(arguments=["--frame", "7"])
     equal((scene.render.engine, scene.render.use_compositing, scene.frame_current, scene.render.filepath, scene.camera), before)
+
+
+@test
+def cameras_that_the_renderer_would_refuse():
+    scene = new_scene()
+    wanted = export().one("camera").keys()[0]
+    scene.camera.scale = (0, 0, 0)
+    near(export([36]).one("camera").keys()[0], wanted)
+    scene.camera.scale = (1, 1, 1)
+    scene.camera.data.type, scene.camera.data.ortho_scale = "ORTHO", 0
+    assert export([35]).one("camera")["ortho_scale"] > 0
+    scene.camera.data.type = "PERSP"
+    scene.render.resolution_x, scene.render.resolution_y, scene.render.resolution_percentage = 16, 4, 1
+    equal(export([3]).one("settings")["resolution"], [1, 1])  # Blender itself renders none that small
+
+
+@test
+def settings_without_a_counterpart_warn_once_each():
+    def warns(change, number):
+        scene = new_scene()
+        change(scene)
+        export([number])
+
+    def set_border(scene):
+        scene.render.use_border, scene.render.border_max_x = True, 0.5
+
+    def set_compositor(scene):
+        if VERSION >= (5, 0):
+            scene.compositing_node_group = bpy.data.node_groups.new("C", "CompositorNodeTree")
+            scene.compositing_node_group.nodes.new("CompositorNodeBlur")
+        else:
+            scene.use_nodes = True
+            scene.node_tree.nodes.new("CompositorNodeBlur")
+
+    warns(lambda s: setattr(s.render, "film_transparent", True), 40)
+    warns(set_border, 44)
+    warns(set_compositor, 45)
+    warns(lambda s: setattr(s.view_layers[0], "use_sky", False), 38)
+    warns(lambda s: setattr(s.view_layers[0], "use_solid", False), 38)
+    if hasattr(bpy.types.ColorManagedViewSettings, "bl_rna") and "use_white_balance" in \
+            bpy.types.ColorManagedViewSettings.bl_rna.properties:
+        warns(lambda s: setattr(s.view_settings, "use_white_balance", True), 41)
+
+    def zoom(scene):
+        scene.render.use_motion_blur = True
+        for frame, lens in ((0, 20), (2, 80)):
+            scene.camera.data.lens = lens
+            scene.camera.data.keyframe_insert("lens", frame=frame)
+        scene.frame_set(1)
+
+    warns(zoom, 42)
+
+    def roll(scene):
+        scene.render.use_motion_blur = True
+        scene.cycles.rolling_shutter_type = "TOP"
+
+    warns(roll, 43)

@@ -102,7 +102,7 @@ def light_shadows_visibility_and_nodes():
         lamp.data.use_shadow = False
     lamp.visible_camera = True
     block = export().one("light")
-    equal([block["shadows"], block["visible"]], [False, True])
+    equal([block["shadows"], block["seen_by"]], [False, "all"])
     nodes = Nodes(lamp.data)
     nodes.end(nodes.node("Emission", Color=(0.5, 1, 0.25), Strength=3.0), "ShaderNodeOutputLight")
     near(export().one("light")["color"], [x * (1 if VERSION >= (4, 0) else math.pi / 4) for x in (1.5, 3, 0.75)])
@@ -119,3 +119,39 @@ def moving_light_warns():
     animate(lamp, "location", {0: (0, 0, 0), 2: (2, 0, 0)})
     scene.frame_set(1)
     near(export([10]).one("light")["translate"], [1, 0, 0])
+
+
+@test
+def lamps_that_the_renderer_would_refuse():
+    """Each is clamped or left out with one warning; export() lets the renderer check the text."""
+    for kind in ("SUN", "SPOT", "AREA"):
+        new_scene()
+        add_light(kind, (0, 0, 0))
+        equal(export([36]).all("light"), [])
+        new_scene()
+        add_light(kind, (1, 1, 0))
+        equal(export([36]).all("light"), [])
+    equal(light_text("POINT", scale=(0, 0, 0))["type"], "point")
+    equal(light_text("SUN", angle=math.pi)["angle"], 180)
+    for settings in ({"size": 0}, {"shape": "RECTANGLE", "size": 1, "size_y": 0}, {"shape": "DISK", "size": 0}):
+        new_scene()
+        add_light("AREA", **settings)
+        equal(export([36]).all("light"), [])
+    equal(light_text("POINT", [35], energy=1e30)["color"], [1e15] * 3)
+    near(light_text("SPOT", spot_size=math.pi)["cone_angle"], 180)
+    equal(light_text("POINT", [35], energy=-5)["color"], [0, 0, 0])
+
+
+@test
+def lamps_are_seen_by_the_rays_that_blender_says():
+    """Without any setting: in mirrors and glass, not by the camera."""
+    for kind, settings in (("AREA", {}), ("POINT", {"shadow_soft_size": 0.5}), ("SPOT", {"shadow_soft_size": 0.5}), ("SUN", {"angle": 0.3})):
+        for camera, mirrors, wanted in ((None, True, "reflections"), (True, True, "all"), (True, False, "camera"), (False, False, None)):
+            new_scene()
+            lamp = add_light(kind, **settings)
+            if camera is not None:
+                lamp.visible_camera = camera
+            lamp.visible_glossy = lamp.visible_transmission = mirrors
+            equal((kind, export().one("light").get("seen_by")), (kind, wanted))
+    equal(light_text("POINT").get("seen_by"), None)  # of no size
+    equal(light_text("SUN", angle=0).get("seen_by"), None)

@@ -1,8 +1,10 @@
 """Shader nodes as materials."""
 
+import math
+
 import bpy
 
-from kit import Nodes, VERSION, export, material_text, new_scene, primitive, test
+from kit import Nodes, VERSION, export, material_text, mesh_of, new_scene, primitive, test
 from scene_text import equal, near
 
 
@@ -106,9 +108,13 @@ def emission_and_lamps():
     nodes = Nodes()
     nodes.end(nodes.node("Emission", Color=(1, 0.5, 0.2), Strength=4.0))
     primitive("uv_sphere", nodes.owner, smooth=True, radius=0.5, location=(0, 0, 3))
-    lamp = export().one("light")
+    text = export()
+    lamp = text.one("light")
     equal([lamp["type"], lamp["visible"]], ["sphere", True])
-    near([lamp["radius"], *lamp["color"], *lamp["translate"]], [0.5, 4, 2, 0.8, 0, 0, 3])
+    near([lamp["radius"], *lamp["translate"]], [0.5005, 0, 0, 3])
+    part = sum(f.area for f in bpy.context.object.data.polygons) / math.pi  # of the surface of the ball
+    near(lamp["color"], [4 * part, 2 * part, 0.8 * part])
+    text.one("instance")  # within it, and blocks light
     new_scene()
     nodes = Nodes()
     nodes.end(nodes.node("Emission", Color=(1, 1, 1), Strength=2.0))
@@ -226,3 +232,97 @@ def nodes_without_a_counterpart_warn():
     nodes.set(output.inputs["Volume"], nodes.node("VolumeScatter"))
     primitive("cube", nodes.owner)
     export([21])
+
+
+@test
+def numbers_that_the_renderer_would_refuse():
+    for kind in ("BsdfGlass", "BsdfRefraction"):
+        block, _ = material_text(lambda n: n.node(kind, IOR=0.0), [35])
+        near(block["ior"], 1e-3)
+        block, _ = material_text(lambda n: n.node(kind, IOR=5000.0), [35])
+        near(block["ior"], 1000)
+    material_text(lambda n: n.mix(n.node("Fresnel", IOR=0.0), n.node("BsdfDiffuse"), n.node("BsdfGlossy")))
+    material_text(lambda n: n.node("Emission", Strength=1e30), [32, 35])
+    dark = lambda n: n.node("BsdfDiffuse", Color=n.node("Math", {"operation": "LOGARITHM"}, Value=-1.0))
+    material_text(dark)
+
+
+def glowing(kind, shader=None, **arguments):
+    """A new scene with a mesh that glows."""
+    new_scene()
+    nodes = Nodes()
+    glow = nodes.node("Emission", Color=(1, 1, 1), Strength=3.0)
+    nodes.end(shader(nodes, glow) if shader else glow)
+    return primitive(kind, nodes.owner, **arguments)
+
+
+@test
+def what_glows_keeps_its_light_and_blocks_that_of_others():
+    glowing("plane", size=2, location=(0, 0, 3))
+    text = export()
+    lamps = text.all("light")
+    equal([(b["type"], b["visible"], b["size"]) for b in lamps], [("rectangle", True, [2, 2])] * 2)
+    near(sorted(b.keys()[0][2][3] for b in lamps), [3 - 1e-3, 3 + 1e-3])  # one on each side of the mesh
+    for block in lamps:  # which shine away from it
+        rows = block.keys()[0]
+        assert (rows[2][3] - 3) * -rows[2][2] > 0
+    text.one("plane")
+    glowing("circle", radius=2, vertices=32, fill_type="NGON").scale = (1, 0.5, 1)
+    lamps = export().all("light")
+    equal([b["type"] for b in lamps], ["disk", "disk"])
+    x, y = sorted(lamps[0]["size"])
+    near([math.pi / 4 * x * y, y / x], [32 / 2 * math.sin(math.pi / 16) * 4 / 2, 2], 1e-4)
+    glowing("circle", radius=2, vertices=32, fill_type="TRIFAN")
+    equal([b["type"] for b in export().all("light")], ["disk", "disk"])
+    glowing("uv_sphere", radius=50, smooth=True).data.flip_normals()  # the camera is in it
+    text = export()
+    near(text.one("light")["radius"], 50)
+    equal(text.all("instance", "sphere"), [])
+    glowing("cube")
+    text = export([32])
+    equal(len(text.all("light")), 0)
+    text.one("cube")
+
+
+@test
+def what_glows_out_of_sight_or_beside_other_lobes_still_lights():
+    glowing("plane").visible_camera = False
+    text = export([6])
+    equal([(b.get("visible"), b["seen_by"]) for b in text.all("light")], [(None, "reflections")] * 2)
+    equal(text.all("plane"), [])
+    glowing("cube").visible_camera = False
+    text = export([6, 32])
+    equal(len(text.all("light", "cube")), 0)
+    glowing("plane", lambda n, glow: n.node("AddShader", Shader=n.node("BsdfDiffuse", Color=(0.5, 0.5, 0.5)), Shader_001=glow))
+    text = export()
+    equal([b.get("visible") for b in text.all("light")], [None, None])
+    block = text.one("material", text.one("plane")["material"])
+    near([*block["diffuse"], *block["emission"]], [0.5] * 3 + [3] * 3)
+
+
+@test
+def what_has_only_a_volume_is_left_out():
+    new_scene()
+    nodes = Nodes()
+    output = nodes.tree.nodes.new("ShaderNodeOutputMaterial")
+    nodes.set(output.inputs["Volume"], nodes.node("VolumeScatter"))
+    primitive("cube", nodes.owner)
+    equal(export([21]).all("cube", "instance"), [])
+
+
+@test
+def material_override_and_indirect_only():
+    new_scene()
+    nodes, override = Nodes(), bpy.data.materials.new("Clay")
+    nodes.end(nodes.node("BsdfDiffuse", Color=(1, 0, 0)))
+    primitive("cube", nodes.owner)
+    clay = Nodes(override)
+    clay.end(clay.node("BsdfDiffuse", Color=(0.2, 0.3, 0.4)))
+    bpy.context.view_layer.material_override = override
+    near(export().one("material")["diffuse"], [0.2, 0.3, 0.4])
+    new_scene()
+    collection = bpy.data.collections.new("Indirect")
+    bpy.context.scene.collection.children.link(collection)
+    collection.objects.link(bpy.data.objects.new("C", mesh_of([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])))
+    bpy.context.view_layer.layer_collection.children["Indirect"].indirect_only = True
+    equal(export([6]).all("instance"), [])

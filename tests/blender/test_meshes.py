@@ -4,7 +4,7 @@ import math
 
 import bpy
 
-from kit import Nodes, VERSION, add, export, mesh_of, new_scene, picture, primitive, test
+from kit import Export, Nodes, VERSION, add, export, mesh_of, new_scene, picture, primitive, test
 from scene_text import equal, near
 
 
@@ -39,8 +39,7 @@ def normals_only_where_smooth():
         return export().one("mesh")
 
     block = ball(lambda t: None)
-    equal(block.get("normals"), block.get("points"))
-    equal(block.arrays["normal_triangles"], block.arrays["triangles"])
+    equal([block.get("normals"), block.get("normal_triangles")], [block.get("points"), None])  # those of the points
 
     def flatten(thing):
         for face in thing.data.polygons:
@@ -210,3 +209,73 @@ def unknown_types_and_visibility_warn():
     new_scene().camera.data.clip_end = 5
     primitive("cube", location=(0, 60, 0))
     export([8]).one("cube")
+
+
+@test
+def instances_take_linear_work():
+    """Looks at names that are taken, and at arrays of Blender, for n and for 2 n copies of one object."""
+    class Counted(set):
+        looks = 0
+
+        def __contains__(self, name):
+            Counted.looks += 1
+            return super().__contains__(name)
+
+    def work(count):
+        new_scene()
+        thing = primitive("monkey")
+        thing.parent = add("Points", mesh_of([(i, 0, 0) for i in range(count)], []))
+        thing.parent.instance_type = "VERTS"
+        reads, plain = [], (Export.Names.__init__, Export.read)
+
+        def counting(names):
+            plain[0](names)
+            names.taken = Counted()
+
+        Export.Names.__init__ = counting
+        Export.read = lambda *arguments: reads.append(arguments) or plain[1](*arguments)
+        Counted.looks = 0
+        try:
+            text = export()
+        finally:
+            Export.Names.__init__, Export.read = plain
+        names = [b.name for b in text.all("instance")]
+        equal([len(names), len(set(names))], [count, count])
+        return Counted.looks, len(reads)
+
+    (few, few_reads), (many, many_reads) = work(300), work(600)
+    assert many - few <= 2 * 300, "%d looks for 300 copies, %d for 600" % (few, many)
+    equal(many_reads, few_reads)
+
+
+@test
+def names_that_are_taken_are_passed_over():
+    names = Export.Names()
+    equal([names.unique(n) for n in ("A", "A.002", "A", "A", "A", "", "")],
+          ["A", "A.002", "A.001", "A.003", "A.004", "unnamed", "unnamed.001"])
+
+
+@test
+def corners_that_points_share_are_not_written():
+    """Normals and texture coordinates, one for each point, go without corners of their own; seams need them."""
+    def grid(change=lambda mesh: None):
+        new_scene()
+        nodes = Nodes()
+        nodes.end(nodes.node("BsdfDiffuse", Color=nodes.node("TexImage", {"image": picture()})))
+        thing = primitive("grid", nodes.owner, smooth=True, x_subdivisions=4, y_subdivisions=3)
+        change(thing.data)
+        return export().one("mesh"), thing.data
+
+    block, mesh = grid()
+    equal([block.get(k) for k in ("normals", "uvs", "normal_triangles", "uv_triangles")],
+          [len(mesh.vertices), len(mesh.vertices), None, None])
+    for loop, place in zip(mesh.loops, mesh.uv_layers[0].data):
+        near(block.arrays["uvs"][loop.vertex_index], list(place.uv), 1e-5)
+
+    def cut(mesh):
+        vertices = [loop.vertex_index for loop in mesh.loops]
+        inner = next(i for i, v in enumerate(vertices) if vertices.count(v) == 4)
+        mesh.uv_layers[0].data[inner].uv = (0.5, 0.7)
+
+    block, mesh = grid(cut)
+    equal([block.get("uv_triangles"), [0.5, 0.7] in block.arrays["uvs"]], [block.get("triangles"), True])

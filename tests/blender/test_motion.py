@@ -32,7 +32,7 @@ def straight_motion_has_two_keys():
     scene = moving_scene()
     thing = primitive("cube")
     animate(thing, "location", {0: (0, 0, 0), 2: (4, 0, 0)})
-    primitive("uv_sphere", smooth=True, location=(0, 3, 0))
+    primitive("uv_sphere", smooth=True, location=(0, 3, 0), segments=64, ring_count=32)
     scene.frame_set(1)
     text = export()
     near([k[0][3] for k in text.one("cube").keys()], [1, 3])

@@ -10,10 +10,10 @@ from scene_text import equal, near
 @test
 def spheres_are_recognised():
     new_scene()
-    primitive("uv_sphere", smooth=True, radius=2, location=(1, 2, 3))
+    primitive("uv_sphere", smooth=True, radius=2, location=(1, 2, 3), segments=64, ring_count=32)
     near(export().one("sphere").keys()[0], [[2, 0, 0, 1], [0, 2, 0, 2], [0, 0, 2, 3]])
     new_scene()
-    thing = primitive("ico_sphere", smooth=True, subdivisions=3, radius=0.5)
+    thing = primitive("ico_sphere", smooth=True, subdivisions=5, radius=0.5)
     for v in thing.data.vertices:  # size and place sit in the mesh
         v.co = (v.co.x * 2 + 5, v.co.y * 3, v.co.z)
     thing.location, thing.scale = (0, 0, 1), (2, 1, 1)
@@ -24,7 +24,8 @@ def spheres_are_recognised():
 def other_balls_stay_meshes():
     for change in ("flat", "dent", "inside out", "open", "coarse"):
         new_scene()
-        thing = primitive("uv_sphere", smooth=change != "flat", **({"segments": 6, "ring_count": 3} if change == "coarse" else {}))
+        segments = 32 if change == "coarse" else 64  # off by a hundredth of the radius
+        thing = primitive("uv_sphere", smooth=change != "flat", segments=segments, ring_count=segments // 2)
         if change == "dent":
             thing.data.vertices[40].co *= 0.999
         if change == "inside out":
@@ -38,9 +39,26 @@ def other_balls_stay_meshes():
             bpy.ops.mesh.delete(type="FACE")
             bpy.ops.object.mode_set(mode="OBJECT")
         equal([b.kind for b in export().all("sphere", "instance")], ["instance"])
-    new_scene()  # flat, but fine enough
+    new_scene()  # facets are seen, however fine
     primitive("uv_sphere", smooth=False, segments=128, ring_count=64)
-    export().one("sphere")
+    export().one("instance")
+
+
+@test
+def custom_normals_stay_meshes_and_no_shapes_leaves_all():
+    for kind, record in (("cube", "cube"), ("plane", "plane"), ("uv_sphere", "sphere")):
+        fine = {"segments": 64, "ring_count": 32} if kind == "uv_sphere" else {}
+        new_scene()
+        thing = primitive(kind, smooth=kind == "uv_sphere", **fine)
+        export().one(record)
+        export(arguments=["--no-shapes"]).one("instance")
+        thing["rt_shape"] = record
+        export(arguments=["--no-shapes"]).one(record)
+        del thing["rt_shape"]
+        if hasattr(thing.data, "use_auto_smooth"):
+            thing.data.use_auto_smooth = True
+        thing.data.normals_split_custom_set([(0, 0.6, 0.8)] * len(thing.data.loops))
+        block = export().one("instance")
 
 
 @test
@@ -114,3 +132,15 @@ def negative_zero_and_uneven_scale():
     near(flat.keys()[0], [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]])
     near(text.one("mesh", flat["mesh"]).arrays["points"], [[0, 0, 5], [2, 0, 5], [0, 1, 5], [0, 0, 5]])
     equal(len(text.all("instance")), 2)
+
+
+@test
+def convex_by_a_hair_is_one_rule():
+    """Corners that float arithmetic takes for convex and double for concave: whatever they are written as, the
+    renderer takes it (export() lets it check)."""
+    for step in range(40):
+        new_scene()
+        depth = 0.5 + (step - 20) * 3e-8
+        far = 1e4 * (step % 3)
+        add("Q", mesh_of([(far, 0, 0), (far + 1, 0, 0), (far + depth, depth, 0), (far, 1, 0)], [(0, 1, 2, 3)]))
+        equal(len(export().all("plane", "instance")), 1)

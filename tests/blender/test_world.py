@@ -42,3 +42,19 @@ def world_environment():
     near(world_text(lambda n: build(n, "TEXTURE"))[0]["environment_rotation"], 50)
     world_text(lambda n: build(n, projection="MIRROR_BALL"), [31])
     world_text(lambda n: n.node("Background", Color=n.node("TexSky")), [30])
+
+
+@test
+def worlds_that_some_rays_do_not_see_warn():
+    scene = new_scene()
+    scene.world = bpy.data.worlds.new("World")
+    for kind in ("camera", "glossy"):
+        setattr(scene.world.cycles_visibility, kind, False)
+    export([39])
+
+    def build(n, **values):
+        mapping = n.node("Mapping", Vector=n.node("TexCoord").outputs["Generated"], **values)
+        return n.node("Background", Color=n.node("TexEnvironment", {"image": picture("env.png", width=4, height=2)}, Vector=mapping))
+
+    world_text(lambda n: build(n, Location=(0, 0, 0.5)), [31])
+    world_text(lambda n: build(n, Scale=(1, 1, 2)), [31])

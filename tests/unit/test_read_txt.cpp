@@ -125,6 +125,20 @@ TEST(read_txt_readme_is_complete) {
         CHECK_INFO(readme.find(cat("| `", line.keyword, " ")) != std::string::npos, line.keyword);
 }
 
+TEST(read_txt_values_of_points_need_no_corners) {
+    const std::string points = "points 4\n0 0 0 1 0 0 1 1 0 0 1 0\n";
+    const std::string triangles = "triangles 2\n0 1 2 0 2 3\n";
+    const std::string values = "normals 4\n0 0 1 0 0 1 0 0 1 0 1 0\nuvs 4\n0 0 1 0 1 1 0 1\n";
+    for (const std::string& body : {points + triangles + values, values + triangles + points}) {
+        const MeshDesc mesh = readBody("mesh m {\n" + body + "}\n").meshes.at(0);
+        CHECK(mesh.normalTriangles == mesh.triangles && mesh.uvTriangles == mesh.triangles);
+    }
+    const MeshDesc three =
+        readBody("mesh m {\n" + points + triangles + "normals 3\n0 0 1 0 0 1 0 1 0\n}\n")
+            .meshes.at(0);
+    CHECK(three.normalTriangles.empty()); // which validate() refuses
+}
+
 TEST(read_txt_line_ends_and_marks) {
     const std::string text = contentOf(kEverything);
     const SceneDesc desc = readText(text);

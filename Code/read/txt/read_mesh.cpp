@@ -47,9 +47,17 @@ public:
         expectLineEnd(in_, "}", open_);
         checkFile();
         for (const ArrayRead& array : reads_) checkIndices(array);
+        shareCorners(mesh_.normals.size(), mesh_.normalTriangles);
+        shareCorners(mesh_.uvs.size(), mesh_.uvTriangles);
     }
 
 private:
+    // Values without corners of their own, one for each point, are those of the points.
+    void shareCorners(std::size_t values, RawVector<MeshDesc::Corners>& corners) const {
+        if (corners.empty() && values > 0 && values == mesh_.points.size())
+            corners = mesh_.triangles;
+    }
+
     bool readProperty(const Token& t) {
         const auto row = std::find_if(properties_.begin(), properties_.end(),
                                       [&](const Property& p) { return p.keyword == t.text; });

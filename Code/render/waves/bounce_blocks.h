@@ -29,7 +29,7 @@ template <class MakeFn> SentRays sendFrom(const Wave& wave, const MakeFn& make) 
     wave.counts.reflect += reflected, wave.counts.refract += refracted;
     next.shrink(first + rays);
     next.beEndless();
-    std::fill_n(next.seesLights.data() + first, rays, std::uint8_t{true});
+    std::fill_n(next.seesLights.data() + first, rays, PathBatch::kSeesAsReflection);
     return sent;
 }
 
@@ -119,7 +119,7 @@ private:
             const std::size_t i = bit / 2, which = bit % 2;
             sample[to] = slots[i], time[to] = times[rays_[i]];
             inside[to] = which == 0 ? before[i] : out.beyond[i];
-            if ((withoutLamps_ >> i & 1) != 0) next.seesLights[first + to] = false;
+            if ((withoutLamps_ >> i & 1) != 0) next.seesLights[first + to] = 0;
             if (!wave_.context.steps.draws) continue;
             branch.follow(streams[rays_[i]]);
             stream[to] = branch.streams[which];

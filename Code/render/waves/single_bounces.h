@@ -37,7 +37,7 @@ inline void goStraight(const Wave& wave, std::size_t k) {
     ++wave.counts.refract;
     wave.memory.next.push({leave(at.surface, -at.eye.ng), rays.dir[i], 0, kInfinityF, rays.time[i]},
                           rays.sample[i], weight, rays.medium[i], rays.stream[i],
-                          rays.seesLights[i] != 0);
+                          rays.seesLights[i]);
 }
 
 inline void push(const Wave& wave, std::size_t k, const Bounce& ray, Vec3 side,
@@ -46,7 +46,7 @@ inline void push(const Wave& wave, std::size_t k, const Bounce& ray, Vec3 side,
     if (!worthTracing(wave, weight)) return;
     ++counter;
     const Material& material = *wave.memory.points.material[k];
-    const bool seesLights = showsLamps(material);
+    const std::uint8_t seesLights = showsLamps(material) ? PathBatch::kSeesAsReflection : 0;
     const std::size_t i = wave.memory.points.ray[k];
     const PathBatch& rays = wave.rays;
     wave.memory.next.push(
