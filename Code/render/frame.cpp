@@ -48,8 +48,7 @@ SceneFrame frameOf(const SceneDesc& desc, const CameraDesc& camera, int threads)
         max(maxAbs(bounds.all.lo - frame.centre), maxAbs(bounds.all.hi - frame.centre));
     frame.scale = min(frame.scale, powerOfTwoFor(farthest) * 0x1p80);
     const double distantFrom = kDistantTimes * max(bounds.nearest * frame.scale, 1.0);
-    if (farthest * frame.scale > distantFrom)
-        frame.distantFrom = static_cast<float>(distantFrom);
+    if (farthest * frame.scale > distantFrom) frame.distantFrom = static_cast<float>(distantFrom);
     return frame;
 }
 

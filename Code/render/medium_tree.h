@@ -22,8 +22,8 @@ public:
         nodes_.push_back({material, inside, kNothing});
         return entered;
     }
-    // Removes the innermost entry of the material. Where there is none, as of an inner shell that is
-    // inside out and has a material of its own, what was entered last is left.
+    // Removes the innermost entry of the material. Where there is none, as of an inner shell that
+    // is inside out and has a material of its own, what was entered last is left.
     Inside leave(Inside inside, std::uint32_t material) {
         Inside at = inside;
         kept_.clear(); // what overlaps with it and goes on

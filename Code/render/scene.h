@@ -12,8 +12,8 @@
 #include "material/material.h"
 #include "render/features.h"
 #include "render/frame.h"
-#include "render/settings.h"
 #include "render/seen_lamps.h"
+#include "render/settings.h"
 #include "render/shape_set.h"
 #include "render/stats.h"
 #include "shape/mesh.h"
@@ -43,7 +43,7 @@ inline constexpr MaterialPictures kNoPictures;
 struct alignas(64) SceneMaterial {
     Material base;
     bool litOutside = false; // answers lamps outside of it, whichever side is seen
-    bool isLamp = false; // the visible body of an area light; flat ones have no back
+    bool isLamp = false;     // the visible body of an area light; flat ones have no back
     const MaterialPictures* pictures = &kNoPictures;
     // Pictures that change its numbers.
     bool isTextured() const {

@@ -179,8 +179,7 @@ TEST(read_json_every_native_property_is_a_key) {
     };
     for (const auto& row : propertiesOf(BlockType::Settings))
         check(row.keyword, "\"settings\": {", "}");
-    for (const auto& row : propertiesOf(BlockType::World))
-        check(row.keyword, "\"world\": {", "}");
+    for (const auto& row : propertiesOf(BlockType::World)) check(row.keyword, "\"world\": {", "}");
     for (const auto& row : propertiesOf(BlockType::Camera))
         check(row.keyword, "\"camera\": {\"position\": [1, 1, 1],", "}");
     for (const auto& row : propertiesOf(BlockType::Texture))

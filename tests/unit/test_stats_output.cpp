@@ -85,7 +85,8 @@ TEST(stats_json_has_the_keys_of_the_contract) {
          {"{\"scene\":\"a \\\"b\\\".txt\",\"output\":\"out.png\",\"width\":640,\"height\":360,"
           "\"arguments\":[\"a.txt\",\"-q\"],\"version\":\"",
           "\"seconds\":{\"parse\":0,\"build\":0,\"render\":2,\"write\":0,\"total\":2.5}",
-          "\"rays\":{\"camera\":1000,\"shadow\":4000,\"shadow_traced\":3000,\"reflect\":0,\"refract\":0,\"indirect\":0}",
+          "\"rays\":{\"camera\":1000,\"shadow\":4000,\"shadow_traced\":3000,\"reflect\":0,"
+          "\"refract\":0,\"indirect\":0}",
           "\"hits\":{\"camera\":900}", "\"rays_per_second\":2000",
           "\"accel\":{\"kind\":\"bvh\",\"nodes\":11,\"leaves\":6,\"bytes\":352,\"sah\":12.5,"
           "\"triangles\":32,\"bytes_per_triangle\":50}",

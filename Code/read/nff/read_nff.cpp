@@ -284,8 +284,8 @@ private:
     ErrorList& errors_;
     SceneDesc desc_;
     NffWord previous_;
-    NffFill fill_; // in force
-    SourceLoc fillLoc_; // unknown before the first one
+    NffFill fill_;                          // in force
+    SourceLoc fillLoc_;                     // unknown before the first one
     std::uint32_t surface_ = kNotLookedFor; // of fill_
     NffSurfaceTable surfaceOf_;
     // Of polygons and of patches, by their materials.

@@ -80,8 +80,7 @@ template <bool kLampBodies, bool kSeeThrough> void addGlow(const Wave& wave) {
         const Material& material = *points.material[here];
         if constexpr (kLampBodies)
             if (points.at.of(here).isLamp) {
-                if (rays.seesLights[i])
-                    wave.add(slot, rays.weight[i] * material.emission);
+                if (rays.seesLights[i]) wave.add(slot, rays.weight[i] * material.emission);
                 continue;
             }
         const Rgb weight = points.weight[here];
