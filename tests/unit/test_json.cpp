@@ -369,7 +369,8 @@ TEST(json5_rejects) {
         {"[True,]", "1:2: error: expected a value, got 'True'"},
         {"{a: 1, 'a': 2}", "1:8: error: the key 'a' was given already at line 1"},
     };
-    for (const auto& [text, expected] : rows) {
+    for (const auto& row : rows) {
+        const std::string &text = row.first, &expected = row.second;
         const std::string fault = check::thrown([&] {
             parseJson({"t.json", text}, JsonGrammar::Json5);
         });
