@@ -127,7 +127,8 @@ TEST(read_mtl_all_clear_is_opaque) {
     CHECK(some.warnings.empty());
     const Result glass = readText("newmtl a\nTr 1\nillum 7\n");
     CHECK(glass.materials.at(0).transmission.r > 0 && glass.warnings.empty());
-    CHECK_EQUAL(readText("newmtl a\nd 0\nTr 1\n").materials.at(0).opacity, 0.0);
+    const Result both = readText("newmtl a\nd 0\nTr 1\n");
+    CHECK_EQUAL(both.materials.at(0).opacity, 0.0);
 }
 
 TEST(read_mtl_nameless) {
