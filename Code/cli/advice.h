@@ -17,8 +17,8 @@ struct PictureLevels {
     std::size_t pixels = 0, clipped = 0;
 };
 
-// With the exposure applied. Pixels of the colour `white` are not counted as clipped: a background
-// of 1 is there because somebody wants a white one.
+// Measures a picture with the exposure applied. Pixels of the colour `white` are not counted as
+// clipped: a background of 1 is there because a white one is wanted.
 PictureLevels levelsOf(const Picture& picture, const RenderSettings& settings,
                        std::optional<Rgb> white = {});
 

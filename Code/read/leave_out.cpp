@@ -10,7 +10,7 @@
 
 namespace {
 
-// By block of a list: is it refused?
+// Tells of each block of a list whether it is refused, and warns of those that are.
 template <class Block>
 std::vector<bool> refused(const std::vector<Block>& blocks, const SceneDesc& desc,
                           const SourceFile& source, const ReadContext& context) {
@@ -35,7 +35,7 @@ template <class Block> void erase(std::vector<Block>& blocks, const std::vector<
     blocks.erase(blocks.begin() + static_cast<std::ptrdiff_t>(kept), blocks.end());
 }
 
-// Also the objects that show them.
+// Erases the meshes that are wrong and the objects that show them.
 void eraseMeshes(SceneDesc& desc, const std::vector<bool>& wrong) {
     std::vector<Handle> handles;
     Handle next = 0;

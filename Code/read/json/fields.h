@@ -31,7 +31,7 @@ public:
         else
             errors_.add(loc, makeText);
     }
-    // Of what nothing can be made: memory would not suffice.
+    // Fails for what nothing can be made of, because memory would not suffice.
     template <class MakeText> void fatal(SourceLoc loc, MakeText&& makeText) {
         errors_.add(loc, makeText);
     }

@@ -248,7 +248,7 @@ private:
         liberties_.push_back({again.loc, cat(what, "; this one holds")});
         hasTwice_ = true;
     }
-    // Of the members from `base` on that have the same key, only the last.
+    // Keeps only the last of the members from `base` on that have the same key.
     void keepLast(std::size_t base) {
         std::unordered_set<std::string_view> seen;
         std::size_t out = members_.size();

@@ -10,7 +10,8 @@
 
 namespace {
 
-// Of blanks: no-break space, byte order mark, separators of lines and paragraphs.
+// The blanks of more than one byte: no-break space, byte order mark, separators of lines and
+// paragraphs.
 constexpr std::string_view kWideBlanks[] = {"\xc2\xa0", "\xef\xbb\xbf", "\xe2\x80\xa8",
                                             "\xe2\x80\xa9"};
 

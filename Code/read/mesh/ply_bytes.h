@@ -78,7 +78,7 @@ public:
                 items[i] = static_cast<std::uint32_t>(load<T>(listStart_ + i * sizeof(T)));
         });
     }
-    // The same of numbers of any type.
+    // Reads a list of numbers of any type.
     void numbers(const PlyProperty& property, std::size_t most, std::vector<double>& items) {
         items.resize(listCount(property, most));
         for (double& item : items) item = number(property.type);

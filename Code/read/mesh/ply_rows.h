@@ -27,7 +27,7 @@ inline std::string indexText(const PlyProperty& property, std::uint32_t index) {
     return isSigned ? cat(static_cast<std::int32_t>(index)) : cat(index);
 }
 
-// Which of their lists make triangles, and how.
+// Says which lists of the faces make triangles, and how.
 struct PlyFaces {
     enum class Kind { Polygons, Strips };
     Kind kind = Kind::Polygons;
@@ -155,7 +155,7 @@ private:
         return true;
     }
 
-    // Of the row whose indices are read. False when it shows nothing.
+    // Adds the face of the row whose indices are read. Returns false when it shows nothing.
     bool addFace(const PlyFaces& faces, std::span<const Vec3d> points) {
         const std::size_t before = triangles.size();
         if (items_.size() < 3) return false;
