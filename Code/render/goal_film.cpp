@@ -9,12 +9,12 @@ constexpr int kLongestPart = 64;
 
 } // namespace
 
-GoalFilm::GoalFilm(int width, int height, const RenderSettings& settings)
+GoalFilm::GoalFilm(int width, int height, const RenderSettings& settings, const FilmUnits& units)
     : width_(width), height_(height), goal_(*settings.errorGoal),
       exposure_(exact::exp2(settings.picture.exposureEv)), plan_(width, height, goal_),
       aovs_(settings.aovs.size()) {
-    color_.reset(width, height);
-    for (Film& film : aovs_) film.reset(width, height);
+    color_.reset(width, height, units.color);
+    for (std::size_t a = 0; a < aovs_.size(); ++a) aovs_[a].reset(width, height, units.aovs[a]);
 }
 
 std::vector<Tile> GoalFilm::nextRound() { return plan_.nextRound(kLongestPart); }
@@ -24,14 +24,13 @@ std::vector<Tile> GoalFilm::nextRound() { return plan_.nextRound(kLongestPart); 
 // spread together are less wrong than that, for each batch fills the gaps of the others.
 double GoalFilm::squaredError(const Film::Place& before, const Film::Place& more) const {
     if (before.count == 0 || more.count == 0) return 0; // no sample was finite
-    const double a = before.count, b = more.count;
+    const double a = before.count, b = more.count, exposure = exposure_ / color_.perUnit();
+    const Vec3d was = before.sum.value(), is = more.sum.value();
     const auto apart = [&](double sumBefore, double sumMore) {
-        const double p = sumBefore / a * exposure_, q = sumMore / b * exposure_;
+        const double p = sumBefore / a * exposure, q = sumMore / b * exposure;
         return sqr(min(p, goal_.white) - min(q, goal_.white));
     };
-    return (apart(before.sum.x, more.sum.x) + apart(before.sum.y, more.sum.y) +
-            apart(before.sum.z, more.sum.z)) *
-           (a * b) / sqr(a + b);
+    return (apart(was.x, is.x) + apart(was.y, is.y) + apart(was.z, is.z)) * (a * b) / sqr(a + b);
 }
 
 void GoalFilm::add(const Tile& part, const Film& color, const std::vector<Film>& aovs) {

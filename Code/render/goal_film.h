@@ -6,6 +6,7 @@
 #include "image/image.h"
 #include "render/error_plan.h"
 #include "render/film.h"
+#include "render/film_units.h"
 #include "render/stats.h"
 
 #include <vector>
@@ -13,7 +14,7 @@
 class GoalFilm {
 public:
     // `settings` has an error goal.
-    GoalFilm(int width, int height, const RenderSettings& settings);
+    GoalFilm(int width, int height, const RenderSettings& settings, const FilmUnits& units);
 
     // Parts of the picture that get samples now; none: it is done.
     std::vector<Tile> nextRound();

@@ -95,7 +95,7 @@ private:
     // In rounds, each of which adds samples where the picture needs them.
     bool renderToGoal(ThreadPool& pool, std::vector<TileWorker>& workers,
                       const RenderControl& control, Picture& picture, Stats& stats) {
-        GoalFilm film(area_.width(), area_.height(), settings_);
+        GoalFilm film(area_.width(), area_.height(), settings_, sampler_.units());
         double told = 0; // progress never falls, though the work ahead may turn out to be more
         std::atomic<bool> allWhole = true;
         while (allWhole) {
@@ -160,15 +160,11 @@ private:
 
     // What renderTile() would, of samples that are all the same.
     void showBackground(const Tile& tile, TileWorker& worker) {
-        const Rgb seen = sampler_.background();
         const auto count = static_cast<std::uint64_t>(settings_.picture.samplesPerPixel);
         worker.rays.camera += count * static_cast<std::uint64_t>(tile.width() * tile.height());
-        const auto meanOf = [&](Rgb sample) {
-            worker.color.reset(1, 1);
-            for (std::uint64_t s = 0; s < count; ++s) worker.color.add(0, 0, sample);
-            return worker.color.mean(0, 0);
-        };
-        color_->fill(onCanvas(tile), meanOf(seen));
+        worker.color.reset(1, 1, sampler_.units().color);
+        worker.color.addToAll(sampler_.background(), settings_.picture.samplesPerPixel);
+        color_->fill(onCanvas(tile), worker.color.mean(0, 0));
         const float samples = static_cast<float>(count);
         for (std::size_t a = 0; a < aovs_.size(); ++a)
             if (settings_.aovs[a] == Aov::Samples)

@@ -18,19 +18,17 @@ void addFirstHit(Film& film, Aov aov, int x, int y, const FirstHit& first) {
     }
 }
 
-// -0 becomes 0, as in a sum.
-Rgb withoutMinus(Rgb c) { return {c.r + 0.0f, c.g + 0.0f, c.b + 0.0f}; }
-
 } // namespace
 
 TileSampler::TileSampler(const Scene& scene, const RenderSettings& settings)
-    : context_(scene, settings), settings_(settings), cameraRays_(context_),
-      emptyTiles_(context_, cameraRays_) {}
+    : context_(scene, settings), settings_(settings), units_(filmUnitsOf(scene, settings)),
+      cameraRays_(context_), emptyTiles_(context_, cameraRays_) {}
 
 bool TileSampler::trace(const Tile& tile, int begin, int samples, TileWorker& worker,
                         const std::atomic<bool>* stop) const {
-    worker.color.reset(tile.width(), tile.height());
-    for (Film& film : worker.aovs) film.reset(tile.width(), tile.height());
+    worker.color.reset(tile.width(), tile.height(), units_.color);
+    for (std::size_t a = 0; a < worker.aovs.size(); ++a)
+        worker.aovs[a].reset(tile.width(), tile.height(), units_.aovs[a]);
     const int pixels = tile.width() * tile.height();
     if (settings_.errorGoal && emptyTiles_.isEmpty(tile)) {
         worker.rays.camera +=
@@ -68,7 +66,7 @@ void TileSampler::traceOnce(const Tile& tile, TileWorker& worker) const {
     const auto take = [&](int x, int y) {
         Rgb& sum = pixels[y * width + x];
         if (Film::isNumber(*sample))
-            sum = withoutMinus(*sample);
+            sum = WholeSum::rounded(*sample, units_.color);
         else
             sum = {}, ++worker.nanSamples;
         ++sample;
@@ -79,7 +77,8 @@ void TileSampler::traceOnce(const Tile& tile, TileWorker& worker) const {
             return;
         }
         Rgb* const sum = &pixels[y * width + x];
-        sum[0] = withoutMinus(sample[0]), sum[1] = withoutMinus(sample[1]);
+        sum[0] = WholeSum::rounded(sample[0], units_.color);
+        sum[1] = WholeSum::rounded(sample[1], units_.color);
         sample += 2;
     };
     const auto takeSquare = [&](int left, int top) { forEachTwo(left, top, takeTwo); };
@@ -113,7 +112,6 @@ Rgb TileSampler::background() const {
     return {};
 }
 
-// Samples go to the film in the order of their numbers, whatever the size of the chunks.
 void TileSampler::collect(const Tile& tile, int first, int count, TileWorker& worker) const {
     const auto each = static_cast<std::size_t>(count);
     std::size_t slot = 0;
@@ -125,9 +123,7 @@ void TileSampler::collect(const Tile& tile, int first, int count, TileWorker& wo
     const auto take = [&](int x, int y) {
         worker.nanSamples += worker.color.addNumbers(x, y, samplesOf(1));
     };
-    const auto takeTwo = [&](int x, int y) {
-        worker.nanSamples += worker.color.addNumbersOfTwo(x, y, samplesOf(2));
-    };
+    const auto takeTwo = [&](int x, int y) { take(x, y), take(x + 1, y); };
     const auto takeSquare = [&](int left, int top) { forEachTwo(left, top, takeTwo); };
     const Tile places{0, 0, tile.width(), tile.height()};
     forEachSquare(places, takeSquare, take);

@@ -5,6 +5,7 @@
 #include "render/camera_rays.h"
 #include "render/empty_tiles.h"
 #include "render/film.h"
+#include "render/film_units.h"
 #include "render/integrator.h"
 
 #include <atomic>
@@ -31,6 +32,7 @@ public:
 
     bool throughCorners() const { return cameraRays_.throughCorners(); }
     const IntegratorContext& context() const { return context_; }
+    const FilmUnits& units() const { return units_; }
 
     // Traces samples begin .. begin + samples - 1 of all places of the tile, into the worker's
     // films. Returns false when *stop became true before the last of them: a tile of many samples
@@ -54,6 +56,7 @@ private:
 
     IntegratorContext context_;
     const RenderSettings& settings_;
+    FilmUnits units_;
     CameraRays cameraRays_;
     EmptyTiles emptyTiles_;
 };
