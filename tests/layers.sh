@@ -17,7 +17,7 @@ allowedFor() {
     simd) echo base simd ;;
     isa) echo base simd isa image $siblings render ;;
     image) echo base image ;;
-    desc) echo base desc ;;
+    desc) echo base desc material ;;
     read) echo base desc image read ;;
     accel | sample | texture) echo base simd isa image "$1" ;;
     shape) echo base isa image shape accel ;;

@@ -1,7 +1,7 @@
 // The formulas of Camera::rayFrom() for a perspective camera at rest, in its order.
 #pragma once
 
-#include "accel/kernels/vectors3.h"
+#include "simd/vectors3.h"
 #include "base/vec.h"
 #include "render/lens_lanes.h"
 #include "render/waves/disk_lanes.h"

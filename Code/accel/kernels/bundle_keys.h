@@ -7,7 +7,7 @@
 #include "accel/kernels/edge_on.h"
 #include "accel/kernels/kernels.h"
 #include "accel/kernels/queue_rays.h"
-#include "accel/kernels/vectors3.h"
+#include "simd/vectors3.h"
 #include "accel/kernels/wide_tree.h"
 #include "base/math.h"
 #include "base/vec.h"

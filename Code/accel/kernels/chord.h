@@ -2,7 +2,7 @@
 // floor, up to the horizon, fills many packets with them.
 #pragma once
 
-#include "accel/kernels/vectors3.h"
+#include "simd/vectors3.h"
 #include "accel/triangle.h"
 #include "base/vec.h"
 #include "simd/lanes.h"

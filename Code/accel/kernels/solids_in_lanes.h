@@ -8,8 +8,8 @@
 // ray meets lies inside of the box without the pad.
 #pragma once
 
-#include "accel/kernels/arc_sines.h"
-#include "accel/kernels/double_double_lanes.h"
+#include "simd/arc_sines.h"
+#include "simd/double_double_lanes.h"
 #include "accel/kernels/edge_on.h"
 #include "accel/kernels/solids.h"
 #include "accel/kernels/solids_answers.h"

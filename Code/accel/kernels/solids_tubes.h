@@ -2,7 +2,7 @@
 // shape/cone.cpp, and which side of it they see.
 #pragma once
 
-#include "accel/kernels/double_double_lanes.h"
+#include "simd/double_double_lanes.h"
 #include "accel/kernels/ray_lanes.h"
 #include "accel/kernels/solids.h"
 #include "accel/kernels/solids_facets.h"

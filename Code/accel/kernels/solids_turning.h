@@ -4,7 +4,7 @@
 // such shapes take 27 % (ASCII/moving_shapes.txt) and 12 % (motion_blur.txt) longer.
 #pragma once
 
-#include "accel/kernels/arc_sines.h"
+#include "simd/arc_sines.h"
 #include "accel/kernels/solids.h"
 #include "accel/kernels/solids_hulls.h"
 #include "accel/kernels/solids_objects.h"

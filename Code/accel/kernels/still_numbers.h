@@ -1,7 +1,7 @@
 // The numbers of the shapes that W lanes are on, and their maps.
 #pragma once
 
-#include "accel/kernels/vectors3.h"
+#include "simd/vectors3.h"
 #include "accel/still_shape.h"
 #include "base/affine.h"
 #include "base/math.h"

@@ -4,7 +4,7 @@
 
 #include "accel/kernels/still_numbers.h"
 #include "accel/kernels/surface_columns.h"
-#include "accel/kernels/vectors3.h"
+#include "simd/vectors3.h"
 #include "simd/lanes.h"
 
 #include <cstddef>

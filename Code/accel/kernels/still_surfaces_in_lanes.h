@@ -7,7 +7,7 @@
 #include "accel/kernels/still_surfaces.h"
 #include "accel/kernels/still_uv.h"
 #include "accel/kernels/surface_columns.h"
-#include "accel/kernels/vectors3.h"
+#include "simd/vectors3.h"
 #include "simd/lanes.h"
 
 #include <algorithm>

@@ -2,10 +2,10 @@
 // says of them, in the same order.
 #pragma once
 
-#include "accel/kernels/angle_lanes.h"
+#include "simd/angle_lanes.h"
 #include "accel/kernels/still_numbers.h"
 #include "accel/kernels/still_points.h"
-#include "accel/kernels/vectors3.h"
+#include "simd/vectors3.h"
 #include "base/math.h"
 #include "simd/lanes.h"
 

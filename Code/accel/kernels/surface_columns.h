@@ -3,7 +3,7 @@
 
 #include "accel/kernels/still_surfaces.h"
 #include "accel/kernels/still_numbers.h"
-#include "accel/kernels/vectors3.h"
+#include "simd/vectors3.h"
 #include "base/ray_span.h"
 #include "base/vec.h"
 #include "simd/lanes.h"

@@ -2,7 +2,7 @@
 // return early, lanes go on with numbers that are not used.
 #pragma once
 
-#include "accel/kernels/vectors3.h"
+#include "simd/vectors3.h"
 #include "base/vec.h"
 #include "render/point_block.h"
 #include "render/waves/bounce_lanes.h"

@@ -1,7 +1,7 @@
 // circlePoint() of sample/warp.cpp, nearly: for who rounds to floats what it makes of them.
 #pragma once
 
-#include "accel/kernels/vectors3.h"
+#include "simd/vectors3.h"
 #include "base/math.h"
 #include "render/waves/disk_lanes.h"
 #include "render/waves/three_lanes.h"

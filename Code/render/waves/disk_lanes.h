@@ -2,7 +2,7 @@
 // Sampler::get2D() and diskFromSquare().
 #pragma once
 
-#include "accel/kernels/vectors3.h"
+#include "simd/vectors3.h"
 #include "base/vec.h"
 #include "render/waves/three_lanes.h"
 #include "sample/sobol.h"

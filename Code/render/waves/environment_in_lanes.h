@@ -2,7 +2,7 @@
 // their order.
 #pragma once
 
-#include "accel/kernels/angle_lanes.h"
+#include "simd/angle_lanes.h"
 #include "base/math.h"
 #include "render/waves/environment_lanes.h"
 #include "render/waves/texel_lanes.h"

@@ -1,7 +1,7 @@
 // The formulas of material/fresnel.h for W points, operation by operation.
 #pragma once
 
-#include "accel/kernels/vectors3.h"
+#include "simd/vectors3.h"
 #include "base/vec.h"
 #include "render/waves/point_lanes.h"
 #include "simd/lanes.h"

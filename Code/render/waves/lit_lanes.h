@@ -2,7 +2,7 @@
 // lane and in their order. Where those return early, lanes go on with numbers that nobody takes.
 #pragma once
 
-#include "accel/kernels/pow_lanes.h"
+#include "simd/pow_lanes.h"
 #include "base/math.h"
 #include "render/waves/lamp_lanes.h"
 #include "render/waves/three_lanes.h"

@@ -2,8 +2,8 @@
 // cosinePowerFromSquare(), operation by operation but for the circle.
 #pragma once
 
-#include "accel/kernels/pow_of_doubles.h"
-#include "accel/kernels/vectors3.h"
+#include "simd/pow_of_doubles.h"
+#include "simd/vectors3.h"
 #include "base/vec.h"
 #include "render/waves/bounce_lanes.h"
 #include "render/waves/circle_lanes.h"

@@ -1,7 +1,7 @@
 // Vectors of the points of a block, W points from one of them on.
 #pragma once
 
-#include "accel/kernels/vectors3.h"
+#include "simd/vectors3.h"
 #include "base/surface_block.h"
 
 #include <cstddef>

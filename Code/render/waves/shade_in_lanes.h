@@ -1,7 +1,7 @@
 // The formulas of shadeSurface() and of what takes its results, lane by lane and in their order.
 #pragma once
 
-#include "accel/kernels/vectors3.h"
+#include "simd/vectors3.h"
 #include "base/bounds.h"
 #include "base/vec.h"
 #include "render/point_block.h"

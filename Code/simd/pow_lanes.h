@@ -2,7 +2,7 @@
 // base/math_powers.cpp, lane by lane and in their order.
 #pragma once
 
-#include "accel/kernels/vectors3.h"
+#include "simd/vectors3.h"
 #include "base/math.h"
 #include "base/pow_tables.h"
 #include "simd/lanes.h"

@@ -2,7 +2,7 @@
 // base/math_angles.cpp.
 #pragma once
 
-#include "accel/kernels/double_double_lanes.h"
+#include "simd/double_double_lanes.h"
 #include "base/math.h"
 #include "base/rounder.h"
 #include "simd/lanes.h"

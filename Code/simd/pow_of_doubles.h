@@ -4,8 +4,8 @@
 // at zero or infinity.
 #pragma once
 
-#include "accel/kernels/double_double_lanes.h"
-#include "accel/kernels/pow_lanes.h"
+#include "simd/double_double_lanes.h"
+#include "simd/pow_lanes.h"
 #include "simd/lanes.h"
 
 LANES_BEGIN

@@ -3,8 +3,8 @@
 // so large or small that products would have to be scaled.
 #pragma once
 
-#include "accel/kernels/double_double_lanes.h"
-#include "accel/kernels/vectors3.h"
+#include "simd/double_double_lanes.h"
+#include "simd/vectors3.h"
 #include "base/atan_table.h"
 #include "simd/lanes.h"
 
