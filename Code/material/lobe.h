@@ -25,7 +25,7 @@ struct LobeField {
 enum LobeFlags : std::uint32_t {
     kReflects = 1,      // to the side of the eye
     kTransmits = 2,     // to the other side
-    kAnswersLights = 4, // eval() and pdf() mean something; else its directions are single ones
+    kAnswersLights = 4, // eval() is not 0 everywhere
     kSpawnsRays = 8,    // sample() does
     kDiffuse = 16,      // a diffuse bounce by the depth limits; else glossy, or transmission
     kHasSides = 32,     // asks for `eta`
@@ -48,13 +48,15 @@ struct LobeNumbers {
     Floats3 rgb(std::size_t i) const { return {(*this)[i], (*this)[i + 1], (*this)[i + 2]}; }
 };
 
-// A sampled direction. `weight` is eval() / pdf for lobes that answer lights; for single directions
-// it is the part of the light that goes there over the probability of the choice, which `pdf` is.
-// pdf is 0 where nothing was sampled.
+// A sampled direction. `weight` is eval() / pdf. Where `single` holds the lobe sends light in
+// single directions (its roughness is 0): eval() and pdf() are 0 there, `weight` is the part of the
+// light that goes there over the probability of the choice, which `pdf` is. pdf is 0 where nothing
+// was sampled.
 struct LobeSample {
     Floats3 toLight;
     Floats3 weight;
     Floats pdf;
+    Mask single;
 };
 
 // What a lobe L has:
@@ -70,8 +72,8 @@ struct LobeSample {
 //                                                       surface that faces the light
 //   Floats pdf(toEye, toLight) const;                   per steradian, with which sample() gives it
 //   LobeSample sample(toEye, Floats pick, u, v) const;  by three numbers in [0,1)
-// Lobes of single directions have neither eval nor pdf; those that spawn no rays have no sample and
-// no pdf. Lobes that reflect and transmit have, for integrators that follow both,
+// Lobes that spawn no rays have neither sample nor pdf. Lobes that reflect and transmit have, for
+// integrators that follow both,
 //   LobeSample branch(toEye, bool transmits, u, v) const;  whose weight isn't over a choice
 
 inline Floats3 rgbOf(Floats v) { return {v, v, v}; }

@@ -21,7 +21,7 @@ struct Diffuse {
     }
     LobeSample sample(const Floats3& toEye, Floats, Floats u, Floats v) const {
         const Floats3 toLight = cosineHemisphereFromSquare(u, v);
-        return {toLight, rgbOf(1.0f), pdf(toEye, toLight)};
+        return {toLight, rgbOf(1.0f), pdf(toEye, toLight), maskOf(0)};
     }
 };
 
