@@ -8,6 +8,7 @@
 template <>
 inline constexpr auto kEnumNames<IntegratorKind> =
     std::to_array<EnumName<IntegratorKind>>({{IntegratorKind::Whitted, "whitted"},
+                                             {IntegratorKind::Path, "path"},
                                              {IntegratorKind::Ao, "ao"},
                                              {IntegratorKind::Normal, "normal"},
                                              {IntegratorKind::Depth, "depth"},

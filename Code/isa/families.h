@@ -13,6 +13,7 @@
 #include "isa/isa.h"
 #include "render/lamp_map/lamp_map_lanes.h"
 #include "render/lens_in_lanes.h"
+#include "render/path/path_in_lanes.h"
 #include "render/waves/bounce_in_lanes.h"
 #include "render/waves/environment_in_lanes.h"
 #include "render/waves/lamp_in_lanes.h"
@@ -33,13 +34,14 @@ constexpr ShadeLanes kShade{seePoints,      lightPoints, paintPoints, paintEachP
 constexpr BounceLanes kBounce{dividePoints, bouncePoints, mirrorPoints};
 constexpr LampLanes kLamps{lightByLamp, lightBySamples, wholeLight, hiddenPoints, askLampMap};
 constexpr PictureLanes kPictures{textureColors, environmentColors};
+constexpr PathKernel kPath{scatterBlock};
 constexpr CameraLanes kCamera{pairSeeds, sobolPairs, spreadPlaces, lensRays, pinholeRays};
 
 // An Isa of these functions.
 constexpr Isa isaOf(const char* name, bool (*supported)(),
                     const kernels::build::TreeBuilder* build) {
     return {name,    W,        supported, &kTriangles, &kSolids, &kPlaced, &kSurfaces,
-            &kShade, &kBounce, &kLamps,   &kPictures,  &kCamera, build};
+            &kShade, &kBounce, &kLamps,   &kPictures,  &kCamera, &kPath,   build};
 }
 
 LANES_END

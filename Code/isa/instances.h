@@ -3,7 +3,9 @@
 
 #include "isa/isa.h"
 
+struct PathKernel;
 extern const Isa kSseIsa, kAvx2Isa, kAvx512Isa;
+extern const PathKernel kOnePath;
 namespace kernels::build {
 extern const TreeBuilder kAvx2TreeBuilder;
 }

@@ -23,6 +23,7 @@ Rgb shown(IntegratorKind kind, const FirstHit& first) {
     case IntegratorKind::Uv: return {fraction(first.uv.x), fraction(first.uv.y), 0};
     case IntegratorKind::Albedo:
     case IntegratorKind::Whitted:
+    case IntegratorKind::Path:
     case IntegratorKind::Ao: break;
     }
     return first.albedo;

@@ -23,6 +23,7 @@ SamplerKind samplerKind(SettingsDesc::Sampler kind) {
 
 bool needsFirstHits(const RenderSettings& settings) {
     return !settings.aovs.empty() || (settings.integrator != IntegratorKind::Whitted &&
+                                      settings.integrator != IntegratorKind::Path &&
                                       settings.integrator != IntegratorKind::Ao);
 }
 

@@ -8,6 +8,7 @@
 #include "render/lens_lanes.h"
 #include "render/material_table.h"
 #include "render/occluders.h"
+#include "render/path/path_memory.h"
 #include "render/point_columns.h"
 #include "render/point_lists.h"
 #include "render/query.h"
@@ -217,6 +218,7 @@ struct WaveMemory {
     std::vector<Rgb> lampLight;        // of a lamp with a size that lanes don't do, by point
     std::vector<Arrival> arrivals, arrivalsInOrder;
     std::vector<std::uint32_t> arrivalStarts;
+    PathMemory path;
 };
 
 void integrateWhitted(const IntegratorContext& context, SampleChunk& chunk, WaveMemory& memory,

@@ -6,9 +6,12 @@
 #include "base/math.h"
 #include "base/text.h"
 #include "image/image.h"
+#include "render/batch.h"
 #include "render/eye.h"
 #include "render/make_light.h"
 #include "render/make_shapes.h"
+#include "render/path/classic_lobes.h"
+#include "render/path/light_rows.h"
 #include "render/picture_reader.h"
 #include "render/texture_files.h"
 #include "render/to_float.h"
@@ -208,8 +211,27 @@ private:
             materials[i].pictures = picturesOf(desc_.materials[i]);
             scene_.any_ |= materials[i];
         }
+        if (settings_.integrator == IntegratorKind::Path) buildLobes();
         if (spent_ != nullptr) std::vector<MaterialDesc>().swap(spent_->materials);
     }
+
+    void buildLobes() {
+        LobedMaterials& lobed = scene_.lobedMaterials_;
+        const TextureOf pictures = [this](Handle handle) { return textureOf(handle); };
+        const MaterialDesc standard;
+        for (std::size_t i = 0; i <= desc_.materials.size(); ++i) {
+            const MaterialDesc& desc = i < desc_.materials.size() ? desc_.materials[i] : standard;
+            const LobeList list = classicLobes(desc, pictures, on_);
+            if (!lobed.add(list.lobes, list.factors, emits(desc)))
+                scene_.warnings_.push_back(
+                    located(source_, desc.loc.offset,
+                            cat("material ", desc.name,
+                                " reflects more than arrives, and is scaled to what does; weights "
+                                "whose sum is at most 1 would be right"),
+                            "warning"));
+        }
+    }
+    static bool emits(const MaterialDesc& desc) { return !isBlack(toRgb(desc.emission)); }
 
     // By several threads: call(first, last).
     template <class Call> void forSomeMaterials(const Call& call) const {
@@ -343,7 +365,24 @@ private:
 
     // ---- lights
 
+    static constexpr std::uint32_t kNoShape = 0xffffffffu;
+    // Whether rays can meet the lamp.
+    static bool hasSize(const LightDesc& desc) {
+        using enum LightDesc::Kind;
+        if (desc.kind == Sun) return desc.angleDeg > 0;
+        return desc.kind == Rectangle || desc.kind == Disk || desc.kind == Sphere ||
+               desc.radius > 0;
+    }
+    static std::uint8_t seenBy(LightDesc::SeenBy by) {
+        using enum LightDesc::SeenBy;
+        std::uint8_t bits = 0;
+        if (by == Camera || by == All) bits |= PathBatch::kSeesAsCamera;
+        if (by == Reflections || by == All) bits |= PathBatch::kSeesAsReflection;
+        return bits;
+    }
+
     void buildLights() {
+        lampShapes_.assign(desc_.lights.size(), kNoShape);
         for (std::size_t i = 0; i < desc_.lights.size(); ++i) {
             const LightDesc& light = desc_.lights[i];
             scene_.lights_.push_back(makeLight(light, scene_.frame_));
@@ -357,6 +396,24 @@ private:
                                       makeLampBody(light, scene_.frame_, 0, 0));
         }
         scene_.seenLamps_.finish();
+        if (settings_.integrator == IntegratorKind::Path) buildPathLights();
+    }
+
+    void buildPathLights() {
+        PathLights& lights = scene_.pathLights_;
+        for (std::size_t i = 0; i < desc_.lights.size(); ++i) {
+            const LightDesc& desc = desc_.lights[i];
+            const auto made = makeLightRow(desc, scene_.frame_);
+            if (!made) continue;
+            const bool isOpen = !(desc.shadows && on_.shadows);
+            const std::uint32_t light = lights.add({made->row, isOpen}, made->power);
+            if (isOpen || !hasSize(desc)) continue;
+            if (lampShapes_[i] != kNoShape)
+                lights.addSurface(lampShapes_[i], 0, light);
+            else
+                lights.addUnshaped(light, seenBy(desc.seenBy));
+        }
+        lights.finish();
     }
 
     // A lamp that can be seen casts no shadows: its light passes through its body.
@@ -370,13 +427,16 @@ private:
         glow.isLamp = true;
         scene_.materials_.push_back(glow);
         scene_.any_ |= glow;
+        lampShapes_[id - objectCount_] = static_cast<std::uint32_t>(scene_.shapes_.shapes.size());
         scene_.shapes_.add(std::move(body), ShapeSet::Shadow::None);
+        if (settings_.integrator == IntegratorKind::Path) scene_.lobedMaterials_.add({}, {}, true);
     }
 
     Scene& scene_;
     const SceneDesc& desc_;
-    SceneDesc* spent_;                 // may be null
-    std::vector<std::string> missing_; // by texture: the warning, of a picture that misses
+    SceneDesc* spent_;                      // may be null
+    std::vector<std::uint32_t> lampShapes_; // the bodies of lamps, by light
+    std::vector<std::string> missing_;      // by texture: the warning, of a picture that misses
     const SourceFile& source_;
     const RenderSettings& settings_;
     PictureReader* pictures_; // may be null

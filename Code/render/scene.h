@@ -12,6 +12,8 @@
 #include "material/material.h"
 #include "render/features.h"
 #include "render/frame.h"
+#include "render/path/lobed_materials.h"
+#include "render/path/path_lights.h"
 #include "render/seen_lamps.h"
 #include "render/settings.h"
 #include "render/shape_set.h"
@@ -43,6 +45,7 @@ inline constexpr MaterialPictures kNoPictures;
 struct alignas(64) SceneMaterial {
     Material base;
     bool litOutside = false; // answers lamps outside of it, whichever side is seen
+    bool emitsFront = false; // its emission leaves to the outside only
     bool isLamp = false;     // the visible body of an area light; flat ones have no back
     const MaterialPictures* pictures = &kNoPictures;
     // Pictures that change its numbers.
@@ -89,6 +92,9 @@ public:
     std::span<const SceneMaterial> materials() const { return materials_; }
     const std::vector<std::unique_ptr<const Light>>& lights() const { return lights_; }
     const SeenLamps& seenLamps() const { return seenLamps_; }
+    // What paths are made of; empty for other integrators.
+    const LobedMaterials& lobedMaterials() const { return lobedMaterials_; }
+    const PathLights& pathLights() const { return pathLights_; }
     Rgb ambient() const { return ambient_; }
     // Radiance where a ray meets no surface.
     Rgb background(Vec3 dir) const {
@@ -125,6 +131,8 @@ private:
     ShapeSet shapes_;
     std::vector<std::unique_ptr<const Light>> lights_;
     SeenLamps seenLamps_; // of lights_
+    LobedMaterials lobedMaterials_;
+    PathLights pathLights_;
     std::unique_ptr<const Environment> environment_;
     Rgb background_, ambient_;
     bool moves_ = false;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 std::string shadingForm(const IntegratorContext& context) {
+    if (context.settings.integrator == IntegratorKind::Path) return "paths, one form";
     if (context.settings.integrator == IntegratorKind::Ao) return "ambient occlusion, one form";
     if (context.settings.integrator != IntegratorKind::Whitted) return "first hits, one form";
     constexpr std::pair<bool Steps::*, const char*> kNames[] = {

@@ -1,5 +1,7 @@
 #include "render/tile_sampler.h"
 
+#include "render/path/path.h"
+
 #include <algorithm>
 #include <cstring>
 
@@ -89,6 +91,8 @@ void TileSampler::integrate(TileWorker& w) const {
     switch (settings_.integrator) {
     case IntegratorKind::Whitted:
         return integrateWhitted(context_, w.chunk, w.memory, w.rays, w.cameraHits);
+    case IntegratorKind::Path:
+        return integratePath(context_, w.chunk, w.memory, w.rays, w.cameraHits);
     case IntegratorKind::Ao: return integrateAo(context_, w.chunk, w.memory, w.rays, w.cameraHits);
     case IntegratorKind::Normal:
     case IntegratorKind::Depth:
@@ -101,7 +105,8 @@ void TileSampler::integrate(TileWorker& w) const {
 
 Rgb TileSampler::background() const {
     switch (settings_.integrator) {
-    case IntegratorKind::Whitted: return context_.scene.background(Vec3{0, 0, 1});
+    case IntegratorKind::Whitted:
+    case IntegratorKind::Path: return context_.scene.background(Vec3{0, 0, 1});
     case IntegratorKind::Ao: return {1, 1, 1};
     case IntegratorKind::Normal:
     case IntegratorKind::Depth:

@@ -32,7 +32,7 @@ inline Floats zOnCone(const DiskRow& row, const Doubles& oneMinusCos) {
 inline void placeSurelyOnCone(DiskRow& row, const double* oneMinusCos, unsigned lanes) {
     for (; lanes != 0; lanes &= lanes - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
-        const Vec3 way = coneFromSquare({row.u[i], row.v[i]}, oneMinusCos[i]);
+        const Vec3 way = coneFromSquare(Vec2{row.u[i], row.v[i]}, oneMinusCos[i]);
         row.x[i] = way.x, row.y[i] = way.y;
     }
 }

@@ -1,0 +1,114 @@
+// Bsdf: all lobes of W points together, as one function that scatters light: eval(), pdf() and
+// sample() of their weighted sum. Directions are in the shading frame (material/lobe.h).
+#pragma once
+
+#include "material/lobes.h"
+#include "render/path/lobe_block.h"
+
+#include <cstddef>
+
+LANES_BEGIN
+
+// What a sampled direction continues as.
+struct BsdfSample {
+    Floats3 toLight;
+    Floats3 weight;       // what throughput is multiplied by
+    Floats pdf;           // per steradian; 0: nothing was sampled
+    Mask single, diffuse; // by a lobe of single directions; by a diffuse one
+};
+
+class Bsdf {
+public:
+    // Points `first` to first + W - 1 of a block.
+    Bsdf(const LobeBlock& block, std::size_t first, const Floats3& toEye, Floats eta)
+        : block_(block), first_(first), toEye_(toEye), eta_(eta) {
+        const Floats zero(0.0f);
+        Floats3 arrives = rgbOf(1.0f);
+        Floats sum = zero;
+        for (std::size_t l = 0; l < block.count; ++l) {
+            const LobeBlock::Column& column = block.lobe[l];
+            const Floats3 w = rgbAt(column.value);
+            weight_[l] = w * arrives;
+            share_[l] = zero;
+            forLobe(column.kind, [&]<class L> {
+                const L lobe(numbers(l));
+                if constexpr ((L::kFlags & kSpawnsRays) != 0)
+                    share_[l] = maxOf(weight_[l] * lobe.albedo(toEye_));
+                if (column.covers) arrives = arrives * (rgbOf(1.0f) - w + w * lobe.below(toEye_));
+            });
+            sum = sum + share_[l];
+        }
+        const Floats scale = select(sum > zero, Floats(1.0f) / sum, zero);
+        for (std::size_t l = 0; l < block.count; ++l) share_[l] = share_[l] * scale;
+    }
+
+    struct Value {
+        Floats3 f;  // f |cos|
+        Floats pdf; // per steradian
+    };
+    Value eval(const Floats3& toLight) const {
+        Value value{rgbOf(0.0f), Floats(0.0f)};
+        for (std::size_t l = 0; l < block_.count; ++l)
+            forLobe(block_.lobe[l].kind, [&]<class L> {
+                if constexpr ((L::kFlags & kAnswersLights) != 0) {
+                    const L lobe(numbers(l));
+                    value.f = value.f + weight_[l] * lobe.eval(toEye_, toLight);
+                    if constexpr ((L::kFlags & kSpawnsRays) != 0)
+                        value.pdf = value.pdf + share_[l] * lobe.pdf(toEye_, toLight);
+                }
+            });
+        return value;
+    }
+
+    // By three numbers in [0,1).
+    BsdfSample sample(Floats pick, Floats u, Floats v) const {
+        const Floats zero(0.0f), one(1.0f);
+        BsdfSample out{{zero, zero, one}, rgbOf(0.0f), zero, maskOf(0), maskOf(0)};
+        Floats from = zero;
+        for (std::size_t l = 0; l < block_.count; ++l) {
+            const Floats share = share_[l], to = from + share;
+            const Mask chosen = (pick >= from) & (pick < to);
+            if (bits(chosen) != 0)
+                forLobe(block_.lobe[l].kind, [&]<class L> {
+                    if constexpr ((L::kFlags & kSpawnsRays) != 0) {
+                        const Floats again =
+                            min((pick - from) / share, Floats(kOneMinusUlp)); // is in [0,1) again
+                        const LobeSample s = L(numbers(l)).sample(toEye_, again, u, v);
+                        out.toLight = select(chosen, s.toLight, out.toLight);
+                        out.weight = select(chosen, weight_[l] * s.weight / share, out.weight);
+                        out.pdf = select(chosen, s.pdf * share, out.pdf);
+                        out.single = out.single | (chosen & s.single);
+                        if constexpr ((L::kFlags & kDiffuse) != 0)
+                            out.diffuse = out.diffuse | chosen;
+                    }
+                });
+            from = to;
+        }
+        if (block_.count == 1) return out;
+        // All lobes together could have given the direction.
+        const Mask together = maskOf(bits(out.pdf > zero) & ~bits(out.single));
+        if (bits(together) == 0) return out;
+        const Value value = eval(out.toLight);
+        out.weight = select(together, value.f / value.pdf, out.weight);
+        out.pdf = select(together, value.pdf, out.pdf);
+        return out;
+    }
+
+private:
+    LobeNumbers numbers(std::size_t l) const {
+        return {block_.lobe[l].value[3] + first_, LobeBlock::kPoints, eta_};
+    }
+    Floats3 rgbAt(const LobeBlock::Lane* value) const {
+        return {Floats::load(value[0] + first_), Floats::load(value[1] + first_),
+                Floats::load(value[2] + first_)};
+    }
+
+    const LobeBlock& block_;
+    std::size_t first_;
+    Floats3 toEye_;
+    Floats eta_;
+    Floats3 weight_[kMostLobes]; // with what lies on them
+    Floats share_[kMostLobes];   // probability to be chosen
+};
+
+LANES_END

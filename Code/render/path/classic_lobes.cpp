@@ -1,0 +1,112 @@
+#include "render/path/classic_lobes.h"
+
+#include "base/math.h"
+#include "render/to_float.h"
+
+namespace {
+
+// The place of a field among a lobe's values.
+std::size_t placeOf(std::uint8_t kind, std::string_view name, int& count) {
+    std::size_t place = 3;
+    for (const LobeField& field : lobeTypes()[kind].fields) {
+        count = field.count;
+        if (name == field.name) break;
+        place += static_cast<std::size_t>(field.count);
+    }
+    return place;
+}
+
+Rgb grey(double v) {
+    const float f = toFloat(v);
+    return {f, f, f};
+}
+
+std::string_view modelName(MaterialDesc::SpecularModel model) {
+    switch (model) {
+    case MaterialDesc::SpecularModel::Ashikhmin: return "ashikhmin";
+    case MaterialDesc::SpecularModel::Phong: return "phong";
+    case MaterialDesc::SpecularModel::Blinn: break;
+    }
+    return "blinn";
+}
+
+} // namespace
+
+LobeRow lobeRow(std::string_view kind, Rgb weight) {
+    LobeRow row;
+    row.kind = lobeNamed(kind);
+    float* value = row.value;
+    *value++ = weight.r, *value++ = weight.g, *value++ = weight.b;
+    for (const LobeField& field : lobeTypes()[row.kind].fields)
+        for (int i = 0; i < field.count; ++i) *value++ = field.start[i];
+    return row;
+}
+
+void setField(LobeRow& lobe, std::string_view field, Rgb value) {
+    int count = 0;
+    float* const to = lobe.value + placeOf(lobe.kind, field, count);
+    to[0] = value.r;
+    if (count == 3) to[1] = value.g, to[2] = value.b;
+}
+
+LobeList classicLobes(const MaterialDesc& desc, const TextureOf& textureOf, const Switches& on) {
+    LobeList out;
+    const Rgb white{1, 1, 1};
+    const auto add = [&](LobeRow lobe, Handle picture = kNone) {
+        if (lobe.value[0] == 0 && lobe.value[1] == 0 && lobe.value[2] == 0) return;
+        if (const Texture* const texture = picture == kNone ? nullptr : textureOf(picture))
+            out.factors.push_back(
+                {static_cast<std::uint8_t>(out.lobes.size()), 0, 3, 0, 1, texture});
+        out.lobes.push_back(lobe);
+    };
+    const Rgb mirror = on.reflection ? toRgb(desc.mirror) : Rgb{};
+    const Rgb transmission = on.refraction ? toRgb(desc.transmission) : Rgb{};
+    const auto fresnel = on.fresnel ? desc.fresnel : MaterialDesc::Fresnel::None;
+    const double roughness = on.glossy ? desc.roughness : 0;
+    const bool isRough = roughness > 0;
+
+    const auto refraction = [&](Rgb weight) {
+        LobeRow lobe = lobeRow("refraction", weight);
+        setField(lobe, "ior", grey(desc.ior)), setField(lobe, "roughness", grey(roughness));
+        return lobe;
+    };
+    const auto metal = [&](Rgb weight, Rgb color) {
+        LobeRow lobe = lobeRow("conductor", weight);
+        setField(lobe, "color", color), setField(lobe, "edge_tint", white);
+        setField(lobe, "roughness", grey(roughness));
+        return lobe;
+    };
+    switch (fresnel) {
+    case MaterialDesc::Fresnel::None:
+        add(isRough ? metal(mirror, white) : lobeRow("mirror", mirror));
+        add(refraction(transmission));
+        break;
+    case MaterialDesc::Fresnel::Schlick: {
+        if (isBlack(mirror) && isBlack(transmission)) break;
+        LobeRow lobe = isRough ? metal(white, mirror) : lobeRow("schlick_mirror", white);
+        if (!isRough) setField(lobe, "color", mirror);
+        lobe.covers = !isBlack(transmission);
+        add(lobe);
+        // What is behind it gets (1 - mirror)(1 - rise) of its light.
+        const auto over = [](float t, float m) { return m < 1 ? t / (1 - m) : 0.0f; };
+        add(refraction({over(transmission.r, mirror.r), over(transmission.g, mirror.g),
+                        over(transmission.b, mirror.b)}));
+        break;
+    }
+    case MaterialDesc::Fresnel::Dielectric: {
+        if (isBlack(mirror) && isBlack(transmission)) break;
+        LobeRow lobe = lobeRow("dielectric", white);
+        setField(lobe, "ior", grey(desc.ior)), setField(lobe, "roughness", grey(roughness));
+        setField(lobe, "reflect_tint", mirror), setField(lobe, "transmit_tint", transmission);
+        add(lobe);
+        break;
+    }
+    }
+    add(lobeRow("diffuse", toRgb(desc.diffuse)), desc.diffuseTexture);
+    if (!isRough || isBlack(mirror)) {
+        LobeRow lobe = lobeRow(modelName(desc.specularModel), toRgb(desc.specular));
+        setField(lobe, "exponent", grey(desc.exponent));
+        add(lobe, desc.specularTexture);
+    }
+    return out;
+}

@@ -1,0 +1,22 @@
+// The lobes that a material's short keywords mean: diffuse, specular, mirror, transmission.
+#pragma once
+
+#include "desc/scene_desc.h"
+#include "render/path/lobed_materials.h"
+#include "render/settings.h"
+
+#include <functional>
+#include <vector>
+
+struct LobeList {
+    std::vector<LobeRow> lobes;
+    std::vector<LobeFactor> factors;
+};
+// Sets the numbers of a lobe by the names of its fields.
+LobeRow lobeRow(std::string_view kind, Rgb weight);
+void setField(LobeRow& lobe, std::string_view field, Rgb value);
+
+// Texture of a handle; null: none, or its picture misses.
+using TextureOf = std::function<const Texture*(Handle)>;
+// A rough mirror shows lamps by itself, so that it takes the place of a specular highlight.
+LobeList classicLobes(const MaterialDesc& desc, const TextureOf& textureOf, const Switches& on);

@@ -1,0 +1,67 @@
+// One lamp for each of W points, and a sample of its light.
+#pragma once
+
+#include "light/lights.h"
+#include "render/path/path_lights.h"
+
+#include <bit>
+#include <cstddef>
+
+LANES_BEGIN
+
+struct ChosenLight {
+    SampledLight sample;
+    Floats probability; // of the choice
+    unsigned met = 0;   // lanes whose lamp rays meet too, with the density that they have
+    unsigned open = 0;  // lanes whose lamp casts no shadows
+};
+
+// The numbers of a light for each lane, by column.
+class LightColumns {
+public:
+    void put(const LightRow& row, std::size_t lane) {
+        for (std::size_t i = 0; i < kLightNumbers; ++i) column_[i][lane] = row.numbers[i];
+    }
+    LightNumbers numbers() const { return {column_[0], W}; }
+
+private:
+    alignas(64) float column_[kLightNumbers][W] = {};
+};
+
+// `n` is black where both sides of the surface are lit. Lanes that are not set get any sample.
+inline ChosenLight chooseLight(const PathLights& lights, const Floats3& p, const Floats3&,
+                               Floats pick, Floats u, Floats v, unsigned lanes) {
+    alignas(64) float numbers[W], probability[W] = {};
+    std::uint32_t light[W] = {};
+    pick.store(numbers);
+    for (std::size_t lane = 0; lane < W; ++lane) {
+        const PathLights::Pick of = lights.pick(numbers[lane]);
+        light[lane] = of.light, probability[lane] = of.probability;
+    }
+    const Floats zero(0.0f);
+    const Floats3 none{zero, zero, zero};
+    ChosenLight out{{none, zero, none, zero, noLanes()}, Floats::load(probability)};
+    unsigned left = lanes;
+    while (left != 0) {
+        const auto leader = static_cast<std::size_t>(std::countr_zero(left));
+        const std::uint32_t kind = lights.entry(light[leader]).row.kind;
+        LightColumns columns;
+        unsigned alike = 0;
+        for (std::size_t lane = 0; lane < W; ++lane) {
+            const PathLights::Entry& entry = lights.entry(light[lane]);
+            const bool is = entry.row.kind == kind;
+            columns.put(is ? entry.row : lights.entry(light[leader]).row, lane);
+            alike |= static_cast<unsigned>(is) << lane;
+            if (is && entry.isOpen) out.open |= 1u << lane;
+        }
+        forLight(kind, [&]<class L> {
+            const L light(columns.numbers());
+            out.sample = select(maskOf(alike), light.sample(p, u, v), out.sample);
+        });
+        left &= ~alike;
+    }
+    out.met = ~bits(out.sample.single) & ~out.open;
+    return out;
+}
+
+LANES_END

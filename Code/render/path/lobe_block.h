@@ -1,0 +1,67 @@
+// LobeBlock: the lobes of sixteen points whose materials have the same kinds of them, by column.
+#pragma once
+
+#include "base/surface_block.h"
+#include "render/path/lobed_materials.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+struct alignas(64) LobeBlock {
+    static constexpr std::size_t kPoints = SurfaceBlock::kPoints;
+    using Lane = float[kPoints];
+    struct Column {
+        std::uint8_t kind;
+        bool covers;
+        alignas(64) Lane value[LobeRow::kValues]; // as in LobeRow
+    };
+    std::size_t count = 0;
+    std::uint32_t flags = 0;
+    Column lobe[kMostLobes];
+
+    // Takes kinds and flags of a material; its numbers become those of all points.
+    void begin(const LobedMaterials& materials, const LobedMaterial& of) {
+        count = of.lobes, flags = of.flags;
+        const std::span<const LobeRow> rows = materials.lobes(of);
+        for (std::size_t l = 0; l < count; ++l) {
+            lobe[l].kind = rows[l].kind, lobe[l].covers = rows[l].covers;
+            const std::size_t values = valuesOf(rows[l].kind);
+            for (std::size_t v = 0; v < values; ++v)
+                std::fill_n(lobe[l].value[v], kPoints, rows[l].value[v]);
+        }
+    }
+    // The numbers of point i, of a material with the same signature.
+    void put(const LobedMaterials& materials, const LobedMaterial& of, std::size_t i) {
+        const std::span<const LobeRow> rows = materials.lobes(of);
+        for (std::size_t l = 0; l < count; ++l) {
+            const std::size_t values = valuesOf(rows[l].kind);
+            for (std::size_t v = 0; v < values; ++v) lobe[l].value[v][i] = rows[l].value[v];
+        }
+    }
+    // Multiplies the numbers of point i by its textures.
+    void paint(const LobedMaterials& materials, const LobedMaterial& of, std::size_t i, Vec2 uv) {
+        const Texture* last = nullptr;
+        Rgb color;
+        for (const LobeFactor& factor : materials.factors(of)) {
+            if (factor.texture != last) color = factor.texture->color(uv);
+            last = factor.texture;
+            auto* const value = &lobe[factor.lobe].value[factor.first];
+            if (factor.count == 1) {
+                value[0][i] *= factor.a + factor.b * factor.texture->valueOf(color);
+                continue;
+            }
+            value[0][i] *= factor.a + factor.b * color.r;
+            value[1][i] *= factor.a + factor.b * color.g;
+            value[2][i] *= factor.a + factor.b * color.b;
+        }
+    }
+
+private:
+    static std::size_t valuesOf(std::uint8_t kind) {
+        std::size_t values = 3;
+        for (const LobeField& field : lobeTypes()[kind].fields)
+            values += static_cast<std::size_t>(field.count);
+        return values;
+    }
+};

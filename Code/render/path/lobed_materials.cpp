@@ -1,0 +1,49 @@
+#include "render/path/lobed_materials.h"
+
+#include "base/math.h"
+
+#include <algorithm>
+
+std::uint8_t lobeNamed(std::string_view name) {
+    const std::span<const LobeType> types = lobeTypes();
+    const auto it = std::find_if(types.begin(), types.end(),
+                                 [&](const LobeType& type) { return name == type.name; });
+    return static_cast<std::uint8_t>(it - types.begin());
+}
+
+std::uint16_t LobedMaterials::signatureOf(const std::vector<LobeRow>& lobes) {
+    std::string word;
+    for (const LobeRow& lobe : lobes)
+        word += {static_cast<char>('a' + lobe.kind), lobe.covers ? '+' : '.'};
+    const auto it = std::find(signatures_.begin(), signatures_.end(), word);
+    const auto number = static_cast<std::uint16_t>(it - signatures_.begin());
+    if (it == signatures_.end()) signatures_.push_back(std::move(word));
+    return number;
+}
+
+bool LobedMaterials::add(const std::vector<LobeRow>& lobes, const std::vector<LobeFactor>& factors,
+                         bool emits) {
+    LobedMaterial& of = materials_.emplace_back();
+    of.flags = emits ? LobedMaterial::kEmits : 0;
+    of.firstLobe = static_cast<std::uint32_t>(lobes_.size());
+    of.firstFactor = static_cast<std::uint32_t>(factors_.size());
+    of.lobes = static_cast<std::uint8_t>(lobes.size());
+    of.factors = static_cast<std::uint16_t>(factors.size());
+    of.signature = signatureOf(lobes);
+    float sum[3] = {}; // of what sends rays on and lies under nothing
+    for (const LobeRow& lobe : lobes) {
+        const std::uint32_t flags = lobeTypes()[lobe.kind].flags;
+        of.flags |= flags;
+        if (lobe.covers || (flags & kSpawnsRays) == 0) continue;
+        for (std::size_t i = 0; i < 3; ++i) sum[i] += lobe.value[i];
+    }
+    lobes_.insert(lobes_.end(), lobes.begin(), lobes.end());
+    factors_.insert(factors_.end(), factors.begin(), factors.end());
+    constexpr float kRoundings = 1e-5f; // of weights that files write with six digits
+    const float most = max(max(sum[0], sum[1]), sum[2]);
+    if (!(most > 1 + kRoundings)) return true;
+    for (std::size_t i = of.firstLobe; i < lobes_.size(); ++i)
+        if (!lobes_[i].covers && (lobeTypes()[lobes_[i].kind].flags & kSpawnsRays) != 0)
+            for (std::size_t c = 0; c < 3; ++c) lobes_[i].value[c] /= most;
+    return false;
+}

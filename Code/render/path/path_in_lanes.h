@@ -1,0 +1,134 @@
+// Stage of the path tracer: at each of sixteen points, light of one lamp that is chosen, and the
+// direction in which the path goes on.
+#pragma once
+
+#include "render/path/bsdf_in_lanes.h"
+#include "render/path/light_choice_in_lanes.h"
+#include "render/path/path_block.h"
+
+#include <cstddef>
+
+LANES_BEGIN
+
+inline Floats3 loadThree(const float (*v)[PathBlock::kPoints], std::size_t first) {
+    return {Floats::load(v[0] + first), Floats::load(v[1] + first), Floats::load(v[2] + first)};
+}
+inline void storeWhere(unsigned lanes, Floats v, float* to) {
+    select(maskOf(lanes), v, Floats::load(to)).store(to);
+}
+inline void storeWhere(unsigned lanes, const Floats3& v, float (*to)[PathBlock::kPoints],
+                       std::size_t first) {
+    storeWhere(lanes, v.x, to[0] + first), storeWhere(lanes, v.y, to[1] + first),
+        storeWhere(lanes, v.z, to[2] + first);
+}
+
+// The squares of two densities, over their sum: how much the first one counts (power heuristic).
+inline Floats powerHeuristic(Floats pdf, Floats other) {
+    const Floats a = pdf * pdf, b = other * other, sum = a + b;
+    return select(sum > Floats(0.0f), a / sum, Floats(0.0f));
+}
+
+// The geometry of W points as it is seen from the eye.
+struct SeenPoints {
+    Floats3 p, ng, n, lift; // normals on the side of the eye
+    Floats error;
+    unsigned lifted; // lanes where the horizon of ns has a say, too
+    Floats3 ns;
+
+    SeenPoints(const PointBlock& block, std::size_t first)
+        : p(loadThree(block.p, first)), ng(loadThree(block.ng, first)),
+          n(loadThree(block.n, first)), lift(rgbOf(0.0f)), error(Floats::load(block.error + first)),
+          lifted(0), ns(ng) {
+        const Mask front = maskOf(block.front >> first & kAllLanes);
+        const unsigned curved = block.curved >> first & kAllLanes;
+        ng = select(front, ng, negated(ng));
+        if (curved == 0) return;
+        const Floats3 curvedNormal = loadThree(block.ns, first);
+        ns = select(maskOf(curved), select(front, curvedNormal, negated(curvedNormal)), ng);
+        lift = select(maskOf(curved), loadThree(block.lift, first), lift);
+        const Floats zero(0.0f);
+        lifted = curved & ~bits((lift.x == zero) & (lift.y == zero) & (lift.z == zero));
+    }
+    // Where rays start that leave to the side of the eye, or to the other one.
+    Floats3 above() const { return p + ng * error; }
+    Floats3 beneath() const { return p - ng * error; }
+
+    static constexpr unsigned kAllLanes = (1u << W) - 1;
+};
+
+// Light of one lamp, for points whose bits are set.
+inline void sendLight(const PathLights& lights, const SeenPoints& at, const ShadingFrame& frame,
+                      const Bsdf& bsdf, bool transmits, unsigned lanes, std::size_t first,
+                      PathBlock& block) {
+    const Floats zero(0.0f);
+    const PathNumbers& u = block.numbers;
+    const ChosenLight chosen =
+        chooseLight(lights, at.p, transmits ? rgbOf(0.0f) : at.n, Floats::load(u.light + first),
+                    Floats::load(u.lightU + first), Floats::load(u.lightV + first), lanes);
+    const SampledLight& lamp = chosen.sample;
+    const Floats3 toLight = frame.toLocal(lamp.toLight);
+    const Floats rise = dot(at.ng, lamp.toLight);
+    unsigned above = bits((rise > zero) & (toLight.z > zero));
+    if (at.lifted != 0)
+        above |= at.lifted & bits((dot(at.ns, lamp.toLight) > zero) & (toLight.z > zero));
+    const unsigned below = transmits ? bits((rise < zero) & (toLight.z < zero)) : 0;
+    lanes &= (above | below) & bits(maxOf(lamp.irradiance) > zero);
+    if (lanes == 0) return;
+    const Bsdf::Value value = bsdf.eval(toLight);
+    const Floats pdf = lamp.pdf * chosen.probability;
+    const Floats part = select(maskOf(bits(lamp.single) | ~chosen.met), Floats(1.0f),
+                               powerHeuristic(pdf, value.pdf));
+    const Floats3 light = loadThree(block.throughput, first) * value.f * lamp.irradiance *
+                          (part / chosen.probability);
+    lanes &= bits(maxOf(light) > zero);
+    if (lanes == 0) return;
+    storeWhere(lanes, light, block.fromLamp, first);
+    storeWhere(lanes, lamp.toLight, block.toLamp, first);
+    storeWhere(lanes, lamp.distance * Floats(1 - 0x1p-20f), block.lampEnd + first);
+    const Floats3 org = select(maskOf(below), at.beneath(), at.above() + at.lift);
+    storeWhere(lanes, org, block.lampOrg, first);
+    block.lit |= lanes << first, block.open |= (lanes & chosen.open) << first;
+}
+
+// The direction in which the path goes on.
+inline void sendRays(const SeenPoints& at, const ShadingFrame& frame, const Bsdf& bsdf,
+                     unsigned lanes, std::size_t first, PathBlock& block) {
+    const Floats zero(0.0f);
+    const PathNumbers& u = block.numbers;
+    const BsdfSample next = bsdf.sample(Floats::load(u.lobe + first), Floats::load(u.bsdfU + first),
+                                        Floats::load(u.bsdfV + first));
+    const Floats3 dir = normalize(frame.toWorld(next.toLight));
+    const Mask transmitted = next.toLight.z < zero;
+    const Floats rise = dot(at.ng, dir);
+    const Mask isBelow = rise < zero;
+    const unsigned rightSide =
+        (bits(transmitted) & bits(isBelow)) | (~bits(transmitted) & bits(rise > zero));
+    lanes &= rightSide & bits((next.pdf > zero) & (maxOf(next.weight) > zero));
+    if (lanes == 0) return;
+    storeWhere(lanes, dir, block.dir, first);
+    storeWhere(lanes, select(isBelow, at.beneath(), at.above()), block.org, first);
+    storeWhere(lanes, next.weight, block.weight, first);
+    storeWhere(lanes, select(next.single, zero, next.pdf), block.pdf + first);
+    block.scattered |= lanes << first, block.single |= (lanes & bits(next.single)) << first;
+    block.diffuse |= (lanes & bits(next.diffuse)) << first;
+    block.transmitted |= (lanes & bits(isBelow)) << first;
+}
+
+void scatterBlock(const PathLights& lights, const PointBlock& points, const LobeBlock& lobes,
+                  PathBlock& block) {
+    for (std::size_t first = 0; first < PathBlock::kPoints && block.points >> first != 0;
+         first += W) {
+        const unsigned lanes = block.points >> first & SeenPoints::kAllLanes;
+        if (lanes == 0) continue;
+        const SeenPoints at(points, first);
+        const ShadingFrame frame = frameAroundZ(at.n);
+        const Bsdf bsdf(lobes, first, frame.toLocal(loadThree(points.toEye, first)),
+                        Floats::load(block.eta + first));
+        if ((lobes.flags & kAnswersLights) != 0 && !lights.isEmpty())
+            sendLight(lights, at, frame, bsdf, (lobes.flags & kTransmits) != 0, lanes, first,
+                      block);
+        if ((lobes.flags & kSpawnsRays) != 0) sendRays(at, frame, bsdf, lanes, first, block);
+    }
+}
+
+LANES_END

@@ -1,0 +1,26 @@
+// What a worker keeps of the paths of a chunk of samples, between the waves of path.cpp.
+#pragma once
+
+#include "render/batch.h"
+#include "render/path/lobe_block.h"
+#include "render/path/path_block.h"
+
+#include <cstdint>
+#include <vector>
+
+// What a ray of a path has behind it. Bounces are counted by kind, as Blender limits them.
+struct PathState {
+    // Density per steradian of the direction, for hits on lights; 0 where no light was sampled for
+    // the same answer: camera rays, and those of single directions.
+    float pdf = 0;
+    Vec3 p, n; // the point where the direction was sampled, and its normal (0: both sides)
+    std::uint8_t diffuse = 0, glossy = 0, transmission = 0, transparent = 0;
+    bool isLast = false; // only lights are asked what it meets
+};
+
+struct PathMemory {
+    std::vector<PathState> states, nextStates; // of memory.rays and memory.next
+    LobeBlock lobes;
+    PathBlock block;
+    RayBatch shadowRays; // `sample`: the slot; `weight`: the light of a sample that arrives
+};
