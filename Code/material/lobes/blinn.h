@@ -1,7 +1,7 @@
-// Blinn: a highlight about the half vector.
+// Blinn: an unnormalised highlight about the half vector, (n.h)^exponent, without a cosine.
 #pragma once
 
-#include "material/lobe.h"
+#include "material/highlight.h"
 
 LANES_BEGIN
 
@@ -10,10 +10,17 @@ struct Blinn {
     static constexpr std::array<LobeField, 1> kFields{{{"exponent", 1, {50}, 0, 1e9f}}};
     static constexpr std::uint32_t kFlags = kReflects | kAnswersLights;
 
-    explicit Blinn(const LobeNumbers&) {}
-    Floats3 below(const Floats3&) const { return rgbOf(0.0f); }
-    Floats3 albedo(const Floats3&) const { return rgbOf(1.0f); }
-    Floats3 eval(const Floats3&, const Floats3&) const { return rgbOf(0.0f); }
+    explicit Blinn(const LobeNumbers& n) : exponent_(n[0]) {}
+    Floats3 below(const Floats3& toEye) const { return restOf(albedo(toEye)); }
+    Floats3 albedo(const Floats3&) const {
+        return rgbOf(min(halfVectorSum(exponent_), Floats(1.0f)));
+    }
+    Floats3 eval(const Floats3& toEye, const Floats3& toLight) const {
+        return rgbOf(HalfVector(toEye, toLight).power(exponent_));
+    }
+
+private:
+    Floats exponent_;
 };
 
 LANES_END

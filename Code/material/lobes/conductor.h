@@ -1,7 +1,8 @@
-// Conductor: metal.
+// Conductor: metal, GGX, by its colour at normal incidence and a tint of it near the edge (82
+// degrees), with the energy that facets would send to each other.
 #pragma once
 
-#include "material/lobe.h"
+#include "material/reflecting_facets.h"
 
 LANES_BEGIN
 
@@ -14,14 +15,29 @@ struct Conductor {
                                                        {"rotation", 1, {0}, -1e6f, 1e6f}}};
     static constexpr std::uint32_t kFlags = kReflects | kAnswersLights | kSpawnsRays | kHasTangent;
 
-    explicit Conductor(const LobeNumbers&) {}
+    explicit Conductor(const LobeNumbers& n)
+        : facets_{Ggx(n[6], n[7], n[8]), Metal(n.rgb(0), n.rgb(3))} {}
     Floats3 below(const Floats3&) const { return rgbOf(0.0f); }
-    Floats3 albedo(const Floats3&) const { return rgbOf(1.0f); }
-    Floats3 eval(const Floats3&, const Floats3&) const { return rgbOf(0.0f); }
-    Floats pdf(const Floats3&, const Floats3&) const { return Floats(0.0f); }
-    LobeSample sample(const Floats3& toEye, Floats, Floats, Floats) const {
-        return {toEye, rgbOf(0.0f), Floats(0.0f), maskOf(0)};
+    Floats3 albedo(const Floats3& toEye) const { return facets_.albedo(toEye); }
+    Floats3 eval(const Floats3& toEye, const Floats3& toLight) const {
+        return facets_.eval(toEye, toLight);
     }
+    Floats pdf(const Floats3& toEye, const Floats3& toLight) const {
+        return facets_.pdf(toEye, toLight);
+    }
+    LobeSample sample(const Floats3& toEye, Floats, Floats u, Floats v) const {
+        return facets_.sample(toEye, u, v);
+    }
+
+private:
+    struct Metal : MetalFresnel {
+        using MetalFresnel::MetalFresnel;
+        Floats3 all(const FacetEnergy& energy, const Ggx&, const Floats3&) const {
+            return of(energy.all(), energy.rise(), energy.bend());
+        }
+    };
+
+    ReflectingFacets<Metal> facets_;
 };
 
 LANES_END

@@ -1,7 +1,9 @@
-// GlossyDielectric: what a dielectric reflects, over something opaque.
+// GlossyDielectric: what a dielectric reflects, over something opaque: the specular layer of
+// Principled. It is seen from outside on both sides of a surface, as in Cycles.
 #pragma once
 
-#include "material/lobe.h"
+#include "material/layer_fresnel.h"
+#include "material/reflecting_facets.h"
 
 LANES_BEGIN
 
@@ -15,14 +17,22 @@ struct GlossyDielectric {
                                                        {"specular", 1, {0.5f}, 0, 1}}};
     static constexpr std::uint32_t kFlags = kReflects | kAnswersLights | kSpawnsRays | kHasTangent;
 
-    explicit GlossyDielectric(const LobeNumbers&) {}
-    Floats3 below(const Floats3&) const { return rgbOf(0.0f); }
-    Floats3 albedo(const Floats3&) const { return rgbOf(1.0f); }
-    Floats3 eval(const Floats3&, const Floats3&) const { return rgbOf(0.0f); }
-    Floats pdf(const Floats3&, const Floats3&) const { return Floats(0.0f); }
-    LobeSample sample(const Floats3& toEye, Floats, Floats, Floats) const {
-        return {toEye, rgbOf(0.0f), Floats(0.0f), maskOf(0)};
+    explicit GlossyDielectric(const LobeNumbers& n)
+        : facets_{Ggx(n[4], n[5], n[6]), LayerFresnel(n[0], n[7] + n[7], n.rgb(1))} {}
+    Floats3 below(const Floats3& toEye) const { return restOf(albedo(toEye)); }
+    Floats3 albedo(const Floats3& toEye) const { return facets_.albedo(toEye); }
+    Floats3 eval(const Floats3& toEye, const Floats3& toLight) const {
+        return facets_.eval(toEye, toLight);
     }
+    Floats pdf(const Floats3& toEye, const Floats3& toLight) const {
+        return facets_.pdf(toEye, toLight);
+    }
+    LobeSample sample(const Floats3& toEye, Floats, Floats u, Floats v) const {
+        return facets_.sample(toEye, u, v);
+    }
+
+private:
+    ReflectingFacets<LayerFresnel> facets_;
 };
 
 LANES_END

@@ -1,7 +1,7 @@
-// Mirror: a smooth mirror without Fresnel's law.
+// Mirror: a smooth mirror that reflects the same at all angles.
 #pragma once
 
-#include "material/lobe.h"
+#include "material/boundary.h"
 
 LANES_BEGIN
 
@@ -16,7 +16,7 @@ struct Mirror {
     Floats3 eval(const Floats3&, const Floats3&) const { return rgbOf(0.0f); }
     Floats pdf(const Floats3&, const Floats3&) const { return Floats(0.0f); }
     LobeSample sample(const Floats3& toEye, Floats, Floats, Floats) const {
-        return {toEye, rgbOf(0.0f), Floats(0.0f), maskOf(0)};
+        return {mirroredAtZ(toEye), rgbOf(1.0f), Floats(1.0f), maskOf((1u << W) - 1)};
     }
 };
 

@@ -1,0 +1,117 @@
+// Look-ups in the tables of energy_tables.h, in lanes: what facets send on in one bounce, and what
+// light that would go from facet to facet adds to it, as in Cycles 4 (Kulla and Conty 2017, but the
+// lobe is scaled).
+#pragma once
+
+#include "material/energy_tables.h"
+#include "material/ggx.h"
+
+LANES_BEGIN
+
+// Where a number from 0 to 1 lies between the nodes of a table.
+struct TableNode {
+    Floats first, part;
+    TableNode(Floats x, int nodes) {
+        const Floats at =
+            min(max(x, Floats(0.0f)), Floats(1.0f)) * Floats(static_cast<float>(nodes - 1));
+        first = min(floor(at), Floats(static_cast<float>(nodes - 2)));
+        part = at - first;
+    }
+};
+inline Floats between(Floats a, Floats b, Floats part) { return a + (b - a) * part; }
+inline Floats wordsAt(const std::uint32_t* table, Ints at, std::uint32_t more) {
+    return fromBits(elementsAt(table, plus(at, more), (1u << W) - 1));
+}
+// Of a table with this many columns that begins at word `from`.
+inline Floats lookedUp(const std::uint32_t* table, Floats from, const TableNode& row,
+                       const TableNode& column, int columns) {
+    const Floats index = from + (row.first * Floats(static_cast<float>(columns)) + column.first);
+    const Ints at = wholeOf(Doubles(index));
+    const auto n = static_cast<std::uint32_t>(columns);
+    const Floats a = between(wordsAt(table, at, 0), wordsAt(table, at, 1), column.part);
+    const Floats b = between(wordsAt(table, at, n), wordsAt(table, at, n + 1), column.part);
+    return between(a, b, row.part);
+}
+
+// The energy of facets seen from one direction; what rough facets need of the tables.
+struct FacetEnergy {
+    TableNode place, rough;
+    FacetEnergy(const Ggx& facets, const Floats3& toEye)
+        : place(facets.tablePlace(toEye), energy::kPlaces),
+          rough(sqrt(sqrt(facets.x * facets.y)), energy::kRoughs) {}
+
+    Floats all() const { return of(energy::facetTables().all); }
+    Floats rise() const { return of(energy::facetTables().rise); }
+    Floats bend() const { return of(energy::facetTables().bend); }
+    Floats mean() const {
+        const std::uint32_t* const table = energy::facetTables().mean;
+        const Ints at = wholeOf(Doubles(rough.first));
+        return between(wordsAt(table, at, 0), wordsAt(table, at, 1), rough.part);
+    }
+    // The factor of facets with this mean reflectance: 1 + Fms (1 - E) / E.
+    Floats3 scale(const Floats3& meanReflected) const {
+        const Floats one(1.0f), e = all(), average = mean();
+        const Floats missing = (one - e) / e;
+        const auto channel = [&](Floats f) {
+            return one + f * average / (one - f * (one - average)) * missing;
+        };
+        return {channel(meanReflected.x), channel(meanReflected.y), channel(meanReflected.z)};
+    }
+
+private:
+    Floats of(const std::uint32_t* table) const {
+        return lookedUp(table, Floats(0.0f), place, rough, energy::kRoughs);
+    }
+};
+
+// Dielectric boundaries with this eta.
+class BoundaryEnergy {
+public:
+    explicit BoundaryEnergy(Floats eta) {
+        const Floats one(1.0f), w = (one - eta) / (one + eta);
+        const TableNode node(sqrt(abs(w)), energy::kSlices);
+        const Floats first =
+            node.first +
+            select(w < Floats(0.0f), Floats(static_cast<float>(energy::kSlices)), Floats(0.0f));
+        part_ = node.part;
+        from_ = first * Floats(static_cast<float>(energy::kSliceWords));
+        alignas(64) float numbers[W];
+        first.store(numbers);
+        for (const float number : numbers) {
+            energy::needSlice(static_cast<int>(number));
+            energy::needSlice(static_cast<int>(number) + 1);
+        }
+    }
+
+    // What facets reflect and transmit, seen from a direction.
+    Floats all(const Ggx& facets, const Floats3& toEye) const {
+        return of(0, TableNode(facets.tablePlace(toEye), energy::kSlicePlaces), roughOf(facets));
+    }
+    // The mean reflectance of facets that reflect.
+    Floats reflected(const Ggx& facets, Floats cosEye) const {
+        return of(energy::kReflected, TableNode(sqrt(max(cosEye, Floats(0.0f))), energy::kCosines),
+                  roughOf(facets));
+    }
+    // Fresnel's part over the hemisphere.
+    Floats mean() const {
+        const Ints at = wholeOf(Doubles(from_));
+        return between(wordsAt(energy::slices(), at, energy::kMean),
+                       wordsAt(energy::slices(), at, energy::kMean + energy::kSliceWords), part_);
+    }
+
+private:
+    static TableNode roughOf(const Ggx& facets) {
+        return TableNode(sqrt(sqrt(facets.x * facets.y)), energy::kSliceRoughs);
+    }
+    Floats of(int word, const TableNode& row, const TableNode& column) const {
+        const auto in = [&](int from) {
+            return lookedUp(energy::slices(), from_ + Floats(static_cast<float>(from)), row, column,
+                            energy::kSliceRoughs);
+        };
+        return between(in(word), in(word + energy::kSliceWords), part_);
+    }
+
+    Floats from_, part_;
+};
+
+LANES_END

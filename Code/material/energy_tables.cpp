@@ -1,0 +1,189 @@
+#include "material/energy_tables.h"
+
+#include "base/math.h"
+
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <mutex>
+
+namespace energy {
+
+namespace {
+
+constexpr double kLeastAlpha = 1e-3; // as narrow as any, where places are Ggx::tablePlace()
+// The largest fault of linear interpolation: tables say so much more, so that no surface sends on
+// more light than it gets.
+constexpr double kFacetMargin = 1.0017;
+
+// Points in the unit square (a Fibonacci lattice), the second coordinate as an angle up to pi.
+template <int N, int Generator> struct Lattice {
+    struct Point {
+        double u, cos, sin;
+    };
+    std::array<Point, N> points;
+    Lattice() {
+        for (int i = 0; i < N; ++i) {
+            const double v = (i * Generator % N + 0.5) / N;
+            const auto [sin, cos] = exact::sinCos(kPi * (1 - std::fabs(2 * v - 1)));
+            points[static_cast<std::size_t>(i)] = {(i + 0.5) / N, cos, sin};
+        }
+    }
+};
+
+double cos2Out(double c, double eta) { return (1 - eta) * (1 + eta) + sqr(eta * c); }
+double fresnel(double c, double eta) {
+    if (eta == 1) return 0;
+    const double cos2 = cos2Out(c, eta);
+    if (!(cos2 > 0)) return 1;
+    const double out = std::sqrt(cos2);
+    return 0.5 * (sqr((c - eta * out) / (c + eta * out)) + sqr((eta * c - out) / (eta * c + out)));
+}
+
+// The eye above isotropic facets, in the plane of x and z.
+class Facets {
+public:
+    Facets(double cosEye, double alpha)
+        : alpha_(alpha), z_(cosEye), x_(std::sqrt(max(1 - sqr(cosEye), 0.0))),
+          length_(std::sqrt(sqr(z_) + sqr(alpha * x_))) {}
+
+    // A visible facet: its cosine to the eye, and the height of its normal.
+    struct Facet {
+        double cosIn, z;
+    };
+    template <class Point> Facet facet(const Point& p) const {
+        const double up = 1 + z_ / length_, h = p.u * up, sine = std::sqrt(h * (2 - h));
+        const double x = alpha_ * (sine * p.cos + alpha_ * x_ / length_);
+        const double y = alpha_ * (sine * p.sin), z = (1 - p.u) * up;
+        const double scale = 1 / std::sqrt(sqr(x) + sqr(y) + sqr(z));
+        return {(x_ * x + z_ * z) * scale, z * scale};
+    }
+    // What of the light that a facet sends to a direction of height z is neither shadowed before
+    // nor behind it.
+    double leaves(double z) const {
+        if (!(z > 0)) return 0;
+        const double length = std::sqrt(sqr(z) + sqr(alpha_) * max(1 - sqr(z), 0.0));
+        return z * (z_ + length_) / (z * length_ + z_ * length);
+    }
+    double reflectedLeaves(const Facet& f) const { return leaves(2 * f.cosIn * f.z - z_); }
+    double refractedLeaves(const Facet& f, double eta) const {
+        const double out = std::sqrt(max(cos2Out(f.cosIn, eta), 0.0));
+        return leaves((out - eta * f.cosIn) * f.z + eta * z_);
+    }
+
+private:
+    double alpha_, z_, x_, length_;
+};
+
+double alphaOf(int column, int columns) {
+    return max(sqr(static_cast<double>(column) / (columns - 1)), kLeastAlpha);
+}
+// The cosine at a row: the inverse of Ggx::tablePlace().
+double cosineAt(int row, int rows, double alpha) {
+    const double t = static_cast<double>(row) / (rows - 1);
+    const double up = sqr(t), stretched = up / (up + sqr(1 - t)); // the cosine there
+    const double z2 = sqr(stretched);
+    return stretched * alpha / std::sqrt((1 - z2) + z2 * sqr(alpha));
+}
+
+std::uint32_t stored(double x) { return std::bit_cast<std::uint32_t>(static_cast<float>(x)); }
+double loaded(std::uint32_t bits) { return std::bit_cast<float>(bits); }
+
+void makeFacets(FacetTables& tables) {
+    const Lattice<377, 233> lattice;
+    for (int row = 0; row < kPlaces; ++row)
+        for (int column = 0; column < kRoughs; ++column) {
+            const double alpha = alphaOf(column, kRoughs);
+            const Facets facets(cosineAt(row, kPlaces, alpha), alpha);
+            double all = 0, rise = 0, bend = 0;
+            for (const auto& point : lattice.points) {
+                const auto facet = facets.facet(point);
+                const double part = facets.reflectedLeaves(facet), m = 1 - facet.cosIn;
+                const double m5 = sqr(sqr(m)) * m * part;
+                all += part, rise += m5, bend += m5 * m * facet.cosIn;
+            }
+            constexpr double count = std::tuple_size_v<decltype(lattice.points)>;
+            const int at = row * kRoughs + column;
+            tables.all[at] = stored(min(all / count * kFacetMargin, 1.0));
+            tables.rise[at] = stored(rise / count), tables.bend[at] = stored(bend / count);
+        }
+    // The mean: 2 E cos d(cos), by trapezoids between the rows.
+    for (int column = 0; column < kRoughs; ++column) {
+        const double alpha = alphaOf(column, kRoughs);
+        double mean = 0;
+        for (int row = 0; row + 1 < kPlaces; ++row) {
+            const double a = cosineAt(row, kPlaces, alpha), b = cosineAt(row + 1, kPlaces, alpha);
+            const int at = row * kRoughs + column;
+            mean += 0.5 * (loaded(tables.all[at]) + loaded(tables.all[at + kRoughs])) *
+                    (sqr(b) - sqr(a));
+        }
+        tables.mean[column] = stored(mean);
+    }
+}
+
+void makeSlice(std::uint32_t* slice, int k) {
+    const double w = min(sqr(static_cast<double>(k % kSlices) / (kSlices - 1)), 0.98);
+    const double eta = k < kSlices ? (1 - w) / (1 + w) : (1 + w) / (1 - w);
+    const Lattice<377, 233> fine;
+    for (int row = 0; row < kSlicePlaces; ++row)
+        for (int column = 0; column < kSliceRoughs; ++column) {
+            const double alpha = alphaOf(column, kSliceRoughs);
+            const Facets facets(cosineAt(row, kSlicePlaces, alpha), alpha);
+            double sum = 0;
+            for (const auto& point : fine.points) {
+                const auto facet = facets.facet(point);
+                const double f = fresnel(facet.cosIn, eta);
+                if (f > 0) sum += f * facets.reflectedLeaves(facet);
+                if (f < 1) sum += (1 - f) * facets.refractedLeaves(facet, eta);
+            }
+            slice[row * kSliceRoughs + column] =
+                stored(min(sum / static_cast<double>(fine.points.size()), 1.0));
+        }
+    const Lattice<144, 89> coarse;
+    for (int row = 0; row < kCosines; ++row)
+        for (int column = 0; column < kSliceRoughs; ++column) {
+            const double c = sqr(static_cast<double>(row) / (kCosines - 1));
+            const Facets facets(c, alphaOf(column, kSliceRoughs));
+            double all = 0, reflected = 0;
+            for (const auto& point : coarse.points) {
+                const auto facet = facets.facet(point);
+                const double part = facets.reflectedLeaves(facet);
+                all += part, reflected += part * fresnel(facet.cosIn, eta);
+            }
+            slice[kReflected + row * kSliceRoughs + column] = stored(reflected / all);
+        }
+    double mean = 0;
+    constexpr int kSteps = 256;
+    for (int i = 0; i < kSteps; ++i) mean += fresnel(std::sqrt((i + 0.5) / kSteps), eta);
+    slice[kMean] = stored(mean / kSteps);
+}
+
+std::uint32_t words[2 * kSlices * kSliceWords];
+std::array<std::atomic<bool>, std::size_t{2} * kSlices> sliceIsMade;
+std::mutex sliceMutex;
+
+} // namespace
+
+const FacetTables& facetTables() {
+    static const FacetTables tables = [] {
+        FacetTables made;
+        makeFacets(made);
+        return made;
+    }();
+    return tables;
+}
+
+const std::uint32_t* slices() { return words; }
+
+void needSlice(int k) {
+    std::atomic<bool>& isMade = sliceIsMade[static_cast<std::size_t>(k)];
+    if (isMade.load(std::memory_order_acquire)) return;
+    const std::lock_guard lock(sliceMutex);
+    if (isMade.load(std::memory_order_relaxed)) return;
+    makeSlice(words + std::ptrdiff_t{kSliceWords} * k, k);
+    isMade.store(true, std::memory_order_release);
+}
+
+} // namespace energy
