@@ -42,8 +42,8 @@ struct SampledLight {
 
 // What a ray meets of a lamp that is no shape.
 struct LightMeeting {
-    Floats distance;  // infinite if it meets nothing
-    Floats3 radiance; // black then
+    Floats distance;  // infinite if it meets nothing, and of suns and skies
+    Floats3 radiance; // black if it meets nothing
 };
 
 // What a light L has:

@@ -37,4 +37,8 @@ template <class Row> LightRow lightRow(const Row& row) {
 
 template LightRow lightRow(const PointRow&);
 template LightRow lightRow(const SpotRow&);
+template LightRow lightRow(const SunRow&);
 template LightRow lightRow(const RectangleRow&);
+template LightRow lightRow(const DiskRow&);
+template LightRow lightRow(const SphereRow&);
+template LightRow lightRow(const TriangleRow&);
