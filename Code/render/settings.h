@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-enum class IntegratorKind { Whitted, Ao, Normal, Depth, Albedo, Id, Uv };
+using IntegratorKind = SettingsDesc::Integrator;
 enum class AccelKind { Bvh, None };
 // How much time the trees over meshes may take: as many rays pay for, little, or a lot.
 enum class TreeKind { Auto, Fast, Best };
@@ -37,12 +37,12 @@ struct ErrorGoal {
 };
 
 struct RenderSettings {
-    SettingsDesc picture; // resolution, crop, samples, filter, exposure ...; --no-aa sets 1 sample
+    // Resolution, crop, samples, integrator, depths, filter, exposure ...; --no-aa sets 1 sample.
+    SettingsDesc picture;
     std::string camera;   // name; empty: the first one of the scene
     Switches switches;
     // Then `picture` has samples for the first look only.
     std::optional<ErrorGoal> errorGoal;
-    IntegratorKind integrator = IntegratorKind::Whitted;
     AccelKind accel = AccelKind::Bvh;
     TreeKind tree = TreeKind::Auto;
     const Isa* isa = &oneLane(); // whose kernels trace and shade
