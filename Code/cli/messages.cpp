@@ -46,7 +46,7 @@ void printShortfall(const Stats& stats, const Options& options) {
 
 void printExposure(const Picture& picture, const Scene& scene, const RenderSettings& settings,
                    const std::string& output) {
-    if (settings.integrator != IntegratorKind::Whitted) return;
+    if (settings.picture.integrator != IntegratorKind::Whitted) return;
     std::optional<Rgb> white = scene.background(Vec3{0, 0, 1});
     if (scene.environment() || maxChannel(*white) > 1) white.reset();
     const std::string extension = lowerExtension(output);

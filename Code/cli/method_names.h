@@ -6,16 +6,6 @@
 #include "render/settings.h"
 
 template <>
-inline constexpr auto kEnumNames<IntegratorKind> =
-    std::to_array<EnumName<IntegratorKind>>({{IntegratorKind::Whitted, "whitted"},
-                                             {IntegratorKind::Path, "path"},
-                                             {IntegratorKind::Ao, "ao"},
-                                             {IntegratorKind::Normal, "normal"},
-                                             {IntegratorKind::Depth, "depth"},
-                                             {IntegratorKind::Albedo, "albedo"},
-                                             {IntegratorKind::Id, "id"},
-                                             {IntegratorKind::Uv, "uv"}});
-template <>
 inline constexpr auto kEnumNames<AccelKind> =
     std::to_array<EnumName<AccelKind>>({{AccelKind::Bvh, "bvh"}, {AccelKind::None, "none"}});
 template <>
@@ -34,5 +24,5 @@ inline constexpr auto kEnumNames<Options::Progress> =
                                                 {Options::Progress::Plain, "plain"},
                                                 {Options::Progress::None, "none"}});
 
-static_assert(isInOrder<IntegratorKind>() && isInOrder<AccelKind>() && isInOrder<TreeKind>() &&
-              isInOrder<Aov>() && isInOrder<Options::Progress>());
+static_assert(isInOrder<AccelKind>() && isInOrder<TreeKind>() && isInOrder<Aov>() &&
+              isInOrder<Options::Progress>());

@@ -44,6 +44,9 @@ struct Options {
 
     // Quality
     std::optional<int> samplesPerPixel, lightSamples, maxDepth;
+    std::optional<int> diffuseDepth, glossyDepth, transmissionDepth, transparentDepth;
+    std::optional<double> clampIndirect;
+    std::optional<bool> caustics;
     std::optional<double> error; // RMSE; samplesPerPixel is then the most
     std::optional<SettingsDesc::Sampler> sampler;
     std::optional<bool> jitter;
@@ -52,7 +55,7 @@ struct Options {
     std::optional<double> filterWidth; // pixels
 
     // Method
-    IntegratorKind integrator = IntegratorKind::Whitted;
+    std::optional<IntegratorKind> integrator;
     AccelKind accel = AccelKind::Bvh;
     TreeKind tree = TreeKind::Auto;
     std::string kernel = "auto";

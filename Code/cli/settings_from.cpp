@@ -65,7 +65,14 @@ void setQuality(SettingsDesc& picture, const Options& options) {
     };
     set(picture.samplesPerPixel, options.samplesPerPixel);
     set(picture.lightSamples, options.lightSamples);
+    set(picture.integrator, options.integrator);
     set(picture.maxDepth, options.maxDepth);
+    set(picture.diffuseDepth, options.diffuseDepth);
+    set(picture.glossyDepth, options.glossyDepth);
+    set(picture.transmissionDepth, options.transmissionDepth);
+    set(picture.transparentDepth, options.transparentDepth);
+    set(picture.clampIndirect, options.clampIndirect);
+    set(picture.caustics, options.caustics);
     set(picture.sampler, options.sampler);
     // Corners lie apart already; more samples serve lights, lens and motion only.
     if (options.sampler == SettingsDesc::Sampler::Corners && !options.samplesPerPixel)
@@ -127,7 +134,6 @@ RenderSettings settingsFrom(const SceneDesc& desc, const Options& options) {
     }
     settings.camera = options.camera;
     settings.switches = options.switches;
-    settings.integrator = options.integrator;
     settings.accel = options.accel;
     settings.tree = options.tree;
     settings.specialise = options.specialise;

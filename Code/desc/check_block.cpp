@@ -3,6 +3,7 @@
 #include "base/for_each.h"
 #include "base/text.h"
 #include "base/transform.h"
+#include "desc/lobes.h"
 
 #include <algorithm>
 #include <cmath>
@@ -150,6 +151,39 @@ void BlockChecker::checkWhole(const TextureDesc& texture) {
     else if (texture.file.find('\0') != std::string::npos ||
              findBadText(texture.file) != std::string::npos)
         error(texture, "its 'file' is not UTF-8 without control characters");
+}
+
+void BlockChecker::checkWhole(const MaterialDesc& material) {
+    if (material.lobes.size() > LobeDesc::kMost)
+        error(material, "has ", material.lobes.size(), " lobes; at most ", LobeDesc::kMost,
+              " are possible");
+    for (std::size_t i = 0; i < material.lobes.size(); ++i) checkLobe(material, i);
+}
+
+void BlockChecker::checkLobe(const MaterialDesc& material, std::size_t number) {
+    const LobeDesc& lobe = material.lobes[number];
+    const auto wrong = [&](const auto&... parts) {
+        error(material, "its lobe ", number + 1, ": ", parts...);
+    };
+    if (lobe.kind >= lobeForms().size())
+        return wrong("there are ", lobeForms().size(), " kinds, and none has the number ",
+                     lobe.kind);
+    const LobeForm& form = lobeForms()[lobe.kind];
+    const auto check = [&](std::string_view keyword, const Range& range, double value) {
+        if (!range.contains(value)) wrong(mustHave(keyword, range, value));
+    };
+    for (const double x : {lobe.weight.r, lobe.weight.g, lobe.weight.b})
+        check(kWeightWord, kColor, x);
+    for (const LobeFieldForm& field : form.fields)
+        for (const double x : std::span(lobe.numbers).subspan(field.first, field.count))
+            check(field.name, field.range, x);
+    for (const LobeDesc::Factor& factor : lobe.factors) {
+        check(kWithoutWord, kFactorStrength, factor.strength);
+        if (factor.texture == kNone) wrong("a picture that multiplies a value is missing");
+        if (factor.field < LobeDesc::Factor::kWeight ||
+            factor.field >= static_cast<int>(form.fields.size()))
+            wrong(form.name, " has no field ", static_cast<int>(factor.field));
+    }
 }
 
 void BlockChecker::checkWhole(const LightDesc& light) {

@@ -86,7 +86,8 @@ private:
                      std::string_view keyword);
     void checkWhole(const SettingsDesc&) {}
     void checkWhole(const WorldDesc&) {}
-    void checkWhole(const MaterialDesc&) {}
+    void checkWhole(const MaterialDesc& material);
+    void checkLobe(const MaterialDesc& material, std::size_t number);
     void checkWhole(const CameraDesc& camera);
     void checkWhole(const TextureDesc& texture);
     void checkWhole(const LightDesc& light);

@@ -65,6 +65,13 @@ inline constexpr auto
     });
 
 template <>
+inline constexpr auto
+    kEnumNames<MaterialDesc::Sides> = std::to_array<EnumName<MaterialDesc::Sides>>({
+        {MaterialDesc::Sides::Both, "both"},
+        {MaterialDesc::Sides::Front, "front"},
+    });
+
+template <>
 inline constexpr auto kEnumNames<LightDesc::Kind> = std::to_array<EnumName<LightDesc::Kind>>({
     {LightDesc::Kind::Point, "point"},
     {LightDesc::Kind::Spot, "spot"},
@@ -143,13 +150,26 @@ inline constexpr auto
         {SettingsDesc::Transfer::Srgb, "srgb"},
         {SettingsDesc::Transfer::Linear, "linear"},
     });
+template <>
+inline constexpr auto
+    kEnumNames<SettingsDesc::Integrator> = std::to_array<EnumName<SettingsDesc::Integrator>>({
+        {SettingsDesc::Integrator::Whitted, "whitted"},
+        {SettingsDesc::Integrator::Path, "path"},
+        {SettingsDesc::Integrator::Ao, "ao"},
+        {SettingsDesc::Integrator::Normal, "normal"},
+        {SettingsDesc::Integrator::Depth, "depth"},
+        {SettingsDesc::Integrator::Albedo, "albedo"},
+        {SettingsDesc::Integrator::Id, "id"},
+        {SettingsDesc::Integrator::Uv, "uv"},
+    });
 
 static_assert(isInOrder<BlockType>() && isInOrder<TextureDesc::Space>() &&
               isInOrder<TextureDesc::Interpolation>() && isInOrder<TextureDesc::Extension>() &&
               isInOrder<TextureDesc::Channel>() && isInOrder<MaterialDesc::SpecularModel>() &&
               isInOrder<MaterialDesc::Fresnel>() && isInOrder<MaterialDesc::LitSide>() &&
-              isInOrder<LightDesc::Kind>() && isInOrder<LightDesc::SeenBy>() &&
-              isInOrder<CameraDesc::Kind>() && isInOrder<CameraDesc::SensorFit>() &&
-              isInOrder<ObjectDesc::Kind>() && isInOrder<ObjectDesc::Sides>() &&
-              isInOrder<WorldDesc::Up>() && isInOrder<SettingsDesc::Sampler>() &&
-              isInOrder<SettingsDesc::Filter>() && isInOrder<SettingsDesc::Transfer>());
+              isInOrder<MaterialDesc::Sides>() && isInOrder<LightDesc::Kind>() &&
+              isInOrder<LightDesc::SeenBy>() && isInOrder<CameraDesc::Kind>() &&
+              isInOrder<CameraDesc::SensorFit>() && isInOrder<ObjectDesc::Kind>() &&
+              isInOrder<ObjectDesc::Sides>() && isInOrder<WorldDesc::Up>() &&
+              isInOrder<SettingsDesc::Sampler>() && isInOrder<SettingsDesc::Filter>() &&
+              isInOrder<SettingsDesc::Transfer>() && isInOrder<SettingsDesc::Integrator>());

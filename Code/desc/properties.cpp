@@ -44,13 +44,21 @@ constexpr Field materials(FieldKind kind) {
     return {kind, Member<&ObjectDesc::materials>::in, {}, BlockType::Material};
 }
 
+constexpr Range kDepth{0, 1024};
 constexpr auto kSettings = std::to_array<Property>({
     {"resolution", field<&SettingsDesc::width>(), field<&SettingsDesc::height>(), {1, 65535}},
     {"pixel_aspect", field<&SettingsDesc::pixelAspect>(), {}, {0, 1000, true}},
     {"crop", field<&SettingsDesc::crop>(), {}, {0, 65535}},
     {"samples", field<&SettingsDesc::samplesPerPixel>(), {}, {1, 1 << 24}},
     {"light_samples", field<&SettingsDesc::lightSamples>(), {}, {1, 4096}},
-    {"max_depth", field<&SettingsDesc::maxDepth>(), {}, {0, 1024}},
+    {"integrator", field<&SettingsDesc::integrator>(), {}, {}},
+    {"max_depth", field<&SettingsDesc::maxDepth>(), {}, kDepth},
+    {"diffuse_depth", field<&SettingsDesc::diffuseDepth>(), {}, kDepth},
+    {"glossy_depth", field<&SettingsDesc::glossyDepth>(), {}, kDepth},
+    {"transmission_depth", field<&SettingsDesc::transmissionDepth>(), {}, kDepth},
+    {"transparent_depth", field<&SettingsDesc::transparentDepth>(), {}, kDepth},
+    {"clamp_indirect", field<&SettingsDesc::clampIndirect>(), {}, kColor},
+    {"caustics", field<&SettingsDesc::caustics>(), {}, {}},
     {"cutoff", field<&SettingsDesc::cutoff>(), {}, kUnit},
     {"sampler", field<&SettingsDesc::sampler>(), {}, {}},
     {"jitter", field<&SettingsDesc::jitter>(), {}, {}},
@@ -66,6 +74,8 @@ constexpr auto kWorld = std::to_array<Property>({
     {"environment", texture<&WorldDesc::environment>(), {}, {}},
     {"environment_up", field<&WorldDesc::environmentUp>(), {}, {}},
     {"environment_rotation", field<&WorldDesc::rotationDeg>(), {}, kTurn},
+    {"environment_lights", field<&WorldDesc::environmentLights>(), {}, {}},
+    {"ambient_occlusion", field<&WorldDesc::ambientOcclusion>(), {}, kMaybeEndless},
 });
 
 constexpr auto kCamera = std::to_array<Property>({
@@ -110,6 +120,8 @@ constexpr auto kMaterial = std::to_array<Property>({
     {"roughness", field<&MaterialDesc::roughness>(), {}, kUnit},
     {"emission", field<&MaterialDesc::emission>(), {}, kColor},
     {"emission_texture", texture<&MaterialDesc::emissionTexture>(), {}, {}},
+    {"emission_lights", field<&MaterialDesc::emissionLights>(), {}, {}},
+    {"emission_sides", field<&MaterialDesc::emissionSides>(), {}, {}},
     {"opacity", field<&MaterialDesc::opacity>(), {}, kUnit},
     {"opacity_texture", texture<&MaterialDesc::opacityTexture>(), {}, {}},
     {"filter", field<&MaterialDesc::filter>(), {}, kColor},

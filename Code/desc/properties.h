@@ -13,6 +13,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 // How a value is stored and written: one to twelve numbers, or a word.
 enum class FieldKind : std::uint8_t {
@@ -71,7 +72,7 @@ struct Property {
         return kNumbers[static_cast<std::size_t>(kind)];
     }
 };
-inline constexpr std::size_t kMostProperties = 22;
+inline constexpr std::size_t kMostProperties = 24;
 std::span<const Property> propertiesOf(BlockType type);
 // The first one with this keyword, which there is.
 const Property& propertyNamed(BlockType type, std::string_view keyword);
@@ -113,6 +114,10 @@ void forEachReference(BlockType type, Data* block, const Call& call) {
             for (auto& handle : at<OneOrMore<Handle>>(property.first, block))
                 call(handle, BlockType::Material, property.keyword);
     }
+    if (type != BlockType::Material) return;
+    using Material = std::conditional_t<std::is_const_v<Data>, const MaterialDesc, MaterialDesc>;
+    for (auto& lobe : static_cast<Material*>(block)->lobes)
+        for (auto& factor : lobe.factors) call(factor.texture, BlockType::Texture, "lobe");
 }
 
 // Calls with every block that has properties.

@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 
+#include <limits>
 #include <string>
 
 struct Range {
@@ -18,12 +19,14 @@ struct Range {
 inline constexpr double kLargestLength = 1e60;
 inline constexpr double kLargestColor = 1e15;
 inline constexpr double kLargestAngleDeg = 1e6; // more turns than that are a mistake
+inline constexpr double kEndless = std::numeric_limits<double>::infinity(); // `inf` in a scene
 inline constexpr double kLargestUnsigned = 4294967295.0;
 
 inline constexpr Range kAnyNumber{-kLargestLength, kLargestLength};
 inline constexpr Range kNotNegative{0, kLargestLength};
 inline constexpr Range kPositive{0, kLargestLength, true};
 inline constexpr Range kUnit{0, 1};
+inline constexpr Range kMaybeEndless{0, kEndless};
 inline constexpr Range kColor{0, kLargestColor};
 inline constexpr Range kTurn{-kLargestAngleDeg, kLargestAngleDeg};
 inline constexpr Range kAnyUnsigned{0, kLargestUnsigned};

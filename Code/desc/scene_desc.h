@@ -64,6 +64,28 @@ struct TextureDesc {
     bool operator==(const TextureDesc&) const = default;
 };
 
+// One way in which a surface scatters light: a row of lobeTypes() (material/lobe_types.h) with its
+// numbers. lobeForms() (desc/lobes.h) has one of each type that says nothing but that.
+struct LobeDesc {
+    static constexpr std::size_t kNumbers = 12, kMost = 8; // of a lobe; of a material's lobes
+    // A picture that multiplies the weight or a field; numbers are multiplied by its grey.
+    struct Factor {
+        static constexpr std::int8_t kWeight = -1;
+        std::int8_t field = kWeight; // its row in the type's fields
+        bool without = false;        // by 1 - strength * picture instead
+        Handle texture = kNone;
+        double strength = 1;
+        bool operator==(const Factor&) const = default;
+    };
+    SourceLoc loc;
+    std::uint32_t kind = 0; // its row in lobeTypes()
+    bool covers = false;    // lies on those behind it, which get what it lets through
+    Rgbd weight{1, 1, 1};
+    std::array<double, kNumbers> numbers{}; // the fields', one behind the other
+    std::vector<Factor> factors;            // of the weight, then of each field in their order
+    bool operator==(const LobeDesc&) const = default;
+};
+
 struct MaterialDesc {
     static constexpr auto kType = BlockType::Material;
     // Blinn: specular * (N.H)^exponent, unnormalised. Ashikhmin: normalised, energy conserving.
@@ -75,11 +97,14 @@ struct MaterialDesc {
     // Which lamps a surface answers: those on the side from which it is seen, or those outside of
     // it, also when its inside is seen (COMP 557 never turns normals to the eye).
     enum class LitSide : std::uint8_t { Eye, Outside };
+    enum class Sides : std::uint8_t { Both, Front };
     std::string name;
     SourceLoc loc;
     SpecularModel specularModel = SpecularModel::Blinn;
     Fresnel fresnel = Fresnel::None;
     LitSide litSide = LitSide::Eye;
+    bool emissionLights = false; // Whitted: lights others too, instead of being seen only
+    Sides emissionSides = Sides::Both;
     // Pictures multiply the number of their name.
     Handle diffuseTexture = kNone, specularTexture = kNone, emissionTexture = kNone,
            opacityTexture = kNone;
@@ -92,12 +117,13 @@ struct MaterialDesc {
     Rgbd transmission{0, 0, 0}; // traced refraction
     double ior = 1.5;
     double roughness = 0;   // 0 sharp; spreads mirror and transmission, Blender's scale
-    Rgbd emission{0, 0, 0}; // radiance, seen but lighting nothing else
+    Rgbd emission{0, 0, 0}; // radiance
     double opacity = 1;     // 1 - opacity of the light goes straight through, tinted by filter
     Rgbd filter{1, 1, 1};
     double normalStrength = 1;
     double bumpStrength = 1;
     double bumpDistance = 1; // height of a white texel over a black one
+    std::vector<LobeDesc> lobes; // besides those that the numbers above are the short way to write
     bool operator==(const MaterialDesc&) const = default;
 };
 
@@ -222,6 +248,8 @@ struct WorldDesc {
     enum class Up : std::uint8_t { Z, Y };
     Up environmentUp = Up::Z; // axis through the upper edge of the environment
     double rotationDeg = 0;   // of the environment about that axis
+    bool environmentLights = false; // Whitted: background and environment light as a lamp does
+    double ambientOcclusion = 0;    // ambient counts by the sky seen up to here; 0 all of it
     bool operator==(const WorldDesc&) const = default;
 };
 
@@ -231,13 +259,19 @@ struct SettingsDesc {
     enum class Sampler : std::uint8_t { Sobol, Stratified, Random, Grid, Corners };
     enum class Filter : std::uint8_t { Box, Tent, Gaussian, BlackmanHarris };
     enum class Transfer : std::uint8_t { Srgb, Linear };
+    enum class Integrator : std::uint8_t { Whitted, Path, Ao, Normal, Depth, Albedo, Id, Uv };
     SourceLoc loc;
+    Integrator integrator = Integrator::Whitted;
     int width = 960, height = 540;
     Vec2d pixelAspect{1, 1};
     std::optional<std::array<int, 4>> crop; // x0 y0 x1 y1, from the top left, x1 y1 exclusive
     int samplesPerPixel = 16;
     int lightSamples = 1;
     int maxDepth = 8;           // bounces after the camera ray
+    // Of them, in path tracing: bounces by lobes of each kind, and straight on through opacity.
+    int diffuseDepth = 4, glossyDepth = 4, transmissionDepth = 12, transparentDepth = 8;
+    double clampIndirect = 0;   // path tracing: the most radiance behind the first bounce; 0 any
+    bool caustics = true;       // path tracing: diffuse light by way of mirrors and glass
     double cutoff = 1.0 / 2048; // rays that change no pixel by more than this are not traced
     Sampler sampler = Sampler::Sobol;
     bool jitter = true;

@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "desc/check_block.h"
 #include "desc/error_list.h"
+#include "desc/lobes.h"
 #include "desc/names.h"
 #include "desc/same_names.h"
 #include "desc/scene_bounds.h"
@@ -50,6 +51,7 @@ public:
         warnUnused();
         warnDark();
         warnBright();
+        warnOfWeights();
         warnFar();
     }
 
@@ -169,7 +171,7 @@ private:
         };
         if (std::any_of(desc_.lights.begin(), desc_.lights.end(), shines) ||
             std::any_of(desc_.materials.begin(), desc_.materials.end(), glows) ||
-            world.ambient != black)
+            world.ambient != black || (world.environmentLights && world.background != black))
             return;
         warn({}, cat("there is no light, no emission and no ambient: ",
                      world.background == black ? "the picture" : "diffuse surfaces",
@@ -199,15 +201,31 @@ private:
         };
         const auto first = std::find_if(materials.begin(), materials.end(), isBright);
         if (first == materials.end()) return;
-        const auto others = std::count_if(first + 1, materials.end(), isBright);
-        warn(first->loc, cat(called(*first),
-                             others == 0   ? ""
-                             : others == 1 ? " and one other"
-                                           : cat(" and ", others, " others"),
-                             ": diffuse + mirror + transmission is ",
-                             std::round(mostReturned(*first) * 1000) / 1000,
-                             "; above 1 a surface gives back more light than it gets"));
+        warnOfSome(*first, std::count_if(first + 1, materials.end(), isBright),
+                   cat("diffuse + mirror + transmission is ", rounded(mostReturned(*first)),
+                       "; above 1 a surface gives back more light than it gets"));
     }
+    void warnOfWeights() {
+        constexpr double kMost = 1 + 1e-6; // as 0.9 and 0.1 that were floats
+        const auto& materials = desc_.materials;
+        const auto isMore = [&](const MaterialDesc& m) {
+            return !m.lobes.empty() && sumOfWeights(m) > kMost && isUsed(m);
+        };
+        const auto first = std::find_if(materials.begin(), materials.end(), isMore);
+        if (first == materials.end()) return;
+        warnOfSome(*first, std::count_if(first + 1, materials.end(), isMore),
+                   cat("the weights of its lobes sum up to ", rounded(sumOfWeights(*first)),
+                       "; they are scaled to 1"));
+    }
+    // Of one material, with how many others there are.
+    void warnOfSome(const MaterialDesc& first, std::ptrdiff_t others, std::string_view what) {
+        warn(first.loc, cat(called(first),
+                            others == 0   ? ""
+                            : others == 1 ? " and one other"
+                                          : cat(" and ", others, " others"),
+                            ": ", what));
+    }
+    static double rounded(double x) { return std::round(x * 1000) / 1000; }
     bool isUsed(const MaterialDesc& material) const {
         return used_.has(BlockType::Material,
                          static_cast<std::size_t>(&material - desc_.materials.data()));

@@ -1,8 +1,10 @@
 #include "desc/write_txt.h"
 
+#include "desc/lobes.h"
 #include "desc/names.h"
 #include "desc/properties.h"
 
+#include <algorithm>
 #include <charconv>
 #include <span>
 
@@ -44,12 +46,24 @@ private:
         if constexpr (requires { block.worldFromObject; }) keys(block.worldFromObject);
         if constexpr (requires { block.worldFromLight; }) keys(std::span(&block.worldFromLight, 1));
         properties(block);
+        if constexpr (requires { block.lobes; })
+            for (const LobeDesc& lobe : block.lobes) this->lobe(lobe);
         out_ += "}\n";
     }
 
     template <class Block> void properties(const Block& block) {
         static const Block kDefaults{};
         properties(block, kDefaults);
+    }
+    // Where there are lobes, nothing is diffuse unless it is said.
+    void properties(const MaterialDesc& material) {
+        static const MaterialDesc kDefaults{};
+        static const MaterialDesc kDefaultsBesideLobes = [] {
+            MaterialDesc out;
+            out.diffuse = {};
+            return out;
+        }();
+        properties(material, material.lobes.empty() ? kDefaults : kDefaultsBesideLobes);
     }
     void properties(const AnyBlock& block, const AnyBlock& defaults) {
         const KindMask kinds = block.type == BlockType::Object ? block.kind : kAllKinds;
@@ -84,6 +98,43 @@ private:
             for (const Handle handle : at<OneOrMore<Handle>>(field, block))
                 name(nameOfTarget(BlockType::Material, handle));
         }
+    }
+
+    void lobe(const LobeDesc& lobe) {
+        const LobeForm& form = lobeForms()[lobe.kind];
+        out_ += "    ";
+        out_ += kLobeWord;
+        word(form.name);
+        const double weight[] = {lobe.weight.r, lobe.weight.g, lobe.weight.b};
+        value(lobe, LobeDesc::Factor::kWeight, kWeightWord, weight, lobe.weight == Rgbd{1, 1, 1});
+        for (std::size_t i = 0; i < form.fields.size(); ++i) {
+            const auto& [name, first, count, range] = form.fields[i];
+            const auto numbers = std::span(lobe.numbers).subspan(first, count);
+            const auto usual = std::span(form.usual.numbers).subspan(first, count);
+            value(lobe, static_cast<std::int8_t>(i), name, numbers,
+                  std::equal(numbers.begin(), numbers.end(), usual.begin()));
+        }
+        if (lobe.covers) word(kCoversWord);
+        out_ += '\n';
+    }
+    // A weight or field with what multiplies it, unless it is as it would be without.
+    void value(const LobeDesc& lobe, std::int8_t field, std::string_view keyword,
+               std::span<const double> numbers, bool isUsual) {
+        const auto isOfField = [&](const auto& factor) { return factor.field == field; };
+        const auto& factors = lobe.factors;
+        if (isUsual && std::none_of(factors.begin(), factors.end(), isOfField)) return;
+        word(keyword);
+        for (const double x : numbers) number(x);
+        for (const LobeDesc::Factor& factor : factors) {
+            if (!isOfField(factor)) continue;
+            word(factor.without ? kWithoutWord : kTimesWord);
+            name(nameOfTarget(BlockType::Texture, factor.texture));
+            if (factor.strength != 1) number(factor.strength);
+        }
+    }
+    void word(std::string_view text) {
+        out_ += ' ';
+        out_ += text;
     }
 
     const std::string& nameOfTarget(BlockType target, Handle handle) const {

@@ -80,7 +80,7 @@ void integrateFirstHit(const IntegratorContext& context, SampleChunk& chunk, Wav
     findFirstHits(context, chunk, memory, counts, cameraHits);
     for (std::size_t k = 0; k < memory.points.count; ++k) {
         const std::uint32_t slot = memory.points.slot[k];
-        chunk.radiance[slot] = shown(context.settings.integrator, chunk.first[slot]);
+        chunk.radiance[slot] = shown(context.settings.picture.integrator, chunk.first[slot]);
     }
 }
 

@@ -22,15 +22,16 @@ SamplerKind samplerKind(SettingsDesc::Sampler kind) {
 }
 
 bool needsFirstHits(const RenderSettings& settings) {
-    return !settings.aovs.empty() || (settings.integrator != IntegratorKind::Whitted &&
-                                      settings.integrator != IntegratorKind::Path &&
-                                      settings.integrator != IntegratorKind::Ao);
+    return !settings.aovs.empty() || (settings.picture.integrator != IntegratorKind::Whitted &&
+                                      settings.picture.integrator != IntegratorKind::Path &&
+                                      settings.picture.integrator != IntegratorKind::Ao);
 }
 
 // Texture coordinates are for pictures, and for who looks at them; lifts are for shadow rays.
 SurfaceNeeds surfaceNeedsOf(const Scene& scene, const RenderSettings& settings) {
     if (!settings.specialise) return {};
-    return {.uv = stepsFor(scene, settings).textures || settings.integrator == IntegratorKind::Uv,
+    return {.uv = stepsFor(scene, settings).textures ||
+                  settings.picture.integrator == IntegratorKind::Uv,
             .lift = !scene.lights().empty()};
 }
 
@@ -40,7 +41,7 @@ StillsInLanes stillsInLanesOf(const Scene& scene, const RenderSettings& settings
     if (lanes.stills == nullptr || !settings.specialise) return stills;
     const ShapeSet& set = scene.shapes();
     const auto wantsUv = [&](std::uint32_t number) {
-        if (settings.integrator == IntegratorKind::Uv) return true;
+        if (settings.picture.integrator == IntegratorKind::Uv) return true;
         if (!scene.anyMaterial().pictures) return false;
         const SceneMaterial& material = scene.materials()[number];
         return material.isTextured() || material.bendsNormals();
@@ -128,6 +129,6 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
             lamp.ball = lamp.emission->ball();
         (shades ? shadingLamps : openLamps).push_back(lamp);
     }
-    if (settings.specialise && settings.integrator == IntegratorKind::Whitted)
+    if (settings.specialise && settings.picture.integrator == IntegratorKind::Whitted)
         mapLamps(scene, settings, shadingLamps);
 }

@@ -38,9 +38,9 @@ bool hasBounces(const SceneDesc& desc, const RenderSettings& settings) {
 
 double predictedRays(const SceneDesc& desc, const RenderSettings& settings) {
     const double samples = pixelsOf(settings.picture) * settings.picture.samplesPerPixel;
-    if (settings.integrator == IntegratorKind::Ao)
+    if (settings.picture.integrator == IntegratorKind::Ao)
         return samples * (1 + settings.picture.lightSamples);
-    if (settings.integrator != IntegratorKind::Whitted) return samples;
+    if (settings.picture.integrator != IntegratorKind::Whitted) return samples;
     // Where something reflects, about every other ray meets it.
     return samples * (1 + shadowRays(desc, settings)) * (hasBounces(desc, settings) ? 2 : 1);
 }

@@ -211,7 +211,7 @@ private:
             materials[i].pictures = picturesOf(desc_.materials[i]);
             scene_.any_ |= materials[i];
         }
-        if (settings_.integrator == IntegratorKind::Path) buildLobes();
+        if (settings_.picture.integrator == IntegratorKind::Path) buildLobes();
         if (spent_ != nullptr) std::vector<MaterialDesc>().swap(spent_->materials);
     }
 
@@ -396,7 +396,7 @@ private:
                                       makeLampBody(light, scene_.frame_, 0, 0));
         }
         scene_.seenLamps_.finish();
-        if (settings_.integrator == IntegratorKind::Path) buildPathLights();
+        if (settings_.picture.integrator == IntegratorKind::Path) buildPathLights();
     }
 
     void buildPathLights() {
@@ -429,7 +429,7 @@ private:
         scene_.any_ |= glow;
         lampShapes_[id - objectCount_] = static_cast<std::uint32_t>(scene_.shapes_.shapes.size());
         scene_.shapes_.add(std::move(body), ShapeSet::Shadow::None);
-        if (settings_.integrator == IntegratorKind::Path) scene_.lobedMaterials_.add({}, {}, true);
+        if (settings_.picture.integrator == IntegratorKind::Path) scene_.lobedMaterials_.add({}, {}, true);
     }
 
     Scene& scene_;

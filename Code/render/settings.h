@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-enum class IntegratorKind { Whitted, Path, Ao, Normal, Depth, Albedo, Id, Uv };
+using IntegratorKind = SettingsDesc::Integrator;
 enum class AccelKind { Bvh, None };
 // How much time the trees over meshes may take: as many rays pay for, little, or a lot.
 enum class TreeKind { Auto, Fast, Best };
@@ -36,22 +36,13 @@ struct ErrorGoal {
     double white = kInfinity; // values above are written as this
 };
 
-// How far paths go; bounces by kind, as Blender counts them.
-struct PathLimits {
-    int maxDepth = 8; // all but those straight through
-    int diffuseDepth = 4, glossyDepth = 4, transmissionDepth = 12, transparentDepth = 8;
-    float clampIndirect = 0; // mean of the channels of what a sample gets by way of bounces; 0: none
-    bool caustics = true;    // light that reaches diffuse surfaces by way of others
-};
-
 struct RenderSettings {
-    SettingsDesc picture; // resolution, crop, samples, filter, exposure ...; --no-aa sets 1 sample
+    // Resolution, crop, samples, integrator, depths, filter, exposure ...; --no-aa sets 1 sample.
+    SettingsDesc picture;
     std::string camera;   // name; empty: the first one of the scene
     Switches switches;
     // Then `picture` has samples for the first look only.
     std::optional<ErrorGoal> errorGoal;
-    IntegratorKind integrator = IntegratorKind::Whitted;
-    PathLimits path;
     AccelKind accel = AccelKind::Bvh;
     TreeKind tree = TreeKind::Auto;
     const Isa* isa = &oneLane(); // whose kernels trace and shade

@@ -6,9 +6,11 @@
 #include <algorithm>
 
 std::string shadingForm(const IntegratorContext& context) {
-    if (context.settings.integrator == IntegratorKind::Path) return "paths, one form";
-    if (context.settings.integrator == IntegratorKind::Ao) return "ambient occlusion, one form";
-    if (context.settings.integrator != IntegratorKind::Whitted) return "first hits, one form";
+    if (context.settings.picture.integrator == IntegratorKind::Path) return "paths, one form";
+    if (context.settings.picture.integrator == IntegratorKind::Ao)
+        return "ambient occlusion, one form";
+    if (context.settings.picture.integrator != IntegratorKind::Whitted)
+        return "first hits, one form";
     constexpr std::pair<bool Steps::*, const char*> kNames[] = {
         {&Steps::softLamps, "soft lamps"},
         {&Steps::lampBodies, "lamp bodies"},

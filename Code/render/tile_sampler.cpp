@@ -88,9 +88,11 @@ void TileSampler::traceOnce(const Tile& tile, TileWorker& worker) const {
 }
 
 void TileSampler::integrate(TileWorker& w) const {
-    switch (settings_.integrator) {
+    switch (settings_.picture.integrator) {
     case IntegratorKind::Whitted:
         return integrateWhitted(context_, w.chunk, w.memory, w.rays, w.cameraHits);
+    case IntegratorKind::Path:
+        return integratePath(context_, w.chunk, w.memory, w.rays, w.cameraHits);
     case IntegratorKind::Path:
         return integratePath(context_, w.chunk, w.memory, w.rays, w.cameraHits);
     case IntegratorKind::Ao: return integrateAo(context_, w.chunk, w.memory, w.rays, w.cameraHits);
@@ -104,7 +106,7 @@ void TileSampler::integrate(TileWorker& w) const {
 }
 
 Rgb TileSampler::background() const {
-    switch (settings_.integrator) {
+    switch (settings_.picture.integrator) {
     case IntegratorKind::Whitted:
     case IntegratorKind::Path: return context_.scene.background(Vec3{0, 0, 1});
     case IntegratorKind::Ao: return {1, 1, 1};

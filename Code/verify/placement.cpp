@@ -102,7 +102,7 @@ Tally powersOfTen(const Effort& effort) {
 Image objectsIn(const SceneDesc& desc) {
     return scenes::render(desc,
                           [](RenderSettings& s) {
-                              s.integrator = IntegratorKind::Id;
+                              s.picture.integrator = IntegratorKind::Id;
                               s.aovs = {Aov::Id};
                               s.picture.width = 160;
                               s.picture.height = 120;

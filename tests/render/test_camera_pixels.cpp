@@ -106,12 +106,14 @@ TEST(firstHitPictures) {
     CHECK((shot.aov(Aov::Id).pixel(0, 3) == Rgb{2, 2, 2}));
     CHECK((shot.aov(Aov::Id).pixel(0, 0) == Rgb{}));
     CHECK((shot.aov(Aov::Samples).pixel(0, 0) == Rgb{1, 1, 1}));
-    const Image uv =
-        shot::render(scene, [](RenderSettings& s) { s.integrator = IntegratorKind::Uv; }).color;
+    const Image uv = shot::render(scene, [](RenderSettings& s) {
+                         s.picture.integrator = IntegratorKind::Uv;
+                     }).color;
     CHECK_RGB(uv.pixel(2, 1), (Vec3d{0.25, 0.25, 0}), 1e-6);
     CHECK_RGB(uv.pixel(3, 0), (Vec3d{0.75, 0.75, 0}), 1e-6);
-    const Image normal =
-        shot::render(scene, [](RenderSettings& s) { s.integrator = IntegratorKind::Normal; }).color;
+    const Image normal = shot::render(scene, [](RenderSettings& s) {
+                             s.picture.integrator = IntegratorKind::Normal;
+                         }).color;
     CHECK((normal.pixel(2, 1) == Rgb{0.5f, 0.5f, 1}));
 }
 

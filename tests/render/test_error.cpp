@@ -186,7 +186,7 @@ TEST(errorGoalsOfAllMethods) {
         isMet(cat("sampler ", static_cast<int>(sampler)), picture,
               [=](RenderSettings& s) { s.picture.sampler = sampler; });
     for (const IntegratorKind kind : {IntegratorKind::Ao, IntegratorKind::Normal}) {
-        const auto tweak = [=](RenderSettings& s) { s.integrator = kind; };
+        const auto tweak = [=](RenderSettings& s) { s.picture.integrator = kind; };
         isMet(cat("integrator ", static_cast<int>(kind)), referenceOf(text, 128, tweak), tweak);
     }
     const auto box = [](RenderSettings& s) {

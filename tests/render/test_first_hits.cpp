@@ -74,7 +74,7 @@ TEST(firstHitsAreThoseOfSingleRays) {
                 RenderSettings settings;
                 settings.picture = desc.settings;
                 settings.textureFolder = shot::textureFolder();
-                settings.isa = &kernel, settings.integrator = kind;
+                settings.isa = &kernel, settings.picture.integrator = kind;
                 settings.switches.textures = textures;
                 settings.specialise = !textures || kind == IntegratorKind::Uv;
                 const Scene scene(desc, {"scene", ""}, settings);

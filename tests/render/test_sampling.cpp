@@ -90,7 +90,7 @@ TEST(filtersHaveTheirWidth) {
 TEST(ambientOcclusionOfAWall) {
     const shot::TopView view{
         .pixels = 16, .side = 1e-3, .centre = {1e-3, 0}, .samples = 16, .more = "sampler random"};
-    const auto ao = [](RenderSettings& s) { s.integrator = IntegratorKind::Ao; };
+    const auto ao = [](RenderSettings& s) { s.picture.integrator = IntegratorKind::Ao; };
     const std::string floor = "plane floor {\n scale 5 5 1\n}\n";
     CHECK_NEAR(shot::estimate(shot::render(view.text() + floor, ao).color).mean, 1, 1e-6);
     const shot::Estimate e = shot::estimate(

@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "check.h"
+#include "desc/lobes.h"
 #include "desc/properties.h"
 #include "read/load.h"
 #include "read/txt/transform_lines.h"
@@ -105,6 +106,73 @@ TEST(read_txt_everything_is_everything) {
                  [&](std::string_view keyword, auto&, std::string_view) { checkUsed(keyword); });
     for (const TransformLine& line : transformLines()) checkUsed(line.keyword);
     for (const auto& row : kEnumNames<ObjectDesc::Kind>) checkUsed(row.name);
+    checkUsed("lobe");
+}
+
+TEST(read_txt_lobes) {
+    const SceneDesc desc = readText(contentOf(kEverything));
+    const std::vector<LobeDesc>& lobes = desc.materials.at(2).lobes;
+    CHECK_EQUAL(lobes.size(), LobeDesc::kMost);
+    const auto formOf = [](const LobeDesc& lobe) { return lobeForms()[lobe.kind]; };
+    CHECK_EQUAL(formOf(lobes[0]).name, "coat");
+    CHECK((lobes[0].covers && lobes[0].weight == Rgbd{0.5, 0.5, 0.5}));
+    CHECK((lobes[0].factors ==
+           std::vector<LobeDesc::Factor>{{.without = true, .texture = 1, .strength = 0.25}}));
+    const LobeDesc& conductor = lobes[2];
+    CHECK_EQUAL(formOf(conductor).name, "conductor");
+    CHECK(!conductor.covers);
+    CHECK((conductor.numbers ==
+           std::array<double, LobeDesc::kNumbers>{0.9, 0.6, 0.3, 1, 0.9, 0.8, 0.25, 0.5, 30}));
+    using Factor = LobeDesc::Factor;
+    CHECK((conductor.factors == std::vector<Factor>{{.texture = 1}, // wood, sky and wood
+                                                    {.texture = 0},
+                                                    {.field = 2, .texture = 1}}));
+    CHECK(lobes[5].numbers == formOf(lobes[5]).usual.numbers); // nothing is said
+    // Values in any order are the same lobe, and lines may go on behind a comment sign.
+    const auto lobeOf = [](const std::string& line) {
+        return readBody("texture a {\nfile f\n}\ntexture b {\nfile f\n}\nmaterial m {\n" + line +
+                        "\n}")
+            .materials.at(0)
+            .lobes.at(0);
+    };
+    CHECK(lobeOf("lobe conductor roughness 0.1 times a weight 1 0 0 times b # c") ==
+          lobeOf("lobe\tconductor weight 1 0 0 times b roughness 0.1 times a"));
+    CHECK(lobeOf("lobe conductor covers roughness 0.1") ==
+          lobeOf("lobe conductor roughness .1 covers"));
+    CHECK(lobeOf("lobe diffuse weight 1 1 1 without \"a\" 1 times b") ==
+          lobeOf("lobe diffuse weight 1 1 1 without a times \"b\""));
+}
+
+// A lobe takes the place of the diffuse surface that a material has by itself.
+TEST(read_txt_lobes_and_diffuse) {
+    const auto diffuseOf = [](const std::string& lines) {
+        return readBody("material m {\n" + lines + "\n}").materials.at(0).diffuse;
+    };
+    const Rgbd usual{0.8, 0.8, 0.8}, said{0.5, 0, 0};
+    CHECK(diffuseOf("mirror 1 1 1") == usual);
+    CHECK(diffuseOf("lobe mirror") == Rgbd{});
+    CHECK(diffuseOf("lobe mirror\nlobe diffuse") == Rgbd{});
+    CHECK(diffuseOf("lobe mirror\ndiffuse 0.5 0 0") == said);
+    CHECK(diffuseOf("diffuse 0.5 0 0\nlobe mirror") == said);
+    // As in the block before, which is read faster.
+    const SceneDesc desc =
+        readBody("material a {\ndiffuse 0.5 0 0\n}\nmaterial b {\ndiffuse 0.5 0 0\n"
+                 "lobe mirror\n}\nmaterial c {\nlobe mirror\n}");
+    CHECK(desc.materials.at(1).diffuse == said && desc.materials.at(2).diffuse == Rgbd{});
+}
+
+TEST(read_txt_endless_distance) {
+    const auto distance = [](const std::string& words) {
+        return readBody("world {\nambient_occlusion " + words + "\n}").world.ambientOcclusion;
+    };
+    CHECK_EQUAL(distance("inf"), kEndless);
+    CHECK_EQUAL(distance("2.5"), 2.5);
+    CHECK_THROWS(distance("-inf"), "'-inf' is not a finite number");
+    CHECK_THROWS(distance("nan"), "'nan' is not a finite number");
+    CHECK_THROWS(distance("-1"), "'ambient_occlusion' must be >= 0, got -1");
+    CHECK_THROWS(distance("inf inf"),
+                 "expected the end of the line after 'ambient_occlusion', got 'inf'");
+    CHECK_THROWS(readBody("camera c {\nlens inf\n}"), "'inf' is not a finite number");
 }
 
 // The spec names every keyword and every choice.
@@ -123,6 +191,16 @@ TEST(read_txt_readme_is_complete) {
     forEachArray(mesh, [&](std::string_view keyword, auto&, std::string_view) { check(keyword); });
     for (const TransformLine& line : transformLines())
         CHECK_INFO(readme.find(cat("| `", line.keyword, " ")) != std::string::npos, line.keyword);
+    // A row "| `coat` | `ior` 1.5, `tint` 1 1 1, `roughness` 0.03 |" for each lobe.
+    for (const LobeForm& form : lobeForms()) {
+        std::string row = cat("| `", form.name, "` | ");
+        for (const LobeFieldForm& field : form.fields) {
+            row += cat(field.first > 0 ? ", " : "", "`", field.name, "`");
+            for (std::size_t i = 0; i < field.count; ++i)
+                row += " " + shortest(form.usual.numbers[field.first + i]);
+        }
+        CHECK_INFO(readme.find(row + " |") != std::string::npos, row);
+    }
 }
 
 TEST(read_txt_values_of_points_need_no_corners) {

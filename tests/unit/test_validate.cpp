@@ -1,5 +1,6 @@
 // The rules that hold for every format, on scenes that no reader of text would pass on. The order
 // of what is said, and warnings, are in test_validate_messages.cpp.
+#include "desc/lobes.h"
 #include "desc/properties.h"
 #include "desc/scene_bounds.h"
 #include "unit/validate_kit.h"
@@ -35,7 +36,7 @@ template <class Block> void checkNumbersOf(Block& block, const SceneDesc& desc) 
             if (!property.isWhole()) {
                 check(kNan, "is not a finite number");
                 check(-1.0 / 0.0, "is not a finite number");
-                check(range.hi * 1.1, "must be ");
+                if (range.hi < kEndless) check(range.hi * 1.1, "must be ");
                 check(range.aboveLo ? range.lo : range.lo - std::fabs(range.lo) - 1, "must be ");
             } else if (range.hi < kLargestUnsigned) {
                 check(range.hi + 1, "must be from ");
@@ -71,6 +72,43 @@ TEST(validate_every_number) {
     }
     CHECK_EQUAL(errorsOf(desc), "");
     forEachBlock(desc, [&](auto& block) { checkNumbersOf(block, desc); });
+}
+
+// The same for lobes, whose numbers are in no table of properties.
+TEST(validate_lobes) {
+    const auto errors = [](const std::function<void(LobeDesc&)>& damage) {
+        return errorsAfter([&](SceneDesc& d) {
+            d.textures.emplace_back().name = "t";
+            d.textures[0].file = "t.ppm";
+            LobeDesc& lobe = d.materials[0].lobes.emplace_back();
+            for (const LobeForm& form : lobeForms())
+                if (form.name == "conductor") lobe = form.usual;
+            damage(lobe);
+        });
+    };
+    CHECK_EQUAL(errors([](LobeDesc&) {}), "");
+    CHECK_EQUAL(errors([](LobeDesc& lobe) { lobe.factors = {{.field = 2, .texture = 0}}; }), "");
+    for (const LobeForm& form : lobeForms())
+        for (const LobeFieldForm& field : form.fields)
+            for (std::size_t i = 0; i < field.count; ++i)
+                for (const double bad : {field.range.lo - 1, 1.1 * field.range.hi + 1, kNan})
+                    checkError(errors([&](LobeDesc& lobe) {
+                                   lobe = form.usual;
+                                   lobe.numbers[field.first + i] = bad;
+                               }),
+                               cat("material 'red': its lobe 1: '", field.name, "' "));
+    checkError(errors([](LobeDesc& lobe) { lobe.weight.g = -1; }), "'weight' must be >= 0, got -1");
+    checkError(errors([](LobeDesc& lobe) { lobe.kind = 100; }), "and none has the number 100");
+    checkError(errors([](LobeDesc& lobe) { lobe.factors.emplace_back(); }),
+               "a picture that multiplies a value is missing");
+    checkError(errors([](LobeDesc& lobe) { lobe.factors = {{.texture = 1}}; }),
+               "'lobe' refers to texture 1 of 1");
+    checkError(errors([](LobeDesc& lobe) { lobe.factors = {{.field = 5, .texture = 0}}; }),
+               "conductor has no field 5");
+    checkError(errors([](LobeDesc& lobe) { lobe.factors = {{.texture = 0, .strength = 2}}; }),
+               "'without' must be from 0 to 1, got 2");
+    checkError(errorsAfter([](SceneDesc& d) { d.materials[0].lobes.resize(9); }),
+               "material 'red': has 9 lobes; at most 8 are possible");
 }
 
 TEST(validate_handles) {

@@ -1,4 +1,5 @@
 // What validate() says: the order of its errors and how many are shown, and its warnings.
+#include "desc/lobes.h"
 #include "desc/scene_bounds.h"
 #include "unit/validate_kit.h"
 
@@ -111,6 +112,53 @@ TEST(validate_warnings) {
     checkError(warningsAfter(moveBy(1e11)), "the scene lies more than 10^10 times its size away");
     checkError(warningsAfter([](SceneDesc& d) { d.lights[0].coneAngleDeg = 10; }),
                "light 'lamp': 'cone_angle' has no effect on type point");
+}
+
+// A sky that lights is light.
+TEST(validate_warns_of_darkness_but_under_a_sky) {
+    const auto warnings = [](bool lights, Rgbd sky) {
+        return warningsAfter([&](SceneDesc& d) {
+            d.lights.clear();
+            d.world.background = sky;
+            d.world.environmentLights = lights;
+        });
+    };
+    CHECK_EQUAL(warnings(true, {0, 0.1, 0}), "");
+    checkError(warnings(false, {0, 0.1, 0}), "diffuse surfaces will be black");
+    checkError(warnings(true, {}), "the picture will be black");
+}
+
+// Covers, lobes that are no part of the light, and those that a picture multiplies, do not count.
+TEST(validate_warns_of_weights_above_one) {
+    const auto lobe = [](std::string_view kind, Rgbd weight) {
+        for (const LobeForm& form : lobeForms()) {
+            LobeDesc lobe = form.usual;
+            lobe.weight = weight;
+            if (form.name == kind) return lobe;
+        }
+        return LobeDesc{};
+    };
+    const auto warnings = [](std::vector<LobeDesc> lobes) {
+        return warningsAfter([&](SceneDesc& d) {
+            d.textures.emplace_back().name = "t";
+            d.textures[0].file = "t.ppm";
+            d.objects[1].materials = {0};
+            d.materials[0].bumpMap = 0; // so that it is used
+            d.materials[0].lobes = std::move(lobes);
+        });
+    };
+    const LobeDesc diffuse = lobe("diffuse", {0.5, 0.8, 0.5}),
+                   mirror = lobe("mirror", {0.5, 0.2, 0.1});
+    CHECK_EQUAL(warnings({diffuse, mirror}), "");
+    CHECK_EQUAL(
+        warnings({diffuse, mirror, lobe("sheen", {0.25, 0.1, 0})}),
+        "s.json: warning: material 'red': the weights of its lobes sum up to 1.25; they are "
+        "scaled to 1");
+    LobeDesc coat = lobe("coat", {1, 1, 1}), painted = lobe("mirror", {1, 1, 1});
+    checkError(warnings({coat, diffuse}), "sum up to 1.8;");
+    coat.covers = true;
+    painted.factors = {{.texture = 0}};
+    CHECK_EQUAL(warnings({coat, painted, lobe("phong", {1, 1, 1}), diffuse}), "");
 }
 
 TEST(validate_warns_of_materials_that_return_more_than_they_get) {

@@ -4,6 +4,7 @@
 
 #include "base/text.h"
 #include "check.h"
+#include "desc/lobes.h"
 #include "desc/properties.h"
 #include "read/txt/read_txt.h"
 
@@ -37,6 +38,9 @@ public:
         for (LightDesc& light : desc_.lights) light.worldFromLight = rows();
         for (CameraDesc& camera : desc_.cameras) camera.worldFromCamera = keys();
         forEachBlock(desc_, [&](auto& block) { fill(block); });
+        for (MaterialDesc& material : desc_.materials)
+            while (material.lobes.size() < LobeDesc::kMost && chance(chance_ * 0.8))
+                material.lobes.push_back(lobe());
         return desc_;
     }
 
@@ -104,6 +108,26 @@ private:
             break;
         default: break;
         }
+    }
+    LobeDesc lobe() {
+        const LobeForm& form = lobeForms()[below(lobeForms().size())];
+        LobeDesc lobe = form.usual;
+        lobe.covers = chance(0.3);
+        if (chance(0.5)) lobe.weight = {number(kColor), number(kUnit), 1};
+        for (const LobeFieldForm& field : form.fields)
+            if (chance(0.5))
+                for (std::size_t i = 0; i < field.count; ++i)
+                    lobe.numbers[field.first + i] = number(field.range);
+        const int fields = static_cast<int>(form.fields.size());
+        for (int field = LobeDesc::Factor::kWeight; field < fields; ++field)
+            while (chance(0.3)) {
+                auto& factor = lobe.factors.emplace_back();
+                factor.field = static_cast<std::int8_t>(field);
+                factor.texture = handle();
+                factor.without = chance(0.5);
+                if (factor.without && chance(0.5)) factor.strength = number(kFactorStrength);
+            }
+        return lobe;
     }
     Handle handle() { return static_cast<Handle>(below(desc_.materials.size())); }
 
@@ -177,6 +201,46 @@ TEST(write_txt_every_property_comes_back) {
     });
     for (const auto& row : kEnumNames<ObjectDesc::Kind>)
         CHECK_INFO(text.find(cat("\n", row.name, " ")) != std::string::npos, row.name);
+}
+
+TEST(write_txt_every_lobe_comes_back) {
+    const SceneDesc desc = RandomScene(3, 1.0).make(64);
+    const std::string text = writeTxt(desc);
+    CHECK(readBack(text) == desc);
+    for (const LobeForm& form : lobeForms()) {
+        CHECK_INFO(text.find(cat("\n    lobe ", form.name, " ")) != std::string::npos, form.name);
+        for (const LobeFieldForm& field : form.fields)
+            CHECK_INFO(text.find(cat(" ", field.name, " ")) != std::string::npos, field.name);
+    }
+    for (const std::string_view word : {" times ", " without ", " covers\n"})
+        CHECK_INFO(text.find(word) != std::string::npos, word);
+}
+
+// What is as it starts is left out, and a diffuse surface is said where there are lobes.
+TEST(write_txt_short_lobes) {
+    SceneDesc desc;
+    desc.textures.emplace_back().name = "wood grain";
+    MaterialDesc& material = desc.materials.emplace_back();
+    material.name = "m";
+    const auto named = [](std::string_view name) {
+        for (const LobeForm& form : lobeForms())
+            if (form.name == name) return form.usual;
+        return LobeDesc{};
+    };
+    material.lobes = {named("conductor"), named("coat"), named("diffuse")};
+    material.lobes[1].covers = true;
+    material.lobes[2].factors = {{.texture = 0}, {.without = true, .texture = 0, .strength = 0.25}};
+    const auto written = [&] {
+        const std::string text = writeTxt(desc);
+        CHECK(readBack(text) == desc);
+        return text.substr(text.find("material m"));
+    };
+    const std::string lobes =
+        "    lobe conductor\n    lobe coat covers\n    lobe diffuse weight 1 1 1 "
+        "times \"wood grain\" without \"wood grain\" 0.25\n}\n";
+    CHECK_EQUAL(written(), "material m {\n    diffuse 0.8 0.8 0.8\n" + lobes);
+    material.diffuse = {};
+    CHECK_EQUAL(written(), "material m {\n" + lobes);
 }
 
 TEST(write_txt_random_scenes_come_back) {

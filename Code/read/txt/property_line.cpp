@@ -8,16 +8,16 @@
 
 namespace {
 
+bool isName(const Token& t) { return t.kind == TokenKind::Word || t.kind == TokenKind::Quoted; }
+SourceLoc locOf(const Token& t) { return {static_cast<std::uint32_t>(t.offset)}; }
+
+} // namespace
+
 bool isNumber(const Token& t) {
     if (t.kind != TokenKind::Word) return false;
     const auto number = readDouble(t.text.data());
     return number.fault != NumberFault::NotANumber;
 }
-
-bool isName(const Token& t) { return t.kind == TokenKind::Word || t.kind == TokenKind::Quoted; }
-SourceLoc locOf(const Token& t) { return {static_cast<std::uint32_t>(t.offset)}; }
-
-} // namespace
 
 void failUnclosed(const Scanner& in, const Token& open, const Token& found) {
     in.failAt(found.offset,
@@ -80,6 +80,10 @@ void NumberLine::readAny(double& value, const Range& range) {
     const SourceLoc loc = locOf(t);
     if (number.fault == NumberFault::TooLarge)
         return errors_.add(loc, [&] { return cat(described(t), " is too large"); });
+    if (t.text == "inf" && range.contains(kEndless)) {
+        value = kEndless;
+        return;
+    }
     if (isNotFinite(t.text))
         return errors_.add(loc, [&] { return cat(described(t), " is not a finite number"); });
     if (number.fault != NumberFault::None || number.end != t.text.data() + t.text.size())
@@ -108,8 +112,13 @@ void NumberLine::readWhole(double& value, const Range& range) {
 
 void NumberLine::finish(const Token& open) {
     if (in_.takeLineEnd()) return;
+    expectNoMore();
+    expectLineEnd(in_, keyword_, open);
+}
+
+void NumberLine::expectNoMore() {
     const Token extra = in_.peek();
-    if (!isNumber(extra)) return expectLineEnd(in_, keyword_, open);
+    if (!isNumber(extra)) return;
     while (isNumber(in_.peek())) {
         in_.next();
         ++got_;

@@ -19,6 +19,9 @@ void expectLineEnd(Scanner& in, std::string_view after, const Token& open);
 [[noreturn]] void failUnknownProperty(Scanner& in, const Token& word, const Token& open,
                                       std::span<const std::string> known);
 
+// Does it begin as a number does?
+bool isNumber(const Token& t);
+
 // Reads the numbers of one line and counts them for its messages.
 class NumberLine {
 public:
@@ -26,10 +29,12 @@ public:
         : in_(in), errors_(errors), keyword_(keyword), count_(count) {}
 
     // What is wrong, but a number, is collected, and then leaves `value` as it is.
+    // `inf` is a number where the range has no end.
     void read(double& value, const Range& range);
     void readWhole(double& value, const Range& range);
     // After the last number.
-    void finish(const Token& open);
+    void expectNoMore();
+    void finish(const Token& open); // and the line ends
 
 private:
     void readAny(double& value, const Range& range);

@@ -2,9 +2,11 @@
 
 #include "base/math.h"
 #include "base/text.h"
+#include "desc/lobes.h"
 #include "desc/names.h"
 #include "desc/properties.h"
 #include "read/added_by_text.h"
+#include "read/txt/lobe_line.h"
 #include "read/txt/property_line.h"
 #include "read/txt/read_mesh.h"
 #include "read/txt/scanner.h"
@@ -13,6 +15,7 @@
 #include <algorithm>
 #include <array>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 namespace {
@@ -210,6 +213,10 @@ private:
                 return isSameWord(p.keyword, t.text) && (p.kinds & kinds);
             };
             if (!isMeant(rows[*next])) {
+                if (type == BlockType::Material && isSameWord(kLobeWord, t.text)) {
+                    readLobe(*static_cast<MaterialDesc*>(block), t, word, given);
+                    continue;
+                }
                 const auto row = std::find_if(rows.begin(), rows.end(), isMeant);
                 if (row == rows.end()) failUnknown(rows, kinds, keys != nullptr, t, word);
                 *next = static_cast<std::size_t>(row - rows.begin());
@@ -227,6 +234,23 @@ private:
         return line.textOffset();
     }
 
+    // Where a material says lobes, a diffuse one has to be said too. `given`: where its properties
+    // stood so far.
+    void readLobe(MaterialDesc& material, const Token& t, const Token& word,
+                  const std::array<std::size_t, kMostProperties>& given) {
+        const auto diffuse =
+            static_cast<std::size_t>(&propertyNamed(BlockType::Material, "diffuse") -
+                                     propertiesOf(BlockType::Material).data());
+        if (material.lobes.empty() && given[diffuse] == kNotGiven) material.diffuse = {};
+        LobeDesc lobe = readLobeLine(in_, errors_, blocks_.references, word);
+        lobe.loc = {static_cast<std::uint32_t>(t.offset)};
+        if (material.lobes.size() < LobeDesc::kMost)
+            return material.lobes.push_back(std::move(lobe));
+        errors_.add(lobe.loc, [] {
+            return cat("a material has at most ", LobeDesc::kMost, " lobes; leave this one out");
+        });
+    }
+
     // The rows of the properties that came first, and behind each other, the last time: blocks of a
     // file have theirs in the same order. And what they said.
     struct Habits {
@@ -241,6 +265,7 @@ private:
         for (const Property& property : rows)
             if (property.kinds & kinds) known.emplace_back(property.keyword);
         if (word.text == "camera") known.emplace_back(kFov);
+        if (word.text == "material") known.emplace_back(kLobeWord);
         if (hasPlace)
             for (const TransformLine& line : transformLines()) known.emplace_back(line.keyword);
         failUnknownProperty(in_, t, word, known);

@@ -2,8 +2,11 @@
 
 #include "base/math.h"
 #include "base/transform.h"
+#include "light/kinds/disk.h"
 #include "light/kinds/rectangle.h"
 #include "light/kinds/round.h"
+#include "light/kinds/sphere.h"
+#include "light/kinds/sun.h"
 #include "render/to_float.h"
 
 namespace {
@@ -18,6 +21,15 @@ PointRow pointRow(const LightDesc& desc, Vec3 position, double scale) {
             {toFloat(a.x * power / (scale * scale)), toFloat(a.y * power / scale),
              toFloat(a.z * power)},
             toFloat(desc.radius * scale)};
+}
+
+FlatRow flatRow(const LightDesc& desc, const Transform& place, Vec3 position, Vec3 axis) {
+    FlatRow row;
+    row.centre = position, row.normal = axis, row.radiance = toRgb(desc.color);
+    row.halfX = toFloat(place.vector({desc.size.x / 2, 0, 0}));
+    row.halfY = toFloat(place.vector({0, desc.size.y / 2, 0}));
+    setSpread(row, radians(desc.spreadDeg / 2));
+    return row;
 }
 
 float mean(Rgb c) { return (c.r + c.g + c.b) / 3; }
@@ -43,16 +55,27 @@ std::optional<PoweredLight> makeLightRow(const LightDesc& desc, const SceneFrame
         return PoweredLight{lightRow(row),
                             2 * pi * (1 - row.cosHalfAngle) * mean(row.point.intensity)};
     }
+    case LightDesc::Kind::Sun: {
+        const double halfAngleRad = radians(desc.angleDeg / 2);
+        const SunRow row{-axis, color,
+                         toFloat(2 * sqr(exact::sin(min(halfAngleRad, kHalfPi) / 2)))};
+        return PoweredLight{lightRow(row), mean(color)};
+    }
     case LightDesc::Kind::Rectangle: {
         RectangleRow row;
-        row.centre = position, row.normal = axis, row.radiance = color;
-        row.halfX = toFloat(place.vector({desc.size.x / 2, 0, 0}));
-        row.halfY = toFloat(place.vector({0, desc.size.y / 2, 0}));
-        setSpread(row, radians(desc.spreadDeg / 2));
+        static_cast<FlatRow&>(row) = flatRow(desc, place, position, axis);
         const float area = 4 * length(row.halfX) * length(row.halfY);
         return PoweredLight{lightRow(row), pi * area * mean(color)};
     }
-    default: break;
+    case LightDesc::Kind::Disk: {
+        DiskRow row;
+        static_cast<FlatRow&>(row) = flatRow(desc, place, position, axis);
+        const float area = pi * length(row.halfX) * length(row.halfY);
+        return PoweredLight{lightRow(row), pi * area * mean(color)};
     }
-    return {};
+    case LightDesc::Kind::Sphere: break;
+    }
+    // A lamp that is scaled unevenly takes its x axis.
+    const SphereRow row{position, toFloat(desc.radius * length(place.vector({1, 0, 0}))), color};
+    return PoweredLight{lightRow(row), 4 * pi * pi * sqr(row.radius) * mean(color)};
 }

@@ -2,6 +2,7 @@
 
 #include "render/path/path_memory.h"
 #include "render/path/path_numbers.h"
+#include "render/to_float.h"
 #include "render/waves/background.h"
 #include "render/waves/points.h"
 #include "render/waves/single_bounces.h"
@@ -23,7 +24,7 @@ public:
     PathWave(const Wave& wave)
         : wave_(wave), context_(wave.context), scene_(context_.scene), memory_(wave.memory),
           path_(memory_.path), lights_(scene_.pathLights()), materials_(scene_.lobedMaterials()),
-          limits_(context_.settings.path) {}
+          limits_(context_.settings.picture) {}
 
     void run() {
         findSurfaces();
@@ -61,7 +62,7 @@ private:
     }
     // `bounces` lie between the camera and where the light is reflected or seen.
     void clampIndirect(Rgb& light, int bounces) const {
-        const float most = limits_.clampIndirect;
+        const float most = toFloat(limits_.clampIndirect);
         if (!(most > 0) || bounces < 1) return;
         const float sum = light.r + light.g + light.b;
         if (sum > 3 * most) light = light * (3 * most / sum);
@@ -303,7 +304,7 @@ private:
     PathMemory& path_;
     const PathLights& lights_;
     const LobedMaterials& materials_;
-    const PathLimits& limits_;
+    const SettingsDesc& limits_;
 };
 
 } // namespace
