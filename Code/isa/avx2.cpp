@@ -9,5 +9,6 @@
 namespace kernels::build {
 constexpr TreeBuilder kAvx2TreeBuilder = avx2::build::treeBuilder();
 }
-constexpr Isa kAvx2Isa = kernels::avx2::isaOf("avx2", hasAvx2, &kernels::build::kAvx2TreeBuilder);
+constexpr Isa kAvx2Isa =
+    kernels::avx2::isaOf("avx2", hasAvx2, &kernels::build::kAvx2TreeBuilder, &kAvx2Path);
 #endif

@@ -13,7 +13,6 @@
 #include "isa/isa.h"
 #include "render/lamp_map/lamp_map_lanes.h"
 #include "render/lens_in_lanes.h"
-#include "render/path/path_in_lanes.h"
 #include "render/waves/bounce_in_lanes.h"
 #include "render/waves/environment_in_lanes.h"
 #include "render/waves/lamp_in_lanes.h"
@@ -34,14 +33,13 @@ constexpr ShadeLanes kShade{seePoints,      lightPoints, paintPoints, paintEachP
 constexpr BounceLanes kBounce{dividePoints, bouncePoints, mirrorPoints};
 constexpr LampLanes kLamps{lightByLamp, lightBySamples, wholeLight, hiddenPoints, askLampMap};
 constexpr PictureLanes kPictures{textureColors, environmentColors};
-constexpr PathKernel kPath{scatterBlock};
 constexpr CameraLanes kCamera{pairSeeds, sobolPairs, spreadPlaces, lensRays, pinholeRays};
 
 // An Isa of these functions.
-constexpr Isa isaOf(const char* name, bool (*supported)(),
-                    const kernels::build::TreeBuilder* build) {
+constexpr Isa isaOf(const char* name, bool (*supported)(), const kernels::build::TreeBuilder* build,
+                    const PathKernel* path) {
     return {name,    W,        supported, &kTriangles, &kSolids, &kPlaced, &kSurfaces,
-            &kShade, &kBounce, &kLamps,   &kPictures,  &kCamera, &kPath,   build};
+            &kShade, &kBounce, &kLamps,   &kPictures,  &kCamera, path,     build};
 }
 
 LANES_END

@@ -5,7 +5,7 @@
 
 struct PathKernel;
 extern const Isa kSseIsa, kAvx2Isa, kAvx512Isa;
-extern const PathKernel kOnePath;
+extern const PathKernel kOnePath, kSsePath, kAvx2Path, kAvx512Path;
 namespace kernels::build {
 extern const TreeBuilder kAvx2TreeBuilder;
 }

@@ -6,7 +6,8 @@
 
 FilmUnits filmUnitsOf(const Scene& scene, const RenderSettings& settings) {
     FilmUnits units;
-    if (settings.picture.integrator == IntegratorKind::Whitted)
+    if (settings.picture.integrator == IntegratorKind::Whitted ||
+        settings.picture.integrator == IntegratorKind::Path)
         units.color =
             std::ldexp(1.0, static_cast<int>(std::floor(settings.picture.exposureEv + 0.5)));
     if (settings.picture.integrator == IntegratorKind::Depth) units.color = scene.frame().scale;

@@ -33,7 +33,7 @@ inline Floats clipAlong(const Camera::Lens& lens, const Doubles3& dir) {
 }
 
 // Polygon::fromSquare()
-inline void placeOnPolygon(DiskRow& place, const Camera::Lens& lens) {
+inline void placeOnPolygon(SquareRow& place, const Camera::Lens& lens) {
     const Doubles at = Doubles(Floats::load(place.u)) * Doubles(lens.blades), blade = floor(at);
     const Doubles across = at - blade, rest = Doubles(1.0) - across;
     const Ints i = wholeOf(blade);
@@ -46,7 +46,7 @@ inline void placeOnPolygon(DiskRow& place, const Camera::Lens& lens) {
 
 // placeOnDisk() takes numbers of 24 bits, as Sobol's are: 2 u - 1 is exact then. Numbers of other
 // samplers that it rounds go the plain way.
-inline void placeRounded(DiskRow& place) {
+inline void placeRounded(SquareRow& place) {
     const Floats one(1.0f), two(2.0f);
     const auto isExact = [&](const float(&number)[W]) {
         const Floats twice = two * Floats::load(number);
@@ -101,7 +101,7 @@ inline void raysFrom(const Camera::Lens& lens, const PlaceBlock& places, std::si
     const Doubles px = Doubles::load(places.x + first), py = Doubles::load(places.y + first);
     const Doubles3 line = linesThrough(lens, px, py);
     const Doubles3 sharp = eye + line * (Doubles(lens.focusDistance) / dot(line, forward));
-    DiskRow place;
+    SquareRow place;
     Floats::load(places.u + first).store(place.u), Floats::load(places.v + first).store(place.v);
     if (lens.blades != 0) {
         placeOnPolygon(place, lens);

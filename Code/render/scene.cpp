@@ -10,7 +10,7 @@
 #include "render/eye.h"
 #include "render/make_light.h"
 #include "render/make_shapes.h"
-#include "render/path/classic_lobes.h"
+#include "render/path/make_lobes.h"
 #include "render/path/light_rows.h"
 #include "render/picture_reader.h"
 #include "render/texture_files.h"
@@ -221,7 +221,7 @@ private:
         const MaterialDesc standard;
         for (std::size_t i = 0; i <= desc_.materials.size(); ++i) {
             const MaterialDesc& desc = i < desc_.materials.size() ? desc_.materials[i] : standard;
-            const LobeList list = classicLobes(desc, pictures, on_);
+            const LobeList list = lobesOf(desc, pictures, on_);
             if (!lobed.add(list.lobes, list.factors, emits(desc)))
                 scene_.warnings_.push_back(
                     located(source_, desc.loc.offset,

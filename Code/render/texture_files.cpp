@@ -49,10 +49,13 @@ std::vector<std::size_t> usedTextures(const SceneDesc& desc, bool showsEnvironme
             std::find(used.begin(), used.end(), i) == used.end())
             used.push_back(i);
     };
-    for (const MaterialDesc& m : desc.materials)
+    for (const MaterialDesc& m : desc.materials) {
         for (const Handle handle : {m.diffuseTexture, m.specularTexture, m.emissionTexture,
                                     m.opacityTexture, m.normalMap, m.bumpMap})
             use(handle);
+        for (const LobeDesc& lobe : m.lobes)
+            for (const LobeDesc::Factor& factor : lobe.factors) use(factor.texture);
+    }
     if (showsEnvironment) use(desc.world.environment);
     return used;
 }

@@ -93,8 +93,6 @@ void TileSampler::integrate(TileWorker& w) const {
         return integrateWhitted(context_, w.chunk, w.memory, w.rays, w.cameraHits);
     case IntegratorKind::Path:
         return integratePath(context_, w.chunk, w.memory, w.rays, w.cameraHits);
-    case IntegratorKind::Path:
-        return integratePath(context_, w.chunk, w.memory, w.rays, w.cameraHits);
     case IntegratorKind::Ao: return integrateAo(context_, w.chunk, w.memory, w.rays, w.cameraHits);
     case IntegratorKind::Normal:
     case IntegratorKind::Depth:

@@ -115,6 +115,11 @@ public:
     virtual const StillShape* stillToShade() const { return nullptr; }
     virtual SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const = 0;
 
+    // Calls fn(number as hits have it, corners, material) for all triangles of a mesh that stands
+    // still; other shapes have none.
+    using TriangleFn = FunctionRef<void(std::uint32_t, const TriangleCorners&, std::uint32_t)>;
+    virtual void forEachTriangle(TriangleFn) const {}
+
     // Of a hit on a triangle, which may have come into one mesh with others or not; shapes of other
     // kinds go by their numbers.
     virtual std::optional<TieOrder> tieOrder(const Ray&, const Hit&) const { return {}; }

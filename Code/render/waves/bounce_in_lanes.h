@@ -103,7 +103,7 @@ private:
     // microNormal() of the rough ones, the normals of the others.
     Floats3 microNormals(std::span<const AlikePoints> alike, const BouncePairs& pairs,
                          unsigned rough) const {
-        LobeRow row;
+        FacetRow row;
         Floats exponent(1.0f);
         for (const AlikePoints& some : alike)
             if (const unsigned here = some.points >> first_ & rough; here != 0)

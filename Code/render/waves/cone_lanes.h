@@ -13,23 +13,23 @@
 LANES_BEGIN
 
 // Samples of the lamp, one of each point: places on it, and the ways there.
-struct LampRow : DiskRow {
+struct LampRow : SquareRow {
     Three toLight;
     Floats distance2, distance;
 };
 
 // x and y of the direction; its z is zOnCone(). Not for cones that are too narrow for floats.
-inline void placeOnCone(DiskRow& row, const Doubles& oneMinusCos, unsigned& unsure) {
+inline void placeOnCone(SquareRow& row, const Doubles& oneMinusCos, unsigned& unsure) {
     const Doubles h = oneMinusCos * Doubles(Floats::load(row.u));
     const Doubles sine = sqrt(max(h * (Doubles(2.0) - h), Doubles(0.0)));
     const OnCircle at = nearlyOnCircle(Floats::load(row.v), unsure);
     surelyRounded(sine * at.x, unsure).store(row.x);
     surelyRounded(sine * at.y, unsure).store(row.y);
 }
-inline Floats zOnCone(const DiskRow& row, const Doubles& oneMinusCos) {
+inline Floats zOnCone(const SquareRow& row, const Doubles& oneMinusCos) {
     return (Doubles(1.0) - oneMinusCos * Doubles(Floats::load(row.u))).toFloats();
 }
-inline void placeSurelyOnCone(DiskRow& row, const double* oneMinusCos, unsigned lanes) {
+inline void placeSurelyOnCone(SquareRow& row, const double* oneMinusCos, unsigned lanes) {
     for (; lanes != 0; lanes &= lanes - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
         const Vec3 way = coneFromSquare(Vec2{row.u[i], row.v[i]}, oneMinusCos[i]);

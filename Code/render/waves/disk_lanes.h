@@ -196,7 +196,7 @@ inline Floats surelyRounded(const Doubles& v, unsigned& unsure) {
 }
 
 // Places in the unit square and on the disk, in rows of lanes.
-struct DiskRow {
+struct SquareRow {
     alignas(64) float u[W], v[W], x[W], y[W];
 };
 
@@ -212,11 +212,11 @@ inline void drawPairs(const PairsInLanes& pairs, Row* rows, std::uint32_t count)
 }
 
 // x and y from u and v; lanes that take placeSurelyOnDisk() are added to `unsure`.
-inline void placeOnDisk(DiskRow& row, unsigned& unsure) {
+inline void placeOnDisk(SquareRow& row, unsigned& unsure) {
     const DiskLanes disk = nearlyOnDisk(Floats::load(row.u), Floats::load(row.v), unsure);
     disk.x.store(row.x), disk.y.store(row.y);
 }
-inline void placeSurelyOnDisk(DiskRow& row, unsigned lanes) {
+inline void placeSurelyOnDisk(SquareRow& row, unsigned lanes) {
     for (; lanes != 0; lanes &= lanes - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(lanes));
         const Vec2 place = diskFromSquare({row.u[i], row.v[i]});

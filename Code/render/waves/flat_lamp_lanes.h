@@ -21,13 +21,13 @@ public:
 
     unsigned seen() const { return seen_; }
 
-    void place(DiskRow& row, unsigned& unsure) const {
+    void place(SquareRow& row, unsigned& unsure) const {
         if (lamp_.isEllipse) return placeOnDisk(row, unsure);
         const Floats two(2.0f), one(1.0f);
         (two * Floats::load(row.u) - one).store(row.x);
         (two * Floats::load(row.v) - one).store(row.y);
     }
-    static void placeSurely(DiskRow& row, unsigned lanes) { placeSurelyOnDisk(row, lanes); }
+    static void placeSurely(SquareRow& row, unsigned lanes) { placeSurelyOnDisk(row, lanes); }
 
     void findWay(LampRow& row) const {
         const Three d = all(lamp_.centre) + all(lamp_.halfX) * Floats::load(row.x) +

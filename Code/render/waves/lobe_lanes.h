@@ -21,11 +21,11 @@
 LANES_BEGIN
 
 // Random numbers of W points in u and v, which are of 24 bits, and local directions from them.
-struct LobeRow : DiskRow {
+struct FacetRow : SquareRow {
     alignas(64) float exponent[W], z[W];
 };
 
-inline void drawPairs(const BouncePairs& pairs, std::size_t first, LobeRow& row) {
+inline void drawPairs(const BouncePairs& pairs, std::size_t first, FacetRow& row) {
     for (std::size_t i = 0; i < W; i += kSobolLanes) {
         const auto of = [&](const std::uint32_t* column) {
             return loadBits<kSobolInRow>(column + first + i);
@@ -36,7 +36,7 @@ inline void drawPairs(const BouncePairs& pairs, std::size_t first, LobeRow& row)
     }
 }
 
-inline void placeInLobe(LobeRow& row, unsigned lanes) {
+inline void placeInLobe(FacetRow& row, unsigned lanes) {
     const Doubles zero(0.0), one(1.0);
     const Doubles power = one / (Doubles(Floats::load(row.exponent)) + one);
     const Doubles cosine = powOfDoubles(Floats(1.0f) - Floats::load(row.u), power);
@@ -48,13 +48,13 @@ inline void placeInLobe(LobeRow& row, unsigned lanes) {
     cosine.toFloats().store(row.z);
     for (unsigned rest = lanes & unsure; rest != 0; rest &= rest - 1) {
         const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-        const Vec3 way = cosinePowerFromSquare({row.u[i], row.v[i]}, row.exponent[i]);
+        const Vec3 way = cosinePowerFromSquare(Vec2{row.u[i], row.v[i]}, row.exponent[i]);
         row.x[i] = way.x, row.y[i] = way.y;
     }
 }
 
 // About n, in what the rows have placed.
-inline Floats3 halfVectors(const LobeRow& row, const Floats3& n) {
+inline Floats3 halfVectors(const FacetRow& row, const Floats3& n) {
     return normalize(
         framesAround(n).toWorld(Floats::load(row.x), Floats::load(row.y), Floats::load(row.z)));
 }

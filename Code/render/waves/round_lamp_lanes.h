@@ -39,8 +39,8 @@ public:
     }
 
     unsigned seen() const { return seen_; }
-    static void place(DiskRow& row, unsigned& unsure) { placeOnDisk(row, unsure); }
-    static void placeSurely(DiskRow& row, unsigned lanes) { placeSurelyOnDisk(row, lanes); }
+    static void place(SquareRow& row, unsigned& unsure) { placeOnDisk(row, unsure); }
+    static void placeSurely(SquareRow& row, unsigned lanes) { placeSurelyOnDisk(row, lanes); }
 
     void findWay(LampRow& row) const {
         const Floats x = Floats::load(row.x) * radius_, y = Floats::load(row.y) * radius_;

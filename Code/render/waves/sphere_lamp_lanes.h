@@ -46,11 +46,11 @@ public:
 
     unsigned seen() const { return seen_; }
 
-    void place(DiskRow& row, unsigned& unsure) const {
+    void place(SquareRow& row, unsigned& unsure) const {
         placeOnCone(row, Doubles::load(oneMinusCos_), unsure);
         unsure |= unfit_;
     }
-    void placeSurely(DiskRow& row, unsigned lanes) const {
+    void placeSurely(SquareRow& row, unsigned lanes) const {
         placeSurelyOnCone(row, oneMinusCos_, lanes & ~inside_);
     }
 

@@ -40,10 +40,10 @@ public:
 
     unsigned seen() const { return seen_; }
 
-    void place(DiskRow& row, unsigned& unsure) const {
+    void place(SquareRow& row, unsigned& unsure) const {
         placeOnCone(row, Doubles(oneMinusCos_), unsure);
     }
-    void placeSurely(DiskRow& row, unsigned lanes) const {
+    void placeSurely(SquareRow& row, unsigned lanes) const {
         alignas(64) double all[W];
         std::fill_n(all, W, oneMinusCos_);
         placeSurelyOnCone(row, all, lanes);

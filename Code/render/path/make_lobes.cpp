@@ -1,6 +1,7 @@
-#include "render/path/classic_lobes.h"
+#include "render/path/make_lobes.h"
 
 #include "base/math.h"
+#include "desc/lobes.h"
 #include "render/to_float.h"
 
 namespace {
@@ -49,8 +50,36 @@ void setField(LobeRow& lobe, std::string_view field, Rgb value) {
     if (count == 3) to[1] = value.g, to[2] = value.b;
 }
 
-LobeList classicLobes(const MaterialDesc& desc, const TextureOf& textureOf, const Switches& on) {
+// The lobes that are written as such.
+static LobeList writtenLobes(const MaterialDesc& desc, const TextureOf& textureOf) {
     LobeList out;
+    for (const LobeDesc& lobe : desc.lobes) {
+        const LobeForm& form = lobeForms()[lobe.kind];
+        LobeRow row;
+        row.kind = static_cast<std::uint8_t>(lobe.kind), row.covers = lobe.covers;
+        const Rgb weight = toRgb(lobe.weight);
+        row.value[0] = weight.r, row.value[1] = weight.g, row.value[2] = weight.b;
+        for (std::size_t i = 0; i < LobeDesc::kNumbers; ++i)
+            row.value[3 + i] = toFloat(lobe.numbers[i]);
+        for (const LobeDesc::Factor& factor : lobe.factors) {
+            const Texture* const texture = textureOf(factor.texture);
+            if (texture == nullptr) continue;
+            LobeFactor of{static_cast<std::uint8_t>(out.lobes.size()), 0, 3, 0, 1, texture};
+            if (factor.field != LobeDesc::Factor::kWeight) {
+                const auto& field = form.fields[static_cast<std::size_t>(factor.field)];
+                of.first = static_cast<std::uint8_t>(3 + field.first);
+                of.count = static_cast<std::uint8_t>(field.count);
+            }
+            if (factor.without) of.a = 1, of.b = -toFloat(factor.strength);
+            out.factors.push_back(of);
+        }
+        out.lobes.push_back(row);
+    }
+    return out;
+}
+
+LobeList lobesOf(const MaterialDesc& desc, const TextureOf& textureOf, const Switches& on) {
+    LobeList out = writtenLobes(desc, textureOf);
     const Rgb white{1, 1, 1};
     const auto add = [&](LobeRow lobe, Handle picture = kNone) {
         if (lobe.value[0] == 0 && lobe.value[1] == 0 && lobe.value[2] == 0) return;

@@ -1,4 +1,4 @@
-// The lobes that a material's short keywords mean: diffuse, specular, mirror, transmission.
+// The lobes of a material's description, those that its short keywords mean among them.
 #pragma once
 
 #include "desc/scene_desc.h"
@@ -18,5 +18,6 @@ void setField(LobeRow& lobe, std::string_view field, Rgb value);
 
 // Texture of a handle; null: none, or its picture misses.
 using TextureOf = std::function<const Texture*(Handle)>;
-// A rough mirror shows lamps by itself, so that it takes the place of a specular highlight.
-LobeList classicLobes(const MaterialDesc& desc, const TextureOf& textureOf, const Switches& on);
+// All lobes of a material: those that are written as such, and those that the short keywords mean. A
+// rough mirror shows lamps by itself, so that it takes the place of a specular highlight.
+LobeList lobesOf(const MaterialDesc& desc, const TextureOf& textureOf, const Switches& on);

@@ -1,0 +1,8 @@
+// What shading does by the instructions of sse.cpp.
+#if defined(__x86_64__)
+#define LANES_SSE
+#include "isa/instances.h"
+#include "render/path/path_in_lanes.h"
+
+constexpr PathKernel kSsePath{kernels::sse::scatterBlock};
+#endif
