@@ -14,33 +14,25 @@ namespace {
 constexpr std::size_t kBuckets = 12;
 constexpr int kMostDepth = 32; // bits of a trail
 
-// A sum of lights: what the cost of a group needs. Its axes lie in a box, which bounds their spread.
+// A light, or a sum of them, as far as the cost of a group needs it: the box, the mean of the axes.
 struct Sum {
     Vec3 lo{kInfinityF, kInfinityF, kInfinityF}, hi{-kInfinityF, -kInfinityF, -kInfinityF};
-    Vec3 axisLo{2, 2, 2}, axisHi{-2, -2, -2};
-    double intensity = 0;
-    float cosReach = 1;
-    std::size_t count = 0;
+    Vec3 axis; // times the intensity, and shorter the more its normals spread
+    float intensity = 0, cosReach = 1;
+    std::uint32_t count = 0;
 
-    static void widen(Vec3& lo, Vec3& hi, Vec3 from, Vec3 to) {
-        lo = {min(from.x, lo.x), min(from.y, lo.y), min(from.z, lo.z)};
-        hi = {max(to.x, hi.x), max(to.y, hi.y), max(to.z, hi.z)};
-    }
     void add(const Sum& s) {
-        widen(lo, hi, s.lo, s.hi), widen(axisLo, axisHi, s.axisLo, s.axisHi);
+        lo = {min(s.lo.x, lo.x), min(s.lo.y, lo.y), min(s.lo.z, lo.z)};
+        hi = {max(s.hi.x, hi.x), max(s.hi.y, hi.y), max(s.hi.z, hi.z)};
+        axis = axis + s.axis;
         intensity += s.intensity, cosReach = min(cosReach, s.cosReach), count += s.count;
     }
-    // Of unit vectors a with |a - c| <= h: a . c >= (1 + c^2 - h^2) / 2.
-    double cosSpread() const {
-        const Vec3d c = (toDouble(axisLo) + toDouble(axisHi)) * 0.5;
-        const Vec3d h = (toDouble(axisHi) - toDouble(axisLo)) * 0.5;
-        const double c2 = dot(c, c), bound = (1 + c2 - dot(h, h)) / 2;
-        return bound > 0 && c2 > 0 ? min(bound / std::sqrt(c2), 1.0) : -1;
-    }
     double cost() const {
-        if (count == 0) return 0;
         const Vec3d d = toDouble(hi) - toDouble(lo);
-        return intensity * directionsOf(cosSpread(), static_cast<double>(cosReach)) * dot(d, d);
+        // Normals that are even in a cap of cosine c have a mean of length (1 + c) / 2.
+        const auto all = static_cast<double>(intensity);
+        const double cosSpread = 2 * length(toDouble(axis)) / all - 1;
+        return all * directionsOf(cosSpread, static_cast<double>(cosReach)) * dot(d, d);
     }
 };
 
@@ -82,10 +74,9 @@ LightNode packedNode(const LightBounds& bounds, std::uint32_t child) {
 
 struct LightPicker::Item {
     Sum sum;
-    Vec3 middle, axis;
-    double cosSpread;
-    std::uint32_t light;
-    bool isTwoSided;
+    float cosSpread;
+    std::uint32_t light : 31, isTwoSided : 1;
+    float middle(std::size_t axis) const { return sum.lo[axis] * 0.5f + sum.hi[axis] * 0.5f; }
 };
 
 class LightPicker::Builder {
@@ -126,22 +117,18 @@ private:
     Item itemOf(std::uint32_t i) const {
         const LightBounds& b = lights_[i];
         Item item;
-        item.light = i, item.middle = b.box.centre(), item.axis = b.axis;
-        item.cosSpread = b.cosSpread, item.isTwoSided = b.isTwoSided;
+        item.light = i & 0x7fffffffu, item.isTwoSided = b.isTwoSided ? 1 : 0;
+        item.cosSpread = static_cast<float>(b.cosSpread);
         // Of the two ways that a light with two sides faces: the one that most of its kind have.
         const Vec3 a = b.axis;
         const float most = std::fabs(a.x) >= std::fabs(a.y) && std::fabs(a.x) >= std::fabs(a.z)
                                ? a.x
                                : std::fabs(a.y) >= std::fabs(a.z) ? a.y : a.z;
-        if (b.isTwoSided && most < 0) item.axis = -a;
         item.sum.lo = b.box.lo, item.sum.hi = b.box.hi;
-        // Normals around the axis are in a box around it; where they go everywhere, so does it.
-        const float chord =
-            b.cosSpread < 1 ? floatAbove(std::sqrt(2 * (1 - b.cosSpread))) : 0.0f;
-        const Vec3 around{chord, chord, chord};
-        item.sum.axisLo = item.axis - around, item.sum.axisHi = item.axis + around;
-        item.sum.intensity = b.intensity, item.sum.cosReach = static_cast<float>(b.cosReach);
-        item.sum.count = 1;
+        item.sum.intensity = static_cast<float>(min(b.intensity, 1e30));
+        item.sum.axis = a * (item.sum.intensity * (0.5f + 0.5f * item.cosSpread) *
+                             (b.isTwoSided && most < 0 ? -1.0f : 1.0f));
+        item.sum.cosReach = static_cast<float>(b.cosReach), item.sum.count = 1;
         return item;
     }
 
@@ -161,10 +148,10 @@ private:
         bool isEverywhere = false;
         for (const Item& item : items) {
             out.box.extend(Bounds{item.sum.lo, item.sum.hi});
-            axis += toDouble(item.axis) * item.sum.intensity;
-            out.intensity += item.sum.intensity;
+            const auto intensity = static_cast<double>(item.sum.intensity);
+            axis += toDouble(item.sum.axis), out.intensity += intensity;
             least = min(least, static_cast<double>(item.sum.cosReach));
-            out.isTwoSided |= item.isTwoSided, isEverywhere |= item.cosSpread <= -1;
+            out.isTwoSided |= item.isTwoSided != 0, isEverywhere |= item.cosSpread <= -1;
         }
         out.cosReach = least, out.cosSpread = -1;
         const double size = length(axis);
@@ -172,12 +159,13 @@ private:
         axis = axis * (1 / size), out.axis = toFloat(axis);
         double cosine = 1; // of the largest angle
         for (const Item& item : items) {
-            double c = min(dot(toDouble(item.axis), axis), 1.0);
+            const Vec3d own = toDouble(item.sum.axis);
+            double c = clamp(dot(own, axis) / length(own), -1.0, 1.0);
             if (item.cosSpread < 1) { // the light's own spread is added
-                const double s = std::sqrt(1 - c * c), own = item.cosSpread;
-                const double ownSine = std::sqrt(max(1 - own * own, 0.0));
+                const double s = std::sqrt(1 - c * c), spread = static_cast<double>(item.cosSpread);
+                const double sine = std::sqrt(max(1 - spread * spread, 0.0));
                 // Beyond a half turn it goes everywhere.
-                c = s * own + c * ownSine < 0 ? -1 : c * own - s * ownSine;
+                c = s * spread + c * sine < 0 ? -1 : c * spread - s * sine;
             }
             cosine = min(cosine, c);
         }
@@ -206,7 +194,8 @@ private:
         const std::size_t half = items.size() / 2;
         if (items.size() == 2) return 1;
         Bounds middles;
-        for (const Item& item : items) middles.extend(item.middle);
+        for (const Item& item : items)
+            middles.extend(Vec3{item.middle(0), item.middle(1), item.middle(2)});
         const Vec3 size = middles.size();
         const int longest = middles.longestAxis();
         const auto l = static_cast<std::size_t>(longest);
@@ -215,14 +204,17 @@ private:
 
         float least = kInfinityF;
         std::size_t bestAxis = l, bestBucket = kBuckets;
-        std::array<std::array<Sum, kBuckets>, 3> buckets{};
-        std::array<float, 3> scale{};
-        for (std::size_t axis = 0; axis < 3; ++axis)
-            scale[axis] = size[axis] > 0 ? static_cast<float>(kBuckets) / size[axis] : 0;
+        const std::size_t count = std::min(kBuckets, items.size()); // few items need few buckets
+        std::array<Sum, kBuckets> buckets[3];
+        Buckets by[3];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            by[axis] = {middles.lo[axis],
+                        size[axis] > 0 ? static_cast<float>(count) / size[axis] : 0, count};
+            std::fill_n(buckets[axis].begin(), count, Sum{});
+        }
         for (const Item& item : items)
             for (std::size_t axis = 0; axis < 3; ++axis)
-                buckets[axis][bucketOf(item.middle[axis], middles.lo[axis], scale[axis])].add(
-                    item.sum);
+                buckets[axis][by[axis].of(item.middle(axis))].add(item.sum);
         const Vec3 whole = bounds.box.size();
         const float longestSide = max(max(whole.x, whole.y), whole.z);
         for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -230,7 +222,7 @@ private:
             std::array<double, kBuckets> below{}, above{};
             std::array<bool, kBuckets> isBorder{};
             Sum sum;
-            for (std::size_t i = 0; i + 1 < kBuckets; ++i) {
+            for (std::size_t i = 0; i + 1 < count; ++i) {
                 // A border behind an empty bucket is the one before it.
                 isBorder[i] = buckets[axis][i].count > 0;
                 if (!isBorder[i]) continue;
@@ -239,12 +231,12 @@ private:
                 if (isBorder[i]) below[i] = sum.cost();
             }
             sum = {};
-            for (std::size_t i = kBuckets - 1; i > 0; --i) {
+            for (std::size_t i = count - 1; i > 0; --i) {
                 if (buckets[axis][i].count > 0) sum.add(buckets[axis][i]);
                 if (isBorder[i - 1]) above[i - 1] = sum.cost();
             }
             const float stretch = longestSide / whole[axis];
-            for (std::size_t i = 0; i + 1 < kBuckets; ++i) {
+            for (std::size_t i = 0; i + 1 < count; ++i) {
                 if (!isBorder[i]) continue;
                 const auto cost = static_cast<float>((below[i] + above[i]) *
                                                      static_cast<double>(stretch));
@@ -253,17 +245,20 @@ private:
         }
         if (bestBucket == kBuckets) return byMiddle(items, l, half);
         return divided(items, [&](const Item& item) {
-            return bucketOf(item.middle[bestAxis], middles.lo[bestAxis], scale[bestAxis]) <=
-                   bestBucket;
+            return by[bestAxis].of(item.middle(bestAxis)) <= bestBucket;
         });
     }
-    static std::size_t bucketOf(float x, float lo, float scale) {
-        return std::min(static_cast<std::size_t>((x - lo) * scale), kBuckets - 1);
-    }
+    struct Buckets {
+        float lo = 0, perLength = 0;
+        std::size_t count = 0;
+        std::size_t of(float x) const {
+            return std::min(static_cast<std::size_t>((x - lo) * perLength), count - 1);
+        }
+    };
     // As many in each part; the order of equal ones is that of their numbers.
     static std::size_t byMiddle(std::span<Item> items, std::size_t axis, std::size_t half) {
         std::sort(items.begin(), items.end(), [&](const Item& a, const Item& b) {
-            const float x = a.middle[axis], y = b.middle[axis];
+            const float x = a.middle(axis), y = b.middle(axis);
             return x < y || (x == y && a.light < b.light);
         });
         return half;
