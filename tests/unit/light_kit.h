@@ -3,6 +3,7 @@
 
 #include "light/light_row.h"
 #include "light/lights.h"
+#include "sample/warp.h"
 #include "verify/meshes.h"
 
 #include <string>

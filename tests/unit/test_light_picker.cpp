@@ -1,0 +1,254 @@
+// The choice of one light of many: probabilities that sum up to 1, picks that follow them, and trees
+// that do not depend on the scale of the scene.
+#include "check.h"
+#include "light/tree/light_picker.h"
+#include "light/tree/pick_lanes.h"
+#include "unit/light_kit.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
+namespace test_light_picker {
+
+using namespace light_kit;
+using meshes::Random;
+
+namespace {
+
+// Lamps of all kinds, some in a heap, some far away, a few dark; and maybe suns and a sky.
+std::vector<LightRow> someLights(Random& random, std::size_t count, bool hasDistant) {
+    std::vector<LightRow> out;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 centre = toFloat(random.inBox(random.chance(0.2) ? 5 : 0.5));
+        const auto size = static_cast<float>(random.logUniform(1e-3, 0.5));
+        const float bright = static_cast<float>(random.logUniform(1e-3, 1e3));
+        switch (random.below(8)) {
+        case 0: {
+            PointRow row = point(centre, random.chance(0.5) ? 0 : size);
+            row.intensity *= Rgb{bright, bright, bright};
+            out.push_back(lightRow(row));
+            break;
+        }
+        case 1: {
+            SpotRow row = spot(random, centre, random.chance(0.5) ? 0 : size);
+            row.cosHalfAngle = static_cast<float>(random.uniform(-0.2, 0.99));
+            out.push_back(lightRow(row));
+            break;
+        }
+        case 2: out.push_back(lightRow(flat<RectangleRow>(random, centre, size))); break;
+        case 3: {
+            auto row = flat<DiskRow>(random, centre, size);
+            setSpread(row, random.uniform(0.2, 1.5));
+            out.push_back(lightRow(row));
+            break;
+        }
+        case 4: out.push_back(lightRow(sphere(centre, random.chance(0.1) ? 0 : size))); break;
+        case 5:
+            if (hasDistant) {
+                out.push_back(lightRow(sun(random, random.logUniform(1e-3, 1))));
+                break;
+            }
+            [[fallthrough]];
+        default: {
+            TriangleRow row = triangle(random, centre, size);
+            row.radiance = Rgb{bright, bright, bright}, row.isTwoSided = random.chance(0.5) ? 1 : 0;
+            out.push_back(lightRow(row));
+        }
+        }
+    }
+    return out;
+}
+
+std::vector<LightBounds> boundsOf(const std::vector<LightRow>& rows) {
+    std::vector<LightBounds> out;
+    for (const LightRow& row : rows) out.push_back(::boundsOf(row));
+    return out;
+}
+
+struct OneChoice {
+    explicit OneChoice(const LightPicker& picker) : choice(picker.view()) {}
+    struct Picked {
+        std::uint32_t light;
+        float probability;
+        double u;
+    };
+    Picked pick(Vec3 p, Vec3 n, std::uint32_t bits) const {
+        const auto out = choice.pick(lane(p), lane(n), kernels::one::unitDoubles(bits));
+        return {out.light.v, out.probability.v, out.u.v};
+    }
+    float probability(Vec3 p, Vec3 n, std::size_t light) const {
+        return choice.probability(lane(p), lane(n), static_cast<std::uint32_t>(light)).v;
+    }
+    kernels::one::LightChoice choice;
+};
+
+std::uint32_t bits32(Random& random) { return static_cast<std::uint32_t>(random.unit() * 0x1p32); }
+
+} // namespace
+
+// Floats are rounded to 2^-24 of each, the sum of all is off by less.
+TEST(light_picker_probabilities_sum_up_to_one) {
+    constexpr std::uint64_t kSeed = 5120;
+    Random random(kSeed);
+    for (const std::size_t count : {1, 2, 3, 5, 16, 17, 40, 200}) {
+        const auto rows = someLights(random, count, count != 2);
+        const auto bounds = boundsOf(rows);
+        const LightPicker picker(bounds);
+        const OneChoice choice(picker);
+        const bool isDark = std::all_of(bounds.begin(), bounds.end(),
+                                        [](const LightBounds& b) { return b.isDark(); });
+        const int points = count == 200 ? 3000 : 1500;
+        for (int i = 0; i < points; ++i) {
+            const Vec3 p = toFloat(random.inBox(random.chance(0.3) ? 10 : 1));
+            const Vec3 n = random.chance(0.1) ? Vec3{} : unitVector(random);
+            double sum = 0;
+            for (std::size_t k = 0; k < rows.size(); ++k) {
+                const auto probability = static_cast<double>(choice.probability(p, n, k));
+                sum += probability;
+                CHECK_INFO(bounds[k].isDark() ? probability == 0 : probability > 0,
+                           "light " << k << " of " << count << " has " << probability);
+            }
+            CHECK_INFO(std::fabs(sum - (isDark ? 0 : 1)) < 1e-5,
+                       "seed " << kSeed << " of " << count << " lights: " << sum);
+            const auto picked = choice.pick(p, n, bits32(random));
+            if (isDark) {
+                CHECK(picked.probability == 0);
+                continue;
+            }
+            CHECK_INFO(picked.probability == choice.probability(p, n, picked.light),
+                       picked.probability << " for light " << picked.light);
+            CHECK(picked.u >= 0 && picked.u < 1);
+        }
+    }
+}
+
+// A light that contributes is found by its importance too, not by power alone: of what a light sends
+// to a point, the choice among all gives no wild weight to any.
+TEST(light_picker_weights_are_bounded) {
+    constexpr std::uint64_t kSeed = 5121;
+    Random random(kSeed);
+    double worst = 0;
+    for (int round = 0; round < 20; ++round) {
+        const auto rows = someLights(random, 60, round % 2 == 0);
+        const LightPicker picker(boundsOf(rows));
+        const OneChoice choice(picker);
+        for (int i = 0; i < 100; ++i) {
+            const Vec3 p = toFloat(random.inBox(2)), n = unitVector(random);
+            double sum = 0, most = 0;
+            for (std::size_t k = 0; k < rows.size(); ++k) {
+                double light = 0;
+                kernels::one::forLight(rows[k].kind, [&]<class L>() {
+                    const L lamp(kernels::one::LightNumbers{rows[k].numbers.data(), 1});
+                    for (int s = 0; s < 4; ++s) {
+                        const Sample at = plain(lamp.sample(lane(p), (float(s % 2) + 0.5f) / 2,
+                                                            (float(s / 2) + 0.5f) / 2));
+                        light += static_cast<double>(at.irradiance.g) *
+                                 static_cast<double>(max(dot(at.toLight, n), 0.0f)) / 4;
+                    }
+                });
+                if (!(light > 0)) continue;
+                sum += light;
+                most = max(most, light / static_cast<double>(choice.probability(p, n, k)));
+            }
+            if (sum > 0) worst = max(worst, most / sum);
+        }
+    }
+    // One chosen by power alone, a tenth of the time, may be far stronger than its part of the power.
+    CHECK_INFO(worst < 400, "seed " << kSeed << ": a light has " << worst << " times its part");
+}
+
+// Picks are counted against probabilities; and what is left of the random number is even.
+TEST(light_picker_picks_follow_their_probabilities) {
+    constexpr std::uint64_t kSeed = 5122;
+    Random random(kSeed);
+    for (int round = 0; round < 12; ++round) {
+        const auto rows = someLights(random, round < 6 ? 12 : 60, round % 3 != 0);
+        const LightPicker picker(boundsOf(rows));
+        const OneChoice choice(picker);
+        const Vec3 p = toFloat(random.inBox(2)), n = unitVector(random);
+        constexpr int kPicks = 40000;
+        std::vector<double> found(rows.size());
+        double low = 0;
+        for (int i = 0; i < kPicks; ++i) {
+            const auto picked = choice.pick(p, n, bits32(random));
+            ++found[picked.light], low += picked.u < 0.5 ? 1 : 0;
+        }
+        double squares = 0, rest = 0, restFound = 0;
+        int cells = 0;
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            const double expected = kPicks * static_cast<double>(choice.probability(p, n, k));
+            if (expected < 8) {
+                rest += expected, restFound += found[k];
+                continue;
+            }
+            squares += sqr(found[k] - expected) / expected, ++cells;
+        }
+        if (rest > 2) squares += sqr(restFound - rest) / rest, ++cells;
+        const double k = max(cells - 1, 1);
+        CHECK_INFO(squares < k + 5 * std::sqrt(2 * k) + 10,
+                   "seed " << kSeed << " round " << round << ": " << squares << " of " << cells);
+        CHECK_INFO(std::fabs(low / kPicks - 0.5) < 5 * 0.5 / std::sqrt(double{kPicks}), low);
+    }
+}
+
+// Times a power of two everything is the same to the last bit.
+TEST(light_picker_does_not_know_the_scale) {
+    constexpr std::uint64_t kSeed = 5123;
+    for (const float scale : {0x1p-9f, 0x1p12f}) {
+        Random random(kSeed);
+        std::vector<LightRow> rows, scaled;
+        for (int i = 0; i < 100; ++i) {
+            const Vec3 centre = toFloat(random.inBox(1));
+            if (i % 3 == 0) {
+                PointRow row = point(centre, 0.01f);
+                rows.push_back(lightRow(row));
+                row.position = row.position * scale, row.radius *= scale;
+                row.intensity = row.intensity * (scale * scale);
+                scaled.push_back(lightRow(row));
+            } else if (i % 20 == 1) {
+                rows.push_back(lightRow(sun(random, 0.1))), scaled.push_back(rows.back());
+            } else {
+                TriangleRow row = triangle(random, centre, 0.2f);
+                rows.push_back(lightRow(row));
+                row.a = row.a * scale, row.b = row.b * scale, row.c = row.c * scale;
+                scaled.push_back(lightRow(row));
+            }
+        }
+        const LightPicker one(boundsOf(rows)), other(boundsOf(scaled));
+        for (int i = 0; i < 2000; ++i) {
+            const Vec3 p = toFloat(random.inBox(2)), n = unitVector(random);
+            const std::uint32_t u = bits32(random);
+            const auto a = OneChoice(one).pick(p, n, u), b = OneChoice(other).pick(p * scale, n, u);
+            CHECK_INFO(a.light == b.light && a.probability == b.probability && a.u == b.u,
+                       "scale " << scale << ": " << a.light << ' ' << a.probability << ", "
+                                << b.light << ' ' << b.probability);
+        }
+    }
+}
+
+// Many lights in one place, all on a line, and none: trees end, and are not too deep for a trail.
+TEST(light_picker_of_degenerate_lights) {
+    CHECK(OneChoice(LightPicker()).pick({}, {0, 0, 1}, 5).probability == 0);
+    Random random(5124);
+    for (const bool isLine : {false, true}) {
+        std::vector<LightRow> rows;
+        double at = 1;
+        for (int i = 0; i < 3000; ++i) {
+            const float x = isLine ? static_cast<float>(at) : 0.0f;
+            at *= 0.98; // most are crowded at one end
+            rows.push_back(lightRow(point({x, 0, 0}, 0)));
+        }
+        const LightPicker picker(boundsOf(rows));
+        CHECK_INFO(picker.depth() <= 32, picker.depth());
+        for (int i = 0; i < 20; ++i) {
+            double sum = 0;
+            const Vec3 p = i == 0 ? Vec3{} : toFloat(random.inBox(1)), n = unitVector(random);
+            for (std::size_t k = 0; k < rows.size(); ++k)
+                sum += static_cast<double>(OneChoice(picker).probability(p, n, k));
+            CHECK_NEAR(sum, 1, 1e-5);
+        }
+    }
+}
+
+} // namespace test_light_picker
