@@ -8,7 +8,7 @@
 namespace energy {
 
 // Rows by angle (Ggx::tablePlace()), columns by roughness from 0 to 1.
-inline constexpr int kPlaces = 32, kRoughs = 32;
+inline constexpr int kPlaces = 24, kRoughs = 24;
 struct FacetTables {
     std::uint32_t all[kPlaces * kRoughs];  // of facets that reflect everything
     std::uint32_t rise[kPlaces * kRoughs]; // that reflect schlickPart()
@@ -19,7 +19,7 @@ const FacetTables& facetTables(); // 4 ms at the first call
 
 // The same for dielectric boundaries, a slice for each of some etas: eta < 1 first, then > 1. Slice
 // k of a side has |1 - eta| / (1 + eta) = (k / (kSlices - 1))^2.
-inline constexpr int kSlices = 32, kSlicePlaces = 16, kSliceRoughs = 16, kCosines = 12;
+inline constexpr int kSlices = 32, kSlicePlaces = 16, kSliceRoughs = 16, kCosines = 16;
 // The words of a slice: what is reflected and transmitted; from kReflected on the mean reflectance
 // of the facets that reflect, rows by the square root of the cosine; at kMean Fresnel's part over
 // the hemisphere, weighted by the cosine.
