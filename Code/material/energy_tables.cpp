@@ -125,46 +125,41 @@ void makeFacets(FacetTables& tables) {
     }
 }
 
-void makeSlice(std::uint32_t* slice, int k) {
-    const double w = min(sqr(static_cast<double>(k % kSlices) / (kSlices - 1)), 0.98);
-    const double eta = k < kSlices ? (1 - w) / (1 + w) : (1 + w) / (1 - w);
-    const Lattice<233, 144> fine;
-    for (int row = 0; row < kSlicePlaces; ++row)
-        for (int column = 0; column < kSliceRoughs; ++column) {
-            const double alpha = alphaOf(column, kSliceRoughs);
-            const Facets facets(cosineAt(row, kSlicePlaces, alpha), alpha);
-            double sum = 0;
-            for (const auto& point : fine.points) {
-                const auto facet = facets.facet(point);
-                const Fresnel f(facet.cosIn, eta);
-                sum += f.part * facets.reflectedLeaves(facet);
-                if (f.part < 1) sum += (1 - f.part) * facets.refractedLeaves(facet, f.cosOut, eta);
-            }
-            slice[row * kSliceRoughs + column] =
-                stored(min(sum / static_cast<double>(fine.points.size()) * kSliceMargin, 1.0));
+double etaOf(int slice) {
+    const double w = min(sqr(static_cast<double>(slice % kSlices) / (kSlices - 1)), 0.98);
+    return slice < kSlices ? (1 - w) / (1 + w) : (1 + w) / (1 - w);
+}
+
+void makeColumn(std::uint32_t* words, double eta, double alpha) {
+    static const Lattice<610, 377> fine;
+    for (int place = 0; place < kSlicePlaces; ++place) {
+        const Facets facets(cosineAt(place, kSlicePlaces, alpha), alpha);
+        double sum = 0;
+        for (const auto& point : fine.points) {
+            const auto facet = facets.facet(point);
+            const Fresnel f(facet.cosIn, eta);
+            sum += f.part * facets.reflectedLeaves(facet);
+            if (f.part < 1) sum += (1 - f.part) * facets.refractedLeaves(facet, f.cosOut, eta);
         }
-    const Lattice<144, 89> coarse;
-    for (int row = 0; row < kCosines; ++row)
-        for (int column = 0; column < kSliceRoughs; ++column) {
-            const double c = sqr(static_cast<double>(row) / (kCosines - 1));
-            const Facets facets(c, alphaOf(column, kSliceRoughs));
-            double all = 0, reflected = 0;
-            for (const auto& point : coarse.points) {
-                const auto facet = facets.facet(point);
-                const double part = facets.reflectedLeaves(facet);
-                all += part, reflected += part * Fresnel(facet.cosIn, eta).part;
-            }
-            slice[kReflected + row * kSliceRoughs + column] = stored(reflected / all);
+        const double mean = sum / static_cast<double>(fine.points.size());
+        words[place] = stored(min(mean * kSliceMargin, 1.0));
+    }
+    static const Lattice<233, 144> coarse;
+    for (int row = 0; row < kCosines; ++row) {
+        const Facets facets(sqr(static_cast<double>(row) / (kCosines - 1)), alpha);
+        double all = 0, reflected = 0;
+        for (const auto& point : coarse.points) {
+            const auto facet = facets.facet(point);
+            const double part = facets.reflectedLeaves(facet);
+            all += part, reflected += part * Fresnel(facet.cosIn, eta).part;
         }
-    double mean = 0;
-    constexpr int kSteps = 256;
-    for (int i = 0; i < kSteps; ++i) mean += Fresnel(std::sqrt((i + 0.5) / kSteps), eta).part;
-    slice[kMean] = stored(mean / kSteps);
+        words[kReflected + row] = stored(reflected / all);
+    }
 }
 
 std::uint32_t words[2 * kSlices * kSliceWords];
-std::array<std::atomic<bool>, std::size_t{2} * kSlices> sliceIsMade;
-std::mutex sliceMutex;
+std::array<std::atomic<bool>, std::size_t{2} * kSlices * kSliceRoughs> columnIsMade;
+std::mutex columnMutex;
 
 } // namespace
 
@@ -179,13 +174,30 @@ const FacetTables& facetTables() {
 
 const std::uint32_t* slices() { return words; }
 
-void needSlice(int k) {
-    std::atomic<bool>& isMade = sliceIsMade[static_cast<std::size_t>(k)];
+void needColumn(int slice, int column) {
+    const int number = slice * kSliceRoughs + column;
+    std::atomic<bool>& isMade = columnIsMade[static_cast<std::size_t>(number)];
     if (isMade.load(std::memory_order_acquire)) return;
-    const std::lock_guard lock(sliceMutex);
+    const std::lock_guard lock(columnMutex);
     if (isMade.load(std::memory_order_relaxed)) return;
-    makeSlice(words + std::ptrdiff_t{kSliceWords} * k, k);
+    makeColumn(words + std::ptrdiff_t{kColumnWords} * number, etaOf(slice),
+               alphaOf(column, kSliceRoughs));
     isMade.store(true, std::memory_order_release);
+}
+
+const std::uint32_t* sliceMeans() {
+    static const auto means = [] {
+        constexpr int kSteps = 256;
+        std::array<std::uint32_t, std::size_t{2} * kSlices> made{};
+        for (int slice = 0; slice < 2 * kSlices; ++slice) {
+            double sum = 0; // over the squares of cosines
+            for (int i = 0; i < kSteps; ++i)
+                sum += Fresnel(std::sqrt((i + 0.5) / kSteps), etaOf(slice)).part;
+            made[static_cast<std::size_t>(slice)] = stored(sum / kSteps);
+        }
+        return made;
+    }();
+    return means.data();
 }
 
 } // namespace energy

@@ -156,7 +156,8 @@ private:
         for (const Peak& p : peaks_) {
             // how far z and phi go within a width of the peak
             const double sine = std::sqrt(std::max(1 - p.z * p.z, 0.0));
-            const double dz = p.width * (sine + p.width), dphi = p.width / (sine + p.width);
+            const double dz = p.width * (sine + p.width);
+            const double dphi = sine > 2 * p.width ? p.width / (sine - p.width) : 2 * kPi;
             if (z0 < p.z + dz && z1 > p.z - dz && phi0 < p.phi + dphi && phi1 > p.phi - dphi)
                 is.z |= z1 - z0 > 2 * dz, is.phi |= phi1 - phi0 > 2 * dphi;
         }
