@@ -36,9 +36,8 @@ inline Floats lookedUp(const std::uint32_t* table, Floats from, const TableNode&
 // The energy of facets seen from one direction; what rough facets need of the tables.
 struct FacetEnergy {
     TableNode place, rough;
-    FacetEnergy(const Ggx& facets, const Floats3& toEye)
-        : place(facets.tablePlace(toEye), energy::kPlaces),
-          rough(sqrt(sqrt(facets.x * facets.y)), energy::kRoughs) {}
+    FacetEnergy(const Ggx& facets, const Floats3& toEye, Floats roughness)
+        : place(facets.tablePlace(toEye), energy::kPlaces), rough(roughness, energy::kRoughs) {}
 
     Floats all() const { return of(energy::facetTables().all); }
     Floats rise() const { return of(energy::facetTables().rise); }
@@ -84,7 +83,7 @@ struct BoundarySlices {
 class BoundaryEnergy {
 public:
     BoundaryEnergy(const Ggx& facets, Floats eta)
-        : slices_(eta), rough_(sqrt(sqrt(facets.x * facets.y)), energy::kSliceRoughs) {
+        : slices_(eta), rough_(facets.lossyRoughness(), energy::kSliceRoughs) {
         alignas(64) float slice[W], column[W];
         slices_.first.store(slice), rough_.first.store(column);
         for (int i = 0; i < W; ++i) {

@@ -5,6 +5,7 @@
 #include "material/lobe_types.h"
 #include "material/lobes.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -147,19 +148,21 @@ private:
                        f_(z0 + (z1 - z0) * at[i], phi0 + (phi1 - phi0) * at[j]);
         return sum * (z1 - z0) * (phi1 - phi0);
     }
-    // Is it much larger, along z or along phi, than a peak in it or near?
+    // Is it much larger, along z or along phi, than a peak in it, or than its distance from one?
     struct Coarse {
         bool z = false, phi = false;
     };
     Coarse coarse(double z0, double z1, double phi0, double phi1) const {
         Coarse is;
         for (const Peak& p : peaks_) {
-            // how far z and phi go within a width of the peak
+            // How far z and phi go within a width of the peak, which is flat near the horizon.
             const double sine = std::sqrt(std::max(1 - p.z * p.z, 0.0));
             const double dz = p.width * (sine + p.width);
-            const double dphi = sine > 2 * p.width ? p.width / (sine - p.width) : 2 * kPi;
-            if (z0 < p.z + dz && z1 > p.z - dz && phi0 < p.phi + dphi && phi1 > p.phi - dphi)
-                is.z |= z1 - z0 > 2 * dz, is.phi |= phi1 - phi0 > 2 * dphi;
+            const double dphi =
+                sine > 2 * p.width ? 2 * p.width * (std::fabs(p.z) + p.width) / sine : 2 * kPi;
+            const double widths = std::max({1.0, (z0 - p.z) / dz, (p.z - z1) / dz,
+                                            (phi0 - p.phi) / dphi, (p.phi - phi1) / dphi});
+            is.z |= z1 - z0 > 4 * dz * widths, is.phi |= phi1 - phi0 > 4 * dphi * widths;
         }
         return is;
     }
@@ -185,11 +188,19 @@ private:
     const std::vector<Peak>& peaks_;
 };
 
-// The integral over all directions, of f that is the same on both sides of the eye's plane, phi = 0.
-template <class F>
-double overSphere(const F& f, double tolerance, const std::vector<Peak>& peaks) {
+// The integral over all directions, of f that is the same on both sides of the eye's plane, phi =
+// 0.
+template <class F> double overSphere(const F& f, double tolerance, const std::vector<Peak>& peaks) {
     const Integral integral(f, tolerance, peaks);
-    return 2 * (integral.over(-1, 0, 0, kPi) + integral.over(0, 1, 0, kPi));
+    // Parts near the horizon, in which narrow strips of light would otherwise be overlooked.
+    constexpr double heights[] = {-1, -0.3, -0.06, -0.01, 0, 0.01, 0.06, 0.3, 1};
+    constexpr int kTurns = 4;
+    double sum = 0;
+    for (std::size_t i = 0; i + 1 < std::size(heights); ++i)
+        for (int turn = 0; turn < kTurns; ++turn)
+            sum += integral.over(heights[i], heights[i + 1], turn * kPi / kTurns,
+                                 (turn + 1) * kPi / kTurns);
+    return 2 * sum;
 }
 
 } // namespace

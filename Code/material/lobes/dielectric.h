@@ -30,8 +30,8 @@ struct Dielectric {
         Floats part = boundaryAt(toEye.z, eta_).reflected;
         if (!isSmooth()) {
             const BoundaryEnergy energy(facets_, eta_);
-            const Floats reflected = FacetEnergy(facets_, toEye).all() * energy.reflected(toEye.z) /
-                                     energy.all(facets_, toEye);
+            const Floats reflected = FacetEnergy(facets_, toEye, facets_.lossyRoughness()).all() *
+                                     energy.reflected(toEye.z) / energy.all(facets_, toEye);
             part = select(facets_.smooth, part, min(reflected, one));
         }
         return reflects_ * part + transmits_ * (one - part);
