@@ -36,9 +36,8 @@ inline Floats lookedUp(const std::uint32_t* table, Floats from, const TableNode&
 // The energy of facets seen from one direction; what rough facets need of the tables.
 struct FacetEnergy {
     TableNode place, rough;
-    FacetEnergy(const Ggx& facets, const Floats3& toEye)
-        : place(facets.tablePlace(toEye), energy::kPlaces),
-          rough(sqrt(sqrt(facets.x * facets.y)), energy::kRoughs) {}
+    FacetEnergy(const Ggx& facets, const Floats3& toEye, Floats roughness)
+        : place(facets.tablePlace(toEye), energy::kPlaces), rough(roughness, energy::kRoughs) {}
 
     Floats all() const { return of(energy::facetTables().all); }
     Floats rise() const { return of(energy::facetTables().rise); }
@@ -64,54 +63,58 @@ private:
     }
 };
 
-// Dielectric boundaries with this eta.
+// Dielectric boundaries with this eta, between the slices of its table.
+struct BoundarySlices {
+    Floats first, part;
+    explicit BoundarySlices(Floats eta) {
+        const Floats one(1.0f), w = (one - eta) / (one + eta), zero(0.0f);
+        const TableNode node(sqrt(abs(w)), energy::kSlices);
+        const Floats side(static_cast<float>(energy::kSlices));
+        first = node.first + select(w < zero, side, zero), part = node.part;
+    }
+    // Fresnel's part over the hemisphere, weighted by the cosine.
+    Floats mean() const {
+        const std::uint32_t* const table = energy::sliceMeans();
+        const Ints at = wholeOf(Doubles(first));
+        return between(wordsAt(table, at, 0), wordsAt(table, at, 1), part);
+    }
+};
+// Facets that are such boundaries.
 class BoundaryEnergy {
 public:
-    explicit BoundaryEnergy(Floats eta) {
-        const Floats one(1.0f), w = (one - eta) / (one + eta);
-        const TableNode node(sqrt(abs(w)), energy::kSlices);
-        const Floats first =
-            node.first +
-            select(w < Floats(0.0f), Floats(static_cast<float>(energy::kSlices)), Floats(0.0f));
-        part_ = node.part;
-        from_ = first * Floats(static_cast<float>(energy::kSliceWords));
-        alignas(64) float numbers[W];
-        first.store(numbers);
-        for (const float number : numbers) {
-            energy::needSlice(static_cast<int>(number));
-            energy::needSlice(static_cast<int>(number) + 1);
+    BoundaryEnergy(const Ggx& facets, Floats eta)
+        : slices_(eta), rough_(facets.lossyRoughness(), energy::kSliceRoughs) {
+        alignas(64) float slice[W], column[W];
+        slices_.first.store(slice), rough_.first.store(column);
+        for (int i = 0; i < W; ++i) {
+            if (i > 0 && slice[i] == slice[i - 1] && column[i] == column[i - 1]) continue;
+            for (int k = 0; k < 4; ++k)
+                energy::needColumn(static_cast<int>(slice[i]) + (k & 1),
+                                   static_cast<int>(column[i]) + (k >> 1));
         }
     }
 
-    // What facets reflect and transmit, seen from a direction.
+    // What they reflect and transmit, seen from a direction.
     Floats all(const Ggx& facets, const Floats3& toEye) const {
-        return of(0, TableNode(facets.tablePlace(toEye), energy::kSlicePlaces), roughOf(facets));
+        return of(0, TableNode(facets.tablePlace(toEye), energy::kSlicePlaces));
     }
-    // The mean reflectance of facets that reflect.
-    Floats reflected(const Ggx& facets, Floats cosEye) const {
-        return of(energy::kReflected, TableNode(sqrt(max(cosEye, Floats(0.0f))), energy::kCosines),
-                  roughOf(facets));
-    }
-    // Fresnel's part over the hemisphere.
-    Floats mean() const {
-        const Ints at = wholeOf(Doubles(from_));
-        return between(wordsAt(energy::slices(), at, energy::kMean),
-                       wordsAt(energy::slices(), at, energy::kMean + energy::kSliceWords), part_);
+    // The mean reflectance of those that reflect.
+    Floats reflected(Floats cosEye) const {
+        return of(energy::kReflected, TableNode(sqrt(max(cosEye, Floats(0.0f))), energy::kCosines));
     }
 
 private:
-    static TableNode roughOf(const Ggx& facets) {
-        return TableNode(sqrt(sqrt(facets.x * facets.y)), energy::kSliceRoughs);
-    }
-    Floats of(int word, const TableNode& row, const TableNode& column) const {
-        const auto in = [&](int from) {
-            return lookedUp(energy::slices(), from_ + Floats(static_cast<float>(from)), row, column,
-                            energy::kSliceRoughs);
+    Floats of(int word, const TableNode& place) const {
+        const Floats slice(static_cast<float>(energy::kSliceWords));
+        const Floats from = slices_.first * slice + Floats(static_cast<float>(word));
+        const auto in = [&](Floats at) {
+            return lookedUp(energy::slices(), at, rough_, place, energy::kColumnWords);
         };
-        return between(in(word), in(word + energy::kSliceWords), part_);
+        return between(in(from), in(from + slice), slices_.part);
     }
 
-    Floats from_, part_;
+    BoundarySlices slices_;
+    TableNode rough_;
 };
 
 LANES_END

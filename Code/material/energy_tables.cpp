@@ -16,7 +16,7 @@ namespace {
 constexpr double kLeastAlpha = 1e-3; // as narrow as any, where places are Ggx::tablePlace()
 // The largest fault of linear interpolation: tables say so much more, so that no surface sends on
 // more light than it gets.
-constexpr double kFacetMargin = 1.0017;
+constexpr double kFacetMargin = 1.003, kSliceMargin = 1.004;
 
 // Points in the unit square (a Fibonacci lattice), the second coordinate as an angle up to pi.
 template <int N, int Generator> struct Lattice {
@@ -33,14 +33,17 @@ template <int N, int Generator> struct Lattice {
     }
 };
 
-double cos2Out(double c, double eta) { return (1 - eta) * (1 + eta) + sqr(eta * c); }
-double fresnel(double c, double eta) {
-    if (eta == 1) return 0;
-    const double cos2 = cos2Out(c, eta);
-    if (!(cos2 > 0)) return 1;
-    const double out = std::sqrt(cos2);
-    return 0.5 * (sqr((c - eta * out) / (c + eta * out)) + sqr((eta * c - out) / (eta * c + out)));
-}
+// Fresnel's part of what is reflected, and the cosine on the other side.
+struct Fresnel {
+    double part, cosOut;
+    Fresnel(double c, double eta) : part(1), cosOut(0) {
+        const double cos2 = (1 - eta) * (1 + eta) + sqr(eta * c);
+        if (!(cos2 > 0)) return;
+        cosOut = std::sqrt(cos2);
+        const double a = c + eta * cosOut, b = eta * c + cosOut; // by one division, for speed
+        part = 0.5 * (sqr((c - eta * cosOut) * b) + sqr((eta * c - cosOut) * a)) / sqr(a * b);
+    }
+};
 
 // The eye above isotropic facets, in the plane of x and z.
 class Facets {
@@ -68,9 +71,8 @@ public:
         return z * (z_ + length_) / (z * length_ + z_ * length);
     }
     double reflectedLeaves(const Facet& f) const { return leaves(2 * f.cosIn * f.z - z_); }
-    double refractedLeaves(const Facet& f, double eta) const {
-        const double out = std::sqrt(max(cos2Out(f.cosIn, eta), 0.0));
-        return leaves((out - eta * f.cosIn) * f.z + eta * z_);
+    double refractedLeaves(const Facet& f, double cosOut, double eta) const {
+        return leaves((cosOut - eta * f.cosIn) * f.z + eta * z_);
     }
 
 private:
@@ -123,46 +125,41 @@ void makeFacets(FacetTables& tables) {
     }
 }
 
-void makeSlice(std::uint32_t* slice, int k) {
-    const double w = min(sqr(static_cast<double>(k % kSlices) / (kSlices - 1)), 0.98);
-    const double eta = k < kSlices ? (1 - w) / (1 + w) : (1 + w) / (1 - w);
-    const Lattice<377, 233> fine;
-    for (int row = 0; row < kSlicePlaces; ++row)
-        for (int column = 0; column < kSliceRoughs; ++column) {
-            const double alpha = alphaOf(column, kSliceRoughs);
-            const Facets facets(cosineAt(row, kSlicePlaces, alpha), alpha);
-            double sum = 0;
-            for (const auto& point : fine.points) {
-                const auto facet = facets.facet(point);
-                const double f = fresnel(facet.cosIn, eta);
-                if (f > 0) sum += f * facets.reflectedLeaves(facet);
-                if (f < 1) sum += (1 - f) * facets.refractedLeaves(facet, eta);
-            }
-            slice[row * kSliceRoughs + column] =
-                stored(min(sum / static_cast<double>(fine.points.size()), 1.0));
+double etaOf(int slice) {
+    const double w = min(sqr(static_cast<double>(slice % kSlices) / (kSlices - 1)), 0.98);
+    return slice < kSlices ? (1 - w) / (1 + w) : (1 + w) / (1 - w);
+}
+
+void makeColumn(std::uint32_t* words, double eta, double alpha) {
+    static const Lattice<610, 377> fine;
+    for (int place = 0; place < kSlicePlaces; ++place) {
+        const Facets facets(cosineAt(place, kSlicePlaces, alpha), alpha);
+        double sum = 0;
+        for (const auto& point : fine.points) {
+            const auto facet = facets.facet(point);
+            const Fresnel f(facet.cosIn, eta);
+            sum += f.part * facets.reflectedLeaves(facet);
+            if (f.part < 1) sum += (1 - f.part) * facets.refractedLeaves(facet, f.cosOut, eta);
         }
-    const Lattice<144, 89> coarse;
-    for (int row = 0; row < kCosines; ++row)
-        for (int column = 0; column < kSliceRoughs; ++column) {
-            const double c = sqr(static_cast<double>(row) / (kCosines - 1));
-            const Facets facets(c, alphaOf(column, kSliceRoughs));
-            double all = 0, reflected = 0;
-            for (const auto& point : coarse.points) {
-                const auto facet = facets.facet(point);
-                const double part = facets.reflectedLeaves(facet);
-                all += part, reflected += part * fresnel(facet.cosIn, eta);
-            }
-            slice[kReflected + row * kSliceRoughs + column] = stored(reflected / all);
+        const double mean = sum / static_cast<double>(fine.points.size());
+        words[place] = stored(min(mean * kSliceMargin, 1.0));
+    }
+    static const Lattice<233, 144> coarse;
+    for (int row = 0; row < kCosines; ++row) {
+        const Facets facets(sqr(static_cast<double>(row) / (kCosines - 1)), alpha);
+        double all = 0, reflected = 0;
+        for (const auto& point : coarse.points) {
+            const auto facet = facets.facet(point);
+            const double part = facets.reflectedLeaves(facet);
+            all += part, reflected += part * Fresnel(facet.cosIn, eta).part;
         }
-    double mean = 0;
-    constexpr int kSteps = 256;
-    for (int i = 0; i < kSteps; ++i) mean += fresnel(std::sqrt((i + 0.5) / kSteps), eta);
-    slice[kMean] = stored(mean / kSteps);
+        words[kReflected + row] = stored(reflected / all);
+    }
 }
 
 std::uint32_t words[2 * kSlices * kSliceWords];
-std::array<std::atomic<bool>, std::size_t{2} * kSlices> sliceIsMade;
-std::mutex sliceMutex;
+std::array<std::atomic<bool>, std::size_t{2} * kSlices * kSliceRoughs> columnIsMade;
+std::mutex columnMutex;
 
 } // namespace
 
@@ -177,13 +174,30 @@ const FacetTables& facetTables() {
 
 const std::uint32_t* slices() { return words; }
 
-void needSlice(int k) {
-    std::atomic<bool>& isMade = sliceIsMade[static_cast<std::size_t>(k)];
+void needColumn(int slice, int column) {
+    const int number = slice * kSliceRoughs + column;
+    std::atomic<bool>& isMade = columnIsMade[static_cast<std::size_t>(number)];
     if (isMade.load(std::memory_order_acquire)) return;
-    const std::lock_guard lock(sliceMutex);
+    const std::lock_guard lock(columnMutex);
     if (isMade.load(std::memory_order_relaxed)) return;
-    makeSlice(words + std::ptrdiff_t{kSliceWords} * k, k);
+    makeColumn(words + std::ptrdiff_t{kColumnWords} * number, etaOf(slice),
+               alphaOf(column, kSliceRoughs));
     isMade.store(true, std::memory_order_release);
+}
+
+const std::uint32_t* sliceMeans() {
+    static const auto means = [] {
+        constexpr int kSteps = 256;
+        std::array<std::uint32_t, std::size_t{2} * kSlices> made{};
+        for (int slice = 0; slice < 2 * kSlices; ++slice) {
+            double sum = 0; // over the squares of cosines
+            for (int i = 0; i < kSteps; ++i)
+                sum += Fresnel(std::sqrt((i + 0.5) / kSteps), etaOf(slice)).part;
+            made[static_cast<std::size_t>(slice)] = stored(sum / kSteps);
+        }
+        return made;
+    }();
+    return means.data();
 }
 
 } // namespace energy

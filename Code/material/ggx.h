@@ -90,6 +90,11 @@ struct Ggx {
         return {select(is, cosIn, one), orNone(pdf), orNone(ratio)};
     }
 
+    // The roughness of facets alike along both axes that Cycles scales metal and layers as, and of
+    // those that lose about as much light as these in one bounce.
+    Floats meanRoughness() const { return sqrt(sqrt(x * y)); }
+    Floats lossyRoughness() const { return sqrt(sqrt((x * x + y * y) * Floats(0.5f))); }
+
     // Where the tables of energy.h have this direction: 0 at the horizon, 1 at the zenith, finer
     // towards both; as a function of this the energy of narrow and of wide facets is smooth.
     Floats tablePlace(const Floats3& toEye) const {

@@ -20,10 +20,10 @@ struct LayerFresnel {
         eta = (one - scaled) / (one + scaled);
     }
     Floats3 at(Floats cosIn) const { return of(Floats(1.0f), boundaryAt(cosIn, eta).reflected); }
-    Floats3 mean() const { return of(Floats(1.0f), BoundaryEnergy(eta).mean()); }
+    Floats3 mean() const { return of(Floats(1.0f), BoundarySlices(eta).mean()); }
     Floats3 all(const FacetEnergy& energy, const Ggx& facets, const Floats3& toEye) const {
         const Floats e = energy.all();
-        return of(e, e * BoundaryEnergy(eta).reflected(facets, toEye.z));
+        return of(e, e * BoundaryEnergy(facets, eta).reflected(toEye.z));
     }
 
 private:

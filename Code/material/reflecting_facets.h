@@ -18,9 +18,8 @@ template <class F> struct ReflectingFacets {
     Floats3 albedo(const Floats3& toEye) const {
         const Floats3 v = facets.inward(toEye), ofMirror = fresnel.at(v.z);
         if (areAll(facets.smooth)) return ofMirror;
-        const FacetEnergy energy(facets, v);
-        const Floats3 rough = fresnel.all(energy, facets, v) * energy.scale(fresnel.mean());
-        return select(facets.smooth, ofMirror, rough);
+        const FacetEnergy once(facets, v, facets.lossyRoughness());
+        return select(facets.smooth, ofMirror, fresnel.all(once, facets, v) * scale(v));
     }
     Floats3 eval(const Floats3& toEye, const Floats3& toLight) const {
         if (areAll(facets.smooth)) return rgbOf(0.0f);
@@ -54,8 +53,10 @@ private:
         return pair;
     }
     Floats3 sent(const Floats3& v, const FacetPair& pair) const {
-        const Floats3 scale = FacetEnergy(facets, v).scale(fresnel.mean());
-        return fresnel.at(pair.cosIn) * scale * pair.ratio;
+        return fresnel.at(pair.cosIn) * scale(v) * pair.ratio;
+    }
+    Floats3 scale(const Floats3& v) const {
+        return FacetEnergy(facets, v, facets.meanRoughness()).scale(fresnel.mean());
     }
 };
 

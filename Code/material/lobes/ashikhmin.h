@@ -13,8 +13,20 @@ struct Ashikhmin {
 
     explicit Ashikhmin(const LobeNumbers& n) : exponent_(n[0]) {}
     Floats3 below(const Floats3& toEye) const { return restOf(albedo(toEye)); }
-    // At normal incidence; near the horizon less.
-    Floats3 albedo(const Floats3&) const { return rgbOf(Floats(1.0f)); }
+    // The integral at normal incidence, which falls to 1/2 at the horizon, as a fit, right to 10 %
+    // from exponent 3 on.
+    Floats3 albedo(const Floats3& toEye) const {
+        const Floats zero(0.0f), half(0.5f), one(1.0f), two(2.0f), z = max(toEye.z, zero);
+        const Floats first = exponent_ + one, third = exponent_ + Floats(3.0f);
+        const Floats q = powOf(half, first * half, (1u << W) - 1); // sqrt(1/2)^(n + 1)
+        const Floats sum = two * first / third * (one - q * half) - (one - q);
+        const Floats sine = sqrt(max((one - z) * (one + z), zero)), tall = z * sqrt(first);
+        // 1 / (1 + 1.6 / x + 1.5 / x^2) with x = tall / sine
+        const Floats fall = tall * tall /
+                            max(tall * tall + sine * (Floats(1.6f) * tall + Floats(1.5f) * sine),
+                                Floats(std::numeric_limits<float>::min()));
+        return rgbOf(half + (sum - half) * fall);
+    }
     Floats3 eval(const Floats3& toEye, const Floats3& toLight) const {
         const Floats zero(0.0f);
         const Floats z = max(toLight.z, zero);

@@ -29,10 +29,9 @@ struct Dielectric {
         const Floats one(1.0f);
         Floats part = boundaryAt(toEye.z, eta_).reflected;
         if (!isSmooth()) {
-            const BoundaryEnergy energy(eta_);
-            const Floats reflected = FacetEnergy(facets_, toEye).all() *
-                                     energy.reflected(facets_, toEye.z) /
-                                     energy.all(facets_, toEye);
+            const BoundaryEnergy energy(facets_, eta_);
+            const Floats reflected = FacetEnergy(facets_, toEye, facets_.lossyRoughness()).all() *
+                                     energy.reflected(toEye.z) / energy.all(facets_, toEye);
             part = select(facets_.smooth, part, min(reflected, one));
         }
         return reflects_ * part + transmits_ * (one - part);
@@ -84,7 +83,7 @@ private:
     bool isSmooth() const { return bits(facets_.smooth) == (1u << W) - 1; }
     static Mask isReflected(const Floats3& toLight) { return toLight.z >= Floats(0.0f); }
     Floats scale(const Floats3& toEye) const {
-        return Floats(1.0f) / BoundaryEnergy(eta_).all(facets_, toEye);
+        return Floats(1.0f) / BoundaryEnergy(facets_, eta_).all(facets_, toEye);
     }
     Floats3 facet(const Floats3& toEye, Floats u, Floats v) const {
         const Floats3 up{Floats(0.0f), Floats(0.0f), Floats(1.0f)};
