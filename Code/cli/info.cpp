@@ -3,6 +3,7 @@
 #include "base/platform/memory.h"
 #include "base/text.h"
 #include "desc/enum_tables.h"
+#include "desc/lobes.h"
 #include "render/texture_files.h"
 
 #include <algorithm>
@@ -142,14 +143,29 @@ std::string cameraText(const CameraDesc& camera) {
 }
 
 std::string pictureText(const SettingsDesc& p) {
-    std::string text = cat(p.width, "x", p.height, " pixels, ",
-                           counted(static_cast<std::size_t>(p.samplesPerPixel), "sample"),
-                           " per pixel (", nameOf(p.sampler), "), ", nameOf(p.filter), " filter ",
-                           number(p.filterWidth), ", depth ", p.maxDepth);
+    std::string text =
+        cat(p.width, "x", p.height, " pixels, ",
+            counted(static_cast<std::size_t>(p.samplesPerPixel), "sample"), " per pixel (",
+            nameOf(p.sampler), "), ", nameOf(p.filter), " filter ", number(p.filterWidth), ", ",
+            nameOf(p.integrator), ", depth ", p.maxDepth);
     if (p.crop)
         text +=
             cat(", crop ", (*p.crop)[0], ",", (*p.crop)[1], ",", (*p.crop)[2], ",", (*p.crop)[3]);
     return text;
+}
+
+std::string materialsText(const std::vector<MaterialDesc>& materials) {
+    std::vector<std::size_t> lobes(lobeForms().size());
+    std::size_t lighting = 0;
+    for (const MaterialDesc& material : materials) {
+        for (const LobeDesc& lobe : material.lobes) ++lobes[lobe.kind];
+        if (material.emissionLights) ++lighting;
+    }
+    std::vector<std::string> parts{std::to_string(materials.size())};
+    for (std::size_t i = 0; i < lobes.size(); ++i)
+        if (lobes[i] > 0) parts.push_back(counted(lobes[i], cat(lobeForms()[i].name, " lobe")));
+    if (lighting > 0) parts.push_back(cat(lighting, " lighting others"));
+    return join(parts);
 }
 
 // One line per texture; adds up the memory that the pictures take.
@@ -196,11 +212,12 @@ std::string infoText(const SourceFile& source, const SceneDesc& desc,
     if (const auto spacing = scene.spacing())
         lines.add("precision", cat(significant(*spacing),
                                    " of a pixel between numbers in the middle of the picture"));
-    lines.add("materials", std::to_string(desc.materials.size()));
+    lines.add("materials", materialsText(desc.materials));
     lines.add("lights", countsPerKind<LightDesc::Kind>(desc.lights));
     for (const LightDesc& light : desc.lights) lines.add("light", lightText(light));
     lines.add("background", cat(triple(desc.world.background), " W/(m2 sr)",
-                                desc.world.environment == kNone ? "" : ", times a picture"));
+                                desc.world.environment == kNone ? "" : ", times a picture",
+                                desc.world.environmentLights ? ", lights surfaces" : ""));
     std::size_t textureBytes = 0, meshBytes = 0;
     lines.add("textures", std::to_string(desc.textures.size()));
     addTextures(lines, source, desc, settings, textureBytes);

@@ -115,6 +115,28 @@ void addQualityFlags(std::vector<Flag>& flags, Options& o) {
                .help = "bounces after the camera ray",
                .set = [&o](const FlagValue& v) { o.maxDepth = wholeLike("max_depth", v); },
                .example = "3"});
+    const auto addDepth = [&](const char* name, const char* keyword,
+                              std::optional<int> Options::*depth, const char* which) {
+        group.add({.name = name, .argument = "N",
+                   .help = cat("the most of them that are ", which, "; path tracing only"),
+                   .set = [&o, keyword, depth](const FlagValue& v) { o.*depth = wholeLike(keyword, v); },
+                   .example = "2"});
+    };
+    addDepth("--diffuse-depth", "diffuse_depth", &Options::diffuseDepth, "diffuse");
+    addDepth("--glossy-depth", "glossy_depth", &Options::glossyDepth, "reflections");
+    addDepth("--transmission-depth", "transmission_depth", &Options::transmissionDepth,
+             "refractions");
+    addDepth("--transparent-depth", "transparent_depth", &Options::transparentDepth,
+             "straight on through what is not opaque");
+    group.add({.name = "--clamp-indirect", .argument = "V",
+               .help = "the most light that a bounce may bring, against bright dots, which makes "
+                       "the picture darker; path tracing only; 0: any",
+               .set = [&o](const FlagValue& v) { o.clampIndirect = numberLike("clamp_indirect", v); },
+               .example = "10"});
+    group.add({.name = "--caustics",
+               .help = "light that reaches what is diffuse by way of mirrors and glass; path "
+                       "tracing only",
+               .set = [&o](const FlagValue& v) { o.caustics = v.on; }, .negatable = true});
     group.add({.name = "--sampler", .argument = alternatives<SettingsDesc::Sampler>(),
                .help = "how samples are spread; corners: one ray through each corner of a pixel, "
                        "shared with its neighbours",
@@ -133,7 +155,7 @@ void addQualityFlags(std::vector<Flag>& flags, Options& o) {
 void addMethodFlags(std::vector<Flag>& flags, Options& o) {
     FlagGroup group(flags, "method");
     group.add({.name = "--integrator", .alias = "-i", .argument = alternatives<IntegratorKind>(),
-               .help = "what a pixel shows (whitted)",
+               .help = "what a pixel shows",
                .set = [&o](const FlagValue& v) { o.integrator = enumValue<IntegratorKind>(v); },
                .choices = namesOf<IntegratorKind>(), .example = "normal"});
     group.add({.name = "--accel", .argument = alternatives<AccelKind>(),

@@ -121,6 +121,13 @@ for words in '24x16 pixels' "'front' perspective 50 mm" '1 sphere, 1 infinite_pl
     check "--info: $words" has out "$words"
 done
 check '--info: nothing on stderr' [ ! -s err ]
+sed -e 's/material red {/&\n    lobe coat covers\n    lobe mirror weight 0.1 0.1 0.1\n    lobe mirror weight 0 0 0.1\n    emission_lights true/' \
+    -e 's/world {/&\n    environment_lights true/' -e 's/settings {/&\n    integrator albedo/' scene.txt > lobes.txt
+run 0 lobes.txt --info
+for words in '1, 2 mirror lobes, 1 coat lobe, 1 lighting others' 'lights surfaces' ', albedo, depth '; do
+    check "--info: $words" has out "$words"
+done
+rm lobes.txt
 run 0 --version
 check '--version' grep -qx 'raytracer [0-9.]*' out
 run 0 --list-features

@@ -82,6 +82,11 @@ done
 check '--integrator: whitted is the default' cmp whitted.pfm a.pfm
 for integrator in ao normal depth albedo id uv; do
     check "--integrator $integrator is another picture" differ $integrator.pfm a.pfm
+    sed "s/settings {/&\n    integrator $integrator/" scene.txt > said.txt
+    run 0 said.txt said.pfm -q
+    check "integrator $integrator of the scene" cmp said.pfm $integrator.pfm
 done
+run 0 said.txt said.pfm -q --integrator whitted
+check '--integrator wins over the scene' cmp said.pfm a.pfm
 
 finish

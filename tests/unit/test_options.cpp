@@ -219,6 +219,31 @@ TEST(settings_command_line_wins_over_scene) {
     CHECK_EQUAL(seenFromTop.cameras[0].name, "top");
 }
 
+TEST(settings_of_light_transport) {
+    SceneDesc desc;
+    desc.settings.integrator = IntegratorKind::Depth;
+    desc.settings.glossyDepth = 7;
+    desc.settings.caustics = false;
+    CHECK(settings(desc, {}).picture == desc.settings);
+    const SettingsDesc p =
+        settings(desc, {"--integrator=whitted", "--diffuse-depth=1", "--transmission-depth=0",
+                        "--transparent-depth=1024", "--clamp-indirect=2.5", "--caustics"})
+            .picture;
+    CHECK(p.integrator == IntegratorKind::Whitted && p.caustics);
+    CHECK_EQUAL(p.diffuseDepth, 1);
+    CHECK_EQUAL(p.glossyDepth, 7);
+    CHECK_EQUAL(p.transmissionDepth, 0);
+    CHECK_EQUAL(p.transparentDepth, 1024);
+    CHECK_EQUAL(p.clampIndirect, 2.5);
+    CHECK_EQUAL(settings(desc, {"--glossy-depth=3"}).picture.glossyDepth, 3);
+    CHECK(!settings({}, {"--no-caustics"}).picture.caustics);
+    CHECK_THROWS(parsed({"--diffuse-depth=1025"}), "expects a whole number from 0 to 1024");
+    CHECK_THROWS(parsed({"--clamp-indirect=-1"}), "expects a number from 0 to");
+    // What --convert writes has them.
+    CHECK(withSettings(desc, settings(desc, {"--integrator=uv"})).settings.integrator ==
+          IntegratorKind::Uv);
+}
+
 TEST(settings_picture_size) {
     SceneDesc desc;
     desc.settings.width = 101, desc.settings.height = 50;

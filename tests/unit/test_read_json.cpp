@@ -199,6 +199,35 @@ TEST(read_json_every_native_property_is_a_key) {
     CHECK_INFO(count > 90, count);
 }
 
+// Scenes stand in the pages between lines ```json and ```.
+TEST(read_json_examples_of_the_page) {
+    const std::string page = contentOf("ASCII/JSON.md"), fence = "\n```json\n";
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = page.find(fence, at)) != std::string::npos; ++count) {
+        at += fence.size();
+        const SourceFile source{"page.json", page.substr(at, page.find("\n```\n", at) - at)};
+        Diagnostics diagnostics;
+        const std::string message = check::thrown([&] {
+            validate(readJson(source, {{}, diagnostics}), source, diagnostics);
+        });
+        CHECK_INFO(message.empty() && diagnostics.warnings.empty(),
+                   message << join(diagnostics.warnings));
+    }
+    CHECK_EQUAL(count, std::size_t{2});
+}
+
+// The page has every key that is a keyword of a native block too.
+TEST(read_json_page_is_complete) {
+    const std::string page = contentOf("ASCII/JSON.md");
+    for (const BlockType type : {BlockType::Settings, BlockType::World, BlockType::Material})
+        for (const Property& row : propertiesOf(type)) {
+            CHECK_INFO(page.find(cat("`", row.keyword, "`")) != std::string::npos, row.keyword);
+            for (const std::string_view name : row.first.names)
+                CHECK_INFO(page.find(cat("\"", name, "\"")) != std::string::npos,
+                           row.keyword << " " << name);
+        }
+}
+
 // The example scenes are sound, and say nothing but what they are meant to show.
 TEST(read_json_examples) {
     std::size_t count = 0;

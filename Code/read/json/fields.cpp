@@ -53,6 +53,10 @@ bool readJsonValue(const JsonValue& value, std::string_view key, JsonProblems& p
 
 bool readJsonValue(const JsonValue& value, std::string_view key, JsonProblems& problems,
                    double& out, const Range& range) {
+    if (value.isString() && value.text() == "inf" && range.contains(kEndless)) {
+        out = kEndless; // JSON has no number for it
+        return true;
+    }
     if (!value.isNumber()) return failType(value, key, "a number", problems);
     if (!range.contains(value.number())) {
         problems.error(value.loc(), [&] {

@@ -4,6 +4,7 @@
 #include "base/math.h"
 #include "base/text.h"
 #include "desc/names.h"
+#include "read/json/lobes.h"
 #include "read/json/properties.h"
 
 #include <cmath>
@@ -31,7 +32,7 @@ void convertSpecular(MaterialDesc& material) {
 // back from, shows its inside as well.
 bool isOfTheCourse(const MaterialDesc& m) {
     return m.mirror == Rgbd{} && m.transmission == Rgbd{} && m.opacity == 1 &&
-           m.opacityTexture == kNone;
+           m.opacityTexture == kNone && m.lobes.empty();
 }
 
 // Empty when there is none.
@@ -92,6 +93,7 @@ JsonMaterials::JsonMaterials(JsonFields& scene, const JsonNames& textures,
         const auto exponent = fields.takeOneOf({"hardness", "shininess", "exponent"});
         if (exponent.value)
             readJsonValue(*exponent.value, exponent.key, problems, material.exponent, {0, 1e9});
+        readJsonLobes(fields, textures, material);
         readJsonProperties(fields, textures, material, {"exponent"});
         convertSpecular(material);
         if (!saysLitSide && isOfTheCourse(material))

@@ -43,17 +43,6 @@ void readChoice(const JsonValue& value, const Property& row, JsonProblems& probl
     at<std::uint8_t>(row.first, block) = static_cast<std::uint8_t>(found - names.begin());
 }
 
-void readName(const JsonValue& value, const Property& row, const JsonNames& textures,
-              JsonProblems& problems, Handle& handle) {
-    std::string name;
-    if (!readJsonValue(value, row.keyword, problems, name)) return;
-    handle = textures.find(name);
-    if (handle == kNone)
-        problems.error(value.loc(), [&] {
-            return cat("unknown texture ", unknownName(shown(name), textures.known()));
-        });
-}
-
 // Reads a colour that is written as one number, a grey, or as true, which is 1, and false. Returns
 // false where it is written in another way.
 bool readGrey(const JsonValue& value, const Property& row, JsonProblems& problems, void* block) {
@@ -86,6 +75,18 @@ void readValues(const JsonValue& value, const Property& row, JsonProblems& probl
 
 } // namespace
 
+Handle readJsonTexture(const JsonValue& value, std::string_view key, const JsonNames& textures,
+                       JsonProblems& problems) {
+    std::string name;
+    if (!readJsonValue(value, key, problems, name)) return kNone;
+    const Handle handle = textures.find(name);
+    if (handle == kNone)
+        problems.error(value.loc(), [&] {
+            return cat("unknown texture ", unknownName(shown(name), textures.known()));
+        });
+    return handle;
+}
+
 void readJsonProperty(const JsonValue& value, const Property& row, const JsonNames& textures,
                       JsonProblems& problems, void* block) {
     const Field& field = row.first;
@@ -96,7 +97,9 @@ void readJsonProperty(const JsonValue& value, const Property& row, const JsonNam
     case FieldKind::Text:
         readJsonValue(value, row.keyword, problems, at<std::string>(field, block));
         return;
-    case FieldKind::Name: return readName(value, row, textures, problems, at<Handle>(field, block));
+    case FieldKind::Name:
+        at<Handle>(field, block) = readJsonTexture(value, row.keyword, textures, problems);
+        return;
     default:
         if (!readGrey(value, row, problems, block)) readValues(value, row, problems, block);
     }

@@ -10,6 +10,9 @@
 #include <initializer_list>
 #include <string_view>
 
+// The texture that a value names; kNone after an error.
+Handle readJsonTexture(const JsonValue& value, std::string_view key, const JsonNames& textures,
+                       JsonProblems& problems);
 void readJsonProperty(const JsonValue& value, const Property& row, const JsonNames& textures,
                       JsonProblems& problems, void* block);
 void readJsonProperties(JsonFields& fields, const JsonNames& textures, BlockType type,
