@@ -6,12 +6,13 @@
 #include "base/math.h"
 #include "base/text.h"
 #include "image/image.h"
+#include "light/kinds/triangle.h"
 #include "render/batch.h"
 #include "render/eye.h"
 #include "render/make_light.h"
 #include "render/make_shapes.h"
-#include "render/path/make_lobes.h"
 #include "render/path/light_rows.h"
+#include "render/path/make_lobes.h"
 #include "render/picture_reader.h"
 #include "render/texture_files.h"
 #include "render/to_float.h"
@@ -57,6 +58,7 @@ public:
         buildCamera();
         scene_.features_ = featuresOf(desc_, *cameraDesc_, settings_);
         keepUnevenPlaces();
+        keepEmitters();
         buildPicturesAndShapes();
         warnOfMissing();
         buildMaterials();
@@ -281,6 +283,7 @@ private:
             m.base.fresnel = FresnelModel::Schlick;
         if (on_.glossy) m.base.roughness = toFloat(desc.roughness);
         m.base.emission = toRgb(desc.emission);
+        m.emitsFront = desc.emissionSides == MaterialDesc::Sides::Front;
         m.base.opacity = toFloat(desc.opacity);
         m.base.filter = toRgb(desc.filter);
         return m;
@@ -365,7 +368,6 @@ private:
 
     // ---- lights
 
-    static constexpr std::uint32_t kNoShape = 0xffffffffu;
     // Whether rays can meet the lamp.
     static bool hasSize(const LightDesc& desc) {
         using enum LightDesc::Kind;
@@ -382,7 +384,7 @@ private:
     }
 
     void buildLights() {
-        lampShapes_.assign(desc_.lights.size(), kNoShape);
+        hasLampBody_.assign(desc_.lights.size(), false);
         for (std::size_t i = 0; i < desc_.lights.size(); ++i) {
             const LightDesc& light = desc_.lights[i];
             scene_.lights_.push_back(makeLight(light, scene_.frame_));
@@ -403,17 +405,62 @@ private:
         PathLights& lights = scene_.pathLights_;
         for (std::size_t i = 0; i < desc_.lights.size(); ++i) {
             const LightDesc& desc = desc_.lights[i];
-            const auto made = makeLightRow(desc, scene_.frame_);
-            if (!made) continue;
+            const auto row = makeLightRow(desc, scene_.frame_);
+            if (!row) continue;
             const bool isOpen = !(desc.shadows && on_.shadows);
-            const std::uint32_t light = lights.add({made->row, isOpen}, made->power);
+            const std::uint32_t light = lights.add({*row, isOpen, false});
             if (isOpen || !hasSize(desc)) continue;
-            if (lampShapes_[i] != kNoShape)
-                lights.addSurface(lampShapes_[i], 0, light);
+            if (hasLampBody_[i])
+                lights.addObject(static_cast<std::uint32_t>(objectCount_ + i), true, light);
             else
                 lights.addUnshaped(light, seenBy(desc.seenBy));
         }
+        for (const Emitter& emitter : emitterObjects_) {
+            const std::uint32_t light = lights.add({emitter.row, false, true});
+            lights.addObject(emitter.object, !emitter.back, light);
+            if (emitter.bothSides) lights.addObject(emitter.object, emitter.back, light);
+        }
+        for (std::uint32_t shape = 0; shape < scene_.shapes_.shapes.size(); ++shape)
+            scene_.shapes_.shapes[shape]->forEachTriangle([&](std::uint32_t triangle,
+                                                              const std::array<Vec3, 3>& corners,
+                                                              std::uint32_t material) {
+                if (!isEvenEmitter(material)) return;
+                const SceneMaterial& of = scene_.materials_[material];
+                const TriangleRow row{corners[0], corners[1], corners[2], of.base.emission,
+                                      of.emitsFront ? 0.0f : 1.0f};
+                lights.addTriangle(shape, triangle, lights.add({lightRow(row), false, true}));
+            });
         lights.finish();
+    }
+
+    // Whether the material shines the same everywhere: only then its surface is sampled.
+    bool isEvenEmitter(std::uint32_t material) const {
+        const SceneMaterial& of = scene_.materials_[material];
+        return !isBlack(of.base.emission) && !of.pictures->emission && !of.isLamp;
+    }
+    // Before objects are let go: those that shine and are no meshes.
+    void keepEmitters() {
+        if (settings_.picture.integrator != IntegratorKind::Path) return;
+        for (std::size_t i = 0; i < objectCount_; ++i) {
+            const ObjectDesc& object = desc_.objects[i];
+            const Handle number = object.materials.empty() ? kNone : object.materials[0];
+            if (object.kind == ObjectDesc::Kind::Mesh || number == kNone ||
+                object.sides != ObjectDesc::Sides::Both)
+                continue;
+            const MaterialDesc& material = desc_.materials[static_cast<std::size_t>(number)];
+            const MovingTransform place =
+                placedKeys(object.worldFromObject, scene_.frame_, on_.motionBlur);
+            if (isBlack(toRgb(material.emission)) || material.emissionTexture != kNone ||
+                !place.isStatic())
+                continue;
+            const bool bothSides = material.emissionSides == MaterialDesc::Sides::Both;
+            const auto number32 = static_cast<std::uint32_t>(i);
+            const Rgb radiance = toRgb(material.emission);
+            const auto front = makeEmitterRow(object, place.at(0), radiance, false);
+            const auto back = makeEmitterRow(object, place.at(0), radiance, true);
+            if (front) emitterObjects_.push_back({number32, false, bothSides && !back, *front});
+            if (back && bothSides) emitterObjects_.push_back({number32, true, false, *back});
+        }
     }
 
     // A lamp that can be seen casts no shadows: its light passes through its body.
@@ -427,16 +474,23 @@ private:
         glow.isLamp = true;
         scene_.materials_.push_back(glow);
         scene_.any_ |= glow;
-        lampShapes_[id - objectCount_] = static_cast<std::uint32_t>(scene_.shapes_.shapes.size());
+        hasLampBody_[id - objectCount_] = true;
         scene_.shapes_.add(std::move(body), ShapeSet::Shadow::None);
-        if (settings_.picture.integrator == IntegratorKind::Path) scene_.lobedMaterials_.add({}, {}, true);
+        if (settings_.picture.integrator == IntegratorKind::Path)
+            scene_.lobedMaterials_.add({}, {}, true);
     }
 
     Scene& scene_;
     const SceneDesc& desc_;
-    SceneDesc* spent_;                      // may be null
-    std::vector<std::uint32_t> lampShapes_; // the bodies of lamps, by light
-    std::vector<std::string> missing_;      // by texture: the warning, of a picture that misses
+    SceneDesc* spent_;              // may be null
+    std::vector<bool> hasLampBody_; // by light
+    struct Emitter {
+        std::uint32_t object;
+        bool back, bothSides;
+        LightRow row;
+    };
+    std::vector<Emitter> emitterObjects_;
+    std::vector<std::string> missing_; // by texture: the warning, of a picture that misses
     const SourceFile& source_;
     const RenderSettings& settings_;
     PictureReader* pictures_; // may be null

@@ -105,3 +105,7 @@ SurfaceDerivatives Mesh::derivatives(const Ray&, const Hit& hit) const {
 std::optional<TieOrder> Mesh::tieOrder(const Ray& ray, const Hit& hit) const {
     return TieOrder{canonicalKey(setupFor(ray), corners(hit.prim)), objectOf(hit.prim)};
 }
+
+void Mesh::forEachTriangle(TriangleFn fn) const {
+    for (std::uint32_t i = 0; i < geometry_.triangles.size(); ++i) fn(i, corners(i), materialOf(i));
+}

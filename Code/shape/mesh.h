@@ -43,6 +43,7 @@ public:
     void surfaces(const SurfaceQuery& query, SurfacePlaces out) const override;
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override;
     std::optional<TieOrder> tieOrder(const Ray& ray, const Hit& hit) const override;
+    void forEachTriangle(TriangleFn fn) const override;
 
 private:
     RaySetup setupFor(const Ray& ray) const { return {ray.org, ray.dir, geometry_.extent}; }

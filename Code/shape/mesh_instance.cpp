@@ -140,3 +140,10 @@ SurfaceDerivatives MeshInstance::derivatives(const Ray& ray, const Hit& hit) con
 std::optional<TieOrder> MeshInstance::tieOrder(const Ray& ray, const Hit& hit) const {
     return TieOrder{canonicalKey(setupFor(ray), corners(placeAt(ray.time), hit.prim)), object_};
 }
+
+void MeshInstance::forEachTriangle(TriangleFn fn) const {
+    if (!motion_.isStatic()) return;
+    const Transform place = placeAt(0);
+    for (std::uint32_t i = 0; i < geometry_.triangles.size(); ++i)
+        fn(i, corners(place, i), materialOf(i));
+}

@@ -40,6 +40,7 @@ public:
     void surfaces(const SurfaceQuery& query, SurfacePlaces out) const override;
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override;
     std::optional<TieOrder> tieOrder(const Ray& ray, const Hit& hit) const override;
+    void forEachTriangle(TriangleFn fn) const override;
     bool isOfTriangles() const override { return true; }
     const MeshInstance* meshInstance() const override { return this; }
 

@@ -10,11 +10,13 @@
 #include "accel/kernels/surface_lanes.h"
 #include "accel/solid_form.h"
 #include "base/bounds.h"
+#include "base/function_ref.h"
 #include "base/hit.h"
 #include "base/ray.h"
 #include "base/ray_span.h"
 #include "base/surface_block.h"
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -117,7 +119,7 @@ public:
 
     // Calls fn(number as hits have it, corners, material) for all triangles of a mesh that stands
     // still; other shapes have none.
-    using TriangleFn = FunctionRef<void(std::uint32_t, const TriangleCorners&, std::uint32_t)>;
+    using TriangleFn = FunctionRef<void(std::uint32_t, const std::array<Vec3, 3>&, std::uint32_t)>;
     virtual void forEachTriangle(TriangleFn) const {}
 
     // Of a hit on a triangle, which may have come into one mesh with others or not; shapes of other

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "light/lights.h"
+#include "light/tree/pick_lanes.h"
 #include "render/path/path_lights.h"
 
 #include <bit>
@@ -14,6 +15,7 @@ struct ChosenLight {
     Floats probability; // of the choice
     unsigned met = 0;   // lanes whose lamp rays meet too, with the density that they have
     unsigned open = 0;  // lanes whose lamp casts no shadows
+    Floats end;         // of the shadow ray: in front of a light that it would meet
 };
 
 // The numbers of a light for each lane, by column.
@@ -29,19 +31,21 @@ private:
 };
 
 // `n` is black where both sides of the surface are lit. Lanes that are not set get any sample.
-inline ChosenLight chooseLight(const PathLights& lights, const Floats3& p, const Floats3&,
-                               Floats pick, Floats u, Floats v, unsigned lanes) {
-    alignas(64) float numbers[W], probability[W] = {};
-    std::uint32_t light[W] = {};
-    pick.store(numbers);
-    for (std::size_t lane = 0; lane < W; ++lane) {
-        const PathLights::Pick of = lights.pick(numbers[lane]);
-        light[lane] = of.light, probability[lane] = of.probability;
-    }
+// `pick` and `more` are the upper and lower bits of one random number.
+inline ChosenLight chooseLight(const PathLights& lights, const Floats3& p, const Floats3& n,
+                               Floats pick, Floats more, Floats u, Floats v, unsigned lanes) {
+    const Doubles number = Doubles(pick) + Doubles(more) * Doubles(0x1p-24);
+    const PickedLight picked = LightChoice(lights.tree()).pick(p, n, number);
+    alignas(64) std::uint32_t light[W];
+    picked.light.store(light);
     const Floats zero(0.0f);
     const Floats3 none{zero, zero, zero};
-    ChosenLight out{{none, zero, none, zero, noLanes()}, Floats::load(probability)};
-    unsigned left = lanes;
+    ChosenLight out{{none, zero, none, zero, noLanes()}, picked.probability, 0, 0, zero};
+    unsigned left = lanes & bits(picked.probability > zero);
+    if (left != lanes) // no light: any row will do
+        for (std::size_t lane = 0; lane < W; ++lane)
+            if ((left >> lane & 1) == 0) light[lane] = 0;
+    unsigned surfaces = 0;
     while (left != 0) {
         const auto leader = static_cast<std::size_t>(std::countr_zero(left));
         const std::uint32_t kind = lights.entry(light[leader]).row.kind;
@@ -53,6 +57,7 @@ inline ChosenLight chooseLight(const PathLights& lights, const Floats3& p, const
             columns.put(is ? entry.row : lights.entry(light[leader]).row, lane);
             alike |= static_cast<unsigned>(is) << lane;
             if (is && entry.isOpen) out.open |= 1u << lane;
+            if (is && entry.isSurface) surfaces |= 1u << lane;
         }
         forLight(kind, [&]<class L> {
             const L light(columns.numbers());
@@ -60,6 +65,8 @@ inline ChosenLight chooseLight(const PathLights& lights, const Floats3& p, const
         });
         left &= ~alike;
     }
+    out.end =
+        out.sample.distance * select(maskOf(surfaces), Floats(1 - 0x1p-15f), Floats(1 - 0x1p-20f));
     out.met = ~bits(out.sample.single) & ~out.open;
     return out;
 }

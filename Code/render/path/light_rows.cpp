@@ -32,12 +32,18 @@ FlatRow flatRow(const LightDesc& desc, const Transform& place, Vec3 position, Ve
     return row;
 }
 
-float mean(Rgb c) { return (c.r + c.g + c.b) / 3; }
+// Whether a map turns, shifts and has one scale, to a millionth.
+bool keepsForm(const Vec3d& x, const Vec3d& y, const Vec3d& z) {
+    const double most = dot(x, x) * 1e-6;
+    const auto areAlike = [&](const Vec3d& a, const Vec3d& b) {
+        return std::fabs(dot(a, b)) <= most && std::fabs(dot(b, b) - dot(a, a)) <= most;
+    };
+    return areAlike(x, y) && areAlike(y, z) && areAlike(x, z);
+}
 
 } // namespace
 
-std::optional<PoweredLight> makeLightRow(const LightDesc& desc, const SceneFrame& frame) {
-    constexpr float pi = static_cast<float>(kPi);
+std::optional<LightRow> makeLightRow(const LightDesc& desc, const SceneFrame& frame) {
     const Transform place = frame.placed(desc.worldFromLight);
     const Vec3 position = toFloat(place.point({}));
     const Vec3 axis = toFloat(normalize(place.vector({0, 0, -1})));
@@ -46,36 +52,62 @@ std::optional<PoweredLight> makeLightRow(const LightDesc& desc, const SceneFrame
     switch (desc.kind) {
     case LightDesc::Kind::Point: {
         const PointRow row = pointRow(desc, position, frame.scale);
-        return PoweredLight{lightRow(row), 4 * pi * mean(row.intensity)};
+        return lightRow(row);
     }
     case LightDesc::Kind::Spot: {
         const SpotRow row{pointRow(desc, position, frame.scale), axis,
                           toFloat(exact::cos(radians(desc.coneAngleDeg / 2))), toFloat(desc.blend),
                           desc.cosineFalloff ? 1.0f : 0.0f};
-        return PoweredLight{lightRow(row),
-                            2 * pi * (1 - row.cosHalfAngle) * mean(row.point.intensity)};
+        return lightRow(row);
     }
     case LightDesc::Kind::Sun: {
         const double halfAngleRad = radians(desc.angleDeg / 2);
         const SunRow row{-axis, color,
                          toFloat(2 * sqr(exact::sin(min(halfAngleRad, kHalfPi) / 2)))};
-        return PoweredLight{lightRow(row), mean(color)};
+        return lightRow(row);
     }
     case LightDesc::Kind::Rectangle: {
         RectangleRow row;
         static_cast<FlatRow&>(row) = flatRow(desc, place, position, axis);
-        const float area = 4 * length(row.halfX) * length(row.halfY);
-        return PoweredLight{lightRow(row), pi * area * mean(color)};
+        return lightRow(row);
     }
     case LightDesc::Kind::Disk: {
         DiskRow row;
         static_cast<FlatRow&>(row) = flatRow(desc, place, position, axis);
-        const float area = pi * length(row.halfX) * length(row.halfY);
-        return PoweredLight{lightRow(row), pi * area * mean(color)};
+        return lightRow(row);
     }
     case LightDesc::Kind::Sphere: break;
     }
     // A lamp that is scaled unevenly takes its x axis.
     const SphereRow row{position, toFloat(desc.radius * length(place.vector({1, 0, 0}))), color};
-    return PoweredLight{lightRow(row), 4 * pi * pi * sqr(row.radius) * mean(color)};
+    return lightRow(row);
+}
+
+std::optional<LightRow> makeEmitterRow(const ObjectDesc& desc, const Transform& place, Rgb radiance,
+                                       bool back) {
+    const Vec3d x = place.vector({1, 0, 0}), y = place.vector({0, 1, 0}),
+                z = place.vector({0, 0, 1});
+    if (desc.kind == ObjectDesc::Kind::Sphere && keepsForm(x, y, z) && !back)
+        return lightRow(
+            SphereRow{toFloat(place.point({})), toFloat(desc.radius * length(x)), radiance});
+    const auto flat = [&](auto row, const Vec3d& centre, const Vec3d& halfX, const Vec3d& halfY) {
+        static_cast<FlatRow&>(row) = {toFloat(centre), toFloat(halfX), toFloat(halfY),
+                                      toFloat(normalize(cross(halfX, halfY)) * (back ? -1.0 : 1.0)),
+                                      radiance};
+        return lightRow(row);
+    };
+    const auto arePerpendicular = [](const Vec3d& a, const Vec3d& b) {
+        return std::fabs(dot(a, b)) <= 1e-6 * length(a) * length(b);
+    };
+    if (desc.kind == ObjectDesc::Kind::Disk && arePerpendicular(x, y))
+        return flat(DiskRow{}, place.point({}), x * desc.radius, y * desc.radius);
+    if (desc.kind == ObjectDesc::Kind::Plane) {
+        const auto& corners = *desc.corners;
+        const Vec3d a = place.point(corners[0]), b = place.point(corners[1]),
+                    c = place.point(corners[2]), d = place.point(corners[3]);
+        const Vec3d off = (a + c) - (b + d); // 0 of a parallelogram
+        if (length(off) <= 1e-6 * length(b - a) && arePerpendicular(b - a, d - a))
+            return flat(RectangleRow{}, (a + c) * 0.5, (b - a) * 0.5, (d - a) * 0.5);
+    }
+    return {};
 }

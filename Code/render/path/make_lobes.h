@@ -18,6 +18,6 @@ void setField(LobeRow& lobe, std::string_view field, Rgb value);
 
 // Texture of a handle; null: none, or its picture misses.
 using TextureOf = std::function<const Texture*(Handle)>;
-// All lobes of a material: those that are written as such, and those that the short keywords mean. A
-// rough mirror shows lamps by itself, so that it takes the place of a specular highlight.
+// All lobes of a material: those that are written as such, and those that the short keywords mean.
+// A rough mirror shows lamps by itself, so that it takes the place of a specular highlight.
 LobeList lobesOf(const MaterialDesc& desc, const TextureOf& textureOf, const Switches& on);

@@ -111,7 +111,8 @@ private:
         if (isBlack(here.emission) || (at.of->emitsFront && !at.front)) return;
         if (at.of->isLamp && wave_.rays.seesLights[i] == 0) return;
         const Hit& hit = memory_.hits[i];
-        const std::uint32_t light = lights_.ofSurface(hit.shape, hit.prim);
+        std::uint32_t light = lights_.ofObject(at.surface.object, at.front);
+        if (light == PathLights::kNone) light = lights_.ofTriangle(hit.shape, hit.prim);
         add(i, here.emission * partOfHit(state, light, normalize(wave_.rays.dir[i])));
     }
 

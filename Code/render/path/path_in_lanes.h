@@ -64,7 +64,8 @@ inline void sendLight(const PathLights& lights, const SeenPoints& at, const Shad
     const PathNumbers& u = block.numbers;
     const ChosenLight chosen =
         chooseLight(lights, at.p, transmits ? rgbOf(0.0f) : at.n, Floats::load(u.light + first),
-                    Floats::load(u.lightU + first), Floats::load(u.lightV + first), lanes);
+                    Floats::load(u.roulette + first), Floats::load(u.lightU + first),
+                    Floats::load(u.lightV + first), lanes);
     const SampledLight& lamp = chosen.sample;
     const Floats3 toLight = frame.toLocal(lamp.toLight);
     const Floats rise = dot(at.ng, lamp.toLight);
@@ -84,7 +85,7 @@ inline void sendLight(const PathLights& lights, const SeenPoints& at, const Shad
     if (lanes == 0) return;
     storeWhere(lanes, light, block.fromLamp, first);
     storeWhere(lanes, lamp.toLight, block.toLamp, first);
-    storeWhere(lanes, lamp.distance * Floats(1 - 0x1p-20f), block.lampEnd + first);
+    storeWhere(lanes, chosen.end, block.lampEnd + first);
     const Floats3 org = select(maskOf(below), at.beneath(), at.above() + at.lift);
     storeWhere(lanes, org, block.lampOrg, first);
     block.lit |= lanes << first, block.open |= (lanes & chosen.open) << first;

@@ -1,12 +1,14 @@
-// PathLights: all that shines in a scene, and which light is chosen for a point.
+// PathLights: all that shines in a scene, which light is chosen for a point, and what a ray that
+// meets one has to know.
 #pragma once
 
 #include "base/math.h"
+#include "base/vec.h"
 #include "light/light_row.h"
+#include "light/tree/light_picker.h"
 
 #include <cstdint>
 #include <span>
-#include <unordered_map>
 #include <vector>
 
 class PathLights {
@@ -15,32 +17,38 @@ public:
 
     struct Entry {
         LightRow row;
-        bool isOpen = false; // casts no shadows
+        bool isOpen = false;    // casts no shadows
+        bool isSurface = false; // shadow rays meet it where they end
     };
-    // `power`: what it is chosen by. Returns the number of the light.
-    std::uint32_t add(const Entry& entry, float power);
-    // What rays see of a lamp that is no shape; 0 for those that go by way of lobes only.
+    // Returns the number of the light.
+    std::uint32_t add(const Entry& entry);
+    // A lamp that is no shape. `seenBy`: which rays see it besides those that lobes spread, as
+    // PathBatch::seesLights has them.
     void addUnshaped(std::uint32_t light, std::uint8_t seenBy);
-    // The surface of a shape, and of one of its triangles, is a light.
-    void addSurface(std::uint32_t shape, std::uint32_t prim, std::uint32_t light);
+    // A side of the surface of an object that is no mesh is a light, or a triangle of a shape is.
+    void addObject(std::uint32_t object, bool front, std::uint32_t light);
+    void addTriangle(std::uint32_t shape, std::uint32_t triangle, std::uint32_t light);
     // Call once when all are there.
     void finish();
 
-    bool isEmpty() const { return entries_.empty(); }
+    bool isEmpty() const { return tree().lit == 0; }
     const Entry& entry(std::uint32_t light) const { return entries_[light]; }
+    LightTreeView tree() const { return picker_.view(); }
 
-    // The light for a number in [0,1), and how probable it is.
-    struct Pick {
-        std::uint32_t light;
-        float probability;
-    };
-    Pick pick(float u) const;
-    // Density per steradian with which the light sends a sample along `dir` to the point: of the
-    // choice and of the direction. `n`: black where both sides of the surface are lit.
+    // Density per steradian with which a sample comes along `dir`, a unit vector, from this light:
+    // of its choice and of the direction. `n`: black where both sides of the surface are lit.
     float pdf(Vec3 p, Vec3 n, std::uint32_t light, Vec3 dir) const;
 
-    std::uint32_t sky() const { return sky_; }
-    std::uint32_t ofSurface(std::uint32_t shape, std::uint32_t prim) const;
+    std::uint32_t sky() const { return sky_; } // kNone: it is not sampled
+    // kNone: it is not sampled.
+    std::uint32_t ofObject(std::uint32_t object, bool front) const {
+        const std::size_t side = 2 * std::size_t{object} + front;
+        return side < ofObject_.size() ? ofObject_[side] : kNone;
+    }
+    std::uint32_t ofTriangle(std::uint32_t shape, std::uint32_t triangle) const {
+        if (shape >= ofTriangle_.size() || triangle >= ofTriangle_[shape].size()) return kNone;
+        return ofTriangle_[shape][triangle];
+    }
 
     // Calls fn(light, radiance) for every unshaped lamp that the ray meets before `end`. `seenBy`:
     // how the ray sees lamps, 0 for those that a lobe spread.
@@ -49,8 +57,7 @@ public:
         for (const Unshaped& lamp : unshaped_) {
             if (seenBy != 0 && (lamp.seenBy & seenBy) == 0) continue;
             const Meeting at = meetOne(lamp.light, org, dir);
-            if (at.distance < end ||
-                (at.distance == end && end == kInfinityF && !isBlack(at.radiance)))
+            if (!isBlack(at.radiance) && (at.distance < end || end == kInfinityF))
                 fn(lamp.light, at.radiance);
         }
     }
@@ -68,8 +75,9 @@ private:
     Meeting meetOne(std::uint32_t light, Vec3 org, Vec3 dir) const;
 
     std::vector<Entry> entries_;
-    std::vector<float> powers_, ends_; // ends_: of the shares of [0,1)
+    LightPicker picker_;
     std::vector<Unshaped> unshaped_;
-    std::unordered_map<std::uint64_t, std::uint32_t> surfaces_;
+    std::vector<std::uint32_t> ofObject_;                // by object and side
+    std::vector<std::vector<std::uint32_t>> ofTriangle_; // by shape; empty where none shines
     std::uint32_t sky_ = kNone;
 };
