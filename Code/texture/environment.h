@@ -35,6 +35,7 @@ public:
         double turns;
         std::optional<ByteTexels> texels;
     };
+    const TexelGrid& grid() const { return grid_; }
     View view() const { return {up_, turns_, grid_.bytes(Extension::Repeat, Extension::Extend)}; }
 
 private:

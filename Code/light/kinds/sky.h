@@ -1,0 +1,111 @@
+// SkyEmitter: all of the sky as a lamp, sampled by the table of its brightness. There is one for all
+// lanes.
+#pragma once
+
+#include "light/light_lanes.h"
+#include "light/sky/sky_table.h"
+#include "simd/angle_lanes.h"
+
+LANES_BEGIN
+
+class SkyEmitter {
+public:
+    explicit SkyEmitter(const SkyView& sky) : sky_(sky) {}
+
+    SampledLight sample(const Floats3&, Floats u, Floats v) const {
+        const Ints row = lastNotAbove(sky_.rows, Ints(0), sky_.height, v);
+        const Ints first = firstOf(row);
+        const Ints column = lastNotAbove(sky_.columns, first, sky_.width, u);
+        const Part inRow = partOf(sky_.rows, row), inColumn = partOf(sky_.columns, sum(first, column));
+        const Doubles one(1.0), zero(0.0);
+        const Doubles across = Doubles((u - inColumn.from) / inColumn.size);
+        const Doubles along = Doubles((v - inRow.from) / inRow.size);
+        const Belt belt = beltOf(row);
+        const Doubles z = belt.from + along * (belt.to - belt.from);
+        // The place in the picture from the left, and the angle to it: see texture/environment.h.
+        const Doubles s = (doublesOf(column) + across) * Doubles(1.0 / sky_.width);
+        const Doubles turns = Doubles(0.5 + sky_.place.turns) - s;
+        const SineCosine at = sinCosOfTurns(min((turns - floor(turns)).toFloats(), Floats(1.0f)));
+        const Floats level = sqrt(max((one - z) * (one + z), zero)).toFloats();
+        const Floats up = z.toFloats(), x = level * at.cos, y = level * at.sin;
+        const Floats3 dir = sky_.place.isZUp ? Floats3{x, y, up} : Floats3{x, up, Floats(0.0f) - y};
+        const Floats3 toLight = normalize(dir);
+        const Floats pdf = density(inRow, inColumn, belt);
+        return where(pdf > Floats(0.0f), toLight, kInfinityF, radianceOf(toLight) / pdf, pdf,
+                     noLanes());
+    }
+    SampledLight centre(const Floats3& p) const {
+        SampledLight at = sample(p, 0.5f, 0.5f);
+        at.pdf = 0.0f, at.single = maskOf(kAllLanes);
+        return at;
+    }
+    Floats pdf(const Floats3&, const Floats3& dir) const {
+        const Floats zero(0.0f);
+        const Doubles x(dir.x), y(sky_.place.isZUp ? dir.y : zero - dir.z),
+            z(sky_.place.isZUp ? dir.z : dir.y);
+        const Doubles s =
+            Doubles(0.5 + sky_.place.turns) - anglesOf(y, x) * Doubles(kInvTwoPi);
+        const Doubles t = Doubles(0.5) + anglesOf(z, sqrt(x * x + y * y)) * Doubles(kInvPi);
+        const Ints column = cellOf(s - floor(s), sky_.width), row = cellOf(t, sky_.height);
+        return density(partOf(sky_.rows, row), partOf(sky_.columns, sum(firstOf(row), column)),
+                       beltOf(row));
+    }
+    LightMeeting meet(const Floats3&, const Floats3& dir) const {
+        return meetingWhere(maskOf(kAllLanes), kInfinityF, radianceOf(dir));
+    }
+
+private:
+    struct Part {
+        Floats from, size;
+    };
+    struct Belt {
+        Doubles from, to; // sines of latitude
+    };
+
+    static Ints sum(Ints a, Ints b) { return a + b; }
+    static Floats numbersAt(const float* table, Ints i) {
+        return fromBits(elementsAt(reinterpret_cast<const std::uint32_t*>(table), i, kAllLanes));
+    }
+    // The last i below count whose number, from `first` on, is at most x; that of 0 is 0.
+    static Ints lastNotAbove(const float* table, Ints first, std::uint32_t count, Floats x) {
+        Ints low(0);
+        for (std::uint32_t step = std::bit_floor(count); step > 0; step /= 2) {
+            const Ints next = plus(low, step);
+            const Mask isIn = next < Ints(count);
+            const Floats number = numbersAt(table, sum(first, select(isIn, next, low)));
+            low = select(isIn & (number <= x), next, low);
+        }
+        return low;
+    }
+    static Ints cellOf(const Doubles& place, std::uint32_t count) {
+        const Doubles last(static_cast<double>(count - 1));
+        return wholeOf(min(max(floor(place * Doubles(static_cast<double>(count))), Doubles(0.0)), last));
+    }
+    Ints firstOf(Ints row) const {
+        return wholeOf(doublesOf(row) * Doubles(static_cast<double>(sky_.pitch)));
+    }
+    static Part partOf(const float* table, Ints i) {
+        const Floats from = numbersAt(table, i);
+        return {from, numbersAt(table, plus(i, 1)) - from};
+    }
+    Belt beltOf(Ints row) const {
+        Belt belt{0.0, 0.0};
+        pairsAt<1>(sky_.borders, row, belt.from, belt.to);
+        return belt;
+    }
+    Floats density(const Part& row, const Part& column, const Belt& belt) const {
+        const Floats solidAngle =
+            ((belt.to - belt.from) * Doubles(kTwoPi / sky_.width)).toFloats();
+        return row.size * column.size / solidAngle;
+    }
+    Floats3 radianceOf(const Floats3& dir) const {
+        alignas(64) float to[3][W], rgb[3][W];
+        dir.x.store(to[0]), dir.y.store(to[1]), dir.z.store(to[2]);
+        sky_.radiance->radiance(W, {to[0], to[1], to[2]}, {rgb[0], rgb[1], rgb[2]});
+        return {Floats::load(rgb[0]), Floats::load(rgb[1]), Floats::load(rgb[2])};
+    }
+
+    SkyView sky_;
+};
+
+LANES_END
