@@ -10,5 +10,5 @@ namespace kernels::build {
 constexpr TreeBuilder kAvx2TreeBuilder = avx2::build::treeBuilder();
 }
 constexpr Isa kAvx2Isa =
-    kernels::avx2::isaOf("avx2", hasAvx2, &kernels::build::kAvx2TreeBuilder, &kAvx2Path);
+    kernels::avx2::isaOf("avx2", hasAvx2, &kernels::build::kAvx2TreeBuilder, &kAvx2Shading);
 #endif

@@ -7,5 +7,5 @@
 #include "isa/instances.h"
 
 constexpr Isa kAvx512Isa =
-    kernels::avx512::isaOf("avx512", hasAvx512, &kernels::build::kAvx2TreeBuilder, &kAvx512Path);
+    kernels::avx512::isaOf("avx512", hasAvx512, &kernels::build::kAvx2TreeBuilder, &kAvx512Shading);
 #endif

@@ -14,7 +14,7 @@ std::span<const Isa> allIsas() {
         kAvx2Isa,
         kSseIsa,
 #endif
-        {.name = "scalar", .width = 1, .supported = always, .path = &kOnePath},
+        {.name = "scalar", .width = 1, .supported = always, .shading = &kOneShading},
     };
     return all;
 }

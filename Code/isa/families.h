@@ -37,9 +37,9 @@ constexpr CameraLanes kCamera{pairSeeds, sobolPairs, spreadPlaces, lensRays, pin
 
 // An Isa of these functions.
 constexpr Isa isaOf(const char* name, bool (*supported)(), const kernels::build::TreeBuilder* build,
-                    const PathKernel* path) {
+                    const ShadingKernel* shading) {
     return {name,    W,        supported, &kTriangles, &kSolids, &kPlaced, &kSurfaces,
-            &kShade, &kBounce, &kLamps,   &kPictures,  &kCamera, path,     build};
+            &kShade, &kBounce, &kLamps,   &kPictures,  &kCamera, shading,  build};
 }
 
 LANES_END

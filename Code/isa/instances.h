@@ -3,9 +3,9 @@
 
 #include "isa/isa.h"
 
-struct PathKernel;
+struct ShadingKernel;
 extern const Isa kSseIsa, kAvx2Isa, kAvx512Isa;
-extern const PathKernel kOnePath, kSsePath, kAvx2Path, kAvx512Path;
+extern const ShadingKernel kOneShading, kSseShading, kAvx2Shading, kAvx512Shading;
 namespace kernels::build {
 extern const TreeBuilder kAvx2TreeBuilder;
 }

@@ -8,7 +8,7 @@
 struct BounceLanes;
 struct CameraLanes;
 struct LampLanes;
-struct PathKernel;
+struct ShadingKernel;
 struct PictureLanes;
 struct PlacedKernel;
 struct ShadeLanes;
@@ -34,7 +34,7 @@ struct Isa {
     const LampLanes* lamps = nullptr;                   // render/waves/lamp_lanes.h
     const PictureLanes* pictures = nullptr;             // render/waves/picture_lanes.h
     const CameraLanes* camera = nullptr;                // render/lens_lanes.h
-    const PathKernel* path = nullptr;                   // render/path/path_block.h
+    const ShadingKernel* shading = nullptr;             // render/path/shading_kernel.h
     const kernels::build::TreeBuilder* build = nullptr; // accel/kernels/build/build.h
 };
 

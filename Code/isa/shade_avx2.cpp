@@ -2,7 +2,7 @@
 #if defined(__x86_64__)
 #define LANES_AVX2
 #include "isa/instances.h"
-#include "render/path/path_in_lanes.h"
+#include "render/path/shading_in_lanes.h"
 
-constexpr PathKernel kAvx2Path{kernels::avx2::scatterBlock};
+constexpr ShadingKernel kAvx2Shading = kernels::avx2::kShading;
 #endif

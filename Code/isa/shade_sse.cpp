@@ -2,7 +2,7 @@
 #if defined(__x86_64__)
 #define LANES_SSE
 #include "isa/instances.h"
-#include "render/path/path_in_lanes.h"
+#include "render/path/shading_in_lanes.h"
 
-constexpr PathKernel kSsePath{kernels::sse::scatterBlock};
+constexpr ShadingKernel kSseShading = kernels::sse::kShading;
 #endif

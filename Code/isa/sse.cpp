@@ -7,5 +7,5 @@
 #include "isa/instances.h"
 
 static constexpr kernels::build::TreeBuilder kSseTreeBuilder = kernels::sse::build::treeBuilder();
-constexpr Isa kSseIsa = kernels::sse::isaOf("sse", hasSse, &kSseTreeBuilder, &kSsePath);
+constexpr Isa kSseIsa = kernels::sse::isaOf("sse", hasSse, &kSseTreeBuilder, &kSseShading);
 #endif

@@ -44,7 +44,8 @@ StillsInLanes stillsInLanesOf(const Scene& scene, const RenderSettings& settings
         if (settings.picture.integrator == IntegratorKind::Uv) return true;
         if (!scene.anyMaterial().pictures) return false;
         const SceneMaterial& material = scene.materials()[number];
-        return material.isTextured() || material.bendsNormals();
+        return material.isTextured() || material.bendsNormals() ||
+               (scene.isLobed() && scene.lobedMaterials()[number].factors != 0);
     };
     stills.shapes.resize(set.shapes.size());
     const auto take = [&](std::size_t i) {
@@ -129,6 +130,8 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
             lamp.ball = lamp.emission->ball();
         (shades ? shadingLamps : openLamps).push_back(lamp);
     }
+    for (std::size_t i = 0; i < scene.pathLights().size(); ++i)
+        lampSamplers.push_back(sampler.stream(static_cast<std::uint32_t>(i) + 1, samples));
     if (settings.specialise && settings.picture.integrator == IntegratorKind::Whitted)
         mapLamps(scene, settings, shadingLamps);
 }

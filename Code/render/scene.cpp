@@ -13,9 +13,11 @@
 #include "render/make_shapes.h"
 #include "render/path/light_rows.h"
 #include "render/path/make_lobes.h"
+#include "render/path/scene_sky.h"
 #include "render/picture_reader.h"
 #include "render/texture_files.h"
 #include "render/to_float.h"
+#include "texture/sky_cells.h"
 
 #include <algorithm>
 #include <functional>
@@ -55,6 +57,7 @@ public:
         scene_.frame_ = frameOf(desc_, *cameraDesc_, settings_.threads);
         scene_.shapes_.distantFrom = scene_.frame_.distantFrom;
         scene_.accelKind_ = settings_.accel;
+        scene_.isLobed_ = isPath() || needsLobes();
         buildCamera();
         scene_.features_ = featuresOf(desc_, *cameraDesc_, settings_);
         keepUnevenPlaces();
@@ -213,7 +216,7 @@ private:
             materials[i].pictures = picturesOf(desc_.materials[i]);
             scene_.any_ |= materials[i];
         }
-        if (settings_.picture.integrator == IntegratorKind::Path) buildLobes();
+        if (scene_.isLobed_) buildLobes();
         if (spent_ != nullptr) std::vector<MaterialDesc>().swap(spent_->materials);
     }
 
@@ -224,6 +227,7 @@ private:
         for (std::size_t i = 0; i <= desc_.materials.size(); ++i) {
             const MaterialDesc& desc = i < desc_.materials.size() ? desc_.materials[i] : standard;
             const LobeList list = lobesOf(desc, pictures, on_);
+            scene_.any_.pictures |= !list.factors.empty();
             if (!lobed.add(list.lobes, list.factors, emits(desc)))
                 scene_.warnings_.push_back(
                     located(source_, desc.loc.offset,
@@ -282,7 +286,13 @@ private:
         if (on_.fresnel && desc.fresnel == MaterialDesc::Fresnel::Schlick)
             m.base.fresnel = FresnelModel::Schlick;
         if (on_.glossy) m.base.roughness = toFloat(desc.roughness);
+        for (const LobeDesc& lobe : desc.lobes) {
+            if ((lobeTypes()[lobe.kind].flags & kHasSides) == 0) continue;
+            m.base.transmission = {1, 1, 1}; // its ior counts for what is within
+            m.base.ior = toFloat(lobe.numbers[0]);
+        }
         m.base.emission = toRgb(desc.emission);
+        m.lightsOthers = desc.emissionLights;
         m.emitsFront = desc.emissionSides == MaterialDesc::Sides::Front;
         m.base.opacity = toFloat(desc.opacity);
         m.base.filter = toRgb(desc.filter);
@@ -360,6 +370,10 @@ private:
             desc_.textures[static_cast<std::size_t>(desc_.world.environment)];
         auto image = pictureOf(picture);
         if (!image) return;
+        if (skyLights())
+            if (const auto why = whyNoLight(*image))
+                fail(ErrorKind::Input,
+                     located(source_, picture.fileLoc.offset, cat(picture.file, ": ", *why)));
         scene_.environment_ = std::make_unique<const Environment>(
             std::move(*image), spaceOf(picture), interpolationOf(picture),
             desc_.world.environmentUp == WorldDesc::Up::Z ? Environment::Up::Z : Environment::Up::Y,
@@ -367,6 +381,16 @@ private:
     }
 
     // ---- lights
+
+    bool isPath() const { return settings_.picture.integrator == IntegratorKind::Path; }
+    bool needsLobes() const {
+        if (settings_.picture.integrator != IntegratorKind::Whitted) return false;
+        return desc_.world.environmentLights || desc_.world.ambientOcclusion > 0 ||
+               std::any_of(
+                   desc_.materials.begin(), desc_.materials.end(),
+                   [](const MaterialDesc& m) { return !m.lobes.empty() || m.emissionLights; });
+    }
+    bool skyLights() const { return isPath() || desc_.world.environmentLights; }
 
     // Whether rays can meet the lamp.
     static bool hasSize(const LightDesc& desc) {
@@ -398,7 +422,7 @@ private:
                                       makeLampBody(light, scene_.frame_, 0, 0));
         }
         scene_.seenLamps_.finish();
-        if (settings_.picture.integrator == IntegratorKind::Path) buildPathLights();
+        if (scene_.isLobed_) buildPathLights();
     }
 
     void buildPathLights() {
@@ -408,15 +432,22 @@ private:
             const auto row = makeLightRow(desc, scene_.frame_);
             if (!row) continue;
             const bool isOpen = !(desc.shadows && on_.shadows);
-            const std::uint32_t light = lights.add({*row, isOpen, false});
+            const std::uint32_t light = lights.add({*row, isOpen, hasSize(desc), false});
             if (isOpen || !hasSize(desc)) continue;
             if (hasLampBody_[i])
                 lights.addObject(static_cast<std::uint32_t>(objectCount_ + i), true, light);
             else
                 lights.addUnshaped(light, seenBy(desc.seenBy));
         }
+        // An even sky is left to the lobes of paths, which find it everywhere.
+        if (skyLights() && !isBlack(scene_.background_) && (scene_.environment_ || !isPath()))
+            lights.addSky(scene_.environment_
+                              ? skyTableOf(*scene_.environment_, isPath(), settings_.threads)
+                              : SkyTable(),
+                          skyRadianceOf(scene_.environment_.get(), scene_.background_),
+                          luminance(scene_.background_));
         for (const Emitter& emitter : emitterObjects_) {
-            const std::uint32_t light = lights.add({emitter.row, false, true});
+            const std::uint32_t light = lights.add({emitter.row, false, true, true});
             lights.addObject(emitter.object, !emitter.back, light);
             if (emitter.bothSides) lights.addObject(emitter.object, emitter.back, light);
         }
@@ -428,7 +459,7 @@ private:
                 const SceneMaterial& of = scene_.materials_[material];
                 const TriangleRow row{corners[0], corners[1], corners[2], of.base.emission,
                                       of.emitsFront ? 0.0f : 1.0f};
-                lights.addTriangle(shape, triangle, lights.add({lightRow(row), false, true}));
+                lights.addTriangle(shape, triangle, lights.add({lightRow(row), false, true, true}));
             });
         lights.finish();
     }
@@ -436,11 +467,12 @@ private:
     // Whether the material shines the same everywhere: only then its surface is sampled.
     bool isEvenEmitter(std::uint32_t material) const {
         const SceneMaterial& of = scene_.materials_[material];
+        if (!isPath() && !of.lightsOthers) return false;
         return !isBlack(of.base.emission) && !of.pictures->emission && !of.isLamp;
     }
     // Before objects are let go: those that shine and are no meshes.
     void keepEmitters() {
-        if (settings_.picture.integrator != IntegratorKind::Path) return;
+        if (!scene_.isLobed_) return;
         for (std::size_t i = 0; i < objectCount_; ++i) {
             const ObjectDesc& object = desc_.objects[i];
             const Handle number = object.materials.empty() ? kNone : object.materials[0];
@@ -450,8 +482,8 @@ private:
             const MaterialDesc& material = desc_.materials[static_cast<std::size_t>(number)];
             const MovingTransform place =
                 placedKeys(object.worldFromObject, scene_.frame_, on_.motionBlur);
-            if (isBlack(toRgb(material.emission)) || material.emissionTexture != kNone ||
-                !place.isStatic())
+            if (!(isPath() || material.emissionLights) || isBlack(toRgb(material.emission)) ||
+                material.emissionTexture != kNone || !place.isStatic())
                 continue;
             const bool bothSides = material.emissionSides == MaterialDesc::Sides::Both;
             const auto number32 = static_cast<std::uint32_t>(i);
@@ -476,8 +508,7 @@ private:
         scene_.any_ |= glow;
         hasLampBody_[id - objectCount_] = true;
         scene_.shapes_.add(std::move(body), ShapeSet::Shadow::None);
-        if (settings_.picture.integrator == IntegratorKind::Path)
-            scene_.lobedMaterials_.add({}, {}, true);
+        if (scene_.isLobed_) scene_.lobedMaterials_.add({}, {}, true);
     }
 
     Scene& scene_;

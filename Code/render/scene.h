@@ -44,9 +44,10 @@ inline constexpr MaterialPictures kNoPictures;
 // A material of the scene, in as few lines of the cache as there may be thousands of them.
 struct alignas(64) SceneMaterial {
     Material base;
-    bool litOutside = false; // answers lamps outside of it, whichever side is seen
-    bool emitsFront = false; // its emission leaves to the outside only
-    bool isLamp = false;     // the visible body of an area light; flat ones have no back
+    bool litOutside = false;   // answers lamps outside of it, whichever side is seen
+    bool lightsOthers = false; // Whitted pictures: its emission does
+    bool emitsFront = false;   // its emission leaves to the outside only
+    bool isLamp = false;       // the visible body of an area light; flat ones have no back
     const MaterialPictures* pictures = &kNoPictures;
     // Pictures that change its numbers.
     bool isTextured() const {
@@ -92,7 +93,8 @@ public:
     std::span<const SceneMaterial> materials() const { return materials_; }
     const std::vector<std::unique_ptr<const Light>>& lights() const { return lights_; }
     const SeenLamps& seenLamps() const { return seenLamps_; }
-    // What paths are made of; empty for other integrators.
+    // Whether it is shaded by lobes: paths are, and what other forms of shading can't do.
+    bool isLobed() const { return isLobed_; }
     const LobedMaterials& lobedMaterials() const { return lobedMaterials_; }
     const PathLights& pathLights() const { return pathLights_; }
     Rgb ambient() const { return ambient_; }
@@ -131,6 +133,7 @@ private:
     ShapeSet shapes_;
     std::vector<std::unique_ptr<const Light>> lights_;
     SeenLamps seenLamps_; // of lights_
+    bool isLobed_ = false;
     LobedMaterials lobedMaterials_;
     PathLights pathLights_;
     std::unique_ptr<const Environment> environment_;

@@ -7,6 +7,7 @@
 
 std::string shadingForm(const IntegratorContext& context) {
     if (context.settings.picture.integrator == IntegratorKind::Path) return "paths, one form";
+    if (context.scene.isLobed()) return "lobes, one form";
     if (context.settings.picture.integrator == IntegratorKind::Ao)
         return "ambient occlusion, one form";
     if (context.settings.picture.integrator != IntegratorKind::Whitted)

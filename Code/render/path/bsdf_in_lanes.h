@@ -22,24 +22,31 @@ public:
     // Points `first` to first + W - 1 of a block.
     Bsdf(const LobeBlock& block, std::size_t first, const Floats3& toEye, Floats eta)
         : block_(block), first_(first), toEye_(toEye), eta_(eta) {
-        const Floats zero(0.0f);
         Floats3 arrives = rgbOf(1.0f);
-        Floats sum = zero;
         for (std::size_t l = 0; l < block.count; ++l) {
             const LobeBlock::Column& column = block.lobe[l];
             const Floats3 w = rgbAt(column.value);
             weight_[l] = w * arrives;
+            if (column.covers)
+                forLobe(column.kind, [&]<class L> {
+                    arrives = arrives * (rgbOf(1.0f) - w + w * L(numbers(l)).below(toEye_));
+                });
+        }
+    }
+    // Finds how likely each lobe is chosen, which eval() of all lobes and sample() ask for.
+    void choose() {
+        const Floats zero(0.0f);
+        Floats sum = zero;
+        for (std::size_t l = 0; l < block_.count; ++l) {
             share_[l] = zero;
-            forLobe(column.kind, [&]<class L> {
-                const L lobe(numbers(l));
+            forLobe(block_.lobe[l].kind, [&]<class L> {
                 if constexpr ((L::kFlags & kSpawnsRays) != 0)
-                    share_[l] = maxOf(weight_[l] * lobe.albedo(toEye_));
-                if (column.covers) arrives = arrives * (rgbOf(1.0f) - w + w * lobe.below(toEye_));
+                    share_[l] = maxOf(weight_[l] * L(numbers(l)).albedo(toEye_));
             });
             sum = sum + share_[l];
         }
         const Floats scale = select(sum > zero, Floats(1.0f) / sum, zero);
-        for (std::size_t l = 0; l < block.count; ++l) share_[l] = share_[l] * scale;
+        for (std::size_t l = 0; l < block_.count; ++l) share_[l] = share_[l] * scale;
     }
 
     struct Value {
@@ -60,7 +67,56 @@ public:
         return value;
     }
 
-    // By three numbers in [0,1).
+    // f |cos| where lobes that spawn rays of their own, and are not diffuse, each take part in the
+    // light of a lamp that is sampled with `lampPdf` per steradian (power heuristic). 0: they
+    // don't.
+    Floats3 evalBesideRays(const Floats3& toLight, Floats lampPdf) const {
+        Floats3 f = rgbOf(0.0f);
+        const Floats lamp2 = lampPdf * lampPdf, zero(0.0f);
+        for (std::size_t l = 0; l < block_.count; ++l)
+            forLobe(block_.lobe[l].kind, [&]<class L> {
+                if constexpr ((L::kFlags & kAnswersLights) != 0) {
+                    const L lobe(numbers(l));
+                    Floats3 value = weight_[l] * lobe.eval(toEye_, toLight);
+                    if constexpr (spawnsInWhitted(L::kFlags)) {
+                        const Floats pdf = lobe.pdf(toEye_, toLight);
+                        const Floats part = lamp2 / (lamp2 + pdf * pdf);
+                        value = value * select(lampPdf > zero, part, Floats(1.0f));
+                    }
+                    f = f + value;
+                }
+            });
+        return f;
+    }
+    // What part of even light from everywhere the diffuse lobes send on.
+    Floats3 diffuseAlbedo() const {
+        Floats3 sum = rgbOf(0.0f);
+        for (std::size_t l = 0; l < block_.count; ++l)
+            forLobe(block_.lobe[l].kind, [&]<class L> {
+                if constexpr ((L::kFlags & kDiffuse) != 0)
+                    sum = sum + weight_[l] * L(numbers(l)).albedo(toEye_);
+            });
+        return sum;
+    }
+    // A sample of one lobe, of its reflection or transmission if it has both. Its weight is all
+    // that the lobe adds.
+    LobeSample sampleLobe(std::size_t l, bool transmits, Floats pick, Floats u, Floats v) const {
+        const Floats zero(0.0f);
+        LobeSample out{rgbOf(0.0f), rgbOf(0.0f), zero, maskOf(0)};
+        forLobe(block_.lobe[l].kind, [&]<class L> {
+            if constexpr (spawnsInWhitted(L::kFlags)) {
+                const L lobe(numbers(l));
+                if constexpr ((L::kFlags & kReflects) != 0 && (L::kFlags & kTransmits) != 0)
+                    out = lobe.branch(toEye_, transmits, u, v);
+                else
+                    out = lobe.sample(toEye_, pick, u, v);
+                out.weight = weight_[l] * out.weight;
+            }
+        });
+        return out;
+    }
+
+    // By three numbers in [0,1); after choose().
     BsdfSample sample(Floats pick, Floats u, Floats v) const {
         const Floats zero(0.0f), one(1.0f);
         BsdfSample out{{zero, zero, one}, rgbOf(0.0f), zero, maskOf(0), maskOf(0)};

@@ -1,6 +1,7 @@
 // One lamp for each of W points, and a sample of its light.
 #pragma once
 
+#include "light/kinds/sky.h"
 #include "light/lights.h"
 #include "light/tree/pick_lanes.h"
 #include "render/path/path_lights.h"
@@ -59,6 +60,9 @@ inline ChosenLight chooseLight(const PathLights& lights, const Floats3& p, const
             if (is && entry.isOpen) out.open |= 1u << lane;
             if (is && entry.isSurface) surfaces |= 1u << lane;
         }
+        if (kind == PathLights::kSkyKind)
+            out.sample =
+                select(maskOf(alike), SkyEmitter(lights.skyView()).sample(p, u, v), out.sample);
         forLight(kind, [&]<class L> {
             const L light(columns.numbers());
             out.sample = select(maskOf(alike), light.sample(p, u, v), out.sample);

@@ -8,6 +8,11 @@
 #include <cstddef>
 #include <cstdint>
 
+// Whether Whitted pictures follow rays of such a lobe: all but diffuse ones.
+constexpr bool spawnsInWhitted(std::uint32_t flags) {
+    return (flags & kSpawnsRays) != 0 && (flags & kDiffuse) == 0;
+}
+
 struct alignas(64) LobeBlock {
     static constexpr std::size_t kPoints = SurfaceBlock::kPoints;
     using Lane = float[kPoints];

@@ -1,121 +1,36 @@
 #include "render/path/path.h"
 
-#include "render/path/path_memory.h"
-#include "render/path/path_numbers.h"
-#include "render/to_float.h"
-#include "render/waves/background.h"
-#include "render/waves/points.h"
-#include "render/waves/single_bounces.h"
+#include "render/path/lobed_wave.h"
+#include "render/path/shading_kernel.h"
 
 #include <bit>
+#include <utility>
 
 namespace {
 
-constexpr std::size_t kPoints = PointBlock::kPoints;
+class PathWave : LobedWave {
+    // With what density a light was sampled where a path came from.
+    auto pdfOf() const {
+        return [this](const PathState& from, std::uint32_t light, Vec3 dir) {
+            return light == PathLights::kNone ? 0.0f : lights_.pdf(from.p, from.n, light, dir);
+        };
+    }
 
-// The squares of two densities, over their sum (power heuristic).
-float misWeight(float pdf, float other) {
-    const float a = pdf * pdf, b = other * other;
-    return a < kInfinityF ? a / (a + b) : 1.0f;
-}
-
-class PathWave {
 public:
-    PathWave(const Wave& wave)
-        : wave_(wave), context_(wave.context), scene_(context_.scene), memory_(wave.memory),
-          path_(memory_.path), lights_(scene_.pathLights()), materials_(scene_.lobedMaterials()),
-          limits_(context_.settings.picture) {}
+    explicit PathWave(const Wave& wave) : LobedWave(wave) {}
 
     void run() {
-        findSurfaces();
-        addMissed();
-        if (lights_.hasUnshaped()) addMet();
+        findPoints();
+        addMissed(pdfOf());
+        addMet(pdfOf());
         path_.shadowRays.clear();
         memory_.next.clear(), path_.nextStates.clear();
-        const PointBatch& points = memory_.points;
-        for (std::size_t b = 0; b < points.blocks(); ++b) scatterBlock(b);
-        addShadowed();
+        for (std::size_t b = 0; b < memory_.points.blocks(); ++b) scatterBlock(b);
+        traceShadowRays(path_.shadowRays,
+                        [&](std::uint32_t slot, Rgb light) { wave_.add(slot, light); });
     }
 
 private:
-    const PathState& stateOf(std::size_t ray) const { return path_.states[ray]; }
-
-    void findSurfaces() {
-        PointBatch& points = memory_.points;
-        points.clear(wave_.rays.size());
-        waves::listHits(memory_.hits, wave_.rays.size(), points);
-        points.at.setMaterials(scene_.materials());
-        waves::findSurfaces(wave_);
-        for (std::size_t b = 0; b < points.blocks(); ++b) {
-            waves::seeBlock<true>(wave_, b, 0);
-            waves::takeSamples(wave_.rays, b, points);
-        }
-        for (std::size_t k = 0; k < points.count; ++k) points.material[k] = &points.at.of(k).base;
-        if (wave_.depth == 0 && context_.wantsFirstHits) describeFirstHits(wave_);
-    }
-
-    // Light that arrives along ray i, on its sample.
-    void add(std::size_t i, Rgb radiance) {
-        Rgb light = wave_.rays.weight[i] * radiance;
-        clampIndirect(light, wave_.depth);
-        wave_.add(wave_.rays.sample[i], light);
-    }
-    // `bounces` lie between the camera and where the light is reflected or seen.
-    void clampIndirect(Rgb& light, int bounces) const {
-        const float most = toFloat(limits_.clampIndirect);
-        if (!(most > 0) || bounces < 1) return;
-        const float sum = light.r + light.g + light.b;
-        if (sum > 3 * most) light = light * (3 * most / sum);
-    }
-
-    // What part of a light's radiance a ray adds that has met it, if its direction was sampled with
-    // a density: the light could have been sampled as well.
-    float partOfHit(const PathState& state, std::uint32_t light, Vec3 dir) const {
-        if (!(state.pdf > 0) || light == PathLights::kNone) return 1;
-        return misWeight(state.pdf, lights_.pdf(state.p, state.n, light, dir));
-    }
-
-    void addMissed() {
-        const PointBatch& points = memory_.points;
-        const std::span<const Rgb> seen = waves::backgroundsOf(wave_);
-        const Rgb background = seen.empty() ? scene_.background(Vec3{}) : Rgb{};
-        for (std::size_t m = 0; m < points.missedCount; ++m) {
-            const std::uint32_t i = points.missed[m];
-            const Vec3 dir = normalize(wave_.rays.dir[i]);
-            const PathState& state = stateOf(i);
-            const Rgb radiance = seen.empty() ? background : seen[m];
-            add(i, radiance * partOfHit(state, lights_.sky(), dir));
-        }
-    }
-
-    // Lamps that are no shapes, and that rays go through.
-    void addMet() {
-        const PathBatch& rays = wave_.rays;
-        for (std::size_t i = 0; i < rays.size(); ++i) {
-            const PathState& state = stateOf(i);
-            const float end = memory_.hits[i].isHit() ? memory_.hits[i].t : kInfinityF;
-            lights_.meet(rays.org[i], rays.dir[i], end, state.pdf > 0 ? 0 : rays.seesLights[i],
-                         [&](std::uint32_t light, Rgb radiance) {
-                             add(i, radiance * partOfHit(state, light, rays.dir[i]));
-                         });
-        }
-    }
-
-    // What the surface at point k emits.
-    void addEmission(std::size_t k) {
-        const PointBatch& points = memory_.points;
-        const std::uint32_t i = points.ray[k];
-        const PathState& state = stateOf(i);
-        const ShadedPoint at = points.at[k];
-        const Material here = materialAt(at);
-        if (isBlack(here.emission) || (at.of->emitsFront && !at.front)) return;
-        if (at.of->isLamp && wave_.rays.seesLights[i] == 0) return;
-        const Hit& hit = memory_.hits[i];
-        std::uint32_t light = lights_.ofObject(at.surface.object, at.front);
-        if (light == PathLights::kNone) light = lights_.ofTriangle(hit.shape, hit.prim);
-        add(i, here.emission * partOfHit(state, light, normalize(wave_.rays.dir[i])));
-    }
-
     void scatterBlock(std::size_t b) {
         const PointBatch& points = memory_.points;
         const PointBlock& at = points.at.block(b);
@@ -128,7 +43,7 @@ private:
         for (std::size_t k = first; k < first + size; ++k) {
             const std::size_t i = k - first;
             const LobedMaterial& of = materials_[at.material[i]];
-            if ((of.flags & LobedMaterial::kEmits) != 0) addEmission(k);
+            if ((of.flags & LobedMaterial::kEmits) != 0) addEmission(k, pdfOf());
             if (of.lobes == 0 || stateOf(points.ray[k]).isLast) continue;
             waiting |= 1u << i;
             pixels[i] = wave_.rays.stream[points.ray[k]];
@@ -136,12 +51,7 @@ private:
         }
         if (waiting == 0) return;
         drawNumbers(context_, wave_.depth, pixels, samples, block.numbers);
-        for (std::size_t k = first; k < first + size; ++k) {
-            const Rgb weight = points.weight[k];
-            block.throughput[0][k - first] = weight.r;
-            block.throughput[1][k - first] = weight.g;
-            block.throughput[2][k - first] = weight.b;
-        }
+        takeThroughputs(b, block.throughput);
         waiting &= ~goStraight(b, waiting);
         while (waiting != 0) waiting &= ~scatterAlike(b, waiting);
     }
@@ -174,35 +84,14 @@ private:
 
     // Scatters the light of those points that have the same kinds of lobes as the first of them.
     unsigned scatterAlike(std::size_t b, unsigned waiting) {
-        const PointBatch& points = memory_.points;
-        const PointBlock& at = points.at.block(b);
-        const auto leader = static_cast<std::size_t>(std::countr_zero(waiting));
-        const std::uint32_t number = at.material[leader];
-        const LobedMaterial& of = materials_[number];
-        LobeBlock& lobes = path_.lobes;
-        lobes.begin(materials_, of);
-        unsigned alike = 0;
-        for (unsigned rest = waiting; rest != 0; rest &= rest - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-            const LobedMaterial& other = materials_[at.material[i]];
-            if (other.signature != of.signature) continue;
-            alike |= 1u << i;
-            if (at.material[i] != number) lobes.put(materials_, other, i);
-            if (other.factors != 0)
-                lobes.paint(materials_, other, i, points.at.uv(b * kPoints + i));
-        }
+        const PointBlock& at = memory_.points.at.block(b);
         PathBlock& block = path_.block;
-        block.points = alike;
-        waves::Boundary boundaries[kPoints];
-        if ((of.flags & kHasSides) != 0)
-            for (unsigned rest = alike; rest != 0; rest &= rest - 1) {
-                const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-                boundaries[i] = waves::boundaryAt(wave_, b * kPoints + i);
-                block.eta[i] = boundaries[i].eta;
-            }
-        context_.settings.isa->path->scatter(lights_, at, lobes, block);
+        const unsigned alike = block.points = fillAlike(b, waiting);
+        const std::uint32_t flags = path_.lobes.flags;
+        if ((flags & kHasSides) != 0) findBoundaries(b, alike, block.eta);
+        context_.settings.isa->shading->scatter(lights_, at, path_.lobes, block);
         takeLight(b, alike);
-        takeRays(b, alike, of, boundaries);
+        takeRays(b, alike, flags);
         return alike;
     }
 
@@ -232,8 +121,7 @@ private:
     }
 
     // Rays that go on.
-    void takeRays(std::size_t b, unsigned alike, const LobedMaterial& of,
-                  const waves::Boundary* boundaries) {
+    void takeRays(std::size_t b, unsigned alike, std::uint32_t flags) {
         const PathBlock& block = path_.block;
         const PathBatch& rays = wave_.rays;
         for (unsigned on = block.scattered & alike; on != 0; on &= on - 1) {
@@ -264,14 +152,14 @@ private:
             }
             state.pdf = block.pdf[i];
             state.p = SurfaceBlock::get(memory_.points.at.block(b).p, i);
-            state.n = (of.flags & kTransmits) != 0
+            state.n = (flags & kTransmits) != 0
                           ? Vec3{}
                           : SurfaceBlock::get(memory_.points.at.block(b).n, i);
-            const bool crosses = isTransmitted && (of.flags & kHasSides) != 0;
+            const bool crosses = isTransmitted && (flags & kHasSides) != 0;
             memory_.next.push({SurfaceBlock::get(block.org, i), SurfaceBlock::get(block.dir, i), 0,
                                kInfinityF, rays.time[ray]},
                               rays.sample[ray], weight,
-                              crosses ? boundaries[i].after : rays.medium[ray], rays.stream[ray],
+                              crosses ? boundaries_[i].after : rays.medium[ray], rays.stream[ray],
                               PathBatch::kSeesAsReflection);
             path_.nextStates.push_back(state);
             ++(isTransmitted ? wave_.counts.refract
@@ -281,31 +169,6 @@ private:
     }
     static constexpr int kBouncesWithoutRoulette = 3;
     static constexpr float kLeastToGo = 0.05f;
-
-    void addShadowed() {
-        const RayBatch& rays = path_.shadowRays;
-        if (rays.empty()) return;
-        wave_.counts.tracedShadow += rays.size();
-        if (scene_.hasSeeThrough()) {
-            transmitted(scene_, rays, memory_.transmittance);
-            for (std::size_t i = 0; i < rays.size(); ++i)
-                if (const Rgb part = memory_.transmittance[i]; !isBlack(part))
-                    wave_.add(rays.sample[i], rays.weight[i] * part);
-            return;
-        }
-        scene_.shapes().occluded(rays.span(), memory_.hidden);
-        for (std::size_t i = 0; i < rays.size(); ++i)
-            if (memory_.hidden[i] == 0) wave_.add(rays.sample[i], rays.weight[i]);
-    }
-
-    const Wave& wave_;
-    const IntegratorContext& context_;
-    const Scene& scene_;
-    WaveMemory& memory_;
-    PathMemory& path_;
-    const PathLights& lights_;
-    const LobedMaterials& materials_;
-    const SettingsDesc& limits_;
 };
 
 } // namespace

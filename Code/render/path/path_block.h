@@ -32,9 +32,3 @@ struct alignas(64) PathBlock {
     alignas(64) Lane dir[3], org[3], weight[3], pdf;
     unsigned scattered = 0, single = 0, diffuse = 0, transmitted = 0;
 };
-
-struct PathKernel {
-    // Points whose lobes are those of `lobes`. Points that are not asked keep what they have.
-    void (*scatter)(const PathLights& lights, const PointBlock& points, const LobeBlock& lobes,
-                    PathBlock& block) = nullptr;
-};

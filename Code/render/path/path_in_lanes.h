@@ -33,12 +33,12 @@ struct SeenPoints {
     Floats3 p, ng, n, lift; // normals on the side of the eye
     Floats error;
     unsigned lifted; // lanes where the horizon of ns has a say, too
-    Floats3 ns;
+    Floats3 ns, toEye;
 
     SeenPoints(const PointBlock& block, std::size_t first)
         : p(loadThree(block.p, first)), ng(loadThree(block.ng, first)),
           n(loadThree(block.n, first)), lift(rgbOf(0.0f)), error(Floats::load(block.error + first)),
-          lifted(0), ns(ng) {
+          lifted(0), ns(ng), toEye(loadThree(block.toEye, first)) {
         const Mask front = maskOf(block.front >> first & kAllLanes);
         const unsigned curved = block.curved >> first & kAllLanes;
         ng = select(front, ng, negated(ng));
@@ -91,16 +91,20 @@ inline void sendLight(const PathLights& lights, const SeenPoints& at, const Shad
     block.lit |= lanes << first, block.open |= (lanes & chosen.open) << first;
 }
 
-// The direction in which the path goes on.
-inline void sendRays(const SeenPoints& at, const ShadingFrame& frame, const Bsdf& bsdf,
-                     unsigned lanes, std::size_t first, PathBlock& block) {
+// A sampled direction as a ray, where it is on the right side of the surface.
+inline void sendRay(const SeenPoints& at, const ShadingFrame& frame, const BsdfSample& next,
+                    unsigned lanes, std::size_t first, PathBlock& block) {
     const Floats zero(0.0f);
-    const PathNumbers& u = block.numbers;
-    const BsdfSample next = bsdf.sample(Floats::load(u.lobe + first), Floats::load(u.bsdfU + first),
-                                        Floats::load(u.bsdfV + first));
-    const Floats3 dir = normalize(frame.toWorld(next.toLight));
+    Floats3 dir = normalize(frame.toWorld(next.toLight));
     const Mask transmitted = next.toLight.z < zero;
-    const Floats rise = dot(at.ng, dir);
+    Floats rise = dot(at.ng, dir);
+    // A mirrored direction that bent normals lead below the surface is mirrored by the surface.
+    const unsigned sunk = bits(next.single) & ~bits(transmitted) & ~bits(rise > zero);
+    if ((sunk & lanes) != 0) {
+        const Floats3 toEye = at.toEye;
+        const Floats3 flat = normalize(at.ng * (Floats(2.0f) * dot(at.ng, toEye)) - toEye);
+        dir = select(maskOf(sunk), flat, dir), rise = dot(at.ng, dir);
+    }
     const Mask isBelow = rise < zero;
     const unsigned rightSide =
         (bits(transmitted) & bits(isBelow)) | (~bits(transmitted) & bits(rise > zero));
@@ -123,12 +127,17 @@ void scatterBlock(const PathLights& lights, const PointBlock& points, const Lobe
         if (lanes == 0) continue;
         const SeenPoints at(points, first);
         const ShadingFrame frame = frameAroundZ(at.n);
-        const Bsdf bsdf(lobes, first, frame.toLocal(loadThree(points.toEye, first)),
-                        Floats::load(block.eta + first));
+        Bsdf bsdf(lobes, first, frame.toLocal(at.toEye), Floats::load(block.eta + first));
+        bsdf.choose();
         if ((lobes.flags & kAnswersLights) != 0 && !lights.isEmpty())
             sendLight(lights, at, frame, bsdf, (lobes.flags & kTransmits) != 0, lanes, first,
                       block);
-        if ((lobes.flags & kSpawnsRays) != 0) sendRays(at, frame, bsdf, lanes, first, block);
+        if ((lobes.flags & kSpawnsRays) == 0) continue;
+        const PathNumbers& u = block.numbers;
+        sendRay(at, frame,
+                bsdf.sample(Floats::load(u.lobe + first), Floats::load(u.bsdfU + first),
+                            Floats::load(u.bsdfV + first)),
+                lanes, first, block);
     }
 }
 

@@ -1,9 +1,11 @@
 #include "render/path/path_lights.h"
 
+#include "light/kinds/sky.h"
 #include "light/lights.h"
 #include "light/tree/pick_lanes.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace {
 
@@ -36,19 +38,35 @@ void PathLights::addTriangle(std::uint32_t shape, std::uint32_t triangle, std::u
     putAt(ofTriangle_[shape], triangle, light);
 }
 
+void PathLights::addSky(SkyTable table, std::unique_ptr<const SkyRadiance> radiance,
+                        double brightness) {
+    skyBrightness_ = brightness;
+    skyTable_ = std::move(table), skyRadiance_ = std::move(radiance);
+    sky_ = add({LightRow{kSkyKind, {}}, false, true, false});
+}
+
 void PathLights::finish() {
     std::vector<LightBounds> bounds;
     bounds.reserve(entries_.size());
-    for (const Entry& entry : entries_) bounds.push_back(boundsOf(entry.row));
+    for (const Entry& entry : entries_)
+        bounds.push_back(entry.row.kind == kSkyKind
+                             ? boundsOfSky(kPi * skyTable_.mean() * skyBrightness_)
+                             : boundsOf(entry.row));
     picker_ = LightPicker(bounds);
 }
 
-float PathLights::pdf(Vec3 p, Vec3 n, std::uint32_t light, Vec3 dir) const {
+float PathLights::pdfOfLight(Vec3 p, std::uint32_t light, Vec3 dir) const {
+    if (light == sky_) return SkyEmitter(skyView()).pdf(lanesOf(p), lanesOf(dir)).v;
     float pdf = 0;
     const LightRow& row = entries_[light].row;
     forLight(row.kind, [&]<class L> {
         pdf = L(LightNumbers{row.numbers.data(), 1}).pdf(lanesOf(p), lanesOf(dir)).v;
     });
+    return pdf;
+}
+
+float PathLights::pdf(Vec3 p, Vec3 n, std::uint32_t light, Vec3 dir) const {
+    const float pdf = pdfOfLight(p, light, dir);
     if (!(pdf > 0)) return 0;
     return pdf * LightChoice(tree()).probability(lanesOf(p), lanesOf(n), Ints(light)).v;
 }

@@ -5,9 +5,11 @@
 #include "base/math.h"
 #include "base/vec.h"
 #include "light/light_row.h"
+#include "light/sky/sky_table.h"
 #include "light/tree/light_picker.h"
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -18,6 +20,7 @@ public:
     struct Entry {
         LightRow row;
         bool isOpen = false;    // casts no shadows
+        bool isSoft = false;    // its samples differ
         bool isSurface = false; // shadow rays meet it where they end
     };
     // Returns the number of the light.
@@ -28,9 +31,13 @@ public:
     // A side of the surface of an object that is no mesh is a light, or a triangle of a shape is.
     void addObject(std::uint32_t object, bool front, std::uint32_t light);
     void addTriangle(std::uint32_t shape, std::uint32_t triangle, std::uint32_t light);
+    // The sky is one of them; `table` says how it is sampled, `brightness` what its
+    // numbers are multiplied by.
+    void addSky(SkyTable table, std::unique_ptr<const SkyRadiance> radiance, double brightness);
     // Call once when all are there.
     void finish();
 
+    std::size_t size() const { return entries_.size(); }
     bool isEmpty() const { return tree().lit == 0; }
     const Entry& entry(std::uint32_t light) const { return entries_[light]; }
     LightTreeView tree() const { return picker_.view(); }
@@ -38,8 +45,13 @@ public:
     // Density per steradian with which a sample comes along `dir`, a unit vector, from this light:
     // of its choice and of the direction. `n`: black where both sides of the surface are lit.
     float pdf(Vec3 p, Vec3 n, std::uint32_t light, Vec3 dir) const;
+    // The same of the direction alone.
+    float pdfOfLight(Vec3 p, std::uint32_t light, Vec3 dir) const;
 
     std::uint32_t sky() const { return sky_; } // kNone: it is not sampled
+    // Its kind, besides those of the list of lights.
+    static constexpr std::uint32_t kSkyKind = 0xff;
+    SkyView skyView() const { return skyTable_.view(*skyRadiance_); }
     // kNone: it is not sampled.
     std::uint32_t ofObject(std::uint32_t object, bool front) const {
         const std::size_t side = 2 * std::size_t{object} + front;
@@ -80,4 +92,7 @@ private:
     std::vector<std::uint32_t> ofObject_;                // by object and side
     std::vector<std::vector<std::uint32_t>> ofTriangle_; // by shape; empty where none shines
     std::uint32_t sky_ = kNone;
+    SkyTable skyTable_;
+    std::unique_ptr<const SkyRadiance> skyRadiance_;
+    double skyBrightness_ = 1;
 };

@@ -4,7 +4,9 @@
 #include "render/batch.h"
 #include "render/path/lobe_block.h"
 #include "render/path/path_block.h"
+#include "render/path/whitted_block.h"
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -22,5 +24,9 @@ struct PathMemory {
     std::vector<PathState> states, nextStates; // of memory.rays and memory.next
     LobeBlock lobes;
     PathBlock block;
+    LampBlock lamp;
+    std::array<RayBatch, 8> lampRays; // `sample`: the point
+    std::vector<Rgb> sums;            // by point: light on its way to the sample
+    std::vector<std::uint32_t> order; // of memory.next: by point and branch
     RayBatch shadowRays; // `sample`: the slot; `weight`: the light of a sample that arrives
 };

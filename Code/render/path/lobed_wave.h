@@ -1,0 +1,184 @@
+// LobedWave: what integrators over lobes share: the points of a wave of rays, what their rays see
+// of sky, lamps and surfaces that shine, and the lobes of points that are alike.
+#pragma once
+
+#include "render/path/path_lights.h"
+#include "render/path/path_memory.h"
+#include "render/path/path_numbers.h"
+#include "render/waves/background.h"
+#include "render/waves/points.h"
+#include "render/waves/single_bounces.h"
+
+#include <bit>
+
+// The squares of two densities, the first over their sum (power heuristic, Veach 1997).
+inline float powerHeuristic(float pdf, float other) {
+    const float a = pdf * pdf, b = other * other;
+    return a < kInfinityF ? a / (a + b) : 1.0f;
+}
+
+class LobedWave {
+public:
+    static constexpr std::size_t kPoints = PointBlock::kPoints;
+
+    explicit LobedWave(const Wave& wave)
+        : wave_(wave), context_(wave.context), scene_(context_.scene), memory_(wave.memory),
+          path_(memory_.path), lights_(scene_.pathLights()), materials_(scene_.lobedMaterials()),
+          limits_(context_.settings.picture) {}
+
+protected:
+    const PathState& stateOf(std::size_t ray) const { return path_.states[ray]; }
+
+    void findPoints() {
+        PointBatch& points = memory_.points;
+        points.clear(wave_.rays.size());
+        waves::listHits(memory_.hits, wave_.rays.size(), points);
+        points.at.setMaterials(scene_.materials());
+        waves::findSurfaces(wave_);
+        for (std::size_t b = 0; b < points.blocks(); ++b) {
+            waves::seeBlock<true>(wave_, b, litOutside(b));
+            waves::takeSamples(wave_.rays, b, points);
+        }
+        for (std::size_t k = 0; k < points.count; ++k) points.material[k] = &points.at.of(k).base;
+        if (wave_.depth == 0 && context_.wantsFirstHits) describeFirstHits(wave_);
+    }
+
+    // Light that arrives along ray i, on its sample.
+    void add(std::size_t i, Rgb radiance) {
+        Rgb light = wave_.rays.weight[i] * radiance;
+        clampIndirect(light, wave_.depth);
+        wave_.add(wave_.rays.sample[i], light);
+    }
+    // `bounces` lie between the camera and where the light is reflected or seen.
+    void clampIndirect(Rgb& light, int bounces) const {
+        const float most = static_cast<float>(limits_.clampIndirect);
+        if (!(most > 0) || bounces < 1 || limits_.integrator != IntegratorKind::Path) return;
+        const float sum = light.r + light.g + light.b;
+        if (sum > 3 * most) light = light * (3 * most / sum);
+    }
+
+    // What part of a light's radiance a ray adds that has met it, if its direction was sampled with
+    // a density: the light was sampled as well, with lampPdf() per steradian.
+    template <class LampPdf> float partOfHit(std::size_t i, const LampPdf& lampPdf) const {
+        const PathState& state = stateOf(i);
+        return state.pdf > 0 ? powerHeuristic(state.pdf, lampPdf(state)) : 1;
+    }
+
+    // `lampPdf(state, light, direction)`: see partOfHit(); light may be PathLights::kNone.
+    template <class LampPdf> void addMissed(const LampPdf& lampPdf) {
+        const PointBatch& points = memory_.points;
+        const std::span<const Rgb> seen = waves::backgroundsOf(wave_);
+        const Rgb background = seen.empty() ? scene_.background(Vec3{}) : Rgb{};
+        for (std::size_t m = 0; m < points.missedCount; ++m) {
+            const std::uint32_t i = points.missed[m];
+            const Rgb radiance = seen.empty() ? background : seen[m];
+            add(i, radiance * partOfHit(i, [&](const PathState& state) {
+                       return lampPdf(state, lights_.sky(), normalize(wave_.rays.dir[i]));
+                   }));
+        }
+    }
+    // Lamps that are no shapes, and that rays go through.
+    template <class LampPdf> void addMet(const LampPdf& lampPdf) {
+        if (!lights_.hasUnshaped()) return;
+        const PathBatch& rays = wave_.rays;
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+            const PathState& state = stateOf(i);
+            const float end = memory_.hits[i].isHit() ? memory_.hits[i].t : kInfinityF;
+            lights_.meet(rays.org[i], rays.dir[i], end, state.pdf > 0 ? 0 : rays.seesLights[i],
+                         [&](std::uint32_t light, Rgb radiance) {
+                             add(i, radiance * partOfHit(i, [&](const PathState& from) {
+                                        return lampPdf(from, light, rays.dir[i]);
+                                    }));
+                         });
+        }
+    }
+    // What the surface at point k emits.
+    template <class LampPdf> void addEmission(std::size_t k, const LampPdf& lampPdf) {
+        const std::uint32_t i = memory_.points.ray[k];
+        const ShadedPoint at = memory_.points.at[k];
+        const Material here = materialAt(at);
+        if (isBlack(here.emission) || (at.of->emitsFront && !at.front)) return;
+        if (at.of->isLamp && wave_.rays.seesLights[i] == 0) return;
+        const Hit& hit = memory_.hits[i];
+        std::uint32_t light = lights_.ofObject(at.surface.object, at.front);
+        if (light == PathLights::kNone) light = lights_.ofTriangle(hit.shape, hit.prim);
+        const Rgb radiance = here.emission * here.opacity;
+        add(i, radiance * partOfHit(i, [&](const PathState& state) {
+                   return lampPdf(state, light, normalize(wave_.rays.dir[i]));
+               }));
+    }
+
+    // Writes the lobes of those points that have the same kinds of them as the first; returns
+    // which.
+    unsigned fillAlike(std::size_t b, unsigned waiting) {
+        const PointBatch& points = memory_.points;
+        const PointBlock& at = points.at.block(b);
+        const auto leader = static_cast<std::size_t>(std::countr_zero(waiting));
+        const std::uint32_t number = at.material[leader];
+        const LobedMaterial& of = materials_[number];
+        LobeBlock& lobes = path_.lobes;
+        lobes.begin(materials_, of);
+        unsigned alike = 0;
+        for (unsigned rest = waiting; rest != 0; rest &= rest - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+            const LobedMaterial& other = materials_[at.material[i]];
+            if (other.signature != of.signature) continue;
+            alike |= 1u << i;
+            if (at.material[i] != number) lobes.put(materials_, other, i);
+            if (other.factors != 0)
+                lobes.paint(materials_, other, i, points.at.uv(b * kPoints + i));
+        }
+        return alike;
+    }
+    // What is on both sides of points whose lobes ask for it; their `eta` goes to block.eta.
+    void findBoundaries(std::size_t b, unsigned points, LobeBlock::Lane& eta) {
+        for (; points != 0; points &= points - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(points));
+            boundaries_[i] = waves::boundaryAt(wave_, b * kPoints + i);
+            eta[i] = boundaries_[i].eta;
+        }
+    }
+    void takeThroughputs(std::size_t b, LobeBlock::Lane (&throughput)[3]) const {
+        const PointBatch& points = memory_.points;
+        const std::size_t first = b * kPoints, size = points.sizeOf(b);
+        for (std::size_t i = 0; i < size; ++i) {
+            const Rgb weight = points.weight[first + i];
+            throughput[0][i] = weight.r, throughput[1][i] = weight.g, throughput[2][i] = weight.b;
+        }
+    }
+    // Adds what arrives of the light of path_.shadowRays: take(sample, light).
+    template <class Take> void traceShadowRays(const RayBatch& rays, const Take& take) {
+        if (rays.empty()) return;
+        wave_.counts.tracedShadow += rays.size();
+        if (scene_.hasSeeThrough()) {
+            transmitted(scene_, rays, memory_.transmittance);
+            for (std::size_t i = 0; i < rays.size(); ++i)
+                if (const Rgb part = memory_.transmittance[i]; !isBlack(part))
+                    take(rays.sample[i], rays.weight[i] * part);
+            return;
+        }
+        scene_.shapes().occluded(rays.span(), memory_.hidden);
+        for (std::size_t i = 0; i < rays.size(); ++i)
+            if (memory_.hidden[i] == 0) take(rays.sample[i], rays.weight[i]);
+    }
+
+    const Wave& wave_;
+    const IntegratorContext& context_;
+    const Scene& scene_;
+    WaveMemory& memory_;
+    PathMemory& path_;
+    const PathLights& lights_;
+    const LobedMaterials& materials_;
+    const SettingsDesc& limits_;
+    waves::Boundary boundaries_[kPoints];
+
+private:
+    // Points of the block whose materials are lit outside whichever side is seen.
+    unsigned litOutside(std::size_t b) const {
+        const PointBatch& points = memory_.points;
+        unsigned outside = 0;
+        for (std::size_t i = 0; i < points.sizeOf(b); ++i)
+            outside |= unsigned{points.at.of(b * kPoints + i).litOutside} << i;
+        return outside;
+    }
+};
