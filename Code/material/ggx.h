@@ -23,8 +23,8 @@ struct Ggx {
     Mask smooth;     // so narrow that floats would not resolve it: single directions
     Floats alpha;
 
-    // A roughness, Blender's scale: alpha is its square. 1e-3 and less is smooth.
-    static constexpr float kSmooth = 1e-6f; // alpha
+    // Up to this roughness (Blender's scale) it is smooth; alpha is the square of roughness.
+    static constexpr float kSmoothRoughness = 1e-3f, kSmooth = 1e-6f; // alpha
 
     explicit Ggx(Floats roughness) : sin(0.0f), cos(1.0f), smooth(maskOf(0)) { set(roughness); }
     // anisotropy from -1 to 1, above 0 wider along the first axis, with the aspect of Cycles; below
@@ -106,7 +106,7 @@ struct Ggx {
 private:
     void set(Floats roughness) {
         const Floats r = min(max(roughness, Floats(0.0f)), Floats(1.0f));
-        smooth = r * r <= Floats(kSmooth);
+        smooth = r <= Floats(kSmoothRoughness);
         alpha = max(r * r, Floats(kSmooth));
         x = y = alpha;
     }
