@@ -127,6 +127,38 @@ TEST(lobe_formulas_of_facets_sum_up) {
     CHECK_NEAR(turned.y.v, -0.6, 1e-6);
 }
 
+// What facets send from one to the other: F Emean / (1 - F (1 - Emean)) of what they lose. The
+// tables say what one bounce is, by the integral of the same facets, and its mean over the
+// hemisphere.
+TEST(lobe_formulas_of_energy) {
+    for (const float roughness : {0.3f, 0.6f, 1.0f}) {
+        const Ggx facets(roughness);
+        const auto energyAt = [&](double z) {
+            return FacetEnergy(facets, direction(z, 0), roughness);
+        };
+        for (const double z : {0.05, 0.4, 1.0}) {
+            const Floats3 toEye = direction(z, 0);
+            const std::vector<Peak> peaks{{z, kPi, double{facets.x.v}}};
+            const auto f = [&](double height, double phi) {
+                const FacetPair pair = facets.pairOf(toEye, direction(height, phi), 1.0f);
+                return height > 0 ? static_cast<double>(pair.pdf.v * pair.ratio.v) : 0;
+            };
+            CHECK_NEAR(energyAt(z).all().v, overSphere(f, 1e-6, peaks), 0.005);
+        }
+        constexpr int kSteps = 200;
+        double mean = 0;
+        for (int i = 0; i < kSteps; ++i)
+            mean += static_cast<double>(energyAt(std::sqrt((i + 0.5) / kSteps)).all().v) / kSteps;
+        const FacetEnergy energy = energyAt(0.4);
+        CHECK_NEAR(energy.mean().v, mean, 0.003);
+        const double e = static_cast<double>(energy.all().v);
+        const Floats3 scale = energy.scale({1.0f, 0.5f, 0.0f});
+        CHECK_NEAR(scale.x.v, 1 / e, 1e-5);
+        CHECK_NEAR(scale.y.v, 1 + 0.5 * mean / (1 - 0.5 * (1 - mean)) * (1 - e) / e, 0.01);
+        CHECK_EQUAL(scale.z.v, 1.0f);
+    }
+}
+
 // What pairs of directions scatter by, against the textbook's formulas in double, also near the
 // horizon. The half vector of floats is off by 1e-7, which is 1e-7 / alpha of the width.
 TEST(lobe_formulas_of_facets_in_double) {
