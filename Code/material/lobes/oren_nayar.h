@@ -5,6 +5,8 @@
 
 #include "material/lobe.h"
 
+#include <limits>
+
 LANES_BEGIN
 
 struct OrenNayar {
