@@ -37,7 +37,7 @@ inline Boundary boundaryAt(Floats cosIn, Floats eta) {
 // Returns the refracted direction (Snell's law), to some roundings of length 1.
 inline Floats3 refractedBy(const Floats3& h, const Floats3& toEye, Floats cosIn, Floats cosOut,
                            Floats eta) {
-    return h * (eta * cosIn - cosOut) - toEye * eta;
+    return (h * cosIn - toEye) * eta - h * cosOut; // without cancellation for large eta
 }
 
 // Schlick 1994: (1 - cos)^5, how far the reflectance has risen from its value at normal incidence.

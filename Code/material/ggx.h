@@ -1,7 +1,7 @@
 // GGX: a surface of small facets (Trowbridge and Reitz 1975; Walter et al. 2007), with Smith's
 // shadowing, in which the heights of facets count once for both directions, and facets sampled as
 // the eye sees them. No formula here divides by a cosine or subtracts what is nearly equal, so that
-// floats do from alpha = 1e-3 to 1 and from the horizon to the zenith (test_ggx.cpp).
+// floats do from alpha = 1e-3 to 1 and from the horizon to the zenith (test_lobe_formulas.cpp).
 #pragma once
 
 #include "material/boundary.h"
@@ -20,11 +20,11 @@ struct FacetPair {
 struct Ggx {
     Floats x, y;     // alpha along the axes of the facets
     Floats sin, cos; // of the angle from the frame's x to the first axis
+    Floats alpha;    // of both, if they were alike
     Mask smooth;     // so narrow that floats would not resolve it: single directions
-    Floats alpha;
 
-    // A roughness, Blender's scale: alpha is its square. 1e-3 and less is smooth.
-    static constexpr float kSmooth = 1e-6f; // alpha
+    // Up to this roughness (Blender's scale) it is smooth; alpha is the square of roughness.
+    static constexpr float kSmoothRoughness = 1e-3f, kSmooth = 1e-6f; // alpha
 
     explicit Ggx(Floats roughness) : sin(0.0f), cos(1.0f), smooth(maskOf(0)) { set(roughness); }
     // anisotropy from -1 to 1, above 0 wider along the first axis, with the aspect of Cycles; below
@@ -106,7 +106,7 @@ struct Ggx {
 private:
     void set(Floats roughness) {
         const Floats r = min(max(roughness, Floats(0.0f)), Floats(1.0f));
-        smooth = r * r <= Floats(kSmooth);
+        smooth = r <= Floats(kSmoothRoughness);
         alpha = max(r * r, Floats(kSmooth));
         x = y = alpha;
     }

@@ -4,6 +4,8 @@
 
 #include "material/highlight.h"
 
+#include <limits>
+
 LANES_BEGIN
 
 struct Ashikhmin {

@@ -95,7 +95,8 @@ private:
                     Mask reflects, bool isChosen) const {
         const Floats zero(0.0f), one(1.0f);
         const Floats3 straight{zero - eta_ * toEye.x, zero - eta_ * toEye.y, zero - cosOut};
-        const Floats3 bent = normalize(refractedBy(h, toEye, cosIn, cosOut, eta_));
+        const Floats3 bent =
+            normalize(select(cosOut > zero, refractedBy(h, toEye, cosIn, cosOut, eta_), h));
         const Floats3 toLight =
             select(reflects, mirroredBy(h, toEye, cosIn), select(facets_.smooth, straight, bent));
         // A reflected direction below the surface, or a transmitted one above it, is lost.

@@ -5,6 +5,8 @@
 
 #include "material/lobe.h"
 
+#include <limits>
+
 LANES_BEGIN
 
 struct OrenNayar {
@@ -62,7 +64,7 @@ private:
         const Floats m = Floats(1.0f) - min(z, Floats(1.0f));
         const Floats high = Floats(-0.332181442f) + m * Floats(0.0714429953f);
         const Floats g = m * (Floats(0.0571085289f) + m * (Floats(0.491881867f) + m * high));
-        return flat_ + slope_ * g;
+        return min(flat_ + slope_ * g, Floats(1.0f));
     }
 
     Floats3 color_, again_;

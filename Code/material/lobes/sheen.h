@@ -37,7 +37,7 @@ struct Sheen {
         const Floats along = t.x * toLight.x + t.y * toLight.y, zero(0.0f), z = toLight.z;
         const Floats across = t.x * toLight.y - t.y * toLight.x;
         const Floats a = t.scale * along + t.shear * z, b = t.scale * across;
-        const Floats part = t.scale / ((a * a + b * b) + z * z);
+        const Floats part = t.scale / max((a * a + b * b) + z * z, Floats(1e-30f));
         return max(z, zero) * Floats(static_cast<float>(kInvPi)) * part * part;
     }
     LobeSample sample(const Floats3& toEye, Floats, Floats u, Floats v) const {

@@ -1,0 +1,355 @@
+// The formulas of lobes against values known from elsewhere: laws of boundaries, GGX, today's
+// highlights; and what they are alike in when eye and light change places.
+#include "check.h"
+#include "material/material.h"
+#include "unit/lobe_kit.h"
+
+#include <cmath>
+#include <random>
+
+namespace test_lobe_formulas {
+
+namespace {
+
+using namespace lobe_kit;
+using namespace kernels::one;
+
+constexpr unsigned kSeed = 52;
+
+class Draw {
+public:
+    float unit() { return static_cast<float>(random_() >> 40) * 0x1p-24f; }
+    Floats3 above() {
+        const double z = 1e-3 + 0.999 * static_cast<double>(unit());
+        return direction(z, 2 * kPi * static_cast<double>(unit()));
+    }
+
+private:
+    std::mt19937_64 random_{kSeed};
+};
+
+bool isNear(double a, double b, double relative) {
+    return std::fabs(a - b) <= relative * std::max(std::fabs(a), std::fabs(b));
+}
+Vec3 vec(const Floats3& v) { return {v.x.v, v.y.v, v.z.v}; }
+Floats3 below(const Floats3& v) { return {v.x, v.y, -v.z.v}; }
+
+} // namespace
+
+TEST(lobe_formulas_of_boundaries) {
+    for (const float n : {1.1f, 1.33f, 1.5f, 2.4f}) {
+        const double atNormal = std::pow((double{n} - 1) / (double{n} + 1), 2);
+        CHECK_NEAR(boundaryAt(1.0f, 1 / n).reflected.v, atNormal, 1e-6);
+        CHECK_NEAR(boundaryAt(1.0f, n).reflected.v, atNormal, 1e-6);
+        CHECK_EQUAL(boundaryAt(0.0f, 1 / n).reflected.v, 1.0f);
+        // Brewster's angle, tan = n, reflects none of the light polarised in the plane: half of
+        // ((n^2 - 1) / (n^2 + 1))^2 is left.
+        const double n2 = double{n} * double{n}, brewster = 1 / std::sqrt(1 + n2);
+        const double across = (n2 - 1) / (n2 + 1);
+        CHECK_NEAR(boundaryAt(static_cast<float>(brewster), 1 / n).reflected.v, across * across / 2,
+                   1e-6);
+        // Total internal reflection begins where sin = 1/n.
+        const double critical = std::sqrt(1 - 1 / n2);
+        const Boundary in = boundaryAt(static_cast<float>(critical * 0.999), n);
+        CHECK_EQUAL(in.reflected.v, 1.0f);
+        CHECK_EQUAL(in.cosOut.v, 0.0f);
+        CHECK(boundaryAt(static_cast<float>(critical * 1.001), n).reflected.v < 1);
+    }
+    for (const float cosine : {1.0f, 0.3f, 1e-30f}) {
+        CHECK_EQUAL(boundaryAt(cosine, 1.0f).reflected.v, 0.0f);
+        CHECK_EQUAL(boundaryAt(cosine, 1.0f).cosOut.v, cosine);
+    }
+    // Over the hemisphere glass of 1.5 reflects 0.0918 from outside, 0.5964 from inside (Egan and
+    // Hilgeman 1979).
+    CHECK_NEAR(BoundarySlices(1 / 1.5f).mean().v, 0.0918, 4e-4);
+    CHECK_NEAR(BoundarySlices(1.5f).mean().v, 0.5964, 2e-3);
+}
+
+// Directions by Snell's law, and back.
+TEST(lobe_formulas_of_directions) {
+    Draw draw;
+    for (int i = 0; i < check::scaled(2000); ++i) {
+        const Floats3 v = draw.above(), h = normalize(draw.above() + v);
+        const Floats cosIn = dot(v, h);
+        const Floats3 mirrored = mirroredBy(h, v, cosIn);
+        CHECK_NEAR(dot(mirrored, h).v, cosIn.v, 1e-6);
+        CHECK_NEAR(dot(mirrored, mirrored).v, 1, 2e-6);
+        const float eta = 0.4f + 2 * draw.unit();
+        const Boundary boundary = boundaryAt(cosIn, eta);
+        if (!(boundary.reflected.v < 1)) continue;
+        const Floats3 sent = refractedBy(h, v, cosIn, boundary.cosOut, eta);
+        CHECK_NEAR(dot(sent, sent).v, 1, 2e-5);
+        CHECK_NEAR(dot(sent, h).v, -boundary.cosOut.v, 2e-6);
+        // The same part is reflected on the way back.
+        CHECK_NEAR(boundaryAt(boundary.cosOut, 1 / eta).reflected.v, boundary.reflected.v, 2e-4);
+    }
+}
+
+TEST(lobe_formulas_of_metal) {
+    const Floats3 gold{0.9f, 0.6f, 0.3f}, tint{0.8f, 0.5f, 1.0f};
+    const MetalFresnel metal(gold, tint);
+    const auto schlick = [](double f0, double cosine) {
+        return f0 + (1 - f0) * std::pow(1 - cosine, 5);
+    };
+    for (const double cosine : {1.0, 1.0 / 7, 0.0}) {
+        const Floats3 f = metal.at(static_cast<float>(cosine));
+        const double part = cosine == 1.0 / 7 ? 1 : 0; // the tint, at 82 degrees alone
+        CHECK_NEAR(f.x.v, schlick(0.9, cosine) * (part != 0 ? 0.8 : 1), 1e-6);
+        CHECK_NEAR(f.y.v, schlick(0.6, cosine) * (part != 0 ? 0.5 : 1), 1e-6);
+        CHECK_NEAR(f.z.v, schlick(0.3, cosine), 1e-6);
+    }
+    double sum = 0;
+    for (int i = 0; i < 1000; ++i)
+        sum += static_cast<double>(metal.at(static_cast<float>(std::sqrt((i + 0.5) / 1000))).y.v);
+    CHECK_NEAR(metal.mean().y.v, sum / 1000, 1e-4);
+}
+
+// The projected area of all facets is the surface's, for any alpha.
+TEST(lobe_formulas_of_facets_sum_up) {
+    for (const float roughness : {0.04f, 0.1f, 0.3f, 0.6f, 1.0f})
+        for (const float anisotropy : {0.0f, 0.9f, -0.9f}) {
+            const Ggx facets(roughness, anisotropy, 0.0f);
+            const double width = static_cast<double>(std::min(facets.x.v, facets.y.v));
+            const std::vector<Peak> peaks{{1, 0, width}};
+            const auto f = [&](double z, double phi) {
+                return static_cast<double>(facets.density(direction(z, phi)).v) * z;
+            };
+            CHECK_NEAR(2 * Integral(f, 1e-6, peaks).over(0, 1, 0, kPi), 1, 3e-4);
+            const float aspect = facets.x.v / facets.y.v;
+            if (roughness < 0.5f)
+                CHECK_NEAR(aspect, anisotropy > 0 ? 1 / 0.19 : anisotropy < 0 ? 0.19 : 1, 1e-4);
+        }
+    CHECK(Ggx(1e-3f).smooth.v && !Ggx(1.1e-3f).smooth.v);
+    CHECK(Ggx(1e-3f, 1.0f, 0.0f).smooth.v);
+    // A quarter of a turn changes the axes.
+    const Floats3 turned = Ggx(0.5f, 0.5f, 0.25f).inward({0.6f, 0.0f, 0.8f});
+    CHECK_NEAR(turned.x.v, 0, 1e-7);
+    CHECK_NEAR(turned.y.v, -0.6, 1e-6);
+}
+
+// What facets send from one to the other: F Emean / (1 - F (1 - Emean)) of what they lose. The
+// tables say what one bounce is, by the integral of the same facets, and its mean over the
+// hemisphere.
+TEST(lobe_formulas_of_energy) {
+    for (const float roughness : {0.3f, 0.6f, 1.0f}) {
+        const Ggx facets(roughness);
+        const auto energyAt = [&](double z) {
+            return FacetEnergy(facets, direction(z, 0), roughness);
+        };
+        for (const double z : {0.05, 0.4, 1.0}) {
+            const Floats3 toEye = direction(z, 0);
+            const std::vector<Peak> peaks{{z, kPi, double{facets.x.v}}};
+            const auto f = [&](double height, double phi) {
+                const FacetPair pair = facets.pairOf(toEye, direction(height, phi), 1.0f);
+                return height > 0 ? static_cast<double>(pair.pdf.v * pair.ratio.v) : 0;
+            };
+            CHECK_NEAR(energyAt(z).all().v, overSphere(f, 1e-6, peaks), 0.005);
+        }
+        constexpr int kSteps = 200;
+        double mean = 0;
+        for (int i = 0; i < kSteps; ++i)
+            mean += static_cast<double>(energyAt(std::sqrt((i + 0.5) / kSteps)).all().v) / kSteps;
+        const FacetEnergy energy = energyAt(0.4);
+        CHECK_NEAR(energy.mean().v, mean, 0.003);
+        const double e = static_cast<double>(energy.all().v);
+        const Floats3 scale = energy.scale({1.0f, 0.5f, 0.0f});
+        CHECK_NEAR(scale.x.v, 1 / e, 1e-5);
+        CHECK_NEAR(scale.y.v, 1 + 0.5 * mean / (1 - 0.5 * (1 - mean)) * (1 - e) / e, 0.01);
+        CHECK_EQUAL(scale.z.v, 1.0f);
+    }
+}
+
+// What pairs of directions scatter by, against the textbook's formulas in double, also near the
+// horizon. The half vector of floats is off by 1e-7, which is 1e-7 / alpha of the width.
+TEST(lobe_formulas_of_facets_in_double) {
+    Draw draw;
+    int pairs = 0;
+    for (int i = 0; i < check::scaled(20000); ++i) {
+        const float roughness = 0.032f + 0.968f * draw.unit();
+        const Ggx facets(roughness, 2 * draw.unit() - 1, 0.0f);
+        const float eta = draw.unit() < 0.5f ? 1.5f : 0.6f;
+        Floats3 v = draw.above();
+        if (i % 2 == 0)
+            v = direction(1e-4 + 1e-2 * static_cast<double>(draw.unit()),
+                          6 * static_cast<double>(draw.unit()));
+        const Floats3 h = facets.visibleNormal(v, draw.unit(), draw.unit());
+        const Floats cosIn = dot(v, h);
+        const Boundary boundary = boundaryAt(cosIn, eta);
+        const bool transmits = draw.unit() < 0.5f && boundary.reflected.v < 1;
+        const Floats3 l = normalize(transmits ? refractedBy(h, v, cosIn, boundary.cosOut, eta)
+                                              : mirroredBy(h, v, cosIn));
+        const FacetPair pair = facets.pairOf(v, l, eta);
+        if ((l.z.v < 0) != transmits) continue;
+        ++pairs;
+
+        const double ax = double{facets.x.v}, ay = double{facets.y.v}, e = double{eta};
+        struct V {
+            double x, y, z;
+        };
+        const auto wide = [](const Floats3& a) { return V{a.x.v, a.y.v, a.z.v}; };
+        const V a = wide(v), b = wide(l);
+        const double s = transmits ? e : 1;
+        V half{s * a.x + b.x, s * a.y + b.y, s * a.z + b.z};
+        const double length = std::sqrt(half.x * half.x + half.y * half.y + half.z * half.z);
+        const double scale = (half.z < 0 ? -1 : 1) / length;
+        half = {half.x * scale, half.y * scale, half.z * scale};
+        const double in = a.x * half.x + a.y * half.y + a.z * half.z;
+        const double out = std::fabs(b.x * half.x + b.y * half.y + b.z * half.z);
+        const auto lambda = [&](const V& w) {
+            return 0.5 *
+                   (std::sqrt(1 + (ax * ax * w.x * w.x + ay * ay * w.y * w.y) / (w.z * w.z)) - 1);
+        };
+        const double q =
+            half.x * half.x / (ax * ax) + half.y * half.y / (ay * ay) + half.z * half.z;
+        const double d = 1 / (kPi * ax * ay * q * q), one = 1 / (1 + lambda(a));
+        const double both = 1 / (1 + lambda(a) + lambda(b));
+        const double seen = one * in * d / a.z; // the density of visible normals
+        const double spread = transmits ? out / (length * length) : 1 / (4 * in);
+        const double bound = 1e-4 + 3e-6 / std::min(ax, ay);
+        CHECK_INFO(isNear(pair.pdf.v, seen * spread, bound),
+                   pair.pdf.v << " " << seen * spread << " alpha " << ax << " " << ay);
+        CHECK_INFO(isNear(pair.ratio.v, both / one, 1e-4), pair.ratio.v << " " << both / one);
+        CHECK_NEAR(pair.cosIn.v, in, 1e-5);
+    }
+    CHECK(pairs > 12000);
+}
+
+// Light and eye may change places: f is the same, or for what is transmitted eta^2 times as much.
+// What is scaled by the energy that one side loses is not (nor in Cycles): facets are, before that.
+TEST(lobe_formulas_are_reciprocal) {
+    Draw draw;
+    for (int i = 0; i < check::scaled(3000); ++i) {
+        const Floats3 a = draw.above(), b = draw.above();
+        for (const char* name : {"diffuse", "oren_nayar", "ashikhmin"})
+            for (const Case& c : casesOf(kindOf(name)))
+                if (i % 10 == 0)
+                    with(c, [&](const auto& lobe) {
+                        const double there = largest(lobe.eval(a, b)) / static_cast<double>(b.z.v);
+                        const double back = largest(lobe.eval(b, a)) / static_cast<double>(a.z.v);
+                        CHECK_INFO(std::fabs(there - back) <= 2e-5 * there + 1e-6,
+                                   shown(c) << ": " << there << " " << back);
+                    });
+        for (const char* name : {"blinn", "phong"}) // without the cosine
+            for (const Case& c : casesOf(kindOf(name)))
+                if (i % 10 == 0)
+                    with(c, [&](const auto& lobe) {
+                        CHECK(isNear(largest(lobe.eval(a, b)), largest(lobe.eval(b, a)), 1e-6));
+                    });
+        const Ggx facets(0.05f + 0.95f * draw.unit(), 2 * draw.unit() - 1, 0.0f);
+        const float eta = draw.unit() < 0.5f ? 1.5f : 0.7f;
+        const auto f = [&](const Floats3& toEye, const Floats3& toLight, float from) {
+            const FacetPair pair = facets.pairOf(toEye, toLight, from);
+            return static_cast<double>(pair.pdf.v) * static_cast<double>(pair.ratio.v) /
+                   std::fabs(static_cast<double>(toLight.z.v));
+        };
+        CHECK(isNear(f(a, b, eta), f(b, a, eta), 1e-3));
+        const double through = f(a, below(b), eta), back = f(b, below(a), 1 / eta);
+        CHECK_INFO(std::fabs(through * double{eta} * double{eta} - back) <= 2e-3 * back,
+                   through * double{eta} * double{eta} << " " << back);
+    }
+}
+
+// The highlights of today's materials.
+TEST(lobe_formulas_of_highlights) {
+    Draw draw;
+    const std::pair<const char*, SpecularModel> models[] = {
+        {"blinn", SpecularModel::Blinn},
+        {"phong", SpecularModel::Phong},
+        {"ashikhmin", SpecularModel::Ashikhmin}};
+    for (const auto& [name, model] : models)
+        for (Case& c : casesOf(kindOf(name))) {
+            Material material;
+            material.specular = {1, 1, 1}, material.specularModel = model;
+            material.exponent = c.numbers[0];
+            for (int i = 0; i < check::scaled(300); ++i) {
+                const Floats3 v = draw.above();
+                Floats3 l = draw.above();
+                if (i % 3 == 0) l = normalize(mirroredAtZ(v) + l * 0.1f);
+                const double today =
+                    static_cast<double>(highlight(material, {0, 0, 1}, vec(v), vec(l)).r);
+                with(c, [&](const auto& lobe) {
+                    const double here = largest(lobe.eval(v, l));
+                    CHECK_INFO(std::fabs(here - today) <= 1e-5 * today + 1e-12,
+                               shown(c) << ": " << here << ", highlight() " << today);
+                    CHECK(largest(lobe.eval(v, below(l))) == 0);
+                });
+            }
+        }
+}
+
+// Rough diffuse: Fujii's integral in closed form, as Cycles has it, which the lobe has as a fit.
+TEST(lobe_formulas_of_rough_diffuse) {
+    for (const float sigma : {0.0f, 0.3f, 1.0f})
+        for (const double z : {0.01, 0.2, 0.5, 0.9, 1.0}) {
+            Case c = whiteCase(kindOf("oren_nayar"));
+            *c.number("roughness") = sigma;
+            const double sine = std::sqrt(1 - z * z), s = double{sigma};
+            const double g = sine * (std::acos(z) - 2.0 / 3 - sine * z) +
+                             2.0 / 3 * (sine / z) * (1 - sine * sine * sine);
+            const double a = 1 / (kPi + s * (kPi / 2 - 2.0 / 3)), b = s * a;
+            const double once = a * kPi + b * g, mean = a * kPi + (2 * kPi - 5.6) / 3 * b;
+            for (const double color : {0.2, 1.0}) {
+                c.numbers[0] = c.numbers[1] = c.numbers[2] = static_cast<float>(color);
+                const double later = color * color * mean * (1 - once) / (1 - color * (1 - mean));
+                with(c, [&](const auto& lobe) {
+                    CHECK_NEAR(largest(lobe.albedo(direction(z, 0))), color * once + later, 1.5e-3);
+                });
+            }
+        }
+    // Without roughness it is Lambert's.
+    Case c = whiteCase(kindOf("oren_nayar"));
+    with(c, [&](const auto& lobe) {
+        CHECK_NEAR(largest(lobe.eval(direction(0.3, 0), direction(0.7, 2))), 0.7 * kInvPi, 1e-7);
+    });
+}
+
+// The levels of Principled's specular: 0.5 is the index itself, 0 nothing, and F0 is in proportion.
+TEST(lobe_formulas_of_layers) {
+    Case c = whiteCase(kindOf("glossy_dielectric"));
+    *c.number("roughness") = 0;
+    const auto at = [&](double cosine) {
+        Floats3 f{};
+        with(c, [&](const auto& lobe) { f = lobe.albedo(direction(cosine, 0)); });
+        return f;
+    };
+    CHECK_NEAR(at(1).x.v, 0.04, 1e-6);
+    CHECK_NEAR(at(0.3).x.v, boundaryAt(0.3f, 1 / 1.5f).reflected.v, 1e-6);
+    *c.number("specular") = 0.25f;
+    CHECK_NEAR(at(1).x.v, 0.02, 1e-6);
+    *c.number("specular") = 0;
+    CHECK_EQUAL(at(0.3).x.v, 0.0f);
+    *c.number("specular") = 0.5f;
+    c.number("tint")[1] = 0.5f;
+    CHECK_NEAR(at(1).y.v, 0.02, 1e-6);
+    CHECK_NEAR(at(1e-4).y.v, 1, 1e-3); // grazing light stays white
+    // A schlick_mirror of that colour is near it.
+    Case schlick = whiteCase(kindOf("schlick_mirror"));
+    schlick.numbers[0] = schlick.numbers[1] = schlick.numbers[2] = 0.04f;
+    with(schlick, [&](const auto& lobe) {
+        CHECK_NEAR(lobe.albedo(direction(1, 0)).x.v, 0.04, 1e-7);
+        CHECK_NEAR(lobe.albedo(direction(0.3, 0)).x.v, 0.04 + 0.96 * std::pow(0.7, 5), 1e-6);
+    });
+}
+
+// Cloth shines at the edge, and more of it the rougher it is, as in the figures of Zeltner et al.
+TEST(lobe_formulas_of_sheen) {
+    Case c = whiteCase(kindOf("sheen"));
+    for (const float roughness : {0.0f, 0.1f, 0.3f, 0.5f, 0.8f, 1.0f}) {
+        *c.number("roughness") = roughness;
+        with(c, [&](const auto& lobe) {
+            double before = 1;
+            for (const double z : {0.05, 0.2, 0.4, 0.6, 0.8, 1.0}) {
+                const double albedo = largest(lobe.albedo(direction(z, 0)));
+                CHECK(albedo >= 0 && albedo <= before + 0.01);
+                before = albedo;
+            }
+            if (roughness == 0.5f) {
+                // Back to where the light comes from rather than across.
+                const Floats3 v = direction(0.5, 0);
+                CHECK(largest(lobe.eval(v, v)) > 1.2 * largest(lobe.eval(v, direction(0.5, kPi))));
+            }
+        });
+    }
+}
+
+} // namespace test_lobe_formulas
