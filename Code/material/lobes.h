@@ -11,6 +11,7 @@
 #include "material/lobes/mirror.h"
 #include "material/lobes/oren_nayar.h"
 #include "material/lobes/phong.h"
+#include "material/lobes/refraction.h"
 #include "material/lobes/schlick_mirror.h"
 #include "material/lobes/sheen.h"
 #include "material/lobes/translucent.h"
@@ -21,7 +22,7 @@ LANES_BEGIN
 
 template <class... L> struct LobeList {};
 using Lobes = LobeList<Diffuse, OrenNayar, Translucent, Sheen, Blinn, Phong, Ashikhmin, Mirror,
-                       SchlickMirror, Conductor, GlossyDielectric, Coat, Dielectric>;
+                       SchlickMirror, Conductor, GlossyDielectric, Coat, Dielectric, Refraction>;
 
 // Calls fn.template operator()<L>() for lobe number `kind` of the list.
 template <class Fn, class... L> void forLobe(LobeList<L...>, std::uint32_t kind, Fn&& fn) {

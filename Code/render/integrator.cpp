@@ -103,6 +103,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       pairSeeds(sampler.kind() == SamplerKind::Sobol ? lanesOf(theSettings.isa->camera).seeds
                                                      : nullptr),
       stillsInLanes(stillsInLanesOf(theScene, theSettings, surfaceLanes)),
+      skySampler(sampler.stream(0, theSettings.picture.lightSamples)),
       materials(theScene, theSettings.threads),
       cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
     const int samples = settings.picture.lightSamples;

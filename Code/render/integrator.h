@@ -95,6 +95,7 @@ struct IntegratorContext {
     BounceLanes bounceLanes;               // the same
     PairSeedsFn pairSeeds;                 // the same; of Sobol numbers, there are no others
     StillsInLanes stillsInLanes;
+    Sampler skySampler;                // of ambient light
     std::vector<Sampler> lampSamplers; // of scene.pathLights(), by number
     MaterialTable materials;
     MediumTree media; // what camera rays start in, and room for what rays enter

@@ -363,6 +363,7 @@ private:
     void buildWorld() {
         scene_.background_ = toRgb(settings_.background.value_or(desc_.world.background));
         scene_.ambient_ = toRgb(desc_.world.ambient);
+        scene_.ambientReach_ = toFloat(desc_.world.ambientOcclusion * scene_.frame_.scale);
     }
 
     void buildEnvironment() {

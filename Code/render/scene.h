@@ -98,6 +98,8 @@ public:
     const LobedMaterials& lobedMaterials() const { return lobedMaterials_; }
     const PathLights& pathLights() const { return pathLights_; }
     Rgb ambient() const { return ambient_; }
+    // How far surfaces hide ambient light from each other; 0: they don't.
+    float ambientReach() const { return ambientReach_; }
     // Radiance where a ray meets no surface.
     Rgb background(Vec3 dir) const {
         return environment_ ? background(environment_->radiance(dir)) : background_;
@@ -134,6 +136,7 @@ private:
     std::vector<std::unique_ptr<const Light>> lights_;
     SeenLamps seenLamps_; // of lights_
     bool isLobed_ = false;
+    float ambientReach_ = 0;
     LobedMaterials lobedMaterials_;
     PathLights pathLights_;
     std::unique_ptr<const Environment> environment_;

@@ -55,6 +55,9 @@ inline Floats3 operator/(const Floats3& a, Floats s) { return {a.x / s, a.y / s,
 inline Floats dot(const Floats3& a, const Floats3& b) {
     return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
+inline Floats3 cross(const Floats3& a, const Floats3& b) {
+    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
 inline Floats3 negated(const Floats3& a) {
     const Floats sign(-0.0f);
     return {flipSign(a.x, sign), flipSign(a.y, sign), flipSign(a.z, sign)};

@@ -1,127 +1,20 @@
-// Dielectric: glass and water, smooth or rough (GGX): reflects and transmits by Fresnel's law. What
-// facets lose is scaled away, so that white tints keep all light. Radiance is not scaled by eta^2
-// on its way through, as in Cycles.
+// Dielectric: glass and water, smooth or rough: reflects and transmits by Fresnel's law.
 #pragma once
 
-#include "material/energy.h"
+#include "material/boundary_lobe.h"
 
 LANES_BEGIN
 
-struct Dielectric {
+struct Dielectric : BoundaryLobe<true> {
     static constexpr const char* kName = "dielectric";
     static constexpr std::array<LobeField, 5> kFields{{{"ior", 1, {1.5f}, 0.001f, 1000},
                                                        {"reflect_tint", 3, {1, 1, 1}, 0, 1},
                                                        {"transmit_tint", 3, {1, 1, 1}, 0, 1},
                                                        {"roughness", 1, {0}, 0, 1},
                                                        {"anisotropy", 1, {0}, -1, 1}}};
-    static constexpr std::uint32_t kFlags =
-        kReflects | kTransmits | kAnswersLights | kSpawnsRays | kHasSides | kHasTangent;
 
     explicit Dielectric(const LobeNumbers& n)
-        : eta_(n.eta), facets_(n[7], n[8], Floats(0.0f)), reflects_(n.rgb(1)),
-          transmits_(n.rgb(4)) {
-        // Facets turn light that goes through by less than floats resolve: it goes straight on.
-        const Mask isStraight = facets_.alpha * abs(Floats(1.0f) - eta_) <= Floats(Ggx::kSmooth);
-        facets_.smooth = facets_.smooth | isStraight;
-    }
-    Floats3 below(const Floats3&) const { return rgbOf(0.0f); }
-    Floats3 albedo(const Floats3& toEye) const {
-        const Floats one(1.0f);
-        Floats part = boundaryAt(toEye.z, eta_).reflected;
-        if (!isSmooth()) {
-            const BoundaryEnergy energy(facets_, eta_);
-            const Floats reflected = FacetEnergy(facets_, toEye, facets_.lossyRoughness()).all() *
-                                     energy.reflected(toEye.z) / energy.all(facets_, toEye);
-            part = select(facets_.smooth, part, min(reflected, one));
-        }
-        return reflects_ * part + transmits_ * (one - part);
-    }
-    Floats3 eval(const Floats3& toEye, const Floats3& toLight) const {
-        if (isSmooth()) return rgbOf(0.0f);
-        const FacetPair pair = facets_.pairOf(toEye, toLight, eta_);
-        const Split split(*this, pair.cosIn);
-        return split.part(isReflected(toLight)) * (pair.pdf * pair.ratio * scale(toEye));
-    }
-    Floats pdf(const Floats3& toEye, const Floats3& toLight) const {
-        if (isSmooth()) return Floats(0.0f);
-        const FacetPair pair = facets_.pairOf(toEye, toLight, eta_);
-        return pair.pdf * Split(*this, pair.cosIn).chance(isReflected(toLight));
-    }
-    LobeSample sample(const Floats3& toEye, Floats pick, Floats u, Floats v) const {
-        const Floats3 h = facet(toEye, u, v);
-        const Floats cosIn = dot(toEye, h);
-        const Split split(*this, cosIn);
-        const Mask reflects = pick < split.reflects;
-        return sent(toEye, h, cosIn, split.boundary.cosOut, reflects, true);
-    }
-    LobeSample branch(const Floats3& toEye, bool transmits, Floats u, Floats v) const {
-        const Floats3 h = facet(toEye, u, v);
-        const Floats cosIn = dot(toEye, h);
-        const Mask reflects = maskOf(transmits ? 0 : (1u << W) - 1);
-        return sent(toEye, h, cosIn, boundaryAt(cosIn, eta_).cosOut, reflects, false);
-    }
-
-private:
-    // What happens at a facet: what it reflects and transmits, and how likely a sample is
-    // reflected.
-    struct Split {
-        Boundary boundary;
-        Floats3 reflected, transmitted;
-        Floats reflects;
-        Split(const Dielectric& of, Floats cosIn)
-            : boundary(boundaryAt(cosIn, of.eta_)), reflected(of.reflects_ * boundary.reflected),
-              transmitted(of.transmits_ * (Floats(1.0f) - boundary.reflected)) {
-            const Floats most = maxOf(reflected), all = most + maxOf(transmitted);
-            reflects = select(all > Floats(0.0f), most / all, Floats(0.0f));
-        }
-        Floats3 part(Mask isReflected) const { return select(isReflected, reflected, transmitted); }
-        Floats chance(Mask isReflected) const {
-            return select(isReflected, reflects, Floats(1.0f) - reflects);
-        }
-    };
-
-    bool isSmooth() const { return bits(facets_.smooth) == (1u << W) - 1; }
-    static Mask isReflected(const Floats3& toLight) { return toLight.z >= Floats(0.0f); }
-    Floats scale(const Floats3& toEye) const {
-        return Floats(1.0f) / BoundaryEnergy(facets_, eta_).all(facets_, toEye);
-    }
-    Floats3 facet(const Floats3& toEye, Floats u, Floats v) const {
-        const Floats3 up{Floats(0.0f), Floats(0.0f), Floats(1.0f)};
-        return isSmooth() ? up : select(facets_.smooth, up, facets_.visibleNormal(toEye, u, v));
-    }
-
-    // The light of one facet, whose choice of a side counts in weight and pdf if it `isChosen`.
-    LobeSample sent(const Floats3& toEye, const Floats3& h, Floats cosIn, Floats cosOut,
-                    Mask reflects, bool isChosen) const {
-        const Floats zero(0.0f), one(1.0f);
-        const Floats3 straight{zero - eta_ * toEye.x, zero - eta_ * toEye.y, zero - cosOut};
-        const Floats3 bent =
-            normalize(select(cosOut > zero, refractedBy(h, toEye, cosIn, cosOut, eta_), h));
-        const Floats3 toLight =
-            select(reflects, mirroredBy(h, toEye, cosIn), select(facets_.smooth, straight, bent));
-        // A reflected direction below the surface, or a transmitted one above it, is lost.
-        const Floats side = select(reflects, toLight.z, zero - toLight.z);
-        Mask is = side > zero;
-        Floats cosPair = cosIn, density = one, ratio = one;
-        if (!isSmooth()) {
-            const FacetPair pair = facets_.pairOf(toEye, toLight, eta_);
-            cosPair = select(facets_.smooth, cosIn, pair.cosIn);
-            density = select(facets_.smooth, one, pair.pdf);
-            ratio = select(facets_.smooth, one, pair.ratio * scale(toEye));
-        }
-        const Split split(*this, cosPair);
-        const Floats chance = isChosen ? split.chance(reflects) : one;
-        // Total internal reflection transmits nothing.
-        is = is & (chance > zero) & (density > zero) &
-             (select(reflects, one, one - split.boundary.reflected) > zero);
-        const Floats3 weight = split.part(reflects) * (ratio / select(is, chance, one));
-        return {toLight, select(is, weight, rgbOf(0.0f)), select(is, density * chance, zero),
-                facets_.smooth};
-    }
-
-    Floats eta_;
-    Ggx facets_;
-    Floats3 reflects_, transmits_;
+        : BoundaryLobe(n.eta, Ggx(n[7], n[8], Floats(0.0f)), n.rgb(1), n.rgb(4)) {}
 };
 
 LANES_END

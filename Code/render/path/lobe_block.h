@@ -24,10 +24,13 @@ struct alignas(64) LobeBlock {
     std::size_t count = 0;
     std::uint32_t flags = 0;
     Column lobe[kMostLobes];
+    // Points whose lobes differ along and across dp/du, and that direction.
+    unsigned turned = 0;
+    alignas(64) Lane tangent[3];
 
     // Takes kinds and flags of a material; its numbers become those of all points.
     void begin(const LobedMaterials& materials, const LobedMaterial& of) {
-        count = of.lobes, flags = of.flags;
+        count = of.lobes, flags = of.flags, turned = 0;
         const std::span<const LobeRow> rows = materials.lobes(of);
         for (std::size_t l = 0; l < count; ++l) {
             lobe[l].kind = rows[l].kind, lobe[l].covers = rows[l].covers;

@@ -11,6 +11,16 @@ std::uint8_t lobeNamed(std::string_view name) {
     return static_cast<std::uint8_t>(it - types.begin());
 }
 
+// Pictures multiply the number, and so leave 0 as it is.
+static bool isAnisotropic(const LobeRow& lobe) {
+    const float* value = lobe.value + 3;
+    for (const LobeField& field : lobeTypes()[lobe.kind].fields) {
+        if (field.name == std::string_view("anisotropy") && *value != 0) return true;
+        value += field.count;
+    }
+    return false;
+}
+
 std::uint16_t LobedMaterials::signatureOf(const std::vector<LobeRow>& lobes) {
     std::string word;
     for (const LobeRow& lobe : lobes)
@@ -34,6 +44,7 @@ bool LobedMaterials::add(const std::vector<LobeRow>& lobes, const std::vector<Lo
     for (const LobeRow& lobe : lobes) {
         const std::uint32_t flags = lobeTypes()[lobe.kind].flags;
         of.flags |= flags;
+        if (isAnisotropic(lobe)) of.flags |= LobedMaterial::kAnisotropic;
         if (lobe.covers || (flags & kSpawnsRays) == 0) continue;
         for (std::size_t i = 0; i < 3; ++i) sum[i] += lobe.value[i];
     }

@@ -30,7 +30,8 @@ struct LobeFactor {
 };
 
 struct LobedMaterial {
-    static constexpr std::uint32_t kEmits = 1u << 16; // beside the lobes' flags
+    // Beside the lobes' flags.
+    static constexpr std::uint32_t kEmits = 1u << 16, kAnisotropic = 1u << 17;
     std::uint32_t firstLobe = 0, firstFactor = 0;
     std::uint16_t factors = 0;
     std::uint8_t lobes = 0;

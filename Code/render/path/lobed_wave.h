@@ -127,6 +127,14 @@ protected:
             if (at.material[i] != number) lobes.put(materials_, other, i);
             if (other.factors != 0)
                 lobes.paint(materials_, other, i, points.at.uv(b * kPoints + i));
+            if ((other.flags & LobedMaterial::kAnisotropic) != 0) {
+                const std::size_t ray = points.ray[b * kPoints + i];
+                const Hit& hit = memory_.hits[ray];
+                const Shape& shape = *scene_.shapes().shapes[hit.shape];
+                SurfaceBlock::set(lobes.tangent, i,
+                                  shape.derivatives(wave_.rays.ray(ray), hit).dpdu);
+                lobes.turned |= 1u << i;
+            }
         }
         return alike;
     }

@@ -56,6 +56,18 @@ struct SeenPoints {
     static constexpr unsigned kAllLanes = (1u << W) - 1;
 };
 
+// The shading frame of W points: z is the normal, and where lobes look at it x is along dp/du.
+inline ShadingFrame frameOf(const LobeBlock& lobes, std::size_t first, const Floats3& n) {
+    const ShadingFrame any = frameAroundZ(n);
+    const unsigned turned = lobes.turned >> first & SeenPoints::kAllLanes;
+    if (turned == 0) return any;
+    const Floats3 t = loadThree(lobes.tangent, first), level = t - n * dot(n, t);
+    const Floats length2 = dot(level, level);
+    const Mask is = maskOf(turned) & (length2 > Floats(0.0f));
+    const Floats3 x = select(is, level / sqrt(length2), any.x);
+    return {x, select(is, cross(n, x), any.y), n};
+}
+
 // Light of one lamp, for points whose bits are set.
 inline void sendLight(const PathLights& lights, const SeenPoints& at, const ShadingFrame& frame,
                       const Bsdf& bsdf, bool transmits, unsigned lanes, std::size_t first,
@@ -126,7 +138,7 @@ void scatterBlock(const PathLights& lights, const PointBlock& points, const Lobe
         const unsigned lanes = block.points >> first & SeenPoints::kAllLanes;
         if (lanes == 0) continue;
         const SeenPoints at(points, first);
-        const ShadingFrame frame = frameAroundZ(at.n);
+        const ShadingFrame frame = frameOf(lobes, first, at.n);
         Bsdf bsdf(lobes, first, frame.toLocal(at.toEye), Floats::load(block.eta + first));
         bsdf.choose();
         if ((lobes.flags & kAnswersLights) != 0 && !lights.isEmpty())

@@ -40,7 +40,7 @@ void lampAtPoints(const PathLights& lights, std::uint32_t number, const PointBlo
             const L light(columns.numbers());
             lamp = block.inCentre ? light.centre(at.p) : light.sample(at.p, u, v);
         });
-        const ShadingFrame frame = frameAroundZ(at.n);
+        const ShadingFrame frame = frameOf(lobes, first, at.n);
         const Floats3 toLight = frame.toLocal(lamp.toLight);
         const Floats rise = dot(at.ng, lamp.toLight);
         unsigned above = bits((rise > zero) & (toLight.z > zero));
@@ -73,7 +73,7 @@ void bounceAtPoints(const PointBlock& points, const LobeBlock& lobes, std::size_
         const unsigned lanes = block.points >> first & SeenPoints::kAllLanes;
         if (lanes == 0) continue;
         const SeenPoints at(points, first);
-        const ShadingFrame frame = frameAroundZ(at.n);
+        const ShadingFrame frame = frameOf(lobes, first, at.n);
         const Bsdf bsdf(lobes, first, frame.toLocal(at.toEye), Floats::load(block.eta + first));
         const LobeSample next = bsdf.sampleLobe(
             lobe, transmits, Floats::load(block.numbers.lobe + first),
@@ -89,7 +89,7 @@ void ambientAtPoints(const PointBlock& points, const LobeBlock& lobes, PathBlock
         const unsigned lanes = block.points >> first & SeenPoints::kAllLanes;
         if (lanes == 0) continue;
         const SeenPoints at(points, first);
-        const ShadingFrame frame = frameAroundZ(at.n);
+        const ShadingFrame frame = frameOf(lobes, first, at.n);
         const Bsdf bsdf(lobes, first, frame.toLocal(at.toEye), Floats::load(block.eta + first));
         storeWhere(lanes, bsdf.diffuseAlbedo(), block.weight, first);
     }

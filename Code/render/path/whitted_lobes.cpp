@@ -2,6 +2,7 @@
 
 #include "render/path/lobed_wave.h"
 #include "render/path/shading_kernel.h"
+#include "sample/warp.h"
 
 #include <algorithm>
 #include <bit>
@@ -30,6 +31,7 @@ public:
         addMissed(pdfOf());
         addMet(pdfOf());
         memory_.next.clear(), path_.nextStates.clear();
+        path_.shadowRays.clear();
         path_.sums.assign(memory_.points.count, Rgb{});
         const std::size_t lamps = lights_.size(), blocks = memory_.points.blocks();
         std::size_t lamp = 0;
@@ -37,7 +39,11 @@ public:
             const std::size_t end = std::min(lamp + kLampsTogether, lamps);
             for (RayBatch& rays : path_.lampRays) rays.clear();
             for (std::size_t b = 0; b < blocks; ++b) shadeBlock(b, lamp, end);
-            if (lamp == 0) addSums();
+            if (lamp == 0) {
+                traceShadowRays(path_.shadowRays,
+                                [&](std::uint32_t k, Rgb light) { path_.sums[k] += light; });
+                addSums();
+            }
             for (; lamp < end; ++lamp) {
                 traceShadowRays(path_.lampRays[lamp % kLampsTogether],
                                 [&](std::uint32_t k, Rgb light) { path_.sums[k] += light; });
@@ -115,7 +121,32 @@ private:
             const auto i = static_cast<std::size_t>(std::countr_zero(alike));
             const Vec3 part = SurfaceBlock::get(block.weight, i);
             const std::size_t k = b * kPoints + i;
-            path_.sums[k] += memory_.points.weight[k] * ambient * Rgb{part.x, part.y, part.z};
+            const Rgb light = memory_.points.weight[k] * ambient * Rgb{part.x, part.y, part.z};
+            if (scene_.ambientReach() > 0)
+                sendToSky(k, light);
+            else
+                path_.sums[k] += light;
+        }
+    }
+    // Even light counts by what part of the sky a point sees, weighted by the cosine.
+    void sendToSky(std::size_t k, Rgb light) {
+        const PointBatch& points = memory_.points;
+        const ShadedPoint at = points.at[k];
+        const std::uint32_t ray = points.ray[k];
+        const Frame frame = frameAround(at.eye.n);
+        const auto samples = static_cast<std::uint32_t>(limits_.lightSamples);
+        const Rgb share = light * (1 / static_cast<float>(samples));
+        for (std::uint32_t s = 0; s < samples; ++s) {
+            const Vec2 u = context_.skySampler.get2D(
+                wave_.rays.stream[ray],
+                wave_.chunk.sampleNumber[wave_.rays.sample[ray]] * samples + s,
+                dimension(wave_.depth, BounceSlot::LightUv));
+            const Vec3 dir = frame.toWorld(cosineHemisphereFromSquare(u));
+            if (!(dot(dir, at.eye.ng) > 0)) continue;
+            ++wave_.counts.shadow;
+            path_.shadowRays.push(
+                {leave(at.surface, at.eye.ng), dir, 0, scene_.ambientReach(), wave_.rays.time[ray]},
+                static_cast<std::uint32_t>(k), share);
         }
     }
 
