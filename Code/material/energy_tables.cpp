@@ -35,8 +35,8 @@ template <int N, int Generator> struct Lattice {
 
 // Fresnel's part of what is reflected, and the cosine on the other side.
 struct Fresnel {
-    double part, cosOut;
-    Fresnel(double c, double eta) : part(1), cosOut(0) {
+    double part = 1, cosOut = 0;
+    Fresnel(double c, double eta) {
         const double cos2 = (1 - eta) * (1 + eta) + sqr(eta * c);
         if (!(cos2 > 0)) return;
         cosOut = std::sqrt(cos2);

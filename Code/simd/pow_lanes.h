@@ -22,7 +22,7 @@ inline Doubles logTail(const Doubles& r) {
     return low + (r2 * r2) * high;
 }
 
-constexpr int kLogRow = sizeof(exact::LogRow) / sizeof(double);
+inline constexpr int kLogRow = sizeof(exact::LogRow) / sizeof(double);
 
 // logParts(): log(x) = exponent * log(2) + the table's row + log(1 + r). For floats from the
 // smallest normal one on.

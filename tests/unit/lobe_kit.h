@@ -70,9 +70,10 @@ inline std::uint32_t kindOf(std::string_view name) {
     throw std::string("no lobe ") + std::string(name);
 }
 
-constexpr float kRoughs[] = {0.04f, 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.85f, 1.0f};
-constexpr float kExponents[] = {0.0f, 1.0f, 3.0f, 8.0f, 20.0f, 50.0f, 120.0f, 400.0f, 1e3f, 1e4f};
-constexpr float kEtas[] = {1 / 1.5f, 1.5f, 1 / 1.33f, 2.4f};
+inline constexpr float kRoughs[] = {0.04f, 0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f, 0.85f, 1.0f};
+inline constexpr float kExponents[] = {0.0f,  1.0f,   3.0f,   8.0f, 20.0f,
+                                       50.0f, 120.0f, 400.0f, 1e3f, 1e4f};
+inline constexpr float kEtas[] = {1 / 1.5f, 1.5f, 1 / 1.33f, 2.4f};
 
 // White cases of a kind: ten roughnesses or exponents, and for those with sides both sides.
 inline std::vector<Case> casesOf(std::uint32_t kind, std::size_t etas = 2) {
