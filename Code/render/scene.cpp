@@ -9,9 +9,10 @@
 #include "light/kinds/triangle.h"
 #include "render/batch.h"
 #include "render/eye.h"
+#include "render/light_rows.h"
 #include "render/make_light.h"
 #include "render/make_shapes.h"
-#include "render/path/light_rows.h"
+#include "render/path/emitter_row.h"
 #include "render/path/make_lobes.h"
 #include "render/path/scene_sky.h"
 #include "render/picture_reader.h"
@@ -430,10 +431,19 @@ private:
         PathLights& lights = scene_.pathLights_;
         for (std::size_t i = 0; i < desc_.lights.size(); ++i) {
             const LightDesc& desc = desc_.lights[i];
-            const auto row = makeLightRow(desc, scene_.frame_);
-            if (!row) continue;
+            const LightRow row = lightRow(desc, scene_.frame_);
+            if (boundsOf(row).isDark()) {
+                if (!isBlack(toRgb(desc.color)))
+                    scene_.warnings_.push_back(
+                        located(source_, desc.loc.offset,
+                                cat("light ", desc.name,
+                                    " has no area and lights nothing; sides or a radius above 0 "
+                                    "would be right"),
+                                "warning"));
+                continue;
+            }
             const bool isOpen = !(desc.shadows && on_.shadows);
-            const std::uint32_t light = lights.add({*row, isOpen, hasSize(desc), false});
+            const std::uint32_t light = lights.add({row, isOpen, hasSize(desc), false});
             if (isOpen || !hasSize(desc)) continue;
             if (hasLampBody_[i])
                 lights.addObject(static_cast<std::uint32_t>(objectCount_ + i), true, light);
