@@ -195,6 +195,36 @@ TEST(rough_metal_shows_lamps_alike_in_both_integrators) {
     CHECK(lit >= 6);
 }
 
+// Each number of a lobe may be multiplied by pictures, and by what pictures leave of 1.
+TEST(pictures_multiply_numbers_of_lobes) {
+    const auto even = [](double r, double g, double b) {
+        return [=](double, double) {
+            return Rgb{static_cast<float>(r), static_cast<float>(g), static_cast<float>(b)};
+        };
+    };
+    shot::writeTexture("path_a.pfm", 2, 2, even(0.5, 0.25, 1));
+    shot::writeTexture("path_b.pfm", 2, 2, even(0.4, 0.8, 0.2));
+    const std::string textures =
+        "texture a {\n file \"path_a.pfm\"\n}\ntexture b {\n file \"path_b.pfm\"\n}\n";
+    const auto colorOf = [&](const std::string& lobe) {
+        return shot::render(cat(shot::TopView{.pixels = 1}.text(), textures, "material m {\n lobe ",
+                                lobe, "\n}\nplane floor {\n scale 20 20 1\n material m\n}\n",
+                                "light l {\n type sun\n color 3.14159265 3.14159265 "
+                                "3.14159265\n}\n"))
+            .at(0, 0);
+    };
+    CHECK_RGB(colorOf("diffuse weight 0.5 0.5 0.5"), (Vec3d{0.5, 0.5, 0.5}), 1e-6);
+    CHECK_RGB(colorOf("diffuse weight 0.5 0.5 0.5 times a"), (Vec3d{0.25, 0.125, 0.5}), 1e-6);
+    CHECK_RGB(colorOf("diffuse weight 1 1 1 times a without b 0.5"),
+              (Vec3d{0.5 * 0.8, 0.25 * 0.6, 0.9}), 1e-6);
+    // The grey value of a, of which Oren-Nayar's roughness takes a part.
+    const double grey = 0.2126 * 0.5 + 0.7152 * 0.25 + 0.0722;
+    const Rgb textured = colorOf("oren_nayar weight 0.5 0.5 0.5 roughness 0.8 times a");
+    const Rgb plain = colorOf(cat("oren_nayar weight 0.5 0.5 0.5 roughness ", 0.8 * grey));
+    CHECK_NEAR(textured.r, plain.r, 1e-6);
+    CHECK(std::fabs(plain.r - 0.5f) > 1e-3f);
+}
+
 // A picture of paths has the same bits for every instruction set, number of threads, size of tiles
 // and of chunks.
 TEST(paths_have_the_same_bits_everywhere) {

@@ -32,7 +32,7 @@ void lampAtPoints(const PathLights& lights, std::uint32_t number, const PointBlo
         unsigned lanes = block.points >> first & SeenPoints::kAllLanes;
         if (lanes == 0) continue;
         const SeenPoints at = litPoints(points, first, block.litOutside);
-        SampledLight lamp;
+        SampledLight lamp{rgbOf(0.0f), zero, rgbOf(0.0f), zero, noLanes()};
         const Floats u = Floats::load(block.u + first), v = Floats::load(block.v + first);
         if (entry.row.kind == PathLights::kSkyKind)
             lamp = SkyEmitter(lights.skyView()).sample(at.p, u, v);
