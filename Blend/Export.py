@@ -10,7 +10,7 @@ Runs in Blender 3.4 to 5.0 with nothing but the standard library: Debian's Blend
 Custom properties of an object that are obeyed:
     rt_shape   'sphere' 'cube' 'plane' 'infinite_plane' 'disk' 'cylinder' 'cone': the object becomes this
                record, fitted into its box; 'mesh': it stays a mesh even if it looks like one of these
-    rt_light   0: a glowing object is seen, but gives no light (and no warning about it)
+    rt_light   0: a glowing object is seen, but gives no light
 
 The parts of this file stand in the order in which the data flows:
      1 warnings         what could not be carried over, one number for each kind
@@ -23,7 +23,7 @@ The parts of this file stand in the order in which the data flows:
      8 images           finding, copying and converting picture files
      9 values           sockets to numbers and image textures   (a new node: table VALUE_NODES)
     10 shaders          sockets to lobes                        (a new node: table SHADER_NODES)
-    11 materials        lobes to a material of the format
+    11 materials        what stands in the block of a material
     12 world
     13 shapes           spheres, cubes and planes among the meshes
     14 meshes
@@ -84,8 +84,8 @@ WARNINGS = {
     12: "shader node that is not supported",
     13: "input of a shader that is not supported",
     14: "texture where only a constant is possible",
-    15: "glossy lobes of different roughness",
-    16: "lobes with different Fresnel behaviour",
+    15: "more lobes than a material has",
+    16: "mixture whose layers or angles have no exact form",
     17: "different normals or heights in one material",
     18: "second UV map or coordinate system in one material",
     19: "texture coordinates or mapping that are not plane",
@@ -101,7 +101,7 @@ WARNINGS = {
     29: "elliptic spot",
     30: "node of the world",
     31: "mapping or projection of the environment",
-    32: "emission that would light other objects",
+    32: "emission of an object that the camera does not see",
     33: "shape asked for by rt_shape that does not fit",
     34: "motion that cannot be followed",
     35: "number beyond what the scene text takes",
@@ -617,11 +617,22 @@ def warn_of_what_comes_after(scene, report):
         report.warn(45, "strips of the sequencer", "the scene itself")
 
 
-def put_settings(text, scene, report):
+def put_light_paths(text, cycles, integrator):
+    text.put_unless("whitted", "integrator", integrator)
+    text.put_unless(8, "max_depth", min(getattr(cycles, "max_bounces", 8), MAX_DEPTH))
+    for keyword, name, usual in (("diffuse_depth", "diffuse_bounces", 4), ("glossy_depth", "glossy_bounces", 4),
+                                 ("transmission_depth", "transmission_bounces", 12),
+                                 ("transparent_depth", "transparent_max_bounces", 8)):
+        text.put_unless(usual, keyword, getattr(cycles, name, usual))
+    text.put_unless(0, "clamp_indirect", getattr(cycles, "sample_clamp_indirect", 0.0))
+    text.put_unless(True, "caustics", getattr(cycles, "caustics_reflective", True)
+                    or getattr(cycles, "caustics_refractive", True))
+
+
+def put_settings(text, scene, integrator, report):
     render, cycles = scene.render, getattr(scene, "cycles", None)
     width, height = picture_size(render)
     name, filter_width = pixel_filter(scene)
-    depth = min(getattr(cycles, "max_bounces", 8), MAX_DEPTH)
     with text.block("settings"):
         text.put("resolution", width, height)
         if render.pixel_aspect_x != render.pixel_aspect_y:
@@ -639,7 +650,7 @@ def put_settings(text, scene, report):
         samples = samples_of(scene)[1]
         text.put("samples", samples)
         text.put_unless(True, "jitter", samples > 1)  # Cycles puts a single sample in the middle
-        text.put_unless(8, "max_depth", depth)
+        put_light_paths(text, cycles, integrator)
         text.put_unless(0, "seed", max(getattr(cycles, "seed", 0), 0))
         text.put("filter", name, filter_width)
         text.put_unless(0, "exposure", exposure_of(scene))
@@ -1494,19 +1505,10 @@ def fresnel_dielectric(cosine, ior):
     return (parallel * parallel + perpendicular * perpendicular) / 2
 
 
-def fresnel_normal(ior):
-    """Reflectance at normal incidence."""
-    return ((ior - 1) / (ior + 1)) ** 2
-
-
 def fresnel_mean(ior):
     """Reflectance of a boundary for light that comes from everywhere."""
     n = 64
     return sum(2 * c * fresnel_dielectric(c, ior) for c in ((i + 0.5) / n for i in range(n))) / n
-
-
-def schlick_mean(f0):
-    return f0 + (1 - f0) / 21
 
 
 def rotation_2d(degrees):
@@ -2115,31 +2117,126 @@ class Normal:
 
 
 @dataclass(frozen=True)
-class Lobe:
-    """One way in which a surface answers light. A material is a sum of lobes.
+class Factor:
+    """A texture that multiplies a weight or a field: by its colour, or by 1 - strength times that."""
+    texture: Texture
+    without: bool = False
+    strength: float = 1.0
 
-    fresnel 'none': rgb as it is; 'schlick': rgb seen straight on, white at grazing angles;
-    'dielectric': rgb times the exact reflectance (glossy) or its rest (transmission) for ior.
+
+@dataclass(frozen=True)
+class Part:
+    """A weight: a colour times textures."""
+    rgb: tuple = WHITE
+    factors: tuple = ()
+
+
+def part_of(value):
+    """A colour or number as a weight."""
+    texture = value.texture
+    if texture is None:
+        return Part(value.rgb)
+    return Part(value.rgb, (Factor(replace(texture, inverted=False), texture.inverted),))
+
+
+def rest_of(value):
+    """1 minus a number from 0 to 1, as a weight; None where no factor says it."""
+    x, texture = gray(value.rgb), value.texture
+    if texture is None:
+        return Part(scaled(WHITE, 1 - x))
+    if not texture.inverted:
+        return Part(WHITE, (Factor(texture, True, x),))
+    return Part(WHITE, (Factor(replace(texture, inverted=False)),)) if x == 1 else None
+
+
+def all_of(*parts):
+    """The product of weights."""
+    rgb, factors = WHITE, ()
+    for part in parts:
+        rgb, factors = product(rgb, part.rgb), factors + part.factors
+    return Part(rgb, factors)
+
+
+# What fields are when they are left out, of those that often are.
+USUAL = {"anisotropy": BLACK, "rotation": BLACK, "tint": WHITE, "edge_tint": WHITE, "reflect_tint": WHITE,
+         "transmit_tint": WHITE, "specular": (0.5, 0.5, 0.5)}
+COLORS = {"color", "tint", "edge_tint", "reflect_tint", "transmit_tint"}
+
+
+@dataclass(frozen=True)
+class Lobe:
+    """One way in which a surface scatters light. A material is a sum of lobes, but that one that covers
+    lies on those behind it, which get what it lets through. `kind` is the format's word; or 'emission';
+    'transparent', straight on; 'refraction', all of the light, whatever the angle.
     """
-    kind: str  # diffuse glossy transmission transparent emission
-    rgb: tuple
-    texture: Optional[Texture] = None
-    roughness: float = 0.0
-    ior: float = 1.5
-    fresnel: str = "none"
+    kind: str
+    part: Part = Part()
+    fields: tuple = ()  # (name, Value)
+    covers: bool = False
     normal: Optional[Normal] = None
     cover: Optional[Value] = None  # transparent: opacity of all the rest, when it is a texture
 
-    def times(self, factor):
-        return replace(self, rgb=scaled(self.rgb, factor))
+    @property
+    def rgb(self):
+        return self.part.rgb
+
+    def times(self, part):
+        return replace(self, part=all_of(part, self.part))
+
+    def field(self, name):
+        return dict(self.fields).get(name)
+
+    def is_plain(self):
+        """Reflects all colours at all angles alike."""
+        return self.kind == "mirror" or (self.kind == "conductor" and self.field("color") == Value(WHITE))
+
+
+def lobe(kind, part=Part(), normal=None, covers=False, **fields):
+    """A lobe with these fields: Values, which end where the format's do."""
+    given = []
+    for name, value in fields.items():
+        rgb = value.rgb if name in COLORS else (gray(value.rgb),) * 3
+        if name == "ior":
+            rgb = tuple(min(max(x, 1e-3 if kind == "dielectric" else 1.0), 1000.0) for x in rgb)
+        elif name == "anisotropy":
+            rgb = tuple(min(max(x, -1.0), 1.0) for x in rgb)
+        elif name != "rotation":
+            rgb = clamped(rgb)
+        if value.texture is not None and name not in COLORS:  # the renderer makes them grey
+            value = replace(value, texture=replace(value.texture, grey=False))
+        if value.texture is not None or rgb != USUAL.get(name):
+            given.append((name, replace(value, rgb=rgb)))
+    return Lobe(kind, part, tuple(given), covers, normal)
 
 
 def all_times(lobes, factor):
-    return [lobe if lobe.cover else lobe.times(factor) for lobe in lobes] if factor != 0 else []
+    """`factor` is a number or a Part."""
+    part = factor if isinstance(factor, Part) else Part(scaled(WHITE, factor))
+    return [l if l.cover else l.times(part) for l in lobes] if any(part.rgb) else []
 
 
 def is_transparent(lobes):
     return bool(lobes) and all(l.kind == "transparent" and not l.cover for l in lobes)
+
+
+def segments_of(lobes):
+    """([lobes before the first cover, behind it, behind the second ...], [covers])"""
+    between, covers = [[]], []
+    for l in lobes:
+        if l.covers:
+            covers.append(l)
+            between.append([])
+        else:
+            between[-1].append(l)
+    return between, covers
+
+
+def mean_of_cover(l):
+    """About the part of the light that a cover sends back, where its weight is 1."""
+    if l.kind == "sheen":
+        return 0.1
+    level = gray((l.field("specular") or Value(USUAL["specular"])).rgb)
+    return min(fresnel_mean(max(gray(l.field("ior").rgb), 1.0)) * 2 * level, 1.0)
 
 
 class Shaders:
@@ -2163,14 +2260,15 @@ class Shaders:
         value = self.values.value(color) if color else Value(GRAY)
         if node.bl_idname in VALUE_NODES:  # Blender shows a colour as emission
             value = VALUE_NODES[node.bl_idname](self.values, found)
-            return [Lobe("emission", value.rgb, value.texture)]
+            return [Lobe("emission", part_of(value))]
         self.report.warn(12, "node '%s' (%s)" % (node.name, kind_of(node)), "diffuse")
-        return [Lobe("diffuse", value.rgb, value.texture)]
+        return [Lobe("diffuse", part_of(value))]
 
     # ---- sums
 
     def add(self, found):
-        return [lobe for socket in found.node.inputs[:2] for lobe in self.lobes(Socket(socket, found.path))]
+        first, second = (self.lobes(Socket(s, found.path)) for s in found.node.inputs[:2])
+        return self.joined(found, first, second)
 
     def mix(self, found):
         first, second = (self.lobes(Socket(s, found.path)) for s in found.node.inputs[1:3])
@@ -2182,163 +2280,236 @@ class Shaders:
         facing = facing_mean(self.values, chooser)
         if facing is not None:
             return self.mix_by_facing(found, first, second, facing)
-        factor = self.values.value(at)
-        if factor.texture is None:
-            t = min(max(gray(factor.rgb), 0.0), 1.0)
-            return all_times(first, 1 - t) + all_times(second, t)
-        if is_transparent(first):
-            return second + self.cut_out(first, factor)
-        if is_transparent(second) and factor.rgb == WHITE:
-            texture = replace(factor.texture, inverted=not factor.texture.inverted)
-            return first + self.cut_out(second, Value(WHITE, texture))
-        self.report.warn(14, "node '%s' mixes by a texture" % found.node.name, "its mean")
-        t = min(max(gray(self.values.constant(factor)), 0.0), 1.0)
-        return all_times(first, 1 - t) + all_times(second, t)
+        factor = self.values.as_number(found, self.values.value(at))
+        if factor.texture is not None:
+            if is_transparent(first):
+                return second + self.cut_out(first, factor)
+            if is_transparent(second) and factor.rgb == WHITE:
+                texture = replace(factor.texture, inverted=not factor.texture.inverted)
+                return first + self.cut_out(second, Value(WHITE, texture))
+        see_through = any(l.kind == "transparent" for l in first + second)
+        factor = self.fraction(found, factor, needs_constant=see_through)
+        return self.joined(found, first, second, rest_of(factor), part_of(factor))
+
+    def fraction(self, found, value, needs_constant=False):
+        """A number from 0 to 1 whose rest can be said, too."""
+        value = replace(value, rgb=clamped(value.rgb))
+        if value.texture is not None and (needs_constant or rest_of(value) is None):
+            self.report.warn(14, "node '%s' mixes by a texture" % found.node.name, "its mean")
+            value = Value(self.values.constant(value))
+        return value
+
+    def joined(self, found, first, second, part=None, other=None):
+        """The sum of two lists, times their parts. Layers that both have alike are one; a list without
+        layers lies beside the other's."""
+        lists = [all_times(l, p) if p else l for l, p in ((first, part), (second, other))]
+        if not all(lists):
+            return lists[0] + lists[1]
+        (between, covers), (between2, covers2) = map(segments_of, lists)
+        if covers and not covers2:
+            return lists[1] + lists[0]
+        if covers:
+            own, own2 = segments_of(first)[1], segments_of(second)[1]
+            if part is None or own != own2:
+                self.report.warn(16, "node '%s' has layers on both sides" % found.node.name, "the mean of the second's")
+                return self.joined(found, lists[0], self.unlayered(lists[1]))
+            out = between[0] + between2[0]
+            for cover, a, b in zip(own, between[1:], between2[1:]):
+                out += [cover] + a + b
+            return out
+        return lists[0] + lists[1]
+
+    @staticmethod
+    def unlayered(lobes):
+        """Covers as lobes beside the others, which get less in turn."""
+        out, left = [], 1.0
+        for l in lobes:
+            out.append(replace(l.times(Part(scaled(WHITE, left))), covers=False) if not l.cover else l)
+            if l.covers:
+                left *= 1 - min(max(l.rgb), 1.0) * mean_of_cover(l)
+        return out
 
     @staticmethod
     def cut_out(transparent, opacity):
         filter_color = BLACK
-        for lobe in transparent:
-            filter_color = plus(filter_color, lobe.rgb)
-        return [Lobe("transparent", filter_color, cover=opacity)]
+        for l in transparent:
+            filter_color = plus(filter_color, l.rgb)
+        return [Lobe("transparent", Part(filter_color), cover=opacity)]
 
     def mix_by_fresnel(self, found, first, second, ior):
-        """The usual lacquer: what reflects gets the exact Fresnel, what is below its mean."""
-        mean = fresnel_mean(ior)
-        out = []
-        for lobe in first:
-            exact = lobe.kind == "transmission" and lobe.fresnel == "none"
-            out.append(replace(lobe, fresnel="dielectric", ior=ior) if exact else lobe.times(1 - mean))
-        for lobe in second:
-            if lobe.kind == "glossy" and lobe.fresnel == "none":
-                out.append(replace(lobe, fresnel="dielectric", ior=ior))
-                continue
-            self.report.warn(16, "node '%s' mixes %s by Fresnel" % (found.node.name, lobe.kind), "its mean")
-            out.append(lobe.times(mean))
-        return out
+        """The usual lacquer: a layer that reflects as a dielectric, or, on refraction, glass."""
+        plain = [l for l in second if l.is_plain()]
+        if len(plain) < len(second):
+            self.report.warn(16, "node '%s' mixes %s by Fresnel" % (found.node.name, next(
+                l.kind for l in second if not l.is_plain())), "its mean")
+            return self.joined(found, all_times(first, 1 - fresnel_mean(ior)), all_times(second, fresnel_mean(ior)))
+        ior = number_value(ior)
+        rough = lambda l: l.field("roughness") or number_value(0.0)
+        if len(plain) == 1 and [l.kind for l in first] == ["refraction"] and not first[0].part.factors \
+                and not plain[0].part.factors:
+            return [lobe("dielectric", Part(), plain[0].normal, ior=ior, reflect_tint=Value(plain[0].rgb),
+                         transmit_tint=Value(first[0].rgb), roughness=rough(plain[0]))]
+        layers = [lobe("glossy_dielectric", l.part, l.normal, True, ior=ior, roughness=rough(l),
+                       **{n: v for n, v in l.fields if n in ("anisotropy", "rotation")}) for l in plain]
+        return [l for l in first if l.kind in {"emission", "transparent"}] + layers + [
+            l for l in first if l.kind not in {"emission", "transparent"}]
 
     def mix_by_facing(self, found, first, second, mean):
         """Schlick's curve with the same mean; (1 - cos) and its powers have no exact form here."""
         self.report.warn(16, "node '%s' mixes by Facing" % found.node.name, "Schlick's Fresnel of the same mean")
-        f0 = max((mean - 1 / 21) * 21 / 20, 0.0)
-        out = all_times(first, 1 - mean)
-        for lobe in second:
-            if lobe.kind == "glossy" and lobe.fresnel == "none":
-                out.append(replace(lobe.times(f0), fresnel="schlick"))
+        f0 = number_value(max((mean - 1 / 21) * 21 / 20, 0.0))
+        out = []
+        for l in second:
+            if l.kind == "mirror":
+                out.append(lobe("schlick_mirror", l.part, l.normal, color=f0))
+            elif l.is_plain():
+                out.append(lobe("conductor", l.part, l.normal, **{**dict(l.fields), "color": f0}))
             else:
-                out.append(lobe.times(mean))
-        return out
+                out.append(l.times(Part(scaled(WHITE, mean))))
+        return self.joined(found, all_times(first, 1 - mean), out)
 
     # ---- single lobes
 
     def diffuse(self, found):
-        color = self.values.input(found, "Color")
-        self.ignored(found, (("Roughness",),))
-        return [Lobe("diffuse", color.rgb, color.texture, normal=self.normal(found))]
+        color, roughness = part_of(self.values.input(found, "Color")), self.values.input(found, "Roughness")
+        return [self.rough_diffuse(color, roughness, self.normal(found))]
+
+    @staticmethod
+    def rough_diffuse(part, roughness, normal):
+        if roughness.texture is None and not any(roughness.rgb):
+            return Lobe("diffuse", part, normal=normal)
+        if part.factors or max(part.rgb) > 1:
+            return lobe("oren_nayar", part, normal, roughness=roughness)
+        return lobe("oren_nayar", Part(), normal, color=Value(part.rgb), roughness=roughness)
 
     def like_diffuse(self, found):
         """Shaders that scatter light in ways that we lack."""
         self.report.warn(12, "node '%s' (%s)" % (found.node.name, kind_of(found.node)), "diffuse")
-        color = self.values.input(found, "Color", "Base Color")
-        return [Lobe("diffuse", color.rgb, color.texture, normal=self.normal(found))]
+        return [Lobe("diffuse", part_of(self.values.input(found, "Color", "Base Color")), normal=self.normal(found))]
+
+    def translucent(self, found):
+        return [Lobe("translucent", part_of(self.values.input(found, "Color")), normal=self.normal(found))]
+
+    def sheen(self, found):
+        if found.node.bl_idname == "ShaderNodeBsdfVelvet" or found.node.distribution == "ASHIKHMIN":
+            self.report.warn(12, "node '%s' (velvet of Ashikhmin)" % found.node.name, "fibres")
+        roughness = self.values.input(found, "Roughness", "Sigma", default=0.5)
+        return [lobe("sheen", part_of(self.values.input(found, "Color")), self.normal(found), roughness=roughness)]
 
     def glossy(self, found):
-        color = self.values.input(found, "Color")
-        self.ignored(found, (("Anisotropy",),))
-        return [Lobe("glossy", color.rgb, color.texture, self.roughness(found), normal=self.normal(found))]
+        """The same reflectance at all angles."""
+        part, normal = part_of(self.values.input(found, "Color")), self.normal(found)
+        roughness = self.roughness(found)
+        if roughness.texture is None and gray(roughness.rgb) < SHARP:
+            return [Lobe("mirror", part, normal=normal)]
+        if getattr(found.node, "distribution", "") == "ASHIKHMIN_SHIRLEY" and roughness.texture is None:
+            return [Lobe("ashikhmin", part, (("exponent", number_value(exponent_of(gray(roughness.rgb)))),), normal=normal)]
+        return [lobe("conductor", part, normal, color=Value(WHITE), roughness=roughness, **self.stretch(found))]
+
+    def stretch(self, found):
+        """Anisotropy and rotation of a node whose widths are those of the roughness times and over
+        1 - anisotropy; the format has the aspect of Principled, sqrt(1 - 0.9 anisotropy)."""
+        a = self.values.number(found, "Anisotropy")
+        square = (1 - min(abs(a), 1.0)) ** 2
+        return dict(anisotropy=number_value(math.copysign(min((1 - square) / 0.9, 1.0), -a) if a else 0.0),
+                    rotation=number_value(self.values.number(found, "Rotation")))
 
     def metallic(self, found):
-        """Metallic BSDF (4.3): reflectance straight on, white at grazing angles."""
-        color = self.values.input(found, "Base Color")
-        self.ignored(found, (("Anisotropy",), ("Thin Film Thickness",)))
-        return [Lobe("glossy", color.rgb, color.texture, self.roughness(found), fresnel="schlick",
-                     normal=self.normal(found))]
+        """Metallic BSDF (4.3): reflectance straight on and near the edge."""
+        self.ignored(found, (("Thin Film Thickness",),))
+        if getattr(found.node, "fresnel_type", "F82") != "F82":
+            self.report.warn(13, "node '%s' is a metal by its IOR" % found.node.name, "by its colours")
+        return [lobe("conductor", Part(), self.normal(found), color=self.values.input(found, "Base Color"),
+                     edge_tint=self.values.input(found, "Edge Tint", default=1.0), roughness=self.roughness(found),
+                     **self.stretch(found))]
 
     def glass(self, found):
-        color = self.values.color(found, "Color")
-        shared = dict(roughness=self.roughness(found), ior=self.ior(found, 1.45),
-                      fresnel="dielectric", normal=self.normal(found))
+        color = self.values.input(found, "Color")
         self.ignored(found, (("Thin Film Thickness",),))
-        return [Lobe("transmission", color, **shared), Lobe("glossy", color, **shared)]
+        return [lobe("dielectric", Part(), self.normal(found), ior=number_value(self.ior(found, 1.45)),
+                     reflect_tint=color, transmit_tint=color, roughness=self.roughness(found))]
 
     def refraction(self, found):
-        color = self.values.color(found, "Color")
-        ior = self.ior(found, 1.45)
-        return [Lobe("transmission", color, None, self.roughness(found), ior, normal=self.normal(found))]
+        fields = (("ior", number_value(self.ior(found, 1.45))), ("roughness", self.roughness(found)))
+        return [Lobe("refraction", Part(self.values.color(found, "Color")), fields, normal=self.normal(found))]
 
     def transparent(self, found):
-        return [Lobe("transparent", self.values.color(found, "Color"))]
+        return [Lobe("transparent", Part(self.values.color(found, "Color")))]
 
     def emission(self, found):
-        color = self.values.input(found, "Color")
         strength = self.values.number(found, "Strength", default=1.0)
-        return [Lobe("emission", scaled(color.rgb, strength), color.texture)]
+        return all_times([Lobe("emission", part_of(self.values.input(found, "Color")))], strength)
 
     def holdout(self, found):
         self.report.warn(12, "node '%s' (Holdout)" % found.node.name, "black")
         return []
 
     def eevee_specular(self, found):
-        base, color = self.values.input(found, "Base Color"), self.values.color(found, "Specular")
-        glow = self.values.input(found, "Emissive Color")
-        normal = self.normal(found)
+        color, normal = self.values.input(found, "Specular"), self.normal(found)
         lobes = [
-            Lobe("diffuse", base.rgb, base.texture, normal=normal),
-            Lobe("glossy", color, None, self.roughness(found), fresnel="schlick", normal=normal),
-            Lobe("emission", glow.rgb, glow.texture),
+            Lobe("diffuse", part_of(self.values.input(found, "Base Color")), normal=normal),
+            lobe("conductor", Part(), normal, color=color, roughness=self.roughness(found)),
+            Lobe("emission", part_of(self.values.input(found, "Emissive Color"))),
         ]
         clear = self.values.number(found, "Transparency")
-        return all_times(lobes, 1 - clear) + all_times([Lobe("transparent", WHITE)], clear)
+        return all_times(lobes, 1 - clear) + all_times([Lobe("transparent")], clear)
 
     # ---- Principled
 
     def principled(self, found):
-        """Cycles' all-purpose shader; since 4.0 with other sockets and another reflectance."""
-        values, is_new = self.values, VERSION >= (4, 0)
+        """Cycles' all-purpose shader as 4.x layers it: sheen on varnish on metal, glass, and plastic, which
+        is a layer that reflects on a diffuse base. Before 4.0 some sockets had other names and scales."""
+        values, normal = self.values, self.normal(found)
+        is_new = values.socket(found, "Coat Weight") is not None
+        number = lambda *names: self.fraction(found, values.as_number(found, values.input(found, *names)))
         base = values.input(found, "Base Color")
-        metallic = min(max(values.number(found, "Metallic"), 0.0), 1.0)
-        clear = min(max(values.number(found, "Transmission Weight", "Transmission"), 0.0), 1.0)
-        level = values.number(found, "Specular IOR Level", "Specular", default=0.5)
-        ior = max(self.ior(found, 1.45), 1.0)
-        normal = self.normal(found)
+        metal, clear = number("Metallic"), number("Transmission Weight", "Transmission")
+        solid = rest_of(metal)
+        glass, plastic = all_of(solid, part_of(clear)), all_of(solid, rest_of(clear))
+        ior = number_value(max(self.ior(found, 1.45), 1.0))
+        tint = values.input(found, "Specular Tint") if is_new else Value(WHITE)
         roughness = self.roughness(found)
+        turned = dict(anisotropy=number_value(values.number(found, "Anisotropic")),
+                      rotation=number_value(values.number(found, "Anisotropic Rotation")))
         self.ignored(found, PRINCIPLED_IGNORED + (() if is_new else (("Specular Tint",),)))
 
-        tint = values.color(found, "Specular Tint") if is_new else WHITE
-        f0 = min(fresnel_normal(ior) * 2 * level, 1.0) if is_new else 0.08 * level
-        solid = 1 - metallic
-        lobes = []
-        below = 1 - schlick_mean(f0) if is_new and f0 > 0 else 1.0
-        lobes += all_times([Lobe("diffuse", base.rgb, base.texture, normal=normal)], solid * (1 - clear) * below)
-        shared = dict(roughness=roughness, ior=ior, normal=normal)
-        if clear > 0 and solid > 0:
+        sheen, coat = number("Sheen Weight", "Sheen"), number("Coat Weight", "Clearcoat")
+        sheen_tint = values.input(found, "Sheen Tint") if is_new else Value(WHITE)
+        coat_tint = values.input(found, "Coat Tint") if is_new else Value(WHITE)
+        level = values.input(found, "Specular IOR Level", "Specular", default=0.5)
+        lobes = [
+            lobe("sheen", all_of(part_of(sheen), part_of(sheen_tint)), normal, True,
+                 roughness=values.input(found, "Sheen Roughness", default=0.5)),
+            lobe("coat", all_of(part_of(coat), Part(scaled(WHITE, 1.0 if is_new else 0.25))), normal, True,
+                 ior=number_value(values.number(found, "Coat IOR", default=1.5)), tint=coat_tint,
+                 roughness=values.input(found, "Coat Roughness", "Clearcoat Roughness", default=0.03)),
+            lobe("conductor", part_of(metal), normal, color=base, edge_tint=tint, roughness=roughness, **turned),
+        ]
+        if any(glass.rgb):
             color = values.constant(base)
             if base.texture:
                 self.report.warn(14, "node '%s' has a texture on transmission" % found.node.name, "its mean")
             # Since 4.0 light is coloured by the base colour after two boundaries, before at each.
             through = tuple(math.sqrt(max(x, 0.0)) for x in color) if is_new else color
-            lobes.append(Lobe("transmission", scaled(through, solid * clear), fresnel="dielectric", **shared))
-            lobes.append(Lobe("glossy", scaled(tint, solid), fresnel="dielectric", **shared))
-            lobes += all_times([Lobe("glossy", base.rgb, base.texture, fresnel="schlick", **shared)], metallic)
-        elif metallic == 1:
-            lobes.append(Lobe("glossy", base.rgb, base.texture, fresnel="schlick", **shared))
-        else:
-            if base.texture and metallic > 0:
-                self.report.warn(14, "node '%s' has a texture on its reflection" % found.node.name, "its mean")
-            color = mixed(scaled(tint, f0), values.constant(base) if metallic else BLACK, metallic)
-            lobes.append(Lobe("glossy", color, fresnel="schlick", **shared))  # black is dropped later
+            lobes.append(lobe("dielectric", glass, normal, ior=ior, reflect_tint=tint, transmit_tint=Value(through),
+                              roughness=roughness))
+        if any(level.rgb):  # before 4.0 it alone said how much is reflected
+            lobes.append(lobe("glossy_dielectric", plastic, normal, True, ior=ior if is_new else number_value(1.5),
+                              tint=tint, roughness=roughness, specular=level, **turned))
+        diffuse_roughness = values.input(found, "Diffuse Roughness") if is_new else number_value(0.0)
+        lobes.append(self.rough_diffuse(all_of(plastic, part_of(base)), diffuse_roughness, normal))
 
         glow = values.input(found, "Emission Color", "Emission")
         strength = values.number(found, "Emission Strength", default=0.0)
-        lobes += all_times([Lobe("emission", glow.rgb, glow.texture)], strength)
+        lobes = all_times([Lobe("emission", part_of(glow))], strength) + [l for l in lobes if any(l.rgb)]
         return self.with_alpha(lobes, values.input(found, "Alpha", default=1.0))
 
     @staticmethod
     def with_alpha(lobes, alpha):
         if alpha.texture is not None:
-            return lobes + [Lobe("transparent", WHITE, cover=alpha)]
+            return lobes + [Lobe("transparent", cover=alpha)]
         a = min(max(gray(alpha.rgb), 0.0), 1.0)
-        return lobes if a == 1 else all_times(lobes, a) + [Lobe("transparent", scaled(WHITE, 1 - a))]
+        return lobes if a == 1 else all_times(lobes, a) + [Lobe("transparent", Part(scaled(WHITE, 1 - a)))]
 
     # ---- inputs
 
@@ -2349,8 +2520,8 @@ class Shaders:
 
     def roughness(self, found):
         if getattr(found.node, "distribution", "") == "SHARP":  # up to 3.6
-            return 0.0
-        return min(max(self.values.number(found, "Roughness"), 0.0), 1.0)
+            return number_value(0.0)
+        return self.values.input(found, "Roughness")
 
     def ignored(self, found, inputs):
         """Warns of each input that has an effect in Blender and none here."""
@@ -2405,11 +2576,7 @@ class Shaders:
 
 PRINCIPLED_IGNORED = (
     ("Subsurface Weight", "Subsurface"),
-    ("Sheen Weight", "Sheen"),
-    ("Coat Weight", "Clearcoat"),
-    ("Anisotropic",),
     ("Thin Film Thickness",),
-    ("Diffuse Roughness",),
 )
 
 SHADER_NODES = {
@@ -2427,9 +2594,9 @@ SHADER_NODES = {
     "ShaderNodeEmission": Shaders.emission,
     "ShaderNodeBackground": Shaders.emission,
     "ShaderNodeHoldout": Shaders.holdout,
-    "ShaderNodeBsdfTranslucent": Shaders.like_diffuse,
-    "ShaderNodeBsdfVelvet": Shaders.like_diffuse,
-    "ShaderNodeBsdfSheen": Shaders.like_diffuse,
+    "ShaderNodeBsdfTranslucent": Shaders.translucent,
+    "ShaderNodeBsdfVelvet": Shaders.sheen,
+    "ShaderNodeBsdfSheen": Shaders.sheen,
     "ShaderNodeBsdfToon": Shaders.like_diffuse,
     "ShaderNodeBsdfHair": Shaders.like_diffuse,
     "ShaderNodeBsdfHairPrincipled": Shaders.like_diffuse,
@@ -2439,7 +2606,9 @@ SHADER_NODES = {
 
 # -------------------------------------------------------------------------------------- 11 materials
 
-SHARP = 1e-3  # below this roughness Cycles shows no highlight of a lamp, and neither do we
+SHARP = 1e-3  # below this roughness Cycles takes a mirror
+FAINT = 1e-3  # what glows less lights nothing that could be seen
+MOST_LOBES = 8
 
 
 def exponent_of(roughness):
@@ -2448,29 +2617,30 @@ def exponent_of(roughness):
 
 @dataclass
 class Material:
-    """A material block. `lobes` folded into the few numbers that the format has."""
+    """A material block."""
     name: str
     diffuse: tuple = BLACK
     diffuse_texture: Optional[Texture] = None
-    specular: tuple = BLACK
-    specular_texture: Optional[Texture] = None
+    specular: tuple = BLACK  # of an Ashikhmin lobe
     exponent: float = 50.0
-    mirror: tuple = BLACK
     transmission: tuple = BLACK
     ior: float = 1.5
-    fresnel: str = "none"
-    roughness: float = 0.0
+    roughness: float = 0.0  # of transmission
     emission: tuple = BLACK
     emission_texture: Optional[Texture] = None
+    gives_light: bool = True
     opacity: float = 1.0
     opacity_texture: Optional[Texture] = None
     filter: tuple = WHITE
     normal: Normal = Normal()
+    lobes: tuple = ()
     is_volume: bool = False  # has no surface
 
     def textures(self):
-        found = (self.diffuse_texture, self.specular_texture, self.emission_texture,
-                 self.opacity_texture, self.normal.normal_map, self.normal.bump_map)
+        found = [self.diffuse_texture, self.emission_texture, self.opacity_texture,
+                 self.normal.normal_map, self.normal.bump_map]
+        for l in self.lobes:
+            found += [f.texture for f in l.part.factors] + [v.texture for _, v in l.fields]
         return [t for t in found if t is not None]
 
     def coordinates(self):
@@ -2478,29 +2648,28 @@ class Material:
         textures = self.textures()
         return textures[0].coordinates if textures else None
 
-    def only_glows(self):
-        return (any(self.emission) and not self.textures() and self.opacity == 1
-                and not any(self.diffuse + self.specular + self.mirror + self.transmission))
+    def lights(self):
+        return self.gives_light and max(self.emission) > FAINT
 
     def put(self, text, name_of):
         """`name_of` gives the name of a texture."""
         with text.block("material", self.name):
-            text.put("diffuse", self.diffuse)
-            self.put_texture(text, "diffuse_texture", self.diffuse_texture, name_of)
+            if any(self.diffuse) or not self.lobes:
+                text.put("diffuse", self.diffuse)
+                self.put_texture(text, "diffuse_texture", self.diffuse_texture, name_of)
             if any(self.specular):
                 text.put("specular", self.specular)
-                self.put_texture(text, "specular_texture", self.specular_texture, name_of)
                 text.put("specular_model", "ashikhmin")
                 text.put("exponent", self.exponent)
-            text.put_unless(BLACK, "mirror", self.mirror)
-            text.put_unless(BLACK, "transmission", self.transmission)
-            if any(self.transmission) or self.fresnel == "dielectric":
+            if any(self.transmission):
+                text.put("transmission", self.transmission)
                 text.put("ior", self.ior)
-            text.put_unless("none", "fresnel", self.fresnel)
-            if any(self.mirror) or any(self.transmission):
                 text.put_unless(0, "roughness", self.roughness)
+            for l in self.lobes:
+                self.put_lobe(text, l, name_of)
             text.put_unless(BLACK, "emission", self.emission)
             self.put_texture(text, "emission_texture", self.emission_texture, name_of)
+            text.put_unless(False, "emission_lights", self.lights())
             text.put_unless(1, "opacity", self.opacity)
             self.put_texture(text, "opacity_texture", self.opacity_texture, name_of)
             text.put_unless(WHITE, "filter", self.filter)
@@ -2518,9 +2687,26 @@ class Material:
         if texture is not None:
             text.put(keyword, word(name_of(texture)))
 
+    @staticmethod
+    def put_lobe(text, l, name_of):
+        words = [l.kind]
+
+        def value(keyword, rgb, factors, is_color):
+            words.extend([keyword, *map(number, rgb if is_color else rgb[:1])])
+            for factor in factors:
+                words.extend(["without" if factor.without else "times", word(name_of(factor.texture))])
+                if factor.strength != 1:
+                    words.append(number(factor.strength))
+
+        if l.part != Part():
+            value("weight", l.part.rgb, l.part.factors, True)
+        for name, given in l.fields:
+            value(name, given.rgb, part_of(given).factors, name in COLORS)
+        text.put("lobe", *words, *(["covers"] if l.covers else []))
+
 
 class Folder:
-    """Folds lobes into a Material."""
+    """Makes a Material of lobes."""
 
     def __init__(self, values, report):
         self.values = values
@@ -2528,11 +2714,13 @@ class Folder:
 
     def fold(self, name, lobes):
         material = Material(name)
-        lobes = [l for l in lobes if any(l.rgb) or l.cover]
-        solid = self.fold_opacity(material, lobes)
-        material.diffuse, material.diffuse_texture = self.sum("diffuse", solid)
+        solid = self.fold_opacity(material, [l for l in lobes if any(l.rgb) or l.cover])
         material.emission, material.emission_texture = self.sum("emission", solid)
-        self.fold_glossy(material, [l for l in solid if l.kind in {"glossy", "transmission"}])
+        self.fold_refraction(material, [l for l in solid if l.kind == "refraction"])
+        rest = self.united([l for l in solid if l.kind not in {"emission", "refraction"}])
+        if not any(l.covers for l in rest):
+            rest = self.fold_short(material, rest)
+        material.lobes = tuple(self.fewer(rest))
         self.fold_normal(material, solid)
         coordinates = {t.coordinates for t in material.textures()}
         if len(coordinates) > 1:
@@ -2542,15 +2730,15 @@ class Folder:
     def fold_opacity(self, material, lobes):
         """Takes the transparent lobes out; the others are scaled up to what is left for them."""
         solid = [l for l in lobes if l.kind != "transparent"]
-        for lobe in lobes:
-            if lobe.cover:
-                material.opacity = min(max(gray(lobe.cover.rgb), 0.0), 1.0)
-                material.opacity_texture = lobe.cover.texture
-                material.filter = lobe.rgb
+        for l in lobes:
+            if l.cover:
+                material.opacity = min(max(gray(l.cover.rgb), 0.0), 1.0)
+                material.opacity_texture = l.cover.texture
+                material.filter = l.rgb
         through = BLACK
-        for lobe in lobes:
-            if lobe.kind == "transparent" and not lobe.cover:
-                through = plus(through, lobe.rgb)
+        for l in lobes:
+            if l.kind == "transparent" and not l.cover:
+                through = plus(through, l.rgb)
         part = max(through)
         if part <= 0:
             return solid
@@ -2562,53 +2750,82 @@ class Folder:
         material.opacity, material.filter = 1 - part, scaled(through, 1 / part)
         return all_times(solid, 1 / (1 - part))
 
+    @staticmethod
+    def texture_of(l):
+        """(whether a keyword with one texture says its weight, that texture)"""
+        factors = l.part.factors
+        if len(factors) > 1 or any(f.strength != 1 for f in factors):
+            return False, None
+        return True, replace(factors[0].texture, inverted=factors[0].without) if factors else None
+
+    def constant(self, l):
+        """Its weight; textures count with their means."""
+        rgb = l.rgb
+        for f in l.part.factors:
+            mean = self.values.images.mean(f.texture)
+            rgb = product(rgb, [1 - f.strength * x for x in mean] if f.without else mean)
+        return rgb
+
     def sum(self, kind, lobes):
         """Sum of one kind of lobes: (colour, texture). A texture survives when it is alone."""
         lobes = [l for l in lobes if l.kind == kind]
-        textures = {l.texture for l in lobes if l.texture}
+        found = {self.texture_of(l) for l in lobes}
         total = BLACK
-        if len(textures) == 1 and all(l.texture for l in lobes):
-            for lobe in lobes:
-                total = plus(total, lobe.rgb)
-            return total, textures.pop()
-        for lobe in lobes:
-            total = plus(total, self.values.constant(Value(lobe.rgb, lobe.texture)))
-        if textures:
+        if len(found) == 1 and next(iter(found))[0]:
+            for l in lobes:
+                total = plus(total, l.rgb)
+            return total, found.pop()[1]
+        for l in lobes:
+            total = plus(total, self.constant(l))
+        if any(l.part.factors for l in lobes):
             self.report.warn(14, "a texture in a sum of %s parts" % kind, "its mean")
         return total, None
 
-    def fold_glossy(self, material, lobes):
+    def fold_refraction(self, material, lobes):
         if not lobes:
             return
-        weight = lambda lobe: max(lobe.rgb) * (fresnel_mean(lobe.ior) if self.is_coat(lobe) else 1)
         leader = max(lobes, key=lambda l: max(l.rgb))
-        material.fresnel, material.ior = leader.fresnel, leader.ior
-        if any(l.fresnel != leader.fresnel for l in lobes):
-            self.report.warn(16, "lobes of Fresnel %s" % " and ".join(sorted({l.fresnel for l in lobes})),
-                             leader.fresnel)
-        total = sum(weight(l) for l in lobes)
-        material.roughness = sum(weight(l) * l.roughness for l in lobes) / total if total else 0.0
-        if max(l.roughness for l in lobes) - min(l.roughness for l in lobes) > 1e-4:
-            self.report.warn(15, "lobes of different roughness", "%.3g" % material.roughness)
-        else:
-            material.roughness = leader.roughness
-
-        glossy = [l for l in lobes if l.kind == "glossy"]
-        color, texture = self.sum("glossy", glossy)
-        material.transmission = self.sum("transmission", lobes)[0]
-        material.mirror = color
-        if texture is not None:
-            self.report.warn(14, "a texture on the reflection", "its mean for what is mirrored")
-            material.mirror = self.values.constant(Value(color, texture))
-        if material.roughness >= SHARP:
-            material.specular_texture = texture
-            material.exponent = exponent_of(material.roughness)
-            straight = fresnel_normal(material.ior) if material.fresnel == "dielectric" else 1.0
-            material.specular = scaled(color, straight)
+        material.transmission = self.sum("refraction", lobes)[0]
+        if any(l.fields != leader.fields for l in lobes):
+            self.report.warn(15, "refractions of different roughness or IOR", "those of the strongest")
+        material.ior = gray(leader.field("ior").rgb)
+        roughness = leader.field("roughness")
+        if roughness.texture is not None:
+            self.report.warn(14, "a texture as the roughness of a refraction", "its mean")
+        material.roughness = clamped(self.values.constant(roughness))[0]
 
     @staticmethod
-    def is_coat(lobe):
-        return lobe.kind == "glossy" and lobe.fresnel == "dielectric"
+    def united(lobes):
+        """Lobes that differ in nothing but their weights are one, as long as no cover lies between."""
+        out = []
+        for l in lobes:
+            same = next((i for i, o in enumerate(out) if not l.covers and not any(c.covers for c in out[i:])
+                         and replace(o, part=l.part) == l and o.part.factors == l.part.factors), None)
+            if same is None:
+                out.append(l)
+            else:
+                out[same] = replace(l, part=Part(plus(out[same].rgb, l.rgb), l.part.factors))
+        return out
+
+    def fold_short(self, material, lobes):
+        """What the keywords for one diffuse and one Ashikhmin lobe say; the others."""
+        for kind in ("diffuse", "ashikhmin"):
+            found = [l for l in lobes if l.kind == kind]
+            if len(found) != 1 or not self.texture_of(found[0])[0] or (kind == "ashikhmin" and found[0].part.factors):
+                continue
+            lobes = [l for l in lobes if l.kind != kind]
+            if kind == "diffuse":
+                material.diffuse, material.diffuse_texture = found[0].rgb, self.texture_of(found[0])[1]
+            else:
+                material.specular, material.exponent = found[0].rgb, gray(found[0].field("exponent").rgb)
+        return lobes
+
+    def fewer(self, lobes):
+        if len(lobes) > MOST_LOBES:
+            self.report.warn(15, "%d lobes" % len(lobes), "the strongest %d" % MOST_LOBES)
+            strong = sorted(lobes, key=lambda l: -max(self.constant(l)))[:MOST_LOBES]
+            lobes = [l for l in lobes if l in strong]
+        return lobes
 
     def fold_normal(self, material, lobes):
         bent = [l.normal for l in lobes if l.kind not in {"emission", "transparent"}]
@@ -2621,13 +2838,12 @@ class Folder:
 
     def safe(self, material):
         """The format takes no negative colours."""
-        for name in ("diffuse", "specular", "mirror", "transmission", "emission", "filter"):
-            color = getattr(material, name)
-            if not all(math.isfinite(x) for x in color):
-                self.report.warn(11, "its %s is not finite" % name, "0")
-                color = BLACK
-            setattr(material, name, tuple(
-                within(max(x, 0.0), 0.0, 1e15, "its %s" % name, self.report) for x in color))
+        for name in ("diffuse", "specular", "transmission", "emission", "filter"):
+            setattr(material, name, self.safe_color(name, getattr(material, name)))
+        material.lobes = tuple(
+            replace(l, part=replace(l.part, rgb=self.safe_color("weight of " + l.kind, l.rgb)),
+                    fields=tuple((n, replace(v, rgb=tuple(x if math.isfinite(x) else 0.0 for x in v.rgb)))
+                                 for n, v in l.fields)) for l in material.lobes)
         normal = material.normal
         distance = normal.bump_distance
         if not math.isfinite(distance):
@@ -2637,6 +2853,12 @@ class Folder:
             normal, bump_distance=distance,
             normal_strength=within(normal.normal_strength, 0.0, 1000.0, "its normal strength", self.report))
         return material
+
+    def safe_color(self, name, color):
+        if not all(math.isfinite(x) for x in color):
+            self.report.warn(11, "its %s is not finite" % name, "0")
+            color = BLACK
+        return tuple(within(max(x, 0.0), 0.0, 1e15, "its %s" % name, self.report) for x in color)
 
 
 # ------------------------------------------------------------------------------------------ 12 world
@@ -2653,20 +2875,21 @@ VALUE_NODES["ShaderNodeTexSky"] = sky_texture
 
 
 def world_light(scene, shaders, folder, report):
-    """(colour, texture, rotation of the texture in degrees)"""
+    """(colour, texture, rotation of the texture in degrees, whether it lights surfaces)"""
     world = scene.world
     if world is None:
-        return BLACK, None, 0.0
+        return BLACK, None, 0.0, False
     with report.at("world", world.name):
         rays = getattr(world, "cycles_visibility", None)
-        hidden = [kind for kind in ("camera", "diffuse", "glossy", "transmission") if not getattr(rays, kind, True)]
+        hidden = [kind for kind in ("camera", "glossy", "transmission") if not getattr(rays, kind, True)]
+        lights = getattr(rays, "diffuse", True)
         if hidden:
             report.warn(39, "it is hidden from %s rays" % ", ".join(hidden), "all rays see it")
         if not getattr(world, "use_nodes", True) or world.node_tree is None:
-            return folder.safe(Material("world", emission=tuple(world.color))).emission, None, 0.0
+            return folder.safe(Material("world", emission=tuple(world.color))).emission, None, 0.0, lights
         output = world.node_tree.get_output_node("CYCLES") or world.node_tree.get_output_node("ALL")
         if output is None:
-            return BLACK, None, 0.0
+            return BLACK, None, 0.0, False
         if output.inputs["Volume"].is_linked:
             report.warn(21, "a volume", "none")
         lobes = shaders.lobes(Socket(output.inputs["Surface"], ()))
@@ -2674,7 +2897,7 @@ def world_light(scene, shaders, folder, report):
             report.warn(30, "shaders other than Background", "left out")
         material = folder.fold("world", [l for l in lobes if l.kind == "emission"])
         texture = material.emission_texture
-        return material.emission, texture, environment_rotation(texture, report) if texture else 0.0
+        return material.emission, texture, environment_rotation(texture, report) if texture else 0.0, lights
 
 
 def environment_rotation(texture, report):
@@ -3143,8 +3366,9 @@ NO_MATERIAL = "No material"
 class SceneExport:
     """One frame of a scene. Everything that Blender evaluates is read inside `collect`."""
 
-    def __init__(self, scene, layer, frame, camera, images, report, recognises=True):
+    def __init__(self, scene, layer, frame, camera, images, report, recognises=True, integrator="whitted"):
         self.recognises = recognises  # spheres, cubes and planes among the meshes
+        self.integrator = integrator
         self.scene, self.layer, self.frame, self.camera = scene, layer, frame, camera
         self.images, self.report = images, report
         self.values = Values(images, report)
@@ -3152,7 +3376,7 @@ class SceneExport:
         self.folder = Folder(self.values, report)
         self.meshes = Meshes(report)
         self.geometries = {}  # (mesh pointer, coordinates per slot, ...) -> Geometry or None
-        self.materials = {}  # pointer of Blender's material, None for no material -> Material
+        self.materials = {}  # (pointer of Blender's material or None, whether it may give light) -> Material
         self.textures = {}  # Texture -> name
         self.used_materials = set()  # names of those that objects have
         self.material_names, self.texture_names = Names(), Names()
@@ -3190,12 +3414,11 @@ class SceneExport:
         put_camera(self.cameras, camera, keys, rows, depsgraph, name, self.report)
 
     def collect_world(self):
-        color, texture, rotation = world_light(self.scene, self.shaders, self.folder, self.report)
-        ambient = self.values.constant(Value(color, texture))
+        color, texture, rotation, lights = world_light(self.scene, self.shaders, self.folder, self.report)
         self.head = Text()
         with self.head.block("world"):
             self.head.put("background", color)
-            self.head.put_unless(BLACK, "ambient", ambient)
+            self.head.put_unless(False, "environment_lights", lights and any(color))
             if texture is not None:
                 plain = replace(texture, scale=(1.0, 1.0), rotation=0.0, offset=(0.0, 0.0), extension="repeat")
                 self.head.put("environment", word(self.texture_name(plain)))
@@ -3261,15 +3484,14 @@ class SceneExport:
         if len(mesh.polygons) == 0:
             self.report.note("object '%s' has no faces" % thing.name)
             return
-        slots = self.material_slots(thing, mesh)
+        slots = self.material_slots(thing, mesh, bool(thing.get("rt_light", True)))
         keys = motion.keys(instance_key(instance), rows, thing, self.report)
         if not any(x for row in rows for x in row[:3]):
             self.report.note("object '%s' has the scale 0" % thing.name)
             return
         flat, used = is_flat(rows), self.meshes.slots(mesh, len(slots))
-        is_seen = self.is_seen(thing)
-        if self.collect_lamp(instance, thing, mesh, [slots[s] for s in used], keys, is_seen) or not is_seen:
-            return
+        if not self.is_seen(thing):
+            return self.collect_lamp(instance, thing, mesh, [slots[s] for s in used], keys)
         if all(slots[s].is_volume for s in used):
             return
         geometry = self.geometry(thing, mesh, slots, rows if flat else None)
@@ -3286,12 +3508,13 @@ class SceneExport:
         coordinates = tuple(m.coordinates() if i in used else None for i, m in enumerate(slots))
         wanted = thing.get("rt_shape", mesh.get("rt_shape", "")) if hasattr(thing, "get") else ""
         wanted = wanted if isinstance(wanted, str) else ""
-        key = (mesh.as_pointer(), coordinates, wanted, flatten)
+        lights = any(slots[s].lights() for s in used)  # triangles do
+        key = (mesh.as_pointer(), coordinates, wanted, flatten, lights)
         if key not in self.geometries:
-            self.geometries[key] = self.make_geometry(mesh, slots, used, coordinates, wanted, flatten)
+            self.geometries[key] = self.make_geometry(mesh, slots, used, coordinates, wanted, flatten, lights)
         return self.geometries[key]
 
-    def make_geometry(self, mesh, slots, used, coordinates, wanted, flatten):
+    def make_geometry(self, mesh, slots, used, coordinates, wanted, flatten, lights):
         shape = None
         if wanted in RECORDS and not flatten:
             shape = wanted_shape(mesh, wanted)
@@ -3300,7 +3523,7 @@ class SceneExport:
                 shape = None
         elif wanted and wanted != "mesh":
             self.report.warn(33, "rt_shape '%s'" % wanted, "a mesh")
-        elif self.recognises and not wanted and not flatten and len(used) == 1 and coordinates[used[0]] is None:
+        elif self.recognises and not lights and not wanted and not flatten and len(used) == 1 and coordinates[used[0]] is None:
             shape = recognise(mesh)
         if shape is not None:
             return Geometry(shape, "", used[:1])
@@ -3326,28 +3549,19 @@ class SceneExport:
                 text.put("materials", *[word(m.name) for m in materials])
         return text
 
-    def collect_lamp(self, instance, thing, mesh, materials, keys, is_seen):
-        """Lamps for a mesh that glows: a rectangle, a disk or a ball lights the scene, others are only
-        seen. True when nothing else is to be written of it.
-
-        What does nothing but glow is seen by its lamps, on both sides, a hair in front of the mesh, which
-        blocks light. What reflects, too, or is hidden from the camera, has lamps that only give light.
-        """
-        glowing = next((m for m in materials if max(m.emission) > FAINT), None)
-        if glowing is None or not thing.get("rt_light", True):
-            return False
+    def collect_lamp(self, instance, thing, mesh, materials, keys):
+        """Lamps for a mesh that glows and that the camera does not see: a rectangle, a disk or a ball."""
+        glowing = next((m for m in materials if m.lights()), None)
+        if glowing is None:
+            return
         material = materials[0]
         is_whole = len(materials) == 1 and len(keys) == 1 and material.opacity == 1 and not material.opacity_texture
-        eyes = [column(rows_of(c.matrix_world), 3) for c in self.scene.objects if c.type == "CAMERA"]
-        lamps, part, is_around = lamps_of(mesh, keys[0], eyes) if is_whole else ([], 1.0, False)
+        lamps, part = lamps_of(mesh, keys[0]) if is_whole else ([], 1.0)
         if not lamps:
-            self.report.warn(32, "material '%s' glows" % glowing.name,
-                             "it is seen, but lights nothing" if is_seen else "it lights nothing")
-            return False
+            return self.report.warn(32, "material '%s' glows" % glowing.name, "it lights nothing")
         color = scaled(self.values.constant(Value(material.emission, material.emission_texture)), part)
         if material.emission_texture:
             self.report.warn(32, "material '%s' glows with a texture" % glowing.name, "it lights with its mean")
-        shows = is_seen and material.only_glows()
         for kind, rows, size in lamps:
             text, name = Text(), self.name_of(instance, self.light_names)
             with text.block("light", name):
@@ -3355,26 +3569,30 @@ class SceneExport:
                 text.put_rows(rows)
                 put_color(text, color, self.report)
                 text.put(*(("radius", size[0]) if kind == "sphere" else ("size", *size)))
-                text.put_unless(False, "visible", shows)
-                text.put_unless("none", "seen_by", self.seen_by(thing) if not is_seen else "none")
+                text.put_unless("none", "seen_by", self.seen_by(thing))
             self.lights.append((name, text))
-        return not is_seen or (shows and (is_around or not getattr(thing, "visible_shadow", True)))
 
     # ---- materials
 
-    def material_slots(self, thing, mesh):
+    def material_slots(self, thing, mesh, gives_light):
         """Material of each slot. Generated geometry may have more slots than the object."""
         slots = [slot.material for slot in thing.material_slots]
         slots += list(mesh.materials)[len(slots):]
         if self.layer.material_override:
             slots = [self.layer.material_override] * max(len(slots), 1)
-        return [self.material(m) for m in slots] or [self.material(None)]
+        return [self.material(m, gives_light) for m in slots] or [self.material(None, gives_light)]
 
-    def material(self, source):
-        key = source.as_pointer() if source else None
-        if key not in self.materials:
-            self.materials[key] = self.make_material(source)
-        return self.materials[key]
+    def material(self, source, gives_light):
+        pointer = source.as_pointer() if source else None
+        if (pointer, True) not in self.materials:
+            self.materials[pointer, True] = self.make_material(source)
+        material = self.materials[pointer, True]
+        if gives_light or not material.lights():
+            return material
+        if (pointer, False) not in self.materials:
+            self.materials[pointer, False] = replace(
+                material, name=self.material_names.unique(material.name), gives_light=False)
+        return self.materials[pointer, False]
 
     def make_material(self, source):
         if source is None:
@@ -3470,7 +3688,7 @@ class SceneExport:
         wanted, exported = samples_of(scene)
         if wanted != exported:
             text.lines.append("# The scene asks for %d samples; more than %d are left to --spp." % (wanted, exported))
-        put_settings(text, scene, self.report)
+        put_settings(text, scene, self.integrator, self.report)
         materials, textures = Text(), Text()
         for material in sorted(self.materials.values(), key=lambda m: natural(m.name)):
             if material.name in self.used_materials:
@@ -3496,36 +3714,30 @@ def put_texture(text, texture, name):
         text.put_unless((0.0, 0.0), "offset", texture.offset)
 
 
-FAINT = 1e-3  # what glows less lights nothing that could be seen
-LIFT = 5e-4  # of its size, a lamp lies in front of the mesh that it stands for, which blocks light
 BALL_SAGITTA = 0.1  # a ball of light is taken from rougher meshes than a sphere that is looked at
 
 
-def lamps_of(mesh, rows, eyes):
-    """([(light type, place, sizes)], part of the radiance, whether it is a ball around one of the eyes) of
-    a rectangle, a disk or a ball; no lamps for other meshes. Blender's faces glow on both sides, our lamps
-    on one: flat ones become two."""
+def lamps_of(mesh, rows):
+    """([(light type, place, sizes)], part of the radiance) of a rectangle, a disk or a ball; no lamps for
+    other meshes. Blender's faces glow on both sides, our lamps on one: flat ones become two."""
     shape = recognise_plane(mesh) if len(mesh.polygons) == 1 and len(mesh.vertices) == 4 else None
     disk = recognise_disk(mesh) if shape is None else None
     if shape:
-        return flat_lamps("rectangle", rectangle_of(shape.corners, rows)), 1.0, False
+        return flat_lamps("rectangle", rectangle_of(shape.corners, rows)), 1.0
     if disk:
-        return flat_lamps("disk", ellipse_of(disk, rows)), 1.0, False
+        return flat_lamps("disk", ellipse_of(disk, rows)), 1.0
     ball = recognise_sphere(mesh, BALL_SAGITTA) if is_closed(mesh) and len(mesh.vertices) >= 42 else None
     if ball is None:
-        return [], 1.0, False
+        return [], 1.0
     whole = times(rows, ball.rows)
     radii = [length(column(whole, i)) for i in range(3)]
     if max(radii) - min(radii) > 1e-4 * max(radii) or ball.rows[0][0] != ball.rows[2][2]:
-        return [], 1.0, False
+        return [], 1.0
     center = column(whole, 3)
-    is_around = any(length(difference(eye, center)) < radii[0] for eye in eyes)
     place = tuple(IDENTITY[i][:3] + (center[i],) for i in range(3))
-    if is_around:
-        return [("sphere", place, (radii[0],))], 1.0, True
     # From afar a mesh without dents gives light by its area, of which rough ones have less than the ball.
     part = sum(read(mesh.polygons, "area", "f", 1)) / (4 * math.pi * ball.rows[0][0] ** 2)
-    return [("sphere", place, (radii[0] * (1 + 2 * LIFT),))], min(part, 1.0), False
+    return [("sphere", place, (radii[0],))], min(part, 1.0)
 
 
 def placed(rows, point):
@@ -3590,8 +3802,7 @@ def flat_lamps(kind, outline):
     w = cross(u, v)
     lamps = []
     for sign in (1, -1):
-        at = [c - sign * LIFT * min(size) * x for c, x in zip(center, w)]
-        lamps.append((kind, tuple((sign * u[k], v[k], sign * w[k], at[k]) for k in range(3)), size))
+        lamps.append((kind, tuple((sign * u[k], v[k], sign * w[k], center[k]) for k in range(3)), size))
     return lamps
 
 
@@ -3601,6 +3812,9 @@ def natural(name):
 
 
 # ----------------------------------------------------------------------------------- 16 command line
+
+
+INTEGRATORS = ("whitted", "path")
 
 
 def parse(arguments, is_module):
@@ -3620,6 +3834,8 @@ def parse(arguments, is_module):
     parser.add_argument("--camera", metavar="NAME", help="camera to look through; default: the active one")
     parser.add_argument("--textures", metavar="DIR",
                         help="where pictures are looked for and copied to; default: Textures beside the output")
+    parser.add_argument("--integrator", metavar="NAME", choices=INTEGRATORS, default="whitted",
+                        help="what the renderer does unless it is told otherwise: %s; default: whitted" % " or ".join(INTEGRATORS))
     parser.add_argument("--ppm", action="store_true", help="turn 8-bit pictures without alpha into PPM files")
     parser.add_argument("--no-shapes", action="store_true",
                         help="take no mesh for a sphere, cube or plane (rt_shape still does)")
@@ -3692,7 +3908,8 @@ def export(options, report):
             scene.camera = camera = camera_of(options, scene)  # markers may have changed it
             os.makedirs(os.path.dirname(path), exist_ok=True)
             images = Images(os.path.dirname(path), options.textures, options.ppm, report)
-            text = SceneExport(scene, layer, frame, camera, images, report, not options.no_shapes).run()
+            text = SceneExport(scene, layer, frame, camera, images, report, not options.no_shapes,
+                               options.integrator).run()
             write_atomically(path, text.encode("utf-8"))
             report.note("wrote %s" % path)
             if not options.no_check:

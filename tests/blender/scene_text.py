@@ -47,6 +47,32 @@ class Block:
                 return values[0] if len(values) == 1 else values
         return default
 
+    def lobes(self):
+        """A dictionary for each: kind, covers, numbers by keyword, what multiplies them by (keyword, 'x')."""
+        out = []
+        for values in (v for key, v in self.lines if key == "lobe"):
+            lobe, keyword, i = {"kind": values[0]}, None, 1
+            while i < len(values):
+                token, i = values[i], i + 1
+                if token in ("times", "without"):
+                    factor, i = [token, values[i]], i + 1
+                    if i < len(values) and isinstance(values[i], float):
+                        factor, i = factor + [values[i]], i + 1
+                    lobe.setdefault((keyword, "x"), []).append(factor)
+                elif token == "covers":
+                    lobe[token] = True
+                elif isinstance(token, float):
+                    lobe[keyword].append(token)
+                else:
+                    keyword, lobe[token] = token, []
+            out.append(lobe)
+        return out
+
+    def lobe(self, kind):
+        found = [l for l in self.lobes() if l["kind"] == kind]
+        assert len(found) == 1, "%d lobes %s in %s" % (len(found), kind, self.lines)
+        return found[0]
+
     def keys(self):
         """The 3x4 matrices of its positions."""
         rows, out = None, []

@@ -127,6 +127,23 @@ def resolution_border_and_samples():
 
 
 @test
+def light_paths():
+    scene = new_scene()
+    block = export().one("settings")
+    wanted = ("integrator", "diffuse_depth", "glossy_depth", "transmission_depth", "transparent_depth", "caustics")
+    equal([block.get(k) for k in wanted], [None] * 6)  # as the renderer takes them anyway
+    cycles = scene.cycles
+    near(block.get("clamp_indirect", 0), cycles.sample_clamp_indirect)
+    cycles.diffuse_bounces, cycles.glossy_bounces, cycles.transmission_bounces, cycles.transparent_max_bounces = 3, 2, 6, 7
+    cycles.sample_clamp_indirect, cycles.caustics_reflective, cycles.caustics_refractive = 2.5, False, False
+    block = export(arguments=["--integrator", "path"]).one("settings")
+    equal([block.get(k) for k in wanted], ["path", 3, 2, 6, 7, False])
+    equal(block["clamp_indirect"], 2.5)
+    cycles.caustics_refractive = True
+    equal(export().one("settings").get("caustics"), None)
+
+
+@test
 def filter_exposure_and_transfer():
     scene = new_scene()
     equal(export().one("settings")["filter"], ["blackman-harris", 1.5])

@@ -42,10 +42,14 @@ def textures_times_constants():
     equal(block["diffuse_texture"], "pic")
     both = lambda n: n.node("AddShader", Shader=n.node("BsdfDiffuse", Color=n.node("TexImage", {"image": picture()})),
                             Shader_001=n.node("BsdfDiffuse", Color=(0.1, 0.1, 0.1)))
+    equal(material_text(both)[0].lobes(), [{"kind": "diffuse", ("weight", "x"): [["times", "pic"]], "weight": [1, 1, 1]},
+                                           {"kind": "diffuse", "weight": [0.1, 0.1, 0.1]}])
+    both = lambda n: n.node("AddShader", Shader=n.node("Emission", Color=n.node("TexImage", {"image": picture()})),
+                            Shader_001=n.node("Emission", Color=(0.1, 0.1, 0.1)))
     block, _ = material_text(both, [14])
     linear = [((x / 255 + 0.055) / 1.055) ** 2.4 for x in (40, 80, 120)]
-    near(block["diffuse"], [x + 0.1 for x in linear], 1e-4)
-    equal(block.get("diffuse_texture"), None)
+    near(block["emission"], [x + 0.1 for x in linear], 1e-4)
+    equal(block.get("emission_texture"), None)
 
 
 @test
@@ -66,7 +70,7 @@ def alpha_from_texture():
     equal([channels, list(data[:4])], [4, [215, 175, 135, 0]])
     both = lambda n: n.node("BsdfPrincipled", Base_Color=image(n), Alpha=image(n).outputs["Alpha"])
     block, _ = material_text(both)
-    assert block["opacity_texture"] != block["diffuse_texture"]
+    assert [["times", block["opacity_texture"]]] != block.lobe("diffuse")["weight", "x"]
 
 
 @test

@@ -21,7 +21,9 @@ def world_text(build, expected=()):
 def world_colour():
     block, _ = world_text(lambda n: n.node("Background", Color=(0.1, 0.2, 0.3), Strength=2.0))
     near(block["background"], [0.2, 0.4, 0.6])
-    near(block["ambient"], [0.2, 0.4, 0.6])
+    equal([block["environment_lights"], block.get("ambient")], [True, None])
+    block, _ = world_text(lambda n: n.node("Background", Color=(0, 0, 0)))
+    equal(block.get("environment_lights"), None)
     new_scene().world = None
     equal(export().one("world")["background"], [0, 0, 0])
 
@@ -38,7 +40,7 @@ def world_environment():
     near(block["background"], [3, 3, 3])
     near(block["environment_rotation"], -50)  # measured with Cycles in 3.4, 4.5 and 5.0
     equal(text.one("texture", block["environment"])["file"], "env.png")
-    near(block["ambient"], [3 * ((x / 255 + 0.055) / 1.055) ** 2.4 for x in (40, 80, 120)], 1e-4)
+    equal([block["environment_lights"], block.get("ambient")], [True, None])
     near(world_text(lambda n: build(n, "TEXTURE"))[0]["environment_rotation"], 50)
     world_text(lambda n: build(n, projection="MIRROR_BALL"), [31])
     world_text(lambda n: n.node("Background", Color=n.node("TexSky")), [30])
@@ -50,7 +52,11 @@ def worlds_that_some_rays_do_not_see_warn():
     scene.world = bpy.data.worlds.new("World")
     for kind in ("camera", "glossy"):
         setattr(scene.world.cycles_visibility, kind, False)
-    export([39])
+    equal(export([39]).one("world")["environment_lights"], True)
+    for kind in ("camera", "glossy"):
+        setattr(scene.world.cycles_visibility, kind, True)
+    scene.world.cycles_visibility.diffuse = False
+    equal(export().one("world").get("environment_lights"), None)
 
     def build(n, **values):
         mapping = n.node("Mapping", Vector=n.node("TexCoord").outputs["Generated"], **values)
