@@ -40,12 +40,18 @@ bool LobedMaterials::add(const std::vector<LobeRow>& lobes, const std::vector<Lo
     of.lobes = static_cast<std::uint8_t>(lobes.size());
     of.factors = static_cast<std::uint16_t>(factors.size());
     of.signature = signatureOf(lobes);
-    float sum[3] = {}; // of what sends rays on and lies under nothing
-    for (const LobeRow& lobe : lobes) {
+    // What sends rays on and is no cover; pictures may keep their weights below 1.
+    float sum[3] = {};
+    for (std::size_t l = 0; l < lobes.size(); ++l) {
+        const LobeRow& lobe = lobes[l];
+        const bool isPainted =
+            std::any_of(factors.begin(), factors.end(), [&](const LobeFactor& factor) {
+                return factor.lobe == l && factor.first == 0;
+            });
         const std::uint32_t flags = lobeTypes()[lobe.kind].flags;
         of.flags |= flags;
         if (isAnisotropic(lobe)) of.flags |= LobedMaterial::kAnisotropic;
-        if (lobe.covers || (flags & kSpawnsRays) == 0) continue;
+        if (lobe.covers || isPainted || (flags & kSpawnsRays) == 0) continue;
         for (std::size_t i = 0; i < 3; ++i) sum[i] += lobe.value[i];
     }
     lobes_.insert(lobes_.end(), lobes.begin(), lobes.end());

@@ -102,7 +102,10 @@ protected:
         const Hit& hit = memory_.hits[i];
         std::uint32_t light = lights_.ofObject(at.surface.object, at.front);
         if (light == PathLights::kNone) light = lights_.ofTriangle(hit.shape, hit.prim);
-        const Rgb radiance = here.emission * here.opacity;
+        Rgb radiance = here.emission * here.opacity;
+        if (at.of->isLamp && light != PathLights::kNone) // it may not be the same for all directions
+            radiance = lights_.radianceOf(light, wave_.rays.org[i], normalize(wave_.rays.dir[i]),
+                                          radiance);
         add(i, radiance * partOfHit(i, [&](const PathState& state) {
                    return lampPdf(state, light, normalize(wave_.rays.dir[i]));
                }));

@@ -73,6 +73,11 @@ public:
                 fn(lamp.light, at.radiance);
         }
     }
+    // What a ray sees of a lamp that it has met; `otherwise` where rounding says that it hasn't.
+    Rgb radianceOf(std::uint32_t light, Vec3 org, Vec3 dir, Rgb otherwise) const {
+        const Meeting at = meetOne(light, org, dir);
+        return at.distance < kInfinityF ? at.radiance : otherwise;
+    }
     bool hasUnshaped() const { return !unshaped_.empty(); }
 
 private:
