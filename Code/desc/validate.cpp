@@ -169,9 +169,11 @@ private:
         const auto glows = [&](const MaterialDesc& material) {
             return material.emission != black && isUsed(material);
         };
+        const bool skyLights = world.environmentLights ||
+                               desc_.settings.integrator == SettingsDesc::Integrator::Path;
         if (std::any_of(desc_.lights.begin(), desc_.lights.end(), shines) ||
             std::any_of(desc_.materials.begin(), desc_.materials.end(), glows) ||
-            world.ambient != black || (world.environmentLights && world.background != black))
+            world.ambient != black || (skyLights && world.background != black))
             return;
         warn({}, cat("there is no light, no emission and no ambient: ",
                      world.background == black ? "the picture" : "diffuse surfaces",

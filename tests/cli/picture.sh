@@ -76,11 +76,11 @@ sed 's/background .*/background 0.5 0.5 0.5/' scene.txt > grey.txt
 run 0 grey.txt grey2.ppm -q
 check '--background' cmp grey.ppm grey2.ppm
 
-for integrator in whitted ao normal depth albedo id uv; do
+for integrator in whitted path ao normal depth albedo id uv; do
     expect "--integrator $integrator" 0 '' scene.txt $integrator.pfm --integrator $integrator
 done
 check '--integrator: whitted is the default' cmp whitted.pfm a.pfm
-for integrator in ao normal depth albedo id uv; do
+for integrator in path ao normal depth albedo id uv; do
     check "--integrator $integrator is another picture" differ $integrator.pfm a.pfm
     sed "s/settings {/&\n    integrator $integrator/" scene.txt > said.txt
     run 0 said.txt said.pfm -q

@@ -124,6 +124,12 @@ TEST(validate_warns_of_darkness_but_under_a_sky) {
         });
     };
     CHECK_EQUAL(warnings(true, {0, 0.1, 0}), "");
+    CHECK_EQUAL(warningsAfter([](SceneDesc& d) {
+                    d.lights.clear();
+                    d.world.background = {0, 0.1, 0};
+                    d.settings.integrator = SettingsDesc::Integrator::Path;
+                }),
+                "");
     checkError(warnings(false, {0, 0.1, 0}), "diffuse surfaces will be black");
     checkError(warnings(true, {}), "the picture will be black");
 }
