@@ -2166,8 +2166,8 @@ COLORS = {"color", "tint", "edge_tint", "reflect_tint", "transmit_tint"}
 @dataclass(frozen=True)
 class Lobe:
     """One way in which a surface scatters light. A material is a sum of lobes, but that one that covers
-    lies on those behind it, which get what it lets through. `kind` is the format's word; or 'emission';
-    'transparent', straight on; 'refraction', all of the light, whatever the angle.
+    lies on those behind it, which get what it lets through. `kind` is the format's word; or 'emission', or
+    'transparent', straight on.
     """
     kind: str
     part: Part = Part()
@@ -2197,7 +2197,7 @@ def lobe(kind, part=Part(), normal=None, covers=False, **fields):
     for name, value in fields.items():
         rgb = value.rgb if name in COLORS else (gray(value.rgb),) * 3
         if name == "ior":
-            rgb = tuple(min(max(x, 1e-3 if kind == "dielectric" else 1.0), 1000.0) for x in rgb)
+            rgb = tuple(min(max(x, 1e-3 if kind in {"dielectric", "refraction"} else 1.0), 1000.0) for x in rgb)
         elif name == "anisotropy":
             rgb = tuple(min(max(x, -1.0), 1.0) for x in rgb)
         elif name != "rotation":
@@ -2430,8 +2430,8 @@ class Shaders:
                      reflect_tint=color, transmit_tint=color, roughness=self.roughness(found))]
 
     def refraction(self, found):
-        fields = (("ior", number_value(self.ior(found, 1.45))), ("roughness", self.roughness(found)))
-        return [Lobe("refraction", Part(self.values.color(found, "Color")), fields, normal=self.normal(found))]
+        return [lobe("refraction", part_of(self.values.input(found, "Color")), self.normal(found),
+                     ior=number_value(self.ior(found, 1.45)), roughness=self.roughness(found))]
 
     def transparent(self, found):
         return [Lobe("transparent", Part(self.values.color(found, "Color")))]
@@ -2623,9 +2623,6 @@ class Material:
     diffuse_texture: Optional[Texture] = None
     specular: tuple = BLACK  # of an Ashikhmin lobe
     exponent: float = 50.0
-    transmission: tuple = BLACK
-    ior: float = 1.5
-    roughness: float = 0.0  # of transmission
     emission: tuple = BLACK
     emission_texture: Optional[Texture] = None
     gives_light: bool = True
@@ -2661,10 +2658,6 @@ class Material:
                 text.put("specular", self.specular)
                 text.put("specular_model", "ashikhmin")
                 text.put("exponent", self.exponent)
-            if any(self.transmission):
-                text.put("transmission", self.transmission)
-                text.put("ior", self.ior)
-                text.put_unless(0, "roughness", self.roughness)
             for l in self.lobes:
                 self.put_lobe(text, l, name_of)
             text.put_unless(BLACK, "emission", self.emission)
@@ -2716,8 +2709,7 @@ class Folder:
         material = Material(name)
         solid = self.fold_opacity(material, [l for l in lobes if any(l.rgb) or l.cover])
         material.emission, material.emission_texture = self.sum("emission", solid)
-        self.fold_refraction(material, [l for l in solid if l.kind == "refraction"])
-        rest = self.united([l for l in solid if l.kind not in {"emission", "refraction"}])
+        rest = self.united([l for l in solid if l.kind != "emission"])
         if not any(l.covers for l in rest):
             rest = self.fold_short(material, rest)
         material.lobes = tuple(self.fewer(rest))
@@ -2781,19 +2773,6 @@ class Folder:
             self.report.warn(14, "a texture in a sum of %s parts" % kind, "its mean")
         return total, None
 
-    def fold_refraction(self, material, lobes):
-        if not lobes:
-            return
-        leader = max(lobes, key=lambda l: max(l.rgb))
-        material.transmission = self.sum("refraction", lobes)[0]
-        if any(l.fields != leader.fields for l in lobes):
-            self.report.warn(15, "refractions of different roughness or IOR", "those of the strongest")
-        material.ior = gray(leader.field("ior").rgb)
-        roughness = leader.field("roughness")
-        if roughness.texture is not None:
-            self.report.warn(14, "a texture as the roughness of a refraction", "its mean")
-        material.roughness = clamped(self.values.constant(roughness))[0]
-
     @staticmethod
     def united(lobes):
         """Lobes that differ in nothing but their weights are one, as long as no cover lies between."""
@@ -2838,7 +2817,7 @@ class Folder:
 
     def safe(self, material):
         """The format takes no negative colours."""
-        for name in ("diffuse", "specular", "transmission", "emission", "filter"):
+        for name in ("diffuse", "specular", "emission", "filter"):
             setattr(material, name, self.safe_color(name, getattr(material, name)))
         material.lobes = tuple(
             replace(l, part=replace(l.part, rgb=self.safe_color("weight of " + l.kind, l.rgb)),
