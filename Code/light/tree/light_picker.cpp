@@ -14,28 +14,6 @@ namespace {
 constexpr std::size_t kBuckets = 12;
 constexpr int kMostDepth = 32; // bits of a trail
 
-// A light, or a sum of them, as far as the cost of a group needs it: the box, the mean of the axes.
-struct Sum {
-    Vec3 lo{kInfinityF, kInfinityF, kInfinityF}, hi{-kInfinityF, -kInfinityF, -kInfinityF};
-    Vec3 axis; // times the intensity, and shorter the more its normals spread
-    float intensity = 0, cosReach = 1;
-    std::uint32_t count = 0;
-
-    void add(const Sum& s) {
-        lo = {min(s.lo.x, lo.x), min(s.lo.y, lo.y), min(s.lo.z, lo.z)};
-        hi = {max(s.hi.x, hi.x), max(s.hi.y, hi.y), max(s.hi.z, hi.z)};
-        axis = axis + s.axis;
-        intensity += s.intensity, cosReach = min(cosReach, s.cosReach), count += s.count;
-    }
-    double cost() const {
-        const Vec3d d = toDouble(hi) - toDouble(lo);
-        // Normals that are even in a cap of cosine c have a mean of length (1 + c) / 2.
-        const auto all = static_cast<double>(intensity);
-        const double cosSpread = 2 * length(toDouble(axis)) / all - 1;
-        return all * directionsOf(cosSpread, static_cast<double>(cosReach)) * dot(d, d);
-    }
-};
-
 std::uint32_t stepsOf(double x, float half) {
     return static_cast<std::uint32_t>(
         std::floor((clamp(x, -1.0, 1.0) + 1) * static_cast<double>(half)));
@@ -72,6 +50,28 @@ LightNode packedNode(const LightBounds& bounds, std::uint32_t child) {
     return out;
 }
 
+// A light, or a sum of them, as far as the cost of a group needs it: the box, the mean of the axes.
+struct LightPicker::Sum {
+    Vec3 lo{kInfinityF, kInfinityF, kInfinityF}, hi{-kInfinityF, -kInfinityF, -kInfinityF};
+    Vec3 axis; // times the intensity, and shorter the more its normals spread
+    float intensity = 0, cosReach = 1;
+    std::uint32_t count = 0;
+
+    void add(const Sum& s) {
+        lo = {min(s.lo.x, lo.x), min(s.lo.y, lo.y), min(s.lo.z, lo.z)};
+        hi = {max(s.hi.x, hi.x), max(s.hi.y, hi.y), max(s.hi.z, hi.z)};
+        axis = axis + s.axis;
+        intensity += s.intensity, cosReach = min(cosReach, s.cosReach), count += s.count;
+    }
+    double cost() const {
+        const Vec3d d = toDouble(hi) - toDouble(lo);
+        // Normals that are even in a cap of cosine c have a mean of length (1 + c) / 2.
+        const auto all = static_cast<double>(intensity);
+        const double cosSpread = 2 * length(toDouble(axis)) / all - 1;
+        return all * directionsOf(cosSpread, static_cast<double>(cosReach)) * dot(d, d);
+    }
+};
+
 struct LightPicker::Item {
     Sum sum;
     float cosSpread;
@@ -88,8 +88,10 @@ public:
         std::vector<Item> items;
         for (std::uint32_t i = 0; i < lights_.size(); ++i) {
             if (lights_[i].isDark()) continue;
-            if (lights_[i].isDistant) distant.push_back(i);
-            else items.push_back(itemOf(i));
+            if (lights_[i].isDistant)
+                distant.push_back(i);
+            else
+                items.push_back(itemOf(i));
         }
         out_.lit_ = static_cast<std::uint32_t>(items.size() + distant.size());
         out_.trails_.assign(lights_.size(), 0);
@@ -100,8 +102,7 @@ public:
         if (items.empty()) return void(splitDistant(distant, 0, 0));
         // The root's own group: what is distant, and all else.
         out_.pairs_.emplace_back();
-        const Made near =
-            items.size() == 1 ? leaf(items[0].light, 0, 1) : splitLocal(items, 1, 0);
+        const Made near = items.size() == 1 ? leaf(items[0].light, 0, 1) : splitLocal(items, 1, 0);
         Made far = distant.size() == 1 ? leaf(distant[0], 1, 1) : splitDistant(distant, 1, 1);
         const Vec3d size = toDouble(near.bounds.box.size());
         if (dot(size, size) > 0) far.bounds.reach2 = dot(size, size) / 4;
@@ -123,7 +124,8 @@ private:
         const Vec3 a = b.axis;
         const float most = std::fabs(a.x) >= std::fabs(a.y) && std::fabs(a.x) >= std::fabs(a.z)
                                ? a.x
-                               : std::fabs(a.y) >= std::fabs(a.z) ? a.y : a.z;
+                           : std::fabs(a.y) >= std::fabs(a.z) ? a.y
+                                                              : a.z;
         item.sum.lo = b.box.lo, item.sum.hi = b.box.hi;
         item.sum.intensity = static_cast<float>(min(b.intensity, 1e30));
         item.sum.axis = a * (item.sum.intensity * (0.5f + 0.5f * item.cosSpread) *
@@ -199,7 +201,8 @@ private:
         const Vec3 size = middles.size();
         const int longest = middles.longestAxis();
         const auto l = static_cast<std::size_t>(longest);
-        if (!(size[l] > 0) || depth + std::bit_width(items.size() - 1) >= kMostDepth - 1)
+        if (!(size[l] > 0) ||
+            depth + static_cast<int>(std::bit_width(items.size() - 1)) >= kMostDepth - 1)
             return byMiddle(items, l, half);
 
         float least = kInfinityF;
@@ -238,8 +241,8 @@ private:
             const float stretch = longestSide / whole[axis];
             for (std::size_t i = 0; i + 1 < count; ++i) {
                 if (!isBorder[i]) continue;
-                const auto cost = static_cast<float>((below[i] + above[i]) *
-                                                     static_cast<double>(stretch));
+                const auto cost =
+                    static_cast<float>((below[i] + above[i]) * static_cast<double>(stretch));
                 if (cost < least) least = cost, bestAxis = axis, bestBucket = i;
             }
         }
@@ -288,8 +291,8 @@ private:
             const double c = dot(toDouble(bounds.axis), toDouble(lights_[i].axis));
             const double own = lights_[i].cosSpread, s = std::sqrt(max(1 - c * c, 0.0));
             const double ownSine = std::sqrt(max(1 - own * own, 0.0));
-            const double cosine = s * own + c * ownSine < 0 || own <= -1 ? -1
-                                                                         : c * own - s * ownSine;
+            const double cosine =
+                s * own + c * ownSine < 0 || own <= -1 ? -1 : c * own - s * ownSine;
             bounds.cosSpread = min(bounds.cosSpread, cosine);
         }
         const std::size_t pair = out_.pairs_.size(), half = suns.size() / 2;

@@ -28,6 +28,7 @@ private:
     struct alignas(64) Pair {
         LightNode nodes[2];
     };
+    struct Sum;
     struct Item;
     class Builder;
     std::vector<Pair> pairs_;
