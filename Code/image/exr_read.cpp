@@ -31,7 +31,7 @@ public:
         out.depth = StoredImage::Depth::Float;
         out.floats.resize(width_ * height_ * colour_.channels.size());
         for (const Chunk& chunk : chunks)
-            put(unpackExrBlock(compression_, chunk.block, chunk.packed, name_), chunk, out.floats);
+            put(unpackExrBlock(compression_, chunk.block, chunk.packed, name_), chunk, out);
         return out;
     }
 
@@ -161,9 +161,10 @@ private:
     }
 
     // Copies the colour of an unpacked block to its place in the picture.
-    void put(Bytes bytes, const Chunk& chunk, std::span<float> out) const {
+    void put(Bytes bytes, const Chunk& chunk, StoredImage& out) const {
         const std::size_t channels = colour_.channels.size(), rowBytes = chunk.block.rowBytes();
-        std::size_t start = 0; // of a channel in a row of the block
+        const std::size_t colours = channels < 3 ? 1 : 3; // alpha follows
+        std::size_t start = 0;                            // of a channel in a row of the block
         for (std::size_t i = 0; i < part_.channels.size(); ++i) {
             const auto place = std::find(colour_.channels.begin(), colour_.channels.end(), i);
             const std::size_t perValue = part_.channels[i].bytes();
@@ -171,8 +172,13 @@ private:
                 const std::uint8_t* from = bytes.data() + y * rowBytes + start;
                 std::size_t to = ((chunk.y0 + y) * width_ + chunk.x0) * channels +
                                  static_cast<std::size_t>(place - colour_.channels.begin());
-                for (std::size_t x = 0; x < chunk.block.columns; ++x, to += channels)
-                    out[to] = finite(perValue == 2 ? halfAt(from + 2 * x) : floatAt(from + 4 * x));
+                for (std::size_t x = 0; x < chunk.block.columns; ++x, to += channels) {
+                    const float value =
+                        perValue == 2 ? halfAt(from + 2 * x) : floatAt(from + 4 * x);
+                    if (std::isnan(value) && to % channels < colours)
+                        out.noNumber = std::min(to, out.noNumber.value_or(to));
+                    out.floats[to] = finite(value);
+                }
             }
             start += perValue * chunk.block.columns;
         }

@@ -6,6 +6,7 @@
 #include "base/vec.h"
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +32,8 @@ struct StoredImage {
     std::vector<std::uint8_t> bytes;  // Bits8: row after row from the top, channels interleaved
     std::vector<std::uint16_t> words; // Bits16
     std::vector<float> floats;        // Float: linear and finite
+    // The first of the floats that is a colour and was no number in the file: it is 0.
+    std::optional<std::size_t> noNumber{};
 };
 
 class Image {

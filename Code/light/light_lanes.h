@@ -52,7 +52,8 @@ struct LightMeeting {
 //   explicit L(const LightNumbers&);               the lights of W points
 //   SampledLight sample(p, Floats u, v) const;     by two numbers in [0,1): the mean of irradiance
 //                                                  times a response is what all of the lamp gives
-//   SampledLight centre(p) const;                  the lamp as if it sat in its centre: hard shadows
+//   SampledLight centre(p) const;                  the lamp as if it sat in its centre: hard
+//   shadows
 //                                                  of the same brightness from afar. Always single
 //   Floats pdf(p, toLight) const;                  per steradian, with which sample() gives it
 //   LightMeeting meet(org, dir) const;             along dir, whatever is in between

@@ -14,8 +14,7 @@ template <class... L> constexpr auto kindsOf(kernels::one::LightList<L...>) {
     return std::array{LightKind{L::kName, kNumbers<L>}...};
 }
 
-template <class Row, class... L>
-constexpr std::uint32_t kindOf(kernels::one::LightList<L...>) {
+template <class Row, class... L> constexpr std::uint32_t kindOf(kernels::one::LightList<L...>) {
     std::uint32_t kind = 0, found = sizeof...(L);
     ((std::is_same_v<Row, typename L::Row> ? void(found = kind++) : void(++kind)), ...);
     return found;

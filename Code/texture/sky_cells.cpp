@@ -24,9 +24,9 @@ std::vector<float> luminances(const TexelGrid& grid, ThreadPool& pool) {
             const auto* from = numbers.data() + (height - 1 - j) * width * channels;
             for (std::size_t i = 0; i < width; ++i, from += channels) {
                 const float first = decoded(from[0]);
-                const float light = channels < 3 ? first
-                                                 : luminance(Rgb{first, decoded(from[1]),
-                                                                 decoded(from[2])});
+                const float light = channels < 3
+                                        ? first
+                                        : luminance(Rgb{first, decoded(from[1]), decoded(from[2])});
                 out[j * width + i] = light > 0 ? light : 0;
             }
         });
@@ -99,13 +99,15 @@ SkyCells skyCells(const Environment& environment, int mostColumns, int mostRows,
 std::optional<std::string> whyNoLight(const StoredImage& image) {
     const auto channels = static_cast<std::size_t>(image.channels);
     const std::size_t colours = channels < 3 ? 1 : 3;
-    for (std::size_t i = 0; i < image.floats.size(); ++i) {
-        const float number = image.floats[i];
-        if (number >= 0 || i % channels >= colours) continue;
-        const std::size_t pixel = i / channels, width = static_cast<std::size_t>(image.width);
-        return cat("pixel ", pixel % width, " from the left, ", pixel / width, " from the top is ",
-                   number < 0 ? "negative" : "not a number",
-                   "; light has no colours below 0");
-    }
-    return {};
+    const auto isBad = [&](std::size_t i) {
+        return !(image.floats[i] >= 0) && i % channels < colours;
+    };
+    std::size_t bad = 0;
+    while (bad < image.floats.size() && !isBad(bad)) ++bad;
+    if (image.noNumber) bad = std::min(bad, *image.noNumber);
+    if (bad >= image.floats.size()) return {};
+    const std::size_t pixel = bad / channels, width = static_cast<std::size_t>(image.width);
+    return cat("pixel ", pixel % width, " from the left, ", pixel / width, " from the top is ",
+               image.floats[bad] < 0 ? "negative" : "not a number",
+               "; light has no colours below 0");
 }

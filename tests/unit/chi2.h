@@ -22,8 +22,9 @@ struct Cap {
     double oneMinusCos = 2;
 };
 struct Result {
-    double deviation; // of the sum of squares from its mean, as a normal variate: above 5 once in 3e6
-    double integral;  // of the density over the cap
+    double
+        deviation; // of the sum of squares from its mean, as a normal variate: above 5 once in 3e6
+    double integral; // of the density over the cap
     std::size_t cells;
     double beside; // part of the directions that are out of the cap
 };
@@ -70,8 +71,8 @@ Result test(const Cap& cap, std::size_t count, Sample&& sample, Density&& densit
                 const auto part = [&](std::size_t k) {
                     return (static_cast<double>(k) + 0.5) / static_cast<double>(fine);
                 };
-                const double h = (static_cast<double>(ring) + part(i / fine)) / kRings *
-                                 cap.oneMinusCos;
+                const double h =
+                    (static_cast<double>(ring) + part(i / fine)) / kRings * cap.oneMinusCos;
                 const double angle =
                     kTwoPi * (static_cast<double>(sector) + part(i % fine)) / kSectors;
                 const double sine = std::sqrt(h * (2 - h));
@@ -99,8 +100,7 @@ Result test(const Cap& cap, std::size_t count, Sample&& sample, Density&& densit
     }
     const double k = static_cast<double>(std::max<std::size_t>(cells, 2) - 1);
     // Wilson and Hilferty.
-    const double deviation =
-        (std::cbrt(sum / k) - (1 - 2 / (9 * k))) / std::sqrt(2 / (9 * k));
+    const double deviation = (std::cbrt(sum / k) - (1 - 2 / (9 * k))) / std::sqrt(2 / (9 * k));
     return {deviation, integral, cells, beside / static_cast<double>(count)};
 }
 

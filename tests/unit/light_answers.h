@@ -32,7 +32,7 @@ private:
 inline void answer(const light_questions::Questions& in, light_questions::Answers& out) {
     for (std::size_t first = 0; first < light_questions::kPoints; first += W) {
         AnswerRows rows(out, first);
-        const auto vector = [&](const float (*a)[light_questions::kPoints]) {
+        const auto vector = [&](const float(*a)[light_questions::kPoints]) {
             return Floats3{Floats::load(a[0] + first), Floats::load(a[1] + first),
                            Floats::load(a[2] + first)};
         };

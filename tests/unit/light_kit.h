@@ -70,9 +70,7 @@ private:
     LightRow row_;
 };
 
-inline Vec3 unitVector(meshes::Random& random) {
-    return sphereFromSquare(random.square());
-}
+inline Vec3 unitVector(meshes::Random& random) { return sphereFromSquare(random.square()); }
 
 // A flat lamp of half axes up to `size`, about a centre; its sides are perpendicular.
 template <class Row> Row flat(meshes::Random& random, Vec3 centre, float size) {
@@ -98,19 +96,19 @@ inline SpotRow spot(meshes::Random& random, Vec3 centre, float radius) {
     return {point(centre, radius), unitVector(random), 0.3f, 0.5f, 0};
 }
 inline SunRow sun(meshes::Random& random, double halfAngleRad) {
-    return {unitVector(random), {1, 2, 3},
-            static_cast<float>(2 * sqr(std::sin(halfAngleRad / 2)))};
+    return {unitVector(random), {1, 2, 3}, static_cast<float>(2 * sqr(std::sin(halfAngleRad / 2)))};
 }
 
 // A lamp of each kind that has directions, of about this size and about this place.
 inline std::vector<OneLight> lampsOfSize(meshes::Random& random, Vec3 centre, float size) {
-    return {OneLight(point(centre, size)),
-            OneLight(spot(random, centre, size)),
-            OneLight(sun(random, 0.5 * static_cast<double>(size) / (1 + static_cast<double>(size)))),
-            OneLight(flat<RectangleRow>(random, centre, size)),
-            OneLight(flat<DiskRow>(random, centre, size)),
-            OneLight(sphere(centre, size)),
-            OneLight(triangle(random, centre, size))};
+    return {
+        OneLight(point(centre, size)),
+        OneLight(spot(random, centre, size)),
+        OneLight(sun(random, 0.5 * static_cast<double>(size) / (1 + static_cast<double>(size)))),
+        OneLight(flat<RectangleRow>(random, centre, size)),
+        OneLight(flat<DiskRow>(random, centre, size)),
+        OneLight(sphere(centre, size)),
+        OneLight(triangle(random, centre, size))};
 }
 
 } // namespace

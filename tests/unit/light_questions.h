@@ -1,5 +1,5 @@
-// Questions to lights, and to the choice among them, that all widths of lanes have to answer with the
-// same bits: test_light_lanes.cpp.
+// Questions to lights, and to the choice among them, that all widths of lanes have to answer with
+// the same bits: test_light_lanes.cpp.
 #pragma once
 
 #include "light/light_row.h"

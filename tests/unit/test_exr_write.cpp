@@ -138,6 +138,23 @@ TEST(exr_write_names) {
     CHECK_EQUAL(plain[5], 0);
 }
 
+// What is no number is 0 in a picture, which says where the first one is; alpha is no colour.
+TEST(exr_says_where_a_colour_is_no_number) {
+    std::vector<float> values(4 * 3 * 4, 0.5f);
+    const float none = std::nanf("");
+    const auto decoded = [&] {
+        const std::vector<ExrLayer> layers{{"", {"R", "G", "B", "A"}, values}};
+        return decodeExr(encode(layers, 4, 3, false, 1), "a.exr");
+    };
+    CHECK(!decoded().noNumber);
+    values[(1 * 4 + 1) * 4 + 3] = none;
+    CHECK(!decoded().noNumber);
+    values[(2 * 4 + 3) * 4] = none, values[(2 * 4 + 0) * 4 + 2] = none;
+    const StoredImage image = decoded();
+    CHECK_EQUAL(image.noNumber.value_or(0), std::size_t{(2 * 4 + 0) * 4 + 2});
+    CHECK(image.floats[(2 * 4 + 0) * 4 + 2] == 0 && image.floats[(1 * 4 + 1) * 4 + 3] == 0);
+}
+
 TEST(exr_write_refuses) {
     const std::vector<float> one(1), two(2);
     const auto refused = [](const std::vector<ExrLayer>& layers, int width, int height,

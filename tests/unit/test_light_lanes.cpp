@@ -26,7 +26,8 @@ struct Form {
     void (*answer)(const Questions&, Answers&);
 };
 #if defined(__x86_64__)
-constexpr Form kForms[] = {{"sse", hasSse, sse}, {"avx2", hasAvx2, avx2}, {"avx512", hasAvx512, avx512}};
+constexpr Form kForms[] = {
+    {"sse", hasSse, sse}, {"avx2", hasAvx2, avx2}, {"avx512", hasAvx512, avx512}};
 #else
 constexpr std::span<const Form> kForms;
 #endif
@@ -95,7 +96,9 @@ TEST(light_lanes_equal_one_lane) {
                 const Vec3 dir = unitVector(random);
                 for (std::size_t c = 0; c < 3; ++c)
                     in->p[c][k] = p[c], in->n[c][k] = n[c], in->dir[c][k] = dir[c];
-                const auto bits = [&] { return static_cast<std::uint32_t>(random.unit() * 0x1p32); };
+                const auto bits = [&] {
+                    return static_cast<std::uint32_t>(random.unit() * 0x1p32);
+                };
                 in->u[k] = unitFloat(bits()), in->v[k] = unitFloat(bits());
                 in->bits[k] = bits(), in->light[k] = random.below(bounds.size());
             }

@@ -1,5 +1,5 @@
-// The choice of one light of many: probabilities that sum up to 1, picks that follow them, and trees
-// that do not depend on the scale of the scene.
+// The choice of one light of many: probabilities that sum up to 1, picks that follow them, and
+// trees that do not depend on the scale of the scene.
 #include "check.h"
 #include "light/tree/light_picker.h"
 #include "light/tree/pick_lanes.h"

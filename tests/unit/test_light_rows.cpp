@@ -50,7 +50,8 @@ TEST(light_rows_are_the_lamps_of_the_description) {
     int lit = 0;
     for (int i = 0; i < 3000; ++i) {
         const LightDesc desc = someLight(random);
-        const SceneFrame frame{random.inBox(5), std::ldexp(1.0, static_cast<int>(random.below(9)) - 6)};
+        const SceneFrame frame{random.inBox(5),
+                               std::ldexp(1.0, static_cast<int>(random.below(9)) - 6)};
         const auto light = makeLight(desc, frame);
         const LightRow row = lightRow(desc, frame);
         const Vec3 p = toFloat(random.inBox(3));
@@ -75,11 +76,14 @@ TEST(light_rows_of_dark_lamps) {
     for (int i = 0; i < 200; ++i) {
         LightDesc desc = someLight(random);
         const SceneFrame frame{{}, 1};
-        if (i % 2 == 0) desc.color = {0, 0, 0};
-        else if (desc.kind == LightDesc::Kind::Sphere) desc.radius = 0;
+        if (i % 2 == 0)
+            desc.color = {0, 0, 0};
+        else if (desc.kind == LightDesc::Kind::Sphere)
+            desc.radius = 0;
         else if (desc.kind == LightDesc::Kind::Rectangle || desc.kind == LightDesc::Kind::Disk)
             desc.size.y = 0;
-        else continue;
+        else
+            continue;
         CHECK(boundsOf(lightRow(desc, frame)).isDark());
     }
 }

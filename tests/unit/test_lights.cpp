@@ -44,7 +44,8 @@ chi2::Cap capOf(const OneLight& light, Vec3 p, Random& random) {
 
 } // namespace
 
-// 60,000 directions in up to 577 cells. A density that is off by 10 % in half of them deviates by 13.
+// 60,000 directions in up to 577 cells. A density that is off by 10 % in half of them deviates
+// by 13.
 TEST(lights_directions_have_their_density) {
     constexpr std::uint64_t kSeed = 5101;
     Random random(kSeed);
@@ -65,12 +66,10 @@ TEST(lights_directions_have_their_density) {
                     [&](Vec3 dir) { return light.pdf(p, dir); });
                 if (result.cells < 100) continue; // a sliver: its border is in every cell
                 ++tested[light.name()];
-                CHECK_INFO(result.deviation < 5, "seed " << kSeed << ' ' << light.name()
-                                                         << " of size " << size << " round "
-                                                         << round << " deviation "
-                                                         << result.deviation << " integral "
-                                                         << result.integral << " cells "
-                                                         << result.cells);
+                CHECK_INFO(result.deviation < 5,
+                           "seed " << kSeed << ' ' << light.name() << " of size " << size
+                                   << " round " << round << " deviation " << result.deviation
+                                   << " integral " << result.integral << " cells " << result.cells);
                 // The border of the lamp is off by a fraction of the finest cells: below 1 %.
                 CHECK_INFO(std::fabs(result.integral - 1) < 0.012,
                            "seed " << kSeed << ' ' << light.name() << " of size " << size
@@ -115,8 +114,8 @@ TEST(lights_rays_meet_what_is_sampled) {
             // densities that change within a rounding of the direction.
             const float slack = light.name() == std::string("disk") ? 2e-2f : 2e-3f;
             CHECK_INFO(std::fabs(pdf / s.pdf - 1) < slack, about());
-            CHECK_INFO(s.distance == m.distance ||
-                           std::fabs(m.distance / s.distance - 1) < 2e-3f, about());
+            CHECK_INFO(s.distance == m.distance || std::fabs(m.distance / s.distance - 1) < 2e-3f,
+                       about());
             CHECK_INFO(std::fabs(m.radiance.g / (s.irradiance.g * s.pdf) - 1) < 2e-3f, about());
         }
     }

@@ -41,8 +41,7 @@ Vector vectorOf(const OneLight& light, Vec3 p, int side, Random& random) {
         squares += e * e, total += e;
     }
     const double n = side * side, mean = total / n;
-    return {sum * (1 / n), std::sqrt(squares) / n,
-            mean > 0 ? squares / n / (mean * mean) - 1 : 0};
+    return {sum * (1 / n), std::sqrt(squares) / n, mean > 0 ? squares / n / (mean * mean) - 1 : 0};
 }
 
 // Lambert 1760: of a polygon of radiance 1 that shines to the point.
@@ -166,12 +165,10 @@ TEST(lights_are_todays_lamps) {
 TEST(lights_give_what_closed_forms_give) {
     constexpr std::uint64_t kSeed = 5104;
     Random random(kSeed);
-    double worst = 0;
     const auto compare = [&](const OneLight& light, Vec3 p, Vec3d expected, double slack,
                              const char* what) {
         const Vector v = vectorOf(light, p, 48, random);
         const double off = length(v.mean - expected);
-        worst = max(worst, off / max(length(expected), 1e-30));
         CHECK_INFO(off <= 3 * v.deviation * std::sqrt(min(v.variance + 1e-3, 1.0)) +
                               slack * length(expected) + 1e-9,
                    "seed " << kSeed << ' ' << what << ": off by " << off << " of "
@@ -213,14 +210,12 @@ TEST(lights_give_what_closed_forms_give) {
             const double area = length(x) * length(y);
             const DiskRow disk{{rectangle}};
             if (spreads)
-                compare(OneLight(rectangle), p,
-                        byPlaces(at, n, 4 * area, toDouble(p), false, part), 4e-3,
-                        "rectangle with a spread");
+                compare(OneLight(rectangle), p, byPlaces(at, n, 4 * area, toDouble(p), false, part),
+                        4e-3, "rectangle with a spread");
             const Vector v =
                 compare(OneLight(disk), p, byPlaces(at, n, kPi * area, toDouble(p), true, part),
                         4e-3, spreads ? "disk with a spread" : "disk");
-            if (!spreads)
-                CHECK_INFO(v.variance < 0.15, "a disk's samples vary by " << v.variance);
+            if (!spreads) CHECK_INFO(v.variance < 0.15, "a disk's samples vary by " << v.variance);
         }
 
         const SphereRow sphere = light_kit::sphere(centre, size);
@@ -239,11 +234,10 @@ TEST(lights_give_what_closed_forms_give) {
         // All of a disk in the sky: the surface that faces its middle has this irradiance.
         compare(OneLight(sun), p, toDouble(sun.toSun), 1e-6, "sun");
     }
-    (void)worst;
 }
 
-// Above its middle a disk of radius a gives pi a^2 / (a^2 + h^2); a point nearly on a large lamp gets
-// pi times the radiance, and the samples of a rectangle vary with the cosine only.
+// Above its middle a disk of radius a gives pi a^2 / (a^2 + h^2); a point nearly on a large lamp
+// gets pi times the radiance, and the samples of a rectangle vary with the cosine only.
 TEST(lights_near_their_surface) {
     constexpr std::uint64_t kSeed = 5105;
     Random random(kSeed);
@@ -281,9 +275,9 @@ TEST(lights_in_hard_places) {
             const bool sound = finite(e.r) && finite(e.g) && finite(e.b) && e.r >= 0 && e.g >= 0 &&
                                finite(s.pdf) && s.pdf >= 0 && s.distance >= 0 &&
                                std::fabs(length(toDouble(s.toLight)) - 1) < 1e-6;
-            CHECK_INFO(sound, "seed " << kSeed << ' ' << light.name() << ' ' << what << " at " << p.x
-                                      << ' ' << p.y << ' ' << p.z << ": " << e.r << " pdf " << s.pdf
-                                      << " distance " << s.distance << " length "
+            CHECK_INFO(sound, "seed " << kSeed << ' ' << light.name() << ' ' << what << " at "
+                                      << p.x << ' ' << p.y << ' ' << p.z << ": " << e.r << " pdf "
+                                      << s.pdf << " distance " << s.distance << " length "
                                       << length(toDouble(s.toLight)));
             if (isBlackLamp) CHECK_INFO(isBlack(e), light.name() << ' ' << what << " isn't black");
             const float pdf = light.pdf(p, s.toLight);
@@ -302,18 +296,17 @@ TEST(lights_in_hard_places) {
         const auto rectangle = flat<RectangleRow>(random, centre, size);
         const DiskRow disk{{rectangle}};
         const TriangleRow triangle = light_kit::triangle(random, centre, size);
-        std::vector<Vec3> points = {
-            centre,
-            centre + rectangle.halfX,
-            centre + rectangle.halfX + rectangle.halfY,
-            centre + rectangle.halfX * 3.0f,
-            centre + rectangle.halfX + rectangle.normal * (size * 1e-6f),
-            centre + rectangle.normal * (size * 1e-6f),
-            triangle.a,
-            triangle.b,
-            (triangle.a + triangle.b) * 0.5f,
-            (triangle.a + triangle.b + triangle.c) * (1.0f / 3),
-            triangle.a * 2.0f - triangle.b};
+        std::vector<Vec3> points = {centre,
+                                    centre + rectangle.halfX,
+                                    centre + rectangle.halfX + rectangle.halfY,
+                                    centre + rectangle.halfX * 3.0f,
+                                    centre + rectangle.halfX + rectangle.normal * (size * 1e-6f),
+                                    centre + rectangle.normal * (size * 1e-6f),
+                                    triangle.a,
+                                    triangle.b,
+                                    (triangle.a + triangle.b) * 0.5f,
+                                    (triangle.a + triangle.b + triangle.c) * (1.0f / 3),
+                                    triangle.a * 2.0f - triangle.b};
         for (const float away : {1e-6f, 1e-3f, 1.0f, 1e3f, 1e6f})
             points.push_back(centre + toFloat(random.direction()) * (size * away));
         for (const Vec3 p : points) {

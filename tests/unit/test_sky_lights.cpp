@@ -78,7 +78,9 @@ TEST(sky_directions_have_their_density) {
                     sum += static_cast<double>(s.irradiance.y.v);
                     return plain(s.toLight);
                 },
-                [&](Vec3 dir) { return sky.pdf({0, 0, 0}, lane(dir)).v; });
+                [&](Vec3 dir) {
+                    return sky.pdf({0, 0, 0}, lane(dir)).v;
+                });
             CHECK_INFO(result.deviation < 5 && std::fabs(result.integral - 1) < 0.01,
                        "seed " << kSeed << " compensated " << compensated << " deviation "
                                << result.deviation << " integral " << result.integral);
@@ -93,8 +95,8 @@ TEST(sky_directions_have_their_density) {
     }
 }
 
-// With the weights of samples of both kinds added up, no part of a compensated sky is lost: for each
-// direction the balance heuristic's weights sum up to 1, where either has a density.
+// With the weights of samples of both kinds added up, no part of a compensated sky is lost: for
+// each direction the balance heuristic's weights sum up to 1, where either has a density.
 TEST(sky_is_never_black_where_its_picture_is_not) {
     constexpr std::uint64_t kSeed = 5141;
     Random random(kSeed);
@@ -147,7 +149,8 @@ TEST(sky_tables_are_the_same_for_any_threads) {
     const Environment environment(skyPicture(random, 300, 150, 1), ColorSpace::Linear,
                                   Interpolation::Bilinear, Environment::Up::Z, 0);
     const Picture picture(environment);
-    const SkyCells one = skyCells(environment, 200, 100, 1), two = skyCells(environment, 200, 100, 3);
+    const SkyCells one = skyCells(environment, 200, 100, 1),
+                   two = skyCells(environment, 200, 100, 3);
     CHECK(one.luminance == two.luminance);
     const SkyTable a(200, 100, one.luminance, true, {}, 1), b(200, 100, one.luminance, true, {}, 3);
     const SkyView x = a.view(picture), y = b.view(picture);
@@ -166,6 +169,13 @@ TEST(sky_pictures_that_can_not_light_are_named) {
     CHECK_EQUAL(
         whyNoLight(image).value_or(""),
         "pixel 7 from the left, 1 from the top is not a number; light has no colours below 0");
+    // A picture's reader makes 0 of it, and says where.
+    image.floats[(1 * 8 + 7) * 3] = 0;
+    image.noNumber = (1 * 8 + 6) * 3 + 2;
+    CHECK_EQUAL(
+        whyNoLight(image).value_or(""),
+        "pixel 6 from the left, 1 from the top is not a number; light has no colours below 0");
+    image.noNumber.reset();
     image.channels = 1, image.width = 24;
     image.floats.assign(image.floats.size(), -0.0f);
     CHECK(!whyNoLight(image));

@@ -1,6 +1,6 @@
 // DiskEmitter: an ellipse that shines to one side. Near it slices across its x axis are taken about
-// as the solid angles that they fill, and within a slice all directions are equally likely; far away
-// all places on it are. Solid angles of ellipses themselves have no closed form.
+// as the solid angles that they fill, and within a slice all directions are equally likely; far
+// away all places on it are. Solid angles of ellipses themselves have no closed form.
 #pragma once
 
 #include "light/kinds/flat.h"
@@ -39,10 +39,9 @@ public:
         const Doubles distance = sqrt(dot(d, d));
         const Doubles pdf = seen.density(slice, chord);
         const Floats cosAtLight = (seen.from.h / distance).toFloats();
-        const SampledLight sliced =
-            where(seen.byAngle & (zero < pdf), Floats3::of(d / distance), distance.toFloats(),
-                  radiance * (spreadAt(cosAtLight) * (one / pdf).toFloats()), pdf.toFloats(),
-                  noLanes());
+        const SampledLight sliced = where(
+            seen.byAngle & (zero < pdf), Floats3::of(d / distance), distance.toFloats(),
+            radiance * (spreadAt(cosAtLight) * (one / pdf).toFloats()), pdf.toFloats(), noLanes());
         if (near == kAllLanes) return sliced;
         return select(seen.byAngle, sliced, far());
     }
@@ -107,8 +106,8 @@ private:
         const Doubles size2 = Doubles(x2) + Doubles(y2);
         const Floats skew = abs(dot(halfX, halfY));
         const Mask isNear = (dot(d, d) < Doubles(kFarHalfAxes2) * size2) & (zero < h) &
-                            (skew <= Floats(1e-5f) * lengthX_ * lengthY_) &
-                            (x2 > Floats(0.0f)) & (y2 > Floats(0.0f));
+                            (skew <= Floats(1e-5f) * lengthX_ * lengthY_) & (x2 > Floats(0.0f)) &
+                            (y2 > Floats(0.0f));
         Seen seen{x, y, n, around, atX, atY, lengthX, lengthY, zero, isNear};
         if (bits(isNear) == 0) return seen;
         seen.solidAngle = around.solidAngle();

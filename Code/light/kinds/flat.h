@@ -4,8 +4,8 @@
 #include "light/light_lanes.h"
 
 struct FlatRow {
-    Vec3 centre, halfX, halfY, normal; // half axes, perpendicular; unit normal of the bright side
-    Rgb radiance;                      // straight ahead
+    Vec3 centre, halfX, halfY, normal;   // half axes, perpendicular; unit normal of the bright side
+    Rgb radiance;                        // straight ahead
     float tanSpread = 0, spreadNorm = 0; // setSpread()
 };
 // Narrows the emission as Cycles' grid does; a right angle is all of the side.
@@ -17,8 +17,8 @@ class FlatNumbers {
 public:
     explicit FlatNumbers(const LightNumbers& n)
         : centre(n.vector(0)), halfX(n.vector(3)), halfY(n.vector(6)), normal(n.vector(9)),
-          radiance(n.vector(12)), tanSpread_(n[15]), spreadNorm_(n[16]),
-          x2(dot(halfX, halfX)), y2(dot(halfY, halfY)) {}
+          radiance(n.vector(12)), tanSpread_(n[15]), spreadNorm_(n[16]), x2(dot(halfX, halfX)),
+          y2(dot(halfY, halfY)) {}
 
     Floats3 centre, halfX, halfY, normal, radiance;
 
@@ -31,8 +31,7 @@ public:
     // The part of the radiance that leaves at an angle of this cosine to the normal.
     Floats spreadAt(Floats cosAtLight) const {
         const Floats zero(0.0f), one(1.0f);
-        const Floats tangent =
-            sqrt(max(one - cosAtLight * cosAtLight, zero)) / cosAtLight;
+        const Floats tangent = sqrt(max(one - cosAtLight * cosAtLight, zero)) / cosAtLight;
         const Floats part = max((tanSpread_ - tangent) * spreadNorm_, zero);
         return select(cosAtLight > zero, select(spreadNorm_ > zero, part, one), zero);
     }

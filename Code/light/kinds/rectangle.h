@@ -26,14 +26,13 @@ struct RectangleSeen {
                       r01 = length(x0, y1);
         const Doubles n = h * (x1 - x0) * (y1 - y0);
         const auto below = [&](const Doubles& a, const Doubles& b, const Doubles& c,
-                               const Doubles& ab, const Doubles& bc, const Doubles& ca) {
-            return a * b * c + ab * c + bc * a + ca * b;
-        };
+                               const Doubles& ab, const Doubles& bc,
+                               const Doubles& ca) { return a * b * c + ab * c + bc * a + ca * b; };
         const Doubles diagonal = x0 * x1 + y0 * y1 + h2; // of corners 00 and 11
-        const Doubles first = below(r00, r10, r11, x0 * x1 + y0 * y0 + h2,
-                                    x1 * x1 + y0 * y1 + h2, diagonal);
-        const Doubles second = below(r00, r11, r01, diagonal, x0 * x1 + y1 * y1 + h2,
-                                     x0 * x0 + y0 * y1 + h2);
+        const Doubles first =
+            below(r00, r10, r11, x0 * x1 + y0 * y0 + h2, x1 * x1 + y0 * y1 + h2, diagonal);
+        const Doubles second =
+            below(r00, r11, r01, diagonal, x0 * x1 + y1 * y1 + h2, x0 * x0 + y0 * y1 + h2);
         // Twice the sum of the angles of (first, n) and (second, n). The corners are 1 apart in
         // size at most by 2^100, so that the products are in the range of double.
         return Doubles(2.0) * anglesOf(n * (first + second), first * second - n * n);
@@ -104,10 +103,9 @@ public:
             where(seen.byAngle, Floats3::of(d / distance), distance.toFloats(),
                   radiance * (spreadAt(cosAtLight) * solidAngle), one / solidAngle, noLanes());
         if (byAngle == kAllLanes) return near;
-        return select(
-            seen.byAngle, near,
-            from(p, centre_() + halfX * (two * u - one) + halfY * (two * v - one), area(),
-                 noLanes()));
+        return select(seen.byAngle, near,
+                      from(p, centre_() + halfX * (two * u - one) + halfY * (two * v - one), area(),
+                           noLanes()));
     }
     SampledLight centre(const Floats3& p) const {
         return from(p, centre_(), area(), maskOf(kAllLanes));
@@ -146,8 +144,8 @@ private:
         // Sides that are not perpendicular have places only.
         const Floats skew = abs(dot(halfX, halfY));
         const Mask isNear = (dot(d, d) < Doubles(kFarHalfAxes2) * size2) & (zero < h) &
-                            (skew <= Floats(1e-5f) * lengthX_ * lengthY_) &
-                            (x2 > Floats(0.0f)) & (y2 > Floats(0.0f));
+                            (skew <= Floats(1e-5f) * lengthX_ * lengthY_) & (x2 > Floats(0.0f)) &
+                            (y2 > Floats(0.0f));
         if (bits(isNear) == 0) return {x, y, n, from, zero, isNear};
         const Doubles solidAngle = from.solidAngle();
         return {x, y, n, from, solidAngle, isNear & (Doubles(kLeastSolidAngle) < solidAngle)};

@@ -62,8 +62,7 @@ public:
         const ShadingFrame frame =
             frameAroundZ(select(isApart, toCentre / sqrt(far2), {zero, zero, one}));
         const Floats2 disk = diskFromSquare(u, v);
-        const Floats3 d =
-            toCentre + frame.x * (disk.x * radius_) + frame.y * (disk.y * radius_);
+        const Floats3 d = toCentre + frame.x * (disk.x * radius_) + frame.y * (disk.y * radius_);
         const Floats distance2 = dot(d, d), distance = sqrt(distance2);
         const Floats3 toLight = d / distance;
         const Floats cosAtDisk = select(radius_ > zero, dot(toLight, frame.z), one);

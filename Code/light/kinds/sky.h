@@ -1,5 +1,5 @@
-// SkyEmitter: all of the sky as a lamp, sampled by the table of its brightness. There is one for all
-// lanes.
+// SkyEmitter: all of the sky as a lamp, sampled by the table of its brightness. There is one for
+// all lanes.
 #pragma once
 
 #include "light/light_lanes.h"
@@ -16,7 +16,8 @@ public:
         const Ints row = lastNotAbove(sky_.rows, Ints(0), sky_.height, v);
         const Ints first = firstOf(row);
         const Ints column = lastNotAbove(sky_.columns, first, sky_.width, u);
-        const Part inRow = partOf(sky_.rows, row), inColumn = partOf(sky_.columns, sum(first, column));
+        const Part inRow = partOf(sky_.rows, row),
+                   inColumn = partOf(sky_.columns, sum(first, column));
         const Doubles one(1.0), zero(0.0);
         const Doubles across = Doubles((u - inColumn.from) / inColumn.size);
         const Doubles along = Doubles((v - inRow.from) / inRow.size);
@@ -43,8 +44,7 @@ public:
         const Floats zero(0.0f);
         const Doubles x(dir.x), y(sky_.place.isZUp ? dir.y : zero - dir.z),
             z(sky_.place.isZUp ? dir.z : dir.y);
-        const Doubles s =
-            Doubles(0.5 + sky_.place.turns) - anglesOf(y, x) * Doubles(kInvTwoPi);
+        const Doubles s = Doubles(0.5 + sky_.place.turns) - anglesOf(y, x) * Doubles(kInvTwoPi);
         const Doubles t = Doubles(0.5) + anglesOf(z, sqrt(x * x + y * y)) * Doubles(kInvPi);
         const Ints column = cellOf(s - floor(s), sky_.width), row = cellOf(t, sky_.height);
         return density(partOf(sky_.rows, row), partOf(sky_.columns, sum(firstOf(row), column)),
@@ -79,7 +79,8 @@ private:
     }
     static Ints cellOf(const Doubles& place, std::uint32_t count) {
         const Doubles last(static_cast<double>(count - 1));
-        return wholeOf(min(max(floor(place * Doubles(static_cast<double>(count))), Doubles(0.0)), last));
+        return wholeOf(
+            min(max(floor(place * Doubles(static_cast<double>(count))), Doubles(0.0)), last));
     }
     Ints firstOf(Ints row) const {
         return wholeOf(doublesOf(row) * Doubles(static_cast<double>(sky_.pitch)));
@@ -94,8 +95,7 @@ private:
         return belt;
     }
     Floats density(const Part& row, const Part& column, const Belt& belt) const {
-        const Floats solidAngle =
-            ((belt.to - belt.from) * Doubles(kTwoPi / sky_.width)).toFloats();
+        const Floats solidAngle = ((belt.to - belt.from) * Doubles(kTwoPi / sky_.width)).toFloats();
         return row.size * column.size / solidAngle;
     }
     Floats3 radianceOf(const Floats3& dir) const {

@@ -1,5 +1,5 @@
-// SphereEmitter: a sphere of constant radiance. From outside of it the directions in the cone that it
-// fills are equally likely (Shirley and Wang 1996), inside all directions are.
+// SphereEmitter: a sphere of constant radiance. From outside of it the directions in the cone that
+// it fills are equally likely (Shirley and Wang 1996), inside all directions are.
 #pragma once
 
 #include "light/light_lanes.h"
@@ -25,8 +25,7 @@ public:
         const Floats3 axis = Floats3::of(seen.d / sqrt(seen.d2));
         const ShadingFrame frame =
             frameAroundZ(select(dot(axis, axis) > zero, axis, {zero, zero, one}));
-        const Floats3 toLight =
-            normalize(frame.toWorld(coneFromSquare(u, v, seen.oneMinusCos)));
+        const Floats3 toLight = normalize(frame.toWorld(coneFromSquare(u, v, seen.oneMinusCos)));
         const Floats solidAngle = Floats(static_cast<float>(kTwoPi)) * seen.oneMinusCos;
         return where(solidAngle > zero, toLight, seen.distance(toLight), radiance_ * solidAngle,
                      one / solidAngle, noLanes());
@@ -35,10 +34,9 @@ public:
         const Seen seen = seenFrom(p);
         const Doubles distance = sqrt(seen.d2);
         const Floats factor = (Doubles(kPi) * (seen.r2 / seen.d2)).toFloats();
-        const SampledLight outside =
-            where(radius_ > Floats(0.0f), Floats3::of(seen.d / distance),
-                  (distance - Doubles(radius_)).toFloats(), radiance_ * factor, 0.0f,
-                  maskOf(kAllLanes));
+        const SampledLight outside = where(radius_ > Floats(0.0f), Floats3::of(seen.d / distance),
+                                           (distance - Doubles(radius_)).toFloats(),
+                                           radiance_ * factor, 0.0f, maskOf(kAllLanes));
         if (bits(seen.isOutside) == kAllLanes) return outside;
         SampledLight inside = sample(p, 0.5f, 0.5f);
         inside.pdf = 0.0f, inside.single = maskOf(kAllLanes);

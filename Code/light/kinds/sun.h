@@ -25,8 +25,8 @@ public:
             normalize(frameAroundZ(toSun_).toWorld(coneFromSquare(u, v, oneMinusCos_)));
         const Floats two(2.0f);
         const SampledLight disk =
-            where(hasSize_, toLight, kInfinityF,
-                  irradiance_ * (two / (two - oneMinusCos_)), density(), noLanes());
+            where(hasSize_, toLight, kInfinityF, irradiance_ * (two / (two - oneMinusCos_)),
+                  density(), noLanes());
         return select(hasSize_, disk, centre(p));
     }
     SampledLight centre(const Floats3&) const {
@@ -48,9 +48,7 @@ private:
         const Floats3 away = dir - toSun_;
         return hasSize_ & (dot(away, away) <= Floats(2.0f) * oneMinusCos_);
     }
-    Floats density() const {
-        return Floats(static_cast<float>(kInvTwoPi)) / oneMinusCos_;
-    }
+    Floats density() const { return Floats(static_cast<float>(kInvTwoPi)) / oneMinusCos_; }
 
     Floats3 toSun_, irradiance_;
     Floats oneMinusCos_;

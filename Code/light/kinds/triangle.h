@@ -2,8 +2,8 @@
 // directions in which it is seen are equally likely (after Arvo 1995), far away all places on it.
 #pragma once
 
-#include "light/light_lanes.h"
 #include "light/kinds/rectangle.h"
+#include "light/light_lanes.h"
 #include "simd/angle_lanes.h"
 #include "simd/sine_lanes.h"
 
@@ -42,8 +42,8 @@ public:
         at.pdf = 0.0f, at.single = maskOf(kAllLanes);
         return at;
     }
-    // Not 0 a little beside the triangle, up to an angle of 2^-21: a ray that some test of triangles
-    // lets meet it has a density.
+    // Not 0 a little beside the triangle, up to an angle of 2^-21: a ray that some test of
+    // triangles lets meet it has a density.
     Floats pdf(const Floats3& p, const Floats3& toLight) const {
         const Seen seen = seenFrom(p);
         const Doubles3 way = doublesOf(toLight);
@@ -105,9 +105,9 @@ private:
     }
 
     // The corners of the spherical triangle are A, B, C. u divides it by an arc from B to C', which
-    // is on the arc from A to C; v divides the arc. Of a triangle with the angle alpha between sides
-    // of c and b', half the area E is found by tan(b'/2) tan(c/2) = sin(E/2) / sin(alpha - E/2).
-    // Vectors along the edges keep the digits of small triangles.
+    // is on the arc from A to C; v divides the arc. Of a triangle with the angle alpha between
+    // sides of c and b', half the area E is found by tan(b'/2) tan(c/2) = sin(E/2) / sin(alpha -
+    // E/2). Vectors along the edges keep the digits of small triangles.
     Doubles3 direction(const Seen& seen, const Doubles& u, const Doubles& v) const {
         const Doubles one(1.0), two(2.0), half(0.5);
         const auto unit = [](const Doubles3& a) { return a / sqrt(dot(a, a)); };

@@ -53,9 +53,7 @@ SkyTable::SkyTable(int width, int height, std::span<const float> luminance, bool
     };
     mean_ = sumUp([](float l) { return static_cast<double>(l); });
     double less = compensated ? mean_ : 0, more = compensated ? 0 : mean_ * 1e-3;
-    const auto weight = [&](float l) {
-        return max(static_cast<double>(l) - less, 0.0) + more;
-    };
+    const auto weight = [&](float l) { return max(static_cast<double>(l) - less, 0.0) + more; };
     // A sky of one brightness is nowhere brighter than its mean, but for rounding.
     if (!(sumUp(weight) > mean_ * 1e-6)) {
         less = 0, more = mean_ > 0 ? mean_ * 1e-3 : 1;

@@ -26,8 +26,8 @@ struct SkyPlace {
 
 // What the lanes see of a table.
 struct SkyView {
-    const float* rows = nullptr;    // height + 1 parts of 1: how much lies below each row
-    const float* columns = nullptr; // of each row, `pitch` apart: width + 1 parts of 1
+    const float* rows = nullptr;     // height + 1 parts of 1: how much lies below each row
+    const float* columns = nullptr;  // of each row, `pitch` apart: width + 1 parts of 1
     const double* borders = nullptr; // height + 1 sines of latitude
     std::uint32_t width = 0, height = 0, pitch = 0;
     SkyPlace place;
@@ -49,8 +49,8 @@ public:
              SkyPlace place, int threads = 1);
 
     SkyView view(const SkyRadiance& radiance) const {
-        return {rows_.data(), columns_.data(), borders_.data(), width_, height_, width_ + 1,
-                place_, &radiance};
+        return {rows_.data(), columns_.data(), borders_.data(), width_,
+                height_,      width_ + 1,      place_,          &radiance};
     }
     // Mean luminance over all directions.
     double mean() const { return mean_; }

@@ -1,4 +1,5 @@
-// LightBounds: where a light, or a group of them, is and where it shines, for the choice among many.
+// LightBounds: where a light, or a group of them, is and where it shines, for the choice among
+// many.
 #pragma once
 
 #include "base/bounds.h"

@@ -17,7 +17,7 @@ struct LightNode {
     std::uint32_t spreadAndReach; // cosines: 16 bits, then 14 bits, then the flags
     std::uint32_t child;          // kLightLeaf + light, or the pair of its children
 
-    static constexpr std::uint32_t kTwoSided = 1, kDistant = 2; // flags
+    static constexpr std::uint32_t kTwoSided = 1, kDistant = 2;      // flags
     static constexpr float kCosineSteps = 32767, kReachSteps = 8191; // -1 to 1 is twice as many
 };
 static_assert(sizeof(LightNode) == 32);
@@ -29,8 +29,8 @@ LightNode packedNode(const LightBounds& bounds, std::uint32_t child);
 // What the lanes see of a LightPicker.
 struct LightTreeView {
     const LightNode* pairs = nullptr;      // two nodes each; empty for one light
-    const std::uint32_t* trails = nullptr; // of each light: bit i is set where the way from the root
-                                           // goes to the second child of a pair in step i
-    std::uint32_t lit = 0;                 // how many lights are not dark
-    std::uint32_t only = 0;                // the light, if it is one
+    const std::uint32_t* trails = nullptr; // of each light: bit i is set where the way from the
+                                           // root goes to the second child of a pair in step i
+    std::uint32_t lit = 0;  // how many lights are not dark
+    std::uint32_t only = 0; // the light, if it is one
 };

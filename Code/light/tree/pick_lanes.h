@@ -1,11 +1,12 @@
 // The choice of a light for W points at once: see LightPicker. At each group one child is chosen in
 // proportion to what it may give to the point at most and at least, the mean of both parts, after
 // Cycles: where a bright light that may shine does not, a dim one that surely does is not left to
-// luck. Where nothing is sure (near large groups) the most alone decides: with even parts, as Cycles
-// has them there, 20,000 lights in a heap had three times the variance. One choice of ten is made by
-// intensity alone, and one of twenty by chance at each group: a dim light may be all there is where
-// bright ones could shine, but are behind a wall. The numbers are doubles where probabilities are
-// multiplied: the light that is chosen, and its probability, are those of the same interval of [0,1).
+// luck. Where nothing is sure (near large groups) the most alone decides: with even parts, as
+// Cycles has them there, 20,000 lights in a heap had three times the variance. One choice of ten is
+// made by intensity alone, and one of twenty by chance at each group: a dim light may be all there
+// is where bright ones could shine, but are behind a wall. The numbers are doubles where
+// probabilities are multiplied: the light that is chosen, and its probability, are those of the
+// same interval of [0,1).
 #pragma once
 
 #include "light/light_lanes.h"
@@ -126,9 +127,7 @@ private:
         const Floats zero(0.0f), half(0.5f), byMost = partOf(a.most, b.most);
         const Floats byBoth = half * (byMost + partOf(a.least, b.least));
         const Floats byLight = select(a.least + b.least > zero, byBoth, byMost);
-        return {{a.child, b.child},
-                select(a.most + b.most > zero, byLight, byPower),
-                byPower};
+        return {{a.child, b.child}, select(a.most + b.most > zero, byLight, byPower), byPower};
     }
     // Rounding takes nothing away from a second part that is far smaller.
     static Floats partOf(Floats a, Floats b) {
@@ -148,17 +147,17 @@ private:
         return fromBits(plus(bits, 0x4b000000u)) - Floats(0x1p23f);
     }
     static Floats lowerCosine(Ints bits) {
-        return numberOf(masked(bits, 0xffff)) * Floats(1 / LightNode::kCosineSteps) -
-               Floats(1.0f);
+        return numberOf(masked(bits, 0xffff)) * Floats(1 / LightNode::kCosineSteps) - Floats(1.0f);
     }
     static Floats upperCosine(Ints bits) { return lowerCosine(shiftedRight<16>(bits)); }
 
-    Weight weightOf(const std::uint32_t* pairs, int side, const Floats3& p, const Floats3& n) const {
+    Weight weightOf(const std::uint32_t* pairs, int side, const Floats3& p,
+                    const Floats3& n) const {
         const float* row[W];
         const float* more[W];
         for (int i = 0; i < W; ++i) {
-            const LightNode& node = tree_.pairs[2 * std::size_t{pairs[i]} +
-                                                static_cast<std::size_t>(side)];
+            const LightNode& node =
+                tree_.pairs[2 * std::size_t{pairs[i]} + static_cast<std::size_t>(side)];
             row[i] = node.centre, more[i] = node.centre + 4;
         }
         Floats numbers[4], words[4];
@@ -177,14 +176,15 @@ private:
         };
         const Mask isTwoSided = has(LightNode::kTwoSided), isDistant = has(LightNode::kDistant);
 
-        // The ball around the group fills directions up to the angle u around the way to its middle;
-        // from within all.
+        // The ball around the group fills directions up to the angle u around the way to its
+        // middle; from within all.
         const Floats3 d = Floats3{numbers[0], numbers[1], numbers[2]} - p;
         const Floats far2 = max(dot(d, d), Floats(1e-37f)), far = sqrt(far2);
         const Floats radius2 = radius * radius;
         const Mask isOutside = far2 > radius2;
         const Floats3 way = select(isDistant, axis, d / far);
-        const Floats cosBall = select(isOutside, sqrt(max(one - radius2 / far2, zero)), Floats(-1.0f));
+        const Floats cosBall =
+            select(isOutside, sqrt(max(one - radius2 / far2, zero)), Floats(-1.0f));
         const Floats cosU = select(isDistant, cosO, cosBall);
         const Floats sinU = select(isDistant, sinO, select(isOutside, radius / far, zero));
 
@@ -192,10 +192,8 @@ private:
         // turn where u is at most a quarter.
         const Mask hasNormal = dot(n, n) > zero, isNarrow = cosU >= zero;
         const Floats cosI = dot(way, n), sinI = sineOf(cosI);
-        const Floats facing =
-            select(hasNormal, max(cosOfRest(cosI, sinI, cosU, sinU), zero), one);
-        const Floats facingLeast =
-            select(hasNormal, max(cosI * cosU - sinI * sinU, zero), one);
+        const Floats facing = select(hasNormal, max(cosOfRest(cosI, sinI, cosU, sinU), zero), one);
+        const Floats facingLeast = select(hasNormal, max(cosI * cosU - sinI * sinU, zero), one);
 
         // The angle t to the axis of the group's normals, less u and the spread o, and more.
         const Floats along = zero - dot(axis, way), cosT = select(isTwoSided, abs(along), along);
