@@ -62,7 +62,7 @@ Result test(const Cap& cap, std::size_t count, Sample&& sample, Density&& densit
     const auto occupied = static_cast<double>(
         std::count_if(found.begin(), found.end(), [](double n) { return n > 0; }));
     const auto places =
-        static_cast<std::size_t>(clamp(std::sqrt(4e5 / max(occupied, 1.0)), 12.0, 120.0));
+        static_cast<std::size_t>(clamp(std::sqrt(2e5 / max(occupied, 1.0)), 12.0, 120.0));
     for (std::size_t ring = 0; ring < kRings; ++ring) {
         for (std::size_t sector = 0; sector < kSectors; ++sector) {
             double sum = 0;
