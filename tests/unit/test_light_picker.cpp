@@ -91,7 +91,7 @@ std::uint32_t bits32(Random& random) { return static_cast<std::uint32_t>(random.
 TEST(light_picker_probabilities_sum_up_to_one) {
     constexpr std::uint64_t kSeed = 5120;
     Random random(kSeed);
-    for (const std::size_t count : {1, 2, 3, 5, 16, 17, 40, 200}) {
+    for (const std::size_t count : {1u, 2u, 3u, 5u, 16u, 17u, 40u, 200u}) {
         const auto rows = someLights(random, count, count != 2);
         const auto bounds = boundsOf(rows);
         const LightPicker picker(bounds);
