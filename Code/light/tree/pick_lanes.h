@@ -158,7 +158,7 @@ private:
         for (int i = 0; i < W; ++i) {
             const LightNode& node =
                 tree_.pairs[2 * std::size_t{pairs[i]} + static_cast<std::size_t>(side)];
-            row[i] = node.centre, more[i] = node.centre + 4;
+            row[i] = reinterpret_cast<const float*>(&node), more[i] = row[i] + 4;
         }
         Floats numbers[4], words[4];
         loadRows(row, numbers), loadRows(more, words);
