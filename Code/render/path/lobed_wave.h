@@ -83,7 +83,8 @@ protected:
         const PathBatch& rays = wave_.rays;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const PathState& state = stateOf(i);
-            const float end = memory_.hits[i].isHit() ? memory_.hits[i].t : kInfinityF;
+            float end = kInfinityF;
+            if (memory_.hits[i].isHit()) end = memory_.hits[i].t;
             lights_.meet(rays.org[i], rays.dir[i], end, state.pdf > 0 ? 0 : rays.seesLights[i],
                          [&](std::uint32_t light, Rgb radiance) {
                              add(i, radiance * partOfHit(i, [&](const PathState& from) {
