@@ -119,7 +119,7 @@ private:
                 for (std::size_t i = 0; i < field.count; ++i)
                     lobe.numbers[field.first + i] = number(field.range);
         const int fields = static_cast<int>(form.fields.size());
-        for (int field = LobeDesc::Factor::kWeight; field < fields; ++field)
+        for (int field = int{LobeDesc::Factor::kWeight}; field < fields; ++field)
             while (chance(0.3)) {
                 auto& factor = lobe.factors.emplace_back();
                 factor.field = static_cast<std::int8_t>(field);

@@ -58,7 +58,7 @@ JsonNames readJsonTextures(JsonFields& scene, std::vector<TextureDesc>& textures
         if (const JsonValue* file = fields.find("file")) texture.fileLoc = file->loc();
         readJsonProperties(fields, {}, texture);
         fields.reportUnknown();
-        const std::string fault = value.isObject() ? faultOf(texture, names) : "";
+        std::string fault = value.isObject() ? faultOf(texture, names) : "";
         if (!fault.empty()) scene.problems().error(value.loc(), [&] { return fault; });
         // One that validate() would refuse; of errors more need not be said.
         if (scene.problems().isLenient() && (!fault.empty() || !value.isObject())) continue;
