@@ -23,7 +23,7 @@ struct LobeForm {
     LobeDesc usual;                    // where only the type is said
     bool sendsOn = false;              // a part of the light; else what it says is no part of any
 };
-// By LobeDesc::kind.
+// The forms of all lobes, by LobeDesc::kind.
 std::span<const LobeForm> lobeForms();
 std::span<const std::string_view> lobeNames();
 

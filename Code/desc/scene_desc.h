@@ -268,7 +268,7 @@ struct SettingsDesc {
     int samplesPerPixel = 16;
     int lightSamples = 1;
     int maxDepth = 8;           // bounces after the camera ray
-    // Of them, in path tracing: bounces by lobes of each kind, and straight on through opacity.
+    // Path tracing limits bounces by each kind of lobe, too, and rays straight on through opacity.
     int diffuseDepth = 4, glossyDepth = 4, transmissionDepth = 12, transparentDepth = 8;
     double clampIndirect = 0;   // path tracing: the most radiance behind the first bounce; 0 any
     bool caustics = true;       // path tracing: diffuse light by way of mirrors and glass

@@ -219,7 +219,7 @@ private:
                    cat("the weights of its lobes sum up to ", rounded(sumOfWeights(*first)),
                        "; they are scaled to 1"));
     }
-    // Of one material, with how many others there are.
+    // Names one material, and says how many others there are.
     void warnOfSome(const MaterialDesc& first, std::ptrdiff_t others, std::string_view what) {
         warn(first.loc, cat(called(first),
                             others == 0   ? ""

@@ -6,15 +6,11 @@
 #include "base/math.h"
 #include "base/text.h"
 #include "image/image.h"
-#include "light/kinds/triangle.h"
-#include "render/batch.h"
 #include "render/eye.h"
-#include "render/light_rows.h"
 #include "render/make_light.h"
 #include "render/make_shapes.h"
-#include "render/path/emitter_row.h"
 #include "render/path/make_lobes.h"
-#include "render/path/scene_sky.h"
+#include "render/path/scene_lights.h"
 #include "render/picture_reader.h"
 #include "render/texture_files.h"
 #include "render/to_float.h"
@@ -23,6 +19,7 @@
 #include <algorithm>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 AnyMaterial& AnyMaterial::operator|=(const SceneMaterial& m) {
@@ -56,13 +53,14 @@ public:
     void build() {
         chooseCamera();
         scene_.frame_ = frameOf(desc_, *cameraDesc_, settings_.threads);
+        sceneLights_.emplace(desc_, scene_.frame_, settings_);
+        scene_.isLobed_ = sceneLights_->areLobesNeeded();
         scene_.shapes_.distantFrom = scene_.frame_.distantFrom;
         scene_.accelKind_ = settings_.accel;
-        scene_.isLobed_ = isPath() || needsLobes();
         buildCamera();
         scene_.features_ = featuresOf(desc_, *cameraDesc_, settings_);
         keepUnevenPlaces();
-        keepEmitters();
+        if (scene_.isLobed_) sceneLights_->keepObjects();
         buildPicturesAndShapes();
         warnOfMissing();
         buildMaterials();
@@ -229,13 +227,16 @@ private:
             const MaterialDesc& desc = i < desc_.materials.size() ? desc_.materials[i] : standard;
             const LobeList list = lobesOf(desc, pictures, on_);
             scene_.any_.pictures |= !list.factors.empty();
+            const auto warn = [&](std::string_view what) {
+                scene_.warnings_.push_back(located(source_, desc.loc.offset,
+                                                   cat("material ", desc.name, what), "warning"));
+            };
             if (!lobed.add(list.lobes, list.factors, emits(desc)))
-                scene_.warnings_.push_back(
-                    located(source_, desc.loc.offset,
-                            cat("material ", desc.name,
-                                " reflects more than arrives, and is scaled to what does; weights "
-                                "whose sum is at most 1 would be right"),
-                            "warning"));
+                warn(" reflects more than arrives, and is scaled to what does; weights whose sum "
+                     "is at most 1 would be right");
+            if (list.variesBoundaries())
+                warn(" has a picture on the ior of a lobe that transmits, which is left out; a "
+                     "number alone would be right");
         }
     }
     static bool emits(const MaterialDesc& desc) { return !isBlack(toRgb(desc.emission)); }
@@ -372,7 +373,7 @@ private:
             desc_.textures[static_cast<std::size_t>(desc_.world.environment)];
         auto image = pictureOf(picture);
         if (!image) return;
-        if (skyLights())
+        if (sceneLights_->skyLights())
             if (const auto why = whyNoLight(*image))
                 fail(ErrorKind::Input,
                      located(source_, picture.fileLoc.offset, cat(picture.file, ": ", *why)));
@@ -383,31 +384,6 @@ private:
     }
 
     // ---- lights
-
-    bool isPath() const { return settings_.picture.integrator == IntegratorKind::Path; }
-    bool needsLobes() const {
-        if (settings_.picture.integrator != IntegratorKind::Whitted) return false;
-        return desc_.world.environmentLights || desc_.world.ambientOcclusion > 0 ||
-               std::any_of(
-                   desc_.materials.begin(), desc_.materials.end(),
-                   [](const MaterialDesc& m) { return !m.lobes.empty() || m.emissionLights; });
-    }
-    bool skyLights() const { return isPath() || desc_.world.environmentLights; }
-
-    // Whether rays can meet the lamp.
-    static bool hasSize(const LightDesc& desc) {
-        using enum LightDesc::Kind;
-        if (desc.kind == Sun) return desc.angleDeg > 0;
-        return desc.kind == Rectangle || desc.kind == Disk || desc.kind == Sphere ||
-               desc.radius > 0;
-    }
-    static std::uint8_t seenBy(LightDesc::SeenBy by) {
-        using enum LightDesc::SeenBy;
-        std::uint8_t bits = 0;
-        if (by == Camera || by == All) bits |= PathBatch::kSeesAsCamera;
-        if (by == Reflections || by == All) bits |= PathBatch::kSeesAsReflection;
-        return bits;
-    }
 
     void buildLights() {
         hasLampBody_.assign(desc_.lights.size(), false);
@@ -424,86 +400,13 @@ private:
                                       makeLampBody(light, scene_.frame_, 0, 0));
         }
         scene_.seenLamps_.finish();
-        if (scene_.isLobed_) buildPathLights();
-    }
-
-    void buildPathLights() {
-        PathLights& lights = scene_.pathLights_;
-        for (std::size_t i = 0; i < desc_.lights.size(); ++i) {
-            const LightDesc& desc = desc_.lights[i];
-            const LightRow row = lightRow(desc, scene_.frame_);
-            if (boundsOf(row).isDark()) {
-                if (!isBlack(toRgb(desc.color)))
-                    scene_.warnings_.push_back(
-                        located(source_, desc.loc.offset,
-                                cat("light ", desc.name,
-                                    " has no area and lights nothing; sides or a radius above 0 "
-                                    "would be right"),
-                                "warning"));
-                continue;
-            }
-            const bool isOpen = !(desc.shadows && on_.shadows);
-            const std::uint32_t light = lights.add({row, isOpen, hasSize(desc), false});
-            if (isOpen || !hasSize(desc)) continue;
-            if (hasLampBody_[i])
-                lights.addObject(static_cast<std::uint32_t>(objectCount_ + i), true, light);
-            else
-                lights.addUnshaped(light, seenBy(desc.seenBy));
-        }
-        // An even sky is left to the lobes of paths, which find it everywhere.
-        if (skyLights() && !isBlack(scene_.background_) && (scene_.environment_ || !isPath()))
-            lights.addSky(scene_.environment_
-                              ? skyTableOf(*scene_.environment_, isPath(), settings_.threads)
-                              : SkyTable(),
-                          skyRadianceOf(scene_.environment_.get(), scene_.background_),
-                          luminance(scene_.background_));
-        for (const Emitter& emitter : emitterObjects_) {
-            const std::uint32_t light = lights.add({emitter.row, false, true, true});
-            lights.addObject(emitter.object, !emitter.back, light);
-            if (emitter.bothSides) lights.addObject(emitter.object, emitter.back, light);
-        }
-        for (std::uint32_t shape = 0; shape < scene_.shapes_.shapes.size(); ++shape)
-            scene_.shapes_.shapes[shape]->forEachTriangle([&](std::uint32_t triangle,
-                                                              const std::array<Vec3, 3>& corners,
-                                                              std::uint32_t material) {
-                if (!isEvenEmitter(material)) return;
-                const SceneMaterial& of = scene_.materials_[material];
-                const TriangleRow row{corners[0], corners[1], corners[2], of.base.emission,
-                                      of.emitsFront ? 0.0f : 1.0f};
-                lights.addTriangle(shape, triangle, lights.add({lightRow(row), false, true, true}));
-            });
-        lights.finish();
-    }
-
-    // Whether the material shines the same everywhere: only then its surface is sampled.
-    bool isEvenEmitter(std::uint32_t material) const {
-        const SceneMaterial& of = scene_.materials_[material];
-        if (!isPath() && !of.lightsOthers) return false;
-        return !isBlack(of.base.emission) && !of.pictures->emission && !of.isLamp;
-    }
-    // Before objects are let go: those that shine and are no meshes.
-    void keepEmitters() {
         if (!scene_.isLobed_) return;
-        for (std::size_t i = 0; i < objectCount_; ++i) {
-            const ObjectDesc& object = desc_.objects[i];
-            const Handle number = object.materials.empty() ? kNone : object.materials[0];
-            if (object.kind == ObjectDesc::Kind::Mesh || number == kNone ||
-                object.sides != ObjectDesc::Sides::Both)
-                continue;
-            const MaterialDesc& material = desc_.materials[static_cast<std::size_t>(number)];
-            const MovingTransform place =
-                placedKeys(object.worldFromObject, scene_.frame_, on_.motionBlur);
-            if (!(isPath() || material.emissionLights) || isBlack(toRgb(material.emission)) ||
-                material.emissionTexture != kNone || !place.isStatic())
-                continue;
-            const bool bothSides = material.emissionSides == MaterialDesc::Sides::Both;
-            const auto number32 = static_cast<std::uint32_t>(i);
-            const Rgb radiance = toRgb(material.emission);
-            const auto front = makeEmitterRow(object, place.at(0), radiance, false);
-            const auto back = makeEmitterRow(object, place.at(0), radiance, true);
-            if (front) emitterObjects_.push_back({number32, false, bothSides && !back, *front});
-            if (back && bothSides) emitterObjects_.push_back({number32, true, false, *back});
-        }
+        for (std::string& warning : sceneLights_->addTo(
+                 scene_.pathLights_,
+                 {scene_.shapes_, scene_.materials_, scene_.environment_.get(), scene_.background_,
+                  hasLampBody_, static_cast<std::uint32_t>(objectCount_)},
+                 source_))
+            scene_.warnings_.push_back(std::move(warning));
     }
 
     // A lamp that can be seen casts no shadows: its light passes through its body.
@@ -526,12 +429,7 @@ private:
     const SceneDesc& desc_;
     SceneDesc* spent_;              // may be null
     std::vector<bool> hasLampBody_; // by light
-    struct Emitter {
-        std::uint32_t object;
-        bool back, bothSides;
-        LightRow row;
-    };
-    std::vector<Emitter> emitterObjects_;
+    std::optional<SceneLights> sceneLights_;
     std::vector<std::string> missing_; // by texture: the warning, of a picture that misses
     const SourceFile& source_;
     const RenderSettings& settings_;

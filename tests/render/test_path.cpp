@@ -97,6 +97,67 @@ TEST(paths_and_whitted_pictures_see_the_same_lamps) {
     }
 }
 
+// The mean of a floor under lamps, by paths of no bounce.
+static double floorByPaths(const std::string& lamp, const shot::Tweak& more = {}) {
+    return shot::estimate(shot::render(floorUnder(lamp, 256),
+                                       [&](RenderSettings& settings) {
+                                           path(0)(settings);
+                                           if (more) more(settings);
+                                       })
+                              .color)
+        .mean;
+}
+
+// A lamp's light is counted once, whether its body can be met or not, where it casts no shadows and
+// where it is asked in its centre alone. Direct light is not clamped as indirect light is.
+TEST(paths_count_lamps_once) {
+    const std::string lamp = "light l {\n type rectangle\n translate 0.5 0 1\n size 2 1\n";
+    const double shades = floorByPaths(lamp + "}\n");
+    // Means of 16,384 samples each, of a relative deviation below 1.
+    CHECK_NEAR(floorByPaths(lamp + " shadows false\n}\n"), shades, 0.02 * shades);
+    CHECK_NEAR(floorByPaths(lamp + " shadows false\n visible true\n}\n"), shades, 0.02 * shades);
+    const auto inCentre = [](RenderSettings& settings) { settings.switches.softShadows = false; };
+    const double hard = floorByPaths(lamp + " visible true\n}\n", inCentre);
+    CHECK_NEAR(hard, shot::estimate(shot::render(floorUnder(lamp + "}\n"), inCentre).color).mean,
+               1e-5 * hard);
+    const auto clamped = [](RenderSettings& settings) { settings.picture.clampIndirect = 1e-4; };
+    CHECK_EQUAL(floorByPaths(lamp + "}\n", clamped), shades);
+}
+
+// At the last bounce of a Whitted picture samples of lamps have all of the light that rays of rough
+// lobes would find otherwise.
+TEST(rough_metal_keeps_its_highlight_at_the_last_bounce) {
+    const auto highlight = [](int depth) {
+        return shot::estimate(
+            shot::render(cat("settings {\n resolution 8 8\n samples 1024\n max_depth ", depth,
+                             "\n cutoff 0\n}\n"
+                             "camera c {\n look_at 0 -1 1  0 0 0  0 0 1\n lens 50\n}\n"
+                             "material m {\n lobe conductor color 1 1 1 roughness 0.5\n}\n"
+                             "plane p {\n scale 9 9 1\n material m\n}\n"
+                             "light l {\n type sphere\n translate 0 1 1\n radius 0.4\n}\n"))
+                .color);
+    };
+    const auto alone = highlight(0), together = highlight(1);
+    CHECK(alone.mean > 0.1);
+    CHECK_NEAR(alone.mean, together.mean, 0.01 * together.mean);
+}
+
+// Eight lobes that are written, and those that short keywords mean besides.
+TEST(short_keywords_add_to_eight_lobes) {
+    std::string material = "material m {\n";
+    for (int i = 0; i < 8; ++i) material += " lobe diffuse weight 0.05 0.05 0.05\n";
+    const std::string rest = "plane floor {\n scale 20 20 1\n material m\n}\n"
+                             "light l {\n type sun\n color 3.14159265 3.14159265 3.14159265\n}\n";
+    const auto radiance = [&](const std::string& more) {
+        return shot::render(cat(shot::TopView{.pixels = 1}.text(), material, more, "}\n", rest))
+            .at(0, 0);
+    };
+    CHECK_RGB(radiance(""), (Vec3d{0.4, 0.4, 0.4}), 1e-6);
+    CHECK_RGB(radiance(" diffuse 0.1 0.2 0.3\n mirror 0.1 0.1 0.1\n transmission 0.1 0.1 0.1\n"
+                       " specular 0.01 0.01 0.01\n"),
+              (Vec3d{0.5 + 0.01 * kPi, 0.6 + 0.01 * kPi, 0.7 + 0.01 * kPi}), 1e-5);
+}
+
 // A surface that shines lights as the lamp of its form does, sampled or met by chance.
 TEST(shining_surfaces_light_as_lamps_do) {
     struct Pair {

@@ -85,7 +85,7 @@ private:
     Seen seenFrom(const Floats3& p) const {
         const Doubles zero(0.0), one(1.0), third(1.0 / 3);
         const Doubles3 a = differenceOf(a_, p), b = a + edgeB_, c = a + edgeC_;
-        // Of one sign with the distance behind the front: the volume of the corners.
+        // The volume of the corners has the sign of the distance behind the front.
         const Doubles volume = dot(a, across_);
         const Mask isFront = volume < zero;
         const Doubles side = select(isFront, Doubles(-1.0), one);

@@ -39,12 +39,12 @@ inline constexpr int kMostSkyColumns = 1024, kMostSkyRows = 512;
 
 class SkyTable {
 public:
-    // Of one cell: all directions are equally likely.
+    // Makes a table of one cell: all directions are equally likely.
     SkyTable() : SkyTable(1, 1, std::vector<float>{1}, false, {}) {}
     // `luminance`: of width x height cells, rows from the bottom; no number is negative or NaN.
     // `compensated`: only what is brighter than the mean is sampled, in proportion to the rest
-    // (Karlik et al. 2019), for who combines samples with those of surfaces; else no cell has less
-    // than a thousandth of an even share. The threads give the same table, however many.
+    // (Karlik et al. 2019), where samples are combined with those of surfaces; else no cell has
+    // less than a thousandth of an even share. The threads give the same table, however many.
     SkyTable(int width, int height, std::span<const float> luminance, bool compensated,
              SkyPlace place, int threads = 1);
 

@@ -23,5 +23,5 @@ struct LightBounds {
 // give at distance 1.
 LightBounds boundsOf(const LightRow& row);
 
-// Of a sky: irradiance is that of a surface which sees half of it.
+// Returns the bounds of a sky; irradiance is that of a surface which sees half of it.
 LightBounds boundsOfSky(double irradiance);

@@ -13,7 +13,7 @@ double byFormula(double cosSpread, double cosReach) {
            kHalfPi * (2 * w * sine - exact::cos(o - 2 * w) - 2 * o * sine + cosSpread);
 }
 
-// By the sine of half the angle, in which it is smooth.
+// The table goes by the sine of half the angle, in which the measure is smooth.
 constexpr std::size_t kSteps = 128;
 const std::array<double, kSteps + 2>& table() {
     static const auto made = [] {

@@ -4,6 +4,7 @@
 
 #include "material/lobes.h"
 #include "render/path/lobe_block.h"
+#include "sample/power_heuristic.h"
 
 #include <cstddef>
 
@@ -72,7 +73,7 @@ public:
     // don't.
     Floats3 evalBesideRays(const Floats3& toLight, Floats lampPdf) const {
         Floats3 f = rgbOf(0.0f);
-        const Floats lamp2 = lampPdf * lampPdf, zero(0.0f);
+        const Floats zero(0.0f), one(1.0f);
         for (std::size_t l = 0; l < block_.count; ++l)
             forLobe(block_.lobe[l].kind, [&]<class L> {
                 if constexpr ((L::kFlags & kAnswersLights) != 0) {
@@ -80,8 +81,7 @@ public:
                     Floats3 value = weight_[l] * lobe.eval(toEye_, toLight);
                     if constexpr (spawnsInWhitted(L::kFlags)) {
                         const Floats pdf = lobe.pdf(toEye_, toLight);
-                        const Floats part = lamp2 / (lamp2 + pdf * pdf);
-                        value = value * select(lampPdf > zero, part, Floats(1.0f));
+                        value = value * select(lampPdf > zero, powerHeuristic(lampPdf, pdf), one);
                     }
                     f = f + value;
                 }
@@ -163,8 +163,8 @@ private:
     std::size_t first_;
     Floats3 toEye_;
     Floats eta_;
-    Floats3 weight_[kMostLobes]; // with what lies on them
-    Floats share_[kMostLobes];   // probability to be chosen
+    Floats3 weight_[LobeBlock::kMost]; // with what lies on them
+    Floats share_[LobeBlock::kMost];   // probability to be chosen
 };
 
 LANES_END

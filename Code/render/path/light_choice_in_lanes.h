@@ -4,6 +4,7 @@
 #include "light/kinds/sky.h"
 #include "light/lights.h"
 #include "light/tree/pick_lanes.h"
+#include "material/lobe.h"
 #include "render/path/path_lights.h"
 
 #include <bit>
@@ -31,6 +32,19 @@ private:
     alignas(64) float column_[kLightNumbers][W] = {};
 };
 
+// Samples lights of the kind of `entry`, whose numbers are those of `columns`.
+inline SampledLight sampleOf(const PathLights& lights, const PathLights::Entry& entry,
+                             const LightColumns& columns, const Floats3& p, Floats u, Floats v) {
+    const Floats zero(0.0f);
+    SampledLight out{rgbOf(0.0f), zero, rgbOf(0.0f), zero, noLanes()};
+    if (entry.row.kind == PathLights::kSkyKind) out = SkyEmitter(lights.skyView()).sample(p, u, v);
+    forLight(entry.row.kind, [&]<class L> {
+        const L light(columns.numbers());
+        out = entry.inCentre ? light.centre(p) : light.sample(p, u, v);
+    });
+    return out;
+}
+
 // `n` is black where both sides of the surface are lit. Lanes that are not set get any sample.
 // `pick` and `more` are the upper and lower bits of one random number.
 inline ChosenLight chooseLight(const PathLights& lights, const Floats3& p, const Floats3& n,
@@ -46,31 +60,24 @@ inline ChosenLight chooseLight(const PathLights& lights, const Floats3& p, const
     if (left != lanes) // no light: any row will do
         for (std::size_t lane = 0; lane < W; ++lane)
             if ((left >> lane & 1) == 0) light[lane] = 0;
-    unsigned surfaces = 0;
+    alignas(64) float end[W] = {};
     while (left != 0) {
-        const auto leader = static_cast<std::size_t>(std::countr_zero(left));
-        const std::uint32_t kind = lights.entry(light[leader]).row.kind;
+        const PathLights::Entry& leader =
+            lights.entry(light[static_cast<std::size_t>(std::countr_zero(left))]);
         LightColumns columns;
         unsigned alike = 0;
         for (std::size_t lane = 0; lane < W; ++lane) {
             const PathLights::Entry& entry = lights.entry(light[lane]);
-            const bool is = entry.row.kind == kind;
-            columns.put(is ? entry.row : lights.entry(light[leader]).row, lane);
-            alike |= static_cast<unsigned>(is) << lane;
-            if (is && entry.isOpen) out.open |= 1u << lane;
-            if (is && entry.isSurface) surfaces |= 1u << lane;
+            const bool is = entry.row.kind == leader.row.kind && entry.inCentre == leader.inCentre;
+            columns.put(is ? entry.row : leader.row, lane);
+            if (!is) continue;
+            alike |= 1u << lane, end[lane] = PathLights::endOf(entry);
+            if (entry.isOpen) out.open |= 1u << lane;
         }
-        if (kind == PathLights::kSkyKind)
-            out.sample =
-                select(maskOf(alike), SkyEmitter(lights.skyView()).sample(p, u, v), out.sample);
-        forLight(kind, [&]<class L> {
-            const L light(columns.numbers());
-            out.sample = select(maskOf(alike), light.sample(p, u, v), out.sample);
-        });
+        out.sample = select(maskOf(alike), sampleOf(lights, leader, columns, p, u, v), out.sample);
         left &= ~alike;
     }
-    out.end =
-        out.sample.distance * select(maskOf(surfaces), Floats(1 - 0x1p-15f), Floats(1 - 0x1p-20f));
+    out.end = out.sample.distance * Floats::load(end);
     out.met = ~bits(out.sample.single) & ~out.open;
     return out;
 }

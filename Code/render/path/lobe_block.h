@@ -15,6 +15,8 @@ constexpr bool spawnsInWhitted(std::uint32_t flags) {
 
 struct alignas(64) LobeBlock {
     static constexpr std::size_t kPoints = SurfaceBlock::kPoints;
+    // Those that are written as such, and four that short keywords mean.
+    static constexpr std::size_t kMost = kMostLobes + 4;
     using Lane = float[kPoints];
     struct Column {
         std::uint8_t kind;
@@ -23,7 +25,7 @@ struct alignas(64) LobeBlock {
     };
     std::size_t count = 0;
     std::uint32_t flags = 0;
-    Column lobe[kMostLobes];
+    Column lobe[kMost];
     // Points whose lobes differ along and across dp/du, and that direction.
     unsigned turned = 0;
     alignas(64) Lane tangent[3];

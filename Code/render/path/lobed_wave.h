@@ -8,14 +8,10 @@
 #include "render/waves/background.h"
 #include "render/waves/points.h"
 #include "render/waves/single_bounces.h"
+#include "sample/power_heuristic.h"
 
 #include <bit>
-
-// The squares of two densities, the first over their sum (power heuristic, Veach 1997).
-inline float powerHeuristic(float pdf, float other) {
-    const float a = pdf * pdf, b = other * other;
-    return a < kInfinityF ? a / (a + b) : 1.0f;
-}
+#include <utility>
 
 class LobedWave {
 public:
@@ -46,10 +42,10 @@ protected:
     // Light that arrives along ray i, on its sample.
     void add(std::size_t i, Rgb radiance) {
         Rgb light = wave_.rays.weight[i] * radiance;
-        clampIndirect(light, wave_.depth);
+        clampIndirect(light, stateOf(i).bounces() - 1);
         wave_.add(wave_.rays.sample[i], light);
     }
-    // `bounces` lie between the camera and where the light is reflected or seen.
+    // `bounces`: of the path before the one that shows the light.
     void clampIndirect(Rgb& light, int bounces) const {
         const float most = static_cast<float>(limits_.clampIndirect);
         if (!(most > 0) || bounces < 1 || limits_.integrator != IntegratorKind::Path) return;
@@ -61,7 +57,8 @@ protected:
     // a density: the light was sampled as well, with lampPdf() per steradian.
     template <class LampPdf> float partOfHit(std::size_t i, const LampPdf& lampPdf) const {
         const PathState& state = stateOf(i);
-        return state.pdf > 0 ? powerHeuristic(state.pdf, lampPdf(state)) : 1;
+        if (!(state.pdf > 0)) return 1;
+        return kernels::one::powerHeuristic(state.pdf, lampPdf(state)).v;
     }
 
     // `lampPdf(state, light, direction)`: see partOfHit(); light may be PathLights::kNone.
@@ -104,7 +101,8 @@ protected:
         std::uint32_t light = lights_.ofObject(at.surface.object, at.front);
         if (light == PathLights::kNone) light = lights_.ofTriangle(hit.shape, hit.prim);
         Rgb radiance = here.emission * here.opacity;
-        if (at.of->isLamp && light != PathLights::kNone) // it may not be the same for all directions
+        if (at.of->isLamp &&
+            light != PathLights::kNone) // it may not be the same for all directions
             radiance = lights_.radianceOf(light, wave_.rays.org[i], normalize(wave_.rays.dir[i]),
                                           radiance);
         add(i, radiance * partOfHit(i, [&](const PathState& state) {
@@ -194,3 +192,22 @@ private:
         return outside;
     }
 };
+
+// Runs WaveOf for one wave of rays after the other.
+template <class WaveOf>
+void integrateInWaves(const IntegratorContext& context, SampleChunk& chunk, WaveMemory& memory,
+                      RayCounts& counts, std::uint64_t& cameraHits) {
+    counts.camera += chunk.cameraRays.size();
+    memory.media = context.media;
+    memory.path.states.assign(chunk.cameraRays.size(), PathState{});
+    const PathBatch* rays = &chunk.cameraRays;
+    for (int depth = 0; !rays->empty(); ++depth) {
+        const Wave wave{context, *rays, depth, chunk, memory, counts};
+        closest(context.scene, *rays, memory.hits);
+        WaveOf(wave).run();
+        if (depth == 0) cameraHits += memory.points.count;
+        std::swap(memory.rays, memory.next);
+        std::swap(memory.path.states, memory.path.nextStates);
+        rays = &memory.rays;
+    }
+}

@@ -4,6 +4,8 @@
 #include "desc/lobes.h"
 #include "render/to_float.h"
 
+#include <algorithm>
+
 namespace {
 
 // The place of a field among a lobe's values.
@@ -22,6 +24,12 @@ Rgb grey(double v) {
     return {f, f, f};
 }
 
+// The index of refraction whose boundary reflects so much at normal incidence.
+double iorOf(float reflected) {
+    const double root = std::sqrt(min(static_cast<double>(reflected), 0.99));
+    return (1 + root) / (1 - root);
+}
+
 std::string_view modelName(MaterialDesc::SpecularModel model) {
     switch (model) {
     case MaterialDesc::SpecularModel::Ashikhmin: return "ashikhmin";
@@ -32,6 +40,12 @@ std::string_view modelName(MaterialDesc::SpecularModel model) {
 }
 
 } // namespace
+
+bool LobeList::variesBoundaries() const {
+    return std::any_of(factors.begin(), factors.end(), [&](const LobeFactor& factor) {
+        return factor.first == 3 && (lobeTypes()[lobes[factor.lobe].kind].flags & kHasSides) != 0;
+    });
+}
 
 LobeRow lobeRow(std::string_view kind, Rgb weight) {
     LobeRow row;
@@ -105,6 +119,14 @@ LobeList lobesOf(const MaterialDesc& desc, const TextureOf& textureOf, const Swi
         setField(lobe, "roughness", grey(roughness));
         return lobe;
     };
+    const auto layer = [&](double ior, Rgb tint) {
+        LobeRow lobe = lobeRow("glossy_dielectric", white);
+        setField(lobe, "ior", grey(ior)), setField(lobe, "roughness", grey(roughness));
+        const float most = maxChannel(tint);
+        setField(lobe, "tint",
+                 fresnel == MaterialDesc::Fresnel::Schlick && most > 0 ? tint * (1 / most) : tint);
+        return lobe;
+    };
     switch (fresnel) {
     case MaterialDesc::Fresnel::None:
         add(isRough ? metal(mirror, white) : lobeRow("mirror", mirror));
@@ -112,9 +134,12 @@ LobeList lobesOf(const MaterialDesc& desc, const TextureOf& textureOf, const Swi
         break;
     case MaterialDesc::Fresnel::Schlick: {
         if (isBlack(mirror) && isBlack(transmission)) break;
-        LobeRow lobe = isRough ? metal(white, mirror) : lobeRow("schlick_mirror", white);
+        const bool hasBelow = !isBlack(transmission) || !isBlack(toRgb(desc.diffuse));
+        LobeRow lobe = isRough && hasBelow ? layer(iorOf(maxChannel(mirror)), mirror)
+                       : isRough           ? metal(white, mirror)
+                                           : lobeRow("schlick_mirror", white);
         if (!isRough) setField(lobe, "color", mirror);
-        lobe.covers = !isBlack(transmission);
+        lobe.covers = hasBelow;
         add(lobe);
         // What is behind it gets (1 - mirror)(1 - rise) of its light.
         const auto over = [](float t, float m) { return m < 1 ? t / (1 - m) : 0.0f; };
@@ -125,8 +150,13 @@ LobeList lobesOf(const MaterialDesc& desc, const TextureOf& textureOf, const Swi
     case MaterialDesc::Fresnel::Dielectric: {
         if (isBlack(mirror) && isBlack(transmission)) break;
         LobeRow lobe = lobeRow("dielectric", white);
-        setField(lobe, "ior", grey(desc.ior)), setField(lobe, "roughness", grey(roughness));
-        setField(lobe, "reflect_tint", mirror), setField(lobe, "transmit_tint", transmission);
+        if (isBlack(transmission)) {
+            lobe = layer(desc.ior, mirror);
+            lobe.covers = !isBlack(toRgb(desc.diffuse));
+        } else {
+            setField(lobe, "ior", grey(desc.ior)), setField(lobe, "roughness", grey(roughness));
+            setField(lobe, "reflect_tint", mirror), setField(lobe, "transmit_tint", transmission);
+        }
         add(lobe);
         break;
     }

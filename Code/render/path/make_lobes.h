@@ -11,6 +11,10 @@
 struct LobeList {
     std::vector<LobeRow> lobes;
     std::vector<LobeFactor> factors;
+
+    // Whether a picture is to multiply the ior of a lobe that asks for both sides of its surface,
+    // which is one number for all that is within.
+    bool variesBoundaries() const;
 };
 // Sets the numbers of a lobe by the names of its fields.
 LobeRow lobeRow(std::string_view kind, Rgb weight);

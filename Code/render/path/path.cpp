@@ -44,7 +44,8 @@ private:
             const std::size_t i = k - first;
             const LobedMaterial& of = materials_[at.material[i]];
             if ((of.flags & LobedMaterial::kEmits) != 0) addEmission(k, pdfOf());
-            if (of.lobes == 0 || stateOf(points.ray[k]).isLast) continue;
+            const bool answers = of.lobes != 0 || points.at.of(k).seeThrough();
+            if (!answers || stateOf(points.ray[k]).isLast) continue;
             waiting |= 1u << i;
             pixels[i] = wave_.rays.stream[points.ray[k]];
             samples[i] = wave_.chunk.sampleNumber[points.slot[k]];
@@ -70,7 +71,7 @@ private:
             straight |= 1u << i;
             const std::uint32_t ray = memory_.points.ray[k];
             PathState state = stateOf(ray);
-            if (++state.transparent > limits_.transparentDepth) continue;
+            if (++state.transparent > limits_.transparentDepth || isBlack(here.filter)) continue;
             const PathBatch& rays = wave_.rays;
             memory_.next.push(
                 {leave(at.surface, -at.eye.ng), rays.dir[ray], 0, kInfinityF, rays.time[ray]},
@@ -104,7 +105,7 @@ private:
             const std::uint32_t ray = memory_.points.ray[k], slot = memory_.points.slot[k];
             const Vec3 v = SurfaceBlock::get(block.fromLamp, i);
             Rgb light{v.x, v.y, v.z};
-            clampIndirect(light, bouncesOf(stateOf(ray)) + 1);
+            clampIndirect(light, stateOf(ray).bounces());
             ++wave_.counts.shadow;
             if ((block.open >> i & 1) != 0) {
                 wave_.add(slot, light);
@@ -115,9 +116,6 @@ private:
                                    wave_.rays.time[ray]},
                                   slot, light);
         }
-    }
-    static int bouncesOf(const PathState& state) {
-        return state.diffuse + state.glossy + state.transmission;
     }
 
     // Rays that go on.
@@ -133,13 +131,13 @@ private:
                        isTransmitted = (block.transmitted >> i & 1) != 0,
                        isSingle = (block.single >> i & 1) != 0;
             if (!limits_.caustics && state.diffuse > 0 && !isDiffuse) continue;
-            if (isDiffuse)
-                state.isLast = ++state.diffuse > limits_.diffuseDepth;
-            else if (isTransmitted)
+            if (isTransmitted)
                 state.isLast = ++state.transmission > limits_.transmissionDepth;
+            else if (isDiffuse)
+                state.isLast = ++state.diffuse > limits_.diffuseDepth;
             else
                 state.isLast = ++state.glossy > limits_.glossyDepth;
-            const int bounces = bouncesOf(state);
+            const int bounces = state.bounces();
             state.isLast |= bounces > limits_.maxDepth;
             // The last ray is traced for the light that was weighted against it.
             if (state.isLast && isSingle) continue;
@@ -175,17 +173,5 @@ private:
 
 void integratePath(const IntegratorContext& context, SampleChunk& chunk, WaveMemory& memory,
                    RayCounts& counts, std::uint64_t& cameraHits) {
-    counts.camera += chunk.cameraRays.size();
-    memory.media = context.media;
-    memory.path.states.assign(chunk.cameraRays.size(), PathState{});
-    const PathBatch* rays = &chunk.cameraRays;
-    for (int depth = 0; !rays->empty(); ++depth) {
-        const Wave wave{context, *rays, depth, chunk, memory, counts};
-        closest(context.scene, *rays, memory.hits);
-        PathWave(wave).run();
-        if (depth == 0) cameraHits += memory.points.count;
-        std::swap(memory.rays, memory.next);
-        std::swap(memory.path.states, memory.path.nextStates);
-        rays = &memory.rays;
-    }
+    integrateInWaves<PathWave>(context, chunk, memory, counts, cameraHits);
 }

@@ -5,6 +5,7 @@
 #include "render/path/bsdf_in_lanes.h"
 #include "render/path/light_choice_in_lanes.h"
 #include "render/path/path_block.h"
+#include "sample/power_heuristic.h"
 
 #include <cstddef>
 
@@ -20,12 +21,6 @@ inline void storeWhere(unsigned lanes, const Floats3& v, float (*to)[PathBlock::
                        std::size_t first) {
     storeWhere(lanes, v.x, to[0] + first), storeWhere(lanes, v.y, to[1] + first),
         storeWhere(lanes, v.z, to[2] + first);
-}
-
-// The squares of two densities, over their sum: how much the first one counts (power heuristic).
-inline Floats powerHeuristic(Floats pdf, Floats other) {
-    const Floats a = pdf * pdf, b = other * other, sum = a + b;
-    return select(sum > Floats(0.0f), a / sum, Floats(0.0f));
 }
 
 // The geometry of W points as it is seen from the eye.
@@ -68,6 +63,45 @@ inline ShadingFrame frameOf(const LobeBlock& lobes, std::size_t first, const Flo
     return {x, select(is, cross(n, x), any.y), n};
 }
 
+// The lanes among which light from a direction arrives: above the horizon of the surface, or of the
+// curve that its normals pretend, or from behind where lobes transmit.
+struct Arriving {
+    unsigned lanes, below;
+};
+inline Arriving arriving(const SeenPoints& at, const Floats3& dir, const Floats3& toLight,
+                         bool transmits) {
+    const Floats zero(0.0f), rise = dot(at.ng, dir);
+    const unsigned up = bits(toLight.z > zero);
+    unsigned above = bits(rise > zero) & up;
+    if (at.lifted != 0) above |= at.lifted & bits(dot(at.ns, dir) > zero) & up;
+    const unsigned below = transmits ? bits((rise < zero) & (toLight.z < zero)) : 0;
+    return {above | below, below};
+}
+// Where shadow rays to it start.
+inline Floats3 shadowOrigin(const SeenPoints& at, unsigned below) {
+    return select(maskOf(below), at.beneath(), at.above() + at.lift);
+}
+
+// Calls fn(lanes, first, points as they are seen, frame, Bsdf) for each register of a block.
+template <class See, class Fn>
+void forEachRow(const LobeBlock& lobes, unsigned points, const LobeBlock::Lane& eta, See&& see,
+                Fn&& fn) {
+    for (std::size_t first = 0; first < LobeBlock::kPoints && points >> first != 0; first += W) {
+        const unsigned lanes = points >> first & SeenPoints::kAllLanes;
+        if (lanes == 0) continue;
+        const SeenPoints at = see(first);
+        const ShadingFrame frame = frameOf(lobes, first, at.n);
+        Bsdf bsdf(lobes, first, frame.toLocal(at.toEye), Floats::load(eta + first));
+        fn(lanes, first, at, frame, bsdf);
+    }
+}
+template <class Fn>
+void forEachRow(const PointBlock& points, const LobeBlock& lobes, const PathBlock& block, Fn&& fn) {
+    forEachRow(
+        lobes, block.points, block.eta,
+        [&](std::size_t first) { return SeenPoints(points, first); }, fn);
+}
+
 // Light of one lamp, for points whose bits are set.
 inline void sendLight(const PathLights& lights, const SeenPoints& at, const ShadingFrame& frame,
                       const Bsdf& bsdf, bool transmits, unsigned lanes, std::size_t first,
@@ -80,12 +114,8 @@ inline void sendLight(const PathLights& lights, const SeenPoints& at, const Shad
                     Floats::load(u.lightV + first), lanes);
     const SampledLight& lamp = chosen.sample;
     const Floats3 toLight = frame.toLocal(lamp.toLight);
-    const Floats rise = dot(at.ng, lamp.toLight);
-    unsigned above = bits((rise > zero) & (toLight.z > zero));
-    if (at.lifted != 0)
-        above |= at.lifted & bits((dot(at.ns, lamp.toLight) > zero) & (toLight.z > zero));
-    const unsigned below = transmits ? bits((rise < zero) & (toLight.z < zero)) : 0;
-    lanes &= (above | below) & bits(maxOf(lamp.irradiance) > zero);
+    const auto [arrives, below] = arriving(at, lamp.toLight, toLight, transmits);
+    lanes &= arrives & bits(maxOf(lamp.irradiance) > zero);
     if (lanes == 0) return;
     const Bsdf::Value value = bsdf.eval(toLight);
     const Floats pdf = lamp.pdf * chosen.probability;
@@ -98,8 +128,7 @@ inline void sendLight(const PathLights& lights, const SeenPoints& at, const Shad
     storeWhere(lanes, light, block.fromLamp, first);
     storeWhere(lanes, lamp.toLight, block.toLamp, first);
     storeWhere(lanes, chosen.end, block.lampEnd + first);
-    const Floats3 org = select(maskOf(below), at.beneath(), at.above() + at.lift);
-    storeWhere(lanes, org, block.lampOrg, first);
+    storeWhere(lanes, shadowOrigin(at, below), block.lampOrg, first);
     block.lit |= lanes << first, block.open |= (lanes & chosen.open) << first;
 }
 
@@ -133,24 +162,20 @@ inline void sendRay(const SeenPoints& at, const ShadingFrame& frame, const BsdfS
 
 void scatterBlock(const PathLights& lights, const PointBlock& points, const LobeBlock& lobes,
                   PathBlock& block) {
-    for (std::size_t first = 0; first < PathBlock::kPoints && block.points >> first != 0;
-         first += W) {
-        const unsigned lanes = block.points >> first & SeenPoints::kAllLanes;
-        if (lanes == 0) continue;
-        const SeenPoints at(points, first);
-        const ShadingFrame frame = frameOf(lobes, first, at.n);
-        Bsdf bsdf(lobes, first, frame.toLocal(at.toEye), Floats::load(block.eta + first));
-        bsdf.choose();
-        if ((lobes.flags & kAnswersLights) != 0 && !lights.isEmpty())
-            sendLight(lights, at, frame, bsdf, (lobes.flags & kTransmits) != 0, lanes, first,
-                      block);
-        if ((lobes.flags & kSpawnsRays) == 0) continue;
-        const PathNumbers& u = block.numbers;
-        sendRay(at, frame,
-                bsdf.sample(Floats::load(u.lobe + first), Floats::load(u.bsdfU + first),
-                            Floats::load(u.bsdfV + first)),
-                lanes, first, block);
-    }
+    forEachRow(points, lobes, block,
+               [&](unsigned lanes, std::size_t first, const SeenPoints& at,
+                   const ShadingFrame& frame, Bsdf& bsdf) {
+                   bsdf.choose();
+                   if ((lobes.flags & kAnswersLights) != 0 && !lights.isEmpty())
+                       sendLight(lights, at, frame, bsdf, (lobes.flags & kTransmits) != 0, lanes,
+                                 first, block);
+                   if ((lobes.flags & kSpawnsRays) == 0) return;
+                   const PathNumbers& u = block.numbers;
+                   sendRay(at, frame,
+                           bsdf.sample(Floats::load(u.lobe + first), Floats::load(u.bsdfU + first),
+                                       Floats::load(u.bsdfV + first)),
+                           lanes, first, block);
+               });
 }
 
 LANES_END

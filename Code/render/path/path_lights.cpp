@@ -39,10 +39,10 @@ void PathLights::addTriangle(std::uint32_t shape, std::uint32_t triangle, std::u
 }
 
 void PathLights::addSky(SkyTable table, std::unique_ptr<const SkyRadiance> radiance,
-                        double brightness) {
+                        double brightness, bool isOpen) {
     skyBrightness_ = brightness;
     skyTable_ = std::move(table), skyRadiance_ = std::move(radiance);
-    sky_ = add({LightRow{kSkyKind, {}}, false, true, false});
+    sky_ = add({.row = {kSkyKind, {}}, .isOpen = isOpen, .isSoft = true});
 }
 
 void PathLights::finish() {
@@ -56,6 +56,7 @@ void PathLights::finish() {
 }
 
 float PathLights::pdfOfLight(Vec3 p, std::uint32_t light, Vec3 dir) const {
+    if (entries_[light].isOfSamplesAlone()) return kInfinityF;
     if (light == sky_) return SkyEmitter(skyView()).pdf(lanesOf(p), lanesOf(dir)).v;
     float pdf = 0;
     const LightRow& row = entries_[light].row;
@@ -67,7 +68,7 @@ float PathLights::pdfOfLight(Vec3 p, std::uint32_t light, Vec3 dir) const {
 
 float PathLights::pdf(Vec3 p, Vec3 n, std::uint32_t light, Vec3 dir) const {
     const float pdf = pdfOfLight(p, light, dir);
-    if (!(pdf > 0)) return 0;
+    if (!(pdf > 0 && pdf < kInfinityF)) return pdf;
     return pdf * LightChoice(tree()).probability(lanesOf(p), lanesOf(n), Ints(light)).v;
 }
 

@@ -22,7 +22,12 @@ public:
         bool isOpen = false;    // casts no shadows
         bool isSoft = false;    // its samples differ
         bool isSurface = false; // shadow rays meet it where they end
+        bool inCentre = false;  // asked as if it sat in its centre
+        // Rays that lobes spread add nothing of it, as its samples have all of its light.
+        bool isOfSamplesAlone() const { return isOpen || inCentre; }
     };
+    // Where shadow rays to it end, as a part of its distance.
+    static float endOf(const Entry& entry) { return entry.isSurface ? 1 - 0x1p-15f : 1 - 0x1p-20f; }
     // Returns the number of the light.
     std::uint32_t add(const Entry& entry);
     // A lamp that is no shape. `seenBy`: which rays see it besides those that lobes spread, as
@@ -33,7 +38,8 @@ public:
     void addTriangle(std::uint32_t shape, std::uint32_t triangle, std::uint32_t light);
     // The sky is one of them; `table` says how it is sampled, `brightness` what its
     // numbers are multiplied by.
-    void addSky(SkyTable table, std::unique_ptr<const SkyRadiance> radiance, double brightness);
+    void addSky(SkyTable table, std::unique_ptr<const SkyRadiance> radiance, double brightness,
+                bool isOpen);
     // Call once when all are there.
     void finish();
 
@@ -43,7 +49,8 @@ public:
     LightTreeView tree() const { return picker_.view(); }
 
     // Density per steradian with which a sample comes along `dir`, a unit vector, from this light:
-    // of its choice and of the direction. `n`: black where both sides of the surface are lit.
+    // of its choice and of the direction; infinite where samples have all of its light. `n`: black
+    // where both sides of the surface are lit.
     float pdf(Vec3 p, Vec3 n, std::uint32_t light, Vec3 dir) const;
     // The same of the direction alone.
     float pdfOfLight(Vec3 p, std::uint32_t light, Vec3 dir) const;

@@ -17,14 +17,15 @@ struct PathState {
     float pdf = 0;
     Vec3 p, n; // the point where the direction was sampled, and its normal (0: both sides)
     std::uint8_t diffuse = 0, glossy = 0, transmission = 0, transparent = 0;
+    int bounces() const { return diffuse + glossy + transmission; }
     bool isLast = false; // only lights are asked what it meets
 };
 
 struct PathMemory {
     std::vector<PathState> states, nextStates; // of memory.rays and memory.next
-    LobeBlock lobes;
-    PathBlock block;
-    LampBlock lamp;
+    LobeBlock lobes{};
+    PathBlock block{};
+    LampBlock lamp{};
     std::array<RayBatch, 8> lampRays; // `sample`: the point
     std::vector<Rgb> sums;            // by point: light on its way to the sample
     std::vector<std::uint32_t> order; // of memory.next: by point and branch

@@ -27,72 +27,51 @@ void lampAtPoints(const PathLights& lights, std::uint32_t number, const PointBlo
     const bool transmits = (lobes.flags & kTransmits) != 0;
     LightColumns columns;
     for (std::size_t lane = 0; lane < W; ++lane) columns.put(entry.row, lane);
-    for (std::size_t first = 0; first < LampBlock::kPoints && block.points >> first != 0;
-         first += W) {
-        unsigned lanes = block.points >> first & SeenPoints::kAllLanes;
-        if (lanes == 0) continue;
-        const SeenPoints at = litPoints(points, first, block.litOutside);
-        SampledLight lamp{rgbOf(0.0f), zero, rgbOf(0.0f), zero, noLanes()};
-        const Floats u = Floats::load(block.u + first), v = Floats::load(block.v + first);
-        if (entry.row.kind == PathLights::kSkyKind)
-            lamp = SkyEmitter(lights.skyView()).sample(at.p, u, v);
-        forLight(entry.row.kind, [&]<class L> {
-            const L light(columns.numbers());
-            lamp = block.inCentre ? light.centre(at.p) : light.sample(at.p, u, v);
+    forEachRow(
+        lobes, block.points, block.eta,
+        [&](std::size_t first) { return litPoints(points, first, block.litOutside); },
+        [&](unsigned lanes, std::size_t first, const SeenPoints& at, const ShadingFrame& frame,
+            const Bsdf& bsdf) {
+            const SampledLight lamp =
+                sampleOf(lights, entry, columns, at.p, Floats::load(block.u + first),
+                         Floats::load(block.v + first));
+            const Floats3 toLight = frame.toLocal(lamp.toLight);
+            const auto [arrives, below] = arriving(at, lamp.toLight, toLight, transmits);
+            lanes &= arrives & bits(maxOf(lamp.irradiance) > zero);
+            if (lanes == 0) return;
+            const bool isShared = block.besideRays && !entry.isOfSamplesAlone();
+            const Floats pdf = isShared ? lamp.pdf * Floats(block.samples) : zero;
+            const Floats3 light = loadThree(block.throughput, first) *
+                                  bsdf.evalBesideRays(toLight, pdf) * lamp.irradiance *
+                                  Floats(1 / block.samples);
+            lanes &= bits(maxOf(light) > zero);
+            storeWhere(lanes, light, block.light, first);
+            storeWhere(lanes, shadowOrigin(at, below), block.org, first);
+            storeWhere(lanes, lamp.toLight, block.dir, first);
+            storeWhere(lanes, lamp.distance * Floats(PathLights::endOf(entry)), block.end + first);
+            block.lit |= lanes << first;
         });
-        const ShadingFrame frame = frameOf(lobes, first, at.n);
-        const Floats3 toLight = frame.toLocal(lamp.toLight);
-        const Floats rise = dot(at.ng, lamp.toLight);
-        unsigned above = bits((rise > zero) & (toLight.z > zero));
-        if (at.lifted != 0)
-            above |= at.lifted & bits((dot(at.ns, lamp.toLight) > zero) & (toLight.z > zero));
-        const unsigned below = transmits ? bits((rise < zero) & (toLight.z < zero)) : 0;
-        lanes &= (above | below) & bits(maxOf(lamp.irradiance) > zero);
-        if (lanes == 0) continue;
-        const Bsdf bsdf(lobes, first, frame.toLocal(at.toEye), Floats::load(block.eta + first));
-        const Floats pdf = entry.isOpen ? zero : lamp.pdf * Floats(block.samples);
-        const Floats3 light = loadThree(block.throughput, first) *
-                              bsdf.evalBesideRays(toLight, pdf) * lamp.irradiance *
-                              Floats(1 / block.samples);
-        lanes &= bits(maxOf(light) > zero);
-        storeWhere(lanes, light, block.light, first);
-        const Floats3 org = select(maskOf(below), at.beneath(), at.above() + at.lift);
-        storeWhere(lanes, org, block.org, first);
-        storeWhere(lanes, lamp.toLight, block.dir, first);
-        storeWhere(lanes, lamp.distance * Floats(entry.isSurface ? 1 - 0x1p-15f : 1 - 0x1p-20f),
-                   block.end + first);
-        block.lit |= lanes << first;
-    }
 }
 
 void bounceAtPoints(const PointBlock& points, const LobeBlock& lobes, std::size_t lobe,
                     bool transmits, PathBlock& block) {
-    const Floats zero(0.0f);
-    for (std::size_t first = 0; first < PathBlock::kPoints && block.points >> first != 0;
-         first += W) {
-        const unsigned lanes = block.points >> first & SeenPoints::kAllLanes;
-        if (lanes == 0) continue;
-        const SeenPoints at(points, first);
-        const ShadingFrame frame = frameOf(lobes, first, at.n);
-        const Bsdf bsdf(lobes, first, frame.toLocal(at.toEye), Floats::load(block.eta + first));
-        const LobeSample next = bsdf.sampleLobe(
-            lobe, transmits, Floats::load(block.numbers.lobe + first),
-            Floats::load(block.numbers.bsdfU + first), Floats::load(block.numbers.bsdfV + first));
-        sendRay(at, frame, {next.toLight, next.weight, next.pdf, next.single, maskOf(0)}, lanes,
-                first, block);
-    }
+    forEachRow(points, lobes, block,
+               [&](unsigned lanes, std::size_t first, const SeenPoints& at,
+                   const ShadingFrame& frame, const Bsdf& bsdf) {
+                   const PathNumbers& u = block.numbers;
+                   const LobeSample next = bsdf.sampleLobe(
+                       lobe, transmits, Floats::load(u.lobe + first), Floats::load(u.bsdfU + first),
+                       Floats::load(u.bsdfV + first));
+                   sendRay(at, frame, {next.toLight, next.weight, next.pdf, next.single, maskOf(0)},
+                           lanes, first, block);
+               });
 }
 
 void ambientAtPoints(const PointBlock& points, const LobeBlock& lobes, PathBlock& block) {
-    for (std::size_t first = 0; first < PathBlock::kPoints && block.points >> first != 0;
-         first += W) {
-        const unsigned lanes = block.points >> first & SeenPoints::kAllLanes;
-        if (lanes == 0) continue;
-        const SeenPoints at(points, first);
-        const ShadingFrame frame = frameOf(lobes, first, at.n);
-        const Bsdf bsdf(lobes, first, frame.toLocal(at.toEye), Floats::load(block.eta + first));
-        storeWhere(lanes, bsdf.diffuseAlbedo(), block.weight, first);
-    }
+    forEachRow(
+        points, lobes, block,
+        [&](unsigned lanes, std::size_t first, const SeenPoints&, const ShadingFrame&,
+            const Bsdf& bsdf) { storeWhere(lanes, bsdf.diffuseAlbedo(), block.weight, first); });
 }
 
 constexpr ShadingKernel kShading{scatterBlock, lampAtPoints, bounceAtPoints, ambientAtPoints};

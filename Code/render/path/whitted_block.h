@@ -12,7 +12,7 @@ struct alignas(64) LampBlock {
     unsigned points = 0;
     unsigned litOutside = 0; // of these: seen from the inside, lit on the outside
     float samples = 1;       // how many the lamp has
-    bool inCentre = false;   // the lamp as if it sat in its centre
+    bool besideRays = true;  // rays of rough lobes find some of its light
     // Out: light of the sample, if nothing is in between, and the shadow ray: from the point to the
     // lamp, or, for lamps in one place, from there to the point.
     alignas(64) Lane light[3], org[3], dir[3], end;

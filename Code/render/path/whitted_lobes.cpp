@@ -157,12 +157,12 @@ private:
         LampBlock& block = path_.lamp;
         block.points = alike;
         block.litOutside = points.at.block(b).litApart;
-        block.inCentre = !context_.settings.switches.softShadows;
-        const int samples = lamp.isSoft && !block.inCentre ? limits_.lightSamples : 1;
+        const int samples = lamp.isSoft ? limits_.lightSamples : 1;
         block.samples = static_cast<float>(samples);
+        block.besideRays = wave_.depth < limits_.maxDepth;
         RayBatch& rays = path_.lampRays[number % kLampsTogether];
         for (int s = 0; s < samples; ++s) {
-            if (lamp.isSoft && !block.inCentre) drawPlaces(b, alike, number, s);
+            if (lamp.isSoft) drawPlaces(b, alike, number, s);
             block.lit = 0;
             context_.settings.isa->shading->lamp(lights_, static_cast<std::uint32_t>(number),
                                                  points.at.block(b), path_.lobes, block);
@@ -290,17 +290,5 @@ private:
 
 void integrateLobes(const IntegratorContext& context, SampleChunk& chunk, WaveMemory& memory,
                     RayCounts& counts, std::uint64_t& cameraHits) {
-    counts.camera += chunk.cameraRays.size();
-    memory.media = context.media;
-    memory.path.states.assign(chunk.cameraRays.size(), PathState{});
-    const PathBatch* rays = &chunk.cameraRays;
-    for (int depth = 0; !rays->empty(); ++depth) {
-        const Wave wave{context, *rays, depth, chunk, memory, counts};
-        closest(context.scene, *rays, memory.hits);
-        WhittedWave(wave).run();
-        if (depth == 0) cameraHits += memory.points.count;
-        std::swap(memory.rays, memory.next);
-        std::swap(memory.path.states, memory.path.nextStates);
-        rays = &memory.rays;
-    }
+    integrateInWaves<WhittedWave>(context, chunk, memory, counts, cameraHits);
 }

@@ -1,0 +1,55 @@
+// SceneLights: collects all that lights a scene: lamps, sky, and surfaces that shine.
+#pragma once
+
+#include "base/source.h"
+#include "render/path/path_lights.h"
+#include "render/scene.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+class SceneLights {
+public:
+    SceneLights(const SceneDesc& desc, const SceneFrame& frame, const RenderSettings& settings);
+
+    // Whether shading by lobes is asked for: by paths, and by what a Whitted scene says.
+    bool areLobesNeeded() const;
+    // Whether the sky lights surfaces as a lamp.
+    bool skyLights() const { return isPath_ || desc_.world.environmentLights; }
+
+    // Looks at the objects that are no meshes, which the description may let go of afterwards.
+    void keepObjects();
+
+    // What else is looked at, when all of it is there. `hasBody`, by light: a shape of the scene is
+    // its body, whose object is that of the light.
+    struct Surroundings {
+        const ShapeSet& shapes;
+        std::span<const SceneMaterial> materials;
+        const Environment* environment; // null: none
+        Rgb background;
+        const std::vector<bool>& hasBody;
+        std::uint32_t objects; // the first light's object
+    };
+    // Returns warnings, complete lines, of lamps without an area.
+    std::vector<std::string> addTo(PathLights& lights, const Surroundings& around,
+                                   const SourceFile& source) const;
+
+private:
+    struct ShiningObject {
+        std::uint32_t object;
+        bool back, bothSides; // the row is that of the back; it is that of the other side, too
+        LightRow row;
+    };
+    std::vector<std::string> addLamps(PathLights& lights, const Surroundings& around,
+                                      const SourceFile& source) const;
+    void addSky(PathLights& lights, const Surroundings& around) const;
+    void addTriangles(PathLights& lights, const Surroundings& around) const;
+    PathLights::Entry surfaceEntry(const LightRow& row) const;
+
+    const SceneDesc& desc_;
+    const SceneFrame& frame_;
+    const RenderSettings& settings_;
+    bool isPath_;
+    std::vector<ShiningObject> objects_;
+};
