@@ -366,6 +366,12 @@ private:
         scene_.background_ = toRgb(settings_.background.value_or(desc_.world.background));
         scene_.ambient_ = toRgb(desc_.world.ambient);
         scene_.ambientReach_ = toFloat(desc_.world.ambientOcclusion * scene_.frame_.scale);
+        if (settings_.picture.integrator == IntegratorKind::Path && !isBlack(scene_.ambient_))
+            scene_.warnings_.push_back(
+                located(source_, desc_.world.loc.offset,
+                        "paths have no ambient light, and it is left out; a background, which they "
+                        "find, would be right",
+                        "warning"));
     }
 
     void buildEnvironment() {

@@ -142,6 +142,18 @@ TEST(rough_metal_keeps_its_highlight_at_the_last_bounce) {
     CHECK_NEAR(alone.mean, together.mean, 0.01 * together.mean);
 }
 
+// What paths leave out of a scene is said.
+TEST(paths_say_that_they_have_no_ambient_light) {
+    const SceneDesc desc = shot::parse("world {\n ambient 1 1 1\n}\ncamera c {\n}\n");
+    RenderSettings settings;
+    settings.picture = desc.settings;
+    for (const auto integrator : {IntegratorKind::Whitted, IntegratorKind::Path}) {
+        settings.picture.integrator = integrator;
+        const Scene scene(desc, SourceFile{"scene.txt", ""}, settings);
+        CHECK_EQUAL(scene.warnings().size(), integrator == IntegratorKind::Path ? 1u : 0u);
+    }
+}
+
 // Eight lobes that are written, and those that short keywords mean besides.
 TEST(short_keywords_add_to_eight_lobes) {
     std::string material = "material m {\n";
