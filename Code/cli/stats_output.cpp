@@ -98,7 +98,6 @@ private:
 
 void addFeatures(Table& table, const Stats& stats) {
     table.heading("features");
-    table.line("shading  " + stats.shading);
     table.line("needed   " + (stats.featuresNeeded.empty() ? "none" : join(stats.featuresNeeded)));
     for (std::size_t i = 0; i < stats.featuresSkipped.size(); ++i)
         table.line((i == 0 ? "skipped  " : "         ") + stats.featuresSkipped[i]);
@@ -180,7 +179,7 @@ std::string statsJson(const Stats& s, const RunFacts& run) {
     all.add("seconds", seconds.text()).add("rays", rays.text()).add("hits", hits.text());
     all.add("rays_per_second", raysPerSecond(s)).add("accel", accel.text());
     all.add("peak_bytes", s.peakBytes).add("threads", static_cast<std::uint64_t>(s.threads));
-    all.add("kernel", quoted(s.kernel)).add("shading", quoted(s.shading));
+    all.add("kernel", quoted(s.kernel));
     all.add("features", features.text());
     if (s.error) {
         all.add("error_estimate", s.error->estimate).add("error_goal", s.error->goal);

@@ -11,14 +11,9 @@
 #include "accel/kernels/surface_lanes.h"
 #include "accel/kernels/triangle_surfaces_in_lanes.h"
 #include "isa/isa.h"
-#include "render/lamp_map/lamp_map_lanes.h"
 #include "render/lens_in_lanes.h"
-#include "render/waves/bounce_in_lanes.h"
 #include "render/waves/environment_in_lanes.h"
-#include "render/waves/lamp_in_lanes.h"
 #include "render/waves/picture_lanes.h"
-#include "render/waves/shade_in_lanes.h"
-#include "render/waves/soft_lamp_lanes.h"
 #include "render/waves/texture_in_lanes.h"
 
 LANES_BEGIN
@@ -27,19 +22,14 @@ constexpr TriangleKernel kTriangles{closest, closestFromPoint, any, anyFromPoint
 constexpr SolidKernel kSolids{closestSolids, anySolids, nearerInBox};
 constexpr PlacedKernel kPlaced{closestPlaced, anyPlaced};
 constexpr SurfaceLanes kSurfaces{stillSurfaces, triangleSurfaces};
-constexpr ShadeLanes kShade{seePoints,      lightPoints, paintPoints, paintEachPoint,
-                            addGlowInARow,  takeRow,     giveRow,     addRow,
-                            boundsOfPoints, aimAtPoints, addLight};
-constexpr BounceLanes kBounce{dividePoints, bouncePoints, mirrorPoints};
-constexpr LampLanes kLamps{lightByLamp, lightBySamples, wholeLight, hiddenPoints, askLampMap};
 constexpr PictureLanes kPictures{textureColors, environmentColors};
 constexpr CameraLanes kCamera{pairSeeds, sobolPairs, spreadPlaces, lensRays, pinholeRays};
 
 // An Isa of these functions.
 constexpr Isa isaOf(const char* name, bool (*supported)(), const kernels::build::TreeBuilder* build,
                     const ShadingKernel* shading) {
-    return {name,    W,        supported, &kTriangles, &kSolids, &kPlaced, &kSurfaces,
-            &kShade, &kBounce, &kLamps,   &kPictures,  &kCamera, shading,  build};
+    return {name,       W,          supported, &kTriangles, &kSolids, &kPlaced,
+            &kSurfaces, &kPictures, &kCamera,  shading,     build};
 }
 
 LANES_END

@@ -5,13 +5,10 @@
 
 #include <span>
 
-struct BounceLanes;
 struct CameraLanes;
-struct LampLanes;
 struct ShadingKernel;
 struct PictureLanes;
 struct PlacedKernel;
-struct ShadeLanes;
 struct SolidKernel;
 struct SurfaceLanes;
 struct TriangleKernel;
@@ -29,9 +26,6 @@ struct Isa {
     const SolidKernel* solids = nullptr;                // accel/kernels/solids.h
     const PlacedKernel* placed = nullptr;               // accel/kernels/placed.h
     const SurfaceLanes* surfaces = nullptr;             // accel/kernels/surface_lanes.h
-    const ShadeLanes* shade = nullptr;                  // render/waves/shade_lanes.h
-    const BounceLanes* bounce = nullptr;                // render/waves/bounce_lanes.h
-    const LampLanes* lamps = nullptr;                   // render/waves/lamp_lanes.h
     const PictureLanes* pictures = nullptr;             // render/waves/picture_lanes.h
     const CameraLanes* camera = nullptr;                // render/lens_lanes.h
     const ShadingKernel* shading = nullptr;             // render/path/shading_kernel.h

@@ -20,13 +20,16 @@ inline constexpr std::size_t kLightNumbers = 20;
 
 LANES_BEGIN
 
-// Where a light's numbers come from: number i of W points that follow each other. Every lane may
-// have another light of the kind. `columns` is aligned as registers are, and so is `step`.
+// Where a light's numbers come from. With a step of 1, number i is columns[i], for all points.
+// Else every lane may have another light of the kind: number i of point k is
+// columns[i * step + k], and `columns` is aligned as registers are, and so is `step`.
 struct LightNumbers {
-    const float* columns; // number i of point k is columns[i * step + k]
+    const float* columns;
     std::size_t step;
 
-    Floats operator[](std::size_t i) const { return Floats::load(columns + i * step); }
+    Floats operator[](std::size_t i) const {
+        return step == 1 ? Floats(columns[i]) : Floats::load(columns + i * step);
+    }
     Floats3 vector(std::size_t i) const { return {(*this)[i], (*this)[i + 1], (*this)[i + 2]}; }
 };
 

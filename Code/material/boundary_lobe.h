@@ -22,14 +22,16 @@ template <bool kHasFresnel> struct BoundaryLobe {
     Floats3 below(const Floats3&) const { return rgbOf(0.0f); }
     Floats3 albedo(const Floats3& toEye) const {
         const Floats one(1.0f);
-        Floats part = boundary(toEye.z).reflected;
+        const Boundary at = boundary(toEye.z);
+        Floats part = at.reflected;
         if (kHasFresnel && !isSmooth()) {
             const BoundaryEnergy energy(facets_, eta_);
             const Floats reflected = FacetEnergy(facets_, toEye, facets_.lossyRoughness()).all() *
                                      energy.reflected(toEye.z) / energy.all(facets_, toEye);
             part = select(facets_.smooth, part, min(reflected, one));
         }
-        return reflects_ * part + transmits_ * (one - part);
+        return select(facets_.smooth, reflectedAt(at), reflects_ * part) +
+               transmits_ * (one - part);
     }
     Floats3 eval(const Floats3& toEye, const Floats3& toLight) const {
         if (isSmooth()) return rgbOf(0.0f);
@@ -64,7 +66,7 @@ private:
         Floats3 reflected, transmitted;
         Floats reflects;
         Split(const BoundaryLobe& of, Floats cosIn)
-            : boundary(of.boundary(cosIn)), reflected(of.reflects_ * boundary.reflected),
+            : boundary(of.boundary(cosIn)), reflected(of.reflectedAt(boundary)),
               transmitted(of.transmits_ * (Floats(1.0f) - boundary.reflected)) {
             const Floats most = maxOf(reflected), all = most + maxOf(transmitted);
             reflects = select(all > Floats(0.0f), most / all, Floats(0.0f));
@@ -75,6 +77,12 @@ private:
         }
     };
 
+    // Total reflection keeps what would have gone through, too.
+    Floats3 reflectedAt(const Boundary& at) const {
+        const Floats3 all{max(reflects_.x, transmits_.x), max(reflects_.y, transmits_.y),
+                          max(reflects_.z, transmits_.z)};
+        return select(at.reflected >= Floats(1.0f), all, reflects_ * at.reflected);
+    }
     bool isSmooth() const { return bits(facets_.smooth) == (1u << W) - 1; }
     static Mask isReflected(const Floats3& toLight) { return toLight.z >= Floats(0.0f); }
     Boundary boundary(Floats cosIn) const {

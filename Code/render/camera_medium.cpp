@@ -8,7 +8,7 @@
 MediumTree::Inside mediumOfCamera(const Scene& scene, const RenderSettings& settings,
                                   MediumTree& media) {
     constexpr int kSurfaces = 4096; // more are not looked at
-    const auto transmits = [](const SceneMaterial& m) { return !isBlack(m.base.transmission); };
+    const auto transmits = [](const SceneMaterial& m) { return m.transmits; };
     if (!scene.anyMaterial().transmits) return MediumTree::kNothing;
 
     const Vec2 lens{0.5f, 0.5f};

@@ -36,8 +36,8 @@ void findFirstHits(const IntegratorContext& context, SampleChunk& chunk, WaveMem
     const Wave wave{context, rays, 0, chunk, memory, counts};
     counts.camera += rays.size();
     closest(context.scene, rays, memory.hits);
-    compiledFor([&]<bool kTextures> { findPoints<kTextures, false>(wave); },
-                context.steps.textures);
+    waves::findPoints(wave, [](std::size_t) { return 0u; });
+    if (context.wantsFirstHits) describeFirstHits(wave);
     cameraHits += memory.points.count;
 }
 
@@ -68,7 +68,7 @@ void describeFirstHits(const Wave& wave) {
         first.depth = static_cast<float>(dot(position - view.eye, view.axis) / scene.frame().scale);
         first.normal = SurfaceBlock::get(block.n, i);
         first.position = toFloat(scene.frame().worldPoint(position));
-        first.albedo = of.base.diffuse;
+        first.albedo = of.diffuse;
         if (of.pictures->diffuse) first.albedo *= of.pictures->diffuse->color(uv);
         first.object = block.object[i] + 1;
         first.uv = uv;

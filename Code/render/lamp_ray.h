@@ -1,10 +1,14 @@
-// Rays between a lamp and a surface that it lights: where they end, so that no surface shadows
-// itself by rounding and the edges of shadows stay where they are.
+// A ray from where a lamp sits to just in front of a point, of one lane.
 #pragma once
 
 #include "base/hit.h"
 #include "base/ray.h"
+#include "render/path/ray_from_lamp.h"
 
-// From a lamp to the surface's point, seen from the side of `side` (+-ng): what lies on the ray is
-// between them. Defined as starting at the lamp, so that all rays of a lamp share their origin.
-Ray rayFromLamp(const Surface& surface, Vec3 side, Vec3 lamp, float time);
+// The point is lit on the side of the unit normal `side`.
+inline Ray rayFromLamp(const Surface& surface, Vec3 side, Vec3 lamp, float time) {
+    const auto one = [](Vec3 v) { return kernels::one::Floats3{v.x, v.y, v.z}; };
+    const kernels::one::RayFromLamp ray = kernels::one::rayFromLamp(
+        one(surface.p), one(surface.lift), one(side), surface.error, surface.rayError, lamp);
+    return {lamp, {ray.dir.x.v, ray.dir.y.v, ray.dir.z.v}, 0, ray.end.v, time};
+}

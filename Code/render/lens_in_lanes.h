@@ -1,13 +1,13 @@
 // The formulas of Camera::rayFrom() for a perspective camera at rest, in its order.
 #pragma once
 
-#include "simd/vectors3.h"
 #include "base/vec.h"
 #include "render/lens_lanes.h"
 #include "render/waves/disk_lanes.h"
 #include "sample/hash.h"
 #include "sample/sobol.h"
 #include "simd/lanes.h"
+#include "simd/vectors3.h"
 
 #include <algorithm>
 #include <array>

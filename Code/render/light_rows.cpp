@@ -28,11 +28,8 @@ LightRow lightRow(const LightDesc& desc, const SceneFrame& frame) {
     const Vec3 position = toFloat(place.point({}));
     const Vec3 axis = toFloat(normalize(place.vector({0, 0, -1})));
     const auto flat = [&] {
-        FlatRow row{position,
-                    toFloat(place.vector({desc.size.x / 2, 0, 0})),
-                    toFloat(place.vector({0, desc.size.y / 2, 0})),
-                    axis,
-                    toRgb(desc.color)};
+        FlatRow row{position, toFloat(place.vector({desc.size.x / 2, 0, 0})),
+                    toFloat(place.vector({0, desc.size.y / 2, 0})), axis, toRgb(desc.color)};
         setSpread(row, radians(desc.spreadDeg / 2));
         return row;
     };

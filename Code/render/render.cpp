@@ -4,7 +4,6 @@
 #include "render/canvas.h"
 #include "render/encoding.h"
 #include "render/goal_film.h"
-#include "render/shading_form.h"
 #include "render/tile_sampler.h"
 
 #include <algorithm>
@@ -44,7 +43,6 @@ public:
             picture.finished = renderToGoal(pool_, workers, control, picture, stats);
         else
             picture.finished = renderTiles(pool_, workers, control, stats);
-        stats.shading = shadingForm(sampler_.context());
         for (const TileWorker& worker : workers) {
             stats.rays += worker.rays;
             stats.cameraHits += worker.cameraHits;

@@ -1,5 +1,5 @@
 // Builds a Scene from a SceneDesc. Which class is behind a shape or a light: make_shapes.cpp and
-// make_light.cpp.
+// make_body.cpp.
 #include "render/scene.h"
 
 #include "base/for_each.h"
@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "image/image.h"
 #include "render/eye.h"
-#include "render/make_light.h"
+#include "render/make_body.h"
 #include "render/make_shapes.h"
 #include "render/path/make_lobes.h"
 #include "render/path/scene_lights.h"
@@ -22,25 +22,6 @@
 #include <optional>
 #include <utility>
 
-AnyMaterial& AnyMaterial::operator|=(const SceneMaterial& m) {
-    const bool transmission = !isBlack(m.base.transmission), through = m.seeThrough();
-    return *this |= AnyMaterial{.isLamp = m.isLamp,
-                                .bounces = transmission || !isBlack(m.base.mirror),
-                                .transmits = transmission,
-                                .isRough = m.base.roughness > 0,
-                                .branches = through || !isPlainMirror(m.base),
-                                .pictures = m.isTextured() || m.bendsNormals(),
-                                .seeThrough = through};
-}
-
-AnyMaterial& AnyMaterial::operator|=(const AnyMaterial& other) {
-    for (const auto member : {&AnyMaterial::isLamp, &AnyMaterial::bounces, &AnyMaterial::transmits,
-                              &AnyMaterial::isRough, &AnyMaterial::branches, &AnyMaterial::pictures,
-                              &AnyMaterial::seeThrough})
-        this->*member |= other.*member;
-    return *this;
-}
-
 class SceneBuilder {
 public:
     // `spent`: the description once more, where nobody else needs its objects, meshes and
@@ -54,13 +35,12 @@ public:
         chooseCamera();
         scene_.frame_ = frameOf(desc_, *cameraDesc_, settings_.threads);
         sceneLights_.emplace(desc_, scene_.frame_, settings_);
-        scene_.isLobed_ = sceneLights_->areLobesNeeded();
         scene_.shapes_.distantFrom = scene_.frame_.distantFrom;
         scene_.accelKind_ = settings_.accel;
         buildCamera();
         scene_.features_ = featuresOf(desc_, *cameraDesc_, settings_);
         keepUnevenPlaces();
-        if (scene_.isLobed_) sceneLights_->keepObjects();
+        if (isShaded()) sceneLights_->keepObjects();
         buildPicturesAndShapes();
         warnOfMissing();
         buildMaterials();
@@ -71,6 +51,12 @@ public:
     }
 
 private:
+    // Whether the picture shows materials in the light of lamps, and not what the camera meets.
+    bool isShaded() const {
+        return settings_.picture.integrator == IntegratorKind::Whitted ||
+               settings_.picture.integrator == IntegratorKind::Path;
+    }
+
     // ---- textures and materials
 
     // At the same time, because shapes need no more of a material than whether it is see-through.
@@ -215,7 +201,7 @@ private:
             materials[i].pictures = picturesOf(desc_.materials[i]);
             scene_.any_ |= materials[i];
         }
-        if (scene_.isLobed_) buildLobes();
+        if (isShaded()) buildLobes();
         if (spent_ != nullptr) std::vector<MaterialDesc>().swap(spent_->materials);
     }
 
@@ -226,20 +212,31 @@ private:
         for (std::size_t i = 0; i <= desc_.materials.size(); ++i) {
             const MaterialDesc& desc = i < desc_.materials.size() ? desc_.materials[i] : standard;
             const LobeList list = lobesOf(desc, pictures, on_);
-            scene_.any_.pictures |= !list.factors.empty();
+            scene_.materials_[i].isPainted = !list.factors.empty();
+            scene_.any_ |= scene_.materials_[i];
             const auto warn = [&](std::string_view what) {
                 scene_.warnings_.push_back(located(source_, desc.loc.offset,
                                                    cat("material ", desc.name, what), "warning"));
             };
-            if (!lobed.add(list.lobes, list.factors, emits(desc)))
+            const bool isSound =
+                lobed.add(list.lobes, list.factors, traitsOf(scene_.materials_[i]));
+            // Whitted pictures may have it by short keywords: they follow rays so deep only.
+            if (!isSound &&
+                (!desc.lobes.empty() || settings_.picture.integrator == IntegratorKind::Path)) {
+                lobed.scaleDown();
                 warn(" reflects more than arrives, and is scaled to what does; weights whose sum "
                      "is at most 1 would be right");
+            }
             if (list.variesBoundaries())
                 warn(" has a picture on the ior of a lobe that transmits, which is left out; a "
                      "number alone would be right");
         }
     }
-    static bool emits(const MaterialDesc& desc) { return !isBlack(toRgb(desc.emission)); }
+    static std::uint32_t traitsOf(const SceneMaterial& of) {
+        return (isBlack(of.emission) ? 0 : LobedMaterial::kEmits) |
+               (of.seeThrough() ? LobedMaterial::kSeeThrough : 0) |
+               (of.litOutside ? LobedMaterial::kLitOutside : 0);
+    }
 
     // By several threads: call(first, last).
     template <class Call> void forSomeMaterials(const Call& call) const {
@@ -247,27 +244,16 @@ private:
         forEachPart(settings_.threads, desc_.materials.size(), kTogether, call);
     }
 
-    static SpecularModel specularModelOf(MaterialDesc::SpecularModel model) {
-        switch (model) {
-        case MaterialDesc::SpecularModel::Ashikhmin: return SpecularModel::Ashikhmin;
-        case MaterialDesc::SpecularModel::Phong: return SpecularModel::Phong;
-        case MaterialDesc::SpecularModel::Blinn: break;
-        }
-        return SpecularModel::Blinn;
-    }
-
     const MaterialPictures* picturesOf(const MaterialDesc& desc) {
         const MaterialPictures of{
             .diffuse = textureOf(desc.diffuseTexture),
-            .specular = textureOf(desc.specularTexture),
             .emission = textureOf(desc.emissionTexture),
             .opacity = textureOf(desc.opacityTexture),
             .normalMap = textureOf(desc.normalMap),
             .bumpMap = textureOf(desc.bumpMap),
             .normalStrength = toFloat(desc.normalStrength),
             .bumpHeight = toFloat(desc.bumpStrength * desc.bumpDistance * scene_.frame_.scale)};
-        if (!of.diffuse && !of.specular && !of.emission && !of.opacity && !of.normalMap &&
-            !of.bumpMap)
+        if (!of.diffuse && !of.emission && !of.opacity && !of.normalMap && !of.bumpMap)
             return &kNoPictures;
         scene_.pictures_.push_back(std::make_unique<const MaterialPictures>(of));
         return scene_.pictures_.back().get();
@@ -275,29 +261,19 @@ private:
 
     SceneMaterial makeMaterial(const MaterialDesc& desc) {
         SceneMaterial m;
-        m.base.diffuse = toRgb(desc.diffuse);
-        m.base.specular = toRgb(desc.specular);
-        m.base.specularModel = specularModelOf(desc.specularModel);
-        m.base.exponent = toFloat(desc.exponent);
+        m.diffuse = toRgb(desc.diffuse);
         m.litOutside = desc.litSide == MaterialDesc::LitSide::Outside;
-        if (on_.reflection) m.base.mirror = toRgb(desc.mirror);
-        if (on_.refraction) m.base.transmission = toRgb(desc.transmission);
-        m.base.ior = toFloat(desc.ior);
-        if (on_.fresnel && desc.fresnel == MaterialDesc::Fresnel::Dielectric)
-            m.base.fresnel = FresnelModel::Dielectric;
-        if (on_.fresnel && desc.fresnel == MaterialDesc::Fresnel::Schlick)
-            m.base.fresnel = FresnelModel::Schlick;
-        if (on_.glossy) m.base.roughness = toFloat(desc.roughness);
+        m.transmits = on_.refraction && !isBlack(toRgb(desc.transmission));
+        m.ior = toFloat(desc.ior);
         for (const LobeDesc& lobe : desc.lobes) {
             if ((lobeTypes()[lobe.kind].flags & kHasSides) == 0) continue;
-            m.base.transmission = {1, 1, 1}; // its ior counts for what is within
-            m.base.ior = toFloat(lobe.numbers[0]);
+            m.transmits = true, m.ior = toFloat(lobe.numbers[0]);
         }
-        m.base.emission = toRgb(desc.emission);
+        m.emission = toRgb(desc.emission);
         m.lightsOthers = desc.emissionLights;
         m.emitsFront = desc.emissionSides == MaterialDesc::Sides::Front;
-        m.base.opacity = toFloat(desc.opacity);
-        m.base.filter = toRgb(desc.filter);
+        m.opacity = toFloat(desc.opacity);
+        m.filter = toRgb(desc.filter);
         return m;
     }
 
@@ -395,18 +371,13 @@ private:
         hasLampBody_.assign(desc_.lights.size(), false);
         for (std::size_t i = 0; i < desc_.lights.size(); ++i) {
             const LightDesc& light = desc_.lights[i];
-            scene_.lights_.push_back(makeLight(light, scene_.frame_));
             using enum LightDesc::Kind;
             const bool hasBody =
                 light.kind == Rectangle || light.kind == Disk || light.kind == Sphere;
             if (light.visible && hasBody)
                 addLampBody(light, static_cast<std::uint32_t>(objectCount_ + i));
-            else if (light.seenBy != LightDesc::SeenBy::None)
-                scene_.seenLamps_.add(light.seenBy, *scene_.lights_.back(),
-                                      makeLampBody(light, scene_.frame_, 0, 0));
         }
-        scene_.seenLamps_.finish();
-        if (!scene_.isLobed_) return;
+        if (!isShaded()) return;
         for (std::string& warning : sceneLights_->addTo(
                  scene_.pathLights_,
                  {scene_.shapes_, scene_.materials_, scene_.environment_.get(), scene_.background_,
@@ -421,14 +392,14 @@ private:
         auto body = makeLampBody(light, scene_.frame_, material, id);
         if (!body) return;
         SceneMaterial glow;
-        glow.base.diffuse = {};
-        glow.base.emission = toRgb(light.color);
+        glow.diffuse = {};
+        glow.emission = toRgb(light.color);
         glow.isLamp = true;
         scene_.materials_.push_back(glow);
         scene_.any_ |= glow;
         hasLampBody_[id - objectCount_] = true;
         scene_.shapes_.add(std::move(body), ShapeSet::Shadow::None);
-        if (scene_.isLobed_) scene_.lobedMaterials_.add({}, {}, true);
+        if (isShaded()) scene_.lobedMaterials_.add({}, {}, LobedMaterial::kEmits);
     }
 
     Scene& scene_;

@@ -8,13 +8,11 @@
 #include "base/source.h"
 #include "camera/camera.h"
 #include "desc/scene_desc.h"
-#include "light/light.h"
-#include "material/material.h"
 #include "render/features.h"
 #include "render/frame.h"
 #include "render/path/lobed_materials.h"
 #include "render/path/path_lights.h"
-#include "render/seen_lamps.h"
+#include "render/scene_material.h"
 #include "render/settings.h"
 #include "render/shape_set.h"
 #include "render/stats.h"
@@ -27,52 +25,6 @@
 #include <vector>
 
 class PictureReader;
-
-// Pictures that change a material's numbers from place to place, or bend normals.
-struct MaterialPictures {
-    const Texture* diffuse = nullptr;
-    const Texture* specular = nullptr;
-    const Texture* emission = nullptr;
-    const Texture* opacity = nullptr;
-    const Texture* normalMap = nullptr;
-    const Texture* bumpMap = nullptr;
-    float normalStrength = 1;
-    float bumpHeight = 0; // strength times distance, in normalised units
-};
-inline constexpr MaterialPictures kNoPictures;
-
-// A material of the scene, in as few lines of the cache as there may be thousands of them.
-struct alignas(64) SceneMaterial {
-    Material base;
-    bool litOutside = false;   // answers lamps outside of it, whichever side is seen
-    bool lightsOthers = false; // Whitted pictures: its emission does
-    bool emitsFront = false;   // its emission leaves to the outside only
-    bool isLamp = false;       // the visible body of an area light; flat ones have no back
-    const MaterialPictures* pictures = &kNoPictures;
-    // Pictures that change its numbers.
-    bool isTextured() const {
-        return pictures->diffuse || pictures->specular || pictures->emission || pictures->opacity;
-    }
-    bool seeThrough() const { return base.opacity < 1 || pictures->opacity != nullptr; }
-    bool bendsNormals() const {
-        return pictures->normalMap != nullptr || pictures->bumpMap != nullptr;
-    }
-};
-static_assert(sizeof(SceneMaterial) == 128);
-
-// What any of some materials has; each is looked at once, as there may be more than a cache holds.
-struct AnyMaterial {
-    bool isLamp = false;
-    bool bounces = false;    // mirrors or transmits
-    bool transmits = false;  // refracts
-    bool isRough = false;    // in what it mirrors and transmits
-    bool branches = false;   // gives more than one ray
-    bool pictures = false;   // asks for texture coordinates
-    bool seeThrough = false; // lets light straight through
-
-    AnyMaterial& operator|=(const SceneMaterial& m);
-    AnyMaterial& operator|=(const AnyMaterial& other);
-};
 
 class Scene {
 public:
@@ -91,10 +43,6 @@ public:
     const Camera& camera() const { return *camera_; }
     const ShapeSet& shapes() const { return shapes_; }
     std::span<const SceneMaterial> materials() const { return materials_; }
-    const std::vector<std::unique_ptr<const Light>>& lights() const { return lights_; }
-    const SeenLamps& seenLamps() const { return seenLamps_; }
-    // Whether it is shaded by lobes: paths are, and what other forms of shading can't do.
-    bool isLobed() const { return isLobed_; }
     const LobedMaterials& lobedMaterials() const { return lobedMaterials_; }
     const PathLights& pathLights() const { return pathLights_; }
     Rgb ambient() const { return ambient_; }
@@ -133,9 +81,6 @@ private:
     std::vector<std::unique_ptr<const MeshGeometry>> geometries_;
     std::vector<std::unique_ptr<const MovingTransform>> unevenPlaces_; // empty without any
     ShapeSet shapes_;
-    std::vector<std::unique_ptr<const Light>> lights_;
-    SeenLamps seenLamps_; // of lights_
-    bool isLobed_ = false;
     float ambientReach_ = 0;
     LobedMaterials lobedMaterials_;
     PathLights pathLights_;

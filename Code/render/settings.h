@@ -39,7 +39,7 @@ struct ErrorGoal {
 struct RenderSettings {
     // Resolution, crop, samples, integrator, depths, filter, exposure ...; --no-aa sets 1 sample.
     SettingsDesc picture;
-    std::string camera;   // name; empty: the first one of the scene
+    std::string camera; // name; empty: the first one of the scene
     Switches switches;
     // Then `picture` has samples for the first look only.
     std::optional<ErrorGoal> errorGoal;

@@ -73,22 +73,18 @@ Vec3 shading::bentNormal(const Scene& scene, const Ray& ray, const Hit& hit,
     return dot(n, surface.ng) > 0 ? n : surface.ns;
 }
 
-Material materialAt(const ShadedPoint& at) {
-    Material m = at.of->base;
-    const Vec2 uv = at.surface.uv;
-    const MaterialPictures& pictures = *at.of->pictures;
-    if (pictures.diffuse) m.diffuse *= pictures.diffuse->color(uv);
-    if (pictures.specular) m.specular *= pictures.specular->color(uv);
-    if (pictures.emission) m.emission *= pictures.emission->color(uv);
-    if (pictures.opacity) m.opacity *= pictures.opacity->value(uv);
-    return m;
+Rgb emissionAt(const SceneMaterial& of, Vec2 uv) {
+    const Texture* const picture = of.pictures->emission;
+    return picture != nullptr ? of.emission * picture->color(uv) : of.emission;
+}
+
+float opacityAt(const SceneMaterial& of, Vec2 uv) {
+    const Texture* const picture = of.pictures->opacity;
+    return picture != nullptr ? of.opacity * picture->value(uv) : of.opacity;
 }
 
 Rgb straightTransmission(const Scene& scene, const Ray& ray, const Hit& hit) {
     const Surface surface = scene.shapes().shapes[hit.shape]->surface(ray, hit);
-    const SceneMaterial& material = scene.materials()[surface.material];
-    float opacity = material.base.opacity;
-    if (const Texture* const picture = material.pictures->opacity)
-        opacity *= picture->value(surface.uv);
-    return material.base.filter * (1 - opacity);
+    const SceneMaterial& of = scene.materials()[surface.material];
+    return of.filter * (1 - opacityAt(of, surface.uv));
 }

@@ -28,8 +28,9 @@ inline ShadedPoint shade(const Scene& scene, const Ray& ray, const Hit& hit) {
     return at;
 }
 
-// The material's numbers at the point, textures applied.
-Material materialAt(const ShadedPoint& at);
+// The material's numbers at a place on its pictures.
+Rgb emissionAt(const SceneMaterial& of, Vec2 uv);
+float opacityAt(const SceneMaterial& of, Vec2 uv);
 
 // Part of the light that goes straight through the surface at a hit: (1 - opacity) * filter.
 Rgb straightTransmission(const Scene& scene, const Ray& ray, const Hit& hit);

@@ -45,7 +45,6 @@ struct Stats {
     std::uint64_t peakBytes = 0;
     int threads = 1;
     std::string kernel;
-    std::string shading; // which compiled form of it
     std::vector<std::string> featuresNeeded,
         featuresSkipped; // skipped: "dof: aperture_radius is 0"
     double samplesMin = 0, samplesMean = 0, samplesMax = 0;

@@ -1,7 +1,7 @@
 #include "render/tile_sampler.h"
 
 #include "render/path/path.h"
-#include "render/path/whitted_lobes.h"
+#include "render/path/whitted.h"
 
 #include <algorithm>
 #include <cstring>
@@ -91,8 +91,6 @@ void TileSampler::traceOnce(const Tile& tile, TileWorker& worker) const {
 void TileSampler::integrate(TileWorker& w) const {
     switch (settings_.picture.integrator) {
     case IntegratorKind::Whitted:
-        if (context_.scene.isLobed())
-            return integrateLobes(context_, w.chunk, w.memory, w.rays, w.cameraHits);
         return integrateWhitted(context_, w.chunk, w.memory, w.rays, w.cameraHits);
     case IntegratorKind::Path:
         return integratePath(context_, w.chunk, w.memory, w.rays, w.cameraHits);

@@ -50,7 +50,7 @@ struct Contact {
         return enter < exit;
     }
 
-    // As render/waves/lamps.h asks it, at the float point below `p`, which becomes that point.
+    // As the renderer asks it, at the float point below `p`, which becomes that point.
     bool isBlocked(Vec3d& p) const {
         const Vec3d above = sceneFromLocal.point(p + Vec3d{0, 0, 0.01});
         const Ray eye{toFloat(above), toFloat(sceneFromLocal.vector({0, 0, -1}))};

@@ -4,19 +4,22 @@
 // change places.
 #include "base/math.h"
 #include "base/text.h"
-#include "material/material.h"
+#include "material/lobe_types.h"
+#include "material/lobes.h"
 #include "sample/warp.h"
 #include "verify/groups.h"
 
+#include <algorithm>
 #include <array>
+#include <span>
+#include <string>
+#include <string_view>
 
 namespace battery {
 
 namespace {
 
 constexpr Vec3 kUp{0, 0, 1};
-constexpr Rgb kWhite{1, 1, 1};
-enum class Lobe { Diffuse, Ashikhmin, Blinn, Phong };
 constexpr std::array kLobeNames = {"diffuse", "ashikhmin", "blinn", "phong"};
 constexpr int kRoughnesses = 10; // 0.1 to 1
 
@@ -24,28 +27,75 @@ double roughnessOf(int step) { return 0.1 * (step + 1); }
 // Blender's roughness as the width of a Blinn lobe.
 double exponentOf(double r) { return clamp(2 / (r * r * r * r) - 2, 1.0, 1e5); }
 
-Material materialOf(Lobe lobe, double exponent) {
-    Material m;
-    m.diffuse = lobe == Lobe::Diffuse ? kWhite : Rgb{};
-    if (lobe == Lobe::Diffuse) return m;
-    m.specular = kWhite;
-    m.specularModel = lobe == Lobe::Ashikhmin ? SpecularModel::Ashikhmin
-                      : lobe == Lobe::Blinn   ? SpecularModel::Blinn
-                                              : SpecularModel::Phong;
-    m.exponent = static_cast<float>(exponent);
-    return m;
-}
+// A lobe of the list with its numbers, by one lane. Directions are in the shading frame.
+class OneLobe {
+public:
+    OneLobe(std::string_view name, double exponent) : name_(name) {
+        const std::span<const LobeType> types = lobeTypes();
+        while (name != types[kind_].name) ++kind_;
+        numbers_[0] = static_cast<float>(exponent); // of the highlights; others have none
+    }
+    // Sets a number of the lobe, colours to grey.
+    void set(std::string_view field, double value) {
+        std::size_t at = 0;
+        for (const LobeField& of : lobeTypes()[kind_].fields) {
+            const auto count = static_cast<std::size_t>(of.count);
+            if (field == of.name)
+                std::fill_n(numbers_.begin() + static_cast<std::ptrdiff_t>(at), count,
+                            static_cast<float>(value));
+            at += count;
+        }
+    }
+    void setEta(double eta) { eta_ = static_cast<float>(eta); }
+    const std::string& name() const { return name_; }
+    double exponent() const { return static_cast<double>(numbers_[0]); }
+
+    // f |cos| of what comes from `toLight`.
+    double eval(Vec3 toEye, Vec3 toLight) const {
+        double out = 0;
+        withLobe([&](const auto& lobe) {
+            out = static_cast<double>(lobe.eval(lanesOf(toEye), lanesOf(toLight)).y.v);
+        });
+        return out;
+    }
+    // The light that all rays of one sample carry on.
+    double carriedOn(Vec3 toEye, Vec2 u) const {
+        double out = 0;
+        withLobe([&]<class L>(const L& lobe) {
+            if constexpr ((L::kFlags & kReflects) != 0 && (L::kFlags & kTransmits) != 0)
+                for (const bool transmits : {false, true})
+                    out += weightOf(lobe.branch(lanesOf(toEye), transmits, u.x, u.y));
+            else if constexpr ((L::kFlags & kSpawnsRays) != 0)
+                out = weightOf(lobe.sample(lanesOf(toEye), 0.5f, u.x, u.y));
+        });
+        return out;
+    }
+
+private:
+    static kernels::one::Floats3 lanesOf(Vec3 v) { return {v.x, v.y, v.z}; }
+    static double weightOf(const kernels::one::LobeSample& sample) {
+        return sample.pdf.v > 0 ? static_cast<double>(sample.weight.y.v) : 0;
+    }
+    template <class Fn> void withLobe(const Fn& fn) const {
+        kernels::one::forLobe(static_cast<std::uint8_t>(kind_), [&]<class L> {
+            fn(L(kernels::one::LobeNumbers{numbers_.data(), 1, eta_}));
+        });
+    }
+
+    std::string name_;
+    std::size_t kind_ = 0;
+    std::array<float, kLobeNumbers> numbers_{};
+    float eta_ = 1;
+};
 
 Vec3 tilted(double angle, double turn) {
     return toFloat(
         Vec3d{std::sin(angle) * std::cos(turn), std::sin(angle) * std::sin(turn), std::cos(angle)});
 }
 
-std::string nameOf(Lobe lobe) { return kLobeNames[static_cast<std::size_t>(lobe)]; }
-
 // The light of a white sky that comes back: rings about the mirrored direction, where lobes are
 // peaked, finer towards it. `reach`: the angle of the last ring.
-double albedo(const Material& m, Vec3 toEye, double reach) {
+double albedo(const OneLobe& lobe, Vec3 toEye, double reach) {
     const Frame frame = frameAround(Vec3{-toEye.x, -toEye.y, toEye.z});
     constexpr int kRings = 500, kTurns = 240;
     double sum = 0;
@@ -59,7 +109,7 @@ double albedo(const Material& m, Vec3 toEye, double reach) {
         for (int j = 0; j < kTurns; ++j) {
             const Vec3 toLight =
                 normalize(frame.toWorld(tilted(angle, kTwoPi * (j + 0.5) / kTurns)));
-            ring += static_cast<double>(reflectedLight(m, kUp, toEye, toLight).g);
+            ring += lobe.eval(toEye, toLight);
         }
         sum += ring * (kTwoPi / kTurns) * 2 * std::sin((to - from) / 2) * std::sin(angle);
     }
@@ -71,13 +121,13 @@ Tally whiteSky(const Effort& effort) {
     return inBatches(effort, 201, 2, [](meshes::Random& random, Tally& tally) {
         const double angle = random.uniform(0, 1.55);
         const Vec3 toEye = tilted(angle, random.uniform(0, kTwoPi));
-        for (const Lobe lobe : {Lobe::Diffuse, Lobe::Ashikhmin}) {
-            for (int r = 0; r < (lobe == Lobe::Diffuse ? 1 : kRoughnesses); ++r) {
-                const double value =
-                    albedo(materialOf(lobe, exponentOf(roughnessOf(r))), toEye, kPi);
+        for (const char* const name : {"diffuse", "ashikhmin"}) {
+            const bool isRough = name == std::string_view("ashikhmin");
+            for (int r = 0; r < (isRough ? kRoughnesses : 1); ++r) {
+                const double value = albedo({name, exponentOf(roughnessOf(r))}, toEye, kPi);
                 ++tally.cases;
                 tally.measure(value, [&] {
-                    return cat(nameOf(lobe), ", roughness ", roughnessOf(r), ", eye at ", angle);
+                    return cat(name, ", roughness ", roughnessOf(r), ", eye at ", angle);
                 });
             }
         }
@@ -85,17 +135,15 @@ Tally whiteSky(const Effort& effort) {
 }
 
 // Seen straight on, with a = angle of the half vector and n the exponent.
-double albedoStraightOn(Lobe lobe, double n) {
+double albedoStraightOn(const OneLobe& lobe) {
+    const double n = lobe.exponent();
     const auto above = [](double power) { return 1 - std::exp2(-power / 2); }; // a < 45 degrees
-    switch (lobe) {
-    case Lobe::Diffuse: return 1;
     // (n+1) * integral of cos^n a (2 cos^2 a - 1) d cos a
-    case Lobe::Ashikhmin: return (n + 1) * 2 / (n + 3) * above(n + 3) - above(n + 1);
+    if (lobe.name() == "ashikhmin") return (n + 1) * 2 / (n + 3) * above(n + 3) - above(n + 1);
     // 8 pi * integral of cos^(n+1) a d cos a
-    case Lobe::Blinn: return 8 * kPi / (n + 2) * above(n + 2);
-    case Lobe::Phong: return kTwoPi / (n + 1);
-    }
-    return 0;
+    if (lobe.name() == "blinn") return 8 * kPi / (n + 2) * above(n + 2);
+    if (lobe.name() == "phong") return kTwoPi / (n + 1);
+    return 1;
 }
 
 Tally straightOn(const Effort& effort) {
@@ -103,20 +151,19 @@ Tally straightOn(const Effort& effort) {
     return inBatches(once, 202, kRoughnesses, [](meshes::Random& random, Tally& tally) {
         // Roughnesses between 0.1 and 1: the exponents between 20,000 and 1.
         const double exponent = exponentOf(random.uniform(0.1, 1));
-        for (const Lobe lobe : {Lobe::Diffuse, Lobe::Ashikhmin, Lobe::Blinn, Lobe::Phong}) {
-            const Material m = materialOf(lobe, exponent);
-            const double found = albedo(m, kUp, kHalfPi);
-            const double wanted = albedoStraightOn(lobe, static_cast<double>(m.exponent));
+        for (const char* const name : kLobeNames) {
+            const OneLobe lobe(name, exponent);
+            const double found = albedo(lobe, kUp, kHalfPi), wanted = albedoStraightOn(lobe);
             ++tally.cases;
             tally.measure(std::fabs(found / wanted - 1), [&] {
-                return cat(nameOf(lobe), ", exponent ", exponent, ": ", found, ", wanted ", wanted);
+                return cat(name, ", exponent ", exponent, ": ", found, ", wanted ", wanted);
             });
         }
     });
 }
 
-// Diffuse and ashikhmin: f, which is what comes back over the cosine of the light. Blinn and phong
-// stand for f times the cosine already, and that is what is symmetric.
+// Diffuse and ashikhmin, the first two: f, which is what comes back over the cosine of the light.
+// Blinn and phong stand for f times the cosine already, and that is what is symmetric.
 Tally reciprocity(const Effort& effort) {
     return inBatches(effort, 203, 20, [](meshes::Random& random, Tally& tally) {
         const auto above = [&] {
@@ -124,9 +171,9 @@ Tally reciprocity(const Effort& effort) {
             return Vec3{d.x, d.y, std::fabs(d.z)};
         };
         for (int i = 0; i < 2000; ++i) {
-            const Lobe lobe = static_cast<Lobe>(random.below(kLobeNames.size()));
+            const std::size_t which = random.below(kLobeNames.size());
             const double r = roughnessOf(static_cast<int>(random.below(kRoughnesses)));
-            const Material m = materialOf(lobe, exponentOf(r));
+            const OneLobe lobe(kLobeNames[which], exponentOf(r));
             const Vec3 eye = above();
             // Half of the lights near the mirrored direction, where narrow lobes are.
             const Vec3 light = random.chance(0.5)
@@ -134,52 +181,37 @@ Tally reciprocity(const Effort& effort) {
                                    : normalize(Vec3{-eye.x, -eye.y, eye.z} +
                                                toFloat(random.direction() * (0.3 * r)));
             if (eye.z < 0.01f || light.z < 0.01f) continue;
-            const Frame frame = frameAround(toFloat(random.direction()));
-            const bool hasCosine = lobe == Lobe::Diffuse || lobe == Lobe::Ashikhmin;
             const auto answer = [&](Vec3 from, Vec3 to) {
-                const double value = static_cast<double>(
-                    reflectedLight(m, frame.z, frame.toWorld(to), frame.toWorld(from)).g);
-                return hasCosine ? value / dot(toDouble(frame.z), toDouble(frame.toWorld(from)))
-                                 : value;
+                const double value = lobe.eval(to, from);
+                return which < 2 ? value / static_cast<double>(from.z) : value;
             };
             const double a = answer(light, eye), b = answer(eye, light);
             ++tally.cases;
             if (max(a, b) < 1e-30) continue; // far outside of a lobe: both are as good as nothing
-            tally.measure(std::fabs(a - b) / max(a, b), [&] {
-                return cat(nameOf(lobe), ", roughness ", r, ": ", a, " and ", b);
-            });
+            tally.measure(std::fabs(a - b) / max(a, b),
+                          [&] { return cat(lobe.name(), ", roughness ", r, ": ", a, " and ", b); });
         }
     });
 }
 
-// Mirror and glass of every law, roughness and ior: the rays of one hit carry on what arrived.
+// Sharp mirrors and glass of every ior: the rays of one hit carry on what arrived.
 Tally tracedRays(const Effort& effort) {
     return inBatches(effort, 204, 20, [](meshes::Random& random, Tally& tally) {
         for (int i = 0; i < 5000; ++i) {
-            Material m;
-            m.fresnel = static_cast<FresnelModel>(random.below(3));
-            m.roughness =
-                random.chance(0.2)
-                    ? 0.0f
-                    : static_cast<float>(roughnessOf(static_cast<int>(random.below(kRoughnesses))));
-            const float part = static_cast<float>(random.unit());
-            const bool shared = m.fresnel != FresnelModel::Dielectric; // by Fresnel's formula there
-            m.mirror = shared ? kWhite * part : kWhite;
-            m.transmission = shared ? kWhite * (1 - part) : kWhite;
-            const float eta = static_cast<float>(random.logUniform(1 / 2.5, 2.5));
+            constexpr std::array kNames = {"mirror", "schlick_mirror", "dielectric", "refraction"};
+            OneLobe lobe(kNames[random.below(kNames.size())], 0);
+            for (const char* const white : {"color", "reflect_tint", "transmit_tint"})
+                lobe.set(white, 1);
+            const double eta = random.logUniform(1 / 2.5, 2.5);
+            lobe.setEta(eta);
             const double angle = random.uniform(0, 1.5);
-            const Bounces out = bounces(m, kUp, kUp, tilted(angle, random.uniform(0, kTwoPi)), eta,
-                                        random.square());
-            double sum = 0;
-            for (const auto& bounce : {out.reflected, out.refracted})
-                if (bounce) sum += static_cast<double>(bounce->weight.g);
+            const double sum =
+                lobe.carriedOn(tilted(angle, random.uniform(0, kTwoPi)), random.square());
             const auto text = [&] {
-                return cat("fresnel ", static_cast<int>(m.fresnel), ", roughness ", m.roughness,
-                           ", eta ", eta, ", eye at ", angle, ": ", sum);
+                return cat(lobe.name(), ", eta ", eta, ", eye at ", angle, ": ", sum);
             };
             ++tally.cases;
-            // A sharp surface loses nothing either; a rough one does where its facets shade it.
-            if (m.roughness == 0 && !(sum > 1 - 1e-6)) tally.fail(text);
+            if (!(sum > 1 - 1e-6)) tally.fail(text);
             tally.measure(sum, text);
         }
     });

@@ -166,7 +166,7 @@ Tally fromMeshes(const Effort& effort) {
     });
 }
 
-// Shadow rays as render/waves/lamps.h casts them: from a point lamp, or towards the sun.
+// Shadow rays as the renderer casts them: from a point lamp, or towards the sun.
 void castShadowRays(Random& random, const Surface& s, const Shape& shape, std::string_view name,
                     double leastCosine, Tally& tally) {
     constexpr int kRays = 24;

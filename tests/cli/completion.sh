@@ -64,7 +64,7 @@ END
     offers 'values of diff' 'psnr' raytracer diff a b --metric p
     offers 'verify' 'verify' raytracer ver
     offers 'options of verify' '--effort' raytracer verify --ef
-    offers 'tests of verify' 'T21a T21b T21c' raytracer verify T25 T21
+    offers 'tests of verify' 'T21a T21b' raytracer verify T25 T21
     offers 'nothing for numbers' '' raytracer --spp 1
 else
     ok 'bash is not here'

@@ -44,7 +44,6 @@ run 0 soft.txt b.pfm --error 0.01 --progress plain
 check 'progress reaches the end' has err 'progress 100 %'
 run 0 soft.txt b.pfm --error 0.01 --stats -q
 check '--stats: the estimate and the goal' has err '(goal 0.01)'
-check '--stats: the form of the shading' has err 'shading  waves: soft lamps'
 
 expect '--sampler corners' 1 "whose rays have fixed places" soft.txt b.pfm --error 0.01 --sampler corners
 expect '--no-jitter' 1 'do not know what is between them' soft.txt b.pfm --error 0.01 --sampler grid --no-jitter

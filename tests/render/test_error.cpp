@@ -90,7 +90,7 @@ TEST(reportedErrorIsHonest) {
     for (const char* name :
          {"soft", "glossy", "dof", "motion", "textures", "glass", "transparent"}) {
         const std::string& text = sceneNamed(name);
-        const Image reference = clipped(referenceOf(text, 128));
+        const Image reference = clipped(referenceOf(text, 512));
         for (std::uint32_t seed = 0; seed < check::scaled(2u); ++seed) {
             Stats stats;
             const Picture picture = render(text,

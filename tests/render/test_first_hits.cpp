@@ -33,6 +33,10 @@ std::string someScene() {
            "cylinder f {\n translate -3 1 1\n scale 0.5 0.5 1\n material plain\n}\n";
 }
 
+Rgb albedoAt(const SceneMaterial& of, Vec2 uv) {
+    return of.pictures->diffuse ? of.diffuse * of.pictures->diffuse->color(uv) : of.diffuse;
+}
+
 FirstHit alone(const Scene& scene, const Ray& ray) {
     const Hit hit = scene.shapes().closest(ray);
     if (!hit.isHit()) return {};
@@ -43,7 +47,7 @@ FirstHit alone(const Scene& scene, const Ray& ray) {
             .depth = static_cast<float>(dot(position - eye, axis) / scene.frame().scale),
             .normal = at.eye.n,
             .position = toFloat(scene.frame().worldPoint(position)),
-            .albedo = materialAt(at).diffuse,
+            .albedo = albedoAt(*at.of, at.surface.uv),
             .object = at.surface.object + 1,
             .uv = at.surface.uv};
 }

@@ -26,6 +26,7 @@ TEST(whiteFurnace) {
         std::string material;
         double smallest; // the darkest pixel may be
         double mean;
+        bool isRough = false; // samples of single pixels scatter about their mean
     };
     // A weight below 1/2048 is not traced, and glass branches at every face: some 100 cut branches
     // take 5 % off single pixels of glass, 20 % with ior 2.4 in faceted bodies, less off the mean.
@@ -40,18 +41,19 @@ TEST(whiteFurnace) {
          0.999999, 0.999999},
         {" diffuse 0 0 0\n opacity 0\n", 1, 1},
         {" diffuse 1 1 1\n opacity 0.5\n", 0.999999, 0.999999},
-        {" diffuse 0 0 0\n mirror 1 1 1\n roughness 0.2\n", 0, 0.9},
+        {" diffuse 0 0 0\n mirror 1 1 1\n roughness 0.2\n", 0, 0.98, true},
         {" diffuse 0 0 0\n mirror 1 1 1\n transmission 1 1 1\n fresnel dielectric\n roughness "
          "0.3\n",
-         0, 0.85},
+         0, 0.9, true},
         {" diffuse 0 0 0\n mirror 0.04 0.04 0.04\n transmission 0.96 0.96 0.96\n fresnel schlick\n",
          0.8, 0.97}};
     for (const Case& c : cases)
         for (const std::string& body : kBodies) {
             const Image image =
                 furnace(c.material, (body.starts_with("instance") ? ball : "") + body);
-            CHECK_INFO(shot::largest(image) <= 1 + 1e-5, shot::largest(image)
-                                                             << c.material << body);
+            const double largest =
+                c.isRough ? shot::estimate(image).mean : static_cast<double>(shot::largest(image));
+            CHECK_INFO(largest <= 1 + (c.isRough ? 5e-3 : 1e-5), largest << c.material << body);
             CHECK_INFO(shot::smallest(image) >= c.smallest - 1e-6, shot::smallest(image)
                                                                        << c.material << body);
             CHECK_INFO(shot::estimate(image).mean >= c.mean - 1e-6,

@@ -1,8 +1,7 @@
-// What any of many materials has, and the table of them: found by several threads in parts, in
-// whichever part the one lies that has it.
+// What any of many materials has, and what each of them scatters light by: found by several threads
+// in parts, in whichever part the one lies that is special.
 #include "base/text.h"
 #include "check.h"
-#include "render/material_table.h"
 #include "render/scene.h"
 
 #include <functional>
@@ -13,10 +12,13 @@ namespace test_any_material {
 
 namespace {
 
+constexpr std::uint32_t kPlain = kReflects | kAnswersLights | kSpawnsRays | kDiffuse;
+
 struct Special {
     std::string name;
     std::function<void(MaterialDesc&)> change;
     AnyMaterial has;
+    std::uint32_t flags; // of its lobes, and its traits
 };
 
 const Special kSpecials[] = {
@@ -24,28 +26,45 @@ const Special kSpecials[] = {
      [](MaterialDesc& m) {
          m.diffuse = {0.1, 0.2, 0.3};
      },
-     {}},
+     {},
+     kPlain},
     {"mirror",
      [](MaterialDesc& m) {
-         m.mirror = {0, 0.5, 0};
+         m.diffuse = {}, m.mirror = {0, 0.5, 0};
      },
-     {.bounces = true}},
+     {},
+     kReflects | kSpawnsRays},
+    {"rough mirror",
+     [](MaterialDesc& m) {
+         m.diffuse = {}, m.mirror = {0, 0.5, 0}, m.roughness = 0.1;
+     },
+     {},
+     kReflects | kAnswersLights | kSpawnsRays | kHasTangent | LobedMaterial::kSpreads},
     {"glass",
      [](MaterialDesc& m) {
-         m.transmission = {0, 0, 1};
+         m.diffuse = {}, m.transmission = {0, 0, 1};
      },
-     {.bounces = true, .transmits = true, .branches = true}},
-    {"rough", [](MaterialDesc& m) { m.roughness = 0.1; }, {.isRough = true, .branches = true}},
-    {"fresnel",
-     [](MaterialDesc& m) { m.fresnel = MaterialDesc::Fresnel::Schlick; },
-     {.branches = true}},
-    {"thin", [](MaterialDesc& m) { m.opacity = 0.5; }, {.branches = true, .seeThrough = true}},
+     {.transmits = true},
+     kReflects | kTransmits | kAnswersLights | kSpawnsRays | kHasSides | kHasTangent},
+    {"black", [](MaterialDesc& m) { m.diffuse = {}; }, {}, 0},
+    {"bright",
+     [](MaterialDesc& m) {
+         m.emission = {0, 1, 0};
+     },
+     {},
+     kPlain | LobedMaterial::kEmits},
+    {"lit outside",
+     [](MaterialDesc& m) { m.litSide = MaterialDesc::LitSide::Outside; },
+     {},
+     kPlain | LobedMaterial::kLitOutside},
+    {"thin",
+     [](MaterialDesc& m) { m.opacity = 0.5; },
+     {.seeThrough = true},
+     kPlain | LobedMaterial::kSeeThrough},
 };
 
 bool areSame(const AnyMaterial& a, const AnyMaterial& b) {
-    return a.isLamp == b.isLamp && a.bounces == b.bounces && a.transmits == b.transmits &&
-           a.isRough == b.isRough && a.branches == b.branches && a.pictures == b.pictures &&
-           a.seeThrough == b.seeThrough;
+    return a.transmits == b.transmits && a.pictures == b.pictures && a.seeThrough == b.seeThrough;
 }
 
 Scene sceneOf(const SceneDesc& desc, int threads) {
@@ -69,32 +88,31 @@ TEST(any_material_wherever_it_is) {
                 const Scene scene = sceneOf(desc, threads);
                 const std::string what = cat(special.name, " at ", at, ", ", threads, " threads");
                 CHECK_INFO(areSame(scene.anyMaterial(), special.has), what);
-                CHECK_INFO(scene.hasSeeThrough() == special.has.seeThrough, what);
                 CHECK_INFO(scene.materials().size() == kCount + 1, what); // and the default one
-                const MaterialTable table(scene, threads);
+                CHECK_INFO(scene.lobedMaterials().size() == kCount + 1, what);
                 for (const std::size_t i : {std::size_t{0}, std::size_t{1}, at, kCount}) {
-                    const bool isIt = i == at, mirrors = isIt && special.name == "mirror";
-                    const auto number = static_cast<std::uint32_t>(i);
-                    CHECK_INFO(((table.traits(number) & MaterialTable::Mirrors) != 0) == mirrors,
-                               what << ", " << i);
-                    CHECK_INFO((table.traits(number) & MaterialTable::AnswersLamps) != 0,
-                               what << ", " << i);
-                    CHECK_INFO((scene.materials()[i].base.diffuse == Rgb{0.1f, 0.2f, 0.3f}) ==
+                    const bool isIt = i == at;
+                    CHECK_INFO(scene.lobedMaterials()[i].flags == (isIt ? special.flags : kPlain),
+                               what << ", " << i << ": " << scene.lobedMaterials()[i].flags);
+                    CHECK_INFO((scene.materials()[i].diffuse == Rgb{0.1f, 0.2f, 0.3f}) ==
                                    (isIt && special.name == "plain"),
                                what << ", " << i);
                 }
             }
 }
 
-// A lamp that can be seen is a material, too, and it alone is bright.
+// A lamp that can be seen is a material, too, and it alone is one.
 TEST(any_material_of_a_lamp) {
     SceneDesc desc;
     desc.cameras.resize(1);
     desc.lights.resize(1);
     desc.lights[0].kind = LightDesc::Kind::Rectangle;
-    CHECK(!sceneOf(desc, 1).anyMaterial().isLamp);
+    CHECK_EQUAL(sceneOf(desc, 1).materials().size(), std::size_t{1}); // the default one
     desc.lights[0].visible = true;
-    CHECK(sceneOf(desc, 1).anyMaterial().isLamp);
+    const Scene scene = sceneOf(desc, 1);
+    CHECK_EQUAL(scene.materials().size(), std::size_t{2});
+    CHECK(!scene.materials()[0].isLamp && scene.materials()[1].isLamp);
+    CHECK_EQUAL(scene.lobedMaterials()[1].flags, std::uint32_t{LobedMaterial::kEmits});
 }
 
 } // namespace test_any_material

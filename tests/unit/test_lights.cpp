@@ -1,15 +1,12 @@
 // Lights in lanes, in one lane: directions have the density that they say, rays meet what samples
 // come from, and means over samples are what closed forms give.
 #include "check.h"
-#include "light/area_light.h"
-#include "light/point_light.h"
-#include "light/sun_light.h"
 #include "unit/chi2.h"
 #include "unit/light_kit.h"
 
 #include <algorithm>
 #include <map>
-#include <memory>
+#include <sstream>
 #include <string>
 
 namespace test_lights {

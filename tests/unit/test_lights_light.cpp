@@ -1,9 +1,6 @@
-// How much light lights in lanes give: today's lamps, closed forms, and places that lamps are not
-// made for.
+// How much light all of a lamp gives, by the mean of its samples: closed forms, and places that
+// lamps are not made for.
 #include "check.h"
-#include "light/area_light.h"
-#include "light/point_light.h"
-#include "light/sun_light.h"
 #include "unit/light_kit.h"
 
 #include <algorithm>
@@ -81,84 +78,6 @@ Vec3d byPlaces(const std::function<Vec3d(double, double)>& at, Vec3d n, double a
 }
 
 } // namespace
-
-// Row by row today's lamps: what their centres give, and, where samples of one place are taken in
-// the same way, what those give.
-TEST(lights_are_todays_lamps) {
-    constexpr std::uint64_t kSeed = 5103;
-    Random random(kSeed);
-    const auto near = [&](const Sample& s, const LightSample& of, const char* name) {
-        const auto same = [](float a, float b) {
-            return a == b || std::fabs(a - b) <= 1e-5f * max(std::fabs(a), std::fabs(b));
-        };
-        CHECK_INFO(same(s.irradiance.r, of.irradiance.r) && same(s.irradiance.b, of.irradiance.b),
-                   name << ' ' << s.irradiance.r << ", today " << of.irradiance.r);
-        if (isBlack(of.irradiance)) return;
-        CHECK_INFO(same(s.distance, of.distance), name << ' ' << s.distance << ' ' << of.distance);
-        CHECK_INFO(length2(toDouble(s.toLight) - toDouble(of.toLight)) < 1e-11, name);
-    };
-    for (int i = 0; i < 2000; ++i) {
-        const Vec3 centre = toFloat(random.inBox(1)), p = toFloat(random.inBox(3));
-        const Vec2 u = random.square();
-        const float radius = random.chance(0.3) ? 0 : static_cast<float>(random.unit());
-        PointRow point = light_kit::point(centre, radius);
-        if (random.chance(0.4))
-            point.attenuation = {static_cast<float>(random.unit()),
-                                 static_cast<float>(random.unit()),
-                                 static_cast<float>(random.unit())};
-        const Attenuation fade{point.attenuation.x, point.attenuation.y, point.attenuation.z};
-        const PointLight pointLight(centre, point.intensity, fade, radius, {}, true);
-        near(OneLight(point).centre(p), pointLight.centre(p), "point");
-        near(OneLight(point).sample(p, u), pointLight.sample(p, u), "point's disk");
-
-        SpotRow spot = light_kit::spot(random, centre, radius);
-        spot.point = point, spot.cosHalfAngle = static_cast<float>(random.uniform(-0.9, 0.9));
-        spot.blend = random.chance(0.2) ? 0 : static_cast<float>(random.unit());
-        spot.cosineFalloff = random.chance(0.5) ? 1 : 0;
-        const SpotCone cone{spot.axis, spot.cosHalfAngle, spot.blend, spot.cosineFalloff > 0};
-        // The border of a hard cone is where rounding says.
-        const PointLight spotLight(centre, point.intensity, fade, radius, cone, true);
-        if (spot.blend > 0.1f) {
-            const LightSample of = spotLight.centre(p);
-            const auto part = static_cast<double>(of.irradiance.r) /
-                              static_cast<double>(pointLight.centre(p).irradiance.r);
-            // Near the border smoothstep magnifies roundings of the cosine.
-            if (part == 0 || part > 0.05) near(OneLight(spot).centre(p), of, "spot");
-        }
-
-        const double half = random.logUniform(1e-3, 1.5);
-        const Vec3 dir = unitVector(random);
-        const SunRow sun{-dir, {1, 2, 3}, static_cast<float>(2 * sqr(std::sin(half / 2)))};
-        const SunLight sunLight(dir, {1, 2, 3}, half, true);
-        near(OneLight(sun).centre(p), sunLight.centre(p), "sun");
-        near(OneLight(sun).sample(p, u), sunLight.sample(p, u), "sun's disk");
-
-        const SphereRow sphere = light_kit::sphere(centre, static_cast<float>(random.unit()));
-        const SphereLight sphereLight(centre, sphere.radius, sphere.radiance, true);
-        if (length(p - centre) > sphere.radius) {
-            near(OneLight(sphere).centre(p), sphereLight.centre(p), "sphere");
-            const Sample s = OneLight(sphere).sample(p, u);
-            CHECK_NEAR(s.irradiance.r, sphereLight.sample(p, u).irradiance.r,
-                       1e-5 * static_cast<double>(s.irradiance.r));
-        }
-
-        auto rectangle = flat<RectangleRow>(random, centre, 1);
-        const double spread = random.chance(0.5) ? kHalfPi : random.uniform(0.2, 1.5);
-        setSpread(rectangle, spread);
-        const FlatLight flatLight(FlatLight::Outline::Rectangle, centre, rectangle.halfX,
-                                  rectangle.halfY, rectangle.normal, rectangle.radiance, spread,
-                                  true);
-        DiskRow disk{{rectangle}};
-        const FlatLight diskLight(FlatLight::Outline::Ellipse, centre, disk.halfX, disk.halfY,
-                                  disk.normal, disk.radiance, spread, true);
-        // At the border of the spread both are a difference of nearly equal tangents.
-        const auto cosine = -dot(normalize(centre - p), rectangle.normal);
-        if (spread == kHalfPi || std::acos(cosine) < 0.9f * static_cast<float>(spread)) {
-            near(OneLight(rectangle).centre(p), flatLight.centre(p), "rectangle");
-            near(OneLight(disk).centre(p), diskLight.centre(p), "disk");
-        }
-    }
-}
 
 // 48 x 48 strata against Lambert's formula, and grids of places where there is none. Bounds are six
 // deviations of random places, which strata stay far below, and what the grids are off.

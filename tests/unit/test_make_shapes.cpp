@@ -116,7 +116,8 @@ TEST(make_shapes_let_go_of_the_description) {
         CHECK(kept.shapes().boxes == handed.shapes().boxes &&
               kept.shapes().shadows == handed.shapes().shadows);
         CHECK_EQUAL(statsOf(kept).accel.sah, statsOf(handed).accel.sah);
-        CHECK(kept.moves() == handed.moves() && kept.lights().size() == handed.lights().size());
+        CHECK(kept.moves() == handed.moves() &&
+              kept.pathLights().size() == handed.pathLights().size());
         for (std::size_t i = 0; i < kept.features().size(); ++i)
             CHECK(kept.features()[i].needed == handed.features()[i].needed);
     }

@@ -118,23 +118,20 @@ TEST(stats_table_is_aligned_and_complete) {
         CHECK_INFO(table.find(part) != std::string::npos, part << " in\n" << table);
 }
 
-// What only a picture with an error goal has, and what shaded it.
+// What only a picture with an error goal has.
 TEST(stats_of_an_error_goal) {
     Stats stats = example();
     CHECK(statsJson(stats, {}).find("error") == std::string::npos);
     CHECK(statsTable(stats).find("error") == std::string::npos);
     stats.samplesMin = 4, stats.samplesMean = 17.26, stats.samplesMax = 512;
     stats.error = {0.01, 0.0123456, 512, 1234};
-    stats.shading = "waves: soft lamps, lamp bodies";
     const std::string json = statsJson(stats, {}), table = statsTable(stats);
     CHECK(isJson(json));
     for (const char* part :
          {"\"error_estimate\":0.0123456,\"error_goal\":0.01,\"capped_pixels\":1234",
-          "\"samples\":{\"min\":4,\"mean\":17.26,\"max\":512}",
-          "\"shading\":\"waves: soft lamps, lamp bodies\""})
+          "\"samples\":{\"min\":4,\"mean\":17.26,\"max\":512}"})
         CHECK_INFO(json.find(part) != std::string::npos, part << " in " << json);
-    for (const char* part : {" 17.3 (4 to 512)", "0.0123 (goal 0.01)", "1 234 (at 512 samples)",
-                             "shading  waves: soft lamps"})
+    for (const char* part : {" 17.3 (4 to 512)", "0.0123 (goal 0.01)", "1 234 (at 512 samples)"})
         CHECK_INFO(table.find(part) != std::string::npos, part << " in\n" << table);
 }
 

@@ -1,9 +1,10 @@
-// Textures by the register: every lane has the bits of looking its point up alone, and a wave's
-// points get the numbers that each would get for itself.
+// Textures by the register: every lane has the bits of looking its point up alone. And what
+// textures multiply.
 #include "accel/kernels/kernels.h"
 #include "check.h"
+#include "render/path/lobe_block.h"
+#include "render/path/make_lobes.h"
 #include "render/waves/picture_lanes.h"
-#include "render/waves/texture_points.h"
 #include "texture/texture.h"
 #include "verify/meshes.h"
 
@@ -145,71 +146,63 @@ TEST(texture_lanes_are_for_bytes) {
     CHECK(oneLane().pictures == nullptr);
 }
 
-// Materials with any of their four pictures, more of them than there are groups, at any number of
-// points each.
-TEST(texture_points_get_the_numbers_of_their_materials) {
+// Points of two materials with the same kinds of lobes: each number is multiplied by the picture,
+// or by one minus a part of it, and the others stay.
+TEST(texture_factors_multiply_numbers_of_lobes) {
     Random random(42);
-    long long asked = 0, wrong = 0;
-    TexturedPoints points; // as in a wave: one for all
-    for (int i = 0; i < check::scaled(60); ++i) {
+    const auto block = std::make_unique<LobeBlock>();
+    for (int round = 0; round < 100; ++round) {
         std::vector<std::unique_ptr<const Texture>> textures;
-        for (int t = 0; t < 8; ++t)
+        for (int t = 0; t < 3; ++t)
             textures.push_back(std::make_unique<const Texture>(
-                someImage(random, t < 6 ? StoredImage::Depth::Bits8 : StoredImage::Depth::Bits16),
+                someImage(random, t < 2 ? StoredImage::Depth::Bits8 : StoredImage::Depth::Bits16),
                 someParams(random)));
-        const auto maybe = [&]() -> const Texture* {
-            return random.chance(0.5) ? textures[random.below(textures.size())].get() : nullptr;
-        };
-        std::vector<SceneMaterial> materials(1 + random.below(40));
-        std::vector<MaterialPictures> pictures(materials.size());
-        for (std::size_t number = 0; number < materials.size(); ++number) {
-            SceneMaterial& m = materials[number];
-            m.base.diffuse = {0.9f, 0.7f, 0.3f}, m.base.specular = {0.5f, 0.6f, 0.1f};
-            m.base.emission = {3, 4, 5}, m.base.opacity = 0.9f;
-            pictures[number] = {maybe(), maybe(), maybe(), maybe()};
-            m.pictures = &pictures[number];
+        LobedMaterials materials;
+        std::vector<LobeRow> rows[2];
+        std::vector<LobeFactor> factors[2];
+        for (std::size_t m = 0; m < 2; ++m) {
+            const auto part = static_cast<float>(random.uniform(0.1, 0.4));
+            rows[m] = {lobeRow("diffuse", {part, 0.2f, 0.3f}),
+                       lobeRow("conductor", {0.3f, part, 0.1f})};
+            const auto any = [&] { return textures[random.below(textures.size())].get(); };
+            factors[m] = {{0, 0, 3, 0, 1, any()},      // diffuse: by the colour
+                          {1, 0, 3, 1, -0.5f, any()},  // metal: by one minus half of it
+                          {1, 3 + 6, 1, 0, 1, any()}}; // its roughness: by the grey value
+            materials.add(rows[m], factors[m], 0);
         }
-        const std::size_t count = 1 + random.below(400);
-        PointColumns columns;
-        columns.setMaterials(materials);
-        columns.resize(count);
-        std::vector<ShadedPoint> at(count);
-        std::vector<Material> numbers(count);
-        points.clear();
-        const double goesOn = random.chance(0.5) ? 0.7 : 0.98;
-        std::uint32_t added = 0; // so many points
-        for (std::size_t k = 0; k < count; ++k) {
-            // In runs, as on surfaces.
-            at[k].of = k > 0 && random.chance(goesOn) ? at[k - 1].of
-                                                      : &materials[random.below(materials.size())];
-            at[k].surface.uv = {someCoordinate(random, 8), someCoordinate(random, 8)};
-            at[k].surface.material = static_cast<std::uint32_t>(at[k].of - materials.data());
-            columns.put(k, at[k]);
-            // One by one, or some that are alike.
-            const auto end = static_cast<std::uint32_t>(k);
-            if (added < end && (at[k].of != at[added].of || random.chance(0.2))) {
-                points.add(*at[added].of, added, end - added);
-                added = end;
-            }
-        }
-        points.add(*at[added].of, added, static_cast<std::uint32_t>(count) - added);
         const Isa& kernel = allIsas()[random.below(allIsas().size())];
-        points.apply(kernel.supported() ? lanesOf(kernel.pictures).texture : nullptr, columns,
-                     numbers);
-        for (std::size_t k = 0; k < count; ++k) {
-            const Material alone = materialAt(at[k]);
-            ++asked;
-            if (!(sameBits(numbers[k].diffuse, alone.diffuse) &&
-                  sameBits(numbers[k].specular, alone.specular) &&
-                  sameBits(numbers[k].emission, alone.emission) &&
-                  sameBits(numbers[k].opacity, alone.opacity)) &&
-                ++wrong <= 3)
-                CHECK_INFO(false, kernel.name << " scene " << i << " point " << k << " of " << count
-                                              << ", " << materials.size() << " materials");
+        const TextureColorsFn colors =
+            kernel.supported() ? lanesOf(kernel.pictures).texture : nullptr;
+        SurfaceBlock at{};
+        for (float& coordinate : at.uv[0]) coordinate = static_cast<float>(random.uniform(-1, 2));
+        for (float& coordinate : at.uv[1]) coordinate = static_cast<float>(random.uniform(-1, 2));
+        block->begin(materials, materials[0]);
+        for (std::size_t i = 0; i < LobeBlock::kPoints; ++i)
+            block->put(materials, materials[i % 2], i);
+        const unsigned first = round % 2 == 0 ? 0x5555u : 0x0014u; // few points, too
+        block->paint(materials, materials[0], first, at, colors);
+        block->paint(materials, materials[1], 0xaaaau, at, colors);
+        for (std::size_t i = 0; i < LobeBlock::kPoints; ++i) {
+            const std::size_t m = i % 2;
+            if (m == 0 && (first >> i & 1) == 0) continue;
+            const Vec2 uv{at.uv[0][i], at.uv[1][i]};
+            const Rgb a = factors[m][0].texture->color(uv), b = factors[m][1].texture->color(uv);
+            const float grey = factors[m][2].texture->valueOf(factors[m][2].texture->color(uv));
+            std::vector<float> expected[2];
+            for (std::size_t l = 0; l < 2; ++l)
+                expected[l].assign(rows[m][l].value, rows[m][l].value + (l == 0 ? 3 : 12));
+            expected[0][0] *= a.r, expected[0][1] *= a.g, expected[0][2] *= a.b;
+            expected[1][0] *= 1 - 0.5f * b.r, expected[1][1] *= 1 - 0.5f * b.g,
+                expected[1][2] *= 1 - 0.5f * b.b;
+            expected[1][9] *= grey;
+            for (std::size_t l = 0; l < 2; ++l)
+                for (std::size_t v = 0; v < expected[l].size(); ++v)
+                    CHECK_INFO(block->lobe[l].value[v][i] == expected[l][v],
+                               "round " << round << " point " << i << " lobe " << l << " value "
+                                        << v << ": " << block->lobe[l].value[v][i] << ", expected "
+                                        << expected[l][v]);
         }
     }
-    CHECK_INFO(asked > 5000, asked);
-    CHECK_EQUAL(wrong, 0);
 }
 
 } // namespace test_texture_lanes

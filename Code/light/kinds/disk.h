@@ -83,10 +83,10 @@ private:
         Doubles solidAngle; // of the rectangle
         Mask byAngle;       // slices, not places
 
-        Slice sliceAt(const Doubles& x) const {
-            const Doubles zero(0.0), one(1.0), s = (x - middleX) / lengthX;
+        Slice sliceAt(const Doubles& place) const {
+            const Doubles zero(0.0), one(1.0), s = (place - middleX) / lengthX;
             const Doubles half = lengthY * sqrt(max((one - s) * (one + s), zero));
-            const Doubles d2 = x * x + from.h * from.h;
+            const Doubles d2 = place * place + from.h * from.h;
             const auto sine = [&](const Doubles& at) { return at / sqrt(d2 + at * at); };
             const Doubles y0 = middleY - half, y1 = middleY + half;
             return {y0, y1, (sine(y1) - sine(y0)) / (sine(from.y1) - sine(from.y0))};

@@ -74,15 +74,18 @@ public:
     Floats3 evalBesideRays(const Floats3& toLight, Floats lampPdf) const {
         Floats3 f = rgbOf(0.0f);
         const Floats zero(0.0f), one(1.0f);
+        const bool isShared = bits(lampPdf > zero) != 0;
         for (std::size_t l = 0; l < block_.count; ++l)
             forLobe(block_.lobe[l].kind, [&]<class L> {
                 if constexpr ((L::kFlags & kAnswersLights) != 0) {
                     const L lobe(numbers(l));
                     Floats3 value = weight_[l] * lobe.eval(toEye_, toLight);
-                    if constexpr (spawnsInWhitted(L::kFlags)) {
-                        const Floats pdf = lobe.pdf(toEye_, toLight);
-                        value = value * select(lampPdf > zero, powerHeuristic(lampPdf, pdf), one);
-                    }
+                    if constexpr (spawnsInWhitted(L::kFlags))
+                        if (isShared && !block_.lobe[l].isHighlight) {
+                            const Floats pdf = lobe.pdf(toEye_, toLight);
+                            value =
+                                value * select(lampPdf > zero, powerHeuristic(lampPdf, pdf), one);
+                        }
                     f = f + value;
                 }
             });
@@ -97,6 +100,19 @@ public:
                     sum = sum + weight_[l] * L(numbers(l)).albedo(toEye_);
             });
         return sum;
+    }
+    // Calls fn(lobe, transmits) for all that Whitted pictures follow rays of: each lobe, or its
+    // reflection and its transmission apart.
+    template <class Fn> void forEachBranch(const Fn& fn) const {
+        for (std::size_t l = 0; l < block_.count; ++l)
+            forLobe(block_.lobe[l].kind, [&]<class L> {
+                if constexpr (spawnsInWhitted(L::kFlags)) {
+                    if (block_.lobe[l].isHighlight) return;
+                    fn(l, false);
+                    if constexpr ((L::kFlags & kReflects) != 0 && (L::kFlags & kTransmits) != 0)
+                        fn(l, true);
+                }
+            });
     }
     // A sample of one lobe, of its reflection or transmission if it has both. Its weight is all
     // that the lobe adds.

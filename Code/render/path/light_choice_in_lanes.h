@@ -32,15 +32,15 @@ private:
     alignas(64) float column_[kLightNumbers][W] = {};
 };
 
-// Samples lights of the kind of `entry`, whose numbers are those of `columns`.
+// Samples lights of the kind of `entry`.
 inline SampledLight sampleOf(const PathLights& lights, const PathLights::Entry& entry,
-                             const LightColumns& columns, const Floats3& p, Floats u, Floats v) {
+                             const LightNumbers& numbers, const Floats3& p, Floats u, Floats v) {
     const Floats zero(0.0f);
     SampledLight out{rgbOf(0.0f), zero, rgbOf(0.0f), zero, noLanes()};
     if (entry.row.kind == PathLights::kSkyKind) out = SkyEmitter(lights.skyView()).sample(p, u, v);
     forLight(entry.row.kind, [&]<class L> {
-        const L light(columns.numbers());
-        out = entry.inCentre ? light.centre(p) : light.sample(p, u, v);
+        const L light(numbers);
+        out = entry.inCentre || entry.isPlace ? light.centre(p) : light.sample(p, u, v);
     });
     return out;
 }
@@ -68,13 +68,15 @@ inline ChosenLight chooseLight(const PathLights& lights, const Floats3& p, const
         unsigned alike = 0;
         for (std::size_t lane = 0; lane < W; ++lane) {
             const PathLights::Entry& entry = lights.entry(light[lane]);
-            const bool is = entry.row.kind == leader.row.kind && entry.inCentre == leader.inCentre;
+            const bool is = entry.row.kind == leader.row.kind &&
+                            entry.inCentre == leader.inCentre && entry.isPlace == leader.isPlace;
             columns.put(is ? entry.row : leader.row, lane);
             if (!is) continue;
             alike |= 1u << lane, end[lane] = PathLights::endOf(entry);
             if (entry.isOpen) out.open |= 1u << lane;
         }
-        out.sample = select(maskOf(alike), sampleOf(lights, leader, columns, p, u, v), out.sample);
+        out.sample =
+            select(maskOf(alike), sampleOf(lights, leader, columns.numbers(), p, u, v), out.sample);
         left &= ~alike;
     }
     out.end = out.sample.distance * Floats::load(end);

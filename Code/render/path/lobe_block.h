@@ -3,8 +3,10 @@
 
 #include "base/surface_block.h"
 #include "render/path/lobed_materials.h"
+#include "render/waves/texture_lanes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 
@@ -20,7 +22,7 @@ struct alignas(64) LobeBlock {
     using Lane = float[kPoints];
     struct Column {
         std::uint8_t kind;
-        bool covers;
+        bool covers, isHighlight;
         alignas(64) Lane value[LobeRow::kValues]; // as in LobeRow
     };
     std::size_t count = 0;
@@ -36,6 +38,7 @@ struct alignas(64) LobeBlock {
         const std::span<const LobeRow> rows = materials.lobes(of);
         for (std::size_t l = 0; l < count; ++l) {
             lobe[l].kind = rows[l].kind, lobe[l].covers = rows[l].covers;
+            lobe[l].isHighlight = rows[l].isHighlight;
             const std::size_t values = valuesOf(rows[l].kind);
             for (std::size_t v = 0; v < values; ++v)
                 std::fill_n(lobe[l].value[v], kPoints, rows[l].value[v]);
@@ -49,25 +52,48 @@ struct alignas(64) LobeBlock {
             for (std::size_t v = 0; v < values; ++v) lobe[l].value[v][i] = rows[l].value[v];
         }
     }
-    // Multiplies the numbers of point i by its textures.
-    void paint(const LobedMaterials& materials, const LobedMaterial& of, std::size_t i, Vec2 uv) {
+    // Multiplies the numbers of `points`, which are of this material, by its textures at their
+    // coordinates. `colors`: null, or what looks up many at a time.
+    void paint(const LobedMaterials& materials, const LobedMaterial& of, unsigned points,
+               const SurfaceBlock& at, TextureColorsFn colors) {
         const Texture* last = nullptr;
-        Rgb color;
+        TextureBlock texels;
+        std::size_t found = 0;
+        std::uint8_t point[kPoints];
+        for (; points != 0; points &= points - 1) {
+            const auto i = static_cast<std::size_t>(std::countr_zero(points));
+            texels.u[found] = at.uv[0][i], texels.v[found] = at.uv[1][i];
+            point[found++] = static_cast<std::uint8_t>(i);
+        }
         for (const LobeFactor& factor : materials.factors(of)) {
-            if (factor.texture != last) color = factor.texture->color(uv);
+            if (factor.texture != last) lookUp(*factor.texture, texels, found, colors);
             last = factor.texture;
-            auto* const value = &lobe[factor.lobe].value[factor.first];
-            if (factor.count == 1) {
-                value[0][i] *= factor.a + factor.b * factor.texture->valueOf(color);
-                continue;
-            }
-            value[0][i] *= factor.a + factor.b * color.r;
-            value[1][i] *= factor.a + factor.b * color.g;
-            value[2][i] *= factor.a + factor.b * color.b;
+            for (std::size_t k = 0; k < found; ++k)
+                multiply(factor, point[k],
+                         {texels.color[0][k], texels.color[1][k], texels.color[2][k]});
         }
     }
 
 private:
+    static void lookUp(const Texture& texture, TextureBlock& block, std::size_t count,
+                       TextureColorsFn colors) {
+        if (const auto bytes = texture.bytes(); bytes && colors != nullptr && count > 2)
+            return colors(*bytes, block, count);
+        for (std::size_t k = 0; k < count; ++k) {
+            const Rgb color = texture.color({block.u[k], block.v[k]});
+            block.color[0][k] = color.r, block.color[1][k] = color.g, block.color[2][k] = color.b;
+        }
+    }
+    void multiply(const LobeFactor& factor, std::size_t i, Rgb color) {
+        auto* const value = &lobe[factor.lobe].value[factor.first];
+        if (factor.count == 1) {
+            value[0][i] *= factor.a + factor.b * factor.texture->valueOf(color);
+            return;
+        }
+        value[0][i] *= factor.a + factor.b * color.r;
+        value[1][i] *= factor.a + factor.b * color.g;
+        value[2][i] *= factor.a + factor.b * color.b;
+    }
     static std::size_t valuesOf(std::uint8_t kind) {
         std::size_t values = 3;
         for (const LobeField& field : lobeTypes()[kind].fields)

@@ -18,6 +18,7 @@ struct LobeRow {
     static constexpr std::size_t kValues = 3 + kLobeNumbers;
     std::uint8_t kind = 0;     // its number in lobeTypes()
     bool covers = false;       // lies on the lobes behind it
+    bool isHighlight = false;  // Whitted pictures don't follow its rays
     float value[kValues] = {}; // its weight, then its numbers
 };
 
@@ -31,7 +32,9 @@ struct LobeFactor {
 
 struct LobedMaterial {
     // Beside the lobes' flags.
-    static constexpr std::uint32_t kEmits = 1u << 16, kAnisotropic = 1u << 17;
+    static constexpr std::uint32_t kEmits = 1u << 16, kAnisotropic = 1u << 17,
+                                   kSeeThrough = 1u << 18, kLitOutside = 1u << 19,
+                                   kSpreads = 1u << 20; // some rays of lobes are random
     std::uint32_t firstLobe = 0, firstFactor = 0;
     std::uint16_t factors = 0;
     std::uint8_t lobes = 0;
@@ -42,9 +45,12 @@ struct LobedMaterial {
 // What a material scatters light by, in the order of the description and then the default one.
 class LobedMaterials {
 public:
-    // One more. Returns false where the lobes reflect more than arrives and were scaled to what
-    // does.
-    bool add(const std::vector<LobeRow>& lobes, const std::vector<LobeFactor>& factors, bool emits);
+    // One more. Returns whether the lobes reflect no more than arrives; scaleDown() mends the last
+    // material where they do.
+    // `traits`: kEmits, kSeeThrough and kLitOutside.
+    bool add(const std::vector<LobeRow>& lobes, const std::vector<LobeFactor>& factors,
+             std::uint32_t traits);
+    void scaleDown();
 
     const LobedMaterial& operator[](std::size_t number) const { return materials_[number]; }
     std::size_t size() const { return materials_.size(); }
@@ -58,6 +64,7 @@ public:
 private:
     std::uint16_t signatureOf(const std::vector<LobeRow>& lobes);
 
+    float mostReflected_ = 0; // of the last material
     std::vector<LobedMaterial> materials_;
     std::vector<LobeRow> lobes_;
     std::vector<LobeFactor> factors_;

@@ -6,8 +6,8 @@
 #include "render/path/path_memory.h"
 #include "render/path/path_numbers.h"
 #include "render/waves/background.h"
+#include "render/waves/boundary.h"
 #include "render/waves/points.h"
-#include "render/waves/single_bounces.h"
 #include "sample/power_heuristic.h"
 
 #include <bit>
@@ -26,16 +26,8 @@ protected:
     const PathState& stateOf(std::size_t ray) const { return path_.states[ray]; }
 
     void findPoints() {
-        PointBatch& points = memory_.points;
-        points.clear(wave_.rays.size());
-        waves::listHits(memory_.hits, wave_.rays.size(), points);
-        points.at.setMaterials(scene_.materials());
-        waves::findSurfaces(wave_);
-        for (std::size_t b = 0; b < points.blocks(); ++b) {
-            waves::seeBlock<true>(wave_, b, litOutside(b));
-            waves::takeSamples(wave_.rays, b, points);
-        }
-        for (std::size_t k = 0; k < points.count; ++k) points.material[k] = &points.at.of(k).base;
+        waves::findPoints(wave_,
+                          [&](std::size_t b) { return pointsWith(LobedMaterial::kLitOutside, b); });
         if (wave_.depth == 0 && context_.wantsFirstHits) describeFirstHits(wave_);
     }
 
@@ -80,6 +72,7 @@ protected:
         const PathBatch& rays = wave_.rays;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             const PathState& state = stateOf(i);
+            if (!(state.pdf > 0) && (rays.seesLights[i] & lights_.unshapedSeenBy()) == 0) continue;
             float end = kInfinityF;
             if (memory_.hits[i].isHit()) end = memory_.hits[i].t;
             lights_.meet(rays.org[i], rays.dir[i], end, state.pdf > 0 ? 0 : rays.seesLights[i],
@@ -93,16 +86,18 @@ protected:
     // What the surface at point k emits.
     template <class LampPdf> void addEmission(std::size_t k, const LampPdf& lampPdf) {
         const std::uint32_t i = memory_.points.ray[k];
-        const ShadedPoint at = memory_.points.at[k];
-        const Material here = materialAt(at);
-        if (isBlack(here.emission) || (at.of->emitsFront && !at.front)) return;
-        if (at.of->isLamp && wave_.rays.seesLights[i] == 0) return;
+        const PointBlock& block = memory_.points.at.block(k / kPoints);
+        const SceneMaterial& of = memory_.points.at.of(k);
+        const bool isFront = block.isFront(k % kPoints);
+        if (of.isLamp && wave_.rays.seesLights[i] == 0) return;
+        const Vec2 uv = memory_.points.at.uv(k);
+        const Rgb emission = emissionAt(of, uv);
+        if (isBlack(emission) || (of.emitsFront && !isFront)) return;
         const Hit& hit = memory_.hits[i];
-        std::uint32_t light = lights_.ofObject(at.surface.object, at.front);
+        std::uint32_t light = lights_.ofObject(block.object[k % kPoints], isFront);
         if (light == PathLights::kNone) light = lights_.ofTriangle(hit.shape, hit.prim);
-        Rgb radiance = here.emission * here.opacity;
-        if (at.of->isLamp &&
-            light != PathLights::kNone) // it may not be the same for all directions
+        Rgb radiance = emission * opacityAt(of, uv);
+        if (of.isLamp && light != PathLights::kNone) // it may not be the same for all directions
             radiance = lights_.radianceOf(light, wave_.rays.org[i], normalize(wave_.rays.dir[i]),
                                           radiance);
         add(i, radiance * partOfHit(i, [&](const PathState& state) {
@@ -110,33 +105,43 @@ protected:
                }));
     }
 
+    // Points of the block whose materials have one of these flags.
+    unsigned pointsWith(std::uint32_t flags, std::size_t b) const {
+        const std::uint32_t* const number = memory_.points.at.block(b).material;
+        unsigned points = 0;
+        for (std::size_t i = 0; i < memory_.points.sizeOf(b); ++i)
+            points |= unsigned{(materials_[number[i]].flags & flags) != 0} << i;
+        return points;
+    }
+
     // Writes the lobes of those points that have the same kinds of them as the first; returns
     // which.
     unsigned fillAlike(std::size_t b, unsigned waiting) {
-        const PointBatch& points = memory_.points;
-        const PointBlock& at = points.at.block(b);
-        const auto leader = static_cast<std::size_t>(std::countr_zero(waiting));
-        const std::uint32_t number = at.material[leader];
+        const PointBlock& at = memory_.points.at.block(b);
+        const std::uint32_t number = at.material[std::countr_zero(waiting)];
         const LobedMaterial& of = materials_[number];
         LobeBlock& lobes = path_.lobes;
+        const bool isPlain = of.factors == 0 && (of.flags & LobedMaterial::kAnisotropic) == 0 &&
+                             pointsOf(number, at, waiting) == waiting;
+        if (isPlain && path_.filledWith == number) return waiting;
+        path_.filledWith = isPlain ? number : PathMemory::kMixed;
         lobes.begin(materials_, of);
-        unsigned alike = 0;
+        if (isPlain) return waiting;
+        unsigned alike = 0, painted = 0;
         for (unsigned rest = waiting; rest != 0; rest &= rest - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(rest));
             const LobedMaterial& other = materials_[at.material[i]];
             if (other.signature != of.signature) continue;
-            alike |= 1u << i;
+            alike |= 1u << i, lobes.flags |= other.flags;
+            painted |= unsigned{other.factors != 0} << i;
             if (at.material[i] != number) lobes.put(materials_, other, i);
-            if (other.factors != 0)
-                lobes.paint(materials_, other, i, points.at.uv(b * kPoints + i));
-            if ((other.flags & LobedMaterial::kAnisotropic) != 0) {
-                const std::size_t ray = points.ray[b * kPoints + i];
-                const Hit& hit = memory_.hits[ray];
-                const Shape& shape = *scene_.shapes().shapes[hit.shape];
-                SurfaceBlock::set(lobes.tangent, i,
-                                  shape.derivatives(wave_.rays.ray(ray), hit).dpdu);
-                lobes.turned |= 1u << i;
-            }
+            if ((other.flags & LobedMaterial::kAnisotropic) != 0) turn(lobes, b, i);
+        }
+        while (painted != 0) {
+            const std::uint32_t one = at.material[std::countr_zero(painted)];
+            const unsigned points = pointsOf(one, at, painted);
+            lobes.paint(materials_, materials_[one], points, at, context_.textureColors);
+            painted &= ~points;
         }
         return alike;
     }
@@ -172,6 +177,25 @@ protected:
             if (memory_.hidden[i] == 0) take(rays.sample[i], rays.weight[i]);
     }
 
+private:
+    static unsigned pointsOf(std::uint32_t material, const PointBlock& at, unsigned among) {
+        unsigned points = 0;
+        for (unsigned rest = among; rest != 0; rest &= rest - 1) {
+            const int i = std::countr_zero(rest);
+            points |= unsigned{at.material[i] == material} << i;
+        }
+        return points;
+    }
+    // Lays the lobes of point i along dp/du.
+    void turn(LobeBlock& lobes, std::size_t b, std::size_t i) const {
+        const std::size_t ray = memory_.points.ray[b * kPoints + i];
+        const Hit& hit = memory_.hits[ray];
+        const Shape& shape = *scene_.shapes().shapes[hit.shape];
+        SurfaceBlock::set(lobes.tangent, i, shape.derivatives(wave_.rays.ray(ray), hit).dpdu);
+        lobes.turned |= 1u << i;
+    }
+
+protected:
     const Wave& wave_;
     const IntegratorContext& context_;
     const Scene& scene_;
@@ -181,16 +205,6 @@ protected:
     const LobedMaterials& materials_;
     const SettingsDesc& limits_;
     waves::Boundary boundaries_[kPoints];
-
-private:
-    // Points of the block whose materials are lit outside whichever side is seen.
-    unsigned litOutside(std::size_t b) const {
-        const PointBatch& points = memory_.points;
-        unsigned outside = 0;
-        for (std::size_t i = 0; i < points.sizeOf(b); ++i)
-            outside |= unsigned{points.at.of(b * kPoints + i).litOutside} << i;
-        return outside;
-    }
 };
 
 // Runs WaveOf for one wave of rays after the other.

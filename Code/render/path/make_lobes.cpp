@@ -165,6 +165,7 @@ LobeList lobesOf(const MaterialDesc& desc, const TextureOf& textureOf, const Swi
     if (!isRough || isBlack(mirror)) {
         LobeRow lobe = lobeRow(modelName(desc.specularModel), toRgb(desc.specular));
         setField(lobe, "exponent", grey(desc.exponent));
+        lobe.isHighlight = true;
         add(lobe, desc.specularTexture);
     }
     return out;

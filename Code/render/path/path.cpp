@@ -44,7 +44,7 @@ private:
             const std::size_t i = k - first;
             const LobedMaterial& of = materials_[at.material[i]];
             if ((of.flags & LobedMaterial::kEmits) != 0) addEmission(k, pdfOf());
-            const bool answers = of.lobes != 0 || points.at.of(k).seeThrough();
+            const bool answers = of.lobes != 0 || (of.flags & LobedMaterial::kSeeThrough) != 0;
             if (!answers || stateOf(points.ray[k]).isLast) continue;
             waiting |= 1u << i;
             pixels[i] = wave_.rays.stream[points.ray[k]];
@@ -66,17 +66,16 @@ private:
             const SceneMaterial& of = memory_.points.at.of(k);
             if (!of.seeThrough()) continue;
             const ShadedPoint at = memory_.points.at[k];
-            const Material here = materialAt(at);
-            if (!(path_.block.numbers.spare[i] < 1 - here.opacity)) continue;
+            if (!(path_.block.numbers.spare[i] < 1 - opacityAt(of, at.surface.uv))) continue;
             straight |= 1u << i;
             const std::uint32_t ray = memory_.points.ray[k];
             PathState state = stateOf(ray);
-            if (++state.transparent > limits_.transparentDepth || isBlack(here.filter)) continue;
+            if (++state.transparent > limits_.transparentDepth || isBlack(of.filter)) continue;
             const PathBatch& rays = wave_.rays;
             memory_.next.push(
                 {leave(at.surface, -at.eye.ng), rays.dir[ray], 0, kInfinityF, rays.time[ray]},
-                rays.sample[ray], rays.weight[ray] * here.filter, rays.medium[ray],
-                rays.stream[ray], rays.seesLights[ray]);
+                rays.sample[ray], rays.weight[ray] * of.filter, rays.medium[ray], rays.stream[ray],
+                rays.seesLights[ray]);
             path_.nextStates.push_back(state);
             ++wave_.counts.refract;
         }

@@ -26,14 +26,15 @@ inline void storeWhere(unsigned lanes, const Floats3& v, float (*to)[PathBlock::
 // The geometry of W points as it is seen from the eye.
 struct SeenPoints {
     Floats3 p, ng, n, lift; // normals on the side of the eye
-    Floats error;
+    Floats error, rayError;
     unsigned lifted; // lanes where the horizon of ns has a say, too
     Floats3 ns, toEye;
 
     SeenPoints(const PointBlock& block, std::size_t first)
         : p(loadThree(block.p, first)), ng(loadThree(block.ng, first)),
           n(loadThree(block.n, first)), lift(rgbOf(0.0f)), error(Floats::load(block.error + first)),
-          lifted(0), ns(ng), toEye(loadThree(block.toEye, first)) {
+          rayError(Floats::load(block.rayError + first)), lifted(0), ns(ng),
+          toEye(loadThree(block.toEye, first)) {
         const Mask front = maskOf(block.front >> first & kAllLanes);
         const unsigned curved = block.curved >> first & kAllLanes;
         ng = select(front, ng, negated(ng));
@@ -132,15 +133,21 @@ inline void sendLight(const PathLights& lights, const SeenPoints& at, const Shad
     block.lit |= lanes << first, block.open |= (lanes & chosen.open) << first;
 }
 
-// A sampled direction as a ray, where it is on the right side of the surface.
-inline void sendRay(const SeenPoints& at, const ShadingFrame& frame, const BsdfSample& next,
-                    unsigned lanes, std::size_t first, PathBlock& block) {
+// Rays of sampled directions: from which side of the surface they leave.
+struct SentRays {
+    unsigned lanes;
+    Floats3 org, dir;
+    Mask isBelow;
+};
+// Sampled directions as rays, in the lanes where they are on the right side of the surface.
+inline SentRays raysOf(const SeenPoints& at, const ShadingFrame& frame, const Floats3& toLight,
+                       const Floats3& weight, Floats pdf, Mask single, unsigned lanes) {
     const Floats zero(0.0f);
-    Floats3 dir = normalize(frame.toWorld(next.toLight));
-    const Mask transmitted = next.toLight.z < zero;
+    Floats3 dir = normalize(frame.toWorld(toLight));
+    const Mask transmitted = toLight.z < zero;
     Floats rise = dot(at.ng, dir);
     // A mirrored direction that bent normals lead below the surface is mirrored by the surface.
-    const unsigned sunk = bits(next.single) & ~bits(transmitted) & ~bits(rise > zero);
+    const unsigned sunk = bits(single) & ~bits(transmitted) & ~bits(rise > zero);
     if ((sunk & lanes) != 0) {
         const Floats3 toEye = at.toEye;
         const Floats3 flat = normalize(at.ng * (Floats(2.0f) * dot(at.ng, toEye)) - toEye);
@@ -149,15 +156,22 @@ inline void sendRay(const SeenPoints& at, const ShadingFrame& frame, const BsdfS
     const Mask isBelow = rise < zero;
     const unsigned rightSide =
         (bits(transmitted) & bits(isBelow)) | (~bits(transmitted) & bits(rise > zero));
-    lanes &= rightSide & bits((next.pdf > zero) & (maxOf(next.weight) > zero));
-    if (lanes == 0) return;
-    storeWhere(lanes, dir, block.dir, first);
-    storeWhere(lanes, select(isBelow, at.beneath(), at.above()), block.org, first);
-    storeWhere(lanes, next.weight, block.weight, first);
-    storeWhere(lanes, select(next.single, zero, next.pdf), block.pdf + first);
-    block.scattered |= lanes << first, block.single |= (lanes & bits(next.single)) << first;
-    block.diffuse |= (lanes & bits(next.diffuse)) << first;
-    block.transmitted |= (lanes & bits(isBelow)) << first;
+    lanes &= rightSide & bits((pdf > zero) & (maxOf(weight) > zero));
+    return {lanes, select(isBelow, at.beneath(), at.above()), dir, isBelow};
+}
+
+inline void sendRay(const SeenPoints& at, const ShadingFrame& frame, const BsdfSample& next,
+                    unsigned lanes, std::size_t first, PathBlock& block) {
+    const SentRays ray = raysOf(at, frame, next.toLight, next.weight, next.pdf, next.single, lanes);
+    if (ray.lanes == 0) return;
+    storeWhere(ray.lanes, ray.dir, block.dir, first);
+    storeWhere(ray.lanes, ray.org, block.org, first);
+    storeWhere(ray.lanes, next.weight, block.weight, first);
+    storeWhere(ray.lanes, select(next.single, Floats(0.0f), next.pdf), block.pdf + first);
+    block.scattered |= ray.lanes << first;
+    block.single |= (ray.lanes & bits(next.single)) << first;
+    block.diffuse |= (ray.lanes & bits(next.diffuse)) << first;
+    block.transmitted |= (ray.lanes & bits(ray.isBelow)) << first;
 }
 
 void scatterBlock(const PathLights& lights, const PointBlock& points, const LobeBlock& lobes,

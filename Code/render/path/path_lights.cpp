@@ -27,6 +27,7 @@ std::uint32_t PathLights::add(const Entry& entry) {
 
 void PathLights::addUnshaped(std::uint32_t light, std::uint8_t seenBy) {
     unshaped_.push_back({light, seenBy});
+    unshapedSeenBy_ |= seenBy;
 }
 
 void PathLights::addObject(std::uint32_t object, bool front, std::uint32_t light) {

@@ -23,6 +23,8 @@ public:
         bool isSoft = false;    // its samples differ
         bool isSurface = false; // shadow rays meet it where they end
         bool inCentre = false;  // asked as if it sat in its centre
+        bool isPlace = false;   // shadow rays of Whitted pictures start at `place`
+        Vec3 place{};
         // Rays that lobes spread add nothing of it, as its samples have all of its light.
         bool isOfSamplesAlone() const { return isOpen || inCentre; }
     };
@@ -86,6 +88,8 @@ public:
         return at.distance < kInfinityF ? at.radiance : otherwise;
     }
     bool hasUnshaped() const { return !unshaped_.empty(); }
+    // Which rays see any of them, as PathBatch::seesLights has it.
+    std::uint8_t unshapedSeenBy() const { return unshapedSeenBy_; }
 
 private:
     struct Meeting {
@@ -101,6 +105,7 @@ private:
     std::vector<Entry> entries_;
     LightPicker picker_;
     std::vector<Unshaped> unshaped_;
+    std::uint8_t unshapedSeenBy_ = 0;
     std::vector<std::uint32_t> ofObject_;                // by object and side
     std::vector<std::vector<std::uint32_t>> ofTriangle_; // by shape; empty where none shines
     std::uint32_t sky_ = kNone;

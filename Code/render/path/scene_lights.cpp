@@ -37,14 +37,6 @@ SceneLights::SceneLights(const SceneDesc& desc, const SceneFrame& frame,
     : desc_(desc), frame_(frame), settings_(settings),
       isPath_(settings.picture.integrator == IntegratorKind::Path) {}
 
-bool SceneLights::areLobesNeeded() const {
-    if (isPath_) return true;
-    if (settings_.picture.integrator != IntegratorKind::Whitted) return false;
-    return desc_.world.environmentLights || desc_.world.ambientOcclusion > 0 ||
-           std::any_of(desc_.materials.begin(), desc_.materials.end(),
-                       [](const MaterialDesc& m) { return !m.lobes.empty() || m.emissionLights; });
-}
-
 void SceneLights::keepObjects() {
     for (std::size_t i = 0; i < desc_.objects.size(); ++i) {
         const ObjectDesc& object = desc_.objects[i];
@@ -106,7 +98,9 @@ std::vector<std::string> SceneLights::addLamps(PathLights& lights, const Surroun
             lights.add({.row = row,
                         .isOpen = !(desc.shadows && settings_.switches.shadows),
                         .isSoft = isSoft,
-                        .inCentre = !settings_.switches.softShadows});
+                        .inCentre = !settings_.switches.softShadows,
+                        .isPlace = !isSoft && desc.kind != LightDesc::Kind::Sun,
+                        .place = toFloat(frame_.placed(desc.worldFromLight).point({}))});
         if (!hasSize(desc)) continue;
         if (around.hasBody[i])
             lights.addObject(around.objects + static_cast<std::uint32_t>(i), true, light);
@@ -130,8 +124,8 @@ void SceneLights::addSky(PathLights& lights, const Surroundings& around) const {
 
 void SceneLights::addTriangles(PathLights& lights, const Surroundings& around) const {
     const auto shines = [&](const SceneMaterial& of) {
-        return (isPath_ || of.lightsOthers) && !isBlack(of.base.emission) &&
-               !of.pictures->emission && !of.isLamp && !of.seeThrough();
+        return (isPath_ || of.lightsOthers) && !isBlack(of.emission) && !of.pictures->emission &&
+               !of.isLamp && !of.seeThrough();
     };
     if (std::none_of(around.materials.begin(), around.materials.end(), shines)) return;
     for (std::uint32_t shape = 0; shape < around.shapes.shapes.size(); ++shape)
@@ -140,7 +134,7 @@ void SceneLights::addTriangles(PathLights& lights, const Surroundings& around) c
                                                          std::uint32_t material) {
             const SceneMaterial& of = around.materials[material];
             if (!shines(of)) return;
-            const TriangleRow row{corners[0], corners[1], corners[2], of.base.emission,
+            const TriangleRow row{corners[0], corners[1], corners[2], of.emission,
                                   of.emitsFront ? 0.0f : 1.0f};
             lights.addTriangle(shape, triangle, lights.add(surfaceEntry(lightRow(row))));
         });

@@ -13,8 +13,6 @@ class SceneLights {
 public:
     SceneLights(const SceneDesc& desc, const SceneFrame& frame, const RenderSettings& settings);
 
-    // Whether shading by lobes is asked for: by paths, and by what a Whitted scene says.
-    bool areLobesNeeded() const;
     // Whether the sky lights surfaces as a lamp.
     bool skyLights() const { return isPath_ || desc_.world.environmentLights; }
 

@@ -1,20 +1,55 @@
-// What Whitted pictures want of sixteen points in lanes: the light of one sample of a lamp, the
-// rays of one lobe, and the answer to even light.
+// What Whitted pictures want of sixteen points in lanes: shadow rays to lamps with the light of
+// their samples, the rays of one lobe, and the answer to even light.
 #pragma once
 
+#include "base/math.h"
 #include "render/path/path_block.h"
+
+#include <cstddef>
+#include <cstdint>
 
 struct alignas(64) LampBlock {
     static constexpr std::size_t kPoints = LobeBlock::kPoints;
     using Lane = LobeBlock::Lane;
-    // In. `throughput`, `eta`, `points`: as in PathBlock; u, v: the place on the lamp.
-    alignas(64) Lane throughput[3], eta, u, v;
+    // `throughput`, `eta`, `points`: as in PathBlock.
+    alignas(64) Lane throughput[3], eta;
     unsigned points = 0;
     unsigned litOutside = 0; // of these: seen from the inside, lit on the outside
-    float samples = 1;       // how many the lamp has
-    bool besideRays = true;  // rays of rough lobes find some of its light
-    // Out: light of the sample, if nothing is in between, and the shadow ray: from the point to the
-    // lamp, or, for lamps in one place, from there to the point.
-    alignas(64) Lane light[3], org[3], dir[3], end;
-    unsigned lit = 0;
+    bool besideRays = true;  // rays of rough lobes find some of the lamps' light
+    std::uint32_t first = 0; // number of the first point, in the wave
+};
+
+// Two numbers in [0,1) for each of sixteen points: where on a lamp a sample is.
+struct alignas(64) PlacesOnLamp {
+    LobeBlock::Lane u, v;
+};
+
+// A lamp, and its shadow rays: from each point to the lamp, or from where the lamp sits to the
+// points.
+struct LampQueue {
+    std::uint32_t light = 0;
+    std::uint32_t samples = 1;
+    float share = 1;                      // of a sample, of the lamp's light
+    const PlacesOnLamp* places = nullptr; // of each sample; null: all are at 0
+    // Where the rays go to, with room for one register more than there are.
+    struct {
+        Vec3 *org, *dir; // org is left alone if rays start at the lamp
+        float* end;
+        std::uint32_t* point; // in the wave
+        Rgb* light;           // that arrives if nothing is in between
+    } to{};
+    std::size_t rays = 0;
+};
+
+// The rays that lobes of sixteen points send, of each as many as it has lobes that reflect or
+// transmit, and one register more.
+struct BounceQueue {
+    static constexpr std::size_t kMost = LobeBlock::kPoints * (2 * LobeBlock::kMost + 1);
+    std::size_t rays = 0;
+    Vec3 org[kMost], dir[kMost];
+    Rgb weight[kMost];          // what throughput is multiplied by
+    float pdf[kMost];           // per steradian; 0 for single directions
+    std::uint8_t point[kMost];  // of the block
+    std::uint8_t branch[kMost]; // 1 + 2 * lobe, and 1 more for what it transmits
+    bool isBelow[kMost];        // leaves to the other side of the surface
 };

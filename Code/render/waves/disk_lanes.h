@@ -2,12 +2,11 @@
 // Sampler::get2D() and diskFromSquare().
 #pragma once
 
-#include "simd/vectors3.h"
 #include "base/vec.h"
-#include "render/waves/three_lanes.h"
 #include "sample/sobol.h"
 #include "sample/warp.h"
 #include "simd/lanes.h"
+#include "simd/vectors3.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,10 +2,10 @@
 // their order.
 #pragma once
 
-#include "simd/angle_lanes.h"
 #include "base/math.h"
 #include "render/waves/environment_lanes.h"
 #include "render/waves/texel_lanes.h"
+#include "simd/angle_lanes.h"
 #include "simd/lanes.h"
 
 #include <cstddef>

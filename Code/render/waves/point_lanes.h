@@ -1,8 +1,8 @@
 // Vectors of the points of a block, W points from one of them on.
 #pragma once
 
-#include "simd/vectors3.h"
 #include "base/surface_block.h"
+#include "simd/vectors3.h"
 
 #include <cstddef>
 

@@ -1,9 +1,8 @@
-// Stage of the wave: hits -> points. Every surface that a ray has met is described once, and gets
-// its material's numbers with the textures applied.
+// Stage of the wave: hits -> points. Every surface that a ray has met is described once.
 #pragma once
 
 #include "base/prefetch.h"
-#include "render/waves/steps.h"
+#include "render/path/shading_kernel.h"
 #include "render/waves/wave.h"
 
 #include <algorithm>
@@ -175,13 +174,13 @@ template <bool kMayBend> void seeBlock(const Wave& wave, std::size_t b, unsigned
     const auto isBent = [&](std::size_t i) {
         return context.scene.materials()[points.at.block(b).material[i]].bendsNormals();
     };
-    bool inLanes = context.shadeLanes.see != nullptr;
+    bool inLanes = true;
     if constexpr (kMayBend)
         for (std::size_t i = 0; i < size && inLanes; ++i) inLanes = !isBent(i);
     if (inLanes) {
         const RowOfRays<Vec3> dirs(wave.rays.dir, &points.ray[first], size);
-        unsigned away =
-            context.shadeLanes.see(points.at.block(b), dirs.data(), points.usedOf(b), litOutside);
+        unsigned away = context.settings.isa->shading->see(points.at.block(b), dirs.data(),
+                                                           points.usedOf(b), litOutside);
         for (; away != 0; away &= away - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(away));
             const ShadedPoint at = points.at[first + i];
@@ -198,87 +197,22 @@ template <bool kMayBend> void seeBlock(const Wave& wave, std::size_t b, unsigned
     }
 }
 
-// A bit for each of sixteen points that has the trait, of which each has four bits.
-inline unsigned pointsHaving(MaterialTable::Trait trait, std::uint64_t traits) {
-    static_assert(PointColumns::kPoints == 16);
-    std::uint64_t bits = traits >> std::countr_zero(unsigned{trait}) & 0x1111111111111111u;
-    bits = (bits | bits >> 3) & 0x0303030303030303u;
-    bits = (bits | bits >> 6) & 0x000f000f000f000fu;
-    bits = (bits | bits >> 12) & 0x000000ff000000ffu;
-    return static_cast<unsigned>((bits | bits >> 24) & 0xffffu);
-}
-
-// What its points are made of.
-template <bool kTextures> void paintBlock(const Wave& wave, std::size_t b, unsigned& litOutside) {
-    const SceneMaterial* const materials = wave.context.scene.materials().data();
-    const MaterialTable& table = wave.context.materials;
+// Finds all points of a wave. `litOutside(b)`: those of block b whose materials are lit outside
+// whichever side is seen.
+template <class LitOutside> void findPoints(const Wave& wave, const LitOutside& litOutside) {
+    const Scene& scene = wave.context.scene;
     PointBatch& points = wave.memory.points;
-    PaintedBlock& painted = points.painted[b];
-    const std::uint32_t* const number = points.at.block(b).material;
-    const std::size_t first = b * PointColumns::kPoints, size = points.sizeOf(b);
-    const unsigned used = points.usedOf(b);
-    const auto bits = [](unsigned of) { return static_cast<std::uint16_t>(of); };
-    const bool isOne =
-        std::all_of(number, number + size, [&](std::uint32_t other) { return other == number[0]; });
-    const auto has = [&](std::uint32_t material, MaterialTable::Trait trait) {
-        return (table.traits(material) & trait) != 0;
-    };
-    if (isOne) {
-        const SceneMaterial& of = materials[number[0]];
-        const bool isTextured = kTextures && has(number[0], MaterialTable::Textured);
-        painted = {isTextured ? nullptr : &of.base, isTextured,
-                   bits(has(number[0], MaterialTable::AnswersLamps) ? used : 0),
-                   bits(has(number[0], MaterialTable::Mirrors) ? used : 0)};
-        litOutside = has(number[0], MaterialTable::LitOutside) ? ~0u : 0;
-        if (!isTextured) {
-            std::fill_n(&points.material[first], size, &of.base);
-            return;
-        }
-        wave.memory.texturedPoints.add(of, static_cast<std::uint32_t>(first),
-                                       static_cast<std::uint32_t>(size));
-        for (std::size_t k = first; k < first + size; ++k) points.material[k] = &points.textured[k];
-        return;
+    points.clear(wave.rays.size());
+    listHits(wave.memory.hits, wave.rays.size(), points);
+    points.at.setMaterials(scene.materials());
+    findSurfaces(wave);
+    for (std::size_t b = 0; b < points.blocks(); ++b) {
+        if (scene.anyMaterial().pictures)
+            seeBlock<true>(wave, b, litOutside(b));
+        else
+            seeBlock<false>(wave, b, litOutside(b));
+        takeSamples(wave.rays, b, points);
     }
-    std::uint64_t traits = 0; // four bits for each point
-    for (std::size_t i = 0; i < size; ++i) {
-        const std::size_t k = first + i;
-        const SceneMaterial& of = materials[number[i]];
-        traits |= std::uint64_t{table.traits(number[i])} << 4 * i;
-        points.material[k] = &of.base;
-        table.prefetchGlow(number[i]);
-        if constexpr (kTextures)
-            if (has(number[i], MaterialTable::Textured)) {
-                wave.memory.texturedPoints.add(of, static_cast<std::uint32_t>(k), 1);
-                points.material[k] = &points.textured[k];
-            }
-    }
-    litOutside = pointsHaving(MaterialTable::LitOutside, traits);
-    painted = {nullptr, kTextures && pointsHaving(MaterialTable::Textured, traits) != 0,
-               bits(pointsHaving(MaterialTable::AnswersLamps, traits)),
-               bits(pointsHaving(MaterialTable::Mirrors, traits))};
 }
 
 } // namespace waves
-
-template <bool kTextures, bool kSeeThrough> void findPoints(const Wave& wave) {
-    const IntegratorContext& context = wave.context;
-    PointBatch& points = wave.memory.points;
-    points.clear(wave.rays.size());
-    waves::listHits(wave.memory.hits, wave.rays.size(), points);
-    points.at.setMaterials(context.scene.materials());
-    waves::findSurfaces(wave);
-    if constexpr (kTextures) wave.memory.texturedPoints.clear();
-    for (std::size_t b = 0; b < points.blocks(); ++b) {
-        unsigned litOutside = 0;
-        waves::paintBlock<kTextures>(wave, b, litOutside);
-        waves::seeBlock<kTextures>(wave, b, litOutside);
-    }
-    for (std::size_t b = 0; b < points.blocks(); ++b) waves::takeSamples(wave.rays, b, points);
-    if (wave.depth == 0 && context.wantsFirstHits) describeFirstHits(wave);
-    if constexpr (kTextures)
-        wave.memory.texturedPoints.apply(context.textureColors, points.at, points.textured);
-    if constexpr (kSeeThrough)
-        for (std::size_t k = 0; k < points.count; ++k)
-            if (points.material[k]->opacity < 1)
-                points.weight[k] = points.weight[k] * points.material[k]->opacity;
-}

@@ -1,0 +1,86 @@
+// Stage of Whitted pictures: the light of lamps at sixteen points, and the shadow rays that say
+// whether it arrives.
+#pragma once
+
+#include "render/path/path_in_lanes.h"
+#include "render/path/ray_from_lamp.h"
+#include "render/path/whitted_block.h"
+#include "render/waves/point_lanes.h"
+
+#include <span>
+
+LANES_BEGIN
+
+// Normals of the side whose lamps count: that of the eye, or the outside.
+inline SeenPoints litPoints(const PointBlock& points, std::size_t first, unsigned litOutside) {
+    SeenPoints at(points, first);
+    const unsigned apart = litOutside >> first & SeenPoints::kAllLanes;
+    if (apart == 0) return at;
+    at.n = select(maskOf(apart), loadThree(points.litN, first), at.n);
+    at.ng = select(maskOf(apart), negated(at.ng), at.ng); // it is on the side of the eye
+    at.ns = select(maskOf(apart), negated(at.ns), at.ns);
+    at.lift = select(maskOf(apart), rgbOf(0.0f), at.lift); // it was for the side of the eye
+    at.lifted &= ~apart;
+    return at;
+}
+
+// The rays of one sample of a lamp, by two numbers.
+inline void sendToLamp(const PathLights& lights, LampQueue& lamp, const LampBlock& block,
+                       const SeenPoints& at, const ShadingFrame& frame, const Bsdf& bsdf,
+                       bool transmits, Floats u, Floats v, unsigned lanes, std::size_t first) {
+    const PathLights::Entry& entry = lights.entry(lamp.light);
+    const LightNumbers numbers{entry.row.numbers.data(), 1};
+    const SampledLight light = sampleOf(lights, entry, numbers, at.p, u, v);
+    const Floats3 toLight = frame.toLocal(light.toLight);
+    const auto [arrives, below] = arriving(at, light.toLight, toLight, transmits);
+    const Floats zero(0.0f);
+    lanes &= arrives & bits(maxOf(light.irradiance) > zero);
+    if (lanes == 0) return;
+    const bool isShared = block.besideRays && !entry.isOfSamplesAlone();
+    const Floats pdf = isShared ? light.pdf * Floats(static_cast<float>(lamp.samples)) : zero;
+    const Floats3 sent = loadThree(block.throughput, first) * bsdf.evalBesideRays(toLight, pdf) *
+                         light.irradiance * Floats(lamp.share);
+    lanes &= bits(maxOf(sent) > zero);
+    if (lanes == 0) return;
+    auto& to = lamp.to;
+    if (entry.isPlace) {
+        const Mask isBelow = maskOf(below);
+        const RayFromLamp ray =
+            rayFromLamp(at.p, select(isBelow, rgbOf(0.0f), at.lift),
+                        select(isBelow, negated(at.ng), at.ng), at.error, at.rayError, entry.place);
+        storeChosen(lanes, ray.dir, to.dir + lamp.rays);
+        storeChosenFloats(lanes, ray.end, to.end + lamp.rays);
+    } else {
+        storeChosen(lanes, shadowOrigin(at, below), to.org + lamp.rays);
+        storeChosen(lanes, light.toLight, to.dir + lamp.rays);
+        storeChosenFloats(lanes, light.distance * Floats(PathLights::endOf(entry)),
+                          to.end + lamp.rays);
+    }
+    storeChosen(lanes, sent, to.light + lamp.rays);
+    for (; lanes != 0; lanes &= lanes - 1)
+        to.point[lamp.rays++] =
+            block.first +
+            static_cast<std::uint32_t>(first + static_cast<std::size_t>(std::countr_zero(lanes)));
+}
+
+void lampsAtPoints(const PathLights& lights, std::span<LampQueue> lamps, const PointBlock& points,
+                   const LobeBlock& lobes, const LampBlock& block) {
+    const bool transmits = (lobes.flags & kTransmits) != 0;
+    forEachRow(
+        lobes, block.points, block.eta,
+        [&](std::size_t first) { return litPoints(points, first, block.litOutside); },
+        [&](unsigned lanes, std::size_t first, const SeenPoints& at, const ShadingFrame& frame,
+            const Bsdf& bsdf) {
+            for (LampQueue& lamp : lamps)
+                for (std::size_t s = 0; s < lamp.samples; ++s) {
+                    Floats u(0.0f), v(0.0f);
+                    if (lamp.places != nullptr) {
+                        u = Floats::load(lamp.places[s].u + first);
+                        v = Floats::load(lamp.places[s].v + first);
+                    }
+                    sendToLamp(lights, lamp, block, at, frame, bsdf, transmits, u, v, lanes, first);
+                }
+        });
+}
+
+LANES_END
