@@ -210,15 +210,16 @@ private:
 
     // Places on soft lamps for the samples of all points of a block.
     void drawPlaces(std::size_t b) {
+        if (std::none_of(lamps_.begin(), lamps_.end(),
+                         [](const LampQueue& lamp) { return lamp.places != nullptr; }))
+            return;
         std::uint32_t pixels[kPoints], samples[kPoints];
-        bool areTaken = false;
+        takePixels(b, pixels, samples);
+        PairDrawer drawer(context_, dimension(wave_.depth, BounceSlot::LightUv), pixels, samples);
         PlacesOnLamp* places = path_.places.data();
         for (const LampQueue& lamp : lamps_) {
             if (lamp.places == nullptr) continue;
-            if (!std::exchange(areTaken, true)) takePixels(b, pixels, samples);
-            drawPairs(context_, context_.lampSamplers[lamp.light],
-                      dimension(wave_.depth, BounceSlot::LightUv), pixels, samples, lamp.samples,
-                      places);
+            drawer.draw(context_.lampSamplers[lamp.light], lamp.samples, places);
             places += lamp.samples;
         }
     }
