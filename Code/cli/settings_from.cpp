@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "cli/output.h"
+#include "desc/names.h"
 #include "image/image.h"
 
 #include <algorithm>
@@ -128,7 +129,7 @@ RenderSettings settingsFrom(const SceneDesc& desc, const Options& options) {
     setQuality(settings.picture, options);
     if (!options.camera.empty()) {
         std::vector<std::string> known;
-        for (const CameraDesc& camera : desc.cameras) known.push_back(camera.name);
+        for (const CameraDesc& camera : desc.cameras) known.push_back(shown(camera.name));
         if (std::find(known.begin(), known.end(), options.camera) == known.end())
             failUsage("unknown camera " + unknownName(options.camera, known));
     }

@@ -5,6 +5,7 @@
 #include "base/for_each.h"
 #include "base/math.h"
 #include "base/text.h"
+#include "desc/names.h"
 #include "image/image.h"
 #include "render/eye.h"
 #include "render/make_body.h"
@@ -286,7 +287,7 @@ private:
             });
         if (wanted == desc_.cameras.end()) {
             std::vector<std::string> known;
-            for (const CameraDesc& camera : desc_.cameras) known.push_back(camera.name);
+            for (const CameraDesc& camera : desc_.cameras) known.push_back(shown(camera.name));
             fail(ErrorKind::Input,
                  cat(source_.name, ": error: no camera ", unknownName(settings_.camera, known)));
         }

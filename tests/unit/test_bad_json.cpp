@@ -36,6 +36,19 @@ const std::string kEverything = "tests/scenes/everything.json";
 
 } // namespace
 
+// Names that are listed may have any bytes; messages have none that a terminal would take for more
+// than a character.
+TEST(bad_json_names_in_messages) {
+    Diagnostics diagnostics;
+    readJson({"names.json", contentOf("tests/fuzz/seeds/json/nul_names.json")}, {{}, diagnostics});
+    bool isListed = false;
+    for (const std::string& line : diagnostics.warnings) {
+        CHECK_INFO(line.find('\0') == std::string::npos, line);
+        isListed |= line.find("known: it's\\x00 b") != std::string::npos;
+    }
+    CHECK(isListed);
+}
+
 TEST(bad_json_cut_off_at_every_byte) {
     const std::string whole = contentOf(kEverything);
     CHECK(whole.size() > 2500);

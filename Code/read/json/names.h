@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "desc/name_table.h"
+#include "desc/names.h"
 #include "desc/scene_desc.h"
 
 #include <cstddef>
@@ -25,7 +26,7 @@ public:
             return false;
         }
         entries_.push_back({handle, 1});
-        if (known_.size() < kKnown && name.size() <= kLength) known_.emplace_back(name);
+        if (known_.size() < kKnown && name.size() <= kLength) known_.push_back(shown(name));
         return true;
     }
     Handle find(std::string_view name) const {
