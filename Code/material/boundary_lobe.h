@@ -37,12 +37,18 @@ template <bool kHasFresnel> struct BoundaryLobe {
         if (isSmooth()) return rgbOf(0.0f);
         const FacetPair pair = facets_.pairOf(toEye, toLight, eta_);
         const Split split(*this, pair.cosIn);
-        return split.part(isReflected(toLight)) * (pair.pdf * pair.ratio * scale(toEye));
+        // Where nothing arrives the scale may be no number.
+        const Floats zero(0.0f), sent = pair.pdf * pair.ratio;
+        return split.part(isReflected(toLight)) * select(sent > zero, sent * scale(toEye), zero);
     }
     Floats pdf(const Floats3& toEye, const Floats3& toLight) const {
         if (isSmooth()) return Floats(0.0f);
         const FacetPair pair = facets_.pairOf(toEye, toLight, eta_);
         return pair.pdf * Split(*this, pair.cosIn).chance(isReflected(toLight));
+    }
+    // The density of branch().
+    Floats branchPdf(const Floats3& toEye, const Floats3& toLight) const {
+        return isSmooth() ? Floats(0.0f) : facets_.pairOf(toEye, toLight, eta_).pdf;
     }
     LobeSample sample(const Floats3& toEye, Floats pick, Floats u, Floats v) const {
         const Floats3 h = facet(toEye, u, v);

@@ -74,7 +74,8 @@ struct LobeSample {
 //   LobeSample sample(toEye, Floats pick, u, v) const;  by three numbers in [0,1)
 // Lobes that spawn no rays have neither sample nor pdf. Lobes that reflect and transmit have, for
 // integrators that follow both,
-//   LobeSample branch(toEye, bool transmits, u, v) const;  whose weight isn't over a choice
+//   LobeSample branch(toEye, bool transmits, u, v) const;  whose weight isn't over a choice, and
+//   Floats branchPdf(toEye, toLight) const;                its density
 
 inline Floats3 rgbOf(Floats v) { return {v, v, v}; }
 inline Floats3 rgbOf(float v) { return rgbOf(Floats(v)); }

@@ -53,7 +53,10 @@ private:
         return pair;
     }
     Floats3 sent(const Floats3& v, const FacetPair& pair) const {
-        return fresnel.at(pair.cosIn) * scale(v) * pair.ratio;
+        // Where nothing arrives the scale may be no number.
+        const Floats zero(0.0f);
+        return select(pair.ratio > zero, fresnel.at(pair.cosIn) * scale(v) * pair.ratio,
+                      rgbOf(zero));
     }
     Floats3 scale(const Floats3& v) const {
         return FacetEnergy(facets, v, facets.meanRoughness()).scale(fresnel.mean());

@@ -319,4 +319,29 @@ TEST(lobe_formulas_of_sheen) {
     }
 }
 
+// An eye behind the surface, as points have it that are lit on the other side, and equal media: no
+// lobe answers with what is no number, so that the others beside it keep their light.
+TEST(lobe_formulas_are_numbers_from_behind) {
+    using namespace kernels::one;
+    for (std::uint32_t kind = 0; kind < lobeTypes().size(); ++kind)
+        for (const float rough : {0.0f, 0.2f, 1.0f})
+            for (const float eta : {0.6f, 1.0f, 1.6f})
+                for (const float z : {-1.0f, -0.3f, 0.0f, 0.3f}) {
+                    alignas(64) float numbers[kLobeNumbers] = {};
+                    std::size_t at = 0;
+                    for (const LobeField& field : lobeTypes()[kind].fields)
+                        for (int c = 0; c < field.count; ++c)
+                            numbers[at++] = field.name == std::string_view("roughness")
+                                                ? rough
+                                                : field.start[c];
+                    const Floats3 eye{std::sqrt(1 - z * z), 0.0f, z}, light{0.0f, 0.6f, 0.8f};
+                    forLobe(static_cast<std::uint8_t>(kind), [&]<class L> {
+                        const Floats3 f = L(LobeNumbers{numbers, 1, Floats(eta)}).eval(eye, light);
+                        CHECK_INFO(std::isfinite(f.x.v + f.y.v + f.z.v),
+                                   lobeTypes()[kind].name << " roughness " << rough << " eta "
+                                                          << eta << " eye " << z);
+                    });
+                }
+}
+
 } // namespace test_lobe_formulas

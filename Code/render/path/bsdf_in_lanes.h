@@ -82,7 +82,7 @@ public:
                     Floats3 value = weight_[l] * lobe.eval(toEye_, toLight);
                     if constexpr (spawnsInWhitted(L::kFlags))
                         if (isShared && !block_.lobe[l].isHighlight) {
-                            const Floats pdf = lobe.pdf(toEye_, toLight);
+                            const Floats pdf = branchPdf(lobe, toEye_, toLight);
                             value =
                                 value * select(lampPdf > zero, powerHeuristic(lampPdf, pdf), one);
                         }
@@ -167,6 +167,14 @@ public:
     }
 
 private:
+    // The density with which Whitted pictures send a ray of the lobe there.
+    template <class L>
+    static Floats branchPdf(const L& lobe, const Floats3& toEye, const Floats3& toLight) {
+        if constexpr ((L::kFlags & kReflects) != 0 && (L::kFlags & kTransmits) != 0)
+            return lobe.branchPdf(toEye, toLight);
+        else
+            return lobe.pdf(toEye, toLight);
+    }
     LobeNumbers numbers(std::size_t l) const {
         return {block_.lobe[l].value[3] + first_, LobeBlock::kPoints, eta_};
     }
