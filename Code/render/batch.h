@@ -82,11 +82,6 @@ struct PathBatch : RayBatch {
         makeRoomForMore();
         return first;
     }
-    // All of them start at 0 and end nowhere, as those of this batch ever did: most know it
-    // already.
-    void beEndless() {
-        for (; endless_ < count_; ++endless_) tMin[endless_] = 0, tMax[endless_] = kInfinityF;
-    }
     // So many rays, which are then written into the arrays; those in use keep what they were.
     void setSize(std::size_t rays) {
         if (org.size() < rays) makeRoom(rays);
@@ -99,6 +94,4 @@ private:
         if (medium.size() >= org.size()) return;
         medium.resize(org.size()), stream.resize(org.size()), seesLights.resize(org.size());
     }
-
-    std::size_t endless_ = 0;
 };

@@ -1,5 +1,5 @@
-// Integrator: the light that camera samples receive. One file per integrator beside this one; they
-// share the samples, the scratch memory and the record of the first hit.
+// Integrator: the light that camera samples receive. Whitted and path are in path/, the others in
+// first_hit.cpp; they share the samples, the scratch memory and the record of the first hit.
 #pragma once
 
 #include "base/raw_vector.h"
@@ -16,9 +16,7 @@
 #include "sample/hash.h"
 #include "sample/sampler.h"
 
-#include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -84,8 +82,7 @@ struct PointBatch {
     std::vector<std::uint32_t> ray;    // ascending
     std::vector<std::uint32_t> missed; // rays that have met nothing, ascending
     std::size_t missedCount = 0;
-    std::vector<std::uint32_t> slot;  // of its sample
-    std::vector<std::uint32_t> shape; // that it is on
+    std::vector<std::uint32_t> slot; // of its sample
     PointColumns at;
     std::vector<Rgb> weight; // of what the surface sends to the eye
 
@@ -95,8 +92,7 @@ struct PointBatch {
         if (most == 0 || ray.size() >= most) return;
         at.resize(most);
         const std::size_t room = at.size();
-        ray.resize(room), missed.resize(room), slot.resize(room), shape.resize(room),
-            weight.resize(room);
+        ray.resize(room), missed.resize(room), slot.resize(room), weight.resize(room);
     }
     std::size_t blocks() const {
         return (count + PointColumns::kPoints - 1) / PointColumns::kPoints;

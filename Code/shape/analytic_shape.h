@@ -20,7 +20,6 @@ public:
     bool occludes(const Ray& ray) const final;
     void collect(const Ray& ray, std::vector<Hit>& hits) const final;
     bool seesFront(const Ray& ray, const Hit& hit) const final;
-    bool hidesFromItself(bool inside) const override { return inside; } // all are convex
     Surface surface(const Ray& ray, const Hit& hit) const final { return surfaceFor(ray, hit, {}); }
     Surface surfaceFor(const Ray& ray, const Hit& hit, SurfaceNeeds needs) const final;
     const StillShape* stillToShade() const final {

@@ -16,7 +16,6 @@ public:
     void collect(const Ray& ray, std::vector<Hit>& hits) const override {
         shape_->collect(ray, hits);
     }
-    bool isOfTriangles() const override { return shape_->isOfTriangles(); }
     bool takesBatches() const override { return shape_->takesBatches(); }
     void intersectBatch(const RaySpan& rays, std::uint32_t number,
                         std::span<Hit> hits) const override {
@@ -30,7 +29,6 @@ public:
     bool seesFront(const Ray& ray, const Hit& hit) const override {
         return shape_->seesFront(ray, hit);
     }
-    bool hidesFromItself(bool inside) const override { return shape_->hidesFromItself(inside); }
     Surface surface(const Ray& ray, const Hit& hit) const override;
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override {
         return shape_->derivatives(ray, hit);

@@ -8,7 +8,6 @@ class Disk final : public AnalyticShape {
 public:
     Disk(const MovingTransform& worldFromObject, double radius, std::uint32_t material,
          std::uint32_t object);
-    bool hidesFromItself(bool) const override { return false; } // flat
     SolidForm solidForm() const override;
 
 private:

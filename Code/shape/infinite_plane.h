@@ -7,7 +7,6 @@ class InfinitePlane final : public AnalyticShape {
 public:
     InfinitePlane(const MovingTransform& worldFromObject, std::uint32_t material,
                   std::uint32_t object);
-    bool hidesFromItself(bool) const override { return false; } // flat
     SolidForm solidForm() const override;
 
 private:

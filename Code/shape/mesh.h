@@ -29,7 +29,6 @@ public:
     bool intersect(const Ray& ray, Hit& hit) const override;
     bool occludes(const Ray& ray) const override;
     void collect(const Ray& ray, std::vector<Hit>& hits) const override;
-    bool isOfTriangles() const override { return true; }
     bool takesBatches() const override { return geometry_.isa != nullptr; }
     void intersectBatch(const RaySpan& rays, std::uint32_t number,
                         std::span<Hit> hits) const override;

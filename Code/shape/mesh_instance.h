@@ -41,7 +41,6 @@ public:
     SurfaceDerivatives derivatives(const Ray& ray, const Hit& hit) const override;
     std::optional<TieOrder> tieOrder(const Ray& ray, const Hit& hit) const override;
     void forEachTriangle(TriangleFn fn) const override;
-    bool isOfTriangles() const override { return true; }
     const MeshInstance* meshInstance() const override { return this; }
 
     const MeshGeometry& geometry() const { return geometry_; }

@@ -12,7 +12,6 @@ public:
     Plane(const MovingTransform& worldFromObject, const Corners& corners, std::uint32_t material,
           std::uint32_t object);
     Plane(const Plane&) = delete;                               // others point to what is in it
-    bool hidesFromItself(bool) const override { return false; } // flat
     SolidForm solidForm() const override;
 
 private:

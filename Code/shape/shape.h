@@ -61,13 +61,6 @@ public:
     // Appends every hit with ray.tMin < t < ray.tMax, in any order (t, u, v, prim set).
     virtual void collect(const Ray& ray, std::vector<Hit>& hits) const = 0;
 
-    // May it be in between a point of its own surface and one above the horizon of that point, on
-    // its outside (normals point there) or on its inside? False for what is convex, or flat.
-    virtual bool hidesFromItself(bool /*inside*/) const { return true; }
-
-    // Is it a mesh, which others may be merged with?
-    virtual bool isOfTriangles() const { return false; }
-
     // Batches: the same answers for many rays. A shape that is faster this way says so; the others
     // are asked ray by ray.
     virtual bool takesBatches() const { return false; }

@@ -17,7 +17,7 @@ constexpr bool spawnsInWhitted(std::uint32_t flags) {
 
 struct alignas(64) LobeBlock {
     static constexpr std::size_t kPoints = SurfaceBlock::kPoints;
-    // Those that are written as such, and four that short keywords mean.
+    // A block has room for lobes that are written as such, and for four that short keywords mean.
     static constexpr std::size_t kMost = kMostLobes + 4;
     using Lane = float[kPoints];
     struct Column {

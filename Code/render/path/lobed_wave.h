@@ -10,6 +10,7 @@
 #include "render/waves/points.h"
 #include "sample/power_heuristic.h"
 
+#include <algorithm>
 #include <bit>
 #include <utility>
 
@@ -151,6 +152,18 @@ protected:
             const auto i = static_cast<std::size_t>(std::countr_zero(points));
             boundaries_[i] = waves::boundaryAt(wave_, b * kPoints + i);
             eta[i] = boundaries_[i].eta;
+        }
+    }
+    // Takes what the random numbers of a block's points are drawn by; places behind the last point
+    // repeat it.
+    void takePixels(std::size_t b, std::uint32_t (&pixels)[kPoints],
+                    std::uint32_t (&samples)[kPoints]) const {
+        const PointBatch& points = memory_.points;
+        const std::size_t first = b * kPoints, size = points.sizeOf(b);
+        for (std::size_t i = 0; i < kPoints; ++i) {
+            const std::size_t ray = points.ray[first + std::min(i, size - 1)];
+            pixels[i] = wave_.rays.stream[ray];
+            samples[i] = wave_.chunk.sampleNumber[wave_.rays.sample[ray]];
         }
     }
     void takeThroughputs(std::size_t b, LobeBlock::Lane (&throughput)[3]) const {

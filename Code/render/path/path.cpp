@@ -38,7 +38,6 @@ private:
         const std::size_t first = b * kPoints, size = points.sizeOf(b);
         block.lit = block.open = block.scattered = block.single = block.diffuse =
             block.transmitted = 0;
-        std::uint32_t pixels[kPoints] = {}, samples[kPoints] = {};
         unsigned waiting = 0; // points whose lobes are asked
         for (std::size_t k = first; k < first + size; ++k) {
             const std::size_t i = k - first;
@@ -47,10 +46,10 @@ private:
             const bool answers = of.lobes != 0 || (of.flags & LobedMaterial::kSeeThrough) != 0;
             if (!answers || stateOf(points.ray[k]).isLast) continue;
             waiting |= 1u << i;
-            pixels[i] = wave_.rays.stream[points.ray[k]];
-            samples[i] = wave_.chunk.sampleNumber[points.slot[k]];
         }
         if (waiting == 0) return;
+        std::uint32_t pixels[kPoints], samples[kPoints];
+        takePixels(b, pixels, samples);
         drawNumbers(context_, wave_.depth, pixels, samples, block.numbers);
         takeThroughputs(b, block.throughput);
         waiting &= ~goStraight(b, waiting);

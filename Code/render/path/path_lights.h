@@ -88,7 +88,7 @@ public:
         return at.distance < kInfinityF ? at.radiance : otherwise;
     }
     bool hasUnshaped() const { return !unshaped_.empty(); }
-    // Which rays see any of them, as PathBatch::seesLights has it.
+    // Returns which rays see any of them, as PathBatch::seesLights has it.
     std::uint8_t unshapedSeenBy() const { return unshapedSeenBy_; }
 
 private:

@@ -1,6 +1,6 @@
 // Rays from where a lamp sits to just in front of points, so that those of one lamp are one bundle.
 //
-// With n the normal and d the way from the lamp to the point, the end of the ray has to be
+// Let n be the normal and d the way from the lamp to the point. The end of the ray has to be
 //     error + 2^-24 (|n_x d_x| + |n_y d_y| + |n_z d_z|) + rayError |d|
 // above the point: the second term is what rounding d to float takes, the third what the surface's
 // own test takes. A step along the normal moves the edges of all shadows by its height times the

@@ -17,7 +17,7 @@ template <class Fn> void forEachBit(unsigned bits, const Fn& fn) {
 }
 
 class WhittedWave : LobedWave {
-    // With what density a lamp was sampled beside a ray of a rough lobe.
+    // Returns the density with which a lamp was sampled beside a ray of a rough lobe.
     auto pdfOf() const {
         return [this](const PathState& from, std::uint32_t light, Vec3 dir) {
             if (light == PathLights::kNone) return 0.0f;
@@ -223,16 +223,6 @@ private:
             places += lamp.samples;
         }
     }
-    void takePixels(std::size_t b, std::uint32_t (&pixels)[kPoints],
-                    std::uint32_t (&samples)[kPoints]) const {
-        const PointBatch& points = memory_.points;
-        const std::size_t first = b * kPoints, size = points.sizeOf(b);
-        for (std::size_t i = 0; i < kPoints; ++i) {
-            const std::size_t ray = points.ray[first + std::min(i, size - 1)];
-            pixels[i] = wave_.rays.stream[ray];
-            samples[i] = wave_.chunk.sampleNumber[wave_.rays.sample[ray]];
-        }
-    }
 
     // ---- rays of the next wave
 
@@ -261,7 +251,8 @@ private:
         const std::size_t first = next.size();
         std::size_t to = next.extend(from.rays);
         makeRoomForStates();
-        // By point: its last ray. A mirror and glass that reflects totally send the same one.
+        // This has the last ray of each point: a mirror and glass that reflects totally send the
+        // same one.
         std::array<std::size_t, kPoints> last;
         last.fill(first + from.rays);
         for (std::size_t r = 0; r < from.rays; ++r) {

@@ -79,7 +79,6 @@ inline void sortPoints(const Wave& wave) {
     lists.clear(points.at.size());
     const std::uint32_t *const rays = points.ray.data(),
                                count = static_cast<std::uint32_t>(points.count);
-    std::uint32_t* const shapes = points.shape.data();
     const StillsInLanes::One* const all = stills.shapes.data();
     const bool hasStills = !stills.shapes.empty();
     struct Place {
@@ -100,7 +99,6 @@ inline void sortPoints(const Wave& wave) {
             const Hit& hit = hits[rays[first]];
             const Place place = placeOf(hit);
             lists.pushAlike(place.list, rays + first, first, kTogether, place.shape);
-            std::fill_n(shapes + first, kTogether, hit.shape);
             continue;
         }
         for (std::uint32_t k = first; k < end; ++k) {
@@ -109,7 +107,6 @@ inline void sortPoints(const Wave& wave) {
             const Hit& hit = hits[rays[k]];
             const Place place = placeOf(hit);
             lists.push(place.list, rays[k], k, place.shape);
-            shapes[k] = hit.shape;
         }
     }
 }
