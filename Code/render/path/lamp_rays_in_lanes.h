@@ -59,8 +59,7 @@ inline void sendToLamp(const PathLights& lights, LampQueue& lamp, const LampBloc
     storeChosen(lanes, sent, to.light + lamp.rays);
     for (; lanes != 0; lanes &= lanes - 1)
         to.point[lamp.rays++] =
-            block.first +
-            static_cast<std::uint32_t>(first + static_cast<std::size_t>(std::countr_zero(lanes)));
+            block.number[first + static_cast<std::size_t>(std::countr_zero(lanes))];
 }
 
 void lampsAtPoints(const PathLights& lights, std::span<LampQueue> lamps, const PointBlock& points,

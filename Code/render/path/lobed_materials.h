@@ -54,6 +54,7 @@ public:
 
     const LobedMaterial& operator[](std::size_t number) const { return materials_[number]; }
     std::size_t size() const { return materials_.size(); }
+    std::size_t signatures() const { return signatures_.size(); }
     std::span<const LobeRow> lobes(const LobedMaterial& of) const {
         return std::span(lobes_).subspan(of.firstLobe, of.lobes);
     }

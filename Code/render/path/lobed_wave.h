@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <span>
 #include <utility>
 
 class LobedWave {
@@ -115,63 +116,108 @@ protected:
         return points;
     }
 
-    // Writes the lobes of those points that have the same kinds of them as the first; returns
-    // which.
-    unsigned fillAlike(std::size_t b, unsigned waiting) {
-        const PointBlock& at = memory_.points.at.block(b);
-        const std::uint32_t number = at.material[std::countr_zero(waiting)];
-        const LobedMaterial& of = materials_[number];
+    // Up to sixteen points whose materials have the same kinds of lobes.
+    struct AlikePoints {
+        const PointBlock* at = nullptr;
+        const std::uint32_t* number = nullptr; // ascending
+        std::size_t size = 0;
+
+        unsigned all() const { return (1u << size) - 1; }
+    };
+    // Lists the points that have lobes and of which isShaded(k) holds.
+    template <class IsShaded> void listAlike(const IsShaded& isShaded) {
+        const PointBatch& points = memory_.points;
+        std::vector<std::uint32_t>& next = path_.alikeStarts;
+        next.assign(materials_.signatures() + 1, 0);
+        const auto forEach = [&](const auto& fn) {
+            for (std::size_t k = 0; k < points.count; ++k) {
+                const std::uint32_t number = points.at.block(k / kPoints).material[k % kPoints];
+                if (isShaded(k, materials_[number])) fn(k, materials_[number].signature);
+            }
+        };
+        forEach([&](std::size_t, std::size_t signature) { ++next[signature + 1]; });
+        for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
+        path_.alike.resize(next.back());
+        forEach([&](std::size_t k, std::size_t signature) {
+            path_.alike[next[signature]++] = static_cast<std::uint32_t>(k);
+        });
+    }
+    // Calls fn(points) for those that are listed, so that the order of points of one sample does
+    // not depend on others.
+    template <class Fn> void forEachAlike(const Fn& fn) {
+        const PointBatch& points = memory_.points;
+        const std::uint32_t* const list = path_.alike.data();
+        const auto signatureOf = [&](std::uint32_t k) {
+            return materials_[points.at.block(k / kPoints).material[k % kPoints]].signature;
+        };
+        for (std::size_t from = 0, to = 0; from < path_.alike.size(); from = to) {
+            if (isWholeBlock(from)) {
+                to = from + points.sizeOf(list[from] / kPoints);
+                fn(AlikePoints{&points.at.block(list[from] / kPoints), list + from, to - from});
+                continue;
+            }
+            const std::uint16_t signature = signatureOf(list[from]);
+            for (to = from + 1; to < path_.alike.size() && to - from < kPoints &&
+                                signatureOf(list[to]) == signature && !isWholeBlock(to);)
+                ++to;
+            gather({list + from, to - from});
+            fn(AlikePoints{&path_.gathered, list + from, to - from});
+        }
+    }
+
+    // Writes the lobes of points.
+    void fillLobes(const AlikePoints& of) {
+        const PointBlock& at = *of.at;
+        const std::uint32_t number = at.material[0];
+        const LobedMaterial& first = materials_[number];
         LobeBlock& lobes = path_.lobes;
-        const bool isPlain = of.factors == 0 && (of.flags & LobedMaterial::kAnisotropic) == 0 &&
-                             pointsOf(number, at, waiting) == waiting;
-        if (isPlain && path_.filledWith == number) return waiting;
+        const bool isPlain = first.factors == 0 &&
+                             (first.flags & LobedMaterial::kAnisotropic) == 0 &&
+                             std::all_of(at.material, at.material + of.size,
+                                         [&](std::uint32_t other) { return other == number; });
+        if (isPlain && path_.filledWith == number) return;
         path_.filledWith = isPlain ? number : PathMemory::kMixed;
-        lobes.begin(materials_, of);
-        if (isPlain) return waiting;
-        unsigned alike = 0, painted = 0;
-        for (unsigned rest = waiting; rest != 0; rest &= rest - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+        lobes.begin(materials_, first);
+        if (isPlain) return;
+        unsigned painted = 0;
+        for (std::size_t i = 0; i < of.size; ++i) {
             const LobedMaterial& other = materials_[at.material[i]];
-            if (other.signature != of.signature) continue;
-            alike |= 1u << i, lobes.flags |= other.flags;
+            lobes.flags |= other.flags;
             painted |= unsigned{other.factors != 0} << i;
             if (at.material[i] != number) lobes.put(materials_, other, i);
-            if ((other.flags & LobedMaterial::kAnisotropic) != 0) turn(lobes, b, i);
+            if ((other.flags & LobedMaterial::kAnisotropic) != 0) turn(lobes, of.number[i], i);
         }
         while (painted != 0) {
             const std::uint32_t one = at.material[std::countr_zero(painted)];
-            const unsigned points = pointsOf(one, at, painted);
+            unsigned points = 0;
+            for (unsigned rest = painted; rest != 0; rest &= rest - 1) {
+                const int i = std::countr_zero(rest);
+                points |= unsigned{at.material[i] == one} << i;
+            }
             lobes.paint(materials_, materials_[one], points, at, context_.textureColors);
             painted &= ~points;
         }
-        return alike;
     }
-    // What is on both sides of points whose lobes ask for it; their `eta` goes to block.eta.
-    void findBoundaries(std::size_t b, unsigned points, LobeBlock::Lane& eta) {
-        for (; points != 0; points &= points - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(points));
-            boundaries_[i] = waves::boundaryAt(wave_, b * kPoints + i);
+    // What is on both sides of points whose lobes ask for it; their `eta` goes to the column.
+    void findBoundaries(const AlikePoints& of, LobeBlock::Lane& eta) {
+        for (std::size_t i = 0; i < of.size; ++i) {
+            boundaries_[i] = waves::boundaryAt(wave_, of.number[i]);
             eta[i] = boundaries_[i].eta;
         }
     }
-    // Takes what the random numbers of a block's points are drawn by; places behind the last point
-    // repeat it.
-    void takePixels(std::size_t b, std::uint32_t (&pixels)[kPoints],
-                    std::uint32_t (&samples)[kPoints]) const {
-        const PointBatch& points = memory_.points;
-        const std::size_t first = b * kPoints, size = points.sizeOf(b);
-        for (std::size_t i = 0; i < kPoints; ++i) {
-            const std::size_t ray = points.ray[first + std::min(i, size - 1)];
-            pixels[i] = wave_.rays.stream[ray];
-            samples[i] = wave_.chunk.sampleNumber[wave_.rays.sample[ray]];
+    void takeThroughputs(const AlikePoints& of, LobeBlock::Lane (&throughput)[3]) const {
+        for (std::size_t i = 0; i < of.size; ++i) {
+            const Rgb& weight = memory_.points.weight[of.number[i]];
+            throughput[0][i] = weight.r, throughput[1][i] = weight.g, throughput[2][i] = weight.b;
         }
     }
-    void takeThroughputs(std::size_t b, LobeBlock::Lane (&throughput)[3]) const {
-        const PointBatch& points = memory_.points;
-        const std::size_t first = b * kPoints, size = points.sizeOf(b);
-        for (std::size_t i = 0; i < size; ++i) {
-            const Rgb weight = points.weight[first + i];
-            throughput[0][i] = weight.r, throughput[1][i] = weight.g, throughput[2][i] = weight.b;
+    // The pixels and samples that random numbers of the points are drawn for.
+    void takePixels(const AlikePoints& of, std::uint32_t (&pixels)[kPoints],
+                    std::uint32_t (&samples)[kPoints]) const {
+        for (std::size_t i = 0; i < kPoints; ++i) {
+            const std::size_t ray = memory_.points.ray[of.number[std::min(i, of.size - 1)]];
+            pixels[i] = wave_.rays.stream[ray];
+            samples[i] = wave_.chunk.sampleNumber[wave_.rays.sample[ray]];
         }
     }
     // Adds what arrives of the light of path_.shadowRays: take(sample, light).
@@ -191,17 +237,23 @@ protected:
     }
 
 private:
-    static unsigned pointsOf(std::uint32_t material, const PointBlock& at, unsigned among) {
-        unsigned points = 0;
-        for (unsigned rest = among; rest != 0; rest &= rest - 1) {
-            const int i = std::countr_zero(rest);
-            points |= unsigned{at.material[i] == material} << i;
-        }
-        return points;
+    // Whether all points of a block follow each other in the list from this place on.
+    bool isWholeBlock(std::size_t place) const {
+        const std::uint32_t k = path_.alike[place];
+        if (k % kPoints != 0) return false;
+        const std::size_t size = memory_.points.sizeOf(k / kPoints);
+        return place + size <= path_.alike.size() && path_.alike[place + size - 1] == k + size - 1;
     }
-    // Lays the lobes of point i along dp/du.
-    void turn(LobeBlock& lobes, std::size_t b, std::size_t i) const {
-        const std::size_t ray = memory_.points.ray[b * kPoints + i];
+    // Puts points together into path_.gathered.
+    void gather(std::span<const std::uint32_t> numbers) {
+        PointBlock& to = path_.gathered;
+        to.curved = to.front = to.litApart = 0;
+        for (std::size_t i = 0; i < numbers.size(); ++i)
+            to.take(i, memory_.points.at.block(numbers[i] / kPoints), numbers[i] % kPoints);
+    }
+    // Lays the lobes of point k, which is place i of the block, along dp/du.
+    void turn(LobeBlock& lobes, std::size_t k, std::size_t i) const {
+        const std::size_t ray = memory_.points.ray[k];
         const Hit& hit = memory_.hits[ray];
         const Shape& shape = *scene_.shapes().shapes[hit.shape];
         SurfaceBlock::set(lobes.tangent, i, shape.derivatives(wave_.rays.ray(ray), hit).dpdu);

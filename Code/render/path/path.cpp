@@ -25,43 +25,45 @@ public:
         addMet(pdfOf());
         path_.shadowRays.clear();
         memory_.next.clear(), path_.nextStates.clear();
-        for (std::size_t b = 0; b < memory_.points.blocks(); ++b) scatterBlock(b);
+        const PointBatch& points = memory_.points;
+        for (std::size_t b = 0; b < points.blocks(); ++b)
+            for (unsigned rest = pointsWith(LobedMaterial::kEmits, b); rest != 0; rest &= rest - 1)
+                addEmission(b * kPoints + static_cast<std::size_t>(std::countr_zero(rest)),
+                            pdfOf());
+        listAlike([&](std::size_t k, const LobedMaterial& of) {
+            return (of.lobes != 0 || (of.flags & LobedMaterial::kSeeThrough) != 0) &&
+                   !stateOf(points.ray[k]).isLast;
+        });
+        path_.filledWith = PathMemory::kMixed;
+        forEachAlike([&](const AlikePoints& of) { scatter(of); });
         traceShadowRays(path_.shadowRays,
                         [&](std::uint32_t slot, Rgb light) { wave_.add(slot, light); });
     }
 
 private:
-    void scatterBlock(std::size_t b) {
-        const PointBatch& points = memory_.points;
-        const PointBlock& at = points.at.block(b);
+    void scatter(const AlikePoints& of) {
         PathBlock& block = path_.block;
-        const std::size_t first = b * kPoints, size = points.sizeOf(b);
         block.lit = block.open = block.scattered = block.single = block.diffuse =
             block.transmitted = 0;
-        unsigned waiting = 0; // points whose lobes are asked
-        for (std::size_t k = first; k < first + size; ++k) {
-            const std::size_t i = k - first;
-            const LobedMaterial& of = materials_[at.material[i]];
-            if ((of.flags & LobedMaterial::kEmits) != 0) addEmission(k, pdfOf());
-            const bool answers = of.lobes != 0 || (of.flags & LobedMaterial::kSeeThrough) != 0;
-            if (!answers || stateOf(points.ray[k]).isLast) continue;
-            waiting |= 1u << i;
-        }
-        if (waiting == 0) return;
         std::uint32_t pixels[kPoints], samples[kPoints];
-        takePixels(b, pixels, samples);
+        takePixels(of, pixels, samples);
         drawNumbers(context_, wave_.depth, pixels, samples, block.numbers);
-        takeThroughputs(b, block.throughput);
-        waiting &= ~goStraight(b, waiting);
-        while (waiting != 0) waiting &= ~scatterAlike(b, waiting);
+        takeThroughputs(of, block.throughput);
+        block.points = of.all() & ~goStraight(of);
+        if (block.points == 0) return;
+        fillLobes(of);
+        const std::uint32_t flags = path_.lobes.flags;
+        if ((flags & kHasSides) != 0) findBoundaries(of, block.eta);
+        context_.settings.isa->shading->scatter(lights_, *of.at, path_.lobes, block);
+        takeLight(of);
+        takeRays(of, flags);
     }
 
     // Points that rays go through as if they weren't there; returns which.
-    unsigned goStraight(std::size_t b, unsigned points) {
+    unsigned goStraight(const AlikePoints& among) {
         unsigned straight = 0;
-        for (; points != 0; points &= points - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(points));
-            const std::size_t k = b * kPoints + i;
+        for (std::size_t i = 0; i < among.size; ++i) {
+            const std::size_t k = among.number[i];
             const SceneMaterial& of = memory_.points.at.of(k);
             if (!of.seeThrough()) continue;
             const ShadedPoint at = memory_.points.at[k];
@@ -81,25 +83,12 @@ private:
         return straight;
     }
 
-    // Scatters the light of those points that have the same kinds of lobes as the first of them.
-    unsigned scatterAlike(std::size_t b, unsigned waiting) {
-        const PointBlock& at = memory_.points.at.block(b);
-        PathBlock& block = path_.block;
-        const unsigned alike = block.points = fillAlike(b, waiting);
-        const std::uint32_t flags = path_.lobes.flags;
-        if ((flags & kHasSides) != 0) findBoundaries(b, alike, block.eta);
-        context_.settings.isa->shading->scatter(lights_, at, path_.lobes, block);
-        takeLight(b, alike);
-        takeRays(b, alike, flags);
-        return alike;
-    }
-
     // Shadow rays to the chosen lamps.
-    void takeLight(std::size_t b, unsigned alike) {
+    void takeLight(const AlikePoints& of) {
         const PathBlock& block = path_.block;
-        for (unsigned lit = block.lit & alike; lit != 0; lit &= lit - 1) {
+        for (unsigned lit = block.lit & block.points; lit != 0; lit &= lit - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(lit));
-            const std::size_t k = b * kPoints + i;
+            const std::size_t k = of.number[i];
             const std::uint32_t ray = memory_.points.ray[k], slot = memory_.points.slot[k];
             const Vec3 v = SurfaceBlock::get(block.fromLamp, i);
             Rgb light{v.x, v.y, v.z};
@@ -117,12 +106,12 @@ private:
     }
 
     // Rays that go on.
-    void takeRays(std::size_t b, unsigned alike, std::uint32_t flags) {
+    void takeRays(const AlikePoints& of, std::uint32_t flags) {
         const PathBlock& block = path_.block;
         const PathBatch& rays = wave_.rays;
-        for (unsigned on = block.scattered & alike; on != 0; on &= on - 1) {
+        for (unsigned on = block.scattered & block.points; on != 0; on &= on - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(on));
-            const std::size_t k = b * kPoints + i;
+            const std::size_t k = of.number[i];
             const std::uint32_t ray = memory_.points.ray[k];
             PathState state = stateOf(ray);
             const bool isDiffuse = (block.diffuse >> i & 1) != 0,
@@ -147,10 +136,8 @@ private:
                 weight = weight * (1 / go);
             }
             state.pdf = block.pdf[i];
-            state.p = SurfaceBlock::get(memory_.points.at.block(b).p, i);
-            state.n = (flags & kTransmits) != 0
-                          ? Vec3{}
-                          : SurfaceBlock::get(memory_.points.at.block(b).n, i);
+            state.p = SurfaceBlock::get(of.at->p, i);
+            state.n = (flags & kTransmits) != 0 ? Vec3{} : SurfaceBlock::get(of.at->n, i);
             const bool crosses = isTransmitted && (flags & kHasSides) != 0;
             memory_.next.push({SurfaceBlock::get(block.org, i), SurfaceBlock::get(block.dir, i), 0,
                                kInfinityF, rays.time[ray]},

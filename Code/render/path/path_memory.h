@@ -23,6 +23,9 @@ struct PathState {
 
 struct PathMemory {
     std::vector<PathState> states, nextStates; // of memory.rays and memory.next
+    // Points whose materials have lobes, by the kinds of these and then by number.
+    std::vector<std::uint32_t> alike, alikeStarts;
+    PointBlock gathered{}; // of points that are not a block
     LobeBlock lobes{};
     PathBlock block{};
     LampBlock lamp{};

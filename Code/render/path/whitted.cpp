@@ -40,7 +40,8 @@ public:
         std::size_t lamp = 0;
         do {
             beginLamps(lamp);
-            for (std::size_t b = 0; b < memory_.points.blocks(); ++b) shadeBlock(b, lamp == 0);
+            if (lamp == 0) beginPoints();
+            forEachAlike([&](const AlikePoints& of) { shade(of, lamp == 0); });
             const auto add = [&](std::uint32_t k, Rgb light) { path_.sums[k] += light; };
             if (lamp == 0) traceShadowRays(path_.shadowRays, add);
             for (std::size_t i = 0; i < lamps_.size(); ++i)
@@ -76,39 +77,31 @@ private:
         }
     }
 
-    // All that is done at the points of a block for these lamps; the first time, all but lamps as
-    // well.
-    void shadeBlock(std::size_t b, bool isFirst) {
-        PointBatch& points = memory_.points;
-        const PointBlock& at = points.at.block(b);
-        const std::size_t first = b * kPoints, size = points.sizeOf(b);
-        const std::size_t firstRay = memory_.next.size();
-        if (isFirst) {
+    // What is done before lobes are looked at.
+    void beginPoints() {
+        const PointBatch& points = memory_.points;
+        for (std::size_t b = 0; b < points.blocks(); ++b) {
             forEachBit(pointsWith(LobedMaterial::kEmits, b),
-                       [&](std::size_t i) { addEmission(first + i, pdfOf()); });
+                       [&](std::size_t i) { addEmission(b * kPoints + i, pdfOf()); });
             forEachBit(pointsWith(LobedMaterial::kSeeThrough, b),
-                       [&](std::size_t i) { goStraight(first + i); });
+                       [&](std::size_t i) { goStraight(b * kPoints + i); });
         }
-        unsigned waiting = 0;
-        for (std::size_t i = 0; i < size; ++i)
-            waiting |= unsigned{materials_[at.material[i]].lobes != 0 &&
-                                !isBlack(points.weight[first + i])}
-                       << i;
-        if (waiting != 0) takeThroughputs(b, path_.lamp.throughput);
-        bool areDrawn = false;
-        while (waiting != 0) {
-            const unsigned alike = fillAlike(b, waiting);
-            waiting &= ~alike;
-            if ((path_.lobes.flags & kHasSides) != 0) findBoundaries(b, alike, path_.lamp.eta);
-            if (isFirst) {
-                addAmbient(b, alike);
-                sendRays(b, alike);
-            }
-            if ((path_.lobes.flags & kAnswersLights) == 0 || lamps_.empty()) continue;
-            if (!std::exchange(areDrawn, true)) drawPlaces(b);
-            askLamps(b, alike);
+        listAlike([&](std::size_t k, const LobedMaterial& of) {
+            return of.lobes != 0 && !isBlack(points.weight[k]);
+        });
+    }
+    // All that is done at some points for these lamps; the first time, all but lamps as well.
+    void shade(const AlikePoints& of, bool isFirst) {
+        fillLobes(of);
+        takeThroughputs(of, path_.lamp.throughput);
+        if ((path_.lobes.flags & kHasSides) != 0) findBoundaries(of, path_.lamp.eta);
+        if (isFirst) {
+            addAmbient(of);
+            sendRays(of);
         }
-        if (isFirst) sortRays(b, firstRay);
+        if ((path_.lobes.flags & kAnswersLights) == 0 || lamps_.empty()) return;
+        drawPlaces(of);
+        askLamps(of);
     }
 
     // Rays straight on; what is left of the point's weight is for its lobes.
@@ -126,24 +119,22 @@ private:
                           rays.seesLights[i]);
         makeRoomForStates();
         path_.nextStates[memory_.next.size() - 1] = stateOf(i);
-        if (wave_.depth > 0) path_.order.push_back(orderOf(k, kStraight));
         ++wave_.counts.refract;
     }
     bool goesOn(Rgb weight) const {
         return wave_.depth < limits_.maxDepth && waves::worthTracing(wave_, weight);
     }
 
-    void addAmbient(std::size_t b, unsigned alike) {
+    void addAmbient(const AlikePoints& of) {
         const Rgb ambient = scene_.ambient();
         if (isBlack(ambient) || (path_.lobes.flags & kDiffuse) == 0) return;
         PathBlock& block = path_.block;
-        block.points = alike;
+        block.points = of.all();
         std::copy_n(path_.lamp.eta, kPoints, block.eta);
-        context_.settings.isa->shading->ambient(memory_.points.at.block(b), path_.lobes, block);
-        for (; alike != 0; alike &= alike - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(alike));
+        context_.settings.isa->shading->ambient(*of.at, path_.lobes, block);
+        for (std::size_t i = 0; i < of.size; ++i) {
             const Vec3 part = SurfaceBlock::get(block.weight, i);
-            const std::size_t k = b * kPoints + i;
+            const std::size_t k = of.number[i];
             const Rgb light = memory_.points.weight[k] * ambient * Rgb{part.x, part.y, part.z};
             if (scene_.ambientReach() > 0)
                 sendToSky(k, light);
@@ -175,12 +166,12 @@ private:
 
     // Light of the lamps: the rays of their samples, or the light itself where lamps cast no
     // shadows.
-    void askLamps(std::size_t b, unsigned alike) {
+    void askLamps(const AlikePoints& of) {
         LampBlock& block = path_.lamp;
-        block.points = alike;
-        block.litOutside = memory_.points.at.block(b).litApart;
+        block.points = of.all();
+        block.litOutside = of.at->litApart;
         block.besideRays = wave_.depth < limits_.maxDepth;
-        block.first = static_cast<std::uint32_t>(b * kPoints);
+        std::copy_n(of.number, of.size, block.number);
         for (std::size_t i = 0; i < lamps_.size(); ++i) {
             RayBatch& rays = path_.lampRays[i];
             const std::size_t to = rays.extend((lamps_[i].samples + 1) * kPoints);
@@ -188,8 +179,7 @@ private:
                             &rays.weight[to]};
             lamps_[i].rays = 0;
         }
-        context_.settings.isa->shading->lamps(lights_, lamps_, memory_.points.at.block(b),
-                                              path_.lobes, block);
+        context_.settings.isa->shading->lamps(lights_, lamps_, *of.at, path_.lobes, block);
         for (std::size_t i = 0; i < lamps_.size(); ++i) takeRays(lamps_[i], path_.lampRays[i]);
     }
     void takeRays(const LampQueue& lamp, RayBatch& rays) {
@@ -209,12 +199,12 @@ private:
     }
 
     // Places on soft lamps for the samples of all points of a block.
-    void drawPlaces(std::size_t b) {
+    void drawPlaces(const AlikePoints& of) {
         if (std::none_of(lamps_.begin(), lamps_.end(),
                          [](const LampQueue& lamp) { return lamp.places != nullptr; }))
             return;
         std::uint32_t pixels[kPoints], samples[kPoints];
-        takePixels(b, pixels, samples);
+        takePixels(of, pixels, samples);
         PairDrawer drawer(context_, dimension(wave_.depth, BounceSlot::LightUv), pixels, samples);
         PlacesOnLamp* places = path_.places.data();
         for (const LampQueue& lamp : lamps_) {
@@ -223,27 +213,23 @@ private:
             places += lamp.samples;
         }
     }
-
     // ---- rays of the next wave
 
-    static constexpr std::uint32_t kStraight = 0;
-
-    void sendRays(std::size_t b, unsigned alike) {
+    void sendRays(const AlikePoints& of) {
         if (wave_.depth >= limits_.maxDepth) return;
         const LobeBlock& lobes = path_.lobes;
         if ((lobes.flags & LobedMaterial::kSpreads) != 0) {
             std::uint32_t pixels[kPoints], samples[kPoints];
-            takePixels(b, pixels, samples);
+            takePixels(of, pixels, samples);
             drawNumbers(context_, wave_.depth, pixels, samples, path_.block.numbers);
         }
         PathBlock& block = path_.block;
-        block.points = alike;
+        block.points = of.all();
         std::copy_n(path_.lamp.eta, kPoints, block.eta);
-        context_.settings.isa->shading->bounce(memory_.points.at.block(b), lobes, block,
-                                               path_.bounces);
-        if (path_.bounces.rays > 0) takeBounces(b);
+        context_.settings.isa->shading->bounce(*of.at, lobes, block, path_.bounces);
+        if (path_.bounces.rays > 0) takeBounces(of);
     }
-    void takeBounces(std::size_t b) {
+    void takeBounces(const AlikePoints& of) {
         const PointBatch& points = memory_.points;
         const PathBatch& rays = wave_.rays;
         const BounceQueue& from = path_.bounces;
@@ -256,7 +242,7 @@ private:
         std::array<std::size_t, kPoints> last;
         last.fill(first + from.rays);
         for (std::size_t r = 0; r < from.rays; ++r) {
-            const std::size_t k = b * kPoints + from.point[r], ray = points.ray[k];
+            const std::size_t k = of.number[from.point[r]], ray = points.ray[k];
             const Rgb weight = points.weight[k] * from.weight[r];
             if (!waves::worthTracing(wave_, weight)) continue;
             const bool crosses =
@@ -279,11 +265,12 @@ private:
             next.seesLights[to] = PathBatch::kSeesAsReflection;
             PathState& state = path_.nextStates[to];
             state.pdf = from.pdf[r];
-            if (state.pdf > 0) state.p = SurfaceBlock::get(points.at.block(b).p, from.point[r]);
+            if (state.pdf > 0) state.p = SurfaceBlock::get(of.at->p, from.point[r]);
             if (wave_.depth > 0) path_.order.push_back(orderOf(k, from.branch[r]));
             ++to;
         }
         next.shrink(to);
+        sortRays(of, first);
     }
 
     // One for each ray of the next wave, and maybe more.
@@ -299,19 +286,19 @@ private:
     static std::uint32_t orderOf(std::size_t k, std::uint32_t branch) {
         return static_cast<std::uint32_t>(k << 5 | branch);
     }
-    // Whether points of the block may be of one sample.
-    bool mayShareSamples(std::size_t b) const {
+    // Whether some of the points may be of one sample.
+    static bool mayShareSamples(const PointBatch& points, const AlikePoints& of) {
         std::uint64_t seen = 0;
-        for (std::size_t i = 0; i < memory_.points.sizeOf(b); ++i)
-            seen |= std::uint64_t{1} << (memory_.points.slot[b * kPoints + i] & 63);
-        return static_cast<std::size_t>(std::popcount(seen)) < memory_.points.sizeOf(b);
+        for (std::size_t i = 0; i < of.size; ++i)
+            seen |= std::uint64_t{1} << (points.slot[of.number[i]] & 63);
+        return static_cast<std::size_t>(std::popcount(seen)) < of.size;
     }
-    // Brings the rays of a block, those from `first` on, into that order.
-    void sortRays(std::size_t b, std::size_t first) {
+    // Brings the rays of some points, those from `first` on, into that order.
+    void sortRays(const AlikePoints& of, std::size_t first) {
         std::vector<std::uint32_t>& order = path_.order;
         PathBatch& next = memory_.next;
         if (order.empty()) return;
-        if (!std::is_sorted(order.begin(), order.end()) && mayShareSamples(b)) {
+        if (!std::is_sorted(order.begin(), order.end()) && mayShareSamples(memory_.points, of)) {
             std::uint16_t from[BounceQueue::kMost];
             for (std::size_t i = 0; i < order.size(); ++i) from[i] = static_cast<std::uint16_t>(i);
             std::sort(from, from + order.size(),

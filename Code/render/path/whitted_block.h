@@ -14,9 +14,9 @@ struct alignas(64) LampBlock {
     // `throughput`, `eta`, `points`: as in PathBlock.
     alignas(64) Lane throughput[3], eta;
     unsigned points = 0;
-    unsigned litOutside = 0; // of these: seen from the inside, lit on the outside
-    bool besideRays = true;  // rays of rough lobes find some of the lamps' light
-    std::uint32_t first = 0; // number of the first point, in the wave
+    unsigned litOutside = 0;       // of these: seen from the inside, lit on the outside
+    bool besideRays = true;        // rays of rough lobes find some of the lamps' light
+    std::uint32_t number[kPoints]; // in the wave
 };
 
 // Two numbers in [0,1) for each of sixteen points: where on a lamp a sample is.
