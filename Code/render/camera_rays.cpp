@@ -135,7 +135,7 @@ void CameraRays::drawPairs(int first, int count, std::uint32_t dimension, Sample
     for (std::size_t slot = 0; slot < all; slot += samples)
         sampler.get2D(chunk.cameraRays.stream[slot], static_cast<std::uint32_t>(first), dimension,
                       std::span(chunk.numbers).subspan(slot, samples));
-    PairBlock block;
+    PairBlock block{};
     forEachBlock(all, [&](std::size_t slot, std::size_t some) {
         for (std::size_t i = 0; i < some; ++i)
             block.u[i] = chunk.numbers[slot + i].x, block.v[i] = chunk.numbers[slot + i].y;
@@ -146,13 +146,13 @@ void CameraRays::drawPairs(int first, int count, std::uint32_t dimension, Sample
 template <class TakeFn>
 void CameraRays::drawInLanes(std::uint32_t dimension, const SampleChunk& chunk,
                              const TakeFn& take) const {
-    PairBlock block;
+    PairBlock block{};
     forEachBlock(chunk.cameraRays.size(), [&](std::size_t slot, std::size_t some) {
         std::copy_n(&chunk.cameraRays.stream[slot], some, block.pixel);
         std::copy_n(&chunk.sampleNumber[slot], some, block.sample);
         lanes_.seeds(context_.sampler.seed(), dimension,
                      std::span<const std::uint32_t>(block.pixel), {block.index, block.x, block.y});
-        lanes_.pairs(block);
+        lanes_.pairs(block, PairBlock::kPairs);
         take(block, slot, some);
     });
 }

@@ -208,8 +208,8 @@ void pairSeeds(std::uint32_t seed, std::uint32_t dimension, std::span<const std:
     }
 }
 
-void sobolPairs(PairBlock& block) {
-    for (std::size_t i = 0; i < PairBlock::kPairs; i += kSobolLanes) {
+void sobolPairs(PairBlock& block, std::size_t count) {
+    for (std::size_t i = 0; i < count; i += kSobolLanes) {
         const auto pair = sobolPair<Bits>(loadBits(block.sample + i), loadBits(block.index + i),
                                           loadBits(block.x + i), loadBits(block.y + i));
         storeUnit(pair.x, block.u + i), storeUnit(pair.y, block.v + i);

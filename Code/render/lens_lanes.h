@@ -13,9 +13,8 @@
 // Pixels, numbers of samples, what their pairs are shuffled and scrambled by, and the pairs.
 struct alignas(64) PairBlock {
     static constexpr std::size_t kPairs = 64;
-    std::uint32_t pixel[kPairs] = {}, sample[kPairs] = {}, index[kPairs] = {}, x[kPairs] = {},
-                  y[kPairs] = {};
-    float u[kPairs] = {}, v[kPairs] = {};
+    std::uint32_t pixel[kPairs], sample[kPairs], index[kPairs], x[kPairs], y[kPairs];
+    float u[kPairs], v[kPairs];
 };
 
 // Places in the picture, in pixels, and on the lens, in the unit square: one per pair of a block.
@@ -40,7 +39,8 @@ using PairSeedsFn = void (*)(std::uint32_t seed, std::uint32_t dimension,
 
 struct CameraLanes {
     PairSeedsFn seeds = nullptr;
-    void (*pairs)(PairBlock& block) = nullptr;
+    // The first `count` pairs of a block, a multiple of 16.
+    void (*pairs)(PairBlock& block, std::size_t count) = nullptr;
     // Moves places by Filter::sample() of what pairs() has drawn.
     void (*spread)(const Filter::Spread& filter, const PairBlock& pairs,
                    PlaceBlock& places) = nullptr;

@@ -41,6 +41,25 @@ inline SineCosine sinCosOfTurns(Floats u) {
     return {select(sinIsNegative, zero - s, s), select(cosIsNegative, zero - c, c)};
 }
 
+// Returns the angle of (x, y) with the x axis, for y >= 0: 0 to pi, to 2e-7 of itself (Taylor
+// series up to tan(pi/8), the next term is below 2e-8).
+inline Floats angleInHalfTurn(Floats y, Floats x) {
+    const Floats zero(0.0f), absX = abs(x);
+    const Mask isSteep = y > absX;
+    const Floats less = select(isSteep, absX, y), more = select(isSteep, y, absX);
+    const Mask isMiddle = less > more * Floats(0.41421356f); // beyond pi/8: less pi/4
+    const Floats above = select(isMiddle, less - more, less);
+    const Floats under = select(isMiddle, less + more, more);
+    const Floats t = select(under > zero, above / under, zero), z = t * t;
+    Floats sum(1.0f / 17);
+    for (float odd = 15; odd > 2; odd -= 2) sum = Floats(1 / odd) - sum * z;
+    const Floats inOctant =
+        (t - t * z * sum) + select(isMiddle, Floats(static_cast<float>(kPi / 4)), zero);
+    const Floats right(static_cast<float>(kHalfPi)), half(static_cast<float>(kPi));
+    const Floats toAxis = select(isSteep, right - inOctant, inOctant);
+    return select(x < zero, half - toAxis, toAxis);
+}
+
 // Returns a place on the unit disk, uniform, concentric (Shirley and Chiu 1997).
 inline Floats2 diskFromSquare(Floats u, Floats v) {
     const Floats zero(0.0f), one(1.0f), two(2.0f);

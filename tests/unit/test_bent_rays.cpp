@@ -56,8 +56,8 @@ struct Sent {
             block.eta[i] =
                 (flags & kHasSides) != 0 ? static_cast<float>(random.logUniform(0.4, 2.5)) : 1.0f;
             for (float* const lane :
-                 {block.numbers.light, block.numbers.lightU, block.numbers.lightV,
-                  block.numbers.lobe, block.numbers.bsdfU, block.numbers.bsdfV})
+                 {block.numbers.choice.u, block.numbers.onLight.u, block.numbers.onLight.v,
+                  block.numbers.choice.v, block.numbers.direction.u, block.numbers.direction.v})
                 lane[i] = min(static_cast<float>(random.unit()), kOneMinusUlp);
         }
         block.points = (1u << kPoints) - 1;

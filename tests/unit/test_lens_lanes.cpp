@@ -202,7 +202,7 @@ TEST(pairs_in_lanes_have_the_bits_of_the_sampler) {
             const Sampler sampler(SamplerKind::Sobol, 16,
                                   static_cast<std::uint32_t>(random.below(std::size_t{1} << 32)));
             const auto dimension = static_cast<std::uint32_t>(2 * random.below(100));
-            PairBlock block;
+            PairBlock block{};
             Vec2 alone[PairBlock::kPairs];
             for (std::size_t k = 0; k < PairBlock::kPairs; ++k) {
                 const auto any = static_cast<std::uint32_t>(random.below(std::size_t{1} << 32));
@@ -211,7 +211,7 @@ TEST(pairs_in_lanes_have_the_bits_of_the_sampler) {
             }
             lanes.seeds(sampler.seed(), dimension, std::span<const std::uint32_t>(block.pixel),
                         {block.index, block.x, block.y});
-            lanes.pairs(block);
+            lanes.pairs(block, PairBlock::kPairs);
             for (std::size_t k = 0; k < PairBlock::kPairs; ++k)
                 if ((!sameBits(alone[k].x, block.u[k]) || !sameBits(alone[k].y, block.v[k])) &&
                     ++wrong <= 3)
@@ -232,7 +232,7 @@ TEST(places_in_lanes_have_the_bits_of_the_filter) {
         long long wrong = 0;
         for (int i = 0; i < check::scaled(600); ++i) {
             const Filter filter(kKinds[i % 4], i % 5 == 0 ? 1.5 : random.logUniform(0.01, 50));
-            PairBlock pairs;
+            PairBlock pairs{};
             PlaceBlock places{};
             std::vector<Vec2> alone;
             for (std::size_t k = 0; k < PairBlock::kPairs; ++k) {

@@ -22,28 +22,25 @@ public:
     // angle: far away the mean of the samples has no variance, near it less than 0.1.
     SampledLight sample(const Floats3& p, Floats u, Floats v) const {
         const Floats2 disk = diskFromSquare(u, v);
-        const Seen seen = seenFrom(p);
+        const FlatSeen seen(*this, lengthX_, lengthY_, p);
         const unsigned near = bits(seen.byAngle);
         const auto far = [&] {
             return from(p, FlatNumbers::centre + halfX * disk.x + halfY * disk.y, area(),
                         noLanes());
         };
         if (near == 0) return far();
-        const Doubles one(1.0), half(0.5), zero(0.0), t(disk.x);
-        const Doubles chord = sqrt((one - t) * (one + t));
-        const Doubles onChord = min(max(half + half * (Doubles(disk.y) / chord), zero), one);
-        const Doubles x = seen.from.place(seen.solidAngle, half + half * t, half).x;
-        const Slice slice = seen.sliceAt(x);
-        const Doubles y = seen.from.placeOnLine(x, slice.y0, slice.y1, onChord);
-        const Doubles3 d = seen.x * x + seen.y * y - seen.normal * seen.from.h;
-        const Doubles distance = sqrt(dot(d, d));
-        const Doubles pdf = seen.density(slice, chord);
-        const Floats cosAtLight = (seen.from.h / distance).toFloats();
-        const SampledLight sliced = where(
-            seen.byAngle & (zero < pdf), Floats3::of(d / distance), distance.toFloats(),
-            radiance * (spreadAt(cosAtLight) * (one / pdf).toFloats()), pdf.toFloats(), noLanes());
-        if (near == kAllLanes) return sliced;
-        return select(seen.byAngle, sliced, far());
+        const Floats one(1.0f), half(0.5f), zero(0.0f);
+        const Floats chord = sqrt(max((one - disk.x) * (one + disk.x), zero));
+        const Floats onChord = min(max(half + half * (disk.y / chord), zero), one);
+        const Floats x = seen.from.place(seen.solidAngle, half + half * disk.x, half).x;
+        const Slice slice = sliceAt(seen, x);
+        const Floats3 d = seen.wayTo(x, seen.from.placeOnLine(x, slice.y0, slice.y1, onChord));
+        const Floats distance = sqrt(dot(d, d));
+        const Floats pdf = density(seen, slice, chord);
+        const SampledLight sliced =
+            where(seen.byAngle & (pdf > zero), d / distance, distance * seen.scale,
+                  radiance * (spreadAt(seen.from.h / distance) / pdf), pdf, noLanes());
+        return near == kAllLanes ? sliced : select(seen.byAngle, sliced, far());
     }
     SampledLight centre(const Floats3& p) const {
         return from(p, FlatNumbers::centre, area(), maskOf(kAllLanes));
@@ -54,15 +51,15 @@ public:
         if (bits(isMet) == 0) return 0.0f;
         const Floats distance = at.distance.toFloats();
         Floats pdf = distance * distance / (area() * at.cosAtLight);
-        const Seen seen = seenFrom(p);
+        const FlatSeen seen(*this, lengthX_, lengthY_, p);
         if (bits(seen.byAngle & isMet) != 0) {
-            const Doubles zero(0.0), one(1.0), two(2.0);
+            const Floats zero(0.0f), one(1.0f), two(2.0f);
             RectangleSeen left = seen.from;
-            left.x1 = min(max(left.x0 + Doubles(lengthX_) * (one + at.x), left.x0), left.x1);
-            const Doubles part = left.solidAngle() / seen.solidAngle; // (1 + t) / 2
-            const Doubles chord = two * sqrt(max(part * (one - part), zero));
-            const Doubles ofSlices = seen.density(seen.sliceAt(left.x1), chord);
-            pdf = select(seen.byAngle, ofSlices.toFloats(), pdf);
+            left.x1 = min(max(left.x0 + lengthX_ / seen.scale * (one + at.x.toFloats()), left.x0),
+                          left.x1);
+            const Floats part = left.solidAngle() / seen.solidAngle; // (1 + t) / 2
+            const Floats chord = two * sqrt(max(part * (one - part), zero));
+            pdf = select(seen.byAngle, density(seen, sliceAt(seen, left.x1), chord), pdf);
         }
         return select(isMet & (pdf < Floats(kInfinityF)), pdf, Floats(0.0f));
     }
@@ -73,46 +70,23 @@ public:
 
 private:
     struct Slice {
-        Doubles y0, y1; // where it begins and ends in the ellipse
-        Doubles part;   // of the slice of the rectangle, by angle
+        Floats y0, y1; // where it begins and ends in the ellipse
+        Floats part;   // of the slice of the rectangle, by angle
     };
-    struct Seen {
-        Doubles3 x, y, normal; // unit vectors
-        RectangleSeen from;    // the rectangle around the ellipse
-        Doubles middleX, middleY, lengthX, lengthY;
-        Doubles solidAngle; // of the rectangle
-        Mask byAngle;       // slices, not places
-
-        Slice sliceAt(const Doubles& place) const {
-            const Doubles zero(0.0), one(1.0), s = (place - middleX) / lengthX;
-            const Doubles half = lengthY * sqrt(max((one - s) * (one + s), zero));
-            const Doubles d2 = place * place + from.h * from.h;
-            const auto sine = [&](const Doubles& at) { return at / sqrt(d2 + at * at); };
-            const Doubles y0 = middleY - half, y1 = middleY + half;
-            return {y0, y1, (sine(y1) - sine(y0)) / (sine(from.y1) - sine(from.y0))};
-        }
-        // Slices have a density of 4 / pi times the chord's half length.
-        Doubles density(const Slice& slice, const Doubles& chord) const {
-            return chord * Doubles(4 / kPi) / (slice.part * solidAngle);
-        }
-    };
-    Seen seenFrom(const Floats3& p) const {
-        const Doubles zero(0.0);
-        const Doubles3 d = differenceOf(FlatNumbers::centre, p), n = doublesOf(normal);
-        const Doubles lengthX(lengthX_), lengthY(lengthY_);
-        const Doubles3 x = doublesOf(halfX) / lengthX, y = doublesOf(halfY) / lengthY;
-        const Doubles atX = dot(d, x), atY = dot(d, y), h = zero - dot(d, n);
-        const RectangleSeen around{atX - lengthX, atX + lengthX, atY - lengthY, atY + lengthY, h};
-        const Doubles size2 = Doubles(x2) + Doubles(y2);
-        const Floats skew = abs(dot(halfX, halfY));
-        const Mask isNear = (dot(d, d) < Doubles(kFarHalfAxes2) * size2) & (zero < h) &
-                            (skew <= Floats(1e-5f) * lengthX_ * lengthY_) & (x2 > Floats(0.0f)) &
-                            (y2 > Floats(0.0f));
-        Seen seen{x, y, n, around, atX, atY, lengthX, lengthY, zero, isNear};
-        if (bits(isNear) == 0) return seen;
-        seen.solidAngle = around.solidAngle();
-        seen.byAngle = isNear & (Doubles(kLeastSolidAngle) < seen.solidAngle);
-        return seen;
+    static Slice sliceAt(const FlatSeen& seen, Floats place) {
+        const Floats zero(0.0f), one(1.0f), half(0.5f);
+        const RectangleSeen& of = seen.from;
+        const Floats lengthX = half * (of.x1 - of.x0), lengthY = half * (of.y1 - of.y0);
+        const Floats s = (place - half * (of.x0 + of.x1)) / lengthX;
+        const Floats halfChord = lengthY * sqrt(max((one - s) * (one + s), zero));
+        const Floats d2 = place * place + of.h * of.h, middleY = half * (of.y0 + of.y1);
+        const auto sine = [&](Floats at) { return at / sqrt(d2 + at * at); };
+        const Floats y0 = middleY - halfChord, y1 = middleY + halfChord;
+        return {y0, y1, (sine(y1) - sine(y0)) / (sine(of.y1) - sine(of.y0))};
+    }
+    // Slices have a density of 4 / pi times the chord's half length.
+    static Floats density(const FlatSeen& seen, const Slice& slice, Floats chord) {
+        return chord * Floats(static_cast<float>(4 / kPi)) / (slice.part * seen.solidAngle);
     }
     static Mask isOn(const Place& at) {
         return at.isAhead & maskOf(atMost(at.x * at.x + at.y * at.y, Doubles(1.0)));

@@ -93,7 +93,7 @@ private:
         const Mask shines = zero < shown;
         const Doubles3 middle = a + (edgeB_ + edgeC_) * third;
         const Doubles size2 = max(dot(edgeB_, edgeB_), dot(edgeC_, edgeC_));
-        const Mask isNear = shines & (dot(middle, middle) < Doubles(kFarHalfAxes2) * size2);
+        const Mask isNear = shines & (dot(middle, middle) < Doubles(double{kFarHalfAxes2}) * size2);
         Seen seen{a, b, c, side, shines, zero, isNear};
         if (bits(isNear) == 0) return seen;
         // Van Oosterom and Strackee 1983.

@@ -147,9 +147,6 @@ protected:
     template <class Fn> void forEachAlike(const Fn& fn) {
         const PointBatch& points = memory_.points;
         const std::uint32_t* const list = path_.alike.data();
-        const auto signatureOf = [&](std::uint32_t k) {
-            return materials_[points.at.block(k / kPoints).material[k % kPoints]].signature;
-        };
         for (std::size_t from = 0, to = 0; from < path_.alike.size(); from = to) {
             if (isWholeBlock(from)) {
                 to = from + points.sizeOf(list[from] / kPoints);
@@ -242,7 +239,12 @@ private:
         const std::uint32_t k = path_.alike[place];
         if (k % kPoints != 0) return false;
         const std::size_t size = memory_.points.sizeOf(k / kPoints);
-        return place + size <= path_.alike.size() && path_.alike[place + size - 1] == k + size - 1;
+        const std::size_t last = place + size - 1;
+        return last < path_.alike.size() && path_.alike[last] == k + size - 1 &&
+               signatureOf(path_.alike[last]) == signatureOf(k);
+    }
+    std::uint16_t signatureOf(std::size_t k) const {
+        return materials_[memory_.points.at.block(k / kPoints).material[k % kPoints]].signature;
     }
     // Puts points together into path_.gathered.
     void gather(std::span<const std::uint32_t> numbers) {

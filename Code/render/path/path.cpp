@@ -47,7 +47,7 @@ private:
             block.transmitted = 0;
         std::uint32_t pixels[kPoints], samples[kPoints];
         takePixels(of, pixels, samples);
-        drawNumbers(context_, wave_.depth, pixels, samples, block.numbers);
+        drawNumbers(pixels, samples);
         takeThroughputs(of, block.throughput);
         block.points = of.all() & ~goStraight(of);
         if (block.points == 0) return;
@@ -59,6 +59,17 @@ private:
         takeRays(of, flags);
     }
 
+    void drawNumbers(const std::uint32_t (&pixels)[kPoints],
+                     const std::uint32_t (&samples)[kPoints]) {
+        PathNumbers& numbers = path_.block.numbers;
+        PairDrawer drawer(context_.settings.isa->camera, pixels, samples);
+        for (const auto& [slot, to] : {std::pair(BounceSlot::LightPick, &numbers.choice),
+                                       std::pair(BounceSlot::LightUv, &numbers.onLight),
+                                       std::pair(BounceSlot::BsdfUv, &numbers.direction),
+                                       std::pair(BounceSlot::Roulette, &numbers.goesOn)})
+            drawer.draw(context_.sampler, dimension(wave_.depth, slot), 1, to);
+    }
+
     // Points that rays go through as if they weren't there; returns which.
     unsigned goStraight(const AlikePoints& among) {
         unsigned straight = 0;
@@ -67,7 +78,7 @@ private:
             const SceneMaterial& of = memory_.points.at.of(k);
             if (!of.seeThrough()) continue;
             const ShadedPoint at = memory_.points.at[k];
-            if (!(path_.block.numbers.spare[i] < 1 - opacityAt(of, at.surface.uv))) continue;
+            if (!(path_.block.numbers.goesOn.v[i] < 1 - opacityAt(of, at.surface.uv))) continue;
             straight |= 1u << i;
             const std::uint32_t ray = memory_.points.ray[k];
             PathState state = stateOf(ray);
@@ -132,7 +143,7 @@ private:
             Rgb weight = rays.weight[ray] * Rgb{w.x, w.y, w.z};
             if (bounces > kBouncesWithoutRoulette) {
                 const float go = clamp(maxChannel(weight), kLeastToGo, 1.0f);
-                if (!(block.numbers.roulette[i] < go)) continue;
+                if (!(block.numbers.goesOn.u[i] < go)) continue;
                 weight = weight * (1 / go);
             }
             state.pdf = block.pdf[i];

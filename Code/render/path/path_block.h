@@ -10,9 +10,14 @@
 
 class PathLights;
 
-// Random numbers of a point, each in [0,1): which light, where on it, which lobe, which direction.
-struct alignas(64) PathNumbers {
-    LobeBlock::Lane light, lightU, lightV, lobe, bsdfU, bsdfV, roulette, spare;
+// Two random numbers in [0,1) for each of sixteen points.
+struct alignas(64) NumberPairs {
+    LobeBlock::Lane u, v;
+};
+struct PathNumbers {
+    NumberPairs choice; // which light, and which lobe
+    NumberPairs onLight, direction;
+    NumberPairs goesOn; // whether the path does; whether it goes straight through the point
 };
 
 struct alignas(64) PathBlock {

@@ -110,9 +110,9 @@ inline void sendLight(const PathLights& lights, const SeenPoints& at, const Shad
     const Floats zero(0.0f);
     const PathNumbers& u = block.numbers;
     const ChosenLight chosen =
-        chooseLight(lights, at.p, transmits ? rgbOf(0.0f) : at.n, Floats::load(u.light + first),
-                    Floats::load(u.roulette + first), Floats::load(u.lightU + first),
-                    Floats::load(u.lightV + first), lanes);
+        chooseLight(lights, at.p, transmits ? rgbOf(0.0f) : at.n, Floats::load(u.choice.u + first),
+                    Floats::load(u.goesOn.u + first), Floats::load(u.onLight.u + first),
+                    Floats::load(u.onLight.v + first), lanes);
     const SampledLight& lamp = chosen.sample;
     const Floats3 toLight = frame.toLocal(lamp.toLight);
     const auto [arrives, below] = arriving(at, lamp.toLight, toLight, transmits);
@@ -186,8 +186,9 @@ void scatterBlock(const PathLights& lights, const PointBlock& points, const Lobe
                    if ((lobes.flags & kSpawnsRays) == 0) return;
                    const PathNumbers& u = block.numbers;
                    sendRay(at, frame,
-                           bsdf.sample(Floats::load(u.lobe + first), Floats::load(u.bsdfU + first),
-                                       Floats::load(u.bsdfV + first)),
+                           bsdf.sample(Floats::load(u.choice.v + first),
+                                       Floats::load(u.direction.u + first),
+                                       Floats::load(u.direction.v + first)),
                            lanes, first, block);
                });
 }

@@ -35,7 +35,7 @@ struct PathMemory {
     static constexpr std::uint32_t kMixed = 0xffffffffu;
     std::array<RayBatch, 8> lampRays; // `sample`: the point
     std::array<LampQueue, 8> lamps{};
-    std::vector<PlacesOnLamp> places; // lamp by lamp and sample by sample
+    std::vector<NumberPairs> places;  // on lamps, lamp by lamp and sample by sample
     std::vector<Rgb> sums;            // by point: light on its way to the sample
     std::vector<std::uint32_t> order; // of memory.next: by point and branch
     PathBatch sorted;                 // rays of a block on their way into that order

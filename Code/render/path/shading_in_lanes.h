@@ -15,9 +15,9 @@ void bounceAtPoints(const PointBlock& points, const LobeBlock& lobes, const Path
     forEachRow(points, lobes, block,
                [&](unsigned lanes, std::size_t first, const SeenPoints& at,
                    const ShadingFrame& frame, const Bsdf& bsdf) {
-                   const Floats pick = Floats::load(numbers.lobe + first),
-                                u = Floats::load(numbers.bsdfU + first),
-                                v = Floats::load(numbers.bsdfV + first);
+                   const Floats pick = Floats::load(numbers.choice.v + first),
+                                u = Floats::load(numbers.direction.u + first),
+                                v = Floats::load(numbers.direction.v + first);
                    bsdf.forEachBranch([&](std::size_t lobe, bool transmits) {
                        const LobeSample next = bsdf.sampleLobe(lobe, transmits, pick, u, v);
                        const SentRays ray = raysOf(at, frame, next.toLight, next.weight, next.pdf,

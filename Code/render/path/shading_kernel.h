@@ -21,7 +21,7 @@ struct ShadingKernel {
     // The samples of all these lamps.
     void (*lamps)(const PathLights& lights, std::span<LampQueue> lamps, const PointBlock& points,
                   const LobeBlock& lobes, const LampBlock& block) = nullptr;
-    // The rays of all lobes, by numbers.lobe, bsdfU and bsdfV of the block.
+    // The rays of all lobes, by numbers.choice.v and numbers.direction of the block.
     void (*bounce)(const PointBlock& points, const LobeBlock& lobes, const PathBlock& block,
                    BounceQueue& out) = nullptr;
     // block.weight becomes the part of even light that diffuse lobes send on.

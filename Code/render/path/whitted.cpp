@@ -69,7 +69,7 @@ private:
         }
         lamps_ = std::span(path_.lamps).first(count);
         if (path_.places.size() < soft) path_.places.resize(soft);
-        PlacesOnLamp* places = path_.places.data();
+        NumberPairs* places = path_.places.data();
         for (LampQueue& lamp : lamps_) {
             const bool isSoft = lights_.entry(lamp.light).isSoft;
             lamp.places = isSoft ? places : nullptr;
@@ -205,11 +205,12 @@ private:
             return;
         std::uint32_t pixels[kPoints], samples[kPoints];
         takePixels(of, pixels, samples);
-        PairDrawer drawer(context_, dimension(wave_.depth, BounceSlot::LightUv), pixels, samples);
-        PlacesOnLamp* places = path_.places.data();
+        PairDrawer drawer(context_.settings.isa->camera, pixels, samples);
+        NumberPairs* places = path_.places.data();
         for (const LampQueue& lamp : lamps_) {
             if (lamp.places == nullptr) continue;
-            drawer.draw(context_.lampSamplers[lamp.light], lamp.samples, places);
+            drawer.draw(context_.lampSamplers[lamp.light],
+                        dimension(wave_.depth, BounceSlot::LightUv), lamp.samples, places);
             places += lamp.samples;
         }
     }
@@ -221,7 +222,12 @@ private:
         if ((lobes.flags & LobedMaterial::kSpreads) != 0) {
             std::uint32_t pixels[kPoints], samples[kPoints];
             takePixels(of, pixels, samples);
-            drawNumbers(context_, wave_.depth, pixels, samples, path_.block.numbers);
+            PathNumbers& numbers = path_.block.numbers;
+            PairDrawer drawer(context_.settings.isa->camera, pixels, samples);
+            drawer.draw(context_.sampler, dimension(wave_.depth, BounceSlot::LightPick), 1,
+                        &numbers.choice);
+            drawer.draw(context_.sampler, dimension(wave_.depth, BounceSlot::BsdfUv), 1,
+                        &numbers.direction);
         }
         PathBlock& block = path_.block;
         block.points = of.all();

@@ -19,18 +19,13 @@ struct alignas(64) LampBlock {
     std::uint32_t number[kPoints]; // in the wave
 };
 
-// Two numbers in [0,1) for each of sixteen points: where on a lamp a sample is.
-struct alignas(64) PlacesOnLamp {
-    LobeBlock::Lane u, v;
-};
-
 // A lamp, and its shadow rays: from each point to the lamp, or from where the lamp sits to the
 // points.
 struct LampQueue {
     std::uint32_t light = 0;
     std::uint32_t samples = 1;
-    float share = 1;                      // of a sample, of the lamp's light
-    const PlacesOnLamp* places = nullptr; // of each sample; null: all are at 0
+    float share = 1;                     // of a sample, of the lamp's light
+    const NumberPairs* places = nullptr; // on it, of each sample; null: all are at 0
     // Where the rays go to, with room for one register more than there are.
     struct {
         Vec3 *org, *dir; // org is left alone if rays start at the lamp
