@@ -126,16 +126,24 @@ inline std::uint32_t element(__m256i all, int i) {
 
 // --- chosen lanes ---
 
+// There is room for all lanes behind `to`.
+inline Floats packed(unsigned chosen, Floats a) {
+    return chosen == (1u << W) - 1 ? a : _mm256_permutevar8x32_ps(a.v, chosenLanes(chosen));
+}
 inline void storeChosenFloats(unsigned chosen, Floats a, float* to) {
-    alignas(64) float all[W];
-    a.store(all);
-    for (; chosen != 0; chosen &= chosen - 1) *to++ = all[std::countr_zero(chosen)];
+    _mm256_storeu_ps(to, packed(chosen, a).v);
 }
 inline void storeChosenVectors(unsigned chosen, Floats x, Floats y, Floats z, float* to) {
-    alignas(64) float all[3][W];
-    x.store(all[0]), y.store(all[1]), z.store(all[2]);
-    for (; chosen != 0; chosen &= chosen - 1)
-        for (const auto& axis : all) *to++ = axis[std::countr_zero(chosen)];
+    const __m256 a = packed(chosen, x).v, b = packed(chosen, y).v, c = packed(chosen, z).v;
+    // In each half: x0 x2 y0 y2, y1 y3 z1 z3, z0 z2 x1 x3.
+    const __m256 even = _mm256_shuffle_ps(a, b, 0x88), odd = _mm256_shuffle_ps(b, c, 0xdd),
+                 rest = _mm256_shuffle_ps(c, a, 0xd8);
+    const __m256 first = _mm256_shuffle_ps(even, rest, 0x88), // x0 y0 z0 x1
+        second = _mm256_shuffle_ps(odd, even, 0xd8),          // y1 z1 x2 y2
+        third = _mm256_shuffle_ps(rest, odd, 0xdd);           // z2 x3 y3 z3
+    _mm256_storeu_ps(to, _mm256_permute2f128_ps(first, second, 0x20));
+    _mm256_storeu_ps(to + W, _mm256_permute2f128_ps(third, first, 0x30));
+    _mm256_storeu_ps(to + 2 * W, _mm256_permute2f128_ps(second, third, 0x31));
 }
 inline unsigned spread(unsigned lowest, unsigned places) { return _pdep_u32(lowest, places); }
 

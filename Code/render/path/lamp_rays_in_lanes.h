@@ -1,13 +1,10 @@
-// Stage of Whitted pictures: the light of lamps at sixteen points, and the shadow rays that say
-// whether it arrives.
+// Shadow rays of Whitted pictures, with the light that arrives if nothing is in between.
 #pragma once
 
 #include "render/path/path_in_lanes.h"
 #include "render/path/ray_from_lamp.h"
 #include "render/path/whitted_block.h"
 #include "render/waves/point_lanes.h"
-
-#include <span>
 
 LANES_BEGIN
 
@@ -25,7 +22,7 @@ inline SeenPoints litPoints(const PointBlock& points, std::size_t first, unsigne
 }
 
 // The rays of one sample of a lamp, by two numbers.
-inline void sendToLamp(const PathLights& lights, LampQueue& lamp, const LampBlock& block,
+inline void sendToLamp(const PathLights& lights, LampQueue& lamp, const WhittedBlock& block,
                        const SeenPoints& at, const ShadingFrame& frame, const Bsdf& bsdf,
                        bool transmits, Floats u, Floats v, unsigned lanes, std::size_t first) {
     const PathLights::Entry& entry = lights.entry(lamp.light);
@@ -60,26 +57,6 @@ inline void sendToLamp(const PathLights& lights, LampQueue& lamp, const LampBloc
     for (; lanes != 0; lanes &= lanes - 1)
         to.point[lamp.rays++] =
             block.number[first + static_cast<std::size_t>(std::countr_zero(lanes))];
-}
-
-void lampsAtPoints(const PathLights& lights, std::span<LampQueue> lamps, const PointBlock& points,
-                   const LobeBlock& lobes, const LampBlock& block) {
-    const bool transmits = (lobes.flags & kTransmits) != 0;
-    forEachRow(
-        lobes, block.points, block.eta,
-        [&](std::size_t first) { return litPoints(points, first, block.litOutside); },
-        [&](unsigned lanes, std::size_t first, const SeenPoints& at, const ShadingFrame& frame,
-            const Bsdf& bsdf) {
-            for (LampQueue& lamp : lamps)
-                for (std::size_t s = 0; s < lamp.samples; ++s) {
-                    Floats u(0.0f), v(0.0f);
-                    if (lamp.places != nullptr) {
-                        u = Floats::load(lamp.places[s].u + first);
-                        v = Floats::load(lamp.places[s].v + first);
-                    }
-                    sendToLamp(lights, lamp, block, at, frame, bsdf, transmits, u, v, lanes, first);
-                }
-        });
 }
 
 LANES_END

@@ -127,20 +127,22 @@ protected:
     // Lists the points that have lobes and of which isShaded(k) holds.
     template <class IsShaded> void listAlike(const IsShaded& isShaded) {
         const PointBatch& points = memory_.points;
+        constexpr std::uint16_t kNone = 0xffff;
         std::vector<std::uint32_t>& next = path_.alikeStarts;
         next.assign(materials_.signatures() + 1, 0);
-        const auto forEach = [&](const auto& fn) {
-            for (std::size_t k = 0; k < points.count; ++k) {
-                const std::uint32_t number = points.at.block(k / kPoints).material[k % kPoints];
-                if (isShaded(k, materials_[number])) fn(k, materials_[number].signature);
-            }
-        };
-        forEach([&](std::size_t, std::size_t signature) { ++next[signature + 1]; });
+        path_.signatures.resize(points.count);
+        for (std::size_t k = 0; k < points.count; ++k) {
+            const LobedMaterial& of =
+                materials_[points.at.block(k / kPoints).material[k % kPoints]];
+            const std::uint16_t signature = isShaded(k, of) ? of.signature : kNone;
+            path_.signatures[k] = signature;
+            if (signature != kNone) ++next[signature + 1u];
+        }
         for (std::size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
         path_.alike.resize(next.back());
-        forEach([&](std::size_t k, std::size_t signature) {
-            path_.alike[next[signature]++] = static_cast<std::uint32_t>(k);
-        });
+        for (std::size_t k = 0; k < points.count; ++k)
+            if (const std::uint16_t signature = path_.signatures[k]; signature != kNone)
+                path_.alike[next[signature]++] = static_cast<std::uint32_t>(k);
     }
     // Calls fn(points) for those that are listed, so that the order of points of one sample does
     // not depend on others.
@@ -153,9 +155,9 @@ protected:
                 fn(AlikePoints{&points.at.block(list[from] / kPoints), list + from, to - from});
                 continue;
             }
-            const std::uint16_t signature = signatureOf(list[from]);
+            const std::uint16_t signature = path_.signatures[list[from]];
             for (to = from + 1; to < path_.alike.size() && to - from < kPoints &&
-                                signatureOf(list[to]) == signature && !isWholeBlock(to);)
+                                path_.signatures[list[to]] == signature && !isWholeBlock(to);)
                 ++to;
             gather({list + from, to - from});
             fn(AlikePoints{&path_.gathered, list + from, to - from});
@@ -241,10 +243,7 @@ private:
         const std::size_t size = memory_.points.sizeOf(k / kPoints);
         const std::size_t last = place + size - 1;
         return last < path_.alike.size() && path_.alike[last] == k + size - 1 &&
-               signatureOf(path_.alike[last]) == signatureOf(k);
-    }
-    std::uint16_t signatureOf(std::size_t k) const {
-        return materials_[memory_.points.at.block(k / kPoints).material[k % kPoints]].signature;
+               path_.signatures[path_.alike[last]] == path_.signatures[k];
     }
     // Puts points together into path_.gathered.
     void gather(std::span<const std::uint32_t> numbers) {

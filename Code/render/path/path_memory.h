@@ -25,10 +25,11 @@ struct PathMemory {
     std::vector<PathState> states, nextStates; // of memory.rays and memory.next
     // Points whose materials have lobes, by the kinds of these and then by number.
     std::vector<std::uint32_t> alike, alikeStarts;
-    PointBlock gathered{}; // of points that are not a block
+    std::vector<std::uint16_t> signatures; // by point: LobedMaterial::signature
+    PointBlock gathered{};                 // of points that are not a block
     LobeBlock lobes{};
     PathBlock block{};
-    LampBlock lamp{};
+    WhittedBlock whitted{};
     BounceQueue bounces{};
     // The material whose numbers `lobes` has for all points, if they are of one.
     std::uint32_t filledWith = kMixed;

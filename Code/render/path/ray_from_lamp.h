@@ -34,7 +34,8 @@ inline RayFromLamp rayFromLamp(const Floats3& p, const Floats3& lift, const Floa
     const Doubles alongX = n.x * way.x, alongY = n.y * way.y, alongZ = n.z * way.z;
     const Doubles rounding = Doubles(0x1p-24) * ((abs(alongX) + abs(alongY)) + abs(alongZ));
     const Doubles lost = rounding + Doubles(rayError) * reach;
-    const Doubles risen = (zero - ((alongX + alongY) + alongZ)) / reach * error;
+    const Doubles part = error / reach;
+    const Doubles risen = (zero - ((alongX + alongY) + alongZ)) * part;
     const Doubles step = max((error + lost) - risen, zero);
     const Mask fits = maskOf(less(error, reach)); // nothing else is in between
     const auto dir = [&](const Doubles& w, const Doubles& normal) {
@@ -42,7 +43,7 @@ inline RayFromLamp rayFromLamp(const Floats3& p, const Floats3& lift, const Floa
     };
     // A float that is no larger: what is rounded up is 2^-54 at least, and such a float times
     // 1 - 2^-24 is the one below it.
-    const Doubles end = Doubles(1.0) - error / reach;
+    const Doubles end = Doubles(1.0) - part;
     const Floats nearest = end.toFloats();
     const Mask isAbove = maskOf(less(end, Doubles(nearest)));
     const Floats under = select(isAbove, nearest * Floats(1 - 0x1p-24f), nearest);

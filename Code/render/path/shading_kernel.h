@@ -18,12 +18,7 @@ struct ShadingKernel {
     // Paths: the light of one lamp, and a direction.
     void (*scatter)(const PathLights& lights, const PointBlock& points, const LobeBlock& lobes,
                     PathBlock& block) = nullptr;
-    // The samples of all these lamps.
-    void (*lamps)(const PathLights& lights, std::span<LampQueue> lamps, const PointBlock& points,
-                  const LobeBlock& lobes, const LampBlock& block) = nullptr;
-    // The rays of all lobes, by numbers.choice.v and numbers.direction of the block.
-    void (*bounce)(const PointBlock& points, const LobeBlock& lobes, const PathBlock& block,
-                   BounceQueue& out) = nullptr;
-    // block.weight becomes the part of even light that diffuse lobes send on.
-    void (*ambient)(const PointBlock& points, const LobeBlock& lobes, PathBlock& block) = nullptr;
+    // Whitted pictures: the samples of all these lamps, and the rays of lobes.
+    void (*whitted)(const PathLights& lights, std::span<LampQueue> lamps, const PointBlock& points,
+                    const LobeBlock& lobes, WhittedBlock& block, BounceQueue& bounces) = nullptr;
 };

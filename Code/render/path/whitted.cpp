@@ -93,15 +93,48 @@ private:
     // All that is done at some points for these lamps; the first time, all but lamps as well.
     void shade(const AlikePoints& of, bool isFirst) {
         fillLobes(of);
-        takeThroughputs(of, path_.lamp.throughput);
-        if ((path_.lobes.flags & kHasSides) != 0) findBoundaries(of, path_.lamp.eta);
-        if (isFirst) {
-            addAmbient(of);
-            sendRays(of);
+        WhittedBlock& block = path_.whitted;
+        const std::uint32_t flags = path_.lobes.flags;
+        const bool goesOn = wave_.depth < limits_.maxDepth;
+        takeThroughputs(of, block.throughput);
+        if ((flags & kHasSides) != 0) findBoundaries(of, block.eta);
+        block.points = of.all();
+        block.litOutside = of.at->litApart;
+        block.besideRays = goesOn;
+        block.takesEvenLight = isFirst && (flags & kDiffuse) != 0 && !isBlack(scene_.ambient());
+        block.sendsRays = isFirst && goesOn && (flags & kSpawnsRays) != 0;
+        std::copy_n(of.number, of.size, block.number);
+        const std::span<LampQueue> lamps =
+            (flags & kAnswersLights) != 0 ? lamps_ : std::span<LampQueue>();
+        drawNumbers(of, lamps);
+        for (std::size_t i = 0; i < lamps.size(); ++i) beginRays(lamps[i], path_.lampRays[i]);
+        context_.settings.isa->shading->whitted(lights_, lamps, *of.at, path_.lobes, block,
+                                                path_.bounces);
+        if (block.takesEvenLight) addEvenLight(of);
+        if (path_.bounces.rays > 0) takeBounces(of);
+        for (std::size_t i = 0; i < lamps.size(); ++i) takeRays(lamps[i], path_.lampRays[i]);
+    }
+    // Numbers for rays of lobes, and places on soft lamps for all samples.
+    void drawNumbers(const AlikePoints& of, std::span<const LampQueue> lamps) {
+        WhittedBlock& block = path_.whitted;
+        const bool spreads = block.sendsRays && (path_.lobes.flags & LobedMaterial::kSpreads) != 0;
+        const auto isSoft = [](const LampQueue& lamp) { return lamp.places != nullptr; };
+        if (!spreads && std::none_of(lamps.begin(), lamps.end(), isSoft)) return;
+        std::uint32_t pixels[kPoints], samples[kPoints];
+        takePixels(of, pixels, samples);
+        PairDrawer drawer(context_.settings.isa->camera, pixels, samples);
+        const auto slot = [&](BounceSlot of) { return dimension(wave_.depth, of); };
+        if (spreads) {
+            drawer.draw(context_.sampler, slot(BounceSlot::LightPick), 1, &block.choice);
+            drawer.draw(context_.sampler, slot(BounceSlot::BsdfUv), 1, &block.direction);
         }
-        if ((path_.lobes.flags & kAnswersLights) == 0 || lamps_.empty()) return;
-        drawPlaces(of);
-        askLamps(of);
+        NumberPairs* places = path_.places.data();
+        for (const LampQueue& lamp : lamps) {
+            if (!isSoft(lamp)) continue;
+            drawer.draw(context_.lampSamplers[lamp.light], slot(BounceSlot::LightUv), lamp.samples,
+                        places);
+            places += lamp.samples;
+        }
     }
 
     // Rays straight on; what is left of the point's weight is for its lobes.
@@ -125,21 +158,15 @@ private:
         return wave_.depth < limits_.maxDepth && waves::worthTracing(wave_, weight);
     }
 
-    void addAmbient(const AlikePoints& of) {
+    void addEvenLight(const AlikePoints& of) {
         const Rgb ambient = scene_.ambient();
-        if (isBlack(ambient) || (path_.lobes.flags & kDiffuse) == 0) return;
-        PathBlock& block = path_.block;
-        block.points = of.all();
-        std::copy_n(path_.lamp.eta, kPoints, block.eta);
-        context_.settings.isa->shading->ambient(*of.at, path_.lobes, block);
         for (std::size_t i = 0; i < of.size; ++i) {
-            const Vec3 part = SurfaceBlock::get(block.weight, i);
-            const std::size_t k = of.number[i];
-            const Rgb light = memory_.points.weight[k] * ambient * Rgb{part.x, part.y, part.z};
+            const Vec3 part = SurfaceBlock::get(path_.whitted.evenLight, i);
+            const Rgb light = ambient * Rgb{part.x, part.y, part.z};
             if (scene_.ambientReach() > 0)
-                sendToSky(k, light);
+                sendToSky(of.number[i], light);
             else
-                path_.sums[k] += light;
+                path_.sums[of.number[i]] += light;
         }
     }
     // Even light counts by what part of the sky a point sees, weighted by the cosine.
@@ -164,24 +191,14 @@ private:
         }
     }
 
-    // Light of the lamps: the rays of their samples, or the light itself where lamps cast no
-    // shadows.
-    void askLamps(const AlikePoints& of) {
-        LampBlock& block = path_.lamp;
-        block.points = of.all();
-        block.litOutside = of.at->litApart;
-        block.besideRays = wave_.depth < limits_.maxDepth;
-        std::copy_n(of.number, of.size, block.number);
-        for (std::size_t i = 0; i < lamps_.size(); ++i) {
-            RayBatch& rays = path_.lampRays[i];
-            const std::size_t to = rays.extend((lamps_[i].samples + 1) * kPoints);
-            lamps_[i].to = {&rays.org[to], &rays.dir[to], &rays.tMax[to], &rays.sample[to],
-                            &rays.weight[to]};
-            lamps_[i].rays = 0;
-        }
-        context_.settings.isa->shading->lamps(lights_, lamps_, *of.at, path_.lobes, block);
-        for (std::size_t i = 0; i < lamps_.size(); ++i) takeRays(lamps_[i], path_.lampRays[i]);
+    // Shadow rays of a lamp are written behind those that it has.
+    static void beginRays(LampQueue& lamp, RayBatch& rays) {
+        const std::size_t to = rays.extend((lamp.samples + 1) * kPoints);
+        lamp.to = {&rays.org[to], &rays.dir[to], &rays.tMax[to], &rays.sample[to],
+                   &rays.weight[to]};
+        lamp.rays = 0;
     }
+    // Takes them, or the light itself where lamps cast no shadows.
     void takeRays(const LampQueue& lamp, RayBatch& rays) {
         const PathLights::Entry& entry = lights_.entry(lamp.light);
         const std::size_t from = rays.size() - (lamp.samples + 1) * kPoints, to = from + lamp.rays;
@@ -198,43 +215,6 @@ private:
             rays.time[i] = wave_.rays.time[memory_.points.ray[rays.sample[i]]];
     }
 
-    // Places on soft lamps for the samples of all points of a block.
-    void drawPlaces(const AlikePoints& of) {
-        if (std::none_of(lamps_.begin(), lamps_.end(),
-                         [](const LampQueue& lamp) { return lamp.places != nullptr; }))
-            return;
-        std::uint32_t pixels[kPoints], samples[kPoints];
-        takePixels(of, pixels, samples);
-        PairDrawer drawer(context_.settings.isa->camera, pixels, samples);
-        NumberPairs* places = path_.places.data();
-        for (const LampQueue& lamp : lamps_) {
-            if (lamp.places == nullptr) continue;
-            drawer.draw(context_.lampSamplers[lamp.light],
-                        dimension(wave_.depth, BounceSlot::LightUv), lamp.samples, places);
-            places += lamp.samples;
-        }
-    }
-    // ---- rays of the next wave
-
-    void sendRays(const AlikePoints& of) {
-        if (wave_.depth >= limits_.maxDepth) return;
-        const LobeBlock& lobes = path_.lobes;
-        if ((lobes.flags & LobedMaterial::kSpreads) != 0) {
-            std::uint32_t pixels[kPoints], samples[kPoints];
-            takePixels(of, pixels, samples);
-            PathNumbers& numbers = path_.block.numbers;
-            PairDrawer drawer(context_.settings.isa->camera, pixels, samples);
-            drawer.draw(context_.sampler, dimension(wave_.depth, BounceSlot::LightPick), 1,
-                        &numbers.choice);
-            drawer.draw(context_.sampler, dimension(wave_.depth, BounceSlot::BsdfUv), 1,
-                        &numbers.direction);
-        }
-        PathBlock& block = path_.block;
-        block.points = of.all();
-        std::copy_n(path_.lamp.eta, kPoints, block.eta);
-        context_.settings.isa->shading->bounce(*of.at, lobes, block, path_.bounces);
-        if (path_.bounces.rays > 0) takeBounces(of);
-    }
     void takeBounces(const AlikePoints& of) {
         const PointBatch& points = memory_.points;
         const PathBatch& rays = wave_.rays;

@@ -8,15 +8,20 @@
 #include <cstddef>
 #include <cstdint>
 
-struct alignas(64) LampBlock {
+struct alignas(64) WhittedBlock {
     static constexpr std::size_t kPoints = LobeBlock::kPoints;
     using Lane = LobeBlock::Lane;
-    // `throughput`, `eta`, `points`: as in PathBlock.
+    // In. `throughput`, `eta`, `points`: as in PathBlock.
     alignas(64) Lane throughput[3], eta;
     unsigned points = 0;
     unsigned litOutside = 0;       // of these: seen from the inside, lit on the outside
     bool besideRays = true;        // rays of rough lobes find some of the lamps' light
+    bool takesEvenLight = false;   // `evenLight` is wanted
+    bool sendsRays = false;        // rays of lobes are wanted
     std::uint32_t number[kPoints]; // in the wave
+    NumberPairs choice, direction; // for rays; choice.v is of the lobe's own
+    // Out: what of even light from everywhere diffuse lobes send to the eye.
+    alignas(64) Lane evenLight[3];
 };
 
 // A lamp, and its shadow rays: from each point to the lamp, or from where the lamp sits to the
