@@ -3,9 +3,9 @@
 
 #include "base/vec.h"
 #include "render/lens_lanes.h"
-#include "render/waves/disk_lanes.h"
 #include "sample/hash.h"
 #include "sample/sobol.h"
+#include "sample/warps.h"
 #include "simd/lanes.h"
 #include "simd/vectors3.h"
 
@@ -30,34 +30,6 @@ inline Doubles3 linesThrough(const Camera::Lens& lens, const Doubles& x, const D
 inline Floats clipAlong(const Camera::Lens& lens, const Doubles3& dir) {
     if (lens.clipStart == 0) return Floats(0.0f);
     return (Doubles(lens.clipStart) / dot(dir, forAll(lens.forward))).toFloats();
-}
-
-// Polygon::fromSquare()
-inline void placeOnPolygon(SquareRow& place, const Camera::Lens& lens) {
-    const Doubles at = Doubles(Floats::load(place.u)) * Doubles(lens.blades), blade = floor(at);
-    const Doubles across = at - blade, rest = Doubles(1.0) - across;
-    const Ints i = wholeOf(blade);
-    const Doubles radius = sqrt(Doubles(Floats::load(place.v)));
-    Doubles x(0.0), y(0.0), nextX(0.0), nextY(0.0); // of the corners of that blade
-    pairsAt<2>(lens.corners, i, x, y), pairsAt<2>(lens.corners + 2, i, nextX, nextY);
-    (radius * (x * rest + nextX * across)).toFloats().store(place.x);
-    (radius * (y * rest + nextY * across)).toFloats().store(place.y);
-}
-
-// placeOnDisk() takes numbers of 24 bits, as Sobol's are: 2 u - 1 is exact then. Numbers of other
-// samplers that it rounds go the plain way.
-inline void placeRounded(SquareRow& place) {
-    const Floats one(1.0f), two(2.0f);
-    const auto isExact = [&](const float(&number)[W]) {
-        const Floats twice = two * Floats::load(number);
-        return (twice - one) + one == twice;
-    };
-    for (unsigned rest = bits(isExact(place.u) & isExact(place.v)) ^ ((1u << W) - 1); rest != 0;
-         rest &= rest - 1) {
-        const auto i = static_cast<std::size_t>(std::countr_zero(rest));
-        const Vec2 at = diskFromSquare({place.u[i], place.v[i]});
-        place.x[i] = at.x, place.y[i] = at.y;
-    }
 }
 
 // Where the rays of the lanes go to; there is room for all.
@@ -101,18 +73,11 @@ inline void raysFrom(const Camera::Lens& lens, const PlaceBlock& places, std::si
     const Doubles px = Doubles::load(places.x + first), py = Doubles::load(places.y + first);
     const Doubles3 line = linesThrough(lens, px, py);
     const Doubles3 sharp = eye + line * (Doubles(lens.focusDistance) / dot(line, forward));
-    SquareRow place;
-    Floats::load(places.u + first).store(place.u), Floats::load(places.v + first).store(place.v);
-    if (lens.blades != 0) {
-        placeOnPolygon(place, lens);
-    } else {
-        unsigned unsure = 0;
-        placeOnDisk(place, unsure);
-        placeSurelyOnDisk(place, unsure);
-        placeRounded(place);
-    }
-    const Doubles3 onLens = right * (Doubles(Floats::load(place.x)) / Doubles(lens.apertureRatio)) +
-                            up * Doubles(Floats::load(place.y));
+    const Floats u = Floats::load(places.u + first), v = Floats::load(places.v + first);
+    const Floats2 place = lens.blades != 0 ? polygonFromSquare(lens.corners, lens.blades, u, v)
+                                           : diskFromSquare(u, v);
+    const Doubles3 onLens =
+        right * (Doubles(place.x) / Doubles(lens.apertureRatio)) + up * Doubles(place.y);
     const Doubles3 from = eye + onLens * Doubles(lens.apertureRadius);
     const Floats x = from.x.toFloats(), y = from.y.toFloats(), z = from.z.toFloats();
     const Doubles3 way = sharp - Doubles3{Doubles(x), Doubles(y), Doubles(z)};
@@ -175,6 +140,25 @@ inline void moveBy(const Filter::Spread& filter, const float (&u)[PairBlock::kPa
 template <FilterKind kKind>
 inline void spreadAs(const Filter::Spread& filter, const PairBlock& pairs, PlaceBlock& places) {
     moveBy<kKind>(filter, pairs.u, places.x), moveBy<kKind>(filter, pairs.v, places.y);
+}
+
+// As many whole numbers as the compiler's registers have room for, which sample/sobol.h takes.
+using Bits __attribute__((vector_size(4 * kSobolLanes))) = std::uint32_t;
+using SignedBits __attribute__((vector_size(4 * kSobolLanes))) = std::int32_t;
+using UnitFloats __attribute__((vector_size(4 * kSobolLanes))) = float;
+
+inline Bits loadBits(const std::uint32_t* from) {
+    Bits all;
+    std::memcpy(&all, from, sizeof all);
+    return all;
+}
+// unitFloat(): 24 bits fit into a signed number, which lanes can convert.
+inline void storeUnit(const Bits& all, float* to) {
+    const Bits upper = all >> 8;
+    SignedBits number;
+    std::memcpy(&number, &upper, sizeof number);
+    const UnitFloats unit = __builtin_convertvector(number, UnitFloats) * 0x1p-24f;
+    std::memcpy(to, &unit, sizeof unit);
 }
 
 using Longs __attribute__((vector_size(sizeof(Bits)))) = std::uint64_t;

@@ -71,6 +71,19 @@ inline Floats2 diskFromSquare(Floats u, Floats v) {
     return {radius * select(isSide, at.cos, at.sin), radius * select(isSide, at.sin, at.cos)};
 }
 
+// Returns a place on a regular polygon, uniform: u picks the triangle of two neighbouring corners
+// and the centre, and the place across it; sqrt(v) is the distance from the centre. `corners`:
+// cosine and sine of each, the first one again at the end.
+inline Floats2 polygonFromSquare(const double* corners, int blades, Floats u, Floats v) {
+    const Doubles at = Doubles(u) * Doubles(blades), blade = floor(at);
+    const Doubles across = at - blade, rest = Doubles(1.0) - across, radius = sqrt(Doubles(v));
+    const Ints i = wholeOf(blade);
+    Doubles x(0.0), y(0.0), nextX(0.0), nextY(0.0);
+    pairsAt<2>(corners, i, x, y), pairsAt<2>(corners + 2, i, nextX, nextY);
+    return {(radius * (x * rest + nextX * across)).toFloats(),
+            (radius * (y * rest + nextY * across)).toFloats()};
+}
+
 // Returns a direction about +z with density cos / pi per steradian (Malley).
 inline Floats3 cosineHemisphereFromSquare(Floats u, Floats v) {
     const Floats2 d = diskFromSquare(u, v);

@@ -131,26 +131,6 @@ inline Doubles powersOfTwo(Ints k) {
 
 inline constexpr std::size_t kSobolLanes = 4; // whole 16 bytes, which every machine's registers have
 
-// In each 16 bytes: those of `from` that the lower half of the bytes of `at` name.
-template <class Bits> inline Bits pickBytes(Bits from, Bits at) {
-    std::uint8_t bytes[16], places[16], picked[16];
-    static_assert(sizeof(Bits) == sizeof bytes);
-    std::memcpy(bytes, &from, sizeof bytes), std::memcpy(places, &at, sizeof places);
-    for (std::size_t i = 0; i < 16; ++i)
-        picked[i] = (places[i] & 128) != 0 ? std::uint8_t{0} : bytes[places[i] & 15];
-    std::memcpy(&from, picked, sizeof picked);
-    return from;
-}
-
-// Two roundings: see sse_moves.h.
-inline Doubles fma(Doubles a, Doubles b, Doubles c) { return a * b + c; }
-inline Doubles nearQuotient(Doubles a, Doubles b) { return a / b; }
-// Lanes within 2^-40 of the middle between two floats.
-inline unsigned nearMiddle(Doubles a) {
-    const Doubles up = a * Doubles(1 + 0x1p-40), down = a * Doubles(1 - 0x1p-40);
-    return !bits(up.toFloats() == down.toFloats());
-}
-
 // --- lanes of two in turn ---
 
 // The lanes of a and b in turn: those of the lower and of the upper halves.

@@ -5,6 +5,7 @@
 #include "light/lights.h"
 #include "sample/warp.h"
 #include "verify/meshes.h"
+#include "warp_kit.h"
 
 #include <string>
 #include <vector>

@@ -49,11 +49,6 @@ inline constexpr Op kSimdOps[] = {
         [](const Numbers& n, std::size_t k) {
             return bitsOfFloat(std::fma(n.a[k], n.b[k], -n.c[k]));
         }),
-    op(
-        "fma(x, y, c)", [](const Given& g) { return fma(g.x, g.y, Doubles(g.c)); },
-        [](const Numbers& n, std::size_t k) {
-            return std::bit_cast<std::uint64_t>(std::fma(n.x[k], n.y[k], double{n.c[k]}));
-        }),
     exactOp("flipSign(a, b)", [](const Given& g) { return flipSign(g.a, g.b); }),
     exactOp("withSign(a, b)", [](const Given& g) { return withSign(g.a, g.b); }),
     exactOp("withSign(x, y)", [](const Given& g) { return withSign(g.x, g.y); }),
@@ -64,18 +59,6 @@ inline constexpr Op kSimdOps[] = {
        [](const Given& g) {
            const Floats near = fromOneToTwo(g.a);
            return abs(roughInverse(near) * near - Floats(1.0f)) <= Floats(0x1.81p-12f);
-       }),
-    op("nearQuotient(x, y)",
-       [](const Given& g) {
-           const Doubles x(fromOneToTwo(g.a)), y(fromOneToTwo(g.b)), quotient = x / y;
-           return atMost(abs(nearQuotient(x, y) - quotient), quotient * Doubles(0x1.1p-41));
-       }),
-    op("nearMiddle(x)",
-       [](const Given& g) {
-           const Doubles x(fromOneToTwo(g.a));
-           const auto near = [&](double more) { return nearMiddle(x + Doubles(0x1p-24 + more)); };
-           return allIf(near(0x1p-42) == allIf(true)) & near(0) & near(-0x1p-42) & ~near(0x1p-38) &
-                  ~near(-0x1p-38) & ~near(-0x1p-24) & allIf(true);
        }),
 
     op("a < b", [](const Given& g) { return g.a < g.b; }),
@@ -283,17 +266,6 @@ inline constexpr Op kSimdOps[] = {
            columns.store(of);
            return Made([&](std::size_t k) -> std::uint64_t {
                return std::rotr(of[k], static_cast<int>(k));
-           });
-       }),
-    op("pickBytes",
-       [](const Given& g) {
-           using Words __attribute__((vector_size(4 * kSobolLanes))) = std::uint32_t;
-           return Made([&](std::size_t k) -> std::uint64_t {
-               const std::size_t from = (g.first + k) / kSobolLanes * kSobolLanes;
-               Words words, places;
-               std::memcpy(&words, g.in.i + from, sizeof words);
-               std::memcpy(&places, g.in.j + from, sizeof places);
-               return pickBytes(words, places)[g.first + k - from];
            });
        }),
 };

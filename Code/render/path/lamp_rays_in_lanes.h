@@ -22,12 +22,12 @@ inline SeenPoints litPoints(const PointBlock& points, std::size_t first, unsigne
 }
 
 // The rays of one sample of a lamp, by two numbers.
-inline void sendToLamp(const PathLights& lights, LampQueue& lamp, const WhittedBlock& block,
-                       const SeenPoints& at, const ShadingFrame& frame, const Bsdf& bsdf,
-                       bool transmits, Floats u, Floats v, unsigned lanes, std::size_t first) {
-    const PathLights::Entry& entry = lights.entry(lamp.light);
-    const LightNumbers numbers{entry.row.numbers.data(), 1};
-    const SampledLight light = sampleOf(lights, entry, numbers, at.p, u, v);
+template <class L>
+void sendToLamp(const L& emitter, const PathLights::Entry& entry, LampQueue& lamp,
+                const WhittedBlock& block, const SeenPoints& at, const ShadingFrame& frame,
+                const Bsdf& bsdf, bool transmits, Floats u, Floats v, unsigned lanes,
+                std::size_t first) {
+    const SampledLight light = sampleOf(emitter, entry, at.p, u, v);
     const Floats3 toLight = frame.toLocal(light.toLight);
     const auto [arrives, below] = arriving(at, light.toLight, toLight, transmits);
     const Floats zero(0.0f);

@@ -32,16 +32,26 @@ private:
     alignas(64) float column_[kLightNumbers][W] = {};
 };
 
-// Samples lights of the kind of `entry`.
+// Calls fn(light) for lights of the kind of `entry`.
+template <class Fn>
+void withLights(const PathLights& lights, const PathLights::Entry& entry,
+                const LightNumbers& numbers, Fn&& fn) {
+    if (entry.row.kind == PathLights::kSkyKind) fn(SkyEmitter(lights.skyView()));
+    forLight(entry.row.kind, [&]<class L> { fn(L(numbers)); });
+}
+template <class L>
+SampledLight sampleOf(const L& light, const PathLights::Entry& entry, const Floats3& p, Floats u,
+                      Floats v) {
+    if constexpr (requires { light.centre(p); })
+        if (entry.inCentre || entry.isPlace) return light.centre(p);
+    return light.sample(p, u, v);
+}
 inline SampledLight sampleOf(const PathLights& lights, const PathLights::Entry& entry,
                              const LightNumbers& numbers, const Floats3& p, Floats u, Floats v) {
     const Floats zero(0.0f);
     SampledLight out{rgbOf(0.0f), zero, rgbOf(0.0f), zero, noLanes()};
-    if (entry.row.kind == PathLights::kSkyKind) out = SkyEmitter(lights.skyView()).sample(p, u, v);
-    forLight(entry.row.kind, [&]<class L> {
-        const L light(numbers);
-        out = entry.inCentre || entry.isPlace ? light.centre(p) : light.sample(p, u, v);
-    });
+    withLights(lights, entry, numbers,
+               [&](const auto& light) { out = sampleOf(light, entry, p, u, v); });
     return out;
 }
 

@@ -35,6 +35,12 @@ struct PathMemory {
     std::uint32_t filledWith = kMixed;
     static constexpr std::uint32_t kMixed = 0xffffffffu;
     std::array<RayBatch, 8> lampRays; // `sample`: the point
+    // The first origins in each of them that are in one place.
+    struct Origins {
+        Vec3 place;
+        std::size_t count = 0;
+    };
+    std::array<Origins, 8> lampOrigins;
     std::array<LampQueue, 8> lamps{};
     std::vector<NumberPairs> places;  // on lamps, lamp by lamp and sample by sample
     std::vector<Rgb> sums;            // by point: light on its way to the sample

@@ -39,15 +39,20 @@ void whittedAtPoints(const PathLights& lights, std::span<LampQueue> lamps, const
     const bool transmits = (lobes.flags & kTransmits) != 0;
     const auto sendToLamps = [&](unsigned lanes, std::size_t first, const SeenPoints& at,
                                  const ShadingFrame& frame, const Bsdf& bsdf) {
-        for (LampQueue& lamp : lamps)
-            for (std::size_t s = 0; s < lamp.samples; ++s) {
-                Floats u(0.0f), v(0.0f);
-                if (lamp.places != nullptr) {
-                    u = Floats::load(lamp.places[s].u + first);
-                    v = Floats::load(lamp.places[s].v + first);
+        for (LampQueue& lamp : lamps) {
+            const PathLights::Entry& entry = lights.entry(lamp.light);
+            withLights(lights, entry, {entry.row.numbers.data(), 1}, [&](const auto& light) {
+                for (std::size_t s = 0; s < lamp.samples; ++s) {
+                    Floats u(0.0f), v(0.0f);
+                    if (lamp.places != nullptr) {
+                        u = Floats::load(lamp.places[s].u + first);
+                        v = Floats::load(lamp.places[s].v + first);
+                    }
+                    sendToLamp(light, entry, lamp, block, at, frame, bsdf, transmits, u, v, lanes,
+                               first);
                 }
-                sendToLamp(lights, lamp, block, at, frame, bsdf, transmits, u, v, lanes, first);
-            }
+            });
+        }
     };
     const auto see = [&](std::size_t first) { return SeenPoints(points, first); };
     forEachRow(lobes, block.points, block.eta, see,

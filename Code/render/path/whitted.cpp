@@ -112,7 +112,8 @@ private:
                                                 path_.bounces);
         if (block.takesEvenLight) addEvenLight(of);
         if (path_.bounces.rays > 0) takeBounces(of);
-        for (std::size_t i = 0; i < lamps.size(); ++i) takeRays(lamps[i], path_.lampRays[i]);
+        for (std::size_t i = 0; i < lamps.size(); ++i)
+            takeRays(lamps[i], path_.lampRays[i], path_.lampOrigins[i]);
     }
     // Numbers for rays of lobes, and places on soft lamps for all samples.
     void drawNumbers(const AlikePoints& of, std::span<const LampQueue> lamps) {
@@ -199,7 +200,7 @@ private:
         lamp.rays = 0;
     }
     // Takes them, or the light itself where lamps cast no shadows.
-    void takeRays(const LampQueue& lamp, RayBatch& rays) {
+    void takeRays(const LampQueue& lamp, RayBatch& rays, PathMemory::Origins& origins) {
         const PathLights::Entry& entry = lights_.entry(lamp.light);
         const std::size_t from = rays.size() - (lamp.samples + 1) * kPoints, to = from + lamp.rays;
         if (entry.isOpen) {
@@ -208,8 +209,11 @@ private:
         }
         rays.shrink(to);
         wave_.counts.shadow += lamp.rays;
-        const Vec3 place = entry.place;
-        if (entry.isPlace) std::fill_n(rays.org.data() + from, lamp.rays, place);
+        if (!entry.isPlace || !(origins.place == entry.place)) origins = {entry.place, 0};
+        if (entry.isPlace && origins.count < to) {
+            std::fill(rays.org.begin() + origins.count, rays.org.begin() + to, entry.place);
+            origins.count = to;
+        }
         if (!scene_.moves()) return; // all times are 0, as they are in new arrays
         for (std::size_t i = from; i < to; ++i)
             rays.time[i] = wave_.rays.time[memory_.points.ray[rays.sample[i]]];
