@@ -79,8 +79,8 @@ class Writer:
         if lamp.kind == "sun":
             assert lamp.angle == 0, "Mitsuba's sun is a direction"
             return {"type": "directional", "to_world": forward, "irradiance": rgb(lamp.light)}
-        assert lamp.kind == "sphere", "flat lamps of Mitsuba's scenes are shapes that shine"
-        return {"type": "sphere", "center": at, "radius": lamp.radius, "bsdf": black, "emitter": area}
+        if lamp.kind == "sphere": return {"type": "sphere", "center": at, "radius": lamp.radius, "bsdf": black, "emitter": area}
+        return {"type": lamp.kind, "to_world": forward, "bsdf": black, "emitter": area}
 
     def sky(self, sky):
         """Mitsuba has its first and last row of texels at the poles; ours lie half a texel off them. Twice the rows, with

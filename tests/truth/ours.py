@@ -53,7 +53,7 @@ def lamp_lines(name, lamp, as_cycles):
     yield "    color %s" % numbers(lamp.light)
     if as_cycles and (lamp.kind in ("sphere", "disk", "rectangle") or lamp.radius or lamp.angle * (lamp.kind == "sun")):
         yield "    seen_by all"
-    elif lamp.kind == "sphere":
+    elif lamp.kind in ("sphere", "disk", "rectangle"):
         yield "    visible true"
     if lamp.kind in ("disk", "rectangle"): yield "    size 2 2"
     if lamp.radius: yield "    radius %g" % lamp.radius

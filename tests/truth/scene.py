@@ -42,9 +42,9 @@ class Shape:
 
 @dataclass
 class Lamp:
-    """point and spot: `light` is W/sr. sun: W/m2. sphere, disk and rectangle: radiance, and they can be seen. They shine along
-    -Z of `place`; a disk has radius 1 and a rectangle is [-1,1]^2 there. Disks and rectangles are for Cycles alone, where
-    lamps hide nothing; for Mitsuba they are shapes that shine."""
+    """point and spot: `light` is W/sr. sun: W/m2. sphere, disk and rectangle: radiance, and they can be seen: in Mitsuba's
+    scenes they are bodies, in those of Cycles light that hides nothing. They shine along -Z of `place`; a disk has radius 1
+    and a rectangle is [-1,1]^2 there."""
     kind: str
     light: tuple
     place: np.ndarray = field(default_factory=lambda: np.eye(4))
@@ -69,10 +69,10 @@ class Scene:
     background: tuple = (0, 0, 0)
     sky: Optional[np.ndarray] = None  # equirectangular [height, width, 3], row 0 at the zenith
     shared: bool = False  # meshes are written once and placed as instances
-    depth: int = 24  # bounces after the camera ray
+    depth: int = 8  # bounces after the camera ray
     size: int = 64  # pixels of a side
-    spp: int = 128
-    peer_spp: int = 128
+    spp: int = 64
+    peer_spp: int = 64
     seeds: int = 16
     block: int = 4  # pixels of a block's side
     note: str = ""  # what is left out or unlike, and why

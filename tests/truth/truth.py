@@ -31,6 +31,17 @@ def peer_pictures(scene, folder, pythons, again):
     return np.load(out)
 
 
+def put_row(name, row):
+    """Replaces a row of the table, which keeps those of scenes that this run leaves out."""
+    table, rows = os.path.join(HERE, "truth.tsv"), {}
+    if os.path.exists(table):
+        with open(table) as file: rows = {line.split("\t")[0]: line for line in list(file)[1:]}
+    rows[name] = row + "\n"
+    with open(table, "w") as file:
+        file.write("\t".join(COLUMNS) + "\n")
+        file.writelines(rows[n] for n in scenes.SCENES if n in rows)
+
+
 def write_look(folder, scene, a, b, verdict):
     """ours | theirs | t of the blocks: red where ours is brighter, blue where it is darker."""
     a, b = a.mean(0), b.mean(0)
@@ -52,11 +63,8 @@ def main():
     options.add_argument("--again", action="store_true")
     options.add_argument("--look", action="store_true")
     options.add_argument("--threads", type=int, default=2)
-    args = options.parse_args()
-    table, failed = os.path.join(HERE, "truth.tsv"), []
-    rows = {}
-    if os.path.exists(table):
-        with open(table) as file: rows = {line.split("\t")[0]: line.rstrip("\n") for line in list(file)[1:]}
+    args = options.parse_intermixed_args()
+    failed = []
     for name in args.scene or scenes.SCENES:
         scene, folder, start = scenes.SCENES[name](), os.path.join(args.folder, name), time.time()
         a = ours.render(scene, folder, args.raytracer, args.threads)
@@ -67,12 +75,10 @@ def main():
         if args.look: write_look(folder, scene, a, b, v)
         cells = (name, scene.peer, scene.seeds, "%d/%d" % (scene.spp, scene.peer_spp), v.blocks, "%.2f" % (100 * v.noise),
                  "%.3g" % v.ks, "%.5f" % v.ratio, "%.5f" % v.error, "%+.1f" % v.channel_z, v.why or "agrees", scene.what, scene.note)
-        rows[name] = "\t".join(map(str, cells))
-        print("%s  [worst block %d,%d t=%+.1f; %.0f s and %.0f s]" % ((rows[name],) + v.worst + (middle - start, time.time() - middle)), flush=True)
+        row = "\t".join(map(str, cells))
+        print("%s  [worst block %d,%d t=%+.1f; %.0f s and %.0f s]" % ((row,) + v.worst + (middle - start, time.time() - middle)), flush=True)
         if not v.agrees: failed.append(name)
-        with open(table, "w") as file:
-            file.write("\t".join(COLUMNS) + "\n")
-            file.writelines(rows[n] + "\n" for n in scenes.SCENES if n in rows)
+        put_row(name, row)
     print("%d of %d scenes agree" % (len(args.scene or scenes.SCENES) - len(failed), len(args.scene or scenes.SCENES)))
     return 1 if failed else 0
 

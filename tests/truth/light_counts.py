@@ -1,0 +1,82 @@
+#!/usr/bin/env python3
+"""One room lit by N glowing triangles of the same power in all: light_counts.py RAYTRACER [N...] [--threads T]
+For each N a row of tests/truth/light_counts.tsv: seconds to read, to build (which includes the tree of lights) and to
+render at 16 samples per pixel, the error of such a picture (RMSE against the mean of many, whose own noise is taken off,
+over the mean), and whether the mean agrees with that of pictures without light sampling: those give the lamps a white
+texture, with which light is found by hits alone. Their z is that of the difference of whole pictures. Needs numpy."""
+import argparse, json, os, subprocess, sys
+sys.dont_write_bytecode = True
+import numpy as np
+import ours
+from mitsuba_side import write_ply
+from scene import scattered, surface
+from ztest import welch
+
+SIZE, SPP, AREA, POWER = 96, 16, 0.25, 3.0  # pixels, samples, area of all triangles, radiance times area
+HERE = os.path.dirname(os.path.abspath(__file__))
+COLUMNS = ("lights", "read_s", "build_s", "render_s", "rmse", "by_hits_rmse", "ratio", "ratio_error", "z", "agrees")
+WALLS = (("floor", ""), ("ceiling", "translate 0 0 2"), ("back", "translate 0 1 1\n    rotate 90 1 0 0"),
+         ("left", "translate -1 0 1\n    rotate 90 0 1 0"), ("right", "translate 1 0 1\n    rotate 90 0 1 0"))
+
+
+def write_room(folder, count, by_hits):
+    """The path of the scene; its triangles have one total area, so that hits find them alike."""
+    mesh = scattered(count, 1.0, (-0.9, -0.9, 0.1), (0.9, 0.9, 1.9), 7)
+    centres = np.repeat(mesh.points.reshape(-1, 3, 3).mean(1), 3, axis=0)
+    mesh.points = centres + (mesh.points - centres) * np.sqrt(AREA / surface(mesh))
+    write_ply(os.path.join(folder, "lamps%d.ply" % count), mesh)
+    ours.write_pfm(os.path.join(folder, "white.pfm"), np.ones((1, 1, 3)))
+    path = os.path.join(folder, "room%d%s.txt" % (count, "-hits" if by_hits else ""))
+    with open(path, "w") as file:
+        file.write("raytracer 1\nsettings {\n    resolution %d %d\n    integrator path\n    filter box 1\n    cutoff 0\n    max_depth 3\n}\n" % (SIZE, SIZE))
+        file.write("camera eye {\n    look_at 0 -3.4 1  0 0 1  0 0 1\n    fov 40\n    sensor 36 36\n}\nmaterial white {\n    diffuse 0.73 0.73 0.73\n}\n")
+        file.write('texture one {\n    file "white.pfm"\n    space linear\n}\n')
+        file.write("material glow {\n    diffuse 0 0 0\n    emission %s\n%s}\n" % (
+            ours.numbers([POWER / AREA] * 3), "    emission_texture one\n" if by_hits else ""))
+        for name, place in WALLS: file.write("plane %s {\n    %s\n    material white\n}\n" % (name, place))
+        file.write('mesh lamps {\n    file "lamps%d.ply"\n}\ninstance lamps {\n    mesh lamps\n    material glow\n}\n' % count)
+    return path
+
+
+def pictures(binary, path, seeds, spp, threads):
+    """Pictures of seeds 1 to `seeds`, and the median seconds of the parts of the work."""
+    out, pics, seconds = path[:-4] + ".pfm", [], []
+    for seed in range(1, seeds + 1):
+        done = subprocess.run([binary, path, out, "--quiet", "--stats=json", "--seed", str(seed), "--spp", str(spp), "--threads", str(threads)],
+                              check=True, capture_output=True, text=True)
+        text = done.stderr if done.stderr.lstrip().startswith("{") else done.stdout
+        seconds.append([json.loads(text)["seconds"][key] for key in ("parse", "build", "render")])
+        pics.append(ours.pfm(out))
+    return np.array(pics), np.median(seconds, 0)
+
+
+def rmse(pics):
+    """Of one picture against the true mean, relative: the deviation between pictures is all noise."""
+    return float(np.sqrt(pics.var(0, ddof=1).mean()) / pics.mean())
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("raytracer")
+    options.add_argument("counts", nargs="*", type=int, default=[10, 100, 10000, 1000000])
+    options.add_argument("--threads", type=int, default=2)
+    options.add_argument("--folder", default="build/truth/lights")
+    args = options.parse_args()
+    os.makedirs(args.folder, exist_ok=True)
+    with open(os.path.join(HERE, "light_counts.tsv"), "w") as file:
+        file.write("\t".join(COLUMNS) + "\n")
+        for count in args.counts:
+            chosen, seconds = pictures(args.raytracer, write_room(args.folder, count, False), 16, SPP, args.threads)
+            hits, _ = pictures(args.raytracer, write_room(args.folder, count, True), 16, 8 * SPP, args.threads)
+            a, b = chosen.mean((1, 2, 3)), hits.mean((1, 2, 3))
+            z, ratio = float(welch(a, b)[0]), a.mean() / b.mean()
+            error = np.sqrt(a.var(ddof=1) / len(a) + b.var(ddof=1) / len(b)) / b.mean()
+            row = "\t".join(["%d" % count, *("%.3f" % s for s in seconds), "%.4f" % rmse(chosen), "%.4f" % (rmse(hits) * 8 ** 0.5),
+                             "%.5f" % ratio, "%.5f" % error, "%+.1f" % z, "yes" if abs(z) < 3 else "no"])
+            print(row, flush=True)
+            file.write(row + "\n")
+            file.flush()
+
+
+if __name__ == "__main__":
+    main()
