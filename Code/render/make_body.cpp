@@ -17,13 +17,14 @@ float sphereRadius(const LightDesc& desc, const Transform& place) {
 } // namespace
 
 std::unique_ptr<const Shape> makeLampBody(const LightDesc& desc, const SceneFrame& frame,
-                                          std::uint32_t material, std::uint32_t id) {
+                                          std::uint32_t material, std::uint32_t id, bool hasBack) {
     const Transform place = frame.placed(desc.worldFromLight);
     const Transform size = Transform::scale(Vec3d{desc.size.x / 2, desc.size.y / 2, 1});
     // Lamps shine along -Z, flat shapes face +Z.
     const MovingTransform flat(place * size * Transform::rotate({1, 0, 0}, kPi));
-    // Their backs are not there, as in Cycles: another lamp may stand in the same place.
-    const auto shining = [](std::unique_ptr<const Shape> shape) {
+    // As in Cycles: another lamp may stand in the same place.
+    const auto shining = [&](std::unique_ptr<const Shape> shape) -> std::unique_ptr<const Shape> {
+        if (hasBack) return shape;
         return std::make_unique<OneSided>(std::move(shape), OneSided::Side::Front);
     };
     switch (desc.kind) {

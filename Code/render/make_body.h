@@ -9,6 +9,6 @@
 #include <memory>
 
 // The shape of a lamp that has a size, its front where the light goes; nullptr for the others and
-// for suns.
+// for suns. Without `hasBack` rays pass through the back of a flat one.
 std::unique_ptr<const Shape> makeLampBody(const LightDesc& desc, const SceneFrame& frame,
-                                          std::uint32_t material, std::uint32_t id);
+                                          std::uint32_t material, std::uint32_t id, bool hasBack);

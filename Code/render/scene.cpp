@@ -54,9 +54,9 @@ public:
 private:
     // Whether the picture shows materials in the light of lamps, and not what the camera meets.
     bool isShaded() const {
-        return settings_.picture.integrator == IntegratorKind::Whitted ||
-               settings_.picture.integrator == IntegratorKind::Path;
+        return settings_.picture.integrator == IntegratorKind::Whitted || isPath();
     }
+    bool isPath() const { return settings_.picture.integrator == IntegratorKind::Path; }
 
     // ---- textures and materials
 
@@ -223,7 +223,7 @@ private:
                 lobed.add(list.lobes, list.factors, traitsOf(scene_.materials_[i]));
             // Whitted pictures may have it by short keywords: they follow rays so deep only.
             if (!isSound &&
-                (!desc.lobes.empty() || settings_.picture.integrator == IntegratorKind::Path)) {
+                (!desc.lobes.empty() || isPath())) {
                 lobed.scaleDown();
                 warn(" reflects more than arrives, and is scaled to what does; weights whose sum "
                      "is at most 1 would be right");
@@ -343,7 +343,7 @@ private:
         scene_.background_ = toRgb(settings_.background.value_or(desc_.world.background));
         scene_.ambient_ = toRgb(desc_.world.ambient);
         scene_.ambientReach_ = toFloat(desc_.world.ambientOcclusion * scene_.frame_.scale);
-        if (settings_.picture.integrator == IntegratorKind::Path && !isBlack(scene_.ambient_))
+        if (isPath() && !isBlack(scene_.ambient_))
             scene_.warnings_.push_back(
                 located(source_, desc_.world.loc.offset,
                         "paths have no ambient light, and it is left out; a background, which they "
@@ -387,19 +387,23 @@ private:
             scene_.warnings_.push_back(std::move(warning));
     }
 
-    // A lamp that can be seen casts no shadows: its light passes through its body.
+    // In path tracing a lamp that can be seen hides what is behind it from all rays, since light is
+    // found by shadow rays and by lobes, weighted against each other (tests/truth: round_lamps).
+    // Elsewhere it casts no shadows, and a flat one is seen from its front alone.
     void addLampBody(const LightDesc& light, std::uint32_t id) {
         const auto material = static_cast<std::uint32_t>(scene_.materials_.size());
-        auto body = makeLampBody(light, scene_.frame_, material, id);
+        auto body = makeLampBody(light, scene_.frame_, material, id, isPath());
         if (!body) return;
         SceneMaterial glow;
         glow.diffuse = {};
         glow.emission = toRgb(light.color);
         glow.isLamp = true;
+        glow.emitsFront = isPath() && light.kind != LightDesc::Kind::Sphere;
         scene_.materials_.push_back(glow);
         scene_.any_ |= glow;
         hasLampBody_[id - objectCount_] = true;
-        scene_.shapes_.add(std::move(body), ShapeSet::Shadow::None);
+        scene_.shapes_.add(std::move(body),
+                           isPath() ? ShapeSet::Shadow::Opaque : ShapeSet::Shadow::None);
         if (isShaded()) scene_.lobedMaterials_.add({}, {}, LobedMaterial::kEmits);
     }
 

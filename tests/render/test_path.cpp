@@ -25,9 +25,9 @@ std::string within(const std::string& material, const std::string& shape) {
                material, "}\n", shape, " s {\n material m\n}\n");
 }
 
-// A scene that is seen from above, with a floor of albedo 1/2.
+// A scene that is seen from above, with a floor of albedo 1/2; all lamps are above the camera.
 std::string floorUnder(const std::string& lights, int samples = 64) {
-    return cat(shot::TopView{.pixels = 8, .side = 2, .samples = samples}.text(),
+    return cat(shot::TopView{.pixels = 8, .side = 2, .height = 0.5, .samples = samples}.text(),
                "material grey {\n diffuse 0.5 0.5 0.5\n}\n"
                "plane floor {\n scale 20 20 1\n material grey\n}\n",
                lights);
@@ -122,6 +122,23 @@ TEST(paths_count_lamps_once) {
                1e-5 * hard);
     const auto clamped = [](RenderSettings& settings) { settings.picture.clampIndirect = 1e-4; };
     CHECK_EQUAL(floorByPaths(lamp + "}\n", clamped), shades);
+}
+
+// The body of a lamp hides other lamps from shadow rays as it does from rays of lobes, whichever
+// side of it they meet; otherwise weights of the two would decide what is seen.
+TEST(paths_find_nothing_behind_bodies_of_lamps) {
+    const std::string behind = "light b {\n type disk\n translate 0 0 9\n color 1e4 1e4 1e4\n}\n";
+    const std::string dim = "light a {\n visible true\n color 1 1 1\n";
+    for (const std::string type : {"rectangle", "disk"}) {
+        const std::string above = cat(" type ", type, "\n size 30 30\n translate 0 0 1\n");
+        CHECK_EQUAL(floorByPaths(cat(dim, above, " rotate 180 1 0 0\n}\n", behind)), 0.0);
+        const std::string down = cat(dim, above, "}\n");
+        const double alone = floorByPaths(down);
+        CHECK_NEAR(floorByPaths(down + behind), alone, 0.02 * alone);
+    }
+    const std::string ball = dim + " type sphere\n translate 0 0 4\n radius 3\n}\n";
+    const double alone = floorByPaths(ball);
+    CHECK_NEAR(floorByPaths(ball + behind), alone, 0.02 * alone);
 }
 
 // At the last bounce of a Whitted picture samples of lamps have all of the light that rays of rough

@@ -98,6 +98,7 @@ std::vector<std::string> SceneLights::addLamps(PathLights& lights, const Surroun
             lights.add({.row = row,
                         .isOpen = !(desc.shadows && settings_.switches.shadows),
                         .isSoft = isSoft,
+                        .isSurface = isPath_ && around.hasBody[i],
                         .inCentre = !settings_.switches.softShadows,
                         .isPlace = !isSoft && desc.kind != LightDesc::Kind::Sun,
                         .place = toFloat(frame_.placed(desc.worldFromLight).point({}))});
