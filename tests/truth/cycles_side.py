@@ -184,6 +184,7 @@ class Writer:
             data.shape, data.size, data.size_y = ("ELLIPSE" if lamp.kind == "disk" else "RECTANGLE"), x, y
             data.energy = most * math.pi * x * y * (math.pi / 4 if lamp.kind == "disk" else 1)
         thing = bpy.data.objects.new(name, data)
+        thing.visible_camera = True
         place = lamp.place.copy()
         place[:3, :3] /= np.linalg.norm(place[:3, :3], axis=0)
         thing.matrix_world = Matrix(place.tolist())

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """One room lit by N glowing triangles of the same power in all: light_counts.py RAYTRACER [N...] [--threads T]
-For each N a row of tests/truth/light_counts.tsv: seconds to read, to build (which includes the tree of lights) and to
-render at 16 samples per pixel, the error of such a picture (RMSE against the mean of many, whose own noise is taken off,
-over the mean), and whether the mean agrees with that of pictures without light sampling: those give the lamps a white
-texture, with which light is found by hits alone. Their z is that of the difference of whole pictures. Needs numpy."""
-import argparse, json, os, subprocess, sys
+For each N a row of tests/truth/light_counts.tsv: processor seconds to prepare (reading, trees of triangles and of lights)
+and then to render at 16 samples per pixel, the error of such a picture (RMSE over all seeds, relative to the mean), the
+same for light that is found by hits alone, and whether the means of both agree: a white texture of the emission keeps
+lamps from being sampled. z is that of the difference of whole pictures of 128 samples. Needs numpy."""
+import argparse, os, resource, subprocess, sys
 sys.dont_write_bytecode = True
 import numpy as np
 import ours
@@ -12,9 +12,10 @@ from mitsuba_side import write_ply
 from scene import scattered, surface
 from ztest import welch
 
-SIZE, SPP, AREA, POWER = 96, 16, 0.25, 3.0  # pixels, samples, area of all triangles, radiance times area
+SIZE, SPP, MORE, SEEDS = 64, 16, 128, 8  # pixels of a side, samples of timed pictures and of those whose means are compared
+AREA, POWER = 0.25, 3.0  # of all triangles; radiance times area
 HERE = os.path.dirname(os.path.abspath(__file__))
-COLUMNS = ("lights", "read_s", "build_s", "render_s", "rmse", "by_hits_rmse", "ratio", "ratio_error", "z", "agrees")
+COLUMNS = ("lights", "prepare_cpu_s", "render_cpu_s", "rmse_16", "by_hits_rmse_16", "ratio", "ratio_error", "z", "agrees")
 WALLS = (("floor", ""), ("ceiling", "translate 0 0 2"), ("back", "translate 0 1 1\n    rotate 90 1 0 0"),
          ("left", "translate -1 0 1\n    rotate 90 0 1 0"), ("right", "translate 1 0 1\n    rotate 90 0 1 0"))
 
@@ -38,20 +39,20 @@ def write_room(folder, count, by_hits):
     return path
 
 
-def pictures(binary, path, seeds, spp, threads):
-    """Pictures of seeds 1 to `seeds`, and the median seconds of the parts of the work."""
+def pictures(binary, path, seeds, *flags):
+    """Pictures of these seeds, and the least processor seconds that one took."""
     out, pics, seconds = path[:-4] + ".pfm", [], []
-    for seed in range(1, seeds + 1):
-        done = subprocess.run([binary, path, out, "--quiet", "--stats=json", "--seed", str(seed), "--spp", str(spp), "--threads", str(threads)],
-                              check=True, capture_output=True, text=True)
-        text = done.stderr if done.stderr.lstrip().startswith("{") else done.stdout
-        seconds.append([json.loads(text)["seconds"][key] for key in ("parse", "build", "render")])
+    for seed in seeds:
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        subprocess.run([binary, path, out, "--quiet", "--seed", str(seed), *flags], check=True)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        seconds.append(after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
         pics.append(ours.pfm(out))
-    return np.array(pics), np.median(seconds, 0)
+    return np.array(pics), min(seconds)
 
 
 def rmse(pics):
-    """Of one picture against the true mean, relative: the deviation between pictures is all noise."""
+    """Of one picture against the true mean, relative to it: pictures of other seeds differ by their noise alone."""
     return float(np.sqrt(pics.var(0, ddof=1).mean()) / pics.mean())
 
 
@@ -63,16 +64,19 @@ def main():
     options.add_argument("--folder", default="build/truth/lights")
     args = options.parse_args()
     os.makedirs(args.folder, exist_ok=True)
+    threads, seeds = ("--threads", str(args.threads)), range(1, SEEDS + 1)
     with open(os.path.join(HERE, "light_counts.tsv"), "w") as file:
         file.write("\t".join(COLUMNS) + "\n")
         for count in args.counts:
-            chosen, seconds = pictures(args.raytracer, write_room(args.folder, count, False), 16, SPP, args.threads)
-            hits, _ = pictures(args.raytracer, write_room(args.folder, count, True), 16, 8 * SPP, args.threads)
-            a, b = chosen.mean((1, 2, 3)), hits.mean((1, 2, 3))
+            paths = [write_room(args.folder, count, by_hits) for by_hits in (False, True)]
+            prepared = pictures(args.raytracer, paths[0], (1, 2), "--spp", "1", "--crop", "0,0,1,1", *threads)[1]
+            few, seconds = pictures(args.raytracer, paths[0], seeds, "--spp", str(SPP), *threads)
+            many, hits = (pictures(args.raytracer, path, seeds, "--spp", str(MORE), *threads)[0] for path in paths)
+            a, b = many.mean((1, 2, 3)), hits.mean((1, 2, 3))
             z, ratio = float(welch(a, b)[0]), a.mean() / b.mean()
             error = np.sqrt(a.var(ddof=1) / len(a) + b.var(ddof=1) / len(b)) / b.mean()
-            row = "\t".join(["%d" % count, *("%.3f" % s for s in seconds), "%.4f" % rmse(chosen), "%.4f" % (rmse(hits) * 8 ** 0.5),
-                             "%.5f" % ratio, "%.5f" % error, "%+.1f" % z, "yes" if abs(z) < 3 else "no"])
+            row = "\t".join(["%d" % count, "%.3f" % prepared, "%.3f" % (seconds - prepared), "%.4f" % rmse(few),
+                             "%.4f" % (rmse(hits) * (MORE / SPP) ** 0.5), "%.5f" % ratio, "%.5f" % error, "%+.1f" % z, "yes" if abs(z) < 3 else "no"])
             print(row, flush=True)
             file.write(row + "\n")
             file.flush()
