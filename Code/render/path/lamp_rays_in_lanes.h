@@ -48,10 +48,13 @@ void sendToLamp(const L& emitter, const PathLights::Entry& entry, LampQueue& lam
         storeChosen(lanes, ray.dir, to.dir + lamp.rays);
         storeChosenFloats(lanes, ray.end, to.end + lamp.rays);
     } else {
-        storeChosen(lanes, shadowOrigin(at, below), to.org + lamp.rays);
-        storeChosen(lanes, light.toLight, to.dir + lamp.rays);
-        storeChosenFloats(lanes, light.distance * Floats(PathLights::endOf(entry)),
-                          to.end + lamp.rays);
+        const Floats end = light.distance * Floats(PathLights::endOf(entry));
+        const ShadowRays rays = entry.isSurface
+                                    ? shadowRays(at, below, light.toLight, light.distance, end)
+                                    : ShadowRays{shadowOrigin(at, below), light.toLight, end};
+        storeChosen(lanes, rays.org, to.org + lamp.rays);
+        storeChosen(lanes, rays.dir, to.dir + lamp.rays);
+        storeChosenFloats(lanes, rays.end, to.end + lamp.rays);
     }
     storeChosen(lanes, sent, to.light + lamp.rays);
     for (; lanes != 0; lanes &= lanes - 1)

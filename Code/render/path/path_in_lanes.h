@@ -83,6 +83,25 @@ inline Floats3 shadowOrigin(const SeenPoints& at, unsigned below) {
     return select(maskOf(below), at.beneath(), at.above() + at.lift);
 }
 
+// Shadow rays to a place that a lamp has in this direction, at this distance. Lifted points see it
+// in another one: along the old one, rays would end beside it, and meet a lamp that is a surface.
+struct ShadowRays {
+    Floats3 org, dir;
+    Floats end;
+};
+inline ShadowRays shadowRays(const SeenPoints& at, unsigned below, const Floats3& toLight,
+                             Floats distance, Floats end) {
+    ShadowRays rays{shadowOrigin(at, below), toLight, end};
+    const unsigned moved = at.lifted & ~below & bits(distance < Floats(1e30f)); // not suns and skies
+    if (moved == 0) return rays;
+    const Mask is = maskOf(moved);
+    const Floats3 way = toLight * distance - at.lift;
+    const Floats far = sqrt(dot(way, way));
+    rays.dir = select(is, way / far, toLight);
+    rays.end = select(is, end * (far / distance), end);
+    return rays;
+}
+
 // Calls fn(lanes, first, points as they are seen, frame, Bsdf) for each register of a block.
 template <class See, class Fn>
 void forEachRow(const LobeBlock& lobes, unsigned points, const LobeBlock::Lane& eta, See&& see,
@@ -127,9 +146,10 @@ inline void sendLight(const PathLights& lights, const SeenPoints& at, const Shad
     lanes &= bits(maxOf(light) > zero);
     if (lanes == 0) return;
     storeWhere(lanes, light, block.fromLamp, first);
-    storeWhere(lanes, lamp.toLight, block.toLamp, first);
-    storeWhere(lanes, chosen.end, block.lampEnd + first);
-    storeWhere(lanes, shadowOrigin(at, below), block.lampOrg, first);
+    const ShadowRays rays = shadowRays(at, below, lamp.toLight, lamp.distance, chosen.end);
+    storeWhere(lanes, rays.dir, block.toLamp, first);
+    storeWhere(lanes, rays.end, block.lampEnd + first);
+    storeWhere(lanes, rays.org, block.lampOrg, first);
     block.lit |= lanes << first, block.open |= (lanes & chosen.open) << first;
 }
 
