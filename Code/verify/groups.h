@@ -25,14 +25,16 @@ std::span<const Row> coplanarRows();      // T18: quads in one plane
 std::span<const Row> mediaRows();         // T19: glass in water in ice
 std::span<const Row> furnaceRows();       // T20: materials under a white sky
 std::span<const Row> lightRows();         // T21: lamps with an area against closed forms
+std::span<const Row> densityRows();       // T22: what is sampled against its density
+std::span<const Row> pathRows();          // T23: paths in closed rooms, lamps in rough metal
 std::span<const Row> treeRows();          // T24: trees over what builders are afraid of
 std::span<const Row> terminatorRows();    // T25: the edge of the light on coarse meshes
 
 inline constexpr std::array kGroups = {
-    leakRows,     crackRows,   leavingRows,       contactRows, placementRows,
-    sameBitsRows, kernelRows,  elementaryRows,    shapeRows,   solverRows,
-    grazingRows,  hostileRows, hostileCornerRows, badRayRows,  coplanarRows,
-    mediaRows,    furnaceRows, lightRows,         treeRows,    terminatorRows,
+    leakRows,          crackRows,      leavingRows,  contactRows,    placementRows, sameBitsRows,
+    kernelRows,        elementaryRows, shapeRows,    solverRows,     grazingRows,   hostileRows,
+    hostileCornerRows, badRayRows,     coplanarRows, mediaRows,      furnaceRows,   lightRows,
+    densityRows,       pathRows,       treeRows,     terminatorRows,
 };
 
 } // namespace battery

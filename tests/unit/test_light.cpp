@@ -1,7 +1,7 @@
 // Lamps against closed forms: what arrives, from where, and in which pattern.
 #include "base/math.h"
 #include "check.h"
-#include "unit/light_kit.h"
+#include "verify/light_kit.h"
 
 namespace test_light {
 

@@ -4,7 +4,7 @@
 #include "light/tree/light_picker.h"
 #include "sample/hash.h"
 #include "unit/light_answers.h"
-#include "unit/light_kit.h"
+#include "verify/light_kit.h"
 
 #include <cstdio>
 #include <memory>

@@ -1,9 +1,9 @@
-// The choice of one light of many: probabilities that sum up to 1, picks that follow them, and
-// trees that do not depend on the scale of the scene.
+// The choice of one light of many: probabilities that sum up to 1 (picks that follow them: T22d),
+// and trees that do not depend on the scale of the scene.
 #include "check.h"
 #include "light/tree/light_picker.h"
 #include "light/tree/pick_lanes.h"
-#include "unit/light_kit.h"
+#include "verify/light_kit.h"
 
 #include <algorithm>
 #include <cstdint>
@@ -15,56 +15,6 @@ using namespace light_kit;
 using meshes::Random;
 
 namespace {
-
-// Lamps of all kinds, some in a heap, some far away, a few dark; and maybe suns and a sky.
-std::vector<LightRow> someLights(Random& random, std::size_t count, bool hasDistant) {
-    std::vector<LightRow> out;
-    for (std::size_t i = 0; i < count; ++i) {
-        const Vec3 centre = toFloat(random.inBox(random.chance(0.2) ? 5 : 0.5));
-        const auto size = static_cast<float>(random.logUniform(1e-3, 0.5));
-        const float bright = static_cast<float>(random.logUniform(1e-3, 1e3));
-        switch (random.below(8)) {
-        case 0: {
-            PointRow row = point(centre, random.chance(0.5) ? 0 : size);
-            row.intensity *= Rgb{bright, bright, bright};
-            out.push_back(lightRow(row));
-            break;
-        }
-        case 1: {
-            SpotRow row = spot(random, centre, random.chance(0.5) ? 0 : size);
-            row.cosHalfAngle = static_cast<float>(random.uniform(-0.2, 0.99));
-            out.push_back(lightRow(row));
-            break;
-        }
-        case 2: out.push_back(lightRow(flat<RectangleRow>(random, centre, size))); break;
-        case 3: {
-            auto row = flat<DiskRow>(random, centre, size);
-            setSpread(row, random.uniform(0.2, 1.5));
-            out.push_back(lightRow(row));
-            break;
-        }
-        case 4: out.push_back(lightRow(sphere(centre, random.chance(0.1) ? 0 : size))); break;
-        case 5:
-            if (hasDistant) {
-                out.push_back(lightRow(sun(random, random.logUniform(1e-3, 1))));
-                break;
-            }
-            [[fallthrough]];
-        default: {
-            TriangleRow row = triangle(random, centre, size);
-            row.radiance = Rgb{bright, bright, bright}, row.isTwoSided = random.chance(0.5) ? 1 : 0;
-            out.push_back(lightRow(row));
-        }
-        }
-    }
-    return out;
-}
-
-std::vector<LightBounds> boundsOf(const std::vector<LightRow>& rows) {
-    std::vector<LightBounds> out;
-    for (const LightRow& row : rows) out.push_back(::boundsOf(row));
-    return out;
-}
 
 struct OneChoice {
     explicit OneChoice(const LightPicker& picker) : choice(picker.view()) {}
@@ -156,40 +106,6 @@ TEST(light_picker_weights_are_bounded) {
     }
     // One choice of twenty goes by chance at each group.
     CHECK_INFO(worst < 1, "seed " << kSeed << ": a light has " << worst << " times its most");
-}
-
-// Picks are counted against probabilities; and what is left of the random number is even.
-TEST(light_picker_picks_follow_their_probabilities) {
-    constexpr std::uint64_t kSeed = 5122;
-    Random random(kSeed);
-    for (int round = 0; round < 12; ++round) {
-        const auto rows = someLights(random, round < 6 ? 12 : 60, round % 3 != 0);
-        const LightPicker picker(boundsOf(rows));
-        const OneChoice choice(picker);
-        const Vec3 p = toFloat(random.inBox(2)), n = unitVector(random);
-        constexpr int kPicks = 40000;
-        std::vector<double> found(rows.size());
-        double low = 0;
-        for (int i = 0; i < kPicks; ++i) {
-            const auto picked = choice.pick(p, n, bits32(random));
-            ++found[picked.light], low += picked.u < 0.5 ? 1 : 0;
-        }
-        double squares = 0, rest = 0, restFound = 0;
-        int cells = 0;
-        for (std::size_t k = 0; k < rows.size(); ++k) {
-            const double expected = kPicks * static_cast<double>(choice.probability(p, n, k));
-            if (expected < 8) {
-                rest += expected, restFound += found[k];
-                continue;
-            }
-            squares += sqr(found[k] - expected) / expected, ++cells;
-        }
-        if (rest > 2) squares += sqr(restFound - rest) / rest, ++cells;
-        const double k = max(cells - 1, 1);
-        CHECK_INFO(squares < k + 5 * std::sqrt(2 * k) + 10,
-                   "seed " << kSeed << " round " << round << ": " << squares << " of " << cells);
-        CHECK_INFO(std::fabs(low / kPicks - 0.5) < 5 * 0.5 / std::sqrt(double{kPicks}), low);
-    }
 }
 
 // Times a power of two everything is the same to the last bit.

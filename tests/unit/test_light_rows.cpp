@@ -4,7 +4,7 @@
 #include "check.h"
 #include "light/tree/light_bounds.h"
 #include "render/light_rows.h"
-#include "unit/light_kit.h"
+#include "verify/light_kit.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // How much light all of a lamp gives, by the mean of its samples: closed forms, and places that
 // lamps are not made for.
 #include "check.h"
-#include "unit/light_kit.h"
+#include "verify/light_kit.h"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // mirrors and smooth glass.
 #include "check.h"
 #include "material/energy.h"
-#include "unit/lobe_kit.h"
+#include "verify/lobe_kit.h"
 #include "verify/meshes.h"
 
 #include <cmath>

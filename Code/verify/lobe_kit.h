@@ -1,15 +1,17 @@
-// Lobes of the list by one lane, for tests: cases of each kind, and integrals over directions.
+// Lobes of the list by one lane: cases of each kind, integrals over directions, and samples.
 #pragma once
 
 #include "base/math.h"
 #include "material/lobe_types.h"
 #include "material/lobes.h"
+#include "verify/meshes.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <sstream>
 #include <string>
 #include <string_view>
@@ -96,6 +98,23 @@ inline std::vector<Case> casesOf(std::uint32_t kind, std::size_t etas = 2) {
     return all;
 }
 
+// Any numbers that scenes may have, a roughness often 0.
+inline Case anyCase(std::uint32_t kind, meshes::Random& random) {
+    const auto uniform = [&](float lo, float hi) {
+        return static_cast<float>(random.uniform(static_cast<double>(lo), static_cast<double>(hi)));
+    };
+    Case c{kind};
+    std::size_t at = 0;
+    for (const LobeField& field : c.type().fields)
+        for (int i = 0; i < field.count; ++i)
+            c.numbers[at++] = uniform(field.least, std::min(field.most, 100.0f));
+    if (float* const roughness = c.number("roughness"))
+        *roughness = random.chance(0.2) ? 0 : uniform(0.03f, 1);
+    if (float* const ior = c.number("ior")) *ior = uniform(1, 3);
+    c.eta = random.chance(0.5) ? uniform(1, 3) : 1 / uniform(1, 3);
+    return c;
+}
+
 // fn(lobe), with a lobe of the case's type.
 template <class Fn> void with(const Case& c, Fn&& fn) {
     kernels::one::forLobe(c.kind, [&]<class L>() {
@@ -115,22 +134,23 @@ struct Peak {
     double z, phi, width;
 };
 // The directions into which a smooth surface would send light from an eye at phi = 0.
-inline std::vector<Peak> peaksOf(const Case& c, double cosEye, double phiEye = 0) {
+inline std::vector<Peak> peaksOf(const Case& c, double cosEye) {
     const double width = static_cast<double>(c.width);
-    std::vector<Peak> peaks{{cosEye, phiEye + kPi, width}, {cosEye, phiEye - kPi, width}};
+    std::vector<Peak> peaks{{cosEye, kPi, width}, {cosEye, -kPi, width}};
     const double eta = static_cast<double>(c.eta), cos2 = 1 - eta * eta * (1 - cosEye * cosEye);
     if (c.has(kHasSides) && cos2 > 0)
         for (const double turn : {kPi, -kPi})
-            peaks.push_back({-std::sqrt(cos2), phiEye + turn, width});
+            peaks.push_back({-std::sqrt(cos2), turn, width * std::min(std::fabs(1 - eta), 1.0)});
     return peaks;
 }
 
 // The integral of f(z, phi) over a rectangle of z and phi, which are an area on the sphere, to some
-// times `tolerance`.
+// times `tolerance`. Parts where f is 0 are divided `border` times: the border of what is not may
+// be in them.
 template <class F> class Integral {
 public:
-    Integral(const F& f, double tolerance, const std::vector<Peak>& peaks)
-        : f_(f), tolerance_(tolerance), peaks_(peaks) {}
+    Integral(const F& f, double tolerance, const std::vector<Peak>& peaks, int border = 0)
+        : f_(f), tolerance_(tolerance), peaks_(peaks), border_(border) {}
 
     double over(double z0, double z1, double phi0, double phi1, int depth = 0) const {
         return refined(z0, z1, phi0, phi1, gauss(z0, z1, phi0, phi1), depth);
@@ -177,7 +197,8 @@ private:
         const double parts[] = {gauss(z0, z, phi0, phi), gauss(z0, z, phi, phi1),
                                 gauss(z, z1, phi0, phi), gauss(z, z1, phi, phi1)};
         const double sum = parts[0] + parts[1] + parts[2] + parts[3];
-        if (depth >= 40 || (std::fabs(sum - whole) <= tolerance_ && !is.z)) return sum;
+        const bool isDone = std::fabs(sum - whole) <= tolerance_ && (sum != 0 || depth >= border_);
+        if (depth >= 40 || (isDone && !is.z)) return sum;
         return refined(z0, z, phi0, phi, parts[0], depth + 1) +
                refined(z0, z, phi, phi1, parts[1], depth + 1) +
                refined(z, z1, phi0, phi, parts[2], depth + 1) +
@@ -187,21 +208,86 @@ private:
     const F& f_;
     double tolerance_;
     const std::vector<Peak>& peaks_;
+    int border_;
 };
 
-// The integral over all directions, of f that is the same on both sides of the eye's plane, phi =
-// 0.
-template <class F> double overSphere(const F& f, double tolerance, const std::vector<Peak>& peaks) {
-    const Integral integral(f, tolerance, peaks);
-    // Parts near the horizon, in which narrow strips of light would otherwise be overlooked.
-    constexpr double heights[] = {-1, -0.3, -0.06, -0.01, 0, 0.01, 0.06, 0.3, 1};
+// The integral over directions with z between the first and the last of these heights, of f that is
+// the same on both sides of the eye's plane, phi = 0. Near the horizon narrow strips of light would
+// be overlooked in high parts.
+template <class F>
+double overHeights(const F& f, double tolerance, const std::vector<Peak>& peaks,
+                   std::initializer_list<double> heights, int border = 0) {
+    const Integral integral(f, tolerance, peaks, border);
     constexpr int kTurns = 4;
     double sum = 0;
-    for (std::size_t i = 0; i + 1 < std::size(heights); ++i)
+    for (const double* z = heights.begin(); z + 1 != heights.end(); ++z)
         for (int turn = 0; turn < kTurns; ++turn)
-            sum += integral.over(heights[i], heights[i + 1], turn * kPi / kTurns,
-                                 (turn + 1) * kPi / kTurns);
+            sum += integral.over(z[0], z[1], turn * kPi / kTurns, (turn + 1) * kPi / kTurns);
     return 2 * sum;
+}
+// The integral of eval() over all directions, right to 1e-4: cells of Integral are at most some
+// hundred, each off by less than its tolerance.
+inline double quadrature(const Case& c, const Floats3& toEye, double cosEye) {
+    double sum = 0;
+    const auto peaks = peaksOf(c, cosEye);
+    with(c, [&](const auto& lobe) {
+        const auto f = [&](double z, double phi) {
+            return largest(lobe.eval(toEye, direction(z, phi)));
+        };
+        sum = overHeights(f, 1e-5, peaks, {0, 0.01, 0.06, 0.3, 1});
+        if (c.is("translucent")) sum = overHeights(f, 1e-5, peaks, {-1, -0.3, -0.06, -0.01, 0});
+        if (!c.has(kHasSides)) return;
+        // What is transmitted is in a cone about the way straight on, whose border would be
+        // overlooked in part; phi is about that way there, 0 away from the surface.
+        const double sine = std::sqrt(1 - cosEye * cosEye);
+        const auto through = [&](double z, double phi) {
+            const double s = std::sqrt(1 - z * z), out = s * std::cos(phi);
+            const double up = sine * out - cosEye * z;
+            return up < 0 ? largest(lobe.eval(toEye, {static_cast<float>(-sine * z - cosEye * out),
+                                                      static_cast<float>(s * std::sin(phi)),
+                                                      static_cast<float>(up)}))
+                          : 0;
+        };
+        std::vector<Peak> bent;
+        for (const Peak& p : peaks)
+            if (p.z < 0) {
+                const double away = sine * p.z + cosEye * std::sqrt(1 - p.z * p.z);
+                bent.push_back({std::sqrt(1 - away * away), away > 0 ? 0 : kPi, p.width});
+            }
+        const double eta = static_cast<double>(c.eta), edge = std::min(eta, 1 / eta), in = 1 - edge;
+        sum += overHeights(
+            through, 1e-5, bent,
+            {edge, edge + 0.1 * in, edge + 0.3 * in, edge + 0.6 * in, edge + 0.9 * in, 1}, 3);
+    });
+    return sum;
+}
+
+// Calls fn(lobe, a sample of it) for random numbers, if the lobe has samples.
+template <class Fn>
+void withSample(const Case& c, const Floats3& toEye, meshes::Random& random, Fn&& fn) {
+    const auto unit = [&] { return Floats(static_cast<float>(random.below(1u << 24)) * 0x1p-24f); };
+    const Floats pick = unit(), u = unit(), v = unit();
+    with(c, [&](const auto& lobe) {
+        if constexpr (requires { lobe.sample(toEye, pick, u, v); })
+            fn(lobe, lobe.sample(toEye, pick, u, v));
+    });
+}
+
+// The mean of the weights of samples, which is the same integral, and its deviation.
+struct Mean {
+    double mean = 0, sigma = 0;
+};
+inline Mean sampled(const Case& c, const Floats3& toEye, meshes::Random& random) {
+    constexpr int kCount = 2000;
+    double sum = 0, squares = 0;
+    for (int i = 0; i < kCount; ++i)
+        withSample(c, toEye, random, [&](const auto&, const LobeSample& s) {
+            const double weight = s.pdf.v > 0 ? largest(s.weight) : 0;
+            sum += weight, squares += weight * weight;
+        });
+    const double mean = sum / kCount, variance = std::max(squares / kCount - mean * mean, 0.0);
+    // What happens once in some hundred samples may not happen in these at all.
+    return {mean, std::sqrt(variance / kCount) + 3.0 / kCount};
 }
 
 } // namespace

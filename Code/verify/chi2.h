@@ -1,6 +1,5 @@
-// The chi-square test of directions against the density that they are said to have. Directions are
-// counted in cells of equal solid angle about an axis; what a cell should have is the integral of
-// the density over it.
+// The chi-square test of what is chosen against the probability that it is said to have; of
+// directions, in cells of equal solid angle about an axis, against the integral of their density.
 #pragma once
 
 #include "base/math.h"
@@ -16,28 +15,49 @@
 
 namespace chi2 {
 
+// Of the sum of squares from its mean, as a normal variate (Wilson and Hilferty 1931): above 5 once
+// in 3e6. Cells in which fewer than 8 are expected are put together.
+struct Deviation {
+    double deviation;
+    std::size_t cells;
+};
+inline Deviation deviationOf(const std::vector<double>& expected,
+                             const std::vector<double>& found) {
+    std::vector<std::size_t> order(expected.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return expected[a] < expected[b]; });
+    double sum = 0, e = 0, f = 0;
+    std::size_t cells = 0;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        e += expected[order[i]], f += found[order[i]];
+        if (e < 8 && i + 1 != order.size()) continue;
+        sum += sqr(f - e) / std::max(e, 1e-9);
+        ++cells, e = f = 0;
+    }
+    const double k = static_cast<double>(std::max<std::size_t>(cells, 2) - 1);
+    return {(std::cbrt(sum / k) - (1 - 2 / (9 * k))) / std::sqrt(2 / (9 * k)), cells};
+}
+
 // The cap about the axis that is cut into cells; all else is one cell more.
 struct Cap {
     Vec3 axis;
     double oneMinusCos = 2;
 };
 struct Result {
-    double
-        deviation; // of the sum of squares from its mean, as a normal variate: above 5 once in 3e6
-    double integral; // of the density over the cap
+    double deviation; // see Deviation
+    double integral;  // of the density over the cap
     std::size_t cells;
-    double beside; // part of the directions that are out of the cap
 };
 
 constexpr std::size_t kRings = 24, kSectors = 24;
 
 // `sample()` returns a direction, or none (then the density's integral is below 1 by its part);
-// `density(Vec3)` is per steradian. Cells in which fewer than 8 are expected are put together.
+// `density(Vec3)` is per steradian.
 template <class Sample, class Density>
 Result test(const Cap& cap, std::size_t count, Sample&& sample, Density&& density) {
     const Frame frame = frameAround(normalize(cap.axis));
     std::vector<double> found(kRings * kSectors), expected(kRings * kSectors);
-    double beside = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const std::optional<Vec3> dir = sample();
         if (!dir) continue;
@@ -47,10 +67,7 @@ Result test(const Cap& cap, std::size_t count, Sample&& sample, Density&& densit
         const double turn = std::atan2(dot(toDouble(*dir), toDouble(frame.y)),
                                        dot(toDouble(*dir), toDouble(frame.x))) *
                             kInvTwoPi;
-        if (!(h < 1)) {
-            ++beside;
-            continue;
-        }
+        if (!(h < 1)) continue;
         const auto ring = std::min(static_cast<std::size_t>(h * kRings), kRings - 1);
         const auto sector = std::min(
             static_cast<std::size_t>((turn < 0 ? turn + 1 : turn) * kSectors), kSectors - 1);
@@ -86,22 +103,8 @@ Result test(const Cap& cap, std::size_t count, Sample&& sample, Density&& densit
             integral += here;
         }
     }
-    std::vector<std::size_t> order(expected.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    std::sort(order.begin(), order.end(),
-              [&](std::size_t a, std::size_t b) { return expected[a] < expected[b]; });
-    double sum = 0, e = 0, f = 0;
-    std::size_t cells = 0;
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        e += expected[order[i]], f += found[order[i]];
-        if (e < 8 && i + 1 != order.size()) continue;
-        sum += sqr(f - e) / std::max(e, 1e-9);
-        ++cells, e = f = 0;
-    }
-    const double k = static_cast<double>(std::max<std::size_t>(cells, 2) - 1);
-    // Wilson and Hilferty.
-    const double deviation = (std::cbrt(sum / k) - (1 - 2 / (9 * k))) / std::sqrt(2 / (9 * k));
-    return {deviation, integral, cells, beside / static_cast<double>(count)};
+    const auto [deviation, cells] = deviationOf(expected, found);
+    return {deviation, integral, cells};
 }
 
 } // namespace chi2

@@ -3,7 +3,10 @@
 
 #include "light/light_row.h"
 #include "light/lights.h"
+#include "light/sky/sky_table.h"
+#include "light/tree/light_bounds.h"
 #include "sample/warp.h"
+#include "texture/environment.h"
 #include "verify/meshes.h"
 #include "warp_kit.h"
 
@@ -111,6 +114,84 @@ inline std::vector<OneLight> lampsOfSize(meshes::Random& random, Vec3 centre, fl
         OneLight(sphere(centre, size)),
         OneLight(triangle(random, centre, size))};
 }
+
+// Lamps of all kinds, some in a heap, some far away, a few dark; and maybe suns and a sky.
+inline std::vector<LightRow> someLights(meshes::Random& random, std::size_t count,
+                                        bool hasDistant) {
+    std::vector<LightRow> out;
+    for (std::size_t i = 0; i < count; ++i) {
+        const Vec3 centre = toFloat(random.inBox(random.chance(0.2) ? 5 : 0.5));
+        const auto size = static_cast<float>(random.logUniform(1e-3, 0.5));
+        const float bright = static_cast<float>(random.logUniform(1e-3, 1e3));
+        switch (random.below(8)) {
+        case 0: {
+            PointRow row = point(centre, random.chance(0.5) ? 0 : size);
+            row.intensity *= Rgb{bright, bright, bright};
+            out.push_back(lightRow(row));
+            break;
+        }
+        case 1: {
+            SpotRow row = spot(random, centre, random.chance(0.5) ? 0 : size);
+            row.cosHalfAngle = static_cast<float>(random.uniform(-0.2, 0.99));
+            out.push_back(lightRow(row));
+            break;
+        }
+        case 2: out.push_back(lightRow(flat<RectangleRow>(random, centre, size))); break;
+        case 3: {
+            auto row = flat<DiskRow>(random, centre, size);
+            setSpread(row, random.uniform(0.2, 1.5));
+            out.push_back(lightRow(row));
+            break;
+        }
+        case 4: out.push_back(lightRow(sphere(centre, random.chance(0.1) ? 0 : size))); break;
+        case 5:
+            if (hasDistant) {
+                out.push_back(lightRow(sun(random, random.logUniform(1e-3, 1))));
+                break;
+            }
+            [[fallthrough]];
+        default: {
+            TriangleRow row = triangle(random, centre, size);
+            row.radiance = Rgb{bright, bright, bright}, row.isTwoSided = random.chance(0.5) ? 1 : 0;
+            out.push_back(lightRow(row));
+        }
+        }
+    }
+    return out;
+}
+
+inline std::vector<LightBounds> boundsOf(const std::vector<LightRow>& rows) {
+    std::vector<LightBounds> out;
+    for (const LightRow& row : rows) out.push_back(::boundsOf(row));
+    return out;
+}
+
+// A dim sky with a few bright spots.
+inline StoredImage skyImage(meshes::Random& random, int width, int height, double dim) {
+    StoredImage image;
+    image.width = width, image.height = height, image.channels = 3;
+    image.depth = StoredImage::Depth::Float;
+    for (int i = 0; i < width * height; ++i) {
+        const bool isBright = random.chance(0.01);
+        for (int c = 0; c < 3; ++c)
+            image.floats.push_back(static_cast<float>(random.unit() * (isBright ? 100 : dim)));
+    }
+    return image;
+}
+class SkyPicture : public SkyRadiance {
+public:
+    explicit SkyPicture(const Environment& environment) : environment_(environment) {}
+    void radiance(std::size_t count, const float* const (&dir)[3],
+                  float* const (&rgb)[3]) const override {
+        for (std::size_t i = 0; i < count; ++i) {
+            const Rgb c = environment_.radiance(Vec3{dir[0][i], dir[1][i], dir[2][i]});
+            rgb[0][i] = c.r, rgb[1][i] = c.g, rgb[2][i] = c.b;
+        }
+    }
+
+private:
+    const Environment& environment_;
+};
 
 } // namespace
 } // namespace light_kit
