@@ -15,7 +15,8 @@ namespace {
 
 constexpr double kLeastAlpha = 1e-3; // as narrow as any, where places are Ggx::tablePlace()
 // The largest fault of linear interpolation: tables say so much more, so that no surface sends on
-// more light than it gets.
+// more light than it gets. But for glass: between the nodes of its slices it is up to 0.5 % more
+// (ior 1.1 to 1.5, roughness 0.2 to 0.4, seen at some 50 degrees).
 constexpr double kFacetMargin = 1.003, kSliceMargin = 1.004;
 
 // Points in the unit square (a Fibonacci lattice), the second coordinate as an angle up to pi.

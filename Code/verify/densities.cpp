@@ -50,7 +50,7 @@ std::vector<double> bordersOf(std::vector<double> numbers, std::size_t parts, do
     return borders;
 }
 
-// 2,000 directions in up to 88 parts, which the lobe's own samples divide, against integrals.
+// 4,000 directions in up to 88 parts, which the lobe's own samples divide, against integrals.
 double deviationOf(const lobe_kit::Case& c, double cosEye, Random& random) {
     const lobe_kit::Floats3 toEye = lobe_kit::direction(cosEye, 0);
     const Drawn pilot(c, toEye, 1000, random);
@@ -59,7 +59,7 @@ double deviationOf(const lobe_kit::Case& c, double cosEye, Random& random) {
     if (std::find(heights.begin(), heights.end(), 0) == heights.end())
         heights.insert(std::lower_bound(heights.begin(), heights.end(), 0), 0);
 
-    constexpr int kCount = 2000;
+    constexpr int kCount = 4000;
     const Drawn drawn(c, toEye, kCount, random);
     const std::size_t columns = turns.size() - 1;
     std::vector<double> expected, counts((heights.size() - 1) * columns + 1);

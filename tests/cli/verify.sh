@@ -22,6 +22,9 @@ for threads in 1 3; do
 done
 expect 'all of a subject' 0 '' verify T21 --effort 0.1
 check 'all of a subject: two' [ "$(tail -n 1 out)" = '2 passed, 0 failed' ]
+expect 'all of another' 0 '' verify T22 --effort 0.2
+check 'all of another: five' [ "$(tail -n 1 out)" = '5 passed, 0 failed' ]
+check 'all of another: their unit' grep -q '^T22a .* deviations ' out
 expect 'a batch alone: 0' 0 '' verify T25 --batch 3
 check 'a batch alone: one case' grep -q '^T25 .* 1  0 failed' out
 # Rays along triangles, a few of 100 million: one whose plane goes through the origin, and one whose
