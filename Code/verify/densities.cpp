@@ -176,8 +176,8 @@ template <class Fn> double offSaid(const Sample& s, float said, const Fn& fn) {
         const float here = fn(normalize(s.toLight + off * 0x1p-23f));
         least = min(least, here), most = max(most, here);
     }
-    // They may step over slivers of less than 1e-8 sr.
-    if (most == 0 && s.pdf > 1e8f) return 0;
+    // They step over slivers of less than 1e-8 sr.
+    if (least == 0 && s.pdf > 1e8f) return 0;
     return static_cast<double>(max(max(least / said - 1, 1 - most / said), 0.0f));
 }
 

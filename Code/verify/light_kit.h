@@ -1,4 +1,4 @@
-// Lights in one lane, asked with plain numbers, and lamps and points to ask about.
+// Lights in one lane, called with plain numbers; lamps of any form, many lamps, and skies.
 #pragma once
 
 #include "light/light_row.h"
@@ -34,6 +34,7 @@ inline Sample plain(const kernels::one::SampledLight& s) {
 // A light of any kind.
 class OneLight {
 public:
+    explicit OneLight(const LightRow& row) : row_(row) {}
     template <class Row> explicit OneLight(const Row& row) : row_(lightRow(row)) {}
     Sample sample(Vec3 p, Vec2 u) const {
         Sample out{};

@@ -2,14 +2,13 @@
 // and the solid angle that it fills, are integrals with known values: Lambert's sum over the edges
 // of a polygon (1760), the solid angle of a triangle (Van Oosterom and Strackee 1983), the sphere
 // cut by the horizon.
-#include "light/lights.h"
 #include "base/math.h"
 #include "base/text.h"
-#include "light/light_row.h"
 #include "sample/dimensions.h"
 #include "sample/sampler.h"
 #include "sample/warp.h"
 #include "verify/groups.h"
+#include "verify/light_kit.h"
 
 #include <algorithm>
 #include <array>
@@ -128,26 +127,12 @@ Case randomCase(meshes::Random& random, std::size_t kind) {
     }
 }
 
-// A sample of the light that arrives in the origin.
-struct Arrived {
-    double irradiance, toLightZ;
-};
-Arrived sampleOf(const LightRow& row, Vec2 u) {
-    using namespace kernels::one;
-    Arrived out{};
-    forLight(row.kind, [&]<class L> {
-        const SampledLight s =
-            L(LightNumbers{row.numbers.data(), 1}).sample({0.0f, 0.0f, 0.0f}, u.x, u.y);
-        out = {static_cast<double>(s.irradiance.y.v), static_cast<double>(s.toLight.z.v)};
-    });
-    return out;
-}
-
 struct Sums {
     double irradiance = 0, irradiance2 = 0, solidAngle = 0, solidAngle2 = 0;
     void add(const LightRow& light, Vec2 u) {
-        const auto [whole, toLightZ] = sampleOf(light, u);
-        const double received = whole * max(toLightZ, 0.0);
+        const light_kit::Sample s = light_kit::OneLight(light).sample({}, u); // at the origin
+        const double whole = static_cast<double>(s.irradiance.g);
+        const double received = whole * max(static_cast<double>(s.toLight.z), 0.0);
         irradiance += received, irradiance2 += received * received;
         solidAngle += whole, solidAngle2 += whole * whole;
     }
