@@ -76,13 +76,13 @@ inline Doubles expOf(const Doubles& x, const Doubles& lo) {
 // Of numbers up to 1; the exponents are whole and not negative.
 [[gnu::always_inline]] inline Floats powBySquares(Floats base, Ints exponent) {
     const Doubles least(exact::kLeastSquare);
-    constexpr unsigned kAllLanes = (1u << W) - 1;
+    constexpr unsigned kAll = (1u << W) - 1;
     Doubles square(base), result(1.0);
     for (;; square = max(square * square, least)) {
         const unsigned odd = bits(masked(exponent, 1) == Ints(1));
         if (odd != 0) result = select(maskOf(odd), max(result * square, least), result);
         exponent = shiftedRight<1>(exponent);
-        if (bits(exponent == Ints(0)) == kAllLanes) break;
+        if (bits(exponent == Ints(0)) == kAll) break;
     }
     const unsigned vanishes = less(result, Doubles(exact::kNoFloat));
     return select(maskOf(vanishes), Doubles(0.0), result).toFloats();
