@@ -2486,12 +2486,12 @@ class Shaders:
             lobe("conductor", part_of(metal), normal, color=base, edge_tint=tint, roughness=roughness, **turned),
         ]
         if any(glass.rgb):
-            color = values.constant(base)
-            if base.texture:
-                self.report.warn(14, "node '%s' has a texture on transmission" % found.node.name, "its mean")
-            # Since 4.0 light is coloured by the base colour after two boundaries, before at each.
-            through = tuple(math.sqrt(max(x, 0.0)) for x in color) if is_new else color
-            lobes.append(lobe("dielectric", glass, normal, ior=ior, reflect_tint=tint, transmit_tint=Value(through),
+            through = base
+            if is_new:  # light is coloured by the base colour after two boundaries, before 4.0 at each
+                if base.texture:
+                    self.report.warn(14, "node '%s' has a texture on transmission" % found.node.name, "its mean")
+                through = Value(tuple(math.sqrt(max(x, 0.0)) for x in values.constant(base)))
+            lobes.append(lobe("dielectric", glass, normal, ior=ior, reflect_tint=tint, transmit_tint=through,
                               roughness=roughness))
         if any(level.rgb):  # before 4.0 it alone said how much is reflected
             lobes.append(lobe("glossy_dielectric", plastic, normal, True, ior=ior if is_new else number_value(1.5),
@@ -2621,8 +2621,6 @@ class Material:
     name: str
     diffuse: tuple = BLACK
     diffuse_texture: Optional[Texture] = None
-    specular: tuple = BLACK  # of an Ashikhmin lobe
-    exponent: float = 50.0
     emission: tuple = BLACK
     emission_texture: Optional[Texture] = None
     gives_light: bool = True
@@ -2654,10 +2652,6 @@ class Material:
             if any(self.diffuse) or not self.lobes:
                 text.put("diffuse", self.diffuse)
                 self.put_texture(text, "diffuse_texture", self.diffuse_texture, name_of)
-            if any(self.specular):
-                text.put("specular", self.specular)
-                text.put("specular_model", "ashikhmin")
-                text.put("exponent", self.exponent)
             for l in self.lobes:
                 self.put_lobe(text, l, name_of)
             text.put_unless(BLACK, "emission", self.emission)
@@ -2711,7 +2705,7 @@ class Folder:
         material.emission, material.emission_texture = self.sum("emission", solid)
         rest = self.united([l for l in solid if l.kind != "emission"])
         if not any(l.covers for l in rest):
-            rest = self.fold_short(material, rest)
+            rest = self.fold_diffuse(material, rest)
         material.lobes = tuple(self.fewer(rest))
         self.fold_normal(material, solid)
         coordinates = {t.coordinates for t in material.textures()}
@@ -2786,18 +2780,13 @@ class Folder:
                 out[same] = replace(l, part=Part(plus(out[same].rgb, l.rgb), l.part.factors))
         return out
 
-    def fold_short(self, material, lobes):
-        """What the keywords for one diffuse and one Ashikhmin lobe say; the others."""
-        for kind in ("diffuse", "ashikhmin"):
-            found = [l for l in lobes if l.kind == kind]
-            if len(found) != 1 or not self.texture_of(found[0])[0] or (kind == "ashikhmin" and found[0].part.factors):
-                continue
-            lobes = [l for l in lobes if l.kind != kind]
-            if kind == "diffuse":
-                material.diffuse, material.diffuse_texture = found[0].rgb, self.texture_of(found[0])[1]
-            else:
-                material.specular, material.exponent = found[0].rgb, gray(found[0].field("exponent").rgb)
-        return lobes
+    def fold_diffuse(self, material, lobes):
+        """The keywords for diffuse say one such lobe with at most one texture; returns the others."""
+        found = [l for l in lobes if l.kind == "diffuse"]
+        if len(found) != 1 or not self.texture_of(found[0])[0]:
+            return lobes
+        material.diffuse, material.diffuse_texture = found[0].rgb, self.texture_of(found[0])[1]
+        return [l for l in lobes if l.kind != "diffuse"]
 
     def fewer(self, lobes):
         if len(lobes) > MOST_LOBES:
@@ -2817,7 +2806,7 @@ class Folder:
 
     def safe(self, material):
         """The format takes no negative colours."""
-        for name in ("diffuse", "specular", "emission", "filter"):
+        for name in ("diffuse", "emission", "filter"):
             setattr(material, name, self.safe_color(name, getattr(material, name)))
         material.lobes = tuple(
             replace(l, part=replace(l.part, rgb=self.safe_color("weight of " + l.kind, l.rgb)),
@@ -3345,9 +3334,9 @@ NO_MATERIAL = "No material"
 class SceneExport:
     """One frame of a scene. Everything that Blender evaluates is read inside `collect`."""
 
-    def __init__(self, scene, layer, frame, camera, images, report, recognises=True, integrator="whitted"):
+    def __init__(self, scene, layer, frame, camera, images, report, recognises=True, integrator=None):
         self.recognises = recognises  # spheres, cubes and planes among the meshes
-        self.integrator = integrator
+        self.integrator = integrator or ("path" if scene.render.engine == "CYCLES" else "whitted")
         self.scene, self.layer, self.frame, self.camera = scene, layer, frame, camera
         self.images, self.report = images, report
         self.values = Values(images, report)
@@ -3813,8 +3802,9 @@ def parse(arguments, is_module):
     parser.add_argument("--camera", metavar="NAME", help="camera to look through; default: the active one")
     parser.add_argument("--textures", metavar="DIR",
                         help="where pictures are looked for and copied to; default: Textures beside the output")
-    parser.add_argument("--integrator", metavar="NAME", choices=INTEGRATORS, default="whitted",
-                        help="what the renderer does unless it is told otherwise: %s; default: whitted" % " or ".join(INTEGRATORS))
+    parser.add_argument("--integrator", metavar="NAME", choices=INTEGRATORS,
+                        help="what the renderer does unless it is told otherwise: %s; default: path where the scene is "
+                             "for Cycles, else whitted" % " or ".join(INTEGRATORS))
     parser.add_argument("--ppm", action="store_true", help="turn 8-bit pictures without alpha into PPM files")
     parser.add_argument("--no-shapes", action="store_true",
                         help="take no mesh for a sphere, cube or plane (rt_shape still does)")

@@ -131,12 +131,16 @@ def light_paths():
     scene = new_scene()
     block = export().one("settings")
     wanted = ("integrator", "diffuse_depth", "glossy_depth", "transmission_depth", "transparent_depth", "caustics")
-    equal([block.get(k) for k in wanted], [None] * 6)  # as the renderer takes them anyway
+    equal([block.get(k) for k in wanted], ["path"] + [None] * 5)  # as the renderer takes them anyway
+    scene.render.engine = "BLENDER_EEVEE" if VERSION < (4, 2) or VERSION >= (5, 0) else "BLENDER_EEVEE_NEXT"
+    equal(export().one("settings").get("integrator"), None)
+    scene.render.engine = "CYCLES"
+    equal(export(arguments=["--integrator", "whitted"]).one("settings").get("integrator"), None)
     cycles = scene.cycles
     near(block.get("clamp_indirect", 0), cycles.sample_clamp_indirect)
     cycles.diffuse_bounces, cycles.glossy_bounces, cycles.transmission_bounces, cycles.transparent_max_bounces = 3, 2, 6, 7
     cycles.sample_clamp_indirect, cycles.caustics_reflective, cycles.caustics_refractive = 2.5, False, False
-    block = export(arguments=["--integrator", "path"]).one("settings")
+    block = export().one("settings")
     equal([block.get(k) for k in wanted], ["path", 3, 2, 6, 7, False])
     equal(block["clamp_indirect"], 2.5)
     cycles.caustics_refractive = True

@@ -50,9 +50,9 @@ def glossy_limits():
     equal([l["kind"] for l in lobes(Roughness=0.0)], ["mirror"])
     equal(lobes(Color=(1, 1, 1), Roughness=1.0), [{"kind": "conductor", "color": [1, 1, 1], "roughness": [1]}])
     near(lobes(Roughness=0.02)[0]["roughness"], [0.02])
-    block, _ = material_text(lambda n: n.node("BsdfGlossy", {"distribution": "ASHIKHMIN_SHIRLEY"}, Color=(0.5, 1, 1), Roughness=0.2))
-    equal([block["specular_model"], block.lobes()], ["ashikhmin", []])
-    near([*block["specular"], block["exponent"]], [0.5, 1, 1, 2 / 0.2**4 - 2])
+    lobe = lobes({"distribution": "ASHIKHMIN_SHIRLEY"}, Color=(0.5, 1, 1), Roughness=0.2)[0]
+    near([*lobe["weight"], *lobe["exponent"]], [0.5, 1, 1, 2 / 0.2**4 - 2])
+    equal(lobe["kind"], "ashikhmin")
     two = lambda n: n.node("AddShader", Shader=n.node("BsdfGlossy", Color=(0.2,) * 3, Roughness=0.1),
                            Shader_001=n.node("BsdfGlossy", Color=(0.3,) * 3, Roughness=0.4))
     near([x for l in material_text(two)[0].lobes() for x in (l["weight"][0], *l["roughness"])], [0.2, 0.1, 0.3, 0.4])
@@ -258,6 +258,14 @@ def textures_of_lobes():
     equal(block.lobe("diffuse")["weight", "x"], [["without", "mask", 0.5]])
     block, _ = material_text(lambda n: n.node("BsdfPrincipled", Roughness=n.node("Invert", Color=image(n))))
     equal(block.lobe("glossy_dielectric")["roughness", "x"], [["without", "mask"]])
+    # Transmission, specular and base colour; since 4.0 the format has no root of a picture.
+    new = VERSION >= (4, 0)
+    clear, level = ("Transmission_Weight", "Specular_IOR_Level") if new else ("Transmission", "Specular")
+    build = lambda n: n.node("BsdfPrincipled", Base_Color=coloured(n), **{clear: image(n), level: image(n, "level.png")})
+    block, _ = material_text(build, [14] if new else [])
+    equal([block.lobe("dielectric")["weight", "x"], block.lobe("glossy_dielectric")["weight", "x"],
+           block.lobe("glossy_dielectric")["specular", "x"]], [[["times", "mask"]], [["without", "mask"]], [["times", "level"]]])
+    equal(block.lobe("dielectric").get(("transmit_tint", "x")), None if new else [["times", "wood"]])
     block, _ = material_text(lambda n: n.node("BsdfGlass", Color=coloured(n)))
     equal([block.lobe("dielectric")[t, "x"] for t in ("reflect_tint", "transmit_tint")], [[["times", "wood"]]] * 2)
     # A mask with colours is grey where it mixes; with see-through parts its mean counts.
