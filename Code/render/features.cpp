@@ -1,6 +1,8 @@
 #include "render/features.h"
 
 #include "base/for_each.h"
+#include "desc/lobes.h"
+#include "material/lobe_types.h"
 
 #include <algorithm>
 #include <array>
@@ -37,7 +39,18 @@ unsigned traitsOf(const MaterialDesc& m) {
     const auto pictures = {m.diffuseTexture, m.specularTexture, m.emissionTexture,
                            m.opacityTexture, m.normalMap,       m.bumpMap};
     const bool mirrors = !isBlack(m.mirror), transmits = !isBlack(m.transmission);
-    return trait(mirrors, Mirror) | trait(transmits, Transmission) |
+    unsigned lobes = 0;
+    for (const LobeDesc& lobe : m.lobes) {
+        const LobeType& type = lobeTypes()[lobe.kind];
+        // What answers lights is rough, as far as its roughness isn't 0.
+        bool isRough = (type.flags & kAnswersLights) != 0;
+        for (const LobeFieldForm& field : lobeForms()[lobe.kind].fields)
+            if (field.name == "roughness") isRough = lobe.numbers[field.first] > 0;
+        const bool reflects = type.isMirror() || type.isGlass();
+        lobes |= trait(reflects, Mirror) | trait(type.isGlass(), Transmission) |
+                 trait(reflects && isRough, Roughness);
+    }
+    return lobes | trait(mirrors, Mirror) | trait(transmits, Transmission) |
            trait(m.roughness > 0 && (mirrors || transmits), Roughness) |
            trait(m.fresnel != MaterialDesc::Fresnel::None, Fresnel) |
            trait(m.opacity < 1 || isThere(m.opacityTexture), Transparency) |

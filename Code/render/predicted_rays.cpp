@@ -1,5 +1,7 @@
 #include "render/predicted_rays.h"
 
+#include "material/lobe_types.h"
+
 #include <algorithm>
 
 namespace {
@@ -30,7 +32,12 @@ bool hasBounces(const SceneDesc& desc, const RenderSettings& settings) {
     return settings.picture.maxDepth > 0 &&
            std::any_of(desc.materials.begin(), desc.materials.end(), [&](const MaterialDesc& m) {
                return (settings.switches.reflection && some(m.mirror)) ||
-                      (settings.switches.refraction && some(m.transmission));
+                      (settings.switches.refraction && some(m.transmission)) ||
+                      std::any_of(m.lobes.begin(), m.lobes.end(), [&](const LobeDesc& lobe) {
+                          const LobeType& type = lobeTypes()[lobe.kind];
+                          return (settings.switches.reflection && type.isMirror()) ||
+                                 (settings.switches.refraction && type.isGlass());
+                      });
            });
 }
 

@@ -14,18 +14,19 @@ scene() {
     shift
     base | sed "$@" | sed -e '/^ *\(BALL\|LIGHT\|CAMERA\)$/d' -e 's/KEYS/translate 0 0 1/' > "$file"
 }
-# feature SWITCH: with.txt uses the feature, without.txt says the same without it.
+# feature SWITCH: with.txt uses the feature, without.txt says the same without it. by: more options.
+by=
 feature() {
-    run 0 with.txt with.pfm -q
-    run 0 with.txt off.pfm -q "--no-$1" --stats=json
+    run 0 with.txt with.pfm -q $by
+    run 0 with.txt off.pfm -q $by "--no-$1" --stats=json
     cp out stats
-    run 0 without.txt without.pfm -q
+    run 0 without.txt without.pfm -q $by
     check "$1: the scene shows it" differ with.pfm without.pfm
     check "--no-$1 is the scene without it" cmp off.pfm without.pfm
     check "--no-$1 is told by --stats" grep -q "\"$1: [^\"]*\"" stats
-    run 0 without.txt off.pfm -q "--no-$1"
+    run 0 without.txt off.pfm -q $by "--no-$1"
     check "--no-$1 changes nothing else" cmp off.pfm without.pfm
-    run 0 with.txt on.pfm -q "--no-$1" "--$1"
+    run 0 with.txt on.pfm -q $by "--no-$1" "--$1"
     check "--$1 is the last word" cmp on.pfm with.pfm
 }
 
@@ -52,6 +53,27 @@ feature glossy
 scene with.txt -e 's/BALL/mirror 0.5 0.5 0.5\n    fresnel schlick/'
 scene without.txt -e 's/BALL/mirror 0.5 0.5 0.5/'
 feature fresnel
+
+# Lobes that are written as such, by both integrators.
+lobes() {
+    scene with.txt -e "s/BALL/${2:+lobe $2}/"
+    scene without.txt -e "s/BALL/${3:+lobe $3}/"
+    for integrator in whitted path; do
+        by="-i $integrator"
+        feature "$1"
+    done
+    by=
+}
+part='weight 0.3 0.3 0.3'
+lobes reflection "mirror $part" ''
+lobes reflection "conductor $part roughness 0.3" ''
+lobes reflection 'coat covers' ''
+lobes reflection "dielectric $part roughness 0.2" "dielectric $part roughness 0.2 reflect_tint 0 0 0"
+lobes refraction "refraction $part" ''
+lobes refraction "dielectric $part roughness 0.2" "dielectric $part roughness 0.2 transmit_tint 0 0 0"
+lobes glossy "conductor $part roughness 0.4" "conductor $part roughness 0"
+lobes glossy "dielectric $part roughness 0.4" "dielectric $part roughness 0"
+lobes glossy "ashikhmin $part exponent 20" "mirror $part"
 
 scene with.txt -e 's/CAMERA/aperture_radius 0.4\n    focus_distance 4/'
 scene without.txt -e ''

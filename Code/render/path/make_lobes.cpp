@@ -8,17 +8,6 @@
 
 namespace {
 
-// The place of a field among a lobe's values.
-std::size_t placeOf(std::uint8_t kind, std::string_view name, int& count) {
-    std::size_t place = 3;
-    for (const LobeField& field : lobeTypes()[kind].fields) {
-        count = field.count;
-        if (name == field.name) break;
-        place += static_cast<std::size_t>(field.count);
-    }
-    return place;
-}
-
 Rgb grey(double v) {
     const float f = toFloat(v);
     return {f, f, f};
@@ -39,6 +28,19 @@ std::string_view modelName(MaterialDesc::SpecularModel model) {
     return "blinn";
 }
 
+// Changes a lobe that is written as such to what it is with these switches. Returns whether it is
+// still there.
+bool isSwitchedOn(LobeRow& lobe, const Switches& on) {
+    const LobeType& type = lobeTypes()[lobe.kind];
+    if (type.isMirror() && !on.reflection) return false;
+    if (type.isGlass() && !on.refraction && !setField(lobe, "transmit_tint", {})) return false;
+    if (type.isGlass() && !on.reflection) setField(lobe, "reflect_tint", {});
+    if (!on.glossy && (type.isMirror() || type.isGlass()) && !setField(lobe, "roughness", {}) &&
+        (type.flags & kAnswersLights) != 0)
+        lobe = {lobeNamed("mirror"), lobe.covers, false, {lobe.value[0], lobe.value[1], lobe.value[2]}};
+    return true;
+}
+
 } // namespace
 
 bool LobeList::variesBoundaries() const {
@@ -57,15 +59,23 @@ LobeRow lobeRow(std::string_view kind, Rgb weight) {
     return row;
 }
 
-void setField(LobeRow& lobe, std::string_view field, Rgb value) {
-    int count = 0;
-    float* const to = lobe.value + placeOf(lobe.kind, field, count);
-    to[0] = value.r;
-    if (count == 3) to[1] = value.g, to[2] = value.b;
+bool setField(LobeRow& lobe, std::string_view name, Rgb value) {
+    float* to = lobe.value + 3;
+    for (const LobeField& field : lobeTypes()[lobe.kind].fields) {
+        if (name != field.name) {
+            to += field.count;
+            continue;
+        }
+        to[0] = value.r;
+        if (field.count == 3) to[1] = value.g, to[2] = value.b;
+        return true;
+    }
+    return false;
 }
 
 // The lobes that are written as such.
-static LobeList writtenLobes(const MaterialDesc& desc, const TextureOf& textureOf) {
+static LobeList writtenLobes(const MaterialDesc& desc, const TextureOf& textureOf,
+                             const Switches& on) {
     LobeList out;
     for (const LobeDesc& lobe : desc.lobes) {
         const LobeForm& form = lobeForms()[lobe.kind];
@@ -75,11 +85,13 @@ static LobeList writtenLobes(const MaterialDesc& desc, const TextureOf& textureO
         row.value[0] = weight.r, row.value[1] = weight.g, row.value[2] = weight.b;
         for (std::size_t i = 0; i < LobeDesc::kNumbers; ++i)
             row.value[3 + i] = toFloat(lobe.numbers[i]);
+        if (!isSwitchedOn(row, on)) continue;
         for (const LobeDesc::Factor& factor : lobe.factors) {
             const Texture* const texture = textureOf(factor.texture);
-            if (texture == nullptr) continue;
+            const bool isOfWeight = factor.field == LobeDesc::Factor::kWeight;
+            if (texture == nullptr || (!isOfWeight && row.kind != lobe.kind)) continue;
             LobeFactor of{static_cast<std::uint8_t>(out.lobes.size()), 0, 3, 0, 1, texture};
-            if (factor.field != LobeDesc::Factor::kWeight) {
+            if (!isOfWeight) {
                 const auto& field = form.fields[static_cast<std::size_t>(factor.field)];
                 of.first = static_cast<std::uint8_t>(3 + field.first);
                 of.count = static_cast<std::uint8_t>(field.count);
@@ -93,7 +105,7 @@ static LobeList writtenLobes(const MaterialDesc& desc, const TextureOf& textureO
 }
 
 LobeList lobesOf(const MaterialDesc& desc, const TextureOf& textureOf, const Switches& on) {
-    LobeList out = writtenLobes(desc, textureOf);
+    LobeList out = writtenLobes(desc, textureOf, on);
     const Rgb white{1, 1, 1};
     const auto add = [&](LobeRow lobe, Handle picture = kNone) {
         if (lobe.value[0] == 0 && lobe.value[1] == 0 && lobe.value[2] == 0) return;

@@ -16,9 +16,10 @@ struct LobeList {
     // which is one number for all that is within.
     bool variesBoundaries() const;
 };
-// Sets the numbers of a lobe by the names of its fields.
+// A lobe of this kind whose fields are as if they were left out.
 LobeRow lobeRow(std::string_view kind, Rgb weight);
-void setField(LobeRow& lobe, std::string_view field, Rgb value);
+// Sets a number or colour of a lobe. Returns false where the lobe has no field of this name.
+bool setField(LobeRow& lobe, std::string_view name, Rgb value);
 
 // Texture of a handle; null: none, or its picture misses.
 using TextureOf = std::function<const Texture*(Handle)>;
