@@ -29,6 +29,7 @@ std::size_t lineOf(const SourceFile& source, std::size_t offset) {
 std::string located(const SourceFile& source, std::size_t offset, std::string_view what,
                     std::string_view severity) {
     const std::string_view text = source.text;
+    if (text.empty() && offset > 0) return cat(source.name, ": ", severity, ": ", what);
     offset = std::min(offset, text.size());
     const std::size_t newline = offset == 0 ? std::string_view::npos : text.rfind('\n', offset - 1);
     const std::size_t start = newline == std::string_view::npos ? 0 : newline + 1;

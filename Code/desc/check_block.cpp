@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "base/transform.h"
 #include "desc/lobes.h"
+#include "desc/validate.h"
 
 #include <algorithm>
 #include <cmath>
@@ -189,8 +190,13 @@ void BlockChecker::checkLobe(const MaterialDesc& material, std::size_t number) {
 void BlockChecker::checkWhole(const LightDesc& light) {
     warnOfUnused(light);
     checkKeys(light, {&light.worldFromLight, 1});
-    if (light.kind == LightDesc::Kind::Sphere && !(light.radius > 0))
-        error(light, "a light of type sphere needs a 'radius' > 0");
+    if (hasNoArea(light))
+        warnings.push_back(
+            properties.locatedAt(light.loc,
+                                 cat(called(light), ": it has no area, and is left out; a ",
+                                     light.kind == LightDesc::Kind::Sphere ? "'radius'" : "'size'",
+                                     " above 0 would be right"),
+                                 "warning"));
     if (light.attenuation == Vec3d{})
         error(light, "'attenuation' 0 0 0 would be light without end; 1 0 0 is the usual one");
 }

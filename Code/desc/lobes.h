@@ -35,3 +35,4 @@ inline constexpr Range kFactorStrength = kUnit;
 // The largest sum of one channel of the weights of lobes that are no covers and send light on, as
 // far as no picture multiplies them. Above 1 all are scaled to 1.
 double sumOfWeights(const MaterialDesc& material);
+inline constexpr double kMostOfWeights = 1 + 1e-6; // as 0.9 and 0.1 that were floats

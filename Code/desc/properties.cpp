@@ -140,7 +140,7 @@ constexpr auto kLight = [] {
         {"color", field<&LightDesc::color>(), {}, kColor},
         {"attenuation", field<&LightDesc::attenuation>(), {}, kNotNegative, only(Point, Spot)},
         {"radius", field<&LightDesc::radius>(), {}, kNotNegative, only(Point, Spot, Sphere)},
-        {"size", field<&LightDesc::size>(), {}, kPositive, only(Rectangle, Disk)},
+        {"size", field<&LightDesc::size>(), {}, kNotNegative, only(Rectangle, Disk)},
         {"cone_angle", field<&LightDesc::coneAngleDeg>(), {}, {0, 180, true}, only(Spot)},
         {"blend", field<&LightDesc::blend>(), {}, kUnit, only(Spot)},
         {"cosine_falloff", field<&LightDesc::cosineFalloff>(), {}, {}, only(Spot)},

@@ -196,10 +196,9 @@ private:
     }
 
     void warnBright() {
-        constexpr double kMost = 1 + 1e-6; // as 0.9 and 0.1 that were floats
         const auto& materials = desc_.materials;
         const auto isBright = [&](const MaterialDesc& m) {
-            return mostReturned(m) > kMost && isUsed(m);
+            return mostReturned(m) > kMostOfWeights && isUsed(m);
         };
         const auto first = std::find_if(materials.begin(), materials.end(), isBright);
         if (first == materials.end()) return;
@@ -208,10 +207,9 @@ private:
                        "; above 1 a surface gives back more light than it gets"));
     }
     void warnOfWeights() {
-        constexpr double kMost = 1 + 1e-6; // as 0.9 and 0.1 that were floats
         const auto& materials = desc_.materials;
         const auto isMore = [&](const MaterialDesc& m) {
-            return !m.lobes.empty() && sumOfWeights(m) > kMost && isUsed(m);
+            return !m.lobes.empty() && sumOfWeights(m) > kMostOfWeights && isUsed(m);
         };
         const auto first = std::find_if(materials.begin(), materials.end(), isMore);
         if (first == materials.end()) return;
@@ -269,6 +267,13 @@ std::string faultOfCrop(const SettingsDesc& settings) {
     if (x1 <= settings.width && y1 <= settings.height) return {};
     return cat("'crop' ends at ", x1, " ", y1, ", outside the resolution ", settings.width, " ",
                settings.height);
+}
+
+bool hasNoArea(const LightDesc& light) {
+    using enum LightDesc::Kind;
+    const bool isFlat = light.kind == Rectangle || light.kind == Disk;
+    return (isFlat && (light.size.x == 0 || light.size.y == 0)) ||
+           (light.kind == Sphere && light.radius == 0);
 }
 
 void validate(const SceneDesc& desc, const SourceFile& source, Diagnostics& diagnostics,

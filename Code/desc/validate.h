@@ -18,3 +18,6 @@ void validate(const SceneDesc& desc, const SourceFile& source, Diagnostics& diag
 
 // What is wrong with the part of the picture that is wanted; empty when nothing is.
 std::string faultOfCrop(const SettingsDesc& settings);
+
+// Whether a light shines by a surface, and has none. Such a light is left out, with a warning.
+bool hasNoArea(const LightDesc& light);

@@ -5,7 +5,9 @@
 #include "base/for_each.h"
 #include "base/math.h"
 #include "base/text.h"
+#include "desc/lobes.h"
 #include "desc/names.h"
+#include "desc/validate.h"
 #include "image/image.h"
 #include "render/eye.h"
 #include "render/make_body.h"
@@ -216,8 +218,8 @@ private:
             scene_.materials_[i].isPainted = !list.factors.empty();
             scene_.any_ |= scene_.materials_[i];
             const auto warn = [&](std::string_view what) {
-                scene_.warnings_.push_back(located(source_, desc.loc.offset,
-                                                   cat("material ", desc.name, what), "warning"));
+                scene_.warnings_.push_back(located(
+                    source_, desc.loc.offset, cat("material '", desc.name, "'", what), "warning"));
             };
             const bool isSound =
                 lobed.add(list.lobes, list.factors, traitsOf(scene_.materials_[i]));
@@ -225,13 +227,19 @@ private:
             if (!isSound &&
                 (!desc.lobes.empty() || isPath())) {
                 lobed.scaleDown();
-                warn(" reflects more than arrives, and is scaled to what does; weights whose sum "
-                     "is at most 1 would be right");
+                if (!isTold(desc))
+                    warn(" reflects more than arrives, and is scaled to what does; weights whose "
+                         "sum "
+                         "is at most 1 would be right");
             }
             if (list.variesBoundaries())
                 warn(" has a picture on the ior of a lobe that transmits, which is left out; a "
                      "number alone would be right");
         }
+    }
+    // Whether validate() has warned of its lobes already.
+    static bool isTold(const MaterialDesc& desc) {
+        return !desc.lobes.empty() && sumOfWeights(desc) > kMostOfWeights;
     }
     static std::uint32_t traitsOf(const SceneMaterial& of) {
         return (isBlack(of.emission) ? 0 : LobedMaterial::kEmits) |
@@ -375,7 +383,7 @@ private:
             using enum LightDesc::Kind;
             const bool hasBody =
                 light.kind == Rectangle || light.kind == Disk || light.kind == Sphere;
-            if (light.visible && hasBody)
+            if (light.visible && hasBody && !hasNoArea(light))
                 addLampBody(light, static_cast<std::uint32_t>(objectCount_ + i));
         }
         if (!isShaded()) return;

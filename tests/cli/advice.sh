@@ -36,6 +36,37 @@ sed -e 's/diffuse 0.8 0.1 0.1/diffuse 0 0 0\n    mirror 1 1 1\n    transmission 
     scene.txt > glass.txt
 quiet 'glass is sound' glass.txt a.png
 
+# Lobes whose weights are more than there is.
+sed -e 's/diffuse 0.8 0.1 0.1/lobe diffuse weight 0.8 0.5 0.5\n    lobe mirror weight 0.45 0.3 0.3/' \
+    scene.txt > more.txt
+expect 'weights above 1' 0 \
+    "more.txt:19:1: warning: material 'red': the weights of its lobes sum up to 1.25; they are scaled to 1" \
+    more.txt a.png
+check '... are told once' lines err warning: 1
+sed -e 's/weight 0.8 0.5 0.5/weight 0.64 0.4 0.4/' -e 's/weight 0.45 0.3 0.3/weight 0.36 0.24 0.24/' \
+    more.txt > scaled.txt
+run 0 scaled.txt s.png -q
+check "... and scaled" cmp a.png s.png
+
+# Lights without area.
+for light in 'rectangle\n    size 0 1' 'disk\n    size 1 0' 'sphere'; do
+    printf 'light flat {\n    visible true\n    type %b\n}\n' "$light" | cat scene.txt - > flat.txt
+    expect "a light without area: $light" 0 "flat.txt:28:1: warning: light 'flat': it has no area, and is left out" \
+        flat.txt a.pfm
+    check '... is told once' lines err warning: 1
+    run 0 scene.txt b.pfm -q
+    check '... and left out' cmp a.pfm b.pfm
+done
+
+# Pixels around the scene that are no light.
+pixels() { printf 'PF\n2 1\n-1.0\n' && printf '\0\0\200\077%.0s' 1 2 3 4 && printf "$1" && printf '\0\0\200\077'; }
+sed -e 's/^world {/texture sky {\n    file "sky.pfm"\n}\n&\n    environment sky\n    environment_lights true/' \
+    scene.txt > sky.txt
+pixels '\0\0\200\277' > sky.pfm
+expect 'a negative pixel of the environment' 2 'sky.txt:7:10: error: sky.pfm: pixel 1 from the left, 0 from the top is negative' sky.txt s.png
+pixels '\0\0\300\177' > sky.pfm
+expect 'a pixel of it that is no number' 2 "sky.pfm: error: the pixel 1,0 is not a finite number" sky.txt s.png
+
 # No light at all: told before, and the picture is black.
 sed -e '/^light/,/^}/d' -e '/background/d' scene.txt > dark.txt
 expect 'no light' 0 'no light, no emission and no ambient: the picture will be black; add a light' \

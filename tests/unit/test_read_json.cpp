@@ -219,11 +219,13 @@ TEST(read_json_examples_of_the_page) {
 // The page has every key that is a keyword of a native block too.
 TEST(read_json_page_is_complete) {
     const std::string page = contentOf("ASCII/JSON.md");
-    for (const BlockType type : {BlockType::Settings, BlockType::World, BlockType::Material})
+    for (const BlockType type : {BlockType::Settings, BlockType::World, BlockType::Camera,
+                                 BlockType::Texture, BlockType::Material, BlockType::Light})
         for (const Property& row : propertiesOf(type)) {
             CHECK_INFO(page.find(cat("`", row.keyword, "`")) != std::string::npos, row.keyword);
             for (const std::string_view name : row.first.names)
-                CHECK_INFO(page.find(cat("\"", name, "\"")) != std::string::npos,
+                CHECK_INFO(page.find(cat("\"", name, "\"")) != std::string::npos ||
+                               page.find(cat("`", name, "`")) != std::string::npos,
                            row.keyword << " " << name);
         }
 }

@@ -299,8 +299,6 @@ TEST(validate_settings_and_rest) {
                "texture 't': has no 'file'");
     checkError(errorsAfter([](SceneDesc& d) { d.textures.emplace_back().file = "a\nb"; }),
                "its 'file' is not UTF-8");
-    checkError(errorsAfter([](SceneDesc& d) { d.lights[0].kind = LightDesc::Kind::Sphere; }),
-               "needs a 'radius' > 0");
     checkError(errorsAfter([](SceneDesc& d) {
                    d.objects[1].kind = ObjectDesc::Kind::Cone;
                    d.objects[1].radius = 0;

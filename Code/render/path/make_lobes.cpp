@@ -37,7 +37,7 @@ bool isSwitchedOn(LobeRow& lobe, const Switches& on) {
     if (type.isGlass() && !on.reflection) setField(lobe, "reflect_tint", {});
     if (!on.glossy && (type.isMirror() || type.isGlass()) && !setField(lobe, "roughness", {}) &&
         (type.flags & kAnswersLights) != 0)
-        lobe = {lobeNamed("mirror"), lobe.covers, false, {lobe.value[0], lobe.value[1], lobe.value[2]}};
+        lobe.kind = lobeNamed("mirror");
     return true;
 }
 

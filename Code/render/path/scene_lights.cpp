@@ -1,6 +1,7 @@
 #include "render/path/scene_lights.h"
 
 #include "base/text.h"
+#include "desc/validate.h"
 #include "light/kinds/triangle.h"
 #include "render/batch.h"
 #include "render/light_rows.h"
@@ -84,7 +85,7 @@ std::vector<std::string> SceneLights::addLamps(PathLights& lights, const Surroun
         const LightDesc& desc = desc_.lights[i];
         const LightRow row = lightRow(desc, frame_);
         if (boundsOf(row).isDark()) {
-            if (!isBlack(toRgb(desc.color)))
+            if (!isBlack(toRgb(desc.color)) && !hasNoArea(desc))
                 warnings.push_back(
                     located(source, desc.loc.offset,
                             cat("light ", desc.name,
