@@ -37,12 +37,12 @@ class Row:
     build: object
     width: int = 640
     height: int = 360
-    samples: int = 16
+    samples: int = 64
     bounces: int = 6
 
 
 SCENES = {
-    "showcase": Row(showcase, 960, 540, 32),
+    "showcase": Row(showcase, 960, 540),
     "camera_perspective": Row(scenes_cameras.camera_perspective),
     "camera_fit": Row(scenes_cameras.camera_fit, 300, 420),
     "camera_ortho": Row(scenes_cameras.camera_ortho),
@@ -60,7 +60,7 @@ SCENES = {
     "blinn": Row(scenes_surfaces.blinn),
     "textures": Row(scenes_surfaces.textures),
     "bump_normal": Row(scenes_surfaces.bump_normal),
-    "dof": Row(scenes_cameras.dof, samples=64),
+    "dof": Row(scenes_cameras.dof),
     "motion_blur": Row(scenes_cameras.motion_blur),
     "world_environment": Row(scenes_lights.world_environment),
     "transparent": Row(scenes_surfaces.transparent_scene),
@@ -83,6 +83,7 @@ def new_file(row):
     cycles.samples = row.samples
     cycles.max_bounces = cycles.glossy_bounces = cycles.transmission_bounces = row.bounces
     cycles.use_denoising = cycles.use_adaptive_sampling = False
+    cycles.caustics_reflective = cycles.caustics_refractive = False  # 64 samples are too few for them
     scene.view_settings.view_transform = "Standard"
     scene.render.dither_intensity = 0
 

@@ -73,7 +73,7 @@ def showcase():
 
     add_sphere("Steel ball", steel, 0.6, location=(0.78, 1.5, 0.6))
     add_sphere("Crystal ball", crystal, 0.36, location=(-0.3, -1.3, 0.36))
-    first = add_sphere("Orange", orange, 0.4, location=(2.62, 0.15, 0.4), rotation=(20, 30, 0))
+    first = add_sphere("Orange", orange, 0.4, shape="", location=(2.62, 0.15, 0.4), rotation=(20, 30, 0))
     add_copy(first, location=(3.25, 0.6, 0.39), rotation=(70, -40, 50), scale=0.97)
     add_torus("Doughnut", dough, 0.33, 0.15, 24, location=(-2.15, -1.1, 0.16))
     add_cylinder("Tin", brass, 0.45, 1.1, location=(-3.0, 1.9, 0))

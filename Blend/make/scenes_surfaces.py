@@ -133,7 +133,7 @@ def textures():
     for i, image in enumerate(panels):
         add_plane("Panel %d" % i, material("Panel %d" % i, diffuse(image)), (1.8, 1.8),
                   location=((i % 3 - 1) * 2.1, 0, 1.05 - i // 3 * 2.1), rotation=(90, 0, 0))
-    add_sphere("Globe", material("Globe", diffuse(Image("uv_grid.ppm", scale=(2, 1)))), 0.95,
+    add_sphere("Globe", material("Globe", diffuse(Image("uv_grid.ppm", scale=(2, 1)))), 0.95, shape="",
                location=(4.1, -0.9, 1.05), rotation=(15, 0, -60))
     add_cube("Box", material("Boards", diffuse(Image("wood.ppm"))), 1.4,
              location=(4.1, -0.9, -1.05), rotation=(20, 0, 35))
@@ -154,7 +154,7 @@ def bump_normal():
     )
     add_row(3, 2.5, lambda i, x: add_sphere(
         ("Plain", "Bump", "Normal map")[i], material("Clay %d" % i, diffuse((0.6, 0.3, 0.2), **bent[i])), 1, 48,
-        location=(x, 0, 1)))
+        shape="", location=(x, 0, 1)))
     add_softbox(620, (-6, -4, 5), size=1.5)
     add_camera((0, -9, 2.6), (0, 0, 0.95), 38)
 

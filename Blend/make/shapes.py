@@ -115,6 +115,8 @@ def arc(radius, start, end, count, center=(0, 0)):
 
 
 def add_sphere(name, material, radius=1, segments=32, **options):
+    """A round record for the exporter; shape="" where texture coordinates have to be the mesh's."""
+    options.setdefault("shape", "sphere")
     profile = [(max(r, 0.0) if abs(r) > 1e-9 else 0.0, z) for r, z in arc(radius, -90, 90, segments // 2)]
     return add_lathe(name, profile, material, segments, **options)
 

@@ -52,6 +52,6 @@ printf 'what\tparse_s\tbuild_s\trender_s\twrite_s\trays_per_s\tpeak_bytes\n'
 row ball-primary "$work/ball.txt" -i normal
 row ball-whitted "$work/ball.txt"
 row ball-ao "$work/ball.txt" -i ao
-row showcase ASCII/showcase.txt --scale 50 --spp 4
-row shapes ASCII/shapes.txt --spp 4
-row glass ASCII/glass.txt --spp 4
+row showcase ASCII/showcase.txt --scale 50 --spp 4 -i whitted
+row shapes ASCII/shapes.txt --spp 4 -i whitted
+row glass ASCII/glass.txt --spp 4 -i whitted
