@@ -6,9 +6,9 @@
 #include "light/sky/sky_table.h"
 #include "light/tree/light_bounds.h"
 #include "sample/warp.h"
+#include "sample/warps.h"
 #include "texture/environment.h"
 #include "verify/meshes.h"
-#include "warp_kit.h"
 
 #include <string>
 #include <vector>
@@ -75,7 +75,11 @@ private:
     LightRow row_;
 };
 
-inline Vec3 unitVector(meshes::Random& random) { return sphereFromSquare(random.square()); }
+inline Vec3 unitVector(meshes::Random& random) {
+    const Vec2 u = random.square();
+    const auto v = kernels::one::sphereFromSquare(u.x, u.y);
+    return {v.x.v, v.y.v, v.z.v};
+}
 
 // A flat lamp of half axes up to `size`, about a centre; its sides are perpendicular.
 template <class Row> Row flat(meshes::Random& random, Vec3 centre, float size) {
