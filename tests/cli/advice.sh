@@ -112,4 +112,23 @@ quiet 'a white background' white.txt a.png
 quiet '... of floats' white.txt a.png --bits 16
 expect 'one beyond white' 0 'are as bright as can be' white.txt a.png --background 1,1,4
 
+# Whitted pictures take samples of each lamp.
+lamps() {
+    cat scene.txt
+    i=0
+    while [ "$i" -lt "$1" ]; do
+        i=$((i + 1))
+        echo "light l$i {
+    type point
+    translate $i 0 9
+    color 0.1 0.1 0.1
+}"
+    done
+}
+lamps 100 > some.txt
+quiet 'a hundred lamps' some.txt a.png
+lamps 300 > many.txt
+expect 'three hundred' 0 'warning: this picture takes samples of each of 301 lights at every point' many.txt a.png
+quiet '... are one choice of a path' many.txt a.png --integrator path
+
 finish

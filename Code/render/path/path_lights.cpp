@@ -46,7 +46,7 @@ void PathLights::addSky(SkyTable table, std::unique_ptr<const SkyRadiance> radia
     sky_ = add({.row = {kSkyKind, {}}, .isOpen = isOpen, .isSoft = true});
 }
 
-void PathLights::finish() {
+void PathLights::makeTree() {
     std::vector<LightBounds> bounds;
     bounds.reserve(entries_.size());
     for (const Entry& entry : entries_)

@@ -42,11 +42,11 @@ public:
     // numbers are multiplied by.
     void addSky(SkyTable table, std::unique_ptr<const SkyRadiance> radiance, double brightness,
                 bool isOpen);
-    // Call once when all are there.
-    void finish();
+    // Call once when all are there and paths choose one of them for a point.
+    void makeTree();
 
     std::size_t size() const { return entries_.size(); }
-    bool isEmpty() const { return tree().lit == 0; }
+    bool isEmpty() const { return entries_.empty(); }
     const Entry& entry(std::uint32_t light) const { return entries_[light]; }
     LightTreeView tree() const { return picker_.view(); }
 

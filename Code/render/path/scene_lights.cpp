@@ -31,6 +31,9 @@ std::uint8_t seenBy(LightDesc::SeenBy by) {
     return bits;
 }
 
+// With more lights than that, Whitted pictures say what would be faster.
+constexpr std::size_t kManyLights = 256;
+
 } // namespace
 
 SceneLights::SceneLights(const SceneDesc& desc, const SceneFrame& frame,
@@ -74,7 +77,15 @@ std::vector<std::string> SceneLights::addTo(PathLights& lights, const Surroundin
         if (shining.bothSides) lights.addObject(shining.object, shining.back, light);
     }
     addTriangles(lights, around);
-    lights.finish();
+    if (isPath_)
+        lights.makeTree();
+    else if (lights.size() > kManyLights)
+        warnings.push_back(located(
+            source, 0,
+            cat("this picture takes samples of each of ", lights.size(),
+                " lights at every point; integrator path, which chooses among them, would be "
+                "faster"),
+            "warning"));
     return warnings;
 }
 
