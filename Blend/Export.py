@@ -58,7 +58,7 @@ except ImportError:
 
 VERSION = bpy.app.version  # (3, 4, 1): several units changed their meaning over time
 EXIT_ERROR, EXIT_STRICT, EXIT_FAULT = 2, 3, 3
-MAX_SAMPLES = 64  # Cycles' 4096 are for path tracing; --spp of the renderer overrides
+MAX_SAMPLES = 64  # Blender's usual 4096 take hours; --spp of the renderer overrides
 MAX_DEPTH = 16
 FORMAT_VERSION = 1
 
