@@ -70,12 +70,12 @@ struct RectangleSeen {
 };
 
 // Half axes from which on a point is far: places and directions are equally good then (the variance
-// of a sample is 2e-3 of its square at most), and places cost less.
-inline constexpr float kFarHalfAxes2 = 32.0f * 32.0f;
+// of a sample is 0.01 of its square at most), and places cost less.
+inline constexpr float kFarHalfAxes2 = 16.0f * 16.0f;
 // Solid angles below these are not divided by angles: errors of some 2^-50 (triangles, in doubles)
 // and 2^-22 (rectangles) of a right angle would show.
 inline constexpr double kLeastSolidAngle = 1e-7;
-inline constexpr float kLeastRectangle = 3e-4f;
+inline constexpr float kLeastRectangle = 0.01f;
 
 // The rectangle about a flat lamp, seen from a point.
 struct FlatSeen {
