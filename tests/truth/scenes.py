@@ -101,7 +101,7 @@ def glowing_torus():
 @scene
 def many_lights():
     middle = dict(dim=scattered(400, 0.04, (-0.5, -0.5, 0.6), (0.5, 0.5, 1.5), 1), bright=scattered(40, 0.03, (-0.5, 0, 0.9), (0, 0.5, 1.5), 2))
-    return named("many_lights", peer="cycles", what="440 glowing triangles (light tree), diffuse", **ROOM_VIEW, spp=128, peer_spp=128,
+    return named("many_lights", peer="cycles", what="440 glowing triangles (light tree), diffuse", **ROOM_VIEW, spp=512, peer_spp=128,
                  materials={"white": WHITE, "red": RED, "green": GREEN, "dim": lamp_material(2, 2, 3), "bright": lamp_material(30, 15, 5)},
                  meshes=middle, shapes=room() + [Shape("mesh", "dim", mesh="dim"), Shape("mesh", "bright", mesh="bright")])
 
