@@ -195,7 +195,7 @@ TEST(shining_surfaces_light_as_lamps_do) {
              {"plane floor {\n scale 20 20 1\n material grey\n}\n",
               "mesh dome {\npoints 4\n-20 -20 0\n20 -20 0\n20 20 0\n-20 20 0\n"
               "triangles 2\n0 1 2\n0 2 3\n"
-              "normals 4\n-0.005 -0.005 1\n0.005 -0.005 1\n0.005 0.005 1\n-0.005 0.005 1\n}\n"
+              "normals 4\n-5e-4 -5e-4 1\n5e-4 -5e-4 1\n5e-4 5e-4 1\n-5e-4 5e-4 1\n}\n"
               "instance floor {\n mesh dome\n material grey\n}\n"}) {
             const auto lamp = shot::render(cat(view, floor, pair.lamp), path(0));
             const auto surface = shot::render(cat(view, floor, material, pair.surface), path(0));

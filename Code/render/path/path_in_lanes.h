@@ -83,23 +83,19 @@ inline Floats3 shadowOrigin(const SeenPoints& at, unsigned below) {
     return select(maskOf(below), at.beneath(), at.above() + at.lift);
 }
 
-// Shadow rays to a place that a lamp has in this direction, at this distance. Lifted points see it
-// in another one: along the old one, rays would end beside it, and meet a lamp that is a surface.
+// Shadow rays to a place that a lamp has in this direction from the point, at this distance. They
+// start off the surface, and from there it is in another direction: along the old one, rays would
+// end beside it, and meet a lamp that is a surface (shining_surfaces_light_as_lamps_do).
 struct ShadowRays {
     Floats3 org, dir;
     Floats end;
 };
 inline ShadowRays shadowRays(const SeenPoints& at, unsigned below, const Floats3& toLight,
                              Floats distance, Floats end) {
-    ShadowRays rays{shadowOrigin(at, below), toLight, end};
-    const unsigned moved = at.lifted & ~below & bits(distance < Floats(1e30f)); // not suns and skies
-    if (moved == 0) return rays;
-    const Mask is = maskOf(moved);
-    const Floats3 way = toLight * distance - at.lift;
+    const Floats3 org = shadowOrigin(at, below), way = toLight * distance - (org - at.p);
     const Floats far = sqrt(dot(way, way));
-    rays.dir = select(is, way / far, toLight);
-    rays.end = select(is, end * (far / distance), end);
-    return rays;
+    const Mask isNear = distance < Floats(1e30f); // not suns and skies
+    return {org, select(isNear, way / far, toLight), select(isNear, end * (far / distance), end)};
 }
 
 // Calls fn(lanes, first, points as they are seen, frame, Bsdf) for each register of a block.
