@@ -224,8 +224,7 @@ private:
             const bool isSound =
                 lobed.add(list.lobes, list.factors, traitsOf(scene_.materials_[i]));
             // Whitted pictures may have it by short keywords: they follow rays so deep only.
-            if (!isSound &&
-                (!desc.lobes.empty() || isPath())) {
+            if (!isSound && (!desc.lobes.empty() || isPath())) {
                 lobed.scaleDown();
                 if (!isTold(desc))
                     warn(" reflects more than arrives, and is scaled to what does; weights whose "
