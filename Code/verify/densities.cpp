@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -169,14 +168,12 @@ Tally lamps(const Effort& effort) {
 
 // How far what a sample said is from what fn(its direction) says, relative. Directions are rounded
 // to floats, which moves them by 2^-24: those that much beside are as good, at borders and on lamps
-// that are seen nearly edge-on. `moved`: by how much they are moved, in radians.
-constexpr float kRounded = 0x1p-23f;
-template <class Fn>
-double offSaid(const Sample& s, float said, const Fn& fn, float moved = kRounded) {
+// that are seen nearly edge-on.
+template <class Fn> double offSaid(const Sample& s, float said, const Fn& fn) {
     const Frame frame = frameAround(s.toLight);
     float least = kInfinityF, most = 0;
     for (const Vec3 off : {Vec3{}, frame.x, frame.x * -1.0f, frame.y, frame.y * -1.0f}) {
-        const float here = fn(normalize(s.toLight + off * moved));
+        const float here = fn(normalize(s.toLight + off * 0x1p-23f));
         least = min(least, here), most = max(most, here);
     }
     // They step over slivers of less than 1e-8 sr.
@@ -256,10 +253,7 @@ Tally choices(const Effort& effort) {
 void compareLamp(const OneLight& light, Vec3 p, Random& random, Tally& tally) {
     const Sample s = light.sample(p, square(random));
     if (isBlack(s.irradiance) || s.single) return;
-    // Places on disks come from angles of some 2^-22, where the lamp fills 0.1 rad at least.
-    const bool isDisk = std::string_view(light.name()) == "disk";
-    const double density = offSaid(
-        s, s.pdf, [&](Vec3 dir) { return light.pdf(p, dir); }, isDisk ? 0x1p-19f : kRounded);
+    const double density = offSaid(s, s.pdf, [&](Vec3 dir) { return light.pdf(p, dir); });
     const double radiance =
         offSaid(s, s.irradiance.g * s.pdf, [&](Vec3 dir) { return light.meet(p, dir).radiance.g; });
     const double nearness =

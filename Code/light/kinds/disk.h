@@ -36,7 +36,7 @@ public:
         const Slice slice = sliceAt(seen, x);
         const Floats3 d = seen.wayTo(x, seen.from.placeOnLine(x, slice.y0, slice.y1, onChord));
         const Floats distance = sqrt(dot(d, d));
-        const Floats pdf = density(seen, slice, chord);
+        const Floats pdf = density(seen, x, slice);
         const SampledLight sliced =
             where(seen.byAngle & (pdf > zero), d / distance, distance * seen.scale,
                   radiance * (spreadAt(seen.from.h / distance) / pdf), pdf, noLanes());
@@ -53,13 +53,10 @@ public:
         Floats pdf = distance * distance / (area() * at.cosAtLight);
         const FlatSeen seen(*this, lengthX_, lengthY_, p);
         if (bits(seen.byAngle & isMet) != 0) {
-            const Floats zero(0.0f), one(1.0f), two(2.0f);
-            RectangleSeen left = seen.from;
-            left.x1 = min(max(left.x0 + lengthX_ / seen.scale * (one + at.x.toFloats()), left.x0),
-                          left.x1);
-            const Floats part = left.solidAngle() / seen.solidAngle; // (1 + t) / 2
-            const Floats chord = two * sqrt(max(part * (one - part), zero));
-            pdf = select(seen.byAngle, density(seen, sliceAt(seen, left.x1), chord), pdf);
+            const Floats placeX =
+                seen.from.x0 + lengthX_ / seen.scale * (Floats(1.0f) + at.x.toFloats());
+            const Floats x = min(max(placeX, seen.from.x0), seen.from.x1);
+            pdf = select(seen.byAngle, density(seen, x, sliceAt(seen, x)), pdf);
         }
         return select(isMet & (pdf < Floats(kInfinityF)), pdf, Floats(0.0f));
     }
@@ -84,9 +81,16 @@ private:
         const Floats y0 = middleY - halfChord, y1 = middleY + halfChord;
         return {y0, y1, (sine(y1) - sine(y0)) / (sine(of.y1) - sine(of.y0))};
     }
-    // Slices have a density of 4 / pi times the chord's half length.
-    static Floats density(const FlatSeen& seen, const Slice& slice, Floats chord) {
-        return chord * Floats(static_cast<float>(4 / kPi)) / (slice.part * seen.solidAngle);
+    // Slices have a density of 4 / pi times half the chord of the unit disk at t, where (1 + t) / 2
+    // is the part of the rectangle's solid angle before x.
+    static Floats density(const FlatSeen& seen, Floats x, const Slice& slice) {
+        const Floats zero(0.0f), one(1.0f), two(2.0f);
+        RectangleSeen before = seen.from;
+        before.x1 = x;
+        const Floats part = before.solidAngle() / seen.solidAngle;
+        const Floats chord = two * sqrt(max(part * (one - part), zero));
+        return max(chord * Floats(static_cast<float>(4 / kPi)) / (slice.part * seen.solidAngle),
+                   zero); // at the rim it may round below
     }
     static Mask isOn(const Place& at) {
         return at.isAhead & maskOf(atMost(at.x * at.x + at.y * at.y, Doubles(1.0)));

@@ -75,7 +75,7 @@ inline constexpr float kFarHalfAxes2 = 16.0f * 16.0f;
 // Solid angles below these are not divided by angles: errors of some 2^-50 (triangles, in doubles)
 // and 2^-22 (rectangles) of a right angle would show.
 inline constexpr double kLeastSolidAngle = 1e-7;
-inline constexpr float kLeastRectangle = 0.01f;
+inline constexpr float kLeastRectangle = 0.001f;
 
 // The rectangle about a flat lamp, seen from a point.
 struct FlatSeen {

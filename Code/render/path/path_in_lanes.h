@@ -85,7 +85,8 @@ inline Floats3 shadowOrigin(const SeenPoints& at, unsigned below) {
 
 // Shadow rays to a place that a lamp has in this direction from the point, at this distance. They
 // start off the surface, and from there it is in another direction: along the old one, rays would
-// end beside it, and meet a lamp that is a surface (shining_surfaces_light_as_lamps_do).
+// end beside it, and meet a lamp that is a surface (shining_surfaces_light_as_lamps_do). They end
+// some errors before it: in a ball that shines they lead along its surface (T23a).
 struct ShadowRays {
     Floats3 org, dir;
     Floats end;
@@ -95,7 +96,9 @@ inline ShadowRays shadowRays(const SeenPoints& at, unsigned below, const Floats3
     const Floats3 org = shadowOrigin(at, below), way = toLight * distance - (org - at.p);
     const Floats far = sqrt(dot(way, way));
     const Mask isNear = distance < Floats(1e30f); // not suns and skies
-    return {org, select(isNear, way / far, toLight), select(isNear, end * (far / distance), end)};
+    const Floats before = end * (far / distance) - Floats(8.0f) * at.error;
+    return {org, select(isNear, way / far, toLight),
+            select(isNear, max(before, Floats(0.0f)), end)};
 }
 
 // Calls fn(lanes, first, points as they are seen, frame, Bsdf) for each register of a block.
