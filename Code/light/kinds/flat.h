@@ -36,13 +36,19 @@ public:
         return select(cosAtLight > zero, select(spreadNorm_ > zero, part, one), zero);
     }
 
+    // How far a point is in front of the lamp's plane.
+    Floats heightOver(const Floats3& p) const {
+        return (Doubles(0.0) - dot(differenceOf(centre, p), doublesOf(normal))).toFloats();
+    }
+
     // The light from one place, of a lamp of this area.
     SampledLight from(const Floats3& p, const Floats3& place, Floats area, Mask single) const {
         const Floats zero(0.0f);
         const Floats3 d = place - p;
         const Floats distance2 = dot(d, d), distance = sqrt(distance2);
         const Floats3 toLight = d / distance;
-        const Floats cosAtLight = zero - dot(toLight, normal);
+        // All places are as high above the point: rounding shows where the lamp is seen edge-on.
+        const Floats cosAtLight = heightOver(p) / distance;
         const Floats3 irradiance =
             radiance * area * (spreadAt(cosAtLight) * cosAtLight / distance2);
         const Floats pdf = select(single, zero, distance2 / (area * cosAtLight));

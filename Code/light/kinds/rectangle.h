@@ -89,9 +89,8 @@ struct FlatSeen {
         : x(lamp.halfX / lengthX), y(lamp.halfY / lengthY), normal(lamp.normal), from{},
           scale(0.0f), solidAngle(0.0f), byAngle(noLanes()) {
         const Floats zero(0.0f);
-        const Doubles3 wide = differenceOf(lamp.centre, p);
-        const Floats height = (Doubles(0.0) - dot(wide, doublesOf(lamp.normal))).toFloats();
-        const Floats3 d = Floats3::of(wide);
+        const Floats height = lamp.heightOver(p);
+        const Floats3 d = lamp.centre - p;
         const Floats distance2 = dot(d, d);
         // Sides that are not perpendicular have places only.
         const Mask isNear =
