@@ -172,12 +172,13 @@ Tally lamps(const Effort& effort) {
 template <class Fn> double offSaid(const Sample& s, float said, const Fn& fn) {
     const Frame frame = frameAround(s.toLight);
     float least = kInfinityF, most = 0;
-    for (const Vec3 off : {Vec3{}, frame.x, frame.x * -1.0f, frame.y, frame.y * -1.0f}) {
-        const float here = fn(normalize(s.toLight + off * 0x1p-23f));
-        least = min(least, here), most = max(most, here);
-    }
-    // They step over slivers of less than 1e-8 sr.
-    if (least == 0 && s.pdf > 1e8f) return 0;
+    for (const float step : {0.0f, 0x1p-24f, 0x1p-23f})
+        for (const Vec3 off : {frame.x, frame.x * -1.0f, frame.y, frame.y * -1.0f}) {
+            const float here = fn(normalize(s.toLight + off * step));
+            least = min(least, here), most = max(most, here);
+        }
+    // They step over slivers of less than 1e-5 sr, or onto few places of them.
+    if (least == 0 && s.pdf > 1e5f) return 0;
     return static_cast<double>(max(max(least / said - 1, 1 - most / said), 0.0f));
 }
 
