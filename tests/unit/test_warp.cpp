@@ -150,7 +150,7 @@ TEST(warp_frame) {
     directions.back() = {1, 0, -0.0f};
     for (int i = 0; i < 20000; ++i) {
         directions.push_back(sphereFromSquare(draw.square()));
-        const Vec3 cap = coneFromSquare(draw.square(), 1e-7);
+        const Vec3 cap = coneFromSquare(draw.square(), 1e-7f);
         directions.push_back({cap.x, cap.y, -cap.z});
     }
     for (const Vec3 z : directions) {

@@ -211,7 +211,7 @@ private:
         wave_.counts.shadow += lamp.rays;
         if (!entry.isPlace || !(origins.place == entry.place)) origins = {entry.place, 0};
         if (entry.isPlace && origins.count < to) {
-            std::fill(rays.org.begin() + origins.count, rays.org.begin() + to, entry.place);
+            std::fill_n(rays.org.data() + origins.count, to - origins.count, entry.place);
             origins.count = to;
         }
         if (!scene_.moves()) return; // all times are 0, as they are in new arrays
