@@ -15,8 +15,8 @@
 
 namespace chi2 {
 
-// Of the sum of squares from its mean, as a normal variate (Wilson and Hilferty 1931): above 5 once
-// in 3e6. Cells in which fewer than 8 are expected are put together.
+// `deviation` says how far the sum of squares is from its mean, as a normal variate (Wilson and
+// Hilferty 1931): above 5 once in 3e6. Cells in which fewer than 8 are expected are put together.
 struct Deviation {
     double deviation;
     std::size_t cells;

@@ -250,7 +250,7 @@ Tally choices(const Effort& effort) {
     });
 }
 
-// The same of a lamp, whose radiance is met along the direction, too.
+// Compares the answers of a lamp, whose radiance is met along the direction, too.
 void compareLamp(const OneLight& light, Vec3 p, Random& random, Tally& tally) {
     const Sample s = light.sample(p, square(random));
     if (isBlack(s.irradiance) || s.single) return;
@@ -265,7 +265,7 @@ void compareLamp(const OneLight& light, Vec3 p, Random& random, Tally& tally) {
     if (s.distance < kInfinityF) tally.measure(nearness, text);
 }
 
-// The same of lobes, whose weights are what eval() says over the density.
+// Compares the answers of lobes, whose weights are what eval() says over the density.
 void compareLobe(std::uint32_t kind, Random& random, Tally& tally) {
     const lobe_kit::Case c = lobe_kit::anyCase(kind, random);
     const auto toEye = lobe_kit::direction(random.uniform(1e-3, 1), random.uniform(0, kTwoPi));

@@ -60,7 +60,8 @@ Tally whiteSky(const Effort& effort) {
     });
 }
 
-// Of a highlight seen straight on, with a = angle of the half vector and n the exponent.
+// Returns the albedo of a highlight seen straight on, with a = angle of the half vector and n the
+// exponent.
 double albedoStraightOn(const Case& c) {
     const double n = static_cast<double>(c.numbers[0]);
     const auto above = [](double power) { return 1 - std::exp2(-power / 2); }; // a < 45 degrees

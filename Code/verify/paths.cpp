@@ -51,7 +51,7 @@ LobeDesc lobe(const char* name, double weight, double roughness = 0) {
     return desc;
 }
 
-// Of each pixel, from pictures of several seeds.
+// Holds mean and error of each pixel, from pictures of several seeds.
 struct Pixels {
     std::vector<double> sum, squares;
     int seeds = 0;
@@ -67,7 +67,7 @@ struct Pixels {
         }
     }
     double mean(std::size_t i) const { return sum[i] / seeds; }
-    // Of a picture of one seed.
+    // Returns the variance of a pixel between pictures of one seed each.
     double variance(std::size_t i) const {
         return max(squares[i] - sqr(sum[i]) / seeds, 0.0) / (seeds - 1);
     }

@@ -31,7 +31,7 @@ std::uint8_t seenBy(LightDesc::SeenBy by) {
     return bits;
 }
 
-// With more lights than that, Whitted pictures say what would be faster.
+// Whitted pictures with more lights than that get a warning that says what would be faster.
 constexpr std::size_t kManyLights = 256;
 
 } // namespace
