@@ -1,6 +1,6 @@
 // The program: arguments in, exit code out. The only place that catches and prints errors.
 #include "base/error.h"
-#include "cli/run.h"
+#include "cli/command.h"
 
 #include <cstdio>
 #include <exception>

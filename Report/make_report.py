@@ -222,7 +222,7 @@ EXACT = [
      "SceneDesc of plain data; the quirks of each format end in its reader. --convert writes any of them as native "
      "text that renders to the same bits. Readers are fuzzed under sanitizers, and say file, line, column, what is "
      "wrong and what would be right."),
-    ("The scene, normalised once", "render/scene.h",
+    ("The scene, normalised once", "scene/scene.h",
      "Everything is placed in double, moved by the centre of the scene and scaled by a power of two so that its "
      "extent lies in [1, 2), and only then becomes float. A scene far from the origin, or of any size, renders "
      "alike. After that the scene does not change."),

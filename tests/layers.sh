@@ -1,8 +1,8 @@
 #!/bin/sh
 # Includes point down only (Code/README.md, "The folders"):
 #   base <- image, desc <- read          base, simd <- image <- the folders of one thing each
-#   all of them <- render <- verify <- cli <- main
-# The units of isa/ hold the kernels of accel/ and render/; isa/isa.h, which includes nothing of the
+#   all of them <- scene <- film <- integrate <- render <- verify <- cli <- main
+# The units of isa/ hold the kernels of accel/, texture/, camera/ and integrate/; isa/isa.h, which includes nothing of the
 # project, says what they do, and everything above base/ may include it.
 # A folder includes itself and what is below it, never its neighbours in a row but for two: a mesh is
 # a shape with a tree of its own, and lights, lenses and materials spread their samples.
@@ -15,16 +15,19 @@ allowedFor() {
     case $1 in
     base) echo base ;;
     simd) echo base simd ;;
-    isa) echo base simd isa image $siblings render ;;
+    isa) echo base simd isa image $siblings scene film integrate ;;
     image) echo base image ;;
     desc) echo base desc material ;;
     read) echo base desc image read ;;
     accel | sample | texture) echo base simd isa image "$1" ;;
     shape) echo base isa image shape accel ;;
     material | light | camera) echo base simd image "$1" sample ;;
-    render) echo base simd isa image desc $siblings render ;;
-    verify) echo base isa image desc $siblings render verify ;;
-    cli) echo base isa image desc read $siblings render verify cli ;;
+    scene) echo base isa image desc $siblings scene ;;
+    film) echo base image scene film ;;
+    integrate) echo base simd isa image desc $siblings scene film integrate ;;
+    render) echo base simd isa image desc $siblings scene film integrate render ;;
+    verify) echo base isa image desc $siblings scene film integrate render verify ;;
+    cli) echo base isa image desc read $siblings scene film integrate render verify cli ;;
     main) echo base cli ;;
     esac
 }
@@ -84,12 +87,12 @@ fi
 
 # Only what turns a description into a scene names the concrete shapes and lights.
 wrong=$(grep -ln '#include "\(shape\|light\)/\(sphere\|cube\|plane\|disk\|cylinder\|cone\|infinite_plane\|point_light\|sun_light\|area_light\)\.h"' \
-    render/*.cpp render/*.h cli/* | grep -v -e '^render/scene\.cpp$' -e '^render/make_[a-z]*\.cpp$')
+    scene/* film/* integrate/* render/* cli/* | grep -v -e '^scene/scene\.cpp$' -e '^scene/make_[a-z]*\.cpp$')
 if [ -z "$wrong" ]; then
-    printf 'ok only render/scene.cpp and make_*.cpp name concrete shapes and lights\n'
+    printf 'ok only scene/scene.cpp and make_*.cpp name concrete shapes and lights\n'
     passed=$((passed + 1))
 else
-    printf 'FAIL only render/scene.cpp and make_*.cpp name concrete shapes and lights: %s\n' "$wrong"
+    printf 'FAIL only scene/scene.cpp and make_*.cpp name concrete shapes and lights: %s\n' "$wrong"
     failed=$((failed + 1))
 fi
 

@@ -1,7 +1,7 @@
 // An empty folder for one test, removed at its end.
 #pragma once
 
-#include "base/platform/files.h"
+#include "base/platform/platform.h"
 #include "base/text.h"
 
 #include <filesystem>

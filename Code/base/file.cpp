@@ -1,8 +1,8 @@
-#include "base/file.h"
+#include "base/file_text.h"
 
 #include "base/error.h"
 #include "base/for_each.h"
-#include "base/platform/files.h"
+#include "base/platform/platform.h"
 #include "base/text.h"
 
 #include <algorithm>

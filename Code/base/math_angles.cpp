@@ -1,5 +1,5 @@
 // The functions of math.h that have to do with angles.
-#include "base/atan_table.h"
+#include "base/function_tables.h"
 #include "base/math.h"
 #include "base/rounder.h"
 

@@ -1,7 +1,7 @@
 // The functions of math.h that have to do with powers.
 #include "base/double_double.h"
 #include "base/math.h"
-#include "base/pow_tables.h"
+#include "base/function_tables.h"
 #include "base/rounder.h"
 
 #include <array>

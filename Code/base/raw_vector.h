@@ -3,7 +3,7 @@
 // there are some: the first touch of each 4 KB otherwise is half of what building a tree costs.
 #pragma once
 
-#include "base/platform/memory.h"
+#include "base/platform/platform.h"
 
 #include <cstddef>
 #include <cstdlib>

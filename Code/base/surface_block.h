@@ -1,7 +1,7 @@
 // SurfaceBlock: the surfaces at sixteen points, component by component, as lanes want them.
 #pragma once
 
-#include "base/hit.h"
+#include "base/ray.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 #include "cli/output.h"
 #include "cli/stats_output.h"
 #include "image/colour.h"
-#include "render/encoding.h"
+#include "scene/settings.h"
 
 #include <algorithm>
 #include <array>

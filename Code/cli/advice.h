@@ -3,7 +3,7 @@
 #pragma once
 
 #include "render/render.h"
-#include "render/settings.h"
+#include "scene/settings.h"
 
 #include <cstddef>
 #include <optional>

@@ -1,9 +1,6 @@
 #include "cli/command.h"
 
-#include "cli/diff.h"
-#include "cli/help.h"
 #include "cli/output.h"
-#include "cli/verify.h"
 
 #include <algorithm>
 #include <array>

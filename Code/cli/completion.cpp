@@ -1,6 +1,5 @@
-#include "cli/completion.h"
-
 #include "cli/command.h"
+
 #include "cli/options.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "cli/diff.h"
+#include "cli/command.h"
 
 #include "base/error.h"
 #include "base/text.h"

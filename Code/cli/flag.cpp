@@ -1,7 +1,7 @@
 #include "cli/flag.h"
 
 #include "base/error.h"
-#include "cli/synonyms.h"
+#include "cli/command.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -1,8 +1,6 @@
-#include "cli/help.h"
+#include "cli/command.h"
 
-#include "cli/exit_codes.h"
 #include "cli/options.h"
-#include "cli/version.h"
 
 #include <algorithm>
 #include <sstream>

@@ -1,10 +1,10 @@
-#include "cli/info.h"
+#include "cli/output.h"
 
-#include "base/platform/memory.h"
+#include "base/platform/platform.h"
 #include "base/text.h"
 #include "desc/enum_tables.h"
 #include "desc/lobes.h"
-#include "render/texture_files.h"
+#include "scene/texture_files.h"
 
 #include <algorithm>
 #include <array>

@@ -1,8 +1,8 @@
 #include "cli/interrupt.h"
 
-#include "base/file.h"
-#include "base/platform/signals.h"
-#include "cli/exit_codes.h"
+#include "base/file_text.h"
+#include "base/platform/platform.h"
+#include "cli/command.h"
 
 namespace {
 

@@ -1,10 +1,9 @@
 #include "cli/messages.h"
 
-#include "base/platform/terminal.h"
+#include "base/platform/platform.h"
 #include "base/text.h"
 #include "cli/advice.h"
 #include "cli/output.h"
-#include "cli/preview.h"
 #include "cli/stats_output.h"
 
 #include <bit>

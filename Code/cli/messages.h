@@ -5,9 +5,9 @@
 #include "cli/options.h"
 #include "cli/stats_output.h"
 #include "render/render.h"
-#include "render/scene.h"
-#include "render/settings.h"
-#include "render/stats.h"
+#include "scene/scene.h"
+#include "scene/settings.h"
+#include "scene/stats.h"
 
 #include <string>
 #include <string_view>

@@ -3,7 +3,7 @@
 
 #include "base/enum_names.h"
 #include "cli/options.h"
-#include "render/settings.h"
+#include "scene/settings.h"
 
 template <>
 inline constexpr auto kEnumNames<AccelKind> =

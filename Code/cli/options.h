@@ -5,7 +5,7 @@
 #include "cli/flag.h"
 #include "desc/scene_desc.h"
 #include "read/read_context.h"
-#include "render/settings.h"
+#include "scene/settings.h"
 
 #include <array>
 #include <cstdint>

@@ -2,12 +2,12 @@
 
 #include "base/enum_names.h"
 #include "base/error.h"
-#include "base/file.h"
+#include "base/file_text.h"
 #include "base/math.h"
-#include "base/platform/files.h"
+#include "base/platform/platform.h"
 #include "cli/method_names.h"
-#include "image/exr.h"
-#include "render/encoding.h"
+#include "image/formats.h"
+#include "scene/settings.h"
 
 #include <cctype>
 #include <cerrno>

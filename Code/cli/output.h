@@ -1,10 +1,13 @@
 // Where pictures go: names of files, whether they can be written, and writing them.
 #pragma once
 
+#include "base/source.h"
 #include "cli/options.h"
+#include "desc/scene_desc.h"
 #include "image/image.h"
 #include "render/render.h"
-#include "render/settings.h"
+#include "scene/scene.h"
+#include "scene/settings.h"
 
 #include <span>
 #include <string>
@@ -50,3 +53,20 @@ bool needsOnlyCodes(const RenderSettings& settings, const Options& options,
 // writes a PPM to stdout.
 void writePicture(Picture picture, const RenderSettings& settings, const Options& options,
                   const std::string& output);
+
+// A picture as text for a terminal: two pixels per cell, by the upper half block and 24-bit
+// colours.
+
+// At most `columns` wide and `rows` high, the shape of the picture kept; every cell is the mean of
+// the pixels below it. Cells are taken as twice as high as wide.
+std::string previewText(const Image& image, int columns, int rows);
+
+// What a scene contains, for --info and --check.
+
+// Several lines: picture, cameras, counts per kind, triangles, bounds, lights with units, textures
+// with sizes, features, memory. Fails when a texture cannot be read.
+std::string infoText(const SourceFile& source, const SceneDesc& desc,
+                     const RenderSettings& settings, const Scene& scene);
+
+// "12 objects, 3 lights, 4 materials, 34567 triangles": the same in one line.
+std::string summaryText(const SceneDesc& desc);

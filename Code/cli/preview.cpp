@@ -1,4 +1,4 @@
-#include "cli/preview.h"
+#include "cli/output.h"
 
 #include "base/text.h"
 #include "image/colour.h"

@@ -1,5 +1,5 @@
 // The table of options of `raytracer SCENE [OUTPUT]`: a new option is a new row here.
-#include "cli/choose_kernel.h"
+#include "cli/settings_from.h"
 #include "cli/option_setters.h"
 #include "cli/options.h"
 

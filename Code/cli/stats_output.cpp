@@ -1,7 +1,7 @@
 #include "cli/stats_output.h"
 
 #include "base/text.h"
-#include "cli/version.h"
+#include "cli/command.h"
 
 #include <algorithm>
 #include <cmath>

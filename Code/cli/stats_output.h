@@ -1,7 +1,7 @@
 // The counters of a render as a table for people and as JSON for programs.
 #pragma once
 
-#include "render/stats.h"
+#include "scene/stats.h"
 
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-#include "cli/synonyms.h"
+#include "cli/command.h"
 
 namespace {
 

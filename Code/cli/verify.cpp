@@ -1,10 +1,9 @@
-#include "cli/verify.h"
+#include "cli/command.h"
 
-#include "base/file.h"
+#include "base/file_text.h"
 #include "base/parallel.h"
 #include "base/text.h"
 #include "cli/output.h"
-#include "cli/version.h"
 #include "verify/report.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include "base/source.h"
 #include "desc/enum_tables.h"
-#include "desc/error_list.h"
+#include "desc/validate.h"
 #include "desc/names.h"
 #include "desc/properties.h"
 #include "desc/scene_desc.h"

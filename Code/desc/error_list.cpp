@@ -1,4 +1,4 @@
-#include "desc/error_list.h"
+#include "desc/validate.h"
 
 #include "base/text.h"
 

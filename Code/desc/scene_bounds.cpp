@@ -1,6 +1,6 @@
-#include "desc/scene_bounds.h"
+#include "desc/validate.h"
 
-#include "base/affine.h"
+#include "base/transform.h"
 #include "base/for_each.h"
 
 #include <optional>

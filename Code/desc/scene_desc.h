@@ -1,5 +1,5 @@
 // SceneDesc: what a scene file says, as plain data in double precision. Every reader makes one,
-// --convert writes one, render/scene.cpp turns one into something that can be traced.
+// --convert writes one, scene/scene.cpp turns one into something that can be traced.
 // Knows nothing about tracing. Defaults live here, so that a missing line means the same in every
 // format. Lengths are in scene units (metres), angles in degrees as written, light is linear RGB.
 #pragma once

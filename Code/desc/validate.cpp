@@ -3,11 +3,9 @@
 #include "base/for_each.h"
 #include "base/text.h"
 #include "desc/check_block.h"
-#include "desc/error_list.h"
 #include "desc/lobes.h"
 #include "desc/names.h"
 #include "desc/same_names.h"
-#include "desc/scene_bounds.h"
 
 #include <algorithm>
 #include <cmath>

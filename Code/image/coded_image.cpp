@@ -1,6 +1,6 @@
 #include "image/coded_image.h"
 
-#include "base/file.h"
+#include "base/file_text.h"
 #include "image/formats.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "image/bits.h"
-#include "image/exr.h"
+#include "image/formats.h"
 #include "image/exr_blocks.h"
 #include "image/exr_half.h"
 

@@ -4,7 +4,7 @@
 #include "base/for_each.h"
 #include "base/text.h"
 #include "image/bits.h"
-#include "image/exr.h"
+#include "image/formats.h"
 #include "image/exr_blocks.h"
 #include "image/exr_half.h"
 #include "image/zlib.h"

@@ -1,5 +1,5 @@
 // Reads the scanlines of a Radiance HDR picture (RGBE): flat, and both run-length codes.
-#include "image/hdr.h"
+#include "image/formats.h"
 
 #include "base/error.h"
 #include "base/text.h"

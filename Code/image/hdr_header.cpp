@@ -2,7 +2,7 @@
 // resolution with the order of the pixels.
 #include "base/error.h"
 #include "base/text.h"
-#include "image/hdr.h"
+#include "image/formats.h"
 
 #include <algorithm>
 #include <string_view>

@@ -1,14 +1,10 @@
 #include "image/image.h"
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/file_text.h"
 #include "base/text.h"
 #include "image/colour.h"
-#include "image/exr.h"
 #include "image/formats.h"
-#include "image/hdr.h"
-#include "image/jpeg.h"
-#include "image/tga.h"
 
 #include <algorithm>
 #include <array>

@@ -1,7 +1,7 @@
 // Reads JPEG: the segments of a file one after the other (ITU-T T.81, annex B), up to the pixels.
 #include "base/error.h"
 #include "base/text.h"
-#include "image/jpeg.h"
+#include "image/formats.h"
 #include "image/jpeg_parts.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "base/for_each.h"
-#include "base/in_order.h"
+#include "base/parallel.h"
 #include "image/formats.h"
 
 #include <algorithm>

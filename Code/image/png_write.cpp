@@ -1,6 +1,6 @@
 // Writes PNG: 8- or 16-bit RGB, filtered row by row, packed by zlib.h.
 #include "base/for_each.h"
-#include "base/in_order.h"
+#include "base/parallel.h"
 #include "image/png.h"
 #include "image/zlib.h"
 

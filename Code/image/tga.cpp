@@ -1,5 +1,5 @@
 // Reads TGA: the header, the colour map, and pixels as they are or run-length encoded.
-#include "image/tga.h"
+#include "image/formats.h"
 
 #include "base/error.h"
 #include "base/text.h"

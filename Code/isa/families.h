@@ -11,10 +11,9 @@
 #include "accel/kernels/surface_lanes.h"
 #include "accel/kernels/triangle_surfaces_in_lanes.h"
 #include "isa/isa.h"
-#include "render/lens_in_lanes.h"
-#include "render/waves/environment_in_lanes.h"
-#include "render/waves/picture_lanes.h"
-#include "render/waves/texture_in_lanes.h"
+#include "camera/lens_in_lanes.h"
+#include "texture/texel_lanes.h"
+#include "texture/picture_lanes.h"
 
 LANES_BEGIN
 

@@ -26,9 +26,9 @@ struct Isa {
     const SolidKernel* solids = nullptr;                // accel/kernels/solids.h
     const PlacedKernel* placed = nullptr;               // accel/kernels/placed.h
     const SurfaceLanes* surfaces = nullptr;             // accel/kernels/surface_lanes.h
-    const PictureLanes* pictures = nullptr;             // render/waves/picture_lanes.h
-    const CameraLanes* camera = nullptr;                // render/lens_lanes.h
-    const ShadingKernel* shading = nullptr;             // render/path/shading_kernel.h
+    const PictureLanes* pictures = nullptr;             // texture/picture_lanes.h
+    const CameraLanes* camera = nullptr;                // camera/lens_lanes.h
+    const ShadingKernel* shading = nullptr;             // integrate/shading_kernel.h
     const kernels::build::TreeBuilder* build = nullptr; // accel/kernels/build/build.h
 };
 

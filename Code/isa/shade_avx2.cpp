@@ -2,7 +2,7 @@
 #if defined(__x86_64__)
 #define LANES_AVX2
 #include "isa/instances.h"
-#include "render/path/shading_in_lanes.h"
+#include "integrate/shading_in_lanes.h"
 
 constexpr ShadingKernel kAvx2Shading = kernels::avx2::kShading;
 #endif

@@ -1,5 +1,5 @@
 // One lane, for every machine: the instance of the formulas of shading that is the scalar code.
 #include "isa/instances.h"
-#include "render/path/shading_in_lanes.h"
+#include "integrate/shading_in_lanes.h"
 
 constexpr ShadingKernel kOneShading = kernels::one::kShading;

@@ -2,7 +2,7 @@
 #if defined(__x86_64__)
 #define LANES_SSE
 #include "isa/instances.h"
-#include "render/path/shading_in_lanes.h"
+#include "integrate/shading_in_lanes.h"
 
 constexpr ShadingKernel kSseShading = kernels::sse::kShading;
 #endif

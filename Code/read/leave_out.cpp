@@ -1,4 +1,4 @@
-#include "read/leave_out.h"
+#include "read/load.h"
 
 #include "base/text.h"
 #include "desc/check_block.h"

@@ -1,11 +1,9 @@
 #include "read/load.h"
 
-#include "base/file.h"
+#include "base/file_text.h"
 #include "base/text.h"
 #include "desc/validate.h"
 #include "read/json/read_json.h"
-#include "read/leave_out.h"
-#include "read/mesh_files.h"
 #include "read/nff/read_nff.h"
 #include "read/txt/read_txt.h"
 

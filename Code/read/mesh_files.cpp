@@ -1,14 +1,12 @@
-#include "read/mesh_files.h"
+#include "read/load.h"
 
-#include "base/file.h"
+#include "base/file_text.h"
 #include "base/for_each.h"
 #include "base/text.h"
 #include "desc/names.h"
-#include "read/leave_out.h"
 #include "read/mesh/mesh_file.h"
-#include "read/mesh/mesh_scene.h"
 #include "read/mesh/read_mtl.h"
-#include "read/mesh/smooth_normals.h"
+#include "read/mesh/mesh_steps.h"
 
 #include <algorithm>
 #include <array>

@@ -1,5 +1,7 @@
 #include "render/camera_rays.h"
 
+#include "sample/dimensions.h"
+
 #include <algorithm>
 #include <optional>
 
@@ -183,7 +185,7 @@ void CameraRays::setConstants(SampleChunk& chunk) const {
         rays.sample[i] = static_cast<std::uint32_t>(i);
         rays.weight[i] = {1, 1, 1};
         rays.medium[i] = context_.cameraMedium;
-        rays.seesLights[i] = PathBatch::kSeesAsCamera;
+        rays.seesLights[i] = PathLights::kSeesAsCamera;
         rays.tMax[i] = kInfinityF;
         rays.time[i] = 0.5f; // what stands still looks the same at any time
     }

@@ -1,9 +1,10 @@
 // CameraRays: the samples of a tile, and the rays that they send into the scene.
 #pragma once
 
-#include "render/integrator.h"
-#include "render/lens_lanes.h"
-#include "render/tile.h"
+#include "camera/lens_lanes.h"
+#include "film/tile.h"
+#include "integrate/context.h"
+#include "integrate/samples.h"
 #include "sample/filter.h"
 
 #include <array>

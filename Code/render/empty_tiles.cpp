@@ -47,7 +47,7 @@ EmptyTiles::EmptyTiles(const IntegratorContext& context, const CameraRays& rays)
     const ShapeSet& shapes = context.scene.shapes();
     canTell_ = context.settings.specialise && context.scene.environment() == nullptr &&
                shapes.unbounded.empty() && shapes.distant.empty() &&
-               (context.scene.pathLights().unshapedSeenBy() & PathBatch::kSeesAsCamera) == 0 &&
+               (context.scene.pathLights().unshapedSeenBy() & PathLights::kSeesAsCamera) == 0 &&
                !camera_.hasLens() && !camera_.isMoving();
     if (!canTell_) return;
     const bool areFew = shapes.bounded.size() <= kMostBoxes;

@@ -1,10 +1,10 @@
 #include "render/render.h"
 
 #include "base/parallel.h"
-#include "render/canvas.h"
-#include "render/encoding.h"
-#include "render/goal_film.h"
+#include "film/canvas.h"
+#include "film/goal_film.h"
 #include "render/tile_sampler.h"
+#include "scene/settings.h"
 
 #include <algorithm>
 #include <atomic>

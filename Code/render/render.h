@@ -5,8 +5,8 @@
 #include "base/function_ref.h"
 #include "image/coded_image.h"
 #include "image/image.h"
-#include "render/settings.h"
-#include "render/stats.h"
+#include "scene/settings.h"
+#include "scene/stats.h"
 
 #include <atomic>
 #include <vector>

@@ -1,8 +1,5 @@
 #include "render/tile_sampler.h"
 
-#include "render/path/path.h"
-#include "render/path/whitted.h"
-
 #include <algorithm>
 #include <cstring>
 

@@ -2,11 +2,11 @@
 // whitted.cpp and first_hit.cpp. Threads share it, each with a worker of its own.
 #pragma once
 
+#include "film/film.h"
+#include "film/film_units.h"
+#include "integrate/integrator.h"
 #include "render/camera_rays.h"
 #include "render/empty_tiles.h"
-#include "render/film.h"
-#include "render/film_units.h"
-#include "render/integrator.h"
 
 #include <atomic>
 #include <cstdint>

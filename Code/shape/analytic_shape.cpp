@@ -4,7 +4,7 @@ namespace {
 
 constexpr double kFloatUlp = 0x1p-24; // half an ulp, relative: error of one rounding to float
 
-// The scene has its extent in [1,2) and its centre at 0 (render/scene.h): how far a ray can run
+// The scene has its extent in [1,2) and its centre at 0 (scene/scene.h): how far a ray can run
 // along a surface without end before nothing is left to be seen.
 constexpr double kSceneReach = 4;
 

@@ -11,7 +11,7 @@
 #include <cstdint>
 #include <vector>
 
-// What stands still in a scene is within [-1,1] (render/frame.h). The pads of the canonical hit
+// What stands still in a scene is within [-1,1] (scene/frame.h). The pads of the canonical hit
 // follow from that, not from the points of one mesh: how a scene is cut into meshes must not show.
 inline constexpr float kSceneExtent = 1;
 

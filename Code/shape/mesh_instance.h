@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-// A mirror turns triangles over: then two corners change places, as in a copy (render/merge.cpp).
+// A mirror turns triangles over: then two corners change places, as in a copy (scene/merge.cpp).
 inline TriangleCorners placedCorners(const Transform::Rows& sceneFromObject, bool mirrors,
                                      const Vec3d& a, const Vec3d& b, const Vec3d& c) {
     TriangleCorners v{placedPoint(sceneFromObject, a), placedPoint(sceneFromObject, b),

@@ -1,8 +1,8 @@
 // Shape: the interface between geometry and everything else. One file per shape beside this one;
-// to add one, derive, add it to render/make_shape.cpp and the tables of desc/, and write its test.
+// to add one, derive, add it to scene/make_shape.cpp and the tables of desc/, and write its test.
 // Shapes know rays and transforms; they never see materials, lights or the scene.
 //
-// World space here is the scene's normalised space (render/scene.h). Shapes compute in double in
+// World space here is the scene's normalised space (scene/scene.h). Shapes compute in double in
 // their own object space: the ray's floats are taken as exact, so that a hit depends on nothing but
 // the ray and the shape.
 #pragma once
@@ -11,9 +11,7 @@
 #include "accel/solid_form.h"
 #include "base/bounds.h"
 #include "base/function_ref.h"
-#include "base/hit.h"
 #include "base/ray.h"
-#include "base/ray_span.h"
 #include "base/surface_block.h"
 
 #include <array>

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "accel/triangle.h"
-#include "base/hit.h"
+#include "base/ray.h"
 
 #include <array>
 #include <cstdint>

@@ -4,7 +4,7 @@
 
 #include "simd/vectors3.h"
 #include "base/math.h"
-#include "base/pow_tables.h"
+#include "base/function_tables.h"
 #include "simd/lanes.h"
 
 #include <bit>

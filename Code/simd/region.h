@@ -5,7 +5,7 @@
 // share with other units is compiled without these instructions.
 #pragma once
 
-#include "base/target.h"
+#include "base/cpu.h"
 
 #if defined(LANES_AVX512)
 #define LANES_BEGIN                                                                                \

@@ -1,11 +1,83 @@
-// Texture: a picture over the uv coordinates of a surface.
-// Row 0 of the file is the top; v goes up, (0,0) is the lower left corner of the picture.
+// Texture: a picture over the uv coordinates of a surface, and TexelGrid, the numbers of pictures.
 #pragma once
 
-#include "texture/byte_texture.h"
+#include "image/image.h"
 
+#include <cstdint>
 #include <optional>
+#include <span>
 
+enum class Extension { Repeat, Extend, Clip };
+enum class Interpolation { Bilinear, Nearest };
+// How a file's whole numbers encode light. Float files are always linear.
+enum class ColorSpace { Srgb, Linear };
+
+// A TexelGrid of 8-bit numbers as plain data, and the extensions that it is read with: lanes look
+// up many points at once.
+struct ByteTexels {
+    std::span<const std::uint8_t> bytes;
+    int width = 0, height = 0, channels = 0;
+    bool isSrgb = false, isNearest = false;
+    bool asksAlpha = false; // instead of the colour: three times the alpha
+    Extension extensionS{}, extensionT{};
+};
+
+// TexelGrid: the stored numbers of a picture, read between its texels. Texture and Environment say
+// where; what is outside is the extension's business. Knows nothing about uv maps or directions.
+class TexelGrid {
+public:
+    // Fails (ErrorKind::Input) when the picture's numbers do not fill its rectangle.
+    TexelGrid(StoredImage image, ColorSpace space, Interpolation interpolation);
+
+    int width() const { return image_.width; }
+    int height() const { return image_.height; }
+    const StoredImage& image() const { return image_; }
+    bool isSrgb() const { return isSrgb_; }
+    bool isNearest() const { return isNearest_; }
+
+    // s from left to right, t from BOTTOM to top, both 0..1 over the picture; any number is safe.
+    // Bilinear: x = s width - 1/2 between the centres of texels. Numbers are filtered as they are
+    // stored and decoded to linear afterwards: this is what Cycles does with 8-bit sRGB (decoding
+    // first is off by 0.23 on black/white edges), and 16-bit files look the same as 8-bit ones.
+    // Clip: everything outside is transparent black.
+    // Between texels of different alpha each counts as much as it covers, as in a picture whose
+    // colours are multiplied by alpha, filtered, and divided by it: what is transparent has no
+    // colour that could be seen at the edge of a cut-out. Where nothing covers, colours are mixed
+    // as they are.
+    Rgb color(double s, double t, Extension extensionS, Extension extensionT) const;
+    // Never encoded, and transparency does not darken the colour; 1 without an alpha channel.
+    float alpha(double s, double t, Extension extensionS, Extension extensionT) const;
+
+    // The same numbers as plain data, valid as long as this; empty unless they are bytes.
+    std::optional<ByteTexels> bytes(Extension extensionS, Extension extensionT) const;
+
+private:
+    // Texels that a coordinate falls between; kOutside for none.
+    struct Tap {
+        int lo, hi;
+        double weight; // of hi
+    };
+    static constexpr int kOutside = -1;
+    Tap tap(double s, int size, Extension extension) const;
+    // fn(unit, covering): unit(i) is number i of the texels, mixed, as a part of the largest;
+    // kOpaque stands for the alpha of pictures without one. covering(i) is the same of a colour, by
+    // alpha.
+    static constexpr int kOpaque = -1;
+    int alphaNumber() const { return image_.channels % 2 == 0 ? image_.channels - 1 : kOpaque; }
+    template <class Fn> auto mixedAt(const Tap& x, const Tap& y, Fn&& fn) const;
+
+    StoredImage image_;
+    bool isSrgb_, isNearest_;
+};
+
+// A Texture of 8-bit numbers, and where it is looked up: (sFromU u + sFromV v) + offsetS, t
+// likewise.
+struct ByteTexture {
+    ByteTexels texels;
+    double sFromU = 0, sFromV = 0, tFromU = 0, tFromV = 0, offsetS = 0, offsetT = 0;
+};
+
+// Row 0 of the file is the top; v goes up, (0,0) is the lower left corner of the picture.
 struct TextureParams {
     enum class Channel { Color, Alpha }; // Alpha: the file's alpha channel as a grey picture
     ColorSpace space = ColorSpace::Srgb;

@@ -1,7 +1,7 @@
 // T16: rays that are none, with NaN, infinities or no direction, into every query of every shape:
 // they miss, and cost no more than others.
 #include "base/text.h"
-#include "render/query.h"
+#include "integrate/shading.h"
 #include "verify/groups.h"
 #include "verify/specimens.h"
 #include "verify/timing.h"

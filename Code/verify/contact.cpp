@@ -1,12 +1,12 @@
 // T6: the edge of the shadow where a ball or a box stands on something, against the closed form in
 // double. What rays are moved off a surface by, so that it does not shadow itself, moves the edge.
 #include "base/text.h"
-#include "render/lamp_ray.h"
-#include "render/shading.h"
+#include "integrate/shading.h"
 #include "shape/cube.h"
 #include "shape/plane.h"
 #include "shape/sphere.h"
 #include "verify/groups.h"
+#include "verify/lamp_ray.h"
 #include "verify/meshes.h"
 
 #include <memory>

@@ -1,7 +1,7 @@
 // T18: quads that lie in one plane and overlap. Which one is seen must not depend on the camera, on
 // rounding or on the tree: it is the first one of the scene that covers the place.
 #include "base/text.h"
-#include "render/scene.h"
+#include "scene/scene.h"
 #include "verify/binary128.h"
 #include "verify/groups.h"
 

@@ -3,9 +3,9 @@
 // against each other (Veach 1997) are wrong by as much as these are.
 #include "base/text.h"
 #include "light/kinds/sky.h"
-#include "light/tree/light_picker.h"
+#include "light/tree/light_tree.h"
 #include "light/tree/pick_lanes.h"
-#include "texture/sky_cells.h"
+#include "texture/environment.h"
 #include "verify/chi2.h"
 #include "verify/groups.h"
 #include "verify/light_kit.h"

@@ -5,7 +5,7 @@
 #include "base/text.h"
 #include "desc/validate.h"
 #include "render/render.h"
-#include "render/scene.h"
+#include "scene/scene.h"
 #include "verify/groups.h"
 #include "verify/timing.h"
 

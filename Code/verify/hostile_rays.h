@@ -2,8 +2,7 @@
 // points as the rays of cameras and lamps are.
 #pragma once
 
-#include "base/hit.h"
-#include "base/ray_span.h"
+#include "base/ray.h"
 #include "verify/meshes.h"
 
 #include <array>

@@ -2,9 +2,9 @@
 // that surface again on the side it left to. Truth is the shape: from outside of a convex body no
 // ray into the half space of its tangent plane meets it, one to the inside always does.
 #include "base/text.h"
-#include "render/lamp_ray.h"
-#include "render/shading.h"
+#include "integrate/shading.h"
 #include "verify/groups.h"
+#include "verify/lamp_ray.h"
 #include "verify/placed_solid.h"
 #include "verify/shape_kinds.h"
 

@@ -4,7 +4,7 @@
 #include "light/light_row.h"
 #include "light/lights.h"
 #include "light/sky/sky_table.h"
-#include "light/tree/light_bounds.h"
+#include "light/tree/light_tree.h"
 #include "sample/warp.h"
 #include "sample/warps.h"
 #include "texture/environment.h"

@@ -1,7 +1,7 @@
 #include "verify/meshes.h"
 
 #include "base/math.h"
-#include "desc/scene_bounds.h"
+#include "desc/validate.h"
 #include "shape/mesh_instance.h"
 
 #include <utility>

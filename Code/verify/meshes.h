@@ -3,7 +3,7 @@
 #pragma once
 
 #include "desc/scene_desc.h"
-#include "render/merge.h"
+#include "scene/merge.h"
 
 #include <array>
 #include <cstdint>

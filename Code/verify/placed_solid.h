@@ -2,7 +2,7 @@
 // that leave a surface.
 #pragma once
 
-#include "render/shape_set.h"
+#include "scene/shape_set.h"
 #include "verify/meshes.h"
 
 #include <string>

@@ -2,10 +2,9 @@
 // beside its copy of another size or at another place; the truth is that nothing changes.
 #include "base/math.h"
 #include "base/text.h"
-#include "desc/scene_bounds.h"
 #include "desc/validate.h"
 #include "image/compare.h"
-#include "render/frame.h"
+#include "scene/frame.h"
 #include "verify/anything.h"
 #include "verify/groups.h"
 #include "verify/scene_trials.h"

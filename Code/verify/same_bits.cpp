@@ -4,7 +4,7 @@
 #include "accel/kernels/kernels.h"
 #include "base/text.h"
 #include "desc/enum_tables.h"
-#include "render/scene.h"
+#include "scene/scene.h"
 #include "verify/anything.h"
 #include "verify/groups.h"
 #include "verify/scene_trials.h"

@@ -1,6 +1,6 @@
 #include "verify/scene_trials.h"
 
-#include "render/scene.h"
+#include "scene/scene.h"
 #include "sample/hash.h"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #include "base/math.h"
 #include "base/text.h"
 #include "desc/enum_tables.h"
-#include "render/make_shape.h"
+#include "scene/make_shape.h"
 
 #include <array>
 

@@ -1,19 +1,19 @@
 #include "bench/bench.h"
 
-#include "base/file.h"
+#include "base/file_text.h"
 #include "base/parallel.h"
 #include "bench/clock.h"
 #include "bench/file.h"
 #include "bench/picture.h"
 #include "bench/trace.h"
 #include "bench/walk.h"
-#include "cli/choose_kernel.h"
+#include "cli/settings_from.h"
 #include "cli/flag.h"
 #include "cli/output.h"
-#include "cli/version.h"
-#include "desc/scene_bounds.h"
+#include "cli/command.h"
+#include "desc/validate.h"
 #include "read/load.h"
-#include "render/merge.h"
+#include "scene/merge.h"
 
 #include <algorithm>
 #include <iomanip>

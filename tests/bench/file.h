@@ -4,7 +4,7 @@
 #pragma once
 
 #include "bench/rays.h"
-#include "render/frame.h"
+#include "scene/frame.h"
 
 #include <cstdint>
 #include <span>

@@ -1,8 +1,8 @@
 // The program build/release/bench, which measures one mesh: bench MESH [options]
 #include "base/error.h"
 #include "bench/bench.h"
-#include "cli/choose_kernel.h"
-#include "cli/help.h"
+#include "cli/settings_from.h"
+#include "cli/command.h"
 #include "cli/interrupt.h"
 #include "cli/output.h"
 

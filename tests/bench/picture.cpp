@@ -1,12 +1,12 @@
 #include "bench/picture.h"
 
-#include "base/platform/files.h"
+#include "base/platform/platform.h"
 #include "base/text.h"
 #include "bench/clock.h"
 #include "read/load.h"
-#include "render/encoding.h"
+#include "scene/settings.h"
 #include "render/render.h"
-#include "render/scene.h"
+#include "scene/scene.h"
 
 #include <filesystem>
 #include <optional>

@@ -2,7 +2,7 @@
 // of threads. Every ray leaves its answer in memory, as other programs' measurements have it.
 #pragma once
 
-#include "base/hit.h"
+#include "base/ray.h"
 #include "bench/rays.h"
 
 #include <cstddef>

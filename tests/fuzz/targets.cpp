@@ -4,7 +4,6 @@
 #include "fuzz/sound.h"
 #include "read/json/read_json.h"
 #include "read/mesh/mesh_file.h"
-#include "read/mesh/mesh_scene.h"
 #include "read/mesh/read_mtl.h"
 #include "read/nff/read_nff.h"
 #include "read/txt/read_txt.h"

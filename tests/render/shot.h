@@ -6,7 +6,7 @@
 #include "base/transform.h"
 #include "image/image.h"
 #include "render/render.h"
-#include "render/scene.h"
+#include "scene/scene.h"
 
 #include <functional>
 #include <string>

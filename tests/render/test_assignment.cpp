@@ -4,7 +4,7 @@
 #include "course_scenes.h"
 #include "shot.h"
 
-#include "base/file.h"
+#include "base/file_text.h"
 #include "image/colour.h"
 #include "read/load.h"
 

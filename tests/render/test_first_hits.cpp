@@ -3,7 +3,7 @@
 #include "shot.h"
 
 #include "render/camera_rays.h"
-#include "render/integrator.h"
+#include "integrate/integrator.h"
 
 #include <algorithm>
 #include <bit>

@@ -2,8 +2,8 @@
 #include "check.h"
 #include "shot.h"
 
-#include "render/path/shading_kernel.h"
-#include "render/point_columns.h"
+#include "integrate/shading_kernel.h"
+#include "integrate/point_block.h"
 #include "verify/meshes.h"
 
 #include <array>

@@ -5,7 +5,7 @@
 #include "desc/validate.h"
 #include "read/nff/read_nff.h"
 #include "render/render.h"
-#include "render/scene.h"
+#include "scene/scene.h"
 #include "spd.h"
 
 #include <algorithm>

@@ -2,8 +2,8 @@
 // byte, so that any part of them can be wrong.
 #pragma once
 
-#include "base/file.h"
-#include "image/exr.h"
+#include "base/file_text.h"
+#include "image/formats.h"
 
 #include <algorithm>
 #include <bit>

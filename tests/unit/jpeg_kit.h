@@ -1,7 +1,7 @@
 // JPEG files for tests: those of tests/scenes/jpeg, their segments, and files of one's own.
 #pragma once
 
-#include "base/file.h"
+#include "base/file_text.h"
 
 #include <algorithm>
 #include <cstdint>

@@ -4,7 +4,7 @@
 
 #include "light/light_row.h"
 #include "light/sky/sky_table.h"
-#include "light/tree/light_nodes.h"
+#include "light/tree/light_tree.h"
 
 #include <cstddef>
 #include <cstdint>

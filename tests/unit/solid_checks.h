@@ -4,7 +4,7 @@
 
 #include "analytic_kit.h"
 #include "check.h"
-#include "render/shape_set.h"
+#include "scene/shape_set.h"
 #include "shape/one_sided.h"
 #include "verify/hostile_rays.h"
 

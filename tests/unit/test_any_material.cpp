@@ -2,7 +2,7 @@
 // in parts, in whichever part the one lies that is special.
 #include "base/text.h"
 #include "check.h"
-#include "render/scene.h"
+#include "scene/scene.h"
 
 #include <functional>
 #include <span>

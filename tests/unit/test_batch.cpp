@@ -1,5 +1,5 @@
 // Ray batches.
-#include "render/batch.h"
+#include "integrate/batch.h"
 
 #include "check.h"
 

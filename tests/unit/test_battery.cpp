@@ -1,7 +1,7 @@
 // The stress battery at its smallest size, and what it promises about itself.
 #include "base/error.h"
 #include "check.h"
-#include "cli/verify.h"
+#include "cli/command.h"
 #include "verify/report.h"
 
 #include <set>

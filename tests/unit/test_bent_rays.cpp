@@ -3,9 +3,9 @@
 #include "base/math.h"
 #include "check.h"
 #include "isa/isa.h"
-#include "render/path/make_lobes.h"
-#include "render/path/path_lights.h"
-#include "render/path/shading_kernel.h"
+#include "scene/lobed_materials.h"
+#include "scene/path_lights.h"
+#include "integrate/shading_kernel.h"
 #include "verify/meshes.h"
 
 #include <cmath>

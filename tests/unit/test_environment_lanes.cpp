@@ -1,7 +1,7 @@
 // The picture around the scene by the register: every lane has the bits of looking alone.
 #include "accel/kernels/kernels.h"
 #include "check.h"
-#include "render/waves/picture_lanes.h"
+#include "texture/picture_lanes.h"
 #include "verify/meshes.h"
 
 #include <bit>

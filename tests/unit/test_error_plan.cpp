@@ -2,7 +2,7 @@
 // known as well, sigma^2 / samples.
 #include "check.h"
 
-#include "render/error_plan.h"
+#include "film/error_plan.h"
 #include "sample/hash.h"
 
 #include <functional>

@@ -1,7 +1,7 @@
 // Sums of samples in whole numbers: the same for any order and any division, right to 2^-41 units a
 // sample, and without what is no number.
 #include "check.h"
-#include "render/film.h"
+#include "film/film.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // Promise P3 at its root: a scene times 2^k has the same normalised numbers, a moved one nearly so.
-#include "render/frame.h"
+#include "scene/frame.h"
 
 #include "check.h"
 #include "verify/meshes.h"

@@ -1,6 +1,6 @@
 // The seeds of the fuzzers are files that the readers accept, and what once crashed a reader no
 // longer does. tests/fuzz/sound.h says what else has to hold of them.
-#include "base/file.h"
+#include "base/file_text.h"
 #include "check.h"
 #include "fuzz/png_parts.h"
 #include "fuzz/sound.h"

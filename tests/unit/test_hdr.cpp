@@ -2,10 +2,10 @@
 // most of them written by other programs, and all are the same picture.
 #include "check.h"
 
-#include "base/file.h"
+#include "base/file_text.h"
 #include "base/text.h"
 #include "flipped_bytes.h"
-#include "image/hdr.h"
+#include "image/formats.h"
 
 #include <cmath>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #include "check.h"
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/file_text.h"
 #include "image/image.h"
 
 #include <algorithm>

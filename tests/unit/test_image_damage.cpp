@@ -1,7 +1,7 @@
 // Damaged pictures never hurt (promise P6): a file with random damage decodes to a picture that is
 // whole, or throws Error.
 #include "base/error.h"
-#include "base/file.h"
+#include "base/file_text.h"
 #include "check.h"
 #include "image/image.h"
 #include "image/zlib.h"

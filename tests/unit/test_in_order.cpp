@@ -1,5 +1,4 @@
 // Pieces that are made in any order on any thread are used in their own, each once.
-#include "base/in_order.h"
 #include "base/parallel.h"
 #include "check.h"
 

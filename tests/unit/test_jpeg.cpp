@@ -4,7 +4,7 @@
 
 #include "base/text.h"
 #include "image/image.h"
-#include "image/jpeg.h"
+#include "image/formats.h"
 #include "jpeg_kit.h"
 
 #include <filesystem>

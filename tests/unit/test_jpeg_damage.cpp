@@ -2,7 +2,7 @@
 #include "base/error.h"
 #include "check.h"
 #include "image/image.h"
-#include "image/jpeg.h"
+#include "image/formats.h"
 #include "jpeg_kit.h"
 #include "unit/flipped_bytes.h"
 

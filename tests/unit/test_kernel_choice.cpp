@@ -1,6 +1,6 @@
 // Which kernels there are, and the trees that they walk.
 #include "base/error.h"
-#include "cli/choose_kernel.h"
+#include "cli/settings_from.h"
 #include "kernel_checks.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Kernels and rays that end at a hit, miss everything, or are none.
 #include "base/text.h"
 #include "kernel_checks.h"
-#include "render/merge.h"
+#include "scene/merge.h"
 
 #include <cmath>
 

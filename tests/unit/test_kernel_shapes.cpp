@@ -1,8 +1,8 @@
 // Kernels behind shapes: copies of a moving mesh, and meshes beside other shapes of a scene.
 #include "analytic_kit.h"
 #include "kernel_checks.h"
-#include "render/merge.h"
-#include "render/shape_set.h"
+#include "scene/merge.h"
+#include "scene/shape_set.h"
 #include "shape/mesh_instance.h"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // have a hard time with.
 #include "accel/triangle.h"
 #include "kernel_checks.h"
-#include "render/merge.h"
+#include "scene/merge.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // Rays from where a lamp sits to just in front of a point.
 #include "base/ray.h"
 #include "check.h"
-#include "render/lamp_ray.h"
+#include "verify/lamp_ray.h"
 #include "verify/meshes.h"
 
 namespace test_lamp_ray {

@@ -1,7 +1,7 @@
 // Camera rays by the register: every lane has the bits of asking the sampler and the camera alone.
 #include "accel/kernels/kernels.h"
 #include "check.h"
-#include "render/lens_lanes.h"
+#include "camera/lens_lanes.h"
 #include "sample/sampler.h"
 #include "sample/warp.h"
 #include "verify/meshes.h"

@@ -1,7 +1,7 @@
 // Lights and the choice among them, in lanes: bit for bit what one lane gives.
 #include "base/cpu.h"
 #include "check.h"
-#include "light/tree/light_picker.h"
+#include "light/tree/light_tree.h"
 #include "sample/hash.h"
 #include "unit/light_answers.h"
 #include "verify/light_kit.h"

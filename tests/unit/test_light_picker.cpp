@@ -1,7 +1,7 @@
 // The choice of one light of many: probabilities that sum up to 1 (picks that follow them: T22d),
 // and trees that do not depend on the scale of the scene.
 #include "check.h"
-#include "light/tree/light_picker.h"
+#include "light/tree/light_tree.h"
 #include "light/tree/pick_lanes.h"
 #include "verify/light_kit.h"
 

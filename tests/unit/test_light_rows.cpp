@@ -2,8 +2,8 @@
 #include "base/math.h"
 #include "base/transform.h"
 #include "check.h"
-#include "light/tree/light_bounds.h"
-#include "render/light_rows.h"
+#include "light/tree/light_tree.h"
+#include "scene/light_rows.h"
 #include "verify/light_kit.h"
 
 #include <cmath>

@@ -1,10 +1,10 @@
 // The shapes of a scene: their order, what is merged and what is shared, and that nothing depends
 // on how many threads prepare them.
-#include "render/make_shapes.h"
+#include "scene/make_shapes.h"
 
 #include "base/text.h"
 #include "check.h"
-#include "render/scene.h"
+#include "scene/scene.h"
 
 #include <random>
 #include <string>

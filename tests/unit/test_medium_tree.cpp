@@ -1,5 +1,5 @@
 // The stacks of transparent media against the rule written out.
-#include "render/medium_tree.h"
+#include "scene/medium_tree.h"
 
 #include "check.h"
 #include "verify/meshes.h"

@@ -1,5 +1,5 @@
 // Merging meshes: winding under mirrors, slots, parts, and what lists are made up.
-#include "render/merge.h"
+#include "scene/merge.h"
 
 #include "base/math.h"
 #include "check.h"

@@ -3,7 +3,7 @@
 #include "shape/mesh_instance.h"
 
 #include "check.h"
-#include "render/shape_set.h"
+#include "scene/shape_set.h"
 #include "verify/hostile_rays.h"
 
 #include <algorithm>

@@ -1,5 +1,5 @@
 // The scene around a file of triangles: its objects, materials, camera and light.
-#include "read/mesh/mesh_scene.h"
+#include "read/mesh/mesh_file.h"
 
 #include "base/bounds.h"
 #include "base/math.h"
@@ -8,7 +8,6 @@
 #include "check.h"
 #include "desc/validate.h"
 #include "desc/write_txt.h"
-#include "read/mesh/mesh_file.h"
 #include "unit/damage.h"
 
 #include <chrono>

@@ -1,6 +1,6 @@
 // The OBJ reader's faces: their indices, polygons, what is left out, and normals of smoothing
 // groups.
-#include "read/mesh/triangulate.h"
+#include "read/mesh/mesh_steps.h"
 #include "unit/obj_kit.h"
 
 #include <cmath>

@@ -3,9 +3,6 @@
 
 #include "base/error.h"
 #include "cli/command.h"
-#include "cli/completion.h"
-#include "cli/diff.h"
-#include "cli/help.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/settings_from.h"

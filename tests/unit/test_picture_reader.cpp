@@ -1,7 +1,6 @@
 // Pictures that are read ahead are those that would be read later, and mistakes are left to later.
 #include "check.h"
-#include "render/picture_reader.h"
-#include "render/texture_files.h"
+#include "scene/texture_files.h"
 #include "temporary_folder.h"
 
 #include <chrono>

@@ -1,7 +1,7 @@
 // PlacedMeshes: batches of rays among instances have, with every kernel, the bits of single rays
 // that are tested against every triangle; and the trees leave out most triangles.
 #include "check.h"
-#include "render/shape_set.h"
+#include "scene/shape_set.h"
 #include "shape/mesh_instance.h"
 #include "shape/one_sided.h"
 #include "shape/sphere.h"

@@ -1,11 +1,7 @@
 // What Code/base/platform promises, of either implementation: a portable one has not all of it.
 #include "base/error.h"
-#include "base/file.h"
-#include "base/platform/files.h"
-#include "base/platform/memory.h"
-#include "base/platform/signals.h"
-#include "base/platform/terminal.h"
-#include "base/platform/threads.h"
+#include "base/file_text.h"
+#include "base/platform/platform.h"
 #include "base/raw_vector.h"
 #include "check.h"
 #include "temporary_folder.h"

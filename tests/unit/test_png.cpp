@@ -2,7 +2,7 @@
 // another implementation; broken files are in tests/bad/image (test_image.cpp).
 #include "check.h"
 
-#include "base/file.h"
+#include "base/file_text.h"
 #include "base/text.h"
 #include "image/image.h"
 

@@ -1,6 +1,6 @@
 // Points listed by what finds their surfaces: each list keeps its own, in the order they came.
 #include "check.h"
-#include "render/point_lists.h"
+#include "integrate/point_lists.h"
 
 #include <algorithm>
 #include <vector>

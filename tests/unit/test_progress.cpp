@@ -1,6 +1,6 @@
 #include "check.h"
 
-#include "cli/preview.h"
+#include "cli/output.h"
 #include "cli/progress.h"
 
 namespace test_progress {

@@ -5,7 +5,7 @@
 #include "read/load.h"
 #include "read/mesh/mesh_file.h"
 #include "read/txt/read_txt.h"
-#include "render/scene.h"
+#include "scene/scene.h"
 #include "temporary_folder.h"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include "desc/lobes.h"
 #include "desc/properties.h"
 #include "read/load.h"
-#include "read/txt/transform_lines.h"
+#include "read/txt/read_blocks.h"
 #include "unit/damage.h"
 
 #include <cmath>

@@ -2,7 +2,7 @@
 // leaves, the same for any number of threads.
 #include "accel/bvh.h"
 #include "accel/kernels/build/collapse.h"
-#include "accel/kernels/build/reinsert.h"
+#include "accel/kernels/build/write_tree.h"
 #include "accel/kernels/wide_tree.h"
 #include "check.h"
 #include "verify/meshes.h"

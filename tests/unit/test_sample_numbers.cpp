@@ -1,6 +1,6 @@
 // Which samples of their pixels the slots of a chunk are, whatever the chunk before it was.
 #include "check.h"
-#include "render/sample_numbers.h"
+#include "integrate/batch.h"
 
 namespace test_sample_numbers {
 

@@ -2,7 +2,7 @@
 // queries agree with each other and with asking every shape.
 #include "analytic_kit.h"
 #include "check.h"
-#include "render/shape_set.h"
+#include "scene/shape_set.h"
 #include "shape/mesh_instance.h"
 #include "verify/meshes.h"
 

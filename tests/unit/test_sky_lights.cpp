@@ -3,7 +3,7 @@
 #include "check.h"
 #include "light/kinds/sky.h"
 #include "sample/hash.h"
-#include "texture/sky_cells.h"
+#include "texture/environment.h"
 #include "verify/light_kit.h"
 
 #include <string>

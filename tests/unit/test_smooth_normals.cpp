@@ -1,5 +1,5 @@
 // Smooth normals: bodies whose normals are known, and points with very many triangles.
-#include "read/mesh/smooth_normals.h"
+#include "read/mesh/mesh_steps.h"
 
 #include "check.h"
 

@@ -1,7 +1,7 @@
 // The tree over solids: the same for any number of threads, whole, and walked by single rays with
 // the answers of looking at every box.
 #include "accel/kernels/build/build.h"
-#include "accel/kernels/solids_walk.h"
+#include "accel/kernels/wide_walk.h"
 #include "check.h"
 #include "verify/meshes.h"
 

@@ -2,9 +2,9 @@
 // textures multiply.
 #include "accel/kernels/kernels.h"
 #include "check.h"
-#include "render/path/lobe_block.h"
-#include "render/path/make_lobes.h"
-#include "render/waves/picture_lanes.h"
+#include "integrate/lobe_block.h"
+#include "scene/lobed_materials.h"
+#include "texture/picture_lanes.h"
 #include "texture/texture.h"
 #include "verify/meshes.h"
 

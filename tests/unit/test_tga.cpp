@@ -1,10 +1,10 @@
 // Code/image/tga.cpp. The files in tests/scenes/tga come from make.py there; Pillow wrote some.
 #include "check.h"
 
-#include "base/file.h"
+#include "base/file_text.h"
 #include "base/text.h"
 #include "flipped_bytes.h"
-#include "image/tga.h"
+#include "image/formats.h"
 
 #include <array>
 #include <cstdint>

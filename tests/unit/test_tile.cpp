@@ -1,5 +1,5 @@
 // The order of a tile's places.
-#include "render/tile.h"
+#include "film/tile.h"
 
 #include "check.h"
 

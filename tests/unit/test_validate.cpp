@@ -2,7 +2,7 @@
 // of what is said, and warnings, are in test_validate_messages.cpp.
 #include "desc/lobes.h"
 #include "desc/properties.h"
-#include "desc/scene_bounds.h"
+#include "desc/validate.h"
 #include "unit/validate_kit.h"
 
 #include <limits>

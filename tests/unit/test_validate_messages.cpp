@@ -1,6 +1,6 @@
 // What validate() says: the order of its errors and how many are shown, and its warnings.
 #include "desc/lobes.h"
-#include "desc/scene_bounds.h"
+#include "desc/validate.h"
 #include "unit/validate_kit.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include "check.h"
 #include "read/mesh/exact_orientation.h"
-#include "read/mesh/triangulate.h"
+#include "read/mesh/mesh_steps.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 
 #include "accel/kernels/ray_lanes.h"
 #include "accel/kernels/solids.h"
-#include "base/ray_span.h"
+#include "base/ray.h"
 #include "simd/lanes.h"
 
 #include <algorithm>

@@ -16,8 +16,8 @@
 #include "accel/kernels/queue_rays.h"
 #include "accel/kernels/stack.h"
 #include "accel/kernels/wide_tree.h"
-#include "base/prefetch.h"
-#include "base/ray_span.h"
+#include "base/cpu.h"
+#include "base/ray.h"
 #include "base/vec.h"
 #include "simd/lanes.h"
 

@@ -3,7 +3,7 @@
 // enough, at its end.
 #pragma once
 
-#include "accel/kernels/barycentrics.h"
+#include "accel/kernels/chord.h"
 #include "accel/kernels/bundle_keys.h"
 #include "accel/kernels/bundle_rays.h"
 #include "accel/kernels/kernels.h"

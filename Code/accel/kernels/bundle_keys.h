@@ -4,7 +4,6 @@
 
 #include "accel/kernels/bundle_rays.h"
 #include "accel/kernels/chord.h"
-#include "accel/kernels/edge_on.h"
 #include "accel/kernels/kernels.h"
 #include "accel/kernels/queue_rays.h"
 #include "simd/vectors3.h"

@@ -2,11 +2,11 @@
 // there. Which of them are traced together is decided in bundle_rays.h.
 #pragma once
 
-#include "accel/kernels/barycentrics.h"
+#include "accel/kernels/chord.h"
 #include "accel/kernels/kernels.h"
 #include "accel/kernels/queue_answers.h"
 #include "base/math.h"
-#include "base/ray_span.h"
+#include "base/ray.h"
 #include "base/vec.h"
 #include "simd/lanes.h"
 

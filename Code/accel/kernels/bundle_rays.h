@@ -12,7 +12,7 @@
 #include "accel/kernels/ray_lanes.h"
 #include "accel/ray_setup.h"
 #include "base/math.h"
-#include "base/ray_span.h"
+#include "base/ray.h"
 #include "base/vec.h"
 #include "simd/lanes.h"
 

@@ -1,15 +1,49 @@
-// TrianglePlane::keyInChord(), operation by operation, for rays that see one triangle edge-on: a
-// floor, up to the horizon, fills many packets with them.
+// Which rays may see a triangle edge-on, TrianglePlane::isEdgeOn(): a direction is at most sqrt(3)
+// dz long, and the bound is 2^-10 larger than it has to be. Squares in double, which floats of any
+// size neither overflow nor underflow, and no root.
 #pragma once
 
-#include "simd/vectors3.h"
 #include "accel/triangle.h"
 #include "base/vec.h"
 #include "simd/lanes.h"
+#include "simd/vectors3.h"
 
 #include <limits>
 
 LANES_BEGIN
+
+// For triangles with these normals.
+[[gnu::always_inline]] inline Doubles edgeOnBound(const Doubles& nx, const Doubles& ny,
+                                                  const Doubles& nz) {
+    constexpr double kPerSteep = 1.7338 / TrianglePlane::kSteep;
+    return ((nx * nx + ny * ny) + nz * nz) * Doubles(kPerSteep * kPerSteep);
+}
+// Also where there is a NaN.
+[[gnu::always_inline]] inline unsigned edgeOnLanes(const Doubles& along, const Doubles& bound,
+                                                   Floats dz) {
+    const Doubles depth(dz);
+    return ~less(bound * (depth * depth), along * along);
+}
+
+// Barycentrics of W hits.
+
+struct Weights {
+    Floats u, v;
+};
+
+// barycentrics() of shape/triangle_queries.h, operation by operation, from the x and y of
+// ShearedTriangle.
+inline Weights barycentrics(const Floats (&x)[3], const Floats (&y)[3]) {
+    const auto edge = [&](int a, int b) {
+        return Doubles(x[a]) * Doubles(y[b]) - Doubles(y[a]) * Doubles(x[b]);
+    };
+    const Doubles e0 = edge(2, 1), e1 = edge(0, 2), e2 = edge(1, 0);
+    const Doubles sum = e0 + e1 + e2;
+    return {(e1 / sum).toFloats(), (e2 / sum).toFloats()};
+}
+
+// TrianglePlane::keyInChord(), operation by operation, for rays that see one triangle edge-on: a
+// floor, up to the horizon, fills many packets with them.
 
 // `v`: the corners relative to the origin of all rays, `dir`: theirs, both as in RaySetup.
 inline Floats keysInChord(const Vec3d (&v)[3], const Doubles3& dir, Floats key) {

@@ -12,8 +12,7 @@
 #pragma once
 
 #include "accel/kernels/wide_tree.h"
-#include "base/hit.h"
-#include "base/ray_span.h"
+#include "base/ray.h"
 #include "isa/isa.h"
 
 #include <cstdint>

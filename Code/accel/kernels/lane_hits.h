@@ -9,7 +9,7 @@
 #include "accel/kernels/ray_lanes.h"
 #include "accel/kernels/wide_tree.h"
 #include "base/math.h"
-#include "base/ray_span.h"
+#include "base/ray.h"
 #include "simd/lanes.h"
 
 #include <bit>

@@ -11,7 +11,7 @@
 #include "accel/kernels/stack.h"
 #include "accel/kernels/wide_tree.h"
 #include "base/bounds.h"
-#include "base/ray_span.h"
+#include "base/ray.h"
 #include "base/vec.h"
 #include "simd/lanes.h"
 

@@ -14,8 +14,8 @@
 #include "accel/kernels/root_boxes.h"
 #include "accel/kernels/stack.h"
 #include "accel/kernels/wide_tree.h"
-#include "base/prefetch.h"
-#include "base/ray_span.h"
+#include "base/cpu.h"
+#include "base/ray.h"
 #include "simd/lanes.h"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // What W rays of the queue have met, written where the batch wants it.
 #pragma once
 
-#include "accel/kernels/barycentrics.h"
+#include "accel/kernels/chord.h"
 #include "accel/kernels/kernels.h"
 #include "accel/kernels/queue_rays.h"
 #include "accel/kernels/wide_tree.h"

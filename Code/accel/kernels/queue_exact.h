@@ -3,13 +3,13 @@
 // rays for one triangle, or pairs of both.
 #pragma once
 
-#include "accel/kernels/edge_on.h"
+#include "accel/kernels/chord.h"
 #include "accel/kernels/exact_hit.h"
 #include "accel/kernels/kernels.h"
 #include "accel/kernels/queue_rays.h"
 #include "accel/kernels/wide_tree.h"
 #include "base/math.h"
-#include "base/ray_span.h"
+#include "base/ray.h"
 #include "simd/lanes.h"
 
 #include <algorithm>

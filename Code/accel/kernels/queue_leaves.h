@@ -10,7 +10,7 @@
 #include "accel/kernels/ray_lists.h"
 #include "accel/kernels/wide_tree.h"
 #include "base/math.h"
-#include "base/ray_span.h"
+#include "base/ray.h"
 #include "simd/lanes.h"
 
 #include <bit>

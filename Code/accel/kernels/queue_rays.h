@@ -5,7 +5,7 @@
 #include "accel/kernels/key_range.h"
 #include "accel/kernels/ray_lanes.h"
 #include "base/math.h"
-#include "base/ray_span.h"
+#include "base/ray.h"
 #include "simd/lanes.h"
 
 #include <cstddef>

@@ -6,7 +6,7 @@
 #include "accel/kernels/queue_rays.h"
 #include "accel/kernels/stack.h"
 #include "accel/kernels/wide_tree.h"
-#include "base/prefetch.h"
+#include "base/cpu.h"
 #include "simd/lanes.h"
 
 #include <algorithm>

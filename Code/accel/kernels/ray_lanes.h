@@ -4,7 +4,7 @@
 
 #include "accel/ray_setup.h"
 #include "base/bounds.h"
-#include "base/ray_span.h"
+#include "base/ray.h"
 #include "base/vec.h"
 #include "simd/lanes.h"
 

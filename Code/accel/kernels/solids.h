@@ -9,7 +9,7 @@
 #include "accel/kernels/wide_tree.h"
 #include "accel/solid_form.h"
 #include "base/function_ref.h"
-#include "base/hit.h"
+#include "base/ray.h"
 #include "base/raw_vector.h"
 
 #include <array>

@@ -5,7 +5,7 @@
 #include "accel/kernels/solids.h"
 #include "accel/kernels/solids_objects.h"
 #include "accel/kernels/solids_spheres.h"
-#include "base/ray_span.h"
+#include "base/ray.h"
 #include "simd/lanes.h"
 
 #include <bit>

@@ -9,7 +9,7 @@
 #include "accel/kernels/solids_objects.h"
 #include "accel/kernels/solids_spheres.h"
 #include "accel/kernels/solids_tubes.h"
-#include "base/prefetch.h"
+#include "base/cpu.h"
 #include "simd/lanes.h"
 
 #include <bit>

@@ -2,7 +2,7 @@
 // shape/mesh.cpp and shape/one_sided.cpp.
 #pragma once
 
-#include "accel/kernels/edge_on.h"
+#include "accel/kernels/chord.h"
 #include "accel/kernels/solids.h"
 #include "accel/kernels/solids_rays.h"
 #include "base/math.h"

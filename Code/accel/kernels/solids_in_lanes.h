@@ -8,9 +8,9 @@
 // ray meets lies inside of the box without the pad.
 #pragma once
 
-#include "simd/arc_sines.h"
+#include "simd/sine_lanes.h"
 #include "simd/double_double_lanes.h"
-#include "accel/kernels/edge_on.h"
+#include "accel/kernels/chord.h"
 #include "accel/kernels/solids.h"
 #include "accel/kernels/solids_answers.h"
 #include "accel/kernels/solids_cubes.h"
@@ -27,8 +27,8 @@
 #include "accel/kernels/solids_turning.h"
 #include "accel/kernels/wide_tree.h"
 #include "base/math.h"
-#include "base/prefetch.h"
-#include "base/ray_span.h"
+#include "base/cpu.h"
+#include "base/ray.h"
 #include "simd/lanes.h"
 
 #include <algorithm>

@@ -11,7 +11,7 @@
 #include "accel/kernels/solids_tubes.h"
 #include "accel/kernels/solids_turning.h"
 #include "base/math.h"
-#include "base/prefetch.h"
+#include "base/cpu.h"
 #include "simd/lanes.h"
 
 #include <bit>

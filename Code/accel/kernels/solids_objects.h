@@ -2,10 +2,10 @@
 #pragma once
 
 #include "accel/kernels/ray_lanes.h"
-#include "base/affine.h"
+#include "base/transform.h"
 #include "base/math.h"
 #include "base/motion.h"
-#include "base/ray_span.h"
+#include "base/ray.h"
 #include "base/vec.h"
 #include "simd/lanes.h"
 

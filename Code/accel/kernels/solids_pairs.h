@@ -9,7 +9,7 @@
 #include "accel/kernels/solids_each.h"
 #include "accel/kernels/solids_hulls.h"
 #include "accel/kernels/wide_tree.h"
-#include "base/prefetch.h"
+#include "base/cpu.h"
 #include "simd/lanes.h"
 
 #include <algorithm>

@@ -6,7 +6,7 @@
 #include "accel/kernels/solids.h"
 #include "accel/kernels/solids_hulls.h"
 #include "base/math.h"
-#include "base/ray_span.h"
+#include "base/ray.h"
 #include "simd/lanes.h"
 
 #include <algorithm>

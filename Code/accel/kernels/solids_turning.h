@@ -4,11 +4,11 @@
 // such shapes take 27 % (ASCII/moving_shapes.txt) and 12 % (motion_blur.txt) longer.
 #pragma once
 
-#include "simd/arc_sines.h"
+#include "simd/sine_lanes.h"
 #include "accel/kernels/solids.h"
 #include "accel/kernels/solids_hulls.h"
 #include "accel/kernels/solids_objects.h"
-#include "base/ray_span.h"
+#include "base/ray.h"
 #include "simd/lanes.h"
 
 #include <algorithm>

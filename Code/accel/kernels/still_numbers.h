@@ -3,7 +3,7 @@
 
 #include "simd/vectors3.h"
 #include "accel/still_shape.h"
-#include "base/affine.h"
+#include "base/transform.h"
 #include "base/math.h"
 #include "base/vec.h"
 #include "simd/lanes.h"

@@ -4,7 +4,7 @@
 
 #include "accel/kernels/still_numbers.h"
 #include "accel/kernels/still_points.h"
-#include "accel/kernels/still_surfaces.h"
+#include "accel/kernels/surface_lanes.h"
 #include "accel/kernels/still_uv.h"
 #include "accel/kernels/surface_columns.h"
 #include "simd/vectors3.h"

@@ -2,7 +2,7 @@
 // says of them, in the same order.
 #pragma once
 
-#include "simd/angle_lanes.h"
+#include "simd/double_double_lanes.h"
 #include "accel/kernels/still_numbers.h"
 #include "accel/kernels/still_points.h"
 #include "simd/vectors3.h"

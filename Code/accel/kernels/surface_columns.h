@@ -1,10 +1,10 @@
 // Rays of W hits by columns, and columns of surfaces on their way into blocks of points.
 #pragma once
 
-#include "accel/kernels/still_surfaces.h"
+#include "accel/kernels/surface_lanes.h"
 #include "accel/kernels/still_numbers.h"
 #include "simd/vectors3.h"
-#include "base/ray_span.h"
+#include "base/ray.h"
 #include "base/vec.h"
 #include "simd/lanes.h"
 

@@ -3,7 +3,7 @@
 
 #include "accel/kernels/still_surfaces_in_lanes.h"
 #include "accel/kernels/surface_columns.h"
-#include "accel/kernels/triangle_surfaces.h"
+#include "accel/kernels/surface_lanes.h"
 #include "simd/vectors3.h"
 #include "simd/lanes.h"
 

@@ -5,7 +5,6 @@
 // but the size of its jobs, and minima and counts don't depend on their order: neither does the
 // tree.
 #include "accel/kernels/build/build.h"
-#include "accel/kernels/build/join_singles.h"
 #include "accel/kernels/build/write_tree.h"
 #include "base/parallel.h"
 #include "isa/isa.h"

@@ -1,9 +1,5 @@
 // The interface of this folder by nothing but the C++ standard library: make PLATFORM=portable.
-#include "base/platform/files.h"
-#include "base/platform/memory.h"
-#include "base/platform/signals.h"
-#include "base/platform/terminal.h"
-#include "base/platform/threads.h"
+#include "base/platform/platform.h"
 
 #include <algorithm>
 #include <atomic>

@@ -1,9 +1,5 @@
 // The interface of this folder by the calls of POSIX, and where Linux has more, by those.
-#include "base/platform/files.h"
-#include "base/platform/memory.h"
-#include "base/platform/signals.h"
-#include "base/platform/terminal.h"
-#include "base/platform/threads.h"
+#include "base/platform/platform.h"
 #include "base/processor_quota.h"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 
 #include "light/light_lanes.h"
 #include "light/sky/sky_table.h"
-#include "simd/angle_lanes.h"
+#include "simd/double_double_lanes.h"
 
 LANES_BEGIN
 

@@ -4,7 +4,7 @@
 
 #include "light/kinds/rectangle.h"
 #include "light/light_lanes.h"
-#include "simd/angle_lanes.h"
+#include "simd/double_double_lanes.h"
 #include "simd/sine_lanes.h"
 
 struct TriangleRow {

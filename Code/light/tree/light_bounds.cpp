@@ -1,4 +1,4 @@
-#include "light/tree/light_bounds.h"
+#include "light/tree/light_tree.h"
 
 #include "light/lights.h"
 

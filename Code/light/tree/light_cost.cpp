@@ -1,4 +1,4 @@
-#include "light/tree/light_cost.h"
+#include "light/tree/light_tree.h"
 
 #include "base/math.h"
 

@@ -1,7 +1,6 @@
-#include "light/tree/light_picker.h"
+#include "light/tree/light_tree.h"
 
 #include "base/math.h"
-#include "light/tree/light_cost.h"
 
 #include <algorithm>
 #include <array>

@@ -10,7 +10,7 @@
 #pragma once
 
 #include "light/light_lanes.h"
-#include "light/tree/light_nodes.h"
+#include "light/tree/light_tree.h"
 
 #include <cstddef>
 #include <cstdint>

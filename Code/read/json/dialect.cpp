@@ -1,4 +1,4 @@
-#include "read/json/dialect.h"
+#include "read/json/json.h"
 
 #include <algorithm>
 #include <array>

@@ -4,7 +4,7 @@
 
 #include "base/text.h"
 #include "base/vec.h"
-#include "desc/error_list.h"
+#include "desc/validate.h"
 #include "desc/range.h"
 #include "desc/scene_desc.h"
 #include "read/json/json.h"

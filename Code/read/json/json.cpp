@@ -2,7 +2,6 @@
 
 #include "base/text.h"
 #include "desc/names.h"
-#include "read/json/json5.h"
 #include "read/json/tokens.h"
 #include "read/read_context.h"
 

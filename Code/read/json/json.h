@@ -1,8 +1,11 @@
-// JSON text as a tree of values (RFC 8259; JSON5 where it is wanted). Knows nothing about scenes.
+// JSON text as a tree of values (RFC 8259; JSON5 where it is wanted), which knows nothing about
+// scenes; and the dialects of the course's scenes, told apart by the keys that they use.
 #pragma once
 
 #include "base/source.h"
+#include "base/vec.h"
 #include "desc/scene_desc.h"
+#include "read/json/tokens.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -95,3 +98,33 @@ inline constexpr int kDeepestJson = 256;
 // Fails (failAt) on what the standard rejects, on nesting deeper than kDeepestJson, on text that is
 // not UTF-8, on numbers too large for double, and on keys that an object has twice.
 JsonDocument parseJson(const SourceFile& source, JsonGrammar grammar = JsonGrammar::Standard);
+
+// The tokens of JSON5 (json5.org) where it is wider than JSON: comments, texts in single quotes,
+// keys without quotes, numbers with a sign, in hexadecimal, or that begin or end with their point.
+// The programs of the course read it since autumn 2024.
+
+// Behind blanks and comments. Fails on a comment that is not closed.
+const char* skipJson5Blanks(const SourceFile& source, const char* at);
+
+// Does a number of JSON5 begin there? Infinity and NaN are numbers that readJson5Number() refuses.
+bool beginsJson5Number(const char* at);
+JsonNumber readJson5Number(const SourceFile& source, const char* at);
+
+// Appends what a text means that begins with the quote at `at`, single or double; returns the place
+// behind it. Fails as readJsonText() and decodeJsonText() do.
+const char* readJson5Text(const SourceFile& source, const char* at, std::string& out);
+
+// Behind a key without quotes, of letters, digits, '_' and '$'; `at` itself if none begins there.
+const char* endOfJson5Key(const char* at);
+
+// The rules in which the dialects differ; no other file tells them apart.
+struct JsonRules {
+    Vec3d attenuation;        // of a light that gives none
+    bool directionalHasPower; // or its power is 1, whatever the file says
+    bool refReplaces;         // the transform of a node with 'ref' replaces, or multiplies
+    bool meshMovesFirst;      // a mesh is (v + position) * scale, or T * R * S
+    bool allArePlaced;        // boxes and planes have position, rotation and scale like all others
+    int width, height;        // of a picture without 'resolution'
+};
+
+JsonRules jsonRulesOf(const JsonValue& scene);

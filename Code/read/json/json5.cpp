@@ -1,4 +1,4 @@
-#include "read/json/json5.h"
+#include "read/json/json.h"
 
 #include "base/text.h"
 #include "desc/names.h"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "desc/scene_desc.h"
-#include "read/json/dialect.h"
+#include "read/json/json.h"
 #include "read/json/fields.h"
 
 #include <vector>

@@ -1,6 +1,5 @@
 #include "read/json/read_json.h"
 
-#include "read/json/dialect.h"
 #include "read/json/json.h"
 #include "read/json/lights.h"
 #include "read/json/materials.h"

@@ -2,8 +2,7 @@
 
 #include "base/for_each.h"
 #include "read/mesh/exact_orientation.h"
-#include "read/mesh/smooth_normals.h"
-#include "read/mesh/triangulate.h"
+#include "read/mesh/mesh_steps.h"
 
 #include <algorithm>
 #include <atomic>

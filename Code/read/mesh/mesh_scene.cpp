@@ -1,10 +1,10 @@
-#include "read/mesh/mesh_scene.h"
+#include "read/mesh/mesh_file.h"
 
 #include "base/bounds.h"
 #include "base/for_each.h"
 #include "base/transform.h"
-#include "desc/scene_bounds.h"
-#include "read/mesh/split_mesh.h"
+#include "desc/validate.h"
+#include "read/mesh/mesh_steps.h"
 #include "read/unique_names.h"
 
 #include <algorithm>

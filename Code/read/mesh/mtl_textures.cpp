@@ -1,4 +1,4 @@
-#include "read/mesh/mtl_textures.h"
+#include "read/mesh/read_mtl.h"
 
 #include "base/text.h"
 #include "desc/names.h"

@@ -2,7 +2,7 @@
 
 #include "base/text.h"
 #include "desc/names.h"
-#include "read/mesh/triangulate.h"
+#include "read/mesh/mesh_steps.h"
 
 #include <algorithm>
 #include <array>

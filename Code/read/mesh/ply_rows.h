@@ -8,7 +8,7 @@
 #include "desc/range.h"
 #include "desc/scene_desc.h"
 #include "read/mesh/ply_header.h"
-#include "read/mesh/triangulate.h"
+#include "read/mesh/mesh_steps.h"
 
 #include <algorithm>
 #include <array>

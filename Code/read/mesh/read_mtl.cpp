@@ -5,7 +5,6 @@
 #include "desc/names.h"
 #include "desc/range.h"
 #include "read/mesh/line_reader.h"
-#include "read/mesh/mtl_textures.h"
 
 #include <algorithm>
 #include <optional>

@@ -1,3 +1,36 @@
+// The map statements of MTL: options, then the name of a picture file.
+#pragma once
+
+#include "desc/scene_desc.h"
+#include "read/mesh/line_reader.h"
+#include "read/read_context.h"
+#include "read/unique_names.h"
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+// Textures with different names; equal ones (file, options, use) are one.
+class MtlTextures {
+public:
+    struct Map {
+        Handle texture = kNone;
+        std::optional<double> bumpStrength; // -bm
+    };
+    // From behind the keyword to the end of the line.
+    Map read(LineReader& in, std::string_view keyword, TextureDesc::Space space);
+
+    std::vector<TextureDesc> textures;
+
+private:
+    Handle add(TextureDesc texture);
+
+    std::unordered_map<std::string, Handle> known_; // by all that a texture says
+    UniqueNames names_;
+};
+
 // Wavefront MTL, the materials of OBJ files.
 //   Kd, map_Kd    diffuse, and its texture. Without Kd a texture shows unchanged
 //   Ks, map_Ks    specular = Ks/pi with exponent Ns (Blinn): the classic picture, where Kd and Ks
@@ -14,12 +47,6 @@
 //   map_bump      bump map (-bm: its strength); norm: normal map
 //   Pr            roughness of mirror and glass
 // Ambient terms are left out: what lights the scene is the renderer's.
-#pragma once
-
-#include "desc/scene_desc.h"
-#include "read/read_context.h"
-
-#include <vector>
 
 struct MtlFile {
     std::vector<MaterialDesc> materials; // texture handles count in `textures`

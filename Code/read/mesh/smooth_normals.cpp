@@ -1,8 +1,7 @@
-#include "read/mesh/smooth_normals.h"
+#include "read/mesh/mesh_steps.h"
 
 #include "base/for_each.h"
 #include "base/math.h"
-#include "read/mesh/triangle_corners.h"
 
 #include <algorithm>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "read/mesh/split_mesh.h"
+#include "read/mesh/mesh_steps.h"
 
 #include <algorithm>
 #include <span>

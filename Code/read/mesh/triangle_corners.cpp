@@ -1,4 +1,4 @@
-#include "read/mesh/triangle_corners.h"
+#include "read/mesh/mesh_steps.h"
 
 #include "base/for_each.h"
 #include "base/math.h"

@@ -1,4 +1,4 @@
-#include "read/mesh/triangulate.h"
+#include "read/mesh/mesh_steps.h"
 
 #include "read/mesh/exact_orientation.h"
 

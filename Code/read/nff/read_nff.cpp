@@ -1,9 +1,9 @@
 #include "read/nff/read_nff.h"
 
 #include "base/text.h"
-#include "desc/error_list.h"
-#include "read/added_by_text.h"
-#include "read/mesh/triangulate.h"
+#include "desc/validate.h"
+#include "read/load.h"
+#include "read/mesh/mesh_steps.h"
 #include "read/nff/terms.h"
 #include "read/nff/view.h"
 #include "read/nff/words.h"

@@ -1,7 +1,7 @@
 // The view of an NFF file: 'v' and its lines, in any order.
 #pragma once
 
-#include "desc/error_list.h"
+#include "desc/validate.h"
 #include "read/nff/terms.h"
 #include "read/nff/words.h"
 

@@ -5,7 +5,7 @@
 
 #include "base/source.h"
 #include "base/vec.h"
-#include "desc/error_list.h"
+#include "desc/validate.h"
 #include "desc/range.h"
 #include "desc/scene_desc.h"
 #include "read/plain_number.h"

@@ -1,4 +1,4 @@
-#include "read/txt/lobe_line.h"
+#include "read/txt/read_blocks.h"
 
 #include "base/enum_names.h"
 #include "base/text.h"

@@ -1,7 +1,7 @@
 // One line `keyword values` of a block, as a row of desc/properties.h describes it.
 #pragma once
 
-#include "desc/error_list.h"
+#include "desc/validate.h"
 #include "desc/properties.h"
 #include "read/txt/references.h"
 #include "read/txt/scanner.h"

@@ -5,12 +5,9 @@
 #include "desc/lobes.h"
 #include "desc/names.h"
 #include "desc/properties.h"
-#include "read/added_by_text.h"
-#include "read/txt/lobe_line.h"
+#include "read/load.h"
 #include "read/txt/property_line.h"
-#include "read/txt/read_mesh.h"
 #include "read/txt/scanner.h"
-#include "read/txt/transform_lines.h"
 
 #include <algorithm>
 #include <array>

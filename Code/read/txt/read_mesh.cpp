@@ -1,4 +1,4 @@
-#include "read/txt/read_mesh.h"
+#include "read/txt/read_blocks.h"
 
 #include "base/text.h"
 #include "desc/names.h"

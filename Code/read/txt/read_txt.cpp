@@ -2,7 +2,7 @@
 
 #include "base/for_each.h"
 #include "base/text.h"
-#include "desc/error_list.h"
+#include "desc/validate.h"
 #include "read/read_context.h"
 #include "read/txt/property_line.h"
 #include "read/txt/read_blocks.h"

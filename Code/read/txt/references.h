@@ -3,7 +3,7 @@
 #pragma once
 
 #include "desc/enum_tables.h"
-#include "desc/error_list.h"
+#include "desc/validate.h"
 #include "desc/name_table.h"
 #include "desc/properties.h"
 #include "read/txt/scanner.h"

@@ -1,8 +1,7 @@
-#include "read/txt/transform_lines.h"
+#include "read/txt/read_blocks.h"
 
-#include "base/affine.h"
-#include "base/math.h"
 #include "base/transform.h"
+#include "base/math.h"
 
 #include <algorithm>
 

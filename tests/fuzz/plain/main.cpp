@@ -6,7 +6,7 @@
 #include "fuzz/plain/mutate.h"
 #include "fuzz/targets.h"
 
-#include "base/file.h"
+#include "base/file_text.h"
 
 #include <algorithm>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "accel/kernels/build/join_singles.h"
+#include "accel/kernels/build/write_tree.h"
 
 #include <algorithm>
 #include <utility>

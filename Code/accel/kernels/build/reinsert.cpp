@@ -1,4 +1,4 @@
-#include "accel/kernels/build/reinsert.h"
+#include "accel/kernels/build/write_tree.h"
 
 #include "accel/bvh.h"
 #include "accel/kernels/build/collapse.h"

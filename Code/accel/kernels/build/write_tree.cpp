@@ -1,7 +1,6 @@
 #include "accel/kernels/build/write_tree.h"
 
 #include "accel/kernels/build/collapse.h"
-#include "accel/kernels/build/reinsert.h"
 #include "accel/kernels/build/second_hand.h"
 #include "accel/kernels/build/visit_order.h"
 

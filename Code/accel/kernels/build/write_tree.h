@@ -1,8 +1,12 @@
-// From the binary tree of the builder to the wide one of the kernels.
+// The last steps of the builder of trees: from the parts that its threads have made to one binary
+// tree, a better one, and the wide tree of the kernels.
 #pragma once
 
 #include "accel/kernels/build/build.h"
 #include "base/parallel.h"
+
+#include <span>
+#include <vector>
 
 namespace kernels::build {
 
@@ -13,9 +17,24 @@ struct SubtreeRange {
     std::uint32_t firstNode = 0, endNode = 0, firstLeaf = 0, endLeaf = 0;
 };
 
+// Makes a better binary tree, by moving subtrees to where they enlarge least area (Bittner et al.
+// 2013): splits from the top down see centres only, and long or large triangles among small ones
+// end up in boxes that every ray enters. All leaves stay as they are, so hits do too.
+// Root at 0, a gap at 1, siblings at even numbers and the next; children behind their parents,
+// before and after. Goes on as long as `rays` of them save more time than it takes; the same for
+// any number of threads. False: nothing has moved.
+bool reinsert(std::span<BinaryNode> nodes, double rays, ThreadPool& pool);
+
+// From the parts that the threads of the builder have made to one binary tree of boxes.
+// The nodes of all growers, those of a single one where they are, and the top behind them. `top`
+// and `subtrees` are as for writeTree(); what is `grown` is used up.
+SinglesTree joinSingles(std::span<const BinaryNode> top, std::span<const SubtreeRange> subtrees,
+                        std::vector<Grown>& grown, ThreadPool& pool);
+
+// From the binary tree of the builder to the wide one of the kernels.
 // `top` is the binary tree down to the roots of the subtrees, which are in the order of the leaves.
 // The boxes in `scrap` are not needed any more: their memory is used again. Many `rays` make a
-// better tree (reinsert.h).
+// better tree (reinsert()).
 template <int W>
 void writeTree(WideTree& tree, std::span<const BinaryNode> top,
                std::span<const SubtreeRange> subtrees, std::vector<Grown>& grown,

@@ -1,0 +1,77 @@
+#include "integrate/context.h"
+
+#include "base/for_each.h"
+#include "integrate/camera_medium.h"
+#include "scene/frame.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace {
+
+SamplerKind samplerKind(SettingsDesc::Sampler kind) {
+    switch (kind) {
+    case SettingsDesc::Sampler::Stratified: return SamplerKind::Stratified;
+    case SettingsDesc::Sampler::Random: return SamplerKind::Random;
+    case SettingsDesc::Sampler::Grid:
+    case SettingsDesc::Sampler::Corners: return SamplerKind::Grid;
+    case SettingsDesc::Sampler::Sobol: break;
+    }
+    return SamplerKind::Sobol;
+}
+
+bool needsFirstHits(const RenderSettings& settings) {
+    return !settings.aovs.empty() || (settings.picture.integrator != IntegratorKind::Whitted &&
+                                      settings.picture.integrator != IntegratorKind::Path &&
+                                      settings.picture.integrator != IntegratorKind::Ao);
+}
+
+// Texture coordinates are for pictures, and for who looks at them; lifts are for shadow rays.
+SurfaceNeeds surfaceNeedsOf(const Scene& scene, const RenderSettings& settings) {
+    if (!settings.specialise) return {};
+    return {.uv = scene.anyMaterial().pictures || settings.picture.integrator == IntegratorKind::Uv,
+            .lift = !scene.pathLights().isEmpty()};
+}
+
+StillsInLanes stillsInLanesOf(const Scene& scene, const RenderSettings& settings,
+                              SurfaceLanes lanes) {
+    StillsInLanes stills;
+    if (lanes.stills == nullptr || !settings.specialise) return stills;
+    const ShapeSet& set = scene.shapes();
+    const auto wantsUv = [&](std::uint32_t number) {
+        if (settings.picture.integrator == IntegratorKind::Uv) return true;
+        return scene.materials()[number].wantsUv();
+    };
+    stills.shapes.resize(set.shapes.size());
+    const auto take = [&](std::size_t i) {
+        if (const StillShape* const shape = set.shapes[i]->stillToShade()) {
+            const bool uv = wantsUv(shape->material) || wantsUv(shape->oddMaterial);
+            stills.shapes[i] = {shape, shape->parts, shape->caps, shape->kind, uv};
+        }
+    };
+    constexpr std::size_t kTogether = 1 << 12;
+    forEachPart(settings.threads, set.shapes.size(), kTogether,
+                [&](std::size_t first, std::size_t last) {
+                    for (std::size_t i = first; i < last; ++i) take(i);
+                });
+    return stills;
+}
+
+} // namespace
+
+IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings& theSettings)
+    : scene(theScene), settings(theSettings),
+      sampler(samplerKind(theSettings.picture.sampler), theSettings.picture.samplesPerPixel,
+              theSettings.picture.seed, theSettings.picture.jitter),
+      cutoff(toFloat(theSettings.picture.cutoff)), wantsFirstHits(needsFirstHits(theSettings)),
+      surfaceNeeds(surfaceNeedsOf(theScene, theSettings)),
+      surfaceLanes(lanesOf(theSettings.isa->surfaces)),
+      textureColors(lanesOf(theSettings.isa->pictures).texture),
+      environmentColors(lanesOf(theSettings.isa->pictures).environment),
+      stillsInLanes(stillsInLanesOf(theScene, theSettings, surfaceLanes)),
+      skySampler(sampler.stream(0, theSettings.picture.lightSamples)),
+      cameraMedium(mediumOfCamera(theScene, theSettings, media)) {
+    const int samples = settings.picture.lightSamples;
+    for (std::size_t i = 0; i < scene.pathLights().size(); ++i)
+        lampSamplers.push_back(sampler.stream(static_cast<std::uint32_t>(i) + 1, samples));
+}

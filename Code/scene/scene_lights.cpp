@@ -1,0 +1,196 @@
+#include "scene/scene_lights.h"
+
+#include "base/text.h"
+#include "desc/validate.h"
+#include "light/kinds/triangle.h"
+#include "scene/frame.h"
+#include "scene/light_rows.h"
+#include "scene/make_shapes.h"
+#include "texture/environment.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+namespace {
+
+// Whether rays can meet the lamp.
+bool hasSize(const LightDesc& desc) {
+    using enum LightDesc::Kind;
+    if (desc.kind == Sun) return desc.angleDeg > 0;
+    return desc.kind == Rectangle || desc.kind == Disk || desc.kind == Sphere || desc.radius > 0;
+}
+
+std::uint8_t seenBy(LightDesc::SeenBy by) {
+    using enum LightDesc::SeenBy;
+    std::uint8_t bits = 0;
+    if (by == Camera || by == All) bits |= PathLights::kSeesAsCamera;
+    if (by == Reflections || by == All) bits |= PathLights::kSeesAsReflection;
+    return bits;
+}
+
+// Whitted pictures with more lights than that get a warning that says what would be faster.
+constexpr std::size_t kManyLights = 256;
+
+} // namespace
+
+SceneLights::SceneLights(const SceneDesc& desc, const SceneFrame& frame,
+                         const RenderSettings& settings)
+    : desc_(desc), frame_(frame), settings_(settings),
+      isPath_(settings.picture.integrator == IntegratorKind::Path) {}
+
+void SceneLights::keepObjects() {
+    for (std::size_t i = 0; i < desc_.objects.size(); ++i) {
+        const ObjectDesc& object = desc_.objects[i];
+        const Handle number = object.materials.empty() ? kNone : object.materials[0];
+        if (object.kind == ObjectDesc::Kind::Mesh || number == kNone ||
+            object.sides != ObjectDesc::Sides::Both)
+            continue;
+        const MaterialDesc& material = desc_.materials[static_cast<std::size_t>(number)];
+        const Rgb radiance = toRgb(material.emission);
+        // What does not shine alike everywhere is found by rays alone.
+        if (!(isPath_ || material.emissionLights) || isBlack(radiance) ||
+            material.emissionTexture != kNone || material.opacity < 1 ||
+            material.opacityTexture != kNone)
+            continue;
+        const MovingTransform place =
+            placedKeys(object.worldFromObject, frame_, settings_.switches.motionBlur);
+        if (!place.isStatic()) continue;
+        const bool bothSides = material.emissionSides == MaterialDesc::Sides::Both;
+        const auto front = makeEmitterRow(object, place.at(0), radiance, false);
+        const auto back = makeEmitterRow(object, place.at(0), radiance, true);
+        const auto which = static_cast<std::uint32_t>(i);
+        if (front) objects_.push_back({which, false, bothSides && !back, *front});
+        if (back && bothSides) objects_.push_back({which, true, false, *back});
+    }
+}
+
+std::vector<std::string> SceneLights::addTo(PathLights& lights, const Surroundings& around,
+                                            const SourceFile& source) const {
+    std::vector<std::string> warnings = addLamps(lights, around, source);
+    addSky(lights, around);
+    for (const ShiningObject& shining : objects_) {
+        const std::uint32_t light = lights.add(surfaceEntry(shining.row));
+        lights.addObject(shining.object, !shining.back, light);
+        if (shining.bothSides) lights.addObject(shining.object, shining.back, light);
+    }
+    addTriangles(lights, around);
+    if (isPath_)
+        lights.makeTree();
+    else if (lights.size() > kManyLights)
+        warnings.push_back(located(
+            source, 0,
+            cat("this picture takes samples of each of ", lights.size(),
+                " lights at every point; integrator path, which chooses among them, would be "
+                "faster"),
+            "warning"));
+    return warnings;
+}
+
+std::vector<std::string> SceneLights::addLamps(PathLights& lights, const Surroundings& around,
+                                               const SourceFile& source) const {
+    std::vector<std::string> warnings;
+    for (std::size_t i = 0; i < desc_.lights.size(); ++i) {
+        const LightDesc& desc = desc_.lights[i];
+        const LightRow row = lightRow(desc, frame_);
+        if (boundsOf(row).isDark()) {
+            if (!isBlack(toRgb(desc.color)) && !hasNoArea(desc))
+                warnings.push_back(
+                    located(source, desc.loc.offset,
+                            cat("light ", desc.name,
+                                " has no area and lights nothing; sides or a radius above 0 would "
+                                "be right"),
+                            "warning"));
+            continue;
+        }
+        const bool isSoft = hasSize(desc) && settings_.switches.softShadows;
+        const std::uint32_t light =
+            lights.add({.row = row,
+                        .isOpen = !(desc.shadows && settings_.switches.shadows),
+                        .isSoft = isSoft,
+                        .isSurface = isPath_ && around.hasBody[i],
+                        .inCentre = !settings_.switches.softShadows,
+                        .isPlace = !isSoft && desc.kind != LightDesc::Kind::Sun,
+                        .place = toFloat(frame_.placed(desc.worldFromLight).point({}))});
+        if (!hasSize(desc)) continue;
+        if (around.hasBody[i])
+            lights.addObject(around.objects + static_cast<std::uint32_t>(i), true, light);
+        else
+            lights.addUnshaped(light, seenBy(desc.seenBy));
+    }
+    return warnings;
+}
+
+// An even sky is left to the lobes of paths, which find it everywhere.
+void SceneLights::addSky(PathLights& lights, const Surroundings& around) const {
+    if (!skyLights() || isBlack(around.background) || (around.environment == nullptr && isPath_))
+        return;
+    const bool isOpen = !settings_.switches.shadows;
+    lights.addSky(around.environment != nullptr
+                      ? skyTableOf(*around.environment, isPath_ && !isOpen, settings_.threads)
+                      : SkyTable(),
+                  skyRadianceOf(around.environment, around.background),
+                  static_cast<double>(luminance(around.background)), isOpen);
+}
+
+void SceneLights::addTriangles(PathLights& lights, const Surroundings& around) const {
+    const auto shines = [&](const SceneMaterial& of) {
+        return (isPath_ || of.lightsOthers) && !isBlack(of.emission) && !of.pictures->emission &&
+               !of.isLamp && !of.seeThrough();
+    };
+    if (std::none_of(around.materials.begin(), around.materials.end(), shines)) return;
+    for (std::uint32_t shape = 0; shape < around.shapes.shapes.size(); ++shape)
+        around.shapes.shapes[shape]->forEachTriangle([&](std::uint32_t triangle,
+                                                         const std::array<Vec3, 3>& corners,
+                                                         std::uint32_t material) {
+            const SceneMaterial& of = around.materials[material];
+            if (!shines(of)) return;
+            const TriangleRow row{corners[0], corners[1], corners[2], of.emission,
+                                  of.emitsFront ? 0.0f : 1.0f};
+            lights.addTriangle(shape, triangle, lights.add(surfaceEntry(lightRow(row))));
+        });
+}
+
+PathLights::Entry SceneLights::surfaceEntry(const LightRow& row) const {
+    return {.row = row, .isOpen = !settings_.switches.shadows, .isSoft = true, .isSurface = true};
+}
+
+namespace {
+
+class SceneSky final : public SkyRadiance {
+public:
+    SceneSky(const Environment* environment, Rgb factor)
+        : environment_(environment), factor_(factor) {}
+    void radiance(std::size_t count, const float* const (&dir)[3],
+                  float* const (&rgb)[3]) const override {
+        for (std::size_t i = 0; i < count; ++i) {
+            const Rgb c =
+                environment_ == nullptr
+                    ? factor_
+                    : factor_ * environment_->radiance(Vec3{dir[0][i], dir[1][i], dir[2][i]});
+            rgb[0][i] = c.r, rgb[1][i] = c.g, rgb[2][i] = c.b;
+        }
+    }
+
+private:
+    const Environment* environment_;
+    Rgb factor_;
+};
+
+} // namespace
+
+SkyTable skyTableOf(const Environment& environment, bool compensated, int threads) {
+    const SkyCells cells = skyCells(environment, kMostSkyColumns, kMostSkyRows, threads);
+    const Environment::View view = environment.view();
+    return {cells.width,
+            cells.height,
+            cells.luminance,
+            compensated,
+            {view.up == Environment::Up::Z, view.turns},
+            threads};
+}
+
+std::unique_ptr<const SkyRadiance> skyRadianceOf(const Environment* environment, Rgb factor) {
+    return std::make_unique<const SceneSky>(environment, factor);
+}
