@@ -143,16 +143,6 @@ const Tables16& tables16() {
 
 std::span<const DecodeNode, 256> srgb::decodeNodes() { return kDecode; }
 
-float linearFromSrgb(float encoded) {
-    const double s = static_cast<double>(clampToUnit(encoded));
-    if (s <= kDecodeThreshold) return static_cast<float>(s / 12.92);
-    const int k = static_cast<int>(s * 255 + 0.5);
-    const DecodeNode& node = kDecode[static_cast<std::size_t>(k)];
-    // (1 + u)^2.4 by the binomial series; |u| < 0.021, the next term is below 7e-9.
-    const double u = (s - k / 255.0) * node.inverse;
-    return static_cast<float>(node.value * (1 + u * (2.4 + u * (1.68 + u * 0.224))));
-}
-
 float srgbFromLinear(float linear) {
     const double x = static_cast<double>(clampToUnit(linear));
     if (x <= kEncodeThreshold) return static_cast<float>(12.92 * x);

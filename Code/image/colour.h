@@ -8,9 +8,7 @@
 #include <cstdint>
 #include <span>
 
-// Within 1 ulp of the exact value; monotone over the table's 256 pieces to that accuracy.
-// linearFromSrgb(float(k / 255.0)) and linearFromSrgb8(k) agree within 1 ulp.
-float linearFromSrgb(float encoded);
+// Within 1 ulp of the exact value.
 float srgbFromLinear(float linear);
 
 // Correctly rounded decode of whole codes.
@@ -22,7 +20,7 @@ std::uint16_t srgb16FromLinear(float linear);
 // Many at once: three codes per pixel.
 void srgb8FromLinear(std::span<const Rgb> pixels, std::uint8_t* out);
 
-// What the above is made of, for who does it by the register. Up to the thresholds it is
+// What texture/texels_in_lanes.h decodes numbers between codes by. Up to the thresholds it is
 // encoded / 12.92 and 12.92 * linear. A node is the curve's value at k / 255 and
 // 1 / (k / 255 + 0.055).
 namespace srgb {

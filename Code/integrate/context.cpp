@@ -65,9 +65,7 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
               theSettings.picture.seed, theSettings.picture.jitter),
       cutoff(toFloat(theSettings.picture.cutoff)), wantsFirstHits(needsFirstHits(theSettings)),
       surfaceNeeds(surfaceNeedsOf(theScene, theSettings)),
-      surfaceLanes(lanesOf(theSettings.isa->surfaces)),
-      textureColors(lanesOf(theSettings.isa->pictures).texture),
-      environmentColors(lanesOf(theSettings.isa->pictures).environment),
+      surfaceLanes(lanesOf(theSettings.isa->surfaces)), pictures(*theSettings.isa->pictures),
       stillsInLanes(stillsInLanesOf(theScene, theSettings, surfaceLanes)),
       skySampler(sampler.stream(0, theSettings.picture.lightSamples)),
       cameraMedium(mediumOfCamera(theScene, theSettings, media)) {

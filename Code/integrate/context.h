@@ -37,8 +37,7 @@ struct IntegratorContext {
     bool wantsFirstHits;
     SurfaceNeeds surfaceNeeds;
     SurfaceLanes surfaceLanes;
-    TextureColorsFn textureColors;         // null: one by one
-    EnvironmentColorsFn environmentColors; // the same
+    const PictureLanes& pictures;
     StillsInLanes stillsInLanes;
     Sampler skySampler;                // of ambient light
     std::vector<Sampler> lampSamplers; // of scene.pathLights(), by number

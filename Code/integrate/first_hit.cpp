@@ -56,17 +56,18 @@ void describeFirstHits(const Wave& wave) {
     const Scene& scene = wave.context.scene;
     const Camera& camera = scene.camera();
     const PointBatch& points = wave.memory.points;
-    Camera::View view = camera.view(0);
+    Camera::Axes view = camera.axesAt(0);
     for (std::size_t k = 0; k < points.count; ++k) {
         const PointBlock& block = points.at.block(k / PointBlock::kPoints);
         const std::size_t i = k % PointBlock::kPoints;
         const Vec3d position = toDouble(SurfaceBlock::get(block.p, i));
         const SceneMaterial& of = points.at.of(k);
         const Vec2 uv = points.at.uv(k);
-        if (camera.isMoving()) view = camera.view(wave.rays.time[points.ray[k]]);
+        if (camera.isMoving()) view = camera.axesAt(wave.rays.time[points.ray[k]]);
         FirstHit& first = wave.chunk.first[points.slot[k]];
         first.hit = true;
-        first.depth = static_cast<float>(dot(position - view.eye, view.axis) / scene.frame().scale);
+        first.depth =
+            static_cast<float>(dot(position - view.eye, view.forward) / scene.frame().scale);
         first.normal = SurfaceBlock::get(block.n, i);
         first.position = toFloat(scene.frame().worldPoint(position));
         first.albedo = of.diffuse;

@@ -55,7 +55,7 @@ struct alignas(64) LobeBlock {
     // Multiplies the numbers of `points`, which are of this material, by its textures at their
     // coordinates. `colors`: null, or what looks up many at a time.
     void paint(const LobedMaterials& materials, const LobedMaterial& of, unsigned points,
-               const SurfaceBlock& at, TextureColorsFn colors) {
+               const SurfaceBlock& at, const PictureLanes& pictures) {
         const Texture* last = nullptr;
         TextureBlock texels;
         std::size_t found = 0;
@@ -66,7 +66,7 @@ struct alignas(64) LobeBlock {
             point[found++] = static_cast<std::uint8_t>(i);
         }
         for (const LobeFactor& factor : materials.factors(of)) {
-            if (factor.texture != last) lookUp(*factor.texture, texels, found, colors);
+            if (factor.texture != last) pictures.texture(*factor.texture, texels, found);
             last = factor.texture;
             for (std::size_t k = 0; k < found; ++k)
                 multiply(factor, point[k],
@@ -75,15 +75,6 @@ struct alignas(64) LobeBlock {
     }
 
 private:
-    static void lookUp(const Texture& texture, TextureBlock& block, std::size_t count,
-                       TextureColorsFn colors) {
-        if (const auto bytes = texture.bytes(); bytes && colors != nullptr && count > 2)
-            return colors(*bytes, block, count);
-        for (std::size_t k = 0; k < count; ++k) {
-            const Rgb color = texture.color({block.u[k], block.v[k]});
-            block.color[0][k] = color.r, block.color[1][k] = color.g, block.color[2][k] = color.b;
-        }
-    }
     void multiply(const LobeFactor& factor, std::size_t i, Rgb color) {
         auto* const value = &lobe[factor.lobe].value[factor.first];
         if (factor.count == 1) {

@@ -192,7 +192,7 @@ protected:
                 const int i = std::countr_zero(rest);
                 points |= unsigned{at.material[i] == one} << i;
             }
-            lobes.paint(materials_, materials_[one], points, at, context_.textureColors);
+            lobes.paint(materials_, materials_[one], points, at, context_.pictures);
             painted &= ~points;
         }
     }

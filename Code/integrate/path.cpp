@@ -63,7 +63,7 @@ private:
     void drawNumbers(const std::uint32_t (&pixels)[kPoints],
                      const std::uint32_t (&samples)[kPoints]) {
         PathNumbers& numbers = path_.block.numbers;
-        PairDrawer drawer(context_.settings.isa->camera, pixels, samples);
+        PairDrawer drawer(*context_.settings.isa->camera, pixels, samples);
         for (const auto& [slot, to] : {std::pair(BounceSlot::LightPick, &numbers.choice),
                                        std::pair(BounceSlot::LightUv, &numbers.onLight),
                                        std::pair(BounceSlot::BsdfUv, &numbers.direction),

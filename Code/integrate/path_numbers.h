@@ -1,9 +1,10 @@
 // The random numbers of sixteen points.
 #pragma once
 
-#include "sample/dimensions.h"
+#include "camera/camera_lanes.h"
 #include "integrate/shading_kernel.h"
 #include "isa/isa.h"
+#include "sample/dimensions.h"
 #include "sample/sampler.h"
 
 #include <algorithm>
@@ -18,9 +19,9 @@ public:
     static constexpr std::size_t kPoints = PointBlock::kPoints;
 
     // `pixels` and `samples` stay as long as this.
-    PairDrawer(const CameraLanes* lanes, const std::uint32_t (&pixels)[kPoints],
+    PairDrawer(const CameraLanes& lanes, const std::uint32_t (&pixels)[kPoints],
                const std::uint32_t (&samples)[kPoints])
-        : lanes_(lanesOf(lanes)), pixels_(pixels), samples_(samples) {}
+        : lanes_(lanes), pixels_(pixels), samples_(samples) {}
     ~PairDrawer() { flush(); }
     PairDrawer(const PairDrawer&) = delete;
     PairDrawer& operator=(const PairDrawer&) = delete;
@@ -28,7 +29,7 @@ public:
     // The pairs of `repeats` samples, which are written until the drawer's life ends.
     void draw(const Sampler& sampler, std::uint32_t dimension, std::uint32_t repeats,
               NumberPairs* to) {
-        if (sampler.kind() != SamplerKind::Sobol || lanes_.pairs == nullptr) {
+        if (sampler.kind() != SamplerKind::Sobol) {
             for (std::uint32_t s = 0; s < repeats; ++s)
                 for (std::size_t i = 0; i < kPoints; ++i) {
                     const Vec2 pair =
@@ -68,7 +69,7 @@ private:
         count_ = 0;
     }
 
-    CameraLanes lanes_;
+    const CameraLanes& lanes_;
     const std::uint32_t (&pixels_)[kPoints];
     const std::uint32_t (&samples_)[kPoints];
     PairBlock pairs_;

@@ -2,7 +2,7 @@
 // receive.
 #pragma once
 
-#include "camera/lens_lanes.h"
+#include "camera/camera_lanes.h"
 #include "integrate/batch.h"
 
 #include <cstdint>
@@ -22,7 +22,6 @@ struct FirstHit {
 struct SampleChunk {
     SampleNumbers sampleNumber;        // in its pixel
     std::vector<PlaceBlock> places;    // slot after slot; those on the lens, if there is one
-    std::vector<Vec2> numbers;         // for who draws them without lanes
     PathBatch cameraRays;              // `stream` is the number of the pixel in the whole picture
     std::size_t raysWithConstants = 0; // see CameraRays::make()
     std::vector<Rgb> radiance;

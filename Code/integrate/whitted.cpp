@@ -124,7 +124,7 @@ private:
         if (!spreads && std::none_of(lamps.begin(), lamps.end(), isSoft)) return;
         std::uint32_t pixels[kPoints], samples[kPoints];
         takePixels(of, pixels, samples);
-        PairDrawer drawer(context_.settings.isa->camera, pixels, samples);
+        PairDrawer drawer(*context_.settings.isa->camera, pixels, samples);
         const auto slot = [&](BounceSlot of) { return dimension(wave_.depth, of); };
         if (spreads) {
             drawer.draw(context_.sampler, slot(BounceSlot::LightPick), 1, &block.choice);

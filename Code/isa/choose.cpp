@@ -14,7 +14,12 @@ std::span<const Isa> allIsas() {
         kAvx2Isa,
         kSseIsa,
 #endif
-        {.name = "scalar", .width = 1, .supported = always, .shading = &kOneShading},
+        {.name = "scalar",
+         .width = 1,
+         .supported = always,
+         .pictures = &kOnePictures,
+         .camera = &kOneCamera,
+         .shading = &kOneShading},
     };
     return all;
 }

@@ -10,10 +10,9 @@
 #include "accel/kernels/still_surfaces_in_lanes.h"
 #include "accel/kernels/surface_lanes.h"
 #include "accel/kernels/triangle_surfaces_in_lanes.h"
+#include "camera/camera_in_lanes.h"
 #include "isa/isa.h"
-#include "camera/lens_in_lanes.h"
-#include "texture/texel_lanes.h"
-#include "texture/picture_lanes.h"
+#include "texture/pictures_in_lanes.h"
 
 LANES_BEGIN
 
@@ -21,8 +20,6 @@ constexpr TriangleKernel kTriangles{closest, closestFromPoint, any, anyFromPoint
 constexpr SolidKernel kSolids{closestSolids, anySolids, nearerInBox};
 constexpr PlacedKernel kPlaced{closestPlaced, anyPlaced};
 constexpr SurfaceLanes kSurfaces{stillSurfaces, triangleSurfaces};
-constexpr PictureLanes kPictures{textureColors, environmentColors};
-constexpr CameraLanes kCamera{pairSeeds, sobolPairs, spreadPlaces, lensRays, pinholeRays};
 
 // An Isa of these functions.
 constexpr Isa isaOf(const char* name, bool (*supported)(), const kernels::build::TreeBuilder* build,

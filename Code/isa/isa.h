@@ -16,7 +16,8 @@ namespace kernels::build {
 struct TreeBuilder;
 }
 
-// A null table: plain code of one lane, which every machine has, does the work.
+// A null table: plain code, which every machine has, does the work. Pictures, cameras and shading
+// have no other code than these, and are never null.
 struct Isa {
     const char* name; // as --kernel has it
     int width;        // lanes of single precision, and children of a node of its trees; or 1
@@ -27,7 +28,7 @@ struct Isa {
     const PlacedKernel* placed = nullptr;               // accel/kernels/placed.h
     const SurfaceLanes* surfaces = nullptr;             // accel/kernels/surface_lanes.h
     const PictureLanes* pictures = nullptr;             // texture/picture_lanes.h
-    const CameraLanes* camera = nullptr;                // camera/lens_lanes.h
+    const CameraLanes* camera = nullptr;                // camera/camera_lanes.h
     const ShadingKernel* shading = nullptr;             // integrate/shading_kernel.h
     const kernels::build::TreeBuilder* build = nullptr; // accel/kernels/build/build.h
 };

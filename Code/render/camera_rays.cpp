@@ -3,7 +3,7 @@
 #include "sample/dimensions.h"
 
 #include <algorithm>
-#include <optional>
+#include <span>
 
 namespace {
 
@@ -34,14 +34,12 @@ template <class Fn> void forEachBlock(std::size_t slots, const Fn& fn) {
 CameraRays::CameraRays(const IntegratorContext& context)
     : context_(context),
       filter_(filterKind(context.settings.picture.filter), context.settings.picture.filterWidth),
-      lanes_(lanesOf(context.settings.isa->camera)),
+      lanes_(*context.settings.isa->camera),
       corners_(context.settings.picture.sampler == SettingsDesc::Sampler::Corners),
       width_(context.settings.picture.width + corners_) {
     const SettingsDesc& picture = context.settings.picture;
-    if (corners_)
-        fixed_ = Vec2{};
-    else if (picture.samplesPerPixel == 1 && !picture.jitter && context.settings.specialise)
-        fixed_ = filter_.sample({0.5f, 0.5f}); // see Sampler
+    isInMiddle_ = corners_ || (picture.samplesPerPixel == 1 && !picture.jitter &&
+                               context.settings.specialise); // see Sampler
     for (std::size_t i = 0; i < pixelsOfSquare_.size(); ++i) {
         const TileSquare::Step step = TileSquare::kCurve[i];
         pixelsOfSquare_[i] = pixelAt(step.x, step.y, static_cast<std::uint32_t>(width_));
@@ -102,59 +100,36 @@ void CameraRays::listSquare(int left, int top, std::uint32_t* stream, PlaceBlock
     }
 }
 
-void CameraRays::moveFromMiddles(int first, int count, SampleChunk& chunk) const {
-    if (corners_) return;
-    const std::size_t all = chunk.cameraRays.size();
-    if (fixed_) {
-        const Vec2d offset{fixed_->x, fixed_->y};
-        for (std::size_t b = 0; b < blocksOf(all); ++b)
-            for (std::size_t i = 0; i < kBlock; ++i)
-                chunk.places[b].x[i] += offset.x, chunk.places[b].y[i] += offset.y;
-        return;
-    }
+void CameraRays::moveFromMiddles(SampleChunk& chunk) const {
+    if (isInMiddle_) return;
     const Filter::Spread spread = filter_.spread();
-    drawPairs(first, count, kPixelDimension, chunk,
-              [&](const PairBlock& pairs, std::size_t slot, std::size_t some) {
-                  PlaceBlock& places = chunk.places[slot / kBlock];
-                  if (lanes_.spread) return lanes_.spread(spread, pairs, places);
-                  for (std::size_t i = 0; i < some; ++i) {
-                      const Vec2 offset = filter_.sample({pairs.u[i], pairs.v[i]});
-                      places.x[i] += offset.x, places.y[i] += offset.y;
-                  }
-              });
-}
-
-template <class TakeFn>
-void CameraRays::drawPairs(int first, int count, std::uint32_t dimension, SampleChunk& chunk,
-                           const TakeFn& take) const {
-    const Sampler& sampler = context_.sampler;
-    const bool areCentres = dimension == kPixelDimension && sampler.sampleCount() == 1 &&
-                            !context_.settings.picture.jitter; // see Sampler
-    if (areLanesAsked() && !areCentres) return drawInLanes(dimension, chunk, take);
-    const std::size_t all = chunk.cameraRays.size();
-    const auto samples = static_cast<std::size_t>(count);
-    chunk.numbers.resize(all);
-    for (std::size_t slot = 0; slot < all; slot += samples)
-        sampler.get2D(chunk.cameraRays.stream[slot], static_cast<std::uint32_t>(first), dimension,
-                      std::span(chunk.numbers).subspan(slot, samples));
-    PairBlock block{};
-    forEachBlock(all, [&](std::size_t slot, std::size_t some) {
-        for (std::size_t i = 0; i < some; ++i)
-            block.u[i] = chunk.numbers[slot + i].x, block.v[i] = chunk.numbers[slot + i].y;
-        take(block, slot, some);
+    drawPairs(kPixelDimension, chunk, [&](const PairBlock& pairs, std::size_t slot, std::size_t) {
+        lanes_.spread(spread, pairs, chunk.places[slot / kBlock]);
     });
 }
 
 template <class TakeFn>
-void CameraRays::drawInLanes(std::uint32_t dimension, const SampleChunk& chunk,
-                             const TakeFn& take) const {
+void CameraRays::drawPairs(std::uint32_t dimension, const SampleChunk& chunk,
+                           const TakeFn& take) const {
+    const Sampler& sampler = context_.sampler;
+    const bool isMiddle = dimension == kPixelDimension && sampler.sampleCount() == 1 &&
+                          !context_.settings.picture.jitter; // see Sampler
     PairBlock block{};
     forEachBlock(chunk.cameraRays.size(), [&](std::size_t slot, std::size_t some) {
-        std::copy_n(&chunk.cameraRays.stream[slot], some, block.pixel);
-        std::copy_n(&chunk.sampleNumber[slot], some, block.sample);
-        lanes_.seeds(context_.sampler.seed(), dimension,
-                     std::span<const std::uint32_t>(block.pixel), {block.index, block.x, block.y});
-        lanes_.pairs(block, PairBlock::kPairs);
+        const std::uint32_t* const pixel = &chunk.cameraRays.stream[slot];
+        const std::uint32_t* const sample = &chunk.sampleNumber[slot];
+        if (sampler.kind() == SamplerKind::Sobol && !isMiddle) {
+            std::copy_n(pixel, some, block.pixel);
+            std::copy_n(sample, some, block.sample);
+            lanes_.seeds(sampler.seed(), dimension, std::span<const std::uint32_t>(block.pixel),
+                         {block.index, block.x, block.y});
+            lanes_.pairs(block, PairBlock::kPairs);
+        } else {
+            for (std::size_t i = 0; i < some; ++i) {
+                const Vec2 pair = sampler.get2D(pixel[i], sample[i], dimension);
+                block.u[i] = pair.x, block.v[i] = pair.y;
+            }
+        }
         take(block, slot, some);
     });
 }
@@ -162,26 +137,20 @@ void CameraRays::drawInLanes(std::uint32_t dimension, const SampleChunk& chunk,
 void CameraRays::drawTimes(SampleChunk& chunk) const {
     const Sampler& sampler = context_.sampler;
     std::vector<float>& times = chunk.cameraRays.time;
-    if (areLanesAsked())
-        return drawInLanes(Sampler::alone(kTimeDimension), chunk,
-                           [&](const PairBlock& block, std::size_t slot, std::size_t some) {
-                               std::copy_n(block.u, some, &times[slot]);
-                           });
+    if (sampler.kind() == SamplerKind::Sobol)
+        return drawPairs(Sampler::alone(kTimeDimension), chunk,
+                         [&](const PairBlock& block, std::size_t slot, std::size_t some) {
+                             std::copy_n(block.u, some, &times[slot]);
+                         });
     for (std::size_t i = 0; i < chunk.cameraRays.size(); ++i)
         times[i] = sampler.get1D(chunk.cameraRays.stream[i], chunk.sampleNumber[i], kTimeDimension);
-}
-
-bool CameraRays::areLanesAsked() const {
-    return lanes_.pairs != nullptr && context_.sampler.kind() == SamplerKind::Sobol;
 }
 
 // What all rays of a picture share is written once.
 void CameraRays::setConstants(SampleChunk& chunk) const {
     PathBatch& rays = chunk.cameraRays;
     if (chunk.raysWithConstants >= rays.size()) return;
-    const Vec3 origin = context_.scene.camera().ray({0, 0}, {0.5f, 0.5f}, 0.5f).org;
     for (std::size_t i = chunk.raysWithConstants; i < rays.size(); ++i) {
-        rays.org[i] = origin;
         rays.sample[i] = static_cast<std::uint32_t>(i);
         rays.weight[i] = {1, 1, 1};
         rays.medium[i] = context_.cameraMedium;
@@ -195,45 +164,22 @@ void CameraRays::setConstants(SampleChunk& chunk) const {
 void CameraRays::make(const Tile& tile, int first, int count, SampleChunk& chunk) const {
     const Camera& camera = context_.scene.camera();
     listSamples(tile, first, count, chunk);
-    moveFromMiddles(first, count, chunk);
+    moveFromMiddles(chunk);
     setConstants(chunk);
     PathBatch& rays = chunk.cameraRays;
-    const auto raysOf = [&](std::size_t slot, std::size_t some) {
-        return RaySpans{std::span(rays.org).subspan(slot, some),
-                        std::span(rays.dir).subspan(slot, some),
-                        std::span(rays.tMin).subspan(slot, some)};
-    };
-    // The general form draws what it may not need; who does not use it does not notice.
+    // The general form draws what it may not need; what does not use it does not notice.
     const bool isGeneral = !context_.settings.specialise;
-    const bool hasTime = isGeneral || context_.scene.moves();
-    const bool hasLens = isGeneral || camera.hasLens();
-    if (hasTime) drawTimes(chunk);
-    if (!hasLens && camera.hasSharedOrigin()) {
-        const Camera::Lens pinhole = *camera.pinhole();
-        return forEachBlock(rays.size(), [&](std::size_t slot, std::size_t some) {
-            const PlaceBlock& places = chunk.places[slot / kBlock];
-            RaySpans to = raysOf(slot, some);
-            to.org = {};
-            if (lanes_.pinhole) return lanes_.pinhole(pinhole, places, to);
-            camera.pinholeRays({places.x, some}, {places.y, some}, to.dir, to.tMin);
-        });
-    }
-    if (hasLens)
-        drawPairs(first, count, kLensDimension, chunk,
+    if (isGeneral || context_.scene.moves()) drawTimes(chunk);
+    if (isGeneral || camera.hasLens())
+        drawPairs(kLensDimension, chunk,
                   [&](const PairBlock& pairs, std::size_t slot, std::size_t) {
                       std::copy_n(pairs.u, kBlock, chunk.places[slot / kBlock].u);
                       std::copy_n(pairs.v, kBlock, chunk.places[slot / kBlock].v);
                   });
-    const std::optional<Camera::Lens> lens = hasLens ? camera.lens() : std::nullopt;
     forEachBlock(rays.size(), [&](std::size_t slot, std::size_t some) {
-        const PlaceBlock& places = chunk.places[slot / kBlock];
-        if (lens && lanes_.rays) return lanes_.rays(*lens, places, raysOf(slot, some));
-        for (std::size_t i = 0; i < some; ++i) {
-            const Vec2 onLens = hasLens ? Vec2{places.u[i], places.v[i]} : Vec2{0.5f, 0.5f};
-            const Ray ray = camera.ray({places.x[i], places.y[i]}, onLens, rays.time[slot + i]);
-            rays.org[slot + i] = ray.org;
-            rays.dir[slot + i] = ray.dir;
-            rays.tMin[slot + i] = ray.tMin;
-        }
+        lanes_.rays(
+            camera, chunk.places[slot / kBlock],
+            {std::span(rays.org).subspan(slot, some), std::span(rays.dir).subspan(slot, some),
+             std::span(rays.tMin).subspan(slot, some), std::span(rays.time).subspan(slot, some)});
     });
 }

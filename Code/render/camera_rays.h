@@ -1,14 +1,13 @@
 // CameraRays: the samples of a tile, and the rays that they send into the scene.
 #pragma once
 
-#include "camera/lens_lanes.h"
+#include "camera/camera_lanes.h"
 #include "film/tile.h"
 #include "integrate/context.h"
 #include "integrate/samples.h"
 #include "sample/filter.h"
 
 #include <array>
-#include <optional>
 
 class CameraRays {
 public:
@@ -34,26 +33,20 @@ private:
     // The same of a TileSquare with one sample per place.
     void listSquare(int left, int top, std::uint32_t* stream, PlaceBlock* blocks) const;
     // To where the filter has them.
-    void moveFromMiddles(int first, int count, SampleChunk& chunk) const;
-    // Sampler::get2D() of all slots, the samples of a place following each other:
-    // take(pairs, slot, count), `slot` that of the block's first pair.
+    void moveFromMiddles(SampleChunk& chunk) const;
+    // Sampler::get2D() of all slots: take(pairs, slot, count), `slot` that of the block's first.
     template <class TakeFn>
-    void drawPairs(int first, int count, std::uint32_t dimension, SampleChunk& chunk,
-                   const TakeFn& take) const;
-    template <class TakeFn>
-    void drawInLanes(std::uint32_t dimension, const SampleChunk& chunk, const TakeFn& take) const;
+    void drawPairs(std::uint32_t dimension, const SampleChunk& chunk, const TakeFn& take) const;
     // Sampler::get1D() of all slots.
     void drawTimes(SampleChunk& chunk) const;
-    bool areLanesAsked() const;
     void setConstants(SampleChunk& chunk) const;
 
     const IntegratorContext& context_;
     Filter filter_;
-    CameraLanes lanes_;
+    const CameraLanes& lanes_;
     bool corners_; // samples lie on the corners of pixels; places are those, one more each way
     int width_;
     // The pixels of a TileSquare, less its first one.
     std::array<std::uint32_t, TileSquare::kPlaces> pixelsOfSquare_;
-    // Where every sample is in its place, if all are in the same one: nobody draws numbers then.
-    std::optional<Vec2> fixed_;
+    bool isInMiddle_; // every sample, of its place: that needs no numbers
 };

@@ -1,6 +1,7 @@
 #include "sample/filter.h"
 
 #include "base/math.h"
+#include "sample/filter_in_lanes.h"
 
 #include <algorithm>
 #include <array>
@@ -134,30 +135,7 @@ double Filter::value(double offset) const {
     return radius_ > 0 ? shape(kind_, offset / radius_) : 0;
 }
 
-template <FilterKind kKind> float Filter::offsetAt(float u) const {
-    const double place = 2 * static_cast<double>(u) - 1, size = std::fabs(place);
-    double x = size; // Box
-    if constexpr (kKind == FilterKind::Tent) {
-        // 1 - sqrt(1 - size) without cancellation
-        x = size / (1 + std::sqrt(1 - size));
-    } else if constexpr (kKind != FilterKind::Box) {
-        const double at = std::sqrt(1 - size) * kSteps;
-        const int i = std::min(static_cast<int>(at), kSteps - 1);
-        const float* step = inverse_.data() + i;
-        x = lerp(static_cast<double>(step[0]), static_cast<double>(step[1]), at - i);
-    }
-    return static_cast<float>(std::copysign(x * radius_, place));
-}
-
-template <FilterKind kKind> void Filter::sampleAs(std::span<Vec2> u) const {
-    for (Vec2& both : u) both = {offsetAt<kKind>(both.x), offsetAt<kKind>(both.y)};
-}
-
-void Filter::sample(std::span<Vec2> u) const {
-    switch (kind_) {
-    case FilterKind::Box: return sampleAs<FilterKind::Box>(u);
-    case FilterKind::Tent: return sampleAs<FilterKind::Tent>(u);
-    case FilterKind::Gaussian: return sampleAs<FilterKind::Gaussian>(u);
-    case FilterKind::BlackmanHarris: return sampleAs<FilterKind::BlackmanHarris>(u);
-    }
+Vec2 Filter::sample(Vec2 u) const {
+    using kernels::one::offsetOf;
+    return {offsetOf(spread(), u.x).v, offsetOf(spread(), u.y).v};
 }

@@ -5,7 +5,6 @@
 
 #include "base/vec.h"
 
-#include <span>
 #include <vector>
 
 enum class FilterKind { Box, Tent, Gaussian, BlackmanHarris };
@@ -20,15 +19,11 @@ public:
     // Offset from the centre of the pixel, in pixels, for u in [0,1)^2; (0.5, 0.5) gives (0, 0).
     // It is monotone in u, so stratified u give stratified offsets. The share of samples left of
     // any offset is right to 2e-6.
-    Vec2 sample(Vec2 u) const {
-        sample(std::span(&u, 1));
-        return u;
-    }
-    void sample(std::span<Vec2> u) const; // in their places
+    Vec2 sample(Vec2 u) const;
     // The unnormalised density at an offset along one axis, in pixels; separable.
     double value(double offset) const;
     double radius() const { return radius_; } // no offset is larger, in pixels
-    // All that sample() is made of, for who samples many at once.
+    // All that sample() is made of: for lanes, which take many samples at once.
     static constexpr int kSteps = 1024;
     struct Spread {
         FilterKind kind;
@@ -41,9 +36,6 @@ public:
     FilterKind kind() const { return kind_; }
 
 private:
-    template <FilterKind kKind> void sampleAs(std::span<Vec2> u) const;
-    template <FilterKind kKind> float offsetAt(float u) const;
-
     FilterKind kind_;
     double width_, radius_;
     std::vector<float> inverse_; // of the CDF, upper half; only for the two smooth kinds

@@ -1,4 +1,3 @@
-
 #include "sample/sampler.h"
 #include "base/math.h"
 #include "sample/dimensions.h"
@@ -12,9 +11,6 @@
 namespace {
 
 using namespace kernels::one;
-
-// Four numbers in a register of the compiler's.
-using Four __attribute__((vector_size(16))) = std::uint32_t;
 
 // The index-th of `count` in a random order; a bijection on [0, count) for every key. Steps that
 // are invertible modulo the next power of two, repeated until the result is in range (Kensler,
@@ -49,17 +45,6 @@ std::uint32_t squareDivisor(std::uint32_t n) {
     for (std::uint64_t d = 2; d * d <= n; ++d)
         if (n % d == 0) best = static_cast<std::uint32_t>(d);
     return best;
-}
-
-// unitFloat() of four pairs; 24 bits fit into a signed number, which SSE2 can convert.
-void storePairs(const Pair<Four>& bits, Vec2* out) {
-    using FourSigned __attribute__((vector_size(16))) = std::int32_t;
-    using FourFloats __attribute__((vector_size(16))) = float;
-    const auto unit = [](Four x) {
-        return __builtin_convertvector(reinterpret_cast<FourSigned>(x >> 8), FourFloats) * 0x1p-24f;
-    };
-    const FourFloats x = unit(bits.x), y = unit(bits.y);
-    for (std::size_t k = 0; k < 4; ++k) out[k] = {x[k], y[k]};
 }
 
 } // namespace
@@ -104,29 +89,16 @@ float Sampler::get1D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t di
     return inCell(permuted(index, count_, mixBits(bits + pass)), unitFloat(offset), count_);
 }
 
-void Sampler::get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension,
-                    std::span<Vec2> out) const {
+Vec2 Sampler::get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension) const {
     const bool isPixel = dimension == kPixelDimension && !isStream_;
-    if (isPixel && !jitter_ && count_ == 1) {
-        std::fill(out.begin(), out.end(), Vec2{0.5f, 0.5f});
-        return;
-    }
+    if (isPixel && !jitter_ && count_ == 1) return {0.5f, 0.5f};
     if (kind_ != SamplerKind::Sobol) {
-        const std::uint64_t bits = hash(seed_, pixel, dimension), more = mixBits(bits + kHashStep);
-        for (Vec2& u : out) u = otherPair(bits, more, sample++, isPixel);
-        return;
+        const std::uint64_t bits = hash(seed_, pixel, dimension);
+        return otherPair(bits, mixBits(bits + kHashStep), sample, isPixel);
     }
     const auto [a, b, c] = pairSeeds(pixel, dimension);
-    std::size_t i = 0;
-    for (; i + 4 <= out.size(); i += 4, sample += 4) {
-        const Four samples = {sample, sample + 1, sample + 2, sample + 3};
-        const Four fourA = {a, a, a, a}, fourB = {b, b, b, b}, fourC = {c, c, c, c};
-        storePairs(sobolPair(samples, fourA, fourB, fourC), &out[i]);
-    }
-    for (; i < out.size(); ++i) {
-        const auto [x, y] = sobolPair(sample++, a, b, c);
-        out[i] = {unitFloat(x), unitFloat(y)};
-    }
+    const auto [x, y] = sobolPair(sample, a, b, c);
+    return {unitFloat(x), unitFloat(y)};
 }
 
 // Of the kinds but Sobol.

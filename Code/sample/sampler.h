@@ -5,7 +5,6 @@
 #include "base/vec.h"
 
 #include <cstdint>
-#include <span>
 
 enum class SamplerKind {
     Sobol,      // hash-based Owen-scrambled Sobol (Burley 2020), 2D pairs padded by shuffling
@@ -27,17 +26,9 @@ public:
     float get1D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension) const;
     // Dimensions `dimension` (even) and dimension + 1, evenly spread in the square over the samples
     // of a pixel. Its x is not the number of get1D in the same dimension.
-    Vec2 get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension) const {
-        Vec2 out;
-        get2D(pixel, sample, dimension, std::span(&out, 1));
-        return out;
-    }
-    // The same for consecutive samples of a pixel, the first of them `sample`.
-    void get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension,
-               std::span<Vec2> out) const;
+    Vec2 get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension) const;
 
-    // What the pairs of a pixel are shuffled and scrambled by, for who makes many himself with
-    // sample/sobol.h: of a sampler of the kind Sobol.
+    // What the pairs of a pixel are shuffled and scrambled by, of a sampler of the kind Sobol.
     struct PairSeeds {
         std::uint32_t index, x, y;
     };

@@ -4,6 +4,7 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "image/colour.h"
+#include "texture/pictures_in_lanes.h"
 
 #include <algorithm>
 #include <array>
@@ -13,14 +14,11 @@
 
 Environment::Environment(StoredImage image, ColorSpace space, Interpolation interpolation, Up up,
                          double rotationRad)
-    : grid_(std::move(image), space, interpolation), up_(up), turns_(rotationRad * kInvTwoPi) {}
+    : grid_(std::move(image), space, interpolation), view_{up, rotationRad * kInvTwoPi} {}
 
-Environment::Place Environment::place(Vec3 dir) const {
-    const Vec3d w = toDouble(dir);
-    const Vec3d d = up_ == Up::Z ? w : Vec3d{w.x, -w.z, w.y};
-    return {0.5 - exact::atan2(d.y, d.x) * kInvTwoPi + turns_,
-            // asin(z) of a unit vector, without its loss of digits near the poles.
-            0.5 + exact::atan2(d.z, std::sqrt(d.x * d.x + d.y * d.y)) * kInvPi};
+Rgb Environment::radiance(Vec3 dir) const {
+    const auto [s, t] = kernels::one::placesOf(view_, {dir.x, dir.y, dir.z});
+    return grid_.color(s.v, t.v, Extension::Repeat, Extension::Extend);
 }
 
 namespace {

@@ -20,30 +20,19 @@ public:
 
     // u = 1/2 - (atan2(y, x) - rotation) / 2 pi, going round; v = 1/2 + latitude / pi from the
     // bottom, held at the poles. dir has any length; zero counts as +x.
-    Rgb radiance(Vec3 dir) const { return radiance(place(dir)); }
+    Rgb radiance(Vec3 dir) const;
 
-    // Where a direction is in the picture, from its left and its lower edge.
-    struct Place {
-        double s, t;
-    };
-    Place place(Vec3 dir) const;
-    Rgb radiance(Place at) const {
-        return grid_.color(at.s, at.t, Extension::Repeat, Extension::Extend);
-    }
-
-    // What place() and radiance() know, as plain data, valid as long as this; texels only of bytes.
+    // All that radiance() is made of: for lanes, which look many ways at once.
     struct View {
         Up up;
-        double turns;
-        std::optional<ByteTexels> texels;
+        double turns; // the rotation
     };
     const TexelGrid& grid() const { return grid_; }
-    View view() const { return {up_, turns_, grid_.bytes(Extension::Repeat, Extension::Extend)}; }
+    View view() const { return view_; }
 
 private:
     TexelGrid grid_;
-    Up up_;
-    double turns_; // rotation / 2 pi
+    View view_;
 };
 
 // SkyCells: how bright a picture around the scene is, cell by cell, for who samples it as a lamp.

@@ -3,24 +3,10 @@
 
 #include "image/image.h"
 
-#include <cstdint>
-#include <optional>
-#include <span>
-
 enum class Extension { Repeat, Extend, Clip };
 enum class Interpolation { Bilinear, Nearest };
 // How a file's whole numbers encode light. Float files are always linear.
 enum class ColorSpace { Srgb, Linear };
-
-// A TexelGrid of 8-bit numbers as plain data, and the extensions that it is read with: lanes look
-// up many points at once.
-struct ByteTexels {
-    std::span<const std::uint8_t> bytes;
-    int width = 0, height = 0, channels = 0;
-    bool isSrgb = false, isNearest = false;
-    bool asksAlpha = false; // instead of the colour: three times the alpha
-    Extension extensionS{}, extensionT{};
-};
 
 // TexelGrid: the stored numbers of a picture, read between its texels. Texture and Environment say
 // where; what is outside is the extension's business. Knows nothing about uv maps or directions.
@@ -48,33 +34,14 @@ public:
     // Never encoded, and transparency does not darken the colour; 1 without an alpha channel.
     float alpha(double s, double t, Extension extensionS, Extension extensionT) const;
 
-    // The same numbers as plain data, valid as long as this; empty unless they are bytes.
-    std::optional<ByteTexels> bytes(Extension extensionS, Extension extensionT) const;
-
 private:
-    // Texels that a coordinate falls between; kOutside for none.
-    struct Tap {
-        int lo, hi;
-        double weight; // of hi
-    };
-    static constexpr int kOutside = -1;
-    Tap tap(double s, int size, Extension extension) const;
-    // fn(unit, covering): unit(i) is number i of the texels, mixed, as a part of the largest;
-    // kOpaque stands for the alpha of pictures without one. covering(i) is the same of a colour, by
-    // alpha.
-    static constexpr int kOpaque = -1;
-    int alphaNumber() const { return image_.channels % 2 == 0 ? image_.channels - 1 : kOpaque; }
-    template <class Fn> auto mixedAt(const Tap& x, const Tap& y, Fn&& fn) const;
-
     StoredImage image_;
     bool isSrgb_, isNearest_;
 };
 
-// A Texture of 8-bit numbers, and where it is looked up: (sFromU u + sFromV v) + offsetS, t
-// likewise.
-struct ByteTexture {
-    ByteTexels texels;
-    double sFromU = 0, sFromV = 0, tFromU = 0, tFromV = 0, offsetS = 0, offsetT = 0;
+// Where a point is looked up: s = (sFromU u + sFromV v) + offsetS, t likewise.
+struct TextureMap {
+    double sFromU, sFromV, tFromU, tFromV, offsetS, offsetT;
 };
 
 // Row 0 of the file is the top; v goes up, (0,0) is the lower left corner of the picture.
@@ -103,8 +70,11 @@ public:
     // d value / du and / dv of uv as given, for bump maps: the central difference over one texel
     // of the picture, which is the slope that bilinear filtering has half-way between two texels.
     Vec2 gradient(Vec2 uv) const;
-    // The same texture as plain data, valid as long as this one; empty unless it is of bytes.
-    std::optional<ByteTexture> bytes() const;
+    // All that color() is made of: for lanes, which look up many points at once.
+    const TexelGrid& grid() const { return grid_; }
+    const TextureMap& map() const { return map_; }
+    Extension extension() const { return extension_; }
+    bool isAlpha() const { return channel_ == TextureParams::Channel::Alpha; }
 
 private:
     Vec2d mapped(Vec2 uv) const;
@@ -113,6 +83,5 @@ private:
     TexelGrid grid_;
     Extension extension_;
     TextureParams::Channel channel_;
-    double sFromU_, sFromV_, tFromU_, tFromV_; // rotation * scale
-    Vec2d offset_;
+    TextureMap map_;
 };

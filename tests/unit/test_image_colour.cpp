@@ -2,6 +2,7 @@
 #include "check.h"
 
 #include "image/colour.h"
+#include "texture/texels_in_lanes.h"
 
 #include <bit>
 #include <cstdint>
@@ -26,6 +27,7 @@ double ulps(float value, long double exact) {
     return static_cast<double>((static_cast<long double>(value) - exact) /
                                static_cast<long double>(step));
 }
+float linearFromSrgb(float encoded) { return kernels::one::linearFromSrgb(encoded).v; }
 float floatOf(std::uint32_t bits) { return std::bit_cast<float>(bits); }
 std::uint32_t bitsOf(float value) { return std::bit_cast<std::uint32_t>(value); }
 

@@ -95,20 +95,6 @@ TEST(sampler_same_numbers) {
     CHECK_EQUAL(mixBits(1), 0x5692161d100b05e5u);
 }
 
-// Many samples of a pixel at once are the same numbers.
-TEST(sampler_runs_are_samples) {
-    for (const SamplerKind kind : kKinds)
-        for (const bool jitter : {true, false})
-            for (const int count : {1, 12}) {
-                const Sampler sampler(kind, count, 5, jitter);
-                for (const std::uint32_t dim : {kPixelDimension, kLensDimension}) {
-                    std::vector<Vec2> run(7);
-                    sampler.get2D(99, 3, dim, run);
-                    CHECK(run == pairsOf(sampler, 99, dim, 7, 3));
-                }
-            }
-}
-
 // Lanes that make pairs make single numbers so.
 TEST(sampler_number_is_half_of_a_pair) {
     const Sampler sampler(SamplerKind::Sobol, 16, 5);

@@ -38,8 +38,10 @@ StoredImage someImage(Random& random, StoredImage::Depth depth) {
                                                         : random.below(isDark ? 3000 : 65536);
         if (depth == StoredImage::Depth::Bits8)
             image.bytes.push_back(static_cast<std::uint8_t>(code >> 8));
-        else
+        else if (depth == StoredImage::Depth::Bits16)
             image.words.push_back(static_cast<std::uint16_t>(code));
+        else
+            image.floats.push_back(static_cast<float>(code) / 10000);
     }
     return image;
 }
@@ -100,25 +102,24 @@ bool sameBits(Rgb a, Rgb b) {
 } // namespace
 
 TEST(texture_lanes_have_the_bits_of_single_look_ups) {
+    using Depth = StoredImage::Depth;
     for (const Isa& kernel : allIsas()) {
-        const TextureColorsFn colors =
-            kernel.supported() ? lanesOf(kernel.pictures).texture : nullptr;
-        if (!colors) continue;
+        if (!kernel.supported()) continue;
         Random random(41);
         long long asked = 0, black = 0, dark = 0, wrong = 0;
         for (int i = 0; i < check::scaled(2500); ++i) {
-            const StoredImage image = someImage(random, StoredImage::Depth::Bits8);
+            const StoredImage image = someImage(random, random.chance(0.5)   ? Depth::Bits8
+                                                        : random.chance(0.5) ? Depth::Bits16
+                                                                             : Depth::Float);
             const TextureParams params = someParams(random);
             const Texture texture(image, params);
-            const auto bytes = texture.bytes();
-            CHECK(bytes.has_value());
             TextureBlock block;
             const std::size_t count = 1 + random.below(TextureBlock::kPoints);
             for (std::size_t k = 0; k < count; ++k) {
                 block.u[k] = someCoordinate(random, image.width);
                 block.v[k] = someCoordinate(random, image.height);
             }
-            colors(*bytes, block, count);
+            kernel.pictures->texture(texture, block, count);
             for (std::size_t k = 0; k < count; ++k) {
                 const Rgb alone = texture.color({block.u[k], block.v[k]});
                 const Rgb lane{block.color[0][k], block.color[1][k], block.color[2][k]};
@@ -138,12 +139,6 @@ TEST(texture_lanes_have_the_bits_of_single_look_ups) {
                                << " dark");
         CHECK_EQUAL(wrong, 0);
     }
-}
-
-TEST(texture_lanes_are_for_bytes) {
-    Random random(1);
-    CHECK(!Texture(someImage(random, StoredImage::Depth::Bits16), {}).bytes());
-    CHECK(oneLane().pictures == nullptr);
 }
 
 // Points of two materials with the same kinds of lobes: each number is multiplied by the picture,
@@ -171,8 +166,7 @@ TEST(texture_factors_multiply_numbers_of_lobes) {
             materials.add(rows[m], factors[m], 0);
         }
         const Isa& kernel = allIsas()[random.below(allIsas().size())];
-        const TextureColorsFn colors =
-            kernel.supported() ? lanesOf(kernel.pictures).texture : nullptr;
+        const PictureLanes& pictures = *(kernel.supported() ? kernel : oneLane()).pictures;
         SurfaceBlock at{};
         for (float& coordinate : at.uv[0]) coordinate = static_cast<float>(random.uniform(-1, 2));
         for (float& coordinate : at.uv[1]) coordinate = static_cast<float>(random.uniform(-1, 2));
@@ -180,8 +174,8 @@ TEST(texture_factors_multiply_numbers_of_lobes) {
         for (std::size_t i = 0; i < LobeBlock::kPoints; ++i)
             block->put(materials, materials[i % 2], i);
         const unsigned first = round % 2 == 0 ? 0x5555u : 0x0014u; // few points, too
-        block->paint(materials, materials[0], first, at, colors);
-        block->paint(materials, materials[1], 0xaaaau, at, colors);
+        block->paint(materials, materials[0], first, at, pictures);
+        block->paint(materials, materials[1], 0xaaaau, at, pictures);
         for (std::size_t i = 0; i < LobeBlock::kPoints; ++i) {
             const std::size_t m = i % 2;
             if (m == 0 && (first >> i & 1) == 0) continue;
