@@ -5,7 +5,7 @@
 # The units of isa/ hold the kernels of accel/, texture/, camera/ and integrate/; isa/isa.h, which includes nothing of the
 # project, says what they do, and everything above base/ may include it.
 # A folder includes itself and what is below it, never its neighbours in a row but for two: a mesh is
-# a shape with a tree of its own, and lights, lenses and materials spread their samples.
+# a shape with a tree of its own, and lights, lenses, materials and skies spread their samples.
 cd "$(dirname "$0")/../Code" || exit 1
 passed=0
 failed=0
@@ -19,9 +19,9 @@ allowedFor() {
     image) echo base image ;;
     desc) echo base desc material ;;
     read) echo base desc image read ;;
-    accel | sample | texture) echo base simd isa image "$1" ;;
+    accel | sample) echo base simd isa image "$1" ;;
     shape) echo base isa image shape accel ;;
-    material | light | camera) echo base simd image "$1" sample ;;
+    material | light | camera | texture) echo base simd image "$1" sample ;;
     scene) echo base isa image desc $siblings scene ;;
     film) echo base image scene film ;;
     integrate) echo base simd isa image desc $siblings scene film integrate ;;

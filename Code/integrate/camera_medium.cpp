@@ -23,21 +23,23 @@ MediumTree::Inside mediumOfCamera(const Scene& scene, const RenderSettings& sett
     for (int i = 0; i < kSurfaces; ++i) {
         const Hit hit = scene.shapes().closest(ray);
         if (!hit.isHit()) break;
-        const ShadedPoint at = shade(scene, ray, hit);
-        if (transmits(*at.of)) {
-            const Crossing crossing{at.surface.material, at.surface.object};
+        const Surface surface = scene.shapes().shapes[hit.shape]->surface(ray, hit);
+        const bool isFront = dot(ray.dir, surface.ng) <= 0;
+        if (transmits(scene.materials()[surface.material])) {
+            const Crossing crossing{surface.material, surface.object};
             const auto open =
                 std::find_if(entered.rbegin(), entered.rend(), [&](const Crossing& other) {
                     return other.material == crossing.material;
                 });
-            if (at.front)
+            if (isFront)
                 entered.push_back(crossing);
             else if (open != entered.rend())
                 entered.erase(std::next(open).base());
             else
                 around.push_back(crossing);
         }
-        ray = {leave(at.surface, -at.eye.ng), ray.dir, 0, kInfinityF, ray.time};
+        ray = {leave(surface, isFront ? -surface.ng : surface.ng), ray.dir, 0, kInfinityF,
+               ray.time};
     }
     for (const Crossing& unleft : entered) {
         const auto insideOut = std::find_if(around.rbegin(), around.rend(), [&](const Crossing& c) {

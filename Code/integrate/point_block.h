@@ -75,19 +75,6 @@ public:
             at.lit = {at.surface.ng, at.surface.ns, SurfaceBlock::get(block.litN, i)};
         return at;
     }
-    void put(std::size_t k, const ShadedPoint& at) {
-        PointBlock& block = blocks_[k / kPoints];
-        const std::size_t i = k % kPoints;
-        const unsigned bit = 1u << i;
-        block.put(i, at.surface);
-        SurfaceBlock::set(block.toEye, i, at.toEye);
-        SurfaceBlock::set(block.n, i, at.eye.n);
-        block.front = at.front ? block.front | bit : block.front & ~bit;
-        block.litApart &= ~bit;
-        if (!at.of->litOutside || at.front) return;
-        block.litApart |= bit;
-        SurfaceBlock::set(block.litN, i, at.lit.n);
-    }
     Vec2 uv(std::size_t k) const {
         const PointBlock& block = blocks_[k / kPoints];
         return {block.uv[0][k % kPoints], block.uv[1][k % kPoints]};

@@ -31,21 +31,24 @@ template <class T> void storeChosen(unsigned lanes, const Floats3& v, T* to) {
     storeChosenVectors(lanes, v.x, v.y, v.z, reinterpret_cast<float*>(to));
 }
 
-// Stage of the wave: how points are seen: the way to the eye, the side, and the normal on that
-// side. The formulas of shadeSurface(), for normals that no picture bends.
-
-inline Floats3 shadingNormal(const PointBlock& block, std::size_t first, const Floats3& ng) {
-    const unsigned curved = block.curved >> first & kEvery;
-    return curved == 0 ? ng : select(maskOf(curved), load(block.ns, first), ng);
+// Returns the normals of the outside that shading sees.
+inline Floats3 shadingNormal(const PointBlock& block, std::size_t first, const Floats3& ng,
+                             unsigned bent) {
+    const unsigned curved = block.curved >> first & kEvery, changed = bent >> first & kEvery;
+    const Floats3 ns = curved == 0 ? ng : select(maskOf(curved), load(block.ns, first), ng);
+    return changed == 0 ? ns : select(maskOf(changed), load(block.n, first), ns);
 }
 
-unsigned seePoints(PointBlock& block, const Vec3* dirs, unsigned used, unsigned litOutside) {
+// Stage of the wave: how points are seen: the way to the eye, the side, and the normal on that
+// side.
+unsigned seePoints(PointBlock& block, const Vec3* dirs, unsigned used, unsigned litOutside,
+                   unsigned bent) {
     unsigned facingAway = 0;
     block.front = block.litApart = 0;
     for (std::size_t first = 0; first < SurfaceBlock::kPoints && used >> first != 0; first += W) {
         const Floats zero(0.0f);
         const Floats3 toEye = negated(normalize(loadRow(dirs, first)));
-        const Floats3 ng = load(block.ng, first), ns = shadingNormal(block, first, ng);
+        const Floats3 ng = load(block.ng, first), ns = shadingNormal(block, first, ng, bent);
         const unsigned lanes = used >> first & kEvery;
         const unsigned front = bits(dot(toEye, ng) >= zero) & lanes;
         block.front |= front << first;

@@ -163,51 +163,42 @@ private:
     alignas(T) std::byte copy_[PointColumns::kPoints * sizeof(T)]; // nobody zeroes it first
 };
 
-// shadeSurface() of a block's points.
-template <bool kMayBend> void seeBlock(const Wave& wave, std::size_t b, unsigned litOutside) {
+// Describes how the points of a block are seen.
+inline void seeBlock(const Wave& wave, std::size_t b, unsigned litOutside) {
     const IntegratorContext& context = wave.context;
+    const Scene& scene = context.scene;
     PointBatch& points = wave.memory.points;
+    PointBlock& block = points.at.block(b);
     const std::size_t first = b * PointColumns::kPoints, size = points.sizeOf(b);
-    const auto isBent = [&](std::size_t i) {
-        return context.scene.materials()[points.at.block(b).material[i]].bendsNormals();
-    };
-    bool inLanes = true;
-    if constexpr (kMayBend)
-        for (std::size_t i = 0; i < size && inLanes; ++i) inLanes = !isBent(i);
-    if (inLanes) {
-        const RowOfRays<Vec3> dirs(wave.rays.dir, &points.ray[first], size);
-        unsigned away = context.settings.isa->shading->see(points.at.block(b), dirs.data(),
-                                                           points.usedOf(b), litOutside);
-        for (; away != 0; away &= away - 1) {
-            const auto i = static_cast<std::size_t>(std::countr_zero(away));
-            const ShadedPoint at = points.at[first + i];
-            SurfaceBlock::set(points.at.block(b).n, i, shading::turnedAway(at.toEye, at.eye));
-        }
-        return;
+    unsigned bent = 0;
+    for (std::size_t i = 0; scene.anyMaterial().pictures && i < size; ++i) {
+        if (!scene.materials()[block.material[i]].bendsNormals()) continue;
+        const std::uint32_t ray = points.ray[first + i];
+        SurfaceBlock::set(
+            block.n, i,
+            shading::bentNormal(scene, wave.rays.ray(ray), wave.memory.hits[ray], block.at(i)));
+        bent |= 1u << i;
     }
-    for (std::size_t k = first; k < first + size; ++k) {
-        ShadedPoint at;
-        at.surface = points.at.block(b).at(k - first);
-        const std::uint32_t ray = points.ray[k];
-        shadeSurface<kMayBend>(context.scene, wave.rays.ray(ray), wave.memory.hits[ray], at);
-        points.at.put(k, at);
+    const RowOfRays<Vec3> dirs(wave.rays.dir, &points.ray[first], size);
+    unsigned away =
+        context.settings.isa->shading->see(block, dirs.data(), points.usedOf(b), litOutside, bent);
+    for (; away != 0; away &= away - 1) {
+        const auto i = static_cast<std::size_t>(std::countr_zero(away));
+        const ShadedPoint at = points.at[first + i];
+        SurfaceBlock::set(block.n, i, shading::turnedAway(at.toEye, at.eye));
     }
 }
 
 // Finds all points of a wave. `litOutside(b)`: those of block b whose materials are lit outside
 // whichever side is seen.
 template <class LitOutside> void findPoints(const Wave& wave, const LitOutside& litOutside) {
-    const Scene& scene = wave.context.scene;
     PointBatch& points = wave.memory.points;
     points.clear(wave.rays.size());
     listHits(wave.memory.hits, wave.rays.size(), points);
-    points.at.setMaterials(scene.materials());
+    points.at.setMaterials(wave.context.scene.materials());
     findSurfaces(wave);
     for (std::size_t b = 0; b < points.blocks(); ++b) {
-        if (scene.anyMaterial().pictures)
-            seeBlock<true>(wave, b, litOutside(b));
-        else
-            seeBlock<false>(wave, b, litOutside(b));
+        seeBlock(wave, b, litOutside(b));
         takeSamples(wave.rays, b, points);
     }
 }

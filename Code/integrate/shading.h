@@ -1,5 +1,5 @@
-// From a hit to everything that shading needs: the point, the normals on the eye's side, and the
-// material with its textures applied.
+// What shading needs of one point: the normals on the eye's side, bent by pictures, and the
+// material's numbers there.
 #pragma once
 
 #include "integrate/batch.h"
@@ -20,17 +20,6 @@ struct ShadedPoint {
     Side lit; // on the side whose lamps count
 };
 
-// The rest of a point whose surface is known. `dir` need not be a unit vector. Textures that bend
-// normals are asked for the point, unless kMayBend says that the scene has none.
-template <bool kMayBend = true>
-void shadeSurface(const Scene& scene, const Ray& ray, const Hit& hit, ShadedPoint& at);
-inline ShadedPoint shade(const Scene& scene, const Ray& ray, const Hit& hit) {
-    ShadedPoint at;
-    at.surface = scene.shapes().shapes[hit.shape]->surface(ray, hit);
-    shadeSurface(scene, ray, hit, at);
-    return at;
-}
-
 // The material's numbers at a place on its pictures.
 Rgb emissionAt(const SceneMaterial& of, Vec2 uv);
 float opacityAt(const SceneMaterial& of, Vec2 uv);
@@ -43,32 +32,12 @@ Rgb straightTransmission(const Scene& scene, const Ray& ray, const Hit& hit);
 inline Vec3 leave(const Surface& surface, Vec3 side) { return surface.p + side * surface.error; }
 
 namespace shading {
-// surface.ns with the material's bump and normal maps.
+// Returns surface.ns bent by the material's bump and normal maps, on the outside.
 Vec3 bentNormal(const Scene& scene, const Ray& ray, const Hit& hit, const Surface& surface);
-// side.n, or if that faces away from the eye, as it would reflect light that the eye can't see, one
-// that does not.
+// Returns a normal that faces the eye, near side.n, which doesn't: that would reflect light that
+// the eye can't see.
 Vec3 turnedAway(Vec3 toEye, const ShadedPoint::Side& side);
 } // namespace shading
-
-template <bool kMayBend>
-void shadeSurface(const Scene& scene, const Ray& ray, const Hit& hit, ShadedPoint& at) {
-    const Surface& surface = at.surface;
-    const SceneMaterial& material = scene.materials()[surface.material];
-    at.of = &material;
-    at.toEye = -normalize(ray.dir);
-    at.front = dot(at.toEye, surface.ng) >= 0;
-    Vec3 n = surface.ns;
-    if constexpr (kMayBend)
-        if (material.bendsNormals()) n = shading::bentNormal(scene, ray, hit, surface);
-    const float side = at.front ? 1.0f : -1.0f; // times it is exact
-    at.eye = {surface.ng * side, surface.ns * side, n * side};
-    if (!(dot(at.eye.n, at.toEye) > 0)) at.eye.n = shading::turnedAway(at.toEye, at.eye);
-    at.lit = at.eye;
-    if (material.litOutside && !at.front) {
-        at.lit = {surface.ng, surface.ns, n};
-        at.surface.lift = {}; // it was for the side of the eye
-    }
-}
 
 // The questions that integrators ask about batches of rays. Kernels live behind them; the answers
 // are functions of scene and ray alone.

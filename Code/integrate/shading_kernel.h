@@ -96,10 +96,11 @@ struct BounceQueue {
 // stay.
 struct ShadingKernel {
     // The rest of the `used` points of a block whose surfaces are known, seen along `dirs` (of all
-    // sixteen), but for pictures that bend normals. `litOutside`: those whose materials are.
-    // Returns the points whose normals face away from the eye and have to be turned.
-    unsigned (*see)(PointBlock& block, const Vec3* dirs, unsigned used,
-                    unsigned litOutside) = nullptr;
+    // sixteen, of any length). `litOutside`: those whose materials are. `bent`: those whose normals
+    // are bent; block.n has them, on the outside. Returns the points whose normals face away from
+    // the eye and have to be turned.
+    unsigned (*see)(PointBlock& block, const Vec3* dirs, unsigned used, unsigned litOutside,
+                    unsigned bent) = nullptr;
     // Paths: the light of one lamp, and a direction.
     void (*scatter)(const PathLights& lights, const PointBlock& points, const LobeBlock& lobes,
                     PathBlock& block) = nullptr;

@@ -182,13 +182,7 @@ private:
 
 SkyTable skyTableOf(const Environment& environment, bool compensated, int threads) {
     const SkyCells cells = skyCells(environment, kMostSkyColumns, kMostSkyRows, threads);
-    const Environment::View view = environment.view();
-    return {cells.width,
-            cells.height,
-            cells.luminance,
-            compensated,
-            {view.up == Environment::Up::Z, view.turns},
-            threads};
+    return {cells.width, cells.height, cells.luminance, compensated, environment.place(), threads};
 }
 
 std::unique_ptr<const SkyRadiance> skyRadianceOf(const Environment* environment, Rgb factor) {

@@ -14,10 +14,10 @@
 
 Environment::Environment(StoredImage image, ColorSpace space, Interpolation interpolation, Up up,
                          double rotationRad)
-    : grid_(std::move(image), space, interpolation), view_{up, rotationRad * kInvTwoPi} {}
+    : grid_(std::move(image), space, interpolation), place_{up == Up::Z, rotationRad * kInvTwoPi} {}
 
 Rgb Environment::radiance(Vec3 dir) const {
-    const auto [s, t] = kernels::one::placesOf(view_, {dir.x, dir.y, dir.z});
+    const auto [s, t] = kernels::one::placesOf(place_, {dir.x, dir.y, dir.z});
     return grid_.color(s.v, t.v, Extension::Repeat, Extension::Extend);
 }
 

@@ -1,9 +1,8 @@
 // Environment: an equirectangular picture around the scene, seen where rays meet no surface.
-// Directions are Blender's: the middle of the picture is towards +x, its upper edge is +z, and the
-// left quarter is towards +y. Up::Y turns all that by 90 degrees about x, so that the upper edge is
-// +y and the left quarter towards -z.
+// Its place is that of sample/sky_place.h.
 #pragma once
 
+#include "sample/sky_place.h"
 #include "texture/texture.h"
 
 #include <optional>
@@ -18,21 +17,17 @@ public:
     Environment(StoredImage image, ColorSpace space, Interpolation interpolation, Up up,
                 double rotationRad);
 
-    // u = 1/2 - (atan2(y, x) - rotation) / 2 pi, going round; v = 1/2 + latitude / pi from the
-    // bottom, held at the poles. dir has any length; zero counts as +x.
+    // Returns the colour of a direction of any length, see placesOf(): round and round, and held at
+    // the poles.
     Rgb radiance(Vec3 dir) const;
 
     // All that radiance() is made of: for lanes, which look many ways at once.
-    struct View {
-        Up up;
-        double turns; // the rotation
-    };
     const TexelGrid& grid() const { return grid_; }
-    View view() const { return view_; }
+    const SkyPlace& place() const { return place_; }
 
 private:
     TexelGrid grid_;
-    View view_;
+    SkyPlace place_;
 };
 
 // SkyCells: how bright a picture around the scene is, cell by cell, for who samples it as a lamp.

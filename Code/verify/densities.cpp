@@ -194,7 +194,7 @@ Tally skies(const Effort& effort) {
         const SkyCells cells = skyCells(environment, kMostSkyColumns, kMostSkyRows);
         for (const bool compensated : {false, true}) {
             const SkyTable table(cells.width, cells.height, cells.luminance, compensated,
-                                 {up == Environment::Up::Z, environment.view().turns});
+                                 environment.place());
             const kernels::one::SkyEmitter sky(table.view(picture));
             const auto pdf = [&](Vec3 dir) { return sky.pdf({0, 0, 0}, lane(dir)).v; };
             constexpr int kCount = 20000;

@@ -2,8 +2,8 @@
 #include "check.h"
 #include "shot.h"
 
-#include "render/camera_rays.h"
 #include "integrate/integrator.h"
+#include "render/camera_rays.h"
 
 #include <algorithm>
 #include <bit>
@@ -40,16 +40,23 @@ Rgb albedoAt(const SceneMaterial& of, Vec2 uv) {
 FirstHit alone(const Scene& scene, const Ray& ray) {
     const Hit hit = scene.shapes().closest(ray);
     if (!hit.isHit()) return {};
-    const ShadedPoint at = shade(scene, ray, hit);
-    const Vec3d position = toDouble(at.surface.p);
-    const auto [eye, axis] = scene.camera().view(ray.time);
+    const Surface surface = scene.shapes().shapes[hit.shape]->surface(ray, hit);
+    const SceneMaterial& of = scene.materials()[surface.material];
+    const Vec3 bent =
+        of.bendsNormals() ? shading::bentNormal(scene, ray, hit, surface) : surface.ns;
+    const float side = dot(ray.dir, surface.ng) <= 0 ? 1.0f : -1.0f;
+    const ShadedPoint::Side eyeSide{surface.ng * side, surface.ns * side, bent * side};
+    const Vec3 toEye = -normalize(ray.dir);
+    const Vec3d position = toDouble(surface.p);
+    const Camera::Axes axes = scene.camera().axesAt(ray.time);
     return {.hit = true,
-            .depth = static_cast<float>(dot(position - eye, axis) / scene.frame().scale),
-            .normal = at.eye.n,
+            .depth =
+                static_cast<float>(dot(position - axes.eye, axes.forward) / scene.frame().scale),
+            .normal = dot(eyeSide.n, toEye) > 0 ? eyeSide.n : shading::turnedAway(toEye, eyeSide),
             .position = toFloat(scene.frame().worldPoint(position)),
-            .albedo = albedoAt(*at.of, at.surface.uv),
-            .object = at.surface.object + 1,
-            .uv = at.surface.uv};
+            .albedo = albedoAt(of, surface.uv),
+            .object = surface.object + 1,
+            .uv = surface.uv};
 }
 
 bool sameBits(float a, float b) {

@@ -12,9 +12,9 @@ using Kind = CameraParams::Kind;
 namespace {
 
 // Where the ray is at a depth along the view axis.
-Vec3d atDepth(const Ray& ray, const Camera::View& view, double depth) {
+Vec3d atDepth(const Ray& ray, const Camera::Axes& view, double depth) {
     const Vec3d org = toDouble(ray.org), dir = toDouble(ray.dir);
-    const double t = (depth - dot(org - view.eye, view.axis)) / dot(dir, view.axis);
+    const double t = (depth - dot(org - view.eye, view.forward)) / dot(dir, view.forward);
     return org + dir * t;
 }
 
@@ -35,7 +35,7 @@ TEST(camera_thin_lens_blur) {
             CameraParams pin = p;
             pin.apertureRadius = 0;
             const Camera pinhole(pin);
-            const Camera::View view = camera.view(0);
+            const Camera::Axes view = camera.axesAt(0);
             const Vec2d pixel{random.uniform(0, 64), random.uniform(0, 48)};
             const Ray sharp = pinhole.ray(pixel, {}, 0);
             double widest = 0;
@@ -49,7 +49,7 @@ TEST(camera_thin_lens_blur) {
                 const Vec3d focus = atDepth(ray, view, p.focusDistance);
                 CHECK_NEAR(length(focus - atDepth(sharp, view, p.focusDistance)), 0, 2e-6);
                 // The lens is flat and across the axis.
-                const double lensDepth = dot(toDouble(ray.org) - toDouble(sharp.org), view.axis);
+                const double lensDepth = dot(toDouble(ray.org) - toDouble(sharp.org), view.forward);
                 CHECK_NEAR(lensDepth, 0, 1e-6);
                 const Vec3d off = atDepth(ray, view, depth) - atDepth(sharp, view, depth);
                 widest = max(widest, length(off));
@@ -76,7 +76,7 @@ TEST(camera_lens_rays_meet_far_from_the_origin) {
     for (int i = 0; i < 1000; ++i) {
         const Vec2 lens{static_cast<float>(random.unit()), static_cast<float>(random.unit())};
         const Ray ray = camera.ray({0.5, 0.5}, lens, 0);
-        CHECK_NEAR(length(atDepth(ray, camera.view(0), p.focusDistance) - focus), 0, 1e-6);
+        CHECK_NEAR(length(atDepth(ray, camera.axesAt(0), p.focusDistance) - focus), 0, 1e-6);
     }
 }
 

@@ -4,7 +4,7 @@
 
 #include "light/light_lanes.h"
 #include "light/sky/sky_table.h"
-#include "simd/double_double_lanes.h"
+#include "sample/equirectangular.h"
 
 LANES_BEGIN
 
@@ -18,19 +18,12 @@ public:
         const Ints column = lastNotAbove(sky_.columns, first, sky_.width, u);
         const Part inRow = partOf(sky_.rows, row),
                    inColumn = partOf(sky_.columns, sum(first, column));
-        const Doubles one(1.0), zero(0.0);
         const Doubles across = Doubles((u - inColumn.from) / inColumn.size);
         const Doubles along = Doubles((v - inRow.from) / inRow.size);
         const Belt belt = beltOf(row);
-        const Doubles z = belt.from + along * (belt.to - belt.from);
-        // The place in the picture from the left, and the angle to it: see texture/environment.h.
         const Doubles s = (doublesOf(column) + across) * Doubles(1.0 / sky_.width);
-        const Doubles turns = Doubles(0.5 + sky_.place.turns) - s;
-        const SineCosine at = sinCosOfTurns(min((turns - floor(turns)).toFloats(), Floats(1.0f)));
-        const Floats level = sqrt(max((one - z) * (one + z), zero)).toFloats();
-        const Floats up = z.toFloats(), x = level * at.cos, y = level * at.sin;
-        const Floats3 dir = sky_.place.isZUp ? Floats3{x, y, up} : Floats3{x, up, Floats(0.0f) - y};
-        const Floats3 toLight = normalize(dir);
+        const Floats3 toLight =
+            directionAt(sky_.place, s, belt.from + along * (belt.to - belt.from));
         const Floats pdf = density(inRow, inColumn, belt);
         return where(pdf > Floats(0.0f), toLight, kInfinityF, radianceOf(toLight) / pdf, pdf,
                      noLanes());
@@ -41,11 +34,7 @@ public:
         return at;
     }
     Floats pdf(const Floats3&, const Floats3& dir) const {
-        const Floats zero(0.0f);
-        const Doubles x(dir.x), y(sky_.place.isZUp ? dir.y : zero - dir.z),
-            z(sky_.place.isZUp ? dir.z : dir.y);
-        const Doubles s = Doubles(0.5 + sky_.place.turns) - anglesOf(y, x) * Doubles(kInvTwoPi);
-        const Doubles t = Doubles(0.5) + anglesOf(z, sqrt(x * x + y * y)) * Doubles(kInvPi);
+        const auto [s, t] = placesOf(sky_.place, dir);
         const Ints column = cellOf(s - floor(s), sky_.width), row = cellOf(t, sky_.height);
         return density(partOf(sky_.rows, row), partOf(sky_.columns, sum(firstOf(row), column)),
                        beltOf(row));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/vec.h"
+#include "sample/sky_place.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -16,12 +17,6 @@ public:
     virtual ~SkyRadiance() = default;
     virtual void radiance(std::size_t count, const float* const (&dir)[3],
                           float* const (&rgb)[3]) const = 0;
-};
-
-// Where the picture's rows and columns are in the sky; see texture/environment.h.
-struct SkyPlace {
-    bool isZUp = true;
-    double turns = 0; // of the picture about its upward axis
 };
 
 // What the lanes see of a table.
