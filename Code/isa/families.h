@@ -22,10 +22,9 @@ constexpr PlacedKernel kPlaced{closestPlaced, anyPlaced};
 constexpr SurfaceLanes kSurfaces{stillSurfaces, triangleSurfaces};
 
 // An Isa of these functions.
-constexpr Isa isaOf(const char* name, bool (*supported)(), const kernels::build::TreeBuilder* build,
-                    const ShadingKernel* shading) {
-    return {name,       W,          supported, &kTriangles, &kSolids, &kPlaced,
-            &kSurfaces, &kPictures, &kCamera,  shading,     build};
+constexpr Isa isaOf(const char* name, bool (*supported)(), const ShadingKernel* shading) {
+    return {name,     W,          supported,  &kTriangles, &kSolids,
+            &kPlaced, &kSurfaces, &kPictures, &kCamera,    shading};
 }
 
 LANES_END

@@ -7,6 +7,3 @@ extern const Isa kSseIsa, kAvx2Isa, kAvx512Isa;
 extern const ShadingKernel kOneShading, kSseShading, kAvx2Shading, kAvx512Shading;
 extern const PictureLanes kOnePictures;
 extern const CameraLanes kOneCamera;
-namespace kernels::build {
-extern const TreeBuilder kAvx2TreeBuilder;
-}

@@ -12,25 +12,23 @@ struct PlacedKernel;
 struct SolidKernel;
 struct SurfaceLanes;
 struct TriangleKernel;
-namespace kernels::build {
-struct TreeBuilder;
-}
 
 // A null table: plain code, which every machine has, does the work. Pictures, cameras and shading
 // have no other code than these, and are never null.
 struct Isa {
-    const char* name; // as --kernel has it
-    int width;        // lanes of single precision, and children of a node of its trees; or 1
+    const char* name;              // as --kernel has it
+    int width;                     // lanes of single precision
     bool (*supported)() = nullptr; // whether this CPU has it
 
-    const TriangleKernel* triangles = nullptr;          // accel/kernels/kernels.h
-    const SolidKernel* solids = nullptr;                // accel/kernels/solids.h
-    const PlacedKernel* placed = nullptr;               // accel/kernels/placed.h
-    const SurfaceLanes* surfaces = nullptr;             // accel/kernels/surface_lanes.h
-    const PictureLanes* pictures = nullptr;             // texture/picture_lanes.h
-    const CameraLanes* camera = nullptr;                // camera/camera_lanes.h
-    const ShadingKernel* shading = nullptr;             // integrate/shading_kernel.h
-    const kernels::build::TreeBuilder* build = nullptr; // accel/kernels/build/build.h
+    const TriangleKernel* triangles = nullptr; // accel/kernels/kernels.h
+    const SolidKernel* solids = nullptr;       // accel/kernels/solids.h
+    const PlacedKernel* placed = nullptr;      // accel/kernels/placed.h
+    const SurfaceLanes* surfaces = nullptr;    // accel/kernels/surface_lanes.h
+    const PictureLanes* pictures = nullptr;    // texture/picture_lanes.h
+    const CameraLanes* camera = nullptr;       // camera/camera_lanes.h
+    const ShadingKernel* shading = nullptr;    // integrate/shading_kernel.h
+
+    int nodeWidth() const { return width == 16 ? 16 : 8; } // children of a node of its trees
 };
 
 // All that this program was built with, the widest first, the one-lane code last.

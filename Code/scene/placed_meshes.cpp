@@ -137,7 +137,7 @@ void PlacedMeshes::build(const Isa& kernel, float extent, int threads) {
     kernel_ = kernel.placed;
     tree_.boxes.extent = extent;
     for (const Bounds& box : boxes_) tree_.whole.extend(box);
-    tree_.boxes.build(kernel.width, threads);
+    tree_.boxes.build(kernel.nodeWidth(), threads);
     tree_.boxStack = stackSize(tree_.boxes);
 }
 

@@ -442,13 +442,6 @@ void Scene::describe(Stats& stats) const {
     stats.accel = {};
     stats.accel.kind = accelKind_ == AccelKind::Bvh ? "bvh" : "none";
     stats.accel.primitives = shapes_.shapes.size();
-    const auto addTree = [&](const Bvh& bvh) {
-        stats.accel.nodes += bvh.nodes.size();
-        stats.accel.leaves += leafCount(bvh);
-        stats.accel.sah += sahCost(bvh);
-        stats.accel.bytes += bvh.bytes();
-    };
-    addTree(shapes_.bvh);
     for (const SolidTree* tree : {&shapes_.solids(), &shapes_.placed().boxes()}) {
         if (tree->lines.empty()) continue;
         stats.accel.nodes += tree->nodes();
@@ -457,7 +450,6 @@ void Scene::describe(Stats& stats) const {
         stats.accel.bytes += tree->bytes();
     }
     for (const auto& geometry : geometries_) {
-        addTree(geometry->bvh);
         stats.accel.nodes += geometry->wide.nodes;
         stats.accel.leaves += geometry->wide.leaves;
         stats.accel.sah += geometry->wide.sah;

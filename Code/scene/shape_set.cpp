@@ -12,9 +12,6 @@
 
 namespace {
 
-// A tree over fewer shapes costs more than it saves; the answer is the same either way.
-constexpr std::size_t kFewestForTree = 5;
-
 RawVector<Bounds> boxesOf(std::span<const std::uint32_t> numbers, std::span<const Bounds> all,
                           int threads) {
     constexpr std::size_t kTogether = 1 << 14;
@@ -60,15 +57,8 @@ void ShapeSet::finish(bool withBvh, const Isa& kernel, int threads) {
             ways_[number] = Way::Alone;
         if (ways_[number] == Way::Batched) batched.push_back(number);
     }
-    if (!withBvh) return;
-    if (distant.size() >= kFewestForTree)
-        distantBvh_ = buildBvh(boxesOf(distant, boxes, threads), threads);
-    if (kernel_) return buildBatchTrees(kernel, threads);
-    for (const std::uint32_t number : bounded)
-        if (ways_[number] != Way::Batched) inTree_.push_back(number);
-    if (inTree_.size() < kFewestForTree) return inTree_.clear();
-    bvh = buildBvh(boxesOf(inTree_, boxes, threads), threads);
-    bvh.nodes.shrink_to_fit();
+    hasTrees_ = withBvh;
+    if (withBvh) buildTrees(kernel, threads);
 }
 
 void ShapeSet::sortByBounds(int threads) {
@@ -105,12 +95,12 @@ void ShapeSet::sortByBounds(int threads) {
     }
 }
 
-void ShapeSet::buildBatchTrees(const Isa& kernel, int threads) {
+void ShapeSet::buildTrees(const Isa& kernel, int threads) {
     std::vector<std::uint32_t> numbers; // of the solids
     numbers.reserve(bounded.size());
     for (const std::uint32_t number : bounded) {
         if (ways_[number] == Way::Batched) continue;
-        const auto isOf = [&](const MeshGeometry& mesh) { return mesh.isa == &kernel; };
+        const auto isOf = [&](const MeshGeometry& mesh) { return kernel_ && mesh.isa == &kernel; };
         if (ways_[number] == Way::Instance && isOf(shapes[number]->meshInstance()->geometry()))
             placed_.add(boxes[number], number, shadows[number] == Shadow::Opaque,
                         shapes[number]->meshInstance()->geometry().wide);
@@ -122,14 +112,17 @@ void ShapeSet::buildBatchTrees(const Isa& kernel, int threads) {
         for (std::size_t at = 0; at < sizeof(AnalyticShape); at += 64)
             __builtin_prefetch(soon + at);
         const std::uint32_t number = numbers[i];
-        return {number, shadows[number] == Shadow::Opaque, shapes[number]->solidForm()};
+        return {number, shadows[number] == Shadow::Opaque,
+                kernel_ ? shapes[number]->solidForm() : SolidForm()};
     };
     const RawVector<Bounds> some =
         numbers.size() < boxes.size() ? boxesOf(numbers, boxes, threads) : RawVector<Bounds>();
     const std::span<const Bounds> of = some.empty() ? std::span<const Bounds>(boxes) : some;
     solids_.extent = extent;
-    if (!numbers.empty()) solids_.build(kernel.width, of, describe, threads);
+    if (!numbers.empty()) solids_.build(kernel.nodeWidth(), of, describe, threads);
     if (!placed_.isEmpty()) placed_.build(kernel, extent, threads);
+    for (const std::uint32_t number : distant) distantTree_.add(boxes[number], number, true, {});
+    distantTree_.build(kernel.nodeWidth(), threads);
 }
 
 // fn(shape, zEntry, zCut) for every shape whose box the ray enters in front of zCut; true stops.
@@ -142,7 +135,7 @@ void ShapeSet::visit(const RaySetup& setup, float zCut, Ask ask, VisitFn&& fn) c
         float zEntry = 0;
         return setup.enters(boxes[number], cut, zEntry) && fn(number, zEntry, cut);
     };
-    if (!kernel_ && bvh.nodes.empty()) {
+    if (!hasTrees_) {
         for (const std::uint32_t number : bounded)
             if ((ask == Ask::All || ways_[number] != Way::Batched) && leaf(number, zCut)) return;
         return;
@@ -150,12 +143,7 @@ void ShapeSet::visit(const RaySetup& setup, float zCut, Ask ask, VisitFn&& fn) c
     if (ask == Ask::All)
         for (const std::uint32_t number : batched)
             if (leaf(number, zCut)) return;
-    if (kernel_) {
-        if (!traverse(solids_, setup, zCut, leaf)) traverse(placed_.boxes(), setup, zCut, leaf);
-        return;
-    }
-    traverse(bvh, setup, zCut,
-             [&](std::uint32_t position, float& cut) { return leaf(inTree_[position], cut); });
+    if (!traverse(solids_, setup, zCut, leaf)) traverse(placed_.boxes(), setup, zCut, leaf);
 }
 
 // fn(shape, zEntry, zCut) for every distant shape whose box the ray enters in front of tMax; true
@@ -165,22 +153,13 @@ bool ShapeSet::visitDistant(const Ray& ray, float tMax, VisitFn&& fn) const {
     if (distant.empty()) return false;
     const RaySetup setup(ray.org, ray.dir, distantExtent_);
     float zCut = depthCut(1.0f / (tMax * setup.dz));
-    const auto leaf = [&](std::uint32_t position, float& cut) {
-        const std::uint32_t number = distant[position];
+    const auto leaf = [&](std::uint32_t number, float& cut) {
         float zEntry = 0;
         return setup.enters(boxes[number], cut, zEntry) && fn(setup, number, zEntry, cut);
     };
-    bool stopped = false;
-    const auto visitLeaf = [&](std::uint32_t position, float& cut) {
-        return stopped = leaf(position, cut);
-    };
-    if (!distantBvh_.nodes.empty()) {
-        traverse(distantBvh_, setup, zCut, visitLeaf);
-        return stopped;
-    }
-    for (std::uint32_t position = 0; position < distant.size() && !stopped; ++position)
-        visitLeaf(position, zCut);
-    return stopped;
+    if (hasTrees_) return traverse(distantTree_, setup, zCut, leaf);
+    return std::any_of(distant.begin(), distant.end(),
+                       [&](std::uint32_t number) { return leaf(number, zCut); });
 }
 
 // A total order, because shapes with triangles have numbers in a row (scene/scene.cpp).

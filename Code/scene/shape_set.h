@@ -2,7 +2,6 @@
 // ray, and for batches of rays with the same answers.
 #pragma once
 
-#include "accel/bvh.h"
 #include "accel/kernels/solids.h"
 #include "scene/placed_meshes.h"
 #include "shape/mesh_geometry.h"
@@ -37,9 +36,6 @@ struct ShapeSet {
     std::vector<std::uint32_t> bounded, unbounded, distant;
     float distantFrom = kInfinityF; // SceneFrame::distantFrom
     float extent = kSceneExtent;    // no |coordinate| of a box of `bounded` is larger
-    // Over the bounded ones that take no batches, where no kernel has trees of its own over them;
-    // empty: linear search.
-    Bvh bvh;
     // Bounded shapes that take batches themselves and are no solids of the kernel; the batch
     // queries ask them first.
     std::vector<std::uint32_t> batched;
@@ -56,7 +52,6 @@ struct ShapeSet {
     // Appends every hit of the see-through shapes in (tMin, tMax), nearest first, ties as above.
     void seeThroughHits(const Ray& ray, std::vector<Hit>& hits) const;
 
-    // Those of the kernel; empty without one.
     const SolidTree& solids() const { return solids_; }
     const PlacedMeshes& placed() const { return placed_; }
 
@@ -78,7 +73,7 @@ private:
     // Asks the shape for a nearer hit than the best one, which then becomes it.
     bool nearer(const Ray& ray, std::uint32_t number, float tEntry, Hit& best) const;
     void sortByBounds(int threads);
-    void buildBatchTrees(const Isa& kernel, int threads);
+    void buildTrees(const Isa& kernel, int threads);
     void closestOfBatched(const RaySpan& rays, std::vector<Hit>& hits) const;
     void hideByBatched(const RaySpan& rays, std::vector<std::uint8_t>& hidden) const;
     void closestOfOthers(const RaySpan& rays, std::vector<Hit>& hits) const;
@@ -87,11 +82,11 @@ private:
     // By shape: what it is asked for when it comes, as memory of millions is slow to come back to.
     enum class Way : std::uint8_t { Alone, Batched, Instance };
     std::vector<Way> ways_;
-    std::vector<std::uint32_t> inTree_;     // shapes by their number in `bvh`
     std::vector<std::uint32_t> askedAlone_; // unbounded shapes that are not in solids_
-    Bvh distantBvh_;                        // over `distant`
+    SolidTree distantTree_;                 // over `distant`
     float distantExtent_ = 0;               // as `extent`, of `distant`
     const SolidKernel* kernel_ = nullptr;   // null: the scalar code answers
+    bool hasTrees_ = false;                 // else: linear search
     SolidTree solids_;                      // the shapes of the tree that are no instances
-    PlacedMeshes placed_;                   // those that are
+    PlacedMeshes placed_;                   // those that are, where the kernel traces them
 };

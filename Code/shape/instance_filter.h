@@ -32,44 +32,12 @@ public:
                 .lateralError = lateralError_,
                 .zCut = zCut};
     }
-    // traverse() of the tree that the mesh has.
+    // traverse() of the mesh's tree, with as much room before the start of the ray and behind the
+    // cut as the triangles of a node ask for.
     template <class LeafFn>
     void traverse(const MeshGeometry& mesh, float zCut, LeafFn&& leaf) const {
-        if (mesh.wide.isEmpty())
-            ::traverse(mesh.bvh, *this, zCut, leaf);
-        else
-            ::traverse(mesh.wide, *this, zCut, leaf);
-    }
-    // Does the ray come near the whole mesh?
-    bool entersRoot(const MeshGeometry& mesh, float zCut) const {
-        float z = 0;
-        return mesh.bvh.nodes.empty() || enters(mesh.bvh.nodes[0].box, longestSide_[0], zCut, z);
-    }
-    // For traverse() of the mesh's trees: RaySetup::enters() with as much room before the start of
-    // the ray and behind the cut as the triangles of the node ask for.
-    [[gnu::always_inline]] friend bool enters(const TreeRay& ray, const Bvh& bvh,
-                                              std::uint32_t node, float zCut, float& zEntry) {
-        return ray.enters(bvh.nodes[node].box, ray.longestSide_[node], zCut, zEntry);
-    }
-    [[gnu::always_inline]] friend bool enters(const TreeRay& ray, WideRef node, const Bounds& box,
-                                              float zCut) {
-        float z = 0;
-        return ray.enters(box, ray.longestSide_[node >> 2], zCut, z);
-    }
-    [[gnu::always_inline]] bool enters(const Bounds& box, float longestSide, float zCut,
-                                       float& zEntry) const {
-        const RaySetup& setup = setup_;
-        const float room = longestSide * depthPerSide_;
-        float entry = -room, exit = zCut + room;
-        for (std::size_t axis = 0; axis < 3; ++axis) {
-            const bool backwards = setup.r[axis] < 0;
-            const float nearPlane = backwards ? box.hi[axis] : box.lo[axis];
-            const float farPlane = backwards ? box.lo[axis] : box.hi[axis];
-            entry = max(nearPlane * setup.r[axis] + setup.nearOffset[axis], entry);
-            exit = min(farPlane * setup.r[axis] + setup.farOffset[axis], exit);
-        }
-        zEntry = entry - room;
-        return entry <= exit;
+        const auto roomAt = [&](std::size_t line) { return longestSide_[line] * depthPerSide_; };
+        ::traverse(mesh.wide, setup_, zCut, roomAt, leaf);
     }
     // May the triangle with these corners in the tree be hit? Woop's test with edge functions that
     // may be off: corners which are moved by up to d along each axis, at most m away from the ray,
@@ -90,7 +58,7 @@ private:
     // than the products with 0 and 1 here.
     Vec2 beside(Vec3 p) const { return {dot(acrossX_, p) + originX_, dot(acrossY_, p) + originY_}; }
 
-    const float* longestSide_; // by node
+    const float* longestSide_; // by line of the tree
     RaySetup setup_;
     Vec3 acrossX_, acrossY_;
     float originX_, originY_;

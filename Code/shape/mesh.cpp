@@ -15,8 +15,9 @@ void Mesh::candidates(const RaySetup& setup, float zCut, LeafFn&& leaf) const {
     const auto visit = [&](std::uint32_t triangle, float& cut) {
         return leaf(triangle, corners(triangle), cut);
     };
-    if (!geometry_.bvh.nodes.empty()) return traverse(geometry_.bvh, setup, zCut, visit);
-    if (!geometry_.wide.isEmpty()) return traverse(geometry_.wide, setup, zCut, visit);
+    if (!geometry_.wide.isEmpty())
+        return traverse(
+            geometry_.wide, setup, zCut, [](std::size_t) { return 0.0f; }, visit);
     for (std::uint32_t i = 0; i < geometry_.triangles.size(); ++i)
         if (visit(i, zCut)) return;
 }

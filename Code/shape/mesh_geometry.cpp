@@ -1,6 +1,5 @@
 #include "shape/mesh_geometry.h"
 
-#include "accel/kernels/build/build.h"
 #include "accel/kernels/placed.h"
 #include "base/for_each.h"
 #include "shape/share_points.h"
@@ -18,28 +17,6 @@ float longestSideOf(const MeshGeometry& mesh, std::uint32_t triangle) {
     for (std::size_t i = 0; i < 3; ++i)
         longest = max(length(mesh.exactPoints[c[i]] - mesh.exactPoints[c[(i + 1) % 3]]), longest);
     return floatAbove(longest);
-}
-
-std::vector<float> longestSides(const MeshGeometry& mesh) {
-    const auto& nodes = mesh.bvh.nodes;
-    std::vector<std::uint32_t> fromTheRoot{0};
-    for (std::size_t i = 0; i < fromTheRoot.size(); ++i) {
-        const BvhNode& node = nodes[fromTheRoot[i]];
-        if (node.isLeaf()) continue;
-        fromTheRoot.push_back(node.first);
-        fromTheRoot.push_back(node.first + 1);
-    }
-    std::vector<float> out(nodes.size(), 0);
-    for (; !fromTheRoot.empty(); fromTheRoot.pop_back()) {
-        const BvhNode& node = nodes[fromTheRoot.back()];
-        float& longest = out[fromTheRoot.back()];
-        if (node.isLeaf())
-            for (std::uint32_t i = node.first; i < node.first + node.count; ++i)
-                longest = max(longestSideOf(mesh, mesh.bvh.primIds[i]), longest);
-        else
-            longest = max(out[node.first], out[node.first + 1]);
-    }
-    return out;
 }
 
 // What a wide tree does not say of the exact triangles of its nodes and leaves, from `ref` down.
@@ -168,26 +145,14 @@ void MeshGeometry::finish(bool withTree, const Isa& forIsa, int threads, double 
     if (withTree) sharePoints(*this, threads);
     measure(threads);
     if (!withTree || triangles.empty()) return;
-    if (forIsa.triangles != nullptr) {
-        isa = &forIsa;
-        wide = kernels::build::buildWideBy(*forIsa.build, forIsa.width, points, triangles, threads,
-                                           rays);
-        if (!exactPoints.empty()) describeExact(*this);
-        return;
-    }
-    {
-        std::vector<Bounds> boxes(triangles.size());
-        for (std::size_t i = 0; i < triangles.size(); ++i)
-            for (const std::uint32_t corner : triangles[i]) boxes[i].extend(points[corner]);
-        bvh = buildBvh(boxes, threads, std::numeric_limits<std::uint32_t>::max());
-    }
-    bvh.nodes.shrink_to_fit();
-    if (!exactPoints.empty()) longestSide = longestSides(*this);
+    if (forIsa.triangles != nullptr) isa = &forIsa;
+    wide = buildWide(forIsa.nodeWidth(), points, triangles, threads, rays);
+    if (!exactPoints.empty()) describeExact(*this);
 }
 
 std::size_t MeshGeometry::bytes() const {
-    return bvh.bytes() + longestSide.size() * sizeof(float) + leafPoints.size() * sizeof(Vec3d) +
-           wide.bytes() + points.size() * sizeof(Vec3) + exactPoints.size() * sizeof(Vec3d) +
+    return wide.bytes() + longestSide.size() * sizeof(float) + leafPoints.size() * sizeof(Vec3d) +
+           points.size() * sizeof(Vec3) + exactPoints.size() * sizeof(Vec3d) +
            triangles.size() * sizeof(Corners) + normals.size() * sizeof(Vec3) +
            normalTriangles.size() * sizeof(Corners) + uvs.size() * sizeof(Vec2) +
            uvTriangles.size() * sizeof(Corners) + slots.size() * 4;

@@ -2,7 +2,6 @@
 // shapes made of it are Mesh (mesh.h), which is traced as it is, and MeshInstance.
 #pragma once
 
-#include "accel/bvh.h"
 #include "accel/kernels/kernels.h"
 #include "base/raw_vector.h"
 #include "base/transform.h"
@@ -50,16 +49,13 @@ struct MeshGeometry {
     RawVector<Vec3d> exactPoints;
     Transform treeFromObject; // moves and scales, alike along all axes
     BoundsD exactBox;         // of the exact points
-    // By node of the bvh, or by line of the nodes and leaves of the wide tree: of the exact
-    // triangles below.
+    // By line of the nodes and leaves of the tree: of the exact triangles below.
     std::vector<float> longestSide;
 
-    // Copies of the exact points for the leaves of the wide tree; see TreeVisit::exactPoints.
+    // Copies of the exact points for the leaves of the tree; see TreeVisit::exactPoints.
     ZeroedVector<Vec3d> leafPoints;
 
-    // At most one of the trees; both empty: every triangle is tested (--accel none).
-    Bvh bvh;
-    WideTree wide;               // for the kernel
+    WideTree wide;               // empty: every triangle is tested (--accel none)
     const Isa* isa = nullptr;    // answers batches; null: the scalar code does
     float extent = kSceneExtent; // no |coordinate| of a point is larger
     Bounds box;                  // of the triangles
@@ -74,7 +70,7 @@ struct MeshGeometry {
     // that the kernel needs, for which points that are the same become one (share_points.h). The
     // same for any number of threads; `rays`: see buildWide(). The lists do not change afterwards.
     void finish(bool withTree, const Isa& forIsa = oneLane(), int threads = 1, double rays = 0);
-    bool hasTree() const { return !bvh.nodes.empty() || !wide.isEmpty(); }
+    bool hasTree() const { return !wide.isEmpty(); }
     WideMesh wideMesh() const { return {wide, points, triangles, extent}; }
     std::size_t bytes() const;
 

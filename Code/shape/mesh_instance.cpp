@@ -51,10 +51,6 @@ MeshInstance::Visit::Visit(const MeshInstance& instance, const Ray& ray, KnownSe
     if (instance.geometry_.hasTree()) treeRay_ = place_->filter.treeRay(ray, instance.extent_);
 }
 
-bool MeshInstance::Visit::reaches(float tMax) const {
-    return !treeRay_ || treeRay_->entersRoot(instance_.geometry_, treeRay_->depthAt(tMax));
-}
-
 template <class LeafFn> void MeshInstance::Visit::candidates(float zCut, LeafFn&& leaf) const {
     const MeshGeometry& geometry = instance_.geometry_;
     const auto test = [&](std::uint32_t triangle) {
@@ -77,26 +73,23 @@ template <class LeafFn> void MeshInstance::Visit::candidates(float zCut, LeafFn&
     });
 }
 
-// query(candidates), as triangle_queries.h wants them, at the time of the ray; false when there are
-// none before tMax.
-template <class Query> bool MeshInstance::ask(const Ray& ray, float tMax, Query&& query) const {
+// query(candidates), as triangle_queries.h wants them, at the time of the ray.
+template <class Query> bool MeshInstance::ask(const Ray& ray, Query&& query) const {
     if (!isTraceable(ray)) return false;
     const Visit visit(*this, ray);
-    if (!visit.reaches(tMax)) return false;
     return query([&](const RaySetup&, float zCut, auto&& leaf) { visit.candidates(zCut, leaf); });
 }
 
 bool MeshInstance::intersect(const Ray& ray, Hit& hit) const {
-    return ask(ray, hit.t,
-               [&](auto&& found) { return nearestTriangle(ray, setupFor(ray), hit, found); });
+    return ask(ray, [&](auto&& found) { return nearestTriangle(ray, setupFor(ray), hit, found); });
 }
 
 bool MeshInstance::occludes(const Ray& ray) const {
-    return ask(ray, ray.tMax, [&](auto&& found) { return anyTriangle(ray, setupFor(ray), found); });
+    return ask(ray, [&](auto&& found) { return anyTriangle(ray, setupFor(ray), found); });
 }
 
 void MeshInstance::collect(const Ray& ray, std::vector<Hit>& hits) const {
-    ask(ray, ray.tMax, [&](auto&& found) {
+    ask(ray, [&](auto&& found) {
         allTriangles(ray, setupFor(ray), hits, found);
         return true;
     });

@@ -59,7 +59,7 @@ private:
         // As MovingTransform::at() moves a key.
         Place moved(Vec3d offset) const;
     };
-    template <class Query> bool ask(const Ray& ray, float tMax, Query&& query) const;
+    template <class Query> bool ask(const Ray& ray, Query&& query) const;
     RaySetup setupFor(const Ray& ray) const { return {ray.org, ray.dir, extent_}; }
     std::uint32_t materialOf(std::uint32_t triangle) const {
         return materials_[geometry_.slots.empty() ? 0 : geometry_.slots[triangle]];
@@ -109,7 +109,6 @@ public:
     }
     // All of them but those that the ray is certain to miss before zCut.
     template <class LeafFn> void candidates(float zCut, LeafFn&& leaf) const;
-    bool reaches(float tMax) const; // the mesh, before tMax?
 
 private:
     const MeshInstance& instance_;

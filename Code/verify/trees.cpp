@@ -37,39 +37,48 @@ Tally inSets(const Effort& effort, std::uint64_t seed,
     return sum;
 }
 
+constexpr int kWidth = 8;
+
 struct Size {
-    int depth = 0;
+    std::size_t depth = 0;
     std::uint64_t wrongBoxes = 0, found = 0; // found: primitives in leaves
 };
 
-Size sizeOf(const Bvh& bvh, std::span<const Bounds> boxes) {
+Size sizeOf(const WideTree& tree, std::span<const Bounds> boxes) {
     Size size;
     struct Entry {
-        std::uint32_t node;
-        int depth;
+        WideRef ref;
+        Bounds box;
+        std::size_t depth;
     };
-    std::vector<Entry> open{{0, 0}};
+    std::vector<Entry> open;
+    const auto openChildren = [&](WideRef ref, std::size_t depth) {
+        const auto& node = tree.at<WideNode<kWidth>>(ref);
+        size.depth = std::max(size.depth, depth);
+        for (std::size_t i = 0; i < kWidth; ++i)
+            if (!node.box(i).isEmpty()) open.push_back({node.child[i], node.box(i), depth});
+    };
+    openChildren(tree.root, 1);
     std::vector<bool> seen(boxes.size());
     while (!open.empty()) {
-        const auto [at, depth] = open.back();
+        const Entry at = open.back();
         open.pop_back();
-        const BvhNode& node = bvh.nodes[at];
-        size.depth = std::max(size.depth, depth);
-        const auto contains = [&](const Bounds& inner) {
-            return node.box.contains(inner.lo) && node.box.contains(inner.hi);
+        const auto check = [&](const Bounds& inner) {
+            if (!at.box.contains(inner.lo) || !at.box.contains(inner.hi)) ++size.wrongBoxes;
         };
-        if (!node.isLeaf()) {
-            for (const std::uint32_t child : {node.first, node.first + 1}) {
-                if (!contains(bvh.nodes[child].box)) ++size.wrongBoxes;
-                open.push_back({child, depth + 1});
-            }
+        if (kindOf(at.ref) == WideKind::Node) {
+            const auto& node = tree.at<WideNode<kWidth>>(at.ref);
+            for (std::size_t i = 0; i < kWidth; ++i)
+                if (!node.box(i).isEmpty()) check(node.box(i));
+            openChildren(at.ref, at.depth + 1);
             continue;
         }
-        for (std::uint32_t i = node.first; i < node.first + node.count; ++i) {
-            const std::uint32_t prim = bvh.primIds[i];
-            if (!contains(boxes[prim])) ++size.wrongBoxes;
-            if (!seen[prim]) ++size.found;
-            seen[prim] = true;
+        const auto& leaf = tree.at<WideLeaf<kWidth>>(at.ref);
+        for (std::uint32_t i = leaf.first; i < leaf.first + leaf.count; ++i) {
+            const std::uint32_t triangle = tree.triangleIds[i];
+            check(boxes[triangle]);
+            if (!seen[triangle]) ++size.found;
+            seen[triangle] = true;
         }
     }
     return size;
@@ -82,26 +91,19 @@ std::vector<Bounds> boxesOf(const Triangles& triangles) {
     return boxes;
 }
 
-// Nodes above each other in the tree for vector kernels; 0 where there are none.
-double wideDepth(const MeshGeometry& g) {
-    constexpr int kWidth = 8;
-    const WideTree tree = buildWide(kWidth, g.points, g.triangles, 3);
-    return tree.isEmpty() ? 0 : (tree.stackSize - 1) / (kWidth - 1);
-}
-
 Tally treeDepths(const Effort& effort) {
     return inSets(effort, 24, [&](const HostileTree& set, Random& random, Tally& tally) {
         const Triangles triangles = set.make(random, triangleCount(effort));
         const std::vector<Bounds> boxes = boxesOf(triangles);
-        const Bvh bvh = buildBvh(boxes);
-        const Size size = sizeOf(bvh, boxes);
+        const MeshGeometry g = meshes::geometryOf(triangles, false);
+        const WideTree tree = buildWide(kWidth, g.points, g.triangles, 3);
+        const Size size = sizeOf(tree, boxes);
         tally.cases += boxes.size();
         const auto text = [&] { return std::string(set.name); };
-        if (size.wrongBoxes > 0 || size.found != boxes.size() || bvh.primIds.size() != boxes.size())
+        if (size.wrongBoxes > 0 || size.found != boxes.size() ||
+            tree.triangleIds.size() != boxes.size())
             tally.fail(text);
-        tally.measure(size.depth, text);
-        tally.measure(wideDepth(meshes::geometryOf(triangles, false)),
-                      [&] { return cat(set.name, ", wide"); });
+        tally.measure(static_cast<double>(size.depth), text);
     });
 }
 
@@ -143,25 +145,19 @@ Tally hits(const Effort& effort) {
 
 constexpr int kTurns = 3;
 
-// One after the other: what runs beside it would be timed too. Both builders.
+// One after the other: what runs beside it would be timed too.
 Tally buildTimes(const Effort& effort) {
     Tally tally;
     Random random(241);
     const Triangles even = evenTriangles(random, triangleCount(effort));
-    const std::vector<Bounds> evenBoxes = boxesOf(even);
     const MeshGeometry evenMesh = meshes::geometryOf(even, false);
-    const auto buildMesh = [](const MeshGeometry& g) { buildWide(8, g.points, g.triangles); };
+    const auto build = [](const MeshGeometry& g) { buildWide(kWidth, g.points, g.triangles); };
     for (const HostileTree& set : hostileTrees()) {
-        const Triangles triangles = set.make(random, even.size());
-        const std::vector<Bounds> boxes = boxesOf(triangles);
-        const MeshGeometry mesh = meshes::geometryOf(triangles, false);
-        tally.cases += boxes.size();
+        const MeshGeometry mesh = meshes::geometryOf(set.make(random, even.size()), false);
+        tally.cases += mesh.triangles.size();
         tally.measure(timeRatio(
-                          kTurns, [&] { buildBvh(boxes); }, [&] { buildBvh(evenBoxes); }),
+                          kTurns, [&] { build(mesh); }, [&] { build(evenMesh); }),
                       [&] { return set.name; });
-        tally.measure(timeRatio(
-                          kTurns, [&] { buildMesh(mesh); }, [&] { buildMesh(evenMesh); }),
-                      [&] { return cat(set.name, ", wide"); });
     }
     return tally;
 }
@@ -197,7 +193,7 @@ Tally traceTimes(const Effort& effort) {
 }
 
 constexpr Row kTreesRows[] = {
-    {"T24a", "depth of hostile trees; each triangle once, in its boxes", "levels", kMaxBvhDepth,
+    {"T24a", "depth of hostile trees; each triangle once, in its boxes", "levels", kMaxTreeDepth,
      true, treeDepths},
     {"T24b", "rays through them that find other than the plain list", "", 0, true, hits},
     timed({"T24c", "time to build them", "of even ones", 4, false, buildTimes}),

@@ -7,10 +7,10 @@
 #include "bench/picture.h"
 #include "bench/trace.h"
 #include "bench/walk.h"
-#include "cli/settings_from.h"
+#include "cli/command.h"
 #include "cli/flag.h"
 #include "cli/output.h"
-#include "cli/command.h"
+#include "cli/settings_from.h"
 #include "desc/validate.h"
 #include "read/load.h"
 #include "scene/merge.h"
@@ -64,13 +64,13 @@ public:
         const double rays = options_.bestTree ? kCountlessRays : 0;
         std::vector<double> wall, cpu;
         for (int run = 0; run <= options_.runs; ++run) {
-            geometry.wide = {}, geometry.bvh = {};
+            geometry.wide = {};
             const BenchSeconds s =
                 secondsOf([&] { geometry.finish(true, kernel_, options_.threads, rays); });
             if (run == 0) continue;
             wall.push_back(s.wall * 1e3), cpu.push_back(s.cpu * 1e3);
         }
-        const double bytes = static_cast<double>(geometry.wide.bytes() + geometry.bvh.bytes()) /
+        const double bytes = static_cast<double>(geometry.wide.bytes()) /
                              static_cast<double>(geometry.triangles.size());
         writeStdout(cat("BUILD,", who_,
                         numbers(medianOf(wall), *std::min_element(wall.begin(), wall.end()),

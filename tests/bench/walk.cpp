@@ -6,20 +6,6 @@
 
 namespace {
 
-struct BinaryTree {
-    const Bvh& bvh;
-
-    static std::uint32_t root() { return 0; }
-    bool isLeaf(std::uint32_t at) const { return bvh.nodes[at].isLeaf(); }
-    std::span<const std::uint32_t> triangles(std::uint32_t at) const {
-        return std::span(bvh.primIds).subspan(bvh.nodes[at].first, bvh.nodes[at].count);
-    }
-    template <class Fn> void forEachChild(std::uint32_t at, Fn&& child) const {
-        const std::uint32_t left = bvh.nodes[at].first;
-        for (const std::uint32_t i : {left, left + 1}) child(i, bvh.nodes[i].box);
-    }
-};
-
 template <int W> struct WideView {
     const WideTree& tree;
 
@@ -89,6 +75,5 @@ BenchWalk meanWalkIn(const Tree& tree, const MeshGeometry& geometry, const Bench
 BenchWalk meanWalk(const MeshGeometry& geometry, const BenchRays& rays) {
     if (geometry.wide.width == 16) return meanWalkIn(WideView<16>{geometry.wide}, geometry, rays);
     if (geometry.wide.width == 8) return meanWalkIn(WideView<8>{geometry.wide}, geometry, rays);
-    if (!geometry.bvh.nodes.empty()) return meanWalkIn(BinaryTree{geometry.bvh}, geometry, rays);
     return {};
 }

@@ -25,7 +25,7 @@ TEST(instance_tree_leaves_out_triangles) {
             ray.dir = toFloat(map.point(random.inBox(0.5))) - ray.org;
             const auto treeRay = filter.treeRay(ray, kSceneExtent);
             CHECK(treeRay.has_value());
-            traverse(shared.bvh, *treeRay, kInfinityF, [&](std::uint32_t triangle, float&) {
+            treeRay->traverse(shared, kInfinityF, [&](std::uint32_t triangle, float&) {
                 const auto& c = shared.triangles[triangle];
                 tested +=
                     treeRay->mayMeet(shared.points[c[0]], shared.points[c[1]], shared.points[c[2]]);

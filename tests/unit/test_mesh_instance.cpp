@@ -220,7 +220,6 @@ TEST(instance_in_batches_is_its_copy) {
                 hits += hit.isHit();
             }
             pair.instance.geometry->wide = {};
-            pair.instance.geometry->bvh = {};
         }
     }
     std::printf("%lld rays, %lld hits, seed %d\n", rays, hits, static_cast<int>(kSeed));

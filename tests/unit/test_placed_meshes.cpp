@@ -269,7 +269,7 @@ TEST(placed_meshes_leave_out_triangles) {
         PlacedTree tree;
         tree.boxes.add(instance.bounds(), 0, true, {});
         tree.boxes.extent = kSceneExtent;
-        tree.boxes.build(kernel.width);
+        tree.boxes.build(kernel.nodeWidth());
         tree.whole = instance.bounds();
         tree.boxStack = stackSize(tree.boxes), tree.meshStack = geometry.wide.stackSize;
         RayList batch;

@@ -1,6 +1,5 @@
 // Moving subtrees of a binary tree: from one that is as bad as can be to a good one with the same
 // leaves, the same for any number of threads.
-#include "accel/bvh.h"
 #include "accel/kernels/build/collapse.h"
 #include "accel/kernels/build/write_tree.h"
 #include "accel/kernels/wide_tree.h"
@@ -55,11 +54,11 @@ Tree shuffled(std::uint32_t leaves, float size, std::uint32_t seed = 41) {
 }
 
 // One leaf after the other: as deep as a tree may be, with the largest leaves at its end.
-Tree chain(int levels) {
+Tree chain(std::size_t levels) {
     Random random(42);
     Tree tree(2);
     std::uint32_t at = 0, number = 0;
-    for (int level = 1; level < levels; ++level) {
+    for (std::size_t level = 1; level < levels; ++level) {
         const auto left = static_cast<std::uint32_t>(tree.size());
         tree[at].left = left;
         tree.resize(left + 2);
@@ -81,7 +80,8 @@ double innerArea(const Tree& tree) {
 // What is wrong with a tree made of another one, in words; "" if nothing.
 std::string faultOf(const Tree& tree, const Tree& from) {
     if (tree.size() != from.size()) return "size";
-    std::vector<int> depth(tree.size()), leaves(tree.size());
+    std::vector<std::size_t> depth(tree.size());
+    std::vector<int> leaves(tree.size());
     std::vector<const BinaryNode*> wanted(tree.size());
     for (std::size_t i = 0; i < from.size(); ++i)
         if (i != 1 && from[i].isLeaf()) wanted[from[i].leaf] = &from[i];
@@ -92,7 +92,7 @@ std::string faultOf(const Tree& tree, const Tree& from) {
         const BinaryNode& n = tree[i];
         if (i == 1) continue;
         if (depth[i] == 0) return "a node before its parent, or without";
-        if (depth[i] > kMaxBvhDepth) return "depth";
+        if (depth[i] > kMaxTreeDepth) return "depth";
         if (n.lo != fitted[i].lo || n.negHi != fitted[i].negHi) return "box";
         if (n.isLeaf()) {
             if (++leaves[n.leaf] > 1) return "a leaf twice";
@@ -147,7 +147,7 @@ TEST(reinsert_does_what_the_rays_pay_for) {
 // Trees that leave nothing to do, or are too deep already.
 TEST(reinsert_leaves_odd_trees_whole) {
     ThreadPool pool(2);
-    std::vector<Tree> trees{chain(kMaxBvhDepth), shuffled(300, 0), shuffled(300, 2)};
+    std::vector<Tree> trees{chain(kMaxTreeDepth), shuffled(300, 0), shuffled(300, 2)};
     for (std::uint32_t leaves = 1; leaves < 20; ++leaves) trees.push_back(shuffled(leaves, 0.1f));
     Tree points = shuffled(300, 0);
     for (BinaryNode& n : points) n.lo = n.negHi = {0, 0, 0};

@@ -53,7 +53,7 @@ TEST(triangle_tree_equals_brute_force) {
         const auto triangles = meshes::soup(random, 150);
         const MeshGeometry withTree = meshes::geometryOf(triangles, true);
         const MeshGeometry without = meshes::geometryOf(triangles, false);
-        CHECK(!withTree.bvh.nodes.empty() && without.bvh.nodes.empty());
+        CHECK(withTree.hasTree() && !without.hasTree());
         const Mesh tree(withTree, {0}, {{0, 0}});
         const Mesh all(without, {0}, {{0, 0}});
         for (int i = 0; i < 28000; ++i) {

@@ -13,7 +13,6 @@
 
 namespace test_wide_build {
 
-using kernels::build::TreeBuilder;
 using meshes::Random;
 
 namespace {
@@ -208,19 +207,6 @@ TEST(wide_build_same_for_any_threads) {
                 sameBytes(buildWide(16, in.points, in.triangles, threads, kCountlessRays), one),
                 in.name << ", best, threads " << threads);
     }
-}
-
-TEST(wide_build_same_for_any_instructions) {
-    std::vector<const Isa*> isas;
-    for (const Isa& isa : allIsas())
-        if (isa.supported() && isa.build != nullptr) isas.push_back(&isa);
-    for (const Input& in : inputs())
-        for (const int width : {8, 16})
-            for (std::size_t i = 1; i < isas.size(); ++i)
-                CHECK_INFO(
-                    sameBytes(buildWideBy(*isas[i]->build, width, in.points, in.triangles, 1),
-                              buildWideBy(*isas[0]->build, width, in.points, in.triangles, 1)),
-                    in.name << ", width " << width << ", " << isas[i]->name);
 }
 
 TEST(wide_build_trees_hold_everything) {

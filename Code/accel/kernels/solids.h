@@ -4,13 +4,12 @@
 // where a ray enters its box. Knows nothing about what the shapes are.
 #pragma once
 
-#include "accel/bvh.h"
 #include "accel/kernels/kernels.h"
 #include "accel/kernels/wide_tree.h"
 #include "accel/solid_form.h"
 #include "base/function_ref.h"
-#include "base/ray.h"
 #include "base/raw_vector.h"
+#include "base/ray.h"
 
 #include <array>
 #include <cstdint>
@@ -76,7 +75,7 @@ struct SolidTree {
     RawVector<WideTree::Line> lines;
     Bounds around;    // all solids that are in it
     float extent = 0; // see RaySetup
-    double sah = 0;   // as sahCost() of bvh.h counts
+    double sah = 0;   // a ray through `around` meets so many nodes and solids, by their areas
 
     template <int W> const WideNode<W>& node(WideRef ref) const {
         return *reinterpret_cast<const WideNode<W>*>(

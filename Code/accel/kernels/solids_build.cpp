@@ -6,6 +6,14 @@
 #include <algorithm>
 #include <utility>
 
+std::vector<std::uint32_t> SolidTree::writeNodes(std::span<const Bounds> of, int threads) {
+    around = {};
+    for (const Bounds& box : of) around.extend(box);
+    WideTree tree = buildWideOfBoxes(width, of, threads);
+    lines = std::move(tree.lines), sah = tree.sah;
+    return std::move(tree.triangleIds);
+}
+
 void SolidTree::build(int nodeWidth, int threads) {
     width = nodeWidth;
     const std::vector<std::uint32_t> order = writeNodes(boxes, threads);

@@ -8,8 +8,6 @@
 // ray meets lies inside of the box without the pad.
 #pragma once
 
-#include "simd/sine_lanes.h"
-#include "simd/double_double_lanes.h"
 #include "accel/kernels/chord.h"
 #include "accel/kernels/solids.h"
 #include "accel/kernels/solids_answers.h"
@@ -26,10 +24,12 @@
 #include "accel/kernels/solids_tubes.h"
 #include "accel/kernels/solids_turning.h"
 #include "accel/kernels/wide_tree.h"
-#include "base/math.h"
 #include "base/cpu.h"
+#include "base/math.h"
 #include "base/ray.h"
+#include "simd/double_double_lanes.h"
 #include "simd/lanes.h"
+#include "simd/sine_lanes.h"
 
 #include <algorithm>
 #include <array>
@@ -70,7 +70,7 @@ private:
     };
 
     template <Answer A, class Result> void traverse(Result* results) {
-        std::array<Entry, (kMaxBvhDepth + 1) * W> stack;
+        std::array<Entry, (kMaxTreeDepth + 1) * W> stack;
         std::size_t size = 0;
         WideRef at = wideRef(0, WideKind::Node);
         unsigned lanes = live_;

@@ -5,9 +5,9 @@
 // but the size of its jobs, and minima and counts don't depend on their order: neither does the
 // tree.
 #include "accel/kernels/build/build.h"
+#include "accel/kernels/build/subtree.h"
 #include "accel/kernels/build/write_tree.h"
 #include "base/parallel.h"
-#include "isa/isa.h"
 
 #include <algorithm>
 #include <utility>
@@ -45,10 +45,8 @@ std::uint32_t leftOf(const WideBinSplit& split, const WideBins& bins) {
 
 class WideBuilder {
 public:
-    // kSingles as the width: of boxes.
-    static constexpr int kSingles = 1;
-    WideBuilder(const TreeBuilder& code, int width, const BuildInput& in, int threads, double rays)
-        : code_(code), width_(width), rays_(rays),
+    WideBuilder(int width, const BuildInput& in, int threads, double rays)
+        : width_(width), rays_(rays),
           count_(static_cast<std::uint32_t>(in.triangles.size() + in.boxes.size())),
           // Few triangles are sorted before another thread has woken up.
           pool_(count_ < 2 * subtreeSize(count_) ? 1 : threads), in_(in), grown_(workers()) {
@@ -58,6 +56,7 @@ public:
     WideTree run() {
         WideTree tree;
         tree.width = width_;
+        tree.isOfBoxes = isOfBoxes();
         // In front of the lists: small things between it and them would keep their memory, when all
         // of it is free, from being in one piece for the next tree.
         tree.triangleIds.resize(count_);
@@ -71,13 +70,6 @@ public:
         return tree;
     }
 
-    SinglesTree runSingles() {
-        divideTop();
-        growSubtrees();
-        lists_ = {};
-        return joinSingles(top_, subtrees_, grown_, pool_);
-    }
-
 private:
     void divideTop() {
         lists_.prims.resize(count_), lists_.spare.resize(count_);
@@ -88,6 +80,7 @@ private:
         std::vector<Job>().swap(jobs_);
     }
 
+    bool isOfBoxes() const { return in_.triangles.empty(); }
     std::size_t workers() const { return static_cast<std::size_t>(pool_.threads()); }
 
     // A range with its split, in the parts in which it has been looked at.
@@ -118,23 +111,22 @@ private:
             return std::min(jobSize(), count_ - static_cast<std::uint32_t>(job) * jobSize());
         };
         pool_.run(jobs, [&](std::size_t job, int) {
-            (width_ == kSingles ? code_.takeBoxes
-                                : code_.makePrims)(in_, static_cast<std::uint32_t>(job) * jobSize(),
-                                                   sizeOf(job), parts[job].box, parts[job].centres);
+            makePrims(in_, static_cast<std::uint32_t>(job) * jobSize(), sizeOf(job), parts[job].box,
+                      parts[job].centres);
         });
         for (const Bounded& part : parts)
             merge(parts[0].box, part.box), merge(parts[0].centres, part.centres);
         BuildRange r{};
         r.count = count_;
         r.box = parts[0].box;
-        r.grid = code_.gridOver(parts[0].centres, count_);
+        r.grid = gridOver(Box::load(parts[0].centres), count_);
         std::vector<WideBins> bins(jobs);
         pool_.run(jobs, [&](std::size_t job, int) {
-            code_.fillBins(r.grid, lists_.of(r) + job * jobSize(), sizeOf(job), bins[job]);
+            fillBins(r.grid, lists_.of(r) + job * jobSize(), sizeOf(job), bins[job]);
         });
         WideBins all = bins[0];
-        for (std::size_t job = 1; job < jobs; ++job) code_.mergeBins(all, bins[job], r.grid.bins());
-        code_.chooseSplit(r, all);
+        for (std::size_t job = 1; job < jobs; ++job) mergeBins(all, bins[job], r.grid.bins());
+        chooseSplit(r, all);
         Open open{r, {}};
         for (std::size_t job = 0; job < jobs; ++job)
             open.parts.push_back({sizeOf(job), leftOf(r.split, bins[job])});
@@ -171,7 +163,7 @@ private:
             }
             const auto division = divisions.size();
             divisions.push_back({&r, {}, {}, jobs_.size(), parts.size()});
-            code_.makeChildren(r, divisions.back().left, divisions.back().right);
+            makeChildren(r, divisions.back().left, divisions.back().right);
             std::uint32_t first = 0, left = 0;
             for (const Part& part : parts) {
                 jobs_.emplace_back(division, part, first, left);
@@ -183,8 +175,8 @@ private:
             const Division& d = divisions[job.division];
             const WideBinGrid grids[2] = {d.left.grid, d.right.grid};
             PrimBox* const to = lists_.of(*d.range, true);
-            code_.divide(in_, *d.range, grids, lists_.of(*d.range) + job.first, job.part.count,
-                         to + job.left, to + d.range->count - 1 - job.right, job.bins);
+            divide(in_, *d.range, grids, lists_.of(*d.range) + job.first, job.part.count,
+                   to + job.left, to + d.range->count - 1 - job.right, job.bins);
         });
         std::vector<Open> next;
         for (Division& d : divisions) {
@@ -196,8 +188,8 @@ private:
                 BuildRange& kid = *kids[side];
                 WideBins all = mine[0].bins[side];
                 for (const Job& job : mine.subspan(1))
-                    code_.mergeBins(all, job.bins[side], kid.grid.bins());
-                code_.chooseSplit(kid, all);
+                    mergeBins(all, job.bins[side], kid.grid.bins());
+                chooseSplit(kid, all);
                 kid.node = child + static_cast<std::uint32_t>(side);
                 top_.push_back(leafNode(kid.box));
                 next.push_back(open(kid, mine, side));
@@ -228,10 +220,10 @@ private:
         // What a scanned mesh needs, in lines the nodes that follow the leaves included: at most 40
         // bytes for each triangle. Others grow. Nodes get no more, as their pages go on with lines.
         const std::size_t share = count_ / workers();
-        const std::size_t nodes = share * (width_ == kSingles ? 32 : width_ == 16 ? 3 : 7) / 16;
+        const std::size_t nodes = share * (isOfBoxes() ? 32 : width_ == 16 ? 3 : 7) / 16;
         for (Grown& grown : grown_) {
             grown.nodes.reserve(nodes + 64);
-            if (width_ != kSingles) grown.lines.reserve(share * 5 / 8 + 1024);
+            if (!isOfBoxes()) grown.lines.reserve(share * 5 / 8 + 1024);
         }
         pool_.run(subtrees_.size(), [&](std::size_t i, int worker) {
             SubtreeRange& s = subtrees_[i];
@@ -239,15 +231,17 @@ private:
             Grown& grown = grown_[s.grower];
             s.firstNode = static_cast<std::uint32_t>(grown.nodes.size());
             s.firstLeaf = grown.leaves;
-            (width_ == kSingles ? code_.growSingles
-             : width_ == 16     ? code_.growSubtree16
-                                : code_.growSubtree8)(in_, s.range, grown);
+            if (isOfBoxes())
+                Subtree<kSingle>(in_, grown).grow(s.range);
+            else if (width_ == 16)
+                Subtree<16>(in_, grown).grow(s.range);
+            else
+                Subtree<8>(in_, grown).grow(s.range);
             s.endNode = static_cast<std::uint32_t>(grown.nodes.size());
             s.endLeaf = grown.leaves;
         });
     }
 
-    const TreeBuilder& code_;
     int width_;
     double rays_;
     std::uint32_t count_;
@@ -263,23 +257,16 @@ private:
 
 } // namespace
 
-WideTree kernels::build::buildWideBy(const TreeBuilder& code, int width,
-                                     std::span<const Vec3> points,
-                                     std::span<const Corners> triangles, int threads, double rays) {
-    if (triangles.empty()) return {};
-    const BuildInput in{points, triangles, {}, nullptr, nullptr};
-    return WideBuilder(code, width, in, threads, rays).run();
-}
-
-SinglesTree kernels::build::growSinglesBy(const TreeBuilder& code, std::span<const Bounds> boxes,
-                                          int threads) {
-    if (boxes.empty()) return {};
-    const BuildInput in{{}, {}, boxes, nullptr, nullptr};
-    return WideBuilder(code, WideBuilder::kSingles, in, threads, 0).runSingles();
-}
-
 WideTree buildWide(int width, std::span<const Vec3> points,
                    std::span<const std::array<std::uint32_t, 3>> triangles, int threads,
                    double rays) {
-    return buildWideBy(*bestIsa().build, width, points, triangles, threads, rays);
+    if (triangles.empty()) return {};
+    const BuildInput in{points, triangles, {}, nullptr, nullptr};
+    return WideBuilder(width, in, threads, rays).run();
+}
+
+WideTree buildWideOfBoxes(int width, std::span<const Bounds> boxes, int threads) {
+    if (boxes.empty()) return {};
+    const BuildInput in{{}, {}, boxes, nullptr, nullptr};
+    return WideBuilder(width, in, threads, 0).run();
 }

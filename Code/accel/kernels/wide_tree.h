@@ -23,8 +23,8 @@ constexpr WideKind kindOf(WideRef ref) { return static_cast<WideKind>(ref & 3); 
 constexpr std::size_t byteOffset(WideRef ref) { return static_cast<std::size_t>(ref & ~3u) * 16; }
 
 // Children in the order in which rays that any hit ends had better visit them, the first one last
-// (build/visit_order.h). A slot without a child has a box that no ray enters, and refers to an empty
-// leaf.
+// (build/visit_order.h). A slot without a child has a box that no ray enters, and refers to an
+// empty leaf.
 template <int W> struct alignas(64) WideNode {
     float plane[3][2][W]; // axis, lower or upper
     WideRef child[W];
@@ -50,9 +50,10 @@ struct WideTree {
     WideRef root = wideRef(0, WideKind::None);
     std::uint32_t stackSize = 0; // more than a traversal ever has on its stack
     float leavesPerRay = 0;      // that a ray through the root enters, if nothing hides any
-    std::vector<std::uint32_t> triangleIds;
+    std::vector<std::uint32_t> triangleIds; // or, of boxes, those of the leaves in their order
+    bool isOfBoxes = false;                 // a reference to a leaf is the leaf's number
     std::uint64_t nodes = 0, leaves = 0;
-    double sah = 0; // as sahCost() of bvh.h counts
+    double sah = 0; // a ray through the root meets so many nodes and triangles, by areas
 
     bool isEmpty() const { return width == 0; }
     struct alignas(64) Line {
@@ -67,11 +68,19 @@ struct WideTree {
     }
 };
 
+// Nodes above each other, at most, of a wide tree and of the binary one that it is made of.
+inline constexpr std::size_t kMaxTreeDepth = 96;
+
 inline constexpr double kCountlessRays = 1e18; // any time is well spent
 
-// Binned SAH, top down. `width` is 8 or 16. The tree is the same on every machine and for any
-// number of threads, 0 being as many as the machine has. `rays`: how many will be traced through
-// it, as far as that can be told; the more they are, the more time is spent on a better tree.
+// Binned SAH (Wald 2007), top down. `width` is 8 or 16. The tree is the same on every machine and
+// for any number of threads, 0 being as many as the machine has. `rays`: how many will be traced
+// through it, as far as that can be told; the more they are, the more time is spent on a better
+// tree.
 WideTree buildWide(int width, std::span<const Vec3> points,
                    std::span<const std::array<std::uint32_t, 3>> triangles, int threads = 1,
                    double rays = 0);
+
+// The same over boxes of anything, each of which is a leaf of its own. The root is in line 0; slots
+// without a child are of kind None.
+WideTree buildWideOfBoxes(int width, std::span<const Bounds> boxes, int threads = 1);

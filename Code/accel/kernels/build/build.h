@@ -1,6 +1,5 @@
-// What the steps of the tree builder hand to each other: plain data, the same for every instruction
-// set. wide_build.cpp says in which order the steps come and on which threads; a TreeBuilder has
-// them in the instructions of one CPU. All of them compute the same bits.
+// What the steps of the tree builder hand to each other: plain data. wide_build.cpp says in which
+// order the steps come and on which threads.
 #pragma once
 
 #include "accel/kernels/wide_tree.h"
@@ -10,9 +9,7 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
-#include <string_view>
 #include <vector>
 
 namespace kernels::build {
@@ -87,37 +84,5 @@ struct Grown {
     RawVector<WideTree::Line> lines; // of the leaves
     std::uint32_t leaves = 0;
 };
-
-// The steps of a builder; every instruction set has its own and all make the same tree.
-struct TreeBuilder {
-    // Boxes of triangles first .. first + count - 1; their bounds and those of the doubled centres.
-    void (*makePrims)(const BuildInput&, std::uint32_t first, std::uint32_t count, PrimBox& box,
-                      PrimBox& centres);
-    void (*takeBoxes)(const BuildInput&, std::uint32_t first, std::uint32_t count, PrimBox& box,
-                      PrimBox& centres);
-    WideBinGrid (*gridOver)(const PrimBox& centres, std::uint32_t count);
-    void (*fillBins)(const WideBinGrid&, const PrimBox* from, std::uint32_t count, WideBins&);
-    void (*mergeBins)(WideBins& to, const WideBins& from, std::uint32_t used);
-    void (*chooseSplit)(BuildRange&, const WideBins&);
-    void (*makeChildren)(const BuildRange&, BuildRange& left, BuildRange& right);
-    void (*divide)(const BuildInput&, const BuildRange&, const WideBinGrid* grids,
-                   const PrimBox* from, std::uint32_t count, PrimBox* left, PrimBox* right,
-                   WideBins (&bins)[2]);
-    void (*growSubtree8)(const BuildInput&, const BuildRange&, Grown&);
-    void (*growSubtree16)(const BuildInput&, const BuildRange&, Grown&);
-    void (*growSingles)(const BuildInput&, const BuildRange&, Grown&); // of boxes
-};
-// buildWide() by one of them.
-WideTree buildWideBy(const TreeBuilder& code, int width, std::span<const Vec3> points,
-                     std::span<const Corners> triangles, int threads, double rays = 0);
-
-// A binary tree with a leaf for every box, named by the number of the box.
-struct SinglesTree {
-    RawVector<BinaryNode> nodes; // in no order
-    std::uint32_t root = 0;
-    std::vector<std::uint32_t> tops;  // nodes above the parts, parents first
-    std::vector<std::uint32_t> roots; // of the parts, each one thread's work
-};
-SinglesTree growSinglesBy(const TreeBuilder& code, std::span<const Bounds> boxes, int threads);
 
 } // namespace kernels::build

@@ -8,11 +8,13 @@
 
 namespace kernels::build {
 
-// Finite: scenes are normalised (SceneFrame).
+// Sums of areas are finite, also of what is far away (ShapeSet::distant).
 inline float halfAreaOf(const BinaryNode& node) {
+    constexpr float kMost = 1e28f;
     const float x = node.lo[0] + node.negHi[0], y = node.lo[1] + node.negHi[1];
     const float z = node.lo[2] + node.negHi[2]; // both signs of a size do
-    return x * y + y * z + z * x;
+    const float area = x * y + y * z + z * x;
+    return area < kMost ? area : kMost;
 }
 
 // Of a subtree that takes at most k places among the children of a wide node. left[k - 1]: how many

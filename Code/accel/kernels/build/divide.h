@@ -4,54 +4,44 @@
 #include "accel/kernels/build/bins.h"
 #include "accel/kernels/build/build.h"
 #include "base/vec.h"
-#include "simd/region.h"
 
 #include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <immintrin.h>
 
-LANES_BEGIN
-namespace build {
-using namespace kernels::build;
+namespace kernels::build {
 
-template <class BoxOf>
-inline void listBoxes(const BuildInput& in, std::uint32_t first, std::uint32_t count, PrimBox& box,
-                      PrimBox& centres, BoxOf&& boxOf) {
-    const __m128i last = _mm_setr_epi32(0, 0, 0, -1);
-    Box all = emptyBox(), middle = all;
-    for (std::uint32_t i = first; i < first + count; ++i) {
-        const Box b = boxOf(i);
-        all.extend(b);
-        middle.extend(pointBox(twiceCentre(b)));
-        const __m128i id = _mm_set1_epi32(static_cast<int>(i | PrimBox::kNormal));
-        Box::of(_mm_castsi128_ps(_mm_blendv_epi8(_mm_castps_si128(b.lo()), id, last)), b.negHi())
-            .store(in.lists->prims[i]);
-    }
-    all.store(box), middle.store(centres);
-}
-
-void makePrims(const BuildInput& in, std::uint32_t first, std::uint32_t count, PrimBox& box,
-               PrimBox& centres) {
-    listBoxes(in, first, count, box, centres, [&](std::uint32_t i) {
-        Box b = emptyBox();
-        for (const std::uint32_t corner : in.triangles[i]) {
-            const Vec3& v = in.points[corner];
-            b.extend(pointBox(_mm_setr_ps(v.x, v.y, v.z, 0)));
-        }
-        return b;
-    });
-}
-
-void takeBoxes(const BuildInput& in, std::uint32_t first, std::uint32_t count, PrimBox& box,
-               PrimBox& centres) {
-    listBoxes(in, first, count, box, centres, [&](std::uint32_t i) {
+inline Box boxOf(const BuildInput& in, std::uint32_t i) {
+    if (in.triangles.empty()) {
         const Vec3 &lo = in.boxes[i].lo, &hi = in.boxes[i].hi;
-        return Box::of(_mm_setr_ps(lo.x, lo.y, lo.z, 0), _mm_setr_ps(-hi.x, -hi.y, -hi.z, 0));
-    });
+        return {Four{lo.x, lo.y, lo.z}, Four{-hi.x, -hi.y, -hi.z}};
+    }
+    Box b = Box::empty();
+    for (const std::uint32_t corner : in.triangles[i]) {
+        const Vec3& v = in.points[corner];
+        b.extend(Box::ofPoint(Four{v.x, v.y, v.z}));
+    }
+    return b;
 }
 
-void fillBins(const WideBinGrid& grid, const PrimBox* from, std::uint32_t count, WideBins& bins) {
+// Lists the boxes of primitives first .. first + count - 1; their bounds and those of the doubled
+// centres.
+inline void makePrims(const BuildInput& in, std::uint32_t first, std::uint32_t count, PrimBox& box,
+                      PrimBox& centres) {
+    Box around = Box::empty(), middle = around;
+    for (std::uint32_t i = first; i < first + count; ++i) {
+        Box b = boxOf(in, i);
+        around.extend(b);
+        middle.extend(Box::ofPoint(b.twiceCentre()));
+        b.lo[3] = std::bit_cast<float>(i | PrimBox::kNormal);
+        b.store(in.lists->prims[i]);
+    }
+    around.store(box), middle.store(centres);
+}
+
+inline void fillBins(const WideBinGrid& grid, const PrimBox* from, std::uint32_t count,
+                     WideBins& bins) {
     clear(bins, grid.bins());
     for (std::uint32_t i = 0; i < count; i += kBlock)
         addBlock(bins, grid, from + i, std::min(kBlock, count - i));
@@ -74,22 +64,17 @@ private:
 
 // The children of a split range. Their centres are within their boxes, and on their sides of the
 // cut: close enough for bins, and known before anyone has looked at a triangle.
-void makeChildren(const BuildRange& r, BuildRange& left, BuildRange& right) {
+inline void makeChildren(const BuildRange& r, BuildRange& left, BuildRange& right) {
     const Box parts[2] = {Box::load(r.split.left), Box::load(r.split.right)};
-    __m128 lo[2], hi[2];
+    Four lo[2], hi[2];
     for (int side = 0; side < 2; ++side) {
-        const __m128 two = _mm_set1_ps(2);
-        lo[side] = _mm_max_ps(_mm_load_ps(r.grid.lo.data()), _mm_mul_ps(two, parts[side].lo()));
-        hi[side] = _mm_min_ps(_mm_load_ps(r.grid.hi.data()),
-                              negated(_mm_mul_ps(two, parts[side].negHi())));
+        lo[side] = most(loadFour(r.grid.lo.data()), 2.0f * parts[side].lo);
+        hi[side] = least(loadFour(r.grid.hi.data()), -2.0f * parts[side].negHi);
     }
     const auto axis = static_cast<std::size_t>(r.split.axis);
-    const __m128 cut = _mm_set1_ps(r.grid.lo[axis] + r.split.cut / r.grid.scale[axis]);
-    const __m128i onAxis =
-        _mm_cmpeq_epi32(_mm_setr_epi32(0, 1, 2, 3), _mm_set1_epi32(r.split.axis));
-    const __m128 there = _mm_castsi128_ps(onAxis);
-    hi[0] = _mm_blendv_ps(hi[0], _mm_min_ps(hi[0], cut), there);
-    lo[1] = _mm_blendv_ps(lo[1], _mm_max_ps(lo[1], cut), there);
+    const float cut = r.grid.lo[axis] + r.split.cut / r.grid.scale[axis];
+    hi[0][axis] = std::min(cut, hi[0][axis]);
+    lo[1][axis] = std::max(cut, lo[1][axis]);
 
     left.first = r.first, left.count = r.split.leftCount;
     right.first = r.first + left.count, right.count = r.count - left.count;
@@ -109,7 +94,7 @@ struct Sides {
     PrimBox* low;
     PrimBox* high;
     // No branches to guess: the sides come as they like.
-    void add(Box p, std::ptrdiff_t isLeft) {
+    void add(const Box& p, std::ptrdiff_t isLeft) {
         const std::ptrdiff_t toHigh = high - low;
         p.store(low[toHigh & (isLeft - 1)]);
         low += isLeft, high -= 1 - isLeft;
@@ -122,9 +107,7 @@ inline void sortBlock(const BuildInput& in, const BuildRange& r, const PrimBox* 
     const Cut cut(r);
     for (std::uint32_t i = 0; i < count; ++i) {
         to.add(Box::load(from[i]), cut.isLeft(from[i]));
-        if constexpr (kPrefetch)
-            _mm_prefetch(reinterpret_cast<const char*>(in.triangles.data() + from[i].id()),
-                         _MM_HINT_T0);
+        if constexpr (kPrefetch) __builtin_prefetch(in.triangles.data() + from[i].id());
     }
 }
 
@@ -143,9 +126,9 @@ inline void divideFew(const BuildRange& r, const WideBinGrid* grids, const PrimB
 
 // Sorts triangles of a range into its children, the left ones from `left` on upwards, the others
 // from `right` on downwards, and into the bins of these.
-void divide(const BuildInput& in, const BuildRange& r, const WideBinGrid* grids,
-            const PrimBox* from, std::uint32_t count, PrimBox* left, PrimBox* right,
-            WideBins (&bins)[2]) {
+inline void divide(const BuildInput& in, const BuildRange& r, const WideBinGrid* grids,
+                   const PrimBox* from, std::uint32_t count, PrimBox* left, PrimBox* right,
+                   WideBins (&bins)[2]) {
     for (std::size_t side = 0; side < 2; ++side) clear(bins[side], grids[side].bins());
     Sides to{left, right};
     constexpr std::uint32_t kFew = 12;
@@ -165,5 +148,4 @@ void divide(const BuildInput& in, const BuildRange& r, const WideBinGrid* grids,
     }
 }
 
-} // namespace build
-LANES_END
+} // namespace kernels::build

@@ -1,6 +1,5 @@
 #include "accel/kernels/build/write_tree.h"
 
-#include "accel/bvh.h"
 #include "accel/kernels/build/collapse.h"
 
 #include <algorithm>
@@ -216,7 +215,7 @@ private:
 bool putInOrder(std::span<const BinaryNode> from, std::span<BinaryNode> to) {
     struct Place {
         std::uint32_t from, to, left;
-        int depth;
+        std::size_t depth;
     };
     std::vector<Place> open{{0, 0, 0, 1}}, places;
     places.reserve(from.size());
@@ -224,7 +223,7 @@ bool putInOrder(std::span<const BinaryNode> from, std::span<BinaryNode> to) {
     while (!open.empty()) {
         Place p = open.back();
         open.pop_back();
-        if (p.depth > kMaxBvhDepth) return false;
+        if (p.depth > kMaxTreeDepth) return false;
         if (!from[p.from].isLeaf()) {
             p.left = next;
             const std::uint32_t left = from[p.from].left;

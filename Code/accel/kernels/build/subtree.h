@@ -5,14 +5,11 @@
 #include "accel/kernels/build/build.h"
 #include "accel/kernels/build/divide.h"
 #include "accel/kernels/build/leaf.h"
-#include "simd/region.h"
 
 #include <cstdint>
 #include <vector>
 
-LANES_BEGIN
-namespace build {
-using namespace kernels::build;
+namespace kernels::build {
 
 // Fewer triangles than this are not split for their own sake.
 constexpr std::uint32_t kSmallLeaf = 4;
@@ -22,7 +19,7 @@ constexpr float kWorthwhile = 0.65f;
 // What leaves have of boxes.
 constexpr int kSingle = 1;
 // From this depth on every split halves the list, which ends after at most 32 more levels.
-constexpr std::uint32_t kHalvingDepth = 62;
+constexpr std::uint32_t kHalvingDepth = kMaxTreeDepth - 34;
 
 // With leaves of at most W triangles, or of one box.
 template <int W> class Subtree {
@@ -65,7 +62,8 @@ private:
     bool isLeaf(const BuildRange& r) {
         if (r.count > W) return false;
         if constexpr (W == kSingle) {
-            grown_.nodes[r.node].leaf = listOf(r)->id();
+            grown_.nodes[r.node].leaf = grown_.leaves++;
+            in_.ids[r.first] = listOf(r)->id();
             return true;
         } else
             return isWideLeaf(r);
@@ -74,8 +72,8 @@ private:
     bool isWideLeaf(const BuildRange& r) {
         if (r.count > kSmallLeaf && r.split.axis >= 0) {
             const float rest =
-                halfArea(Box::load(r.split.left)) + halfArea(Box::load(r.split.right));
-            if (rest < kWorthwhile * halfArea(Box::load(r.box))) return false;
+                Box::load(r.split.left).halfArea() + Box::load(r.split.right).halfArea();
+            if (rest < kWorthwhile * Box::load(r.box).halfArea()) return false;
         }
         return makeLeaf<W>(in_, listOf(r), r, grown_);
     }
@@ -84,9 +82,11 @@ private:
     bool isPair(const BuildRange& r) {
         if (W != kSingle || r.count != 2) return false;
         grown_.nodes[r.node].left = static_cast<std::uint32_t>(grown_.nodes.size());
-        for (const PrimBox* prim = listOf(r); prim < listOf(r) + 2; ++prim) {
-            grown_.nodes.push_back(leafNode(*prim));
-            grown_.nodes.back().leaf = prim->id();
+        for (std::uint32_t i = 0; i < 2; ++i) {
+            const PrimBox& prim = listOf(r)[i];
+            grown_.nodes.push_back(leafNode(prim));
+            grown_.nodes.back().leaf = grown_.leaves++;
+            in_.ids[r.first + i] = prim.id();
         }
         return true;
     }
@@ -99,10 +99,10 @@ private:
 
     void splitExactly(BuildRange& r) const {
         const PrimBox* const prims = listOf(r);
-        Box centres = emptyBox();
+        Box centres = Box::empty();
         for (std::uint32_t i = 0; i < r.count; ++i)
-            centres.extend(pointBox(twiceCentre(Box::load(prims[i]))));
-        r.grid = gridOver(centres.lo(), negated(centres.negHi()), r.count);
+            centres.extend(Box::ofPoint(Box::load(prims[i]).twiceCentre()));
+        r.grid = gridOver(centres, r.count);
         WideBins bins;
         fillBins(r.grid, prims, r.count, bins);
         chooseSplit(r, bins);
@@ -125,7 +125,7 @@ private:
         right.first = r.first + left.count, right.count = r.count - left.count;
         for (BuildRange* half : {&left, &right}) {
             ++half->depth;
-            Box box = emptyBox();
+            Box box = Box::empty();
             const PrimBox* const prims = listOf(*half);
             for (std::uint32_t i = 0; i < half->count; ++i) box.extend(Box::load(prims[i]));
             box.store(half->box);
@@ -137,15 +137,4 @@ private:
     Grown& grown_;
 };
 
-void growSubtree8(const BuildInput& in, const BuildRange& root, Grown& grown) {
-    Subtree<8>(in, grown).grow(root);
-}
-void growSubtree16(const BuildInput& in, const BuildRange& root, Grown& grown) {
-    Subtree<16>(in, grown).grow(root);
-}
-void growSingles(const BuildInput& in, const BuildRange& root, Grown& grown) {
-    Subtree<kSingle>(in, grown).grow(root);
-}
-
-} // namespace build
-LANES_END
+} // namespace kernels::build

@@ -33,9 +33,11 @@ public:
         pool_.run(parts_.size(), [&](std::size_t i, int) { plan(parts_[i], false); });
         makeRoom();
         pool_.run(subtrees_.size(), [&](std::size_t i, int) { copyLeaves(i); });
-        prospects_.resize(nodes_.size());
-        pool_.run(parts_.size(), [&](std::size_t i, int) { sortForVisits(parts_[i]); });
-        sortForVisits(top_);
+        if (!tree_.isOfBoxes) {
+            prospects_.resize(nodes_.size());
+            pool_.run(parts_.size(), [&](std::size_t i, int) { sortForVisits(parts_[i]); });
+            sortForVisits(top_);
+        }
         write(top_);
         pool_.run(parts_.size(), [&](std::size_t i, int) { write(parts_[i]); });
         describe();
@@ -152,16 +154,17 @@ private:
         }
         tree_.nodes = nodes;
         if (grown_.size() == 1) tree_.lines = std::move(grown_[0].lines); // in order already
-        firstLine_ = (tree_.leaves + 1) * kLeafLines<W>;
+        firstLine_ = tree_.isOfBoxes ? 0 : (tree_.leaves + 1) * kLeafLines<W>;
         const std::size_t lines = firstLine_ + nodes * kNodeLines<W>;
         tree_.lines.reserve(lines);
         tree_.lines.resize(lines);
-        std::memset(&tree_.lines[firstLine_ - kLeafLines<W>], 0, sizeof(WideLeaf<W>));
+        if (!tree_.isOfBoxes)
+            std::memset(&tree_.lines[firstLine_ - kLeafLines<W>], 0, sizeof(WideLeaf<W>));
     }
 
     void copyLeaves(std::size_t i) {
         const SubtreeRange& s = subtrees_[i];
-        if (grown_.size() == 1 || s.endLeaf == s.firstLeaf) return;
+        if (grown_.size() == 1 || tree_.isOfBoxes || s.endLeaf == s.firstLeaf) return;
         std::memcpy(&tree_.lines[firstLeaf_[i] * kLeafLines<W>],
                     &grown_[s.grower].lines[s.firstLeaf * kLeafLines<W>],
                     (s.endLeaf - s.firstLeaf) * sizeof(WideLeaf<W>));
@@ -172,7 +175,7 @@ private:
         return *reinterpret_cast<WideNode<W>*>(&tree_.lines[lineOf(number)]);
     }
     WideRef leafRef(std::uint64_t leaf) const {
-        return wideRef(leaf * kLeafLines<W>, WideKind::Leaf);
+        return wideRef(tree_.isOfBoxes ? leaf : leaf * kLeafLines<W>, WideKind::Leaf);
     }
 
     // From the leaves up.
@@ -209,14 +212,16 @@ private:
     Areas write(WideNode<W>& to, const WideChildren<W>& children) const {
         WideNode<W> node;
         std::memset(&node, 0, sizeof node); // behind the members, too: trees compare by bytes
-        setChildren<W>(node, children, nodes_, leafRef(tree_.leaves));
+        setChildren<W>(node, children, nodes_,
+                       tree_.isOfBoxes ? wideRef(0, WideKind::None) : leafRef(tree_.leaves));
         Areas areas{};
         for (std::size_t i = 0; i < children.count; ++i) {
             const BinaryNode& child = nodes_[children.node[i]];
             if (!child.isLeaf()) continue;
             node.child[i] = leafRef(child.leaf);
             const auto area = static_cast<double>(halfAreaOf(child));
-            areas.add({area, area * tree_.at<WideLeaf<W>>(node.child[i]).count});
+            areas.add(
+                {area, tree_.isOfBoxes ? area : area * tree_.at<WideLeaf<W>>(node.child[i]).count});
         }
         std::memcpy(&to, &node, sizeof node);
         return areas;

@@ -1,5 +1,5 @@
 // The last steps of the builder of trees: from the parts that its threads have made to one binary
-// tree, a better one, and the wide tree of the kernels.
+// tree, a better one, and the wide tree.
 #pragma once
 
 #include "accel/kernels/build/build.h"
@@ -25,16 +25,10 @@ struct SubtreeRange {
 // any number of threads. False: nothing has moved.
 bool reinsert(std::span<BinaryNode> nodes, double rays, ThreadPool& pool);
 
-// From the parts that the threads of the builder have made to one binary tree of boxes.
-// The nodes of all growers, those of a single one where they are, and the top behind them. `top`
-// and `subtrees` are as for writeTree(); what is `grown` is used up.
-SinglesTree joinSingles(std::span<const BinaryNode> top, std::span<const SubtreeRange> subtrees,
-                        std::vector<Grown>& grown, ThreadPool& pool);
-
 // From the binary tree of the builder to the wide one of the kernels.
 // `top` is the binary tree down to the roots of the subtrees, which are in the order of the leaves.
 // The boxes in `scrap` are not needed any more: their memory is used again. Many `rays` make a
-// better tree (reinsert()).
+// better tree (reinsert()). Of boxes (WideTree::isOfBoxes) there are no leaves to write.
 template <int W>
 void writeTree(WideTree& tree, std::span<const BinaryNode> top,
                std::span<const SubtreeRange> subtrees, std::vector<Grown>& grown,

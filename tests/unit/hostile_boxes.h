@@ -1,4 +1,4 @@
-// Boxes for the tests of the tree over boxes, friendly and hostile ones.
+// Boxes for the tests of trees over boxes: friendly ones, and some that builders are afraid of.
 #pragma once
 
 #include "base/bounds.h"
@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <vector>
 
-namespace bvh_kit {
+namespace hostile_boxes {
 
 using meshes::Random;
 using Boxes = std::vector<Bounds>;
@@ -30,7 +30,7 @@ struct Named {
     Boxes boxes;
 };
 
-inline std::vector<Named> hostile() {
+inline std::vector<Named> all() {
     Random random(11);
     std::vector<Named> out;
     out.push_back({"identical", Boxes(20000, boxAt({0.3, -0.2, 0.1}, 0.1))});
@@ -84,4 +84,4 @@ inline std::vector<Named> hostile() {
     return out;
 }
 
-} // namespace bvh_kit
+} // namespace hostile_boxes

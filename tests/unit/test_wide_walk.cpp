@@ -1,17 +1,16 @@
-// Traversal of the tree over boxes loses nothing, and goes from front to back.
-#include "accel/bvh.h"
+// The walk of one ray through a tree over boxes loses nothing, and goes from front to back.
+#include "accel/kernels/wide_walk.h"
 #include "check.h"
-#include "unit/bvh_kit.h"
+#include "unit/hostile_boxes.h"
 
 #include <utility>
 
-namespace test_bvh_traversal {
+namespace test_wide_walk {
 
-using bvh_kit::boxAt;
-using bvh_kit::Boxes;
-using bvh_kit::hostile;
-using bvh_kit::Named;
-using bvh_kit::randomBoxes;
+using hostile_boxes::boxAt;
+using hostile_boxes::Boxes;
+using hostile_boxes::Named;
+using hostile_boxes::randomBoxes;
 using meshes::Random;
 
 namespace {
@@ -23,13 +22,20 @@ Vec3 someDirection(Random& random) {
     return maxAbs(d) > 0 ? d : Vec3{1, 0, 0};
 }
 
+SolidTree treeOf(const Boxes& boxes, int width) {
+    SolidTree tree;
+    for (std::uint32_t i = 0; i < boxes.size(); ++i) tree.add(boxes[i], i, true, {});
+    tree.build(width);
+    return tree;
+}
+
 } // namespace
 
 // Boxes as primitives, hit where the ray enters them: the nearest of the tree is the nearest of
 // all, ties by number, though leaves that start behind the best are skipped.
-TEST(bvh_traversal_finds_the_nearest) {
+TEST(wide_walk_finds_the_nearest) {
     std::size_t rays = 0, wrong = 0;
-    std::vector<Named> inputs = hostile();
+    std::vector<Named> inputs = hostile_boxes::all();
     Random random(4);
     inputs.push_back({"random", randomBoxes(random, 2000)});
     for (Named& input : inputs) {
@@ -40,8 +46,8 @@ TEST(bvh_traversal_finds_the_nearest) {
                 std::swap(boxes[i], boxes[random.below(i + 1)]);
             boxes.resize(600);
         }
-        const Bvh bvh = buildBvh(boxes);
-        const double extent = maxAbs(merge(bvh.nodes[0].box, {}).hi);
+        const SolidTree trees[] = {treeOf(boxes, 8), treeOf(boxes, 16)};
+        const double extent = max(maxAbs(trees[0].around.lo), maxAbs(trees[0].around.hi));
         for (int i = 0; i < 2000; ++i) {
             const Bounds& aim = boxes[random.below(boxes.size())];
             const Vec3 org =
@@ -66,8 +72,11 @@ TEST(bvh_traversal_finds_the_nearest) {
                 });
                 return std::pair(best, prim);
             };
-            const auto fromTree =
-                nearest([&](auto&& leaf) { traverse(bvh, setup, kInfinityF, leaf); });
+            const SolidTree& tree = trees[i % 2];
+            const auto fromTree = nearest([&](auto&& leaf) {
+                float zCut = kInfinityF;
+                traverse(tree, setup, zCut, leaf);
+            });
             const auto fromAll = nearest([&](auto&& leaf) {
                 float unused = kInfinityF;
                 for (std::uint32_t id = 0; id < boxes.size(); ++id) leaf(id, unused);
@@ -75,9 +84,10 @@ TEST(bvh_traversal_finds_the_nearest) {
             ++rays;
             if (fromTree != fromAll) ++wrong;
             // And without a cut: everything that can be entered is called exactly once.
-            if (i % 4 == 0) {
+            if (i % 4 < 2) {
                 std::vector<int> calls(boxes.size(), 0);
-                traverse(bvh, setup, kInfinityF, [&](std::uint32_t id, float&) {
+                float noCut = kInfinityF;
+                traverse(tree, setup, noCut, [&](std::uint32_t id, float&) {
                     ++calls[id];
                     return false;
                 });
@@ -94,43 +104,39 @@ TEST(bvh_traversal_finds_the_nearest) {
     CHECK_EQUAL(wrong, 0u);
 }
 
-// Boxes of a grid with gaps wider than the pads: each leaf's box is left before the next is
-// entered, so leaves come in the order of their entry. (Overlapping nodes have no such order.) true
-// stops.
-TEST(bvh_traversal_is_front_to_back) {
+// Boxes of a grid with gaps wider than the pads: each is left before the next is entered, so they
+// come in the order of their entry. (Overlapping nodes have no such order.) True stops.
+TEST(wide_walk_is_front_to_back) {
     Random random(5);
     Boxes boxes;
     for (int x = -5; x <= 5; ++x)
         for (int y = -5; y <= 5; ++y)
             for (int z = -5; z <= 5; ++z)
                 boxes.push_back(boxAt(Vec3d{x * 1.0, y * 1.0, z * 1.0} * 0.1, 0.04));
-    const Bvh bvh = buildBvh(boxes);
-    std::vector<std::uint32_t> leafOf(boxes.size());
-    for (std::uint32_t n = 0; n < bvh.nodes.size(); ++n)
-        for (std::uint32_t i = 0; i < bvh.nodes[n].count; ++i)
-            leafOf[bvh.primIds[bvh.nodes[n].first + i]] = n;
+    const SolidTree trees[] = {treeOf(boxes, 8), treeOf(boxes, 16)};
     std::size_t disorder = 0, calls = 0, afterStop = 0, behindCut = 0;
     for (int i = 0; i < 10000; ++i) {
+        const SolidTree& tree = trees[i % 2];
         const Vec3 org = toFloat(random.inBox(1)), dir = someDirection(random);
         const RaySetup setup(org, dir, 1);
         const auto entry = [&](std::uint32_t id) {
             float z = -1;
-            setup.enters(bvh.nodes[leafOf[id]].box, kInfinityF, z);
+            setup.enters(boxes[id], kInfinityF, z);
             return z;
         };
-        float last = 0;
-        traverse(bvh, setup, kInfinityF, [&](std::uint32_t id, float&) {
+        float last = 0, noCut = kInfinityF;
+        traverse(tree, setup, noCut, [&](std::uint32_t id, float&) {
             ++calls;
             if (entry(id) < last) ++disorder;
             last = entry(id);
             return false;
         });
         int after = 0;
-        traverse(bvh, setup, kInfinityF, [&](std::uint32_t, float&) { return ++after == 1; });
+        traverse(tree, setup, noCut, [&](std::uint32_t, float&) { return ++after == 1; });
         if (after > 1) ++afterStop;
-        // Leaves behind the cut are not called, also when it comes down on the way.
-        float cut = static_cast<float>(random.uniform(0, 1));
-        traverse(bvh, setup, cut, [&](std::uint32_t id, float& zCut) {
+        // What is behind the cut is not called, also when it comes down on the way.
+        float cut = static_cast<float>(random.uniform(0, 1)), atStart = cut;
+        traverse(tree, setup, atStart, [&](std::uint32_t id, float& zCut) {
             if (entry(id) > cut) ++behindCut;
             if (random.chance(0.2)) cut = zCut = min(zCut, entry(id) + 0.1f);
             return false;
@@ -143,4 +149,4 @@ TEST(bvh_traversal_is_front_to_back) {
     CHECK_EQUAL(behindCut, 0u);
 }
 
-} // namespace test_bvh_traversal
+} // namespace test_wide_walk
