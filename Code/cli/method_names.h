@@ -9,9 +9,6 @@ template <>
 inline constexpr auto kEnumNames<AccelKind> =
     std::to_array<EnumName<AccelKind>>({{AccelKind::Bvh, "bvh"}, {AccelKind::None, "none"}});
 template <>
-inline constexpr auto kEnumNames<TreeKind> = std::to_array<EnumName<TreeKind>>(
-    {{TreeKind::Auto, "auto"}, {TreeKind::Fast, "fast"}, {TreeKind::Best, "best"}});
-template <>
 inline constexpr auto kEnumNames<Aov> = std::to_array<EnumName<Aov>>({{Aov::Depth, "depth"},
                                                                       {Aov::Normal, "normal"},
                                                                       {Aov::Albedo, "albedo"},
@@ -24,5 +21,4 @@ inline constexpr auto kEnumNames<Options::Progress> =
                                                 {Options::Progress::Plain, "plain"},
                                                 {Options::Progress::None, "none"}});
 
-static_assert(isInOrder<AccelKind>() && isInOrder<TreeKind>() && isInOrder<Aov>() &&
-              isInOrder<Options::Progress>());
+static_assert(isInOrder<AccelKind>() && isInOrder<Aov>() && isInOrder<Options::Progress>());

@@ -57,7 +57,6 @@ struct Options {
     // Method
     std::optional<IntegratorKind> integrator;
     AccelKind accel = AccelKind::Bvh;
-    TreeKind tree = TreeKind::Auto;
     std::string kernel = "auto";
     int threads = 0; // 0: all that the machine has
 

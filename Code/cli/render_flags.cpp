@@ -167,10 +167,6 @@ void addMethodFlags(std::vector<Flag>& flags, Options& o) {
                    o.accel = v.on ? AccelKind::Bvh : AccelKind::None;
                },
                .negatable = true});
-    group.add({.name = "--tree", .argument = alternatives<TreeKind>(),
-               .help = "time for the trees of meshes; the picture is the same (auto: by its rays)",
-               .set = [&o](const FlagValue& v) { o.tree = enumValue<TreeKind>(v); },
-               .choices = namesOf<TreeKind>(), .example = "best"});
     std::vector<std::string> kernels = kernelNames();
     kernels.insert(kernels.begin(), "auto");
     group.add({.name = "--kernel", .argument = join(kernels, "|"),

@@ -136,7 +136,6 @@ RenderSettings settingsFrom(const SceneDesc& desc, const Options& options) {
     settings.camera = options.camera;
     settings.switches = options.switches;
     settings.accel = options.accel;
-    settings.tree = options.tree;
     settings.specialise = options.specialise;
     settings.isa = &chooseKernel(options.kernel);
     settings.threads = options.threads > 0 ? options.threads : hardwareThreads();

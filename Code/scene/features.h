@@ -16,8 +16,3 @@ using Features = std::vector<Feature>;
 
 Features featuresOf(const SceneDesc& desc, const CameraDesc& camera,
                     const RenderSettings& settings);
-
-// How many rays a picture will take, before it is made: a tree that is better but takes longer to
-// build pays from some number on. Right within a factor of two or three, which is enough.
-
-double predictedRays(const SceneDesc& desc, const RenderSettings& settings);

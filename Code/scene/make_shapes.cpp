@@ -183,14 +183,7 @@ const MeshDesc& ShapeMaker::meshOf(const Placed& placed) const {
 }
 
 void ShapeMaker::finishTree(MeshGeometry& geometry, int threads) const {
-    geometry.finish(settings_.accel == AccelKind::Bvh, *settings_.isa, threads, raysPerTree());
-}
-
-// As if every tree got the same share of them.
-double ShapeMaker::raysPerTree() const {
-    if (settings_.tree != TreeKind::Auto)
-        return settings_.tree == TreeKind::Best ? kCountlessRays : 0;
-    return predictedRays(desc_, settings_) / static_cast<double>(trees());
+    geometry.finish(settings_.accel == AccelKind::Bvh, *settings_.isa, threads);
 }
 
 std::size_t ShapeMaker::trees() const {

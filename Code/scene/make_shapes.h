@@ -76,7 +76,6 @@ private:
         return geometry.triangles.size() <= largestInJob_;
     }
     void finishTree(MeshGeometry& geometry, int threads) const;
-    double raysPerTree() const;
     void makeSimple(ShapeSet& shapes, std::size_t first, std::size_t last);
     void addInstances(ShapeSet& shapes);
 

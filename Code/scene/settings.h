@@ -16,7 +16,6 @@
 using IntegratorKind = SettingsDesc::Integrator;
 enum class AccelKind { Bvh, None };
 // How much time the trees over meshes may take: as many rays pay for, little, or a lot.
-enum class TreeKind { Auto, Fast, Best };
 enum class Aov { Depth, Normal, Albedo, Position, Id, Samples };
 
 // The features that --no-x switches off. All true: the scene decides.
@@ -45,7 +44,6 @@ struct RenderSettings {
     // Then `picture` has samples for the first look only.
     std::optional<ErrorGoal> errorGoal;
     AccelKind accel = AccelKind::Bvh;
-    TreeKind tree = TreeKind::Auto;
     const Isa* isa = &oneLane(); // whose kernels trace and shade
     int threads = 1;             // resolved, at least 1
     std::optional<Rgbd> background;

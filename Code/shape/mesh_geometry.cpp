@@ -140,13 +140,13 @@ void MeshGeometry::measure(int threads) {
     extent = all.extent, exactBox = all.exactBox, box = all.box;
 }
 
-void MeshGeometry::finish(bool withTree, const Isa& forIsa, int threads, double rays) {
+void MeshGeometry::finish(bool withTree, const Isa& forIsa, int threads) {
     collapseEndless();
     if (withTree) sharePoints(*this, threads);
     measure(threads);
     if (!withTree || triangles.empty()) return;
     if (forIsa.triangles != nullptr) isa = &forIsa;
-    wide = buildWide(forIsa.nodeWidth(), points, triangles, threads, rays);
+    wide = buildWide(forIsa.nodeWidth(), points, triangles, threads);
     if (!exactPoints.empty()) describeExact(*this);
 }
 

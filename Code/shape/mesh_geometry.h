@@ -68,8 +68,8 @@ struct MeshGeometry {
     void collapseEndless();
     // Does that, computes extent, boxes, what is said of the exact points and, if wanted, the tree
     // that the kernel needs, for which points that are the same become one (share_points.h). The
-    // same for any number of threads; `rays`: see buildWide(). The lists do not change afterwards.
-    void finish(bool withTree, const Isa& forIsa = oneLane(), int threads = 1, double rays = 0);
+    // same for any number of threads. The lists do not change afterwards.
+    void finish(bool withTree, const Isa& forIsa = oneLane(), int threads = 1);
     bool hasTree() const { return !wide.isEmpty(); }
     WideMesh wideMesh() const { return {wide, points, triangles, extent}; }
     std::size_t bytes() const;

@@ -26,7 +26,7 @@ struct Meshes {
         for (const Isa& kernel : allIsas()) {
             if (!kernel.supported() || kernel.triangles == nullptr) continue;
             wide.push_back(bare);
-            wide.back().finish(true, kernel, 1, withTree ? 0 : kCountlessRays);
+            wide.back().finish(true, kernel);
         }
     }
 };

@@ -55,18 +55,16 @@ class Report {
 public:
     Report(const BenchOptions& options, const Isa& kernel)
         : options_(options), kernel_(kernel), pool_(options.threads),
-          who_(cat(afterLast(options.mesh, "/"), ",raytracer-", kVersion,
-                   options.bestTree ? ",best" : ",sah", ",exact,", options.threads, ",",
-                   kernel.name)) {}
+          who_(cat(afterLast(options.mesh, "/"), ",raytracer-", kVersion, ",sah,exact,",
+                   options.threads, ",", kernel.name)) {}
 
     // The last tree stays. Each has the memory of the one before it, as have those of peers.
     void build(MeshGeometry& geometry) const {
-        const double rays = options_.bestTree ? kCountlessRays : 0;
         std::vector<double> wall, cpu;
         for (int run = 0; run <= options_.runs; ++run) {
             geometry.wide = {};
             const BenchSeconds s =
-                secondsOf([&] { geometry.finish(true, kernel_, options_.threads, rays); });
+                secondsOf([&] { geometry.finish(true, kernel_, options_.threads); });
             if (run == 0) continue;
             wall.push_back(s.wall * 1e3), cpu.push_back(s.cpu * 1e3);
         }

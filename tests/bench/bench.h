@@ -12,7 +12,6 @@ struct BenchOptions {
     int threads = 1;
     int runs = 5;
     BenchView view = BenchView::Outside;
-    bool bestTree = false;
     bool uv = false;
     bool picture = true;
     std::string raysFile; // written instead of measuring; empty: none

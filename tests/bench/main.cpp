@@ -39,11 +39,6 @@ std::vector<Flag> flagsOf(BenchOptions& o) {
                .help = "how many share the work (1)",
                .set = [&o](const FlagValue& v) { o.threads = v.whole(1, 1024); },
                .example = "2"});
-    const std::vector<std::string> trees = {"fast", "best"};
-    group.add({.name = "--tree", .argument = join(trees, "|"),
-               .help = "the tree that is built soonest or the one that is traced soonest (fast)",
-               .set = [&o, trees](const FlagValue& v) { o.bestTree = v.choice(trees) == 1; },
-               .choices = trees, .example = "best"});
     group.add({.name = "--runs", .argument = "N",
                .help = "timed runs of each set, behind one that is not timed (5)",
                .set = [&o](const FlagValue& v) { o.runs = v.whole(1, 1000); },

@@ -30,8 +30,6 @@ same 'all threads' --threads 0
 same '--no-bvh' --no-bvh
 same '--accel none' --accel none
 same '--accel bvh' --accel bvh
-same '--tree fast' --tree fast
-same '--tree best' --tree best
 same '--kernel scalar' --kernel scalar
 same '--kernel auto' --kernel auto
 for kernel in sse avx2 avx512; do

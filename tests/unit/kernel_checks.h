@@ -22,16 +22,14 @@ inline std::vector<const Isa*> vectorKernels() {
     return out;
 }
 
-// The same mesh with the trees of each kernel, the fast one and the best, and that of the scalar
-// code.
+// The same mesh with the tree of each kernel, and that of the scalar code.
 struct Meshes {
     explicit Meshes(const MeshGeometry& bare) : scalar(bare) {
         scalar.finish(true);
-        for (const Isa* kernel : vectorKernels())
-            for (const double rays : {0.0, kCountlessRays}) {
-                wide.push_back(std::make_unique<MeshGeometry>(bare));
-                wide.back()->finish(true, *kernel, 1, rays);
-            }
+        for (const Isa* kernel : vectorKernels()) {
+            wide.push_back(std::make_unique<MeshGeometry>(bare));
+            wide.back()->finish(true, *kernel);
+        }
     }
     MeshGeometry scalar;
     std::vector<std::unique_ptr<MeshGeometry>> wide;

@@ -200,25 +200,16 @@ TEST(wide_build_same_for_any_threads) {
                 CHECK_INFO(sameBytes(buildWide(width, in.points, in.triangles, threads), one),
                            in.name << ", width " << width << ", threads " << threads);
         }
-    for (const Input& in : inputs()) {
-        const WideTree one = buildWide(16, in.points, in.triangles, 1, kCountlessRays);
-        for (const int threads : {2, 5})
-            CHECK_INFO(
-                sameBytes(buildWide(16, in.points, in.triangles, threads, kCountlessRays), one),
-                in.name << ", best, threads " << threads);
-    }
 }
 
 TEST(wide_build_trees_hold_everything) {
     for (const Input& in : inputs()) {
-        for (const double rays : {0.0, kCountlessRays}) {
-            const WideTree narrow = buildWide(8, in.points, in.triangles, 1, rays);
-            const WideTree wide = buildWide(16, in.points, in.triangles, 1, rays);
-            CHECK_INFO(Inspection<8>(narrow, in).text().empty(),
-                       in.name << ", width 8: " << Inspection<8>(narrow, in).text());
-            CHECK_INFO(Inspection<16>(wide, in).text().empty(),
-                       in.name << ", width 16: " << Inspection<16>(wide, in).text());
-        }
+        const WideTree narrow = buildWide(8, in.points, in.triangles);
+        const WideTree wide = buildWide(16, in.points, in.triangles);
+        CHECK_INFO(Inspection<8>(narrow, in).text().empty(),
+                   in.name << ", width 8: " << Inspection<8>(narrow, in).text());
+        CHECK_INFO(Inspection<16>(wide, in).text().empty(),
+                   in.name << ", width 16: " << Inspection<16>(wide, in).text());
     }
     CHECK(buildWide(16, {}, {}, 4).isEmpty());
 }
@@ -232,27 +223,6 @@ TEST(wide_build_leaves_are_full) {
     CHECK_INFO(triangles / static_cast<double>(tree.leaves) > 9, tree.leaves);
     CHECK_INFO(static_cast<double>(tree.leaves) / static_cast<double>(tree.nodes) > 7, tree.nodes);
     CHECK_INFO(static_cast<double>(tree.bytes()) / triangles < 40, tree.bytes());
-}
-
-// The same leaves below other nodes, which cost less: for wires 0.99 of the whole, most of which
-// the leaves are. Few rays are not worth it.
-TEST(wide_build_many_rays_make_better_trees) {
-    for (const Input& in : inputs()) {
-        const WideTree fast = buildWide(16, in.points, in.triangles);
-        const WideTree best = buildWide(16, in.points, in.triangles, 1, kCountlessRays);
-        CHECK_INFO(best.sah <= fast.sah * 1.001, in.name << ": " << best.sah << ", " << fast.sah);
-        CHECK_EQUAL(best.leaves, fast.leaves);
-        CHECK_INFO(best.triangleIds == fast.triangleIds, in.name);
-        CHECK_INFO(std::memcmp(best.base(), fast.base(), fast.leaves * sizeof(WideLeaf<16>)) == 0,
-                   in.name);
-        CHECK_INFO(sameBytes(buildWide(16, in.points, in.triangles, 1, 1000), fast), in.name);
-    }
-    const Input in = wires();
-    const double fast = buildWide(16, in.points, in.triangles).sah;
-    for (const double rays : {1e8, 1e9, kCountlessRays}) {
-        const double sah = buildWide(16, in.points, in.triangles, 1, rays).sah;
-        CHECK_INFO(sah < 0.995 * fast, rays << " rays: " << sah << ", fast " << fast);
-    }
 }
 
 } // namespace test_wide_build

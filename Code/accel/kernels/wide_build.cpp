@@ -45,9 +45,8 @@ std::uint32_t leftOf(const WideBinSplit& split, const WideBins& bins) {
 
 class WideBuilder {
 public:
-    WideBuilder(int width, const BuildInput& in, int threads, double rays)
-        : width_(width), rays_(rays),
-          count_(static_cast<std::uint32_t>(in.triangles.size() + in.boxes.size())),
+    WideBuilder(int width, const BuildInput& in, int threads)
+        : width_(width), count_(static_cast<std::uint32_t>(in.triangles.size() + in.boxes.size())),
           // Few triangles are sorted before another thread has woken up.
           pool_(count_ < 2 * subtreeSize(count_) ? 1 : threads), in_(in), grown_(workers()) {
         in_.lists = &lists_;
@@ -66,7 +65,7 @@ public:
         // 32 bytes a triangle, before the tree takes its place.
         decltype(lists_.spare)().swap(lists_.spare);
         (width_ == 16 ? writeTree<16> : writeTree<8>)(tree, top_, subtrees_, grown_,
-                                                      std::move(lists_.prims), rays_, pool_);
+                                                      std::move(lists_.prims), pool_);
         return tree;
     }
 
@@ -243,7 +242,6 @@ private:
     }
 
     int width_;
-    double rays_;
     std::uint32_t count_;
     ThreadPool pool_;
     PrimLists lists_;
@@ -258,15 +256,14 @@ private:
 } // namespace
 
 WideTree buildWide(int width, std::span<const Vec3> points,
-                   std::span<const std::array<std::uint32_t, 3>> triangles, int threads,
-                   double rays) {
+                   std::span<const std::array<std::uint32_t, 3>> triangles, int threads) {
     if (triangles.empty()) return {};
     const BuildInput in{points, triangles, {}, nullptr, nullptr};
-    return WideBuilder(width, in, threads, rays).run();
+    return WideBuilder(width, in, threads).run();
 }
 
 WideTree buildWideOfBoxes(int width, std::span<const Bounds> boxes, int threads) {
     if (boxes.empty()) return {};
     const BuildInput in{{}, {}, boxes, nullptr, nullptr};
-    return WideBuilder(width, in, threads, 0).run();
+    return WideBuilder(width, in, threads).run();
 }

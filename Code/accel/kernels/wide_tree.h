@@ -71,15 +71,10 @@ struct WideTree {
 // Nodes above each other, at most, of a wide tree and of the binary one that it is made of.
 inline constexpr std::size_t kMaxTreeDepth = 96;
 
-inline constexpr double kCountlessRays = 1e18; // any time is well spent
-
 // Binned SAH (Wald 2007), top down. `width` is 8 or 16. The tree is the same on every machine and
-// for any number of threads, 0 being as many as the machine has. `rays`: how many will be traced
-// through it, as far as that can be told; the more they are, the more time is spent on a better
-// tree.
+// for any number of threads, 0 being as many as the machine has.
 WideTree buildWide(int width, std::span<const Vec3> points,
-                   std::span<const std::array<std::uint32_t, 3>> triangles, int threads = 1,
-                   double rays = 0);
+                   std::span<const std::array<std::uint32_t, 3>> triangles, int threads = 1);
 
 // The same over boxes of anything, each of which is a leaf of its own. The root is in line 0; slots
 // without a child are of kind None.

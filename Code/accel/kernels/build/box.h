@@ -1,5 +1,5 @@
-// Boxes while the builder works on them, lane = axis. One builder does for all machines: with boxes
-// in registers of AVX2 it took @@ % less time, of which a picture with 16 samples per pixel is @@.
+// Boxes while the builder works on them, lane = axis. One builder does for all machines: boxes in
+// registers of AVX2 made the tree of 980,000 triangles no sooner (medians of four, in turn).
 #pragma once
 
 #include "accel/four.h"

@@ -19,17 +19,15 @@ template <int W> class TreeWriter {
 public:
     TreeWriter(WideTree& tree, std::span<const BinaryNode> top,
                std::span<const SubtreeRange> subtrees, std::vector<Grown>& grown,
-               RawVector<PrimBox> scrap, double rays, ThreadPool& pool)
+               RawVector<PrimBox> scrap, ThreadPool& pool)
         : tree_(tree), binaryTop_(top), subtrees_(subtrees), grown_(grown),
-          scrap_(std::move(scrap)), rays_(rays), pool_(pool) {}
+          scrap_(std::move(scrap)), pool_(pool) {}
 
     void run() {
         place();
         pool_.run(subtrees_.size(), [&](std::size_t i, int) { take(i); });
         chooseTop();
-        const bool moved = reinsert(nodes_, rays_, pool_);
-        if (moved) chooseAll();
-        plan(top_, !moved);
+        plan(top_, true);
         pool_.run(parts_.size(), [&](std::size_t i, int) { plan(parts_[i], false); });
         makeRoom();
         pool_.run(subtrees_.size(), [&](std::size_t i, int) { copyLeaves(i); });
@@ -113,12 +111,6 @@ private:
             nodes_[at] = binaryTop_[at];
             choose(at);
         }
-    }
-
-    // Of a tree that has grown together: children behind their parents, and nothing else known.
-    void chooseAll() {
-        for (auto end = static_cast<std::uint32_t>(nodes_.size()); end > 0; --end)
-            if (end != 2) choose(end - 1);
     }
 
     bool isInSubtree(std::uint32_t at) const { return at >= binaryTop_.size() || isRoot_[at]; }
@@ -243,7 +235,6 @@ private:
     std::span<const SubtreeRange> subtrees_;
     std::vector<Grown>& grown_;
     SecondHand<PrimBox> scrap_;
-    double rays_;
     ThreadPool& pool_;
     std::vector<bool> isRoot_;                         // of a subtree; by node of the binary top
     std::vector<std::uint32_t> firstNode_, firstLeaf_; // of each subtree
@@ -262,12 +253,12 @@ private:
 template <int W>
 void writeTree(WideTree& tree, std::span<const BinaryNode> top,
                std::span<const SubtreeRange> subtrees, std::vector<Grown>& grown,
-               RawVector<PrimBox> scrap, double rays, ThreadPool& pool) {
-    TreeWriter<W>(tree, top, subtrees, grown, std::move(scrap), rays, pool).run();
+               RawVector<PrimBox> scrap, ThreadPool& pool) {
+    TreeWriter<W>(tree, top, subtrees, grown, std::move(scrap), pool).run();
 }
 template void writeTree<8>(WideTree&, std::span<const BinaryNode>, std::span<const SubtreeRange>,
-                           std::vector<Grown>&, RawVector<PrimBox>, double, ThreadPool&);
+                           std::vector<Grown>&, RawVector<PrimBox>, ThreadPool&);
 template void writeTree<16>(WideTree&, std::span<const BinaryNode>, std::span<const SubtreeRange>,
-                            std::vector<Grown>&, RawVector<PrimBox>, double, ThreadPool&);
+                            std::vector<Grown>&, RawVector<PrimBox>, ThreadPool&);
 
 } // namespace kernels::build
