@@ -10,16 +10,33 @@ Mesh::Mesh(const MeshGeometry& geometry, std::vector<std::uint32_t> materials,
            std::vector<MeshPart> parts)
     : geometry_(geometry), materials_(std::move(materials)), parts_(std::move(parts)) {}
 
+// Corners come from the leaves: where a tree is in vain, and rays try nearly all triangles, it takes
+// 3 to 4 times as long as the plain list does (T24d); with corners from the mesh's lists, 9 times.
 template <class LeafFn>
 void Mesh::candidates(const RaySetup& setup, float zCut, LeafFn&& leaf) const {
-    const auto visit = [&](std::uint32_t triangle, float& cut) {
-        return leaf(triangle, corners(triangle), cut);
+    const WideTree& tree = geometry_.wide;
+    const auto walk = [&]<int W>(std::integral_constant<int, W>) {
+        wide_walk::walk<W>(
+            tree.root, setup, zCut,
+            [&](WideRef ref) -> const WideNode<W>& { return tree.at<WideNode<W>>(ref); },
+            [](WideRef) { return 0.0f; },
+            [&](WideRef ref, float& cut) {
+                const auto& l = tree.at<WideLeaf<W>>(ref);
+                const auto corner = [&](std::size_t c, std::uint32_t i) -> Vec3 {
+                    const std::size_t at = l.corner[c][i];
+                    return {l.point[0][at], l.point[1][at], l.point[2][at]};
+                };
+                for (std::uint32_t i = 0; i < l.count; ++i) {
+                    const TriangleCorners v{corner(0, i), corner(1, i), corner(2, i)};
+                    if (leaf(tree.triangleIds[l.first + i], v, cut)) return true;
+                }
+                return false;
+            });
     };
-    if (!geometry_.wide.isEmpty())
-        return traverse(
-            geometry_.wide, setup, zCut, [](std::size_t) { return 0.0f; }, visit);
+    if (tree.width == 16) return walk(std::integral_constant<int, 16>());
+    if (tree.width == 8) return walk(std::integral_constant<int, 8>());
     for (std::uint32_t i = 0; i < geometry_.triangles.size(); ++i)
-        if (visit(i, zCut)) return;
+        if (leaf(i, corners(i), zCut)) return;
 }
 
 bool Mesh::intersect(const Ray& ray, Hit& hit) const {
