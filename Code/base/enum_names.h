@@ -1,5 +1,5 @@
-// Names of enumerators: one table per enum, used wherever one is read, written or listed.
-// Knows no enum; a table is a specialisation of kEnumNames beside its enum (desc/enum_tables.h).
+// Names of enumerators: one list per enum, used wherever one is read, written or listed.
+// Knows no enum (those of scenes are in desc/enum_tables.h).
 #pragma once
 
 #include "base/text.h"
@@ -12,40 +12,31 @@
 #include <string_view>
 #include <vector>
 
-template <class E> struct EnumName {
-    E value;
-    std::string_view name;
-};
-
-// template <> inline constexpr auto kEnumNames<Fruit> = std::to_array<EnumName<Fruit>>({...});
-// Every enumerator has its row, in the order of the enum: see isInOrder().
-template <class E> inline constexpr std::array<EnumName<E>, 0> kEnumNames{};
-
-// For a static_assert beside the table: row i holds value i.
-template <class E> consteval bool isInOrder() {
-    std::size_t i = 0;
-    for (const EnumName<E>& row : kEnumNames<E>)
-        if (static_cast<std::size_t>(row.value) != i++) return false;
-    return i > 0;
+// Each enum with names has a function beside it that returns all of them, in the order of the enum:
+//     constexpr auto wordsOf(Fruit) { return words("apple", "pear"); }
+template <class... Names> constexpr auto words(Names... all) {
+    return std::array<std::string_view, sizeof...(Names)>{all...};
 }
 
+// The names of an enum by value; a span of them is what code sees that does not know the enum.
+template <class E> inline constexpr auto kNamesByValue = wordsOf(E{});
+// All values of an enum with names.
+template <class E>
+inline constexpr auto kValuesOf = [] {
+    std::array<E, kNamesByValue<E>.size()> values{};
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<E>(i);
+    return values;
+}();
+
 template <class E> constexpr std::string_view nameOf(E value) {
-    return kEnumNames<E>[static_cast<std::size_t>(value)].name;
+    return kNamesByValue<E>[static_cast<std::size_t>(value)];
 }
 
 template <class E> constexpr std::optional<E> valueNamed(std::string_view name) {
-    for (const EnumName<E>& row : kEnumNames<E>)
-        if (row.name == name) return row.value;
+    for (const E value : kValuesOf<E>)
+        if (nameOf(value) == name) return value;
     return {};
 }
-
-// All names of an enum, by value: what code sees that does not know the type of the enum.
-template <class E>
-inline constexpr auto kNamesByValue = [] {
-    std::array<std::string_view, kEnumNames<E>.size()> names{};
-    for (std::size_t i = 0; i < names.size(); ++i) names[i] = kEnumNames<E>[i].name;
-    return names;
-}();
 
 // "unknown sampler 'soboll'; did you mean 'sobol'? known: sobol, stratified, random, grid"
 inline std::string unknownValue(std::string_view what, std::string_view word,

@@ -48,11 +48,11 @@ std::string mebibytes(std::size_t bytes) {
 
 // "3 sphere, 1 plane" for things with a kind.
 template <class Kind, class Things> std::string countsPerKind(const Things& things) {
-    std::array<std::size_t, kEnumNames<Kind>.size()> counts{};
+    std::array<std::size_t, kNamesByValue<Kind>.size()> counts{};
     for (const auto& thing : things) ++counts[static_cast<std::size_t>(thing.kind)];
     std::vector<std::string> parts;
     for (std::size_t i = 0; i < counts.size(); ++i)
-        if (counts[i] > 0) parts.push_back(cat(counts[i], " ", kEnumNames<Kind>[i].name));
+        if (counts[i] > 0) parts.push_back(cat(counts[i], " ", kNamesByValue<Kind>[i]));
     return parts.empty() ? "none" : join(parts);
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include "cli/flag.h"
-#include "cli/method_names.h"
 #include "cli/options.h"
 #include "desc/enum_tables.h"
 

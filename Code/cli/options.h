@@ -2,6 +2,7 @@
 // the scene's own settings. Knows nothing about rendering.
 #pragma once
 
+#include "base/enum_names.h"
 #include "cli/flag.h"
 #include "desc/scene_desc.h"
 #include "read/read_context.h"
@@ -71,6 +72,13 @@ struct Options {
     bool strict = false;
     std::string textureFolder;
 };
+
+// The words on the command line for the enums of RenderSettings and Options.
+constexpr auto wordsOf(AccelKind) { return words("bvh", "none"); }
+constexpr auto wordsOf(Aov) {
+    return words("depth", "normal", "albedo", "position", "id", "samples");
+}
+constexpr auto wordsOf(Options::Progress) { return words("auto", "plain", "none"); }
 
 inline constexpr const char* kFeatureGroup = "features"; // the group of Switches
 

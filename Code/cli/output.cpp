@@ -5,7 +5,6 @@
 #include "base/file_text.h"
 #include "base/math.h"
 #include "base/platform/platform.h"
-#include "cli/method_names.h"
 #include "image/formats.h"
 #include "scene/settings.h"
 

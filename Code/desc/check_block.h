@@ -31,8 +31,8 @@ inline std::size_t countOf(const SceneDesc& desc, BlockType target) {
 class UsedBlocks {
 public:
     explicit UsedBlocks(const SceneDesc& desc) {
-        for (const auto& row : kEnumNames<BlockType>)
-            used_[static_cast<std::size_t>(row.value)].resize(countOf(desc, row.value));
+        for (const BlockType type : kValuesOf<BlockType>)
+            used_[static_cast<std::size_t>(type)].resize(countOf(desc, type));
     }
     void mark(BlockType target, std::size_t i) {
         const std::atomic_ref used(used_[static_cast<std::size_t>(target)][i]);
@@ -43,7 +43,7 @@ public:
     }
 
 private:
-    std::array<std::vector<std::uint8_t>, kEnumNames<BlockType>.size()> used_;
+    std::array<std::vector<std::uint8_t>, kNamesByValue<BlockType>.size()> used_;
 };
 
 // Per mesh: how many material slots its triangles use, as far as these may be; of those that are

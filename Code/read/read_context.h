@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "desc/scene_desc.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <string_view>
 
@@ -28,6 +29,17 @@ struct ReadContext {
     void warn(const SourceFile& source, std::size_t offset, std::string_view what) const {
         diagnostics.warnings.push_back(located(source, offset, what, "warning"));
     }
+};
+
+// How often something happened, and where first.
+struct Counted {
+    std::size_t count = 0, first = 0;
+    void add(const Counted& other) {
+        if (other.count == 0) return;
+        first = count == 0 ? other.first : std::min(first, other.first);
+        count += other.count;
+    }
+    void add(std::size_t offset) { add(Counted{1, offset}); }
 };
 
 // Locations are 32 bits wide.

@@ -30,8 +30,8 @@ ShapeMaker::ShapeMaker(const SceneDesc& desc, const RenderSettings& settings,
     : desc_(desc), settings_(settings), frame_(frame), seeThrough_(seeThrough),
       sharedOf_(desc.meshes.size(), kNotShared) {
     for (const bool isSolid : {true, false})
-        for (const auto& row : kEnumNames<ObjectDesc::Sides>)
-            merged_.push_back({row.value, isSolid, {}, {}, {}});
+        for (const auto sides : kValuesOf<ObjectDesc::Sides>)
+            merged_.push_back({sides, isSolid, {}, {}, {}});
     // Of millions most are neither meshes nor do they move.
     constexpr std::size_t kTogether = 1 << 12;
     std::vector<std::uint8_t> isPlain(desc_.objects.size());

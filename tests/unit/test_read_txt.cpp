@@ -99,13 +99,13 @@ TEST(read_txt_everything_is_everything) {
                        text.find(cat("\n", keyword, " ")) != std::string::npos,
                    "no '" << keyword << "' in " << kEverything);
     };
-    for (const auto& type : kEnumNames<BlockType>)
-        for (const Property& row : propertiesOf(type.value)) checkUsed(row.keyword);
+    for (const BlockType type : kValuesOf<BlockType>)
+        for (const Property& row : propertiesOf(type)) checkUsed(row.keyword);
     const MeshDesc mesh;
     forEachArray(mesh,
                  [&](std::string_view keyword, auto&, std::string_view) { checkUsed(keyword); });
     for (const TransformLine& line : transformLines()) checkUsed(line.keyword);
-    for (const auto& row : kEnumNames<ObjectDesc::Kind>) checkUsed(row.name);
+    for (const auto kind : kNamesByValue<ObjectDesc::Kind>) checkUsed(kind);
     checkUsed("lobe");
 }
 
@@ -181,8 +181,8 @@ TEST(read_txt_readme_is_complete) {
     const auto check = [&](std::string_view keyword) {
         CHECK_INFO(readme.find(cat("    ", keyword, " ")) != std::string::npos, keyword);
     };
-    for (const auto& type : kEnumNames<BlockType>)
-        for (const Property& row : propertiesOf(type.value)) {
+    for (const BlockType type : kValuesOf<BlockType>)
+        for (const Property& row : propertiesOf(type)) {
             check(row.keyword);
             for (const std::string_view name : row.first.names)
                 CHECK_INFO(readme.find(name) != std::string::npos, row.keyword << " " << name);

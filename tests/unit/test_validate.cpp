@@ -58,16 +58,16 @@ TEST(validate_every_number) {
     desc.textures.emplace_back().name = "t";
     desc.textures[0].file = "t.ppm";
     desc.settings.crop = {0, 0, 10, 10};
-    for (const auto& row : kEnumNames<ObjectDesc::Kind>) {
+    for (const auto kind : kValuesOf<ObjectDesc::Kind>) {
         ObjectDesc& object = desc.objects.emplace_back();
-        object.name = cat("o", row.name);
-        object.kind = row.value;
-        if (row.value == ObjectDesc::Kind::Mesh) object.mesh = 0;
+        object.name = cat("o", nameOf(kind));
+        object.kind = kind;
+        if (kind == ObjectDesc::Kind::Mesh) object.mesh = 0;
     }
-    for (const auto& row : kEnumNames<LightDesc::Kind>) {
+    for (const auto kind : kValuesOf<LightDesc::Kind>) {
         LightDesc& light = desc.lights.emplace_back();
-        light.name = cat("l", row.name);
-        light.kind = row.value;
+        light.name = cat("l", nameOf(kind));
+        light.kind = kind;
         light.radius = 1;
     }
     CHECK_EQUAL(errorsOf(desc), "");

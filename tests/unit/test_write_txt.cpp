@@ -28,10 +28,10 @@ public:
             desc_.meshes.emplace_back().name = name("mesh", i);
             desc_.lights.emplace_back().name = name("light", i);
             desc_.cameras.emplace_back().name = name("camera", i);
-            for (const auto& row : kEnumNames<ObjectDesc::Kind>) {
+            for (const auto kind : kValuesOf<ObjectDesc::Kind>) {
                 ObjectDesc& object = desc_.objects.emplace_back();
-                object.name = name(row.name, i);
-                object.kind = row.value;
+                object.name = name(nameOf(kind), i);
+                object.kind = kind;
                 object.worldFromObject = keys();
             }
         }
@@ -199,8 +199,8 @@ TEST(write_txt_every_property_comes_back) {
     forEachArray(desc.meshes[0], [&](std::string_view keyword, auto&, std::string_view) {
         CHECK_INFO(text.find(cat("\n    ", keyword, " ")) != std::string::npos, keyword);
     });
-    for (const auto& row : kEnumNames<ObjectDesc::Kind>)
-        CHECK_INFO(text.find(cat("\n", row.name, " ")) != std::string::npos, row.name);
+    for (const auto kind : kNamesByValue<ObjectDesc::Kind>)
+        CHECK_INFO(text.find(cat("\n", kind, " ")) != std::string::npos, kind);
 }
 
 TEST(write_txt_every_lobe_comes_back) {

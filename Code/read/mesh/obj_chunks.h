@@ -4,22 +4,10 @@
 
 #include "desc/scene_desc.h"
 #include "read/mesh/line_reader.h"
+#include "read/read_context.h"
 
 #include <cstddef>
 #include <vector>
-
-// How often something happened, and where first.
-struct Counted {
-    std::size_t count = 0, first = 0;
-    void add(std::size_t offset) {
-        if (count++ == 0) first = offset;
-    }
-    // What happened behind it.
-    void add(const Counted& later) {
-        if (count == 0) first = later.first;
-        count += later.count;
-    }
-};
 
 struct ObjCounts {
     std::size_t points = 0, uvs = 0, normals = 0;
@@ -46,10 +34,9 @@ ObjChunks chunksOf(const SourceFile& source, int threads);
 // Points with such a number are NaN, normals and texture coordinates zero.
 struct VerticesLeftOut {
     Counted colours, notFinite;
-    // What happened behind it.
-    void add(const VerticesLeftOut& later) {
-        colours.add(later.colours);
-        notFinite.add(later.notFinite);
+    void add(const VerticesLeftOut& others) {
+        colours.add(others.colours);
+        notFinite.add(others.notFinite);
     }
 };
 // Fails at the first vertex that is wrong.

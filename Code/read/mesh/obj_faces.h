@@ -43,11 +43,10 @@ private:
 struct FacesLeftOut {
     Counted tooFewCorners, noArea;
     Counted unknown; // CornerReader::unknown(): only some numbers of theirs
-    // What happened behind it.
-    void add(const FacesLeftOut& later) {
-        tooFewCorners.add(later.tooFewCorners);
-        noArea.add(later.noArea);
-        unknown.add(later.unknown);
+    void add(const FacesLeftOut& others) {
+        tooFewCorners.add(others.tooFewCorners);
+        noArea.add(others.noArea);
+        unknown.add(others.unknown);
     }
 };
 

@@ -13,12 +13,9 @@
 #include <vector>
 
 enum class PlyFormat { Ascii, LittleEndian, BigEndian };
-template <>
-inline constexpr auto kEnumNames<PlyFormat> =
-    std::to_array<EnumName<PlyFormat>>({{PlyFormat::Ascii, "ascii"},
-                                        {PlyFormat::LittleEndian, "binary_little_endian"},
-                                        {PlyFormat::BigEndian, "binary_big_endian"}});
-static_assert(isInOrder<PlyFormat>());
+constexpr auto wordsOf(PlyFormat) {
+    return words("ascii", "binary_little_endian", "binary_big_endian");
+}
 
 enum class PlyType { Int8, Uint8, Int16, Uint16, Int32, Uint32, Float32, Float64 };
 

@@ -88,13 +88,6 @@ public:
     }
 
 private:
-    struct Counted {
-        std::size_t count = 0, first = 0;
-        void add(std::size_t offset) {
-            if (count++ == 0) first = offset;
-        }
-    };
-
     void readStatement() {
         start_ = in_.offset();
         keyword_ = in_.word();

@@ -225,7 +225,6 @@ private:
 
     void warn(std::size_t unusedPoints) {
         std::vector<std::string> dropped;
-        std::size_t first = 0;
         if (leftOut_.tooFewCorners.count > 0)
             dropped.push_back(cat(counted(leftOut_.tooFewCorners.count, "face", "faces"),
                                   " with fewer than three corners"));
@@ -235,22 +234,16 @@ private:
         if (unusedPoints > 0)
             dropped.push_back(
                 cat(counted(unusedPoints, "vertex", "vertices"), " that no face uses"));
-        if (leftOut_.tooFewCorners.count > 0) first = leftOut_.tooFewCorners.first;
-        if (leftOut_.noArea.count > 0 &&
-            (leftOut_.tooFewCorners.count == 0 || leftOut_.noArea.first < first))
-            first = leftOut_.noArea.first;
-        if (!dropped.empty()) context_.warn(source_, first, cat("left out: ", join(dropped)));
+        Counted faces = leftOut_.tooFewCorners;
+        faces.add(leftOut_.noArea);
+        if (!dropped.empty()) context_.warn(source_, faces.first, cat("left out: ", join(dropped)));
         const auto tell = [&](const Counted& what, std::string_view one, std::string_view many,
                               std::string_view rest) {
             if (what.count > 0)
                 context_.warn(source_, what.first, cat(counted(what.count, one, many), rest));
         };
-        Counted unknown = leftOut_.unknown;
-        if (const Counted& others = corners_.unknown(); others.count > 0) {
-            const bool isFirst = unknown.count == 0 || others.first < unknown.first;
-            unknown = {unknown.count + others.count, isFirst ? others.first : unknown.first};
-        }
-        tell(unknown, "face has", "faces have",
+        leftOut_.unknown.add(corners_.unknown());
+        tell(leftOut_.unknown, "face has", "faces have",
              " texture coordinates or normals that are not in the file; they do without; the first "
              "is here");
         tell(skipped_, "statement", "statements",

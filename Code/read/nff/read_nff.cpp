@@ -18,14 +18,6 @@
 
 namespace {
 
-// Things that show nothing are left out; all of a kind make one warning.
-struct LeftOut {
-    std::size_t count = 0, first = 0;
-    void add(const NffWord& word) {
-        if (count++ == 0) first = word.offset;
-    }
-};
-
 class NffReader {
 public:
     NffReader(const SourceFile& source, const ReadContext& context, ErrorList& errors)
@@ -125,7 +117,7 @@ private:
     std::optional<std::uint32_t> surface(const NffWord& user) {
         if (surface_ != kNotLookedFor) return surface_;
         if (fillLoc_.offset == SourceLoc::kUnknown) {
-            withoutFill_.add(user);
+            withoutFill_.add(user.offset);
             return {};
         }
         const auto next = static_cast<std::uint32_t>(desc_.materials.size());
@@ -156,7 +148,7 @@ private:
         NffNumbers numbers = numbersOf(word, 4);
         const Vec3d centre = numbers.point();
         const double radius = numbers.number();
-        if (radius == 0) return pointSpheres_.add(word);
+        if (radius == 0) return pointSpheres_.add(word.offset);
         ObjectDesc sphere;
         sphere.worldFromObject = {{1, 0, 0, centre.x, 0, 1, 0, centre.y, 0, 0, 1, centre.z}};
         sphere.radius = std::fabs(radius);
@@ -176,7 +168,7 @@ private:
                            shortest(apexRadius), "; negative ones show the inside");
             });
         auto cone = nffCone(base, std::fabs(baseRadius), apex, std::fabs(apexRadius));
-        if (!cone) return flatCones_.add(word);
+        if (!cone) return flatCones_.add(word.offset);
         cone->sides = nffSides(fill_, baseRadius < 0 || apexRadius < 0);
         addObject(std::move(*cone), word, "cone", cones_);
     }
@@ -193,7 +185,7 @@ private:
             corners_.push_back(numbers.point());
             if (isPatch) normals_.push_back(toFloat(numbers.point()));
         }
-        if (!hasArea(corners_)) return flatPolygons_.add(word);
+        if (!hasArea(corners_)) return flatPolygons_.add(word.offset);
         addPolygon(meshOf(word, isPatch), word);
     }
 
@@ -270,7 +262,8 @@ private:
             context_.warn(in_.source(), withoutFill_.first,
                           "there is no fill ('f') before this; it is grey");
     }
-    void warn(const LeftOut& leftOut, std::string_view one, std::string_view many) const {
+    // Things that show nothing are left out; all of a kind make one warning.
+    void warn(const Counted& leftOut, std::string_view one, std::string_view many) const {
         if (leftOut.count == 0) return;
         context_.warn(in_.source(), leftOut.first,
                       leftOut.count == 1
@@ -296,7 +289,7 @@ private:
     std::size_t spheres_ = 0, cones_ = 0, polygons_ = 0, patches_ = 0;
     std::vector<std::size_t> uncolouredLights_;
     std::size_t view_ = NffWords::kNotGiven, background_ = NffWords::kNotGiven;
-    LeftOut flatPolygons_, pointSpheres_, flatCones_, withoutFill_;
+    Counted flatPolygons_, pointSpheres_, flatCones_, withoutFill_;
     // Of the polygon that is read; kept for their memory.
     std::vector<Vec3d> corners_;
     std::vector<Vec3> normals_;

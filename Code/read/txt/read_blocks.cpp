@@ -39,7 +39,7 @@ const char* blockEndFrom(const char* begin, const char* p, const char* end) {
 std::vector<std::string> blockWords() {
     std::vector<std::string> words = {"settings", "world", "camera", "texture",
                                       "material", "light", "mesh"};
-    for (const auto& row : kEnumNames<ObjectDesc::Kind>) words.emplace_back(row.name);
+    for (const std::string_view kind : kNamesByValue<ObjectDesc::Kind>) words.emplace_back(kind);
     return words;
 }
 
@@ -74,15 +74,15 @@ private:
     void readBlock(const Token& word) {
         const auto is = [&](std::string_view kind) { return isSameWord(kind, word.text); };
         SceneDesc& desc = blocks_.desc;
-        for (const auto& row : kEnumNames<ObjectDesc::Kind>) {
-            if (!is(row.name)) continue;
+        for (const auto kind : kValuesOf<ObjectDesc::Kind>) {
+            if (!is(nameOf(kind))) continue;
             // Objects have the properties of their kind. Lights and cameras say their kind in a
             // property, perhaps after others: they have all of them, and validate() warns of those
             // without effect.
             ObjectDesc& object = added(desc.objects);
-            object.kind = row.value;
+            object.kind = kind;
             readHeading(object, word);
-            return readProperties(object, word, &object.worldFromObject, only(row.value));
+            return readProperties(object, word, &object.worldFromObject, only(kind));
         }
         if (is("material")) return readReferred(desc.materials, word);
         if (is("light")) return readLight(added(desc.lights), word);
@@ -312,7 +312,7 @@ private:
     ErrorList& errors_;
     Blocks& blocks_;
     double fovDeg_ = 0; // of the camera that is read; 0: not given
-    std::array<Habits, kEnumNames<BlockType>.size()> habits_;
+    std::array<Habits, kNamesByValue<BlockType>.size()> habits_;
 };
 
 } // namespace

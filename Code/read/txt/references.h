@@ -16,7 +16,7 @@
 #include <vector>
 
 // By target. Of equal names the first counts; validate() complains about the others.
-using NameTables = std::array<NameTable, kEnumNames<BlockType>.size()>;
+using NameTables = std::array<NameTable, kNamesByValue<BlockType>.size()>;
 
 class References {
 public:
@@ -51,13 +51,13 @@ private:
     const SourceFile* source_;
     bool isPart_;
     NameTables known_;
-    using LastUsed = std::array<std::uint32_t, kEnumNames<BlockType>.size()>;
+    using LastUsed = std::array<std::uint32_t, kNamesByValue<BlockType>.size()>;
     LastUsed lastUsed_{}; // see NameTable::find()
     struct Listed {
         std::string_view name;
         std::uint32_t hash;
     };
-    std::array<std::vector<Listed>, kEnumNames<BlockType>.size()> listed_; // in their order
+    std::array<std::vector<Listed>, kNamesByValue<BlockType>.size()> listed_; // in their order
     std::deque<std::string> quoted_; // names that are written otherwise than they are
     std::vector<Token> waiting_;
 };
