@@ -21,6 +21,13 @@ template <class Number> Number loadLittle(const std::uint8_t* from) {
             number |= static_cast<Number>(static_cast<Number>(from[i]) << (8 * i));
     return number;
 }
+// The same with the highest byte first.
+template <class Number> Number loadBig(const std::uint8_t* from) {
+    Number number{};
+    for (unsigned i = 0; i < sizeof number; ++i)
+        number = static_cast<Number>(static_cast<std::uint64_t>(number) << 8 | from[i]);
+    return number;
+}
 template <class Number> void storeLittle(std::uint8_t* to, Number number) {
     if constexpr (std::endian::native == std::endian::little)
         std::memcpy(to, &number, sizeof number);

@@ -1,7 +1,6 @@
 // Unpacks the blocks of OpenEXR pixels that are stored as they are or packed by RLE or ZIP.
 #include "image/exr_blocks.h"
 
-#include "base/error.h"
 #include "base/text.h"
 #include "image/zlib.h"
 
@@ -14,8 +13,7 @@ namespace {
 // -n bytes follow as they are.
 std::vector<std::uint8_t> expandExrRuns(Bytes packed, std::size_t size, const std::string& name) {
     const auto broken = [&](std::string_view what) {
-        fail(ErrorKind::Input,
-             cat(name, ": error: broken RLE data: ", what, "; the file is damaged"));
+        failPicture(name, cat("broken RLE data: ", what, "; the file is damaged"));
     };
     std::vector<std::uint8_t> out;
     out.reserve(size);
@@ -66,8 +64,7 @@ std::vector<std::uint8_t> unpackExrBlock(ExrCompression compression, const ExrBl
                                          Bytes packed, const std::string& name) {
     const std::size_t size = block.bytes();
     if (packed.size() > size)
-        fail(ErrorKind::Input,
-             cat(name, ": error: a block has ", packed.size(), " bytes; its pixels need ", size));
+        failPicture(name, cat("a block has ", packed.size(), " bytes; its pixels need ", size));
     if (packed.size() == size) return {packed.begin(), packed.end()};
     if (compression == kExrPiz) return unpackExrPiz(block, packed, name);
     std::vector<std::uint8_t> split = compression == kExrRle ? expandExrRuns(packed, size, name)

@@ -47,6 +47,7 @@ std::vector<std::uint8_t> unpackExrBlock(ExrCompression compression, const ExrBl
 // Does the same for PIZ, whose packed bytes are fewer than those of the block.
 std::vector<std::uint8_t> unpackExrPiz(const ExrBlock& block, Bytes packed,
                                        const std::string& name);
+[[noreturn]] void brokenPiz(const std::string& name, std::string_view what);
 // Fills `out` with the 16-bit numbers of a Huffman code as PIZ has it. Fails as above.
 void unpackExrHuffman(Bytes packed, std::span<std::uint16_t> out, const std::string& name);
 

@@ -2,7 +2,6 @@
 // normals and the like.
 #include "image/exr_header.h"
 
-#include "base/error.h"
 #include "base/text.h"
 
 #include <algorithm>
@@ -64,13 +63,11 @@ private:
     std::vector<std::string> channels;
     for (const ExrPart& part : headers.parts)
         for (const ExrChannel& channel : part.channels)
-            if (channels.size() <= kShown) channels.push_back(printableExrName(channel.name));
+            if (channels.size() <= kShown) channels.push_back(printable(channel.name));
     if (channels.size() > kShown) channels.back() = "...";
-    fail(ErrorKind::Input,
-         cat(name,
-             ": error: there is no colour; R, G and B or Y of type HALF or FLOAT are needed, "
-             "and the channels are: ",
-             channels.empty() ? "none" : join(channels)));
+    failPicture(name, cat("there is no colour; R, G and B or Y of type HALF or FLOAT are needed, "
+                          "and the channels are: ",
+                          channels.empty() ? "none" : join(channels)));
 }
 
 } // namespace
@@ -89,10 +86,11 @@ ExrColour chooseExrColour(const ExrHeaders& headers, const std::string& name) {
     }
     if (!grey.channels.empty()) return grey;
     if (hasChroma)
-        fail(ErrorKind::Input, cat(name, ": error: the picture is luminance-chroma (Y, RY, BY), "
-                                         "which is not read; it must be R, G, B or Y"));
+        failPicture(name, "the picture is luminance-chroma (Y, RY, BY), which is not read; it must "
+                          "be R, G, B or Y");
     if (hasDeep)
-        fail(ErrorKind::Input, cat(name, ": error: the picture is deep data, which is not read; it "
-                                         "must be of scan lines or tiles"));
+        failPicture(name,
+                    "the picture is deep data, which is not read; it must be of scan lines or "
+                    "tiles");
     failWithoutColour(headers, name);
 }

@@ -1,7 +1,6 @@
 // Reads the headers of OpenEXR files (OpenEXR File Layout, "Version Field", "Header").
 #include "image/exr_header.h"
 
-#include "base/error.h"
 #include "base/text.h"
 #include "image/bits.h"
 
@@ -27,9 +26,7 @@ public:
     }
 
 private:
-    [[noreturn]] void broken(const std::string& what) const {
-        fail(ErrorKind::Input, cat(name_, ": error: ", what));
-    }
+    [[noreturn]] void broken(const std::string& what) const { failPicture(name_, what); }
     Bytes take(std::size_t count, std::string_view what) {
         if (count > file_.size() - at_)
             broken(cat("the file ends in the middle of the header (", what,
@@ -81,7 +78,7 @@ private:
             const std::string_view attribute = textIn(file_, at_, "name of an attribute");
             const std::string_view type = textIn(file_, at_, "type of an attribute");
             const std::uint32_t size = number("the size of an attribute");
-            takeAttribute(part, attribute, type, take(size, printableExrName(attribute)));
+            takeAttribute(part, attribute, type, take(size, printable(attribute)));
         }
         ++at_;
         return part;
@@ -91,7 +88,7 @@ private:
                        Bytes value) {
         const auto need = [&](std::string_view rightType, std::size_t rightSize) {
             if (type != rightType || value.size() != rightSize)
-                broken(cat("the attribute ", attribute, " is a ", printableExrName(type), " of ",
+                broken(cat("the attribute ", attribute, " is a ", printable(type), " of ",
                            value.size(), " bytes; it must be a ", rightType, " of ", rightSize));
         };
         const auto wordAt = [&](std::size_t at) {
@@ -124,7 +121,7 @@ private:
         // In a file of one part the flag counts: its type need not be there.
         if (headers_.isMultiPart) part.isTiled = type == "tiledimage";
         if (!part.isDeep && type != "scanlineimage" && type != "tiledimage")
-            broken(cat("a part has the type ", printableExrName(type.substr(0, kExrLongName)),
+            broken(cat("a part has the type ", printable(type.substr(0, kExrLongName)),
                        "; it must be scanlineimage, tiledimage, deepscanline or deeptile"));
     }
 
@@ -136,7 +133,7 @@ private:
                   [](const ExrChannel& a, const ExrChannel& b) { return a.name < b.name; });
         for (std::size_t i = 1; i < channels.size(); ++i)
             if (channels[i].name == channels[i - 1].name)
-                broken(cat("two channels are called ", printableExrName(channels[i].name),
+                broken(cat("two channels are called ", printable(channels[i].name),
                            "; each needs its own name"));
         return channels;
     }
@@ -151,7 +148,7 @@ private:
             const std::uint8_t* entry = list.data() + at;
             const auto type = loadLittle<std::uint32_t>(entry);
             if (type > kExrFloat)
-                broken(cat("the channel ", printableExrName(channel), " has the type ", type,
+                broken(cat("the channel ", printable(channel), " has the type ", type,
                            "; it must be 0 (UINT), 1 (HALF) or 2 (FLOAT)"));
             const bool isWhole = loadLittle<std::uint32_t>(entry + 8) == 1 &&
                                  loadLittle<std::uint32_t>(entry + 12) == 1;
@@ -171,11 +168,4 @@ private:
 
 ExrHeaders readExrHeaders(Bytes file, const std::string& name) {
     return ExrHeaderReader(file, name).read();
-}
-
-std::string printableExrName(std::string_view text) {
-    std::string out(text);
-    for (char& c : out)
-        if (c < ' ' || c > '~') c = '?';
-    return out;
 }

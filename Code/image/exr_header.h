@@ -74,6 +74,3 @@ struct ExrColour {
 // Chooses as decodeExr() says. Fails with "name: error: what" when no part has a colour, or one
 // that is not read.
 ExrColour chooseExrColour(const ExrHeaders& headers, const std::string& name);
-
-// Returns a name out of a file for a message: what is no printable ASCII becomes '?'.
-std::string printableExrName(std::string_view text);

@@ -2,7 +2,6 @@
 // Bits are read from the highest of each byte downwards.
 #include "image/exr_blocks.h"
 
-#include "base/error.h"
 #include "base/text.h"
 #include "image/bits.h"
 
@@ -10,10 +9,6 @@
 #include <array>
 
 namespace {
-
-[[noreturn]] void brokenExrHuffman(const std::string& name, std::string_view what) {
-    fail(ErrorKind::Input, cat(name, ": error: broken PIZ data: ", what, "; the file is damaged"));
-}
 
 class ExrBitReader {
 public:
@@ -33,7 +28,7 @@ public:
         return window << shift | next >> (8 - shift);
     }
     void consume(std::size_t count) {
-        if (count > bits_ - position_) brokenExrHuffman(name_, "it ends in the middle of a code");
+        if (count > bits_ - position_) brokenPiz(name_, "it ends in the middle of a code");
         position_ += count;
     }
     std::uint32_t take(unsigned count) { // from 1 to 32 bits
@@ -69,7 +64,7 @@ public:
             used += count_[n];
             end += count_[n];
             if (end > std::uint64_t{1} << n || (n > 1 && end % 2 != 0))
-                brokenExrHuffman(name, "the lengths of its codes are not possible");
+                brokenPiz(name, "the lengths of its codes are not possible");
             end /= 2;
         }
         symbols_.resize(used);
@@ -99,7 +94,7 @@ public:
             bits.consume(n);
             return symbols_[index_[n] + static_cast<std::size_t>(code - first_[n])];
         }
-        brokenExrHuffman(name_, "a code that stands for nothing");
+        brokenPiz(name_, "a code that stands for nothing");
     }
 
     static constexpr std::size_t kLongest = 58;
@@ -127,8 +122,7 @@ std::vector<std::uint8_t> exrCodeLengths(ExrBitReader& bits, std::size_t count,
             continue;
         }
         const std::size_t zeros = code == 63 ? bits.take(8) + 6 : code - 57;
-        if (zeros > count - lengths.size())
-            brokenExrHuffman(name, "more lengths of codes than promised");
+        if (zeros > count - lengths.size()) brokenPiz(name, "more lengths of codes than promised");
         lengths.resize(lengths.size() + zeros);
     }
     return lengths;
@@ -138,20 +132,20 @@ std::vector<std::uint8_t> exrCodeLengths(ExrBitReader& bits, std::size_t count,
 
 void unpackExrHuffman(Bytes packed, std::span<std::uint16_t> out, const std::string& name) {
     constexpr std::size_t kHeader = 20; // five numbers; the third and the last say nothing more
-    if (packed.size() < kHeader) brokenExrHuffman(name, "it ends in the middle of its header");
+    if (packed.size() < kHeader) brokenPiz(name, "it ends in the middle of its header");
     const std::size_t first = loadLittle<std::uint32_t>(packed.data());
     const std::size_t last = loadLittle<std::uint32_t>(packed.data() + 4);
     const std::size_t bitCount = loadLittle<std::uint32_t>(packed.data() + 12);
     constexpr std::size_t kLastSymbol = 65536;
     if (first > last || last > kLastSymbol)
-        brokenExrHuffman(
-            name, cat("its symbols are ", first, " to ", last, "; at most 0 to ", kLastSymbol));
+        brokenPiz(name,
+                  cat("its symbols are ", first, " to ", last, "; at most 0 to ", kLastSymbol));
     const Bytes table = packed.subspan(kHeader);
     ExrBitReader lengthBits(table, 8 * table.size(), name);
     const ExrHuffmanDecoder decoder(exrCodeLengths(lengthBits, last - first + 1, name), first,
                                     name);
     const Bytes codes = table.subspan(lengthBits.wholeBytes());
-    if (bitCount > 8 * codes.size()) brokenExrHuffman(name, "it ends in the middle of its codes");
+    if (bitCount > 8 * codes.size()) brokenPiz(name, "it ends in the middle of its codes");
     ExrBitReader bits(codes, bitCount, name);
     const std::size_t runSymbol = last; // the number before it comes again, as 8 bits say how often
     for (std::size_t used = 0; used < out.size();) {
@@ -161,8 +155,8 @@ void unpackExrHuffman(Bytes packed, std::span<std::uint16_t> out, const std::str
             continue;
         }
         const std::size_t times = bits.take(8);
-        if (used == 0) brokenExrHuffman(name, "a run without a number before it");
-        if (times > out.size() - used) brokenExrHuffman(name, "more numbers than pixels");
+        if (used == 0) brokenPiz(name, "a run without a number before it");
+        if (times > out.size() - used) brokenPiz(name, "more numbers than pixels");
         std::fill_n(out.begin() + static_cast<std::ptrdiff_t>(used), times, out[used - 1]);
         used += times;
     }

@@ -3,7 +3,6 @@
 // code.
 #include "image/exr_blocks.h"
 
-#include "base/error.h"
 #include "base/text.h"
 #include "image/bits.h"
 
@@ -77,19 +76,16 @@ public:
     // Reads the first and the last byte of the bits that is not zero, and the bytes from the first
     // to the last, which are missing when the first is behind the last. `packed` loses them.
     ExrNumbering(Bytes& packed, const std::string& name) {
-        const auto broken = [&](std::string_view what) {
-            fail(ErrorKind::Input,
-                 cat(name, ": error: broken PIZ data: ", what, "; the file is damaged"));
-        };
-        if (packed.size() < 4) broken("it ends in the middle of its header");
+        if (packed.size() < 4) brokenPiz(name, "it ends in the middle of its header");
         const std::size_t first = loadLittle<std::uint16_t>(packed.data());
         const std::size_t last = loadLittle<std::uint16_t>(packed.data() + 2);
         packed = packed.subspan(4);
         constexpr std::size_t kBytes = 8192;
-        if (first >= kBytes || last >= kBytes) broken("its set of numbers is too large");
+        if (first >= kBytes || last >= kBytes) brokenPiz(name, "its set of numbers is too large");
         Bytes bits;
         if (first <= last) {
-            if (last - first + 1 > packed.size()) broken("it ends in the middle of its numbers");
+            if (last - first + 1 > packed.size())
+                brokenPiz(name, "it ends in the middle of its numbers");
             bits = packed.first(last - first + 1);
             packed = packed.subspan(bits.size());
         }
@@ -112,17 +108,18 @@ private:
 
 } // namespace
 
+void brokenPiz(const std::string& name, std::string_view what) {
+    failPicture(name, cat("broken PIZ data: ", what, "; the file is damaged"));
+}
+
 std::vector<std::uint8_t> unpackExrPiz(const ExrBlock& block, Bytes packed,
                                        const std::string& name) {
     const ExrNumbering numbering(packed, name);
-    if (packed.size() < 4)
-        fail(ErrorKind::Input,
-             cat(name, ": error: broken PIZ data: it has no codes; the file is damaged"));
+    if (packed.size() < 4) brokenPiz(name, "it has no codes");
     const std::size_t length = loadLittle<std::uint32_t>(packed.data());
     packed = packed.subspan(4);
     if (length > packed.size())
-        fail(ErrorKind::Input, cat(name, ": error: broken PIZ data: ", packed.size(),
-                                   " bytes of codes instead of ", length, "; the file is damaged"));
+        brokenPiz(name, cat(packed.size(), " bytes of codes instead of ", length));
     std::vector<std::uint16_t> words(block.bytes() / 2); // one channel after the other
     unpackExrHuffman(packed.first(length), words, name);
 

@@ -1,11 +1,10 @@
 // Reads OpenEXR pictures (OpenEXR File Layout, "Offset Tables", "Pixel data"): follows the table of
 // offsets to the blocks of one part, and takes the colour out of them.
-#include "base/error.h"
 #include "base/text.h"
 #include "image/bits.h"
-#include "image/formats.h"
 #include "image/exr_blocks.h"
 #include "image/exr_half.h"
+#include "image/formats.h"
 
 #include <algorithm>
 #include <array>
@@ -24,12 +23,8 @@ public:
     StoredImage read() {
         checkPart();
         const std::vector<Chunk> chunks = findChunks();
-        StoredImage out;
-        out.width = static_cast<int>(width_);
-        out.height = static_cast<int>(height_);
-        out.channels = static_cast<int>(colour_.channels.size());
-        out.depth = StoredImage::Depth::Float;
-        out.floats.resize(width_ * height_ * colour_.channels.size());
+        StoredImage out =
+            blankPicture(width_, height_, colour_.channels.size(), StoredImage::Depth::Float);
         for (const Chunk& chunk : chunks)
             put(unpackExrBlock(compression_, chunk.block, chunk.packed, name_), chunk, out);
         return out;
@@ -42,16 +37,14 @@ private:
         Bytes packed;
     };
 
-    [[noreturn]] void broken(const std::string& what) const {
-        fail(ErrorKind::Input, cat(name_, ": error: ", what));
-    }
+    [[noreturn]] void broken(const std::string& what) const { failPicture(name_, what); }
 
     // Sets the compression and the sizes of the picture and its blocks, or fails.
     void checkPart() {
         checkCompression();
         for (const ExrChannel& channel : part_.channels)
             if (channel.isSubsampled)
-                broken(cat("the channel ", printableExrName(channel.name),
+                broken(cat("the channel ", printable(channel.name),
                            " is subsampled, which is not read; both samplings must be 1"));
         if (!part_.dataWindow) broken("the attribute dataWindow is missing; each part needs one");
         const ExrWindow& window = *part_.dataWindow;

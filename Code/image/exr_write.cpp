@@ -4,9 +4,9 @@
 #include "base/for_each.h"
 #include "base/text.h"
 #include "image/bits.h"
-#include "image/formats.h"
 #include "image/exr_blocks.h"
 #include "image/exr_half.h"
+#include "image/formats.h"
 #include "image/zlib.h"
 
 #include <algorithm>
@@ -58,9 +58,9 @@ public:
         for (const ExrLayer& layer : layers) {
             const std::size_t step = layer.channels.size();
             if (layer.values.size() != width_ * height_ * step)
-                cannot(cat("the layer '", printableExrName(layer.name), "' has ",
-                           layer.values.size(), " values; ", width_, "x", height_, " pixels of ",
-                           step, " channels need ", width_ * height_ * step));
+                cannot(cat("the layer '", printable(layer.name), "' has ", layer.values.size(),
+                           " values; ", width_, "x", height_, " pixels of ", step,
+                           " channels need ", width_ * height_ * step));
             for (std::size_t i = 0; i < step; ++i)
                 channels_.push_back({layer.name.empty() ? layer.channels[i]
                                                         : cat(layer.name, ".", layer.channels[i]),
@@ -154,11 +154,10 @@ private:
         for (const Channel& channel : channels_) {
             const std::string& name = channel.name;
             if (name.empty() || name.size() > kExrLongName || name.find('\0') != std::string::npos)
-                cannot(cat("the name '", printableExrName(name),
-                           "' of a channel is not possible; 1 to ", kExrLongName,
-                           " bytes, none of them zero"));
+                cannot(cat("the name '", printable(name), "' of a channel is not possible; 1 to ",
+                           kExrLongName, " bytes, none of them zero"));
             if (before && *before == name)
-                cannot(cat("two channels are called '", printableExrName(name), "'"));
+                cannot(cat("two channels are called '", printable(name), "'"));
             before = &name;
         }
     }

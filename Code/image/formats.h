@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 using Bytes = std::span<const std::uint8_t>;
@@ -20,6 +21,15 @@ using Bytes = std::span<const std::uint8_t>;
 StoredImage decodePpm(Bytes file, const std::string& name);
 StoredImage decodePfm(Bytes file, const std::string& name);
 StoredImage decodePng(Bytes file, const std::string& name);
+
+[[noreturn]] void failPicture(const std::string& name, std::string_view what);
+// Of a file in a message: what is no printable ASCII becomes '?'; in quotes, at most so many bytes.
+std::string printable(std::string_view text);
+std::string quotedPart(std::string_view text, std::size_t most);
+
+// A picture of zeros.
+StoredImage blankPicture(std::size_t width, std::size_t height, std::size_t channels,
+                         StoredImage::Depth depth = StoredImage::Depth::Bits8);
 
 // Pixels as 8-bit or 16-bit (high byte first) codes; `out` has 3 * bits / 8 bytes per pixel.
 void encodePixels(std::span<const Rgb> pixels, Encoding encoding, std::span<std::uint8_t> out);

@@ -1,7 +1,6 @@
 // Reads the scanlines of a Radiance HDR picture (RGBE): flat, and both run-length codes.
 #include "image/formats.h"
 
-#include "base/error.h"
 #include "base/text.h"
 
 #include <algorithm>
@@ -43,7 +42,7 @@ private:
     static constexpr std::size_t kShortestPacked = 8, kLongestPacked = 0x7FFF;
 
     [[noreturn]] void broken(const std::string& what) const {
-        fail(ErrorKind::Input, cat(name_, ": error: the scanline ", line_, " ", what));
+        failPicture(name_, cat("the scanline ", line_, " ", what));
     }
     // The next bytes, which are not taken yet.
     Bytes left(std::size_t count) const {
@@ -132,14 +131,9 @@ StoredImage decodeHdr(Bytes file, const std::string& name) {
     for (std::size_t i = 0; i < header.lines; ++i) checked.next({});
 
     const HdrFactors factors = hdrFactors(header);
-    StoredImage image{header.width,
-                      header.height,
-                      static_cast<int>(kChannels),
-                      StoredImage::Depth::Float,
-                      {},
-                      {},
-                      {}};
-    image.floats.resize(kChannels * header.lines * header.length);
+    StoredImage image =
+        blankPicture(static_cast<std::size_t>(header.width),
+                     static_cast<std::size_t>(header.height), kChannels, StoredImage::Depth::Float);
     HdrScanlines scanlines(data, header.length, name);
     std::vector<std::uint8_t> planes(kHdrBytes * header.length);
     const std::uint8_t* exponents = planes.data() + kChannels * header.length;
@@ -152,10 +146,11 @@ StoredImage decodeHdr(Bytes file, const std::string& name) {
             for (std::size_t c = 0; c < kChannels; ++c) {
                 const double value = planes[c * header.length + j] * factors[c][exponents[j]];
                 if (value > static_cast<double>(std::numeric_limits<float>::max()))
-                    fail(ErrorKind::Input,
-                         cat(name, ": error: the pixel ", pixel % header.width, ",",
-                             pixel / header.width, " is ", value,
-                             ", which no float can hold; EXPOSURE or COLORCORR must be larger"));
+                    failPicture(
+                        name,
+                        cat("the pixel ", pixel % header.width, ",", pixel / header.width, " is ",
+                            value,
+                            ", which no float can hold; EXPOSURE or COLORCORR must be larger"));
                 image.floats[kChannels * static_cast<std::size_t>(pixel) + c] =
                     static_cast<float>(value);
             }

@@ -58,13 +58,7 @@ private:
         }
     }
 
-    // Part of the line in a message: printable and short.
-    static std::string quoted(std::string_view text) {
-        constexpr std::size_t kLongest = 40;
-        std::string out = "'";
-        for (const char c : text.substr(0, kLongest)) out += c >= ' ' && c <= '~' ? c : '?';
-        return out + (text.size() > kLongest ? "...'" : "'");
-    }
+    static std::string quoted(std::string_view text) { return quotedPart(text, 40); }
 
     void takeVariable() {
         const std::size_t equals = line_.find('=');

@@ -66,6 +66,17 @@ void decodePixels(const std::vector<T>& values, int channels, std::span<Rgb> out
     }
 }
 
+// Codes of one byte or of two, the high one first.
+template <class Code>
+void putCodes(std::span<const Rgb> pixels, std::uint8_t* to, const Code& codeOf) {
+    for (const Rgb& pixel : pixels)
+        for (const float value : {pixel.r, pixel.g, pixel.b}) {
+            const auto code = codeOf(value);
+            if constexpr (sizeof code == 2) *to++ = static_cast<std::uint8_t>(code >> 8);
+            *to++ = static_cast<std::uint8_t>(code);
+        }
+}
+
 // An OpenEXR file of nothing but R, G and B: HALF where 16 bits are wanted, FLOAT otherwise.
 void encodeBeauty(const Image& image, Encoding encoding, int threads, ByteSink use) {
     static_assert(sizeof(Rgb) == 3 * sizeof(float));
@@ -92,13 +103,41 @@ void encodeSource(const PixelSource& picture, const std::string& extension, int 
          cat("error: unknown picture extension ", unknownName(extension, kExtensions)));
 }
 
+void failPicture(const std::string& name, std::string_view what) {
+    fail(ErrorKind::Input, cat(name, ": error: ", what));
+}
+
+std::string printable(std::string_view text) {
+    std::string out(text);
+    for (char& c : out)
+        if (c < ' ' || c > '~') c = '?';
+    return out;
+}
+std::string quotedPart(std::string_view text, std::size_t most) {
+    return cat("'", printable(text.substr(0, most)), text.size() > most ? "...'" : "'");
+}
+
+StoredImage blankPicture(std::size_t width, std::size_t height, std::size_t channels,
+                         StoredImage::Depth depth) {
+    StoredImage out;
+    out.width = static_cast<int>(width);
+    out.height = static_cast<int>(height);
+    out.channels = static_cast<int>(channels);
+    out.depth = depth;
+    const std::size_t count = width * height * channels;
+    if (depth == StoredImage::Depth::Bits8) out.bytes.resize(count);
+    if (depth == StoredImage::Depth::Bits16) out.words.resize(count);
+    if (depth == StoredImage::Depth::Float) out.floats.resize(count);
+    return out;
+}
+
 void checkSize(long long width, long long height, const std::string& name) {
     if (width < 1 || height < 1 || width > Image::kMaxSide || height > Image::kMaxSide)
-        fail(ErrorKind::Input, cat(name, ": error: the size ", width, "x", height,
-                                   " is not possible; both sides must be 1 to ", Image::kMaxSide));
+        failPicture(name, cat("the size ", width, "x", height,
+                              " is not possible; both sides must be 1 to ", Image::kMaxSide));
     if (width * height > Image::kMaxPixels)
-        fail(ErrorKind::Input, cat(name, ": error: the size ", width, "x", height,
-                                   " is too large; at most ", Image::kMaxPixels, " pixels"));
+        failPicture(name, cat("the size ", width, "x", height, " is too large; at most ",
+                              Image::kMaxPixels, " pixels"));
 }
 
 Image::Image(int width, int height)
@@ -139,15 +178,15 @@ StoredImage readStoredImage(const std::string& fileName) {
 StoredImage decodeImage(std::span<const std::uint8_t> file, const std::string& name) {
     constexpr std::string_view kRight =
         "; what can be read: PPM, PNG, PFM, JPEG, OpenEXR, Radiance HDR, TGA";
-    if (file.empty()) fail(ErrorKind::Input, cat(name, ": error: the file is empty", kRight));
+    if (file.empty()) failPicture(name, cat("the file is empty", kRight));
     const std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
     for (const Format& format : kFormats) {
         if (!text.starts_with(format.start)) continue;
         if (format.decode) return format.decode(file, name);
-        fail(ErrorKind::Input, cat(name, ": error: this is ", format.name, kRight));
+        failPicture(name, cat("this is ", format.name, kRight));
     }
     if (looksLikeTga(file)) return decodeTga(file, name); // it has no signature
-    fail(ErrorKind::Input, cat(name, ": error: the file is no picture of a known kind", kRight));
+    failPicture(name, cat("the file is no picture of a known kind", kRight));
 }
 
 std::vector<std::uint8_t> encodeImage(const Image& image, const std::string& extension,
@@ -172,29 +211,12 @@ void encodeImage(const Image& image, const std::string& extension, Encoding enco
 
 void encodePixels(std::span<const Rgb> pixels, Encoding encoding, std::span<std::uint8_t> out) {
     const bool srgb = encoding.transfer == Encoding::Transfer::Srgb;
-    std::uint8_t* to = out.data();
-    if (encoding.bits == 8) {
-        const auto encode = [&](auto code) {
-            for (const Rgb& pixel : pixels)
-                for (const float value : {pixel.r, pixel.g, pixel.b}) *to++ = code(value);
-        };
-        if (srgb)
-            srgb8FromLinear(pixels, to);
-        else
-            encode([](float value) { return unit8From(value); });
-    } else {
-        const auto encode = [&](auto code) {
-            for (const Rgb& pixel : pixels) {
-                for (const float value : {pixel.r, pixel.g, pixel.b}) {
-                    const std::uint16_t word = code(value);
-                    *to++ = static_cast<std::uint8_t>(word >> 8);
-                    *to++ = static_cast<std::uint8_t>(word);
-                }
-            }
-        };
-        if (srgb)
-            encode([](float value) { return srgb16FromLinear(value); });
-        else
-            encode([](float value) { return unit16From(value); });
-    }
+    if (encoding.bits == 8 && srgb)
+        srgb8FromLinear(pixels, out.data());
+    else if (encoding.bits == 8)
+        putCodes(pixels, out.data(), [](float value) { return unit8From(value); });
+    else if (srgb)
+        putCodes(pixels, out.data(), [](float value) { return srgb16FromLinear(value); });
+    else
+        putCodes(pixels, out.data(), [](float value) { return unit16From(value); });
 }

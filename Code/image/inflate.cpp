@@ -1,8 +1,8 @@
 // Unpacks zlib streams. Knows nothing about PNG.
-#include "base/error.h"
 #include "base/text.h"
 #include "image/bits.h"
 #include "image/deflate_codes.h"
+#include "image/formats.h"
 #include "image/zlib.h"
 
 #include <algorithm>
@@ -12,8 +12,7 @@
 namespace {
 
 [[noreturn]] void broken(const std::string& name, const std::string& what) {
-    fail(ErrorKind::Input,
-         cat(name, ": error: broken compressed data: ", what, "; the file is damaged"));
+    failPicture(name, cat("broken compressed data: ", what, "; the file is damaged"));
 }
 
 // Bits from the lowest of each byte upwards.
@@ -163,8 +162,8 @@ private:
     void storedBlock() {
         auto rest = bits_.restFromByte();
         if (rest.size() < 4) broken(name_, "the file ends in the middle of it");
-        const std::size_t length = static_cast<std::size_t>(rest[0] | rest[1] << 8);
-        if ((length ^ 0xFFFF) != static_cast<std::size_t>(rest[2] | rest[3] << 8))
+        const std::size_t length = loadLittle<std::uint16_t>(&rest[0]);
+        if ((length ^ 0xFFFF) != loadLittle<std::uint16_t>(&rest[2]))
             broken(name_, "a stored block contradicts its length");
         rest = rest.subspan(4);
         if (length > rest.size()) broken(name_, "the file ends in the middle of it");
@@ -290,9 +289,7 @@ std::vector<std::uint8_t> inflateZlib(std::span<const std::uint8_t> stream, std:
     inflater.run();
     const auto rest = inflater.rest();
     if (rest.size() < 4) broken(name, "the file ends in the middle of it");
-    const std::uint32_t promised = static_cast<std::uint32_t>(rest[0]) << 24 |
-                                   static_cast<std::uint32_t>(rest[1]) << 16 |
-                                   static_cast<std::uint32_t>(rest[2]) << 8 | rest[3];
+    const auto promised = loadBig<std::uint32_t>(rest.data());
     std::vector<std::uint8_t> bytes = std::move(inflater).result();
     if (adler32(bytes) != promised) broken(name, "its checksum (Adler-32) does not fit");
     return bytes;

@@ -1,14 +1,9 @@
 // Does what Huffman tables and bits of JPEG need, but not for each symbol.
 #include "image/jpeg_bits.h"
 
-#include "base/error.h"
 #include "base/text.h"
 
 #include <algorithm>
-
-void brokenJpeg(const std::string& name, const std::string& what) {
-    fail(ErrorKind::Input, cat(name, ": error: ", what));
-}
 
 bool JpegHuffman::define(Bytes counts, Bytes symbols) {
     *this = {};
@@ -53,8 +48,8 @@ void JpegBits::restart(unsigned number) {
     const std::size_t marker = nextJpegMarker(file_, at_);
     if (marker == file_.size()) endsEarly();
     if (file_[marker] != kRestart + number)
-        brokenJpeg(name_, cat("the restart marker ", number, " is missing before byte ", marker,
-                              "; the file is damaged"));
+        failPicture(name_, cat("the restart marker ", number, " is missing before byte ", marker,
+                               "; the file is damaged"));
     at_ = marker + 1;
     waiting_ = 0;
     count_ = 0;
@@ -63,12 +58,12 @@ void JpegBits::restart(unsigned number) {
 
 void JpegBits::brokenCode() const {
     if (isAtEnd_ && count_ < JpegHuffman::kLongest) endsEarly();
-    brokenJpeg(name_, cat("there is no Huffman code for the bits before byte ", at_,
-                          "; the file is damaged"));
+    failPicture(name_, cat("there is no Huffman code for the bits before byte ", at_,
+                           "; the file is damaged"));
 }
 void JpegBits::endsEarly() const {
-    brokenJpeg(name_, cat("the data of a scan end too early, at byte ", at_, " of ", file_.size(),
-                          "; the file is cut off or damaged"));
+    failPicture(name_, cat("the data of a scan end too early, at byte ", at_, " of ", file_.size(),
+                           "; the file is cut off or damaged"));
 }
 
 std::size_t nextJpegMarker(Bytes file, std::size_t at) {

@@ -10,9 +10,6 @@
 #include <cstdint>
 #include <string>
 
-// Fails (ErrorKind::Input) with "name: error: what".
-[[noreturn]] void brokenJpeg(const std::string& name, const std::string& what);
-
 // A Huffman table whose codes are found by their first bits.
 class JpegHuffman {
 public:

@@ -112,11 +112,7 @@ void putJpegYcc(int y, int blue, int red, std::uint8_t* out) {
 
 StoredImage jpegPicture(const JpegFrame& frame, bool isYcc) {
     const std::size_t channels = frame.components.size();
-    StoredImage image;
-    image.width = static_cast<int>(frame.width);
-    image.height = static_cast<int>(frame.height);
-    image.channels = static_cast<int>(channels);
-    image.bytes.resize(frame.width * frame.height * channels);
+    StoredImage image = blankPicture(frame.width, frame.height, channels);
     std::vector<JpegPlane> planes;
     for (const JpegComponent& component : frame.components) planes.emplace_back(component, frame);
     std::uint8_t* out = image.bytes.data();

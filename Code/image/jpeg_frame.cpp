@@ -1,7 +1,7 @@
 // Reads the frame header of a JPEG file (ITU-T T.81, B.2.2), which says how large the picture and
 // its planes are.
-#include "base/error.h"
 #include "base/text.h"
+#include "image/bits.h"
 #include "image/jpeg_parts.h"
 
 #include <algorithm>
@@ -14,18 +14,18 @@ std::size_t jpegQuotientUp(std::size_t number, std::size_t divisor) {
 
 void checkJpegHeader(Bytes segment, const std::string& name) {
     if (segment.size() < 6)
-        brokenJpeg(name, cat("the frame header has ", segment.size(), " bytes; at least 6"));
+        failPicture(name, cat("the frame header has ", segment.size(), " bytes; at least 6"));
     const unsigned precision = segment[0], count = segment[5];
     if (precision != 8)
-        brokenJpeg(name, cat("the picture has ", precision, " bits per sample; it must have 8"));
+        failPicture(name, cat("the picture has ", precision, " bits per sample; it must have 8"));
     if (count == 4)
-        brokenJpeg(name, "the picture has four components (CMYK or YCCK); it must be grey, YCbCr "
-                         "or RGB, with 1 or 3");
+        failPicture(name, "the picture has four components (CMYK or YCCK); it must be grey, YCbCr "
+                          "or RGB, with 1 or 3");
     if (count != 1 && count != 3)
-        brokenJpeg(name, cat("the picture has ", count, " components; it must have 1 or 3"));
+        failPicture(name, cat("the picture has ", count, " components; it must have 1 or 3"));
     if (segment.size() != 6 + std::size_t{3} * count)
-        brokenJpeg(name, cat("the frame header has ", segment.size(), " bytes for ", count,
-                             " components; ", 6 + 3 * count));
+        failPicture(name, cat("the frame header has ", segment.size(), " bytes for ", count,
+                              " components; ", 6 + 3 * count));
 }
 
 JpegComponent jpegComponentOf(Bytes bytes, const std::string& name) {
@@ -36,12 +36,12 @@ JpegComponent jpegComponentOf(Bytes bytes, const std::string& name) {
     component.table = bytes[2];
     if (std::min(component.horizontal, component.vertical) < 1 ||
         std::max(component.horizontal, component.vertical) > 4)
-        brokenJpeg(name,
-                   cat("the component ", component.id, " has the sampling factors ",
-                       component.horizontal, "x", component.vertical, "; each must be 1 to 4"));
+        failPicture(name,
+                    cat("the component ", component.id, " has the sampling factors ",
+                        component.horizontal, "x", component.vertical, "; each must be 1 to 4"));
     if (component.table >= kJpegTables)
-        brokenJpeg(name, cat("the component ", component.id, " has the quantisation table ",
-                             component.table, "; 0 to 3"));
+        failPicture(name, cat("the component ", component.id, " has the quantisation table ",
+                              component.table, "; 0 to 3"));
     return component;
 }
 
@@ -63,9 +63,9 @@ void checkJpegLength(const JpegFrame& frame, std::size_t left, const std::string
         blocks += component.columns * component.rows;
     const std::size_t leastBits = frame.isProgressive ? 1 : 2;
     if (blocks * leastBits / 8 > left)
-        brokenJpeg(name, cat("the file is too short for ", frame.width, "x", frame.height,
-                             " pixels: ", left, " bytes cannot hold ", blocks,
-                             " blocks; it is cut off or damaged"));
+        failPicture(name, cat("the file is too short for ", frame.width, "x", frame.height,
+                              " pixels: ", left, " bytes cannot hold ", blocks,
+                              " blocks; it is cut off or damaged"));
 }
 
 } // namespace
@@ -75,19 +75,19 @@ JpegFrame readJpegFrame(Bytes segment, bool isProgressive, std::size_t left,
     checkJpegHeader(segment, name);
     JpegFrame frame;
     frame.isProgressive = isProgressive;
-    frame.height = static_cast<std::size_t>(segment[1] << 8 | segment[2]);
-    frame.width = static_cast<std::size_t>(segment[3] << 8 | segment[4]);
+    frame.height = loadBig<std::uint16_t>(&segment[1]);
+    frame.width = loadBig<std::uint16_t>(&segment[3]);
     if (frame.height == 0)
-        brokenJpeg(name,
-                   "the frame header says that the height comes later (a DNL marker); it must "
-                   "say the height");
+        failPicture(name,
+                    "the frame header says that the height comes later (a DNL marker); it must "
+                    "say the height");
     checkSize(static_cast<long long>(frame.width), static_cast<long long>(frame.height), name);
     for (std::size_t at = 6; at < segment.size(); at += 3) {
         const JpegComponent component = jpegComponentOf(segment.subspan(at, 3), name);
         for (const JpegComponent& other : frame.components)
             if (other.id == component.id)
-                brokenJpeg(name, cat("two components have the identifier ", component.id,
-                                     "; each needs its own"));
+                failPicture(name, cat("two components have the identifier ", component.id,
+                                      "; each needs its own"));
         frame.components.push_back(component);
     }
     // A picture of one component has no MCUs of several blocks, whatever its factors (A.2.2).

@@ -1,6 +1,6 @@
 // Reads JPEG: the segments of a file one after the other (ITU-T T.81, annex B), up to the pixels.
-#include "base/error.h"
 #include "base/text.h"
+#include "image/bits.h"
 #include "image/formats.h"
 #include "image/jpeg_parts.h"
 
@@ -58,14 +58,14 @@ public:
 
     StoredImage read() {
         if (file_.size() < 2 || file_[0] != 0xFF || file_[1] != kJpegStart)
-            brokenJpeg(name_,
-                       "the file does not begin with the bytes FF D8; each JPEG picture does");
+            failPicture(name_,
+                        "the file does not begin with the bytes FF D8; each JPEG picture does");
         std::size_t at = 2;
         while (!isComplete()) {
             const std::size_t marker = nextJpegMarker(file_, at);
             if (marker == file_.size())
-                brokenJpeg(name_, "the file ends before the picture does (the marker EOI); it is "
-                                  "cut off or damaged");
+                failPicture(name_, "the file ends before the picture does (the marker EOI); it is "
+                                   "cut off or damaged");
             const unsigned kind = file_[marker];
             at = marker + 1;
             if (kind == kJpegEnd) break;
@@ -85,37 +85,37 @@ private:
     // Returns the bytes of a segment without its length, which starts at `at`.
     Bytes segmentAt(std::size_t at) const {
         const std::size_t left = file_.size() - at;
-        const std::size_t length =
-            left < 2 ? left + 1 : static_cast<std::size_t>(file_[at] << 8 | file_[at + 1]);
+        const std::size_t length = left < 2 ? left + 1 : loadBig<std::uint16_t>(&file_[at]);
         if (length > left)
-            brokenJpeg(name_, "the file ends in the middle of a segment; it is cut off or damaged");
+            failPicture(name_,
+                        "the file ends in the middle of a segment; it is cut off or damaged");
         if (length < 2)
-            brokenJpeg(name_,
-                       cat("the segment at byte ", at, " has the length ", length, "; at least 2"));
+            failPicture(
+                name_, cat("the segment at byte ", at, " has the length ", length, "; at least 2"));
         return file_.subspan(at + 2, length - 2);
     }
 
     void take(unsigned kind, Bytes segment, std::size_t left) {
         const std::string_view text(reinterpret_cast<const char*>(segment.data()), segment.size());
         if (const std::string_view unknown = jpegUnknownKind(kind); !unknown.empty())
-            brokenJpeg(name_, cat("the picture is ", unknown,
-                                  "; it must be baseline, extended or progressive, with Huffman "
-                                  "codes"));
+            failPicture(name_, cat("the picture is ", unknown,
+                                   "; it must be baseline, extended or progressive, with Huffman "
+                                   "codes"));
         switch (kind) {
         case kJpegStart:
-            brokenJpeg(name_, "a second picture starts within the first one; there must be one");
+            failPicture(name_, "a second picture starts within the first one; there must be one");
         case kJpegBaseline:
         case kJpegExtended:
         case kJpegProgressive:
-            if (frame_) brokenJpeg(name_, "there are two frame headers; there must be one");
+            if (frame_) failPicture(name_, "there are two frame headers; there must be one");
             frame_ = readJpegFrame(segment, kind == kJpegProgressive, left, name_);
             break;
         case kJpegHuffmanTables: readJpegHuffman(segment, tables_, name_); break;
         case kJpegQuantisation: readJpegSteps(segment, tables_, name_); break;
         case kJpegRestartInterval:
             if (segment.size() != 2)
-                brokenJpeg(name_, cat("the restart interval has ", segment.size(), " bytes; 2"));
-            restartInterval_ = static_cast<std::size_t>(segment[0] << 8 | segment[1]);
+                failPicture(name_, cat("the restart interval has ", segment.size(), " bytes; 2"));
+            restartInterval_ = loadBig<std::uint16_t>(segment.data());
             break;
         case kJpegApplication: isJfif_ = isJfif_ || text.starts_with("JFIF\0"sv); break;
         case kJpegApplicationAdobe: // byte 11 is the transform
@@ -128,16 +128,16 @@ private:
     // Reads a scan header (B.2.3) and the scan; returns where it ends.
     std::size_t takeScan(Bytes segment, std::size_t at) {
         if (!frame_)
-            brokenJpeg(name_, "a scan comes before the frame header; it must come after it");
+            failPicture(name_, "a scan comes before the frame header; it must come after it");
         const std::size_t count = segment.empty() ? 0 : segment[0];
         if (count < 1 || count > frame_->components.size() || segment.size() != 4 + 2 * count)
-            brokenJpeg(name_,
-                       cat("a scan header has ", segment.size(), " bytes for ", count,
-                           " components; 4, and 2 for each of 1 to ", frame_->components.size()));
+            failPicture(name_,
+                        cat("a scan header has ", segment.size(), " bytes for ", count,
+                            " components; 4, and 2 for each of 1 to ", frame_->components.size()));
         if (++scans_ > kMostScans)
-            brokenJpeg(name_, cat("the picture has more than ", kMostScans,
-                                  " scans; at most so "
-                                  "many are read"));
+            failPicture(name_, cat("the picture has more than ", kMostScans,
+                                   " scans; at most so "
+                                   "many are read"));
         const Bytes bands = segment.subspan(1 + 2 * count);
         JpegScan scan;
         scan.restartInterval = restartInterval_;
@@ -160,13 +160,13 @@ private:
         if (isDc ? scan.spectralEnd != 0
                  : scan.spectralEnd < scan.spectralStart ||
                        scan.spectralEnd >= kJpegZigzag.size() || count != 1)
-            brokenJpeg(name_, cat("a scan of ", count, " components has the coefficients ",
-                                  scan.spectralStart, " to ", scan.spectralEnd,
-                                  "; it must have 0 alone, or some of 1 to 63 of one component"));
+            failPicture(name_, cat("a scan of ", count, " components has the coefficients ",
+                                   scan.spectralStart, " to ", scan.spectralEnd,
+                                   "; it must have 0 alone, or some of 1 to 63 of one component"));
         constexpr int kMostBit = 13;
         if (scan.lowBit > kMostBit || (scan.highBit != 0 && scan.highBit != scan.lowBit + 1))
-            brokenJpeg(name_, cat("a scan comes from the bit ", scan.highBit, " to ", scan.lowBit,
-                                  "; from 0 to at most ", kMostBit, ", or to the next lower one"));
+            failPicture(name_, cat("a scan comes from the bit ", scan.highBit, " to ", scan.lowBit,
+                                   "; from 0 to at most ", kMostBit, ", or to the next lower one"));
     }
 
     JpegScan::Part partOf(const JpegScan& scan, unsigned id, unsigned tables) {
@@ -174,12 +174,12 @@ private:
             std::find_if(frame_->components.begin(), frame_->components.end(),
                          [id](const JpegComponent& other) { return other.id == id; });
         if (component == frame_->components.end())
-            brokenJpeg(name_, cat("a scan has the component ", id,
-                                  ", which is not in the frame "
-                                  "header; it must be one of these"));
+            failPicture(name_, cat("a scan has the component ", id,
+                                   ", which is not in the frame "
+                                   "header; it must be one of these"));
         for (const JpegScan::Part& other : scan.parts)
             if (other.component == &*component)
-                brokenJpeg(name_, cat("a scan has the component ", id, " twice; once"));
+                failPicture(name_, cat("a scan has the component ", id, " twice; once"));
         const bool isSequential = !frame_->isProgressive;
         const bool isDc = scan.spectralStart == 0;
         const bool needsDc = isDc && scan.highBit == 0, needsAc = isSequential || !isDc;
@@ -188,8 +188,8 @@ private:
             return number >= known.size() || !known[number].isDefined();
         };
         if ((needsDc && isMissing(tables_.dc, dc)) || (needsAc && isMissing(tables_.ac, ac)))
-            brokenJpeg(name_, cat("a scan has the Huffman tables ", dc, " (DC) and ", ac,
-                                  " (AC), which are not in the file before it; they must be"));
+            failPicture(name_, cat("a scan has the Huffman tables ", dc, " (DC) and ", ac,
+                                   " (AC), which are not in the file before it; they must be"));
         return {&*component, needsDc ? &tables_.dc[dc] : nullptr,
                 needsAc ? &tables_.ac[ac] : nullptr};
     }
@@ -200,9 +200,9 @@ private:
         if (!component.hasScan) {
             const JpegSteps& steps = tables_.steps[component.table];
             if (!steps.isDefined)
-                brokenJpeg(name_, cat("the component ", component.id,
-                                      " has the quantisation table ", component.table,
-                                      ", which is not in the file before it; it must be"));
+                failPicture(name_, cat("the component ", component.id,
+                                       " has the quantisation table ", component.table,
+                                       ", which is not in the file before it; it must be"));
             component.steps = steps;
             if (frame_->isProgressive) {
                 component.coefficients.resize(component.storedColumns * component.storedRows);
@@ -211,19 +211,19 @@ private:
                 component.samples.resize(kJpegSide * component.storedRows * component.stride());
             }
         } else if (!frame_->isProgressive) {
-            brokenJpeg(name_, cat("the component ", component.id, " has two scans; one"));
+            failPicture(name_, cat("the component ", component.id, " has two scans; one"));
         }
         component.hasScan = true;
         if (!frame_->isProgressive) return;
         if (scan.spectralStart > 0 && component.lowestBit[0] == JpegComponent::kNoBit)
-            brokenJpeg(name_, cat("the first scan of the component ", component.id,
-                                  " has not the coefficient 0; it must"));
+            failPicture(name_, cat("the first scan of the component ", component.id,
+                                   " has not the coefficient 0; it must"));
         const int before = scan.highBit == 0 ? JpegComponent::kNoBit : scan.highBit;
         for (unsigned k = scan.spectralStart; k <= scan.spectralEnd; ++k) {
             if (component.lowestBit[k] != before)
-                brokenJpeg(name_, cat("a scan repeats or leaves out bits of the coefficient ", k,
-                                      " of the component ", component.id,
-                                      "; each bit must come once, the highest first"));
+                failPicture(name_, cat("a scan repeats or leaves out bits of the coefficient ", k,
+                                       " of the component ", component.id,
+                                       "; each bit must come once, the highest first"));
             component.lowestBit[k] = scan.lowBit;
         }
     }
@@ -237,9 +237,9 @@ private:
 
     StoredImage finished() {
         if (!frame_)
-            brokenJpeg(name_, "the file ends before the frame header; it is cut off or damaged");
+            failPicture(name_, "the file ends before the frame header; it is cut off or damaged");
         if (!allHaveScans())
-            brokenJpeg(
+            failPicture(
                 name_,
                 "the file ends before all components have had a scan; it is cut off or damaged");
         if (frame_->isProgressive)

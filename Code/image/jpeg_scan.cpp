@@ -1,6 +1,5 @@
 // Decodes the entropy-coded data of a JPEG scan, which is sequential (ITU-T T.81, annex F) or
 // progressive (annex G).
-#include "base/error.h"
 #include "base/text.h"
 #include "image/jpeg_parts.h"
 
@@ -77,7 +76,7 @@ private:
         constexpr unsigned kMostBits = 15;
         const unsigned size = bits_.symbol(*scan_.parts[part].dc);
         if (size > kMostBits)
-            brokenJpeg(name_, cat("a DC coefficient has ", size, " bits; at most ", kMostBits));
+            failPicture(name_, cat("a DC coefficient has ", size, " bits; at most ", kMostBits));
         predictions_[part] += bits_.takeSigned(size);
         return scaled(predictions_[part], scale);
     }
@@ -85,7 +84,7 @@ private:
         const int product = value * scale; // it fits: 17 bits times 2^13
         constexpr int kMost = std::numeric_limits<std::int16_t>::max();
         if (product < -kMost || product > kMost)
-            brokenJpeg(name_, cat("a coefficient is ", product, "; at most ", kMost));
+            failPicture(name_, cat("a coefficient is ", product, "; at most ", kMost));
         return static_cast<std::int16_t>(product);
     }
 
@@ -108,8 +107,8 @@ private:
     }
     void checkIndex(std::size_t index, std::size_t last) const {
         if (index > last)
-            brokenJpeg(name_, cat("a block has a coefficient with the number ", index, "; at most ",
-                                  last, " in this scan"));
+            failPicture(name_, cat("a block has a coefficient with the number ", index,
+                                   "; at most ", last, " in this scan"));
     }
 
     JpegBlock& blockAt(const Place& place) {
@@ -163,7 +162,7 @@ private:
             const unsigned symbol = bits_.symbol(*scan_.parts[0].ac);
             const unsigned zeros = symbol >> 4, size = symbol & 15;
             if (size > 1)
-                brokenJpeg(name_, cat("a new coefficient has ", size, " bits; it must have 1"));
+                failPicture(name_, cat("a new coefficient has ", size, " bits; it must have 1"));
             if (size == 0 && zeros < kZeroRun) {
                 endOfBandRun_ = endOfBandRun(zeros);
                 break;

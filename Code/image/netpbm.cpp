@@ -10,14 +10,7 @@ namespace {
 
 bool isSpace(std::uint8_t c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
 bool isDigit(std::uint8_t c) { return c >= '0' && c <= '9'; }
-
-// Something of the file in a message: printable and short.
-std::string shown(std::string_view word) {
-    constexpr std::size_t kLongest = 20;
-    std::string out = "'";
-    for (const char c : word.substr(0, kLongest)) out += c > ' ' && c <= '~' ? c : '?';
-    return out + (word.size() > kLongest ? "...'" : "'");
-}
+std::string shown(std::string_view word) { return quotedPart(word, 20); }
 
 } // namespace
 
@@ -89,7 +82,7 @@ Bytes NetpbmHeader::data(std::size_t size) {
     // A header with Windows line ends: recognised by the one byte that is too many.
     if (isReturn && left() == size + 1 && file_[at_] == '\n') ++at_;
     if (left() < size)
-        fail(ErrorKind::Input, cat(name_, ": error: the file ends too early: the header promises ",
-                                   size, " bytes of pixels, ", left(), " follow it"));
+        failPicture(name_, cat("the file ends too early: the header promises ", size,
+                               " bytes of pixels, ", left(), " follow it"));
     return file_.subspan(at_, size);
 }

@@ -1,6 +1,5 @@
 // PFM (Debevec): "PF" or "Pf", size, scale (negative: little-endian), 32-bit floats, bottom row
 // first. Always linear.
-#include "base/error.h"
 #include "base/text.h"
 #include "image/bits.h"
 #include "image/netpbm.h"
@@ -18,26 +17,16 @@ StoredImage decodePfm(Bytes file, const std::string& name) {
     const std::size_t row = static_cast<std::size_t>(width) * channels;
     const std::size_t count = row * static_cast<std::size_t>(height);
     const Bytes data = header.data(4 * count);
-    StoredImage image{static_cast<int>(width),
-                      static_cast<int>(height),
-                      static_cast<int>(channels),
-                      StoredImage::Depth::Float,
-                      {},
-                      {},
-                      {}};
-    image.floats.resize(count);
-    const unsigned firstShift = scale < 0 ? 0 : 24;
+    StoredImage image =
+        blankPicture(row / channels, count / row, channels, StoredImage::Depth::Float);
+    const auto load = scale < 0 ? loadLittle<std::uint32_t> : loadBig<std::uint32_t>;
     const float factor = static_cast<float>(std::fabs(scale));
     for (std::size_t i = 0; i < count; ++i) {
-        const std::uint8_t* b = data.data() + 4 * i;
-        std::uint32_t bits = 0;
-        for (unsigned k = 0; k < 4; ++k)
-            bits |= static_cast<std::uint32_t>(b[k]) << (firstShift ^ 8 * k);
         const std::size_t fromTop = static_cast<std::size_t>(height) - 1 - i / row;
-        const float value = std::bit_cast<float>(bits) * factor;
+        const float value = std::bit_cast<float>(load(&data[4 * i])) * factor;
         if (!std::isfinite(value))
-            fail(ErrorKind::Input, cat(name, ": error: the pixel ", i % row / channels, ",",
-                                       fromTop, " is not a finite number"));
+            failPicture(name, cat("the pixel ", i % row / channels, ",", fromTop,
+                                  " is not a finite number"));
         image.floats[fromTop * row + i % row] = value;
     }
     return image;

@@ -67,10 +67,5 @@ struct PngChunks {
     std::vector<std::uint8_t> packed;
 };
 
-// Samples of 16 bits have the high byte first.
-inline std::uint16_t wordAt(Bytes bytes, std::size_t at) {
-    return static_cast<std::uint16_t>(bytes[at] << 8 | bytes[at + 1]);
-}
-
 // Ancillary chunks other than tRNS are skipped. Fails with "name: error: what".
 PngChunks readPngChunks(Bytes file, const std::string& name);

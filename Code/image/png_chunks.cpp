@@ -1,6 +1,6 @@
 // A PNG file as its chunks say it is: everything but the pixels, which are still packed.
-#include "base/error.h"
 #include "base/text.h"
+#include "image/bits.h"
 #include "image/png.h"
 #include "image/zlib.h"
 
@@ -11,11 +11,7 @@
 
 namespace {
 
-std::uint32_t numberAt(Bytes bytes, std::size_t at) {
-    return static_cast<std::uint32_t>(bytes[at]) << 24 |
-           static_cast<std::uint32_t>(bytes[at + 1]) << 16 |
-           static_cast<std::uint32_t>(bytes[at + 2]) << 8 | bytes[at + 3];
-}
+std::uint32_t numberAt(Bytes bytes, std::size_t at) { return loadBig<std::uint32_t>(&bytes[at]); }
 
 class PngChunkReader {
 public:
@@ -46,9 +42,7 @@ public:
     }
 
 private:
-    [[noreturn]] void broken(const std::string& what) const {
-        fail(ErrorKind::Input, cat(name_, ": error: ", what));
-    }
+    [[noreturn]] void broken(const std::string& what) const { failPicture(name_, what); }
     static bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 
     void take(std::string_view type, Bytes data) {
@@ -130,7 +124,8 @@ private:
         if (data.size() != 2 * samples)
             broken(cat("the tRNS chunk has ", data.size(), " bytes; ", 2 * samples));
         chunks_.transparent.emplace();
-        for (std::size_t i = 0; i < samples; ++i) (*chunks_.transparent)[i] = wordAt(data, 2 * i);
+        for (std::size_t i = 0; i < samples; ++i)
+            (*chunks_.transparent)[i] = loadBig<std::uint16_t>(&data[2 * i]);
     }
 
     void takePixels(Bytes data) {

@@ -1,7 +1,7 @@
 // Reads PNG: every colour type, depth and interlace method of the specification. Colour management
 // is the caller's business.
-#include "base/error.h"
 #include "base/text.h"
+#include "image/bits.h"
 #include "image/png.h"
 #include "image/zlib.h"
 
@@ -31,17 +31,10 @@ public:
         const PngHeader& header = chunks.header;
         const bool isPalette = header.colourType == kPngPalette;
         const bool addsAlpha = chunks.transparent.has_value() || chunks.hasPaletteAlpha;
-        out_.width = static_cast<int>(header.width);
-        out_.height = static_cast<int>(header.height);
-        out_.channels = static_cast<int>((isPalette ? 3 : header.samples()) + (addsAlpha ? 1 : 0));
-        const std::size_t count =
-            header.width * header.height * static_cast<std::size_t>(out_.channels);
-        if (header.depth == 16) {
-            out_.depth = StoredImage::Depth::Bits16;
-            out_.words.resize(count);
-        } else {
-            out_.bytes.resize(count);
-        }
+        using enum StoredImage::Depth;
+        out_ = blankPicture(header.width, header.height,
+                            (isPalette ? 3 : header.samples()) + (addsAlpha ? 1 : 0),
+                            header.depth == 16 ? Bits16 : Bits8);
     }
 
     void putRow(Bytes row, std::size_t columns, std::size_t y, std::size_t x0, std::size_t dx) {
@@ -78,7 +71,7 @@ private:
     unsigned sampleAt(Bytes row, std::size_t index) const {
         const unsigned depth = chunks_.header.depth;
         if (depth == 8) return row[index];
-        if (depth == 16) return wordAt(row, 2 * index);
+        if (depth == 16) return loadBig<std::uint16_t>(&row[2 * index]);
         const std::size_t bit = index * depth; // the leftmost sample has the highest bits
         return row[bit / 8] >> (8 - depth - bit % 8) & ((1u << depth) - 1);
     }
@@ -90,8 +83,8 @@ private:
     }
     void putColour(std::size_t at, unsigned index) {
         if (index >= chunks_.palette.size())
-            fail(ErrorKind::Input, cat(name_, ": error: a pixel has colour ", index,
-                                       ", but the palette has only ", chunks_.palette.size()));
+            failPicture(name_, cat("a pixel has colour ", index, ", but the palette has only ",
+                                   chunks_.palette.size()));
         const PngColour colour = chunks_.palette[index];
         out_.bytes[at] = colour.r;
         out_.bytes[at + 1] = colour.g;
@@ -116,9 +109,8 @@ StoredImage decodePng(Bytes file, const std::string& name) {
         if (columns > 0) size += rows * (1 + header.rowBytes(columns));
     }
     if (size / kMaxInflation > chunks.packed.size())
-        fail(ErrorKind::Input,
-             cat(name, ": error: the file is too short for ", header.width, "x", header.height,
-                 " pixels: ", chunks.packed.size(), " bytes cannot hold ", size));
+        failPicture(name, cat("the file is too short for ", header.width, "x", header.height,
+                              " pixels: ", chunks.packed.size(), " bytes cannot hold ", size));
     std::vector<std::uint8_t> rows = inflateZlib(chunks.packed, size, name);
 
     PixelWriter picture(chunks, name);
@@ -132,8 +124,8 @@ StoredImage decodePng(Bytes file, const std::string& name) {
         Bytes above(zeros);
         for (std::size_t y = pass.y0; y < header.height; y += pass.dy) {
             if (rest[0] >= kPngFilterCount)
-                fail(ErrorKind::Input, cat(name, ": error: row ", y, " has the filter ",
-                                           rest[0] + 0, "; it must be 0 to 4"));
+                failPicture(name,
+                            cat("row ", y, " has the filter ", rest[0] + 0, "; it must be 0 to 4"));
             const auto row = rest.subspan(1, rowBytes);
             unfilterRow(static_cast<PngFilter>(rest[0]), row, above, pixelBytes);
             picture.putRow(row, columns, y, pass.x0, pass.dx);

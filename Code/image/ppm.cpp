@@ -1,6 +1,6 @@
 // PPM and PGM (netpbm): P6 and P5 binary, P3 and P2 as text; 8 or 16 bits, any maxval.
-#include "base/error.h"
 #include "base/text.h"
+#include "image/bits.h"
 #include "image/netpbm.h"
 
 #include <algorithm>
@@ -49,9 +49,8 @@ StoredImage decodePpm(Bytes file, const std::string& name) {
     if (isText) {
         // A digit and a space each, the last without the space.
         if (header.left() < 2 * count)
-            fail(ErrorKind::Input,
-                 cat(name, ": error: the file ends too early: the header promises ", count,
-                     " samples, only ", header.left(), " bytes follow it"));
+            failPicture(name, cat("the file ends too early: the header promises ", count,
+                                  " samples, only ", header.left(), " bytes follow it"));
         store([&] { return header.sample(maxval); });
         if (header.hasMore())
             header.failHere(cat("more samples than ", width, "x", height, "x", image.channels));
@@ -61,15 +60,14 @@ StoredImage decodePpm(Bytes file, const std::string& name) {
     const std::uint8_t* next = header.data(count * sampleBytes).data();
     const auto checked = [&](std::uint32_t sample) {
         if (sample > maxval)
-            fail(ErrorKind::Input,
-                 cat(name, ": error: the sample ", sample, " is larger than the maxval ", maxval));
+            failPicture(name, cat("the sample ", sample, " is larger than the maxval ", maxval));
         return sample;
     };
     if (sampleBytes == 1)
         store([&] { return checked(*next++); });
     else
         store([&] {
-            const std::uint32_t sample = static_cast<std::uint32_t>(next[0] << 8 | next[1]);
+            const std::uint32_t sample = loadBig<std::uint16_t>(next);
             next += 2;
             return checked(sample);
         });

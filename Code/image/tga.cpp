@@ -1,7 +1,6 @@
 // Reads TGA: the header, the colour map, and pixels as they are or run-length encoded.
 #include "image/formats.h"
 
-#include "base/error.h"
 #include "base/text.h"
 #include "image/bits.h"
 
@@ -100,11 +99,7 @@ public:
         needs(header_.isPacked() ? (count + kMostInPacket - 1) / kMostInPacket * (1 + pixelBytes_)
                                  : count * pixelBytes_,
               "for its pixels");
-        StoredImage image;
-        image.width = static_cast<int>(header_.width);
-        image.height = static_cast<int>(header_.height);
-        image.channels = static_cast<int>(colour_.channels());
-        image.bytes.resize(count * colour_.channels());
+        StoredImage image = blankPicture(header_.width, header_.height, colour_.channels());
         to_ = image.bytes.data();
         if (header_.isPacked())
             takePackets(count);
@@ -117,9 +112,7 @@ public:
 private:
     static constexpr std::size_t kMostInPacket = 128;
 
-    [[noreturn]] void broken(const std::string& what) const {
-        fail(ErrorKind::Input, cat(name_, ": error: ", what));
-    }
+    [[noreturn]] void broken(const std::string& what) const { failPicture(name_, what); }
     void needs(std::size_t bytes, std::string_view why) const {
         if (at_ > file_.size() || file_.size() - at_ < bytes)
             broken(cat("the file is too short ", why, ": it has ", file_.size(), " bytes; ", bytes,
