@@ -47,26 +47,6 @@ public:
         if (place.isEmpty()) return {};
         return nameAt(place).number;
     }
-    // The same. Most are looked up one several times, or in the order in which they came: `last`,
-    // where the one before was found, and the next one are asked without a look into a table that
-    // lies far away.
-    std::optional<std::uint32_t> find(std::string_view name, std::uint32_t& last) const {
-        const auto isAt = [&](std::uint32_t i) {
-            return i < names_.size() && names_[i].text() == name;
-        };
-        if (!isAt(last)) {
-            if (isAt(last + 1)) {
-                ++last;
-            } else {
-                const Place& place = places_[placeOf(name, hashOf(name))];
-                if (place.isEmpty()) return {};
-                last = place.index;
-            }
-            // The next name lies in text of long ago.
-            if (last + 1 < names_.size()) __builtin_prefetch(names_[last + 1].first);
-        }
-        return names_[last].number;
-    }
 
     // Eight bytes at a time, each mixed by a product (Fibonacci hashing, Knuth) whose upper half is
     // folded down. Most names are shorter than a call of the library's hash is worth.

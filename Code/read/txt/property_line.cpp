@@ -126,19 +126,14 @@ void NumberLine::expectNoMore() {
     in_.failAt(extra.offset, cat(expected(), ", got ", got_));
 }
 
-void PropertyLine::read(void* block, const Property& property, LineBefore& before) {
+void PropertyLine::read(void* block, const Property& property) {
     keyword_ = property.keyword;
-    if (!before.text.empty() && in_.textLeft().starts_with(before.text)) {
-        setNumbers(property, block, before.numbers.data());
-        return in_.moveTo(before.text.size() + in_.offset());
-    }
     if (property.hasWord()) readWord(block, property.first);
-    if (property.numberCount() > 0) return readNumbers(block, property, before);
+    if (property.numberCount() > 0) return readNumbers(block, property);
     expectLineEnd(in_, keyword_, open_);
 }
 
-void PropertyLine::readNumbers(void* block, const Property& property, LineBefore& before) {
-    const std::string_view left = in_.textLeft();
+void PropertyLine::readNumbers(void* block, const Property& property) {
     const std::size_t count = property.numberCount(), faultsBefore = errors_.count();
     NumberLine line(in_, errors_, keyword_, count);
     std::array<double, kMostNumbers> numbers;
@@ -146,11 +141,7 @@ void PropertyLine::readNumbers(void* block, const Property& property, LineBefore
         property.isWhole() ? line.readWhole(numbers[i], property.range)
                            : line.read(numbers[i], property.range);
     line.finish(open_);
-    if (errors_.count() > faultsBefore) return;
-    setNumbers(property, block, numbers.data());
-    if (property.hasWord() || count > before.numbers.size()) return;
-    before.text = left.substr(0, left.size() - in_.textLeft().size());
-    std::copy_n(numbers.begin(), count, before.numbers.begin());
+    if (errors_.count() == faultsBefore) setNumbers(property, block, numbers.data());
 }
 
 void PropertyLine::readWord(void* block, const Field& field) {

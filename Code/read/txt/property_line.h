@@ -6,7 +6,6 @@
 #include "read/txt/references.h"
 #include "read/txt/scanner.h"
 
-#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -47,25 +46,18 @@ private:
     std::size_t count_, got_ = 0;
 };
 
-// The numbers of a property in the block before. Many blocks of a file say the same again, and a
-// line is compared faster than its numbers are read.
-struct LineBefore {
-    std::string_view text; // behind the keyword, with the end of the line; empty: none
-    std::array<double, 4> numbers{};
-};
-
 // Reads the values of a property.
 class PropertyLine {
 public:
     PropertyLine(Scanner& in, ErrorList& errors, References& references, const Token& open)
         : in_(in), errors_(errors), references_(references), open_(open) {}
 
-    void read(void* block, const Property& property, LineBefore& before);
+    void read(void* block, const Property& property);
     // Where the last value stands that is a text; SourceLoc::kUnknown before one was read.
     std::uint32_t textOffset() const { return textOffset_; }
 
 private:
-    void readNumbers(void* block, const Property& property, LineBefore& before);
+    void readNumbers(void* block, const Property& property);
     void readWord(void* block, const Field& field);
     void readChoice(void* block, const Field& field);
     void readMaterials(OneOrMore<Handle>& handles, bool many);

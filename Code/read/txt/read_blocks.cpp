@@ -189,8 +189,6 @@ private:
         std::array<std::size_t, kMostProperties> given;
         std::fill_n(given.begin(), rows.size(), kNotGiven);
         PropertyLine line(in_, errors_, blocks_.references, word);
-        Habits& habits = habits_[static_cast<std::size_t>(type)];
-        std::size_t* next = &habits.first;
         while (true) {
             const Token t = in_.next();
             if (t.kind == TokenKind::LineEnd) continue;
@@ -206,26 +204,20 @@ private:
                 expectLineEnd(in_, kFov, word);
                 continue;
             }
-            const auto isMeant = [&](const Property& p) {
-                return isSameWord(p.keyword, t.text) && (p.kinds & kinds);
-            };
-            if (!isMeant(rows[*next])) {
-                if (type == BlockType::Material && isSameWord(kLobeWord, t.text)) {
-                    readLobe(*static_cast<MaterialDesc*>(block), t, word, given);
-                    continue;
-                }
-                const auto row = std::find_if(rows.begin(), rows.end(), isMeant);
-                if (row == rows.end()) failUnknown(rows, kinds, keys != nullptr, t, word);
-                *next = static_cast<std::size_t>(row - rows.begin());
+            if (type == BlockType::Material && isSameWord(kLobeWord, t.text)) {
+                readLobe(*static_cast<MaterialDesc*>(block), t, word, given);
+                continue;
             }
-            const std::size_t number = *next;
-            next = &habits.after[number];
-            std::size_t& before = given[number];
+            const auto row = std::find_if(rows.begin(), rows.end(), [&](const Property& p) {
+                return isSameWord(p.keyword, t.text) && (p.kinds & kinds);
+            });
+            if (row == rows.end()) failUnknown(rows, kinds, keys != nullptr, t, word);
+            std::size_t& before = given[static_cast<std::size_t>(row - rows.begin())];
             if (before != kNotGiven)
                 in_.failAt(t.offset,
                            cat("'", t.text, "' was given already at line ", in_.lineOf(before)));
             before = t.offset;
-            line.read(block, rows[number], habits.before[number]);
+            line.read(block, *row);
         }
         expectLineEnd(in_, "}", word);
         return line.textOffset();
@@ -247,14 +239,6 @@ private:
             return cat("a material has at most ", LobeDesc::kMost, " lobes; leave this one out");
         });
     }
-
-    // The rows of the properties that came first, and behind each other, the last time: blocks of a
-    // file have theirs in the same order. And what they said.
-    struct Habits {
-        std::size_t first = 0;
-        std::array<std::size_t, kMostProperties> after{};
-        std::array<LineBefore, kMostProperties> before{};
-    };
 
     [[noreturn]] void failUnknown(std::span<const Property> rows, KindMask kinds, bool hasPlace,
                                   const Token& t, const Token& word) {
@@ -312,7 +296,6 @@ private:
     ErrorList& errors_;
     Blocks& blocks_;
     double fovDeg_ = 0; // of the camera that is read; 0: not given
-    std::array<Habits, kNamesByValue<BlockType>.size()> habits_;
 };
 
 } // namespace

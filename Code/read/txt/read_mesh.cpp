@@ -68,8 +68,7 @@ private:
                        cat("'", t.text, "' was given already at line ", in_.lineOf(before)));
         before = t.offset;
         References none(in_.source(), false); // a mesh names nothing
-        LineBefore nothing;
-        PropertyLine(in_, errors_, none, open_).read(&mesh_, *row, nothing);
+        PropertyLine(in_, errors_, none, open_).read(&mesh_, *row);
         if (row->keyword == "file") mesh_.fileLoc = {static_cast<std::uint32_t>(t.offset)};
         return true;
     }

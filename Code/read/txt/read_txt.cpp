@@ -79,34 +79,17 @@ template <class Block> bool takeSingle(Block& all, const Block& some) {
     return isFirst;
 }
 
-// The system clears memory where it is touched first: all threads do that.
-void touchTogether(volatile char* memory, std::size_t bytes, int threads) {
-    // More would be there twice before the parts are let go of.
-    constexpr std::size_t kMost = std::size_t{1} << 30, kTogether = std::size_t{1} << 21,
-                          kPage = std::size_t{1} << 12;
-    forEachPart(threads, std::min(kMost, bytes), kTogether,
-                [&](std::size_t first, std::size_t last) {
-                    for (std::size_t at = first; at < last; at += kPage) memory[at] = 0;
-                });
-}
-
 using Parts = std::vector<std::optional<Blocks>>;
-template <auto list> void makeRoom(SceneDesc& all, const Parts& parts, int threads) {
-    auto& blocks = all.*list;
+template <auto list> void join(SceneDesc& all, Parts& parts) {
     std::size_t count = 0;
     for (const auto& part : parts) count += (part->desc.*list).size();
-    blocks.reserve(count);
-    touchTogether(reinterpret_cast<volatile char*>(blocks.data()), count * sizeof blocks[0],
-                  threads);
-}
-template <auto list> void join(SceneDesc& all, Parts& parts) {
+    (all.*list).reserve(count);
     for (auto& part : parts) {
         auto some = std::move(part->desc.*list);
         for (auto& block : some) (all.*list).push_back(std::move(block));
     }
 }
 template <auto... lists> void joinLists(SceneDesc& all, Parts& parts, int threads) {
-    (makeRoom<lists>(all, parts, threads), ...);
     constexpr void (*kJoins[])(SceneDesc&, Parts&) = {join<lists>...};
     forEachOn(threads, std::size(kJoins), [&](std::size_t i) { kJoins[i](all, parts); });
 }

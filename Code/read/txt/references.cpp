@@ -45,7 +45,7 @@ Handle References::use(BlockType target, const Token& name) {
     const auto t = static_cast<std::size_t>(target);
     if (!isPart_)
         if (const auto plain = plainText(name))
-            if (const auto found = known_[t].find(*plain, lastUsed_[t]))
+            if (const auto found = known_[t].find(*plain))
                 return static_cast<Handle>(*found);
     waiting_.push_back(name);
     return waitingAs(waiting_.size() - 1);
@@ -54,14 +54,12 @@ Handle References::use(BlockType target, const Token& name) {
 void References::resolve(SceneDesc& desc, const NameTables& names, ErrorList& errors) const {
     if (isComplete()) return;
     const Scanner in(*source_);
-    LastUsed last{};
     const auto resolveOne = [&](Handle& handle, BlockType target, std::string_view) {
         if (handle >= kNone) return;
         const Token& t = waiting_[static_cast<std::size_t>(waitingAs(0) - handle)];
         const std::string quoted = t.kind == TokenKind::Word ? "" : in.nameIn(t);
         const std::string_view name = t.kind == TokenKind::Word ? t.text : quoted;
-        const auto found = names[static_cast<std::size_t>(target)].find(
-            name, last[static_cast<std::size_t>(target)]);
+        const auto found = names[static_cast<std::size_t>(target)].find(name);
         handle = found ? static_cast<Handle>(*found) : kNone;
         if (!found)
             errors.add({static_cast<std::uint32_t>(t.offset)},

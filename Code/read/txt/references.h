@@ -51,8 +51,6 @@ private:
     const SourceFile* source_;
     bool isPart_;
     NameTables known_;
-    using LastUsed = std::array<std::uint32_t, kNamesByValue<BlockType>.size()>;
-    LastUsed lastUsed_{}; // see NameTable::find()
     struct Listed {
         std::string_view name;
         std::uint32_t hash;
