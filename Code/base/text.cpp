@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <numeric>
 #include <vector>
 
@@ -84,6 +85,13 @@ std::optional<long long> parseInteger(std::string_view text) {
 std::string afterLast(std::string_view text, std::string_view characters) {
     const std::size_t last = text.find_last_of(characters);
     return std::string(last == std::string_view::npos ? text : text.substr(last + 1));
+}
+
+std::string lowerExtension(const std::string& fileName) {
+    std::string extension = std::filesystem::path(fileName).extension().string();
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+    return extension;
 }
 
 std::string join(std::span<const std::string> words, std::string_view separator) {

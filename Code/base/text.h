@@ -43,6 +43,8 @@ std::optional<long long> parseInteger(std::string_view text);
 
 // What stands behind the last of these characters: all of it when there is none.
 std::string afterLast(std::string_view text, std::string_view characters);
+// ".png" for "a.PNG"; empty when there is none.
+std::string lowerExtension(const std::string& fileName);
 
 // "a, b, c"
 std::string join(std::span<const std::string> words, std::string_view separator = ", ");

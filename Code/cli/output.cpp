@@ -8,7 +8,6 @@
 #include "image/formats.h"
 #include "scene/settings.h"
 
-#include <cctype>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -75,12 +74,6 @@ bool isDevice(const std::string& fileName) {
     std::error_code error;
     const fs::file_status status = fs::status(fileName, error);
     return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
-}
-
-std::string lowerExtension(const std::string& fileName) {
-    std::string extension = fs::path(fileName).extension().string();
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return extension;
 }
 
 bool hasPictureExtension(const std::string& fileName) {

@@ -26,8 +26,6 @@ bool isDevice(const std::string& fileName);
 
 // .ppm, .png, .pfm or .exr, in any case.
 bool hasPictureExtension(const std::string& fileName);
-// ".png" for "a.PNG"; empty when there is none.
-std::string lowerExtension(const std::string& fileName);
 
 // Fails with ErrorKind::Output when a file of this name cannot be written: better now than after an
 // hour of rendering.

@@ -8,8 +8,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <filesystem>
 #include <string_view>
 
 using namespace std::string_view_literals;
@@ -89,10 +87,8 @@ void encodeBeauty(const Image& image, Encoding encoding, int threads, ByteSink u
 } // namespace
 
 std::string extensionOf(const std::string& fileName) {
-    std::string extension = std::filesystem::path(fileName).extension().string();
-    if (!extension.empty()) extension.erase(0, 1);
-    for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return extension;
+    const std::string extension = lowerExtension(fileName);
+    return extension.empty() ? extension : extension.substr(1);
 }
 
 void encodeSource(const PixelSource& picture, const std::string& extension, int threads,

@@ -61,9 +61,7 @@ constexpr Foreign kForeign[] = {
 };
 
 const Format& formatOf(const std::string& fileName) {
-    std::string extension = fs::path(fileName).extension().string();
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+    const std::string extension = lowerExtension(fileName);
     for (const Format& format : kFormats)
         if (format.extension == extension) return format;
     if (extension.empty())

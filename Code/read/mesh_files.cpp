@@ -5,8 +5,8 @@
 #include "base/text.h"
 #include "desc/names.h"
 #include "read/mesh/mesh_file.h"
-#include "read/mesh/read_mtl.h"
 #include "read/mesh/mesh_steps.h"
+#include "read/mesh/read_mtl.h"
 
 #include <algorithm>
 #include <array>
@@ -29,9 +29,7 @@ constexpr auto kMeshFormats = std::to_array<MeshFormat>({
 });
 
 const MeshFormat* meshFormatOf(const std::string& fileName) {
-    std::string extension = fs::path(fileName).extension().string();
-    for (char& c : extension)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c + 32);
+    const std::string extension = lowerExtension(fileName);
     const auto found =
         std::find_if(kMeshFormats.begin(), kMeshFormats.end(),
                      [&](const MeshFormat& format) { return format.extension == extension; });

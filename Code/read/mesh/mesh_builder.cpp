@@ -5,7 +5,6 @@
 #include "read/mesh/mesh_steps.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <utility>
 
@@ -59,33 +58,6 @@ void appendAll(RawVector<T>& array, std::span<const MeshBuilder> parts,
         std::fill(std::copy(more.begin(), more.end(), first), array.data() + starts[i + 1],
                   missing);
     });
-}
-
-// Leaves out the values that no corner uses; returns how many.
-template <class T>
-std::size_t dropUnused(RawVector<T>& values, RawVector<Corners>& corners, int threads) {
-    constexpr std::size_t kTogether = 1 << 15;
-    std::vector<std::uint8_t> used(values.size());
-    forEachPart(threads, corners.size(), kTogether, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            for (const std::uint32_t value : corners[i])
-                std::atomic_ref(used[value]).store(1, std::memory_order_relaxed);
-    });
-    if (std::find(used.begin(), used.end(), 0) == used.end()) return 0;
-    std::vector<std::uint32_t> newIndex(values.size());
-    std::uint32_t count = 0;
-    for (std::size_t i = 0; i < values.size(); ++i) {
-        if (used[i] == 0) continue;
-        newIndex[i] = count;
-        values[count++] = values[i];
-    }
-    forEachPart(threads, corners.size(), kTogether, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i)
-            for (std::uint32_t& value : corners[i]) value = newIndex[value];
-    });
-    const std::size_t dropped = values.size() - count;
-    values.resize(count);
-    return dropped;
 }
 
 } // namespace
@@ -164,7 +136,7 @@ void MeshBuilder::fillUvs(int threads) {
         for (Corners& c : mesh.uvTriangles)
             if (isMissing(c)) c = {zero, zero, zero};
     }
-    dropUnused(mesh.uvs, mesh.uvTriangles, threads);
+    dropUnused(mesh.uvTriangles, threads, mesh.uvs);
 }
 
 void MeshBuilder::fillNormals(int threads) {
@@ -187,12 +159,12 @@ void MeshBuilder::fillNormals(int threads) {
                 corners[i][k] =
                     isMissing(givenCorners[i]) ? offset + corners[i][k] : givenCorners[i][k];
     }
-    dropUnused(mesh.normals, corners, threads);
+    dropUnused(corners, threads, mesh.normals);
 }
 
 MeshBuilder::Dropped MeshBuilder::finish(int threads) {
     Dropped dropped;
-    dropped.points = dropUnused(mesh.points, mesh.triangles, threads);
+    dropped.points = dropUnused(mesh.triangles, threads, mesh.points);
     fillUvs(threads);
     fillNormals(threads);
     return dropped;

@@ -2,12 +2,16 @@
 // meet in a point.
 #pragma once
 
+#include "base/for_each.h"
 #include "base/vec.h"
 #include "desc/scene_desc.h"
 #include "read/mesh/mesh_file.h"
 
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstdint>
+#include <numeric>
 #include <span>
 #include <vector>
 
@@ -24,6 +28,37 @@ struct CornersByPoint {
 
     explicit CornersByPoint(const MeshDesc& mesh);
 };
+
+// Leaves out the values that no corner uses, in all of these arrays that have some, whose value i
+// has the number i in the corners; returns how many of the first.
+template <class T, class... More>
+std::size_t dropUnused(RawVector<MeshDesc::Corners>& corners, int threads, RawVector<T>& values,
+                       RawVector<More>&... more) {
+    constexpr std::size_t kTogether = 1 << 15;
+    std::vector<std::uint8_t> used(values.size());
+    forEachPart(threads, corners.size(), kTogether, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            for (const std::uint32_t value : corners[i])
+                std::atomic_ref(used[value]).store(1, std::memory_order_relaxed);
+    });
+    const auto dropped = static_cast<std::size_t>(std::count(used.begin(), used.end(), 0));
+    if (dropped == 0) return 0;
+    std::vector<std::uint32_t> newIndex(used.size());
+    std::exclusive_scan(used.begin(), used.end(), newIndex.begin(), std::uint32_t{0});
+    forEachPart(threads, corners.size(), kTogether, [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            for (std::uint32_t& value : corners[i]) value = newIndex[value];
+    });
+    const auto keepUsed = [&](auto& array) {
+        if (array.empty()) return;
+        for (std::size_t i = 0; i < used.size(); ++i)
+            if (used[i] != 0) array[newIndex[i]] = array[i];
+        array.resize(used.size() - dropped);
+    };
+    keepUsed(values);
+    (keepUsed(more), ...);
+    return dropped;
+}
 
 // Triangles of a polygon, convex or not.
 

@@ -3,6 +3,7 @@
 #include "base/for_each.h"
 #include "base/text.h"
 #include "desc/names.h"
+#include "read/mesh/mesh_steps.h"
 #include "read/mesh/ply_bytes.h"
 #include "read/mesh/ply_header.h"
 #include "read/mesh/ply_rows.h"
@@ -217,32 +218,11 @@ void checkElements(const PlyHeader& header, const SourceFile& source) {
                "the file has vertices but no faces: a point cloud has no surface to show");
 }
 
-template <class Row> void keepOnly(RawVector<Row>& rows, const std::vector<bool>& kept) {
-    std::size_t out = 0;
-    for (std::size_t i = 0; i < rows.size(); ++i)
-        if (kept[i]) rows[out++] = rows[i];
-    rows.resize(out);
-}
-
 // Vertices of no triangle would only make the mesh seem larger than it looks.
-std::size_t dropUnusedVertices(MeshDesc& mesh) {
-    std::vector<bool> used(mesh.points.size());
-    for (const MeshDesc::Corners& t : mesh.triangles)
-        for (const std::uint32_t corner : t) used[corner] = true;
-    const auto dropped = static_cast<std::size_t>(std::count(used.begin(), used.end(), false));
-    if (dropped == 0) return 0;
-    std::vector<std::uint32_t> newIndex(used.size());
-    std::uint32_t next = 0;
-    for (std::size_t i = 0; i < used.size(); ++i) {
-        newIndex[i] = next;
-        if (used[i]) ++next;
-    }
-    for (MeshDesc::Corners& t : mesh.triangles)
-        for (std::uint32_t& corner : t) corner = newIndex[corner];
-    keepOnly(mesh.points, used);
-    if (!mesh.normals.empty()) keepOnly(mesh.normals, used);
-    if (!mesh.uvs.empty() && mesh.uvTriangles.empty()) keepOnly(mesh.uvs, used);
-    return dropped;
+std::size_t dropUnusedVertices(MeshDesc& mesh, int threads) {
+    RawVector<Vec2> none;
+    return dropUnused(mesh.triangles, threads, mesh.points, mesh.normals,
+                      mesh.uvTriangles.empty() ? mesh.uvs : none);
 }
 
 // What is in the file and not in the picture, in one warning.
@@ -309,7 +289,7 @@ MeshFile readBody(const PlyHeader& header, Input input, const SourceFile& source
     if (rest) context.warn(source, rest->first, rest->second);
     warn(header, body.rows(), mesh, source, context);
     const std::size_t vertices = mesh.points.size();
-    if (const std::size_t count = dropUnusedVertices(mesh))
+    if (const std::size_t count = dropUnusedVertices(mesh, context.options.threads))
         context.warn(source, vertexOffset,
                      cat("left out ", count, " of ", vertices, " vertices, which no face uses"));
     warnOfLeftOut(header, mesh, source, context);
