@@ -2,6 +2,7 @@
 
 #include "base/platform/platform.h"
 #include "base/text.h"
+#include "cli/stats_output.h"
 #include "desc/enum_tables.h"
 #include "desc/lobes.h"
 #include "scene/texture_files.h"
@@ -26,24 +27,11 @@ private:
     std::ostringstream out_;
 };
 
-// Six significant digits: for reading, not for calculating.
-std::string number(double value) {
-    std::ostringstream out;
-    out << std::setprecision(6) << value;
-    return out.str();
-}
-std::string triple(Vec3d v) { return cat(number(v.x), " ", number(v.y), " ", number(v.z)); }
+std::string triple(Vec3d v) { return cat(v.x, " ", v.y, " ", v.z); }
 std::string triple(Rgbd c) { return triple(Vec3d{c.r, c.g, c.b}); }
 
 std::string counted(std::size_t count, const std::string& what) {
     return cat(count, " ", what, count == 1 ? "" : "s");
-}
-
-std::string mebibytes(std::size_t bytes) {
-    std::ostringstream out;
-    out << std::fixed << std::setprecision(1) << static_cast<double>(bytes) / (1024 * 1024)
-        << " MiB";
-    return out.str();
 }
 
 // "3 sphere, 1 plane" for things with a kind.
@@ -131,23 +119,22 @@ std::string cameraText(const CameraDesc& camera) {
     const Rows& rows = camera.worldFromCamera[0];
     std::string text = cat("'", camera.name, "' ", nameOf(camera.kind), " ");
     if (camera.kind == CameraDesc::Kind::Perspective)
-        text += number(camera.lensMm) + " mm";
+        text += cat(camera.lensMm, " mm");
     else
-        text += number(camera.orthoScale) + " wide";
+        text += cat(camera.orthoScale, " wide");
     text += " at " + triple(Vec3d{rows[3], rows[7], rows[11]});
     if (camera.apertureRadius > 0)
-        text += cat(", aperture radius ", number(camera.apertureRadius), ", focus at ",
-                    number(camera.focusDistance));
+        text +=
+            cat(", aperture radius ", camera.apertureRadius, ", focus at ", camera.focusDistance);
     if (camera.worldFromCamera.size() > 1) text += ", moves";
     return text;
 }
 
 std::string pictureText(const SettingsDesc& p) {
-    std::string text =
-        cat(p.width, "x", p.height, " pixels, ",
-            counted(static_cast<std::size_t>(p.samplesPerPixel), "sample"), " per pixel (",
-            nameOf(p.sampler), "), ", nameOf(p.filter), " filter ", number(p.filterWidth), ", ",
-            nameOf(p.integrator), ", depth ", p.maxDepth);
+    std::string text = cat(p.width, "x", p.height, " pixels, ",
+                           counted(static_cast<std::size_t>(p.samplesPerPixel), "sample"),
+                           " per pixel (", nameOf(p.sampler), "), ", nameOf(p.filter), " filter ",
+                           p.filterWidth, ", ", nameOf(p.integrator), ", depth ", p.maxDepth);
     if (p.crop)
         text +=
             cat(", crop ", (*p.crop)[0], ",", (*p.crop)[1], ",", (*p.crop)[2], ",", (*p.crop)[3]);

@@ -24,10 +24,6 @@ std::string grouped(std::uint64_t value) {
     return text;
 }
 
-std::string megabytes(std::uint64_t bytes) {
-    return fixed(static_cast<double>(bytes) / (1024 * 1024), 1) + " MiB";
-}
-
 double raysPerSecond(const Stats& stats) {
     return stats.renderSeconds > 0 ? static_cast<double>(stats.rays.total()) / stats.renderSeconds
                                    : 0;
@@ -105,6 +101,10 @@ void addFeatures(Table& table, const Stats& stats) {
 
 } // namespace
 
+std::string mebibytes(std::uint64_t bytes) {
+    return fixed(static_cast<double>(bytes) / (1024 * 1024), 1) + " MiB";
+}
+
 std::string statsTable(const Stats& s) {
     Table table;
     table.heading("seconds");
@@ -128,12 +128,12 @@ std::string statsTable(const Stats& s) {
     table.row("primitives", grouped(s.accel.primitives));
     table.row("nodes", grouped(s.accel.nodes));
     table.row("leaves", grouped(s.accel.leaves));
-    table.row("memory", megabytes(s.accel.bytes));
+    table.row("memory", mebibytes(s.accel.bytes));
     if (s.accel.triangles > 0)
         table.row("meshes", fixed(bytesPerTriangle(s.accel), 1), "bytes per triangle");
     table.row("sah cost", fixed(s.accel.sah, 2));
     table.heading("run");
-    table.row("peak memory", s.peakBytes > 0 ? megabytes(s.peakBytes) : "unknown");
+    table.row("peak memory", s.peakBytes > 0 ? mebibytes(s.peakBytes) : "unknown");
     table.row("threads", std::to_string(s.threads));
     table.row("kernel", s.kernel);
     table.row("samples per pixel",

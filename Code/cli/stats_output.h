@@ -17,6 +17,9 @@ struct RunFacts {
     std::vector<std::string> arguments;
 };
 
+// "12.5 MiB"
+std::string mebibytes(std::uint64_t bytes);
+
 std::string statsTable(const Stats& stats);
 
 // One object on one line; scripts rely on its keys, which tests/unit/test_stats_output.cpp lists

@@ -35,6 +35,19 @@ double largestStretch2(const Transform& map) {
 
 } // namespace
 
+AnalyticShape::Local AnalyticShape::cap(Vec3d p, bool top, double radius, double inset) {
+    const double side = top ? 1 : -1;
+    const double around = std::sqrt(p.x * p.x + p.y * p.y);
+    const double limit = radius - min(inset, radius / 2);
+    const double factor = around > limit ? limit / around : 1;
+    const double x = p.x * factor, y = p.y * factor;
+    return {{x, y, side},
+            {0, 0, side},
+            {0.5 + 0.5 * side * x / radius, 0.5 + 0.5 * y / radius},
+            {2 * side * radius, 0, 0},
+            {0, 2 * radius, 0}};
+}
+
 AnalyticShape::AnalyticShape(const MovingTransform& worldFromObject, std::uint32_t material,
                              std::uint32_t object, double radius)
     : still_{.worldFromObject = worldFromObject.keys().front(),

@@ -62,6 +62,11 @@ protected:
         double steepness(Vec3d n) const;
     };
 
+    // Of the flat end of a cylinder or a cone, at z = -1 or z = 1: p pulled onto it and, if it is
+    // closer to the rim, `inset` away from that. uv is the square around the disk, its u turned at
+    // the bottom so that a picture is unmirrored from outside.
+    static Local cap(Vec3d p, bool top, double radius, double inset);
+
     AnalyticShape(const MovingTransform& worldFromObject, std::uint32_t material,
                   std::uint32_t object, double radius = 0);
 

@@ -1,7 +1,5 @@
 #include "shape/cone.h"
 
-#include "shape/cap.h"
-
 Cone::Cone(const MovingTransform& worldFromObject, double radius, double topRadius, bool caps,
            std::uint32_t material, std::uint32_t object)
     : AnalyticShape(worldFromObject, material, object), side_{.radius = radius,
@@ -77,11 +75,8 @@ AnalyticShape::Local Cone::describe(Vec3d p, std::uint32_t part, const Clearance
     const Vec3d inset = clearance.inset();
     const double radialInset = std::sqrt(inset.x * inset.x + inset.y * inset.y);
     const double capRadius = part == kTop ? side_.topRadius : side_.radius;
-    if (part != kSide && capRadius > 0) { // a tip may round to its cap without size
-        const Cap at =
-            cap(p, part == kTop, capRadius, radialInset + std::fabs(side_.slope) * inset.z);
-        return {at.p, at.normal, at.uv, at.dpdu, at.dpdv};
-    }
+    if (part != kSide && capRadius > 0) // a tip may round to its cap without size
+        return cap(p, part == kTop, capRadius, radialInset + std::fabs(side_.slope) * inset.z);
 
     const double around = std::sqrt(p.x * p.x + p.y * p.y);
     const double limit = 1 - min(inset.z, 0.5);

@@ -1,7 +1,5 @@
 #include "shape/cylinder.h"
 
-#include "shape/cap.h"
-
 Cylinder::Cylinder(const MovingTransform& worldFromObject, double radius, bool caps,
                    std::uint32_t material, std::uint32_t object)
     : AnalyticShape(worldFromObject, material, object, radius), caps_(caps) {
@@ -44,8 +42,7 @@ AnalyticShape::Local Cylinder::describe(Vec3d p, std::uint32_t part,
     const Vec3d inset = clearance.inset();
     if (part != kSide) {
         const double radialInset = std::sqrt(inset.x * inset.x + inset.y * inset.y);
-        const Cap at = cap(p, part == kTop, radius(), radialInset);
-        return {at.p, at.normal, at.uv, at.dpdu, at.dpdv};
+        return cap(p, part == kTop, radius(), radialInset);
     }
     const double around = std::sqrt(p.x * p.x + p.y * p.y);
     const double c = around > 0 ? p.x / around : 1, s = around > 0 ? p.y / around : 0;

@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "desc/enum_tables.h"
 #include "scene/make_shape.h"
+#include "verify/shape_kinds.h"
 
 #include <array>
 
@@ -11,15 +12,12 @@ namespace battery {
 
 using meshes::Random;
 using Kind = ObjectDesc::Kind;
+using kit::onCircle;
 
 namespace {
 
 constexpr std::uint32_t kOneMaterial[] = {0};
 
-Vec3d onCircle(Random& random, double radius, double z) {
-    const double angle = random.uniform(0, kTwoPi);
-    return {radius * exact::cos(angle), radius * exact::sin(angle), z};
-}
 Vec3d inCircle(Random& random, double radius, double z) {
     return onCircle(random, radius * std::sqrt(random.unit()), z);
 }

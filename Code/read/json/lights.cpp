@@ -1,4 +1,4 @@
-#include "read/json/lights.h"
+#include "read/json/settings.h"
 #include "read/unique_names.h"
 
 #include "base/math.h"

@@ -1,4 +1,4 @@
-#include "read/json/lobes.h"
+#include "read/json/materials.h"
 
 #include "base/enum_names.h"
 #include "base/text.h"

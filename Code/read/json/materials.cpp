@@ -4,7 +4,6 @@
 #include "base/math.h"
 #include "base/text.h"
 #include "desc/names.h"
-#include "read/json/lobes.h"
 #include "read/json/properties.h"
 
 #include <cmath>

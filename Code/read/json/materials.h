@@ -12,6 +12,12 @@
 
 JsonNames readJsonTextures(JsonFields& scene, std::vector<TextureDesc>& textures);
 
+// The lobes of a material: a list "lobes" of objects with a "type", "weight", the fields of that
+// type, and "covers". A value is a number, an array of three, or an object with that as "value" and
+// a list "factors" of {"times": TEXTURE} and {"without": TEXTURE, "strength": S}. Takes the key
+// "lobes"; where there is one, nothing is diffuse unless it is said.
+void readJsonLobes(JsonFields& fields, const JsonNames& textures, MaterialDesc& material);
+
 class JsonMaterials {
 public:
     JsonMaterials(JsonFields& scene, const JsonNames& textures, std::vector<MaterialDesc>& out);

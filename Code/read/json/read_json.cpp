@@ -1,7 +1,6 @@
 #include "read/json/read_json.h"
 
 #include "read/json/json.h"
-#include "read/json/lights.h"
 #include "read/json/materials.h"
 #include "read/json/objects.h"
 #include "read/json/settings.h"

@@ -2,9 +2,7 @@
 // Messages point to the line of the element in the header, and name the byte.
 #pragma once
 
-#include "base/text.h"
-#include "desc/names.h"
-#include "read/mesh/ply_header.h"
+#include "read/mesh/ply_rows.h"
 
 #include <algorithm>
 #include <bit>
@@ -12,31 +10,16 @@
 #include <utility>
 #include <vector>
 
-class PlyBytes {
+class PlyBytes : public PlyInput {
 public:
     PlyBytes(const SourceFile& source, std::size_t offset, PlyFormat format)
-        : source_(&source), isBigEndian_(format == PlyFormat::BigEndian),
-          p_(source.text.data() + offset), end_(source.text.data() + source.text.size()) {}
+        : PlyInput(source, offset), isBigEndian_(format == PlyFormat::BigEndian) {}
 
-    // Fails when the file cannot hold the rows that the header promises.
     void begin(const PlyElement& element) {
-        element_ = &element;
-        row_ = 0;
         std::size_t rowBytes = 0; // at least: lists may be empty
         for (const PlyProperty& p : element.properties)
             rowBytes += sizeOf(p.countType.value_or(p.type));
-        if (rowBytes == 0) return;
-        if (const std::size_t possible = bytesLeft() / rowBytes; element.count > possible)
-            failAt(*source_, element.offset,
-                   cat("'element ", shown(element.name), " ", element.count,
-                       "' is more than the rest of the file can hold (", possible, " at most)"));
-    }
-    // From here on, or from the start of another row of the same element on.
-    PlyBytes at(const char* p, std::size_t row) const {
-        PlyBytes other = *this;
-        other.p_ = p;
-        other.row_ = row;
-        return other;
+        PlyInput::begin(element, rowBytes, bytesLeft());
     }
     const char* rowEnd() const { return p_; }
     // The rows of the element that has begun in parts, if all are as long as the first one.
@@ -100,8 +83,6 @@ public:
     }
 
 private:
-    std::size_t bytesLeft() const { return static_cast<std::size_t>(end_ - p_); }
-
     const char* take(std::size_t size) {
         last_ = p_;
         if (size > bytesLeft()) fail("the file ends in the middle of the data");
@@ -113,9 +94,7 @@ private:
         const auto count = static_cast<std::int64_t>(number(*property.countType));
         const std::size_t possible = std::min(most, bytesLeft() / sizeOf(property.type));
         if (count < 0 || static_cast<std::uint64_t>(count) > possible)
-            fail(cat("a list of '", shown(property.name), "' has ", count, " items; at most ",
-                     possible,
-                     possible < most ? " fit into the rest of the file" : " are possible"));
+            fail(tooManyItems(property, std::to_string(count), possible, most));
         return static_cast<std::size_t>(count);
     }
 
@@ -156,12 +135,5 @@ private:
                    shown(element_->name), "': ", what));
     }
 
-    const SourceFile* source_;
     bool isBigEndian_;
-    const PlyElement* element_ = nullptr;
-    std::size_t row_ = 0;
-    const char* p_;
-    const char* end_;
-    const char* last_ = nullptr;      // the value that was read last
-    const char* listStart_ = nullptr; // the items of the list that was read last
 };

@@ -7,8 +7,8 @@
 #include "desc/names.h"
 #include "desc/range.h"
 #include "desc/scene_desc.h"
-#include "read/mesh/ply_header.h"
 #include "read/mesh/mesh_steps.h"
+#include "read/mesh/ply_header.h"
 
 #include <algorithm>
 #include <array>
@@ -26,6 +26,44 @@ inline std::string indexText(const PlyProperty& property, std::uint32_t index) {
                           property.type == PlyType::Int32;
     return isSigned ? cat(static_cast<std::int32_t>(index)) : cat(index);
 }
+
+// PlyInput: what PlyText and PlyBytes have in common: which row of which element is read, and
+// where.
+class PlyInput {
+public:
+    // To the start of another row of the same element.
+    void goTo(const char* p, std::size_t row) { p_ = p, row_ = row; }
+
+protected:
+    PlyInput(const SourceFile& source, std::size_t offset)
+        : source_(&source), p_(source.text.data() + offset),
+          end_(source.text.data() + source.text.size()) {}
+
+    // Fails when `bytes` cannot hold the rows that the header promises, each of this many or more.
+    void begin(const PlyElement& element, std::size_t rowBytes, std::size_t bytes) {
+        element_ = &element;
+        row_ = 0;
+        if (rowBytes == 0) return;
+        if (const std::size_t possible = bytes / rowBytes; element.count > possible)
+            failAt(*source_, element.offset,
+                   cat("'element ", shown(element.name), " ", element.count,
+                       "' is more than the rest of the file can hold (", possible, " at most)"));
+    }
+    static std::string tooManyItems(const PlyProperty& property, std::string_view count,
+                                    std::size_t possible, std::size_t most) {
+        return cat("a list of '", shown(property.name), "' has ", count, " items; at most ",
+                   possible, possible < most ? " fit into the rest of the file" : " are possible");
+    }
+    std::size_t bytesLeft() const { return static_cast<std::size_t>(end_ - p_); }
+
+    const SourceFile* source_;
+    const PlyElement* element_ = nullptr;
+    std::size_t row_ = 0;
+    const char* p_;
+    const char* end_;                 // *end_ is the string's terminating zero
+    const char* last_ = nullptr;      // the value that was read last
+    const char* listStart_ = nullptr; // the items of the list that was read last
+};
 
 // Says which lists of the faces make triangles, and how.
 struct PlyFaces {

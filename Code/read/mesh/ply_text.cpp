@@ -8,18 +8,6 @@
 #include <algorithm>
 #include <limits>
 
-void PlyText::begin(const PlyElement& element) {
-    element_ = &element;
-    row_ = 0;
-    // A value and what is between it and the next one.
-    const std::size_t rowBytes = 2 * element.properties.size();
-    if (rowBytes == 0) return;
-    if (const std::size_t possible = (bytesLeft() + 1) / rowBytes; element.count > possible)
-        failAt(*source_, element.offset,
-               cat("'element ", shown(element.name), " ", element.count,
-                   "' is more than the rest of the file can hold (", possible, " at most)"));
-}
-
 std::vector<RowChunk> PlyText::chunks(int threads) const {
     const char* first = p_;
     while (isBlank(*first) || *first == '\n') ++first;
@@ -89,8 +77,7 @@ std::size_t PlyText::listCount(const PlyProperty& property, std::size_t most) {
     const std::uint32_t count = whole();
     const std::size_t possible = std::min(most, bytesLeft() / 2);
     if (count > possible || *last_ == '-')
-        fail(cat("a list of '", shown(property.name), "' has ", word(last_), " items; at most ",
-                 possible, possible < most ? " fit into the rest of the file" : " are possible"));
+        fail(tooManyItems(property, word(last_), possible, most));
     listStart_ = p_;
     return count;
 }

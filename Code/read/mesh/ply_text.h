@@ -2,7 +2,7 @@
 // PlyBytes: one loop reads both.
 #pragma once
 
-#include "read/mesh/ply_header.h"
+#include "read/mesh/ply_rows.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -12,19 +12,13 @@
 #include <utility>
 #include <vector>
 
-class PlyText {
+class PlyText : public PlyInput {
 public:
-    PlyText(const SourceFile& source, std::size_t offset)
-        : source_(&source), p_(source.text.data() + offset),
-          end_(source.text.data() + source.text.size()) {}
+    PlyText(const SourceFile& source, std::size_t offset) : PlyInput(source, offset) {}
 
-    void begin(const PlyElement& element);
-    // From here on, or from the start of another row of the same element on.
-    PlyText at(const char* p, std::size_t row) const {
-        PlyText other = *this;
-        other.p_ = p;
-        other.row_ = row;
-        return other;
+    void begin(const PlyElement& element) {
+        // A value and what is between it and the next one.
+        PlyInput::begin(element, 2 * element.properties.size(), bytesLeft() + 1);
     }
     // Where the row ended that was read last, or would end if it took one line of its own.
     const char* rowEnd() const { return p_ < end_ ? p_ + 1 : end_; }
@@ -45,7 +39,6 @@ public:
     std::optional<std::pair<std::size_t, std::string>> rest();
 
 private:
-    std::size_t bytesLeft() const { return static_cast<std::size_t>(end_ - p_); }
     static bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
     bool isAtEnd(const char* p) const { return *p == '\n' || p == end_; }
 
@@ -71,12 +64,4 @@ private:
     [[noreturn]] void failAtText(const char* p, std::string_view what) const {
         failAt(*source_, static_cast<std::size_t>(p - source_->text.data()), what);
     }
-
-    const SourceFile* source_;
-    const PlyElement* element_ = nullptr;
-    std::size_t row_ = 0;
-    const char* p_;
-    const char* end_;                 // *end_ is the string's terminating zero
-    const char* last_ = nullptr;      // the value that was read last
-    const char* listStart_ = nullptr; // the items of the list that was read last
 };

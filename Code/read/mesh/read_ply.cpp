@@ -158,7 +158,8 @@ private:
         std::vector<std::optional<PlyRows<Input>>> parts(chunks.size());
         forEachOn(threads_, chunks.size(), [&](std::size_t i) {
             const RowChunk& chunk = chunks[i];
-            PlyRows<Input> rows(rows_.in.at(chunk.first, chunk.firstRow));
+            PlyRows<Input> rows(rows_.in);
+            rows.in.goTo(chunk.first, chunk.firstRow);
             try {
                 read(rows, chunk.firstRow, chunk.count);
             } catch (const Error&) {
