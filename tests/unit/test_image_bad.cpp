@@ -42,7 +42,7 @@ std::string textOf(const fs::path& file) {
 
 // The longest text of each call that fails, as it stands in the code of a reader.
 std::vector<std::string> messagesIn(const std::string& code) {
-    static const std::regex call(R"((broken\w*|missing|fail)\()"), joined("\"\\s+\""),
+    static const std::regex call(R"((broken\w*|missing|fail|failPicture)\()"), joined("\"\\s+\""),
         literal(R"x("((?:[^"\\]|\\.)*)")x");
     constexpr std::ptrdiff_t kShortest = 10;
     std::vector<std::string> messages;
