@@ -68,7 +68,7 @@ struct BoundarySlices {
     Floats first, part;
     explicit BoundarySlices(Floats eta) {
         const Floats one(1.0f), w = (one - eta) / (one + eta), zero(0.0f);
-        const TableNode node(sqrt(abs(w)), energy::kSlices);
+        const TableNode node(sqrt(sqrt(abs(w))), energy::kSlices);
         const Floats side(static_cast<float>(energy::kSlices));
         first = node.first + select(w < zero, side, zero), part = node.part;
     }
@@ -83,32 +83,31 @@ struct BoundarySlices {
 class BoundaryEnergy {
 public:
     BoundaryEnergy(const Ggx& facets, Floats eta)
-        : slices_(eta), rough_(facets.lossyRoughness(), energy::kSliceRoughs) {
-        alignas(64) float slice[W], column[W];
-        slices_.first.store(slice), rough_.first.store(column);
-        for (int i = 0; i < W; ++i) {
-            if (i > 0 && slice[i] == slice[i - 1] && column[i] == column[i - 1]) continue;
-            for (int k = 0; k < 4; ++k)
-                energy::needColumn(static_cast<int>(slice[i]) + (k & 1),
-                                   static_cast<int>(column[i]) + (k >> 1));
-        }
-    }
+        : slices_(eta), rough_(facets.lossyRoughness(), energy::kSliceRoughs) {}
 
     // What they reflect and transmit, seen from a direction.
     Floats all(const Ggx& facets, const Floats3& toEye) const {
-        return of(0, TableNode(facets.tablePlace(toEye), energy::kSlicePlaces));
+        return of(energy::kSentOn, facets.glassPlace(toEye));
     }
     // The mean reflectance of those that reflect.
     Floats reflected(Floats cosEye) const {
-        return of(energy::kReflected, TableNode(sqrt(max(cosEye, Floats(0.0f))), energy::kCosines));
+        return of(energy::kReflected, sqrt(max(cosEye, Floats(0.0f))));
     }
 
 private:
-    Floats of(int word, const TableNode& place) const {
-        const Floats slice(static_cast<float>(energy::kSliceWords));
-        const Floats from = slices_.first * slice + Floats(static_cast<float>(word));
+    Floats of(const energy::SliceTable& table, Floats row) const {
+        alignas(64) float first[W], column[W];
+        slices_.first.store(first), rough_.first.store(column);
+        for (int i = 0; i < W; ++i) {
+            if (i > 0 && first[i] == first[i - 1] && column[i] == column[i - 1]) continue;
+            for (int k = 0; k < 4; ++k)
+                table.need(static_cast<int>(first[i]) + (k & 1),
+                           static_cast<int>(column[i]) + (k >> 1));
+        }
+        const Floats slice(static_cast<float>(table.sliceWords())), from = slices_.first * slice;
+        const TableNode place(row, table.rows);
         const auto in = [&](Floats at) {
-            return lookedUp(energy::slices(), at, rough_, place, energy::kColumnWords);
+            return lookedUp(table.words, at, rough_, place, table.rows);
         };
         return between(in(from), in(from + slice), slices_.part);
     }

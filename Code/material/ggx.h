@@ -97,10 +97,11 @@ struct Ggx {
 
     // Where the tables of energy.h have this direction: 0 at the horizon, 1 at the zenith, finer
     // towards both; as a function of this the energy of narrow and of wide facets is smooth.
-    Floats tablePlace(const Floats3& toEye) const {
-        const Floats length = stretched(toEye), up = sqrt(max(toEye.z, Floats(0.0f)) / length);
-        const Floats off = sqrt(slope2(toEye) / (length * (length + toEye.z)));
-        return up / (up + off);
+    Floats tablePlace(const Floats3& toEye) const { return placeOf(slope2(toEye), toEye.z); }
+    // The same for glass, half-way to the angle itself, by which Fresnel's law goes.
+    Floats glassPlace(const Floats3& toEye) const {
+        const Floats lossy = lossyRoughness();
+        return placeOf(slope2(toEye) / (lossy * lossy), toEye.z);
     }
 
 private:
@@ -109,6 +110,11 @@ private:
         smooth = r <= Floats(kSmoothRoughness);
         alpha = max(r * r, Floats(kSmooth));
         x = y = alpha;
+    }
+    static Floats placeOf(Floats slope2, Floats z) {
+        const Floats length = sqrt(slope2 + z * z), up = sqrt(max(z, Floats(0.0f)) / length);
+        const Floats off = sqrt(slope2 / (length * (length + z)));
+        return up / (up + off);
     }
     Floats slope2(const Floats3& v) const {
         const Floats a = v.x * x, b = v.y * y;

@@ -29,8 +29,9 @@ double slackOfAlbedo(const Case& c) {
     return 0.02;
 }
 
-// One batch is one direction of the eye for every lobe at ten roughnesses. Tables of energy lose
-// less than 1 % by their margin and interpolation.
+// One batch is one direction of the eye for every lobe at ten roughnesses, where each facet lobe
+// has any. Tables of energy say some 0.4 % more than is lost, as their interpolation says up to
+// 0.5 % less: lobes lose less than 1 % and gain nothing but what the integral is off, 0.05 %.
 Tally whiteSky(const Effort& effort) {
     return inBatches(effort, 201, 5, [](meshes::Random& random, Tally& tally) {
         const double angle = random.uniform(0, 1.55), cosEye = std::cos(angle);
@@ -38,8 +39,12 @@ Tally whiteSky(const Effort& effort) {
         for (std::uint32_t kind = 0; kind < lobeTypes().size(); ++kind)
             for (Case& c : casesOf(kind, 1)) {
                 const bool isBoundary = c.has(kHasSides);
-                const double ior = random.uniform(1.1, 2.4);
+                const double ior = random.logUniform(1.02, 2.4);
                 if (isBoundary) c.eta = static_cast<float>(random.chance(0.5) ? ior : 1 / ior);
+                if (float* const rough = c.number("roughness")) {
+                    *rough = static_cast<float>(random.uniform(0.04, 1));
+                    if (!c.is("sheen")) c.width = *rough * *rough;
+                }
                 double said = 0;
                 with(c, [&](const auto& lobe) { said = largest(lobe.albedo(toEye)); });
                 const Mean mean = sampled(c, toEye, random);
@@ -51,7 +56,7 @@ Tally whiteSky(const Effort& effort) {
                 // Once in a hundred cases of boundaries the integral overlooks a kink.
                 const double overlooked = isBoundary ? 0.01 : 0, back = min(sum, 1.0);
                 ++tally.cases;
-                if (!(sum <= 1.001 + overlooked) && !isHighlight(c)) tally.fail(text);
+                if (!(sum <= 1.0005) && !isHighlight(c)) tally.fail(text);
                 if (!(sum >= 0.99 - overlooked) && keepsAll(c)) tally.fail(text);
                 if (!(std::fabs(said - back) <= slackOfAlbedo(c) * back + 1e-3)) tally.fail(text);
                 if (c.has(kSpawnsRays))
@@ -185,7 +190,7 @@ Tally tracedRays(const Effort& effort) {
 }
 
 constexpr Row kFurnaceRows[] = {
-    {"T20a", "white sky on every lobe x 10 roughnesses: samples, integral", "sigma", 6, true,
+    {"T20a", "white sky on every lobe x 10 any roughnesses: samples, integral", "sigma", 6, true,
      whiteSky},
     {"T20b", "diffuse and highlights straight on: albedo by formula", "relative", 0.001, true,
      straightOn},
