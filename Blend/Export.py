@@ -624,6 +624,7 @@ def put_light_paths(text, cycles, integrator):
                                  ("transmission_depth", "transmission_bounces", 12),
                                  ("transparent_depth", "transparent_max_bounces", 8)):
         text.put_unless(usual, keyword, getattr(cycles, name, usual))
+    text.put_unless(0, "filter_glossy", getattr(cycles, "blur_glossy", 0.0))
     text.put_unless(0, "clamp_indirect", getattr(cycles, "sample_clamp_indirect", 0.0))
     text.put_unless(True, "caustics", getattr(cycles, "caustics_reflective", True)
                     or getattr(cycles, "caustics_refractive", True))

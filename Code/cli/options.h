@@ -46,6 +46,7 @@ struct Options {
     // Quality
     std::optional<int> samplesPerPixel, lightSamples, maxDepth;
     std::optional<int> diffuseDepth, glossyDepth, transmissionDepth, transparentDepth;
+    std::optional<double> filterGlossy;
     std::optional<double> clampIndirect;
     std::optional<bool> caustics;
     std::optional<double> error; // RMSE; samplesPerPixel is then the most

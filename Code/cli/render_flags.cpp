@@ -128,6 +128,11 @@ void addQualityFlags(std::vector<Flag>& flags, Options& o) {
              "refractions");
     addDepth("--transparent-depth", "transparent_depth", &Options::transparentDepth,
              "straight on through what is not opaque");
+    group.add({.name = "--filter-glossy", .argument = "R",
+               .help = "reflections and glass that unlikely bounces meet are blurred, against bright "
+                       "dots, as by Filter Glossy in Blender; path tracing only; 0: none",
+               .set = [&o](const FlagValue& v) { o.filterGlossy = numberLike("filter_glossy", v); },
+               .example = "1"});
     group.add({.name = "--clamp-indirect", .argument = "V",
                .help = "the most light that a bounce may bring, against bright dots, which makes "
                        "the picture darker; path tracing only; 0: any",

@@ -72,6 +72,7 @@ void setQuality(SettingsDesc& picture, const Options& options) {
     set(picture.glossyDepth, options.glossyDepth);
     set(picture.transmissionDepth, options.transmissionDepth);
     set(picture.transparentDepth, options.transparentDepth);
+    set(picture.filterGlossy, options.filterGlossy);
     set(picture.clampIndirect, options.clampIndirect);
     set(picture.caustics, options.caustics);
     set(picture.sampler, options.sampler);

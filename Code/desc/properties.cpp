@@ -57,6 +57,7 @@ constexpr auto kSettings = std::to_array<Property>({
     {"glossy_depth", field<&SettingsDesc::glossyDepth>(), {}, kDepth},
     {"transmission_depth", field<&SettingsDesc::transmissionDepth>(), {}, kDepth},
     {"transparent_depth", field<&SettingsDesc::transparentDepth>(), {}, kDepth},
+    {"filter_glossy", field<&SettingsDesc::filterGlossy>(), {}, {0, 100}},
     {"clamp_indirect", field<&SettingsDesc::clampIndirect>(), {}, kColor},
     {"caustics", field<&SettingsDesc::caustics>(), {}, {}},
     {"cutoff", field<&SettingsDesc::cutoff>(), {}, kUnit},

@@ -270,6 +270,7 @@ struct SettingsDesc {
     int maxDepth = 8;           // bounces after the camera ray
     // Path tracing limits bounces by each kind of lobe, too, and rays straight on through opacity.
     int diffuseDepth = 4, glossyDepth = 4, transmissionDepth = 12, transparentDepth = 8;
+    double filterGlossy = 0;    // path tracing: Cycles' Filter Glossy, 0 off
     double clampIndirect = 0;   // path tracing: the most radiance behind the first bounce; 0 any
     bool caustics = true;       // path tracing: diffuse light by way of mirrors and glass
     double cutoff = 1.0 / 2048; // rays that change no pixel by more than this are not traced

@@ -176,7 +176,8 @@ private:
             return lobe.pdf(toEye, toLight);
     }
     LobeNumbers numbers(std::size_t l) const {
-        return {block_.lobe[l].value[3] + first_, LobeBlock::kPoints, eta_};
+        return {block_.lobe[l].value[3] + first_, LobeBlock::kPoints, eta_,
+                Floats::load(block_.leastAlpha + first_)};
     }
     Floats3 rgbAt(const LobeBlock::Lane* value) const {
         return {Floats::load(value[0] + first_), Floats::load(value[1] + first_),

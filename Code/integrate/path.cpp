@@ -53,6 +53,7 @@ private:
         block.points = of.all() & ~goStraight(of);
         if (block.points == 0) return;
         fillLobes(of);
+        if (limits_.filterGlossy > 0) filterGlossy(of);
         const std::uint32_t flags = path_.lobes.flags;
         if ((flags & kHasSides) != 0) findBoundaries(of, block.eta);
         context_.settings.isa->shading->scatter(lights_, *of.at, path_.lobes, block);
@@ -93,6 +94,13 @@ private:
             ++wave_.counts.refract;
         }
         return straight;
+    }
+
+    void filterGlossy(const AlikePoints& of) {
+        const float radius = static_cast<float>(limits_.filterGlossy);
+        for (std::size_t i = 0; i < of.size; ++i)
+            path_.lobes.leastAlpha[i] =
+                stateOf(memory_.points.ray[of.number[i]]).leastAlpha(radius);
     }
 
     // Shadow rays to the chosen lamps.
@@ -148,6 +156,7 @@ private:
                 weight = weight * (1 / go);
             }
             state.pdf = block.pdf[i];
+            if (!isSingle) state.leastPdf = min(state.leastPdf, state.pdf);
             state.p = SurfaceBlock::get(of.at->p, i);
             state.n = (flags & kTransmits) != 0 ? Vec3{} : SurfaceBlock::get(of.at->n, i);
             const bool crosses = isTransmitted && (flags & kHasSides) != 0;

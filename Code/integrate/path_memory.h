@@ -1,11 +1,13 @@
 // What a worker keeps of the paths of a chunk of samples, between the waves of path.cpp.
 #pragma once
 
+#include "base/math.h"
 #include "integrate/batch.h"
 #include "integrate/lobe_block.h"
 #include "integrate/shading_kernel.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -14,9 +16,15 @@ struct PathState {
     // Density per steradian of the direction, for hits on lights; 0 where no light was sampled for
     // the same answer: camera rays, and those of single directions.
     float pdf = 0;
+    // The least density of the bounces behind it; single directions leave it.
+    float leastPdf = kInfinityF;
     Vec3 p, n; // the point where the direction was sampled, and its normal (0: both sides)
     std::uint8_t diffuse = 0, glossy = 0, transmission = 0, transparent = 0;
     int bounces() const { return diffuse + glossy + transmission; }
+    // The least alpha of facets that it meets, by Cycles' Filter Glossy of `radius`.
+    float leastAlpha(float radius) const {
+        return leastPdf < radius ? 0.5f * std::sqrt(1 - leastPdf / radius) : 0;
+    }
     bool isLast = false; // only lights are asked what it meets
 };
 

@@ -39,6 +39,14 @@ struct Ggx {
         sin = turn.sin, cos = turn.cos;
     }
 
+    // The same, but along both axes at least as wide as this.
+    Ggx atLeast(Floats least) const {
+        Ggx wide = *this;
+        wide.x = max(x, least), wide.y = max(y, least), wide.alpha = max(alpha, least);
+        wide.smooth = smooth & (least <= Floats(kSmooth));
+        return wide;
+    }
+
     // Between the shading frame and the frame of the facets' axes.
     Floats3 inward(const Floats3& v) const {
         return {v.x * cos + v.y * sin, v.y * cos - v.x * sin, v.z};

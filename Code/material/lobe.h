@@ -38,11 +38,13 @@ inline constexpr std::size_t kLobeNumbers = 12, kMostLobes = 8;
 LANES_BEGIN
 
 // Where a lobe's numbers come from: number i of W points that follow each other. `eta`: index of
-// refraction on the side of the eye over that on the other side.
+// refraction on the side of the eye over that on the other side. `leastAlpha`: facets are at least
+// as wide as this along both axes.
 struct LobeNumbers {
     const float* columns; // number i of point k is columns[i * step + k]
     std::size_t step;
     Floats eta;
+    Floats leastAlpha{0.0f};
 
     Floats operator[](std::size_t i) const { return Floats::load(columns + i * step); }
     Floats3 rgb(std::size_t i) const { return {(*this)[i], (*this)[i + 1], (*this)[i + 2]}; }

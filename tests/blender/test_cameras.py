@@ -138,11 +138,13 @@ def light_paths():
     equal(export(arguments=["--integrator", "whitted"]).one("settings").get("integrator"), None)
     cycles = scene.cycles
     near(block.get("clamp_indirect", 0), cycles.sample_clamp_indirect)
+    near(block.get("filter_glossy", 0), cycles.blur_glossy)
     cycles.diffuse_bounces, cycles.glossy_bounces, cycles.transmission_bounces, cycles.transparent_max_bounces = 3, 2, 6, 7
+    cycles.blur_glossy = 0
     cycles.sample_clamp_indirect, cycles.caustics_reflective, cycles.caustics_refractive = 2.5, False, False
     block = export().one("settings")
     equal([block.get(k) for k in wanted], ["path", 3, 2, 6, 7, False])
-    equal(block["clamp_indirect"], 2.5)
+    equal([block["clamp_indirect"], block.get("filter_glossy")], [2.5, None])
     cycles.caustics_refractive = True
     equal(export().one("settings").get("caustics"), None)
 

@@ -3,7 +3,9 @@
 #include "check.h"
 #include "render/shot.h"
 
+#include "integrate/path_memory.h"
 #include "isa/isa.h"
+#include "material/ggx.h"
 
 namespace test_path {
 
@@ -281,6 +283,76 @@ TEST(paths_have_the_same_bits_everywhere) {
         CHECK_EQUAL(shot::differingPixels(scalar.color, as(bestIsa(), 3, 5, 64).color), 0);
         CHECK_EQUAL(shot::differingPixels(scalar.color, as(oneLane(), 2, 7, 100).color), 0);
     }
+}
+
+// Cycles' Filter Glossy: alpha is sqrt(1 - p / R) / 2 behind a bounce of density p, along both
+// axes.
+TEST(filter_glossy_widens_facets_by_the_least_density) {
+    PathState state;
+    CHECK_EQUAL(state.leastAlpha(1), 0.0f); // camera rays
+    state.leastPdf = 0.36f;
+    CHECK_NEAR(state.leastAlpha(1), 0.4, 1e-6);
+    CHECK_NEAR(state.leastAlpha(0.48f), 0.25, 1e-6);
+    CHECK_EQUAL(state.leastAlpha(0.36f), 0.0f);
+    using namespace kernels::one;
+    const Ggx narrow(0.4f, 0.8f, 0.25f), wide = narrow.atLeast(0.2f);
+    CHECK(narrow.x.v > 0.2f && narrow.y.v < 0.2f);
+    CHECK_EQUAL(wide.x.v, narrow.x.v);
+    CHECK_EQUAL(wide.y.v, 0.2f);
+    CHECK(Ggx(0.0f).smooth.v && Ggx(0.0f).atLeast(0.0f).smooth.v);
+    CHECK(!Ggx(0.0f).atLeast(0.2f).smooth.v);
+}
+
+namespace {
+
+struct Seen {
+    double mean, variance; // of pixels
+    Image picture;
+};
+Seen filtered(const std::string& text, double radius, int bounces) {
+    Seen seen{0, 0, shot::render(text, [&](RenderSettings& settings) {
+                        path(bounces)(settings);
+                        settings.picture.filterGlossy = radius;
+                    }).color};
+    const auto [mean, sigma] = shot::estimate(seen.picture);
+    seen.mean = mean, seen.variance = sigma * sigma;
+    return seen;
+}
+
+} // namespace
+
+// A sun lights rough metal, and this a ceiling: rays from there meet the highlight now and then.
+TEST(filter_glossy_keeps_the_light_and_takes_its_noise) {
+    for (const char* const lobe : {"conductor color 1 1 1 roughness 0.3",
+                                   "conductor color 1 1 1 roughness 0.35 anisotropy 0.8"}) {
+        const std::string room =
+            cat("settings {\n resolution 8 8\n samples 4096\n}\n"
+                "camera c {\n look_at 0 0 0.5  0 0 1  0 1 0\n lens 50\n}\n"
+                "material metal {\n lobe ",
+                lobe,
+                "\n}\nmaterial grey {\n diffuse 0.5 0.5 0.5\n}\n"
+                "infinite_plane floor {\n material metal\n}\n"
+                "infinite_plane ceiling {\n translate 0 0 1\n material grey\n}\n"
+                "light l {\n type sun\n shadows false\n rotate 30 1 0 0\n}\n");
+        const Seen sharp = filtered(room, 0, 1), blurred = filtered(room, 1, 1);
+        CHECK(sharp.mean > 0.01);
+        CHECK_NEAR(blurred.mean, sharp.mean, 0.02 * sharp.mean);
+        CHECK_INFO(sharp.variance > 5 * blurred.variance,
+                   sharp.variance << " and " << blurred.variance);
+    }
+}
+
+// What the camera sees itself stays, and what it sees in a smooth mirror.
+TEST(filter_glossy_leaves_first_hits) {
+    const std::string metal = floorUnder("light l {\n translate 0.3 0.2 1.5\n}\n") +
+                              "material m {\n lobe conductor color 1 1 1 roughness 0.2\n}\n"
+                              "sphere s {\n scale 0.2 0.2 0.2\n material m\n}\n";
+    CHECK(filtered(metal, 1, 0).picture == filtered(metal, 0, 0).picture);
+    CHECK(!(filtered(metal, 1, 4).picture == filtered(metal, 0, 4).picture));
+    const std::string inMirror =
+        metal + "material mirror {\n lobe mirror\n}\n"
+                "plane above {\n translate 0 0 0.3\n scale 9 9 1\n material mirror\n}\n";
+    CHECK(filtered(inMirror, 1, 1).picture == filtered(inMirror, 0, 1).picture);
 }
 
 } // namespace test_path

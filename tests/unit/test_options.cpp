@@ -224,7 +224,8 @@ TEST(settings_of_light_transport) {
     CHECK(settings(desc, {}).picture == desc.settings);
     const SettingsDesc p =
         settings(desc, {"--integrator=whitted", "--diffuse-depth=1", "--transmission-depth=0",
-                        "--transparent-depth=1024", "--clamp-indirect=2.5", "--caustics"})
+                        "--transparent-depth=1024", "--clamp-indirect=2.5", "--filter-glossy=0.5",
+                        "--caustics"})
             .picture;
     CHECK(p.integrator == IntegratorKind::Whitted && p.caustics);
     CHECK_EQUAL(p.diffuseDepth, 1);
@@ -232,6 +233,7 @@ TEST(settings_of_light_transport) {
     CHECK_EQUAL(p.transmissionDepth, 0);
     CHECK_EQUAL(p.transparentDepth, 1024);
     CHECK_EQUAL(p.clampIndirect, 2.5);
+    CHECK_EQUAL(p.filterGlossy, 0.5);
     CHECK_EQUAL(settings(desc, {"--glossy-depth=3"}).picture.glossyDepth, 3);
     CHECK(!settings({}, {"--no-caustics"}).picture.caustics);
     CHECK_THROWS(parsed({"--diffuse-depth=1025"}), "expects a whole number from 0 to 1024");

@@ -13,7 +13,10 @@ struct Ashikhmin {
     static constexpr std::array<LobeField, 1> kFields{{{"exponent", 1, {50}, 0, 1e9f}}};
     static constexpr std::uint32_t kFlags = kReflects | kAnswersLights | kSpawnsRays;
 
-    explicit Ashikhmin(const LobeNumbers& n) : exponent_(n[0]) {}
+    // As wide as facets of alpha are exponents of 2 / alpha^2 - 2.
+    explicit Ashikhmin(const LobeNumbers& n)
+        : exponent_(min(n[0], Floats(2.0f) / max(n.leastAlpha * n.leastAlpha, Floats(1e-12f)) -
+                                  Floats(2.0f))) {}
     Floats3 below(const Floats3& toEye) const { return restOf(albedo(toEye)); }
     // The integral at normal incidence, which falls to 1/2 at the horizon, as a fit, right to 10 %
     // from exponent 3 on.

@@ -16,7 +16,8 @@ struct Coat {
     static constexpr std::uint32_t kFlags = kReflects | kAnswersLights | kSpawnsRays;
 
     explicit Coat(const LobeNumbers& n)
-        : facets_{Ggx(n[4]), LayerFresnel(n[0], Floats(1.0f), rgbOf(1.0f))}, tint_(n.rgb(1)) {}
+        : facets_{Ggx(n[4]).atLeast(n.leastAlpha), LayerFresnel(n[0], Floats(1.0f), rgbOf(1.0f))},
+          tint_(n.rgb(1)) {}
     Floats3 below(const Floats3& toEye) const {
         const Floats ways = Floats(1.0f) / boundaryAt(toEye.z, facets_.fresnel.eta).cosOut;
         const auto through = [&](Floats tint) { return powOf(tint, ways, (1u << W) - 1); };

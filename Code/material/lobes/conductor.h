@@ -16,7 +16,7 @@ struct Conductor {
     static constexpr std::uint32_t kFlags = kReflects | kAnswersLights | kSpawnsRays | kHasTangent;
 
     explicit Conductor(const LobeNumbers& n)
-        : facets_{Ggx(n[6], n[7], n[8]), Metal(n.rgb(0), n.rgb(3))} {}
+        : facets_{Ggx(n[6], n[7], n[8]).atLeast(n.leastAlpha), Metal(n.rgb(0), n.rgb(3))} {}
     Floats3 below(const Floats3&) const { return rgbOf(0.0f); }
     Floats3 albedo(const Floats3& toEye) const { return facets_.albedo(toEye); }
     Floats3 eval(const Floats3& toEye, const Floats3& toLight) const {

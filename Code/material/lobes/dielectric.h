@@ -14,7 +14,8 @@ struct Dielectric : BoundaryLobe<true> {
                                                        {"anisotropy", 1, {0}, -1, 1}}};
 
     explicit Dielectric(const LobeNumbers& n)
-        : BoundaryLobe(n.eta, Ggx(n[7], n[8], Floats(0.0f)), n.rgb(1), n.rgb(4)) {}
+        : BoundaryLobe(n.eta, Ggx(n[7], n[8], Floats(0.0f)).atLeast(n.leastAlpha), n.rgb(1),
+                       n.rgb(4)) {}
 };
 
 LANES_END

@@ -18,7 +18,8 @@ struct GlossyDielectric {
     static constexpr std::uint32_t kFlags = kReflects | kAnswersLights | kSpawnsRays | kHasTangent;
 
     explicit GlossyDielectric(const LobeNumbers& n)
-        : facets_{Ggx(n[4], n[5], n[6]), LayerFresnel(n[0], n[7] + n[7], n.rgb(1))} {}
+        : facets_{Ggx(n[4], n[5], n[6]).atLeast(n.leastAlpha),
+                  LayerFresnel(n[0], n[7] + n[7], n.rgb(1))} {}
     Floats3 below(const Floats3& toEye) const { return restOf(albedo(toEye)); }
     Floats3 albedo(const Floats3& toEye) const { return facets_.albedo(toEye); }
     Floats3 eval(const Floats3& toEye, const Floats3& toLight) const {

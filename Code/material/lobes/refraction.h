@@ -12,7 +12,7 @@ struct Refraction : BoundaryLobe<false> {
         {{"ior", 1, {1.5f}, 0.001f, 1000}, {"roughness", 1, {0}, 0, 1}}};
 
     explicit Refraction(const LobeNumbers& n)
-        : BoundaryLobe(n.eta, Ggx(n[1]), rgbOf(1.0f), rgbOf(1.0f)) {}
+        : BoundaryLobe(n.eta, Ggx(n[1]).atLeast(n.leastAlpha), rgbOf(1.0f), rgbOf(1.0f)) {}
 };
 
 LANES_END
