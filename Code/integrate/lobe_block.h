@@ -31,7 +31,7 @@ struct alignas(64) LobeBlock {
     // Points whose lobes differ along and across dp/du, and that direction.
     unsigned turned = 0;
     alignas(64) Lane tangent[3];
-    alignas(64) Lane leastAlpha; // of the facets of points (LobeNumbers); begin() leaves it
+    alignas(64) Lane leastAlpha = {}; // of the facets of points (LobeNumbers); begin() leaves it
 
     // Takes kinds and flags of a material; its numbers become those of all points.
     void begin(const LobedMaterials& materials, const LobedMaterial& of) {
