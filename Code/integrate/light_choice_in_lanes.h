@@ -20,16 +20,19 @@ struct ChosenLight {
     Floats end;         // of the shadow ray: in front of a light that it would meet
 };
 
-// The numbers of a light for each lane, by column.
+// The numbers of a light for each lane, by column: those of one light, where no other is put.
 class LightColumns {
 public:
+    explicit LightColumns(const LightRow& row) {
+        for (std::size_t i = 0; i < kLightNumbers; ++i) Floats(row.numbers[i]).store(column_[i]);
+    }
     void put(const LightRow& row, std::size_t lane) {
         for (std::size_t i = 0; i < kLightNumbers; ++i) column_[i][lane] = row.numbers[i];
     }
     LightNumbers numbers() const { return {column_[0], W}; }
 
 private:
-    alignas(64) float column_[kLightNumbers][W] = {};
+    alignas(64) float column_[kLightNumbers][W];
 };
 
 // Calls fn(light) for lights of the kind of `entry`.
@@ -72,16 +75,16 @@ inline ChosenLight chooseLight(const PathLights& lights, const Floats3& p, const
             if ((left >> lane & 1) == 0) light[lane] = 0;
     alignas(64) float end[W] = {};
     while (left != 0) {
-        const PathLights::Entry& leader =
-            lights.entry(light[static_cast<std::size_t>(std::countr_zero(left))]);
-        LightColumns columns;
+        const std::uint32_t first = light[static_cast<std::size_t>(std::countr_zero(left))];
+        const PathLights::Entry& leader = lights.entry(first);
+        LightColumns columns(leader.row);
         unsigned alike = 0;
         for (std::size_t lane = 0; lane < W; ++lane) {
             const PathLights::Entry& entry = lights.entry(light[lane]);
             const bool is = entry.row.kind == leader.row.kind &&
                             entry.inCentre == leader.inCentre && entry.isPlace == leader.isPlace;
-            columns.put(is ? entry.row : leader.row, lane);
             if (!is) continue;
+            if (light[lane] != first) columns.put(entry.row, lane);
             alike |= 1u << lane, end[lane] = PathLights::endOf(entry);
             if (entry.isOpen) out.open |= 1u << lane;
         }
