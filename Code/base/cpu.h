@@ -1,4 +1,5 @@
-// What the instruction sets of the kernels ask of the CPU.
+// The CPU: which instruction sets it has, memory fetched ahead of its use, and regions of code that
+// are compiled for one of the sets.
 #pragma once
 
 #include <cstddef>
@@ -18,9 +19,8 @@ inline bool hasAvx512() {
 }
 #endif
 
-// Memory asked for ahead of its use.
-
-// All lines of the cache that an object aligned to them lies in; of others the last may be missing.
+// Fetches all lines of the cache that an object aligned to them lies in; of others the last may be
+// missing.
 template <class T> inline void prefetch(const T& what) {
     const auto* const bytes = reinterpret_cast<const std::byte*>(&what);
     for (std::size_t at = 0; at < sizeof what; at += 64) __builtin_prefetch(bytes + at);

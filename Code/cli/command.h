@@ -1,4 +1,4 @@
-// The exit codes of the program, as --help lists them. Scripts depend on the numbers.
+// The program as a command: exit codes, sub-commands with their options, help, completion, version.
 #pragma once
 
 #include "cli/flag.h"
@@ -9,6 +9,8 @@
 #include <string>
 #include <string_view>
 #include <vector>
+
+// ---- exit codes, as --help lists them; scripts depend on the numbers
 
 enum class ExitCode {
     Ok = 0,
@@ -37,7 +39,7 @@ inline constexpr std::array kExitCodes{
                  "stopped by SIGINT, SIGTERM or SIGHUP; no picture is written"},
 };
 
-// run(): what the command line asks for, from the arguments to the exit code.
+// ---- run(): what the command line says, from the arguments to the exit code
 
 // What the program is doing, for the message when memory runs out.
 struct Step {
@@ -48,7 +50,7 @@ struct Step {
 // arguments: without the program's name. Fails with Error; prints warnings and notes on stderr.
 ExitCode run(std::span<const std::string> arguments, Step& step);
 
-// `raytracer diff A B`: how far two pictures are apart, for people and for test scripts.
+// ---- `raytracer diff A B`: how far two pictures are apart, for people and for test scripts
 
 struct DiffOptions {
     std::string first, second;
@@ -67,7 +69,7 @@ DiffOptions parseDiffOptions(std::span<const std::string> arguments);
 // Prints a line "metric value" for each metric; AboveTolerance when the value is worse than --tol.
 ExitCode diff(const DiffOptions& options);
 
-// `raytracer verify`: the stress battery on the user's own machine.
+// ---- `raytracer verify`: the stress battery on the user's own machine
 
 struct VerifyOptions {
     double effort = 4;
@@ -89,7 +91,9 @@ VerifyOptions parseVerifyOptions(std::span<const std::string> arguments);
 // Prints a line per test as it ends; Internal when one does not keep its mark.
 ExitCode verify(const VerifyOptions& options);
 
-// The sub-commands, `raytracer NAME ...`: one row each. run(), --help, --completion and the tests
+// ---- the sub-commands, `raytracer NAME ...`
+
+// They are one row each. run(), --help, --completion and the tests
 // walk this table and nothing else.
 
 struct Command {
@@ -109,26 +113,24 @@ struct Command {
 std::span<const Command> commands();
 const Command* commandNamed(std::string_view name); // null: there is none
 
-// The texts that describe the command line, made from the tables of options.
+// ---- texts that describe the command line, made from the tables of options
 
 std::string helpText();                              // raytracer --help
 std::string commandHelpText(const Command& command); // raytracer NAME --help
-// The same for what has no row in the table of sub-commands.
+// Makes the text of what has no row in the table of sub-commands.
 std::string commandHelpText(std::string_view usage, std::string_view about,
                             std::span<const Flag> flags);
 std::string featureListText(); // raytracer --list-features
 
-// Scripts that complete the command line in a shell, made from the tables of options.
-
+// Returns a script that completes the command line in a shell.
 // shell: "bash", "zsh" or "fish".
 std::string completionScript(const std::string& shell);
 
-// What other renderers call an option of ours: for the message about an option that is not known.
+// ---- what other renderers call an option of ours, for the message about an unknown one
 
 // Returns what to write here instead of another program's "--samples" or "-W", such as "--spp";
 // nothing where no other program is known to use that name.
 std::optional<std::string_view> ourWordsFor(std::string_view theirs);
 
-// The version that --version prints.
-
+// --version prints it.
 inline constexpr const char* kVersion = "0.1.0";

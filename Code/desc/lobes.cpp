@@ -51,14 +51,18 @@ std::span<const std::string_view> lobeNames() {
 
 double sumOfWeights(const MaterialDesc& material) {
     Rgbd sum;
+    double cover = 0;
     for (const LobeDesc& lobe : material.lobes) {
         const auto isOfWeight = [](const LobeDesc::Factor& factor) {
             return factor.field == LobeDesc::Factor::kWeight;
         };
-        if (lobe.covers || !lobeForms()[lobe.kind].sendsOn ||
+        if (!lobeForms()[lobe.kind].sendsOn ||
             std::any_of(lobe.factors.begin(), lobe.factors.end(), isOfWeight))
             continue;
-        sum.r += lobe.weight.r, sum.g += lobe.weight.g, sum.b += lobe.weight.b;
+        if (lobe.covers)
+            cover = std::max({cover, lobe.weight.r, lobe.weight.g, lobe.weight.b});
+        else
+            sum.r += lobe.weight.r, sum.g += lobe.weight.g, sum.b += lobe.weight.b;
     }
-    return std::max({sum.r, sum.g, sum.b});
+    return std::max({sum.r, sum.g, sum.b, cover});
 }

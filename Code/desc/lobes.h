@@ -32,7 +32,8 @@ inline constexpr std::string_view kLobeWord = "lobe", kWeightWord = "weight", kT
                                   kWithoutWord = "without", kCoversWord = "covers";
 inline constexpr Range kFactorStrength = kUnit;
 
-// The largest sum of one channel of the weights of lobes that are no covers and send light on, as
-// far as no picture multiplies them. Above 1 all are scaled to 1.
+// The largest sum of one channel of the weights of lobes that are no covers and send light on, or
+// the largest weight of a cover, as far as no picture multiplies them. Above 1 they are scaled to
+// 1, covers each by itself.
 double sumOfWeights(const MaterialDesc& material);
 inline constexpr double kMostOfWeights = 1 + 1e-6; // as 0.9 and 0.1 that were floats

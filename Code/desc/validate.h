@@ -1,4 +1,4 @@
-// ErrorList: errors that need not stop at the first one, thrown together as one Error.
+// What can be wrong with a description: ErrorList, boxes around it, and validate().
 #pragma once
 
 #include "base/bounds.h"
@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+// Errors that need not stop at the first one, thrown together as one Error.
 class ErrorList {
 public:
     explicit ErrorList(const SourceFile& source) : source_(source) {}
@@ -22,7 +23,7 @@ public:
             ++count_;
     }
     void addComplete(std::string message);
-    // Those of another list behind these.
+    // Puts the errors of another list behind these.
     void append(const ErrorList& other) {
         for (const std::string& message : other.messages_)
             if (hasRoom()) messages_.push_back(message);
@@ -43,7 +44,7 @@ private:
     std::size_t count_ = 0;
 };
 
-// Boxes in double around what a description says.
+// ---- boxes in double around what a description says
 
 // Around all bounded objects at all their keys, in the world; empty when there are none.
 BoundsD boundsOf(const SceneDesc& desc, int threads = 1);
@@ -63,7 +64,7 @@ struct NearBounds {
 NearBounds boundsNear(const SceneDesc& desc, Vec3d eye, double farTimes, double least,
                       int threads = 1);
 
-// The rules of a scene that do not depend on the format it came from.
+// ---- the rules of a scene that do not depend on the format it came from
 
 // Throws one Error with all mistakes (the first 20, with their places). What only looks wrong, as a
 // scene without light, becomes a warning. After it, every handle and index is in range, every

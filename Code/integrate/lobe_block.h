@@ -78,13 +78,11 @@ struct alignas(64) LobeBlock {
 private:
     void multiply(const LobeFactor& factor, std::size_t i, Rgb color) {
         auto* const value = &lobe[factor.lobe].value[factor.first];
-        if (factor.count == 1) {
-            value[0][i] *= factor.a + factor.b * factor.texture->valueOf(color);
-            return;
-        }
-        value[0][i] *= factor.a + factor.b * color.r;
-        value[1][i] *= factor.a + factor.b * color.g;
-        value[2][i] *= factor.a + factor.b * color.b;
+        const auto times = [&](float& number, float texel) {
+            number = clamp(number * (factor.a + factor.b * texel), factor.least, factor.most);
+        };
+        if (factor.count == 1) return times(value[0][i], factor.texture->valueOf(color));
+        times(value[0][i], color.r), times(value[1][i], color.g), times(value[2][i], color.b);
     }
     static std::size_t valuesOf(std::uint8_t kind) {
         std::size_t values = 3;

@@ -19,7 +19,7 @@ struct PathState {
     // The least density of the bounces behind it; single directions leave it.
     float leastPdf = kInfinityF;
     Vec3 p, n; // the point where the direction was sampled, and its normal (0: both sides)
-    std::uint8_t diffuse = 0, glossy = 0, transmission = 0, transparent = 0;
+    std::uint16_t diffuse = 0, glossy = 0, transmission = 0, transparent = 0; // limits go to 1024
     int bounces() const { return diffuse + glossy + transmission; }
     // The least alpha of facets that it meets, by Cycles' Filter Glossy of `radius`.
     float leastAlpha(float radius) const {

@@ -75,12 +75,14 @@ Vec3 shading::bentNormal(const Scene& scene, const Ray& ray, const Hit& hit,
 
 Rgb emissionAt(const SceneMaterial& of, Vec2 uv) {
     const Texture* const picture = of.pictures->emission;
-    return picture != nullptr ? of.emission * picture->color(uv) : of.emission;
+    if (picture == nullptr) return of.emission;
+    const Rgb color = of.emission * picture->color(uv);
+    return {max(color.r, 0.0f), max(color.g, 0.0f), max(color.b, 0.0f)};
 }
 
 float opacityAt(const SceneMaterial& of, Vec2 uv) {
     const Texture* const picture = of.pictures->opacity;
-    return picture != nullptr ? of.opacity * picture->value(uv) : of.opacity;
+    return picture != nullptr ? clamp(of.opacity * picture->value(uv), 0.0f, 1.0f) : of.opacity;
 }
 
 Rgb straightTransmission(const Scene& scene, const Ray& ray, const Hit& hit) {

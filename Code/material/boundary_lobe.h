@@ -25,9 +25,10 @@ template <bool kHasFresnel> struct BoundaryLobe {
         const Boundary at = boundary(toEye.z);
         Floats part = at.reflected;
         if (kHasFresnel && !isSmooth()) {
-            const BoundaryEnergy energy(facets_, eta_);
+            const Ggx narrow = facets_.narrowed();
+            const BoundaryEnergy energy(narrow, eta_);
             const Floats reflected = FacetEnergy(facets_, toEye, facets_.lossyRoughness()).all() *
-                                     energy.reflected(toEye.z) / energy.all(facets_, toEye);
+                                     energy.reflected(toEye.z) / energy.all(narrow, toEye);
             part = select(facets_.smooth, part, min(reflected, one));
         }
         return select(facets_.smooth, reflectedAt(at), reflects_ * part) +
@@ -99,7 +100,10 @@ private:
     }
     Floats scale(const Floats3& toEye) const {
         if (!kHasFresnel) return Floats(1.0f);
-        return Floats(1.0f) / BoundaryEnergy(facets_, eta_).all(facets_, toEye);
+        // Facets of two widths lose at least as much light as those of the narrower one, so that
+        // nothing is gained.
+        const Ggx narrow = facets_.narrowed();
+        return Floats(1.0f) / BoundaryEnergy(narrow, eta_).all(narrow, toEye);
     }
     Floats3 facet(const Floats3& toEye, Floats u, Floats v) const {
         const Floats3 up{Floats(0.0f), Floats(0.0f), Floats(1.0f)};

@@ -47,6 +47,13 @@ struct Ggx {
         return wide;
     }
 
+    // The same, but along both axes as narrow as along the narrower one.
+    Ggx narrowed() const {
+        Ggx narrow = *this;
+        narrow.x = narrow.y = min(x, y);
+        return narrow;
+    }
+
     // Between the shading frame and the frame of the facets' axes.
     Floats3 inward(const Floats3& v) const {
         return {v.x * cos + v.y * sin, v.y * cos - v.x * sin, v.z};

@@ -68,12 +68,14 @@ std::optional<LightRow> makeEmitterRow(const ObjectDesc& desc, const Transform& 
                                        bool back) {
     const Vec3d x = place.vector({1, 0, 0}), y = place.vector({0, 1, 0}),
                 z = place.vector({0, 0, 1});
+    // A map that mirrors leaves the front of a flat shape on the other side of its edges' product.
+    const double side = (dot(cross(x, y), z) < 0) != back ? -1.0 : 1.0;
     if (desc.kind == ObjectDesc::Kind::Sphere && keepsForm(x, y, z) && !back)
         return lightRow(
             SphereRow{toFloat(place.point({})), toFloat(desc.radius * length(x)), radiance});
     const auto flat = [&](auto row, const Vec3d& centre, const Vec3d& halfX, const Vec3d& halfY) {
         static_cast<FlatRow&>(row) = {toFloat(centre), toFloat(halfX), toFloat(halfY),
-                                      toFloat(normalize(cross(halfX, halfY)) * (back ? -1.0 : 1.0)),
+                                      toFloat(normalize(cross(halfX, halfY)) * side),
                                       radiance};
         return lightRow(row);
     };

@@ -45,8 +45,8 @@ bool LobedMaterials::add(const std::vector<LobeRow>& lobes, const std::vector<Lo
     of.lobes = static_cast<std::uint8_t>(lobes.size());
     of.factors = static_cast<std::uint16_t>(factors.size());
     of.signature = signatureOf(lobes);
-    // What sends rays on and is no cover; pictures may keep their weights below 1.
-    float sum[3] = {};
+    // What sends rays on, covers apart; pictures may keep their weights below 1.
+    float sum[3] = {}, cover = 0;
     for (std::size_t l = 0; l < lobes.size(); ++l) {
         const LobeRow& lobe = lobes[l];
         const bool isPainted =
@@ -59,20 +59,34 @@ bool LobedMaterials::add(const std::vector<LobeRow>& lobes, const std::vector<Lo
         if ((flags & (kSpawnsRays | kDiffuse)) == kSpawnsRays &&
             has(lobe, "roughness", (flags & kAnswersLights) != 0))
             of.flags |= LobedMaterial::kSpreads;
-        if (lobe.covers || isPainted || (flags & kSpawnsRays) == 0) continue;
-        for (std::size_t i = 0; i < 3; ++i) sum[i] += lobe.value[i];
+        if (isPainted || (flags & kSpawnsRays) == 0) continue;
+        for (std::size_t i = 0; i < 3; ++i)
+            if (lobe.covers)
+                cover = max(cover, lobe.value[i]);
+            else
+                sum[i] += lobe.value[i];
     }
     lobes_.insert(lobes_.end(), lobes.begin(), lobes.end());
-    factors_.insert(factors_.end(), factors.begin(), factors.end());
+    for (LobeFactor factor : factors) {
+        const LobeRow& lobe = lobes[factor.lobe];
+        factor.most = max(1.0f, max(max(lobe.value[0], lobe.value[1]), lobe.value[2]));
+        std::size_t first = 3;
+        for (const LobeField& field : lobeTypes()[lobe.kind].fields) {
+            if (first == factor.first) factor.least = field.least, factor.most = field.most;
+            first += static_cast<std::size_t>(field.count);
+        }
+        factors_.push_back(factor);
+    }
     constexpr float kRoundings = 1e-5f; // of weights that files write with six digits
-    mostReflected_ = max(max(sum[0], sum[1]), sum[2]);
-    return !(mostReflected_ > 1 + kRoundings);
+    mostReflected_ = max(max(sum[0], sum[1]), max(sum[2], 1.0f));
+    return !(max(mostReflected_, cover) > 1 + kRoundings);
 }
 
 void LobedMaterials::scaleDown() {
     for (std::size_t i = materials_.back().firstLobe; i < lobes_.size(); ++i)
-        if (!lobes_[i].covers && (lobeTypes()[lobes_[i].kind].flags & kSpawnsRays) != 0)
-            for (std::size_t c = 0; c < 3; ++c) lobes_[i].value[c] /= mostReflected_;
+        if ((lobeTypes()[lobes_[i].kind].flags & kSpawnsRays) != 0)
+            for (float& weight : std::span(lobes_[i].value).first(3))
+                weight = lobes_[i].covers ? min(weight, 1.0f) : weight / mostReflected_;
 }
 
 namespace {

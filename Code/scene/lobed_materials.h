@@ -25,11 +25,12 @@ struct LobeRow {
 };
 
 // Values [first, first + count) of lobe number `lobe` are multiplied by a + b * texel: three by the
-// colour, one by the grey value.
+// colour, one by the grey value. They stay in the range of numbers that are written.
 struct LobeFactor {
     std::uint8_t lobe, first, count;
     float a, b;
     const Texture* texture;
+    float least = 0, most = 0; // add() sets them
 };
 
 struct LobedMaterial {

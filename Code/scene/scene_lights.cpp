@@ -41,29 +41,36 @@ SceneLights::SceneLights(const SceneDesc& desc, const SceneFrame& frame,
       isPath_(settings.picture.integrator == IntegratorKind::Path) {}
 
 void SceneLights::keepObjects() {
-    for (std::size_t i = 0; i < desc_.objects.size(); ++i) {
+    for (std::uint32_t i = 0; i < desc_.objects.size(); ++i) {
         const ObjectDesc& object = desc_.objects[i];
-        const Handle number = object.materials.empty() ? kNone : object.materials[0];
-        if (object.kind == ObjectDesc::Kind::Mesh || number == kNone ||
-            object.sides != ObjectDesc::Sides::Both)
-            continue;
-        const MaterialDesc& material = desc_.materials[static_cast<std::size_t>(number)];
-        const Rgb radiance = toRgb(material.emission);
-        // What does not shine alike everywhere is found by rays alone.
-        if (!(isPath_ || material.emissionLights) || isBlack(radiance) ||
-            material.emissionTexture != kNone || material.opacity < 1 ||
-            material.opacityTexture != kNone)
-            continue;
-        const MovingTransform place =
-            placedKeys(object.worldFromObject, frame_, settings_.switches.motionBlur);
-        if (!place.isStatic()) continue;
-        const bool bothSides = material.emissionSides == MaterialDesc::Sides::Both;
-        const auto front = makeEmitterRow(object, place.at(0), radiance, false);
-        const auto back = makeEmitterRow(object, place.at(0), radiance, true);
-        const auto which = static_cast<std::uint32_t>(i);
-        if (front) objects_.push_back({which, false, bothSides && !back, *front});
-        if (back && bothSides) objects_.push_back({which, true, false, *back});
+        for (const Handle number : object.materials) {
+            if (number == kNone) continue;
+            const MaterialDesc& material = desc_.materials[static_cast<std::size_t>(number)];
+            const Rgb radiance = toRgb(material.emission);
+            if (!(isPath_ || material.emissionLights) || isBlack(radiance)) continue;
+            if (!keepObject(i, material, radiance) && !isPath_ && unlit_.count++ == 0)
+                unlit_.name = object.name, unlit_.offset = object.loc.offset;
+            if (object.kind != ObjectDesc::Kind::Mesh) break; // the second is that of its checker
+        }
     }
+}
+
+bool SceneLights::keepObject(std::uint32_t number, const MaterialDesc& material, Rgb radiance) {
+    const ObjectDesc& object = desc_.objects[number];
+    // What does not shine alike everywhere is found by rays alone.
+    if (material.emissionTexture != kNone || material.opacity < 1 ||
+        material.opacityTexture != kNone)
+        return false;
+    if (object.kind == ObjectDesc::Kind::Mesh) return true; // addTriangles() does it
+    const MovingTransform place =
+        placedKeys(object.worldFromObject, frame_, settings_.switches.motionBlur);
+    if (object.sides != ObjectDesc::Sides::Both || !place.isStatic()) return false;
+    const bool bothSides = material.emissionSides == MaterialDesc::Sides::Both;
+    const auto front = makeEmitterRow(object, place.at(0), radiance, false);
+    const auto back = makeEmitterRow(object, place.at(0), radiance, true);
+    if (front) objects_.push_back({number, false, bothSides && !back, *front});
+    if (back && bothSides) objects_.push_back({number, true, false, *back});
+    return front.has_value();
 }
 
 std::vector<std::string> SceneLights::addTo(PathLights& lights, const Surroundings& around,
@@ -76,6 +83,15 @@ std::vector<std::string> SceneLights::addTo(PathLights& lights, const Surroundin
         if (shining.bothSides) lights.addObject(shining.object, shining.back, light);
     }
     addTriangles(lights, around);
+    if (unlit_.count > 0)
+        warnings.push_back(located(
+            source, unlit_.offset,
+            cat("object ", unlit_.name,
+                unlit_.count > 1 ? cat(" and ", unlit_.count - 1, " more") : std::string(),
+                " shines, but lights nothing here: whitted takes samples of spheres, disks, "
+                "rectangles and meshes that stand still and shine alike everywhere; integrator "
+                "path would be right"),
+            "warning"));
     if (isPath_)
         lights.makeTree();
     else if (lights.size() > kManyLights)

@@ -44,6 +44,8 @@ private:
     };
     std::vector<std::string> addLamps(PathLights& lights, const Surroundings& around,
                                       const SourceFile& source) const;
+    // Returns false where samples of the object's light can't be taken.
+    bool keepObject(std::uint32_t number, const MaterialDesc& material, Rgb radiance);
     void addSky(PathLights& lights, const Surroundings& around) const;
     void addTriangles(PathLights& lights, const Surroundings& around) const;
     PathLights::Entry surfaceEntry(const LightRow& row) const;
@@ -53,6 +55,12 @@ private:
     const RenderSettings& settings_;
     bool isPath_;
     std::vector<ShiningObject> objects_;
+    // Objects that are to light others, and don't: the first one, and how many there are.
+    struct {
+        std::string name;
+        decltype(SourceLoc::offset) offset = 0;
+        std::size_t count = 0;
+    } unlit_;
 };
 
 // The sky of a scene as a lamp.

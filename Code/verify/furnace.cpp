@@ -45,6 +45,15 @@ Tally whiteSky(const Effort& effort) {
                     *rough = static_cast<float>(random.uniform(0.04, 1));
                     if (!c.is("sheen")) c.width = *rough * *rough;
                 }
+                // Facets of two widths lose more, as one table is for both. Metal of two widths,
+                // which is scaled as Cycles does it, may gain 0.3 %, and glass 3 % where it is seen
+                // along its surface (2 of 1,500 cases).
+                bool isUneven = false;
+                if (float* const uneven = c.number("anisotropy"); random.chance(0.3) && uneven) {
+                    *uneven = static_cast<float>(random.uniform(-1, 1));
+                    c.width *= std::sqrt(1 - 0.9f * std::fabs(*uneven));
+                    isUneven = true;
+                }
                 double said = 0;
                 with(c, [&](const auto& lobe) { said = largest(lobe.albedo(toEye)); });
                 const Mean mean = sampled(c, toEye, random);
@@ -56,9 +65,11 @@ Tally whiteSky(const Effort& effort) {
                 // Once in a hundred cases of boundaries the integral overlooks a kink.
                 const double overlooked = isBoundary ? 0.01 : 0, back = min(sum, 1.0);
                 ++tally.cases;
-                if (!(sum <= 1.0005) && !isHighlight(c)) tally.fail(text);
-                if (!(sum >= 0.99 - overlooked) && keepsAll(c)) tally.fail(text);
-                if (!(std::fabs(said - back) <= slackOfAlbedo(c) * back + 1e-3)) tally.fail(text);
+                const double most = !isUneven ? 1.0005 : isBoundary ? 1.03 : 1.003;
+                if (!(sum <= most) && !isHighlight(c)) tally.fail(text);
+                if (!(sum >= 0.99 - overlooked) && keepsAll(c) && !isUneven) tally.fail(text);
+                if (!(std::fabs(said - back) <= slackOfAlbedo(c) * back + 1e-3) && !isUneven)
+                    tally.fail(text);
                 if (c.has(kSpawnsRays))
                     tally.measure(std::fabs(mean.mean - sum) / (mean.sigma + overlooked / 5), text);
             }

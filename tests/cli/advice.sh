@@ -131,4 +131,45 @@ lamps 300 > many.txt
 expect 'three hundred' 0 'warning: this picture takes samples of each of 301 lights at every point' many.txt a.png
 quiet '... are one choice of a path' many.txt a.png --integrator path
 
+# Surfaces that are to light others, and whose light Whitted pictures take no samples of.
+cat > shines.txt << 'END'
+raytracer 1
+camera c {
+    look_at 0 -6 3  0 0 0  0 0 1
+}
+material e {
+    emission 5 5 5
+    emission_lights true
+}
+plane floor {
+    scale 5 5 1
+}
+cylinder lamp {
+    translate 0 0 3
+    scale 0.5 0.5 0.5
+    material e
+}
+END
+expect 'a cylinder that shines' 0 'shines.txt:12:1: warning: object lamp shines, but lights nothing here' shines.txt a.png
+quiet '... is found by paths' shines.txt a.png --integrator path
+
+# Covers let through what they do not reflect: no more than all.
+cat > cover.txt << 'END'
+raytracer 1
+camera c {
+    look_at 0 -6 3  0 0 0  0 0 1
+}
+world {
+    background 1 1 1
+}
+material m {
+    lobe mirror weight 5 5 5 covers
+    lobe diffuse
+}
+sphere s {
+    material m
+}
+END
+expect 'a cover above 1' 0 "cover.txt:8:1: warning: material 'm': the weights of its lobes sum up to 5; they are scaled to 1" cover.txt a.png
+
 finish

@@ -53,6 +53,53 @@ TEST(white_lobes_vanish_in_an_even_sky) {
     }
 }
 
+// A white closed room that shines has 1 for each place that a path meets, however deep it may go.
+TEST(paths_keep_limits_of_any_depth) {
+    for (const int depth : {254, 255, 300, 1024}) {
+        const auto picture =
+            shot::render("settings {\n resolution 4 4\n samples 4\n}\n"
+                         "camera c {\n look_at 0 0 0  1 0 0  0 0 1\n}\n"
+                         "material m {\n diffuse 1 1 1\n emission 1 1 1\n}\nsphere s {\n radius 3\n"
+                         " material m\n}\n",
+                         path(depth));
+        const auto [mean, sigma] = shot::estimate(picture.color);
+        CHECK_NEAR(mean, depth + 2, 4.5 * sigma + 1e-4 * depth);
+    }
+}
+
+// Whatever a picture holds, numbers stay in their range: nothing in a white sky is brighter than
+// the sky, and nothing shines darkness.
+TEST(pictures_keep_numbers_in_range) {
+    for (const float texel : {5.0f, -1.0f}) {
+        shot::writeTexture("out_of_range.pfm", 2, 2, [=](double, double) {
+            return Rgb{texel, texel, texel};
+        });
+        for (const char* const words :
+             {"lobe oren_nayar color 1 1 1 times t", "lobe schlick_mirror color 1 1 1 times t",
+              "lobe dielectric reflect_tint 1 1 1 times t roughness 0.5",
+              "lobe dielectric transmit_tint 1 1 1 times t", "lobe diffuse weight 1 1 1 times t",
+              "lobe coat tint 1 1 1 times t covers\n lobe diffuse",
+              "diffuse 1 1 1\n opacity_texture t", "emission 1 1 1\n emission_texture t"})
+            for (const bool isPath : {true, false}) {
+                const bool shines = std::string(words).find("emission") == 0;
+                const auto picture =
+                    shot::render(cat("settings {\n resolution 4 4\n samples 64\n max_depth 32\n}\n"
+                                     "world {\n background 1 1 1\n environment_lights true\n}\n"
+                                     "camera c {\n look_at 0 -3 0  0 0 0  0 0 1\n lens 50\n}\n"
+                                     "texture t {\n file \"out_of_range.pfm\"\n}\nmaterial m {\n ",
+                                     words, "\n}\nsphere s {\n material m\n}\n"),
+                                 isPath ? path() : shot::Tweak{});
+                double sum = 0;
+                for (int i = 0; i < 16; ++i) {
+                    const float r = picture.at(i % 4, i / 4).r;
+                    sum += static_cast<double>(r);
+                    CHECK_INFO(r >= 0, words << ": " << r);
+                }
+                if (!shines) CHECK_INFO(sum / 16 < 1.05, words << ": " << sum / 16);
+            }
+    }
+}
+
 // A floor under each kind of lamp has the radiance that Whitted pictures have: paths of no bounce
 // see the same light. Means over all pixels; those of both are random.
 TEST(paths_and_whitted_pictures_see_the_same_lamps) {
@@ -182,6 +229,13 @@ TEST(shining_surfaces_light_as_lamps_do) {
                " material lamp\n}\n"},
           Pair{"light l {\n type disk\n translate 0.5 0 1\n size 1 1\n color 5 5 5\n}\n",
                "disk s {\n translate 0.5 0 1\n rotate 180 1 0 0\n radius 0.5\n"
+               " material lamp\n}\n"},
+          // A map that mirrors leaves the side that shines where it is.
+          Pair{"light l {\n type rectangle\n translate 0.5 0 1\n size 1 1\n color 5 5 5\n}\n",
+               "plane s {\n translate 0.5 0 1\n rotate 180 1 0 0\n scale -0.5 0.5 1\n"
+               " material lamp\n}\n"},
+          Pair{"light l {\n type disk\n translate 0.5 0 1\n size 1 1\n color 5 5 5\n}\n",
+               "disk s {\n translate 0.5 0 1\n scale 1 -1 -1\n rotate 180 0 0 1\n radius 0.5\n"
                " material lamp\n}\n"},
           Pair{"light l {\n type rectangle\n translate 0.5 0 1\n size 1 1\n color 5 5 5\n}\n",
                "mesh square {\npoints 4\n-0.5 -0.5 0\n0.5 -0.5 0\n0.5 0.5 0\n-0.5 0.5 0\n"
