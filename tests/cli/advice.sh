@@ -150,7 +150,7 @@ cylinder lamp {
     material e
 }
 END
-expect 'a cylinder that shines' 0 'shines.txt:12:1: warning: object lamp shines, but lights nothing here' shines.txt a.png
+expect 'a cylinder that shines' 0 'shines.txt: warning: object lamp shines, but lights nothing here' shines.txt a.png
 quiet '... is found by paths' shines.txt a.png --integrator path
 
 # Covers let through what they do not reflect: no more than all.
