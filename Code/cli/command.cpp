@@ -24,15 +24,17 @@ ExitCode parseAndRun(const Command& self, std::span<const std::string> arguments
 std::vector<std::string> fileNames() { return {}; }
 
 constexpr std::array kCommands{
-    Command{.name = "diff",
-            .arguments = "A B",
-            .help = "compares two pictures",
-            .about = "Compares two pictures (.ppm, .png, .pfm) of the same size and prints how far "
-                     "they are apart.",
-            .step = {"comparing the pictures", ExitCode::Input},
-            .flags = flagsOf<DiffOptions, diffFlags>,
-            .words = fileNames,
-            .run = parseAndRun<DiffOptions, parseDiffOptions, diff>},
+    Command{
+        .name = "diff",
+        .arguments = "A B",
+        .help = "compares two pictures",
+        .about =
+            "Compares two pictures (.ppm, .png, .pfm, .exr) of the same size and prints how far "
+            "they are apart.",
+        .step = {"comparing the pictures", ExitCode::Input},
+        .flags = flagsOf<DiffOptions, diffFlags>,
+        .words = fileNames,
+        .run = parseAndRun<DiffOptions, parseDiffOptions, diff>},
     Command{.name = "verify",
             .arguments = "[TEST...]",
             .help = "tests the numbers behind the pictures on this machine",

@@ -48,7 +48,7 @@ unsigned traitsOf(const MaterialDesc& m) {
             if (field.name == "roughness") isRough = lobe.numbers[field.first] > 0;
         const bool reflects = type.isMirror() || type.isGlass();
         lobes |= trait(reflects, Mirror) | trait(type.isGlass(), Transmission) |
-                 trait(reflects && isRough, Roughness);
+                 trait(reflects && isRough, Roughness) | trait(!lobe.factors.empty(), Pictures);
     }
     return lobes | trait(mirrors, Mirror) | trait(transmits, Transmission) |
            trait(m.roughness > 0 && (mirrors || transmits), Roughness) |

@@ -58,6 +58,7 @@ TEST(featuresAreFound) {
         {material(" opacity 0.5\n"), {"transparency"}},
         {texture + material(" opacity_texture t\n"), {"transparency", "textures"}},
         {texture + material(" diffuse_texture t\n"), {"textures"}},
+        {texture + material(" lobe diffuse weight 1 1 1 times t\n"), {"textures"}},
         {texture + material(" bump_map t\n"), {"textures", "bump"}},
         {texture + material(" normal_map t\n"), {"textures", "bump"}},
         {texture + kPlain + kBall, {}},
