@@ -33,7 +33,7 @@ inline void storeUnit(const Bits& all, float* to) {
 }
 
 using Longs __attribute__((vector_size(sizeof(Bits)))) = std::uint64_t;
-constexpr std::uint64_t kLow32 = 0xffffffffu;
+inline constexpr std::uint64_t kLow32 = 0xffffffffu;
 
 // mixBits() and hash() of sample/hash.h for lanes.
 inline Longs mixed(Longs x) {
