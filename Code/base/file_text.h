@@ -67,14 +67,14 @@ private:
 // All bytes of a regular file or pipe. Fails with ErrorKind::Input: the name and the system's
 // reason.
 std::vector<std::uint8_t> readWholeFile(const std::string& fileName);
-// The same as text, read by several threads where it is long (0: as many as the machine has).
+// Returns them as text, read by several threads where it is long (0: as many as the machine has).
 FileText readWholeText(const std::string& fileName, int threads = 1);
 
 // Writes a temporary file in the same folder and renames it; an existing file keeps its content
 // until then. What is no regular file (/dev/null, a pipe) is written to directly. One write at a
 // time: threads wait for each other. Fails with ErrorKind::Output and leaves no temporary file.
 void writeFileAtomically(const std::string& fileName, std::span<const std::uint8_t> bytes);
-// The same for bytes that are made meanwhile: produce(write) gives them to `write` one piece after
+// Writes bytes that are made meanwhile: produce(write) gives them to `write` one piece after
 // the other, from any thread.
 using ByteSource = FunctionRef<void(ByteSink write)>;
 void writeFileAtomically(const std::string& fileName, ByteSource produce);

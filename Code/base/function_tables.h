@@ -1,4 +1,4 @@
-// The table of exact::atan2(), for who takes its steps in lanes.
+// The tables of exact::atan2() and exact::pow(), which their steps in lanes read, too.
 #pragma once
 
 #include "base/double_double.h"
@@ -10,7 +10,7 @@ namespace exact {
 extern const std::array<DoubleDouble, 17> kAtanTable; // atan(k / 16)
 inline constexpr DoubleDouble kHalfPiDd{0x1.921fb54442d18p0, 0x1.1a62633145c07p-54};
 
-// The tables and limits of exact::pow() and its steps, for who takes them in lanes.
+// exact::pow() and its lanes have these tables and limits.
 // One row per 1/128 of the mantissa m in [1,2], to the nearest: c is 1/m to 9 bits, so that
 // products with it can be exact; log = log(1/c), less ln 2 from kHalvedFrom on, where m is counted
 // as half of it, to keep x near 1 free of cancellation: there c = 1 or 1/2 and log = 0 exactly.

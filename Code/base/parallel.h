@@ -62,8 +62,8 @@ public:
 
     // A buffer of any content that a piece can be made in.
     Bytes buffer();
-    // Piece `number`, from 0. Nobody waits: if it is its turn, this thread uses it and those behind
-    // it that are there; else whoever brings what is missing does. What use() throws arrives
+    // Piece `number`, from 0. No thread waits: if it is its turn, this thread uses it and those
+    // behind it that are there; else whoever brings what is missing does. What use() throws arrives
     // here, and then no more is used.
     void put(std::size_t number, Bytes piece);
 

@@ -27,7 +27,7 @@ struct RayD {
 
 constexpr RayD toDouble(const Ray& ray) { return {toDouble(ray.org), toDouble(ray.dir)}; }
 
-// RaySpan: somebody else's batch of rays, as a structure of arrays. Ray i is element i of each.
+// RaySpan: a view of a batch of rays, as a structure of arrays. Ray i is element i of each.
 
 struct RaySpan {
     std::span<const Vec3> org, dir;

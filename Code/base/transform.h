@@ -1,4 +1,4 @@
-// Affine maps as their twelve numbers, for those who read and check many of them: what needs no
+// Affine maps as their twelve numbers, for readers and checks of many of them: what needs no
 // inverse. transform.h has the maps that things are placed with.
 #pragma once
 

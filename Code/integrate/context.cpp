@@ -26,7 +26,7 @@ bool needsFirstHits(const RenderSettings& settings) {
                                       settings.picture.integrator != IntegratorKind::Ao);
 }
 
-// Texture coordinates are for pictures, and for who looks at them; lifts are for shadow rays.
+// Pictures and the integrator that shows them need texture coordinates, shadow rays need lifts.
 SurfaceNeeds surfaceNeedsOf(const Scene& scene, const RenderSettings& settings) {
     if (!settings.specialise) return {};
     return {.uv = scene.anyMaterial().pictures || settings.picture.integrator == IntegratorKind::Uv,

@@ -160,7 +160,7 @@ public:
 private:
     static_assert(std::is_trivially_copyable_v<T>);
     const T* row_;
-    alignas(T) std::byte copy_[PointColumns::kPoints * sizeof(T)]; // nobody zeroes it first
+    alignas(T) std::byte copy_[PointColumns::kPoints * sizeof(T)]; // is not zeroed first
 };
 
 // Describes how the points of a block are seen.

@@ -39,7 +39,7 @@ struct Ggx {
         sin = turn.sin, cos = turn.cos;
     }
 
-    // The same, but along both axes at least as wide as this.
+    // Returns these facets, but along both axes at least as wide as this.
     Ggx atLeast(Floats least) const {
         Ggx wide = *this;
         wide.x = max(x, least), wide.y = max(y, least), wide.alpha = max(alpha, least);
@@ -47,7 +47,7 @@ struct Ggx {
         return wide;
     }
 
-    // The same, but along both axes as narrow as along the narrower one.
+    // Returns these facets, but along both axes as narrow as along the narrower one.
     Ggx narrowed() const {
         Ggx narrow = *this;
         narrow.x = narrow.y = min(x, y);

@@ -23,7 +23,7 @@ Rgb Environment::radiance(Vec3 dir) const {
 
 namespace {
 
-// Of all texels, rows from the bottom.
+// Returns the luminance of all texels, rows from the bottom.
 std::vector<float> luminances(const TexelGrid& grid, ThreadPool& pool) {
     const StoredImage& image = grid.image();
     const auto width = static_cast<std::size_t>(image.width);

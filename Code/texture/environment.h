@@ -30,7 +30,7 @@ private:
     SkyPlace place_;
 };
 
-// SkyCells: how bright a picture around the scene is, cell by cell, for who samples it as a lamp.
+// SkyCells: how bright a picture around the scene is, cell by cell, to be sampled as a lamp.
 
 struct SkyCells {
     int width = 0, height = 0;

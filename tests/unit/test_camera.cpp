@@ -182,7 +182,7 @@ TEST(camera_moves_with_its_keys) {
     CHECK(camera.axesAt(1).eye == (Vec3d{2, 0, 0}));
 }
 
-// Of cameras without a lens, the line of a place is what its ray rounds.
+// The line of a place is what its ray rounds, of cameras without a lens.
 TEST(camera_lines_are_what_rays_round) {
     Random random(417);
     for (int i = 0; i < check::scaled(200); ++i) {

@@ -49,8 +49,8 @@ CameraParams someCamera(Random& random) {
 
 } // namespace
 
-// Of every kind, with and without a lens, at rest and moving; through all places of a block and
-// fewer.
+// Cameras are of every kind, with and without a lens, at rest and moving; rays go through all
+// places of a block and fewer.
 TEST(camera_lanes_have_the_bits_of_single_rays) {
     for (const Isa& kernel : allIsas()) {
         if (!kernel.supported()) continue;

@@ -1,6 +1,4 @@
-// Which rays may see a triangle edge-on, TrianglePlane::isEdgeOn(): a direction is at most sqrt(3)
-// dz long, and the bound is 2^-10 larger than it has to be. Squares in double, which floats of any
-// size neither overflow nor underflow, and no root.
+// Triangles that W rays see edge-on: which rays may, where they meet one, and how near it is.
 #pragma once
 
 #include "accel/triangle.h"
@@ -11,6 +9,10 @@
 #include <limits>
 
 LANES_BEGIN
+
+// TrianglePlane::isEdgeOn() compares with a length: a direction is at most sqrt(3) dz long, and the
+// bound is 2^-10 larger than it has to be. Squares are in double, which floats of any size neither
+// overflow nor underflow, and no root is taken.
 
 // For triangles with these normals.
 [[gnu::always_inline]] inline Doubles edgeOnBound(const Doubles& nx, const Doubles& ny,

@@ -76,6 +76,6 @@ inline constexpr std::size_t kMaxTreeDepth = 96;
 WideTree buildWide(int width, std::span<const Vec3> points,
                    std::span<const std::array<std::uint32_t, 3>> triangles, int threads = 1);
 
-// The same over boxes of anything, each of which is a leaf of its own. The root is in line 0; slots
-// without a child are of kind None.
+// Builds a tree over boxes of anything, each of which is a leaf of its own. The root is in line 0;
+// slots without a child are of kind None.
 WideTree buildWideOfBoxes(int width, std::span<const Bounds> boxes, int threads = 1);

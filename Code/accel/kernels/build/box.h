@@ -32,7 +32,7 @@ struct Box {
     }
 };
 
-// Of three boxes, in the order of halfArea().
+// Returns half the areas of three boxes, in the order of halfArea().
 inline Four halfAreas(const Box& a, const Box& b, const Box& c) {
     const Four p = a.sideProducts(), q = b.sideProducts(), r = c.sideProducts();
     const Four low = __builtin_shufflevector(p, q, 0, 4, 1, 5);
