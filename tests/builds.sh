@@ -1,7 +1,8 @@
 #!/bin/sh
 # The picture does not depend on the compiler or its level of optimisation (promise P1):
 # sh tests/builds.sh MAKE [COMPILER:LEVEL...] makes each build (g++ and clang++ at -O1, -O2, -O3) in
-# build/same and checks the reference pictures of each (cli/hashes.sh) and that its kernels agree. One
+# build/same and checks the reference pictures of each (cli/hashes.sh), that its kernels agree and that no AVX
+# instruction stands outside of them (leak.sh). One
 # line a build; the last one is "N passed, N failed".
 make=${1:?usage: sh tests/builds.sh MAKE [COMPILER:LEVEL...]}
 shift
@@ -26,7 +27,8 @@ for one; do
         verdict="does not build: $(tail -n 1 "$folder.log")"
     else
         {
-            sh tests/cli/hashes.sh "$folder/raytracer" && "$folder/raytracer" verify T10
+            sh tests/leak.sh "$folder/raytracer" && sh tests/cli/hashes.sh "$folder/raytracer" &&
+                "$folder/raytracer" verify T10
         } > "$folder.log" 2>&1
         status=$?
         verdict=$(grep '^[0-9]* passed, [0-9]* failed$' "$folder.log" | paste -s -d ';')
