@@ -35,12 +35,21 @@ void printAdvice(const RenderSettings& settings, const Options& options) {
 }
 
 void printShortfall(const Stats& stats, const Options& options) {
-    if (options.quiet || !stats.error || stats.error->estimate <= stats.error->goal) return;
+    if (options.quiet || !stats.error) return;
     const ErrorStats& error = *stats.error;
-    writeStderr(cat("raytracer: note: the estimated error is ", significant(error.estimate),
-                    ", not below ", shortest(error.goal), ": ", error.cappedPixels,
-                    " pixels would need more than ", error.mostSamples,
-                    " samples; --spp allows more\n"));
+    if (error.goal && error.estimate > *error.goal && error.cappedPixels > 0)
+        writeStderr(cat("raytracer: note: the estimated error is ", significant(error.estimate),
+                        ", not below ", shortest(*error.goal), ": ", error.cappedPixels,
+                        " pixels would need more than ", error.mostSamples,
+                        " samples; --spp allows more\n"));
+    if (error.unsureBlocks > 0)
+        writeStderr(cat("raytracer: note: in ", error.unsureBlocks,
+                        " blocks of 32 x 32 pixels one sample is a tenth of the light or more: others "
+                        "like it may be missing, which no estimate can know\n"));
+    if (options.seconds)
+        writeStderr(cat("raytracer: note: the time was enough for ", error.passes,
+                        error.passes == 1 ? " pass" : " passes", "; --passes ", error.passes,
+                        " gives the same picture\n"));
 }
 
 void printExposure(const Picture& picture, const Scene& scene, const RenderSettings& settings,

@@ -68,6 +68,22 @@ void setBackground(Options& o, const FlagValue& value) {
     o.background = {rgb[0], rgb[1], rgb[2]};
 }
 
+void setError(Options& o, const FlagValue& value) {
+    constexpr std::string_view kWorst = "worst:";
+    std::string_view text = value.text;
+    o.errorOfWorstBlock = text.starts_with(kWorst);
+    if (o.errorOfWorstBlock) text.remove_prefix(kWorst.size());
+    const std::size_t colon = text.find(':');
+    o.errorUnit = colon == std::string_view::npos
+                      ? ErrorUnit::Display
+                      : enumValue<ErrorUnit>({value.flag, text.substr(colon + 1)});
+    const auto error = parseDouble(text.substr(0, colon));
+    if (!error || !(*error >= 1e-6) || !(*error <= 1e6))
+        value.wrong(cat("a number from 1e-06 to 1e+06, as 0.01, 0.01:", alternatives<ErrorUnit>(),
+                        " or worst:0.01"));
+    o.error = error;
+}
+
 void setFilter(Options& o, const FlagValue& value) {
     using Filter = SettingsDesc::Filter;
     const std::size_t comma = value.text.find(',');

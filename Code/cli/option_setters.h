@@ -33,6 +33,7 @@ void setScale(Options& o, const FlagValue& value);
 void setResolution(Options& o, const FlagValue& value);
 void setCrop(Options& o, const FlagValue& value);
 void setBackground(Options& o, const FlagValue& value);
+void setError(Options& o, const FlagValue& value);  // [worst:]E[:UNIT]
 void setFilter(Options& o, const FlagValue& value); // NAME or NAME,WIDTH
 void setAovs(Options& o, const FlagValue& value);   // NAME,NAME,...
 // --textures, --textures=DIR, --no-textures

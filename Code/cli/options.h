@@ -49,7 +49,12 @@ struct Options {
     std::optional<double> filterGlossy;
     std::optional<double> clampIndirect;
     std::optional<bool> caustics;
-    std::optional<double> error; // RMSE; samplesPerPixel is then the most
+    // --error; samplesPerPixel is then the most, as with --time and --passes.
+    std::optional<double> error;
+    ErrorUnit errorUnit = ErrorUnit::Display;
+    bool errorOfWorstBlock = false;
+    std::optional<double> seconds; // --time
+    std::optional<int> passes;
     std::optional<SettingsDesc::Sampler> sampler;
     std::optional<bool> jitter;
     std::optional<std::uint32_t> seed;
@@ -77,8 +82,9 @@ struct Options {
 // The words on the command line for the enums of RenderSettings and Options.
 constexpr auto wordsOf(AccelKind) { return words("bvh", "none"); }
 constexpr auto wordsOf(Aov) {
-    return words("depth", "normal", "albedo", "position", "id", "samples");
+    return words("depth", "normal", "albedo", "position", "id", "samples", "error");
 }
+constexpr auto wordsOf(ErrorUnit) { return words("display", "linear", "relative"); }
 constexpr auto wordsOf(Options::Progress) { return words("auto", "plain", "none"); }
 
 inline constexpr const char* kFeatureGroup = "features"; // the group of Switches

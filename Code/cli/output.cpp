@@ -30,7 +30,8 @@ std::vector<std::string> channelsOf(Aov aov) {
     case Aov::Position: return {"X", "Y", "Z"};
     case Aov::Albedo: return {"R", "G", "B"};
     case Aov::Id:
-    case Aov::Samples: break;
+    case Aov::Samples:
+    case Aov::Error: break;
     }
     return {"V"};
 }

@@ -101,12 +101,22 @@ void addQualityFlags(std::vector<Flag>& flags, Options& o) {
                .help = "samples per pixel; powers of two are best",
                .set = [&o](const FlagValue& v) { o.samplesPerPixel = wholeLike("samples", v); },
                .example = "4"});
-    group.add({.name = "--error", .argument = "E",
-               .help = "samples where they are needed, until the estimated error of the picture "
-                       "is below E: the RMSE of its linear values, 1 is white; --spp is then the "
-                       "most per pixel (4096)",
-               .set = [&o](const FlagValue& v) { o.error = v.number(1e-6, 1e6); },
+    group.add({.name = "--error", .argument = "[worst:]E[:UNIT]",
+               .help = cat("samples where they are needed, until the error of the picture is below E with "
+                           "95 % certainty: RMSE in units of ", alternatives<ErrorUnit>(),
+                           " (display: as shown, 1 is full scale); worst: that of each block of 32 x 32 "
+                           "pixels; --spp is then the most per pixel (65536)"),
+               .set = [&o](const FlagValue& v) { setError(o, v); },
                .example = "0.01"});
+    group.add({.name = "--time", .argument = "SECONDS",
+               .help = "samples where they are needed, pass by pass, while the whole run takes no longer; "
+                       "at least one pass of one sample",
+               .set = [&o](const FlagValue& v) { o.seconds = v.number(1e-3, 1e9); },
+               .example = "1"});
+    group.add({.name = "--passes", .argument = "N",
+               .help = "as many passes as a run with --time has told: the same picture, bit by bit",
+               .set = [&o](const FlagValue& v) { o.passes = v.whole(1, 1000000); },
+               .example = "3"});
     group.add({.name = "--light-samples", .argument = "N",
                .help = "shadow rays per soft light and hit",
                .set = [&o](const FlagValue& v) { o.lightSamples = wholeLike("light_samples", v); },

@@ -97,28 +97,39 @@ void setQuality(SettingsDesc& picture, const Options& options) {
     picture.filterWidth = 0;
 }
 
-// The scene's own number of samples says how good its picture shall be, and so does --error.
-void setErrorGoal(RenderSettings& settings, const Options& options) {
-    if (!options.error || options.action != Options::Action::Render) return;
+// The scene's own number of samples says how good its picture shall be, and so do these options.
+void setRefinement(RenderSettings& settings, const Options& options) {
+    const auto wantsError =
+        std::find(options.aovs.begin(), options.aovs.end(), Aov::Error) != options.aovs.end();
+    if (options.action != Options::Action::Render) return;
+    if (!options.error && !options.seconds && !options.passes) {
+        if (wantsError)
+            failUsage("--aov error needs --error, --time or --passes, which estimate it");
+        return;
+    }
+    const std::string flag = options.error ? "--error" : options.seconds ? "--time" : "--passes";
     using Sampler = SettingsDesc::Sampler;
     SettingsDesc& picture = settings.picture;
     const bool hasPlaces =
         picture.sampler == Sampler::Stratified || picture.sampler == Sampler::Grid;
     if (picture.sampler == Sampler::Corners)
-        failUsage("--error has no use with --sampler corners, whose rays have fixed places; sobol, "
-                  "stratified, random and grid can be asked for an error");
+        failUsage(flag + " has no use with --sampler corners, whose rays have fixed places; sobol, "
+                         "stratified, random and grid go on with more");
     if (hasPlaces && !picture.jitter && picture.filterWidth > 0)
-        failUsage("--error has no use with --no-jitter: samples in fixed places do not know what "
-                  "is between them; --sampler sobol and random need no jitter");
-    ErrorGoal goal{.rmse = *options.error};
-    goal.mostSamples = options.samplesPerPixel.value_or(goal.mostSamples);
-    if (goal.mostSamples < ErrorGoal::kFirstSamples)
-        failUsage(cat("--error needs --spp ", ErrorGoal::kFirstSamples,
-                      " or more: fewer samples show no error"));
-    // A .pfm has no white that ends its values.
-    if (lowerExtension(options.output) != ".pfm") goal.white = 1;
-    picture.samplesPerPixel = ErrorGoal::kFirstSamples;
-    settings.errorGoal = goal;
+        failUsage(flag + " has no use with --no-jitter: samples in fixed places do not know what "
+                         "is between them; --sampler sobol and random need no jitter");
+    if (options.seconds && options.passes)
+        failUsage("--time and --passes both say when the picture ends; give one of them");
+    Refinement refinement{.error = options.error,
+                          .unit = options.errorUnit,
+                          .ofWorstBlock = options.errorOfWorstBlock,
+                          .hasTime = options.seconds.has_value(),
+                          .passes = options.passes};
+    refinement.mostSamples = options.samplesPerPixel.value_or(refinement.mostSamples);
+    if (refinement.mostSamples < 2)
+        failUsage(flag + " needs --spp 2 or more: one sample shows no error");
+    picture.samplesPerPixel = Refinement::kFirstSamples;
+    settings.refinement = refinement;
 }
 
 } // namespace
@@ -142,7 +153,7 @@ RenderSettings settingsFrom(const SceneDesc& desc, const Options& options) {
     settings.threads = options.threads > 0 ? options.threads : hardwareThreads();
     settings.background = options.background;
     settings.aovs = options.aovs;
-    setErrorGoal(settings, options);
+    setRefinement(settings, options);
     settings.textureFolder = options.textureFolder;
     return settings;
 }

@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "cli/command.h"
+#include "cli/option_setters.h"
 
 #include <algorithm>
 #include <cmath>
@@ -22,6 +23,16 @@ std::string grouped(std::uint64_t value) {
     std::string text = std::to_string(value);
     for (std::size_t end = text.size(); end > 3; end -= 3) text.insert(end - 3, 1, ' ');
     return text;
+}
+
+std::string unitOf(const ErrorStats& error) {
+    return namesOf<ErrorUnit>()[static_cast<std::size_t>(error.unit)];
+}
+
+// "(display; goal 0.01)", what the estimate stands beside.
+std::string errorNote(const ErrorStats& error) {
+    return cat("(", error.ofWorstBlock ? "worst block, " : "", unitOf(error),
+               error.goal ? cat("; goal ", shortest(*error.goal)) : "", ")");
 }
 
 double raysPerSecond(const Stats& stats) {
@@ -142,10 +153,12 @@ std::string statsTable(const Stats& s) {
                   ? ""
                   : cat("(", shortest(s.samplesMin), " to ", shortest(s.samplesMax), ")"));
     if (s.error) {
-        table.row("estimated error", significant(s.error->estimate),
-                  cat("(goal ", shortest(s.error->goal), ")"));
+        table.row("estimated error", significant(s.error->estimate), errorNote(*s.error));
+        table.row("passes", std::to_string(s.error->passes));
         table.row("pixels short of goal", grouped(s.error->cappedPixels),
                   cat("(at ", s.error->mostSamples, " samples)"));
+        table.row("unsure blocks", grouped(s.error->unsureBlocks),
+                  "(one sample is a tenth of their light)");
     }
     table.heading("numeric");
     table.row("nan samples", grouped(s.nanSamples));
@@ -182,8 +195,12 @@ std::string statsJson(const Stats& s, const RunFacts& run) {
     all.add("kernel", quoted(s.kernel));
     all.add("features", features.text());
     if (s.error) {
-        all.add("error_estimate", s.error->estimate).add("error_goal", s.error->goal);
+        all.add("error_estimate", s.error->estimate);
+        all.add("error_unit", quoted(unitOf(*s.error)));
+        if (s.error->goal) all.add("error_goal", *s.error->goal);
+        all.add("passes", static_cast<std::uint64_t>(s.error->passes));
         all.add("capped_pixels", s.error->cappedPixels);
+        all.add("unsure_blocks", s.error->unsureBlocks);
     }
     all.add("samples", samples.text()).add("numeric", numeric.text());
     return all.text() + "\n";

@@ -75,6 +75,11 @@ public:
     }
 
     const Place& at(int x, int y) const { return sums_[index(x, y)]; }
+    // The mean of the place's samples, black where there are none, unrounded.
+    Vec3d meanAt(int x, int y) const {
+        const Place& place = at(x, y);
+        return place.sum.value() / (perUnit_ * std::max(place.count, std::uint32_t{1}));
+    }
     // The mean of the place's samples, black where there are none.
     Rgb mean(int x, int y) const { return meanOf(sums_[index(x, y)]); }
     // The means of all places, from (x0, y0) of `image` on.

@@ -2,7 +2,7 @@
 
 #include "base/parallel.h"
 #include "film/canvas.h"
-#include "film/goal_film.h"
+#include "film/adaptive_film.h"
 #include "render/tile_sampler.h"
 #include "scene/settings.h"
 
@@ -39,8 +39,8 @@ public:
             worker.tile = Image(std::min(side_, area_.width()), std::min(side_, area_.height()));
         }
         Picture picture;
-        if (settings_.errorGoal)
-            picture.finished = renderToGoal(pool_, workers, control, picture, stats);
+        if (settings_.refinement)
+            picture.finished = renderPasses(pool_, workers, control, stats);
         else
             picture.finished = renderTiles(pool_, workers, control, stats);
         for (const TileWorker& worker : workers) {
@@ -90,34 +90,46 @@ private:
         return runJobs(pool, tiles_.size(), control, 0, 1, renderOne) && allWhole;
     }
 
-    // In rounds, each of which adds samples where the picture needs them.
-    bool renderToGoal(ThreadPool& pool, std::vector<TileWorker>& workers,
-                      const RenderControl& control, Picture& picture, Stats& stats) {
-        GoalFilm film(area_.width(), area_.height(), settings_, sampler_.units());
+    // In passes, each of which adds samples where the picture needs them. The clock decides how many there are,
+    // and nothing else.
+    bool renderPasses(ThreadPool& pool, std::vector<TileWorker>& workers,
+                      const RenderControl& control, Stats& stats) {
+        AdaptiveFilm film(area_, settings_, sampler_.units());
         double told = 0; // progress never falls, though the work ahead may turn out to be more
+        double secondsPerSample = 0;
         std::atomic<bool> allWhole = true;
         while (allWhole) {
-            const std::vector<Tile> parts = film.nextRound();
+            const double secondsBefore = control.secondsLeft ? control.secondsLeft() : 0;
+            const std::vector<SamplePlan::Part> parts = film.nextPass(pool);
             if (parts.empty()) break;
+            double samples = 0;
+            for (const SamplePlan::Part& part : parts)
+                samples += static_cast<double>(part.batch) * part.tile.width() * part.tile.height();
+            if (secondsPerSample > 0 && samples * secondsPerSample > control.secondsLeft()) {
+                film.cancelPass();
+                break;
+            }
             const double begun = std::max(told, film.share().begun);
             told = std::max(begun, film.share().done);
             const auto addBatch = [&](std::size_t index, std::size_t number) {
-                const Tile& part = parts[index];
+                const SamplePlan::Part& part = parts[index];
                 TileWorker& worker = workers[number];
-                const Tile tile{part.x0 + area_.x0, part.y0 + area_.y0, part.x1 + area_.x0,
-                                part.y1 + area_.y0};
-                if (sampler_.trace(tile, film.samplesOf(part), film.batchOf(part), worker,
-                                   control.stop))
-                    film.add(part, worker.color, worker.aovs);
+                if (sampler_.trace(part.tile, part.before, part.batch, worker, control.stop))
+                    film.add(part, worker.color, worker.largest, worker.aovs);
                 else
                     allWhole = false;
             };
             if (!runJobs(pool, parts.size(), control, begun, told, addBatch)) allWhole = false;
+            if (control.secondsLeft)
+                secondsPerSample = (secondsBefore - control.secondsLeft()) / samples;
         }
         if (control.progress && allWhole) control.progress(1);
         film.color().writeMeans(color_->image(), 0, 0);
-        for (std::size_t a = 0; a < aovs_.size(); ++a) writeAov(film.aov(a), a, 0, 0);
-        picture.error = film.error();
+        for (std::size_t a = 0; a < aovs_.size(); ++a)
+            if (settings_.aovs[a] == Aov::Error)
+                aovs_[a] = film.error();
+            else
+                writeAov(film.aov(a), a, 0, 0);
         film.describe(stats);
         return allWhole;
     }
@@ -177,7 +189,7 @@ private:
 
     // Where pixels are made of corners or of sums that grow, all of them are needed to the end.
     std::optional<Encoding> wantedCodes() const {
-        if (!settings_.onlyCodes || settings_.errorGoal || sampler_.throughCorners()) return {};
+        if (!settings_.onlyCodes || settings_.refinement || sampler_.throughCorners()) return {};
         return encodingOf(settings_, 8);
     }
 

@@ -21,7 +21,6 @@ struct Picture {
     Image color;      // linear radiance, exposure not applied
     CodedImage codes; // or this, where no more is wanted: see RenderSettings
     std::vector<AovImage> aovs;
-    Image error;           // with an error goal: the RMSE that is estimated around each pixel
     bool finished = false; // false: stopped before every tile was done; the others are black
 };
 struct RenderControl {
@@ -30,6 +29,9 @@ struct RenderControl {
     FunctionRef<void(double)> progress = {};
     // Set by a signal handler or a caller; workers look at it between chunks of samples.
     const std::atomic<bool>* stop = nullptr;
+    // Returns how long the picture may still take, for a refinement that the clock ends. It may be
+    // exceeded by a part of a pass, and by the first pass as a whole.
+    FunctionRef<double()> secondsLeft = {};
 };
 
 // The picture covers the crop rectangle. Same bits for any number of threads.

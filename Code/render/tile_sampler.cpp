@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <span>
 
 namespace {
 
@@ -14,8 +15,17 @@ void addFirstHit(Film& film, Aov aov, int x, int y, const FirstHit& first) {
         return film.add(x, y, {first.position.x, first.position.y, first.position.z});
     case Aov::Albedo: return film.add(x, y, first.albedo);
     case Aov::Id: return film.add(x, y, grey(static_cast<float>(first.object)));
-    case Aov::Samples: return film.add(x, y, {});
+    case Aov::Samples:
+    case Aov::Error: return film.add(x, y, {});
     }
+}
+
+// Returns the largest sum of the channels of a sample that is a number.
+float largestOf(std::span<const Rgb> samples) {
+    float largest = 0;
+    for (const Rgb& c : samples)
+        if (Film::isNumber(c)) largest = max(largest, c.r + c.g + c.b);
+    return largest;
 }
 
 } // namespace
@@ -29,8 +39,9 @@ bool TileSampler::trace(const Tile& tile, int begin, int samples, TileWorker& wo
     worker.color.reset(tile.width(), tile.height(), units_.color);
     for (std::size_t a = 0; a < worker.aovs.size(); ++a)
         worker.aovs[a].reset(tile.width(), tile.height(), units_.aovs[a]);
+    worker.largest = 0;
     const int pixels = tile.width() * tile.height();
-    if (settings_.errorGoal && emptyTiles_.isEmpty(tile)) {
+    if (settings_.refinement && emptyTiles_.isEmpty(tile)) {
         worker.rays.camera +=
             static_cast<std::uint64_t>(samples) * static_cast<std::uint64_t>(pixels);
         worker.color.addToAll(background(), samples);
@@ -44,6 +55,8 @@ bool TileSampler::trace(const Tile& tile, int begin, int samples, TileWorker& wo
         const int count = std::min(perChunk, end - first);
         traceChunk(tile, first, count, worker);
         collect(tile, first, count, worker);
+        if (settings_.refinement)
+            worker.largest = max(worker.largest, largestOf(worker.chunk.radiance));
     }
     return true;
 }

@@ -22,6 +22,7 @@ struct alignas(128) TileWorker {
     Image tile;             // what it becomes
     RayCounts rays;
     std::uint64_t cameraHits = 0, nanSamples = 0;
+    float largest = 0; // with a refinement: of the samples of the last trace(), the largest sum of channels
 };
 
 class TileSampler {

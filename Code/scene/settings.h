@@ -15,8 +15,8 @@
 
 using IntegratorKind = SettingsDesc::Integrator;
 enum class AccelKind { Bvh, None };
-// How much time the trees over meshes may take: as many rays pay for, little, or a lot.
-enum class Aov { Depth, Normal, Albedo, Position, Id, Samples };
+// More pictures. Error: what is estimated of each pixel, where the picture has a refinement.
+enum class Aov { Depth, Normal, Albedo, Position, Id, Samples, Error };
 
 // The features that --no-x switches off. All true: the scene decides.
 struct Switches {
@@ -25,15 +25,25 @@ struct Switches {
     bool operator==(const Switches&) const = default;
 };
 
-// --error: samples where they are needed, until the picture is as good as asked for.
-struct ErrorGoal {
-    // Of the first look at a pixel, in two halves; samplers that spread a known number of samples
-    // spread so many, again and again.
-    static constexpr int kFirstSamples = 4;
+// What an error is told in. Display: the picture as it is shown, after exposure, clipping and transfer, 1 is
+// full scale. Linear: its linear values with the exposure. Relative: those against what is right.
+enum class ErrorUnit { Display, Linear, Relative };
 
-    double rmse;              // of the linear values with the exposure applied
-    int mostSamples = 4096;   // per pixel, at least kFirstSamples
-    double white = kInfinity; // values above are written as this
+// --error, --time, --passes: samples where they are needed, pass by pass, until an end is reached.
+struct Refinement {
+    // Samples of every pixel before it is decided which get more; samplers that spread a known number of
+    // samples spread so many, again and again.
+    static constexpr int kFirstSamples = 16;
+
+    std::optional<double> error = {}; // the RMSE of the picture is below this
+    ErrorUnit unit = ErrorUnit::Display;
+    bool ofWorstBlock = false;   // instead, that of 99 % of the blocks
+    bool hasTime = false;        // the caller's clock ends it
+    std::optional<int> passes = {}; // it has so many
+    int mostSamples = 65536;     // per pixel, at least 2
+
+    // The end may come at any time: the passes are short.
+    bool hasShortPasses() const { return hasTime || passes; }
 };
 
 struct RenderSettings {
@@ -41,8 +51,8 @@ struct RenderSettings {
     SettingsDesc picture;
     std::string camera; // name; empty: the first one of the scene
     Switches switches;
-    // Then `picture` has samples for the first look only.
-    std::optional<ErrorGoal> errorGoal;
+    // Then the samples of `picture` are those of the first look only.
+    std::optional<Refinement> refinement;
     AccelKind accel = AccelKind::Bvh;
     const Isa* isa = &oneLane(); // whose kernels trace and shade
     int threads = 1;             // resolved, at least 1

@@ -1,6 +1,8 @@
 // Counters of one render. Every worker has its own; they are summed at the end.
 #pragma once
 
+#include "scene/settings.h"
+
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -29,11 +31,16 @@ struct AccelStats {
     double sah = 0; // surface-area-heuristic cost of the top tree and its meshes
 };
 
-// Of a picture with an error goal.
+// What a picture with a refinement has come to.
 struct ErrorStats {
-    double goal = 0, estimate = 0;  // RMSE
+    std::optional<double> goal;
+    ErrorUnit unit = ErrorUnit::Display;
+    bool ofWorstBlock = false;
+    double estimate = 0; // the upper bound of the RMSE, right in 95 % of all cases
+    int passes = 0;
     int mostSamples = 0;            // that a pixel may have
     std::uint64_t cappedPixels = 0; // have as many, and an error above the goal
+    std::uint64_t unsureBlocks = 0; // one sample is a tenth of their light or more
 };
 
 struct Stats {
@@ -48,7 +55,7 @@ struct Stats {
     std::vector<std::string> featuresNeeded,
         featuresSkipped; // skipped: "dof: aperture_radius is 0"
     double samplesMin = 0, samplesMean = 0, samplesMax = 0;
-    std::optional<ErrorStats> error;        // with --error
+    std::optional<ErrorStats> error;        // with --error, --time, --passes
     std::uint64_t nanSamples = 0;           // samples dropped because a value was not finite
     std::uint64_t degeneratePrimitives = 0; // triangles without area, left out of the trees
 };

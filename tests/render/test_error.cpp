@@ -5,6 +5,7 @@
 #include "shot.h"
 
 #include "accel/kernels/kernels.h"
+#include "image/colour.h"
 #include "image/compare.h"
 
 #include <algorithm>
@@ -15,8 +16,9 @@ namespace {
 
 shot::Tweak goal(double rmse, const shot::Tweak& more = {}) {
     return [=](RenderSettings& s) {
-        s.picture.samplesPerPixel = ErrorGoal::kFirstSamples;
-        s.errorGoal = ErrorGoal{.rmse = rmse};
+        s.picture.samplesPerPixel = Refinement::kFirstSamples;
+        s.refinement = Refinement{.error = rmse};
+        s.aovs = {Aov::Error};
         if (more) more(s);
     };
 }
@@ -61,7 +63,7 @@ Image referenceOf(const std::string& text, int samples, const shot::Tweak& tweak
         .color;
 }
 
-// RMSE over the pixels of a rectangle.
+// RMSE over the pixels of a rectangle, of two pictures as they are.
 double rmseIn(const Image& a, const Image& b, int x0, int y0, int side) {
     double sum = 0;
     int count = 0;
@@ -74,64 +76,63 @@ double rmseIn(const Image& a, const Image& b, int x0, int y0, int side) {
     return std::sqrt(sum / count);
 }
 
-Image clipped(Image image) {
-    for (Rgb& p : image.pixels()) p = {min(p.r, 1.0f), min(p.g, 1.0f), min(p.b, 1.0f)};
+// The picture as it is shown: clipped, and in sRGB.
+Image shown(Image image) {
+    for (Rgb& p : image.pixels())
+        p = {srgbFromLinear(p.r), srgbFromLinear(p.g), srgbFromLinear(p.b)};
     return image;
 }
+const Image& errorOf(const Picture& picture) { return picture.aovs.back().image; }
 
 } // namespace
 
-// Soft shadows, rough mirrors, a lens, motion, textures, glass, see-through surfaces, edges: the
-// error of no picture is above the reported one, and in tiles of 16 x 16 it is at most 1.1 of the
-// reported one in 95 % (T23). The reference has another seed and an error of less than a tenth.
+// Soft shadows, rough mirrors, a lens, motion, textures, glass, see-through surfaces: the true error as shown is
+// below the goal and, but where the first look is already better, not below half of it; in blocks of 32 x 32 it is at
+// most 1.1 of the reported one in 95 % (E1 and E2). The reference has another seed and an error of less than a tenth.
 TEST(reportedErrorIsHonest) {
-    int tiles = 0, honest = 0;
+    int blocks = 0, honest = 0;
     double worst = 0;
     for (const char* name :
          {"soft", "glossy", "dof", "motion", "textures", "glass", "transparent"}) {
         const std::string& text = sceneNamed(name);
-        const Image reference = clipped(referenceOf(text, 512));
+        const Image reference = shown(referenceOf(text, 1024));
         for (std::uint32_t seed = 0; seed < check::scaled(2u); ++seed) {
             Stats stats;
-            const Picture picture = render(text,
-                                           goal(0.03,
-                                                [&](RenderSettings& s) {
-                                                    s.picture.seed = seed;
-                                                    s.errorGoal->white = 1;
-                                                    s.errorGoal->mostSamples = 512;
-                                                }),
-                                           stats);
-            const Image seen = clipped(picture.color);
+            const Picture picture =
+                render(text, goal(0.02, [&](RenderSettings& s) { s.picture.seed = seed; }), stats);
+            const Image seen = shown(picture.color);
             const double truth = rmse(seen, reference);
-            CHECK_INFO(stats.error->estimate <= 0.03, name << " " << stats.error->estimate);
+            CHECK_INFO(stats.error->estimate <= 0.02, name << " " << stats.error->estimate);
             CHECK_INFO(truth <= stats.error->estimate, name << " seed " << seed << ": " << truth
                                                             << ", reported "
                                                             << stats.error->estimate);
+            CHECK_INFO(truth > 0.01 || stats.samplesMean < 20, name << " " << truth);
             worst = max(worst, truth / stats.error->estimate);
             const Image none(seen.width(), seen.height());
-            for (int y = 0; y < seen.height(); y += 16)
-                for (int x = 0; x < seen.width(); x += 16, ++tiles)
-                    honest += rmseIn(seen, reference, x, y, 16) <=
-                              1.1 * rmseIn(picture.error, none, x, y, 16) + 1e-6;
+            constexpr int kSide = 32;
+            for (int y = 0; y < seen.height(); y += kSide)
+                for (int x = 0; x < seen.width(); x += kSide, ++blocks)
+                    honest += rmseIn(seen, reference, x, y, kSide) <=
+                              1.1 * rmseIn(errorOf(picture), none, x, y, kSide) + 1e-4;
         }
     }
-    std::printf("true error at most %.2f of the reported one; %d of %d tiles within 1.1\n", worst,
-                honest, tiles);
-    CHECK_INFO(honest >= 0.95 * tiles, honest << " of " << tiles);
+    std::printf("true error at most %.2f of the reported one; %d of %d blocks within 1.1\n", worst,
+                honest, blocks);
+    CHECK_INFO(honest >= 0.95 * blocks, honest << " of " << blocks);
 }
 
 // The same error with the same number of samples everywhere costs more: what moves is in a part of
 // the picture only.
 TEST(errorGoalSavesSamples) {
     const std::string& text = sceneNamed("motion");
-    const Image reference = referenceOf(text, 512);
+    const Image reference = shown(referenceOf(text, 1024));
     const auto evenError = [&](int samples) {
         return rmse(
-            render(text, [&](RenderSettings& s) { s.picture.samplesPerPixel = samples; }).color,
+            shown(render(text, [&](RenderSettings& s) { s.picture.samplesPerPixel = samples; }).color),
             reference);
     };
     Stats stats;
-    const double error = rmse(render(text, goal(0.015), stats).color, reference);
+    const double error = rmse(shown(render(text, goal(0.005), stats).color), reference);
     int samples = 4;
     double before = evenError(samples / 2), now = evenError(samples);
     for (; now > error && samples < 256; samples *= 2) before = now, now = evenError(2 * samples);
@@ -139,7 +140,49 @@ TEST(errorGoalSavesSamples) {
     const double needed =
         samples / 2 * std::exp2(std::log(before / error) / std::log(before / now));
     std::printf("%.1f samples per pixel instead of %.1f\n", stats.samplesMean, needed);
-    CHECK_INFO(needed > 1.5 * stats.samplesMean, stats.samplesMean << " of " << needed);
+    CHECK_INFO(needed > 1.4 * stats.samplesMean, stats.samplesMean << " of " << needed);
+}
+
+// Pixels do not stop where they are too dark by chance: the mean over many seeds of every block is that of a
+// reference, as far as their spread tells (E3: |z| below 4.5, and the mean of all z below 4.5 / sqrt(blocks)).
+TEST(errorGoalIsNotBiased) {
+    const std::string& text = sceneNamed("glossy");
+    const int seeds = check::scaled(48);
+    const Image reference = referenceOf(text, 8192);
+    constexpr int kSide = 12;
+    std::vector<std::vector<double>> means; // of blocks, per seed
+    const auto blocksOf = [&](const Image& image) {
+        std::vector<double> all;
+        for (int y = 0; y < image.height(); y += kSide)
+            for (int x = 0; x < image.width(); x += kSide) {
+                double sum = 0;
+                for (int j = y; j < y + kSide; ++j)
+                    for (int i = x; i < x + kSide; ++i) {
+                        const Rgb p = image.pixel(i, j);
+                        sum += static_cast<double>(p.r) + static_cast<double>(p.g) +
+                               static_cast<double>(p.b);
+                    }
+                all.push_back(sum);
+            }
+        return all;
+    };
+    for (int seed = 0; seed < seeds; ++seed)
+        means.push_back(blocksOf(render(text, goal(0.02, [&](RenderSettings& s) {
+                                            s.picture.seed = static_cast<std::uint32_t>(seed);
+                                        })).color));
+    const std::vector<double> right = blocksOf(reference);
+    double sumOfZ = 0;
+    for (std::size_t b = 0; b < right.size(); ++b) {
+        double sum = 0, squares = 0;
+        for (const auto& one : means) sum += one[b];
+        const double mean = sum / seeds;
+        for (const auto& one : means) squares += sqr(one[b] - mean);
+        const double z = (mean - right[b]) / std::sqrt(squares / (seeds - 1.0) / seeds + 1e-12);
+        CHECK_INFO(std::fabs(z) < 4.5, "block " << b << ": z " << z);
+        sumOfZ += z;
+    }
+    const auto count = static_cast<double>(right.size());
+    CHECK_INFO(std::fabs(sumOfZ / count) < 4.5 / std::sqrt(count), sumOfZ / count);
 }
 
 // Promise P1: what is chosen comes from the picture, and nothing else.
@@ -147,13 +190,13 @@ TEST(errorGoalHasTheSameBits) {
     for (const char* name : {"dof", "textures"}) {
         const std::string& text = sceneNamed(name);
         Stats stats;
-        const Picture one = render(text, goal(0.02), stats);
+        const Picture one = render(text, goal(0.01), stats);
         CHECK(stats.samplesMax > stats.samplesMin);
         const auto same = [&](const std::string& what, const shot::Tweak& tweak) {
             Stats other;
-            const Picture picture = render(text, goal(0.02, tweak), other);
+            const Picture picture = render(text, goal(0.01, tweak), other);
             CHECK_INFO(shot::differingPixels(one.color, picture.color) == 0, name << " " << what);
-            CHECK_INFO(shot::differingPixels(one.error, picture.error) == 0, name << " " << what);
+            CHECK_INFO(shot::differingPixels(errorOf(one), errorOf(picture)) == 0, name << " " << what);
             CHECK_EQUAL(other.samplesMean, stats.samplesMean);
             CHECK_EQUAL(other.error->estimate, stats.error->estimate);
         };
@@ -168,16 +211,17 @@ TEST(errorGoalHasTheSameBits) {
     }
 }
 
-// Every sampler and integrator keeps what it says; samples beyond a pattern are fresh ones.
+// Every sampler and integrator keeps what it says; samples beyond a pattern are fresh ones. The first half of a grid
+// is one side of the pixel, which makes its first look four times too careful.
 TEST(errorGoalsOfAllMethods) {
     const std::string& text = sceneNamed("soft");
     using Sampler = SettingsDesc::Sampler;
     const auto isMet = [&](const std::string& what, const Image& reference,
                            const shot::Tweak& tweak) {
         Stats stats;
-        const Image image = render(text, goal(0.03, tweak), stats).color;
-        const double truth = rmse(image, reference);
-        CHECK_INFO(truth <= 1.05 * stats.error->estimate && truth > 0.3 * stats.error->estimate,
+        const Image image = shown(render(text, goal(0.03, tweak), stats).color);
+        const double truth = rmse(image, shown(reference));
+        CHECK_INFO(truth <= 1.05 * stats.error->estimate && truth > 0.2 * stats.error->estimate,
                    what << ": " << truth << ", reported " << stats.error->estimate);
     };
     const Image picture = referenceOf(text, 128);
@@ -196,25 +240,79 @@ TEST(errorGoalsOfAllMethods) {
     isMet("a box filter", referenceOf(text, 128, box), box);
 }
 
-// The unit: errors are of the picture with its exposure, so 2 EV more and 4 times the error is the
-// same picture to the bit; and values above white are white.
-TEST(errorIsOfThePictureAsItIsWritten) {
+// The units: linear errors are of the picture with its exposure, so 2 EV more and 4 times the error is the same
+// picture to the bit; as shown, white is white, however bright it is; relative ones are against the light.
+TEST(errorHasUnits) {
     const std::string& text = sceneNamed("dof");
-    const Picture one = render(text, goal(0.02));
-    const Picture bright =
-        render(text, goal(0.08, [](RenderSettings& s) { s.picture.exposureEv += 2; }));
+    const auto linear = [](RenderSettings& s) { s.refinement->unit = ErrorUnit::Linear; };
+    const Picture one = render(text, goal(0.02, linear));
+    const Picture bright = render(text, goal(0.08, [&](RenderSettings& s) {
+                                      linear(s), s.picture.exposureEv += 2;
+                                  }));
     CHECK_EQUAL(shot::differingPixels(one.color, bright.color), 0);
 
-    Stats all, white;
     const std::string lamp =
         "settings {\n resolution 32 32\n}\ncamera c {\n type orthographic\n "
         "ortho_scale 4\n translate 0 0 5\n}\nmaterial w {\n emission 50 50 50\n"
         " diffuse 0 0 0\n}\nsphere s {\n material w\n}\n";
-    const auto most = [](RenderSettings& s) { s.errorGoal->mostSamples = 256; };
-    render(lamp, goal(0.02, most), all);
-    render(lamp, goal(0.02, [&](RenderSettings& s) { most(s), s.errorGoal->white = 1; }), white);
-    CHECK_INFO(white.samplesMean < 0.8 * all.samplesMean,
-               white.samplesMean << " of " << all.samplesMean);
+    const auto meanOf = [&](ErrorUnit unit, double ev) {
+        Stats stats;
+        render(lamp, goal(0.02, [&](RenderSettings& s) {
+                              s.refinement->mostSamples = 4096, s.refinement->unit = unit;
+                              s.picture.exposureEv = ev;
+                          }), stats);
+        return stats.samplesMean;
+    };
+    const double display = meanOf(ErrorUnit::Display, 0), all = meanOf(ErrorUnit::Linear, 0);
+    CHECK_INFO(display < 0.8 * all, display << " of " << all);
+    // Where light is far above 0.1 the exposure does not count.
+    const double relative = meanOf(ErrorUnit::Relative, 0);
+    CHECK_NEAR(meanOf(ErrorUnit::Relative, 2), relative, 0.4 * relative); // samples double or do not
+    CHECK(meanOf(ErrorUnit::Linear, -4) < 0.5 * all);
+}
+
+// A goal for the worst block has the same bits in a crop of whole blocks as in the whole picture; so has a fixed
+// number of passes whatever the threads.
+TEST(errorGoalsOfBlocksMayBeCropped) {
+    const std::string& text = sceneNamed("dof");
+    const auto worst = [](RenderSettings& s) { s.refinement->ofWorstBlock = true; };
+    const Picture all = render(text, goal(0.03, worst));
+    const Picture part = render(text, goal(0.03, [&](RenderSettings& s) {
+                                    worst(s), s.picture.crop = {{0, 0, 32, 32}};
+                                }));
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x) CHECK(all.color.pixel(x, y) == part.color.pixel(x, y));
+    const auto passes = [&](int threads) {
+        return render(text, goal(0, [=](RenderSettings& s) {
+                          s.refinement = Refinement{.passes = 9}, s.threads = threads;
+                      })).color;
+    };
+    CHECK_EQUAL(shot::differingPixels(passes(1), passes(5)), 0);
+}
+
+// The clock ends a picture after whole passes, which as many passes without a clock repeat.
+TEST(timeDecidesTheNumberOfPasses) {
+    const std::string& text = sceneNamed("dof");
+    int calls = 0;
+    const auto secondsLeft = [&] { return 10.0 - ++calls; };
+    RenderSettings settings;
+    const SceneDesc desc = shot::parse(text);
+    settings.picture = desc.settings;
+    shrink(settings);
+    settings.picture.samplesPerPixel = Refinement::kFirstSamples;
+    settings.refinement = Refinement{.hasTime = true};
+    settings.textureFolder = shot::textureFolder();
+    const SourceFile source{"scene", text};
+    const Scene scene(desc, source, settings);
+    Stats stats, again;
+    RenderControl control;
+    control.secondsLeft = secondsLeft;
+    const Picture timed = ::render(scene, settings, control, stats);
+    CHECK(stats.error->passes >= 2 && stats.error->passes < 6);
+    settings.refinement = Refinement{.passes = stats.error->passes};
+    const Picture repeated = ::render(scene, settings, {}, again);
+    CHECK_EQUAL(shot::differingPixels(timed.color, repeated.color), 0);
+    CHECK_EQUAL(stats.samplesMean, again.samplesMean);
 }
 
 // Pictures beside it count and average the same samples, empty parts of the picture included.
@@ -223,7 +321,7 @@ TEST(errorGoalCountsItsSamples) {
     const Picture picture = render(sceneNamed("motion"),
                                    goal(0.01,
                                         [](RenderSettings& s) {
-                                            s.aovs = {Aov::Samples, Aov::Depth, Aov::Id};
+                                            s.aovs = {Aov::Samples, Aov::Depth, Aov::Id, Aov::Error};
                                             s.picture.crop = {{3, 5, 40, 31}};
                                         }),
                                    stats);
@@ -241,7 +339,7 @@ TEST(errorGoalCountsItsSamples) {
                                " 0 1 0\n}\nworld {\n background 0.1 0.3 0.7\n}\n",
                                goal(1e-6), sky)
                             .color;
-    CHECK_EQUAL(sky.samplesMax, ErrorGoal::kFirstSamples);
+    CHECK_EQUAL(sky.samplesMax, Refinement::kFirstSamples);
     CHECK_EQUAL(sky.error->estimate, 0.0);
     for (const Rgb p : image.pixels()) CHECK(p == (Rgb{0.1f, 0.3f, 0.7f}));
 }

@@ -54,7 +54,7 @@ TEST(onlyCodesWhereThePictureCanBeMadeOfThem) {
         const auto shot = shot::render(scene(isGoal ? "" : " sampler corners\n samples 1\n"),
                                        [&](RenderSettings& s) {
                                            s.onlyCodes = true;
-                                           if (isGoal) s.errorGoal = ErrorGoal{0.1, 8};
+                                           if (isGoal) s.refinement = Refinement{.error = 0.1, .mostSamples = 8};
                                        });
         CHECK(shot.codes.isEmpty());
         CHECK_EQUAL(shot.color.width(), 70);

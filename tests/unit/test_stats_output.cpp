@@ -124,14 +124,16 @@ TEST(stats_of_an_error_goal) {
     CHECK(statsJson(stats, {}).find("error") == std::string::npos);
     CHECK(statsTable(stats).find("error") == std::string::npos);
     stats.samplesMin = 4, stats.samplesMean = 17.26, stats.samplesMax = 512;
-    stats.error = {0.01, 0.0123456, 512, 1234};
+    stats.error = ErrorStats{.goal = 0.01, .estimate = 0.0123456, .passes = 7, .mostSamples = 512,
+                             .cappedPixels = 1234, .unsureBlocks = 2};
     const std::string json = statsJson(stats, {}), table = statsTable(stats);
     CHECK(isJson(json));
     for (const char* part :
-         {"\"error_estimate\":0.0123456,\"error_goal\":0.01,\"capped_pixels\":1234",
+         {"\"error_estimate\":0.0123456,\"error_unit\":\"display\",\"error_goal\":0.01,\"passes\":7",
+          "\"capped_pixels\":1234,\"unsure_blocks\":2",
           "\"samples\":{\"min\":4,\"mean\":17.26,\"max\":512}"})
         CHECK_INFO(json.find(part) != std::string::npos, part << " in " << json);
-    for (const char* part : {" 17.3 (4 to 512)", "0.0123 (goal 0.01)", "1 234 (at 512 samples)"})
+    for (const char* part : {" 17.3 (4 to 512)", "0.0123 (display; goal 0.01)", "1 234 (at 512 samples)"})
         CHECK_INFO(table.find(part) != std::string::npos, part << " in\n" << table);
 }
 

@@ -1,0 +1,49 @@
+// AdaptiveFilm: the samples of a whole picture that grows pass by pass, and where the next ones go. Knows
+// nothing of how samples are made.
+#pragma once
+
+#include "film/film.h"
+#include "film/film_units.h"
+#include "film/noise_map.h"
+#include "film/sample_plan.h"
+#include "image/image.h"
+#include "scene/stats.h"
+
+#include <vector>
+
+class ThreadPool;
+
+class AdaptiveFilm {
+public:
+    // `area`: of the picture, in pixels; `settings` have a refinement.
+    AdaptiveFilm(const Tile& area, const RenderSettings& settings, const FilmUnits& units);
+    AdaptiveFilm(const AdaptiveFilm&) = delete;
+    AdaptiveFilm& operator=(const AdaptiveFilm&) = delete;
+
+    // Returns the parts of the picture that get samples now; none: it is done. All parts of the pass before
+    // have been added.
+    std::vector<SamplePlan::Part> nextPass(ThreadPool& pool);
+    // The pass is not rendered: the clock has ended the picture.
+    void cancelPass() { plan_.cancelPass(), parts_.clear(); }
+    SamplePlan::Share share() const { return plan_.share(); }
+
+    // Takes the batch of a part of the pass. Parts may come from several threads at once.
+    void add(const SamplePlan::Part& part, const Film& color, float largest,
+             const std::vector<Film>& aovs);
+
+    const Film& color() const { return color_; }
+    const Film& aov(std::size_t number) const { return aovs_[number]; }
+    // Returns the upper bound of the error of each pixel, RMS over its channels, in all of them.
+    Image error() const;
+    void describe(Stats& stats) const;
+
+private:
+    Tile area_;
+    Refinement goal_;
+    ErrorMeasure measure_;
+    NoiseMap noise_;
+    SamplePlan plan_;
+    std::vector<SamplePlan::Part> parts_; // of the pass
+    Film color_;
+    std::vector<Film> aovs_;
+};
