@@ -27,7 +27,8 @@ def gate(scene, folder, ours, peers, options):
     said, pictures = {}, kept.pictures(ours, scene, folder, scene.spp, options.seeds)
     for r in peers:
         if r.why: continue
-        v = ztest.compare(pictures, kept.pictures(r, scene, folder, GATE_SPP.get(r.name, scene.peer_spp), options.seeds), scene.block, scene.hide)
+        theirs = kept.pictures(r, scene, folder, GATE_SPP.get(r.name, scene.peer_spp), options.seeds)
+        v = ztest.compare(pictures, theirs, scene.block, scene.hide, r.step)
         said[r.name] = v.why or "agrees"
         print("%s\t%s\tgate\t%s\tratio %.5f +- %.5f, channel z %+.1f, p %.3g of %d blocks, %d still; worst block %d,%d t=%+.1f" % (
             scene.name, r.name, said[r.name], v.ratio, v.error, v.channel_z, v.ks, v.blocks, v.still, *v.worst), flush=True)
@@ -74,7 +75,7 @@ def main():
     options.add_argument("--size", type=int, default=128, help="pixels of a side, a multiple of 8")
     options.add_argument("--seeds", type=int, default=16)
     options.add_argument("--threads", type=int, default=2)
-    options.add_argument("--limit", type=float, default=1.0, help="seconds of the longest rendering of a curve")
+    options.add_argument("--limit", type=float, default=2.0, help="seconds of the longest rendering of a curve")
     options.add_argument("--reference-seconds", type=float, default=45, help="of each of both references")
     options.add_argument("--only", choices=("gate", "look"), help="no times: whether pictures agree, and with look also build/error/SCENE/look.png")
     options = options.parse_intermixed_args()

@@ -7,6 +7,7 @@ import numpy as np
 from scene import aim, ground, square
 
 SCALE = 0.25  # of all light, so that a picture of 16 bits, whose white is 1, holds four times as much
+STEP = 1 / (65535 * SCALE)  # of values in a picture
 FADE = 1e-3  # distance at which lamps give all that `color` says; from there they fall with the square
 PLACES = 24  # columns and rows by which seeds are shifted
 

@@ -1,6 +1,6 @@
 """The renderers of the benchmark under one interface: render(spp, seed) gives a picture and the seconds of the rendering alone, whole(spp,
 seed) the seconds of a process from its start to its picture. `why` says why a renderer cannot show a scene, else it is None; `note` says
-what is unlike ours in it."""
+what is unlike ours in it; `step` is what its pictures can tell apart, 0 for floats."""
 import json, os, subprocess, tempfile, time
 import numpy as np
 import ours, povray_side
@@ -10,7 +10,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 
 class Ours:
     name = "ours"
-    why, note = None, ""
+    why, note, step = None, "", 0.0
 
     def __init__(self, binary, scene, folder, threads, flags=()):
         self.path, self.out = ours.write(scene, folder), os.path.join(folder, "ours.pfm")
@@ -33,6 +33,7 @@ class Ours:
 
 class PovRay:
     name = "povray"
+    step = povray_side.STEP
 
     def __init__(self, binary, scene, folder, threads):
         self.binary, self.scene, self.folder, self.threads = binary, scene, folder, threads
@@ -55,13 +56,14 @@ class PovRay:
 
 class Server:
     """A peer in a process of serve.py."""
+    step = 0.0
 
     def __init__(self, name, python, scene, folder, threads, sampler="multijitter"):
         self.name, self.out, self.log = name, os.path.join(folder, name + ".npy"), os.path.join(folder, name + ".log")
         self.command = [python, "-B", os.path.join(HERE, "serve.py"), name, scene.name, str(scene.size), folder, str(threads), sampler]
         self.process = self.start()
         answer = self.process.stdout.readline().strip()
-        self.why = None if answer == "ready" else answer[len("cannot "):] or "it failed; see " + self.log
+        self.why = None if answer.startswith("ready") else answer[len("cannot "):] or "it failed; see " + self.log
         self.note = "spheres are meshes" if name == "cycles" and any(s.kind == "sphere" for s in scene.shapes) else ""
 
     def start(self, home=None):
@@ -86,12 +88,13 @@ class Server:
         return np.load(self.out).astype(np.float64), seconds
 
     def whole(self, spp, seed, home=None):
+        """Without the translation of the scene, which a user has in a file."""
         start, process = time.perf_counter(), self.start(home)
-        process.stdout.readline()
+        translation = float(process.stdout.readline().split()[1])
         self.request(process, spp, seed)
         process.stdin.close()
         process.wait()
-        return time.perf_counter() - start
+        return time.perf_counter() - start - translation
 
     def close(self):
         self.process.stdin.close()

@@ -1,6 +1,7 @@
 """A scene that stays loaded in a peer which lives in Python: serve.py mitsuba_llvm|mitsuba_scalar|cycles SCENE SIZE FOLDER THREADS SAMPLER
-Each line "SPP SEED OUT.npy" of the input is answered by the seconds of the rendering alone. The answer to the scene itself is "ready", or
-"cannot WHY" where the peer has no such thing. With one line it is a whole process, from start to picture."""
+Each line "SPP SEED OUT.npy" of the input is answered by the seconds of the rendering alone. The answer to the scene itself is "ready" and
+the seconds in which numbers became what the peer reads, or "cannot WHY" where the peer has no such thing. With one line it is a whole
+process, from start to picture."""
 import os, sys, time
 from dataclasses import replace
 import numpy as np
@@ -11,13 +12,16 @@ def mitsuba_renderer(variant, scene, folder, threads, sampler):
     mi = mitsuba_side.start(variant)
     import drjit
     drjit.set_thread_count(threads)
-    loaded = mi.load_dict(mitsuba_side.Writer(mi, scene, folder).scene_dict(sampler))
+    start = time.perf_counter()
+    written = mitsuba_side.Writer(mi, scene, folder).scene_dict(sampler)
+    translation = time.perf_counter() - start
+    loaded = mi.load_dict(written)
 
     def render(spp, seed):
         start = time.perf_counter()
         picture = np.array(mi.render(loaded, spp=spp, seed=seed))
         return picture[..., :3], time.perf_counter() - start
-    return render
+    return render, translation
 
 
 def cycles_renderer(scene, folder, threads):
@@ -28,7 +32,7 @@ def cycles_renderer(scene, folder, threads):
     def render(spp, seed):
         bpy.context.scene.cycles.samples = spp
         return writer.render(seed)
-    return render
+    return render, 0.0
 
 
 def main():
@@ -36,14 +40,16 @@ def main():
     answers = os.fdopen(os.dup(1), "w")  # renderers print, too
     os.dup2(2, 1)
     import error_scenes
+    start = time.perf_counter()
     scene = replace(error_scenes.SCENES[name](), size=int(size))
+    made = time.perf_counter() - start
     try:
-        if kind == "cycles": render = cycles_renderer(scene, folder, int(threads))
-        else: render = mitsuba_renderer({"mitsuba_llvm": "llvm_ad_rgb", "mitsuba_scalar": "scalar_rgb"}[kind], scene, folder, int(threads), sampler)
+        if kind == "cycles": render, translation = cycles_renderer(scene, folder, int(threads))
+        else: render, translation = mitsuba_renderer({"mitsuba_llvm": "llvm_ad_rgb", "mitsuba_scalar": "scalar_rgb"}[kind], scene, folder, int(threads), sampler)
     except SystemExit as why:
         print("cannot", str(why).replace("error: ", ""), file=answers, flush=True)
         return
-    print("ready", file=answers, flush=True)
+    print("ready", made + translation, file=answers, flush=True)
     for line in sys.stdin:
         spp, seed, out = line.split()
         picture, seconds = render(int(spp), int(seed))
