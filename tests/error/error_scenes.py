@@ -79,10 +79,13 @@ def soft_shadows():
 
 @scene
 def glossy():
-    metals = {"g%d" % i: Material("glossy", c, roughness=r) for i, (r, c) in enumerate([(0.08, (0.9, 0.8, 0.6)), (0.13, (0.8, 0.85, 0.9)), (0.18, (0.7, 0.9, 0.7))])}
+    looks = (0.08, (0.9, 0.8, 0.6)), (0.13, (0.8, 0.85, 0.9)), (0.18, (0.7, 0.9, 0.7))
+    metals = {"g%d" % i: Material("glossy", color, roughness=roughness) for i, (roughness, color) in enumerate(looks)}
     shapes = [Shape("rectangle", "white", scale(30))] + [Shape("sphere", "g%d" % i, move(1.5 * (i - 1), 0, 0.65) @ scale(0.65)) for i in range(3)]
-    lamps = [Lamp("rectangle", (k, k, k), aim((x, -1, 3.5), (0, 0, 0.5)) @ scale(h, h, 1)) for x, h, k in ((-2, 0.4, 9), (0, 0.6, 4), (2.4, 1.0, 1.5))]
-    return made("GGX balls of roughness 0.08, 0.13, 0.18 under three rectangle lamps", {**PAINTS, **metals}, shapes=shapes, lamps=lamps, depth=1, fov=46, spp=256, peer_spp=256)
+    lamps = [Lamp("rectangle", (k, k, k), aim((x, -1, 3.5), (0, 0, 0.5)) @ scale(h, h, 1))
+             for x, h, k in ((-2, 0.4, 9), (0, 0.6, 4), (2.4, 1.0, 1.5))]
+    return made("GGX balls of roughness 0.08, 0.13, 0.18 under three rectangle lamps", {**PAINTS, **metals},
+                shapes=shapes, lamps=lamps, depth=1, fov=46, spp=256, peer_spp=256)
 
 
 @scene
@@ -102,9 +105,11 @@ def motion_blur():
 
 @scene
 def glass():
-    return made("glass ball and cube under a large lamp, with caustics", {"lamp": lamp_material(5, 5, 5), "white": WHITE, "red": RED, "green": GREEN, "glass": Material("glass", ior=1.5)},
+    return made("glass ball and cube under a large lamp, with caustics",
+                {"lamp": lamp_material(5, 5, 5), "white": WHITE, "red": RED, "green": GREEN, "glass": Material("glass", ior=1.5)},
                 shapes=room() + [Shape("sphere", "glass", move(0.4, -0.2, 0.42) @ scale(0.4)),
-                                 Shape("cube", "glass", move(-0.4, 0.2, 0.41) @ turn(25, 0, 0, 1) @ scale(0.28, 0.28, 0.4)), panel(0.6)], spp=256, peer_spp=128, depth=24, **ROOM_VIEW)
+                                 Shape("cube", "glass", move(-0.4, 0.2, 0.41) @ turn(25, 0, 0, 1) @ scale(0.28, 0.28, 0.4)), panel(0.6)],
+                spp=256, peer_spp=128, depth=24, **ROOM_VIEW)
 
 
 @scene
@@ -139,7 +144,8 @@ def interior():
     walls[1] = Shape("mesh", "tiles", walls[1].place, "wall")
     return made("Cornell box with a picture on its back wall, eight bounces",
                 {"white": WHITE, "red": RED, "green": GREEN, "lamp": lamp_material(15, 15, 15), "tiles": Material(color=(1, 1, 1), texture="tiles")},
-                meshes={"wall": square()}, pictures={"tiles": random.uniform(0.2, 0.9, (8, 8, 3))}, shapes=walls + boxes + [panel(0.25)], spp=128, peer_spp=128, depth=8, **ROOM_VIEW)
+                meshes={"wall": square()}, pictures={"tiles": random.uniform(0.2, 0.9, (8, 8, 3))},
+                shapes=walls + boxes + [panel(0.25)], spp=128, peer_spp=128, depth=8, **ROOM_VIEW)
 
 
 @scene

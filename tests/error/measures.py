@@ -1,5 +1,6 @@
 """Errors of pictures of K seeds against two references R1, R2 whose noise is independent of them and of each other. The product
-(I - R1)(I - R2) has the mean Var(I) + bias(I)^2: the noise of the references drops out, but may leave it below 0."""
+(I - R1)(I - R2) has the mean Var(I) + bias(I)^2: the noise of the references drops out, but may leave it below 0.
+As shown, noise is also a bias: the mean of what a curve makes of it is not what the curve makes of its mean."""
 from dataclasses import dataclass
 import numpy as np
 

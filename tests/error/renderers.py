@@ -1,7 +1,7 @@
 """The renderers of the benchmark under one interface: render(spp, seed) gives a picture and the seconds of the rendering alone, whole(spp,
 seed) the seconds of a process from its start to its picture. `why` says why a renderer cannot show a scene, else it is None; `note` says
 what is unlike ours in it; `step` is what its pictures can tell apart, 0 for floats."""
-import json, os, subprocess, tempfile, time
+import json, os, shutil, subprocess, tempfile, time
 import numpy as np
 import ours, povray_side
 
@@ -39,7 +39,7 @@ class PovRay:
         self.binary, self.scene, self.folder, self.threads = binary, scene, folder, threads
         try:
             povray_side.write(scene, folder, 1, 0)
-            self.why = None
+            self.why = None if shutil.which(binary) else "there is no " + binary
         except povray_side.Cannot as why: self.why = str(why)
         floors = ["area light: its shadow and its light are averaged apart"] * any(l.kind == "rectangle" for l in scene.lamps)
         floors += ["lens: one set of points for all pixels"] * bool(scene.aperture)
@@ -68,13 +68,15 @@ class Server:
 
     def start(self, home=None):
         with open(self.log, "a") as log:
-            return subprocess.Popen(self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log, text=True, env={**os.environ, **({"HOME": home} if home else {})})
+            return subprocess.Popen(self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=log, text=True,
+                                    env={**os.environ, **({"HOME": home} if home else {})})
 
     def note_compiling(self):
         """Compiled kernels are kept in the home folder, so that whole() finds them there; in another one they are not."""
         self.whole(1, 1)
         usual = self.whole(1, 1)
-        with tempfile.TemporaryDirectory() as home: self.note = "kernels are in its cache; without them a process takes %.1f s more" % (self.whole(1, 1, home) - usual)
+        with tempfile.TemporaryDirectory() as home: more = self.whole(1, 1, home) - usual
+        self.note = "kernels are in its cache; without them a process takes %.1f s more" % more
 
     def request(self, process, spp, seed):
         process.stdin.write("%d %d %s\n" % (spp, seed, self.out))
