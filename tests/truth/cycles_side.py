@@ -1,11 +1,11 @@
 """A scene as Blender's, and its pictures by Cycles: cycles_side.py SCENE OUT.npy. Needs python with bpy 4.5
 (pip install bpy==4.5.15, Python 3.11). Lights are given in watts, as Blender 4 has them."""
-import math, os, sys
+import math, os, sys, time
 import bpy
 import numpy as np
 from mathutils import Matrix
 import scenes
-from scene import aim, box, square
+from scene import aim, ball, box, ground, move, square
 
 
 def rgba(values):
@@ -55,7 +55,8 @@ class Writer:
         render.engine = "CYCLES"
         render.resolution_x = render.resolution_y = self.scene.size
         render.resolution_percentage = 100
-        render.dither_intensity, render.use_motion_blur, render.filter_size = 0, False, 1
+        render.dither_intensity, render.filter_size = 0, 1
+        render.use_motion_blur, render.motion_blur_shutter, render.motion_blur_position = any(s.motion for s in self.scene.shapes), 1, "START"
         render.threads_mode, render.threads = "FIXED", 2
         render.image_settings.file_format, render.image_settings.color_depth = "OPEN_EXR", "32"
         render.use_persistent_data = True
@@ -68,12 +69,16 @@ class Writer:
         cycles.use_fast_gi = cycles.use_guiding = False
         for name in ("max_bounces", "diffuse_bounces", "glossy_bounces", "transmission_bounces", "transparent_max_bounces"):
             setattr(cycles, name, self.scene.depth)
+        if self.scene.diffuse_depth is not None: cycles.diffuse_bounces = self.scene.diffuse_depth
 
     def camera(self):
         data = bpy.data.cameras.new("eye")
         data.sensor_width = data.sensor_height = 36
         data.angle = math.radians(self.scene.fov)
-        data.clip_start, data.clip_end = 1e-3, 1e4
+        data.clip_start, data.clip_end = 1e-3, 1e6
+        if self.scene.aperture:
+            data.dof.use_dof, data.dof.focus_distance = True, self.scene.focus
+            data.dof.aperture_fstop = data.lens * 1e-3 / (2 * self.scene.aperture)
         eye = bpy.data.objects.new("eye", data)
         eye.matrix_world = Matrix(aim(self.scene.eye, self.scene.target).tolist())
         bpy.context.scene.collection.objects.link(eye)
@@ -108,6 +113,12 @@ class Writer:
         if any(m.emission):
             most = max(m.emission)
             shine = tree.node("Emission", Color=tuple(v / most for v in m.emission), Strength=most)
+            if self.scene.peer != "cycles":
+                front = tree.node("Math", {"operation": "MULTIPLY_ADD"})
+                tree.links.new(tree.node("NewGeometry").outputs["Backfacing"], front.inputs[0])
+                front.inputs[1].default_value, front.inputs[2].default_value = -most, most
+                tree.put(shine.inputs["Strength"], front)
+                out.cycles.emission_sampling = "FRONT"
             both = tree.node("AddShader")
             tree.links.new(shader.outputs[0], both.inputs[0])
             tree.links.new(shine.outputs[0], both.inputs[1])
@@ -128,6 +139,7 @@ class Writer:
         if m.kind == "diffuse": return tree.node("BsdfDiffuse", Color=color)
         if m.kind == "oren_nayar": return tree.node("BsdfDiffuse", Color=color, Roughness=m.roughness)
         if m.kind == "translucent": return tree.node("BsdfTranslucent", Color=color)
+        if m.kind == "glossy": return tree.node("BsdfAnisotropic", {"distribution": "MULTI_GGX"}, Color=color, Roughness=m.roughness)
         if m.kind == "mirror": return tree.node("BsdfAnisotropic", Color=color, Roughness=0.0)
         if m.kind == "glass": return tree.node("BsdfGlass", Color=(1, 1, 1), IOR=m.ior, Roughness=0.0)
         if m.kind == "rough_glass":
@@ -144,9 +156,10 @@ class Writer:
         raise SystemExit("error: no shader for %s" % m.kind)
 
     def mesh(self, shape):
-        key = (shape.kind, shape.mesh, shape.material)
+        key = (shape.kind, shape.mesh, shape.material, shape.other)
         if key in self.data: return self.data[key]
-        source = {"rectangle": square, "cube": box}.get(shape.kind, lambda: self.scene.meshes[shape.mesh])()
+        source = {"rectangle": square, "cube": box, "sphere": lambda: ball(128, 256), "ground": ground}.get(
+            shape.kind, lambda: self.scene.meshes[shape.mesh])()
         data = bpy.data.meshes.new("%s of %s" % (shape.mesh or shape.kind, shape.material))
         data.from_pydata(source.points.tolist(), [], source.faces.tolist())
         if source.uvs is not None:
@@ -155,18 +168,40 @@ class Writer:
         if source.normals is not None:
             data.polygons.foreach_set("use_smooth", [True] * len(source.faces))
             data.normals_split_custom_set_from_vertices(source.normals.tolist())
-        data.materials.append(self.materials[shape.material])
+        data.materials.append(self.squares(shape) if shape.other else self.materials[shape.material])
         data.update()
         self.data[key] = data
         return data
 
+    def squares(self, shape):
+        """The material of a ground of two materials, by uv, which are halves of x and y."""
+        a, b = (self.scene.materials[name] for name in (shape.material, shape.other))
+        assert a.kind == b.kind == "diffuse", "one node says the colors of both"
+        out = bpy.data.materials.new("squares")
+        tree = Tree(out, "ShaderNodeOutputMaterial")
+        check = tree.node("TexChecker", Scale=2.0, Color1=tuple(map(float, a.color)), Color2=tuple(map(float, b.color)))
+        tree.links.new(tree.node("TexCoord").outputs["UV"], check.inputs["Vector"])
+        tree.end(tree.node("BsdfDiffuse", Color=check))
+        return out
+
     def shape(self, name, shape):
         thing = bpy.data.objects.new(name, self.mesh(shape))
         thing.matrix_world = Matrix(shape.place.tolist())
+        if shape.motion: self.animate(thing, shape)
         # Shadow terminators are left as the geometry has them.
         thing.cycles.shadow_terminator_geometry_offset = 0
         thing.cycles.shadow_terminator_offset = 0
         bpy.context.scene.collection.objects.link(thing)
+
+    def animate(self, thing, shape):
+        """From frame 1, at which the shutter opens, to frame 2."""
+        for frame, place in ((1, shape.place), (2, move(*shape.motion) @ shape.place)):
+            thing.location = Matrix(place.tolist()).to_translation()
+            thing.keyframe_insert("location", frame=frame)
+        for curve in thing.animation_data.action.fcurves:
+            curve.extrapolation = "LINEAR"
+            for key in curve.keyframe_points: key.interpolation = "LINEAR"
+        bpy.context.scene.frame_set(1)
 
     def lamp(self, name, lamp):
         kinds = {"point": "POINT", "spot": "SPOT", "sun": "SUN", "sphere": "POINT", "disk": "AREA", "rectangle": "AREA"}
@@ -191,22 +226,26 @@ class Writer:
         bpy.context.scene.collection.objects.link(thing)
 
     def render(self, seed):
+        """A picture, and the seconds that Blender took for it."""
         out, path = bpy.context.scene, os.path.join(self.folder, "cycles.exr")
         out.cycles.seed, out.render.filepath = seed, path
-        bpy.ops.render.render(write_still=True)
+        start = time.perf_counter()
+        bpy.ops.render.render()
+        seconds = time.perf_counter() - start
+        bpy.data.images["Render Result"].save_render(path)
         image = bpy.data.images.load(path, check_existing=False)
         image.colorspace_settings.name = "Non-Color"
         values = np.empty(len(image.pixels), np.float32)
         image.pixels.foreach_get(values)
         bpy.data.images.remove(image)
-        return values.reshape(self.scene.size, self.scene.size, 4)[::-1, :, :3].astype(np.float64)
+        return values.reshape(self.scene.size, self.scene.size, 4)[::-1, :, :3].astype(np.float64), seconds
 
 
 def main():
     name, out = sys.argv[1:3]
     scene = scenes.SCENES[name]()
     writer = Writer(scene, os.path.dirname(os.path.abspath(out)))
-    np.save(out, np.array([writer.render(seed) for seed in range(1, scene.seeds + 1)]))
+    np.save(out, np.array([writer.render(seed)[0] for seed in range(1, scene.seeds + 1)]))
 
 
 if __name__ == "__main__":

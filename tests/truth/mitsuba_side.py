@@ -2,7 +2,7 @@
 import argparse, glob, os, sys
 import numpy as np
 import scenes
-from scene import move, scale, turn
+from scene import ground, turn
 
 
 def write_ply(path, mesh):
@@ -45,6 +45,8 @@ class Writer:
             inner = {"type": "diffuse", "reflectance": color}
         elif m.kind == "mirror":
             inner = {"type": "conductor", "material": "none", "specular_reflectance": rgb(m.color)}
+        elif m.kind == "glossy":
+            inner = {"type": "roughconductor", "material": "none", "specular_reflectance": rgb(m.color), "distribution": "ggx", "alpha": m.roughness ** 2}
         elif m.kind == "glass":
             return {"type": "dielectric", "int_ior": m.ior, "ext_ior": 1.0}
         else:
@@ -52,17 +54,25 @@ class Writer:
         sided = {"type": "twosided", "bsdf": inner}
         return {"type": "mask", "opacity": m.opacity, "bsdf": sided} if m.opacity < 1 else sided
 
+    def squares(self, shape):
+        """The BSDF of a ground of two materials."""
+        a, b = (self.scene.materials[name] for name in (shape.material, shape.other))
+        assert a.kind == b.kind == "diffuse", "Mitsuba's checkerboard is a texture of one BSDF"
+        color = {"type": "checkerboard", "color0": rgb(a.color), "color1": rgb(b.color)}
+        return {"type": "twosided", "bsdf": {"type": "diffuse", "reflectance": color}}
+
     def shape(self, shape):
-        out = {"type": {"mesh": "ply"}.get(shape.kind, shape.kind), "to_world": self.matrix(shape.place)}
+        if shape.motion: raise SystemExit("error: Mitsuba 3 has no shapes that move")
+        out = {"type": {"mesh": "ply", "ground": "ply"}.get(shape.kind, shape.kind), "to_world": self.matrix(shape.place)}
         material = self.scene.materials[shape.material]
-        out["bsdf"] = self.bsdf(material)
+        out["bsdf"] = self.squares(shape) if shape.other else self.bsdf(material)
         if any(material.emission): out["emitter"] = {"type": "area", "radiance": rgb(material.emission)}
-        if shape.kind == "mesh":
-            out.update(self.mesh_file(shape.mesh))
+        if shape.kind == "mesh": out.update(self.mesh_file(shape.mesh, self.scene.meshes[shape.mesh]))
+        if shape.kind == "ground": out.update(self.mesh_file("ground", ground()))
         return out
 
-    def mesh_file(self, name):
-        mesh, path = self.scene.meshes[name], os.path.join(self.folder, name + ".ply")
+    def mesh_file(self, name, mesh):
+        path = os.path.join(self.folder, name + ".ply")
         write_ply(path, mesh)
         return {"type": "ply", "filename": path, "face_normals": mesh.normals is None}
 
@@ -91,15 +101,18 @@ class Writer:
         axes = np.array([[0, 0, 1, 0], [1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 0, 1]], float)
         return {"type": "envmap", "bitmap": self.bitmap(rows), "to_world": self.matrix(axes)}
 
-    def scene_dict(self):
+    def scene_dict(self, sampler="independent"):
         scene, mi = self.scene, self.mi
+        if scene.diffuse_depth is not None and scene.diffuse_depth < scene.depth:
+            raise SystemExit("error: Mitsuba has no limit of diffuse bounces alone")
+        lens = {"type": "thinlens", "aperture_radius": scene.aperture, "focus_distance": scene.focus} if scene.aperture else {"type": "perspective"}
         look = mi.ScalarTransform4f().look_at(origin=list(scene.eye), target=list(scene.target), up=[0, 0, 1])
         # Paths of Mitsuba count their edges, ours the bounces before the last one that meets a lamp.
         out = {"type": "scene", "integrator": {"type": "path", "max_depth": scene.depth + 2, "rr_depth": 1000},
-               "sensor": {"type": "perspective", "to_world": look, "fov": scene.fov,
+               "sensor": {**lens, "to_world": look, "fov": scene.fov,
                           "film": {"type": "hdrfilm", "width": scene.size, "height": scene.size, "rfilter": {"type": "box"},
                                    "pixel_format": "rgb", "component_format": "float32"},
-                          "sampler": {"type": "independent", "sample_count": scene.peer_spp}}}
+                          "sampler": {"type": sampler, "sample_count": scene.peer_spp}}}
         if scene.sky is not None: out["sky"] = self.sky(scene.sky)
         elif any(scene.background): out["sky"] = {"type": "constant", "radiance": rgb(scene.background)}
         for i, lamp in enumerate(scene.lamps): out["lamp%d" % i] = self.lamp(lamp)
@@ -111,9 +124,19 @@ class Writer:
             key = "group_%s_%s" % (shape.mesh, shape.material)
             if key not in groups:
                 groups[key] = True
-                out[key] = {"type": "shapegroup", "inner": {**self.mesh_file(shape.mesh), "bsdf": self.bsdf(scene.materials[shape.material])}}
+                out[key] = {"type": "shapegroup", "inner": {**self.mesh_file(shape.mesh, scene.meshes[shape.mesh]), "bsdf": self.bsdf(scene.materials[shape.material])}}
             out["thing%d" % i] = {"type": "instance", "group": {"type": "ref", "id": key}, "to_world": self.matrix(shape.place)}
         return out
+
+
+def start(variant):
+    """Mitsuba itself, in this variant."""
+    if "DRJIT_LIBLLVM_PATH" not in os.environ:
+        found = sorted(glob.glob("/usr/lib/*/libLLVM*.so*"))
+        if found: os.environ["DRJIT_LIBLLVM_PATH"] = found[-1]
+    import mitsuba as mi
+    mi.set_variant(variant)
+    return mi
 
 
 def main():
@@ -122,11 +145,7 @@ def main():
     options.add_argument("out")
     options.add_argument("--variant", default="llvm_ad_rgb")
     args = options.parse_args()
-    if "DRJIT_LIBLLVM_PATH" not in os.environ:
-        found = sorted(glob.glob("/usr/lib/*/libLLVM*.so*"))
-        if found: os.environ["DRJIT_LIBLLVM_PATH"] = found[-1]
-    import mitsuba as mi
-    mi.set_variant(args.variant)
+    mi = start(args.variant)
     scene = scenes.SCENES[args.scene]()
     loaded = mi.load_dict(Writer(mi, scene, os.path.dirname(os.path.abspath(args.out))).scene_dict())
     np.save(args.out, np.array([np.array(mi.render(loaded, spp=scene.peer_spp, seed=seed), np.float64)[..., :3]

@@ -1,6 +1,7 @@
 """A scene as our text, and its pictures by ./raytracer."""
 import os, subprocess
 import numpy as np
+from scene import move
 
 
 def numbers(values):
@@ -28,6 +29,7 @@ def material_lines(name, m, both_sides):
         "diffuse": "lobe diffuse weight %s%s" % (color, " times %s" % m.texture if m.texture else ""),
         "mirror": "lobe mirror weight %s" % color,
         "glass": "lobe dielectric ior %g" % m.ior,
+        "glossy": "lobe conductor weight %s color 1 1 1 edge_tint 1 1 1 roughness %g" % (color, m.roughness),
         "rough_glass": "lobe dielectric ior %g roughness %g" % (m.ior, m.roughness),
         "refraction": "lobe refraction ior %g roughness %g" % (m.ior, m.roughness),
         "metal": "lobe conductor color %s edge_tint %s roughness %g anisotropy %g rotation %g" % (
@@ -74,11 +76,13 @@ def mesh_lines(name, mesh):
 def text(scene):
     depth = scene.depth
     yield "raytracer 1\nsettings {\n    resolution %d %d\n    samples %d" % (scene.size, scene.size, scene.spp)
-    yield "    integrator path\n    filter box 1\n    cutoff 0"
+    yield "    integrator %s\n    filter box 1\n    cutoff 0" % scene.integrator
     for key in ("max_depth", "diffuse_depth", "glossy_depth", "transmission_depth", "transparent_depth"):
-        yield "    %s %d" % (key, depth)
-    yield "}\ncamera eye {\n    look_at %s %s 0 0 1\n    fov %g\n    sensor 36 36\n}" % (
+        yield "    %s %d" % (key, scene.diffuse_depth if key == "diffuse_depth" and scene.diffuse_depth is not None else depth)
+    yield "}\ncamera eye {\n    look_at %s %s 0 0 1\n    fov %g\n    sensor 36 36" % (
         numbers(scene.eye), numbers(scene.target), scene.fov)
+    if scene.aperture: yield "    aperture_radius %g\n    focus_distance %.9g" % (scene.aperture, scene.focus)
+    yield "}"
     yield "world {\n    background %s" % numbers((1, 1, 1) if scene.sky is not None else scene.background)
     if scene.sky is not None: yield "    environment sky"
     yield "}"
@@ -88,8 +92,11 @@ def text(scene):
     for name, mesh in scene.meshes.items(): yield from mesh_lines(name, mesh)
     for i, lamp in enumerate(scene.lamps): yield from lamp_lines("lamp%d" % i, lamp, scene.peer == "cycles")
     for i, shape in enumerate(scene.shapes):
-        kind = {"rectangle": "plane", "mesh": "instance"}.get(shape.kind, shape.kind)
-        yield "%s thing%d {\n    transform %s\n    material %s" % (kind, i, numbers(shape.place[:3]), shape.material)
+        kind = {"rectangle": "plane", "mesh": "instance", "ground": "infinite_plane"}.get(shape.kind, shape.kind)
+        yield "%s thing%d {\n    transform %s" % (kind, i, numbers(shape.place[:3]))
+        if shape.motion: yield "    key\n    transform %s" % numbers((move(*shape.motion) @ shape.place)[:3])
+        if shape.other: yield "    materials %s %s" % (shape.other, shape.material)  # the first has the square of x and y from -1 and 0 on
+        else: yield "    material %s" % shape.material
         if shape.mesh: yield "    mesh %s" % shape.mesh
         yield "}"
 
@@ -108,7 +115,6 @@ def render(scene, folder, binary, threads, flags=()):
     path, out = write(scene, folder), os.path.join(folder, "ours.pfm")
     pictures = []
     for seed in range(1, scene.seeds + 1):
-        subprocess.run([binary, path, out, "--quiet", "--integrator", "path", "--seed", str(seed), "--threads", str(threads),
-                        *flags], check=True)
+        subprocess.run([binary, path, out, "--quiet", "--seed", str(seed), "--threads", str(threads), *flags], check=True)
         pictures.append(pfm(out))
     return np.array(pictures)

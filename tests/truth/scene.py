@@ -1,5 +1,5 @@
-"""What a scene of the truth tests says: one record of numbers, of which ours.py, mitsuba_side.py and cycles_side.py each
-write their own renderer's scene. Right-handed, Z up, linear RGB, angles in degrees, as in ASCII/README.md."""
+"""What a scene of the truth tests and of tests/error says: one record of numbers, of which ours.py, mitsuba_side.py, cycles_side.py
+and povray_side.py each write their own renderer's scene. Right-handed, Z up, linear RGB, angles in degrees, as in ASCII/README.md."""
 from dataclasses import dataclass, field
 from typing import Optional
 import numpy as np
@@ -8,7 +8,8 @@ import numpy as np
 @dataclass
 class Material:
     """One way in which a surface scatters light; `kind` is one of
-    diffuse (color or texture), mirror (color), glass (ior, smooth), and, of Cycles alone, rough_glass (ior, roughness),
+    diffuse (color or texture), mirror (color), glass (ior, smooth), glossy (color of every angle, roughness: GGX), and, of
+    Cycles alone, rough_glass (ior, roughness),
     refraction (ior, roughness), metal (color, edge_tint, roughness, anisotropy, rotation), plastic (color, ior, roughness),
     oren_nayar (color, roughness), translucent (color)."""
     kind: str = "diffuse"
@@ -19,7 +20,7 @@ class Material:
     edge_tint: tuple = (1, 1, 1)
     anisotropy: float = 0.0
     rotation: float = 0.0  # in turns
-    emission: tuple = (0, 0, 0)  # radiance; of the front alone, but in Cycles' scenes of both sides
+    emission: tuple = (0, 0, 0)  # radiance; of the front alone, but of both sides where the peer is cycles
     opacity: float = 1.0
 
 
@@ -33,17 +34,21 @@ class Mesh:
 
 @dataclass
 class Shape:
-    """kind: rectangle and cube ([-1,1] in x, y and z), sphere and disk (radius 1), or mesh. `mesh` names one of the scene."""
+    """kind: rectangle and cube ([-1,1] in x, y and z), sphere and disk (radius 1), ground (z = 0, as far as one sees), or mesh.
+    `mesh` names one of the scene. A ground has `other` on every second of the unit squares of its x and y. While the shutter
+    is open a shape moves by `motion`, evenly."""
     kind: str
     material: str
     place: np.ndarray = field(default_factory=lambda: np.eye(4))
     mesh: Optional[str] = None
+    other: Optional[str] = None  # a material
+    motion: Optional[tuple] = None
 
 
 @dataclass
 class Lamp:
     """point and spot: `light` is W/sr. sun: W/m2. sphere, disk and rectangle: radiance, and they can be seen: in Mitsuba's
-    scenes they are bodies, in those of Cycles light that hides nothing. They shine along -Z of `place`; a disk has radius 1
+    scenes they are bodies, in those of Cycles light that hides nothing; in those of all of them no ray may tell. They shine along -Z of `place`; a disk has radius 1
     and a rectangle is [-1,1]^2 there."""
     kind: str
     light: tuple
@@ -56,7 +61,7 @@ class Lamp:
 @dataclass
 class Scene:
     name: str
-    peer: str  # mitsuba or cycles
+    peer: str  # mitsuba, cycles, or all: what is the same in every renderer; see Material and Lamp
     what: str
     eye: tuple
     target: tuple
@@ -70,6 +75,10 @@ class Scene:
     sky: Optional[np.ndarray] = None  # equirectangular [height, width, 3], row 0 at the zenith
     shared: bool = False  # meshes are written once and placed as instances
     depth: int = 8  # bounces after the camera ray
+    diffuse_depth: Optional[int] = None  # of these, the most that are diffuse; None: all
+    integrator: str = "path"  # of ours
+    aperture: float = 0.0  # radius of the lens
+    focus: float = 1.0  # distance of what is sharp, along the view axis
     size: int = 64  # pixels of a side
     spp: int = 64
     peer_spp: int = 64
@@ -140,6 +149,20 @@ def ball(rows=24, columns=48):
             if r > 0: faces.append((a, d, b))
             if r < rows - 1: faces.append((b, d, e))
     return Mesh(points, np.array(faces), uvs, points.copy())
+
+
+def ground(far=1e5):
+    """z = 0 in squares around each other, so that what is near is exact in floats; uv are halves of x and y."""
+    halves, points, faces = [4.0], [], []
+    while halves[-1] < far: halves.append(halves[-1] * 8)
+    for h in halves: points += [(-h, -h, 0), (h, -h, 0), (h, h, 0), (-h, h, 0)]
+    faces += [(0, 1, 2), (0, 2, 3)]
+    for k in range(len(halves) - 1):
+        for i in range(4):
+            a, b = 4 * k + i, 4 * k + (i + 1) % 4
+            faces += [(a, a + 4, b + 4), (a, b + 4, b)]
+    points = np.array(points, float)
+    return Mesh(points, np.array(faces), points[:, :2] / 2)
 
 
 def flat(mesh):

@@ -58,7 +58,7 @@ def welch(a, b):
 @dataclass
 class Verdict:
     blocks: int  # with noise, which are tested
-    still: int  # without noise, in which both are alike to 1e-5
+    still: int  # without noise, in which both are alike to 1e-5 and a step
     ks: float
     noise: float  # standard error of the difference of a block, median, relative
     ratio: float  # of the means of the pictures, ours over theirs
@@ -73,7 +73,8 @@ class Verdict:
     def agrees(self): return not self.why
 
 
-def compare(ours, theirs, size, hide=()):
+def compare(ours, theirs, size, hide=(), step=0.0):
+    """`step`: what a file of theirs can tell apart, by which still blocks may differ."""
     shown = np.ones(ours.shape[1:3])
     for x0, y0, x1, y1 in hide: shown[y0:y1, x0:x1] = 0
     keep = blocks(shown[None, ..., None], size)[0, ..., 0] == 1
@@ -92,7 +93,7 @@ def compare(ours, theirs, size, hide=()):
     error = np.sqrt(whole_a.var(ddof=1) / len(a) + whole_b.var(ddof=1) / len(b)) / whole_b.mean()
     ks = kolmogorov(p) if len(p) else 1.0
     at = np.unravel_index(np.argmax(np.where(noisy, np.abs(t), 0)), t.shape)
-    unlike = still & (np.abs(grey_a.mean(0) - grey_b.mean(0)) > 1e-5 * mean)
+    unlike = still & (np.abs(grey_a.mean(0) - grey_b.mean(0)) > 1e-5 * mean + step)
     why = []
     if not np.isfinite(ours).all() or not np.isfinite(theirs).all(): why.append("not finite")
     if ks <= 0.001: why.append("p not flat")
