@@ -114,6 +114,7 @@ inline void spreadPlaces(const Filter::Spread& filter, const PairBlock& pairs, P
     move(pairs.u, places.x), move(pairs.v, places.y);
 }
 
-inline constexpr CameraLanes kCamera{pairSeeds, sobolPairs, spreadPlaces, cameraRays};
+inline constexpr CameraLanes kCamera{pairSeeds,   zPairSeeds,   sobolPairs,
+                                     zSobolPairs, spreadPlaces, cameraRays};
 
 LANES_END

@@ -5,6 +5,8 @@
 #include "camera/camera.h"
 #include "sample/filter.h"
 #include "sample/pair_block.h"
+#include "sample/sampler.h"
+#include "sample/z_order.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -25,12 +27,31 @@ struct RaySpans {
 };
 
 struct CameraLanes {
-    // pairSeeds() and sobolPairs() of sample/pairs_in_lanes.h.
+    // pairSeeds(), zPairSeeds(), sobolPairs() and zSobolPairs() of sample/pairs_in_lanes.h.
     void (*seeds)(std::uint32_t seed, std::uint32_t dimension,
                   std::span<const std::uint32_t> pixels, const PairSeedColumns& to);
+    void (*zSeeds)(const ZOrder& order, std::span<const std::uint32_t> pixels,
+                   const PairSeedColumns& to);
     void (*pairs)(PairBlock& block, std::size_t count);
+    void (*zPairs)(PairBlock& block, std::size_t count, int sampleBits);
     // Moves places by Filter::sample() of what pairs() has drawn.
     void (*spread)(const Filter::Spread& filter, const PairBlock& pairs, PlaceBlock& places);
     // Camera::ray() through each place.
     void (*rays)(const Camera& camera, const PlaceBlock& places, const RaySpans& to);
+
+    // Sampler::pairSeeds() of pixels, a multiple of 16, and the pairs that they lead to, of a
+    // sampler in lanes.
+    void seedsOf(const Sampler& sampler, std::uint32_t dimension,
+                 std::span<const std::uint32_t> pixels, const PairSeedColumns& to) const {
+        if (sampler.kind() == SamplerKind::ZSobol)
+            zSeeds(sampler.zOrder(dimension), pixels, to);
+        else
+            seeds(sampler.seed(), dimension, pixels, to);
+    }
+    void pairsOf(const Sampler& sampler, PairBlock& block, std::size_t count) const {
+        if (sampler.kind() == SamplerKind::ZSobol)
+            zPairs(block, count, sampler.sampleBits());
+        else
+            pairs(block, count);
+    }
 };

@@ -1,10 +1,12 @@
 #include "cli/messages.h"
 
+#include "base/enum_names.h"
 #include "base/platform/platform.h"
 #include "base/text.h"
 #include "cli/advice.h"
 #include "cli/output.h"
 #include "cli/stats_output.h"
+#include "desc/enum_tables.h"
 
 #include <bit>
 #include <cstdio>
@@ -26,12 +28,14 @@ bool isTooStrict(const Options& options, const Diagnostics& diagnostics) {
 }
 
 void printAdvice(const RenderSettings& settings, const Options& options) {
+    using Sampler = SettingsDesc::Sampler;
     const auto samples = static_cast<unsigned>(settings.picture.samplesPerPixel);
-    if (options.quiet || settings.picture.sampler != SettingsDesc::Sampler::Sobol ||
+    const Sampler sampler = settings.picture.sampler;
+    if (options.quiet || (sampler != Sampler::Sobol && sampler != Sampler::ZSobol) ||
         std::has_single_bit(samples))
         return;
-    writeStderr(cat("raytracer: note: ", samples, " samples per pixel with sobol; a power of two (",
-                    std::bit_ceil(samples), ") has less noise\n"));
+    writeStderr(cat("raytracer: note: ", samples, " samples per pixel with ", nameOf(sampler),
+                    "; a power of two (", std::bit_ceil(samples), ") has less noise\n"));
 }
 
 void printShortfall(const Stats& stats, const Options& options) {

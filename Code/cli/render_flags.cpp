@@ -154,7 +154,7 @@ void addQualityFlags(std::vector<Flag>& flags, Options& o) {
                .set = [&o](const FlagValue& v) { o.caustics = v.on; }, .negatable = true});
     group.add({.name = "--sampler", .argument = alternatives<SettingsDesc::Sampler>(),
                .help = "how samples are spread; corners: one ray through each corner of a pixel, "
-                       "shared with its neighbours",
+                       "shared with its neighbours; zsobol: finer noise, for previews of few samples",
                .set = [&o](const FlagValue& v) { o.sampler = enumValue<SettingsDesc::Sampler>(v); },
                .choices = namesOf<SettingsDesc::Sampler>(), .example = "random"});
     group.add({.name = "--jitter", .help = "samples are moved at random in their cells",

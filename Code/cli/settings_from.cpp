@@ -8,6 +8,7 @@
 #include "image/image.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 namespace {
@@ -97,6 +98,22 @@ void setQuality(SettingsDesc& picture, const Options& options) {
     picture.filterWidth = 0;
 }
 
+// All samples of a picture are one sequence along the Z-order of a square, whose numbers have 32
+// bits.
+void checkSampleNumbers(const SettingsDesc& picture) {
+    if (picture.sampler != SettingsDesc::Sampler::ZSobol) return;
+    const auto bitsOf = [](int count) {
+        return static_cast<int>(std::bit_width(static_cast<unsigned>(count) - 1));
+    };
+    const int left = 32 - 2 * bitsOf(std::max(picture.width, picture.height));
+    if (bitsOf(picture.samplesPerPixel) <= left) return;
+    const std::string most = left < 0 ? "no" : cat("at most ", std::uint64_t{1} << left);
+    failUsage(cat("the sampler zsobol numbers all samples of a picture by 32 bits: one of ",
+                  picture.width, "x", picture.height, " pixels can have ", most,
+                  " samples per pixel, not ", picture.samplesPerPixel,
+                  "; --sampler sobol can have any number"));
+}
+
 // The scene's own number of samples says how good its picture shall be, and so do these options.
 void setRefinement(RenderSettings& settings, const Options& options) {
     const auto wantsError =
@@ -114,6 +131,10 @@ void setRefinement(RenderSettings& settings, const Options& options) {
         picture.sampler == Sampler::Stratified || picture.sampler == Sampler::Grid;
     if (picture.sampler == Sampler::Corners)
         failUsage(flag + " has no use with --sampler corners, whose rays have fixed places; sobol, "
+                         "stratified, random and grid go on with more");
+    if (picture.sampler == Sampler::ZSobol)
+        failUsage(flag + " has no use with --sampler zsobol, whose pixels are not independent: errors "
+                         "that neighbours share cannot be told from the picture; sobol, "
                          "stratified, random and grid go on with more");
     if (hasPlaces && !picture.jitter && picture.filterWidth > 0)
         failUsage(flag + " has no use with --no-jitter: samples in fixed places do not know what "
@@ -154,6 +175,10 @@ RenderSettings settingsFrom(const SceneDesc& desc, const Options& options) {
     settings.background = options.background;
     settings.aovs = options.aovs;
     setRefinement(settings, options);
+    if (picture.sampler == Sampler::ZSobol)
+        failUsage(flag + " has no use with --sampler zsobol, whose pixels are not independent: errors "
+                         "that neighbours share cannot be told from the picture; sobol, "
+                         "stratified, random and grid go on with more");
     settings.textureFolder = options.textureFolder;
     return settings;
 }

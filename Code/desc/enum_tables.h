@@ -31,7 +31,7 @@ constexpr auto wordsOf(ObjectDesc::Kind) {
 constexpr auto wordsOf(ObjectDesc::Sides) { return words("both", "front", "back"); }
 constexpr auto wordsOf(WorldDesc::Up) { return words("z", "y"); }
 constexpr auto wordsOf(SettingsDesc::Sampler) {
-    return words("sobol", "stratified", "random", "grid", "corners");
+    return words("sobol", "stratified", "random", "grid", "corners", "zsobol");
 }
 constexpr auto wordsOf(SettingsDesc::Filter) {
     return words("box", "tent", "gaussian", "blackman-harris");

@@ -256,7 +256,7 @@ struct WorldDesc {
 struct SettingsDesc {
     static constexpr auto kType = BlockType::Settings;
     // Corners: rays through the corners of the pixels, each shared by the four pixels around it.
-    enum class Sampler : std::uint8_t { Sobol, Stratified, Random, Grid, Corners };
+    enum class Sampler : std::uint8_t { Sobol, Stratified, Random, Grid, Corners, ZSobol };
     enum class Filter : std::uint8_t { Box, Tent, Gaussian, BlackmanHarris };
     enum class Transfer : std::uint8_t { Srgb, Linear };
     enum class Integrator : std::uint8_t { Whitted, Path, Ao, Normal, Depth, Albedo, Id, Uv };

@@ -13,6 +13,7 @@ SamplerKind samplerKind(SettingsDesc::Sampler kind) {
     switch (kind) {
     case SettingsDesc::Sampler::Stratified: return SamplerKind::Stratified;
     case SettingsDesc::Sampler::Random: return SamplerKind::Random;
+    case SettingsDesc::Sampler::ZSobol: return SamplerKind::ZSobol;
     case SettingsDesc::Sampler::Grid:
     case SettingsDesc::Sampler::Corners: return SamplerKind::Grid;
     case SettingsDesc::Sampler::Sobol: break;

@@ -18,7 +18,7 @@ class PairDrawer {
 public:
     static constexpr std::size_t kPoints = PointBlock::kPoints;
 
-    // `pixels` and `samples` stay as long as this.
+    // `pixels`, `samples` and the samplers of all draws stay as long as this.
     PairDrawer(const CameraLanes& lanes, const std::uint32_t (&pixels)[kPoints],
                const std::uint32_t (&samples)[kPoints])
         : lanes_(lanes), pixels_(pixels), samples_(samples) {}
@@ -29,7 +29,7 @@ public:
     // The pairs of `repeats` samples, which are written until the drawer's life ends.
     void draw(const Sampler& sampler, std::uint32_t dimension, std::uint32_t repeats,
               NumberPairs* to) {
-        if (sampler.kind() != SamplerKind::Sobol) {
+        if (!sampler.isInLanes()) {
             for (std::uint32_t s = 0; s < repeats; ++s)
                 for (std::size_t i = 0; i < kPoints; ++i) {
                     const Vec2 pair =
@@ -38,12 +38,16 @@ public:
                 }
             return;
         }
+        if (count_ > 0 && (sampler.kind() != sampler_->kind() ||
+                           sampler.sampleBits() != sampler_->sampleBits()))
+            flush();
+        sampler_ = &sampler;
         std::size_t seeds = 0; // where the lamp's first seeds are
         for (std::uint32_t s = 0; s < repeats; ++s) {
             const std::size_t at = count_ * kPoints;
             if (s == 0 || count_ == 0) {
-                lanes_.seeds(sampler.seed(), dimension, std::span<const std::uint32_t>(pixels_),
-                             {pairs_.index + at, pairs_.x + at, pairs_.y + at});
+                lanes_.seedsOf(sampler, dimension, std::span<const std::uint32_t>(pixels_),
+                               {pairs_.index + at, pairs_.x + at, pairs_.y + at});
                 seeds = at;
             } else {
                 for (std::uint32_t* const column : {pairs_.index, pairs_.x, pairs_.y})
@@ -61,7 +65,7 @@ private:
 
     void flush() {
         if (count_ == 0) return;
-        lanes_.pairs(pairs_, count_ * kPoints);
+        lanes_.pairsOf(*sampler_, pairs_, count_ * kPoints);
         for (std::size_t k = 0; k < count_; ++k) {
             std::copy_n(pairs_.u + k * kPoints, kPoints, to_[k]->u);
             std::copy_n(pairs_.v + k * kPoints, kPoints, to_[k]->v);
@@ -73,6 +77,7 @@ private:
     const std::uint32_t (&pixels_)[kPoints];
     const std::uint32_t (&samples_)[kPoints];
     PairBlock pairs_;
+    const Sampler* sampler_ = nullptr; // of the last draw
     NumberPairs* to_[kTogether] = {};
     std::size_t count_ = 0;
 };

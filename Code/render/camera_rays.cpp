@@ -1,6 +1,7 @@
 #include "render/camera_rays.h"
 
 #include "sample/dimensions.h"
+#include "sample/z_order.h"
 
 #include <algorithm>
 #include <span>
@@ -36,6 +37,7 @@ CameraRays::CameraRays(const IntegratorContext& context)
       filter_(filterKind(context.settings.picture.filter), context.settings.picture.filterWidth),
       lanes_(*context.settings.isa->camera),
       corners_(context.settings.picture.sampler == SettingsDesc::Sampler::Corners),
+      inZOrder_(context.settings.picture.sampler == SettingsDesc::Sampler::ZSobol),
       width_(context.settings.picture.width + corners_) {
     const SettingsDesc& picture = context.settings.picture;
     isInMiddle_ = corners_ || (picture.samplesPerPixel == 1 && !picture.jitter &&
@@ -55,12 +57,15 @@ void CameraRays::listSamples(const Tile& tile, int first, int count, SampleChunk
     chunk.places.resize(std::max(chunk.places.size(), blocksOf(all)));
     // In registers: what is written could be part of *this.
     const auto width = static_cast<std::uint32_t>(width_);
+    const bool inZOrder = inZOrder_;
     const Vec2d corner = middle(0, 0);
     std::uint32_t* stream = chunk.cameraRays.stream.data();
     PlaceBlock* block = chunk.places.data();
     std::size_t inBlock = 0;
     const auto place = [&](int x, int y) {
-        const std::uint32_t pixel = pixelAt(x, y, width);
+        const std::uint32_t pixel =
+            inZOrder ? zNumber(static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y))
+                     : pixelAt(x, y, width);
         for (std::uint32_t s = 0; s < samples; ++s) {
             *stream++ = pixel;
             block->x[inBlock] = x + corner.x, block->y[inBlock] = y + corner.y;
@@ -68,7 +73,7 @@ void CameraRays::listSamples(const Tile& tile, int first, int count, SampleChunk
         }
     };
     const auto square = [&](int left, int top) {
-        if (samples != 1 || inBlock != 0) {
+        if (samples != 1 || inBlock != 0 || inZOrder) {
             for (const TileSquare::Step s : TileSquare::kCurve) place(left + s.x, top + s.y);
             return;
         }
@@ -118,12 +123,12 @@ void CameraRays::drawPairs(std::uint32_t dimension, const SampleChunk& chunk,
     forEachBlock(chunk.cameraRays.size(), [&](std::size_t slot, std::size_t some) {
         const std::uint32_t* const pixel = &chunk.cameraRays.stream[slot];
         const std::uint32_t* const sample = &chunk.sampleNumber[slot];
-        if (sampler.kind() == SamplerKind::Sobol && !isMiddle) {
+        if (sampler.isInLanes() && !isMiddle) {
             std::copy_n(pixel, some, block.pixel);
             std::copy_n(sample, some, block.sample);
-            lanes_.seeds(sampler.seed(), dimension, std::span<const std::uint32_t>(block.pixel),
-                         {block.index, block.x, block.y});
-            lanes_.pairs(block, PairBlock::kPairs);
+            lanes_.seedsOf(sampler, dimension, std::span<const std::uint32_t>(block.pixel),
+                           {block.index, block.x, block.y});
+            lanes_.pairsOf(sampler, block, PairBlock::kPairs);
         } else {
             for (std::size_t i = 0; i < some; ++i) {
                 const Vec2 pair = sampler.get2D(pixel[i], sample[i], dimension);
@@ -137,7 +142,7 @@ void CameraRays::drawPairs(std::uint32_t dimension, const SampleChunk& chunk,
 void CameraRays::drawTimes(SampleChunk& chunk) const {
     const Sampler& sampler = context_.sampler;
     std::vector<float>& times = chunk.cameraRays.time;
-    if (sampler.kind() == SamplerKind::Sobol)
+    if (sampler.isInLanes())
         return drawPairs(Sampler::alone(kTimeDimension), chunk,
                          [&](const PairBlock& block, std::size_t slot, std::size_t some) {
                              std::copy_n(block.u, some, &times[slot]);

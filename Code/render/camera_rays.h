@@ -45,6 +45,7 @@ private:
     Filter filter_;
     const CameraLanes& lanes_;
     bool corners_; // samples lie on the corners of pixels; places are those, one more each way
+    bool inZOrder_; // the numbers of pixels, for the sampler ZSobol
     int width_;
     // The pixels of a TileSquare, less its first one.
     std::array<std::uint32_t, TileSquare::kPlaces> pixelsOfSquare_;

@@ -5,8 +5,11 @@
 #include "sample/hash.h"
 #include "sample/pair_block.h"
 #include "sample/sobol.h"
+#include "sample/z_order.h"
+#include "sample/zsobol.h"
 #include "simd/lanes.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -64,13 +67,35 @@ inline void pairSeeds(std::uint32_t seed, std::uint32_t dimension,
     }
 }
 
-// Draws the first `count` pairs of a block, a multiple of 16.
-inline void sobolPairs(PairBlock& block, std::size_t count) {
+// The same of a sampler of the kind ZSobol, for one pair of dimensions.
+inline void zPairSeeds(const ZOrder& order, std::span<const std::uint32_t> pixels,
+                       const PairSeedColumns& out) {
+    for (std::size_t i = 0; i < pixels.size(); i += kSobolLanes) {
+        const Bits first = firstSample<Bits>(loadBits(&pixels[i]), order);
+        std::memcpy(out.index + i, &first, sizeof first);
+    }
+    std::fill_n(out.x, pixels.size(), order.x);
+    std::fill_n(out.y, pixels.size(), order.y);
+}
+
+// Draws the first `count` pairs of a block, a multiple of 16, by pairOf(sample, index, x, y).
+template <class PairFn>
+inline void drawPairs(PairBlock& block, std::size_t count, const PairFn& pairOf) {
     for (std::size_t i = 0; i < count; i += kSobolLanes) {
-        const auto pair = sobolPair<Bits>(loadBits(block.sample + i), loadBits(block.index + i),
-                                          loadBits(block.x + i), loadBits(block.y + i));
+        const auto pair = pairOf(loadBits(block.sample + i), loadBits(block.index + i),
+                                 loadBits(block.x + i), loadBits(block.y + i));
         storeUnit(pair.x, block.u + i), storeUnit(pair.y, block.v + i);
     }
+}
+inline void sobolPairs(PairBlock& block, std::size_t count) {
+    drawPairs(block, count, [](const Bits& sample, const Bits& index, const Bits& x,
+                               const Bits& y) { return sobolPair<Bits>(sample, index, x, y); });
+}
+inline void zSobolPairs(PairBlock& block, std::size_t count, int sampleBits) {
+    drawPairs(block, count,
+              [&](const Bits& sample, const Bits& index, const Bits& x, const Bits& y) {
+                  return zSobolPair<Bits>(sample, index, x, y, sampleBits);
+              });
 }
 
 LANES_END

@@ -3,6 +3,7 @@
 #include "sample/dimensions.h"
 #include "sample/hash.h"
 #include "sample/sobol.h"
+#include "sample/zsobol.h"
 
 #include <algorithm>
 #include <bit>
@@ -66,8 +67,17 @@ Sampler Sampler::stream(std::uint32_t id, int repeats) const {
 }
 
 Sampler::PairSeeds Sampler::pairSeeds(std::uint32_t pixel, std::uint32_t dimension) const {
+    if (kind_ == SamplerKind::ZSobol) {
+        const ZOrder order = zOrder(dimension);
+        return {firstSample(pixel, order), order.x, order.y};
+    }
     const std::uint64_t bits = hash(seed_, pixel, dimension);
     return {low32(bits), high32(bits), low32(mixBits(bits + kHashStep))};
+}
+
+ZOrder Sampler::zOrder(std::uint32_t dimension) const {
+    const std::uint64_t bits = hash(seed_, dimension);
+    return {low32(bits), high32(bits), low32(mixBits(bits + kHashStep)), sampleBits()};
 }
 
 float Sampler::get1D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension) const {
@@ -80,6 +90,7 @@ float Sampler::get1D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t di
         const std::uint32_t shuffled = reversed(scrambledReversed(reversed(sample), a));
         return unitFloat(reversed(scrambledReversed(shuffled, b)));
     }
+    case SamplerKind::ZSobol: return get2D(pixel, sample, alone(dimension)).x;
     case SamplerKind::Random: return unitFloat(low32(mixBits(bits + sample * kHashStep)));
     case SamplerKind::Stratified:
     case SamplerKind::Grid: break;
@@ -92,16 +103,17 @@ float Sampler::get1D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t di
 Vec2 Sampler::get2D(std::uint32_t pixel, std::uint32_t sample, std::uint32_t dimension) const {
     const bool isPixel = dimension == kPixelDimension && !isStream_;
     if (isPixel && !jitter_ && count_ == 1) return {0.5f, 0.5f};
-    if (kind_ != SamplerKind::Sobol) {
+    if (!isInLanes()) {
         const std::uint64_t bits = hash(seed_, pixel, dimension);
         return otherPair(bits, mixBits(bits + kHashStep), sample, isPixel);
     }
     const auto [a, b, c] = pairSeeds(pixel, dimension);
-    const auto [x, y] = sobolPair(sample, a, b, c);
+    const auto [x, y] = kind_ == SamplerKind::ZSobol ? zSobolPair(sample, a, b, c, sampleBits())
+                                                     : sobolPair(sample, a, b, c);
     return {unitFloat(x), unitFloat(y)};
 }
 
-// Of the kinds but Sobol.
+// Of the kinds that are not in lanes.
 Vec2 Sampler::otherPair(std::uint64_t bits, std::uint64_t more, std::uint32_t sample,
                         bool isPixel) const {
     if (kind_ == SamplerKind::Random) {

@@ -48,6 +48,7 @@ run 0 soft.txt b.pfm --error 0.01 --stats -q
 check '--stats: the estimate and the goal' has err '(display; goal 0.01)'
 
 expect '--sampler corners' 1 "whose rays have fixed places" soft.txt b.pfm --error 0.01 --sampler corners
+expect '--sampler zsobol' 1 'whose pixels are not independent' soft.txt b.pfm --error 0.01 --sampler zsobol
 expect '--no-jitter' 1 'do not know what is between them' soft.txt b.pfm --error 0.01 --sampler grid --no-jitter
 expect '--error 0' 1 '--error' soft.txt b.pfm --error 0
 expect '--error of a word' 1 '--error' soft.txt b.pfm --error small

@@ -73,6 +73,18 @@ other 'more light samples' --light-samples 2
 other 'another depth' --max-depth 0
 other 'no jitter' --no-jitter --sampler stratified
 
+# One sequence through all pixels, of which a crop has its part.
+run 0 many.txt a.pfm -q --sampler zsobol --threads 1
+same 'zsobol: 3 threads' --sampler zsobol -t3
+same 'zsobol: one lane' --sampler zsobol --kernel scalar
+run 0 many.txt c.pfm -q --sampler zsobol --crop 5,3,20,14
+run 0 many.txt a.pfm -q --sampler zsobol --crop 5,3,20,14 --kernel scalar
+check 'zsobol: a crop in one lane' cmp a.pfm c.pfm
+expect 'zsobol: too many samples' 1 '5000x300 pixels can have at most 64 samples per pixel, not 128' \
+    many.txt b.pfm --sampler zsobol --resolution 5000x300 --spp 128
+expect 'zsobol: too many pixels' 1 '65535x1 pixels can have at most 1 samples' \
+    many.txt b.pfm --sampler zsobol --resolution 65535x1 --spp 2
+
 # An advice is no warning.
 expect 'advice about samples' 0 'a power of two (8)' many.txt b.pfm --spp 7 --strict
 

@@ -149,7 +149,8 @@ TEST(sameBitsOfRoughMirrorsBesideLamps) {
                     " 0.4\n radius 0.35\n material m", i, "\n}\n");
     using Kind = SettingsDesc::Sampler;
     for (const auto& [name, sampler] :
-         {std::pair("sobol", Kind::Sobol), std::pair("stratified", Kind::Stratified)}) {
+         {std::pair("sobol", Kind::Sobol), std::pair("stratified", Kind::Stratified),
+          std::pair("zsobol", Kind::ZSobol)}) {
         SceneDesc desc = shot::parse(text);
         desc.settings.sampler = sampler;
         const Image scalar = shot::render(desc).color;

@@ -39,7 +39,7 @@ TEST(samplersAndFiltersHaveOneMean) {
                               std::sqrt(max(squares / kSeeds - mean * mean, 0.0) / (kSeeds - 1))};
     };
     const shot::Estimate reference = meanOf("random", "box 1");
-    for (const std::string sampler : {"sobol", "stratified", "random", "grid"})
+    for (const std::string sampler : {"sobol", "stratified", "random", "grid", "zsobol"})
         for (const std::string filter :
              {"box 1", "tent 2", "gaussian 1.5", "blackman-harris 1.5"}) {
             const shot::Estimate e = meanOf(sampler, filter);

@@ -107,7 +107,9 @@ TEST(pairs_in_lanes_have_the_bits_of_the_sampler) {
         Random random(42);
         long long wrong = 0;
         for (int i = 0; i < check::scaled(3000); ++i) {
-            const Sampler sampler(SamplerKind::Sobol, 16,
+            const bool isZ = i % 2 != 0;
+            const int samples = isZ ? 1 << random.below(10) : 16;
+            const Sampler sampler(isZ ? SamplerKind::ZSobol : SamplerKind::Sobol, samples,
                                   static_cast<std::uint32_t>(random.below(std::size_t{1} << 32)));
             const auto dimension = static_cast<std::uint32_t>(2 * random.below(100));
             PairBlock block{};
@@ -117,9 +119,9 @@ TEST(pairs_in_lanes_have_the_bits_of_the_sampler) {
                 block.pixel[k] = any, block.sample[k] = any >> random.below(32);
                 alone[k] = sampler.get2D(any, block.sample[k], dimension);
             }
-            lanes.seeds(sampler.seed(), dimension, std::span<const std::uint32_t>(block.pixel),
-                        {block.index, block.x, block.y});
-            lanes.pairs(block, PairBlock::kPairs);
+            lanes.seedsOf(sampler, dimension, std::span<const std::uint32_t>(block.pixel),
+                          {block.index, block.x, block.y});
+            lanes.pairsOf(sampler, block, PairBlock::kPairs);
             for (std::size_t k = 0; k < PairBlock::kPairs; ++k)
                 if ((!sameBits(alone[k].x, block.u[k]) || !sameBits(alone[k].y, block.v[k])) &&
                     ++wrong <= 3)

@@ -88,6 +88,7 @@ TEST(sampler_same_numbers) {
     CHECK_EQUAL(hashes[1], 16246176520291533878u);
     CHECK_EQUAL(hashes[2], 3729994422216524204u);
     CHECK_EQUAL(hashes[3], 4612904241768452566u);
+    CHECK_EQUAL(hashes[4], 10919435146941527414u);
     const Sampler sampler(SamplerKind::Sobol, 16, 1);
     CHECK_EQUAL(sampler.get2D(0, 0, 0).x, 0.108975887f);
     CHECK_EQUAL(sampler.get2D(0, 0, 0).y, 0.643454015f);
@@ -97,12 +98,14 @@ TEST(sampler_same_numbers) {
 
 // Lanes that make pairs make single numbers so.
 TEST(sampler_number_is_half_of_a_pair) {
-    const Sampler sampler(SamplerKind::Sobol, 16, 5);
-    for (std::uint32_t pixel = 0; pixel < 300; pixel += 7)
-        for (std::uint32_t i = 0; i < 40; ++i)
-            for (std::uint32_t d = 0; d < 20; ++d)
-                CHECK_EQUAL(sampler.get2D(pixel, i, Sampler::alone(d)).x,
-                            sampler.get1D(pixel, i, d));
+    for (const SamplerKind kind : {SamplerKind::Sobol, SamplerKind::ZSobol}) {
+        const Sampler sampler(kind, 16, 5);
+        for (std::uint32_t pixel = 0; pixel < 300; pixel += 7)
+            for (std::uint32_t i = 0; i < 40; ++i)
+                for (std::uint32_t d = 0; d < 20; ++d)
+                    CHECK_EQUAL(sampler.get2D(pixel, i, Sampler::alone(d)).x,
+                                sampler.get1D(pixel, i, d));
+    }
 }
 
 } // namespace test_sampler

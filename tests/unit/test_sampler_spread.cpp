@@ -9,19 +9,11 @@
 
 namespace test_sampler_spread {
 
+using sampler_kit::fillsCells;
 using sampler_kit::kKinds;
 using sampler_kit::pairsOf;
 
 namespace {
-
-// True when each of the columns x rows cells holds exactly one point.
-bool fillsCells(const std::vector<Vec2>& points, int columns, int rows) {
-    std::set<int> cells;
-    for (const Vec2 p : points)
-        cells.insert(static_cast<int>(p.x * static_cast<float>(columns)) +
-                     columns * static_cast<int>(p.y * static_cast<float>(rows)));
-    return cells.size() == points.size() && std::ssize(points) == std::ptrdiff_t{columns} * rows;
-}
 
 double correlation(const std::vector<double>& a, const std::vector<double>& b) {
     double sa = 0, sb = 0, saa = 0, sbb = 0, sab = 0;
