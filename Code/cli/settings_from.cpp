@@ -175,10 +175,7 @@ RenderSettings settingsFrom(const SceneDesc& desc, const Options& options) {
     settings.background = options.background;
     settings.aovs = options.aovs;
     setRefinement(settings, options);
-    if (picture.sampler == Sampler::ZSobol)
-        failUsage(flag + " has no use with --sampler zsobol, whose pixels are not independent: errors "
-                         "that neighbours share cannot be told from the picture; sobol, "
-                         "stratified, random and grid go on with more");
+    checkSampleNumbers(settings.picture);
     settings.textureFolder = options.textureFolder;
     return settings;
 }
