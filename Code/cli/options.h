@@ -51,6 +51,7 @@ struct Options {
     std::optional<bool> caustics;
     std::optional<double> error; // RMSE; samplesPerPixel is then the most
     std::optional<SettingsDesc::Sampler> sampler;
+    std::optional<SettingsDesc::TextureFilter> textureFilter;
     std::optional<bool> jitter;
     std::optional<std::uint32_t> seed;
     std::optional<SettingsDesc::Filter> filter;
