@@ -2,6 +2,7 @@
 
 #include "camera/camera_in_lanes.h"
 
+#include <cmath>
 #include <utility>
 
 Camera::Camera(CameraParams params)
@@ -48,6 +49,14 @@ Ray Camera::ray(Vec2d pixel, Vec2 lens, float time) const {
     ray.tMin = one.tMin.v;
     ray.time = time;
     return ray;
+}
+
+RayCone Camera::cone(Vec3 dir, float time) const {
+    const double side = std::sqrt(std::fabs(optics_.step.x * optics_.step.y));
+    if (!optics_.isPerspective) return {static_cast<float>(side), 0};
+    // A pixel is farther away and seen askew.
+    const double cosine = dot(toDouble(dir), axesAt(time).forward);
+    return {0, static_cast<float>(side * cosine * cosine)};
 }
 
 Camera::Line Camera::line(Vec2d pixel) const {

@@ -4,6 +4,7 @@
 
 #include "base/motion.h"
 #include "base/ray.h"
+#include "base/ray_cone.h"
 #include "base/vec.h"
 #include "sample/warp.h"
 
@@ -38,6 +39,9 @@ public:
     // pixel of the file. lens: a point of the unit square, of no effect without hasLens(); time in
     // [0,1] of the shutter. dir has unit length; tMin is where the ray passes clipStart.
     Ray ray(Vec2d pixel, Vec2 lens, float time) const;
+
+    // How wide the ray of a pixel is, as its direction and time say; a lens counts as a pinhole.
+    RayCone cone(Vec3 dir, float time) const;
 
     // Unit vectors and the camera's place.
     struct Axes {

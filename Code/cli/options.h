@@ -56,6 +56,7 @@ struct Options {
     std::optional<double> seconds; // --time
     std::optional<int> passes;
     std::optional<SettingsDesc::Sampler> sampler;
+    std::optional<SettingsDesc::TextureFilter> textureFilter;
     std::optional<bool> jitter;
     std::optional<std::uint32_t> seed;
     std::optional<SettingsDesc::Filter> filter;

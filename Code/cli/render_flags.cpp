@@ -143,6 +143,13 @@ void addQualityFlags(std::vector<Flag>& flags, Options& o) {
                        "dots, as by Filter Glossy in Blender; path tracing only; 0: none",
                .set = [&o](const FlagValue& v) { o.filterGlossy = numberLike("filter_glossy", v); },
                .example = "1"});
+    group.add({.name = "--texture-filter", .argument = alternatives<SettingsDesc::TextureFilter>(),
+               .help = "mip: pictures and checkers are seen as their mean over what a sample stands "
+                       "for, which needs fewer samples; none: as points, like Cycles",
+               .set = [&o](const FlagValue& v) {
+                   o.textureFilter = enumValue<SettingsDesc::TextureFilter>(v);
+               },
+               .choices = namesOf<SettingsDesc::TextureFilter>(), .example = "none"});
     group.add({.name = "--clamp-indirect", .argument = "V",
                .help = "the most light that a bounce may bring, against bright dots, which makes "
                        "the picture darker; path tracing only; 0: any",

@@ -139,6 +139,7 @@ ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings
     }
     if (stopped) writeStderr("raytracer: interrupted; what is done is written\n");
     stats.renderSeconds = watch.lap();
+    stats.mipBytes = scene.mipBytes();
     if (!stopped) {
         printShortfall(stats, options);
         printExposure(picture, scene, settings, output);

@@ -77,6 +77,7 @@ void setQuality(SettingsDesc& picture, const Options& options) {
     set(picture.clampIndirect, options.clampIndirect);
     set(picture.caustics, options.caustics);
     set(picture.sampler, options.sampler);
+    set(picture.textureFilter, options.textureFilter);
     // Corners lie apart already; more samples serve lights, lens and motion only.
     if (options.sampler == SettingsDesc::Sampler::Corners && !options.samplesPerPixel)
         picture.samplesPerPixel = 1;

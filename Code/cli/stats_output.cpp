@@ -145,6 +145,7 @@ std::string statsTable(const Stats& s) {
     table.row("sah cost", fixed(s.accel.sah, 2));
     table.heading("run");
     table.row("peak memory", s.peakBytes > 0 ? mebibytes(s.peakBytes) : "unknown");
+    if (s.mipBytes > 0) table.row("mip levels", mebibytes(s.mipBytes));
     table.row("threads", std::to_string(s.threads));
     table.row("kernel", s.kernel);
     table.row("samples per pixel",
@@ -191,7 +192,8 @@ std::string statsJson(const Stats& s, const RunFacts& run) {
     all.add("arguments", jsonList(run.arguments)).add("version", quoted(kVersion));
     all.add("seconds", seconds.text()).add("rays", rays.text()).add("hits", hits.text());
     all.add("rays_per_second", raysPerSecond(s)).add("accel", accel.text());
-    all.add("peak_bytes", s.peakBytes).add("threads", static_cast<std::uint64_t>(s.threads));
+    all.add("peak_bytes", s.peakBytes).add("mip_bytes", s.mipBytes);
+    all.add("threads", static_cast<std::uint64_t>(s.threads));
     all.add("kernel", quoted(s.kernel));
     all.add("features", features.text());
     if (s.error) {

@@ -36,6 +36,7 @@ constexpr auto wordsOf(SettingsDesc::Sampler) {
 constexpr auto wordsOf(SettingsDesc::Filter) {
     return words("box", "tent", "gaussian", "blackman-harris");
 }
+constexpr auto wordsOf(SettingsDesc::TextureFilter) { return words("mip", "none"); }
 constexpr auto wordsOf(SettingsDesc::Transfer) { return words("srgb", "linear"); }
 constexpr auto wordsOf(SettingsDesc::Integrator) {
     return words("whitted", "path", "ao", "normal", "depth", "albedo", "id", "uv");

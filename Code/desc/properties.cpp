@@ -65,6 +65,7 @@ constexpr auto kSettings = std::to_array<Property>({
     {"jitter", field<&SettingsDesc::jitter>(), {}, {}},
     {"seed", field<&SettingsDesc::seed>(), {}, kAnyUnsigned},
     {"filter", field<&SettingsDesc::filter>(), field<&SettingsDesc::filterWidth>(), {0, 32, true}},
+    {"texture_filter", field<&SettingsDesc::textureFilter>(), {}, {}},
     {"exposure", field<&SettingsDesc::exposureEv>(), {}, {-64, 64}},
     {"transfer", field<&SettingsDesc::transfer>(), {}, {}},
 });

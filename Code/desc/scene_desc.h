@@ -259,6 +259,7 @@ struct SettingsDesc {
     enum class Sampler : std::uint8_t { Sobol, Stratified, Random, Grid, Corners, ZSobol };
     enum class Filter : std::uint8_t { Box, Tent, Gaussian, BlackmanHarris };
     enum class Transfer : std::uint8_t { Srgb, Linear };
+    enum class TextureFilter : std::uint8_t { Mip, None };
     enum class Integrator : std::uint8_t { Whitted, Path, Ao, Normal, Depth, Albedo, Id, Uv };
     SourceLoc loc;
     Integrator integrator = Integrator::Whitted;
@@ -279,6 +280,8 @@ struct SettingsDesc {
     std::uint32_t seed = 0;
     Filter filter = Filter::BlackmanHarris;
     double filterWidth = 1.5; // pixels, whole support
+    // Mip: pictures and checkers are seen as their mean over what a sample stands for.
+    TextureFilter textureFilter = TextureFilter::Mip;
     double exposureEv = 0;    // picture * 2^EV
     Transfer transfer = Transfer::Srgb;
     bool operator==(const SettingsDesc&) const = default;

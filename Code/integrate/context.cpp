@@ -5,6 +5,7 @@
 #include "scene/frame.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace {
@@ -58,6 +59,20 @@ StillsInLanes stillsInLanesOf(const Scene& scene, const RenderSettings& settings
     return stills;
 }
 
+// Returns how many samples share a pixel: the more, the less each has to be the mean of. With a refinement
+// there are as many as are needed, and what filters leave out has to be below any goal.
+float samplesTogether(const RenderSettings& settings) {
+    constexpr int kWhenRefined = 256;
+    const int samples = settings.picture.samplesPerPixel;
+    return static_cast<float>(settings.refinement ? std::max(samples, kWhenRefined) : samples);
+}
+float footprintScaleOf(const Scene& scene, const RenderSettings& settings, bool hasCheckers) {
+    constexpr float kOfPixel = 1.0f;
+    const bool isWanted = settings.picture.textureFilter == SettingsDesc::TextureFilter::Mip &&
+                          (scene.anyMaterial().pictures || hasCheckers);
+    return isWanted ? kOfPixel / std::sqrt(samplesTogether(settings)) : 0;
+}
+
 } // namespace
 
 IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings& theSettings)
@@ -67,6 +82,11 @@ IntegratorContext::IntegratorContext(const Scene& theScene, const RenderSettings
       cutoff(toFloat(theSettings.picture.cutoff)), wantsFirstHits(needsFirstHits(theSettings)),
       surfaceNeeds(surfaceNeedsOf(theScene, theSettings)),
       surfaceLanes(lanesOf(theSettings.isa->surfaces)), pictures(*theSettings.isa->pictures),
+      checkers(theSettings.picture.textureFilter == SettingsDesc::TextureFilter::Mip
+                   ? checkersOf(theScene)
+                   : std::vector<Checker>()),
+      footprintScale(footprintScaleOf(theScene, theSettings, !checkers.empty())),
+      inverseSamples(1 / samplesTogether(theSettings)),
       stillsInLanes(stillsInLanesOf(theScene, theSettings, surfaceLanes)),
       skySampler(sampler.stream(0, theSettings.picture.lightSamples)),
       cameraMedium(mediumOfCamera(theScene, theSettings, media)) {

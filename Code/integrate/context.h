@@ -3,6 +3,7 @@
 
 #include "accel/kernels/surface_lanes.h"
 #include "accel/still_shape.h"
+#include "integrate/checkers.h"
 #include "sample/sampler.h"
 #include "scene/medium_tree.h"
 #include "scene/scene.h"
@@ -38,11 +39,18 @@ struct IntegratorContext {
     SurfaceNeeds surfaceNeeds;
     SurfaceLanes surfaceLanes;
     const PictureLanes& pictures;
+    std::vector<Checker> checkers; // empty: squares are seen as points
+    // What part of a pixel's width a sample stands for; 0: pictures are looked up at points.
+    float footprintScale;
+    // The part of all directions that one sample of a pixel stands for.
+    float inverseSamples;
     StillsInLanes stillsInLanes;
     Sampler skySampler;                // of ambient light
     std::vector<Sampler> lampSamplers; // of scene.pathLights(), by number
     MediumTree media;                  // what camera rays start in, and room for what rays enter
     MediumTree::Inside cameraMedium;
+
+    bool filtersTextures() const { return footprintScale > 0; }
 
     IntegratorContext(const Scene& scene, const RenderSettings& settings);
 };

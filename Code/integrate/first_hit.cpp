@@ -37,7 +37,7 @@ void findFirstHits(const IntegratorContext& context, SampleChunk& chunk, WaveMem
     const Wave wave{context, rays, 0, chunk, memory, counts};
     counts.camera += rays.size();
     closest(context.scene, rays, memory.hits);
-    waves::findPoints(wave, [](std::size_t) { return 0u; });
+    waves::findPoints(wave, [] {}, [](std::size_t) { return 0u; });
     if (context.wantsFirstHits) describeFirstHits(wave);
     cameraHits += memory.points.count;
 }

@@ -53,17 +53,36 @@ struct alignas(64) LobeBlock {
             for (std::size_t v = 0; v < values; ++v) lobe[l].value[v][i] = rows[l].value[v];
         }
     }
+    // Takes a part of point i from another material with the same signature.
+    void mix(const LobedMaterials& materials, const LobedMaterial& other, std::size_t i,
+             float part) {
+        const std::span<const LobeRow> rows = materials.lobes(other);
+        for (std::size_t l = 0; l < count; ++l) {
+            const std::size_t values = valuesOf(rows[l].kind);
+            for (std::size_t v = 0; v < values; ++v) {
+                float& value = lobe[l].value[v][i];
+                value += (rows[l].value[v] - value) * part;
+            }
+        }
+    }
     // Multiplies the numbers of `points`, which are of this material, by its textures at their
-    // coordinates. `colors`: null, or what looks up many at a time.
+    // coordinates, and over these footprints of all points, if any.
     void paint(const LobedMaterials& materials, const LobedMaterial& of, unsigned points,
-               const SurfaceBlock& at, const PictureLanes& pictures) {
+               const SurfaceBlock& at, const PictureLanes& pictures,
+               const UvFootprint* footprints = nullptr) {
         const Texture* last = nullptr;
         TextureBlock texels;
         std::size_t found = 0;
         std::uint8_t point[kPoints];
+        texels.isFiltered = footprints != nullptr;
         for (; points != 0; points &= points - 1) {
             const auto i = static_cast<std::size_t>(std::countr_zero(points));
             texels.u[found] = at.uv[0][i], texels.v[found] = at.uv[1][i];
+            if (footprints != nullptr) {
+                const UvFootprint& over = footprints[i];
+                texels.along[0][found] = over.along.x, texels.along[1][found] = over.along.y;
+                texels.across[0][found] = over.across.x, texels.across[1][found] = over.across.y;
+            }
             point[found++] = static_cast<std::uint8_t>(i);
         }
         for (const LobeFactor& factor : materials.factors(of)) {

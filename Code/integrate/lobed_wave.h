@@ -2,6 +2,7 @@
 // of sky, lamps and surfaces that shine, and the lobes of points that are alike.
 #pragma once
 
+#include "integrate/cones_of_rays.h"
 #include "integrate/path_memory.h"
 #include "integrate/path_numbers.h"
 #include "integrate/points.h"
@@ -27,8 +28,12 @@ protected:
     const PathState& stateOf(std::size_t ray) const { return path_.states[ray]; }
 
     void findPoints() {
-        waves::findPoints(wave_,
-                          [&](std::size_t b) { return pointsWith(LobedMaterial::kLitOutside, b); });
+        waves::findPoints(
+            wave_,
+            [&] {
+                if (!context_.checkers.empty()) waves::mixCheckers(wave_);
+            },
+            [&](std::size_t b) { return pointsWith(LobedMaterial::kLitOutside, b); });
         if (wave_.depth == 0 && context_.wantsFirstHits) describeFirstHits(wave_);
     }
 
@@ -92,18 +97,27 @@ protected:
         const bool isFront = block.isFront(k % kPoints);
         if (of.isLamp && wave_.rays.seesLights[i] == 0) return;
         const Vec2 uv = memory_.points.at.uv(k);
-        const Rgb emission = emissionAt(of, uv);
+        const UvFootprint footprint =
+            of.pictures->emission != nullptr ? waves::footprintAt(wave_, k) : UvFootprint{};
+        const Rgb emission = emissionAt(of, uv, footprint);
         if (isBlack(emission) || (of.emitsFront && !isFront)) return;
         const Hit& hit = memory_.hits[i];
         std::uint32_t light = lights_.ofObject(block.object[k % kPoints], isFront);
         if (light == PathLights::kNone) light = lights_.ofTriangle(hit.shape, hit.prim);
-        Rgb radiance = emission * opacityAt(of, uv);
+        Rgb radiance = emission * opacityOf(k);
         if (of.isLamp && light != PathLights::kNone) // it may not be the same for all directions
             radiance = lights_.radianceOf(light, wave_.rays.org[i], normalize(wave_.rays.dir[i]),
                                           radiance);
         add(i, radiance * partOfHit(i, [&](const PathState& state) {
                    return lampPdf(state, light, normalize(wave_.rays.dir[i]));
                }));
+    }
+
+    // The part of light that point k does not let straight through.
+    float opacityOf(std::size_t k) const {
+        const SceneMaterial& of = memory_.points.at.of(k);
+        if (of.pictures->opacity == nullptr) return of.opacity;
+        return opacityAt(of, memory_.points.at.uv(k), waves::footprintAt(wave_, k));
     }
 
     // Points of the block whose materials have one of these flags.
@@ -169,7 +183,7 @@ protected:
         const std::uint32_t number = at.material[0];
         const LobedMaterial& first = materials_[number];
         LobeBlock& lobes = path_.lobes;
-        const bool isPlain = first.factors == 0 &&
+        const bool isPlain = first.factors == 0 && !isMixed(of) &&
                              (first.flags & LobedMaterial::kAnisotropic) == 0 &&
                              std::all_of(at.material, at.material + of.size,
                                          [&](std::uint32_t other) { return other == number; });
@@ -192,9 +206,19 @@ protected:
                 const int i = std::countr_zero(rest);
                 points |= unsigned{at.material[i] == one} << i;
             }
-            lobes.paint(materials_, materials_[one], points, at, context_.pictures);
+            if (context_.filtersTextures())
+                for (unsigned rest = points; rest != 0; rest &= rest - 1) {
+                    const auto i = static_cast<std::size_t>(std::countr_zero(rest));
+                    footprints_[i] = waves::footprintAt(wave_, of.number[i]);
+                }
+            lobes.paint(materials_, materials_[one], points, at, context_.pictures,
+                        context_.filtersTextures() ? footprints_ : nullptr);
             painted &= ~points;
         }
+        if (isMixed(of))
+            for (std::size_t i = 0; i < of.size; ++i)
+                if (const MaterialMix& mix = path_.mixes[of.number[i]]; mix.part > 0)
+                    lobes.mix(materials_, materials_[mix.other], i, mix.part);
     }
     // What is on both sides of points whose lobes ask for it; their `eta` goes to the column.
     void findBoundaries(const AlikePoints& of, LobeBlock::Lane& eta) {
@@ -244,6 +268,12 @@ private:
         return last < path_.alike.size() && path_.alike[last] == k + size - 1 &&
                path_.signatures[path_.alike[last]] == path_.signatures[k];
     }
+    // Whether some of the points have the lobes of two materials.
+    bool isMixed(const AlikePoints& of) const {
+        return !path_.mixes.empty() &&
+               std::any_of(of.number, of.number + of.size,
+                           [&](std::uint32_t k) { return path_.mixes[k].part > 0; });
+    }
     // Puts points together into path_.gathered.
     void gather(std::span<const std::uint32_t> numbers) {
         PointBlock& to = path_.gathered;
@@ -270,6 +300,7 @@ protected:
     const LobedMaterials& materials_;
     const SettingsDesc& limits_;
     waves::Boundary boundaries_[kPoints];
+    UvFootprint footprints_[kPoints];
 };
 
 // Runs WaveOf for one wave of rays after the other.
@@ -279,6 +310,7 @@ void integrateInWaves(const IntegratorContext& context, SampleChunk& chunk, Wave
     counts.camera += chunk.cameraRays.size();
     memory.media = context.media;
     memory.path.states.assign(chunk.cameraRays.size(), PathState{});
+    if (context.filtersTextures()) waves::makeCones(context, chunk.cameraRays, memory.path.states);
     const PathBatch* rays = &chunk.cameraRays;
     for (int depth = 0; !rays->empty(); ++depth) {
         const Wave wave{context, *rays, depth, chunk, memory, counts};

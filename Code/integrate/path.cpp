@@ -80,11 +80,12 @@ private:
             const SceneMaterial& of = memory_.points.at.of(k);
             if (!of.seeThrough()) continue;
             const ShadedPoint at = memory_.points.at[k];
-            if (!(path_.block.numbers.goesOn.v[i] < 1 - opacityAt(of, at.surface.uv))) continue;
+            if (!(path_.block.numbers.goesOn.v[i] < 1 - opacityOf(k))) continue;
             straight |= 1u << i;
             const std::uint32_t ray = memory_.points.ray[k];
             PathState state = stateOf(ray);
             if (++state.transparent > limits_.transparentDepth || isBlack(of.filter)) continue;
+            if (context_.filtersTextures()) state.cone = waves::coneThrough(wave_, k);
             const PathBatch& rays = wave_.rays;
             memory_.next.push(
                 {leave(at.surface, -at.eye.ng), rays.dir[ray], 0, kInfinityF, rays.time[ray]},
@@ -160,6 +161,10 @@ private:
             state.p = SurfaceBlock::get(of.at->p, i);
             state.n = (flags & kTransmits) != 0 ? Vec3{} : SurfaceBlock::get(of.at->n, i);
             const bool crosses = isTransmitted && (flags & kHasSides) != 0;
+            if (context_.filtersTextures())
+                state.cone =
+                    waves::coneAfter(wave_, k, SurfaceBlock::get(block.dir, i), state.pdf,
+                                     crosses ? &boundaries_[i] : nullptr);
             memory_.next.push({SurfaceBlock::get(block.org, i), SurfaceBlock::get(block.dir, i), 0,
                                kInfinityF, rays.time[ray]},
                               rays.sample[ray], weight,

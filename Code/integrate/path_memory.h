@@ -2,7 +2,9 @@
 #pragma once
 
 #include "base/math.h"
+#include "base/ray_cone.h"
 #include "integrate/batch.h"
+#include "integrate/checkers.h"
 #include "integrate/lobe_block.h"
 #include "integrate/shading_kernel.h"
 
@@ -25,6 +27,7 @@ struct PathState {
     float leastAlpha(float radius) const {
         return leastPdf < radius ? 0.5f * std::sqrt(1 - leastPdf / radius) : 0;
     }
+    RayCone cone;        // only where pictures are filtered
     bool isLast = false; // only lights are asked what it meets
 };
 
@@ -33,6 +36,7 @@ struct PathMemory {
     // Points whose materials have lobes, by the kinds of these and then by number.
     std::vector<std::uint32_t> alike, alikeStarts;
     std::vector<std::uint16_t> signatures; // by point: LobedMaterial::signature
+    std::vector<MaterialMix> mixes;        // by point; empty without checkers
     PointBlock gathered{};                 // of points that are not a block
     LobeBlock lobes{};
     PathBlock block{};

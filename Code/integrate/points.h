@@ -189,14 +189,16 @@ inline void seeBlock(const Wave& wave, std::size_t b, unsigned litOutside) {
     }
 }
 
-// Finds all points of a wave. `litOutside(b)`: those of block b whose materials are lit outside
-// whichever side is seen.
-template <class LitOutside> void findPoints(const Wave& wave, const LitOutside& litOutside) {
+// Finds all points of a wave. `mix()` may change materials of surfaces; `litOutside(b)`: those of
+// block b whose materials are lit outside whichever side is seen.
+template <class Mix, class LitOutside>
+void findPoints(const Wave& wave, const Mix& mix, const LitOutside& litOutside) {
     PointBatch& points = wave.memory.points;
     points.clear(wave.rays.size());
     listHits(wave.memory.hits, wave.rays.size(), points);
     points.at.setMaterials(wave.context.scene.materials());
     findSurfaces(wave);
+    mix();
     for (std::size_t b = 0; b < points.blocks(); ++b) {
         seeBlock(wave, b, litOutside(b));
         takeSamples(wave.rays, b, points);

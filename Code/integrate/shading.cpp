@@ -73,16 +73,17 @@ Vec3 shading::bentNormal(const Scene& scene, const Ray& ray, const Hit& hit,
     return dot(n, surface.ng) > 0 ? n : surface.ns;
 }
 
-Rgb emissionAt(const SceneMaterial& of, Vec2 uv) {
+Rgb emissionAt(const SceneMaterial& of, Vec2 uv, const UvFootprint& footprint) {
     const Texture* const picture = of.pictures->emission;
     if (picture == nullptr) return of.emission;
-    const Rgb color = of.emission * picture->color(uv);
+    const Rgb color = of.emission * picture->color(uv, footprint);
     return {max(color.r, 0.0f), max(color.g, 0.0f), max(color.b, 0.0f)};
 }
 
-float opacityAt(const SceneMaterial& of, Vec2 uv) {
+float opacityAt(const SceneMaterial& of, Vec2 uv, const UvFootprint& footprint) {
     const Texture* const picture = of.pictures->opacity;
-    return picture != nullptr ? clamp(of.opacity * picture->value(uv), 0.0f, 1.0f) : of.opacity;
+    if (picture == nullptr) return of.opacity;
+    return clamp(of.opacity * picture->valueOf(picture->color(uv, footprint)), 0.0f, 1.0f);
 }
 
 Rgb straightTransmission(const Scene& scene, const Ray& ray, const Hit& hit) {

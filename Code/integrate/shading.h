@@ -20,9 +20,9 @@ struct ShadedPoint {
     Side lit; // on the side whose lamps count
 };
 
-// The material's numbers at a place on its pictures.
-Rgb emissionAt(const SceneMaterial& of, Vec2 uv);
-float opacityAt(const SceneMaterial& of, Vec2 uv);
+// The material's numbers around a place on its pictures.
+Rgb emissionAt(const SceneMaterial& of, Vec2 uv, const UvFootprint& footprint = {});
+float opacityAt(const SceneMaterial& of, Vec2 uv, const UvFootprint& footprint = {});
 
 // Part of the light that goes straight through the surface at a hit: (1 - opacity) * filter.
 Rgb straightTransmission(const Scene& scene, const Ray& ray, const Hit& hit);

@@ -143,7 +143,7 @@ private:
     void goStraight(std::size_t k) {
         PointBatch& points = memory_.points;
         const ShadedPoint at = points.at[k];
-        const float opacity = opacityAt(*at.of, at.surface.uv);
+        const float opacity = opacityOf(k);
         points.weight[k] = points.weight[k] * opacity;
         const std::size_t i = points.ray[k];
         const PathBatch& rays = wave_.rays;
@@ -153,7 +153,9 @@ private:
                           rays.sample[i], weight, rays.medium[i], rays.stream[i],
                           rays.seesLights[i]);
         makeRoomForStates();
-        path_.nextStates[memory_.next.size() - 1] = stateOf(i);
+        PathState& state = path_.nextStates[memory_.next.size() - 1];
+        state = stateOf(i);
+        if (context_.filtersTextures()) state.cone = waves::coneThrough(wave_, k);
         ++wave_.counts.refract;
     }
     bool goesOn(Rgb weight) const {
@@ -257,6 +259,10 @@ private:
             PathState& state = path_.nextStates[to];
             state.pdf = from.pdf[r];
             if (state.pdf > 0) state.p = SurfaceBlock::get(of.at->p, from.point[r]);
+            if (context_.filtersTextures())
+                state.cone =
+                    waves::coneAfter(wave_, k, from.dir[r], from.pdf[r],
+                                     crosses ? &boundaries_[from.point[r]] : nullptr);
             if (wave_.depth > 0) path_.order.push_back(orderOf(k, from.branch[r]));
             ++to;
         }

@@ -17,6 +17,7 @@
 #include "scene/scene_lights.h"
 #include "scene/texture_files.h"
 #include "texture/environment.h"
+#include "texture/mip_levels.h"
 
 #include <algorithm>
 #include <functional>
@@ -465,4 +466,11 @@ void Scene::describe(Stats& stats) const {
             stats.featuresSkipped.push_back(cat(feature.name, ": ", feature.reason));
     }
     stats.degeneratePrimitives = degenerateCount_;
+}
+
+std::uint64_t Scene::mipBytes() const {
+    std::uint64_t sum = 0;
+    for (const auto& texture : textures_)
+        if (texture != nullptr) sum += texture->mips().bytes();
+    return sum;
 }

@@ -70,6 +70,8 @@ public:
     std::optional<double> spacing() const { return spacing_; }
     // Fills in what the scene knows: accelerator, features, degenerate primitives.
     void describe(Stats& stats) const;
+    // Of the mip levels that have been made so far.
+    std::uint64_t mipBytes() const;
 
 private:
     friend class SceneBuilder;

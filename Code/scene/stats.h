@@ -50,6 +50,7 @@ struct Stats {
     std::uint64_t cameraHits = 0;
     AccelStats accel;
     std::uint64_t peakBytes = 0;
+    std::uint64_t mipBytes = 0; // smaller copies of pictures, made while they were looked up
     int threads = 1;
     std::string kernel;
     std::vector<std::string> featuresNeeded,

@@ -10,6 +10,9 @@
 struct alignas(64) TextureBlock {
     static constexpr std::size_t kPoints = 64;
     float u[kPoints] = {}, v[kPoints] = {};
+    // The axes of footprints, of which colours are the mean: u, then v.
+    bool isFiltered = false;
+    alignas(64) float along[2][kPoints] = {}, across[2][kPoints] = {};
     float color[3][kPoints];
 };
 

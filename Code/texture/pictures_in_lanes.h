@@ -4,6 +4,7 @@
 
 #include "sample/equirectangular.h"
 #include "simd/lanes.h"
+#include "texture/filtered_in_lanes.h"
 #include "texture/picture_lanes.h"
 #include "texture/texels_in_lanes.h"
 
@@ -20,7 +21,21 @@ inline PicturePlaces mappedBy(const TextureMap& map, Floats u, Floats v) {
             mapped(map.tFromU, map.tFromV, map.offsetT)};
 }
 
+inline void filteredColors(const Texture& texture, TextureBlock& block, std::size_t count) {
+    const FilteredTexels texels(texture);
+    for (std::size_t first = 0; first < count; first += W) {
+        const auto of = [&](const float* from) { return Floats::load(from + first); };
+        const Floats3 mean = texels.colors(
+            mappedBy(texture.map(), of(block.u), of(block.v)),
+            axesOf(texture.map(), of(block.along[0]), of(block.along[1]), of(block.across[0]),
+                   of(block.across[1])));
+        mean.x.store(block.color[0] + first), mean.y.store(block.color[1] + first);
+        mean.z.store(block.color[2] + first);
+    }
+}
+
 inline void textureColors(const Texture& texture, TextureBlock& block, std::size_t count) {
+    if (block.isFiltered) return filteredColors(texture, block, count);
     const TexelLanes texels(texture.grid(), texture.extension(), texture.extension(),
                             texture.isAlpha());
     for (std::size_t first = 0; first < count; first += W) {

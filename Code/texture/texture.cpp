@@ -2,18 +2,22 @@
 
 #include "base/error.h"
 #include "base/math.h"
+#include "texture/mip_levels.h"
 #include "texture/pictures_in_lanes.h"
 
 #include <utility>
 
 Texture::Texture(StoredImage image, const TextureParams& params)
     : grid_(std::move(image), params.space, params.interpolation), extension_(params.extension),
-      channel_(params.channel) {
+      channel_(params.channel), mips_(std::make_unique<const MipLevels>(grid_)) {
     const exact::SinCos turn = exact::sinCos(params.rotationRad);
     map_ = {turn.cos * params.scale.x, -turn.sin * params.scale.y,
             turn.sin * params.scale.x, turn.cos * params.scale.y,
             params.offset.x,           params.offset.y};
 }
+
+Texture::Texture(Texture&&) noexcept = default;
+Texture::~Texture() = default;
 
 Vec2d Texture::mapped(Vec2 uv) const {
     const auto [s, t] = kernels::one::mappedBy(map_, uv.x, uv.y);
@@ -26,6 +30,15 @@ Rgb Texture::color(Vec2 uv) const {
         return grid_.color(st.x, st.y, extension_, extension_);
     const float alpha = grid_.alpha(st.x, st.y, extension_, extension_);
     return {alpha, alpha, alpha};
+}
+
+Rgb Texture::color(Vec2 uv, const UvFootprint& footprint) const {
+    using namespace kernels::one;
+    if (footprint.isPoint()) return color(uv);
+    const PictureAxes axes = axesOf(map_, footprint.along.x, footprint.along.y, footprint.across.x,
+                                    footprint.across.y);
+    const Floats3 mean = FilteredTexels(*this).colors(mappedBy(map_, uv.x, uv.y), axes);
+    return {mean.x.v, mean.y.v, mean.z.v};
 }
 
 float Texture::valueAt(Vec2d st) const {

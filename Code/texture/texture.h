@@ -2,6 +2,9 @@
 #pragma once
 
 #include "image/image.h"
+#include "texture/footprint.h"
+
+#include <memory>
 
 enum class Extension { Repeat, Extend, Clip };
 enum class Interpolation { Bilinear, Nearest };
@@ -58,12 +61,19 @@ struct TextureParams {
     Vec2d offset{0, 0};
 };
 
+class MipLevels;
+
 class Texture {
 public:
     // Fails (ErrorKind::Input) when the picture's numbers do not fill its rectangle.
     Texture(StoredImage image, const TextureParams& params);
+    Texture(Texture&&) noexcept;
+    ~Texture();
 
     Rgb color(Vec2 uv) const;   // linear
+    // The mean over a footprint around uv, in linear light; color(uv) where that is no wider than a
+    // texel.
+    Rgb color(Vec2 uv, const UvFootprint& footprint) const;
     float value(Vec2 uv) const; // luminance, or alpha
     // value() where color() is this.
     float valueOf(Rgb color) const;
@@ -74,6 +84,7 @@ public:
     const TexelGrid& grid() const { return grid_; }
     const TextureMap& map() const { return map_; }
     Extension extension() const { return extension_; }
+    const MipLevels& mips() const { return *mips_; }
     bool isAlpha() const { return channel_ == TextureParams::Channel::Alpha; }
 
 private:
@@ -84,4 +95,5 @@ private:
     Extension extension_;
     TextureParams::Channel channel_;
     TextureMap map_;
+    std::unique_ptr<const MipLevels> mips_;
 };

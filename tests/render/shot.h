@@ -39,7 +39,7 @@ std::string writeTexture(const std::string& name, int width, int height,
 
 // Settings of one ray through the middle of one pixel, up to the number of bounces.
 inline constexpr const char* kOnePixel =
-    "settings {\n resolution 1 1\n samples 1\n jitter false\n max_depth ";
+    "settings {\n resolution 1 1\n samples 1\n jitter false\n texture_filter none\n max_depth ";
 
 // Square pictures of one sample in the middle of each pixel, from high above, looking straight down
 // on the square of side `side` about (x, y) = centre; +y is up in the picture.

@@ -60,7 +60,8 @@ TEST(sidesCastShadowsBothWays) {
 // side.
 TEST(checkerboardSquares) {
     for (const double turn : {0.0, 30.0}) {
-        const shot::TopView view{.pixels = 40, .side = 8, .centre = {100.25, -50.5}};
+        const shot::TopView view{.pixels = 40, .side = 8, .centre = {100.25, -50.5},
+                                 .more = "texture_filter none"};
         const shot::Shot shot = shot::render(
             view.text() + cat("world {\n ambient 1 1 1\n}\nmaterial a {\n diffuse 1 0 0\n}\n"
                               "material b {\n diffuse 0 1 0\n}\ninfinite_plane p {\n translate 0.1 "

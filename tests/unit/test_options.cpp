@@ -234,6 +234,8 @@ TEST(settings_of_light_transport) {
     CHECK_EQUAL(p.transparentDepth, 1024);
     CHECK_EQUAL(p.clampIndirect, 2.5);
     CHECK_EQUAL(p.filterGlossy, 0.5);
+    CHECK(settings(desc, {"--texture-filter=none"}).picture.textureFilter ==
+          SettingsDesc::TextureFilter::None);
     CHECK_EQUAL(settings(desc, {"--glossy-depth=3"}).picture.glossyDepth, 3);
     CHECK(!settings({}, {"--no-caustics"}).picture.caustics);
     CHECK_THROWS(parsed({"--diffuse-depth=1025"}), "expects a whole number from 0 to 1024");

@@ -32,7 +32,7 @@ s 0.5 0 0.25 1.5
 constexpr const char* kJson = R"({
     "resolution": [40, 30], "ambient": [0.5, 0.5, 0.5],
     "settings": {"transfer": "srgb", "max_depth": 4, "cutoff": 0, "sampler": "sobol", "samples": 16,
-                 "jitter": true, "filter": ["blackman-harris", 1.5]},
+                 "jitter": true, "filter": ["blackman-harris", 1.5], "texture_filter": "mip"},
     "world": {"background": [0.1, 0.2, 0.4], "environment_up": "z"},
     "camera": {"position": [0, -8, 0], "lookAt": [0, 0, 0], "up": [0, 0, 1], "fov": 53.13010235415598},
     "materials": [{"name": "fill1", "diffuse": [0.5, 0.25, 0.125], "specular": [0.25, 0.25, 0.25],

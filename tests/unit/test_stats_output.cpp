@@ -65,7 +65,7 @@ Stats example() {
     stats.rays.camera = 1000, stats.rays.shadow = 4000, stats.rays.tracedShadow = 3000;
     stats.cameraHits = 900;
     stats.accel = {"bvh", 11, 6, 352, 40, 32, 1600, 12.5};
-    stats.peakBytes = 123456789;
+    stats.peakBytes = 123456789, stats.mipBytes = 777;
     stats.threads = 2;
     stats.kernel = "scalar";
     stats.featuresNeeded = {"shadows", "a \"b\"\\\n\x01"};
@@ -90,7 +90,7 @@ TEST(stats_json_has_the_keys_of_the_contract) {
           "\"hits\":{\"camera\":900}", "\"rays_per_second\":2000",
           "\"accel\":{\"kind\":\"bvh\",\"nodes\":11,\"leaves\":6,\"bytes\":352,\"sah\":12.5,"
           "\"triangles\":32,\"bytes_per_triangle\":50}",
-          "\"peak_bytes\":123456789", "\"threads\":2", "\"kernel\":\"scalar\"",
+          "\"peak_bytes\":123456789", "\"mip_bytes\":777", "\"threads\":2", "\"kernel\":\"scalar\"",
           "\"features\":{\"needed\":[\"shadows\",\"a \\\"b\\\"\\\\\\u000a\\u0001\"],\"skipped\":[",
           "\"samples\":{\"min\":16,\"mean\":16,\"max\":16}",
           "\"numeric\":{\"nan_samples\":1,\"degenerate_primitives\":0}"})

@@ -8,7 +8,9 @@
 #include "texture/texture.h"
 #include "verify/meshes.h"
 
+#include <array>
 #include <bit>
+#include <cmath>
 #include <limits>
 #include <memory>
 
@@ -92,6 +94,17 @@ float someCoordinate(Random& random, int size) {
     }
 }
 
+// Of a footprint: nothing, a part of a texel, many pictures, and what no ray sees.
+float someExtent(Random& random) {
+    switch (random.below(8)) {
+    case 0: return 0;
+    case 1: return random.chance(0.5) ? 1e30f : std::numeric_limits<float>::quiet_NaN();
+    default:
+        return static_cast<float>(std::exp2(random.uniform(-12, 3)) *
+                                  (random.chance(0.5) ? 1 : -1));
+    }
+}
+
 bool sameBits(float a, float b) {
     return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b);
 }
@@ -119,9 +132,17 @@ TEST(texture_lanes_have_the_bits_of_single_look_ups) {
                 block.u[k] = someCoordinate(random, image.width);
                 block.v[k] = someCoordinate(random, image.height);
             }
+            block.isFiltered = random.chance(0.5);
+            for (std::size_t k = 0; block.isFiltered && k < count; ++k)
+                for (auto* const axis : {&block.along, &block.across})
+                    (*axis)[0][k] = someExtent(random), (*axis)[1][k] = someExtent(random);
             kernel.pictures->texture(texture, block, count);
             for (std::size_t k = 0; k < count; ++k) {
-                const Rgb alone = texture.color({block.u[k], block.v[k]});
+                const Vec2 uv{block.u[k], block.v[k]};
+                const UvFootprint footprint{{block.along[0][k], block.along[1][k]},
+                                            {block.across[0][k], block.across[1][k]}};
+                const Rgb alone = block.isFiltered ? texture.color(uv, footprint)
+                                                   : texture.color(uv);
                 const Rgb lane{block.color[0][k], block.color[1][k], block.color[2][k]};
                 ++asked, black += isBlack(alone), dark += alone.r > 0 && alone.r < 0.003f;
                 if (!sameBits(lane, alone) && ++wrong <= 3)
@@ -139,6 +160,73 @@ TEST(texture_lanes_have_the_bits_of_single_look_ups) {
                                << " dark");
         CHECK_EQUAL(wrong, 0);
     }
+}
+
+// A footprint below a texel is a point; one of the whole picture is its mean; a long one goes along
+// its longer axis only.
+TEST(texture_footprints_are_means) {
+    Random random(43);
+    StoredImage stripes; // of single columns, black and white
+    stripes.width = stripes.height = 64, stripes.channels = 1;
+    for (int i = 0; i < 64 * 64; ++i)
+        stripes.bytes.push_back(i % 2 == 0 ? std::uint8_t{0} : std::uint8_t{255});
+    TextureParams params;
+    params.space = ColorSpace::Linear;
+    const Texture texture(stripes, params);
+    for (int i = 0; i < 200; ++i) {
+        const Vec2 uv{static_cast<float>(random.uniform(0, 1)),
+                      static_cast<float>(random.uniform(0, 1))};
+        const Rgb point = texture.color(uv);
+        CHECK(sameBits(texture.color(uv, {{0.015f, 0}, {0, 0.015f}}), point));
+        CHECK_NEAR(texture.color(uv, {{1, 0}, {0, 1}}).r, 0.5, 1e-6);
+        CHECK_NEAR(texture.color(uv, {{0.25f, 0}, {0, 0.25f}}).r, 0.5, 1e-6);
+        // Along the stripes nothing is mixed, across them it is.
+        CHECK_NEAR(texture.color(uv, {{0, 0.2f}, {0.01f, 0}}).r, point.r, 1e-6);
+        CHECK_NEAR(texture.color(uv, {{0.25f, 0}, {0, 0.01f}}).r, 0.5, 1e-6);
+    }
+}
+
+// What is transparent has no colour, however much of it there is; what is cut off is black.
+TEST(texture_footprints_weigh_by_alpha) {
+    StoredImage half; // red where it covers, green where it doesn't
+    half.width = half.height = 16, half.channels = 4;
+    for (int i = 0; i < 256; ++i)
+        for (const int code : i % 4 == 0 ? std::array{255, 0, 0, 255} : std::array{0, 255, 0, 0})
+            half.bytes.push_back(static_cast<std::uint8_t>(code));
+    for (const float extent : {0.3f, 0.5f, 1.0f, 7.0f}) {
+        const UvFootprint footprint{{extent, 0}, {0, extent}};
+        const Rgb seen = Texture(half, {}).color({0.4f, 0.6f}, footprint);
+        CHECK_NEAR(seen.r, 1, 1e-6);
+        CHECK_NEAR(seen.g, 0, 1e-6);
+        TextureParams alpha;
+        alpha.channel = TextureParams::Channel::Alpha;
+        CHECK_NEAR(Texture(half, alpha).color({0.4f, 0.6f}, footprint).r, 0.25, 0.07);
+    }
+    StoredImage white;
+    white.width = white.height = 8, white.channels = 1, white.bytes.assign(64, 255);
+    TextureParams clip;
+    clip.extension = Extension::Clip;
+    const Texture cut(white, clip);
+    CHECK_NEAR(cut.color({0, 0.5f}, {{0.5f, 0}, {0, 0.5f}}).r, 0.5, 0.05);
+    CHECK_EQUAL(cut.color({-2, 0.5f}, {{0.5f, 0}, {0, 0.5f}}).r, 0.0f);
+    CHECK_NEAR(cut.color({0.5f, 0.5f}, {{0.5f, 0}, {0, 0.5f}}).r, 1, 1e-6);
+}
+
+// Where the edge of a picture goes on, nothing of its inside is mixed in.
+TEST(texture_footprints_beside_the_picture_see_its_edge) {
+    StoredImage image; // a white frame around black
+    image.width = image.height = 32, image.channels = 1;
+    for (int y = 0; y < 32; ++y)
+        for (int x = 0; x < 32; ++x) {
+            const bool isEdge = x == 0 || y == 0 || x == 31 || y == 31;
+            image.bytes.push_back(isEdge ? 255 : 0);
+        }
+    TextureParams params;
+    params.extension = Extension::Extend;
+    const Texture texture(image, params);
+    for (const float x : {-3.0f, -0.5f, 1.5f, 9.0f})
+        for (const float extent : {0.02f, 0.1f, 0.5f})
+            CHECK_EQUAL(texture.color({x, x}, {{extent, 0}, {0, extent}}).r, 1.0f);
 }
 
 // Points of two materials with the same kinds of lobes: each number is multiplied by the picture,

@@ -110,6 +110,7 @@ void readJsonSettings(JsonFields& scene, const JsonRules& rules, SettingsDesc& s
     settings.height = rules.height;
     settings.filter = SettingsDesc::Filter::Box;
     settings.filterWidth = 1;
+    settings.textureFilter = SettingsDesc::TextureFilter::None;
     settings.transfer = SettingsDesc::Transfer::Linear; // the course's programs write no gamma
     const AntiAliasing aa = readAntiAliasing(scene);
     const JsonValue* value = scene.take("settings");

@@ -1,0 +1,57 @@
+// The cones of the rays of a wave, and the footprints in which they meet surfaces. States have cones
+// only where the context filters pictures.
+#pragma once
+
+#include "integrate/path_memory.h"
+#include "integrate/wave.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace waves {
+
+// Writes the cones of camera rays.
+inline void makeCones(const IntegratorContext& context, const PathBatch& rays,
+                      std::vector<PathState>& states) {
+    const Camera& camera = context.scene.camera();
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        const RayCone pixel = camera.cone(rays.dir[i], rays.time[i]);
+        states[i].cone = {pixel.width * context.footprintScale,
+                          pixel.spread * context.footprintScale};
+    }
+}
+
+// Returns what part of its pictures the ray of point k stands for.
+inline UvFootprint footprintAt(const Wave& wave, std::size_t k) {
+    if (!wave.context.filtersTextures()) return {};
+    const std::uint32_t i = wave.memory.points.ray[k];
+    const Hit& hit = wave.memory.hits[i];
+    const Shape& shape = *wave.context.scene.shapes().shapes[hit.shape];
+    const PointBlock& block = wave.memory.points.at.block(k / PointBlock::kPoints);
+    return footprintOn(wave.memory.path.states[i].cone.widthAt(hit.t), wave.rays.dir[i],
+                       SurfaceBlock::get(block.ng, k % PointBlock::kPoints),
+                       shape.derivatives(wave.rays.ray(i), hit));
+}
+
+// Returns the cone of a ray that leaves point k straight on.
+inline RayCone coneThrough(const Wave& wave, std::size_t k) {
+    const std::uint32_t i = wave.memory.points.ray[k];
+    return wave.memory.path.states[i].cone.from(wave.memory.hits[i].t);
+}
+
+// Returns the cone of a ray that a lobe sends from point k, in a direction of this density (0: a
+// single one), to the other side of a boundary or not (null).
+inline RayCone coneAfter(const Wave& wave, std::size_t k, Vec3 dir, float pdf,
+                         const Boundary* crossed) {
+    RayCone cone = coneThrough(wave, k);
+    if (crossed != nullptr) {
+        const PointBlock& block = wave.memory.points.at.block(k / PointBlock::kPoints);
+        const std::size_t place = k % PointBlock::kPoints;
+        const Vec3 n = SurfaceBlock::get(block.n, place);
+        cone = cone.refracted(crossed->eta, dot(n, SurfaceBlock::get(block.toEye, place)),
+                              -dot(n, dir));
+    }
+    return pdf > 0 ? cone.scattered(pdf, wave.context.inverseSamples) : cone;
+}
+
+} // namespace waves
