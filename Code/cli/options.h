@@ -49,6 +49,7 @@ struct Options {
     std::optional<double> filterGlossy;
     std::optional<double> clampIndirect;
     std::optional<bool> caustics;
+    std::optional<bool> denoise;
     std::optional<double> error; // RMSE; samplesPerPixel is then the most
     std::optional<SettingsDesc::Sampler> sampler;
     std::optional<bool> jitter;

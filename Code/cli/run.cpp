@@ -144,6 +144,9 @@ ExitCode renderScene(LoadedScene loaded, PictureReader& pictures, RenderSettings
                                         : cat("about ", significant(stats.samplesMean));
         writeStderr(cat("wrote ", join(files), " (", size.width, "x", size.height, ", ", samples,
                         samples == "1" ? " sample" : " samples", " per pixel, ",
+                        stats.denoisedError ? cat("denoised, estimated error ",
+                                                  significant(*stats.denoisedError), ", ")
+                                            : std::string(),
                         durationText(stats.totalSeconds), ")\n"));
     }
     printStats(stats, {options.scene, output, size, options.arguments}, options);

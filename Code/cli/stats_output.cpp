@@ -147,6 +147,8 @@ std::string statsTable(const Stats& s) {
         table.row("pixels short of goal", grouped(s.error->cappedPixels),
                   cat("(at ", s.error->mostSamples, " samples)"));
     }
+    if (s.denoisedError)
+        table.row("denoised: estimated error", significant(*s.denoisedError), "(RMSE as shown)");
     table.heading("numeric");
     table.row("nan samples", grouped(s.nanSamples));
     table.row("degenerate primitives", grouped(s.degeneratePrimitives));
@@ -185,6 +187,7 @@ std::string statsJson(const Stats& s, const RunFacts& run) {
         all.add("error_estimate", s.error->estimate).add("error_goal", s.error->goal);
         all.add("capped_pixels", s.error->cappedPixels);
     }
+    if (s.denoisedError) all.add("error_estimate_denoised", *s.denoisedError);
     all.add("samples", samples.text()).add("numeric", numeric.text());
     return all.text() + "\n";
 }

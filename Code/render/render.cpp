@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "film/canvas.h"
 #include "film/goal_film.h"
+#include "render/denoised.h"
 #include "render/tile_sampler.h"
 #include "scene/settings.h"
 
@@ -140,7 +141,8 @@ private:
             paint(tile, worker);
             return true;
         }
-        if (!sampler_.trace(tile, 0, settings_.picture.samplesPerPixel, worker, stop)) return false;
+        if (!sampler_.trace(tile, settings_.firstSample,
+                            settings_.picture.samplesPerPixel, worker, stop)) return false;
         worker.color.writeMeans(worker.tile, 0, 0);
         paint(tile, worker);
         const Tile to = onCanvas(tile);
@@ -201,5 +203,6 @@ private:
 
 Picture render(const Scene& scene, const RenderSettings& settings, const RenderControl& control,
                Stats& stats) {
+    if (settings.picture.denoise) return renderDenoised(scene, settings, control, stats);
     return Renderer(scene, settings).run(control, stats);
 }
