@@ -1,9 +1,11 @@
 #include "cli/settings_from.h"
 
+#include "base/enum_names.h"
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text.h"
 #include "cli/output.h"
+#include "desc/enum_tables.h"
 #include "desc/names.h"
 #include "image/image.h"
 
